@@ -1,0 +1,74 @@
+# dance_library, dance_program, dance_test and dance_fuzz: every target of the tree is made by one of these, so that
+# standard, warnings, sanitizers and include root are the same everywhere and are properties of targets.
+include_guard(GLOBAL)
+
+add_library(dance_settings INTERFACE)
+target_compile_features(dance_settings INTERFACE cxx_std_20)
+target_include_directories(dance_settings INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(dance_settings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -ffp-contract=off $<$<BOOL:${DANCE_WERROR}>:-Werror>)
+if(DANCE_SANITIZE)
+  target_compile_options(dance_settings INTERFACE
+    -fsanitize=${DANCE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1 -O1)
+  target_link_options(dance_settings INTERFACE -fsanitize=${DANCE_SANITIZE})
+  target_compile_definitions(dance_settings INTERFACE DANCE_SANITIZED=1)
+endif()
+if(DANCE_FUZZ)
+  target_compile_options(dance_settings INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(dance_settings INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
+# dance_library(NAME SOURCES a.cpp … PUBLIC targets … PRIVATE targets …): static library dance_NAME, alias dance::NAME.
+function(dance_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PUBLIC;PRIVATE")
+  add_library(dance_${name} STATIC ${arg_SOURCES})
+  add_library(dance::${name} ALIAS dance_${name})
+  target_link_libraries(dance_${name} PUBLIC dance_settings ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+endfunction()
+
+# dance_program(NAME SOURCES x_main.cpp … LIBS targets …): the program dance-NAME in <build>/bin.
+function(dance_program name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+  add_executable(dance-${name} ${arg_SOURCES})
+  target_link_libraries(dance-${name} PRIVATE dance_settings ${arg_LIBS})
+  set_target_properties(dance-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+endfunction()
+
+# dance_test(NAME LABEL unit|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s]): one GoogleTest program,
+# one CTest entry per TEST. A flow test runs in a network namespace of its own.
+function(dance_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;LIBS")
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE dance_settings ${arg_LIBS} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    DANCE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DANCE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  if(arg_LABEL STREQUAL "flow")
+    set_target_properties(${name} PROPERTIES
+      CROSSCOMPILING_EMULATOR ${PROJECT_SOURCE_DIR}/tests/private_network.sh)
+    set(serial RUN_SERIAL ON)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${serial})
+endfunction()
+
+# dance_fuzz(NAME SOURCES x_fuzz.cpp LIBS targets … CORPUS dir): with DANCE_FUZZ a libFuzzer program fuzz/NAME; in every
+# other build the same source is replayed over the corpus and its mutations by tests/fuzz_replay_main.cpp.
+function(dance_fuzz name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "CORPUS" "SOURCES;LIBS")
+  if(DANCE_FUZZ)
+    add_executable(fuzz_${name} ${arg_SOURCES})
+    target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
+  else()
+    add_executable(fuzz_${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/fuzz_replay_main.cpp)
+    set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    add_test(NAME fuzz.${name} COMMAND fuzz_${name} ${arg_CORPUS})
+    set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 300)
+  endif()
+  target_link_libraries(fuzz_${name} PRIVATE dance_settings ${arg_LIBS})
+endfunction()

@@ -1,0 +1,77 @@
+// Channel names: <SIGNAL>/<where>[/<guest>], e.g. POSE/capture/alice. The one place that builds and
+// parses them; lcmtypes/README.md holds the table of all channels and a test compares the two.
+//
+// Ownership: plain values, no allocation.
+// Threads:   none inside.
+// Failure:   parse() returns nullopt for names that are not ours.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/base/fixed_string.h"
+#include "core/base/guest_id.h"
+
+namespace dance {
+
+enum class Signal : std::uint8_t { kPose, kSkeleton, kHands, kGuest, kStats, kStageTime };
+
+// Where on its journey the signal is.
+enum class Where : std::uint8_t {
+  kCapture,  // made in this house
+  kGuest,    // came through the tunnel
+  kStage,    // to be shown in this house
+  kView,     // what a display has shown
+  kProgram,  // about a program; its name takes the place of `where`, there is no guest
+};
+
+constexpr std::size_t kMaxChannelLength = 63;  // LCM's limit
+
+class Channel {
+ public:
+  Channel() = default;
+  // Panics (our bug) only on a guest that is not set, or a program name that is too long.
+  static Channel of(Signal signal, Where where, const GuestId& guest);
+  static Channel of_program(Signal signal, std::string_view program);
+  static std::optional<Channel> parse(std::string_view name);
+
+  Signal signal() const { return signal_; }
+  Where where() const { return where_; }
+  const GuestId& guest() const { return guest_; }  // not set for a program's channel
+  std::string_view program() const { return program_.view(); }
+  const char* c_str() const { return name_.c_str(); }
+  std::string_view view() const { return name_.view(); }
+  bool operator==(const Channel& o) const { return name_ == o.name_; }
+
+ private:
+  Signal signal_ = Signal::kPose;
+  Where where_ = Where::kCapture;
+  GuestId guest_;
+  FixedString<kMaxGuestIdLength> program_;
+  FixedString<kMaxChannelLength> name_;
+};
+
+// One row of the table of channels.
+struct ChannelRow {
+  Signal signal;
+  Where where;
+  std::string_view pattern;  // e.g. "POSE/capture/<guest>"
+  std::string_view type;     // e.g. "pose_t"
+};
+constexpr std::array<ChannelRow, 12> kChannelTable{{
+    {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
+    {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
+    {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
+    {Signal::kSkeleton, Where::kCapture, "SKELETON/capture/<guest>", "skeleton_t"},
+    {Signal::kSkeleton, Where::kGuest, "SKELETON/guest/<guest>", "skeleton_t"},
+    {Signal::kSkeleton, Where::kStage, "SKELETON/stage/<guest>", "skeleton_t"},
+    {Signal::kHands, Where::kCapture, "HANDS/capture/<guest>", "hands_t"},
+    {Signal::kHands, Where::kGuest, "HANDS/guest/<guest>", "hands_t"},
+    {Signal::kHands, Where::kStage, "HANDS/stage/<guest>", "hands_t"},
+    {Signal::kGuest, Where::kStage, "GUEST/stage/<guest>", "guest_t"},
+    {Signal::kStageTime, Where::kView, "STAGE_TIME/view/<guest>", "stage_time_t"},
+    {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
+}};
+
+}  // namespace dance

@@ -1,0 +1,20 @@
+// The process's clock and its name. The only place that reads CLOCK_MONOTONIC.
+//
+// Units/frames: MonoTime since boot (suspension not counted).
+// Threads:      any.
+// Failure:      none; where the kernel tells no boot id, the clock id is random, so that nothing
+// compares equal by luck.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+MonoTime mono_now();
+
+// Names this machine's clock of this boot: processes that share the clock get the same id; never 0.
+std::uint64_t this_clock_id();
+
+}  // namespace dance

@@ -1,0 +1,45 @@
+// Past poses of one dancer, asked for by time.
+//
+// Units/frames: times are capture times of one clock (the caller sees to it); poses are in W.
+// Ownership:    keeps copies in a ring; never allocates after construction.
+// Threads:      none inside; one thread owns it.
+// Failure:      at() on an empty history returns nullopt; push() of a pose that is not newer is
+// refused (false).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/pose/pose.h"
+
+namespace dance {
+
+class PoseHistory {
+ public:
+  enum class How { kExact, kInterpolated, kHeldFirst, kHeldLast };
+  struct Answer {
+    Pose pose;
+    How how;
+  };
+
+  explicit PoseHistory(std::size_t capacity);
+
+  bool push(const Pose& pose);
+  void clear() { size_ = 0; }
+
+  // The pose at time t: one that was pushed, or between two, or the nearest end.
+  std::optional<Answer> at(MonoTime t) const;
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const Pose& newest(std::size_t back = 0) const;  // back < size()
+  const Pose& oldest() const { return newest(size_ - 1); }
+
+ private:
+  std::vector<Pose> ring_;
+  std::size_t next_ = 0;
+  std::size_t size_ = 0;
+};
+
+}  // namespace dance
