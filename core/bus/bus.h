@@ -19,7 +19,6 @@
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
 #include "core/pose/pose.h"
-#include "core/pose/skeleton.h"
 
 namespace dance {
 
@@ -55,18 +54,17 @@ class Bus {
 
   void publish(const Channel& channel, const Pose& pose);
   void publish(const Channel& channel, const Hands& hands);
-  void publish(const Channel& channel, const Skeleton& skeleton, MonoTime capture_time,
-               std::uint64_t clock_id);
+  void publish(const Channel& channel, const TimedSkeleton& skeleton);
   void publish(const Channel& channel, const GuestStatus& status);
   void publish(const Channel& channel, const Stats& stats);
   void publish(const Channel& channel, const StageTime& stage_time);
   // A message as it came from a log: published byte for byte.
-  void publish_raw(const Channel& channel, const void* data, std::size_t size);
+  void publish_raw(const char* channel, const void* data, std::size_t size);
 
   // Subscribes to <SIGNAL>/<where>/<guest>, or to all guests where guest is not set.
   void on_pose(Where where, const GuestId& guest, Delivery delivery, Handler<Pose> handler);
   void on_hands(Where where, const GuestId& guest, Delivery delivery, Handler<Hands> handler);
-  void on_skeleton(Where where, const GuestId& guest, Handler<Skeleton> handler);
+  void on_skeleton(Where where, const GuestId& guest, Handler<TimedSkeleton> handler);
   void on_guest_status(Handler<GuestStatus> handler);
   void on_stats(Handler<Stats> handler);
   void on_stage_time(Handler<StageTime> handler);

@@ -26,6 +26,12 @@ enum class Where : std::uint8_t {
   kProgram,  // about a program; its name takes the place of `where`, there is no guest
 };
 
+// The words of a channel name; find_where() knows what where_name() says (kProgram has no word of
+// its own).
+std::string_view signal_name(Signal signal);
+std::string_view where_name(Where where);
+std::optional<Where> find_where(std::string_view name);
+
 constexpr std::size_t kMaxChannelLength = 63;  // LCM's limit
 
 class Channel {

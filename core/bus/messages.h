@@ -13,8 +13,16 @@
 
 #include "core/base/time.h"
 #include "core/pose/pose.h"
+#include "core/pose/skeleton.h"
 
 namespace dance {
+
+// A dancer's body, and when it was measured.
+struct TimedSkeleton {
+  Skeleton skeleton;
+  MonoTime capture_time;
+  std::uint64_t clock_id = 0;
+};
 
 struct GuestStatus {
   MonoTime time;

@@ -1,0 +1,165 @@
+#include "core/bus/log_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace dance {
+namespace {
+
+constexpr std::uint32_t kSync = 0xEDA1DA01;
+constexpr std::size_t kHeaderBytes = 28;
+constexpr std::size_t kMaxChannelBytes = 63;
+// LCM could carry 256 MiB; a house's log may hold camera pictures beside poses, and nothing larger.
+constexpr std::size_t kMaxDataBytes = 32 << 20;
+
+template <class T>
+T get_big_endian(const std::uint8_t* bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) value = (value << 8) | bytes[i];
+  return static_cast<T>(value);
+}
+
+template <class T>
+std::uint8_t* put_big_endian(std::uint8_t* out, T value) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
+    *out++ =
+        static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * (sizeof(T) - 1 - i)));
+  return out;
+}
+
+std::string reason() {
+  std::array<char, 128> text{};
+  return strerror_r(errno, text.data(), text.size());
+}
+
+}  // namespace
+
+Result<LogReader> LogReader::open(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    return fail(path + ": is a folder, not an LCM log; name a file in it");
+  LogReader reader;
+  reader.file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!reader.file_) return fail(path + ": " + reason());
+  return reader;
+}
+
+LogReader LogReader::over(std::span<const std::uint8_t> bytes) {
+  LogReader reader;
+  reader.memory_ = bytes;
+  return reader;
+}
+
+void LogReader::rewind() {
+  buffer_.clear();
+  begin_ = pending_ = memory_at_ = 0;
+  at_end_ = false;
+  if (file_) std::rewind(file_.get());
+}
+
+// Makes `wanted` unused bytes available in buffer_; false at the end.
+bool LogReader::fill(std::size_t wanted) {
+  if (buffer_.size() - begin_ >= wanted) return true;
+  if (at_end_) return false;  // and nothing is moved: a hostile file may ask this at every byte
+  buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin_));
+  begin_ = 0;
+  constexpr std::size_t kChunk = 64 << 10;
+  while (buffer_.size() < wanted) {
+    const std::size_t old = buffer_.size();
+    std::size_t got = 0;
+    if (file_) {
+      buffer_.resize(old + kChunk);
+      got = std::fread(buffer_.data() + old, 1, kChunk, file_.get());
+      buffer_.resize(old + got);
+    } else {
+      got = std::min(kChunk, memory_.size() - memory_at_);
+      const auto from = memory_.begin() + static_cast<std::ptrdiff_t>(memory_at_);
+      buffer_.insert(buffer_.end(), from, from + static_cast<std::ptrdiff_t>(got));
+      memory_at_ += got;
+    }
+    if (got == 0) {
+      at_end_ = true;
+      return false;
+    }
+  }
+  return true;
+}
+
+void LogReader::skip(std::size_t count) {
+  begin_ += count;
+  skipped_bytes_ += count;
+}
+
+std::optional<LogEvent> LogReader::next() {
+  begin_ += pending_;
+  pending_ = 0;
+  for (;;) {
+    if (!fill(kHeaderBytes)) {
+      skip(buffer_.size() - begin_);
+      return std::nullopt;
+    }
+    const std::uint8_t* header = buffer_.data() + begin_;
+    if (get_big_endian<std::uint32_t>(header) != kSync) {
+      skip(1);
+      continue;
+    }
+    const auto channel_bytes = get_big_endian<std::uint32_t>(header + 20);
+    const auto data_bytes = get_big_endian<std::uint32_t>(header + 24);
+    if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes) {
+      skip(4);  // a sync word by chance, or a damaged header
+      continue;
+    }
+    const std::size_t whole = kHeaderBytes + channel_bytes + data_bytes;
+    if (!fill(whole)) {
+      skip(4);  // cut off here, or lengths that lie: look on behind the sync word
+      continue;
+    }
+    const std::uint8_t* event = buffer_.data() + begin_;
+    pending_ = whole;
+    return LogEvent{get_big_endian<std::int64_t>(event + 12),
+                    {reinterpret_cast<const char*>(event + kHeaderBytes), channel_bytes},
+                    {event + kHeaderBytes + channel_bytes, data_bytes}};
+  }
+}
+
+Result<LogWriter> LogWriter::create(const std::string& path) {
+  LogWriter writer;
+  writer.path_ = path;
+  writer.file_.reset(std::fopen(path.c_str(), "wbx"));
+  if (!writer.file_) {
+    if (errno == EEXIST) return fail(path + ": is there already; remove it or choose another name");
+    return fail(path + ": " + reason());
+  }
+  return writer;
+}
+
+Result<void> LogWriter::append(std::int64_t time_us, std::string_view channel,
+                               std::span<const std::uint8_t> data) {
+  if (channel.empty() || channel.size() > kMaxChannelBytes || data.size() > kMaxDataBytes)
+    return fail(path_ + ": an event of " + std::to_string(data.size()) + " bytes on '" +
+                std::string(channel) + "' does not fit an LCM log");
+  std::array<std::uint8_t, kHeaderBytes> header;
+  std::uint8_t* out = put_big_endian(header.data(), kSync);
+  out = put_big_endian(out, events_);
+  out = put_big_endian(out, time_us);
+  out = put_big_endian(out, static_cast<std::uint32_t>(channel.size()));
+  put_big_endian(out, static_cast<std::uint32_t>(data.size()));
+  std::FILE* file = file_.get();
+  if (std::fwrite(header.data(), 1, header.size(), file) != header.size() ||
+      std::fwrite(channel.data(), 1, channel.size(), file) != channel.size() ||
+      std::fwrite(data.data(), 1, data.size(), file) != data.size())
+    return fail(path_ + ": " + reason());
+  ++events_;
+  bytes_ += header.size() + channel.size() + data.size();
+  return {};
+}
+
+Result<void> LogWriter::flush() {
+  if (std::fflush(file_.get()) != 0) return fail(path_ + ": " + reason());
+  return {};
+}
+
+}  // namespace dance

@@ -1,0 +1,85 @@
+// LCM log files, read and written by bounded code of our own, as liblcm's reader believes the
+// lengths in a damaged file. The format is LCM's, so lcm-logger, lcm-logplayer and these are
+// interchangeable.
+//
+// Units/frames: event times are microseconds of the recorder's wall clock.
+// Ownership:    a reader's events are valid until its next call.
+// Threads:      none inside; one owner.
+// Failure:      open() and append() name the file and the reason; damaged bytes are skipped to the
+// next event and counted. Source:       LCM documentation, "Log file format": big-endian sync word
+// 0xEDA1DA01, event number, time, lengths,
+//               channel, data.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace dance {
+
+struct LogEvent {
+  std::int64_t time_us = 0;
+  std::string_view channel;
+  std::span<const std::uint8_t> data;
+};
+
+class LogReader {
+ public:
+  static Result<LogReader> open(const std::string& path);
+  // Reads bytes in memory, which must outlive the reader.
+  static LogReader over(std::span<const std::uint8_t> bytes);
+
+  // The next whole event; nullopt at the end of the file.
+  std::optional<LogEvent> next();
+  void rewind();
+
+  // Bytes that belonged to no whole event: damage, or a log cut off while it was written.
+  std::uint64_t skipped_bytes() const { return skipped_bytes_; }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  LogReader() = default;
+  bool fill(std::size_t wanted);
+  void skip(std::size_t count);
+
+  std::unique_ptr<std::FILE, CloseFile> file_;  // null when reading memory
+  std::span<const std::uint8_t> memory_;
+  std::size_t memory_at_ = 0;
+  std::vector<std::uint8_t> buffer_;
+  std::size_t begin_ = 0;    // of what is not used yet in buffer_
+  std::size_t pending_ = 0;  // bytes of the event handed out last
+  bool at_end_ = false;
+  std::uint64_t skipped_bytes_ = 0;
+};
+
+class LogWriter {
+ public:
+  // Refuses to overwrite a file that is there.
+  static Result<LogWriter> create(const std::string& path);
+  Result<void> append(std::int64_t time_us, std::string_view channel,
+                      std::span<const std::uint8_t> data);
+  Result<void> flush();
+  std::uint64_t events() const { return static_cast<std::uint64_t>(events_); }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  LogWriter() = default;
+  std::string path_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::int64_t events_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace dance
