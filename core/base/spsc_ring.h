@@ -4,8 +4,7 @@
 //
 // Ownership: kCapacity copies of T inside; never allocates after construction.
 // Threads:   one writer (push), one reader (pop). T must be trivially copyable: a slot that is
-// overwritten while it is
-//            being read is detected by its sequence and read again.
+//            overwritten while it is being read is detected by its sequence and read again.
 // Failure:   none; overwritten() counts lost entries.
 #pragma once
 

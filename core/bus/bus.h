@@ -4,8 +4,7 @@
 //
 // Units/frames: as in core/pose; stamps in the house's clock.
 // Ownership:    owns the LCM handle; handlers must outlive it. Publishing and draining allocate
-// nothing of ours once
-//               every channel has been heard once.
+//               nothing of ours once every channel has been heard once.
 // Threads:      one (LCM's own receive thread inside hands over through a pipe).
 // Failure:      open() names a bus that cannot be had and the cure; later trouble is counted.
 #pragma once

@@ -5,8 +5,7 @@
 // Ownership:    encodes into the caller's buffer; allocates nothing.
 // Threads:      none inside.
 // Failure:      decode() tells a message of another type or size (kUndecodable) from one with
-// impossible values
-//               (kInvalid).
+//               impossible values (kInvalid).
 #pragma once
 
 #include <array>

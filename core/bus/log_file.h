@@ -6,9 +6,8 @@
 // Ownership:    a reader's events are valid until its next call.
 // Threads:      none inside; one owner.
 // Failure:      open() and append() name the file and the reason; damaged bytes are skipped to the
-// next event and counted. Source:       LCM documentation, "Log file format": big-endian sync word
-// 0xEDA1DA01, event number, time, lengths,
-//               channel, data.
+//               next event and counted. Source:       LCM documentation, "Log file format":
+//               big-endian sync word 0xEDA1DA01, event number, time, lengths, channel, data.
 #pragma once
 
 #include <cstdint>

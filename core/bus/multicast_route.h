@@ -3,7 +3,7 @@
 //
 // Threads: any.
 // Failure: an unset device means that the kernel has no route; the file of routes missing counts as
-// no route.
+//          no route.
 #pragma once
 
 #include <string>

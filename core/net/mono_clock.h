@@ -3,7 +3,7 @@
 // Units/frames: MonoTime since boot (suspension not counted).
 // Threads:      any.
 // Failure:      none; where the kernel tells no boot id, the clock id is random, so that nothing
-// compares equal by luck.
+//               compares equal by luck.
 #pragma once
 
 #include <cstdint>

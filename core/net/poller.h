@@ -2,11 +2,10 @@
 // Sleeps in epoll when nothing is due; SIGINT and SIGTERM end it gracefully when asked to.
 //
 // Units/frames: deadlines are MonoTime of this process's clock (core/net/mono_clock.h); each turn
-// reads the clock once
-//               and passes it on.
+//               reads the clock once and passes it on.
 // Ownership:    owns its epoll, timer and signal descriptors; watched descriptors stay their
-// owner's, who must unwatch
-//               them before closing. Allocates in watch() and add_timer(), not while running.
+//               owner's, who must unwatch them before closing. Allocates in watch() and
+//               add_timer(), not while running.
 // Threads:      one; stop() may be called from handlers.
 // Failure:      create() tells what the kernel refused.
 #pragma once

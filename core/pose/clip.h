@@ -1,8 +1,8 @@
 // MotionClip: a recorded dance on the canonical skeleton, every frame of it in memory.
 //
 // Units/frames: frames are 1/frame_hz apart, the first at time 0; poses in W, metres, as
-// core/pose/pose.h says; their
-//               capture times are left unset, as whoever plays them stamps them.
+//               core/pose/pose.h says; their capture times are left unset, as whoever plays them
+//               stamps them.
 // Ownership:    owns its frames.
 // Threads:      none inside; read-only once made.
 // Failure:      sample() of an empty clip is our bug.

@@ -4,7 +4,7 @@
 // Ownership:    keeps copies in a ring; never allocates after construction.
 // Threads:      none inside; one thread owns it.
 // Failure:      at() on an empty history returns nullopt; push() of a pose that is not newer is
-// refused (false).
+//               refused (false).
 #pragma once
 
 #include <cstddef>

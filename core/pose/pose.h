@@ -2,12 +2,12 @@
 // every part of the system hands on.
 //
 // Units/frames: R_PB is each bone's rotation in its parent (hips: in W), identity in T-pose facing
-// +Z; p_WH_m is the
-//               hips in W, metres, +Y up; times are of the clock that clock_id names.
+//               +Z; p_WH_m is the hips in W, metres, +Y up; times are of the clock that clock_id
+//               names.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
 // Failure:      is_valid() tells whether a pose may go on; check it once where bytes come in, trust
-// it behind.
+//               it behind.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -2,9 +2,8 @@
 // and hands meet whatever the size of the body.
 //
 // Units/frames: metres; offset_m[b] is the origin of bone b from its parent's, in T-pose, axes of W
-// (the hips' entry is
-//               (0, standing height of the hips, 0)); tip_m is the end of an end bone from that
-//               bone's origin.
+//               (the hips' entry is (0, standing height of the hips, 0)); tip_m is the end of an
+//               end bone from that bone's origin.
 // Ownership:    plain value.
 // Threads:      none inside.
 // Failure:      is_valid() is false for what is not a body (not finite, bones over 2 m).
