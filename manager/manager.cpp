@@ -1,0 +1,101 @@
+#include "manager/manager.h"
+
+#include <algorithm>
+
+#include "core/net/mono_clock.h"
+
+namespace dance {
+
+Manager::Manager(ManagerOptions options, Bus& bus, Poller& poller)
+    : options_(std::move(options)),
+      bus_(bus),
+      router_(options_.routes, this_clock_id(), *this),
+      begin_(mono_now()) {
+  listen(Where::kCapture);
+  if (options_.hear_guests_on_bus) listen(Where::kGuest);
+  start_timers(poller);
+}
+
+bool Manager::is_hosted(Where where, const GuestId& guest) const {
+  return where == Where::kCapture &&
+         std::find(options_.hosted_captures.begin(), options_.hosted_captures.end(), guest) !=
+             options_.hosted_captures.end();
+}
+
+void Manager::listen(Where where) {
+  if (!router_.wants(where)) return;
+  bus_.on_pose(where, GuestId(), Delivery::kEvery,
+               [this, where](const Channel& channel, const Pose& pose, MonoTime now) {
+                 if (!is_hosted(where, channel.guest()))
+                   router_.take(where, channel.guest(), pose, now);
+               });
+  bus_.on_hands(where, GuestId(), Delivery::kEvery,
+                [this, where](const Channel& channel, const Hands& hands, MonoTime) {
+                  if (!is_hosted(where, channel.guest()))
+                    router_.take(where, channel.guest(), hands);
+                });
+  bus_.on_skeleton(where, GuestId(),
+                   [this, where](const Channel& channel, const TimedSkeleton& skeleton, MonoTime) {
+                     if (!is_hosted(where, channel.guest()))
+                       router_.take(where, channel.guest(), skeleton);
+                   });
+}
+
+void Manager::start_timers(Poller& poller) {
+  for (std::size_t route = 0; route < router_.route_count(); ++route) {
+    const double hz = router_.rate_hz(route);
+    pacers_.emplace_back(begin_, hz > 0.0 ? hz : 1.0);
+    if (hz <= 0.0) continue;
+    poller.add_timer(begin_, [this, route](MonoTime now) {
+      router_.tick(route, now);
+      lateness_.add(pacers_[route].advance(now));
+      return pacers_[route].deadline();
+    });
+  }
+  poller.add_timer(begin_ + Duration::s(1), [this](MonoTime now) {
+    end_second(now);
+    return now + Duration::s(1);
+  });
+}
+
+void Manager::on_staged(OnStagedPose on_pose, OnStagedSkeleton on_skeleton) {
+  on_staged_pose_.push_back(std::move(on_pose));
+  on_staged_skeleton_.push_back(std::move(on_skeleton));
+}
+
+void Manager::stage(const GuestId& guest, Pose& pose, MonoTime now) {
+  pose.stamp(Hop::kStaged, mono_now());
+  bus_.publish(Channel::of(Signal::kPose, Where::kStage, guest), pose);
+  for (const auto& on_pose : on_staged_pose_) on_pose(guest, pose, now);
+}
+
+void Manager::stage(const GuestId& guest, const Hands& hands) {
+  bus_.publish(Channel::of(Signal::kHands, Where::kStage, guest), hands);
+}
+
+void Manager::stage(const GuestId& guest, const TimedSkeleton& skeleton) {
+  bus_.publish(Channel::of(Signal::kSkeleton, Where::kStage, guest), skeleton);
+  for (const auto& on_skeleton : on_staged_skeleton_) on_skeleton(guest, skeleton.skeleton);
+}
+
+Stats Manager::stats(MonoTime now) {
+  Stats stats = router_.stats();
+  stats.time = now;
+  stats.clock_id = this_clock_id();
+  stats.uptime = now - begin_;
+  stats.dropped_invalid = static_cast<std::int64_t>(bus_.counters().invalid);
+  stats.lateness_p99 = lateness_p99_;
+  return stats;
+}
+
+void Manager::end_second(MonoTime now) {
+  lateness_p99_ = lateness_.percentile(0.99);
+  lateness_.clear();
+  router_.roster().end_second(
+      now, this_clock_id(), [this](const RosterEntry& entry, const GuestStatus& status) {
+        bus_.publish(Channel::of(Signal::kGuest, Where::kStage, entry.guest), status);
+      });
+  bus_.publish(Channel::of_program(Signal::kStats, "manager"), stats(now));
+}
+
+}  // namespace dance

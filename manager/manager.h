@@ -1,0 +1,72 @@
+// Manager: the signal manager of one house. Hears captures and remote guests on the bus (or from a link in the same
+// process), routes them to the stage at its steady rate, keeps the roster and says once a second who is alive and what
+// was counted.
+//
+// Units/frames: times of this house's clock.
+// Ownership:    refers to the bus and the poller, which must outlive it.
+// Threads:      none inside; runs in the poller's thread.
+// Failure:      what cannot be routed is counted in STATS/manager.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/base/histogram.h"
+#include "core/base/pacer.h"
+#include "core/bus/bus.h"
+#include "core/net/poller.h"
+#include "manager/router.h"
+
+namespace dance {
+
+struct ManagerOptions {
+  std::vector<Route> routes;
+  // False when a link in this process hands remote guests over directly: their copies on the bus are then not heard.
+  bool hear_guests_on_bus = true;
+  // Captures that a producer in this process hands over directly, likewise.
+  std::vector<GuestId> hosted_captures;
+};
+
+class Manager : private StageSink {
+ public:
+  Manager(ManagerOptions options, Bus& bus, Poller& poller);
+
+  // From a link or a producer in this process.
+  void take(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
+    router_.take(where, guest, pose, now);
+  }
+  void take(Where where, const GuestId& guest, const Hands& hands) {
+    router_.take(where, guest, hands);
+  }
+  void take(Where where, const GuestId& guest, const TimedSkeleton& skeleton) {
+    router_.take(where, guest, skeleton);
+  }
+
+  // A consumer in this process: hears each staged pose and skeleton beside the bus.
+  using OnStagedPose = std::function<void(const GuestId& guest, const Pose& pose, MonoTime now)>;
+  using OnStagedSkeleton = std::function<void(const GuestId& guest, const Skeleton& skeleton)>;
+  void on_staged(OnStagedPose on_pose, OnStagedSkeleton on_skeleton);
+
+  Stats stats(MonoTime now);
+
+ private:
+  void stage(const GuestId& guest, Pose& pose, MonoTime now) override;
+  void stage(const GuestId& guest, const Hands& hands) override;
+  void stage(const GuestId& guest, const TimedSkeleton& skeleton) override;
+  bool is_hosted(Where where, const GuestId& guest) const;
+  void listen(Where where);
+  void start_timers(Poller& poller);
+  void end_second(MonoTime now);
+
+  ManagerOptions options_;
+  Bus& bus_;
+  Router router_;
+  std::vector<Pacer> pacers_;  // one per route
+  Histogram lateness_;
+  Duration lateness_p99_;
+  MonoTime begin_;
+  std::vector<OnStagedPose> on_staged_pose_;
+  std::vector<OnStagedSkeleton> on_staged_skeleton_;
+};
+
+}  // namespace dance

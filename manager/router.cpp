@@ -1,0 +1,99 @@
+#include "manager/router.h"
+
+#include <algorithm>
+
+#include "core/base/assert.h"
+
+namespace dance {
+
+Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink)
+    : our_clock_id_(our_clock_id), sink_(sink) {
+  for (const Route& route : routes) {
+    lines_.push_back(std::make_unique<Line>(Line{route, route.rate_hz, {}}));
+    lines_from_[static_cast<std::size_t>(route.from.where)].push_back(lines_.back().get());
+  }
+}
+
+Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime now) {
+  for (auto& instance : line.instances)
+    if (instance->guest == guest) return instance.get();
+  if (line.instances.size() == kMaxGuests) {
+    // Full: a guest who is silent gives the place to the newcomer.
+    const auto silent =
+        std::find_if(line.instances.begin(), line.instances.end(),
+                     [&](const auto& i) { return now - i->last_heard > Roster::kSilence; });
+    if (silent == line.instances.end()) return nullptr;
+    line.instances.erase(silent);
+  }
+  auto chain = Chain::make(line.route.through);
+  DANCE_ASSERT(chain.has_value());
+  line.instances.push_back(std::make_unique<Instance>(
+      Instance{guest, shown_as(line, guest), std::move(*chain), now, 0}));
+  return line.instances.back().get();
+}
+
+void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
+  ++stats_.received;
+  RosterEntry* entry = roster_.heard(guest, where == Where::kGuest, pose, now);
+  if (!entry) {
+    ++stats_.dropped_overflow;
+    return;
+  }
+  bool wanted = false;
+  for (Line* line : lines_from_[static_cast<std::size_t>(where)]) {
+    if (!is_for(*line, guest)) continue;
+    Instance* instance = instance_of(*line, guest, now);
+    if (!instance) continue;
+    wanted = true;
+    instance->last_heard = now;
+    if (!instance->chain.is_pass_through()) {
+      instance->chain.observe(pose, now);
+      continue;
+    }
+    Pose staged = pose;
+    staged.stamp(Hop::kStageTaken, now);
+    sink_.stage(instance->shown_as, staged, now);
+    Roster::staged(*entry, staged, now, our_clock_id_);
+  }
+  ++(wanted ? stats_.forwarded : stats_.dropped_unrouted);
+}
+
+template <class Message>
+void Router::pass_on(Where where, const GuestId& guest, const Message& message) {
+  for (const Line* line : lines_from_[static_cast<std::size_t>(where)])
+    if (is_for(*line, guest)) sink_.stage(shown_as(*line, guest), message);
+}
+
+void Router::take(Where where, const GuestId& guest, const Hands& hands) {
+  pass_on(where, guest, hands);
+}
+
+void Router::take(Where where, const GuestId& guest, const TimedSkeleton& skeleton) {
+  pass_on(where, guest, skeleton);
+}
+
+void Router::tick(std::size_t route, MonoTime now) {
+  Line& line = *lines_[route];
+  for (auto& instance : line.instances) {
+    // A guest who is silent is not held on the stage for ever.
+    if (now - instance->last_heard > Roster::kSilence) continue;
+    Pose pose;
+    if (!instance->chain.sample(now, pose)) continue;
+    pose.sequence = instance->staged++;  // the stage's own count: it makes these poses
+    pose.stamp(Hop::kStageTaken, now);
+    sink_.stage(instance->shown_as, pose, now);
+    if (RosterEntry* entry = roster_.find(instance->guest))
+      Roster::staged(*entry, pose, now, our_clock_id_);
+  }
+}
+
+Stats Router::stats() const {
+  Stats stats = stats_;
+  for (const auto& line : lines_)
+    for (const auto& instance : line->instances)
+      stats.dropped_late += static_cast<std::int64_t>(instance->chain.counters().refused);
+  stats.guests = roster_.alive_count();
+  return stats;
+}
+
+}  // namespace dance

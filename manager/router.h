@@ -1,0 +1,84 @@
+// Router: which pose reaches the stage through which transformers. Routes are resolved when it is made: a pose's way is
+// a walk over pointers, without a lookup by name and without a copy but the stage's own.
+//
+// Units/frames: `now` is this house's clock.
+// Ownership:    owns the chains; allocates when a guest comes, not per pose.
+// Threads:      none inside; one owner. Pure: the poses it stages go to a sink.
+// Failure:      poses that no route wants, or beyond the bound of guests, are counted in the statistics.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/bus/messages.h"
+#include "manager/roster.h"
+#include "manager/session.h"
+#include "transformers/chain.h"
+
+namespace dance {
+
+// Where the router puts what is to be shown.
+class StageSink {
+ public:
+  virtual ~StageSink() = default;
+  // May stamp the pose. `guest` is whom it shows.
+  virtual void stage(const GuestId& guest, Pose& pose, MonoTime now) = 0;
+  virtual void stage(const GuestId& guest, const Hands& hands) = 0;
+  virtual void stage(const GuestId& guest, const TimedSkeleton& skeleton) = 0;
+};
+
+class Router {
+ public:
+  // The routes must have passed the session's checks (a chain that cannot be made is our bug).
+  Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink);
+
+  void take(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
+  void take(Where where, const GuestId& guest, const Hands& hands);
+  void take(Where where, const GuestId& guest, const TimedSkeleton& skeleton);
+
+  // The routes with a steady rate, and the work of one of their deadlines.
+  std::size_t route_count() const { return lines_.size(); }
+  double rate_hz(std::size_t route) const { return lines_[route]->rate_hz; }
+  void tick(std::size_t route, MonoTime now);
+
+  bool wants(Where where) const { return !lines_from_[static_cast<std::size_t>(where)].empty(); }
+  Roster& roster() { return roster_; }
+  // Counters of poses; time, uptime and lateness are the caller's.
+  Stats stats() const;
+
+ private:
+  // One guest on one route.
+  struct Instance {
+    GuestId guest;
+    GuestId shown_as;
+    Chain chain;
+    MonoTime last_heard;
+    std::uint32_t staged = 0;
+  };
+  struct Line {
+    Route route;
+    double rate_hz;
+    std::vector<std::unique_ptr<Instance>> instances;
+  };
+
+  Instance* instance_of(Line& line, const GuestId& guest, MonoTime now);
+  bool is_for(const Line& line, const GuestId& guest) const {
+    return !line.route.from.guest.is_set() || line.route.from.guest == guest;
+  }
+  static GuestId shown_as(const Line& line, const GuestId& guest) {
+    return line.route.to.guest.is_set() ? line.route.to.guest : guest;
+  }
+  template <class Message>
+  void pass_on(Where where, const GuestId& guest, const Message& message);
+
+  std::uint64_t our_clock_id_;
+  StageSink& sink_;
+  std::vector<std::unique_ptr<Line>> lines_;
+  std::array<std::vector<Line*>, 5> lines_from_;  // by Where
+  Roster roster_;
+  Stats stats_;
+};
+
+}  // namespace dance

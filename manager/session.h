@@ -1,0 +1,76 @@
+// Session: what a house is and does, read from its TOML file: who dances here, the server and room, the bus, routes,
+// hosted producers and consumers.
+//
+// Units/frames: rates in Hz.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      an error names file, line and column, the thing and the cure; a key that is not known is an error too,
+//               as a misspelt one would be silently without effect.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "core/base/result.h"
+#include "core/bus/channel.h"
+
+namespace dance {
+
+// One end of a route: POSE/<where>/<guest> or POSE/<where>/*.
+struct RouteEnd {
+  Where where = Where::kCapture;
+  GuestId guest;  // not set: all of them
+};
+
+struct Route {
+  RouteEnd from;
+  RouteEnd to;                       // guest not set: the one that came in
+  std::vector<std::string> through;  // specifications of transformers
+  double rate_hz = 0.0;              // 0: as poses arrive (only without transformers)
+};
+
+// A producer inside the manager's process: no bus hop before its poses are routed.
+struct HostedProducer {
+  enum class Kind { kSalsa, kReplay };
+  Kind kind = Kind::kSalsa;
+  GuestId guest;
+  double rate_hz = 60.0;
+  // salsa
+  std::string role = "lead";
+  double tempo_bpm = 180.0;
+  std::int64_t seed = 1;
+  // replay
+  std::string file;
+  double speed = 1.0;
+};
+
+// A consumer inside the manager's process.
+struct HostedConsumer {
+  std::string to = "text";  // text, csv or bvh
+  RouteEnd from;
+  std::string file;  // "" = standard output
+};
+
+struct Session {
+  std::vector<GuestId>
+      guests;  // who dances in this house; may be empty (a house that only watches)
+  std::string room = "dance";
+  std::string server;  // host:port; "" = no tunnel
+  std::string bus;     // LCM URL; "" = default
+  bool view = true;    // open the viewer (dance join)
+  std::vector<Route> routes;
+  std::vector<HostedProducer> producers;
+  std::vector<HostedConsumer> consumers;
+};
+
+// `name` stands in errors. Relative file names in it are taken from the folder of `name`.
+Result<Session> parse_session(std::string_view text, const std::string& name);
+Result<Session> load_session(const std::string& path);
+
+// The session of a house that was given no file: own dancers straight to the stage, remote ones through a short hold.
+std::vector<Route> default_routes();
+
+}  // namespace dance

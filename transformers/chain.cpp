@@ -1,0 +1,90 @@
+#include "transformers/chain.h"
+
+#include <array>
+#include <charconv>
+
+#include "transformers/hold.h"
+
+namespace dance {
+namespace {
+
+using Arguments = std::vector<std::string_view>;
+
+Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
+  if (arguments.size() != 1) return fail("hold takes one length of time, like 'hold 20ms'");
+  DANCE_TRY(const Duration window, parse_duration(arguments[0]));
+  if (window < Duration() || window > Duration::s(2))
+    return fail("hold takes 0ms to 2s, not '" + std::string(arguments[0]) + "'");
+  return std::make_unique<Hold>(window);
+}
+
+struct Entry {
+  std::string_view name;
+  Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments);
+};
+
+// Every transformer of the tree.
+constexpr std::array<Entry, 1> kTransformers{{
+    {"hold", make_hold},
+}};
+
+Arguments split(std::string_view text) {
+  Arguments words;
+  while (!text.empty()) {
+    const std::size_t begin = text.find_first_not_of(' ');
+    if (begin == std::string_view::npos) break;
+    text.remove_prefix(begin);
+    const std::size_t end = std::min(text.find(' '), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
+}
+
+Result<std::unique_ptr<Transformer>> make_station(std::string_view specification) {
+  Arguments words = split(specification);
+  std::string known;
+  for (const Entry& entry : kTransformers) {
+    if (!words.empty() && entry.name == words[0]) {
+      words.erase(words.begin());
+      return entry.make(words);
+    }
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return fail("there is no transformer '" + std::string(specification) + "'; there are: " + known);
+}
+
+}  // namespace
+
+Result<Duration> parse_duration(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  const double scale = unit == "s" ? 1.0 : unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : 0.0;
+  // The comparison also refuses NaN.
+  if (error != std::errc() || scale == 0.0 || !(number >= -1e6 && number <= 1e6))
+    return fail("'" + std::string(text) + "' is not a length of time like 20ms, 1.5s or 800us");
+  return Duration::seconds(number * scale);
+}
+
+Result<Chain> Chain::make(const std::vector<std::string>& specifications) {
+  Chain chain;
+  for (const std::string& specification : specifications) {
+    DANCE_TRY(auto station, make_station(specification));
+    if (!chain.stations_.empty()) station->set_input(chain.stations_.back().get());
+    chain.stations_.push_back(std::move(station));
+  }
+  return chain;
+}
+
+Transformer::Counters Chain::counters() const {
+  Transformer::Counters sum;
+  for (const auto& station : stations_) {
+    sum.refused += station->counters().refused;
+    sum.restarts += station->counters().restarts;
+    sum.starved += station->counters().starved;
+  }
+  return sum;
+}
+
+}  // namespace dance

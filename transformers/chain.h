@@ -1,0 +1,40 @@
+// Chain: the stations of one route for one guest, made from their specifications ("hold 20ms"). The table of
+// transformers stands in chain.cpp: a new one is one line there.
+//
+// Units/frames: as transformers/transformer.h.
+// Ownership:    owns its stations; allocates only in make().
+// Threads:      none inside; one owner.
+// Failure:      make() names the word that it does not know, and the ones it does.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "transformers/transformer.h"
+
+namespace dance {
+
+// "20ms", "1.5s", "800us": a length of time as people write it.
+Result<Duration> parse_duration(std::string_view text);
+
+class Chain {
+ public:
+  static Result<Chain> make(const std::vector<std::string>& specifications);
+
+  // A chain without stations hands poses through as they come.
+  bool is_pass_through() const { return stations_.empty(); }
+  void observe(const Pose& pose, MonoTime now) {
+    for (auto& station : stations_) station->observe(pose, now);
+  }
+  bool sample(MonoTime now, Pose& out) { return stations_.back()->sample(now, out); }
+  // Summed over the stations.
+  Transformer::Counters counters() const;
+
+ private:
+  std::vector<std::unique_ptr<Transformer>> stations_;
+};
+
+}  // namespace dance

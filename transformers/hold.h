@@ -1,0 +1,54 @@
+// hold: the play-out buffer. Shows each moment of the dance a constant time after it happened, so that the jitter of the
+// line is gone: constant = the least delay that the line has shown lately + the window. Between poses it interpolates;
+// where the next pose is late it repeats the last.
+//
+// Units/frames: the window is a Duration of 0 to 2 s. Capture times may be of any clock: the least delay absorbs the
+//               offset, so a log replayed with its old stamps plays as well as a live dancer.
+// Ownership:    keeps the last 256 poses; never allocates after construction.
+// Threads:      none inside; one owner.
+// Failure:      a pose that is not newer is refused and counted; a source that jumps back by more than a second, or
+//               changes its clock, starts anew and is counted.
+// Source:       least-delay offset filter as in NTP (RFC 5905, clock filter); delay changed gradually as play-out
+//               buffers of voice do.
+#pragma once
+
+#include <array>
+
+#include "core/pose/history.h"
+#include "transformers/transformer.h"
+
+namespace dance {
+
+class Hold : public Transformer {
+ public:
+  explicit Hold(Duration window);
+
+  void observe(const Pose& pose, MonoTime now) override;
+  bool sample(MonoTime now, Pose& out) override;
+
+  void set_window(Duration window) { window_ = window; }
+  // From capture to display, as it is now; of another clock it includes the clocks' offset.
+  Duration delay() const { return delay_; }
+
+ private:
+  void note_transit(Duration transit, MonoTime now);
+  Duration least_transit() const;
+  void follow_target(MonoTime now);
+
+  // The least transit of the last 5 to 10 s: one bucket is filled while the other still counts.
+  static constexpr Duration kBucketLength = Duration::s(5);
+  struct Bucket {
+    Duration least;
+    bool filled = false;
+  };
+
+  Duration window_;
+  PoseHistory history_;
+  std::array<Bucket, 2> buckets_{};
+  MonoTime bucket_begin_;
+  Duration delay_;
+  MonoTime delay_set_;
+  bool has_delay_ = false;
+};
+
+}  // namespace dance

@@ -1,0 +1,40 @@
+// Transformer: one station of a route, pose in and pose out: hold, later predict, rhythm, stylize. Stations of a chain
+// know the one before them; the stage asks the last one.
+//
+// Units/frames: `now` is this house's clock. A pose's capture_time says which moment of the dance it shows; stations may
+//               shift it, and the difference to `now` is what is still to be taken back.
+// Ownership:    the chain owns its stations; never allocate after construction.
+// Threads:      none inside; one owner. Pure: no I/O, no clock of their own.
+// Failure:      sample() is false while there is nothing to show.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/time.h"
+#include "core/pose/pose.h"
+
+namespace dance {
+
+class Transformer {
+ public:
+  struct Counters {
+    std::uint64_t refused = 0;   // poses that were not newer than what was there
+    std::uint64_t restarts = 0;  // the source began again: a producer came back, a replay looped
+    std::uint64_t starved = 0;   // samples that had to repeat the newest pose
+  };
+
+  virtual ~Transformer() = default;
+  // A pose has arrived from the route's source; every station hears of every pose.
+  virtual void observe(const Pose& pose, MonoTime now) = 0;
+  // The pose to show at `now`.
+  virtual bool sample(MonoTime now, Pose& out) = 0;
+
+  void set_input(Transformer* input) { input_ = input; }
+  const Counters& counters() const { return counters_; }
+
+ protected:
+  Transformer* input_ = nullptr;  // the station before this one; null for the first
+  Counters counters_;
+};
+
+}  // namespace dance
