@@ -1,0 +1,42 @@
+#include "producers/dancer_feed.h"
+
+#include "core/net/mono_clock.h"
+
+namespace dance {
+
+DancerFeed::DancerFeed(std::unique_ptr<Dancer> dancer, const GuestId& guest, double hz,
+                       CaptureSink& sink, Poller& poller, MonoTime start)
+    : dancer_(std::move(dancer)), guest_(guest), sink_(sink), start_(start), pacer_(start, hz) {
+  poller.add_timer(start, [this](MonoTime now) { return dance(now); });
+}
+
+MonoTime DancerFeed::dance(MonoTime now) {
+  const MonoTime deadline = pacer_.deadline();
+  const Duration t = deadline - start_;
+  if (dancer_->is_over(t)) {
+    is_over_ = true;
+    return {};
+  }
+  Pose pose;
+  dancer_->dance_at(t, pose);
+  pose.sequence = sequence_++;
+  pose.clock_id = this_clock_id();
+  pose.capture_time = deadline;
+  sink_.capture(guest_, pose, now);
+
+  Hands hands;
+  if (dancer_->hands_at(t, hands)) {
+    hands.sequence = pose.sequence;
+    hands.clock_id = pose.clock_id;
+    hands.capture_time = pose.capture_time;
+    sink_.capture(guest_, hands);
+  }
+  if (now >= next_skeleton_) {
+    sink_.capture(guest_, TimedSkeleton{dancer_->skeleton(), now, this_clock_id()});
+    next_skeleton_ = now + Duration::s(1);
+  }
+  pacer_.advance(now);
+  return pacer_.deadline();
+}
+
+}  // namespace dance

@@ -1,0 +1,110 @@
+// dance: the front end of all programs. `dance demo` runs dance-demo, as git does; words that are not a command are
+// looked up with the next one, so that `dance bench path` runs dance-bench-path.
+
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+struct Command {
+  std::string_view name;  // as typed
+  std::string_view summary;
+};
+
+constexpr std::array kCommands{
+    Command{"demo",
+            "two houses, a server between them, dancers, a stage: the main job on one machine"},
+    Command{"join", "all of a house in one, from one session file"},
+    Command{"view", "the viewer"},
+    Command{"replay", "plays BVH files and LCM logs as dancers"},
+    Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
+    Command{"server", "the tunnel server"},
+    Command{"link", "a house's link to the server"},
+    Command{"manager", "the signal manager of a house"},
+    Command{"listen", "poses as text, CSV or BVH"},
+    Command{"record", "records the bus to an LCM log"},
+    Command{"latency", "the table of a pose's journey, with numbers"},
+    Command{"top", "channels and programs of the bus, in a terminal"},
+    Command{"spy", "lcm-spy with our types"},
+    Command{"doctor", "checks this machine, and names what mends it"},
+    Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
+    Command{"bench path", "a pose's journey against the same number of bare hops"},
+};
+
+void print_commands(std::FILE* out) {
+  std::fputs("usage: dance COMMAND [OPTIONS]   (dance COMMAND --help tells more)\n\n", out);
+  for (const Command& command : kCommands)
+    std::fprintf(out, "  %-12.*s %.*s\n", static_cast<int>(command.name.size()),
+                 command.name.data(), static_cast<int>(command.summary.size()),
+                 command.summary.data());
+  std::fputs("\nFirst steps:\n  dance doctor\n  dance demo\n", out);
+}
+
+std::filesystem::path own_folder() {
+  std::array<char, PATH_MAX> path{};
+  const auto size = readlink("/proc/self/exe", path.data(), path.size() - 1);
+  return size > 0 ? std::filesystem::path(path.data()).parent_path() : ".";
+}
+
+std::string program_of(std::string_view name) {
+  std::string program = "dance-" + std::string(name);
+  for (char& c : program)
+    if (c == ' ') c = '-';
+  return program;
+}
+
+// The command that is meant, and how many words of the command line it takes.
+const Command* find_command(int argc, char** argv, int& words) {
+  std::string name;
+  const Command* found = nullptr;
+  for (words = 0; words + 1 < argc && words < 2; ++words) {
+    name += (words ? " " : "") + std::string(argv[words + 1]);
+    for (const Command& command : kCommands)
+      if (command.name == name) found = &command;
+    if (found) {
+      ++words;
+      return found;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    print_commands(stdout);
+    return 0;
+  }
+  const std::string_view first = argv[1];
+  if (first == "--help" || first == "-h" || first == "help") {
+    print_commands(stdout);
+    return 0;
+  }
+  int words = 0;
+  const Command* command = find_command(argc, argv, words);
+  if (!command) {
+    std::fprintf(stderr, "dance: there is no command '%s'; `dance help` lists them\n", argv[1]);
+    return 2;
+  }
+  const std::string program = program_of(command->name);
+  const std::filesystem::path path = own_folder() / program;
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
+  for (int i = words + 1; i < argc; ++i) arguments.push_back(argv[i]);
+  arguments.push_back(nullptr);
+  execv(path.c_str(), arguments.data());
+  std::fprintf(stderr,
+               "dance: %s cannot be run: %s; it was not built: run ./dance setup and look at the "
+               "table of features\n",
+               path.c_str(), std::strerror(errno));  // NOLINT(concurrency-mt-unsafe): one thread
+  return 1;
+}
