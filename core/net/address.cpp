@@ -1,0 +1,154 @@
+#include "core/net/address.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+
+#include <charconv>
+#include <cstring>
+#include <optional>
+
+namespace dance {
+namespace {
+
+constexpr std::array<std::uint8_t, 12> kMappedPrefix{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
+
+struct HostAndPort {
+  std::string host;
+  std::string port;
+};
+
+// The last colon parts host and port, except in a bare IPv6 address, which has several and no
+// brackets.
+std::optional<HostAndPort> split(std::string_view text) {
+  if (text.starts_with('[')) {
+    const auto close = text.find(']');
+    if (close == std::string_view::npos) return std::nullopt;
+    const std::string_view rest = text.substr(close + 1);
+    if (!rest.empty() && !rest.starts_with(':')) return std::nullopt;
+    return HostAndPort{std::string(text.substr(1, close - 1)),
+                       std::string(rest.empty() ? rest : rest.substr(1))};
+  }
+  const auto colon = text.rfind(':');
+  if (colon == std::string_view::npos) return HostAndPort{std::string(text), ""};
+  if (text.find(':') != colon) return HostAndPort{std::string(text), ""};
+  return HostAndPort{std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
+}
+
+std::optional<std::uint16_t> parse_port(const std::string& text) {
+  std::uint16_t port = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, port);
+  if (error != std::errc() || stop != end || port == 0) return std::nullopt;
+  return port;
+}
+
+}  // namespace
+
+Result<Address> Address::resolve(std::string_view text, std::uint16_t default_port) {
+  const std::string whole(text);
+  const auto parts = split(text);
+  if (!parts || parts->host.empty())
+    return fail("'" + whole + "' is not an address: write HOST:PORT, or [IPV6]:PORT");
+  std::uint16_t port = default_port;
+  if (!parts->port.empty() || default_port == 0) {
+    const auto parsed = parse_port(parts->port);
+    if (!parsed)
+      return fail("'" + whole + "' has no valid port: write HOST:PORT with a port of 1 to 65535");
+    port = *parsed;
+  }
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  const int error = getaddrinfo(parts->host.c_str(), nullptr, &hints, &found);
+  if (error != 0 || found == nullptr)
+    return fail("host '" + parts->host + "' is unknown (" + gai_strerror(error) +
+                "): check the spelling and the network");
+  sockaddr_storage raw{};
+  std::memcpy(&raw, found->ai_addr, found->ai_addrlen);
+  freeaddrinfo(found);
+  return from_sockaddr(raw).with_port(port);
+}
+
+Address Address::from_sockaddr(const sockaddr_storage& raw) {
+  Address address;
+  if (raw.ss_family == AF_INET) {
+    sockaddr_in v4{};
+    std::memcpy(&v4, &raw, sizeof v4);
+    address.family_ = Family::kIpv4;
+    address.port_ = ntohs(v4.sin_port);
+    std::memcpy(address.ip_.data(), &v4.sin_addr, 4);
+  } else if (raw.ss_family == AF_INET6) {
+    sockaddr_in6 v6{};
+    std::memcpy(&v6, &raw, sizeof v6);
+    address.port_ = ntohs(v6.sin6_port);
+    if (std::memcmp(&v6.sin6_addr, kMappedPrefix.data(), kMappedPrefix.size()) == 0) {
+      address.family_ = Family::kIpv4;
+      std::memcpy(address.ip_.data(), v6.sin6_addr.s6_addr + kMappedPrefix.size(), 4);
+    } else {
+      address.family_ = Family::kIpv6;
+      address.scope_ = v6.sin6_scope_id;
+      std::memcpy(address.ip_.data(), &v6.sin6_addr, 16);
+    }
+  }
+  return address;
+}
+
+Address Address::loopback(std::uint16_t port) {
+  Address address;
+  address.family_ = Family::kIpv4;
+  address.ip_[0] = 127;
+  address.ip_[3] = 1;
+  address.port_ = port;
+  return address;
+}
+
+socklen_t Address::to_sockaddr(Family socket_family, sockaddr_storage& raw) const {
+  if (socket_family == Family::kIpv4) {
+    if (family_ != Family::kIpv4) return 0;
+    sockaddr_in v4{};
+    v4.sin_family = AF_INET;
+    v4.sin_port = htons(port_);
+    std::memcpy(&v4.sin_addr, ip_.data(), 4);
+    std::memcpy(&raw, &v4, sizeof v4);
+    return sizeof v4;
+  }
+  if (!is_set()) return 0;
+  sockaddr_in6 v6{};
+  v6.sin6_family = AF_INET6;
+  v6.sin6_port = htons(port_);
+  v6.sin6_scope_id = scope_;
+  if (family_ == Family::kIpv4) {
+    std::memcpy(v6.sin6_addr.s6_addr, kMappedPrefix.data(), kMappedPrefix.size());
+    std::memcpy(v6.sin6_addr.s6_addr + kMappedPrefix.size(), ip_.data(), 4);
+  } else {
+    std::memcpy(v6.sin6_addr.s6_addr, ip_.data(), 16);
+  }
+  std::memcpy(&raw, &v6, sizeof v6);
+  return sizeof v6;
+}
+
+Address Address::with_port(std::uint16_t port) const {
+  Address address = *this;
+  address.port_ = port;
+  return address;
+}
+
+bool Address::is_loopback() const {
+  if (family_ == Family::kIpv4) return ip_[0] == 127;
+  std::array<std::uint8_t, 16> one{};
+  one[15] = 1;
+  return family_ == Family::kIpv6 && ip_ == one;
+}
+
+std::string Address::to_string() const {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (family_ == Family::kNone) return "nobody";
+  const bool v4 = family_ == Family::kIpv4;
+  inet_ntop(v4 ? AF_INET : AF_INET6, ip_.data(), text.data(), text.size());
+  const std::string ip(text.data());
+  return (v4 ? ip : "[" + ip + "]") + ":" + std::to_string(port_);
+}
+
+}  // namespace dance

@@ -1,0 +1,51 @@
+// An IPv4 or IPv6 address with its port, as a small value that can be compared: whom a datagram came
+// from or goes to. IPv4 seen through an IPv6 socket (::ffff:a.b.c.d) is kept as IPv4, so that one
+// peer has one address.
+//
+// Units/frames: port in host order.
+// Ownership:    plain value.
+// Threads:      none inside. resolve() may wait for a name server: not for the pose path.
+// Failure:      resolve() names what is wrong with the text and the cure.
+#pragma once
+
+#include <sys/socket.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace dance {
+
+class Address {
+ public:
+  enum class Family : std::uint8_t { kNone, kIpv4, kIpv6 };
+
+  Address() = default;  // nobody
+  // "host:port", "1.2.3.4:7400", "[::1]:7400"; the port may be left out where default_port is not 0.
+  static Result<Address> resolve(std::string_view text, std::uint16_t default_port = 0);
+  static Address from_sockaddr(const sockaddr_storage& raw);
+  static Address loopback(std::uint16_t port);
+
+  // Fills `raw` for a socket of the given family and returns its length. An IPv4 address is mapped
+  // for an IPv6 socket; an IPv6 address has none on an IPv4 socket: 0.
+  socklen_t to_sockaddr(Family socket_family, sockaddr_storage& raw) const;
+
+  Family family() const { return family_; }
+  std::uint16_t port() const { return port_; }
+  Address with_port(std::uint16_t port) const;
+  bool is_set() const { return family_ != Family::kNone; }
+  bool is_loopback() const;
+  std::string to_string() const;
+  bool operator==(const Address&) const = default;
+
+ private:
+  std::array<std::uint8_t, 16> ip_{};
+  std::uint32_t scope_ = 0;  // interface of a link-local IPv6 address
+  std::uint16_t port_ = 0;
+  Family family_ = Family::kNone;
+};
+
+}  // namespace dance

@@ -1,0 +1,251 @@
+#include "core/net/udp_socket.h"
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include "core/base/assert.h"
+
+namespace dance {
+namespace {
+
+constexpr int kWantedBuffer_bytes = 4 << 20;  // the system's limit caps it
+
+std::string reason(int error) {
+  std::array<char, 128> text{};
+  return strerror_r(error, text.data(), text.size());
+}
+
+// SO_RCVBUFFORCE goes past rmem_max where we may; else as much as the system gives.
+void ask_for_big_buffers(int fd) {
+  const int bytes = kWantedBuffer_bytes;
+  if (setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
+    setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
+  if (setsockopt(fd, SOL_SOCKET, SO_SNDBUFFORCE, &bytes, sizeof bytes) != 0)
+    setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
+}
+
+std::int64_t realtime_ns() {
+  timespec t{};
+  clock_gettime(CLOCK_REALTIME, &t);
+  return static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec;
+}
+
+// The kernel stamps with the wall clock: only the age of the stamp is taken over, and only while it
+// is plausible (the wall clock may be set at any time).
+MonoTime receive_time(msghdr& header, std::int64_t wall_now_ns, MonoTime now) {
+  for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
+    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec t{};
+    std::memcpy(&t, CMSG_DATA(c), sizeof t);
+    const std::int64_t age_ns =
+        wall_now_ns - (static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec);
+    if (age_ns > 0 && age_ns < 100'000'000) return now - Duration::ns(age_ns);
+  }
+  return now;
+}
+
+}  // namespace
+
+struct UdpSocket::Batches {
+  struct Slot {
+    std::array<std::uint8_t, kMaxDatagramBytes> bytes;
+    sockaddr_storage address{};
+    iovec vector{};
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control;
+  };
+  std::array<Slot, kBatch> in;
+  std::array<mmsghdr, kBatch> in_headers{};
+  std::array<Datagram, kBatch> received;
+  std::array<Slot, kBatch> out;
+  std::array<mmsghdr, kBatch> out_headers{};
+  std::size_t queued = 0;
+};
+
+UdpSocket::UdpSocket(int fd, Address::Family family, bool connected)
+    : fd_(fd), family_(family), connected_(connected), batches_(std::make_unique<Batches>()) {}
+
+UdpSocket::UdpSocket(UdpSocket&& other) noexcept
+    : fd_(std::exchange(other.fd_, -1)),
+      family_(other.family_),
+      connected_(other.connected_),
+      batches_(std::move(other.batches_)),
+      counters_(other.counters_) {}
+
+UdpSocket& UdpSocket::operator=(UdpSocket&& other) noexcept {
+  if (this == &other) return *this;
+  close_now();
+  fd_ = std::exchange(other.fd_, -1);
+  family_ = other.family_;
+  connected_ = other.connected_;
+  batches_ = std::move(other.batches_);
+  counters_ = other.counters_;
+  return *this;
+}
+
+UdpSocket::~UdpSocket() { close_now(); }
+
+void UdpSocket::close_now() {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+Result<UdpSocket> UdpSocket::open(Address::Family family, bool connected) {
+  const int domain = family == Address::Family::kIpv6 ? AF_INET6 : AF_INET;
+  const int fd = ::socket(domain, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd < 0) return fail("no UDP socket can be had: " + reason(errno));
+  UdpSocket socket(fd, family, connected);
+  const int off = 0;
+  const int on = 1;
+  if (domain == AF_INET6) setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
+  setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+  ask_for_big_buffers(fd);
+  return socket;
+}
+
+Result<UdpSocket> UdpSocket::bind(const Address& local) {
+  DANCE_ASSERT(local.is_set());
+  auto socket = open(local.family(), false);
+  if (!socket) return socket;
+  sockaddr_storage raw{};
+  const socklen_t length = local.to_sockaddr(local.family(), raw);
+  if (::bind(socket->fd_, reinterpret_cast<const sockaddr*>(&raw), length) == 0) return socket;
+  if (errno == EADDRINUSE)
+    return fail("port " + std::to_string(local.port()) + " is taken (" + local.to_string() +
+                "): stop the program that has it, or choose another port");
+  if (errno == EADDRNOTAVAIL)
+    return fail(
+        "address " + local.to_string() +
+        " is not one of this machine's: bind to one that `ip address` lists, or to 0.0.0.0");
+  if (errno == EACCES)
+    return fail("port " + std::to_string(local.port()) + " is not allowed: choose one above 1023");
+  return fail("address " + local.to_string() + " cannot be bound: " + reason(errno));
+}
+
+Result<UdpSocket> UdpSocket::connect(const Address& peer) {
+  DANCE_ASSERT(peer.is_set());
+  auto socket = open(peer.family(), true);
+  if (!socket) return socket;
+  sockaddr_storage raw{};
+  const socklen_t length = peer.to_sockaddr(peer.family(), raw);
+  if (::connect(socket->fd_, reinterpret_cast<const sockaddr*>(&raw), length) != 0)
+    return fail("no way to " + peer.to_string() + ": " + reason(errno) + "; check the network");
+  return socket;
+}
+
+Address UdpSocket::local_address() const {
+  sockaddr_storage raw{};
+  socklen_t length = sizeof raw;
+  getsockname(fd_, reinterpret_cast<sockaddr*>(&raw), &length);
+  return Address::from_sockaddr(raw);
+}
+
+std::span<const UdpSocket::Datagram> UdpSocket::receive(MonoTime now) {
+  Batches& b = *batches_;
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    Batches::Slot& slot = b.in[i];
+    slot.vector = {slot.bytes.data(), slot.bytes.size()};
+    msghdr& header = b.in_headers[i].msg_hdr;
+    header = {};
+    header.msg_name = &slot.address;
+    header.msg_namelen = sizeof slot.address;
+    header.msg_iov = &slot.vector;
+    header.msg_iovlen = 1;
+    header.msg_control = slot.control.data();
+    header.msg_controllen = slot.control.size();
+  }
+  const int count = recvmmsg(fd_, b.in_headers.data(), kBatch, MSG_DONTWAIT, nullptr);
+  if (count < 0) {
+    if (errno == ECONNREFUSED) ++counters_.refused;
+    return {};
+  }
+  const std::int64_t wall_now_ns = realtime_ns();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    mmsghdr& header = b.in_headers[i];
+    ++counters_.received;
+    counters_.received_bytes += header.msg_len;
+    if ((header.msg_hdr.msg_flags & MSG_TRUNC) != 0) {
+      ++counters_.truncated;
+      continue;
+    }
+    b.received[kept++] = {Address::from_sockaddr(b.in[i].address),
+                          {b.in[i].bytes.data(), header.msg_len},
+                          receive_time(header.msg_hdr, wall_now_ns, now)};
+  }
+  return {b.received.data(), kept};
+}
+
+void UdpSocket::send(const Address& to, std::span<const std::uint8_t> bytes) {
+  DANCE_ASSERT(bytes.size() <= kMaxDatagramBytes, bytes.size());
+  Batches& b = *batches_;
+  Batches::Slot& slot = b.out[b.queued];
+  const socklen_t length = connected_ ? 0 : to.to_sockaddr(family_, slot.address);
+  if (!connected_ && length == 0) {
+    ++counters_.send_failed;
+    return;
+  }
+  std::memcpy(slot.bytes.data(), bytes.data(), bytes.size());
+  slot.vector = {slot.bytes.data(), bytes.size()};
+  msghdr& header = b.out_headers[b.queued].msg_hdr;
+  header = {};
+  header.msg_name = connected_ ? nullptr : &slot.address;
+  header.msg_namelen = length;
+  header.msg_iov = &slot.vector;
+  header.msg_iovlen = 1;
+  if (++b.queued == kBatch) flush();
+}
+
+void UdpSocket::flush() {
+  Batches& b = *batches_;
+  std::size_t at = 0;
+  while (at < b.queued) {
+    const int sent = sendmmsg(fd_, b.out_headers.data() + at, static_cast<unsigned>(b.queued - at),
+                              MSG_DONTWAIT);
+    if (sent <= 0) {  // the first of the rest was refused: it is lost, the others are still tried
+      count_send_error(errno);
+      ++at;
+      continue;
+    }
+    for (std::size_t i = at; i < at + static_cast<std::size_t>(sent); ++i) {
+      ++counters_.sent;
+      counters_.sent_bytes += b.out_headers[i].msg_hdr.msg_iov->iov_len;
+    }
+    at += static_cast<std::size_t>(sent);
+  }
+  b.queued = 0;
+}
+
+void UdpSocket::send_now(const Address& to, std::span<const std::uint8_t> bytes) {
+  sockaddr_storage raw{};
+  const socklen_t length = connected_ ? 0 : to.to_sockaddr(family_, raw);
+  const auto* name = connected_ ? nullptr : reinterpret_cast<const sockaddr*>(&raw);
+  if (!connected_ && length == 0) {
+    ++counters_.send_failed;
+    return;
+  }
+  ssize_t sent = sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT, name, length);
+  // A pending ICMP error of an earlier datagram is told here instead of sending: once more.
+  if (sent < 0 && errno == ECONNREFUSED) {
+    ++counters_.refused;
+    sent = sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT, name, length);
+  }
+  if (sent < 0) {
+    count_send_error(errno);
+    return;
+  }
+  ++counters_.sent;
+  counters_.sent_bytes += bytes.size();
+}
+
+void UdpSocket::count_send_error(int error) {
+  ++(error == ECONNREFUSED ? counters_.refused : counters_.send_failed);
+}
+
+}  // namespace dance

@@ -1,0 +1,81 @@
+// A UDP socket that never blocks, over IPv4 or IPv6 (a socket bound to an IPv6 address also hears
+// IPv4), read and written in batches: one system call for many datagrams.
+//
+// Units/frames: receive times are MonoTime of this process's clock; from the kernel's stamp where it
+//               gives one, so that a late turn does not look like a late datagram.
+// Ownership:    owns the descriptor and the batch buffers; never allocates after construction.
+// Threads:      one owner.
+// Failure:      bind() and connect() name the address, the reason and the cure; later errors are
+//               counted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/base/result.h"
+#include "core/base/time.h"
+#include "core/net/address.h"
+#include "core/net/datagram_sink.h"
+
+namespace dance {
+
+class UdpSocket final : public DatagramSink {
+ public:
+  static constexpr std::size_t kBatch = 64;
+  static constexpr std::size_t kMaxDatagramBytes = 2048;  // longer ones are cut and counted
+
+  struct Datagram {
+    Address from;
+    std::span<const std::uint8_t> bytes;
+    MonoTime received;
+  };
+  struct Counters {
+    std::uint64_t received = 0;
+    std::uint64_t received_bytes = 0;
+    std::uint64_t truncated = 0;  // longer than any of ours: dropped
+    std::uint64_t sent = 0;
+    std::uint64_t sent_bytes = 0;
+    std::uint64_t refused = 0;      // nobody listens at the other end (ICMP)
+    std::uint64_t send_failed = 0;  // buffer full, no route
+  };
+
+  // Hears and sends from `local`; port 0 lets the system choose.
+  static Result<UdpSocket> bind(const Address& local);
+  // Only talks with `peer`.
+  static Result<UdpSocket> connect(const Address& peer);
+  UdpSocket(UdpSocket&&) noexcept;
+  UdpSocket& operator=(UdpSocket&&) noexcept;
+  ~UdpSocket() override;
+
+  int fd() const { return fd_; }
+  Address local_address() const;
+
+  // Up to kBatch datagrams that are there; empty when there are none. Valid until the next call.
+  std::span<const Datagram> receive(MonoTime now);
+
+  // Queues a datagram; flush() sends all that is queued, and so does a full batch. On a connected
+  // socket `to` is ignored.
+  void send(const Address& to, std::span<const std::uint8_t> bytes) override;
+  void flush();
+  // At once, past the batch.
+  void send_now(const Address& to, std::span<const std::uint8_t> bytes);
+
+  const Counters& counters() const { return counters_; }
+
+ private:
+  struct Batches;
+  UdpSocket(int fd, Address::Family family, bool connected);
+  static Result<UdpSocket> open(Address::Family family, bool connected);
+  void count_send_error(int error);
+  void close_now();
+
+  int fd_ = -1;
+  Address::Family family_;
+  bool connected_;
+  std::unique_ptr<Batches> batches_;
+  Counters counters_;
+};
+
+}  // namespace dance
