@@ -1,0 +1,53 @@
+// ChildProcess: a program of ours run beside us, for the demo and the house: started, watched, stopped. It ends when we
+// end, however we end.
+//
+// Ownership: owns the process: the destructor asks it to stop (SIGTERM) and, if it will not, ends it.
+// Threads:   one.
+// Failure:   start() names the program and the reason.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/time.h"
+
+namespace dance {
+
+class ChildProcess {
+ public:
+  struct Options {
+    std::string program;  // path
+    std::vector<std::string> arguments;
+    std::string output_file;  // where its stdout goes; "" = ours
+    std::string talk_file;    // where its stderr goes; "" = ours
+  };
+
+  static Result<ChildProcess> start(const Options& options);
+  ~ChildProcess();
+  ChildProcess(ChildProcess&& other) noexcept;
+  ChildProcess& operator=(ChildProcess&& other) noexcept;
+
+  pid_t pid() const { return pid_; }
+  // True once the process has ended; then exit_text() says how.
+  bool has_ended();
+  const std::string& exit_text() const { return exit_text_; }
+  bool ended_well() const { return ended_well_; }
+
+  void ask_to_stop();
+  // Waits up to `patience` for it to end, then kills it.
+  void stop(Duration patience);
+
+ private:
+  explicit ChildProcess(pid_t pid) : pid_(pid) {}
+  void note_end(int status);
+
+  pid_t pid_ = -1;
+  bool ended_ = false;
+  bool ended_well_ = false;
+  std::string exit_text_;
+};
+
+}  // namespace dance
