@@ -1,0 +1,72 @@
+// The seam of the pose codec: Pose ⇄ the payload of one record. One encoder for each guest that is
+// sent, one decoder for each guest that is heard; both may keep state (references to earlier
+// frames), so the tunnel tells them what was acknowledged, asked for and begun anew. Which codec is
+// spoken is agreed at the tunnel's hello by its id.
+//
+// Units/frames: as in core/pose/pose.h. The payload holds rotations, hips, presence, confidence and
+//               musical time; sequence, capture time and hops travel in the record around it.
+// Ownership:    encoders and decoders are made once per guest; encode() and decode() never allocate.
+// Threads:      none inside; one owner.
+// Failure:      encode() of an invalid pose gives 0 bytes; decode() says why there is no pose. What
+//               it lets through is_valid().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/pose/pose.h"
+#include "core/pose/skeleton.h"
+
+namespace dance {
+
+enum class CodecId : std::uint8_t {
+  kNone = 0,
+  kPlain = 1,  // each bone for itself, core/codec/plain_codec.h
+};
+
+// No payload is longer, whatever the codec.
+constexpr std::size_t kMaxPosePayload = 512;
+
+enum class DecodeResult : std::uint8_t {
+  kPose,
+  kMalformed,         // not something that our encoder makes
+  kReferenceMissing,  // refers to a frame that has not come
+};
+
+class PoseEncoder {
+ public:
+  virtual ~PoseEncoder() = default;
+  virtual CodecId id() const = 0;
+  // Bytes written into payload, or 0 where the pose is not valid or does not fit.
+  virtual std::size_t encode(const Pose& pose, std::span<std::uint8_t> payload) = 0;
+  // Every receiver has the frame of this sequence: it may be referred to.
+  virtual void acknowledged(std::uint32_t /*sequence*/) {}
+  // Somebody cannot decode: the next frame must need no other.
+  virtual void key_frame_wanted() {}
+  // The dancer's proportions, which say how much an angle moves.
+  virtual void set_skeleton(const Skeleton&) {}
+};
+
+class PoseDecoder {
+ public:
+  virtual ~PoseDecoder() = default;
+  virtual CodecId id() const = 0;
+  // Fills what the payload holds; `sequence` is the record's. Anything but kPose leaves pose as it may be:
+  // do not use it.
+  virtual DecodeResult decode(std::uint32_t sequence, std::span<const std::uint8_t> payload,
+                              Pose& pose) = 0;
+  // A new stream of the guest begins: earlier frames are no references any more.
+  virtual void restart() {}
+  virtual void set_skeleton(const Skeleton&) {}
+};
+
+// The codecs of this build, the preferred one first.
+std::span<const CodecId> known_codecs();
+bool is_known(CodecId id);
+// nullptr for a codec that is not known here.
+std::unique_ptr<PoseEncoder> make_pose_encoder(CodecId id);
+std::unique_ptr<PoseDecoder> make_pose_decoder(CodecId id);
+
+}  // namespace dance
