@@ -6,10 +6,10 @@
 // Failure:   assign() of a longer text is refused (false) and leaves the string as it was.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 
 namespace dance {
@@ -21,7 +21,7 @@ class FixedString {
 
   [[nodiscard]] bool assign(std::string_view text) {
     if (text.size() > kCapacity) return false;
-    std::memcpy(chars_.data(), text.data(), text.size());
+    std::copy(text.begin(), text.end(), chars_.begin());
     chars_[text.size()] = '\0';
     size_ = text.size();
     return true;

@@ -6,6 +6,7 @@
 //               percentiles of an empty histogram are 0.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -31,7 +32,8 @@ class Histogram {
     if (count_ == 0) return {};
     auto rank = static_cast<std::uint64_t>(fraction * static_cast<double>(count_ - 1));
     for (std::size_t i = 0; i < buckets_.size(); ++i) {
-      if (rank < buckets_[i]) return Duration::us(static_cast<std::int64_t>(middle_of(i)));
+      if (rank < buckets_[i])  // a bucket's middle may lie above all that was counted
+        return std::min(max_, Duration::us(static_cast<std::int64_t>(middle_of(i))));
       rank -= buckets_[i];
     }
     return max_;

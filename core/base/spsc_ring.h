@@ -29,11 +29,11 @@ class SpscRing {
     const std::uint64_t index = written_.load(std::memory_order_relaxed);
     Slot& slot = slots_[index & (kCapacity - 1)];
     slot.sequence.store(2 * index + 1, std::memory_order_relaxed);  // odd: being written
-    std::atomic_thread_fence(std::memory_order_release);
     Words words{};
     std::memcpy(words.data(), &value, sizeof(T));
+    // Release: whoever sees one of these words also sees the odd sequence.
     for (std::size_t i = 0; i < kWords; ++i)
-      slot.words[i].store(words[i], std::memory_order_relaxed);
+      slot.words[i].store(words[i], std::memory_order_release);
     slot.sequence.store(2 * index + 2, std::memory_order_release);
     written_.store(index + 1, std::memory_order_release);
   }
@@ -51,8 +51,7 @@ class SpscRing {
       const std::uint64_t before = slot.sequence.load(std::memory_order_acquire);
       Words words;
       for (std::size_t i = 0; i < kWords; ++i)
-        words[i] = slot.words[i].load(std::memory_order_relaxed);
-      std::atomic_thread_fence(std::memory_order_acquire);
+        words[i] = slot.words[i].load(std::memory_order_acquire);
       const std::uint64_t after = slot.sequence.load(std::memory_order_relaxed);
       if (before != after || before != 2 * read_ + 2) {  // overwritten under our hands
         ++overwritten_;

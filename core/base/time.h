@@ -2,8 +2,9 @@
 // compared with ours by accident. Nothing here reads a clock; core/net/mono_clock.h does.
 //
 // Units/frames: nanoseconds inside; MonoTime counts from its clock's unspecified zero
-//               (CLOCK_MONOTONIC: boot). Threads:      none inside; plain values. Failure:
-//               none; arithmetic is 64 bit and does not reach its ends within 292 years.
+//               (CLOCK_MONOTONIC: boot).
+// Threads:      none inside; plain values.
+// Failure:      none; arithmetic is 64 bit and does not reach its ends within 292 years.
 #pragma once
 
 #include <compare>

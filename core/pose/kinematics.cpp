@@ -24,15 +24,23 @@ void forward_kinematics(const Skeleton& skeleton, const Pose& pose, BodyFrames& 
 
 namespace {
 
-// The rotation whose first column is along x and whose x-y plane holds y_hint.
-Quaternionf frame_along(const Vector3f& x, const Vector3f& y_hint) {
+// Below this a bone has no direction that could be turned.
+constexpr float kShortestBone_m = 1e-3f;
+
+// The rotation whose first column is along x and whose third is normal, which is at right angles to x.
+Quaternionf frame_along(const Vector3f& x, const Vector3f& normal) {
   Eigen::Matrix3f m;
   m.col(0) = x.normalized();
-  Vector3f z = m.col(0).cross(y_hint);
-  if (z.squaredNorm() < 1e-12f) z = m.col(0).unitOrthogonal();
-  m.col(2) = z.normalized();
-  m.col(1) = m.col(2).cross(m.col(0));
+  m.col(2) = normal;
+  m.col(1) = normal.cross(m.col(0));
   return Quaternionf(m);
+}
+
+// The normal of the plane that a bone of the T-pose bends in, when it bends towards pole.
+Vector3f bend_normal(const Vector3f& bone, const Vector3f& pole) {
+  const Vector3f normal = bone.cross(pole);
+  return normal.squaredNorm() > 1e-12f ? Vector3f(normal.normalized())
+                                       : Vector3f(bone.unitOrthogonal());
 }
 
 }  // namespace
@@ -48,6 +56,7 @@ float solve_two_bone(const Skeleton& skeleton, const Limb& limb, const Vector3f&
   const float a = offset_lower.norm();
   const float b = offset_end.norm();
   const Vector3f p_upper = frames.p_WB_m[upper];
+  if (a < kShortestBone_m || b < kShortestBone_m) return (target_W_m - frames.p_WB_m[end]).norm();
 
   const Vector3f to_target = target_W_m - p_upper;
   const float distance = to_target.norm();
@@ -69,8 +78,12 @@ float solve_two_bone(const Skeleton& skeleton, const Limb& limb, const Vector3f&
   const Vector3f rest_pole = limb.upper == Bone::kLeftUpperArm || limb.upper == Bone::kRightUpperArm
                                  ? Vector3f(0, 0, -1)
                                  : Vector3f(0, 0, 1);
+  // The plane's normal is the same for both bones, however far the limb is bent; were it taken from each bone and the
+  // pole, a hand close to the shoulder would twist the forearm by half a turn.
+  const Vector3f normal = along.cross(side);
   const auto aim = [&](const Vector3f& rest, const Vector3f& direction) {
-    return frame_along(direction, side) * frame_along(rest, rest_pole).conjugate();
+    return frame_along(direction, normal) *
+           frame_along(rest, bend_normal(rest, rest_pole)).conjugate();
   };
   const auto parent = static_cast<std::size_t>(kBones[upper].parent);
   const Quaternionf R_WU = aim(offset_lower, p_lower - p_upper);

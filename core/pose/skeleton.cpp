@@ -32,7 +32,7 @@ constexpr float kOffsets[kBoneCount][3] = {
     {0.0f, -0.060f, 0.140f},   // rightToes
 };
 constexpr float kTips[kTipCount][3] = {
-    {0.0f, 0.205f, 0.0f},   // top of the head
+    {0.0f, 0.220f, 0.0f},   // top of the head
     {0.185f, 0.0f, 0.0f},   // left finger tips
     {-0.185f, 0.0f, 0.0f},  // right finger tips
     {0.0f, -0.020f, 0.070f}, {0.0f, -0.020f, 0.070f},
