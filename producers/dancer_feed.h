@@ -1,7 +1,8 @@
 // DancerFeed: dances a Dancer into a sink at a steady rate, by absolute deadlines: numbers and stamps the poses, and
 // repeats the skeleton once a second for whoever comes late.
 //
-// Units/frames: the capture time of a pose is its deadline, in this house's clock.
+// Units/frames: `start` is the dance's own zero; it may lie in the past, so that a couple in two processes, or a producer
+//               that was started again, dances on in step. The capture time of a pose is its deadline, in this house's clock.
 // Ownership:    owns the dancer; refers to the sink and the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
 // Failure:      deadlines missed by more than a period are skipped and counted, not made up in a burst.
@@ -22,7 +23,7 @@ class DancerFeed {
              Poller& poller, MonoTime start);
 
   const GuestId& guest() const { return guest_; }
-  std::uint32_t sent() const { return sequence_; }
+  std::uint32_t sent() const { return sent_; }
   std::uint64_t skipped() const { return pacer_.skipped(); }
   bool is_over() const { return is_over_; }
 
@@ -35,7 +36,8 @@ class DancerFeed {
   MonoTime start_;
   Pacer pacer_;
   MonoTime next_skeleton_;
-  std::uint32_t sequence_ = 0;
+  std::uint32_t sequence_;
+  std::uint32_t sent_ = 0;
   bool is_over_ = false;
 };
 

@@ -7,6 +7,7 @@
 // Failure:      none; skipped() counts deadlines that were missed by more than a period.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/base/assert.h"
@@ -27,6 +28,12 @@ class Pacer {
   }
   Duration period() const { return Duration::seconds(period_s_); }
   bool is_due(MonoTime now) const { return now >= deadline(); }
+
+  // Begins with the first deadline that is not before `now`: for work whose zero lies in the past.
+  void begin_at(MonoTime now) {
+    if (now > start_)
+      index_ = static_cast<std::int64_t>(std::ceil((now - start_).as_seconds() / period_s_));
+  }
 
   // Call when the work of the current deadline is done. Returns how late `now` was.
   Duration advance(MonoTime now) {

@@ -1,0 +1,61 @@
+// What a producer that runs as a program of its own does: opens the bus, feeds its dancers into it by absolute deadlines,
+// and ends when they are over, when its time is up or when it is told to.
+//
+// Units/frames: start_us counts in this machine's monotonic clock.
+// Ownership:    owns bus, poller and dancers.
+// Threads:      call from main before other threads are started.
+// Failure:      open() names the bus and the cure.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/bus/bus.h"
+#include "core/net/poller.h"
+#include "producers/dancer_feed.h"
+
+namespace dance {
+
+struct ProducerOptions {
+  std::string bus;
+  double hz = 0.0;            // 0 = the dancer's own
+  double seconds = 0.0;       // 0 = for ever
+  std::int64_t start_us = 0;  // when the dance began or begins; 0 = now
+};
+
+void add_producer_options(CLI::App& app, ProducerOptions& options);
+
+// Where a dancer is put on the stage: "x,z" or "x,z,heading", metres and degrees about +Y.
+struct StagePlace {
+  double x_m = 0.0;
+  double z_m = 0.0;
+  double heading_deg = 0.0;
+};
+Result<StagePlace> parse_place(const std::string& text);
+
+class ProducerProgram {
+ public:
+  static Result<std::unique_ptr<ProducerProgram>> open(const ProducerOptions& options);
+
+  void add(std::unique_ptr<Dancer> dancer, const GuestId& guest);
+  Bus& bus() { return *bus_; }
+  Poller& poller() { return *poller_; }
+  MonoTime start() const { return start_; }
+  // Until all dancers are over and `is_over` says so too.
+  void run(const std::function<bool()>& is_over);
+  std::uint64_t sent() const;
+
+ private:
+  ProducerProgram() = default;
+  ProducerOptions options_;
+  std::unique_ptr<Poller> poller_;
+  std::unique_ptr<Bus> bus_;
+  std::unique_ptr<BusCaptureSink> sink_;
+  std::vector<std::unique_ptr<DancerFeed>> feeds_;
+  MonoTime start_;
+};
+
+}  // namespace dance

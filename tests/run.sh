@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Builds everything and runs every test; `./dance test` comes here when all packages are there.
+#   tests/run.sh                 the ci build: unit, flow, golden, fuzz corpora, source checks
+#   tests/run.sh --sanitizers    the same, then under address+undefined and thread sanitizers, and fuzzing for a minute
+# Last line: "N passed, N failed" (", N skipped" where there were any). Exit 1 when anything failed.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+sanitizers=no
+only=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --sanitizers) sanitizers=yes ;;
+    -R | -L | -E | -LE) only+=("$1" "${2:?$1 takes an expression}"); shift ;;
+    -h | --help) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) echo "dance test: there is no option '$1'; --help lists them" >&2; exit 2 ;;
+  esac
+  shift
+done
+
+passed=0 failed=0 skipped=0
+jobs=$(nproc)
+
+build() { # PRESET [TARGET…]
+  local preset=$1 log="build/$1.log"
+  shift
+  echo "== building ($preset)"
+  mkdir -p build
+  cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; return 1; }
+  cmake --build --preset "$preset" ${1:+--target "$@"} >>"$log" 2>&1 || { tail -n 60 "$log"; return 1; }
+}
+
+count_of() { # ATTRIBUTE FILE
+  sed -n "s/.*<testsuite .*$1=\"\([0-9]*\)\".*/\1/p; s/^[[:space:]]*$1=\"\([0-9]*\)\".*/\1/p" "$2" | head -n 1
+}
+
+run() { # PRESET [CTEST OPTION…]
+  local preset=$1 report="$PWD/build/$1.xml" total bad left_out
+  shift
+  echo "== testing ($preset)"
+  rm -f "$report"
+  ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error --output-junit "$report" "$@" \
+    >"build/$preset.tests.log" 2>&1 || true
+  grep -E '\*\*\*|tests passed|SKIPPED \]' "build/$preset.tests.log" | sort -u | head -n 80 || true
+  if [ ! -f "$report" ]; then
+    tail -n 40 "build/$preset.tests.log"
+    failed=$((failed + 1))
+    return
+  fi
+  total=$(count_of tests "$report") bad=$(count_of failures "$report") left_out=$(count_of skipped "$report")
+  [ "${bad:-0}" = 0 ] || grep -B2 -A40 -E '\*\*\*(Failed|Timeout|Exception)' "build/$preset.tests.log" | head -n 400
+  failed=$((failed + ${bad:-0}))
+  skipped=$((skipped + ${left_out:-0}))
+  passed=$((passed + ${total:-0} - ${bad:-0} - ${left_out:-0}))
+}
+
+step() { # PRESET [TARGET…]: a build that fails is a failed test.
+  build "$@" || { failed=$((failed + 1)); return 1; }
+}
+
+step ci && run ci "${only[@]}"
+if [ "$sanitizers" = yes ]; then
+  export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
+  step asan && run asan -LE 'check|soak|docs' "${only[@]}"
+  # Threads meet in few places; pictures and fuzz corpora have none.
+  step tsan && run tsan -L 'unit|flow' -LE 'picture' "${only[@]}"
+  if step fuzz fuzz_targets; then
+    for target in build/fuzz/fuzz/fuzz_*; do
+      [ -x "$target" ] || continue
+      echo "== fuzzing ($(basename "$target"), 10 s)"
+      if "$target" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 >build/fuzz.log 2>&1; then
+        passed=$((passed + 1))
+      else
+        tail -n 30 build/fuzz.log
+        failed=$((failed + 1))
+      fi
+    done
+  fi
+fi
+summary="$passed passed, $failed failed"
+[ "$skipped" = 0 ] || summary="$summary, $skipped skipped"
+echo "$summary"
+[ "$failed" = 0 ]

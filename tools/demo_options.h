@@ -1,0 +1,54 @@
+// What a demo is asked to be, and the files and programs that this makes of it.
+//
+// Units/frames: places are metres on the stage, headings degrees about +Y.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      plan_demo() names the option that cannot be.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "core/base/result.h"
+
+namespace dance {
+
+struct DemoOptions {
+  double seconds = 0.0;  // 0 = until the viewer is closed; headless: 10
+  int guests = 2;
+  std::vector<std::string> motion;  // BVH files, dealt out to the dancers in turn
+  std::string link;                 // what the line between house B and the server does
+  std::string trace;                // a recorded line
+  bool headless = false;
+  std::string out = "out/demo";
+  bool json = false;
+  double tempo_bpm = 180.0;
+  int seed = 1;
+  double hz = 60.0;
+  std::vector<std::string> through = {"hold 20ms"};  // of remote dancers
+  int port = 0;                                      // of the server; 0 = one that is free
+};
+
+// One dancer of the demo and the program that dances it.
+struct DemoDancer {
+  GuestId guest;
+  int house = 0;  // 0 = A, 1 = B
+  std::string program;
+  std::vector<std::string> arguments;
+};
+
+struct DemoPlan {
+  std::string bus_url[2];
+  std::string session_file[2];
+  std::string log_file;
+  int server_port = 0;
+  int line_port = 0;  // 0 = no emulated line
+  std::vector<DemoDancer> dancers;
+};
+
+// Makes the out folder, writes the two session files into it and deals out the dancers. Reads the motion files, so that
+// a broken one is said before anything starts.
+Result<DemoPlan> plan_demo(const DemoOptions& options);
+
+}  // namespace dance

@@ -1,0 +1,228 @@
+#include "tools/demo_run.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+
+namespace dance {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Duration kPatience = Duration::s(15);  // for the houses to meet
+constexpr Duration kRestartAfter = Duration::ms(500);
+constexpr Duration kStillUnderWay = Duration::ms(1500);  // longest that a pose may take to arrive
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> pictures_in(const std::string& folder) {
+  std::vector<std::string> pictures;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".png") pictures.push_back(entry.path().string());
+  std::sort(pictures.begin(), pictures.end());
+  return pictures;
+}
+
+// A quarter, the middle and the end of the dance.
+std::string picture_moments(double seconds) {
+  std::ostringstream text;
+  text << 0.25 * seconds << "," << 0.5 * seconds << "," << 0.85 * seconds;
+  return text.str();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DemoRun>> DemoRun::prepare(const DemoOptions& options, DemoPlan plan) {
+  std::unique_ptr<DemoRun> run(new DemoRun(options, std::move(plan)));
+  DANCE_TRY(run->poller_, Poller::create());
+  if (auto stops = run->poller_->stop_on_signals(); !stops)
+    return tl::make_unexpected(stops.error());
+  DANCE_TRY(run->bus_a_, Bus::open(run->plan_.bus_url[0]));
+  DANCE_TRY(run->bus_b_, Bus::open(run->plan_.bus_url[1]));
+  run->monitor_ = std::make_unique<DemoMonitor>(*run->bus_a_, *run->bus_b_);
+  for (Bus* bus : {run->bus_a_.get(), run->bus_b_.get()})
+    run->poller_->watch(bus->fd(), [bus](MonoTime now) { bus->drain(now); });
+  return run;
+}
+
+DemoRun::DemoRun(const DemoOptions& options, DemoPlan plan)
+    : options_(options), plan_(std::move(plan)) {
+  for (const std::string& picture : pictures_in(options_.out)) fs::remove(picture);
+}
+
+DemoRun::Role& DemoRun::add(const std::string& name, const std::string& program,
+                            std::vector<std::string> arguments) {
+  auto role = std::make_unique<Role>();
+  role->name = name;
+  role->how.program = program_folder() + "/" + program;
+  role->how.arguments = std::move(arguments);
+  role->how.output_file = report_file(name);
+  role->how.talk_file = options_.out + "/" + name + ".txt";
+  std::error_code error;
+  fs::remove(role->how.output_file, error);
+  fs::remove(role->how.talk_file, error);
+  roles_.push_back(std::move(role));
+  return *roles_.back();
+}
+
+Result<void> DemoRun::start(Role& role) {
+  DANCE_TRY(ChildProcess process, ChildProcess::start(role.how));
+  role.process = std::make_unique<ChildProcess>(std::move(process));
+  role.restart_at = MonoTime();
+  return {};
+}
+
+Result<void> DemoRun::start_houses() {
+  const std::string server = "127.0.0.1:" + std::to_string(plan_.server_port);
+  std::vector<Role*> started{
+      &add("server", "dance-server",
+           {"--bind", "127.0.0.1", "--port", std::to_string(plan_.server_port)})};
+  if (plan_.line_port != 0) {
+    std::vector<std::string> arguments{"--listen", "127.0.0.1:" + std::to_string(plan_.line_port),
+                                       "--to", server, "--json"};
+    if (!options_.link.empty()) arguments.push_back("--link=" + options_.link);
+    if (!options_.trace.empty()) arguments.push_back("--trace=" + options_.trace);
+    started.push_back(&add("line", "dance-lossy", arguments));
+  }
+  for (int house = 0; house < 2; ++house)
+    started.push_back(&add(house == 0 ? "house-a" : "house-b", "dance-join",
+                           {plan_.session_file[house], "--no-view", "--json"}));
+  started.push_back(
+      &add("record", "dance-record", {"-o", plan_.log_file, "--bus", plan_.bus_url[0]}));
+  for (Role* role : started)
+    if (auto result = start(*role); !result) return result;
+  return {};
+}
+
+Result<void> DemoRun::wait_until_connected() {
+  const MonoTime give_up = mono_now() + kPatience;
+  while (!poller_->is_stopped()) {
+    if (monitor_->is_connected(0) && monitor_->is_connected(1)) return {};
+    for (const auto& role : roles_)
+      if (role->process && role->process->has_ended())
+        return fail(role->name + " " + role->process->exit_text() + ": " +
+                    read_file(role->how.talk_file));
+    if (mono_now() > give_up)
+      return fail("the houses did not reach the server within 15 s; " + options_.out +
+                  "/house-a.txt and house-b.txt say why");
+    poller_->run_once(Duration::ms(50));
+  }
+  return {};
+}
+
+Result<void> DemoRun::start_dancers(MonoTime origin) {
+  for (const DemoDancer& dancer : plan_.dancers) {
+    std::vector<std::string> arguments = dancer.arguments;
+    for (const std::string& argument :
+         {std::string("--guest"), std::string(dancer.guest.view()), std::string("--bus"),
+          plan_.bus_url[dancer.house], std::string("--hz"), std::to_string(options_.hz),
+          std::string("--start-us"), std::to_string(origin.since_zero_us())})
+      arguments.push_back(argument);
+    Role& role = add(std::string(dancer.guest.view()), dancer.program, arguments);
+    dancers_.push_back(&role);
+    if (auto result = start(role); !result) return result;
+  }
+  return {};
+}
+
+Result<void> DemoRun::start_viewer() {
+  std::vector<std::string> arguments{"--bus", plan_.bus_url[0]};
+  if (options_.headless)
+    for (const std::string& argument :
+         {std::string("--headless"), std::string("--out"), options_.out, std::string("--at"),
+          picture_moments(options_.seconds), std::string("--size"), std::string("1280x720")})
+      arguments.push_back(argument);
+  viewer_ = &add("view", "dance-view", arguments);
+  return start(*viewer_);
+}
+
+// Looks after the programs; returns when to look again.
+MonoTime DemoRun::watch_over(MonoTime now) {
+  if (ending_) return {};
+  for (const auto& role : roles_) {
+    if (role->is_over) continue;
+    if (role->restart_at.is_set()) {
+      if (now < role->restart_at) continue;
+      spdlog::info("{} is started again", role->name);
+      if (auto result = start(*role); !result) {
+        spdlog::error("{}", result.error().what);
+        role->restart_at = now + Duration::s(1);
+      }
+      ++restarts_;
+      continue;
+    }
+    if (!role->process->has_ended()) continue;
+    if (role->process->ended_well()) {
+      role->is_over = true;
+      if (role.get() == viewer_ && !options_.headless) poller_->stop();  // the window was closed
+      continue;
+    }
+    spdlog::warn("{} {}; the others go on", role->name, role->process->exit_text());
+    role->restart_at = now + kRestartAfter;
+  }
+  return now + Duration::ms(100);
+}
+
+void DemoRun::turn_until(MonoTime deadline) {
+  while (!poller_->is_stopped()) {
+    const MonoTime now = mono_now();
+    if (now >= deadline) return;
+    poller_->run_once(std::min(deadline - now + Duration::ms(1), Duration::ms(100)));
+  }
+}
+
+void DemoRun::stop_in_order() {
+  // Dancers first, so that every pose that was sent has its chance to arrive; then the rest.
+  ending_ = true;
+  for (Role* role : dancers_)
+    if (role->process) role->process->ask_to_stop();
+  const MonoTime arrived = mono_now() + kStillUnderWay;
+  while (mono_now() < arrived) poller_->run_once(Duration::ms(50));
+  if (viewer_ && viewer_->process && options_.headless)
+    viewer_->process->stop(Duration::s(20));  // may still be writing its last picture
+  for (auto role = roles_.rbegin(); role != roles_.rend(); ++role)
+    if ((*role)->process) (*role)->process->stop(Duration::s(3));
+}
+
+DemoResult DemoRun::result(MonoTime origin) const {
+  DemoResult result;
+  result.accounts = monitor_->accounts();
+  result.seconds = std::max(0.0, (std::min(end_, mono_now()) - origin).as_seconds());
+  if (options_.headless) result.pictures = pictures_in(options_.out);
+  result.log = plan_.log_file;
+  result.restarts = restarts_;
+  result.house_reports[0] = read_file(report_file("house-a"));
+  result.house_reports[1] = read_file(report_file("house-b"));
+  result.line_report = read_file(report_file("line"));
+  return result;
+}
+
+Result<DemoResult> DemoRun::run() {
+  if (auto started = start_houses(); !started) return tl::make_unexpected(started.error());
+  if (auto met = wait_until_connected(); !met) return tl::make_unexpected(met.error());
+  poller_->add_timer(mono_now(), [this](MonoTime now) { return watch_over(now); });
+  const MonoTime origin = mono_now() + Duration::ms(300);
+  if (auto started = start_viewer(); !started) return tl::make_unexpected(started.error());
+  if (auto started = start_dancers(origin); !started) return tl::make_unexpected(started.error());
+  spdlog::info("{} dancers in two houses; Ctrl-C ends it", plan_.dancers.size());
+  const bool endless = options_.seconds <= 0.0;
+  end_ = origin + (endless ? Duration::s(365 * 24 * 3600) : Duration::seconds(options_.seconds));
+  turn_until(end_);
+  end_ = std::min(end_, mono_now());
+  stop_in_order();
+  return result(origin);
+}
+
+}  // namespace dance
