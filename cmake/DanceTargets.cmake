@@ -58,6 +58,7 @@ endfunction()
 
 # dance_fuzz(NAME SOURCES x_fuzz.cpp LIBS targets … CORPUS dir): with DANCE_FUZZ a libFuzzer program fuzz/NAME; in every
 # other build the same source is replayed over the corpus and its mutations by tests/fuzz_replay_main.cpp.
+add_custom_target(fuzz_targets)
 function(dance_fuzz name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "CORPUS" "SOURCES;LIBS")
   get_filename_component(corpus "${arg_CORPUS}" ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
@@ -72,4 +73,5 @@ function(dance_fuzz name)
     set_tests_properties(fuzz.${name} PROPERTIES LABELS fuzz TIMEOUT 300)
   endif()
   target_link_libraries(fuzz_${name} PRIVATE dance_settings ${arg_LIBS})
+  add_dependencies(fuzz_targets fuzz_${name})
 endfunction()
