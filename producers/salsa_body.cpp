@@ -77,7 +77,7 @@ float ball_height_m(const Skeleton& skeleton) {
 double hips_height(const Skeleton& skeleton, const Pose& pose,
                    const std::array<Vector3f, 2>& ankles_W_m, double wanted_m) {
   constexpr double kStretch = 0.988;
-  constexpr double kSharpness_per_m = 70.0;
+  constexpr double kSharpness_per_m = 130.0;
   constexpr std::array<Limb, 2> kLegs{kLeftLeg, kRightLeg};
   double sum = std::exp(-kSharpness_per_m * wanted_m);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -123,8 +123,10 @@ SalsaFoot salsa_foot(const SalsaCounts& counts, const Skeleton& skeleton, bool i
   const Landing next = landing_near(counts, is_left, now + 1, 1);
   const Landing relief = landing_near(counts, !is_left, last.n + 1, 1);  // takes its weight
   const auto since = [&](std::int64_t n) { return beats - static_cast<double>(n); };
-  const double swing = (since(next.n) + kSalsaSwing_beats) / kSalsaSwing_beats;
-
+  // After a pause there is more time for the way.
+  const bool has_time = !counts.at(next.n - 1).is_step;
+  const double swing_beats = has_time ? kSalsaSlowSwing_beats : kSalsaSwing_beats;
+  const double swing = since(next.n) / swing_beats + 1.0;
   const double way = ease(swing);
   const double distance_m = std::hypot(next.count.foot.x_m - last.count.foot.x_m,
                                        next.count.foot.z_m - last.count.foot.z_m);
@@ -142,10 +144,18 @@ SalsaFoot salsa_foot(const SalsaCounts& counts, const Skeleton& skeleton, bool i
   // Ball first: the heel comes down after landing, peels off when the other foot takes over, and
   // is on its way down when the foot lands again.
   const double lowering = 1.0 - ease(since(last.n) / 0.45);
-  const double peeling = ease((since(relief.n) + 0.15) / 0.7);
-  const double landing = ease(swing);
-  foot.heel_rad = last.count.heel_rad * lowering + 0.50 * peeling * (1.0 - landing) +
-                  next.count.heel_rad * landing;
+  const double peeling = ease((since(relief.n) + 0.25) / 0.85);
+  const double peel_rad = 0.50 + 0.35 * ease((distance_m - 0.15) / 0.4);  // long steps push off
+  // It rises as well where the body goes on ahead of the foot.
+  const FloorPlace body = body_at(counts, beats);
+  const double ahead_m =
+      (body.x_m - static_cast<double>(foot.p_WBall_m.x())) * std::sin(foot.yaw_rad) +
+      (body.z_m - static_cast<double>(foot.p_WBall_m.z())) * std::cos(foot.yaw_rad);
+  constexpr double kSoft_m = 0.025;
+  const double carried_rad = 3.0 * kSoft_m * std::log1p(std::exp((ahead_m + 0.02) / kSoft_m));
+  const double heel_rad = last.count.heel_rad * lowering + peel_rad * peeling * (1.0 - way) +
+                          next.count.heel_rad * way + carried_rad;
+  foot.heel_rad = std::tanh(heel_rad);
   return foot;
 }
 
@@ -180,7 +190,7 @@ void pose_salsa_body(const SalsaCounts& counts, const Skeleton& skeleton, double
   }
   const double drop = flow(beats, 1.4, 0.1, [&](std::int64_t n) { return counts.at(n).drop_m; });
   const double bounce = 0.006 * energy * std::cos(2.0 * salsa::kPi * (beats - 0.08));
-  const double wanted = static_cast<double>(skeleton.hips_height_m()) - 0.014 - drop - bounce;
+  const double wanted = static_cast<double>(skeleton.hips_height_m()) - 0.006 - drop - bounce;
   pose.p_WH_m.y() = static_cast<float>(hips_height(skeleton, pose, ankles_W_m, wanted));
 
   pose_spine(counts, beats, delay_beats, energy, pose);

@@ -29,8 +29,9 @@ struct SalsaBody {
   std::array<SalsaFoot, 2> feet;  // left, right
 };
 
-// Beats from a foot's leaving the floor to its landing.
-constexpr double kSalsaSwing_beats = 0.64;
+// Beats from a foot's leaving the floor to its landing: between two steps, and after a pause.
+constexpr double kSalsaSwing_beats = 0.70;
+constexpr double kSalsaSlowSwing_beats = 0.90;
 
 SalsaFoot salsa_foot(const SalsaCounts& counts, const Skeleton& skeleton, bool is_left,
                      double beats);

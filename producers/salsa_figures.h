@@ -20,6 +20,8 @@ using Figure = std::array<Row, 8>;
 
 // Half the distance between the feet when they stand side by side.
 constexpr double kHalfStance_m = 0.085;
+// The ball of a foot that one stands on is ahead of the hips by this.
+constexpr double kBallAhead_m = 0.105;
 
 // The rows are the lead's; the follow dances the same rows four counts later, which mirrors them.
 constexpr Figure kForwardAndBack{{{0.0, 0.075, 0.0, 0.0, 0.165},
@@ -53,17 +55,17 @@ constexpr Figure kCrossLead{{{0.0, 0.060, 0.0, 0.0, 0.140},
                              {-0.110, 0.015, 20.0, 0.0, -0.010},
                              {-0.270, 0.160, 75.0, 0.0, 0.0},
                              {-0.285, 0.240, 88.0, 0.0, 0.0},
-                             {-0.285, 0.310, 98.0, 0.0, -0.030},
-                             {-0.190, 0.480, 130.0, 0.0, 0.060},
-                             {-0.040, 0.620, 170.0, 0.0, 0.0},
+                             {-0.270, 0.340, 102.0, 0.0, -0.030},
+                             {-0.150, 0.530, 140.0, 0.0, 0.040},
+                             {-0.030, 0.635, 172.0, 0.0, 0.0},
                              {0.0, 0.655, 180.0, 0.0, 0.0}}};
 constexpr Figure kCrossFollow{{{0.0, -0.070, 0.0, 0.0, -0.150},
                                {0.0, -0.030, 0.0, 0.0, 0.030},
-                               {-0.060, 0.040, 0.0, 0.0, 0.020},
-                               {-0.120, 0.100, 0.0, 0.0, 0.0},
-                               {-0.260, 0.250, 5.0, 0.0, 0.110},
-                               {-0.260, 0.510, 45.0, 0.0, 0.090},
-                               {-0.090, 0.660, 135.0, 0.0, 0.0},
+                               {-0.070, 0.070, 0.0, 0.0, 0.030},
+                               {-0.150, 0.140, 0.0, 0.0, 0.0},
+                               {-0.280, 0.290, 5.0, 0.0, 0.090},
+                               {-0.270, 0.490, 45.0, 0.0, 0.060},
+                               {-0.110, 0.640, 135.0, 0.0, 0.0},
                                {-0.010, 0.665, 178.0, 0.0, 0.0}}};
 
 // She turns to her right; he marks his steps under the raised hand.

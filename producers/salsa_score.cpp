@@ -63,12 +63,15 @@ SalsaHold hold_on(SalsaFigure figure, int count, bool was_closed, bool is_closed
     if (count == 3) return {.low = 0, .over = 1, .joined = 0, .free = 1, .flourish = 0.8};
     if (count < 6) return {.low = 0, .over = 1, .joined = 0, .free = 1, .flourish = 0};
     if (count == 6) return {.low = 0, .over = 1, .joined = 0, .free = 1, .flourish = 0.5};
-    return {.low = 1, .joined = 0.3, .free = 0.7, .flourish = 1};
+    return {.low = 0.5, .over = 0.5, .joined = 0.3, .free = 0.7, .flourish = 1};
   }
   if (figure == SalsaFigure::kCrossBodyLead) {
-    if (count < 5) return {.low = 0.3, .side = 0.7, .joined = 0, .embrace = 1};
-    if (count == 5) return {.low = 0.5, .side = 0.5, .joined = 0, .free = 1, .flourish = 0.5};
-    if (count == 6) return {.low = 1, .joined = 0, .free = 1, .flourish = 0.6};
+    if (count == 2) return {.low = 0.3, .side = 0.7, .joined = 0, .embrace = 0.8, .free = 0.2};
+    if (count == 3) return {.low = 0.3, .side = 0.7, .joined = 0, .embrace = 0.3, .free = 0.7};
+    if (count == 4) return {.low = 0.3, .side = 0.7, .joined = 0, .free = 1, .flourish = 0.3};
+    if (count == 5) return {.low = 0.5, .side = 0.5, .joined = 0, .free = 1, .flourish = 0.6};
+    if (count == 6) return {.low = 1, .joined = 0, .free = 1, .flourish = 0.8};
+    return {.low = 1, .joined = 0.6, .free = 0.4, .flourish = 0.4};
   }
   return standing_hold(is_closed);
 }
@@ -163,8 +166,8 @@ SalsaCount SalsaScore::count(SalsaRole role, std::int64_t n, const Eight& before
   const double side = count.is_left ? 1.0 : -1.0;
   count.body = along(own, gain * row.body_x_m, gain * row.body_z_m);
   count.body.yaw_rad += radians(row.body_yaw_deg);
-  count.foot =
-      along(count.body, side * salsa::kHalfStance_m + gain * row.foot_x_m, gain * row.foot_z_m);
+  count.foot = along(count.body, side * salsa::kHalfStance_m + gain * row.foot_x_m,
+                     salsa::kBallAhead_m + gain * row.foot_z_m);
   count.foot.yaw_rad += side * radians(10.0);  // feet are turned out a little
 
   const bool is_walking = travels(now.figure) && c >= 4;
