@@ -1,0 +1,61 @@
+// What a joint's name says: which part of which side of a body, in the words of many tools. Two
+// words stay open here (in one tool "shoulder" is the collar bone, in another the upper arm; "hip",
+// "leg" and "arm" alike), because only the other joints of the same figure can tell.
+//
+// Ownership: plain values.
+// Threads:   none inside.
+// Failure:   a name that says nothing is RigPart::kNone.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dance {
+
+enum class RigSide : std::uint8_t { kMiddle, kLeft, kRight };
+
+enum class RigPart : std::uint8_t {
+  kNone,
+  kHips,
+  kSpine,
+  kNeck,
+  kHead,
+  kCollar,
+  kShoulder,  // the collar bone or the upper arm
+  kArm,       // the upper arm or, beside an upper arm, the lower
+  kUpperArm,
+  kLowerArm,
+  kWrist,
+  kHand,
+  kThigh,
+  kHip,  // of one side: the thigh's joint
+  kLeg,  // the lower leg or, beside a lower leg, the upper
+  kShin,
+  kAnkle,
+  kFoot,
+  kToes,
+  kThumb,
+  kIndex,
+  kMiddle,
+  kRing,
+  kLittle,
+  kHelper,  // twist, roll and end joints: never a bone of their own
+};
+
+constexpr bool is_finger(RigPart part) {
+  return part >= RigPart::kThumb && part <= RigPart::kLittle;
+}
+
+struct RigName {
+  RigSide side = RigSide::kMiddle;
+  RigPart part = RigPart::kNone;
+};
+
+// The part that all names of a figure begin with ("mixamorig:", "Bip01 "), to be left out of each.
+std::string_view common_prefix(const std::vector<std::string_view>& names);
+
+RigName read_rig_name(std::string_view name);
+
+}  // namespace dance
