@@ -2,8 +2,9 @@
 // allocation: latencies, lateness and ages, a second or an hour of them alike.
 //
 // Units/frames: microseconds from 0 to 2^32; what is larger is counted in the last bucket,
-//               negatives in the first. Threads:      none inside; one owner. Failure:
-//               percentiles of an empty histogram are 0.
+//               negatives in the first.
+// Threads:      none inside; one owner.
+// Failure:      percentiles of an empty histogram are 0.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,88 @@
+#!/bin/sh
+# The checks must be able to fail: a small tree with one fault of each kind, and what each check says about it.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+mkdir -p "$tree/tests/checks" "$tree/core/base" "$tree/core/pose" "$tree/transformers" "$tree/producers" "$tree/consumers" \
+  "$tree/docs" "$tree/bin"
+cp "$here"/*.sh "$here"/layers.txt "$tree/tests/checks"
+cp "$here/../private_network.sh" "$tree/tests"
+failed=0
+
+expect() { # expect CHECK TEXT: the check fails and its output holds the text
+  if output=$("$tree/tests/checks/$1" ${3:+"$3"} 2>&1); then
+    echo "$1 passed where it should say: $2"
+    failed=1
+  elif ! printf '%s\n' "$output" | grep -qF -- "$2"; then
+    echo "$1 does not say: $2"
+    printf '%s\n' "$output"
+    failed=1
+  fi
+}
+expect_fine() {
+  output=$("$tree/tests/checks/$1" ${2:+"$2"} 2>&1) || { echo "$1 fails on a good tree:"; printf '%s\n' "$output"; failed=1; }
+}
+good_header() { printf '// A thing.\n//\n// Threads: none inside.\n// Failure: none.\n#pragma once\n'; }
+
+good_header >"$tree/core/base/thing.h"
+printf '#include "core/base/thing.h"\n#include <vector>\n' >"$tree/core/pose/thing.cpp"
+printf '```sh\ndance thing --good 3   # runs in CI\n```\n' >"$tree/docs/tour.md"
+printf '#!/bin/sh\n[ "$1" = --help ] && echo "  --good N   a number"\nexit 0\n' >"$tree/bin/dance-thing"
+printf '#!/bin/sh\np=$1; shift; exec "$(dirname "$0")/dance-$p" "$@"\n' >"$tree/bin/dance"
+chmod +x "$tree/bin/dance" "$tree/bin/dance-thing"
+for check in layers.sh files.sh format.sh; do expect_fine $check; done
+expect_fine docs_commands.sh "$tree/bin"
+
+fault() { printf '%b' "$2" >"$tree/$1"; }
+fault core/base/up.cpp '#include "core/pose/pose.h"\n'
+expect layers.sh 'core/base may not include core/pose/pose.h'
+fault core/base/up.cpp '#include "thing.h"\n'
+expect layers.sh 'must be written from the root'
+fault core/base/up.cpp '#include "core/base/nothing.h"\n'
+expect layers.sh 'core/base/nothing.h does not exist'
+fault core/base/up.cpp '#include <thread>\n'
+expect layers.sh 'not <thread>'
+rm "$tree/core/base/up.cpp"
+good_header >"$tree/producers/thing.h"
+fault consumers/peer.cpp '#include "producers/thing.h"\n'
+expect layers.sh 'consumers may not include producers/thing.h'
+fault consumers/peer.cpp '#include <sys/socket.h>\n'
+expect layers.sh '<sys/socket.h> is only for'
+fault consumers/peer.cpp '  #  include <lcm/lcm.h>\n'
+expect layers.sh '<lcm/lcm.h> is only for'
+rm "$tree/consumers/peer.cpp"
+expect_fine layers.sh
+
+fault core/base/pose_utils.cpp 'int x;\n'
+expect files.sh 'core/base/pose_utils.cpp: the name says nothing'
+rm "$tree/core/base/pose_utils.cpp"
+fault core/base/bad.cpp 'int\tx;\nint y; \n'
+expect files.sh 'core/base/bad.cpp:1: a tab'
+expect files.sh 'core/base/bad.cpp:2: a space at the end'
+i=0
+: >"$tree/core/base/bad.cpp"
+while [ $i -lt 401 ]; do echo 'int x;'; i=$((i + 1)); done >>"$tree/core/base/bad.cpp"
+expect files.sh '401 lines'
+rm "$tree/core/base/bad.cpp"
+fault core/base/bad.h '#pragma once\n'
+expect files.sh 'a header begins with a comment'
+fault core/base/bad.h '// A thing.\n// Threads: one.\n#pragma once\n'
+expect files.sh 'no line "// Failure:"'
+rm "$tree/core/base/bad.h"
+
+fault docs/tour.md '```sh\n./dance nothing\n```\n'
+expect docs_commands.sh 'docs/tour.md:2: there is no program dance-nothing' "$tree/bin"
+fault docs/tour.md '```sh\n./dance thing \\\n  --goo 4\n```\n'
+expect docs_commands.sh 'docs/tour.md:2: dance thing  has no option --goo' "$tree/bin"
+fault docs/tour.md 'nothing\n'
+expect docs_commands.sh 'no command found' "$tree/bin"
+fault docs/tour.md '```sh\ndance thing   # runs in CI\n```\n'
+case $("$tree/tests/private_network.sh" echo can) in
+  can) ;;
+  *) echo "no network namespace here: running documented commands is not tested"; exit $failed ;;
+esac
+printf '#!/bin/sh\n[ "$1" = --help ]\n' >"$tree/bin/dance-thing"
+expect docs_commands.sh 'exits with an error' "$tree/bin"
+
+exit $failed
