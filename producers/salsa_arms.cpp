@@ -97,7 +97,12 @@ void led_hands(const Couple& c, CoupleGoals& goals) {
   const Vector3f out = Vector3f::UnitY().cross(to_her);  // to his left
   const Vector3f top = c.follow.frames.tip(Tip::kHead);
 
-  const Vector3f low = middle + Vector3f(0.0f, -0.25f, 0.0f) + 0.05f * out;
+  // In front of both: where they face each other the two shares cancel out, and while she turns
+  // towards him his hand leads hers around her.
+  const Vector3f ahead =
+      chest_of(c.lead) * Vector3f::UnitZ() + chest_of(c.follow) * Vector3f::UnitZ();
+  const Vector3f low =
+      middle + Vector3f(0.0f, -0.25f, 0.0f) + 0.05f * out + 0.16f * horizontal(ahead);
   const Vector3f side = middle + Vector3f(0.0f, 0.0f, 0.0f) + 0.27f * out;
   const Vector3f over = top + Vector3f(0.0f, 0.10f, 0.0f) - 0.10f * to_her;
   Vector3f grip = static_cast<float>(hold.low) * low + static_cast<float>(hold.side) * side +

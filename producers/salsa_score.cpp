@@ -181,7 +181,10 @@ SalsaCount SalsaScore::count(SalsaRole role, std::int64_t n, const Eight& before
 }
 
 void SalsaScore::counts_around(SalsaRole role, double beats, SalsaCounts& out) const {
-  out.first_ = static_cast<std::int64_t>(std::floor(beats)) - SalsaCounts::kBefore;
+  const std::int64_t first = static_cast<std::int64_t>(std::floor(beats)) - SalsaCounts::kBefore;
+  if (out.is_filled_ && out.first_ == first) return;
+  out.is_filled_ = true;
+  out.first_ = first;
   std::int64_t index = floor_div(out.first_, 8);
   Eight before = eight(index - 1);
   Eight now = eight(index);

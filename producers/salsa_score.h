@@ -77,6 +77,7 @@ class SalsaCounts {
 
  private:
   friend class SalsaScore;
+  bool is_filled_ = false;
   std::int64_t first_ = 0;
   std::array<SalsaCount, kBefore + kAfter + 1> counts_;
 };
@@ -87,7 +88,8 @@ class SalsaScore {
 
   // Figure of an eight; eight k is beats 8k to 8k + 8.
   SalsaFigure figure(std::int64_t eight) const;
-  // The counts around a moment of the music. Body yaws are unwrapped from the first on.
+  // The counts around a moment of the music. Body yaws are unwrapped from the first on. `out` holds
+  // one role's counts of one score for good: within a beat they are not worked out again.
   void counts_around(SalsaRole role, double beats, SalsaCounts& out) const;
 
  private:

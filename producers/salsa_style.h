@@ -2,9 +2,11 @@
 // in the role only are a couple.
 //
 // Units/frames: place and heading are the couple's, in W: heading 0 has the lead face +Z, positive
-// turns him to his left. Music: count 1 of each eight is danced where the musical time is a
-// multiple of 8 beats. Ownership:    plain values. Threads:      none inside. Failure:
-// checked_style() names the value that no salsa is danced with.
+//               turns him to his left. Count 1 of each eight is danced where the musical time is
+//               a multiple of 8 beats.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      checked_style() names the value that no salsa is danced with.
 #pragma once
 
 #include <cstdint>
