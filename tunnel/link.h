@@ -1,0 +1,77 @@
+// A house's link to the server: LinkCore with a socket around it, for whoever has a poller. No bus
+// in here: tunnel/link_bus.h puts one on it, and a whole house in one process needs none.
+//
+// Units/frames: poses in and out are in this process's clock.
+// Ownership:    owns socket and core; the poller, and what the handlers refer to, must outlive it.
+// Threads:      the poller's; handlers run there too.
+// Failure:      open() tells when there is no way to the address; a server that does not answer is
+//               asked again for as long as the link lives.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/bus/messages.h"
+#include "core/net/poller.h"
+#include "core/net/udp_socket.h"
+#include "tunnel/link_core.h"
+
+namespace dance {
+
+class Link {
+ public:
+  // Token, clock and seed of the options are filled in where they are 0.
+  static Result<std::unique_ptr<Link>> open(const Address& server, LinkOptions options,
+                                            LinkHandlers handlers, Poller& poller);
+  // Says goodbye.
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  // Leave at once, in this turn; dropped and counted where there is no session. A guest that was
+  // not announced is, with its first pose.
+  void send(const GuestId& guest, const Pose& pose, MonoTime now);
+  void send(const GuestId& guest, const Hands& hands, MonoTime now);
+  void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+
+  bool is_connected() const { return core_.is_connected(); }
+  LinkState state() const { return core_.state(); }
+  const LinkCounters& counters() const { return core_.counters(); }
+  const ClockMapper& clock() const { return core_.clock(); }
+  std::vector<RemoteGuestStats> remote_stats() const { return core_.remote_stats(); }
+  // As STATS/link says it.
+  Stats stats(MonoTime now) const;
+
+ private:
+  // Past the batch: each datagram of a link is due when it is made.
+  class DirectSink final : public DatagramSink {
+   public:
+    explicit DirectSink(UdpSocket& socket) : socket_(socket) {}
+    void send(const Address& to, std::span<const std::uint8_t> bytes) override {
+      socket_.send_now(to, bytes);
+    }
+
+   private:
+    UdpSocket& socket_;
+  };
+
+  Link(const Address& server, UdpSocket socket, const LinkOptions& options, LinkHandlers handlers,
+       Poller& poller);
+  void watch_socket();
+  void on_readable(MonoTime now);
+  void rearm();
+  void try_another_socket();
+
+  Poller& poller_;
+  Address server_;
+  std::uint64_t clock_id_;
+  MonoTime begin_;
+  UdpSocket socket_;
+  DirectSink sink_;
+  LinkCore core_;
+  Poller::TimerId timer_;
+  int hellos_on_socket_ = 0;
+};
+
+}  // namespace dance

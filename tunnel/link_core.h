@@ -1,0 +1,116 @@
+// A house's link as a state machine: poses of this house in, datagrams to the server out; datagrams
+// of the server in, poses of the others out, in this house's clock. Finds the server again by itself
+// whatever happens to either side.
+//
+// Units/frames: now and received are MonoTime of this house's clock.
+// Ownership:    owns codecs and tables; the sink must outlive it. Sending and receiving poses never
+//               allocates once a guest is known.
+// Threads:      none inside; one owner.
+// Failure:      what cannot be sent or does not decode is dropped and counted, never queued.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/bus/messages.h"
+#include "core/net/clock_mapper.h"
+#include "core/net/datagram_sink.h"
+#include "tunnel/link_guests.h"
+#include "tunnel/link_options.h"
+
+namespace dance {
+
+class LinkCore {
+ public:
+  LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSink& sink);
+
+  void receive(wire::Bytes datagram, MonoTime received, MonoTime now);
+  // Does what is due and returns when to call again. The first call says hello.
+  MonoTime tick(MonoTime now);
+  // When tick() is due: earlier than it said, after a guest was added or the server began anew.
+  MonoTime next_deadline() const;
+
+  void send(const GuestId& guest, const Pose& pose, MonoTime now);
+  void send(const GuestId& guest, const Hands& hands, MonoTime now);
+  void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+  void say_goodbye();
+
+  LinkState state() const { return state_; }
+  bool is_connected() const { return state_ == LinkState::kConnected; }
+  // Hellos since the last sign of the server: many, and another socket may be worth a try.
+  int unanswered_hellos() const { return unanswered_hellos_; }
+  const LinkCounters& counters() const { return counters_; }
+  const ClockMapper& clock() const { return clock_; }
+  void fill(Stats& stats) const;
+  std::vector<RemoteGuestStats> remote_stats() const;
+
+ private:
+  void deliver_state(LinkState state, MonoTime now);
+  void send_datagram(wire::Bytes bytes);
+  LocalGuest* find_or_add(const GuestId& id, MonoTime now);
+  bool is_ours(const wire::RosterEntry& entry) const;
+
+  // link_session.cpp
+  void send_hello(MonoTime now);
+  void send_ping(MonoTime now);
+  void begin_lapse(MonoTime now);
+  void schedule_update(MonoTime now);
+  void heard_server(MonoTime now);
+  void on_welcome(const wire::Opening& opening, MonoTime received, MonoTime now);
+  void on_refusal(const wire::Opening& opening, MonoTime now);
+  bool on_session_datagram(const wire::Opening& opening, MonoTime received, MonoTime now);
+  bool on_pong(wire::Bytes body, MonoTime received);
+
+  // link_receive.cpp
+  bool on_records(wire::Bytes body, MonoTime received, MonoTime now);
+  void on_record(const wire::Record& record, MonoTime received, MonoTime now);
+  bool on_roster(wire::Bytes body, MonoTime now);
+  void settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry);
+  bool is_present(const GuestId& id) const;
+  bool on_state(wire::Bytes body, MonoTime now);
+  bool on_state_ack(wire::Bytes body);
+
+  // link_send.cpp
+  struct Stamp {
+    std::int64_t capture_us;
+    std::int32_t published_age_us;
+    std::int32_t sent_age_us;
+  };
+  bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
+             Stamp& out);
+  void send_record(const wire::Record& record);
+  void send_skeleton(const LocalGuest& guest);
+
+  LinkOptions options_;
+  LinkHandlers handlers_;
+  DatagramSink& sink_;
+  Random random_;
+  LinkState state_ = LinkState::kConnecting;
+  std::uint64_t session_ = 0;
+  CodecId codec_ = CodecId::kNone;
+  ClockMapper clock_;
+  LinkCounters counters_;
+
+  // Hello under way.
+  bool hello_wanted_ = true;
+  std::uint64_t hello_nonce_ = 0;
+  FixedList<std::uint8_t, wire::kMaxGuestsPerLink> hello_guests_;  // places in locals_
+  MonoTime next_hello_;
+  Duration hello_wait_;
+  int unanswered_hellos_ = 0;
+
+  MonoTime last_heard_;
+  MonoTime next_ping_;
+  std::uint32_t ping_sequence_ = 0;
+  int quick_pings_left_ = 0;
+
+  std::vector<LocalGuest> locals_;    // reserved; at most kMaxGuestsPerLink
+  std::vector<RemoteGuest> remotes_;  // by slot
+  RosterAssembly roster_;
+  Pose decoded_;
+  Hands decoded_hands_;
+};
+
+}  // namespace dance

@@ -1,0 +1,69 @@
+#include "tunnel/link_guests.h"
+
+#include <string>
+
+namespace dance {
+namespace {
+
+// A gap this long (100 s at 60 Hz) is a producer with another count, not a loss.
+constexpr std::int32_t kLongestGap = 6000;
+
+}  // namespace
+
+bool StreamTag::advance(std::uint32_t sequence, MonoTime capture, std::uint64_t clock_id) {
+  if (has_any_) {
+    const std::int32_t ahead = sequence_ahead(sequence_, sequence);
+    const bool is_same_count = ahead > 0 && ahead <= kLongestGap && clock_id == clock_id_;
+    if (!is_same_count) {
+      if (clock_id == clock_id_ && capture <= capture_) return false;
+      ++stream_;
+      ++restarts_;
+    }
+  }
+  has_any_ = true;
+  sequence_ = sequence;
+  capture_ = capture;
+  clock_id_ = clock_id;
+  return true;
+}
+
+bool RosterAssembly::take(const wire::RosterPart& part) {
+  if (version_ != 0 && sequence_ahead(version_, part.version) < 0) return false;
+  if (part.version != version_) {
+    version_ = part.version;
+    parts_seen_ = 0;
+  }
+  parts_seen_ |= 1u << part.part;
+  const std::uint32_t all = part.parts >= 32 ? ~0u : (1u << part.parts) - 1;
+  if ((parts_seen_ & all) == all) whole_ = version_;
+  return true;
+}
+
+std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomName& room) {
+  const std::string room_name(room.view());
+  const std::string guest(refusal.guest.view());
+  switch (refusal.cause) {
+    case wire::Refusal::kVersion:
+      return "the server speaks version " + std::to_string(refusal.server_version) +
+             " of the wire format, this link version " + std::to_string(wire::kWireVersion) +
+             ": update the older of the two";
+    case wire::Refusal::kBadName:
+      return std::string("the server does not take a name: ") + kGuestIdRule +
+             ", and each may be named once; so is a room";
+    case wire::Refusal::kNameTaken:
+      return "guest '" + guest + "' is in room '" + room_name +
+             "' already through another link: choose another --guest, or end the other link";
+    case wire::Refusal::kRoomFull:
+      return "room '" + room_name +
+             "' is full: wait for somebody to leave, or choose another --room";
+    case wire::Refusal::kServerFull:
+      return "the server has no place for another link or room: try later, or start it with more "
+             "--max-sessions or --max-rooms";
+    case wire::Refusal::kCodec:
+      return "room '" + room_name +
+             "' speaks a pose codec that this link does not know: update this link";
+  }
+  return "the server refused for a cause that this link does not know: update this link";
+}
+
+}  // namespace dance

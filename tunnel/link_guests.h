@@ -1,0 +1,76 @@
+// A link's guests: those of this house, which it sends, and those of the others, which it hears.
+//
+// Units/frames: as in tunnel/wire.h.
+// Ownership:    own their codecs; made when a guest comes, not while poses pass.
+// Threads:      none inside.
+// Failure:      StreamTag::advance() is false for what is not newer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "core/codec/plain_codec.h"
+#include "core/codec/pose_codec.h"
+#include "tunnel/link_options.h"
+#include "tunnel/stream_gate.h"
+
+namespace dance {
+
+// Tells a producer that began anew (its sequence starts over, or leaps, while capture goes on) from
+// a pose that is merely old. Each new start is a new stream.
+class StreamTag {
+ public:
+  bool advance(std::uint32_t sequence, MonoTime capture, std::uint64_t clock_id);
+  std::uint16_t stream() const { return stream_; }
+  std::uint64_t restarts() const { return restarts_; }
+
+ private:
+  bool has_any_ = false;
+  std::uint16_t stream_ = 0;
+  std::uint32_t sequence_ = 0;
+  MonoTime capture_;
+  std::uint64_t clock_id_ = 0;
+  std::uint64_t restarts_ = 0;
+};
+
+struct LocalGuest {
+  GuestId id;
+  bool has_slot = false;
+  wire::Slot slot;
+  MonoTime refused_until;  // set: not asked for before then
+  StreamTag poses;
+  StreamTag hands;
+  std::unique_ptr<PoseEncoder> encoder;
+  std::array<std::uint8_t, kSkeletonPayload> skeleton;
+  std::uint32_t skeleton_version = 0;  // the link's own count of changes; 0 = none yet
+  std::uint32_t skeleton_acked = 0;
+};
+
+struct RemoteGuest {
+  bool in_use = false;
+  bool is_ours = false;
+  GuestId id;
+  std::uint16_t generation = 0;
+  StreamGate poses;
+  StreamGate hands;
+  std::uint64_t invalid = 0;
+  std::uint32_t skeleton_version = 0;
+  std::unique_ptr<PoseDecoder> decoder;
+};
+
+// Puts the parts of a roster together, newest version first.
+class RosterAssembly {
+ public:
+  // False for a part that is older than what is there.
+  bool take(const wire::RosterPart& part);
+  std::uint32_t whole_version() const { return whole_; }  // 0 = none
+  void reset() { *this = RosterAssembly(); }
+
+ private:
+  std::uint32_t version_ = 0;
+  std::uint32_t parts_seen_ = 0;
+  std::uint32_t whole_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,127 @@
+// dance link: joins a house's bus to a room on a server.
+
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "tunnel/link_bus.h"
+#include "tunnel/link_report.h"
+#include "tunnel/server.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance link --guest alice                                        room 'dance' on this machine's server
+  dance link --server dance.example.org --room salsa --guest alice
+  dance link --server 192.0.2.7:7400 --room salsa                 everybody whom this house captures
+  dance link --guest bob --bus 'udpm://239.255.76.67:7668?ttl=0'  a second house on this machine
+)";
+
+constexpr Duration kSecond = Duration::s(1);
+
+struct LinkProgramOptions {
+  std::string server = "127.0.0.1:7400";
+  std::string room = "dance";
+  std::vector<std::string> guests;
+  std::string bus;
+  bool json = false;
+};
+
+Result<LinkOptions> checked(const LinkProgramOptions& given) {
+  LinkOptions options;
+  const auto room = wire::RoomName::parse(given.room);
+  if (!room)
+    return fail("--room '" + given.room +
+                "': a room's name is 1 to 24 characters of a-z, 0-9 and "
+                "'-'");
+  options.room = *room;
+  for (const std::string& name : given.guests) {
+    const auto guest = GuestId::parse(name);
+    if (!guest) return fail("--guest '" + name + "': " + kGuestIdRule);
+    if (options.guests.contains(*guest)) return fail("--guest '" + name + "' is named twice");
+    if (!options.guests.try_push(*guest)) return fail("--guest: a link has at most 16 guests");
+  }
+  options.clock_id = this_clock_id();
+  return options;
+}
+
+void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOptions& options,
+              const wire::RoomName& room) {
+  handlers.on_state = [&options](LinkState state, MonoTime) {
+    if (state == LinkState::kConnected)
+      spdlog::info("in room '{}' on {}", options.room, options.server);
+    if (state == LinkState::kLapsed)
+      spdlog::warn("the server {} is silent; poses are dropped until it answers", options.server);
+  };
+  handlers.on_guest_joined = [](const GuestId& guest, MonoTime) {
+    spdlog::info("{} is here", guest.view());
+  };
+  handlers.on_guest_left = [&link_bus](const GuestId& guest, MonoTime) {
+    link_bus.forget(guest);
+    spdlog::info("{} has left", guest.view());
+  };
+  // Asked again up to ten times a second at first: said once a second.
+  handlers.on_refused = [room, last = MonoTime()](const wire::RefusalNotice& refusal,
+                                                  MonoTime now) mutable {
+    if (last.is_set() && now - last < kSecond) return;
+    last = now;
+    spdlog::warn("{}", refusal_line(refusal, room));
+  };
+}
+
+Result<void> run_link(const LinkProgramOptions& given) {
+  DANCE_TRY(const LinkOptions options, checked(given));
+  DANCE_TRY(const Address server, Address::resolve(given.server, kDefaultServerPort));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto bus, Bus::open(bus_url_or_default(given.bus)));
+  LinkBus link_bus(*bus, options.clock_id);
+  LinkHandlers handlers = link_bus.handlers();
+  add_talk(handlers, link_bus, given, options.room);
+  DANCE_TRY(auto link, Link::open(server, options, std::move(handlers), *poller));
+  link_bus.attach(*link, options);
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  const MonoTime begin = mono_now();
+  poller->add_timer(begin + kSecond, [&](MonoTime now) {
+    link_bus.publish_second(now);
+    return now + kSecond;
+  });
+  poller->add_timer(begin + Duration::s(3), [&](MonoTime) {
+    if (!link->is_connected() && link->counters().datagrams_in == 0)
+      spdlog::warn(
+          "{} does not answer: is `dance server` running there, and the port open? Trying "
+          "on",
+          server.to_string());
+    return MonoTime();
+  });
+  spdlog::info("asks {} for room '{}'; Ctrl-C ends it", server.to_string(), given.room);
+  poller->run();
+  poller->unwatch(bus->fd());
+  if (given.json)
+    std::printf("%s\n", link_report_json(*link).c_str());
+  else
+    spdlog::info("{} poses sent, {} delivered", link->counters().poses_sent,
+                 link->counters().poses_delivered);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::LinkProgramOptions options;
+  CLI::App app{"A house's link: its guests' poses go to the room, the others' come to its bus.",
+               "dance link"};
+  app.add_option("--server", options.server, "HOST or HOST:PORT of `dance server`")
+      ->capture_default_str();
+  app.add_option("--room", options.room, "which room")->capture_default_str();
+  app.add_option("--guest", options.guests,
+                 "whose captures go to the room, may be repeated; none = everybody captured here");
+  app.add_option("--bus", options.bus, "LCM URL of the house's bus");
+  app.add_flag("--json", options.json, "write a summary to stdout at the end");
+  app.footer(dance::kExamples);
+  return dance::run_program(app, argc, argv, [&] { return dance::run_link(options); });
+}

@@ -1,0 +1,164 @@
+// From the server to this house.
+#include <algorithm>
+
+#include "tunnel/link_core.h"
+
+namespace dance {
+namespace {
+
+// Twice what the server lets through: the way from there takes its time too.
+constexpr std::int64_t kLongestAge_us = 120'000'000;
+
+MonoTime hop_time(MonoTime capture, std::int32_t age_us) {
+  return age_us == wire::kNoAge ? MonoTime() : capture + Duration::us(age_us);
+}
+
+}  // namespace
+
+bool LinkCore::on_records(wire::Bytes body, MonoTime received, MonoTime now) {
+  if (body.empty()) return false;
+  ByteReader check(body);
+  while (!check.is_exhausted())
+    if (!wire::parse_record(check)) return false;
+  ByteReader in(body);
+  while (!in.is_exhausted()) on_record(*wire::parse_record(in), received, now);
+  return true;
+}
+
+void LinkCore::on_record(const wire::Record& record, MonoTime received, MonoTime now) {
+  const bool is_pose = record.kind == wire::RecordKind::kPose;
+  if (is_pose) ++counters_.poses_received;
+  RemoteGuest& remote = remotes_[record.slot];
+  if (!remote.in_use || remote.is_ours || remote.generation != record.stream >> 16) {
+    ++counters_.unrouted;  // the roster that names it has not come, or it has left
+    return;
+  }
+  const std::int64_t server_now_us = clock_.to_theirs_us(now);
+  if (record.capture_us < server_now_us - kLongestAge_us ||
+      record.capture_us > server_now_us + kLongestAge_us) {
+    ++counters_.invalid;
+    ++remote.invalid;
+    return;
+  }
+  const StreamGate::Verdict verdict =
+      (is_pose ? remote.poses : remote.hands).judge(record.stream, record.sequence);
+  if (verdict != StreamGate::Verdict::kNewest && verdict != StreamGate::Verdict::kNewStream) {
+    ++counters_.late;
+    return;
+  }
+  const MonoTime capture = clock_.to_ours(record.capture_us);
+  if (!is_pose) {
+    if (record.codec != 0 || !decode_hands(record.payload, decoded_hands_)) {
+      ++counters_.invalid;
+      return;
+    }
+    decoded_hands_.sequence = record.sequence;
+    decoded_hands_.clock_id = options_.clock_id;
+    decoded_hands_.capture_time = capture;
+    ++counters_.hands_delivered;
+    if (handlers_.on_hands) handlers_.on_hands(remote.id, decoded_hands_, now);
+    return;
+  }
+  if (verdict == StreamGate::Verdict::kNewStream) remote.decoder->restart();
+  if (record.codec != static_cast<std::uint8_t>(codec_) ||
+      remote.decoder->decode(record.sequence, record.payload, decoded_) != DecodeResult::kPose) {
+    ++counters_.invalid;
+    ++remote.invalid;
+    return;
+  }
+  decoded_.sequence = record.sequence;
+  decoded_.clock_id = options_.clock_id;
+  decoded_.capture_time = capture;
+  decoded_.hops = {};
+  decoded_.stamp(Hop::kPublished, hop_time(capture, record.published_age_us));
+  decoded_.stamp(Hop::kLinkSent, hop_time(capture, record.sent_age_us));
+  decoded_.stamp(Hop::kServer, hop_time(capture, record.server_age_us));
+  decoded_.stamp(Hop::kLinkReceived, received);
+  ++counters_.poses_delivered;
+  if (handlers_.on_pose) handlers_.on_pose(remote.id, decoded_, now);
+}
+
+bool LinkCore::is_present(const GuestId& id) const {
+  return std::any_of(remotes_.begin(), remotes_.end(),
+                     [&](const RemoteGuest& r) { return r.in_use && !r.is_ours && r.id == id; });
+}
+
+void LinkCore::settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry) {
+  if (entry == nullptr) {
+    remote.in_use = false;
+    return;
+  }
+  const bool is_same =
+      remote.in_use && remote.id == entry->guest && remote.generation == entry->slot.generation;
+  remote.is_ours = is_ours(*entry);
+  if (is_same) return;
+  remote.in_use = true;
+  remote.id = entry->guest;
+  remote.generation = entry->slot.generation;
+  remote.poses = StreamGate();
+  remote.hands = StreamGate();
+  remote.invalid = 0;
+  remote.skeleton_version = 0;
+  remote.decoder = make_pose_decoder(codec_);
+}
+
+bool LinkCore::on_roster(wire::Bytes body, MonoTime now) {
+  const auto part = wire::parse_roster(body);
+  if (!part) return false;
+  if (!roster_.take(*part)) return true;  // overtaken by a newer one: nothing wrong with it
+  FixedList<GuestId, wire::kMaxGuestsPerRoom> before;
+  FixedList<GuestId, wire::kMaxGuestsPerRoom> named;
+  for (const RemoteGuest& remote : remotes_)
+    if (remote.in_use && !remote.is_ours && !before.try_push(remote.id)) return false;
+  for (std::size_t i = 0; i < part->slot_span; ++i) {
+    const std::size_t slot = part->first_slot + i;
+    const auto entry = std::find_if(part->entries.begin(), part->entries.end(),
+                                    [&](const auto& e) { return e.slot.slot == slot; });
+    const bool is_taken = entry != part->entries.end();
+    settle_slot(remotes_[slot], is_taken ? entry : nullptr);
+    if (is_taken && !remotes_[slot].is_ours && !named.try_push(entry->guest)) return false;
+  }
+  // Who merely changed the slot neither left nor came.
+  for (const GuestId& id : before)
+    if (!is_present(id) && handlers_.on_guest_left) handlers_.on_guest_left(id, now);
+  for (const GuestId& id : named)
+    if (!before.contains(id) && handlers_.on_guest_joined) handlers_.on_guest_joined(id, now);
+  return true;
+}
+
+bool LinkCore::on_state(wire::Bytes body, MonoTime now) {
+  const auto state = wire::parse_state(body);
+  if (!state) return false;
+  RemoteGuest& remote = remotes_[state->slot.slot];
+  // Without its roster entry it means nothing; not acknowledged, it comes again.
+  if (!remote.in_use || remote.is_ours || remote.generation != state->slot.generation) return true;
+  if (remote.skeleton_version != state->version) {
+    Skeleton skeleton;
+    if (!decode_skeleton(state->payload, skeleton)) {
+      ++counters_.invalid;
+      ++remote.invalid;
+    } else if (remote.skeleton_version == 0 ||
+               is_newer_sequence(state->version, remote.skeleton_version)) {
+      remote.skeleton_version = state->version;
+      remote.decoder->set_skeleton(skeleton);
+      if (handlers_.on_skeleton) handlers_.on_skeleton(remote.id, skeleton, now);
+    }
+  }
+  // Acknowledged even if damaged: asking again would bring the same bytes.
+  const wire::StateAck ack{state->slot, state->kind, state->version};
+  std::array<std::uint8_t, 32> out;
+  send_datagram({out.data(), wire::build(session_, ack, out)});
+  return true;
+}
+
+bool LinkCore::on_state_ack(wire::Bytes body) {
+  const auto ack = wire::parse_state_ack(body);
+  if (!ack) return false;
+  for (LocalGuest& guest : locals_)
+    if (guest.has_slot && guest.slot.slot == ack->slot.slot &&
+        guest.slot.generation == ack->slot.generation)
+      guest.skeleton_acked = ack->version;
+  return true;
+}
+
+}  // namespace dance

@@ -1,0 +1,16 @@
+// What a link did, as JSON for scripts: totals, and each guest of the other houses.
+//
+// Threads: none inside.
+// Failure: none.
+#pragma once
+
+#include <string>
+
+#include "tunnel/link.h"
+
+namespace dance {
+
+// {"sent", "delivered", …, "round_trip_us", "guests": [{"id", "received", "lost", "late", …}]}
+std::string link_report_json(const Link& link);
+
+}  // namespace dance

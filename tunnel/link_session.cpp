@@ -1,0 +1,247 @@
+// How a link comes to its session, keeps it, and gets it back.
+#include <algorithm>
+
+#include "core/base/assert.h"
+#include "tunnel/link_core.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kFirstHelloWait = Duration::ms(100);
+constexpr Duration kLongestHelloWait = Duration::s(1);
+constexpr Duration kPingPeriod = Duration::ms(200);
+// The first pings come quickly: the shortest of eight round trips maps the clock well.
+constexpr Duration kQuickPingPeriod = Duration::ms(50);
+constexpr int kQuickPings = 8;
+constexpr Duration kSilenceLimit = Duration::ms(900);
+constexpr Duration kRefusedGuestWait = Duration::s(1);
+
+MonoTime earlier(MonoTime a, MonoTime b) {
+  if (!a.is_set()) return b;
+  return b.is_set() ? std::min(a, b) : a;
+}
+
+}  // namespace
+
+MonoTime LinkCore::next_deadline() const {
+  MonoTime next;
+  if (hello_wanted_) next = next_hello_.is_set() ? next_hello_ : MonoTime::from_ns(1);
+  if (state_ == LinkState::kConnected) {
+    next = earlier(next, next_ping_);
+    next = earlier(next, last_heard_ + kSilenceLimit);
+    for (const LocalGuest& guest : locals_) next = earlier(next, guest.refused_until);
+  }
+  return next;
+}
+
+MonoTime LinkCore::tick(MonoTime now) {
+  if (state_ == LinkState::kConnected && now - last_heard_ >= kSilenceLimit) begin_lapse(now);
+  if (state_ == LinkState::kConnected) {
+    for (LocalGuest& guest : locals_) {
+      if (!guest.refused_until.is_set() || now < guest.refused_until) continue;
+      guest.refused_until = MonoTime();
+      schedule_update(now);
+    }
+    if (now >= next_ping_) send_ping(now);
+  }
+  if (hello_wanted_ && now >= next_hello_) send_hello(now);
+  return next_deadline();
+}
+
+// Asks for the guests as they are now, in the session that stands or in a new one.
+void LinkCore::schedule_update(MonoTime now) {
+  hello_nonce_ = 0;
+  hello_wait_ = kFirstHelloWait;
+  if (!hello_wanted_) next_hello_ = now;
+  hello_wanted_ = true;
+}
+
+void LinkCore::begin_lapse(MonoTime now) {
+  ++counters_.lapses;
+  for (LocalGuest& guest : locals_) guest.refused_until = MonoTime();
+  schedule_update(now);
+  next_hello_ = now;
+  deliver_state(LinkState::kLapsed, now);
+}
+
+void LinkCore::send_hello(MonoTime now) {
+  // One nonce for all tries of one list of guests, so that an answer on a long line still counts.
+  if (hello_nonce_ == 0) {
+    do {
+      hello_nonce_ = random_.next_u64();
+    } while (hello_nonce_ == 0);
+    hello_guests_.clear();
+    for (std::size_t i = 0; i < locals_.size(); ++i) {
+      if (locals_[i].refused_until.is_set()) continue;
+      const bool pushed = hello_guests_.try_push(static_cast<std::uint8_t>(i));
+      DANCE_ASSERT(pushed);
+    }
+  }
+  wire::Hello hello;
+  hello.nonce = hello_nonce_;
+  hello.token = options_.token;
+  hello.link_time_us = now.since_zero_us();
+  hello.codecs = options_.codecs;
+  hello.room = options_.room;
+  for (const std::uint8_t i : hello_guests_) {
+    const bool pushed = hello.guests.try_push(locals_[i].id);
+    DANCE_ASSERT(pushed);
+  }
+  std::array<std::uint8_t, wire::kHelloBytes> out;
+  send_datagram({out.data(), wire::build(hello, out)});
+  ++counters_.hellos;
+  ++unanswered_hellos_;
+  if (hello_wait_ < kFirstHelloWait) hello_wait_ = kFirstHelloWait;
+  next_hello_ = now + hello_wait_;
+  hello_wait_ = std::min(hello_wait_ * 2, kLongestHelloWait);
+}
+
+void LinkCore::send_ping(MonoTime now) {
+  wire::Ping ping;
+  ping.sequence = ++ping_sequence_;
+  ping.link_time_us = now.since_zero_us();
+  ping.roster_version = roster_.whole_version();
+  ping.round_trip_us = static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(clock_.newest_round_trip().count_us(), 0, UINT32_MAX));
+  ping.datagrams_received = static_cast<std::uint32_t>(counters_.datagrams_in);
+  ping.poses_received = static_cast<std::uint32_t>(counters_.poses_received);
+  for (const RemoteGuest& remote : remotes_)
+    if (remote.in_use) ping.poses_lost += static_cast<std::uint32_t>(remote.poses.counters().lost);
+  std::array<std::uint8_t, 64> out;
+  send_datagram({out.data(), wire::build(session_, ping, out)});
+  if (quick_pings_left_ > 0) --quick_pings_left_;
+  next_ping_ = now + (quick_pings_left_ > 0 ? kQuickPingPeriod : kPingPeriod);
+  for (const LocalGuest& guest : locals_)
+    if (guest.has_slot && guest.skeleton_version != guest.skeleton_acked) send_skeleton(guest);
+}
+
+void LinkCore::heard_server(MonoTime now) {
+  last_heard_ = now;
+  if (state_ == LinkState::kLapsed) {  // the server is there, and knows the session still
+    ++counters_.reconnects;
+    unanswered_hellos_ = 0;
+    hello_wanted_ = std::any_of(locals_.begin(), locals_.end(),
+                                [](const LocalGuest& guest) { return !guest.has_slot; });
+    next_ping_ = now;
+    deliver_state(LinkState::kConnected, now);
+  }
+}
+
+void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoTime now) {
+  const auto welcome = wire::parse_welcome(opening);
+  const bool is_answer = welcome && hello_wanted_ && hello_nonce_ != 0 &&
+                         welcome->nonce == hello_nonce_ &&
+                         welcome->slots.size() == hello_guests_.size() &&
+                         is_known(static_cast<CodecId>(welcome->codec));
+  if (!is_answer) {
+    ++counters_.rejected_datagrams;
+    return;
+  }
+  const bool is_new = welcome->session != session_;
+  if (is_new) {
+    clock_.reset();
+    roster_.reset();
+    for (RemoteGuest& remote : remotes_) {
+      remote.poses = StreamGate();
+      remote.hands = StreamGate();
+      remote.skeleton_version = 0;
+      if (remote.decoder) remote.decoder = make_pose_decoder(static_cast<CodecId>(welcome->codec));
+    }
+  }
+  session_ = welcome->session;
+  codec_ = static_cast<CodecId>(welcome->codec);
+  for (LocalGuest& guest : locals_) guest.has_slot = false;
+  for (std::size_t i = 0; i < hello_guests_.size(); ++i) {
+    LocalGuest& guest = locals_[hello_guests_[i]];
+    const wire::Slot& slot = welcome->slots[i];
+    const bool is_same =
+        !is_new && guest.slot.slot == slot.slot && guest.slot.generation == slot.generation;
+    if (!is_same) guest.skeleton_acked = 0;
+    guest.has_slot = true;
+    guest.slot = slot;
+    if (!guest.encoder || guest.encoder->id() != codec_) guest.encoder = make_pose_encoder(codec_);
+  }
+  clock_.add({MonoTime::from_us(welcome->link_time_us), welcome->server_receive_us,
+              welcome->server_send_us, received});
+  hello_wanted_ = false;
+  hello_nonce_ = 0;
+  unanswered_hellos_ = 0;
+  last_heard_ = now;
+  if (state_ == LinkState::kLapsed) ++counters_.reconnects;
+  if (is_new) quick_pings_left_ = kQuickPings;
+  deliver_state(LinkState::kConnected, now);
+  send_ping(now);  // proves our address, and brings the roster and the skeletons
+}
+
+void LinkCore::on_refusal(const wire::Opening& opening, MonoTime now) {
+  const auto refusal = wire::parse_refusal(opening);
+  if (!refusal || !hello_wanted_ || hello_nonce_ == 0 || refusal->nonce != hello_nonce_) {
+    ++counters_.rejected_datagrams;
+    return;
+  }
+  unanswered_hellos_ = 0;
+  if (state_ == LinkState::kConnected) {
+    // The session stands; only who was to be added is not. Asked for again in a while.
+    for (LocalGuest& guest : locals_)
+      if (!guest.has_slot && (!refusal->guest.is_set() || refusal->guest == guest.id))
+        guest.refused_until = now + kRefusedGuestWait;
+    const bool others_wait = std::any_of(locals_.begin(), locals_.end(), [](const auto& g) {
+      return !g.has_slot && !g.refused_until.is_set();
+    });
+    hello_wanted_ = false;
+    if (others_wait) schedule_update(now);
+  }
+  if (handlers_.on_refused) handlers_.on_refused(*refusal, now);
+}
+
+bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime received, MonoTime now) {
+  bool is_good = false;
+  switch (opening.type) {
+    case wire::Type::kPong:
+      is_good = on_pong(opening.body, received);
+      break;
+    case wire::Type::kRecords:
+      is_good = on_records(opening.body, received, now);
+      break;
+    case wire::Type::kRoster:
+      is_good = on_roster(opening.body, now);
+      break;
+    case wire::Type::kState:
+      is_good = on_state(opening.body, now);
+      break;
+    case wire::Type::kStateAck:
+      is_good = on_state_ack(opening.body);
+      break;
+    case wire::Type::kUnknownSession:
+    case wire::Type::kGoodbye:
+      if (!opening.body.empty()) return false;
+      // The server began anew, or forgot us, or ends: ask at once, then more and more slowly.
+      if (state_ == LinkState::kConnected) begin_lapse(now);
+      return true;
+    default:
+      return false;
+  }
+  if (is_good) heard_server(now);
+  return is_good;
+}
+
+bool LinkCore::on_pong(wire::Bytes body, MonoTime received) {
+  const auto pong = wire::parse_pong(body);
+  if (!pong || sequence_ahead(pong->sequence, ping_sequence_) < 0) return false;
+  constexpr std::int64_t kOldestPing_us = 60'000'000;
+  const std::int64_t received_us = received.since_zero_us();
+  if (pong->link_time_us < received_us - kOldestPing_us || pong->link_time_us > received_us + 1)
+    return false;
+  return clock_.add({MonoTime::from_us(pong->link_time_us), pong->server_receive_us,
+                     pong->server_send_us, received});
+}
+
+void LinkCore::say_goodbye() {
+  if (session_ == 0) return;
+  std::array<std::uint8_t, wire::kSessionHeader> out;
+  send_datagram({out.data(), wire::build_bare(session_, wire::Type::kGoodbye, out)});
+  session_ = 0;
+  state_ = LinkState::kConnecting;
+}
+
+}  // namespace dance

@@ -1,0 +1,55 @@
+#include "tunnel/server.h"
+
+#include "core/net/secure_random.h"
+
+namespace dance {
+namespace {
+
+// A flood gets this many batches a turn; then timers have their say.
+constexpr int kBatchesPerTurn = 8;
+
+}  // namespace
+
+Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerLimits& limits,
+                                             Poller& poller) {
+  DANCE_TRY(UdpSocket socket, UdpSocket::bind(local));
+  return std::unique_ptr<Server>(new Server(std::move(socket), limits, poller));
+}
+
+Server::Server(UdpSocket socket, const ServerLimits& limits, Poller& poller)
+    : poller_(poller), socket_(std::move(socket)), core_(limits, secure_random_u64, socket_) {
+  poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
+  timer_ = poller_.add_timer(MonoTime(), [this](MonoTime now) {
+    const MonoTime next = core_.tick(now);
+    socket_.flush();
+    is_ticking_ = next.is_set();
+    return next;
+  });
+}
+
+Server::~Server() {
+  poller_.set_deadline(timer_, MonoTime());
+  poller_.unwatch(socket_.fd());
+}
+
+void Server::on_readable(MonoTime now) {
+  for (int i = 0; i < kBatchesPerTurn; ++i) {
+    const auto batch = socket_.receive(now);
+    for (const UdpSocket::Datagram& datagram : batch)
+      core_.receive(datagram.from, datagram.bytes, datagram.received, now);
+    core_.end_turn();
+    socket_.flush();
+    if (batch.size() < UdpSocket::kBatch) break;
+  }
+  if (!is_ticking_ && core_.session_count() > 0) {
+    is_ticking_ = true;
+    poller_.set_deadline(timer_, now);
+  }
+}
+
+void Server::say_goodbye() {
+  core_.say_goodbye();
+  socket_.flush();
+}
+
+}  // namespace dance

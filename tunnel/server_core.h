@@ -1,0 +1,96 @@
+// The tunnel's server as a state machine: datagrams in, datagrams out. Forwards each guest's newest
+// pose to everybody else in the room without looking into it; keeps who is in which room and the
+// newest skeletons for those who come later.
+//
+// Units/frames: now and received are MonoTime of the server's clock, which is the tunnel's clock.
+// Ownership:    owns sessions and rooms, all made at construction; the sink must outlive it. Taking
+//               and forwarding records never allocates.
+// Threads:      none inside; one owner.
+// Failure:      whatever a datagram does not do right is counted by cause; nothing from outside can
+//               make it stop or grow.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "core/net/datagram_sink.h"
+#include "tunnel/server_state.h"
+
+namespace dance {
+
+class ServerCore {
+ public:
+  using RandomU64 = std::function<std::uint64_t()>;
+
+  ServerCore(const ServerLimits& limits, RandomU64 random, DatagramSink& sink);
+
+  // One datagram that came in at `received`.
+  void receive(const Address& from, wire::Bytes datagram, MonoTime received, MonoTime now);
+  // Sends what the datagrams of this turn left to send. Call after the last of them.
+  void end_turn();
+  // Drops sessions that fell silent; returns when to call again, MonoTime() = not before a datagram.
+  MonoTime tick(MonoTime now);
+  // Tells everybody that the server ends.
+  void say_goodbye();
+
+  const ServerCounters& counters() const { return counters_; }
+  std::size_t session_count() const { return by_id_.size(); }
+  std::size_t room_count() const;
+  std::size_t guest_count() const;
+  // For the status line and tests.
+  const std::vector<ServerSession>& sessions() const { return sessions_; }
+  const std::vector<ServerRoom>& rooms() const { return rooms_; }
+
+ private:
+  void reject(ServerReject cause) { ++counters_.rejected[static_cast<std::size_t>(cause)]; }
+  void send(const Address& to, wire::Bytes bytes);
+
+  // server_hello.cpp
+  void on_hello(const Address& from, const wire::Opening& opening, MonoTime received, MonoTime now);
+  void refuse(const Address& to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest);
+  std::optional<std::size_t> find_token(std::uint64_t token) const;
+  std::optional<std::size_t> find_room(const wire::RoomName& name) const;
+  struct Objection {
+    wire::Refusal cause;
+    GuestId guest;
+  };
+  std::optional<Objection> objection_to(const wire::Hello& hello,
+                                        std::optional<std::size_t> existing,
+                                        std::optional<std::size_t> room) const;
+  std::size_t open_room(const wire::Hello& hello);
+  std::size_t open_session(const wire::Hello& hello, std::size_t room);
+  void settle_guests(std::size_t session, const wire::Hello& hello);
+  void add_guest(std::size_t session, const GuestId& id);
+  void remove_guest(std::size_t room, std::uint8_t slot);
+  void drop_session(std::size_t session);
+
+  // server_core.cpp
+  void on_session_datagram(std::size_t session, const wire::Opening& opening, MonoTime received,
+                           MonoTime now);
+  void answer_unknown(const Address& to, const wire::Opening& opening, MonoTime now);
+  void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
+  void on_records(std::size_t session, wire::Bytes body, MonoTime received);
+  void on_record(std::size_t session, wire::Record record, MonoTime received);
+  void on_state(std::size_t session, wire::Bytes body);
+  void on_state_ack(std::size_t session, wire::Bytes body);
+  void forward(std::size_t from, const wire::Record& record);
+  void flush_bundle(ServerSession& session);
+  void send_roster(const ServerSession& session);
+  void send_state(const ServerSession& session, std::uint8_t slot);
+  ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
+
+  ServerLimits limits_;
+  RandomU64 random_;
+  DatagramSink& sink_;
+  std::vector<ServerSession> sessions_;
+  std::vector<ServerRoom> rooms_;
+  std::unordered_map<std::uint64_t, std::size_t> by_id_;
+  std::vector<std::size_t> bundled_;  // sessions with a bundle under way
+  TokenBucket strangers_;
+  ServerCounters counters_;
+};
+
+}  // namespace dance

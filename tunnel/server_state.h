@@ -1,0 +1,130 @@
+// What the server knows: sessions, rooms, guests; its bounds; and its counters. Plain data that
+// ServerCore works on.
+//
+// Units/frames: MonoTime of the server's clock.
+// Ownership:    plain values of fixed size; sessions and rooms refer to each other by index.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/base/fixed_list.h"
+#include "core/base/time.h"
+#include "core/net/address.h"
+#include "tunnel/stream_gate.h"
+#include "tunnel/token_bucket.h"
+#include "tunnel/wire.h"
+
+namespace dance {
+
+struct ServerLimits {
+  std::size_t sessions = 256;
+  std::size_t rooms = 64;
+  std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
+  // Per session: 16 guests with hands at 60 Hz need 2,000 datagrams a second.
+  double datagrams_per_second = 4000.0;
+  double datagram_burst = 1000.0;
+  double bytes_per_second = 2e6;
+  double byte_burst = 500e3;
+  // From all strangers together.
+  double strangers_per_second = 500.0;
+  double stranger_burst = 200.0;
+};
+
+// Why a datagram, or a record of it, went no further.
+enum class ServerReject : std::uint8_t {
+  kTooShort,
+  kMalformed,
+  kUnknownType,
+  kVersion,
+  kOldHello,
+  kStrangerRate,
+  kUnknownSession,
+  kWrongAddress,
+  kSessionRate,
+  kForeignSlot,
+  kBadTime,
+  kWrongCodec,
+  kLate,
+  kDuplicate,
+  kRefused,
+  kCount,
+};
+constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
+// As the log and the summary say it.
+constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
+    "too_short",     "malformed",       "unknown_type",  "version",      "old_hello",
+    "stranger_rate", "unknown_session", "wrong_address", "session_rate", "foreign_slot",
+    "bad_time",      "wrong_codec",     "late",          "duplicate",    "refused"};
+
+struct ServerCounters {
+  std::uint64_t datagrams_in = 0;
+  std::uint64_t bytes_in = 0;
+  std::uint64_t datagrams_out = 0;
+  std::uint64_t bytes_out = 0;
+  std::uint64_t records_in = 0;   // poses and hands that were taken
+  std::uint64_t records_out = 0;  // once per receiver
+  std::uint64_t sessions_begun = 0;
+  std::uint64_t sessions_resumed = 0;
+  std::uint64_t sessions_timed_out = 0;
+  std::uint64_t goodbyes = 0;
+  std::array<std::uint64_t, kServerRejects> rejected{};
+
+  std::uint64_t of(ServerReject cause) const { return rejected[static_cast<std::size_t>(cause)]; }
+  std::uint64_t rejected_total() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t n : rejected) sum += n;
+    return sum;
+  }
+};
+
+struct ServerSession {
+  bool in_use = false;
+  std::uint64_t id = 0;
+  std::uint64_t token = 0;
+  Address address;
+  // A datagram with the session id has come from the address, so somebody who wants our datagrams
+  // is there. Until then nothing but the welcome goes out.
+  bool is_proven = false;
+  MonoTime last_heard;
+  std::int64_t hello_time_us = 0;  // link's clock; an older hello is a stale copy
+  std::size_t room = 0;
+  FixedList<std::uint8_t, wire::kMaxGuestsPerLink> slots;
+  std::array<std::uint32_t, wire::kMaxGuestsPerRoom> state_acked{};
+  TokenBucket datagrams;
+  TokenBucket bytes;
+  std::uint32_t datagrams_received = 0;
+  wire::Ping newest_ping;
+  // Records that wait for the end of this turn.
+  std::array<std::uint8_t, wire::kMaxDatagram> bundle;
+  std::size_t bundle_size = 0;
+};
+
+struct ServerGuest {
+  bool in_use = false;
+  GuestId id;
+  std::uint16_t generation = 0;
+  std::size_t owner = 0;  // session
+  StreamGate poses;
+  StreamGate hands;
+  std::uint32_t state_version = 0;  // of the skeleton; 0 = none yet
+  std::size_t state_size = 0;
+  std::array<std::uint8_t, wire::kMaxStatePayload> state;
+};
+
+struct ServerRoom {
+  bool in_use = false;
+  wire::RoomName name;
+  std::uint8_t codec = 0;
+  std::uint32_t roster_version = 1;
+  bool roster_changed = false;
+  std::uint16_t next_generation = 0;
+  std::vector<std::size_t> members;  // sessions
+  std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
+};
+
+}  // namespace dance

@@ -1,0 +1,80 @@
+// Newest wins: decides for each record of one guest whether it goes on. Each guest has its own
+// sequence, so no dancer's datagram can hold up another's. A later stream (the producer or the link
+// began anew) replaces the earlier one for good. Counts what is missing, and takes it back where it
+// was only late.
+//
+// Units/frames: sequences and streams are 32 bit and wrap.
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      none; counters() tells every record's end.
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/sequence.h"
+
+namespace dance {
+
+class StreamGate {
+ public:
+  enum class Verdict : std::uint8_t { kNewest, kNewStream, kLate, kDuplicate, kOldStream };
+  struct Counters {
+    std::uint64_t received = 0;  // went on
+    std::uint64_t lost = 0;      // gaps, less what arrived late
+    std::uint64_t late = 0;      // a newer one was there already, or of a stream that has ended
+    std::uint64_t duplicate = 0;
+  };
+
+  Verdict judge(std::uint32_t stream, std::uint32_t sequence) {
+    if (has_any_ && stream != stream_ && !is_newer_sequence(stream, stream_)) {
+      ++counters_.late;
+      return Verdict::kOldStream;
+    }
+    if (!has_any_ || stream != stream_) {
+      has_any_ = true;
+      stream_ = stream;
+      newest_ = sequence;
+      seen_ = ~std::uint64_t{0};  // what was before the first is not missed
+      ++counters_.received;
+      return Verdict::kNewStream;
+    }
+    const std::int32_t ahead = sequence_ahead(newest_, sequence);
+    if (ahead > 0) {
+      // Bit i of seen_: newest_ − i came.
+      seen_ = ahead < 64 ? seen_ << ahead | 1 : 1;
+      newest_ = sequence;
+      counters_.lost += static_cast<std::uint64_t>(ahead) - 1;
+      ++counters_.received;
+      return Verdict::kNewest;
+    }
+    return judge_old(ahead);
+  }
+
+  bool has_any() const { return has_any_; }
+  std::uint32_t stream() const { return stream_; }
+  std::uint32_t newest() const { return newest_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  Verdict judge_old(std::int32_t ahead) {
+    if (ahead > -64) {
+      const std::uint64_t bit = std::uint64_t{1} << -ahead;
+      if ((seen_ & bit) != 0) {
+        ++counters_.duplicate;
+        return Verdict::kDuplicate;
+      }
+      seen_ |= bit;
+      if (counters_.lost > 0) --counters_.lost;
+    }
+    ++counters_.late;
+    return Verdict::kLate;
+  }
+
+  bool has_any_ = false;
+  std::uint32_t stream_ = 0;
+  std::uint32_t newest_ = 0;
+  std::uint64_t seen_ = 0;
+  Counters counters_;
+};
+
+}  // namespace dance

@@ -1,0 +1,40 @@
+// So many a second and no more, with a burst allowed: bounds what one session or all strangers can
+// make a server do.
+//
+// Units/frames: tokens are whatever is counted (datagrams, bytes).
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      take() is false when there is nothing left.
+#pragma once
+
+#include <algorithm>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+class TokenBucket {
+ public:
+  TokenBucket() = default;
+  TokenBucket(double per_second, double burst)
+      : per_second_(per_second), burst_(burst), level_(burst) {}
+
+  bool take(double tokens, MonoTime now) {
+    if (now > filled_at_) {
+      const double elapsed_s = filled_at_.is_set() ? (now - filled_at_).as_seconds() : 0.0;
+      level_ = std::min(burst_, level_ + per_second_ * elapsed_s);
+      filled_at_ = now;
+    }
+    if (level_ < tokens) return false;
+    level_ -= tokens;
+    return true;
+  }
+
+ private:
+  double per_second_ = 0.0;
+  double burst_ = 0.0;
+  double level_ = 0.0;
+  MonoTime filled_at_;
+};
+
+}  // namespace dance

@@ -1,0 +1,360 @@
+#include "tunnel/wire.h"
+
+namespace dance::wire {
+namespace {
+
+void write_magic(Type type, std::uint8_t version, std::uint16_t cause, ByteWriter& out) {
+  out.u32(kMagic);
+  out.u8(version);
+  out.u8(static_cast<std::uint8_t>(type));
+  out.u16(cause);
+}
+
+void write_opening(std::uint64_t session, Type type, ByteWriter& out) {
+  out.u64(session);
+  out.u8(static_cast<std::uint8_t>(type));
+}
+
+std::size_t size_of(const ByteWriter& out) { return out.ok() ? out.size() : 0; }
+
+std::optional<GuestId> read_name(ByteReader& in) {
+  const std::size_t length = in.u8();
+  return GuestId::parse(in.text(length));
+}
+
+void write_slot(const Slot& slot, ByteWriter& out) {
+  out.u8(slot.slot);
+  out.u16(slot.generation);
+}
+
+Slot read_slot(ByteReader& in) {
+  Slot slot;
+  slot.slot = in.u8();
+  slot.generation = in.u16();
+  return slot;
+}
+
+}  // namespace
+
+std::optional<Opening> parse_opening(Bytes datagram) {
+  ByteReader in(datagram);
+  Opening opening;
+  const std::uint64_t first = in.u64();
+  if (!in.ok()) return std::nullopt;
+  if (static_cast<std::uint32_t>(first) == kMagic) {
+    opening.has_magic = true;
+    opening.version = static_cast<std::uint8_t>(first >> 32);
+    opening.type = static_cast<Type>(first >> 40 & 0xff);
+    opening.body = datagram;
+    return opening;
+  }
+  opening.session = first;
+  opening.type = static_cast<Type>(in.u8());
+  if (!in.ok()) return std::nullopt;
+  opening.body = datagram.subspan(kSessionHeader);
+  return opening;
+}
+
+bool may_be_session_id(std::uint64_t number) {
+  return number != 0 && static_cast<std::uint32_t>(number) != kMagic;
+}
+
+std::size_t build(const Hello& hello, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_magic(Type::kHello, hello.version, 0, out);
+  out.u64(hello.nonce);
+  out.u64(hello.token);
+  out.i64(hello.link_time_us);
+  out.u8(static_cast<std::uint8_t>(hello.codecs.size()));
+  for (const std::uint8_t codec : hello.codecs) out.u8(codec);
+  out.short_text(hello.room.view());
+  out.u8(static_cast<std::uint8_t>(hello.guests.size()));
+  for (const GuestId& guest : hello.guests) out.short_text(guest.view());
+  if (out.size() < kHelloBytes) out.zeros(kHelloBytes - out.size());
+  return size_of(out);
+}
+
+std::optional<std::uint64_t> parse_nonce(const Opening& opening) {
+  ByteReader in(opening.body);
+  in.u64();
+  const std::uint64_t nonce = in.u64();
+  return in.ok() ? std::optional(nonce) : std::nullopt;
+}
+
+std::optional<Hello> parse_hello(const Opening& opening, HelloProblem& problem) {
+  ByteReader in(opening.body);
+  const bool is_whole = in.remaining() == kHelloBytes;
+  in.u48();
+  const bool is_reserved_clear = in.u16() == 0;
+  Hello hello;
+  hello.version = opening.version;
+  hello.nonce = problem.nonce = in.u64();
+  hello.token = in.u64();
+  hello.link_time_us = in.i64();
+  const std::size_t codecs = in.u8();
+  if (!is_whole || !is_reserved_clear || hello.token == 0 || codecs == 0 || codecs > kMaxCodecs)
+    return std::nullopt;
+  for (std::size_t i = 0; i < codecs; ++i)
+    if (!hello.codecs.try_push(in.u8())) return std::nullopt;
+  const auto room = read_name(in);
+  const std::size_t guests = in.u8();
+  if (!in.ok() || guests > kMaxGuestsPerLink) return std::nullopt;
+  bool names_are_good = room.has_value();
+  for (std::size_t i = 0; i < guests; ++i) {
+    const auto guest = read_name(in);
+    if (!in.ok()) return std::nullopt;
+    if (!guest || hello.guests.contains(*guest) || !hello.guests.try_push(*guest))
+      names_are_good = false;
+  }
+  for (const std::uint8_t padding : in.bytes(in.remaining()))
+    if (padding != 0) return std::nullopt;
+  problem.is_bad_name = !names_are_good;
+  if (!names_are_good) return std::nullopt;
+  hello.room = *room;
+  return hello;
+}
+
+std::size_t build(const Welcome& welcome, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_magic(Type::kWelcome, kWireVersion, 0, out);
+  out.u64(welcome.nonce);
+  out.u64(welcome.session);
+  out.i64(welcome.link_time_us);
+  out.i64(welcome.server_receive_us);
+  out.i64(welcome.server_send_us);
+  out.u8(welcome.codec);
+  out.u8(static_cast<std::uint8_t>(welcome.slots.size()));
+  for (const Slot& slot : welcome.slots) write_slot(slot, out);
+  return size_of(out);
+}
+
+std::optional<Welcome> parse_welcome(const Opening& opening) {
+  ByteReader in(opening.body);
+  in.u64();
+  Welcome welcome;
+  welcome.nonce = in.u64();
+  welcome.session = in.u64();
+  welcome.link_time_us = in.i64();
+  welcome.server_receive_us = in.i64();
+  welcome.server_send_us = in.i64();
+  welcome.codec = in.u8();
+  const std::size_t slots = in.u8();
+  if (opening.version != kWireVersion || slots > kMaxGuestsPerLink) return std::nullopt;
+  for (std::size_t i = 0; i < slots; ++i) {
+    const Slot slot = read_slot(in);
+    if (slot.slot >= kMaxGuestsPerRoom || !welcome.slots.try_push(slot)) return std::nullopt;
+  }
+  if (!in.is_exhausted() || !may_be_session_id(welcome.session)) return std::nullopt;
+  return welcome;
+}
+
+std::size_t build(const RefusalNotice& refusal, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_magic(Type::kRefusal, refusal.server_version, static_cast<std::uint16_t>(refusal.cause),
+              out);
+  out.u64(refusal.nonce);
+  out.short_text(refusal.guest.view());
+  return size_of(out);
+}
+
+std::optional<RefusalNotice> parse_refusal(const Opening& opening) {
+  ByteReader in(opening.body);
+  in.u48();
+  RefusalNotice refusal;
+  refusal.server_version = opening.version;
+  const std::uint16_t cause = in.u16();
+  if (cause < static_cast<std::uint16_t>(Refusal::kVersion) ||
+      cause > static_cast<std::uint16_t>(Refusal::kCodec))
+    return std::nullopt;
+  refusal.cause = static_cast<Refusal>(cause);
+  refusal.nonce = in.u64();
+  const std::size_t length = in.u8();
+  const std::string_view name = in.text(length);
+  if (!in.is_exhausted()) return std::nullopt;
+  if (const auto guest = GuestId::parse(name)) refusal.guest = *guest;
+  if (length != refusal.guest.view().size()) return std::nullopt;
+  return refusal;
+}
+
+std::size_t build(std::uint64_t session, const Ping& ping, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(session, Type::kPing, out);
+  out.u32(ping.sequence);
+  out.i64(ping.link_time_us);
+  out.u32(ping.roster_version);
+  out.u32(ping.round_trip_us);
+  out.u32(ping.datagrams_received);
+  out.u32(ping.poses_received);
+  out.u32(ping.poses_lost);
+  return size_of(out);
+}
+
+std::optional<Ping> parse_ping(Bytes body) {
+  ByteReader in(body);
+  Ping ping;
+  ping.sequence = in.u32();
+  ping.link_time_us = in.i64();
+  ping.roster_version = in.u32();
+  ping.round_trip_us = in.u32();
+  ping.datagrams_received = in.u32();
+  ping.poses_received = in.u32();
+  ping.poses_lost = in.u32();
+  return in.is_exhausted() ? std::optional(ping) : std::nullopt;
+}
+
+std::size_t build(std::uint64_t session, const Pong& pong, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(session, Type::kPong, out);
+  out.u32(pong.sequence);
+  out.i64(pong.link_time_us);
+  out.i64(pong.server_receive_us);
+  out.i64(pong.server_send_us);
+  out.u32(pong.datagrams_received);
+  return size_of(out);
+}
+
+std::optional<Pong> parse_pong(Bytes body) {
+  ByteReader in(body);
+  Pong pong;
+  pong.sequence = in.u32();
+  pong.link_time_us = in.i64();
+  pong.server_receive_us = in.i64();
+  pong.server_send_us = in.i64();
+  pong.datagrams_received = in.u32();
+  return in.is_exhausted() ? std::optional(pong) : std::nullopt;
+}
+
+std::size_t build(std::uint64_t session, const RosterPart& part, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(session, Type::kRoster, out);
+  out.u32(part.version);
+  out.u8(part.part);
+  out.u8(part.parts);
+  out.u8(part.first_slot);
+  out.u8(part.slot_span);
+  out.u8(static_cast<std::uint8_t>(part.entries.size()));
+  for (const RosterEntry& entry : part.entries) {
+    write_slot(entry.slot, out);
+    out.short_text(entry.guest.view());
+  }
+  return size_of(out);
+}
+
+std::optional<RosterPart> parse_roster(Bytes body) {
+  ByteReader in(body);
+  RosterPart part;
+  part.version = in.u32();
+  part.part = in.u8();
+  part.parts = in.u8();
+  part.first_slot = in.u8();
+  part.slot_span = in.u8();
+  const std::size_t entries = in.u8();
+  const std::size_t slots_end = std::size_t{part.first_slot} + part.slot_span;
+  if (!in.ok() || part.version == 0 || part.parts == 0 || part.parts > 32 ||
+      part.part >= part.parts || slots_end > kMaxGuestsPerRoom)
+    return std::nullopt;
+  for (std::size_t i = 0; i < entries; ++i) {
+    RosterEntry entry;
+    entry.slot = read_slot(in);
+    const auto guest = read_name(in);
+    if (!guest || entry.slot.slot < part.first_slot || entry.slot.slot >= slots_end)
+      return std::nullopt;
+    entry.guest = *guest;
+    if (!part.entries.try_push(entry)) return std::nullopt;
+  }
+  return in.is_exhausted() ? std::optional(part) : std::nullopt;
+}
+
+std::size_t build(std::uint64_t session, const State& state, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(session, Type::kState, out);
+  write_slot(state.slot, out);
+  out.u8(static_cast<std::uint8_t>(state.kind));
+  out.u32(state.version);
+  out.u16(static_cast<std::uint16_t>(state.payload.size()));
+  out.bytes(state.payload);
+  return size_of(out);
+}
+
+std::optional<State> parse_state(Bytes body) {
+  ByteReader in(body);
+  State state;
+  state.slot = read_slot(in);
+  state.kind = static_cast<StateKind>(in.u8());
+  state.version = in.u32();
+  const std::size_t length = in.u16();
+  state.payload = in.bytes(length);
+  if (!in.is_exhausted() || state.kind != StateKind::kSkeleton || state.version == 0 ||
+      state.slot.slot >= kMaxGuestsPerRoom || length == 0 || length > kMaxStatePayload)
+    return std::nullopt;
+  return state;
+}
+
+std::size_t build(std::uint64_t session, const StateAck& ack, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(session, Type::kStateAck, out);
+  write_slot(ack.slot, out);
+  out.u8(static_cast<std::uint8_t>(ack.kind));
+  out.u32(ack.version);
+  return size_of(out);
+}
+
+std::optional<StateAck> parse_state_ack(Bytes body) {
+  ByteReader in(body);
+  StateAck ack;
+  ack.slot = read_slot(in);
+  ack.kind = static_cast<StateKind>(in.u8());
+  ack.version = in.u32();
+  if (!in.is_exhausted() || ack.kind != StateKind::kSkeleton || ack.version == 0 ||
+      ack.slot.slot >= kMaxGuestsPerRoom)
+    return std::nullopt;
+  return ack;
+}
+
+std::size_t build_bare(std::uint64_t session, Type type, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(session, type, out);
+  return size_of(out);
+}
+
+void begin_records(std::uint64_t session, ByteWriter& out) {
+  write_opening(session, Type::kRecords, out);
+}
+
+void add_record(const Record& record, ByteWriter& out) {
+  out.u8(static_cast<std::uint8_t>(record.kind));
+  out.u8(record.slot);
+  out.u32(record.stream);
+  out.u32(record.sequence);
+  out.i64(record.capture_us);
+  out.i32(record.published_age_us);
+  out.i32(record.sent_age_us);
+  out.i32(record.server_age_us);
+  out.u8(record.codec);
+  out.u16(static_cast<std::uint16_t>(record.payload.size()));
+  out.bytes(record.payload);
+}
+
+std::optional<Record> parse_record(ByteReader& in) {
+  Record record;
+  const std::uint8_t kind = in.u8();
+  record.slot = in.u8();
+  record.stream = in.u32();
+  record.sequence = in.u32();
+  record.capture_us = in.i64();
+  record.published_age_us = in.i32();
+  record.sent_age_us = in.i32();
+  record.server_age_us = in.i32();
+  record.codec = in.u8();
+  const std::size_t length = in.u16();
+  record.payload = in.bytes(length);
+  record.kind = static_cast<RecordKind>(kind);
+  const bool is_known = kind == static_cast<std::uint8_t>(RecordKind::kPose) ||
+                        kind == static_cast<std::uint8_t>(RecordKind::kHands);
+  if (!in.ok() || !is_known || record.slot >= kMaxGuestsPerRoom || length == 0 ||
+      length > kMaxPayload)
+    return std::nullopt;
+  return record;
+}
+
+}  // namespace dance::wire

@@ -1,0 +1,213 @@
+// The tunnel's datagrams, built and parsed: docs/wire-format.md says them byte by byte, and this is
+// the only place that knows them. Parsing looks at the bytes where they stand; nothing is laid over
+// them.
+//
+// Units/frames: little-endian; times are microseconds of the clock that the field's name says.
+// Ownership:    parsed texts and payloads are copies or views of the caller's bytes, as the type
+//               says.
+// Threads:      none inside.
+// Failure:      parse functions give nullopt for anything that build functions never make; build
+//               functions give 0 bytes where the buffer is too small.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/base/byte_reader.h"
+#include "core/base/byte_writer.h"
+#include "core/base/fixed_list.h"
+#include "core/base/guest_id.h"
+
+namespace dance::wire {
+
+constexpr std::uint32_t kMagic = 0x52474344;  // "DCGR" as bytes on the wire
+constexpr std::uint8_t kWireVersion = 1;
+// Fits the smallest path of IPv6 with the headers of IP, UDP and a sealed session.
+constexpr std::size_t kMaxDatagram = 1200;
+// Every hello is padded to this, so that no answer to a stranger is longer than what was asked.
+constexpr std::size_t kHelloBytes = 512;
+constexpr std::size_t kMaxGuestsPerLink = 16;
+constexpr std::size_t kMaxGuestsPerRoom = 64;
+constexpr std::size_t kMaxCodecs = 8;
+constexpr std::size_t kMaxPayload = 512;
+constexpr std::size_t kMaxStatePayload = 400;
+
+using Bytes = std::span<const std::uint8_t>;
+// Room names follow the same rule as guest ids.
+using RoomName = GuestId;
+
+enum class Type : std::uint8_t {
+  // Begin with the magic: no session yet.
+  kHello = 1,
+  kWelcome = 2,
+  kRefusal = 3,
+  // Begin with the session id.
+  kPing = 16,
+  kPong = 17,
+  kRecords = 18,
+  kRoster = 19,
+  kState = 20,
+  kStateAck = 21,
+  kGoodbye = 22,
+  kUnknownSession = 23,
+};
+
+enum class Refusal : std::uint16_t {
+  kVersion = 1,     // the server speaks another version of this format
+  kBadName = 2,     // room or guest name breaks the rule
+  kNameTaken = 3,   // a guest of this name is in the room through another link
+  kRoomFull = 4,    // no slot for another guest
+  kServerFull = 5,  // no place for another session or room
+  kCodec = 6,       // the room speaks a codec that this link does not know
+};
+
+struct Hello {
+  std::uint8_t version = kWireVersion;
+  std::uint64_t nonce = 0;  // echoed in the answer, so that nobody else can answer
+  std::uint64_t token = 0;  // names the link from its start to its end
+  std::int64_t link_time_us = 0;
+  FixedList<std::uint8_t, kMaxCodecs> codecs;  // the preferred one first
+  RoomName room;
+  FixedList<GuestId, kMaxGuestsPerLink> guests;
+};
+
+struct Slot {
+  std::uint8_t slot = 0;
+  std::uint16_t generation =
+      0;  // counts who has had a slot of this room; never the same twice soon
+};
+
+struct Welcome {
+  std::uint64_t nonce = 0;
+  std::uint64_t session = 0;
+  std::int64_t link_time_us = 0;  // of the hello
+  std::int64_t server_receive_us = 0;
+  std::int64_t server_send_us = 0;
+  std::uint8_t codec = 0;                    // what this room speaks
+  FixedList<Slot, kMaxGuestsPerLink> slots;  // in the order of the hello's guests
+};
+
+struct RefusalNotice {
+  std::uint8_t server_version = kWireVersion;
+  std::uint64_t nonce = 0;
+  Refusal cause = Refusal::kVersion;
+  GuestId guest;  // whom it is about, where it is about one
+};
+
+struct Ping {
+  std::uint32_t sequence = 0;
+  std::int64_t link_time_us = 0;
+  std::uint32_t roster_version = 0;  // newest that the link has whole; 0 = none
+  std::uint32_t round_trip_us = 0;   // the link's newest estimate; 0 = none yet
+  std::uint32_t datagrams_received = 0;
+  std::uint32_t poses_received = 0;
+  std::uint32_t poses_lost = 0;
+};
+
+struct Pong {
+  std::uint32_t sequence = 0;
+  std::int64_t link_time_us = 0;  // of the ping
+  std::int64_t server_receive_us = 0;
+  std::int64_t server_send_us = 0;
+  std::uint32_t datagrams_received = 0;  // from this session
+};
+
+enum class RecordKind : std::uint8_t { kPose = 1, kHands = 2 };
+
+constexpr std::int32_t kNoAge = INT32_MIN;  // that step left no stamp
+
+// One pose, or one pair of hands, of one guest.
+struct Record {
+  RecordKind kind = RecordKind::kPose;
+  std::uint8_t slot = 0;
+  // High half: the guest's generation, written by the server. Low half: counts restarts of the
+  // producer, written by the link.
+  std::uint32_t stream = 0;
+  std::uint32_t sequence = 0;
+  std::int64_t capture_us = 0;  // server's clock
+  // From capture to the step, which keeps hops right whatever the clocks do afterwards.
+  std::int32_t published_age_us = kNoAge;
+  std::int32_t sent_age_us = kNoAge;
+  std::int32_t server_age_us = kNoAge;  // written by the server
+  std::uint8_t codec = 0;               // CodecId; 0 for hands
+  Bytes payload;
+};
+constexpr std::size_t kRecordHeader = 33;
+
+struct RosterEntry {
+  Slot slot;
+  GuestId guest;
+};
+// One part of the roster: all that stands in the slots first … first + span − 1.
+struct RosterPart {
+  std::uint32_t version = 0;
+  std::uint8_t part = 0;
+  std::uint8_t parts = 1;
+  std::uint8_t first_slot = 0;
+  std::uint8_t slot_span = 0;
+  FixedList<RosterEntry, 32> entries;
+};
+constexpr std::uint8_t kSlotsPerRosterPart = 32;
+
+enum class StateKind : std::uint8_t { kSkeleton = 1 };
+struct State {
+  Slot slot;  // the link may leave the generation 0
+  StateKind kind = StateKind::kSkeleton;
+  std::uint32_t version = 0;  // grows with each change; 0 = nothing yet
+  Bytes payload;
+};
+struct StateAck {
+  Slot slot;
+  StateKind kind = StateKind::kSkeleton;
+  std::uint32_t version = 0;
+};
+
+// How a datagram begins: with the magic and a version, or with a session id.
+struct Opening {
+  bool has_magic = false;
+  std::uint8_t version = 0;  // with the magic
+  Type type = Type::kHello;
+  std::uint64_t session = 0;  // without
+  Bytes body;                 // what follows
+};
+constexpr std::size_t kSessionHeader = 9;
+std::optional<Opening> parse_opening(Bytes datagram);
+// Whether a random number may be a session id: it must not look like the magic.
+bool may_be_session_id(std::uint64_t number);
+
+// Building: whole datagrams, opening included; the number of bytes, or 0.
+std::size_t build(const Hello& hello, std::span<std::uint8_t> out);
+std::size_t build(const Welcome& welcome, std::span<std::uint8_t> out);
+std::size_t build(const RefusalNotice& refusal, std::span<std::uint8_t> out);
+std::size_t build(std::uint64_t session, const Ping& ping, std::span<std::uint8_t> out);
+std::size_t build(std::uint64_t session, const Pong& pong, std::span<std::uint8_t> out);
+std::size_t build(std::uint64_t session, const RosterPart& part, std::span<std::uint8_t> out);
+std::size_t build(std::uint64_t session, const State& state, std::span<std::uint8_t> out);
+std::size_t build(std::uint64_t session, const StateAck& ack, std::span<std::uint8_t> out);
+std::size_t build_bare(std::uint64_t session, Type type, std::span<std::uint8_t> out);
+// Records follow one another behind one opening.
+void begin_records(std::uint64_t session, ByteWriter& out);
+void add_record(const Record& record, ByteWriter& out);
+
+// Parsing of what follows the opening.
+struct HelloProblem {
+  bool is_bad_name = false;  // well formed but for a name: worth an answer
+  std::uint64_t nonce = 0;
+};
+std::optional<Hello> parse_hello(const Opening& opening, HelloProblem& problem);
+// The nonce of a hello of whatever version: it stands at the same place in all of them.
+std::optional<std::uint64_t> parse_nonce(const Opening& opening);
+std::optional<Welcome> parse_welcome(const Opening& opening);
+std::optional<RefusalNotice> parse_refusal(const Opening& opening);
+std::optional<Ping> parse_ping(Bytes body);
+std::optional<Pong> parse_pong(Bytes body);
+std::optional<RosterPart> parse_roster(Bytes body);
+std::optional<State> parse_state(Bytes body);
+std::optional<StateAck> parse_state_ack(Bytes body);
+// One record; call until the reader is_exhausted().
+std::optional<Record> parse_record(ByteReader& in);
+
+}  // namespace dance::wire
