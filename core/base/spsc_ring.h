@@ -60,7 +60,7 @@ class SpscRing {
       }
       ++read_;
       T value;
-      std::memcpy(&value, words.data(), sizeof(T));
+      std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
       return value;
     }
   }
