@@ -64,6 +64,10 @@ void MannequinBuilder::add_torso() {
       cone(middle, 0.099f, at(Bone::kUpperChest, {0, 0.03f, 0.006f}), 0.118f, chest_x, top_);
   ribs.width = kWaistWidth;
   large(ribs);
+  const Vector3f breastbone = at(Bone::kUpperChest, {0, -0.005f, 0.026f});
+  BodyPart breast = cone(breastbone, 0.1f, breastbone, 0.1f, chest_x, top_);
+  breast.width = 1.32f;
+  large(breast);
   if (look_.legwear != Legwear::kSkirt) {
     BodyPart belt = cone(at(Bone::kHips, {0, 0.085f, 0}), 0.105f, at(Bone::kHips, {0, 0.108f, 0}),
                          0.103f, hips_x, Colour{0.35f * look_.shoes, 0.3f});
@@ -82,10 +86,6 @@ void MannequinBuilder::add_torso() {
     large(cone(girdle, 0.082f, shoulder, 0.054f, chest_x, top_));
     const Vector3f neck = at(Bone::kNeck, {0.014f * s, 0.018f, -0.01f});
     large(cone(neck, 0.05f, neck + 0.8f * (shoulder - neck), 0.036f, chest_x, top_));
-    BodyPart breast = cone(at(Bone::kUpperChest, {0.05f * s, -0.02f, 0.045f}), 0.074f,
-                           at(Bone::kUpperChest, {0.06f * s, 0.03f, 0.04f}), 0.075f, chest_x, top_);
-    breast.width = 1.1f;
-    large(breast);
     if (look_.legwear != Legwear::kSkirt)
       large(cone(at(leg, {-0.01f * s, 0.02f, -0.022f}), 0.088f, at(leg, {0.0f, -0.06f, -0.012f}),
                  0.087f, hips_x, legs_));
@@ -105,15 +105,18 @@ void MannequinBuilder::add_skirt() {
   const Vector3f apart = left - right;
   const Vector3f side = (apart + 0.2f * scale_ * hips_x).normalized();
   const float half_width_m = 0.5f * apart.norm() / scale_ + 0.13f;
-  constexpr float kWidth = 1.24f;
-  constexpr float kSeatRadius_m = 0.142f;
-  BodyPart yoke = cone(waist, 0.102f, seat, kSeatRadius_m, hips_x, legs_);
-  yoke.width = 1.3f;
+  constexpr float kWidth = 1.18f;
+  constexpr float kDepth = 0.93f;
+  constexpr float kSeatRadius_m = 0.15f;
+  BodyPart yoke = cone(waist, 0.112f, seat, kSeatRadius_m, hips_x, legs_);
+  yoke.width = kWidth;
+  yoke.depth = kDepth;
   yoke.flat_a = 0.3f;
   large(yoke);
   BodyPart skirt =
       cone(seat, kSeatRadius_m, 0.5f * (left + right), half_width_m / kWidth, side, legs_);
   skirt.width = kWidth;
+  skirt.depth = kDepth;
   skirt.flat_b = 0.1f;
   large(skirt);
 }

@@ -1,0 +1,46 @@
+// StageRoster: turns a GuestBoard's news into the scene to draw: who is there, who fades out after
+// silence, who has come back, and whose pose is new in this picture.
+//
+// Units/frames: MonoTime of this process.
+// Ownership:    borrows the board.
+// Threads:      none inside; the drawing thread owns it.
+// Failure:      none.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "viewer/guest_board.h"
+#include "viewer/scene.h"
+
+namespace dance {
+
+class StageRoster {
+ public:
+  explicit StageRoster(GuestBoard& board);
+
+  // Takes what is new and fills scene.guests, sorted by name.
+  void update(MonoTime now, SceneState& scene);
+
+  // The guests whose pose was new in the last update().
+  struct Fresh {
+    GuestId guest;
+    Pose pose;
+    MonoTime heard;
+  };
+  std::span<const Fresh> fresh() const { return fresh_; }
+  // A count that changes whenever somebody comes or goes.
+  int arrivals() const { return arrivals_; }
+
+ private:
+  struct Entry {
+    GuestNews news;
+    bool is_shown = false;
+  };
+  GuestBoard& board_;
+  std::vector<Entry> entries_;
+  std::vector<Fresh> fresh_;
+  int arrivals_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,54 @@
+// ViewOptions: what `dance view` was asked for.
+//
+// Units/frames: moments in seconds from the start.
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      plan_moments() and parse_size() refuse what makes no sense, in one line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "viewer/camera_rig.h"
+#include "viewer/stage_feed.h"
+
+namespace dance {
+
+enum class QualityWish { kAuto, kLow, kHigh };
+
+struct PictureSize {
+  int width_px = 1280;
+  int height_px = 720;
+};
+
+struct ViewOptions {
+  FeedOptions feed;
+  CameraPreset camera = CameraPreset::kAuto;
+  std::optional<GuestId> focus;
+  QualityWish quality = QualityWish::kAuto;
+  PictureSize size;
+  bool hud = true;
+  bool tags = true;
+
+  bool headless = false;
+  std::string out = ".";
+  std::vector<double> moments_s;
+  bool strip = false;
+};
+
+// The moments of --at, or every so often up to `seconds`, or `strip` moments spread over them, or
+// one at the end.
+struct MomentWish {
+  std::vector<double> at_s;
+  double every_s = 0.0;
+  double seconds = 0.0;  // 0 = not given
+  int strip = 0;
+};
+Result<std::vector<double>> plan_moments(const MomentWish& wish);
+
+// "1280x720", each side 64 to 8192.
+Result<PictureSize> parse_size(const std::string& text);
+
+}  // namespace dance
