@@ -9,6 +9,20 @@ namespace dance {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+Vector3d BvhFigure::end_of(const Bvh& bvh, std::size_t joint) const {
+  if (const auto& end = bvh.joints[joint].end_site) return p_FJ[joint] + R_FJ[joint] * *end;
+  std::size_t below = 0;  // children and theirs; one alone is an only child without its own
+  std::size_t last = joint;
+  for (std::size_t j = joint + 1; j < bvh.joints.size(); ++j) {
+    const int parent = bvh.joints[j].parent;
+    if (parent != static_cast<int>(joint) && (below == 0 || parent != static_cast<int>(last)))
+      continue;
+    ++below;
+    last = j;
+  }
+  return below == 1 ? p_FJ[last] : p_FJ[joint];
+}
+
 BvhMotion::BvhMotion(const Bvh& bvh) : bvh_(bvh) { adds_positions_ = positions_look_added(); }
 
 // A joint's position channels either repeat its OFFSET (then they replace it) or hold what is to

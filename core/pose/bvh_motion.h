@@ -18,11 +18,9 @@ struct BvhFigure {
   std::vector<Eigen::Vector3d> p_FJ;
   std::vector<Eigen::Quaterniond> R_FJ;
 
-  // Where the End Site of a joint is; the joint itself where it has none.
-  Eigen::Vector3d end_of(const Bvh& bvh, std::size_t joint) const {
-    const auto& end = bvh.joints[joint].end_site;
-    return end ? Eigen::Vector3d(p_FJ[joint] + R_FJ[joint] * *end) : p_FJ[joint];
-  }
+  // Where a joint's bone ends: at its End Site, or at its only child where that is the last joint
+  // (some tools write ends as joints); the joint's own place where it has neither.
+  Eigen::Vector3d end_of(const Bvh& bvh, std::size_t joint) const;
 };
 
 class BvhMotion {

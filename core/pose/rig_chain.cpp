@@ -18,6 +18,36 @@ void place_spine(const std::vector<int>& spine, Rig& rig) {
   if (spine.size() >= 3) rig[Bone::kUpperChest] = spine.back();
 }
 
+// Above the arms' joint the branch that is no arm: neck and head, or a head alone.
+int find_head(const RigTree& tree, int arms, int left_arm, int right_arm) {
+  int best = kNoJoint;
+  for (const int child : tree.children(arms)) {
+    if (tree.is_above(child, left_arm) || tree.is_above(child, right_arm)) continue;
+    if (best == kNoJoint ||
+        tree.length(child) + tree.reach(child) > tree.length(best) + tree.reach(best))
+      best = child;
+  }
+  if (best == kNoJoint) return kNoJoint;
+  const std::vector<int> chain = tree.longest_chain(best);
+  return chain[std::min<std::size_t>(1, chain.size() - 1)];
+}
+
+void place_head(const RigTree& tree, int arms, int head, const std::vector<bool>& is_neck,
+                Rig& rig) {
+  if (head == kNoJoint || !tree.is_above(arms, head) || head == arms) return;
+  rig[Bone::kHead] = head;
+  if (says_neck(is_neck, arms)) {
+    rig[Bone::kNeck] = arms;  // 3ds Max hangs collar bones below the neck
+    return;
+  }
+  std::vector<int> between = tree.path(arms, head);
+  between.pop_back();
+  if (between.empty()) return;
+  const auto named = std::find_if(between.begin(), between.end(),
+                                  [&](int joint) { return says_neck(is_neck, joint); });
+  rig[Bone::kNeck] = named != between.end() ? *named : between.front();
+}
+
 }  // namespace
 
 bool place_trunk(const RigTree& tree, int head, const std::vector<bool>& is_neck, Rig& rig) {
@@ -49,18 +79,8 @@ bool place_trunk(const RigTree& tree, int head, const std::vector<bool>& is_neck
   }
   place_spine(spine, rig);
 
-  if (head == kNoJoint || !tree.is_above(arms, head) || head == arms) return true;
-  rig[Bone::kHead] = head;
-  if (says_neck(is_neck, arms)) {
-    rig[Bone::kNeck] = arms;  // 3ds Max hangs collar bones below the neck
-    return true;
-  }
-  std::vector<int> between = tree.path(arms, head);
-  between.pop_back();
-  if (between.empty()) return true;
-  const auto named = std::find_if(between.begin(), between.end(),
-                                  [&](int joint) { return says_neck(is_neck, joint); });
-  rig[Bone::kNeck] = named != between.end() ? *named : between.front();
+  if (head == kNoJoint) head = find_head(tree, arms, left_arm, right_arm);
+  place_head(tree, arms, head, is_neck, rig);
   return true;
 }
 

@@ -12,7 +12,7 @@
 
 namespace dance {
 
-// The limbs of `rig` must be set. `head` may be kNoJoint; `is_neck` tells per joint whether its
+// The limbs of `rig` must be set. Where `head` is kNoJoint it is looked for above the arms; `is_neck` tells per joint whether its
 // name says neck (may be empty).
 bool place_trunk(const RigTree& tree, int head, const std::vector<bool>& is_neck, Rig& rig);
 

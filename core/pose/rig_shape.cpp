@@ -140,13 +140,7 @@ std::optional<Rig> find_rig_by_shape(const RigTree& tree) {
   place_leg(rig, *leg_b, legs_apart < 0.0);
   place_arm(rig, *arm_a, arms_apart > 0.0);
   place_arm(rig, *arm_b, arms_apart < 0.0);
-  int head = kNoJoint;
-  for (const int child : tree.children(body->shoulders)) {
-    if (child == body->arms.first || child == body->arms.second) continue;
-    const std::vector<int> chain = tree.longest_chain(child);
-    head = chain[std::min<std::size_t>(1, chain.size() - 1)];
-  }
-  place_trunk(tree, head, {}, rig);
+  place_trunk(tree, kNoJoint, {}, rig);
   return rig;
 }
 
