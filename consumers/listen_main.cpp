@@ -1,0 +1,101 @@
+// dance listen: hears the dancers of a bus and writes them down: as text, as a table, as a BVH file.
+
+#include <spdlog/spdlog.h>
+
+#include "consumers/consumer_table.h"
+#include "core/bus/bus.h"
+#include "core/net/mono_clock.h"
+#include "core/net/poller.h"
+#include "core/program/program.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance listen                                          who is on the stage, a line for each pose
+  dance listen --hz 1 --where capture                   a line a second for each dancer of this house
+  dance listen --to csv -o dance.csv --seconds 60       a minute as a table
+  dance listen --to bvh -o alice.bvh --guest alice      alice's dance, until ctrl-C, for any animation program
+)";
+
+struct ListenOptions {
+  std::string bus;
+  std::string where = "stage";
+  std::string guest;
+  std::string to = "text";
+  std::string output;
+  double hz = 0.0;
+  double seconds = 0.0;
+};
+
+Result<void> listen(const ListenOptions& options) {
+  ConsumerOptions consumer_options{options.hz, {}, this_clock_id()};
+  if (!options.guest.empty()) {
+    const auto guest = GuestId::parse(options.guest);
+    if (!guest) return fail("--guest '" + options.guest + "': " + kGuestIdRule);
+    consumer_options.guest = *guest;
+  }
+  const Where where = find_where(options.where).value_or(Where::kStage);
+  DANCE_TRY(const auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return tl::make_unexpected(stops.error());
+  DANCE_TRY(const auto output, OutputFile::open(options.output));
+  DANCE_TRY(const auto consumer, make_consumer(options.to, *output, consumer_options));
+  DANCE_TRY(const auto bus, Bus::open(options.bus));
+
+  std::uint64_t heard = 0;
+  bus->on_pose(where, consumer_options.guest, Delivery::kEvery,
+               [&](const Channel& channel, const Pose& pose, MonoTime now) {
+                 ++heard;
+                 consumer->on_pose(channel.guest(), pose, now);
+               });
+  bus->on_skeleton(where, consumer_options.guest,
+                   [&](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
+                     consumer->on_skeleton(channel.guest(), timed.skeleton, now);
+                   });
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  // After each turn, so that whoever reads a pipe behind us sees a pose when it comes.
+  poller->at_turn_end([&](MonoTime) {
+    if (!output->flush()) poller->stop();
+  });
+  if (options.seconds > 0.0) {
+    poller->add_timer(mono_now() + Duration::seconds(options.seconds), [&](MonoTime) {
+      poller->stop();
+      return MonoTime();
+    });
+  }
+  spdlog::info("listens to POSE/{}/{} on {}", options.where,
+               options.guest.empty() ? "*" : options.guest, bus->url());
+  poller->run();
+  poller->unwatch(bus->fd());
+
+  if (heard == 0)
+    spdlog::warn("heard nobody on POSE/{}/*; dance top shows what is on the bus", options.where);
+  const Result<void> finished = consumer->finish();
+  if (finished) spdlog::info("{}", consumer->summary());
+  return finished;
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::ListenOptions options;
+  CLI::App app{"Hears the dancers of a bus and writes them down.", "dance listen"};
+  app.add_option("--to", options.to, "what to make of them")
+      ->check(CLI::IsMember(dance::consumer_names()))
+      ->capture_default_str();
+  app.add_option("-o,--output", options.output, "file to write; without it, standard output");
+  app.add_option("--where", options.where, "which poses: made here, come from other houses, shown")
+      ->check(CLI::IsMember({"capture", "guest", "stage"}))
+      ->capture_default_str();
+  app.add_option("--guest", options.guest, "only this dancer");
+  app.add_option("--hz", options.hz,
+                 "at most so many lines or rows a second of each dancer (0: all); frames a second "
+                 "of a BVH (0: 60)")
+      ->check(CLI::Range(0.001, 1000.0) | CLI::IsMember({0.0}));
+  app.add_option("--seconds", options.seconds, "how long; 0 = until told to stop")
+      ->check(CLI::Range(0.0, 1e7));
+  app.add_option("--bus", options.bus, "LCM URL of the bus");
+  app.footer(dance::kExamples);
+  return dance::run_program(app, argc, argv, [&] { return dance::listen(options); });
+}
