@@ -22,11 +22,12 @@ constexpr double ease(double u) {
   return u * u * u * (10.0 + u * (6.0 * u - 15.0));
 }
 
-// 64u³(1−u)³ within 0..1: a hill of height 1 that leaves and meets the ground softly.
+// 16u²(1−u)² within 0..1: a hill of height 1 that leaves the ground before ease() has got under way,
+// and meets it after, so that a foot on its way does not scrape.
 constexpr double hill(double u) {
   if (u <= 0.0 || u >= 1.0) return 0.0;
   const double v = 4.0 * u * (1.0 - u);
-  return v * v * v;
+  return v * v;
 }
 
 // The angle in (−π, π] that is the same direction.

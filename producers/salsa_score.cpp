@@ -45,6 +45,14 @@ const salsa::Row& row_of(SalsaFigure figure, SalsaRole role, int count) {
   return salsa::kForwardAndBack[0];
 }
 
+// The place so far to the left and ahead of another, facing the same way.
+FloorPlace from(const FloorPlace& place, double left_m, double ahead_m) {
+  const double cosine = std::cos(place.yaw_rad);
+  const double sine = std::sin(place.yaw_rad);
+  return {place.x_m + cosine * left_m + sine * ahead_m,
+          place.z_m - sine * left_m + cosine * ahead_m, place.yaw_rad};
+}
+
 bool travels(SalsaFigure figure) {
   return figure == SalsaFigure::kCrossBodyLead || figure == SalsaFigure::kRightTurn;
 }
@@ -138,10 +146,13 @@ FloorPlace SalsaScore::own_frame(SalsaRole role, std::int64_t n, bool is_swapped
   const double slow = 2.0 * salsa::kPi * static_cast<double>(n) / 8.0 + 8.0 * drift_phase_rad_;
   const double turn_rad =
       radians(35.0) * std::sin(slow / 13.0) + radians(10.0) * std::sin(slow / 5.0);
+  const double heading_rad = radians(style_.heading_deg);
+  const FloorPlace place{style_.x_m, style_.z_m, heading_rad};
+  const FloorPlace wandered =
+      from(place, 0.10 * std::sin(slow / 11.0), 0.10 * std::cos(slow / 17.0));
   const bool is_turned = is_swapped != (role == SalsaRole::kFollow);
-  const double yaw = radians(style_.heading_deg) + turn_rad + (is_turned ? salsa::kPi : 0.0);
-  return {style_.x_m + 0.10 * std::sin(slow / 11.0) - 0.5 * spacing_m * std::sin(yaw),
-          style_.z_m + 0.10 * std::cos(slow / 17.0) - 0.5 * spacing_m * std::cos(yaw), yaw};
+  const double yaw_rad = heading_rad + turn_rad + (is_turned ? salsa::kPi : 0.0);
+  return from({wandered.x_m, wandered.z_m, yaw_rad}, 0.0, -0.5 * spacing_m);
 }
 
 SalsaCount SalsaScore::count(SalsaRole role, std::int64_t n, const Eight& before,
@@ -152,22 +163,15 @@ SalsaCount SalsaScore::count(SalsaRole role, std::int64_t n, const Eight& before
   // On 1 and 2 they still stand as far apart as the eight before left them.
   const FloorPlace own =
       own_frame(role, n, now.is_swapped, c < 2 ? before.spacing_m : now.spacing_m);
-  const auto along = [](const FloorPlace& from, double x_m, double z_m) {
-    const double cosine = std::cos(from.yaw_rad);
-    const double sine = std::sin(from.yaw_rad);
-    return FloorPlace{from.x_m + cosine * x_m + sine * z_m, from.z_m - sine * x_m + cosine * z_m,
-                      from.yaw_rad};
-  };
-
   SalsaCount count;
   count.is_step = c != 3 && c != 7;
   constexpr std::array<bool, 8> kLeadLeft{true, false, true, true, false, true, false, false};
   count.is_left = kLeadLeft[static_cast<std::size_t>(c)] == (role == SalsaRole::kLead);
   const double side = count.is_left ? 1.0 : -1.0;
-  count.body = along(own, gain * row.body_x_m, gain * row.body_z_m);
+  count.body = from(own, gain * row.body_x_m, gain * row.body_z_m);
   count.body.yaw_rad += radians(row.body_yaw_deg);
-  count.foot = along(count.body, side * salsa::kHalfStance_m + gain * row.foot_x_m,
-                     salsa::kBallAhead_m + gain * row.foot_z_m);
+  count.foot = from(count.body, side * salsa::kHalfStance_m + gain * row.foot_x_m,
+                    salsa::kBallAhead_m + gain * row.foot_z_m);
   count.foot.yaw_rad += side * radians(10.0);  // feet are turned out a little
 
   const bool is_walking = travels(now.figure) && c >= 4;
