@@ -69,8 +69,8 @@ void MannequinBuilder::add_torso() {
   breast.width = 1.32f;
   large(breast);
   if (look_.legwear != Legwear::kSkirt) {
-    BodyPart belt = cone(at(Bone::kHips, {0, 0.085f, 0}), 0.105f, at(Bone::kHips, {0, 0.108f, 0}),
-                         0.103f, hips_x, Colour{0.35f * look_.shoes, 0.3f});
+    BodyPart belt = cone(at(Bone::kHips, {0, 0.085f, 0}), 0.108f, at(Bone::kHips, {0, 0.108f, 0}),
+                         0.107f, hips_x, Colour{0.35f * look_.shoes, 0.3f});
     belt.width = 1.34f;
     belt.depth = 0.98f;
     belt.flat_a = belt.flat_b = 0.05f;
@@ -84,8 +84,8 @@ void MannequinBuilder::add_torso() {
     const Vector3f shoulder = frames_.position(arm);
     const Vector3f girdle = at(Bone::kUpperChest, {0.045f * s, 0.06f, -0.002f});
     large(cone(girdle, 0.082f, shoulder, 0.054f, chest_x, top_));
-    const Vector3f neck = at(Bone::kNeck, {0.014f * s, 0.018f, -0.01f});
-    large(cone(neck, 0.05f, neck + 0.8f * (shoulder - neck), 0.036f, chest_x, top_));
+    const Vector3f neck = at(Bone::kNeck, {0.008f * s, 0.008f, -0.006f});
+    large(cone(neck, 0.049f, neck + 0.8f * (shoulder - neck), 0.036f, chest_x, top_));
     if (look_.legwear != Legwear::kSkirt)
       large(cone(at(leg, {-0.01f * s, 0.02f, -0.022f}), 0.088f, at(leg, {0.0f, -0.06f, -0.012f}),
                  0.087f, hips_x, legs_));

@@ -38,9 +38,14 @@ void MannequinBuilder::add_leg(Side side) {
   const Bone lower = left ? Bone::kLeftLowerLeg : Bone::kRightLowerLeg;
   const Vector3f x = axis(upper, Vector3f::UnitX());
   const bool bare = look_.legwear == Legwear::kSkirt;
-  const Colour& cloth = bare ? skin_ : legs_;
-  large(cone(at(upper, {0, -0.02f, 0}), bare ? 0.082f : 0.09f, frames_.position(lower),
-             bare ? 0.055f : 0.061f, x, cloth));
+  // Under a skirt the thigh begins lower and thinner, so that it stays under the cloth.
+  const Vector3f knee = frames_.position(lower);
+  if (bare) {
+    const Vector3f hip = frames_.position(upper);
+    large(cone(hip + 0.3f * (knee - hip), 0.068f, knee, 0.055f, x, skin_));
+  } else {
+    large(cone(at(upper, {0, -0.02f, 0}), 0.09f, knee, 0.061f, x, legs_));
+  }
   add_lower_leg(side);
   add_shoe(side);
 }

@@ -6,11 +6,28 @@
 
 #include <cerrno>
 #include <cstring>
-#include <vector>
 
 #include "core/net/mono_clock.h"
 
 namespace dance {
+
+namespace {
+
+bool is_shown(const FeedOptions& options, Where where) {
+  switch (options.shown) {
+    case Shown::kBest:
+      return where == Where::kStage || (where == Where::kCapture && !options.stage_only);
+    case Shown::kCapture:
+      return where == Where::kCapture;
+    case Shown::kGuest:
+      return where == Where::kGuest;
+    case Shown::kStage:
+      return where == Where::kStage;
+  }
+  return false;
+}
+
+}  // namespace
 
 StageFeed::StageFeed(const FeedOptions& options)
     : board_(this_clock_id(), options.stage_only || options.shown == Shown::kStage) {}
@@ -37,13 +54,9 @@ StageFeed::~StageFeed() {
 }
 
 void StageFeed::subscribe(const FeedOptions& options) {
-  std::vector<Where> places{Where::kCapture, Where::kStage};
-  if (options.shown == Shown::kBest && options.stage_only) places = {Where::kStage};
-  if (options.shown == Shown::kCapture) places = {Where::kCapture};
-  if (options.shown == Shown::kGuest) places = {Where::kGuest};
-  if (options.shown == Shown::kStage) places = {Where::kStage};
   const GuestId everybody;
-  for (const Where where : places) {
+  for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage}) {
+    if (!is_shown(options, where)) continue;
     // Every pose is taken, so that rates and losses are right; the board's slots keep the newest.
     bus_->on_pose(where, everybody, Delivery::kEvery,
                   [this](const Channel& channel, const Pose& pose, MonoTime now) {

@@ -1,0 +1,47 @@
+#include "viewer/view_options.h"
+
+#include <gtest/gtest.h>
+
+namespace dance {
+namespace {
+
+TEST(PlanMoments, TakesOnePictureAtTheEndUnlessToldOtherwise) {
+  EXPECT_EQ(*plan_moments({{}, 0.0, 7.0, 0}), (std::vector<double>{7.0}));
+}
+
+TEST(PlanMoments, SortsTheMomentsGiven) {
+  EXPECT_EQ(*plan_moments({{8, 2, 5}, 0.0, 0.0, 0}), (std::vector<double>{2, 5, 8}));
+}
+
+TEST(PlanMoments, RepeatsUntilTheEnd) {
+  EXPECT_EQ(*plan_moments({{}, 0.5, 2.0, 0}), (std::vector<double>{0.5, 1.0, 1.5, 2.0}));
+}
+
+TEST(PlanMoments, SpreadsAStripOverTheTime) {
+  EXPECT_EQ(*plan_moments({{}, 0.0, 4.0, 4}), (std::vector<double>{1, 2, 3, 4}));
+}
+
+TEST(PlanMoments, RefusesTwoPlansAndTooManyPictures) {
+  EXPECT_FALSE(plan_moments({{1.0}, 0.5, 0.0, 0}));
+  EXPECT_FALSE(plan_moments({{}, 0.02, 86400.0, 0}));
+}
+
+TEST(ParseSize, TakesWidthByHeight) {
+  const auto size = parse_size("640x360");
+  ASSERT_TRUE(size);
+  EXPECT_EQ(size->width_px, 640);
+  EXPECT_EQ(size->height_px, 360);
+}
+
+TEST(ParseSize, RefusesEverythingElseInOneLine) {
+  for (const char* text : {"", "640", "640x", "x360", "640x360x2", "640 x 360", "0x0", "-640x360",
+                           "99999x10", "640x36o", "99999999999999999999x360", "63x64"}) {
+    const auto size = parse_size(text);
+    ASSERT_FALSE(size) << text;
+    EXPECT_EQ(size.error().what.find('\n'), std::string::npos);
+    EXPECT_NE(size.error().what.find("1280x720"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace dance
