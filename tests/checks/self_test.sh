@@ -31,7 +31,7 @@ printf '```sh\ndance thing --good 3   # runs in CI\n```\n' >"$tree/docs/tour.md"
 printf '#!/bin/sh\n[ "$1" = --help ] && echo "  --good N   a number"\nexit 0\n' >"$tree/bin/dance-thing"
 printf '#!/bin/sh\np=$1; shift; exec "$(dirname "$0")/dance-$p" "$@"\n' >"$tree/bin/dance"
 chmod +x "$tree/bin/dance" "$tree/bin/dance-thing"
-for check in layers.sh files.sh format.sh; do expect_fine $check; done
+for check in layers.sh files.sh format.sh docs_links.sh; do expect_fine $check; done
 expect_fine docs_commands.sh "$tree/bin"
 
 fault() { printf '%b' "$2" >"$tree/$1"; }
@@ -71,6 +71,10 @@ fault core/base/bad.h '// A thing.\n// Threads: one.\n#pragma once\n'
 expect files.sh 'no line "// Failure:"'
 rm "$tree/core/base/bad.h"
 
+fault docs/tour.md 'See [this](gone.md), [that](../docs/tour.md#x) and [the web](https://example.org).\n'
+expect docs_links.sh 'docs/tour.md: links to gone.md, which does not exist'
+fault docs/tour.md 'Look into `core/base/gone.h`, `core/base/<name>.h` and `core/base/thing.h/.cpp`.\n'
+expect docs_links.sh 'docs/tour.md: names core/base/gone.h, which does not exist'
 fault docs/tour.md '```sh\n./dance nothing\n```\n'
 expect docs_commands.sh 'docs/tour.md:2: there is no program dance-nothing' "$tree/bin"
 fault docs/tour.md '```sh\n./dance thing \\\n  --goo 4\n```\n'
