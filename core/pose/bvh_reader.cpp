@@ -43,7 +43,7 @@ class Reader {
     return fail("line " + std::to_string(tokens_.line()) + ": " + what);
   }
   tl::unexpected<Error> fail_at(std::string_view word, const std::string& what) const {
-    if (word.empty()) return fail_here("the file ends here, " + what + "; it was cut short");
+    if (word.empty()) return fail_here("the file ends too early; it was cut short");
     return fail_here(quoted(word) + " " + what);
   }
 
