@@ -17,13 +17,7 @@ LinkHandlers LinkBus::handlers() {
   return handlers;
 }
 
-void LinkBus::attach(Link& link, const LinkOptions& options) {
-  link_ = &link;
-  if (options.guests.empty()) return subscribe(GuestId());
-  for (const GuestId& guest : options.guests) subscribe(guest);
-}
-
-void LinkBus::subscribe(const GuestId& guest) {
+void LinkBus::send_captures_of(const GuestId& guest) {
   bus_.on_pose(Where::kCapture, guest, Delivery::kEvery,
                [this](const Channel& channel, const Pose& pose, MonoTime now) {
                  link_->send(channel.guest(), pose, now);

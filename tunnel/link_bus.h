@@ -21,16 +21,15 @@ class LinkBus {
   // What the link is to be opened with; on_state, on_refused and the guests' coming and going are
   // the caller's to add.
   LinkHandlers handlers();
-  // From now on the captures of these guests go to the link; of everybody where none is named.
-  void attach(Link& link, const LinkOptions& options);
+  void attach(Link& link) { link_ = &link; }
+  // From now on this guest's captures go to the link; everybody's where the guest is not set.
+  void send_captures_of(const GuestId& guest);
   void forget(const GuestId& guest) { skeletons_.erase(guest); }
   // STATS/link, and the skeletons of the others again, as who starts late must hear them. Call once
   // a second.
   void publish_second(MonoTime now);
 
  private:
-  void subscribe(const GuestId& guest);
-
   Bus& bus_;
   std::uint64_t clock_id_;
   Link* link_ = nullptr;

@@ -74,6 +74,7 @@ class LinkCore {
 
   // link_send.cpp
   struct Stamp {
+    MonoTime capture;  // in our clock
     std::int64_t capture_us;
     std::int32_t published_age_us;
     std::int32_t sent_age_us;

@@ -12,6 +12,7 @@ constexpr std::int32_t kLongestGap = 6000;
 
 bool StreamTag::advance(std::uint32_t sequence, MonoTime capture, std::uint64_t clock_id) {
   if (has_any_) {
+    if (clock_id == clock_id_ && capture < capture_) return false;
     const std::int32_t ahead = sequence_ahead(sequence_, sequence);
     const bool is_same_count = ahead > 0 && ahead <= kLongestGap && clock_id == clock_id_;
     if (!is_same_count) {

@@ -82,7 +82,9 @@ Result<void> run_link(const LinkProgramOptions& given) {
   LinkHandlers handlers = link_bus.handlers();
   add_talk(handlers, link_bus, given, options.room);
   DANCE_TRY(auto link, Link::open(server, options, std::move(handlers), *poller));
-  link_bus.attach(*link, options);
+  link_bus.attach(*link);
+  if (options.guests.empty()) link_bus.send_captures_of(GuestId());
+  for (const GuestId& guest : options.guests) link_bus.send_captures_of(guest);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();
   poller->add_timer(begin + kSecond, [&](MonoTime now) {

@@ -29,6 +29,7 @@ bool LinkCore::stamp(MonoTime capture, std::uint64_t clock_id, MonoTime publishe
   }
   const Duration age = now - capture;
   if (age > kOldestCapture || age < -kOldestCapture) return false;
+  out.capture = capture;
   out.capture_us = clock_.to_theirs_us(capture);
   out.published_age_us = age_us(published, capture);
   out.sent_age_us = age_us(now, capture);
@@ -62,7 +63,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
     return;
   }
   const std::uint64_t restarts = guest->poses.restarts();
-  if (!guest->poses.advance(pose.sequence, pose.capture_time, pose.clock_id)) {
+  if (!guest->poses.advance(pose.sequence, times.capture, pose.clock_id)) {
     ++counters_.late;
     return;
   }
@@ -87,7 +88,7 @@ void LinkCore::send(const GuestId& id, const Hands& hands, MonoTime now) {
   Stamp times{};
   const std::size_t size = encode_hands(hands, payload);
   if (size == 0 || !stamp(hands.capture_time, hands.clock_id, MonoTime(), now, times) ||
-      !guest->hands.advance(hands.sequence, hands.capture_time, hands.clock_id))
+      !guest->hands.advance(hands.sequence, times.capture, hands.clock_id))
     return;
   wire::Record record;
   record.kind = wire::RecordKind::kHands;

@@ -189,6 +189,7 @@ void LinkCore::on_refusal(const wire::Opening& opening, MonoTime now) {
       return !g.has_slot && !g.refused_until.is_set();
     });
     hello_wanted_ = false;
+    roster_.reset();  // who bears the name is somebody else: the roster must be read again
     if (others_wait) schedule_update(now);
   }
   if (handlers_.on_refused) handlers_.on_refused(*refusal, now);

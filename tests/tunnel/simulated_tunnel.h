@@ -1,0 +1,240 @@
+// A server, houses and the lines between them without sockets and without waiting: time passes when
+// the test says so, each house has a clock of its own, and lines can be slow or cut.
+//
+// Units/frames: now() is the server's clock; a house's clock is now() + its clock_ahead.
+// Ownership:    owns everything.
+// Threads:      none.
+// Failure:      none.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/random.h"
+#include "tunnel/link_core.h"
+#include "tunnel/server_core.h"
+
+namespace dance {
+
+inline GuestId guest(std::string_view name) { return *GuestId::parse(name); }
+
+// A pose that tells its number: hips and one arm depend on it.
+inline Pose pose_number(std::uint32_t sequence, MonoTime capture, std::uint64_t clock_id) {
+  Pose pose;
+  const float angle = static_cast<float>(sequence % 600) * 0.01f;
+  pose.R_PB[index_of(Bone::kLeftUpperArm)] =
+      Eigen::Quaternionf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ()));
+  pose.p_WH_m.x() = static_cast<float>(sequence % 1000) * 0.001f;
+  pose.sequence = sequence;
+  pose.capture_time = capture;
+  pose.clock_id = clock_id;
+  pose.stamp(Hop::kPublished, capture + Duration::ms(2));
+  return pose;
+}
+
+class SimulatedTunnel {
+ public:
+  struct Heard {
+    GuestId guest;
+    Pose pose;
+    MonoTime at;
+  };
+  struct House {
+    Address address;
+    std::uint64_t clock_id = 0;
+    Duration clock_ahead;
+    Duration up = Duration::ms(5);
+    Duration down = Duration::ms(5);
+    bool is_cut = false;
+    std::unique_ptr<LinkCore> link;
+    std::unique_ptr<DatagramSink> sink;
+    std::vector<Heard> poses;
+    std::vector<std::pair<GuestId, Hands>> hands;
+    std::vector<std::pair<GuestId, Skeleton>> skeletons;
+    std::vector<std::string> events;  // "+bob", "-bob", "connected", "lapsed", "refused …"
+    std::uint32_t next_sequence = 1;
+    bool is_running = true;
+
+    bool saw(const std::string& event) const {
+      return std::find(events.begin(), events.end(), event) != events.end();
+    }
+    std::size_t heard_of(const GuestId& id) const {
+      return static_cast<std::size_t>(std::count_if(
+          poses.begin(), poses.end(), [&](const Heard& heard) { return heard.guest == id; }));
+    }
+  };
+
+  explicit SimulatedTunnel(const ServerLimits& limits = {}) : limits_(limits) { start_server(); }
+
+  void start_server() {
+    server_ = std::make_unique<ServerCore>(
+        limits_, [this] { return random_.next_u64(); }, server_sink_);
+  }
+  void stop_server() { server_.reset(); }
+  ServerCore& server() { return *server_; }
+
+  House& add_house(const std::string& room, const std::vector<std::string>& guests,
+                   Duration clock_ahead = {}) {
+    houses_.push_back(std::make_unique<House>());
+    House& house = *houses_.back();
+    const auto number = static_cast<std::uint16_t>(houses_.size());
+    house.address = Address::loopback(static_cast<std::uint16_t>(10'000 + number));
+    house.clock_id = 100u + number;
+    house.clock_ahead = clock_ahead;
+    start_link(house, room, guests);
+    return house;
+  }
+
+  // A new process in the same house: another token, nothing remembered.
+  void start_link(House& house, const std::string& room, const std::vector<std::string>& guests) {
+    LinkOptions options;
+    options.room = guest(room);
+    for (const auto& name : guests)
+      if (!options.guests.try_push(guest(name))) std::abort();
+    options.token = random_.next_u64() | 1;
+    options.clock_id = house.clock_id;
+    options.seed = random_.next_u64();
+    house.sink = std::make_unique<LinkSink>(*this, house);
+    house.link = std::make_unique<LinkCore>(options, handlers_of(house), *house.sink);
+    house.is_running = true;
+  }
+
+  MonoTime now() const { return now_; }
+  MonoTime time_in(const House& house) const { return now_ + house.clock_ahead; }
+
+  // Everything that happens in the next `duration`, in steps of a millisecond.
+  void run(Duration duration, const std::function<void()>& each_ms = {}) {
+    const MonoTime end = now_ + duration;
+    while (now_ < end) {
+      now_ += Duration::ms(1);
+      deliver_due();
+      for (auto& house : houses_) {
+        if (!house->is_running) continue;
+        const MonoTime due = house->link->next_deadline();
+        if (due.is_set() && due <= time_in(*house)) house->link->tick(time_in(*house));
+      }
+      if (server_) server_->tick(now_);
+      if (each_ms) each_ms();
+    }
+  }
+
+  void dance(House& house, const GuestId& who) {
+    house.link->send(
+        who, pose_number(house.next_sequence++, time_in(house) - Duration::ms(10), house.clock_id),
+        time_in(house));
+  }
+
+  // Straight into the server, as if `from` had sent it.
+  void inject(const Address& from, wire::Bytes bytes) {
+    server_->receive(from, bytes, now_, now_);
+    server_->end_turn();
+  }
+
+  // The test's eye on what passes: return false to lose it.
+  std::function<bool(bool to_server, const Address& peer, wire::Bytes bytes)> on_datagram;
+
+ private:
+  struct Parcel {
+    MonoTime due;
+    bool to_server;
+    Address peer;
+    std::vector<std::uint8_t> bytes;
+  };
+  class ServerSink final : public DatagramSink {
+   public:
+    explicit ServerSink(SimulatedTunnel& tunnel) : tunnel_(tunnel) {}
+    void send(const Address& to, std::span<const std::uint8_t> bytes) override {
+      tunnel_.post(false, to, bytes);
+    }
+
+   private:
+    SimulatedTunnel& tunnel_;
+  };
+  class LinkSink final : public DatagramSink {
+   public:
+    LinkSink(SimulatedTunnel& tunnel, House& house) : tunnel_(tunnel), house_(house) {}
+    void send(const Address&, std::span<const std::uint8_t> bytes) override {
+      tunnel_.post(true, house_.address, bytes);
+    }
+
+   private:
+    SimulatedTunnel& tunnel_;
+    House& house_;
+  };
+
+  House* house_at(const Address& address) {
+    for (auto& house : houses_)
+      if (house->address == address) return house.get();
+    return nullptr;
+  }
+
+  void post(bool to_server, const Address& peer, wire::Bytes bytes) {
+    House* house = house_at(peer);
+    if (on_datagram && !on_datagram(to_server, peer, bytes)) return;
+    if (house == nullptr || house->is_cut) return;
+    parcels_.push_back({now_ + (to_server ? house->up : house->down),
+                        to_server,
+                        peer,
+                        {bytes.begin(), bytes.end()}});
+  }
+
+  void deliver_due() {
+    std::vector<Parcel> due;
+    const auto later = std::stable_partition(parcels_.begin(), parcels_.end(),
+                                             [&](const Parcel& p) { return p.due <= now_; });
+    due.assign(std::make_move_iterator(parcels_.begin()), std::make_move_iterator(later));
+    parcels_.erase(parcels_.begin(), later);
+    for (const Parcel& parcel : due) {
+      if (parcel.to_server) {
+        if (server_) server_->receive(parcel.peer, parcel.bytes, now_, now_);
+      } else if (House* house = house_at(parcel.peer); house && house->is_running) {
+        house->link->receive(parcel.bytes, time_in(*house), time_in(*house));
+      }
+    }
+    if (server_) server_->end_turn();
+  }
+
+  LinkHandlers handlers_of(House& house) {
+    LinkHandlers handlers;
+    handlers.on_pose = [&](const GuestId& id, const Pose& pose, MonoTime now) {
+      house.poses.push_back({id, pose, now});
+    };
+    handlers.on_hands = [&](const GuestId& id, const Hands& hands, MonoTime) {
+      house.hands.emplace_back(id, hands);
+    };
+    handlers.on_skeleton = [&](const GuestId& id, const Skeleton& skeleton, MonoTime) {
+      house.skeletons.emplace_back(id, skeleton);
+    };
+    handlers.on_guest_joined = [&](const GuestId& id, MonoTime) {
+      house.events.push_back("+" + std::string(id.view()));
+    };
+    handlers.on_guest_left = [&](const GuestId& id, MonoTime) {
+      house.events.push_back("-" + std::string(id.view()));
+    };
+    handlers.on_state = [&](LinkState state, MonoTime) {
+      house.events.emplace_back(state == LinkState::kConnected ? "connected"
+                                : state == LinkState::kLapsed  ? "lapsed"
+                                                               : "connecting");
+    };
+    handlers.on_refused = [&](const wire::RefusalNotice& refusal, MonoTime) {
+      house.events.push_back("refused " + std::to_string(static_cast<int>(refusal.cause)) + " " +
+                             std::string(refusal.guest.view()));
+    };
+    return handlers;
+  }
+
+  ServerLimits limits_;
+  Random random_{20'260'101};
+  MonoTime now_ = MonoTime::from_us(5'000'000'000);
+  ServerSink server_sink_{*this};
+  std::unique_ptr<ServerCore> server_;
+  std::vector<std::unique_ptr<House>> houses_;
+  std::vector<Parcel> parcels_;
+};
+
+}  // namespace dance
