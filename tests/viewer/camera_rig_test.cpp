@@ -93,7 +93,7 @@ TEST(CameraRig, GivesSeveralMomentsOneFrame) {
   SceneState second = couple();
   for (SceneGuest& guest : second.guests) guest.pose.p_WH_m.x() += 2.0f;
   rig.jump({&first, &second}, kAspect);
-  for (const SceneState* scene : {&first, &second})
+  for (const SceneState* scene : std::initializer_list<const SceneState*>{&first, &second})
     for (const SceneGuest& guest : scene->guests) {
       const auto at = project(rig.camera(), guest.pose.p_WH_m, kAspect, 1.0f);
       ASSERT_TRUE(at);

@@ -28,7 +28,10 @@ class PictureTest : public testing::Test {
     else
       why_not_ = made.error().what;
   }
-  static void TearDownTestSuite() { context_.reset(); }
+  static void TearDownTestSuite() {
+    painter_.reset();
+    context_.reset();
+  }
   void SetUp() override {
     if (!context_) GTEST_SKIP() << why_not_;
   }
@@ -44,17 +47,25 @@ class PictureTest : public testing::Test {
   static Picture draw(const SceneState& scene, const OrbitCamera& camera,
                       const OverlayChoice& choice = {false, false},
                       Quality quality = Quality::kHigh) {
-    auto painter = StagePainter::create(quality, 1.0f);
-    EXPECT_TRUE(painter) << painter.error().what;
-    const auto drawn = (*painter)->draw(scene, camera, kWidth_px, kHeight_px, choice);
+    // Made once for each quality: compiling shaders takes longer than drawing.
+    if (!painter_ || painter_->renderer().quality() != quality) make_painter(quality);
+    const auto drawn = painter_->draw(scene, camera, kWidth_px, kHeight_px, choice);
     EXPECT_TRUE(drawn) << drawn.error().what;
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-    return (*painter)->read();
+    return painter_->read();
   }
+  static void make_painter(Quality quality) {
+    painter_.reset();
+    auto made = StagePainter::create(quality, 1.0f);
+    ASSERT_TRUE(made) << made.error().what;
+    painter_ = std::move(*made);
+  }
+  static void forget_painter() { painter_.reset(); }
 
  private:
   static inline std::unique_ptr<OffscreenContext> context_;
   static inline std::string why_not_;
+  static inline std::unique_ptr<StagePainter> painter_;
 };
 
 SceneState scene_of(SceneGuest guest) {
@@ -86,7 +97,7 @@ TEST_F(PictureTest, HasTheBodyWhereTheJointsAreAndTheStageBeside) {
   BodyFrames frames;
   forward_kinematics(scene.guests[0].skeleton, scene.guests[0].pose, frames);
   for (std::size_t b = 0; b < kBoneCount; ++b)
-    EXPECT_GT(change_at(with, without, camera, frames.p_WB_m[b]), 30)
+    EXPECT_GT(change_at(with, without, camera, frames.p_WB_m[b]), 20)
         << kBones[b].name << " is in the picture";
   const Vector3f head = frames.tip(Tip::kHead);
   for (const Vector3f& beside :
@@ -104,14 +115,16 @@ TEST_F(PictureTest, ShowsAllOfThirtyDancers) {
   for (const SceneGuest& guest : scene.guests) append_outline(guest, points);
   camera = frame_points(camera, points, kAspect, 0.9f);
   const Picture all = draw(scene, camera, {false, false}, Quality::kLow);
-  // Whoever is left out leaves a gap where the head was.
-  for (std::size_t i = 0; i < scene.guests.size(); ++i) {
+  // Whoever is left out leaves a gap where the head was; every third leaves at a time.
+  for (std::size_t first = 0; first < 3; ++first) {
     SceneState others = scene;
-    others.guests[i].opacity = 0.0f;
+    for (std::size_t i = first; i < scene.guests.size(); i += 3) others.guests[i].opacity = 0.0f;
     const Picture without = draw(others, camera, {false, false}, Quality::kLow);
-    EXPECT_GT(
-        change_at(all, without, camera, tag_anchor_W_m(scene.guests[i]) - Vector3f(0, 0.2f, 0)), 20)
-        << scene.guests[i].id.view();
+    for (std::size_t i = first; i < scene.guests.size(); i += 3)
+      EXPECT_GT(
+          change_at(all, without, camera, tag_anchor_W_m(scene.guests[i]) - Vector3f(0, 0.2f, 0)),
+          20)
+          << scene.guests[i].id.view();
   }
 }
 
@@ -121,7 +134,7 @@ TEST_F(PictureTest, DarkensTheFloorBesideFeetAndUnderTheShadow) {
   camera.pitch_rad = 0.5f;
   std::vector<Vector3f> points;
   append_outline(scene.guests[0], points);
-  camera = frame_points(camera, points, kAspect, 0.7f);
+  camera = frame_points(camera, points, kAspect, 0.5f);
   const Picture with = draw(scene, camera);
   const Picture without = draw(SceneState(), camera);
   const auto darkening = [&](const Vector3f& p) {
@@ -132,7 +145,7 @@ TEST_F(PictureTest, DarkensTheFloorBesideFeetAndUnderTheShadow) {
   };
   EXPECT_GT(darkening({0.0f, 0.0f, 0.05f}), 25) << "between the feet";
   EXPECT_GT(darkening({-0.19f, 0.0f, 0.03f}), 20) << "beside the right foot";
-  EXPECT_LT(std::abs(darkening({1.3f, 0.0f, 1.0f})), 12) << "far from the feet the floor is lit";
+  EXPECT_LT(std::abs(darkening({1.3f, 0.0f, 0.6f})), 12) << "far from the feet the floor is lit";
   // Along the light, half a body's height: the cast shadow of the trunk.
   int deepest = 0;
   for (float along = 0.3f; along < 1.0f; along += 0.05f)
@@ -145,6 +158,7 @@ TEST_F(PictureTest, IsTheSameTwice) {
   const SceneState scene = couple();
   const OrbitCamera camera = camera_for(scene, 0.4f);
   const Picture first = draw(scene, camera, {true, true});
+  forget_painter();
   const Picture second = draw(scene, camera, {true, true});
   EXPECT_TRUE(first.rgb == second.rgb);
 }
@@ -242,6 +256,7 @@ TEST_F(PictureTest, KeepsThePlainDrawingCloseToTheFine) {
 TEST_F(PictureTest, ChangesSizeWithoutARestart) {
   const SceneState scene = couple();
   const OrbitCamera camera = camera_for(scene);
+  forget_painter();  // ImGui has one context per process
   auto painter = StagePainter::create(Quality::kLow, 1.0f);
   ASSERT_TRUE(painter) << painter.error().what;
   for (const auto& [width, height] :
