@@ -209,11 +209,16 @@ TEST(SalsaMotion, HasHipsThatRepeatEveryEightBeatsOfTheTempo) {
       const std::vector<double> roll = hip_roll(role, tempo, kRate_hz, 9000);
       const double beat = kRate_hz * 60.0 / tempo;  // in samples
       std::size_t best = 0;
+      double best_correlation = -1.0;
       for (auto lag = static_cast<std::size_t>(5.0 * beat);
-           lag < static_cast<std::size_t>(11.0 * beat); ++lag)
-        if (best == 0 || correlation(roll, lag) > correlation(roll, best)) best = lag;
+           lag < static_cast<std::size_t>(11.0 * beat); ++lag) {
+        const double candidate = correlation(roll, lag);
+        if (candidate <= best_correlation) continue;
+        best = lag;
+        best_correlation = candidate;
+      }
       EXPECT_NEAR(static_cast<double>(best) / beat, 8.0, 0.08) << tempo;
-      EXPECT_GT(correlation(roll, best), 0.8);
+      EXPECT_GT(best_correlation, 0.8);
       // Right and left change over in the second half of each eight.
       EXPECT_LT(correlation(roll, static_cast<std::size_t>(4.0 * beat)), -0.6);
     }
