@@ -8,6 +8,7 @@ namespace {
 
 // Twice what the server lets through: the way from there takes its time too.
 constexpr std::int64_t kLongestAge_us = 120'000'000;
+constexpr std::int64_t kFarthestAhead_us = 2'000'000;
 
 MonoTime hop_time(MonoTime capture, std::int32_t age_us) {
   return age_us == wire::kNoAge ? MonoTime() : capture + Duration::us(age_us);
@@ -35,13 +36,13 @@ void LinkCore::on_record(const wire::Record& record, MonoTime received, MonoTime
   }
   const std::int64_t server_now_us = clock_.to_theirs_us(now);
   if (record.capture_us < server_now_us - kLongestAge_us ||
-      record.capture_us > server_now_us + kLongestAge_us) {
+      record.capture_us > server_now_us + kFarthestAhead_us) {
     ++counters_.invalid;
     ++remote.invalid;
     return;
   }
-  const StreamGate::Verdict verdict =
-      (is_pose ? remote.poses : remote.hands).judge(record.stream, record.sequence);
+  const StreamGate::Verdict verdict = (is_pose ? remote.poses : remote.hands)
+                                          .judge(record.stream, record.sequence, record.capture_us);
   if (verdict != StreamGate::Verdict::kNewest && verdict != StreamGate::Verdict::kNewStream) {
     ++counters_.late;
     return;

@@ -10,6 +10,7 @@ namespace {
 
 // Half of what the server takes, so that clocks may be off and a line slow.
 constexpr Duration kOldestCapture = Duration::s(30);
+constexpr Duration kFarthestAhead = Duration::ms(500);
 
 std::int32_t age_us(MonoTime step, MonoTime capture) {
   if (!step.is_set()) return wire::kNoAge;
@@ -28,7 +29,7 @@ bool LinkCore::stamp(MonoTime capture, std::uint64_t clock_id, MonoTime publishe
     published = MonoTime();
   }
   const Duration age = now - capture;
-  if (age > kOldestCapture || age < -kOldestCapture) return false;
+  if (age > kOldestCapture || age < -kFarthestAhead) return false;
   out.capture = capture;
   out.capture_us = clock_.to_theirs_us(capture);
   out.published_age_us = age_us(published, capture);

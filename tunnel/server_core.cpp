@@ -13,6 +13,8 @@ constexpr Duration kUnprovenLimit = Duration::s(1);
 constexpr Duration kTick = Duration::ms(100);
 // A capture further from now than this is no capture of a dance under way.
 constexpr std::int64_t kLongestAge_us = 60'000'000;
+// Nothing is captured in the future; clocks are mapped better than this.
+constexpr std::int64_t kFarthestAhead_us = 1'000'000;
 
 }  // namespace
 
@@ -152,7 +154,7 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   if (guest == nullptr) return reject(ServerReject::kForeignSlot);
   const std::int64_t received_us = received.since_zero_us();
   if (record.capture_us < received_us - kLongestAge_us ||
-      record.capture_us > received_us + kLongestAge_us)
+      record.capture_us > received_us + kFarthestAhead_us)
     return reject(ServerReject::kBadTime);
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   const std::uint8_t codec = is_pose ? rooms_[sessions_[session].room].codec : std::uint8_t{0};
@@ -160,7 +162,7 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
 
   record.stream = std::uint32_t{guest->generation} << 16 | (record.stream & 0xffff);
   StreamGate& gate = is_pose ? guest->poses : guest->hands;
-  switch (gate.judge(record.stream, record.sequence)) {
+  switch (gate.judge(record.stream, record.sequence, record.capture_us)) {
     case StreamGate::Verdict::kNewest:
     case StreamGate::Verdict::kNewStream:
       break;

@@ -42,8 +42,13 @@ void ServerCore::on_hello(const Address& from, const wire::Opening& opening, Mon
   if (!hello) return reject(ServerReject::kMalformed);
 
   auto existing = find_token(hello->token);
-  if (existing && hello->link_time_us < sessions_[*existing].hello_time_us)
-    return reject(ServerReject::kOldHello);
+  if (existing) {
+    // A hello of before, or the last one from elsewhere, is a copy that somebody made.
+    const ServerSession& session = sessions_[*existing];
+    if (hello->link_time_us < session.hello_time_us ||
+        (hello->link_time_us == session.hello_time_us && session.address != from))
+      return reject(ServerReject::kOldHello);
+  }
   if (existing && rooms_[sessions_[*existing].room].name != hello->room) {
     drop_session(*existing);
     existing.reset();

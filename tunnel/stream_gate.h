@@ -3,7 +3,12 @@
 // began anew) replaces the earlier one for good. Counts what is missing, and takes it back where it
 // was only late.
 //
-// Units/frames: sequences and streams are 32 bit and wrap.
+// Sequences alone could be stuck for good behind one damaged number that leapt ahead. Capture times
+// heal that: what is a second newer goes on whatever its numbers say, and what is a second older
+// does not.
+//
+// Units/frames: sequences and streams are 32 bit and wrap; capture times of one clock, never far
+//               from now (the caller sees to it).
 // Ownership:    plain value.
 // Threads:      none inside.
 // Failure:      none; counters() tells every record's end.
@@ -25,21 +30,31 @@ class StreamGate {
     std::uint64_t duplicate = 0;
   };
 
-  Verdict judge(std::uint32_t stream, std::uint32_t sequence) {
-    if (has_any_ && stream != stream_ && !is_newer_sequence(stream, stream_)) {
+  Verdict judge(std::uint32_t stream, std::uint32_t sequence, std::int64_t capture_us = 0) {
+    const std::int64_t ahead_us = capture_us - newest_capture_us_;
+    if (has_any_ && ahead_us < -kTrustedNumbers_us) {
       ++counters_.late;
-      return Verdict::kOldStream;
+      return Verdict::kLate;
     }
-    if (!has_any_ || stream != stream_) {
+    const std::int32_t ahead = sequence_ahead(newest_, sequence);
+    const bool is_next = has_any_ && stream == stream_ && ahead > 0;
+    const bool is_new_stream =
+        !has_any_ || (stream != stream_ && is_newer_sequence(stream, stream_));
+    if (is_new_stream || (!is_next && ahead_us > kTrustedNumbers_us)) {
       has_any_ = true;
       stream_ = stream;
       newest_ = sequence;
+      newest_capture_us_ = capture_us;
       seen_ = ~std::uint64_t{0};  // what was before the first is not missed
       ++counters_.received;
       return Verdict::kNewStream;
     }
-    const std::int32_t ahead = sequence_ahead(newest_, sequence);
-    if (ahead > 0) {
+    if (stream != stream_) {
+      ++counters_.late;
+      return Verdict::kOldStream;
+    }
+    if (is_next) {
+      newest_capture_us_ = capture_us;
       // Bit i of seen_: newest_ − i came.
       seen_ = ahead < 64 ? seen_ << ahead | 1 : 1;
       newest_ = sequence;
@@ -56,6 +71,8 @@ class StreamGate {
   const Counters& counters() const { return counters_; }
 
  private:
+  static constexpr std::int64_t kTrustedNumbers_us = 1'000'000;
+
   Verdict judge_old(std::int32_t ahead) {
     if (ahead > -64) {
       const std::uint64_t bit = std::uint64_t{1} << -ahead;
@@ -73,6 +90,7 @@ class StreamGate {
   bool has_any_ = false;
   std::uint32_t stream_ = 0;
   std::uint32_t newest_ = 0;
+  std::int64_t newest_capture_us_ = 0;
   std::uint64_t seen_ = 0;
   Counters counters_;
 };

@@ -237,7 +237,7 @@ TEST_F(Hostile, AFloodOfHellosIsBoundedAndLeavesTheDancersAlone) {
 TEST_F(Hostile, CaptureTimesFromNowhereAreRefused) {
   Bytes bytes = captured.at({true, 18}).bytes;
   constexpr std::size_t kCapture = wire::kSessionHeader + 1 + 1 + 4 + 4;
-  for (const std::uint8_t extreme : {0x00, 0x7f, 0x80, 0xff}) {
+  for (const std::uint8_t extreme : std::array<std::uint8_t, 4>{0x00, 0x7f, 0x80, 0xff}) {
     std::fill_n(bytes.begin() + kCapture, 8, extreme);
     tunnel.inject(captured.at({true, 18}).peer, bytes);
   }

@@ -54,6 +54,16 @@ TEST(StreamGate, AStreamThatWasReplacedIsRefusedForGood) {
   EXPECT_EQ(gate.counters().lost, 0u);
 }
 
+TEST(StreamGate, ADamagedNumberHoldsAGuestUpForASecondAtMost) {
+  StreamGate gate;
+  gate.judge(1, 10, 5'000'000);
+  EXPECT_EQ(gate.judge(1, 1'000'000'000, 5'010'000), Verdict::kNewest);
+  EXPECT_EQ(gate.judge(1, 11, 5'020'000), Verdict::kLate);
+  EXPECT_EQ(gate.judge(1, 72, 6'020'000), Verdict::kNewStream);
+  EXPECT_EQ(gate.judge(1, 73, 6'036'000), Verdict::kNewest);
+  EXPECT_EQ(gate.judge(9, 1, 4'000'000), Verdict::kLate) << "a new number on an old capture";
+}
+
 TEST(StreamGate, AccountsForEveryRecordOfAShuffledStream) {
   Random random(7);
   StreamGate gate;
