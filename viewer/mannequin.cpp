@@ -83,7 +83,8 @@ void MannequinBuilder::add_torso() {
     const Bone leg = side == Side::kLeft ? Bone::kLeftUpperLeg : Bone::kRightUpperLeg;
     const Vector3f shoulder = frames_.position(arm);
     const Vector3f girdle = at(Bone::kUpperChest, {0.045f * s, 0.06f, -0.002f});
-    large(cone(girdle, 0.082f, shoulder, 0.054f, chest_x, top_));
+    // Ends short of the joint, or its cloth and the arm would lie in one surface and flicker.
+    large(cone(girdle, 0.082f, girdle + 0.8f * (shoulder - girdle), 0.058f, chest_x, top_));
     const Vector3f neck = at(Bone::kNeck, {0.008f * s, 0.008f, -0.006f});
     large(cone(neck, 0.049f, neck + 0.8f * (shoulder - neck), 0.036f, chest_x, top_));
     if (look_.legwear != Legwear::kSkirt)

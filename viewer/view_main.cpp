@@ -1,6 +1,8 @@
 // dance view: the stage of this house, in a window or as pictures.
 
 #include <map>
+#include <string>
+#include <vector>
 
 #include "core/program/program.h"
 #include "viewer/view_program.h"
@@ -31,9 +33,13 @@ struct CommandLine {
 };
 
 template <class T>
-void add_choice(CLI::App& app, const char* name, T& value, const std::map<std::string, T>& choices,
+void add_choice(CLI::App& app, const char* name, T& value, std::map<std::string, T> choices,
                 const char* what) {
-  app.add_option(name, value, what)->transform(CLI::CheckedTransformer(choices));
+  std::vector<std::string> words;
+  for (const auto& choice : choices) words.push_back(choice.first);
+  app.add_option_function<std::string>(
+         name, [&value, choices](const std::string& word) { value = choices.at(word); }, what)
+      ->check(CLI::IsMember(words));
 }
 
 void add_options(CLI::App& app, CommandLine& line) {
