@@ -11,6 +11,8 @@ using Eigen::Vector3f;
 namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFill = 0.86f;
+constexpr float kUsualPitch_rad = 0.13f;
+constexpr float kPitchPerGuest_rad = 0.018f;
 constexpr float kHighestPitch_rad = 1.54f;
 constexpr float kLowestPitch_rad = -0.05f;  // never from under the floor
 constexpr float kClosest_m = 0.6f;
@@ -28,7 +30,7 @@ float share_after(float dt_s, float softness_s) { return 1.0f - std::exp(-dt_s /
 }  // namespace
 
 CameraRig::CameraRig(CameraPreset preset) : preset_(preset) {
-  camera_.pitch_rad = 0.13f;
+  camera_.pitch_rad = kUsualPitch_rad;
   yaw_is_chosen_ = preset != CameraPreset::kAuto;
   if (preset == CameraPreset::kFront) camera_.yaw_rad = 0.0f;
   if (preset == CameraPreset::kSide) camera_.yaw_rad = 0.5f * kPi;
@@ -94,6 +96,9 @@ void CameraRig::choose_yaw(const SceneState& scene) {
     facings.push_back(facing_W(guest));
   }
   camera_.yaw_rad = stage_yaw_rad_ = best_yaw_rad(hips, facings);
+  // The more people, the further from above, so that those in front hide fewer of those behind.
+  const auto more = static_cast<float>(std::min<std::size_t>(scene.guests.size() - 1, 16));
+  camera_.pitch_rad = kUsualPitch_rad + kPitchPerGuest_rad * std::max(0.0f, more - 1.0f);
   // Chosen anew only when more guests come, not at every step they take.
   yaw_chosen_for_ = scene.guests.size();
 }
