@@ -5,6 +5,11 @@
 #include "core/net/mono_clock.h"
 
 namespace dance {
+namespace {
+
+constexpr Duration kSecond = Duration::s(1);
+
+}  // namespace
 
 Manager::Manager(ManagerOptions options, Bus& bus, Poller& poller)
     : options_(std::move(options)),
@@ -52,9 +57,9 @@ void Manager::start_timers(Poller& poller) {
       return pacers_[route].deadline();
     });
   }
-  poller.add_timer(begin_ + Duration::s(1), [this](MonoTime now) {
+  poller.add_timer(begin_ + kSecond, [this](MonoTime now) {
     end_second(now);
-    return now + Duration::s(1);
+    return now + kSecond;
   });
 }
 
@@ -76,6 +81,23 @@ void Manager::stage(const GuestId& guest, const Hands& hands) {
 void Manager::stage(const GuestId& guest, const TimedSkeleton& skeleton) {
   bus_.publish(Channel::of(Signal::kSkeleton, Where::kStage, guest), skeleton);
   for (const auto& on_skeleton : on_staged_skeleton_) on_skeleton(guest, skeleton.skeleton);
+  const auto known = std::find_if(skeletons_.begin(), skeletons_.end(),
+                                  [&](const StagedSkeleton& s) { return s.guest == guest; });
+  if (known != skeletons_.end()) {
+    *known = {guest, skeleton, mono_now()};
+    return;
+  }
+  if (skeletons_.size() == kMaxGuests) skeletons_.erase(skeletons_.begin());  // who came first
+  skeletons_.push_back({guest, skeleton, mono_now()});
+}
+
+void Manager::repeat_skeletons(MonoTime now) {
+  for (StagedSkeleton& staged : skeletons_) {
+    const RosterEntry* entry = router_.roster().find(staged.guest);
+    if (!entry || !entry->alive || now - staged.published < kSecond) continue;
+    bus_.publish(Channel::of(Signal::kSkeleton, Where::kStage, staged.guest), staged.skeleton);
+    staged.published = now;
+  }
 }
 
 Stats Manager::stats(MonoTime now) {
@@ -96,6 +118,7 @@ void Manager::end_second(MonoTime now) {
         bus_.publish(Channel::of(Signal::kGuest, Where::kStage, entry.guest), status);
       });
   bus_.publish(Channel::of_program(Signal::kStats, "manager"), stats(now));
+  repeat_skeletons(now);
 }
 
 }  // namespace dance

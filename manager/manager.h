@@ -57,6 +57,14 @@ class Manager : private StageSink {
   void listen(Where where);
   void start_timers(Poller& poller);
   void end_second(MonoTime now);
+  void repeat_skeletons(MonoTime now);
+
+  // A body on the stage, repeated once a second for whoever comes late.
+  struct StagedSkeleton {
+    GuestId guest;
+    TimedSkeleton skeleton;
+    MonoTime published;
+  };
 
   ManagerOptions options_;
   Bus& bus_;
@@ -65,6 +73,7 @@ class Manager : private StageSink {
   Histogram lateness_;
   Duration lateness_p99_;
   MonoTime begin_;
+  std::vector<StagedSkeleton> skeletons_;  // at most kMaxGuests
   std::vector<OnStagedPose> on_staged_pose_;
   std::vector<OnStagedSkeleton> on_staged_skeleton_;
 };

@@ -61,10 +61,11 @@ void ProducerProgram::add(std::unique_ptr<Dancer> dancer, const GuestId& guest) 
 
 void ProducerProgram::run(const std::function<bool()>& is_over) {
   if (options_.seconds > 0.0)
-    poller_->add_timer(start_ + Duration::seconds(options_.seconds), [this](MonoTime) {
-      poller_->stop();
-      return MonoTime();
-    });
+    poller_->add_timer(std::max(start_, mono_now()) + Duration::seconds(options_.seconds),
+                       [this](MonoTime) {
+                         poller_->stop();
+                         return MonoTime();
+                       });
   const auto all_over = [&] {
     return is_over() && std::all_of(feeds_.begin(), feeds_.end(),
                                     [](const auto& feed) { return feed->is_over(); });

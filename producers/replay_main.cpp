@@ -67,18 +67,17 @@ Result<void> add_clip(const ReplayOptions& options, std::size_t file, ProducerPr
   if (!options.place.empty()) {
     DANCE_TRY(place, parse_place(options.place));
   }
-  DANCE_TRY(LoadedClip loaded, load_clip_with_notes(options.files[file]));
+  DANCE_TRY(LoadedClip loaded, load_clip(options.files[file]));
   for (const std::string& note : loaded.notes) spdlog::info("{}: {}", options.files[file], note);
+  const auto clip = std::make_shared<const MotionClip>(std::move(loaded.clip));
   for (int copy = 0; copy < options.copies; ++copy) {
     DANCE_TRY(const GuestId guest, name_of(options, file, copy));
     const StagePlace at = place_of_copy(place, copy, options.copies);
     ClipDancerOptions how;
     how.end = options.once ? ClipEnd::kHold : ClipEnd::kLoop;
     how.speed = options.speed;
-    how.x_m = at.x_m;
-    how.z_m = at.z_m;
-    how.heading_deg = at.heading_deg;
-    program.add(std::make_unique<ClipDancer>(loaded.clip, how), guest);
+    how.placement = {at.x_m, at.z_m, at.heading_deg};
+    program.add(std::make_unique<ClipDancer>(clip, how), guest);
   }
   return {};
 }

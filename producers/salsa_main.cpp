@@ -34,6 +34,8 @@ Result<void> run_salsa(SalsaOptions& options) {
   }
   options.style.role = options.role == "lead" ? SalsaRole::kLead : SalsaRole::kFollow;
   DANCE_TRY(const SalsaStyle style, checked_style(options.style));
+  // Unless told otherwise the dance counts from the clock's zero, so that all salsa dancers of a machine are in step.
+  if (options.producer.start_us == 0) options.producer.start_us = 1;
   DANCE_TRY(auto program, ProducerProgram::open(options.producer));
   program->add(std::make_unique<SalsaDancer>(style), *guest);
   spdlog::info("{} dances on POSE/capture/{}; Ctrl-C ends it", options.guest, options.guest);

@@ -108,8 +108,8 @@ std::array<Place, 2> places_of(const MotionClip& a, const MotionClip& b, const P
 Result<void> deal_out_motion(const DemoOptions& options, DemoPlan& plan) {
   std::vector<MotionClip> clips;
   for (const std::string& file : options.motion) {
-    DANCE_TRY(MotionClip clip, load_clip(file));
-    clips.push_back(std::move(clip));
+    DANCE_TRY(LoadedClip loaded, load_clip(file));
+    clips.push_back(std::move(loaded.clip));
   }
   const int couples = (options.guests + 1) / 2;
   for (int i = 0; i < options.guests; ++i) {

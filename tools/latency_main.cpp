@@ -1,12 +1,10 @@
 // dance-latency: the table of a pose's journey with numbers, per guest, from the stamps that each step leaves.
 
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 
 #include "core/net/mono_clock.h"
+#include "core/program/program.h"
 #include "tools/bus_program.h"
-#include "tools/command_line.h"
 #include "tools/latency_report.h"
 
 namespace dance {
@@ -27,57 +25,47 @@ struct Options {
   bool is_json = false;
 };
 
-int measure(const Options& options, const GuestId& guest) {
-  auto program = BusProgram::open(options.bus_url);
-  if (!program) return end_with(program.error());
+Result<void> measure(const Options& options) {
+  const GuestId guest = GuestId::parse(options.guest).value_or(GuestId());
+  DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   Journeys journeys;
-  program->bus().on_pose(Where::kStage, guest, Delivery::kEvery,
-                         [&](const Channel& channel, const Pose& pose, MonoTime now) {
-                           if (GuestJourney* journey = journeys.of(channel.guest()))
-                             journey->heard(pose, now, this_clock_id());
-                         });
-  program->bus().on_stage_time([&](const Channel& channel, const StageTime& time, MonoTime) {
+  program.bus().on_pose(Where::kStage, guest, Delivery::kEvery,
+                        [&](const Channel& channel, const Pose& pose, MonoTime now) {
+                          if (GuestJourney* journey = journeys.of(channel.guest()))
+                            journey->heard(pose, now, this_clock_id());
+                        });
+  program.bus().on_stage_time([&](const Channel& channel, const StageTime& time, MonoTime) {
     if (guest.is_set() && !(channel.guest() == guest)) return;
     if (GuestJourney* journey = journeys.of(channel.guest())) journey->shown(time);
   });
-  program->stop_after(options.seconds);
+  program.stop_after(options.seconds);
   const MonoTime begin = mono_now();
-  program->run();
-  const LatencyScope scope{program->bus().url(), (mono_now() - begin).as_seconds()};
+  program.run();
+  const LatencyScope scope{program.bus().url(), (mono_now() - begin).as_seconds()};
   const std::string text =
       options.is_json ? latency_json(journeys, scope) : latency_table(journeys, scope);
   std::fputs(text.c_str(), stdout);
-  if (!journeys.all().empty()) return kExitFine;
-  spdlog::error(
-      "no poses on the stage of {}; is a house running there? `dance top` shows what is on it",
-      scope.bus_url);
-  return kExitWorld;
+  if (!journeys.all().empty()) return {};
+  return fail("no poses on the stage of " + scope.bus_url +
+              "; is a house running there? `dance top` shows what is on it");
 }
 
-int run(int argc, char** argv) {
-  talk_on_stderr("dance latency");
-  Options options;
-  CLI::App app("The journey of each guest's poses, step by step, with numbers.", "dance latency");
-  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
-  app.add_option("--seconds", options.seconds, "how long to listen (0: ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--guest", options.guest, "only this guest");
-  app.add_flag("--json", options.is_json, "one JSON object instead of the table");
-  app.footer(kExamples);
-  if (const auto code = parse_command_line(app, argc, argv)) return *code;
-  GuestId guest;
-  if (!options.guest.empty()) {
-    const auto parsed = GuestId::parse(options.guest);
-    if (!parsed) {
-      spdlog::error("--guest '{}': {}", options.guest, kGuestIdRule);
-      return kExitWrongUse;
-    }
-    guest = *parsed;
-  }
-  return measure(options, guest);
+// For CLI11: "" where the name is fine, else what is wrong.
+std::string check_guest(const std::string& name) {
+  return GuestId::parse(name) ? "" : "'" + name + "': " + kGuestIdRule;
 }
 
 }  // namespace
 }  // namespace dance
 
-int main(int argc, char** argv) { return dance::run(argc, argv); }
+int main(int argc, char** argv) {
+  dance::Options options;
+  CLI::App app("The journey of each guest's poses, step by step, with numbers.", "dance latency");
+  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
+  app.add_option("--seconds", options.seconds, "how long to listen (0: ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--guest", options.guest, "only this guest")->check(dance::check_guest);
+  app.add_flag("--json", options.is_json, "one JSON object instead of the table");
+  app.footer(dance::kExamples);
+  return dance::run_program(app, argc, argv, [&] { return dance::measure(options); });
+}

@@ -5,8 +5,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "core/program/program.h"
 #include "tools/bus_program.h"
-#include "tools/command_line.h"
 #include "tools/recorder.h"
 
 namespace dance {
@@ -32,62 +32,59 @@ std::int64_t wall_clock_us() {
       .count();
 }
 
-int record(Options options) {
-  auto filter = ChannelFilter::make(options.channels);
-  if (!filter) {
-    spdlog::error("{}", filter.error().what);
-    return kExitWrongUse;
-  }
-  auto program = BusProgram::open(options.bus_url);
-  if (!program) return end_with(program.error());
+Result<void> record(Options options) {
+  DANCE_TRY(ChannelFilter filter, ChannelFilter::make(options.channels));
+  DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   if (options.path.empty()) options.path = default_log_path(std::chrono::system_clock::now());
-  auto recorder = Recorder::make(options.path, std::move(*filter));
-  if (!recorder) return end_with(recorder.error());
+  DANCE_TRY(Recorder recorder, Recorder::make(options.path, std::move(filter)));
 
-  Poller& poller = program->poller();
+  Poller& poller = program.poller();
   MonoTime turn;
   std::int64_t turn_us = 0;
-  program->bus().on_anything(
+  program.bus().on_anything(
       [&](std::string_view channel, const void* data, std::size_t size, MonoTime now) {
         if (now != turn) {
           turn = now;
           turn_us = wall_clock_us();
         }
-        recorder->take(turn_us, channel, {static_cast<const std::uint8_t*>(data), size});
-        if (recorder->failure()) poller.stop();
+        recorder.take(turn_us, channel, {static_cast<const std::uint8_t*>(data), size});
+        if (recorder.failure()) poller.stop();
       });
-  program->every(Duration::s(1), [&](MonoTime) {
-    recorder->flush();
-    if (recorder->failure()) poller.stop();
+  program.every(Duration::s(1), [&](MonoTime) {
+    recorder.flush();
+    if (recorder.failure()) poller.stop();
   });
-  program->stop_after(options.seconds);
-  spdlog::info("recording {} to {}", program->bus().url(), options.path);
-  program->run();
-  recorder->flush();
+  program.stop_after(options.seconds);
+  spdlog::info("recording {} to {}", program.bus().url(), options.path);
+  program.run();
+  recorder.flush();
   std::printf("%s: %llu events, %llu bytes\n", options.path.c_str(),
-              static_cast<unsigned long long>(recorder->events()),
-              static_cast<unsigned long long>(recorder->bytes()));
-  if (recorder->failure()) return end_with(*recorder->failure());
-  return kExitFine;
+              static_cast<unsigned long long>(recorder.events()),
+              static_cast<unsigned long long>(recorder.bytes()));
+  if (recorder.failure()) return tl::make_unexpected(*recorder.failure());
+  return {};
 }
 
-int run(int argc, char** argv) {
-  talk_on_stderr("dance record");
-  // A limit on file sizes shall be an error of write(), not the end of the process.
-  std::signal(SIGXFSZ, SIG_IGN);
-  Options options;
-  CLI::App app("Records a bus to an LCM log.", "dance record");
-  app.add_option("-o,--output", options.path, "file to write (logs/<date>-<time>.lcm)");
-  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
-  app.add_option("--seconds", options.seconds, "stop after so long (0: ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--channels", options.channels, "only channels that match one of these patterns");
-  app.footer(kExamples);
-  if (const auto code = parse_command_line(app, argc, argv)) return *code;
-  return record(std::move(options));
+// For CLI11: "" where the pattern is fine, else what is wrong.
+std::string check_pattern(const std::string& pattern) {
+  const auto filter = ChannelFilter::make({pattern});
+  return filter ? "" : filter.error().what;
 }
 
 }  // namespace
 }  // namespace dance
 
-int main(int argc, char** argv) { return dance::run(argc, argv); }
+int main(int argc, char** argv) {
+  // A limit on file sizes shall be an error of write(), not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+  dance::Options options;
+  CLI::App app("Records a bus to an LCM log.", "dance record");
+  app.add_option("-o,--output", options.path, "file to write (logs/<date>-<time>.lcm)");
+  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
+  app.add_option("--seconds", options.seconds, "stop after so long (0: ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--channels", options.channels, "only channels that match one of these patterns")
+      ->check(dance::check_pattern);
+  app.footer(dance::kExamples);
+  return dance::run_program(app, argc, argv, [&] { return dance::record(options); });
+}

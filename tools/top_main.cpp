@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "core/net/mono_clock.h"
+#include "core/program/program.h"
 #include "tools/bus_program.h"
-#include "tools/command_line.h"
 #include "tools/top_table.h"
 
 namespace dance {
@@ -25,42 +25,37 @@ struct Options {
   bool is_once = false;
 };
 
-int watch(const Options& options) {
-  auto program = BusProgram::open(options.bus_url);
-  if (!program) return end_with(program.error());
+Result<void> watch(const Options& options) {
+  DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   TopTable table;
-  program->bus().on_anything(
+  program.bus().on_anything(
       [&](std::string_view channel, const void* data, std::size_t size, MonoTime now) {
         table.take(channel, {static_cast<const std::uint8_t*>(data), size}, now);
       });
   const bool is_terminal = isatty(STDOUT_FILENO) == 1 && !options.is_once;
-  program->every(Duration::s(1), [&](MonoTime now) {
+  program.every(Duration::s(1), [&](MonoTime now) {
     const std::string text = table.text(now);
-    std::printf("%s%s\n%s\n", is_terminal ? kClearScreen : "", program->bus().url().c_str(),
+    std::printf("%s%s\n%s\n", is_terminal ? kClearScreen : "", program.bus().url().c_str(),
                 text.c_str());
     const bool is_written = std::fflush(stdout) == 0;
     // Whoever reads us (head, less) may be gone.
-    if (options.is_once || !is_written) program->poller().stop();
+    if (options.is_once || !is_written) program.poller().stop();
   });
-  program->stop_after(options.seconds);
-  program->run();
-  return kExitFine;
-}
-
-int run(int argc, char** argv) {
-  talk_on_stderr("dance top");
-  Options options;
-  CLI::App app("Channels and programs of a bus: rate, bytes, type, age.", "dance top");
-  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
-  app.add_option("--seconds", options.seconds, "stop after so long (0: ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_flag("--once", options.is_once, "one table after a second, then end");
-  app.footer(kExamples);
-  if (const auto code = parse_command_line(app, argc, argv)) return *code;
-  return watch(options);
+  program.stop_after(options.seconds);
+  program.run();
+  return {};
 }
 
 }  // namespace
 }  // namespace dance
 
-int main(int argc, char** argv) { return dance::run(argc, argv); }
+int main(int argc, char** argv) {
+  dance::Options options;
+  CLI::App app("Channels and programs of a bus: rate, bytes, type, age.", "dance top");
+  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
+  app.add_option("--seconds", options.seconds, "stop after so long (0: ctrl-C)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--once", options.is_once, "one table after a second, then end");
+  app.footer(dance::kExamples);
+  return dance::run_program(app, argc, argv, [&] { return dance::watch(options); });
+}

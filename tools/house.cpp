@@ -1,0 +1,216 @@
+#include "tools/house.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/net/mono_clock.h"
+#include "producers/clip_dancer.h"
+#include "producers/clip_file.h"
+#include "producers/salsa_dancer.h"
+#include "tunnel/link_report.h"
+#include "tunnel/server.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kSecond = Duration::s(1);
+
+Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer) {
+  if (producer.kind == HostedProducer::Kind::kReplay) {
+    DANCE_TRY(LoadedClip loaded, load_clip(producer.file));
+    for (const std::string& note : loaded.notes) spdlog::info("{}: {}", producer.file, note);
+    ClipDancerOptions options;
+    options.speed = producer.speed;
+    return std::make_unique<ClipDancer>(std::make_shared<const MotionClip>(std::move(loaded.clip)),
+                                        options);
+  }
+  SalsaStyle style;
+  style.role = producer.role == "lead" ? SalsaRole::kLead : SalsaRole::kFollow;
+  style.tempo_bpm = producer.tempo_bpm;
+  style.seed = static_cast<std::uint64_t>(producer.seed);
+  DANCE_TRY(const SalsaStyle checked, checked_style(style));
+  return std::make_unique<SalsaDancer>(checked);
+}
+
+// Synthetic dancers count from the clock's zero, so that all of a machine are in step; a recording begins now.
+MonoTime start_of(const HostedProducer& producer, MonoTime now) {
+  return producer.kind == HostedProducer::Kind::kSalsa ? MonoTime::from_us(1) : now;
+}
+
+std::vector<GuestId> hosted_guests(const Session& session) {
+  std::vector<GuestId> guests;
+  for (const HostedProducer& producer : session.producers) guests.push_back(producer.guest);
+  return guests;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<House>> House::open(const Session& session, Poller& poller) {
+  std::unique_ptr<House> house(new House(session, poller));
+  DANCE_TRY(house->bus_, Bus::open(session.bus));
+  house->link_bus_ = std::make_unique<LinkBus>(*house->bus_, this_clock_id());
+  // The link first: a capture goes to the network before this house's own stage.
+  if (auto linked = house->open_link(); !linked) return tl::make_unexpected(linked.error());
+  ManagerOptions options;
+  options.routes = session.routes;
+  options.hear_guests_on_bus = session.server.empty();
+  options.hosted_captures = hosted_guests(session);
+  house->manager_ = std::make_unique<Manager>(options, *house->bus_, poller);
+  if (auto opened = house->open_consumers(); !opened) return tl::make_unexpected(opened.error());
+  if (auto opened = house->open_producers(); !opened) return tl::make_unexpected(opened.error());
+  House* self = house.get();
+  poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
+  poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
+    self->link_bus_->publish_second(now);
+    return now + kSecond;
+  });
+  return house;
+}
+
+House::~House() {
+  if (bus_) poller_.unwatch(bus_->fd());
+  for (auto& consumer : consumers_) {
+    if (auto finished = consumer->finish(); !finished) spdlog::error("{}", finished.error().what);
+  }
+}
+
+Result<void> House::open_link() {
+  if (session_.server.empty()) return {};
+  DANCE_TRY(const Address server, Address::resolve(session_.server, kDefaultServerPort));
+  LinkOptions options;
+  options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
+  options.clock_id = this_clock_id();
+  for (const GuestId& guest : session_.guests)
+    if (!options.guests.contains(guest) && !options.guests.try_push(guest))
+      return fail("a house has at most 16 guests");
+  LinkHandlers handlers = link_bus_->handlers();
+  add_stage(handlers);
+  add_talk(handlers);
+  DANCE_TRY(link_, Link::open(server, options, std::move(handlers), poller_));
+  link_bus_->attach(*link_);
+  for (const GuestId& guest : session_.guests)
+    if (!is_hosted(guest)) link_bus_->send_captures_of(guest);
+  return {};
+}
+
+// What the link hears goes to the stage first, and then over the bus for whoever listens.
+void House::add_stage(LinkHandlers& handlers) {
+  handlers.on_pose = [this, publish = std::move(handlers.on_pose)](const GuestId& guest,
+                                                                   const Pose& pose, MonoTime now) {
+    manager_->take(Where::kGuest, guest, pose, now);
+    publish(guest, pose, now);
+  };
+  handlers.on_hands = [this, publish = std::move(handlers.on_hands)](
+                          const GuestId& guest, const Hands& hands, MonoTime now) {
+    manager_->take(Where::kGuest, guest, hands);
+    publish(guest, hands, now);
+  };
+  handlers.on_skeleton = [this, publish = std::move(handlers.on_skeleton)](
+                             const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
+    manager_->take(Where::kGuest, guest, TimedSkeleton{skeleton, now, this_clock_id()});
+    publish(guest, skeleton, now);
+  };
+}
+
+void House::add_talk(LinkHandlers& handlers) {
+  handlers.on_state = [this](LinkState state, MonoTime) {
+    if (state == LinkState::kConnected)
+      spdlog::info("in room '{}' on {}", session_.room, session_.server);
+    if (state == LinkState::kLapsed)
+      spdlog::warn("the server {} is silent; the house dances on, and asks it again",
+                   session_.server);
+  };
+  handlers.on_guest_joined = [](const GuestId& guest, MonoTime) {
+    spdlog::info("{} is here", guest.view());
+  };
+  handlers.on_guest_left = [this](const GuestId& guest, MonoTime) {
+    link_bus_->forget(guest);
+    spdlog::info("{} has left", guest.view());
+  };
+  handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
+    if (now - last_refusal_ < kSecond) return;  // asked again up to ten times a second
+    last_refusal_ = now;
+    spdlog::warn("{}", refusal_line(refusal, *wire::RoomName::parse(session_.room)));
+  };
+}
+
+Result<void> House::open_producers() {
+  for (const HostedProducer& producer : session_.producers) {
+    DANCE_TRY(auto dancer, make_dancer(producer));
+    feeds_.push_back(std::make_unique<DancerFeed>(std::move(dancer), producer.guest,
+                                                  producer.rate_hz, *this, poller_,
+                                                  start_of(producer, mono_now())));
+  }
+  return {};
+}
+
+Result<void> House::open_consumers() {
+  for (const HostedConsumer& wanted : session_.consumers) {
+    DANCE_TRY(auto output, OutputFile::open(wanted.file));
+    outputs_.push_back(std::move(output));
+    ConsumerOptions options;
+    options.guest = wanted.from.guest;
+    options.own_clock_id = this_clock_id();
+    DANCE_TRY(auto consumer, make_consumer(wanted.to, *outputs_.back(), options));
+    PoseConsumer* listener = consumer.get();
+    consumers_.push_back(std::move(consumer));
+    const GuestId only = wanted.from.guest;
+    if (wanted.from.where != Where::kStage)
+      return fail(
+          "[[listen]] from: a hosted consumer hears POSE/stage; for others run dance listen");
+    manager_->on_staged(
+        [listener, only](const GuestId& guest, const Pose& pose, MonoTime now) {
+          if (!only.is_set() || only == guest) listener->on_pose(guest, pose, now);
+        },
+        [listener, only](const GuestId& guest, const Skeleton& skeleton) {
+          if (!only.is_set() || only == guest) listener->on_skeleton(guest, skeleton, mono_now());
+        });
+  }
+  return {};
+}
+
+bool House::is_hosted(const GuestId& guest) const {
+  return std::any_of(session_.producers.begin(), session_.producers.end(),
+                     [&](const HostedProducer& producer) { return producer.guest == guest; });
+}
+
+bool House::is_sent(const GuestId& guest) const {
+  return link_ &&
+         std::find(session_.guests.begin(), session_.guests.end(), guest) != session_.guests.end();
+}
+
+void House::capture(const GuestId& guest, Pose& pose, MonoTime now) {
+  pose.stamp(Hop::kPublished, mono_now());
+  if (is_sent(guest)) link_->send(guest, pose, now);
+  manager_->take(Where::kCapture, guest, pose, now);
+  bus_->publish(Channel::of(Signal::kPose, Where::kCapture, guest), pose);
+}
+
+void House::capture(const GuestId& guest, const Hands& hands) {
+  if (is_sent(guest)) link_->send(guest, hands, mono_now());
+  manager_->take(Where::kCapture, guest, hands);
+  bus_->publish(Channel::of(Signal::kHands, Where::kCapture, guest), hands);
+}
+
+void House::capture(const GuestId& guest, const TimedSkeleton& skeleton) {
+  if (is_sent(guest)) link_->send(guest, skeleton.skeleton, mono_now());
+  manager_->take(Where::kCapture, guest, skeleton);
+  bus_->publish(Channel::of(Signal::kSkeleton, Where::kCapture, guest), skeleton);
+}
+
+std::string House::report_json(MonoTime now) {
+  nlohmann::ordered_json report = nlohmann::ordered_json::object();
+  if (link_) report = nlohmann::ordered_json::parse(link_report_json(*link_));
+  const Stats stats = manager_->stats(now);
+  report["manager"] = {{"received", stats.received},
+                       {"forwarded", stats.forwarded},
+                       {"dropped_late", stats.dropped_late},
+                       {"dropped_invalid", stats.dropped_invalid},
+                       {"dropped_unrouted", stats.dropped_unrouted},
+                       {"dropped_overflow", stats.dropped_overflow}};
+  return report.dump();
+}
+
+}  // namespace dance

@@ -1,0 +1,106 @@
+// dance join: all of a house in one: manager, link and hosted producers in this process, the viewer beside it.
+
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "tools/child_process.h"
+#include "tools/house.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance join sessions/alice.toml                     everything as the session file says
+  dance join dance.example.org --guest alice --room salsa
+                                                     without a file: own captures to the stage and to
+                                                     the room, the others through a hold of 20 ms
+  dance join sessions/alice.toml --no-view           without a window
+)";
+
+struct JoinOptions {
+  std::string host_or_session;
+  std::vector<std::string> guests;
+  std::string room;
+  std::string bus;
+  bool no_view = false;
+  bool json = false;
+};
+
+Result<GuestId> guest_of(const std::string& name) {
+  const auto guest = GuestId::parse(name);
+  if (!guest) return fail("--guest '" + name + "': " + kGuestIdRule);
+  return *guest;
+}
+
+Result<Session> session_of(const JoinOptions& options) {
+  Session session;
+  const bool is_file = options.host_or_session.ends_with(".toml") ||
+                       std::filesystem::exists(options.host_or_session);
+  if (is_file) {
+    DANCE_TRY(session, load_session(options.host_or_session));
+  } else {
+    session.server = options.host_or_session;
+    session.routes = default_routes();
+  }
+  if (!options.guests.empty()) session.guests.clear();
+  for (const std::string& name : options.guests) {
+    DANCE_TRY(const GuestId guest, guest_of(name));
+    session.guests.push_back(guest);
+  }
+  if (!options.room.empty()) session.room = options.room;
+  if (!GuestId::parse(session.room))
+    return fail("--room '" + session.room +
+                "': a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
+  if (!options.bus.empty()) session.bus = options.bus;
+  if (options.no_view) session.view = false;
+  return session;
+}
+
+Result<void> run_join(const JoinOptions& options) {
+  DANCE_TRY(const Session session, session_of(options));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto house, House::open(session, *poller));
+  std::unique_ptr<ChildProcess> viewer;
+  if (session.view) {
+    DANCE_TRY(ChildProcess started,
+              ChildProcess::start(
+                  {program_folder() + "/dance-view", {"--bus", house->bus().url()}, "", ""}));
+    viewer = std::make_unique<ChildProcess>(std::move(started));
+    poller->add_timer(mono_now() + Duration::ms(200), [&](MonoTime now) {
+      if (!viewer->has_ended()) return now + Duration::ms(200);
+      if (viewer->ended_well()) {
+        poller->stop();  // the window was closed
+        return MonoTime();
+      }
+      spdlog::warn("the viewer {}; the house goes on without it (--no-view)", viewer->exit_text());
+      return MonoTime();
+    });
+  }
+  spdlog::info("the house is open on {}; Ctrl-C ends it", house->bus().url());
+  poller->run();
+  if (options.json) std::printf("%s\n", house->report_json(mono_now()).c_str());
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::JoinOptions options;
+  CLI::App app{"All of a house in one: manager, link, hosted producers, viewer.", "dance join"};
+  app.add_option("HOST|SESSION", options.host_or_session,
+                 "a session file (.toml), or the server's HOST[:PORT]")
+      ->required();
+  app.add_option("--guest", options.guests, "who dances here, instead of the session's guests");
+  app.add_option("--room", options.room, "which room, instead of the session's");
+  app.add_option("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
+  app.add_flag("--no-view", options.no_view, "no viewer");
+  app.add_flag("--json", options.json, "write what was counted to stdout at the end");
+  app.footer(dance::kExamples);
+  return dance::run_program(app, argc, argv, [&] { return dance::run_join(options); });
+}

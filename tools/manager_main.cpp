@@ -1,0 +1,46 @@
+// dance manager: the signal manager of a house as a program of its own: routes, stage, roster; producers and link are
+// other programs on the bus.
+
+#include <spdlog/spdlog.h>
+
+#include "core/program/program.h"
+#include "tools/house.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance manager                          own captures to the stage, remote guests through a hold of 20 ms
+  dance manager sessions/alice.toml      the routes, hosted producers and consumers of a session file
+)";
+
+Result<void> run_manager(const std::string& file, const std::string& bus) {
+  Session session;
+  session.routes = default_routes();
+  if (!file.empty()) {
+    DANCE_TRY(session, load_session(file));
+  }
+  session.server.clear();  // the link is a program of its own here
+  if (!bus.empty()) session.bus = bus;
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto house, House::open(session, *poller));
+  spdlog::info("{} routes on {}; Ctrl-C ends it", session.routes.size(), house->bus().url());
+  poller->run();
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  std::string file;
+  std::string bus;
+  CLI::App app{
+      "The signal manager of a house: which pose reaches the stage, through which transformers.",
+      "dance manager"};
+  app.add_option("SESSION", file, "a session file; its server is left to `dance link`");
+  app.add_option("--bus", bus, "LCM URL of the house's bus, instead of the session's");
+  app.footer(dance::kExamples);
+  return dance::run_program(app, argc, argv, [&] { return dance::run_manager(file, bus); });
+}
