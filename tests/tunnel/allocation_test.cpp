@@ -1,0 +1,99 @@
+// The way of a pose through link, server and link allocates nothing.
+#include <gtest/gtest.h>
+
+#include "simulated_tunnel.h"
+#include "tests/allocation_guard.h"
+
+namespace dance {
+namespace {
+
+// Keeps datagrams where they are until they are handed on; allocates nothing itself.
+class FixedSink final : public DatagramSink {
+ public:
+  void send(const Address&, std::span<const std::uint8_t> bytes) override {
+    if (count_ == kept_.size() || bytes.size() > kept_[0].bytes.size()) std::abort();
+    kept_[count_].size = bytes.size();
+    std::copy(bytes.begin(), bytes.end(), kept_[count_++].bytes.begin());
+  }
+  template <class Deliver>
+  void hand_on(Deliver deliver) {
+    const std::size_t count = count_;
+    count_ = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Datagram datagram = kept_[i];
+      deliver(wire::Bytes(datagram.bytes.data(), datagram.size));
+    }
+  }
+
+ private:
+  struct Datagram {
+    std::array<std::uint8_t, wire::kMaxDatagram> bytes;
+    std::size_t size = 0;
+  };
+  std::array<Datagram, 32> kept_;
+  std::size_t count_ = 0;
+};
+
+TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
+  FixedSink to_server_a;
+  FixedSink to_server_b;
+  FixedSink from_server;
+  const Address at_a = Address::loopback(1);
+  const Address at_b = Address::loopback(2);
+  Random random(1);
+  ServerCore server(
+      {}, [&] { return random.next_u64(); }, from_server);
+  std::uint64_t poses = 0;
+  std::uint64_t hands_heard = 0;
+  LinkOptions options;
+  options.room = guest("salsa");
+  options.clock_id = 9;
+  options.token = 1;
+  ASSERT_TRUE(options.guests.try_push(guest("alice")));
+  LinkCore a(options, {}, to_server_a);
+  options.token = 2;
+  options.seed = 2;
+  options.guests[0] = guest("bob");
+  LinkHandlers handlers;
+  handlers.on_pose = [&](const GuestId&, const Pose&, MonoTime) { ++poses; };
+  handlers.on_hands = [&](const GuestId&, const Hands&, MonoTime) { ++hands_heard; };
+  LinkCore b(options, handlers, to_server_b);
+
+  MonoTime now = MonoTime::from_us(1'000'000);
+  const auto turn = [&] {
+    now += Duration::ms(16);
+    a.tick(now);
+    b.tick(now);
+    to_server_a.hand_on([&](wire::Bytes d) { server.receive(at_a, d, now, now); });
+    to_server_b.hand_on([&](wire::Bytes d) { server.receive(at_b, d, now, now); });
+    server.end_turn();
+    server.tick(now);
+    // Each link takes what is its own by the session id.
+    from_server.hand_on([&](wire::Bytes d) {
+      a.receive(d, now, now);
+      b.receive(d, now, now);
+    });
+  };
+  for (int i = 0; i < 20; ++i) turn();
+  ASSERT_TRUE(a.is_connected() && b.is_connected());
+
+  const Pose still = pose_number(0, now, 9);
+  Hands hands;
+  hands.presence = 3;
+  hands.clock_id = 9;
+  const AllocationGuard guard;
+  for (std::uint32_t i = 1; i <= 1000; ++i) {
+    Pose pose = still;
+    pose.sequence = hands.sequence = i;
+    pose.capture_time = hands.capture_time = now;
+    a.send(guest("alice"), pose, now);
+    a.send(guest("alice"), hands, now);
+    turn();
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(poses, 1000u);
+  EXPECT_EQ(hands_heard, 1000u);
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,55 @@
+// The scene that fuzz targets play in, and the notation of their inputs: two houses in a room, one
+// pose each way, then datagrams as the input says. The scene is the same every time, session ids
+// included, so that the corpus's datagrams belong to it.
+//
+// Units/frames: a script is a row of steps: a byte (low 2 bits: which peer; high 4 bits: tenths of a
+//               second that pass first), a length of 16 bits (little-endian), the datagram.
+// Ownership:    looks at the caller's bytes.
+// Threads:      none.
+// Failure:      a script that ends in the middle ends there.
+#pragma once
+
+#include "simulated_tunnel.h"
+
+namespace dance {
+
+struct FuzzScene {
+  FuzzScene() : tunnel(limits()) {
+    a = &tunnel.add_house("salsa", {"alice"});
+    b = &tunnel.add_house("salsa", {"bob"});
+    tunnel.run(Duration::ms(40));
+    tunnel.dance(*a, guest("alice"));
+    tunnel.dance(*b, guest("bob"));
+    tunnel.run(Duration::ms(15));
+  }
+  static ServerLimits limits() {
+    ServerLimits small;
+    small.sessions = 6;
+    small.rooms = 3;
+    return small;
+  }
+
+  template <class Deliver>
+  void play(wire::Bytes script, Deliver deliver) {
+    ByteReader in(script);
+    // 64 steps are plenty, and bound the time of one input.
+    for (int step = 0; step < 64 && in.remaining() > 0; ++step) {
+      const std::uint8_t how = in.u8();
+      const std::size_t size = in.u16();
+      const auto datagram = in.bytes(std::min(size, in.remaining()));
+      if ((how >> 4) > 0) tunnel.run(Duration::ms(100) * (how >> 4));
+      deliver(how & 3, datagram);
+    }
+    tunnel.run(Duration::ms(20));
+    for (const auto* house : {a, b})
+      for (const auto& heard : house->poses) DANCE_ASSERT(is_valid(heard.pose));
+    DANCE_ASSERT(tunnel.server().session_count() <= limits().sessions);
+    DANCE_ASSERT(tunnel.server().room_count() <= limits().rooms);
+  }
+
+  SimulatedTunnel tunnel;
+  SimulatedTunnel::House* a = nullptr;
+  SimulatedTunnel::House* b = nullptr;
+};
+
+}  // namespace dance

@@ -1,0 +1,133 @@
+// A server and two links with their real sockets, on this machine's loopback address.
+#include <gtest/gtest.h>
+
+#include "core/net/lossy_proxy.h"
+#include "core/net/mono_clock.h"
+#include "simulated_tunnel.h"
+#include "tunnel/link.h"
+#include "tunnel/link_report.h"
+#include "tunnel/server.h"
+
+namespace dance {
+namespace {
+
+class Loopback : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = Poller::create();
+    ASSERT_TRUE(made);
+    poller = std::move(*made);
+    auto opened = Server::open(Address::loopback(0), {}, *poller);
+    ASSERT_TRUE(opened) << opened.error().what;
+    server = std::move(*opened);
+    address = server->local_address();
+  }
+
+  std::unique_ptr<Link> link(const char* name, LinkHandlers handlers = {}) {
+    LinkOptions options;
+    options.room = guest("salsa");
+    EXPECT_TRUE(options.guests.try_push(guest(name)));
+    auto opened = Link::open(address, options, std::move(handlers), *poller);
+    EXPECT_TRUE(opened);
+    return std::move(*opened);
+  }
+
+  // Turns until it is so; the count only ends a test that has failed.
+  bool turn_until(const std::function<bool()>& is_so) {
+    for (int i = 0; i < 2000 && !is_so(); ++i) poller->run_once(Duration::ms(5));
+    return is_so();
+  }
+
+  std::unique_ptr<Poller> poller;
+  std::unique_ptr<Server> server;
+  Address address;
+};
+
+TEST_F(Loopback, APoseGoesFromHouseToHouseWithItsJourneyStamped) {
+  std::vector<Pose> heard;
+  LinkHandlers handlers;
+  handlers.on_pose = [&](const GuestId& id, const Pose& pose, MonoTime) {
+    EXPECT_EQ(id, guest("alice"));
+    heard.push_back(pose);
+  };
+  auto a = link("alice");
+  auto b = link("bob", handlers);
+  ASSERT_TRUE(turn_until(
+      [&] { return a->is_connected() && b->is_connected() && !b->remote_stats().empty(); }));
+  for (std::uint32_t i = 1; i <= 50; ++i) {
+    const MonoTime now = mono_now();
+    a->send(guest("alice"), pose_number(i, now - Duration::us(100), this_clock_id()), now);
+    ASSERT_TRUE(turn_until([&] { return heard.size() == i; })) << i;
+  }
+  const Pose& pose = heard.back();
+  EXPECT_EQ(pose.sequence, 50u);
+  EXPECT_EQ(pose.clock_id, this_clock_id());
+  for (const Hop hop : {Hop::kLinkSent, Hop::kServer, Hop::kLinkReceived})
+    EXPECT_TRUE(pose.stamped(hop).is_set());
+  EXPECT_LE(pose.stamped(Hop::kLinkSent), pose.stamped(Hop::kLinkReceived));
+  EXPECT_EQ(server->core().counters().records_out, 50u);
+  const Stats stats = b->stats(mono_now());
+  EXPECT_EQ(stats.forwarded, 50);
+  EXPECT_EQ(stats.sessions, 1);
+  EXPECT_NE(link_report_json(*b).find("\"id\":\"alice\",\"received\":50,\"lost\":0"),
+            std::string::npos);
+}
+
+TEST_F(Loopback, AServerStartedAgainOnItsPortGetsItsLinksBack) {
+  auto a = link("alice");
+  ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
+  server->say_goodbye();
+  server.reset();
+  ASSERT_TRUE(turn_until([&] { return !a->is_connected(); }));
+  auto again = Server::open(address, {}, *poller);
+  ASSERT_TRUE(again) << again.error().what;
+  ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
+  EXPECT_EQ(a->counters().reconnects, 1u);
+}
+
+TEST_F(Loopback, ALinkThatEndsSaysGoodbye) {
+  auto a = link("alice");
+  auto b = link("bob");
+  ASSERT_TRUE(turn_until([&] { return a->remote_stats().size() == 1; }));
+  b.reset();
+  ASSERT_TRUE(turn_until([&] { return a->remote_stats().empty(); }));
+  EXPECT_EQ(server->core().counters().goodbyes, 1u);
+}
+
+TEST_F(Loopback, SessionsStandThroughALineThatLosesAThird) {
+  auto proxy =
+      LossyProxy::open(Address::loopback(0), address,
+                       *LossySpec::parse("loss=33% dup=5% delay=1ms seed=5"), nullptr, *poller);
+  ASSERT_TRUE(proxy);
+  address = (*proxy)->local_address();
+  std::uint32_t last = 0;
+  std::size_t heard = 0;
+  LinkHandlers handlers;
+  handlers.on_pose = [&](const GuestId&, const Pose& pose, MonoTime) {
+    EXPECT_GT(pose.sequence, last) << "never an older one after a newer one";
+    last = pose.sequence;
+    ++heard;
+  };
+  auto a = link("alice");
+  auto b = link("bob", handlers);
+  ASSERT_TRUE(turn_until([&] { return !b->remote_stats().empty() && a->is_connected(); }));
+  std::uint32_t sent = 0;
+  ASSERT_TRUE(turn_until([&] {
+    const MonoTime now = mono_now();
+    a->send(guest("alice"), pose_number(++sent, now, this_clock_id()), now);
+    return heard >= 40;
+  }));
+  const auto stats = b->remote_stats();
+  ASSERT_EQ(stats.size(), 1u);
+  EXPECT_GT(stats[0].lost, 0u);
+  EXPECT_EQ(stats[0].received, heard);
+}
+
+TEST_F(Loopback, ATakenPortIsNamed) {
+  const auto second = Server::open(address, {}, *poller);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().what.find("is taken"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dance
