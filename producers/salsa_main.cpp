@@ -10,15 +10,15 @@ namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
-  dance salsa                                   alice, leading, at 180 beats a minute
-  dance salsa --guest bob --role follow         her partner, in another terminal
+  dance salsa                                   alice, following
+  dance salsa --guest bob --role lead           her partner, in another terminal
   dance salsa --guest ann --tempo 200 --seed 7 --place 2,0,45
 )";
 
 struct SalsaOptions {
   ProducerOptions producer;
   std::string guest = "alice";
-  std::string role = "lead";
+  std::string role = "follow";
   std::string place;
   SalsaStyle style;
 };

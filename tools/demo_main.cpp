@@ -1,7 +1,6 @@
 // dance demo: two houses with a bus each, a server between them, dancers, a stage, all on this machine.
 
 #include <spdlog/spdlog.h>
-
 #include <unistd.h>
 
 #include <cstdio>

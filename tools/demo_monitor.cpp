@@ -71,7 +71,7 @@ void DemoMonitor::listen(Bus& bus, int house) {
 }
 
 void DemoMonitor::on_staged(DancerAccount& account, int house, const Pose& pose) {
-  if (pose.clock_id != this_clock_id()) return;
+  if (!timing_ || pose.clock_id != this_clock_id()) return;
   if (house == account.house) {
     ++account.staged_at_home;
     account.age_at_home.add(pose.stamped(Hop::kStaged) - pose.capture_time);

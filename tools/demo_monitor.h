@@ -50,6 +50,8 @@ class DemoMonitor {
   DemoMonitor(Bus& bus_a, Bus& bus_b);
 
   const std::vector<DancerAccount>& accounts() const { return accounts_; }
+  // From now on poses on the stage are those of dancers who have stopped: their age tells nothing.
+  void stop_timing() { timing_ = false; }
   // Newest report of each house's link: whether it is in session with the server.
   bool is_connected(int house) const { return connected_[static_cast<std::size_t>(house)]; }
   std::int64_t guests_seen(int house) const {
@@ -62,6 +64,7 @@ class DemoMonitor {
   void on_staged(DancerAccount& account, int house, const Pose& pose);
 
   std::vector<DancerAccount> accounts_;
+  bool timing_ = true;
   std::array<bool, 2> connected_{};
   std::array<std::int64_t, 2> guests_seen_{};
 };

@@ -133,7 +133,7 @@ void deal_out_salsa(const DemoOptions& options, DemoPlan& plan) {
     DemoDancer& dancer = plan.dancers[static_cast<std::size_t>(i)];
     dancer.program = "dance-salsa";
     dancer.arguments = {"--role",
-                        i % 2 == 0 ? "lead" : "follow",
+                        i % 2 == 0 ? "follow" : "lead",
                         "--tempo",
                         std::to_string(options.tempo_bpm),
                         "--seed",

@@ -186,6 +186,7 @@ void DemoRun::turn_until(MonoTime deadline) {
 void DemoRun::stop_in_order() {
   // Dancers first, so that every pose that was sent has its chance to arrive; then the rest.
   ending_ = true;
+  monitor_->stop_timing();
   for (Role* role : dancers_)
     if (role->process) role->process->ask_to_stop();
   const MonoTime arrived = mono_now() + kStillUnderWay;
