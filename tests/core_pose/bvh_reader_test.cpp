@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "bvh_sample.h"
 #include "core/pose/bvh.h"
+#include "tests/core_pose/bvh_sample.h"
 
 namespace dance {
 namespace {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "bvh_sample.h"
 #include "core/base/random.h"
 #include "core/pose/kinematics.h"
 #include "core/pose/retarget.h"
-#include "random_pose.h"
+#include "tests/core_pose/bvh_sample.h"
+#include "tests/core_pose/random_pose.h"
 
 namespace dance {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "bvh_sample.h"
 #include "core/pose/kinematics.h"
+#include "tests/core_pose/bvh_sample.h"
 
 namespace dance {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "bvh_sample.h"
+#include "tests/core_pose/bvh_sample.h"
 
 namespace dance {
 namespace {
