@@ -38,6 +38,7 @@ const std::array<Row, 3> kConsumers{{
 
 std::vector<std::string> consumer_names() {
   std::vector<std::string> names;
+  names.reserve(kConsumers.size());
   for (const Row& row : kConsumers) names.emplace_back(row.name);
   return names;
 }

@@ -70,7 +70,7 @@ Result<void> listen(const ListenOptions& options) {
 
   if (heard == 0)
     spdlog::warn("heard nobody on POSE/{}/*; dance top shows what is on the bus", options.where);
-  const Result<void> finished = consumer->finish();
+  Result<void> finished = consumer->finish();
   if (finished) spdlog::info("{}", consumer->summary());
   return finished;
 }

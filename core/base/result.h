@@ -28,8 +28,10 @@ inline tl::unexpected<Error> fail(std::string what) {
 #define DANCE_CONCAT(a, b) DANCE_CONCAT_INNER(a, b)
 
 // DANCE_TRY(auto value, expression): value of the Result, or return its error from here.
+// NOLINTBEGIN(bugprone-macro-parentheses): a declaration cannot stand in parentheses.
 #define DANCE_TRY(declaration, expression)                                               \
   auto DANCE_CONCAT(dance_try_, __LINE__) = (expression);                                \
   if (!DANCE_CONCAT(dance_try_, __LINE__))                                               \
     return ::tl::make_unexpected(std::move(DANCE_CONCAT(dance_try_, __LINE__)).error()); \
   declaration = std::move(*DANCE_CONCAT(dance_try_, __LINE__))
+// NOLINTEND(bugprone-macro-parentheses)
