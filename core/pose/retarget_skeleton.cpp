@@ -102,7 +102,7 @@ class Learner {
   // The end of the body behind one of its last bones.
   Vector3d tip_of(Tip tip) {
     const Bone bone = kTipBones[static_cast<std::size_t>(tip)];
-    const Vector3d usual = at(bone) + C(bone) * average_.tip(tip).cast<double>();
+    Vector3d usual = at(bone) + C(bone) * average_.tip(tip).cast<double>();
     if (tip == Tip::kLeftHand || tip == Tip::kRightHand) {
       if (!rig_.has(bone)) return usual;
       const int last = tree_.longest_chain(rig_.joint(bone)).back();
