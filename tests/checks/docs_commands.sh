@@ -43,6 +43,11 @@ while IFS= read -r entry <&3; do
   case $program in
     test | setup) continue ;;  # the script ./dance does these itself
   esac
+  # `dance bench path` is dance-bench-path.
+  if [ $# -gt 0 ] && [ -x "$bin/dance-$program-$1" ]; then
+    program=$program-$1
+    shift
+  fi
   if [ ! -x "$bin/dance-$program" ]; then
     wrong "$place: there is no program dance-$program"
     continue
