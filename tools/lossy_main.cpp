@@ -74,7 +74,11 @@ int main(int argc, char** argv) {
   app.add_option("--to", options.to, "the server")->capture_default_str();
   app.add_option("--link", options.link,
                  "delay=80ms jitter=10ms loss=1% burst=3 dup=0.1% reorder=1% rate=1Mbit "
-                 "queue=50ms seed=1");
+                 "queue=50ms seed=1")
+      ->check([](const std::string& text) {
+        const auto spec = dance::LossySpec::parse(text);
+        return spec ? std::string() : spec.error().what;
+      });
   app.add_option("--trace", options.trace,
                  "CSV (or .xz) of t_ms or t_s with owd_var_ms or rtt_ms; comes on top of --link");
   app.add_flag("--json", options.json, "write the counts to stdout at the end");

@@ -53,7 +53,7 @@ void Link::watch_socket() {
 
 void Link::on_readable(MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
-    const auto batch = socket_.receive(now);
+    const auto batch = socket_.receive();
     for (const UdpSocket::Datagram& datagram : batch)
       core_.receive(datagram.bytes, datagram.received, now);
     if (batch.size() < UdpSocket::kBatch) break;

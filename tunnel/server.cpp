@@ -34,7 +34,7 @@ Server::~Server() {
 
 void Server::on_readable(MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
-    const auto batch = socket_.receive(now);
+    const auto batch = socket_.receive();
     for (const UdpSocket::Datagram& datagram : batch)
       core_.receive(datagram.from, datagram.bytes, datagram.received, now);
     core_.end_turn();

@@ -118,8 +118,9 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   wire::Pong pong;
   pong.sequence = ping->sequence;
   pong.link_time_us = ping->link_time_us;
+  // A datagram may come in after the turn began and be of that turn all the same.
   pong.server_receive_us = received.since_zero_us();
-  pong.server_send_us = now.since_zero_us();
+  pong.server_send_us = std::max(now, received).since_zero_us();
   pong.datagrams_received = session.datagrams_received;
   std::array<std::uint8_t, 64> out;
   send(session.address, {out.data(), wire::build(session.id, pong, out)});

@@ -74,7 +74,7 @@ void ServerCore::on_hello(const Address& from, const wire::Opening& opening, Mon
   welcome.session = session.id;
   welcome.link_time_us = hello->link_time_us;
   welcome.server_receive_us = received.since_zero_us();
-  welcome.server_send_us = now.since_zero_us();
+  welcome.server_send_us = std::max(now, received).since_zero_us();
   welcome.codec = rooms_[*room].codec;
   for (const std::uint8_t slot : session.slots) {
     const bool pushed = welcome.slots.try_push({slot, rooms_[*room].guests[slot].generation});

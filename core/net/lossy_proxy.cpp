@@ -65,7 +65,7 @@ std::size_t LossyProxy::find_or_add(const Address& from) {
 
 void LossyProxy::on_client_side(MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
-    const auto batch = listen_.receive(now);
+    const auto batch = listen_.receive();
     for (const UdpSocket::Datagram& datagram : batch) {
       const std::size_t client = find_or_add(datagram.from);
       if (client != kNoClient) carry(client, Direction::kUp, datagram.bytes, now);
@@ -76,7 +76,7 @@ void LossyProxy::on_client_side(MonoTime now) {
 
 void LossyProxy::on_target_side(std::size_t client, MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
-    const auto batch = clients_[client]->upstream.receive(now);
+    const auto batch = clients_[client]->upstream.receive();
     for (const UdpSocket::Datagram& datagram : batch)
       carry(client, Direction::kDown, datagram.bytes, now);
     if (batch.size() < UdpSocket::kBatch) break;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/net/mono_clock.h"
 
 namespace dance {
 namespace {
@@ -39,16 +40,16 @@ std::int64_t realtime_ns() {
 
 // The kernel stamps with the wall clock: only the age of the stamp is taken over, and only while it
 // is plausible (the wall clock may be set at any time).
-MonoTime receive_time(msghdr& header, std::int64_t wall_now_ns, MonoTime now) {
+MonoTime receive_time(msghdr& header, std::int64_t wall_now_ns, MonoTime wall_read) {
   for (cmsghdr* c = CMSG_FIRSTHDR(&header); c != nullptr; c = CMSG_NXTHDR(&header, c)) {
     if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
     timespec t{};
     std::memcpy(&t, CMSG_DATA(c), sizeof t);
     const std::int64_t age_ns =
         wall_now_ns - (static_cast<std::int64_t>(t.tv_sec) * 1'000'000'000 + t.tv_nsec);
-    if (age_ns > 0 && age_ns < 100'000'000) return now - Duration::ns(age_ns);
+    if (age_ns > 0 && age_ns < 100'000'000) return wall_read - Duration::ns(age_ns);
   }
-  return now;
+  return wall_read;
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ Address UdpSocket::local_address() const {
   return Address::from_sockaddr(raw);
 }
 
-std::span<const UdpSocket::Datagram> UdpSocket::receive(MonoTime now) {
+std::span<const UdpSocket::Datagram> UdpSocket::receive() {
   Batches& b = *batches_;
   for (std::size_t i = 0; i < kBatch; ++i) {
     Batches::Slot& slot = b.in[i];
@@ -165,7 +166,9 @@ std::span<const UdpSocket::Datagram> UdpSocket::receive(MonoTime now) {
     if (errno == ECONNREFUSED) ++counters_.refused;
     return {};
   }
+  // Both clocks at the same moment: between the turn's begin and here, anything may have happened.
   const std::int64_t wall_now_ns = realtime_ns();
+  const MonoTime wall_read = mono_now();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     mmsghdr& header = b.in_headers[i];
@@ -177,7 +180,7 @@ std::span<const UdpSocket::Datagram> UdpSocket::receive(MonoTime now) {
     }
     b.received[kept++] = {Address::from_sockaddr(b.in[i].address),
                           {b.in[i].bytes.data(), header.msg_len},
-                          receive_time(header.msg_hdr, wall_now_ns, now)};
+                          receive_time(header.msg_hdr, wall_now_ns, wall_read)};
   }
   return {b.received.data(), kept};
 }

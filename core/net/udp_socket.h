@@ -53,7 +53,7 @@ class UdpSocket final : public DatagramSink {
   Address local_address() const;
 
   // Up to kBatch datagrams that are there; empty when there are none. Valid until the next call.
-  std::span<const Datagram> receive(MonoTime now);
+  std::span<const Datagram> receive();
 
   // Queues a datagram; flush() sends all that is queued, and so does a full batch. On a connected
   // socket `to` is ignored.
