@@ -22,6 +22,9 @@ constexpr float kPenumbra_m = 0.035f;
 constexpr float kSmallestStage_m = 2.2f;
 
 int shadow_map_px(Quality quality) { return quality == Quality::kHigh ? 2048 : 1024; }
+// More are drawn with coarser meshes, as each is small in the picture and all of them cost.
+constexpr std::size_t kGuestsDrawnFinely = 8;
+
 bool is_high(Quality quality) { return quality == Quality::kHigh; }
 
 }  // namespace
@@ -37,8 +40,9 @@ Result<std::unique_ptr<StageRenderer>> StageRenderer::create(Quality quality) {
 
 StageRenderer::StageRenderer(Quality quality)
     : quality_(quality),
-      large_(is_high(quality) ? 28 : 12, is_high(quality) ? 7 : 3),
-      small_(is_high(quality) ? 12 : 7, is_high(quality) ? 3 : 2),
+      large_(is_high(quality) ? 24 : 12, is_high(quality) ? 6 : 3),
+      large_for_many_(12, 3),
+      small_(is_high(quality) ? 10 : 7, is_high(quality) ? 3 : 2),
       target_(is_high(quality) ? 4 : 0),
       no_vertices_(GlVertexArray::make()) {
   set_light_yaw(OrbitCamera().yaw_rad);
@@ -102,13 +106,15 @@ void StageRenderer::make_spots() {
 StageRenderer::Stage StageRenderer::gather(const SceneState& scene) {
   parts_.clear();
   Eigen::AlignedBox3f box;
-  const BodyDetail detail = is_high(quality_) ? BodyDetail::kFine : BodyDetail::kPlain;
+  const bool is_fine = is_high(quality_) && scene.guests.size() <= kGuestsDrawnFinely;
+  const BodyDetail detail = is_fine ? BodyDetail::kFine : BodyDetail::kPlain;
   for (const SceneGuest& guest : scene.guests) {
     if (guest.opacity <= 0.0f) continue;
     append_mannequin(guest, detail, parts_);
     box.extend(guest.pose.p_WH_m);
   }
-  large_.upload(parts_.large.data(), parts_.large.size());
+  is_crowded_ = scene.guests.size() > kGuestsDrawnFinely;
+  bodies().upload(parts_.large.data(), parts_.large.size());
   small_.upload(parts_.small.data(), parts_.small.size());
   glBindBuffer(GL_ARRAY_BUFFER, spot_buffer_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(parts_.spots.size() * sizeof(ContactSpot)),
@@ -159,7 +165,7 @@ void StageRenderer::draw_shadow_map() {
   set_uniform(shadow_, "u_light_from_world", light_from_world_);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 3.0f);
-  large_.draw();
+  bodies().draw();
   small_.draw();
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
@@ -190,7 +196,7 @@ void StageRenderer::draw_bodies(const Matrix4f& clip_from_world, float mirror) {
     glFrontFace(GL_CW);
     glEnable(GL_CLIP_DISTANCE0);
   }
-  large_.draw();
+  bodies().draw();
   small_.draw();
   glDisable(GL_CLIP_DISTANCE0);
   glFrontFace(GL_CCW);

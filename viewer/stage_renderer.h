@@ -44,6 +44,7 @@ class StageRenderer {
   Result<void> link_programs();
   void make_shadow_map();
   void make_spots();
+  CapsuleMesh& bodies() { return is_crowded_ ? large_for_many_ : large_; }
   Stage gather(const SceneState& scene);
   void draw_shadow_map();
   void draw_backdrop(const Eigen::Matrix4f& clip_from_world);
@@ -54,8 +55,10 @@ class StageRenderer {
   void use_lit(const GlProgram& program, const Eigen::Vector3f& eye_W_m);
 
   Quality quality_;
+  bool is_crowded_ = false;
   BodyParts parts_;
   CapsuleMesh large_;
+  CapsuleMesh large_for_many_;
   CapsuleMesh small_;
   PictureTarget target_;
   GlProgram body_;

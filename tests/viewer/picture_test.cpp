@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
 #include "viewer/guest_look.h"
 #include "viewer/offscreen.h"
@@ -23,10 +24,12 @@ class PictureTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     auto made = OffscreenContext::create();
-    if (made)
+    if (made) {
       context_ = std::move(*made);
-    else
+      keep_drivers_loaded();
+    } else {
       why_not_ = made.error().what;
+    }
   }
   static void TearDownTestSuite() {
     painter_.reset();

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
 #include "viewer/offscreen.h"
 #include "viewer/stage_painter.h"
@@ -37,11 +38,15 @@ class VirtualDisplay {
       _exit(127);
     }
     close(ends[1]);
+    // The number and its end of line come in two writes.
+    std::string number;
     pollfd readable{ends[0], POLLIN, 0};
-    std::array<char, 16> number{};
-    if (poll(&readable, 1, 20'000) == 1) {
-      const ssize_t size = read(ends[0], number.data(), number.size());
-      if (size > 1) display_ = ":" + std::string(number.data(), static_cast<std::size_t>(size - 1));
+    for (char c = 0; c != '\n' && poll(&readable, 1, 20'000) == 1;) {
+      if (read(ends[0], &c, 1) != 1) break;
+      if (c == '\n')
+        display_ = ":" + number;
+      else
+        number += c;
     }
     close(ends[0]);
   }
@@ -85,6 +90,7 @@ TEST(ViewWindow, ShowsThePixelsThatAFileWouldHold) {
   {
     auto context = OffscreenContext::create();
     if (!context) GTEST_SKIP() << context.error().what;
+    keep_drivers_loaded();
     auto painter = StagePainter::create(Quality::kHigh, 1.0f);
     ASSERT_TRUE(painter) << painter.error().what;
     ASSERT_TRUE((*painter)->draw(scene, camera, kWidth_px, kHeight_px, {}));
@@ -96,6 +102,7 @@ TEST(ViewWindow, ShowsThePixelsThatAFileWouldHold) {
   CameraRig rig(CameraPreset::kAuto);
   auto window = ViewWindow::create({kWidth_px, kHeight_px}, rig);
   if (!window) GTEST_SKIP() << window.error().what;
+  keep_drivers_loaded();
   ASSERT_EQ((*window)->framebuffer_size().width_px, kWidth_px);
   auto painter = StagePainter::create(Quality::kHigh, 1.0f);
   ASSERT_TRUE(painter) << painter.error().what;
