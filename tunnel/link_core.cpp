@@ -5,6 +5,24 @@
 #include "core/base/assert.h"
 
 namespace dance {
+namespace {
+
+constexpr std::size_t kMostDeparted = 64;
+
+RemoteGuestStats stats_of(const RemoteGuest& remote) {
+  const StreamGate::Counters& c = remote.poses.counters();
+  return {remote.id, true, c.received, c.lost, c.late, c.duplicate, remote.invalid};
+}
+
+void add(const RemoteGuestStats& more, RemoteGuestStats& sum) {
+  sum.received += more.received;
+  sum.lost += more.lost;
+  sum.late += more.late;
+  sum.duplicate += more.duplicate;
+  sum.invalid += more.invalid;
+}
+
+}  // namespace
 
 LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSink& sink)
     : options_(options),
@@ -20,6 +38,7 @@ LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSi
       DANCE_ASSERT(pushed);
     }
   locals_.reserve(wire::kMaxGuestsPerLink);
+  departed_.reserve(kMostDeparted);
   for (const GuestId& id : options_.guests) {
     locals_.emplace_back();
     locals_.back().id = id;
@@ -97,6 +116,7 @@ void LinkCore::fill(Stats& stats) const {
     ++stats.guests;
     stats.lost += as_signed(remote.poses.counters().lost);
   }
+  for (const RemoteGuestStats& departed : departed_) stats.lost += as_signed(departed.lost);
   stats.bytes_in = as_signed(c.bytes_in);
   stats.bytes_out = as_signed(c.bytes_out);
   stats.datagrams_in = as_signed(c.datagrams_in);
@@ -108,12 +128,30 @@ void LinkCore::fill(Stats& stats) const {
   stats.clock_offset = clock_.offset();
 }
 
+// Before a guest's counting begins anew: it left, or it came back in another slot or session.
+void LinkCore::keep_counts(const RemoteGuest& remote) {
+  if (!remote.in_use || remote.is_ours) return;
+  RemoteGuestStats counts = stats_of(remote);
+  counts.is_here = false;
+  for (RemoteGuestStats& known : departed_)
+    if (known.guest == counts.guest) return add(counts, known);
+  if (departed_.size() == kMostDeparted) departed_.erase(departed_.begin());
+  departed_.push_back(counts);
+}
+
 std::vector<RemoteGuestStats> LinkCore::remote_stats() const {
-  std::vector<RemoteGuestStats> all;
+  std::vector<RemoteGuestStats> all = departed_;
   for (const RemoteGuest& remote : remotes_) {
     if (!remote.in_use || remote.is_ours) continue;
-    const StreamGate::Counters& c = remote.poses.counters();
-    all.push_back({remote.id, c.received, c.lost, c.late, c.duplicate, remote.invalid});
+    const auto known = std::find_if(all.begin(), all.end(), [&](const RemoteGuestStats& stats) {
+      return stats.guest == remote.id;
+    });
+    if (known == all.end()) {
+      all.push_back(stats_of(remote));
+    } else {
+      add(stats_of(remote), *known);
+      known->is_here = true;
+    }
   }
   return all;
 }

@@ -44,6 +44,7 @@ class LinkCore {
   const LinkCounters& counters() const { return counters_; }
   const ClockMapper& clock() const { return clock_; }
   void fill(Stats& stats) const;
+  // Those who are here, and the last that have left.
   std::vector<RemoteGuestStats> remote_stats() const;
 
  private:
@@ -68,6 +69,7 @@ class LinkCore {
   void on_record(const wire::Record& record, MonoTime received, MonoTime now);
   bool on_roster(wire::Bytes body, MonoTime now);
   void settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry);
+  void keep_counts(const RemoteGuest& remote);
   bool is_present(const GuestId& id) const;
   bool on_state(wire::Bytes body, MonoTime now);
   bool on_state_ack(wire::Bytes body);
@@ -109,6 +111,8 @@ class LinkCore {
 
   std::vector<LocalGuest> locals_;    // reserved; at most kMaxGuestsPerLink
   std::vector<RemoteGuest> remotes_;  // by slot
+  // Counts of those who left or got another slot, so that a summary at the end has everybody.
+  std::vector<RemoteGuestStats> departed_;  // reserved; the oldest makes room
   RosterAssembly roster_;
   Pose decoded_;
   Hands decoded_hands_;

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "core/base/fixed_list.h"
 #include "core/pose/pose.h"
@@ -68,6 +69,7 @@ struct LinkCounters {
 // One guest of another house, as this link hears it.
 struct RemoteGuestStats {
   GuestId guest;
+  bool is_here = true;  // false: counts of one who has left
   std::uint64_t received = 0;
   std::uint64_t lost = 0;  // gaps, less what arrived late
   std::uint64_t late = 0;

@@ -86,11 +86,13 @@ bool LinkCore::is_present(const GuestId& id) const {
 
 void LinkCore::settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry) {
   if (entry == nullptr) {
+    keep_counts(remote);
     remote.in_use = false;
     return;
   }
   const bool is_same =
       remote.in_use && remote.id == entry->guest && remote.generation == entry->slot.generation;
+  if (!is_same) keep_counts(remote);
   remote.is_ours = is_ours(*entry);
   if (is_same) return;
   remote.in_use = true;

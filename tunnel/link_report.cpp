@@ -9,6 +9,7 @@ std::string link_report_json(const Link& link) {
   ordered_json guests = ordered_json::array();
   for (const RemoteGuestStats& guest : link.remote_stats())
     guests.push_back({{"id", std::string(guest.guest.view())},
+                      {"here", guest.is_here},
                       {"received", guest.received},
                       {"lost", guest.lost},
                       {"late", guest.late},

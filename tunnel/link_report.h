@@ -10,7 +10,7 @@
 
 namespace dance {
 
-// {"sent", "delivered", …, "round_trip_us", "guests": [{"id", "received", "lost", "late", …}]}
+// {"sent", "delivered", …, "round_trip_us", "guests": [{"id", "here", "received", "lost", "late", …}]}
 std::string link_report_json(const Link& link);
 
 }  // namespace dance

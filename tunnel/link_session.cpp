@@ -142,6 +142,7 @@ void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoT
     clock_.reset();
     roster_.reset();
     for (RemoteGuest& remote : remotes_) {
+      keep_counts(remote);
       remote.poses = StreamGate();
       remote.hands = StreamGate();
       remote.skeleton_version = 0;

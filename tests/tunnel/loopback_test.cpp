@@ -69,7 +69,7 @@ TEST_F(Loopback, APoseGoesFromHouseToHouseWithItsJourneyStamped) {
   const Stats stats = b->stats(mono_now());
   EXPECT_EQ(stats.forwarded, 50);
   EXPECT_EQ(stats.sessions, 1);
-  EXPECT_NE(link_report_json(*b).find("\"id\":\"alice\",\"received\":50,\"lost\":0"),
+  EXPECT_NE(link_report_json(*b).find("\"id\":\"alice\",\"here\":true,\"received\":50,\"lost\":0"),
             std::string::npos);
 }
 
@@ -90,7 +90,7 @@ TEST_F(Loopback, ALinkThatEndsSaysGoodbye) {
   auto b = link("bob");
   ASSERT_TRUE(turn_until([&] { return a->remote_stats().size() == 1; }));
   b.reset();
-  ASSERT_TRUE(turn_until([&] { return a->remote_stats().empty(); }));
+  ASSERT_TRUE(turn_until([&] { return !a->remote_stats().at(0).is_here; }));
   EXPECT_EQ(server->core().counters().goodbyes, 1u);
 }
 

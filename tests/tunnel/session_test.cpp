@@ -174,6 +174,20 @@ TEST(Session, AGoodbyeIsHeardAtOnce) {
   EXPECT_TRUE(b.saw("-alice"));
 }
 
+TEST(Session, TheCountsOfOneWhoLeftAreKeptForTheSummary) {
+  SimulatedTunnel tunnel;
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  auto& b = tunnel.add_house("salsa", {"bob"});
+  Dance{tunnel, {{&a, guest("alice")}}}.run(Duration::s(1));
+  tunnel.run(Duration::ms(50));
+  a.link->say_goodbye();
+  tunnel.run(Duration::ms(50));
+  const auto stats = b.link->remote_stats();
+  ASSERT_EQ(stats.size(), 1u);
+  EXPECT_FALSE(stats[0].is_here);
+  EXPECT_EQ(stats[0].received, b.heard_of(guest("alice")));
+}
+
 TEST(Session, ATakenNameIsRefusedByNameAndGetsItsTurnWhenItIsFree) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
