@@ -1,0 +1,168 @@
+#include "manager/router.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/allocation_guard.h"
+
+namespace dance {
+namespace {
+
+constexpr std::uint64_t kClock = 5;
+
+GuestId guest(const std::string& name) { return *GuestId::parse(name); }
+MonoTime at_ms(double ms) { return MonoTime::from_ns(static_cast<std::int64_t>(ms * 1e6)); }
+
+Pose pose_of(std::uint32_t sequence, MonoTime capture) {
+  Pose pose;
+  pose.sequence = sequence;
+  pose.capture_time = capture;
+  pose.clock_id = kClock;
+  pose.p_WH_m.x() = static_cast<float>(sequence);
+  return pose;
+}
+
+struct Stage : StageSink {
+  void stage(const GuestId& g, Pose& pose, MonoTime) override {
+    if (keep) poses.push_back({g, pose});
+    ++count;
+  }
+  void stage(const GuestId& g, const Hands&) override { hands.push_back(g); }
+  void stage(const GuestId& g, const TimedSkeleton&) override { skeletons.push_back(g); }
+
+  std::vector<std::pair<GuestId, Pose>> poses;
+  std::vector<GuestId> hands;
+  std::vector<GuestId> skeletons;
+  int count = 0;
+  bool keep = true;
+};
+
+Route pass_through(Where from, const char* from_guest = nullptr, const char* to_guest = nullptr) {
+  Route route;
+  route.from.where = from;
+  route.to.where = Where::kStage;
+  if (from_guest) route.from.guest = guest(from_guest);
+  if (to_guest) route.to.guest = guest(to_guest);
+  return route;
+}
+
+Route held(const char* specification) {
+  Route route = pass_through(Where::kGuest);
+  route.through = {specification};
+  route.rate_hz = 60.0;
+  return route;
+}
+
+TEST(Router, PassesACaptureToTheStageAtOnceAndUnchanged) {
+  Stage stage;
+  Router router({pass_through(Where::kCapture)}, kClock, stage);
+  router.take(Where::kCapture, guest("alice"), pose_of(41, at_ms(10)), at_ms(11));
+  ASSERT_EQ(stage.poses.size(), 1u);
+  EXPECT_EQ(stage.poses[0].first, guest("alice"));
+  EXPECT_EQ(stage.poses[0].second.sequence, 41u);
+  EXPECT_EQ(stage.poses[0].second.capture_time, at_ms(10));
+  EXPECT_EQ(stage.poses[0].second.stamped(Hop::kStageTaken), at_ms(11));
+}
+
+TEST(Router, SendsEachGuestOnTheRoutesThatAreMeant) {
+  Stage stage;
+  Router router({pass_through(Where::kCapture, "alice", "mirror"), pass_through(Where::kGuest)},
+                kClock, stage);
+  router.take(Where::kCapture, guest("alice"), pose_of(0, at_ms(1)), at_ms(1));
+  router.take(Where::kCapture, guest("carol"), pose_of(0, at_ms(1)), at_ms(1));  // no route
+  router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(1)), at_ms(1));
+  ASSERT_EQ(stage.poses.size(), 2u);
+  EXPECT_EQ(stage.poses[0].first, guest("mirror"));
+  EXPECT_EQ(stage.poses[1].first, guest("bob"));
+  EXPECT_EQ(router.stats().dropped_unrouted, 1);
+  EXPECT_EQ(router.stats().forwarded, 2);
+  EXPECT_EQ(router.stats().received, 3);
+}
+
+TEST(Router, GivesHandsAndSkeletonsOnWithThePoses) {
+  Stage stage;
+  Router router({held("hold 20ms")}, kClock, stage);
+  router.take(Where::kGuest, guest("bob"), Hands());
+  router.take(Where::kGuest, guest("bob"), TimedSkeleton());
+  router.take(Where::kCapture, guest("alice"), TimedSkeleton());  // no route from there
+  EXPECT_EQ(stage.hands, std::vector{guest("bob")});
+  EXPECT_EQ(stage.skeletons, std::vector{guest("bob")});
+}
+
+TEST(Router, StagesHeldGuestsAtASteadyRateWhateverArrives) {
+  Stage stage;
+  Router router({held("hold 20ms")}, kClock, stage);
+  double next_ms = 100.0;
+  for (int i = 0; i < 300; ++i) {
+    const double capture_ms = 1000.0 / 60.0 * i;
+    const double arrival_ms = capture_ms + 30.0 + (i % 5) * 3.0;
+    for (; next_ms < arrival_ms; next_ms += 1000.0 / 60.0) router.tick(0, at_ms(next_ms));
+    router.take(Where::kGuest, guest("bob"),
+                pose_of(static_cast<std::uint32_t>(i), at_ms(capture_ms)), at_ms(arrival_ms));
+  }
+  ASSERT_GT(stage.poses.size(), 250u);
+  for (std::size_t i = 100; i < stage.poses.size(); ++i) {
+    EXPECT_EQ(stage.poses[i].second.sequence, stage.poses[i - 1].second.sequence + 1);
+    const double step_ms =
+        (stage.poses[i].second.capture_time - stage.poses[i - 1].second.capture_time).as_ms();
+    EXPECT_NEAR(step_ms, 1000.0 / 60.0, 1.0);
+  }
+}
+
+TEST(Router, DoesNotHoldASilentGuestOnTheStageForEver) {
+  Stage stage;
+  Router router({held("hold 0ms")}, kClock, stage);
+  router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(0)), at_ms(10));
+  router.tick(0, at_ms(500));
+  EXPECT_EQ(stage.count, 1);
+  router.tick(0, at_ms(2500));
+  EXPECT_EQ(stage.count, 1);
+  router.take(Where::kGuest, guest("bob"), pose_of(1, at_ms(2600)), at_ms(2610));
+  router.tick(0, at_ms(2620));
+  EXPECT_EQ(stage.count, 2);
+}
+
+TEST(Router, KeepsThirtyGuestsApart) {
+  Stage stage;
+  Router router({held("hold 0ms")}, kClock, stage);
+  for (std::uint32_t i = 0; i < 30; ++i)
+    router.take(Where::kGuest, guest("g" + std::to_string(i)), pose_of(i, at_ms(100)), at_ms(101));
+  router.tick(0, at_ms(102));
+  ASSERT_EQ(stage.poses.size(), 30u);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    EXPECT_EQ(stage.poses[i].first, guest("g" + std::to_string(i)));
+    EXPECT_FLOAT_EQ(stage.poses[i].second.p_WH_m.x(), static_cast<float>(i));
+  }
+}
+
+TEST(Router, BoundsItsGuestsAndCountsWhomItTurnsAway) {
+  Stage stage;
+  Router router({held("hold 0ms")}, kClock, stage);
+  for (std::size_t i = 0; i < kMaxGuests + 5; ++i)
+    router.take(Where::kGuest, guest("g" + std::to_string(i)), pose_of(0, at_ms(100)), at_ms(101));
+  EXPECT_EQ(router.stats().dropped_overflow, 5);
+  router.tick(0, at_ms(102));
+  EXPECT_EQ(stage.poses.size(), kMaxGuests);
+}
+
+TEST(Router, AllocatesNothingPerPoseOnceAGuestIsKnown) {
+  Stage stage;
+  stage.keep = false;
+  Router router({pass_through(Where::kCapture), held("hold 20ms")}, kClock, stage);
+  router.take(Where::kCapture, guest("alice"), pose_of(0, at_ms(0)), at_ms(1));
+  router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(0)), at_ms(1));
+  const GuestId alice = guest("alice"), bob = guest("bob");
+  AllocationGuard guard;
+  for (std::uint32_t i = 1; i < 1000; ++i) {
+    router.take(Where::kCapture, alice, pose_of(i, at_ms(16.0 * i)), at_ms(16.0 * i + 1));
+    router.take(Where::kGuest, bob, pose_of(i, at_ms(16.0 * i)), at_ms(16.0 * i + 1));
+    router.tick(1, at_ms(16.0 * i + 2));
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_GT(stage.count, 1900);
+}
+
+}  // namespace
+}  // namespace dance

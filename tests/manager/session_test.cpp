@@ -1,0 +1,108 @@
+#include "manager/session.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace dance {
+namespace {
+
+constexpr const char* kHouse = "[house]\nguest = \"alice\"\nserver = \"example.org:7400\"\n";
+
+std::string error_of(const std::string& text) {
+  const auto session = parse_session(text, "s.toml");
+  return session ? "no error" : session.error().what;
+}
+
+TEST(Session, ReadsAWholeHouse) {
+  const auto session =
+      parse_session(std::string(kHouse) +
+                        "room = \"salsa\"\n[[route]]\nfrom = \"POSE/guest/*\"\n"
+                        "through = [\"hold 20ms\"]\nto = \"POSE/stage/*\"\nrate = 30\n"
+                        "[[produce]]\nkind = \"replay\"\nguest = \"bob\"\nfile = \"b.bvh\"\n"
+                        "[[listen]]\nto = \"csv\"\nfile = \"out.csv\"\n",
+                    "/home/alice/s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  EXPECT_EQ(session->guests.size(), 1u);
+  EXPECT_EQ(session->room, "salsa");
+  ASSERT_EQ(session->routes.size(), 1u);
+  EXPECT_EQ(session->routes[0].rate_hz, 30.0);
+  EXPECT_EQ(session->routes[0].from.where, Where::kGuest);
+  EXPECT_FALSE(session->routes[0].from.guest.is_set());
+  EXPECT_EQ(session->producers[0].file, "/home/alice/b.bvh") << "taken from the session's folder";
+  EXPECT_EQ(session->consumers[0].file, "/home/alice/out.csv");
+}
+
+TEST(Session, WithoutRoutesGetsTheUsualTwo) {
+  const auto session = parse_session(kHouse, "s.toml");
+  ASSERT_TRUE(session);
+  ASSERT_EQ(session->routes.size(), 2u);
+  EXPECT_TRUE(session->routes[0].through.empty());
+  EXPECT_EQ(session->routes[1].through.front(), "hold 20ms");
+}
+
+TEST(Session, ErrorsNameFileLineAndColumn) {
+  EXPECT_EQ(error_of("[house]\nguest = 7\n").rfind("s.toml:2:9: ", 0), 0u)
+      << error_of("[house]\nguest = 7\n");
+  EXPECT_EQ(error_of("[house]\nguest = \"alice\nroom = 1\n").rfind("s.toml:2:", 0), 0u);
+}
+
+TEST(Session, RefusesAMisspeltKeyAndListsTheKnownOnes) {
+  const std::string error = error_of("[house]\nguest = \"alice\"\nsever = \"x:1\"\n");
+  EXPECT_EQ(error.rfind("s.toml:3:1: ", 0), 0u) << error;
+  EXPECT_NE(error.find("sever"), std::string::npos);
+  EXPECT_NE(error.find("server"), std::string::npos);
+}
+
+TEST(Session, RefusesWhatCannotBe) {
+  const std::string house = kHouse;
+  const std::string route = house + "[[route]]\n";
+  for (const std::string& text :
+       {std::string(""), std::string("[house]\nguest = \"Alice\"\n"), house + "[hose]\n",
+        std::string("house = 3\n"), route + "from = \"POSE/guest/*\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/alice\"\n",
+        route + "from = \"POSE/stage/*\"\nto = \"POSE/stage/*\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/guest/*\"\n",
+        route + "from = \"POSE/nowhere/*\"\nto = \"POSE/stage/*\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"fly\"]\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = \"hold 20ms\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nrate = 60\n",
+        route +
+            "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"hold 1ms\"]\nrate = 0\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"hold 1ms\"]\nrate = "
+                "nan\n",
+        house + "[[produce]]\nkind = \"camel\"\nguest = \"a\"\n",
+        house + "[[produce]]\nkind = \"salsa\"\nguest = \"a\"\nrole = \"judge\"\n",
+        house + "[[listen]]\nto = \"fax\"\n", house + "route = 3\n",
+        house + "room = \"No Spaces\"\n"}) {
+    const std::string error = error_of(text);
+    EXPECT_EQ(error.rfind("s.toml:", 0), 0u) << text << " -> " << error;
+  }
+}
+
+TEST(Session, RefusesMoreGuestsThanALinkCarries) {
+  std::string text = "[house]\nguests = [";
+  for (int i = 0; i < 17; ++i) text += (i ? ", \"g" : "\"g") + std::to_string(i) + "\"";
+  EXPECT_NE(error_of(text + "]\n").find("16"), std::string::npos);
+}
+
+TEST(LoadSession, NamesAMissingFileAFolderAndAFileTooLarge) {
+  EXPECT_FALSE(load_session("/nonexistent/s.toml"));
+  const auto folder = std::filesystem::temp_directory_path();
+  EXPECT_NE(load_session(folder.string()).error().what.find("folder"), std::string::npos);
+  const std::string large = (folder / "dance-session-test-large.toml").string();
+  std::ofstream(large) << std::string(2 << 20, '#');
+  EXPECT_NE(load_session(large).error().what.find("1 MiB"), std::string::npos);
+  std::filesystem::remove(large);
+}
+
+TEST(LoadSession, TakesTheSessionsThatComeWithTheTree) {
+  for (const char* name : {"/sessions/alice.toml", "/sessions/bob.toml"}) {
+    const auto session = load_session(std::string(DANCE_SOURCE_DIR) + name);
+    EXPECT_TRUE(session) << session.error().what;
+  }
+}
+
+}  // namespace
+}  // namespace dance

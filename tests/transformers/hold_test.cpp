@@ -1,0 +1,136 @@
+#include "transformers/hold.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "tests/allocation_guard.h"
+
+namespace dance {
+namespace {
+
+constexpr double kHz = 60.0;
+
+MonoTime at_ms(double ms) { return MonoTime::from_ns(static_cast<std::int64_t>(ms * 1e6)); }
+
+// A dancer whose hips move at 1 m/s along x: what is shown tells which moment it is.
+Pose pose_of(MonoTime capture, std::uint64_t clock_id = 1) {
+  Pose pose;
+  pose.capture_time = capture;
+  pose.clock_id = clock_id;
+  pose.p_WH_m.x() = static_cast<float>(capture.since_zero_ns() * 1e-9);
+  return pose;
+}
+
+TEST(Hold, ShowsNothingBeforeTheFirstPose) {
+  Hold hold(Duration::ms(20));
+  Pose out;
+  EXPECT_FALSE(hold.sample(at_ms(5), out));
+}
+
+TEST(Hold, ShowsEachMomentAConstantTimeLaterWhateverTheJitter) {
+  Hold hold(Duration::ms(20));
+  Random random(7);
+  const double transit_ms = 40.0;
+  // Arrivals with 0 to 15 ms of jitter, in order; the stage samples at its own rate in between.
+  double next_sample_ms = 200.0, last_arrival_ms = 0.0;
+  int checked = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double capture_ms = 1000.0 / kHz * i;
+    const double arrival_ms =
+        std::max(last_arrival_ms, capture_ms + transit_ms + (i == 0 ? 0.0 : random.uniform(0, 15)));
+    last_arrival_ms = arrival_ms;
+    for (; next_sample_ms < arrival_ms; next_sample_ms += 1000.0 / kHz) {
+      Pose out;
+      ASSERT_TRUE(hold.sample(at_ms(next_sample_ms), out));
+      if (next_sample_ms < 3000.0) continue;  // the least transit must have been seen
+      const double age_ms = next_sample_ms - out.capture_time.since_zero_ns() * 1e-6;
+      // The least of 0 to 15 ms of jitter over 5 s is a fraction of a millisecond.
+      EXPECT_NEAR(age_ms, transit_ms + 20.0, 0.6);
+      EXPECT_NEAR(static_cast<double>(out.p_WH_m.x()), (next_sample_ms - age_ms) * 1e-3, 1e-3);
+      ++checked;
+    }
+    hold.observe(pose_of(at_ms(capture_ms)), at_ms(arrival_ms));
+  }
+  EXPECT_GT(checked, 300);
+}
+
+TEST(Hold, RepeatsTheLastPoseWhenTheNextIsLateAndCountsIt) {
+  Hold hold(Duration::ms(0));
+  hold.observe(pose_of(at_ms(100)), at_ms(110));
+  hold.observe(pose_of(at_ms(116)), at_ms(126));
+  Pose out;
+  ASSERT_TRUE(hold.sample(at_ms(500), out));
+  EXPECT_EQ(out.capture_time, at_ms(116));
+  EXPECT_EQ(hold.counters().starved, 1u);
+}
+
+TEST(Hold, AbsorbsTheOffsetOfAForeignClock) {
+  // A log recorded hours ago, replayed with its old stamps.
+  Hold hold(Duration::ms(20));
+  const double offset_ms = 5.0 * 3600e3;
+  Pose out;
+  for (int i = 0; i < 120; ++i) {
+    const double now_ms = offset_ms + 1000.0 / kHz * i;
+    hold.observe(pose_of(at_ms(1000.0 + 1000.0 / kHz * i)), at_ms(now_ms));
+    ASSERT_TRUE(hold.sample(at_ms(now_ms), out));
+  }
+  const double newest_ms = 1000.0 + 1000.0 / kHz * 119;
+  EXPECT_NEAR(out.capture_time.since_zero_ns() * 1e-6, newest_ms - 20.0, 0.01);
+}
+
+TEST(Hold, RefusesWhatIsNotNewerAndCountsIt) {
+  Hold hold(Duration::ms(0));
+  hold.observe(pose_of(at_ms(100)), at_ms(101));
+  hold.observe(pose_of(at_ms(100)), at_ms(102));
+  hold.observe(pose_of(at_ms(90)), at_ms(103));
+  EXPECT_EQ(hold.counters().refused, 2u);
+  EXPECT_EQ(hold.counters().restarts, 0u);
+}
+
+TEST(Hold, StartsAnewWhenTheSourceJumpsBackOrChangesItsClock) {
+  Hold hold(Duration::ms(0));
+  hold.observe(pose_of(at_ms(60'000)), at_ms(60'001));
+  hold.observe(pose_of(at_ms(100)), at_ms(60'010));  // a replay that looped
+  Pose out;
+  ASSERT_TRUE(hold.sample(at_ms(60'010), out));
+  EXPECT_EQ(out.capture_time, at_ms(100));
+  hold.observe(pose_of(at_ms(7), 2), at_ms(60'020));  // another machine
+  ASSERT_TRUE(hold.sample(at_ms(60'020), out));
+  EXPECT_EQ(out.capture_time, at_ms(7));
+  EXPECT_EQ(hold.counters().restarts, 2u);
+}
+
+TEST(Hold, NeverRunsBackwardsAndNeverFasterThanItsSlewWhileTheLineChanges) {
+  Hold hold(Duration::ms(20));
+  double transit_ms = 80.0;
+  MonoTime shown;
+  double last_sample_ms = 0.0;
+  for (int i = 0; i < 1800; ++i) {
+    if (i == 600) transit_ms = 30.0;    // a better route
+    if (i == 1200) transit_ms = 120.0;  // a worse one
+    const double capture_ms = 1000.0 / kHz * i;
+    hold.observe(pose_of(at_ms(capture_ms)), at_ms(capture_ms + transit_ms));
+    Pose out;
+    const double now_ms = std::max(last_sample_ms, capture_ms + transit_ms);
+    ASSERT_TRUE(hold.sample(at_ms(now_ms), out));
+    EXPECT_GE(out.capture_time, shown) << i;
+    shown = out.capture_time;
+    last_sample_ms = now_ms;
+  }
+}
+
+TEST(Hold, AllocatesNothingOncePosesCome) {
+  Hold hold(Duration::ms(20));
+  Pose out;
+  AllocationGuard guard;
+  for (int i = 0; i < 1000; ++i) {
+    hold.observe(pose_of(at_ms(16.0 * i)), at_ms(16.0 * i + 5));
+    hold.sample(at_ms(16.0 * i + 6), out);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+}  // namespace
+}  // namespace dance
