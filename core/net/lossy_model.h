@@ -32,7 +32,8 @@ class LossyModel {
   // When to deliver: none, one or two times.
   class Fate {
    public:
-    std::span<const MonoTime> deliveries() const { return {times_.data(), count_}; }
+    std::span<const MonoTime> deliveries() const& { return {times_.data(), count_}; }
+    std::span<const MonoTime> deliveries() const&& = delete;  // would look at what is gone
 
    private:
     friend class LossyModel;
