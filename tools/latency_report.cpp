@@ -70,19 +70,24 @@ std::string snake_case(std::string_view name) {
 
 }  // namespace
 
+std::string journey_table(const GuestJourney& guest) {
+  std::string out;
+  const auto rows = guest.rows();
+  if (!rows.empty())
+    fmt::format_to(std::back_inserter(out), "  {:<15}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}\n", "step",
+                   "p50", "p95", "p99", "max", "all: p50", "p99");
+  for (const auto& row : rows) append_row(out, row);
+  append_notes(out, guest);
+  return out;
+}
+
 std::string latency_table(const Journeys& journeys, const LatencyScope& scope) {
   std::string out;
   const auto back = std::back_inserter(out);
   for (const auto& guest : journeys.all()) {
     fmt::format_to(back, "{}: {} poses on the stage, {} shown, in {:.3g} s (µs)\n",
                    guest->guest().view(), guest->poses(), guest->frames(), scope.seconds);
-    const auto rows = guest->rows();
-    if (!rows.empty())
-      fmt::format_to(back, "  {:<15}{:>9}{:>9}{:>9}{:>9}{:>11}{:>9}\n", "step", "p50", "p95", "p99",
-                     "max", "all: p50", "p99");
-    for (const auto& row : rows) append_row(out, row);
-    append_notes(out, *guest);
-    out += '\n';
+    out += journey_table(*guest) + "\n";
   }
   if (journeys.refused() > 0)
     fmt::format_to(back, "{} poses of more guests than the table holds\n", journeys.refused());

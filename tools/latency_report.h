@@ -16,6 +16,8 @@ struct LatencyScope {
   double seconds = 0.0;
 };
 
+// One guest's rows and notes, without a headline.
+std::string journey_table(const GuestJourney& guest);
 std::string latency_table(const Journeys& journeys, const LatencyScope& scope);
 std::string latency_json(const Journeys& journeys, const LatencyScope& scope);
 

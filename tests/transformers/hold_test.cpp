@@ -19,7 +19,7 @@ Pose pose_of(MonoTime capture, std::uint64_t clock_id = 1) {
   Pose pose;
   pose.capture_time = capture;
   pose.clock_id = clock_id;
-  pose.p_WH_m.x() = static_cast<float>(capture.since_zero_ns() * 1e-9);
+  pose.p_WH_m.x() = static_cast<float>(static_cast<double>(capture.since_zero_ns()) * 1e-9);
   return pose;
 }
 
@@ -45,7 +45,8 @@ TEST(Hold, ShowsEachMomentAConstantTimeLaterWhateverTheJitter) {
       Pose out;
       ASSERT_TRUE(hold.sample(at_ms(next_sample_ms), out));
       if (next_sample_ms < 3000.0) continue;  // the least transit must have been seen
-      const double age_ms = next_sample_ms - out.capture_time.since_zero_ns() * 1e-6;
+      const double age_ms =
+          next_sample_ms - static_cast<double>(out.capture_time.since_zero_ns()) * 1e-6;
       // The least of 0 to 15 ms of jitter over 5 s is a fraction of a millisecond.
       EXPECT_NEAR(age_ms, transit_ms + 20.0, 0.6);
       EXPECT_NEAR(static_cast<double>(out.p_WH_m.x()), (next_sample_ms - age_ms) * 1e-3, 1e-3);
@@ -77,7 +78,7 @@ TEST(Hold, AbsorbsTheOffsetOfAForeignClock) {
     ASSERT_TRUE(hold.sample(at_ms(now_ms), out));
   }
   const double newest_ms = 1000.0 + 1000.0 / kHz * 119;
-  EXPECT_NEAR(out.capture_time.since_zero_ns() * 1e-6, newest_ms - 20.0, 0.01);
+  EXPECT_NEAR(static_cast<double>(out.capture_time.since_zero_ns()) * 1e-6, newest_ms - 20.0, 0.01);
 }
 
 TEST(Hold, RefusesWhatIsNotNewerAndCountsIt) {

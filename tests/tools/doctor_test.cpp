@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include "tools/doctor_checks.h"
+
+namespace dance {
+namespace {
+
+using Grade = Finding::Grade;
+
+TEST(Doctor, IsContentWithMulticastOverLoopback) {
+  EXPECT_EQ(check_multicast_device("lo", false).grade, Grade::kOk);
+}
+
+TEST(Doctor, WarnsOfABusThatRidesOnANetworkCardAndNamesTheCure) {
+  const Finding finding = check_multicast_device("eth0", false);
+  EXPECT_EQ(finding.grade, Grade::kNote);
+  EXPECT_NE(finding.what.find("eth0"), std::string::npos);
+  EXPECT_EQ(finding.cure, "ip route add 224.0.0.0/4 dev lo");
+}
+
+TEST(Doctor, CallsItAProblemOnlyWhereNothingHelps) {
+  EXPECT_EQ(check_multicast_device("", true).grade, Grade::kNote);
+  EXPECT_EQ(check_multicast_device("", false).grade, Grade::kProblem);
+}
+
+TEST(Doctor, NotesSmallSocketBuffers) {
+  EXPECT_EQ(check_receive_buffer(212'992).grade, Grade::kNote);
+  EXPECT_EQ(check_receive_buffer(4 << 20).grade, Grade::kOk);
+}
+
+TEST(Doctor, TellsABusUrlThatIsNone) {
+  const auto findings = examine_machine("http://nowhere");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].grade, Grade::kProblem);
+}
+
+}  // namespace
+}  // namespace dance
