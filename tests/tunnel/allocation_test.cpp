@@ -1,8 +1,8 @@
 // The way of a pose through link, server and link allocates nothing.
 #include <gtest/gtest.h>
 
-#include "simulated_tunnel.h"
 #include "tests/allocation_guard.h"
+#include "tests/tunnel/simulated_tunnel.h"
 
 namespace dance {
 namespace {

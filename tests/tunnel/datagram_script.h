@@ -9,7 +9,7 @@
 // Failure:      a script that ends in the middle ends there.
 #pragma once
 
-#include "simulated_tunnel.h"
+#include "tests/tunnel/simulated_tunnel.h"
 
 namespace dance {
 

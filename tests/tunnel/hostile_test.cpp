@@ -1,7 +1,7 @@
 // What strangers and damage can do to a server and to a link: be counted, and nothing else.
 #include <gtest/gtest.h>
 
-#include "simulated_tunnel.h"
+#include "tests/tunnel/simulated_tunnel.h"
 
 namespace dance {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "core/net/lossy_proxy.h"
 #include "core/net/mono_clock.h"
-#include "simulated_tunnel.h"
+#include "tests/tunnel/simulated_tunnel.h"
 #include "tunnel/link.h"
 #include "tunnel/link_report.h"
 #include "tunnel/server.h"

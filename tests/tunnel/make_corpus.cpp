@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "datagram_script.h"
+#include "tests/tunnel/datagram_script.h"
 
 namespace dance {
 namespace {

@@ -1,5 +1,5 @@
 // Datagrams at a server: of its two links, and of strangers.
-#include "datagram_script.h"
+#include "tests/tunnel/datagram_script.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   dance::FuzzScene scene;

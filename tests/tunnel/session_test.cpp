@@ -1,7 +1,7 @@
 // Links and a server with a simulated line between them: sessions come, survive and end.
 #include <gtest/gtest.h>
 
-#include "simulated_tunnel.h"
+#include "tests/tunnel/simulated_tunnel.h"
 
 namespace dance {
 namespace {
