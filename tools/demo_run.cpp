@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Duration kPatience = Duration::s(15);  // for the houses to meet
+constexpr Duration kPatienceForPictures = Duration::s(60);
 constexpr Duration kRestartAfter = Duration::ms(500);
 constexpr Duration kStillUnderWay = Duration::ms(1500);  // longest that a pose may take to arrive
 
@@ -191,8 +192,11 @@ void DemoRun::stop_in_order() {
     if (role->process) role->process->ask_to_stop();
   const MonoTime arrived = mono_now() + kStillUnderWay;
   while (mono_now() < arrived) poller_->run_once(Duration::ms(50));
-  if (viewer_ && viewer_->process && options_.headless)
-    viewer_->process->stop(Duration::s(20));  // may still be writing its last picture
+  // Pictures drawn by the processor take a second or more each: the viewer ends by itself after the last.
+  const MonoTime drawn = mono_now() + kPatienceForPictures;
+  while (options_.headless && viewer_ && viewer_->process && !poller_->is_stopped() &&
+         !viewer_->process->has_ended() && mono_now() < drawn)
+    poller_->run_once(Duration::ms(50));
   for (auto role = roles_.rbegin(); role != roles_.rend(); ++role)
     if ((*role)->process) (*role)->process->stop(Duration::s(3));
 }

@@ -12,8 +12,12 @@ Pose interpolate(const Pose& a, const Pose& b, float fraction) {
   out.p_WH_m = a.p_WH_m + fraction * (b.p_WH_m - a.p_WH_m);
   out.confidence = std::clamp(a.confidence + fraction * (b.confidence - a.confidence), 0.0f, 1.0f);
   const Duration step = b.capture_time - a.capture_time;
+  const MonoTime stamped = out.capture_time;
   out.capture_time =
       a.capture_time + Duration::seconds(step.as_seconds() * static_cast<double>(fraction));
+  // Stamps are those of the nearer pose, moved with the capture time, so that each step keeps its age.
+  for (MonoTime& hop : out.hops)
+    if (hop.is_set()) hop += out.capture_time - stamped;
   out.music_beats = a.music_beats + static_cast<double>(fraction) * (b.music_beats - a.music_beats);
   return out;
 }
