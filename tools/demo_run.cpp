@@ -36,10 +36,10 @@ std::vector<std::string> pictures_in(const std::string& folder) {
   return pictures;
 }
 
-// A quarter, the middle and the end of the dance.
+// Early, in the middle and late in the dance; the viewer needs a moment to open.
 std::string picture_moments(double seconds) {
   std::ostringstream text;
-  text << 0.25 * seconds << "," << 0.5 * seconds << "," << 0.85 * seconds;
+  text << 0.2 * seconds << "," << 0.45 * seconds << "," << 0.7 * seconds;
   return text.str();
 }
 

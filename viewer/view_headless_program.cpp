@@ -18,6 +18,8 @@ namespace {
 // would take the processor from those who send and route.
 constexpr int kDrawingNiceness = 10;
 
+constexpr std::size_t kFewMoments = 16;
+
 class HeadlessRun {
  public:
   HeadlessRun(const ViewOptions& options, StageFeed& feed, StagePainter& painter)
@@ -37,18 +39,26 @@ class HeadlessRun {
       roster_.update(mono_now(), scene);
       if (scene.guests.empty()) scene.notes.push_back("nobody is on the stage of " + feed_.url());
       scenes_.push_back(std::move(scene));
-      if (!options_.strip)
+      if (draws_at_once())
         if (auto written = write_picture(scenes_.back()); !written) return written;
       if (feed_.is_over()) break;
     }
-    if (options_.strip)
+    if (options_.strip) {
       if (auto written = write_strip(); !written) return written;
+    } else if (!draws_at_once()) {
+      for (const SceneState& scene : scenes_)
+        if (auto written = write_picture(scene); !written) return written;
+    }
     if (feed_.board().poses() > 0) return {};
     return fail("no poses heard on " + feed_.url() +
                 "; bring dancers with: dance salsa, or dance replay FILE");
   }
 
  private:
+  // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the next moment would be
+  // missed. Many are drawn as they come, for whoever waits for them.
+  bool draws_at_once() const { return !options_.strip && options_.moments_s.size() > kFewMoments; }
+
   void wait_until(MonoTime moment) const {
     constexpr Duration kLook = Duration::ms(20);
     for (MonoTime now = mono_now(); now < moment && !feed_.is_over(); now = mono_now())
