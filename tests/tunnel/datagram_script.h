@@ -32,12 +32,15 @@ struct FuzzScene {
   template <class Deliver>
   void play(wire::Bytes script, Deliver deliver) {
     ByteReader in(script);
-    // 64 steps are plenty, and bound the time of one input.
+    // 64 steps and 3 s are plenty (time-outs are at 2 s), and bound the work of one input.
+    int tenths_left = 30;
     for (int step = 0; step < 64 && in.remaining() > 0; ++step) {
       const std::uint8_t how = in.u8();
       const std::size_t size = in.u16();
       const auto datagram = in.bytes(std::min(size, in.remaining()));
-      if ((how >> 4) > 0) tunnel.run(Duration::ms(100) * (how >> 4));
+      const int tenths = std::min(how >> 4, tenths_left);
+      tenths_left -= tenths;
+      if (tenths > 0) tunnel.run(Duration::ms(100) * tenths);
       deliver(how & 3, datagram);
     }
     tunnel.run(Duration::ms(20));
