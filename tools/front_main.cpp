@@ -5,13 +5,13 @@
 
 #include <array>
 #include <cerrno>
-#include <climits>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/program/program.h"
 
 namespace {
 
@@ -47,12 +47,6 @@ void print_commands(std::FILE* out) {
                  command.name.data(), static_cast<int>(command.summary.size()),
                  command.summary.data());
   std::fputs("\nFirst steps:\n  dance doctor\n  dance demo\n", out);
-}
-
-std::filesystem::path own_folder() {
-  std::array<char, PATH_MAX> path{};
-  const auto size = readlink("/proc/self/exe", path.data(), path.size() - 1);
-  return size > 0 ? std::filesystem::path(path.data()).parent_path() : ".";
 }
 
 std::string program_of(std::string_view name) {
@@ -97,7 +91,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string program = program_of(command->name);
-  const std::filesystem::path path = own_folder() / program;
+  const std::string path = dance::program_folder() + "/" + program;
   std::vector<char*> arguments{const_cast<char*>(program.c_str())};
   for (int i = words + 1; i < argc; ++i) arguments.push_back(argv[i]);
   arguments.push_back(nullptr);
