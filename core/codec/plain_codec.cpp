@@ -12,33 +12,26 @@ namespace {
 constexpr std::uint8_t kHasMusic = 1;
 constexpr std::uint8_t kWhole = 2;  // every bone measured and carried: no masks follow
 constexpr double kTenthMillimetres = 10'000.0;
-constexpr std::uint32_t kAllFingers = (1u << kFingerBoneCount) - 1;
 
 bool is_rest(const Eigen::Quaternionf& q) {
   return q.x() == 0.0f && q.y() == 0.0f && q.z() == 0.0f;
 }
 
 // Which rotations must travel: the measured ones, and those that were filled in with something.
-template <std::size_t kCount>
-std::uint32_t carried_mask(const std::array<Eigen::Quaternionf, kCount>& rotations,
-                           std::uint32_t presence) {
+std::uint32_t carried_mask(const BoneRotations& rotations, std::uint32_t presence) {
   std::uint32_t carried = presence;
-  for (std::size_t i = 0; i < kCount; ++i)
+  for (std::size_t i = 0; i < kBoneCount; ++i)
     if (!is_rest(rotations[i])) carried |= 1u << i;
   return carried;
 }
 
-template <std::size_t kCount>
-void write_rotations(const std::array<Eigen::Quaternionf, kCount>& rotations, std::uint32_t carried,
-                     ByteWriter& out) {
-  for (std::size_t i = 0; i < kCount; ++i)
+void write_rotations(const BoneRotations& rotations, std::uint32_t carried, ByteWriter& out) {
+  for (std::size_t i = 0; i < kBoneCount; ++i)
     if ((carried >> i & 1u) != 0) out.u48(pack_rotation(rotations[i]));
 }
 
-template <std::size_t kCount>
-bool read_rotations(ByteReader& in, std::uint32_t carried,
-                    std::array<Eigen::Quaternionf, kCount>& rotations) {
-  for (std::size_t i = 0; i < kCount; ++i) {
+bool read_rotations(ByteReader& in, std::uint32_t carried, BoneRotations& rotations) {
+  for (std::size_t i = 0; i < kBoneCount; ++i) {
     rotations[i] = Eigen::Quaternionf::Identity();
     if ((carried >> i & 1u) == 0) continue;
     const auto q = unpack_rotation(in.u48());
@@ -93,26 +86,6 @@ DecodeResult PlainDecoder::decode(std::uint32_t, std::span<const std::uint8_t> p
     return DecodeResult::kMalformed;
   if ((flags & kHasMusic) != 0 && !std::isfinite(pose.music_beats)) return DecodeResult::kMalformed;
   return is_valid(pose) ? DecodeResult::kPose : DecodeResult::kMalformed;
-}
-
-std::size_t encode_hands(const Hands& hands, std::span<std::uint8_t> payload) {
-  if (!is_valid(hands)) return 0;
-  ByteWriter out(payload);
-  const std::uint32_t presence = hands.presence & kAllFingers;
-  const std::uint32_t carried = carried_mask(hands.R_PB, presence);
-  out.u32(presence);
-  out.u32(carried);
-  write_rotations(hands.R_PB, carried, out);
-  return out.ok() ? out.size() : 0;
-}
-
-bool decode_hands(std::span<const std::uint8_t> payload, Hands& hands) {
-  ByteReader in(payload);
-  hands.presence = in.u32();
-  const std::uint32_t carried = in.u32();
-  if (((hands.presence | carried) & ~kAllFingers) != 0 || (hands.presence & ~carried) != 0)
-    return false;
-  return read_rotations(in, carried, hands.R_PB) && in.is_exhausted() && is_valid(hands);
 }
 
 std::size_t encode_skeleton(const Skeleton& skeleton, std::span<std::uint8_t> payload) {

@@ -14,22 +14,18 @@ namespace dance {
 
 class PlainEncoder final : public PoseEncoder {
  public:
-  CodecId id() const override { return CodecId::kPlain; }
+  CodecName name() const override { return {CodecId::kPlain, 0}; }
   std::size_t encode(const Pose& pose, std::span<std::uint8_t> payload) override;
 };
 
 class PlainDecoder final : public PoseDecoder {
  public:
-  CodecId id() const override { return CodecId::kPlain; }
+  CodecName name() const override { return {CodecId::kPlain, 0}; }
   DecodeResult decode(std::uint32_t sequence, std::span<const std::uint8_t> payload,
                       Pose& pose) override;
 };
 
-// Hands and skeletons have one form whatever the pose codec. The decoders' results are_valid().
-constexpr std::size_t kMaxHandsPayload = 8 + kFingerBoneCount * 6;
-std::size_t encode_hands(const Hands& hands, std::span<std::uint8_t> payload);
-bool decode_hands(std::span<const std::uint8_t> payload, Hands& hands);
-
+// Skeletons have one form whatever the pose codec; what decode_skeleton() lets through is_valid().
 // Offsets in steps of 0.1 mm; the skeleton's version travels along.
 constexpr std::size_t kSkeletonPayload = 4 + 3 * 2 * (kBoneCount + kTipCount);
 std::size_t encode_skeleton(const Skeleton& skeleton, std::span<std::uint8_t> payload);

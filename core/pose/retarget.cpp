@@ -9,6 +9,7 @@
 #include "core/pose/retarget_skeleton.h"
 #include "core/pose/rig_reference.h"
 #include "core/pose/rig_tree.h"
+#include "core/pose/shortest_turn.h"
 
 namespace dance {
 namespace {
@@ -165,7 +166,7 @@ class Retargeter {
     const Vector3d now = R_WB * out_.clip.skeleton.offset_m[target].cast<double>();
     const Vector3d wanted = reference_.R_WF * (place_of(target) - place_of(bone));
     if (now.norm() < 1e-4 || wanted.norm() * reference_.metres_per_unit < 1e-4) return;
-    R_WB = (Quaterniond::FromTwoVectors(now, wanted) * R_WB).normalized();
+    R_WB = (shortest_turn(now, wanted) * R_WB).normalized();
   }
 
   void retarget_hands(std::size_t frame, const std::array<Quaterniond, kBoneCount>& R_WB) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/pose/rig_stance.h"
+#include "core/pose/shortest_turn.h"
 #include "core/pose/skeleton.h"
 
 namespace dance {
@@ -51,7 +52,7 @@ Quaterniond snapped(const Quaterniond& rotation) {
 // Turns `from`'s rotation so that its direction e comes to lie along d.
 Quaterniond swung(const Quaterniond& from, const Vector3d& e, const Vector3d& d) {
   if (d.norm() < kShortest_m) return from;
-  return (Quaterniond::FromTwoVectors(from * e, d) * from).normalized();
+  return (shortest_turn(from * e, d) * from).normalized();
 }
 
 struct LimbBones {
@@ -189,7 +190,7 @@ class Corrections {
       // Phalanges are short: a millimetre tells their direction.
       if ((end - at(joint)).norm() < 0.001) continue;
       const Vector3d rest = f - first < 3 ? thumb : e;
-      const Quaterniond turn = Quaterniond::FromTwoVectors(before * rest, end - at(joint));
+      const Quaterniond turn = shortest_turn(before * rest, end - at(joint));
       reference_.C_finger[f] = (turn * before).normalized();
     }
   }

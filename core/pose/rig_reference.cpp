@@ -7,6 +7,7 @@
 
 #include "core/pose/rig_correction.h"
 #include "core/pose/rig_stance.h"
+#include "core/pose/shortest_turn.h"
 
 namespace dance {
 namespace {
@@ -84,7 +85,7 @@ Vector3d guess_up(const BvhMotion& motion, const Rig& rig, std::vector<std::stri
 
 Quaterniond rotation_to_stage(const Vector3d& up) {
   if (up == Vector3d(-Vector3d::UnitY())) return Quaterniond(0.0, 1.0, 0.0, 0.0);  // half about X
-  return Quaterniond::FromTwoVectors(up, Vector3d::UnitY());
+  return shortest_turn(up, Vector3d::UnitY());
 }
 
 double guess_unit(double height, std::vector<std::string>& notes) {

@@ -1,0 +1,252 @@
+#include "core/codec/body_predictor.h"
+
+#include <algorithm>
+
+namespace dance {
+namespace {
+
+using exact::Four;
+
+// Below this part of a step nothing is told from nothing.
+constexpr float kFloor = 0.25f;
+// An end that moves less than this a frame stands still; more than the other is fast.
+constexpr double kStill_m = 0.0012;
+constexpr double kFast_m = 0.006;
+constexpr float kPi = static_cast<float>(exact::kPi);
+// No bone's end is so near to its joint that its direction would mean anything.
+constexpr float kNearest_m = 1e-6f;
+
+Four size_of(Four steps) { return exact::rough_log2(exact::abs(steps) + kFloor); }
+
+std::int64_t to_256(double steps) {
+  const double near = exact::at_most(exact::at_least(steps, -4.0e6), 4.0e6);
+  const double x = near * 256.0 + (0.5 + 0x1p31);
+  return static_cast<std::int64_t>(x) - (std::int64_t{1} << 31);  // rounded down
+}
+
+float clamped(float log2_spread, float least, float most) {
+  return exact::at_most(exact::at_least(log2_spread, least), most);
+}
+// Of −8 to 15.
+int class_of(float log2_spread) {
+  return static_cast<int>(log2_spread * 4.0f + (0.5f + 64.0f)) - 64 + 16;
+}
+
+// Of w · f what is to be summed; the features in three fours.
+Four weigh(const std::array<float, 12>& w, Four a, Four b, Four c) {
+  return (exact::load_four(&w[0]) * a + exact::load_four(&w[4]) * b) + exact::load_four(&w[8]) * c;
+}
+void store(std::array<float, 12>& to, Four a, Four b, Four c) {
+  exact::store_four(&to[0], a);
+  exact::store_four(&to[4], b);
+  exact::store_four(&to[8], c);
+}
+
+// Angles that two others are apart, within half a turn.
+Four short_way(Four apart) {
+  apart -= exact::only(apart > kPi, exact::all(2.0f * kPi));
+  return apart - exact::only(apart < -kPi, exact::all(-2.0f * kPi));
+}
+
+// The coordinates that are twists, and the lane of a bone's twist.
+alignas(16) constexpr auto kIsTwist = [] {
+  std::array<std::int32_t, kPaddedCount> is{};
+  for (std::size_t c = 5; c < kCoordinateCount; c += 3) is[c] = -1;
+  return is;
+}();
+constexpr exact::FourInts kTwistLane{0, 0, -1, 0};
+
+}  // namespace
+
+BodyPredictor::BodyPredictor(const BodyLattice& lattice, const PoseModel& model, std::size_t level,
+                             bool slow, std::size_t age,
+                             std::span<const BodyState* const> references)
+    : lattice_(lattice),
+      steps_(lattice.steps(level)),
+      model_(model),
+      age_(static_cast<float>(age)),
+      run_(references.size()),
+      laws_(&model.laws[case_index(slow, age, references.size())]) {
+  if (is_intra()) return;
+  // With fewer references the oldest stands for those before it.
+  for (std::size_t i = 0; i < was_.size(); ++i) was_[i] = references[std::min(i, run_ - 1)];
+  look_back();
+}
+
+void BodyPredictor::look_back() {
+  using exact::load_two;
+  const Four ones = exact::all(1.0f);
+  Four speed{}, noise{};
+  for (std::size_t c = 0; c < kPaddedCount; c += 4) {
+    const exact::Two per_step = load_two(&steps_.per_step[c]),
+                     per_step_2 = load_two(&steps_.per_step[c + 2]);
+    const Four per_step_float = exact::load_four(&steps_.per_step_float[c]);
+    const auto is_twist = *reinterpret_cast<const exact::FourInts*>(&kIsTwist[c]);
+    Four moved[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double *a = &was_[i]->x[c], *b = &was_[i + 1]->x[c];
+      const exact::Two apart = load_two(a) - load_two(b),
+                       apart_2 = load_two(a + 2) - load_two(b + 2);
+      moved[i] =
+          exact::choose(is_twist, short_way(exact::to_floats(apart, apart_2)) * per_step_float,
+                        exact::to_floats(apart * per_step, apart_2 * per_step_2));
+    }
+    const Four size = size_of(moved[0]), change = size_of(moved[0] - moved[1]),
+               older = size_of(moved[1] - moved[2]);
+    speed += size;
+    noise += change;
+    Four *m = &moved_[c], *s = &sizes_[c];
+    m[0] = ones, m[1] = moved[0], m[2] = moved[1], m[3] = moved[2];
+    exact::transpose(m[0], m[1], m[2], m[3]);
+    s[0] = ones, s[1] = size, s[2] = change, s[3] = older;
+    exact::transpose(s[0], s[1], s[2], s[3]);
+  }
+  // What pads counts as nothing moved.
+  constexpr float kPads = static_cast<float>(kPaddedCount - kCoordinateCount);
+  const float nothing = exact::rough_log2(kFloor) * kPads;
+  body_speed_ = (exact::sum(speed) - nothing) / static_cast<float>(kCoordinateCount);
+  mood_[0] = body_noise_ = (exact::sum(noise) - nothing) / static_cast<float>(kCoordinateCount);
+}
+
+// Where a bone's end and its roll were in the room in the newest reference, seen from its parent now,
+// from where they were in the parent; and how that went; in steps.
+struct BodyPredictor::Room {
+  Four hold{}, speed{}, turn{};
+};
+
+void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
+  const std::size_t bone = c < 3 ? 0 : (c - 3) / 3;
+  residual_before_ = residual_before_that_ = 0.0f;
+  features_.speed = 1;
+  if (run_ > 1) {
+    const BodyState &a = *was_[0], &b = *was_[1];
+    const exact::Vec v = bone == 0 ? a.joint[0] - b.joint[0] : a.end[bone] - b.end[bone];
+    const double v2 = exact::dot(v, v);
+    features_.speed = v2 < kStill_m * kStill_m ? 0 : v2 < kFast_m * kFast_m ? 1 : 2;
+  }
+  const Four moved{moved_[c][1], moved_[c + 1][1], moved_[c + 2][1], 0.0f};
+  Room room;
+  if (bone > 0) {
+    room = look_at_room(bone, body);
+    const float* parent =
+        &residual_[first_coordinate(static_cast<std::size_t>(kBones[bone].parent))];
+    said_[0] = room.hold;
+    said_[1] = room.speed;
+    said_[2] = room.turn;
+    Four of_parent = Four{parent[0], parent[1], parent[2], 0.0f} * steps_.of_parent[bone];
+    exact::transpose(said_[0], said_[1], said_[2], of_parent);
+    beside_[0] = Four{moved[1], room.hold[1], 0.0f, 0.0f};
+    beside_[1] = Four{moved[0], room.hold[0], 0.0f, 0.0f};
+    beside_[2] = Four{};
+  } else {
+    for (std::size_t i = c; i < 6; ++i) residual_[i] = 0.0f;
+  }
+  said_sizes_[0] = size_of(room.speed);
+  said_sizes_[1] = size_of(room.turn);
+  said_sizes_[2] = size_of(room.hold + age_ * (room.speed - moved));
+  Four all_over = exact::all(body_speed_);
+  exact::transpose(said_sizes_[0], said_sizes_[1], said_sizes_[2], all_over);
+}
+
+// Swing and twist as in core/codec/swing_twist.h, of three references side by side.
+BodyPredictor::Room BodyPredictor::look_at_room(std::size_t bone, const BodyState& body) const {
+  const exact::Vec d0 = was_[0]->end[bone] - body.joint[bone],
+                   d1 = was_[1]->end[bone] - body.joint[bone],
+                   d2 = was_[2]->end[bone] - body.joint[bone];
+  const Four x = exact::to_floats(d0.x, d1.x, d2.x, 0.0),
+             y = exact::to_floats(d0.y, d1.y, d2.y, 0.0),
+             z = exact::to_floats(d0.z, d1.z, d2.z, 0.0);
+  Four qw = was_[0]->spun[bone], qx = was_[1]->spun[bone], qy = was_[2]->spun[bone], qz{};
+  exact::transpose(qw, qx, qy, qz);
+  const exact::Quat& seat = body.seat[bone];
+  const float sw = static_cast<float>(seat.w), sx = static_cast<float>(seat.x),
+              sy = static_cast<float>(seat.y), sz = static_cast<float>(seat.z);
+  // To the seat's frame: v − 2 w (s × v) + 2 s × (s × v)
+  const Four tx = 2.0f * (sy * z - sz * y), ty = 2.0f * (sz * x - sx * z),
+             tz = 2.0f * (sx * y - sy * x);
+  const Four dx = x - sw * tx + (sy * tz - sz * ty), dy = y - sw * ty + (sz * tx - sx * tz),
+             dz = z - sw * tz + (sx * ty - sy * tx);
+  const Four rho2 = dx * dx + dy * dy;
+  const Four inverse =
+      1.0f / exact::max(exact::sqrt(rho2 + dz * dz) + exact::abs(dz), exact::all(kNearest_m));
+  Four k = 2.0f * inverse * exact::atan_of_square(rho2 * inverse * inverse);
+  const Four rho = exact::max(exact::sqrt(rho2), exact::all(kNearest_m));
+  k = dz < 0.0f ? kPi / rho - k : k;
+  const Four w = sw * qw + sx * qx + sy * qy + sz * qz;
+  const Four w_z = sw * qz - sz * qw - sx * qy + sy * qx;
+  const Four t = (w < 0.0f ? -w_z : w_z) /
+                 exact::max(exact::sqrt(w * w + w_z * w_z) + exact::abs(w), exact::all(1e-6f));
+  // From here on u, v and w stand side by side, for one reference after the other.
+  Four newest = -k * dy, before = k * dx, oldest = 4.0f * t * exact::atan_of_square(t * t), none{};
+  exact::transpose(newest, before, oldest, none);
+  const std::size_t c = first_coordinate(bone);
+  const double* was = &was_[0]->x[c];
+  const Four in_parent = exact::to_floats(was[0], was[1], was[2], 0.0);
+  const Four per_step{steps_.per_step_float[c], steps_.per_step_float[c + 1],
+                      steps_.per_step_float[c + 2], 0.0f};
+  const auto steps = [&](Four apart) {
+    return exact::choose(kTwistLane, short_way(apart), apart) * per_step;
+  };
+  const Four speed = steps(newest - before);
+  return {steps(newest - in_parent), speed, speed - steps(before - oldest)};
+}
+
+// Hips are as high as legs are long: their height counts from there.
+Spread BodyPredictor::intra(std::size_t c, const BodyState& body) {
+  const IntraLaw& law = model_.intra[c];
+  const double standing_m = lattice_.offset(0).y;
+  double mean = static_cast<double>(law.base) + (c == 1 ? standing_m : 0.0);
+  for (std::size_t i = 0; i < kIntraTerms; ++i) {
+    const std::size_t from = law.from[i];
+    mean += static_cast<double>(law.weight[i]) * (body.x[from] - (from == 1 ? standing_m : 0.0));
+  }
+  mean_ = mean * steps_.per_step[c];
+  log2_spread_ = law.spread_log2 + exact::rough_log2(static_cast<float>(steps_.per_step[c]));
+  return {to_256(mean_), class_of(clamped(log2_spread_, -8.0f, 15.0f))};
+}
+
+Spread BodyPredictor::predict(std::size_t c, const BodyState& body) {
+  if (is_intra()) return intra(c, body);
+  const std::size_t axis = c % 3;
+  if (axis == 0) look_at(c, body);
+  Four said, late;
+  if (c < 6) {  // of the place and the hips what is known of them
+    said = exact::load_four(&residual_[0]);
+    late = Four{residual_[4], 0.0f, 0.0f, 0.0f};
+  } else {
+    said = said_[axis];
+    late = __builtin_shufflevector(Four{residual_before_, residual_before_that_, 0.0f, 0.0f},
+                                   beside_[axis], 0, 1, 4, 5);
+  }
+  store(features_.mean, moved_[c], said, late);
+  store(features_.spread, sizes_[c], said_sizes_[axis], mood_);
+  features_.base = was_[0]->x[c] * steps_.per_step[c];
+  const CoordinateLaw& law = (*laws_)[c];
+  const auto [off, log2_spread] =
+      exact::sums(weigh(law.mean[features_.speed], moved_[c], said, late),
+                  weigh(law.spread, sizes_[c], said_sizes_[axis], mood_));
+  mean_ = features_.base + static_cast<double>(off);
+  log2_spread_ = clamped(log2_spread, -4.0f, 12.0f);
+  return {to_256(mean_), class_of(log2_spread_)};
+}
+
+void BodyPredictor::decoded(std::size_t c, double steps) {
+  if (is_intra()) return;
+  const auto r = static_cast<float>(steps - mean_);
+  residual_[c] = r;
+  residual_before_that_ = residual_before_;
+  residual_before_ = r;
+  const float size = size_of(exact::all(r))[0];
+  const float surprise = size - exact::at_least(log2_spread_, -2.0f);
+  const float before = mood_[1];
+  mood_ = Four{body_noise_, before + 0.15f * (surprise - before), size, mood_[2]};
+}
+
+std::size_t case_index(bool slow, std::size_t age, std::size_t run) {
+  std::size_t a = 0;
+  while (a + 1 < kModelAges.size() && kModelAges[a + 1] <= age) ++a;
+  const std::size_t r = run >= 4 ? 2 : run >= 2 ? 1 : 0;
+  return ((slow ? 1 : 0) * kModelAges.size() + a) * kModelRuns.size() + r;
+}
+
+}  // namespace dance

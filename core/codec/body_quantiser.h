@@ -1,0 +1,112 @@
+// Finds the lattice point that a body is coded as: bone after bone, each aimed at where its end
+// truly is from where its joint was decoded, so that errors do not add up along a limb; and of the
+// points that are near enough the one that costs least.
+//
+// Units/frames: metres, radians, W; an error of 1 is the budget.
+// Ownership:    owns room for one frame; looks at nothing after a call.
+// Threads:      none inside.
+// Failure:      quantise() is false where a joint would be further off than the budget: a finer
+//               level, or a lower lambda, brings it nearer.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/codec/body_lattice.h"
+#include "core/codec/body_predictor.h"
+#include "core/codec/symbol_law.h"
+#include "core/pose/pose.h"
+
+namespace dance {
+
+// A body as it truly is.
+struct TrueBody {
+  std::array<exact::Quat, kBoneCount> local{};
+  std::array<exact::Quat, kBoneCount> global{};
+  std::array<exact::Vec, kBoneCount> joint{};
+  std::array<exact::Vec, kTipCount> tip{};
+};
+TrueBody true_body(const BodyLattice& lattice, const Pose& pose);
+
+// The largest errors of a decoded body.
+struct BodyError {
+  double joint_m = 0.0;    // joints and tips
+  double angle_rad = 0.0;  // of a bone in W
+  double mean_joint_m = 0.0;
+};
+BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const BodyState& body);
+
+// What a bone may be turned by, seen or not.
+constexpr double kAngleCap_rad = 0.0698;
+constexpr double kShellRadius_m = 0.03;
+inline double angle_budget_rad(double error_m) {
+  return error_m / kShellRadius_m < kAngleCap_rad ? error_m / kShellRadius_m : kAngleCap_rad;
+}
+
+struct QuantiseOptions {
+  std::size_t level = 3;
+  double error_m = 0.001;
+  double inner = 0.9;  // what joints may have of the budget, so that the next ones can still be met
+  double lambda = 6.0;  // bits that an error of the whole budget is worth
+};
+
+class BodyQuantiser {
+ public:
+  struct Choice {
+    SymbolLaw law;
+    SymbolLaw::Symbol symbol;
+  };
+  // Bones that stand as they did in the frame before, for themselves.
+  using Still = std::array<bool, kBoneCount>;
+
+  bool quantise(const BodyLattice& lattice, BodyPredictor& predictor, const BellShape& bell,
+                const TrueBody& truth, const Still& still, const BodyState* base,
+                const QuantiseOptions& options);
+
+  const BodyState& body() const { return body_; }
+  std::span<const Choice> choices() const { return {choices_.data(), choice_count_}; }
+  double bits() const { return bits_; }
+
+ private:
+  struct Point {
+    exact::Vec offset;  // in the bone's frame
+    exact::Vec truth;   // in W
+    bool is_tip;
+  };
+  std::span<const Point> points() const { return {points_.data(), point_count_}; }
+  void gather_from(std::size_t bone, const exact::Vec& at, const exact::Quat& turn,
+                   const Still& still, const BodyState* base);
+  void gather_points(std::size_t bone, const Still& still, const BodyState* base);
+  bool stands_in(std::size_t bone, const BodyState& base) const;
+  bool quantise_place(double lambda);
+  bool quantise_bone(std::size_t bone, bool is_still, double lambda);
+  void choose(std::size_t c, double target_steps, double weight, double lambda);
+  void commit(std::size_t c, std::int32_t n);
+  bool is_good(std::size_t bone) const;
+
+  const BodyLattice* lattice_ = nullptr;
+  BodyPredictor* predictor_ = nullptr;
+  const BellShape* bell_ = nullptr;
+  const TrueBody* truth_ = nullptr;
+  const BodyState* base_ = nullptr;
+  QuantiseOptions options_;
+  Still still_{};
+  BodyState body_;
+  std::array<Choice, kCoordinateCount> choices_;
+  std::size_t choice_count_ = 0;
+  std::array<Point, kBoneCount + kTipCount> points_{};
+  std::size_t point_count_ = 0;
+  double bits_ = 0.0;
+  double least_dot_ = 0.0;  // of a bone's rotation with the true one
+};
+
+// A number of steps brought into the turn that has 0 in its middle.
+inline std::int32_t wrapped(std::int64_t n, std::int32_t turn) {
+  if (turn == 0 || (n >= -(turn / 2) && n < (turn + 1) / 2)) return static_cast<std::int32_t>(n);
+  std::int64_t m = n % turn;
+  if (m >= (turn + 1) / 2) m -= turn;
+  if (m < -(turn / 2)) m += turn;
+  return static_cast<std::int32_t>(m);
+}
+
+}  // namespace dance

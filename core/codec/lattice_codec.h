@@ -1,0 +1,107 @@
+// The lattice codec: a body in some twenty bytes, no joint further off than was asked for. What it
+// does is said in docs/codec.md.
+//
+// Units/frames: errors in metres, at joints and tips in W; bones turn by at
+//               most what moves skin 3 cm from a joint by as much, and never by more than 4°.
+// Ownership:    encoder and decoder keep the last 64 frames, some 200 KB each, and share the model;
+//               made once per guest, they never allocate afterwards.
+// Threads:      none inside; one owner.
+// Failure:      as the seam says. A pose that no lattice brings within the error (none is known) is
+//               refused. What was damaged on its way decodes to another pose or is kMalformed; every
+//               32nd frame carries a sum by which ends that came apart notice.
+#pragma once
+
+#include <memory>
+
+#include "core/codec/body_quantiser.h"
+#include "core/codec/lattice_frame.h"
+#include "core/codec/pose_codec.h"
+
+namespace dance {
+
+class LatticeEncoder final : public PoseEncoder {
+ public:
+  explicit LatticeEncoder(std::shared_ptr<const PoseModel> model);
+
+  CodecName name() const override { return {CodecId::kLattice, model_->name}; }
+  std::size_t encode(const Pose& pose, std::span<std::uint8_t> payload) override;
+  void acknowledged(std::uint32_t sequence) override;
+  void key_frame_wanted() override;
+  void restart() override;
+  void set_references(References references) override { policy_ = references; }
+  void set_quality(double error_m) override;
+  void set_skeleton(const Skeleton& skeleton) override;
+
+  // Of the newest frame, for whoever measures.
+  const CodedFrame* newest() { return has_last_ ? ring_.find(last_sequence_) : nullptr; }
+  // For measuring: refers to the frame this many frames ago, whatever the policy; 0 = by the policy.
+  void refer_to_age(std::uint32_t age) { fixed_age_ = age; }
+
+ private:
+  struct Reference {
+    std::uint32_t age = 0;  // 0: none
+    std::size_t run = 0;
+    std::array<const CodedFrame*, 4> frames{};
+  };
+  Reference choose_reference(std::uint32_t sequence);
+  Reference reference_of_age(std::uint32_t sequence, std::uint32_t age);
+  bool may_refer_to(const CodedFrame* frame) const;
+  BodyQuantiser::Still still_bones(const TrueBody& truth) const;
+  // Finds the lattice point; false where none is near enough.
+  bool quantise(const TrueBody& truth, const BodyQuantiser::Still& still,
+                const Reference& reference);
+  std::size_t write(const Pose& pose, const Reference& reference, std::span<std::uint8_t> out);
+  void watch_pace(MonoTime capture);
+
+  std::shared_ptr<const PoseModel> model_;
+  std::unique_ptr<FrameRing> frames_ = std::make_unique<FrameRing>();
+  FrameRing& ring_ = *frames_;
+  BodyLattice lattice_;
+  BodyQuantiser quantiser_;
+  std::uint8_t skeleton_tag_;
+  References policy_ = References::kPrevious;
+  double error_m_ = 0.001;
+  std::size_t level_ = 3;  // of the error asked for
+  std::size_t used_level_ = 3;
+  std::uint32_t fixed_age_ = 0;
+  bool wants_key_ = true;
+  bool has_last_ = false;
+  std::uint32_t last_sequence_ = 0;
+  bool has_void_ = false;  // frames up to void_until_ are no references, whoever acknowledges them
+  std::uint32_t void_until_ = 0;
+  MonoTime last_capture_;
+  Duration pace_ = Duration::us(16'667);
+  bool is_slow_ = false;
+  bool has_truth_ = false;
+  TrueBody last_truth_;
+  std::array<std::uint8_t, 255> last_payload_{};
+  std::size_t last_size_ = 0;
+};
+
+class LatticeDecoder final : public PoseDecoder {
+ public:
+  explicit LatticeDecoder(std::shared_ptr<const PoseModel> model);
+
+  CodecName name() const override { return {CodecId::kLattice, model_->name}; }
+  DecodeResult decode(std::uint32_t sequence, std::span<const std::uint8_t> payload,
+                      Pose& pose) override;
+  void restart() override { ring_.clear(); }
+  void set_skeleton(const Skeleton& skeleton) override;
+
+  // Of a decoded frame, for whoever measures; nullptr where it did not come.
+  const CodedFrame* find(std::uint32_t sequence) { return ring_.find(sequence); }
+
+ private:
+  DecodeResult decode_frame(std::uint32_t sequence, std::span<const std::uint8_t> payload);
+  DecodeResult decode_body(RangeDecoder& in, const FrameHead& head, std::uint32_t sequence,
+                           std::span<const BodyState* const> references);
+
+  std::shared_ptr<const PoseModel> model_;
+  std::unique_ptr<FrameRing> frames_ = std::make_unique<FrameRing>();
+  FrameRing& ring_ = *frames_;
+  BodyLattice lattice_;
+  std::uint8_t skeleton_tag_;
+  CodedFrame fresh_;  // until it is known to be whole
+};
+
+}  // namespace dance

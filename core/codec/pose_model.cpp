@@ -1,0 +1,166 @@
+#include "core/codec/pose_model.h"
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "core/base/byte_reader.h"
+#include "core/base/byte_writer.h"
+#include "core/codec/exact_math.h"
+
+namespace dance {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x4d504344;  // "DCPM" as bytes
+constexpr std::uint16_t kVersion = 1;
+
+// Visits every number of a model in the order of the file.
+template <class Model, class OnHalf, class OnWord, class OnByte>
+void visit(Model& model, OnHalf half, OnWord word, OnByte byte) {
+  for (auto& bone : model.rest.bones) {
+    for (auto& x : bone.centre_xyzw) half(x);
+    for (auto& x : bone.hinge) half(x);
+  }
+  for (auto& x : model.bell) word(x);
+  for (auto& x : model.intra_bell) word(x);
+  for (auto& law : model.intra) {
+    for (auto& x : law.from) byte(x);
+    for (auto& x : law.weight) half(x);
+    half(law.base);
+    half(law.spread_log2);
+  }
+  for (auto& laws : model.laws)
+    for (auto& law : laws) {
+      for (auto& speed : law.mean)
+        for (auto& x : speed) half(x);
+      for (auto& x : law.spread) half(x);
+    }
+}
+
+std::uint32_t name_of(std::span<const std::uint8_t> file) {
+  std::uint64_t sum = 14695981039346656037u;  // FNV-1a
+  for (const std::uint8_t byte : file) sum = (sum ^ byte) * 1099511628211u;
+  const auto name = static_cast<std::uint32_t>(sum ^ sum >> 32);
+  return name == 0 ? 1 : name;  // 0 is the generic model
+}
+
+bool is_bell(const BellShape& bell) {
+  if (bell[0] != 0 || bell.back() > kBellTop / 2 * 256) return false;
+  for (std::size_t i = 1; i < bell.size(); ++i)
+    if (bell[i] < bell[i - 1]) return false;
+  return true;
+}
+
+}  // namespace
+
+std::uint16_t to_half(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const auto sign = static_cast<std::uint16_t>(bits >> 16 & 0x8000);
+  const float size = std::abs(value);
+  if (!(size < 65504.0f)) return static_cast<std::uint16_t>(sign | 0x7bff);
+  if (size < 6.1035156e-5f)
+    return static_cast<std::uint16_t>(sign | std::lround(size * 16777216.0f));
+  // Halfway cases go up; a mantissa that overflows goes on in the exponent.
+  const std::uint32_t rounded = (bits & 0x7fff'ffff) + 0x1000;
+  return static_cast<std::uint16_t>(sign | ((rounded >> 13) - (112u << 10)));
+}
+
+float from_half(std::uint16_t half) {
+  const std::uint32_t exponent = half >> 10 & 31u;
+  const std::uint32_t mantissa = half & 1023u;
+  float size = static_cast<float>(mantissa) / 16777216.0f;
+  if (exponent > 0) size = std::bit_cast<float>((exponent + 112u) << 23 | mantissa << 13);
+  return (half & 0x8000u) != 0 ? -size : size;
+}
+
+std::vector<std::uint8_t> write_model(const PoseModel& model) {
+  std::vector<std::uint8_t> file(sizeof(PoseModel));
+  ByteWriter out(file);
+  out.u32(kMagic);
+  out.u16(kVersion);
+  visit(
+      model, [&](float x) { out.u16(to_half(x)); }, [&](std::uint32_t x) { out.u32(x); },
+      [&](std::uint8_t x) { out.u8(x); });
+  DANCE_ASSERT(out.ok());
+  file.resize(out.size());
+  return file;
+}
+
+Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t> file) {
+  auto model = std::make_shared<PoseModel>();
+  ByteReader in(file);
+  if (in.u32() != kMagic)
+    return fail("this is not a model of the pose codec: make one with dance codec train");
+  const std::uint16_t version = in.u16();
+  if (version != kVersion)
+    return fail("the model is of version " + std::to_string(version) +
+                ", this build reads version " + std::to_string(kVersion) +
+                ": train it again with dance codec train");
+  visit(
+      *model, [&](float& x) { x = from_half(in.u16()); }, [&](std::uint32_t& x) { x = in.u32(); },
+      [&](std::uint8_t& x) { x = in.u8(); });
+  bool is_whole = in.is_exhausted() && is_bell(model->bell) && is_bell(model->intra_bell);
+  for (std::size_t c = 0; c < kCoordinateCount && is_whole; ++c)
+    for (std::size_t i = 0; i < kIntraTerms; ++i) {
+      // Only what is decoded before; the first looks at nothing.
+      const auto [from, weight] = std::pair{model->intra[c].from[i], model->intra[c].weight[i]};
+      is_whole = is_whole && (c == 0 ? from == 0 && weight == 0.0f : from < c);
+    }
+  bool is_finite = true;
+  visit(
+      *model, [&](float x) { is_finite = is_finite && std::isfinite(x); }, [](std::uint32_t) {},
+      [](std::uint8_t) {});
+  for (const auto& bone : model->rest.bones) {
+    const auto& q = bone.centre_xyzw;
+    const float n = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    is_finite = is_finite && n > 0.5f && n < 2.0f;
+  }
+  if (!is_whole || !is_finite)
+    return fail("the model is damaged (" + std::to_string(file.size()) +
+                " bytes): fetch it again, or train it with dance codec train");
+  model->name = name_of(file);
+  return std::shared_ptr<const PoseModel>(std::move(model));
+}
+
+BellShape logistic_bell(double wide_share) {
+  const auto logistic = [](double z) { return 1.0 / (1.0 + exact::exp2(-z * 1.4426950408889634)); };
+  BellShape bell{};
+  for (std::size_t i = 0; i < bell.size(); ++i) {
+    const double z = static_cast<double>(i) / 16.0;
+    const double F = (1.0 - wide_share) * logistic(z) + wide_share * logistic(z / 3.0) - 0.5;
+    bell[i] = static_cast<std::uint32_t>(F * 256.0 * kBellTop);
+  }
+  return bell;
+}
+
+// Everything goes on as it went, by 0.8 of its speed, and a third of it as its end went in the room.
+std::shared_ptr<const PoseModel> generic_model() {
+  static const std::shared_ptr<const PoseModel> kModel = [] {
+    auto model = std::make_shared<PoseModel>();
+    model->bell = logistic_bell(0.15);
+    model->intra_bell = logistic_bell(0.0);
+    for (std::size_t c = 0; c < kCoordinateCount; ++c)
+      model->intra[c].spread_log2 = c == 0 || c == 2 ? 0.0f : c == 1 ? -4.0f : -2.0f;
+    for (std::size_t slow = 0; slow < 2; ++slow)
+      for (const std::uint8_t age : kModelAges)
+        for (const std::uint8_t run : kModelRuns)
+          for (CoordinateLaw& law : model->laws[case_index(slow != 0, age, run)]) {
+            const float ahead = static_cast<float>(age) * 0.6f;
+            for (auto& mean : law.mean) {
+              mean[1] = 0.65f * ahead;
+              mean[4] = 0.35f;
+              mean[5] = 0.35f * ahead;
+            }
+            law.spread[0] = run > 1 ? 0.3f : 0.8f;
+            law.spread[2] = 0.3f;
+            law.spread[5] = 0.2f;
+            law.spread[6] = 0.25f;
+            law.spread[8] = 0.2f;
+            law.spread[9] = 0.4f;
+          }
+    return model;
+  }();
+  return kModel;
+}
+
+}  // namespace dance

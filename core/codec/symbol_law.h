@@ -1,0 +1,157 @@
+// Codes one whole number whose mean and spread were predicted: a bell of trained shape around the
+// mean, by integers alone. Numbers far from the mean cost bits, never a clamp.
+//
+// Units/frames: the mean is in 1/256 of a step; a spread class c stands for 2^((c − 16) / 4) steps.
+// Ownership:    looks at the shape, which must outlive it.
+// Threads:      none inside.
+// Failure:      decode() of damaged bytes gives some number; it ends.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "core/codec/range_coder.h"
+
+namespace dance {
+
+constexpr int kSpreadClasses = 64;
+// Where a law's bell stands; classes outside are the nearest inside.
+struct Spread {
+  std::int64_t mean_256 = 0;
+  int spread_class = 16;
+};
+
+// A bell's cumulative law for z ≥ 0 in sixteenths of the spread: (F(z) − ½) · kBellTop · 256.
+constexpr int kBellSteps = 256;
+constexpr std::uint32_t kBellTop = (1u << 16) - 64;
+using BellShape = std::array<std::uint32_t, kBellSteps + 1>;
+
+class SymbolLaw {
+ public:
+  SymbolLaw() = default;
+  SymbolLaw(const BellShape& shape, Spread spread) : shape_(&shape) {
+    const int c = std::clamp(spread.spread_class, 0, kSpreadClasses - 1);
+    shift_ = std::max(0, (c >> 2) - 5);
+    first_ = (((spread.mean_256 + 128) >> 8) >> shift_) - kWindow;
+    const std::int64_t inverse = kInverses[static_cast<std::size_t>(c)];
+    edge_ = (first_ * (std::int64_t{1} << (shift_ + 8)) - 128 - spread.mean_256) * inverse;
+    width_ = inverse << (shift_ + 8);
+  }
+
+  // A number's place in the law.
+  struct Symbol {
+    std::int32_t n = 0;
+    int slot = 0;
+    std::uint32_t low = 0, freq = 0;
+  };
+  Symbol find(std::int32_t n) const {
+    const std::int64_t from_first = (static_cast<std::int64_t>(n) >> shift_) - first_;
+    const int slot = static_cast<int>(std::clamp<std::int64_t>(from_first + 1, 0, kSlots - 1));
+    const std::uint32_t low = below(slot);
+    return {n, slot, low, below(slot + 1) - low};
+  }
+  // As find() of the number before or after, `way` −1 or 1.
+  Symbol beside(const Symbol& symbol, int way) const {
+    const int slot = symbol.slot + way;
+    if (shift_ > 0 || symbol.slot < 1 || symbol.slot >= kSlots - 1) return find(symbol.n + way);
+    if (way < 0) {
+      const std::uint32_t low = below(slot);
+      return {symbol.n - 1, slot, low, symbol.low - low};
+    }
+    const std::uint32_t low = symbol.low + symbol.freq;
+    return {symbol.n + 1, slot, low, below(slot + 1) - low};
+  }
+  // What encode() would write.
+  double bits(const Symbol& symbol) const {
+    const double bits = kLawBits - nearly_log2(symbol.freq) + shift_;
+    return symbol.slot != 0 && symbol.slot != kSlots - 1 ? bits : bits + bits_outside(symbol);
+  }
+  void encode(const Symbol& symbol, RangeEncoder& out) const {
+    out.encode(symbol.low, symbol.freq, kLawBits);
+    if (shift_ > 0 || symbol.slot == 0 || symbol.slot == kSlots - 1) encode_rest(symbol, out);
+  }
+  void encode(std::int32_t n, RangeEncoder& out) const { encode(find(n), out); }
+
+  std::int32_t decode(RangeDecoder& in) const {
+    in.begin(kLawBits);
+    int slot = kWindow + 1;
+    std::uint32_t low = inside(slot), high;
+    if (in.is_below(low)) {
+      do {
+        high = low;
+        low = --slot > 0 ? inside(slot) : 0;
+      } while (in.is_below(low));
+    } else {
+      high = inside(slot + 1);
+      while (!in.is_below(high)) {
+        low = high;
+        if (++slot == kSlots - 1) {
+          high = 1u << kLawBits;
+          break;
+        }
+        high = inside(slot + 1);
+      }
+    }
+    in.consume(low, high - low);
+    if (shift_ > 0 || slot == 0 || slot == kSlots - 1) return decode_rest(slot, in);
+    return to_32(first_ + slot - 1);
+  }
+
+ private:
+  static constexpr int kLawBits = 16;
+  static constexpr int kWindow = 15;  // symbols either side of the mean
+  static constexpr int kSlots = 2 * kWindow + 3;
+  // Of each class's spread, 2^20 / steps.
+  static constexpr auto kInverses = [] {
+    constexpr std::array<std::int64_t, 4> kQuarterOctaves{1'048'576, 881'744, 741'455, 623'487};
+    std::array<std::int64_t, kSpreadClasses> inverses{};
+    for (std::size_t c = 0; c < inverses.size(); ++c) {
+      const int octave = static_cast<int>(c >> 2) - 4;
+      const std::int64_t q = kQuarterOctaves[c & 3];
+      inverses[c] = octave <= 0 ? q << -octave : q >> octave;
+    }
+    return inverses;
+  }();
+
+  // What stands below the lower edge of a slot; slots 0 and kSlots − 1 are what is outside.
+  std::uint32_t below(int slot) const {
+    if (slot <= 0) return 0;
+    if (slot >= kSlots) return 1u << kLawBits;
+    return inside(slot);
+  }
+  std::uint32_t inside(int slot) const {
+    // z in 1/4096 of the spread
+    const std::int64_t z = (edge_ + (slot - 1) * width_) >> 16;
+    const std::int64_t far = std::min<std::int64_t>(z < 0 ? -z : z, (kBellSteps << 8) - 1);
+    const std::uint32_t* at = shape_->data() + (far >> 8);
+    const auto a = static_cast<std::int32_t>(at[0]), b = static_cast<std::int32_t>(at[1]);
+    const std::int32_t half = (a + (((b - a) * static_cast<std::int32_t>(far & 255)) >> 8)) >> 8;
+    constexpr std::int32_t kMiddle = kBellTop / 2;
+    return static_cast<std::uint32_t>((z < 0 ? kMiddle - half : kMiddle + half) + slot);
+  }
+  // Within 0.002.
+  static double nearly_log2(std::uint32_t x) {
+    const auto bits = std::bit_cast<std::uint64_t>(static_cast<double>(x));
+    const double whole = static_cast<double>(static_cast<int>(bits >> 52) - 1023);
+    const double f =
+        std::bit_cast<double>((bits & 0x000f'ffff'ffff'ffff) | 0x3ff0'0000'0000'0000) - 1.0;
+    return whole + f + f * (1.0 - f) * (0.4233 - 0.1568 * f);
+  }
+  static std::int32_t to_32(std::int64_t n) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(n, INT32_MIN / 2, INT32_MAX / 2));
+  }
+  // Beyond the slots, and of wide bells: what is rare.
+  double bits_outside(const Symbol& symbol) const;
+  void encode_rest(const Symbol& symbol, RangeEncoder& out) const;
+  std::int32_t decode_rest(int slot, RangeDecoder& in) const;
+
+  const BellShape* shape_ = nullptr;
+  std::int64_t edge_ = 0;   // the lower edge of slot 1 from the mean, 2^-28 of the spread
+  std::int64_t width_ = 0;  // of a slot
+  std::int64_t first_ = 0;  // symbol of slot 1
+  int shift_ = 0;           // wide bells are coded coarsely, and the rest in plain bits
+};
+
+}  // namespace dance

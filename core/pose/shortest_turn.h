@@ -1,0 +1,15 @@
+// The rotation that turns one direction into another the shortest way. Eigen's FromTwoVectors() does the same through a
+// singular value decomposition, which every file that names it compiles anew.
+//
+// Ownership: plain values.
+// Threads:   none inside.
+// Failure:   none: opposite directions turn by half about some axis square to them, a zero vector gives identity.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace dance {
+
+Eigen::Quaterniond shortest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+}  // namespace dance
