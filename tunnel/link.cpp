@@ -1,5 +1,6 @@
 #include "tunnel/link.h"
 
+#include "core/base/assert.h"
 #include "core/net/mono_clock.h"
 #include "core/net/secure_random.h"
 
@@ -13,20 +14,28 @@ constexpr int kHellosPerSocket = 4;
 
 }  // namespace
 
-Result<std::unique_ptr<Link>> Link::open(const Address& server, LinkOptions options,
+Result<std::unique_ptr<Link>> Link::open(std::vector<Address> server, LinkOptions options,
                                          LinkHandlers handlers, Poller& poller) {
-  DANCE_TRY(UdpSocket socket, UdpSocket::connect(server));
+  DANCE_ASSERT(!server.empty());
+  // One that this machine has no way to (IPv6 without IPv6, say) is left out.
+  auto socket = UdpSocket::connect(server.front());
+  while (!socket && server.size() > 1) {
+    server.erase(server.begin());
+    socket = UdpSocket::connect(server.front());
+  }
+  if (!socket) return tl::make_unexpected(socket.error());
   while (options.token == 0) options.token = secure_random_u64();
   if (options.clock_id == 0) options.clock_id = this_clock_id();
   options.seed = secure_random_u64();
   return std::unique_ptr<Link>(
-      new Link(server, std::move(socket), options, std::move(handlers), poller));
+      new Link(std::move(server), std::move(*socket), options, std::move(handlers), poller));
 }
 
-Link::Link(const Address& server, UdpSocket socket, const LinkOptions& options,
+Link::Link(std::vector<Address> server, UdpSocket socket, const LinkOptions& options,
            LinkHandlers handlers, Poller& poller)
     : poller_(poller),
-      server_(server),
+      server_(std::move(server)),
+      on_no_answer_(handlers.on_no_answer),
       clock_id_(options.clock_id),
       begin_(mono_now()),
       socket_(std::move(socket)),
@@ -34,10 +43,10 @@ Link::Link(const Address& server, UdpSocket socket, const LinkOptions& options,
       core_(options, std::move(handlers), sink_) {
   watch_socket();
   timer_ = poller_.add_timer(begin_, [this](MonoTime now) {
-    const MonoTime next = core_.tick(now);
+    // Before the next hello, so that the one before had all its time.
     if (core_.unanswered_hellos() == 0) hellos_on_socket_ = 0;
     if (core_.unanswered_hellos() - hellos_on_socket_ >= kHellosPerSocket) try_another_socket();
-    return next;
+    return core_.tick(now);
   });
 }
 
@@ -68,8 +77,15 @@ void Link::rearm() {
 
 void Link::try_another_socket() {
   hellos_on_socket_ = core_.unanswered_hellos();
-  auto socket = UdpSocket::connect(server_);
+  // Where the server has once answered, there it is.
+  std::size_t next = tried_;
+  if (core_.counters().datagrams_in == 0) {
+    if (on_no_answer_) on_no_answer_(server_[tried_]);
+    next = (tried_ + 1) % server_.size();
+  }
+  auto socket = UdpSocket::connect(server_[next]);
   if (!socket) return;  // no network at all just now: the old one will do as well
+  tried_ = next;
   poller_.unwatch(socket_.fd());
   socket_ = std::move(*socket);
   watch_socket();
@@ -89,6 +105,8 @@ void Link::send(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
   core_.send(guest, skeleton, now);
   rearm();
 }
+
+Duration Link::uptime() const { return mono_now() - begin_; }
 
 Stats Link::stats(MonoTime now) const {
   Stats stats;

@@ -22,7 +22,8 @@ namespace dance {
 class Link {
  public:
   // Token, clock and seed of the options are filled in where they are 0.
-  static Result<std::unique_ptr<Link>> open(const Address& server, LinkOptions options,
+  // Addresses of one server: until one has answered they are tried in turn.
+  static Result<std::unique_ptr<Link>> open(std::vector<Address> server, LinkOptions options,
                                             LinkHandlers handlers, Poller& poller);
   // Says goodbye.
   ~Link();
@@ -40,6 +41,10 @@ class Link {
   const LinkCounters& counters() const { return core_.counters(); }
   const ClockMapper& clock() const { return core_.clock(); }
   std::vector<RemoteGuestStats> remote_stats() const { return core_.remote_stats(); }
+  std::vector<LocalGuestStats> local_stats() const { return core_.local_stats(); }
+  const PathStats& path() const { return core_.path(); }
+  // Since the link began.
+  Duration uptime() const;
   // As STATS/link says it.
   Stats stats(MonoTime now) const;
 
@@ -56,15 +61,17 @@ class Link {
     UdpSocket& socket_;
   };
 
-  Link(const Address& server, UdpSocket socket, const LinkOptions& options, LinkHandlers handlers,
-       Poller& poller);
+  Link(std::vector<Address> server, UdpSocket socket, const LinkOptions& options,
+       LinkHandlers handlers, Poller& poller);
   void watch_socket();
   void on_readable(MonoTime now);
   void rearm();
   void try_another_socket();
 
   Poller& poller_;
-  Address server_;
+  std::vector<Address> server_;
+  std::size_t tried_ = 0;  // which of them the socket speaks to
+  std::function<void(const Address&)> on_no_answer_;
   std::uint64_t clock_id_;
   MonoTime begin_;
   UdpSocket socket_;

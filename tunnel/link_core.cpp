@@ -11,7 +11,16 @@ constexpr std::size_t kMostDeparted = 64;
 
 RemoteGuestStats stats_of(const RemoteGuest& remote) {
   const StreamGate::Counters& c = remote.poses.counters();
-  return {remote.id, true, c.received, c.lost, c.late, c.duplicate, remote.invalid};
+  return {remote.id,
+          true,
+          c.received,
+          c.lost,
+          c.late,
+          c.duplicate,
+          remote.invalid,
+          remote.reference_missing,
+          remote.skeleton_missing,
+          remote.key_frames_asked};
 }
 
 void add(const RemoteGuestStats& more, RemoteGuestStats& sum) {
@@ -20,6 +29,9 @@ void add(const RemoteGuestStats& more, RemoteGuestStats& sum) {
   sum.late += more.late;
   sum.duplicate += more.duplicate;
   sum.invalid += more.invalid;
+  sum.reference_missing += more.reference_missing;
+  sum.skeleton_missing += more.skeleton_missing;
+  sum.key_frames_asked += more.key_frames_asked;
 }
 
 }  // namespace
@@ -33,16 +45,20 @@ LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSi
   DANCE_ASSERT(options.token != 0);
   DANCE_ASSERT(options.room.is_set());
   if (options_.codecs.empty())
-    for (const CodecId id : known_codecs()) {
-      const bool pushed = options_.codecs.try_push(static_cast<std::uint8_t>(id));
+    for (const CodecName& name : known_codecs()) {
+      const bool pushed = options_.codecs.try_push(name);
       DANCE_ASSERT(pushed);
     }
   locals_.reserve(wire::kMaxGuestsPerLink);
   departed_.reserve(kMostDeparted);
-  for (const GuestId& id : options_.guests) {
-    locals_.emplace_back();
-    locals_.back().id = id;
-  }
+  for (const GuestId& id : options_.guests) add_local(id);
+}
+
+LocalGuest& LinkCore::add_local(const GuestId& id) {
+  LocalGuest& guest = locals_.emplace_back();
+  guest.id = id;
+  guest.quality = QualityByRate(options_.quality_m, options_.pose_bytes_per_second);
+  return guest;
 }
 
 void LinkCore::send_datagram(wire::Bytes bytes) {
@@ -69,16 +85,20 @@ bool LinkCore::is_ours(const wire::RosterEntry& entry) const {
 }
 
 LocalGuest* LinkCore::find_or_add(const GuestId& id, MonoTime now) {
-  for (LocalGuest& guest : locals_)
-    if (guest.id == id) return &guest;
+  for (LocalGuest& guest : locals_) {
+    if (guest.id != id) continue;
+    guest.last_pose = now;
+    return &guest;
+  }
   if (locals_.size() == wire::kMaxGuestsPerLink) {
     ++counters_.overflow;
     return nullptr;
   }
-  locals_.emplace_back();
-  locals_.back().id = id;
+  LocalGuest& guest = add_local(id);
+  guest.came_with_pose = true;
+  guest.last_pose = now;
   schedule_update(now);
-  return &locals_.back();
+  return &guest;
 }
 
 void LinkCore::receive(wire::Bytes datagram, MonoTime received, MonoTime now) {
@@ -106,7 +126,7 @@ void LinkCore::fill(Stats& stats) const {
   stats.received = as_signed(c.poses_offered + c.poses_received);
   stats.forwarded = as_signed(c.poses_sent + c.poses_delivered);
   stats.dropped_late = as_signed(c.late);
-  stats.dropped_invalid = as_signed(c.invalid);
+  stats.dropped_invalid = as_signed(c.invalid + c.reference_missing + c.skeleton_missing);
   stats.dropped_unrouted = as_signed(c.unrouted);
   stats.dropped_overflow = as_signed(c.overflow);
   stats.lost = 0;
@@ -153,6 +173,14 @@ std::vector<RemoteGuestStats> LinkCore::remote_stats() const {
       known->is_here = true;
     }
   }
+  return all;
+}
+
+std::vector<LocalGuestStats> LinkCore::local_stats() const {
+  std::vector<LocalGuestStats> all;
+  for (const LocalGuest& guest : locals_)
+    all.push_back({guest.id, guest.policy.current(), guest.sent, guest.acked, guest.key_frames_sent,
+                   guest.quality.quality_m()});
   return all;
 }
 

@@ -17,8 +17,10 @@
 #include "core/bus/messages.h"
 #include "core/net/clock_mapper.h"
 #include "core/net/datagram_sink.h"
+#include "tunnel/ack_window.h"
 #include "tunnel/link_guests.h"
 #include "tunnel/link_options.h"
+#include "tunnel/wire_records.h"
 
 namespace dance {
 
@@ -46,10 +48,13 @@ class LinkCore {
   void fill(Stats& stats) const;
   // Those who are here, and the last that have left.
   std::vector<RemoteGuestStats> remote_stats() const;
+  std::vector<LocalGuestStats> local_stats() const;
+  const PathStats& path() const { return path_; }
 
  private:
   void deliver_state(LinkState state, MonoTime now);
   void send_datagram(wire::Bytes bytes);
+  LocalGuest& add_local(const GuestId& id);
   LocalGuest* find_or_add(const GuestId& id, MonoTime now);
   bool is_ours(const wire::RosterEntry& entry) const;
 
@@ -57,6 +62,8 @@ class LinkCore {
   void send_hello(MonoTime now);
   void send_ping(MonoTime now);
   void begin_lapse(MonoTime now);
+  void leave_out(const GuestId& refused, MonoTime now);
+  void let_silent_go(MonoTime now);
   void schedule_update(MonoTime now);
   void heard_server(MonoTime now);
   void on_welcome(const wire::Opening& opening, MonoTime received, MonoTime now);
@@ -66,7 +73,11 @@ class LinkCore {
 
   // link_receive.cpp
   bool on_records(wire::Bytes body, MonoTime received, MonoTime now);
-  void on_record(const wire::Record& record, MonoTime received, MonoTime now);
+  // False for a pose that did not decode.
+  bool on_record(wire::Record record, MonoTime received, MonoTime now);
+  void on_hands(const wire::Record& record, const GuestId& id, MonoTime capture, MonoTime now);
+  bool decode(RemoteGuest& remote, const wire::Record& record, MonoTime now);
+  void renew_decoder(RemoteGuest& remote);
   bool on_roster(wire::Bytes body, MonoTime now);
   void settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry);
   void keep_counts(const RemoteGuest& remote);
@@ -83,8 +94,23 @@ class LinkCore {
   };
   bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
              Stamp& out);
-  void send_record(const wire::Record& record);
+  void refresh(LocalGuest& guest, MonoTime now);
+  void add_record(const wire::Record& record, MonoTime now);
+  void flush_records();
+  void send_records_datagram(bool with_bundle);
+  std::size_t count_dancing(MonoTime now) const;
   void send_skeleton(const LocalGuest& guest);
+
+  // link_feedback.cpp
+  void begin_session_records();
+  void settle_encoder(LocalGuest& guest);
+  using Slots = FixedList<std::uint8_t, wire::kMaxGuestsPerRoom>;
+  void acknowledge(std::uint16_t number, const Slots& failed, bool has_decoded, bool has_records,
+                   MonoTime now);
+  void want_key_frame(RemoteGuest& remote, MonoTime now);
+  void on_acks(const wire::Acks& acks);
+  void on_feedback(std::uint16_t number, const wire::Feedback& feedback, MonoTime now);
+  void on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now);
 
   LinkOptions options_;
   LinkHandlers handlers_;
@@ -92,11 +118,12 @@ class LinkCore {
   Random random_;
   LinkState state_ = LinkState::kConnecting;
   std::uint64_t session_ = 0;
-  CodecId codec_ = CodecId::kNone;
+  CodecName codec_;
   ClockMapper clock_;
   LinkCounters counters_;
 
   // Hello under way.
+  bool removal_untold_ = false;  // the server still has a guest of ours who has left
   bool hello_wanted_ = true;
   std::uint64_t hello_nonce_ = 0;
   FixedList<std::uint8_t, wire::kMaxGuestsPerLink> hello_guests_;  // places in locals_
@@ -114,6 +141,25 @@ class LinkCore {
   // Counts of those who left or got another slot, so that a summary at the end has everybody.
   std::vector<RemoteGuestStats> departed_;  // reserved; the oldest makes room
   RosterAssembly roster_;
+  // Records that wait for those of other guests, and what the server is to be told with them.
+  std::array<std::uint8_t, wire::kMaxRecordsBody> bundle_;
+  std::size_t bundle_size_ = 0;
+  std::size_t bundle_poses_ = 0;
+  std::int64_t base_ticks_ = 0;
+  MonoTime bundle_due_;
+  std::uint16_t next_number_ = 0;
+  HeldFrames acked_datagrams_;
+  AckWindow received_;
+  struct Except {
+    std::uint16_t number;
+    std::uint8_t slot;
+  };
+  FixedList<Except, wire::kMaxAckExcepts> excepts_;
+  FixedList<std::uint8_t, wire::kMaxWants> wants_;
+  MonoTime ack_due_;  // set: there is something to acknowledge, or to ask for
+  bool has_feedback_ = false;
+  std::uint16_t newest_feedback_ = 0;  // number of its datagram
+  PathStats path_;
   Pose decoded_;
   Hands decoded_hands_;
 };

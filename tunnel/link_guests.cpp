@@ -67,4 +67,9 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
   return "the server refused for a cause that this link does not know: update this link";
 }
 
+std::string no_answer_line(const Address& server) {
+  return server.to_string() +
+         " does not answer: is `dance server` running there, and its UDP port open? Trying on";
+}
+
 }  // namespace dance

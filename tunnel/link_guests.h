@@ -10,9 +10,13 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/codec/hands_codec.h"
 #include "core/codec/plain_codec.h"
 #include "core/codec/pose_codec.h"
+#include "core/codec/quality_by_rate.h"
+#include "tunnel/held_frames.h"
 #include "tunnel/link_options.h"
+#include "tunnel/reference_policy.h"
 #include "tunnel/stream_gate.h"
 
 namespace dance {
@@ -38,10 +42,26 @@ struct LocalGuest {
   GuestId id;
   bool has_slot = false;
   wire::Slot slot;
-  MonoTime refused_until;  // set: not asked for before then
+  MonoTime refused_until;       // set: not asked for before then
+  bool came_with_pose = false;  // not announced: goes when its producer does
+  MonoTime last_pose;
   StreamTag poses;
   StreamTag hands;
   std::unique_ptr<PoseEncoder> encoder;
+  QualityByRate quality;
+  ReferencePolicy policy;
+  Duration frame = Duration::us(16'667);  // between captures, as it is of late
+  MonoTime last_capture;
+  HeldFrames sent_frames;   // what there is to acknowledge,
+  HeldFrames acked_frames;  // and what the encoder was told of it
+  std::uint32_t last_sequence = 0;
+  std::uint8_t key_frames_seen = 0;  // the server's count
+  MonoTime key_frame_at;
+  MonoTime acked_at;            // when the encoder was last told of a frame that all have
+  std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
+  std::uint64_t sent = 0;
+  std::uint64_t acked = 0;
+  std::uint64_t key_frames_sent = 0;
   std::array<std::uint8_t, kSkeletonPayload> skeleton;
   std::uint32_t skeleton_version = 0;  // the link's own count of changes; 0 = none yet
   std::uint32_t skeleton_acked = 0;
@@ -55,7 +75,13 @@ struct RemoteGuest {
   StreamGate poses;
   StreamGate hands;
   std::uint64_t invalid = 0;
+  std::uint64_t reference_missing = 0;
+  std::uint64_t skeleton_missing = 0;
+  std::uint64_t key_frames_asked = 0;
+  MonoTime key_asked_at;
   std::uint32_t skeleton_version = 0;
+  bool has_skeleton = false;  // of this guest, of this session or one before
+  Skeleton skeleton;
   std::unique_ptr<PoseDecoder> decoder;
 };
 

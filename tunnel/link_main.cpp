@@ -1,11 +1,10 @@
 // dance link: joins a house's bus to a room on a server.
 
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "tunnel/link_bus.h"
 #include "tunnel/link_report.h"
 #include "tunnel/server.h"
@@ -27,6 +26,8 @@ struct LinkProgramOptions {
   std::string room = "dance";
   std::vector<std::string> guests;
   std::string bus;
+  double quality_mm = LinkOptions().quality_m * 1e3;
+  double pose_bytes_per_second = 0.0;
   bool json = false;
 };
 
@@ -45,6 +46,8 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
     if (!options.guests.try_push(*guest)) return fail("--guest: a link has at most 16 guests");
   }
   options.clock_id = this_clock_id();
+  options.quality_m = given.quality_mm * 1e-3;
+  options.pose_bytes_per_second = given.pose_bytes_per_second;
   return options;
 }
 
@@ -52,29 +55,30 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
               const wire::RoomName& room) {
   handlers.on_state = [&options](LinkState state, MonoTime) {
     if (state == LinkState::kConnected)
-      spdlog::info("in room '{}' on {}", options.room, options.server);
+      talk::info("in room '{}' on {}", options.room, options.server);
     if (state == LinkState::kLapsed)
-      spdlog::warn("the server {} is silent; poses are dropped until it answers", options.server);
+      talk::warn("the server {} is silent; poses are dropped until it answers", options.server);
   };
   handlers.on_guest_joined = [](const GuestId& guest, MonoTime) {
-    spdlog::info("{} is here", guest.view());
+    talk::info("{} is here", guest.view());
   };
   handlers.on_guest_left = [&link_bus](const GuestId& guest, MonoTime) {
     link_bus.forget(guest);
-    spdlog::info("{} has left", guest.view());
+    talk::info("{} has left", guest.view());
   };
+  handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
   // Asked again up to ten times a second at first: said once a second.
   handlers.on_refused = [room, last = MonoTime()](const wire::RefusalNotice& refusal,
                                                   MonoTime now) mutable {
     if (last.is_set() && now - last < kSecond) return;
     last = now;
-    spdlog::warn("{}", refusal_line(refusal, room));
+    talk::warn("{}", refusal_line(refusal, room));
   };
 }
 
 Result<void> run_link(const LinkProgramOptions& given) {
   DANCE_TRY(const LinkOptions options, checked(given));
-  DANCE_TRY(const Address server, Address::resolve(given.server, kDefaultServerPort));
+  DANCE_TRY(const auto server, Address::resolve_all(given.server, kDefaultServerPort));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto bus, Bus::open(bus_url_or_default(given.bus)));
@@ -91,22 +95,14 @@ Result<void> run_link(const LinkProgramOptions& given) {
     link_bus.publish_second(now);
     return now + kSecond;
   });
-  poller->add_timer(begin + Duration::s(3), [&](MonoTime) {
-    if (!link->is_connected() && link->counters().datagrams_in == 0)
-      spdlog::warn(
-          "{} does not answer: is `dance server` running there, and the port open? Trying "
-          "on",
-          server.to_string());
-    return MonoTime();
-  });
-  spdlog::info("asks {} for room '{}'; Ctrl-C ends it", server.to_string(), given.room);
+  talk::info("asks {} for room '{}'; Ctrl-C ends it", given.server, given.room);
   poller->run();
   poller->unwatch(bus->fd());
   if (given.json)
     std::printf("%s\n", link_report_json(*link).c_str());
   else
-    spdlog::info("{} poses sent, {} delivered", link->counters().poses_sent,
-                 link->counters().poses_delivered);
+    talk::info("{} poses sent, {} delivered", link->counters().poses_sent,
+               link->counters().poses_delivered);
   return {};
 }
 
@@ -115,15 +111,26 @@ Result<void> run_link(const LinkProgramOptions& given) {
 
 int main(int argc, char** argv) {
   dance::LinkProgramOptions options;
-  CLI::App app{"A house's link: its guests' poses go to the room, the others' come to its bus.",
-               "dance link"};
-  app.add_option("--server", options.server, "HOST or HOST:PORT of `dance server`")
-      ->capture_default_str();
-  app.add_option("--room", options.room, "which room")->capture_default_str();
-  app.add_option("--guest", options.guests,
-                 "whose captures go to the room, may be repeated; none = everybody captured here");
-  app.add_option("--bus", options.bus, "LCM URL of the house's bus");
-  app.add_flag("--json", options.json, "write a summary to stdout at the end");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_link(options); });
+  dance::CommandLine line(
+      "A house's link: its guests' poses go to the room, the others' come to its bus.",
+      "dance link");
+  line.add("--server", options.server, "HOST or HOST:PORT of `dance server`").shows_default();
+  line.add("--room", options.room, "which room").shows_default();
+  line.add("--guest", options.guests,
+           "whose captures go to the room, may be repeated; none = everybody captured here")
+      .guest_name();
+  line.add("--bus", options.bus, "LCM URL of the house's bus");
+  line.add("--quality", options.quality_mm,
+           "millimetres that no joint is off by more at the others'")
+      .range(0.125, 20.0)
+      .shows_default();
+  line.add("--rate", options.pose_bytes_per_second,
+           "bytes a second that the poses of a guest may take, without headers; where they take "
+           "more, joints are off "
+           "by up to 5 mm; 0 = whatever --quality takes")
+      .range(0.0, 1e6)
+      .shows_default();
+  line.add_flag("--json", options.json, "write a summary to stdout at the end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_link(options); });
 }

@@ -8,9 +8,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "core/base/fixed_list.h"
+#include "core/codec/pose_codec.h"
+#include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
 #include "tunnel/wire.h"
@@ -23,7 +26,21 @@ struct LinkOptions {
   std::uint64_t token = 0;     // random, new with each start of a link; gives it its place back
   std::uint64_t clock_id = 0;  // this house's clock: poses of another one are stamped anew
   std::uint64_t seed = 1;      // for the nonces of hellos: random outside of tests
-  FixedList<std::uint8_t, wire::kMaxCodecs> codecs;  // empty = all that this build knows
+  FixedList<CodecName, wire::kMaxCodecs> codecs;  // empty = all that this build knows
+  // Where codecs come from: tests bring their own.
+  std::function<std::unique_ptr<PoseEncoder>(CodecName)> make_encoder = make_pose_encoder;
+  std::function<std::unique_ptr<PoseDecoder>(CodecName)> make_decoder = make_pose_decoder;
+  // Records wait this long for those of the house's other guests; 0 = each leaves at once.
+  Duration share_window = Duration::ms(1);
+  // A frame that needs no other comes this often, asked for or not; 0 = only when asked for.
+  Duration key_frame_period = Duration::s(2);
+  // Every so many poses bring the ages of their hops.
+  std::uint32_t poses_per_stamp = 16;
+  // The largest error in any joint that own guests are sent with, in metres;
+  double quality_m = 0.001;
+  // and what the payloads of each of them may cost: where they cost more, the error grows up to 5 mm,
+  // core/codec/quality_by_rate.h. 0 = whatever it costs.
+  double pose_bytes_per_second = 0.0;
 };
 
 enum class LinkState : std::uint8_t {
@@ -41,6 +58,9 @@ struct LinkHandlers {
   std::function<void(LinkState, MonoTime now)> on_state;
   // Guest is set where it is about one of ours. refusal_line() says it for people.
   std::function<void(const wire::RefusalNotice&, MonoTime now)> on_refused;
+  // Nothing has ever come from this address of the server, after several tries; the next ones go to another, or a new
+  // socket. Said by Link, each time.
+  std::function<void(const Address&)> on_no_answer;
 };
 
 struct LinkCounters {
@@ -50,12 +70,17 @@ struct LinkCounters {
   std::uint64_t poses_delivered = 0;
   std::uint64_t hands_sent = 0;
   std::uint64_t hands_delivered = 0;
-  std::uint64_t late = 0;             // both ways: not newer than what went before
-  std::uint64_t invalid = 0;          // both ways: not a pose, or of no time under way
-  std::uint64_t unrouted = 0;         // not connected, or a guest without a slot
-  std::uint64_t overflow = 0;         // more guests than a link may have
-  std::uint64_t foreign_clock = 0;    // poses of another clock, stamped anew
-  std::uint64_t stream_restarts = 0;  // producers of ours that began anew
+  std::uint64_t late = 0;               // both ways: not newer than what went before
+  std::uint64_t invalid = 0;            // both ways: not a pose, or of no time under way
+  std::uint64_t reference_missing = 0;  // refers to a frame that has not come
+  std::uint64_t skeleton_missing = 0;   // came before the guest's proportions
+  std::uint64_t key_frames_asked = 0;   // by this link, of the others
+  std::uint64_t key_frames_sent = 0;    // because somebody asked
+  std::uint64_t datagrams_acked = 0;    // of ours with records, by the server
+  std::uint64_t unrouted = 0;           // not connected, or a guest without a slot
+  std::uint64_t overflow = 0;           // more guests than a link may have
+  std::uint64_t foreign_clock = 0;      // poses of another clock, stamped anew
+  std::uint64_t stream_restarts = 0;    // producers of ours that began anew
   std::uint64_t datagrams_in = 0;
   std::uint64_t datagrams_out = 0;
   std::uint64_t bytes_in = 0;
@@ -75,9 +100,30 @@ struct RemoteGuestStats {
   std::uint64_t late = 0;
   std::uint64_t duplicate = 0;
   std::uint64_t invalid = 0;
+  std::uint64_t reference_missing = 0;
+  std::uint64_t skeleton_missing = 0;
+  std::uint64_t key_frames_asked = 0;
+};
+
+// One guest of this house, as this link sends it.
+struct LocalGuestStats {
+  GuestId guest;
+  References references = References::kPreviousTwice;
+  std::uint64_t sent = 0;
+  std::uint64_t acked = 0;  // frames that every receiver has
+  std::uint64_t key_frames_sent = 0;
+  double quality_m = 0.001;
+};
+// What the server said last about the way to the receivers.
+struct PathStats {
+  bool is_known = false;
+  double loss = 0.0;  // share, to the worst receiver
+  Duration round_trip;
 };
 
 // One line: what was refused, why, and the cure.
 std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomName& room);
+// One line: who does not answer, and what to look at.
+std::string no_answer_line(const Address& server);
 
 }  // namespace dance

@@ -17,56 +17,58 @@ MonoTime hop_time(MonoTime capture, std::int32_t age_us) {
 }  // namespace
 
 bool LinkCore::on_records(wire::Bytes body, MonoTime received, MonoTime now) {
-  if (body.empty()) return false;
-  ByteReader check(body);
-  while (!check.is_exhausted())
-    if (!wire::parse_record(check)) return false;
   ByteReader in(body);
-  while (!in.is_exhausted()) on_record(*wire::parse_record(in), received, now);
+  const auto header = wire::parse_records_header(in);
+  if (!header || !header->wants.empty()) return false;
+  const std::int64_t base_us = wire::base_us(header->base_ticks, clock_.to_theirs_us(now));
+  ByteReader check = in;
+  while (check.remaining() > 0)
+    if (!wire::parse_record(base_us, check)) return false;
+  if (header->has_acks) on_acks(header->acks);
+  if (header->has_feedback) on_feedback(header->number, header->feedback, now);
+  const bool is_again = received_.has(header->number);
+  Slots failed;
+  bool has_decoded = false;
+  while (in.remaining() > 0) {
+    const wire::Record record = *wire::parse_record(base_us, in);
+    if (on_record(record, received, now))
+      has_decoded = true;
+    else if (!failed.contains(record.slot))
+      (void)failed.try_push(record.slot);  // as many as there are slots
+  }
+  if (!is_again) acknowledge(header->number, failed, has_decoded, header->has_records, now);
   return true;
 }
 
-void LinkCore::on_record(const wire::Record& record, MonoTime received, MonoTime now) {
+bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   if (is_pose) ++counters_.poses_received;
   RemoteGuest& remote = remotes_[record.slot];
-  if (!remote.in_use || remote.is_ours || remote.generation != record.stream >> 16) {
+  StreamGate& gate = is_pose ? remote.poses : remote.hands;
+  if (!remote.in_use || remote.is_ours ||
+      !wire::widen(remote.generation, gate.has_any(), gate.stream(), gate.newest(), record)) {
     ++counters_.unrouted;  // the roster that names it has not come, or it has left
-    return;
+    return !is_pose;
   }
   const std::int64_t server_now_us = clock_.to_theirs_us(now);
   if (record.capture_us < server_now_us - kLongestAge_us ||
       record.capture_us > server_now_us + kFarthestAhead_us) {
     ++counters_.invalid;
     ++remote.invalid;
-    return;
+    return !is_pose;
   }
-  const StreamGate::Verdict verdict = (is_pose ? remote.poses : remote.hands)
-                                          .judge(record.stream, record.sequence, record.capture_us);
+  const StreamGate::Verdict verdict = gate.judge(record.stream, record.sequence, record.capture_us);
   if (verdict != StreamGate::Verdict::kNewest && verdict != StreamGate::Verdict::kNewStream) {
     ++counters_.late;
-    return;
+    return !is_pose;
   }
   const MonoTime capture = clock_.to_ours(record.capture_us);
   if (!is_pose) {
-    if (record.codec != 0 || !decode_hands(record.payload, decoded_hands_)) {
-      ++counters_.invalid;
-      return;
-    }
-    decoded_hands_.sequence = record.sequence;
-    decoded_hands_.clock_id = options_.clock_id;
-    decoded_hands_.capture_time = capture;
-    ++counters_.hands_delivered;
-    if (handlers_.on_hands) handlers_.on_hands(remote.id, decoded_hands_, now);
-    return;
+    on_hands(record, remote.id, capture, now);
+    return true;
   }
   if (verdict == StreamGate::Verdict::kNewStream) remote.decoder->restart();
-  if (record.codec != static_cast<std::uint8_t>(codec_) ||
-      remote.decoder->decode(record.sequence, record.payload, decoded_) != DecodeResult::kPose) {
-    ++counters_.invalid;
-    ++remote.invalid;
-    return;
-  }
+  if (!decode(remote, record, now)) return false;
   decoded_.sequence = record.sequence;
   decoded_.clock_id = options_.clock_id;
   decoded_.capture_time = capture;
@@ -77,6 +79,49 @@ void LinkCore::on_record(const wire::Record& record, MonoTime received, MonoTime
   decoded_.stamp(Hop::kLinkReceived, received);
   ++counters_.poses_delivered;
   if (handlers_.on_pose) handlers_.on_pose(remote.id, decoded_, now);
+  return true;
+}
+
+void LinkCore::on_hands(const wire::Record& record, const GuestId& id, MonoTime capture,
+                        MonoTime now) {
+  if (!decode_hands(record.payload, decoded_hands_)) {
+    ++counters_.invalid;
+    return;
+  }
+  decoded_hands_.sequence = record.sequence;
+  decoded_hands_.clock_id = options_.clock_id;
+  decoded_hands_.capture_time = capture;
+  ++counters_.hands_delivered;
+  if (handlers_.on_hands) handlers_.on_hands(id, decoded_hands_, now);
+}
+
+bool LinkCore::decode(RemoteGuest& remote, const wire::Record& record, MonoTime now) {
+  switch (remote.decoder->decode(record.sequence, record.payload, decoded_)) {
+    case DecodeResult::kPose:
+      return true;
+    case DecodeResult::kReferenceMissing:
+      ++counters_.reference_missing;
+      ++remote.reference_missing;
+      want_key_frame(remote, now);
+      return false;
+    case DecodeResult::kSkeletonMissing:  // the server says it again until it has come
+      ++counters_.skeleton_missing;
+      ++remote.skeleton_missing;
+      return false;
+    case DecodeResult::kMalformed:
+      break;
+  }
+  ++counters_.invalid;
+  ++remote.invalid;
+  return false;
+}
+
+void LinkCore::renew_decoder(RemoteGuest& remote) {
+  remote.decoder = options_.make_decoder(codec_);
+  remote.key_asked_at = MonoTime();
+  // Only what this guest has told since it came: its encoder begins with nothing too.
+  if (remote.skeleton_version != 0 && remote.has_skeleton)
+    remote.decoder->set_skeleton(remote.skeleton);
 }
 
 bool LinkCore::is_present(const GuestId& id) const {
@@ -95,14 +140,24 @@ void LinkCore::settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry) 
   if (!is_same) keep_counts(remote);
   remote.is_ours = is_ours(*entry);
   if (is_same) return;
+  // What was known of the guest's proportions, in this slot or another, still holds until the
+  // server says more.
+  const auto known = std::find_if(remotes_.begin(), remotes_.end(), [&](const RemoteGuest& r) {
+    return r.has_skeleton && r.id == entry->guest;
+  });
+  remote.has_skeleton = known != remotes_.end();
+  if (remote.has_skeleton) remote.skeleton = known->skeleton;
   remote.in_use = true;
   remote.id = entry->guest;
   remote.generation = entry->slot.generation;
   remote.poses = StreamGate();
   remote.hands = StreamGate();
   remote.invalid = 0;
+  remote.reference_missing = 0;
+  remote.skeleton_missing = 0;
+  remote.key_frames_asked = 0;
   remote.skeleton_version = 0;
-  remote.decoder = make_pose_decoder(codec_);
+  renew_decoder(remote);
 }
 
 bool LinkCore::on_roster(wire::Bytes body, MonoTime now) {
@@ -143,6 +198,8 @@ bool LinkCore::on_state(wire::Bytes body, MonoTime now) {
     } else if (remote.skeleton_version == 0 ||
                is_newer_sequence(state->version, remote.skeleton_version)) {
       remote.skeleton_version = state->version;
+      remote.has_skeleton = true;
+      remote.skeleton = skeleton;
       remote.decoder->set_skeleton(skeleton);
       if (handlers_.on_skeleton) handlers_.on_skeleton(remote.id, skeleton, now);
     }

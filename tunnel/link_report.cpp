@@ -1,5 +1,6 @@
 #include "tunnel/link_report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace dance {
@@ -14,7 +15,20 @@ std::string link_report_json(const Link& link) {
                       {"lost", guest.lost},
                       {"late", guest.late},
                       {"duplicate", guest.duplicate},
-                      {"invalid", guest.invalid}});
+                      {"invalid", guest.invalid},
+                      {"reference_missing", guest.reference_missing},
+                      {"skeleton_missing", guest.skeleton_missing},
+                      {"key_frames_asked", guest.key_frames_asked}});
+  ordered_json own = ordered_json::array();
+  for (const LocalGuestStats& guest : link.local_stats())
+    own.push_back({{"id", std::string(guest.guest.view())},
+                   {"sent", guest.sent},
+                   {"acked", guest.acked},
+                   {"key_frames_sent", guest.key_frames_sent},
+                   {"references", name_of(guest.references)},
+                   {"quality_mm", guest.quality_m * 1e3}});
+  const double seconds = std::max(link.uptime().as_seconds(), 1e-3);
+  const auto per_second = [&](std::uint64_t n) { return static_cast<double>(n) / seconds; };
   const LinkCounters& c = link.counters();
   const ordered_json report{{"offered", c.poses_offered},
                             {"sent", c.poses_sent},
@@ -22,19 +36,31 @@ std::string link_report_json(const Link& link) {
                             {"delivered", c.poses_delivered},
                             {"late", c.late},
                             {"invalid", c.invalid},
+                            {"reference_missing", c.reference_missing},
+                            {"skeleton_missing", c.skeleton_missing},
+                            {"key_frames_asked", c.key_frames_asked},
+                            {"key_frames_sent", c.key_frames_sent},
                             {"unrouted", c.unrouted},
                             {"overflow", c.overflow},
                             {"foreign_clock", c.foreign_clock},
                             {"stream_restarts", c.stream_restarts},
                             {"datagrams_in", c.datagrams_in},
                             {"datagrams_out", c.datagrams_out},
+                            {"datagrams_acked", c.datagrams_acked},
+                            {"bytes_in", c.bytes_in},
+                            {"bytes_out", c.bytes_out},
+                            {"bytes_in_per_s", per_second(c.bytes_in)},
+                            {"bytes_out_per_s", per_second(c.bytes_out)},
+                            {"path_loss", link.path().loss},
+                            {"path_round_trip_us", link.path().round_trip.count_us()},
                             {"rejected_datagrams", c.rejected_datagrams},
                             {"hellos", c.hellos},
                             {"lapses", c.lapses},
                             {"reconnects", c.reconnects},
                             {"round_trip_us", link.clock().newest_round_trip().count_us()},
                             {"clock_offset_us", link.clock().offset().count_us()},
-                            {"guests", guests}};
+                            {"guests", guests},
+                            {"own", own}};
   return report.dump();
 }
 

@@ -10,7 +10,9 @@
 
 namespace dance {
 
-// {"sent", "delivered", …, "round_trip_us", "guests": [{"id", "here", "received", "lost", "late", …}]}
+// {"sent", "delivered", …, "round_trip_us", "bytes_in_per_s", …,
+//  "guests": [{"id", "here", "received", "lost", "late", …}],
+//  "own": [{"id", "sent", "acked", "references", …}]}
 std::string link_report_json(const Link& link);
 
 }  // namespace dance

@@ -11,11 +11,21 @@ namespace {
 // Half of what the server takes, so that clocks may be off and a line slow.
 constexpr Duration kOldestCapture = Duration::s(30);
 constexpr Duration kFarthestAhead = Duration::ms(500);
+constexpr Duration kAckStands = Duration::s(1);
+constexpr Duration kStillDancing = Duration::ms(100);
 
 std::int32_t age_us(MonoTime step, MonoTime capture) {
   if (!step.is_set()) return wire::kNoAge;
   const std::int64_t us = (step - capture).count_us();
   return us > -INT32_MAX && us < INT32_MAX ? static_cast<std::int32_t>(us) : wire::kNoAge;
+}
+
+// How long a frame is, for the choice of references: a gap is none.
+void keep_time(LocalGuest& guest, MonoTime capture) {
+  const Duration since = capture - guest.last_capture;
+  if (guest.last_capture.is_set() && since > Duration() && since < Duration::ms(200))
+    guest.frame += (since - guest.frame) / 16;
+  guest.last_capture = capture;
 }
 
 }  // namespace
@@ -31,19 +41,88 @@ bool LinkCore::stamp(MonoTime capture, std::uint64_t clock_id, MonoTime publishe
   const Duration age = now - capture;
   if (age > kOldestCapture || age < -kFarthestAhead) return false;
   out.capture = capture;
-  out.capture_us = clock_.to_theirs_us(capture);
-  out.published_age_us = age_us(published, capture);
-  out.sent_age_us = age_us(now, capture);
+  // In the wire's ticks from the begin, so that nobody rounds it again; ages count from there.
+  const std::int64_t exact_us = clock_.to_theirs_us(capture);
+  out.capture_us = wire::to_ticks(exact_us) * wire::kTick_us;
+  const MonoTime sent = capture + Duration::us(out.capture_us - exact_us);
+  out.published_age_us = age_us(published, sent);
+  out.sent_age_us = age_us(now, sent);
   return true;
 }
 
-void LinkCore::send_record(const wire::Record& record) {
-  std::array<std::uint8_t, wire::kMaxDatagram> out;
-  ByteWriter writer(out);
-  wire::begin_records(session_, writer);
-  wire::add_record(record, writer);
-  DANCE_ASSERT(writer.ok());
-  send_datagram(writer.written());
+// Guests of whom something came of late: whose records are worth waiting for.
+std::size_t LinkCore::count_dancing(MonoTime now) const {
+  return static_cast<std::size_t>(std::count_if(locals_.begin(), locals_.end(), [&](const auto& g) {
+    return g.has_slot && now - g.last_pose < kStillDancing;
+  }));
+}
+
+void LinkCore::add_record(const wire::Record& record, MonoTime now) {
+  if (bundle_.size() - bundle_size_ < wire::kMaxRecordHeader + record.payload.size())
+    flush_records();
+  if (bundle_size_ == 0) {
+    base_ticks_ = wire::to_ticks(clock_.to_theirs_us(now) + wire::kBaseLead_us);
+    bundle_due_ = now + options_.share_window;
+    bundle_poses_ = 0;
+  }
+  ByteWriter out(std::span<std::uint8_t>(bundle_).subspan(bundle_size_));
+  wire::add_record(record, false, base_ticks_, out);
+  DANCE_ASSERT(out.ok());
+  bundle_size_ += out.size();
+  if (record.kind == wire::RecordKind::kPose) ++bundle_poses_;
+  if (now >= bundle_due_ || bundle_poses_ >= count_dancing(now)) flush_records();
+}
+
+// What waits, with what there is to acknowledge.
+void LinkCore::flush_records() {
+  const std::size_t extras = 2 + 2 * excepts_.size() + wants_.size();
+  const bool fits = wire::kMaxRecordsBody - bundle_size_ >= extras;
+  if (bundle_size_ == 0 || !fits) send_records_datagram(false);
+  if (bundle_size_ > 0) send_records_datagram(true);
+}
+
+void LinkCore::send_records_datagram(bool with_bundle) {
+  wire::RecordsHeader header;
+  header.number = next_number_++;
+  header.has_records = with_bundle;
+  header.base_ticks = base_ticks_;
+  if (ack_due_.is_set()) {
+    header.has_acks = received_.has_any();
+    header.acks.newest = received_.newest();
+    header.acks.before = received_.before();
+    for (const Except& except : excepts_) {
+      if (!header.has_acks || !received_.covers(except.number)) continue;
+      const auto back = static_cast<std::uint8_t>(received_.newest() - except.number);
+      const bool pushed = header.acks.excepts.try_push({back, except.slot});
+      DANCE_ASSERT(pushed);
+    }
+    header.wants = wants_;
+    wants_.clear();
+    ack_due_ = MonoTime();
+  }
+  std::array<std::uint8_t, wire::kMaxDatagram> bytes;
+  ByteWriter out(bytes);
+  wire::begin_records(session_, header, out);
+  if (with_bundle) {
+    out.bytes(std::span<const std::uint8_t>(bundle_).first(bundle_size_));
+    bundle_size_ = 0;
+  }
+  DANCE_ASSERT(out.ok());
+  send_datagram(out.written());
+}
+
+// A key frame now and then, lest a loss that nobody told of be missed for long. Frames that all have
+// need none.
+void LinkCore::refresh(LocalGuest& guest, MonoTime now) {
+  if (options_.key_frame_period <= Duration()) return;
+  const bool is_safe = guest.policy.current() == References::kAcknowledged &&
+                       guest.acked_at.is_set() && now - guest.acked_at < kAckStands;
+  if (!guest.key_frame_at.is_set() || is_safe) {
+    guest.key_frame_at = now;
+  } else if (now - guest.key_frame_at >= options_.key_frame_period) {
+    guest.encoder->key_frame_wanted();
+    guest.key_frame_at = now;
+  }
 }
 
 void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
@@ -57,8 +136,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   std::array<std::uint8_t, kMaxPosePayload> payload;
   wire::Record record;
   Stamp times{};
-  const std::size_t size = guest->encoder->encode(pose, payload);
-  if (size == 0 ||
+  if (!is_valid(pose) ||
       !stamp(pose.capture_time, pose.clock_id, pose.stamped(Hop::kPublished), now, times)) {
     ++counters_.invalid;
     return;
@@ -68,18 +146,38 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
     ++counters_.late;
     return;
   }
-  counters_.stream_restarts += guest->poses.restarts() - restarts;
+  if (guest->poses.restarts() != restarts) {
+    ++counters_.stream_restarts;
+    guest->encoder->restart();
+    guest->sent_frames.clear();
+    guest->acked_frames.clear();
+    guest->unstamped = 0;
+  }
+  keep_time(*guest, times.capture);
+  refresh(*guest, now);
+  // Only what is sent: an encoder may refer to what it encoded before.
+  const std::size_t size = guest->encoder->encode(pose, payload);
+  if (size == 0) {
+    ++counters_.invalid;
+    return;
+  }
+  if (guest->quality.add(size, now)) guest->encoder->set_quality(guest->quality.quality_m());
   record.kind = wire::RecordKind::kPose;
   record.slot = guest->slot.slot;
   record.stream = guest->poses.stream();
   record.sequence = pose.sequence;
   record.capture_us = times.capture_us;
-  record.published_age_us = times.published_age_us;
-  record.sent_age_us = times.sent_age_us;
-  record.codec = static_cast<std::uint8_t>(codec_);
+  if (guest->unstamped == 0) {
+    record.published_age_us = times.published_age_us;
+    record.sent_age_us = times.sent_age_us;
+  }
+  guest->unstamped = (guest->unstamped + 1) % std::max(options_.poses_per_stamp, 1u);
   record.payload = {payload.data(), size};
-  send_record(record);
+  guest->sent_frames.add(guest->poses.stream(), static_cast<std::uint16_t>(pose.sequence));
+  guest->last_sequence = pose.sequence;
+  ++guest->sent;
   ++counters_.poses_sent;
+  add_record(record, now);
 }
 
 void LinkCore::send(const GuestId& id, const Hands& hands, MonoTime now) {
@@ -97,10 +195,9 @@ void LinkCore::send(const GuestId& id, const Hands& hands, MonoTime now) {
   record.stream = guest->hands.stream();
   record.sequence = hands.sequence;
   record.capture_us = times.capture_us;
-  record.sent_age_us = times.sent_age_us;
   record.payload = {payload.data(), size};
-  send_record(record);
   ++counters_.hands_sent;
+  add_record(record, now);
 }
 
 void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
@@ -116,7 +213,9 @@ void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
   if (guest->skeleton_version != 0 && payload == guest->skeleton) return;
   guest->skeleton = payload;
   ++guest->skeleton_version;
-  if (guest->encoder) guest->encoder->set_skeleton(skeleton);
+  // As the others get it: rounded.
+  Skeleton rounded;
+  if (guest->encoder && decode_skeleton(payload, rounded)) guest->encoder->set_skeleton(rounded);
   if (is_connected() && guest->has_slot) send_skeleton(*guest);
 }
 

@@ -15,6 +15,7 @@ constexpr Duration kQuickPingPeriod = Duration::ms(50);
 constexpr int kQuickPings = 8;
 constexpr Duration kSilenceLimit = Duration::ms(900);
 constexpr Duration kRefusedGuestWait = Duration::s(1);
+constexpr Duration kSilentGuestStays = Duration::s(10);
 
 MonoTime earlier(MonoTime a, MonoTime b) {
   if (!a.is_set()) return b;
@@ -29,12 +30,15 @@ MonoTime LinkCore::next_deadline() const {
   if (state_ == LinkState::kConnected) {
     next = earlier(next, next_ping_);
     next = earlier(next, last_heard_ + kSilenceLimit);
+    next = earlier(next, ack_due_);
+    if (bundle_size_ > 0) next = earlier(next, bundle_due_);
     for (const LocalGuest& guest : locals_) next = earlier(next, guest.refused_until);
   }
   return next;
 }
 
 MonoTime LinkCore::tick(MonoTime now) {
+  let_silent_go(now);
   if (state_ == LinkState::kConnected && now - last_heard_ >= kSilenceLimit) begin_lapse(now);
   if (state_ == LinkState::kConnected) {
     for (LocalGuest& guest : locals_) {
@@ -42,6 +46,8 @@ MonoTime LinkCore::tick(MonoTime now) {
       guest.refused_until = MonoTime();
       schedule_update(now);
     }
+    if ((bundle_size_ > 0 && now >= bundle_due_) || (ack_due_.is_set() && now >= ack_due_))
+      flush_records();
     if (now >= next_ping_) send_ping(now);
   }
   if (hello_wanted_ && now >= next_hello_) send_hello(now);
@@ -120,8 +126,9 @@ void LinkCore::heard_server(MonoTime now) {
   if (state_ == LinkState::kLapsed) {  // the server is there, and knows the session still
     ++counters_.reconnects;
     unanswered_hellos_ = 0;
-    hello_wanted_ = std::any_of(locals_.begin(), locals_.end(),
-                                [](const LocalGuest& guest) { return !guest.has_slot; });
+    hello_wanted_ =
+        removal_untold_ || std::any_of(locals_.begin(), locals_.end(),
+                                       [](const LocalGuest& guest) { return !guest.has_slot; });
     next_ping_ = now;
     deliver_state(LinkState::kConnected, now);
   }
@@ -129,16 +136,18 @@ void LinkCore::heard_server(MonoTime now) {
 
 void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoTime now) {
   const auto welcome = wire::parse_welcome(opening);
-  const bool is_answer = welcome && hello_wanted_ && hello_nonce_ != 0 &&
-                         welcome->nonce == hello_nonce_ &&
-                         welcome->slots.size() == hello_guests_.size() &&
-                         is_known(static_cast<CodecId>(welcome->codec));
+  const bool is_answer =
+      welcome && hello_wanted_ && hello_nonce_ != 0 && welcome->nonce == hello_nonce_ &&
+      welcome->slots.size() == hello_guests_.size() && options_.codecs.contains(welcome->codec) &&
+      options_.make_decoder(welcome->codec) != nullptr;
   if (!is_answer) {
     ++counters_.rejected_datagrams;
     return;
   }
   const bool is_new = welcome->session != session_;
+  codec_ = welcome->codec;
   if (is_new) {
+    begin_session_records();
     clock_.reset();
     roster_.reset();
     for (RemoteGuest& remote : remotes_) {
@@ -146,11 +155,10 @@ void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoT
       remote.poses = StreamGate();
       remote.hands = StreamGate();
       remote.skeleton_version = 0;
-      if (remote.decoder) remote.decoder = make_pose_decoder(static_cast<CodecId>(welcome->codec));
+      if (remote.decoder) renew_decoder(remote);
     }
   }
   session_ = welcome->session;
-  codec_ = static_cast<CodecId>(welcome->codec);
   for (LocalGuest& guest : locals_) guest.has_slot = false;
   for (std::size_t i = 0; i < hello_guests_.size(); ++i) {
     LocalGuest& guest = locals_[hello_guests_[i]];
@@ -160,11 +168,13 @@ void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoT
     if (!is_same) guest.skeleton_acked = 0;
     guest.has_slot = true;
     guest.slot = slot;
-    if (!guest.encoder || guest.encoder->id() != codec_) guest.encoder = make_pose_encoder(codec_);
+    // A new session's hearers know nothing of what was encoded before.
+    if (!guest.encoder || guest.encoder->name() != codec_ || !is_same) settle_encoder(guest);
   }
   clock_.add({MonoTime::from_us(welcome->link_time_us), welcome->server_receive_us,
               welcome->server_send_us, received});
   hello_wanted_ = false;
+  removal_untold_ = false;
   hello_nonce_ = 0;
   unanswered_hellos_ = 0;
   last_heard_ = now;
@@ -186,14 +196,46 @@ void LinkCore::on_refusal(const wire::Opening& opening, MonoTime now) {
     for (LocalGuest& guest : locals_)
       if (!guest.has_slot && (!refusal->guest.is_set() || refusal->guest == guest.id))
         guest.refused_until = now + kRefusedGuestWait;
-    const bool others_wait = std::any_of(locals_.begin(), locals_.end(), [](const auto& g) {
-      return !g.has_slot && !g.refused_until.is_set();
-    });
+    const bool others_wait =
+        removal_untold_ || std::any_of(locals_.begin(), locals_.end(), [](const auto& g) {
+          return !g.has_slot && !g.refused_until.is_set();
+        });
     hello_wanted_ = false;
     roster_.reset();  // who bears the name is somebody else: the roster must be read again
     if (others_wait) schedule_update(now);
+  } else if (refusal->guest.is_set()) {
+    leave_out(refusal->guest, now);
   }
   if (handlers_.on_refused) handlers_.on_refused(*refusal, now);
+}
+
+// One name that is taken must not keep the house's others out: the next hello is without it, at once. When none is left
+// all are asked for again, at the pace of the tries.
+void LinkCore::leave_out(const GuestId& refused, MonoTime now) {
+  const auto named = std::find_if(locals_.begin(), locals_.end(), [&](const LocalGuest& guest) {
+    return guest.id == refused && !guest.refused_until.is_set();
+  });
+  if (named == locals_.end()) return;
+  named->refused_until = now + kRefusedGuestWait;
+  hello_nonce_ = 0;
+  const bool others_wait = std::any_of(locals_.begin(), locals_.end(), [](const LocalGuest& guest) {
+    return !guest.refused_until.is_set();
+  });
+  if (others_wait) {
+    next_hello_ = now;
+    return;
+  }
+  for (LocalGuest& guest : locals_) guest.refused_until = MonoTime();
+}
+
+// A guest who came with a pose and whose producer has ended gives the name back to the room.
+void LinkCore::let_silent_go(MonoTime now) {
+  const auto is_gone = [&](const LocalGuest& guest) {
+    return guest.came_with_pose && now - guest.last_pose > kSilentGuestStays;
+  };
+  if (std::erase_if(locals_, is_gone) == 0) return;
+  removal_untold_ = true;
+  schedule_update(now);
 }
 
 bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime received, MonoTime now) {

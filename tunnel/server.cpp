@@ -22,7 +22,6 @@ Server::Server(UdpSocket socket, const ServerLimits& limits, Poller& poller)
   timer_ = poller_.add_timer(MonoTime(), [this](MonoTime now) {
     const MonoTime next = core_.tick(now);
     socket_.flush();
-    is_ticking_ = next.is_set();
     return next;
   });
 }
@@ -37,14 +36,11 @@ void Server::on_readable(MonoTime now) {
     const auto batch = socket_.receive();
     for (const UdpSocket::Datagram& datagram : batch)
       core_.receive(datagram.from, datagram.bytes, datagram.received, now);
-    core_.end_turn();
+    core_.end_turn(now);
     socket_.flush();
     if (batch.size() < UdpSocket::kBatch) break;
   }
-  if (!is_ticking_ && core_.session_count() > 0) {
-    is_ticking_ = true;
-    poller_.set_deadline(timer_, now);
-  }
+  poller_.set_deadline(timer_, core_.next_deadline());
 }
 
 void Server::say_goodbye() {

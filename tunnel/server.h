@@ -41,7 +41,6 @@ class Server {
   UdpSocket socket_;
   ServerCore core_;
   Poller::TimerId timer_;
-  bool is_ticking_ = false;
 };
 
 }  // namespace dance

@@ -11,10 +11,6 @@ namespace {
 constexpr Duration kSilenceLimit = Duration::ms(1900);  // with the tick below: gone within 2 s
 constexpr Duration kUnprovenLimit = Duration::s(1);
 constexpr Duration kTick = Duration::ms(100);
-// A capture further from now than this is no capture of a dance under way.
-constexpr std::int64_t kLongestAge_us = 60'000'000;
-// Nothing is captured in the future; clocks are mapped better than this.
-constexpr std::int64_t kFarthestAhead_us = 1'000'000;
 
 }  // namespace
 
@@ -28,6 +24,7 @@ ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, DatagramSin
   DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
   by_id_.reserve(limits.sessions);
   bundled_.reserve(limits.sessions);
+  reporting_.reserve(limits.sessions);
   for (ServerRoom& room : rooms_) room.members.reserve(limits.sessions);
 }
 
@@ -90,13 +87,16 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
                                      MonoTime received, MonoTime now) {
   ServerSession& session = sessions_[index];
   session.last_heard = now;
-  session.is_proven = true;
+  if (!session.is_proven) {
+    session.is_proven = true;
+    want_key_frames_for(index, now);
+  }
   ++session.datagrams_received;
   switch (opening.type) {
     case wire::Type::kPing:
       return on_ping(index, opening.body, received, now);
     case wire::Type::kRecords:
-      return on_records(index, opening.body, received);
+      return on_records(index, opening.body, received, now);
     case wire::Type::kState:
       return on_state(index, opening.body);
     case wire::Type::kStateAck:
@@ -138,71 +138,6 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
 ServerGuest* ServerCore::guest_of(std::size_t session, std::uint8_t slot) {
   ServerGuest& guest = rooms_[sessions_[session].room].guests[slot];
   return guest.in_use && guest.owner == session ? &guest : nullptr;
-}
-
-void ServerCore::on_records(std::size_t session, wire::Bytes body, MonoTime received) {
-  // All of a datagram or nothing: half of a damaged one is not worth more than none.
-  ByteReader check(body);
-  if (body.empty()) return reject(ServerReject::kMalformed);
-  while (!check.is_exhausted())
-    if (!wire::parse_record(check)) return reject(ServerReject::kMalformed);
-  ByteReader in(body);
-  while (!in.is_exhausted()) on_record(session, *wire::parse_record(in), received);
-}
-
-void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime received) {
-  ServerGuest* guest = guest_of(session, record.slot);
-  if (guest == nullptr) return reject(ServerReject::kForeignSlot);
-  const std::int64_t received_us = received.since_zero_us();
-  if (record.capture_us < received_us - kLongestAge_us ||
-      record.capture_us > received_us + kFarthestAhead_us)
-    return reject(ServerReject::kBadTime);
-  const bool is_pose = record.kind == wire::RecordKind::kPose;
-  const std::uint8_t codec = is_pose ? rooms_[sessions_[session].room].codec : std::uint8_t{0};
-  if (record.codec != codec) return reject(ServerReject::kWrongCodec);
-
-  record.stream = std::uint32_t{guest->generation} << 16 | (record.stream & 0xffff);
-  StreamGate& gate = is_pose ? guest->poses : guest->hands;
-  switch (gate.judge(record.stream, record.sequence, record.capture_us)) {
-    case StreamGate::Verdict::kNewest:
-    case StreamGate::Verdict::kNewStream:
-      break;
-    case StreamGate::Verdict::kDuplicate:
-      return reject(ServerReject::kDuplicate);
-    case StreamGate::Verdict::kLate:
-    case StreamGate::Verdict::kOldStream:
-      return reject(ServerReject::kLate);
-  }
-  record.server_age_us = static_cast<std::int32_t>(received_us - record.capture_us);
-  ++counters_.records_in;
-  forward(session, record);
-}
-
-void ServerCore::forward(std::size_t from, const wire::Record& record) {
-  std::array<std::uint8_t, wire::kRecordHeader + wire::kMaxPayload> bytes;
-  ByteWriter built(bytes);
-  wire::add_record(record, built);
-  DANCE_ASSERT(built.ok());
-  for (const std::size_t member : rooms_[sessions_[from].room].members) {
-    ServerSession& to = sessions_[member];
-    if (member == from || !to.is_proven) continue;
-    if (to.bundle_size != 0 && to.bundle.size() - to.bundle_size < built.size()) flush_bundle(to);
-    if (to.bundle_size == 0) {
-      ByteWriter opening(to.bundle);
-      wire::begin_records(to.id, opening);
-      to.bundle_size = opening.size();
-      bundled_.push_back(member);
-    }
-    std::memcpy(to.bundle.data() + to.bundle_size, bytes.data(), built.size());
-    to.bundle_size += built.size();
-    ++counters_.records_out;
-  }
-}
-
-void ServerCore::flush_bundle(ServerSession& session) {
-  send(session.address, {session.bundle.data(), session.bundle_size});
-  session.bundle_size = 0;
-  std::erase(bundled_, static_cast<std::size_t>(&session - sessions_.data()));
 }
 
 void ServerCore::on_state(std::size_t session, wire::Bytes body) {
@@ -269,26 +204,56 @@ void ServerCore::send_roster(const ServerSession& session) {
   }
 }
 
-void ServerCore::end_turn() {
+void ServerCore::end_turn(MonoTime now) {
   for (ServerRoom& room : rooms_) {
     if (!room.roster_changed) continue;
     room.roster_changed = false;
     for (const std::size_t member : room.members)
       if (sessions_[member].is_proven) send_roster(sessions_[member]);
   }
-  while (!bundled_.empty()) flush_bundle(sessions_[bundled_.back()]);
+  // Backwards, as who is done leaves the list.
+  for (std::size_t i = bundled_.size(); i-- > 0;)
+    if (is_bundle_due(sessions_[bundled_[i]], now)) flush_bundle(bundled_[i], now);
+  for (std::size_t i = reporting_.size(); i-- > 0;) {
+    const ServerSession& session = sessions_[reporting_[i]];
+    // With a bundle under way it goes along.
+    if (session.feedback_due <= now && session.bundle_size == 0) send_records(reporting_[i], now);
+  }
+}
+
+void ServerCore::sweep(MonoTime now) {
+  for (std::size_t i = 0; i < sessions_.size(); ++i) {
+    ServerSession& session = sessions_[i];
+    if (!session.in_use) continue;
+    // However often a stranger says hello, that proves nothing.
+    const bool is_gone = session.is_proven ? now - session.last_heard > kSilenceLimit
+                                           : now - session.unproven_since > kUnprovenLimit;
+    if (is_gone) {
+      ++counters_.sessions_timed_out;
+      drop_session(i);
+    } else {
+      session.feedback_is_repeat = true;  // what was said may be lost
+      schedule_feedback(i, now);
+    }
+  }
 }
 
 MonoTime ServerCore::tick(MonoTime now) {
-  for (std::size_t i = 0; i < sessions_.size(); ++i) {
-    ServerSession& session = sessions_[i];
-    const Duration limit = session.is_proven ? kSilenceLimit : kUnprovenLimit;
-    if (!session.in_use || now - session.last_heard <= limit) continue;
-    ++counters_.sessions_timed_out;
-    drop_session(i);
+  if (now >= next_sweep_) {
+    sweep(now);
+    next_sweep_ = now + kTick;
   }
-  end_turn();
-  return by_id_.empty() ? MonoTime() : now + kTick;
+  end_turn(now);
+  return next_deadline();
+}
+
+MonoTime ServerCore::next_deadline() const {
+  if (by_id_.empty()) return MonoTime();
+  MonoTime next = next_sweep_.is_set() ? next_sweep_ : MonoTime::from_ns(1);
+  for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].bundle_due);
+  for (const std::size_t i : reporting_)
+    if (sessions_[i].bundle_size == 0) next = std::min(next, sessions_[i].feedback_due);
+  return next;
 }
 
 void ServerCore::say_goodbye() {

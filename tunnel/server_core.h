@@ -30,9 +30,12 @@ class ServerCore {
   // One datagram that came in at `received`.
   void receive(const Address& from, wire::Bytes datagram, MonoTime received, MonoTime now);
   // Sends what the datagrams of this turn left to send. Call after the last of them.
-  void end_turn();
-  // Drops sessions that fell silent; returns when to call again, MonoTime() = not before a datagram.
+  void end_turn(MonoTime now);
+  // Drops sessions that fell silent, sends what has waited; returns when to call again, MonoTime() =
+  // not before a datagram.
   MonoTime tick(MonoTime now);
+  // When tick() is due, which may be earlier after a turn.
+  MonoTime next_deadline() const;
   // Tells everybody that the server ends.
   void say_goodbye();
 
@@ -62,6 +65,8 @@ class ServerCore {
                                         std::optional<std::size_t> room) const;
   std::size_t open_room(const wire::Hello& hello);
   std::size_t open_session(const wire::Hello& hello, std::size_t room);
+  std::uint64_t new_session_id();
+  void move_session(std::size_t session, MonoTime now);
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void add_guest(std::size_t session, const GuestId& id);
   void remove_guest(std::size_t room, std::uint8_t slot);
@@ -72,15 +77,31 @@ class ServerCore {
                            MonoTime now);
   void answer_unknown(const Address& to, const wire::Opening& opening, MonoTime now);
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
-  void on_records(std::size_t session, wire::Bytes body, MonoTime received);
-  void on_record(std::size_t session, wire::Record record, MonoTime received);
   void on_state(std::size_t session, wire::Bytes body);
   void on_state_ack(std::size_t session, wire::Bytes body);
-  void forward(std::size_t from, const wire::Record& record);
-  void flush_bundle(ServerSession& session);
   void send_roster(const ServerSession& session);
   void send_state(const ServerSession& session, std::uint8_t slot);
   ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
+  void sweep(MonoTime now);
+
+  // server_records.cpp
+  void on_records(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
+  void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
+  void forward(std::size_t from, const wire::Record& record, MonoTime now);
+  Duration share_window(const ServerRoom& room) const;
+  bool is_bundle_due(const ServerSession& session, MonoTime now) const;
+  void flush_bundle(std::size_t session, MonoTime now);
+  void send_records(std::size_t session, MonoTime now);
+
+  // server_feedback.cpp
+  void on_acks(std::size_t session, const wire::Acks& acks, MonoTime now);
+  void on_want(std::size_t session, std::uint8_t slot, MonoTime now);
+  void want_key_frames_for(std::size_t newcomer, MonoTime now);
+  void want_key_frame(ServerGuest& guest, MonoTime now);
+  void schedule_feedback(std::size_t session, MonoTime at);
+  bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
+  // False where there is nothing new to tell.
+  bool fill_feedback(std::size_t session, MonoTime now, wire::Feedback& feedback);
 
   ServerLimits limits_;
   RandomU64 random_;
@@ -88,7 +109,9 @@ class ServerCore {
   std::vector<ServerSession> sessions_;
   std::vector<ServerRoom> rooms_;
   std::unordered_map<std::uint64_t, std::size_t> by_id_;
-  std::vector<std::size_t> bundled_;  // sessions with a bundle under way
+  std::vector<std::size_t> bundled_;    // sessions with a bundle under way
+  std::vector<std::size_t> reporting_;  // sessions with feedback due
+  MonoTime next_sweep_;
   TokenBucket strangers_;
   ServerCounters counters_;
 };

@@ -62,8 +62,9 @@ void ServerCore::on_hello(const Address& from, const wire::Opening& opening, Mon
   ServerSession& session = sessions_[index];
   if (existing && session.address != from) {
     ++counters_.sessions_resumed;
-    session.is_proven = false;
+    move_session(index, now);
   }
+  if (!existing) session.unproven_since = now;
   session.address = from;
   session.last_heard = now;
   session.hello_time_us = hello->link_time_us;
@@ -121,7 +122,35 @@ std::size_t ServerCore::open_room(const wire::Hello& hello) {
   // From a random begin, so that a slot's generation after a server's restart is not one of before.
   free->next_generation = static_cast<std::uint16_t>(random_());
   free->members.clear();
+  free->guest_count = 0;
   return static_cast<std::size_t>(free - rooms_.begin());
+}
+
+std::uint64_t ServerCore::new_session_id() {
+  for (;;) {
+    const std::uint64_t id = random_();
+    if (wire::may_be_session_id(id) && !by_id_.contains(id)) return id;
+  }
+}
+
+// The session goes on at another address, under an id that only who hears there can know: whoever knew the old one
+// could otherwise speak for an address that never asked for anything.
+void ServerCore::move_session(std::size_t index, MonoTime now) {
+  ServerSession& session = sessions_[index];
+  by_id_.erase(session.id);
+  session.id = new_session_id();
+  by_id_.emplace(session.id, index);
+  session.is_proven = false;
+  session.unproven_since = now;
+  session.state_acked = {};
+  // What was sent, and what came, was of the old id.
+  session.bundle_size = 0;
+  session.sent = SentRing();
+  session.held = {};
+  session.received = AckWindow();
+  session.feedback_due = MonoTime();
+  std::erase(bundled_, index);
+  std::erase(reporting_, index);
 }
 
 std::size_t ServerCore::open_session(const wire::Hello& hello, std::size_t room) {
@@ -131,9 +160,7 @@ std::size_t ServerCore::open_session(const wire::Hello& hello, std::size_t room)
   const auto index = static_cast<std::size_t>(free - sessions_.begin());
   *free = ServerSession();
   free->in_use = true;
-  do {
-    free->id = random_();
-  } while (!wire::may_be_session_id(free->id) || by_id_.contains(free->id));
+  free->id = new_session_id();
   free->token = hello.token;
   free->room = room;
   free->datagrams = TokenBucket(limits_.datagrams_per_second, limits_.datagram_burst);
@@ -176,9 +203,11 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
   free->in_use = true;
   free->id = id;
   free->generation = room.next_generation++;
+  free->records = TokenBucket(limits_.records_per_second, limits_.record_burst);
   free->owner = index;
   const bool pushed = session.slots.try_push(slot);
   DANCE_ASSERT(pushed);
+  ++room.guest_count;
   ++room.roster_version;
   room.roster_changed = true;
 }
@@ -186,6 +215,7 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
 void ServerCore::remove_guest(std::size_t room_index, std::uint8_t slot) {
   ServerRoom& room = rooms_[room_index];
   room.guests[slot].in_use = false;
+  --room.guest_count;
   for (const std::size_t member : room.members) sessions_[member].state_acked[slot] = 0;
   ++room.roster_version;
   room.roster_changed = true;
@@ -197,6 +227,7 @@ void ServerCore::drop_session(std::size_t index) {
   for (const std::uint8_t slot : session.slots) remove_guest(session.room, slot);
   std::erase(room.members, index);
   std::erase(bundled_, index);
+  std::erase(reporting_, index);
   by_id_.erase(session.id);
   session.in_use = false;
   session.slots.clear();

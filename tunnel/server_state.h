@@ -15,9 +15,12 @@
 #include "core/base/fixed_list.h"
 #include "core/base/time.h"
 #include "core/net/address.h"
+#include "tunnel/ack_window.h"
+#include "tunnel/held_frames.h"
+#include "tunnel/sent_ring.h"
 #include "tunnel/stream_gate.h"
 #include "tunnel/token_bucket.h"
-#include "tunnel/wire.h"
+#include "tunnel/wire_records.h"
 
 namespace dance {
 
@@ -30,9 +33,19 @@ struct ServerLimits {
   double datagram_burst = 1000.0;
   double bytes_per_second = 2e6;
   double byte_burst = 500e3;
+  // Per guest: poses and hands at 240 Hz, and every receiver must decode them.
+  double records_per_second = 600.0;
+  double record_burst = 150.0;
   // From all strangers together.
   double strangers_per_second = 500.0;
   double stranger_burst = 200.0;
+  // Records to one receiver wait this long for others to share a datagram with, unless all who
+  // dance have one in it already; 0 = not beyond the turn.
+  Duration share_window = Duration::ms(1);
+  // The same in rooms of this many guests and more, where headers would cost more than poses; never
+  // less than share_window.
+  std::size_t crowd = 12;
+  Duration crowd_window = Duration::ms(5);
 };
 
 // Why a datagram, or a record of it, went no further.
@@ -46,9 +59,10 @@ enum class ServerReject : std::uint8_t {
   kUnknownSession,
   kWrongAddress,
   kSessionRate,
+  kGuestRate,
   kForeignSlot,
   kBadTime,
-  kWrongCodec,
+  kBadAck,
   kLate,
   kDuplicate,
   kRefused,
@@ -57,17 +71,21 @@ enum class ServerReject : std::uint8_t {
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
 // As the log and the summary say it.
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
-    "too_short",     "malformed",       "unknown_type",  "version",      "old_hello",
-    "stranger_rate", "unknown_session", "wrong_address", "session_rate", "foreign_slot",
-    "bad_time",      "wrong_codec",     "late",          "duplicate",    "refused"};
+    "too_short",    "malformed",     "unknown_type",    "version",
+    "old_hello",    "stranger_rate", "unknown_session", "wrong_address",
+    "session_rate", "guest_rate",    "foreign_slot",    "bad_time",
+    "bad_ack",      "late",          "duplicate",       "refused"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
   std::uint64_t bytes_in = 0;
   std::uint64_t datagrams_out = 0;
   std::uint64_t bytes_out = 0;
-  std::uint64_t records_in = 0;   // poses and hands that were taken
-  std::uint64_t records_out = 0;  // once per receiver
+  std::uint64_t records_in = 0;         // poses and hands that were taken
+  std::uint64_t records_out = 0;        // once per receiver
+  std::uint64_t datagrams_acked = 0;    // of records, by their receivers
+  std::uint64_t key_frames_wanted = 0;  // by newcomers, and by who could not decode
+  std::uint64_t key_frames_asked = 0;   // of the senders: several wants in one
   std::uint64_t sessions_begun = 0;
   std::uint64_t sessions_resumed = 0;
   std::uint64_t sessions_timed_out = 0;
@@ -90,6 +108,7 @@ struct ServerSession {
   // A datagram with the session id has come from the address, so somebody who wants our datagrams
   // is there. Until then nothing but the welcome goes out.
   bool is_proven = false;
+  MonoTime unproven_since;  // its begin, or its last move to another address
   MonoTime last_heard;
   std::int64_t hello_time_us = 0;  // link's clock; an older hello is a stale copy
   std::size_t room = 0;
@@ -99,9 +118,20 @@ struct ServerSession {
   TokenBucket bytes;
   std::uint32_t datagrams_received = 0;
   wire::Ping newest_ping;
-  // Records that wait for the end of this turn.
-  std::array<std::uint8_t, wire::kMaxDatagram> bundle;
+  // Records that wait for the end of this turn, or of their window.
+  std::array<std::uint8_t, wire::kMaxRecordsBody> bundle;
   std::size_t bundle_size = 0;
+  std::size_t bundle_poses = 0;
+  std::int64_t base_ticks = 0;
+  MonoTime bundle_due;
+  // What the link has of the others, as it acknowledges; and what has come from it.
+  SentRing sent;
+  std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
+  AckWindow received;
+  // When the link is next told what its receivers have; not set = nothing new.
+  MonoTime feedback_due;
+  MonoTime feedback_made;
+  bool feedback_is_repeat = false;  // goes out though nothing has changed
 };
 
 struct ServerGuest {
@@ -111,6 +141,11 @@ struct ServerGuest {
   std::size_t owner = 0;  // session
   StreamGate poses;
   StreamGate hands;
+  TokenBucket records;
+  bool key_wanted = false;
+  std::uint8_t key_frames = 0;  // counts key frames asked for
+  MonoTime key_asked_at;
+  HeldFrames told;                  // what the link was told last
   std::uint32_t state_version = 0;  // of the skeleton; 0 = none yet
   std::size_t state_size = 0;
   std::array<std::uint8_t, wire::kMaxStatePayload> state;
@@ -119,11 +154,12 @@ struct ServerGuest {
 struct ServerRoom {
   bool in_use = false;
   wire::RoomName name;
-  std::uint8_t codec = 0;
+  CodecName codec;
   std::uint32_t roster_version = 1;
   bool roster_changed = false;
   std::uint16_t next_generation = 0;
   std::vector<std::size_t> members;  // sessions
+  std::size_t guest_count = 0;
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
 };
 

@@ -34,6 +34,18 @@ Slot read_slot(ByteReader& in) {
   return slot;
 }
 
+void write_codec(const CodecName& codec, ByteWriter& out) {
+  out.u8(static_cast<std::uint8_t>(codec.id));
+  out.u32(codec.model);
+}
+
+CodecName read_codec(ByteReader& in) {
+  CodecName codec;
+  codec.id = static_cast<CodecId>(in.u8());
+  codec.model = in.u32();
+  return codec;
+}
+
 }  // namespace
 
 std::optional<Opening> parse_opening(Bytes datagram) {
@@ -66,7 +78,7 @@ std::size_t build(const Hello& hello, std::span<std::uint8_t> buffer) {
   out.u64(hello.token);
   out.i64(hello.link_time_us);
   out.u8(static_cast<std::uint8_t>(hello.codecs.size()));
-  for (const std::uint8_t codec : hello.codecs) out.u8(codec);
+  for (const CodecName& codec : hello.codecs) write_codec(codec, out);
   out.short_text(hello.room.view());
   out.u8(static_cast<std::uint8_t>(hello.guests.size()));
   for (const GuestId& guest : hello.guests) out.short_text(guest.view());
@@ -95,7 +107,7 @@ std::optional<Hello> parse_hello(const Opening& opening, HelloProblem& problem) 
   if (!is_whole || !is_reserved_clear || hello.token == 0 || codecs == 0 || codecs > kMaxCodecs)
     return std::nullopt;
   for (std::size_t i = 0; i < codecs; ++i)
-    if (!hello.codecs.try_push(in.u8())) return std::nullopt;
+    if (!hello.codecs.try_push(read_codec(in))) return std::nullopt;
   const auto room = read_name(in);
   const std::size_t guests = in.u8();
   if (!in.ok() || guests > kMaxGuestsPerLink) return std::nullopt;
@@ -122,7 +134,7 @@ std::size_t build(const Welcome& welcome, std::span<std::uint8_t> buffer) {
   out.i64(welcome.link_time_us);
   out.i64(welcome.server_receive_us);
   out.i64(welcome.server_send_us);
-  out.u8(welcome.codec);
+  write_codec(welcome.codec, out);
   out.u8(static_cast<std::uint8_t>(welcome.slots.size()));
   for (const Slot& slot : welcome.slots) write_slot(slot, out);
   return size_of(out);
@@ -137,7 +149,7 @@ std::optional<Welcome> parse_welcome(const Opening& opening) {
   welcome.link_time_us = in.i64();
   welcome.server_receive_us = in.i64();
   welcome.server_send_us = in.i64();
-  welcome.codec = in.u8();
+  welcome.codec = read_codec(in);
   const std::size_t slots = in.u8();
   if (opening.version != kWireVersion || slots > kMaxGuestsPerLink) return std::nullopt;
   for (std::size_t i = 0; i < slots; ++i) {
@@ -315,46 +327,6 @@ std::size_t build_bare(std::uint64_t session, Type type, std::span<std::uint8_t>
   ByteWriter out(buffer);
   write_opening(session, type, out);
   return size_of(out);
-}
-
-void begin_records(std::uint64_t session, ByteWriter& out) {
-  write_opening(session, Type::kRecords, out);
-}
-
-void add_record(const Record& record, ByteWriter& out) {
-  out.u8(static_cast<std::uint8_t>(record.kind));
-  out.u8(record.slot);
-  out.u32(record.stream);
-  out.u32(record.sequence);
-  out.i64(record.capture_us);
-  out.i32(record.published_age_us);
-  out.i32(record.sent_age_us);
-  out.i32(record.server_age_us);
-  out.u8(record.codec);
-  out.u16(static_cast<std::uint16_t>(record.payload.size()));
-  out.bytes(record.payload);
-}
-
-std::optional<Record> parse_record(ByteReader& in) {
-  Record record;
-  const std::uint8_t kind = in.u8();
-  record.slot = in.u8();
-  record.stream = in.u32();
-  record.sequence = in.u32();
-  record.capture_us = in.i64();
-  record.published_age_us = in.i32();
-  record.sent_age_us = in.i32();
-  record.server_age_us = in.i32();
-  record.codec = in.u8();
-  const std::size_t length = in.u16();
-  record.payload = in.bytes(length);
-  record.kind = static_cast<RecordKind>(kind);
-  const bool is_known = kind == static_cast<std::uint8_t>(RecordKind::kPose) ||
-                        kind == static_cast<std::uint8_t>(RecordKind::kHands);
-  if (!in.ok() || !is_known || record.slot >= kMaxGuestsPerRoom || length == 0 ||
-      length > kMaxPayload)
-    return std::nullopt;
-  return record;
 }
 
 }  // namespace dance::wire

@@ -20,11 +20,12 @@
 #include "core/base/byte_writer.h"
 #include "core/base/fixed_list.h"
 #include "core/base/guest_id.h"
+#include "core/codec/pose_codec.h"
 
 namespace dance::wire {
 
 constexpr std::uint32_t kMagic = 0x52474344;  // "DCGR" as bytes on the wire
-constexpr std::uint8_t kWireVersion = 1;
+constexpr std::uint8_t kWireVersion = 2;
 // Fits the smallest path of IPv6 with the headers of IP, UDP and a sealed session.
 constexpr std::size_t kMaxDatagram = 1200;
 // Every hello is padded to this, so that no answer to a stranger is longer than what was asked.
@@ -69,7 +70,7 @@ struct Hello {
   std::uint64_t nonce = 0;  // echoed in the answer, so that nobody else can answer
   std::uint64_t token = 0;  // names the link from its start to its end
   std::int64_t link_time_us = 0;
-  FixedList<std::uint8_t, kMaxCodecs> codecs;  // the preferred one first
+  FixedList<CodecName, kMaxCodecs> codecs;  // the preferred one first
   RoomName room;
   FixedList<GuestId, kMaxGuestsPerLink> guests;
 };
@@ -86,7 +87,7 @@ struct Welcome {
   std::int64_t link_time_us = 0;  // of the hello
   std::int64_t server_receive_us = 0;
   std::int64_t server_send_us = 0;
-  std::uint8_t codec = 0;                    // what this room speaks
+  CodecName codec;                           // what this room speaks
   FixedList<Slot, kMaxGuestsPerLink> slots;  // in the order of the hello's guests
 };
 
@@ -114,28 +115,6 @@ struct Pong {
   std::int64_t server_send_us = 0;
   std::uint32_t datagrams_received = 0;  // from this session
 };
-
-enum class RecordKind : std::uint8_t { kPose = 1, kHands = 2 };
-
-constexpr std::int32_t kNoAge = INT32_MIN;  // that step left no stamp
-
-// One pose, or one pair of hands, of one guest.
-struct Record {
-  RecordKind kind = RecordKind::kPose;
-  std::uint8_t slot = 0;
-  // High half: the guest's generation, written by the server. Low half: counts restarts of the
-  // producer, written by the link.
-  std::uint32_t stream = 0;
-  std::uint32_t sequence = 0;
-  std::int64_t capture_us = 0;  // server's clock
-  // From capture to the step, which keeps hops right whatever the clocks do afterwards.
-  std::int32_t published_age_us = kNoAge;
-  std::int32_t sent_age_us = kNoAge;
-  std::int32_t server_age_us = kNoAge;  // written by the server
-  std::uint8_t codec = 0;               // CodecId; 0 for hands
-  Bytes payload;
-};
-constexpr std::size_t kRecordHeader = 33;
 
 struct RosterEntry {
   Slot slot;
@@ -188,9 +167,6 @@ std::size_t build(std::uint64_t session, const RosterPart& part, std::span<std::
 std::size_t build(std::uint64_t session, const State& state, std::span<std::uint8_t> out);
 std::size_t build(std::uint64_t session, const StateAck& ack, std::span<std::uint8_t> out);
 std::size_t build_bare(std::uint64_t session, Type type, std::span<std::uint8_t> out);
-// Records follow one another behind one opening.
-void begin_records(std::uint64_t session, ByteWriter& out);
-void add_record(const Record& record, ByteWriter& out);
 
 // Parsing of what follows the opening.
 struct HelloProblem {
@@ -207,7 +183,5 @@ std::optional<Pong> parse_pong(Bytes body);
 std::optional<RosterPart> parse_roster(Bytes body);
 std::optional<State> parse_state(Bytes body);
 std::optional<StateAck> parse_state_ack(Bytes body);
-// One record; call until the reader is_exhausted().
-std::optional<Record> parse_record(ByteReader& in);
 
 }  // namespace dance::wire

@@ -46,6 +46,12 @@ std::optional<std::uint16_t> parse_port(const std::string& text) {
 }  // namespace
 
 Result<Address> Address::resolve(std::string_view text, std::uint16_t default_port) {
+  DANCE_TRY(const auto all, resolve_all(text, default_port));
+  return all.front();
+}
+
+Result<std::vector<Address>> Address::resolve_all(std::string_view text,
+                                                  std::uint16_t default_port) {
   const std::string whole(text);
   const auto parts = split(text);
   if (!parts || parts->host.empty())
@@ -65,10 +71,16 @@ Result<Address> Address::resolve(std::string_view text, std::uint16_t default_po
   if (error != 0 || found == nullptr)
     return fail("host '" + parts->host + "' is unknown (" + gai_strerror(error) +
                 "): check the spelling and the network");
-  sockaddr_storage raw{};
-  std::memcpy(&raw, found->ai_addr, found->ai_addrlen);
+  constexpr std::size_t kMost = 8;
+  std::vector<Address> all;
+  for (const addrinfo* each = found; each != nullptr && all.size() < kMost; each = each->ai_next) {
+    sockaddr_storage raw{};
+    std::memcpy(&raw, each->ai_addr, each->ai_addrlen);
+    const Address address = from_sockaddr(raw).with_port(port);
+    if (std::find(all.begin(), all.end(), address) == all.end()) all.push_back(address);
+  }
   freeaddrinfo(found);
-  return from_sockaddr(raw).with_port(port);
+  return all;
 }
 
 Address Address::from_sockaddr(const sockaddr_storage& raw) {

@@ -26,6 +26,9 @@ class Address {
   Address() = default;  // nobody
   // "host:port", "1.2.3.4:7400", "[::1]:7400"; the port may be left out where default_port is not 0.
   static Result<Address> resolve(std::string_view text, std::uint16_t default_port = 0);
+  // All addresses of a name, at most 8, in the order in which the system would try them.
+  static Result<std::vector<Address>> resolve_all(std::string_view text,
+                                                  std::uint16_t default_port = 0);
   static Address from_sockaddr(const sockaddr_storage& raw);
   static Address loopback(std::uint16_t port);
 

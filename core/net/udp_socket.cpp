@@ -251,4 +251,9 @@ void UdpSocket::count_send_error(int error) {
   ++(error == ECONNREFUSED ? counters_.refused : counters_.send_failed);
 }
 
+Result<std::uint16_t> free_loopback_port() {
+  DANCE_TRY(const UdpSocket socket, UdpSocket::bind(Address::loopback(0)));
+  return socket.local_address().port();
+}
+
 }  // namespace dance

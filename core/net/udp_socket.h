@@ -78,4 +78,7 @@ class UdpSocket final : public DatagramSink {
   Counters counters_;
 };
 
+// A UDP port of 127.0.0.1 that nobody has at this moment.
+Result<std::uint16_t> free_loopback_port();
+
 }  // namespace dance

@@ -66,7 +66,7 @@ TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
     b.tick(now);
     to_server_a.hand_on([&](wire::Bytes d) { server.receive(at_a, d, now, now); });
     to_server_b.hand_on([&](wire::Bytes d) { server.receive(at_b, d, now, now); });
-    server.end_turn();
+    server.end_turn(now);
     server.tick(now);
     // Each link takes what is its own by the session id.
     from_server.hand_on([&](wire::Bytes d) {

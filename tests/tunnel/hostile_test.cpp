@@ -20,7 +20,10 @@ class Hostile : public ::testing::Test {
   Hostile() {
     tunnel.on_datagram = [this](bool to_server, const Address& peer, wire::Bytes bytes) {
       const auto opening = wire::parse_opening(bytes);
-      const auto key = std::pair(to_server, static_cast<int>(opening->type));
+      // Records are one kind, acknowledgements and feedback alone another.
+      const bool is_bare =
+          opening->type == wire::Type::kRecords && (bytes[wire::kSessionHeader + 2] & 16) == 0;
+      const auto key = std::pair(to_server, static_cast<int>(opening->type) + (is_bare ? 100 : 0));
       captured.try_emplace(key, Captured{to_server, peer, {bytes.begin(), bytes.end()}});
       return true;
     };
@@ -57,6 +60,26 @@ class Hostile : public ::testing::Test {
       a->link->receive(exact, tunnel.time_in(*a), tunnel.time_in(*a));
   }
 
+  // The first record that a sent, to be changed and sent again.
+  wire::Record captured_record() const {
+    const auto opening = wire::parse_opening(captured.at({true, 18}).bytes);
+    ByteReader in(opening->body);
+    const auto header = wire::parse_records_header(in);
+    return *wire::parse_record(wire::base_us(header->base_ticks, tunnel.now().since_zero_us()), in);
+  }
+  void inject_record(const wire::Record& record) {
+    const Captured& original = captured.at({true, 18});
+    wire::RecordsHeader header;
+    header.has_records = true;
+    header.base_ticks = wire::to_ticks(tunnel.now().since_zero_us());
+    Bytes bytes(wire::kMaxDatagram);
+    ByteWriter out(bytes);
+    wire::begin_records(wire::parse_opening(original.bytes)->session, header, out);
+    wire::add_record(record, false, header.base_ticks, out);
+    bytes.resize(out.size());
+    tunnel.inject(original.peer, bytes);
+  }
+
   void expect_the_dance_goes_on() {
     dance(Duration::s(3));
     const auto before_a = a->heard_of(guest("bob"));
@@ -77,7 +100,7 @@ class Hostile : public ::testing::Test {
 TEST_F(Hostile, EveryKindOfDatagramWasSeen) {
   for (const int type : {1, 16, 18, 20, 21, 22})
     EXPECT_TRUE(captured.contains({true, type})) << type;
-  for (const int type : {2, 3, 17, 18, 19, 20, 21})
+  for (const int type : {2, 3, 17, 18, 118, 19, 20, 21})
     EXPECT_TRUE(captured.contains({false, type})) << type;
 }
 
@@ -142,13 +165,71 @@ TEST_F(Hostile, AStrangersHelloIsAnsweredOnlyOnceAndNeverWithMoreThanItSent) {
   const Captured hello = captured.at({true, 1});
   Bytes bytes = hello.bytes;
   bytes[16] ^= 1;                          // another token
-  bytes[8 + 8 + 8 + 8 + 1 + 1 + 1] = 'x';  // another room: no name is taken there
+  bytes[8 + 8 + 8 + 8 + 1 + 5 + 1] = 'x';  // another room: no name is taken there
   tunnel.inject(Address::loopback(6666), bytes);
   EXPECT_EQ(answered, 1u);
   dance(Duration::ms(900));
   EXPECT_EQ(answered, 1u) << "nothing goes to an address that has not proved itself";
   dance(Duration::ms(300));
   EXPECT_EQ(tunnel.server().room_count(), 1u) << "an unproven session lasts a second";
+}
+
+// Whoever learnt a session's id at one address must not be able to prove another with it: else a server sends a whole
+// room's dance to somebody who never asked.
+TEST_F(Hostile, AKnownSessionIdDoesNotProveAnAddressThatNeverAsked) {
+  const Address attacker = Address::loopback(6666), victim = Address::loopback(7777);
+  std::uint64_t id = 0;
+  std::size_t to_victim = 0;
+  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
+    const auto opening = wire::parse_opening(bytes);
+    if (!to_server && peer == attacker && opening->type == wire::Type::kWelcome)
+      id = wire::parse_welcome(*opening)->session;
+    if (!to_server && peer == victim) {
+      ++to_victim;
+      EXPECT_TRUE(opening->type == wire::Type::kWelcome ||
+                  opening->type == wire::Type::kUnknownSession);
+    }
+    return true;
+  };
+  wire::Hello hello;
+  hello.nonce = 5;
+  hello.token = 99;
+  hello.link_time_us = 1;
+  ASSERT_TRUE(hello.codecs.try_push(known_codecs().front()));  // what the room speaks
+  hello.room = *wire::RoomName::parse("salsa");
+  std::array<std::uint8_t, wire::kHelloBytes> bytes;
+  const auto say_hello = [&](const Address& from) {
+    ++hello.link_time_us;
+    tunnel.inject(from, {bytes.data(), wire::build(hello, bytes)});
+  };
+  const auto ping = [&](const Address& from) {
+    std::array<std::uint8_t, 64> out;
+    tunnel.inject(from, {out.data(), wire::build(id, wire::Ping(), out)});
+  };
+  say_hello(attacker);
+  ASSERT_NE(id, 0u);
+  ping(attacker);
+  say_hello(victim);
+  for (int i = 0; i < 5; ++i) {
+    ping(victim);
+    dance(Duration::ms(100));
+  }
+  EXPECT_LE(to_victim, 6u) << "the welcome, and one short answer to each ping";
+}
+
+TEST_F(Hostile, HellosAloneDoNotKeepAPlace) {
+  wire::Hello hello;
+  hello.token = 99;
+  hello.nonce = 5;
+  ASSERT_TRUE(hello.codecs.try_push({CodecId::kPlain, 0}));
+  hello.room = *wire::RoomName::parse("tango");
+  std::array<std::uint8_t, wire::kHelloBytes> bytes;
+  for (int i = 1; i <= 15; ++i) {
+    hello.link_time_us = i;
+    tunnel.inject(Address::loopback(6666), {bytes.data(), wire::build(hello, bytes)});
+    dance(Duration::ms(90));
+  }
+  EXPECT_GE(tunnel.server().counters().sessions_timed_out, 1u);
 }
 
 TEST_F(Hostile, AShortHelloIsNotAnswered) {
@@ -173,12 +254,12 @@ TEST_F(Hostile, ASessionIdFromAnotherAddressGetsNothing) {
 }
 
 TEST_F(Hostile, NobodySendsForSomebodyElsesGuest) {
-  Bytes bytes = captured.at({true, 18}).bytes;
+  wire::Record record = captured_record();
+  const std::uint8_t own = record.slot;
   for (std::uint8_t slot = 0; slot < wire::kMaxGuestsPerRoom; ++slot) {
-    if (slot == bytes[wire::kSessionHeader + 1]) continue;
-    Bytes other = bytes;
-    other[wire::kSessionHeader + 1] = slot;
-    tunnel.inject(captured.at({true, 18}).peer, other);
+    if (slot == own) continue;
+    record.slot = slot;
+    inject_record(record);
   }
   EXPECT_EQ(tunnel.server().counters().of(ServerReject::kForeignSlot), wire::kMaxGuestsPerRoom - 1);
 }
@@ -208,7 +289,7 @@ TEST_F(Hostile, AnotherVersionIsToldSo) {
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->cause, wire::Refusal::kVersion);
   EXPECT_EQ(answer->server_version, wire::kWireVersion);
-  EXPECT_NE(refusal_line(*answer, guest("salsa")).find("version 1"), std::string::npos);
+  EXPECT_NE(refusal_line(*answer, guest("salsa")).find("version 2"), std::string::npos);
 }
 
 TEST_F(Hostile, AFloodOfOneSessionIsCutToItsRate) {
@@ -222,7 +303,7 @@ TEST_F(Hostile, AFloodOfOneSessionIsCutToItsRate) {
 
 TEST_F(Hostile, AFloodOfHellosIsBoundedAndLeavesTheDancersAlone) {
   Bytes bytes = captured.at({true, 1}).bytes;
-  bytes[8 + 8 + 8 + 8 + 1 + 1 + 1] = 'x';
+  bytes[8 + 8 + 8 + 8 + 1 + 5 + 1] = 'x';
   for (int i = 0; i < 5000; ++i) {
     bytes[16] = static_cast<std::uint8_t>(i);
     bytes[17] = static_cast<std::uint8_t>(i >> 8);
@@ -235,11 +316,12 @@ TEST_F(Hostile, AFloodOfHellosIsBoundedAndLeavesTheDancersAlone) {
 }
 
 TEST_F(Hostile, CaptureTimesFromNowhereAreRefused) {
-  Bytes bytes = captured.at({true, 18}).bytes;
-  constexpr std::size_t kCapture = wire::kSessionHeader + 1 + 1 + 4 + 4;
-  for (const std::uint8_t extreme : std::array<std::uint8_t, 4>{0x00, 0x7f, 0x80, 0xff}) {
-    std::fill_n(bytes.begin() + kCapture, 8, extreme);
-    tunnel.inject(captured.at({true, 18}).peer, bytes);
+  wire::Record record = captured_record();
+  const std::int64_t now_us = tunnel.now().since_zero_us();
+  for (const std::int64_t extreme :
+       {std::int64_t{0}, INT64_MIN + 64, now_us - 61'000'000, now_us + 1'001'000}) {
+    record.capture_us = extreme;
+    inject_record(record);
   }
   EXPECT_EQ(tunnel.server().counters().of(ServerReject::kBadTime), 4u);
 }

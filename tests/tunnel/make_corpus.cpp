@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/codec/hands_codec.h"
+#include "core/codec/lossless_codec.h"
 #include "tests/tunnel/datagram_script.h"
 
 namespace dance {
@@ -33,9 +35,13 @@ void write_tunnel(const std::filesystem::path& root) {
   scene.tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
     const std::uint8_t how = peer == scene.a->address ? 0 : peer == scene.b->address ? 1 : 2;
     const Bytes datagram(bytes.begin(), bytes.end());
-    const auto type = static_cast<int>(wire::parse_opening(bytes)->type);
+    const auto type = wire::parse_opening(bytes)->type;
+    // Acknowledgements and feedback alone are a kind of their own.
+    const bool is_bare =
+        type == wire::Type::kRecords && (bytes[wire::kSessionHeader + 2] & 16) == 0;
     const std::string name = std::string(to_server ? "server_datagram/" : "link_datagram/") +
-                             "type_" + std::to_string(type);
+                             "type_" + std::to_string(static_cast<int>(type)) +
+                             (is_bare ? "_bare" : "");
     if (!seeds.contains(name)) {
       append_step(seeds[name], how, datagram);
       append_step(all[to_server], how, datagram);
@@ -74,10 +80,39 @@ void write_codec(const std::filesystem::path& root) {
   write(folder / "pose_whole", seed(0, {out.data(), encoder.encode(pose, out)}));
   pose.presence = 0x1234;
   write(folder / "pose_parts", seed(0, {out.data(), encoder.encode(pose, out)}));
+  write(folder / "skeleton", seed(1, {out.data(), encode_skeleton(average_skeleton(), out)}));
+}
+
+void write_hands(const std::filesystem::path& folder) {
+  std::array<std::uint8_t, kMaxHandsPayload> out;
+  const auto write_one = [&](const char* name, const Hands& hands) {
+    const std::size_t size = encode_hands(hands, out);
+    write(folder / name, Bytes(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(size)));
+  };
   Hands hands;
-  hands.presence = 0xff;
-  write(folder / "hands", seed(1, {out.data(), encode_hands(hands, out)}));
-  write(folder / "skeleton", seed(2, {out.data(), encode_skeleton(average_skeleton(), out)}));
+  write_one("none", hands);
+  hands.presence = (1u << kFingerBoneCount) - 1;
+  write_one("rest", hands);
+  for (std::size_t i = 0; i < kFingerBoneCount; ++i)
+    hands.R_PB[i].coeffs() << 0.0f, 0.01f * static_cast<float>(i), i < 15 ? -0.3f : 0.35f, 0.9f;
+  normalize(hands);
+  write_one("whole", hands);
+  hands.presence = 0x1fff7fff;
+  write_one("parts", hands);
+}
+
+// Frames with two bytes of length before each, as lossless_codec_fuzz.cpp reads them.
+void write_lossless(const std::filesystem::path& folder) {
+  LosslessEncoder encoder;
+  std::array<std::uint8_t, kMaxLosslessPayload> out;
+  Bytes bytes;
+  for (std::uint32_t n = 0; n < 7; ++n) {
+    const std::size_t size = encoder.encode(pose_number(n, MonoTime::from_us(1), 1), out);
+    bytes.push_back(static_cast<std::uint8_t>(size));
+    bytes.push_back(static_cast<std::uint8_t>(size >> 8));
+    bytes.insert(bytes.end(), out.begin(), out.begin() + static_cast<std::ptrdiff_t>(size));
+  }
+  write(folder / "moves", bytes);
 }
 
 }  // namespace
@@ -90,5 +125,8 @@ int main(int argc, char** argv) {
   }
   dance::write_tunnel(argv[1]);
   dance::write_codec(argv[1]);
+  const std::filesystem::path corpus = std::filesystem::path(argv[1]) / "core_codec/corpus";
+  dance::write_hands(corpus / "hands_codec");
+  dance::write_lossless(corpus / "lossless_codec");
   return 0;
 }

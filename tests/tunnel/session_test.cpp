@@ -6,21 +6,6 @@
 namespace dance {
 namespace {
 
-constexpr Duration kTick = Duration::ms(16);
-
-// Everybody in `houses` sends a pose of each of their guests about 60 times a second.
-struct Dance {
-  SimulatedTunnel& tunnel;
-  std::vector<std::pair<SimulatedTunnel::House*, GuestId>> dancers;
-  void run(Duration duration) {
-    tunnel.run(duration, [this] {
-      if (tunnel.now().since_zero_us() / 1000 % kTick.count_ms() != 0) return;
-      for (auto& [house, who] : dancers)
-        if (house->is_running) tunnel.dance(*house, who);
-    });
-  }
-};
-
 TEST(Session, TwoHousesHearEachOtherAndNeverThemselves) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
@@ -57,7 +42,10 @@ TEST(Session, TimesArriveInTheReceiversClock) {
   Dance{tunnel, {{&a, guest("alice")}}}.run(Duration::s(1));
   tunnel.run(Duration::ms(50));
   ASSERT_FALSE(b.poses.empty());
-  const auto& heard = b.poses.back();
+  // Not every pose brings the stamps of its way.
+  const auto& heard = *std::find_if(b.poses.rbegin(), b.poses.rend(), [](const auto& one) {
+    return one.pose.stamped(Hop::kServer).is_set();
+  });
   // 10 ms old when sent, 5 ms up, 5 ms down; lines are symmetric, so the mapping is exact but for
   // rounding to microseconds.
   const auto near_ms = [](Duration d, double ms) { return std::abs(d.as_ms() - ms) < 0.01; };
@@ -188,21 +176,6 @@ TEST(Session, TheCountsOfOneWhoLeftAreKeptForTheSummary) {
   EXPECT_EQ(stats[0].received, b.heard_of(guest("alice")));
 }
 
-TEST(Session, ATakenNameIsRefusedByNameAndGetsItsTurnWhenItIsFree) {
-  SimulatedTunnel tunnel;
-  auto& a = tunnel.add_house("salsa", {"alice"});
-  tunnel.run(Duration::ms(100));
-  auto& thief = tunnel.add_house("salsa", {"alice"});
-  tunnel.run(Duration::s(1));
-  EXPECT_FALSE(thief.link->is_connected());
-  EXPECT_TRUE(thief.saw("refused 3 alice"));
-  EXPECT_TRUE(a.link->is_connected());
-  a.link->say_goodbye();
-  a.is_running = false;
-  tunnel.run(Duration::ms(1100));
-  EXPECT_TRUE(thief.link->is_connected());
-}
-
 TEST(Session, ALinkStartedAgainTakesItsNameBackWithinThreeSeconds) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
@@ -286,35 +259,6 @@ TEST(Session, AShortLapseChangesNothingForTheOthers) {
   EXPECT_TRUE(a.link->is_connected());
   EXPECT_FALSE(b.saw("-alice"));
   EXPECT_GT(b.link->remote_stats().at(0).lost, 40u) << "what was danced meanwhile is missing";
-}
-
-TEST(Session, AGuestMayBeAddedByItsFirstPose) {
-  SimulatedTunnel tunnel;
-  auto& a = tunnel.add_house("salsa", {});
-  auto& b = tunnel.add_house("salsa", {"bob"});
-  tunnel.run(Duration::ms(200));
-  Dance{tunnel, {{&a, guest("alice")}}}.run(Duration::s(1));
-  EXPECT_TRUE(b.saw("+alice"));
-  EXPECT_FALSE(a.saw("+alice")) << "one's own guest is no news";
-  EXPECT_GE(b.heard_of(guest("alice")), 55u);
-}
-
-TEST(Session, AnAddedGuestWhoseNameIsTakenIsRefusedAloneAndAskedForAgain) {
-  SimulatedTunnel tunnel;
-  auto& a = tunnel.add_house("salsa", {"alice"});
-  auto& b = tunnel.add_house("salsa", {"bob"});
-  Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}, {&b, guest("alice")}}};
-  dance.run(Duration::s(1));
-  EXPECT_TRUE(b.saw("refused 3 alice"));
-  EXPECT_TRUE(b.link->is_connected());
-  EXPECT_GT(a.heard_of(guest("bob")), 20u);
-  EXPECT_GT(b.heard_of(guest("alice")), 20u) << "the other house's alice is heard all the same";
-  a.link->say_goodbye();
-  a.is_running = false;
-  dance.run(Duration::s(2));
-  auto& c = tunnel.add_house("salsa", {"carol"});
-  dance.run(Duration::s(1));
-  EXPECT_GT(c.heard_of(guest("alice")), 20u);
 }
 
 TEST(Session, AProducerStartedAgainGoesOnAtOnceAndItsOldPosesDoNot) {

@@ -92,7 +92,7 @@ class SimulatedTunnel {
 
   // A new process in the same house: another token, nothing remembered.
   void start_link(House& house, const std::string& room, const std::vector<std::string>& guests) {
-    LinkOptions options;
+    LinkOptions options = link_options;
     options.room = guest(room);
     for (const auto& name : guests)
       if (!options.guests.try_push(guest(name))) std::abort();
@@ -132,8 +132,11 @@ class SimulatedTunnel {
   // Straight into the server, as if `from` had sent it.
   void inject(const Address& from, wire::Bytes bytes) {
     server_->receive(from, bytes, now_, now_);
-    server_->end_turn();
+    server_->end_turn(now_);
   }
+
+  // What links begin with; room, guests, token, clock and seed are filled in.
+  LinkOptions link_options;
 
   // The test's eye on what passes: return false to lose it.
   std::function<bool(bool to_server, const Address& peer, wire::Bytes bytes)> on_datagram;
@@ -196,7 +199,7 @@ class SimulatedTunnel {
         house->link->receive(parcel.bytes, time_in(*house), time_in(*house));
       }
     }
-    if (server_) server_->end_turn();
+    if (server_) server_->end_turn(now_);
   }
 
   LinkHandlers handlers_of(House& house) {
@@ -235,6 +238,20 @@ class SimulatedTunnel {
   std::unique_ptr<ServerCore> server_;
   std::vector<std::unique_ptr<House>> houses_;
   std::vector<Parcel> parcels_;
+};
+
+// The dancers send a pose each, about 60 times a second.
+struct Dance {
+  static constexpr std::int64_t kFrame_ms = 16;
+  SimulatedTunnel& tunnel;
+  std::vector<std::pair<SimulatedTunnel::House*, GuestId>> dancers;
+  void run(Duration duration) {
+    tunnel.run(duration, [this] {
+      if (tunnel.now().since_zero_us() / 1000 % kFrame_ms != 0) return;
+      for (auto& [house, who] : dancers)
+        if (house->is_running) tunnel.dance(*house, who);
+    });
+  }
 };
 
 }  // namespace dance

@@ -1,0 +1,228 @@
+// The parts that acknowledgements are made of, and the choice that follows from them.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+#include "core/base/random.h"
+#include "tunnel/ack_window.h"
+#include "tunnel/held_frames.h"
+#include "tunnel/reference_policy.h"
+#include "tunnel/sent_ring.h"
+
+namespace dance {
+namespace {
+
+wire::Acks acks_of(const AckWindow& window) {
+  wire::Acks acks;
+  acks.newest = window.newest();
+  acks.before = window.before();
+  return acks;
+}
+
+TEST(AckWindow, SaysTheNewestAndThe32BeforeItThroughTheWrap) {
+  AckWindow window;
+  EXPECT_FALSE(window.has_any());
+  window.note(65'530);
+  EXPECT_EQ(window.before(), 0u) << "nothing came before the first";
+  window.note(65'535);
+  window.note(1);
+  EXPECT_EQ(window.newest(), 1);
+  EXPECT_EQ(window.before(), 1u << 1 | 1u << 6);
+  window.note(0);
+  EXPECT_EQ(window.before(), 1u << 0 | 1u << 1 | 1u << 6);
+  EXPECT_TRUE(window.has(65'535));
+  EXPECT_FALSE(window.has(65'534));
+  window.note(40);
+  EXPECT_EQ(window.before(), 0u);
+  EXPECT_FALSE(window.covers(1));
+}
+
+TEST(AckWindow, CountsWhatNeverCame) {
+  AckWindow window;
+  Random random(3);
+  std::uint64_t missing = 0;
+  for (std::uint32_t i = 0; i < 100'000; ++i) {
+    if (i > 0 && random.uniform() < 0.02) {
+      ++missing;
+      continue;
+    }
+    window.note(static_cast<std::uint16_t>(i));
+  }
+  EXPECT_NEAR(static_cast<double>(window.loss().lost()), static_cast<double>(missing), 5);
+  EXPECT_NEAR(window.loss().loss(), 0.02, 0.012);
+}
+
+TEST(AckWindow, ADamagedNumberDoesNotStopItForLong) {
+  AckWindow window;
+  window.note(10);
+  window.note(30'000);
+  for (std::uint16_t i = 11; i < 30; ++i) window.note(i);
+  EXPECT_EQ(window.newest(), 29);
+}
+
+TEST(HeldFrames, KeepsOneStreamAndWraps) {
+  HeldFrames held;
+  held.add(1, 65'535);
+  held.add(1, 2);
+  EXPECT_EQ(held.newest(), 2);
+  EXPECT_TRUE(held.has(65'535));
+  EXPECT_FALSE(held.has(0));
+  held.add(1, 0);
+  EXPECT_TRUE(held.has(0));
+  held.add(2, 500);
+  EXPECT_FALSE(held.has(2)) << "another stream";
+  EXPECT_TRUE(held.is_of(2));
+}
+
+TEST(HeldFrames, TheIntersectionIsWhatBothHave) {
+  Random random(8);
+  for (int round = 0; round < 500; ++round) {
+    HeldFrames a, b;
+    const auto begin = static_cast<std::uint16_t>(random.next_u64());
+    for (std::uint16_t i = 0; i < 50; ++i) {
+      if (random.uniform() < 0.7) a.add(4, static_cast<std::uint16_t>(begin + i));
+      if (random.uniform() < 0.7) b.add(4, static_cast<std::uint16_t>(begin + i));
+    }
+    HeldFrames both = a;
+    both.intersect(b);
+    for (std::uint16_t i = 0; i < 50; ++i) {
+      const auto sequence = static_cast<std::uint16_t>(begin + i);
+      EXPECT_EQ(both.bits() != 0 && both.has(sequence), a.has(sequence) && b.has(sequence));
+    }
+  }
+  HeldFrames some, none;
+  some.add(1, 5);
+  some.intersect(none);
+  EXPECT_EQ(some.bits(), 0u);
+}
+
+TEST(SentRing, AnAcknowledgementGivesTheFramesOfItsDatagramsOnce) {
+  SentRing ring;
+  AckWindow received;
+  for (std::uint16_t i = 0; i < 10; ++i) {
+    ring.add({1, i, 3});
+    ring.add({1, static_cast<std::uint16_t>(100 + i), 4});
+    EXPECT_EQ(ring.commit(), i);
+    if (i % 2 == 0) received.note(i);
+  }
+  wire::Acks acks = acks_of(received);
+  ASSERT_TRUE(acks.excepts.try_push({2, 4}));
+  std::multiset<std::uint16_t> held;
+  const auto take = [&](const SentRing::Frame& frame) { held.insert(frame.sequence); };
+  EXPECT_TRUE(ring.acknowledge(acks, take));
+  EXPECT_EQ(held, (std::multiset<std::uint16_t>{0, 2, 4, 6, 8, 100, 102, 104, 108}));
+  EXPECT_TRUE(ring.acknowledge(acks, take));
+  EXPECT_EQ(held.size(), 9u);
+}
+
+TEST(SentRing, WhatWasNeverSentIsNotAcknowledged) {
+  SentRing ring;
+  int taken = 0;
+  const auto take = [&](const SentRing::Frame&) { ++taken; };
+  wire::Acks acks;
+  acks.before = ~0u;
+  EXPECT_FALSE(ring.acknowledge(acks, take)) << "nothing was sent at all";
+  ring.add({1, 1, 1});
+  ring.commit();
+  for (const std::uint16_t newest : std::array<std::uint16_t, 4>{1, 255, 32'768, 65'535}) {
+    acks.newest = newest;
+    EXPECT_FALSE(ring.acknowledge(acks, take)) << newest;
+  }
+  EXPECT_EQ(taken, 0);
+  acks.newest = 0;
+  EXPECT_TRUE(ring.acknowledge(acks, take));
+  EXPECT_EQ(taken, 1);
+}
+
+TEST(SentRing, GarbageDoesNothingBeyondWhatWasSent) {
+  Random random(12);
+  SentRing ring;
+  std::uint32_t sent = 0;
+  std::uint64_t taken = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    if (random.below(3) == 0) {
+      for (std::uint64_t k = random.below(20); k > 0; --k)
+        ring.add({1, static_cast<std::uint16_t>(sent++), 2});
+      ring.commit();
+    }
+    wire::Acks acks;
+    acks.newest = static_cast<std::uint16_t>(random.next_u64());
+    acks.before = static_cast<std::uint32_t>(random.next_u64());
+    ring.acknowledge(acks, [&](const SentRing::Frame&) { ++taken; });
+  }
+  EXPECT_LE(taken, sent) << "each at most once";
+}
+
+TEST(SentRing, MeasuresLossThroughTheWrapOfItsNumbers) {
+  SentRing ring;
+  AckWindow received;
+  Random random(5);
+  for (int i = 0; i < 200'000; ++i) {
+    const std::uint16_t number = ring.commit();
+    if (random.uniform() >= 0.05) received.note(number);
+    if (i % 4 == 0 && received.has_any())
+      ring.acknowledge(acks_of(received), [](const SentRing::Frame&) {});
+  }
+  EXPECT_NEAR(static_cast<double>(ring.loss().lost()), 10'000.0, 400.0);
+  EXPECT_NEAR(ring.loss().loss(), 0.05, 0.03);
+}
+
+TEST(LossMeter, OneLossInAThousandIsNotNoneAndABurstShowsAtOnce) {
+  LossMeter clean;
+  for (int i = 0; i < 20'000; ++i) clean.add(false);
+  EXPECT_LT(clean.loss(), 0.0001f);
+  LossMeter seldom;
+  for (int i = 0; i < 20'000; ++i) seldom.add(i % 200 == 0);
+  EXPECT_GT(seldom.loss(), 0.002f);
+  for (int i = 0; i < 6; ++i) clean.add(true);
+  EXPECT_GT(clean.loss(), 0.05f);
+}
+
+class Policy : public ::testing::Test {
+ protected:
+  References in(Duration later, double loss, Duration round_trip) {
+    now += later;
+    return policy.update(loss, round_trip, Duration::ms(16), now);
+  }
+  ReferencePolicy policy;
+  MonoTime now = MonoTime::from_us(1);
+  static constexpr Duration kShort = Duration::ms(30), kLong = Duration::ms(160);
+};
+
+TEST_F(Policy, BeginsWithThePreviousFrameTwice) {
+  EXPECT_EQ(policy.current(), References::kPreviousTwice);
+}
+
+TEST_F(Policy, ChoosesByLossAndRoundTrip) {
+  EXPECT_EQ(in({}, 0.02, kShort), References::kAcknowledged);
+  EXPECT_EQ(in(Duration::s(2), 0.02, kLong), References::kPreviousTwice);
+  EXPECT_EQ(in(Duration::s(2), 0.10, kLong), References::kAcknowledged);
+  EXPECT_EQ(in(Duration::s(2), 0.0005, kLong), References::kPrevious);
+  EXPECT_EQ(in(Duration::s(2), 0.0005, kShort), References::kPrevious);
+}
+
+TEST_F(Policy, DoesNotFlutter) {
+  in({}, 0.02, kShort);
+  int changes = 0;
+  References last = policy.current();
+  for (int i = 0; i < 100; ++i) {
+    // To and fro across eight frames, and across a thousandth.
+    const References next = in(Duration::ms(100), 0.02, Duration::ms(i % 2 == 0 ? 127 : 129));
+    changes += next != last ? 1 : 0;
+    last = next;
+  }
+  EXPECT_EQ(changes, 0);
+  in(Duration::s(2), 0.0005, kShort);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(in(Duration::ms(100), i % 2 == 0 ? 0.0009 : 0.0015, kShort), References::kPrevious);
+}
+
+TEST_F(Policy, LeavesThePreviousFrameAloneAtOnceWhenSomethingIsLost) {
+  EXPECT_EQ(in(Duration::s(2), 0.0, kShort), References::kPrevious);
+  EXPECT_EQ(in(Duration::ms(1), 0.03, kShort), References::kAcknowledged);
+  EXPECT_EQ(in(Duration::ms(1), 0.0, kShort), References::kAcknowledged) << "and stays";
+}
+
+}  // namespace
+}  // namespace dance

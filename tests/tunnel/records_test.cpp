@@ -1,0 +1,176 @@
+// The datagram that the dance travels in, byte by byte.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/base/random.h"
+#include "tunnel/wire_records.h"
+
+namespace dance::wire {
+namespace {
+
+using Buffer = std::array<std::uint8_t, kMaxDatagram>;
+using Written = std::vector<std::uint8_t>;
+
+constexpr std::array<std::uint8_t, 3> kPayload{7, 8, 9};
+constexpr std::int64_t kBaseTicks = 0x123456789a;
+
+Record example() {
+  Record record;
+  record.slot = 3;
+  record.stream = 0x00170102;
+  record.sequence = 0xfffffffe;
+  record.capture_us = (kBaseTicks - 0x0203) * kTick_us;
+  record.payload = kPayload;
+  return record;
+}
+
+Written written(const RecordsHeader& header, const std::vector<std::pair<Record, bool>>& records) {
+  Buffer out;
+  ByteWriter writer(out);
+  begin_records(0xa1a2a3a4a5a6a7a8, header, writer);
+  for (const auto& [record, is_narrow] : records)
+    add_record(record, is_narrow, header.base_ticks, writer);
+  EXPECT_TRUE(writer.ok());
+  return {writer.written().begin(), writer.written().end()};
+}
+
+// The bytes that docs/wire-format.md shows: a change here is a new version of the format.
+TEST(WireRecords, ADatagramLooksAsItIsDocumented) {
+  RecordsHeader header;
+  header.number = 0x0102;
+  header.has_acks = true;
+  header.acks.newest = 0x0304;
+  header.acks.before = 0x05060708;
+  ASSERT_TRUE(header.acks.excepts.try_push({9, 10}));
+  ASSERT_TRUE(header.wants.try_push(11));
+  header.has_records = true;
+  header.base_ticks = kBaseTicks;
+  Record with_ages = example();
+  with_ages.published_age_us = 16 * 0x0405;
+  with_ages.server_age_us = -100;
+  const Written expected{
+      0xa8, 0xa7, 0xa6, 0xa5, 0xa4, 0xa3, 0xa2, 0xa1, 18,  // session, type
+      0x02, 0x01, 23,                                      // number; acks, excepts, wants, records
+      0x04, 0x03, 0x08, 0x07, 0x06, 0x05,                  // acknowledged
+      1,    9,    10,                                      // but for slot 10 nine before
+      1,    11,                                            // wants slot 11
+      0x9a, 0x78, 0x56,                                    // base
+      0x83, 0x03, 0x72, 0x02, 0x01, 0xfe, 0xff, 0xff, 0xff, 0x03, 0x02, 7, 8, 9,  // wide
+      0x03, 0x83, 0x72, 0xfe, 0x03, 0x02,                                         // narrow
+      0x05, 0x04, 0xfe, 0xff, 0xff, 0xff, 0x9c, 0xff, 0xff, 0xff, 7,    8, 9};    // with ages
+  EXPECT_EQ(written(header, {{example(), false}, {with_ages, true}}), expected);
+}
+
+TEST(WireRecords, FeedbackLooksAsItIsDocumented) {
+  RecordsHeader header;
+  header.has_feedback = true;
+  header.feedback.loss = 0x0102;
+  header.feedback.round_trip = 0x0304;
+  ASSERT_TRUE(header.feedback.guests.try_push({5, 6, 7, false, 0, 0}));
+  ASSERT_TRUE(header.feedback.guests.try_push({8, 9, 10, true, 0x0b0c, 0x0d0e}));
+  const Written expected{0xa8, 0xa7, 0xa6, 0xa5, 0xa4, 0xa3, 0xa2, 0xa1, 18,   0,
+                         0,    8,    0x02, 0x01, 0x04, 0x03, 2,  // loss, round trip, guests
+                         5,    6,    7,    0x88, 9,    10,   0x0c, 0x0b, 0x0e, 0x0d};
+  EXPECT_EQ(written(header, {}), expected);
+}
+
+TEST(WireRecords, HeadersAreAsSmallAsTheySay) {
+  RecordsHeader header;
+  header.has_records = header.has_acks = true;
+  header.base_ticks = kBaseTicks;
+  const std::size_t empty = written(header, {}).size();
+  EXPECT_EQ(empty, kRecordsHeader);
+  EXPECT_EQ(written(header, {{example(), true}}).size() - empty, kNarrowRecordHeader + 3);
+  EXPECT_EQ(written(header, {{example(), false}}).size() - empty, kWideRecordHeader + 3);
+  const std::array<std::uint8_t, kMaxPayload> payload{};
+  Record longest = example();
+  longest.payload = payload;
+  longest.capture_us = 0;
+  longest.published_age_us = longest.sent_age_us = longest.server_age_us = INT32_MAX;
+  EXPECT_EQ(written(header, {{longest, false}}).size() - empty, kMaxRecordHeader + kMaxPayload);
+}
+
+TEST(WireRecords, WhatIsWrittenComesBack) {
+  Random random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const std::int64_t now_us = 5'000'000'000 + static_cast<std::int64_t>(random.below(1u << 30));
+    RecordsHeader header;
+    header.number = static_cast<std::uint16_t>(random.next_u64());
+    header.has_records = true;
+    header.base_ticks = to_ticks(now_us);
+    std::vector<std::uint8_t> payload(1 + random.below(kMaxPayload), 5);
+    Record record = example();
+    record.kind = i % 3 == 0 ? RecordKind::kHands : RecordKind::kPose;
+    record.sequence = static_cast<std::uint32_t>(random.next_u64());
+    record.stream = static_cast<std::uint32_t>(random.next_u64());
+    record.capture_us =
+        to_ticks(now_us - 2'000'000 + static_cast<std::int64_t>(random.below(3'000'000))) *
+        kTick_us;
+    if (i % 2 == 0) record.sent_age_us = static_cast<std::int32_t>(random.below(3'000'000)) - 500;
+    record.payload = payload;
+    const bool is_narrow = i % 5 < 3;
+    const Written bytes = written(header, {{record, is_narrow}});
+    ByteReader in(parse_opening(bytes)->body);
+    const auto back = parse_records_header(in);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->number, header.number);
+    // The receiver's clock is not quite the sender's.
+    const std::int64_t near_us =
+        now_us + static_cast<std::int64_t>(random.below(200'000'000)) - 100'000'000;
+    const std::int64_t base = base_us(back->base_ticks, near_us);
+    EXPECT_EQ(base, header.base_ticks * kTick_us);
+    auto read = parse_record(base, in);
+    ASSERT_TRUE(read && in.is_exhausted());
+    EXPECT_EQ(read->is_narrow, is_narrow);
+    const auto before = record.sequence - 100 + static_cast<std::uint32_t>(random.below(200));
+    ASSERT_TRUE(widen(static_cast<std::uint16_t>(record.stream >> 16), is_narrow, record.stream,
+                      before, *read));
+    EXPECT_EQ(read->kind, record.kind);
+    EXPECT_EQ(read->stream, record.stream);
+    EXPECT_EQ(read->sequence, record.sequence);
+    EXPECT_EQ(read->capture_us, record.capture_us);
+    EXPECT_NEAR(read->sent_age_us, record.sent_age_us, 8);
+    EXPECT_EQ(read->payload.size(), payload.size());
+  }
+}
+
+TEST(WireRecords, ANarrowRecordMeansNothingWithoutWhatCameBefore) {
+  Record record = example();
+  record.is_narrow = true;
+  EXPECT_FALSE(widen(0x17, false, record.stream, record.sequence, record));
+  EXPECT_FALSE(widen(0x18, true, record.stream, record.sequence, record)) << "another guest";
+  EXPECT_FALSE(widen(0x17, true, record.stream + 1, record.sequence, record)) << "another stream";
+  EXPECT_TRUE(widen(0x17, true, record.stream, record.sequence, record));
+}
+
+TEST(WireRecords, EveryPrefixAndEveryContradictionIsRefused) {
+  RecordsHeader header;
+  header.has_records = header.has_acks = header.has_feedback = true;
+  ASSERT_TRUE(header.feedback.guests.try_push({8, 9, 10, true, 1, 1}));
+  ASSERT_TRUE(header.acks.excepts.try_push({32, 63}));
+  header.base_ticks = kBaseTicks;
+  const Written bytes = written(header, {{example(), false}});
+  const auto is_good = [](const Written& datagram) {
+    ByteReader in(parse_opening(datagram)->body);
+    if (!parse_records_header(in)) return false;
+    while (in.remaining() > 0)
+      if (!parse_record(0, in)) return false;
+    return true;
+  };
+  EXPECT_TRUE(is_good(bytes));
+  for (std::size_t size = kSessionHeader; size < bytes.size(); ++size)
+    EXPECT_FALSE(is_good({bytes.begin(), bytes.begin() + static_cast<long>(size)})) << size;
+  const auto with = [&](std::size_t at, std::uint8_t value) {
+    Written changed = bytes;
+    changed[at] = value;
+    return changed;
+  };
+  EXPECT_FALSE(is_good(with(11, 0x20 | bytes[11]))) << "a flag that nobody knows";
+  EXPECT_FALSE(is_good(with(18, 0))) << "no exceptions, though it says so";
+  EXPECT_FALSE(is_good(with(19, 33))) << "an exception out of the window";
+  EXPECT_FALSE(is_good(with(20, 64))) << "no such slot";
+}
+
+}  // namespace
+}  // namespace dance::wire

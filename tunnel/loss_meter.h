@@ -1,0 +1,37 @@
+// What share of the datagrams of one way is lost: slowly, so that one in a thousand can be told from
+// none; and at once where a burst of losses says that the way has changed.
+//
+// Units/frames: a share, 0 to 1.
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace dance {
+
+class LossMeter {
+ public:
+  void add(bool is_lost) {
+    const float sample = is_lost ? 1.0f : 0.0f;
+    slow_ += (sample - slow_) * (1.0f / 1024.0f);
+    quick_ += (sample - quick_) * (1.0f / 64.0f);
+    lost_ += is_lost ? 1 : 0;
+  }
+  float loss() const {
+    // One lost datagram alone makes the quick one 1/64.
+    constexpr float kBurst = 0.03f;
+    return quick_ > slow_ + kBurst ? quick_ : slow_;
+  }
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  static constexpr float kBeforeAny = 0.02f;  // nothing is known: some loss
+  float slow_ = kBeforeAny;
+  float quick_ = kBeforeAny;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,49 @@
+// Which earlier frames an encoder may refer to, chosen from what the way to the receivers loses and
+// how long an acknowledgement takes. The previous frame costs fewest bytes, but each loss is missed
+// until the next key frame; acknowledged frames are safe, but old where the way is long; the
+// previous frame sent twice is between.
+//
+// Units/frames: loss is a share of datagrams, to the worst receiver.
+// Ownership:    plain value.
+// Threads:      none inside; time is an argument.
+// Failure:      none. Thresholds have a gap, and a choice stands for a second, so that it does not
+//               flutter; the previous frame alone is left at once.
+#pragma once
+
+#include "core/base/time.h"
+#include "core/codec/pose_codec.h"
+
+namespace dance {
+
+class ReferencePolicy {
+ public:
+  References update(double loss, Duration round_trip, Duration frame, MonoTime now) {
+    const References wanted = choose(loss, round_trip, frame);
+    const bool is_urgent = current_ == References::kPrevious && wanted != current_;
+    if (wanted == current_ || (!is_urgent && chosen_at_.is_set() && now - chosen_at_ < kStands))
+      return current_;
+    current_ = wanted;
+    chosen_at_ = now;
+    return current_;
+  }
+  References current() const { return current_; }
+
+ private:
+  static constexpr Duration kStands = Duration::s(1);
+
+  References choose(double loss, Duration round_trip, Duration frame) const {
+    const bool is_bare = current_ == References::kPrevious;
+    const bool is_twice = current_ == References::kPreviousTwice;
+    if (loss < (is_bare ? 0.002 : 0.001)) return References::kPrevious;
+    // Eight frames, and half a frame to either side: beyond, a frame and the one before it cost less
+    // than one that refers so far back (dance codec eval --loss).
+    const bool is_long = round_trip * 2 > frame * (is_twice ? 15 : 17);
+    return is_long && loss < (is_twice ? 0.06 : 0.05) ? References::kPreviousTwice
+                                                      : References::kAcknowledged;
+  }
+
+  References current_ = References::kPreviousTwice;  // nothing is known yet
+  MonoTime chosen_at_;
+};
+
+}  // namespace dance

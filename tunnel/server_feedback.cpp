@@ -1,0 +1,153 @@
+// What receivers have, what they lack, and how senders are told.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/assert.h"
+#include "tunnel/server_core.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kFeedbackGap = Duration::ms(4);
+// However many ask, and however often.
+constexpr Duration kKeyFrameGap = Duration::ms(100);
+// A link says something each 200 ms: who has not for this long is waited for no more.
+constexpr Duration kStillHere = Duration::ms(500);
+constexpr std::uint32_t kLongestRoundTrip_us = 1'000'000;
+
+Duration round_trip_of(const ServerSession& session) {
+  return Duration::us(std::min(session.newest_ping.round_trip_us, kLongestRoundTrip_us));
+}
+
+}  // namespace
+
+bool ServerCore::is_receiver(std::size_t member, std::size_t sender, MonoTime now) const {
+  const ServerSession& session = sessions_[member];
+  return member != sender && session.is_proven && now - session.last_heard <= kStillHere;
+}
+
+void ServerCore::on_acks(std::size_t index, const wire::Acks& acks, MonoTime now) {
+  ServerSession& session = sessions_[index];
+  const ServerRoom& room = rooms_[session.room];
+  const std::uint64_t before = session.sent.acked();
+  const bool is_good = session.sent.acknowledge(acks, [&](const SentRing::Frame& frame) {
+    const ServerGuest& guest = room.guests[frame.slot];
+    if (!guest.in_use || guest.poses.stream() != frame.stream) return;
+    session.held[frame.slot].add(frame.stream, frame.sequence);
+    schedule_feedback(guest.owner, now);
+  });
+  counters_.datagrams_acked += session.sent.acked() - before;
+  if (!is_good) reject(ServerReject::kBadAck);
+}
+
+void ServerCore::on_want(std::size_t index, std::uint8_t slot, MonoTime now) {
+  ServerSession& session = sessions_[index];
+  ServerGuest& guest = rooms_[session.room].guests[slot];
+  if (!guest.in_use || guest.owner == index) return reject(ServerReject::kForeignSlot);
+  session.held[slot].clear();
+  // The one that was asked for last may be under way still.
+  const Duration way = round_trip_of(session) + round_trip_of(sessions_[guest.owner]);
+  if (guest.key_asked_at.is_set() && now - guest.key_asked_at < way) return;
+  want_key_frame(guest, now);
+}
+
+void ServerCore::want_key_frames_for(std::size_t newcomer, MonoTime now) {
+  for (ServerGuest& guest : rooms_[sessions_[newcomer].room].guests)
+    if (guest.in_use && guest.owner != newcomer) want_key_frame(guest, now);
+}
+
+void ServerCore::want_key_frame(ServerGuest& guest, MonoTime now) {
+  ++counters_.key_frames_wanted;
+  guest.key_wanted = true;
+  ServerSession& owner = sessions_[guest.owner];
+  const bool is_early = guest.key_asked_at.is_set() && now - guest.key_asked_at < kKeyFrameGap;
+  schedule_feedback(guest.owner, is_early ? guest.key_asked_at + kKeyFrameGap : now);
+  if (!is_early && owner.feedback_due.is_set())
+    owner.feedback_due = std::min(owner.feedback_due, now);
+}
+
+// Not before `at`, and not much more often than senders can make use of.
+void ServerCore::schedule_feedback(std::size_t index, MonoTime at) {
+  ServerSession& session = sessions_[index];
+  if (!session.is_proven || session.slots.empty()) return;
+  // With nobody to receive there is nothing to tell.
+  if (rooms_[session.room].members.size() < 2) return;
+  if (session.feedback_made.is_set()) at = std::max(at, session.feedback_made + kFeedbackGap);
+  if (!session.feedback_due.is_set()) {
+    session.feedback_due = at;
+    reporting_.push_back(index);
+  }
+  session.feedback_due = std::min(session.feedback_due, at);
+}
+
+// Frames: as far back as a codec may refer.
+constexpr std::uint16_t kLongestHeld = 63;
+
+bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& feedback) {
+  ServerSession& session = sessions_[index];
+  ServerRoom& room = rooms_[session.room];
+  session.feedback_due = MonoTime();
+  session.feedback_made = now;
+  std::erase(reporting_, index);
+  bool is_news = std::exchange(session.feedback_is_repeat, false);
+
+  float loss = 0.0f;
+  Duration round_trip;
+  bool has_receiver = false;
+  for (const std::size_t member : room.members) {
+    if (!is_receiver(member, index, now)) continue;
+    has_receiver = true;
+    loss = std::max(loss, sessions_[member].sent.loss().loss());
+    round_trip = std::max(round_trip, round_trip_of(sessions_[member]));
+  }
+  if (has_receiver) {
+    // What is lost on either way does not arrive.
+    const float arrives = (1.0f - loss) * (1.0f - session.received.loss().loss());
+    feedback.loss = static_cast<std::uint16_t>(std::lround((1.0f - arrives) * 65535.0f));
+    const std::int64_t way_us = (round_trip + round_trip_of(session)).count_us();
+    feedback.round_trip =
+        static_cast<std::uint16_t>(std::clamp<std::int64_t>(way_us / 100, 1, UINT16_MAX));
+  }
+  for (const std::uint8_t slot : session.slots) {
+    ServerGuest& guest = room.guests[slot];
+    HeldFrames common;
+    bool is_first = true;
+    for (const std::size_t member : room.members) {
+      if (!is_receiver(member, index, now)) continue;
+      // Who has nothing of late asks for a key frame; the others need not do without references.
+      const HeldFrames& held = sessions_[member].held[slot];
+      if (!guest.poses.has_any() || !held.is_of(guest.poses.stream()) ||
+          static_cast<std::uint16_t>(guest.poses.newest() - held.newest()) > kLongestHeld)
+        continue;
+      if (is_first)
+        common = held;
+      else
+        common.intersect(held);
+      is_first = false;
+    }
+    if (guest.key_wanted &&
+        (!guest.key_asked_at.is_set() || now - guest.key_asked_at >= kKeyFrameGap)) {
+      guest.key_wanted = false;
+      guest.key_asked_at = now;
+      ++guest.key_frames;
+      ++counters_.key_frames_asked;
+      is_news = true;
+    }
+    if (guest.key_wanted) schedule_feedback(index, guest.key_asked_at + kKeyFrameGap);
+    wire::GuestFeedback about;
+    about.slot = slot;
+    about.restarts = static_cast<std::uint8_t>(guest.poses.stream());
+    about.key_frames = guest.key_frames;
+    is_news = is_news || common != guest.told;
+    guest.told = common;
+    about.has_held = guest.poses.has_any() && common.is_of(guest.poses.stream());
+    about.newest_held = common.newest();
+    about.held_before = static_cast<std::uint16_t>(common.bits() >> 1);
+    const bool pushed = feedback.guests.try_push(about);
+    DANCE_ASSERT(pushed);
+  }
+  return is_news;
+}
+
+}  // namespace dance

@@ -1,0 +1,142 @@
+// The way of poses and hands through the server.
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/assert.h"
+#include "tunnel/server_core.h"
+
+namespace dance {
+namespace {
+
+// A capture further from now than this is no capture of a dance under way.
+constexpr std::int64_t kLongestAge_us = 60'000'000;
+// Nothing is captured in the future; clocks are mapped better than this.
+constexpr std::int64_t kFarthestAhead_us = 1'000'000;
+// Loss, round trip and the number of guests; then each of them.
+constexpr std::size_t kFeedbackHead = 2 + 2 + 1;
+constexpr std::size_t kFeedbackGuest = 7;
+
+}  // namespace
+
+void ServerCore::on_records(std::size_t index, wire::Bytes body, MonoTime received, MonoTime now) {
+  ByteReader in(body);
+  const auto header = wire::parse_records_header(in);
+  // What receivers have is the server's to say.
+  if (!header || header->has_feedback) return reject(ServerReject::kMalformed);
+  // All of a datagram or nothing: half of a damaged one is not worth more than none.
+  const std::int64_t base_us = wire::base_us(header->base_ticks, received.since_zero_us());
+  ByteReader check = in;
+  while (check.remaining() > 0)
+    if (!wire::parse_record(base_us, check)) return reject(ServerReject::kMalformed);
+  sessions_[index].received.note(header->number);
+  if (header->has_acks) on_acks(index, header->acks, now);
+  for (const std::uint8_t slot : header->wants) on_want(index, slot, now);
+  while (in.remaining() > 0) on_record(index, *wire::parse_record(base_us, in), received, now);
+}
+
+void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime received,
+                           MonoTime now) {
+  ServerGuest* guest = guest_of(session, record.slot);
+  if (guest == nullptr) return reject(ServerReject::kForeignSlot);
+  const std::int64_t received_us = received.since_zero_us();
+  if (record.capture_us < received_us - kLongestAge_us ||
+      record.capture_us > received_us + kFarthestAhead_us)
+    return reject(ServerReject::kBadTime);
+  if (!guest->records.take(1.0, now)) return reject(ServerReject::kGuestRate);
+  const bool is_pose = record.kind == wire::RecordKind::kPose;
+  StreamGate& gate = is_pose ? guest->poses : guest->hands;
+  // The link need not know the generation.
+  record.stream &= 0xffff;
+  if (!wire::widen(0, gate.has_any(), gate.stream(), gate.newest(), record))
+    return reject(ServerReject::kLate);
+  record.stream |= std::uint32_t{guest->generation} << 16;
+  switch (gate.judge(record.stream, record.sequence, record.capture_us)) {
+    case StreamGate::Verdict::kNewest:
+    case StreamGate::Verdict::kNewStream:
+      break;
+    case StreamGate::Verdict::kDuplicate:
+      return reject(ServerReject::kDuplicate);
+    case StreamGate::Verdict::kLate:
+    case StreamGate::Verdict::kOldStream:
+      return reject(ServerReject::kLate);
+  }
+  if (record.sent_age_us != wire::kNoAge)
+    record.server_age_us = static_cast<std::int32_t>(received_us - record.capture_us);
+  ++counters_.records_in;
+  forward(session, record, now);
+}
+
+void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime now) {
+  const bool is_pose = record.kind == wire::RecordKind::kPose;
+  const auto sequence = static_cast<std::uint16_t>(record.sequence);
+  const std::size_t most = wire::kMaxRecordHeader + record.payload.size();
+  const ServerRoom& room = rooms_[sessions_[from].room];
+  for (const std::size_t member : room.members) {
+    ServerSession& to = sessions_[member];
+    if (member == from || !to.is_proven) continue;
+    if (to.bundle.size() - to.bundle_size < most) flush_bundle(member, now);
+    if (to.bundle_size == 0) {
+      to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
+      to.bundle_due = now + share_window(room);
+      to.bundle_poses = 0;
+      bundled_.push_back(member);
+    }
+    // What the receiver is known to have gives the high bits.
+    const HeldFrames& held = to.held[record.slot];
+    const bool is_narrow =
+        is_pose && held.is_of(record.stream) &&
+        static_cast<std::uint16_t>(sequence - held.newest()) <= wire::kNarrowReach;
+    ByteWriter out(std::span<std::uint8_t>(to.bundle).subspan(to.bundle_size));
+    wire::add_record(record, is_narrow, to.base_ticks, out);
+    DANCE_ASSERT(out.ok());
+    to.bundle_size += out.size();
+    if (is_pose) {
+      to.sent.add({record.stream, sequence, record.slot});
+      ++to.bundle_poses;
+    }
+    ++counters_.records_out;
+  }
+}
+
+Duration ServerCore::share_window(const ServerRoom& room) const {
+  return room.guest_count < limits_.crowd ? limits_.share_window
+                                          : std::max(limits_.share_window, limits_.crowd_window);
+}
+
+// Full of what can come, or has waited long enough.
+bool ServerCore::is_bundle_due(const ServerSession& session, MonoTime now) const {
+  return now >= session.bundle_due ||
+         session.bundle_poses + session.slots.size() >= rooms_[session.room].guest_count;
+}
+
+void ServerCore::flush_bundle(std::size_t index, MonoTime now) {
+  if (sessions_[index].bundle_size > 0) send_records(index, now);
+  std::erase(bundled_, index);
+}
+
+// The bundle, if there is one, and the feedback, if it is due.
+void ServerCore::send_records(std::size_t index, MonoTime now) {
+  ServerSession& session = sessions_[index];
+  wire::RecordsHeader header;
+  header.has_records = session.bundle_size > 0;
+  header.base_ticks = session.base_ticks;
+  const std::size_t room = wire::kMaxRecordsBody - session.bundle_size;
+  if (session.feedback_due.is_set() && session.feedback_due <= now &&
+      room >= kFeedbackHead + kFeedbackGuest * session.slots.size()) {
+    header.has_feedback = fill_feedback(index, now, header.feedback);
+    header.has_acks = header.has_feedback && session.received.has_any();
+    header.acks.newest = session.received.newest();
+    header.acks.before = session.received.before();
+  }
+  if (!header.has_records && !header.has_feedback) return;
+  header.number = session.sent.commit();
+  std::array<std::uint8_t, wire::kMaxDatagram> bytes;
+  ByteWriter out(bytes);
+  wire::begin_records(session.id, header, out);
+  out.bytes(std::span<const std::uint8_t>(session.bundle).first(session.bundle_size));
+  DANCE_ASSERT(out.ok());
+  session.bundle_size = 0;
+  send(session.address, out.written());
+}
+
+}  // namespace dance
