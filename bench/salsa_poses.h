@@ -1,0 +1,29 @@
+// A minute of the synthetic lead at 60 Hz: what the benchmarks work on, the same every time.
+//
+// Ownership: plain values.
+// Threads:   none inside.
+// Failure:   none.
+#pragma once
+
+#include <vector>
+
+#include "producers/salsa_dancer.h"
+
+namespace dance {
+
+inline std::vector<Pose> salsa_poses() {
+  constexpr std::int64_t kFrames = 3600;
+  SalsaDancer dancer{SalsaStyle{}};
+  std::vector<Pose> poses(kFrames);
+  for (std::int64_t i = 0; i < kFrames; ++i) {
+    Pose& pose = poses[static_cast<std::size_t>(i)];
+    const Duration t = Duration::us(i * 1'000'000 / 60);
+    dancer.dance_at(t, pose);
+    pose.sequence = static_cast<std::uint32_t>(i);
+    pose.clock_id = 1;
+    pose.capture_time = MonoTime::from_us(1'000'000) + t;
+  }
+  return poses;
+}
+
+}  // namespace dance
