@@ -1,12 +1,11 @@
 // dance listen: hears the dancers of a bus and writes them down: as text, as a table, as a BVH file.
 
-#include <spdlog/spdlog.h>
-
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 
 namespace dance {
 namespace {
@@ -63,15 +62,15 @@ Result<void> listen(const ListenOptions& options) {
       return MonoTime();
     });
   }
-  spdlog::info("listens to POSE/{}/{} on {}", options.where,
-               options.guest.empty() ? "*" : options.guest, bus->url());
+  talk::info("listens to POSE/{}/{} on {}", options.where,
+             options.guest.empty() ? "*" : options.guest, bus->url());
   poller->run();
   poller->unwatch(bus->fd());
 
   if (heard == 0)
-    spdlog::warn("heard nobody on POSE/{}/*; dance top shows what is on the bus", options.where);
+    talk::warn("heard nobody on POSE/{}/*; dance top shows what is on the bus", options.where);
   Result<void> finished = consumer->finish();
-  if (finished) spdlog::info("{}", consumer->summary());
+  if (finished) talk::info("{}", consumer->summary());
   return finished;
 }
 
@@ -80,22 +79,25 @@ Result<void> listen(const ListenOptions& options) {
 
 int main(int argc, char** argv) {
   dance::ListenOptions options;
-  CLI::App app{"Hears the dancers of a bus and writes them down.", "dance listen"};
-  app.add_option("--to", options.to, "what to make of them")
-      ->check(CLI::IsMember(dance::consumer_names()))
-      ->capture_default_str();
-  app.add_option("-o,--output", options.output, "file to write; without it, standard output");
-  app.add_option("--where", options.where, "which poses: made here, come from other houses, shown")
-      ->check(CLI::IsMember({"capture", "guest", "stage"}))
-      ->capture_default_str();
-  app.add_option("--guest", options.guest, "only this dancer");
-  app.add_option("--hz", options.hz,
-                 "at most so many lines or rows a second of each dancer (0: all); frames a second "
-                 "of a BVH (0: 60)")
-      ->check(CLI::Range(0.001, 1000.0) | CLI::IsMember({0.0}));
-  app.add_option("--seconds", options.seconds, "how long; 0 = until told to stop")
-      ->check(CLI::Range(0.0, 1e7));
-  app.add_option("--bus", options.bus, "LCM URL of the bus");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::listen(options); });
+  dance::CommandLine line("Hears the dancers of a bus and writes them down.", "dance listen");
+  line.add("--to", options.to, "what to make of them")
+      .one_of(dance::consumer_names())
+      .shows_default();
+  line.add("-o,--output", options.output, "file to write; without it, standard output");
+  line.add("--where", options.where, "which poses: made here, come from other houses, shown")
+      .one_of({"capture", "guest", "stage"})
+      .shows_default();
+  line.add("--guest", options.guest, "only this dancer").guest_name();
+  line.add("--hz", options.hz,
+           "at most so many lines or rows a second of each dancer (0: all); frames a second "
+           "of a BVH (0: 60)")
+      .range(0.0, 1000.0);
+  line.add("--seconds", options.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
+  line.add("--bus", options.bus, "LCM URL of the bus");
+  line.finally([&]() -> dance::Result<void> {
+    if (options.hz == 0.0 || options.hz >= 0.001) return {};
+    return dance::fail("--hz: 0, or from 0.001 up");
+  });
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::listen(options); });
 }

@@ -28,7 +28,7 @@ Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime
   auto chain = Chain::make(line.route.through);
   DANCE_ASSERT(chain.has_value());
   line.instances.push_back(std::make_unique<Instance>(
-      Instance{guest, shown_as(line, guest), std::move(*chain), now, 0}));
+      Instance{guest, shown_as(line, guest), std::move(*chain), now, 0, {}}));
   return line.instances.back().get();
 }
 
@@ -58,18 +58,23 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
   ++(wanted ? stats_.forwarded : stats_.dropped_unrouted);
 }
 
-template <class Message>
-void Router::pass_on(Where where, const GuestId& guest, const Message& message) {
-  for (const Line* line : lines_from_[static_cast<std::size_t>(where)])
-    if (is_for(*line, guest)) sink_.stage(shown_as(*line, guest), message);
-}
-
 void Router::take(Where where, const GuestId& guest, const Hands& hands) {
-  pass_on(where, guest, hands);
+  for (Line* line : lines_from_[static_cast<std::size_t>(where)]) {
+    if (!is_for(*line, guest)) continue;
+    // Fingers come after their body's first pose, which makes the instance.
+    for (auto& instance : line->instances) {
+      if (instance->guest != guest) continue;
+      if (instance->chain.is_pass_through())
+        sink_.stage(instance->shown_as, hands);
+      else
+        instance->hands.push(hands);
+    }
+  }
 }
 
 void Router::take(Where where, const GuestId& guest, const TimedSkeleton& skeleton) {
-  pass_on(where, guest, skeleton);
+  for (const Line* line : lines_from_[static_cast<std::size_t>(where)])
+    if (is_for(*line, guest)) sink_.stage(shown_as(*line, guest), skeleton);
 }
 
 void Router::tick(std::size_t route, MonoTime now) {
@@ -82,6 +87,8 @@ void Router::tick(std::size_t route, MonoTime now) {
     pose.sequence = instance->staged++;  // the stage's own count: it makes these poses
     pose.stamp(Hop::kStageTaken, now);
     sink_.stage(instance->shown_as, pose, now);
+    if (const Hands* hands = instance->hands.take_due(pose.capture_time, pose.clock_id))
+      sink_.stage(instance->shown_as, *hands);
     if (RosterEntry* entry = roster_.find(instance->guest))
       Roster::staged(*entry, pose, now, our_clock_id_);
   }

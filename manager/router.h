@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/bus/messages.h"
+#include "manager/hands_queue.h"
 #include "manager/roster.h"
 #include "manager/session.h"
 #include "transformers/chain.h"
@@ -56,6 +57,7 @@ class Router {
     Chain chain;
     MonoTime last_heard;
     std::uint32_t staged = 0;
+    HandsQueue hands;  // where the chain keeps the body back
   };
   struct Line {
     Route route;
@@ -70,9 +72,6 @@ class Router {
   static GuestId shown_as(const Line& line, const GuestId& guest) {
     return line.route.to.guest.is_set() ? line.route.to.guest : guest;
   }
-  template <class Message>
-  void pass_on(Where where, const GuestId& guest, const Message& message);
-
   std::uint64_t our_clock_id_;
   StageSink& sink_;
   std::vector<std::unique_ptr<Line>> lines_;

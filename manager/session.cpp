@@ -59,6 +59,8 @@ void read_house(TomlReader& reader, Session& session) {
   session.server = reader.string_or("server", "");
   session.bus = reader.string_or("bus", "");
   session.view = reader.bool_or("view", true);
+  session.quality_mm = reader.number_or("quality_mm", session.quality_mm, 0.125, 20.0);
+  session.pose_bytes_per_second = reader.number_or("pose_bytes_per_second", 0.0, 0.0, 1e6);
   reader.finish();
 }
 

@@ -58,9 +58,11 @@ struct Session {
   std::vector<GuestId>
       guests;  // who dances in this house; may be empty (a house that only watches)
   std::string room = "dance";
-  std::string server;  // host:port; "" = no tunnel
-  std::string bus;     // LCM URL; "" = default
-  bool view = true;    // open the viewer (dance join)
+  std::string server;                  // host:port; "" = no tunnel
+  std::string bus;                     // LCM URL; "" = default
+  double quality_mm = 1.0;             // the largest error in a joint at the others'
+  double pose_bytes_per_second = 0.0;  // of each guest, at most; 0 = whatever quality_mm takes
+  bool view = true;                    // open the viewer (dance join)
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;
   std::vector<HostedConsumer> consumers;

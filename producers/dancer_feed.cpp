@@ -5,10 +5,10 @@
 namespace dance {
 namespace {
 
-// A producer that is started again goes on above the numbers that it used before (at up to 250 poses a second), so that
-// nobody takes its new poses for old ones.
+// A producer that is started again leaps far above the numbers that it used before, 10,000 for each second: nobody takes
+// its new poses for old ones, nor the leap for a loss.
 std::uint32_t first_sequence(MonoTime now) {
-  return static_cast<std::uint32_t>(now.since_zero_us() / 4000);
+  return static_cast<std::uint32_t>(now.since_zero_us() / 100);
 }
 
 }  // namespace

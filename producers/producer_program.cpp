@@ -9,17 +9,15 @@
 
 namespace dance {
 
-void add_producer_options(CLI::App& app, ProducerOptions& options) {
-  app.add_option("--bus", options.bus, "LCM URL of the house's bus");
-  app.add_option("--hz", options.hz, "poses a second; 0 = the dancer's own rate")
-      ->check(CLI::Range(0.0, 1000.0));
-  app.add_option("--seconds", options.seconds, "how long; 0 = until told to stop")
-      ->check(CLI::Range(0.0, 1e7));
-  app.add_option("--start-us", options.start_us,
-                 "when the dance began, in microseconds of this machine's monotonic clock; 0 = "
-                 "now. Producers that "
-                 "are given the same start dance in step")
-      ->check(CLI::NonNegativeNumber);
+void add_producer_options(CommandLine& line, ProducerOptions& options) {
+  line.add("--bus", options.bus, "LCM URL of the house's bus");
+  line.add("--hz", options.hz, "poses a second; 0 = the dancer's own rate").range(0.0, 1000.0);
+  line.add("--seconds", options.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
+  line.add("--start-us", options.start_us,
+           "when the dance began, in microseconds of this machine's monotonic clock; 0 = "
+           "now. Producers that "
+           "are given the same start dance in step")
+      .range(0.0, 9e18);
 }
 
 Result<StagePlace> parse_place(const std::string& text) {

@@ -7,7 +7,7 @@
 // Failure:      open() names the bus and the cure.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +15,7 @@
 #include "core/base/result.h"
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
+#include "core/program/command_line.h"
 #include "producers/dancer_feed.h"
 
 namespace dance {
@@ -26,7 +27,7 @@ struct ProducerOptions {
   std::int64_t start_us = 0;  // when the dance began or begins; 0 = now
 };
 
-void add_producer_options(CLI::App& app, ProducerOptions& options);
+void add_producer_options(CommandLine& line, ProducerOptions& options);
 
 // Where a dancer is put on the stage: "x,z" or "x,z,heading", metres and degrees about +Y.
 struct StagePlace {

@@ -1,13 +1,12 @@
 // dance replay: BVH files and LCM logs as dancers on the bus.
 
-#include <spdlog/spdlog.h>
-
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "producers/clip_dancer.h"
 #include "producers/clip_file.h"
 #include "producers/log_player.h"
@@ -23,6 +22,7 @@ constexpr const char* kExamples = R"(Examples:
   dance replay logs/evening.lcm                      a recorded session, as if it were live
   dance replay logs/evening.lcm --only capture       only what the cameras saw
   dance replay lead.bvh follow.bvh --copies 15       30 dancers
+  dance replay child.bvh --unit cm --up z            where the guesses, which it says, are wrong
 )";
 
 struct ReplayOptions {
@@ -34,7 +34,23 @@ struct ReplayOptions {
   double speed = 1.0;
   bool once = false;
   int copies = 1;
+  // What a BVH file does not say, where the guess is wrong.
+  RetargetOptions retarget;
+  double frame_hz = 0.0;  // 0 = the file's
 };
+
+void add_file_options(CommandLine& line, ReplayOptions& options) {
+  line.add_choice<double>(
+      "--unit", options.retarget.metres_per_unit,
+      {{"m", 1.0}, {"dm", 0.1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}, {"in", 0.0254}},
+      "of the BVH file, where its figure is not the size it should be: m, dm, cm, mm, ft, in");
+  line.add_choice<UpAxis>(
+      "--up", options.retarget.up, {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
+      "axis of the BVH file that points up: y or z; without it, how the figure stands tells");
+  line.add("--frame-hz", options.frame_hz,
+           "of the BVH file, where it says it wrongly; 0 = as it says")
+      .range(0.0, 1000.0);
+}
 
 bool is_lcm_log(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -67,8 +83,10 @@ Result<void> add_clip(const ReplayOptions& options, std::size_t file, ProducerPr
   if (!options.place.empty()) {
     DANCE_TRY(place, parse_place(options.place));
   }
-  DANCE_TRY(LoadedClip loaded, load_clip(options.files[file]));
-  for (const std::string& note : loaded.notes) spdlog::info("{}: {}", options.files[file], note);
+  RetargetOptions retarget = options.retarget;
+  if (options.frame_hz > 0.0) retarget.frame_hz = options.frame_hz;
+  DANCE_TRY(LoadedClip loaded, load_clip(options.files[file], retarget));
+  for (const std::string& note : loaded.notes) talk::info("{}: {}", options.files[file], note);
   const auto clip = std::make_shared<const MotionClip>(std::move(loaded.clip));
   for (int copy = 0; copy < options.copies; ++copy) {
     DANCE_TRY(const GuestId guest, name_of(options, file, copy));
@@ -102,7 +120,7 @@ Result<void> run_replay(const ReplayOptions& options) {
       return added;
     }
   }
-  spdlog::info("playing; Ctrl-C ends it");
+  talk::info("playing; Ctrl-C ends it");
   program->run([&] {
     for (const auto& player : players)
       if (!player->is_over()) return false;
@@ -110,10 +128,10 @@ Result<void> run_replay(const ReplayOptions& options) {
   });
   for (const auto& player : players) {
     const auto& counters = player->counters();
-    spdlog::info("{} messages played, {} left out, {} undecodable, {} damaged bytes skipped",
-                 counters.played, counters.left_out, counters.undecodable, player->skipped_bytes());
+    talk::info("{} messages played, {} left out, {} undecodable, {} damaged bytes skipped",
+               counters.played, counters.left_out, counters.undecodable, player->skipped_bytes());
   }
-  if (program->sent() > 0) spdlog::info("{} poses", program->sent());
+  if (program->sent() > 0) talk::info("{} poses", program->sent());
   return {};
 }
 
@@ -122,21 +140,19 @@ Result<void> run_replay(const ReplayOptions& options) {
 
 int main(int argc, char** argv) {
   dance::ReplayOptions options;
-  CLI::App app{"Plays BVH files (.bvh, .bvh.xz) and LCM logs as dancers on the bus.",
-               "dance replay"};
-  app.add_option("FILE", options.files, "BVH files, one dancer each, or LCM logs")->required();
-  app.add_option("--guest", options.guests, "who the dancers of the BVH files are, in turn");
-  app.add_option("--speed", options.speed, "1 = as recorded")
-      ->check(CLI::Range(0.05, 20.0))
-      ->capture_default_str();
-  app.add_flag("--once", options.once, "stop at the end instead of beginning again");
-  app.add_option("--place", options.place,
-                 "turns a BVH dancer about the file's origin and moves it: x,z,heading");
-  app.add_option("--copies", options.copies, "so many of each BVH dancer, in rows")
-      ->check(CLI::Range(1, 64));
-  app.add_option("--only", options.only, "of a log, only capture, guest or stage")
-      ->check(CLI::IsMember({"capture", "guest", "stage"}));
-  dance::add_producer_options(app, options.producer);
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_replay(options); });
+  dance::CommandLine line("Plays BVH files (.bvh, .bvh.xz) and LCM logs as dancers on the bus.",
+                          "dance replay");
+  line.add("FILE", options.files, "BVH files, one dancer each, or LCM logs").required();
+  line.add("--guest", options.guests, "who the dancers of the BVH files are, in turn").guest_name();
+  line.add("--speed", options.speed, "1 = as recorded").range(0.05, 20.0).shows_default();
+  line.add_flag("--once", options.once, "stop at the end instead of beginning again");
+  line.add("--place", options.place,
+           "turns a BVH dancer about the file's origin and moves it: x,z,heading");
+  line.add("--copies", options.copies, "so many of each BVH dancer, in rows").range(1, 64);
+  line.add("--only", options.only, "of a log, only capture, guest or stage")
+      .one_of({"capture", "guest", "stage"});
+  dance::add_file_options(line, options);
+  dance::add_producer_options(line, options.producer);
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_replay(options); });
 }

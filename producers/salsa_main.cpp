@@ -1,8 +1,7 @@
 // dance salsa: a synthetic salsa dancer on the bus, for machines with no camera and no data.
 
-#include <spdlog/spdlog.h>
-
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "producers/producer_program.h"
 #include "producers/salsa_dancer.h"
 
@@ -38,9 +37,9 @@ Result<void> run_salsa(SalsaOptions& options) {
   if (options.producer.start_us == 0) options.producer.start_us = 1;
   DANCE_TRY(auto program, ProducerProgram::open(options.producer));
   program->add(std::make_unique<SalsaDancer>(style), *guest);
-  spdlog::info("{} dances on POSE/capture/{}; Ctrl-C ends it", options.guest, options.guest);
+  talk::info("{} dances on POSE/capture/{}; Ctrl-C ends it", options.guest, options.guest);
   program->run([] { return true; });
-  spdlog::info("{} poses", program->sent());
+  talk::info("{} poses", program->sent());
   return {};
 }
 
@@ -49,23 +48,22 @@ Result<void> run_salsa(SalsaOptions& options) {
 
 int main(int argc, char** argv) {
   dance::SalsaOptions options;
-  CLI::App app{"A synthetic salsa dancer: basic steps with hip sway and arms, lead or follow.",
-               "dance salsa"};
-  app.add_option("--guest", options.guest, "who dances")->capture_default_str();
-  app.add_option("--role", options.role,
-                 "lead or follow; two with the same tempo, seed and start are a couple")
-      ->check(CLI::IsMember({"lead", "follow"}))
-      ->capture_default_str();
-  app.add_option("--tempo", options.style.tempo_bpm, "beats a minute")
-      ->check(CLI::Range(dance::kSlowestSalsa_bpm, dance::kFastestSalsa_bpm));
-  app.add_option("--seed", options.style.seed, "which dance: figures, bodies, small variations")
-      ->check(CLI::Range(0, 1'000'000'000));
-  app.add_option("--energy", options.style.energy,
-                 "0 marks the steps, 1 is social dancing, 1.5 a show")
-      ->check(CLI::Range(0.0, 1.5));
-  app.add_option("--place", options.place,
-                 "of the couple on the stage: x,z,heading (m, m, degrees)");
-  dance::add_producer_options(app, options.producer);
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_salsa(options); });
+  dance::CommandLine line(
+      "A synthetic salsa dancer: basic steps with hip sway and arms, lead or follow.",
+      "dance salsa");
+  line.add("--guest", options.guest, "who dances").guest_name().shows_default();
+  line.add("--role", options.role,
+           "lead or follow; two with the same tempo, seed and start are a couple")
+      .one_of({"lead", "follow"})
+      .shows_default();
+  line.add("--tempo", options.style.tempo_bpm, "beats a minute")
+      .range(dance::kSlowestSalsa_bpm, dance::kFastestSalsa_bpm);
+  line.add("--seed", options.style.seed, "which dance: figures, bodies, small variations")
+      .range(0, 1'000'000'000);
+  line.add("--energy", options.style.energy, "0 marks the steps, 1 is social dancing, 1.5 a show")
+      .range(0.0, 1.5);
+  line.add("--place", options.place, "of the couple on the stage: x,z,heading (m, m, degrees)");
+  dance::add_producer_options(line, options.producer);
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_salsa(options); });
 }

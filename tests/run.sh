@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test; `./dance test` comes here when all packages are there.
 #   tests/run.sh                 the ci build: unit, flow, golden, fuzz corpora, source checks
-#   tests/run.sh --sanitizers    the same, then under address+undefined and thread sanitizers, and fuzzing for a minute
+#   tests/run.sh --sanitizers    the same, then under address+undefined sanitizers, what has threads under the thread
+#                                sanitizer, and ten seconds of each fuzz target
 # Last line: "N passed, N failed" (", N skipped" where there were any). Exit 1 when anything failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,7 +12,7 @@ while [ $# -gt 0 ]; do
   case "$1" in
     --sanitizers) sanitizers=yes ;;
     -R | -L | -E | -LE) only+=("$1" "${2:?$1 takes an expression}"); shift ;;
-    -h | --help) sed -n '2,5s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "dance test: there is no option '$1'; --help lists them" >&2; exit 2 ;;
   esac
   shift
@@ -47,7 +48,12 @@ run() { # PRESET [CTEST OPTION…]
     return
   fi
   total=$(count_of tests "$report") bad=$(count_of failures "$report") left_out=$(count_of skipped "$report")
-  [ "${bad:-0}" = 0 ] || grep -B2 -A40 -E '\*\*\*(Failed|Timeout|Exception)' "build/$preset.tests.log" | head -n 400
+  [ "${bad:-0}" = 0 ] || grep -B2 -A40 -E '\*\*\*(Failed|Timeout|Exception)' "build/$preset.tests.log" | head -n 400 || true
+  # No test at all, where nobody asked for some of them, is a build that lost its tests.
+  if [ "${total:-0}" = 0 ] && [ ${#only[@]} = 0 ]; then
+    echo "there are no tests in the build '$preset'"
+    failed=$((failed + 1))
+  fi
   failed=$((failed + ${bad:-0}))
   skipped=$((skipped + ${left_out:-0}))
   passed=$((passed + ${total:-0} - ${bad:-0} - ${left_out:-0}))
@@ -57,24 +63,41 @@ step() { # PRESET [TARGET…]: a build that fails is a failed test.
   build "$@" || { failed=$((failed + 1)); return 1; }
 }
 
+# With DANCE_TEST_MINUTES set, what would not end in time is skipped, and said and counted so.
+has_time_for() { # WHAT MINUTES
+  [ -n "${DANCE_TEST_MINUTES:-}" ] && [ $((SECONDS / 60 + $2)) -gt "$DANCE_TEST_MINUTES" ] || return 0
+  echo "== $1: SKIPPED, $((SECONDS / 60)) of $DANCE_TEST_MINUTES minutes are over"
+  skipped=$((skipped + 1))
+  return 1
+}
+
 step ci && run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
   export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
-  step asan && run asan -LE 'check|soak|docs' "${only[@]}"
-  # Threads meet in few places; pictures and fuzz corpora have none.
-  step tsan && run tsan -L 'unit|flow' -LE 'picture' "${only[@]}"
-  if step fuzz fuzz_targets; then
-    for target in build/fuzz/fuzz/fuzz_*; do
-      [ -x "$target" ] || continue
-      echo "== fuzzing ($(basename "$target"), 10 s)"
-      if "$target" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 >build/fuzz.log 2>&1; then
-        passed=$((passed + 1))
-      else
-        tail -n 30 build/fuzz.log
+  export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt
+  # One build of clang's for both; libFuzzer has the corpora.
+  if has_time_for "address and undefined-behaviour sanitizers, fuzzing" 13 && step asan; then
+    run asan -LE 'check|soak|docs|fuzz' "${only[@]}"
+    # As many at a time as there are processors; each writes its own log.
+    fuzz_one() { # TARGET
+      "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 -artifact_prefix=build/ \
+        "build/asan/fuzz/corpus_$(basename "$1")" >"build/$(basename "$1").log" 2>&1 || touch "build/$(basename "$1").failed"
+    }
+    export -f fuzz_one
+    rm -f build/fuzz_*.failed
+    echo "== fuzzing ($(ls build/asan/fuzz/fuzz_* | wc -l) targets, 10 s each)"
+    printf '%s\n' build/asan/fuzz/fuzz_* | xargs -P "$jobs" -I{} bash -c 'fuzz_one {}'
+    for target in build/asan/fuzz/fuzz_*; do
+      name=$(basename "$target")
+      if [ -e "build/$name.failed" ]; then
+        echo "$name failed:" && tail -n 30 "build/$name.log"
         failed=$((failed + 1))
+      else
+        passed=$((passed + 1))
       fi
     done
   fi
+  has_time_for "thread sanitizer" 4 && step tsan thread_targets && run tsan -L 'threads|flow' "${only[@]}"
 fi
 summary="$passed passed, $failed failed"
 [ "$skipped" = 0 ] || summary="$summary, $skipped skipped"

@@ -29,11 +29,6 @@ constexpr Duration kStragglers = Duration::ms(500);
 constexpr const char* kFloorChannel = "BENCH/floor";
 constexpr const char* kGuestName = "alice";
 
-Result<std::uint16_t> free_port() {
-  DANCE_TRY(const UdpSocket socket, UdpSocket::bind(Address::loopback(0)));
-  return socket.local_address().port();
-}
-
 // A folder for session files and the programs' talk, gone at the end.
 class ScratchFolder {
  public:
@@ -76,6 +71,7 @@ class Way {
     is_measuring_ = true;
   }
   bool is_open() const { return arrived_ > 0; }
+  bool is_measuring() const { return is_measuring_; }
   WayResult result() const {
     WayResult sorted = result_;
     std::sort(sorted.took.begin(), sorted.took.end());
@@ -119,12 +115,11 @@ class BenchPath {
   GuestId guest_ = *GuestId::parse(kGuestName);
   GuestJourney steps_{guest_};
   Way pose_way_, floor_way_;
-  bool is_measuring_ = false;
   std::vector<std::pair<std::string, ChildProcess>> children_;
 };
 
 Result<std::unique_ptr<Bus>> BenchPath::open_bus(std::string& url) {
-  DANCE_TRY(const std::uint16_t port, free_port());
+  DANCE_TRY(const std::uint16_t port, free_loopback_port());
   url = "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0";
   return Bus::open(url);
 }
@@ -152,7 +147,7 @@ Result<void> BenchPath::start(const std::string& name, const std::string& progra
 }
 
 Result<void> BenchPath::start_houses() {
-  DANCE_TRY(const std::uint16_t port, free_port());
+  DANCE_TRY(const std::uint16_t port, free_loopback_port());
   const std::string server = "127.0.0.1:" + std::to_string(port);
   const std::string sessions[2] = {
       "[house]\nguest = \"" + std::string(kGuestName) + "\"\nroom = \"bench\"\nserver = \"" +
@@ -175,8 +170,8 @@ Result<void> BenchPath::start_houses() {
 }
 
 Result<void> BenchPath::start_bare_hops() {
-  DANCE_TRY(const std::uint16_t first, free_port());
-  DANCE_TRY(const std::uint16_t second, free_port());
+  DANCE_TRY(const std::uint16_t first, free_loopback_port());
+  DANCE_TRY(const std::uint16_t second, free_loopback_port());
   const std::string up = std::to_string(first), down = std::to_string(second);
   const std::vector<std::string> hops[3] = {
       {"--bare-hop", "bus-to-udp", "--url", floor_url_a_, "--to-port", up},
@@ -194,7 +189,7 @@ void BenchPath::listen() {
                   [this](const Channel&, const Pose& pose, MonoTime) {
                     const MonoTime now = mono_now();
                     pose_way_.arrived(pose.sequence, now);
-                    if (is_measuring_) steps_.heard(pose, now, this_clock_id());
+                    if (pose_way_.is_measuring()) steps_.heard(pose, now, this_clock_id());
                   });
   floor_bus_b_->on_anything(
       [this](std::string_view channel, const void* data, std::size_t size, MonoTime) {
@@ -282,7 +277,6 @@ Result<BenchPathResult> BenchPath::run() {
   const auto expected = static_cast<std::size_t>(options_.hz * options_.seconds);
   pose_way_.begin_to_measure(expected);
   floor_way_.begin_to_measure(expected);
-  is_measuring_ = true;
   turn_for(Duration::seconds(options_.seconds));
   is_sending = false;
   turn_for(kStragglers);

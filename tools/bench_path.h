@@ -7,7 +7,7 @@
 // Units/frames: microseconds of this machine's clock; all processes share it.
 // Ownership:    owns the processes and their session files, which end with it.
 // Threads:      none inside; runs its poller in the caller's thread.
-// Failure:      make() and run() name the program that could not start, or the way that stayed silent.
+// Failure:      run_bench_path() names the program that could not start, or the way that stayed silent.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,5 @@
 // dance-bench-path: a pose's journey from house to house against the same number of bare hops, measured in one run.
 
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 
 #include "bench/bare_hops.h"
@@ -9,6 +7,7 @@
 #include "core/bus/multicast_route.h"
 #include "core/net/private_network.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "tools/bench_path.h"
 
 namespace dance {
@@ -44,7 +43,7 @@ Result<void> run(const Options& options) {
   if (multicast_device(bus.group) != "lo") {
     if (auto entered = enter_private_network(); !entered)
       return fail(entered.error().what + "; or give lo a multicast route: " + kMulticastCure);
-    spdlog::info("lo has no multicast route here: measuring in a private network");
+    talk::info("lo has no multicast route here: measuring in a private network");
   }
   DANCE_TRY(const BenchPathResult result,
             run_bench_path(options.bench, program_folder() + "/dance-bench-path"));
@@ -61,22 +60,19 @@ Result<void> run(const Options& options) {
 
 int main(int argc, char** argv) {
   dance::Options options;
-  CLI::App app("A pose's journey against the same number of bare hops, in one run.",
-               "dance bench path");
-  app.add_option("--hz", options.bench.hz, "poses a second")
-      ->check(CLI::Range(1.0, 1000.0))
-      ->capture_default_str();
-  app.add_option("--seconds", options.bench.seconds, "how long to measure")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->capture_default_str();
-  app.add_flag("--json", options.is_json, "one JSON object instead of the table");
-  constexpr const char* kHidden = "";
-  app.add_option("--bare-hop", options.bare_hop)
-      ->check(CLI::IsMember({"bus-to-udp", "udp-to-udp", "udp-to-bus"}))
-      ->group(kHidden);
-  app.add_option("--url", options.url)->group(kHidden);
-  app.add_option("--from-port", options.from_port)->group(kHidden);
-  app.add_option("--to-port", options.to_port)->group(kHidden);
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run(options); });
+  dance::CommandLine line("A pose's journey against the same number of bare hops, in one run.",
+                          "dance bench path");
+  line.add("--hz", options.bench.hz, "poses a second").range(1.0, 1000.0).shows_default();
+  line.add("--seconds", options.bench.seconds, "how long to measure")
+      .range(0.1, 3600.0)
+      .shows_default();
+  line.add_flag("--json", options.is_json, "one JSON object instead of the table");
+  line.add("--bare-hop", options.bare_hop, "")
+      .one_of({"bus-to-udp", "udp-to-udp", "udp-to-bus"})
+      .hidden();
+  line.add("--url", options.url, "").hidden();
+  line.add("--from-port", options.from_port, "").hidden();
+  line.add("--to-port", options.to_port, "").hidden();
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run(options); });
 }

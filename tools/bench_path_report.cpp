@@ -1,4 +1,4 @@
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <iterator>
@@ -16,7 +16,7 @@ double ratio(const BenchPathResult& result, double fraction) {
 }
 
 // JSON has no use for picoseconds.
-double rounded(double value, double to) { return std::round(value / to) * to; }
+double rounded(double value, double per) { return std::round(value * per) / per; }
 
 }  // namespace
 
@@ -43,23 +43,18 @@ std::string bench_path_table(const BenchPathOptions& options, const BenchPathRes
 }
 
 std::string bench_path_json(const BenchPathOptions& options, const BenchPathResult& result) {
-  const auto us = [](double value) { return rounded(value, 0.1); };
-  const nlohmann::ordered_json report{{"hz", options.hz},
-                                      {"seconds", options.seconds},
-                                      {"sent", result.pose.sent},
-                                      {"delivered", result.pose.took.size()},
-                                      {"p50_us", us(result.pose.percentile_us(0.50))},
-                                      {"p95_us", us(result.pose.percentile_us(0.95))},
-                                      {"p99_us", us(result.pose.percentile_us(0.99))},
-                                      {"max_us", us(result.pose.percentile_us(1.0))},
-                                      {"floor_sent", result.floor.sent},
-                                      {"floor_delivered", result.floor.took.size()},
-                                      {"floor_p50_us", us(result.floor.percentile_us(0.50))},
-                                      {"floor_p95_us", us(result.floor.percentile_us(0.95))},
-                                      {"floor_p99_us", us(result.floor.percentile_us(0.99))},
-                                      {"floor_max_us", us(result.floor.percentile_us(1.0))},
-                                      {"ratio_p50", rounded(ratio(result, 0.50), 0.001)},
-                                      {"ratio_p99", rounded(ratio(result, 0.99), 0.001)}};
+  nlohmann::ordered_json report{{"hz", options.hz}, {"seconds", options.seconds}};
+  const auto add = [&](const std::string& prefix, const WayResult& way) {
+    report[prefix + "sent"] = way.sent;
+    report[prefix + "delivered"] = way.took.size();
+    for (const auto& [key, fraction] :
+         {std::pair{"p50_us", 0.50}, {"p95_us", 0.95}, {"p99_us", 0.99}, {"max_us", 1.0}})
+      report[prefix + key] = rounded(way.percentile_us(fraction), 10.0);
+  };
+  add("", result.pose);
+  add("floor_", result.floor);
+  report["ratio_p50"] = rounded(ratio(result, 0.50), 1000.0);
+  report["ratio_p99"] = rounded(ratio(result, 0.99), 1000.0);
   return report.dump(2) + "\n";
 }
 

@@ -21,6 +21,7 @@ struct DemoOptions {
   std::string link;                 // what the line between house B and the server does
   std::string trace;                // a recorded line
   bool headless = false;
+  bool view = true;  // false: this build has no viewer
   std::string out = "out/demo";
   bool json = false;
   double tempo_bpm = 180.0;
@@ -29,6 +30,9 @@ struct DemoOptions {
   std::vector<std::string> through = {"hold 20ms"};  // of remote dancers
   int port = 0;                                      // of the server; 0 = one that is free
 };
+
+// Where the demo's programs have their session files, reports and talk: pictures and log lie above.
+inline std::string programs_folder(const DemoOptions& options) { return options.out + "/programs"; }
 
 // One dancer of the demo and the program that dances it.
 struct DemoDancer {

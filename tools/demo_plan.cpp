@@ -173,18 +173,13 @@ Result<void> write_file(const std::string& path, const std::string& text) {
   return {};
 }
 
-Result<int> free_port() {
-  DANCE_TRY(const UdpSocket socket, UdpSocket::bind(Address::loopback(0)));
-  return static_cast<int>(socket.local_address().port());
-}
-
 }  // namespace
 
 Result<DemoPlan> plan_demo(const DemoOptions& options) {
   DemoPlan plan;
   std::error_code error;
-  fs::create_directories(options.out, error);
-  if (error) return fail(options.out + ": cannot be made: " + error.message());
+  fs::create_directories(programs_folder(options), error);
+  if (error) return fail(programs_folder(options) + ": cannot be made: " + error.message());
 
   for (int i = 0; i < options.guests; ++i) plan.dancers.push_back({name_of(i), i % 2, "", {}});
   if (options.motion.empty()) {
@@ -197,15 +192,16 @@ Result<DemoPlan> plan_demo(const DemoOptions& options) {
   plan.bus_url[1] = "udpm://239.255.76.67:7668?ttl=0";
   plan.server_port = options.port;
   if (plan.server_port == 0) {
-    DANCE_TRY(plan.server_port, free_port());
+    DANCE_TRY(plan.server_port, free_loopback_port());
   }
   if (!options.link.empty() || !options.trace.empty()) {
-    DANCE_TRY(plan.line_port, free_port());
+    DANCE_TRY(plan.line_port, free_loopback_port());
   }
   for (int house = 0; house < 2; ++house) {
     // The emulated line lies between the server and house B, so that each pose crosses it once.
     const int port = house == 1 && plan.line_port != 0 ? plan.line_port : plan.server_port;
-    plan.session_file[house] = options.out + (house == 0 ? "/house-a.toml" : "/house-b.toml");
+    plan.session_file[house] =
+        programs_folder(options) + (house == 0 ? "/house-a.toml" : "/house-b.toml");
     if (auto written =
             write_file(plan.session_file[house], session_text(plan, options, house, port));
         !written)

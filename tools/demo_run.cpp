@@ -1,7 +1,5 @@
 #include "tools/demo_run.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 
 namespace dance {
 namespace {
@@ -27,11 +26,19 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
+// stage-0001.png and its like: whatever else lies in the folder is not the demo's.
+bool is_the_viewers(const std::string& name) {
+  constexpr std::string_view kBegin = "stage-", kEnd = ".png";
+  if (!name.starts_with(kBegin) || !name.ends_with(kEnd)) return false;
+  const std::string number = name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  return number.size() == 4 && number.find_first_not_of("0123456789") == std::string::npos;
+}
+
 std::vector<std::string> pictures_in(const std::string& folder) {
   std::vector<std::string> pictures;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() == ".png") pictures.push_back(entry.path().string());
+    if (is_the_viewers(entry.path().filename().string())) pictures.push_back(entry.path().string());
   std::sort(pictures.begin(), pictures.end());
   return pictures;
 }
@@ -60,7 +67,8 @@ Result<std::unique_ptr<DemoRun>> DemoRun::prepare(const DemoOptions& options, De
 
 DemoRun::DemoRun(const DemoOptions& options, DemoPlan plan)
     : options_(options), plan_(std::move(plan)) {
-  for (const std::string& picture : pictures_in(options_.out)) fs::remove(picture);
+  std::error_code ignored;  // the viewer says what it cannot write
+  for (const std::string& picture : pictures_in(options_.out)) fs::remove(picture, ignored);
 }
 
 DemoRun::Role& DemoRun::add(const std::string& name, const std::string& program,
@@ -70,7 +78,7 @@ DemoRun::Role& DemoRun::add(const std::string& name, const std::string& program,
   role->how.program = program_folder() + "/" + program;
   role->how.arguments = std::move(arguments);
   role->how.output_file = report_file(name);
-  role->how.talk_file = options_.out + "/" + name + ".txt";
+  role->how.talk_file = programs_folder(options_) + "/" + name + ".txt";
   std::error_code error;
   fs::remove(role->how.output_file, error);
   fs::remove(role->how.talk_file, error);
@@ -100,8 +108,8 @@ Result<void> DemoRun::start_houses() {
   for (int house = 0; house < 2; ++house)
     started.push_back(&add(house == 0 ? "house-a" : "house-b", "dance-join",
                            {plan_.session_file[house], "--no-view", "--json"}));
-  started.push_back(
-      &add("record", "dance-record", {"-o", plan_.log_file, "--bus", plan_.bus_url[0]}));
+  started.push_back(&add("record", "dance-record",
+                         {"--append", "-o", plan_.log_file, "--bus", plan_.bus_url[0]}));
   for (Role* role : started)
     if (auto result = start(*role); !result) return result;
   return {};
@@ -116,7 +124,7 @@ Result<void> DemoRun::wait_until_connected() {
         return fail(role->name + " " + role->process->exit_text() + ": " +
                     read_file(role->how.talk_file));
     if (mono_now() > give_up)
-      return fail("the houses did not reach the server within 15 s; " + options_.out +
+      return fail("the houses did not reach the server within 15 s; " + programs_folder(options_) +
                   "/house-a.txt and house-b.txt say why");
     poller_->run_once(Duration::ms(50));
   }
@@ -139,6 +147,7 @@ Result<void> DemoRun::start_dancers(MonoTime origin) {
 }
 
 Result<void> DemoRun::start_viewer() {
+  if (!options_.view) return {};
   std::vector<std::string> arguments{"--bus", plan_.bus_url[0]};
   if (options_.headless)
     for (const std::string& argument :
@@ -156,9 +165,9 @@ MonoTime DemoRun::watch_over(MonoTime now) {
     if (role->is_over) continue;
     if (role->restart_at.is_set()) {
       if (now < role->restart_at) continue;
-      spdlog::info("{} is started again", role->name);
+      talk::info("{} is started again", role->name);
       if (auto result = start(*role); !result) {
-        spdlog::error("{}", result.error().what);
+        talk::error("{}", result.error().what);
         role->restart_at = now + Duration::s(1);
       }
       ++restarts_;
@@ -170,7 +179,7 @@ MonoTime DemoRun::watch_over(MonoTime now) {
       if (role.get() == viewer_ && !options_.headless) poller_->stop();  // the window was closed
       continue;
     }
-    spdlog::warn("{} {}; the others go on", role->name, role->process->exit_text());
+    talk::warn("{} {}; the others go on", role->name, role->process->exit_text());
     role->restart_at = now + kRestartAfter;
   }
   return now + Duration::ms(100);
@@ -221,7 +230,7 @@ Result<DemoResult> DemoRun::run() {
   const MonoTime origin = mono_now() + Duration::ms(300);
   if (auto started = start_viewer(); !started) return tl::make_unexpected(started.error());
   if (auto started = start_dancers(origin); !started) return tl::make_unexpected(started.error());
-  spdlog::info("{} dancers in two houses; Ctrl-C ends it", plan_.dancers.size());
+  talk::info("{} dancers in two houses; Ctrl-C ends it", plan_.dancers.size());
   const bool endless = options_.seconds <= 0.0;
   end_ = origin + (endless ? Duration::s(365 * 24 * 3600) : Duration::seconds(options_.seconds));
   turn_until(end_);

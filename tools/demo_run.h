@@ -58,7 +58,7 @@ class DemoRun {
   void stop_in_order();
   DemoResult result(MonoTime origin) const;
   std::string report_file(const std::string& name) const {
-    return options_.out + "/" + name + ".json";
+    return programs_folder(options_) + "/" + name + ".json";
   }
 
   DemoOptions options_;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/time.h"
+
 namespace dance {
 
 struct Finding {
@@ -20,6 +22,8 @@ struct Finding {
 // Pure, so that they can be tested: from the device that carries the group, and from the kernel's limit in bytes.
 Finding check_multicast_device(const std::string& device, bool private_network_possible);
 Finding check_receive_buffer(long long rmem_max_bytes);
+// From how much later than asked a sleeping process was woken, at the 99th percentile.
+Finding check_wake_ups(Duration lateness_p99);
 
 // Everything about this machine.
 std::vector<Finding> examine_machine(const std::string& bus_url);

@@ -46,10 +46,10 @@ Result<void> run_doctor(const std::string& bus, bool json) {
 int main(int argc, char** argv) {
   std::string bus;
   bool json = false;
-  CLI::App app{"Checks this machine, and names the command that mends each finding.",
-               "dance doctor"};
-  app.add_option("--bus", bus, "LCM URL of the house's bus");
-  app.add_flag("--json", json, "as JSON");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_doctor(bus, json); });
+  dance::CommandLine line("Checks this machine, and names the command that mends each finding.",
+                          "dance doctor");
+  line.add("--bus", bus, "LCM URL of the house's bus");
+  line.add_flag("--json", json, "as JSON");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_doctor(bus, json); });
 }

@@ -37,7 +37,10 @@ constexpr std::array kCommands{
     Command{"spy", "lcm-spy with our types"},
     Command{"doctor", "checks this machine, and names what mends it"},
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
+    Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
+    Command{"codec train", "trains a model of the pose codec"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
+    Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 
 void print_commands(std::FILE* out) {

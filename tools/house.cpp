@@ -1,11 +1,11 @@
 #include "tools/house.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/net/mono_clock.h"
+#include "core/program/talk.h"
 #include "producers/clip_dancer.h"
 #include "producers/clip_file.h"
 #include "producers/salsa_dancer.h"
@@ -20,7 +20,7 @@ constexpr Duration kSecond = Duration::s(1);
 Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer) {
   if (producer.kind == HostedProducer::Kind::kReplay) {
     DANCE_TRY(LoadedClip loaded, load_clip(producer.file));
-    for (const std::string& note : loaded.notes) spdlog::info("{}: {}", producer.file, note);
+    for (const std::string& note : loaded.notes) talk::info("{}: {}", producer.file, note);
     ClipDancerOptions options;
     options.speed = producer.speed;
     return std::make_unique<ClipDancer>(std::make_shared<const MotionClip>(std::move(loaded.clip)),
@@ -37,6 +37,18 @@ Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer) {
 // Synthetic dancers count from the clock's zero, so that all of a machine are in step; a recording begins now.
 MonoTime start_of(const HostedProducer& producer, MonoTime now) {
   return producer.kind == HostedProducer::Kind::kSalsa ? MonoTime::from_us(1) : now;
+}
+
+// evening.csv, or evening-2.csv where that is there: a house that is started again loses nothing.
+std::string free_name(const std::string& wanted) {
+  namespace fs = std::filesystem;
+  fs::path path = wanted;
+  std::error_code error;  // what cannot be looked at is told when it is opened
+  for (int i = 2; fs::is_regular_file(path, error) && i < 1000; ++i)
+    path = fs::path(wanted).replace_filename(fs::path(wanted).stem().string() + "-" +
+                                             std::to_string(i) +
+                                             fs::path(wanted).extension().string());
+  return path.string();
 }
 
 std::vector<GuestId> hosted_guests(const Session& session) {
@@ -72,16 +84,18 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
 House::~House() {
   if (bus_) poller_.unwatch(bus_->fd());
   for (auto& consumer : consumers_) {
-    if (auto finished = consumer->finish(); !finished) spdlog::error("{}", finished.error().what);
+    if (auto finished = consumer->finish(); !finished) talk::error("{}", finished.error().what);
   }
 }
 
 Result<void> House::open_link() {
   if (session_.server.empty()) return {};
-  DANCE_TRY(const Address server, Address::resolve(session_.server, kDefaultServerPort));
+  DANCE_TRY(const auto server, Address::resolve_all(session_.server, kDefaultServerPort));
   LinkOptions options;
   options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
   options.clock_id = this_clock_id();
+  options.quality_m = session_.quality_mm * 1e-3;
+  options.pose_bytes_per_second = session_.pose_bytes_per_second;
   for (const GuestId& guest : session_.guests)
     if (!options.guests.contains(guest) && !options.guests.try_push(guest))
       return fail("a house has at most 16 guests");
@@ -117,22 +131,23 @@ void House::add_stage(LinkHandlers& handlers) {
 void House::add_talk(LinkHandlers& handlers) {
   handlers.on_state = [this](LinkState state, MonoTime) {
     if (state == LinkState::kConnected)
-      spdlog::info("in room '{}' on {}", session_.room, session_.server);
+      talk::info("in room '{}' on {}", session_.room, session_.server);
     if (state == LinkState::kLapsed)
-      spdlog::warn("the server {} is silent; the house dances on, and asks it again",
-                   session_.server);
+      talk::warn("the server {} is silent; the house dances on, and asks it again",
+                 session_.server);
   };
   handlers.on_guest_joined = [](const GuestId& guest, MonoTime) {
-    spdlog::info("{} is here", guest.view());
+    talk::info("{} is here", guest.view());
   };
   handlers.on_guest_left = [this](const GuestId& guest, MonoTime) {
     link_bus_->forget(guest);
-    spdlog::info("{} has left", guest.view());
+    talk::info("{} has left", guest.view());
   };
+  handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
     if (now - last_refusal_ < kSecond) return;  // asked again up to ten times a second
     last_refusal_ = now;
-    spdlog::warn("{}", refusal_line(refusal, *wire::RoomName::parse(session_.room)));
+    talk::warn("{}", refusal_line(refusal, *wire::RoomName::parse(session_.room)));
   };
 }
 
@@ -148,7 +163,11 @@ Result<void> House::open_producers() {
 
 Result<void> House::open_consumers() {
   for (const HostedConsumer& wanted : session_.consumers) {
-    DANCE_TRY(auto output, OutputFile::open(wanted.file));
+    // A terminal that is stopped, or a pipe that nobody reads, would stop the house's dancers.
+    if (wanted.file.empty() || wanted.file == "-")
+      return fail("[[listen]] needs a file; to see poses in a terminal run dance listen");
+    DANCE_TRY(auto output, OutputFile::open(free_name(wanted.file)));
+    talk::info("writes the stage as {} to {}", wanted.to, output->name());
     outputs_.push_back(std::move(output));
     ConsumerOptions options;
     options.guest = wanted.from.guest;

@@ -1,12 +1,11 @@
 // dance join: all of a house in one: manager, link and hosted producers in this process, the viewer beside it.
 
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 #include <filesystem>
 
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "tools/child_process.h"
 #include "tools/house.h"
 
@@ -77,11 +76,11 @@ Result<void> run_join(const JoinOptions& options) {
         poller->stop();  // the window was closed
         return MonoTime();
       }
-      spdlog::warn("the viewer {}; the house goes on without it (--no-view)", viewer->exit_text());
+      talk::warn("the viewer {}; the house goes on without it (--no-view)", viewer->exit_text());
       return MonoTime();
     });
   }
-  spdlog::info("the house is open on {}; Ctrl-C ends it", house->bus().url());
+  talk::info("the house is open on {}; Ctrl-C ends it", house->bus().url());
   poller->run();
   if (options.json) std::printf("%s\n", house->report_json(mono_now()).c_str());
   return {};
@@ -92,15 +91,17 @@ Result<void> run_join(const JoinOptions& options) {
 
 int main(int argc, char** argv) {
   dance::JoinOptions options;
-  CLI::App app{"All of a house in one: manager, link, hosted producers, viewer.", "dance join"};
-  app.add_option("HOST|SESSION", options.host_or_session,
-                 "a session file (.toml), or the server's HOST[:PORT]")
-      ->required();
-  app.add_option("--guest", options.guests, "who dances here, instead of the session's guests");
-  app.add_option("--room", options.room, "which room, instead of the session's");
-  app.add_option("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
-  app.add_flag("--no-view", options.no_view, "no viewer");
-  app.add_flag("--json", options.json, "write what was counted to stdout at the end");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_join(options); });
+  dance::CommandLine line("All of a house in one: manager, link, hosted producers, viewer.",
+                          "dance join");
+  line.add("HOST|SESSION", options.host_or_session,
+           "a session file (.toml), or the server's HOST[:PORT]")
+      .required();
+  line.add("--guest", options.guests, "who dances here, instead of the session's guests")
+      .guest_name();
+  line.add("--room", options.room, "which room, instead of the session's");
+  line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
+  line.add_flag("--no-view", options.no_view, "no viewer");
+  line.add_flag("--json", options.json, "write what was counted to stdout at the end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_join(options); });
 }

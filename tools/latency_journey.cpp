@@ -68,6 +68,10 @@ void GuestJourney::add(Way& way, const Stamps& stamps) {
   std::size_t from = kStepCount;  // the last step that was passed
   for (std::size_t to = 0; to < kStepCount; ++to) {
     if (!stamps[to].is_set()) continue;
+    // Only now and then does a pose bring the stamps of its way through the tunnel: without them its
+    // coming is the end of no step.
+    if (to == index_of(Step::kLinkReceived) && !stamps[index_of(Step::kServer)].is_set())
+      from = kStepCount;
     if (from < kStepCount) add_one(way.took[from][to], stamps[to] - stamps[from]);
     if (to > 0 && captured.is_set()) add_one(way.since_capture[to], stamps[to] - captured);
     from = to;

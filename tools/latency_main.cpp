@@ -50,22 +50,17 @@ Result<void> measure(const Options& options) {
               "; is a house running there? `dance top` shows what is on it");
 }
 
-// For CLI11: "" where the name is fine, else what is wrong.
-std::string check_guest(const std::string& name) {
-  return GuestId::parse(name) ? "" : "'" + name + "': " + kGuestIdRule;
-}
-
 }  // namespace
 }  // namespace dance
 
 int main(int argc, char** argv) {
   dance::Options options;
-  CLI::App app("The journey of each guest's poses, step by step, with numbers.", "dance latency");
-  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
-  app.add_option("--seconds", options.seconds, "how long to listen (0: ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--guest", options.guest, "only this guest")->check(dance::check_guest);
-  app.add_flag("--json", options.is_json, "one JSON object instead of the table");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::measure(options); });
+  dance::CommandLine line("The journey of each guest's poses, step by step, with numbers.",
+                          "dance latency");
+  line.add("--bus", options.bus_url, "LCM URL of the bus");
+  line.add("--seconds", options.seconds, "how long to listen (0: ctrl-C)").range(0.0, 1e7);
+  line.add("--guest", options.guest, "only this guest").guest_name();
+  line.add_flag("--json", options.is_json, "one JSON object instead of the table");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::measure(options); });
 }

@@ -1,13 +1,12 @@
 // dance lossy: a UDP proxy that is a bad line.
 
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/net/lossy_proxy.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 
 namespace dance {
 namespace {
@@ -45,9 +44,9 @@ Result<void> run_lossy(const LossyOptions& options) {
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto proxy, LossyProxy::open(listen, target, spec, trace ? &*trace : nullptr, *poller));
-  spdlog::info("{} to {} and back, each way: {}{}", proxy->local_address().to_string(),
-               target.to_string(), options.link.empty() ? "no delay, no loss" : options.link,
-               options.trace.empty() ? "" : ", trace " + options.trace);
+  talk::info("{} to {} and back, each way: {}{}", proxy->local_address().to_string(),
+             target.to_string(), options.link.empty() ? "no delay, no loss" : options.link,
+             options.trace.empty() ? "" : ", trace " + options.trace);
   poller->run();
 
   const auto up = account(*proxy, LossyProxy::Direction::kUp);
@@ -57,7 +56,7 @@ Result<void> run_lossy(const LossyOptions& options) {
   if (options.json)
     std::printf("%s\n", report.dump().c_str());
   else
-    spdlog::info("{}", report.dump());
+    talk::info("{}", report.dump());
   return {};
 }
 
@@ -66,22 +65,22 @@ Result<void> run_lossy(const LossyOptions& options) {
 
 int main(int argc, char** argv) {
   dance::LossyOptions options;
-  CLI::App app{
+  dance::CommandLine line(
       "A bad line between links and a server: delay, jitter, loss, bursts, copies, "
       "reordering, a rate, or a recorded trace; each direction by itself.",
-      "dance lossy"};
-  app.add_option("--listen", options.listen, "where links send to")->capture_default_str();
-  app.add_option("--to", options.to, "the server")->capture_default_str();
-  app.add_option("--link", options.link,
-                 "delay=80ms jitter=10ms loss=1% burst=3 dup=0.1% reorder=1% rate=1Mbit "
-                 "queue=50ms seed=1")
-      ->check([](const std::string& text) {
+      "dance lossy");
+  line.add("--listen", options.listen, "where links send to").shows_default();
+  line.add("--to", options.to, "the server").shows_default();
+  line.add("--link", options.link,
+           "delay=80ms jitter=10ms loss=1% burst=3 dup=0.1% reorder=1% rate=1Mbit "
+           "queue=50ms seed=1")
+      .check([](const std::string& text) {
         const auto spec = dance::LossySpec::parse(text);
         return spec ? std::string() : spec.error().what;
       });
-  app.add_option("--trace", options.trace,
-                 "CSV (or .xz) of t_ms or t_s with owd_var_ms or rtt_ms; comes on top of --link");
-  app.add_flag("--json", options.json, "write the counts to stdout at the end");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_lossy(options); });
+  line.add("--trace", options.trace,
+           "CSV (or .xz) of t_ms or t_s with owd_var_ms or rtt_ms; comes on top of --link");
+  line.add_flag("--json", options.json, "write the counts to stdout at the end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_lossy(options); });
 }

@@ -1,9 +1,8 @@
 // dance manager: the signal manager of a house as a program of its own: routes, stage, roster; producers and link are
 // other programs on the bus.
 
-#include <spdlog/spdlog.h>
-
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "tools/house.h"
 
 namespace dance {
@@ -25,7 +24,7 @@ Result<void> run_manager(const std::string& file, const std::string& bus) {
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto house, House::open(session, *poller));
-  spdlog::info("{} routes on {}; Ctrl-C ends it", session.routes.size(), house->bus().url());
+  talk::info("{} routes on {}; Ctrl-C ends it", session.routes.size(), house->bus().url());
   poller->run();
   return {};
 }
@@ -36,11 +35,11 @@ Result<void> run_manager(const std::string& file, const std::string& bus) {
 int main(int argc, char** argv) {
   std::string file;
   std::string bus;
-  CLI::App app{
+  dance::CommandLine line(
       "The signal manager of a house: which pose reaches the stage, through which transformers.",
-      "dance manager"};
-  app.add_option("SESSION", file, "a session file; its server is left to `dance link`");
-  app.add_option("--bus", bus, "LCM URL of the house's bus, instead of the session's");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_manager(file, bus); });
+      "dance manager");
+  line.add("SESSION", file, "a session file; its server is left to `dance link`");
+  line.add("--bus", bus, "LCM URL of the house's bus, instead of the session's");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_manager(file, bus); });
 }

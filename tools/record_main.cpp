@@ -1,11 +1,10 @@
 // dance-record: records a bus to an LCM log that `dance replay`, lcm-logplayer and every LCM tool can read.
 
-#include <spdlog/spdlog.h>
-
 #include <csignal>
 #include <cstdio>
 
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "tools/bus_program.h"
 #include "tools/recorder.h"
 
@@ -24,6 +23,7 @@ struct Options {
   std::string bus_url;
   double seconds = 0.0;
   std::vector<std::string> channels;
+  bool append = false;
 };
 
 std::int64_t wall_clock_us() {
@@ -36,7 +36,9 @@ Result<void> record(Options options) {
   DANCE_TRY(ChannelFilter filter, ChannelFilter::make(options.channels));
   DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   if (options.path.empty()) options.path = default_log_path(std::chrono::system_clock::now());
-  DANCE_TRY(Recorder recorder, Recorder::make(options.path, std::move(filter)));
+  DANCE_TRY(Recorder recorder, Recorder::make(options.path, std::move(filter),
+                                              options.append ? Recorder::IfThere::kAppend
+                                                             : Recorder::IfThere::kRefuse));
 
   Poller& poller = program.poller();
   MonoTime turn;
@@ -55,7 +57,7 @@ Result<void> record(Options options) {
     if (recorder.failure()) poller.stop();
   });
   program.stop_after(options.seconds);
-  spdlog::info("recording {} to {}", program.bus().url(), options.path);
+  talk::info("recording {} to {}", program.bus().url(), options.path);
   program.run();
   recorder.flush();
   std::printf("%s: %llu events, %llu bytes\n", options.path.c_str(),
@@ -65,7 +67,7 @@ Result<void> record(Options options) {
   return {};
 }
 
-// For CLI11: "" where the pattern is fine, else what is wrong.
+// "" where the pattern is fine, else what is wrong.
 std::string check_pattern(const std::string& pattern) {
   const auto filter = ChannelFilter::make({pattern});
   return filter ? "" : filter.error().what;
@@ -78,13 +80,13 @@ int main(int argc, char** argv) {
   // A limit on file sizes shall be an error of write(), not the end of the process.
   std::signal(SIGXFSZ, SIG_IGN);
   dance::Options options;
-  CLI::App app("Records a bus to an LCM log.", "dance record");
-  app.add_option("-o,--output", options.path, "file to write (logs/<date>-<time>.lcm)");
-  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
-  app.add_option("--seconds", options.seconds, "stop after so long (0: ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--channels", options.channels, "only channels that match one of these patterns")
-      ->check(dance::check_pattern);
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::record(options); });
+  dance::CommandLine line("Records a bus to an LCM log.", "dance record");
+  line.add("-o,--output", options.path, "file to write (logs/<date>-<time>.lcm)");
+  line.add("--bus", options.bus_url, "LCM URL of the bus");
+  line.add("--seconds", options.seconds, "stop after so long (0: ctrl-C)").range(0.0, 1e7);
+  line.add_flag("--append", options.append, "go on behind a log that is there already");
+  line.add("--channels", options.channels, "only channels that match one of these patterns")
+      .check(dance::check_pattern);
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::record(options); });
 }

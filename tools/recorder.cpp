@@ -46,7 +46,7 @@ bool ChannelFilter::wants(std::string_view channel) {
 Recorder::Recorder(std::string path, LogWriter writer, ChannelFilter filter)
     : path_(std::move(path)), writer_(std::move(writer)), filter_(std::move(filter)) {}
 
-Result<Recorder> Recorder::make(const std::string& path, ChannelFilter filter) {
+Result<Recorder> Recorder::make(const std::string& path, ChannelFilter filter, IfThere if_there) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) {
     std::error_code error;
@@ -55,7 +55,8 @@ Result<Recorder> Recorder::make(const std::string& path, ChannelFilter filter) {
       return fail(folder.string() + ": cannot be made: " + error.message() +
                   "; name another file with -o");
   }
-  DANCE_TRY(LogWriter writer, LogWriter::create(path));
+  DANCE_TRY(LogWriter writer,
+            if_there == IfThere::kAppend ? LogWriter::append_to(path) : LogWriter::create(path));
   return Recorder(path, std::move(writer), std::move(filter));
 }
 

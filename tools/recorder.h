@@ -40,8 +40,11 @@ class ChannelFilter {
 
 class Recorder {
  public:
+  // What to do with a log that is there already.
+  enum class IfThere { kRefuse, kAppend };
   // Makes the folders of `path` where they are missing.
-  static Result<Recorder> make(const std::string& path, ChannelFilter filter);
+  static Result<Recorder> make(const std::string& path, ChannelFilter filter,
+                               IfThere if_there = IfThere::kRefuse);
 
   void take(std::int64_t time_us, std::string_view channel, std::span<const std::uint8_t> data);
   // Gives everything to the system, so that a killed recorder loses only what came after.

@@ -80,9 +80,9 @@ Result<void> run_spy(const std::string& bus, bool print) {
 int main(int argc, char** argv) {
   std::string bus;
   bool print = false;
-  CLI::App app{"lcm-spy with our message types.", "dance spy"};
-  app.add_option("--bus", bus, "LCM URL of the bus to look at");
-  app.add_flag("--print", print, "print the command instead of running it");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::run_spy(bus, print); });
+  dance::CommandLine line("lcm-spy with our message types.", "dance spy");
+  line.add("--bus", bus, "LCM URL of the bus to look at");
+  line.add_flag("--print", print, "print the command instead of running it");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_spy(bus, print); });
 }

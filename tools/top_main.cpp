@@ -51,11 +51,10 @@ Result<void> watch(const Options& options) {
 
 int main(int argc, char** argv) {
   dance::Options options;
-  CLI::App app("Channels and programs of a bus: rate, bytes, type, age.", "dance top");
-  app.add_option("--bus", options.bus_url, "LCM URL of the bus");
-  app.add_option("--seconds", options.seconds, "stop after so long (0: ctrl-C)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_flag("--once", options.is_once, "one table after a second, then end");
-  app.footer(dance::kExamples);
-  return dance::run_program(app, argc, argv, [&] { return dance::watch(options); });
+  dance::CommandLine line("Channels and programs of a bus: rate, bytes, type, age.", "dance top");
+  line.add("--bus", options.bus_url, "LCM URL of the bus");
+  line.add("--seconds", options.seconds, "stop after so long (0: ctrl-C)").range(0.0, 1e7);
+  line.add_flag("--once", options.is_once, "one table after a second, then end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::watch(options); });
 }

@@ -3,8 +3,6 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include <string_view>
-
 namespace dance {
 namespace {
 constexpr const char* kCure = "; install one with: apt-get install libegl1 libgl1-mesa-dri";
@@ -48,11 +46,15 @@ OffscreenContext::~OffscreenContext() {
   eglTerminate(display_);
 }
 
-bool is_software_rendering() {
+std::string renderer_name() {
   const auto* text = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string_view renderer = text != nullptr ? text : "";
-  for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
-    if (renderer.find(name) != std::string_view::npos) return true;
+  return text != nullptr ? text : "";
+}
+
+bool is_software_rendering() {
+  const std::string renderer = renderer_name();
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
+    if (renderer.find(name) != std::string::npos) return true;
   return false;
 }
 

@@ -1,4 +1,3 @@
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -6,6 +5,7 @@
 #include <thread>
 
 #include "core/net/mono_clock.h"
+#include "core/program/talk.h"
 #include "viewer/offscreen.h"
 #include "viewer/stage_painter.h"
 #include "viewer/stage_roster.h"
@@ -126,7 +126,7 @@ Result<void> run_headless(const ViewOptions& options) {
   DANCE_TRY(auto context, OffscreenContext::create());
   const Quality quality = options.quality == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
   DANCE_TRY(auto painter, StagePainter::create(quality, 1.0f));
-  if (!painter->overlay().font_note().empty()) spdlog::info(painter->overlay().font_note());
+  if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
   return HeadlessRun(options, *feed, *painter).run();
 }
 

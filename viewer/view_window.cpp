@@ -7,9 +7,10 @@
 // clang-format on
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <utility>
+
+#include "core/program/program.h"
 
 namespace dance {
 namespace {
@@ -23,11 +24,6 @@ std::string last_glfw_error() {
   return text != nullptr ? text : "no reason given";
 }
 
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value != nullptr && *value != '\0';
-}
-
 ViewWindow& self_of(GLFWwindow* window) {
   return *static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
 }
@@ -35,7 +31,7 @@ ViewWindow& self_of(GLFWwindow* window) {
 }  // namespace
 
 Result<std::unique_ptr<ViewWindow>> ViewWindow::create(Size size, CameraRig& rig) {
-  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
+  if (display_name().empty())
     return fail(std::string("no display here (DISPLAY is not set)") + kCure);
   std::unique_ptr<ViewWindow> self(new ViewWindow(rig));
   if (glfwInit() != GLFW_TRUE)

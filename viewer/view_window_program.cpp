@@ -1,9 +1,8 @@
-#include <spdlog/spdlog.h>
-
 #include <cmath>
 #include <cstdio>
 
 #include "core/net/mono_clock.h"
+#include "core/program/talk.h"
 #include "viewer/offscreen.h"
 #include "viewer/stage_painter.h"
 #include "viewer/stage_roster.h"
@@ -134,13 +133,13 @@ Result<void> run_window(const ViewOptions& options) {
   DANCE_TRY(auto feed, StageFeed::create(options.feed));
   DANCE_TRY(auto window, ViewWindow::create({options.size.width_px, options.size.height_px}, rig));
   DANCE_TRY(auto painter, StagePainter::create(quality_of(options.quality), window->scale()));
-  if (!painter->overlay().font_note().empty()) spdlog::info(painter->overlay().font_note());
+  if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
   if (options.quality == QualityWish::kAuto && painter->renderer().quality() == Quality::kLow)
-    spdlog::info("no graphics card here: drawing plainly; --quality high draws all the same");
+    talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
   auto ended = WindowRun(options, rig, *feed, *window, *painter).run();
   if (feed->board().no_room() > 0)
-    spdlog::warn("{} messages of guests beyond the {} that fit were left out",
-                 feed->board().no_room(), GuestBoard::kMaxGuests);
+    talk::warn("{} messages of guests beyond the {} that fit were left out",
+               feed->board().no_room(), GuestBoard::kMaxGuests);
   return ended;
 }
 

@@ -30,6 +30,13 @@ std::uint8_t* put_big_endian(std::uint8_t* out, T value) {
   return out;
 }
 
+bool is_header(const std::uint8_t* bytes) {
+  const auto channel_bytes = get_big_endian<std::uint32_t>(bytes + 20);
+  return get_big_endian<std::uint32_t>(bytes) == kSync && channel_bytes > 0 &&
+         channel_bytes <= kMaxChannelBytes &&
+         get_big_endian<std::uint32_t>(bytes + 24) <= kMaxDataBytes;
+}
+
 std::string reason() {
   std::array<char, 128> text{};
   return strerror_r(errno, text.data(), text.size());
@@ -64,10 +71,13 @@ void LogReader::rewind() {
 bool LogReader::fill(std::size_t wanted) {
   if (buffer_.size() - begin_ >= wanted) return true;
   if (at_end_) return false;  // and nothing is moved: a hostile file may ask this at every byte
-  buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin_));
-  begin_ = 0;
+  // Seldom, as what is kept may be long and read on a little at a time.
+  if (begin_ > buffer_.size() / 2) {
+    buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin_));
+    begin_ = 0;
+  }
   constexpr std::size_t kChunk = 64 << 10;
-  while (buffer_.size() < wanted) {
+  while (buffer_.size() - begin_ < wanted) {
     const std::size_t old = buffer_.size();
     std::size_t got = 0;
     if (file_) {
@@ -88,6 +98,16 @@ bool LogReader::fill(std::size_t wanted) {
   return true;
 }
 
+// An event begins inside this one: its lengths lie, or it was cut off and another recorder went on behind it.
+bool LogReader::reaches_into_another(std::size_t whole) {
+  fill(whole + kHeaderBytes - 1);  // what is there of a header that begins in the last byte
+  const std::uint8_t* event = buffer_.data() + begin_;
+  const std::size_t last = std::min(whole, buffer_.size() - begin_ - (kHeaderBytes - 1));
+  for (std::size_t at = kHeaderBytes; at < last; ++at)
+    if (event[at] == kSync >> 24 && is_header(event + at)) return true;
+  return false;
+}
+
 void LogReader::skip(std::size_t count) {
   begin_ += count;
   skipped_bytes_ += count;
@@ -106,15 +126,19 @@ std::optional<LogEvent> LogReader::next() {
       skip(1);
       continue;
     }
-    const auto channel_bytes = get_big_endian<std::uint32_t>(header + 20);
-    const auto data_bytes = get_big_endian<std::uint32_t>(header + 24);
-    if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > kMaxDataBytes) {
+    if (!is_header(header)) {
       skip(4);  // a sync word by chance, or a damaged header
       continue;
     }
+    const auto channel_bytes = get_big_endian<std::uint32_t>(header + 20);
+    const auto data_bytes = get_big_endian<std::uint32_t>(header + 24);
     const std::size_t whole = kHeaderBytes + channel_bytes + data_bytes;
     if (!fill(whole)) {
       skip(4);  // cut off here, or lengths that lie: look on behind the sync word
+      continue;
+    }
+    if (reaches_into_another(whole)) {
+      skip(4);  // cut off by a recorder that was killed, and gone on behind by another
       continue;
     }
     const std::uint8_t* event = buffer_.data() + begin_;
@@ -136,6 +160,14 @@ Result<LogWriter> LogWriter::create(const std::string& path) {
   return writer;
 }
 
+Result<LogWriter> LogWriter::append_to(const std::string& path) {
+  LogWriter writer;
+  writer.path_ = path;
+  writer.file_.reset(std::fopen(path.c_str(), "ab"));
+  if (!writer.file_) return fail(path + ": " + reason());
+  return writer;
+}
+
 Result<void> LogWriter::append(std::int64_t time_us, std::string_view channel,
                                std::span<const std::uint8_t> data) {
   if (channel.empty() || channel.size() > kMaxChannelBytes || data.size() > kMaxDataBytes)
@@ -150,7 +182,7 @@ Result<void> LogWriter::append(std::int64_t time_us, std::string_view channel,
   std::FILE* file = file_.get();
   if (std::fwrite(header.data(), 1, header.size(), file) != header.size() ||
       std::fwrite(channel.data(), 1, channel.size(), file) != channel.size() ||
-      std::fwrite(data.data(), 1, data.size(), file) != data.size())
+      (!data.empty() && std::fwrite(data.data(), 1, data.size(), file) != data.size()))
     return fail(path_ + ": " + reason());
   ++events_;
   bytes_ += header.size() + channel.size() + data.size();

@@ -48,6 +48,7 @@ class LogReader {
   };
   LogReader() = default;
   bool fill(std::size_t wanted);
+  bool reaches_into_another(std::size_t whole);
   void skip(std::size_t count);
 
   std::unique_ptr<std::FILE, CloseFile> file_;  // null when reading memory
@@ -63,7 +64,10 @@ class LogReader {
 class LogWriter {
  public:
   // Refuses to overwrite a file that is there.
+  // A new file: one that is there already is refused.
   static Result<LogWriter> create(const std::string& path);
+  // Behind what is there, or a new file. An event that was cut off there costs no other: readers look for the next one.
+  static Result<LogWriter> append_to(const std::string& path);
   Result<void> append(std::int64_t time_us, std::string_view channel,
                       std::span<const std::uint8_t> data);
   Result<void> flush();

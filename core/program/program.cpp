@@ -1,36 +1,37 @@
 #include "core/program/program.h"
 
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <array>
 #include <climits>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+
+#include "core/program/talk.h"
 
 namespace dance {
 
-int run_program(CLI::App& app, int argc, char** argv, const std::function<Result<void>()>& body) {
-  app.set_help_flag("-h,--help", "print this and exit");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success&) {  // --help
-    std::fputs(app.help().c_str(), stdout);
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "%s: %s; %s --help lists the options\n", app.get_name().c_str(),
-                 error.what(), app.get_name().c_str());
-    return 2;
+int run_program(CommandLine& line, int argc, char** argv,
+                const std::function<Result<void>()>& body) {
+  const std::string name = line.name();
+  switch (line.parse(argc, argv)) {
+    case CommandLine::Parsed::kHelp:
+      std::fputs(line.text().c_str(), stdout);
+      return 0;
+    case CommandLine::Parsed::kWrong:
+      std::fprintf(stderr, "%s: %s; %s --help lists the options\n", name.c_str(),
+                   line.text().c_str(), name.c_str());
+      return 2;
+    case CommandLine::Parsed::kRun:
+      break;
   }
   // stdout is data, stderr is talk.
-  auto logger = spdlog::stderr_logger_st(app.get_name());
-  logger->set_pattern("%H:%M:%S.%e %n: %v");
-  spdlog::set_default_logger(logger);
+  talk::begin(name);
 
   const Result<void> result = body();
   if (result) return 0;
-  std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), result.error().what.c_str());
+  std::fprintf(stderr, "%s: %s\n", name.c_str(), result.error().what.c_str());
   return 1;
 }
 
@@ -38,6 +39,14 @@ std::string program_folder() {
   std::array<char, PATH_MAX> path{};
   const auto size = readlink("/proc/self/exe", path.data(), path.size() - 1);
   return size > 0 ? std::filesystem::path(path.data()).parent_path().string() : ".";
+}
+
+std::string display_name() {
+  for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) {
+    const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): at start
+    if (value && *value) return value;
+  }
+  return "";
 }
 
 }  // namespace dance

@@ -136,14 +136,8 @@ TEST_F(LogFile, EveryPrefixGivesItsWholeEvents) {
   }
 }
 
-TEST_F(LogFile, ADamagedEventCostsNoOtherUnlessItsLengthsLie) {
+TEST_F(LogFile, ADamagedEventCostsNoOther) {
   const Bytes bytes = read_file(write_log("a.lcm", 12));
-  std::vector<bool> is_length(bytes.size(), false);
-  std::size_t begin = 0;
-  for (int i = 0; i < 12; ++i) {
-    for (std::size_t at = begin + 20; at < begin + 28; ++at) is_length[at] = true;
-    begin += 28 + 3 + std::to_string(i).size() + static_cast<std::size_t>(i);
-  }
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     Bytes damaged = bytes;
     damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1u << (bit % 8)));
@@ -154,9 +148,7 @@ TEST_F(LogFile, ADamagedEventCostsNoOtherUnlessItsLengthsLie) {
       used += 28 + event->channel.size() + event->data.size();
     }
     ASSERT_EQ(used + reader.skipped_bytes(), bytes.size()) << "bit " << bit;
-    if (!is_length[bit / 8]) {
-      ASSERT_GE(count, 11u) << "bit " << bit;
-    }
+    ASSERT_GE(count, 11u) << "bit " << bit;
   }
 }
 

@@ -29,11 +29,15 @@ struct Stage : StageSink {
     if (keep) poses.push_back({g, pose});
     ++count;
   }
-  void stage(const GuestId& g, const Hands&) override { hands.push_back(g); }
+  void stage(const GuestId& g, const Hands& h) override {
+    hands.push_back(g);
+    fingers.push_back(h);
+  }
   void stage(const GuestId& g, const TimedSkeleton&) override { skeletons.push_back(g); }
 
   std::vector<std::pair<GuestId, Pose>> poses;
   std::vector<GuestId> hands;
+  std::vector<Hands> fingers;
   std::vector<GuestId> skeletons;
   int count = 0;
   bool keep = true;
@@ -81,9 +85,58 @@ TEST(Router, SendsEachGuestOnTheRoutesThatAreMeant) {
   EXPECT_EQ(router.stats().received, 3);
 }
 
+TEST(Router, ShowsFingersWithTheBodyOfTheirMoment) {
+  Stage stage;
+  Router router({held("hold 100ms")}, kClock, stage);
+  for (int i = 0; i < 120; ++i) {
+    const MonoTime capture = at_ms(1000.0 + 16.0 * i), arrival = capture + Duration::ms(30);
+    router.take(Where::kGuest, guest("bob"), pose_of(static_cast<std::uint32_t>(i), capture),
+                arrival);
+    Hands hands;
+    hands.sequence = static_cast<std::uint32_t>(i);
+    hands.capture_time = capture;
+    hands.clock_id = kClock;
+    router.take(Where::kGuest, guest("bob"), hands);
+    router.tick(0, arrival + Duration::ms(4));
+    if (stage.fingers.empty() || stage.poses.empty()) continue;
+    const Duration apart =
+        stage.poses.back().second.capture_time - stage.fingers.back().capture_time;
+    EXPECT_GE(apart, Duration());
+    EXPECT_LE(apart, Duration::ms(16)) << i;
+  }
+  EXPECT_GT(stage.fingers.size(), 100u);
+}
+
+TEST(HandsQueue, IsBoundedAndBeginsAnewWithTheSource) {
+  HandsQueue queue;
+  Hands hands;
+  for (int i = 0; i < 1000; ++i) {
+    hands.capture_time = at_ms(1000.0 + i);
+    hands.sequence = static_cast<std::uint32_t>(i);
+    queue.push(hands);
+    queue.push(hands);  // a copy is dropped
+  }
+  EXPECT_EQ(queue.take_due(at_ms(1000.0), 0), nullptr) << "the oldest have given way";
+  const Hands* due = queue.take_due(at_ms(1990.5), 0);
+  ASSERT_NE(due, nullptr);
+  EXPECT_EQ(due->sequence, 990u);
+  EXPECT_EQ(queue.take_due(at_ms(1990.5), 0), nullptr);
+  hands.capture_time = at_ms(10.0);
+  hands.sequence = 5000;
+  queue.push(hands);
+  due = queue.take_due(at_ms(11.0), 0);
+  ASSERT_NE(due, nullptr);
+  EXPECT_EQ(due->sequence, 5000u);
+  hands.capture_time = at_ms(90'000.0);
+  hands.clock_id = 77;
+  queue.push(hands);
+  EXPECT_NE(queue.take_due(at_ms(11.0), 0), nullptr) << "clocks that cannot be compared";
+}
+
 TEST(Router, GivesHandsAndSkeletonsOnWithThePoses) {
   Stage stage;
-  Router router({held("hold 20ms")}, kClock, stage);
+  Router router({pass_through(Where::kGuest)}, kClock, stage);
+  router.take(Where::kGuest, guest("bob"), pose_of(1, at_ms(1)), at_ms(1));
   router.take(Where::kGuest, guest("bob"), Hands());
   router.take(Where::kGuest, guest("bob"), TimedSkeleton());
   router.take(Where::kCapture, guest("alice"), TimedSkeleton());  // no route from there

@@ -34,6 +34,22 @@ TEST(Session, ReadsAWholeHouse) {
   EXPECT_EQ(session->consumers[0].file, "/home/alice/out.csv");
 }
 
+TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {
+  const auto usual = parse_session(kHouse, "s.toml");
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(usual->quality_mm, 1.0);
+  EXPECT_EQ(usual->pose_bytes_per_second, 0.0);
+  const auto given = parse_session(
+      std::string(kHouse) + "quality_mm = 2\npose_bytes_per_second = 900.0\n", "s.toml");
+  ASSERT_TRUE(given) << given.error().what;
+  EXPECT_EQ(given->quality_mm, 2.0);
+  EXPECT_EQ(given->pose_bytes_per_second, 900.0);
+  const std::string error = error_of(std::string(kHouse) + "quality_mm = 0.01\n");
+  EXPECT_EQ(error.rfind("s.toml:4:14: ", 0), 0u) << error;
+  EXPECT_NE(error.find("0.125"), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
 TEST(Session, WithoutRoutesGetsTheUsualTwo) {
   const auto session = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(session);
@@ -59,8 +75,11 @@ TEST(Session, RefusesWhatCannotBe) {
   const std::string house = kHouse;
   const std::string route = house + "[[route]]\n";
   for (const std::string& text :
-       {std::string(""), std::string("[house]\nguest = \"Alice\"\n"), house + "[hose]\n",
-        std::string("house = 3\n"), route + "from = \"POSE/guest/*\"\n",
+       {std::string(""),
+        std::string("[house]\nguest = \"Alice\"\n"),
+        house + "[hose]\n",
+        std::string("house = 3\n"),
+        route + "from = \"POSE/guest/*\"\n",
         route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/alice\"\n",
         route + "from = \"POSE/stage/*\"\nto = \"POSE/stage/*\"\n",
         route + "from = \"POSE/guest/*\"\nto = \"POSE/guest/*\"\n",
@@ -74,8 +93,15 @@ TEST(Session, RefusesWhatCannotBe) {
                 "nan\n",
         house + "[[produce]]\nkind = \"camel\"\nguest = \"a\"\n",
         house + "[[produce]]\nkind = \"salsa\"\nguest = \"a\"\nrole = \"judge\"\n",
-        house + "[[listen]]\nto = \"fax\"\n", house + "route = 3\n",
-        house + "room = \"No Spaces\"\n"}) {
+        house + "[[listen]]\nto = \"fax\"\n",
+        house + "route = 3\n",
+        house + "room = \"No Spaces\"\n",
+        house + "quality_mm = 0\n",
+        house + "quality_mm = 21\n",
+        house + "quality_mm = \"fine\"\n",
+        house + "quality_mm = nan\n",
+        house + "pose_bytes_per_second = -1\n",
+        house + "pose_bytes_per_second = inf\n"}) {
     const std::string error = error_of(text);
     EXPECT_EQ(error.rfind("s.toml:", 0), 0u) << text << " -> " << error;
   }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tools/doctor_checks.h"
+#include "tools/doctor_drawing.h"
 
 namespace dance {
 namespace {
@@ -26,6 +27,19 @@ TEST(Doctor, CallsItAProblemOnlyWhereNothingHelps) {
 TEST(Doctor, NotesSmallSocketBuffers) {
   EXPECT_EQ(check_receive_buffer(212'992).grade, Grade::kNote);
   EXPECT_EQ(check_receive_buffer(4 << 20).grade, Grade::kOk);
+}
+
+TEST(Doctor, NotesAMachineThatWakesLate) {
+  EXPECT_EQ(check_wake_ups(Duration::us(80)).grade, Grade::kOk);
+  const Finding late = check_wake_ups(Duration::ms(7));
+  EXPECT_EQ(late.grade, Grade::kNote);
+  EXPECT_NE(late.what.find("7000"), std::string::npos);
+}
+
+TEST(Doctor, TriesToDraw) {
+  const Finding drawing = check_drawing();
+  EXPECT_FALSE(drawing.what.empty());
+  EXPECT_EQ(drawing.cure.empty(), drawing.grade == Grade::kOk);
 }
 
 TEST(Doctor, TellsABusUrlThatIsNone) {
