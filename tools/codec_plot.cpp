@@ -117,7 +117,7 @@ class Drawing {
 
 constexpr const char* kGrid = R"(stroke="#e2e2e2")";
 constexpr const char* kFrame = R"(stroke="#777")";
-constexpr const char* kLevel = R"(stroke="#333" stroke-dasharray="6 4")";
+constexpr const char* kLevelLine = R"(stroke="#333" stroke-dasharray="6 4")";
 
 void draw_axes(Drawing& svg, const LogAxis& x, const LogAxis& y) {
   for (const double tick : x.ticks()) {
@@ -158,7 +158,7 @@ void draw_mark(Drawing& svg, const RateMark& mark, const LogAxis& x, const LogAx
   if (!(mark.bytes > 0.0)) return;
   const double at = y.at(mark.bytes);
   if (!mark.error_mm) {
-    svg.line(kLeft, at, kRight, at, kLevel);
+    svg.line(kLeft, at, kRight, at, kLevelLine);
     svg.text(kLeft + 8.0, at - 7.0, fmt::format("{}: {:.0f}", mark.name, mark.bytes));
     return;
   }

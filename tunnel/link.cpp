@@ -7,7 +7,7 @@
 namespace dance {
 namespace {
 
-constexpr int kBatchesPerTurn = 8;
+constexpr int kLinkBatches = 8;
 // A socket keeps the address of the network it was made on. When the server stays silent, the house
 // may have moved to another one: every so many hellos a new socket is tried.
 constexpr int kHellosPerSocket = 4;
@@ -61,7 +61,7 @@ void Link::watch_socket() {
 }
 
 void Link::on_readable(MonoTime now) {
-  for (int i = 0; i < kBatchesPerTurn; ++i) {
+  for (int i = 0; i < kLinkBatches; ++i) {
     const auto batch = socket_.receive();
     for (const UdpSocket::Datagram& datagram : batch)
       core_.receive(datagram.bytes, datagram.received, now);

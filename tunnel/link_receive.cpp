@@ -7,8 +7,8 @@ namespace dance {
 namespace {
 
 // Twice what the server lets through: the way from there takes its time too.
-constexpr std::int64_t kLongestAge_us = 120'000'000;
-constexpr std::int64_t kFarthestAhead_us = 2'000'000;
+constexpr std::int64_t kOldestTold_us = 120'000'000;
+constexpr std::int64_t kFarthestTold_us = 2'000'000;
 
 MonoTime hop_time(MonoTime capture, std::int32_t age_us) {
   return age_us == wire::kNoAge ? MonoTime() : capture + Duration::us(age_us);
@@ -51,8 +51,8 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
     return !is_pose;
   }
   const std::int64_t server_now_us = clock_.to_theirs_us(now);
-  if (record.capture_us < server_now_us - kLongestAge_us ||
-      record.capture_us > server_now_us + kFarthestAhead_us) {
+  if (record.capture_us < server_now_us - kOldestTold_us ||
+      record.capture_us > server_now_us + kFarthestTold_us) {
     ++counters_.invalid;
     ++remote.invalid;
     return !is_pose;

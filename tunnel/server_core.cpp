@@ -8,7 +8,7 @@
 namespace dance {
 namespace {
 
-constexpr Duration kSilenceLimit = Duration::ms(1900);  // with the tick below: gone within 2 s
+constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below: gone within 2 s
 constexpr Duration kUnprovenLimit = Duration::s(1);
 constexpr Duration kTick = Duration::ms(100);
 
@@ -226,7 +226,7 @@ void ServerCore::sweep(MonoTime now) {
     ServerSession& session = sessions_[i];
     if (!session.in_use) continue;
     // However often a stranger says hello, that proves nothing.
-    const bool is_gone = session.is_proven ? now - session.last_heard > kSilenceLimit
+    const bool is_gone = session.is_proven ? now - session.last_heard > kSessionSilence
                                            : now - session.unproven_since > kUnprovenLimit;
     if (is_gone) {
       ++counters_.sessions_timed_out;

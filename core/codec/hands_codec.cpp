@@ -35,9 +35,9 @@ struct HandMasks {
 };
 
 // How far turns of late were from what was expected, which says how far the next may be.
-class Spread {
+class RecentSize {
  public:
-  explicit Spread(std::uint32_t mean_steps) : mean_(mean_steps * kOne) {}
+  explicit RecentSize(std::uint32_t mean_steps) : mean_(mean_steps * kOne) {}
 
   // How likely it is, in 1/2^16, that a difference of at least n steps is larger than n: steady at
   // first, then ever more, so that nothing is dear.
@@ -58,7 +58,7 @@ constexpr std::uint32_t kLongestCount = 40;
 constexpr int kRestBits = 10;
 
 template <class Coder>
-int code_difference(Coder& coder, Spread& spread, int difference) {
+int code_difference(Coder& coder, RecentSize& spread, int difference) {
   const auto size = static_cast<std::uint32_t>(std::abs(difference));
   std::uint32_t n = 0;
   while (n < kLongestCount && coder.likely_bit(spread.goes_on(n), size > n)) ++n;
@@ -69,11 +69,13 @@ int code_difference(Coder& coder, Spread& spread, int difference) {
 }
 
 // The laws of one message, alike for both hands.
-struct Spreads {
+struct RecentSizes {
   // thumb or finger; first phalanx or another; curl, spread, twist
-  std::array<std::array<std::array<Spread, 3>, 2>, 2> of{
-      {{{{Spread(6), Spread(6), Spread(4)}, {Spread(5), Spread(3), Spread(2)}}},
-       {{{Spread(8), Spread(3), Spread(2)}, {Spread(6), Spread(1), Spread(1)}}}}};
+  std::array<std::array<std::array<RecentSize, 3>, 2>, 2> of{
+      {{{{RecentSize(6), RecentSize(6), RecentSize(4)},
+         {RecentSize(5), RecentSize(3), RecentSize(2)}}},
+       {{{RecentSize(8), RecentSize(3), RecentSize(2)},
+         {RecentSize(6), RecentSize(1), RecentSize(1)}}}}};
 };
 
 // What is expected of a bone from those that went before: it is curled like the one of the finger
@@ -98,7 +100,7 @@ Turn expected_turn(const HandTurns& turns, const HandTurns& other, std::size_t b
 }
 
 template <class Coder>
-bool code_hand(Coder& coder, Spreads& spreads, std::uint32_t carried, const HandTurns& other,
+bool code_hand(Coder& coder, RecentSizes& spreads, std::uint32_t carried, const HandTurns& other,
                HandTurns& turns) {
   for (std::size_t b = 0; b < kHandBones; ++b) {
     if ((carried >> b & 1u) == 0) {
@@ -160,7 +162,7 @@ HandForm form_of(const HandMasks& masks) {
 std::size_t encode_hands(const Hands& hands, std::span<std::uint8_t> payload) {
   if (!is_valid(hands) || payload.empty()) return 0;
   BitEncoder coder(payload.subspan(1));
-  Spreads spreads;
+  RecentSizes spreads;
   std::array<HandTurns, 2> turns{};
   payload[0] = 0;
   for (std::size_t hand = 0; hand < 2; ++hand) {
@@ -183,7 +185,7 @@ std::size_t encode_hands(const Hands& hands, std::span<std::uint8_t> payload) {
 bool decode_hands(std::span<const std::uint8_t> payload, Hands& hands) {
   if (payload.empty() || payload[0] >> 4 != 0) return false;
   BitDecoder coder(payload.subspan(1));
-  Spreads spreads;
+  RecentSizes spreads;
   std::array<HandTurns, 2> turns{};
   hands.presence = 0;
   for (std::size_t hand = 0; hand < 2; ++hand) {

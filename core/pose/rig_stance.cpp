@@ -97,17 +97,18 @@ Stance stance_of(const Bvh& bvh, const Rig& rig, const BvhFigure& figure) {
                   p.at(Bone::kLeftUpperLeg) - p.at(Bone::kRightUpperLeg)) /
                  2.0;
   const Vector3d up = stance.up();
-  struct Limb {
+  struct TriedLimb {
     Bone upper, lower, end;
     bool is_leg;
   };
-  constexpr Limb kLimbs[] = {{Bone::kLeftUpperLeg, Bone::kLeftLowerLeg, Bone::kLeftFoot, true},
-                             {Bone::kRightUpperLeg, Bone::kRightLowerLeg, Bone::kRightFoot, true},
-                             {Bone::kLeftUpperArm, Bone::kLeftLowerArm, Bone::kLeftHand, false},
-                             {Bone::kRightUpperArm, Bone::kRightLowerArm, Bone::kRightHand, false}};
+  constexpr TriedLimb kLimbs[] = {
+      {Bone::kLeftUpperLeg, Bone::kLeftLowerLeg, Bone::kLeftFoot, true},
+      {Bone::kRightUpperLeg, Bone::kRightLowerLeg, Bone::kRightFoot, true},
+      {Bone::kLeftUpperArm, Bone::kLeftLowerArm, Bone::kLeftHand, false},
+      {Bone::kRightUpperArm, Bone::kRightLowerArm, Bone::kRightHand, false}};
   stance.legs_down = 1.0;
   stance.straightness = 1.0;
-  for (const Limb& limb : kLimbs) {
+  for (const TriedLimb& limb : kLimbs) {
     const Vector3d end = p.end(limb.lower, limb.end);
     stance.straightness =
         std::min(stance.straightness, straightness_of(p.at(limb.upper), p.at(limb.lower), end));

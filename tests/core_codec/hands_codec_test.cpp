@@ -8,30 +8,17 @@
 #include "core/base/random.h"
 #include "core/codec/adaptive_bits.h"
 #include "tests/allocation_guard.h"
+#include "tests/core_codec/rotations.h"
 
 namespace dance {
 namespace {
 
-using Payload = std::array<std::uint8_t, kMaxHandsPayload>;
+using HandsPayload = std::array<std::uint8_t, kMaxHandsPayload>;
 constexpr std::uint32_t kAllFingers = (1u << kFingerBoneCount) - 1;
 constexpr double kRadPerDeg = M_PI / 180.0;
 
-Eigen::Quaternionf random_rotation(Random& random) {
-  Eigen::Vector4d v(random.normal(), random.normal(), random.normal(), random.normal());
-  Eigen::Quaternionf q;
-  q.coeffs() = v.normalized().cast<float>();
-  return q;
-}
-
-double angle_deg(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
-  const Eigen::Vector4d u = a.coeffs().cast<double>().normalized();
-  const Eigen::Vector4d v = b.coeffs().cast<double>().normalized();
-  const double chord = std::min((u - v).norm(), (u + v).norm());
-  return 4.0 * std::asin(std::min(1.0, chord / 2.0)) / kRadPerDeg;
-}
-
 std::size_t expect_round_trip(const Hands& hands) {
-  Payload payload;
+  HandsPayload payload;
   const std::size_t size = encode_hands(hands, payload);
   EXPECT_GT(size, 0u);
   Hands out;
@@ -80,7 +67,7 @@ TEST(HandsCodec, AnyRotationSurvivesWithinHalfADegree) {
   std::size_t largest = 0;
   for (int round = 0; round < 2000; ++round) {
     Hands hands;
-    for (auto& q : hands.R_PB) q = random_rotation(random);
+    for (auto& q : hands.R_PB) q = any_rotation(random);
     hands.presence = static_cast<std::uint32_t>(random.below(kAllFingers + 1u));
     largest = std::max(largest, expect_round_trip(hands));
   }
@@ -144,7 +131,7 @@ TEST(HandsCodec, FillsInWhatWasNotMeasured) {
   for (int round = 0; round < 500; ++round) {
     Hands hands;
     for (auto& q : hands.R_PB)
-      if (random.uniform() < 0.3) q = random_rotation(random);
+      if (random.uniform() < 0.3) q = any_rotation(random);
     hands.presence = static_cast<std::uint32_t>(random.below(kAllFingers + 1u)) & 0x3f00ff00;
     expect_round_trip(hands);
   }
@@ -153,7 +140,7 @@ TEST(HandsCodec, FillsInWhatWasNotMeasured) {
 TEST(HandsCodec, RefusesWhatIsNotValidOrDoesNotFit) {
   Random random(5);
   Hands hands = natural_hands(random, 70.0, 1.0);
-  Payload payload;
+  HandsPayload payload;
   const std::size_t size = encode_hands(hands, payload);
   for (std::size_t room = 0; room < size; ++room)
     EXPECT_EQ(encode_hands(hands, {payload.data(), room}), 0u);
@@ -166,14 +153,14 @@ TEST(HandsCodec, NeitherPrefixesNorDamageGetPastAsInvalid) {
   Random random(6);
   Hands hands = natural_hands(random, 70.0, 1.0);
   hands.presence = 0x3fff7fff;  // masks in one hand
-  Payload payload;
+  HandsPayload payload;
   const std::size_t size = encode_hands(hands, payload);
   Hands out;
   EXPECT_FALSE(decode_hands({}, out));
   for (std::size_t n = 0; n < size; ++n)
     EXPECT_TRUE(!decode_hands({payload.data(), n}, out) || is_valid(out));
   for (int round = 0; round < 50'000; ++round) {
-    Payload damaged = payload;
+    HandsPayload damaged = payload;
     for (std::uint64_t i = 0; i <= random.below(4); ++i)
       damaged[random.below(size)] = static_cast<std::uint8_t>(random.below(256));
     EXPECT_TRUE(!decode_hands({damaged.data(), size}, out) || is_valid(out));
@@ -185,7 +172,7 @@ TEST(HandsCodec, NeitherPrefixesNorDamageGetPastAsInvalid) {
 }
 
 TEST(HandsCodec, RefusesWhatIsMeasuredButNotCarried) {
-  Payload payload{2};  // masks of the left hand, nothing of the right
+  HandsPayload payload{2};  // masks of the left hand, nothing of the right
   BitEncoder coder({payload.data() + 1, payload.size() - 1});
   coder.raw(0x0001, 15);
   coder.raw(0x0000, 15);
@@ -197,7 +184,7 @@ TEST(HandsCodec, RefusesWhatIsMeasuredButNotCarried) {
 TEST(HandsCodec, AllocatesNothing) {
   Random random(7);
   const Hands hands = natural_hands(random, 70.0, 1.0);
-  Payload payload;
+  HandsPayload payload;
   Hands out;
   const AllocationGuard guard;
   const std::size_t size = encode_hands(hands, payload);
@@ -214,7 +201,7 @@ TEST(HandsCodec, GoldenBytesStay) {
     const Eigen::Vector4f v(0.01f * n, i % 4 == 0 ? -0.05f : 0.03f, i < 15 ? -0.3f : 0.35f, 1.0f);
     hands.R_PB[i].coeffs() = v / std::sqrt(v.squaredNorm());
   }
-  Payload payload;
+  HandsPayload payload;
   const std::size_t size = encode_hands(hands, payload);
   EXPECT_EQ(
       std::vector<std::uint8_t>(payload.begin(), payload.begin() + size),

@@ -10,6 +10,7 @@
 #include "core/base/random.h"
 #include "core/codec/exact_math.h"
 #include "core/pose/pose.h"
+#include "tests/core_codec/rotations.h"
 
 namespace dance {
 
@@ -40,13 +41,6 @@ inline Pose dance_frame(std::uint32_t i, Random& random, double tremble = 0.0005
   pose.sequence = i;
   pose.capture_time = MonoTime::from_us(1'000'000 + static_cast<std::int64_t>(i) * 16'667);
   return pose;
-}
-
-inline Eigen::Quaternionf any_rotation(Random& random) {
-  Eigen::Vector4d v(random.normal(), random.normal(), random.normal(), random.normal());
-  Eigen::Quaternionf q;
-  q.coeffs() = v.normalized().cast<float>();
-  return q;
 }
 
 inline Pose any_pose(std::uint32_t sequence, Random& random) {

@@ -13,7 +13,7 @@
 namespace dance {
 namespace {
 
-using Payload = std::array<std::uint8_t, kMaxLosslessPayload>;
+using LosslessPayload = std::array<std::uint8_t, kMaxLosslessPayload>;
 using Bytes = std::vector<std::uint8_t>;
 
 void expect_same_bits(const Pose& a, const Pose& b) {
@@ -25,7 +25,7 @@ void expect_same_bits(const Pose& a, const Pose& b) {
 }
 
 Bytes encode(LosslessEncoder& encoder, const Pose& pose) {
-  Payload payload;
+  LosslessPayload payload;
   const std::size_t size = encoder.encode(pose, payload);
   EXPECT_GT(size, 0u);
   return {payload.begin(), payload.begin() + static_cast<std::ptrdiff_t>(size)};
@@ -232,7 +232,7 @@ TEST(LosslessCodec, BeginsAnewBehindWhatDidNotFit) {
   const auto poses = moves(20);
   LosslessEncoder encoder;
   encode(encoder, poses[0]);
-  Payload payload;
+  LosslessPayload payload;
   for (const std::size_t room : {0u, 1u, 2u, 20u}) {
     EXPECT_EQ(encoder.encode(poses[1], {payload.data(), room}), 0u) << room;
     LosslessDecoder decoder;
@@ -290,7 +290,7 @@ TEST(LosslessCodec, AllocatesNothing) {
   const auto poses = moves(20);
   LosslessEncoder encoder;
   LosslessDecoder decoder;
-  Payload payload;
+  LosslessPayload payload;
   Pose out;
   const AllocationGuard guard;
   for (const Pose& pose : poses)

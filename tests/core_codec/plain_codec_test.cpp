@@ -6,30 +6,16 @@
 
 #include "core/base/random.h"
 #include "core/codec/packed_rotation.h"
+#include "tests/core_codec/rotations.h"
 
 namespace dance {
 namespace {
 
-using Payload = std::array<std::uint8_t, kMaxPosePayload>;
-
-Eigen::Quaternionf random_rotation(Random& random) {
-  Eigen::Vector4d v(random.normal(), random.normal(), random.normal(), random.normal());
-  Eigen::Quaternionf q;
-  q.coeffs() = v.normalized().cast<float>();
-  return q;
-}
-
-// With doubles: acos of a float near 1 cannot tell 0.02° from 0.
-double angle_deg(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
-  const Eigen::Vector4d u = a.coeffs().cast<double>().normalized();
-  const Eigen::Vector4d v = b.coeffs().cast<double>().normalized();
-  const double chord = std::min((u - v).norm(), (u + v).norm());
-  return 4.0 * std::asin(std::min(1.0, chord / 2.0)) * 180.0 / M_PI;
-}
+using PlainPayload = std::array<std::uint8_t, kMaxPosePayload>;
 
 Pose random_pose(Random& random) {
   Pose pose;
-  for (auto& q : pose.R_PB) q = random_rotation(random);
+  for (auto& q : pose.R_PB) q = any_rotation(random);
   for (int axis = 0; axis < 3; ++axis)
     pose.p_WH_m[axis] = static_cast<float>(random.uniform(-1000.0, 1000.0));
   pose.presence = static_cast<std::uint32_t>(random.below(1u << kBoneCount));
@@ -39,7 +25,7 @@ Pose random_pose(Random& random) {
 }
 
 Pose round_trip(const Pose& pose) {
-  Payload payload;
+  PlainPayload payload;
   PlainEncoder encoder;
   PlainDecoder decoder;
   const std::size_t size = encoder.encode(pose, payload);
@@ -54,7 +40,7 @@ TEST(PackedRotation, ErrorStaysWithinTheStatedBound) {
   Random random(1);
   double worst_deg = 0.0;
   for (int i = 0; i < 500'000; ++i) {
-    const Eigen::Quaternionf q = random_rotation(random);
+    const Eigen::Quaternionf q = any_rotation(random);
     worst_deg = std::max(worst_deg, angle_deg(q, *unpack_rotation(pack_rotation(q))));
   }
   // All four components the same is where a step weighs most.
@@ -74,7 +60,7 @@ TEST(PackedRotation, ErrorStaysWithinTheStatedBound) {
 TEST(PackedRotation, AntipodesPackAlike) {
   Random random(2);
   for (int i = 0; i < 10'000; ++i) {
-    const Eigen::Quaternionf q = random_rotation(random);
+    const Eigen::Quaternionf q = any_rotation(random);
     Eigen::Quaternionf minus;
     minus.coeffs() = -q.coeffs();
     EXPECT_EQ(pack_rotation(q), pack_rotation(minus));
@@ -123,7 +109,7 @@ TEST(PlainCodec, RoundTripStaysWithinTheStatedBounds) {
 TEST(PlainCodec, BonesAtRestThatWereNotMeasuredCostNothing) {
   Pose pose;
   pose.presence = 1;
-  Payload payload;
+  PlainPayload payload;
   PlainEncoder encoder;
   const std::size_t lean = encoder.encode(pose, payload);
   EXPECT_EQ(lean, 1u + 3 + 3 + 1 + 12 + 6);
@@ -138,14 +124,14 @@ TEST(PlainCodec, BonesAtRestThatWereNotMeasuredCostNothing) {
 TEST(PlainCodec, AWholeBodyWithMusicTakes154Bytes) {
   Pose pose;
   pose.music_beats = 12.5;
-  Payload payload;
+  PlainPayload payload;
   PlainEncoder encoder;
   EXPECT_EQ(encoder.encode(pose, payload), 1u + 1 + 12 + 8 + 22 * 6);
 }
 
 TEST(PlainCodec, RefusesPosesThatAreNotValid) {
   PlainEncoder encoder;
-  Payload payload;
+  PlainPayload payload;
   Pose pose;
   pose.R_PB[3].coeffs() *= 1.1f;
   EXPECT_EQ(encoder.encode(pose, payload), 0u);
@@ -164,7 +150,7 @@ TEST(PlainCodec, RefusesPosesThatAreNotValid) {
 TEST(PlainCodec, AQuaternionOnePerCentOffIsMadeUnit) {
   Pose pose;
   Random random(4);
-  pose.R_PB[8] = random_rotation(random);
+  pose.R_PB[8] = any_rotation(random);
   Pose off = pose;
   off.R_PB[8].coeffs() *= 1.009f;
   const Pose out = round_trip(off);
@@ -177,7 +163,7 @@ TEST(PlainCodec, EveryPrefixIsRefusedAndEveryFlippedBitGivesAValidPoseOrNone) {
   PlainEncoder encoder;
   PlainDecoder decoder;
   for (int round = 0; round < 20; ++round) {
-    Payload payload;
+    PlainPayload payload;
     const std::size_t size = encoder.encode(random_pose(random), payload);
     Pose out;
     for (std::size_t n = 0; n < size; ++n)

@@ -57,8 +57,6 @@ TEST(AverageSkeleton, FacesForwardWithItsToes) {
 
 TEST(Skeleton, IsInvalidWithBonesThatAreNotABody) {
   EXPECT_TRUE(is_valid(average_skeleton()));
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (const float wrong : {kNan, kInfinity, -kInfinity, 2.01f, -1e30f}) {
     for (std::size_t i = 0; i < kBoneCount; ++i) {
       for (int axis = 0; axis < 3; ++axis) {

@@ -5,21 +5,10 @@
 #include <map>
 #include <string>
 
+#include "tests/manager/poses.h"
+
 namespace dance {
 namespace {
-
-constexpr std::uint64_t kClock = 5;
-
-GuestId guest(const std::string& name) { return *GuestId::parse(name); }
-MonoTime at_ms(std::int64_t ms) { return MonoTime::from_us(ms * 1000); }
-
-Pose pose_of(std::uint32_t sequence, MonoTime capture) {
-  Pose pose;
-  pose.sequence = sequence;
-  pose.capture_time = capture;
-  pose.clock_id = kClock;
-  return pose;
-}
 
 std::map<std::string, GuestStatus> end_second(Roster& roster, MonoTime now) {
   std::map<std::string, GuestStatus> said;

@@ -6,23 +6,10 @@
 #include <vector>
 
 #include "tests/allocation_guard.h"
+#include "tests/manager/poses.h"
 
 namespace dance {
 namespace {
-
-constexpr std::uint64_t kClock = 5;
-
-GuestId guest(const std::string& name) { return *GuestId::parse(name); }
-MonoTime at_ms(double ms) { return MonoTime::from_ns(static_cast<std::int64_t>(ms * 1e6)); }
-
-Pose pose_of(std::uint32_t sequence, MonoTime capture) {
-  Pose pose;
-  pose.sequence = sequence;
-  pose.capture_time = capture;
-  pose.clock_id = kClock;
-  pose.p_WH_m.x() = static_cast<float>(sequence);
-  return pose;
-}
 
 struct Stage : StageSink {
   void stage(const GuestId& g, Pose& pose, MonoTime) override {
