@@ -18,9 +18,10 @@
 #include "tools/doctor_drawing.h"
 
 namespace dance {
-namespace {
 
 using Grade = Finding::Grade;
+
+namespace {
 
 // In a child, as the network of this process must stay what it is.
 bool can_make_private_network() {
