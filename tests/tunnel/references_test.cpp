@@ -102,10 +102,11 @@ TEST_F(ReferencesTest, ARequestWhoseAnswerIsLostIsMadeAgain) {
   tunnel.link_options.key_frame_period = Duration();
   House& a = add({"alice"});
   House& b = add({"bob"});
-  // Too far for acknowledged frames.
+  // Too far for acknowledged frames, once it is known that little is lost.
   a.up = a.down = b.up = b.down = Duration::ms(40);
   Dance dance{tunnel, {{&a, guest("alice")}}};
-  dance.run(Duration::s(1));
+  dance.run(Duration::s(20));
+  ASSERT_EQ(a.link->local_stats().at(0).references, References::kPreviousTwice);
   b.is_cut = true;
   dance.run(Duration::ms(300));
   // Feedback does not come through at first.
