@@ -40,6 +40,7 @@ constexpr std::array kCommands{
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
+    Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 

@@ -24,7 +24,7 @@ struct ServerOptions {
   std::string bind = "127.0.0.1";
   std::uint16_t port = kDefaultServerPort;
   ServerLimits limits;
-  double share_ms = ServerLimits().share_window.as_ms();
+  double share_ms = -1.0;  // < 0: by the room
   bool json = false;
 };
 
@@ -74,8 +74,7 @@ Result<void> run_server(const ServerOptions& options) {
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(Address local, Address::resolve(options.bind, options.port));
   ServerLimits limits = options.limits;
-  limits.share_window = Duration::seconds(options.share_ms * 1e-3);
-  if (options.share_ms == 0.0) limits.crowd_window = Duration();
+  if (options.share_ms >= 0.0) limits.share_window = Duration::seconds(options.share_ms * 1e-3);
   DANCE_TRY(auto server, Server::open(local, limits, *poller));
   local = server->local_address();
   talk::info("hears on {}; Ctrl-C ends it", local.to_string());
@@ -131,9 +130,8 @@ int main(int argc, char** argv) {
   line.add(
           "--share-ms", options.share_ms,
           "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
-          "all; in rooms of 12 guests and more at least 5")
-      .range(0, 20)
-      .shows_default();
+          "all (else 0 for up to 8 guests, then more, to 5 for 28)")
+      .range(0, 20);
   line.add_flag("--json", options.json, "write a summary to stdout at the end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_server(options); });

@@ -99,8 +99,7 @@ void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime 
 }
 
 Duration ServerCore::share_window(const ServerRoom& room) const {
-  return room.guest_count < limits_.crowd ? limits_.share_window
-                                          : std::max(limits_.share_window, limits_.crowd_window);
+  return limits_.share_window.value_or(share_window_of(room.guest_count));
 }
 
 // Full of what can come, or has waited long enough.

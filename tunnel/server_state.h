@@ -7,8 +7,10 @@
 // Failure:      none.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -39,14 +41,18 @@ struct ServerLimits {
   // From all strangers together.
   double strangers_per_second = 500.0;
   double stranger_burst = 200.0;
-  // Records to one receiver wait this long for others to share a datagram with, unless all who
-  // dance have one in it already; 0 = not beyond the turn.
-  Duration share_window = Duration::ms(1);
-  // The same in rooms of this many guests and more, where headers would cost more than poses; never
-  // less than share_window.
-  std::size_t crowd = 12;
-  Duration crowd_window = Duration::ms(5);
+  // Records to one receiver wait this long for others to share a datagram with, unless all who dance
+  // have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's guests.
+  std::optional<Duration> share_window;
 };
+
+// A few never wait: they seldom dance within the same millisecond. In a crowd headers would cost more
+// than poses.
+constexpr Duration share_window_of(std::size_t guests) {
+  constexpr std::size_t kFew = 8, kCrowd = 28;
+  if (guests <= kFew) return Duration();
+  return Duration::us(250) * static_cast<std::int64_t>(std::min(guests, kCrowd) - kFew);
+}
 
 // Why a datagram, or a record of it, went no further.
 enum class ServerReject : std::uint8_t {
