@@ -208,7 +208,7 @@ std::vector<Route> default_routes() {
   Route others;
   others.from.where = Where::kGuest;
   others.to.where = Where::kStage;
-  others.through = {"hold 20ms"};
+  others.through = {"hold"};
   others.rate_hz = 60.0;
   return {own, others};
 }

@@ -72,7 +72,7 @@ struct Session {
 Result<Session> parse_session(std::string_view text, const std::string& name);
 Result<Session> load_session(const std::string& path);
 
-// The session of a house that was given no file: own dancers straight to the stage, remote ones through a short hold.
+// The session of a house that was given no file: own dancers straight to the stage, remote ones held as their lines need.
 std::vector<Route> default_routes();
 
 }  // namespace dance

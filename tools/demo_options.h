@@ -27,8 +27,8 @@ struct DemoOptions {
   double tempo_bpm = 180.0;
   int seed = 1;
   double hz = 60.0;
-  std::vector<std::string> through = {"hold 20ms"};  // of remote dancers
-  int port = 0;                                      // of the server; 0 = one that is free
+  std::vector<std::string> through = {"hold"};  // of remote dancers
+  int port = 0;                                 // of the server; 0 = one that is free
 };
 
 // Where the demo's programs have their session files, reports and talk: pictures and log lie above.

@@ -11,7 +11,10 @@ namespace {
 using Arguments = std::vector<std::string_view>;
 
 Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
-  if (arguments.size() != 1) return fail("hold takes one length of time, like 'hold 20ms'");
+  if (arguments.empty()) return std::make_unique<Hold>();
+  if (arguments.size() != 1)
+    return fail(
+        "hold takes one length of time, like 'hold 20ms', or none: as short as the line lets");
   DANCE_TRY(const Duration window, parse_duration(arguments[0]));
   if (window < Duration() || window > Duration::s(2))
     return fail("hold takes 0ms to 2s, not '" + std::string(arguments[0]) + "'");

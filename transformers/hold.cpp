@@ -11,10 +11,12 @@ constexpr Duration kRestart = Duration::s(1);
 constexpr double kSlewRate = 0.05;
 // A change so large is a new line or a new clock, not jitter: jump.
 constexpr Duration kJump = Duration::ms(500);
+// What a window finds by itself. Beyond, a dancer is better guessed than waited for.
+constexpr Duration kLongestWindow = Duration::ms(250);
 
 }  // namespace
 
-Hold::Hold(Duration window) : window_(window), history_(kHistoryPoses) {}
+Hold::Hold(std::optional<Duration> window) : window_(window), history_(kHistoryPoses) {}
 
 void Hold::observe(const Pose& pose, MonoTime now) {
   if (!history_.empty()) {
@@ -24,13 +26,16 @@ void Hold::observe(const Pose& pose, MonoTime now) {
       history_.clear();
       buckets_ = {};
       has_delay_ = false;
+      play_out_.forget();
     }
   }
+  const MonoTime before = history_.empty() ? pose.capture_time : history_.newest().capture_time;
   if (!history_.push(pose)) {
     ++counters_.refused;
     return;
   }
   note_transit(now - pose.capture_time, now);
+  if (!window_) play_out_.add(pose.capture_time - before, now - pose.capture_time);
 }
 
 void Hold::note_transit(Duration transit, MonoTime now) {
@@ -46,11 +51,15 @@ Duration Hold::least_transit() const {
   return buckets_[1].filled ? std::min(buckets_[0].least, buckets_[1].least) : buckets_[0].least;
 }
 
+Duration Hold::target() const {
+  const Duration least = least_transit();
+  return window_ ? least + *window_ : std::clamp(play_out_.needed(), least, least + kLongestWindow);
+}
+
 void Hold::follow_target(MonoTime now) {
-  const Duration target = least_transit() + window_;
-  const Duration error = target - delay_;
+  const Duration error = target() - delay_;
   if (!has_delay_ || error > kJump || error < -kJump) {
-    delay_ = target;
+    delay_ = target();
     has_delay_ = true;
   } else {
     const Duration most = Duration::seconds((now - delay_set_).as_seconds() * kSlewRate);

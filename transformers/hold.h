@@ -1,8 +1,9 @@
 // hold: the play-out buffer. Shows each moment of the dance a constant time after it happened, so that the jitter of the
 // line is gone: constant = the least delay that the line has shown lately + the window. Between poses it interpolates;
-// where the next pose is late it repeats the last.
+// where the next pose is late it repeats the last. Without a window it finds the least that is enough, line by line and
+// guest by guest (transformers/play_out.h).
 //
-// Units/frames: the window is a Duration of 0 to 2 s. Capture times may be of any clock: the least delay absorbs the
+// Units/frames: the window is a Duration of 0 to 2 s; found by itself, it is 250 ms at most. Capture times may be of any clock: the least delay absorbs the
 //               offset, so a log replayed with its old stamps plays as well as a live dancer.
 // Ownership:    keeps the last 256 poses; never allocates after construction.
 // Threads:      none inside; one owner.
@@ -13,26 +14,29 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/pose/history.h"
+#include "transformers/play_out.h"
 #include "transformers/transformer.h"
 
 namespace dance {
 
 class Hold : public Transformer {
  public:
-  explicit Hold(Duration window);
+  // Nothing: as short as the line lets it.
+  explicit Hold(std::optional<Duration> window = std::nullopt);
 
   void observe(const Pose& pose, MonoTime now) override;
   bool sample(MonoTime now, Pose& out) override;
 
-  void set_window(Duration window) { window_ = window; }
   // From capture to display, as it is now; of another clock it includes the clocks' offset.
   Duration delay() const { return delay_; }
 
  private:
   void note_transit(Duration transit, MonoTime now);
   Duration least_transit() const;
+  Duration target() const;
   void follow_target(MonoTime now);
 
   // The least transit of the last 5 to 10 s: one bucket is filled while the other still counts.
@@ -42,7 +46,8 @@ class Hold : public Transformer {
     bool filled = false;
   };
 
-  Duration window_;
+  std::optional<Duration> window_;
+  PlayOut play_out_;
   PoseHistory history_;
   std::array<Bucket, 2> buckets_{};
   MonoTime bucket_begin_;

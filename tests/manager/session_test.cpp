@@ -55,7 +55,7 @@ TEST(Session, WithoutRoutesGetsTheUsualTwo) {
   ASSERT_TRUE(session);
   ASSERT_EQ(session->routes.size(), 2u);
   EXPECT_TRUE(session->routes[0].through.empty());
-  EXPECT_EQ(session->routes[1].through.front(), "hold 20ms");
+  EXPECT_EQ(session->routes[1].through.front(), "hold");
 }
 
 TEST(Session, ErrorsNameFileLineAndColumn) {

@@ -32,9 +32,11 @@ TEST(Chain, NamesTheWordItDoesNotKnowAndThoseItDoes) {
 }
 
 TEST(Chain, RefusesArgumentsThatMakeNoSense) {
-  for (const char* text : {"hold", "hold 20ms 30ms", "hold -5ms", "hold 3s", "", "   "})
+  for (const char* text : {"hold 20ms 30ms", "hold -5ms", "hold 3s", "", "   "})
     EXPECT_FALSE(Chain::make({text})) << text;
 }
+
+TEST(Chain, AHoldWithoutATimeFindsItsOwn) { EXPECT_TRUE(Chain::make({"hold"})); }
 
 TEST(Chain, TakesManyBlanks) { EXPECT_TRUE(Chain::make({"  hold   20ms  "})); }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "core/base/random.h"
 #include "tests/allocation_guard.h"
@@ -121,6 +123,76 @@ TEST(Hold, NeverRunsBackwardsAndNeverFasterThanItsSlewWhileTheLineChanges) {
     shown = out.capture_time;
     last_sample_ms = now_ms;
   }
+}
+
+// Dances over a line whose transit is said pose by pose, negative for a lost one; the age shown and
+// the part of the last half of the samples that had to repeat a pose.
+struct Danced {
+  double age_ms = 0.0;
+  double starved = 0.0;
+};
+Danced dance_over(Hold& hold, int poses, const std::function<double(int)>& transit_ms) {
+  double next_sample_ms = 0.0, last_arrival_ms = 0.0;
+  std::uint64_t samples = 0, starved_before = 0;
+  Danced danced;
+  for (int i = 0; i < poses; ++i) {
+    const double way_ms = transit_ms(i);
+    if (way_ms < 0.0) continue;
+    const double capture_ms = 1000.0 / kHz * i;
+    const double arrival_ms = std::max(last_arrival_ms, capture_ms + way_ms);
+    last_arrival_ms = arrival_ms;
+    for (; next_sample_ms < arrival_ms; next_sample_ms += 1000.0 / kHz) {
+      Pose out;
+      const bool is_late_half = i > poses / 2;
+      if (!is_late_half) starved_before = hold.counters().starved;
+      if (!hold.sample(at_ms(next_sample_ms), out) || !is_late_half) continue;
+      ++samples;
+      danced.age_ms +=
+          next_sample_ms - static_cast<double>(out.capture_time.since_zero_ns()) * 1e-6;
+    }
+    hold.observe(pose_of(at_ms(capture_ms)), at_ms(arrival_ms));
+  }
+  danced.age_ms /= static_cast<double>(samples);
+  danced.starved =
+      static_cast<double>(hold.counters().starved - starved_before) / static_cast<double>(samples);
+  return danced;
+}
+
+TEST(Hold, WithoutAWindowWaitsNoLongerThanACalmLineNeeds) {
+  Hold hold;
+  const Danced danced = dance_over(hold, 1800, [](int) { return 40.0; });
+  EXPECT_NEAR(danced.age_ms, 40.0 + 1000.0 / kHz, 1.0) << "the way, and the wait for the next pose";
+  EXPECT_EQ(danced.starved, 0.0);
+}
+
+TEST(Hold, WithoutAWindowWaitsAsLongAsATremblingLineNeeds) {
+  Random random(3);
+  Hold hold, fixed(Duration::ms(20));
+  std::vector<double> ways;
+  for (int i = 0; i < 3600; ++i)
+    ways.push_back(random.uniform() < 0.1 ? -1.0 : 40.0 + 30.0 * random.uniform());
+  const auto way = [&](int i) { return ways[static_cast<std::size_t>(i)]; };
+  const Danced danced = dance_over(hold, 3600, way);
+  EXPECT_LT(danced.starved, 0.02);
+  EXPECT_LT(danced.age_ms, 40.0 + 30.0 + 4 * 1000.0 / kHz);
+  EXPECT_GT(dance_over(fixed, 3600, way).starved, 0.2);
+}
+
+TEST(Hold, WithoutAWindowComesBackWhenTheLineIsCalmAgain) {
+  Random random(4);
+  Hold hold;
+  const Danced danced = dance_over(
+      hold, 4800, [&](int i) { return i < 1200 ? 40.0 + 80.0 * random.uniform() : 40.0; });
+  EXPECT_NEAR(danced.age_ms, 40.0 + 1000.0 / kHz, 1.0);
+}
+
+TEST(Hold, WithoutAWindowNeverWaitsLongerThanItsBound) {
+  Random random(5);
+  Hold hold;
+  const Danced danced = dance_over(
+      hold, 3600, [&](int i) { return i % 256 < 128 ? 40.0 : 40.0 + 900.0 * random.uniform(); });
+  EXPECT_LT(danced.age_ms, 40.0 + 900.0);
+  EXPECT_LE(hold.delay(), Duration::ms(40 + 250 + 1));
 }
 
 TEST(Hold, AllocatesNothingOncePosesCome) {
