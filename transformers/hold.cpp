@@ -9,6 +9,9 @@ constexpr std::size_t kHistoryPoses = 256;  // 4 s at 60 Hz, 2 s at 120 Hz
 constexpr Duration kRestart = Duration::s(1);
 // The stage's time runs at most this much faster or slower while the delay changes: not visible in a dance.
 constexpr double kSlewRate = 0.05;
+// While the line is not known yet, to be in time soon.
+constexpr double kFirstSlewRate = 0.25;
+constexpr Duration kFirst = Duration::s(2);
 // A change so large is a new line or a new clock, not jitter: jump.
 constexpr Duration kJump = Duration::ms(500);
 // What a window finds by itself. Beyond, a dancer is better guessed than waited for.
@@ -60,9 +63,11 @@ void Hold::follow_target(MonoTime now) {
   const Duration error = target() - delay_;
   if (!has_delay_ || error > kJump || error < -kJump) {
     delay_ = target();
+    if (!has_delay_) begin_ = now;
     has_delay_ = true;
   } else {
-    const Duration most = Duration::seconds((now - delay_set_).as_seconds() * kSlewRate);
+    const double rate = !window_ && now - begin_ < kFirst ? kFirstSlewRate : kSlewRate;
+    const Duration most = Duration::seconds((now - delay_set_).as_seconds() * rate);
     delay_ += std::clamp(error, -most, most);
   }
   delay_set_ = now;

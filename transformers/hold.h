@@ -52,7 +52,7 @@ class Hold : public Transformer {
   std::array<Bucket, 2> buckets_{};
   MonoTime bucket_begin_;
   Duration delay_;
-  MonoTime delay_set_;
+  MonoTime begin_, delay_set_;
   bool has_delay_ = false;
 };
 
