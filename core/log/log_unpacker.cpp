@@ -1,0 +1,76 @@
+#include "core/log/log_unpacker.h"
+
+#include <algorithm>
+
+namespace dance {
+
+std::optional<LogEvent> LogUnpacker::unpack(const LogEvent& event) {
+  if (!is_packed(event)) return event;
+  ByteReader body(event.data.subspan(kPackedMagic.size()));
+  if (body.u8() != kPackedVersion) {
+    ++counters_.newer;
+    return std::nullopt;
+  }
+  const std::uint8_t kind = body.u8();
+  switch (static_cast<PackedKind>(kind)) {
+    case PackedKind::kKeyFrame:
+      return unpack_pose(event, true, body);
+    case PackedKind::kNext:
+      return unpack_pose(event, false, body);
+    case PackedKind::kAsItWas: {
+      const std::string_view channel = body.text(body.u8());
+      const auto data = body.bytes(body.remaining());
+      const LogEvent inner{event.number, event.time_us, channel, data};
+      if (body.ok() && is_packed(inner)) return inner;  // nothing else is ever wrapped
+      break;
+    }
+  }
+  ++counters_.damaged;
+  return std::nullopt;
+}
+
+std::optional<LogEvent> LogUnpacker::unpack_pose(const LogEvent& event, bool is_key,
+                                                 ByteReader body) {
+  const std::string_view channel = event.channel.substr(kPackedPrefix.size());
+  const std::uint32_t checksum = body.u32();
+  const auto packed = body.bytes(body.remaining());
+  if (!body.ok() || channel.empty()) {
+    ++counters_.damaged;
+    return std::nullopt;
+  }
+  Stream* stream = stream_of(channel, is_key);
+  const DecodeResult result =
+      stream ? stream->unpacker.unpack(is_key, packed, raw_) : DecodeResult::kReferenceMissing;
+  if (result == DecodeResult::kReferenceMissing) {
+    ++counters_.orphaned;
+    return std::nullopt;
+  }
+  if (result == DecodeResult::kPose) {
+    const std::size_t size = encode(raw_, message_);
+    const LogEvent plain{event.number, event.time_us, channel, {message_.data(), size}};
+    if (checksum_of(channel, plain.data) == checksum) {
+      ++counters_.unpacked;
+      return plain;
+    }
+    stream->unpacker.restart();
+  }
+  ++counters_.damaged;
+  return std::nullopt;
+}
+
+// Only a key frame begins a stream: a damaged name costs no memory.
+LogUnpacker::Stream* LogUnpacker::stream_of(std::string_view channel, bool is_key) {
+  auto found = streams_.find(channel);
+  if (found == streams_.end()) {
+    if (!is_key) return nullptr;
+    if (streams_.size() == kMaxPoseStreams)
+      streams_.erase(std::min_element(
+          streams_.begin(), streams_.end(),
+          [](const auto& a, const auto& b) { return a.second->last_used < b.second->last_used; }));
+    found = streams_.emplace(channel, std::make_unique<Stream>()).first;
+  }
+  found->second->last_used = ++uses_;
+  return found->second.get();
+}
+
+}  // namespace dance
