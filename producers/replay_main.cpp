@@ -103,7 +103,7 @@ Result<void> add_clip(const ReplayOptions& options, std::size_t file, ProducerPr
 std::string nothing_to_play(const LogPlayer& player, bool has_only) {
   const LogUnpacker::Counters& unpacking = player.unpacking();
   if (unpacking.newer > 0) return ": was packed by a newer version of dance: update this one";
-  if (unpacking.lost() > 0) return ": all of its packed poses are damaged";
+  if (unpacking.lost() > 0) return ": all of its packed messages are damaged";
   return std::string(": holds no poses of ours") +
          (has_only ? " on the channels that --only names" : "");
 }
@@ -138,7 +138,7 @@ Result<void> run_replay(const ReplayOptions& options) {
     talk::info("{} messages played, {} left out, {} undecodable, {} damaged bytes skipped",
                counters.played, counters.left_out, counters.undecodable, player->skipped_bytes());
     if (const std::uint64_t lost = player->unpacking().lost(); lost > 0)
-      talk::warn("{} packed poses lost to damage; `dance unpack` tells more", lost);
+      talk::warn("{} packed messages lost to damage; `dance unpack` tells more", lost);
   }
   if (program->sent() > 0) talk::info("{} poses", program->sent());
   return {};

@@ -33,20 +33,21 @@ std::string conversion_line(const LogConversion& conversion) {
   const bool packs = conversion.form == LogForm::kPacked;
   const std::uint64_t plain = packs ? conversion.packing.plain_bytes : conversion.bytes_out;
   const std::uint64_t packed = packs ? conversion.packing.bytes : conversion.bytes_in;
-  const std::uint64_t poses = packs ? conversion.packing.packed : conversion.unpacking.unpacked;
+  const std::uint64_t messages = packs ? conversion.packing.packed : conversion.unpacking.unpacked;
   return fmt::format(
-      "{}: {} events, {} of them packed poses; plain {} bytes, packed {} bytes, {:.1f} %\n",
-      conversion.to, conversion.events, poses, plain, packed,
+      "{}: {} events, {} of them packed; plain {} bytes, packed {} bytes, {:.1f} %\n",
+      conversion.to, conversion.events, messages, plain, packed,
       plain == 0 ? 100.0 : 100.0 * static_cast<double>(packed) / static_cast<double>(plain));
 }
 
 Result<void> check_is_whole(const LogConversion& conversion) {
   const LogUnpacker::Counters& lost = conversion.unpacking;
   if (lost.lost() == 0 && conversion.skipped_bytes == 0) return {};
+  if (conversion.events == 0 && lost.lost() == 0)
+    return fail(conversion.from + ": is no LCM log; name one that was recorded");
   std::string what = fmt::format(
-      "{}: damaged: {} bytes that are no event, {} damaged packed events, {} packed poses that go "
-      "on "
-      "from lost ones",
+      "{}: damaged: {} bytes that are no event, {} damaged packed events, {} that go on from lost "
+      "ones",
       conversion.from, conversion.skipped_bytes, lost.damaged, lost.orphaned);
   if (lost.newer > 0)
     what += fmt::format(", {} packed by a newer version of dance (update this one)", lost.newer);

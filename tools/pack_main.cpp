@@ -1,4 +1,4 @@
-// dance pack: makes an LCM log smaller by packing its poses, losing nothing.
+// dance pack: makes an LCM log smaller by packing its poses and hands, losing nothing.
 #include <csignal>
 #include <cstdio>
 
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::string from, to;
   dance::CommandLine line(
-      "Packs the poses of an LCM log to a half or a third of their bytes; not a bit is lost.",
+      "Packs the poses and hands of an LCM log to about a third of their bytes; not a bit is lost.",
       "dance pack");
   line.add("FILE", from, "LCM log to pack").required();
   line.add("-o,--output", to, "file to write; it must not be there yet").required();

@@ -16,8 +16,7 @@ constexpr const char* kExamples =
     "  dance record                                  everything on the bus, until ctrl-C\n"
     "  dance record -o logs/tango.lcm --seconds 60   a minute, into a file of that name\n"
     "  dance record --channels 'POSE/capture/.*' 'SKELETON/capture/.*'\n"
-    "  dance record -o logs/ball.lcm --packed        poses in about a third of the bytes, to the "
-    "bit\n"
+    "  dance record -o logs/ball.lcm --packed        in about a third of the bytes, to the bit\n"
     "  dance replay logs/tango.lcm                   plays it as if the dancers were here\n";
 
 struct Options {
@@ -68,7 +67,7 @@ Result<void> record(Options options) {
               static_cast<unsigned long long>(recorder.events()),
               static_cast<unsigned long long>(recorder.bytes()));
   if (const auto packing = recorder.packing())
-    std::printf("%llu poses packed, %llu not; without --packed %llu bytes\n",
+    std::printf("%llu messages packed, %llu not; without --packed %llu bytes\n",
                 static_cast<unsigned long long>(packing->packed),
                 static_cast<unsigned long long>(packing->kept),
                 static_cast<unsigned long long>(packing->plain_bytes));
@@ -94,10 +93,10 @@ int main(int argc, char** argv) {
   line.add("--bus", options.bus_url, "LCM URL of the bus");
   line.add("--seconds", options.seconds, "stop after so long (0: ctrl-C)").range(0.0, 1e7);
   line.add_flag("--append", options.append, "go on behind a log that is there already");
-  line.add_flag(
-      "--packed", options.packed,
-      "pack poses, losing no bit, to about a third; dance replay reads both, dance unpack "
-      "makes it plain");
+  line.add_flag("--packed", options.packed,
+                "pack poses and hands, losing no bit, to a third or less; dance replay reads both, "
+                "dance unpack "
+                "makes it plain");
   line.add("--channels", options.channels, "only channels that match one of these patterns")
       .check(dance::check_pattern);
   line.footer(dance::kExamples);

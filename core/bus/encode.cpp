@@ -114,9 +114,10 @@ Decoded decode(const void* data, std::size_t size, Pose& pose) {
   return Decoded::kFine;
 }
 
-std::size_t encode(const Hands& hands, MessageBuffer& buffer) {
+std::size_t encode(const RawHands& raw, MessageBuffer& buffer) {
+  const Hands& hands = raw.hands;
   dancelcm::hands_t m{};
-  m.capture_time_us = to_us(hands.capture_time);
+  m.capture_time_us = raw.capture_time_us;
   m.clock_id = static_cast<std::int64_t>(hands.clock_id);
   m.sequence = static_cast<std::int32_t>(hands.sequence);
   m.presence = static_cast<std::int32_t>(hands.presence);
@@ -125,17 +126,31 @@ std::size_t encode(const Hands& hands, MessageBuffer& buffer) {
   return pack(m, buffer);
 }
 
-Decoded decode(const void* data, std::size_t size, Hands& hands) {
+bool decode_unchecked(const void* data, std::size_t size, RawHands& raw) {
   dancelcm::hands_t m{};
-  if (!unpack(data, size, m)) return Decoded::kUndecodable;
-  if (!is_time(m.capture_time_us)) return Decoded::kInvalid;
-  hands.capture_time = from_us(m.capture_time_us);
+  if (!unpack(data, size, m)) return false;
+  raw.capture_time_us = m.capture_time_us;
+  Hands& hands = raw.hands;
   hands.clock_id = static_cast<std::uint64_t>(m.clock_id);
   hands.sequence = static_cast<std::uint32_t>(m.sequence);
-  hands.presence = static_cast<std::uint32_t>(m.presence) & ((1u << kFingerBoneCount) - 1);
+  hands.presence = static_cast<std::uint32_t>(m.presence);
   for (std::size_t i = 0; i < kFingerBoneCount; ++i)
     hands.R_PB[i] = get_rotation(m.rotation_xyzw[i]);
-  if (!is_valid(hands)) return Decoded::kInvalid;
+  return true;
+}
+
+std::size_t encode(const Hands& hands, MessageBuffer& buffer) {
+  return encode(RawHands{hands, to_us(hands.capture_time)}, buffer);
+}
+
+Decoded decode(const void* data, std::size_t size, Hands& hands) {
+  RawHands raw;
+  if (!decode_unchecked(data, size, raw)) return Decoded::kUndecodable;
+  if (!is_time(raw.capture_time_us)) return Decoded::kInvalid;
+  raw.hands.capture_time = from_us(raw.capture_time_us);
+  raw.hands.presence &= (1u << kFingerBoneCount) - 1;
+  if (!is_valid(raw.hands)) return Decoded::kInvalid;
+  hands = raw.hands;
   normalize(hands);
   return Decoded::kFine;
 }

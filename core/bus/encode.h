@@ -36,9 +36,16 @@ struct RawPose {
   std::int64_t capture_time_us = 0;
   std::array<std::int64_t, kHopCount> hop_time_us{};
 };
+// As RawPose, of hands_t.
+struct RawHands {
+  Hands hands;
+  std::int64_t capture_time_us = 0;
+};
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer);
+std::size_t encode(const RawHands& raw, MessageBuffer& buffer);
 // False for another type or size.
 bool decode_unchecked(const void* data, std::size_t size, RawPose& raw);
+bool decode_unchecked(const void* data, std::size_t size, RawHands& raw);
 
 enum class Decoded { kFine, kUndecodable, kInvalid };
 

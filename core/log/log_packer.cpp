@@ -17,10 +17,15 @@ void put_opening(ByteWriter& out, PackedKind kind) {
   out.u8(static_cast<std::uint8_t>(kind));
 }
 
+PackedKind kind_of(MotionType type, bool is_key) {
+  if (type == MotionType::kPose) return is_key ? PackedKind::kPoseKeyFrame : PackedKind::kPose;
+  return is_key ? PackedKind::kHandsKeyFrame : PackedKind::kHands;
+}
+
 }  // namespace
 
 LogEvent LogPacker::pack(const LogEvent& event) {
-  const LogEvent stored = is_packed(event) ? keep_as_it_was(event) : pack_pose(event);
+  const LogEvent stored = is_packed(event) ? keep_as_it_was(event) : pack_motion(event);
   counters_.plain_bytes += event.stored_bytes();
   counters_.bytes += stored.stored_bytes();
   return stored;
@@ -37,13 +42,13 @@ LogEvent LogPacker::keep_as_it_was(const LogEvent& event) {
   return {event.number, event.time_us, kWrappedChannel, wrapped_};
 }
 
-LogEvent LogPacker::pack_pose(const LogEvent& event) {
-  if (!decode_unchecked(event.data.data(), event.data.size(), raw_)) return event;
+LogEvent LogPacker::pack_motion(const LogEvent& event) {
+  if (!decode_unchecked(event.data.data(), event.data.size(), motion_)) return event;
   if (kPackedPrefix.size() + event.channel.size() > kMaxChannelLength) {
     ++counters_.kept;
     return event;
   }
-  Stream& stream = stream_of(event.channel);
+  Stream& stream = stream_of(event.channel, motion_.type);
   // Modulo 2^64, so that a clock that was set back is a key frame too.
   const std::uint64_t since_key_us =
       static_cast<std::uint64_t>(event.time_us) - static_cast<std::uint64_t>(stream.key_time_us);
@@ -53,10 +58,10 @@ LogEvent LogPacker::pack_pose(const LogEvent& event) {
   if (is_key) stream.key_time_us = event.time_us;
 
   ByteWriter out(packed_);
-  put_opening(out, is_key ? PackedKind::kKeyFrame : PackedKind::kNext);
+  put_opening(out, kind_of(motion_.type, is_key));
   out.u32(checksum_of(event.channel, event.data));
   const std::size_t opening = out.size();
-  const std::size_t size = stream.packer.pack(raw_, std::span(packed_).subspan(opening));
+  const std::size_t size = stream.packer.pack(motion_, std::span(packed_).subspan(opening));
   const LogEvent stored{
       event.number, event.time_us, stream.channel, {packed_.data(), opening + size}};
   if (size == 0 || stored.stored_bytes() >= event.stored_bytes() ||
@@ -72,20 +77,24 @@ LogEvent LogPacker::pack_pose(const LogEvent& event) {
 
 bool LogPacker::comes_back(Stream& stream, bool is_key, std::span<const std::uint8_t> packed,
                            const LogEvent& event) {
-  if (stream.unpacker.unpack(is_key, packed, raw_) != DecodeResult::kPose) return false;
+  if (stream.unpacker.unpack(is_key, packed, motion_) != DecodeResult::kPose) return false;
   MessageBuffer again;
-  const std::size_t size = encode(raw_, again);
+  const std::size_t size = encode(motion_, again);
   return size == event.data.size() && std::memcmp(again.data(), event.data.data(), size) == 0;
 }
 
-LogPacker::Stream& LogPacker::stream_of(std::string_view channel) {
+LogPacker::Stream& LogPacker::stream_of(std::string_view channel, MotionType type) {
   auto found = streams_.find(channel);
+  if (found != streams_.end() && found->second->packer.type() != type) {
+    streams_.erase(found);
+    found = streams_.end();
+  }
   if (found == streams_.end()) {
-    if (streams_.size() == kMaxPoseStreams)
+    if (streams_.size() == kMaxMotionStreams)
       streams_.erase(std::min_element(
           streams_.begin(), streams_.end(),
           [](const auto& a, const auto& b) { return a.second->last_used < b.second->last_used; }));
-    found = streams_.emplace(channel, std::make_unique<Stream>()).first;
+    found = streams_.emplace(channel, std::make_unique<Stream>(type)).first;
     found->second->channel = kPackedPrefix;
     found->second->channel += channel;
   }

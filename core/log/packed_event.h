@@ -1,4 +1,4 @@
-// A packed log is an LCM log in which poses stand as the lossless codec says them: one event for one
+// A packed log is an LCM log in which poses and hands stand as the lossless codec says them: one event for one
 // event, with its number and its time, on a channel that nobody listens to. Here is how such an
 // event is known; docs/codec.md has it byte by byte.
 //
@@ -22,13 +22,16 @@ constexpr std::array<std::uint8_t, 3> kPackedMagic{'D', 'P', 'K'};
 constexpr std::uint8_t kPackedVersion = 1;
 
 enum class PackedKind : std::uint8_t {
-  kAsItWas = 0,   // an event of the bus that looks packed: its name and its data
-  kKeyFrame = 1,  // a pose that refers to nothing before it
-  kNext = 2,      // a pose that goes on from the last of its channel
+  kAsItWas = 0,  // an event of the bus that looks packed: its name and its data
+  // A key frame refers to nothing before it, the others go on from the last of their channel.
+  kPoseKeyFrame = 1,
+  kPose = 2,
+  kHandsKeyFrame = 3,
+  kHands = 4,
 };
 
-// Channels whose poses may go on at a time; beyond, the one that was silent for longest begins anew.
-constexpr std::size_t kMaxPoseStreams = 256;
+// Channels that may go on at a time; beyond, the one that was silent for longest begins anew.
+constexpr std::size_t kMaxMotionStreams = 256;
 
 inline bool is_packed(const LogEvent& event) {
   return event.channel.starts_with(kPackedPrefix) && event.data.size() > kPackedMagic.size() &&

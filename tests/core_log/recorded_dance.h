@@ -56,7 +56,21 @@ inline RawPose recorded_pose(std::uint32_t i, Random& random, std::size_t hops =
   return raw;
 }
 
-// So many frames of two dancers on three channels, and a skeleton now and then.
+// Hands i of that dance: fingers that curl, each at its own pace.
+inline RawHands recorded_hands(std::uint32_t i) {
+  RawHands raw{Hands(), 50'000'000 + i * kFrame_us};
+  raw.hands.sequence = i;
+  raw.hands.clock_id = 0x0123456789abcdef;
+  raw.hands.presence = (1u << kFingerBoneCount) - 1;
+  for (std::size_t bone = 0; bone < kFingerBoneCount; ++bone) {
+    const double pace = 1.0 + 0.3 * static_cast<double>(bone % 5);
+    const double curl = 0.2 + 0.1 * exact::sin(pace * static_cast<double>(i) / 60.0);
+    raw.hands.R_PB[bone] = turned(0.0, 0.01, bone < kFingerBoneCount / 2 ? -curl : curl);
+  }
+  return raw;
+}
+
+// So many frames of two dancers on four channels, and a skeleton now and then.
 inline OwnEvents recorded_evening(std::uint32_t frames, std::uint64_t seed = 1) {
   OwnEvents events;
   Random random(seed);
@@ -69,6 +83,7 @@ inline OwnEvents recorded_evening(std::uint32_t frames, std::uint64_t seed = 1) 
     add(i, "POSE/capture/alice", bytes_of(recorded_pose(i, random)));
     add(i, "POSE/guest/bob", bytes_of(recorded_pose(i + 30, random, 4)));
     add(i, "POSE/stage/bob", bytes_of(recorded_pose(i + 30, random, 6)));
+    add(i, "HANDS/capture/alice", bytes_of(recorded_hands(i)));
     if (i % 60 == 0)
       add(i, "SKELETON/capture/alice", bytes_of(TimedSkeleton{average_skeleton(), {}, 7}));
   }
