@@ -94,9 +94,7 @@ int main(int argc, char** argv) {
   line.add("--seconds", options.seconds, "stop after so long (0: ctrl-C)").range(0.0, 1e7);
   line.add_flag("--append", options.append, "go on behind a log that is there already");
   line.add_flag("--packed", options.packed,
-                "pack poses and hands, losing no bit, to a third or less; dance replay reads both, "
-                "dance unpack "
-                "makes it plain");
+                "pack poses and hands to about a third, losing no bit; dance replay plays both");
   line.add("--channels", options.channels, "only channels that match one of these patterns")
       .check(dance::check_pattern);
   line.footer(dance::kExamples);
