@@ -18,7 +18,7 @@ constexpr std::int64_t kLongestPause_us = 60'000'000;
 
 }  // namespace
 
-LogPlayer::LogPlayer(LogReader log, LogPlayerOptions options, Bus& bus, Poller& poller,
+LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller& poller,
                      MonoTime start)
     : log_(std::move(log)), options_(std::move(options)), bus_(bus), start_(start) {
   is_over_ = !read_next();

@@ -1,18 +1,19 @@
-// LogPlayer: plays an LCM log onto a bus as if its dancers were live: events at their old distances (divided by the
+// LogPlayer: plays an LCM log, packed or not, onto a bus as if its dancers were live: events at their old distances (divided by the
 // speed), by absolute deadlines, poses stamped anew with this house's clock. Reports (STATS, GUEST, STAGE_TIME) and what
 // is not ours are left out and counted.
 //
 // Units/frames: speed 1 = as recorded.
 // Ownership:    owns the log; refers to the bus and the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      damaged stretches of the log are skipped (LogReader counts the bytes); undecodable messages are counted.
+// Failure:      damaged stretches of the log are skipped (UnpackedLog counts the bytes, and the packed poses that are lost
+//               with them); undecodable messages are counted.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "core/bus/bus.h"
-#include "core/bus/log_file.h"
+#include "core/log/unpacked_log.h"
 #include "core/net/poller.h"
 
 namespace dance {
@@ -34,11 +35,12 @@ class LogPlayer {
     std::uint64_t gaps = 0;  // pauses of over a minute, or jumps back, that were not waited for
   };
 
-  LogPlayer(LogReader log, LogPlayerOptions options, Bus& bus, Poller& poller, MonoTime start);
+  LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller& poller, MonoTime start);
 
   bool is_over() const { return is_over_; }
   const Counters& counters() const { return counters_; }
   std::uint64_t skipped_bytes() const { return log_.skipped_bytes(); }
+  const LogUnpacker::Counters& unpacking() const { return log_.unpacking(); }
 
  private:
   // When the dance of a channel was captured, then and now.
@@ -58,7 +60,7 @@ class LogPlayer {
   bool is_wanted(const Channel& channel) const;
   MonoTime deadline_of(const LogEvent& event) const;
 
-  LogReader log_;
+  UnpackedLog log_;
   LogPlayerOptions options_;
   Bus& bus_;
   std::optional<LogEvent> next_;

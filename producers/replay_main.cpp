@@ -19,7 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   dance replay take.bvh                              as alice, over and over
   dance replay lead.bvh.xz follow.bvh.xz             a couple: alice and bob
   dance replay take.bvh --guest carol --speed 0.5 --once
-  dance replay logs/evening.lcm                      a recorded session, as if it were live
+  dance replay logs/evening.lcm                      a recorded session, packed or not, as if it were live
   dance replay logs/evening.lcm --only capture       only what the cameras saw
   dance replay lead.bvh follow.bvh --copies 15       30 dancers
   dance replay child.bvh --unit cm --up z            where the guesses, which it says, are wrong
@@ -100,6 +100,14 @@ Result<void> add_clip(const ReplayOptions& options, std::size_t file, ProducerPr
   return {};
 }
 
+std::string nothing_to_play(const LogPlayer& player, bool has_only) {
+  const LogUnpacker::Counters& unpacking = player.unpacking();
+  if (unpacking.newer > 0) return ": was packed by a newer version of dance: update this one";
+  if (unpacking.lost() > 0) return ": all of its packed messages are damaged";
+  return std::string(": holds no poses of ours") +
+         (has_only ? " on the channels that --only names" : "");
+}
+
 Result<void> run_replay(const ReplayOptions& options) {
   LogPlayerOptions log_options;
   log_options.speed = options.speed;
@@ -110,12 +118,11 @@ Result<void> run_replay(const ReplayOptions& options) {
   std::vector<std::unique_ptr<LogPlayer>> players;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
     if (is_lcm_log(options.files[i])) {
-      DANCE_TRY(LogReader log, LogReader::open(options.files[i]));
+      DANCE_TRY(UnpackedLog log, UnpackedLog::open(options.files[i]));
       players.push_back(std::make_unique<LogPlayer>(std::move(log), log_options, program->bus(),
                                                     program->poller(), program->start()));
       if (players.back()->is_over())
-        return fail(options.files[i] + ": holds no poses of ours" +
-                    (options.only.empty() ? "" : " on the channels that --only names"));
+        return fail(options.files[i] + nothing_to_play(*players.back(), !options.only.empty()));
     } else if (auto added = add_clip(options, i, *program); !added) {
       return added;
     }
@@ -130,6 +137,8 @@ Result<void> run_replay(const ReplayOptions& options) {
     const auto& counters = player->counters();
     talk::info("{} messages played, {} left out, {} undecodable, {} damaged bytes skipped",
                counters.played, counters.left_out, counters.undecodable, player->skipped_bytes());
+    if (const std::uint64_t lost = player->unpacking().lost(); lost > 0)
+      talk::warn("{} packed messages lost to damage; `dance unpack` tells more", lost);
   }
   if (program->sent() > 0) talk::info("{} poses", program->sent());
   return {};

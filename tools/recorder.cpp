@@ -43,10 +43,14 @@ bool ChannelFilter::wants(std::string_view channel) {
   return wanted;
 }
 
-Recorder::Recorder(std::string path, LogWriter writer, ChannelFilter filter)
-    : path_(std::move(path)), writer_(std::move(writer)), filter_(std::move(filter)) {}
+Recorder::Recorder(std::string path, LogWriter writer, ChannelFilter filter, Poses poses)
+    : path_(std::move(path)),
+      writer_(std::move(writer)),
+      filter_(std::move(filter)),
+      packer_(poses == Poses::kPacked ? std::make_unique<LogPacker>() : nullptr) {}
 
-Result<Recorder> Recorder::make(const std::string& path, ChannelFilter filter, IfThere if_there) {
+Result<Recorder> Recorder::make(const std::string& path, ChannelFilter filter, IfThere if_there,
+                                Poses poses) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) {
     std::error_code error;
@@ -57,13 +61,18 @@ Result<Recorder> Recorder::make(const std::string& path, ChannelFilter filter, I
   }
   DANCE_TRY(LogWriter writer,
             if_there == IfThere::kAppend ? LogWriter::append_to(path) : LogWriter::create(path));
-  return Recorder(path, std::move(writer), std::move(filter));
+  return Recorder(path, std::move(writer), std::move(filter), poses);
 }
 
 void Recorder::take(std::int64_t time_us, std::string_view channel,
                     std::span<const std::uint8_t> data) {
   if (failure_ || !filter_.wants(channel)) return;
-  note(writer_.append(time_us, channel, data));
+  const LogEvent event{static_cast<std::int64_t>(events()), time_us, channel, data};
+  note(writer_.append(packer_ ? packer_->pack(event) : event));
+}
+
+std::optional<LogPacker::Counters> Recorder::packing() const {
+  return packer_ ? std::optional(packer_->counters()) : std::nullopt;
 }
 
 void Recorder::flush() {

@@ -1,4 +1,4 @@
-// Recorder: puts what is heard on a bus into an LCM log, as lcm-logger does.
+// Recorder: puts what is heard on a bus into an LCM log, as lcm-logger does, or into a packed one.
 //
 // Units/frames: event times are microseconds of the wall clock, which is what lcm-logplayer expects.
 // Ownership:    owns the log file.
@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <regex>
 #include <span>
@@ -19,6 +20,7 @@
 
 #include "core/base/result.h"
 #include "core/bus/log_file.h"
+#include "core/log/log_packer.h"
 
 namespace dance {
 
@@ -42,9 +44,10 @@ class Recorder {
  public:
   // What to do with a log that is there already.
   enum class IfThere { kRefuse, kAppend };
+  enum class Poses { kPlain, kPacked };
   // Makes the folders of `path` where they are missing.
   static Result<Recorder> make(const std::string& path, ChannelFilter filter,
-                               IfThere if_there = IfThere::kRefuse);
+                               IfThere if_there = IfThere::kRefuse, Poses poses = Poses::kPlain);
 
   void take(std::int64_t time_us, std::string_view channel, std::span<const std::uint8_t> data);
   // Gives everything to the system, so that a killed recorder loses only what came after.
@@ -54,14 +57,17 @@ class Recorder {
   const std::string& path() const { return path_; }
   std::uint64_t events() const { return writer_.events(); }
   std::uint64_t bytes() const { return writer_.bytes(); }
+  // None where poses are plain.
+  std::optional<LogPacker::Counters> packing() const;
 
  private:
-  Recorder(std::string path, LogWriter writer, ChannelFilter filter);
+  Recorder(std::string path, LogWriter writer, ChannelFilter filter, Poses poses);
   void note(Result<void> written);
 
   std::string path_;
   LogWriter writer_;
   ChannelFilter filter_;
+  std::unique_ptr<LogPacker> packer_;
   std::optional<Error> failure_;
 };
 

@@ -61,11 +61,12 @@ Eigen::Vector3f get_vector(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-std::size_t encode(const Pose& pose, MessageBuffer& buffer) {
+std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
+  const Pose& pose = raw.pose;
   dancelcm::pose_t m{};
-  m.capture_time_us = to_us(pose.capture_time);
+  m.capture_time_us = raw.capture_time_us;
   m.clock_id = static_cast<std::int64_t>(pose.clock_id);
-  for (std::size_t i = 0; i < kHopCount; ++i) m.hop_time_us[i] = to_us(pose.hops[i]);
+  for (std::size_t i = 0; i < kHopCount; ++i) m.hop_time_us[i] = raw.hop_time_us[i];
   m.sequence = static_cast<std::int32_t>(pose.sequence);
   m.presence = static_cast<std::int32_t>(pose.presence);
   for (std::size_t i = 0; i < kBoneCount; ++i) put_rotation(m.rotation_xyzw[i], pose.R_PB[i]);
@@ -75,30 +76,48 @@ std::size_t encode(const Pose& pose, MessageBuffer& buffer) {
   return pack(m, buffer);
 }
 
-Decoded decode(const void* data, std::size_t size, Pose& pose) {
+bool decode_unchecked(const void* data, std::size_t size, RawPose& raw) {
   dancelcm::pose_t m{};
-  if (!unpack(data, size, m)) return Decoded::kUndecodable;
-  if (!is_time(m.capture_time_us)) return Decoded::kInvalid;
-  pose.capture_time = from_us(m.capture_time_us);
+  if (!unpack(data, size, m)) return false;
+  raw.capture_time_us = m.capture_time_us;
+  for (std::size_t i = 0; i < kHopCount; ++i) raw.hop_time_us[i] = m.hop_time_us[i];
+  Pose& pose = raw.pose;
   pose.clock_id = static_cast<std::uint64_t>(m.clock_id);
-  for (std::size_t i = 0; i < kHopCount; ++i) {
-    if (!is_time(m.hop_time_us[i])) return Decoded::kInvalid;
-    pose.hops[i] = from_us(m.hop_time_us[i]);
-  }
   pose.sequence = static_cast<std::uint32_t>(m.sequence);
-  pose.presence = static_cast<std::uint32_t>(m.presence) & kAllBones;
+  pose.presence = static_cast<std::uint32_t>(m.presence);
   for (std::size_t i = 0; i < kBoneCount; ++i) pose.R_PB[i] = get_rotation(m.rotation_xyzw[i]);
   pose.p_WH_m = get_vector(m.hips_m);
   pose.confidence = m.confidence;
   pose.music_beats = m.music_beats;
-  if (!is_valid(pose)) return Decoded::kInvalid;
+  return true;
+}
+
+std::size_t encode(const Pose& pose, MessageBuffer& buffer) {
+  RawPose raw{pose, to_us(pose.capture_time), {}};
+  for (std::size_t i = 0; i < kHopCount; ++i) raw.hop_time_us[i] = to_us(pose.hops[i]);
+  return encode(raw, buffer);
+}
+
+Decoded decode(const void* data, std::size_t size, Pose& pose) {
+  RawPose raw;
+  if (!decode_unchecked(data, size, raw)) return Decoded::kUndecodable;
+  if (!is_time(raw.capture_time_us)) return Decoded::kInvalid;
+  raw.pose.capture_time = from_us(raw.capture_time_us);
+  for (std::size_t i = 0; i < kHopCount; ++i) {
+    if (!is_time(raw.hop_time_us[i])) return Decoded::kInvalid;
+    raw.pose.hops[i] = from_us(raw.hop_time_us[i]);
+  }
+  raw.pose.presence &= kAllBones;
+  if (!is_valid(raw.pose)) return Decoded::kInvalid;
+  pose = raw.pose;
   normalize(pose);
   return Decoded::kFine;
 }
 
-std::size_t encode(const Hands& hands, MessageBuffer& buffer) {
+std::size_t encode(const RawHands& raw, MessageBuffer& buffer) {
+  const Hands& hands = raw.hands;
   dancelcm::hands_t m{};
-  m.capture_time_us = to_us(hands.capture_time);
+  m.capture_time_us = raw.capture_time_us;
   m.clock_id = static_cast<std::int64_t>(hands.clock_id);
   m.sequence = static_cast<std::int32_t>(hands.sequence);
   m.presence = static_cast<std::int32_t>(hands.presence);
@@ -107,17 +126,31 @@ std::size_t encode(const Hands& hands, MessageBuffer& buffer) {
   return pack(m, buffer);
 }
 
-Decoded decode(const void* data, std::size_t size, Hands& hands) {
+bool decode_unchecked(const void* data, std::size_t size, RawHands& raw) {
   dancelcm::hands_t m{};
-  if (!unpack(data, size, m)) return Decoded::kUndecodable;
-  if (!is_time(m.capture_time_us)) return Decoded::kInvalid;
-  hands.capture_time = from_us(m.capture_time_us);
+  if (!unpack(data, size, m)) return false;
+  raw.capture_time_us = m.capture_time_us;
+  Hands& hands = raw.hands;
   hands.clock_id = static_cast<std::uint64_t>(m.clock_id);
   hands.sequence = static_cast<std::uint32_t>(m.sequence);
-  hands.presence = static_cast<std::uint32_t>(m.presence) & ((1u << kFingerBoneCount) - 1);
+  hands.presence = static_cast<std::uint32_t>(m.presence);
   for (std::size_t i = 0; i < kFingerBoneCount; ++i)
     hands.R_PB[i] = get_rotation(m.rotation_xyzw[i]);
-  if (!is_valid(hands)) return Decoded::kInvalid;
+  return true;
+}
+
+std::size_t encode(const Hands& hands, MessageBuffer& buffer) {
+  return encode(RawHands{hands, to_us(hands.capture_time)}, buffer);
+}
+
+Decoded decode(const void* data, std::size_t size, Hands& hands) {
+  RawHands raw;
+  if (!decode_unchecked(data, size, raw)) return Decoded::kUndecodable;
+  if (!is_time(raw.capture_time_us)) return Decoded::kInvalid;
+  raw.hands.capture_time = from_us(raw.capture_time_us);
+  raw.hands.presence &= (1u << kFingerBoneCount) - 1;
+  if (!is_valid(raw.hands)) return Decoded::kInvalid;
+  hands = raw.hands;
   normalize(hands);
   return Decoded::kFine;
 }

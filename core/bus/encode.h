@@ -29,6 +29,24 @@ std::size_t encode(const GuestStatus& status, MessageBuffer& buffer);
 std::size_t encode(const Stats& stats, MessageBuffer& buffer);
 std::size_t encode(const StageTime& stage_time, MessageBuffer& buffer);
 
+// A pose_t as it stands in a message, every bit of it and checked for nothing: for recordings, which
+// give back what they were given. Whoever looks at poses wants decode().
+struct RawPose {
+  Pose pose;  // but its times, which may be more than MonoTime holds
+  std::int64_t capture_time_us = 0;
+  std::array<std::int64_t, kHopCount> hop_time_us{};
+};
+// As RawPose, of hands_t.
+struct RawHands {
+  Hands hands;
+  std::int64_t capture_time_us = 0;
+};
+std::size_t encode(const RawPose& raw, MessageBuffer& buffer);
+std::size_t encode(const RawHands& raw, MessageBuffer& buffer);
+// False for another type or size.
+bool decode_unchecked(const void* data, std::size_t size, RawPose& raw);
+bool decode_unchecked(const void* data, std::size_t size, RawHands& raw);
+
 enum class Decoded { kFine, kUndecodable, kInvalid };
 
 Decoded decode(const void* data, std::size_t size, Pose& pose);

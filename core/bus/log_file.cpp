@@ -10,7 +10,6 @@ namespace dance {
 namespace {
 
 constexpr std::uint32_t kSync = 0xEDA1DA01;
-constexpr std::size_t kHeaderBytes = 28;
 constexpr std::size_t kMaxChannelBytes = 63;
 // LCM could carry 256 MiB; a house's log may hold camera pictures beside poses, and nothing larger.
 constexpr std::size_t kMaxDataBytes = 32 << 20;
@@ -100,10 +99,10 @@ bool LogReader::fill(std::size_t wanted) {
 
 // An event begins inside this one: its lengths lie, or it was cut off and another recorder went on behind it.
 bool LogReader::reaches_into_another(std::size_t whole) {
-  fill(whole + kHeaderBytes - 1);  // what is there of a header that begins in the last byte
+  fill(whole + kLogHeader_bytes - 1);  // what is there of a header that begins in the last byte
   const std::uint8_t* event = buffer_.data() + begin_;
-  const std::size_t last = std::min(whole, buffer_.size() - begin_ - (kHeaderBytes - 1));
-  for (std::size_t at = kHeaderBytes; at < last; ++at)
+  const std::size_t last = std::min(whole, buffer_.size() - begin_ - (kLogHeader_bytes - 1));
+  for (std::size_t at = kLogHeader_bytes; at < last; ++at)
     if (event[at] == kSync >> 24 && is_header(event + at)) return true;
   return false;
 }
@@ -117,7 +116,7 @@ std::optional<LogEvent> LogReader::next() {
   begin_ += pending_;
   pending_ = 0;
   for (;;) {
-    if (!fill(kHeaderBytes)) {
+    if (!fill(kLogHeader_bytes)) {
       skip(buffer_.size() - begin_);
       return std::nullopt;
     }
@@ -132,7 +131,7 @@ std::optional<LogEvent> LogReader::next() {
     }
     const auto channel_bytes = get_big_endian<std::uint32_t>(header + 20);
     const auto data_bytes = get_big_endian<std::uint32_t>(header + 24);
-    const std::size_t whole = kHeaderBytes + channel_bytes + data_bytes;
+    const std::size_t whole = kLogHeader_bytes + channel_bytes + data_bytes;
     if (!fill(whole)) {
       skip(4);  // cut off here, or lengths that lie: look on behind the sync word
       continue;
@@ -143,9 +142,10 @@ std::optional<LogEvent> LogReader::next() {
     }
     const std::uint8_t* event = buffer_.data() + begin_;
     pending_ = whole;
-    return LogEvent{get_big_endian<std::int64_t>(event + 12),
-                    {reinterpret_cast<const char*>(event + kHeaderBytes), channel_bytes},
-                    {event + kHeaderBytes + channel_bytes, data_bytes}};
+    return LogEvent{get_big_endian<std::int64_t>(event + 4),
+                    get_big_endian<std::int64_t>(event + 12),
+                    {reinterpret_cast<const char*>(event + kLogHeader_bytes), channel_bytes},
+                    {event + kLogHeader_bytes + channel_bytes, data_bytes}};
   }
 }
 
@@ -170,12 +170,17 @@ Result<LogWriter> LogWriter::append_to(const std::string& path) {
 
 Result<void> LogWriter::append(std::int64_t time_us, std::string_view channel,
                                std::span<const std::uint8_t> data) {
+  return append({events_, time_us, channel, data});
+}
+
+Result<void> LogWriter::append(const LogEvent& event) {
+  const auto& [number, time_us, channel, data] = event;
   if (channel.empty() || channel.size() > kMaxChannelBytes || data.size() > kMaxDataBytes)
     return fail(path_ + ": an event of " + std::to_string(data.size()) + " bytes on '" +
                 std::string(channel) + "' does not fit an LCM log");
-  std::array<std::uint8_t, kHeaderBytes> header;
+  std::array<std::uint8_t, kLogHeader_bytes> header;
   std::uint8_t* out = put_big_endian(header.data(), kSync);
-  out = put_big_endian(out, events_);
+  out = put_big_endian(out, number);
   out = put_big_endian(out, time_us);
   out = put_big_endian(out, static_cast<std::uint32_t>(channel.size()));
   put_big_endian(out, static_cast<std::uint32_t>(data.size()));
@@ -185,7 +190,7 @@ Result<void> LogWriter::append(std::int64_t time_us, std::string_view channel,
       (!data.empty() && std::fwrite(data.data(), 1, data.size(), file) != data.size()))
     return fail(path_ + ": " + reason());
   ++events_;
-  bytes_ += header.size() + channel.size() + data.size();
+  bytes_ += event.stored_bytes();
   return {};
 }
 

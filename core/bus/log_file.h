@@ -6,8 +6,9 @@
 // Ownership:    a reader's events are valid until its next call.
 // Threads:      none inside; one owner.
 // Failure:      open() and append() name the file and the reason; damaged bytes are skipped to the
-//               next event and counted. Source:       LCM documentation, "Log file format":
-//               big-endian sync word 0xEDA1DA01, event number, time, lengths, channel, data.
+//               next event and counted.
+// Source:       LCM documentation, "Log file format": big-endian sync word 0xEDA1DA01, event number,
+//               time, lengths, channel, data.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +24,17 @@
 
 namespace dance {
 
+// What LCM puts before an event's channel and data.
+constexpr std::size_t kLogHeader_bytes = 28;
+
 struct LogEvent {
+  std::int64_t number = 0;  // as its recorder counted
   std::int64_t time_us = 0;
   std::string_view channel;
   std::span<const std::uint8_t> data;
+
+  // What it takes in a file.
+  std::size_t stored_bytes() const { return kLogHeader_bytes + channel.size() + data.size(); }
 };
 
 class LogReader {
@@ -68,8 +76,11 @@ class LogWriter {
   static Result<LogWriter> create(const std::string& path);
   // Behind what is there, or a new file. An event that was cut off there costs no other: readers look for the next one.
   static Result<LogWriter> append_to(const std::string& path);
+  // Numbered by how many this writer has written.
   Result<void> append(std::int64_t time_us, std::string_view channel,
                       std::span<const std::uint8_t> data);
+  // With the number that it has, for copies of logs.
+  Result<void> append(const LogEvent& event);
   Result<void> flush();
   std::uint64_t events() const { return static_cast<std::uint64_t>(events_); }
   std::uint64_t bytes() const { return bytes_; }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -146,6 +147,77 @@ TEST_F(BusPrograms, RecordWritesALogThatReplayPlaysLive) {
   expect_viewer_sees_dancers(folder_, kOtherBus);
 }
 
+// All of a log's events: channel and bytes.
+std::set<std::string> events_of_log(const std::string& path) {
+  std::set<std::string> events;
+  auto log = LogReader::open(path);
+  if (!log) {
+    ADD_FAILURE() << log.error().what;
+    return events;
+  }
+  while (const auto event = log->next())
+    events.insert(std::string(event->channel) + "\n" +
+                  std::string(event->data.begin(), event->data.end()));
+  return events;
+}
+
+TEST_F(BusPrograms, RecordPackedHoldsThatVeryDanceInHalfTheBytesAndReplays) {
+  open_house();
+  const std::string plain = folder_.path("plain.lcm"), packed = folder_.path("packed.lcm"),
+                    again = folder_.path("again.lcm");
+  const std::string channels = " --channels 'POSE/.*' 'SKELETON/.*' --bus " + quoted(kBus);
+  ChildProcess& beside =
+      start("/bin/sh", {"-c", "exec " + bin("dance-record") + " -o " + plain + channels});
+  const auto has_begun = [&] {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(plain, error);
+    return !error && size > 0;
+  };
+  for (int i = 0; i < 100 && !has_begun(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const Finished record =
+      run(bin("dance-record") + " --packed -o " + packed + " --seconds 2" + channels);
+  ASSERT_EQ(record.exit_code, 0) << record.talk;
+  EXPECT_NE(record.output.find("messages packed, 0 not"), std::string::npos) << record.output;
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  beside.stop(Duration::s(5));
+  end_all();
+
+  const Finished unpack = run(bin("dance-unpack") + " " + packed + " -o " + again);
+  ASSERT_EQ(unpack.exit_code, 0) << unpack.talk;
+  EXPECT_LT(2 * std::filesystem::file_size(packed), std::filesystem::file_size(again));
+  // The plain recorder began before and ended after: what it did not hear, its own socket lost.
+  const std::set<std::string> heard = events_of_log(plain), held = events_of_log(again);
+  const auto both = std::count_if(held.begin(), held.end(),
+                                  [&](const std::string& event) { return heard.contains(event); });
+  EXPECT_GT(held.size(), 200u);
+  EXPECT_GT(static_cast<double>(both), 0.9 * static_cast<double>(held.size()));
+  EXPECT_EQ(count_log(packed).count("POSE/stage/alice"), 0u);
+  EXPECT_GT(count_log(again)["POSE/stage/alice"], 30);
+
+  start("dance-replay", {packed, "--bus", kOtherBus});
+  expect_couple_on_stage(kOtherBus, 2.0, 3.0);
+}
+
+TEST_F(BusPrograms, APackedLogThatLcmsOwnPlayerPlaysDisturbsNobody) {
+  if (run("command -v lcm-logplayer").exit_code != 0)
+    GTEST_SKIP() << "lcm-logplayer is not installed";
+  open_house();
+  const std::string log = folder_.path("packed.lcm"), copy = folder_.path("copy.lcm");
+  ASSERT_EQ(run(bin("dance-record") + " --packed -o " + log +
+                " --channels 'POSE/.*' --seconds 5 --bus " + quoted(kBus))
+                .exit_code,
+            0);
+  end_all();
+  start("/usr/bin/lcm-logplayer", {std::string("--lcm-url=") + kOtherBus, log});
+  const Finished heard =
+      run(bin("dance-listen") + " --to csv --seconds 0.5 --bus " + quoted(kOtherBus));
+  EXPECT_EQ(heard.exit_code, 0) << heard.talk;
+  EXPECT_EQ(heard.output.find(",alice,"), std::string::npos) << "no pose of hers is on the bus";
+  const Finished top = run(bin("dance-top") + " --once --bus " + quoted(kOtherBus));
+  EXPECT_NE(top.output.find("PACKED/POSE/stage/alice"), std::string::npos) << top.output;
+}
+
 TEST_F(BusPrograms, RecordKeepsOnlyTheChannelsAskedFor) {
   open_house();
   const std::string log = folder_.path("stage.lcm");
@@ -254,6 +326,8 @@ TEST_F(BusPrograms, WhatIsMissingBrokenOrTakenIsOneLineThatNamesIt) {
         {"dance-manager /nowhere/house.toml", "/nowhere/house.toml"},
         {"dance-server --bind 127.0.0.1 --port 7443", "7443"},
         {"dance-link --guest alice --server no-such-host.invalid", "no-such-host.invalid"},
+        {"dance-unpack /nowhere/log.lcm -o " + folder_.path("out.lcm"), "/nowhere/log.lcm"},
+        {"dance-pack " + session + " -o /nowhere/out.lcm", "/nowhere/out.lcm"},
         {"dance-top --once --bus http://nowhere", "http://nowhere"}}) {
     const Finished refused = run(bin(program));
     EXPECT_EQ(refused.exit_code, 1) << program << refused.talk;
@@ -267,7 +341,8 @@ TEST_F(BusPrograms, WrongOptionsAreOneLineAndTwo) {
        {"dance-top --bus", "dance-record --seconds soon", "dance-listen --to stone",
         "dance-latency --guest Bob", "dance-salsa --guest Bob", "dance-link --guest Bob",
         "dance-join host --guest Bob", "dance-server --port 70000", "dance-replay", "dance-spy x",
-        "dance-doctor --colour", "dance-manager a b"}) {
+        "dance-doctor --colour", "dance-manager a b", "dance-unpack some.lcm",
+        "dance-pack -o some.lcm"}) {
     const Finished refused = run(bin(program));
     EXPECT_EQ(refused.exit_code, 2) << program << refused.talk;
     EXPECT_EQ(std::count(refused.talk.begin(), refused.talk.end(), '\n'), 1) << refused.talk;

@@ -5,7 +5,12 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
+#include "core/log/unpacked_log.h"
+#include "tests/core_log/recorded_dance.h"
+#include "tools/log_converter.h"
 #include "tools/recorder.h"
 
 namespace dance {
@@ -141,6 +146,87 @@ TEST_F(RecorderTest, AFullDiskIsToldOnceAndNothingMoreIsWritten) {
   while (reader->next()) ++whole;
   EXPECT_GE(whole + 1, events);
   EXPECT_GT(whole, 90u);
+}
+
+class PackedRecording : public RecorderTest {
+ protected:
+  void record(const std::string& name, const OwnEvents& events, Recorder::Poses poses) const {
+    auto recorder = Recorder::make(path(name), filter({}), Recorder::IfThere::kAppend, poses);
+    ASSERT_TRUE(recorder) << recorder.error().what;
+    for (const OwnEvent& event : events) recorder->take(event.time_us, event.channel, event.data);
+    recorder->flush();
+    ASSERT_FALSE(recorder->failure());
+    EXPECT_EQ(recorder->packing().has_value(), poses == Recorder::Poses::kPacked);
+    if (const auto packing = recorder->packing()) {
+      EXPECT_EQ(packing->bytes, recorder->bytes());
+      EXPECT_LT(packing->bytes, packing->plain_bytes / 2);
+    }
+  }
+  std::string bytes_in(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+};
+
+TEST_F(PackedRecording, UnpackedIsByteForByteThePlainOne) {
+  const OwnEvents evening = recorded_evening(320);
+  record("plain.lcm", evening, Recorder::Poses::kPlain);
+  record("packed.lcm", evening, Recorder::Poses::kPacked);
+  const auto unpacked = convert_log(path("packed.lcm"), path("again.lcm"), LogForm::kPlain);
+  ASSERT_TRUE(unpacked) << unpacked.error().what;
+  EXPECT_TRUE(bytes_in("again.lcm") == bytes_in("plain.lcm"));
+  EXPECT_TRUE(check_is_whole(*unpacked));
+
+  const auto packed = convert_log(path("plain.lcm"), path("packed-later.lcm"), LogForm::kPacked);
+  ASSERT_TRUE(packed) << packed.error().what;
+  EXPECT_TRUE(bytes_in("packed-later.lcm") == bytes_in("packed.lcm"));
+  const auto repacked = convert_log(path("packed.lcm"), path("packed-again.lcm"), LogForm::kPacked);
+  ASSERT_TRUE(repacked) << repacked.error().what;
+  EXPECT_TRUE(bytes_in("packed-again.lcm") == bytes_in("packed.lcm"));
+  for (const auto& conversion : {*unpacked, *packed, *repacked}) {
+    const std::string line = conversion_line(conversion);
+    for (const std::string size : {"plain.lcm", "packed.lcm"})
+      EXPECT_NE(line.find(" " + std::to_string(bytes_in(size).size()) + " bytes"),
+                std::string::npos)
+          << line;
+  }
+}
+
+TEST_F(PackedRecording, GoesOnBehindAPackedLogThatWasCutOffAndBehindAPlainOne) {
+  const OwnEvents evening = recorded_evening(20);
+  record("log.lcm", evening, Recorder::Poses::kPacked);
+  fs::resize_file(path("log.lcm"), fs::file_size(path("log.lcm")) - 2);  // killed in the middle
+  record("log.lcm", evening, Recorder::Poses::kPacked);
+  record("log.lcm", evening, Recorder::Poses::kPlain);
+  record("log.lcm", evening, Recorder::Poses::kPacked);
+  auto log = UnpackedLog::open(path("log.lcm"));
+  ASSERT_TRUE(log);
+  OwnEvents back;
+  while (const auto event = log->next()) back.emplace_back(*event);
+  OwnEvents expected(evening.begin(), evening.end() - 1);
+  for (int run = 0; run < 3; ++run) expected.insert(expected.end(), evening.begin(), evening.end());
+  EXPECT_TRUE(back == expected);
+  EXPECT_EQ(log->unpacking().lost(), 0u);
+}
+
+TEST_F(PackedRecording, OfADamagedOneAllTheRestIsWrittenAndTheLossIsAnError) {
+  record("packed.lcm", recorded_evening(20), Recorder::Poses::kPacked);
+  {
+    std::fstream file(path("packed.lcm"), std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(fs::file_size(path("packed.lcm")) / 2));
+    file << std::string(40, 'x');  // beyond the number and time of one event, which no log protects
+  }
+  const auto conversion = convert_log(path("packed.lcm"), path("rest.lcm"), LogForm::kPlain);
+  ASSERT_TRUE(conversion) << conversion.error().what;
+  EXPECT_GT(conversion->events, 30u);
+  EXPECT_GT(conversion->unpacking.lost() + conversion->skipped_bytes, 0u);
+  const auto whole = check_is_whole(*conversion);
+  ASSERT_FALSE(whole);
+  for (const char* word : {"packed.lcm", "rest.lcm", "damaged"})
+    EXPECT_NE(whole.error().what.find(word), std::string::npos) << whole.error().what;
+  EXPECT_FALSE(convert_log(path("packed.lcm"), path("rest.lcm"), LogForm::kPlain)) << "is there";
+  EXPECT_FALSE(convert_log(path("nothing.lcm"), path("nothing-plain.lcm"), LogForm::kPlain));
+  EXPECT_FALSE(fs::exists(path("nothing-plain.lcm")));
 }
 
 }  // namespace
