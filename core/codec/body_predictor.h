@@ -19,6 +19,7 @@
 
 namespace dance {
 
+// What a coordinate's law weighs, for training.
 struct Features {
   alignas(16) std::array<float, kMeanFeatures> mean{};
   alignas(16) std::array<float, kSpreadFeatures> spread{};
@@ -30,13 +31,16 @@ class BodyPredictor {
  public:
   // references[0] is the newest, `age` frames old; the others one frame apart. Empty: no reference.
   BodyPredictor(const BodyLattice& lattice, const PoseModel& model, std::size_t level, bool slow,
-                std::size_t age, std::span<const BodyState* const> references);
+                std::size_t age, std::span<const ReferenceBody* const> references);
 
   // Call for each coordinate in order; `body` holds what is decoded before it, and the coordinate's
   // bone is seated.
   Spread predict(std::size_t coordinate, const BodyState& body);
   // What the coordinate turned out to be.
   void decoded(std::size_t coordinate, double steps);
+  // predict() in two: look_at() before the three coordinates of the place or of a bone, then of each.
+  void look_at(std::size_t first, const BodyState& body);
+  Spread predict_axis(std::size_t first, std::size_t axis, const BodyState& body);
 
   // So that a bone can be tried again.
   exact::Four mood() const { return mood_; }
@@ -45,14 +49,12 @@ class BodyPredictor {
 
   bool is_intra() const { return run_ == 0; }
   // For training.
-  const Features& features() const { return features_; }
+  Features features() const;
   double mean() const { return mean_; }
   double log2_spread() const { return log2_spread_; }
 
  private:
   void look_back();
-  // At the three coordinates from c on: of the place, or of a bone.
-  void look_at(std::size_t c, const BodyState& body);
   struct Room;
   Room look_at_room(std::size_t bone, const BodyState& body) const;
   Spread intra(std::size_t coordinate, const BodyState& body);
@@ -62,7 +64,7 @@ class BodyPredictor {
   const PoseModel& model_;
   float age_;
   std::size_t run_;
-  std::array<const BodyState*, 4> was_{};  // the references, the newest first
+  std::array<const ReferenceBody*, 4> was_{};  // the references, the newest first
   const std::array<CoordinateLaw, kCoordinateCount>* laws_;
 
   // Of each coordinate 1 and the steps from reference to reference, the newest first; and 1 and the
@@ -79,9 +81,80 @@ class BodyPredictor {
   // Of u, v and w of the bone: what the room and its parent say, how sure that is, and how its other
   // way of swinging went.
   std::array<exact::Four, 3> said_, said_sizes_, beside_;
-  Features features_;
+  // Of the coordinate that was predicted last.
+  std::size_t coordinate_ = 0;
+  std::size_t speed_ = 0;  // of its bone's end
+  double base_ = 0.0;
+  exact::Four late_{};  // features of this bone's coordinates before it
   double mean_ = 0.0;
   float log2_spread_ = 0.0f;
 };
+
+namespace detail {
+// Below this part of a step nothing is told from nothing.
+constexpr float kFloor = 0.25f;
+inline exact::Four size_of(exact::Four steps) {
+  return exact::rough_log2(exact::abs(steps) + kFloor);
+}
+inline std::int64_t to_256(double steps) {
+  const double near = exact::at_most(exact::at_least(steps, -4.0e6), 4.0e6);
+  const double x = near * 256.0 + (0.5 + 0x1p31);
+  return static_cast<std::int64_t>(x) - (std::int64_t{1} << 31);  // rounded down
+}
+inline float clamped(float log2_spread, float least, float most) {
+  return exact::at_most(exact::at_least(log2_spread, least), most);
+}
+// Of −8 to 15.
+inline int class_of(float log2_spread) {
+  return static_cast<int>(log2_spread * 4.0f + (0.5f + 64.0f)) - 64 + 16;
+}
+// Of w · f what is to be summed; the features in three fours.
+inline exact::Four weigh(const std::array<float, 12>& w, exact::Four a, exact::Four b,
+                         exact::Four c) {
+  return (exact::load_four(&w[0]) * a + exact::load_four(&w[4]) * b) + exact::load_four(&w[8]) * c;
+}
+}  // namespace detail
+
+// Inline: what one coordinate leaves to the next should stay in registers.
+[[gnu::always_inline]] inline Spread BodyPredictor::predict_axis(std::size_t first,
+                                                                 std::size_t axis,
+                                                                 const BodyState& body) {
+  const std::size_t c = first + axis;
+  if (is_intra()) return intra(c, body);
+  late_ = exact::Four{residual_before_, residual_before_that_, 0.0f, 0.0f};
+  if (first < 6) {  // of the place and the hips what is known of them
+    said_[axis] = exact::load_four(&residual_[0]);
+    late_ = exact::Four{residual_[4], 0.0f, 0.0f, 0.0f};
+  } else {
+    late_ = __builtin_shufflevector(late_, beside_[axis], 0, 1, 4, 5);
+  }
+  coordinate_ = c;
+  base_ = was_[0]->x[c] * steps_.per_step[c];
+  const CoordinateLaw& law = (*laws_)[c];
+  const auto [off, log2_spread] =
+      exact::sums(detail::weigh(law.mean[speed_], moved_[c], said_[axis], late_),
+                  detail::weigh(law.spread, sizes_[c], said_sizes_[axis], mood_));
+  mean_ = base_ + static_cast<double>(off);
+  log2_spread_ = detail::clamped(log2_spread, -4.0f, 12.0f);
+  return {detail::to_256(mean_), detail::class_of(log2_spread_)};
+}
+
+inline Spread BodyPredictor::predict(std::size_t c, const BodyState& body) {
+  const std::size_t axis = c % 3;
+  if (axis == 0) look_at(c, body);
+  return predict_axis(c - axis, axis, body);
+}
+
+[[gnu::always_inline]] inline void BodyPredictor::decoded(std::size_t c, double steps) {
+  if (is_intra()) return;
+  const auto r = static_cast<float>(steps - mean_);
+  residual_[c] = r;
+  residual_before_that_ = residual_before_;
+  residual_before_ = r;
+  const float size = detail::size_of(exact::all(r))[0];
+  const float surprise = size - exact::at_least(log2_spread_, -2.0f);
+  const float before = mood_[1];
+  mood_ = exact::Four{body_noise_, before + 0.15f * (surprise - before), size, mood_[2]};
+}
 
 }  // namespace dance

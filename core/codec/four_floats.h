@@ -9,6 +9,9 @@
 
 #include <cmath>
 #include <cstdint>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 namespace dance::exact {
 
@@ -33,7 +36,11 @@ T at_most(T x, T most) {
   return x < most ? x : most;
 }
 inline Four sqrt(Four x) {
+#ifdef __SSE__
+  return _mm_sqrt_ps(x);
+#else
   return Four{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
 }
 // x where the mask is set, 0 elsewhere.
 inline Four only(FourInts mask, Four x) {

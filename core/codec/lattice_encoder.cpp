@@ -143,9 +143,9 @@ BodyQuantiser::Still LatticeEncoder::still_bones(const TrueBody& truth) const {
 
 bool LatticeEncoder::quantise(const TrueBody& truth, const BodyQuantiser::Still& still,
                               const Reference& reference) {
-  std::array<const BodyState*, 4> bodies{};
+  std::array<const ReferenceBody*, 4> bodies{};
   for (std::size_t i = 0; i < reference.run; ++i) bodies[i] = &reference.frames[i]->body;
-  const BodyState* base = reference.run > 0 ? bodies[0] : nullptr;
+  const ReferenceBody* base = reference.run > 0 ? bodies[0] : nullptr;
   const BellShape& bell = reference.run > 0 ? model_->bell : model_->intra_bell;
   for (const Attempt& attempt : kAttempts) {
     used_level_ = level_ - std::min(level_, attempt.finer);
