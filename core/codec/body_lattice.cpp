@@ -152,9 +152,7 @@ exact::SwingTwist BodyLattice::angles_of(std::size_t bone, const Quat& R_PB) con
 }
 
 Quat BodyLattice::rotation_of(std::size_t bone, const exact::SwingTwist& angles) const {
-  const Frame& f = frames_[bone];
-  const Quat q = f.before * exact::to_quat(angles) * f.after;
-  return bone == 0 ? exact::conj(q) : q;
+  return local(bone, exact::to_quat(angles));
 }
 
 }  // namespace dance

@@ -46,7 +46,6 @@ struct ReferenceBody {
 };
 // A decoded body, by the arithmetic that both ends share.
 struct BodyState : ReferenceBody {
-  std::array<exact::Quat, kBoneCount> turn{};  // by swing and twist
   std::array<exact::Quat, kBoneCount> global{};
   std::array<exact::Quat, kBoneCount> seat{};  // of each bone's swing and twist, in W
   std::array<exact::Vec, kBoneCount> joint{};
@@ -86,22 +85,24 @@ class BodyLattice {
     const double* x = body.x.data() + first_coordinate(bone);
     return rotation_of(bone, exact::SwingTwist{x[0], x[1], x[2]});
   }
-  // Nearly the coordinates by which a seated bone comes to a rotation in W; the axes that it turns
-  // about with a little more of each of them, and what turns W's axes to those that they are told in.
-  struct InRoom {
-    exact::SwingTwist angles;
-    exact::SwingTwistAxes axes;
-    exact::Quat from_room;
-  };
-  InRoom in_room(std::size_t bone, const BodyState& state, const exact::Quat& R_WB) const;
+  // With a seated bone turned to a rotation in W: what turns W's axes to those that its swing and twist
+  // begin in, and the two as one.
+  exact::Quat from_room(std::size_t bone, const BodyState& state, const exact::Quat& R_WB) const {
+    return exact::conj(bone == 0 ? R_WB * frames_[0].before : state.seat[bone]);
+  }
+  exact::Quat turn_of(std::size_t bone, const exact::Quat& from_room,
+                      const exact::Quat& R_WB) const {
+    const exact::Quat after = exact::conj(frames_[bone].after);
+    return bone == 0 ? from_room * after : from_room * R_WB * after;
+  }
 
   // Bone after bone, parents first: where its joint is and its rotation begins, then, with its
-  // coordinates known, all of it.
+  // coordinates known, all of it; gives its swing and twist.
   void seat_bone(std::size_t bone, BodyState& state) const;
-  void place_bone(std::size_t bone, BodyState& state) const;
-  // As rotation_of(), of a placed bone.
-  [[gnu::always_inline]] exact::Quat local(std::size_t bone, const BodyState& state) const {
-    const exact::Quat q = frames_[bone].before * state.turn[bone] * frames_[bone].after;
+  exact::Quat place_bone(std::size_t bone, BodyState& state) const;
+  // A bone's rotation in its parent by swing and twist.
+  [[gnu::always_inline]] exact::Quat local(std::size_t bone, const exact::Quat& turn) const {
+    const exact::Quat q = frames_[bone].before * turn * frames_[bone].after;
     return bone == 0 ? exact::conj(q) : q;
   }
   const exact::Vec& offset(std::size_t bone) const { return offset_[bone]; }
@@ -148,33 +149,19 @@ constexpr std::size_t tip_of(std::size_t bone) {
   state.seat[bone] = state.global[parent] * frames_[bone].before;
 }
 
-[[gnu::always_inline]] inline void BodyLattice::place_bone(std::size_t bone,
-                                                           BodyState& state) const {
+[[gnu::always_inline]] inline exact::Quat BodyLattice::place_bone(std::size_t bone,
+                                                                  BodyState& state) const {
   const double* x = state.x.data() + first_coordinate(bone);
   const exact::Quat q = exact::to_quat({x[0], x[1], x[2]});
-  state.turn[bone] = q;
   if (bone == 0) {
-    state.global[0] = local(0, state);
+    state.global[0] = local(0, q);
   } else {
     const exact::Quat spun = state.seat[bone] * q;
     state.spun[bone] = exact::to_floats(spun.w, spun.x, spun.y, spun.z);
     state.global[bone] = spun * frames_[bone].after;
   }
   state.end[bone] = state.joint[bone] + exact::rotate(state.global[bone], end_[bone]);
-}
-
-[[gnu::always_inline]] inline BodyLattice::InRoom BodyLattice::in_room(
-    std::size_t bone, const BodyState& state, const exact::Quat& R_WB) const {
-  const Frame& f = frames_[bone];
-  if (bone > 0) {
-    const exact::Quat from_room = exact::conj(state.seat[bone]);
-    const auto near = exact::nearly_swing_twist(from_room * R_WB * exact::conj(f.after));
-    return {near.angles, near.axes, from_room};
-  }
-  // The hips' coordinates are those of the inverse.
-  const exact::Quat from_room = exact::conj(R_WB * f.before);
-  const auto near = exact::nearly_swing_twist(from_room * exact::conj(f.after));
-  return {near.angles, {-1.0 * near.axes.u, -1.0 * near.axes.v, -1.0 * near.axes.w}, from_room};
+  return q;
 }
 
 }  // namespace dance

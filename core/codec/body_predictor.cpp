@@ -96,43 +96,9 @@ struct BodyPredictor::Room {
   Four hold{}, speed{}, turn{};
 };
 
-void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
-  if (is_intra()) return;
-  const std::size_t bone = c < 3 ? 0 : (c - 3) / 3;
-  residual_before_ = residual_before_that_ = 0.0f;
-  speed_ = 1;
-  if (run_ > 1) {
-    const ReferenceBody &a = *was_[0], &b = *was_[1];
-    const exact::Vec v = bone == 0 ? place_of(a) - place_of(b) : a.end[bone] - b.end[bone];
-    const double v2 = exact::dot(v, v);
-    speed_ = v2 < kStill_m * kStill_m ? 0 : v2 < kFast_m * kFast_m ? 1 : 2;
-  }
-  const Four moved{moved_[c][1], moved_[c + 1][1], moved_[c + 2][1], 0.0f};
-  Room room;
-  if (bone > 0) {
-    room = look_at_room(bone, body);
-    const float* parent =
-        &residual_[first_coordinate(static_cast<std::size_t>(kBones[bone].parent))];
-    said_[0] = room.hold;
-    said_[1] = room.speed;
-    said_[2] = room.turn;
-    Four of_parent = Four{parent[0], parent[1], parent[2], 0.0f} * steps_.of_parent[bone];
-    exact::transpose(said_[0], said_[1], said_[2], of_parent);
-    beside_[0] = Four{moved[1], room.hold[1], 0.0f, 0.0f};
-    beside_[1] = Four{moved[0], room.hold[0], 0.0f, 0.0f};
-    beside_[2] = Four{};
-  } else {
-    for (std::size_t i = c; i < 6; ++i) residual_[i] = 0.0f;
-  }
-  said_sizes_[0] = size_of(room.speed);
-  said_sizes_[1] = size_of(room.turn);
-  said_sizes_[2] = size_of(room.hold + age_ * (room.speed - moved));
-  Four all_over = exact::all(body_speed_);
-  exact::transpose(said_sizes_[0], said_sizes_[1], said_sizes_[2], all_over);
-}
-
 // Swing and twist as in core/codec/swing_twist.h, of three references side by side.
-BodyPredictor::Room BodyPredictor::look_at_room(std::size_t bone, const BodyState& body) const {
+[[gnu::always_inline]] inline BodyPredictor::Room BodyPredictor::look_at_room(
+    std::size_t bone, const BodyState& body) const {
   const exact::Vec d0 = was_[0]->end[bone] - body.joint[bone],
                    d1 = was_[1]->end[bone] - body.joint[bone],
                    d2 = was_[2]->end[bone] - body.joint[bone];
@@ -172,6 +138,41 @@ BodyPredictor::Room BodyPredictor::look_at_room(std::size_t bone, const BodyStat
   };
   const Four speed = steps(newest - before);
   return {steps(newest - in_parent), speed, speed - steps(before - oldest)};
+}
+
+void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
+  if (is_intra()) return;
+  const std::size_t bone = c < 3 ? 0 : (c - 3) / 3;
+  residual_before_ = residual_before_that_ = 0.0f;
+  speed_ = 1;
+  if (run_ > 1) {
+    const ReferenceBody &a = *was_[0], &b = *was_[1];
+    const exact::Vec v = bone == 0 ? place_of(a) - place_of(b) : a.end[bone] - b.end[bone];
+    const double v2 = exact::dot(v, v);
+    speed_ = (v2 >= kStill_m * kStill_m ? 1u : 0u) + (v2 >= kFast_m * kFast_m ? 1u : 0u);
+  }
+  const Four moved{moved_[c][1], moved_[c + 1][1], moved_[c + 2][1], 0.0f};
+  Room room;
+  if (bone > 0) {
+    room = look_at_room(bone, body);
+    const float* parent =
+        &residual_[first_coordinate(static_cast<std::size_t>(kBones[bone].parent))];
+    said_[0] = room.hold;
+    said_[1] = room.speed;
+    said_[2] = room.turn;
+    Four of_parent = Four{parent[0], parent[1], parent[2], 0.0f} * steps_.of_parent[bone];
+    exact::transpose(said_[0], said_[1], said_[2], of_parent);
+    beside_[0] = Four{moved[1], room.hold[1], 0.0f, 0.0f};
+    beside_[1] = Four{moved[0], room.hold[0], 0.0f, 0.0f};
+    beside_[2] = Four{};
+  } else {
+    for (std::size_t i = c; i < 6; ++i) residual_[i] = 0.0f;
+  }
+  said_sizes_[0] = size_of(room.speed);
+  said_sizes_[1] = size_of(room.turn);
+  said_sizes_[2] = size_of(room.hold + age_ * (room.speed - moved));
+  Four all_over = exact::all(body_speed_);
+  exact::transpose(said_sizes_[0], said_sizes_[1], said_sizes_[2], all_over);
 }
 
 // Hips are as high as legs are long: their height counts from there.

@@ -101,8 +101,9 @@ inline std::int64_t to_256(double steps) {
   const double x = near * 256.0 + (0.5 + 0x1p31);
   return static_cast<std::int64_t>(x) - (std::int64_t{1} << 31);  // rounded down
 }
+// Many a spread is as small as it may be, and no branch could foretell which.
 inline float clamped(float log2_spread, float least, float most) {
-  return exact::at_most(exact::at_least(log2_spread, least), most);
+  return exact::at_most(exact::max(exact::all(log2_spread), exact::all(least))[0], most);
 }
 // Of −8 to 15.
 inline int class_of(float log2_spread) {
@@ -123,7 +124,7 @@ inline exact::Four weigh(const std::array<float, 12>& w, exact::Four a, exact::F
   if (is_intra()) return intra(c, body);
   late_ = exact::Four{residual_before_, residual_before_that_, 0.0f, 0.0f};
   if (first < 6) {  // of the place and the hips what is known of them
-    said_[axis] = exact::load_four(&residual_[0]);
+    said_[axis] = exact::Four{residual_[0], residual_[1], residual_[2], residual_[3]};
     late_ = exact::Four{residual_[4], 0.0f, 0.0f, 0.0f};
   } else {
     late_ = __builtin_shufflevector(late_, beside_[axis], 0, 1, 4, 5);
@@ -151,10 +152,11 @@ inline Spread BodyPredictor::predict(std::size_t c, const BodyState& body) {
   residual_[c] = r;
   residual_before_that_ = residual_before_;
   residual_before_ = r;
-  const float size = detail::size_of(exact::all(r))[0];
-  const float surprise = size - exact::at_least(log2_spread_, -2.0f);
+  // In fours, whose larger one is found without a branch.
+  const exact::Four size = detail::size_of(exact::all(r));
+  const float surprise = (size - exact::max(exact::all(log2_spread_), exact::all(-2.0f)))[0];
   const float before = mood_[1];
-  mood_ = exact::Four{body_noise_, before + 0.15f * (surprise - before), size, mood_[2]};
+  mood_ = exact::Four{body_noise_, before + 0.15f * (surprise - before), size[0], mood_[2]};
 }
 
 }  // namespace dance

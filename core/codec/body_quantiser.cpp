@@ -82,7 +82,11 @@ void BodyQuantiser::gather_points(std::size_t bone) {
   point_count_ = 0;
   const Vec& joint = truth_->joint[bone];
   const auto add = [&](const Vec& offset, const Vec& truth, bool is_tip) {
-    points_[point_count_++] = {offset, truth - joint, truth, is_tip};
+    Point& p = points_[point_count_++];
+    p.offset = offset;
+    p.arm = truth - joint;
+    p.truth = truth;
+    p.is_tip = is_tip;
   };
   if (const std::size_t tip = tip_of(bone); tip < kTipCount)
     add(lattice_->tip(tip), truth_->tip[tip], true);
@@ -97,11 +101,13 @@ void BodyQuantiser::gather_points(std::size_t bone) {
 // `at` is where the bone's joint is, and `turn` how its parent is turned, in the root's frame.
 void BodyQuantiser::gather_beyond(std::size_t bone, std::size_t root, const Vec& at,
                                   const Quat& turn) {
-  const Quat turned =
-      turn * (base_ != nullptr ? lattice_->rotation_of(bone, *base_) : truth_->local[bone]);
+  const Quat turned = turn * still_local_[bone];
   const auto add = [&](const Vec& offset, const Vec& truth, bool is_tip) {
-    const Vec arm = exact::rotate(truth_->global[root], offset);
-    points_[point_count_++] = {offset, arm, truth, is_tip};
+    Point& p = points_[point_count_++];
+    p.offset = offset;
+    p.arm = exact::rotate(truth_->global[root], offset);
+    p.truth = truth;
+    p.is_tip = is_tip;
   };
   if (const std::size_t tip = tip_of(bone); tip < kTipCount)
     add(at + exact::rotate(turned, lattice_->tip(tip)), truth_->tip[tip], true);
@@ -127,7 +133,7 @@ void BodyQuantiser::gather_beyond(std::size_t bone, std::size_t root, const Vec&
     const double off = static_cast<double>(spread.mean_256) / 256.0 - target_steps;
     if (std::abs(off) > 0.5 * turn) target_steps += turn * exact::round_to_whole(off / turn);
   }
-  const auto nearest = static_cast<std::int32_t>(exact::round_to_whole(target_steps));
+  const auto nearest = static_cast<std::int32_t>(std::lrint(target_steps));
   SymbolLaw::Symbol best = law.find(nearest);
   double best_bits = law.bits(best);
   const double d0 = nearest - target_steps;
@@ -159,8 +165,8 @@ void BodyQuantiser::gather_beyond(std::size_t bone, std::size_t root, const Vec&
 }
 
 // A bone that came to rest while it was aimed stays where truth has it only when it is aimed again.
-bool BodyQuantiser::stands_in(std::size_t bone, const ReferenceBody& base) const {
-  const Quat off = exact::conj(lattice_->rotation_of(bone, base)) * truth_->local[bone];
+bool BodyQuantiser::stands_in(std::size_t bone) const {
+  const Quat off = exact::conj(still_local_[bone]) * truth_->local[bone];
   const double half_step = 0.5 * steps_->step[first_coordinate(bone)];
   return off.x * off.x + off.y * off.y + off.z * off.z < half_step * half_step;
 }
@@ -207,7 +213,9 @@ bool BodyQuantiser::aim_bone(std::size_t bone, double lambda) {
   const std::size_t c = first_coordinate(bone);
   lattice_->seat_bone(bone, body_);
   predictor_->look_at(c, body_);
-  const auto [at, axes, from_room] = lattice_->in_room(bone, body_, truth_->global[bone]);
+  const Quat& aimed = truth_->global[bone];
+  const Quat from_room = lattice_->from_room(bone, body_, aimed);
+  const auto [at, axes] = exact::nearly_swing_twist(lattice_->turn_of(bone, from_room, aimed));
   // Least squares of  off + Σ δᵢ axisᵢ × r  over the points r, with some resistance of the shell:
   // Hᵢₖ = Σ (axisᵢ × r) · (axisₖ × r), gᵢ = Σ (axisᵢ × r) · off, each product told by dot products.
   double uu = 0.0, uv = 0.0, uw = 0.0, vv = 0.0, vw = 0.0, ww = 0.0;
@@ -222,7 +230,8 @@ bool BodyQuantiser::aim_bone(std::size_t bone, double lambda) {
     const double u = exact::dot(axes.u, r), v = exact::dot(axes.v, r), w = exact::dot(axes.w, r);
     uu += u * u, uv += u * v, uw += u * w, vv += v * v, vw += v * w, ww += w * w;
   }
-  torque = exact::rotate(from_room, torque);
+  // The hips' coordinates are those of the inverse.
+  torque = (bone == 0 ? -1.0 : 1.0) * exact::rotate(from_room, torque);
   const double H_uu = r2 * exact::dot(axes.u, axes.u) - uu;
   const double H_uv = r2 * exact::dot(axes.u, axes.v) - uv;
   const double H_uw = r2 * exact::dot(axes.u, axes.w) - uw;
@@ -270,9 +279,11 @@ bool BodyQuantiser::quantise(const BodyLattice& lattice, BodyPredictor& predicto
   still_ = still;
   options_ = options;
   steps_ = &lattice.steps(options.level);
-  if (base != nullptr)
-    for (std::size_t bone = 0; bone < kBoneCount; ++bone)
-      still_[bone] = still_[bone] && stands_in(bone, *base);
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    if (!still_[bone]) continue;
+    still_local_[bone] = base != nullptr ? lattice.rotation_of(bone, *base) : truth.local[bone];
+    still_[bone] = stands_in(bone);
+  }
   choice_count_ = 0;
   bits_ = 0.0;
   least_dot_ = std::cos(0.5 * angle_budget_rad(options.error_m));

@@ -78,7 +78,7 @@ class BodyQuantiser {
   void gather_points(std::size_t bone);
   void gather_beyond(std::size_t bone, std::size_t root, const exact::Vec& at,
                      const exact::Quat& turn);
-  bool stands_in(std::size_t bone, const ReferenceBody& base) const;
+  bool stands_in(std::size_t bone) const;
   bool quantise_place(double lambda);
   // As it was in the frame before; or so that what hangs on it comes where it truly is.
   bool keep_bone(std::size_t bone);
@@ -96,6 +96,7 @@ class BodyQuantiser {
   const ReferenceBody* base_ = nullptr;
   QuantiseOptions options_;
   Still still_{};
+  std::array<exact::Quat, kBoneCount> still_local_;  // of bones that stand still
   BodyState body_;
   std::array<Choice, kCoordinateCount> choices_;
   std::size_t choice_count_ = 0;

@@ -26,7 +26,13 @@ inline void store_four(float* aligned, Four x) { *reinterpret_cast<Four*>(aligne
 inline Four abs(Four x) {
   return reinterpret_cast<Four>(reinterpret_cast<FourInts>(x) & 0x7fff'ffff);
 }
-inline Four max(Four a, Four b) { return a > b ? a : b; }
+inline Four max(Four a, Four b) {
+#ifdef __SSE__
+  return _mm_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
 template <typename T>
 T at_least(T x, T least) {
   return x > least ? x : least;

@@ -73,7 +73,7 @@ class LatticeEncoder final : public PoseEncoder {
   Duration pace_ = Duration::us(16'667);
   bool is_slow_ = false;
   bool has_truth_ = false;
-  TrueBody last_truth_;
+  std::array<exact::Quat, kBoneCount> last_local_{};  // true
   std::array<std::uint8_t, 255> last_payload_{};
   std::size_t last_size_ = 0;
 };

@@ -56,8 +56,7 @@ DecodeResult LatticeDecoder::decode_body(RangeDecoder& in, const FrameHead& head
     if (std::abs(x[0]) > most || std::abs(x[1]) > most || std::abs(x[2]) > most)
       return DecodeResult::kMalformed;
     if (c == 0) continue;
-    lattice_.place_bone(bone, body);
-    pose.R_PB[bone] = to_float(lattice_.local(bone, body));
+    pose.R_PB[bone] = to_float(lattice_.local(bone, lattice_.place_bone(bone, body)));
   }
   pose.p_WH_m = {static_cast<float>(body.x[0]), static_cast<float>(body.x[1]),
                  static_cast<float>(body.x[2])};

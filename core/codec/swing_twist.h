@@ -102,22 +102,25 @@ struct NearSwingTwist {
   const double swing_t2 = s2 * inverse * inverse;
   const double twist_t = c < 1e-9 ? 0.0 : (q.w < 0.0 ? -q.z : q.z) / (c + std::abs(q.w));
   const Two atans = detail::atan_of_square(Two{swing_t2, twist_t * twist_t});
-  const double k = 4.0 * inverse * atans[0];  // θ / sin h
-  double u = k * q.x, v = k * q.y;
+  double u = q.x, v = q.y, scale = 4.0 * inverse;
   if (c >= 1e-9) {
-    const double per_c = k / c;
-    u = per_c * (q.x * q.w - q.y * q.z);
-    v = per_c * (q.x * q.z + q.y * q.w);
+    u = q.x * q.w - q.y * q.z;
+    v = q.x * q.z + q.y * q.w;
+    scale /= c;
   }
-  const double half_sinc = 2.0 / k;
-  const double theta2 = u * u + v * v;
-  const double s = half_sinc * c;                                   // sin θ / θ
-  const double d = 0.5 * half_sinc * half_sinc;                     // (1 − cos θ) / θ²
-  const double m = theta2 > 1e-3 ? (1.0 - s) / theta2 : 1.0 / 6.0;  // (1 − sin θ / θ) / θ²
+  u *= scale * atans[0];
+  v *= scale * atans[0];
+  // Of the swing θ: (1 − sin θ / θ) / θ², sin θ / θ and (1 − cos θ) / θ², within 1e-3.
+  const double t2 = u * u + v * v, t4 = t2 * t2;
+  const double m = (1.0 / 6.0 - t2 * (1.0 / 120.0)) +
+                   t4 * ((1.0 / 5040.0 - t2 * (1.0 / 362880.0)) + t4 * (1.0 / 39916800.0));
+  const double s = 1.0 - m * t2;
+  const double d = (0.5 - t2 * (1.0 / 24.0)) +
+                   t4 * ((1.0 / 720.0 - t2 * (1.0 / 40320.0)) + t4 * (1.0 / 3628800.0));
   return {{u, v, 4.0 * twist_t * atans[1]},
           {{s + m * u * u, m * u * v, -d * v},
            {m * u * v, s + m * v * v, d * u},
-           {s * v, -s * u, 1.0 - d * theta2}}};
+           {s * v, -s * u, 1.0 - d * t2}}};
 }
 
 }  // namespace dance::exact

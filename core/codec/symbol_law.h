@@ -123,13 +123,16 @@ class SymbolLaw {
   }();
 
   // What stands below the lower edge of a slot; slots 0 and kSlots − 1 are what is outside.
-  std::uint32_t below(int slot) const {
+  [[gnu::always_inline]] std::uint32_t below(int slot) const {
     if (slot <= 0) return 0;
     if (slot >= kSlots) return 1u << kLawBits;
     return inside(slot);
   }
-  std::uint32_t inside(int slot) const {
-    return slot > kMiddleSlot ? right_of_mean(slot) : left_of_mean(slot);
+  // Without a branch: on which side of the mean an encoder's number lies, nobody could foretell.
+  [[gnu::always_inline]] std::uint32_t inside(int slot) const {
+    const std::int64_t z = z_of(slot);
+    const auto sign = static_cast<std::uint32_t>(z >> 63);
+    return static_cast<std::uint32_t>(kBellTop / 2 + slot) + ((half(z < 0 ? -z : z) ^ sign) - sign);
   }
   std::uint32_t left_of_mean(int slot) const {
     return static_cast<std::uint32_t>(kBellTop / 2 + slot) - half(-z_of(slot));
