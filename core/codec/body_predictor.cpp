@@ -87,7 +87,7 @@ void BodyPredictor::look_back() {
   constexpr float kPads = static_cast<float>(kPaddedCount - kCoordinateCount);
   const float nothing = exact::rough_log2(kFloor) * kPads;
   body_speed_ = (exact::sum(speed) - nothing) / static_cast<float>(kCoordinateCount);
-  mood_[0] = body_noise_ = (exact::sum(noise) - nothing) / static_cast<float>(kCoordinateCount);
+  body_noise_ = (exact::sum(noise) - nothing) / static_cast<float>(kCoordinateCount);
 }
 
 // Where a bone's end and its roll were in the room in the newest reference, seen from its parent now,
@@ -192,8 +192,9 @@ Spread BodyPredictor::intra(std::size_t c, const BodyState& body) {
 Features BodyPredictor::features() const {
   const std::size_t axis = coordinate_ % 3;
   Features f;
-  store(f.mean, moved_[coordinate_], said_[axis], late_);
-  store(f.spread, sizes_[coordinate_], said_sizes_[axis], mood_);
+  store(f.mean, moved_[coordinate_], said_[axis], Four{late_[0], late_[1], late_[2], late_[3]});
+  store(f.spread, sizes_[coordinate_], said_sizes_[axis],
+        Four{body_noise_, mood_.surprise, mood_.size, mood_.size_before});
   f.speed = speed_;
   f.base = base_;
   return f;

@@ -42,10 +42,14 @@ class BodyPredictor {
   void look_at(std::size_t first, const BodyState& body);
   Spread predict_axis(std::size_t first, std::size_t axis, const BodyState& body);
 
+  // Of this frame so far: how surprising it is, and the log2 sizes of the last two residuals.
+  struct Mood {
+    float surprise = 0.0f, size = 0.0f, size_before = 0.0f;
+  };
   // So that a bone can be tried again.
-  exact::Four mood() const { return mood_; }
-  void set_mood(exact::Four mood) { mood_ = mood; }
-  void forget() { mood_ = exact::Four{body_noise_, 0.0f, 0.0f, 0.0f}; }
+  Mood mood() const { return mood_; }
+  void set_mood(const Mood& mood) { mood_ = mood; }
+  void forget() { mood_ = {}; }
 
   bool is_intra() const { return run_ == 0; }
   // For training.
@@ -75,9 +79,7 @@ class BodyPredictor {
   float body_noise_ = 0.0f;
   alignas(16) std::array<float, kCoordinateCount> residual_{};
   float residual_before_ = 0.0f, residual_before_that_ = 0.0f;  // of the same bone
-  // Of this frame so far: body_noise_, how surprising it is, and the log2 sizes of the last two
-  // residuals.
-  exact::Four mood_{};
+  Mood mood_;
   // Of u, v and w of the bone: what the room and its parent say, how sure that is, and how its other
   // way of swinging went.
   std::array<exact::Four, 3> said_, said_sizes_, beside_;
@@ -85,7 +87,7 @@ class BodyPredictor {
   std::size_t coordinate_ = 0;
   std::size_t speed_ = 0;  // of its bone's end
   double base_ = 0.0;
-  exact::Four late_{};  // features of this bone's coordinates before it
+  std::array<float, 4> late_{};  // features of this bone's coordinates before it
   double mean_ = 0.0;
   float log2_spread_ = 0.0f;
 };
@@ -109,10 +111,13 @@ inline float clamped(float log2_spread, float least, float most) {
 inline int class_of(float log2_spread) {
   return static_cast<int>(log2_spread * 4.0f + (0.5f + 64.0f)) - 64 + 16;
 }
-// Of w · f what is to be summed; the features in three fours.
-inline exact::Four weigh(const std::array<float, 12>& w, exact::Four a, exact::Four b,
-                         exact::Four c) {
-  return (exact::load_four(&w[0]) * a + exact::load_four(&w[4]) * b) + exact::load_four(&w[8]) * c;
+// w · f, added up as exact::sum() does: of the features eight in two fours, and four one by one, as
+// they are known last.
+inline float weigh(const std::array<float, 12>& w, exact::Four a, exact::Four b,
+                   const std::array<float, 4>& late) {
+  const exact::Four m = exact::load_four(&w[0]) * a + exact::load_four(&w[4]) * b;
+  return ((m[0] + w[8] * late[0]) + (m[1] + w[9] * late[1])) +
+         ((m[2] + w[10] * late[2]) + (m[3] + w[11] * late[3]));
 }
 }  // namespace detail
 
@@ -122,19 +127,19 @@ inline exact::Four weigh(const std::array<float, 12>& w, exact::Four a, exact::F
                                                                  const BodyState& body) {
   const std::size_t c = first + axis;
   if (is_intra()) return intra(c, body);
-  late_ = exact::Four{residual_before_, residual_before_that_, 0.0f, 0.0f};
   if (first < 6) {  // of the place and the hips what is known of them
     said_[axis] = exact::Four{residual_[0], residual_[1], residual_[2], residual_[3]};
-    late_ = exact::Four{residual_[4], 0.0f, 0.0f, 0.0f};
+    late_ = {residual_[4], 0.0f, 0.0f, 0.0f};
   } else {
-    late_ = __builtin_shufflevector(late_, beside_[axis], 0, 1, 4, 5);
+    late_ = {residual_before_, residual_before_that_, beside_[axis][0], beside_[axis][1]};
   }
   coordinate_ = c;
   base_ = was_[0]->x[c] * steps_.per_step[c];
   const CoordinateLaw& law = (*laws_)[c];
-  const auto [off, log2_spread] =
-      exact::sums(detail::weigh(law.mean[speed_], moved_[c], said_[axis], late_),
-                  detail::weigh(law.spread, sizes_[c], said_sizes_[axis], mood_));
+  const float off = detail::weigh(law.mean[speed_], moved_[c], said_[axis], late_);
+  const float log2_spread =
+      detail::weigh(law.spread, sizes_[c], said_sizes_[axis],
+                    {body_noise_, mood_.surprise, mood_.size, mood_.size_before});
   mean_ = base_ + static_cast<double>(off);
   log2_spread_ = detail::clamped(log2_spread, -4.0f, 12.0f);
   return {detail::to_256(mean_), detail::class_of(log2_spread_)};
@@ -155,8 +160,7 @@ inline Spread BodyPredictor::predict(std::size_t c, const BodyState& body) {
   // In fours, whose larger one is found without a branch.
   const exact::Four size = detail::size_of(exact::all(r));
   const float surprise = (size - exact::max(exact::all(log2_spread_), exact::all(-2.0f)))[0];
-  const float before = mood_[1];
-  mood_ = exact::Four{body_noise_, before + 0.15f * (surprise - before), size[0], mood_[2]};
+  mood_ = {mood_.surprise + 0.15f * (surprise - mood_.surprise), size[0], mood_.size};
 }
 
 }  // namespace dance

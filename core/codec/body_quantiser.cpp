@@ -297,7 +297,7 @@ bool BodyQuantiser::quantise(const BodyLattice& lattice, BodyPredictor& predicto
     gather_points(bone);
     const double bits = bits_;
     const std::size_t count = choice_count_;
-    const exact::Four mood = predictor.mood();
+    const BodyPredictor::Mood mood = predictor.mood();
     bool is_still = still_[bone];
     bool is_good = false;
     double lambda = options.lambda;

@@ -76,17 +76,6 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 inline float sum(Four x) { return (x[0] + x[1]) + (x[2] + x[3]); }
-// sum(x) and sum(y), at less than twice the price.
-struct TwoSums {
-  float x, y;
-};
-inline TwoSums sums(Four x, Four y) {
-  const Four low = __builtin_shufflevector(x, y, 0, 4, 1, 5);
-  const Four high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
-  const Four half = __builtin_shufflevector(low, high, 0, 1, 4, 5) +
-                    __builtin_shufflevector(low, high, 2, 3, 6, 7);
-  return {half[0] + half[2], half[1] + half[3]};
-}
 
 // log2 of positive numbers, straight between powers of two: exponent and mantissa read as one number.
 inline Four rough_log2(Four x) {
