@@ -75,11 +75,20 @@ class RangeEncoder {
       carry();
       low_ -= detail::kRangeWhole;
     }
-    while (range_ < detail::kRangeLeast) {
-      put(static_cast<std::uint8_t>(low_ >> (detail::kRangeTop - 8)));
-      low_ = low_ << 8 & (detail::kRangeWhole - 1);
-      range_ <<= 8;
+    // One byte or none, which no branch could foretell: what is written but not counted is written
+    // again. More are rare.
+    if (at_ < out_.size()) [[likely]] {
+      const int shift = range_ < detail::kRangeLeast ? 8 : 0;
+      out_[at_] = static_cast<std::uint8_t>(low_ >> (detail::kRangeTop - 8));
+      at_ += static_cast<std::size_t>(shift / 8);
+      low_ = low_ << shift & (detail::kRangeWhole - 1);
+      range_ <<= shift;
     }
+    while (range_ < detail::kRangeLeast) [[unlikely]] {
+        put(static_cast<std::uint8_t>(low_ >> (detail::kRangeTop - 8)));
+        low_ = low_ << 8 & (detail::kRangeWhole - 1);
+        range_ <<= 8;
+      }
   }
   void put(std::uint8_t byte) {
     ok_ = ok_ && at_ < out_.size();
