@@ -46,17 +46,20 @@ void walk(const PoseModel& model, const std::vector<TakeLattice>& takes,
     const BodyLattice& lattice = *takes[k].lattice;
     const DecodedTake& states = decoded[k];
     for (std::size_t i = which.age + which.run - 1u; i < states.size(); ++i) {
-      std::array<const BodyState*, 4> references{};
+      std::array<const ReferenceBody*, 4> references{};
       for (std::size_t r = 0; r < which.run; ++r) references[r] = &states[i - which.age - r];
       BodyPredictor predictor(lattice, model, kLevel, which.slow != 0, which.age,
                               {references.data(), which.run});
+      BodyState body{states[i]};
       for (std::size_t c = 0; c < kCoordinateCount; ++c) {
-        predictor.predict(c, states[i]);
+        if (c >= 3 && c % 3 == 0) lattice.seat_bone(c / 3 - 1, body);
+        predictor.predict(c, body);
         double n = states[i].x[c] / lattice.step(c, kLevel);
         if (const double turn = lattice.turn(c, kLevel); turn > 0.0)
           n += turn * std::round((predictor.mean() - n) / turn);
         on_coordinate(c, predictor, n - predictor.features().base, n);
         predictor.decoded(c, n);
+        if (c >= 3 && c % 3 == 2) lattice.place_bone(c / 3 - 1, body);
       }
     }
   }

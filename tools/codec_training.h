@@ -31,7 +31,7 @@ struct CodecTraining {
 Result<std::unique_ptr<PoseModel>> train_codec(const CodecTraining& training);
 
 // The parts, in the order they are run. Frames of a take as decoders have them.
-using DecodedTake = std::vector<BodyState>;
+using DecodedTake = std::vector<ReferenceBody>;
 struct TakeLattice {
   const CodecTake* take;
   std::unique_ptr<BodyLattice> lattice;

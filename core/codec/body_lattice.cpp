@@ -152,31 +152,7 @@ exact::SwingTwist BodyLattice::angles_of(std::size_t bone, const Quat& R_PB) con
 }
 
 Quat BodyLattice::rotation_of(std::size_t bone, const exact::SwingTwist& angles) const {
-  const Frame& f = frames_[bone];
-  const Quat q = f.before * exact::to_quat(angles) * f.after;
-  return bone == 0 ? exact::conj(q) : q;
-}
-
-exact::SwingTwist BodyLattice::angles_in_room(std::size_t bone, const BodyState& state,
-                                              const Quat& R_WB) const {
-  const Frame& f = frames_[bone];
-  if (bone == 0)
-    return exact::nearly_swing_twist(exact::conj(f.before) * exact::conj(R_WB) *
-                                     exact::conj(f.after));
-  return exact::nearly_swing_twist(exact::conj(state.seat[bone]) * R_WB * exact::conj(f.after));
-}
-
-std::array<Vec, 3> BodyLattice::axes_in_room(std::size_t bone, const BodyState& state,
-                                             const Quat& R_WB, const exact::SwingTwist& at) const {
-  const exact::SwingTwistAxes a = exact::axes_of(at);
-  if (bone > 0) {
-    const Quat& seat = state.seat[bone];
-    return {exact::rotate(seat, a.u), exact::rotate(seat, a.v), exact::rotate(seat, a.w)};
-  }
-  // The hips' coordinates are those of the inverse.
-  const Quat back = R_WB * frames_[0].before;
-  return {-1.0 * exact::rotate(back, a.u), -1.0 * exact::rotate(back, a.v),
-          -1.0 * exact::rotate(back, a.w)};
+  return local(bone, exact::to_quat(angles));
 }
 
 }  // namespace dance

@@ -38,15 +38,17 @@ struct RestModel {
   std::array<BoneRest, kBoneCount> bones;
 };
 
-// A decoded body, by the arithmetic that both ends share.
-struct BodyState {
+// What later frames ask of a decoded body.
+struct ReferenceBody {
   alignas(16) std::array<double, kPaddedCount> x{};  // coordinates
-  std::array<exact::Quat, kBoneCount> turn{};        // by swing and twist
+  std::array<exact::Four, kBoneCount> spun{};        // seat, swung and twisted, nearly; w first
+  std::array<exact::Vec, kBoneCount> end{};          // of each bone: next joint, or tip
+};
+// A decoded body, by the arithmetic that both ends share.
+struct BodyState : ReferenceBody {
   std::array<exact::Quat, kBoneCount> global{};
   std::array<exact::Quat, kBoneCount> seat{};  // of each bone's swing and twist, in W
-  std::array<exact::Four, kBoneCount> spun{};  // seat, swung and twisted, nearly; w first
   std::array<exact::Vec, kBoneCount> joint{};
-  std::array<exact::Vec, kBoneCount> end{};  // of each bone: next joint, or tip
 };
 
 // A lattice of one fineness.
@@ -79,21 +81,28 @@ class BodyLattice {
   // Coordinates of a rotation, and back. For the hips of the rotation in W.
   exact::SwingTwist angles_of(std::size_t bone, const exact::Quat& R_PB) const;
   exact::Quat rotation_of(std::size_t bone, const exact::SwingTwist& angles) const;
-  // Nearly the coordinates by which a seated bone comes to a rotation in W; and the axes in W that it
-  // turns about with a little more of each of them.
-  exact::SwingTwist angles_in_room(std::size_t bone, const BodyState& state,
-                                   const exact::Quat& R_WB) const;
-  std::array<exact::Vec, 3> axes_in_room(std::size_t bone, const BodyState& state,
-                                         const exact::Quat& R_WB,
-                                         const exact::SwingTwist& at) const;
+  exact::Quat rotation_of(std::size_t bone, const ReferenceBody& body) const {
+    const double* x = body.x.data() + first_coordinate(bone);
+    return rotation_of(bone, exact::SwingTwist{x[0], x[1], x[2]});
+  }
+  // With a seated bone turned to a rotation in W: what turns W's axes to those that its swing and twist
+  // begin in, and the two as one.
+  exact::Quat from_room(std::size_t bone, const BodyState& state, const exact::Quat& R_WB) const {
+    return exact::conj(bone == 0 ? R_WB * frames_[0].before : state.seat[bone]);
+  }
+  exact::Quat turn_of(std::size_t bone, const exact::Quat& from_room,
+                      const exact::Quat& R_WB) const {
+    const exact::Quat after = exact::conj(frames_[bone].after);
+    return bone == 0 ? from_room * after : from_room * R_WB * after;
+  }
 
   // Bone after bone, parents first: where its joint is and its rotation begins, then, with its
-  // coordinates known, all of it.
+  // coordinates known, all of it; gives its swing and twist.
   void seat_bone(std::size_t bone, BodyState& state) const;
-  void place_bone(std::size_t bone, BodyState& state) const;
-  // In the parent, of a placed bone.
-  exact::Quat local(std::size_t bone, const BodyState& state) const {
-    const exact::Quat q = frames_[bone].before * state.turn[bone] * frames_[bone].after;
+  exact::Quat place_bone(std::size_t bone, BodyState& state) const;
+  // A bone's rotation in its parent by swing and twist.
+  [[gnu::always_inline]] exact::Quat local(std::size_t bone, const exact::Quat& turn) const {
+    const exact::Quat q = frames_[bone].before * turn * frames_[bone].after;
     return bone == 0 ? exact::conj(q) : q;
   }
   const exact::Vec& offset(std::size_t bone) const { return offset_[bone]; }
@@ -126,7 +135,8 @@ constexpr std::size_t tip_of(std::size_t bone) {
   return kTipCount;
 }
 
-inline void BodyLattice::seat_bone(std::size_t bone, BodyState& state) const {
+[[gnu::always_inline]] inline void BodyLattice::seat_bone(std::size_t bone,
+                                                          BodyState& state) const {
   if (bone == 0) {
     state.joint[0] = {state.x[0], state.x[1], state.x[2]};
     state.seat[0] = frames_[0].before;
@@ -139,18 +149,19 @@ inline void BodyLattice::seat_bone(std::size_t bone, BodyState& state) const {
   state.seat[bone] = state.global[parent] * frames_[bone].before;
 }
 
-inline void BodyLattice::place_bone(std::size_t bone, BodyState& state) const {
+[[gnu::always_inline]] inline exact::Quat BodyLattice::place_bone(std::size_t bone,
+                                                                  BodyState& state) const {
   const double* x = state.x.data() + first_coordinate(bone);
   const exact::Quat q = exact::to_quat({x[0], x[1], x[2]});
-  state.turn[bone] = q;
   if (bone == 0) {
-    state.global[0] = local(0, state);
+    state.global[0] = local(0, q);
   } else {
     const exact::Quat spun = state.seat[bone] * q;
     state.spun[bone] = exact::to_floats(spun.w, spun.x, spun.y, spun.z);
     state.global[bone] = spun * frames_[bone].after;
   }
   state.end[bone] = state.joint[bone] + exact::rotate(state.global[bone], end_[bone]);
+  return q;
 }
 
 }  // namespace dance

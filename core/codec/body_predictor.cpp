@@ -5,10 +5,10 @@
 namespace dance {
 namespace {
 
+using detail::kFloor;
+using detail::size_of;
 using exact::Four;
 
-// Below this part of a step nothing is told from nothing.
-constexpr float kFloor = 0.25f;
 // An end that moves less than this a frame stands still; more than the other is fast.
 constexpr double kStill_m = 0.0012;
 constexpr double kFast_m = 0.006;
@@ -16,31 +16,13 @@ constexpr float kPi = static_cast<float>(exact::kPi);
 // No bone's end is so near to its joint that its direction would mean anything.
 constexpr float kNearest_m = 1e-6f;
 
-Four size_of(Four steps) { return exact::rough_log2(exact::abs(steps) + kFloor); }
-
-std::int64_t to_256(double steps) {
-  const double near = exact::at_most(exact::at_least(steps, -4.0e6), 4.0e6);
-  const double x = near * 256.0 + (0.5 + 0x1p31);
-  return static_cast<std::int64_t>(x) - (std::int64_t{1} << 31);  // rounded down
-}
-
-float clamped(float log2_spread, float least, float most) {
-  return exact::at_most(exact::at_least(log2_spread, least), most);
-}
-// Of −8 to 15.
-int class_of(float log2_spread) {
-  return static_cast<int>(log2_spread * 4.0f + (0.5f + 64.0f)) - 64 + 16;
-}
-
-// Of w · f what is to be summed; the features in three fours.
-Four weigh(const std::array<float, 12>& w, Four a, Four b, Four c) {
-  return (exact::load_four(&w[0]) * a + exact::load_four(&w[4]) * b) + exact::load_four(&w[8]) * c;
-}
 void store(std::array<float, 12>& to, Four a, Four b, Four c) {
   exact::store_four(&to[0], a);
   exact::store_four(&to[4], b);
   exact::store_four(&to[8], c);
 }
+
+exact::Vec place_of(const ReferenceBody& body) { return {body.x[0], body.x[1], body.x[2]}; }
 
 // Angles that two others are apart, within half a turn.
 Four short_way(Four apart) {
@@ -60,7 +42,7 @@ constexpr exact::FourInts kTwistLane{0, 0, -1, 0};
 
 BodyPredictor::BodyPredictor(const BodyLattice& lattice, const PoseModel& model, std::size_t level,
                              bool slow, std::size_t age,
-                             std::span<const BodyState* const> references)
+                             std::span<const ReferenceBody* const> references)
     : lattice_(lattice),
       steps_(lattice.steps(level)),
       model_(model),
@@ -105,7 +87,7 @@ void BodyPredictor::look_back() {
   constexpr float kPads = static_cast<float>(kPaddedCount - kCoordinateCount);
   const float nothing = exact::rough_log2(kFloor) * kPads;
   body_speed_ = (exact::sum(speed) - nothing) / static_cast<float>(kCoordinateCount);
-  mood_[0] = body_noise_ = (exact::sum(noise) - nothing) / static_cast<float>(kCoordinateCount);
+  body_noise_ = (exact::sum(noise) - nothing) / static_cast<float>(kCoordinateCount);
 }
 
 // Where a bone's end and its roll were in the room in the newest reference, seen from its parent now,
@@ -114,42 +96,9 @@ struct BodyPredictor::Room {
   Four hold{}, speed{}, turn{};
 };
 
-void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
-  const std::size_t bone = c < 3 ? 0 : (c - 3) / 3;
-  residual_before_ = residual_before_that_ = 0.0f;
-  features_.speed = 1;
-  if (run_ > 1) {
-    const BodyState &a = *was_[0], &b = *was_[1];
-    const exact::Vec v = bone == 0 ? a.joint[0] - b.joint[0] : a.end[bone] - b.end[bone];
-    const double v2 = exact::dot(v, v);
-    features_.speed = v2 < kStill_m * kStill_m ? 0 : v2 < kFast_m * kFast_m ? 1 : 2;
-  }
-  const Four moved{moved_[c][1], moved_[c + 1][1], moved_[c + 2][1], 0.0f};
-  Room room;
-  if (bone > 0) {
-    room = look_at_room(bone, body);
-    const float* parent =
-        &residual_[first_coordinate(static_cast<std::size_t>(kBones[bone].parent))];
-    said_[0] = room.hold;
-    said_[1] = room.speed;
-    said_[2] = room.turn;
-    Four of_parent = Four{parent[0], parent[1], parent[2], 0.0f} * steps_.of_parent[bone];
-    exact::transpose(said_[0], said_[1], said_[2], of_parent);
-    beside_[0] = Four{moved[1], room.hold[1], 0.0f, 0.0f};
-    beside_[1] = Four{moved[0], room.hold[0], 0.0f, 0.0f};
-    beside_[2] = Four{};
-  } else {
-    for (std::size_t i = c; i < 6; ++i) residual_[i] = 0.0f;
-  }
-  said_sizes_[0] = size_of(room.speed);
-  said_sizes_[1] = size_of(room.turn);
-  said_sizes_[2] = size_of(room.hold + age_ * (room.speed - moved));
-  Four all_over = exact::all(body_speed_);
-  exact::transpose(said_sizes_[0], said_sizes_[1], said_sizes_[2], all_over);
-}
-
 // Swing and twist as in core/codec/swing_twist.h, of three references side by side.
-BodyPredictor::Room BodyPredictor::look_at_room(std::size_t bone, const BodyState& body) const {
+[[gnu::always_inline]] inline BodyPredictor::Room BodyPredictor::look_at_room(
+    std::size_t bone, const BodyState& body) const {
   const exact::Vec d0 = was_[0]->end[bone] - body.joint[bone],
                    d1 = was_[1]->end[bone] - body.joint[bone],
                    d2 = was_[2]->end[bone] - body.joint[bone];
@@ -191,6 +140,41 @@ BodyPredictor::Room BodyPredictor::look_at_room(std::size_t bone, const BodyStat
   return {steps(newest - in_parent), speed, speed - steps(before - oldest)};
 }
 
+void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
+  if (is_intra()) return;
+  const std::size_t bone = c < 3 ? 0 : (c - 3) / 3;
+  residual_before_ = residual_before_that_ = 0.0f;
+  speed_ = 1;
+  if (run_ > 1) {
+    const ReferenceBody &a = *was_[0], &b = *was_[1];
+    const exact::Vec v = bone == 0 ? place_of(a) - place_of(b) : a.end[bone] - b.end[bone];
+    const double v2 = exact::dot(v, v);
+    speed_ = (v2 >= kStill_m * kStill_m ? 1u : 0u) + (v2 >= kFast_m * kFast_m ? 1u : 0u);
+  }
+  const Four moved{moved_[c][1], moved_[c + 1][1], moved_[c + 2][1], 0.0f};
+  Room room;
+  if (bone > 0) {
+    room = look_at_room(bone, body);
+    const float* parent =
+        &residual_[first_coordinate(static_cast<std::size_t>(kBones[bone].parent))];
+    said_[0] = room.hold;
+    said_[1] = room.speed;
+    said_[2] = room.turn;
+    Four of_parent = Four{parent[0], parent[1], parent[2], 0.0f} * steps_.of_parent[bone];
+    exact::transpose(said_[0], said_[1], said_[2], of_parent);
+    beside_[0] = Four{moved[1], room.hold[1], 0.0f, 0.0f};
+    beside_[1] = Four{moved[0], room.hold[0], 0.0f, 0.0f};
+    beside_[2] = Four{};
+  } else {
+    for (std::size_t i = c; i < 6; ++i) residual_[i] = 0.0f;
+  }
+  said_sizes_[0] = size_of(room.speed);
+  said_sizes_[1] = size_of(room.turn);
+  said_sizes_[2] = size_of(room.hold + age_ * (room.speed - moved));
+  Four all_over = exact::all(body_speed_);
+  exact::transpose(said_sizes_[0], said_sizes_[1], said_sizes_[2], all_over);
+}
+
 // Hips are as high as legs are long: their height counts from there.
 Spread BodyPredictor::intra(std::size_t c, const BodyState& body) {
   const IntraLaw& law = model_.intra[c];
@@ -202,44 +186,18 @@ Spread BodyPredictor::intra(std::size_t c, const BodyState& body) {
   }
   mean_ = mean * steps_.per_step[c];
   log2_spread_ = law.spread_log2 + exact::rough_log2(static_cast<float>(steps_.per_step[c]));
-  return {to_256(mean_), class_of(clamped(log2_spread_, -8.0f, 15.0f))};
+  return {detail::to_256(mean_), detail::class_of(detail::clamped(log2_spread_, -8.0f, 15.0f))};
 }
 
-Spread BodyPredictor::predict(std::size_t c, const BodyState& body) {
-  if (is_intra()) return intra(c, body);
-  const std::size_t axis = c % 3;
-  if (axis == 0) look_at(c, body);
-  Four said, late;
-  if (c < 6) {  // of the place and the hips what is known of them
-    said = exact::load_four(&residual_[0]);
-    late = Four{residual_[4], 0.0f, 0.0f, 0.0f};
-  } else {
-    said = said_[axis];
-    late = __builtin_shufflevector(Four{residual_before_, residual_before_that_, 0.0f, 0.0f},
-                                   beside_[axis], 0, 1, 4, 5);
-  }
-  store(features_.mean, moved_[c], said, late);
-  store(features_.spread, sizes_[c], said_sizes_[axis], mood_);
-  features_.base = was_[0]->x[c] * steps_.per_step[c];
-  const CoordinateLaw& law = (*laws_)[c];
-  const auto [off, log2_spread] =
-      exact::sums(weigh(law.mean[features_.speed], moved_[c], said, late),
-                  weigh(law.spread, sizes_[c], said_sizes_[axis], mood_));
-  mean_ = features_.base + static_cast<double>(off);
-  log2_spread_ = clamped(log2_spread, -4.0f, 12.0f);
-  return {to_256(mean_), class_of(log2_spread_)};
-}
-
-void BodyPredictor::decoded(std::size_t c, double steps) {
-  if (is_intra()) return;
-  const auto r = static_cast<float>(steps - mean_);
-  residual_[c] = r;
-  residual_before_that_ = residual_before_;
-  residual_before_ = r;
-  const float size = size_of(exact::all(r))[0];
-  const float surprise = size - exact::at_least(log2_spread_, -2.0f);
-  const float before = mood_[1];
-  mood_ = Four{body_noise_, before + 0.15f * (surprise - before), size, mood_[2]};
+Features BodyPredictor::features() const {
+  const std::size_t axis = coordinate_ % 3;
+  Features f;
+  store(f.mean, moved_[coordinate_], said_[axis], Four{late_[0], late_[1], late_[2], late_[3]});
+  store(f.spread, sizes_[coordinate_], said_sizes_[axis],
+        Four{body_noise_, mood_.surprise, mood_.size, mood_.size_before});
+  f.speed = speed_;
+  f.base = base_;
+  return f;
 }
 
 std::size_t case_index(bool slow, std::size_t age, std::size_t run) {

@@ -15,6 +15,8 @@ using exact::Vec;
 constexpr double kShellWeight = 0.3;
 // A correction is some millimetres at the end of a bone.
 constexpr double kFarthestAim_rad = 0.3;
+// Nothing is saved at the price of an error.
+constexpr double kDear = 1e6;
 
 Quat to_quat(const Eigen::Quaternionf& q) {
   return exact::normalized({q.w(), q.x(), q.y(), q.z()});
@@ -76,55 +78,72 @@ BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const Body
 }
 
 // The joints and tips that a bone carries, through bones that stand still.
-void BodyQuantiser::gather_points(std::size_t bone, const Still& still, const BodyState* base) {
+void BodyQuantiser::gather_points(std::size_t bone) {
   point_count_ = 0;
-  gather_from(bone, {}, {}, still, base);
-}
-
-void BodyQuantiser::gather_from(std::size_t bone, const Vec& at, const Quat& turn,
-                                const Still& still, const BodyState* base) {
-  const std::size_t tip = tip_of(bone);
-  if (tip < kTipCount)
-    points_[point_count_++] = {at + exact::rotate(turn, lattice_->tip(tip)), truth_->tip[tip],
-                               true};
+  const Vec& joint = truth_->joint[bone];
+  const auto add = [&](const Vec& offset, const Vec& truth, bool is_tip) {
+    Point& p = points_[point_count_++];
+    p.offset = offset;
+    p.arm = truth - joint;
+    p.truth = truth;
+    p.is_tip = is_tip;
+  };
+  if (const std::size_t tip = tip_of(bone); tip < kTipCount)
+    add(lattice_->tip(tip), truth_->tip[tip], true);
   for (const std::int8_t child : kChildren[bone]) {
     if (child < 0) break;
     const auto c = static_cast<std::size_t>(child);
-    const Vec offset = at + exact::rotate(turn, lattice_->offset(c));
-    points_[point_count_++] = {offset, truth_->joint[c], false};
-    if (still[c])
-      gather_from(c, offset, turn * (base ? lattice_->local(c, *base) : truth_->local[c]), still,
-                  base);
+    add(lattice_->offset(c), truth_->joint[c], false);
+    if (still_[c]) gather_beyond(c, bone, lattice_->offset(c), {});
   }
 }
 
-void BodyQuantiser::commit(std::size_t c, std::int32_t n) {
-  const double step = lattice_->step(c, options_.level);
-  predictor_->decoded(c, n);
-  body_.x[c] = step * wrapped(n, lattice_->turn(c, options_.level));
+// `at` is where the bone's joint is, and `turn` how its parent is turned, in the root's frame.
+void BodyQuantiser::gather_beyond(std::size_t bone, std::size_t root, const Vec& at,
+                                  const Quat& turn) {
+  const Quat turned = turn * still_local_[bone];
+  const auto add = [&](const Vec& offset, const Vec& truth, bool is_tip) {
+    Point& p = points_[point_count_++];
+    p.offset = offset;
+    p.arm = exact::rotate(truth_->global[root], offset);
+    p.truth = truth;
+    p.is_tip = is_tip;
+  };
+  if (const std::size_t tip = tip_of(bone); tip < kTipCount)
+    add(at + exact::rotate(turned, lattice_->tip(tip)), truth_->tip[tip], true);
+  for (const std::int8_t child : kChildren[bone]) {
+    if (child < 0) break;
+    const auto c = static_cast<std::size_t>(child);
+    const Vec offset = at + exact::rotate(turned, lattice_->offset(c));
+    add(offset, truth_->joint[c], false);
+    if (still_[c]) gather_beyond(c, root, offset, turned);
+  }
 }
 
 // The cheapest of the whole numbers around the target; `weight` is what one step off costs there.
-void BodyQuantiser::choose(std::size_t c, double target_steps, double weight, double lambda) {
-  const Spread spread = predictor_->predict(c, body_);
+[[gnu::always_inline]] inline double BodyQuantiser::choose(std::size_t first, std::size_t axis,
+                                                           double target_steps, double weight,
+                                                           double lambda) {
+  const std::size_t c = first + axis;
+  const Spread spread = predictor_->predict_axis(first, axis, body_);
   const SymbolLaw law(*bell_, spread);
+  const std::int32_t turn = steps_->turn[c];
   // A turn more or less is the same rotation: the one nearest the mean costs least.
-  if (const std::int32_t turn = lattice_->turn(c, options_.level); turn != 0) {
-    const double mean = static_cast<double>(spread.mean_256) / 256.0;
-    target_steps += turn * exact::round_to_whole((mean - target_steps) / turn);
+  if (axis == 2 && turn != 0) {
+    const double off = static_cast<double>(spread.mean_256) / 256.0 - target_steps;
+    if (std::abs(off) > 0.5 * turn) target_steps += turn * exact::round_to_whole(off / turn);
   }
-  const auto nearest = static_cast<std::int32_t>(exact::round_to_whole(target_steps));
-  const SymbolLaw::Symbol centre = law.find(nearest);
-  SymbolLaw::Symbol best = centre;
+  const auto nearest = static_cast<std::int32_t>(std::lrint(target_steps));
+  SymbolLaw::Symbol best = law.find(nearest);
   double best_bits = law.bits(best);
   const double d0 = nearest - target_steps;
   const double worth = lambda * weight;
   double best_cost = best_bits + worth * d0 * d0;
   // A number further off can but save the bits that there are.
-  for (const int way : {-1, 1}) {
-    SymbolLaw::Symbol symbol = centre;
+  if (const int way = law.cheaper_way(best); way != 0) {
+    SymbolLaw::Symbol symbol = best;
     for (int far = 1; far <= 3; ++far) {
-      const double d = nearest + way * far - target_steps;
+      const double d = d0 + way * far;
       const double penalty = worth * d * d;
       if (penalty >= best_cost) break;
       symbol = law.beside(symbol, way);
@@ -139,24 +158,29 @@ void BodyQuantiser::choose(std::size_t c, double target_steps, double weight, do
   bits_ += best_bits;
   DANCE_ASSERT(choice_count_ < choices_.size());
   choices_[choice_count_++] = {law, best};
-  commit(c, best.n);
+  predictor_->decoded(c, best.n);
+  const std::int32_t n = axis == 2 ? wrapped(best.n, turn) : best.n;
+  body_.x[c] = steps_->step[c] * n;
+  return steps_->step[c] * best.n;
 }
 
 // A bone that came to rest while it was aimed stays where truth has it only when it is aimed again.
-bool BodyQuantiser::stands_in(std::size_t bone, const BodyState& base) const {
-  return angle_between(lattice_->local(bone, base), truth_->local[bone]) <
-         lattice_->step(first_coordinate(bone), options_.level);
+bool BodyQuantiser::stands_in(std::size_t bone) const {
+  const Quat off = exact::conj(still_local_[bone]) * truth_->local[bone];
+  const double half_step = 0.5 * steps_->step[first_coordinate(bone)];
+  return off.x * off.x + off.y * off.y + off.z * off.z < half_step * half_step;
 }
 
 bool BodyQuantiser::quantise_place(double lambda) {
-  const double place[3] = {truth_->joint[0].x, truth_->joint[0].y, truth_->joint[0].z};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double step = lattice_->step(c, options_.level);
-    const double in_budget = step / options_.error_m;
-    choose(c, place[c] / step, 2.0 * in_budget * in_budget, lambda);
-  }
+  const Vec& place = truth_->joint[0];
+  const double in_budget = steps_->step[0] / options_.error_m;
+  const double weight = 2.0 * in_budget * in_budget;
+  predictor_->look_at(0, body_);
+  choose(0, 0, place.x * steps_->per_step[0], weight, lambda);
+  choose(0, 1, place.y * steps_->per_step[1], weight, lambda);
+  choose(0, 2, place.z * steps_->per_step[2], weight, lambda);
   const Vec at{body_.x[0], body_.x[1], body_.x[2]};
-  return exact::length(at - truth_->joint[0]) <= options_.inner * options_.error_m;
+  return exact::length(at - place) <= options_.inner * options_.error_m;
 }
 
 bool BodyQuantiser::is_good(std::size_t bone) const {
@@ -169,72 +193,84 @@ bool BodyQuantiser::is_good(std::size_t bone) const {
   return std::abs(exact::dot(body_.global[bone], truth_->global[bone])) >= least_dot_;
 }
 
-bool BodyQuantiser::quantise_bone(std::size_t bone, bool is_still, double lambda) {
+bool BodyQuantiser::keep_bone(std::size_t bone) {
   const std::size_t c = first_coordinate(bone);
-  const auto level = options_.level;
   lattice_->seat_bone(bone, body_);
-  if (is_still) {
-    exact::SwingTwist a;
-    if (base_ == nullptr) a = lattice_->angles_of(bone, truth_->local[bone]);
-    const double angles[3] = {a.u, a.v, a.w};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double target = base_ ? base_->x[c + i] : angles[i];
-      choose(c + i, target * lattice_->per_step(c + i, level), 1.0, 1e6);
-    }
-    lattice_->place_bone(bone, body_);
-    return is_good(bone);
-  }
-  const Vec& joint = body_.joint[bone];
+  predictor_->look_at(c, body_);
+  exact::SwingTwist at;
+  if (base_ != nullptr)
+    at = {base_->x[c], base_->x[c + 1], base_->x[c + 2]};
+  else
+    at = lattice_->angles_of(bone, truth_->local[bone]);
+  choose(c, 0, at.u * steps_->per_step[c], 1.0, kDear);
+  choose(c, 1, at.v * steps_->per_step[c + 1], 1.0, kDear);
+  choose(c, 2, at.w * steps_->per_step[c + 2], 1.0, kDear);
+  lattice_->place_bone(bone, body_);
+  return is_good(bone);
+}
+
+bool BodyQuantiser::aim_bone(std::size_t bone, double lambda) {
+  const std::size_t c = first_coordinate(bone);
+  lattice_->seat_bone(bone, body_);
+  predictor_->look_at(c, body_);
   const Quat& aimed = truth_->global[bone];
-  const exact::SwingTwist at = lattice_->angles_in_room(bone, body_, aimed);
-  const std::array<Vec, 3> axis = lattice_->axes_in_room(bone, body_, aimed, at);
-  // Least squares of  off + Σ δᵢ axisᵢ × r  over the points r, with some resistance of the shell.
-  double H[3][3] = {}, g[3] = {};
-  const double shell = (lambda > 1e3 ? 0.05 : kShellWeight) * kShellRadius_m * kShellRadius_m;
+  const Quat from_room = lattice_->from_room(bone, body_, aimed);
+  const auto [at, axes] = exact::nearly_swing_twist(lattice_->turn_of(bone, from_room, aimed));
+  // Least squares of  off + Σ δᵢ axisᵢ × r  over the points r, with some resistance of the shell:
+  // Hᵢₖ = Σ (axisᵢ × r) · (axisₖ × r), gᵢ = Σ (axisᵢ × r) · off, each product told by dot products.
+  double uu = 0.0, uv = 0.0, uw = 0.0, vv = 0.0, vw = 0.0, ww = 0.0;
+  double r2 = (lambda > 1e3 ? 0.05 : kShellWeight) * kShellRadius_m * kShellRadius_m;
+  const double shell = r2;
+  Vec torque;
   for (const Point& p : points()) {
-    const Vec r = exact::rotate(aimed, p.offset);
-    const Vec off = joint + r - p.truth;
-    const Vec J[3] = {exact::cross(axis[0], r), exact::cross(axis[1], r), exact::cross(axis[2], r)};
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k <= i; ++k) H[i][k] += exact::dot(J[i], J[k]);
-      g[i] += exact::dot(J[i], off);
-    }
+    const Vec off = body_.joint[bone] + p.arm - p.truth;
+    torque = torque + exact::cross(p.arm, off);
+    r2 += exact::dot(p.arm, p.arm);
+    const Vec r = exact::rotate(from_room, p.arm);
+    const double u = exact::dot(axes.u, r), v = exact::dot(axes.v, r), w = exact::dot(axes.w, r);
+    uu += u * u, uv += u * v, uw += u * w, vv += v * v, vw += v * w, ww += w * w;
   }
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k <= i; ++k) H[i][k] += shell * exact::dot(axis[i], axis[k]);
-  H[0][1] = H[1][0], H[0][2] = H[2][0], H[1][2] = H[2][1];
-  // Eliminates w, then v: what a step of u costs when the others follow it.
-  const double b_w[3] = {H[2][0] / H[2][2], H[2][1] / H[2][2], g[2] / H[2][2]};
-  const double H00 = H[0][0] - H[0][2] * b_w[0], H01 = H[0][1] - H[0][2] * b_w[1];
-  const double H11 = H[1][1] - H[1][2] * b_w[1];
-  const double g0 = g[0] - H[0][2] * b_w[2], g1 = g[1] - H[1][2] * b_w[2];
-  const double S = H00 - H01 * H01 / H11;
+  // The hips' coordinates are those of the inverse.
+  torque = (bone == 0 ? -1.0 : 1.0) * exact::rotate(from_room, torque);
+  const double H_uu = r2 * exact::dot(axes.u, axes.u) - uu;
+  const double H_uv = r2 * exact::dot(axes.u, axes.v) - uv;
+  const double H_uw = r2 * exact::dot(axes.u, axes.w) - uw;
+  const double H_vv = r2 * exact::dot(axes.v, axes.v) - vv;
+  const double H_vw = r2 * exact::dot(axes.v, axes.w) - vw;
+  const double H_ww = r2 * exact::dot(axes.w, axes.w) - ww;
+  const double g_u = exact::dot(axes.u, torque), g_v = exact::dot(axes.v, torque),
+               g_w = exact::dot(axes.w, torque);
+  // Solves for u by cofactors; S is what a step of u costs when the others follow it, T one of v when
+  // w does.
+  const double C_u = H_vv * H_ww - H_vw * H_vw, C_v = H_uw * H_vw - H_uv * H_ww,
+               C_w = H_uv * H_vw - H_vv * H_uw;
+  const double det = H_uu * C_u + H_uv * C_v + H_uw * C_w;
+  const double du_aim = -(C_u * g_u + C_v * g_v + C_w * g_w) / det;
+  const double per_ww = 1.0 / H_ww;
+  const double S = det / C_u, T = C_u * per_ww;
   // Where two of the three turn about the same axis (a swing of half a turn) no aim can be reckoned:
   // there the truth is rounded as it is.
-  const double du_aim = -(g0 - H01 * g1 / H11) / S;
-  const bool can_aim =
-      std::abs(du_aim) < kFarthestAim_rad && S > 1e-4 * shell && H11 > 1e-4 * shell;
+  const bool can_aim = std::abs(du_aim) < kFarthestAim_rad && S > 1e-4 * shell && T > 1e-4 * shell;
   const double du = can_aim ? du_aim : 0.0;
 
-  const double step[3] = {lattice_->step(c, level), lattice_->step(c + 1, level),
-                          lattice_->step(c + 2, level)};
+  const double *step = &steps_->step[c], *per_step = &steps_->per_step[c];
   const double per_budget = 1.0 / (options_.error_m * options_.error_m);
-  choose(c, (at.u + du) / step[0], (can_aim ? S : H[0][0]) * step[0] * step[0] * per_budget,
-         lambda);
-  const double did_u = choices_[choice_count_ - 1].symbol.n * step[0] - at.u;
-  const double dv = can_aim ? -(g1 + H01 * did_u) / H11 : 0.0;
-  choose(c + 1, (at.v + dv) / step[1], (can_aim ? H11 : H[1][1]) * step[1] * step[1] * per_budget,
-         lambda);
-  const double did_v = choices_[choice_count_ - 1].symbol.n * step[1] - at.v;
-  const double dw = can_aim ? -(g[2] + H[2][0] * did_u + H[2][1] * did_v) / H[2][2] : 0.0;
-  choose(c + 2, (at.w + dw) / step[2], H[2][2] * step[2] * step[2] * per_budget, lambda);
+  const double swing_weight = step[0] * step[0] * per_budget;
+  const double did_u =
+      choose(c, 0, (at.u + du) * per_step[0], (can_aim ? S : H_uu) * swing_weight, lambda) - at.u;
+  const double dv =
+      can_aim ? -((g_v - H_vw * g_w * per_ww) + (H_uv - H_uw * H_vw * per_ww) * did_u) / T : 0.0;
+  const double did_v =
+      choose(c, 1, (at.v + dv) * per_step[1], (can_aim ? T : H_vv) * swing_weight, lambda) - at.v;
+  const double dw = can_aim ? -(g_w + H_uw * did_u + H_vw * did_v) * per_ww : 0.0;
+  choose(c, 2, (at.w + dw) * per_step[2], H_ww * step[2] * step[2] * per_budget, lambda);
   lattice_->place_bone(bone, body_);
   return is_good(bone);
 }
 
 bool BodyQuantiser::quantise(const BodyLattice& lattice, BodyPredictor& predictor,
                              const BellShape& bell, const TrueBody& truth, const Still& still,
-                             const BodyState* base, const QuantiseOptions& options) {
+                             const ReferenceBody* base, const QuantiseOptions& options) {
   lattice_ = &lattice;
   predictor_ = &predictor;
   bell_ = &bell;
@@ -242,10 +278,12 @@ bool BodyQuantiser::quantise(const BodyLattice& lattice, BodyPredictor& predicto
   base_ = base;
   still_ = still;
   options_ = options;
-  if (base != nullptr)
-    for (std::size_t bone = 0; bone < kBoneCount; ++bone)
-      still_[bone] = still_[bone] && stands_in(bone, *base);
-  options_ = options;
+  steps_ = &lattice.steps(options.level);
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    if (!still_[bone]) continue;
+    still_local_[bone] = base != nullptr ? lattice.rotation_of(bone, *base) : truth.local[bone];
+    still_[bone] = stands_in(bone);
+  }
   choice_count_ = 0;
   bits_ = 0.0;
   least_dot_ = std::cos(0.5 * angle_budget_rad(options.error_m));
@@ -253,13 +291,13 @@ bool BodyQuantiser::quantise(const BodyLattice& lattice, BodyPredictor& predicto
     choice_count_ = 0;
     bits_ = 0.0;
     predictor.forget();
-    if (!quantise_place(1e6)) return false;
+    if (!quantise_place(kDear)) return false;
   }
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-    gather_points(bone, still_, base);
+    gather_points(bone);
     const double bits = bits_;
     const std::size_t count = choice_count_;
-    const exact::Four mood = predictor.mood();
+    const BodyPredictor::Mood mood = predictor.mood();
     bool is_still = still_[bone];
     bool is_good = false;
     double lambda = options.lambda;
@@ -267,11 +305,11 @@ bool BodyQuantiser::quantise(const BodyLattice& lattice, BodyPredictor& predicto
       bits_ = bits;
       choice_count_ = count;
       predictor.set_mood(mood);
-      is_good = quantise_bone(bone, is_still, lambda);
+      is_good = is_still ? keep_bone(bone) : aim_bone(bone, lambda);
       if (is_still)
         is_still = false;
       else
-        lambda = attempt == 1 ? 1e6 : lambda * 4.0;
+        lambda = attempt == 1 ? kDear : lambda * 4.0;
     }
     if (!is_good) return false;
   }

@@ -60,7 +60,7 @@ class BodyQuantiser {
   using Still = std::array<bool, kBoneCount>;
 
   bool quantise(const BodyLattice& lattice, BodyPredictor& predictor, const BellShape& bell,
-                const TrueBody& truth, const Still& still, const BodyState* base,
+                const TrueBody& truth, const Still& still, const ReferenceBody* base,
                 const QuantiseOptions& options);
 
   const BodyState& body() const { return body_; }
@@ -70,27 +70,33 @@ class BodyQuantiser {
  private:
   struct Point {
     exact::Vec offset;  // in the bone's frame
+    exact::Vec arm;     // the same in W, if the bone is turned as it truly is
     exact::Vec truth;   // in W
     bool is_tip;
   };
   std::span<const Point> points() const { return {points_.data(), point_count_}; }
-  void gather_from(std::size_t bone, const exact::Vec& at, const exact::Quat& turn,
-                   const Still& still, const BodyState* base);
-  void gather_points(std::size_t bone, const Still& still, const BodyState* base);
-  bool stands_in(std::size_t bone, const BodyState& base) const;
+  void gather_points(std::size_t bone);
+  void gather_beyond(std::size_t bone, std::size_t root, const exact::Vec& at,
+                     const exact::Quat& turn);
+  bool stands_in(std::size_t bone) const;
   bool quantise_place(double lambda);
-  bool quantise_bone(std::size_t bone, bool is_still, double lambda);
-  void choose(std::size_t c, double target_steps, double weight, double lambda);
-  void commit(std::size_t c, std::int32_t n);
+  // As it was in the frame before; or so that what hangs on it comes where it truly is.
+  bool keep_bone(std::size_t bone);
+  bool aim_bone(std::size_t bone, double lambda);
+  // The coordinate that is coded, before it is brought into its turn.
+  double choose(std::size_t first, std::size_t axis, double target_steps, double weight,
+                double lambda);
   bool is_good(std::size_t bone) const;
 
   const BodyLattice* lattice_ = nullptr;
+  const LatticeSteps* steps_ = nullptr;
   BodyPredictor* predictor_ = nullptr;
   const BellShape* bell_ = nullptr;
   const TrueBody* truth_ = nullptr;
-  const BodyState* base_ = nullptr;
+  const ReferenceBody* base_ = nullptr;
   QuantiseOptions options_;
   Still still_{};
+  std::array<exact::Quat, kBoneCount> still_local_;  // of bones that stand still
   BodyState body_;
   std::array<Choice, kCoordinateCount> choices_;
   std::size_t choice_count_ = 0;

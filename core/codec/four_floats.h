@@ -9,6 +9,9 @@
 
 #include <cmath>
 #include <cstdint>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 namespace dance::exact {
 
@@ -23,7 +26,13 @@ inline void store_four(float* aligned, Four x) { *reinterpret_cast<Four*>(aligne
 inline Four abs(Four x) {
   return reinterpret_cast<Four>(reinterpret_cast<FourInts>(x) & 0x7fff'ffff);
 }
-inline Four max(Four a, Four b) { return a > b ? a : b; }
+inline Four max(Four a, Four b) {
+#ifdef __SSE__
+  return _mm_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
 template <typename T>
 T at_least(T x, T least) {
   return x > least ? x : least;
@@ -33,7 +42,11 @@ T at_most(T x, T most) {
   return x < most ? x : most;
 }
 inline Four sqrt(Four x) {
+#ifdef __SSE__
+  return _mm_sqrt_ps(x);
+#else
   return Four{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
 }
 // x where the mask is set, 0 elsewhere.
 inline Four only(FourInts mask, Four x) {
@@ -63,17 +76,6 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 inline float sum(Four x) { return (x[0] + x[1]) + (x[2] + x[3]); }
-// sum(x) and sum(y), at less than twice the price.
-struct TwoSums {
-  float x, y;
-};
-inline TwoSums sums(Four x, Four y) {
-  const Four low = __builtin_shufflevector(x, y, 0, 4, 1, 5);
-  const Four high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
-  const Four half = __builtin_shufflevector(low, high, 0, 1, 4, 5) +
-                    __builtin_shufflevector(low, high, 2, 3, 6, 7);
-  return {half[0] + half[2], half[1] + half[3]};
-}
 
 // log2 of positive numbers, straight between powers of two: exponent and mantissa read as one number.
 inline Four rough_log2(Four x) {

@@ -3,7 +3,7 @@
 //
 // Units/frames: errors in metres, at joints and tips in W; bones turn by at
 //               most what moves skin 3 cm from a joint by as much, and never by more than 4°.
-// Ownership:    encoder and decoder keep the last 64 frames, some 200 KB each, and share the model;
+// Ownership:    encoder and decoder keep the last 64 frames, some 100 KB each, and share the model;
 //               made once per guest, they never allocate afterwards.
 // Threads:      none inside; one owner.
 // Failure:      as the seam says. A pose that no lattice brings within the error (none is known) is
@@ -73,7 +73,7 @@ class LatticeEncoder final : public PoseEncoder {
   Duration pace_ = Duration::us(16'667);
   bool is_slow_ = false;
   bool has_truth_ = false;
-  TrueBody last_truth_;
+  std::array<exact::Quat, kBoneCount> last_local_{};  // true
   std::array<std::uint8_t, 255> last_payload_{};
   std::size_t last_size_ = 0;
 };
@@ -92,16 +92,17 @@ class LatticeDecoder final : public PoseDecoder {
   const CodedFrame* find(std::uint32_t sequence) { return ring_.find(sequence); }
 
  private:
-  DecodeResult decode_frame(std::uint32_t sequence, std::span<const std::uint8_t> payload);
+  DecodeResult decode_frame(std::uint32_t sequence, std::span<const std::uint8_t> payload,
+                            Pose& pose);
   DecodeResult decode_body(RangeDecoder& in, const FrameHead& head, std::uint32_t sequence,
-                           std::span<const BodyState* const> references);
+                           std::span<const ReferenceBody* const> references, Pose& pose);
 
   std::shared_ptr<const PoseModel> model_;
   std::unique_ptr<FrameRing> frames_ = std::make_unique<FrameRing>();
   FrameRing& ring_ = *frames_;
   BodyLattice lattice_;
   std::uint8_t skeleton_tag_;
-  CodedFrame fresh_;  // until it is known to be whole
+  BodyState fresh_body_;  // until it is known to be whole
 };
 
 }  // namespace dance

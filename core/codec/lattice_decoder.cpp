@@ -31,20 +31,35 @@ void LatticeDecoder::set_skeleton(const Skeleton& skeleton) {
 
 DecodeResult LatticeDecoder::decode_body(RangeDecoder& in, const FrameHead& head,
                                          std::uint32_t sequence,
-                                         std::span<const BodyState* const> references) {
+                                         std::span<const ReferenceBody* const> references,
+                                         Pose& pose) {
   BodyPredictor predictor(lattice_, *model_, head.level, head.is_slow, head.age, references);
   const BellShape& bell = references.empty() ? model_->intra_bell : model_->bell;
-  BodyState& body = fresh_.body;
-  for (std::size_t c = 0; c < kCoordinateCount; ++c) {
-    if (c >= 3 && c % 3 == 0) lattice_.seat_bone((c - 3) / 3, body);
-    const std::int32_t n = SymbolLaw(bell, predictor.predict(c, body)).decode(in);
-    predictor.decoded(c, n);
-    const std::int32_t turn = lattice_.turn(c, head.level);
-    body.x[c] = lattice_.step(c, head.level) * wrapped(n, turn);
-    const double most = c < 3 ? kFarthest_m : kLargestSwing_rad;
-    if (std::abs(body.x[c]) > most) return DecodeResult::kMalformed;
-    if (c >= 3 && c % 3 == 2) lattice_.place_bone((c - 3) / 3, body);
+  const LatticeSteps& steps = lattice_.steps(head.level);
+  BodyState& body = fresh_body_;
+  // Inline, so that what one coordinate leaves to the next stays in registers.
+  const auto decode_axis = [&](std::size_t first, std::size_t axis) __attribute__((always_inline)) {
+    const std::int32_t n = SymbolLaw(bell, predictor.predict_axis(first, axis, body)).decode(in);
+    predictor.decoded(first + axis, n);
+    return n;
+  };
+  // The place, then bone after bone.
+  for (std::size_t c = 0; c < kCoordinateCount; c += 3) {
+    const std::size_t bone = c / 3 - 1;
+    if (c > 0) lattice_.seat_bone(bone, body);
+    predictor.look_at(c, body);
+    double* x = &body.x[c];
+    x[0] = steps.step[c] * decode_axis(c, 0);
+    x[1] = steps.step[c + 1] * decode_axis(c, 1);
+    x[2] = steps.step[c + 2] * wrapped(decode_axis(c, 2), steps.turn[c + 2]);
+    const double most = c == 0 ? kFarthest_m : kLargestSwing_rad;
+    if (std::abs(x[0]) > most || std::abs(x[1]) > most || std::abs(x[2]) > most)
+      return DecodeResult::kMalformed;
+    if (c == 0) continue;
+    pose.R_PB[bone] = to_float(lattice_.local(bone, lattice_.place_bone(bone, body)));
   }
+  pose.p_WH_m = {static_cast<float>(body.x[0]), static_cast<float>(body.x[1]),
+                 static_cast<float>(body.x[2])};
   if (!references.empty() && has_check(sequence) &&
       in.decode_bits(16) != check_of(lattice_, head.level, skeleton_tag_, body))
     return DecodeResult::kReferenceMissing;  // what we hold of this sequence is not what they sent
@@ -52,14 +67,14 @@ DecodeResult LatticeDecoder::decode_body(RangeDecoder& in, const FrameHead& head
 }
 
 DecodeResult LatticeDecoder::decode_frame(std::uint32_t sequence,
-                                          std::span<const std::uint8_t> payload) {
+                                          std::span<const std::uint8_t> payload, Pose& pose) {
   if (payload.size() == 1 && payload[0] == 0) payload = {};
   RangeDecoder in(payload);
   FrameHead head;
   read_kind(in, head);
   if (head.kind == FrameKind::kTwice || !read_head(in, head)) return DecodeResult::kMalformed;
   std::array<const CodedFrame*, 4> frames{};
-  std::array<const BodyState*, 4> bodies{};
+  std::array<const ReferenceBody*, 4> bodies{};
   if (head.kind == FrameKind::kIntra) {
     if (head.skeleton_tag != skeleton_tag_) return DecodeResult::kSkeletonMissing;
   } else {
@@ -72,15 +87,17 @@ DecodeResult LatticeDecoder::decode_frame(std::uint32_t sequence,
     head.is_slow = frames[0]->is_slow;
     if (!read_level(in, frames[0]->level, head)) return DecodeResult::kMalformed;
   }
-  if (!read_extras(in, frames[0], frames[1], head.age, model_->bell, fresh_.extras))
+  PoseExtras extras;
+  if (!read_extras(in, frames[0], frames[1], head.age, model_->bell, extras))
     return DecodeResult::kMalformed;
-  const DecodeResult result = decode_body(in, head, sequence, {bodies.data(), head.run});
+  const DecodeResult result = decode_body(in, head, sequence, {bodies.data(), head.run}, pose);
   if (result != DecodeResult::kPose) return result;
   CodedFrame& frame = ring_.make(sequence);
   frame.level = head.level;
   frame.is_slow = head.is_slow;
-  frame.extras = fresh_.extras;
-  frame.body = fresh_.body;
+  frame.extras = extras;
+  frame.body = fresh_body_;
+  put_extras(extras, pose);
   return DecodeResult::kPose;
 }
 
@@ -101,18 +118,11 @@ DecodeResult LatticeDecoder::decode(std::uint32_t sequence, std::span<const std:
     if (next.kind != FrameKind::kDelta || !read_head(main, next)) return DecodeResult::kMalformed;
     // Only where it was missed; what it refers to may be missing too, which the frame itself tells.
     if (ring_.find(sequence - next.age) == nullptr &&
-        decode_frame(sequence - next.age, before) == DecodeResult::kMalformed)
+        decode_frame(sequence - next.age, before, pose) == DecodeResult::kMalformed)
       return DecodeResult::kMalformed;
   }
-  const DecodeResult result = decode_frame(sequence, payload);
+  const DecodeResult result = decode_frame(sequence, payload, pose);
   if (result != DecodeResult::kPose) return result;
-  const CodedFrame& frame = *ring_.find(sequence);
-  const exact::Vec& place = frame.body.joint[0];
-  pose.p_WH_m = {static_cast<float>(place.x), static_cast<float>(place.y),
-                 static_cast<float>(place.z)};
-  for (std::size_t b = 0; b < kBoneCount; ++b)
-    pose.R_PB[b] = to_float(lattice_.local(b, frame.body));
-  put_extras(frame.extras, pose);
   return is_valid(pose) ? DecodeResult::kPose : DecodeResult::kMalformed;
 }
 

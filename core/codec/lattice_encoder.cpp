@@ -135,7 +135,7 @@ BodyQuantiser::Still LatticeEncoder::still_bones(const TrueBody& truth) const {
   if (!has_truth_) return still;
   for (std::size_t b = 1; b < kBoneCount; ++b) {
     const exact::Quat& now = truth.local[b];
-    const exact::Quat& was = last_truth_.local[b];
+    const exact::Quat& was = last_local_[b];
     still[b] = std::abs(exact::dot(now, was)) > 1.0 - 0.5 * kUnmoved * kUnmoved;
   }
   return still;
@@ -143,9 +143,9 @@ BodyQuantiser::Still LatticeEncoder::still_bones(const TrueBody& truth) const {
 
 bool LatticeEncoder::quantise(const TrueBody& truth, const BodyQuantiser::Still& still,
                               const Reference& reference) {
-  std::array<const BodyState*, 4> bodies{};
+  std::array<const ReferenceBody*, 4> bodies{};
   for (std::size_t i = 0; i < reference.run; ++i) bodies[i] = &reference.frames[i]->body;
-  const BodyState* base = reference.run > 0 ? bodies[0] : nullptr;
+  const ReferenceBody* base = reference.run > 0 ? bodies[0] : nullptr;
   const BellShape& bell = reference.run > 0 ? model_->bell : model_->intra_bell;
   for (const Attempt& attempt : kAttempts) {
     used_level_ = level_ - std::min(level_, attempt.finer);
@@ -184,10 +184,8 @@ std::size_t LatticeEncoder::write(const Pose& pose, const Reference& reference,
   return 1;
 }
 
-std::size_t LatticeEncoder::encode(const Pose& given, std::span<std::uint8_t> payload) {
-  if (!is_valid(given)) return 0;
-  Pose pose = given;
-  normalize(pose);
+std::size_t LatticeEncoder::encode(const Pose& pose, std::span<std::uint8_t> payload) {
+  if (!is_valid(pose)) return 0;
   if (has_last_ && pose.sequence - last_sequence_ > INT32_MAX) restart();
   if (has_last_ && pose.sequence == last_sequence_) return 0;
   watch_pace(pose.capture_time);
@@ -235,7 +233,7 @@ std::size_t LatticeEncoder::encode(const Pose& given, std::span<std::uint8_t> pa
   has_last_ = true;
   last_sequence_ = pose.sequence;
   has_truth_ = true;
-  last_truth_ = truth;
+  last_local_ = truth.local;
   return lead + size;
 }
 

@@ -174,7 +174,7 @@ bool read_extras(RangeDecoder& in, const CodedFrame* base, const CodedFrame* bef
 }
 
 std::uint16_t check_of(const BodyLattice& lattice, std::size_t level, std::uint8_t skeleton_tag,
-                       const BodyState& body) {
+                       const ReferenceBody& body) {
   std::uint32_t sum = 2166136261u;
   const auto add = [&sum](std::uint32_t x) { sum = (sum ^ x) * 16777619u; };
   add(skeleton_tag);

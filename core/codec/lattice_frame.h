@@ -2,7 +2,7 @@
 // which frames it refers to, how fine its lattice is, and what a pose is beside a body.
 //
 // Units/frames: as docs/codec.md says; musical time in 1/1024 beat, confidence in 1/63.
-// Ownership:    plain values; a ring holds the last 64 frames by sequence, some 200 KB, and never
+// Ownership:    plain values; a ring holds the last 64 frames by sequence, some 100 KB, and never
 //               allocates.
 // Threads:      none inside.
 // Failure:      read functions are false for what no encoder writes.
@@ -38,7 +38,7 @@ struct CodedFrame {
   std::uint8_t level = 3;
   bool is_slow = false;
   PoseExtras extras;
-  BodyState body;
+  ReferenceBody body;
 };
 
 class FrameRing {
@@ -106,7 +106,7 @@ bool read_extras(RangeDecoder& in, const CodedFrame* base, const CodedFrame* bef
 // Every 32nd frame carries this sum of its body, so that ends that have come apart notice.
 constexpr bool has_check(std::uint32_t sequence) { return (sequence & 31u) == 31u; }
 std::uint16_t check_of(const BodyLattice& lattice, std::size_t level, std::uint8_t skeleton_tag,
-                       const BodyState& body);
+                       const ReferenceBody& body);
 
 // Tells skeletons apart in a key frame.
 std::uint8_t tag_of(const Skeleton& skeleton);

@@ -75,11 +75,20 @@ class RangeEncoder {
       carry();
       low_ -= detail::kRangeWhole;
     }
-    while (range_ < detail::kRangeLeast) {
-      put(static_cast<std::uint8_t>(low_ >> (detail::kRangeTop - 8)));
-      low_ = low_ << 8 & (detail::kRangeWhole - 1);
-      range_ <<= 8;
+    // One byte or none, which no branch could foretell: what is written but not counted is written
+    // again. More are rare.
+    if (at_ < out_.size()) [[likely]] {
+      const int shift = range_ < detail::kRangeLeast ? 8 : 0;
+      out_[at_] = static_cast<std::uint8_t>(low_ >> (detail::kRangeTop - 8));
+      at_ += static_cast<std::size_t>(shift / 8);
+      low_ = low_ << shift & (detail::kRangeWhole - 1);
+      range_ <<= shift;
     }
+    while (range_ < detail::kRangeLeast) [[unlikely]] {
+        put(static_cast<std::uint8_t>(low_ >> (detail::kRangeTop - 8)));
+        low_ = low_ << 8 & (detail::kRangeWhole - 1);
+        range_ <<= 8;
+      }
   }
   void put(std::uint8_t byte) {
     ok_ = ok_ && at_ < out_.size();
@@ -117,11 +126,15 @@ class RangeDecoder {
   void consume(std::uint32_t cum_low, std::uint32_t freq) {
     code_ -= unit_ * cum_low;
     range_ = unit_ * freq;
-    while (range_ < detail::kRangeLeast) {
-      code_ = (code_ << 8 | next()) & (detail::kRangeWhole - 1);
-      range_ <<= 8;
-      ++shifted_;
-    }
+    // One byte or none, which no branch could foretell; more are rare.
+    const int shift = range_ < detail::kRangeLeast ? 8 : 0;
+    code_ = (code_ << 8 | peek()) >> (8 - shift) & (detail::kRangeWhole - 1);
+    range_ <<= shift;
+    at_ += static_cast<std::size_t>(shift / 8);
+    while (range_ < detail::kRangeLeast) [[unlikely]] {
+        code_ = (code_ << 8 | next()) & (detail::kRangeWhole - 1);
+        range_ <<= 8;
+      }
   }
   std::uint32_t decode_bits(int n) {
     const std::uint32_t value = decode_target(n);
@@ -131,15 +144,19 @@ class RangeDecoder {
 
   // Nothing stands behind the message: no encoder writes more than this.
   bool is_exhausted() const {
-    return in_.size() <= shifted_ + 1 && (in_.empty() || in_.back() != 0);
+    return in_.size() + detail::kRangeTop / 8 <= at_ + 1 && (in_.empty() || in_.back() != 0);
   }
 
  private:
-  std::uint64_t next() { return at_ < in_.size() ? in_[at_++] : 0u; }
+  std::uint64_t peek() const { return at_ < in_.size() ? in_[at_] : 0u; }
+  std::uint64_t next() {
+    const std::uint64_t byte = peek();
+    ++at_;
+    return byte;
+  }
 
   std::span<const std::uint8_t> in_;
-  std::size_t at_ = 0;
-  std::size_t shifted_ = 0;
+  std::size_t at_ = 0;  // of the next byte; goes on beyond the end
   std::uint64_t code_ = 0;
   std::uint64_t range_ = detail::kRangeWhole;
   std::uint64_t unit_ = 1;

@@ -31,12 +31,17 @@ using BellShape = std::array<std::uint32_t, kBellSteps + 1>;
 class SymbolLaw {
  public:
   SymbolLaw() = default;
-  SymbolLaw(const BellShape& shape, Spread spread) : shape_(&shape) {
+  [[gnu::always_inline]] SymbolLaw(const BellShape& shape, Spread spread) : shape_(&shape) {
     const int c = std::clamp(spread.spread_class, 0, kSpreadClasses - 1);
-    shift_ = std::max(0, (c >> 2) - 5);
-    first_ = (((spread.mean_256 + 128) >> 8) >> shift_) - kWindow;
     const std::int64_t inverse = kInverses[static_cast<std::size_t>(c)];
-    edge_ = (first_ * (std::int64_t{1} << (shift_ + 8)) - 128 - spread.mean_256) * inverse;
+    first_ = ((spread.mean_256 + 128) >> 8) - kWindow;
+    // A branch, as where symbols stand must not wait for the spread.
+    if (c >= kFirstShifted) [[unlikely]] {
+      shift_ = (c >> 2) - 5;
+      first_ = ((first_ + kWindow) >> shift_) - kWindow;
+    }
+    const std::int64_t middle = (first_ + kWindow) * (std::int64_t{1} << (shift_ + 8));
+    edge_ = (middle - 128 - spread.mean_256) * inverse;
     width_ = inverse << (shift_ + 8);
   }
 
@@ -46,14 +51,14 @@ class SymbolLaw {
     int slot = 0;
     std::uint32_t low = 0, freq = 0;
   };
-  Symbol find(std::int32_t n) const {
+  [[gnu::always_inline]] Symbol find(std::int32_t n) const {
     const std::int64_t from_first = (static_cast<std::int64_t>(n) >> shift_) - first_;
     const int slot = static_cast<int>(std::clamp<std::int64_t>(from_first + 1, 0, kSlots - 1));
     const std::uint32_t low = below(slot);
     return {n, slot, low, below(slot + 1) - low};
   }
   // As find() of the number before or after, `way` −1 or 1.
-  Symbol beside(const Symbol& symbol, int way) const {
+  [[gnu::always_inline]] Symbol beside(const Symbol& symbol, int way) const {
     const int slot = symbol.slot + way;
     if (shift_ > 0 || symbol.slot < 1 || symbol.slot >= kSlots - 1) return find(symbol.n + way);
     if (way < 0) {
@@ -63,8 +68,12 @@ class SymbolLaw {
     const std::uint32_t low = symbol.low + symbol.freq;
     return {symbol.n + 1, slot, low, below(slot + 1) - low};
   }
+  // Which way the numbers are cheaper: −1, 1, or 0 in the middle.
+  int cheaper_way(const Symbol& symbol) const {
+    return symbol.slot < kMiddleSlot ? 1 : symbol.slot > kMiddleSlot ? -1 : 0;
+  }
   // What encode() would write.
-  double bits(const Symbol& symbol) const {
+  [[gnu::always_inline]] double bits(const Symbol& symbol) const {
     const double bits = kLawBits - nearly_log2(symbol.freq) + shift_;
     return symbol.slot != 0 && symbol.slot != kSlots - 1 ? bits : bits + bits_outside(symbol);
   }
@@ -74,24 +83,20 @@ class SymbolLaw {
   }
   void encode(std::int32_t n, RangeEncoder& out) const { encode(find(n), out); }
 
-  std::int32_t decode(RangeDecoder& in) const {
-    in.begin(kLawBits);
-    int slot = kWindow + 1;
-    std::uint32_t low = inside(slot), high;
-    if (in.is_below(low)) {
+  [[gnu::always_inline]] std::int32_t decode(RangeDecoder& in) const {
+    const std::uint32_t target = in.decode_target(kLawBits);
+    int slot = kMiddleSlot;
+    std::uint32_t low = left_of_mean(slot), high;
+    if (target < low) {
       do {
         high = low;
-        low = --slot > 0 ? inside(slot) : 0;
-      } while (in.is_below(low));
+        --slot;
+        low = slot > 0 ? left_of_mean(slot) : 0;
+      } while (target < low);
     } else {
-      high = inside(slot + 1);
-      while (!in.is_below(high)) {
+      while (target >= (high = slot + 1 < kSlots ? right_of_mean(slot + 1) : 1u << kLawBits)) {
         low = high;
-        if (++slot == kSlots - 1) {
-          high = 1u << kLawBits;
-          break;
-        }
-        high = inside(slot + 1);
+        ++slot;
       }
     }
     in.consume(low, high - low);
@@ -101,8 +106,10 @@ class SymbolLaw {
 
  private:
   static constexpr int kLawBits = 16;
-  static constexpr int kWindow = 15;  // symbols either side of the mean
+  static constexpr int kWindow = 15;               // symbols either side of the mean
+  static constexpr int kMiddleSlot = kWindow + 1;  // the mean lies in it
   static constexpr int kSlots = 2 * kWindow + 3;
+  static constexpr int kFirstShifted = 24;  // spread class
   // Of each class's spread, 2^20 / steps.
   static constexpr auto kInverses = [] {
     constexpr std::array<std::int64_t, 4> kQuarterOctaves{1'048'576, 881'744, 741'455, 623'487};
@@ -116,20 +123,32 @@ class SymbolLaw {
   }();
 
   // What stands below the lower edge of a slot; slots 0 and kSlots − 1 are what is outside.
-  std::uint32_t below(int slot) const {
+  [[gnu::always_inline]] std::uint32_t below(int slot) const {
     if (slot <= 0) return 0;
     if (slot >= kSlots) return 1u << kLawBits;
     return inside(slot);
   }
-  std::uint32_t inside(int slot) const {
-    // z in 1/4096 of the spread
-    const std::int64_t z = (edge_ + (slot - 1) * width_) >> 16;
-    const std::int64_t far = std::min<std::int64_t>(z < 0 ? -z : z, (kBellSteps << 8) - 1);
+  // Without a branch: on which side of the mean an encoder's number lies, nobody could foretell.
+  [[gnu::always_inline]] std::uint32_t inside(int slot) const {
+    const std::int64_t z = z_of(slot);
+    const auto sign = static_cast<std::uint32_t>(z >> 63);
+    return static_cast<std::uint32_t>(kBellTop / 2 + slot) + ((half(z < 0 ? -z : z) ^ sign) - sign);
+  }
+  std::uint32_t left_of_mean(int slot) const {
+    return static_cast<std::uint32_t>(kBellTop / 2 + slot) - half(-z_of(slot));
+  }
+  std::uint32_t right_of_mean(int slot) const {
+    return static_cast<std::uint32_t>(kBellTop / 2 + slot) + half(z_of(slot));
+  }
+  // The lower edge of a slot, in 1/4096 of the spread from the mean.
+  std::int64_t z_of(int slot) const { return (edge_ + (slot - kMiddleSlot) * width_) >> 16; }
+  // What lies between the mean and z ≥ 0.
+  std::uint32_t half(std::int64_t z) const {
+    const std::int64_t far = std::min<std::int64_t>(z, (kBellSteps << 8) - 1);
     const std::uint32_t* at = shape_->data() + (far >> 8);
     const auto a = static_cast<std::int32_t>(at[0]), b = static_cast<std::int32_t>(at[1]);
-    const std::int32_t half = (a + (((b - a) * static_cast<std::int32_t>(far & 255)) >> 8)) >> 8;
-    constexpr std::int32_t kMiddle = kBellTop / 2;
-    return static_cast<std::uint32_t>((z < 0 ? kMiddle - half : kMiddle + half) + slot);
+    return static_cast<std::uint32_t>(
+        (a + (((b - a) * static_cast<std::int32_t>(far & 255)) >> 8)) >> 8);
   }
   // Within 0.002.
   static double nearly_log2(std::uint32_t x) {
@@ -148,7 +167,7 @@ class SymbolLaw {
   std::int32_t decode_rest(int slot, RangeDecoder& in) const;
 
   const BellShape* shape_ = nullptr;
-  std::int64_t edge_ = 0;   // the lower edge of slot 1 from the mean, 2^-28 of the spread
+  std::int64_t edge_ = 0;   // the lower edge of the middle slot from the mean, 2^-28 of the spread
   std::int64_t width_ = 0;  // of a slot
   std::int64_t first_ = 0;  // symbol of slot 1
   int shift_ = 0;           // wide bells are coded coarsely, and the rest in plain bits
