@@ -8,7 +8,7 @@
 // Threads:      none inside; one owner.
 // Failure:      as the seam says. A pose that no lattice brings within the error (none is known) is
 //               refused. What was damaged on its way decodes to another pose or is kMalformed; every
-//               32nd frame carries a sum by which ends that came apart notice.
+//               32nd frame or so carries a sum by which ends that came apart notice.
 #pragma once
 
 #include <memory>

@@ -103,8 +103,9 @@ void write_extras(const PoseExtras& extras, const CodedFrame* base, const CodedF
 bool read_extras(RangeDecoder& in, const CodedFrame* base, const CodedFrame* before, unsigned age,
                  const BellShape& bell, PoseExtras& extras);
 
-// Every 32nd frame carries this sum of its body, so that ends that have come apart notice.
-constexpr bool has_check(std::uint32_t sequence) { return (sequence & 31u) == 31u; }
+// One frame in 32 carries this sum of its body, so that ends that have come apart notice: spread evenly
+// (Fibonacci hashing), whatever step sequences count by.
+constexpr bool has_check(std::uint32_t sequence) { return sequence * 2654435761u < 1u << 27; }
 std::uint16_t check_of(const BodyLattice& lattice, std::size_t level, std::uint8_t skeleton_tag,
                        const ReferenceBody& body);
 

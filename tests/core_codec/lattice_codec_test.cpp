@@ -323,5 +323,21 @@ TEST(PoseModel, HalvesHoldNumbersWithinTheirPrecision) {
     EXPECT_EQ(to_half(from_half(static_cast<std::uint16_t>(half))), half);
 }
 
+// A producer at half the rate counts by twos, and its frames must be checked as well.
+TEST(LatticeFrame, IsCheckedOftenWhateverStepSequencesCountBy) {
+  for (std::uint32_t stride = 1; stride <= 8; ++stride) {
+    std::uint32_t longest = 0, since = 0, checked = 0;
+    constexpr std::uint32_t kFrames = 32'000;
+    for (std::uint32_t i = 0; i < kFrames; ++i, ++since) {
+      if (!has_check(0xffff'0000u + i * stride)) continue;
+      longest = std::max(longest, since);
+      since = 0;
+      ++checked;
+    }
+    EXPECT_NEAR(checked, kFrames / 32, 100) << stride;
+    EXPECT_LT(longest, 200u) << stride;
+  }
+}
+
 }  // namespace
 }  // namespace dance
