@@ -19,8 +19,8 @@
 namespace dance {
 
 constexpr std::uint64_t kIpUdp_bytes = 28;
-// One process plays all guests. These, from the first on, decode what they hear, and say how long it
-// took; the others count what arrives, so that the crowd's work does not stand in one queue.
+// One process plays all guests. These, from the first on, decode what they hear, and are measured; the
+// others only take it in, so that the crowd's work does not stand in one queue.
 constexpr std::size_t kListeners = 2;
 
 class Crowd {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
+#include <ctime>
 
 #include "bench/crowd.h"
 #include "bench/salsa_poses.h"
@@ -23,15 +22,10 @@ constexpr Duration kSettles = Duration::ms(150);
 
 // What a process has had of a core so far.
 Duration cpu_of(pid_t pid) {
-  std::int64_t sum_ns = 0;
-  std::error_code ignored;
-  const std::string tasks = "/proc/" + std::to_string(pid) + "/task";
-  for (const auto& task : std::filesystem::directory_iterator(tasks, ignored)) {
-    std::int64_t ns = 0;
-    std::ifstream(task.path() / "schedstat") >> ns;
-    sum_ns += ns;
-  }
-  return Duration::ns(sum_ns);
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &time) != 0) return Duration();
+  return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
 }
 
 // One relay and its crowd.
@@ -43,14 +37,14 @@ struct Way {
   std::vector<std::uint32_t> next, first;          // sequences; the first that counts in this turn
   bool is_counting = false;
   std::uint64_t bytes = 0;
+  double danced_s = 0.0;  // what the counted poses are worth
   Duration busy_time, busy_cpu, idle_time, idle_cpu;
 
   void arrived(std::size_t listener, std::size_t sender, std::uint32_t sequence) {
-    if (!is_counting || sender >= next.size()) return;
+    if (!is_counting || listener >= kListeners || sender >= next.size()) return;
     const std::uint32_t back = next[sender] - 1 - sequence;
     if (sequence < first[sender] || back >= sent_at[sender].size()) return;
     ++result.delivered;
-    if (listener >= kListeners) return;
     result.took.push_back(mono_now() - sent_at[sender][sequence % sent_at[sender].size()]);
   }
 };
@@ -74,8 +68,9 @@ class BenchTunnel {
   std::vector<Pose> poses_ = salsa_poses();
   std::unique_ptr<Poller> poller_;
   std::vector<std::unique_ptr<Way>> ways_;
-  MonoTime begin_;          // of this turn
-  std::size_t danced_ = 0;  // poses in this turn, guest after guest
+  MonoTime begin_;           // of this turn
+  std::size_t danced_ = 0;   // poses in this turn, guest after guest
+  std::size_t counted_ = 0;  // of them
 };
 
 Result<void> BenchTunnel::prepare(const std::string& own_program) {
@@ -156,38 +151,44 @@ void BenchTunnel::send_due(Way& way, MonoTime now) {
     const MonoTime at = mono_now();
     pose.capture_time = at;
     way.sent_at[guest][sequence % way.sent_at[guest].size()] = at;
-    if (way.is_counting) way.result.sent += options_.guests - 1;
+    if (way.is_counting) {
+      way.result.sent += guest < kListeners ? kListeners - 1 : kListeners;
+      ++counted_;
+    }
     way.crowd->send(guest, pose, at);
   }
 }
 
+// As many poses as belong in `span`, however long the machine takes for them.
 void BenchTunnel::dance(Way& way, Duration span, bool counts) {
   begin_ = mono_now();
-  danced_ = 0;
-  const double gap_s = 1.0 / (options_.hz * static_cast<double>(options_.guests));
-  const MonoTime counts_from = begin_ + kSettles, ends = counts_from + span;
-  bool has_begun = false;
+  danced_ = counted_ = 0;
+  const double per_s = options_.hz * static_cast<double>(options_.guests);
+  const auto settles = static_cast<std::size_t>(kSettles.as_seconds() * per_s);
+  const auto all = settles + static_cast<std::size_t>(span.as_seconds() * per_s);
   Duration cpu;
   std::uint64_t bytes = 0;
-  while (mono_now() < ends && !poller_->is_stopped()) {
-    MonoTime now = mono_now();
-    if (counts && !has_begun && now >= counts_from) {
-      has_begun = way.is_counting = true;
+  MonoTime counts_from;
+  while (danced_ < all && !poller_->is_stopped()) {
+    if (counts && !way.is_counting && danced_ >= settles) {
+      way.is_counting = true;
       way.first = way.next;
       cpu = cpu_of(way.relay->pid());
       bytes = way.crowd->bytes_down();
+      counts_from = mono_now();
     }
-    send_due(way, now);
-    const MonoTime due = begin_ + Duration::seconds(static_cast<double>(danced_) * gap_s);
-    now = mono_now();
+    send_due(way, mono_now());
+    const MonoTime due = begin_ + Duration::seconds(static_cast<double>(danced_) / per_s);
+    const MonoTime now = mono_now();
     poller_->run_once(due > now ? due - now : Duration());
   }
-  if (has_begun) {
-    way.busy_time += mono_now() - counts_from;
+  turn_for(kSettles);
+  if (way.is_counting) {
+    way.busy_time += mono_now() - counts_from - kSettles;
+    way.danced_s += static_cast<double>(counted_) / per_s;
     way.busy_cpu += cpu_of(way.relay->pid()) - cpu;
     way.bytes += way.crowd->bytes_down() - bytes;
   }
-  turn_for(kSettles);
   way.is_counting = false;
 }
 
@@ -209,14 +210,16 @@ Result<TunnelWays> BenchTunnel::run() {
       }
     }
   if (poller_->is_stopped()) return fail("stopped by a signal before the end");
+  for (auto& way : ways_)
+    if (way->danced_s <= 0.0) return fail("--seconds is too short: no pose was counted");
   TunnelWays results;
   for (auto& way : ways_) {
     TunnelWay& result = way->result;
     std::sort(result.took.begin(), result.took.end());
     result.server_cpu_percent = 100.0 * way->busy_cpu.as_seconds() / way->busy_time.as_seconds();
     result.idle_cpu_percent = 100.0 * way->idle_cpu.as_seconds() / way->idle_time.as_seconds();
-    result.down_bytes_per_s = static_cast<double>(way->bytes) / way->busy_time.as_seconds() /
-                              static_cast<double>(options_.guests);
+    result.down_bytes_per_s =
+        static_cast<double>(way->bytes) / way->danced_s / static_cast<double>(options_.guests);
     results.push_back(std::move(result));
   }
   return results;

@@ -1,8 +1,8 @@
 // BenchTunnel: how long a pose takes from a guest to the server and on to another guest, and what the
 // server pays for it; beside bare UDP and ENet relays, turn about in the same run.
 //
-// Units/frames: microseconds of this machine's clock. A delivery is one pose decoded by one other guest: `sent` counts
-//               those that were due.
+// Units/frames: microseconds of this machine's clock. A delivery is one pose decoded by one other guest of those who
+//               decode (bench/crowd.h): `sent` counts those that were due. Bytes are those of a second of dancing.
 // Ownership:    owns the relays' processes, which end with it.
 // Threads:      none inside; runs its poller in the caller's thread, where all guests live.
 // Failure:      run_bench_tunnel() names the relay that could not start or stayed silent.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench_tunnel.h"
+#include "tunnel/server_state.h"
 
 namespace dance {
 namespace {
@@ -32,6 +33,13 @@ std::string bench_tunnel_table(const BenchTunnelOptions& options, const TunnelWa
                  "guest to server to guest on this machine, {} guests, {:g} Hz, {:g} s each, turn "
                  "about (µs)\n\n",
                  options.guests, options.hz, options.seconds);
+  const double window_ms =
+      options.share_ms >= 0.0 ? options.share_ms : share_window_of(options.guests).as_ms();
+  if (window_ms > 0.0)
+    fmt::format_to(back,
+                   "  the server lets poses wait up to {:g} ms for others to share a datagram with "
+                   "(--share-ms)\n\n",
+                   window_ms);
   fmt::format_to(back, "  {:<18}{:>8}{:>8}{:>8}{:>9}{:>10}{:>11}{:>8}{:>8}{:>10}\n", "", "p50",
                  "p95", "p99", "max", "sent", "delivered", "cpu %", "idle %", "kB/s down");
   for (const TunnelWay& way : ways)

@@ -223,7 +223,7 @@ void Room::count_costs(wire::Bytes datagram) {
   const auto header = wire::parse_records_header(in);
   DANCE_ASSERT(header.has_value());
   const auto feedback =
-      header->has_feedback ? 5.0 + 7.0 * static_cast<double>(header->feedback.guests.size()) : 0.0;
+      header->has_feedback ? 7.0 + 7.0 * static_cast<double>(header->feedback.guests.size()) : 0.0;
   costs_.feedback += feedback;
   costs_.headers += size - static_cast<double>(in.remaining()) - feedback;
   while (in.remaining() > 0) {

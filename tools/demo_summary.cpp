@@ -29,8 +29,11 @@ std::map<std::string, std::int64_t> losses(const DemoResult& result, const Dance
   std::map<std::string, std::int64_t> causes;
   std::int64_t missing = std::max<std::int64_t>(0, account.sent - account.delivered);
   const ordered_json report = link_report(result, account);
-  for (const auto& [key, cause] :
-       {std::pair{"late", "late"}, {"invalid", "invalid"}, {"lost", "line"}}) {
+  for (const auto& [key, cause] : {std::pair{"late", "late"},
+                                   {"invalid", "invalid"},
+                                   {"lost", "line"},
+                                   {"reference_missing", "refers to what was lost"},
+                                   {"skeleton_missing", "before the proportions"}}) {
     if (!report.is_object()) break;
     const std::int64_t count = std::min(missing, report.value(key, std::int64_t{0}));
     if (count > 0) causes[cause] = count;

@@ -93,7 +93,7 @@ void LinkCore::on_feedback(std::uint16_t number, const wire::Feedback& feedback,
   has_feedback_ = true;
   newest_feedback_ = number;
   if (feedback.round_trip != 0)
-    path_ = PathStats{true, feedback.loss / 65535.0,
+    path_ = PathStats{true, feedback.loss / 65535.0, feedback.in_a_row / 65535.0,
                       Duration::us(feedback.round_trip * std::int64_t{100})};
   for (const wire::GuestFeedback& about : feedback.guests)
     for (LocalGuest& guest : locals_)
@@ -112,7 +112,8 @@ void LinkCore::on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& g
   }
   if (path_.is_known) {
     const References before = guest.policy.current();
-    const References chosen = guest.policy.update(path_.loss, path_.round_trip, guest.frame, now);
+    const References chosen =
+        guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
     if (chosen != before) guest.encoder->set_references(chosen);
   }
   if (!about.has_held || about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;

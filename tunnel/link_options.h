@@ -117,7 +117,8 @@ struct LocalGuestStats {
 // What the server said last about the way to the receivers.
 struct PathStats {
   bool is_known = false;
-  double loss = 0.0;  // share, to the worst receiver
+  double loss = 0.0;      // share, to the worst receiver
+  double in_a_row = 0.0;  // the share that is lost together with the datagram before it
   Duration round_trip;
 };
 

@@ -1,5 +1,6 @@
 // What share of the datagrams of one way is lost: slowly, so that one in a thousand can be told from
-// none; and at once where a burst of losses says that the way has changed.
+// none; and at once where a burst of losses says that the way has changed. And what share is lost
+// together with the one before it.
 //
 // Units/frames: a share, 0 to 1.
 // Ownership:    plain value.
@@ -18,6 +19,9 @@ class LossMeter {
     const float sample = is_lost ? 1.0f : 0.0f;
     slow_ += (sample - slow_) * (1.0f / 1024.0f);
     quick_ += (sample - quick_) * (1.0f / 64.0f);
+    const float pair = is_lost && was_lost_ ? 1.0f : 0.0f;
+    pairs_ += (pair - pairs_) * (1.0f / 1024.0f);
+    was_lost_ = is_lost;
     lost_ += is_lost ? 1 : 0;
   }
   float loss() const {
@@ -25,12 +29,16 @@ class LossMeter {
     constexpr float kBurst = 0.03f;
     return quick_ > slow_ + kBurst ? quick_ : slow_;
   }
+  // Never less than chance makes of the losses.
+  float in_a_row() const { return std::max(pairs_, loss() * loss()); }
   std::uint64_t lost() const { return lost_; }
 
  private:
   static constexpr float kBeforeAny = 0.02f;  // nothing is known: some loss
   float slow_ = kBeforeAny;
   float quick_ = kBeforeAny;
+  float pairs_ = kBeforeAny * kBeforeAny;
+  bool was_lost_ = false;
   std::uint64_t lost_ = 0;
 };
 

@@ -18,8 +18,10 @@ namespace dance {
 
 class ReferencePolicy {
  public:
-  References update(double loss, Duration round_trip, Duration frame, MonoTime now) {
-    const References wanted = choose(loss, round_trip, frame);
+  // `in_a_row`: the share that is lost together with the one before it.
+  References update(double loss, double in_a_row, Duration round_trip, Duration frame,
+                    MonoTime now) {
+    const References wanted = choose(loss, in_a_row, round_trip, frame);
     const bool is_urgent = current_ == References::kPrevious && wanted != current_;
     if (wanted == current_ || (!is_urgent && chosen_at_.is_set() && now - chosen_at_ < kStands))
       return current_;
@@ -32,7 +34,7 @@ class ReferencePolicy {
  private:
   static constexpr Duration kStands = Duration::s(1);
 
-  References choose(double loss, Duration round_trip, Duration frame) const {
+  References choose(double loss, double in_a_row, Duration round_trip, Duration frame) const {
     const bool is_bare = current_ == References::kPrevious;
     const bool is_twice = current_ == References::kPreviousTwice;
     // What is not borne keeps all from decoding until it is noticed and a key frame is there.
@@ -41,7 +43,7 @@ class ReferencePolicy {
     // Eight frames, and half a frame to either side: beyond, a frame and the one before it cost less
     // than one that refers so far back (dance codec eval --loss).
     const bool is_long = round_trip * 2 > frame * (is_twice ? 15 : 17);
-    const bool bears = loss * loss * heals_frames < (is_twice ? kBearable : kEasilyBorne);
+    const bool bears = in_a_row * heals_frames < (is_twice ? kBearable : kEasilyBorne);
     return is_long && bears ? References::kPreviousTwice : References::kAcknowledged;
   }
 

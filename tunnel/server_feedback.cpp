@@ -92,18 +92,24 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
   std::erase(reporting_, index);
   bool is_news = std::exchange(session.feedback_is_repeat, false);
 
-  float loss = 0.0f;
+  float loss = 0.0f, in_a_row = 0.0f;
   Duration round_trip;
   bool has_receiver = false;
   for (const std::size_t member : room.members) {
     if (!is_receiver(member, index, now)) continue;
     has_receiver = true;
-    loss = std::max(loss, sessions_[member].sent.loss().loss());
+    const LossMeter& down = sessions_[member].sent.loss();
+    loss = std::max(loss, down.loss());
+    in_a_row = std::max(in_a_row, down.in_a_row());
     round_trip = std::max(round_trip, round_trip_of(sessions_[member]));
   }
   if (has_receiver) {
     // What is lost on either way does not arrive.
-    const float arrives = (1.0f - loss) * (1.0f - session.received.loss().loss());
+    const LossMeter& up = session.received.loss();
+    const float arrives = (1.0f - loss) * (1.0f - up.loss());
+    // Two in a row may be one lost on the one way and one on the other.
+    in_a_row = std::min(1.0f, in_a_row + up.in_a_row() + 2.0f * loss * up.loss());
+    feedback.in_a_row = static_cast<std::uint16_t>(std::lround(in_a_row * 65535.0f));
     feedback.loss = static_cast<std::uint16_t>(std::lround((1.0f - arrives) * 65535.0f));
     const std::int64_t way_us = (round_trip + round_trip_of(session)).count_us();
     feedback.round_trip =

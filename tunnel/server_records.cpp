@@ -13,7 +13,7 @@ constexpr std::int64_t kLongestAge_us = 60'000'000;
 // Nothing is captured in the future; clocks are mapped better than this.
 constexpr std::int64_t kFarthestAhead_us = 1'000'000;
 // Loss, round trip and the number of guests; then each of them.
-constexpr std::size_t kFeedbackHead = 2 + 2 + 1;
+constexpr std::size_t kFeedbackHead = 2 + 2 + 2 + 1;
 constexpr std::size_t kFeedbackGuest = 7;
 
 }  // namespace

@@ -49,6 +49,7 @@ bool read_wants(ByteReader& in, FixedList<std::uint8_t, kMaxWants>& wants) {
 
 void write_feedback(const Feedback& feedback, ByteWriter& out) {
   out.u16(feedback.loss);
+  out.u16(feedback.in_a_row);
   out.u16(feedback.round_trip);
   out.u8(static_cast<std::uint8_t>(feedback.guests.size()));
   for (const GuestFeedback& guest : feedback.guests) {
@@ -63,6 +64,7 @@ void write_feedback(const Feedback& feedback, ByteWriter& out) {
 
 bool read_feedback(ByteReader& in, Feedback& feedback) {
   feedback.loss = in.u16();
+  feedback.in_a_row = in.u16();
   feedback.round_trip = in.u16();
   const std::size_t count = in.u8();
   for (std::size_t i = 0; i < count; ++i) {

@@ -66,12 +66,14 @@ TEST(WireRecords, FeedbackLooksAsItIsDocumented) {
   RecordsHeader header;
   header.has_feedback = true;
   header.feedback.loss = 0x0102;
+  header.feedback.in_a_row = 0x0506;
   header.feedback.round_trip = 0x0304;
   ASSERT_TRUE(header.feedback.guests.try_push({5, 6, 7, false, 0, 0}));
   ASSERT_TRUE(header.feedback.guests.try_push({8, 9, 10, true, 0x0b0c, 0x0d0e}));
-  const Written expected{0xa8, 0xa7, 0xa6, 0xa5, 0xa4, 0xa3, 0xa2, 0xa1, 18,   0,
-                         0,    8,    0x02, 0x01, 0x04, 0x03, 2,  // loss, round trip, guests
-                         5,    6,    7,    0x88, 9,    10,   0x0c, 0x0b, 0x0e, 0x0d};
+  const Written expected{
+      0xa8, 0xa7, 0xa6, 0xa5, 0xa4, 0xa3, 0xa2, 0xa1, 18,   0,
+      0,    8,    0x02, 0x01, 0x06, 0x05, 0x04, 0x03, 2,  // loss, in a row, round trip, guests
+      5,    6,    7,    0x88, 9,    10,   0x0c, 0x0b, 0x0e, 0x0d};
   EXPECT_EQ(written(header, {}), expected);
 }
 
