@@ -14,8 +14,7 @@ constexpr const char* kExamples =
     "  dance pack logs/evening.lcm -o logs/evening-packed.lcm\n"
     "  dance replay logs/evening-packed.lcm           plays it as it is\n"
     "  dance unpack logs/evening-packed.lcm -o again.lcm\n"
-    "  cmp logs/evening.lcm again.lcm                 not a byte differs, if none of it was "
-    "packed\n"
+    "  cmp logs/evening.lcm again.lcm                 not a byte differs, if none was packed\n"
     "  dance record --packed                          packs while it records\n";
 
 Result<void> pack(const std::string& from, const std::string& to) {
