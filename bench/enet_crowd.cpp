@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bench/crowd.h"
-#include "bench/raw_pose.h"
+#include "bench/float_pose.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
@@ -56,7 +56,7 @@ class EnetCrowd final : public Crowd {
     return true;
   }
   void send(std::size_t guest, const Pose& pose, MonoTime) override {
-    const RawPose raw = raw_pose(guest, pose);
+    const FloatPose raw = float_pose(guest, pose);
     ENetPacket* packet = enet_packet_create(&raw, sizeof raw, ENET_PACKET_FLAG_UNSEQUENCED);
     if (enet_peer_send(guests_[guest].peer, 0, packet) != 0) enet_packet_destroy(packet);
     enet_host_flush(guests_[guest].host);
@@ -83,8 +83,8 @@ class EnetCrowd final : public Crowd {
         keep_all(guest.peer);
       }
       if (event.type != ENET_EVENT_TYPE_RECEIVE) continue;
-      RawPose raw;
-      if (read_raw_pose({event.packet->data, event.packet->dataLength}, raw, pose_))
+      FloatPose raw;
+      if (read_float_pose({event.packet->data, event.packet->dataLength}, raw, pose_))
         options_.heard(listener, raw.sender, raw.sequence);
       enet_packet_destroy(event.packet);
     }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "bench/crowd.h"
+#include "core/base/assert.h"
 #include "core/net/mono_clock.h"
 #include "tunnel/link.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/crowd.h"
-#include "bench/raw_pose.h"
+#include "bench/float_pose.h"
 #include "core/net/udp_socket.h"
 
 namespace dance {
@@ -37,7 +37,7 @@ class UdpCrowd final : public Crowd {
     return heard_.size() == options_.guests;
   }
   void send(std::size_t guest, const Pose& pose, MonoTime) override {
-    const RawPose raw = raw_pose(guest, pose);
+    const FloatPose raw = float_pose(guest, pose);
     sockets_[guest].send_now(options_.relay,
                              {reinterpret_cast<const std::uint8_t*>(&raw), sizeof raw});
   }
@@ -53,9 +53,9 @@ class UdpCrowd final : public Crowd {
     for (auto batch = sockets_[listener].receive(); !batch.empty();
          batch = sockets_[listener].receive()) {
       for (const UdpSocket::Datagram& datagram : batch) {
-        RawPose raw;
+        FloatPose raw;
         if (datagram.bytes.size() == 1) note(listener);
-        if (read_raw_pose(datagram.bytes, raw, pose_))
+        if (read_float_pose(datagram.bytes, raw, pose_))
           options_.heard(listener, raw.sender, raw.sequence);
       }
       if (batch.size() < UdpSocket::kBatch) return;

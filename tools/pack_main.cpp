@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "tools/log_converter.h"
 
 namespace dance {
@@ -13,12 +14,14 @@ constexpr const char* kExamples =
     "  dance pack logs/evening.lcm -o logs/evening-packed.lcm\n"
     "  dance replay logs/evening-packed.lcm           plays it as it is\n"
     "  dance unpack logs/evening-packed.lcm -o again.lcm\n"
-    "  cmp logs/evening.lcm again.lcm                 not a byte differs\n"
+    "  cmp logs/evening.lcm again.lcm                 not a byte differs, if none was packed\n"
     "  dance record --packed                          packs while it records\n";
 
 Result<void> pack(const std::string& from, const std::string& to) {
   DANCE_TRY(const LogConversion conversion, convert_log(from, to, LogForm::kPacked));
   std::fputs(conversion_line(conversion).c_str(), stdout);
+  if (const std::string before = packed_before(conversion); !before.empty())
+    talk::warn("{}", before);
   return check_is_whole(conversion);
 }
 

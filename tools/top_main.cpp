@@ -15,8 +15,10 @@ namespace {
 constexpr const char* kExamples =
     "Examples:\n"
     "  dance top                            this house's bus, until ctrl-C\n"
-    "  dance top --once                     one table after a second\n"
+    "  dance top --once                     one table after a second and a half\n"
     "  dance top --bus 'udpm://239.255.76.67:7668?ttl=0' --seconds 10\n";
+// Longer than a period of what is said once a second: skeletons, counters.
+constexpr Duration kListensOnce = Duration::ms(1500);
 constexpr const char* kClearScreen = "\033[H\033[2J";
 
 struct Options {
@@ -33,7 +35,7 @@ Result<void> watch(const Options& options) {
         table.take(channel, {static_cast<const std::uint8_t*>(data), size}, now);
       });
   const bool is_terminal = isatty(STDOUT_FILENO) == 1 && !options.is_once;
-  program.every(Duration::s(1), [&](MonoTime now) {
+  program.every(options.is_once ? kListensOnce : Duration::s(1), [&](MonoTime now) {
     const std::string text = table.text(now);
     std::printf("%s%s\n%s\n", is_terminal ? kClearScreen : "", program.bus().url().c_str(),
                 text.c_str());
@@ -54,7 +56,7 @@ int main(int argc, char** argv) {
   dance::CommandLine line("Channels and programs of a bus: rate, bytes, type, age.", "dance top");
   line.add("--bus", options.bus_url, "LCM URL of the bus");
   line.add("--seconds", options.seconds, "stop after so long (0: ctrl-C)").range(0.0, 1e7);
-  line.add_flag("--once", options.is_once, "one table after a second, then end");
+  line.add_flag("--once", options.is_once, "one table after a second and a half, then end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::watch(options); });
 }

@@ -229,5 +229,80 @@ TEST_F(PackedRecording, OfADamagedOneAllTheRestIsWrittenAndTheLossIsAnError) {
   EXPECT_FALSE(fs::exists(path("nothing-plain.lcm")));
 }
 
+TEST_F(PackedRecording, WhatIsNoLogOrEmptyIsAnErrorAndLeavesNothingInTheWayOfTheNextTry) {
+  const OwnEvents evening = recorded_evening(20);
+  record("evening.lcm", evening, Recorder::Poses::kPlain);
+  std::ofstream(path("notes.txt")) << "Tuesday: tango. Wednesday: none. Thursday: salsa, twice.\n";
+  std::ofstream(path("empty.lcm")).flush();
+  for (const LogForm form : {LogForm::kPacked, LogForm::kPlain}) {
+    const std::string to = path(form == LogForm::kPacked ? "packed.lcm" : "plain.lcm");
+    for (const auto& [from, word] :
+         {std::pair{"notes.txt", "no LCM log"}, {"empty.lcm", "empty"}}) {
+      const auto refused = convert_log(path(from), to, form);
+      ASSERT_FALSE(refused) << from;
+      for (const std::string& part : {path(from), std::string(word)})
+        EXPECT_NE(refused.error().what.find(part), std::string::npos) << refused.error().what;
+      EXPECT_FALSE(fs::exists(to));
+      EXPECT_FALSE(fs::exists(to + ".part"));
+    }
+    const auto conversion = convert_log(path("evening.lcm"), to, form);
+    ASSERT_TRUE(conversion) << conversion.error().what;
+    EXPECT_EQ(conversion->events, evening.size());
+    EXPECT_FALSE(fs::exists(to + ".part"));
+  }
+}
+
+TEST_F(PackedRecording, ADiskThatIsFullMidwayLeavesNoHalfLog) {
+  record("packed.lcm", recorded_evening(320), Recorder::Poses::kPacked);
+  // As in AFullDiskIsToldOnceAndNothingMoreIsWritten.
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old_limit{};
+  getrlimit(RLIMIT_FSIZE, &old_limit);
+  rlimit small = old_limit;
+  small.rlim_cur = 100'000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto full = convert_log(path("packed.lcm"), path("plain.lcm"), LogForm::kPlain);
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+  ASSERT_FALSE(full);
+  EXPECT_NE(full.error().what.find("plain.lcm"), std::string::npos) << full.error().what;
+  EXPECT_FALSE(fs::exists(path("plain.lcm")));
+  EXPECT_FALSE(fs::exists(path("plain.lcm.part")));
+  EXPECT_TRUE(convert_log(path("packed.lcm"), path("plain.lcm"), LogForm::kPlain));
+}
+
+TEST_F(PackedRecording, SomebodyElsesPartFileIsLeftAlone) {
+  record("evening.lcm", recorded_evening(20), Recorder::Poses::kPlain);
+  std::ofstream(path("packed.lcm.part")) << "mine";
+  const auto refused = convert_log(path("evening.lcm"), path("packed.lcm"), LogForm::kPacked);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("packed.lcm.part"), std::string::npos);
+  EXPECT_EQ(bytes_in("packed.lcm.part"), "mine");
+}
+
+TEST_F(PackedRecording, PackSaysWhenItsInputHoldsPackedEventsAsUnpackWillNotGiveThatFileBack) {
+  const OwnEvents evening = recorded_evening(20);
+  record("packed.lcm", evening, Recorder::Poses::kPacked);
+  // As a plain recorder hears it while somebody plays that log onto the bus.
+  OwnEvents heard;
+  auto log = LogReader::open(path("packed.lcm"));
+  ASSERT_TRUE(log);
+  while (const auto event = log->next()) heard.emplace_back(*event);
+  record("heard.lcm", heard, Recorder::Poses::kPlain);
+
+  const auto packed = convert_log(path("heard.lcm"), path("heard-packed.lcm"), LogForm::kPacked);
+  ASSERT_TRUE(packed) << packed.error().what;
+  EXPECT_NE(packed_before(*packed).find("heard.lcm"), std::string::npos);
+  const auto again = convert_log(path("heard-packed.lcm"), path("again.lcm"), LogForm::kPlain);
+  ASSERT_TRUE(again) << again.error().what;
+  EXPECT_EQ(packed_before(*again), "") << "nobody is surprised that unpacking unpacks";
+  EXPECT_FALSE(bytes_in("again.lcm") == bytes_in("heard.lcm"));
+
+  record("plain.lcm", evening, Recorder::Poses::kPlain);
+  const auto fresh = convert_log(path("plain.lcm"), path("fresh.lcm"), LogForm::kPacked);
+  ASSERT_TRUE(fresh) << fresh.error().what;
+  EXPECT_EQ(packed_before(*fresh), "");
+}
+
 }  // namespace
 }  // namespace dance

@@ -1,4 +1,5 @@
-// Programs of the build, run by tests as a user runs them.
+// Programs of the build, run by tests as a user runs them, and waits for what they do: up to a patience that no machine
+// should need, and no longer than it takes.
 //
 // Ownership: a TestFolder and what is in it go with the object.
 // Threads:   any; each run() has its own folder only where one runs at a time in a process.
@@ -9,11 +10,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 
 namespace dance {
 
@@ -64,6 +67,27 @@ inline Finished run(const std::string& command) {
     finished.output.append(chunk.data(), n);
   finished.exit_code = WEXITSTATUS(pclose(pipe));
   finished.talk = text_of(folder.path("talk"));
+  return finished;
+}
+
+constexpr std::chrono::seconds kPatience{25};
+
+// Whether the condition came to hold.
+template <class Condition>
+bool wait_for(const Condition& condition) {
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() >= give_up) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+// Runs it again until it is as wanted, which takes a while where others must come up first; the last run.
+template <class Condition>
+Finished run_until(const std::string& command, const Condition& is_as_wanted) {
+  Finished finished;
+  wait_for([&] { return is_as_wanted(finished = run(command)); });
   return finished;
 }
 

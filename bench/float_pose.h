@@ -3,9 +3,10 @@
 // Units/frames: as core/pose/pose.h.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      read_raw_pose() is false for another length, or what is no pose.
+// Failure:      read_float_pose() is false for another length, or what is no pose.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <span>
@@ -14,14 +15,14 @@
 
 namespace dance {
 
-struct RawPose {
+struct FloatPose {
   std::uint32_t sender = 0;
   std::uint32_t sequence = 0;
   std::array<float, 4 * kBoneCount + 3> floats{};
 };
 
-inline RawPose raw_pose(std::size_t sender, const Pose& pose) {
-  RawPose raw;
+inline FloatPose float_pose(std::size_t sender, const Pose& pose) {
+  FloatPose raw;
   raw.sender = static_cast<std::uint32_t>(sender);
   raw.sequence = pose.sequence;
   float* at = raw.floats.data();
@@ -30,7 +31,7 @@ inline RawPose raw_pose(std::size_t sender, const Pose& pose) {
   return raw;
 }
 
-inline bool read_raw_pose(std::span<const std::uint8_t> bytes, RawPose& raw, Pose& pose) {
+inline bool read_float_pose(std::span<const std::uint8_t> bytes, FloatPose& raw, Pose& pose) {
   if (bytes.size() != sizeof raw) return false;
   std::memcpy(&raw, bytes.data(), sizeof raw);
   const float* at = raw.floats.data();
