@@ -57,7 +57,9 @@ TEST(AverageSkeleton, FacesForwardWithItsToes) {
 
 TEST(Skeleton, IsInvalidWithBonesThatAreNotABody) {
   EXPECT_TRUE(is_valid(average_skeleton()));
-  for (const float wrong : {kNan, kInfinity, -kInfinity, 2.01f, -1e30f}) {
+  using Limits = std::numeric_limits<float>;
+  for (const float wrong :
+       {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 2.01f, -1e30f}) {
     for (std::size_t i = 0; i < kBoneCount; ++i) {
       for (int axis = 0; axis < 3; ++axis) {
         Skeleton skeleton = average_skeleton();
