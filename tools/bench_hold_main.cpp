@@ -107,6 +107,7 @@ Result<void> measure(const std::string& name, const LossySpec& spec, const Delay
   const MonoTime begin = MonoTime::from_us(1'000'000);
   LossyModel line(spec, trace, 0);
   const auto heard = arrivals_of(line, begin, Duration::seconds(options.seconds), frame);
+  if (heard.size() < 2) return fail(name + ": nothing arrives over this line");
   if (!options.is_json)
     fmt::print("{}: {} of {} poses arrive\n  {:<16}{:>14}{:>14}{:>10}{:>18}\n", name, heard.size(),
                line.counters().offered, "", "added p50 ms", "added p99 ms", "late %",
@@ -137,7 +138,7 @@ Result<void> run(const Options& options) {
       return done;
   for (const std::string& path : options.traces) {
     DANCE_TRY(const DelayTrace trace, DelayTrace::load(path));
-    if (auto done = measure(path.substr(path.rfind('/') + 1), spec, &trace, options, report); !done)
+    if (auto done = measure(path, spec, &trace, options, report); !done)
       return done;
   }
   if (options.is_json) std::fputs((report.dump(2) + "\n").c_str(), stdout);
