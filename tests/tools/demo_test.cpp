@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
-#include <tuple>
 #include <vector>
 
 #include "core/bus/log_file.h"
@@ -171,11 +170,14 @@ TEST(Demo, GoesOnWhenAnyOfItsProgramsIsKilledAndItComesBack) {
   RunningDemo demo("--seconds 250", out);  // ended when all has been seen
   // Dancers are started when the houses have met, and poses come through when all is up.
   ASSERT_TRUE(wait_for([&] { return count_in_log(log, "POSE/guest/") > 0; })) << "nobody dances";
-  for (const auto& [program, mark, gone] :
-       {std::tuple{"/dance-join", "/house-b.toml", "POSE/guest/"},
-        {"/dance-server", "--port", "POSE/guest/"},
-        {"/dance-record", "/demo.lcm", "POSE/"},
-        {"/dance-salsa", " alice ", "POSE/capture/alice"}}) {
+  struct Victim {
+    const char *program, *mark, *gone;
+  };
+  for (const Victim& victim : {Victim{"/dance-join", "/house-b.toml", "POSE/guest/"},
+                               {"/dance-server", "--port", "POSE/guest/"},
+                               {"/dance-record", "/demo.lcm", "POSE/"},
+                               {"/dance-salsa", " alice ", "POSE/capture/alice"}}) {
+    const char *program = victim.program, *mark = victim.mark, *gone = victim.gone;
     pid_t killed = 0, back = 0;
     ASSERT_TRUE(wait_for([&] { return (killed = demo.pid_of(program, mark)) > 0; })) << program;
     ASSERT_EQ(kill(killed, SIGKILL), 0) << program;
