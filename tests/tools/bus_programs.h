@@ -85,7 +85,7 @@ inline int lines_of(const Finished& heard, const std::string& guest) {
 inline void expect_couple_on_stage(const char* bus) {
   constexpr int kDance = 5;  // lines: one or two could be of a show that is over
   const Finished heard = run_until(
-      bin("dance-listen") + " --to csv --seconds 1 --bus " + quoted(bus), [](const Finished& it) {
+      bin("dance-listen") + " --to csv --seconds 2 --bus " + quoted(bus), [](const Finished& it) {
         return lines_of(it, "alice") > kDance && lines_of(it, "bob") > kDance;
       });
   EXPECT_EQ(heard.exit_code, 0) << heard.talk;

@@ -70,7 +70,7 @@ inline Finished run(const std::string& command) {
   return finished;
 }
 
-constexpr std::chrono::seconds kPatience{25};
+constexpr std::chrono::seconds kPatience{60};
 
 // Whether the condition came to hold.
 template <class Condition>
