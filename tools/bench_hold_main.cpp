@@ -138,8 +138,7 @@ Result<void> run(const Options& options) {
       return done;
   for (const std::string& path : options.traces) {
     DANCE_TRY(const DelayTrace trace, DelayTrace::load(path));
-    if (auto done = measure(path, spec, &trace, options, report); !done)
-      return done;
+    if (auto done = measure(path, spec, &trace, options, report); !done) return done;
   }
   if (options.is_json) std::fputs((report.dump(2) + "\n").c_str(), stdout);
   return {};
