@@ -25,6 +25,13 @@ DancerFeed::DancerFeed(std::unique_ptr<Dancer> dancer, const GuestId& guest, dou
   poller.add_timer(pacer_.deadline(), [this](MonoTime now) { return dance(now); });
 }
 
+// By deadlines, so that lateness does not add up; what was missed is not made up for.
+void DancerFeed::say_skeleton(MonoTime now) {
+  sink_.capture(guest_, TimedSkeleton{dancer_->skeleton(), now, this_clock_id()});
+  next_skeleton_ += Duration::s(1);
+  if (next_skeleton_ <= now) next_skeleton_ = now + Duration::s(1);
+}
+
 MonoTime DancerFeed::dance(MonoTime now) {
   const MonoTime deadline = pacer_.deadline();
   const Duration t = deadline - start_;
@@ -37,6 +44,8 @@ MonoTime DancerFeed::dance(MonoTime now) {
   pose.sequence = sequence_ + sent_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = deadline;
+  // Nobody can decode a dancer of unknown proportions: once they go first, then after a pose.
+  if (!next_skeleton_.is_set()) say_skeleton(now);
   sink_.capture(guest_, pose, now);
 
   Hands hands;
@@ -46,12 +55,7 @@ MonoTime DancerFeed::dance(MonoTime now) {
     hands.capture_time = pose.capture_time;
     sink_.capture(guest_, hands);
   }
-  if (now >= next_skeleton_) {
-    sink_.capture(guest_, TimedSkeleton{dancer_->skeleton(), now, this_clock_id()});
-    // By deadlines, so that lateness does not add up; what was missed is not made up for.
-    next_skeleton_ += Duration::s(1);
-    if (next_skeleton_ <= now) next_skeleton_ = now + Duration::s(1);
-  }
+  if (now >= next_skeleton_) say_skeleton(now);
   pacer_.advance(now);
   return pacer_.deadline();
 }

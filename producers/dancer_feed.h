@@ -29,6 +29,7 @@ class DancerFeed {
 
  private:
   MonoTime dance(MonoTime now);
+  void say_skeleton(MonoTime now);
 
   std::unique_ptr<Dancer> dancer_;
   GuestId guest_;
