@@ -8,12 +8,8 @@ namespace {
 using exact::Quat;
 using exact::Vec;
 
-// Skin lies about this far from a joint.
-constexpr double kShell_m = 0.03;
 // No lattice is so coarse that a bone could be seen to turn.
 constexpr double kLargestAngleStep_rad = 0.0667;
-// What part of the error that is allowed a step may move an end by.
-constexpr double kStepShare = 1.0;
 
 Vec to_vec(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -74,7 +70,7 @@ void BodyLattice::find_ends() {
     }
     const auto next = static_cast<std::size_t>(kNextBone[i]);
     end_[i] = offset_[next];
-    begins_at_end_[next] = exact::length(end_[i]) >= kShell_m;
+    begins_at_end_[next] = exact::length(end_[i]) >= kShellRadius_m;
     if (!begins_at_end_[next]) end_[i] = end_[i] + end_[next];
   }
 }
@@ -108,7 +104,7 @@ void BodyLattice::find_steps() {
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     const Vec along = b == 0 ? Vec{0.0, 1.0, 0.0} : end_[b];
     const double long_m = exact::length(along);
-    double swing_m = kShell_m, twist_m = kShell_m;
+    double swing_m = kShellRadius_m, twist_m = kShellRadius_m;
     for (std::size_t i = 0; i < count[b]; ++i) {
       const Vec& r = reach[b][i];
       swing_m = std::max(swing_m, exact::length(r));
@@ -116,7 +112,7 @@ void BodyLattice::find_steps() {
         twist_m = std::max(twist_m, exact::length(exact::cross(r, along)) / long_m);
     }
     for (std::size_t level = 0; level < kLevelCount; ++level) {
-      const double error_m = kStepShare * kLevelErrors_m[level];
+      const double error_m = kLevelErrors_m[level];
       const std::size_t c = first_coordinate(b);
       const double swing = std::min(error_m / swing_m, kLargestAngleStep_rad);
       const double twist = std::min(error_m / twist_m, kLargestAngleStep_rad);

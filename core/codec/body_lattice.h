@@ -29,6 +29,9 @@ constexpr std::array<double, 8> kLevelErrors_m{0.000125, 0.00025, 0.0005, 0.001,
                                                0.002,    0.005,   0.010,  0.020};
 constexpr std::size_t kLevelCount = kLevelErrors_m.size();
 
+// Skin lies about this far from a joint.
+constexpr double kShellRadius_m = 0.03;
+
 // What training knows of where bones are.
 struct RestModel {
   struct BoneRest {

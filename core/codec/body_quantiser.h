@@ -38,7 +38,6 @@ BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const Body
 
 // What a bone may be turned by, seen or not.
 constexpr double kAngleCap_rad = 0.0698;
-constexpr double kShellRadius_m = 0.03;
 inline double angle_budget_rad(double error_m) {
   return error_m / kShellRadius_m < kAngleCap_rad ? error_m / kShellRadius_m : kAngleCap_rad;
 }

@@ -2,11 +2,12 @@
 // squares, solved anew after each sample. The same bits on every machine: made of + − × ÷ and √
 // only, in a fixed order.
 //
-// Ownership: plain values, no heap.
-// Threads:   none inside.
-// Failure:   weights stay as they were where the samples determine none; bounded samples give finite
-//            weights.
-// Source:    (C + ridge) (w − prior) = Σ x (y − xᵀ prior) by Cholesky's decomposition.
+// Units/frames: those of the samples.
+// Ownership:    plain values, no heap.
+// Threads:      none inside.
+// Failure:      weights stay as they were where the samples determine none; bounded samples give finite
+//               weights.
+// Source:       (C + ridge) (w − prior) = Σ x (y − xᵀ prior) by Cholesky's decomposition.
 #pragma once
 
 #include <array>
