@@ -13,12 +13,12 @@
 
 #include "core/base/result.h"
 #include "core/net/address.h"
+#include "core/net/datagram_sink.h"
 #include "core/net/poller.h"
 #include "core/pose/pose.h"
 
 namespace dance {
 
-constexpr std::uint64_t kIpUdp_bytes = 28;
 // One process plays all guests. These, from the first on, decode what they hear, and are measured; the
 // others only take it in, so that the crowd's work does not stand in one queue.
 constexpr std::size_t kListeners = 2;

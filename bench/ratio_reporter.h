@@ -1,9 +1,10 @@
 // Prints what Google Benchmark measured as ratios: benchmarks are named "question/variant", and each variant is divided by
 // its question's "baseline", as absolute times belong to the machine they were taken on.
 //
-// Ownership: plain values.
-// Threads:   one.
-// Failure:   a question without a baseline has no ratio.
+// Units/frames: nanoseconds of a run, as Google Benchmark gives them; ratios have none.
+// Ownership:    plain values.
+// Threads:      one.
+// Failure:      a question without a baseline has no ratio.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,8 +1,9 @@
 // A minute of the synthetic lead at 60 Hz: what the benchmarks work on, the same every time.
 //
-// Ownership: plain values.
-// Threads:   none inside.
-// Failure:   none.
+// Units/frames: as core/pose/pose.h; capture times count from 1 s of clock 1.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      none.
 #pragma once
 
 #include <vector>

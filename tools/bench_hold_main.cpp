@@ -10,6 +10,7 @@
 #include "core/net/delay_trace.h"
 #include "core/net/lossy_model.h"
 #include "core/program/program.h"
+#include "tools/figures.h"
 #include "transformers/chain.h"
 
 namespace dance {
@@ -91,8 +92,7 @@ Shown show(Chain& chain, const std::vector<Arrival>& heard, MonoTime begin, Dura
   if (samples == 0) return shown;
   std::sort(ages_ms.begin(), ages_ms.end());
   const auto added = [&](double fraction) {
-    return ages_ms[static_cast<std::size_t>(fraction * static_cast<double>(samples - 1))] -
-           least.as_ms();
+    return percentile<double>(ages_ms, fraction) - least.as_ms();
   };
   shown.added_p50_ms = added(0.50);
   shown.added_p99_ms = added(0.99);

@@ -16,6 +16,7 @@
 #include "core/net/udp_socket.h"
 #include "core/program/program.h"
 #include "tools/child_process.h"
+#include "tools/figures.h"
 
 namespace dance {
 namespace {
@@ -287,9 +288,7 @@ Result<BenchPathResult> BenchPath::run() {
 }  // namespace
 
 double WayResult::percentile_us(double fraction) const {
-  if (took.empty()) return 0.0;
-  const auto rank = static_cast<std::size_t>(fraction * static_cast<double>(took.size() - 1));
-  return took[rank].as_us();
+  return percentile<Duration>(took, fraction).as_us();
 }
 
 Result<BenchPathResult> run_bench_path(const BenchPathOptions& options,

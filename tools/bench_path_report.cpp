@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench_path.h"
+#include "tools/figures.h"
 #include "tools/latency_report.h"
 
 namespace dance {
@@ -14,9 +15,6 @@ double ratio(const BenchPathResult& result, double fraction) {
   const double floor_us = result.floor.percentile_us(fraction);
   return floor_us > 0.0 ? result.pose.percentile_us(fraction) / floor_us : 0.0;
 }
-
-// JSON has no use for picoseconds.
-double rounded(double value, double per) { return std::round(value * per) / per; }
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "core/net/udp_socket.h"
 #include "core/program/program.h"
 #include "tools/child_process.h"
+#include "tools/figures.h"
 
 namespace dance {
 namespace {
@@ -63,6 +64,10 @@ class BenchTunnel {
   void dance(Way& way, Duration span, bool counts);
   void send_due(Way& way, MonoTime now);
   void turn_for(Duration span);
+  double poses_per_s() const { return options_.hz * static_cast<double>(options_.guests); }
+  MonoTime next_due() const {
+    return begin_ + Duration::seconds(static_cast<double>(danced_) / poses_per_s());
+  }
 
   BenchTunnelOptions options_;
   std::vector<Pose> poses_ = salsa_poses();
@@ -139,10 +144,7 @@ void BenchTunnel::turn_for(Duration span) {
 
 // Guests begin one after the other within a period, as people do who did not start together.
 void BenchTunnel::send_due(Way& way, MonoTime now) {
-  const double gap_s = 1.0 / (options_.hz * static_cast<double>(options_.guests));
-  for (;; ++danced_) {
-    const MonoTime due = begin_ + Duration::seconds(static_cast<double>(danced_) * gap_s);
-    if (due > now) return;
+  for (; next_due() <= now; ++danced_) {
     const std::size_t guest = danced_ % options_.guests;
     const std::uint32_t sequence = way.next[guest]++;
     Pose pose = poses_[(sequence + 97 * guest) % poses_.size()];
@@ -163,9 +165,8 @@ void BenchTunnel::send_due(Way& way, MonoTime now) {
 void BenchTunnel::dance(Way& way, Duration span, bool counts) {
   begin_ = mono_now();
   danced_ = counted_ = 0;
-  const double per_s = options_.hz * static_cast<double>(options_.guests);
-  const auto settles = static_cast<std::size_t>(kSettles.as_seconds() * per_s);
-  const auto all = settles + static_cast<std::size_t>(span.as_seconds() * per_s);
+  const auto settles = static_cast<std::size_t>(kSettles.as_seconds() * poses_per_s());
+  const auto all = settles + static_cast<std::size_t>(span.as_seconds() * poses_per_s());
   Duration cpu;
   std::uint64_t bytes = 0;
   MonoTime counts_from;
@@ -178,14 +179,12 @@ void BenchTunnel::dance(Way& way, Duration span, bool counts) {
       counts_from = mono_now();
     }
     send_due(way, mono_now());
-    const MonoTime due = begin_ + Duration::seconds(static_cast<double>(danced_) / per_s);
-    const MonoTime now = mono_now();
-    poller_->run_once(due > now ? due - now : Duration());
+    poller_->run_once(std::max(next_due() - mono_now(), Duration()));
   }
   turn_for(kSettles);
   if (way.is_counting) {
     way.busy_time += mono_now() - counts_from - kSettles;
-    way.danced_s += static_cast<double>(counted_) / per_s;
+    way.danced_s += static_cast<double>(counted_) / poses_per_s();
     way.busy_cpu += cpu_of(way.relay->pid()) - cpu;
     way.bytes += way.crowd->bytes_down() - bytes;
   }
@@ -228,8 +227,7 @@ Result<TunnelWays> BenchTunnel::run() {
 }  // namespace
 
 double TunnelWay::percentile_us(double fraction) const {
-  if (took.empty()) return 0.0;
-  return took[static_cast<std::size_t>(fraction * static_cast<double>(took.size() - 1))].as_us();
+  return percentile<Duration>(took, fraction).as_us();
 }
 
 Result<TunnelWays> run_bench_tunnel(const BenchTunnelOptions& options,

@@ -5,22 +5,21 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/bench_tunnel.h"
+#include "tools/figures.h"
 #include "tunnel/server_state.h"
 
 namespace dance {
 namespace {
 
-double rounded_to(double value, double per) { return std::round(value * per) / per; }
-
 nlohmann::ordered_json json_of(const TunnelWay& way) {
   return {{"sent", way.sent},
           {"delivered", way.delivered},
-          {"p50_us", rounded_to(way.percentile_us(0.50), 10.0)},
-          {"p95_us", rounded_to(way.percentile_us(0.95), 10.0)},
-          {"p99_us", rounded_to(way.percentile_us(0.99), 10.0)},
-          {"max_us", rounded_to(way.percentile_us(1.0), 10.0)},
-          {"server_cpu_percent", rounded_to(way.server_cpu_percent, 100.0)},
-          {"server_idle_cpu_percent", rounded_to(way.idle_cpu_percent, 100.0)},
+          {"p50_us", rounded(way.percentile_us(0.50), 10.0)},
+          {"p95_us", rounded(way.percentile_us(0.95), 10.0)},
+          {"p99_us", rounded(way.percentile_us(0.99), 10.0)},
+          {"max_us", rounded(way.percentile_us(1.0), 10.0)},
+          {"server_cpu_percent", rounded(way.server_cpu_percent, 100.0)},
+          {"server_idle_cpu_percent", rounded(way.idle_cpu_percent, 100.0)},
           {"bytes_per_second_down_per_guest", std::round(way.down_bytes_per_s)}};
 }
 

@@ -5,11 +5,10 @@
 
 #include "core/codec/lossless_codec.h"
 #include "tools/codec_eval.h"
+#include "tools/figures.h"
 
 namespace dance {
 namespace {
-
-double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 double degrees(double rad) { return rad * 180.0 / 3.14159265358979323846; }
 

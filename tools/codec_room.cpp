@@ -17,7 +17,6 @@
 namespace dance {
 namespace {
 
-constexpr std::size_t kIpUdp_bytes = 28;
 constexpr Duration kCapture = Duration::ms(5);  // from the camera to the link
 
 struct Traffic {

@@ -34,9 +34,6 @@ std::string codec_room_table(const CodecRoom& r, const CodecRoomOptions& options
 }
 
 std::string codec_room_json(const CodecRoom& r, const CodecRoomOptions& options) {
-  const auto rounded = [](double value, double per_unit) {
-    return std::round(value * per_unit) / per_unit;
-  };
   const CodecRoomCosts& c = r.down_costs;
   const nlohmann::ordered_json room{
       {"guests", r.guests},

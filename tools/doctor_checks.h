@@ -1,7 +1,8 @@
 // What the doctor looks at: each check is one finding, with the command that mends it.
 //
-// Threads: call from main.
-// Failure: a check that cannot look says so in its finding.
+// Ownership: plain values.
+// Threads:   call from main.
+// Failure:   a check that cannot look says so in its finding.
 #pragma once
 
 #include <string>

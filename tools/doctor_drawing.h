@@ -1,8 +1,9 @@
 // Whether this machine can draw the viewer's pictures, tried for real: an OpenGL context is made, in a child process, as a
 // driver may take the process that loads it down.
 //
-// Threads: call from main.
-// Failure: the finding says what is missing and the cure.
+// Ownership: plain values.
+// Threads:   call from main.
+// Failure:   the finding says what is missing and the cure.
 #pragma once
 
 #include "tools/doctor_checks.h"

@@ -1,17 +1,22 @@
 // Where datagrams go: the seam between the tunnel's state machines and what carries their datagrams
 // (a socket, a batch, a simulated network in tests, a sealed session).
 //
-// Ownership: send() copies or passes on the bytes before it returns.
-// Threads:   the caller's.
-// Failure:   none here; whoever carries counts what could not be sent.
+// Units/frames: bytes.
+// Ownership:    send() copies or passes on the bytes before it returns.
+// Threads:      the caller's.
+// Failure:      none here; whoever carries counts what could not be sent.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "core/net/address.h"
 
 namespace dance {
+
+// Headers of IPv4 and UDP, which a line carries with each datagram.
+constexpr std::size_t kIpUdp_bytes = 28;
 
 class DatagramSink {
  public:

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "core/net/datagram_sink.h"
+
 namespace dance {
 namespace {
 
-constexpr std::size_t kHeaders_bytes = 28;  // IPv4 and UDP, which a rate limit counts too
 // A datagram that is held back waits this long beyond its time: enough for the next pose at 60 Hz
 // to overtake it.
 constexpr Duration kShortestHold = Duration::ms(20);
@@ -57,7 +58,7 @@ LossyModel::Fate LossyModel::offer(std::size_t bytes, MonoTime now) {
     }
     line_free_ =
         std::max(line_free_, now) +
-        Duration::seconds(static_cast<double>(bytes + kHeaders_bytes) * 8.0 / spec_.rate_bps);
+        Duration::seconds(static_cast<double>(bytes + kIpUdp_bytes) * 8.0 / spec_.rate_bps);
     leaves = line_free_;
   }
   if (spec_.jitter > Duration())

@@ -1,0 +1,27 @@
+// Numbers of reports: rounded, and percentiles of what was measured one by one. Histogram
+// (core/base/histogram.h) is for what is too much to keep.
+//
+// Units/frames: as given; fractions are 0 to 1.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      a percentile of nothing is 0.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace dance {
+
+// JSON has no use for picoseconds.
+inline double rounded(double value, double per_unit) {
+  return std::round(value * per_unit) / per_unit;
+}
+
+template <class T>
+T percentile(std::span<const T> sorted, double fraction) {
+  if (sorted.empty()) return T{};
+  return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))];
+}
+
+}  // namespace dance
