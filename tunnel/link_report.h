@@ -1,7 +1,9 @@
 // What a link did, as JSON for scripts: totals, and each guest of the other houses.
 //
-// Threads: none inside.
-// Failure: none.
+// Units/frames: units stand in the names of the JSON.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      none.
 #pragma once
 
 #include <string>

@@ -1,10 +1,11 @@
 // OffscreenContext: an OpenGL 3.3 core context that needs neither a display nor a window system, for
 // pictures in files.
 //
-// Ownership: owns its EGL display and context; makes itself current when made.
-// Threads:   the one that made it.
-// Failure:   create() names what is missing and the package that brings it.
-// Source:    EGL_MESA_platform_surfaceless.
+// Units/frames: sizes in pixels.
+// Ownership:    owns its EGL display and context; makes itself current when made.
+// Threads:      the one that made it.
+// Failure:      create() names what is missing and the package that brings it.
+// Source:       EGL_MESA_platform_surfaceless.
 #pragma once
 
 #include <memory>

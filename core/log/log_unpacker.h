@@ -2,12 +2,13 @@
 // packed goes through. Reads what strangers wrote: nothing in an event is believed that its checksum
 // does not confirm.
 //
-// Ownership: what unpack() gives looks at the event that it was given, or at the unpacker; valid
-//            until its next call. 70 KB for each channel of packed poses, 140 KB of hands, at most
-//            kMaxMotionStreams of them.
-// Threads:   none inside; one owner. Well under 0.1 ms a message.
-// Failure:   an event that cannot be had is nullopt and counted by cause; its channel goes on with
-//            its next key frame, the others as if nothing had been.
+// Units/frames: events as in core/bus/log_file.h.
+// Ownership:    what unpack() gives looks at the event that it was given, or at the unpacker; valid
+//               until its next call. 70 KB for each channel of packed poses, 140 KB of hands, at most
+//               kMaxMotionStreams of them.
+// Threads:      none inside; one owner. Well under 0.1 ms a message.
+// Failure:      an event that cannot be had is nullopt and counted by cause; its channel goes on with
+//               its next key frame, the others as if nothing had been.
 #pragma once
 
 #include <array>

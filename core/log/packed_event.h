@@ -2,8 +2,10 @@
 // event, with its number and its time, on a channel that nobody listens to. Here is how such an
 // event is known; docs/codec.md has it byte by byte.
 //
-// Threads: none inside.
-// Failure: is_packed() is false for what is none of ours.
+// Units/frames: bytes as in docs/codec.md.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      is_packed() is false for what is none of ours.
 #pragma once
 
 #include <algorithm>
