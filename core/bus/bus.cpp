@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <vector>
 
@@ -132,6 +133,74 @@ class RawSubscription : public Subscription {
   Bus::RawHandler handler_;
 };
 
+// Channels of a pattern, undecoded: the regex may take in more than the pattern.
+class PatternSubscription : public Subscription {
+ public:
+  PatternSubscription(const ChannelPattern& pattern, Delivery delivery, std::size_t max_bytes,
+                      Bus::RawHandler handler, Bus::Counters& counters)
+      : pattern_(pattern),
+        delivery_(delivery),
+        max_bytes_(max_bytes),
+        handler_(std::move(handler)),
+        counters_(counters) {}
+
+  void take(const lcm_recv_buf_t* bytes, const char* name) override {
+    if (!pattern_.matches(name)) return;  // another subscriber's, or what came from another house
+    if (bytes->data_size > max_bytes_) {
+      ++counters_.oversized;
+      return;
+    }
+    if (delivery_ == Delivery::kEvery) {
+      ++counters_.received;
+      handler_(name, bytes->data, bytes->data_size, now);
+      return;
+    }
+    Slot* slot = slot_of(name);
+    if (!slot) {
+      ++counters_.unknown;
+      return;
+    }
+    ++counters_.received;
+    if (slot->fresh) ++counters_.superseded;
+    slot->size = bytes->data_size;
+    if (slot->size > 0) std::memcpy(slot->bytes.data(), bytes->data, slot->size);
+    slot->fresh = true;
+  }
+
+  void deliver(MonoTime turn) override {
+    for (Slot& slot : slots_)
+      if (slot.fresh) {
+        slot.fresh = false;
+        handler_(slot.name.view(), slot.bytes.data(), slot.size, turn);
+      }
+  }
+
+ private:
+  struct Slot {
+    FixedString<kMaxChannelLength> name;
+    std::vector<std::uint8_t> bytes;  // max_bytes_ of them
+    std::size_t size = 0;
+    bool fresh = false;
+  };
+
+  Slot* slot_of(std::string_view name) {
+    for (Slot& slot : slots_)
+      if (slot.name == name) return &slot;
+    Slot slot;
+    if (slots_.size() == kMaxSlots || !slot.name.assign(name)) return nullptr;
+    slot.bytes.resize(max_bytes_);
+    slots_.push_back(std::move(slot));
+    return &slots_.back();
+  }
+
+  ChannelPattern pattern_;
+  Delivery delivery_;
+  std::size_t max_bytes_;
+  Bus::RawHandler handler_;
+  Bus::Counters& counters_;
+  std::vector<Slot> slots_;
+};
+
 }  // namespace
 
 struct Bus::Impl {
@@ -207,6 +276,13 @@ void Bus::publish(const Channel& channel, const Stats& stats) { impl_->publish(c
 void Bus::publish(const Channel& channel, const StageTime& stage_time) {
   impl_->publish(channel, stage_time);
 }
+void Bus::publish(const Channel& channel, const Music& music) { impl_->publish(channel, music); }
+void Bus::publish(const Channel& channel, const Scene& scene) { impl_->publish(channel, scene); }
+void Bus::publish(const Channel& channel, const Avatar& avatar) { impl_->publish(channel, avatar); }
+void Bus::publish(const Channel& channel, const Style& style) { impl_->publish(channel, style); }
+void Bus::publish(const Channel& channel, const Placement& placement) {
+  impl_->publish(channel, placement);
+}
 void Bus::publish_raw(const char* channel, const void* data, std::size_t size) {
   impl_->publish_bytes(channel, data, size);
 }
@@ -234,8 +310,35 @@ void Bus::on_stage_time(Handler<StageTime> handler) {
   impl_->subscribe_typed<StageTime>("STAGE_TIME/view/[a-z0-9-]+", Delivery::kEvery,
                                     std::move(handler));
 }
+void Bus::on_music(Where where, const GuestId& guest, Handler<Music> handler) {
+  impl_->subscribe_typed<Music>(channel_pattern(Signal::kMusic, where, guest), Delivery::kEvery,
+                                std::move(handler));
+}
+void Bus::on_scene(Where where, const GuestId& guest, Handler<Scene> handler) {
+  impl_->subscribe_typed<Scene>(channel_pattern(Signal::kScene, where, guest), Delivery::kEvery,
+                                std::move(handler));
+}
+void Bus::on_avatar(Where where, const GuestId& guest, Handler<Avatar> handler) {
+  impl_->subscribe_typed<Avatar>(channel_pattern(Signal::kAvatar, where, guest), Delivery::kEvery,
+                                 std::move(handler));
+}
+void Bus::on_style(Where where, const GuestId& guest, Handler<Style> handler) {
+  impl_->subscribe_typed<Style>(channel_pattern(Signal::kStyle, where, guest), Delivery::kEvery,
+                                std::move(handler));
+}
+void Bus::on_placement(Where where, const GuestId& guest, Handler<Placement> handler) {
+  impl_->subscribe_typed<Placement>(channel_pattern(Signal::kPlacement, where, guest),
+                                    Delivery::kEvery, std::move(handler));
+}
 void Bus::on_anything(RawHandler handler) {
   impl_->subscribe(".*", std::make_unique<RawSubscription>(std::move(handler)));
+}
+
+void Bus::on_raw(const ChannelPattern& pattern, Delivery delivery, std::size_t max_bytes,
+                 RawHandler handler) {
+  impl_->subscribe(pattern.regex(),
+                   std::make_unique<PatternSubscription>(pattern, delivery, max_bytes,
+                                                         std::move(handler), impl_->counters));
 }
 
 int Bus::fd() const { return lcm_get_fileno(impl_->lcm); }

@@ -16,7 +16,9 @@
 
 #include "core/base/result.h"
 #include "core/bus/channel.h"
+#include "core/bus/channel_pattern.h"
 #include "core/bus/messages.h"
+#include "core/bus/state_messages.h"
 #include "core/pose/pose.h"
 
 namespace dance {
@@ -42,6 +44,7 @@ class Bus {
     std::uint64_t invalid = 0;      // decoded, but not finite, not unit, out of range
     std::uint64_t unknown = 0;      // on a channel that we subscribed to but cannot parse
     std::uint64_t publish_failed = 0;
+    std::uint64_t oversized = 0;  // of on_raw(): longer than its subscriber takes
   };
   template <class T>
   using Handler = std::function<void(const Channel& channel, const T& message, MonoTime now)>;
@@ -57,7 +60,12 @@ class Bus {
   void publish(const Channel& channel, const GuestStatus& status);
   void publish(const Channel& channel, const Stats& stats);
   void publish(const Channel& channel, const StageTime& stage_time);
-  // A message as it came from a log: published byte for byte.
+  void publish(const Channel& channel, const Music& music);
+  void publish(const Channel& channel, const Scene& scene);
+  void publish(const Channel& channel, const Avatar& avatar);
+  void publish(const Channel& channel, const Style& style);
+  void publish(const Channel& channel, const Placement& placement);
+  // A message as it came from a log or another house: published byte for byte.
   void publish_raw(const char* channel, const void* data, std::size_t size);
 
   // Subscribes to <SIGNAL>/<where>/<guest>, or to all guests where guest is not set.
@@ -67,11 +75,20 @@ class Bus {
   void on_guest_status(Handler<GuestStatus> handler);
   void on_stats(Handler<Stats> handler);
   void on_stage_time(Handler<StageTime> handler);
+  void on_music(Where where, const GuestId& guest, Handler<Music> handler);
+  void on_scene(Where where, const GuestId& guest, Handler<Scene> handler);
+  void on_avatar(Where where, const GuestId& guest, Handler<Avatar> handler);
+  void on_style(Where where, const GuestId& guest, Handler<Style> handler);
+  void on_placement(Where where, const GuestId& guest, Handler<Placement> handler);
   // Every message of every channel, undecoded: for recorders and `dance top`. `name` may be any LCM
   // channel.
   using RawHandler =
       std::function<void(std::string_view name, const void* data, std::size_t size, MonoTime now)>;
   void on_anything(RawHandler handler);
+  // Undecoded messages of up to max_bytes, of the channels that a pattern matches. With kNewest a
+  // handler gets a copy of each channel's last one of a turn.
+  void on_raw(const ChannelPattern& pattern, Delivery delivery, std::size_t max_bytes,
+              RawHandler handler);
 
   // Becomes readable when messages are pending: give it to the poller, and call drain().
   int fd() const;

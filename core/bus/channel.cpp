@@ -9,19 +9,25 @@ struct Word {
   int value;
   std::string_view text;
 };
-constexpr std::array<Word, 6> kSignals{{
+constexpr std::array<Word, 11> kSignals{{
     {static_cast<int>(Signal::kPose), "POSE"},
     {static_cast<int>(Signal::kSkeleton), "SKELETON"},
     {static_cast<int>(Signal::kHands), "HANDS"},
     {static_cast<int>(Signal::kGuest), "GUEST"},
     {static_cast<int>(Signal::kStats), "STATS"},
     {static_cast<int>(Signal::kStageTime), "STAGE_TIME"},
+    {static_cast<int>(Signal::kMusic), "MUSIC"},
+    {static_cast<int>(Signal::kScene), "SCENE"},
+    {static_cast<int>(Signal::kAvatar), "AVATAR"},
+    {static_cast<int>(Signal::kStyle), "STYLE"},
+    {static_cast<int>(Signal::kPlacement), "PLACEMENT"},
 }};
-constexpr std::array<Word, 4> kWheres{{
+constexpr std::array<Word, 5> kWheres{{
     {static_cast<int>(Where::kCapture), "capture"},
     {static_cast<int>(Where::kGuest), "guest"},
     {static_cast<int>(Where::kStage), "stage"},
     {static_cast<int>(Where::kView), "view"},
+    {static_cast<int>(Where::kRoom), "room"},
 }};
 
 template <std::size_t kCount>

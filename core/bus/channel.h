@@ -15,7 +15,19 @@
 
 namespace dance {
 
-enum class Signal : std::uint8_t { kPose, kSkeleton, kHands, kGuest, kStats, kStageTime };
+enum class Signal : std::uint8_t {
+  kPose,
+  kSkeleton,
+  kHands,
+  kGuest,
+  kStats,
+  kStageTime,
+  kMusic,
+  kScene,
+  kAvatar,
+  kStyle,
+  kPlacement,
+};
 
 // Where on its journey the signal is.
 enum class Where : std::uint8_t {
@@ -23,6 +35,7 @@ enum class Where : std::uint8_t {
   kGuest,    // came through the tunnel
   kStage,    // to be shown in this house
   kView,     // what a display has shown
+  kRoom,     // holds for all in the room; the guest is who set it
   kProgram,  // about a program; its name takes the place of `where`, there is no guest
 };
 
@@ -65,7 +78,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 12> kChannelTable{{
+constexpr std::array<ChannelRow, 22> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -77,6 +90,16 @@ constexpr std::array<ChannelRow, 12> kChannelTable{{
     {Signal::kHands, Where::kStage, "HANDS/stage/<guest>", "hands_t"},
     {Signal::kGuest, Where::kStage, "GUEST/stage/<guest>", "guest_t"},
     {Signal::kStageTime, Where::kView, "STAGE_TIME/view/<guest>", "stage_time_t"},
+    {Signal::kMusic, Where::kCapture, "MUSIC/capture/<guest>", "music_t"},
+    {Signal::kMusic, Where::kRoom, "MUSIC/room/<guest>", "music_t"},
+    {Signal::kScene, Where::kCapture, "SCENE/capture/<guest>", "scene_t"},
+    {Signal::kScene, Where::kRoom, "SCENE/room/<guest>", "scene_t"},
+    {Signal::kAvatar, Where::kCapture, "AVATAR/capture/<guest>", "avatar_t"},
+    {Signal::kAvatar, Where::kGuest, "AVATAR/guest/<guest>", "avatar_t"},
+    {Signal::kStyle, Where::kCapture, "STYLE/capture/<guest>", "style_t"},
+    {Signal::kStyle, Where::kGuest, "STYLE/guest/<guest>", "style_t"},
+    {Signal::kPlacement, Where::kCapture, "PLACEMENT/capture/<guest>", "placement_t"},
+    {Signal::kPlacement, Where::kGuest, "PLACEMENT/guest/<guest>", "placement_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 

@@ -9,7 +9,7 @@
 #include <dancelcm/stats_t.hpp>
 #include <iterator>
 
-#include "core/base/assert.h"
+#include "core/bus/message_bytes.h"
 
 namespace dance {
 namespace {
@@ -21,29 +21,6 @@ static_assert(std::size(decltype(dancelcm::stage_time_t::hop_time_us){}) == kHop
 static_assert(std::size(decltype(dancelcm::hands_t::rotation_xyzw){}) == kFingerBoneCount);
 static_assert(std::size(decltype(dancelcm::skeleton_t::offset_m){}) == kBoneCount);
 static_assert(std::size(decltype(dancelcm::skeleton_t::tip_m){}) == kTipCount);
-
-template <class Message>
-std::size_t pack(const Message& message, MessageBuffer& buffer) {
-  const int size = message.encode(buffer.data(), 0, static_cast<int>(buffer.size()));
-  DANCE_ASSERT(size > 0, size);
-  return static_cast<std::size_t>(size);
-}
-
-template <class Message>
-bool unpack(const void* data, std::size_t size, Message& message) {
-  // Ours have one size each: anything longer or shorter is somebody else's.
-  return size <= kMaxMessageBytes &&
-         message.decode(data, 0, static_cast<int>(size)) == static_cast<int>(size);
-}
-
-std::int64_t to_us(MonoTime t) { return t.since_zero_us(); }
-MonoTime from_us(std::int64_t us) { return MonoTime::from_us(us); }
-
-// A time that can be computed with: within 100 years of its clock's zero.
-bool is_time(std::int64_t us) {
-  constexpr std::int64_t kCentury_us = 100LL * 366 * 24 * 3600 * 1'000'000;
-  return us > -kCentury_us && us < kCentury_us;
-}
 
 void put_rotation(float (&xyzw)[4], const Eigen::Quaternionf& q) {
   xyzw[0] = q.x();

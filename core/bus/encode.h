@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "core/bus/messages.h"
+#include "core/bus/state_messages.h"
 #include "core/pose/pose.h"
 
 namespace dance {
@@ -28,6 +29,11 @@ std::size_t encode(const TimedSkeleton& skeleton, MessageBuffer& buffer);
 std::size_t encode(const GuestStatus& status, MessageBuffer& buffer);
 std::size_t encode(const Stats& stats, MessageBuffer& buffer);
 std::size_t encode(const StageTime& stage_time, MessageBuffer& buffer);
+std::size_t encode(const Music& music, MessageBuffer& buffer);
+std::size_t encode(const Scene& scene, MessageBuffer& buffer);
+std::size_t encode(const Avatar& avatar, MessageBuffer& buffer);
+std::size_t encode(const Style& style, MessageBuffer& buffer);
+std::size_t encode(const Placement& placement, MessageBuffer& buffer);
 
 // A pose_t as it stands in a message, every bit of it and checked for nothing: for recordings, which
 // give back what they were given. Whoever looks at poses wants decode().
@@ -55,5 +61,10 @@ Decoded decode(const void* data, std::size_t size, TimedSkeleton& skeleton);
 Decoded decode(const void* data, std::size_t size, GuestStatus& status);
 Decoded decode(const void* data, std::size_t size, Stats& stats);
 Decoded decode(const void* data, std::size_t size, StageTime& stage_time);
+Decoded decode(const void* data, std::size_t size, Music& music);
+Decoded decode(const void* data, std::size_t size, Scene& scene);
+Decoded decode(const void* data, std::size_t size, Avatar& avatar);
+Decoded decode(const void* data, std::size_t size, Style& style);
+Decoded decode(const void* data, std::size_t size, Placement& placement);
 
 }  // namespace dance

@@ -150,6 +150,73 @@ TEST(Bus, EachSignalReachesItsHandler) {
                                                {"STATS/manager", 1}}));
 }
 
+TEST(Bus, StateReachesItsHandlers) {
+  const auto sender = open_bus(), receiver = open_bus();
+  std::map<std::string, int> heard;
+  const auto count = [&](const Channel& channel, const auto&, MonoTime) {
+    ++heard[std::string(channel.view())];
+  };
+  receiver->on_music(Where::kRoom, GuestId(), count);
+  receiver->on_scene(Where::kRoom, GuestId(), count);
+  receiver->on_avatar(Where::kGuest, guest("a"), count);
+  receiver->on_style(Where::kCapture, GuestId(), count);
+  receiver->on_placement(Where::kGuest, GuestId(), count);
+  sender->publish(Channel::of(Signal::kMusic, Where::kCapture, guest("a")), Music());
+  sender->publish(Channel::of(Signal::kMusic, Where::kRoom, guest("a")), Music());
+  sender->publish(Channel::of(Signal::kScene, Where::kRoom, guest("a")), Scene());
+  sender->publish(Channel::of(Signal::kAvatar, Where::kGuest, guest("b")), Avatar());
+  sender->publish(Channel::of(Signal::kAvatar, Where::kGuest, guest("a")), Avatar());
+  sender->publish(Channel::of(Signal::kStyle, Where::kCapture, guest("a")), Style());
+  sender->publish(Channel::of(Signal::kPlacement, Where::kGuest, guest("a")), Placement());
+  drain_until(*receiver, [&] { return heard["PLACEMENT/guest/a"] == 1; });
+  EXPECT_EQ(heard, (std::map<std::string, int>{{"MUSIC/room/a", 1},
+                                               {"SCENE/room/a", 1},
+                                               {"AVATAR/guest/a", 1},
+                                               {"STYLE/capture/a", 1},
+                                               {"PLACEMENT/guest/a", 1}}));
+}
+
+ChannelPattern pattern(std::string_view text) { return *ChannelPattern::parse(text); }
+
+TEST(Bus, RawKeepsToItsPatternAndItsSize) {
+  const auto sender = open_bus(), receiver = open_bus();
+  std::vector<std::string> heard;
+  receiver->on_raw(pattern("LIGHT/*"), Delivery::kEvery, 4,
+                   [&](std::string_view name, const void* data, std::size_t size, MonoTime) {
+                     heard.push_back(std::string(name) + "=" +
+                                     std::string(static_cast<const char*>(data), size));
+                   });
+  sender->publish_raw("LIGHT/desk", "one", 3);
+  sender->publish_raw("LIGHT/desk/guest/bob", "two", 3);  // came from another house
+  sender->publish_raw("LIGHTS/desk", "six", 3);
+  sender->publish_raw("XLIGHT/desk", "six", 3);
+  sender->publish_raw("LIGHT/desk", "large", 5);
+  sender->publish(capture_of("alice"), Pose());
+  sender->publish_raw("LIGHT/", "six", 3);
+  sender->publish_raw("LIGHT/spot", "", 0);
+  drain_until(*receiver, [&] { return heard.size() == 2; });
+  EXPECT_EQ(heard, (std::vector<std::string>{"LIGHT/desk=one", "LIGHT/spot="}));
+  EXPECT_EQ(receiver->counters().oversized, 1u);
+  EXPECT_EQ(receiver->counters().received, 2u);
+}
+
+TEST(Bus, RawNewestHandsOnTheLastOfEachChannel) {
+  const auto sender = open_bus(), receiver = open_bus();
+  std::map<std::string, std::uint8_t> last;
+  std::uint64_t calls = 0;
+  receiver->on_raw(pattern("ROBOT/*"), Delivery::kNewest, 8,
+                   [&](std::string_view name, const void* data, std::size_t, MonoTime) {
+                     last[std::string(name)] = *static_cast<const std::uint8_t*>(data);
+                     ++calls;
+                   });
+  for (std::uint8_t i = 0; i < 100; ++i)
+    for (const char* name : {"ROBOT/left", "ROBOT/right"}) sender->publish_raw(name, &i, 1);
+  drain_until(*receiver, [&] { return last["ROBOT/left"] == 99 && last["ROBOT/right"] == 99; });
+  EXPECT_EQ(last, (std::map<std::string, std::uint8_t>{{"ROBOT/left", 99}, {"ROBOT/right", 99}}));
+  EXPECT_EQ(receiver->counters().received, 200u);
+  EXPECT_EQ(receiver->counters().superseded, 200u - calls);
+}
+
 TEST(Bus, ThirtyGuestsAtSixtyHertzLoseNothing) {
   const auto sender = open_bus(), receiver = open_bus();
   std::map<std::string, std::uint32_t> next;

@@ -120,6 +120,8 @@ TEST(Channel, RefusesNamesThatAreNotOurs) {
                                 "POSE/view/alice",
                                 "POSE/program/alice",
                                 "GUEST/capture/alice",
+                                "MUSIC/guest/alice",
+                                "AVATAR/room/alice",
                                 "STAGE_TIME/stage/alice",
                                 "STATS",
                                 "STATS/",
@@ -180,7 +182,8 @@ TEST(Channel, AllocatesNothing) {
 }
 
 TEST(Where, IsFoundByItsName) {
-  for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage, Where::kView})
+  for (const Where where :
+       {Where::kCapture, Where::kGuest, Where::kStage, Where::kView, Where::kRoom})
     EXPECT_EQ(find_where(where_name(where)), where);
   EXPECT_FALSE(find_where(""));
   EXPECT_FALSE(find_where("program"));

@@ -27,6 +27,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try_decode<dance::GuestStatus>(data, size);
   try_decode<dance::StageTime>(data, size);
   try_decode<dance::Stats>(data, size);
+  try_decode<dance::Music>(data, size);
+  try_decode<dance::Scene>(data, size);
+  try_decode<dance::Avatar>(data, size);
+  try_decode<dance::Style>(data, size);
+  try_decode<dance::Placement>(data, size);
   const std::string_view name(reinterpret_cast<const char*>(data), size);
   if (const auto channel = dance::Channel::parse(name)) DANCE_ASSERT(channel->view() == name);
   return 0;

@@ -1,0 +1,89 @@
+// What changes seldom and has to be known by whoever comes later: the room's music and scene; each
+// guest's avatar, style and place. The same fields as the .lcm files of lcmtypes, which say what each
+// means, in this tree's types.
+//
+// Units/frames: MonoTime of the clock that clock_id names; metres and radians in W; music in beats.
+// Ownership:    plain values, no heap.
+// Threads:      none inside.
+// Failure:      is_valid() is false for what the .lcm files do not allow.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/base/fixed_string.h"
+#include "core/base/guest_id.h"
+#include "core/base/time.h"
+
+namespace dance {
+
+// Names of scenes and avatars follow the same rule as guest ids.
+using SceneName = GuestId;
+using AvatarName = GuestId;
+using MusicTitle = FixedString<63>;
+
+struct Music {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  MonoTime start_time;
+  double start_beats = 0.0;
+  double tempo_bpm = 120.0;
+  int beats_per_bar = 4;
+  bool playing = false;
+  MusicTitle title;
+
+  // Where the music stands at a time of the same clock.
+  double beats_at(MonoTime t) const {
+    return playing ? start_beats + (t - start_time).as_seconds() * tempo_bpm / 60.0 : start_beats;
+  }
+};
+
+struct Scene {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  SceneName name;
+  float floor_width_m = 8.0f;
+  float floor_depth_m = 8.0f;
+  std::array<float, 3> light_rgb{1.0f, 1.0f, 1.0f};
+  float brightness = 1.0f;
+  float pulse = 0.0f;
+};
+
+struct Avatar {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  AvatarName name;
+  std::array<float, 3> colour_rgb{1.0f, 1.0f, 1.0f};
+  float height_scale = 1.0f;
+};
+
+enum class BodyZone : std::uint8_t { kHips, kTorso, kShoulders, kArms, kHands, kLegs, kHead };
+constexpr std::size_t kBodyZones = 7;
+
+struct Style {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  std::array<float, kBodyZones> gain{1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
+  float periodic = 1.0f;
+  float dynamic = 1.0f;
+};
+
+struct Placement {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  float x_m = 0.0f;
+  float z_m = 0.0f;
+  float heading_rad = 0.0f;
+};
+
+// UTF-8 without control characters.
+bool is_plain_text(std::string_view text);
+
+bool is_valid(const Music& music);
+bool is_valid(const Scene& scene);
+bool is_valid(const Avatar& avatar);
+bool is_valid(const Style& style);
+bool is_valid(const Placement& placement);
+
+}  // namespace dance
