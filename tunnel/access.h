@@ -35,6 +35,10 @@ struct Access {
     return name.is_set() && wanted.starts_with(own) &&
            (wanted.size() == own.size() || wanted[own.size()] == '-');
   }
+  // Hosts set what all of the room share; where none of them is there, every guest may.
+  bool may_set_room_state(bool is_host_present) const {
+    return role == Role::kHost || (role == Role::kGuest && !is_host_present);
+  }
   bool may_enter(const wire::RoomName& wanted) const { return !room.is_set() || room == wanted; }
 };
 

@@ -107,6 +107,36 @@ void Link::send(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
   rearm();
 }
 
+void Link::send(const GuestId& guest, const Avatar& avatar, MonoTime now) {
+  core_.send(guest, avatar, now);
+  rearm();
+}
+
+void Link::send(const GuestId& guest, const Style& style, MonoTime now) {
+  core_.send(guest, style, now);
+  rearm();
+}
+
+void Link::send(const GuestId& guest, const Placement& placement, MonoTime now) {
+  core_.send(guest, placement, now);
+  rearm();
+}
+
+void Link::send(const GuestId& guest, const Music& music, MonoTime now) {
+  core_.send(guest, music, now);
+  rearm();
+}
+
+void Link::send(const GuestId& guest, const Scene& scene, MonoTime now) {
+  core_.send(guest, scene, now);
+  rearm();
+}
+
+void Link::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
+  core_.send_channel(name, message, now);
+  rearm();
+}
+
 Duration Link::uptime() const { return mono_now() - begin_; }
 
 Stats Link::stats(MonoTime now) const {

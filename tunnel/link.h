@@ -35,6 +35,12 @@ class Link {
   void send(const GuestId& guest, const Pose& pose, MonoTime now);
   void send(const GuestId& guest, const Hands& hands, MonoTime now);
   void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+  void send(const GuestId& guest, const Avatar& avatar, MonoTime now);
+  void send(const GuestId& guest, const Style& style, MonoTime now);
+  void send(const GuestId& guest, const Placement& placement, MonoTime now);
+  void send(const GuestId& guest, const Music& music, MonoTime now);
+  void send(const GuestId& guest, const Scene& scene, MonoTime now);
+  void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
 
   bool is_connected() const { return core_.is_connected(); }
   LinkState state() const { return core_.state(); }
@@ -43,6 +49,8 @@ class Link {
   std::vector<RemoteGuestStats> remote_stats() const { return core_.remote_stats(); }
   std::vector<LocalGuestStats> local_stats() const { return core_.local_stats(); }
   const PathStats& path() const { return core_.path(); }
+  std::optional<Music> room_music(MonoTime now) const { return core_.room_music(now); }
+  const GuestId& room_music_setter() const { return core_.room_music_setter(); }
   // Since the link began.
   Duration uptime() const;
   // As STATS/link says it.

@@ -12,6 +12,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/base/random.h"
@@ -42,6 +44,15 @@ class LinkCore {
   void send(const GuestId& guest, const Pose& pose, MonoTime now);
   void send(const GuestId& guest, const Hands& hands, MonoTime now);
   void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+  // States of a guest of this house: told until the server has them.
+  void send(const GuestId& guest, const Avatar& avatar, MonoTime now);
+  void send(const GuestId& guest, const Style& style, MonoTime now);
+  void send(const GuestId& guest, const Placement& placement, MonoTime now);
+  // Wishes of a guest of this house for the room: what holds comes through the handlers.
+  void send(const GuestId& guest, const Music& music, MonoTime now);
+  void send(const GuestId& guest, const Scene& scene, MonoTime now);
+  // A message of a further channel, where a rule of the options lets it out.
+  void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
   void say_goodbye();
 
   LinkState state() const { return state_; }
@@ -50,6 +61,9 @@ class LinkCore {
   int unanswered_hellos() const { return unanswered_hellos_; }
   const LinkCounters& counters() const { return counters_; }
   const ClockMapper& clock() const { return clock_; }
+  // The room's music in this house's clock, as it is mapped now.
+  std::optional<Music> room_music(MonoTime now) const;
+  const GuestId& room_music_setter() const { return held_[0].setter; }
   void fill(Stats& stats) const;
   // Those who are here, and the last that have left.
   std::vector<RemoteGuestStats> remote_stats() const;
@@ -87,8 +101,38 @@ class LinkCore {
   void settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry);
   void keep_counts(const RemoteGuest& remote);
   bool is_present(const GuestId& id) const;
-  bool on_state(wire::Bytes body, MonoTime now);
-  bool on_state_ack(wire::Bytes body);
+
+  // link_states.cpp
+  LocalGuest* find_local(const GuestId& id);
+  void tell(const GuestId& id, wire::StateKind kind, wire::Bytes payload, MonoTime now);
+  template <class Message>
+  void tell_message(const GuestId& id, wire::StateKind kind, const Message& message, MonoTime now);
+  void make_wish(const GuestId& setter, wire::StateKind kind, wire::Bytes payload, MonoTime now);
+  void send_state(const wire::State& state);
+  void repeat_states(MonoTime now);
+  void forget_acks();
+  void map_wished_music();
+  bool on_states(wire::Bytes body, MonoTime now);
+  bool on_guest_state(const wire::State& state, MonoTime now);
+  bool deliver_guest_state(RemoteGuest& remote, const wire::State& state, MonoTime now);
+  template <class Message, class Handler>
+  bool deliver_message(const GuestId& id, wire::Bytes payload, const Handler& handler,
+                       MonoTime now);
+  bool on_room_state(const wire::State& state, MonoTime now);
+  void give_way(std::size_t place, const GuestId& setter, std::uint32_t version);
+  bool on_state_acks(wire::Bytes body);
+  void on_wish_ack(const wire::StateAck& ack);
+  void on_guest_state_ack(const wire::StateAck& ack);
+
+  // link_channels.cpp
+  HouseChannel* find_or_add_channel(std::string_view name, const ChannelRule& rule);
+  bool bind_channel(HouseChannel& channel);
+  bool is_channel_due(HouseChannel& channel, MonoTime now);
+  void send_channel_record(HouseChannel& channel, wire::Bytes message, MonoTime now);
+  bool on_channel_state(RemoteGuest& remote, const wire::State& state, MonoTime now);
+  void on_channel_record(const wire::Record& record, MonoTime now);
+  void deliver_channel(RemoteGuest& remote, const RemoteChannel& channel, wire::Bytes message,
+                       MonoTime now);
 
   // link_send.cpp
   struct Stamp {
@@ -104,7 +148,6 @@ class LinkCore {
   void flush_records();
   void send_records_datagram(bool with_bundle);
   std::size_t count_dancing(MonoTime now) const;
-  void send_skeleton(const LocalGuest& guest);
 
   // link_feedback.cpp
   void begin_session_records();
@@ -168,6 +211,14 @@ class LinkCore {
   bool has_feedback_ = false;
   std::uint16_t newest_feedback_ = 0;  // number of its datagram
   PathStats path_;
+  // What changes seldom.
+  TokenBucket state_changes_{10.0, 20.0};  // told at once; more goes with the pings
+  std::array<RoomWish, wire::kRoomStates> wishes_;
+  std::array<RoomHeld, wire::kRoomStates> held_;
+  Music wished_music_;  // in our clock
+  Music held_music_;    // in the server's
+  bool has_held_music_ = false;
+  std::vector<HouseChannel> channels_;  // reserved; at most kMaxHouseChannels
   Pose decoded_;
   Hands decoded_hands_;
 };

@@ -38,7 +38,8 @@ void LinkCore::settle_encoder(LocalGuest& guest) {
   guest.key_frame_at = MonoTime();
   guest.unstamped = 0;
   Skeleton skeleton;
-  if (guest.skeleton_version != 0 && decode_skeleton(guest.skeleton, skeleton))
+  const OwnState& state = guest.states[wire::place_of({wire::StateKind::kSkeleton, 0})];
+  if (state.version != 0 && decode_skeleton(state.bytes(), skeleton))
     guest.encoder->set_skeleton(skeleton);
 }
 

@@ -16,6 +16,7 @@
 #include "core/codec/quality_by_rate.h"
 #include "tunnel/held_frames.h"
 #include "tunnel/link_options.h"
+#include "tunnel/link_states.h"
 #include "tunnel/reference_policy.h"
 #include "tunnel/stream_gate.h"
 
@@ -62,9 +63,8 @@ struct LocalGuest {
   std::uint64_t sent = 0;
   std::uint64_t acked = 0;
   std::uint64_t key_frames_sent = 0;
-  std::array<std::uint8_t, kSkeletonPayload> skeleton;
-  std::uint32_t skeleton_version = 0;  // the link's own count of changes; 0 = none yet
-  std::uint32_t skeleton_acked = 0;
+  // Skeleton, avatar, style and placement, by wire::place_of().
+  std::array<OwnState, wire::kFirstChannelPlace> states;
 };
 
 struct RemoteGuest {
@@ -79,7 +79,8 @@ struct RemoteGuest {
   std::uint64_t skeleton_missing = 0;
   std::uint64_t key_frames_asked = 0;
   MonoTime key_asked_at;
-  std::uint32_t skeleton_version = 0;
+  std::array<std::uint32_t, wire::kGuestStates> state_versions{};  // 0 = not heard yet
+  std::array<RemoteChannel, kMaxChannelsPerGuest> channels;
   bool has_skeleton = false;  // of this guest, of this session or one before
   Skeleton skeleton;
   std::unique_ptr<PoseDecoder> decoder;

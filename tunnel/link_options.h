@@ -10,13 +10,17 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/base/fixed_list.h"
+#include "core/bus/channel_rule.h"
+#include "core/bus/state_messages.h"
 #include "core/codec/pose_codec.h"
 #include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
-#include "tunnel/wire.h"
+#include "tunnel/wire_state.h"
 
 namespace dance {
 
@@ -41,6 +45,8 @@ struct LinkOptions {
   // and what the payloads of each of them may cost: where they cost more, the error grows up to 5 mm,
   // core/codec/quality_by_rate.h. 0 = whatever it costs.
   double pose_bytes_per_second = 0.0;
+  // Further channels that ride along; at most kMaxChannelRules.
+  std::vector<ChannelRule> channels;
 };
 
 enum class LinkState : std::uint8_t {
@@ -53,6 +59,18 @@ struct LinkHandlers {
   std::function<void(const GuestId&, const Pose&, MonoTime now)> on_pose;
   std::function<void(const GuestId&, const Hands&, MonoTime now)> on_hands;
   std::function<void(const GuestId&, const Skeleton&, MonoTime now)> on_skeleton;
+  std::function<void(const GuestId&, const Avatar&, MonoTime now)> on_avatar;
+  std::function<void(const GuestId&, const Style&, MonoTime now)> on_style;
+  std::function<void(const GuestId&, const Placement&, MonoTime now)> on_placement;
+  // What holds in the room, and who set it: also a guest of this house.
+  std::function<void(const GuestId&, const Music&, MonoTime now)> on_music;
+  std::function<void(const GuestId&, const Scene&, MonoTime now)> on_scene;
+  // A guest of this house wished for something else: overruled, or not allowed to.
+  std::function<void(wire::StateKind, wire::StateVerdict)> on_room_state_refused;
+  // A message of a further channel of another house: of a name, size and layout that a rule lets in.
+  std::function<void(const GuestId&, std::string_view name, ChannelClass, wire::Bytes message,
+                     MonoTime now)>
+      on_channel;
   std::function<void(const GuestId&, MonoTime now)> on_guest_joined;
   std::function<void(const GuestId&, MonoTime now)> on_guest_left;
   std::function<void(LinkState, MonoTime now)> on_state;
@@ -80,6 +98,19 @@ struct LinkCounters {
   std::uint64_t unrouted = 0;           // not connected, or a guest without a slot
   std::uint64_t overflow = 0;           // more guests than a link may have
   std::uint64_t foreign_clock = 0;      // poses of another clock, stamped anew
+  std::uint64_t states_sent = 0;        // repetitions included
+  std::uint64_t states_delivered = 0;
+  std::uint64_t states_invalid = 0;    // both ways
+  std::uint64_t states_overruled = 0;  // wishes for the room that somebody else's replaced
+  std::uint64_t states_refused = 0;    // wishes that the server does not allow
+  std::uint64_t channels_sent = 0;     // messages of further channels
+  std::uint64_t channels_delivered = 0;
+  std::uint64_t channels_unlisted = 0;  // both ways: no rule lets them pass
+  std::uint64_t channels_invalid = 0;   // both ways: too long, or not of the layout
+  std::uint64_t channels_limited = 0;   // both ways: above the rule's rate
+  std::uint64_t channels_late = 0;      // not newer than what went before
+  std::uint64_t channels_unrouted = 0;  // no guest to send them by, or not announced yet
+  std::uint64_t channels_overflow = 0;  // more channels than a guest or a house may have
   std::uint64_t stream_restarts = 0;    // producers of ours that began anew
   std::uint64_t datagrams_in = 0;
   std::uint64_t datagrams_out = 0;

@@ -41,6 +41,10 @@ bool LinkCore::on_records(wire::Bytes body, MonoTime received, MonoTime now) {
 }
 
 bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
+  if (record.kind == wire::RecordKind::kChannel) {
+    on_channel_record(record, now);
+    return true;
+  }
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   if (is_pose) ++counters_.poses_received;
   RemoteGuest& remote = remotes_[record.slot];
@@ -120,7 +124,8 @@ void LinkCore::renew_decoder(RemoteGuest& remote) {
   remote.decoder = options_.make_decoder(codec_);
   remote.key_asked_at = MonoTime();
   // Only what this guest has told since it came: its encoder begins with nothing too.
-  if (remote.skeleton_version != 0 && remote.has_skeleton)
+  if (remote.state_versions[wire::place_of({wire::StateKind::kSkeleton, 0})] != 0 &&
+      remote.has_skeleton)
     remote.decoder->set_skeleton(remote.skeleton);
 }
 
@@ -156,7 +161,8 @@ void LinkCore::settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry) 
   remote.reference_missing = 0;
   remote.skeleton_missing = 0;
   remote.key_frames_asked = 0;
-  remote.skeleton_version = 0;
+  remote.state_versions = {};
+  remote.channels = {};
   renew_decoder(remote);
 }
 
@@ -181,43 +187,6 @@ bool LinkCore::on_roster(wire::Bytes body, MonoTime now) {
     if (!is_present(id) && handlers_.on_guest_left) handlers_.on_guest_left(id, now);
   for (const GuestId& id : named)
     if (!before.contains(id) && handlers_.on_guest_joined) handlers_.on_guest_joined(id, now);
-  return true;
-}
-
-bool LinkCore::on_state(wire::Bytes body, MonoTime now) {
-  const auto state = wire::parse_state(body);
-  if (!state) return false;
-  RemoteGuest& remote = remotes_[state->slot.slot];
-  // Without its roster entry it means nothing; not acknowledged, it comes again.
-  if (!remote.in_use || remote.is_ours || remote.generation != state->slot.generation) return true;
-  if (remote.skeleton_version != state->version) {
-    Skeleton skeleton;
-    if (!decode_skeleton(state->payload, skeleton)) {
-      ++counters_.invalid;
-      ++remote.invalid;
-    } else if (remote.skeleton_version == 0 ||
-               is_newer_sequence(state->version, remote.skeleton_version)) {
-      remote.skeleton_version = state->version;
-      remote.has_skeleton = true;
-      remote.skeleton = skeleton;
-      remote.decoder->set_skeleton(skeleton);
-      if (handlers_.on_skeleton) handlers_.on_skeleton(remote.id, skeleton, now);
-    }
-  }
-  // Acknowledged even if damaged: asking again would bring the same bytes.
-  const wire::StateAck ack{state->slot, state->kind, state->version};
-  std::array<std::uint8_t, 32> out;
-  send_datagram({out.data(), wire::build(ack, out)});
-  return true;
-}
-
-bool LinkCore::on_state_ack(wire::Bytes body) {
-  const auto ack = wire::parse_state_ack(body);
-  if (!ack) return false;
-  for (LocalGuest& guest : locals_)
-    if (guest.has_slot && guest.slot.slot == ack->slot.slot &&
-        guest.slot.generation == ack->slot.generation)
-      guest.skeleton_acked = ack->version;
   return true;
 }
 

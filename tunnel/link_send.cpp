@@ -210,22 +210,13 @@ void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
     return;
   }
   // Producers say it once a second: only a change is news.
-  if (guest->skeleton_version != 0 && payload == guest->skeleton) return;
-  guest->skeleton = payload;
-  ++guest->skeleton_version;
+  OwnState& state = guest->states[wire::place_of({wire::StateKind::kSkeleton, 0})];
+  if (!state.set({payload.data(), size})) return;
   // As the others get it: rounded.
   Skeleton rounded;
   if (guest->encoder && decode_skeleton(payload, rounded)) guest->encoder->set_skeleton(rounded);
-  if (is_connected() && guest->has_slot) send_skeleton(*guest);
-}
-
-void LinkCore::send_skeleton(const LocalGuest& guest) {
-  wire::State state;
-  state.slot = guest.slot;
-  state.version = guest.skeleton_version;
-  state.payload = guest.skeleton;
-  std::array<std::uint8_t, wire::kMaxPlain> out;
-  send_datagram({out.data(), wire::build(state, out)});
+  if (is_connected() && guest->has_slot && state_changes_.take(1.0, now))
+    send_state({{wire::StateKind::kSkeleton, 0}, guest->slot, {}, state.version, state.bytes()});
 }
 
 }  // namespace dance

@@ -131,8 +131,7 @@ void LinkCore::send_ping(MonoTime now) {
   send_datagram({out.data(), wire::build(ping, out)});
   if (quick_pings_left_ > 0) --quick_pings_left_;
   next_ping_ = now + (quick_pings_left_ > 0 ? kQuickPingPeriod : kPingPeriod);
-  for (const LocalGuest& guest : locals_)
-    if (guest.has_slot && guest.skeleton_version != guest.skeleton_acked) send_skeleton(guest);
+  repeat_states(now);
 }
 
 void LinkCore::heard_server(MonoTime now) {
@@ -162,13 +161,15 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   codec_ = welcome->codec;
   if (is_new) {
     begin_session_records();
+    forget_acks();
     clock_.reset();
     roster_.reset();
     for (RemoteGuest& remote : remotes_) {
       keep_counts(remote);
       remote.poses = StreamGate();
       remote.hands = StreamGate();
-      remote.skeleton_version = 0;
+      remote.state_versions = {};
+      remote.channels = {};
       if (remote.decoder) renew_decoder(remote);
     }
   }
@@ -180,7 +181,8 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
     const wire::Slot& slot = welcome->slots[i];
     const bool is_same =
         !is_new && guest.slot.slot == slot.slot && guest.slot.generation == slot.generation;
-    if (!is_same) guest.skeleton_acked = 0;
+    if (!is_same)
+      for (OwnState& state : guest.states) state.acked = 0;
     guest.has_slot = true;
     guest.slot = slot;
     // A new session's hearers know nothing of what was encoded before.
@@ -188,6 +190,7 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   }
   clock_.add({MonoTime::from_us(welcome->link_time_us), welcome->server_receive_us,
               welcome->server_send_us, received});
+  if (is_new) map_wished_music();
   hello_wanted_ = false;
   removal_untold_ = false;
   hello_nonce_ = 0;
@@ -196,7 +199,7 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   if (state_ == LinkState::kLapsed) ++counters_.reconnects;
   if (is_new) quick_pings_left_ = kQuickPings;
   deliver_state(LinkState::kConnected, now);
-  send_ping(now);  // brings the skeletons, and the roster if it was lost
+  send_ping(now);  // brings what was lost of the roster and the states
 }
 
 void LinkCore::on_refusal(wire::Bytes body, MonoTime now) {
@@ -266,10 +269,10 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
       is_good = on_roster(opening.body, now);
       break;
     case wire::Type::kState:
-      is_good = on_state(opening.body, now);
+      is_good = on_states(opening.body, now);
       break;
     case wire::Type::kStateAck:
-      is_good = on_state_ack(opening.body);
+      is_good = on_state_acks(opening.body);
       break;
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return false;

@@ -1,7 +1,6 @@
 #include "tunnel/server_core.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/base/assert.h"
 
@@ -10,6 +9,9 @@ namespace {
 
 constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below: gone within 2 s
 constexpr Duration kTick = Duration::ms(100);
+// What a link has not acknowledged; the rest comes with the next pong.
+constexpr std::size_t kStateDatagramsPerPong = 32;
+constexpr std::size_t kStateDatagramsPerWelcome = 64;
 
 }  // namespace
 
@@ -23,6 +25,7 @@ ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& s
   by_peer_.reserve(limits.sessions);
   bundled_.reserve(limits.sessions);
   reporting_.reserve(limits.sessions);
+  newcomers_.reserve(limits.sessions);
   for (ServerRoom& room : rooms_) room.members.reserve(limits.sessions);
 }
 
@@ -81,9 +84,9 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
     case wire::Type::kRecords:
       return on_records(index, opening.body, received, now);
     case wire::Type::kState:
-      return on_state(index, opening.body);
+      return on_states(index, opening.body, now);
     case wire::Type::kStateAck:
-      return on_state_ack(index, opening.body);
+      return on_state_acks(index, opening.body);
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return reject(ServerReject::kMalformed);
       ++counters_.goodbyes;
@@ -111,54 +114,12 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   // Each ping is the occasion to repeat what the link has not acknowledged.
   const ServerRoom& room = rooms_[session.room];
   if (ping->roster_version != room.roster_version) send_roster(session);
-  for (std::size_t slot = 0; slot < room.guests.size(); ++slot) {
-    const ServerGuest& guest = room.guests[slot];
-    if (guest.in_use && guest.owner != index && guest.state_version != session.state_acked[slot])
-      send_state(session, static_cast<std::uint8_t>(slot));
-  }
+  send_states(index, false, kStateDatagramsPerPong);
 }
 
 ServerGuest* ServerCore::guest_of(std::size_t session, std::uint8_t slot) {
   ServerGuest& guest = rooms_[sessions_[session].room].guests[slot];
   return guest.in_use && guest.owner == session ? &guest : nullptr;
-}
-
-void ServerCore::on_state(std::size_t session, wire::Bytes body) {
-  const auto state = wire::parse_state(body);
-  if (!state) return reject(ServerReject::kMalformed);
-  ServerGuest* guest = guest_of(session, state->slot.slot);
-  if (guest == nullptr) return reject(ServerReject::kForeignSlot);
-  const bool is_newer =
-      guest->state_version == 0 || is_newer_sequence(state->version, guest->state_version);
-  if (is_newer) {
-    guest->state_version = state->version;
-    guest->state_size = state->payload.size();
-    std::memcpy(guest->state.data(), state->payload.data(), state->payload.size());
-    for (const std::size_t member : rooms_[sessions_[session].room].members)
-      if (member != session) send_state(sessions_[member], state->slot.slot);
-  }
-  const wire::StateAck ack{
-      {state->slot.slot, guest->generation}, state->kind, guest->state_version};
-  std::array<std::uint8_t, 32> out;
-  send(sessions_[session].peer, {out.data(), wire::build(ack, out)});
-}
-
-void ServerCore::on_state_ack(std::size_t session, wire::Bytes body) {
-  const auto ack = wire::parse_state_ack(body);
-  if (!ack) return reject(ServerReject::kMalformed);
-  const ServerGuest& guest = rooms_[sessions_[session].room].guests[ack->slot.slot];
-  if (guest.in_use && guest.generation == ack->slot.generation)
-    sessions_[session].state_acked[ack->slot.slot] = ack->version;
-}
-
-void ServerCore::send_state(const ServerSession& session, std::uint8_t slot) {
-  const ServerGuest& guest = rooms_[session.room].guests[slot];
-  wire::State state;
-  state.slot = {slot, guest.generation};
-  state.version = guest.state_version;
-  state.payload = {guest.state.data(), guest.state_size};
-  std::array<std::uint8_t, wire::kMaxPlain> out;
-  send(session.peer, {out.data(), wire::build(state, out)});
 }
 
 void ServerCore::send_roster(const ServerSession& session) {
@@ -187,6 +148,8 @@ void ServerCore::send_roster(const ServerSession& session) {
 }
 
 void ServerCore::end_turn(MonoTime now) {
+  for (const std::size_t index : newcomers_)
+    if (!rooms_[sessions_[index].room].roster_changed) send_roster(sessions_[index]);
   for (ServerRoom& room : rooms_) {
     if (!room.roster_changed) continue;
     room.roster_changed = false;
@@ -200,6 +163,12 @@ void ServerCore::end_turn(MonoTime now) {
     // With a bundle under way it goes along.
     if (session.feedback_due <= now && session.bundle_size == 0) send_records(reporting_[i], now);
   }
+  // Last, so that nothing waits for them. Right behind the welcome, so that a newcomer knows all
+  // within one round trip.
+  for (const std::size_t index : newcomers_) send_states(index, false, kStateDatagramsPerWelcome);
+  newcomers_.clear();
+  for (ServerRoom& room : rooms_)
+    if (room.has_fresh_states && now >= room.fresh_states_due) send_fresh_states(room, now);
 }
 
 void ServerCore::sweep(MonoTime now) {
@@ -231,6 +200,8 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].bundle_due);
   for (const std::size_t i : reporting_)
     if (sessions_[i].bundle_size == 0) next = std::min(next, sessions_[i].feedback_due);
+  for (const ServerRoom& room : rooms_)
+    if (room.has_fresh_states) next = std::min(next, room.fresh_states_due);
   return next;
 }
 

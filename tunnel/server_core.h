@@ -1,6 +1,6 @@
 // The tunnel's server as a state machine: datagrams in, datagrams out. Forwards each guest's newest
 // pose to everybody else in the room without looking into it; keeps who is in which room and the
-// newest skeletons for those who come later.
+// newest states (bodies, music, further channels) for those who come later.
 //
 // Speaks with peers that have proved who they are: whoever calls receive() has checked their keys.
 //
@@ -85,15 +85,27 @@ class ServerCore {
   void on_session_datagram(std::size_t session, const wire::Opening& opening, MonoTime received,
                            MonoTime now);
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
-  void on_state(std::size_t session, wire::Bytes body);
-  void on_state_ack(std::size_t session, wire::Bytes body);
   void send_roster(const ServerSession& session);
-  void send_state(const ServerSession& session, std::uint8_t slot);
   ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
   void sweep(MonoTime now);
 
+  // server_states.cpp
+  void on_states(std::size_t session, wire::Bytes body, MonoTime now);
+  std::optional<wire::StateAck> take_state(std::size_t session, const wire::State& state,
+                                           MonoTime now);
+  std::optional<wire::StateAck> take_room_state(std::size_t session, const wire::State& state,
+                                                MonoTime now);
+  void hold_state(ServerRoom& room, HeldState& held, const wire::State& state);
+  bool is_host_present(const ServerRoom& room) const;
+  void on_state_acks(std::size_t session, wire::Bytes body);
+  class StateSender;
+  // All that the link has not acknowledged, or of that only what nobody has been told yet.
+  void send_states(std::size_t session, bool only_fresh, std::size_t most_datagrams);
+  void send_fresh_states(ServerRoom& room, MonoTime now);
+
   // server_records.cpp
   void on_records(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
+  void on_channel_record(std::size_t session, wire::Record record, MonoTime now);
   void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
   void forward(std::size_t from, const wire::Record& record, MonoTime now);
   Duration share_window(const ServerRoom& room) const;
@@ -118,6 +130,7 @@ class ServerCore {
   std::vector<ServerRoom> rooms_;
   std::unordered_map<PeerId, std::size_t> by_peer_;
   std::vector<std::size_t> bundled_;    // sessions with a bundle under way
+  std::vector<std::size_t> newcomers_;  // sessions that begin in this turn
   std::vector<std::size_t> reporting_;  // sessions with feedback due
   MonoTime next_sweep_;
   ServerCounters counters_;

@@ -72,7 +72,11 @@ void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, M
   session.hello_time_us = hello->link_time_us;
   settle_guests(index, *hello);
   welcome(index, *hello, received, now);
-  if (!existing || is_moved) want_key_frames_for(index, now);
+  if (!existing || is_moved) {
+    want_key_frames_for(index, now);
+    if (std::find(newcomers_.begin(), newcomers_.end(), index) == newcomers_.end())
+      newcomers_.push_back(index);
+  }
 }
 
 void ServerCore::welcome(std::size_t index, const wire::Hello& hello, MonoTime received,
@@ -135,6 +139,9 @@ std::size_t ServerCore::open_room(const wire::Hello& hello) {
   free->next_generation = static_cast<std::uint16_t>(random_());
   free->members.clear();
   free->guest_count = 0;
+  for (HeldState& state : free->states) state.version = 0;
+  free->has_fresh_states = false;
+  free->fresh_states_due = MonoTime();
   return static_cast<std::size_t>(free - rooms_.begin());
 }
 
@@ -152,6 +159,7 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   by_peer_.emplace(to, index);
   session.epoch = new_epoch();
   session.state_acked = {};
+  session.room_state_acked = {};
   session.bundle_size = 0;
   session.sent = SentRing();
   session.held = {};
@@ -215,6 +223,10 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
   free->id = id;
   free->generation = room.next_generation++;
   free->records = TokenBucket(limits_.records_per_second, limits_.record_burst);
+  free->state_changes = TokenBucket(limits_.state_changes_per_second, limits_.state_change_burst);
+  free->channel_records =
+      TokenBucket(limits_.channel_records_per_second, limits_.channel_record_burst);
+  free->channel_bytes = TokenBucket(limits_.channel_bytes_per_second, limits_.channel_byte_burst);
   free->owner = index;
   const bool pushed = session.slots.try_push(slot);
   DANCE_ASSERT(pushed);
@@ -227,7 +239,7 @@ void ServerCore::remove_guest(std::size_t room_index, std::uint8_t slot) {
   ServerRoom& room = rooms_[room_index];
   room.guests[slot].in_use = false;
   --room.guest_count;
-  for (const std::size_t member : room.members) sessions_[member].state_acked[slot] = 0;
+  for (const std::size_t member : room.members) sessions_[member].state_acked[slot] = {};
   ++room.roster_version;
   room.roster_changed = true;
 }
@@ -239,6 +251,7 @@ void ServerCore::drop_session(std::size_t index) {
   std::erase(room.members, index);
   std::erase(bundled_, index);
   std::erase(reporting_, index);
+  std::erase(newcomers_, index);
   by_peer_.erase(session.peer);
   session.in_use = false;
   session.slots.clear();

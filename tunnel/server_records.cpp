@@ -36,6 +36,8 @@ void ServerCore::on_records(std::size_t index, wire::Bytes body, MonoTime receiv
 
 void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime received,
                            MonoTime now) {
+  if (record.kind == wire::RecordKind::kChannel)
+    return on_channel_record(session, std::move(record), now);
   ServerGuest* guest = guest_of(session, record.slot);
   if (guest == nullptr) return reject(ServerReject::kForeignSlot);
   const std::int64_t received_us = received.since_zero_us();
@@ -62,6 +64,22 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   }
   if (record.sent_age_us != wire::kNoAge)
     record.server_age_us = static_cast<std::int32_t>(received_us - record.capture_us);
+  ++counters_.records_in;
+  forward(session, record, now);
+}
+
+// Limited by itself, so that channels take nothing from poses, and none delays or drops another's.
+void ServerCore::on_channel_record(std::size_t session, wire::Record record, MonoTime now) {
+  ServerGuest* guest = guest_of(session, record.slot);
+  if (guest == nullptr) return reject(ServerReject::kForeignSlot);
+  if (!guest->channel_records.take(1.0, now) ||
+      !guest->channel_bytes.take(static_cast<double>(record.payload.size()), now))
+    return reject(ServerReject::kChannelRate);
+  ChannelGate& gate = guest->channels[record.channel];
+  if (gate.has_any && !is_newer_sequence(record.sequence, gate.sequence))
+    return reject(ServerReject::kLate);
+  gate = {true, record.sequence};
+  record.stream = std::uint32_t{guest->generation} << 16;
   ++counters_.records_in;
   forward(session, record, now);
 }

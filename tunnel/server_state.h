@@ -24,6 +24,7 @@
 #include "tunnel/stream_gate.h"
 #include "tunnel/token_bucket.h"
 #include "tunnel/wire_records.h"
+#include "tunnel/wire_state.h"
 
 namespace dance {
 
@@ -39,6 +40,14 @@ struct ServerLimits {
   // Per guest: poses and hands at 240 Hz, and every receiver must decode them.
   double records_per_second = 600.0;
   double record_burst = 150.0;
+  // Per guest: messages of its further channels.
+  double channel_records_per_second = 500.0;
+  double channel_record_burst = 100.0;
+  double channel_bytes_per_second = 128e3;
+  double channel_byte_burst = 32e3;
+  // Per guest: changes of its states and of those of the room that it sets.
+  double state_changes_per_second = 60.0;
+  double state_change_burst = 60.0;
   // Records to one receiver wait this long for others to share a datagram with, unless all who dance
   // have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's guests.
   std::optional<Duration> share_window;
@@ -68,21 +77,27 @@ enum class ServerReject : std::uint8_t {
   kLate,
   kDuplicate,
   kRefused,
+  kNotAllowed,
+  kOverruled,
+  kStateRate,
+  kChannelRate,
   kCount,
 };
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
 // As the log and the summary say it.
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
-    "too_short",  "malformed",    "unknown_type", "version",      "old_hello",
-    "no_session", "session_rate", "guest_rate",   "foreign_slot", "bad_time",
-    "bad_ack",    "late",         "duplicate",    "refused"};
+    "too_short",    "malformed",  "unknown_type", "version",   "old_hello",  "no_session",
+    "session_rate", "guest_rate", "foreign_slot", "bad_time",  "bad_ack",    "late",
+    "duplicate",    "refused",    "not_allowed",  "overruled", "state_rate", "channel_rate"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
   std::uint64_t bytes_in = 0;
   std::uint64_t datagrams_out = 0;
   std::uint64_t bytes_out = 0;
-  std::uint64_t records_in = 0;         // poses and hands that were taken
+  std::uint64_t records_in = 0;         // poses, hands and messages of channels that were taken
+  std::uint64_t states_in = 0;          // changes that were taken
+  std::uint64_t states_out = 0;         // once per receiver, and again where not acknowledged
   std::uint64_t records_out = 0;        // once per receiver
   std::uint64_t datagrams_acked = 0;    // of records, by their receivers
   std::uint64_t key_frames_wanted = 0;  // by newcomers, and by who could not decode
@@ -111,7 +126,10 @@ struct ServerSession {
   std::int64_t hello_time_us = 0;  // link's clock; an older hello is a stale copy
   std::size_t room = 0;
   FixedList<std::uint8_t, wire::kMaxGuestsPerLink> slots;
-  std::array<std::uint32_t, wire::kMaxGuestsPerRoom> state_acked{};
+  // Versions that the link has acknowledged.
+  std::array<std::array<std::uint32_t, wire::kGuestStates>, wire::kMaxGuestsPerRoom> state_acked{};
+  std::array<std::uint32_t, wire::kRoomStates> room_state_acked{};
+  std::size_t state_cursor = 0;  // slot to begin with when not all fitted the last time
   TokenBucket datagrams;
   TokenBucket bytes;
   std::uint32_t datagrams_received = 0;
@@ -132,6 +150,22 @@ struct ServerSession {
   bool feedback_is_repeat = false;  // goes out though nothing has changed
 };
 
+// The newest version of one state, for those who have not got it.
+struct HeldState {
+  std::uint32_t version = 0;  // 0 = none yet
+  bool is_fresh = false;      // not told yet
+  std::uint16_t size = 0;
+  std::array<std::uint8_t, wire::kMaxStatePayload> payload;
+
+  wire::Bytes bytes() const { return {payload.data(), size}; }
+};
+
+// Of one further channel of a guest: newest wins in each by itself.
+struct ChannelGate {
+  bool has_any = false;
+  std::uint32_t sequence = 0;
+};
+
 struct ServerGuest {
   bool in_use = false;
   GuestId id;
@@ -143,10 +177,12 @@ struct ServerGuest {
   bool key_wanted = false;
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;
-  HeldFrames told;                  // what the link was told last
-  std::uint32_t state_version = 0;  // of the skeleton; 0 = none yet
-  std::size_t state_size = 0;
-  std::array<std::uint8_t, wire::kMaxStatePayload> state;
+  HeldFrames told;  // what the link was told last
+  std::array<HeldState, wire::kGuestStates> states;
+  TokenBucket state_changes;
+  std::array<ChannelGate, kMaxChannelsPerGuest> channels{};
+  TokenBucket channel_records;
+  TokenBucket channel_bytes;
 };
 
 struct ServerRoom {
@@ -156,6 +192,10 @@ struct ServerRoom {
   std::uint32_t roster_version = 1;
   bool roster_changed = false;
   std::uint16_t next_generation = 0;
+  std::array<HeldState, wire::kRoomStates> states;
+  std::array<GuestId, wire::kRoomStates> setters;
+  bool has_fresh_states = false;
+  MonoTime fresh_states_due;         // not before then
   std::vector<std::size_t> members;  // sessions
   std::size_t guest_count = 0;
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;

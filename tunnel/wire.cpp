@@ -244,52 +244,6 @@ std::optional<RosterPart> parse_roster(Bytes body) {
   return in.is_exhausted() ? std::optional(part) : std::nullopt;
 }
 
-std::size_t build(const State& state, std::span<std::uint8_t> buffer) {
-  ByteWriter out(buffer);
-  write_opening(Type::kState, out);
-  write_slot(state.slot, out);
-  out.u8(static_cast<std::uint8_t>(state.kind));
-  out.u32(state.version);
-  out.u16(static_cast<std::uint16_t>(state.payload.size()));
-  out.bytes(state.payload);
-  return size_of(out);
-}
-
-std::optional<State> parse_state(Bytes body) {
-  ByteReader in(body);
-  State state;
-  state.slot = read_slot(in);
-  state.kind = static_cast<StateKind>(in.u8());
-  state.version = in.u32();
-  const std::size_t length = in.u16();
-  state.payload = in.bytes(length);
-  if (!in.is_exhausted() || state.kind != StateKind::kSkeleton || state.version == 0 ||
-      state.slot.slot >= kMaxGuestsPerRoom || length == 0 || length > kMaxStatePayload)
-    return std::nullopt;
-  return state;
-}
-
-std::size_t build(const StateAck& ack, std::span<std::uint8_t> buffer) {
-  ByteWriter out(buffer);
-  write_opening(Type::kStateAck, out);
-  write_slot(ack.slot, out);
-  out.u8(static_cast<std::uint8_t>(ack.kind));
-  out.u32(ack.version);
-  return size_of(out);
-}
-
-std::optional<StateAck> parse_state_ack(Bytes body) {
-  ByteReader in(body);
-  StateAck ack;
-  ack.slot = read_slot(in);
-  ack.kind = static_cast<StateKind>(in.u8());
-  ack.version = in.u32();
-  if (!in.is_exhausted() || ack.kind != StateKind::kSkeleton || ack.version == 0 ||
-      ack.slot.slot >= kMaxGuestsPerRoom)
-    return std::nullopt;
-  return ack;
-}
-
 std::size_t build_bare(Type type, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
   write_opening(type, out);

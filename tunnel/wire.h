@@ -37,7 +37,6 @@ constexpr std::size_t kMaxGuestsPerLink = 16;
 constexpr std::size_t kMaxGuestsPerRoom = 64;
 constexpr std::size_t kMaxCodecs = 8;
 constexpr std::size_t kMaxPayload = 512;
-constexpr std::size_t kMaxStatePayload = 400;
 
 using Bytes = std::span<const std::uint8_t>;
 // Room names follow the same rule as guest ids.
@@ -134,19 +133,6 @@ struct RosterPart {
 };
 constexpr std::uint8_t kSlotsPerRosterPart = 32;
 
-enum class StateKind : std::uint8_t { kSkeleton = 1 };
-struct State {
-  Slot slot;  // the link may leave the generation 0
-  StateKind kind = StateKind::kSkeleton;
-  std::uint32_t version = 0;  // grows with each change; 0 = nothing yet
-  Bytes payload;
-};
-struct StateAck {
-  Slot slot;
-  StateKind kind = StateKind::kSkeleton;
-  std::uint32_t version = 0;
-};
-
 // How a datagram begins.
 struct Opening {
   Type type = Type::kHello;
@@ -162,8 +148,6 @@ std::size_t build(const RefusalNotice& refusal, std::span<std::uint8_t> out);
 std::size_t build(const Ping& ping, std::span<std::uint8_t> out);
 std::size_t build(const Pong& pong, std::span<std::uint8_t> out);
 std::size_t build(const RosterPart& part, std::span<std::uint8_t> out);
-std::size_t build(const State& state, std::span<std::uint8_t> out);
-std::size_t build(const StateAck& ack, std::span<std::uint8_t> out);
 std::size_t build_bare(Type type, std::span<std::uint8_t> out);
 
 // Parsing of what follows the opening.
@@ -179,7 +163,5 @@ std::optional<RefusalNotice> parse_refusal(Bytes body);
 std::optional<Ping> parse_ping(Bytes body);
 std::optional<Pong> parse_pong(Bytes body);
 std::optional<RosterPart> parse_roster(Bytes body);
-std::optional<State> parse_state(Bytes body);
-std::optional<StateAck> parse_state_ack(Bytes body);
 
 }  // namespace dance::wire

@@ -7,6 +7,8 @@ constexpr std::uint8_t kHasAcks = 1, kHasExcepts = 2, kHasWants = 4, kHasFeedbac
                        kHasRecords = 16, kKnownFlags = 31;
 constexpr std::uint8_t kSlotMask = 0x3f;  // 64 slots of a room
 constexpr std::uint8_t kIsHands = 0x40, kIsWide = 0x80;
+// Hands are always wide: narrow ones mean a message of a channel.
+constexpr std::uint8_t kIsChannel = kIsHands;
 constexpr std::uint8_t kHeldFlag = 0x80;
 constexpr std::uint8_t kLengthMask = 0x3f, kLongLength = 0x40, kHasAges = 0x80;
 constexpr std::uint16_t kEscape = 0xffff;  // a number that does not fit follows
@@ -146,7 +148,33 @@ std::int64_t base_us(std::int64_t base_ticks, std::int64_t near_us) {
   return (near + ahead) * kTick_us;
 }
 
+namespace {
+
+void add_channel_record(const Record& record, ByteWriter& out) {
+  const std::size_t length = record.payload.size();
+  out.u8(static_cast<std::uint8_t>(record.slot | kIsChannel));
+  out.u8(
+      static_cast<std::uint8_t>((length & kLengthMask) | (length > kLengthMask ? kLongLength : 0)));
+  if (length > kLengthMask) out.u8(static_cast<std::uint8_t>(length >> 6));
+  out.u8(static_cast<std::uint8_t>((record.stream >> 16 & 15) << 4 | (record.channel & 7)));
+  out.u32(record.sequence);
+  out.bytes(record.payload);
+}
+
+// Behind the slot and the length.
+void read_channel_record(ByteReader& in, std::size_t length, Record& record) {
+  record.kind = RecordKind::kChannel;
+  const std::uint8_t tag = in.u8();
+  record.stream = static_cast<std::uint32_t>(tag >> 4) << 16;
+  record.channel = tag & 15;
+  record.sequence = in.u32();
+  record.payload = in.bytes(length);
+}
+
+}  // namespace
+
 void add_record(const Record& record, bool is_narrow, std::int64_t base_ticks, ByteWriter& out) {
+  if (record.kind == RecordKind::kChannel) return add_channel_record(record, out);
   const bool is_hands = record.kind == RecordKind::kHands;
   const bool has_ages = record.published_age_us != kNoAge || record.sent_age_us != kNoAge ||
                         record.server_age_us != kNoAge;
@@ -188,6 +216,13 @@ std::optional<Record> parse_record(std::int64_t base_us, ByteReader& in) {
   record.is_narrow = (first & kIsWide) == 0;
   std::size_t length = length_byte & kLengthMask;
   if ((length_byte & kLongLength) != 0) length |= static_cast<std::size_t>(in.u8()) << 6;
+  if ((first & (kIsHands | kIsWide)) == kIsChannel) {
+    read_channel_record(in, length, record);
+    if (!in.ok() || length == 0 || length > kMaxPayload || record.channel > 7 ||
+        (length_byte & kHasAges) != 0)
+      return std::nullopt;
+    return record;
+  }
   const std::uint8_t tag = in.u8();
   record.stream = static_cast<std::uint32_t>(tag >> 4) << 16 | (tag & 15);
   if (record.is_narrow) {

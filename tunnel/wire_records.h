@@ -1,6 +1,6 @@
 // The datagram that the dance travels in, built and parsed: a header with its number, what was
-// received from the other side and what is asked of it, then records of poses and hands. Each
-// datagram can be read for itself but for the high bits of a narrow record's numbers, which are
+// received from the other side and what is asked of it, then records of poses, hands and
+// messages of further channels. Each datagram can be read for itself but for the high bits of a narrow record's numbers, which are
 // those of what the receiver is known to have. docs/wire-format.md says it byte by byte.
 //
 // Units/frames: little-endian; times are of the server's clock, on the wire in ticks of 16 µs.
@@ -64,11 +64,11 @@ struct RecordsHeader {
 constexpr std::size_t kRecordsHeader = kSessionHeader + 2 + 1 + 6 + 3;
 constexpr std::size_t kMaxRecordsBody = kMaxPlain - kRecordsHeader;
 
-enum class RecordKind : std::uint8_t { kPose = 1, kHands = 2 };
+enum class RecordKind : std::uint8_t { kPose = 1, kHands = 2, kChannel = 3 };
 
 constexpr std::int32_t kNoAge = INT32_MIN;  // that step left no stamp
 
-// One pose, or one pair of hands, of one guest.
+// One pose, one pair of hands, or one message of a further channel, of one guest.
 struct Record {
   RecordKind kind = RecordKind::kPose;
   std::uint8_t slot = 0;
@@ -76,6 +76,7 @@ struct Record {
   // producer, written by the link.
   std::uint32_t stream = 0;
   std::uint32_t sequence = 0;
+  std::uint8_t channel = 0;  // of a channel's message: which; it has no times
   std::int64_t capture_us = 0;
   // From capture to the step, which keeps hops right whatever the clocks do afterwards. Not every
   // record brings them.

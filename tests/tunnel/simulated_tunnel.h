@@ -60,6 +60,20 @@ class SimulatedTunnel {
     std::vector<Heard> poses;
     std::vector<std::pair<GuestId, Hands>> hands;
     std::vector<std::pair<GuestId, Skeleton>> skeletons;
+    // The last of each guest; of the room who set it, and what.
+    std::map<GuestId, Avatar> avatars;
+    std::map<GuestId, Style> styles;
+    std::map<GuestId, Placement> placements;
+    std::optional<std::pair<GuestId, Music>> music;
+    std::optional<std::pair<GuestId, Scene>> scene;
+    std::vector<std::string> refused;  // "music overruled", "scene not allowed"
+    struct ChannelMessage {
+      GuestId guest;
+      std::string name;
+      std::vector<std::uint8_t> bytes;
+      MonoTime at;
+    };
+    std::vector<ChannelMessage> channels;
     std::vector<std::string> events;  // "+bob", "-bob", "connected", "lapsed", "refused …"
     std::uint32_t next_sequence = 1;
     bool is_running = true;
@@ -254,6 +268,7 @@ class SimulatedTunnel {
     handlers.on_skeleton = [&](const GuestId& id, const Skeleton& skeleton, MonoTime) {
       house.skeletons.emplace_back(id, skeleton);
     };
+    add_state_handlers(house, handlers);
     handlers.on_guest_joined = [&](const GuestId& id, MonoTime) {
       house.events.push_back("+" + std::string(id.view()));
     };
@@ -270,6 +285,33 @@ class SimulatedTunnel {
                              std::string(refusal.guest.view()));
     };
     return handlers;
+  }
+
+  static void add_state_handlers(House& house, LinkHandlers& handlers) {
+    handlers.on_avatar = [&](const GuestId& id, const Avatar& avatar, MonoTime) {
+      house.avatars.insert_or_assign(id, avatar);
+    };
+    handlers.on_style = [&](const GuestId& id, const Style& style, MonoTime) {
+      house.styles.insert_or_assign(id, style);
+    };
+    handlers.on_placement = [&](const GuestId& id, const Placement& placement, MonoTime) {
+      house.placements.insert_or_assign(id, placement);
+    };
+    handlers.on_music = [&](const GuestId& id, const Music& music, MonoTime) {
+      house.music.emplace(id, music);
+    };
+    handlers.on_scene = [&](const GuestId& id, const Scene& scene, MonoTime) {
+      house.scene.emplace(id, scene);
+    };
+    handlers.on_room_state_refused = [&](wire::StateKind kind, wire::StateVerdict verdict) {
+      house.refused.push_back(
+          std::string(kind == wire::StateKind::kMusic ? "music" : "scene") +
+          (verdict == wire::StateVerdict::kOverruled ? " overruled" : " not allowed"));
+    };
+    handlers.on_channel = [&](const GuestId& id, std::string_view name, ChannelClass,
+                              wire::Bytes message, MonoTime now) {
+      house.channels.push_back({id, std::string(name), {message.begin(), message.end()}, now});
+    };
   }
 
   ServerLimits limits_;

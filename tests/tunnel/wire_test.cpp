@@ -140,7 +140,6 @@ TEST(Wire, TrailingBytesAreRefused) {
   };
   EXPECT_FALSE(parse_ping(body_of(build(Ping{}, out))));
   EXPECT_FALSE(parse_pong(body_of(build(Pong{}, out))));
-  EXPECT_FALSE(parse_state_ack(body_of(build(StateAck{{}, StateKind::kSkeleton, 1}, out))));
   Welcome welcome;
   welcome.epoch = 3;
   EXPECT_FALSE(parse_welcome(body_of(build(welcome, out))));
