@@ -49,6 +49,7 @@ class ServerCore {
   std::size_t session_count() const { return by_peer_.size(); }
   std::size_t room_count() const;
   std::size_t guest_count() const;
+  std::size_t listener_count() const;
   // For the status line and tests.
   const std::vector<ServerSession>& sessions() const { return sessions_; }
   const std::vector<ServerRoom>& rooms() const { return rooms_; }
@@ -76,6 +77,7 @@ class ServerCore {
                            std::size_t room);
   std::uint64_t new_epoch();
   void move_session(std::size_t session, PeerId to);
+  void settle_access(std::size_t session, const Access& access);
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void add_guest(std::size_t session, const GuestId& id);
   void remove_guest(std::size_t room, std::uint8_t slot);

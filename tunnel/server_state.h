@@ -31,6 +31,7 @@ struct ServerLimits {
   std::size_t sessions = 256;
   std::size_t rooms = 64;
   std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
+  std::size_t listeners_per_room = 64;  // links without guests
   // Per session: 16 guests with hands at 60 Hz need 2,000 datagrams a second.
   double datagrams_per_second = 4000.0;
   double datagram_burst = 1000.0;
@@ -68,6 +69,7 @@ enum class ServerReject : std::uint8_t {
   kLate,
   kDuplicate,
   kRefused,
+  kNotAllowed,
   kCount,
 };
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
@@ -75,7 +77,7 @@ constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kC
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
     "too_short",  "malformed",    "unknown_type", "version",      "old_hello",
     "no_session", "session_rate", "guest_rate",   "foreign_slot", "bad_time",
-    "bad_ack",    "late",         "duplicate",    "refused"};
+    "bad_ack",    "late",         "duplicate",    "refused",      "not_allowed"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
@@ -158,7 +160,10 @@ struct ServerRoom {
   std::uint16_t next_generation = 0;
   std::vector<std::size_t> members;  // sessions
   std::size_t guest_count = 0;
+  std::size_t host_count = 0;  // links of it with a host's key
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
+
+  bool has_host() const { return host_count > 0; }
 };
 
 }  // namespace dance
