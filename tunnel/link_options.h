@@ -27,6 +27,7 @@ namespace dance {
 struct LinkOptions {
   wire::RoomName room;
   FixedList<GuestId, wire::kMaxGuestsPerLink> guests;  // more may come with their first pose
+  bool listen_only = false;    // no guests, not even one that comes with a pose
   std::uint64_t token = 0;     // random, new with each start of a link; gives it its place back
   std::uint64_t clock_id = 0;  // this house's clock: poses of another one are stamped anew
   std::uint64_t seed = 1;      // for the nonces of hellos: random outside of tests

@@ -41,6 +41,12 @@ std::size_t ServerCore::guest_count() const {
   return count;
 }
 
+std::size_t ServerCore::listener_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(sessions_.begin(), sessions_.end(),
+                    [](const auto& session) { return session.in_use && session.slots.empty(); }));
+}
+
 void ServerCore::send(PeerId to, wire::Bytes bytes) {
   ++counters_.datagrams_out;
   counters_.bytes_out += bytes.size();

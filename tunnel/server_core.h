@@ -49,6 +49,7 @@ class ServerCore {
   std::size_t session_count() const { return by_peer_.size(); }
   std::size_t room_count() const;
   std::size_t guest_count() const;
+  std::size_t listener_count() const;
   // For the status line and tests.
   const std::vector<ServerSession>& sessions() const { return sessions_; }
   const std::vector<ServerRoom>& rooms() const { return rooms_; }
@@ -76,6 +77,7 @@ class ServerCore {
                            std::size_t room);
   std::uint64_t new_epoch();
   void move_session(std::size_t session, PeerId to);
+  void settle_access(std::size_t session, const Access& access);
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void add_guest(std::size_t session, const GuestId& id);
   void remove_guest(std::size_t room, std::uint8_t slot);
@@ -96,7 +98,6 @@ class ServerCore {
   std::optional<wire::StateAck> take_room_state(std::size_t session, const wire::State& state,
                                                 MonoTime now);
   void hold_state(ServerRoom& room, HeldState& held, const wire::State& state);
-  bool is_host_present(const ServerRoom& room) const;
   void on_state_acks(std::size_t session, wire::Bytes body);
   class StateSender;
   // All that the link has not acknowledged, or of that only what nobody has been told yet.

@@ -31,6 +31,8 @@ void ServerCore::on_records(std::size_t index, wire::Bytes body, MonoTime receiv
   sessions_[index].received.note(header->number);
   if (header->has_acks) on_acks(index, header->acks, now);
   for (const std::uint8_t slot : header->wants) on_want(index, slot, now);
+  if (header->has_records && !may_send_records(sessions_[index].access))
+    return reject(ServerReject::kNotAllowed);
   while (in.remaining() > 0) on_record(index, *wire::parse_record(base_us, in), received, now);
 }
 

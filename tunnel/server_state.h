@@ -32,6 +32,7 @@ struct ServerLimits {
   std::size_t sessions = 256;
   std::size_t rooms = 64;
   std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
+  std::size_t listeners_per_room = 64;  // links without guests
   // Per session: 16 guests with hands at 60 Hz need 2,000 datagrams a second.
   double datagrams_per_second = 4000.0;
   double datagram_burst = 1000.0;
@@ -198,7 +199,10 @@ struct ServerRoom {
   MonoTime fresh_states_due;         // not before then
   std::vector<std::size_t> members;  // sessions
   std::size_t guest_count = 0;
+  std::size_t host_count = 0;  // links of it with a host's key
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
+
+  bool has_host() const { return host_count > 0; }
 };
 
 }  // namespace dance

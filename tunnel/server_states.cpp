@@ -66,12 +66,6 @@ std::optional<wire::StateAck> ServerCore::take_state(std::size_t session, const 
   return wire::StateAck{state.name, {state.slot.slot, guest->generation}, held.version, {}};
 }
 
-bool ServerCore::is_host_present(const ServerRoom& room) const {
-  return std::any_of(room.members.begin(), room.members.end(), [&](std::size_t member) {
-    return sessions_[member].access.role == Role::kHost;
-  });
-}
-
 // The highest version wins, of equal ones the first; who comes second is told.
 std::optional<wire::StateAck> ServerCore::take_room_state(std::size_t session,
                                                           const wire::State& state, MonoTime now) {
@@ -79,7 +73,7 @@ std::optional<wire::StateAck> ServerCore::take_room_state(std::size_t session,
   ServerRoom& room = rooms_[from.room];
   const auto slot = std::find_if(from.slots.begin(), from.slots.end(),
                                  [&](std::uint8_t s) { return room.guests[s].id == state.setter; });
-  if (slot == from.slots.end() || !from.access.may_set_room_state(is_host_present(room))) {
+  if (slot == from.slots.end() || !may_set_room_state(from.access, room.has_host())) {
     reject(ServerReject::kNotAllowed);
     return wire::StateAck{state.name, {}, state.version, wire::StateVerdict::kNotAllowed};
   }

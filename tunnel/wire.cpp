@@ -143,7 +143,7 @@ std::optional<RefusalNotice> parse_refusal(Bytes body) {
   refusal.server_version = in.u8();
   const std::uint16_t cause = in.u16();
   if (cause < static_cast<std::uint16_t>(Refusal::kVersion) ||
-      cause > static_cast<std::uint16_t>(Refusal::kNotAllowedName))
+      cause > static_cast<std::uint16_t>(Refusal::kListenersFull))
     return std::nullopt;
   refusal.cause = static_cast<Refusal>(cause);
   refusal.nonce = in.u64();

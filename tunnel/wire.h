@@ -65,6 +65,8 @@ enum class Refusal : std::uint16_t {
   kCodec = 6,           // the room speaks a codec that this link does not know
   kNotAllowedRoom = 7,  // the link's key does not open this room
   kNotAllowedName = 8,  // the link's key does not allow a guest of this name
+  kOnlyListens = 9,     // the link's key allows no guests at all
+  kListenersFull = 10,  // no place for another link without guests in this room
 };
 
 struct Hello {
