@@ -15,6 +15,23 @@ TokenBucket bucket_of(const ChannelRule& rule) {
 
 }  // namespace
 
+// Streams whose names are known go by them before their first message does, so that it is not lost.
+void LinkCore::announce_streams() {
+  for (const ChannelRule& rule : options_.channels) {
+    if (!rule.is_out || rule.kind != ChannelClass::kNewest || rule.pattern.is_prefix()) continue;
+    if (HouseChannel* channel = find_or_add_channel(rule.pattern.text(), rule))
+      set_payload(*channel, {});
+  }
+}
+
+void LinkCore::set_payload(HouseChannel& channel, wire::Bytes message) {
+  std::array<std::uint8_t, wire::kMaxStatePayload> payload;
+  const std::size_t size =
+      wire::build(wire::ChannelPayload{channel.rule->kind, channel.name, message}, payload);
+  DANCE_ASSERT(size > 0);
+  channel.state.set({payload.data(), size});
+}
+
 void LinkCore::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
   const ChannelRule* rule = find_rule_out(options_.channels, name);
   if (rule == nullptr) {
@@ -28,12 +45,7 @@ void LinkCore::send_channel(std::string_view name, wire::Bytes message, MonoTime
   HouseChannel* channel = find_or_add_channel(name, *rule);
   if (channel == nullptr) return;
   const bool is_state = rule->kind == ChannelClass::kState;
-  std::array<std::uint8_t, wire::kMaxStatePayload> payload;
-  const wire::Bytes told = is_state ? message : wire::Bytes();
-  const std::size_t size =
-      wire::build(wire::ChannelPayload{rule->kind, channel->name, told}, payload);
-  DANCE_ASSERT(size > 0);
-  channel->state.set({payload.data(), size});
+  set_payload(*channel, is_state ? message : wire::Bytes());
   if (!is_connected() || !bind_channel(*channel)) {
     // A state waits; of a stream the next one is better.
     if (!is_state) ++counters_.channels_unrouted;

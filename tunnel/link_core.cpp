@@ -53,6 +53,7 @@ LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSi
   locals_.reserve(wire::kMaxGuestsPerLink);
   departed_.reserve(kMostDeparted);
   channels_.reserve(kMaxHouseChannels);
+  announce_streams();
   for (const GuestId& id : options_.guests) add_local(id);
 }
 

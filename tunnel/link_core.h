@@ -125,6 +125,8 @@ class LinkCore {
   void on_guest_state_ack(const wire::StateAck& ack);
 
   // link_channels.cpp
+  void announce_streams();
+  static void set_payload(HouseChannel& channel, wire::Bytes message);
   HouseChannel* find_or_add_channel(std::string_view name, const ChannelRule& rule);
   bool bind_channel(HouseChannel& channel);
   bool is_channel_due(HouseChannel& channel, MonoTime now);
