@@ -123,6 +123,27 @@ void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Sess
   session.consumers.push_back(consumer);
 }
 
+// The words of --channel as keys; numbers and truths stand as such.
+void read_channel(TomlReader& reader, Session& session) {
+  const std::string name = reader.required_string("name");
+  ChannelRule::Words words;
+  for (const char* key : {"class", "direction", "layout", "fingerprint", "guest"})
+    if (const auto value = reader.maybe_string(key)) words.emplace_back(key, *value);
+  constexpr auto kMostBytes = static_cast<std::int64_t>(kMaxChannelNewestBytes);
+  const std::int64_t size = reader.integer_or("size", 0, 1, kMostBytes);
+  if (size > 0) words.emplace_back("size", std::to_string(size));
+  const double rate = reader.number_or("rate", 0.0, 0.1, kMaxChannelRate_hz);
+  if (rate > 0.0) words.emplace_back("rate", std::to_string(rate));
+  if (reader.bool_or("unchecked", false)) words.emplace_back("unchecked", "yes");
+  reader.finish();  // first, so that a misspelt key is told from a missing one
+  const auto rule = ChannelRule::of(name, words);
+  if (!rule) reader.complain("name", rule.error().what);
+  if (session.channels.size() == kMaxChannelRules)
+    reader.complain("name", "a house has at most " + std::to_string(kMaxChannelRules) +
+                                " channels; join some, as LIGHT/*");
+  if (rule) session.channels.push_back(*rule);
+}
+
 // Calls `read` for each table of an array of tables; the first problem ends it.
 template <class Read>
 std::optional<Error> read_each(const toml::table& document, std::string_view key,
@@ -149,10 +170,11 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
-    if (k != "house" && k != "route" && k != "produce" && k != "listen")
+    if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "channel")
       return Error{name + ":" + std::to_string(key.source().begin.line) + ":" +
                    std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
-                   "' in a session; there are [house], [[route]], [[produce]] and [[listen]]"};
+                   "' in a session; there are [house], [[route]], [[produce]], "
+                   "[[listen]] and [[channel]]"};
   }
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
@@ -166,6 +188,9 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   if (!problem)
     problem = read_each(document, "listen", name,
                         [&](TomlReader& r) { read_consumer(r, folder, session); });
+  if (!problem)
+    problem =
+        read_each(document, "channel", name, [&](TomlReader& r) { read_channel(r, session); });
   return problem;
 }
 

@@ -1,5 +1,5 @@
 // Session: what a house is and does, read from its TOML file: who dances here, the server and room, the bus, routes,
-// hosted producers and consumers.
+// hosted producers and consumers, further channels.
 //
 // Units/frames: rates in Hz.
 // Ownership:    plain values.
@@ -16,6 +16,7 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/bus/channel.h"
+#include "core/bus/channel_rule.h"
 
 namespace dance {
 
@@ -66,6 +67,7 @@ struct Session {
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;
   std::vector<HostedConsumer> consumers;
+  std::vector<ChannelRule> channels;  // that ride along, or are let in
 };
 
 // `name` stands in errors. Relative file names in it are taken from the folder of `name`.

@@ -94,6 +94,7 @@ Result<void> House::open_link() {
   LinkOptions options;
   options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
   options.listen_only = session_.guests.empty();
+  options.channels = session_.channels;
   options.clock_id = this_clock_id();
   options.quality_m = session_.quality_mm * 1e-3;
   options.pose_bytes_per_second = session_.pose_bytes_per_second;
@@ -107,6 +108,8 @@ Result<void> House::open_link() {
   link_bus_->attach(*link_);
   for (const GuestId& guest : session_.guests)
     if (!is_hosted(guest)) link_bus_->send_captures_of(guest);
+  for (const GuestId& guest : session_.guests) link_bus_->send_states_of(guest);
+  if (!options.listen_only) link_bus_->send_channels(session_.channels);
   return {};
 }
 
@@ -143,6 +146,9 @@ void House::add_talk(LinkHandlers& handlers) {
   handlers.on_guest_left = [this](const GuestId& guest, MonoTime) {
     link_bus_->forget(guest);
     talk::info("{} has left", guest.view());
+  };
+  handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
+    talk::info("{}", room_state_line(kind, verdict));
   };
   handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {

@@ -81,6 +81,14 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
   return "the server refused for a cause that this link does not know: update this link";
 }
 
+std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict) {
+  const std::string what = kind == wire::StateKind::kMusic ? "music" : "scene";
+  if (verdict == wire::StateVerdict::kOverruled)
+    return "somebody else has set the room's " + what + "; set another one to change it again";
+  return "this house may not set the room's " + what +
+         ": a host is there, or this house only listens; ask the host";
+}
+
 std::string no_answer_line(const Address& server) {
   return server.to_string() +
          " does not answer: is `dance server` running there, and its UDP port open? Trying on";

@@ -18,6 +18,8 @@ constexpr const char* kExamples = R"(Examples:
   dance link --server 192.0.2.7:7400 --room salsa                 everybody whom this house captures
   dance link --server dance.example.org --room salsa --listen-only  everybody's poses, and none of this house
   dance link --guest bob --bus 'udpm://239.255.76.67:7668?ttl=0'  a second house on this machine
+  dance link --guest alice --channel 'LIGHT/desk class=state layout=n:i32,f32[n]'
+                                                                  a light desk's channel rides along
 )";
 
 constexpr Duration kSecond = Duration::s(1);
@@ -29,6 +31,7 @@ struct LinkProgramOptions {
   std::string bus;
   double quality_mm = LinkOptions().quality_m * 1e3;
   double pose_bytes_per_second = 0.0;
+  std::vector<std::string> channels;
   bool listen_only = false;
   bool json = false;
 };
@@ -50,6 +53,7 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
   if (given.listen_only && !given.guests.empty())
     return fail("--listen-only brings no guests: leave out --guest, or --listen-only");
   options.listen_only = given.listen_only;
+  DANCE_TRY(options.channels, parse_channel_rules(given.channels));
   options.clock_id = this_clock_id();
   options.quality_m = given.quality_mm * 1e-3;
   options.pose_bytes_per_second = given.pose_bytes_per_second;
@@ -70,6 +74,9 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
   handlers.on_guest_left = [&link_bus](const GuestId& guest, MonoTime) {
     link_bus.forget(guest);
     talk::info("{} has left", guest.view());
+  };
+  handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
+    talk::info("{}", room_state_line(kind, verdict));
   };
   handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
   // Asked again up to ten times a second at first: said once a second.
@@ -92,8 +99,15 @@ Result<void> run_link(const LinkProgramOptions& given) {
   add_talk(handlers, link_bus, given, options.room);
   DANCE_TRY(auto link, Link::open(server, options, std::move(handlers), *poller));
   link_bus.attach(*link);
-  if (options.guests.empty() && !options.listen_only) link_bus.send_captures_of(GuestId());
-  for (const GuestId& guest : options.guests) link_bus.send_captures_of(guest);
+  if (options.guests.empty() && !options.listen_only) {
+    link_bus.send_captures_of(GuestId());
+    link_bus.send_states_of(GuestId());
+  }
+  for (const GuestId& guest : options.guests) {
+    link_bus.send_captures_of(guest);
+    link_bus.send_states_of(guest);
+  }
+  if (!options.listen_only) link_bus.send_channels(options.channels);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();
   poller->add_timer(begin + kSecond, [&](MonoTime now) {
@@ -137,6 +151,9 @@ int main(int argc, char** argv) {
            "by up to 5 mm; 0 = whatever --quality takes")
       .range(0.0, 1e6)
       .shows_default();
+  line.add("--channel", options.channels,
+           "a further channel that rides along, or is let in, as 'NAME class=… layout=…' "
+           "(docs/channels.md); may be repeated");
   line.add_flag("--json", options.json, "write a summary to stdout at the end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_link(options); });

@@ -156,6 +156,8 @@ struct PathStats {
 
 // One line: what was refused, why, and the cure.
 std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomName& room);
+// One line: what became of a guest's wish for the room.
+std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict);
 // One line: who does not answer, and what to look at.
 std::string no_answer_line(const Address& server);
 

@@ -41,6 +41,8 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
           {"bytes_out", c.bytes_out},
           {"records_in", c.records_in},
           {"records_out", c.records_out},
+          {"states_in", c.states_in},
+          {"states_out", c.states_out},
           {"datagrams_acked", c.datagrams_acked},
           {"key_frames_wanted", c.key_frames_wanted},
           {"key_frames_asked", c.key_frames_asked},

@@ -164,6 +164,18 @@ Result<ChannelRule> ChannelRule::parse(std::string_view line) {
   return of(name, words);
 }
 
+Result<std::vector<ChannelRule>> parse_channel_rules(const std::vector<std::string>& lines) {
+  std::vector<ChannelRule> rules;
+  for (const std::string& line : lines) {
+    DANCE_TRY(const ChannelRule rule, ChannelRule::parse(line));
+    rules.push_back(rule);
+  }
+  if (rules.size() > kMaxChannelRules)
+    return fail("a house has at most " + std::to_string(kMaxChannelRules) +
+                " channel rules; join some, as LIGHT/*");
+  return rules;
+}
+
 const ChannelRule* find_rule_out(std::span<const ChannelRule> rules, std::string_view name) {
   for (const ChannelRule& rule : rules)
     if (rule.is_out && rule.pattern.matches(name)) return &rule;

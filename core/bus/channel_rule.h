@@ -55,6 +55,9 @@ struct ChannelRule {
   }
 };
 
+// Of several options, one rule each; an error where there are more than kMaxChannelRules.
+Result<std::vector<ChannelRule>> parse_channel_rules(const std::vector<std::string>& lines);
+
 // The first rule that lets a channel out, or in; null where none does.
 const ChannelRule* find_rule_out(std::span<const ChannelRule> rules, std::string_view name);
 const ChannelRule* find_rule_in(std::span<const ChannelRule> rules, std::string_view name);

@@ -50,6 +50,39 @@ TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
 
+TEST(Session, ReadsChannels) {
+  const auto session = parse_session(
+      std::string(kHouse) +
+          "[[channel]]\nname = \"LIGHT/desk\"\nclass = \"state\"\nsize = 300\nrate = 2.5\n"
+          "layout = \"n:i32,f32[n]\"\nfingerprint = \"0123456789abcdef\"\n"
+          "[[channel]]\nname = \"ROBOT/*\"\nclass = \"newest\"\nlayout = \"any\"\n"
+          "unchecked = true\nguest = \"alice\"\n",
+      "s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  ASSERT_EQ(session->channels.size(), 2u);
+  EXPECT_EQ(session->channels[0].kind, ChannelClass::kState);
+  EXPECT_EQ(session->channels[0].max_bytes, 300u);
+  EXPECT_EQ(session->channels[0].rate_hz, 2.5);
+  EXPECT_TRUE(session->channels[1].pattern.matches("ROBOT/arm"));
+  EXPECT_EQ(session->channels[1].guest.view(), "alice");
+}
+
+TEST(Session, SaysWhatIsWrongWithAChannel) {
+  const std::string channel = std::string(kHouse) + "[[channel]]\nname = \"LIGHT/desk\"\n";
+  std::string error = error_of(channel + "class = \"state\"\n");
+  EXPECT_EQ(error.rfind("s.toml:5:8: ", 0), 0u) << error;
+  EXPECT_NE(error.find("say layout="), std::string::npos) << error;
+  error = error_of(channel + "class = \"state\"\nlayout = \"i8\"\nsize = 700\n");
+  EXPECT_EQ(error.rfind("s.toml:8:8: ", 0), 0u) << error;
+  error = error_of(channel + "clas = \"state\"\nlayout = \"i8\"\n");
+  EXPECT_EQ(error.rfind("s.toml:6:1: ", 0), 0u) << error;
+  std::string many = kHouse;
+  for (int i = 0; i < 17; ++i)
+    many +=
+        "[[channel]]\nname = \"A/" + std::to_string(i) + "\"\nclass = \"state\"\nlayout = \"i8\"\n";
+  EXPECT_NE(error_of(many).find("at most 16"), std::string::npos) << error_of(many);
+}
+
 TEST(Session, WithoutRoutesGetsTheUsualTwo) {
   const auto session = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(session);
