@@ -15,6 +15,9 @@ namespace dance {
 
 struct FuzzScene {
   FuzzScene() : tunnel(limits()) {
+    for (const char* line : {"LIGHT/desk class=state layout=n:i32,f32[n],string",
+                             "ROBOT/* class=newest layout=any unchecked=yes"})
+      tunnel.link_options.channels.push_back(*ChannelRule::parse(line));
     a = &tunnel.add_house("salsa", {"alice"});
     b = &tunnel.add_house("salsa", {"bob"});
     tunnel.run(Duration::ms(40));

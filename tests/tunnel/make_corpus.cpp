@@ -28,6 +28,21 @@ void append_step(Bytes& script, std::uint8_t how, const Bytes& datagram) {
   script.insert(script.end(), datagram.begin(), datagram.end());
 }
 
+// A fingerprint, one number, and the text "ab".
+Bytes light_message() {
+  return {1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 0, 1, 63, 128, 0, 0, 0, 0, 0, 3, 'a', 'b', 0};
+}
+
+bool has_channel_record(wire::Bytes datagram) {
+  ByteReader in(wire::parse_opening(datagram)->body);
+  if (!wire::parse_records_header(in)) return false;
+  while (in.remaining() > 0) {
+    const auto record = wire::parse_record(0, in);
+    if (!record || record->kind == wire::RecordKind::kChannel) return record.has_value();
+  }
+  return false;
+}
+
 void write_tunnel(const std::filesystem::path& root) {
   FuzzScene scene;
   std::map<std::string, Bytes> seeds;  // by file name
@@ -39,9 +54,13 @@ void write_tunnel(const std::filesystem::path& root) {
     // Acknowledgements and feedback alone are a kind of their own.
     const bool is_bare =
         type == wire::Type::kRecords && (bytes[wire::kSessionHeader + 2] & 16) == 0;
+    // One of each kind of state that comes first in its datagram.
+    const std::string kind =
+        type == wire::Type::kState ? "_kind_" + std::to_string(bytes[1] & 15) : "";
+    const bool has_channel = type == wire::Type::kRecords && has_channel_record(bytes);
     const std::string name = std::string(to_server ? "server_datagram/" : "link_datagram/") +
                              "type_" + std::to_string(static_cast<int>(type)) +
-                             (is_bare ? "_bare" : "");
+                             (is_bare ? "_bare" : "") + (has_channel ? "_channel" : "") + kind;
     if (!seeds.contains(name)) {
       append_step(seeds[name], how, datagram);
       append_step(all[to_server], how, datagram);
@@ -53,7 +72,21 @@ void write_tunnel(const std::filesystem::path& root) {
   tunnel.dance(*scene.b, guest("bob"));
   scene.a->link->send(guest("alice"), average_skeleton(1.6f), tunnel.time_in(*scene.a));
   scene.b->link->send(guest("bob"), average_skeleton(1.8f), tunnel.time_in(*scene.b));
-  tunnel.run(Duration::ms(300));
+  Music music;
+  music.clock_id = scene.a->clock_id;
+  music.start_time = tunnel.time_in(*scene.a);
+  scene.a->link->send(guest("alice"), music, tunnel.time_in(*scene.a));
+  scene.b->link->send(guest("bob"), Scene(), tunnel.time_in(*scene.b));
+  scene.b->link->send(guest("bob"), Avatar(), tunnel.time_in(*scene.b));
+  scene.b->link->send(guest("bob"), Style(), tunnel.time_in(*scene.b));
+  scene.b->link->send(guest("bob"), Placement(), tunnel.time_in(*scene.b));
+  for (int i = 0; i < 3; ++i) {
+    for (auto* house : {scene.a, scene.b}) {
+      house->link->send_channel("LIGHT/desk", light_message(), tunnel.time_in(*house));
+      house->link->send_channel("ROBOT/arm", light_message(), tunnel.time_in(*house));
+    }
+    tunnel.run(Duration::ms(100));
+  }
   tunnel.add_house("salsa", {"carol"});
   tunnel.add_house("salsa", {"bob"});
   tunnel.run(Duration::ms(100));
