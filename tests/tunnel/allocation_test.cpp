@@ -37,7 +37,7 @@ class FixedSink final : public DatagramSink, public PeerSink {
   std::size_t count_ = 0;
 };
 
-TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
+TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
   FixedSink to_server_a;
   FixedSink to_server_b;
   FixedSink from_server;
@@ -52,6 +52,8 @@ TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
   options.clock_id = 9;
   options.token = 1;
   ASSERT_TRUE(options.guests.try_push(guest("alice")));
+  options.channels = {*ChannelRule::parse("ROBOT/arm class=newest rate=240 layout=n:i32,f64[n]"),
+                      *ChannelRule::parse("LIGHT/desk class=state rate=20 layout=i64")};
   LinkCore a(options, {}, to_server_a);
   options.token = 2;
   options.seed = 2;
@@ -59,6 +61,10 @@ TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
   LinkHandlers handlers;
   handlers.on_pose = [&](const GuestId&, const Pose&, MonoTime) { ++poses; };
   handlers.on_hands = [&](const GuestId&, const Hands&, MonoTime) { ++hands_heard; };
+  std::uint64_t messages = 0;
+  handlers.on_channel = [&](const GuestId&, std::string_view, ChannelClass, wire::Bytes, MonoTime) {
+    ++messages;
+  };
   LinkCore b(options, handlers, to_server_b);
 
   MonoTime now = MonoTime::from_us(1'000'000);
@@ -81,6 +87,8 @@ TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
   Hands hands;
   hands.presence = 3;
   hands.clock_id = 9;
+  const std::array<std::uint8_t, 12> arm{};
+  std::array<std::uint8_t, 16> light{};
   const AllocationGuard guard;
   for (std::uint32_t i = 1; i <= 1000; ++i) {
     Pose pose = still;
@@ -88,11 +96,18 @@ TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
     pose.capture_time = hands.capture_time = now;
     a.send(guest("alice"), pose, now);
     a.send(guest("alice"), hands, now);
+    a.send_channel("ROBOT/arm", arm, now);
+    light[15] = static_cast<std::uint8_t>(i / 20);
+    a.send_channel("LIGHT/desk", light, now);
+    Placement placement;
+    placement.x_m = static_cast<float>(i / 20);
+    a.send(guest("alice"), placement, now);
     turn();
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_EQ(poses, 1000u);
   EXPECT_EQ(hands_heard, 1000u);
+  EXPECT_GT(messages, 1000u);
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+// The room's music and scene: who may set them, and who holds them.
+#include "tests/tunnel/states_scene.h"
+
+namespace dance {
+namespace {
+
+using House = SimulatedTunnel::House;
+using RoomStates = StatesScene;
+
+TEST_F(RoomStates, OfTwoWhoSetTheRoomsTheLastOneHoldsAndTheOtherIsTold) {
+  House& a = tunnel.add_house("salsa", {"alice"});
+  House& b = tunnel.add_house("salsa", {"bob"});
+  House& c = tunnel.add_house("salsa", {"carol"});
+  tunnel.run(Duration::ms(100));
+  const auto expect_holds = [&](std::string_view who, std::string_view scene) {
+    for (House* house : {&a, &b, &c}) {
+      ASSERT_TRUE(house->scene);
+      EXPECT_EQ(house->scene->first, guest(who));
+      EXPECT_EQ(house->scene->second.name.view(), scene);
+    }
+  };
+  say(a, "alice", scene_named("mill"));
+  tunnel.run(Duration::ms(100));
+  expect_holds("alice", "mill");
+  say(b, "bob", scene_named("beach"));
+  tunnel.run(Duration::ms(100));
+  expect_holds("bob", "beach");
+  EXPECT_EQ(a.refused, std::vector<std::string>{"scene overruled"});
+  // Alice's program says its own again each second, which is no new wish.
+  say(a, "alice", scene_named("mill"));
+  tunnel.run(Duration::ms(500));
+  expect_holds("bob", "beach");
+  say(a, "alice", scene_named("forest"));
+  tunnel.run(Duration::ms(300));
+  expect_holds("alice", "forest");
+  EXPECT_EQ(b.refused, std::vector<std::string>{"scene overruled"});
+  // Both at once, from the same version on: one of them holds everywhere, the other one is told.
+  say(a, "alice", scene_named("moon"));
+  say(b, "bob", scene_named("mars"));
+  tunnel.run(Duration::ms(600));
+  expect_holds("alice", "moon");
+  EXPECT_EQ(b.refused.size(), 2u);
+  EXPECT_EQ(a.refused.size(), 1u);
+  EXPECT_EQ(b.link->counters().states_overruled, 2u);
+}
+
+// A player that was overruled goes on playing, and its clock drifts: that is no new wish either.
+TEST_F(RoomStates, AnOverruledPlayerDoesNotTakeTheRoomBackByDrifting) {
+  House& a = tunnel.add_house("salsa", {"alice"});
+  House& b = tunnel.add_house("salsa", {"bob"});
+  tunnel.run(Duration::ms(100));
+  Music hers = music(a, "Son");
+  say(a, "alice", hers);
+  tunnel.run(Duration::ms(300));
+  say(b, "bob", music(b, "Cumbia"));
+  tunnel.run(Duration::ms(300));
+  EXPECT_EQ(a.refused, std::vector<std::string>{"music overruled"});
+  for (int i = 0; i < 30; ++i) {
+    hers.start_time += Duration::ms(4);
+    say(a, "alice", hers);
+    tunnel.run(Duration::s(1));
+  }
+  EXPECT_EQ(a.music->first, guest("bob"));
+  // Another song is.
+  say(a, "alice", music(a, "Bolero"));
+  tunnel.run(Duration::ms(300));
+  EXPECT_EQ(b.music->second.title.view(), "Bolero");
+}
+
+TEST_F(RoomStates, AWishMadeBeforeTheRoomsIsKnownIsRaisedAboveIt) {
+  House& a = tunnel.add_house("salsa", {"alice"});
+  tunnel.run(Duration::ms(100));
+  for (int i = 0; i < 5; ++i) {
+    say(a, "alice", scene_named("mill-" + std::to_string(i)));
+    tunnel.run(Duration::ms(300));
+  }
+  House& b = tunnel.add_house("salsa", {"bob"});
+  say(b, "bob", scene_named("beach"));  // there is not even a session yet
+  tunnel.run(Duration::s(1));
+  ASSERT_TRUE(a.scene);
+  EXPECT_EQ(a.scene->second.name.view(), "beach");
+  EXPECT_EQ(b.scene->second.name.view(), "beach");
+  EXPECT_TRUE(b.refused.empty());
+}
+
+TEST_F(RoomStates, HostsSetTheRoomsWhereTheyAreThere) {
+  House& a = tunnel.add_house("salsa", {"alice"}, {}, {.role = Role::kGuest, .any_name = true});
+  House& b = tunnel.add_house("salsa", {"bob"});
+  tunnel.run(Duration::ms(100));
+  say(a, "alice", scene_named("mill"));
+  tunnel.run(Duration::ms(100));
+  ASSERT_TRUE(b.scene) << "no host is there";
+  House& host = tunnel.add_house("salsa", {"dora"}, {}, {.role = Role::kHost, .any_name = true});
+  tunnel.run(Duration::ms(200));
+  say(a, "alice", scene_named("beach"));
+  tunnel.run(Duration::s(1));
+  EXPECT_EQ(b.scene->second.name.view(), "mill");
+  EXPECT_EQ(a.refused, std::vector<std::string>{"scene not allowed"});
+  EXPECT_EQ(a.link->counters().states_refused, 1u);
+  EXPECT_EQ(tunnel.server().counters().of(ServerReject::kNotAllowed), 1u) << "it does not insist";
+  say(host, "dora", scene_named("ball"));
+  say(a, "alice", avatar_named("fox"));  // her own she may
+  tunnel.run(Duration::ms(300));
+  EXPECT_EQ(b.scene->second.name.view(), "ball");
+  EXPECT_EQ(b.avatars.at(guest("alice")).name.view(), "fox");
+}
+
+TEST_F(RoomStates, AListenerSetsNothing) {
+  House& a = tunnel.add_house("salsa", {"alice"});
+  tunnel.run(Duration::ms(100));
+  say(a, "alice", scene_named("mill"));
+  say(a, "alice", avatar_named("fox"));
+  tunnel.run(Duration::ms(100));
+  const auto slot = static_cast<std::uint8_t>(tunnel.server().sessions()[0].slots[0]);
+  // A listener's own hello, then datagrams of its own making.
+  const PeerId listener = tunnel.add_peer({.role = Role::kListener, .any_name = true});
+  wire::Hello hello;
+  hello.token = 77;
+  hello.room = guest("salsa");
+  ASSERT_TRUE(hello.codecs.try_push(tunnel.server().rooms()[0].codec));
+  std::array<std::uint8_t, wire::kMaxPlain> bytes;
+  tunnel.inject(listener, {bytes.data(), wire::build(hello, bytes)});
+  ASSERT_EQ(tunnel.server().session_count(), 2u);
+  const std::uint64_t before = tunnel.server().counters().states_in;
+  MessageBuffer message;
+  const std::size_t size = encode(scene_named("mars"), message);
+  const auto inject = [&](const wire::State& state) {
+    ByteWriter out(bytes);
+    wire::begin_states(wire::Type::kState, out);
+    wire::add_state(state, out);
+    tunnel.inject(listener, out.written());
+  };
+  const wire::Bytes payload{message.data(), size};
+  inject({{wire::StateKind::kScene, 0}, {}, guest("alice"), 1000, payload});
+  inject({{wire::StateKind::kScene, 0}, {}, guest("nobody"), 1000, payload});
+  for (std::size_t place = 0; place < wire::kGuestStates; ++place)
+    inject({wire::guest_state_at(place), {slot, 0}, {}, 1000, payload});
+  tunnel.run(Duration::ms(100));
+  EXPECT_EQ(tunnel.server().counters().states_in, before);
+  EXPECT_EQ(tunnel.server().counters().of(ServerReject::kNotAllowed), 2u);
+  EXPECT_EQ(tunnel.server().counters().of(ServerReject::kForeignSlot), wire::kGuestStates);
+  EXPECT_EQ(a.scene->second.name.view(), "mill");
+}
+
+}  // namespace
+}  // namespace dance
