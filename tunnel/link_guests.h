@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "core/codec/hands_codec.h"
 #include "core/codec/plain_codec.h"
@@ -65,6 +66,9 @@ struct LocalGuest {
   std::uint64_t key_frames_sent = 0;
   // Skeleton, avatar, style and placement, by wire::place_of().
   std::array<OwnState, wire::kFirstChannelPlace> states;
+  // What this guest wished for the room last: programs say it again each second, which is no new wish.
+  std::optional<Music> wished_music;  // in our clock
+  std::optional<Scene> wished_scene;
 };
 
 struct RemoteGuest {

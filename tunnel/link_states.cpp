@@ -16,6 +16,7 @@ constexpr double kMusicTolerance_s = 0.003;
 // Music that is said to be as far off as this is another wish, and not the same one in a clock that
 // drifts.
 constexpr double kSameMusic_s = 0.25;
+constexpr Duration kLongestMusic = Duration::s(24 * 3600);
 
 // As it travels: the time of saying it, and whose clock that was, are nobody's concern elsewhere.
 template <class Message>
@@ -88,22 +89,30 @@ void LinkCore::send(const GuestId& id, const Music& given, MonoTime now) {
   if (music.clock_id != options_.clock_id) {
     // As with poses of a clock that we do not know: taken as said now.
     ++counters_.foreign_clock;
-    music.start_time = now + (music.start_time - music.time);
+    const Duration until = music.start_time - music.time;
+    if (until < -kLongestMusic || until > kLongestMusic) {
+      ++counters_.states_invalid;
+      return;
+    }
+    music.start_time = now + until;
   }
-  RoomWish& wish = wishes_[kMusicPlace];
-  const bool is_same = wish.setter == id && is_same_music(music, wished_music_, now, kSameMusic_s);
-  // Once overruled, saying the same again is no new wish.
-  if (is_same && !wish.is_alive) return;
-  if (!clock_.is_mapped()) {
+  LocalGuest* guest = find_local(id);
+  if (guest == nullptr || !clock_.is_mapped()) {
     ++counters_.unrouted;
     return;
   }
+  const RoomWish& wish = wishes_[kMusicPlace];
+  const bool is_again =
+      guest->wished_music && is_same_music(music, *guest->wished_music, now, kSameMusic_s);
+  guest->wished_music = music;
+  // Overruled, saying the same again changes nothing.
+  if (is_again && !(wish.is_alive && wish.setter == id)) return;
   wished_music_ = music;
   const MonoTime server_now = MonoTime::from_us(clock_.to_theirs_us(now));
   music.start_time = MonoTime::from_us(clock_.to_theirs_us(music.start_time));
   Music told;
   const wire::Bytes before = wish.state.bytes();
-  if (is_same && decode_from_tunnel(before, told) &&
+  if (is_again && decode_from_tunnel(before, told) &&
       is_same_music(music, told, server_now, kMusicTolerance_s))
     return;
   MessageBuffer buffer;
@@ -116,6 +125,16 @@ void LinkCore::send(const GuestId& id, const Scene& scene, MonoTime now) {
     ++counters_.states_invalid;
     return;
   }
+  LocalGuest* guest = find_local(id);
+  if (guest == nullptr) {
+    ++counters_.unrouted;
+    return;
+  }
+  Scene wished = scene;
+  wished.time = MonoTime();
+  wished.clock_id = 0;
+  if (guest->wished_scene == wished) return;
+  guest->wished_scene = wished;
   MessageBuffer buffer;
   const std::size_t size = encode_for_tunnel(scene, buffer);
   make_wish(id, wire::StateKind::kScene, {buffer.data(), size}, now);

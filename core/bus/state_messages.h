@@ -48,6 +48,7 @@ struct Scene {
   std::array<float, 3> light_rgb{1.0f, 1.0f, 1.0f};
   float brightness = 1.0f;
   float pulse = 0.0f;
+  bool operator==(const Scene&) const = default;
 };
 
 struct Avatar {

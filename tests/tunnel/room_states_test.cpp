@@ -67,6 +67,27 @@ TEST_F(RoomStates, AnOverruledPlayerDoesNotTakeTheRoomBackByDrifting) {
   EXPECT_EQ(b.music->second.title.view(), "Bolero");
 }
 
+// Two players of one house, each of whom says its own again and again.
+TEST_F(RoomStates, TwoGuestsOfOneHouseDoNotTakeTurns) {
+  House& a = tunnel.add_house("salsa", {"anna", "alice"});
+  House& b = tunnel.add_house("salsa", {"bob"});
+  tunnel.run(Duration::ms(100));
+  const Music annas = music(a, "Son"), alices = music(a, "Bolero");
+  const std::uint64_t before = tunnel.server().counters().states_in;
+  for (int i = 0; i < 10; ++i) {
+    say(a, "anna", annas);
+    say(a, "anna", scene_named("mill"));
+    tunnel.run(Duration::ms(500));
+    say(a, "alice", alices);
+    say(a, "alice", scene_named("beach"));
+    tunnel.run(Duration::ms(500));
+  }
+  EXPECT_EQ(tunnel.server().counters().states_in - before, 4u);
+  ASSERT_TRUE(b.music && b.scene);
+  EXPECT_EQ(b.music->first, guest("alice"));
+  EXPECT_EQ(b.scene->first, guest("alice"));
+}
+
 TEST_F(RoomStates, AWishMadeBeforeTheRoomsIsKnownIsRaisedAboveIt) {
   House& a = tunnel.add_house("salsa", {"alice"});
   tunnel.run(Duration::ms(100));
