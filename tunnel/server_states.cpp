@@ -11,8 +11,10 @@ namespace {
 
 // Changes of a room go out this often at most; of what lies between, the newest.
 constexpr Duration kFreshStatesPeriod = Duration::ms(20);
-// To one link at once; what does not fit comes with the next pong.
+// To one link at once, and to all of a room together, lest poses that come meanwhile wait; what does
+// not fit comes with the next pong.
 constexpr std::size_t kFreshDatagrams = 4;
+constexpr std::size_t kFreshDatagramsOfRoom = 64;
 
 }  // namespace
 
@@ -176,7 +178,9 @@ void ServerCore::send_states(std::size_t index, bool only_fresh, std::size_t mos
 }
 
 void ServerCore::send_fresh_states(ServerRoom& room, MonoTime now) {
-  for (const std::size_t member : room.members) send_states(member, true, kFreshDatagrams);
+  const std::size_t most = std::clamp<std::size_t>(
+      kFreshDatagramsOfRoom / std::max<std::size_t>(room.members.size(), 1), 1, kFreshDatagrams);
+  for (const std::size_t member : room.members) send_states(member, true, most);
   for (HeldState& held : room.states) held.is_fresh = false;
   for (ServerGuest& guest : room.guests)
     for (HeldState& held : guest.states) held.is_fresh = false;

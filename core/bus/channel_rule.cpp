@@ -45,6 +45,8 @@ class RuleReader {
       return need("size=" + std::to_string(*size_) + " is too much; class=" +
                   (is_state ? "state" : "newest") + " takes up to " + std::to_string(most));
     rule_.rate_hz = rate_.value_or(is_state ? 5.0 : 60.0);
+    if (is_state && rule_.rate_hz > kMaxChannelStateRate_hz)
+      return need("class=state takes up to rate=20; what changes faster is class=newest");
     if (rule_.layout.is_any() && rule_.is_in && !is_unchecked_)
       return need(
           "layout=any lets whatever another house sends onto this bus; say the layout, or "

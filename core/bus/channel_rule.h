@@ -29,6 +29,7 @@ enum class ChannelClass : std::uint8_t { kState = 1, kNewest = 2 };
 constexpr std::size_t kMaxChannelStateBytes = 400;
 constexpr std::size_t kMaxChannelNewestBytes = 512;
 constexpr double kMaxChannelRate_hz = 240.0;
+constexpr double kMaxChannelStateRate_hz = 20.0;
 // Rules of one house, and channels of one guest.
 constexpr std::size_t kMaxChannelRules = 16;
 constexpr std::size_t kMaxChannelsPerGuest = 8;

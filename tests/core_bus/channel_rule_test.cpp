@@ -62,6 +62,7 @@ TEST(ChannelRule, SaysWhatIsWrongAndWhatToDo) {
   expect_hint("LIGHT/desk class=state size=99999999999999999999999 layout=i8", "a number of bytes");
   expect_hint("LIGHT/desk class=state rate=nan layout=i8", "messages a second");
   expect_hint("LIGHT/desk class=state rate=1e9 layout=i8", "messages a second");
+  expect_hint("LIGHT/desk class=state rate=21 layout=i8", "up to rate=20");
   expect_hint("LIGHT/desk class=state direction=up layout=i8", "out, in or both");
   expect_hint("LIGHT/desk class=state colour=red layout=i8", "\"colour\" is no word");
   expect_hint("LIGHT/desk class=state class=state layout=i8", "said twice");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <dancelcm/pose_t.hpp>
 #include <dancelcm/stats_t.hpp>
 #include <limits>
@@ -167,9 +168,9 @@ TEST(LayoutCheck, RefusesRowsWithoutEnd) {
 TEST(LayoutCheck, RefusesStringsWithoutTheirEnd) {
   const LayoutCheck check = layout("string");
   const auto text = [](std::int32_t size, std::string_view characters) {
-    Message bytes(12);
+    Message bytes(12 + characters.size());
     put_i32(bytes, 8, size);
-    bytes.insert(bytes.end(), characters.begin(), characters.end());
+    std::copy(characters.begin(), characters.end(), bytes.begin() + 12);
     return bytes;
   };
   using std::literals::operator""sv;

@@ -80,6 +80,24 @@ TEST_F(Channels, AStateThatWasSaidBeforeThereWasASessionIsNotLost) {
   EXPECT_EQ(last(b, "LIGHT/desk"), arm(1, 9));
 }
 
+// More than goes out at once: the rest follows with the pongs, and none of it is told twice.
+TEST_F(Channels, ARoomFullOfStatesReachesALateJoinerInPieces) {
+  constexpr const char* kAll = "X/* class=state rate=20 layout=any unchecked=yes";
+  constexpr std::size_t kHouses = 25;
+  for (std::size_t i = 0; i < kHouses; ++i) {
+    House& house = add_house("guest-" + std::to_string(i), {kAll});
+    for (std::size_t k = 0; k < kMaxChannelsPerGuest; ++k)
+      send(house, "X/" + std::to_string(k), Bytes(kMaxChannelStateBytes, 7));
+  }
+  tunnel.run(Duration::s(1));
+  House& late = tunnel.add_house("salsa", {"late"});
+  tunnel.run(Duration::ms(12));
+  EXPECT_GT(late.channels.size(), 100u);
+  EXPECT_LT(late.channels.size(), kHouses * kMaxChannelsPerGuest);
+  tunnel.run(Duration::s(1));
+  EXPECT_EQ(late.channels.size(), kHouses * kMaxChannelsPerGuest);
+}
+
 TEST_F(Channels, AFastStateConvergesOnItsNewestWithinItsRate) {
   House& a = add_house("alice", {"LIGHT/desk class=state rate=4 layout=n:i32,f64[n]"});
   House& b = add_house("bob", {kDesk});
