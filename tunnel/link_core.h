@@ -107,22 +107,24 @@ class LinkCore {
   void tell(const GuestId& id, wire::StateKind kind, wire::Bytes payload, MonoTime now);
   template <class Message>
   void tell_message(const GuestId& id, wire::StateKind kind, const Message& message, MonoTime now);
-  void make_wish(const GuestId& setter, wire::StateKind kind, wire::Bytes payload, MonoTime now);
   void send_state(const wire::State& state);
   void repeat_states(MonoTime now);
   void forget_acks();
-  void map_wished_music();
   bool on_states(wire::Bytes body, MonoTime now);
   bool on_guest_state(const wire::State& state, MonoTime now);
   bool deliver_guest_state(RemoteGuest& remote, const wire::State& state, MonoTime now);
   template <class Message, class Handler>
   bool deliver_message(const GuestId& id, wire::Bytes payload, const Handler& handler,
                        MonoTime now);
+  bool on_state_acks(wire::Bytes body);
+  void on_guest_state_ack(const wire::StateAck& ack);
+
+  // link_wishes.cpp
+  void make_wish(const GuestId& setter, wire::StateKind kind, wire::Bytes payload, MonoTime now);
+  void map_wished_music();
   bool on_room_state(const wire::State& state, MonoTime now);
   void give_way(std::size_t place, const GuestId& setter, std::uint32_t version);
-  bool on_state_acks(wire::Bytes body);
   void on_wish_ack(const wire::StateAck& ack);
-  void on_guest_state_ack(const wire::StateAck& ack);
 
   // link_channels.cpp
   void announce_streams();
