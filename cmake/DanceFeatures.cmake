@@ -109,6 +109,11 @@ if(ENET_INCLUDE_DIR AND ENET_LIBRARY)
 endif()
 dance_optional(DANCE_ENET "ENet to compare with" DANCE_HAVE_ENET ${enet_found} "libenet-dev")
 
+# Through pkg-config: the package of CMake insists on all that the library could be built with.
+pkg_check_modules(PROMETHEUS QUIET IMPORTED_TARGET prometheus-cpp-pull)
+dance_optional(DANCE_PROMETHEUS "Server metrics" DANCE_HAVE_PROMETHEUS "${PROMETHEUS_FOUND}"
+  "prometheus-cpp-dev")
+
 find_program(JAVAC javac)
 find_program(JAR jar)
 find_file(LCM_JAR lcm.jar PATHS /usr/share/java /usr/local/share/java)

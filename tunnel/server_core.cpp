@@ -43,6 +43,10 @@ std::size_t ServerCore::guest_count() const {
 void ServerCore::send(const Address& to, wire::Bytes bytes) {
   ++counters_.datagrams_out;
   counters_.bytes_out += bytes.size();
+  // All that goes out within a session begins with its id.
+  if (const auto opening = wire::parse_opening(bytes); opening && !opening->has_magic)
+    if (const auto found = by_id_.find(opening->session); found != by_id_.end())
+      sessions_[found->second].meter.went_out(bytes.size());
   sink_.send(to, bytes);
 }
 
@@ -71,6 +75,7 @@ void ServerCore::receive(const Address& from, wire::Bytes datagram, MonoTime rec
   if (!session.datagrams.take(1.0, now) ||
       !session.bytes.take(static_cast<double>(datagram.size()), now))
     return reject(ServerReject::kSessionRate);
+  session.meter.came_in(datagram.size(), now);
   on_session_datagram(found->second, *opening, received, now);
 }
 

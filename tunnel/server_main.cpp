@@ -7,6 +7,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "tunnel/server.h"
+#include "tunnel/server_watch.h"
 
 namespace dance {
 namespace {
@@ -14,7 +15,9 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   dance server                                  for houses on this machine, on port 7400
   dance server --bind 0.0.0.0 --port 7400       for houses elsewhere (unencrypted for now: trusted networks only)
+  dance server --metrics 127.0.0.1:9464         a page for Prometheus at /metrics
   dance server --json > summary.json            what it did, when it is ended with Ctrl-C
+While it runs, `dance status` on the same machine shows its rooms and guests.
 )";
 
 constexpr Duration kSecond = Duration::s(1);
@@ -25,6 +28,7 @@ struct ServerOptions {
   std::uint16_t port = kDefaultServerPort;
   ServerLimits limits;
   double share_ms = -1.0;  // < 0: by the room
+  std::string metrics;
   bool json = false;
 };
 
@@ -77,6 +81,12 @@ Result<void> run_server(const ServerOptions& options) {
   if (options.share_ms >= 0.0) limits.share_window = Duration::seconds(options.share_ms * 1e-3);
   DANCE_TRY(auto server, Server::open(local, limits, *poller));
   local = server->local_address();
+  ServerWatch::Options shown;
+  shown.address = local;
+  shown.limits = limits;
+  shown.metrics = options.metrics;
+  shown.peer_text = [](const ServerSession& session) { return session.address.to_string(); };
+  DANCE_TRY(auto watch, ServerWatch::open(server->core(), shown, *poller));
   talk::info("hears on {}; Ctrl-C ends it", local.to_string());
   if (!local.is_loopback())
     talk::warn(
@@ -98,6 +108,7 @@ Result<void> run_server(const ServerOptions& options) {
   });
   poller->run();
 
+  watch->say_stopping();
   server->say_goodbye();
   const auto report = summary(*server, mono_now() - begin);
   if (options.json)
@@ -132,6 +143,8 @@ int main(int argc, char** argv) {
           "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
           "all (else 0 for up to 8 guests, then more, to 5 for 28)")
       .range(0, 20);
+  line.add("--metrics", options.metrics,
+           "HOST:PORT of a page of metrics for Prometheus; none unless asked for");
   line.add_flag("--json", options.json, "write a summary to stdout at the end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_server(options); });

@@ -45,6 +45,7 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   if (!guest->records.take(1.0, now)) return reject(ServerReject::kGuestRate);
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   StreamGate& gate = is_pose ? guest->poses : guest->hands;
+  if (is_pose) guest->jitter.add(record.capture_us, received_us);
   // The link need not know the generation.
   record.stream &= 0xffff;
   if (!wire::widen(0, gate.has_any(), gate.stream(), gate.newest(), record))

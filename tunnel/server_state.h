@@ -18,7 +18,9 @@
 #include "core/base/time.h"
 #include "core/net/address.h"
 #include "tunnel/ack_window.h"
+#include "tunnel/arrival_jitter.h"
 #include "tunnel/held_frames.h"
+#include "tunnel/link_meter.h"
 #include "tunnel/sent_ring.h"
 #include "tunnel/stream_gate.h"
 #include "tunnel/token_bucket.h"
@@ -124,6 +126,7 @@ struct ServerSession {
   TokenBucket bytes;
   std::uint32_t datagrams_received = 0;
   wire::Ping newest_ping;
+  LinkMeter meter;
   // Records that wait for the end of this turn, or of their window.
   std::array<std::uint8_t, wire::kMaxRecordsBody> bundle;
   std::size_t bundle_size = 0;
@@ -147,6 +150,7 @@ struct ServerGuest {
   std::size_t owner = 0;  // session
   StreamGate poses;
   StreamGate hands;
+  ArrivalJitter jitter;  // of poses
   TokenBucket records;
   bool key_wanted = false;
   std::uint8_t key_frames = 0;  // counts key frames asked for
