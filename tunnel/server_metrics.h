@@ -4,7 +4,7 @@
 // Ownership:    keeps the newest snapshot that was shown, until the last reader is done with it.
 // Threads:      show() from the server's thread: it swaps a pointer under a mutex that is never
 //               held for longer than that. The page is made in threads of the exposer's own.
-// Failure:      open() says which address cannot be had, or that this build has no exposer.
+// Failure:      open() says which address cannot be had; where not is_built(), none can.
 #pragma once
 
 #include <memory>
@@ -20,6 +20,7 @@ constexpr std::uint16_t kDefaultMetricsPort = 9464;
 
 class ServerMetrics {
  public:
+  static bool is_built();
   static Result<std::unique_ptr<ServerMetrics>> open(const Address& address);
   virtual ~ServerMetrics() = default;
 

@@ -4,6 +4,11 @@
 #include "core/program/talk.h"
 
 namespace dance {
+namespace {
+
+constexpr Duration kWatchPeriod = Duration::s(1);
+
+}  // namespace
 
 std::string status_socket_name(std::uint16_t port) {
   return "server-" + std::to_string(port) + ".sock";
@@ -13,6 +18,10 @@ Result<std::unique_ptr<ServerWatch>> ServerWatch::open(const ServerCore& core,
                                                        const Options& options, Poller& poller) {
   std::unique_ptr<ServerWatch> watch(new ServerWatch(core, options, poller));
   if (!options.metrics.empty()) {
+    if (!ServerMetrics::is_built())
+      return fail(
+          "--metrics: this server was built without Prometheus: apt-get install "
+          "prometheus-cpp-dev, and build it again");
     DANCE_TRY(const Address address, Address::resolve(options.metrics, kDefaultMetricsPort));
     DANCE_TRY(watch->metrics_, ServerMetrics::open(address));
     watch->metrics_->show(watch->status(mono_now()));
@@ -37,12 +46,11 @@ ServerWatch::ServerWatch(const ServerCore& core, const Options& options, Poller&
     : poller_(poller),
       handshakes_(options.handshakes),
       maker_(core, options.limits, options.address.to_string(), options.peer_text, mono_now()) {
-  constexpr Duration kSecond = Duration::s(1);
   const MonoTime begin = mono_now();
-  second_ = poller_.add_timer(begin + kSecond, [this](MonoTime now) {
+  second_ = poller_.add_timer(begin + kWatchPeriod, [this](MonoTime now) {
     maker_.sample(now);
     if (metrics_) metrics_->show(status(now));
-    return now + kSecond;
+    return now + kWatchPeriod;
   });
   const Duration period = service_.alive_period();
   alive_ = poller_.add_timer(period > Duration() ? begin + period : MonoTime(),
