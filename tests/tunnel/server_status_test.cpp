@@ -217,6 +217,21 @@ TEST_F(StatusTest, JsonHasEverythingAndNoSecret) {
     }
 }
 
+TEST_F(StatusTest, JsonStaysJsonWhateverAPeerIsCalled) {
+  tunnel.add_house("salsa", {"alice"});
+  tunnel.run(Duration::s(1));
+  ServerStatusMaker other(
+      tunnel.server(), {}, "here",
+      [](const ServerSession&) { return std::string("a\"b\\c\n\x80\0d", 9); }, tunnel.now());
+  handshakes = {{"\"odd\"", UINT64_MAX}};
+  const auto json =
+      nlohmann::json::parse(to_json(other.make(tunnel.now(), handshakes)), nullptr, false);
+  ASSERT_TRUE(json.is_object());
+  EXPECT_EQ(json["rooms"][0]["links"][0]["peer"], "a?b?c???d");
+  EXPECT_EQ(json["handshakes"]["?odd?"], UINT64_MAX);
+  EXPECT_TRUE(nlohmann::json::parse(to_json(ServerStatus()), nullptr, false).is_object());
+}
+
 TEST_F(StatusTest, ShareWindowIsTheRoomsOrTheKeepers) {
   tunnel.add_house("crowd", {"g0", "g1", "g2", "g3", "g4", "g5", "g6", "g7", "g8", "g9"});
   Dance dance{tunnel, {}};
