@@ -2,6 +2,7 @@
 #include "core/net/local_socket.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -138,6 +139,28 @@ TEST_F(LocalSocket, AsManyAsItLikesAndNoMore) {
   char byte = 0;
   EXPECT_EQ(::recv(idle.back(), &byte, 1, 0), 0) << "the one too many is told so at once";
   for (const int fd : idle) ::close(fd);
+}
+
+TEST_F(LocalSocket, WithoutAFreeDescriptorItTriesAgainLater) {
+  open();
+  const int client = connect_raw();
+  // No number below the limit is free: this one was, and is the lowest that is.
+  const int lowest = ::dup(0);
+  ASSERT_GE(lowest, 0);
+  ::close(lowest);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  rlimit none = before;
+  none.rlim_cur = static_cast<rlim_t>(lowest);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  int turns = 0;
+  const MonoTime end = mono_now() + Duration::ms(200);
+  for (; mono_now() < end; ++turns) poller->run_once(Duration::ms(50));
+  EXPECT_LT(turns, 20) << "it does not go round and round meanwhile";
+  EXPECT_EQ(made_texts, 0);
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_TRUE(turn_until([&] { return server->counters().answered == 1; }));
+  ::close(client);
 }
 
 TEST_F(LocalSocket, TakesThePlaceOfADeadSocketButNotOfALivingOne) {

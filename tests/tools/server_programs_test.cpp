@@ -198,6 +198,19 @@ TEST_F(ServerPrograms, MetricsThatCannotBeHadAreOneLine) {
   }
 }
 
+TEST_F(ServerPrograms, MetricsForEverybodyComeWithAWarning) {
+  if (!has_metrics()) GTEST_SKIP() << "built without Prometheus";
+  start_server({"--metrics", "0.0.0.0:" + std::to_string(kMetricsPort)});
+  EXPECT_TRUE(wait_for([&] { return is_page(http_get(kMetricsPort, "/metrics")); })) << talk();
+  EXPECT_NE(talk().find("whoever reaches 0.0.0.0:9471 sees who dances"), std::string::npos)
+      << talk();
+  end_all();
+  std::filesystem::remove(folder_.path("talk"));
+  start_server({"--metrics", "127.0.0.1:" + std::to_string(kMetricsPort)});
+  EXPECT_TRUE(wait_for([&] { return is_page(http_get(kMetricsPort, "/metrics")); })) << talk();
+  EXPECT_EQ(talk().find("whoever reaches"), std::string::npos) << talk();
+}
+
 TEST_F(ServerPrograms, AnEndingServerTellsItsLinksAtOnce) {
   // A link that hears nothing notices after 900 ms. To tell that from a goodbye, it must have
   // noticed earlier: where this machine was too slow for that, once more.
