@@ -33,15 +33,13 @@ int main(int argc, char** argv) {
   int number = 0;
   std::vector<std::uint8_t> all;
   for (const auto& passed : street.sent) {
-    for (const int whose : {0, 1, 3}) {
-      std::vector<std::uint8_t> seed;
-      const int how = passed.to_server ? whose | (passed.peer == wrong.address ? 4 : 0)
-                                       : whose | (number % 2 == 0 ? 64 : 128);
-      add(seed, static_cast<std::uint8_t>(how), passed.bytes);
-      if (whose == 3) all.insert(all.end(), seed.begin(), seed.end());
-      std::ofstream(std::string(argv[1]) + "/" + std::to_string(number++), std::ios::binary)
-          .write(reinterpret_cast<const char*>(seed.data()), static_cast<long>(seed.size()));
-    }
+    const int how = passed.to_server ? (passed.peer == wrong.address ? 5 : 0)
+                                     : (passed.peer == wrong.address ? 129 : 64);
+    std::vector<std::uint8_t> seed;
+    add(seed, static_cast<std::uint8_t>(how), passed.bytes);
+    all.insert(all.end(), seed.begin(), seed.end());
+    std::ofstream(std::string(argv[1]) + "/" + std::to_string(number++), std::ios::binary)
+        .write(reinterpret_cast<const char*>(seed.data()), static_cast<long>(seed.size()));
   }
   std::ofstream(std::string(argv[1]) + "/all", std::ios::binary)
       .write(reinterpret_cast<const char*>(all.data()), static_cast<long>(all.size()));
