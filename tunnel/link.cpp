@@ -42,6 +42,7 @@ Link::Link(std::vector<Address> server, UdpSocket socket, const LinkOptions& opt
       sink_(socket_),
       core_(options, std::move(handlers), sink_) {
   watch_socket();
+  core_.on_sealed(begin_);  // UNSEALED FOR NOW: what seals sessions says when there is one
   timer_ = poller_.add_timer(begin_, [this](MonoTime now) {
     // Before the next hello, so that the one before had all its time.
     if (core_.unanswered_hellos() == 0) hellos_on_socket_ = 0;

@@ -109,15 +109,10 @@ void LinkCore::receive(wire::Bytes datagram, MonoTime received, MonoTime now) {
     ++counters_.rejected_datagrams;
     return;
   }
-  if (opening->has_magic) {
-    if (opening->type == wire::Type::kWelcome) return on_welcome(*opening, received, now);
-    if (opening->type == wire::Type::kRefusal) return on_refusal(*opening, now);
-    ++counters_.rejected_datagrams;
-    return;
-  }
-  const bool is_good =
-      session_ != 0 && opening->session == session_ && on_session_datagram(*opening, received, now);
-  if (!is_good) ++counters_.rejected_datagrams;
+  if (opening->type == wire::Type::kWelcome) return on_welcome(opening->body, received, now);
+  if (opening->type == wire::Type::kRefusal) return on_refusal(opening->body, now);
+  // Anything else that comes before the welcome is of the sealed session before.
+  if (!is_welcome_ || !on_session_datagram(*opening, received, now)) ++counters_.rejected_datagrams;
 }
 
 void LinkCore::fill(Stats& stats) const {

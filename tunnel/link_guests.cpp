@@ -63,6 +63,13 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
     case wire::Refusal::kCodec:
       return "room '" + room_name +
              "' speaks a pose codec that this link does not know: update this link";
+    case wire::Refusal::kNotAllowedRoom:
+      return "this house's key does not open room '" + room_name +
+             "': ask the server's keeper for a key to it, or choose the --room of your key";
+    case wire::Refusal::kNotAllowedName:
+      return "this house's key does not allow a guest '" + guest +
+             "': ask the server's keeper for a key of that name, or choose the --guest of your "
+             "key";
   }
   return "the server refused for a cause that this link does not know: update this link";
 }

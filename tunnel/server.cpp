@@ -17,7 +17,10 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerL
 }
 
 Server::Server(UdpSocket socket, const ServerLimits& limits, Poller& poller)
-    : poller_(poller), socket_(std::move(socket)), core_(limits, secure_random_u64, socket_) {
+    : poller_(poller),
+      socket_(std::move(socket)),
+      unsealed_(socket_),
+      core_(limits, secure_random_u64, unsealed_) {
   poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
   timer_ = poller_.add_timer(MonoTime(), [this](MonoTime now) {
     const MonoTime next = core_.tick(now);
@@ -35,7 +38,8 @@ void Server::on_readable(MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
     const auto batch = socket_.receive();
     for (const UdpSocket::Datagram& datagram : batch)
-      core_.receive(datagram.from, datagram.bytes, datagram.received, now);
+      core_.receive(unsealed_.peer_at(datagram.from), Access{.any_name = true}, datagram.bytes,
+                    datagram.received, now);
     core_.end_turn(now);
     socket_.flush();
     if (batch.size() < UdpSocket::kBatch) break;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/net/poller.h"
@@ -34,11 +35,32 @@ class Server {
   const UdpSocket::Counters& socket_counters() const { return socket_.counters(); }
 
  private:
+  // UNSEALED FOR NOW: takes each address for a peer whose key allows everything. What seals
+  // sessions replaces it.
+  class Unsealed final : public PeerSink {
+   public:
+    explicit Unsealed(UdpSocket& socket) : socket_(socket) {}
+    PeerId peer_at(const Address& from) {
+      for (std::size_t i = 0; i < peers_.size(); ++i)
+        if (peers_[i] == from) return i + 1;
+      peers_.push_back(from);
+      return peers_.size();
+    }
+    void send(PeerId to, std::span<const std::uint8_t> bytes) override {
+      socket_.send(peers_[to - 1], bytes);
+    }
+
+   private:
+    UdpSocket& socket_;
+    std::vector<Address> peers_;
+  };
+
   Server(UdpSocket socket, const ServerLimits& limits, Poller& poller);
   void on_readable(MonoTime now);
 
   Poller& poller_;
   UdpSocket socket_;
+  Unsealed unsealed_;
   ServerCore core_;
   Poller::TimerId timer_;
 };
