@@ -28,6 +28,7 @@ constexpr std::array kCommands{
     Command{"replay", "plays BVH files and LCM logs as dancers"},
     Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
     Command{"server", "the tunnel server"},
+    Command{"key", "keeps the keys that servers gave to this house"},
     Command{"link", "a house's link to the server"},
     Command{"manager", "the signal manager of a house"},
     Command{"listen", "poses as text, CSV or BVH"},

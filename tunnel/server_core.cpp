@@ -40,7 +40,7 @@ std::size_t ServerCore::guest_count() const {
 
 void ServerCore::send(PeerId to, wire::Bytes bytes) {
   ++counters_.datagrams_out;
-  counters_.bytes_out += bytes.size();
+  counters_.bytes_out += bytes.size() + wire::kSealOverhead;
   sink_.send(to, bytes);
 }
 
@@ -48,7 +48,7 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
                          MonoTime now) {
   DANCE_ASSERT(from != 0);
   ++counters_.datagrams_in;
-  counters_.bytes_in += datagram.size();
+  counters_.bytes_in += datagram.size() + wire::kSealOverhead;
   const auto opening = wire::parse_opening(datagram);
   if (!opening) return reject(ServerReject::kTooShort);
   const auto found = by_peer_.find(from);

@@ -21,16 +21,17 @@
 #include "core/base/fixed_list.h"
 #include "core/base/guest_id.h"
 #include "core/codec/pose_codec.h"
+#include "tunnel/seal/seal_format.h"
 
 namespace dance::wire {
 
-constexpr std::uint8_t kWireVersion = 3;
+constexpr std::uint8_t kWireVersion = seal::kTunnelVersion;
 // A sealed datagram: fits the smallest path of IPv6 with the headers of IP and UDP.
-constexpr std::size_t kMaxDatagram = 1200;
-// What the seal adds: id of the sealed session 8, header of the record 13, tag 16, and 2 to spare.
-constexpr std::size_t kSealOverhead = 39;
+constexpr std::size_t kMaxDatagram = seal::kMaxSealed;
+// What the seal adds.
+constexpr std::size_t kSealOverhead = seal::kOverhead;
 // An inner datagram, as the state machines see it.
-constexpr std::size_t kMaxPlain = kMaxDatagram - kSealOverhead;
+constexpr std::size_t kMaxPlain = seal::kMaxPlain;
 // No hello, welcome or refusal is longer.
 constexpr std::size_t kMaxHello = 512;
 constexpr std::size_t kMaxGuestsPerLink = 16;

@@ -15,15 +15,9 @@
 
 #include "core/net/datagram_sink.h"
 #include "tunnel/seal/seal_channel.h"
+#include "tunnel/seal/seal_trouble.h"
 
 namespace dance {
-
-enum class SealTrouble : std::uint8_t {
-  kNoAnswer,    // nothing has come back
-  kWrongKey,    // the server is there, and has no such key for this name
-  kNotTrusted,  // no common cipher, or a certificate that one of both does not trust
-  kInterrupted  // it answered, and then no more
-};
 
 struct SealClientCounters {
   std::uint64_t tries = 0;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::uint64_t kFormBits = 3;
 constexpr std::uint64_t kSequenceMask = (std::uint64_t{1} << 48) - 1;
-constexpr std::uint8_t kWireVersion = 3;
 // The low half of what versions 1 and 2 of the tunnel began with: "DCGR".
 constexpr std::uint32_t kOldMagic = 0x52474344;
 
@@ -96,14 +95,14 @@ std::optional<Bytes> cookie_of(Bytes records) {
 bool is_old_hello(Bytes datagram) {
   // Magic, version, type 1 (hello), 0, nonce.
   return datagram.size() >= kOldRefusal && datagram[0] == 0x44 && datagram[1] == 0x43 &&
-         datagram[2] == 0x47 && datagram[3] == 0x52 && datagram[4] < kWireVersion &&
+         datagram[2] == 0x47 && datagram[3] == 0x52 && datagram[4] < kTunnelVersion &&
          datagram[5] == 1;
 }
 
 void write_old_refusal(Bytes hello, std::span<std::uint8_t, kOldRefusal> out) {
   constexpr std::uint8_t kRefusal = 3, kVersionIsUnknown = 1;
   const std::array<std::uint8_t, 8> head{
-      0x44, 0x43, 0x47, 0x52, kWireVersion, kRefusal, kVersionIsUnknown, 0};
+      0x44, 0x43, 0x47, 0x52, kTunnelVersion, kRefusal, kVersionIsUnknown, 0};
   std::copy(head.begin(), head.end(), out.begin());
   const Bytes nonce = hello.subspan(8, 8);
   std::copy(nonce.begin(), nonce.end(), out.begin() + 8);
