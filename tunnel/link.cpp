@@ -13,6 +13,7 @@ constexpr int kLinkBatches = 8;
 // A socket keeps the address of the network it was made on. When the server stays silent, the house
 // may have moved to another one: every so many hellos a new socket is tried.
 constexpr int kHellosPerSocket = 4;
+constexpr Duration kTroubleIsSaidEach = Duration::s(30);
 
 }  // namespace
 
@@ -48,6 +49,11 @@ Link::Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealCo
       seal_(std::move(context), secure_random_u64, seal_handlers(), sink_),
       core_(options, std::move(handlers), seal_) {
   watch_socket();
+  addresses_ = AddressWatch::open();
+  if (addresses_)
+    poller_.watch(addresses_->fd(), [this](MonoTime now) {
+      if (addresses_->drain()) on_addresses_changed(now);
+    });
   timer_ = poller_.add_timer(begin_, [this](MonoTime now) { return tick(now); });
 }
 
@@ -57,15 +63,18 @@ SealClient::Handlers Link::seal_handlers() {
   handlers.on_datagram = [this](wire::Bytes plain, MonoTime received, MonoTime now) {
     core_.receive(plain, received, now);
   };
-  handlers.on_trouble = [this](SealTrouble trouble, MonoTime) { on_trouble(trouble); };
+  handlers.on_trouble = [this](SealTrouble trouble, MonoTime now) { on_trouble(trouble, now); };
   return handlers;
 }
 
-void Link::on_trouble(SealTrouble trouble) {
-  if (trouble == SealTrouble::kNoAnswer)
-    try_another_socket();
-  else if (on_no_entry_)
-    on_no_entry_(trouble);
+void Link::on_trouble(SealTrouble trouble, MonoTime now) {
+  if (trouble == SealTrouble::kNoAnswer) return try_another_socket();
+  // Tried again every few seconds: said when it is news, and now and then.
+  const bool is_news = !told_at_.is_set() || trouble != told_trouble_;
+  if (!on_no_entry_ || (!is_news && now - told_at_ < kTroubleIsSaidEach)) return;
+  told_trouble_ = trouble;
+  told_at_ = now;
+  on_no_entry_(trouble);
 }
 
 MonoTime Link::tick(MonoTime now) {
@@ -88,6 +97,16 @@ Link::~Link() {
   seal_.close();
   poller_.set_deadline(timer_, MonoTime());
   poller_.unwatch(socket_.fd());
+}
+
+// Another network: the session goes on from there, as soon as the server hears from there.
+void Link::on_addresses_changed(MonoTime now) {
+  const Address before = socket_.local_address();
+  const auto probe = UdpSocket::connect(server_[tried_]);
+  if (!probe || probe->local_address().with_port(0) == before.with_port(0)) return;
+  if (!use_socket_to(tried_)) return;
+  core_.on_moved(now);
+  rearm();
 }
 
 void Link::watch_socket() {
@@ -114,12 +133,17 @@ void Link::try_another_socket() {
     if (on_no_answer_) on_no_answer_(server_[tried_]);
     next = (tried_ + 1) % server_.size();
   }
-  auto socket = UdpSocket::connect(server_[next]);
-  if (!socket) return;  // no network at all just now: the old one will do as well
-  tried_ = next;
+  use_socket_to(next);
+}
+
+bool Link::use_socket_to(std::size_t which) {
+  auto socket = UdpSocket::connect(server_[which]);
+  if (!socket) return false;  // no network at all just now: the old one will do as well
+  tried_ = which;
   poller_.unwatch(socket_.fd());
   socket_ = std::move(*socket);
   watch_socket();
+  return true;
 }
 
 void Link::send(const GuestId& guest, const Pose& pose, MonoTime now) {

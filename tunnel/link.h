@@ -14,6 +14,7 @@
 
 #include "core/base/result.h"
 #include "core/bus/messages.h"
+#include "core/net/address_watch.h"
 #include "core/net/poller.h"
 #include "core/net/udp_socket.h"
 #include "tunnel/link_core.h"
@@ -69,21 +70,26 @@ class Link {
   Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealContext> context,
        const LinkOptions& options, LinkHandlers handlers, Poller& poller);
   SealClient::Handlers seal_handlers();
-  void on_trouble(SealTrouble trouble);
+  void on_trouble(SealTrouble trouble, MonoTime now);
   MonoTime tick(MonoTime now);
   MonoTime next_deadline() const;
   void watch_socket();
   void on_readable(MonoTime now);
   void rearm();
   void try_another_socket();
+  void on_addresses_changed(MonoTime now);
+  bool use_socket_to(std::size_t which);
 
   Poller& poller_;
   std::vector<Address> server_;
   std::size_t tried_ = 0;  // which of them the socket speaks to
   std::function<void(const Address&)> on_no_answer_;
   std::function<void(SealTrouble)> on_no_entry_;
+  SealTrouble told_trouble_ = SealTrouble::kNoAnswer;
+  MonoTime told_at_;
   std::uint64_t clock_id_;
   MonoTime begin_;
+  std::unique_ptr<AddressWatch> addresses_;  // nullptr where the kernel does not tell
   UdpSocket socket_;
   DirectSink sink_;
   SealClient seal_;

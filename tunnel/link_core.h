@@ -33,6 +33,8 @@ class LinkCore {
   void on_sealed(MonoTime now);
   // The sealed session is gone: nothing is sent until the next one.
   void on_unsealed(MonoTime now);
+  // Datagrams go out from another address from now on: says so at once.
+  void on_moved(MonoTime now);
   void receive(wire::Bytes datagram, MonoTime received, MonoTime now);
   // Does what is due and returns when to call again; MonoTime() = not before it is sealed.
   MonoTime tick(MonoTime now);

@@ -79,6 +79,11 @@ void LinkCore::on_sealed(MonoTime now) {
   next_hello_ = now;
 }
 
+void LinkCore::on_moved(MonoTime now) {
+  next_ping_ = now;
+  if (hello_wanted_) next_hello_ = now;
+}
+
 void LinkCore::on_unsealed(MonoTime now) {
   is_sealed_ = is_welcome_ = false;
   if (state_ == LinkState::kConnected) begin_lapse(now);
