@@ -16,13 +16,13 @@
 
 #include "core/base/fixed_list.h"
 #include "core/base/time.h"
+#include "core/base/token_bucket.h"
 #include "tunnel/access.h"
 #include "tunnel/ack_window.h"
 #include "tunnel/held_frames.h"
 #include "tunnel/peer.h"
 #include "tunnel/sent_ring.h"
 #include "tunnel/stream_gate.h"
-#include "tunnel/token_bucket.h"
 #include "tunnel/wire_records.h"
 
 namespace dance {

@@ -16,9 +16,11 @@ if [ "${2:-}" != house ]; then
   ip link set server-end up
   "$bin/dance-server" --bind 10.9.0.1 --json >"$work/server.json" 2>"$work/server.log" &
   server=$!
-  mkfifo "$work/ready"
+  mkfifo "$work/apart" "$work/ready"
   XDG_CONFIG_HOME="$work/house" unshare -n "$0" "$bin" house "$work" &
   house=$!
+  # Not before it has a namespace of its own.
+  read -r _ <"$work/apart"
   ip link set house-end netns "$house"
   echo go >"$work/ready"
   wait "$house" || { cat "$work"/*.log; exit 1; }
@@ -34,6 +36,7 @@ if [ "${2:-}" != house ]; then
 fi
 
 work=$3
+echo apart >"$work/apart"
 read -r _ <"$work/ready"
 ip link set lo up
 ip addr add 10.9.0.2/24 dev house-end

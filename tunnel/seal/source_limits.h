@@ -10,8 +10,8 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/token_bucket.h"
 #include "core/net/address.h"
-#include "tunnel/token_bucket.h"
 
 namespace dance {
 
