@@ -48,6 +48,7 @@ SealServer::SealServer(const SealLimits& limits, std::shared_ptr<const KeyRing> 
       handlers_(std::move(handlers)),
       sink_(sink, counters_),
       strangers_(limits.strangers, random_()),
+      notices_(limits.notices, random_()),
       begun_(limits.begun, random_()) {
   peers_.reserve(limits.peers);
   handshakes_.reserve(limits.handshakes);
@@ -120,7 +121,7 @@ void SealServer::on_compact(const Address& from, const seal::Opening& opening, M
 // asks for another session, and keeps the one that it has until that stands.
 void SealServer::answer_unknown(const Address& from, std::uint64_t id, MonoTime now) {
   reject(SealReject::kUnknownId);
-  if (!may(strangers_, from, now)) return;
+  if (!may(notices_, from, now)) return;
   std::array<std::uint8_t, seal::kIdBytes> out;
   seal::write_opening(id, seal::Form::kNotice, out);
   sink_.send(from, out);
@@ -128,7 +129,7 @@ void SealServer::answer_unknown(const Address& from, std::uint64_t id, MonoTime 
 
 void SealServer::on_old_version(const Address& from, seal::Bytes datagram, MonoTime now) {
   reject(SealReject::kOldVersion);
-  if (!may(strangers_, from, now)) return;
+  if (!may(notices_, from, now)) return;
   std::array<std::uint8_t, seal::kOldRefusal> out;
   seal::write_old_refusal(datagram, out);
   sink_.send(from, out);

@@ -34,7 +34,9 @@ struct SealLimits {
   // A peer that is silent this long must begin anew; until then it comes back in one round trip.
   Duration silence = Duration::s(60);
   // First datagrams of strangers, which are answered and forgotten.
-  SourceLimits::Rates strangers{100.0, 200.0, 2000.0, 1000.0};
+  SourceLimits::Rates strangers{100.0, 200.0, 10'000.0, 2000.0};
+  // Answers to who speaks in a session that is no more.
+  SourceLimits::Rates notices{50.0, 200.0, 2000.0, 1000.0};
   // Handshakes of those who hear at the address that they name.
   SourceLimits::Rates begun{20.0, 100.0, 200.0, 400.0};
 };
@@ -170,6 +172,7 @@ class SealServer {
   std::vector<Handshake> handshakes_;
   std::unique_ptr<SealChannel> listener_;  // for whoever is next
   SourceLimits strangers_;
+  SourceLimits notices_;
   SourceLimits begun_;
   // Cookies are made with the first; those of the second are still good.
   std::array<std::array<std::uint64_t, 4>, 2> secrets_;
