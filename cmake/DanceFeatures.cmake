@@ -42,6 +42,8 @@ find_package(nlohmann_json QUIET)
 dance_require("nlohmann-json" nlohmann_json_FOUND "nlohmann-json3-dev")
 find_package(spdlog QUIET)
 dance_require("spdlog" spdlog_FOUND "libspdlog-dev")
+find_package(OpenSSL 3 QUIET)
+dance_require("OpenSSL 3" OPENSSL_FOUND "libssl-dev")
 find_package(LibLZMA QUIET)
 dance_require("liblzma" LIBLZMA_FOUND "liblzma-dev")
 

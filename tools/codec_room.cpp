@@ -23,7 +23,7 @@ struct Traffic {
   std::size_t bytes = 0;
   std::size_t datagrams = 0;
   void add(wire::Bytes datagram) {
-    bytes += datagram.size() + kIpUdp_bytes;
+    bytes += datagram.size() + wire::kSealOverhead + kIpUdp_bytes;
     ++datagrams;
   }
 };
@@ -80,11 +80,11 @@ class Room {
     Room& room_;
     Guest& guest_;
   };
-  class ServerSink final : public DatagramSink {
+  class ServerSink final : public PeerSink {
    public:
     explicit ServerSink(Room& room) : room_(room) {}
-    void send(const Address& to, std::span<const std::uint8_t> bytes) override {
-      room_.post(false, *room_.guests_[to.port() - kFirstPort], bytes);
+    void send(PeerId to, std::span<const std::uint8_t> bytes) override {
+      room_.post(false, *room_.guests_[to - 1], bytes);
     }
 
    private:
@@ -92,7 +92,7 @@ class Room {
   };
   struct Guest {
     GuestId id;
-    Address address;
+    PeerId peer = 0;
     std::uint64_t clock_id = 0;
     Duration clock_ahead;
     LossyModel up, down;
@@ -113,8 +113,6 @@ class Room {
     Guest* guest;
     std::vector<std::uint8_t> bytes;
   };
-
-  static constexpr std::uint16_t kFirstPort = 10'000;
 
   void add_guest(std::size_t number, const std::vector<CodecTake>& takes);
   void run_until(MonoTime end);
@@ -153,7 +151,7 @@ void Room::add_guest(std::size_t number, const std::vector<CodecTake>& takes) {
   guests_.push_back(std::make_unique<Guest>(line, 2 * number));
   Guest& guest = *guests_.back();
   guest.id = *GuestId::parse("guest-" + std::to_string(number));
-  guest.address = Address::loopback(static_cast<std::uint16_t>(kFirstPort + number));
+  guest.peer = number + 1;
   guest.clock_id = 100 + number;
   guest.clock_ahead = Duration::s(static_cast<std::int64_t>(number));
   guest.take = &takes[number % takes.size()];
@@ -181,6 +179,7 @@ void Room::add_guest(std::size_t number, const std::vector<CodecTake>& takes) {
     ++heard_;
   };
   guest.link = std::make_unique<LinkCore>(link, std::move(handlers), *guest.sink);
+  guest.link->on_sealed(guest.time(now_));
   guest.link->send(guest.id, guest.take->skeleton, guest.time(now_));
   // Cameras do not wait for each other.
   guest.next_pose = now_ + Duration::seconds(1.0 + random_.uniform() / guest.take->hz);
@@ -205,16 +204,17 @@ void Room::post(bool to_server, Guest& guest, std::span<const std::uint8_t> byte
     (to_server ? guest.sent : guest.received).add(bytes);
     if (!to_server) count_costs(bytes);
   }
-  const auto fate = (to_server ? guest.up : guest.down).offer(bytes.size(), now_);
+  const auto fate =
+      (to_server ? guest.up : guest.down).offer(bytes.size() + wire::kSealOverhead, now_);
   for (const MonoTime due : fate.deliveries())
     parcels_.emplace(due, Parcel{to_server, &guest, {bytes.begin(), bytes.end()}});
 }
 
 void Room::count_costs(wire::Bytes datagram) {
   costs_.ip_udp += kIpUdp_bytes;
-  const auto size = static_cast<double>(datagram.size());
+  const auto size = static_cast<double>(datagram.size() + wire::kSealOverhead);
   const auto opening = wire::parse_opening(datagram);
-  if (!opening || opening->has_magic || opening->type != wire::Type::kRecords) {
+  if (!opening || opening->type != wire::Type::kRecords) {
     costs_.rest += size;
     return;
   }
@@ -259,7 +259,7 @@ void Room::step() {
     const Parcel& what = parcel.mapped();
     Guest& guest = *what.guest;
     if (what.to_server) {
-      server_.receive(guest.address, what.bytes, now_, now_);
+      server_.receive(guest.peer, Access{.any_name = true}, what.bytes, now_, now_);
       server_.end_turn(now_);
     } else {
       guest.link->receive(what.bytes, guest.time(now_), guest.time(now_));

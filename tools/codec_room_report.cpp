@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/codec_room.h"
+#include "tools/figures.h"
 
 namespace dance {
 

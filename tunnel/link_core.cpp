@@ -64,7 +64,7 @@ LocalGuest& LinkCore::add_local(const GuestId& id) {
 void LinkCore::send_datagram(wire::Bytes bytes) {
   DANCE_ASSERT(!bytes.empty());
   ++counters_.datagrams_out;
-  counters_.bytes_out += bytes.size();
+  counters_.bytes_out += bytes.size() + wire::kSealOverhead;
   sink_.send({}, bytes);
 }
 
@@ -103,21 +103,16 @@ LocalGuest* LinkCore::find_or_add(const GuestId& id, MonoTime now) {
 
 void LinkCore::receive(wire::Bytes datagram, MonoTime received, MonoTime now) {
   ++counters_.datagrams_in;
-  counters_.bytes_in += datagram.size();
+  counters_.bytes_in += datagram.size() + wire::kSealOverhead;
   const auto opening = wire::parse_opening(datagram);
   if (!opening) {
     ++counters_.rejected_datagrams;
     return;
   }
-  if (opening->has_magic) {
-    if (opening->type == wire::Type::kWelcome) return on_welcome(*opening, received, now);
-    if (opening->type == wire::Type::kRefusal) return on_refusal(*opening, now);
-    ++counters_.rejected_datagrams;
-    return;
-  }
-  const bool is_good =
-      session_ != 0 && opening->session == session_ && on_session_datagram(*opening, received, now);
-  if (!is_good) ++counters_.rejected_datagrams;
+  if (opening->type == wire::Type::kWelcome) return on_welcome(opening->body, received, now);
+  if (opening->type == wire::Type::kRefusal) return on_refusal(opening->body, now);
+  // Anything else that comes before the welcome is of the sealed session before.
+  if (!is_welcome_ || !on_session_datagram(*opening, received, now)) ++counters_.rejected_datagrams;
 }
 
 void LinkCore::fill(Stats& stats) const {

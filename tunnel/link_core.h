@@ -1,6 +1,7 @@
 // A house's link as a state machine: poses of this house in, datagrams to the server out; datagrams
 // of the server in, poses of the others out, in this house's clock. Finds the server again by itself
-// whatever happens to either side.
+// whatever happens to either side. What seals its datagrams tells it when there is a sealed session;
+// without one it says nothing.
 //
 // Units/frames: now and received are MonoTime of this house's clock.
 // Ownership:    owns codecs and tables; the sink must outlive it. Sending and receiving poses never
@@ -28,8 +29,14 @@ class LinkCore {
  public:
   LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSink& sink);
 
+  // A sealed session has begun, or begun anew: says hello at once.
+  void on_sealed(MonoTime now);
+  // The sealed session is gone: nothing is sent until the next one.
+  void on_unsealed(MonoTime now);
+  // Datagrams go out from another address from now on: says so at once.
+  void on_moved(MonoTime now);
   void receive(wire::Bytes datagram, MonoTime received, MonoTime now);
-  // Does what is due and returns when to call again. The first call says hello.
+  // Does what is due and returns when to call again; MonoTime() = not before it is sealed.
   MonoTime tick(MonoTime now);
   // When tick() is due: earlier than it said, after a guest was added or the server began anew.
   MonoTime next_deadline() const;
@@ -66,8 +73,8 @@ class LinkCore {
   void let_silent_go(MonoTime now);
   void schedule_update(MonoTime now);
   void heard_server(MonoTime now);
-  void on_welcome(const wire::Opening& opening, MonoTime received, MonoTime now);
-  void on_refusal(const wire::Opening& opening, MonoTime now);
+  void on_welcome(wire::Bytes body, MonoTime received, MonoTime now);
+  void on_refusal(wire::Bytes body, MonoTime now);
   bool on_session_datagram(const wire::Opening& opening, MonoTime received, MonoTime now);
   bool on_pong(wire::Bytes body, MonoTime received);
 
@@ -117,7 +124,10 @@ class LinkCore {
   DatagramSink& sink_;
   Random random_;
   LinkState state_ = LinkState::kConnecting;
-  std::uint64_t session_ = 0;
+  bool is_sealed_ = false;
+  // A welcome has come through the sealed session of now: only then the server knows who speaks.
+  bool is_welcome_ = false;
+  std::uint64_t epoch_ = 0;
   CodecName codec_;
   ClockMapper clock_;
   LinkCounters counters_;

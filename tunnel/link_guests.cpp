@@ -63,8 +63,36 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
     case wire::Refusal::kCodec:
       return "room '" + room_name +
              "' speaks a pose codec that this link does not know: update this link";
+    case wire::Refusal::kNotAllowedRoom:
+      return "this house's key does not open room '" + room_name +
+             "': ask the server's keeper for a key to it, or choose the --room of your key";
+    case wire::Refusal::kNotAllowedName:
+      return "this house's key does not allow a guest '" + guest +
+             "': ask the server's keeper for a key of that name, or choose the --guest of your "
+             "key";
   }
   return "the server refused for a cause that this link does not know: update this link";
+}
+
+std::string no_entry_line(SealTrouble trouble, const std::string& server) {
+  switch (trouble) {
+    case SealTrouble::kWrongKey:
+      return "the server " + server +
+             " does not know this house's key: ask its keeper for a line, and paste it into: dance "
+             "key";
+    case SealTrouble::kNotTrusted:
+      return "the server " + server +
+             " and this house cannot agree: one of the certificates is not signed by whom the "
+             "other "
+             "trusts, or the server takes keys only, or speaks another version";
+    case SealTrouble::kInterrupted:
+      return "the server " + server +
+             " answers, and then no more: is there a firewall on the way, or a line that loses "
+             "nearly everything?";
+    case SealTrouble::kNoAnswer:
+      break;
+  }
+  return "the server " + server + " does not answer";
 }
 
 std::string no_answer_line(const Address& server) {

@@ -26,6 +26,7 @@ struct LinkProgramOptions {
   std::string room = "dance";
   std::vector<std::string> guests;
   std::string bus;
+  LinkKeySource key;
   double quality_mm = LinkOptions().quality_m * 1e3;
   double pose_bytes_per_second = 0.0;
   bool json = false;
@@ -67,6 +68,9 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
     talk::info("{} has left", guest.view());
   };
   handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
+  handlers.on_no_entry = [&options](SealTrouble trouble) {
+    talk::warn("{}", no_entry_line(trouble, options.server));
+  };
   // Asked again up to ten times a second at first: said once a second.
   handlers.on_refused = [room, last = MonoTime()](const wire::RefusalNotice& refusal,
                                                   MonoTime now) mutable {
@@ -78,6 +82,8 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
 
 Result<void> run_link(const LinkProgramOptions& given) {
   DANCE_TRY(const LinkOptions options, checked(given));
+  const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
+  DANCE_TRY(const LinkKey key, choose_link_key(given.server, options.room, first, given.key));
   DANCE_TRY(const auto server, Address::resolve_all(given.server, kDefaultServerPort));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
@@ -85,7 +91,7 @@ Result<void> run_link(const LinkProgramOptions& given) {
   LinkBus link_bus(*bus, options.clock_id);
   LinkHandlers handlers = link_bus.handlers();
   add_talk(handlers, link_bus, given, options.room);
-  DANCE_TRY(auto link, Link::open(server, options, std::move(handlers), *poller));
+  DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
   link_bus.attach(*link);
   if (options.guests.empty()) link_bus.send_captures_of(GuestId());
   for (const GuestId& guest : options.guests) link_bus.send_captures_of(guest);
@@ -130,6 +136,13 @@ int main(int argc, char** argv) {
            "by up to 5 mm; 0 = whatever --quality takes")
       .range(0.0, 1e6)
       .shows_default();
+  line.add("--key-file", options.key.key_file,
+           "file of keys to servers (else where dance key keeps them)");
+  line.add("--certificate", options.key.certificates.chain,
+           "PEM file with this house's certificate, instead of a key");
+  line.add("--private-key", options.key.certificates.private_key, "PEM file of its private key");
+  line.add("--authorities", options.key.certificates.authorities,
+           "PEM file of those who may sign the server's certificate (else the system's)");
   line.add_flag("--json", options.json, "write a summary to stdout at the end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_link(options); });

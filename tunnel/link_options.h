@@ -16,6 +16,7 @@
 #include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
+#include "tunnel/seal/seal_trouble.h"
 #include "tunnel/wire.h"
 
 namespace dance {
@@ -61,6 +62,8 @@ struct LinkHandlers {
   // Nothing has ever come from this address of the server, after several tries; the next ones go to another, or a new
   // socket. Said by Link, each time.
   std::function<void(const Address&)> on_no_answer;
+  // The server is there, and there is no sealed session with it. Said by Link, with each try.
+  std::function<void(SealTrouble)> on_no_entry;
 };
 
 struct LinkCounters {
@@ -126,5 +129,7 @@ struct PathStats {
 std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomName& room);
 // One line: who does not answer, and what to look at.
 std::string no_answer_line(const Address& server);
+// Why a server that answers does not let this house in, and the cure. `server` as the user named it.
+std::string no_entry_line(SealTrouble trouble, const std::string& server);
 
 }  // namespace dance

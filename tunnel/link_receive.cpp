@@ -207,7 +207,7 @@ bool LinkCore::on_state(wire::Bytes body, MonoTime now) {
   // Acknowledged even if damaged: asking again would bring the same bytes.
   const wire::StateAck ack{state->slot, state->kind, state->version};
   std::array<std::uint8_t, 32> out;
-  send_datagram({out.data(), wire::build(session_, ack, out)});
+  send_datagram({out.data(), wire::build(ack, out)});
   return true;
 }
 

@@ -100,9 +100,9 @@ void LinkCore::send_records_datagram(bool with_bundle) {
     wants_.clear();
     ack_due_ = MonoTime();
   }
-  std::array<std::uint8_t, wire::kMaxDatagram> bytes;
+  std::array<std::uint8_t, wire::kMaxPlain> bytes;
   ByteWriter out(bytes);
-  wire::begin_records(session_, header, out);
+  wire::begin_records(header, out);
   if (with_bundle) {
     out.bytes(std::span<const std::uint8_t>(bundle_).first(bundle_size_));
     bundle_size_ = 0;
@@ -224,8 +224,8 @@ void LinkCore::send_skeleton(const LocalGuest& guest) {
   state.slot = guest.slot;
   state.version = guest.skeleton_version;
   state.payload = guest.skeleton;
-  std::array<std::uint8_t, wire::kMaxDatagram> out;
-  send_datagram({out.data(), wire::build(session_, state, out)});
+  std::array<std::uint8_t, wire::kMaxPlain> out;
+  send_datagram({out.data(), wire::build(state, out)});
 }
 
 }  // namespace dance

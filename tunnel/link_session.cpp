@@ -26,7 +26,7 @@ MonoTime earlier(MonoTime a, MonoTime b) {
 
 MonoTime LinkCore::next_deadline() const {
   MonoTime next;
-  if (hello_wanted_) next = next_hello_.is_set() ? next_hello_ : MonoTime::from_ns(1);
+  if (hello_wanted_ && is_sealed_) next = next_hello_.is_set() ? next_hello_ : MonoTime::from_ns(1);
   if (state_ == LinkState::kConnected) {
     next = earlier(next, next_ping_);
     next = earlier(next, last_heard_ + kSilenceLimit);
@@ -50,7 +50,7 @@ MonoTime LinkCore::tick(MonoTime now) {
       flush_records();
     if (now >= next_ping_) send_ping(now);
   }
-  if (hello_wanted_ && now >= next_hello_) send_hello(now);
+  if (hello_wanted_ && is_sealed_ && now >= next_hello_) send_hello(now);
   return next_deadline();
 }
 
@@ -68,6 +68,25 @@ void LinkCore::begin_lapse(MonoTime now) {
   schedule_update(now);
   next_hello_ = now;
   deliver_state(LinkState::kLapsed, now);
+}
+
+void LinkCore::on_sealed(MonoTime now) {
+  is_sealed_ = true;
+  is_welcome_ = false;
+  // The server does not know yet that this sealed session is ours.
+  if (state_ == LinkState::kConnected) return begin_lapse(now);
+  schedule_update(now);
+  next_hello_ = now;
+}
+
+void LinkCore::on_moved(MonoTime now) {
+  next_ping_ = now;
+  if (hello_wanted_) next_hello_ = now;
+}
+
+void LinkCore::on_unsealed(MonoTime now) {
+  is_sealed_ = is_welcome_ = false;
+  if (state_ == LinkState::kConnected) begin_lapse(now);
 }
 
 void LinkCore::send_hello(MonoTime now) {
@@ -93,7 +112,7 @@ void LinkCore::send_hello(MonoTime now) {
     const bool pushed = hello.guests.try_push(locals_[i].id);
     DANCE_ASSERT(pushed);
   }
-  std::array<std::uint8_t, wire::kHelloBytes> out;
+  std::array<std::uint8_t, wire::kMaxHello> out;
   send_datagram({out.data(), wire::build(hello, out)});
   ++counters_.hellos;
   ++unanswered_hellos_;
@@ -114,7 +133,7 @@ void LinkCore::send_ping(MonoTime now) {
   for (const RemoteGuest& remote : remotes_)
     if (remote.in_use) ping.poses_lost += static_cast<std::uint32_t>(remote.poses.counters().lost);
   std::array<std::uint8_t, 64> out;
-  send_datagram({out.data(), wire::build(session_, ping, out)});
+  send_datagram({out.data(), wire::build(ping, out)});
   if (quick_pings_left_ > 0) --quick_pings_left_;
   next_ping_ = now + (quick_pings_left_ > 0 ? kQuickPingPeriod : kPingPeriod);
   for (const LocalGuest& guest : locals_)
@@ -134,8 +153,8 @@ void LinkCore::heard_server(MonoTime now) {
   }
 }
 
-void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoTime now) {
-  const auto welcome = wire::parse_welcome(opening);
+void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
+  const auto welcome = wire::parse_welcome(body);
   const bool is_answer =
       welcome && hello_wanted_ && hello_nonce_ != 0 && welcome->nonce == hello_nonce_ &&
       welcome->slots.size() == hello_guests_.size() && options_.codecs.contains(welcome->codec) &&
@@ -144,7 +163,7 @@ void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoT
     ++counters_.rejected_datagrams;
     return;
   }
-  const bool is_new = welcome->session != session_;
+  const bool is_new = welcome->epoch != epoch_;
   codec_ = welcome->codec;
   if (is_new) {
     begin_session_records();
@@ -158,7 +177,8 @@ void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoT
       if (remote.decoder) renew_decoder(remote);
     }
   }
-  session_ = welcome->session;
+  epoch_ = welcome->epoch;
+  is_welcome_ = true;
   for (LocalGuest& guest : locals_) guest.has_slot = false;
   for (std::size_t i = 0; i < hello_guests_.size(); ++i) {
     LocalGuest& guest = locals_[hello_guests_[i]];
@@ -181,11 +201,11 @@ void LinkCore::on_welcome(const wire::Opening& opening, MonoTime received, MonoT
   if (state_ == LinkState::kLapsed) ++counters_.reconnects;
   if (is_new) quick_pings_left_ = kQuickPings;
   deliver_state(LinkState::kConnected, now);
-  send_ping(now);  // proves our address, and brings the roster and the skeletons
+  send_ping(now);  // brings the skeletons, and the roster if it was lost
 }
 
-void LinkCore::on_refusal(const wire::Opening& opening, MonoTime now) {
-  const auto refusal = wire::parse_refusal(opening);
+void LinkCore::on_refusal(wire::Bytes body, MonoTime now) {
+  const auto refusal = wire::parse_refusal(body);
   if (!refusal || !hello_wanted_ || hello_nonce_ == 0 || refusal->nonce != hello_nonce_) {
     ++counters_.rejected_datagrams;
     return;
@@ -256,10 +276,9 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
     case wire::Type::kStateAck:
       is_good = on_state_ack(opening.body);
       break;
-    case wire::Type::kUnknownSession:
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return false;
-      // The server began anew, or forgot us, or ends: ask at once, then more and more slowly.
+      // The server ends: ask at once, then more and more slowly.
       if (state_ == LinkState::kConnected) begin_lapse(now);
       return true;
     default:
@@ -281,10 +300,11 @@ bool LinkCore::on_pong(wire::Bytes body, MonoTime received) {
 }
 
 void LinkCore::say_goodbye() {
-  if (session_ == 0) return;
+  if (!is_welcome_) return;
   std::array<std::uint8_t, wire::kSessionHeader> out;
-  send_datagram({out.data(), wire::build_bare(session_, wire::Type::kGoodbye, out)});
-  session_ = 0;
+  send_datagram({out.data(), wire::build_bare(wire::Type::kGoodbye, out)});
+  epoch_ = 0;
+  is_welcome_ = false;
   state_ = LinkState::kConnecting;
 }
 

@@ -9,20 +9,18 @@ namespace dance {
 namespace {
 
 constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below: gone within 2 s
-constexpr Duration kUnprovenLimit = Duration::s(1);
 constexpr Duration kTick = Duration::ms(100);
 
 }  // namespace
 
-ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, DatagramSink& sink)
+ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& sink)
     : limits_(limits),
       random_(std::move(random)),
       sink_(sink),
       sessions_(limits.sessions),
-      rooms_(limits.rooms),
-      strangers_(limits.strangers_per_second, limits.stranger_burst) {
+      rooms_(limits.rooms) {
   DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
-  by_id_.reserve(limits.sessions);
+  by_peer_.reserve(limits.sessions);
   bundled_.reserve(limits.sessions);
   reporting_.reserve(limits.sessions);
   for (ServerRoom& room : rooms_) room.members.reserve(limits.sessions);
@@ -40,62 +38,46 @@ std::size_t ServerCore::guest_count() const {
   return count;
 }
 
-void ServerCore::send(const Address& to, wire::Bytes bytes) {
+void ServerCore::send(PeerId to, wire::Bytes bytes) {
   ++counters_.datagrams_out;
-  counters_.bytes_out += bytes.size();
-  // All that goes out within a session begins with its id.
-  if (const auto opening = wire::parse_opening(bytes); opening && !opening->has_magic)
-    if (const auto found = by_id_.find(opening->session); found != by_id_.end())
-      sessions_[found->second].meter.went_out(bytes.size());
+  const std::size_t size = bytes.size() + wire::kSealOverhead;
+  counters_.bytes_out += size;
+  if (const auto found = by_peer_.find(to); found != by_peer_.end())
+    sessions_[found->second].meter.went_out(size);
   sink_.send(to, bytes);
 }
 
-void ServerCore::receive(const Address& from, wire::Bytes datagram, MonoTime received,
+void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram, MonoTime received,
                          MonoTime now) {
+  DANCE_ASSERT(from != 0);
   ++counters_.datagrams_in;
-  counters_.bytes_in += datagram.size();
+  counters_.bytes_in += datagram.size() + wire::kSealOverhead;
   const auto opening = wire::parse_opening(datagram);
   if (!opening) return reject(ServerReject::kTooShort);
-  if (opening->has_magic) {
-    if (opening->type != wire::Type::kHello) return reject(ServerReject::kUnknownType);
-    return on_hello(from, *opening, received, now);
+  const auto found = by_peer_.find(from);
+  if (found != by_peer_.end()) {
+    ServerSession& session = sessions_[found->second];
+    if (!session.datagrams.take(1.0, now) ||
+        !session.bytes.take(static_cast<double>(datagram.size()), now))
+      return reject(ServerReject::kSessionRate);
+    session.meter.came_in(datagram.size() + wire::kSealOverhead, now);
   }
-  const auto found = by_id_.find(opening->session);
-  if (found == by_id_.end()) {
-    reject(ServerReject::kUnknownSession);
-    return answer_unknown(from, *opening, now);
-  }
-  ServerSession& session = sessions_[found->second];
-  if (session.address != from) {
-    // The link moved (another network, another translation of its address): it says hello again
-    // when it hears this, and its token gives it its place back.
-    reject(ServerReject::kWrongAddress);
-    return answer_unknown(from, *opening, now);
-  }
-  if (!session.datagrams.take(1.0, now) ||
-      !session.bytes.take(static_cast<double>(datagram.size()), now))
-    return reject(ServerReject::kSessionRate);
-  session.meter.came_in(datagram.size(), now);
+  if (opening->type == wire::Type::kHello)
+    return on_hello(from, access, opening->body, received, now);
+  // Its session fell silent and was dropped: the link hears nothing either, and says hello.
+  if (found == by_peer_.end()) return reject(ServerReject::kNoSession);
   on_session_datagram(found->second, *opening, received, now);
 }
 
-// Lets a link notice at once that the server began anew. Never longer than what it answers.
-void ServerCore::answer_unknown(const Address& to, const wire::Opening& opening, MonoTime now) {
-  if (opening.type == wire::Type::kGoodbye || opening.type == wire::Type::kUnknownSession) return;
-  if (!strangers_.take(1.0, now)) return reject(ServerReject::kStrangerRate);
-  std::array<std::uint8_t, wire::kSessionHeader> out;
-  const std::size_t size = wire::build_bare(opening.session, wire::Type::kUnknownSession, out);
-  send(to, {out.data(), size});
+void ServerCore::forget(PeerId peer) {
+  const auto found = by_peer_.find(peer);
+  if (found != by_peer_.end()) drop_session(found->second);
 }
 
 void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& opening,
                                      MonoTime received, MonoTime now) {
   ServerSession& session = sessions_[index];
   session.last_heard = now;
-  if (!session.is_proven) {
-    session.is_proven = true;
-    want_key_frames_for(index, now);
-  }
   ++session.datagrams_received;
   switch (opening.type) {
     case wire::Type::kPing:
@@ -128,7 +110,7 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   pong.server_send_us = std::max(now, received).since_zero_us();
   pong.datagrams_received = session.datagrams_received;
   std::array<std::uint8_t, 64> out;
-  send(session.address, {out.data(), wire::build(session.id, pong, out)});
+  send(session.peer, {out.data(), wire::build(pong, out)});
 
   // Each ping is the occasion to repeat what the link has not acknowledged.
   const ServerRoom& room = rooms_[session.room];
@@ -157,13 +139,12 @@ void ServerCore::on_state(std::size_t session, wire::Bytes body) {
     guest->state_size = state->payload.size();
     std::memcpy(guest->state.data(), state->payload.data(), state->payload.size());
     for (const std::size_t member : rooms_[sessions_[session].room].members)
-      if (member != session && sessions_[member].is_proven)
-        send_state(sessions_[member], state->slot.slot);
+      if (member != session) send_state(sessions_[member], state->slot.slot);
   }
   const wire::StateAck ack{
       {state->slot.slot, guest->generation}, state->kind, guest->state_version};
   std::array<std::uint8_t, 32> out;
-  send(sessions_[session].address, {out.data(), wire::build(sessions_[session].id, ack, out)});
+  send(sessions_[session].peer, {out.data(), wire::build(ack, out)});
 }
 
 void ServerCore::on_state_ack(std::size_t session, wire::Bytes body) {
@@ -180,8 +161,8 @@ void ServerCore::send_state(const ServerSession& session, std::uint8_t slot) {
   state.slot = {slot, guest.generation};
   state.version = guest.state_version;
   state.payload = {guest.state.data(), guest.state_size};
-  std::array<std::uint8_t, wire::kMaxDatagram> out;
-  send(session.address, {out.data(), wire::build(session.id, state, out)});
+  std::array<std::uint8_t, wire::kMaxPlain> out;
+  send(session.peer, {out.data(), wire::build(state, out)});
 }
 
 void ServerCore::send_roster(const ServerSession& session) {
@@ -202,10 +183,10 @@ void ServerCore::send_roster(const ServerSession& session) {
       const bool pushed = roster.entries.try_push({{slot, guest.generation}, guest.id});
       DANCE_ASSERT(pushed);
     }
-    std::array<std::uint8_t, wire::kMaxDatagram> out;
-    const std::size_t size = wire::build(session.id, roster, out);
+    std::array<std::uint8_t, wire::kMaxPlain> out;
+    const std::size_t size = wire::build(roster, out);
     DANCE_ASSERT(size > 0);
-    send(session.address, {out.data(), size});
+    send(session.peer, {out.data(), size});
   }
 }
 
@@ -213,8 +194,7 @@ void ServerCore::end_turn(MonoTime now) {
   for (ServerRoom& room : rooms_) {
     if (!room.roster_changed) continue;
     room.roster_changed = false;
-    for (const std::size_t member : room.members)
-      if (sessions_[member].is_proven) send_roster(sessions_[member]);
+    for (const std::size_t member : room.members) send_roster(sessions_[member]);
   }
   // Backwards, as who is done leaves the list.
   for (std::size_t i = bundled_.size(); i-- > 0;)
@@ -230,10 +210,7 @@ void ServerCore::sweep(MonoTime now) {
   for (std::size_t i = 0; i < sessions_.size(); ++i) {
     ServerSession& session = sessions_[i];
     if (!session.in_use) continue;
-    // However often a stranger says hello, that proves nothing.
-    const bool is_gone = session.is_proven ? now - session.last_heard > kSessionSilence
-                                           : now - session.unproven_since > kUnprovenLimit;
-    if (is_gone) {
+    if (now - session.last_heard > kSessionSilence) {
       ++counters_.sessions_timed_out;
       drop_session(i);
     } else {
@@ -253,7 +230,7 @@ MonoTime ServerCore::tick(MonoTime now) {
 }
 
 MonoTime ServerCore::next_deadline() const {
-  if (by_id_.empty()) return MonoTime();
+  if (by_peer_.empty()) return MonoTime();
   MonoTime next = next_sweep_.is_set() ? next_sweep_ : MonoTime::from_ns(1);
   for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].bundle_due);
   for (const std::size_t i : reporting_)
@@ -265,7 +242,7 @@ void ServerCore::say_goodbye() {
   for (const ServerSession& session : sessions_) {
     if (!session.in_use) continue;
     std::array<std::uint8_t, wire::kSessionHeader> out;
-    send(session.address, {out.data(), wire::build_bare(session.id, wire::Type::kGoodbye, out)});
+    send(session.peer, {out.data(), wire::build_bare(wire::Type::kGoodbye, out)});
   }
 }
 

@@ -2,6 +2,8 @@
 // pose to everybody else in the room without looking into it; keeps who is in which room and the
 // newest skeletons for those who come later.
 //
+// Speaks with peers that have proved who they are: whoever calls receive() has checked their keys.
+//
 // Units/frames: now and received are MonoTime of the server's clock, which is the tunnel's clock.
 // Ownership:    owns sessions and rooms, all made at construction; the sink must outlive it. Taking
 //               and forwarding records never allocates.
@@ -16,7 +18,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/net/datagram_sink.h"
+#include "tunnel/access.h"
+#include "tunnel/peer.h"
 #include "tunnel/server_state.h"
 
 namespace dance {
@@ -25,10 +28,13 @@ class ServerCore {
  public:
   using RandomU64 = std::function<std::uint64_t()>;
 
-  ServerCore(const ServerLimits& limits, RandomU64 random, DatagramSink& sink);
+  ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& sink);
 
-  // One datagram that came in at `received`.
-  void receive(const Address& from, wire::Bytes datagram, MonoTime received, MonoTime now);
+  // One datagram that came in at `received`, and what the sender's key lets it do.
+  void receive(PeerId from, const Access& access, wire::Bytes datagram, MonoTime received,
+               MonoTime now);
+  // The sealed session has ended: so has what it had here.
+  void forget(PeerId peer);
   // Sends what the datagrams of this turn left to send. Call after the last of them.
   void end_turn(MonoTime now);
   // Drops sessions that fell silent, sends what has waited; returns when to call again, MonoTime() =
@@ -40,7 +46,7 @@ class ServerCore {
   void say_goodbye();
 
   const ServerCounters& counters() const { return counters_; }
-  std::size_t session_count() const { return by_id_.size(); }
+  std::size_t session_count() const { return by_peer_.size(); }
   std::size_t room_count() const;
   std::size_t guest_count() const;
   // For the status line and tests.
@@ -49,24 +55,27 @@ class ServerCore {
 
  private:
   void reject(ServerReject cause) { ++counters_.rejected[static_cast<std::size_t>(cause)]; }
-  void send(const Address& to, wire::Bytes bytes);
+  void send(PeerId to, wire::Bytes bytes);
 
   // server_hello.cpp
-  void on_hello(const Address& from, const wire::Opening& opening, MonoTime received, MonoTime now);
-  void refuse(const Address& to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest);
-  std::optional<std::size_t> find_token(std::uint64_t token) const;
+  void on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
+                MonoTime now);
+  void welcome(std::size_t session, const wire::Hello& hello, MonoTime received, MonoTime now);
+  void refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest);
+  std::optional<std::size_t> find_token(std::uint64_t token, const GuestId& key) const;
   std::optional<std::size_t> find_room(const wire::RoomName& name) const;
   struct Objection {
     wire::Refusal cause;
     GuestId guest;
   };
-  std::optional<Objection> objection_to(const wire::Hello& hello,
+  std::optional<Objection> objection_to(const wire::Hello& hello, const Access& access,
                                         std::optional<std::size_t> existing,
                                         std::optional<std::size_t> room) const;
   std::size_t open_room(const wire::Hello& hello);
-  std::size_t open_session(const wire::Hello& hello, std::size_t room);
-  std::uint64_t new_session_id();
-  void move_session(std::size_t session, MonoTime now);
+  std::size_t open_session(PeerId peer, const Access& access, const wire::Hello& hello,
+                           std::size_t room);
+  std::uint64_t new_epoch();
+  void move_session(std::size_t session, PeerId to);
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void add_guest(std::size_t session, const GuestId& id);
   void remove_guest(std::size_t room, std::uint8_t slot);
@@ -75,7 +84,6 @@ class ServerCore {
   // server_core.cpp
   void on_session_datagram(std::size_t session, const wire::Opening& opening, MonoTime received,
                            MonoTime now);
-  void answer_unknown(const Address& to, const wire::Opening& opening, MonoTime now);
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void on_state(std::size_t session, wire::Bytes body);
   void on_state_ack(std::size_t session, wire::Bytes body);
@@ -105,14 +113,13 @@ class ServerCore {
 
   ServerLimits limits_;
   RandomU64 random_;
-  DatagramSink& sink_;
+  PeerSink& sink_;
   std::vector<ServerSession> sessions_;
   std::vector<ServerRoom> rooms_;
-  std::unordered_map<std::uint64_t, std::size_t> by_id_;
+  std::unordered_map<PeerId, std::size_t> by_peer_;
   std::vector<std::size_t> bundled_;    // sessions with a bundle under way
   std::vector<std::size_t> reporting_;  // sessions with feedback due
   MonoTime next_sweep_;
-  TokenBucket strangers_;
   ServerCounters counters_;
 };
 

@@ -14,6 +14,8 @@ constexpr Duration kFeedbackGap = Duration::ms(4);
 constexpr Duration kKeyFrameGap = Duration::ms(100);
 // A link says something each 200 ms: who has not for this long is waited for no more.
 constexpr Duration kStillHere = Duration::ms(500);
+// A newcomer wants at once what was asked for it already, and its way is not known yet.
+constexpr Duration kNewcomersWay = Duration::ms(100);
 constexpr std::uint32_t kLongestRoundTrip_us = 1'000'000;
 
 Duration round_trip_of(const ServerSession& session) {
@@ -24,7 +26,7 @@ Duration round_trip_of(const ServerSession& session) {
 
 bool ServerCore::is_receiver(std::size_t member, std::size_t sender, MonoTime now) const {
   const ServerSession& session = sessions_[member];
-  return member != sender && session.is_proven && now - session.last_heard <= kStillHere;
+  return member != sender && now - session.last_heard <= kStillHere;
 }
 
 void ServerCore::on_acks(std::size_t index, const wire::Acks& acks, MonoTime now) {
@@ -47,7 +49,9 @@ void ServerCore::on_want(std::size_t index, std::uint8_t slot, MonoTime now) {
   if (!guest.in_use || guest.owner == index) return reject(ServerReject::kForeignSlot);
   session.held[slot].clear();
   // The one that was asked for last may be under way still.
-  const Duration way = round_trip_of(session) + round_trip_of(sessions_[guest.owner]);
+  const bool is_known = session.newest_ping.round_trip_us != 0;
+  const Duration way =
+      (is_known ? round_trip_of(session) : kNewcomersWay) + round_trip_of(sessions_[guest.owner]);
   if (guest.key_asked_at.is_set() && now - guest.key_asked_at < way) return;
   want_key_frame(guest, now);
 }
@@ -70,7 +74,7 @@ void ServerCore::want_key_frame(ServerGuest& guest, MonoTime now) {
 // Not before `at`, and not much more often than senders can make use of.
 void ServerCore::schedule_feedback(std::size_t index, MonoTime at) {
   ServerSession& session = sessions_[index];
-  if (!session.is_proven || session.slots.empty()) return;
+  if (session.slots.empty()) return;
   // With nobody to receive there is nothing to tell.
   if (rooms_[session.room].members.size() < 2) return;
   if (session.feedback_made.is_set()) at = std::max(at, session.feedback_made + kFeedbackGap);

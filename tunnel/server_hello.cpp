@@ -6,9 +6,11 @@
 
 namespace dance {
 
-std::optional<std::size_t> ServerCore::find_token(std::uint64_t token) const {
+// A token counts with the key that it came with: whoever learnt it gets nobody's place by it.
+std::optional<std::size_t> ServerCore::find_token(std::uint64_t token, const GuestId& key) const {
   for (std::size_t i = 0; i < sessions_.size(); ++i)
-    if (sessions_[i].in_use && sessions_[i].token == token) return i;
+    if (sessions_[i].in_use && sessions_[i].token == token && sessions_[i].access.name == key)
+      return i;
   return std::nullopt;
 }
 
@@ -18,8 +20,7 @@ std::optional<std::size_t> ServerCore::find_room(const wire::RoomName& name) con
   return std::nullopt;
 }
 
-void ServerCore::refuse(const Address& to, std::uint64_t nonce, wire::Refusal cause,
-                        const GuestId& guest) {
+void ServerCore::refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest) {
   reject(cause == wire::Refusal::kVersion ? ServerReject::kVersion : ServerReject::kRefused);
   wire::RefusalNotice notice;
   notice.nonce = nonce;
@@ -29,74 +30,85 @@ void ServerCore::refuse(const Address& to, std::uint64_t nonce, wire::Refusal ca
   send(to, {out.data(), wire::build(notice, out)});
 }
 
-void ServerCore::on_hello(const Address& from, const wire::Opening& opening, MonoTime received,
+void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
                           MonoTime now) {
-  if (opening.body.size() < wire::kHelloBytes) return reject(ServerReject::kTooShort);
-  if (!strangers_.take(1.0, now)) return reject(ServerReject::kStrangerRate);
-  if (opening.version != wire::kWireVersion)
-    return refuse(from, wire::parse_nonce(opening).value_or(0), wire::Refusal::kVersion, {});
   wire::HelloProblem problem;
-  const auto hello = wire::parse_hello(opening, problem);
+  const auto hello = wire::parse_hello(body, problem);
+  if (!hello && problem.is_other_version)
+    return refuse(from, problem.nonce, wire::Refusal::kVersion, {});
   if (!hello && problem.is_bad_name)
     return refuse(from, problem.nonce, wire::Refusal::kBadName, {});
   if (!hello) return reject(ServerReject::kMalformed);
 
-  auto existing = find_token(hello->token);
+  auto existing = find_token(hello->token, access.name);
   if (existing) {
-    // A hello of before, or the last one from elsewhere, is a copy that somebody made.
+    // One that was overtaken on its way, by this sealed session or the one before.
     const ServerSession& session = sessions_[*existing];
     if (hello->link_time_us < session.hello_time_us ||
-        (hello->link_time_us == session.hello_time_us && session.address != from))
+        (hello->link_time_us == session.hello_time_us && session.peer != from))
       return reject(ServerReject::kOldHello);
   }
+  // A peer has one session: what it had under another token ends here.
+  const auto own = by_peer_.find(from);
+  if (own != by_peer_.end() && own->second != existing) drop_session(own->second);
   if (existing && rooms_[sessions_[*existing].room].name != hello->room) {
     drop_session(*existing);
     existing.reset();
   }
   auto room = find_room(hello->room);
-  if (const auto objection = objection_to(*hello, existing, room))
+  if (const auto objection = objection_to(*hello, access, existing, room))
     return refuse(from, hello->nonce, objection->cause, objection->guest);
 
   if (!room) room = open_room(*hello);
-  const std::size_t index = existing ? *existing : open_session(*hello, *room);
+  const std::size_t index = existing ? *existing : open_session(from, access, *hello, *room);
   ServerSession& session = sessions_[index];
-  if (existing && session.address != from) {
+  const bool is_moved = session.peer != from;
+  if (is_moved) {
     ++counters_.sessions_resumed;
-    move_session(index, now);
+    move_session(index, from);
   }
-  if (!existing) session.unproven_since = now;
-  session.address = from;
+  session.access = access;
   session.last_heard = now;
   session.hello_time_us = hello->link_time_us;
   settle_guests(index, *hello);
+  welcome(index, *hello, received, now);
+  if (!existing || is_moved) want_key_frames_for(index, now);
+}
 
+void ServerCore::welcome(std::size_t index, const wire::Hello& hello, MonoTime received,
+                         MonoTime now) {
+  const ServerSession& session = sessions_[index];
+  const ServerRoom& room = rooms_[session.room];
   wire::Welcome welcome;
-  welcome.nonce = hello->nonce;
-  welcome.session = session.id;
-  welcome.link_time_us = hello->link_time_us;
+  welcome.nonce = hello.nonce;
+  welcome.epoch = session.epoch;
+  welcome.link_time_us = hello.link_time_us;
   welcome.server_receive_us = received.since_zero_us();
   welcome.server_send_us = std::max(now, received).since_zero_us();
-  welcome.codec = rooms_[*room].codec;
+  welcome.codec = room.codec;
   for (const std::uint8_t slot : session.slots) {
-    const bool pushed = welcome.slots.try_push({slot, rooms_[*room].guests[slot].generation});
+    const bool pushed = welcome.slots.try_push({slot, room.guests[slot].generation});
     DANCE_ASSERT(pushed);
   }
-  std::array<std::uint8_t, wire::kHelloBytes> out;
+  std::array<std::uint8_t, wire::kMaxHello> out;
   const std::size_t size = wire::build(welcome, out);
   DANCE_ASSERT(size > 0);
-  send(from, {out.data(), size});
+  send(session.peer, {out.data(), size});
 }
 
 std::optional<ServerCore::Objection> ServerCore::objection_to(
-    const wire::Hello& hello, std::optional<std::size_t> existing,
+    const wire::Hello& hello, const Access& access, std::optional<std::size_t> existing,
     std::optional<std::size_t> room) const {
+  if (!access.may_enter(hello.room)) return Objection{wire::Refusal::kNotAllowedRoom, {}};
+  for (const GuestId& guest : hello.guests)
+    if (!access.may_bear(guest)) return Objection{wire::Refusal::kNotAllowedName, guest};
   if (!room) {
     if (std::all_of(rooms_.begin(), rooms_.end(), [](const auto& r) { return r.in_use; }))
       return Objection{wire::Refusal::kServerFull, {}};
   } else if (!hello.codecs.contains(rooms_[*room].codec)) {
     return Objection{wire::Refusal::kCodec, {}};
   }
-  if (!existing && by_id_.size() == sessions_.size())
+  if (!existing && by_peer_.size() == sessions_.size())
     return Objection{wire::Refusal::kServerFull, {}};
   std::size_t others = 0;
   if (room) {
@@ -126,24 +138,20 @@ std::size_t ServerCore::open_room(const wire::Hello& hello) {
   return static_cast<std::size_t>(free - rooms_.begin());
 }
 
-std::uint64_t ServerCore::new_session_id() {
-  for (;;) {
-    const std::uint64_t id = random_();
-    if (wire::may_be_session_id(id) && !by_id_.contains(id)) return id;
-  }
+std::uint64_t ServerCore::new_epoch() {
+  for (;;)
+    if (const std::uint64_t epoch = random_(); epoch != 0) return epoch;
 }
 
-// The session goes on at another address, under an id that only who hears there can know: whoever knew the old one
-// could otherwise speak for an address that never asked for anything.
-void ServerCore::move_session(std::size_t index, MonoTime now) {
+// The link comes back through another sealed session: it keeps its place, its slots and their
+// generations, and all else begins anew.
+void ServerCore::move_session(std::size_t index, PeerId to) {
   ServerSession& session = sessions_[index];
-  by_id_.erase(session.id);
-  session.id = new_session_id();
-  by_id_.emplace(session.id, index);
-  session.is_proven = false;
-  session.unproven_since = now;
+  by_peer_.erase(session.peer);
+  session.peer = to;
+  by_peer_.emplace(to, index);
+  session.epoch = new_epoch();
   session.state_acked = {};
-  // What was sent, and what came, was of the old id.
   session.bundle_size = 0;
   session.sent = SentRing();
   session.held = {};
@@ -153,19 +161,22 @@ void ServerCore::move_session(std::size_t index, MonoTime now) {
   std::erase(reporting_, index);
 }
 
-std::size_t ServerCore::open_session(const wire::Hello& hello, std::size_t room) {
+std::size_t ServerCore::open_session(PeerId peer, const Access& access, const wire::Hello& hello,
+                                     std::size_t room) {
   const auto free =
       std::find_if(sessions_.begin(), sessions_.end(), [](auto& s) { return !s.in_use; });
   DANCE_ASSERT(free != sessions_.end());
   const auto index = static_cast<std::size_t>(free - sessions_.begin());
   *free = ServerSession();
   free->in_use = true;
-  free->id = new_session_id();
+  free->peer = peer;
+  free->access = access;
   free->token = hello.token;
+  free->epoch = new_epoch();
   free->room = room;
   free->datagrams = TokenBucket(limits_.datagrams_per_second, limits_.datagram_burst);
   free->bytes = TokenBucket(limits_.bytes_per_second, limits_.byte_burst);
-  by_id_.emplace(free->id, index);
+  by_peer_.emplace(peer, index);
   rooms_[room].members.push_back(index);
   ++counters_.sessions_begun;
   return index;
@@ -228,7 +239,7 @@ void ServerCore::drop_session(std::size_t index) {
   std::erase(room.members, index);
   std::erase(bundled_, index);
   std::erase(reporting_, index);
-  by_id_.erase(session.id);
+  by_peer_.erase(session.peer);
   session.in_use = false;
   session.slots.clear();
   session.bundle_size = 0;

@@ -74,7 +74,7 @@ void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime 
   const ServerRoom& room = rooms_[sessions_[from].room];
   for (const std::size_t member : room.members) {
     ServerSession& to = sessions_[member];
-    if (member == from || !to.is_proven) continue;
+    if (member == from) continue;
     if (to.bundle.size() - to.bundle_size < most) flush_bundle(member, now);
     if (to.bundle_size == 0) {
       to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
@@ -130,13 +130,13 @@ void ServerCore::send_records(std::size_t index, MonoTime now) {
   }
   if (!header.has_records && !header.has_feedback) return;
   header.number = session.sent.commit();
-  std::array<std::uint8_t, wire::kMaxDatagram> bytes;
+  std::array<std::uint8_t, wire::kMaxPlain> bytes;
   ByteWriter out(bytes);
-  wire::begin_records(session.id, header, out);
+  wire::begin_records(header, out);
   out.bytes(std::span<const std::uint8_t>(session.bundle).first(session.bundle_size));
   DANCE_ASSERT(out.ok());
   session.bundle_size = 0;
-  send(session.address, out.written());
+  send(session.peer, out.written());
 }
 
 }  // namespace dance

@@ -16,14 +16,15 @@
 
 #include "core/base/fixed_list.h"
 #include "core/base/time.h"
-#include "core/net/address.h"
+#include "core/base/token_bucket.h"
+#include "tunnel/access.h"
 #include "tunnel/ack_window.h"
 #include "tunnel/arrival_jitter.h"
 #include "tunnel/held_frames.h"
 #include "tunnel/link_meter.h"
+#include "tunnel/peer.h"
 #include "tunnel/sent_ring.h"
 #include "tunnel/stream_gate.h"
-#include "tunnel/token_bucket.h"
 #include "tunnel/wire_records.h"
 
 namespace dance {
@@ -40,9 +41,6 @@ struct ServerLimits {
   // Per guest: poses and hands at 240 Hz, and every receiver must decode them.
   double records_per_second = 600.0;
   double record_burst = 150.0;
-  // From all strangers together.
-  double strangers_per_second = 500.0;
-  double stranger_burst = 200.0;
   // Records to one receiver wait this long for others to share a datagram with, unless all who dance
   // have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's guests.
   std::optional<Duration> share_window;
@@ -63,9 +61,7 @@ enum class ServerReject : std::uint8_t {
   kUnknownType,
   kVersion,
   kOldHello,
-  kStrangerRate,
-  kUnknownSession,
-  kWrongAddress,
+  kNoSession,
   kSessionRate,
   kGuestRate,
   kForeignSlot,
@@ -79,10 +75,9 @@ enum class ServerReject : std::uint8_t {
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
 // As the log and the summary say it.
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
-    "too_short",    "malformed",     "unknown_type",    "version",
-    "old_hello",    "stranger_rate", "unknown_session", "wrong_address",
-    "session_rate", "guest_rate",    "foreign_slot",    "bad_time",
-    "bad_ack",      "late",          "duplicate",       "refused"};
+    "too_short",  "malformed",    "unknown_type", "version",      "old_hello",
+    "no_session", "session_rate", "guest_rate",   "foreign_slot", "bad_time",
+    "bad_ack",    "late",         "duplicate",    "refused"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
@@ -110,13 +105,10 @@ struct ServerCounters {
 
 struct ServerSession {
   bool in_use = false;
-  std::uint64_t id = 0;
+  PeerId peer = 0;
+  Access access;
   std::uint64_t token = 0;
-  Address address;
-  // A datagram with the session id has come from the address, so somebody who wants our datagrams
-  // is there. Until then nothing but the welcome goes out.
-  bool is_proven = false;
-  MonoTime unproven_since;  // its begin, or its last move to another address
+  std::uint64_t epoch = 0;  // another one for the link = nothing of before counts
   MonoTime last_heard;
   std::int64_t hello_time_us = 0;  // link's clock; an older hello is a stale copy
   std::size_t room = 0;

@@ -3,17 +3,7 @@
 namespace dance::wire {
 namespace {
 
-void write_magic(Type type, std::uint8_t version, std::uint16_t cause, ByteWriter& out) {
-  out.u32(kMagic);
-  out.u8(version);
-  out.u8(static_cast<std::uint8_t>(type));
-  out.u16(cause);
-}
-
-void write_opening(std::uint64_t session, Type type, ByteWriter& out) {
-  out.u64(session);
-  out.u8(static_cast<std::uint8_t>(type));
-}
+void write_opening(Type type, ByteWriter& out) { out.u8(static_cast<std::uint8_t>(type)); }
 
 std::size_t size_of(const ByteWriter& out) { return out.ok() ? out.size() : 0; }
 
@@ -51,29 +41,16 @@ CodecName read_codec(ByteReader& in) {
 std::optional<Opening> parse_opening(Bytes datagram) {
   ByteReader in(datagram);
   Opening opening;
-  const std::uint64_t first = in.u64();
-  if (!in.ok()) return std::nullopt;
-  if (static_cast<std::uint32_t>(first) == kMagic) {
-    opening.has_magic = true;
-    opening.version = static_cast<std::uint8_t>(first >> 32);
-    opening.type = static_cast<Type>(first >> 40 & 0xff);
-    opening.body = datagram;
-    return opening;
-  }
-  opening.session = first;
   opening.type = static_cast<Type>(in.u8());
   if (!in.ok()) return std::nullopt;
   opening.body = datagram.subspan(kSessionHeader);
   return opening;
 }
 
-bool may_be_session_id(std::uint64_t number) {
-  return number != 0 && static_cast<std::uint32_t>(number) != kMagic;
-}
-
 std::size_t build(const Hello& hello, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_magic(Type::kHello, hello.version, 0, out);
+  write_opening(Type::kHello, out);
+  out.u8(hello.version);
   out.u64(hello.nonce);
   out.u64(hello.token);
   out.i64(hello.link_time_us);
@@ -82,30 +59,20 @@ std::size_t build(const Hello& hello, std::span<std::uint8_t> buffer) {
   out.short_text(hello.room.view());
   out.u8(static_cast<std::uint8_t>(hello.guests.size()));
   for (const GuestId& guest : hello.guests) out.short_text(guest.view());
-  if (out.size() < kHelloBytes) out.zeros(kHelloBytes - out.size());
   return size_of(out);
 }
 
-std::optional<std::uint64_t> parse_nonce(const Opening& opening) {
-  ByteReader in(opening.body);
-  in.u64();
-  const std::uint64_t nonce = in.u64();
-  return in.ok() ? std::optional(nonce) : std::nullopt;
-}
-
-std::optional<Hello> parse_hello(const Opening& opening, HelloProblem& problem) {
-  ByteReader in(opening.body);
-  const bool is_whole = in.remaining() == kHelloBytes;
-  in.u48();
-  const bool is_reserved_clear = in.u16() == 0;
+std::optional<Hello> parse_hello(Bytes body, HelloProblem& problem) {
+  ByteReader in(body);
   Hello hello;
-  hello.version = opening.version;
+  hello.version = in.u8();
   hello.nonce = problem.nonce = in.u64();
+  problem.is_other_version = in.ok() && hello.version != kWireVersion;
+  if (problem.is_other_version) return std::nullopt;
   hello.token = in.u64();
   hello.link_time_us = in.i64();
   const std::size_t codecs = in.u8();
-  if (!is_whole || !is_reserved_clear || hello.token == 0 || codecs == 0 || codecs > kMaxCodecs)
-    return std::nullopt;
+  if (hello.token == 0 || codecs == 0 || codecs > kMaxCodecs) return std::nullopt;
   for (std::size_t i = 0; i < codecs; ++i)
     if (!hello.codecs.try_push(read_codec(in))) return std::nullopt;
   const auto room = read_name(in);
@@ -118,8 +85,7 @@ std::optional<Hello> parse_hello(const Opening& opening, HelloProblem& problem) 
     if (!guest || hello.guests.contains(*guest) || !hello.guests.try_push(*guest))
       names_are_good = false;
   }
-  for (const std::uint8_t padding : in.bytes(in.remaining()))
-    if (padding != 0) return std::nullopt;
+  if (!in.is_exhausted()) return std::nullopt;
   problem.is_bad_name = !names_are_good;
   if (!names_are_good) return std::nullopt;
   hello.room = *room;
@@ -128,9 +94,10 @@ std::optional<Hello> parse_hello(const Opening& opening, HelloProblem& problem) 
 
 std::size_t build(const Welcome& welcome, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_magic(Type::kWelcome, kWireVersion, 0, out);
+  write_opening(Type::kWelcome, out);
+  out.u8(kWireVersion);
   out.u64(welcome.nonce);
-  out.u64(welcome.session);
+  out.u64(welcome.epoch);
   out.i64(welcome.link_time_us);
   out.i64(welcome.server_receive_us);
   out.i64(welcome.server_send_us);
@@ -140,43 +107,43 @@ std::size_t build(const Welcome& welcome, std::span<std::uint8_t> buffer) {
   return size_of(out);
 }
 
-std::optional<Welcome> parse_welcome(const Opening& opening) {
-  ByteReader in(opening.body);
-  in.u64();
+std::optional<Welcome> parse_welcome(Bytes body) {
+  ByteReader in(body);
+  const std::uint8_t version = in.u8();
   Welcome welcome;
   welcome.nonce = in.u64();
-  welcome.session = in.u64();
+  welcome.epoch = in.u64();
   welcome.link_time_us = in.i64();
   welcome.server_receive_us = in.i64();
   welcome.server_send_us = in.i64();
   welcome.codec = read_codec(in);
   const std::size_t slots = in.u8();
-  if (opening.version != kWireVersion || slots > kMaxGuestsPerLink) return std::nullopt;
+  if (version != kWireVersion || slots > kMaxGuestsPerLink) return std::nullopt;
   for (std::size_t i = 0; i < slots; ++i) {
     const Slot slot = read_slot(in);
     if (slot.slot >= kMaxGuestsPerRoom || !welcome.slots.try_push(slot)) return std::nullopt;
   }
-  if (!in.is_exhausted() || !may_be_session_id(welcome.session)) return std::nullopt;
+  if (!in.is_exhausted() || welcome.epoch == 0) return std::nullopt;
   return welcome;
 }
 
 std::size_t build(const RefusalNotice& refusal, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_magic(Type::kRefusal, refusal.server_version, static_cast<std::uint16_t>(refusal.cause),
-              out);
+  write_opening(Type::kRefusal, out);
+  out.u8(refusal.server_version);
+  out.u16(static_cast<std::uint16_t>(refusal.cause));
   out.u64(refusal.nonce);
   out.short_text(refusal.guest.view());
   return size_of(out);
 }
 
-std::optional<RefusalNotice> parse_refusal(const Opening& opening) {
-  ByteReader in(opening.body);
-  in.u48();
+std::optional<RefusalNotice> parse_refusal(Bytes body) {
+  ByteReader in(body);
   RefusalNotice refusal;
-  refusal.server_version = opening.version;
+  refusal.server_version = in.u8();
   const std::uint16_t cause = in.u16();
   if (cause < static_cast<std::uint16_t>(Refusal::kVersion) ||
-      cause > static_cast<std::uint16_t>(Refusal::kCodec))
+      cause > static_cast<std::uint16_t>(Refusal::kNotAllowedName))
     return std::nullopt;
   refusal.cause = static_cast<Refusal>(cause);
   refusal.nonce = in.u64();
@@ -188,9 +155,9 @@ std::optional<RefusalNotice> parse_refusal(const Opening& opening) {
   return refusal;
 }
 
-std::size_t build(std::uint64_t session, const Ping& ping, std::span<std::uint8_t> buffer) {
+std::size_t build(const Ping& ping, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_opening(session, Type::kPing, out);
+  write_opening(Type::kPing, out);
   out.u32(ping.sequence);
   out.i64(ping.link_time_us);
   out.u32(ping.roster_version);
@@ -214,9 +181,9 @@ std::optional<Ping> parse_ping(Bytes body) {
   return in.is_exhausted() ? std::optional(ping) : std::nullopt;
 }
 
-std::size_t build(std::uint64_t session, const Pong& pong, std::span<std::uint8_t> buffer) {
+std::size_t build(const Pong& pong, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_opening(session, Type::kPong, out);
+  write_opening(Type::kPong, out);
   out.u32(pong.sequence);
   out.i64(pong.link_time_us);
   out.i64(pong.server_receive_us);
@@ -236,9 +203,9 @@ std::optional<Pong> parse_pong(Bytes body) {
   return in.is_exhausted() ? std::optional(pong) : std::nullopt;
 }
 
-std::size_t build(std::uint64_t session, const RosterPart& part, std::span<std::uint8_t> buffer) {
+std::size_t build(const RosterPart& part, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_opening(session, Type::kRoster, out);
+  write_opening(Type::kRoster, out);
   out.u32(part.version);
   out.u8(part.part);
   out.u8(part.parts);
@@ -277,9 +244,9 @@ std::optional<RosterPart> parse_roster(Bytes body) {
   return in.is_exhausted() ? std::optional(part) : std::nullopt;
 }
 
-std::size_t build(std::uint64_t session, const State& state, std::span<std::uint8_t> buffer) {
+std::size_t build(const State& state, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_opening(session, Type::kState, out);
+  write_opening(Type::kState, out);
   write_slot(state.slot, out);
   out.u8(static_cast<std::uint8_t>(state.kind));
   out.u32(state.version);
@@ -302,9 +269,9 @@ std::optional<State> parse_state(Bytes body) {
   return state;
 }
 
-std::size_t build(std::uint64_t session, const StateAck& ack, std::span<std::uint8_t> buffer) {
+std::size_t build(const StateAck& ack, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_opening(session, Type::kStateAck, out);
+  write_opening(Type::kStateAck, out);
   write_slot(ack.slot, out);
   out.u8(static_cast<std::uint8_t>(ack.kind));
   out.u32(ack.version);
@@ -323,9 +290,9 @@ std::optional<StateAck> parse_state_ack(Bytes body) {
   return ack;
 }
 
-std::size_t build_bare(std::uint64_t session, Type type, std::span<std::uint8_t> buffer) {
+std::size_t build_bare(Type type, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
-  write_opening(session, type, out);
+  write_opening(type, out);
   return size_of(out);
 }
 

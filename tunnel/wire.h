@@ -21,15 +21,19 @@
 #include "core/base/fixed_list.h"
 #include "core/base/guest_id.h"
 #include "core/codec/pose_codec.h"
+#include "tunnel/seal/seal_format.h"
 
 namespace dance::wire {
 
-constexpr std::uint32_t kMagic = 0x52474344;  // "DCGR" as bytes on the wire
-constexpr std::uint8_t kWireVersion = 2;
-// Fits the smallest path of IPv6 with the headers of IP, UDP and a sealed session.
-constexpr std::size_t kMaxDatagram = 1200;
-// Every hello is padded to this, so that no answer to a stranger is longer than what was asked.
-constexpr std::size_t kHelloBytes = 512;
+constexpr std::uint8_t kWireVersion = seal::kTunnelVersion;
+// A sealed datagram: fits the smallest path of IPv6 with the headers of IP and UDP.
+constexpr std::size_t kMaxDatagram = seal::kMaxSealed;
+// What the seal adds.
+constexpr std::size_t kSealOverhead = seal::kOverhead;
+// An inner datagram, as the state machines see it.
+constexpr std::size_t kMaxPlain = seal::kMaxPlain;
+// No hello, welcome or refusal is longer.
+constexpr std::size_t kMaxHello = 512;
 constexpr std::size_t kMaxGuestsPerLink = 16;
 constexpr std::size_t kMaxGuestsPerRoom = 64;
 constexpr std::size_t kMaxCodecs = 8;
@@ -41,11 +45,10 @@ using Bytes = std::span<const std::uint8_t>;
 using RoomName = GuestId;
 
 enum class Type : std::uint8_t {
-  // Begin with the magic: no session yet.
+  // These three begin with type and version in every version of the format.
   kHello = 1,
   kWelcome = 2,
   kRefusal = 3,
-  // Begin with the session id.
   kPing = 16,
   kPong = 17,
   kRecords = 18,
@@ -53,21 +56,22 @@ enum class Type : std::uint8_t {
   kState = 20,
   kStateAck = 21,
   kGoodbye = 22,
-  kUnknownSession = 23,
 };
 
 enum class Refusal : std::uint16_t {
-  kVersion = 1,     // the server speaks another version of this format
-  kBadName = 2,     // room or guest name breaks the rule
-  kNameTaken = 3,   // a guest of this name is in the room through another link
-  kRoomFull = 4,    // no slot for another guest
-  kServerFull = 5,  // no place for another session or room
-  kCodec = 6,       // the room speaks a codec that this link does not know
+  kVersion = 1,         // the server speaks another version of this format
+  kBadName = 2,         // room or guest name breaks the rule
+  kNameTaken = 3,       // a guest of this name is in the room through another link
+  kRoomFull = 4,        // no slot for another guest
+  kServerFull = 5,      // no place for another session or room
+  kCodec = 6,           // the room speaks a codec that this link does not know
+  kNotAllowedRoom = 7,  // the link's key does not open this room
+  kNotAllowedName = 8,  // the link's key does not allow a guest of this name
 };
 
 struct Hello {
   std::uint8_t version = kWireVersion;
-  std::uint64_t nonce = 0;  // echoed in the answer, so that nobody else can answer
+  std::uint64_t nonce = 0;  // echoed in the answer, so that it is known what is answered
   std::uint64_t token = 0;  // names the link from its start to its end
   std::int64_t link_time_us = 0;
   FixedList<CodecName, kMaxCodecs> codecs;  // the preferred one first
@@ -83,7 +87,7 @@ struct Slot {
 
 struct Welcome {
   std::uint64_t nonce = 0;
-  std::uint64_t session = 0;
+  std::uint64_t epoch = 0;        // random, never 0: another one says that all begins anew
   std::int64_t link_time_us = 0;  // of the hello
   std::int64_t server_receive_us = 0;
   std::int64_t server_send_us = 0;
@@ -144,40 +148,35 @@ struct StateAck {
   std::uint32_t version = 0;
 };
 
-// How a datagram begins: with the magic and a version, or with a session id.
+// How a datagram begins.
 struct Opening {
-  bool has_magic = false;
-  std::uint8_t version = 0;  // with the magic
   Type type = Type::kHello;
-  std::uint64_t session = 0;  // without
-  Bytes body;                 // what follows
+  Bytes body;  // what follows
 };
-constexpr std::size_t kSessionHeader = 9;
+constexpr std::size_t kSessionHeader = 1;
 std::optional<Opening> parse_opening(Bytes datagram);
-// Whether a random number may be a session id: it must not look like the magic.
-bool may_be_session_id(std::uint64_t number);
 
 // Building: whole datagrams, opening included; the number of bytes, or 0.
 std::size_t build(const Hello& hello, std::span<std::uint8_t> out);
 std::size_t build(const Welcome& welcome, std::span<std::uint8_t> out);
 std::size_t build(const RefusalNotice& refusal, std::span<std::uint8_t> out);
-std::size_t build(std::uint64_t session, const Ping& ping, std::span<std::uint8_t> out);
-std::size_t build(std::uint64_t session, const Pong& pong, std::span<std::uint8_t> out);
-std::size_t build(std::uint64_t session, const RosterPart& part, std::span<std::uint8_t> out);
-std::size_t build(std::uint64_t session, const State& state, std::span<std::uint8_t> out);
-std::size_t build(std::uint64_t session, const StateAck& ack, std::span<std::uint8_t> out);
-std::size_t build_bare(std::uint64_t session, Type type, std::span<std::uint8_t> out);
+std::size_t build(const Ping& ping, std::span<std::uint8_t> out);
+std::size_t build(const Pong& pong, std::span<std::uint8_t> out);
+std::size_t build(const RosterPart& part, std::span<std::uint8_t> out);
+std::size_t build(const State& state, std::span<std::uint8_t> out);
+std::size_t build(const StateAck& ack, std::span<std::uint8_t> out);
+std::size_t build_bare(Type type, std::span<std::uint8_t> out);
 
 // Parsing of what follows the opening.
 struct HelloProblem {
-  bool is_bad_name = false;  // well formed but for a name: worth an answer
+  // Of both, the nonce is known, so that they can be answered.
+  bool is_other_version = false;
+  bool is_bad_name = false;  // well formed but for a name
   std::uint64_t nonce = 0;
 };
-std::optional<Hello> parse_hello(const Opening& opening, HelloProblem& problem);
-// The nonce of a hello of whatever version: it stands at the same place in all of them.
-std::optional<std::uint64_t> parse_nonce(const Opening& opening);
-std::optional<Welcome> parse_welcome(const Opening& opening);
-std::optional<RefusalNotice> parse_refusal(const Opening& opening);
+std::optional<Hello> parse_hello(Bytes body, HelloProblem& problem);
+std::optional<Welcome> parse_welcome(Bytes body);
+std::optional<RefusalNotice> parse_refusal(Bytes body);
 std::optional<Ping> parse_ping(Bytes body);
 std::optional<Pong> parse_pong(Bytes body);
 std::optional<RosterPart> parse_roster(Bytes body);

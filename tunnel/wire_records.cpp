@@ -99,8 +99,7 @@ std::int32_t read_age(ByteReader& in) {
 
 }  // namespace
 
-void begin_records(std::uint64_t session, const RecordsHeader& header, ByteWriter& out) {
-  out.u64(session);
+void begin_records(const RecordsHeader& header, ByteWriter& out) {
   out.u8(static_cast<std::uint8_t>(Type::kRecords));
   out.u16(header.number);
   const bool has_excepts = header.has_acks && !header.acks.excepts.empty();

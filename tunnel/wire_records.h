@@ -60,9 +60,9 @@ struct RecordsHeader {
   bool has_records = false;
   std::int64_t base_ticks = 0;  // as parsed: low 24 bits
 };
-// Session, type, number, flags, acks and base: what always fits beside kMaxRecordsBody.
+// Type, number, flags, acks and base: what always fits beside kMaxRecordsBody.
 constexpr std::size_t kRecordsHeader = kSessionHeader + 2 + 1 + 6 + 3;
-constexpr std::size_t kMaxRecordsBody = kMaxDatagram - kRecordsHeader;
+constexpr std::size_t kMaxRecordsBody = kMaxPlain - kRecordsHeader;
 
 enum class RecordKind : std::uint8_t { kPose = 1, kHands = 2 };
 
@@ -93,7 +93,7 @@ constexpr std::size_t kMaxRecordHeader = kWideRecordHeader + 1 + 8 + 18;
 constexpr std::uint16_t kNarrowReach = 100;
 
 // The opening and the header; records follow.
-void begin_records(std::uint64_t session, const RecordsHeader& header, ByteWriter& out);
+void begin_records(const RecordsHeader& header, ByteWriter& out);
 void add_record(const Record& record, bool is_narrow, std::int64_t base_ticks, ByteWriter& out);
 
 // The header and, where it says so, room for records behind it.

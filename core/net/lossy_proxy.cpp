@@ -90,6 +90,7 @@ bool LossyProxy::is_later(std::size_t a, std::size_t b) const {
 
 void LossyProxy::carry(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes,
                        MonoTime now) {
+  if (tap_) tap_(direction, bytes);
   LossyModel& line = direction == Direction::kUp ? clients_[client]->up : clients_[client]->down;
   const LossyModel::Fate fate = line.offer(bytes.size(), now);
   for (const MonoTime due : fate.deliveries()) {

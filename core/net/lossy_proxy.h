@@ -36,6 +36,10 @@ class LossyProxy {
   LossyProxy(const LossyProxy&) = delete;
   LossyProxy& operator=(const LossyProxy&) = delete;
 
+  // Sees all that comes in, before the line does anything to it.
+  using Tap = std::function<void(Direction, std::span<const std::uint8_t>)>;
+  void set_tap(Tap tap) { tap_ = std::move(tap); }
+
   Address local_address() const { return listen_.local_address(); }
   std::size_t client_count() const { return clients_.size(); }
   Totals totals(Direction direction) const;
@@ -69,6 +73,7 @@ class LossyProxy {
   bool is_later(std::size_t a, std::size_t b) const;
 
   Poller& poller_;
+  Tap tap_;
   UdpSocket listen_;
   Address target_;
   LossySpec spec_;

@@ -87,6 +87,8 @@ TEST_F(ServerPrograms, StatusTellsWhoIsThereAndHowTheyFare) {
   ASSERT_EQ(guests_in(status), 2u) << status << talk();
   EXPECT_EQ(status["rooms"][0]["name"], "salsa");
   EXPECT_EQ(status["rooms"][0]["codec"], "lattice");
+  EXPECT_EQ(status["handshakes"]["done"], 2);
+  EXPECT_EQ(status["handshakes"]["wrong_key"], 0);
   for (const auto& link : status["rooms"][0]["links"]) {
     EXPECT_GT(link["round_trip_ms"].get<double>(), 0.0) << link;
     EXPECT_GT(link["bytes_in_per_s"].get<double>(), 0.0) << link;
@@ -223,7 +225,9 @@ TEST_F(ServerPrograms, AnEndingServerTellsItsLinksAtOnce) {
     LinkOptions options;
     options.room = *GuestId::parse("salsa");
     if (!options.guests.try_push(*GuestId::parse("alice"))) return false;
-    auto link = Link::open({Address::loopback(7471)}, options, {}, **poller);
+    const auto key = choose_link_key("127.0.0.1:7471", options.room, options.guests[0], {});
+    if (!key) return false;
+    auto link = Link::open({Address::loopback(7471)}, *key, options, {}, **poller);
     if (!link) return false;
     const auto turn_until = [&](bool is_connected) {
       const MonoTime give_up = mono_now() + Duration::s(30);

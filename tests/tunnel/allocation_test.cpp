@@ -8,9 +8,11 @@ namespace dance {
 namespace {
 
 // Keeps datagrams where they are until they are handed on; allocates nothing itself.
-class FixedSink final : public DatagramSink {
+class FixedSink final : public DatagramSink, public PeerSink {
  public:
-  void send(const Address&, std::span<const std::uint8_t> bytes) override {
+  void send(const Address&, std::span<const std::uint8_t> bytes) override { send(0, bytes); }
+  void send(PeerId to, std::span<const std::uint8_t> bytes) override {
+    kept_[count_].peer = to;
     if (count_ == kept_.size() || bytes.size() > kept_[0].bytes.size()) std::abort();
     kept_[count_].size = bytes.size();
     std::copy(bytes.begin(), bytes.end(), kept_[count_++].bytes.begin());
@@ -21,13 +23,14 @@ class FixedSink final : public DatagramSink {
     count_ = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Datagram datagram = kept_[i];
-      deliver(wire::Bytes(datagram.bytes.data(), datagram.size));
+      deliver(datagram.peer, wire::Bytes(datagram.bytes.data(), datagram.size));
     }
   }
 
  private:
   struct Datagram {
-    std::array<std::uint8_t, wire::kMaxDatagram> bytes;
+    PeerId peer = 0;
+    std::array<std::uint8_t, wire::kMaxPlain> bytes;
     std::size_t size = 0;
   };
   std::array<Datagram, 32> kept_;
@@ -38,8 +41,7 @@ TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
   FixedSink to_server_a;
   FixedSink to_server_b;
   FixedSink from_server;
-  const Address at_a = Address::loopback(1);
-  const Address at_b = Address::loopback(2);
+  const Access access{.any_name = true};
   Random random(1);
   ServerCore server(
       {}, [&] { return random.next_u64(); }, from_server);
@@ -64,16 +66,14 @@ TEST(TunnelAllocation, PosesHandsAndPingsPassWithoutOne) {
     now += Duration::ms(16);
     a.tick(now);
     b.tick(now);
-    to_server_a.hand_on([&](wire::Bytes d) { server.receive(at_a, d, now, now); });
-    to_server_b.hand_on([&](wire::Bytes d) { server.receive(at_b, d, now, now); });
+    to_server_a.hand_on([&](PeerId, wire::Bytes d) { server.receive(1, access, d, now, now); });
+    to_server_b.hand_on([&](PeerId, wire::Bytes d) { server.receive(2, access, d, now, now); });
     server.end_turn(now);
     server.tick(now);
-    // Each link takes what is its own by the session id.
-    from_server.hand_on([&](wire::Bytes d) {
-      a.receive(d, now, now);
-      b.receive(d, now, now);
-    });
+    from_server.hand_on([&](PeerId to, wire::Bytes d) { (to == 1 ? a : b).receive(d, now, now); });
   };
+  a.on_sealed(now);
+  b.on_sealed(now);
   for (int i = 0; i < 20; ++i) turn();
   ASSERT_TRUE(a.is_connected() && b.is_connected());
 

@@ -1,5 +1,5 @@
 // The scene that fuzz targets play in, and the notation of their inputs: two houses in a room, one
-// pose each way, then datagrams as the input says. The scene is the same every time, session ids
+// pose each way, then datagrams as the input says. The scene is the same every time, random numbers
 // included, so that the corpus's datagrams belong to it.
 //
 // Units/frames: a script is a row of steps: a byte (low 2 bits: which peer; high 4 bits: tenths of a

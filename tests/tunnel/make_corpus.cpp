@@ -32,8 +32,8 @@ void write_tunnel(const std::filesystem::path& root) {
   FuzzScene scene;
   std::map<std::string, Bytes> seeds;  // by file name
   std::map<bool, Bytes> all;
-  scene.tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
-    const std::uint8_t how = peer == scene.a->address ? 0 : peer == scene.b->address ? 1 : 2;
+  scene.tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {
+    const std::uint8_t how = peer == scene.a->peer ? 0 : peer == scene.b->peer ? 1 : 2;
     const Bytes datagram(bytes.begin(), bytes.end());
     const auto type = wire::parse_opening(bytes)->type;
     // Acknowledgements and feedback alone are a kind of their own.

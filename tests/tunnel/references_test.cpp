@@ -21,8 +21,8 @@ class ReferencesTest : public ::testing::Test {
   }
   ReferringLog& log(std::size_t house) { return *logs[house]; }
   void lose(double share, const House* only_to = nullptr) {
-    tunnel.on_datagram = [this, share, only_to](bool to_server, const Address& peer, wire::Bytes) {
-      const bool is_meant = only_to == nullptr || (!to_server && peer == only_to->address);
+    tunnel.on_datagram = [this, share, only_to](bool to_server, PeerId peer, wire::Bytes) {
+      const bool is_meant = only_to == nullptr || (!to_server && peer == only_to->peer);
       return !is_meant || random.uniform() >= share;
     };
   }
@@ -88,9 +88,9 @@ TEST_F(ReferencesTest, ANewcomerDecodesWithinARoundTripOverItsSender) {
   dance.run(Duration::s(2));
   const int before = log(0).key_frames_wanted;
   House& c = add({"carol"});
-  // Hello and welcome 10 ms, the ping 5 ms: the newcomer is known. To the sender 5 ms, up to a frame,
-  // to the server 5 ms, down 5 ms.
-  dance.run(Duration::ms(1 + 10 + 5 + 5 + 17 + 5 + 5));
+  // With the hello, 5 ms, the newcomer is known. To the sender 5 ms, up to a frame, to the server 5 ms,
+  // down 5 ms.
+  dance.run(Duration::ms(1 + 5 + 5 + 17 + 5 + 5));
   EXPECT_GE(c.heard_of(guest("alice")), 1u);
   EXPECT_EQ(log(0).key_frames_wanted, before + 1) << "one, not many";
   dance.run(Duration::s(1));
@@ -111,9 +111,9 @@ TEST_F(ReferencesTest, ARequestWhoseAnswerIsLostIsMadeAgain) {
   dance.run(Duration::ms(300));
   // Feedback does not come through at first.
   MonoTime blocked_until = tunnel.now() + Duration::ms(150);
-  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
+  tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {
     const auto opening = wire::parse_opening(bytes);
-    return to_server || peer != a.address || opening->type != wire::Type::kRecords ||
+    return to_server || peer != a.peer || opening->type != wire::Type::kRecords ||
            tunnel.now() > blocked_until;
   };
   b.is_cut = false;
@@ -131,13 +131,7 @@ TEST_F(ReferencesTest, HoweverManyAskKeyFramesComeTenTimesASecondAtMost) {
   House& b = add({"bob"});
   Dance dance{tunnel, {{&a, guest("alice")}}};
   dance.run(Duration::s(1));
-  std::uint64_t session = 0;
-  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
-    if (to_server && peer == b.address) session = wire::parse_opening(bytes)->session;
-    return true;
-  };
   dance.run(Duration::ms(300));
-  ASSERT_NE(session, 0u);
   const int before = log(0).key_frames_wanted;
   tunnel.run(Duration::s(2), [&] {
     if (tunnel.now().since_zero_us() / 1000 % 16 == 0) tunnel.dance(a, guest("alice"));
@@ -146,8 +140,8 @@ TEST_F(ReferencesTest, HoweverManyAskKeyFramesComeTenTimesASecondAtMost) {
       ASSERT_TRUE(header.wants.try_push(slot));
     std::array<std::uint8_t, 64> out;
     ByteWriter writer(out);
-    wire::begin_records(session, header, writer);
-    tunnel.inject(b.address, writer.written());
+    wire::begin_records(header, writer);
+    tunnel.inject(b.peer, writer.written());
   });
   EXPECT_LE(log(0).key_frames_wanted - before, 21);
   EXPECT_GE(log(0).key_frames_wanted - before, 15);
@@ -223,7 +217,7 @@ TEST_F(ReferencesTest, BothEndsHaveTheSameProportionsThroughSessionsAndChanges) 
   dance.run(Duration::s(1));
   EXPECT_EQ(b.link->counters().skeleton_missing, 0u);
   EXPECT_GE(b.heard_of(guest("alice")), 60u);
-  b.address = Address::loopback(20'001);  // a new session
+  tunnel.seal_anew(b);
   dance.run(Duration::s(1));
   const auto before = b.heard_of(guest("alice"));
   a.link->send(guest("alice"), average_skeleton(1.7f), tunnel.time_in(a));
@@ -237,7 +231,7 @@ TEST_F(ReferencesTest, WithoutProportionsNothingIsDecodedAndThatIsCounted) {
   House& b = add({"bob"});
   log(1).needs_skeleton = true;
   tunnel.run(Duration::ms(200));
-  tunnel.on_datagram = [&](bool, const Address&, wire::Bytes bytes) {
+  tunnel.on_datagram = [&](bool, PeerId, wire::Bytes bytes) {
     return wire::parse_opening(bytes)->type != wire::Type::kState;
   };
   a.link->send(guest("alice"), average_skeleton(1.65f), tunnel.time_in(a));
@@ -260,7 +254,7 @@ TEST_F(ReferencesTest, AGuestWhoCannotBeDecodedKeepsNobodyElseFromBeingAcknowled
   a.link->send(guest("anna"), average_skeleton(1.65f), tunnel.time_in(a));
   tunnel.run(Duration::ms(100));
   bool is_blocked = true;
-  tunnel.on_datagram = [&](bool, const Address&, wire::Bytes bytes) {
+  tunnel.on_datagram = [&](bool, PeerId, wire::Bytes bytes) {
     return !is_blocked || wire::parse_opening(bytes)->type != wire::Type::kState;
   };
   a.link->send(guest("alice"), average_skeleton(1.75f), tunnel.time_in(a));
@@ -291,9 +285,8 @@ TEST_F(ReferencesTest, AReceiverWhoGetsNothingCostsTheOthersNoReferences) {
   Dance dance{tunnel, {{&a, guest("alice")}}};
   dance.run(Duration::s(1));
   // It pings on, so it is there; but no pose comes to it.
-  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
-    return to_server || peer != c.address ||
-           wire::parse_opening(bytes)->type != wire::Type::kRecords;
+  tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {
+    return to_server || peer != c.peer || wire::parse_opening(bytes)->type != wire::Type::kRecords;
   };
   dance.run(Duration::s(2));
   const auto before = log(0).acknowledged.size();
@@ -306,13 +299,6 @@ TEST_F(ReferencesTest, AcknowledgementsOfWhatWasNeverSentDoNothing) {
   House& b = add({"bob"});
   Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
   dance.run(Duration::s(1));
-  std::map<std::uint16_t, std::uint64_t> sessions;  // by the house's port
-  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
-    if (to_server) sessions[peer == a.address ? 0 : 1] = wire::parse_opening(bytes)->session;
-    return true;
-  };
-  dance.run(Duration::ms(300));
-  tunnel.on_datagram = {};
   const auto sent_by_a = a.next_sequence;
   for (int i = 0; i < 20'000; ++i) {
     wire::RecordsHeader header;
@@ -331,11 +317,11 @@ TEST_F(ReferencesTest, AcknowledgementsOfWhatWasNeverSentDoNothing) {
                                            static_cast<std::uint16_t>(random.next_u64())});
     std::array<std::uint8_t, 128> out;
     ByteWriter writer(out);
-    wire::begin_records(sessions[header.has_feedback ? 0 : 1], header, writer);
+    wire::begin_records(header, writer);
     if (header.has_feedback)
       a.link->receive(writer.written(), tunnel.time_in(a), tunnel.time_in(a));
     else
-      tunnel.inject(b.address, writer.written());
+      tunnel.inject(b.peer, writer.written());
     if (i % 50 == 0) dance.run(Duration::ms(1));
   }
   for (const std::uint32_t sequence : log(0).acknowledged) EXPECT_LT(sequence, a.next_sequence);

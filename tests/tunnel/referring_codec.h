@@ -67,6 +67,8 @@ class ReferringEncoder final : public PoseEncoder {
   }
   void acknowledged(std::uint32_t sequence) override {
     log_.acknowledged.push_back(sequence);
+    // What left before the last request says nothing of who asked.
+    if (has_void_ && !is_newer_sequence(sequence, void_until_)) return;
     if (!has_acked_ || is_newer_sequence(sequence, newest_acked_)) newest_acked_ = sequence;
     has_acked_ = true;
   }
@@ -74,11 +76,12 @@ class ReferringEncoder final : public PoseEncoder {
     ++log_.key_frames_wanted;
     wants_key_ = true;
     has_acked_ = false;
+    has_void_ = has_previous_;
+    void_until_ = previous_;
   }
   void restart() override {
     ++log_.encoder_restarts;
-    has_previous_ = false;
-    has_acked_ = false;
+    has_previous_ = has_acked_ = has_void_ = false;
   }
   void set_references(References references) override {
     references_ = references;
@@ -94,6 +97,8 @@ class ReferringEncoder final : public PoseEncoder {
   References references_ = References::kPrevious;
   bool has_acked_ = false;
   std::uint32_t newest_acked_ = 0;
+  bool has_void_ = false;
+  std::uint32_t void_until_ = 0;
   bool wants_key_ = false, has_previous_ = false;
   std::uint32_t previous_ = 0, before_ = 0;
   std::uint8_t check_ = 0;

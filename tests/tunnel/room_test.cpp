@@ -25,7 +25,7 @@ class LatticeRoom : public ::testing::Test {
     return house;
   }
   void lose(double share) {
-    tunnel.on_datagram = [this, share](bool, const Address&, wire::Bytes) {
+    tunnel.on_datagram = [this, share](bool, PeerId, wire::Bytes) {
       return random.uniform() >= share;
     };
   }

@@ -1,14 +1,16 @@
-// Datagrams at a server: of its two links, and of strangers.
+// Datagrams at a server: of its two links, and of peers without a session yet, of whom one's key opens one room for one
+// name.
 #include "tests/tunnel/datagram_script.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   dance::FuzzScene scene;
+  const auto alice = *dance::GuestId::parse("alice");
+  const auto salsa = *dance::wire::RoomName::parse("salsa");
+  const dance::PeerId third = scene.tunnel.add_peer();
+  const dance::PeerId fourth = scene.tunnel.add_peer({.name = alice, .room = salsa});
   scene.play({data, size}, [&](int peer, dance::wire::Bytes datagram) {
-    const auto from = peer == 0 ? scene.a->address
-                      : peer == 1
-                          ? scene.b->address
-                          : dance::Address::loopback(static_cast<std::uint16_t>(6000 + peer));
-    scene.tunnel.inject(from, datagram);
+    const dance::PeerId peers[] = {scene.a->peer, scene.b->peer, third, fourth};
+    scene.tunnel.inject(peers[peer], datagram);
   });
   return 0;
 }

@@ -94,9 +94,9 @@ TEST_F(StatusTest, TellsRoomsGuestsAndListeners) {
 TEST_F(StatusTest, CountsBytesAsTheyPass) {
   auto& a = tunnel.add_house("salsa", {"alice"});
   auto& b = tunnel.add_house("salsa", {"bob"});
-  std::map<std::uint16_t, double> up, down;
-  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes bytes) {
-    (to_server ? up : down)[peer.port()] += static_cast<double>(bytes.size());
+  std::map<PeerId, double> up, down;
+  tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {
+    (to_server ? up : down)[peer] += static_cast<double>(bytes.size() + wire::kSealOverhead);
     return true;
   };
   Dance dance{tunnel, {{&a, guest("alice")}}};
@@ -106,13 +106,13 @@ TEST_F(StatusTest, CountsBytesAsTheyPass) {
   ASSERT_EQ(now.rooms[0].links.size(), 2u);
   const auto& links = now.rooms[0].links;
   // All but the hellos and welcomes at the begin, and what is under way at the end.
-  constexpr double kEnds = 4 * wire::kHelloBytes;
-  EXPECT_NEAR(static_cast<double>(links[0].bytes_in), up[a.address.port()], kEnds);
-  EXPECT_NEAR(static_cast<double>(links[1].bytes_out), down[b.address.port()], kEnds);
+  constexpr double kEnds = 4 * 512;
+  EXPECT_NEAR(static_cast<double>(links[0].bytes_in), up[a.peer], kEnds);
+  EXPECT_NEAR(static_cast<double>(links[1].bytes_out), down[b.peer], kEnds);
   EXPECT_NEAR(links[0].bytes_in_per_s, static_cast<double>(links[0].bytes_in) / 10.0,
               0.1 * links[0].bytes_in_per_s);
   EXPECT_GT(links[0].datagrams_in_per_s, 1000.0 / Dance::kFrame_ms);
-  EXPECT_NEAR(static_cast<double>(links[1].bytes_in), up[b.address.port()], kEnds);
+  EXPECT_NEAR(static_cast<double>(links[1].bytes_in), up[b.peer], kEnds);
   // Rates are of the last seconds.
   dance.dancers.clear();
   run(dance, 8);
@@ -126,8 +126,8 @@ TEST_F(StatusTest, TellsOnWhichWayPosesAreLost) {
   run(dance, 3);
   Random random(7);
   // One in five of alice's datagrams does not reach the server.
-  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes) {
-    return !(to_server && peer == a.address) || random.next_u64() % 5 != 0;
+  tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes) {
+    return !(to_server && peer == a.peer) || random.next_u64() % 5 != 0;
   };
   run(dance, 10);
   const auto links = status().rooms.at(0).links;
@@ -150,8 +150,8 @@ TEST_F(StatusTest, AnUnevenWayIsJitter) {
   Dance dance{tunnel, {{&a, guest("alice")}}};
   run(dance, 2);
   Random random(11);
-  tunnel.on_datagram = [&](bool to_server, const Address& peer, wire::Bytes) {
-    if (to_server && peer == a.address)
+  tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes) {
+    if (to_server && peer == a.peer)
       a.up = Duration::ms(5 + static_cast<std::int64_t>(random.next_u64() % 21));
     return true;
   };
@@ -180,8 +180,8 @@ TEST_F(StatusTest, WhoSaidNoMoreThanHelloIsNotShown) {
   hello.room = guest("salsa");
   ASSERT_TRUE(hello.codecs.try_push({CodecId::kPlain, 0}));
   ASSERT_TRUE(hello.guests.try_push(guest("mallory")));
-  std::array<std::uint8_t, wire::kHelloBytes> bytes;
-  tunnel.inject(Address::loopback(666), {bytes.data(), wire::build(hello, bytes)});
+  std::array<std::uint8_t, wire::kMaxHello> bytes;
+  tunnel.inject(tunnel.add_peer(), {bytes.data(), wire::build(hello, bytes)});
   ASSERT_EQ(tunnel.server().session_count(), 1u);
   maker.sample(tunnel.now());
   EXPECT_TRUE(status().rooms.empty());
@@ -193,7 +193,7 @@ TEST_F(StatusTest, JsonHasEverythingAndNoSecret) {
   handshakes = {{"unknown_key", 3}, {"done", 2}};
   Dance dance{tunnel, {{&a, guest("alice")}}};
   run(dance, 3);
-  tunnel.inject(Address::loopback(666), std::vector<std::uint8_t>{1, 2, 3});
+  tunnel.inject(tunnel.add_peer(), std::vector<std::uint8_t>{});
   const std::string text = to_json(status());
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const auto json = nlohmann::json::parse(text, nullptr, false);

@@ -1,5 +1,7 @@
 // A server, houses and the lines between them without sockets and without waiting: time passes when
-// the test says so, each house has a clock of its own, and lines can be slow or cut.
+// the test says so, each house has a clock of its own, and lines can be slow or cut. Sealed sessions
+// are only played: a house has one at once when it begins, and a new one when the server does not
+// know the one it had.
 //
 // Units/frames: now() is the server's clock; a house's clock is now() + its clock_ahead.
 // Ownership:    owns everything.
@@ -45,7 +47,9 @@ class SimulatedTunnel {
     MonoTime at;
   };
   struct House {
-    Address address;
+    PeerId peer = 0;  // its sealed session; 0 = none
+    MonoTime seal_due;
+    Access access{.any_name = true};
     std::uint64_t clock_id = 0;
     Duration clock_ahead;
     Duration up = Duration::ms(5);
@@ -75,17 +79,20 @@ class SimulatedTunnel {
     server_ = std::make_unique<ServerCore>(
         limits_, [this] { return random_.next_u64(); }, server_sink_);
   }
-  void stop_server() { server_.reset(); }
+  void stop_server() {
+    server_.reset();
+    peers_.clear();
+  }
   ServerCore& server() { return *server_; }
 
   House& add_house(const std::string& room, const std::vector<std::string>& guests,
-                   Duration clock_ahead = {}) {
+                   Duration clock_ahead = {}, const Access& access = {.any_name = true}) {
     houses_.push_back(std::make_unique<House>());
     House& house = *houses_.back();
     const auto number = static_cast<std::uint16_t>(houses_.size());
-    house.address = Address::loopback(static_cast<std::uint16_t>(10'000 + number));
     house.clock_id = 100u + number;
     house.clock_ahead = clock_ahead;
+    house.access = access;
     start_link(house, room, guests);
     return house;
   }
@@ -102,6 +109,13 @@ class SimulatedTunnel {
     house.sink = std::make_unique<LinkSink>(*this, house);
     house.link = std::make_unique<LinkCore>(options, handlers_of(house), *house.sink);
     house.is_running = true;
+    seal_anew(house);
+  }
+
+  // The house's next sealed session, from now on. What is under way to the one before is lost.
+  void seal_anew(House& house) {
+    house.peer = 0;
+    house.seal_due = now_;
   }
 
   MonoTime now() const { return now_; }
@@ -115,6 +129,7 @@ class SimulatedTunnel {
       deliver_due();
       for (auto& house : houses_) {
         if (!house->is_running) continue;
+        seal_if_due(*house);
         const MonoTime due = house->link->next_deadline();
         if (due.is_set() && due <= time_in(*house)) house->link->tick(time_in(*house));
       }
@@ -129,9 +144,15 @@ class SimulatedTunnel {
         time_in(house));
   }
 
+  // A peer without a house, whose datagrams a test makes.
+  PeerId add_peer(const Access& access = {.any_name = true}) {
+    peers_[++newest_peer_] = access;
+    return newest_peer_;
+  }
+
   // Straight into the server, as if `from` had sent it.
-  void inject(const Address& from, wire::Bytes bytes) {
-    server_->receive(from, bytes, now_, now_);
+  void inject(PeerId from, wire::Bytes bytes) {
+    server_->receive(from, peers_.at(from), bytes, now_, now_);
     server_->end_turn(now_);
   }
 
@@ -139,19 +160,19 @@ class SimulatedTunnel {
   LinkOptions link_options;
 
   // The test's eye on what passes: return false to lose it.
-  std::function<bool(bool to_server, const Address& peer, wire::Bytes bytes)> on_datagram;
+  std::function<bool(bool to_server, PeerId peer, wire::Bytes bytes)> on_datagram;
 
  private:
   struct Parcel {
     MonoTime due;
     bool to_server;
-    Address peer;
+    PeerId peer;
     std::vector<std::uint8_t> bytes;
   };
-  class ServerSink final : public DatagramSink {
+  class ServerSink final : public PeerSink {
    public:
     explicit ServerSink(SimulatedTunnel& tunnel) : tunnel_(tunnel) {}
-    void send(const Address& to, std::span<const std::uint8_t> bytes) override {
+    void send(PeerId to, std::span<const std::uint8_t> bytes) override {
       tunnel_.post(false, to, bytes);
     }
 
@@ -162,7 +183,7 @@ class SimulatedTunnel {
    public:
     LinkSink(SimulatedTunnel& tunnel, House& house) : tunnel_(tunnel), house_(house) {}
     void send(const Address&, std::span<const std::uint8_t> bytes) override {
-      tunnel_.post(true, house_.address, bytes);
+      tunnel_.post(true, house_.peer, bytes);
     }
 
    private:
@@ -170,14 +191,29 @@ class SimulatedTunnel {
     House& house_;
   };
 
-  House* house_at(const Address& address) {
+  House* house_of(PeerId peer) {
     for (auto& house : houses_)
-      if (house->address == address) return house.get();
+      if (house->peer == peer && peer != 0) return house.get();
     return nullptr;
   }
 
-  void post(bool to_server, const Address& peer, wire::Bytes bytes) {
-    House* house = house_at(peer);
+  void seal_if_due(House& house) {
+    if (!house.seal_due.is_set() || house.seal_due > now_ || !server_ || house.is_cut) return;
+    house.seal_due = MonoTime();
+    house.peer = add_peer(house.access);
+    house.link->on_sealed(time_in(house));
+  }
+
+  // The server began anew: the house hears so, and comes to another sealed session.
+  void unseal(House& house) {
+    house.peer = 0;
+    house.link->on_unsealed(time_in(house));
+    house.seal_due = now_ + house.down + house.up + house.down;
+  }
+
+  void post(bool to_server, PeerId peer, wire::Bytes bytes) {
+    if (bytes.size() > wire::kMaxPlain) std::abort();
+    House* house = house_of(peer);
     if (on_datagram && !on_datagram(to_server, peer, bytes)) return;
     if (house == nullptr || house->is_cut) return;
     parcels_.push_back({now_ + (to_server ? house->up : house->down),
@@ -194,8 +230,13 @@ class SimulatedTunnel {
     parcels_.erase(parcels_.begin(), later);
     for (const Parcel& parcel : due) {
       if (parcel.to_server) {
-        if (server_) server_->receive(parcel.peer, parcel.bytes, now_, now_);
-      } else if (House* house = house_at(parcel.peer); house && house->is_running) {
+        const auto peer = peers_.find(parcel.peer);
+        House* house = house_of(parcel.peer);
+        if (server_ && peer != peers_.end())
+          server_->receive(peer->first, peer->second, parcel.bytes, now_, now_);
+        else if (server_ && house && house->is_running)
+          unseal(*house);
+      } else if (House* house = house_of(parcel.peer); house && house->is_running) {
         house->link->receive(parcel.bytes, time_in(*house), time_in(*house));
       }
     }
@@ -238,6 +279,8 @@ class SimulatedTunnel {
   std::unique_ptr<ServerCore> server_;
   std::vector<std::unique_ptr<House>> houses_;
   std::vector<Parcel> parcels_;
+  std::map<PeerId, Access> peers_;  // that the server has sealed sessions with
+  PeerId newest_peer_ = 0;
 };
 
 // The dancers send a pose each, about 60 times a second.

@@ -1,4 +1,4 @@
-// So many a second and no more, with a burst allowed: bounds what one session or all strangers can
+// So many a second and no more, with a burst allowed: bounds what one session or one guest can
 // make a server do.
 //
 // Units/frames: tokens are whatever is counted (datagrams, bytes).
