@@ -91,8 +91,10 @@ Result<void> run_key(const KeyOptions& options) {
   keys.put(key);
   if (auto written = write_secret(path, keys.text()); !written) return written;
   const std::string room = key.room.is_set() ? " --room " + std::string(key.room.view()) : "";
+  // With a room's key everybody goes by a name of her own.
+  const std::string guest = key.room == key.name ? "YOUR-NAME" : std::string(key.name.view());
   talk::info("kept in {}; now: dance join {} --guest {}{}", path,
-             key.server.empty() ? "HOST" : key.server, key.name.view(), room);
+             key.server.empty() ? "HOST" : key.server, guest, room);
   return {};
 }
 

@@ -48,6 +48,14 @@ Result<std::string> write_beside(const std::string& path, const std::string& tex
   const Descriptor file(open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
   if (file.get() < 0)
     return fail(path + ": cannot be written: " + reason() + "; is the folder yours?");
+  // Root adds a key for a service: it is the service's to read.
+  struct stat about {};
+  if (geteuid() == 0 && !folder.empty() && stat(folder.c_str(), &about) == 0 &&
+      fchown(file.get(), about.st_uid, about.st_gid) != 0) {
+    const std::string why = reason();
+    unlink(beside.c_str());
+    return fail(path + ": cannot be given to the owner of its folder: " + why);
+  }
   std::size_t written = 0;
   while (written < text.size()) {
     const ssize_t size = write(file.get(), text.data() + written, text.size() - written);
