@@ -107,6 +107,10 @@ void Link::send(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
   rearm();
 }
 
+void Link::set_interest(const Interest& interest, MonoTime now) {
+  core_.set_interest(interest, now);
+}
+
 Duration Link::uptime() const { return mono_now() - begin_; }
 
 Stats Link::stats(MonoTime now) const {

@@ -17,6 +17,7 @@ constexpr const char* kExamples = R"(Examples:
   dance link --server dance.example.org --room salsa --guest alice
   dance link --server 192.0.2.7:7400 --room salsa                 everybody whom this house captures
   dance link --server dance.example.org --room salsa --listen-only  everybody's poses, and none of this house
+  dance link --guest alice --want default=4 --want bob=1            bob in full, of the others each fourth pose
   dance link --guest bob --bus 'udpm://239.255.76.67:7668?ttl=0'  a second house on this machine
 )";
 
@@ -29,6 +30,7 @@ struct LinkProgramOptions {
   std::string bus;
   double quality_mm = LinkOptions().quality_m * 1e3;
   double pose_bytes_per_second = 0.0;
+  std::vector<std::string> want;
   bool listen_only = false;
   bool json = false;
 };
@@ -50,6 +52,7 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
   if (given.listen_only && !given.guests.empty())
     return fail("--listen-only brings no guests: leave out --guest, or --listen-only");
   options.listen_only = given.listen_only;
+  DANCE_TRY(options.interest, parse_interest(given.want));
   options.clock_id = this_clock_id();
   options.quality_m = given.quality_mm * 1e-3;
   options.pose_bytes_per_second = given.pose_bytes_per_second;
@@ -124,6 +127,10 @@ int main(int argc, char** argv) {
   line.add("--guest", options.guests,
            "whose captures go to the room, may be repeated; none = everybody captured here")
       .guest_name();
+  line.add(
+      "--want", options.want,
+      "how many of a guest's poses come here: NAME=1 every one, NAME=N at most every N-th, NAME=0 "
+      "none; default=N for all who are not named; may be repeated");
   line.add_flag("--listen-only", options.listen_only,
                 "hears the room and sends nothing of this house");
   line.add("--bus", options.bus, "LCM URL of the house's bus");

@@ -16,6 +16,7 @@
 #include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
+#include "tunnel/interest.h"
 #include "tunnel/wire.h"
 
 namespace dance {
@@ -37,6 +38,8 @@ struct LinkOptions {
   Duration key_frame_period = Duration::s(2);
   // Every so many poses bring the ages of their hops.
   std::uint32_t poses_per_stamp = 16;
+  // Whom it wants to hear, and how often; LinkCore::set_interest() changes it.
+  Interest interest;
   // The largest error in any joint that own guests are sent with, in metres;
   double quality_m = 0.001;
   // and what the payloads of each of them may cost: where they cost more, the error grows up to 5 mm,

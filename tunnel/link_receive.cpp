@@ -57,7 +57,9 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
     ++remote.invalid;
     return !is_pose;
   }
-  const StreamGate::Verdict verdict = gate.judge(record.stream, record.sequence, record.capture_us);
+  const auto left_out = record.counts_left_out ? std::optional(record.left_out) : std::nullopt;
+  const StreamGate::Verdict verdict =
+      gate.judge(record.stream, record.sequence, record.capture_us, left_out);
   if (verdict != StreamGate::Verdict::kNewest && verdict != StreamGate::Verdict::kNewStream) {
     ++counters_.late;
     return !is_pose;
@@ -176,6 +178,7 @@ bool LinkCore::on_roster(wire::Bytes body, MonoTime now) {
     settle_slot(remotes_[slot], is_taken ? entry : nullptr);
     if (is_taken && !remotes_[slot].is_ours && !named.try_push(entry->guest)) return false;
   }
+  settle_interest();
   // Who merely changed the slot neither left nor came.
   for (const GuestId& id : before)
     if (!is_present(id) && handlers_.on_guest_left) handlers_.on_guest_left(id, now);

@@ -90,6 +90,8 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
       return on_state(index, opening.body);
     case wire::Type::kStateAck:
       return on_state_ack(index, opening.body);
+    case wire::Type::kInterest:
+      return on_interest(index, opening.body, now);
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return reject(ServerReject::kMalformed);
       ++counters_.goodbyes;
@@ -196,7 +198,10 @@ void ServerCore::end_turn(MonoTime now) {
   for (ServerRoom& room : rooms_) {
     if (!room.roster_changed) continue;
     room.roster_changed = false;
-    for (const std::size_t member : room.members) send_roster(sessions_[member]);
+    for (const std::size_t member : room.members) {
+      settle_interest(member, now);
+      send_roster(sessions_[member]);
+    }
   }
   // Backwards, as who is done leaves the list.
   for (std::size_t i = bundled_.size(); i-- > 0;)

@@ -103,6 +103,17 @@ class ServerCore {
   void flush_bundle(std::size_t session, MonoTime now);
   void send_records(std::size_t session, MonoTime now);
 
+  // server_interest.cpp
+  void on_interest(std::size_t session, wire::Bytes body, MonoTime now);
+  void settle_interest(std::size_t session, MonoTime now);
+  void set_divider(std::size_t session, std::uint8_t slot, std::uint8_t divider, MonoTime now);
+  bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) const;
+  // Whether a record goes to a receiver; counts those that do not.
+  bool take_share(std::size_t to, const wire::Record& record, MonoTime now);
+  bool is_in_share(const Thinning& thinning, const ServerGuest& guest,
+                   const wire::Record& record) const;
+  void tell_left_out(ServerSession& to, wire::Record& record);
+
   // server_feedback.cpp
   void on_acks(std::size_t session, const wire::Acks& acks, MonoTime now);
   void on_want(std::size_t session, std::uint8_t slot, MonoTime now);
@@ -110,6 +121,7 @@ class ServerCore {
   void want_key_frame(ServerGuest& guest, MonoTime now);
   void schedule_feedback(std::size_t session, MonoTime at);
   bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
+  wire::GuestFeedback feedback_about(std::size_t session, std::uint8_t slot, MonoTime now) const;
   // False where there is nothing new to tell.
   bool fill_feedback(std::size_t session, MonoTime now, wire::Feedback& feedback);
 

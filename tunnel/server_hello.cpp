@@ -71,6 +71,8 @@ void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, M
   session.last_heard = now;
   session.hello_time_us = hello->link_time_us;
   settle_guests(index, *hello);
+  if (!existing || is_moved) session.interest.default_divider = hello->default_divider;
+  settle_interest(index, now);
   welcome(index, *hello, received, now);
   if (!existing || is_moved) want_key_frames_for(index, now);
 }
@@ -166,6 +168,8 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   session.bundle_size = 0;
   session.sent = SentRing();
   session.held = {};
+  session.interest = {};
+  session.thinning = {};
   session.received = AckWindow();
   session.feedback_due = MonoTime();
   std::erase(bundled_, index);
@@ -239,6 +243,10 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
   free->owner = index;
   const bool pushed = session.slots.try_push(slot);
   DANCE_ASSERT(pushed);
+  for (const std::size_t member : room.members) {
+    sessions_[member].thinning[slot] = Thinning();
+    sessions_[member].thinning[slot].divider = sessions_[member].interest.default_divider;
+  }
   ++room.guest_count;
   ++room.roster_version;
   room.roster_changed = true;

@@ -14,7 +14,7 @@ constexpr std::int64_t kLongestAge_us = 60'000'000;
 constexpr std::int64_t kFarthestAhead_us = 1'000'000;
 // Loss, round trip and the number of guests; then each of them.
 constexpr std::size_t kFeedbackHead = 2 + 2 + 2 + 1;
-constexpr std::size_t kFeedbackGuest = 7;
+constexpr std::size_t kFeedbackGuest = 7 + 1 + 4;
 
 }  // namespace
 
@@ -65,6 +65,8 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   if (record.sent_age_us != wire::kNoAge)
     record.server_age_us = static_cast<std::int32_t>(received_us - record.capture_us);
   ++counters_.records_in;
+  if (record.is_base) ++guest->base_count;
+  if (!is_pose) ++guest->hands_count;
   forward(session, record, now);
 }
 
@@ -75,7 +77,7 @@ void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime 
   const ServerRoom& room = rooms_[sessions_[from].room];
   for (const std::size_t member : room.members) {
     ServerSession& to = sessions_[member];
-    if (member == from) continue;
+    if (member == from || !take_share(member, record, now)) continue;
     if (to.bundle.size() - to.bundle_size < most) flush_bundle(member, now);
     if (to.bundle_size == 0) {
       to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
@@ -89,7 +91,10 @@ void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime 
         is_pose && held.is_of(record.stream) &&
         static_cast<std::uint16_t>(sequence - held.newest()) <= wire::kNarrowReach;
     ByteWriter out(std::span<std::uint8_t>(to.bundle).subspan(to.bundle_size));
-    wire::add_record(record, is_narrow, to.base_ticks, out);
+    wire::Record told = record;
+    told.needs_no_other = told.is_base = false;  // the receiver sees it
+    tell_left_out(to, told);
+    wire::add_record(told, is_narrow, to.base_ticks, out);
     DANCE_ASSERT(out.ok());
     to.bundle_size += out.size();
     if (is_pose) {
@@ -106,8 +111,7 @@ Duration ServerCore::share_window(const ServerRoom& room) const {
 
 // Full of what can come, or has waited long enough.
 bool ServerCore::is_bundle_due(const ServerSession& session, MonoTime now) const {
-  return now >= session.bundle_due ||
-         session.bundle_poses + session.slots.size() >= rooms_[session.room].guest_count;
+  return now >= session.bundle_due || session.bundle_poses >= session.full_shares;
 }
 
 void ServerCore::flush_bundle(std::size_t index, MonoTime now) {

@@ -103,6 +103,19 @@ struct ServerCounters {
   }
 };
 
+// What of one guest's poses goes to one receiver.
+struct Thinning {
+  std::uint8_t divider = 1;
+  // It has nothing that frames could refer to: the next that needs no other is the first it gets.
+  bool awaits_still = true;
+  std::uint32_t last_sent = 0;  // sequence
+  // Poses of this generation that it was not sent; told with each record until it has one that was
+  // sent after the last of them.
+  bool tells_left_out = false;
+  std::uint16_t left_out = 0;
+  std::uint16_t last_left_out = 0;  // sequence, low half
+};
+
 struct ServerSession {
   bool in_use = false;
   PeerId peer = 0;
@@ -124,6 +137,10 @@ struct ServerSession {
   std::size_t bundle_poses = 0;
   std::int64_t base_ticks = 0;
   MonoTime bundle_due;
+  // What it wants of the others: the list as it said it, and what follows for each slot.
+  wire::InterestList interest;
+  std::array<Thinning, wire::kMaxGuestsPerRoom> thinning;
+  std::size_t full_shares = 0;  // others in the room whose every pose it gets
   // What the link has of the others, as it acknowledges; and what has come from it.
   SentRing sent;
   std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
@@ -145,7 +162,9 @@ struct ServerGuest {
   bool key_wanted = false;
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;
-  HeldFrames told;                  // what the link was told last
+  wire::GuestFeedback told;      // what the link was told last
+  std::uint32_t base_count = 0;  // base frames that came
+  std::uint32_t hands_count = 0;
   std::uint32_t state_version = 0;  // of the skeleton; 0 = none yet
   std::size_t state_size = 0;
   std::array<std::uint8_t, wire::kMaxStatePayload> state;

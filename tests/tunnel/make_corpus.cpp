@@ -54,6 +54,13 @@ void write_tunnel(const std::filesystem::path& root) {
   scene.a->link->send(guest("alice"), average_skeleton(1.6f), tunnel.time_in(*scene.a));
   scene.b->link->send(guest("bob"), average_skeleton(1.8f), tunnel.time_in(*scene.b));
   tunnel.run(Duration::ms(300));
+  Interest interest;
+  if (interest.guests.try_push({guest("bob"), 2}))
+    scene.a->link->set_interest(interest, tunnel.time_in(*scene.a));
+  for (int i = 0; i < 4; ++i) {
+    tunnel.run(Duration::ms(30));
+    tunnel.dance(*scene.b, guest("bob"));
+  }
   tunnel.add_house("salsa", {"carol"});
   tunnel.add_house("salsa", {"bob"});
   tunnel.run(Duration::ms(100));

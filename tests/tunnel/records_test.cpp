@@ -88,6 +88,7 @@ TEST(WireRecords, HeadersAreAsSmallAsTheySay) {
   Record longest = example();
   longest.payload = payload;
   longest.capture_us = 0;
+  longest.counts_left_out = true;
   longest.published_age_us = longest.sent_age_us = longest.server_age_us = INT32_MAX;
   EXPECT_EQ(written(header, {{longest, false}}).size() - empty, kMaxRecordHeader + kMaxPayload);
 }
