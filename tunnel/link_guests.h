@@ -80,6 +80,8 @@ struct RemoteGuest {
   std::uint16_t generation = 0;
   StreamGate poses;
   StreamGate hands;
+  bool has_decoded = false;  // some pose, since the gates were new
+  MonoTime shown;            // capture of the newest that went on, of this generation
   std::uint64_t invalid = 0;
   std::uint64_t reference_missing = 0;
   std::uint64_t skeleton_missing = 0;

@@ -171,6 +171,7 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
       keep_counts(remote);
       remote.poses = StreamGate();
       remote.hands = StreamGate();
+      remote.has_decoded = false;
       remote.skeleton_version = 0;
       if (remote.decoder) renew_decoder(remote);
     }

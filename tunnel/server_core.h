@@ -94,10 +94,17 @@ class ServerCore {
   ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
   void sweep(MonoTime now);
 
+  // server_kept.cpp
+  void keep(ServerGuest& guest, const wire::Record& record);
+  void greet(std::size_t newcomer, MonoTime now);
+  void send_kept(std::size_t to, std::uint8_t slot, MonoTime now);
+  void repeat_kept(std::size_t to, MonoTime now);
+
   // server_records.cpp
   void on_records(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
   void forward(std::size_t from, const wire::Record& record, MonoTime now);
+  void add_to_bundle(std::size_t to, const wire::Record& record, MonoTime now);
   Duration share_window(const ServerRoom& room) const;
   bool is_bundle_due(const ServerSession& session, MonoTime now) const;
   void flush_bundle(std::size_t session, MonoTime now);
@@ -131,6 +138,7 @@ class ServerCore {
   std::vector<ServerSession> sessions_;
   std::vector<ServerRoom> rooms_;
   std::unordered_map<PeerId, std::size_t> by_peer_;
+  std::vector<std::size_t> newcomers_;  // sessions that know nothing of their room yet
   std::vector<std::size_t> bundled_;    // sessions with a bundle under way
   std::vector<std::size_t> reporting_;  // sessions with feedback due
   MonoTime next_sweep_;

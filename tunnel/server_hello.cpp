@@ -74,7 +74,11 @@ void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, M
   if (!existing || is_moved) session.interest.default_divider = hello->default_divider;
   settle_interest(index, now);
   welcome(index, *hello, received, now);
-  if (!existing || is_moved) want_key_frames_for(index, now);
+  if (!existing || is_moved) {
+    if (std::find(newcomers_.begin(), newcomers_.end(), index) == newcomers_.end())
+      newcomers_.push_back(index);
+    want_key_frames_for(index, now);
+  }
 }
 
 void ServerCore::welcome(std::size_t index, const wire::Hello& hello, MonoTime received,
@@ -267,6 +271,7 @@ void ServerCore::drop_session(std::size_t index) {
   for (const std::uint8_t slot : session.slots) remove_guest(session.room, slot);
   if (session.access.role == Role::kHost) --room.host_count;
   std::erase(room.members, index);
+  std::erase(newcomers_, index);
   std::erase(bundled_, index);
   std::erase(reporting_, index);
   by_peer_.erase(session.peer);

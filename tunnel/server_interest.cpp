@@ -52,6 +52,7 @@ void ServerCore::set_divider(std::size_t index, std::uint8_t slot, std::uint8_t 
   const Share after = share_of(divider);
   thinning.divider = divider;
   schedule_feedback(guest.owner, now);
+  if (before == Share::kNone) session.held[slot].clear();  // what it has is old
   if (before == after || after == Share::kNone) return;
   // Who had everything has what base frames refer to; all others begin with a frame that needs none.
   const bool is_served = before == Share::kAll && session.held[slot].is_of(guest.poses.stream());

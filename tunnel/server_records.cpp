@@ -67,42 +67,44 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   ++counters_.records_in;
   if (record.is_base) ++guest->base_count;
   if (!is_pose) ++guest->hands_count;
+  if (is_pose) guest->last_pose = now;
+  if (is_pose && record.needs_no_other) keep(*guest, record);
   forward(session, record, now);
 }
 
 void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime now) {
+  for (const std::size_t member : rooms_[sessions_[from].room].members)
+    if (member != from && take_share(member, record, now)) add_to_bundle(member, record, now);
+}
+
+void ServerCore::add_to_bundle(std::size_t index, const wire::Record& record, MonoTime now) {
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   const auto sequence = static_cast<std::uint16_t>(record.sequence);
-  const std::size_t most = wire::kMaxRecordHeader + record.payload.size();
-  const ServerRoom& room = rooms_[sessions_[from].room];
-  for (const std::size_t member : room.members) {
-    ServerSession& to = sessions_[member];
-    if (member == from || !take_share(member, record, now)) continue;
-    if (to.bundle.size() - to.bundle_size < most) flush_bundle(member, now);
-    if (to.bundle_size == 0) {
-      to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
-      to.bundle_due = now + share_window(room);
-      to.bundle_poses = 0;
-      bundled_.push_back(member);
-    }
-    // What the receiver is known to have gives the high bits.
-    const HeldFrames& held = to.held[record.slot];
-    const bool is_narrow =
-        is_pose && held.is_of(record.stream) &&
-        static_cast<std::uint16_t>(sequence - held.newest()) <= wire::kNarrowReach;
-    ByteWriter out(std::span<std::uint8_t>(to.bundle).subspan(to.bundle_size));
-    wire::Record told = record;
-    told.needs_no_other = told.is_base = false;  // the receiver sees it
-    tell_left_out(to, told);
-    wire::add_record(told, is_narrow, to.base_ticks, out);
-    DANCE_ASSERT(out.ok());
-    to.bundle_size += out.size();
-    if (is_pose) {
-      to.sent.add({record.stream, sequence, record.slot});
-      ++to.bundle_poses;
-    }
-    ++counters_.records_out;
+  ServerSession& to = sessions_[index];
+  if (to.bundle.size() - to.bundle_size < wire::kMaxRecordHeader + record.payload.size())
+    flush_bundle(index, now);
+  if (to.bundle_size == 0) {
+    to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
+    to.bundle_due = now + share_window(rooms_[to.room]);
+    to.bundle_poses = 0;
+    bundled_.push_back(index);
   }
+  // What the receiver is known to have gives the high bits.
+  const HeldFrames& held = to.held[record.slot];
+  const bool is_narrow = is_pose && held.is_of(record.stream) &&
+                         static_cast<std::uint16_t>(sequence - held.newest()) <= wire::kNarrowReach;
+  ByteWriter out(std::span<std::uint8_t>(to.bundle).subspan(to.bundle_size));
+  wire::Record told = record;
+  told.needs_no_other = told.is_base = false;  // the receiver sees it
+  tell_left_out(to, told);
+  wire::add_record(told, is_narrow, to.base_ticks, out);
+  DANCE_ASSERT(out.ok());
+  to.bundle_size += out.size();
+  if (is_pose) {
+    to.sent.add({record.stream, sequence, record.slot});
+    ++to.bundle_poses;
+  }
+  ++counters_.records_out;
 }
 
 Duration ServerCore::share_window(const ServerRoom& room) const {

@@ -151,6 +151,14 @@ struct ServerSession {
   bool feedback_is_repeat = false;  // goes out though nothing has changed
 };
 
+// The newest pose of a guest that needs no other, for those who come later.
+struct KeptPose {
+  bool is_set = false;
+  wire::Record record;  // but for its payload
+  std::size_t size = 0;
+  std::array<std::uint8_t, wire::kMaxPayload> payload;
+};
+
 struct ServerGuest {
   bool in_use = false;
   GuestId id;
@@ -162,7 +170,9 @@ struct ServerGuest {
   bool key_wanted = false;
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;
-  wire::GuestFeedback told;      // what the link was told last
+  wire::GuestFeedback told;  // what the link was told last
+  KeptPose kept;
+  MonoTime last_pose;            // when the newest came in
   std::uint32_t base_count = 0;  // base frames that came
   std::uint32_t hands_count = 0;
   std::uint32_t state_version = 0;  // of the skeleton; 0 = none yet

@@ -28,6 +28,21 @@ void append_step(Bytes& script, std::uint8_t how, const Bytes& datagram) {
   script.insert(script.end(), datagram.begin(), datagram.end());
 }
 
+// Records with more in their heads are kinds of their own.
+std::string more_of(wire::Bytes datagram) {
+  const auto opening = wire::parse_opening(datagram);
+  if (opening->type != wire::Type::kRecords) return "";
+  ByteReader in(opening->body);
+  if (!wire::parse_records_header(in)) return "";
+  while (in.remaining() > 0) {
+    const auto record = wire::parse_record(0, in);
+    if (record->is_kept) return "_kept";
+    if (record->counts_left_out) return "_left_out";
+    if (record->is_base) return "_base";
+  }
+  return "";
+}
+
 void write_tunnel(const std::filesystem::path& root) {
   FuzzScene scene;
   std::map<std::string, Bytes> seeds;  // by file name
@@ -41,7 +56,7 @@ void write_tunnel(const std::filesystem::path& root) {
         type == wire::Type::kRecords && (bytes[wire::kSessionHeader + 2] & 16) == 0;
     const std::string name = std::string(to_server ? "server_datagram/" : "link_datagram/") +
                              "type_" + std::to_string(static_cast<int>(type)) +
-                             (is_bare ? "_bare" : "");
+                             (is_bare ? "_bare" : "") + more_of(bytes);
     if (!seeds.contains(name)) {
       append_step(seeds[name], how, datagram);
       append_step(all[to_server], how, datagram);
