@@ -111,9 +111,11 @@ Duration ServerCore::share_window(const ServerRoom& room) const {
   return limits_.share_window.value_or(share_window_of(room.guest_count));
 }
 
-// Full of what can come, or has waited long enough.
+// Full of what can come, or has waited long enough. Who wants less than all of everybody waits: what
+// comes next is not known.
 bool ServerCore::is_bundle_due(const ServerSession& session, MonoTime now) const {
-  return now >= session.bundle_due || session.bundle_poses >= session.full_shares;
+  return now >= session.bundle_due ||
+         (session.full_shares > 0 && session.bundle_poses >= session.full_shares);
 }
 
 void ServerCore::flush_bundle(std::size_t index, MonoTime now) {

@@ -211,6 +211,31 @@ TEST_F(InterestRoom, WhoWantsLessCostsTheOthersLittle) {
   }
 }
 
+TEST(InterestCrowd, WhoWantsHalfGetsFarFewerBytesInNoMoreDatagrams) {
+  SimulatedTunnel tunnel;
+  std::vector<House*> houses;
+  for (int i = 0; i < 16; ++i) {
+    tunnel.link_options.interest.others = i == 7 ? 2 : 1;
+    houses.push_back(&tunnel.add_house("salsa", {"guest-" + std::to_string(i)}));
+  }
+  // Each in a millisecond of its own, so that only waiting brings them together.
+  const auto dance = [&](Duration duration) {
+    tunnel.run(duration, [&] {
+      const auto who = static_cast<std::size_t>(tunnel.now().since_zero_us() / 1000 % 16);
+      tunnel.dance(*houses[who], guest("guest-" + std::to_string(who)));
+    });
+  };
+  dance(Duration::s(1));
+  const LinkCounters all = houses[3]->link->counters(), half = houses[7]->link->counters();
+  dance(Duration::s(2));
+  const LinkCounters& all_now = houses[3]->link->counters();
+  const LinkCounters& half_now = houses[7]->link->counters();
+  EXPECT_NEAR(static_cast<double>(half_now.poses_delivered - half.poses_delivered), 15 * 62.5, 20);
+  EXPECT_LT(static_cast<double>(half_now.bytes_in - half.bytes_in),
+            0.75 * static_cast<double>(all_now.bytes_in - all.bytes_in));
+  EXPECT_LE(half_now.datagrams_in - half.datagrams_in, all_now.datagrams_in - all.datagrams_in);
+}
+
 TEST_F(InterestRoom, HandsComeAsOftenAsPoses) {
   House& a = add("alice");
   House& b = add("bob");

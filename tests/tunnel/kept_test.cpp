@@ -104,6 +104,23 @@ TEST_F(Kept, WhoWantsNothingGetsNothingAndWhoWantsLaterGetsIt) {
   EXPECT_EQ(c.heard_of(guest("alice")), 1u);
 }
 
+TEST_F(Kept, WhoWantsSomebodyAgainSeesWhereTheDanceHasEnded) {
+  House& c = tunnel.add_house("salsa", {});
+  Dance dance{tunnel, {{a, guest("alice")}}};
+  dance.run(Duration::s(1));
+  Interest nobody;
+  nobody.others = 0;
+  c.link->set_interest(nobody, tunnel.time_in(c));
+  dance.run(Duration::s(4));
+  const auto before = c.poses.size();
+  c.link->set_interest({}, tunnel.time_in(c));
+  tunnel.run(Duration::ms(300));
+  ASSERT_EQ(c.poses.size(), before + 1);
+  EXPECT_GE(tunnel.now() - c.poses.back().pose.capture_time, Duration::ms(300));
+  EXPECT_LE(tunnel.now() - c.poses.back().pose.capture_time, Duration::ms(300 + 2600));
+  EXPECT_EQ(c.link->remote_stats().at(0).lost, 0u);
+}
+
 TEST_F(Kept, IsGoneWithItsGuest) {
   a->link->say_goodbye();
   tunnel.run(Duration::ms(50));
