@@ -29,6 +29,26 @@ void keep_time(LocalGuest& guest, MonoTime capture) {
   guest.last_capture = capture;
 }
 
+// The producer began anew: nothing of before is a reference.
+void begin_stream(LocalGuest& guest) {
+  guest.encoder->restart();
+  guest.sent_frames.clear();
+  guest.acked_frames.clear();
+  guest.base_acked_frames.clear();
+  guest.unstamped = 0;
+}
+
+void note_sent(LocalGuest& guest, const wire::Record& record, MonoTime now) {
+  guest.sent_frames.add(guest.poses.stream(), static_cast<std::uint16_t>(record.sequence));
+  guest.last_sequence = record.sequence;
+  ++guest.sent;
+  ++guest.since_still;
+  if (!record.needs_no_other) return;
+  guest.since_still = 0;
+  guest.still_at = now;
+  guest.key_frame_at = now;
+}
+
 }  // namespace
 
 bool LinkCore::stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
@@ -159,11 +179,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   }
   if (guest->poses.restarts() != restarts) {
     ++counters_.stream_restarts;
-    guest->encoder->restart();
-    guest->sent_frames.clear();
-    guest->acked_frames.clear();
-    guest->base_acked_frames.clear();
-    guest->unstamped = 0;
+    begin_stream(*guest);
   }
   keep_time(*guest, times.capture);
   refresh(*guest, now);
@@ -182,21 +198,13 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   record.capture_us = times.capture_us;
   record.needs_no_other = guest->encoder->needs_no_other();
   record.is_base = is_base;
-  ++guest->since_still;
-  if (record.needs_no_other) {
-    guest->since_still = 0;
-    guest->still_at = now;
-    guest->key_frame_at = now;
-  }
   if (guest->unstamped == 0) {
     record.published_age_us = times.published_age_us;
     record.sent_age_us = times.sent_age_us;
   }
   guest->unstamped = (guest->unstamped + 1) % std::max(options_.poses_per_stamp, 1u);
   record.payload = {payload.data(), size};
-  guest->sent_frames.add(guest->poses.stream(), static_cast<std::uint16_t>(pose.sequence));
-  guest->last_sequence = pose.sequence;
-  ++guest->sent;
+  note_sent(*guest, record, now);
   ++counters_.poses_sent;
   add_record(record, now);
 }
