@@ -51,6 +51,10 @@ class WatchedEncoder final : public PoseEncoder {
     encoder_.acknowledged(sequence);
   }
   void key_frame_wanted() override { encoder_.key_frame_wanted(); }
+  void still_wanted() override { encoder_.still_wanted(); }
+  void base_wanted() override { encoder_.base_wanted(); }
+  void base_acknowledged(std::uint32_t sequence) override { encoder_.base_acknowledged(sequence); }
+  bool needs_no_other() const override { return encoder_.needs_no_other(); }
   void restart() override { encoder_.restart(); }
   void set_references(References references) override { encoder_.set_references(references); }
   void set_quality(double error_m) override { encoder_.set_quality(error_m); }

@@ -93,6 +93,7 @@ Result<void> House::open_link() {
   DANCE_TRY(const auto server, Address::resolve_all(session_.server, kDefaultServerPort));
   LinkOptions options;
   options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
+  options.listen_only = session_.guests.empty();
   options.clock_id = this_clock_id();
   options.quality_m = session_.quality_mm * 1e-3;
   options.pose_bytes_per_second = session_.pose_bytes_per_second;

@@ -1,5 +1,5 @@
-// What the key of a peer lets it do on a server: which room it may enter, and which names its guests
-// may bear there.
+// What the key of a peer lets it do on a server: which room it may enter, which names its guests may
+// bear there, and what it may change.
 //
 // Units/frames: none.
 // Ownership:    plain value, no allocation.
@@ -27,15 +27,15 @@ struct Access {
   bool any_name = false;  // a room's key: whoever has it chooses the names
 
   // Its own name, or one that begins with it and a '-': "alice", "alice-2".
-  bool may_bear(const GuestId& guest) const {
-    if (role == Role::kListener || !guest.is_set()) return false;
-    if (any_name) return true;
-    const std::string_view own = name.view();
-    const std::string_view wanted = guest.view();
-    return name.is_set() && wanted.starts_with(own) &&
-           (wanted.size() == own.size() || wanted[own.size()] == '-');
-  }
-  bool may_enter(const wire::RoomName& wanted) const { return !room.is_set() || room == wanted; }
+  bool may_bear(const GuestId& guest) const;
+  bool may_enter(const wire::RoomName& wanted) const;
 };
+
+// Who may change what: all of it stands here.
+bool may_have_guests(const Access& access);
+bool may_send_records(const Access& access);
+// Music, scene: what is one for the whole room. A host may; where nobody in the room has a host's
+// key, any guest.
+bool may_set_room_state(const Access& access, bool room_has_host);
 
 }  // namespace dance

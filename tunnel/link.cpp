@@ -60,6 +60,7 @@ Link::Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealCo
 SealClient::Handlers Link::seal_handlers() {
   SealClient::Handlers handlers;
   handlers.on_sealed = [this](MonoTime now) { core_.on_sealed(now); };
+  handlers.on_unsealed = [this](MonoTime now) { core_.on_unsealed(now); };
   handlers.on_datagram = [this](wire::Bytes plain, MonoTime received, MonoTime now) {
     core_.receive(plain, received, now);
   };
@@ -159,6 +160,10 @@ void Link::send(const GuestId& guest, const Hands& hands, MonoTime now) {
 void Link::send(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
   core_.send(guest, skeleton, now);
   rearm();
+}
+
+void Link::set_interest(const Interest& interest, MonoTime now) {
+  core_.set_interest(interest, now);
 }
 
 Duration Link::uptime() const { return mono_now() - begin_; }

@@ -41,6 +41,9 @@ class Link {
   void send(const GuestId& guest, const Hands& hands, MonoTime now);
   void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
 
+  // As LinkCore does.
+  void set_interest(const Interest& interest, MonoTime now);
+
   bool is_connected() const { return core_.is_connected(); }
   LinkState state() const { return core_.state(); }
   const LinkCounters& counters() const { return core_.counters(); }

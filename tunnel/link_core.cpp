@@ -44,6 +44,7 @@ LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSi
       remotes_(wire::kMaxGuestsPerRoom) {
   DANCE_ASSERT(options.token != 0);
   DANCE_ASSERT(options.room.is_set());
+  DANCE_ASSERT(!options.listen_only || options.guests.empty());
   if (options_.codecs.empty())
     for (const CodecName& name : known_codecs()) {
       const bool pushed = options_.codecs.try_push(name);
@@ -89,6 +90,10 @@ LocalGuest* LinkCore::find_or_add(const GuestId& id, MonoTime now) {
     if (guest.id != id) continue;
     guest.last_pose = now;
     return &guest;
+  }
+  if (options_.listen_only) {
+    ++counters_.unrouted;
+    return nullptr;
   }
   if (locals_.size() == wire::kMaxGuestsPerLink) {
     ++counters_.overflow;

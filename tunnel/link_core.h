@@ -44,6 +44,9 @@ class LinkCore {
   void send(const GuestId& guest, const Pose& pose, MonoTime now);
   void send(const GuestId& guest, const Hands& hands, MonoTime now);
   void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+  // Whom the server is to send, and how often: told until it is acknowledged. For guests who are not
+  // here, it counts when they come.
+  void set_interest(const Interest& interest, MonoTime now);
   void say_goodbye();
 
   LinkState state() const { return state_; }
@@ -102,11 +105,18 @@ class LinkCore {
   bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
              Stamp& out);
   void refresh(LocalGuest& guest, MonoTime now);
+  bool prepare(LocalGuest& guest, MonoTime now);
   void add_record(const wire::Record& record, MonoTime now);
   void flush_records();
   void send_records_datagram(bool with_bundle);
   std::size_t count_dancing(MonoTime now) const;
   void send_skeleton(const LocalGuest& guest);
+
+  // link_interest.cpp
+  void begin_session_interest();
+  void settle_interest();
+  void tell_interest();
+  bool on_interest_ack(wire::Bytes body);
 
   // link_feedback.cpp
   void begin_session_records();
@@ -117,6 +127,7 @@ class LinkCore {
   void want_key_frame(RemoteGuest& remote, MonoTime now);
   void on_acks(const wire::Acks& acks);
   void on_feedback(std::uint16_t number, const wire::Feedback& feedback, MonoTime now);
+  void on_held(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now);
   void on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now);
 
   LinkOptions options_;
@@ -151,6 +162,8 @@ class LinkCore {
   // Counts of those who left or got another slot, so that a summary at the end has everybody.
   std::vector<RemoteGuestStats> departed_;  // reserved; the oldest makes room
   RosterAssembly roster_;
+  wire::InterestList interest_;  // as the server was told, or is being told
+  std::uint32_t interest_acked_ = 0;
   // Records that wait for those of other guests, and what the server is to be told with them.
   std::array<std::uint8_t, wire::kMaxRecordsBody> bundle_;
   std::size_t bundle_size_ = 0;

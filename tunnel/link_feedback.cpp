@@ -34,6 +34,9 @@ void LinkCore::settle_encoder(LocalGuest& guest) {
   guest.encoder->set_quality(guest.quality.quality_m());
   guest.sent_frames.clear();
   guest.acked_frames.clear();
+  guest.base_acked_frames.clear();
+  guest.base_log2 = 0;
+  guest.still_log2 = kFewestStills_log2;
   guest.key_frames_seen = 0;
   guest.key_frame_at = MonoTime();
   guest.unstamped = 0;
@@ -116,18 +119,33 @@ void LinkCore::on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& g
         guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
     if (chosen != before) guest.encoder->set_references(chosen);
   }
-  if (!about.has_held || about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;
-  for (int back = 16; back >= 0; --back) {
-    if (back > 0 && (about.held_before >> (back - 1) & 1) == 0) continue;
-    const auto sequence = static_cast<std::uint16_t>(about.newest_held - back);
-    // Only what was sent, and each once.
-    if (!guest.sent_frames.has(sequence) || guest.acked_frames.has(sequence)) continue;
-    guest.acked_frames.add(guest.poses.stream(), sequence);
-    ++guest.acked;
-    guest.acked_at = now;
-    const auto behind = static_cast<std::uint16_t>(guest.last_sequence - sequence);
-    guest.encoder->acknowledged(guest.last_sequence - behind);
-  }
+  guest.base_log2 = about.base_log2;
+  guest.still_log2 = about.still_log2;
+  on_held(about, guest, now);
+}
+
+void LinkCore::on_held(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now) {
+  if (about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;
+  // Only what was sent, and each once.
+  const auto each_new = [&](std::uint16_t newest, std::uint16_t before, HeldFrames& told,
+                            const auto& tell) {
+    for (int back = 16; back >= 0; --back) {
+      if (back > 0 && (before >> (back - 1) & 1) == 0) continue;
+      const auto sequence = static_cast<std::uint16_t>(newest - back);
+      if (!guest.sent_frames.has(sequence) || told.has(sequence)) continue;
+      told.add(guest.poses.stream(), sequence);
+      tell(guest.last_sequence - static_cast<std::uint16_t>(guest.last_sequence - sequence));
+    }
+  };
+  if (about.has_held)
+    each_new(about.newest_held, about.held_before, guest.acked_frames, [&](std::uint32_t sequence) {
+      ++guest.acked;
+      guest.acked_at = now;
+      guest.encoder->acknowledged(sequence);
+    });
+  if (about.has_base_held)
+    each_new(about.newest_base_held, about.base_held_before, guest.base_acked_frames,
+             [&](std::uint32_t sequence) { guest.encoder->base_acknowledged(sequence); });
 }
 
 }  // namespace dance

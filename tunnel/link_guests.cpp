@@ -57,6 +57,13 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
     case wire::Refusal::kRoomFull:
       return "room '" + room_name +
              "' is full: wait for somebody to leave, or choose another --room";
+    case wire::Refusal::kListenersFull:
+      return "room '" + room_name +
+             "' has as many listeners as the server allows: wait for one to leave, or ask its "
+             "keeper for more --max-listeners";
+    case wire::Refusal::kOnlyListens:
+      return "this house's key only listens: start the link with --listen-only and without "
+             "guests, or ask the server's keeper for a key that dances";
     case wire::Refusal::kServerFull:
       return "the server has no place for another link or room: try later, or start it with more "
              "--max-sessions or --max-rooms";

@@ -16,6 +16,8 @@ constexpr const char* kExamples = R"(Examples:
   dance link --guest alice                                        room 'dance' on this machine's server
   dance link --server dance.example.org --room salsa --guest alice
   dance link --server 192.0.2.7:7400 --room salsa                 everybody whom this house captures
+  dance link --server dance.example.org --room salsa --listen-only  everybody's poses, and none of this house
+  dance link --guest alice --want default=4 --want bob=1            bob in full, of the others each fourth pose
   dance link --guest bob --bus 'udpm://239.255.76.67:7668?ttl=0'  a second house on this machine
 )";
 
@@ -29,6 +31,8 @@ struct LinkProgramOptions {
   LinkKeySource key;
   double quality_mm = LinkOptions().quality_m * 1e3;
   double pose_bytes_per_second = 0.0;
+  std::vector<std::string> want;
+  bool listen_only = false;
   bool json = false;
 };
 
@@ -46,6 +50,10 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
     if (options.guests.contains(*guest)) return fail("--guest '" + name + "' is named twice");
     if (!options.guests.try_push(*guest)) return fail("--guest: a link has at most 16 guests");
   }
+  if (given.listen_only && !given.guests.empty())
+    return fail("--listen-only brings no guests: leave out --guest, or --listen-only");
+  options.listen_only = given.listen_only;
+  DANCE_TRY(options.interest, parse_interest(given.want));
   options.clock_id = this_clock_id();
   options.quality_m = given.quality_mm * 1e-3;
   options.pose_bytes_per_second = given.pose_bytes_per_second;
@@ -93,7 +101,7 @@ Result<void> run_link(const LinkProgramOptions& given) {
   add_talk(handlers, link_bus, given, options.room);
   DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
   link_bus.attach(*link);
-  if (options.guests.empty()) link_bus.send_captures_of(GuestId());
+  if (options.guests.empty() && !options.listen_only) link_bus.send_captures_of(GuestId());
   for (const GuestId& guest : options.guests) link_bus.send_captures_of(guest);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();
@@ -125,6 +133,12 @@ int main(int argc, char** argv) {
   line.add("--guest", options.guests,
            "whose captures go to the room, may be repeated; none = everybody captured here")
       .guest_name();
+  line.add(
+      "--want", options.want,
+      "how many of a guest's poses come here: NAME=1 every one, NAME=N at most every N-th, NAME=0 "
+      "none; default=N for all who are not named; may be repeated");
+  line.add_flag("--listen-only", options.listen_only,
+                "hears the room and sends nothing of this house");
   line.add("--bus", options.bus, "LCM URL of the house's bus");
   line.add("--quality", options.quality_mm,
            "millimetres that no joint is off by more at the others'")

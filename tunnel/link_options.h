@@ -16,6 +16,7 @@
 #include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
+#include "tunnel/interest.h"
 #include "tunnel/seal/seal_trouble.h"
 #include "tunnel/wire.h"
 
@@ -24,6 +25,7 @@ namespace dance {
 struct LinkOptions {
   wire::RoomName room;
   FixedList<GuestId, wire::kMaxGuestsPerLink> guests;  // more may come with their first pose
+  bool listen_only = false;    // no guests, not even one that comes with a pose
   std::uint64_t token = 0;     // random, new with each start of a link; gives it its place back
   std::uint64_t clock_id = 0;  // this house's clock: poses of another one are stamped anew
   std::uint64_t seed = 1;      // for the nonces of hellos: random outside of tests
@@ -37,6 +39,8 @@ struct LinkOptions {
   Duration key_frame_period = Duration::s(2);
   // Every so many poses bring the ages of their hops.
   std::uint32_t poses_per_stamp = 16;
+  // Whom it wants to hear, and how often; LinkCore::set_interest() changes it.
+  Interest interest;
   // The largest error in any joint that own guests are sent with, in metres;
   double quality_m = 0.001;
   // and what the payloads of each of them may cost: where they cost more, the error grows up to 5 mm,

@@ -108,6 +108,7 @@ void LinkCore::send_hello(MonoTime now) {
   hello.link_time_us = now.since_zero_us();
   hello.codecs = options_.codecs;
   hello.room = options_.room;
+  hello.default_divider = options_.interest.others;
   for (const std::uint8_t i : hello_guests_) {
     const bool pushed = hello.guests.try_push(locals_[i].id);
     DANCE_ASSERT(pushed);
@@ -138,6 +139,7 @@ void LinkCore::send_ping(MonoTime now) {
   next_ping_ = now + (quick_pings_left_ > 0 ? kQuickPingPeriod : kPingPeriod);
   for (const LocalGuest& guest : locals_)
     if (guest.has_slot && guest.skeleton_version != guest.skeleton_acked) send_skeleton(guest);
+  if (interest_.version != interest_acked_) tell_interest();
 }
 
 void LinkCore::heard_server(MonoTime now) {
@@ -167,12 +169,14 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   codec_ = welcome->codec;
   if (is_new) {
     begin_session_records();
+    begin_session_interest();
     clock_.reset();
     roster_.reset();
     for (RemoteGuest& remote : remotes_) {
       keep_counts(remote);
       remote.poses = StreamGate();
       remote.hands = StreamGate();
+      remote.has_decoded = false;
       remote.skeleton_version = 0;
       if (remote.decoder) renew_decoder(remote);
     }
@@ -275,6 +279,9 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
       break;
     case wire::Type::kStateAck:
       is_good = on_state_ack(opening.body);
+      break;
+    case wire::Type::kInterestAck:
+      is_good = on_interest_ack(opening.body);
       break;
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return false;

@@ -21,6 +21,7 @@ ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& s
       rooms_(limits.rooms) {
   DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
   by_peer_.reserve(limits.sessions);
+  newcomers_.reserve(limits.sessions);
   bundled_.reserve(limits.sessions);
   reporting_.reserve(limits.sessions);
   for (ServerRoom& room : rooms_) room.members.reserve(limits.sessions);
@@ -36,6 +37,12 @@ std::size_t ServerCore::guest_count() const {
   for (const ServerSession& session : sessions_)
     if (session.in_use) count += session.slots.size();
   return count;
+}
+
+std::size_t ServerCore::listener_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(sessions_.begin(), sessions_.end(),
+                    [](const auto& session) { return session.in_use && session.slots.empty(); }));
 }
 
 void ServerCore::send(PeerId to, wire::Bytes bytes) {
@@ -88,6 +95,8 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
       return on_state(index, opening.body);
     case wire::Type::kStateAck:
       return on_state_ack(index, opening.body);
+    case wire::Type::kInterest:
+      return on_interest(index, opening.body, now);
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return reject(ServerReject::kMalformed);
       ++counters_.goodbyes;
@@ -120,6 +129,7 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
     if (guest.in_use && guest.owner != index && guest.state_version != session.state_acked[slot])
       send_state(session, static_cast<std::uint8_t>(slot));
   }
+  repeat_kept(index, now);
 }
 
 ServerGuest* ServerCore::guest_of(std::size_t session, std::uint8_t slot) {
@@ -194,8 +204,15 @@ void ServerCore::end_turn(MonoTime now) {
   for (ServerRoom& room : rooms_) {
     if (!room.roster_changed) continue;
     room.roster_changed = false;
-    for (const std::size_t member : room.members) send_roster(sessions_[member]);
+    for (const std::size_t member : room.members) {
+      settle_interest(member, now);
+      const bool is_new =
+          std::find(newcomers_.begin(), newcomers_.end(), member) != newcomers_.end();
+      if (!is_new) send_roster(sessions_[member]);  // else below
+    }
   }
+  for (const std::size_t newcomer : newcomers_) greet(newcomer, now);
+  newcomers_.clear();
   // Backwards, as who is done leaves the list.
   for (std::size_t i = bundled_.size(); i-- > 0;)
     if (is_bundle_due(sessions_[bundled_[i]], now)) flush_bundle(bundled_[i], now);

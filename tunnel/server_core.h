@@ -49,6 +49,7 @@ class ServerCore {
   std::size_t session_count() const { return by_peer_.size(); }
   std::size_t room_count() const;
   std::size_t guest_count() const;
+  std::size_t listener_count() const;
   // For the status line and tests.
   const std::vector<ServerSession>& sessions() const { return sessions_; }
   const std::vector<ServerRoom>& rooms() const { return rooms_; }
@@ -76,6 +77,7 @@ class ServerCore {
                            std::size_t room);
   std::uint64_t new_epoch();
   void move_session(std::size_t session, PeerId to);
+  void settle_access(std::size_t session, const Access& access);
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void add_guest(std::size_t session, const GuestId& id);
   void remove_guest(std::size_t room, std::uint8_t slot);
@@ -92,14 +94,32 @@ class ServerCore {
   ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
   void sweep(MonoTime now);
 
+  // server_kept.cpp
+  void keep(ServerGuest& guest, const wire::Record& record);
+  void greet(std::size_t newcomer, MonoTime now);
+  void send_kept(std::size_t to, std::uint8_t slot, MonoTime now);
+  void repeat_kept(std::size_t to, MonoTime now);
+
   // server_records.cpp
   void on_records(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
   void forward(std::size_t from, const wire::Record& record, MonoTime now);
+  void add_to_bundle(std::size_t to, const wire::Record& record, MonoTime now);
   Duration share_window(const ServerRoom& room) const;
   bool is_bundle_due(const ServerSession& session, MonoTime now) const;
   void flush_bundle(std::size_t session, MonoTime now);
   void send_records(std::size_t session, MonoTime now);
+
+  // server_interest.cpp
+  void on_interest(std::size_t session, wire::Bytes body, MonoTime now);
+  void settle_interest(std::size_t session, MonoTime now);
+  void set_divider(std::size_t session, std::uint8_t slot, std::uint8_t divider, MonoTime now);
+  bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) const;
+  // Whether a record goes to a receiver; counts those that do not.
+  bool take_share(std::size_t to, const wire::Record& record, MonoTime now);
+  bool is_in_share(const Thinning& thinning, const ServerGuest& guest,
+                   const wire::Record& record) const;
+  void tell_left_out(ServerSession& to, wire::Record& record);
 
   // server_feedback.cpp
   void on_acks(std::size_t session, const wire::Acks& acks, MonoTime now);
@@ -108,6 +128,7 @@ class ServerCore {
   void want_key_frame(ServerGuest& guest, MonoTime now);
   void schedule_feedback(std::size_t session, MonoTime at);
   bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
+  wire::GuestFeedback feedback_about(std::size_t session, std::uint8_t slot, MonoTime now) const;
   // False where there is nothing new to tell.
   bool fill_feedback(std::size_t session, MonoTime now, wire::Feedback& feedback);
 
@@ -117,6 +138,7 @@ class ServerCore {
   std::vector<ServerSession> sessions_;
   std::vector<ServerRoom> rooms_;
   std::unordered_map<PeerId, std::size_t> by_peer_;
+  std::vector<std::size_t> newcomers_;  // sessions that know nothing of their room yet
   std::vector<std::size_t> bundled_;    // sessions with a bundle under way
   std::vector<std::size_t> reporting_;  // sessions with feedback due
   MonoTime next_sweep_;

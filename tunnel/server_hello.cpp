@@ -67,12 +67,18 @@ void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, M
     ++counters_.sessions_resumed;
     move_session(index, from);
   }
-  session.access = access;
+  settle_access(index, access);
   session.last_heard = now;
   session.hello_time_us = hello->link_time_us;
   settle_guests(index, *hello);
+  if (!existing || is_moved) session.interest.default_divider = hello->default_divider;
+  settle_interest(index, now);
   welcome(index, *hello, received, now);
-  if (!existing || is_moved) want_key_frames_for(index, now);
+  if (!existing || is_moved) {
+    if (std::find(newcomers_.begin(), newcomers_.end(), index) == newcomers_.end())
+      newcomers_.push_back(index);
+    want_key_frames_for(index, now);
+  }
 }
 
 void ServerCore::welcome(std::size_t index, const wire::Hello& hello, MonoTime received,
@@ -100,6 +106,8 @@ std::optional<ServerCore::Objection> ServerCore::objection_to(
     const wire::Hello& hello, const Access& access, std::optional<std::size_t> existing,
     std::optional<std::size_t> room) const {
   if (!access.may_enter(hello.room)) return Objection{wire::Refusal::kNotAllowedRoom, {}};
+  if (!hello.guests.empty() && !may_have_guests(access))
+    return Objection{wire::Refusal::kOnlyListens, {}};
   for (const GuestId& guest : hello.guests)
     if (!access.may_bear(guest)) return Objection{wire::Refusal::kNotAllowedName, guest};
   if (!room) {
@@ -111,6 +119,14 @@ std::optional<ServerCore::Objection> ServerCore::objection_to(
   if (!existing && by_peer_.size() == sessions_.size())
     return Objection{wire::Refusal::kServerFull, {}};
   std::size_t others = 0;
+  if (room && hello.guests.empty()) {
+    const auto& members = rooms_[*room].members;
+    const auto listeners = std::count_if(members.begin(), members.end(), [&](std::size_t member) {
+      return member != existing && sessions_[member].slots.empty();
+    });
+    if (static_cast<std::size_t>(listeners) >= limits_.listeners_per_room)
+      return Objection{wire::Refusal::kListenersFull, {}};
+  }
   if (room) {
     for (const ServerGuest& guest : rooms_[*room].guests) {
       if (!guest.in_use || (existing && guest.owner == *existing)) continue;
@@ -135,6 +151,7 @@ std::size_t ServerCore::open_room(const wire::Hello& hello) {
   free->next_generation = static_cast<std::uint16_t>(random_());
   free->members.clear();
   free->guest_count = 0;
+  free->host_count = 0;
   return static_cast<std::size_t>(free - rooms_.begin());
 }
 
@@ -155,6 +172,8 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   session.bundle_size = 0;
   session.sent = SentRing();
   session.held = {};
+  session.interest = {};
+  session.thinning = {};
   session.received = AckWindow();
   session.feedback_due = MonoTime();
   std::erase(bundled_, index);
@@ -171,6 +190,7 @@ std::size_t ServerCore::open_session(PeerId peer, const Access& access, const wi
   free->in_use = true;
   free->peer = peer;
   free->access = access;
+  if (access.role == Role::kHost) ++rooms_[room].host_count;
   free->token = hello.token;
   free->epoch = new_epoch();
   free->room = room;
@@ -180,6 +200,15 @@ std::size_t ServerCore::open_session(PeerId peer, const Access& access, const wi
   rooms_[room].members.push_back(index);
   ++counters_.sessions_begun;
   return index;
+}
+
+// A key may have got another role since the last hello.
+void ServerCore::settle_access(std::size_t index, const Access& access) {
+  ServerSession& session = sessions_[index];
+  ServerRoom& room = rooms_[session.room];
+  if (session.access.role == Role::kHost) --room.host_count;
+  if (access.role == Role::kHost) ++room.host_count;
+  session.access = access;
 }
 
 // Makes the session's guests those of the hello, in the hello's order.
@@ -218,6 +247,10 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
   free->owner = index;
   const bool pushed = session.slots.try_push(slot);
   DANCE_ASSERT(pushed);
+  for (const std::size_t member : room.members) {
+    sessions_[member].thinning[slot] = Thinning();
+    sessions_[member].thinning[slot].divider = sessions_[member].interest.default_divider;
+  }
   ++room.guest_count;
   ++room.roster_version;
   room.roster_changed = true;
@@ -236,7 +269,9 @@ void ServerCore::drop_session(std::size_t index) {
   ServerSession& session = sessions_[index];
   ServerRoom& room = rooms_[session.room];
   for (const std::uint8_t slot : session.slots) remove_guest(session.room, slot);
+  if (session.access.role == Role::kHost) --room.host_count;
   std::erase(room.members, index);
+  std::erase(newcomers_, index);
   std::erase(bundled_, index);
   std::erase(reporting_, index);
   by_peer_.erase(session.peer);

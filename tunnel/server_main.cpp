@@ -86,10 +86,12 @@ void log_seal_rejects(const SealCounters& before, const SealCounters& after) {
 void log_status(const Server& server, const ServerCounters& before) {
   const ServerCore& core = server.core();
   const ServerCounters& c = core.counters();
-  talk::info("{} rooms, {} links, {} guests; in the last {} s {} records in, {} out, {} kB out",
-             core.room_count(), core.session_count(), core.guest_count(), kSecondsPerStatus,
-             c.records_in - before.records_in, c.records_out - before.records_out,
-             (c.bytes_out - before.bytes_out) / 1000);
+  talk::info(
+      "{} rooms, {} links, {} guests, {} listeners; in the last {} s {} records in, {} out, {} kB "
+      "out",
+      core.room_count(), core.session_count(), core.guest_count(), core.listener_count(),
+      kSecondsPerStatus, c.records_in - before.records_in, c.records_out - before.records_out,
+      (c.bytes_out - before.bytes_out) / 1000);
 }
 
 // New keys count at once, and those that are gone no more.
@@ -194,6 +196,10 @@ int main(int argc, char** argv) {
   line.add("--max-rooms", options.limits.rooms, "rooms at a time").range(1, 10'000).shows_default();
   line.add("--max-guests", options.limits.guests_per_room, "guests in a room")
       .range(1, static_cast<int>(dance::wire::kMaxGuestsPerRoom))
+      .shows_default();
+  line.add("--max-listeners", options.limits.listeners_per_room,
+           "links in a room that bring no guests")
+      .range(0, 10'000)
       .shows_default();
   line.add(
           "--share-ms", options.share_ms,

@@ -33,6 +33,7 @@ struct ServerLimits {
   std::size_t sessions = 256;
   std::size_t rooms = 64;
   std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
+  std::size_t listeners_per_room = 64;  // links without guests
   // Per session: 16 guests with hands at 60 Hz need 2,000 datagrams a second.
   double datagrams_per_second = 4000.0;
   double datagram_burst = 1000.0;
@@ -70,6 +71,7 @@ enum class ServerReject : std::uint8_t {
   kLate,
   kDuplicate,
   kRefused,
+  kNotAllowed,
   kCount,
 };
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
@@ -77,7 +79,7 @@ constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kC
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
     "too_short",  "malformed",    "unknown_type", "version",      "old_hello",
     "no_session", "session_rate", "guest_rate",   "foreign_slot", "bad_time",
-    "bad_ack",    "late",         "duplicate",    "refused"};
+    "bad_ack",    "late",         "duplicate",    "refused",      "not_allowed"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
@@ -103,6 +105,19 @@ struct ServerCounters {
   }
 };
 
+// What of one guest's poses goes to one receiver.
+struct Thinning {
+  std::uint8_t divider = 1;
+  // It has nothing that frames could refer to: the next that needs no other is the first it gets.
+  bool awaits_still = true;
+  std::uint32_t last_sent = 0;  // sequence
+  // Poses of this generation that it was not sent; told with each record until it has one that was
+  // sent after the last of them.
+  bool tells_left_out = false;
+  std::uint16_t left_out = 0;
+  std::uint16_t last_left_out = 0;  // sequence, low half
+};
+
 struct ServerSession {
   bool in_use = false;
   PeerId peer = 0;
@@ -125,6 +140,10 @@ struct ServerSession {
   std::size_t bundle_poses = 0;
   std::int64_t base_ticks = 0;
   MonoTime bundle_due;
+  // What it wants of the others: the list as it said it, and what follows for each slot.
+  wire::InterestList interest;
+  std::array<Thinning, wire::kMaxGuestsPerRoom> thinning;
+  std::size_t full_shares = 0;  // others in the room whose every pose it gets
   // What the link has of the others, as it acknowledges; and what has come from it.
   SentRing sent;
   std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
@@ -133,6 +152,14 @@ struct ServerSession {
   MonoTime feedback_due;
   MonoTime feedback_made;
   bool feedback_is_repeat = false;  // goes out though nothing has changed
+};
+
+// The newest pose of a guest that needs no other, for those who come later.
+struct KeptPose {
+  bool is_set = false;
+  wire::Record record;  // but for its payload
+  std::size_t size = 0;
+  std::array<std::uint8_t, wire::kMaxPayload> payload;
 };
 
 struct ServerGuest {
@@ -147,7 +174,11 @@ struct ServerGuest {
   bool key_wanted = false;
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;
-  HeldFrames told;                  // what the link was told last
+  wire::GuestFeedback told;  // what the link was told last
+  KeptPose kept;
+  MonoTime last_pose;            // when the newest came in
+  std::uint32_t base_count = 0;  // base frames that came
+  std::uint32_t hands_count = 0;
   std::uint32_t state_version = 0;  // of the skeleton; 0 = none yet
   std::size_t state_size = 0;
   std::array<std::uint8_t, wire::kMaxStatePayload> state;
@@ -162,7 +193,10 @@ struct ServerRoom {
   std::uint16_t next_generation = 0;
   std::vector<std::size_t> members;  // sessions
   std::size_t guest_count = 0;
+  std::size_t host_count = 0;  // links of it with a host's key
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
+
+  bool has_host() const { return host_count > 0; }
 };
 
 }  // namespace dance

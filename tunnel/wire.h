@@ -56,6 +56,8 @@ enum class Type : std::uint8_t {
   kState = 20,
   kStateAck = 21,
   kGoodbye = 22,
+  kInterest = 23,
+  kInterestAck = 24,
 };
 
 enum class Refusal : std::uint16_t {
@@ -67,6 +69,8 @@ enum class Refusal : std::uint16_t {
   kCodec = 6,           // the room speaks a codec that this link does not know
   kNotAllowedRoom = 7,  // the link's key does not open this room
   kNotAllowedName = 8,  // the link's key does not allow a guest of this name
+  kOnlyListens = 9,     // the link's key allows no guests at all
+  kListenersFull = 10,  // no place for another link without guests in this room
 };
 
 struct Hello {
@@ -76,6 +80,8 @@ struct Hello {
   std::int64_t link_time_us = 0;
   FixedList<CodecName, kMaxCodecs> codecs;  // the preferred one first
   RoomName room;
+  // How often it wants whom it says nothing about: tunnel/interest.h.
+  std::uint8_t default_divider = 1;
   FixedList<GuestId, kMaxGuestsPerLink> guests;
 };
 
@@ -83,6 +89,7 @@ struct Slot {
   std::uint8_t slot = 0;
   std::uint16_t generation =
       0;  // counts who has had a slot of this room; never the same twice soon
+  bool operator==(const Slot&) const = default;
 };
 
 struct Welcome {
@@ -148,6 +155,19 @@ struct StateAck {
   std::uint32_t version = 0;
 };
 
+// Which guests a link wants, and how often: all that it wants, each time. tunnel/interest.h says what
+// a divider means.
+struct InterestEntry {
+  Slot slot;
+  std::uint8_t divider = 1;
+  bool operator==(const InterestEntry&) const = default;
+};
+struct InterestList {
+  std::uint32_t version = 0;  // not 0; the link counts its changes
+  std::uint8_t default_divider = 1;
+  FixedList<InterestEntry, kMaxGuestsPerRoom> entries;
+};
+
 // How a datagram begins.
 struct Opening {
   Type type = Type::kHello;
@@ -165,6 +185,8 @@ std::size_t build(const Pong& pong, std::span<std::uint8_t> out);
 std::size_t build(const RosterPart& part, std::span<std::uint8_t> out);
 std::size_t build(const State& state, std::span<std::uint8_t> out);
 std::size_t build(const StateAck& ack, std::span<std::uint8_t> out);
+std::size_t build(const InterestList& interest, std::span<std::uint8_t> out);
+std::size_t build_interest_ack(std::uint32_t version, std::span<std::uint8_t> out);
 std::size_t build_bare(Type type, std::span<std::uint8_t> out);
 
 // Parsing of what follows the opening.
@@ -182,5 +204,7 @@ std::optional<Pong> parse_pong(Bytes body);
 std::optional<RosterPart> parse_roster(Bytes body);
 std::optional<State> parse_state(Bytes body);
 std::optional<StateAck> parse_state_ack(Bytes body);
+std::optional<InterestList> parse_interest_list(Bytes body);
+std::optional<std::uint32_t> parse_interest_ack(Bytes body);  // the version
 
 }  // namespace dance::wire

@@ -28,6 +28,21 @@ void append_step(Bytes& script, std::uint8_t how, const Bytes& datagram) {
   script.insert(script.end(), datagram.begin(), datagram.end());
 }
 
+// Records with more in their heads are kinds of their own.
+std::string more_of(wire::Bytes datagram) {
+  const auto opening = wire::parse_opening(datagram);
+  if (opening->type != wire::Type::kRecords) return "";
+  ByteReader in(opening->body);
+  if (!wire::parse_records_header(in)) return "";
+  while (in.remaining() > 0) {
+    const auto record = wire::parse_record(0, in);
+    if (record->is_kept) return "_kept";
+    if (record->counts_left_out) return "_left_out";
+    if (record->is_base) return "_base";
+  }
+  return "";
+}
+
 void write_tunnel(const std::filesystem::path& root) {
   FuzzScene scene;
   std::map<std::string, Bytes> seeds;  // by file name
@@ -41,7 +56,7 @@ void write_tunnel(const std::filesystem::path& root) {
         type == wire::Type::kRecords && (bytes[wire::kSessionHeader + 2] & 16) == 0;
     const std::string name = std::string(to_server ? "server_datagram/" : "link_datagram/") +
                              "type_" + std::to_string(static_cast<int>(type)) +
-                             (is_bare ? "_bare" : "");
+                             (is_bare ? "_bare" : "") + more_of(bytes);
     if (!seeds.contains(name)) {
       append_step(seeds[name], how, datagram);
       append_step(all[to_server], how, datagram);
@@ -54,6 +69,13 @@ void write_tunnel(const std::filesystem::path& root) {
   scene.a->link->send(guest("alice"), average_skeleton(1.6f), tunnel.time_in(*scene.a));
   scene.b->link->send(guest("bob"), average_skeleton(1.8f), tunnel.time_in(*scene.b));
   tunnel.run(Duration::ms(300));
+  Interest interest;
+  if (interest.guests.try_push({guest("bob"), 2}))
+    scene.a->link->set_interest(interest, tunnel.time_in(*scene.a));
+  for (int i = 0; i < 4; ++i) {
+    tunnel.run(Duration::ms(30));
+    tunnel.dance(*scene.b, guest("bob"));
+  }
   tunnel.add_house("salsa", {"carol"});
   tunnel.add_house("salsa", {"bob"});
   tunnel.run(Duration::ms(100));

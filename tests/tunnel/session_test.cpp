@@ -245,6 +245,50 @@ TEST(Session, ALinkThatComesBackThroughAnotherSealedSessionTakesItsPlaceAtOnce) 
   EXPECT_GE(a.heard_of(guest("bob")), before);
 }
 
+TEST(Session, ALinkSaysNothingUntilItIsSealedAndNothingAfterItIsNot) {
+  SimulatedTunnel tunnel;
+  tunnel.stop_server();
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  tunnel.run(Duration::s(3), [&] { a.link->tick(tunnel.time_in(a)); });
+  EXPECT_EQ(a.link->counters().datagrams_out, 0u);
+  EXPECT_FALSE(a.link->next_deadline().is_set());
+  tunnel.start_server();
+  tunnel.run(Duration::ms(12));
+  EXPECT_TRUE(a.link->is_connected()) << "hello at once";
+  a.link->on_unsealed(tunnel.time_in(a));
+  EXPECT_EQ(a.link->state(), LinkState::kLapsed);
+  const auto hellos = a.link->counters().hellos;
+  const auto sent = a.link->counters().datagrams_out;
+  tunnel.run(Duration::s(1), [&] { tunnel.dance(a, guest("alice")); });
+  EXPECT_EQ(a.link->counters().hellos, hellos);
+  EXPECT_EQ(a.link->counters().datagrams_out, sent);
+  tunnel.seal_anew(a);
+  tunnel.run(Duration::ms(12));
+  EXPECT_TRUE(a.link->is_connected());
+}
+
+TEST(Session, WhatComesBeforeTheWelcomeOfASealedSessionIsNoSignOfTheServer) {
+  SimulatedTunnel tunnel;
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  std::vector<std::uint8_t> pong;
+  tunnel.on_datagram = [&](bool to_server, PeerId, wire::Bytes bytes) {
+    if (!to_server && wire::parse_opening(bytes)->type == wire::Type::kPong)
+      pong.assign(bytes.begin(), bytes.end());
+    return true;
+  };
+  tunnel.run(Duration::ms(500));
+  ASSERT_FALSE(pong.empty());
+  tunnel.on_datagram = {};
+  a.link->on_sealed(tunnel.time_in(a));
+  EXPECT_EQ(a.link->state(), LinkState::kLapsed);
+  const auto rejected = a.link->counters().rejected_datagrams;
+  a.link->receive(pong, tunnel.time_in(a), tunnel.time_in(a));
+  EXPECT_EQ(a.link->state(), LinkState::kLapsed);
+  EXPECT_EQ(a.link->counters().rejected_datagrams, rejected + 1);
+  tunnel.run(Duration::ms(12));
+  EXPECT_TRUE(a.link->is_connected());
+}
+
 TEST(Session, AShortLapseChangesNothingForTheOthers) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});

@@ -97,6 +97,7 @@ void SealClient::receive(seal::Bytes datagram, MonoTime received, MonoTime now) 
     } else if (is_of_session && session_->take_records(opening->body)) {
       session_.reset();
       next_tick_ = now;
+      if (handlers_.on_unsealed) handlers_.on_unsealed(now);
     }
     return;
   }

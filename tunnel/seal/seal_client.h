@@ -31,7 +31,8 @@ struct SealClientCounters {
 class SealClient final : public DatagramSink {
  public:
   struct Handlers {
-    std::function<void(MonoTime now)> on_sealed;  // a session stands: the first, or another
+    std::function<void(MonoTime now)> on_sealed;    // a session stands: the first, or another
+    std::function<void(MonoTime now)> on_unsealed;  // the server has ended it
     std::function<void(seal::Bytes plain, MonoTime received, MonoTime now)> on_datagram;
     std::function<void(SealTrouble, MonoTime now)> on_trouble;
   };
