@@ -38,6 +38,9 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerO
             SealServer::make(options.seal, options.keys, options.certificates, secure_random_u64,
                              std::move(handlers), server->socket_));
   server->sealed_.door = server->door_.get();
+  server->core_.set_reserved([self = server.get()](const GuestId& name) {
+    return self->door_->keys().is_own_name(name.view());
+  });
   return server;
 }
 

@@ -45,6 +45,11 @@ class ServerCore {
   // Tells everybody that the server ends.
   void say_goodbye();
 
+  // Names of those who have a key of their own: a key for all does not open them.
+  void set_reserved(std::function<bool(const GuestId&)> is_reserved) {
+    is_reserved_ = std::move(is_reserved);
+  }
+
   const ServerCounters& counters() const { return counters_; }
   std::size_t session_count() const { return by_peer_.size(); }
   std::size_t room_count() const;
@@ -134,6 +139,7 @@ class ServerCore {
 
   ServerLimits limits_;
   RandomU64 random_;
+  std::function<bool(const GuestId&)> is_reserved_;
   PeerSink& sink_;
   std::vector<ServerSession> sessions_;
   std::vector<ServerRoom> rooms_;

@@ -108,8 +108,12 @@ std::optional<ServerCore::Objection> ServerCore::objection_to(
   if (!access.may_enter(hello.room)) return Objection{wire::Refusal::kNotAllowedRoom, {}};
   if (!hello.guests.empty() && !may_have_guests(access))
     return Objection{wire::Refusal::kOnlyListens, {}};
-  for (const GuestId& guest : hello.guests)
-    if (!access.may_bear(guest)) return Objection{wire::Refusal::kNotAllowedName, guest};
+  for (const GuestId& guest : hello.guests) {
+    const bool is_others =
+        access.any_name && access.role != Role::kHost && is_reserved_ && is_reserved_(guest);
+    if (is_others || !access.may_bear(guest))
+      return Objection{wire::Refusal::kNotAllowedName, guest};
+  }
   if (!room) {
     if (std::all_of(rooms_.begin(), rooms_.end(), [](const auto& r) { return r.in_use; }))
       return Objection{wire::Refusal::kServerFull, {}};

@@ -163,6 +163,35 @@ TEST_F(Loopback, SessionsStandThroughALineThatLosesAThird) {
   EXPECT_EQ(stats[0].received, heard + stats[0].reference_missing);
 }
 
+TEST_F(Loopback, AKeyForAllOpensNoNameThatHasItsOwn) {
+  KeyEntry carol = key;
+  carol.name = *GuestId::parse("carol");
+  carol.kind = KeyKind::kGuest;
+  KeyRing ring;
+  ASSERT_TRUE(ring.add(key) && ring.add(carol));
+  server->set_keys(std::make_shared<const KeyRing>(std::move(ring)));
+  std::vector<wire::Refusal> refusals;
+  LinkHandlers handlers;
+  handlers.on_refused = [&](const wire::RefusalNotice& refusal, MonoTime) {
+    refusals.push_back(refusal.cause);
+  };
+  auto stranger = link("carol", handlers);
+  ASSERT_TRUE(turn_until([&] { return !refusals.empty(); }));
+  EXPECT_EQ(refusals[0], wire::Refusal::kNotAllowedName);
+  auto other = link("dave");
+  EXPECT_TRUE(turn_until([&] { return other->is_connected(); }));
+}
+
+TEST_F(Loopback, AKeyThatIsTakenBackLeavesTheRoomAtOnce) {
+  auto a = link("alice");
+  ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
+  auto none = std::make_shared<const KeyRing>();
+  server->set_keys(none);
+  EXPECT_EQ(server->core().session_count(), 0u);
+  EXPECT_EQ(server->door().peer_count(), 0u);
+  ASSERT_TRUE(turn_until([&] { return !a->is_connected(); }));
+}
+
 TEST_F(Loopback, ATakenPortIsNamed) {
   const auto second = Server::open(address, options, *poller);
   ASSERT_FALSE(second);

@@ -48,6 +48,22 @@ TEST(KeyRing, KeepsWhatItWrote) {
   EXPECT_FALSE(ring.remove("bob"));
 }
 
+TEST(KeyRing, KnowsWhoseNamesAreTaken) {
+  KeyRing ring;
+  KeyEntry entry;
+  entry.name = *GuestId::parse("ann-lee");
+  ASSERT_TRUE(ring.add(entry));
+  entry.name = *GuestId::parse("salsa");
+  entry.kind = KeyKind::kRoom;
+  ASSERT_TRUE(ring.add(entry));
+  EXPECT_TRUE(ring.is_own_name("ann-lee"));
+  EXPECT_TRUE(ring.is_own_name("ann-lee-2"));
+  EXPECT_FALSE(ring.is_own_name("ann"));
+  EXPECT_FALSE(ring.is_own_name("ann-leeds"));
+  EXPECT_FALSE(ring.is_own_name("salsa"));
+  EXPECT_FALSE(ring.is_own_name("-"));
+}
+
 TEST(KeyRing, SaysWhichLineIsWrongAndNeverTheKey) {
   const std::string key = PresharedKey::make().text();
   const auto error_of = [](const std::string& text) {

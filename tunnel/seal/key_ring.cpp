@@ -96,6 +96,16 @@ const KeyEntry* KeyRing::find(std::string_view name) const {
   return place != entries_.end() && place->name.view() == name ? &*place : nullptr;
 }
 
+bool KeyRing::is_own_name(std::string_view name) const {
+  for (;;) {
+    const KeyEntry* entry = find(name);
+    if (entry != nullptr && entry->kind != KeyKind::kRoom) return true;
+    const auto dash = name.rfind('-');
+    if (dash == std::string_view::npos) return false;
+    name = name.substr(0, dash);
+  }
+}
+
 bool KeyRing::add(const KeyEntry& entry) {
   const auto place =
       std::lower_bound(entries_.begin(), entries_.end(), entry,

@@ -43,6 +43,8 @@ class KeyRing {
   std::string text() const;
 
   const KeyEntry* find(std::string_view name) const;
+  // Whether somebody has a key of her own for this name: "alice", and so "alice-2".
+  bool is_own_name(std::string_view name) const;
   // False where the name is taken already, or the ring is full.
   bool add(const KeyEntry& entry);
   bool remove(std::string_view name);

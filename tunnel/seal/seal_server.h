@@ -106,6 +106,7 @@ class SealServer {
   // From now on these keys count; who came with one that is no more is gone.
   void set_keys(std::shared_ptr<const KeyRing> keys);
 
+  const KeyRing& keys() const { return *keys_; }
   const SealCounters& counters() const { return counters_; }
   std::size_t peer_count() const { return peers_.size(); }
   std::size_t handshake_count() const { return handshakes_.size(); }
