@@ -14,20 +14,17 @@ constexpr std::size_t kNoClient = SIZE_MAX;
 }  // namespace
 
 Result<std::unique_ptr<LossyProxy>> LossyProxy::open(const Address& listen, const Address& target,
-                                                     const LossySpec& spec, const DelayTrace* trace,
-                                                     Poller& poller) {
+                                                     LossyLine line, Poller& poller) {
   DANCE_TRY(UdpSocket socket, UdpSocket::bind(listen));
   return std::unique_ptr<LossyProxy>(
-      new LossyProxy(std::move(socket), target, spec, trace, poller));
+      new LossyProxy(std::move(socket), target, std::move(line), poller));
 }
 
-LossyProxy::LossyProxy(UdpSocket listen, const Address& target, const LossySpec& spec,
-                       const DelayTrace* trace, Poller& poller)
+LossyProxy::LossyProxy(UdpSocket listen, const Address& target, LossyLine line, Poller& poller)
     : poller_(poller),
       listen_(std::move(listen)),
       target_(target),
-      spec_(spec),
-      trace_(trace),
+      line_(std::move(line)),
       store_(kStoreParcels) {
   free_.reserve(kStoreParcels);
   heap_.reserve(kStoreParcels);
@@ -42,7 +39,7 @@ LossyProxy::~LossyProxy() {
   for (const auto& client : clients_) poller_.unwatch(client->upstream.fd());
 }
 
-std::size_t LossyProxy::find_or_add(const Address& from) {
+std::size_t LossyProxy::find_or_add(const Address& from, MonoTime came) {
   for (std::size_t i = 0; i < clients_.size(); ++i)
     if (clients_[i]->address == from) return i;
   if (clients_.size() == kMostClients) {
@@ -55,9 +52,11 @@ std::size_t LossyProxy::find_or_add(const Address& from) {
     return kNoClient;
   }
   const std::size_t index = clients_.size();
-  clients_.push_back(std::make_unique<Client>(Client{from, std::move(*upstream),
-                                                     LossyModel(spec_, trace_, 2 * index),
-                                                     LossyModel(spec_, trace_, 2 * index + 1)}));
+  clients_.push_back(
+      std::make_unique<Client>(Client{from, std::move(*upstream), LossyModel(line_.up, 2 * index),
+                                      LossyModel(line_.down, 2 * index + 1)}));
+  clients_.back()->up.begin(came);
+  clients_.back()->down.begin(came);
   poller_.watch(clients_.back()->upstream.fd(),
                 [this, index](MonoTime now) { on_target_side(index, now); });
   return index;
@@ -67,7 +66,7 @@ void LossyProxy::on_client_side(MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
     const auto batch = listen_.receive();
     for (const UdpSocket::Datagram& datagram : batch) {
-      const std::size_t client = find_or_add(datagram.from);
+      const std::size_t client = find_or_add(datagram.from, now);
       if (client != kNoClient) carry(client, Direction::kUp, datagram.bytes, now);
     }
     if (batch.size() < UdpSocket::kBatch) break;
@@ -95,7 +94,7 @@ void LossyProxy::carry(std::size_t client, Direction direction, std::span<const 
   for (const MonoTime due : fate.deliveries()) {
     // Nothing to wait for, and nobody to wait behind: through at once.
     if (due <= now && heap_.empty()) {
-      deliver(client, direction, bytes);
+      deliver(client, direction, bytes, now);
       continue;
     }
     if (free_.empty()) {
@@ -119,12 +118,13 @@ void LossyProxy::carry(std::size_t client, Direction direction, std::span<const 
 }
 
 void LossyProxy::deliver(std::size_t client, Direction direction,
-                         std::span<const std::uint8_t> bytes) {
+                         std::span<const std::uint8_t> bytes, MonoTime now) {
   ++delivered_[static_cast<std::size_t>(direction)];
   if (direction == Direction::kUp)
     clients_[client]->upstream.send_now(target_, bytes);
   else
     listen_.send_now(clients_[client]->address, bytes);
+  if (on_delivered_) on_delivered_(direction, now);
 }
 
 MonoTime LossyProxy::deliver_due(MonoTime now) {
@@ -134,7 +134,7 @@ MonoTime LossyProxy::deliver_due(MonoTime now) {
                   [this](std::size_t a, std::size_t b) { return is_later(a, b); });
     heap_.pop_back();
     const Parcel& parcel = store_[place];
-    deliver(parcel.client, parcel.direction, {parcel.bytes.data(), parcel.size});
+    deliver(parcel.client, parcel.direction, {parcel.bytes.data(), parcel.size}, now);
     free_.push_back(place);
   }
   return heap_.empty() ? MonoTime() : store_[heap_.front()].due;

@@ -2,14 +2,15 @@
 // what the line does to it. Each client has a line and a socket of its own, so the target sees them
 // as different peers.
 //
-// Units/frames: the spec and the trace hold for each direction by itself.
-// Ownership:    owns its sockets and a bounded store of datagrams under way; the poller and the
-//               trace must outlive it. Allocates when a client comes, not for datagrams.
+// Units/frames: up is from a client to the target; a client's traces begin when it comes.
+// Ownership:    owns its sockets and a bounded store of datagrams under way; the poller must outlive
+//               it. Allocates when a client comes, not for datagrams.
 // Threads:      the poller's.
 // Failure:      open() names what cannot be had; a full store drops and counts.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -28,10 +29,10 @@ class LossyProxy {
     std::uint64_t delivered = 0;  // datagrams that went out, copies counted
     std::uint64_t overflow = 0;   // the store was full
   };
+  using OnDelivered = std::function<void(Direction, MonoTime now)>;
 
   static Result<std::unique_ptr<LossyProxy>> open(const Address& listen, const Address& target,
-                                                  const LossySpec& spec, const DelayTrace* trace,
-                                                  Poller& poller);
+                                                  LossyLine line, Poller& poller);
   ~LossyProxy();
   LossyProxy(const LossyProxy&) = delete;
   LossyProxy& operator=(const LossyProxy&) = delete;
@@ -40,6 +41,8 @@ class LossyProxy {
   std::size_t client_count() const { return clients_.size(); }
   Totals totals(Direction direction) const;
   std::uint64_t refused_clients() const { return refused_clients_; }
+  // Called for each datagram that goes out.
+  void on_delivered(OnDelivered watch) { on_delivered_ = std::move(watch); }
 
  private:
   struct Client {
@@ -57,22 +60,22 @@ class LossyProxy {
     std::array<std::uint8_t, UdpSocket::kMaxDatagramBytes> bytes;
   };
 
-  LossyProxy(UdpSocket listen, const Address& target, const LossySpec& spec,
-             const DelayTrace* trace, Poller& poller);
+  LossyProxy(UdpSocket listen, const Address& target, LossyLine line, Poller& poller);
   void on_client_side(MonoTime now);
   void on_target_side(std::size_t client, MonoTime now);
-  std::size_t find_or_add(const Address& from);
+  std::size_t find_or_add(const Address& from, MonoTime came);
   void carry(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes,
              MonoTime now);
-  void deliver(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes);
+  void deliver(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes,
+               MonoTime now);
   MonoTime deliver_due(MonoTime now);
   bool is_later(std::size_t a, std::size_t b) const;
 
   Poller& poller_;
   UdpSocket listen_;
   Address target_;
-  LossySpec spec_;
-  const DelayTrace* trace_;
+  LossyLine line_;
+  OnDelivered on_delivered_;
   Poller::TimerId timer_;
   std::vector<std::unique_ptr<Client>> clients_;
   std::vector<Parcel> store_;

@@ -111,7 +111,7 @@ TEST(LossyProxy, CarriesBothWaysAndCountsWhatItLoses) {
   ASSERT_TRUE(target);
   auto proxy =
       LossyProxy::open(Address::loopback(0), target->local_address(),
-                       *LossySpec::parse("loss=30% seed=2 dup=10% delay=1ms"), nullptr, **poller);
+                       *load_line({.link = "loss=30% seed=2 dup=10% delay=1ms"}), **poller);
   ASSERT_TRUE(proxy);
   auto client = UdpSocket::connect((*proxy)->local_address());
   ASSERT_TRUE(client);
