@@ -28,8 +28,11 @@ std::string three(const std::vector<Duration>& sorted) {
                      at_ms(sorted, 0.99));
 }
 
-double round_trips(Duration duration, Duration round_trip) {
-  return round_trip > Duration() ? duration.as_seconds() / round_trip.as_seconds() : 0.0;
+// Of the line as it was then, where that was slower than it mostly is.
+double round_trips_after_gap(const LineFigures& figures, Duration usual) {
+  const Duration round_trip = std::max(figures.worst_gap_round_trip, usual);
+  return round_trip > Duration() ? figures.worst_gap_to_pose.as_seconds() / round_trip.as_seconds()
+                                 : 0.0;
 }
 
 // A gap that is no more than a pose or two is not worth a word.
@@ -37,7 +40,7 @@ std::string after_gap(const LineFigures& figures, Duration round_trip) {
   if (!figures.worst_gap_is_over) return "never";
   if (figures.worst_gap < kFreeze) return "–";
   return fmt::format("{:.0f} ms, {:.1f}", figures.worst_gap_to_pose.as_ms(),
-                     round_trips(figures.worst_gap_to_pose, round_trip));
+                     round_trips_after_gap(figures, round_trip));
 }
 
 Row row_of(const LineResult& line, const char* direction, const LineWayResult& way) {
@@ -109,8 +112,7 @@ nlohmann::ordered_json json_of(const LineWayResult& way, Duration round_trip) {
       {"worst_gap_ms", rounded(figures.worst_gap.as_ms(), 1e3)},
       {"worst_gap_is_over", figures.worst_gap_is_over},
       {"worst_gap_to_pose_ms", rounded(figures.worst_gap_to_pose.as_ms(), 1e3)},
-      {"worst_gap_to_pose_round_trips",
-       rounded(round_trips(figures.worst_gap_to_pose, round_trip), 1e2)},
+      {"worst_gap_to_pose_round_trips", rounded(round_trips_after_gap(figures, round_trip), 1e2)},
       {"slowest_after_gap_ms", rounded(figures.slowest_after_gap.as_ms(), 1e3)},
       {"older_delivered", figures.older_delivered},
       {"older_shown", figures.older_shown},

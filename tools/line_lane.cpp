@@ -51,11 +51,9 @@ Result<std::unique_ptr<LineLane>> LineLane::open(const std::string& name, const 
 
 // The only place that knows how server and links are made.
 Result<void> LineLane::open_ends(const LossyLine& line) {
+  ways_ = line;
   DANCE_TRY(server_, Server::open(Address::loopback(0), ServerLimits(), poller_));
   DANCE_TRY(line_, LossyProxy::open(Address::loopback(0), server_->local_address(), line, poller_));
-  line_->on_delivered([this](LossyProxy::Direction direction, MonoTime now) {
-    (direction == LossyProxy::Direction::kUp ? up_ : down_).passed(now);
-  });
   DANCE_TRY(lead_.link, open_link(lead_, server_->local_address()));
   DANCE_TRY(follow_.link, open_link(follow_, line_->local_address()));
   const MonoTime now = mono_now();
@@ -80,7 +78,7 @@ LineLane::~LineLane() { poller_.set_deadline(timer_, MonoTime()); }
 LinkHandlers LineLane::handlers_of(House& house) {
   LinkHandlers handlers;
   handlers.on_pose = [&house](const GuestId& who, const Pose& pose, MonoTime) {
-    if (who == house.other) house.hears->delivered(pose, mono_now());
+    if (who == house.other) house.hears->delivered(pose, house.dances->last_took(), mono_now());
   };
   handlers.on_skeleton = [this, &house](const GuestId& who, const Skeleton& skeleton,
                                         MonoTime now) {
@@ -151,6 +149,9 @@ MonoTime LineLane::turn(MonoTime now) {
     for (House* house : {&lead_, &follow_}) send_skeleton(*house, now);
     is_changed_ = true;
   }
+  const Duration since_begin = line_->begin().is_set() ? now - line_->begin() : Duration();
+  up_.look(time_on(ways_.up, since_begin), now);
+  down_.look(time_on(ways_.down, since_begin), now);
   MonoTime next = end_;
   for (House* house : {&lead_, &follow_}) {
     dance_due(*house, now);

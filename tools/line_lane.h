@@ -91,6 +91,7 @@ class LineLane {
   MonoTime begin_, middle_, end_;
   LineMeter up_, down_;
   House lead_, follow_;
+  LossyLine ways_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<LossyProxy> line_;
   Poller::TimerId timer_ = 0;

@@ -11,7 +11,7 @@ constexpr Duration kRounding = Duration::us(1);
 }  // namespace
 
 LineMeter::LineMeter(MonoTime begin, std::size_t most_poses)
-    : begin_(begin), captured_(most_poses + 1), last_passed_(begin) {
+    : begin_(begin), captured_(most_poses + 1) {
   figures_.ages.reserve(most_poses);
   figures_.stage_ages.reserve(most_poses);
 }
@@ -22,22 +22,21 @@ void LineMeter::sent(std::uint32_t sequence, MonoTime captured) {
   ++figures_.sent;
 }
 
-void LineMeter::passed(MonoTime now) {
-  const Duration silence = now - last_passed_;
-  last_passed_ = now;
-  if (silence <= longest_silence_) return;
-  longest_silence_ = silence;
-  silence_end_ = now;
+void LineMeter::look(std::optional<Duration> took, MonoTime now) {
+  if (took && is_cut_) back_at_ = now + *took;
+  if (took) last_took_ = *took;
+  is_cut_ = !took;
 }
 
-void LineMeter::note_gap(MonoTime now) {
+void LineMeter::note_gap(Duration back, MonoTime now) {
   if (last_delivered_.is_set()) {
     const Duration gap = now - last_delivered_;
-    const Duration to_pose = silence_end_.is_set() ? now - silence_end_ : Duration();
+    const Duration to_pose = back_at_.is_set() ? std::max(now - back_at_, Duration()) : Duration();
     if (gap > figures_.worst_gap) {
       figures_.worst_gap = gap;
       figures_.worst_gap_is_over = true;
       figures_.worst_gap_to_pose = to_pose;
+      figures_.worst_gap_round_trip = last_took_ + back;
     }
     if (gap >= kFreeze) figures_.slowest_after_gap = std::max(figures_.slowest_after_gap, to_pose);
   } else {
@@ -45,15 +44,14 @@ void LineMeter::note_gap(MonoTime now) {
     figures_.first = now - begin_;
   }
   last_delivered_ = now;
-  longest_silence_ = Duration();
-  silence_end_ = MonoTime();
+  back_at_ = MonoTime();
 }
 
-void LineMeter::delivered(const Pose& pose, MonoTime now) {
+void LineMeter::delivered(const Pose& pose, Duration back, MonoTime now) {
   if (pose.sequence >= captured_.size() || !captured_[pose.sequence].is_set()) return;
   if (pose.sequence <= newest_) ++figures_.older_delivered;
   newest_ = std::max(newest_, pose.sequence);
-  note_gap(now);
+  note_gap(back, now);
   const MonoTime captured = captured_[pose.sequence];
   ++figures_.delivered;
   if (figures_.ages.size() < captured_.size()) figures_.ages.push_back(now - captured);

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "transformers/hold.h"
@@ -23,15 +24,16 @@ struct LineFigures {
   std::uint64_t sent = 0;
   std::uint64_t delivered = 0;
   bool has_first = false;
-  Duration first;                     // from the beginning to the first pose
-  std::vector<Duration> ages;         // capture to handler, of those delivered; sorted
-  std::vector<Duration> stage_ages;   // of what a stage shows, moment by moment; sorted
-  std::uint64_t freezes = 0;          // times of at least kFreeze without a new pose on the stage
-  Duration frozen;                    // all of them together
-  Duration worst_gap;                 // between two poses delivered
-  bool worst_gap_is_over = true;      // false: no pose came any more
-  Duration worst_gap_to_pose;         // from the first datagram after it to the first pose
-  Duration slowest_after_gap;         // the same of any gap of at least kFreeze
+  Duration first;                    // from the beginning to the first pose
+  std::vector<Duration> ages;        // capture to handler, of those delivered; sorted
+  std::vector<Duration> stage_ages;  // of what a stage shows, moment by moment; sorted
+  std::uint64_t freezes = 0;         // times of at least kFreeze without a new pose on the stage
+  Duration frozen;                   // all of them together
+  Duration worst_gap;                // between two poses delivered
+  bool worst_gap_is_over = true;     // false: no pose came any more
+  Duration worst_gap_to_pose;     // from when the line could have delivered again to the first pose
+  Duration worst_gap_round_trip;  // of the line, when that pose came
+  Duration slowest_after_gap;     // the same of any gap of at least kFreeze
   std::uint64_t older_delivered = 0;  // after a newer one
   std::uint64_t older_shown = 0;      // moments that went back
 };
@@ -42,9 +44,11 @@ class LineMeter {
   LineMeter(MonoTime begin, std::size_t most_poses);
 
   void sent(std::uint32_t sequence, MonoTime captured);
-  // A datagram of this direction, whatever is in it, has passed the line.
-  void passed(MonoTime now);
-  void delivered(const Pose& pose, MonoTime now);
+  // Whether the line carries just now, and what it takes.
+  void look(std::optional<Duration> took, MonoTime now);
+  Duration last_took() const { return last_took_; }
+  // `back`: what the other direction takes just now.
+  void delivered(const Pose& pose, Duration back, MonoTime now);
   // The stage shows its next moment.
   void show(MonoTime now);
   // Nothing is sent or shown any more; what is still under way may be delivered.
@@ -58,7 +62,7 @@ class LineMeter {
   };
   static constexpr std::size_t kKnown = 512;
 
-  void note_gap(MonoTime now);
+  void note_gap(Duration back, MonoTime now);
   // When the moment was that the stage shows as `mapped`.
   MonoTime captured_at(MonoTime mapped) const;
   void note_stillness(MonoTime now);
@@ -68,9 +72,9 @@ class LineMeter {
   LineFigures figures_;
   std::uint32_t newest_ = 0;
   MonoTime last_delivered_;
-  MonoTime last_passed_;
-  Duration longest_silence_;  // of the line, since the last pose was delivered,
-  MonoTime silence_end_;      // and when it ended
+  Duration last_took_;
+  bool is_cut_ = false;
+  MonoTime back_at_;  // after a cut since the last pose: when the line could have delivered again
   Hold stage_;
   std::array<Known, kKnown> known_{};  // what the stage has, a ring
   std::size_t known_count_ = 0;

@@ -36,6 +36,21 @@ bool is_number(std::string_view row) {
 
 }  // namespace
 
+std::optional<Duration> time_on(const LossyWay& way, Duration since_begin) {
+  const Duration at = since_begin + way.offset;
+  if (way.spec.loss >= 1.0) return std::nullopt;
+  Duration took = way.spec.delay;
+  for (const auto& trace : way.delays) {
+    const DelayTrace::Point& point = trace->at(at);
+    if (point.loss >= 1.0f) return std::nullopt;
+    took += point.delay;
+  }
+  if (!way.capacity) return took;
+  const Duration waits = way.capacity->at(way.capacity->first_from(at)) - at;
+  if (waits > way.spec.queue) return std::nullopt;
+  return took + waits;
+}
+
 Result<RecordedTrace> parse_trace(std::string_view text) {
   const auto begin = std::min(text.find_first_not_of("\r\n"), text.size());
   const auto end = std::min(text.find_first_of("\r\n", begin), text.size());

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,10 @@ struct LossyWay {
 struct LossyLine {
   LossyWay up, down;
 };
+
+// What a small datagram takes that comes so long after the begin and meets nobody else and no chance;
+// nothing while none passes.
+std::optional<Duration> time_on(const LossyWay& way, Duration since_begin);
 
 // One of the two.
 struct RecordedTrace {

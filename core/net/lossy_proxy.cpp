@@ -55,8 +55,9 @@ std::size_t LossyProxy::find_or_add(const Address& from, MonoTime came) {
   clients_.push_back(
       std::make_unique<Client>(Client{from, std::move(*upstream), LossyModel(line_.up, 2 * index),
                                       LossyModel(line_.down, 2 * index + 1)}));
-  clients_.back()->up.begin(came);
-  clients_.back()->down.begin(came);
+  if (!begin_.is_set()) begin_ = came;
+  clients_.back()->up.begin(begin_);
+  clients_.back()->down.begin(begin_);
   poller_.watch(clients_.back()->upstream.fd(),
                 [this, index](MonoTime now) { on_target_side(index, now); });
   return index;
@@ -94,7 +95,7 @@ void LossyProxy::carry(std::size_t client, Direction direction, std::span<const 
   for (const MonoTime due : fate.deliveries()) {
     // Nothing to wait for, and nobody to wait behind: through at once.
     if (due <= now && heap_.empty()) {
-      deliver(client, direction, bytes, now);
+      deliver(client, direction, bytes);
       continue;
     }
     if (free_.empty()) {
@@ -118,13 +119,12 @@ void LossyProxy::carry(std::size_t client, Direction direction, std::span<const 
 }
 
 void LossyProxy::deliver(std::size_t client, Direction direction,
-                         std::span<const std::uint8_t> bytes, MonoTime now) {
+                         std::span<const std::uint8_t> bytes) {
   ++delivered_[static_cast<std::size_t>(direction)];
   if (direction == Direction::kUp)
     clients_[client]->upstream.send_now(target_, bytes);
   else
     listen_.send_now(clients_[client]->address, bytes);
-  if (on_delivered_) on_delivered_(direction, now);
 }
 
 MonoTime LossyProxy::deliver_due(MonoTime now) {
@@ -134,7 +134,7 @@ MonoTime LossyProxy::deliver_due(MonoTime now) {
                   [this](std::size_t a, std::size_t b) { return is_later(a, b); });
     heap_.pop_back();
     const Parcel& parcel = store_[place];
-    deliver(parcel.client, parcel.direction, {parcel.bytes.data(), parcel.size}, now);
+    deliver(parcel.client, parcel.direction, {parcel.bytes.data(), parcel.size});
     free_.push_back(place);
   }
   return heap_.empty() ? MonoTime() : store_[heap_.front()].due;

@@ -2,7 +2,7 @@
 // what the line does to it. Each client has a line and a socket of its own, so the target sees them
 // as different peers.
 //
-// Units/frames: up is from a client to the target; a client's traces begin when it comes.
+// Units/frames: up is from a client to the target; traces begin when the first client comes.
 // Ownership:    owns its sockets and a bounded store of datagrams under way; the poller must outlive
 //               it. Allocates when a client comes, not for datagrams.
 // Threads:      the poller's.
@@ -10,7 +10,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -29,7 +28,6 @@ class LossyProxy {
     std::uint64_t delivered = 0;  // datagrams that went out, copies counted
     std::uint64_t overflow = 0;   // the store was full
   };
-  using OnDelivered = std::function<void(Direction, MonoTime now)>;
 
   static Result<std::unique_ptr<LossyProxy>> open(const Address& listen, const Address& target,
                                                   LossyLine line, Poller& poller);
@@ -41,8 +39,8 @@ class LossyProxy {
   std::size_t client_count() const { return clients_.size(); }
   Totals totals(Direction direction) const;
   std::uint64_t refused_clients() const { return refused_clients_; }
-  // Called for each datagram that goes out.
-  void on_delivered(OnDelivered watch) { on_delivered_ = std::move(watch); }
+  // When the traces began: with the first client, and for all of them, as on a line that they share.
+  MonoTime begin() const { return begin_; }
 
  private:
   struct Client {
@@ -66,8 +64,7 @@ class LossyProxy {
   std::size_t find_or_add(const Address& from, MonoTime came);
   void carry(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes,
              MonoTime now);
-  void deliver(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes,
-               MonoTime now);
+  void deliver(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes);
   MonoTime deliver_due(MonoTime now);
   bool is_later(std::size_t a, std::size_t b) const;
 
@@ -75,7 +72,7 @@ class LossyProxy {
   UdpSocket listen_;
   Address target_;
   LossyLine line_;
-  OnDelivered on_delivered_;
+  MonoTime begin_;
   Poller::TimerId timer_;
   std::vector<std::unique_ptr<Client>> clients_;
   std::vector<Parcel> store_;

@@ -154,6 +154,25 @@ TEST(LossyModel, HasAThroughputOfItsCapacity) {
   EXPECT_EQ(line.counters().queue_dropped, 8'000 - carried);
 }
 
+TEST(LossyLine, TellsWhatItTakesAndWhenNothingPasses) {
+  LossyWay way{.spec = *LossySpec::parse("delay=5ms queue=50ms"),
+               .capacity = capacity("10\n20\n200\n"),
+               .offset = Duration::ms(3)};
+  way.delays.push_back(std::make_shared<const DelayTrace>(
+      *DelayTrace::parse("t_ms,rtt_ms\n0,20\n15,\n18,60\n400,2\n")));
+  const auto takes_ms = [&](double at_ms) {
+    const auto took = time_on(way, Duration::seconds(at_ms * 1e-3));
+    return took ? took->as_ms() : -1.0;
+  };
+  EXPECT_EQ(takes_ms(0), 7 + 10 + 5) << "to the opportunity at 10, half a round trip, 5";
+  EXPECT_EQ(takes_ms(12), -1) << "the delay trace loses all";
+  EXPECT_EQ(takes_ms(16), 1 + 30 + 5);
+  EXPECT_EQ(takes_ms(18), -1) << "nothing leaves for 179 ms";
+  EXPECT_EQ(takes_ms(147), 50 + 30 + 5);
+  way.spec.loss = 1.0;
+  EXPECT_EQ(takes_ms(0), -1);
+}
+
 TEST(LossyLine, TakesWordsAndTracesOfEachWay) {
   const auto line = load_line({.link = "delay=10ms loss=1%", .link_up = "delay=30ms rate=1Mbit"});
   ASSERT_TRUE(line) << line.error().what;

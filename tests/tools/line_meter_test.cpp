@@ -30,8 +30,8 @@ void dance(LineMeter& meter, std::uint32_t from, std::uint32_t to, double way_ms
   for (std::uint32_t i = from; i <= to; ++i) {
     const double captured_ms = kFrame_ms * i;
     meter.sent(i, at(captured_ms));
-    meter.passed(at(captured_ms + way_ms));
-    meter.delivered(heard(i, captured_ms, mapped_off), at(captured_ms + way_ms));
+    meter.look(Duration::seconds(way_ms * 1e-3), at(captured_ms));
+    meter.delivered(heard(i, captured_ms, mapped_off), Duration::ms(40), at(captured_ms + way_ms));
     meter.show(at(captured_ms + way_ms + 5.0));
   }
 }
@@ -71,18 +71,23 @@ TEST(LineMeter, TellsAgesFromCaptureHoweverTheClockIsMapped) {
 
 TEST(LineMeter, TellsGapsAndHowLongAfterThemTheFirstPoseWasThere) {
   LineMeter meter(kOrigin, 200);
+  const Duration way = Duration::ms(10);
   dance(meter, 1, 50, 10.0);  // the last is there at 1010
-  meter.passed(at(1400));     // the line is back, but nothing decodes until:
-  meter.passed(at(1430));
-  dance(meter, 72, 100, 10.0);  // 1450
+  meter.look({}, at(1020));
+  meter.look({}, at(1300));
+  meter.look(way, at(1390));  // what comes now is there at 1400, but nothing decodes until 1450
+  meter.look(way, at(1395));
+  dance(meter, 72, 100, 10.0);
   const LineFigures figures = meter.figures();
   EXPECT_EQ(figures.worst_gap, Duration::ms(440));
   EXPECT_TRUE(figures.worst_gap_is_over);
   EXPECT_EQ(figures.worst_gap_to_pose, Duration::ms(50));
+  EXPECT_EQ(figures.worst_gap_round_trip, Duration::ms(10 + 40));
   EXPECT_EQ(figures.slowest_after_gap, Duration::ms(50));
 
   // A shorter one with a slower start, and then one that does not end.
-  meter.passed(at(2300));
+  meter.look({}, at(2020));
+  meter.look(way, at(2290));
   dance(meter, 120, 125, 10.0);
   EXPECT_EQ(meter.figures().worst_gap, Duration::ms(440));
   EXPECT_EQ(meter.figures().slowest_after_gap, Duration::ms(110));
@@ -108,15 +113,15 @@ TEST(LineMeter, CountsMomentsAtWhichTheStageStandsStill) {
 TEST(LineMeter, CountsWhatComesOrShowsAfterSomethingNewer) {
   LineMeter twice(kOrigin, 100);
   dance(twice, 1, 10, 10.0);
-  twice.delivered(heard(10, 200.0), at(215));
-  twice.delivered(heard(9, 180.0), at(216));
+  twice.delivered(heard(10, 200.0), {}, at(215));
+  twice.delivered(heard(9, 180.0), {}, at(216));
   EXPECT_EQ(twice.figures().older_delivered, 2u);
 
   // The link says that these follow each other, but they were captured the other way round.
   LineMeter back(kOrigin, 100);
   for (std::uint32_t i = 1; i <= 5; ++i) {
     back.sent(i, at(200.0 - kFrame_ms * i));
-    back.delivered(heard(i, 200.0 + kFrame_ms * i), at(200.0 + kFrame_ms * i));
+    back.delivered(heard(i, 200.0 + kFrame_ms * i), {}, at(200.0 + kFrame_ms * i));
     back.show(at(210.0 + kFrame_ms * i));
   }
   EXPECT_GE(back.figures().older_shown, 3u);
@@ -124,8 +129,8 @@ TEST(LineMeter, CountsWhatComesOrShowsAfterSomethingNewer) {
 
 TEST(LineMeter, IgnoresWhatWasNeverSentAndTakesNoMoreThanItHasRoomFor) {
   LineMeter meter(kOrigin, 3);
-  meter.delivered(heard(2, 0.0), at(1));
-  meter.delivered(heard(4'000'000'000, 0.0), at(1));
+  meter.delivered(heard(2, 0.0), {}, at(1));
+  meter.delivered(heard(4'000'000'000, 0.0), {}, at(1));
   meter.sent(0, at(0));
   meter.sent(4, at(0));
   const LineFigures figures = meter.figures();
