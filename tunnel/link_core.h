@@ -95,6 +95,7 @@ class LinkCore {
   bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
              Stamp& out);
   void refresh(LocalGuest& guest, MonoTime now);
+  void settle_references(LocalGuest& guest, MonoTime now);
   void add_record(const wire::Record& record, MonoTime now);
   void flush_records();
   void send_records_datagram(bool with_bundle);

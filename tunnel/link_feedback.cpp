@@ -30,7 +30,8 @@ void LinkCore::begin_session_records() {
 void LinkCore::settle_encoder(LocalGuest& guest) {
   guest.encoder = options_.make_encoder(codec_);
   DANCE_ASSERT(guest.encoder != nullptr, static_cast<int>(codec_.id), codec_.model);
-  guest.encoder->set_references(guest.policy.current());
+  guest.references = guest.policy.current();
+  guest.encoder->set_references(guest.references);
   guest.encoder->set_quality(guest.quality.quality_m());
   guest.sent_frames.clear();
   guest.acked_frames.clear();
@@ -110,12 +111,9 @@ void LinkCore::on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& g
     ++guest.key_frames_sent;
     ++counters_.key_frames_sent;
   }
-  if (path_.is_known) {
-    const References before = guest.policy.current();
-    const References chosen =
-        guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
-    if (chosen != before) guest.encoder->set_references(chosen);
-  }
+  // The encoder is told with the next pose.
+  if (path_.is_known)
+    guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
   if (!about.has_held || about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;
   for (int back = 16; back >= 0; --back) {
     if (back > 0 && (about.held_before >> (back - 1) & 1) == 0) continue;
