@@ -147,5 +147,28 @@ TEST(LossyProxy, CarriesBothWaysAndCountsWhatItLoses) {
   EXPECT_NEAR(static_cast<double>((*proxy)->totals(Direction::kUp).line.lost), 120.0, 40.0);
 }
 
+// Traces are of the line, not of whoever comes to it.
+TEST(LossyProxy, BeginsItsTracesWithTheFirstClientAndNotAnewWithOthers) {
+  auto poller = Poller::create();
+  ASSERT_TRUE(poller);
+  auto target = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(target);
+  auto proxy = LossyProxy::open(Address::loopback(0), target->local_address(), {}, **poller);
+  ASSERT_TRUE(proxy);
+  EXPECT_FALSE((*proxy)->begin().is_set());
+  MonoTime begin;
+  for (std::size_t clients = 1; clients <= 3; ++clients) {
+    auto client = UdpSocket::connect((*proxy)->local_address());
+    ASSERT_TRUE(client);
+    client->send_now({}, bytes(50, 1));
+    for (int i = 0; i < 10'000 && (*proxy)->client_count() < clients; ++i)
+      (*poller)->run_once(Duration::ms(1));
+    ASSERT_EQ((*proxy)->client_count(), clients);
+    if (clients == 1) begin = (*proxy)->begin();
+    EXPECT_TRUE(begin.is_set());
+    EXPECT_EQ((*proxy)->begin(), begin);
+  }
+}
+
 }  // namespace
 }  // namespace dance
