@@ -35,6 +35,16 @@ std::string short_name(const std::string& path) {
   return name;
 }
 
+// lte.up and lte.down are called lte.
+std::string shared_name(const std::string& up, const std::string& down) {
+  if (up == down) return up;
+  const auto differ = std::mismatch(up.begin(), up.end(), down.begin(), down.end());
+  const std::string shared(up.begin(), differ.first);
+  const auto separator = shared.find_last_of("._-");
+  if (separator == std::string::npos || separator == 0) return up + "," + down;
+  return shared.substr(0, separator);
+}
+
 std::string text_of(double seconds) {
   std::string text = std::to_string(seconds);
   text.resize(std::min(text.find_last_not_of('0') + 1, text.size()));
@@ -54,7 +64,7 @@ Result<PlannedLine> plan_file(const std::string& argument, const LineWords& link
   } else {
     words.traces_up = {argument.substr(0, comma)};
     words.traces_down = {argument.substr(comma + 1)};
-    planned.name = short_name(words.traces_up[0]) + "," + short_name(words.traces_down[0]);
+    planned.name = shared_name(short_name(words.traces_up[0]), short_name(words.traces_down[0]));
   }
   if (offset_s > 0.0) planned.name += " @" + text_of(offset_s) + "s";
   DANCE_TRY(planned.line, load_line(words));
