@@ -41,7 +41,8 @@ class LinkCore {
 
   LinkState state() const { return state_; }
   bool is_connected() const { return state_ == LinkState::kConnected; }
-  // Hellos since the last sign of the server: many, and another socket may be worth a try.
+  // Hellos since the last sign of the server, those that come quickly not counted: many, and another
+  // socket may be worth a try.
   int unanswered_hellos() const { return unanswered_hellos_; }
   const LinkCounters& counters() const { return counters_; }
   const ClockMapper& clock() const { return clock_; }
@@ -131,6 +132,7 @@ class LinkCore {
   MonoTime next_hello_;
   Duration hello_wait_;
   int unanswered_hellos_ = 0;
+  int hellos_in_lapse_ = 0;
 
   MonoTime last_heard_;
   MonoTime next_ping_;
