@@ -81,8 +81,8 @@ class BenchFlood {
     flood.seed = 20'260'101;
     DANCE_TRY(attack_, FloodAttack::make(flood));
     // The couple's line has a listener on it, as a line in a café has.
-    DANCE_TRY(line_, LossyProxy::open(Address::loopback(0), Address::loopback(port), LossySpec(),
-                                      nullptr, *poller_));
+    DANCE_TRY(line_, LossyProxy::open(Address::loopback(0), Address::loopback(port), LossyLine(),
+                                      *poller_));
     line_->set_tap([this](LossyProxy::Direction direction, std::span<const std::uint8_t> bytes) {
       if (direction == LossyProxy::Direction::kUp) attack_->record(bytes);
     });

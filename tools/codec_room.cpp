@@ -109,7 +109,7 @@ class Room {
     std::unique_ptr<LinkCore> link;
     LinkCounters before;
     Guest(const LossySpec& line, std::uint64_t stream)
-        : up(line, nullptr, stream), down(line, nullptr, stream + 1) {}
+        : up({.spec = line}, stream), down({.spec = line}, stream + 1) {}
     MonoTime time(MonoTime now) const { return now + clock_ahead; }
   };
   struct Parcel {

@@ -51,7 +51,8 @@ class LinkCore {
 
   LinkState state() const { return state_; }
   bool is_connected() const { return state_ == LinkState::kConnected; }
-  // Hellos since the last sign of the server: many, and another socket may be worth a try.
+  // Hellos since the last sign of the server, those that come quickly not counted: many, and another
+  // socket may be worth a try.
   int unanswered_hellos() const { return unanswered_hellos_; }
   const LinkCounters& counters() const { return counters_; }
   const ClockMapper& clock() const { return clock_; }
@@ -106,6 +107,7 @@ class LinkCore {
              Stamp& out);
   void refresh(LocalGuest& guest, MonoTime now);
   bool prepare(LocalGuest& guest, MonoTime now);
+  void settle_references(LocalGuest& guest, MonoTime now);
   void add_record(const wire::Record& record, MonoTime now);
   void flush_records();
   void send_records_datagram(bool with_bundle);
@@ -151,6 +153,7 @@ class LinkCore {
   MonoTime next_hello_;
   Duration hello_wait_;
   int unanswered_hellos_ = 0;
+  int hellos_in_lapse_ = 0;
 
   MonoTime last_heard_;
   MonoTime next_ping_;

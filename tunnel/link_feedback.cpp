@@ -30,7 +30,8 @@ void LinkCore::begin_session_records() {
 void LinkCore::settle_encoder(LocalGuest& guest) {
   guest.encoder = options_.make_encoder(codec_);
   DANCE_ASSERT(guest.encoder != nullptr, static_cast<int>(codec_.id), codec_.model);
-  guest.encoder->set_references(guest.policy.current());
+  guest.references = guest.policy.current();
+  guest.encoder->set_references(guest.references);
   guest.encoder->set_quality(guest.quality.quality_m());
   guest.sent_frames.clear();
   guest.acked_frames.clear();
@@ -113,12 +114,9 @@ void LinkCore::on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& g
     ++guest.key_frames_sent;
     ++counters_.key_frames_sent;
   }
-  if (path_.is_known) {
-    const References before = guest.policy.current();
-    const References chosen =
-        guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
-    if (chosen != before) guest.encoder->set_references(chosen);
-  }
+  // The encoder is told with the next pose.
+  if (path_.is_known)
+    guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
   guest.base_log2 = about.base_log2;
   guest.still_log2 = about.still_log2;
   on_held(about, guest, now);

@@ -50,7 +50,8 @@ struct LocalGuest {
   std::unique_ptr<PoseEncoder> encoder;
   QualityByRate quality;
   ReferencePolicy policy;
-  Duration frame = Duration::us(16'667);  // between captures, as it is of late
+  References references = policy.current();  // as the encoder was told
+  Duration frame = Duration::us(16'667);     // between captures, as it is of late
   MonoTime last_capture;
   HeldFrames sent_frames;        // what there is to acknowledge,
   HeldFrames acked_frames;       // and what the encoder was told of it

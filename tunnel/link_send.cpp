@@ -156,6 +156,15 @@ bool LinkCore::prepare(LocalGuest& guest, MonoTime now) {
   return is_base;
 }
 
+void LinkCore::settle_references(LocalGuest& guest, MonoTime now) {
+  const References references =
+      guest.acked_at.is_set() ? guest.policy.while_silent_for(now - guest.acked_at, guest.frame)
+                              : guest.policy.current();
+  if (references == guest.references) return;
+  guest.references = references;
+  guest.encoder->set_references(references);
+}
+
 void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   ++counters_.poses_offered;
   LocalGuest* guest = find_or_add(id, now);
@@ -183,6 +192,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   }
   keep_time(*guest, times.capture);
   refresh(*guest, now);
+  settle_references(*guest, now);
   const bool is_base = prepare(*guest, now);
   // Only what is sent: an encoder may refer to what it encoded before.
   const std::size_t size = guest->encoder->encode(pose, payload);

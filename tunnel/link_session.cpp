@@ -9,6 +9,10 @@ namespace {
 
 constexpr Duration kFirstHelloWait = Duration::ms(100);
 constexpr Duration kLongestHelloWait = Duration::s(1);
+// A way that was cut is there again within seconds, and the dance with it: for this many hellos, ten
+// seconds, a link that had its session asks more often.
+constexpr Duration kLongestWaitInLapse = Duration::ms(250);
+constexpr int kHellosInLapse = 40;
 constexpr Duration kPingPeriod = Duration::ms(200);
 // The first pings come quickly: the shortest of eight round trips maps the clock well.
 constexpr Duration kQuickPingPeriod = Duration::ms(50);
@@ -64,6 +68,7 @@ void LinkCore::schedule_update(MonoTime now) {
 
 void LinkCore::begin_lapse(MonoTime now) {
   ++counters_.lapses;
+  hellos_in_lapse_ = 0;
   for (LocalGuest& guest : locals_) guest.refused_until = MonoTime();
   schedule_update(now);
   next_hello_ = now;
@@ -116,10 +121,13 @@ void LinkCore::send_hello(MonoTime now) {
   std::array<std::uint8_t, wire::kMaxHello> out;
   send_datagram({out.data(), wire::build(hello, out)});
   ++counters_.hellos;
-  ++unanswered_hellos_;
+  const bool is_quick = state_ == LinkState::kLapsed && hellos_in_lapse_ < kHellosInLapse;
+  // Of four quick ones the first counts: another socket before a slow way's answer would miss it.
+  if (!is_quick || hellos_in_lapse_ % 4 == 0) ++unanswered_hellos_;
+  if (is_quick) ++hellos_in_lapse_;
   if (hello_wait_ < kFirstHelloWait) hello_wait_ = kFirstHelloWait;
   next_hello_ = now + hello_wait_;
-  hello_wait_ = std::min(hello_wait_ * 2, kLongestHelloWait);
+  hello_wait_ = std::min(hello_wait_ * 2, is_quick ? kLongestWaitInLapse : kLongestHelloWait);
 }
 
 void LinkCore::send_ping(MonoTime now) {

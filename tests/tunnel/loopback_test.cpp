@@ -130,9 +130,8 @@ TEST_F(Loopback, ALinkThatEndsSaysGoodbye) {
 }
 
 TEST_F(Loopback, SessionsStandThroughALineThatLosesAThird) {
-  auto proxy =
-      LossyProxy::open(Address::loopback(0), address,
-                       *LossySpec::parse("loss=33% dup=5% delay=1ms seed=5"), nullptr, *poller);
+  auto proxy = LossyProxy::open(Address::loopback(0), address,
+                                *load_line({.link = "loss=33% dup=5% delay=1ms seed=5"}), *poller);
   ASSERT_TRUE(proxy);
   address = (*proxy)->local_address();
   std::uint32_t last = 0;

@@ -305,6 +305,43 @@ TEST(Session, AShortLapseChangesNothingForTheOthers) {
   EXPECT_GT(b.link->remote_stats().at(0).lost, 40u) << "what was danced meanwhile is missing";
 }
 
+TEST(Session, AfterACutThatEndedTheSessionTheDanceIsBackSoonWheneverTheWayIs) {
+  SimulatedTunnel tunnel;
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  auto& b = tunnel.add_house("salsa", {"bob"});
+  Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
+  for (int cut_ms = 3000; cut_ms < 4000; cut_ms += 130) {
+    dance.run(Duration::s(2));
+    a.is_cut = true;
+    dance.run(Duration::ms(cut_ms));
+    ASSERT_EQ(tunnel.server().session_count(), 1u);
+    a.is_cut = false;
+    const auto at_a = a.heard_of(guest("bob")), at_b = b.heard_of(guest("alice"));
+    // Until it asks again, and four round trips of 20 ms: asking, roster and proportions, a key frame.
+    dance.run(Duration::ms(250 + 4 * 20));
+    EXPECT_GT(a.heard_of(guest("bob")), at_a) << cut_ms;
+    EXPECT_GT(b.heard_of(guest("alice")), at_b) << cut_ms;
+  }
+}
+
+TEST(Session, WhoHearsNothingForLongAsksOnceASecondAndSoonTriesAnotherSocket) {
+  SimulatedTunnel tunnel;
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  tunnel.run(Duration::s(1));
+  a.is_cut = true;
+  const auto before = a.link->counters().hellos;
+  tunnel.run(Duration::s(11));
+  EXPECT_LE(a.link->counters().hellos, before + 45);
+  EXPECT_GE(a.link->unanswered_hellos(), 9) << "one a second counts";
+  EXPECT_LE(a.link->unanswered_hellos(), 14);
+  const auto later = a.link->counters().hellos;
+  tunnel.run(Duration::s(60));
+  EXPECT_LE(a.link->counters().hellos, later + 61);
+  a.is_cut = false;
+  tunnel.run(Duration::ms(1100));
+  EXPECT_TRUE(a.link->is_connected());
+}
+
 TEST(Session, AProducerStartedAgainGoesOnAtOnceAndItsOldPosesDoNot) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
