@@ -89,7 +89,8 @@ MonoTime Link::tick(MonoTime now) {
 
 MonoTime Link::next_deadline() const {
   const MonoTime core = core_.next_deadline();
-  const MonoTime seal = seal_.next_deadline();
+  // Before its first turn the seal has no deadline: that is now, not never.
+  const MonoTime seal = std::max(seal_.next_deadline(), MonoTime::from_ns(1));
   return core.is_set() ? std::min(core, seal) : seal;
 }
 
