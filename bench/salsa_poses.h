@@ -1,4 +1,4 @@
-// A minute of the synthetic lead at 60 Hz: what the benchmarks work on, the same every time.
+// A minute of the synthetic lead, or of the follow, at 60 Hz: what the benchmarks work on, the same every time.
 //
 // Units/frames: as core/pose/pose.h; capture times count from 1 s of clock 1.
 // Ownership:    plain values.
@@ -12,9 +12,11 @@
 
 namespace dance {
 
-inline std::vector<Pose> salsa_poses() {
+inline std::vector<Pose> salsa_poses(SalsaRole role = SalsaRole::kLead) {
   constexpr std::int64_t kFrames = 3600;
-  SalsaDancer dancer{SalsaStyle{}};
+  SalsaStyle style;
+  style.role = role;
+  SalsaDancer dancer{style};
   std::vector<Pose> poses(kFrames);
   for (std::int64_t i = 0; i < kFrames; ++i) {
     Pose& pose = poses[static_cast<std::size_t>(i)];

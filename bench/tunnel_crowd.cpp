@@ -5,6 +5,7 @@
 #include "core/base/assert.h"
 #include "core/net/mono_clock.h"
 #include "tunnel/link.h"
+#include "tunnel/seal/key_files.h"
 
 namespace dance {
 namespace {
@@ -30,6 +31,9 @@ class DeafDecoder final : public PoseDecoder {
 class TunnelCrowd final : public Crowd {
  public:
   Result<void> open(const CrowdOptions& options, Poller& poller) {
+    LinkKey key;
+    key.name = kLocalKeyName;
+    DANCE_TRY(key.key, local_key());
     for (std::size_t i = 0; i < options.guests; ++i) {
       LinkOptions of;
       of.room = guest_name(0);
@@ -46,7 +50,7 @@ class TunnelCrowd final : public Crowd {
         heard(i, sender, pose.sequence);
       };
       DANCE_TRY(std::unique_ptr<Link> link,
-                Link::open({options.relay}, of, std::move(handlers), poller));
+                Link::open({options.relay}, key, of, std::move(handlers), poller));
       links_.push_back(std::move(link));
     }
     return {};

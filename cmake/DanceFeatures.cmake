@@ -42,6 +42,8 @@ find_package(nlohmann_json QUIET)
 dance_require("nlohmann-json" nlohmann_json_FOUND "nlohmann-json3-dev")
 find_package(spdlog QUIET)
 dance_require("spdlog" spdlog_FOUND "libspdlog-dev")
+find_package(OpenSSL 3 QUIET)
+dance_require("OpenSSL 3" OPENSSL_FOUND "libssl-dev")
 find_package(LibLZMA QUIET)
 dance_require("liblzma" LIBLZMA_FOUND "liblzma-dev")
 
@@ -108,6 +110,11 @@ if(ENET_INCLUDE_DIR AND ENET_LIBRARY)
   target_link_libraries(dance_enet INTERFACE ${ENET_LIBRARY})
 endif()
 dance_optional(DANCE_ENET "ENet to compare with" DANCE_HAVE_ENET ${enet_found} "libenet-dev")
+
+# Through pkg-config: the package of CMake insists on all that the library could be built with.
+pkg_check_modules(PROMETHEUS QUIET IMPORTED_TARGET prometheus-cpp-pull)
+dance_optional(DANCE_PROMETHEUS "Server metrics" DANCE_HAVE_PROMETHEUS "${PROMETHEUS_FOUND}"
+  "prometheus-cpp-dev")
 
 find_program(JAVAC javac)
 find_program(JAR jar)

@@ -98,7 +98,9 @@ function(dance_test name)
     set(serial RUN_SERIAL ON)
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${serial})
+    # The keys that programs make for this machine are not those of whoever runs the tests.
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT}
+      ENVIRONMENT "XDG_CONFIG_HOME=${PROJECT_BINARY_DIR}/test-config" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${serial})
 endfunction()
 
 # dance_fuzz(NAME SOURCES x_fuzz.cpp LIBS targets … CORPUS dir): with DANCE_FUZZ a libFuzzer program fuzz/NAME; in a build

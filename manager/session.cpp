@@ -46,7 +46,13 @@ GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& 
   return id.value_or(GuestId());
 }
 
-void read_house(TomlReader& reader, Session& session) {
+std::string read_file_name(TomlReader& reader, const char* key,
+                           const std::filesystem::path& folder) {
+  const auto file = reader.maybe_string(key);
+  return file ? (folder / *file).string() : "";
+}
+
+void read_house(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   if (const auto guest = reader.maybe_string("guest"))
     session.guests.push_back(read_guest(reader, "guest", *guest));
   for (const std::string& guest : reader.strings("guests"))
@@ -57,6 +63,10 @@ void read_house(TomlReader& reader, Session& session) {
   if (!GuestId::parse(session.room))
     reader.complain("room", "a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
   session.server = reader.string_or("server", "");
+  session.key_file = read_file_name(reader, "key_file", folder);
+  session.certificate = read_file_name(reader, "certificate", folder);
+  session.private_key = read_file_name(reader, "private_key", folder);
+  session.authorities = read_file_name(reader, "authorities", folder);
   session.bus = reader.string_or("bus", "");
   session.view = reader.bool_or("view", true);
   session.quality_mm = reader.number_or("quality_mm", session.quality_mm, 0.125, 20.0);
@@ -179,7 +189,7 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
   TomlReader reader(*house->as_table(), name, "[house]");
-  read_house(reader, session);
+  read_house(reader, folder, session);
   if (reader.problem()) return reader.problem();
   auto problem = read_each(document, "route", name, [&](TomlReader& r) { read_route(r, session); });
   if (!problem)

@@ -59,7 +59,12 @@ struct Session {
   std::vector<GuestId>
       guests;  // who dances in this house; may be empty (a house that only watches)
   std::string room = "dance";
-  std::string server;                  // host:port; "" = no tunnel
+  std::string server;  // host:port; "" = no tunnel
+  // How the server knows this house; "" = by the key that `dance key` keeps.
+  std::string key_file;
+  std::string certificate;
+  std::string private_key;
+  std::string authorities;
   std::string bus;                     // LCM URL; "" = default
   double quality_mm = 1.0;             // the largest error in a joint at the others'
   double pose_bytes_per_second = 0.0;  // of each guest, at most; 0 = whatever quality_mm takes

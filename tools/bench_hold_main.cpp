@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "core/net/delay_trace.h"
 #include "core/net/lossy_model.h"
 #include "core/program/program.h"
 #include "tools/figures.h"
@@ -101,11 +100,11 @@ Shown show(Chain& chain, const std::vector<Arrival>& heard, MonoTime begin, Dura
   return shown;
 }
 
-Result<void> measure(const std::string& name, const LossySpec& spec, const DelayTrace* trace,
-                     const Options& options, nlohmann::ordered_json& report) {
+Result<void> measure(const std::string& name, const LossyWay& way, const Options& options,
+                     nlohmann::ordered_json& report) {
   const Duration frame = Duration::us(16'667);
   const MonoTime begin = MonoTime::from_us(1'000'000);
-  LossyModel line(spec, trace, 0);
+  LossyModel line(way, 0);
   const auto heard = arrivals_of(line, begin, Duration::seconds(options.seconds), frame);
   if (heard.size() < 2) return fail(name + ": nothing arrives over this line");
   if (!options.is_json)
@@ -129,16 +128,15 @@ Result<void> measure(const std::string& name, const LossySpec& spec, const Delay
 }
 
 Result<void> run(const Options& options) {
-  DANCE_TRY(const LossySpec spec, LossySpec::parse(options.link));
   nlohmann::ordered_json report;
-  if (options.traces.empty())
-    if (auto done = measure(options.link.empty() ? "a perfect line" : options.link, spec, nullptr,
-                            options, report);
-        !done)
-      return done;
+  if (options.traces.empty()) {
+    DANCE_TRY(const LossyLine line, load_line({.link = options.link}));
+    const std::string name = options.link.empty() ? "a perfect line" : options.link;
+    if (auto done = measure(name, line.up, options, report); !done) return done;
+  }
   for (const std::string& path : options.traces) {
-    DANCE_TRY(const DelayTrace trace, DelayTrace::load(path));
-    if (auto done = measure(path, spec, &trace, options, report); !done) return done;
+    DANCE_TRY(const LossyLine line, load_line({.link = options.link, .traces = {path}}));
+    if (auto done = measure(path, line.up, options, report); !done) return done;
   }
   if (options.is_json) std::fputs((report.dump(2) + "\n").c_str(), stdout);
   return {};
@@ -151,7 +149,7 @@ int main(int argc, char** argv) {
   dance::Options options;
   dance::CommandLine line("What a play-out buffer costs in delay and saves in freezes.",
                           "dance bench hold");
-  line.add("trace", options.traces, "recorded lines (.csv, .csv.xz)");
+  line.add("trace", options.traces, "recorded lines, as dance lossy takes them");
   line.add("--link", options.link, "what else the line does, as dance lossy takes it");
   line.add("--through", options.through, "the buffers to compare, each a transformer");
   line.add("--seconds", options.seconds, "of dancing").range(1.0, 3600.0).shows_default();

@@ -15,16 +15,16 @@ constexpr double kLeft = 66.0, kRight = 604.0, kTop = 48.0, kBottom = 378.0;
 constexpr double kLegendLeft = kRight + 22.0;
 
 // Told apart without colours too, and by those who see fewer of them. Source: Okabe and Ito, 2008.
-struct Style {
+struct LineStyle {
   const char* colour;
   const char* dot;  // around 0, 0
 };
-constexpr std::array<Style, 4> kStyles{
+constexpr std::array<LineStyle, 4> kStyles{
     {{"#d55e00", "M-4.5 0L0 -5.5L4.5 0L0 5.5Z"},
      {"#009e73", "M-5 4L0 -5.5L5 4Z"},
      {"#0072b2", "M-4 -4H4V4H-4Z"},
      {"#aa3377", "M-4.5 0A4.5 4.5 0 1 1 4.5 0A4.5 4.5 0 1 1 -4.5 0Z"}}};
-constexpr Style kMarkStyle{"#333333", "M-5 -5L5 5M-5 5L5 -5"};
+constexpr LineStyle kMarkStyle{"#333333", "M-5 -5L5 5M-5 5L5 -5"};
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -92,13 +92,13 @@ class Drawing {
                         look.empty() ? "" : " ", look, escaped(what)) +
             "\n";
   }
-  void dot(double x, double y, const Style& style) {
+  void dot(double x, double y, const LineStyle& style) {
     out_ += fmt::format(
                 R"svg(<path transform="translate({:.1f} {:.1f})" d="{}" fill="{}" stroke="{}")svg",
                 x, y, style.dot, style.colour, style.colour) +
             R"( stroke-width="2"/>)" + "\n";
   }
-  void path(const std::string& points, const Style& style) {
+  void path(const std::string& points, const LineStyle& style) {
     out_ += fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="2.2"/>)",
                         points, style.colour) +
             "\n";
@@ -138,7 +138,7 @@ void draw_axes(Drawing& svg, const LogAxis& x, const LogAxis& y) {
 }
 
 // The size at 1 mm is written beside its dot.
-void draw_series(Drawing& svg, const RateSeries& series, const Style& style, const LogAxis& x,
+void draw_series(Drawing& svg, const RateSeries& series, const LineStyle& style, const LogAxis& x,
                  const LogAxis& y) {
   std::string points;
   for (const RatePoint& p : series.points)
@@ -216,7 +216,7 @@ std::string rate_plot_svg(const RatePlot& plot) {
   double legend_y = kTop + 12.0;
   svg.text(kLegendLeft, legend_y, "reference", R"(fill="#555")");
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const Style& style = kStyles[i % kStyles.size()];
+    const LineStyle& style = kStyles[i % kStyles.size()];
     draw_series(svg, plot.series[i], style, x, y);
     legend_y += 26.0;
     svg.line(kLegendLeft, legend_y - 4.5, kLegendLeft + 30.0, legend_y - 4.5,

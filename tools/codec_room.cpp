@@ -51,6 +51,10 @@ class WatchedEncoder final : public PoseEncoder {
     encoder_.acknowledged(sequence);
   }
   void key_frame_wanted() override { encoder_.key_frame_wanted(); }
+  void still_wanted() override { encoder_.still_wanted(); }
+  void base_wanted() override { encoder_.base_wanted(); }
+  void base_acknowledged(std::uint32_t sequence) override { encoder_.base_acknowledged(sequence); }
+  bool needs_no_other() const override { return encoder_.needs_no_other(); }
   void restart() override { encoder_.restart(); }
   void set_references(References references) override { encoder_.set_references(references); }
   void set_quality(double error_m) override { encoder_.set_quality(error_m); }
@@ -105,7 +109,7 @@ class Room {
     std::unique_ptr<LinkCore> link;
     LinkCounters before;
     Guest(const LossySpec& line, std::uint64_t stream)
-        : up(line, nullptr, stream), down(line, nullptr, stream + 1) {}
+        : up({.spec = line}, stream), down({.spec = line}, stream + 1) {}
     MonoTime time(MonoTime now) const { return now + clock_ahead; }
   };
   struct Parcel {

@@ -11,6 +11,7 @@
 #include "core/program/talk.h"
 #include "tools/demo_run.h"
 #include "tools/demo_summary.h"
+#include "tools/line_options.h"
 
 namespace dance {
 namespace {
@@ -19,6 +20,8 @@ constexpr const char* kExamples = R"(Examples:
   dance demo                                     two salsa dancers, in a window
   dance demo --link "delay=80ms jitter=10ms loss=1%"
                                                  the same, 80 ms apart, on a bad line
+  dance demo --trace-up lte.up.xz --trace-down lte.down.xz
+                                                 the same, over a recorded line
   dance demo --motion lead.bvh,follow.bvh        your own takes
   dance demo --headless --seconds 10 --out pics  pictures and numbers instead of a window
   dance demo --guests 30 --headless --json       a crowd, measured
@@ -82,9 +85,8 @@ int main(int argc, char** argv) {
   line.add("--guests", options.guests, "dancers, shared out to the two houses").range(2, 32);
   line.add("--motion", options.motion, "BVH files for the dancers in turn, with commas between")
       .split_at(',');
-  line.add("--link", options.link,
-           "what the line between the houses does, e.g. \"delay=80ms jitter=10ms loss=1%\"");
-  line.add("--trace", options.trace, "a recorded line (.csv, .csv.xz)");
+  dance::add_link_options(line, options.line);
+  dance::add_trace_options(line, options.line);
   line.add_flag("--headless", options.headless, "no window: pictures and a summary");
   line.add("--out", options.out, "folder for pictures, log and what the programs said")
       .shows_default();

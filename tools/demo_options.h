@@ -11,6 +11,7 @@
 
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
+#include "core/net/lossy_line.h"
 
 namespace dance {
 
@@ -18,8 +19,7 @@ struct DemoOptions {
   double seconds = 0.0;  // 0 = until the viewer is closed; headless: 10
   int guests = 2;
   std::vector<std::string> motion;  // BVH files, dealt out to the dancers in turn
-  std::string link;                 // what the line between house B and the server does
-  std::string trace;                // a recorded line
+  LineWords line;                   // between house B and the server
   bool headless = false;
   bool view = true;  // false: this build has no viewer
   std::string out = "out/demo";

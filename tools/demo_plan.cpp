@@ -194,7 +194,8 @@ Result<DemoPlan> plan_demo(const DemoOptions& options) {
   if (plan.server_port == 0) {
     DANCE_TRY(plan.server_port, free_loopback_port());
   }
-  if (!options.link.empty() || !options.trace.empty()) {
+  if (!options.line.is_perfect_line()) {
+    if (auto line = load_line(options.line); !line) return tl::make_unexpected(line.error());
     DANCE_TRY(plan.line_port, free_loopback_port());
   }
   for (int house = 0; house < 2; ++house) {

@@ -8,6 +8,7 @@
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "tools/line_options.h"
 
 namespace dance {
 namespace {
@@ -101,8 +102,7 @@ Result<void> DemoRun::start_houses() {
   if (plan_.line_port != 0) {
     std::vector<std::string> arguments{"--listen", "127.0.0.1:" + std::to_string(plan_.line_port),
                                        "--to", server, "--json"};
-    if (!options_.link.empty()) arguments.push_back("--link=" + options_.link);
-    if (!options_.trace.empty()) arguments.push_back("--trace=" + options_.trace);
+    for (std::string& word : line_arguments(options_.line)) arguments.push_back(std::move(word));
     started.push_back(&add("line", "dance-lossy", arguments));
   }
   for (int house = 0; house < 2; ++house)

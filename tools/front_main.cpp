@@ -28,6 +28,8 @@ constexpr std::array kCommands{
     Command{"replay", "plays BVH files and LCM logs as dancers"},
     Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
     Command{"server", "the tunnel server"},
+    Command{"status", "rooms and guests of a server on this machine, in a terminal"},
+    Command{"key", "keeps the keys that servers gave to this house"},
     Command{"link", "a house's link to the server"},
     Command{"manager", "the signal manager of a house"},
     Command{"listen", "poses as text, CSV or BVH"},
@@ -43,6 +45,7 @@ constexpr std::array kCommands{
     Command{"codec train", "trains a model of the pose codec"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
+    Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},
     Command{"bench hold", "play-out buffers over recorded lines: delay against freezes"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };

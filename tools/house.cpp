@@ -104,7 +104,12 @@ Result<void> House::open_link() {
   LinkHandlers handlers = link_bus_->handlers();
   add_stage(handlers);
   add_talk(handlers);
-  DANCE_TRY(link_, Link::open(server, options, std::move(handlers), poller_));
+  LinkKeySource source;
+  source.key_file = session_.key_file;
+  source.certificates = {session_.certificate, session_.private_key, session_.authorities};
+  const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
+  DANCE_TRY(const LinkKey key, choose_link_key(session_.server, options.room, first, source));
+  DANCE_TRY(link_, Link::open(server, key, options, std::move(handlers), poller_));
   link_bus_->attach(*link_);
   for (const GuestId& guest : session_.guests)
     if (!is_hosted(guest)) link_bus_->send_captures_of(guest);
@@ -151,6 +156,9 @@ void House::add_talk(LinkHandlers& handlers) {
     talk::info("{}", room_state_line(kind, verdict));
   };
   handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
+  handlers.on_no_entry = [this](SealTrouble trouble) {
+    talk::warn("{}", no_entry_line(trouble, session_.server));
+  };
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
     if (now - last_refusal_ < kSecond) return;  // asked again up to ten times a second
     last_refusal_ = now;

@@ -2,11 +2,11 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/net/lossy_proxy.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "tools/line_options.h"
 
 namespace dance {
 namespace {
@@ -14,14 +14,20 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   dance lossy --link 'delay=80ms jitter=10ms loss=1%'        then: dance link --server 127.0.0.1:7401 …
   dance lossy --link 'loss=2% burst=4 dup=0.1% reorder=1% rate=1Mbit queue=50ms seed=7'
+  dance lossy --link-up 'rate=2Mbit queue=1s' --link-down 'rate=20Mbit'
   dance lossy --trace starlink_a_rtt.csv.xz --json           counts at the end, on stdout
+  dance lossy --trace-up lte.up.xz --trace-down lte.down.xz --link 'delay=30ms queue=500ms'
+  dance lossy --trace wifi.csv.xz --offset 61                from the 61st second on
+Words of a link, each way: delay and jitter (±) as times; loss, dup (comes twice) and reorder (is
+overtaken) in per cent; burst, the mean number lost in a row; rate; queue, the longest that a datagram
+waits for the rate or for a capacity trace before it is dropped; seed. A trace is delays that somebody
+measured, or moments at which 1,500 bytes can leave; either is repeated at its end.
 )";
 
 struct LossyOptions {
   std::string listen = "127.0.0.1:7401";
   std::string to = "127.0.0.1:7400";
-  std::string link;
-  std::string trace;
+  LineWords line;
   bool json = false;
 };
 
@@ -34,19 +40,17 @@ nlohmann::ordered_json account(const LossyProxy& proxy, LossyProxy::Direction di
 }
 
 Result<void> run_lossy(const LossyOptions& options) {
-  DANCE_TRY(const LossySpec spec, LossySpec::parse(options.link));
-  std::optional<DelayTrace> trace;
-  if (!options.trace.empty()) {
-    DANCE_TRY(trace, DelayTrace::load(options.trace));
-  }
+  DANCE_TRY(LossyLine line, load_line(options.line));
   DANCE_TRY(const Address listen, Address::resolve(options.listen));
   DANCE_TRY(const Address target, Address::resolve(options.to));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
-  DANCE_TRY(auto proxy, LossyProxy::open(listen, target, spec, trace ? &*trace : nullptr, *poller));
-  talk::info("{} to {} and back, each way: {}{}", proxy->local_address().to_string(),
-             target.to_string(), options.link.empty() ? "no delay, no loss" : options.link,
-             options.trace.empty() ? "" : ", trace " + options.trace);
+  DANCE_TRY(auto proxy, LossyProxy::open(listen, target, std::move(line), *poller));
+  std::string words = options.line.is_perfect_line() ? "no delay, no loss" : "";
+  for (const std::string& word : line_arguments(options.line))
+    words += (words.empty() ? "" : " ") + word;
+  talk::info("{} to {} and back: {}", proxy->local_address().to_string(), target.to_string(),
+             words);
   poller->run();
 
   const auto up = account(*proxy, LossyProxy::Direction::kUp);
@@ -71,15 +75,8 @@ int main(int argc, char** argv) {
       "dance lossy");
   line.add("--listen", options.listen, "where links send to").shows_default();
   line.add("--to", options.to, "the server").shows_default();
-  line.add("--link", options.link,
-           "delay=80ms jitter=10ms loss=1% burst=3 dup=0.1% reorder=1% rate=1Mbit "
-           "queue=50ms seed=1")
-      .check([](const std::string& text) {
-        const auto spec = dance::LossySpec::parse(text);
-        return spec ? std::string() : spec.error().what;
-      });
-  line.add("--trace", options.trace,
-           "CSV (or .xz) of t_ms or t_s with owd_var_ms or rtt_ms; comes on top of --link");
+  dance::add_link_options(line, options.line);
+  dance::add_trace_options(line, options.line);
   line.add_flag("--json", options.json, "write the counts to stdout at the end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_lossy(options); });

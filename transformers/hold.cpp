@@ -27,6 +27,7 @@ void Hold::observe(const Pose& pose, MonoTime now) {
     if (pose.clock_id != newest.clock_id || pose.capture_time < newest.capture_time - kRestart) {
       ++counters_.restarts;
       history_.clear();
+      shown_ = MonoTime();
       buckets_ = {};
       has_delay_ = false;
       play_out_.forget();
@@ -76,10 +77,12 @@ void Hold::follow_target(MonoTime now) {
 bool Hold::sample(MonoTime now, Pose& out) {
   if (history_.empty()) return false;
   follow_target(now);
-  const MonoTime moment = now - delay_;
-  const auto answer = history_.at(moment);
+  // A delay that jumps up would have the dance go back: it stands still until its time comes again.
+  const MonoTime wanted = now - delay_;
+  const auto answer = history_.at(std::max(wanted, shown_));
   out = answer->pose;
-  if (answer->how == PoseHistory::How::kHeldLast) ++counters_.starved;
+  if (answer->how == PoseHistory::How::kHeldLast || wanted < shown_) ++counters_.starved;
+  shown_ = out.capture_time;
   return true;
 }
 

@@ -1,6 +1,6 @@
 // hold: the play-out buffer. Shows each moment of the dance a constant time after it happened, so that the jitter of the
 // line is gone: constant = the least delay that the line has shown lately + the window. Between poses it interpolates;
-// where the next pose is late it repeats the last. Without a window it finds the least that is enough, line by line and
+// where the next pose is late it repeats the last; it never goes back. Without a window it finds the least that is enough, line by line and
 // guest by guest (transformers/play_out.h).
 //
 // Units/frames: the window is a Duration of 0 to 2 s; found by itself, it is 250 ms at most. Capture times may be of any clock: the least delay absorbs the
@@ -53,6 +53,7 @@ class Hold : public Transformer {
   MonoTime bucket_begin_;
   Duration delay_;
   MonoTime begin_, delay_set_;
+  MonoTime shown_;  // the newest moment that was shown
   bool has_delay_ = false;
 };
 

@@ -67,7 +67,7 @@ LocalGuest& LinkCore::add_local(const GuestId& id) {
 void LinkCore::send_datagram(wire::Bytes bytes) {
   DANCE_ASSERT(!bytes.empty());
   ++counters_.datagrams_out;
-  counters_.bytes_out += bytes.size();
+  counters_.bytes_out += bytes.size() + wire::kSealOverhead;
   sink_.send({}, bytes);
 }
 
@@ -110,7 +110,7 @@ LocalGuest* LinkCore::find_or_add(const GuestId& id, MonoTime now) {
 
 void LinkCore::receive(wire::Bytes datagram, MonoTime received, MonoTime now) {
   ++counters_.datagrams_in;
-  counters_.bytes_in += datagram.size();
+  counters_.bytes_in += datagram.size() + wire::kSealOverhead;
   const auto opening = wire::parse_opening(datagram);
   if (!opening) {
     ++counters_.rejected_datagrams;

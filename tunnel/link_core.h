@@ -35,6 +35,8 @@ class LinkCore {
   void on_sealed(MonoTime now);
   // The sealed session is gone: nothing is sent until the next one.
   void on_unsealed(MonoTime now);
+  // Datagrams go out from another address from now on: says so at once.
+  void on_moved(MonoTime now);
   void receive(wire::Bytes datagram, MonoTime received, MonoTime now);
   // Does what is due and returns when to call again; MonoTime() = not before it is sealed.
   MonoTime tick(MonoTime now);
@@ -53,11 +55,15 @@ class LinkCore {
   void send(const GuestId& guest, const Scene& scene, MonoTime now);
   // A message of a further channel, where a rule of the options lets it out.
   void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
+  // Whom the server is to send, and how often: told until it is acknowledged. For guests who are not
+  // here, it counts when they come.
+  void set_interest(const Interest& interest, MonoTime now);
   void say_goodbye();
 
   LinkState state() const { return state_; }
   bool is_connected() const { return state_ == LinkState::kConnected; }
-  // Hellos since the last sign of the server: many, and another socket may be worth a try.
+  // Hellos since the last sign of the server, those that come quickly not counted: many, and another
+  // socket may be worth a try.
   int unanswered_hellos() const { return unanswered_hellos_; }
   const LinkCounters& counters() const { return counters_; }
   const ClockMapper& clock() const { return clock_; }
@@ -148,10 +154,18 @@ class LinkCore {
   bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
              Stamp& out);
   void refresh(LocalGuest& guest, MonoTime now);
+  bool prepare(LocalGuest& guest, MonoTime now);
+  void settle_references(LocalGuest& guest, MonoTime now);
   void add_record(const wire::Record& record, MonoTime now);
   void flush_records();
   void send_records_datagram(bool with_bundle);
   std::size_t count_dancing(MonoTime now) const;
+
+  // link_interest.cpp
+  void begin_session_interest();
+  void settle_interest();
+  void tell_interest();
+  bool on_interest_ack(wire::Bytes body);
 
   // link_feedback.cpp
   void begin_session_records();
@@ -162,6 +176,7 @@ class LinkCore {
   void want_key_frame(RemoteGuest& remote, MonoTime now);
   void on_acks(const wire::Acks& acks);
   void on_feedback(std::uint16_t number, const wire::Feedback& feedback, MonoTime now);
+  void on_held(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now);
   void on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now);
 
   LinkOptions options_;
@@ -185,6 +200,7 @@ class LinkCore {
   MonoTime next_hello_;
   Duration hello_wait_;
   int unanswered_hellos_ = 0;
+  int hellos_in_lapse_ = 0;
 
   MonoTime last_heard_;
   MonoTime next_ping_;
@@ -196,6 +212,8 @@ class LinkCore {
   // Counts of those who left or got another slot, so that a summary at the end has everybody.
   std::vector<RemoteGuestStats> departed_;  // reserved; the oldest makes room
   RosterAssembly roster_;
+  wire::InterestList interest_;  // as the server was told, or is being told
+  std::uint32_t interest_acked_ = 0;
   // Records that wait for those of other guests, and what the server is to be told with them.
   std::array<std::uint8_t, wire::kMaxRecordsBody> bundle_;
   std::size_t bundle_size_ = 0;

@@ -30,10 +30,14 @@ void LinkCore::begin_session_records() {
 void LinkCore::settle_encoder(LocalGuest& guest) {
   guest.encoder = options_.make_encoder(codec_);
   DANCE_ASSERT(guest.encoder != nullptr, static_cast<int>(codec_.id), codec_.model);
-  guest.encoder->set_references(guest.policy.current());
+  guest.references = guest.policy.current();
+  guest.encoder->set_references(guest.references);
   guest.encoder->set_quality(guest.quality.quality_m());
   guest.sent_frames.clear();
   guest.acked_frames.clear();
+  guest.base_acked_frames.clear();
+  guest.base_log2 = 0;
+  guest.still_log2 = kFewestStills_log2;
   guest.key_frames_seen = 0;
   guest.key_frame_at = MonoTime();
   guest.unstamped = 0;
@@ -111,24 +115,36 @@ void LinkCore::on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& g
     ++guest.key_frames_sent;
     ++counters_.key_frames_sent;
   }
-  if (path_.is_known) {
-    const References before = guest.policy.current();
-    const References chosen =
-        guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
-    if (chosen != before) guest.encoder->set_references(chosen);
-  }
-  if (!about.has_held || about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;
-  for (int back = 16; back >= 0; --back) {
-    if (back > 0 && (about.held_before >> (back - 1) & 1) == 0) continue;
-    const auto sequence = static_cast<std::uint16_t>(about.newest_held - back);
-    // Only what was sent, and each once.
-    if (!guest.sent_frames.has(sequence) || guest.acked_frames.has(sequence)) continue;
-    guest.acked_frames.add(guest.poses.stream(), sequence);
-    ++guest.acked;
-    guest.acked_at = now;
-    const auto behind = static_cast<std::uint16_t>(guest.last_sequence - sequence);
-    guest.encoder->acknowledged(guest.last_sequence - behind);
-  }
+  // The encoder is told with the next pose.
+  if (path_.is_known)
+    guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
+  guest.base_log2 = about.base_log2;
+  guest.still_log2 = about.still_log2;
+  on_held(about, guest, now);
+}
+
+void LinkCore::on_held(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now) {
+  if (about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;
+  // Only what was sent, and each once.
+  const auto each_new = [&](std::uint16_t newest, std::uint16_t before, HeldFrames& told,
+                            const auto& tell) {
+    for (int back = 16; back >= 0; --back) {
+      if (back > 0 && (before >> (back - 1) & 1) == 0) continue;
+      const auto sequence = static_cast<std::uint16_t>(newest - back);
+      if (!guest.sent_frames.has(sequence) || told.has(sequence)) continue;
+      told.add(guest.poses.stream(), sequence);
+      tell(guest.last_sequence - static_cast<std::uint16_t>(guest.last_sequence - sequence));
+    }
+  };
+  if (about.has_held)
+    each_new(about.newest_held, about.held_before, guest.acked_frames, [&](std::uint32_t sequence) {
+      ++guest.acked;
+      guest.acked_at = now;
+      guest.encoder->acknowledged(sequence);
+    });
+  if (about.has_base_held)
+    each_new(about.newest_base_held, about.base_held_before, guest.base_acked_frames,
+             [&](std::uint32_t sequence) { guest.encoder->base_acknowledged(sequence); });
 }
 
 }  // namespace dance

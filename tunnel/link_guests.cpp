@@ -89,6 +89,27 @@ std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict) {
          ": a host is there, or this house only listens; ask the host";
 }
 
+std::string no_entry_line(SealTrouble trouble, const std::string& server) {
+  switch (trouble) {
+    case SealTrouble::kWrongKey:
+      return "the server " + server +
+             " does not know this house's key: ask its keeper for a line, and paste it into: dance "
+             "key";
+    case SealTrouble::kNotTrusted:
+      return "the server " + server +
+             " and this house cannot agree: one of the certificates is not signed by whom the "
+             "other "
+             "trusts, or the server takes keys only, or speaks another version";
+    case SealTrouble::kInterrupted:
+      return "the server " + server +
+             " answers, and then no more: is there a firewall on the way, or a line that loses "
+             "nearly everything?";
+    case SealTrouble::kNoAnswer:
+      break;
+  }
+  return "the server " + server + " does not answer";
+}
+
 std::string no_answer_line(const Address& server) {
   return server.to_string() +
          " does not answer: is `dance server` running there, and its UDP port open? Trying on";

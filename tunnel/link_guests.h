@@ -52,10 +52,17 @@ struct LocalGuest {
   std::unique_ptr<PoseEncoder> encoder;
   QualityByRate quality;
   ReferencePolicy policy;
-  Duration frame = Duration::us(16'667);  // between captures, as it is of late
+  References references = policy.current();  // as the encoder was told
+  Duration frame = Duration::us(16'667);     // between captures, as it is of late
   MonoTime last_capture;
-  HeldFrames sent_frames;   // what there is to acknowledge,
-  HeldFrames acked_frames;  // and what the encoder was told of it
+  HeldFrames sent_frames;        // what there is to acknowledge,
+  HeldFrames acked_frames;       // and what the encoder was told of it
+  HeldFrames base_acked_frames;  // the same, of those too who get only base frames
+  // For receivers who want less than all: each 2^n-th pose is a base frame (0: none), or needs no other.
+  std::uint8_t base_log2 = 0;
+  std::uint8_t still_log2 = kFewestStills_log2;
+  MonoTime still_at;              // the newest that needed no other, whatever for,
+  std::uint32_t since_still = 0;  // and the poses since then
   std::uint32_t last_sequence = 0;
   std::uint8_t key_frames_seen = 0;  // the server's count
   MonoTime key_frame_at;
@@ -78,6 +85,8 @@ struct RemoteGuest {
   std::uint16_t generation = 0;
   StreamGate poses;
   StreamGate hands;
+  bool has_decoded = false;  // some pose, since the gates were new
+  MonoTime shown;            // capture of the newest that went on, of this generation
   std::uint64_t invalid = 0;
   std::uint64_t reference_missing = 0;
   std::uint64_t skeleton_missing = 0;

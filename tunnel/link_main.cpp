@@ -17,6 +17,7 @@ constexpr const char* kExamples = R"(Examples:
   dance link --server dance.example.org --room salsa --guest alice
   dance link --server 192.0.2.7:7400 --room salsa                 everybody whom this house captures
   dance link --server dance.example.org --room salsa --listen-only  everybody's poses, and none of this house
+  dance link --guest alice --want default=4 --want bob=1            bob in full, of the others each fourth pose
   dance link --guest bob --bus 'udpm://239.255.76.67:7668?ttl=0'  a second house on this machine
   dance link --guest alice --channel 'LIGHT/desk class=state layout=n:i32,f32[n]'
                                                                   a light desk's channel rides along
@@ -29,8 +30,10 @@ struct LinkProgramOptions {
   std::string room = "dance";
   std::vector<std::string> guests;
   std::string bus;
+  LinkKeySource key;
   double quality_mm = LinkOptions().quality_m * 1e3;
   double pose_bytes_per_second = 0.0;
+  std::vector<std::string> want;
   std::vector<std::string> channels;
   bool listen_only = false;
   bool json = false;
@@ -53,6 +56,7 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
   if (given.listen_only && !given.guests.empty())
     return fail("--listen-only brings no guests: leave out --guest, or --listen-only");
   options.listen_only = given.listen_only;
+  DANCE_TRY(options.interest, parse_interest(given.want));
   DANCE_TRY(options.channels, parse_channel_rules(given.channels));
   options.clock_id = this_clock_id();
   options.quality_m = given.quality_mm * 1e-3;
@@ -79,6 +83,9 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
     talk::info("{}", room_state_line(kind, verdict));
   };
   handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
+  handlers.on_no_entry = [&options](SealTrouble trouble) {
+    talk::warn("{}", no_entry_line(trouble, options.server));
+  };
   // Asked again up to ten times a second at first: said once a second.
   handlers.on_refused = [room, last = MonoTime()](const wire::RefusalNotice& refusal,
                                                   MonoTime now) mutable {
@@ -90,6 +97,8 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
 
 Result<void> run_link(const LinkProgramOptions& given) {
   DANCE_TRY(const LinkOptions options, checked(given));
+  const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
+  DANCE_TRY(const LinkKey key, choose_link_key(given.server, options.room, first, given.key));
   DANCE_TRY(const auto server, Address::resolve_all(given.server, kDefaultServerPort));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
@@ -97,7 +106,7 @@ Result<void> run_link(const LinkProgramOptions& given) {
   LinkBus link_bus(*bus, options.clock_id);
   LinkHandlers handlers = link_bus.handlers();
   add_talk(handlers, link_bus, given, options.room);
-  DANCE_TRY(auto link, Link::open(server, options, std::move(handlers), *poller));
+  DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
   link_bus.attach(*link);
   if (options.guests.empty() && !options.listen_only) {
     link_bus.send_captures_of(GuestId());
@@ -138,6 +147,10 @@ int main(int argc, char** argv) {
   line.add("--guest", options.guests,
            "whose captures go to the room, may be repeated; none = everybody captured here")
       .guest_name();
+  line.add(
+      "--want", options.want,
+      "how many of a guest's poses come here: NAME=1 every one, NAME=N at most every N-th, NAME=0 "
+      "none; default=N for all who are not named; may be repeated");
   line.add_flag("--listen-only", options.listen_only,
                 "hears the room and sends nothing of this house");
   line.add("--bus", options.bus, "LCM URL of the house's bus");
@@ -151,6 +164,13 @@ int main(int argc, char** argv) {
            "by up to 5 mm; 0 = whatever --quality takes")
       .range(0.0, 1e6)
       .shows_default();
+  line.add("--key-file", options.key.key_file,
+           "file of keys to servers (else where dance key keeps them)");
+  line.add("--certificate", options.key.certificates.chain,
+           "PEM file with this house's certificate, instead of a key");
+  line.add("--private-key", options.key.certificates.private_key, "PEM file of its private key");
+  line.add("--authorities", options.key.certificates.authorities,
+           "PEM file of those who may sign the server's certificate (else the system's)");
   line.add("--channel", options.channels,
            "a further channel that rides along, or is let in, as 'NAME class=… layout=…' "
            "(docs/channels.md); may be repeated");

@@ -20,6 +20,9 @@
 #include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
+#include "tunnel/interest.h"
+#include "tunnel/seal/seal_trouble.h"
+#include "tunnel/wire.h"
 #include "tunnel/wire_state.h"
 
 namespace dance {
@@ -41,6 +44,8 @@ struct LinkOptions {
   Duration key_frame_period = Duration::s(2);
   // Every so many poses bring the ages of their hops.
   std::uint32_t poses_per_stamp = 16;
+  // Whom it wants to hear, and how often; LinkCore::set_interest() changes it.
+  Interest interest;
   // The largest error in any joint that own guests are sent with, in metres;
   double quality_m = 0.001;
   // and what the payloads of each of them may cost: where they cost more, the error grows up to 5 mm,
@@ -80,6 +85,8 @@ struct LinkHandlers {
   // Nothing has ever come from this address of the server, after several tries; the next ones go to another, or a new
   // socket. Said by Link, each time.
   std::function<void(const Address&)> on_no_answer;
+  // The server is there, and there is no sealed session with it. Said by Link, with each try.
+  std::function<void(SealTrouble)> on_no_entry;
 };
 
 struct LinkCounters {
@@ -160,5 +167,7 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
 std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict);
 // One line: who does not answer, and what to look at.
 std::string no_answer_line(const Address& server);
+// Why a server that answers does not let this house in, and the cure. `server` as the user named it.
+std::string no_entry_line(SealTrouble trouble, const std::string& server);
 
 }  // namespace dance

@@ -55,17 +55,26 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
     return !is_pose;
   }
   const std::int64_t server_now_us = clock_.to_theirs_us(now);
-  if (record.capture_us < server_now_us - kOldestTold_us ||
+  // Who has not moved for long was captured long ago.
+  if ((record.capture_us < server_now_us - kOldestTold_us && !record.is_kept) ||
       record.capture_us > server_now_us + kFarthestTold_us) {
     ++counters_.invalid;
     ++remote.invalid;
     return !is_pose;
   }
-  const StreamGate::Verdict verdict = gate.judge(record.stream, record.sequence, record.capture_us);
-  if (verdict != StreamGate::Verdict::kNewest && verdict != StreamGate::Verdict::kNewStream) {
+  const auto left_out = record.counts_left_out ? std::optional(record.left_out) : std::nullopt;
+  const StreamGate::Verdict verdict =
+      gate.judge(record.stream, record.sequence, record.capture_us, left_out);
+  const bool is_newest =
+      verdict == StreamGate::Verdict::kNewest || verdict == StreamGate::Verdict::kNewStream;
+  // The kept one is said again until it could be decoded: its proportions may have come after it.
+  const bool is_awaited =
+      record.is_kept && !remote.has_decoded && verdict != StreamGate::Verdict::kOldStream;
+  if (!is_newest && !is_awaited) {
     ++counters_.late;
     return !is_pose;
   }
+  if (record.is_kept) gate.forgive_gap();
   const MonoTime capture = clock_.to_ours(record.capture_us);
   if (!is_pose) {
     on_hands(record, remote.id, capture, now);
@@ -73,6 +82,10 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
   }
   if (verdict == StreamGate::Verdict::kNewStream) remote.decoder->restart();
   if (!decode(remote, record, now)) return false;
+  remote.has_decoded = true;
+  // Through another sealed session the stage has seen more than the server kept.
+  if (record.is_kept && remote.shown.is_set() && capture <= remote.shown) return true;
+  remote.shown = capture;
   decoded_.sequence = record.sequence;
   decoded_.clock_id = options_.clock_id;
   decoded_.capture_time = capture;
@@ -157,6 +170,8 @@ void LinkCore::settle_slot(RemoteGuest& remote, const wire::RosterEntry* entry) 
   remote.generation = entry->slot.generation;
   remote.poses = StreamGate();
   remote.hands = StreamGate();
+  remote.has_decoded = false;
+  remote.shown = MonoTime();
   remote.invalid = 0;
   remote.reference_missing = 0;
   remote.skeleton_missing = 0;
@@ -182,6 +197,7 @@ bool LinkCore::on_roster(wire::Bytes body, MonoTime now) {
     settle_slot(remotes_[slot], is_taken ? entry : nullptr);
     if (is_taken && !remotes_[slot].is_ours && !named.try_push(entry->guest)) return false;
   }
+  settle_interest();
   // Who merely changed the slot neither left nor came.
   for (const GuestId& id : before)
     if (!is_present(id) && handlers_.on_guest_left) handlers_.on_guest_left(id, now);

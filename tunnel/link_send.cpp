@@ -12,6 +12,7 @@ namespace {
 constexpr Duration kOldestCapture = Duration::s(30);
 constexpr Duration kFarthestAhead = Duration::ms(500);
 constexpr Duration kAckStands = Duration::s(1);
+constexpr Duration kStillStands = Duration::ms(2500);
 constexpr Duration kStillDancing = Duration::ms(100);
 
 std::int32_t age_us(MonoTime step, MonoTime capture) {
@@ -26,6 +27,26 @@ void keep_time(LocalGuest& guest, MonoTime capture) {
   if (guest.last_capture.is_set() && since > Duration() && since < Duration::ms(200))
     guest.frame += (since - guest.frame) / 16;
   guest.last_capture = capture;
+}
+
+// The producer began anew: nothing of before is a reference.
+void begin_stream(LocalGuest& guest) {
+  guest.encoder->restart();
+  guest.sent_frames.clear();
+  guest.acked_frames.clear();
+  guest.base_acked_frames.clear();
+  guest.unstamped = 0;
+}
+
+void note_sent(LocalGuest& guest, const wire::Record& record, MonoTime now) {
+  guest.sent_frames.add(guest.poses.stream(), static_cast<std::uint16_t>(record.sequence));
+  guest.last_sequence = record.sequence;
+  ++guest.sent;
+  ++guest.since_still;
+  if (!record.needs_no_other) return;
+  guest.since_still = 0;
+  guest.still_at = now;
+  guest.key_frame_at = now;
 }
 
 }  // namespace
@@ -125,6 +146,25 @@ void LinkCore::refresh(LocalGuest& guest, MonoTime now) {
   }
 }
 
+// For receivers who get only some frames, and for those who come later: the server keeps the newest
+// that needs no other. True for a base frame. Counted, as sequences may leave some out.
+bool LinkCore::prepare(LocalGuest& guest, MonoTime now) {
+  const bool is_base = guest.base_log2 != 0 && guest.sent % (1u << guest.base_log2) == 0;
+  if (is_base) guest.encoder->base_wanted();
+  const bool is_old = guest.still_at.is_set() && now - guest.still_at > kStillStands;
+  if (is_old || guest.since_still + 1 >= 1u << guest.still_log2) guest.encoder->still_wanted();
+  return is_base;
+}
+
+void LinkCore::settle_references(LocalGuest& guest, MonoTime now) {
+  const References references =
+      guest.acked_at.is_set() ? guest.policy.while_silent_for(now - guest.acked_at, guest.frame)
+                              : guest.policy.current();
+  if (references == guest.references) return;
+  guest.references = references;
+  guest.encoder->set_references(references);
+}
+
 void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   ++counters_.poses_offered;
   LocalGuest* guest = find_or_add(id, now);
@@ -148,13 +188,12 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   }
   if (guest->poses.restarts() != restarts) {
     ++counters_.stream_restarts;
-    guest->encoder->restart();
-    guest->sent_frames.clear();
-    guest->acked_frames.clear();
-    guest->unstamped = 0;
+    begin_stream(*guest);
   }
   keep_time(*guest, times.capture);
   refresh(*guest, now);
+  settle_references(*guest, now);
+  const bool is_base = prepare(*guest, now);
   // Only what is sent: an encoder may refer to what it encoded before.
   const std::size_t size = guest->encoder->encode(pose, payload);
   if (size == 0) {
@@ -167,15 +206,15 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   record.stream = guest->poses.stream();
   record.sequence = pose.sequence;
   record.capture_us = times.capture_us;
+  record.needs_no_other = guest->encoder->needs_no_other();
+  record.is_base = is_base;
   if (guest->unstamped == 0) {
     record.published_age_us = times.published_age_us;
     record.sent_age_us = times.sent_age_us;
   }
   guest->unstamped = (guest->unstamped + 1) % std::max(options_.poses_per_stamp, 1u);
   record.payload = {payload.data(), size};
-  guest->sent_frames.add(guest->poses.stream(), static_cast<std::uint16_t>(pose.sequence));
-  guest->last_sequence = pose.sequence;
-  ++guest->sent;
+  note_sent(*guest, record, now);
   ++counters_.poses_sent;
   add_record(record, now);
 }

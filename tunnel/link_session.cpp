@@ -9,6 +9,10 @@ namespace {
 
 constexpr Duration kFirstHelloWait = Duration::ms(100);
 constexpr Duration kLongestHelloWait = Duration::s(1);
+// A way that was cut is there again within seconds, and the dance with it: for this many hellos, ten
+// seconds, a link that had its session asks more often.
+constexpr Duration kLongestWaitInLapse = Duration::ms(250);
+constexpr int kHellosInLapse = 40;
 constexpr Duration kPingPeriod = Duration::ms(200);
 // The first pings come quickly: the shortest of eight round trips maps the clock well.
 constexpr Duration kQuickPingPeriod = Duration::ms(50);
@@ -64,6 +68,7 @@ void LinkCore::schedule_update(MonoTime now) {
 
 void LinkCore::begin_lapse(MonoTime now) {
   ++counters_.lapses;
+  hellos_in_lapse_ = 0;
   for (LocalGuest& guest : locals_) guest.refused_until = MonoTime();
   schedule_update(now);
   next_hello_ = now;
@@ -77,6 +82,11 @@ void LinkCore::on_sealed(MonoTime now) {
   if (state_ == LinkState::kConnected) return begin_lapse(now);
   schedule_update(now);
   next_hello_ = now;
+}
+
+void LinkCore::on_moved(MonoTime now) {
+  next_ping_ = now;
+  if (hello_wanted_) next_hello_ = now;
 }
 
 void LinkCore::on_unsealed(MonoTime now) {
@@ -103,6 +113,7 @@ void LinkCore::send_hello(MonoTime now) {
   hello.link_time_us = now.since_zero_us();
   hello.codecs = options_.codecs;
   hello.room = options_.room;
+  hello.default_divider = options_.interest.others;
   for (const std::uint8_t i : hello_guests_) {
     const bool pushed = hello.guests.try_push(locals_[i].id);
     DANCE_ASSERT(pushed);
@@ -110,10 +121,13 @@ void LinkCore::send_hello(MonoTime now) {
   std::array<std::uint8_t, wire::kMaxHello> out;
   send_datagram({out.data(), wire::build(hello, out)});
   ++counters_.hellos;
-  ++unanswered_hellos_;
+  const bool is_quick = state_ == LinkState::kLapsed && hellos_in_lapse_ < kHellosInLapse;
+  // Of four quick ones the first counts: another socket before a slow way's answer would miss it.
+  if (!is_quick || hellos_in_lapse_ % 4 == 0) ++unanswered_hellos_;
+  if (is_quick) ++hellos_in_lapse_;
   if (hello_wait_ < kFirstHelloWait) hello_wait_ = kFirstHelloWait;
   next_hello_ = now + hello_wait_;
-  hello_wait_ = std::min(hello_wait_ * 2, kLongestHelloWait);
+  hello_wait_ = std::min(hello_wait_ * 2, is_quick ? kLongestWaitInLapse : kLongestHelloWait);
 }
 
 void LinkCore::send_ping(MonoTime now) {
@@ -132,6 +146,7 @@ void LinkCore::send_ping(MonoTime now) {
   if (quick_pings_left_ > 0) --quick_pings_left_;
   next_ping_ = now + (quick_pings_left_ > 0 ? kQuickPingPeriod : kPingPeriod);
   repeat_states(now);
+  if (interest_.version != interest_acked_) tell_interest();
 }
 
 void LinkCore::heard_server(MonoTime now) {
@@ -162,12 +177,14 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   if (is_new) {
     begin_session_records();
     forget_acks();
+    begin_session_interest();
     clock_.reset();
     roster_.reset();
     for (RemoteGuest& remote : remotes_) {
       keep_counts(remote);
       remote.poses = StreamGate();
       remote.hands = StreamGate();
+      remote.has_decoded = false;
       remote.state_versions = {};
       remote.channels = {};
       if (remote.decoder) renew_decoder(remote);
@@ -273,6 +290,9 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
       break;
     case wire::Type::kStateAck:
       is_good = on_state_acks(opening.body);
+      break;
+    case wire::Type::kInterestAck:
+      is_good = on_interest_ack(opening.body);
       break;
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return false;

@@ -12,8 +12,8 @@
 #include <cstdint>
 
 #include "core/base/assert.h"
+#include "core/base/token_bucket.h"
 #include "core/bus/state_messages.h"
-#include "tunnel/token_bucket.h"
 #include "tunnel/wire_state.h"
 
 namespace dance {

@@ -1,5 +1,7 @@
 #include "tunnel/server.h"
 
+#include <algorithm>
+
 #include "core/net/secure_random.h"
 
 namespace dance {
@@ -10,23 +12,61 @@ constexpr int kBatchesPerTurn = 8;
 
 }  // namespace
 
-Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerLimits& limits,
+Access access_of(const KeyEntry& key) {
+  Access access;
+  access.name = key.name;
+  access.room = key.room;
+  access.any_name = key.kind == KeyKind::kRoom;
+  access.role = key.kind == KeyKind::kListener               ? Role::kListener
+                : key.kind == KeyKind::kHost || key.is_local ? Role::kHost
+                                                             : Role::kGuest;
+  return access;
+}
+
+Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerOptions& options,
                                              Poller& poller) {
   DANCE_TRY(UdpSocket socket, UdpSocket::bind(local));
-  return std::unique_ptr<Server>(new Server(std::move(socket), limits, poller));
+  auto server = std::unique_ptr<Server>(new Server(std::move(socket), options.limits, poller));
+  SealServer::Handlers handlers;
+  handlers.on_datagram = [core = &server->core_](PeerId from, const KeyEntry& key,
+                                                 wire::Bytes plain, MonoTime received,
+                                                 MonoTime now) {
+    core->receive(from, access_of(key), plain, received, now);
+  };
+  handlers.on_end = [core = &server->core_](PeerId peer) { core->forget(peer); };
+  DANCE_TRY(server->door_,
+            SealServer::make(options.seal, options.keys, options.certificates, secure_random_u64,
+                             std::move(handlers), server->socket_));
+  server->sealed_.door = server->door_.get();
+  server->core_.set_reserved([self = server.get()](const GuestId& name) {
+    return self->door_->keys().is_own_name(name.view());
+  });
+  return server;
 }
 
 Server::Server(UdpSocket socket, const ServerLimits& limits, Poller& poller)
-    : poller_(poller),
-      socket_(std::move(socket)),
-      unsealed_(socket_),
-      core_(limits, secure_random_u64, unsealed_) {
+    : poller_(poller), socket_(std::move(socket)), core_(limits, secure_random_u64, sealed_) {
   poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
-  timer_ = poller_.add_timer(MonoTime(), [this](MonoTime now) {
-    const MonoTime next = core_.tick(now);
-    socket_.flush();
-    return next;
-  });
+  timer_ = poller_.add_timer(MonoTime(), [this](MonoTime now) { return tick(now); });
+}
+
+MonoTime Server::tick(MonoTime now) {
+  core_.tick(now);
+  door_->tick(now);
+  socket_.flush();
+  return next_deadline();
+}
+
+MonoTime Server::next_deadline() const {
+  const MonoTime core = core_.next_deadline();
+  const MonoTime door = door_->next_deadline();
+  if (!core.is_set() || !door.is_set()) return core.is_set() ? core : door;
+  return std::min(core, door);
+}
+
+void Server::set_keys(std::shared_ptr<const KeyRing> keys) {
+  door_->set_keys(std::move(keys));
+  socket_.flush();
 }
 
 Server::~Server() {
@@ -38,13 +78,12 @@ void Server::on_readable(MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
     const auto batch = socket_.receive();
     for (const UdpSocket::Datagram& datagram : batch)
-      core_.receive(unsealed_.peer_at(datagram.from), Access{.any_name = true}, datagram.bytes,
-                    datagram.received, now);
+      door_->receive(datagram.from, datagram.bytes, datagram.received, now);
     core_.end_turn(now);
     socket_.flush();
     if (batch.size() < UdpSocket::kBatch) break;
   }
-  poller_.set_deadline(timer_, core_.next_deadline());
+  poller_.set_deadline(timer_, next_deadline());
 }
 
 void Server::say_goodbye() {

@@ -11,7 +11,6 @@ constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below
 constexpr Duration kTick = Duration::ms(100);
 // What a link has not acknowledged; the rest comes with the next pong.
 constexpr std::size_t kStateDatagramsPerPong = 32;
-constexpr std::size_t kStateDatagramsPerWelcome = 64;
 
 }  // namespace
 
@@ -23,9 +22,9 @@ ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& s
       rooms_(limits.rooms) {
   DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
   by_peer_.reserve(limits.sessions);
+  newcomers_.reserve(limits.sessions);
   bundled_.reserve(limits.sessions);
   reporting_.reserve(limits.sessions);
-  newcomers_.reserve(limits.sessions);
   for (ServerRoom& room : rooms_) room.members.reserve(limits.sessions);
 }
 
@@ -49,7 +48,10 @@ std::size_t ServerCore::listener_count() const {
 
 void ServerCore::send(PeerId to, wire::Bytes bytes) {
   ++counters_.datagrams_out;
-  counters_.bytes_out += bytes.size();
+  const std::size_t size = bytes.size() + wire::kSealOverhead;
+  counters_.bytes_out += size;
+  if (const auto found = by_peer_.find(to); found != by_peer_.end())
+    sessions_[found->second].meter.went_out(size);
   sink_.send(to, bytes);
 }
 
@@ -57,7 +59,7 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
                          MonoTime now) {
   DANCE_ASSERT(from != 0);
   ++counters_.datagrams_in;
-  counters_.bytes_in += datagram.size();
+  counters_.bytes_in += datagram.size() + wire::kSealOverhead;
   const auto opening = wire::parse_opening(datagram);
   if (!opening) return reject(ServerReject::kTooShort);
   const auto found = by_peer_.find(from);
@@ -66,6 +68,7 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
     if (!session.datagrams.take(1.0, now) ||
         !session.bytes.take(static_cast<double>(datagram.size()), now))
       return reject(ServerReject::kSessionRate);
+    session.meter.came_in(datagram.size() + wire::kSealOverhead, now);
   }
   if (opening->type == wire::Type::kHello)
     return on_hello(from, access, opening->body, received, now);
@@ -93,6 +96,8 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
       return on_states(index, opening.body, now);
     case wire::Type::kStateAck:
       return on_state_acks(index, opening.body);
+    case wire::Type::kInterest:
+      return on_interest(index, opening.body, now);
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return reject(ServerReject::kMalformed);
       ++counters_.goodbyes;
@@ -121,6 +126,7 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   const ServerRoom& room = rooms_[session.room];
   if (ping->roster_version != room.roster_version) send_roster(session);
   send_states(index, false, kStateDatagramsPerPong);
+  repeat_kept(index, now);
 }
 
 ServerGuest* ServerCore::guest_of(std::size_t session, std::uint8_t slot) {
@@ -154,27 +160,42 @@ void ServerCore::send_roster(const ServerSession& session) {
 }
 
 void ServerCore::end_turn(MonoTime now) {
-  for (const std::size_t index : newcomers_)
-    if (!rooms_[sessions_[index].room].roster_changed) send_roster(sessions_[index]);
   for (ServerRoom& room : rooms_) {
     if (!room.roster_changed) continue;
     room.roster_changed = false;
-    for (const std::size_t member : room.members) send_roster(sessions_[member]);
+    for (const std::size_t member : room.members) {
+      settle_interest(member, now);
+      if (!is_newcomer(member)) send_roster(sessions_[member]);  // else below
+    }
   }
+  // Those who dance come first: what a newcomer is told may be much.
+  flush_due(now);
+  if (!newcomers_.empty()) {
+    for (const std::size_t newcomer : newcomers_) greet(newcomer, now);
+    newcomers_.clear();
+    flush_due(now);
+  }
+  // Last, so that nothing waits for them.
+  for (ServerRoom& room : rooms_)
+    if (room.has_fresh_states && now >= room.fresh_states_due) send_fresh_states(room, now);
+}
+
+bool ServerCore::is_newcomer(std::size_t session) const {
+  return std::find(newcomers_.begin(), newcomers_.end(), session) != newcomers_.end();
+}
+
+// Bundles and feedback; not to who has no roster yet.
+void ServerCore::flush_due(MonoTime now) {
   // Backwards, as who is done leaves the list.
   for (std::size_t i = bundled_.size(); i-- > 0;)
-    if (is_bundle_due(sessions_[bundled_[i]], now)) flush_bundle(bundled_[i], now);
+    if (is_bundle_due(sessions_[bundled_[i]], now) && !is_newcomer(bundled_[i]))
+      flush_bundle(bundled_[i], now);
   for (std::size_t i = reporting_.size(); i-- > 0;) {
     const ServerSession& session = sessions_[reporting_[i]];
     // With a bundle under way it goes along.
-    if (session.feedback_due <= now && session.bundle_size == 0) send_records(reporting_[i], now);
+    if (session.feedback_due <= now && session.bundle_size == 0 && !is_newcomer(reporting_[i]))
+      send_records(reporting_[i], now);
   }
-  // Last, so that nothing waits for them. Right behind the welcome, so that a newcomer knows all
-  // within one round trip.
-  for (const std::size_t index : newcomers_) send_states(index, false, kStateDatagramsPerWelcome);
-  newcomers_.clear();
-  for (ServerRoom& room : rooms_)
-    if (room.has_fresh_states && now >= room.fresh_states_due) send_fresh_states(room, now);
 }
 
 void ServerCore::sweep(MonoTime now) {

@@ -45,6 +45,11 @@ class ServerCore {
   // Tells everybody that the server ends.
   void say_goodbye();
 
+  // Names of those who have a key of their own: a key for all does not open them.
+  void set_reserved(std::function<bool(const GuestId&)> is_reserved) {
+    is_reserved_ = std::move(is_reserved);
+  }
+
   const ServerCounters& counters() const { return counters_; }
   std::size_t session_count() const { return by_peer_.size(); }
   std::size_t room_count() const;
@@ -89,6 +94,8 @@ class ServerCore {
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void send_roster(const ServerSession& session);
   ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
+  bool is_newcomer(std::size_t session) const;
+  void flush_due(MonoTime now);
   void sweep(MonoTime now);
 
   // server_states.cpp
@@ -104,15 +111,33 @@ class ServerCore {
   void send_states(std::size_t session, bool only_fresh, std::size_t most_datagrams);
   void send_fresh_states(ServerRoom& room, MonoTime now);
 
+  // server_kept.cpp
+  void keep(ServerGuest& guest, const wire::Record& record);
+  void greet(std::size_t newcomer, MonoTime now);
+  void send_kept(std::size_t to, std::uint8_t slot, MonoTime now);
+  void repeat_kept(std::size_t to, MonoTime now);
+
   // server_records.cpp
   void on_records(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void on_channel_record(std::size_t session, wire::Record record, MonoTime now);
   void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
   void forward(std::size_t from, const wire::Record& record, MonoTime now);
+  void add_to_bundle(std::size_t to, const wire::Record& record, MonoTime now);
   Duration share_window(const ServerRoom& room) const;
   bool is_bundle_due(const ServerSession& session, MonoTime now) const;
   void flush_bundle(std::size_t session, MonoTime now);
   void send_records(std::size_t session, MonoTime now);
+
+  // server_interest.cpp
+  void on_interest(std::size_t session, wire::Bytes body, MonoTime now);
+  void settle_interest(std::size_t session, MonoTime now);
+  void set_divider(std::size_t session, std::uint8_t slot, std::uint8_t divider, MonoTime now);
+  bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) const;
+  // Whether a record goes to a receiver; counts those that do not.
+  bool take_share(std::size_t to, const wire::Record& record, MonoTime now);
+  bool is_in_share(const Thinning& thinning, const ServerGuest& guest,
+                   const wire::Record& record) const;
+  void tell_left_out(ServerSession& to, wire::Record& record);
 
   // server_feedback.cpp
   void on_acks(std::size_t session, const wire::Acks& acks, MonoTime now);
@@ -121,17 +146,19 @@ class ServerCore {
   void want_key_frame(ServerGuest& guest, MonoTime now);
   void schedule_feedback(std::size_t session, MonoTime at);
   bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
+  wire::GuestFeedback feedback_about(std::size_t session, std::uint8_t slot, MonoTime now) const;
   // False where there is nothing new to tell.
   bool fill_feedback(std::size_t session, MonoTime now, wire::Feedback& feedback);
 
   ServerLimits limits_;
   RandomU64 random_;
+  std::function<bool(const GuestId&)> is_reserved_;
   PeerSink& sink_;
   std::vector<ServerSession> sessions_;
   std::vector<ServerRoom> rooms_;
   std::unordered_map<PeerId, std::size_t> by_peer_;
+  std::vector<std::size_t> newcomers_;  // sessions that know nothing of their room yet
   std::vector<std::size_t> bundled_;    // sessions with a bundle under way
-  std::vector<std::size_t> newcomers_;  // sessions that begin in this turn
   std::vector<std::size_t> reporting_;  // sessions with feedback due
   MonoTime next_sweep_;
   ServerCounters counters_;

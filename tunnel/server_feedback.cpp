@@ -48,17 +48,28 @@ void ServerCore::on_want(std::size_t index, std::uint8_t slot, MonoTime now) {
   ServerGuest& guest = rooms_[session.room].guests[slot];
   if (!guest.in_use || guest.owner == index) return reject(ServerReject::kForeignSlot);
   session.held[slot].clear();
+  Thinning& thinning = session.thinning[slot];
+  // Who gets frames that need no other has lost the first of them, or its proportions: the next comes.
+  if (share_of(thinning.divider) == Share::kStills) {
+    thinning.awaits_still = true;
+    return;
+  }
   // The one that was asked for last may be under way still.
   const bool is_known = session.newest_ping.round_trip_us != 0;
   const Duration way =
       (is_known ? round_trip_of(session) : kNewcomersWay) + round_trip_of(sessions_[guest.owner]);
   if (guest.key_asked_at.is_set() && now - guest.key_asked_at < way) return;
+  thinning.awaits_still = share_of(thinning.divider) == Share::kBase;
   want_key_frame(guest, now);
 }
 
 void ServerCore::want_key_frames_for(std::size_t newcomer, MonoTime now) {
-  for (ServerGuest& guest : rooms_[sessions_[newcomer].room].guests)
-    if (guest.in_use && guest.owner != newcomer) want_key_frame(guest, now);
+  const ServerSession& session = sessions_[newcomer];
+  for (std::size_t slot = 0; slot < session.thinning.size(); ++slot) {
+    ServerGuest& guest = rooms_[session.room].guests[slot];
+    if (guest.in_use && guest.owner != newcomer && session.thinning[slot].divider != 0)
+      want_key_frame(guest, now);
+  }
 }
 
 void ServerCore::want_key_frame(ServerGuest& guest, MonoTime now) {
@@ -88,6 +99,60 @@ void ServerCore::schedule_feedback(std::size_t index, MonoTime at) {
 // Frames: as far back as a codec may refer.
 constexpr std::uint16_t kLongestHeld = 63;
 
+// What all receivers have of a guest; and what those have too who get only base frames.
+wire::GuestFeedback ServerCore::feedback_about(std::size_t index, std::uint8_t slot,
+                                               MonoTime now) const {
+  const ServerRoom& room = rooms_[sessions_[index].room];
+  const ServerGuest& guest = room.guests[slot];
+  wire::GuestFeedback about;
+  about.slot = slot;
+  about.restarts = static_cast<std::uint8_t>(guest.poses.stream());
+  about.key_frames = guest.key_frames;
+  HeldFrames full, base;
+  bool has_full = false, has_base = false;
+  for (const std::size_t member : room.members) {
+    if (!is_receiver(member, index, now)) continue;
+    const std::uint8_t divider = sessions_[member].thinning[slot].divider;
+    const Share share = share_of(divider);
+    if (share == Share::kBase) {
+      const std::uint8_t wanted = spacing_log2(divider);
+      about.base_log2 = about.base_log2 == 0 ? wanted : std::min(about.base_log2, wanted);
+    }
+    if (share == Share::kStills)
+      about.still_log2 = std::min(about.still_log2, spacing_log2(divider));
+    if (share != Share::kAll && share != Share::kBase) continue;
+    // Who has nothing of late asks for a key frame; the others need not do without references.
+    const HeldFrames& held = sessions_[member].held[slot];
+    if (!guest.poses.has_any() || !held.is_of(guest.poses.stream()) ||
+        static_cast<std::uint16_t>(guest.poses.newest() - held.newest()) > kLongestHeld)
+      continue;
+    if (share == Share::kAll) {
+      if (std::exchange(has_full, true))
+        full.intersect(held);
+      else
+        full = held;
+    }
+    if (std::exchange(has_base, true))
+      base.intersect(held);
+    else
+      base = held;
+  }
+  // With nobody who gets all, there is nothing that only those have.
+  const HeldFrames& common = has_full ? full : base;
+  about.has_held = guest.poses.has_any() && common.is_of(guest.poses.stream());
+  if (about.has_held) {
+    about.newest_held = common.newest();
+    about.held_before = static_cast<std::uint16_t>(common.bits() >> 1);
+  }
+  about.has_base_held =
+      about.base_log2 != 0 && guest.poses.has_any() && base.is_of(guest.poses.stream());
+  if (about.has_base_held) {
+    about.newest_base_held = base.newest();
+    about.base_held_before = static_cast<std::uint16_t>(base.bits() >> 1);
+  }
+  return about;
+}
+
 bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& feedback) {
   ServerSession& session = sessions_[index];
   ServerRoom& room = rooms_[session.room];
@@ -100,7 +165,7 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
   Duration round_trip;
   bool has_receiver = false;
   for (const std::size_t member : room.members) {
-    if (!is_receiver(member, index, now)) continue;
+    if (!is_receiver(member, index, now) || !wants_any_of(sessions_[member], session)) continue;
     has_receiver = true;
     const LossMeter& down = sessions_[member].sent.loss();
     loss = std::max(loss, down.loss());
@@ -121,21 +186,6 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
   }
   for (const std::uint8_t slot : session.slots) {
     ServerGuest& guest = room.guests[slot];
-    HeldFrames common;
-    bool is_first = true;
-    for (const std::size_t member : room.members) {
-      if (!is_receiver(member, index, now)) continue;
-      // Who has nothing of late asks for a key frame; the others need not do without references.
-      const HeldFrames& held = sessions_[member].held[slot];
-      if (!guest.poses.has_any() || !held.is_of(guest.poses.stream()) ||
-          static_cast<std::uint16_t>(guest.poses.newest() - held.newest()) > kLongestHeld)
-        continue;
-      if (is_first)
-        common = held;
-      else
-        common.intersect(held);
-      is_first = false;
-    }
     if (guest.key_wanted &&
         (!guest.key_asked_at.is_set() || now - guest.key_asked_at >= kKeyFrameGap)) {
       guest.key_wanted = false;
@@ -145,15 +195,9 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
       is_news = true;
     }
     if (guest.key_wanted) schedule_feedback(index, guest.key_asked_at + kKeyFrameGap);
-    wire::GuestFeedback about;
-    about.slot = slot;
-    about.restarts = static_cast<std::uint8_t>(guest.poses.stream());
-    about.key_frames = guest.key_frames;
-    is_news = is_news || common != guest.told;
-    guest.told = common;
-    about.has_held = guest.poses.has_any() && common.is_of(guest.poses.stream());
-    about.newest_held = common.newest();
-    about.held_before = static_cast<std::uint16_t>(common.bits() >> 1);
+    const wire::GuestFeedback about = feedback_about(index, slot, now);
+    is_news = is_news || about != guest.told;
+    guest.told = about;
     const bool pushed = feedback.guests.try_push(about);
     DANCE_ASSERT(pushed);
   }

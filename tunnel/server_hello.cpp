@@ -71,11 +71,12 @@ void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, M
   session.last_heard = now;
   session.hello_time_us = hello->link_time_us;
   settle_guests(index, *hello);
+  if (!existing || is_moved) session.interest.default_divider = hello->default_divider;
+  settle_interest(index, now);
   welcome(index, *hello, received, now);
   if (!existing || is_moved) {
+    if (!is_newcomer(index)) newcomers_.push_back(index);
     want_key_frames_for(index, now);
-    if (std::find(newcomers_.begin(), newcomers_.end(), index) == newcomers_.end())
-      newcomers_.push_back(index);
   }
 }
 
@@ -106,8 +107,12 @@ std::optional<ServerCore::Objection> ServerCore::objection_to(
   if (!access.may_enter(hello.room)) return Objection{wire::Refusal::kNotAllowedRoom, {}};
   if (!hello.guests.empty() && !may_have_guests(access))
     return Objection{wire::Refusal::kOnlyListens, {}};
-  for (const GuestId& guest : hello.guests)
-    if (!access.may_bear(guest)) return Objection{wire::Refusal::kNotAllowedName, guest};
+  for (const GuestId& guest : hello.guests) {
+    const bool is_others =
+        access.any_name && access.role != Role::kHost && is_reserved_ && is_reserved_(guest);
+    if (is_others || !access.may_bear(guest))
+      return Objection{wire::Refusal::kNotAllowedName, guest};
+  }
   if (!room) {
     if (std::all_of(rooms_.begin(), rooms_.end(), [](const auto& r) { return r.in_use; }))
       return Objection{wire::Refusal::kServerFull, {}};
@@ -174,6 +179,8 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   session.bundle_size = 0;
   session.sent = SentRing();
   session.held = {};
+  session.interest = {};
+  session.thinning = {};
   session.received = AckWindow();
   session.feedback_due = MonoTime();
   std::erase(bundled_, index);
@@ -251,6 +258,10 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
   free->owner = index;
   const bool pushed = session.slots.try_push(slot);
   DANCE_ASSERT(pushed);
+  for (const std::size_t member : room.members) {
+    sessions_[member].thinning[slot] = Thinning();
+    sessions_[member].thinning[slot].divider = sessions_[member].interest.default_divider;
+  }
   ++room.guest_count;
   ++room.roster_version;
   room.roster_changed = true;
@@ -271,9 +282,9 @@ void ServerCore::drop_session(std::size_t index) {
   for (const std::uint8_t slot : session.slots) remove_guest(session.room, slot);
   if (session.access.role == Role::kHost) --room.host_count;
   std::erase(room.members, index);
+  std::erase(newcomers_, index);
   std::erase(bundled_, index);
   std::erase(reporting_, index);
-  std::erase(newcomers_, index);
   by_peer_.erase(session.peer);
   session.in_use = false;
   session.slots.clear();

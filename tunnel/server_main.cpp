@@ -7,24 +7,34 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "tunnel/server.h"
+#include "tunnel/server_keys.h"
+#include "tunnel/server_watch.h"
 
 namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance server                                  for houses on this machine, on port 7400
-  dance server --bind 0.0.0.0 --port 7400       for houses elsewhere (unencrypted for now: trusted networks only)
+  dance server --new-guest alice --address dance.example.org
+                                                prints the line that lets Alice in: she pastes it into dance key
+  dance server --bind 0.0.0.0                   for houses elsewhere: those who have a key
+  dance server --metrics 127.0.0.1:9464         a page for Prometheus at /metrics
   dance server --json > summary.json            what it did, when it is ended with Ctrl-C
+While it runs, `dance status` on the same machine shows its rooms and guests.
 )";
 
 constexpr Duration kSecond = Duration::s(1);
 constexpr int kSecondsPerStatus = 10;
 
-struct ServerOptions {
+struct ServerProgramOptions {
   std::string bind = "127.0.0.1";
   std::uint16_t port = kDefaultServerPort;
   ServerLimits limits;
+  std::string key_file;
+  KeyCommand keys;
+  SealCertificates certificates;
   double share_ms = -1.0;  // < 0: by the room
+  std::string metrics;
   bool json = false;
 };
 
@@ -34,6 +44,10 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
   nlohmann::ordered_json rejected = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < kServerRejects; ++i)
     rejected[std::string(kServerRejectNames[i])] = c.rejected[i];
+  const SealCounters& door = server.door().counters();
+  nlohmann::ordered_json kept_out = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < kSealRejects; ++i)
+    kept_out[std::string(kSealRejectNames[i])] = door.rejected[i];
   return {{"seconds", uptime.as_seconds()},
           {"datagrams_in", c.datagrams_in},
           {"datagrams_out", c.datagrams_out},
@@ -52,7 +66,10 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
           {"goodbyes", c.goodbyes},
           {"send_failed", socket.send_failed},
           {"truncated", socket.truncated},
-          {"rejected", rejected}};
+          {"rejected", rejected},
+          {"handshakes", door.handshakes_done},
+          {"moves", door.moves},
+          {"kept_out", kept_out}};
 }
 
 // At most one line a second for each cause.
@@ -60,6 +77,12 @@ void log_rejects(const ServerCounters& before, const ServerCounters& after) {
   for (std::size_t i = 0; i < kServerRejects; ++i)
     if (after.rejected[i] != before.rejected[i])
       talk::warn("{} dropped: {}", after.rejected[i] - before.rejected[i], kServerRejectNames[i]);
+}
+
+void log_seal_rejects(const SealCounters& before, const SealCounters& after) {
+  for (std::size_t i = 0; i < kSealRejects; ++i)
+    if (after.rejected[i] != before.rejected[i])
+      talk::warn("{} kept out: {}", after.rejected[i] - before.rejected[i], kSealRejectNames[i]);
 }
 
 void log_status(const Server& server, const ServerCounters& before) {
@@ -73,26 +96,70 @@ void log_status(const Server& server, const ServerCounters& before) {
       (c.bytes_out - before.bytes_out) / 1000);
 }
 
-Result<void> run_server(const ServerOptions& options) {
+// New keys count at once, and those that are gone no more.
+void read_keys_again(ServerKeys& keys, Server& server) {
+  const auto has_changed = keys.read_again();
+  if (!has_changed) return talk::warn("{}; the keys stay as they were", has_changed.error().what);
+  if (!*has_changed) return;
+  server.set_keys(keys.ring());
+  talk::info("{} keys now", keys.guest_count());
+}
+
+Result<std::optional<SealCertificates>> certificates_of(const ServerProgramOptions& options) {
+  const SealCertificates& given = options.certificates;
+  if (given.chain.empty() && given.private_key.empty() && given.authorities.empty())
+    return std::optional<SealCertificates>();
+  if (given.chain.empty() || given.private_key.empty() || given.authorities.empty())
+    return fail(
+        "--certificate, --private-key and --authorities belong together: the server's own, "
+        "and whose it trusts");
+  return std::optional(given);
+}
+
+std::vector<NamedCount> handshakes_of(const SealCounters& door) {
+  std::vector<NamedCount> counts{{"done", door.handshakes_done}, {"moved", door.moves}};
+  for (std::size_t i = 0; i < kSealRejects; ++i)
+    counts.push_back({std::string(kSealRejectNames[i]), door.rejected[i]});
+  return counts;
+}
+
+Result<void> run_server(const ServerProgramOptions& options) {
+  DANCE_TRY(ServerKeys keys, ServerKeys::open(options.key_file));
+  if (options.keys.is_given()) return keys.run(options.keys);
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(Address local, Address::resolve(options.bind, options.port));
-  ServerLimits limits = options.limits;
-  if (options.share_ms >= 0.0) limits.share_window = Duration::seconds(options.share_ms * 1e-3);
-  DANCE_TRY(auto server, Server::open(local, limits, *poller));
+  ServerOptions of;
+  of.limits = options.limits;
+  if (options.share_ms >= 0.0) of.limits.share_window = Duration::seconds(options.share_ms * 1e-3);
+  of.keys = keys.ring();
+  DANCE_TRY(of.certificates, certificates_of(options));
+  DANCE_TRY(auto server, Server::open(local, of, *poller));
   local = server->local_address();
+  ServerWatch::Options shown;
+  shown.address = local;
+  shown.limits = of.limits;
+  shown.metrics = options.metrics;
+  shown.peer_text = [&](const ServerSession& session) {
+    return server->door().address_of(session.peer).to_string() + " " +
+           std::string(session.access.name.view());
+  };
+  shown.handshakes = [&] { return handshakes_of(server->door().counters()); };
+  DANCE_TRY(auto watch, ServerWatch::open(server->core(), shown, *poller));
   talk::info("hears on {}; Ctrl-C ends it", local.to_string());
-  if (!local.is_loopback())
-    talk::warn(
-        "sessions are not encrypted yet: bind beyond this machine only on a network that "
-        "you trust");
+  if (!local.is_loopback() && keys.guest_count() == 0 && !of.certificates)
+    talk::warn("nobody elsewhere has a key yet: dance server --new-guest NAME makes one");
 
   const MonoTime begin = mono_now();
   ServerCounters last_second;
   ServerCounters last_status;
+  SealCounters last_door;
   int seconds = 0;
   poller->add_timer(begin + kSecond, [&](MonoTime now) {
+    read_keys_again(keys, *server);
     log_rejects(last_second, server->core().counters());
+    log_seal_rejects(last_door, server->door().counters());
+    last_door = server->door().counters();
     last_second = server->core().counters();
     if (++seconds % kSecondsPerStatus == 0) {
       if (last_second.datagrams_in != last_status.datagrams_in) log_status(*server, last_status);
@@ -102,6 +169,7 @@ Result<void> run_server(const ServerOptions& options) {
   });
   poller->run();
 
+  watch->say_stopping();
   server->say_goodbye();
   const auto report = summary(*server, mono_now() - begin);
   if (options.json)
@@ -116,7 +184,7 @@ Result<void> run_server(const ServerOptions& options) {
 }  // namespace dance
 
 int main(int argc, char** argv) {
-  dance::ServerOptions options;
+  dance::ServerProgramOptions options;
   dance::CommandLine line(
       "The tunnel's server: forwards each guest's newest pose to everybody in the room.",
       "dance server");
@@ -140,6 +208,33 @@ int main(int argc, char** argv) {
           "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
           "all (else 0 for up to 8 guests, then more, to 5 for 28)")
       .range(0, 20);
+  line.add("--metrics", options.metrics,
+           "HOST:PORT of a page of metrics for Prometheus; none unless asked for");
+  line.add("--new-guest", options.keys.new_guest,
+           "makes a key for NAME, prints the line that NAME pastes, and ends");
+  line.add_choice<dance::KeyKind>(
+      "--role", options.keys.kind,
+      {{"guest", dance::KeyKind::kGuest},
+       {"host", dance::KeyKind::kHost},
+       {"listener", dance::KeyKind::kListener}},
+      "what --new-guest may do: dance; set music and scene too; only hear");
+  line.add("--room", options.keys.room, "the only room that --new-guest may enter");
+  line.add("--new-room-key", options.keys.new_room_key,
+           "makes a key for all who come to ROOM, prints its line, and ends");
+  line.add("--address", options.keys.address,
+           "HOST[:PORT] as guests reach this server, for the line that they paste");
+  line.add("--remove-key", options.keys.remove,
+           "takes NAME's key away: NAME is out at once; and ends");
+  line.add_flag("--list-keys", options.keys.list,
+                "whose keys there are, without the keys; and ends");
+  line.add("--keys", options.key_file,
+           "file of keys (else server-keys in the folder of the user's settings)");
+  line.add("--certificate", options.certificates.chain,
+           "PEM file with this server's certificate and its chain, for links that have one too");
+  line.add("--private-key", options.certificates.private_key, "PEM file of its private key");
+  line.add(
+      "--authorities", options.certificates.authorities,
+      "PEM file of those whose signature lets a guest in, under the certificate's common name");
   line.add_flag("--json", options.json, "write a summary to stdout at the end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_server(options); });

@@ -14,7 +14,7 @@ constexpr std::int64_t kLongestAge_us = 60'000'000;
 constexpr std::int64_t kFarthestAhead_us = 1'000'000;
 // Loss, round trip and the number of guests; then each of them.
 constexpr std::size_t kFeedbackHead = 2 + 2 + 2 + 1;
-constexpr std::size_t kFeedbackGuest = 7;
+constexpr std::size_t kFeedbackGuest = 7 + 1 + 4;
 
 }  // namespace
 
@@ -49,6 +49,7 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   if (!guest->records.take(1.0, now)) return reject(ServerReject::kGuestRate);
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   StreamGate& gate = is_pose ? guest->poses : guest->hands;
+  if (is_pose) guest->jitter.add(record.capture_us, received_us);
   // The link need not know the generation.
   record.stream &= 0xffff;
   if (!wire::widen(0, gate.has_any(), gate.stream(), gate.newest(), record))
@@ -67,6 +68,10 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   if (record.sent_age_us != wire::kNoAge)
     record.server_age_us = static_cast<std::int32_t>(received_us - record.capture_us);
   ++counters_.records_in;
+  if (record.is_base) ++guest->base_count;
+  if (!is_pose) ++guest->hands_count;
+  if (is_pose) guest->last_pose = now;
+  if (is_pose && record.needs_no_other) keep(*guest, record);
   forward(session, record, now);
 }
 
@@ -87,45 +92,49 @@ void ServerCore::on_channel_record(std::size_t session, wire::Record record, Mon
 }
 
 void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime now) {
+  for (const std::size_t member : rooms_[sessions_[from].room].members)
+    if (member != from && take_share(member, record, now)) add_to_bundle(member, record, now);
+}
+
+void ServerCore::add_to_bundle(std::size_t index, const wire::Record& record, MonoTime now) {
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   const auto sequence = static_cast<std::uint16_t>(record.sequence);
-  const std::size_t most = wire::kMaxRecordHeader + record.payload.size();
-  const ServerRoom& room = rooms_[sessions_[from].room];
-  for (const std::size_t member : room.members) {
-    ServerSession& to = sessions_[member];
-    if (member == from) continue;
-    if (to.bundle.size() - to.bundle_size < most) flush_bundle(member, now);
-    if (to.bundle_size == 0) {
-      to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
-      to.bundle_due = now + share_window(room);
-      to.bundle_poses = 0;
-      bundled_.push_back(member);
-    }
-    // What the receiver is known to have gives the high bits.
-    const HeldFrames& held = to.held[record.slot];
-    const bool is_narrow =
-        is_pose && held.is_of(record.stream) &&
-        static_cast<std::uint16_t>(sequence - held.newest()) <= wire::kNarrowReach;
-    ByteWriter out(std::span<std::uint8_t>(to.bundle).subspan(to.bundle_size));
-    wire::add_record(record, is_narrow, to.base_ticks, out);
-    DANCE_ASSERT(out.ok());
-    to.bundle_size += out.size();
-    if (is_pose) {
-      to.sent.add({record.stream, sequence, record.slot});
-      ++to.bundle_poses;
-    }
-    ++counters_.records_out;
+  ServerSession& to = sessions_[index];
+  if (to.bundle.size() - to.bundle_size < wire::kMaxRecordHeader + record.payload.size())
+    flush_bundle(index, now);
+  if (to.bundle_size == 0) {
+    to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
+    to.bundle_due = now + share_window(rooms_[to.room]);
+    to.bundle_poses = 0;
+    bundled_.push_back(index);
   }
+  // What the receiver is known to have gives the high bits.
+  const HeldFrames& held = to.held[record.slot];
+  const bool is_narrow = is_pose && held.is_of(record.stream) &&
+                         static_cast<std::uint16_t>(sequence - held.newest()) <= wire::kNarrowReach;
+  ByteWriter out(std::span<std::uint8_t>(to.bundle).subspan(to.bundle_size));
+  wire::Record told = record;
+  told.needs_no_other = told.is_base = false;  // the receiver sees it
+  tell_left_out(to, told);
+  wire::add_record(told, is_narrow, to.base_ticks, out);
+  DANCE_ASSERT(out.ok());
+  to.bundle_size += out.size();
+  if (is_pose) {
+    to.sent.add({record.stream, sequence, record.slot});
+    ++to.bundle_poses;
+  }
+  ++counters_.records_out;
 }
 
 Duration ServerCore::share_window(const ServerRoom& room) const {
   return limits_.share_window.value_or(share_window_of(room.guest_count));
 }
 
-// Full of what can come, or has waited long enough.
+// Full of what can come, or has waited long enough. Who wants less than all of everybody waits: what
+// comes next is not known.
 bool ServerCore::is_bundle_due(const ServerSession& session, MonoTime now) const {
   return now >= session.bundle_due ||
-         session.bundle_poses + session.slots.size() >= rooms_[session.room].guest_count;
+         (session.full_shares > 0 && session.bundle_poses >= session.full_shares);
 }
 
 void ServerCore::flush_bundle(std::size_t index, MonoTime now) {

@@ -16,13 +16,15 @@
 
 #include "core/base/fixed_list.h"
 #include "core/base/time.h"
+#include "core/base/token_bucket.h"
 #include "tunnel/access.h"
 #include "tunnel/ack_window.h"
+#include "tunnel/arrival_jitter.h"
 #include "tunnel/held_frames.h"
+#include "tunnel/link_meter.h"
 #include "tunnel/peer.h"
 #include "tunnel/sent_ring.h"
 #include "tunnel/stream_gate.h"
-#include "tunnel/token_bucket.h"
 #include "tunnel/wire_records.h"
 #include "tunnel/wire_state.h"
 
@@ -117,6 +119,19 @@ struct ServerCounters {
   }
 };
 
+// What of one guest's poses goes to one receiver.
+struct Thinning {
+  std::uint8_t divider = 1;
+  // It has nothing that frames could refer to: the next that needs no other is the first it gets.
+  bool awaits_still = true;
+  std::uint32_t last_sent = 0;  // sequence
+  // Poses of this generation that it was not sent; told with each record until it has one that was
+  // sent after the last of them.
+  bool tells_left_out = false;
+  std::uint16_t left_out = 0;
+  std::uint16_t last_left_out = 0;  // sequence, low half
+};
+
 struct ServerSession {
   bool in_use = false;
   PeerId peer = 0;
@@ -135,12 +150,17 @@ struct ServerSession {
   TokenBucket bytes;
   std::uint32_t datagrams_received = 0;
   wire::Ping newest_ping;
+  LinkMeter meter;
   // Records that wait for the end of this turn, or of their window.
   std::array<std::uint8_t, wire::kMaxRecordsBody> bundle;
   std::size_t bundle_size = 0;
   std::size_t bundle_poses = 0;
   std::int64_t base_ticks = 0;
   MonoTime bundle_due;
+  // What it wants of the others: the list as it said it, and what follows for each slot.
+  wire::InterestList interest;
+  std::array<Thinning, wire::kMaxGuestsPerRoom> thinning;
+  std::size_t full_shares = 0;  // others in the room whose every pose it gets
   // What the link has of the others, as it acknowledges; and what has come from it.
   SentRing sent;
   std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
@@ -167,6 +187,14 @@ struct ChannelGate {
   std::uint32_t sequence = 0;
 };
 
+// The newest pose of a guest that needs no other, for those who come later.
+struct KeptPose {
+  bool is_set = false;
+  wire::Record record;  // but for its payload
+  std::size_t size = 0;
+  std::array<std::uint8_t, wire::kMaxPayload> payload;
+};
+
 struct ServerGuest {
   bool in_use = false;
   GuestId id;
@@ -174,11 +202,16 @@ struct ServerGuest {
   std::size_t owner = 0;  // session
   StreamGate poses;
   StreamGate hands;
+  ArrivalJitter jitter;  // of poses
   TokenBucket records;
   bool key_wanted = false;
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;
-  HeldFrames told;  // what the link was told last
+  wire::GuestFeedback told;  // what the link was told last
+  KeptPose kept;
+  MonoTime last_pose;            // when the newest came in
+  std::uint32_t base_count = 0;  // base frames that came
+  std::uint32_t hands_count = 0;
   std::array<HeldState, wire::kGuestStates> states;
   TokenBucket state_changes;
   std::array<ChannelGate, kMaxChannelsPerGuest> channels{};

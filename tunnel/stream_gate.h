@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/base/sequence.h"
 
@@ -25,12 +26,15 @@ class StreamGate {
   enum class Verdict : std::uint8_t { kNewest, kNewStream, kLate, kDuplicate, kOldStream };
   struct Counters {
     std::uint64_t received = 0;  // went on
-    std::uint64_t lost = 0;      // gaps, less what arrived late
+    std::uint64_t lost = 0;      // gaps, less what was not sent and what arrived late
     std::uint64_t late = 0;      // a newer one was there already, or of a stream that has ended
     std::uint64_t duplicate = 0;
   };
 
-  Verdict judge(std::uint32_t stream, std::uint32_t sequence, std::int64_t capture_us = 0) {
+  // `left_out`: how many of this generation were not sent to us so far, as told with the record;
+  // nothing = as many as were told last.
+  Verdict judge(std::uint32_t stream, std::uint32_t sequence, std::int64_t capture_us = 0,
+                std::optional<std::uint16_t> left_out = {}) {
     const std::int64_t ahead_us = capture_us - newest_capture_us_;
     if (has_any_ && ahead_us < -kTrustedNumbers_us) {
       ++counters_.late;
@@ -46,6 +50,8 @@ class StreamGate {
       newest_ = sequence;
       newest_capture_us_ = capture_us;
       seen_ = ~std::uint64_t{0};  // what was before the first is not missed
+      left_out_ = left_out.value_or(left_out_);
+      gap_is_forgiven_ = false;
       ++counters_.received;
       return Verdict::kNewStream;
     }
@@ -58,12 +64,15 @@ class StreamGate {
       // Bit i of seen_: newest_ − i came.
       seen_ = ahead < 64 ? seen_ << ahead | 1 : 1;
       newest_ = sequence;
-      counters_.lost += static_cast<std::uint64_t>(ahead) - 1;
+      count_gap(static_cast<std::uint64_t>(ahead) - 1, left_out.value_or(left_out_));
       ++counters_.received;
       return Verdict::kNewest;
     }
     return judge_old(ahead);
   }
+
+  // The newest was sent from store: what lies between it and the next is not missed.
+  void forgive_gap() { gap_is_forgiven_ = true; }
 
   bool has_any() const { return has_any_; }
   std::uint32_t stream() const { return stream_; }
@@ -72,6 +81,13 @@ class StreamGate {
 
  private:
   static constexpr std::int64_t kTrustedNumbers_us = 1'000'000;
+
+  void count_gap(std::uint64_t gap, std::uint16_t left_out) {
+    const std::uint64_t not_sent = static_cast<std::uint16_t>(left_out - left_out_);
+    left_out_ = left_out;
+    if (!gap_is_forgiven_ && gap > not_sent) counters_.lost += gap - not_sent;
+    gap_is_forgiven_ = false;
+  }
 
   Verdict judge_old(std::int32_t ahead) {
     if (ahead > -64) {
@@ -92,6 +108,8 @@ class StreamGate {
   std::uint32_t newest_ = 0;
   std::int64_t newest_capture_us_ = 0;
   std::uint64_t seen_ = 0;
+  std::uint16_t left_out_ = 0;
+  bool gap_is_forgiven_ = false;
   Counters counters_;
 };
 

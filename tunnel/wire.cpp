@@ -57,6 +57,7 @@ std::size_t build(const Hello& hello, std::span<std::uint8_t> buffer) {
   out.u8(static_cast<std::uint8_t>(hello.codecs.size()));
   for (const CodecName& codec : hello.codecs) write_codec(codec, out);
   out.short_text(hello.room.view());
+  out.u8(hello.default_divider);
   out.u8(static_cast<std::uint8_t>(hello.guests.size()));
   for (const GuestId& guest : hello.guests) out.short_text(guest.view());
   return size_of(out);
@@ -76,6 +77,7 @@ std::optional<Hello> parse_hello(Bytes body, HelloProblem& problem) {
   for (std::size_t i = 0; i < codecs; ++i)
     if (!hello.codecs.try_push(read_codec(in))) return std::nullopt;
   const auto room = read_name(in);
+  hello.default_divider = in.u8();
   const std::size_t guests = in.u8();
   if (!in.ok() || guests > kMaxGuestsPerLink) return std::nullopt;
   bool names_are_good = room.has_value();
@@ -242,6 +244,49 @@ std::optional<RosterPart> parse_roster(Bytes body) {
     if (!part.entries.try_push(entry)) return std::nullopt;
   }
   return in.is_exhausted() ? std::optional(part) : std::nullopt;
+}
+
+std::size_t build(const InterestList& interest, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(Type::kInterest, out);
+  out.u32(interest.version);
+  out.u8(interest.default_divider);
+  out.u8(static_cast<std::uint8_t>(interest.entries.size()));
+  for (const InterestEntry& entry : interest.entries) {
+    write_slot(entry.slot, out);
+    out.u8(entry.divider);
+  }
+  return size_of(out);
+}
+
+std::optional<InterestList> parse_interest_list(Bytes body) {
+  ByteReader in(body);
+  InterestList interest;
+  interest.version = in.u32();
+  interest.default_divider = in.u8();
+  const std::size_t entries = in.u8();
+  for (std::size_t i = 0; i < entries; ++i) {
+    InterestEntry entry;
+    entry.slot = read_slot(in);
+    entry.divider = in.u8();
+    if (!in.ok() || entry.slot.slot >= kMaxGuestsPerRoom || !interest.entries.try_push(entry))
+      return std::nullopt;
+  }
+  if (!in.is_exhausted() || interest.version == 0) return std::nullopt;
+  return interest;
+}
+
+std::size_t build_interest_ack(std::uint32_t version, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  write_opening(Type::kInterestAck, out);
+  out.u32(version);
+  return size_of(out);
+}
+
+std::optional<std::uint32_t> parse_interest_ack(Bytes body) {
+  ByteReader in(body);
+  const std::uint32_t version = in.u32();
+  return in.is_exhausted() && version != 0 ? std::optional(version) : std::nullopt;
 }
 
 std::size_t build_bare(Type type, std::span<std::uint8_t> buffer) {

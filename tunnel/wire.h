@@ -21,16 +21,17 @@
 #include "core/base/fixed_list.h"
 #include "core/base/guest_id.h"
 #include "core/codec/pose_codec.h"
+#include "tunnel/seal/seal_format.h"
 
 namespace dance::wire {
 
-constexpr std::uint8_t kWireVersion = 3;
+constexpr std::uint8_t kWireVersion = seal::kTunnelVersion;
 // A sealed datagram: fits the smallest path of IPv6 with the headers of IP and UDP.
-constexpr std::size_t kMaxDatagram = 1200;
-// What the seal adds: id of the sealed session 8, header of the record 13, tag 16, and 2 to spare.
-constexpr std::size_t kSealOverhead = 39;
+constexpr std::size_t kMaxDatagram = seal::kMaxSealed;
+// What the seal adds.
+constexpr std::size_t kSealOverhead = seal::kOverhead;
 // An inner datagram, as the state machines see it.
-constexpr std::size_t kMaxPlain = kMaxDatagram - kSealOverhead;
+constexpr std::size_t kMaxPlain = seal::kMaxPlain;
 // No hello, welcome or refusal is longer.
 constexpr std::size_t kMaxHello = 512;
 constexpr std::size_t kMaxGuestsPerLink = 16;
@@ -54,6 +55,8 @@ enum class Type : std::uint8_t {
   kState = 20,
   kStateAck = 21,
   kGoodbye = 22,
+  kInterest = 23,
+  kInterestAck = 24,
 };
 
 enum class Refusal : std::uint16_t {
@@ -76,6 +79,8 @@ struct Hello {
   std::int64_t link_time_us = 0;
   FixedList<CodecName, kMaxCodecs> codecs;  // the preferred one first
   RoomName room;
+  // How often it wants whom it says nothing about: tunnel/interest.h.
+  std::uint8_t default_divider = 1;
   FixedList<GuestId, kMaxGuestsPerLink> guests;
 };
 
@@ -83,6 +88,7 @@ struct Slot {
   std::uint8_t slot = 0;
   std::uint16_t generation =
       0;  // counts who has had a slot of this room; never the same twice soon
+  bool operator==(const Slot&) const = default;
 };
 
 struct Welcome {
@@ -135,6 +141,19 @@ struct RosterPart {
 };
 constexpr std::uint8_t kSlotsPerRosterPart = 32;
 
+// Which guests a link wants, and how often: all that it wants, each time. tunnel/interest.h says what
+// a divider means.
+struct InterestEntry {
+  Slot slot;
+  std::uint8_t divider = 1;
+  bool operator==(const InterestEntry&) const = default;
+};
+struct InterestList {
+  std::uint32_t version = 0;  // not 0; the link counts its changes
+  std::uint8_t default_divider = 1;
+  FixedList<InterestEntry, kMaxGuestsPerRoom> entries;
+};
+
 // How a datagram begins.
 struct Opening {
   Type type = Type::kHello;
@@ -150,6 +169,8 @@ std::size_t build(const RefusalNotice& refusal, std::span<std::uint8_t> out);
 std::size_t build(const Ping& ping, std::span<std::uint8_t> out);
 std::size_t build(const Pong& pong, std::span<std::uint8_t> out);
 std::size_t build(const RosterPart& part, std::span<std::uint8_t> out);
+std::size_t build(const InterestList& interest, std::span<std::uint8_t> out);
+std::size_t build_interest_ack(std::uint32_t version, std::span<std::uint8_t> out);
 std::size_t build_bare(Type type, std::span<std::uint8_t> out);
 
 // Parsing of what follows the opening.
@@ -165,5 +186,7 @@ std::optional<RefusalNotice> parse_refusal(Bytes body);
 std::optional<Ping> parse_ping(Bytes body);
 std::optional<Pong> parse_pong(Bytes body);
 std::optional<RosterPart> parse_roster(Bytes body);
+std::optional<InterestList> parse_interest_list(Bytes body);
+std::optional<std::uint32_t> parse_interest_ack(Bytes body);  // the version
 
 }  // namespace dance::wire

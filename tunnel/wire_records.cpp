@@ -9,8 +9,14 @@ constexpr std::uint8_t kSlotMask = 0x3f;  // 64 slots of a room
 constexpr std::uint8_t kIsHands = 0x40, kIsWide = 0x80;
 // Hands are always wide: narrow ones mean a message of a channel.
 constexpr std::uint8_t kIsChannel = kIsHands;
-constexpr std::uint8_t kHeldFlag = 0x80;
+constexpr std::uint8_t kHeldFlag = 0x80, kSpacingFlag = 0x40;
+// Of the spacings: bits 0 and 1 base, high half stills.
+constexpr std::uint8_t kBaseMask = 0x03, kBaseHeldFlag = 0x08;
+constexpr std::uint8_t kLeastStill_log2 = 4;
 constexpr std::uint8_t kLengthMask = 0x3f, kLongLength = 0x40, kHasAges = 0x80;
+// Of the byte that follows a long length.
+constexpr std::uint8_t kHighLengthMask = 0x0f, kNeedsNoOther = 0x10, kIsBase = 0x20,
+                       kCountsLeftOut = 0x40, kIsKept = 0x80;
 constexpr std::uint16_t kEscape = 0xffff;  // a number that does not fit follows
 constexpr std::uint16_t kNoAgeTicks = 0xfffe;
 
@@ -55,12 +61,22 @@ void write_feedback(const Feedback& feedback, ByteWriter& out) {
   out.u16(feedback.round_trip);
   out.u8(static_cast<std::uint8_t>(feedback.guests.size()));
   for (const GuestFeedback& guest : feedback.guests) {
-    out.u8(static_cast<std::uint8_t>(guest.slot | (guest.has_held ? kHeldFlag : 0)));
+    const bool has_spacing =
+        guest.base_log2 != 0 || guest.still_log2 != kFewestStills_log2 || guest.has_base_held;
+    out.u8(static_cast<std::uint8_t>(guest.slot | (guest.has_held ? kHeldFlag : 0) |
+                                     (has_spacing ? kSpacingFlag : 0)));
     out.u8(guest.restarts);
     out.u8(guest.key_frames);
-    if (!guest.has_held) continue;
-    out.u16(guest.newest_held);
-    out.u16(guest.held_before);
+    if (guest.has_held) {
+      out.u16(guest.newest_held);
+      out.u16(guest.held_before);
+    }
+    if (!has_spacing) continue;
+    out.u8(static_cast<std::uint8_t>(guest.base_log2 | (guest.has_base_held ? kBaseHeldFlag : 0) |
+                                     guest.still_log2 << 4));
+    if (!guest.has_base_held) continue;
+    out.u16(guest.newest_base_held);
+    out.u16(guest.base_held_before);
   }
 }
 
@@ -73,12 +89,25 @@ bool read_feedback(ByteReader& in, Feedback& feedback) {
     GuestFeedback guest;
     const std::uint8_t slot = in.u8();
     guest.has_held = (slot & kHeldFlag) != 0;
-    guest.slot = slot & ~kHeldFlag & 0xff;
+    guest.slot = slot & kSlotMask;
     guest.restarts = in.u8();
     guest.key_frames = in.u8();
     if (guest.has_held) {
       guest.newest_held = in.u16();
       guest.held_before = in.u16();
+    }
+    if ((slot & kSpacingFlag) != 0) {
+      const std::uint8_t spacing = in.u8();
+      guest.base_log2 = spacing & kBaseMask;
+      guest.still_log2 = spacing >> 4;
+      guest.has_base_held = (spacing & kBaseHeldFlag) != 0;
+      if ((spacing & ~(kBaseMask | kBaseHeldFlag | 0xf0)) != 0 ||
+          guest.still_log2 < kLeastStill_log2 || guest.still_log2 > kFewestStills_log2)
+        return false;
+      if (guest.has_base_held) {
+        guest.newest_base_held = in.u16();
+        guest.base_held_before = in.u16();
+      }
     }
     if (guest.slot >= kMaxGuestsPerRoom || !feedback.guests.try_push(guest)) return false;
   }
@@ -179,12 +208,15 @@ void add_record(const Record& record, bool is_narrow, std::int64_t base_ticks, B
   const bool has_ages = record.published_age_us != kNoAge || record.sent_age_us != kNoAge ||
                         record.server_age_us != kNoAge;
   const std::size_t length = record.payload.size();
+  const auto more = static_cast<std::uint8_t>(
+      length >> 6 | (record.needs_no_other ? kNeedsNoOther : 0) | (record.is_base ? kIsBase : 0) |
+      (record.counts_left_out ? kCountsLeftOut : 0) | (record.is_kept ? kIsKept : 0));
   out.u8(static_cast<std::uint8_t>(record.slot | (is_hands ? kIsHands : 0) |
                                    (is_narrow ? 0 : kIsWide)));
-  out.u8(static_cast<std::uint8_t>((length & kLengthMask) |
-                                   (length > kLengthMask ? kLongLength : 0) |
+  out.u8(static_cast<std::uint8_t>((length & kLengthMask) | (more != 0 ? kLongLength : 0) |
                                    (has_ages ? kHasAges : 0)));
-  if (length > kLengthMask) out.u8(static_cast<std::uint8_t>(length >> 6));
+  if (more != 0) out.u8(more);
+  if (record.counts_left_out) out.u16(record.left_out);
   out.u8(static_cast<std::uint8_t>((record.stream >> 16 & 15) << 4 | (record.stream & 15)));
   if (is_narrow) {
     out.u8(static_cast<std::uint8_t>(record.sequence));
@@ -215,14 +247,20 @@ std::optional<Record> parse_record(std::int64_t base_us, ByteReader& in) {
   record.slot = first & kSlotMask;
   record.is_narrow = (first & kIsWide) == 0;
   std::size_t length = length_byte & kLengthMask;
-  if ((length_byte & kLongLength) != 0) length |= static_cast<std::size_t>(in.u8()) << 6;
+  const std::uint8_t more = (length_byte & kLongLength) != 0 ? in.u8() : 0;
+  length |= static_cast<std::size_t>(more & kHighLengthMask) << 6;
   if ((first & (kIsHands | kIsWide)) == kIsChannel) {
+    // Nothing more is said about a message than its length.
+    if ((length_byte & kHasAges) != 0 || (more & ~kHighLengthMask) != 0) return std::nullopt;
     read_channel_record(in, length, record);
-    if (!in.ok() || length == 0 || length > kMaxPayload || record.channel > 7 ||
-        (length_byte & kHasAges) != 0)
-      return std::nullopt;
+    if (!in.ok() || length == 0 || length > kMaxPayload || record.channel > 7) return std::nullopt;
     return record;
   }
+  record.needs_no_other = (more & kNeedsNoOther) != 0;
+  record.is_base = (more & kIsBase) != 0;
+  record.is_kept = (more & kIsKept) != 0;
+  record.counts_left_out = (more & kCountsLeftOut) != 0;
+  if (record.counts_left_out) record.left_out = in.u16();
   const std::uint8_t tag = in.u8();
   record.stream = static_cast<std::uint32_t>(tag >> 4) << 16 | (tag & 15);
   if (record.is_narrow) {

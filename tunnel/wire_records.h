@@ -9,6 +9,7 @@
 // Failure:      as in tunnel/wire.h; nothing here allocates.
 #pragma once
 
+#include "tunnel/interest.h"
 #include "tunnel/wire.h"
 
 namespace dance::wire {
@@ -41,6 +42,16 @@ struct GuestFeedback {
   bool has_held = false;        // whether all receivers have some frame in common
   std::uint16_t newest_held = 0;
   std::uint16_t held_before = 0;  // bit i: newest − 1 − i
+  // For receivers who want less than all. Each 2^n-th pose should be a base frame (0: none has to
+  // be), and refer only to what those have too;
+  std::uint8_t base_log2 = 0;
+  bool has_base_held = false;
+  std::uint16_t newest_base_held = 0;
+  std::uint16_t base_held_before = 0;
+  // and each 2^n-th should need no other.
+  std::uint8_t still_log2 = kFewestStills_log2;
+
+  bool operator==(const GuestFeedback&) const = default;
 };
 struct Feedback {
   std::uint16_t loss = 0;        // of the way to the worst receiver, in 1/65,536
@@ -84,12 +95,20 @@ struct Record {
   std::int32_t sent_age_us = kNoAge;
   std::int32_t server_age_us = kNoAge;  // written by the server
   Bytes payload;
+  // From a link: what receivers who want less than all can decode.
+  bool needs_no_other = false;
+  bool is_base = false;
+  // From the server: made before the receiver came, or before it was asked for; and how many poses of
+  // this stream the receiver was not sent so far, where some were not.
+  bool is_kept = false;
+  bool counts_left_out = false;
+  std::uint16_t left_out = 0;
   // As parsed: only 4 bits of restarts and 8 of the sequence have come.
   bool is_narrow = false;
 };
 constexpr std::size_t kNarrowRecordHeader = 6;  // without ages, payload below 64 bytes
 constexpr std::size_t kWideRecordHeader = 11;
-constexpr std::size_t kMaxRecordHeader = kWideRecordHeader + 1 + 8 + 18;
+constexpr std::size_t kMaxRecordHeader = kWideRecordHeader + 1 + 2 + 8 + 18;
 // How far a record may be ahead of what the receiver has for its numbers to travel narrow.
 constexpr std::uint16_t kNarrowReach = 100;
 

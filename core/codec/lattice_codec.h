@@ -27,6 +27,10 @@ class LatticeEncoder final : public PoseEncoder {
   std::size_t encode(const Pose& pose, std::span<std::uint8_t> payload) override;
   void acknowledged(std::uint32_t sequence) override;
   void key_frame_wanted() override;
+  void still_wanted() override { wants_key_ = true; }
+  void base_wanted() override { is_base_ = true; }
+  void base_acknowledged(std::uint32_t sequence) override;
+  bool needs_no_other() const override { return is_still_; }
   void restart() override;
   void set_references(References references) override { policy_ = references; }
   void set_quality(double error_m) override;
@@ -46,6 +50,8 @@ class LatticeEncoder final : public PoseEncoder {
   Reference choose_reference(std::uint32_t sequence);
   Reference reference_of_age(std::uint32_t sequence, std::uint32_t age);
   bool may_refer_to(const CodedFrame* frame) const;
+  bool is_void(std::uint32_t sequence) const;
+  std::size_t encode_frame(const Pose& pose, std::span<std::uint8_t> payload);
   BodyQuantiser::Still still_bones(const TrueBody& truth) const;
   // Finds the lattice point; false where none is near enough.
   bool quantise(const TrueBody& truth, const BodyQuantiser::Still& still,
@@ -65,6 +71,8 @@ class LatticeEncoder final : public PoseEncoder {
   std::size_t used_level_ = 3;
   std::uint32_t fixed_age_ = 0;
   bool wants_key_ = true;
+  bool is_base_ = false;   // the frame that is being made
+  bool is_still_ = false;  // the newest
   bool has_last_ = false;
   std::uint32_t last_sequence_ = 0;
   bool has_void_ = false;  // frames up to void_until_ are no references, whoever acknowledges them

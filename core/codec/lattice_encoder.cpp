@@ -40,10 +40,19 @@ LatticeEncoder::LatticeEncoder(std::shared_ptr<const PoseModel> model)
       lattice_(average_skeleton(), model_->rest),
       skeleton_tag_(tag_of(average_skeleton())) {}
 
+// What left before the last request says nothing of who asked.
+bool LatticeEncoder::is_void(std::uint32_t sequence) const {
+  return has_void_ && static_cast<std::int32_t>(sequence - void_until_) <= 0;
+}
+
 void LatticeEncoder::acknowledged(std::uint32_t sequence) {
-  // What left before the last request says nothing of who asked.
-  if (has_void_ && static_cast<std::int32_t>(sequence - void_until_) <= 0) return;
+  if (is_void(sequence)) return;
   if (CodedFrame* frame = ring_.find(sequence)) frame->is_acknowledged = true;
+}
+
+void LatticeEncoder::base_acknowledged(std::uint32_t sequence) {
+  if (is_void(sequence)) return;
+  if (CodedFrame* frame = ring_.find(sequence)) frame->is_base_acknowledged = true;
 }
 
 void LatticeEncoder::key_frame_wanted() {
@@ -87,8 +96,9 @@ void LatticeEncoder::watch_pace(MonoTime capture) {
 }
 
 bool LatticeEncoder::may_refer_to(const CodedFrame* frame) const {
-  return frame != nullptr && frame->is_slow == is_slow_ &&
-         (frame->is_acknowledged || fixed_age_ != 0 ||
+  if (frame == nullptr || frame->is_slow != is_slow_) return false;
+  if (is_base_ && fixed_age_ == 0) return frame->is_base_acknowledged;
+  return (frame->is_acknowledged || fixed_age_ != 0 ||
           (policy_ != References::kAcknowledged && frame->is_chained));
 }
 
@@ -110,7 +120,7 @@ LatticeEncoder::Reference LatticeEncoder::choose_reference(std::uint32_t sequenc
   if (wants_key_ || !has_last_) return {};
   const std::uint32_t newest = fixed_age_ != 0 ? fixed_age_ : sequence - last_sequence_;
   if (newest > FrameRing::kOldest) return {};
-  if (fixed_age_ != 0 || policy_ != References::kAcknowledged)
+  if (fixed_age_ != 0 || (policy_ != References::kAcknowledged && !is_base_))
     return reference_of_age(sequence, newest);
   // Frames in a row tell how things move: they are worth being some frames older.
   Reference best;
@@ -185,6 +195,12 @@ std::size_t LatticeEncoder::write(const Pose& pose, const Reference& reference,
 }
 
 std::size_t LatticeEncoder::encode(const Pose& pose, std::span<std::uint8_t> payload) {
+  const std::size_t size = encode_frame(pose, payload);
+  is_base_ = false;
+  return size;
+}
+
+std::size_t LatticeEncoder::encode_frame(const Pose& pose, std::span<std::uint8_t> payload) {
   if (!is_valid(pose)) return 0;
   if (has_last_ && pose.sequence - last_sequence_ > INT32_MAX) restart();
   if (has_last_ && pose.sequence == last_sequence_) return 0;
@@ -199,7 +215,7 @@ std::size_t LatticeEncoder::encode(const Pose& pose, std::span<std::uint8_t> pay
   if (!quantise(truth, still, reference)) return 0;
 
   // The frame before goes along where its bytes are at hand and this one refers to it.
-  const bool is_twice = policy_ == References::kPreviousTwice && reference.run > 0 &&
+  const bool is_twice = !is_base_ && policy_ == References::kPreviousTwice && reference.run > 0 &&
                         last_size_ > 0 && reference.frames[0]->sequence == last_sequence_;
   const std::size_t lead = is_twice ? kTwiceHeadBytes + last_size_ : 0;
   if (lead >= payload.size()) return 0;
@@ -222,7 +238,8 @@ std::size_t LatticeEncoder::encode(const Pose& pose, std::span<std::uint8_t> pay
               last_payload_.begin());
 
   // A frame that needs no other begins a chain: who has it has what comes after.
-  if (reference.run == 0) ring_.break_chain();
+  is_still_ = reference.run == 0;
+  if (is_still_) ring_.break_chain();
   CodedFrame& frame = ring_.make(pose.sequence);
   frame.is_chained = true;
   frame.level = static_cast<std::uint8_t>(used_level_);

@@ -33,6 +33,7 @@ void put_extras(const PoseExtras& extras, Pose& pose);
 struct CodedFrame {
   bool in_use = false;
   bool is_acknowledged = false;
+  bool is_base_acknowledged = false;
   bool is_chained = false;  // who had the last key frame, and all since, has this one
   std::uint32_t sequence = 0;
   std::uint8_t level = 3;
@@ -54,7 +55,7 @@ class FrameRing {
   CodedFrame& make(std::uint32_t sequence) {
     CodedFrame& frame = frames_[sequence % kFrames];
     frame.in_use = true;
-    frame.is_acknowledged = frame.is_chained = false;
+    frame.is_acknowledged = frame.is_base_acknowledged = frame.is_chained = false;
     frame.sequence = sequence;
     return frame;
   }
@@ -65,7 +66,7 @@ class FrameRing {
     for (CodedFrame& frame : frames_) frame.is_chained = false;
   }
   void forget_acknowledged() {
-    for (CodedFrame& frame : frames_) frame.is_acknowledged = false;
+    for (CodedFrame& frame : frames_) frame.is_acknowledged = frame.is_base_acknowledged = false;
   }
 
  private:

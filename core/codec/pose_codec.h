@@ -68,6 +68,15 @@ class PoseEncoder {
   // Somebody has nothing to refer to: the next frame needs no other, and what was acknowledged
   // before counts no more.
   virtual void key_frame_wanted() {}
+  // The next frame needs no other; what was acknowledged counts on.
+  virtual void still_wanted() {}
+  // The next frame is for those too who get only some frames: it refers to nothing but what
+  // base_acknowledged() told.
+  virtual void base_wanted() {}
+  // Every receiver, and those who get only some frames, have decoded the frame of this sequence.
+  virtual void base_acknowledged(std::uint32_t /*sequence*/) {}
+  // Whether the frame that was encoded last needs no other. Not so for codecs that refer.
+  virtual bool needs_no_other() const { return true; }
   // A new stream begins: sequences start anew.
   virtual void restart() {}
   virtual void set_references(References) {}

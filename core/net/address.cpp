@@ -154,6 +154,13 @@ bool Address::is_loopback() const {
   return family_ == Family::kIpv6 && ip_ == one;
 }
 
+std::uint64_t Address::network() const {
+  const std::size_t size = family_ == Family::kIpv4 ? 4 : 8;
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) value = value << 8 | ip_[i];
+  return value;
+}
+
 std::string Address::to_string() const {
   std::array<char, INET6_ADDRSTRLEN> text{};
   if (family_ == Family::kNone) return "nobody";

@@ -41,6 +41,11 @@ class Address {
   Address with_port(std::uint16_t port) const;
   bool is_set() const { return family_ != Family::kNone; }
   bool is_loopback() const;
+  // As they stand in a datagram's header, an IPv4 address in the first four.
+  const std::array<std::uint8_t, 16>& ip() const { return ip_; }
+  // What one household is given by its provider, as a number: an IPv4 address, or the upper half of
+  // an IPv6 address.
+  std::uint64_t network() const;
   std::string to_string() const;
   bool operator==(const Address&) const = default;
 

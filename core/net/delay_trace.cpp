@@ -1,22 +1,18 @@
 #include "core/net/delay_trace.h"
 
-#include <lzma.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "core/base/assert.h"
+#include "core/net/trace_file.h"
 
 namespace dance {
 namespace {
 
 constexpr std::size_t kMostPoints = 2'000'000;
-constexpr std::size_t kMostBytes = 64u << 20;
 constexpr std::size_t kMostColumns = 16;
 constexpr double kLongestDelay_ms = 60'000.0;
 constexpr double kLongestTime_s = 1e6;
@@ -71,11 +67,6 @@ Result<Columns> read_header(std::string_view line) {
   return columns;
 }
 
-tl::unexpected<Error> broken(std::size_t line, const char* what, std::string_view text) {
-  return fail("line " + std::to_string(line) + ": " + what + " '" +
-              std::string(text.substr(0, 40)) + "'");
-}
-
 // One row's point; its time still counts from the begin of its run.
 Result<DelayTrace::Point> read_row(const Columns& columns, const Cells& cells, std::size_t count,
                                    std::size_t line) {
@@ -86,7 +77,7 @@ Result<DelayTrace::Point> read_row(const Columns& columns, const Cells& cells, s
   DelayTrace::Point point;
   const auto time = number(cell(columns.time));
   if (!time || *time < 0.0 || *time * columns.time_to_s > kLongestTime_s)
-    return broken(line, "not a time:", cell(columns.time));
+    return broken_trace_line(line, "not a time:", cell(columns.time));
   point.at = Duration::seconds(*time * columns.time_to_s);
   const std::string_view delay_text = cell(columns.delay);
   if (delay_text.empty()) {
@@ -94,43 +85,22 @@ Result<DelayTrace::Point> read_row(const Columns& columns, const Cells& cells, s
   } else {
     const auto delay = number(delay_text);
     if (!delay || *delay < 0.0 || *delay > kLongestDelay_ms)
-      return broken(line, "not a delay in ms:", delay_text);
+      return broken_trace_line(line, "not a delay in ms:", delay_text);
     point.delay = Duration::seconds(*delay * columns.delay_to_one_way * 1e-3);
   }
   if (columns.loss >= 0 && !cell(columns.loss).empty()) {
     const auto loss = number(cell(columns.loss));
     if (!loss || *loss < 0.0 || *loss > 1.0)
-      return broken(line, "not a loss of 0 to 1:", cell(columns.loss));
+      return broken_trace_line(line, "not a loss of 0 to 1:", cell(columns.loss));
     point.loss = std::max(point.loss, static_cast<float>(*loss));
   }
   return point;
 }
 
-Result<std::string> unpack_xz(const std::string& packed) {
-  lzma_stream stream = LZMA_STREAM_INIT;
-  if (lzma_stream_decoder(&stream, 256u << 20, LZMA_CONCATENATED) != LZMA_OK)
-    return fail("no memory to unpack it");
-  stream.next_in = reinterpret_cast<const std::uint8_t*>(packed.data());
-  stream.avail_in = packed.size();
-  std::string text;
-  std::array<std::uint8_t, 65536> piece;
-  lzma_ret state = LZMA_OK;
-  while (state == LZMA_OK && text.size() <= kMostBytes) {
-    stream.next_out = piece.data();
-    stream.avail_out = piece.size();
-    state = lzma_code(&stream, LZMA_FINISH);
-    text.append(reinterpret_cast<const char*>(piece.data()), piece.size() - stream.avail_out);
-  }
-  lzma_end(&stream);
-  if (text.size() > kMostBytes) return fail("it unpacks to more than 64 MB");
-  if (state != LZMA_STREAM_END) return fail("it is not a whole xz file: get it again");
-  return text;
-}
-
 }  // namespace
 
 Result<DelayTrace> DelayTrace::parse(std::string_view csv) {
-  if (csv.size() > kMostBytes) return fail("a trace has at most 64 MB");
+  if (csv.size() > kMostTraceBytes) return fail("a trace has at most 64 MB");
   DelayTrace trace;
   std::optional<Columns> columns;
   Cells cells;
@@ -158,7 +128,7 @@ Result<DelayTrace> DelayTrace::parse(std::string_view csv) {
     point.at += run_begin;
     if (!trace.points_.empty()) {
       const Duration step = point.at - trace.points_.back().at;
-      if (step < Duration()) return broken(line, "time goes backwards:", row);
+      if (step < Duration()) return broken_trace_line(line, "time goes backwards:", row);
       if (step > Duration()) gap = step;
     }
     if (trace.points_.size() == kMostPoints) return fail("a trace has at most 2,000,000 rows");
@@ -167,22 +137,6 @@ Result<DelayTrace> DelayTrace::parse(std::string_view csv) {
   if (trace.points_.empty()) return fail("the trace has no rows");
   if (gap == Duration()) gap = Duration::ms(10);
   trace.length_ = trace.points_.back().at + gap;
-  return trace;
-}
-
-Result<DelayTrace> DelayTrace::load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fail("trace '" + path + "' cannot be read: check the path");
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  std::string text = std::move(bytes).str();
-  if (path.ends_with(".xz")) {
-    auto unpacked = unpack_xz(text);
-    if (!unpacked) return fail("trace '" + path + "': " + unpacked.error().what);
-    text = std::move(*unpacked);
-  }
-  auto trace = parse(text);
-  if (!trace) return fail("trace '" + path + "', " + trace.error().what);
   return trace;
 }
 

@@ -4,10 +4,9 @@
 // Units/frames: times from the trace's begin; delays are one-way (half of a measured round trip).
 // Ownership:    owns its points.
 // Threads:      none inside; read-only once made.
-// Failure:      parse() names the line and what is wrong with it; load() also the file.
+// Failure:      parse() names the line and what is wrong with it.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,8 +26,6 @@ class DelayTrace {
   // CSV with a header. Time: t_ms or t_s. Delay: owd_var_ms (one way, above the floor) or rtt_ms
   // (empty = lost). Optional: loss (0..1) and run (runs are played one after the other).
   static Result<DelayTrace> parse(std::string_view csv);
-  // A .csv or .csv.xz file.
-  static Result<DelayTrace> load(const std::string& path);
 
   const Point& at(Duration since_begin) const;
   Duration length() const { return length_; }

@@ -2,7 +2,7 @@
 // when and how often to deliver; who carries the bytes is somebody else's matter.
 //
 // Units/frames: one direction of the line; now is the caller's clock and must not go back.
-// Ownership:    may share a trace, which must outlive it.
+// Ownership:    shares its traces.
 // Threads:      none inside; one owner.
 // Failure:      none; counters() tells every datagram's end.
 // Source:       bursts by the two-state model of Gilbert (1960) and Elliott (1963).
@@ -10,12 +10,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/base/random.h"
 #include "core/base/time.h"
-#include "core/net/delay_trace.h"
-#include "core/net/lossy_spec.h"
+#include "core/net/capacity_queue.h"
+#include "core/net/lossy_line.h"
 
 namespace dance {
 
@@ -24,8 +25,8 @@ class LossyModel {
   struct Counters {
     std::uint64_t offered = 0;
     std::uint64_t forwarded = 0;      // of those offered: delivered once or twice
-    std::uint64_t lost = 0;           // by loss= or the trace
-    std::uint64_t queue_dropped = 0;  // the rate's queue was full
+    std::uint64_t lost = 0;           // by loss= or a trace
+    std::uint64_t queue_dropped = 0;  // by queue=: would have waited too long
     std::uint64_t duplicated = 0;
     std::uint64_t reordered = 0;
   };
@@ -41,18 +42,22 @@ class LossyModel {
     std::size_t count_ = 0;
   };
 
-  // `trace` (or nullptr) adds its delays and losses to the spec's. `stream` makes two directions of
-  // one line differ under the same seed.
-  LossyModel(const LossySpec& spec, const DelayTrace* trace, std::uint64_t stream);
+  // `stream` makes two directions of one line differ under the same seed.
+  LossyModel(LossyWay way, std::uint64_t stream);
+
+  // When the traces begin; else with the first datagram.
+  void begin(MonoTime now) { begin_ = now; }
 
   Fate offer(std::size_t bytes, MonoTime now);
   const Counters& counters() const { return counters_; }
 
  private:
-  bool loses();
+  bool loses(MonoTime now);
+  // When it has passed rate and capacity; nothing where the queue was too long.
+  std::optional<MonoTime> leaves(std::size_t bytes, MonoTime now);
 
-  LossySpec spec_;
-  const DelayTrace* trace_;
+  LossyWay way_;
+  std::optional<CapacityQueue> capacity_;
   Random random_;
   double good_to_bad_ = 0.0;
   double bad_to_good_ = 1.0;

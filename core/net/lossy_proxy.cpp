@@ -14,20 +14,17 @@ constexpr std::size_t kNoClient = SIZE_MAX;
 }  // namespace
 
 Result<std::unique_ptr<LossyProxy>> LossyProxy::open(const Address& listen, const Address& target,
-                                                     const LossySpec& spec, const DelayTrace* trace,
-                                                     Poller& poller) {
+                                                     LossyLine line, Poller& poller) {
   DANCE_TRY(UdpSocket socket, UdpSocket::bind(listen));
   return std::unique_ptr<LossyProxy>(
-      new LossyProxy(std::move(socket), target, spec, trace, poller));
+      new LossyProxy(std::move(socket), target, std::move(line), poller));
 }
 
-LossyProxy::LossyProxy(UdpSocket listen, const Address& target, const LossySpec& spec,
-                       const DelayTrace* trace, Poller& poller)
+LossyProxy::LossyProxy(UdpSocket listen, const Address& target, LossyLine line, Poller& poller)
     : poller_(poller),
       listen_(std::move(listen)),
       target_(target),
-      spec_(spec),
-      trace_(trace),
+      line_(std::move(line)),
       store_(kStoreParcels) {
   free_.reserve(kStoreParcels);
   heap_.reserve(kStoreParcels);
@@ -42,7 +39,7 @@ LossyProxy::~LossyProxy() {
   for (const auto& client : clients_) poller_.unwatch(client->upstream.fd());
 }
 
-std::size_t LossyProxy::find_or_add(const Address& from) {
+std::size_t LossyProxy::find_or_add(const Address& from, MonoTime came) {
   for (std::size_t i = 0; i < clients_.size(); ++i)
     if (clients_[i]->address == from) return i;
   if (clients_.size() == kMostClients) {
@@ -55,9 +52,12 @@ std::size_t LossyProxy::find_or_add(const Address& from) {
     return kNoClient;
   }
   const std::size_t index = clients_.size();
-  clients_.push_back(std::make_unique<Client>(Client{from, std::move(*upstream),
-                                                     LossyModel(spec_, trace_, 2 * index),
-                                                     LossyModel(spec_, trace_, 2 * index + 1)}));
+  clients_.push_back(
+      std::make_unique<Client>(Client{from, std::move(*upstream), LossyModel(line_.up, 2 * index),
+                                      LossyModel(line_.down, 2 * index + 1)}));
+  if (!begin_.is_set()) begin_ = came;
+  clients_.back()->up.begin(begin_);
+  clients_.back()->down.begin(begin_);
   poller_.watch(clients_.back()->upstream.fd(),
                 [this, index](MonoTime now) { on_target_side(index, now); });
   return index;
@@ -67,7 +67,7 @@ void LossyProxy::on_client_side(MonoTime now) {
   for (int i = 0; i < kBatchesPerTurn; ++i) {
     const auto batch = listen_.receive();
     for (const UdpSocket::Datagram& datagram : batch) {
-      const std::size_t client = find_or_add(datagram.from);
+      const std::size_t client = find_or_add(datagram.from, now);
       if (client != kNoClient) carry(client, Direction::kUp, datagram.bytes, now);
     }
     if (batch.size() < UdpSocket::kBatch) break;
@@ -90,6 +90,7 @@ bool LossyProxy::is_later(std::size_t a, std::size_t b) const {
 
 void LossyProxy::carry(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes,
                        MonoTime now) {
+  if (tap_) tap_(direction, bytes);
   LossyModel& line = direction == Direction::kUp ? clients_[client]->up : clients_[client]->down;
   const LossyModel::Fate fate = line.offer(bytes.size(), now);
   for (const MonoTime due : fate.deliveries()) {

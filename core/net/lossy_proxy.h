@@ -2,9 +2,9 @@
 // what the line does to it. Each client has a line and a socket of its own, so the target sees them
 // as different peers.
 //
-// Units/frames: the spec and the trace hold for each direction by itself.
-// Ownership:    owns its sockets and a bounded store of datagrams under way; the poller and the
-//               trace must outlive it. Allocates when a client comes, not for datagrams.
+// Units/frames: up is from a client to the target; traces begin when the first client comes.
+// Ownership:    owns its sockets and a bounded store of datagrams under way; the poller must outlive
+//               it. Allocates when a client comes, not for datagrams.
 // Threads:      the poller's.
 // Failure:      open() names what cannot be had; a full store drops and counts.
 #pragma once
@@ -30,16 +30,21 @@ class LossyProxy {
   };
 
   static Result<std::unique_ptr<LossyProxy>> open(const Address& listen, const Address& target,
-                                                  const LossySpec& spec, const DelayTrace* trace,
-                                                  Poller& poller);
+                                                  LossyLine line, Poller& poller);
   ~LossyProxy();
   LossyProxy(const LossyProxy&) = delete;
   LossyProxy& operator=(const LossyProxy&) = delete;
+
+  // Sees all that comes in, before the line does anything to it.
+  using Tap = std::function<void(Direction, std::span<const std::uint8_t>)>;
+  void set_tap(Tap tap) { tap_ = std::move(tap); }
 
   Address local_address() const { return listen_.local_address(); }
   std::size_t client_count() const { return clients_.size(); }
   Totals totals(Direction direction) const;
   std::uint64_t refused_clients() const { return refused_clients_; }
+  // When the traces began: with the first client, and for all of them, as on a line that they share.
+  MonoTime begin() const { return begin_; }
 
  private:
   struct Client {
@@ -57,11 +62,10 @@ class LossyProxy {
     std::array<std::uint8_t, UdpSocket::kMaxDatagramBytes> bytes;
   };
 
-  LossyProxy(UdpSocket listen, const Address& target, const LossySpec& spec,
-             const DelayTrace* trace, Poller& poller);
+  LossyProxy(UdpSocket listen, const Address& target, LossyLine line, Poller& poller);
   void on_client_side(MonoTime now);
   void on_target_side(std::size_t client, MonoTime now);
-  std::size_t find_or_add(const Address& from);
+  std::size_t find_or_add(const Address& from, MonoTime came);
   void carry(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes,
              MonoTime now);
   void deliver(std::size_t client, Direction direction, std::span<const std::uint8_t> bytes);
@@ -69,10 +73,11 @@ class LossyProxy {
   bool is_later(std::size_t a, std::size_t b) const;
 
   Poller& poller_;
+  Tap tap_;
   UdpSocket listen_;
   Address target_;
-  LossySpec spec_;
-  const DelayTrace* trace_;
+  LossyLine line_;
+  MonoTime begin_;
   Poller::TimerId timer_;
   std::vector<std::unique_ptr<Client>> clients_;
   std::vector<Parcel> store_;

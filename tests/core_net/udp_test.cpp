@@ -111,7 +111,7 @@ TEST(LossyProxy, CarriesBothWaysAndCountsWhatItLoses) {
   ASSERT_TRUE(target);
   auto proxy =
       LossyProxy::open(Address::loopback(0), target->local_address(),
-                       *LossySpec::parse("loss=30% seed=2 dup=10% delay=1ms"), nullptr, **poller);
+                       *load_line({.link = "loss=30% seed=2 dup=10% delay=1ms"}), **poller);
   ASSERT_TRUE(proxy);
   auto client = UdpSocket::connect((*proxy)->local_address());
   ASSERT_TRUE(client);
@@ -145,6 +145,29 @@ TEST(LossyProxy, CarriesBothWaysAndCountsWhatItLoses) {
   EXPECT_TRUE(done());
   EXPECT_EQ((*proxy)->client_count(), 1u);
   EXPECT_NEAR(static_cast<double>((*proxy)->totals(Direction::kUp).line.lost), 120.0, 40.0);
+}
+
+// Traces are of the line, not of whoever comes to it.
+TEST(LossyProxy, BeginsItsTracesWithTheFirstClientAndNotAnewWithOthers) {
+  auto poller = Poller::create();
+  ASSERT_TRUE(poller);
+  auto target = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(target);
+  auto proxy = LossyProxy::open(Address::loopback(0), target->local_address(), {}, **poller);
+  ASSERT_TRUE(proxy);
+  EXPECT_FALSE((*proxy)->begin().is_set());
+  MonoTime begin;
+  for (std::size_t clients = 1; clients <= 3; ++clients) {
+    auto client = UdpSocket::connect((*proxy)->local_address());
+    ASSERT_TRUE(client);
+    client->send_now({}, bytes(50, 1));
+    for (int i = 0; i < 10'000 && (*proxy)->client_count() < clients; ++i)
+      (*poller)->run_once(Duration::ms(1));
+    ASSERT_EQ((*proxy)->client_count(), clients);
+    if (clients == 1) begin = (*proxy)->begin();
+    EXPECT_TRUE(begin.is_set());
+    EXPECT_EQ((*proxy)->begin(), begin);
+  }
 }
 
 }  // namespace

@@ -152,7 +152,12 @@ TEST(Demo, KeepsThirtyDancersWholeAndInStep) {
 TEST(Demo, AccountsForEveryPoseOfABadLine) {
   const TestFolder folder("line");
   const std::string out = folder.path();
-  const auto summary = run_demo("--seconds 4 --link 'delay=40ms jitter=5ms loss=5% seed=3'", out);
+  const std::string trace = folder.path("capacity");
+  std::ofstream capacity(trace);
+  for (int ms = 0; ms < 1000; ms += 2) capacity << ms << '\n';
+  capacity << "1100\n" << std::flush;
+  const auto summary = run_demo(
+      "--seconds 4 --link 'delay=40ms jitter=5ms loss=5% seed=3' --trace-up " + trace, out);
   ASSERT_EQ(summary["guests"].size(), 2u);
   for (const auto& guest : summary["guests"]) {
     std::int64_t lost = 0;
@@ -162,6 +167,15 @@ TEST(Demo, AccountsForEveryPoseOfABadLine) {
     EXPECT_GT(lost, 0) << guest;
     EXPECT_GT(guest["age_p50_ms"].get<double>(), 40.0) << guest;
   }
+}
+
+TEST(Demo, NamesATraceThatIsNotThereBeforeAnythingStarts) {
+  const TestFolder folder("no-trace");
+  const Finished demo = dance::run(bin("dance-demo") + " --headless --out " + folder.path() +
+                                   " --trace-down /no/such.trace");
+  EXPECT_EQ(demo.exit_code, 1);
+  EXPECT_NE(demo.talk.find("'/no/such.trace' cannot be read"), std::string::npos) << demo.talk;
+  EXPECT_FALSE(fs::exists(folder.path("demo.lcm")));
 }
 
 TEST(Demo, GoesOnWhenAnyOfItsProgramsIsKilledAndItComesBack) {

@@ -134,6 +134,7 @@ struct Danced {
 Danced dance_over(Hold& hold, int poses, const std::function<double(int)>& transit_ms) {
   double next_sample_ms = 0.0, last_arrival_ms = 0.0;
   std::uint64_t samples = 0, starved_before = 0;
+  MonoTime shown;
   Danced danced;
   for (int i = 0; i < poses; ++i) {
     const double way_ms = transit_ms(i);
@@ -145,7 +146,10 @@ Danced dance_over(Hold& hold, int poses, const std::function<double(int)>& trans
       Pose out;
       const bool is_late_half = i > poses / 2;
       if (!is_late_half) starved_before = hold.counters().starved;
-      if (!hold.sample(at_ms(next_sample_ms), out) || !is_late_half) continue;
+      const bool is_shown = hold.sample(at_ms(next_sample_ms), out);
+      EXPECT_TRUE(!is_shown || out.capture_time >= shown) << "the dance goes back at pose " << i;
+      shown = out.capture_time;
+      if (!is_shown || !is_late_half) continue;
       ++samples;
       danced.age_ms +=
           next_sample_ms - static_cast<double>(out.capture_time.since_zero_ns()) * 1e-6;
@@ -193,6 +197,17 @@ TEST(Hold, WithoutAWindowNeverWaitsLongerThanItsBound) {
       hold, 3600, [&](int i) { return i % 256 < 128 ? 40.0 : 40.0 + 900.0 * random.uniform(); });
   EXPECT_LT(danced.age_ms, 40.0 + 900.0);
   EXPECT_LE(hold.delay(), Duration::ms(40 + 250 + 1));
+}
+
+TEST(Hold, StandsStillInsteadOfGoingBackWhenTheWayGetsMuchLonger) {
+  for (const auto window : {std::optional<Duration>(), std::optional(Duration::ms(60))}) {
+    Hold hold(window);
+    // Known as the least delay some seconds later, and then more than it slews to.
+    const Danced danced = dance_over(hold, 3600, [](int i) { return i < 600 ? 40.0 : 900.0; });
+    EXPECT_GT(danced.age_ms, 900.0);
+    EXPECT_LT(danced.age_ms, 900.0 + 61.0);
+    EXPECT_EQ(danced.starved, 0.0);
+  }
 }
 
 TEST(Hold, AllocatesNothingOncePosesCome) {

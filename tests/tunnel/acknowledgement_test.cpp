@@ -202,6 +202,22 @@ TEST_F(Policy, ChoosesByLossAndRoundTrip) {
   EXPECT_EQ(in(Duration::s(2), 0.0005, kShort), References::kPrevious);
 }
 
+TEST_F(Policy, TurnsToWhatReceiversHaveWhileTheyTellOfNothing) {
+  in({}, 0.0002, kShort);
+  ASSERT_EQ(policy.current(), References::kPrevious);
+  const auto after = [&](int silence_ms, int frame_ms) {
+    return policy.while_silent_for(Duration::ms(silence_ms), Duration::ms(frame_ms));
+  };
+  EXPECT_EQ(after(17, 16), References::kPrevious);
+  EXPECT_EQ(after(80, 16), References::kPrevious);
+  EXPECT_EQ(after(81, 16), References::kAcknowledged);
+  EXPECT_EQ(after(130, 33), References::kPrevious) << "a slow dancer is told of seldom";
+  EXPECT_EQ(after(133, 33), References::kAcknowledged);
+  EXPECT_EQ(after(1999, 16), References::kAcknowledged);
+  EXPECT_EQ(after(2000, 16), References::kPrevious) << "nobody will come back with these";
+  EXPECT_EQ(policy.current(), References::kPrevious) << "the choice itself stands";
+}
+
 // Who misses what a frame refers to has it healed a round trip after the next that arrives. Losses of
 // Gilbert's two states: by themselves, or several in a row.
 TEST_F(Policy, OfWhatArrivesNearlyAllDecodesWhateverTheLine) {

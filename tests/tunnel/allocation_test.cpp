@@ -40,6 +40,7 @@ class FixedSink final : public DatagramSink, public PeerSink {
 TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
   FixedSink to_server_a;
   FixedSink to_server_b;
+  FixedSink to_server_c;
   FixedSink from_server;
   const Access access{.any_name = true};
   Random random(1);
@@ -47,6 +48,7 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
       {}, [&] { return random.next_u64(); }, from_server);
   std::uint64_t poses = 0;
   std::uint64_t hands_heard = 0;
+  std::uint64_t poses_of_few = 0;
   LinkOptions options;
   options.room = guest("salsa");
   options.clock_id = 9;
@@ -66,22 +68,36 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
     ++messages;
   };
   LinkCore b(options, handlers, to_server_b);
+  // One that only listens, and wants each fourth.
+  options.token = 3;
+  options.seed = 3;
+  options.guests.clear();
+  options.listen_only = true;
+  options.interest.others = 4;
+  handlers = {};
+  handlers.on_pose = [&](const GuestId&, const Pose&, MonoTime) { ++poses_of_few; };
+  LinkCore c(options, handlers, to_server_c);
 
   MonoTime now = MonoTime::from_us(1'000'000);
   const auto turn = [&] {
     now += Duration::ms(16);
     a.tick(now);
     b.tick(now);
+    c.tick(now);
     to_server_a.hand_on([&](PeerId, wire::Bytes d) { server.receive(1, access, d, now, now); });
     to_server_b.hand_on([&](PeerId, wire::Bytes d) { server.receive(2, access, d, now, now); });
+    to_server_c.hand_on([&](PeerId, wire::Bytes d) { server.receive(3, access, d, now, now); });
     server.end_turn(now);
     server.tick(now);
-    from_server.hand_on([&](PeerId to, wire::Bytes d) { (to == 1 ? a : b).receive(d, now, now); });
+    from_server.hand_on([&](PeerId to, wire::Bytes d) {
+      (to == 1 ? a : to == 2 ? b : c).receive(d, now, now);
+    });
   };
   a.on_sealed(now);
   b.on_sealed(now);
+  c.on_sealed(now);
   for (int i = 0; i < 20; ++i) turn();
-  ASSERT_TRUE(a.is_connected() && b.is_connected());
+  ASSERT_TRUE(a.is_connected() && b.is_connected() && c.is_connected());
 
   const Pose still = pose_number(0, now, 9);
   Hands hands;
@@ -108,6 +124,7 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
   EXPECT_EQ(poses, 1000u);
   EXPECT_EQ(hands_heard, 1000u);
   EXPECT_GT(messages, 1000u);
+  EXPECT_NEAR(static_cast<double>(poses_of_few), 250.0, 3.0);
 }
 
 }  // namespace

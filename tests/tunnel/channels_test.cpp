@@ -252,6 +252,27 @@ TEST_F(Channels, AndAtTheHearer) {
   EXPECT_GT(b.link->counters().channels_limited, 300u);
 }
 
+// Nobody knows which messages the others can do without: all come, or none.
+TEST_F(Channels, AreNotThinnedForWhoWantsFewPosesAndLeftOutForWhoWantsNone) {
+  House& a = add_house("alice", {kArm, kDesk});
+  House& all = add_house("bob", {kArm, kDesk});
+  tunnel.link_options.interest.others = 64;
+  House& few = add_house("carol", {kArm, kDesk});
+  tunnel.link_options.interest.others = 0;
+  House& none = add_house("dora", {kArm, kDesk});
+  send(a, "LIGHT/desk", arm(1, 9));
+  for (int i = 0; i < 60; ++i) {
+    send(a, "ROBOT/arm", arm(2));
+    tunnel.dance(a, guest("alice"));
+    tunnel.run(Duration::ms(20));
+  }
+  EXPECT_EQ(heard(all, "ROBOT/arm"), 60u);
+  EXPECT_EQ(heard(few, "ROBOT/arm"), 60u);
+  EXPECT_LT(few.heard_of(guest("alice")), 10u);
+  EXPECT_EQ(heard(none, "ROBOT/arm"), 0u);
+  EXPECT_EQ(last(none, "LIGHT/desk"), arm(1, 9)) << "a state: not of the dance";
+}
+
 // Who does not keep to its rules: the server stops what is too much, and poses go on.
 TEST_F(Channels, AFloodPastTheLinkIsStoppedAtTheServerAndPosesPass) {
   House& a = add_house("alice", {});

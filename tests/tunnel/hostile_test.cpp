@@ -17,7 +17,8 @@ struct Captured {
 // A dancing pair with hands, skeletons, a late joiner and a goodbye: every kind of datagram passes.
 class Hostile : public ::testing::Test {
  protected:
-  Hostile() {
+  Hostile() { play(); }
+  void play() {
     tunnel.on_datagram = [this](bool to_server, PeerId peer, wire::Bytes bytes) {
       const auto opening = wire::parse_opening(bytes);
       // Records are one kind, acknowledgements and feedback alone another.
@@ -32,6 +33,11 @@ class Hostile : public ::testing::Test {
     tunnel.run(Duration::ms(100));
     a->link->send(guest("alice"), average_skeleton(1.6f), tunnel.time_in(*a));
     dance(Duration::ms(300));
+    Interest interest;
+    ASSERT_TRUE(interest.guests.try_push({guest("bob"), 3}));
+    a->link->set_interest(interest, tunnel.time_in(*a));
+    dance(Duration::ms(100));
+    a->link->set_interest({}, tunnel.time_in(*a));
     auto& c = tunnel.add_house("salsa", {"bob"});  // refused
     dance(Duration::ms(100));
     c.is_running = false;
@@ -81,6 +87,12 @@ class Hostile : public ::testing::Test {
   }
 
   void expect_the_dance_goes_on() {
+    // What damage made of it, a says anew.
+    Interest other;
+    other.others = 2;
+    a->link->set_interest(other, tunnel.time_in(*a));
+    dance(Duration::ms(500));
+    a->link->set_interest({}, tunnel.time_in(*a));
     dance(Duration::s(3));
     const auto before_a = a->heard_of(guest("bob"));
     const auto before_b = b->heard_of(guest("alice"));
@@ -98,9 +110,9 @@ class Hostile : public ::testing::Test {
 };
 
 TEST_F(Hostile, EveryKindOfDatagramWasSeen) {
-  for (const int type : {1, 16, 18, 20, 21, 22})
+  for (const int type : {1, 16, 18, 20, 21, 22, 23})
     EXPECT_TRUE(captured.contains({true, type})) << type;
-  for (const int type : {2, 3, 17, 18, 118, 19, 20, 21})
+  for (const int type : {2, 3, 17, 18, 118, 19, 20, 21, 24})
     EXPECT_TRUE(captured.contains({false, type})) << type;
 }
 

@@ -33,14 +33,20 @@ Bytes light_message() {
   return {1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 0, 1, 63, 128, 0, 0, 0, 0, 0, 3, 'a', 'b', 0};
 }
 
-bool has_channel_record(wire::Bytes datagram) {
-  ByteReader in(wire::parse_opening(datagram)->body);
-  if (!wire::parse_records_header(in)) return false;
+// Records of channels, and those with more in their heads, are kinds of their own.
+std::string more_of(wire::Bytes datagram) {
+  const auto opening = wire::parse_opening(datagram);
+  if (opening->type != wire::Type::kRecords) return "";
+  ByteReader in(opening->body);
+  if (!wire::parse_records_header(in)) return "";
   while (in.remaining() > 0) {
     const auto record = wire::parse_record(0, in);
-    if (!record || record->kind == wire::RecordKind::kChannel) return record.has_value();
+    if (record->kind == wire::RecordKind::kChannel) return "_channel";
+    if (record->is_kept) return "_kept";
+    if (record->counts_left_out) return "_left_out";
+    if (record->is_base) return "_base";
   }
-  return false;
+  return "";
 }
 
 void write_tunnel(const std::filesystem::path& root) {
@@ -57,10 +63,9 @@ void write_tunnel(const std::filesystem::path& root) {
     // One of each kind of state that comes first in its datagram.
     const std::string kind =
         type == wire::Type::kState ? "_kind_" + std::to_string(bytes[1] & 15) : "";
-    const bool has_channel = type == wire::Type::kRecords && has_channel_record(bytes);
     const std::string name = std::string(to_server ? "server_datagram/" : "link_datagram/") +
                              "type_" + std::to_string(static_cast<int>(type)) +
-                             (is_bare ? "_bare" : "") + (has_channel ? "_channel" : "") + kind;
+                             (is_bare ? "_bare" : "") + more_of(bytes) + kind;
     if (!seeds.contains(name)) {
       append_step(seeds[name], how, datagram);
       append_step(all[to_server], how, datagram);
@@ -86,6 +91,13 @@ void write_tunnel(const std::filesystem::path& root) {
       house->link->send_channel("ROBOT/arm", light_message(), tunnel.time_in(*house));
     }
     tunnel.run(Duration::ms(100));
+  }
+  Interest interest;
+  if (interest.guests.try_push({guest("bob"), 2}))
+    scene.a->link->set_interest(interest, tunnel.time_in(*scene.a));
+  for (int i = 0; i < 4; ++i) {
+    tunnel.run(Duration::ms(30));
+    tunnel.dance(*scene.b, guest("bob"));
   }
   tunnel.add_house("salsa", {"carol"});
   tunnel.add_house("salsa", {"bob"});

@@ -76,6 +76,48 @@ TEST(WireRecords, FeedbackLooksAsItIsDocumented) {
   EXPECT_EQ(written(header, {}), expected);
 }
 
+TEST(WireRecords, WhatIsForReceiversOfLessLooksAsItIsDocumented) {
+  RecordsHeader header;
+  header.has_feedback = header.has_records = true;
+  header.base_ticks = kBaseTicks;
+  GuestFeedback about{5, 6, 7, true, 0x0102, 0x0304};
+  about.base_log2 = 2;
+  about.still_log2 = 5;
+  about.has_base_held = true;
+  about.newest_base_held = 0x0506;
+  about.base_held_before = 0x0708;
+  ASSERT_TRUE(header.feedback.guests.try_push(about));
+  Record told = example();
+  told.is_kept = told.counts_left_out = true;
+  told.left_out = 0x0a0b;
+  Record sent = example();
+  sent.is_base = sent.needs_no_other = true;
+  const Written bytes = written(header, {{told, true}, {sent, true}});
+  const Written expected{
+      18,   0,    0,    24,   0,    0,    0,    0,    0,    0, 1,  // feedback and records
+      0xc5, 6,    7,    0x02, 0x01, 0x04, 0x03,                    // held,
+      0x5a, 0x06, 0x05, 0x08, 0x07,                                // spacings, base held
+      0x9a, 0x78, 0x56,                                            // base
+      0x03, 0x43, 0xc0, 0x0b, 0x0a, 0x72, 0xfe, 0x03, 0x02, 7, 8,
+      9,    0x03, 0x43, 0x30, 0x72, 0xfe, 0x03, 0x02, 7,    8, 9};
+  EXPECT_EQ(bytes, expected);
+  ByteReader in(parse_opening(bytes)->body);
+  const auto back = parse_records_header(in);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->feedback.guests[0], about);
+  const auto first = parse_record(0, in), second = parse_record(0, in);
+  ASSERT_TRUE(first && second);
+  EXPECT_TRUE(first->is_kept && first->counts_left_out);
+  EXPECT_EQ(first->left_out, told.left_out);
+  EXPECT_TRUE(second->is_base && second->needs_no_other && !second->counts_left_out);
+  for (const int wrong : {0x4a, 0x3a, 0x8a, 0x5e}) {
+    Written changed = bytes;
+    changed[18] = static_cast<std::uint8_t>(wrong);
+    ByteReader damaged(parse_opening(changed)->body);
+    EXPECT_EQ(parse_records_header(damaged).has_value(), wrong == 0x4a) << wrong;
+  }
+}
+
 TEST(WireRecords, HeadersAreAsSmallAsTheySay) {
   RecordsHeader header;
   header.has_records = header.has_acks = true;
@@ -88,6 +130,7 @@ TEST(WireRecords, HeadersAreAsSmallAsTheySay) {
   Record longest = example();
   longest.payload = payload;
   longest.capture_us = 0;
+  longest.counts_left_out = true;
   longest.published_age_us = longest.sent_age_us = longest.server_age_us = INT32_MAX;
   EXPECT_EQ(written(header, {{longest, false}}).size() - empty, kMaxRecordHeader + kMaxPayload);
 }
@@ -119,6 +162,31 @@ TEST(WireRecords, MessagesOfChannelsComeBack) {
     ASSERT_TRUE(next && in.is_exhausted());
     EXPECT_EQ(next->kind, RecordKind::kPose);
   }
+}
+
+// Those bits say something about poses, and never about messages.
+TEST(WireRecords, AMessageOfAChannelHasNoFlagsOfPoses) {
+  RecordsHeader header;
+  header.has_records = true;
+  const std::vector<std::uint8_t> payload(100, 7);
+  Record plain;
+  plain.kind = RecordKind::kChannel;
+  plain.payload = payload;
+  Record flagged = plain;
+  flagged.needs_no_other = flagged.is_base = flagged.is_kept = flagged.counts_left_out = true;
+  const Written bytes = written(header, {{plain, false}});
+  EXPECT_EQ(written(header, {{flagged, false}}), bytes);
+  const std::size_t begin = bytes.size() - payload.size() - 8;
+  const auto parsed = [&](std::size_t at, std::uint8_t bit) {
+    Written changed = bytes;
+    changed[begin + at] = static_cast<std::uint8_t>(changed[begin + at] | bit);
+    ByteReader in(std::span<const std::uint8_t>(changed).subspan(begin));
+    return parse_record(0, in).has_value();
+  };
+  EXPECT_TRUE(parsed(0, 0));
+  EXPECT_FALSE(parsed(1, 0x80)) << "ages";
+  for (const std::uint8_t bit : std::array<std::uint8_t, 4>{0x10, 0x20, 0x40, 0x80})
+    EXPECT_FALSE(parsed(2, bit)) << +bit;
 }
 
 TEST(WireRecords, WhatIsWrittenComesBack) {

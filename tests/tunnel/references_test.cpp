@@ -98,6 +98,28 @@ TEST_F(ReferencesTest, ANewcomerDecodesWithinARoundTripOverItsSender) {
   EXPECT_EQ(b.link->counters().reference_missing, 0u);
 }
 
+// Where nothing was lost before, each frame refers to the one before it.
+TEST_F(ReferencesTest, AfterACutTheFirstPoseThatArrivesDecodes) {
+  tunnel.link_options.key_frame_period = Duration();
+  House& a = add({"alice"});
+  House& b = add({"bob"});
+  Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
+  for (const int cut_ms : {150, 400, 850}) {
+    dance.run(Duration::s(60));
+    ASSERT_EQ(a.link->local_stats().at(0).references, References::kPrevious);
+    const auto missing = b.link->counters().reference_missing;
+    b.is_cut = true;
+    dance.run(Duration::ms(cut_ms));
+    b.is_cut = false;
+    const auto before = b.heard_of(guest("alice"));
+    // A frame, and 10 ms of way.
+    dance.run(Duration::ms(Dance::kFrame_ms + 10 + 1));
+    EXPECT_GT(b.heard_of(guest("alice")), before) << cut_ms;
+    dance.run(Duration::s(1));
+    EXPECT_EQ(b.link->counters().reference_missing, missing) << cut_ms;
+  }
+}
+
 TEST_F(ReferencesTest, ARequestWhoseAnswerIsLostIsMadeAgain) {
   tunnel.link_options.key_frame_period = Duration();
   House& a = add({"alice"});
@@ -107,8 +129,9 @@ TEST_F(ReferencesTest, ARequestWhoseAnswerIsLostIsMadeAgain) {
   Dance dance{tunnel, {{&a, guest("alice")}}};
   dance.run(Duration::s(40));
   ASSERT_EQ(a.link->local_stats().at(0).references, References::kPreviousTwice);
+  // Shorter than the sender takes to notice by itself.
   b.is_cut = true;
-  dance.run(Duration::ms(300));
+  dance.run(Duration::ms(120));
   // Feedback does not come through at first.
   MonoTime blocked_until = tunnel.now() + Duration::ms(150);
   tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "core/base/byte_reader.h"
@@ -50,13 +51,20 @@ class ReferringEncoder final : public PoseEncoder {
   std::size_t encode(const Pose& pose, std::span<std::uint8_t> payload) override {
     const std::size_t size = plain_.encode(pose, payload.subspan(kHead));
     if (size == 0) return 0;
+    const bool is_base = std::exchange(is_base_, false);
     const bool is_by_ack = references_ == References::kAcknowledged;
-    const bool has_reference = !wants_key_ && (is_by_ack ? has_acked_ : has_previous_);
+    const bool has_reference = !wants_key_ && (is_base     ? has_base_acked_
+                                               : is_by_ack ? has_acked_
+                                                           : has_previous_);
+    is_still_ = !has_reference;
     if (!has_reference) ++log_.key_frames_encoded;
     wants_key_ = false;
-    const std::uint32_t reference = is_by_ack && has_reference ? newest_acked_ : previous_;
+    const std::uint32_t reference = !has_reference ? previous_
+                                    : is_base      ? newest_base_acked_
+                                    : is_by_ack    ? newest_acked_
+                                                   : previous_;
     ByteWriter out(payload);
-    out.u8(has_reference ? (references_ == References::kPreviousTwice ? 2 : 1) : 0);
+    out.u8(has_reference ? (references_ == References::kPreviousTwice && !is_base ? 2 : 1) : 0);
     out.u32(reference);
     out.u32(before_);
     out.u8(check_);
@@ -72,16 +80,25 @@ class ReferringEncoder final : public PoseEncoder {
     if (!has_acked_ || is_newer_sequence(sequence, newest_acked_)) newest_acked_ = sequence;
     has_acked_ = true;
   }
+  void base_acknowledged(std::uint32_t sequence) override {
+    if (has_void_ && !is_newer_sequence(sequence, void_until_)) return;
+    if (!has_base_acked_ || is_newer_sequence(sequence, newest_base_acked_))
+      newest_base_acked_ = sequence;
+    has_base_acked_ = true;
+  }
+  void still_wanted() override { wants_key_ = true; }
+  void base_wanted() override { is_base_ = true; }
+  bool needs_no_other() const override { return is_still_; }
   void key_frame_wanted() override {
     ++log_.key_frames_wanted;
     wants_key_ = true;
-    has_acked_ = false;
+    has_acked_ = has_base_acked_ = false;
     has_void_ = has_previous_;
     void_until_ = previous_;
   }
   void restart() override {
     ++log_.encoder_restarts;
-    has_previous_ = has_acked_ = has_void_ = false;
+    has_previous_ = has_acked_ = has_base_acked_ = has_void_ = false;
   }
   void set_references(References references) override {
     references_ = references;
@@ -97,6 +114,9 @@ class ReferringEncoder final : public PoseEncoder {
   References references_ = References::kPrevious;
   bool has_acked_ = false;
   std::uint32_t newest_acked_ = 0;
+  bool has_base_acked_ = false;
+  std::uint32_t newest_base_acked_ = 0;
+  bool is_base_ = false, is_still_ = false;
   bool has_void_ = false;
   std::uint32_t void_until_ = 0;
   bool wants_key_ = false, has_previous_ = false;

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/base/token_bucket.h"
 #include "tunnel/link_guests.h"
-#include "tunnel/token_bucket.h"
 
 namespace dance {
 namespace {

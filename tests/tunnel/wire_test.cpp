@@ -16,6 +16,7 @@ Hello full_hello() {
   hello.link_time_us = -5;
   EXPECT_TRUE(hello.codecs.try_push({CodecId::kPlain, 0x01020304}));
   hello.room = *RoomName::parse("salsa-room-of-24-letters");
+  hello.default_divider = 7;
   for (std::size_t i = 0; i < kMaxGuestsPerLink; ++i)
     EXPECT_TRUE(hello.guests.try_push(
         *GuestId::parse("a-guest-with-24-letters" + std::string(1, static_cast<char>('a' + i)))));
@@ -40,6 +41,7 @@ TEST(Wire, TheLongestHelloComesBackWhole) {
   EXPECT_EQ(back->token, hello.token);
   EXPECT_EQ(back->link_time_us, -5);
   EXPECT_EQ(back->room, hello.room);
+  EXPECT_EQ(back->default_divider, 7);
   ASSERT_EQ(back->codecs.size(), kMaxCodecs);
   EXPECT_EQ(back->codecs[0], (CodecName{CodecId::kPlain, 0x01020304}));
   ASSERT_EQ(back->guests.size(), kMaxGuestsPerLink);
@@ -131,6 +133,36 @@ TEST(Wire, TheSameGuestTwiceInAHelloIsABadName) {
   HelloProblem problem;
   EXPECT_FALSE(parse_hello(parse_opening({out.data(), size})->body, problem));
   EXPECT_TRUE(problem.is_bad_name);
+}
+
+TEST(Wire, AnInterestLooksAsItIsDocumentedAndTheLongestComesBack) {
+  InterestList list;
+  list.version = 0x01020304;
+  list.default_divider = 5;
+  ASSERT_TRUE(list.entries.try_push({{6, 0x0708}, 9}));
+  Buffer out;
+  std::size_t size = build(list, out);
+  const std::vector<std::uint8_t> expected{23, 4, 3, 2, 1, 5, 1, 6, 8, 7, 9};
+  EXPECT_EQ(std::vector<std::uint8_t>(out.begin(), out.begin() + static_cast<long>(size)),
+            expected);
+  for (std::uint8_t i = 1; i < kMaxGuestsPerRoom; ++i)
+    ASSERT_TRUE(list.entries.try_push({{i, i}, i}));
+  size = build(list, out);
+  const auto back = parse_interest_list(parse_opening({out.data(), size})->body);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->entries.size(), kMaxGuestsPerRoom);
+  EXPECT_EQ(back->entries[63], list.entries[63]);
+  EXPECT_EQ(back->version, list.version);
+  out[6] = 65;
+  EXPECT_FALSE(parse_interest_list(parse_opening({out.data(), size})->body));
+  out[6] = 64;
+  out[7] = 64;
+  EXPECT_FALSE(parse_interest_list(parse_opening({out.data(), size})->body)) << "no such slot";
+  out[7] = 6;
+  std::fill_n(out.begin() + 1, 4, std::uint8_t{0});
+  EXPECT_FALSE(parse_interest_list(parse_opening({out.data(), size})->body)) << "version 0";
+  size = build_interest_ack(0x0a0b0c0d, out);
+  EXPECT_EQ(parse_interest_ack(parse_opening({out.data(), size})->body), 0x0a0b0c0du);
 }
 
 TEST(Wire, TrailingBytesAreRefused) {

@@ -1,0 +1,89 @@
+// Keys and the file that holds them.
+#include "tunnel/seal/key_ring.h"
+
+#include <gtest/gtest.h>
+
+namespace dance {
+namespace {
+
+TEST(PresharedKey, TextBringsItBackAndNothingElseDoes) {
+  for (int i = 0; i < 200; ++i) {
+    const PresharedKey key = PresharedKey::make();
+    const std::string text = key.text();
+    ASSERT_EQ(text.size(), PresharedKey::kTextLength);
+    const auto back = PresharedKey::parse(text);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(*back == key);
+    EXPECT_FALSE(PresharedKey::parse(text.substr(1)));
+    EXPECT_FALSE(PresharedKey::parse(text + "A"));
+    EXPECT_FALSE(*PresharedKey::parse(PresharedKey::make().text()) == key);
+  }
+  EXPECT_FALSE(PresharedKey::parse(std::string(43, '=')));
+  EXPECT_FALSE(PresharedKey::parse(std::string(42, 'A') + "B"));  // bits that say nothing
+  EXPECT_TRUE(PresharedKey::parse(std::string(43, 'A')));
+}
+
+TEST(KeyRing, KeepsWhatItWrote) {
+  KeyRing ring;
+  KeyEntry entry;
+  entry.name = *GuestId::parse("bob");
+  entry.kind = KeyKind::kHost;
+  entry.room = *GuestId::parse("salsa");
+  entry.key = PresharedKey::make();
+  EXPECT_TRUE(ring.add(entry));
+  EXPECT_FALSE(ring.add(entry));
+  entry.name = *GuestId::parse("alice");
+  entry.room = GuestId();
+  entry.kind = KeyKind::kListener;
+  entry.key = PresharedKey::make();
+  EXPECT_TRUE(ring.add(entry));
+  const auto back = KeyRing::parse(ring.text(), "keys");
+  ASSERT_TRUE(back) << back.error().what;
+  EXPECT_EQ(back->entries(), ring.entries());
+  ASSERT_NE(back->find("alice"), nullptr);
+  EXPECT_TRUE(*back->find("alice") == entry);
+  EXPECT_EQ(back->find("alic"), nullptr);
+  EXPECT_EQ(back->find(""), nullptr);
+  EXPECT_TRUE(ring.remove("bob"));
+  EXPECT_FALSE(ring.remove("bob"));
+}
+
+TEST(KeyRing, KnowsWhoseNamesAreTaken) {
+  KeyRing ring;
+  KeyEntry entry;
+  entry.name = *GuestId::parse("ann-lee");
+  ASSERT_TRUE(ring.add(entry));
+  entry.name = *GuestId::parse("salsa");
+  entry.kind = KeyKind::kRoom;
+  ASSERT_TRUE(ring.add(entry));
+  EXPECT_TRUE(ring.is_own_name("ann-lee"));
+  EXPECT_TRUE(ring.is_own_name("ann-lee-2"));
+  EXPECT_FALSE(ring.is_own_name("ann"));
+  EXPECT_FALSE(ring.is_own_name("ann-leeds"));
+  EXPECT_FALSE(ring.is_own_name("salsa"));
+  EXPECT_FALSE(ring.is_own_name("-"));
+}
+
+TEST(KeyRing, SaysWhichLineIsWrongAndNeverTheKey) {
+  const std::string key = PresharedKey::make().text();
+  const auto error_of = [](const std::string& text) {
+    const auto ring = KeyRing::parse(text, "keys");
+    return ring ? std::string() : ring.error().what;
+  };
+  EXPECT_EQ(error_of("# nothing\n\n  alice guest * " + key + "\r\n"), "");
+  const auto says = [&](const std::string& text, const std::string& part) {
+    const std::string error = error_of(text);
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+    EXPECT_EQ(error.find(key.substr(0, 20)), std::string::npos) << error;
+  };
+  says("\nalice guest *", "keys line 2: a line is NAME KIND ROOM KEY");
+  says("alice guest * " + key + " more", "NAME KIND ROOM KEY");
+  says("Alice guest * " + key, "'Alice'");
+  says("alice king * " + key, "'king' is none of guest");
+  says("alice guest A " + key, "room 'A'");
+  says("alice guest * " + key + "x", "none");
+  says("alice guest * " + key + "\nalice host * " + key, "line 2: 'alice' has a key already");
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,192 @@
+#include "tunnel/seal/seal_server.h"
+
+#include <cstring>
+
+#include "core/base/assert.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kTickOfHandshakes = Duration::ms(50);
+constexpr Duration kTickOfPeers = Duration::s(1);
+constexpr Duration kSecretsStand = Duration::s(60);
+
+}  // namespace
+
+void SealServer::CountingSink::send(const Address& to, std::span<const std::uint8_t> bytes) {
+  ++counters_.datagrams_out;
+  counters_.bytes_out += bytes.size();
+  sink_.send(to, bytes);
+}
+
+Result<std::unique_ptr<SealServer>> SealServer::make(
+    const SealLimits& limits, std::shared_ptr<const KeyRing> keys,
+    const std::optional<SealCertificates>& certificates, RandomU64 random, Handlers handlers,
+    DatagramSink& sink) {
+  auto server = std::unique_ptr<SealServer>(
+      new SealServer(limits, std::move(keys), std::move(random), std::move(handlers), sink));
+  SealServer* self = server.get();
+  SealContext::Cookies cookies;
+  cookies.make = [self](ssl_st* ssl, std::uint8_t* out) {
+    return self->make_cookie(SealChannel::of(ssl), 0, out);
+  };
+  cookies.check = [self](ssl_st* ssl, const std::uint8_t* cookie, std::size_t size) {
+    return self->is_cookie(SealChannel::of(ssl), cookie, size);
+  };
+  DANCE_TRY(server->context_,
+            SealContext::for_server(
+                [self](ssl_st* ssl, std::string_view name) { return self->find_key(ssl, name); },
+                std::move(cookies), certificates));
+  return server;
+}
+
+SealServer::SealServer(const SealLimits& limits, std::shared_ptr<const KeyRing> keys,
+                       RandomU64 random, Handlers handlers, DatagramSink& sink)
+    : limits_(limits),
+      keys_(std::move(keys)),
+      random_(std::move(random)),
+      handlers_(std::move(handlers)),
+      sink_(sink, counters_),
+      strangers_(limits.strangers, random_()),
+      notices_(limits.notices, random_()),
+      begun_(limits.begun, random_()) {
+  peers_.reserve(limits.peers);
+  handshakes_.reserve(limits.handshakes);
+  for (auto& secret : secrets_)
+    for (std::uint64_t& word : secret) word = random_();
+}
+
+SealServer::~SealServer() {
+  for (auto& [id, peer] : peers_) peer.channel->close();
+}
+
+bool SealServer::may(SourceLimits& limits, const Address& from, MonoTime now) {
+  switch (limits.take(from, now)) {
+    case SourceLimits::Answer::kYes:
+      return true;
+    case SourceLimits::Answer::kSourceHadEnough:
+      reject(SealReject::kStrangerRate);
+      return false;
+    case SourceLimits::Answer::kAllHadEnough:
+      break;
+  }
+  reject(SealReject::kCrowdRate);
+  return false;
+}
+
+void SealServer::receive(const Address& from, seal::Bytes datagram, MonoTime received,
+                         MonoTime now) {
+  ++counters_.datagrams_in;
+  counters_.bytes_in += datagram.size();
+  if (seal::is_old_hello(datagram)) return on_old_version(from, datagram, now);
+  const auto opening = seal::parse(datagram);
+  if (!opening) return reject(SealReject::kTooShort);
+  switch (opening->form) {
+    case seal::Form::kCompact:
+      return on_compact(from, *opening, received, now);
+    case seal::Form::kRecords:
+      return on_records(from, *opening, now);
+    case seal::Form::kNotice:
+      return reject(SealReject::kMalformed);
+  }
+}
+
+void SealServer::on_compact(const Address& from, const seal::Opening& opening, MonoTime received,
+                            MonoTime now) {
+  const auto found = peers_.find(opening.id);
+  if (found == peers_.end()) return answer_unknown(from, opening.id, now);
+  Peer& peer = found->second;
+  seal::Bytes plain;
+  switch (peer.channel->open(opening.body, plain)) {
+    case SealChannel::Opened::kForged:
+      return reject(SealReject::kForged);
+    case SealChannel::Opened::kReplayed:
+      return reject(SealReject::kReplayed);
+    case SealChannel::Opened::kClosed:
+      return end(opening.id);
+    case SealChannel::Opened::kPlain:
+      break;
+  }
+  peer.last_heard = now;
+  // Only what is newer than all before says where the peer is now.
+  if (peer.channel->is_newest() && peer.channel->peer() != from) {
+    if (peer.key.is_local && !from.is_loopback()) return reject(SealReject::kNotLocal);
+    ++counters_.moves;
+    peer.channel->set_peer(from);
+  }
+  handlers_.on_datagram(opening.id, peer.key, plain, received, now);
+}
+
+// Lets a link notice at once that the server began anew. Anybody could say so: a link that hears it
+// asks for another session, and keeps the one that it has until that stands.
+void SealServer::answer_unknown(const Address& from, std::uint64_t id, MonoTime now) {
+  reject(SealReject::kUnknownId);
+  if (!may(notices_, from, now)) return;
+  std::array<std::uint8_t, seal::kIdBytes> out;
+  seal::write_opening(id, seal::Form::kNotice, out);
+  sink_.send(from, out);
+}
+
+void SealServer::on_old_version(const Address& from, seal::Bytes datagram, MonoTime now) {
+  reject(SealReject::kOldVersion);
+  if (!may(notices_, from, now)) return;
+  std::array<std::uint8_t, seal::kOldRefusal> out;
+  seal::write_old_refusal(datagram, out);
+  sink_.send(from, out);
+}
+
+void SealServer::send(PeerId to, seal::Bytes plain) {
+  const auto found = peers_.find(to);
+  if (found == peers_.end() || !found->second.channel->send(plain)) ++counters_.unsealed;
+}
+
+void SealServer::end(PeerId peer) {
+  if (peers_.erase(peer) > 0 && handlers_.on_end) handlers_.on_end(peer);
+}
+
+Address SealServer::address_of(PeerId peer) const {
+  const auto found = peers_.find(peer);
+  return found == peers_.end() ? Address() : found->second.channel->peer();
+}
+
+void SealServer::set_keys(std::shared_ptr<const KeyRing> keys) {
+  keys_ = std::move(keys);
+  std::vector<PeerId> gone;
+  for (const auto& [id, peer] : peers_) {
+    if (peer.has_certificate) continue;
+    const KeyEntry* entry = keys_->find(peer.key.name.view());
+    if (entry == nullptr || *entry != peer.key) gone.push_back(id);
+  }
+  for (const PeerId id : gone) {
+    peers_.at(id).channel->close();
+    end(id);
+  }
+}
+
+MonoTime SealServer::tick(MonoTime now) {
+  if (now < next_tick_) return next_tick_;
+  if (!secrets_since_.is_set()) secrets_since_ = now;
+  if (now - secrets_since_ > kSecretsStand) {
+    secrets_[1] = secrets_[0];
+    for (std::uint64_t& word : secrets_[0]) word = random_();
+    secrets_since_ = now;
+  }
+  for (std::size_t i = handshakes_.size(); i-- > 0;) {
+    if (now - handshakes_[i].since > limits_.handshake_time) {
+      reject(SealReject::kTimedOut);
+      drop_handshake(i);
+    } else {
+      handshakes_[i].channel->resend_when_due();
+    }
+  }
+  std::vector<PeerId> silent;
+  for (const auto& [id, peer] : peers_)
+    if (now - peer.last_heard > limits_.silence) silent.push_back(id);
+  for (const PeerId id : silent) end(id);
+  next_tick_ = !handshakes_.empty() ? now + kTickOfHandshakes
+               : !peers_.empty()    ? now + kTickOfPeers
+                                    : MonoTime();
+  return next_tick_;
+}
+
+}  // namespace dance

@@ -1,0 +1,184 @@
+// The server's door: datagrams of the internet in, plaintext of peers who have proved who they are
+// out; and back. Who has proved nothing costs a bounded, small amount of work, is kept nowhere, and
+// is never answered with more bytes than it sent.
+//
+// Units/frames: MonoTime of the server's clock; a peer is named by its session's id.
+// Ownership:    owns all sealed sessions; keys are shared and replaced whole; the sink and what the
+//               handlers refer to must outlive it. Opening and sealing allocate nothing.
+// Threads:      none inside; one owner.
+// Failure:      whatever is not right is counted by cause and changes nothing; nothing from outside
+//               can make it stop or grow.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/time.h"
+#include "core/net/datagram_sink.h"
+#include "tunnel/seal/key_ring.h"
+#include "tunnel/seal/seal_channel.h"
+#include "tunnel/seal/source_limits.h"
+
+namespace dance {
+
+struct SealLimits {
+  std::size_t peers = 512;
+  std::size_t handshakes = 64;  // under way
+  Duration handshake_time = Duration::s(5);
+  // A peer that is silent this long must begin anew; until then it comes back in one round trip.
+  Duration silence = Duration::s(60);
+  // First datagrams of strangers, which are answered and forgotten.
+  SourceLimits::Rates strangers{100.0, 200.0, 10'000.0, 2000.0};
+  // Answers to who speaks in a session that is no more.
+  SourceLimits::Rates notices{50.0, 200.0, 2000.0, 1000.0};
+  // Handshakes of those who hear at the address that they name.
+  SourceLimits::Rates begun{20.0, 100.0, 200.0, 400.0};
+};
+
+enum class SealReject : std::uint8_t {
+  kTooShort,       // nothing of ours
+  kOldVersion,     // a link of before sealed sessions
+  kMalformed,      // no handshake, or no record
+  kUnknownId,      // a session that this server does not have
+  kStrangerRate,   // one network asks too often
+  kCrowdRate,      // all together do
+  kBadCookie,      // an old one, or of another address
+  kFull,           // too many handshakes or peers
+  kTimedOut,       // a handshake that was not ended
+  kUnknownName,    // no key of this name
+  kWrongKey,       // not the key of this name
+  kNotLocal,       // the key of this machine, from elsewhere
+  kNoAgreement,    // no common version, cipher or trust
+  kForged,         // a record that is not authentic
+  kReplayed,       // a record that came before
+  kForeignSource,  // handshake of a session from another address
+  kCount,
+};
+constexpr std::size_t kSealRejects = static_cast<std::size_t>(SealReject::kCount);
+constexpr std::array<std::string_view, kSealRejects> kSealRejectNames{
+    "too_short",    "old_version", "malformed", "unknown_id",    "stranger_rate", "crowd_rate",
+    "bad_cookie",   "full",        "timed_out", "unknown_name",  "wrong_key",     "not_local",
+    "no_agreement", "forged",      "replayed",  "foreign_source"};
+
+struct SealCounters {
+  std::uint64_t datagrams_in = 0;
+  std::uint64_t bytes_in = 0;
+  std::uint64_t datagrams_out = 0;
+  std::uint64_t bytes_out = 0;
+  std::uint64_t cookies_given = 0;
+  std::uint64_t handshakes_begun = 0;
+  std::uint64_t handshakes_done = 0;
+  std::uint64_t moves = 0;     // of a session to another address
+  std::uint64_t unsealed = 0;  // to somebody who is gone, or too long
+  std::array<std::uint64_t, kSealRejects> rejected{};
+  std::uint64_t of(SealReject cause) const { return rejected[static_cast<std::size_t>(cause)]; }
+};
+
+class SealServer {
+ public:
+  using PeerId = std::uint64_t;
+  struct Handlers {
+    std::function<void(PeerId, const KeyEntry&, seal::Bytes plain, MonoTime received, MonoTime now)>
+        on_datagram;
+    std::function<void(PeerId)> on_end;  // the peer is gone: it closed, was silent, or lost its key
+  };
+  using RandomU64 = std::function<std::uint64_t()>;
+
+  static Result<std::unique_ptr<SealServer>> make(
+      const SealLimits& limits, std::shared_ptr<const KeyRing> keys,
+      const std::optional<SealCertificates>& certificates, RandomU64 random, Handlers handlers,
+      DatagramSink& sink);
+  ~SealServer();
+  SealServer(const SealServer&) = delete;
+  SealServer& operator=(const SealServer&) = delete;
+
+  void receive(const Address& from, seal::Bytes datagram, MonoTime received, MonoTime now);
+  void send(PeerId to, seal::Bytes plain);
+  // Ends what took too long; returns when to call again, MonoTime() = not before a datagram.
+  MonoTime tick(MonoTime now);
+  MonoTime next_deadline() const { return next_tick_; }
+  // From now on these keys count; who came with one that is no more is gone.
+  void set_keys(std::shared_ptr<const KeyRing> keys);
+
+  const KeyRing& keys() const { return *keys_; }
+  const SealCounters& counters() const { return counters_; }
+  std::size_t peer_count() const { return peers_.size(); }
+  std::size_t handshake_count() const { return handshakes_.size(); }
+  // Where a peer is; not set for nobody.
+  Address address_of(PeerId peer) const;
+
+ private:
+  struct Peer {
+    std::unique_ptr<SealChannel> channel;
+    KeyEntry key;
+    bool has_certificate = false;
+    MonoTime last_heard;
+  };
+  struct Handshake {
+    std::unique_ptr<SealChannel> channel;
+    KeyEntry key;  // as the other side names itself; not set before it does
+    bool is_known = false;
+    MonoTime since;
+    int datagrams = 0;
+  };
+  // All that leaves is counted.
+  class CountingSink final : public DatagramSink {
+   public:
+    CountingSink(DatagramSink& sink, SealCounters& counters) : sink_(sink), counters_(counters) {}
+    void send(const Address& to, std::span<const std::uint8_t> bytes) override;
+
+   private:
+    DatagramSink& sink_;
+    SealCounters& counters_;
+  };
+
+  SealServer(const SealLimits& limits, std::shared_ptr<const KeyRing> keys, RandomU64 random,
+             Handlers handlers, DatagramSink& sink);
+  void reject(SealReject cause) { ++counters_.rejected[static_cast<std::size_t>(cause)]; }
+  bool may(SourceLimits& limits, const Address& from, MonoTime now);
+
+  // seal_server.cpp
+  void on_compact(const Address& from, const seal::Opening& opening, MonoTime received,
+                  MonoTime now);
+  void on_old_version(const Address& from, seal::Bytes datagram, MonoTime now);
+  void answer_unknown(const Address& from, std::uint64_t id, MonoTime now);
+  void end(PeerId peer);
+
+  // seal_handshakes.cpp
+  void on_records(const Address& from, const seal::Opening& opening, MonoTime now);
+  void on_stranger(const Address& from, const seal::Opening& opening, MonoTime now);
+  void go_on(std::size_t handshake, seal::Bytes records, MonoTime now);
+  void finish(std::size_t handshake, MonoTime now);
+  void drop_handshake(std::size_t handshake);
+  bool make_place(MonoTime now);
+  std::optional<PresharedKey> find_key(ssl_st* ssl, std::string_view identity);
+  std::size_t make_cookie(const SealChannel& channel, std::uint64_t secret_age,
+                          std::uint8_t* out) const;
+  bool is_cookie(const SealChannel& channel, const std::uint8_t* cookie, std::size_t size) const;
+
+  SealLimits limits_;
+  std::shared_ptr<const KeyRing> keys_;
+  RandomU64 random_;
+  Handlers handlers_;
+  SealCounters counters_;
+  CountingSink sink_;
+  std::unique_ptr<SealContext> context_;
+  std::unordered_map<PeerId, Peer> peers_;
+  std::vector<Handshake> handshakes_;
+  std::unique_ptr<SealChannel> listener_;  // for whoever is next
+  SourceLimits strangers_;
+  SourceLimits notices_;
+  SourceLimits begun_;
+  // Cookies are made with the first; those of the second are still good.
+  std::array<std::array<std::uint64_t, 4>, 2> secrets_;
+  MonoTime secrets_since_;
+  MonoTime next_tick_;
+};
+
+}  // namespace dance
