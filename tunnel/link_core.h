@@ -157,6 +157,8 @@ class LinkCore {
   bool prepare(LocalGuest& guest, MonoTime now);
   void settle_references(LocalGuest& guest, MonoTime now);
   void add_record(const wire::Record& record, MonoTime now);
+  void repeat_before(LocalGuest& guest, const wire::Record& next, MonoTime now);
+  void put(const wire::Record& record, MonoTime now);
   void flush_records();
   void send_records_datagram(bool with_bundle);
   std::size_t count_dancing(MonoTime now) const;
@@ -229,7 +231,8 @@ class LinkCore {
   };
   FixedList<Except, wire::kMaxAckExcepts> excepts_;
   FixedList<std::uint8_t, wire::kMaxWants> wants_;
-  MonoTime ack_due_;  // set: there is something to acknowledge, or to ask for
+  MonoTime ack_due_;            // set: there is something to acknowledge, or to ask for
+  bool wants_repeats_ = false;  // the server, of our poses
   bool has_feedback_ = false;
   std::uint16_t newest_feedback_ = 0;  // number of its datagram
   PathStats path_;

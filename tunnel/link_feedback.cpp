@@ -22,7 +22,7 @@ void LinkCore::begin_session_records() {
   excepts_.clear();
   wants_.clear();
   ack_due_ = MonoTime();
-  has_feedback_ = false;
+  has_feedback_ = wants_repeats_ = false;
   path_ = PathStats();
 }
 
@@ -97,6 +97,7 @@ void LinkCore::on_feedback(std::uint16_t number, const wire::Feedback& feedback,
   if (has_feedback_ && static_cast<std::int16_t>(number - newest_feedback_) <= 0) return;
   has_feedback_ = true;
   newest_feedback_ = number;
+  wants_repeats_ = feedback.wants_repeats;
   if (feedback.round_trip != 0)
     path_ = PathStats{true, feedback.loss / 65535.0, feedback.in_a_row / 65535.0,
                       Duration::us(feedback.round_trip * std::int64_t{100})};

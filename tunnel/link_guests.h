@@ -19,6 +19,7 @@
 #include "tunnel/link_options.h"
 #include "tunnel/link_states.h"
 #include "tunnel/reference_policy.h"
+#include "tunnel/repetition.h"
 #include "tunnel/stream_gate.h"
 
 namespace dance {
@@ -68,6 +69,7 @@ struct LocalGuest {
   MonoTime key_frame_at;
   MonoTime acked_at;            // when the encoder was last told of a frame that all have
   std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
+  SentPose previous;            // goes once more where the way loses some
   std::uint64_t sent = 0;
   std::uint64_t acked = 0;
   std::uint64_t key_frames_sent = 0;

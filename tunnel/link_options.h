@@ -92,6 +92,7 @@ struct LinkHandlers {
 struct LinkCounters {
   std::uint64_t poses_offered = 0;  // by this house
   std::uint64_t poses_sent = 0;
+  std::uint64_t poses_repeated = 0;  // of them, once more with the next
   std::uint64_t poses_received = 0;  // records of poses that came in
   std::uint64_t poses_delivered = 0;
   std::uint64_t hands_sent = 0;

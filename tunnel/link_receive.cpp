@@ -46,11 +46,11 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
     return true;
   }
   const bool is_pose = record.kind == wire::RecordKind::kPose;
-  if (is_pose) ++counters_.poses_received;
   RemoteGuest& remote = remotes_[record.slot];
   StreamGate& gate = is_pose ? remote.poses : remote.hands;
   if (!remote.in_use || remote.is_ours ||
       !wire::widen(remote.generation, gate.has_any(), gate.stream(), gate.newest(), record)) {
+    counters_.poses_received += is_pose ? 1 : 0;
     ++counters_.unrouted;  // the roster that names it has not come, or it has left
     return !is_pose;
   }
@@ -58,6 +58,7 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
   // Who has not moved for long was captured long ago.
   if ((record.capture_us < server_now_us - kOldestTold_us && !record.is_kept) ||
       record.capture_us > server_now_us + kFarthestTold_us) {
+    counters_.poses_received += is_pose ? 1 : 0;
     ++counters_.invalid;
     ++remote.invalid;
     return !is_pose;
@@ -70,6 +71,9 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
   // The kept one is said again until it could be decoded: its proportions may have come after it.
   const bool is_awaited =
       record.is_kept && !remote.has_decoded && verdict != StreamGate::Verdict::kOldStream;
+  // Once more, in case it was lost: it was not.
+  if (verdict == StreamGate::Verdict::kDuplicate && !is_awaited) return true;
+  counters_.poses_received += is_pose ? 1 : 0;
   if (!is_newest && !is_awaited) {
     ++counters_.late;
     return !is_pose;

@@ -32,6 +32,7 @@ std::string link_report_json(const Link& link) {
   const LinkCounters& c = link.counters();
   const ordered_json report{{"offered", c.poses_offered},
                             {"sent", c.poses_sent},
+                            {"repeated", c.poses_repeated},
                             {"received", c.poses_received},
                             {"delivered", c.poses_delivered},
                             {"late", c.late},

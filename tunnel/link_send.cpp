@@ -79,6 +79,21 @@ std::size_t LinkCore::count_dancing(MonoTime now) const {
 }
 
 void LinkCore::add_record(const wire::Record& record, MonoTime now) {
+  put(record, now);
+  if (record.kind == wire::RecordKind::kPose) ++bundle_poses_;
+  if (now >= bundle_due_ || bundle_poses_ >= count_dancing(now)) flush_records();
+}
+
+// The pose before goes once more, in front of this one.
+void LinkCore::repeat_before(LocalGuest& guest, const wire::Record& next, MonoTime now) {
+  if (wants_repeats_ && guest.previous.is_before(next)) {
+    put(guest.previous.again(), now);
+    ++counters_.poses_repeated;
+  }
+  guest.previous.keep(next);
+}
+
+void LinkCore::put(const wire::Record& record, MonoTime now) {
   if (bundle_.size() - bundle_size_ < wire::kMaxRecordHeader + record.payload.size())
     flush_records();
   if (bundle_size_ == 0) {
@@ -90,8 +105,6 @@ void LinkCore::add_record(const wire::Record& record, MonoTime now) {
   wire::add_record(record, false, base_ticks_, out);
   DANCE_ASSERT(out.ok());
   bundle_size_ += out.size();
-  if (record.kind == wire::RecordKind::kPose) ++bundle_poses_;
-  if (now >= bundle_due_ || bundle_poses_ >= count_dancing(now)) flush_records();
 }
 
 // What waits, with what there is to acknowledge.
@@ -216,6 +229,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   record.payload = {payload.data(), size};
   note_sent(*guest, record, now);
   ++counters_.poses_sent;
+  repeat_before(*guest, record, now);
   add_record(record, now);
 }
 

@@ -123,6 +123,9 @@ class ServerCore {
   void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
   void forward(std::size_t from, const wire::Record& record, MonoTime now);
   void add_to_bundle(std::size_t to, const wire::Record& record, MonoTime now);
+  void put_in_bundle(std::size_t session, const wire::Record& record, MonoTime now);
+  void repeat_before(std::size_t member, const ServerGuest& guest, const wire::Record& next,
+                     MonoTime now);
   Duration share_window(const ServerRoom& room) const;
   bool is_bundle_due(const ServerSession& session, MonoTime now) const;
   void flush_bundle(std::size_t session, MonoTime now);

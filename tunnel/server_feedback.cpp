@@ -168,16 +168,19 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
     if (!is_receiver(member, index, now) || !wants_any_of(sessions_[member], session)) continue;
     has_receiver = true;
     const LossMeter& down = sessions_[member].sent.loss();
-    loss = std::max(loss, down.loss());
+    loss = std::max(loss, sessions_[member].repeats_down.residual(down));
     in_a_row = std::max(in_a_row, down.in_a_row());
     round_trip = std::max(round_trip, round_trip_of(sessions_[member]));
   }
   if (has_receiver) {
     // What is lost on either way does not arrive.
     const LossMeter& up = session.received.loss();
-    const float arrives = (1.0f - loss) * (1.0f - up.loss());
+    if (limits_.repeats) session.repeats_up.update(up);
+    feedback.wants_repeats = session.repeats_up.is_on();
+    const float lost_up = session.repeats_up.residual(up);
+    const float arrives = (1.0f - loss) * (1.0f - lost_up);
     // Two in a row may be one lost on the one way and one on the other.
-    in_a_row = std::min(1.0f, in_a_row + up.in_a_row() + 2.0f * loss * up.loss());
+    in_a_row = std::min(1.0f, in_a_row + up.in_a_row() + 2.0f * loss * lost_up);
     feedback.in_a_row = static_cast<std::uint16_t>(std::lround(in_a_row * 65535.0f));
     feedback.loss = static_cast<std::uint16_t>(std::lround((1.0f - arrives) * 65535.0f));
     const std::int64_t way_us = (round_trip + round_trip_of(session)).count_us();

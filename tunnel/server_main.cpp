@@ -55,6 +55,7 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
           {"bytes_out", c.bytes_out},
           {"records_in", c.records_in},
           {"records_out", c.records_out},
+          {"records_repeated", c.records_repeated},
           {"states_in", c.states_in},
           {"states_out", c.states_out},
           {"datagrams_acked", c.datagrams_acked},
@@ -74,8 +75,10 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
 
 // At most one line a second for each cause.
 void log_rejects(const ServerCounters& before, const ServerCounters& after) {
+  // What comes twice is meant to, where a way loses some.
   for (std::size_t i = 0; i < kServerRejects; ++i)
-    if (after.rejected[i] != before.rejected[i])
+    if (after.rejected[i] != before.rejected[i] &&
+        i != static_cast<std::size_t>(ServerReject::kDuplicate))
       talk::warn("{} dropped: {}", after.rejected[i] - before.rejected[i], kServerRejectNames[i]);
 }
 

@@ -49,7 +49,6 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   if (!guest->records.take(1.0, now)) return reject(ServerReject::kGuestRate);
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   StreamGate& gate = is_pose ? guest->poses : guest->hands;
-  if (is_pose) guest->jitter.add(record.capture_us, received_us);
   // The link need not know the generation.
   record.stream &= 0xffff;
   if (!wire::widen(0, gate.has_any(), gate.stream(), gate.newest(), record))
@@ -68,11 +67,13 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   if (record.sent_age_us != wire::kNoAge)
     record.server_age_us = static_cast<std::int32_t>(received_us - record.capture_us);
   ++counters_.records_in;
+  if (is_pose) guest->jitter.add(record.capture_us, received_us);
   if (record.is_base) ++guest->base_count;
   if (!is_pose) ++guest->hands_count;
   if (is_pose) guest->last_pose = now;
   if (is_pose && record.needs_no_other) keep(*guest, record);
   forward(session, record, now);
+  if (is_pose) guest->previous.keep(record);
 }
 
 // Limited by itself, so that channels take nothing from poses, and none delays or drops another's.
@@ -92,11 +93,39 @@ void ServerCore::on_channel_record(std::size_t session, wire::Record record, Mon
 }
 
 void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime now) {
-  for (const std::size_t member : rooms_[sessions_[from].room].members)
-    if (member != from && take_share(member, record, now)) add_to_bundle(member, record, now);
+  ServerRoom& room = rooms_[sessions_[from].room];
+  for (const std::size_t member : room.members) {
+    if (member == from || !take_share(member, record, now)) continue;
+    if (record.kind == wire::RecordKind::kPose)
+      repeat_before(member, room.guests[record.slot], record, now);
+    add_to_bundle(member, record, now);
+  }
+}
+
+// The pose before goes once more, in front of this one, to whom it may be lost. Who gets only some
+// poses gets those that need no other, or few: there it would be of no use.
+void ServerCore::repeat_before(std::size_t member, const ServerGuest& guest,
+                               const wire::Record& next, MonoTime now) {
+  ServerSession& to = sessions_[member];
+  if (limits_.repeats) to.repeats_down.update(to.sent.loss());
+  if (!to.repeats_down.is_on() || to.thinning[next.slot].divider != 1 ||
+      !guest.previous.is_before(next))
+    return;
+  put_in_bundle(member, guest.previous.again(), now);
+  ++counters_.records_repeated;
 }
 
 void ServerCore::add_to_bundle(std::size_t index, const wire::Record& record, MonoTime now) {
+  put_in_bundle(index, record, now);
+  ServerSession& to = sessions_[index];
+  if (record.kind == wire::RecordKind::kPose) {
+    to.sent.add({record.stream, static_cast<std::uint16_t>(record.sequence), record.slot});
+    ++to.bundle_poses;
+  }
+  ++counters_.records_out;
+}
+
+void ServerCore::put_in_bundle(std::size_t index, const wire::Record& record, MonoTime now) {
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   const auto sequence = static_cast<std::uint16_t>(record.sequence);
   ServerSession& to = sessions_[index];
@@ -119,11 +148,6 @@ void ServerCore::add_to_bundle(std::size_t index, const wire::Record& record, Mo
   wire::add_record(told, is_narrow, to.base_ticks, out);
   DANCE_ASSERT(out.ok());
   to.bundle_size += out.size();
-  if (is_pose) {
-    to.sent.add({record.stream, sequence, record.slot});
-    ++to.bundle_poses;
-  }
-  ++counters_.records_out;
 }
 
 Duration ServerCore::share_window(const ServerRoom& room) const {

@@ -23,6 +23,7 @@
 #include "tunnel/held_frames.h"
 #include "tunnel/link_meter.h"
 #include "tunnel/peer.h"
+#include "tunnel/repetition.h"
 #include "tunnel/sent_ring.h"
 #include "tunnel/stream_gate.h"
 #include "tunnel/wire_records.h"
@@ -53,7 +54,9 @@ struct ServerLimits {
   double state_change_burst = 60.0;
   // Records to one receiver wait this long for others to share a datagram with, unless all who dance
   // have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's guests.
-  std::optional<Duration> share_window;
+  std::optional<Duration> share_window{};
+  // Poses go once more with the next where a way loses some.
+  bool repeats = true;
 };
 
 // A few never wait: they seldom dance within the same millisecond. In a crowd headers would cost more
@@ -102,6 +105,7 @@ struct ServerCounters {
   std::uint64_t states_in = 0;          // changes that were taken
   std::uint64_t states_out = 0;         // once per receiver, and again where not acknowledged
   std::uint64_t records_out = 0;        // once per receiver
+  std::uint64_t records_repeated = 0;   // besides: once more, where a way loses some
   std::uint64_t datagrams_acked = 0;    // of records, by their receivers
   std::uint64_t key_frames_wanted = 0;  // by newcomers, and by who could not decode
   std::uint64_t key_frames_asked = 0;   // of the senders: several wants in one
@@ -165,6 +169,9 @@ struct ServerSession {
   SentRing sent;
   std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
   AckWindow received;
+  // Whether poses go once more, to the link and from it.
+  Repetition repeats_down;
+  Repetition repeats_up;
   // When the link is next told what its receivers have; not set = nothing new.
   MonoTime feedback_due;
   MonoTime feedback_made;
@@ -204,6 +211,7 @@ struct ServerGuest {
   StreamGate hands;
   ArrivalJitter jitter;  // of poses
   TokenBucket records;
+  SentPose previous;  // goes once more to whom it may be lost
   bool key_wanted = false;
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;

@@ -4,7 +4,7 @@ namespace dance::wire {
 namespace {
 
 constexpr std::uint8_t kHasAcks = 1, kHasExcepts = 2, kHasWants = 4, kHasFeedback = 8,
-                       kHasRecords = 16, kKnownFlags = 31;
+                       kHasRecords = 16, kWantsRepeats = 32, kKnownFlags = 63;
 constexpr std::uint8_t kSlotMask = 0x3f;  // 64 slots of a room
 constexpr std::uint8_t kIsHands = 0x40, kIsWide = 0x80;
 // Hands are always wide: narrow ones mean a message of a channel.
@@ -137,7 +137,8 @@ void begin_records(const RecordsHeader& header, ByteWriter& out) {
   out.u8(static_cast<std::uint8_t>(
       (header.has_acks ? kHasAcks : 0) | (has_excepts ? kHasExcepts : 0) |
       (header.wants.empty() ? 0 : kHasWants) | (header.has_feedback ? kHasFeedback : 0) |
-      (header.has_records ? kHasRecords : 0)));
+      (header.has_records ? kHasRecords : 0) |
+      (header.has_feedback && header.feedback.wants_repeats ? kWantsRepeats : 0)));
   if (header.has_acks) write_acks(header.acks, out);
   if (!header.wants.empty()) {
     out.u8(static_cast<std::uint8_t>(header.wants.size()));
@@ -163,6 +164,8 @@ std::optional<RecordsHeader> parse_records_header(ByteReader& in) {
     return std::nullopt;
   if ((flags & kHasWants) != 0 && !read_wants(in, header.wants)) return std::nullopt;
   if (header.has_feedback && !read_feedback(in, header.feedback)) return std::nullopt;
+  header.feedback.wants_repeats = (flags & kWantsRepeats) != 0;
+  if (header.feedback.wants_repeats && !header.has_feedback) return std::nullopt;
   if (header.has_records) header.base_ticks = in.u24();
   // Records follow where it says so, and nowhere else.
   if (!in.ok() || (in.remaining() > 0) != header.has_records) return std::nullopt;

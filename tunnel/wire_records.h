@@ -54,6 +54,7 @@ struct GuestFeedback {
   bool operator==(const GuestFeedback&) const = default;
 };
 struct Feedback {
+  bool wants_repeats = false;    // the link's way loses some: each pose is to go once more
   std::uint16_t loss = 0;        // of the way to the worst receiver, in 1/65,536
   std::uint16_t in_a_row = 0;    // of that what is lost together with the datagram before, 1/65,536
   std::uint16_t round_trip = 0;  // to the worst receiver and back, in 0.1 ms; 0 = not known

@@ -264,7 +264,7 @@ TEST(WireRecords, EveryPrefixAndEveryContradictionIsRefused) {
     changed[at] = value;
     return changed;
   };
-  EXPECT_FALSE(is_good(with(3, 0x20 | bytes[3]))) << "a flag that nobody knows";
+  EXPECT_FALSE(is_good(with(3, 0x40 | bytes[3]))) << "a flag that nobody knows";
   EXPECT_FALSE(is_good(with(10, 0))) << "no exceptions, though it says so";
   EXPECT_FALSE(is_good(with(11, 33))) << "an exception out of the window";
   EXPECT_FALSE(is_good(with(12, 64))) << "no such slot";

@@ -48,7 +48,8 @@ class LatticeRoom : public ::testing::Test {
     });
   }
 
-  SimulatedTunnel tunnel;
+  // What one pose alone comes to: repetition has tests of its own.
+  SimulatedTunnel tunnel{{.repeats = false}};
   Dance dance{tunnel, {}};
   Random random{23};
 };
