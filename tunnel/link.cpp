@@ -81,7 +81,10 @@ void Link::on_trouble(SealTrouble trouble, MonoTime now) {
 MonoTime Link::tick(MonoTime now) {
   // Before the next hello, so that the one before had all its time.
   if (core_.unanswered_hellos() == 0) hellos_on_socket_ = 0;
-  if (core_.unanswered_hellos() - hellos_on_socket_ >= kHellosPerSocket) try_another_socket();
+  if (core_.unanswered_hellos() - hellos_on_socket_ >= kHellosPerSocket) {
+    try_another_socket();
+    if (seal_.is_trying()) seal_.begin_anew(now);
+  }
   if (now >= seal_.next_deadline()) seal_.tick(now);
   core_.tick(now);
   return next_deadline();
@@ -99,6 +102,7 @@ Link::~Link() {
   seal_.close();
   poller_.set_deadline(timer_, MonoTime());
   poller_.unwatch(socket_.fd());
+  if (addresses_) poller_.unwatch(addresses_->fd());
 }
 
 // Another network: the session goes on from there, as soon as the server hears from there.
@@ -107,6 +111,8 @@ void Link::on_addresses_changed(MonoTime now) {
   const auto probe = UdpSocket::connect(server_[tried_]);
   if (!probe || probe->local_address().with_port(0) == before.with_port(0)) return;
   if (!use_socket_to(tried_)) return;
+  // A handshake is bound to where it began.
+  if (seal_.is_trying()) seal_.begin_anew(now);
   core_.on_moved(now);
   rearm();
 }

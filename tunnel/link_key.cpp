@@ -37,13 +37,17 @@ Result<LinkKey> choose_link_key(const std::string& server, const wire::RoomName&
   }
   DANCE_TRY(const HouseKeys keys, load_house_keys(path));
   const std::string name = server_name_of(server, kDefaultServerPort);
-  if (const HouseKey* key = keys.find(name, room, first_guest)) {
+  const HouseKey* key = keys.find(name, room, first_guest);
+  // A key that says no server is for one elsewhere: on this machine there is a better one.
+  const auto own = Address::resolve(server, kDefaultServerPort);
+  const bool is_here = own && own->is_loopback() && source.key_file.empty();
+  if (key != nullptr && !(is_here && key->server.empty())) {
     chosen.name = std::string(key->name.view());
     chosen.key = key->key;
     return chosen;
   }
-  DANCE_TRY(const auto address, Address::resolve(server, kDefaultServerPort));
-  if (address.is_loopback() && source.key_file.empty()) {
+  if (!own) return tl::make_unexpected(own.error());
+  if (is_here) {
     chosen.name = kLocalKeyName;
     DANCE_TRY(chosen.key, local_key());
     return chosen;

@@ -34,8 +34,11 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerO
     core->receive(from, access_of(key), plain, received, now);
   };
   handlers.on_end = [core = &server->core_](PeerId peer) { core->forget(peer); };
+  SealLimits seal = options.seal;
+  // A link that begins anew has two for a while.
+  seal.peers = std::max(seal.peers, 2 * options.limits.sessions);
   DANCE_TRY(server->door_,
-            SealServer::make(options.seal, options.keys, options.certificates, secure_random_u64,
+            SealServer::make(seal, options.keys, options.certificates, secure_random_u64,
                              std::move(handlers), server->socket_));
   server->sealed_.door = server->door_.get();
   server->core_.set_reserved([self = server.get()](const GuestId& name) {

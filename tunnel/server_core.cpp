@@ -21,6 +21,7 @@ ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& s
       sessions_(limits.sessions),
       rooms_(limits.rooms) {
   DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
+  hellos_.fill(TokenBucket(limits.hellos_per_second, limits.hello_burst));
   by_peer_.reserve(limits.sessions);
   newcomers_.reserve(limits.sessions);
   bundled_.reserve(limits.sessions);

@@ -12,6 +12,7 @@
 //               make it stop or grow.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -156,6 +157,7 @@ class ServerCore {
   ServerLimits limits_;
   RandomU64 random_;
   std::function<bool(const GuestId&)> is_reserved_;
+  std::array<TokenBucket, 256> hellos_;  // by key: names that fall on one place share it
   PeerSink& sink_;
   std::vector<ServerSession> sessions_;
   std::vector<ServerRoom> rooms_;

@@ -32,6 +32,8 @@ void ServerCore::refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause, con
 
 void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
                           MonoTime now) {
+  const std::size_t place = std::hash<std::string_view>()(access.name.view()) % hellos_.size();
+  if (!hellos_[place].take(1.0, now)) return reject(ServerReject::kSessionRate);
   wire::HelloProblem problem;
   const auto hello = wire::parse_hello(body, problem);
   if (!hello && problem.is_other_version)

@@ -41,6 +41,9 @@ struct ServerLimits {
   double datagram_burst = 1000.0;
   double bytes_per_second = 2e6;
   double byte_burst = 500e3;
+  // With one key: each may change the room's roster.
+  double hellos_per_second = 20.0;
+  double hello_burst = 200.0;
   // Per guest: poses and hands at 240 Hz, and every receiver must decode them.
   double records_per_second = 600.0;
   double record_burst = 150.0;

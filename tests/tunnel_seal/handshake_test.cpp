@@ -131,13 +131,74 @@ TEST(SealHandshake, HandshakesThatAreNotEndedAreBoundedAndForgotten) {
   };
   for (int i = 0; i < 6; ++i) street.add_house("alice", alice.key);
   street.run(Duration::ms(20));
+  // The oldest made room.
   EXPECT_EQ(street.server->handshake_count(), 4u);
-  EXPECT_EQ(street.server->counters().of(SealReject::kFull), 2u);
+  EXPECT_EQ(street.server->counters().of(SealReject::kTimedOut), 2u);
   for (auto& house : street.houses) house->is_cut = true;
   street.run(Duration::s(6));
   EXPECT_EQ(street.server->handshake_count(), 0u);
   EXPECT_GE(street.server->counters().of(SealReject::kTimedOut), 4u);
   EXPECT_EQ(street.server->peer_count(), 0u);
+}
+
+TEST(SealHandshake, OneNetworkDoesNotTakeAllPlaces) {
+  const KeyEntry alice = key_of("alice");
+  SealLimits limits;
+  limits.handshakes = 8;
+  limits.handshakes_per_network = 6;
+  SealedStreet street({alice}, limits);
+  // Eleven who begin and go no further, ten of them from one network.
+  bool stalls = true;
+  street.on_passing = [&](SealedStreet::Passing& passing) {
+    return !stalls || !passing.to_server ||
+           seal::cookie_of(seal::parse(passing.bytes)->body).has_value();
+  };
+  for (int i = 0; i < 10; ++i) street.add_house("alice", alice.key);
+  for (int i = 0; i < 3; ++i) {
+    auto& other = street.add_house("alice", alice.key);
+    other.address = *Address::resolve("198.51.100." + std::to_string(i + 1) + ":1");
+  }
+  street.run(Duration::ms(20));
+  EXPECT_EQ(street.server->counters().of(SealReject::kFull), 4u);
+  EXPECT_EQ(street.server->handshake_count(), 8u);
+  stalls = false;
+  auto& guest = street.add_house("alice", alice.key);
+  guest.address = *Address::resolve("203.0.113.5:1");
+  street.run(Duration::ms(20));
+  EXPECT_EQ(guest.sealed, 1);
+}
+
+TEST(SealHandshake, AKeyThatIsTakenBackMeanwhileLetsNobodyIn) {
+  const KeyEntry alice = key_of("alice"), bob = key_of("bob");
+  SealedStreet street({alice, bob});
+  auto& house = street.add_house("alice", alice.key);
+  // The key has been looked up; what proves it is held back.
+  std::vector<SealedStreet::Passing> held;
+  street.on_passing = [&](SealedStreet::Passing& passing) {
+    if (!passing.to_server || seal::cookie_of(seal::parse(passing.bytes)->body)) return true;
+    seal::Bytes rest = seal::parse(passing.bytes)->body;
+    std::size_t clear = seal::kIdBytes;
+    while (const auto record = seal::take_record(rest)) {
+      if (record->epoch == 0) clear += record->whole.size();
+    }
+    held.push_back(passing);
+    auto only_clear = passing;
+    only_clear.bytes.resize(clear);
+    passing = only_clear;
+    return true;
+  };
+  street.run(Duration::ms(10));
+  ASSERT_EQ(street.server->handshake_count(), 1u);
+  ASSERT_FALSE(held.empty());
+  street.set_keys({bob});
+  for (const auto& late : held) street.deliver(late);
+  street.on_passing = {};
+  EXPECT_EQ(street.server->peer_count(), 0u);
+  EXPECT_EQ(street.server->counters().of(SealReject::kWrongKey), 1u);
+  street.run(Duration::ms(10));
+  street.say(house, "let me in");
+  street.run(Duration::ms(10));
+  EXPECT_TRUE(street.heard.empty());
 }
 
 TEST(SealHandshake, LostDatagramsAreSentAgain) {

@@ -80,7 +80,10 @@ TEST(KeyRing, SaysWhichLineIsWrongAndNeverTheKey) {
   says("alice guest * " + key + " more", "NAME KIND ROOM KEY");
   says("Alice guest * " + key, "'Alice'");
   says("alice king * " + key, "'king' is none of guest");
-  says("alice guest A " + key, "room 'A'");
+  says("alice guest A " + key, "room: 'A'");
+  says("alice guest " + key + " *", "room: a long word");
+  says(key + " guest * alice", "name: a long word");
+  says("alice " + key + " guest *", "kind: a long word");
   says("alice guest * " + key + "x", "none");
   says("alice guest * " + key + "\nalice host * " + key, "line 2: 'alice' has a key already");
 }

@@ -39,6 +39,39 @@ TEST_F(SealSession, GoesOnAtOnceFromAnotherAddress) {
   EXPECT_EQ(house.sealed, 1);
 }
 
+TEST_F(SealSession, ANewAddressHearsLittleBeforeItHasAnswered) {
+  // A guest who names somebody else as her address: nobody answers there.
+  house.address = Address::loopback(4321);
+  street.on_passing = [&](SealedStreet::Passing& passing) {
+    return passing.to_server || passing.peer != house.address;
+  };
+  street.say(house, "send it there");
+  street.run(Duration::ms(5));
+  ASSERT_EQ(street.server->address_of(peer), house.address);
+  for (int i = 0; i < 1000; ++i) street.answer(peer, std::string(100, 'x'));
+  std::size_t said = 0;
+  for (const auto& passed : street.sent)
+    if (passed.to_server && passed.peer == house.address) said += passed.bytes.size();
+  EXPECT_LE(street.bytes_to(house.address), 3 * said);
+  EXPECT_GT(street.server->counters().unproven, 900u);
+  // Back where she was she is known.
+  house.address = first;
+  street.say(house, "here");
+  street.run(Duration::ms(5));
+  const std::size_t before = street.bytes_to(first);
+  for (int i = 0; i < 10; ++i) street.answer(peer, std::string(100, 'x'));
+  EXPECT_EQ(street.bytes_to(first) - before, 10 * (100 + seal::kOverhead));
+  // And elsewhere once she answers.
+  house.address = Address::loopback(4322);
+  street.on_passing = {};
+  street.say(house, "really there");
+  street.run(Duration::ms(15));
+  const std::size_t there = street.bytes_to(house.address);
+  for (int i = 0; i < 10; ++i) street.answer(peer, std::string(100, 'x'));
+  EXPECT_EQ(street.bytes_to(house.address) - there, 10 * (100 + seal::kOverhead));
+  for (const auto& heard : street.heard) EXPECT_LT(heard.text.size(), 20u) << "answers stay within";
+}
+
 TEST_F(SealSession, ACopyFromElsewhereMovesNothing) {
   const auto copy = street.sent.back();
   ASSERT_TRUE(copy.to_server);

@@ -18,6 +18,11 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
+// Who swaps columns may have put the key there: what is too long to be a name is not said.
+std::string said(std::string_view word) {
+  return word.size() <= kMaxGuestIdLength ? "'" + std::string(word) + "'" : "a long word";
+}
+
 Result<KeyEntry> parse_entry(std::string_view line, const std::string& where) {
   const std::string_view name = take_word(line), kind = take_word(line), room = take_word(line),
                          key = take_word(line);
@@ -25,17 +30,17 @@ Result<KeyEntry> parse_entry(std::string_view line, const std::string& where) {
     return fail(where + ": a line is NAME KIND ROOM KEY; make one with dance server --new-guest");
   KeyEntry entry;
   const auto id = GuestId::parse(name);
-  if (!id) return fail(where + ": '" + std::string(name) + "': " + kGuestIdRule);
+  if (!id) return fail(where + ", name: " + said(name) + ": " + kGuestIdRule);
   entry.name = *id;
   const auto known_kind = find_key_kind(kind);
   if (!known_kind)
-    return fail(where + ": '" + std::string(kind) + "' is none of guest, host, listener, room");
+    return fail(where + ", kind: " + said(kind) + " is none of guest, host, listener, room");
   entry.kind = *known_kind;
   if (room != "*") {
     const auto room_id = GuestId::parse(room);
     if (!room_id)
-      return fail(where + ": room '" + std::string(room) +
-                  "': 1 to 24 characters of a-z, 0-9 and '-', or * for every room");
+      return fail(where + ", room: " + said(room) +
+                  ": 1 to 24 characters of a-z, 0-9 and '-', or * for every room");
     entry.room = *room_id;
   }
   // Never in the message: it may be a key with one character too many.

@@ -106,12 +106,22 @@ void SealClient::receive(seal::Bytes datagram, MonoTime received, MonoTime now) 
       is_of_session ? session_->open(opening->body, plain) : SealChannel::Opened::kForged;
   if (opened == SealChannel::Opened::kPlain) {
     last_heard_ = now;
+    if (plain[0] == seal::kPathQuestion) return answer_path(plain);
     handlers_.on_datagram(plain, received, now);
   } else if (opened == SealChannel::Opened::kReplayed) {
     ++counters_.replayed;
   } else {
     ++counters_.forged;
   }
+}
+
+// Yes, we hear at this address.
+void SealClient::answer_path(seal::Bytes question) {
+  if (question.size() != seal::kPathBytes) return;
+  std::array<std::uint8_t, seal::kPathBytes> answer;
+  std::copy(question.begin(), question.end(), answer.begin());
+  answer[0] = seal::kPathAnswer;
+  session_->send(answer);
 }
 
 void SealClient::send(const Address&, std::span<const std::uint8_t> plain) {

@@ -54,6 +54,7 @@ class SealClient final : public DatagramSink {
   void begin_anew(MonoTime now);
   void close();
 
+  bool is_trying() const { return try_.channel != nullptr; }
   bool is_sealed() const { return session_ != nullptr; }
   const SealClientCounters& counters() const { return counters_; }
   // Whether a datagram has ever come that only the server can have sent.
@@ -69,6 +70,7 @@ class SealClient final : public DatagramSink {
   };
   void begin(MonoTime now);
   void go_on(seal::Bytes records, MonoTime now);
+  void answer_path(seal::Bytes question);
   void give_up(SealTrouble trouble, MonoTime now);
 
   std::unique_ptr<SealContext> context_;

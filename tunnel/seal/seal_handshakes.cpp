@@ -99,10 +99,11 @@ void SealServer::on_stranger(const Address& from, const seal::Opening& opening, 
     listener_ = std::make_unique<SealChannel>(*context_, SealChannel::Side::kServer, sink_);
   listener_->set_id(opening.id);
   listener_->set_peer(from);
+  if (!cookie->empty() && !may(cookies_, from, now)) return;
   const bool is_proven = !cookie->empty() && is_cookie(*listener_, cookie->data(), cookie->size());
   if (!cookie->empty() && !is_proven) reject(SealReject::kBadCookie);
   if (!may(is_proven ? begun_ : strangers_, from, now)) return;
-  if (is_proven && handshakes_.size() >= limits_.handshakes) return reject(SealReject::kFull);
+  if (is_proven && !make_handshake_place(from)) return reject(SealReject::kFull);
   if (!listener_->listen(opening.body, seal::kIdBytes + opening.body.size())) {
     if (is_proven)
       reject(SealReject::kNoAgreement);
@@ -150,6 +151,10 @@ void SealServer::go_on(std::size_t index, seal::Bytes records, MonoTime now) {
 
 void SealServer::finish(std::size_t index, MonoTime now) {
   Handshake& handshake = handshakes_[index];
+  if (handshake.is_known && !is_key_still_good(handshake)) {
+    reject(SealReject::kWrongKey);
+    return drop_handshake(index);
+  }
   Peer peer;
   peer.key = handshake.key;
   if (!handshake.is_known) {  // no key: a certificate
@@ -162,22 +167,61 @@ void SealServer::finish(std::size_t index, MonoTime now) {
     peer.has_certificate = true;
   }
   peer.channel = std::move(handshake.channel);
+  peer.proven = peer.channel->peer();
   peer.last_heard = now;
   drop_handshake(index);
   const PeerId id = peer.channel->id();
-  if (peers_.contains(id) || !make_place(now)) return reject(SealReject::kFull);
+  if (peers_.contains(id) || !make_place(peer.key, now)) return reject(SealReject::kFull);
   ++counters_.handshakes_done;
   peers_.emplace(id, std::move(peer));
 }
 
-// Where there is no place left, who has been silent longest makes it.
-bool SealServer::make_place(MonoTime now) {
-  if (peers_.size() < limits_.peers) return true;
-  const auto oldest = std::min_element(
-      peers_.begin(), peers_.end(),
-      [](const auto& a, const auto& b) { return a.second.last_heard < b.second.last_heard; });
-  if (now - oldest->second.last_heard < kMayBeReplaced) return false;
-  end(oldest->first);
+// The key may have been taken back while the handshake was under way.
+bool SealServer::is_key_still_good(const Handshake& handshake) const {
+  const KeyEntry* entry = keys_->find(handshake.key.name.view());
+  return entry != nullptr && *entry == handshake.key;
+}
+
+// Where there is no place left, for this key or for anybody, who has been silent longest makes it.
+bool SealServer::make_place(const KeyEntry& key, MonoTime now) {
+  std::size_t of_key = 0;
+  const std::pair<const PeerId, Peer>* oldest = nullptr;
+  const std::pair<const PeerId, Peer>* oldest_of_key = nullptr;
+  for (const auto& entry : peers_) {
+    if (oldest == nullptr || entry.second.last_heard < oldest->second.last_heard) oldest = &entry;
+    if (entry.second.key.name != key.name) continue;
+    ++of_key;
+    if (oldest_of_key == nullptr || entry.second.last_heard < oldest_of_key->second.last_heard)
+      oldest_of_key = &entry;
+  }
+  const bool is_key_full = of_key >= limits_.peers_per_key;
+  if (!is_key_full && peers_.size() < limits_.peers) return true;
+  const auto* goes = is_key_full ? oldest_of_key : oldest;
+  if (now - goes->second.last_heard < kMayBeReplaced) return false;
+  end(goes->first);
+  return true;
+}
+
+// One network has so many under way and no more; where all places are taken, the oldest of the network
+// that has most makes room.
+bool SealServer::make_handshake_place(const Address& from) {
+  const auto of = [this](const Address& address) {
+    return std::count_if(handshakes_.begin(), handshakes_.end(), [&](const Handshake& h) {
+      return h.channel->peer().network() == address.network();
+    });
+  };
+  if (static_cast<std::size_t>(of(from)) >= limits_.handshakes_per_network) return false;
+  if (handshakes_.size() < limits_.handshakes) return true;
+  std::size_t goes = 0;
+  std::ptrdiff_t most = 0;
+  for (std::size_t i = 0; i < handshakes_.size(); ++i) {  // the oldest first
+    const auto count = of(handshakes_[i].channel->peer());
+    if (count <= most) continue;
+    most = count;
+    goes = i;
+  }
+  reject(SealReject::kTimedOut);
+  drop_handshake(goes);
   return true;
 }
 

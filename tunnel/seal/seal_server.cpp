@@ -49,6 +49,7 @@ SealServer::SealServer(const SealLimits& limits, std::shared_ptr<const KeyRing> 
       sink_(sink, counters_),
       strangers_(limits.strangers, random_()),
       notices_(limits.notices, random_()),
+      cookies_(limits.cookies, random_()),
       begun_(limits.begun, random_()) {
   peers_.reserve(limits.peers);
   handshakes_.reserve(limits.handshakes);
@@ -109,12 +110,52 @@ void SealServer::on_compact(const Address& from, const seal::Opening& opening, M
   }
   peer.last_heard = now;
   // Only what is newer than all before says where the peer is now.
-  if (peer.channel->is_newest() && peer.channel->peer() != from) {
-    if (peer.key.is_local && !from.is_loopback()) return reject(SealReject::kNotLocal);
-    ++counters_.moves;
-    peer.channel->set_peer(from);
-  }
+  if (peer.channel->is_newest() && peer.channel->peer() != from &&
+      !on_moved(opening.id, peer, from, now))
+    return;
+  if (is_path_answer(peer, from, plain)) return;
+  if (!peer.is_proven && peer.channel->peer() == from)
+    ask_path(opening.id, peer, seal::kIdBytes + opening.body.size(), now);
   handlers_.on_datagram(opening.id, peer.key, plain, received, now);
+}
+
+// To another address the peer goes on at once, and hears at most three times what it says until it has
+// shown that it hears there: else any guest could aim a room's poses at anybody.
+bool SealServer::on_moved(PeerId id, Peer& peer, const Address& from, MonoTime) {
+  if (peer.key.is_local && !from.is_loopback()) {
+    reject(SealReject::kNotLocal);
+    return false;
+  }
+  ++counters_.moves;
+  peer.channel->set_peer(from);
+  peer.is_proven = from == peer.proven;
+  peer.asked_at = MonoTime();
+  peer.may_hear = 0;
+  while (!peer.is_proven && (peer.question = random_() ^ id) == 0) {
+  }
+  return true;
+}
+
+void SealServer::ask_path(PeerId id, Peer& peer, std::size_t heard, MonoTime now) {
+  constexpr Duration kAskAgain = Duration::ms(100);
+  peer.may_hear += 3 * heard;
+  if (peer.asked_at.is_set() && now - peer.asked_at < kAskAgain) return;
+  peer.asked_at = now;
+  std::array<std::uint8_t, seal::kPathBytes> question{seal::kPathQuestion};
+  std::memcpy(question.data() + 1, &peer.question, sizeof peer.question);
+  send(id, question);
+}
+
+bool SealServer::is_path_answer(Peer& peer, const Address& from, seal::Bytes plain) {
+  if (plain[0] != seal::kPathAnswer) return false;
+  const bool is_it = !peer.is_proven && from == peer.channel->peer() &&
+                     plain.size() == seal::kPathBytes &&
+                     std::memcmp(plain.data() + 1, &peer.question, sizeof peer.question) == 0;
+  if (is_it) {
+    peer.is_proven = true;
+    peer.proven = from;
+  }
+  return true;
 }
 
 // Lets a link notice at once that the server began anew. Anybody could say so: a link that hears it
@@ -137,7 +178,20 @@ void SealServer::on_old_version(const Address& from, seal::Bytes datagram, MonoT
 
 void SealServer::send(PeerId to, seal::Bytes plain) {
   const auto found = peers_.find(to);
-  if (found == peers_.end() || !found->second.channel->send(plain)) ++counters_.unsealed;
+  if (found == peers_.end()) {
+    ++counters_.unsealed;
+    return;
+  }
+  Peer& peer = found->second;
+  if (!peer.is_proven) {
+    const std::size_t size = plain.size() + seal::kOverhead;
+    if (size > peer.may_hear) {
+      ++counters_.unproven;
+      return;
+    }
+    peer.may_hear -= size;
+  }
+  if (!peer.channel->send(plain)) ++counters_.unsealed;
 }
 
 void SealServer::end(PeerId peer) {
@@ -172,7 +226,10 @@ MonoTime SealServer::tick(MonoTime now) {
     secrets_since_ = now;
   }
   for (std::size_t i = handshakes_.size(); i-- > 0;) {
-    if (now - handshakes_[i].since > limits_.handshake_time) {
+    // Who hears answers within a round trip, and says it again after a quarter of a second.
+    const bool has_answered = handshakes_[i].datagrams > 1;
+    const Duration most = has_answered ? limits_.handshake_time : limits_.handshake_time * 2 / 5;
+    if (now - handshakes_[i].since > most) {
       reject(SealReject::kTimedOut);
       drop_handshake(i);
     } else {

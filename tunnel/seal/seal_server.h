@@ -35,6 +35,11 @@ struct SealLimits {
   Duration silence = Duration::s(60);
   // First datagrams of strangers, which are answered and forgotten.
   SourceLimits::Rates strangers{100.0, 200.0, 10'000.0, 2000.0};
+  // Looks at cookies, which cost a little too.
+  SourceLimits::Rates cookies{200.0, 400.0, 20'000.0, 4000.0};
+  std::size_t handshakes_per_network = 32;
+  // With one key, at a time.
+  std::size_t peers_per_key = 256;
   // Answers to who speaks in a session that is no more.
   SourceLimits::Rates notices{50.0, 200.0, 2000.0, 1000.0};
   // Handshakes of those who hear at the address that they name.
@@ -75,6 +80,7 @@ struct SealCounters {
   std::uint64_t handshakes_begun = 0;
   std::uint64_t handshakes_done = 0;
   std::uint64_t moves = 0;     // of a session to another address
+  std::uint64_t unproven = 0;  // not sent to an address that has not answered yet
   std::uint64_t unsealed = 0;  // to somebody who is gone, or too long
   std::array<std::uint64_t, kSealRejects> rejected{};
   std::uint64_t of(SealReject cause) const { return rejected[static_cast<std::size_t>(cause)]; }
@@ -119,6 +125,12 @@ class SealServer {
     KeyEntry key;
     bool has_certificate = false;
     MonoTime last_heard;
+    // An address that the peer has moved to hears little until it has answered.
+    Address proven;
+    bool is_proven = true;
+    std::uint64_t question = 0;
+    MonoTime asked_at;
+    std::size_t may_hear = 0;  // bytes, until then
   };
   struct Handshake {
     std::unique_ptr<SealChannel> channel;
@@ -148,6 +160,9 @@ class SealServer {
                   MonoTime now);
   void on_old_version(const Address& from, seal::Bytes datagram, MonoTime now);
   void answer_unknown(const Address& from, std::uint64_t id, MonoTime now);
+  bool on_moved(PeerId id, Peer& peer, const Address& from, MonoTime now);
+  void ask_path(PeerId id, Peer& peer, std::size_t heard, MonoTime now);
+  bool is_path_answer(Peer& peer, const Address& from, seal::Bytes plain);
   void end(PeerId peer);
 
   // seal_handshakes.cpp
@@ -156,7 +171,9 @@ class SealServer {
   void go_on(std::size_t handshake, seal::Bytes records, MonoTime now);
   void finish(std::size_t handshake, MonoTime now);
   void drop_handshake(std::size_t handshake);
-  bool make_place(MonoTime now);
+  bool make_place(const KeyEntry& key, MonoTime now);
+  bool make_handshake_place(const Address& from);
+  bool is_key_still_good(const Handshake& handshake) const;
   std::optional<PresharedKey> find_key(ssl_st* ssl, std::string_view identity);
   std::size_t make_cookie(const SealChannel& channel, std::uint64_t secret_age,
                           std::uint8_t* out) const;
@@ -174,6 +191,7 @@ class SealServer {
   std::unique_ptr<SealChannel> listener_;  // for whoever is next
   SourceLimits strangers_;
   SourceLimits notices_;
+  SourceLimits cookies_;
   SourceLimits begun_;
   // Cookies are made with the first; those of the second are still good.
   std::array<std::array<std::uint64_t, 4>, 2> secrets_;
