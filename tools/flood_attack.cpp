@@ -10,7 +10,7 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kKept = 256;
-constexpr std::size_t kBurst = 32;
+constexpr std::size_t kDatagramsAtOnce = 32;
 constexpr Duration kWrongKeyEach = Duration::ms(250);
 
 // Addresses of 127/8 are all this machine's: 127.1.0.1, 127.1.0.2 …
@@ -175,7 +175,7 @@ void FloodAttack::run() {
     UdpSocket& socket =
         sockets_[random_.next_u64() % 2 == 0 ? 0 : random_.next_u64() % sockets_.size()];
     Totals more;
-    for (std::size_t i = 0; i < kBurst; ++i) {
+    for (std::size_t i = 0; i < kDatagramsAtOnce; ++i) {
       const auto attack = static_cast<Attack>(random_.next_u64() % (kAttacks - 1));
       const Datagram bytes = make(attack);
       socket.send(options_.server, bytes);
@@ -183,13 +183,13 @@ void FloodAttack::run() {
       more.bytes_sent += bytes.size();
     }
     socket.flush();
-    sent += kBurst;
+    sent += kDatagramsAtOnce;
     {
       const std::lock_guard lock(mutex_);
       for (std::size_t i = 0; i < kAttacks; ++i) totals_.sent[i] += more.sent[i];
       totals_.bytes_sent += more.bytes_sent;
     }
-    if (sent % (kBurst * 16) == 0) take_answers();
+    if (sent % (kDatagramsAtOnce * 16) == 0) take_answers();
   }
   timespec pause{0, 200'000'000};
   nanosleep(&pause, nullptr);

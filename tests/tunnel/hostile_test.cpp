@@ -103,7 +103,8 @@ class Hostile : public ::testing::Test {
       for (const auto& heard : house->poses) ASSERT_TRUE(is_valid(heard.pose));
   }
 
-  SimulatedTunnel tunnel;
+  // Here all houses have one key: what it may ask a second is tested by itself.
+  SimulatedTunnel tunnel{{.hellos_per_second = 1e6, .hello_burst = 1e6}};
   std::map<std::pair<bool, int>, Captured> captured;
   SimulatedTunnel::House* a = nullptr;
   SimulatedTunnel::House* b = nullptr;
@@ -310,6 +311,24 @@ TEST_F(HostileHello, APeerHasOneSessionHoweverManyTokensItHas) {
   EXPECT_EQ(tunnel.server().session_count(), 3u);
   EXPECT_EQ(tunnel.server().room_count(), 2u);
   expect_the_dance_goes_on();
+}
+
+TEST(HostileHellos, OfOneKeyAreAnsweredSoManyTimesASecond) {
+  SimulatedTunnel tunnel;
+  tunnel.add_house("salsa", {"alice"});
+  tunnel.run(Duration::ms(50));
+  wire::Hello hello;
+  hello.nonce = 5;
+  EXPECT_TRUE(hello.codecs.try_push(known_codecs().front()));
+  hello.room = guest("salsa");
+  const PeerId peer = tunnel.add_peer();
+  std::array<std::uint8_t, wire::kMaxHello> out;
+  for (int i = 0; i < 5000; ++i) {
+    ++hello.token;
+    tunnel.inject(peer, {out.data(), wire::build(hello, out)});
+  }
+  EXPECT_GT(tunnel.server().counters().of(ServerReject::kSessionRate), 4000u);
+  EXPECT_LT(tunnel.server().counters().sessions_begun, 300u);
 }
 
 TEST_F(HostileHello, ADatagramWithoutASessionGetsNothing) {
