@@ -8,6 +8,7 @@
 #include <iterator>
 #include <vector>
 
+#include "core/base/take_line.h"
 #include "core/net/local_socket.h"
 #include "tunnel/server_watch.h"
 
@@ -44,8 +45,7 @@ std::vector<std::string> folders_to_ask(std::optional<uid_t> owner) {
 std::optional<uid_t> owner_of_udp_port(std::string_view table, std::uint16_t port) {
   const std::string wanted = fmt::format("{:04X}", port);
   while (!table.empty()) {
-    const std::string_view row = table.substr(0, table.find('\n'));
-    table.remove_prefix(std::min(table.size(), row.size() + 1));
+    const std::string_view row = take_line(table);
     std::vector<std::string_view> words;
     for (std::size_t at = 0; at < row.size();) {
       at = row.find_first_not_of(' ', at);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/base/take_line.h"
 #include "core/net/trace_file.h"
 
 namespace dance {
@@ -19,10 +20,7 @@ Result<CapacityTrace> CapacityTrace::parse(std::string_view text) {
   std::size_t line = 0;
   while (!text.empty()) {
     ++line;
-    const auto end = text.find('\n');
-    std::string_view row = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (row.ends_with('\r')) row.remove_suffix(1);
+    const std::string_view row = take_line(text);
     if (row.empty()) continue;
     std::uint32_t ms = 0;
     const auto [stop, error] = std::from_chars(row.data(), row.data() + row.size(), ms);

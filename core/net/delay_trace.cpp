@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/assert.h"
+#include "core/base/take_line.h"
 #include "core/net/trace_file.h"
 
 namespace dance {
@@ -108,10 +109,7 @@ Result<DelayTrace> DelayTrace::parse(std::string_view csv) {
   Duration run_begin;
   Duration gap;  // between the last two points: what stands between runs and before a repetition
   for (std::size_t line = 1; !csv.empty(); ++line) {
-    const auto end = csv.find('\n');
-    std::string_view row = csv.substr(0, end);
-    csv.remove_prefix(end == std::string_view::npos ? csv.size() : end + 1);
-    if (row.ends_with('\r')) row.remove_suffix(1);
+    const std::string_view row = take_line(csv);
     if (!columns) {
       DANCE_TRY(columns, read_header(row));
       continue;

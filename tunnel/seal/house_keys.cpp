@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/take_line.h"
+
 namespace dance {
 namespace {
 
@@ -72,8 +74,7 @@ Result<HouseKeys> HouseKeys::parse(std::string_view text, const std::string& nam
   std::size_t number = 0;
   while (!text.empty()) {
     ++number;
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    const std::string_view line = take_line(text);
     if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
     const auto key = HouseKey::parse(line);
     const std::string where = name + " line " + std::to_string(number) + ": ";

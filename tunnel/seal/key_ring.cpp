@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/take_line.h"
+
 namespace dance {
 namespace {
 
@@ -68,8 +70,7 @@ Result<KeyRing> KeyRing::parse(std::string_view text, const std::string& name) {
   std::size_t number = 0;
   while (!text.empty()) {
     ++number;
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    const std::string_view line = take_line(text);
     std::string_view rest = line;
     const std::string_view first = take_word(rest);
     if (first.empty() || first.front() == '#') continue;
