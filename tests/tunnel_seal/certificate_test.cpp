@@ -1,9 +1,9 @@
 // Certificates in the stead of keys.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
+#include "tests/tools/run_program.h"
 #include "tests/tunnel_seal/paper.h"
 #include "tests/tunnel_seal/sealed_street.h"
 
@@ -13,9 +13,6 @@ namespace {
 class SealCertificate : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dance-paper-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder = pattern;
     ours = std::make_unique<Authority>(folder, "ours");
     ours->sign("server", "DNS:dance.example.org,IP:192.0.2.1");
     ours->sign("alice", "");
@@ -23,8 +20,6 @@ class SealCertificate : public ::testing::Test {
     street.certificates->authorities = ours->file;
     street.start_server();
   }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   SealCertificates of(const std::string& name) const {
     return {folder + "/" + name + ".pem", folder + "/" + name + ".key", ours->file};
   }
@@ -34,7 +29,8 @@ class SealCertificate : public ::testing::Test {
     return street.add_house(std::move(*context));
   }
 
-  std::string folder;
+  const TestFolder own{"papers"};
+  const std::string folder = own.path();
   std::unique_ptr<Authority> ours;
   const KeyEntry bob = key_of("bob");
   SealedStreet street{{bob}};

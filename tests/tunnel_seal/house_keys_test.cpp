@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/tools/run_program.h"
 #include "tunnel/seal/key_files.h"
 
 namespace dance {
@@ -89,9 +90,6 @@ TEST(HouseKeys, ServersAreNamedOneWay) {
 class KeyFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dance-keys-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder = pattern;
     const char* before = std::getenv("XDG_CONFIG_HOME");
     if (before != nullptr) config_before = before;
     setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
@@ -101,9 +99,9 @@ class KeyFiles : public ::testing::Test {
       setenv("XDG_CONFIG_HOME", config_before->c_str(), 1);
     else
       unsetenv("XDG_CONFIG_HOME");
-    std::filesystem::remove_all(folder);
   }
-  std::string folder;
+  const TestFolder own{"keys"};
+  const std::string folder = own.path();
   std::optional<std::string> config_before;
 };
 
