@@ -1,10 +1,7 @@
 #include "tools/bench_flood.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -15,19 +12,13 @@
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "tools/child_process.h"
+#include "tools/scratch_folder.h"
 
 namespace dance {
 namespace {
 
 constexpr Duration kCoupleComes = Duration::s(20);
 constexpr Duration kSettling = Duration::ms(500);
-
-Duration cpu_time_of(pid_t pid) {
-  clockid_t clock{};
-  timespec time{};
-  if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &time) != 0) return Duration();
-  return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
-}
 
 std::int64_t rss_kb_of(pid_t pid) {
   std::ifstream status("/proc/" + std::to_string(pid) + "/status");
@@ -39,9 +30,6 @@ std::int64_t rss_kb_of(pid_t pid) {
 class BenchFlood {
  public:
   explicit BenchFlood(const BenchFloodOptions& options) : options_(options) {}
-  ~BenchFlood() { std::remove(summary_file_.c_str()); }
-  BenchFlood(const BenchFlood&) = delete;
-  BenchFlood& operator=(const BenchFlood&) = delete;
 
   Result<FloodResult> run() {
     if (auto begun = begin(); !begun) return tl::make_unexpected(begun.error());
@@ -66,11 +54,11 @@ class BenchFlood {
     DANCE_TRY(poller_, Poller::create());
     if (auto stops = poller_->stop_on_signals(); !stops) return stops;
     DANCE_TRY(const std::uint16_t port, free_loopback_port());
-    summary_file_ = "/tmp/dance-flood-" + std::to_string(getpid()) + ".json";
+    DANCE_TRY(scratch_, ScratchFolder::make());
     DANCE_TRY(ChildProcess server,
               ChildProcess::start({program_folder() + "/dance-server",
                                    {"--bind", "0.0.0.0", "--port", std::to_string(port), "--json"},
-                                   summary_file_,
+                                   scratch_->file("summary.json"),
                                    "/dev/null"}));
     server_ = std::make_unique<ChildProcess>(std::move(server));
     FloodAttack::Options flood;
@@ -120,7 +108,7 @@ class BenchFlood {
     phase_ = &phase;
     first_of_phase_ = next_;
     const MonoTime begin = mono_now();
-    const Duration cpu = cpu_time_of(server_->pid());
+    const Duration cpu = server_->cpu_time();
     const Duration frame = Duration::seconds(1.0 / options_.hz);
     MonoTime due = begin;
     while (!is_over(mono_now() - begin)) {
@@ -136,8 +124,8 @@ class BenchFlood {
     for (const MonoTime until = danced + kSettling; mono_now() < until;) turn(Duration::ms(10));
     phase_ = nullptr;
     phase.seconds = (danced - begin).as_seconds();
-    phase.server_cpu_percent = 100.0 * (cpu_time_of(server_->pid()) - cpu).as_seconds() /
-                               (mono_now() - begin).as_seconds();
+    phase.server_cpu_percent =
+        100.0 * (server_->cpu_time() - cpu).as_seconds() / (mono_now() - begin).as_seconds();
     phase.server_rss_kb = rss_kb_of(server_->pid());
     std::sort(phase.took.begin(), phase.took.end());
     result_.phases.push_back(std::move(phase));
@@ -159,7 +147,7 @@ class BenchFlood {
   }
 
   void read_summary() {
-    std::ifstream file(summary_file_);
+    std::ifstream file(scratch_->file("summary.json"));
     std::stringstream text;
     text << file.rdbuf();
     const auto summary = nlohmann::json::parse(text.str(), nullptr, false);
@@ -170,7 +158,7 @@ class BenchFlood {
 
   BenchFloodOptions options_;
   std::vector<Pose> poses_ = salsa_poses();
-  std::string summary_file_;
+  std::unique_ptr<ScratchFolder> scratch_;
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<ChildProcess> server_;
   std::unique_ptr<FloodAttack> attack_;

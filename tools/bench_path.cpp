@@ -17,6 +17,7 @@
 #include "core/program/program.h"
 #include "tools/child_process.h"
 #include "tools/figures.h"
+#include "tools/scratch_folder.h"
 
 namespace dance {
 namespace {
@@ -29,27 +30,6 @@ constexpr Duration kWarmUp = Duration::s(1);
 constexpr Duration kStragglers = Duration::ms(500);
 constexpr const char* kFloorChannel = "BENCH/floor";
 constexpr const char* kGuestName = "alice";
-
-// A folder for session files and the programs' talk, gone at the end.
-class ScratchFolder {
- public:
-  static Result<std::unique_ptr<ScratchFolder>> make() {
-    std::string path = (fs::temp_directory_path() / "dance-bench-XXXXXX").string();
-    if (!mkdtemp(path.data())) return fail(path + ": cannot be made; is TMPDIR writable?");
-    return std::unique_ptr<ScratchFolder>(new ScratchFolder(path));
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  explicit ScratchFolder(std::string path) : path_(std::move(path)) {}
-  std::string path_;
-};
 
 // One way from a bus to another: counts what is sent and times what arrives. Messages are numbered; those of the
 // warm-up count for nothing.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 
 #include "bench/crowd.h"
 #include "bench/salsa_poses.h"
@@ -20,14 +19,6 @@ constexpr Duration kPatience = Duration::s(15);
 constexpr Duration kTurn = Duration::ms(500);
 // Before a turn counts, and for what is still under way behind it.
 constexpr Duration kSettles = Duration::ms(150);
-
-// What a process has had of a core so far.
-Duration cpu_of(pid_t pid) {
-  clockid_t clock{};
-  timespec time{};
-  if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &time) != 0) return Duration();
-  return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
-}
 
 // One relay and its crowd.
 struct Way {
@@ -174,7 +165,7 @@ void BenchTunnel::dance(Way& way, Duration span, bool counts) {
     if (counts && !way.is_counting && danced_ >= settles) {
       way.is_counting = true;
       way.first = way.next;
-      cpu = cpu_of(way.relay->pid());
+      cpu = way.relay->cpu_time();
       bytes = way.crowd->bytes_down();
       counts_from = mono_now();
     }
@@ -185,7 +176,7 @@ void BenchTunnel::dance(Way& way, Duration span, bool counts) {
   if (way.is_counting) {
     way.busy_time += mono_now() - counts_from - kSettles;
     way.danced_s += static_cast<double>(counted_) / poses_per_s();
-    way.busy_cpu += cpu_of(way.relay->pid()) - cpu;
+    way.busy_cpu += way.relay->cpu_time() - cpu;
     way.bytes += way.crowd->bytes_down() - bytes;
   }
   way.is_counting = false;
@@ -200,12 +191,12 @@ Result<TunnelWays> BenchTunnel::run() {
     for (auto& way : ways_) {
       const MonoTime from = mono_now();
       std::vector<Duration> cpu;
-      for (auto& other : ways_) cpu.push_back(cpu_of(other->relay->pid()));
+      for (auto& other : ways_) cpu.push_back(other->relay->cpu_time());
       dance(*way, std::min(kTurn, all - done), true);
       for (std::size_t i = 0; i < ways_.size(); ++i) {
         if (ways_[i] == way) continue;
         ways_[i]->idle_time += mono_now() - from;
-        ways_[i]->idle_cpu += cpu_of(ways_[i]->relay->pid()) - cpu[i];
+        ways_[i]->idle_cpu += ways_[i]->relay->cpu_time() - cpu[i];
       }
     }
   if (poller_->is_stopped()) return fail("stopped by a signal before the end");

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <utility>
 
@@ -75,6 +76,13 @@ bool ChildProcess::has_ended() {
   int status = 0;
   if (waitpid(pid_, &status, WNOHANG) == pid_) note_end(status);
   return ended_;
+}
+
+Duration ChildProcess::cpu_time() const {
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &time) != 0) return Duration();
+  return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
 }
 
 void ChildProcess::ask_to_stop() {

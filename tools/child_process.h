@@ -31,6 +31,8 @@ class ChildProcess {
   ChildProcess& operator=(ChildProcess&& other) noexcept;
 
   pid_t pid() const { return pid_; }
+  // What it has had of the processors so far; 0 once it has ended.
+  Duration cpu_time() const;
   // True once the process has ended; then exit_text() says how.
   bool has_ended();
   const std::string& exit_text() const { return exit_text_; }

@@ -16,7 +16,7 @@ constexpr const char* kExamples = R"(Examples:
   dance join sessions/alice.toml                     everything as the session file says
   dance join dance.example.org --guest alice --room salsa
                                                      without a file: own captures to the stage and to
-                                                     the room, the others through a hold of 20 ms
+                                                     the room, the others held as their lines need
   dance join sessions/alice.toml --no-view           without a window
 )";
 
