@@ -154,46 +154,6 @@ bool Link::use_socket_to(std::size_t which) {
   return true;
 }
 
-void Link::send(const GuestId& guest, const Pose& pose, MonoTime now) {
-  core_.send(guest, pose, now);
-  rearm();
-}
-
-void Link::send(const GuestId& guest, const Hands& hands, MonoTime now) {
-  core_.send(guest, hands, now);
-  rearm();
-}
-
-void Link::send(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
-  core_.send(guest, skeleton, now);
-  rearm();
-}
-
-void Link::send(const GuestId& guest, const Avatar& avatar, MonoTime now) {
-  core_.send(guest, avatar, now);
-  rearm();
-}
-
-void Link::send(const GuestId& guest, const Style& style, MonoTime now) {
-  core_.send(guest, style, now);
-  rearm();
-}
-
-void Link::send(const GuestId& guest, const Placement& placement, MonoTime now) {
-  core_.send(guest, placement, now);
-  rearm();
-}
-
-void Link::send(const GuestId& guest, const Music& music, MonoTime now) {
-  core_.send(guest, music, now);
-  rearm();
-}
-
-void Link::send(const GuestId& guest, const Scene& scene, MonoTime now) {
-  core_.send(guest, scene, now);
-  rearm();
-}
-
 void Link::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
   core_.send_channel(name, message, now);
   rearm();

@@ -37,14 +37,12 @@ class Link {
 
   // Leave at once, in this turn; dropped and counted where there is no session. A guest that was
   // not announced is, with its first pose.
-  void send(const GuestId& guest, const Pose& pose, MonoTime now);
-  void send(const GuestId& guest, const Hands& hands, MonoTime now);
-  void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
-  void send(const GuestId& guest, const Avatar& avatar, MonoTime now);
-  void send(const GuestId& guest, const Style& style, MonoTime now);
-  void send(const GuestId& guest, const Placement& placement, MonoTime now);
-  void send(const GuestId& guest, const Music& music, MonoTime now);
-  void send(const GuestId& guest, const Scene& scene, MonoTime now);
+  // Signal: whatever LinkCore::send() takes.
+  template <class Signal>
+  void send(const GuestId& guest, const Signal& signal, MonoTime now) {
+    core_.send(guest, signal, now);
+    rearm();
+  }
   void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
 
   // As LinkCore does.
@@ -59,7 +57,6 @@ class Link {
   const PathStats& path() const { return core_.path(); }
   std::optional<Music> room_music(MonoTime now) const { return core_.room_music(now); }
   const GuestId& room_music_setter() const { return core_.room_music_setter(); }
-  const SealClientCounters& seal_counters() const { return seal_.counters(); }
   // Since the link began.
   Duration uptime() const;
   // As STATS/link says it.

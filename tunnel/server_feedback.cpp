@@ -40,6 +40,7 @@ void ServerCore::on_acks(std::size_t index, const wire::Acks& acks, MonoTime now
     schedule_feedback(guest.owner, now);
   });
   counters_.datagrams_acked += session.sent.acked() - before;
+  if (limits_.repeats) session.repeats_down.update(session.sent.loss());
   if (!is_good) reject(ServerReject::kBadAck);
 }
 

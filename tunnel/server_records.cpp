@@ -107,7 +107,6 @@ void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime 
 void ServerCore::repeat_before(std::size_t member, const ServerGuest& guest,
                                const wire::Record& next, MonoTime now) {
   ServerSession& to = sessions_[member];
-  if (limits_.repeats) to.repeats_down.update(to.sent.loss());
   if (!to.repeats_down.is_on() || to.thinning[next.slot].divider != 1 ||
       !guest.previous.is_before(next))
     return;

@@ -26,8 +26,6 @@
 namespace dance::wire {
 
 constexpr std::uint8_t kWireVersion = seal::kTunnelVersion;
-// A sealed datagram: fits the smallest path of IPv6 with the headers of IP and UDP.
-constexpr std::size_t kMaxDatagram = seal::kMaxSealed;
 // What the seal adds.
 constexpr std::size_t kSealOverhead = seal::kOverhead;
 // An inner datagram, as the state machines see it.

@@ -27,6 +27,7 @@ constexpr std::size_t kTag = 16;           // of ChaCha20-Poly1305
 constexpr std::size_t kCompactHeader = kIdBytes + 2;
 // What sealing adds to a datagram.
 constexpr std::size_t kOverhead = kCompactHeader + kTag;
+// Fits the smallest path of IPv6 with the headers of IP and UDP.
 constexpr std::size_t kMaxSealed = 1200;
 constexpr std::size_t kMaxPlain = kMaxSealed - kOverhead;
 

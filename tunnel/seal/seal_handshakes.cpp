@@ -151,7 +151,8 @@ void SealServer::go_on(std::size_t index, seal::Bytes records, MonoTime now) {
 
 void SealServer::finish(std::size_t index, MonoTime now) {
   Handshake& handshake = handshakes_[index];
-  if (handshake.is_known && !is_key_still_good(handshake)) {
+  // The key may have been taken back while the handshake was under way.
+  if (handshake.is_known && !is_in_ring(handshake.key)) {
     reject(SealReject::kWrongKey);
     return drop_handshake(index);
   }
@@ -174,12 +175,6 @@ void SealServer::finish(std::size_t index, MonoTime now) {
   if (peers_.contains(id) || !make_place(peer.key, now)) return reject(SealReject::kFull);
   ++counters_.handshakes_done;
   peers_.emplace(id, std::move(peer));
-}
-
-// The key may have been taken back while the handshake was under way.
-bool SealServer::is_key_still_good(const Handshake& handshake) const {
-  const KeyEntry* entry = keys_->find(handshake.key.name.view());
-  return entry != nullptr && *entry == handshake.key;
 }
 
 // Where there is no place left, for this key or for anybody, who has been silent longest makes it.

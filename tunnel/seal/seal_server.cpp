@@ -110,9 +110,7 @@ void SealServer::on_compact(const Address& from, const seal::Opening& opening, M
   }
   peer.last_heard = now;
   // Only what is newer than all before says where the peer is now.
-  if (peer.channel->is_newest() && peer.channel->peer() != from &&
-      !on_moved(opening.id, peer, from, now))
-    return;
+  if (peer.channel->is_newest() && peer.channel->peer() != from && !on_moved(peer, from)) return;
   if (is_path_answer(peer, from, plain)) return;
   if (!peer.is_proven && peer.channel->peer() == from)
     ask_path(opening.id, peer, seal::kIdBytes + opening.body.size(), now);
@@ -121,7 +119,7 @@ void SealServer::on_compact(const Address& from, const seal::Opening& opening, M
 
 // To another address the peer goes on at once, and hears at most three times what it says until it has
 // shown that it hears there: else any guest could aim a room's poses at anybody.
-bool SealServer::on_moved(PeerId id, Peer& peer, const Address& from, MonoTime) {
+bool SealServer::on_moved(Peer& peer, const Address& from) {
   if (peer.key.is_local && !from.is_loopback()) {
     reject(SealReject::kNotLocal);
     return false;
@@ -131,8 +129,7 @@ bool SealServer::on_moved(PeerId id, Peer& peer, const Address& from, MonoTime) 
   peer.is_proven = from == peer.proven;
   peer.asked_at = MonoTime();
   peer.may_hear = 0;
-  while (!peer.is_proven && (peer.question = random_() ^ id) == 0) {
-  }
+  peer.question = random_();
   return true;
 }
 
@@ -203,13 +200,16 @@ Address SealServer::address_of(PeerId peer) const {
   return found == peers_.end() ? Address() : found->second.channel->peer();
 }
 
+bool SealServer::is_in_ring(const KeyEntry& key) const {
+  const KeyEntry* entry = keys_->find(key.name.view());
+  return entry != nullptr && *entry == key;
+}
+
 void SealServer::set_keys(std::shared_ptr<const KeyRing> keys) {
   keys_ = std::move(keys);
   std::vector<PeerId> gone;
   for (const auto& [id, peer] : peers_) {
-    if (peer.has_certificate) continue;
-    const KeyEntry* entry = keys_->find(peer.key.name.view());
-    if (entry == nullptr || *entry != peer.key) gone.push_back(id);
+    if (!peer.has_certificate && !is_in_ring(peer.key)) gone.push_back(id);
   }
   for (const PeerId id : gone) {
     peers_.at(id).channel->close();

@@ -160,10 +160,11 @@ class SealServer {
                   MonoTime now);
   void on_old_version(const Address& from, seal::Bytes datagram, MonoTime now);
   void answer_unknown(const Address& from, std::uint64_t id, MonoTime now);
-  bool on_moved(PeerId id, Peer& peer, const Address& from, MonoTime now);
+  bool on_moved(Peer& peer, const Address& from);
   void ask_path(PeerId id, Peer& peer, std::size_t heard, MonoTime now);
   bool is_path_answer(Peer& peer, const Address& from, seal::Bytes plain);
   void end(PeerId peer);
+  bool is_in_ring(const KeyEntry& key) const;
 
   // seal_handshakes.cpp
   void on_records(const Address& from, const seal::Opening& opening, MonoTime now);
@@ -173,7 +174,6 @@ class SealServer {
   void drop_handshake(std::size_t handshake);
   bool make_place(const KeyEntry& key, MonoTime now);
   bool make_handshake_place(const Address& from);
-  bool is_key_still_good(const Handshake& handshake) const;
   std::optional<PresharedKey> find_key(ssl_st* ssl, std::string_view identity);
   std::size_t make_cookie(const SealChannel& channel, std::uint64_t secret_age,
                           std::uint8_t* out) const;
