@@ -10,8 +10,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/base/result.h"
+#include "core/codec/pose_codec.h"
 #include "core/net/address.h"
 #include "core/net/datagram_sink.h"
 #include "core/net/poller.h"
@@ -22,6 +24,13 @@ namespace dance {
 // One process plays all guests. These, from the first on, decode what they hear, and are measured; the
 // others only take it in, so that the crowd's work does not stand in one queue.
 constexpr std::size_t kListeners = 2;
+
+// Of all guests together, since they began; with the 28 bytes of IP and UDP of each datagram.
+struct Traffic {
+  std::uint64_t bytes_up = 0, bytes_down = 0;
+  std::uint64_t poses_down = 0;
+  std::uint64_t payload_down = 0;  // of bytes_down, the poses themselves
+};
 
 class Crowd {
  public:
@@ -37,14 +46,14 @@ class Crowd {
   // Every guest can be heard by every other.
   virtual bool is_open() = 0;
   virtual void send(std::size_t guest, const Pose& pose, MonoTime now) = 0;
-  // To all guests together, with the 28 bytes of IP and UDP of each datagram.
-  virtual std::uint64_t bytes_down() const = 0;
+  virtual Traffic traffic() const = 0;
 };
 
 struct CrowdOptions {
   std::size_t guests = 30;
   Address relay;
   Crowd::Heard heard;
+  std::optional<CodecName> codec{};  // the tunnel's; nothing = as two houses choose
 };
 
 // Links of the tunnel to a dance-server.

@@ -61,10 +61,15 @@ class EnetCrowd final : public Crowd {
     if (enet_peer_send(guests_[guest].peer, 0, packet) != 0) enet_packet_destroy(packet);
     enet_host_flush(guests_[guest].host);
   }
-  std::uint64_t bytes_down() const override {
-    std::uint64_t sum = 0;
-    for (const Guest& guest : guests_)
-      sum += guest.host->totalReceivedData + kIpUdp_bytes * guest.host->totalReceivedPackets;
+  Traffic traffic() const override {
+    Traffic sum;
+    sum.poses_down = poses_heard_;
+    sum.payload_down = poses_heard_ * sizeof(FloatPose);
+    for (const Guest& guest : guests_) {
+      sum.bytes_up += guest.host->totalSentData + kIpUdp_bytes * guest.host->totalSentPackets;
+      sum.bytes_down +=
+          guest.host->totalReceivedData + kIpUdp_bytes * guest.host->totalReceivedPackets;
+    }
     return sum;
   }
 
@@ -84,8 +89,10 @@ class EnetCrowd final : public Crowd {
       }
       if (event.type != ENET_EVENT_TYPE_RECEIVE) continue;
       FloatPose raw;
-      if (read_float_pose({event.packet->data, event.packet->dataLength}, raw, pose_))
+      if (read_float_pose({event.packet->data, event.packet->dataLength}, raw, pose_)) {
+        ++poses_heard_;
         options_.heard(listener, raw.sender, raw.sequence);
+      }
       enet_packet_destroy(event.packet);
     }
   }
@@ -93,6 +100,7 @@ class EnetCrowd final : public Crowd {
   CrowdOptions options_;
   Poller& poller_;
   std::vector<Guest> guests_;
+  std::uint64_t poses_heard_ = 0;
   Pose pose_;
 };
 

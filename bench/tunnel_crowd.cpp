@@ -12,20 +12,33 @@ namespace {
 
 GuestId guest_name(std::size_t number) { return *GuestId::parse("g" + std::to_string(number)); }
 
-// Hears without looking: for guests who only make the crowd. What the others of a real crowd decode,
-// they decode on machines of their own.
-class DeafDecoder final : public PoseDecoder {
+// Counts what comes. Guests who only make the crowd do not look at it: what the others of a real crowd
+// decode, they decode on machines of their own.
+class CountingDecoder final : public PoseDecoder {
  public:
-  explicit DeafDecoder(CodecName name) : name_(name) {}
+  CountingDecoder(CodecName name, bool is_deaf, Traffic& traffic)
+      : name_(name), real_(is_deaf ? nullptr : make_pose_decoder(name)), traffic_(traffic) {}
   CodecName name() const override { return name_; }
-  DecodeResult decode(std::uint32_t, std::span<const std::uint8_t>, Pose&) override {
-    return DecodeResult::kPose;
+  DecodeResult decode(std::uint32_t sequence, std::span<const std::uint8_t> payload,
+                      Pose& pose) override {
+    const DecodeResult result =
+        real_ ? real_->decode(sequence, payload, pose) : DecodeResult::kPose;
+    if (result != DecodeResult::kPose) return result;
+    ++traffic_.poses_down;
+    traffic_.payload_down += payload.size();
+    return result;
   }
-  void restart() override {}
-  void set_skeleton(const Skeleton&) override {}
+  void restart() override {
+    if (real_) real_->restart();
+  }
+  void set_skeleton(const Skeleton& skeleton) override {
+    if (real_) real_->set_skeleton(skeleton);
+  }
 
  private:
   CodecName name_;
+  std::unique_ptr<PoseDecoder> real_;
+  Traffic& traffic_;
 };
 
 class TunnelCrowd final : public Crowd {
@@ -39,8 +52,10 @@ class TunnelCrowd final : public Crowd {
       of.room = guest_name(0);
       const bool fits = of.guests.try_push(guest_name(i));
       DANCE_ASSERT(fits);
-      if (i >= kListeners)
-        of.make_decoder = [](CodecName name) { return std::make_unique<DeafDecoder>(name); };
+      if (options.codec) (void)of.codecs.try_push(*options.codec);
+      of.make_decoder = [this, is_deaf = i >= kListeners](CodecName name) {
+        return std::make_unique<CountingDecoder>(name, is_deaf, decoded_);
+      };
       LinkHandlers handlers;
       handlers.on_pose = [heard = options.heard, i](const GuestId& who, const Pose& pose,
                                                     MonoTime) {
@@ -63,14 +78,18 @@ class TunnelCrowd final : public Crowd {
   void send(std::size_t guest, const Pose& pose, MonoTime now) override {
     links_[guest]->send(guest_name(guest), pose, now);
   }
-  std::uint64_t bytes_down() const override {
-    std::uint64_t sum = 0;
-    for (const auto& link : links_)
-      sum += link->counters().bytes_in + kIpUdp_bytes * link->counters().datagrams_in;
+  Traffic traffic() const override {
+    Traffic sum = decoded_;
+    for (const auto& link : links_) {
+      const LinkCounters& counters = link->counters();
+      sum.bytes_up += counters.bytes_out + kIpUdp_bytes * counters.datagrams_out;
+      sum.bytes_down += counters.bytes_in + kIpUdp_bytes * counters.datagrams_in;
+    }
     return sum;
   }
 
  private:
+  Traffic decoded_;
   std::vector<std::unique_ptr<Link>> links_;
 };
 

@@ -41,10 +41,15 @@ class UdpCrowd final : public Crowd {
     sockets_[guest].send_now(options_.relay,
                              {reinterpret_cast<const std::uint8_t*>(&raw), sizeof raw});
   }
-  std::uint64_t bytes_down() const override {
-    std::uint64_t sum = 0;
-    for (const UdpSocket& socket : sockets_)
-      sum += socket.counters().received_bytes + kIpUdp_bytes * socket.counters().received;
+  Traffic traffic() const override {
+    Traffic sum;
+    sum.poses_down = poses_heard_;
+    sum.payload_down = poses_heard_ * sizeof(FloatPose);
+    for (const UdpSocket& socket : sockets_) {
+      sum.bytes_up += socket.counters().sent_bytes + kIpUdp_bytes * socket.counters().sent;
+      sum.bytes_down +=
+          socket.counters().received_bytes + kIpUdp_bytes * socket.counters().received;
+    }
     return sum;
   }
 
@@ -55,8 +60,9 @@ class UdpCrowd final : public Crowd {
       for (const UdpSocket::Datagram& datagram : batch) {
         FloatPose raw;
         if (datagram.bytes.size() == 1) note(listener);
-        if (read_float_pose(datagram.bytes, raw, pose_))
-          options_.heard(listener, raw.sender, raw.sequence);
+        if (!read_float_pose(datagram.bytes, raw, pose_)) continue;
+        ++poses_heard_;
+        options_.heard(listener, raw.sender, raw.sequence);
       }
       if (batch.size() < UdpSocket::kBatch) return;
     }
@@ -71,6 +77,7 @@ class UdpCrowd final : public Crowd {
   Poller& poller_;
   std::vector<UdpSocket> sockets_;
   std::vector<std::size_t> heard_;
+  std::uint64_t poses_heard_ = 0;
   Pose pose_;
 };
 

@@ -1,8 +1,12 @@
 // BenchTunnel: how long a pose takes from a guest to the server and on to another guest, and what the
 // server pays for it; beside bare UDP and ENet relays, turn about in the same run.
 //
+// Two ways of dancing: everybody's pose at the same moment, which is what a relay must master and where a
+// datagram holds most; and spread evenly over the frame, as people dance who did not start together.
+//
 // Units/frames: microseconds of this machine's clock. A delivery is one pose decoded by one other guest of those who
-//               decode (bench/crowd.h): `sent` counts those that were due. Bytes are those of a second of dancing.
+//               decode (bench/crowd.h): `sent` counts those that were due. Bytes are those of a second of dancing,
+//               with the headers of IP and UDP.
 // Ownership:    owns the relays' processes, which end with it.
 // Threads:      none inside; runs its poller in the caller's thread, where all guests live.
 // Failure:      run_bench_tunnel() names the relay that could not start or stayed silent.
@@ -22,19 +26,28 @@ struct BenchTunnelOptions {
   double hz = 60.0;
   double seconds = 10.0;   // of each way
   double share_ms = -1.0;  // the server's window; < 0 = its own choice
+  bool is_plain = false;   // the tunnel's codec is the plain one
+};
+
+struct TunnelMeasure {
+  std::uint64_t sent = 0;
+  std::uint64_t delivered = 0;
+  std::vector<Duration> took;       // sorted
+  double server_cpu_percent = 0.0;  // of one core
+  double down_bytes_per_s = 0.0;    // of one guest
+  double payload_bytes = 0.0;       // of a pose
+  // What all else costs: headers, seal, acknowledgements, pings.
+  double overhead_up = 0.0;    // bytes for each pose that was sent
+  double overhead_down = 0.0;  // bytes for each pose that was delivered
+
+  double percentile_us(double fraction) const;
 };
 
 struct TunnelWay {
   std::string name;  // as in the JSON; "" for the tunnel itself
   std::string title;
-  std::uint64_t sent = 0;
-  std::uint64_t delivered = 0;
-  std::vector<Duration> took;       // sorted
-  double server_cpu_percent = 0.0;  // of one core
-  double idle_cpu_percent = 0.0;    // while another way danced
-  double down_bytes_per_s = 0.0;    // of one guest, IP and UDP included
-
-  double percentile_us(double fraction) const;
+  TunnelMeasure together, spread;
+  double idle_cpu_percent = 0.0;  // while another way danced
 };
 
 // The tunnel first.

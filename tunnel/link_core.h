@@ -85,6 +85,7 @@ class LinkCore {
 
   // link_session.cpp
   void send_hello(MonoTime now);
+  Duration ping_period(MonoTime now) const;
   void send_ping(MonoTime now);
   void begin_lapse(MonoTime now);
   void leave_out(const GuestId& refused, MonoTime now);
@@ -159,8 +160,9 @@ class LinkCore {
   void add_record(const wire::Record& record, MonoTime now);
   void repeat_before(LocalGuest& guest, const wire::Record& next, MonoTime now);
   void put(const wire::Record& record, MonoTime now);
-  void flush_records();
-  void send_records_datagram(bool with_bundle);
+  bool is_narrow(const wire::Record& record) const;
+  void flush_records(MonoTime now);
+  void send_records_datagram(bool with_bundle, MonoTime now);
   std::size_t count_dancing(MonoTime now) const;
 
   // link_interest.cpp
@@ -175,6 +177,9 @@ class LinkCore {
   using Slots = FixedList<std::uint8_t, wire::kMaxGuestsPerRoom>;
   void acknowledge(std::uint16_t number, const Slots& failed, bool has_decoded, bool has_records,
                    MonoTime now);
+  MonoTime when_to_acknowledge(MonoTime now) const;
+  bool is_ack_ripe(MonoTime now) const;
+  bool is_way_clean() const;
   void want_key_frame(RemoteGuest& remote, MonoTime now);
   void on_acks(const wire::Acks& acks);
   void on_feedback(std::uint16_t number, const wire::Feedback& feedback, MonoTime now);
@@ -206,6 +211,7 @@ class LinkCore {
 
   MonoTime last_heard_;
   MonoTime next_ping_;
+  MonoTime heard_records_;
   std::uint32_t ping_sequence_ = 0;
   int quick_pings_left_ = 0;
 
@@ -232,6 +238,8 @@ class LinkCore {
   FixedList<Except, wire::kMaxAckExcepts> excepts_;
   FixedList<std::uint8_t, wire::kMaxWants> wants_;
   MonoTime ack_due_;            // set: there is something to acknowledge, or to ask for
+  MonoTime acked_at_;           // when it was last said,
+  int unacked_ = 0;             // and datagrams with records since then
   bool wants_repeats_ = false;  // the server, of our poses
   bool has_feedback_ = false;
   std::uint16_t newest_feedback_ = 0;  // number of its datagram

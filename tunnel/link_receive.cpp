@@ -26,6 +26,7 @@ bool LinkCore::on_records(wire::Bytes body, MonoTime received, MonoTime now) {
     if (!wire::parse_record(base_us, check)) return false;
   if (header->has_acks) on_acks(header->acks);
   if (header->has_feedback) on_feedback(header->number, header->feedback, now);
+  if (header->has_records) heard_records_ = now;
   const bool is_again = received_.has(header->number);
   Slots failed;
   bool has_decoded = false;

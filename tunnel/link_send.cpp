@@ -81,7 +81,18 @@ std::size_t LinkCore::count_dancing(MonoTime now) const {
 void LinkCore::add_record(const wire::Record& record, MonoTime now) {
   put(record, now);
   if (record.kind == wire::RecordKind::kPose) ++bundle_poses_;
-  if (now >= bundle_due_ || bundle_poses_ >= count_dancing(now)) flush_records();
+  if (now >= bundle_due_ || bundle_poses_ >= count_dancing(now)) flush_records(now);
+}
+
+// What the others have, the server has: from there it reckons the high bits.
+bool LinkCore::is_narrow(const wire::Record& record) const {
+  if (record.kind != wire::RecordKind::kPose) return false;
+  for (const LocalGuest& guest : locals_)
+    if (guest.has_slot && guest.slot.slot == record.slot)
+      return guest.acked_frames.is_of(record.stream) &&
+             static_cast<std::uint16_t>(record.sequence - guest.acked_frames.newest()) <=
+                 wire::kNarrowReach;
+  return false;
 }
 
 // The pose before goes once more, in front of this one.
@@ -95,32 +106,33 @@ void LinkCore::repeat_before(LocalGuest& guest, const wire::Record& next, MonoTi
 
 void LinkCore::put(const wire::Record& record, MonoTime now) {
   if (bundle_.size() - bundle_size_ < wire::kMaxRecordHeader + record.payload.size())
-    flush_records();
+    flush_records(now);
   if (bundle_size_ == 0) {
     base_ticks_ = wire::to_ticks(clock_.to_theirs_us(now) + wire::kBaseLead_us);
     bundle_due_ = now + options_.share_window;
     bundle_poses_ = 0;
   }
   ByteWriter out(std::span<std::uint8_t>(bundle_).subspan(bundle_size_));
-  wire::add_record(record, false, base_ticks_, out);
+  wire::add_record(record, is_narrow(record), base_ticks_, out);
   DANCE_ASSERT(out.ok());
   bundle_size_ += out.size();
 }
 
 // What waits, with what there is to acknowledge.
-void LinkCore::flush_records() {
+void LinkCore::flush_records(MonoTime now) {
   const std::size_t extras = 2 + 2 * excepts_.size() + wants_.size();
   const bool fits = wire::kMaxRecordsBody - bundle_size_ >= extras;
-  if (bundle_size_ == 0 || !fits) send_records_datagram(false);
-  if (bundle_size_ > 0) send_records_datagram(true);
+  if (bundle_size_ == 0 || !fits) send_records_datagram(false, now);
+  if (bundle_size_ > 0) send_records_datagram(true, now);
 }
 
-void LinkCore::send_records_datagram(bool with_bundle) {
+void LinkCore::send_records_datagram(bool with_bundle, MonoTime now) {
   wire::RecordsHeader header;
   header.number = next_number_++;
   header.has_records = with_bundle;
   header.base_ticks = base_ticks_;
-  if (ack_due_.is_set()) {
+  if (is_ack_ripe(now)) {
+    acked_at_ = now;
     header.has_acks = received_.has_any();
     header.acks.newest = received_.newest();
     header.acks.before = received_.before();
@@ -133,6 +145,7 @@ void LinkCore::send_records_datagram(bool with_bundle) {
     header.wants = wants_;
     wants_.clear();
     ack_due_ = MonoTime();
+    unacked_ = 0;
   }
   std::array<std::uint8_t, wire::kMaxPlain> bytes;
   ByteWriter out(bytes);

@@ -14,6 +14,10 @@ constexpr Duration kLongestHelloWait = Duration::s(1);
 constexpr Duration kLongestWaitInLapse = Duration::ms(250);
 constexpr int kHellosInLapse = 40;
 constexpr Duration kPingPeriod = Duration::ms(200);
+// Where poses say both ways that the line lives, and none is lost, they need less company.
+constexpr Duration kDancingPingPeriod = Duration::ms(500);
+constexpr Duration kHeardOfLate = Duration::ms(100);
+constexpr Duration kLongestCalmRoundTrip = Duration::ms(250);
 // The first pings come quickly: the shortest of eight round trips maps the clock well.
 constexpr Duration kQuickPingPeriod = Duration::ms(50);
 constexpr int kQuickPings = 8;
@@ -51,7 +55,7 @@ MonoTime LinkCore::tick(MonoTime now) {
       schedule_update(now);
     }
     if ((bundle_size_ > 0 && now >= bundle_due_) || (ack_due_.is_set() && now >= ack_due_))
-      flush_records();
+      flush_records(now);
     if (now >= next_ping_) send_ping(now);
   }
   if (hello_wanted_ && is_sealed_ && now >= next_hello_) send_hello(now);
@@ -130,6 +134,15 @@ void LinkCore::send_hello(MonoTime now) {
   hello_wait_ = std::min(hello_wait_ * 2, is_quick ? kLongestWaitInLapse : kLongestHelloWait);
 }
 
+Duration LinkCore::ping_period(MonoTime now) const {
+  if (quick_pings_left_ > 0) return kQuickPingPeriod;
+  const bool is_dancing = count_dancing(now) > 0 && heard_records_.is_set() &&
+                          now - heard_records_ < kHeardOfLate && is_way_clean();
+  const bool is_calm =
+      interest_.version == interest_acked_ && clock_.newest_round_trip() < kLongestCalmRoundTrip;
+  return is_dancing && is_calm ? kDancingPingPeriod : kPingPeriod;
+}
+
 void LinkCore::send_ping(MonoTime now) {
   wire::Ping ping;
   ping.sequence = ++ping_sequence_;
@@ -144,7 +157,7 @@ void LinkCore::send_ping(MonoTime now) {
   std::array<std::uint8_t, 64> out;
   send_datagram({out.data(), wire::build(ping, out)});
   if (quick_pings_left_ > 0) --quick_pings_left_;
-  next_ping_ = now + (quick_pings_left_ > 0 ? kQuickPingPeriod : kPingPeriod);
+  next_ping_ = now + ping_period(now);
   repeat_states(now);
   if (interest_.version != interest_acked_) tell_interest();
 }

@@ -17,10 +17,12 @@ class LossMeter {
  public:
   void add(bool is_lost) {
     const float sample = is_lost ? 1.0f : 0.0f;
-    slow_ += (sample - slow_) * (1.0f / 1024.0f);
+    // The mean of all at first, to which what was assumed counts as some datagrams.
+    if (seen_ < kRemembers) ++seen_;
+    slow_ += (sample - slow_) / static_cast<float>(seen_);
     quick_ += (sample - quick_) * (1.0f / 64.0f);
     const float pair = is_lost && was_lost_ ? 1.0f : 0.0f;
-    pairs_ += (pair - pairs_) * (1.0f / 1024.0f);
+    pairs_ += (pair - pairs_) / static_cast<float>(seen_);
     was_lost_ = is_lost;
     lost_ += is_lost ? 1 : 0;
   }
@@ -35,6 +37,9 @@ class LossMeter {
 
  private:
   static constexpr float kBeforeAny = 0.02f;  // nothing is known: some loss
+  static constexpr std::uint32_t kAssumptionIsWorth = 32;
+  static constexpr std::uint32_t kRemembers = 1024;
+  std::uint32_t seen_ = kAssumptionIsWorth;
   float slow_ = kBeforeAny;
   float quick_ = kBeforeAny;
   float pairs_ = kBeforeAny * kBeforeAny;

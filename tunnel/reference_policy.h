@@ -33,6 +33,11 @@ class ReferencePolicy {
   }
   References current() const { return current_; }
 
+  // Whether each frame may refer to the one before, so that nobody need tell soon what has come.
+  static bool bears_losses(double loss, Duration round_trip, Duration frame) {
+    return loss * frames_to_heal(round_trip, frame) < kEasilyBorne;
+  }
+
   // What to refer to while receivers have told of nothing for so long. A way that is cut tells nothing:
   // what is sent now would refer to what it swallows, and the first pose after it would decode nowhere.
   // By frames that receivers have, it decodes at once. Where nothing was lost it cost a few bytes.
@@ -45,15 +50,19 @@ class ReferencePolicy {
 
  private:
   static constexpr Duration kStands = Duration::s(1);
-  static constexpr Duration kTellsWithin = Duration::ms(80);
+  static constexpr Duration kTellsWithin = Duration::ms(100);
   static constexpr std::int64_t kFramesTold = 4;
   static constexpr Duration kComesBackNew = Duration::s(2);
+
+  static double frames_to_heal(Duration round_trip, Duration frame) {
+    return round_trip.as_ms() / frame.as_ms() + 3.0;
+  }
 
   References choose(double loss, double in_a_row, Duration round_trip, Duration frame) const {
     const bool is_bare = current_ == References::kPrevious;
     const bool is_twice = current_ == References::kPreviousTwice;
     // What is not borne keeps all from decoding until it is noticed and a key frame is there.
-    const double heals_frames = round_trip.as_ms() / frame.as_ms() + 3.0;
+    const double heals_frames = frames_to_heal(round_trip, frame);
     if (loss * heals_frames < (is_bare ? kBearable : kEasilyBorne)) return References::kPrevious;
     // Eight frames, and half a frame to either side: beyond, a frame and the one before it cost less
     // than one that refers so far back (dance codec eval --loss).

@@ -1,5 +1,5 @@
 // What the last 256 datagrams to one receiver carried, so that an acknowledgement of a datagram says
-// which frames the receiver has; and what share of them was never acknowledged.
+// which frames the receiver has; and what share of those with records was never acknowledged.
 //
 // Units/frames: datagram numbers are 16 bit and wrap.
 // Ownership:    plain value of fixed size; never allocates.
@@ -29,10 +29,10 @@ class SentRing {
     frames_[next_frame_ % kFrames] = frame;
     ++next_frame_;
   }
-  // The datagram leaves: its number.
-  std::uint16_t commit() {
+  // The datagram leaves: its number. One without records is not answered, and so tells of no loss.
+  std::uint16_t commit(bool has_records) {
     Datagram& datagram = datagrams_[next_ % kDatagrams];
-    datagram = {first_frame_, next_frame_, next_, false, true};
+    datagram = {first_frame_, next_frame_, next_, false, true, has_records};
     first_frame_ = next_frame_;
     if (static_cast<std::uint16_t>(next_ - settled_) >= kDatagrams) ++settled_;
     return next_++;
@@ -58,7 +58,8 @@ class SentRing {
       }
     }
     while (static_cast<std::int16_t>(acks.newest - (wire::kAckSpan - 1) - settled_) > 0) {
-      loss_.add(!datagrams_[settled_ % kDatagrams].is_acked);
+      const Datagram& datagram = datagrams_[settled_ % kDatagrams];
+      if (datagram.has_records) loss_.add(!datagram.is_acked);
       ++settled_;
     }
     return true;
@@ -77,6 +78,7 @@ class SentRing {
     std::uint16_t number = 0;
     bool is_acked = false;
     bool is_used = false;
+    bool has_records = false;
   };
 
   static bool is_excepted(const wire::Acks& acks, std::uint8_t back, std::uint8_t slot) {

@@ -194,7 +194,7 @@ void ServerCore::flush_due(MonoTime now) {
   for (std::size_t i = reporting_.size(); i-- > 0;) {
     const ServerSession& session = sessions_[reporting_[i]];
     // With a bundle under way it goes along.
-    if (session.feedback_due <= now && session.bundle_size == 0 && !is_newcomer(reporting_[i]))
+    if (session.feedback_alone <= now && session.bundle_size == 0 && !is_newcomer(reporting_[i]))
       send_records(reporting_[i], now);
   }
 }
@@ -207,8 +207,7 @@ void ServerCore::sweep(MonoTime now) {
       ++counters_.sessions_timed_out;
       drop_session(i);
     } else {
-      session.feedback_is_repeat = true;  // what was said may be lost
-      schedule_feedback(i, now);
+      repeat_feedback(i, now);
     }
   }
 }
@@ -227,7 +226,7 @@ MonoTime ServerCore::next_deadline() const {
   MonoTime next = next_sweep_.is_set() ? next_sweep_ : MonoTime::from_ns(1);
   for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].bundle_due);
   for (const std::size_t i : reporting_)
-    if (sessions_[i].bundle_size == 0) next = std::min(next, sessions_[i].feedback_due);
+    if (sessions_[i].bundle_size == 0) next = std::min(next, sessions_[i].feedback_alone);
   for (const ServerRoom& room : rooms_)
     if (room.has_fresh_states) next = std::min(next, room.fresh_states_due);
   return next;

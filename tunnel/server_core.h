@@ -148,7 +148,9 @@ class ServerCore {
   void on_want(std::size_t session, std::uint8_t slot, MonoTime now);
   void want_key_frames_for(std::size_t newcomer, MonoTime now);
   void want_key_frame(ServerGuest& guest, MonoTime now);
-  void schedule_feedback(std::size_t session, MonoTime at);
+  void repeat_feedback(std::size_t session, MonoTime now);
+  void schedule_feedback(std::size_t session, MonoTime now);
+  void schedule_feedback(std::size_t session, MonoTime at, Duration waits, Duration gap);
   bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
   wire::GuestFeedback feedback_about(std::size_t session, std::uint8_t slot, MonoTime now) const;
   // False where there is nothing new to tell.

@@ -4,12 +4,18 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "tunnel/reference_policy.h"
 #include "tunnel/server_core.h"
 
 namespace dance {
 namespace {
 
 constexpr Duration kFeedbackGap = Duration::ms(4);
+// To who may refer to what is lost as well: just so often that silence tells of a cut.
+constexpr Duration kCleanFeedbackGap = Duration::ms(50);
+// Poses of others come by to go along with; not worth a datagram of its own before.
+constexpr Duration kWaitsForCompany = Duration::ms(20);
+constexpr Duration kFrame = Duration::us(16'667);
 // However many ask, and however often.
 constexpr Duration kKeyFrameGap = Duration::ms(100);
 // A link says something each 200 ms: who has not for this long is waited for no more.
@@ -78,23 +84,38 @@ void ServerCore::want_key_frame(ServerGuest& guest, MonoTime now) {
   guest.key_wanted = true;
   ServerSession& owner = sessions_[guest.owner];
   const bool is_early = guest.key_asked_at.is_set() && now - guest.key_asked_at < kKeyFrameGap;
-  schedule_feedback(guest.owner, is_early ? guest.key_asked_at + kKeyFrameGap : now);
+  const MonoTime at = is_early ? guest.key_asked_at + kKeyFrameGap : now;
+  schedule_feedback(guest.owner, at, Duration(), kFeedbackGap);
   if (!is_early && owner.feedback_due.is_set())
-    owner.feedback_due = std::min(owner.feedback_due, now);
+    owner.feedback_due = owner.feedback_alone = std::min(owner.feedback_due, now);
 }
 
-// Not before `at`, and not much more often than senders can make use of.
-void ServerCore::schedule_feedback(std::size_t index, MonoTime at) {
+// What was said may be lost.
+void ServerCore::repeat_feedback(std::size_t index, MonoTime now) {
+  sessions_[index].feedback_is_repeat = true;
+  if (!sessions_[index].feedback_due.is_set())
+    schedule_feedback(index, now, kWaitsForCompany, kFeedbackGap);
+}
+
+void ServerCore::schedule_feedback(std::size_t index, MonoTime now) {
+  const bool is_clean = sessions_[index].bears_losses;
+  schedule_feedback(index, now, kWaitsForCompany, is_clean ? kCleanFeedbackGap : kFeedbackGap);
+}
+
+// Not before `at`, and not more often than senders can make use of; alone when it has waited so long.
+void ServerCore::schedule_feedback(std::size_t index, MonoTime at, Duration waits, Duration gap) {
   ServerSession& session = sessions_[index];
   if (session.slots.empty()) return;
   // With nobody to receive there is nothing to tell.
   if (rooms_[session.room].members.size() < 2) return;
-  if (session.feedback_made.is_set()) at = std::max(at, session.feedback_made + kFeedbackGap);
+  if (session.feedback_made.is_set()) at = std::max(at, session.feedback_made + gap);
   if (!session.feedback_due.is_set()) {
     session.feedback_due = at;
+    session.feedback_alone = at + waits;
     reporting_.push_back(index);
   }
   session.feedback_due = std::min(session.feedback_due, at);
+  session.feedback_alone = std::min(session.feedback_alone, at + waits);
 }
 
 // Frames: as far back as a codec may refer.
@@ -157,11 +178,12 @@ wire::GuestFeedback ServerCore::feedback_about(std::size_t index, std::uint8_t s
 bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& feedback) {
   ServerSession& session = sessions_[index];
   ServerRoom& room = rooms_[session.room];
-  session.feedback_due = MonoTime();
+  session.feedback_due = session.feedback_alone = MonoTime();
   session.feedback_made = now;
   std::erase(reporting_, index);
   bool is_news = std::exchange(session.feedback_is_repeat, false);
 
+  session.bears_losses = false;
   float loss = 0.0f, in_a_row = 0.0f;
   Duration round_trip;
   bool has_receiver = false;
@@ -185,6 +207,8 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
     feedback.in_a_row = static_cast<std::uint16_t>(std::lround(in_a_row * 65535.0f));
     feedback.loss = static_cast<std::uint16_t>(std::lround((1.0f - arrives) * 65535.0f));
     const std::int64_t way_us = (round_trip + round_trip_of(session)).count_us();
+    session.bears_losses =
+        ReferencePolicy::bears_losses(1.0 - arrives, round_trip + round_trip_of(session), kFrame);
     feedback.round_trip =
         static_cast<std::uint16_t>(std::clamp<std::int64_t>(way_us / 100, 1, UINT16_MAX));
   }
@@ -198,7 +222,8 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
       ++counters_.key_frames_asked;
       is_news = true;
     }
-    if (guest.key_wanted) schedule_feedback(index, guest.key_asked_at + kKeyFrameGap);
+    const MonoTime again = guest.key_asked_at + kKeyFrameGap;
+    if (guest.key_wanted) schedule_feedback(index, again, Duration(), kFeedbackGap);
     const wire::GuestFeedback about = feedback_about(index, slot, now);
     is_news = is_news || about != guest.told;
     guest.told = about;

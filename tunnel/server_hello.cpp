@@ -184,7 +184,7 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   session.interest = {};
   session.thinning = {};
   session.received = AckWindow();
-  session.feedback_due = MonoTime();
+  session.feedback_due = session.feedback_alone = MonoTime();
   std::erase(bundled_, index);
   std::erase(reporting_, index);
 }

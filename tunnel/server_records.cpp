@@ -174,13 +174,15 @@ void ServerCore::send_records(std::size_t index, MonoTime now) {
   const std::size_t room = wire::kMaxRecordsBody - session.bundle_size;
   if (session.feedback_due.is_set() && session.feedback_due <= now &&
       room >= kFeedbackHead + kFeedbackGuest * session.slots.size()) {
+    // Links count what the server has of them; seldom is enough.
+    header.has_acks = session.feedback_is_repeat && session.received.has_any();
     header.has_feedback = fill_feedback(index, now, header.feedback);
-    header.has_acks = header.has_feedback && session.received.has_any();
+    header.has_acks = header.has_acks && header.has_feedback;
     header.acks.newest = session.received.newest();
     header.acks.before = session.received.before();
   }
   if (!header.has_records && !header.has_feedback) return;
-  header.number = session.sent.commit();
+  header.number = session.sent.commit(header.has_records);
   std::array<std::uint8_t, wire::kMaxPlain> bytes;
   ByteWriter out(bytes);
   wire::begin_records(header, out);

@@ -65,7 +65,7 @@ struct ServerLimits {
 // A few never wait: they seldom dance within the same millisecond. In a crowd headers would cost more
 // than poses.
 constexpr Duration share_window_of(std::size_t guests) {
-  constexpr std::size_t kFew = 8, kCrowd = 28;
+  constexpr std::size_t kFew = 8, kCrowd = 24;
   if (guests <= kFew) return Duration();
   return Duration::us(250) * static_cast<std::int64_t>(std::min(guests, kCrowd) - kFew);
 }
@@ -176,8 +176,10 @@ struct ServerSession {
   Repetition repeats_down;
   Repetition repeats_up;
   // When the link is next told what its receivers have; not set = nothing new.
-  MonoTime feedback_due;
+  MonoTime feedback_due;    // goes along with a bundle from then on,
+  MonoTime feedback_alone;  // and alone from then on
   MonoTime feedback_made;
+  bool bears_losses = false;        // as told then: nothing that was lost is missed for long
   bool feedback_is_repeat = false;  // goes out though nothing has changed
 };
 

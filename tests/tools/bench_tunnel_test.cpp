@@ -16,6 +16,9 @@ void expect_a_way(const nlohmann::json& way) {
   EXPECT_LE(way["p50_us"].get<double>(), way["p99_us"].get<double>());
   EXPECT_LE(way["p99_us"].get<double>(), way["max_us"].get<double>());
   EXPECT_GT(way["bytes_per_second_down_per_guest"].get<double>(), 0.0);
+  // The headers of IP and UDP at least, but for what shares a datagram on the way down.
+  EXPECT_GE(way["overhead_bytes_per_pose_up"].get<double>(), 28.0);
+  EXPECT_GT(way["overhead_bytes_per_pose_down"].get<double>(), 28.0 / 3);
 }
 
 TEST(BenchTunnel, MeasuresTheTunnelBesideOtherRelays) {
@@ -26,6 +29,8 @@ TEST(BenchTunnel, MeasuresTheTunnelBesideOtherRelays) {
   expect_a_way(report);
   expect_a_way(report["baseline_raw_udp"]);
   if (report.contains("baseline_enet")) expect_a_way(report["baseline_enet"]);
+  expect_a_way(report["spread"]);
+  expect_a_way(report["spread"]["baseline_raw_udp"]);
   // The same dance in both; where a machine drops what it has no time for, of both.
   const auto bytes_a_pose = [](const nlohmann::json& way) {
     return way["bytes_per_second_down_per_guest"].get<double>() / way["delivered"].get<double>();

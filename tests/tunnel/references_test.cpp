@@ -106,7 +106,7 @@ TEST_F(ReferencesTest, AfterACutTheFirstPoseThatArrivesDecodes) {
   House& b = add({"bob"});
   Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
   for (const int cut_ms : {150, 400, 850}) {
-    dance.run(Duration::s(60));
+    dance.run(Duration::s(120));
     ASSERT_EQ(a.link->local_stats().at(0).references, References::kPrevious);
     const auto missing = b.link->counters().reference_missing;
     b.is_cut = true;

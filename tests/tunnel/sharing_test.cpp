@@ -56,7 +56,7 @@ TEST(SharedDatagrams, AFewGoAtOnceAndMoreWaitAWhile) {
   EXPECT_EQ(share_window_of(2), Duration());
   EXPECT_EQ(share_window_of(8), Duration());
   EXPECT_EQ(share_window_of(12), Duration::ms(1));
-  EXPECT_EQ(share_window_of(30), Duration::ms(5));
+  EXPECT_EQ(share_window_of(30), Duration::ms(4));
   SimulatedTunnel tunnel;
   std::vector<House*> houses;
   for (int i = 0; i < 8; ++i)
