@@ -187,10 +187,14 @@ bool ServerCore::is_newcomer(std::size_t session) const {
 
 // Bundles and feedback; not to who has no roster yet.
 void ServerCore::flush_due(MonoTime now) {
-  // Backwards, as who is done leaves the list.
-  for (std::size_t i = bundled_.size(); i-- > 0;)
+  // Who has waited longest comes first, and leaves the list.
+  for (std::size_t i = 0; i < bundled_.size();) {
     if (is_bundle_due(sessions_[bundled_[i]], now) && !is_newcomer(bundled_[i]))
       flush_bundle(bundled_[i], now);
+    else
+      ++i;
+  }
+  // Backwards, as who is done leaves this one too.
   for (std::size_t i = reporting_.size(); i-- > 0;) {
     const ServerSession& session = sessions_[reporting_[i]];
     // With a bundle under way it goes along.
