@@ -131,8 +131,8 @@ Result<void> run_link(const LinkProgramOptions& given) {
   if (given.json)
     std::printf("%s\n", link_report_json(*link).c_str());
   else
-    talk::info("{} poses sent, {} delivered", link->counters().poses_sent,
-               link->counters().poses_delivered);
+    talk::info("{} poses sent, {} delivered{}", link->counters().poses_sent,
+               link->counters().poses_delivered, seal_trouble_text(link->seal_counters()));
   return {};
 }
 
