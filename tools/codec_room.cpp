@@ -229,9 +229,9 @@ void Room::count_costs(wire::Bytes datagram) {
       header->has_feedback ? 7.0 + 7.0 * static_cast<double>(header->feedback.guests.size()) : 0.0;
   costs_.feedback += feedback;
   costs_.headers += size - static_cast<double>(in.remaining()) - feedback;
-  while (in.remaining() > 0) {
+  for (wire::RecordChain chain; in.remaining() > 0;) {
     const std::size_t before = in.remaining();
-    const auto record = wire::parse_record(0, in);
+    const auto record = wire::parse_record(chain, in);
     DANCE_ASSERT(record.has_value());
     const auto payload = static_cast<double>(record->payload.size());
     const double ages = record->sent_age_us != wire::kNoAge ? 6.0 : 0.0;

@@ -226,7 +226,7 @@ class LinkCore {
   std::array<std::uint8_t, wire::kMaxRecordsBody> bundle_;
   std::size_t bundle_size_ = 0;
   std::size_t bundle_poses_ = 0;
-  std::int64_t base_ticks_ = 0;
+  wire::RecordChain chain_;
   MonoTime bundle_due_;
   std::uint16_t next_number_ = 0;
   HeldFrames acked_datagrams_;

@@ -43,7 +43,7 @@ struct LinkOptions {
   // A frame that needs no other comes this often, asked for or not; 0 = only when asked for.
   Duration key_frame_period = Duration::s(2);
   // Every so many poses bring the ages of their hops.
-  std::uint32_t poses_per_stamp = 16;
+  std::uint32_t poses_per_stamp = 32;
   // Whom it wants to hear, and how often; LinkCore::set_interest() changes it.
   Interest interest;
   // The largest error in any joint that own guests are sent with, in metres;

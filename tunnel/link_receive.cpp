@@ -20,18 +20,18 @@ bool LinkCore::on_records(wire::Bytes body, MonoTime received, MonoTime now) {
   ByteReader in(body);
   const auto header = wire::parse_records_header(in);
   if (!header || !header->wants.empty()) return false;
-  const std::int64_t base_us = wire::base_us(header->base_ticks, clock_.to_theirs_us(now));
+  const wire::RecordChain begin{clock_.to_theirs_us(now)};
   ByteReader check = in;
-  while (check.remaining() > 0)
-    if (!wire::parse_record(base_us, check)) return false;
+  for (wire::RecordChain chain = begin; check.remaining() > 0;)
+    if (!wire::parse_record(chain, check)) return false;
   if (header->has_acks) on_acks(header->acks);
   if (header->has_feedback) on_feedback(header->number, header->feedback, now);
   if (header->has_records) heard_records_ = now;
   const bool is_again = received_.has(header->number);
   Slots failed;
   bool has_decoded = false;
-  while (in.remaining() > 0) {
-    const wire::Record record = *wire::parse_record(base_us, in);
+  for (wire::RecordChain chain = begin; in.remaining() > 0;) {
+    const wire::Record record = *wire::parse_record(chain, in);
     if (on_record(record, received, now))
       has_decoded = true;
     else if (!failed.contains(record.slot))

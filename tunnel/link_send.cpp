@@ -108,12 +108,12 @@ void LinkCore::put(const wire::Record& record, MonoTime now) {
   if (bundle_.size() - bundle_size_ < wire::kMaxRecordHeader + record.payload.size())
     flush_records(now);
   if (bundle_size_ == 0) {
-    base_ticks_ = wire::to_ticks(clock_.to_theirs_us(now) + wire::kBaseLead_us);
+    chain_ = {clock_.to_theirs_us(now)};
     bundle_due_ = now + options_.share_window;
     bundle_poses_ = 0;
   }
   ByteWriter out(std::span<std::uint8_t>(bundle_).subspan(bundle_size_));
-  wire::add_record(record, is_narrow(record), base_ticks_, out);
+  wire::add_record(record, is_narrow(record), chain_, out);
   DANCE_ASSERT(out.ok());
   bundle_size_ += out.size();
 }
@@ -130,7 +130,6 @@ void LinkCore::send_records_datagram(bool with_bundle, MonoTime now) {
   wire::RecordsHeader header;
   header.number = next_number_++;
   header.has_records = with_bundle;
-  header.base_ticks = base_ticks_;
   if (is_ack_ripe(now)) {
     acked_at_ = now;
     header.has_acks = received_.has_any();

@@ -24,16 +24,17 @@ void ServerCore::on_records(std::size_t index, wire::Bytes body, MonoTime receiv
   // What receivers have is the server's to say.
   if (!header || header->has_feedback) return reject(ServerReject::kMalformed);
   // All of a datagram or nothing: half of a damaged one is not worth more than none.
-  const std::int64_t base_us = wire::base_us(header->base_ticks, received.since_zero_us());
+  const wire::RecordChain begin{received.since_zero_us()};
   ByteReader check = in;
-  while (check.remaining() > 0)
-    if (!wire::parse_record(base_us, check)) return reject(ServerReject::kMalformed);
+  for (wire::RecordChain chain = begin; check.remaining() > 0;)
+    if (!wire::parse_record(chain, check)) return reject(ServerReject::kMalformed);
   sessions_[index].received.note(header->number);
   if (header->has_acks) on_acks(index, header->acks, now);
   for (const std::uint8_t slot : header->wants) on_want(index, slot, now);
   if (header->has_records && !may_send_records(sessions_[index].access))
     return reject(ServerReject::kNotAllowed);
-  while (in.remaining() > 0) on_record(index, *wire::parse_record(base_us, in), received, now);
+  for (wire::RecordChain chain = begin; in.remaining() > 0;)
+    on_record(index, *wire::parse_record(chain, in), received, now);
 }
 
 void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime received,
@@ -131,7 +132,7 @@ void ServerCore::put_in_bundle(std::size_t index, const wire::Record& record, Mo
   if (to.bundle.size() - to.bundle_size < wire::kMaxRecordHeader + record.payload.size())
     flush_bundle(index, now);
   if (to.bundle_size == 0) {
-    to.base_ticks = wire::to_ticks(now.since_zero_us() + wire::kBaseLead_us);
+    to.chain = {now.since_zero_us()};
     to.bundle_due = now + share_window(rooms_[to.room]);
     to.bundle_poses = 0;
     bundled_.push_back(index);
@@ -144,7 +145,7 @@ void ServerCore::put_in_bundle(std::size_t index, const wire::Record& record, Mo
   wire::Record told = record;
   told.needs_no_other = told.is_base = false;  // the receiver sees it
   tell_left_out(to, told);
-  wire::add_record(told, is_narrow, to.base_ticks, out);
+  wire::add_record(told, is_narrow, to.chain, out);
   DANCE_ASSERT(out.ok());
   to.bundle_size += out.size();
 }
@@ -170,7 +171,6 @@ void ServerCore::send_records(std::size_t index, MonoTime now) {
   ServerSession& session = sessions_[index];
   wire::RecordsHeader header;
   header.has_records = session.bundle_size > 0;
-  header.base_ticks = session.base_ticks;
   const std::size_t room = wire::kMaxRecordsBody - session.bundle_size;
   if (session.feedback_due.is_set() && session.feedback_due <= now &&
       room >= kFeedbackHead + kFeedbackGuest * session.slots.size()) {

@@ -162,7 +162,7 @@ struct ServerSession {
   std::array<std::uint8_t, wire::kMaxRecordsBody> bundle;
   std::size_t bundle_size = 0;
   std::size_t bundle_poses = 0;
-  std::int64_t base_ticks = 0;
+  wire::RecordChain chain;
   MonoTime bundle_due;
   // What it wants of the others: the list as it said it, and what follows for each slot.
   wire::InterestList interest;

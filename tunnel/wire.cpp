@@ -41,8 +41,12 @@ CodecName read_codec(ByteReader& in) {
 std::optional<Opening> parse_opening(Bytes datagram) {
   ByteReader in(datagram);
   Opening opening;
-  opening.type = static_cast<Type>(in.u8());
+  const std::uint8_t first = in.u8();
   if (!in.ok()) return std::nullopt;
+  // The commonest by far: its flags are in the same byte.
+  if ((first & kRecordsMark) != 0) return Opening{Type::kRecords, datagram};
+  if (first == static_cast<std::uint8_t>(Type::kRecords)) return std::nullopt;
+  opening.type = static_cast<Type>(first);
   opening.body = datagram.subspan(kSessionHeader);
   return opening;
 }

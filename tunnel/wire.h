@@ -48,7 +48,7 @@ enum class Type : std::uint8_t {
   kRefusal = 3,
   kPing = 16,
   kPong = 17,
-  kRecords = 18,
+  kRecords = 18,  // never written: of these the first byte is kRecordsMark and flags
   kRoster = 19,
   kState = 20,
   kStateAck = 21,
@@ -158,6 +158,7 @@ struct Opening {
   Bytes body;  // what follows
 };
 constexpr std::size_t kSessionHeader = 1;
+constexpr std::uint8_t kRecordsMark = 0x80;
 std::optional<Opening> parse_opening(Bytes datagram);
 
 // Building: whole datagrams, opening included; the number of bytes, or 0.

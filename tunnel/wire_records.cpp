@@ -13,12 +13,19 @@ constexpr std::uint8_t kHeldFlag = 0x80, kSpacingFlag = 0x40;
 // Of the spacings: bits 0 and 1 base, high half stills.
 constexpr std::uint8_t kBaseMask = 0x03, kBaseHeldFlag = 0x08;
 constexpr std::uint8_t kLeastStill_log2 = 4;
-constexpr std::uint8_t kLengthMask = 0x3f, kLongLength = 0x40, kHasAges = 0x80;
+constexpr std::uint8_t kLengthMask = 0x3f, kLongLength = 0x40, kIsBrief = 0x80;
+// Of a narrow record's sequence.
+constexpr std::uint8_t kSequenceMask = 0x3f, kOddGeneration = 0x40, kOddRestarts = 0x80;
 // Of the byte that follows a long length.
 constexpr std::uint8_t kHighLengthMask = 0x0f, kNeedsNoOther = 0x10, kIsBase = 0x20,
                        kCountsLeftOut = 0x40, kIsKept = 0x80;
 constexpr std::uint16_t kEscape = 0xffff;  // a number that does not fit follows
 constexpr std::uint16_t kNoAgeTicks = 0xfffe;
+// Of captures: after the one before, or whole, the low 24 bits. Ages follow, and the capture once more.
+constexpr std::uint16_t kMiddle = 0x8000, kAgesFollow = 0xfffe;
+constexpr std::uint32_t kWholeEscape = 0xffffff, kWholeAgesFollow = 0xfffffe;
+// What is further off is told in full: half of what 24 bits reach.
+constexpr std::int64_t kWholeReach = 1 << 22;
 
 void write_acks(const Acks& acks, ByteWriter& out) {
   out.u16(acks.newest);
@@ -131,27 +138,25 @@ std::int32_t read_age(ByteReader& in) {
 }  // namespace
 
 void begin_records(const RecordsHeader& header, ByteWriter& out) {
-  out.u8(static_cast<std::uint8_t>(Type::kRecords));
-  out.u16(header.number);
   const bool has_excepts = header.has_acks && !header.acks.excepts.empty();
   out.u8(static_cast<std::uint8_t>(
-      (header.has_acks ? kHasAcks : 0) | (has_excepts ? kHasExcepts : 0) |
+      kRecordsMark | (header.has_acks ? kHasAcks : 0) | (has_excepts ? kHasExcepts : 0) |
       (header.wants.empty() ? 0 : kHasWants) | (header.has_feedback ? kHasFeedback : 0) |
       (header.has_records ? kHasRecords : 0) |
       (header.has_feedback && header.feedback.wants_repeats ? kWantsRepeats : 0)));
+  out.u16(header.number);
   if (header.has_acks) write_acks(header.acks, out);
   if (!header.wants.empty()) {
     out.u8(static_cast<std::uint8_t>(header.wants.size()));
     for (const std::uint8_t slot : header.wants) out.u8(slot);
   }
   if (header.has_feedback) write_feedback(header.feedback, out);
-  if (header.has_records) out.u24(static_cast<std::uint32_t>(header.base_ticks & 0xffffff));
 }
 
 std::optional<RecordsHeader> parse_records_header(ByteReader& in) {
   RecordsHeader header;
+  const auto flags = static_cast<std::uint8_t>(in.u8() & ~kRecordsMark);
   header.number = in.u16();
-  const std::uint8_t flags = in.u8();
   if (!in.ok() || (flags & ~kKnownFlags) != 0) return std::nullopt;
   header.has_acks = (flags & kHasAcks) != 0;
   header.has_feedback = (flags & kHasFeedback) != 0;
@@ -166,34 +171,79 @@ std::optional<RecordsHeader> parse_records_header(ByteReader& in) {
   if (header.has_feedback && !read_feedback(in, header.feedback)) return std::nullopt;
   header.feedback.wants_repeats = (flags & kWantsRepeats) != 0;
   if (header.feedback.wants_repeats && !header.has_feedback) return std::nullopt;
-  if (header.has_records) header.base_ticks = in.u24();
   // Records follow where it says so, and nowhere else.
   if (!in.ok() || (in.remaining() > 0) != header.has_records) return std::nullopt;
   return header;
 }
 
-std::int64_t base_us(std::int64_t base_ticks, std::int64_t near_us) {
-  const std::int64_t near = to_ticks(near_us);
-  // The difference modulo 2²⁴, as a signed number.
-  const auto ahead =
-      static_cast<std::int32_t>(static_cast<std::uint32_t>(base_ticks - near) << 8) >> 8;
-  return (near + ahead) * kTick_us;
-}
-
 namespace {
 
+// The number near to `near` whose low 24 bits these are.
+std::int64_t nearest(std::uint32_t low, std::int64_t near) {
+  return near + (static_cast<std::int32_t>((low - static_cast<std::uint32_t>(near)) << 8) >> 8);
+}
+
+void write_capture(const Record& record, bool has_ages, const RecordChain& chain, ByteWriter& out) {
+  const std::int64_t ticks = to_ticks(record.capture_us);
+  if (chain.has_any) {
+    if (has_ages) out.u16(kAgesFollow);
+    const std::int64_t after = ticks - chain.capture_ticks + kMiddle;
+    if (after >= 0 && after < kAgesFollow) return out.u16(static_cast<std::uint16_t>(after));
+    out.u16(kEscape);
+  } else {
+    if (has_ages) out.u24(kWholeAgesFollow);
+    const auto low = static_cast<std::uint32_t>(ticks & 0xffffff);
+    const std::int64_t off = ticks - to_ticks(chain.near_us);
+    if (off > -kWholeReach && off < kWholeReach && low < kWholeAgesFollow) return out.u24(low);
+    out.u24(kWholeEscape);
+  }
+  out.i64(record.capture_us);
+}
+
+bool read_capture(ByteReader& in, const RecordChain& chain, bool& has_ages, Record& record) {
+  std::uint32_t told = chain.has_any ? in.u16() : in.u24();
+  const std::uint32_t ages_follow = chain.has_any ? kAgesFollow : kWholeAgesFollow;
+  has_ages = told == ages_follow;
+  if (has_ages) told = chain.has_any ? in.u16() : in.u24();
+  if (told == ages_follow) return false;
+  if (told > ages_follow)
+    record.capture_us = in.i64();
+  else if (chain.has_any)
+    record.capture_us =
+        (chain.capture_ticks + static_cast<std::int64_t>(told) - kMiddle) * kTick_us;
+  else
+    record.capture_us = nearest(told, to_ticks(chain.near_us)) * kTick_us;
+  return true;
+}
+
+void go_on(RecordChain& chain, const Record& record) {
+  chain.has_any = true;
+  chain.slot = record.slot;
+  chain.capture_ticks = to_ticks(record.capture_us);
+}
+
+std::uint8_t next_slot(const RecordChain& chain) { return (chain.slot + 1) & kSlotMask; }
+
+std::uint8_t narrow_sequence(const Record& record) {
+  return static_cast<std::uint8_t>((record.sequence & kSequenceMask) |
+                                   ((record.stream >> 16 & 1) != 0 ? kOddGeneration : 0) |
+                                   ((record.stream & 1) != 0 ? kOddRestarts : 0));
+}
+
+void read_narrow(std::uint8_t sequence, Record& record) {
+  record.is_narrow = true;
+  record.sequence = sequence & kSequenceMask;
+  record.stream = ((sequence & kOddGeneration) != 0 ? 1u << 16 : 0u) |
+                  ((sequence & kOddRestarts) != 0 ? 1u : 0u);
+}
+
+// Behind length and slot.
 void add_channel_record(const Record& record, ByteWriter& out) {
-  const std::size_t length = record.payload.size();
-  out.u8(static_cast<std::uint8_t>(record.slot | kIsChannel));
-  out.u8(
-      static_cast<std::uint8_t>((length & kLengthMask) | (length > kLengthMask ? kLongLength : 0)));
-  if (length > kLengthMask) out.u8(static_cast<std::uint8_t>(length >> 6));
   out.u8(static_cast<std::uint8_t>((record.stream >> 16 & 15) << 4 | (record.channel & 7)));
   out.u32(record.sequence);
   out.bytes(record.payload);
 }
 
-// Behind the slot and the length.
 void read_channel_record(ByteReader& in, std::size_t length, Record& record) {
   record.kind = RecordKind::kChannel;
   const std::uint8_t tag = in.u8();
@@ -205,56 +255,90 @@ void read_channel_record(ByteReader& in, std::size_t length, Record& record) {
 
 }  // namespace
 
-void add_record(const Record& record, bool is_narrow, std::int64_t base_ticks, ByteWriter& out) {
-  if (record.kind == RecordKind::kChannel) return add_channel_record(record, out);
+void add_record(const Record& record, bool is_narrow, RecordChain& chain, ByteWriter& out) {
+  const bool is_channel = record.kind == RecordKind::kChannel;
   const bool is_hands = record.kind == RecordKind::kHands;
   const bool has_ages = record.published_age_us != kNoAge || record.sent_age_us != kNoAge ||
                         record.server_age_us != kNoAge;
   const std::size_t length = record.payload.size();
-  const auto more = static_cast<std::uint8_t>(
-      length >> 6 | (record.needs_no_other ? kNeedsNoOther : 0) | (record.is_base ? kIsBase : 0) |
-      (record.counts_left_out ? kCountsLeftOut : 0) | (record.is_kept ? kIsKept : 0));
-  out.u8(static_cast<std::uint8_t>(record.slot | (is_hands ? kIsHands : 0) |
-                                   (is_narrow ? 0 : kIsWide)));
-  out.u8(static_cast<std::uint8_t>((length & kLengthMask) | (more != 0 ? kLongLength : 0) |
-                                   (has_ages ? kHasAges : 0)));
+  // Nothing more is said about a message than its length.
+  const auto flags = static_cast<std::uint8_t>(
+      is_channel
+          ? 0
+          : (record.needs_no_other ? kNeedsNoOther : 0) | (record.is_base ? kIsBase : 0) |
+                (record.counts_left_out ? kCountsLeftOut : 0) | (record.is_kept ? kIsKept : 0));
+  const auto more = static_cast<std::uint8_t>(length >> 6 | flags);
+  const std::int64_t after = to_ticks(record.capture_us) - chain.capture_ticks;
+  if (is_narrow && !has_ages && more == 0 && chain.has_any && record.slot == next_slot(chain) &&
+      after >= INT8_MIN && after <= INT8_MAX) {
+    out.u8(static_cast<std::uint8_t>(length | kIsBrief));
+    out.u8(narrow_sequence(record));
+    out.u8(static_cast<std::uint8_t>(after));
+    out.bytes(record.payload);
+    return go_on(chain, record);
+  }
+  out.u8(static_cast<std::uint8_t>((length & kLengthMask) | (more != 0 ? kLongLength : 0)));
   if (more != 0) out.u8(more);
+  out.u8(static_cast<std::uint8_t>(record.slot | (is_hands || is_channel ? kIsHands : 0) |
+                                   (is_narrow || is_channel ? 0 : kIsWide)));
+  if (is_channel) return add_channel_record(record, out);
   if (record.counts_left_out) out.u16(record.left_out);
-  out.u8(static_cast<std::uint8_t>((record.stream >> 16 & 15) << 4 | (record.stream & 15)));
   if (is_narrow) {
-    out.u8(static_cast<std::uint8_t>(record.sequence));
+    out.u8(narrow_sequence(record));
   } else {
+    out.u8(static_cast<std::uint8_t>((record.stream >> 16 & 15) << 4 | (record.stream & 15)));
     out.u16(static_cast<std::uint16_t>(record.stream));
     out.u32(record.sequence);
   }
-  const std::int64_t before = base_ticks - to_ticks(record.capture_us);
-  if (before >= 0 && before < kEscape) {
-    out.u16(static_cast<std::uint16_t>(before));
-  } else {
-    out.u16(kEscape);
-    out.i64(record.capture_us);
-  }
+  write_capture(record, has_ages, chain, out);
   if (has_ages) {
     write_age(record.published_age_us, out);
     write_age(record.sent_age_us, out);
     write_age(record.server_age_us, out);
   }
   out.bytes(record.payload);
+  go_on(chain, record);
 }
 
-std::optional<Record> parse_record(std::int64_t base_us, ByteReader& in) {
+namespace {
+
+std::optional<Record> parse_brief(std::uint8_t length, RecordChain& chain, ByteReader& in) {
+  if (!chain.has_any) return std::nullopt;
   Record record;
-  const std::uint8_t first = in.u8();
+  record.slot = next_slot(chain);
+  read_narrow(in.u8(), record);
+  record.capture_us = (chain.capture_ticks + static_cast<std::int8_t>(in.u8())) * kTick_us;
+  record.payload = in.bytes(length);
+  if (!in.ok() || length == 0) return std::nullopt;
+  go_on(chain, record);
+  return record;
+}
+
+bool read_numbers(ByteReader& in, Record& record) {
+  const std::uint8_t tag = in.u8();
+  const std::uint16_t restarts = in.u16();
+  record.stream = static_cast<std::uint32_t>(tag >> 4) << 16 | restarts;
+  record.sequence = in.u32();
+  return (restarts & 15) == (tag & 15);
+}
+
+}  // namespace
+
+std::optional<Record> parse_record(RecordChain& chain, ByteReader& in) {
   const std::uint8_t length_byte = in.u8();
-  record.kind = (first & kIsHands) != 0 ? RecordKind::kHands : RecordKind::kPose;
-  record.slot = first & kSlotMask;
-  record.is_narrow = (first & kIsWide) == 0;
   std::size_t length = length_byte & kLengthMask;
+  if ((length_byte & kIsBrief) != 0) {
+    if ((length_byte & kLongLength) != 0) return std::nullopt;
+    return parse_brief(static_cast<std::uint8_t>(length), chain, in);
+  }
   const std::uint8_t more = (length_byte & kLongLength) != 0 ? in.u8() : 0;
   length |= static_cast<std::size_t>(more & kHighLengthMask) << 6;
+  Record record;
+  const std::uint8_t first = in.u8();
+  record.kind = (first & kIsHands) != 0 ? RecordKind::kHands : RecordKind::kPose;
+  record.slot = first & kSlotMask;
   if ((first & (kIsHands | kIsWide)) == kIsChannel) {
-    // Nothing more is said about a message than its length.
-    if ((length_byte & kHasAges) != 0 || (more & ~kHighLengthMask) != 0) return std::nullopt;
+    if ((more & ~kHighLengthMask) != 0) return std::nullopt;
     read_channel_record(in, length, record);
     if (!in.ok() || length == 0 || length > kMaxPayload || record.channel > 7) return std::nullopt;
     return record;
@@ -264,37 +348,34 @@ std::optional<Record> parse_record(std::int64_t base_us, ByteReader& in) {
   record.is_kept = (more & kIsKept) != 0;
   record.counts_left_out = (more & kCountsLeftOut) != 0;
   if (record.counts_left_out) record.left_out = in.u16();
-  const std::uint8_t tag = in.u8();
-  record.stream = static_cast<std::uint32_t>(tag >> 4) << 16 | (tag & 15);
-  if (record.is_narrow) {
-    record.sequence = in.u8();
-  } else {
-    const std::uint16_t restarts = in.u16();
-    if ((restarts & 15) != (tag & 15)) return std::nullopt;
-    record.stream = static_cast<std::uint32_t>(tag >> 4) << 16 | restarts;
-    record.sequence = in.u32();
-  }
-  const std::uint16_t before = in.u16();
-  record.capture_us = before == kEscape ? in.i64() : base_us - before * kTick_us;
-  if ((length_byte & kHasAges) != 0) {
+  if ((first & kIsWide) == 0)
+    read_narrow(in.u8(), record);
+  else if (!read_numbers(in, record))
+    return std::nullopt;
+  bool has_ages = false;
+  if (!read_capture(in, chain, has_ages, record)) return std::nullopt;
+  if (has_ages) {
     record.published_age_us = read_age(in);
     record.sent_age_us = read_age(in);
     record.server_age_us = read_age(in);
   }
   record.payload = in.bytes(length);
   if (!in.ok() || length == 0 || length > kMaxPayload) return std::nullopt;
+  go_on(chain, record);
   return record;
 }
 
 bool widen(std::uint16_t generation, bool has_any, std::uint32_t stream, std::uint32_t sequence,
            Record& record) {
-  if ((record.stream >> 16 & 15) != (generation & 15u)) return false;
+  const std::uint32_t known = record.is_narrow ? 1 : 15;
+  if ((record.stream >> 16 & known) != (generation & known)) return false;
   auto restarts = static_cast<std::uint16_t>(record.stream);
   if (record.is_narrow) {
-    if (!has_any || (record.stream & 15) != (stream & 15)) return false;
+    if (!has_any || (record.stream & 1) != (stream & 1)) return false;
     restarts = static_cast<std::uint16_t>(stream);
-    record.sequence = sequence + static_cast<std::uint32_t>(static_cast<std::int8_t>(
-                                     static_cast<std::uint8_t>(record.sequence - sequence)));
+    // The difference modulo 64, as a signed number.
+    const auto ahead = static_cast<std::int8_t>((record.sequence - sequence) << 2);
+    record.sequence = sequence + static_cast<std::uint32_t>(ahead >> 2);
     record.is_narrow = false;
   }
   record.stream = std::uint32_t{generation} << 16 | restarts;

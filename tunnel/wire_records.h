@@ -15,9 +15,6 @@
 namespace dance::wire {
 
 constexpr std::int64_t kTick_us = 16;
-// A datagram's base lies this far ahead of its first record's coming, so that every capture is
-// before it.
-constexpr std::int64_t kBaseLead_us = 1024 * kTick_us;
 constexpr std::int64_t to_ticks(std::int64_t us) { return (us + kTick_us / 2) >> 4; }
 
 // Acknowledges a datagram but for the pose of one guest in it.
@@ -70,10 +67,9 @@ struct RecordsHeader {
   bool has_feedback = false;
   Feedback feedback;
   bool has_records = false;
-  std::int64_t base_ticks = 0;  // as parsed: low 24 bits
 };
-// Type, number, flags, acks and base: what always fits beside kMaxRecordsBody.
-constexpr std::size_t kRecordsHeader = kSessionHeader + 2 + 1 + 6 + 3;
+// Flags, number and acks: what always fits beside kMaxRecordsBody.
+constexpr std::size_t kRecordsHeader = 1 + 2 + 6;
 constexpr std::size_t kMaxRecordsBody = kMaxPlain - kRecordsHeader;
 
 enum class RecordKind : std::uint8_t { kPose = 1, kHands = 2, kChannel = 3 };
@@ -104,25 +100,34 @@ struct Record {
   bool is_kept = false;
   bool counts_left_out = false;
   std::uint16_t left_out = 0;
-  // As parsed: only 4 bits of restarts and 8 of the sequence have come.
+  // As parsed: only 1 bit of generation and restarts each, and 6 of the sequence, have come.
   bool is_narrow = false;
 };
-constexpr std::size_t kNarrowRecordHeader = 6;  // without ages, payload below 64 bytes
+// Without ages, payload below 64 bytes, behind another in the datagram; the first takes one more.
+constexpr std::size_t kBriefRecordHeader =
+    3;  // narrow, of the next slot and nearly the same moment
+constexpr std::size_t kNarrowRecordHeader = 5;
 constexpr std::size_t kWideRecordHeader = 11;
-constexpr std::size_t kMaxRecordHeader = kWideRecordHeader + 1 + 2 + 8 + 18;
+constexpr std::size_t kMaxRecordHeader = kWideRecordHeader + 1 + 1 + 2 + 8 + 3 + 18;
 // How far a record may be ahead of what the receiver has for its numbers to travel narrow.
-constexpr std::uint16_t kNarrowReach = 100;
+constexpr std::uint16_t kNarrowReach = 24;
+
+// What the next record of a datagram says by how it differs from the one before.
+struct RecordChain {
+  std::int64_t near_us = 0;  // about now, by the server's clock
+  bool has_any = false;
+  std::uint8_t slot = 0;
+  std::int64_t capture_ticks = 0;
+};
 
 // The opening and the header; records follow.
 void begin_records(const RecordsHeader& header, ByteWriter& out);
-void add_record(const Record& record, bool is_narrow, std::int64_t base_ticks, ByteWriter& out);
+void add_record(const Record& record, bool is_narrow, RecordChain& chain, ByteWriter& out);
 
 // The header and, where it says so, room for records behind it.
 std::optional<RecordsHeader> parse_records_header(ByteReader& in);
-// The base that the low 24 bits mean, near to a time of the server's clock.
-std::int64_t base_us(std::int64_t base_ticks, std::int64_t near_us);
 // One record; call until the reader is_exhausted().
-std::optional<Record> parse_record(std::int64_t base_us, ByteReader& in);
+std::optional<Record> parse_record(RecordChain& chain, ByteReader& in);
 // Gives a record its whole numbers: the generation that is the slot's, and the rest of what came
 // before. False where they contradict each other, or nothing came before.
 bool widen(std::uint16_t generation, bool has_any, std::uint32_t stream, std::uint32_t sequence,

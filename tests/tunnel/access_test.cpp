@@ -111,11 +111,11 @@ TEST(Listeners, AListenersKeyWithGuestsIsRefusedAndItsRecordsAreDropped) {
   record.capture_us = tunnel.now().since_zero_us();
   wire::RecordsHeader header;
   header.has_records = true;
-  header.base_ticks = wire::to_ticks(record.capture_us);
+  wire::RecordChain chain{record.capture_us};
   std::array<std::uint8_t, 100> bytes;
   ByteWriter out(bytes);
   wire::begin_records(header, out);
-  wire::add_record(record, false, header.base_ticks, out);
+  wire::add_record(record, false, chain, out);
   tunnel.inject(listener.peer, out.written());
   EXPECT_EQ(tunnel.server().counters().of(ServerReject::kNotAllowed), 1u);
 }

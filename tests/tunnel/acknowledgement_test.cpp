@@ -230,8 +230,8 @@ TEST_F(Policy, TurnsToWhatReceiversHaveWhileTheyTellOfNothing) {
     return policy.while_silent_for(Duration::ms(silence_ms), Duration::ms(frame_ms));
   };
   EXPECT_EQ(after(17, 16), References::kPrevious);
-  EXPECT_EQ(after(80, 16), References::kPrevious);
-  EXPECT_EQ(after(81, 16), References::kAcknowledged);
+  EXPECT_EQ(after(100, 16), References::kPrevious);
+  EXPECT_EQ(after(101, 16), References::kAcknowledged);
   EXPECT_EQ(after(130, 33), References::kPrevious) << "a slow dancer is told of seldom";
   EXPECT_EQ(after(133, 33), References::kAcknowledged);
   EXPECT_EQ(after(1999, 16), References::kAcknowledged);

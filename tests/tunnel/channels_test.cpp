@@ -293,7 +293,8 @@ TEST_F(Channels, AFloodPastTheLinkIsStoppedAtTheServerAndPosesPass) {
     record.slot = slot;
     record.sequence = sequence;
     record.payload = payload;
-    wire::add_record(record, false, 0, out);
+    wire::RecordChain chain;
+    wire::add_record(record, false, chain, out);
     tunnel.inject(a.peer, out.written());
     if (tunnel.now().since_zero_us() / 1000 % 16 == 0) tunnel.dance(a, guest("alice"));
   });

@@ -22,8 +22,7 @@ class Hostile : public ::testing::Test {
     tunnel.on_datagram = [this](bool to_server, PeerId peer, wire::Bytes bytes) {
       const auto opening = wire::parse_opening(bytes);
       // Records are one kind, acknowledgements and feedback alone another.
-      const bool is_bare =
-          opening->type == wire::Type::kRecords && (bytes[wire::kSessionHeader + 2] & 16) == 0;
+      const bool is_bare = opening->type == wire::Type::kRecords && (bytes[0] & 16) == 0;
       const auto key = std::pair(to_server, static_cast<int>(opening->type) + (is_bare ? 100 : 0));
       captured.try_emplace(key, Captured{to_server, peer, {bytes.begin(), bytes.end()}});
       return true;
@@ -70,18 +69,19 @@ class Hostile : public ::testing::Test {
   wire::Record captured_record() const {
     const auto opening = wire::parse_opening(captured.at({true, 18}).bytes);
     ByteReader in(opening->body);
-    const auto header = wire::parse_records_header(in);
-    return *wire::parse_record(wire::base_us(header->base_ticks, tunnel.now().since_zero_us()), in);
+    (void)wire::parse_records_header(in);
+    wire::RecordChain chain{tunnel.now().since_zero_us()};
+    return *wire::parse_record(chain, in);
   }
   void inject_record(const wire::Record& record) {
     const Captured& original = captured.at({true, 18});
     wire::RecordsHeader header;
     header.has_records = true;
-    header.base_ticks = wire::to_ticks(tunnel.now().since_zero_us());
+    wire::RecordChain chain{tunnel.now().since_zero_us()};
     Bytes bytes(wire::kMaxPlain);
     ByteWriter out(bytes);
     wire::begin_records(header, out);
-    wire::add_record(record, false, header.base_ticks, out);
+    wire::add_record(record, false, chain, out);
     bytes.resize(out.size());
     tunnel.inject(original.peer, bytes);
   }
@@ -359,7 +359,7 @@ TEST_F(HostileHello, AnotherVersionIsToldSo) {
   EXPECT_EQ(refusal->cause, wire::Refusal::kVersion);
   EXPECT_EQ(refusal->nonce, hello.nonce);
   EXPECT_EQ(refusal->server_version, wire::kWireVersion);
-  EXPECT_NE(refusal_line(*refusal, guest("salsa")).find("version 3"), std::string::npos);
+  EXPECT_NE(refusal_line(*refusal, guest("salsa")).find("version 4"), std::string::npos);
 }
 
 TEST_F(Hostile, AFloodOfOneSessionIsCutToItsRate) {

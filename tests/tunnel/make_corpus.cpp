@@ -39,8 +39,8 @@ std::string more_of(wire::Bytes datagram) {
   if (opening->type != wire::Type::kRecords) return "";
   ByteReader in(opening->body);
   if (!wire::parse_records_header(in)) return "";
-  while (in.remaining() > 0) {
-    const auto record = wire::parse_record(0, in);
+  for (wire::RecordChain chain; in.remaining() > 0;) {
+    const auto record = wire::parse_record(chain, in);
     if (record->kind == wire::RecordKind::kChannel) return "_channel";
     if (record->is_kept) return "_kept";
     if (record->counts_left_out) return "_left_out";
@@ -58,8 +58,7 @@ void write_tunnel(const std::filesystem::path& root) {
     const Bytes datagram(bytes.begin(), bytes.end());
     const auto type = wire::parse_opening(bytes)->type;
     // Acknowledgements and feedback alone are a kind of their own.
-    const bool is_bare =
-        type == wire::Type::kRecords && (bytes[wire::kSessionHeader + 2] & 16) == 0;
+    const bool is_bare = type == wire::Type::kRecords && (bytes[0] & 16) == 0;
     // One of each kind of state that comes first in its datagram.
     const std::string kind =
         type == wire::Type::kState ? "_kind_" + std::to_string(bytes[1] & 15) : "";

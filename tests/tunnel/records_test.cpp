@@ -13,14 +13,15 @@ using Buffer = std::array<std::uint8_t, kMaxPlain>;
 using Written = std::vector<std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 3> kPayload{7, 8, 9};
-constexpr std::int64_t kBaseTicks = 0x123456789a;
+constexpr std::int64_t kNowTicks = 0x123456789a;
+constexpr std::int64_t kNow_us = kNowTicks * kTick_us;
 
 Record example() {
   Record record;
   record.slot = 3;
   record.stream = 0x00170102;
   record.sequence = 0xfffffffe;
-  record.capture_us = (kBaseTicks - 0x0203) * kTick_us;
+  record.capture_us = (kNowTicks - 0x0203) * kTick_us;
   record.payload = kPayload;
   return record;
 }
@@ -29,8 +30,8 @@ Written written(const RecordsHeader& header, const std::vector<std::pair<Record,
   Buffer out;
   ByteWriter writer(out);
   begin_records(header, writer);
-  for (const auto& [record, is_narrow] : records)
-    add_record(record, is_narrow, header.base_ticks, writer);
+  RecordChain chain{kNow_us};
+  for (const auto& [record, is_narrow] : records) add_record(record, is_narrow, chain, writer);
   EXPECT_TRUE(writer.ok());
   return {writer.written().begin(), writer.written().end()};
 }
@@ -45,21 +46,22 @@ TEST(WireRecords, ADatagramLooksAsItIsDocumented) {
   ASSERT_TRUE(header.acks.excepts.try_push({9, 10}));
   ASSERT_TRUE(header.wants.try_push(11));
   header.has_records = true;
-  header.base_ticks = kBaseTicks;
   Record with_ages = example();
   with_ages.published_age_us = 16 * 0x0405;
   with_ages.server_age_us = -100;
+  Record next = example();
+  ++next.slot;
+  next.capture_us += 5 * kTick_us;
   const Written expected{
-      18,                                  // type
-      0x02, 0x01, 23,                      // number; acks, excepts, wants, records
+      0x97, 0x02, 0x01,                    // acks, excepts, wants, records; number
       0x04, 0x03, 0x08, 0x07, 0x06, 0x05,  // acknowledged
       1,    9,    10,                      // but for slot 10 nine before
       1,    11,                            // wants slot 11
-      0x9a, 0x78, 0x56,                    // base
-      0x83, 0x03, 0x72, 0x02, 0x01, 0xfe, 0xff, 0xff, 0xff, 0x03, 0x02, 7, 8, 9,  // wide
-      0x03, 0x83, 0x72, 0xfe, 0x03, 0x02,                                         // narrow
-      0x05, 0x04, 0xfe, 0xff, 0xff, 0xff, 0x9c, 0xff, 0xff, 0xff, 7,    8, 9};    // with ages
-  EXPECT_EQ(written(header, {{example(), false}, {with_ages, true}}), expected);
+      3,    0x83, 0x72, 0x02, 0x01, 0xfe, 0xff, 0xff, 0xff, 0x97, 0x76, 0x56, 7, 8, 9,  // wide
+      3,    0x03, 0x7e, 0xfe, 0xff, 0x00, 0x80,                                         // narrow
+      0x05, 0x04, 0xfe, 0xff, 0xff, 0xff, 0x9c, 0xff, 0xff, 0xff, 7,    8,    9,        // with ages
+      0x83, 0x7e, 5,    7,    8,    9};                                                 // brief
+  EXPECT_EQ(written(header, {{example(), false}, {with_ages, true}, {next, true}}), expected);
 }
 
 TEST(WireRecords, FeedbackLooksAsItIsDocumented) {
@@ -70,16 +72,15 @@ TEST(WireRecords, FeedbackLooksAsItIsDocumented) {
   header.feedback.round_trip = 0x0304;
   ASSERT_TRUE(header.feedback.guests.try_push({5, 6, 7, false, 0, 0}));
   ASSERT_TRUE(header.feedback.guests.try_push({8, 9, 10, true, 0x0b0c, 0x0d0e}));
-  const Written expected{18, 0, 0, 8,    0x02, 0x01, 0x06, 0x05, 0x04, 0x03,
+  const Written expected{0x88, 0, 0, 0x02, 0x01, 0x06, 0x05, 0x04, 0x03,
                          2,  // loss, in a row, round trip, guests
-                         5,  6, 7, 0x88, 9,    10,   0x0c, 0x0b, 0x0e, 0x0d};
+                         5,    6, 7, 0x88, 9,    10,   0x0c, 0x0b, 0x0e, 0x0d};
   EXPECT_EQ(written(header, {}), expected);
 }
 
 TEST(WireRecords, WhatIsForReceiversOfLessLooksAsItIsDocumented) {
   RecordsHeader header;
   header.has_feedback = header.has_records = true;
-  header.base_ticks = kBaseTicks;
   GuestFeedback about{5, 6, 7, true, 0x0102, 0x0304};
   about.base_log2 = 2;
   about.still_log2 = 5;
@@ -94,25 +95,25 @@ TEST(WireRecords, WhatIsForReceiversOfLessLooksAsItIsDocumented) {
   sent.is_base = sent.needs_no_other = true;
   const Written bytes = written(header, {{told, true}, {sent, true}});
   const Written expected{
-      18,   0,    0,    24,   0,    0,    0,    0,    0,    0, 1,  // feedback and records
-      0xc5, 6,    7,    0x02, 0x01, 0x04, 0x03,                    // held,
-      0x5a, 0x06, 0x05, 0x08, 0x07,                                // spacings, base held
-      0x9a, 0x78, 0x56,                                            // base
-      0x03, 0x43, 0xc0, 0x0b, 0x0a, 0x72, 0xfe, 0x03, 0x02, 7, 8,
-      9,    0x03, 0x43, 0x30, 0x72, 0xfe, 0x03, 0x02, 7,    8, 9};
+      0x98, 0,    0,    0,    0,    0,    0,    0,    0,    1,  // feedback and records
+      0xc5, 6,    7,    0x02, 0x01, 0x04, 0x03,                 // held,
+      0x5a, 0x06, 0x05, 0x08, 0x07,                             // spacings, base held
+      0x43, 0xc0, 0x03, 0x0b, 0x0a, 0x7e, 0x97, 0x76, 0x56, 7, 8,
+      9,    0x43, 0x30, 0x03, 0x7e, 0x00, 0x80, 7,    8,    9};
   EXPECT_EQ(bytes, expected);
   ByteReader in(parse_opening(bytes)->body);
   const auto back = parse_records_header(in);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->feedback.guests[0], about);
-  const auto first = parse_record(0, in), second = parse_record(0, in);
+  RecordChain chain{kNow_us};
+  const auto first = parse_record(chain, in), second = parse_record(chain, in);
   ASSERT_TRUE(first && second);
   EXPECT_TRUE(first->is_kept && first->counts_left_out);
   EXPECT_EQ(first->left_out, told.left_out);
   EXPECT_TRUE(second->is_base && second->needs_no_other && !second->counts_left_out);
   for (const int wrong : {0x4a, 0x3a, 0x8a, 0x5e}) {
     Written changed = bytes;
-    changed[18] = static_cast<std::uint8_t>(wrong);
+    changed[17] = static_cast<std::uint8_t>(wrong);
     ByteReader damaged(parse_opening(changed)->body);
     EXPECT_EQ(parse_records_header(damaged).has_value(), wrong == 0x4a) << wrong;
   }
@@ -121,11 +122,20 @@ TEST(WireRecords, WhatIsForReceiversOfLessLooksAsItIsDocumented) {
 TEST(WireRecords, HeadersAreAsSmallAsTheySay) {
   RecordsHeader header;
   header.has_records = header.has_acks = true;
-  header.base_ticks = kBaseTicks;
   const std::size_t empty = written(header, {}).size();
   EXPECT_EQ(empty, kRecordsHeader);
-  EXPECT_EQ(written(header, {{example(), true}}).size() - empty, kNarrowRecordHeader + 3);
-  EXPECT_EQ(written(header, {{example(), false}}).size() - empty, kWideRecordHeader + 3);
+  const auto head_behind_another = [&](const Record& record, bool is_narrow) {
+    Record other = example();
+    other.slot = 60;
+    return written(header, {{other, false}, {record, is_narrow}}).size() -
+           written(header, {{other, false}}).size() - record.payload.size();
+  };
+  EXPECT_EQ(head_behind_another(example(), true), kNarrowRecordHeader);
+  EXPECT_EQ(head_behind_another(example(), false), kWideRecordHeader);
+  Record next = example();
+  next.slot = 61;
+  EXPECT_EQ(head_behind_another(next, true), kBriefRecordHeader);
+  EXPECT_EQ(written(header, {{example(), true}}).size() - empty, kNarrowRecordHeader + 1 + 3);
   const std::array<std::uint8_t, kMaxPayload> payload{};
   Record longest = example();
   longest.payload = payload;
@@ -133,6 +143,67 @@ TEST(WireRecords, HeadersAreAsSmallAsTheySay) {
   longest.counts_left_out = true;
   longest.published_age_us = longest.sent_age_us = longest.server_age_us = INT32_MAX;
   EXPECT_EQ(written(header, {{longest, false}}).size() - empty, kMaxRecordHeader + kMaxPayload);
+}
+
+// What is brief says the same as what is not.
+TEST(WireRecords, ACrowdComesBackWhateverItsOrder) {
+  Random random(9);
+  std::size_t briefs = 0;
+  for (int i = 0; i < 500; ++i) {
+    RecordsHeader header;
+    header.has_records = true;
+    std::vector<std::pair<Record, bool>> crowd;
+    auto slot = static_cast<std::uint8_t>(random.below(64));
+    for (int k = 0; k < 20; ++k) {
+      Record record = example();
+      slot = static_cast<std::uint8_t>((slot + (random.below(4) == 0 ? 5 : 1)) % 64);
+      record.slot = slot;
+      record.stream ^= static_cast<std::uint32_t>(random.below(2) << 16 | random.below(2));
+      record.sequence += static_cast<std::uint32_t>(random.below(30));
+      record.capture_us = kNow_us + (static_cast<std::int64_t>(random.below(300)) - 150) * kTick_us;
+      if (random.below(8) == 0) record.capture_us -= 3'000'000 * kTick_us;
+      if (random.below(8) == 0) record.sent_age_us = 160;
+      if (random.below(8) == 0) record.needs_no_other = true;
+      crowd.emplace_back(record, random.below(8) != 0);
+    }
+    const Written bytes = written(header, crowd);
+    ByteReader in(parse_opening(bytes)->body);
+    ASSERT_TRUE(parse_records_header(in));
+    RecordChain chain{kNow_us + 1'000'000};
+    for (const auto& [sent, is_narrow] : crowd) {
+      const std::size_t before = in.remaining();
+      auto read = parse_record(chain, in);
+      ASSERT_TRUE(read);
+      if (before - in.remaining() == kBriefRecordHeader + sent.payload.size()) ++briefs;
+      EXPECT_EQ(read->is_narrow, is_narrow);
+      ASSERT_TRUE(widen(static_cast<std::uint16_t>(sent.stream >> 16), true, sent.stream,
+                        sent.sequence - kNarrowReach + static_cast<std::uint32_t>(random.below(48)),
+                        *read));
+      EXPECT_EQ(read->slot, sent.slot);
+      EXPECT_EQ(read->stream, sent.stream);
+      EXPECT_EQ(read->sequence, sent.sequence);
+      EXPECT_EQ(read->capture_us, sent.capture_us);
+      EXPECT_EQ(read->sent_age_us, sent.sent_age_us);
+      EXPECT_EQ(read->needs_no_other, sent.needs_no_other);
+    }
+    EXPECT_TRUE(in.is_exhausted());
+  }
+  EXPECT_GT(briefs, 500u);
+}
+
+TEST(WireRecords, ABriefRecordMeansNothingWithoutOneBefore) {
+  const std::array<std::uint8_t, 6> brief{0x83, 0x7e, 5, 7, 8, 9};
+  const auto parsed_behind = [&](bool has_any, std::uint8_t first) {
+    auto bytes = brief;
+    bytes[0] = first;
+    ByteReader in(bytes);
+    RecordChain chain{kNow_us, has_any, 3, kNowTicks};
+    return parse_record(chain, in).has_value();
+  };
+  EXPECT_TRUE(parsed_behind(true, 0x83));
+  EXPECT_FALSE(parsed_behind(false, 0x83));
+  EXPECT_FALSE(parsed_behind(true, 0xc3)) << "brief ones are never long";
+  EXPECT_FALSE(parsed_behind(true, 0x80)) << "nor empty";
 }
 
 TEST(WireRecords, MessagesOfChannelsComeBack) {
@@ -150,7 +221,8 @@ TEST(WireRecords, MessagesOfChannelsComeBack) {
     const Written bytes = written(header, {{record, false}, {example(), false}});
     ByteReader in(parse_opening(bytes)->body);
     ASSERT_TRUE(parse_records_header(in));
-    const auto back = parse_record(0, in);
+    RecordChain chain{kNow_us};
+    const auto back = parse_record(chain, in);
     ASSERT_TRUE(back);
     EXPECT_EQ(back->kind, RecordKind::kChannel);
     EXPECT_EQ(back->slot, record.slot);
@@ -158,7 +230,7 @@ TEST(WireRecords, MessagesOfChannelsComeBack) {
     EXPECT_EQ(back->stream, record.stream);
     EXPECT_EQ(back->sequence, record.sequence);
     EXPECT_EQ(back->payload.size(), size);
-    const auto next = parse_record(0, in);
+    const auto next = parse_record(chain, in);
     ASSERT_TRUE(next && in.is_exhausted());
     EXPECT_EQ(next->kind, RecordKind::kPose);
   }
@@ -181,12 +253,12 @@ TEST(WireRecords, AMessageOfAChannelHasNoFlagsOfPoses) {
     Written changed = bytes;
     changed[begin + at] = static_cast<std::uint8_t>(changed[begin + at] | bit);
     ByteReader in(std::span<const std::uint8_t>(changed).subspan(begin));
-    return parse_record(0, in).has_value();
+    RecordChain chain;
+    return parse_record(chain, in).has_value();
   };
   EXPECT_TRUE(parsed(0, 0));
-  EXPECT_FALSE(parsed(1, 0x80)) << "ages";
   for (const std::uint8_t bit : std::array<std::uint8_t, 4>{0x10, 0x20, 0x40, 0x80})
-    EXPECT_FALSE(parsed(2, bit)) << +bit;
+    EXPECT_FALSE(parsed(1, bit)) << +bit;
 }
 
 TEST(WireRecords, WhatIsWrittenComesBack) {
@@ -196,7 +268,6 @@ TEST(WireRecords, WhatIsWrittenComesBack) {
     RecordsHeader header;
     header.number = static_cast<std::uint16_t>(random.next_u64());
     header.has_records = true;
-    header.base_ticks = to_ticks(now_us);
     std::vector<std::uint8_t> payload(1 + random.below(kMaxPayload), 5);
     Record record = example();
     record.kind = i % 3 == 0 ? RecordKind::kHands : RecordKind::kPose;
@@ -208,20 +279,22 @@ TEST(WireRecords, WhatIsWrittenComesBack) {
     if (i % 2 == 0) record.sent_age_us = static_cast<std::int32_t>(random.below(3'000'000)) - 500;
     record.payload = payload;
     const bool is_narrow = record.kind == RecordKind::kPose && i % 5 < 3;
-    const Written bytes = written(header, {{record, is_narrow}});
-    ByteReader in(parse_opening(bytes)->body);
+    Buffer out;
+    ByteWriter writer(out);
+    begin_records(header, writer);
+    RecordChain sent{now_us};
+    add_record(record, is_narrow, sent, writer);
+    ByteReader in(parse_opening(writer.written())->body);
     const auto back = parse_records_header(in);
     ASSERT_TRUE(back);
     EXPECT_EQ(back->number, header.number);
     // The receiver's clock is not quite the sender's.
-    const std::int64_t near_us =
-        now_us + static_cast<std::int64_t>(random.below(200'000'000)) - 100'000'000;
-    const std::int64_t base = base_us(back->base_ticks, near_us);
-    EXPECT_EQ(base, header.base_ticks * kTick_us);
-    auto read = parse_record(base, in);
+    RecordChain chain{now_us + static_cast<std::int64_t>(random.below(100'000'000)) - 50'000'000};
+    auto read = parse_record(chain, in);
     ASSERT_TRUE(read && in.is_exhausted());
     EXPECT_EQ(read->is_narrow, is_narrow);
-    const auto before = record.sequence - 100 + static_cast<std::uint32_t>(random.below(200));
+    const auto before =
+        record.sequence - kNarrowReach + static_cast<std::uint32_t>(random.below(2 * kNarrowReach));
     ASSERT_TRUE(widen(static_cast<std::uint16_t>(record.stream >> 16), is_narrow, record.stream,
                       before, *read));
     EXPECT_EQ(read->kind, record.kind);
@@ -247,13 +320,12 @@ TEST(WireRecords, EveryPrefixAndEveryContradictionIsRefused) {
   header.has_records = header.has_acks = header.has_feedback = true;
   ASSERT_TRUE(header.feedback.guests.try_push({8, 9, 10, true, 1, 1}));
   ASSERT_TRUE(header.acks.excepts.try_push({32, 63}));
-  header.base_ticks = kBaseTicks;
   const Written bytes = written(header, {{example(), false}});
   const auto is_good = [](const Written& datagram) {
     ByteReader in(parse_opening(datagram)->body);
     if (!parse_records_header(in)) return false;
-    while (in.remaining() > 0)
-      if (!parse_record(0, in)) return false;
+    for (RecordChain chain{kNow_us}; in.remaining() > 0;)
+      if (!parse_record(chain, in)) return false;
     return true;
   };
   EXPECT_TRUE(is_good(bytes));
@@ -264,10 +336,10 @@ TEST(WireRecords, EveryPrefixAndEveryContradictionIsRefused) {
     changed[at] = value;
     return changed;
   };
-  EXPECT_FALSE(is_good(with(3, 0x40 | bytes[3]))) << "a flag that nobody knows";
-  EXPECT_FALSE(is_good(with(10, 0))) << "no exceptions, though it says so";
-  EXPECT_FALSE(is_good(with(11, 33))) << "an exception out of the window";
-  EXPECT_FALSE(is_good(with(12, 64))) << "no such slot";
+  EXPECT_FALSE(is_good(with(0, 0x40 | bytes[0]))) << "a flag that nobody knows";
+  EXPECT_FALSE(is_good(with(9, 0))) << "no exceptions, though it says so";
+  EXPECT_FALSE(is_good(with(10, 33))) << "an exception out of the window";
+  EXPECT_FALSE(is_good(with(11, 64))) << "no such slot";
 }
 
 }  // namespace

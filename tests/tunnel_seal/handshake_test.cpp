@@ -268,7 +268,7 @@ TEST(SealHandshake, ALinkOfBeforeIsToldThatItIsOld) {
   for (std::uint8_t i = 0; i < 8; ++i) hello[8 + i] = i;
   street.inject(Address::loopback(5), hello);
   ASSERT_EQ(street.sent.size(), 1u);
-  const std::vector<std::uint8_t> refusal{0x44, 0x43, 0x47, 0x52, 3, 3, 1, 0, 0,
+  const std::vector<std::uint8_t> refusal{0x44, 0x43, 0x47, 0x52, 4, 3, 1, 0, 0,
                                           1,    2,    3,    4,    5, 6, 7, 0};
   EXPECT_EQ(street.sent[0].bytes, refusal);
   EXPECT_EQ(street.server->counters().of(SealReject::kOldVersion), 1u);

@@ -20,7 +20,7 @@ namespace dance::seal {
 using Bytes = std::span<const std::uint8_t>;
 
 // Of all that the tunnel says, sealed or not.
-constexpr std::uint8_t kTunnelVersion = 3;
+constexpr std::uint8_t kTunnelVersion = 4;
 constexpr std::size_t kIdBytes = 8;
 constexpr std::size_t kRecordHeader = 13;  // type, version, epoch, sequence, length
 constexpr std::size_t kTag = 16;           // of ChaCha20-Poly1305
