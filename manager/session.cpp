@@ -55,7 +55,7 @@ std::string read_file_name(TomlReader& reader, const char* key,
 void read_house(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   if (const auto guest = reader.maybe_string("guest"))
     session.guests.push_back(read_guest(reader, "guest", *guest));
-  for (const std::string& guest : reader.strings("guests"))
+  for (const std::string& guest : reader.strings("guests", "[\"alice\", \"ann\"]"))
     session.guests.push_back(read_guest(reader, "guests", guest));
   if (session.guests.size() > kMaxGuestsPerHouse)
     reader.complain("guests", "at most 16 guests dance in one house");
@@ -71,6 +71,11 @@ void read_house(TomlReader& reader, const std::filesystem::path& folder, Session
   session.view = reader.bool_or("view", true);
   session.quality_mm = reader.number_or("quality_mm", session.quality_mm, 0.125, 20.0);
   session.pose_bytes_per_second = reader.number_or("pose_bytes_per_second", 0.0, 0.0, 1e6);
+  const auto interest = parse_interest(reader.strings("want", "[\"default=4\", \"bob=1\"]"));
+  if (interest)
+    session.interest = *interest;
+  else
+    reader.complain("want", interest.error().what);
   reader.finish();
 }
 
@@ -78,7 +83,7 @@ void read_route(TomlReader& reader, Session& session) {
   Route route;
   route.from = read_end(reader, "from", reader.required_string("from"));
   route.to = read_end(reader, "to", reader.required_string("to"));
-  route.through = reader.strings("through");
+  route.through = reader.strings("through", "[\"hold 20ms\"]");
   const auto chain = Chain::make(route.through);
   if (!chain) reader.complain("through", chain.error().what);
   // Without a rate, poses go on as they come; transformers need the stage's steady rate.

@@ -1,5 +1,5 @@
 // Session: what a house is and does, read from its TOML file: who dances here, the server and room, the bus, routes,
-// hosted producers and consumers, further channels.
+// whom it wants to hear, hosted producers and consumers, further channels.
 //
 // Units/frames: rates in Hz.
 // Ownership:    plain values.
@@ -17,6 +17,7 @@
 #include "core/base/result.h"
 #include "core/bus/channel.h"
 #include "core/bus/channel_rule.h"
+#include "core/bus/interest.h"
 
 namespace dance {
 
@@ -68,6 +69,7 @@ struct Session {
   std::string bus;                     // LCM URL; "" = default
   double quality_mm = 1.0;             // the largest error in a joint at the others'
   double pose_bytes_per_second = 0.0;  // of each guest, at most; 0 = whatever quality_mm takes
+  Interest interest;                   // whom it wants to hear, and how often
   bool view = true;                    // open the viewer (dance join)
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;

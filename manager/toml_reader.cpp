@@ -72,13 +72,13 @@ bool TomlReader::bool_or(std::string_view key, bool fallback) {
   return fallback;
 }
 
-std::vector<std::string> TomlReader::strings(std::string_view key) {
+std::vector<std::string> TomlReader::strings(std::string_view key, const std::string& example) {
   std::vector<std::string> values;
   const toml::node* node = take(key);
   if (!node) return values;
   const toml::array* array = node->as_array();
   if (!array) {
-    complain(key, "takes a list of texts, like [\"hold 20ms\"]");
+    complain(key, "takes a list of texts, like " + example);
     return values;
   }
   for (const toml::node& element : *array) {

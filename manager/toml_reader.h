@@ -30,7 +30,8 @@ class TomlReader {
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, std::int64_t low,
                           std::int64_t high);
   bool bool_or(std::string_view key, bool fallback);
-  std::vector<std::string> strings(std::string_view key);
+  // `example` is said where there is something else: a list as it is written.
+  std::vector<std::string> strings(std::string_view key, const std::string& example);
 
   // Complains about the value of a key that was read but makes no sense.
   void complain(std::string_view key, const std::string& what);

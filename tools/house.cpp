@@ -94,6 +94,7 @@ Result<void> House::open_link() {
   LinkOptions options;
   options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
   options.listen_only = session_.guests.empty();
+  options.interest = session_.interest;
   options.channels = session_.channels;
   options.clock_id = this_clock_id();
   options.quality_m = session_.quality_mm * 1e-3;

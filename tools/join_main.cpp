@@ -17,6 +17,8 @@ constexpr const char* kExamples = R"(Examples:
   dance join dance.example.org --guest alice --room salsa
                                                      without a file: own captures to the stage and to
                                                      the room, the others held as their lines need
+  dance join sessions/alice.toml --want default=4 --want bob=1
+                                                     bob in full, of the others each fourth pose
   dance join sessions/alice.toml --no-view           without a window
 )";
 
@@ -24,6 +26,7 @@ struct JoinOptions {
   std::string host_or_session;
   std::vector<std::string> guests;
   std::string room;
+  std::vector<std::string> want;
   std::string bus;
   bool no_view = false;
   bool json = false;
@@ -54,6 +57,11 @@ Result<Session> session_of(const JoinOptions& options) {
   if (!GuestId::parse(session.room))
     return fail("--room '" + session.room +
                 "': a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
+  if (!options.want.empty()) {
+    const auto interest = parse_interest(options.want);
+    if (!interest) return fail("--want " + interest.error().what);
+    session.interest = *interest;
+  }
   if (!options.bus.empty()) session.bus = options.bus;
   if (options.no_view) session.view = false;
   return session;
@@ -99,6 +107,11 @@ int main(int argc, char** argv) {
   line.add("--guest", options.guests, "who dances here, instead of the session's guests")
       .guest_name();
   line.add("--room", options.room, "which room, instead of the session's");
+  line.add(
+      "--want", options.want,
+      "how many of a guest's poses come here, instead of the session's want: NAME=1 every one, "
+      "NAME=N at most every N-th, NAME=0 none; default=N for all who are not named; may be "
+      "repeated");
   line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");

@@ -1,42 +1,22 @@
-// Which guests a link wants to hear, and how often: a divider for each, and one for all others. What
-// it makes of a guest's poses is decided by the server, so that what goes out can be decoded:
-// few receivers who want less cost the others nothing, and need no key frames of their own.
+// What a link's interest (core/bus/interest.h) makes of a guest's poses. It is decided by the server, so
+// that what goes out can be decoded: few receivers who want less cost the others nothing, and need no
+// key frames of their own.
 //
 // Units/frames: a divider: 0 = nothing of this guest, 1 = every pose, n = at most every n-th.
-// Ownership:    plain values of fixed size, no allocation; parse_interest() is not for the pose path.
+// Ownership:    plain values, no allocation.
 // Threads:      none inside.
-// Failure:      parse_interest() names the word that is wrong and how it is written.
+// Failure:      none.
 #pragma once
 
 #include <bit>
 #include <cstdint>
-#include <span>
-#include <string>
 
-#include "core/base/result.h"
+#include "core/bus/interest.h"
 #include "tunnel/wire.h"
 
 namespace dance {
 
-// By name, as a house says it.
-struct Interest {
-  struct One {
-    GuestId guest;
-    std::uint8_t divider = 1;
-    bool operator==(const One&) const = default;
-  };
-  std::uint8_t others = 1;  // who is not named
-  FixedList<One, wire::kMaxGuestsPerRoom> guests;
-
-  std::uint8_t divider_of(const GuestId& guest) const {
-    for (const One& one : guests)
-      if (one.guest == guest) return one.divider;
-    return others;
-  }
-};
-
-// "alice=1", "bob=0", "default=2": each at most once.
-Result<Interest> parse_interest(std::span<const std::string> words);
+static_assert(kMaxInterestGuests == wire::kMaxGuestsPerRoom, "each guest of a room can be named");
 
 // What of a guest's poses goes to a receiver with this divider.
 enum class Share : std::uint8_t {

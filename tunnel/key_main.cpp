@@ -1,6 +1,5 @@
 // dance key: keeps the keys that servers have given to this house.
 
-#include <termios.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "tunnel/seal/key_files.h"
+#include "tunnel/unseen_input.h"
 
 namespace dance {
 namespace {
@@ -28,32 +28,11 @@ struct KeyOptions {
   bool list = false;
 };
 
-// The terminal does not show what is pasted while this lives.
-class Unseen {
- public:
-  Unseen() {
-    is_terminal_ = tcgetattr(STDIN_FILENO, &before_) == 0;
-    if (!is_terminal_) return;
-    termios quiet = before_;
-    quiet.c_lflag &= ~static_cast<tcflag_t>(ECHO);
-    tcsetattr(STDIN_FILENO, TCSANOW, &quiet);
-  }
-  ~Unseen() {
-    if (is_terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  }
-  Unseen(const Unseen&) = delete;
-  Unseen& operator=(const Unseen&) = delete;
-
- private:
-  termios before_{};
-  bool is_terminal_ = false;
-};
-
 Result<HouseKey> asked_key() {
-  if (isatty(STDIN_FILENO)) talk::info("paste the line that you were given (it is not shown):");
   std::string line;
   {
-    const Unseen unseen;
+    const UnseenInput unseen;  // first, so that who is asked can paste at once
+    if (isatty(STDIN_FILENO)) talk::info("paste the line that you were given (it is not shown):");
     std::getline(std::cin, line);
   }
   if (line.empty()) return fail("nothing was pasted; the keys are as they were");

@@ -171,6 +171,8 @@ Stats Link::stats(MonoTime now) const {
   stats.clock_id = clock_id_;
   stats.uptime = now - begin_;
   core_.fill(stats);
+  // What the seal keeps out is a stranger's or damaged; copies of what came may be the network's own.
+  stats.rejected_datagrams += static_cast<std::int64_t>(seal_.counters().forged);
   return stats;
 }
 

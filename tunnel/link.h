@@ -51,6 +51,7 @@ class Link {
   bool is_connected() const { return core_.is_connected(); }
   LinkState state() const { return core_.state(); }
   const LinkCounters& counters() const { return core_.counters(); }
+  const SealClientCounters& seal_counters() const { return seal_.counters(); }
   const ClockMapper& clock() const { return core_.clock(); }
   std::vector<RemoteGuestStats> remote_stats() const { return core_.remote_stats(); }
   std::vector<LocalGuestStats> local_stats() const { return core_.local_stats(); }

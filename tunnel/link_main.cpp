@@ -56,7 +56,9 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
   if (given.listen_only && !given.guests.empty())
     return fail("--listen-only brings no guests: leave out --guest, or --listen-only");
   options.listen_only = given.listen_only;
-  DANCE_TRY(options.interest, parse_interest(given.want));
+  const auto interest = parse_interest(given.want);
+  if (!interest) return fail("--want " + interest.error().what);
+  options.interest = *interest;
   DANCE_TRY(options.channels, parse_channel_rules(given.channels));
   options.clock_id = this_clock_id();
   options.quality_m = given.quality_mm * 1e-3;
@@ -129,8 +131,8 @@ Result<void> run_link(const LinkProgramOptions& given) {
   if (given.json)
     std::printf("%s\n", link_report_json(*link).c_str());
   else
-    talk::info("{} poses sent, {} delivered", link->counters().poses_sent,
-               link->counters().poses_delivered);
+    talk::info("{} poses sent, {} delivered{}", link->counters().poses_sent,
+               link->counters().poses_delivered, seal_trouble_text(link->seal_counters()));
   return {};
 }
 

@@ -30,6 +30,7 @@ std::string link_report_json(const Link& link) {
   const double seconds = std::max(link.uptime().as_seconds(), 1e-3);
   const auto per_second = [&](std::uint64_t n) { return static_cast<double>(n) / seconds; };
   const LinkCounters& c = link.counters();
+  const SealClientCounters& seal = link.seal_counters();
   const ordered_json report{{"offered", c.poses_offered},
                             {"sent", c.poses_sent},
                             {"repeated", c.poses_repeated},
@@ -68,6 +69,10 @@ std::string link_report_json(const Link& link) {
                             {"path_loss", link.path().loss},
                             {"path_round_trip_us", link.path().round_trip.count_us()},
                             {"rejected_datagrams", c.rejected_datagrams},
+                            {"handshakes_begun", seal.tries},
+                            {"handshakes_done", seal.sessions},
+                            {"forged", seal.forged},
+                            {"replayed", seal.replayed},
                             {"hellos", c.hellos},
                             {"lapses", c.lapses},
                             {"reconnects", c.reconnects},
@@ -76,6 +81,17 @@ std::string link_report_json(const Link& link) {
                             {"guests", guests},
                             {"own", own}};
   return report.dump();
+}
+
+std::string seal_trouble_text(const SealClientCounters& seal) {
+  std::string text;
+  if (seal.tries != 1 || seal.sessions != 1)
+    text += ", " + std::to_string(seal.tries) + " handshakes begun, " +
+            std::to_string(seal.sessions) + " done";
+  if (seal.forged > 0) text += ", " + std::to_string(seal.forged) + " datagrams forged or damaged";
+  if (seal.replayed > 0)
+    text += ", " + std::to_string(seal.replayed) + " came twice or far too late";
+  return text;
 }
 
 }  // namespace dance

@@ -50,6 +50,31 @@ TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
 
+TEST(Session, SaysWhomItWantsToHearInTheWordsOfTheCommandLine) {
+  const GuestId bob = *GuestId::parse("bob"), carol = *GuestId::parse("carol");
+  const auto usual = parse_session(kHouse, "s.toml");
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(usual->interest.divider_of(bob), 1) << "all of everybody";
+  const auto given =
+      parse_session(std::string(kHouse) + "want = [\"default=4\", \"bob=0\"]\n", "s.toml");
+  ASSERT_TRUE(given) << given.error().what;
+  EXPECT_EQ(given->interest.divider_of(bob), 0);
+  EXPECT_EQ(given->interest.divider_of(carol), 4);
+}
+
+TEST(Session, SaysWhatIsWrongWithWhomItWants) {
+  const std::string house = kHouse;
+  std::string error = error_of(house + "want = [\"bob=256\"]\n");
+  EXPECT_EQ(error.rfind("s.toml:4:8: [house] want: 'bob=256': write NAME=N", 0), 0u) << error;
+  error = error_of(house + "want = [\"bob=1\", \"bob=2\"]\n");
+  EXPECT_EQ(error, "s.toml:4:8: [house] want: 'bob=2': bob is given twice");
+  error = error_of(house + "want = \"bob=1\"\n");
+  EXPECT_EQ(error.rfind("s.toml:4:8: [house] want: ", 0), 0u) << error;
+  EXPECT_NE(error.find("[\"default=4\", \"bob=1\"]"), std::string::npos) << error;
+  error = error_of(house + "want = [\"bob=1\", 2]\n");
+  EXPECT_EQ(error.rfind("s.toml:4:18: [house] want: ", 0), 0u) << error;
+}
+
 TEST(Session, ReadsChannels) {
   const auto session = parse_session(
       std::string(kHouse) +

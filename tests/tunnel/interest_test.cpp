@@ -17,23 +17,6 @@ Interest wanting(const std::vector<std::string>& words) {
   return *interest;
 }
 
-TEST(Interest, IsWrittenByNameAndWhatIsWrongIsNamed) {
-  const Interest interest = wanting({"alice=1", "default=2", "bob=0", "carol=255"});
-  EXPECT_EQ(interest.divider_of(guest("alice")), 1);
-  EXPECT_EQ(interest.divider_of(guest("bob")), 0);
-  EXPECT_EQ(interest.divider_of(guest("carol")), 255);
-  EXPECT_EQ(interest.divider_of(guest("dora")), 2);
-  EXPECT_EQ(wanting({}).divider_of(guest("dora")), 1);
-  for (const char* wrong : {"alice", "alice=", "alice=-1", "alice=256", "alice=1x", "=1", "Alice=1",
-                            "default=x", "alice = 1", "alice=99999999999"}) {
-    const auto refused = parse_interest(std::vector<std::string>{wrong});
-    ASSERT_FALSE(refused) << wrong;
-    EXPECT_NE(refused.error().what.find(wrong), std::string::npos) << refused.error().what;
-  }
-  EXPECT_FALSE(parse_interest(std::vector<std::string>{"a=1", "a=2"}));
-  EXPECT_FALSE(parse_interest(std::vector<std::string>{"default=1", "default=1"}));
-}
-
 TEST(Interest, IsRoundedToPowersOfTwoAndNeverToMore) {
   for (unsigned divider = 2; divider <= 128; ++divider)
     EXPECT_GE(1u << spacing_log2(static_cast<std::uint8_t>(divider)), divider);

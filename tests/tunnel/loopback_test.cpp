@@ -1,6 +1,8 @@
 // A server and two links with their real sockets, on this machine's loopback address.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/net/lossy_proxy.h"
 #include "core/net/mono_clock.h"
 #include "tests/tunnel/simulated_tunnel.h"
@@ -108,6 +110,86 @@ TEST_F(Loopback, APoseGoesFromHouseToHouseWithItsJourneyStamped) {
             std::string::npos);
 }
 
+// Between a link and its server. Once it tampers, all that the server says comes twice, and damaged
+// before.
+class Tamperer {
+ public:
+  Tamperer(UdpSocket to_link, UdpSocket to_server, Poller& poller)
+      : to_link_(std::move(to_link)), to_server_(std::move(to_server)), poller_(poller) {
+    poller_.watch(to_link_.fd(), [this](MonoTime) {
+      for (const UdpSocket::Datagram& datagram : to_link_.receive()) {
+        link_ = datagram.from;
+        to_server_.send_now({}, datagram.bytes);
+      }
+    });
+    poller_.watch(to_server_.fd(), [this](MonoTime) {
+      for (const UdpSocket::Datagram& datagram : to_server_.receive()) {
+        std::vector<std::uint8_t> damaged(datagram.bytes.begin(), datagram.bytes.end());
+        damaged.back() ^= 1;
+        if (tampers) to_link_.send_now(link_, damaged);
+        to_link_.send_now(link_, datagram.bytes);
+        if (tampers) to_link_.send_now(link_, datagram.bytes);
+      }
+    });
+  }
+  ~Tamperer() {
+    poller_.unwatch(to_link_.fd());
+    poller_.unwatch(to_server_.fd());
+  }
+  Tamperer(const Tamperer&) = delete;
+  Tamperer& operator=(const Tamperer&) = delete;
+  Address address() const { return to_link_.local_address(); }
+
+  bool tampers = false;
+
+ private:
+  UdpSocket to_link_;
+  UdpSocket to_server_;
+  Poller& poller_;
+  Address link_;
+};
+
+TEST_F(Loopback, ALinkReportsWhatItsSealKeptOut) {
+  auto to_link = UdpSocket::bind(Address::loopback(0));
+  auto to_server = UdpSocket::connect(address);
+  ASSERT_TRUE(to_link && to_server);
+  Tamperer between(std::move(*to_link), std::move(*to_server), *poller);
+  address = between.address();
+  auto a = link("alice");
+  ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
+  const SealClientCounters& seal = a->seal_counters();
+  EXPECT_GE(seal.sessions, 1u);
+  const SealClientCounters before = seal;
+  between.tampers = true;
+  ASSERT_TRUE(turn_until(
+      [&] { return seal.forged >= before.forged + 3 && seal.replayed >= before.replayed + 3; }));
+  EXPECT_TRUE(turn_until([&] { return a->is_connected(); })) << "it is none the worse for that";
+  const auto report = nlohmann::json::parse(link_report_json(*a));
+  EXPECT_EQ(report["forged"], seal.forged);
+  EXPECT_EQ(report["replayed"], seal.replayed);
+  EXPECT_EQ(report["handshakes_begun"], seal.tries);
+  EXPECT_EQ(report["handshakes_done"], seal.sessions);
+  const auto rejected = static_cast<std::int64_t>(a->counters().rejected_datagrams + seal.forged);
+  EXPECT_EQ(a->stats(mono_now()).rejected_datagrams, rejected);
+}
+
+TEST(SealTroubleText, SaysNothingWhereThereWasNoneAndElseEachThing) {
+  SealClientCounters seal;
+  seal.tries = seal.sessions = 1;
+  EXPECT_EQ(seal_trouble_text(seal), "");
+  seal.forged = 3;
+  EXPECT_EQ(seal_trouble_text(seal), ", 3 datagrams forged or damaged");
+  seal.tries = 5;
+  seal.sessions = 2;
+  seal.replayed = 7;
+  EXPECT_EQ(
+      seal_trouble_text(seal),
+      ", 5 handshakes begun, 2 done, 3 datagrams forged or damaged, 7 came twice or far too late");
+  seal = {};
+  seal.tries = 4;
+  EXPECT_EQ(seal_trouble_text(seal), ", 4 handshakes begun, 0 done");
+}
+
 TEST_F(Loopback, AServerStartedAgainOnItsPortGetsItsLinksBack) {
   auto a = link("alice");
   ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
@@ -118,6 +200,7 @@ TEST_F(Loopback, AServerStartedAgainOnItsPortGetsItsLinksBack) {
   ASSERT_TRUE(again) << again.error().what;
   ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
   EXPECT_EQ(a->counters().reconnects, 1u);
+  EXPECT_GE(a->seal_counters().sessions, 2u) << "a new server, a new seal";
 }
 
 TEST_F(Loopback, ALinkThatEndsSaysGoodbye) {

@@ -1,4 +1,4 @@
-#include "tunnel/interest.h"
+#include "core/bus/interest.h"
 
 #include <charconv>
 
@@ -22,20 +22,21 @@ Result<Interest> parse_interest(std::span<const std::string> words) {
       const auto read = std::from_chars(word.data() + equals + 1, end, divider);
       if (read.ec != std::errc() || read.ptr != end) divider = 256;
     }
-    if (divider > 255) return fail("--want '" + word + "'" + kWantRule);
+    if (divider > 255) return fail("'" + word + "'" + kWantRule);
     const auto as_divider = static_cast<std::uint8_t>(divider);
     if (name == "default") {
-      if (has_default) return fail("--want '" + word + "': default is given twice");
+      if (has_default) return fail("'" + word + "': default is given twice");
       has_default = true;
       interest.others = as_divider;
       continue;
     }
     const auto guest = GuestId::parse(name);
-    if (!guest) return fail("--want '" + word + "': " + kGuestIdRule);
+    if (!guest) return fail("'" + word + "': " + kGuestIdRule);
     for (const Interest::One& one : interest.guests)
-      if (one.guest == *guest) return fail("--want '" + word + "': " + name + " is given twice");
+      if (one.guest == *guest) return fail("'" + word + "': " + name + " is given twice");
     if (!interest.guests.try_push({*guest, as_divider}))
-      return fail("--want: at most 64 guests can be named; default=N is for all others");
+      return fail("'" + word + "': at most " + std::to_string(kMaxInterestGuests) +
+                  " guests can be named; default=N is for all others");
   }
   return interest;
 }
