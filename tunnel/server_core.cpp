@@ -26,6 +26,7 @@ ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& s
   newcomers_.reserve(limits.sessions);
   bundled_.reserve(limits.sessions);
   reporting_.reserve(limits.sessions);
+  astir_.reserve(limits.rooms);
   for (ServerRoom& room : rooms_) room.members.reserve(limits.sessions);
 }
 
@@ -160,8 +161,14 @@ void ServerCore::send_roster(const ServerSession& session) {
   }
 }
 
+void ServerCore::stir(ServerRoom& room) {
+  if (std::exchange(room.is_astir, true)) return;
+  astir_.push_back(static_cast<std::size_t>(&room - rooms_.data()));
+}
+
 void ServerCore::end_turn(MonoTime now) {
-  for (ServerRoom& room : rooms_) {
+  for (const std::size_t i : astir_) {
+    ServerRoom& room = rooms_[i];
     if (!room.roster_changed) continue;
     room.roster_changed = false;
     for (const std::size_t member : room.members) {
@@ -177,8 +184,13 @@ void ServerCore::end_turn(MonoTime now) {
     flush_due(now);
   }
   // Last, so that nothing waits for them.
-  for (ServerRoom& room : rooms_)
-    if (room.has_fresh_states && now >= room.fresh_states_due) send_fresh_states(room, now);
+  for (const std::size_t i : astir_)
+    if (rooms_[i].has_fresh_states && now >= rooms_[i].fresh_states_due)
+      send_fresh_states(rooms_[i], now);
+  std::erase_if(astir_, [this](std::size_t i) {
+    rooms_[i].is_astir = rooms_[i].roster_changed || rooms_[i].has_fresh_states;
+    return !rooms_[i].is_astir;
+  });
 }
 
 bool ServerCore::is_newcomer(std::size_t session) const {
@@ -231,8 +243,9 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].bundle_due);
   for (const std::size_t i : reporting_)
     if (sessions_[i].bundle_size == 0) next = std::min(next, sessions_[i].feedback_alone);
-  for (const ServerRoom& room : rooms_)
-    if (room.has_fresh_states) next = std::min(next, room.fresh_states_due);
+  for (const std::size_t i : astir_)
+    if (const ServerRoom& room = rooms_[i]; room.has_fresh_states)
+      next = std::min(next, room.fresh_states_due);
   return next;
 }
 

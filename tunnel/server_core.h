@@ -90,6 +90,7 @@ class ServerCore {
   void drop_session(std::size_t session);
 
   // server_core.cpp
+  void stir(ServerRoom& room);
   void on_session_datagram(std::size_t session, const wire::Opening& opening, MonoTime received,
                            MonoTime now);
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
@@ -167,6 +168,7 @@ class ServerCore {
   std::vector<std::size_t> newcomers_;  // sessions that know nothing of their room yet
   std::vector<std::size_t> bundled_;    // sessions with a bundle under way
   std::vector<std::size_t> reporting_;  // sessions with feedback due
+  std::vector<std::size_t> astir_;      // rooms with a roster or states to tell
   MonoTime next_sweep_;
   ServerCounters counters_;
 };

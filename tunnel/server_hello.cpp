@@ -267,6 +267,7 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
   ++room.guest_count;
   ++room.roster_version;
   room.roster_changed = true;
+  stir(room);
 }
 
 void ServerCore::remove_guest(std::size_t room_index, std::uint8_t slot) {
@@ -276,6 +277,7 @@ void ServerCore::remove_guest(std::size_t room_index, std::uint8_t slot) {
   for (const std::size_t member : room.members) sessions_[member].state_acked[slot] = {};
   ++room.roster_version;
   room.roster_changed = true;
+  stir(room);
 }
 
 void ServerCore::drop_session(std::size_t index) {

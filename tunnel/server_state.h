@@ -237,6 +237,7 @@ struct ServerRoom {
   wire::RoomName name;
   CodecName codec;
   std::uint32_t roster_version = 1;
+  bool is_astir = false;  // in the list of those with something to tell
   bool roster_changed = false;
   std::uint16_t next_generation = 0;
   std::array<HeldState, wire::kRoomStates> states;

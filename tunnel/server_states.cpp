@@ -46,6 +46,7 @@ void ServerCore::hold_state(ServerRoom& room, HeldState& held, const wire::State
   std::copy(state.payload.begin(), state.payload.end(), held.payload.begin());
   held.is_fresh = true;
   room.has_fresh_states = true;
+  stir(room);
   ++counters_.states_in;
 }
 

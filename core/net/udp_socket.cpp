@@ -67,6 +67,23 @@ struct UdpSocket::Batches {
   std::array<Slot, kBatch> out;
   std::array<mmsghdr, kBatch> out_headers{};
   std::size_t queued = 0;
+  std::size_t used_in = kBatch;  // of the last receive(): the kernel wrote into these headers
+
+  void make_ready() {
+    for (std::size_t i = 0; i < used_in; ++i) {
+      Slot& slot = in[i];
+      slot.vector = {slot.bytes.data(), slot.bytes.size()};
+      msghdr& header = in_headers[i].msg_hdr;
+      header = {};
+      header.msg_name = &slot.address;
+      header.msg_namelen = sizeof slot.address;
+      header.msg_iov = &slot.vector;
+      header.msg_iovlen = 1;
+      header.msg_control = slot.control.data();
+      header.msg_controllen = slot.control.size();
+    }
+    used_in = 0;
+  }
 };
 
 UdpSocket::UdpSocket(int fd, Address::Family family, bool connected)
@@ -149,18 +166,7 @@ Address UdpSocket::local_address() const {
 
 std::span<const UdpSocket::Datagram> UdpSocket::receive() {
   Batches& b = *batches_;
-  for (std::size_t i = 0; i < kBatch; ++i) {
-    Batches::Slot& slot = b.in[i];
-    slot.vector = {slot.bytes.data(), slot.bytes.size()};
-    msghdr& header = b.in_headers[i].msg_hdr;
-    header = {};
-    header.msg_name = &slot.address;
-    header.msg_namelen = sizeof slot.address;
-    header.msg_iov = &slot.vector;
-    header.msg_iovlen = 1;
-    header.msg_control = slot.control.data();
-    header.msg_controllen = slot.control.size();
-  }
+  b.make_ready();
   const int count = recvmmsg(fd_, b.in_headers.data(), kBatch, MSG_DONTWAIT, nullptr);
   if (count < 0) {
     if (errno == ECONNREFUSED) ++counters_.refused;
@@ -169,6 +175,7 @@ std::span<const UdpSocket::Datagram> UdpSocket::receive() {
   // Both clocks at the same moment: between the turn's begin and here, anything may have happened.
   const std::int64_t wall_now_ns = realtime_ns();
   const MonoTime wall_read = mono_now();
+  b.used_in = static_cast<std::size_t>(count);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     mmsghdr& header = b.in_headers[i];
