@@ -46,6 +46,7 @@ constexpr std::array kCommands{
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
     Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},
+    Command{"bench line", "two dancers over recorded lines: ages, freezes, recovery"},
     Command{"bench hold", "play-out buffers over recorded lines: delay against freezes"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };

@@ -27,6 +27,14 @@ done >"$scratch/commands"
 checked=0 ran=0 failed=0
 wrong() { echo "$1"; failed=1; }
 
+# Every program is a command that `dance help` lists.
+"$bin/dance" help >"$scratch/listed"
+for program in "$bin"/dance-*; do
+  name=$(basename "$program" | sed 's/^dance-//')
+  tr - ' ' <"$scratch/listed" | grep -qE "^  $(echo "$name" | tr - ' ') " ||
+    wrong "tools/front_main.cpp: dance help does not list dance-$name"
+done
+
 while IFS= read -r entry <&3; do
   file=${entry%%:*}
   rest=${entry#*:}
@@ -57,7 +65,7 @@ while IFS= read -r entry <&3; do
     [a-z]*) "$bin/dance-$program" --help 2>/dev/null | grep -qE "^  $1( |\$)" && subcommand=$1 ;;
   esac
   # shellcheck disable=SC2086
-  if ! "$bin/dance-$program" $subcommand --help >"$scratch/help" 2>&1 </dev/null; then
+  if ! "$bin/dance" $(echo "$program" | tr - ' ') $subcommand --help >"$scratch/help" 2>&1 </dev/null; then
     wrong "$place: dance-$program $subcommand --help fails"
     continue
   fi
