@@ -160,6 +160,7 @@ class LinkCore {
   void add_record(const wire::Record& record, MonoTime now);
   void repeat_before(LocalGuest& guest, const wire::Record& next, MonoTime now);
   void put(const wire::Record& record, MonoTime now);
+  bool may_send(MonoTime now) const;
   bool is_narrow(const wire::Record& record) const;
   void flush_records(MonoTime now);
   void send_records_datagram(bool with_bundle, MonoTime now);

@@ -11,6 +11,7 @@ namespace {
 // Half of what the server takes, so that clocks may be off and a line slow.
 constexpr Duration kOldestCapture = Duration::s(30);
 constexpr Duration kFarthestAhead = Duration::ms(500);
+constexpr Duration kDancesOnInLapse = Duration::s(10);
 constexpr Duration kAckStands = Duration::s(1);
 constexpr Duration kStillStands = Duration::ms(2500);
 constexpr Duration kStillDancing = Duration::ms(100);
@@ -93,6 +94,13 @@ bool LinkCore::is_narrow(const wire::Record& record) const {
              static_cast<std::uint16_t>(record.sequence - guest.acked_frames.newest()) <=
                  wire::kNarrowReach;
   return false;
+}
+
+// Through a lapse too: the others may hear what this link does not, and what first comes through a line that was cut is
+// a pose, not a hello. Until the server has surely forgotten the session.
+bool LinkCore::may_send(MonoTime now) const {
+  return is_connected() ||
+         (state_ == LinkState::kLapsed && is_welcome_ && now - last_heard_ < kDancesOnInLapse);
 }
 
 // The pose before goes once more, in front of this one.
@@ -194,7 +202,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   ++counters_.poses_offered;
   LocalGuest* guest = find_or_add(id, now);
   if (guest == nullptr) return;
-  if (!is_connected() || !guest->has_slot) {
+  if (!may_send(now) || !guest->has_slot) {
     ++counters_.unrouted;
     return;
   }
@@ -247,7 +255,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
 
 void LinkCore::send(const GuestId& id, const Hands& hands, MonoTime now) {
   LocalGuest* guest = find_or_add(id, now);
-  if (guest == nullptr || !is_connected() || !guest->has_slot) return;
+  if (guest == nullptr || !may_send(now) || !guest->has_slot) return;
   std::array<std::uint8_t, kMaxHandsPayload> payload;
   Stamp times{};
   const std::size_t size = encode_hands(hands, payload);

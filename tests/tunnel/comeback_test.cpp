@@ -120,6 +120,40 @@ TEST(Comeback, AShortLapseChangesNothingForTheOthers) {
   EXPECT_GT(b.link->remote_stats().at(0).lost, 40u) << "what was danced meanwhile is missing";
 }
 
+TEST(Comeback, WhoHearsNothingStillDancesForTheOthers) {
+  SimulatedTunnel tunnel;
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  auto& b = tunnel.add_house("salsa", {"bob"});
+  Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
+  dance.run(Duration::s(2));
+  const PeerId deaf = a.peer;
+  tunnel.on_datagram = [deaf](bool to_server, PeerId peer, wire::Bytes) {
+    return to_server || peer != deaf;
+  };
+  dance.run(Duration::ms(1500));
+  EXPECT_EQ(a.link->state(), LinkState::kLapsed);
+  const auto before = b.heard_of(guest("alice"));
+  dance.run(Duration::s(1));
+  EXPECT_GE(b.heard_of(guest("alice")), before + 60);
+  EXPECT_EQ(b.link->counters().reference_missing, 0u);
+}
+
+TEST(Comeback, WhatFirstComesThroughALineThatWasCutIsAPose) {
+  SimulatedTunnel tunnel;
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  auto& b = tunnel.add_house("salsa", {"bob"});
+  Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
+  dance.run(Duration::s(30));
+  a.is_cut = true;
+  dance.run(Duration::ms(1500));
+  ASSERT_EQ(a.link->state(), LinkState::kLapsed);
+  a.is_cut = false;
+  const auto before = b.heard_of(guest("alice"));
+  // A frame, and 10 ms of way.
+  dance.run(Duration::ms(Dance::kFrame_ms + 10 + 1));
+  EXPECT_GT(b.heard_of(guest("alice")), before);
+}
+
 TEST(Comeback, AfterACutThatEndedTheSessionTheDanceIsBackSoonWheneverTheWayIs) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
