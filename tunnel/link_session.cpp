@@ -165,12 +165,11 @@ void LinkCore::send_ping(MonoTime now) {
 
 void LinkCore::heard_server(MonoTime now) {
   last_heard_ = now;
-  if (state_ == LinkState::kLapsed) {  // the server is there, and knows the session still
+  if (state_ == LinkState::kLapsed) {
+    // The server is there, and seems still to know the session. Only its welcome makes it certain: what comes may have
+    // been under way since before it forgot.
     ++counters_.reconnects;
     unanswered_hellos_ = 0;
-    hello_wanted_ =
-        removal_untold_ || std::any_of(locals_.begin(), locals_.end(),
-                                       [](const LocalGuest& guest) { return !guest.has_slot; });
     next_ping_ = now;
     deliver_state(LinkState::kConnected, now);
   }

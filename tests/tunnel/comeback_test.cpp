@@ -154,6 +154,37 @@ TEST(Comeback, WhatFirstComesThroughALineThatWasCutIsAPose) {
   EXPECT_GT(b.heard_of(guest("alice")), before);
 }
 
+// What is still under way from the old session looks as if it stood, until its successor's welcome comes.
+TEST(Comeback, TheOldSessionsLastDatagramsDoNotHideTheNewOne) {
+  SimulatedTunnel tunnel;
+  auto& a = tunnel.add_house("salsa", {"alice"});
+  auto& b = tunnel.add_house("salsa", {"bob"});
+  Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
+  dance.run(Duration::s(30));
+  std::vector<std::uint8_t> last;
+  tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {
+    if (!to_server && peer == a.peer) last.assign(bytes.begin(), bytes.end());
+    return true;
+  };
+  dance.run(Duration::ms(100));
+  const PeerId cut = a.peer;
+  bool is_over = false;
+  tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes) {
+    // The way up comes back first.
+    return peer != cut || (to_server && is_over);
+  };
+  dance.run(Duration::ms(2500));
+  is_over = true;
+  dance.run(Duration::ms(300));
+  ASSERT_EQ(tunnel.server().session_count(), 2u) << "the hello has come";
+  tunnel.on_datagram = {};
+  a.link->receive(last, tunnel.time_in(a), tunnel.time_in(a));
+  ASSERT_TRUE(a.link->is_connected());
+  const auto before = b.heard_of(guest("alice"));
+  dance.run(Duration::s(2));
+  EXPECT_GE(b.heard_of(guest("alice")), before + 60);
+}
+
 TEST(Comeback, AfterACutThatEndedTheSessionTheDanceIsBackSoonWheneverTheWayIs) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
