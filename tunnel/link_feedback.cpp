@@ -10,7 +10,7 @@ namespace {
 // One that only listens says it within this.
 constexpr Duration kAckDelay = Duration::ms(5);
 // A dancing link says it with its next pose, if that is due within this.
-constexpr Duration kLongestAckDelay = Duration::ms(40);
+constexpr Duration kLongestAckDelay = Duration::ms(45);
 // Where nothing is lost, nobody waits for it: every second pose at 60 Hz brings one.
 constexpr Duration kCleanAckGap = Duration::ms(25);
 constexpr double kCleanLoss = 0.002;

@@ -49,6 +49,7 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
   const bool is_pose = record.kind == wire::RecordKind::kPose;
   RemoteGuest& remote = remotes_[record.slot];
   StreamGate& gate = is_pose ? remote.poses : remote.hands;
+  const bool is_narrow = record.is_narrow;
   if (!remote.in_use || remote.is_ours ||
       !wire::widen(remote.generation, gate.has_any(), gate.stream(), gate.newest(), record)) {
     counters_.poses_received += is_pose ? 1 : 0;
@@ -62,6 +63,11 @@ bool LinkCore::on_record(wire::Record record, MonoTime received, MonoTime now) {
     counters_.poses_received += is_pose ? 1 : 0;
     ++counters_.invalid;
     ++remote.invalid;
+    return !is_pose;
+  }
+  if (is_narrow && gate.contradicts(record.sequence, record.capture_us)) {
+    counters_.poses_received += is_pose ? 1 : 0;
+    ++counters_.late;
     return !is_pose;
   }
   const auto left_out = record.counts_left_out ? std::optional(record.left_out) : std::nullopt;

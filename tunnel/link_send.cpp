@@ -128,7 +128,7 @@ void LinkCore::put(const wire::Record& record, MonoTime now) {
 
 // What waits, with what there is to acknowledge.
 void LinkCore::flush_records(MonoTime now) {
-  const std::size_t extras = 2 + 2 * excepts_.size() + wants_.size();
+  const std::size_t extras = is_ack_ripe(now) ? 2 + 2 * excepts_.size() + wants_.size() : 0;
   const bool fits = wire::kMaxRecordsBody - bundle_size_ >= extras;
   if (bundle_size_ == 0 || !fits) send_records_datagram(false, now);
   if (bundle_size_ > 0) send_records_datagram(true, now);

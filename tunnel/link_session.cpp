@@ -155,6 +155,7 @@ void LinkCore::send_ping(MonoTime now) {
   ping.poses_received = static_cast<std::uint32_t>(counters_.poses_received);
   for (const RemoteGuest& remote : remotes_)
     if (remote.in_use) ping.poses_lost += static_cast<std::uint32_t>(remote.poses.counters().lost);
+  ping.epoch = static_cast<std::uint32_t>(epoch_);
   std::array<std::uint8_t, 64> out;
   send_datagram({out.data(), wire::build(ping, out)});
   if (quick_pings_left_ > 0) --quick_pings_left_;

@@ -74,8 +74,11 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
   }
   if (opening->type == wire::Type::kHello)
     return on_hello(from, access, opening->body, received, now);
-  // Its session fell silent and was dropped: the link hears nothing either, and says hello.
-  if (found == by_peer_.end()) return reject(ServerReject::kNoSession);
+  // Its session fell silent and was dropped. What is still under way to it may hide that.
+  if (found == by_peer_.end()) {
+    if (opening->type == wire::Type::kPing) send_away(from);
+    return reject(ServerReject::kNoSession);
+  }
   on_session_datagram(found->second, *opening, received, now);
 }
 
@@ -109,11 +112,20 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
   }
 }
 
+// It says hello at once, instead of when it has heard nothing for long.
+void ServerCore::send_away(PeerId peer) {
+  std::array<std::uint8_t, wire::kSessionHeader> out;
+  send(peer, {out.data(), wire::build_bare(wire::Type::kGoodbye, out)});
+}
+
 void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received, MonoTime now) {
   const auto ping = wire::parse_ping(body);
   if (!ping) return reject(ServerReject::kMalformed);
   ServerSession& session = sessions_[index];
+  // Its welcome was lost, or is under way still.
+  if (ping->epoch != static_cast<std::uint32_t>(session.epoch)) return send_away(session.peer);
   session.newest_ping = *ping;
+  session.knows_epoch = true;
   wire::Pong pong;
   pong.sequence = ping->sequence;
   pong.link_time_us = ping->link_time_us;
@@ -252,8 +264,7 @@ MonoTime ServerCore::next_deadline() const {
 void ServerCore::say_goodbye() {
   for (const ServerSession& session : sessions_) {
     if (!session.in_use) continue;
-    std::array<std::uint8_t, wire::kSessionHeader> out;
-    send(session.peer, {out.data(), wire::build_bare(wire::Type::kGoodbye, out)});
+    send_away(session.peer);
   }
 }
 

@@ -91,6 +91,7 @@ class ServerCore {
 
   // server_core.cpp
   void stir(ServerRoom& room);
+  void send_away(PeerId peer);
   void on_session_datagram(std::size_t session, const wire::Opening& opening, MonoTime received,
                            MonoTime now);
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);

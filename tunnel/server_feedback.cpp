@@ -18,7 +18,7 @@ constexpr Duration kWaitsForCompany = Duration::ms(20);
 constexpr Duration kFrame = Duration::us(16'667);
 // However many ask, and however often.
 constexpr Duration kKeyFrameGap = Duration::ms(100);
-// A link says something each 200 ms: who has not for this long is waited for no more.
+// A link says something each 200 ms, and with each pose: who has not for this long is waited for no more.
 constexpr Duration kStillHere = Duration::ms(500);
 // A newcomer wants at once what was asked for it already, and its way is not known yet.
 constexpr Duration kNewcomersWay = Duration::ms(100);

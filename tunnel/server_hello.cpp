@@ -5,6 +5,11 @@
 #include "tunnel/server_core.h"
 
 namespace dance {
+namespace {
+
+constexpr std::uint64_t kLongestOvertaking_us = 60'000'000;
+
+}  // namespace
 
 // A token counts with the key that it came with: whoever learnt it gets nobody's place by it.
 std::optional<std::size_t> ServerCore::find_token(std::uint64_t token, const GuestId& key) const {
@@ -44,9 +49,12 @@ void ServerCore::on_hello(PeerId from, const Access& access, wire::Bytes body, M
 
   auto existing = find_token(hello->token, access.name);
   if (existing) {
-    // One that was overtaken on its way, by this sealed session or the one before.
+    // One that was overtaken on its way, by this sealed session or the one before. Nothing is overtaken by a minute: then
+    // the time of the other was wrong.
     const ServerSession& session = sessions_[*existing];
-    if (hello->link_time_us < session.hello_time_us ||
+    const std::uint64_t before_us = static_cast<std::uint64_t>(session.hello_time_us) -
+                                    static_cast<std::uint64_t>(hello->link_time_us);
+    if ((hello->link_time_us < session.hello_time_us && before_us < kLongestOvertaking_us) ||
         (hello->link_time_us == session.hello_time_us && session.peer != from))
       return reject(ServerReject::kOldHello);
   }
@@ -184,6 +192,7 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   session.interest = {};
   session.thinning = {};
   session.received = AckWindow();
+  session.knows_epoch = false;
   session.feedback_due = session.feedback_alone = MonoTime();
   std::erase(bundled_, index);
   std::erase(reporting_, index);

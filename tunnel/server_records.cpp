@@ -28,6 +28,8 @@ void ServerCore::on_records(std::size_t index, wire::Bytes body, MonoTime receiv
   ByteReader check = in;
   for (wire::RecordChain chain = begin; check.remaining() > 0;)
     if (!wire::parse_record(chain, check)) return reject(ServerReject::kMalformed);
+  // Until the welcome has come a link dances on in the session before: other slots, other numbers.
+  if (!sessions_[index].knows_epoch) return reject(ServerReject::kLate);
   sessions_[index].received.note(header->number);
   if (header->has_acks) on_acks(index, header->acks, now);
   for (const std::uint8_t slot : header->wants) on_want(index, slot, now);
@@ -52,7 +54,9 @@ void ServerCore::on_record(std::size_t session, wire::Record record, MonoTime re
   StreamGate& gate = is_pose ? guest->poses : guest->hands;
   // The link need not know the generation.
   record.stream &= 0xffff;
-  if (!wire::widen(0, gate.has_any(), gate.stream(), gate.newest(), record))
+  const bool is_narrow = record.is_narrow;
+  if (!wire::widen(0, gate.has_any(), gate.stream(), gate.newest(), record) ||
+      (is_narrow && gate.contradicts(record.sequence, record.capture_us)))
     return reject(ServerReject::kLate);
   record.stream |= std::uint32_t{guest->generation} << 16;
   switch (gate.judge(record.stream, record.sequence, record.capture_us)) {

@@ -176,8 +176,9 @@ struct ServerSession {
   Repetition repeats_down;
   Repetition repeats_up;
   // When the link is next told what its receivers have; not set = nothing new.
-  MonoTime feedback_due;    // goes along with a bundle from then on,
-  MonoTime feedback_alone;  // and alone from then on
+  bool knows_epoch = false;  // what comes is of this session, not of the link's last one
+  MonoTime feedback_due;     // goes along with a bundle from then on,
+  MonoTime feedback_alone;   // and alone from then on
   MonoTime feedback_made;
   bool bears_losses = false;        // as told then: nothing that was lost is missed for long
   bool feedback_is_repeat = false;  // goes out though nothing has changed

@@ -71,6 +71,13 @@ class StreamGate {
     return judge_old(ahead);
   }
 
+  // Low bits of a sequence that came late may read as ahead: then it was captured well before the newest.
+  bool contradicts(std::uint32_t sequence, std::int64_t capture_us) const {
+    constexpr std::int64_t kBefore_us = 100'000;
+    return has_any_ && sequence_ahead(newest_, sequence) > 0 &&
+           capture_us < newest_capture_us_ - kBefore_us;
+  }
+
   // The newest was sent from store: what lies between it and the next is not missed.
   void forgive_gap() { gap_is_forgiven_ = true; }
 

@@ -171,6 +171,7 @@ std::size_t build(const Ping& ping, std::span<std::uint8_t> buffer) {
   out.u32(ping.datagrams_received);
   out.u32(ping.poses_received);
   out.u32(ping.poses_lost);
+  out.u32(ping.epoch);
   return size_of(out);
 }
 
@@ -184,6 +185,7 @@ std::optional<Ping> parse_ping(Bytes body) {
   ping.datagrams_received = in.u32();
   ping.poses_received = in.u32();
   ping.poses_lost = in.u32();
+  ping.epoch = in.u32();
   return in.is_exhausted() ? std::optional(ping) : std::nullopt;
 }
 

@@ -114,6 +114,7 @@ struct Ping {
   std::uint32_t datagrams_received = 0;
   std::uint32_t poses_received = 0;
   std::uint32_t poses_lost = 0;
+  std::uint32_t epoch = 0;  // low half of that of the session the link takes it for
 };
 
 struct Pong {

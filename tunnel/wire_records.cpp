@@ -24,6 +24,8 @@ constexpr std::uint16_t kNoAgeTicks = 0xfffe;
 // Of captures: after the one before, or whole, the low 24 bits. Ages follow, and the capture once more.
 constexpr std::uint16_t kMiddle = 0x8000, kAgesFollow = 0xfffe;
 constexpr std::uint32_t kWholeEscape = 0xffffff, kWholeAgesFollow = 0xfffffe;
+// Beyond it nothing can be reckoned; whoever takes the record asks for much nearer.
+constexpr std::int64_t kFarthestCapture_us = std::int64_t{1} << 60;
 // What is further off is told in full: half of what 24 bits reach.
 constexpr std::int64_t kWholeReach = 1 << 22;
 
@@ -206,9 +208,11 @@ bool read_capture(ByteReader& in, const RecordChain& chain, bool& has_ages, Reco
   has_ages = told == ages_follow;
   if (has_ages) told = chain.has_any ? in.u16() : in.u24();
   if (told == ages_follow) return false;
-  if (told > ages_follow)
+  if (told > ages_follow) {
     record.capture_us = in.i64();
-  else if (chain.has_any)
+    return record.capture_us > -kFarthestCapture_us && record.capture_us < kFarthestCapture_us;
+  }
+  if (chain.has_any)
     record.capture_us =
         (chain.capture_ticks + static_cast<std::int64_t>(told) - kMiddle) * kTick_us;
   else
@@ -373,9 +377,10 @@ bool widen(std::uint16_t generation, bool has_any, std::uint32_t stream, std::ui
   if (record.is_narrow) {
     if (!has_any || (record.stream & 1) != (stream & 1)) return false;
     restarts = static_cast<std::uint16_t>(stream);
-    // The difference modulo 64, as a signed number.
-    const auto ahead = static_cast<std::int8_t>((record.sequence - sequence) << 2);
-    record.sequence = sequence + static_cast<std::uint32_t>(ahead >> 2);
+    // The difference modulo 64. Further ahead than the reach is none: it came late.
+    std::uint32_t ahead = (record.sequence - sequence) & kSequenceMask;
+    if (ahead > kNarrowReach) ahead -= kSequenceMask + 1;
+    record.sequence = sequence + ahead;
     record.is_narrow = false;
   }
   record.stream = std::uint32_t{generation} << 16 | restarts;

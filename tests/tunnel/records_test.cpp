@@ -315,6 +315,28 @@ TEST(WireRecords, ANarrowRecordMeansNothingWithoutWhatCameBefore) {
   EXPECT_TRUE(widen(0x17, true, record.stream, record.sequence, record));
 }
 
+TEST(WireRecords, ANarrowRecordIsNeverFurtherAheadThanTheReach) {
+  for (std::uint32_t behind = 0; behind <= 39; ++behind) {
+    Record record = example();
+    const std::uint32_t newest = record.sequence + behind;
+    record.is_narrow = true;
+    record.sequence &= 63;
+    ASSERT_TRUE(widen(0x17, true, record.stream, newest, record));
+    EXPECT_EQ(record.sequence, newest - behind) << behind;
+  }
+}
+
+TEST(WireRecords, ACaptureThatNothingCanBeReckonedFromIsRefused) {
+  for (const std::int64_t extreme : {INT64_MIN, INT64_MIN + 1, INT64_MAX - 8, INT64_MAX}) {
+    std::array<std::uint8_t, 32> bytes{1, 0x83, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff, 0xff};
+    for (std::size_t i = 0; i < 8; ++i)
+      bytes[12 + i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(extreme) >> (8 * i));
+    ByteReader in(std::span<const std::uint8_t>(bytes).first(21));
+    RecordChain chain{kNow_us};
+    EXPECT_FALSE(parse_record(chain, in)) << extreme;
+  }
+}
+
 TEST(WireRecords, EveryPrefixAndEveryContradictionIsRefused) {
   RecordsHeader header;
   header.has_records = header.has_acks = header.has_feedback = true;

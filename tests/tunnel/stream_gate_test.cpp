@@ -140,5 +140,15 @@ TEST(RosterAssembly, IsWholeOnlyWithEveryPartOfOneVersion) {
   EXPECT_EQ(roster.whole_version(), 4u);
 }
 
+TEST(StreamGate, WhatWouldBeNewerButWasCapturedWellBeforeContradictsItself) {
+  StreamGate gate;
+  EXPECT_FALSE(gate.contradicts(5, 0)) << "nothing came before";
+  gate.judge(1, 100, 5'000'000);
+  EXPECT_TRUE(gate.contradicts(110, 4'300'000)) << "late by 54, read as ahead by 10";
+  EXPECT_FALSE(gate.contradicts(110, 4'950'000)) << "clocks may be mapped anew";
+  EXPECT_FALSE(gate.contradicts(100, 4'000'000));
+  EXPECT_FALSE(gate.contradicts(90, 4'000'000)) << "late, and says so";
+}
+
 }  // namespace
 }  // namespace dance

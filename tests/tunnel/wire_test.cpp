@@ -75,13 +75,14 @@ TEST(Wire, APingLooksAsItIsDocumented) {
   ping.datagrams_received = 4;
   ping.poses_received = 5;
   ping.poses_lost = 6;
+  ping.epoch = 7;
   Buffer out;
   const std::size_t size = build(ping, out);
   const std::vector<std::uint8_t> expected{
       16,                                                           // type
       4,  3, 2, 1, 0x18, 0x17, 0x16, 0x15, 0x14, 0x13, 0x12, 0x11,  // sequence, time
       2,  0, 0, 0, 3,    0,    0,    0,    4,    0,    0,    0,     //
-      5,  0, 0, 0, 6,    0,    0,    0};
+      5,  0, 0, 0, 6,    0,    0,    0,    7,    0,    0,    0};
   EXPECT_EQ(std::vector<std::uint8_t>(out.begin(), out.begin() + static_cast<long>(size)),
             expected);
 }
