@@ -334,9 +334,7 @@ TEST(HostileHellos, OfOneKeyAreAnsweredSoManyTimesASecond) {
 TEST_F(HostileHello, ADatagramWithoutASessionGetsNothingAndAPingAGoodbye) {
   const PeerId peer = tunnel.add_peer();
   const ServerCounters& counters = tunnel.server().counters();
-  const auto in = counters.records_in;
   for (const int type : {18, 16}) tunnel.inject(peer, captured.at({true, type}).bytes);
-  EXPECT_EQ(counters.records_in, in);
   EXPECT_EQ(counters.of(ServerReject::kNoSession), 2u);
   EXPECT_EQ(heard[peer], 1u);
 }
