@@ -185,6 +185,44 @@ TEST(Comeback, TheOldSessionsLastDatagramsDoNotHideTheNewOne) {
   EXPECT_GE(b.heard_of(guest("alice")), before + 60);
 }
 
+// Until its welcome comes, a link dances on in the session before, where its guests had other slots.
+TEST(Comeback, NobodyDancesAsSomebodyElseOfTheHouse) {
+  SimulatedTunnel tunnel;
+  ASSERT_TRUE(tunnel.link_options.codecs.try_push({CodecId::kPlain, 0}));
+  auto& carol = tunnel.add_house("salsa", {"carol"});
+  tunnel.run(Duration::ms(200));
+  auto& a = tunnel.add_house("salsa", {"alice", "bob"});
+  auto& watcher = tunnel.add_house("salsa", {"dora"});
+  tunnel.run(Duration::ms(200));
+  std::uint32_t number = 0;
+  const auto dance = [&](Duration span) {
+    tunnel.run(span, [&] {
+      if (tunnel.now().since_zero_us() / 1000 % 16 != 0) return;
+      const MonoTime now = tunnel.time_in(a);
+      ++number;
+      a.link->send(guest("alice"), pose_number(100'000 + number, now, a.clock_id), now);
+      a.link->send(guest("bob"), pose_number(number, now, a.clock_id), now);
+    });
+  };
+  dance(Duration::s(1));
+  carol.link->say_goodbye();
+  carol.is_running = false;
+  dance(Duration::s(1));
+  for (int i = 0; i < 8; ++i) {
+    a.is_cut = true;
+    dance(Duration::ms(2300 + 30 * i));
+    a.is_cut = false;
+    dance(Duration::s(2));
+  }
+  std::size_t bobs = 0;
+  for (const auto& heard : watcher.poses) {
+    const bool is_bob = heard.guest == guest("bob");
+    ASSERT_EQ(heard.pose.sequence < 100'000u, is_bob);
+    bobs += is_bob ? 1 : 0;
+  }
+  EXPECT_GT(bobs, 700u);
+}
+
 TEST(Comeback, AfterACutThatEndedTheSessionTheDanceIsBackSoonWheneverTheWayIs) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
