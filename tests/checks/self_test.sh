@@ -29,7 +29,7 @@ good_header >"$tree/core/base/thing.h"
 printf '#include "core/base/thing.h"\n#include <vector>\n' >"$tree/core/pose/thing.cpp"
 printf '```sh\ndance thing --good 3   # runs in CI\n```\n' >"$tree/docs/tour.md"
 printf '#!/bin/sh\n[ "$1" = --help ] && echo "  --good N   a number"\nexit 0\n' >"$tree/bin/dance-thing"
-printf '#!/bin/sh\np=$1; shift; exec "$(dirname "$0")/dance-$p" "$@"\n' >"$tree/bin/dance"
+printf '#!/bin/sh\n[ "$1" = help ] && { echo "  thing   does things"; exit 0; }\np=$1; shift; exec "$(dirname "$0")/dance-$p" "$@"\n' >"$tree/bin/dance"
 chmod +x "$tree/bin/dance" "$tree/bin/dance-thing"
 for check in layers.sh files.sh format.sh docs_links.sh; do expect_fine $check; done
 expect_fine docs_commands.sh "$tree/bin"
@@ -81,6 +81,9 @@ fault docs/tour.md '```sh\n./dance thing \\\n  --goo 4\n```\n'
 expect docs_commands.sh 'docs/tour.md:2: dance thing  has no option --goo' "$tree/bin"
 fault docs/tour.md 'nothing\n'
 expect docs_commands.sh 'no command found' "$tree/bin"
+cp "$tree/bin/dance-thing" "$tree/bin/dance-lost"
+expect docs_commands.sh 'dance help does not list dance-lost' "$tree/bin"
+rm "$tree/bin/dance-lost"
 fault docs/tour.md '```sh\ndance thing   # runs in CI\n```\n'
 case $("$tree/tests/private_network.sh" echo can) in
   can) ;;
