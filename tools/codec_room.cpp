@@ -231,10 +231,12 @@ void Room::count_costs(wire::Bytes datagram) {
   costs_.headers += size - static_cast<double>(in.remaining()) - feedback;
   for (wire::RecordChain chain; in.remaining() > 0;) {
     const std::size_t before = in.remaining();
+    // Says that ages follow, and is theirs.
+    const double mark = chain.has_any ? 2.0 : 3.0;
     const auto record = wire::parse_record(chain, in);
     DANCE_ASSERT(record.has_value());
     const auto payload = static_cast<double>(record->payload.size());
-    const double ages = record->sent_age_us != wire::kNoAge ? 6.0 : 0.0;
+    const double ages = record->sent_age_us != wire::kNoAge ? 6.0 + mark : 0.0;
     costs_.payloads += payload;
     costs_.ages += ages;
     costs_.record_heads += static_cast<double>(before - in.remaining()) - payload - ages;

@@ -179,9 +179,9 @@ void ServerCore::send_records(std::size_t index, MonoTime now) {
   if (session.feedback_due.is_set() && session.feedback_due <= now &&
       room >= kFeedbackHead + kFeedbackGuest * session.slots.size()) {
     // Links count what the server has of them; seldom is enough.
-    header.has_acks = session.feedback_is_repeat && session.received.has_any();
+    const bool is_repeat = session.feedback_is_repeat;
     header.has_feedback = fill_feedback(index, now, header.feedback);
-    header.has_acks = header.has_acks && header.has_feedback;
+    header.has_acks = header.has_feedback && is_repeat && session.received.has_any();
     header.acks.newest = session.received.newest();
     header.acks.before = session.received.before();
   }
