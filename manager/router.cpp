@@ -5,6 +5,12 @@
 #include "core/base/assert.h"
 
 namespace dance {
+namespace {
+
+// A house's own and its remote guests.
+constexpr std::size_t kMostKnown = 2 * kMaxGuests;
+
+}  // namespace
 
 Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink)
     : our_clock_id_(our_clock_id), sink_(sink) {
@@ -29,7 +35,27 @@ Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime
   DANCE_ASSERT(chain.has_value());
   line.instances.push_back(std::make_unique<Instance>(
       Instance{guest, shown_as(line, guest), std::move(*chain), now, 0, {}}));
+  prepare(line, *line.instances.back(), now);
   return line.instances.back().get();
+}
+
+void Router::prepare(const Line& line, Instance& instance, MonoTime now) {
+  for (const Known& known : known_) {
+    if (known.where != line.route.from.where || known.guest != instance.guest) continue;
+    if (known.body) instance.chain.set_body(*known.body);
+    if (known.style) instance.chain.set_style(*known.style);
+  }
+  if (beat_) instance.chain.hear(*beat_, now);
+  if (on_learner_)
+    for (auto& learner : instance.chain.learners()) on_learner_(std::move(learner));
+}
+
+Router::Known& Router::known_of(Where where, const GuestId& guest) {
+  for (Known& known : known_)
+    if (known.where == where && known.guest == guest) return known;
+  if (known_.size() == kMostKnown) known_.erase(known_.begin());  // who came first
+  known_.push_back({where, guest, std::nullopt, std::nullopt});
+  return known_.back();
 }
 
 void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
@@ -73,8 +99,26 @@ void Router::take(Where where, const GuestId& guest, const Hands& hands) {
 }
 
 void Router::take(Where where, const GuestId& guest, const TimedSkeleton& skeleton) {
-  for (const Line* line : lines_from_[static_cast<std::size_t>(where)])
-    if (is_for(*line, guest)) sink_.stage(shown_as(*line, guest), skeleton);
+  known_of(where, guest).body = skeleton.skeleton;
+  for (Line* line : lines_from_[static_cast<std::size_t>(where)]) {
+    if (!is_for(*line, guest)) continue;
+    sink_.stage(shown_as(*line, guest), skeleton);
+    for (auto& instance : line->instances)
+      if (instance->guest == guest) instance->chain.set_body(skeleton.skeleton);
+  }
+}
+
+void Router::take(Where where, const GuestId& guest, const Style& style) {
+  known_of(where, guest).style = style;
+  for (Line* line : lines_from_[static_cast<std::size_t>(where)])
+    for (auto& instance : line->instances)
+      if (instance->guest == guest) instance->chain.set_style(style);
+}
+
+void Router::hear(const Beat& beat, MonoTime now) {
+  beat_ = beat;
+  for (auto& line : lines_)
+    for (auto& instance : line->instances) instance->chain.hear(beat, now);
 }
 
 void Router::tick(std::size_t route, MonoTime now) {

@@ -9,7 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/bus/messages.h"
@@ -38,6 +40,13 @@ class Router {
   void take(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
   void take(Where where, const GuestId& guest, const Hands& hands);
   void take(Where where, const GuestId& guest, const TimedSkeleton& skeleton);
+  // How a guest's dance is to be shown, and the music that this house hears.
+  void take(Where where, const GuestId& guest, const Style& style);
+  void hear(const Beat& beat, MonoTime now);
+
+  // What learns of the guests beside the pose path: called with each new one.
+  using OnLearner = std::function<void(std::shared_ptr<Learner>)>;
+  void on_learner(OnLearner on_learner) { on_learner_ = std::move(on_learner); }
 
   // The routes with a steady rate, and the work of one of their deadlines.
   std::size_t route_count() const { return lines_.size(); }
@@ -59,6 +68,13 @@ class Router {
     std::uint32_t staged = 0;
     HandsQueue hands;  // where the chain keeps the body back
   };
+  // What is known of a guest before, or beside, the poses: newcomers on a route begin with it.
+  struct Known {
+    Where where;
+    GuestId guest;
+    std::optional<Skeleton> body;
+    std::optional<Style> style;
+  };
   struct Line {
     Route route;
     double rate_hz;
@@ -72,10 +88,15 @@ class Router {
   static GuestId shown_as(const Line& line, const GuestId& guest) {
     return line.route.to.guest.is_set() ? line.route.to.guest : guest;
   }
+  Known& known_of(Where where, const GuestId& guest);
+  void prepare(const Line& line, Instance& instance, MonoTime now);
   std::uint64_t our_clock_id_;
   StageSink& sink_;
   std::vector<std::unique_ptr<Line>> lines_;
   std::array<std::vector<Line*>, 5> lines_from_;  // by Where
+  std::vector<Known> known_;                      // at most kMostKnown
+  std::optional<Beat> beat_;
+  OnLearner on_learner_;
   Roster roster_;
   Stats stats_;
 };

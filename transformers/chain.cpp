@@ -80,6 +80,13 @@ Result<Chain> Chain::make(const std::vector<std::string>& specifications) {
   return chain;
 }
 
+std::vector<std::shared_ptr<Learner>> Chain::learners() const {
+  std::vector<std::shared_ptr<Learner>> learners;
+  for (const auto& station : stations_)
+    if (auto learner = station->learner()) learners.push_back(std::move(learner));
+  return learners;
+}
+
 Transformer::Counters Chain::counters() const {
   Transformer::Counters sum;
   for (const auto& station : stations_) {

@@ -29,6 +29,17 @@ class Chain {
   void observe(const Pose& pose, MonoTime now) {
     for (auto& station : stations_) station->observe(pose, now);
   }
+  void hear(const Beat& beat, MonoTime now) {
+    for (auto& station : stations_) station->hear(beat, now);
+  }
+  void set_body(const Skeleton& skeleton) {
+    for (auto& station : stations_) station->set_body(skeleton);
+  }
+  void set_style(const Style& style) {
+    for (auto& station : stations_) station->set_style(style);
+  }
+  // What learns beside the pose path; see transformers/learner.h.
+  std::vector<std::shared_ptr<Learner>> learners() const;
   bool sample(MonoTime now, Pose& out) { return stations_.back()->sample(now, out); }
   // Summed over the stations.
   Transformer::Counters counters() const;

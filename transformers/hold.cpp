@@ -74,11 +74,23 @@ void Hold::follow_target(MonoTime now) {
   delay_set_ = now;
 }
 
+MonoTime Hold::moment(MonoTime now) {
+  if (history_.empty()) return now;
+  follow_target(now);
+  return now - delay_;
+}
+
+bool Hold::sample_at(MonoTime moment, MonoTime /*now*/, Pose& out) {
+  const auto answer = history_.at(moment);
+  if (!answer) return false;
+  out = answer->pose;
+  return true;
+}
+
 bool Hold::sample(MonoTime now, Pose& out) {
   if (history_.empty()) return false;
-  follow_target(now);
   // A delay that jumps up would have the dance go back: it stands still until its time comes again.
-  const MonoTime wanted = now - delay_;
+  const MonoTime wanted = moment(now);
   const auto answer = history_.at(std::max(wanted, shown_));
   out = answer->pose;
   if (answer->how == PoseHistory::How::kHeldLast || wanted < shown_) ++counters_.starved;

@@ -29,6 +29,8 @@ class Hold : public Transformer {
 
   void observe(const Pose& pose, MonoTime now) override;
   bool sample(MonoTime now, Pose& out) override;
+  MonoTime moment(MonoTime now) override;
+  bool sample_at(MonoTime moment, MonoTime now, Pose& out) override;
 
   // From capture to display, as it is now; of another clock it includes the clocks' offset.
   Duration delay() const { return delay_; }

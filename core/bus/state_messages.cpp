@@ -19,8 +19,6 @@ bool are_within(const std::array<float, kCount>& values, float low, float high) 
   return true;
 }
 
-constexpr float kMaxGain = 4.0f;
-
 }  // namespace
 
 bool is_plain_text(std::string_view text) {
@@ -62,11 +60,6 @@ bool is_valid(const Scene& scene) {
 
 bool is_valid(const Avatar& avatar) {
   return are_within(avatar.colour_rgb, 0.0f, 1.0f) && is_within(avatar.height_scale, 0.25f, 4.0f);
-}
-
-bool is_valid(const Style& style) {
-  return are_within(style.gain, 0.0f, kMaxGain) && is_within(style.periodic, 0.0f, kMaxGain) &&
-         is_within(style.dynamic, 0.0f, kMaxGain);
 }
 
 bool is_valid(const Placement& placement) {

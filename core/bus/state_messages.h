@@ -15,6 +15,7 @@
 #include "core/base/fixed_string.h"
 #include "core/base/guest_id.h"
 #include "core/base/time.h"
+#include "core/pose/style.h"
 
 namespace dance {
 
@@ -59,17 +60,6 @@ struct Avatar {
   float height_scale = 1.0f;
 };
 
-enum class BodyZone : std::uint8_t { kHips, kTorso, kShoulders, kArms, kHands, kLegs, kHead };
-constexpr std::size_t kBodyZones = 7;
-
-struct Style {
-  MonoTime time;
-  std::uint64_t clock_id = 0;
-  std::array<float, kBodyZones> gain{1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
-  float periodic = 1.0f;
-  float dynamic = 1.0f;
-};
-
 struct Placement {
   MonoTime time;
   std::uint64_t clock_id = 0;
@@ -84,7 +74,6 @@ bool is_plain_text(std::string_view text);
 bool is_valid(const Music& music);
 bool is_valid(const Scene& scene);
 bool is_valid(const Avatar& avatar);
-bool is_valid(const Style& style);
 bool is_valid(const Placement& placement);
 
 }  // namespace dance

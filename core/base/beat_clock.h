@@ -1,0 +1,69 @@
+// BeatClock: musical time as a clock that one can ask at any moment: fed with beats as they are told, it runs on between
+// them, takes small corrections in without a jump, and says when it no longer knows.
+//
+// Units/frames: positions in beats as core/base/beat.h counts them; times of one clock.
+// Ownership:    plain value, no heap.
+// Threads:      none inside.
+// Failure:      is_known() is false before the first beat, where the music stands still, and 3 s after the last word.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/beat.h"
+
+namespace dance {
+
+class BeatClock {
+ public:
+  // Returns true where the music jumped: another song, a seek, the first beat.
+  bool hear(const Beat& beat) {
+    const bool was_known = is_known(beat.time);
+    const double before = was_known ? position(beat.time) : 0.0;
+    beat_ = beat;
+    heard_ = true;
+    correction_ = 0.0;
+    correction_time_ = beat.time;
+    if (!was_known || !beat.playing) return !was_known;
+    const double error = before - beat.beats_at(beat.time);
+    if (std::abs(error) > kJump_beats) return true;
+    correction_ = error;
+    return false;
+  }
+
+  bool is_known(MonoTime t) const { return heard_ && beat_.playing && t - beat_.time < kPatience; }
+  double position(MonoTime t) const { return beat_.beats_at(t) + correction_at(t); }
+  // When the music stands, or stood, at `beats`.
+  MonoTime time_of(double beats) const {
+    // The correction is slow: two rounds leave less than a microsecond.
+    MonoTime t = line_time_of(beats);
+    for (int i = 0; i < 4; ++i) t = line_time_of(beats - correction_at(t));
+    return t;
+  }
+  double beats_per_second() const { return beat_.tempo_bpm / 60.0; }
+  Duration period() const { return Duration::seconds(60.0 / beat_.tempo_bpm); }
+  int beats_per_bar() const { return beat_.beats_per_bar; }
+  float confidence() const { return beat_.confidence; }
+  const Beat& newest() const { return beat_; }
+
+ private:
+  static constexpr Duration kPatience = Duration::s(3);
+  // What is larger is another place of the music; smaller, the time goes on forward at 50 BPM too while it is taken in.
+  static constexpr double kJump_beats = 0.25;
+  static constexpr double kTakenIn_s = 0.3;
+
+  MonoTime line_time_of(double beats) const {
+    return beat_.beat_time + Duration::seconds((beats - beat_.beat) * 60.0 / beat_.tempo_bpm);
+  }
+  double correction_at(MonoTime t) const {
+    const double age_s = std::max(0.0, (t - correction_time_).as_seconds());
+    return correction_ * std::exp(-age_s / kTakenIn_s);
+  }
+
+  Beat beat_;
+  bool heard_ = false;
+  double correction_ = 0.0;
+  MonoTime correction_time_;
+};
+
+}  // namespace dance
