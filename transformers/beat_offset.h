@@ -19,10 +19,10 @@ namespace dance {
 class BeatOffset {
  public:
   struct Wish {
-    double beats = -1.0;         // the delay that the room wishes; negative: the least that can be
-    double least_beats = 0.0;    // of delay: what is newer has not come and cannot be guessed well
-    double spare_beats = 0.3;    // lowered only where this much is left over
-    double count = 1.0;          // offsets are multiples of it
+    double beats = -1.0;       // the delay that the room wishes; negative: the least that can be
+    double least_beats = 0.0;  // of delay: what is newer has not come and cannot be guessed well
+    double spare_beats = 0.3;  // lowered only where this much is left over
+    double count = 1.0;        // offsets are multiples of it
   };
 
   bool is_set() const { return is_set_; }
@@ -68,7 +68,8 @@ class BeatOffset {
     const double delay = value_ - difference;
     if (delay < wish.least_beats - kRaiseSlack_beats) return Wrong::kTooLow;
     if (wish.beats < 0.0)
-      return delay - wish.count > wish.least_beats + wish.spare_beats ? Wrong::kTooHigh : Wrong::kNo;
+      return delay - wish.count > wish.least_beats + wish.spare_beats ? Wrong::kTooHigh
+                                                                      : Wrong::kNo;
     const double most = kFlutter_counts * wish.count;
     if (delay < wish.beats - most) return Wrong::kTooLow;
     // Above the wish because the line needs it is not too high.

@@ -55,8 +55,7 @@ void DanceLine::fit() {
 }
 
 bool DanceLine::is_known(MonoTime t) const {
-  return size() >= 4 && newest().time - tag(0).time >= kEnough &&
-         t - newest().time < kPatience;
+  return size() >= 4 && newest().time - tag(0).time >= kEnough && t - newest().time < kPatience;
 }
 
 double DanceLine::position(MonoTime t) const {

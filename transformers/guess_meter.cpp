@@ -95,7 +95,8 @@ Duration GuessMeter::reach(double most_error_m) const {
     const double here_m = error_m(kHorizons[i]);
     if (here_m > most_error_m) {
       const double fraction = (most_error_m - before_m) / (here_m - before_m);
-      return reach + Duration::seconds(std::max(0.0, fraction) * (kHorizons[i] - reach).as_seconds());
+      return reach +
+             Duration::seconds(std::max(0.0, fraction) * (kHorizons[i] - reach).as_seconds());
     }
     reach = kHorizons[i];
     before_m = here_m;
@@ -118,8 +119,7 @@ Duration GuessMeter::lead(Duration ahead) const {
     const double shown_s = std::max(before_shown_s + 1e-3, h_s - lag_s(i));
     if (wanted_s <= shown_s) {
       const double fraction = (wanted_s - before_shown_s) / (shown_s - before_shown_s);
-      return Duration::seconds(
-          std::min(kMostLead * wanted_s, between(before_h_s, h_s, fraction)));
+      return Duration::seconds(std::min(kMostLead * wanted_s, between(before_h_s, h_s, fraction)));
     }
     before_h_s = h_s;
     before_shown_s = shown_s;

@@ -69,10 +69,7 @@ void Rhythm::hear(const Beat& beat, MonoTime /*now*/) {
   if (music_.hear(beat)) offset_.reset();
 }
 
-void Rhythm::set_body(const Skeleton& skeleton) {
-  guesses_.set_body(skeleton);
-  finish_.set_body(skeleton);
-}
+void Rhythm::set_body(const Skeleton& skeleton) { guesses_.set_body(skeleton); }
 
 MonoTime Rhythm::free_moment(MonoTime now) {
   return input_ ? input_->moment(now) : now - play_out_.needed();
@@ -122,9 +119,7 @@ bool Rhythm::pose_at(MonoTime moment, MonoTime now, Pose& out) {
   return true;
 }
 
-MonoTime Rhythm::moment(MonoTime now) {
-  return has_shown_ ? shown_moment_ : free_moment(now);
-}
+MonoTime Rhythm::moment(MonoTime now) { return has_shown_ ? shown_moment_ : free_moment(now); }
 
 bool Rhythm::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   return !history_.empty() && pose_at(moment, now, out);
@@ -137,14 +132,14 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   const MonoTime wanted = wanted_moment(now, pace);
   Pose is;
   // What came since the last picture has changed what that picture should have been.
-  if (has_shown_ && has_news_ && pose_at(shown_moment_, now, is)) finish_.correct(shown_, is);
+  if (has_shown_ && has_news_ && pose_at(shown_moment_, now, is)) finish_.add(now, shown_, is);
   has_news_ = false;
   MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
   const Duration most = in_time_ ? kJumpInTime : kJumpFree;
   if (has_shown_ && (off > most || off < -most)) {
     Pose was;
-    if (pose_at(moment, now, was) && pose_at(wanted, now, is)) finish_.correct(was, is);
+    if (pose_at(moment, now, was) && pose_at(wanted, now, is)) finish_.add(now, was, is);
     head_.jump(wanted);
     moment = wanted;
   }
@@ -154,7 +149,7 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   shown_ = out;
   shown_moment_ = moment;
   has_shown_ = true;
-  finish_.apply(now, out, is_guess);
+  finish_.apply(now, out);
   out.capture_time = moment;
   out.music_beats = dance_.is_known(moment) ? dance_.position(moment) : kNoMusic;
   return true;

@@ -16,8 +16,8 @@
 #include "core/pose/history.h"
 #include "transformers/beat_offset.h"
 #include "transformers/dance_line.h"
-#include "transformers/finish.h"
 #include "transformers/guess_meter.h"
+#include "transformers/inertializer.h"
 #include "transformers/play_head.h"
 #include "transformers/play_out.h"
 #include "transformers/transformer.h"
@@ -25,10 +25,11 @@
 namespace dance {
 
 struct RhythmOptions {
-  double beats = -1.0;        // delay that the room wishes; negative: the least that guesses allow
-  double count = 1.0;         // offsets are multiples of it: 4 keeps the bar, 8 a salsa's basic step
-  double strength = 1.0;      // 0: untouched … 1: on the beat
-  double most_error_m = 0.06; // a guess worse than that is not shown, where the delay is chosen here
+  double beats = -1.0;    // delay that the room wishes; negative: the least that guesses allow
+  double count = 1.0;     // offsets are multiples of it: 4 keeps the bar, 8 a salsa's basic step
+  double strength = 1.0;  // 0: untouched … 1: on the beat
+  double most_error_m =
+      0.06;  // a guess worse than that is not shown, where the delay is chosen here
 };
 
 class Rhythm : public Transformer {
@@ -63,7 +64,7 @@ class Rhythm : public Transformer {
   BeatOffset offset_;
   GuessMeter guesses_;
   PlayHead head_;
-  Finish finish_;
+  Inertializer finish_;
   Pose shown_;  // before the finish
   MonoTime shown_moment_;
   std::uint32_t observed_ = 0;
