@@ -53,8 +53,9 @@ class BeatOffset {
   enum class Wrong { kNo, kTooLow, kTooHigh };
   static constexpr Duration kRaiseAfter = Duration::ms(150);
   static constexpr Duration kLowerAfter = Duration::s(4);
-  // A wished delay is kept as long as what is shown is no further from it than this many counts: a half would flutter.
-  static constexpr double kFlutter_counts = 0.75;
+  // A wished delay is kept as long as what is shown is no further from it than this many counts: half of one would
+  // flutter, and each change is a jump in the dance.
+  static constexpr double kFlutter_counts = 1.0;
   static constexpr double kRaiseSlack_beats = 0.1;
 
   static double best_of(const Wish& wish, double difference) {

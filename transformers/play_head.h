@@ -34,7 +34,7 @@ class PlayHead {
       rate_ = std::clamp(pace, kSlowestPlay, kFastestPlay);
     } else {
       const double dt_s = (now - time_).as_seconds();
-      const double error_s = (wanted - moment_).as_seconds();
+      const double error_s = (wanted - moment_).as_seconds() - rate_ * dt_s;
       const double aim = std::clamp(pace + kPull_hz * error_s, kSlowestPlay, kFastestPlay);
       rate_ += std::clamp(aim - rate_, -kMostRateChange_hz * dt_s, kMostRateChange_hz * dt_s);
       moment_ += Duration::seconds(rate_ * dt_s);
