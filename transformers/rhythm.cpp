@@ -14,7 +14,7 @@ constexpr float kLeastConfidence = 0.25f;
 constexpr Duration kBridged = Duration::ms(150);
 // Before guesses of this dancer have been measured.
 constexpr Duration kUnknownReach = Duration::ms(150);
-// By itself, nobody is shown further ahead of what they dance now than this.
+// Nobody is shown further ahead of what they dance now than this.
 constexpr double kMostAhead_beats = 0.25;
 constexpr Duration kSpare = Duration::ms(120);
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
