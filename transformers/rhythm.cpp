@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t kRhythmPoses = 512;
 constexpr Duration kRhythmRestart = Duration::s(1);
 constexpr std::uint32_t kPosesPerProbe = 4;
+constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
 // Where the delay is wished, a guess may bridge so much before the delay grows by a count.
 constexpr Duration kBridged = Duration::ms(150);
@@ -31,6 +32,8 @@ void Rhythm::restart() {
   play_out_.forget();
   offset_.reset();
   guesses_.clear();
+  own_beat_.forget();
+  untagged_ = 0;
   head_.reset();
   finish_.clear();
   has_shown_ = false;
@@ -51,11 +54,28 @@ void Rhythm::observe(const Pose& pose, MonoTime now) {
     return;
   }
   play_out_.add(pose.capture_time - before, now - pose.capture_time);
-  if (std::isfinite(pose.music_beats) && dance_.add(pose.capture_time, pose.music_beats))
-    offset_.reset();
+  take_tag(pose, now);
   has_news_ = true;
   guesses_.learn(history_);
   if (++observed_ % kPosesPerProbe == 0) probe(now);
+}
+
+void Rhythm::take_tag(const Pose& pose, MonoTime now) {
+  double beats = pose.music_beats;
+  if (std::isfinite(beats)) {
+    untagged_ = 0;
+  } else {
+    // One pose without a tag is none; a dance without is one whose steps have to tell.
+    if (++untagged_ < kUntaggedPoses || !music_.is_known(now)) return;
+    if (untagged_ == kUntaggedPoses) own_beat_.forget();
+    const auto position = own_beat_.observe(pose, now, 60.0 * music_.beats_per_second());
+    if (!position) {
+      dance_.clear();
+      return;
+    }
+    beats = *position;
+  }
+  if (dance_.add(pose.capture_time, beats)) offset_.reset();
 }
 
 void Rhythm::probe(MonoTime now) {
@@ -85,10 +105,10 @@ void Rhythm::choose_offset(MonoTime now) {
   wish.count = options_.count;
   wish.spare_beats = kSpare.as_seconds() * beats_per_second;
   // Who asks for no delay at all gets guesses however far they have to reach.
-  wish.least_beats = -0.5 * options_.count;
+  wish.least_beats = -kMostAhead_beats;
   if (options_.beats != 0.0)
-    wish.least_beats = std::max(options_.beats < 0.0 ? -kMostAhead_beats : 0.0,
-                                (play_out_.needed() - reach).as_seconds() * beats_per_second);
+    wish.least_beats =
+        std::max(wish.least_beats, (play_out_.needed() - reach).as_seconds() * beats_per_second);
   offset_.update(wish, music_.position(now) - dance_.position(now), now);
 }
 

@@ -18,6 +18,7 @@
 #include "transformers/dance_line.h"
 #include "transformers/guess_meter.h"
 #include "transformers/inertializer.h"
+#include "transformers/own_beat.h"
 #include "transformers/play_head.h"
 #include "transformers/play_out.h"
 #include "transformers/transformer.h"
@@ -49,6 +50,7 @@ class Rhythm : public Transformer {
 
  private:
   void restart();
+  void take_tag(const Pose& pose, MonoTime now);
   void probe(MonoTime now);
   // The moment to show without music, and with it; the pace at which the latter goes on.
   MonoTime free_moment(MonoTime now);
@@ -63,11 +65,12 @@ class Rhythm : public Transformer {
   PlayOut play_out_;
   BeatOffset offset_;
   GuessMeter guesses_;
+  OwnBeat own_beat_;
   PlayHead head_;
   Inertializer finish_;
   Pose shown_;  // before the finish
   MonoTime shown_moment_;
-  std::uint32_t observed_ = 0;
+  std::uint32_t observed_ = 0, untagged_ = 0;
   bool has_shown_ = false, has_news_ = false, in_time_ = false;
 };
 
