@@ -12,7 +12,7 @@ constexpr std::uint32_t kPosesPerProbe = 4;
 constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
 // Where the delay is wished, a guess may bridge so much before the delay grows by a count.
-constexpr Duration kBridged = Duration::ms(150);
+constexpr Duration kBridgedByGuess = Duration::ms(150);
 // Before guesses of this dancer have been measured.
 constexpr Duration kUnknownReach = Duration::ms(150);
 // Nobody is shown further ahead of what they dance now than this.
@@ -97,7 +97,7 @@ MonoTime Rhythm::free_moment(MonoTime now) {
 
 void Rhythm::choose_offset(MonoTime now) {
   const double beats_per_second = dance_.beats_per_second();
-  Duration reach = kBridged;
+  Duration reach = kBridgedByGuess;
   if (options_.beats < 0.0)
     reach = guesses_.is_known() ? guesses_.reach(options_.most_error_m) : kUnknownReach;
   BeatOffset::Wish wish;
