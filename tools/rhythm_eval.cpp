@@ -141,8 +141,17 @@ RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusi
   const JointTrack ours = part(shown.poses), theirs = part(truth);
   score.jerk_ratio =
       jerk_m_s3(ours, Places::kWorld) / std::max(1e-9, jerk_m_s3(theirs, Places::kWorld));
-  const double slide = slide_m_s(theirs, stance_of(theirs));
-  score.foot_slide_ratio = slide_m_s(ours, stance_of(ours)) / std::max(1e-9, slide);
+  // Feet that stood in the moment that is shown should stand in the picture.
+  const Stance stance = stance_of(all);
+  Stance as_danced, as_shown;
+  for (std::size_t i = from; i < to; ++i) {
+    const double frame = second_of(shown.poses[i].capture_time) * options.hz;
+    const double last = static_cast<double>(stance.stands.size() - 1);
+    as_shown.stands.push_back(
+        stance.stands[static_cast<std::size_t>(std::clamp(frame, 0.0, last))]);
+    as_danced.stands.push_back(stance.stands[shown.frames[i]]);
+  }
+  score.foot_slide_ratio = slide_m_s(ours, as_shown) / std::max(1e-9, slide_m_s(theirs, as_danced));
   score.bone_length_error_mm = track.bone_length_error_m * 1e3;
   const Rates rates = rates_of(shown.poses, options.hz, from, to);
   score.least_rate = rates.least;

@@ -152,14 +152,14 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   const MonoTime wanted = wanted_moment(now, pace);
   Pose is;
   // What came since the last picture has changed what that picture should have been.
-  if (has_shown_ && has_news_ && pose_at(shown_moment_, now, is)) finish_.add(now, shown_, is);
+  if (has_shown_ && has_news_ && pose_at(shown_moment_, now, is)) finish_.correct(now, shown_, is);
   has_news_ = false;
   MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
   const Duration most = in_time_ ? kJumpInTime : kJumpFree;
   if (has_shown_ && (off > most || off < -most)) {
     Pose was;
-    if (pose_at(moment, now, was) && pose_at(wanted, now, is)) finish_.add(now, was, is);
+    if (pose_at(moment, now, was) && pose_at(wanted, now, is)) finish_.correct(now, was, is);
     head_.jump(wanted);
     moment = wanted;
   }
@@ -169,7 +169,7 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   shown_ = out;
   shown_moment_ = moment;
   has_shown_ = true;
-  finish_.apply(now, out);
+  finish_.apply(now, out, is_guess);
   out.capture_time = moment;
   out.music_beats = dance_.is_known(moment) ? dance_.position(moment) : kNoMusic;
   return true;

@@ -17,7 +17,7 @@
 #include "transformers/beat_offset.h"
 #include "transformers/dance_line.h"
 #include "transformers/guess_meter.h"
-#include "transformers/inertializer.h"
+#include "transformers/finish.h"
 #include "transformers/own_beat.h"
 #include "transformers/play_head.h"
 #include "transformers/play_out.h"
@@ -67,7 +67,7 @@ class Rhythm : public Transformer {
   GuessMeter guesses_;
   OwnBeat own_beat_;
   PlayHead head_;
-  Inertializer finish_;
+  Finish finish_;
   Pose shown_;  // before the finish
   MonoTime shown_moment_;
   std::uint32_t observed_ = 0, untagged_ = 0;
