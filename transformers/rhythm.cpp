@@ -152,7 +152,8 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   const MonoTime wanted = wanted_moment(now, pace);
   Pose is;
   // What came since the last picture has changed what that picture should have been, where it was a guess.
-  if (has_shown_ && shown_is_guess_ && has_news_ && pose_at(shown_moment_, now, is)) finish_.correct(now, shown_, is);
+  if (has_shown_ && shown_is_guess_ && has_news_ && pose_at(shown_moment_, now, is))
+    finish_.correct(now, shown_, is);
   has_news_ = false;
   MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
