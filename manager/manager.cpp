@@ -16,8 +16,13 @@ Manager::Manager(ManagerOptions options, Bus& bus, Poller& poller)
       bus_(bus),
       router_(options_.routes, this_clock_id(), *this),
       begin_(mono_now()) {
+  router_.on_learner([this](std::shared_ptr<Learner> learner) { study_.add(std::move(learner)); });
   listen(Where::kCapture);
   if (options_.hear_guests_on_bus) listen(Where::kGuest);
+  bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime now) {
+    // Of another machine's clock it says nothing about the music here.
+    if (beat.clock_id == this_clock_id()) router_.hear(beat, now);
+  });
   start_timers(poller);
 }
 

@@ -15,10 +15,12 @@
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
+#include "core/pose/music_tag.h"
 #include "manager/manager.h"
 #include "manager/session.h"
 #include "producers/capture_sink.h"
 #include "producers/dancer_feed.h"
+#include "tools/house_music.h"
 #include "tunnel/link.h"
 #include "tunnel/link_bus.h"
 
@@ -35,7 +37,7 @@ class House : public CaptureSink {
   std::string report_json(MonoTime now);
 
  private:
-  House(const Session& session, Poller& poller) : session_(session), poller_(poller) {}
+  House(const Session& session, Poller& poller);
   Result<void> open_link();
   Result<void> open_producers();
   Result<void> open_consumers();
@@ -55,9 +57,11 @@ class House : public CaptureSink {
   std::unique_ptr<LinkBus> link_bus_;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Manager> manager_;
+  MusicTag tag_;  // of hosted producers
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   std::vector<std::unique_ptr<OutputFile>> outputs_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
+  std::unique_ptr<HouseMusic> music_;
   MonoTime last_refusal_;
 };
 

@@ -45,12 +45,12 @@ void Predict::forget() {
   history_.clear();
   buckets_ = {};
   has_shown_ = false;
-  correction_.clear();
+  finish_.clear();
 }
 
 void Predict::observe(const Pose& pose, MonoTime now) {
   Pose was;
-  const bool corrects = has_shown_ && pose_at(shown_, was);
+  const bool corrects = has_shown_ && pose_at(shown_, options_.most, was);
   const bool had = !predictor_.is_empty();
   const MonoTime before = had ? predictor_.newest().capture_time : MonoTime();
   const bool same_clock = had && predictor_.newest().clock_id == pose.clock_id;
@@ -68,7 +68,8 @@ void Predict::observe(const Pose& pose, MonoTime now) {
   history_.push(pose);
   note_transit(now - pose.capture_time, now);
   Pose is;
-  if (corrects && has_shown_ && pose_at(shown_, is)) correction_.add(shown_at_, was, is);
+  if (corrects && has_shown_ && pose_at(shown_, options_.most, is))
+    finish_.correct(shown_at_, was, is);
 }
 
 void Predict::note_transit(Duration transit, MonoTime now) {
@@ -94,14 +95,14 @@ MonoTime Predict::moment(MonoTime now) {
   return now - Duration::seconds(transit_.as_seconds() * (1.0 - options_.lead));
 }
 
-bool Predict::pose_at(MonoTime moment, Pose& out) const {
+bool Predict::pose_at(MonoTime moment, Duration most, Pose& out) const {
   if (history_.empty()) return false;
   const Pose& newest = history_.newest();
   if (moment <= newest.capture_time) {
     out = history_.at(moment)->pose;
     return true;
   }
-  const MonoTime last = newest.capture_time + options_.most;
+  const MonoTime last = newest.capture_time + most;
   predictor_.predict(std::min(moment, last), out);
   out.capture_time = moment;
   out.music_beats += beats_per_second(history_) * (moment - newest.capture_time).as_seconds();
@@ -111,7 +112,7 @@ bool Predict::pose_at(MonoTime moment, Pose& out) const {
 }
 
 bool Predict::sample_at(MonoTime moment, MonoTime /*now*/, Pose& out) {
-  return pose_at(moment, out);
+  return pose_at(moment, DancePredictor::kFurthest, out);
 }
 
 bool Predict::sample(MonoTime now, Pose& out) {
@@ -120,8 +121,8 @@ bool Predict::sample(MonoTime now, Pose& out) {
   // The delay that is not taken back may change: the dance stands still rather than go back.
   if (has_shown_ && wanted < shown_ && wanted > shown_ - kJumpBack) wanted = shown_;
   if (wanted > history_.newest().capture_time + options_.most) ++counters_.starved;
-  if (!pose_at(wanted, out)) return false;
-  correction_.apply(now, out);
+  if (!pose_at(wanted, options_.most, out)) return false;
+  finish_.apply(now, out, wanted > history_.newest().capture_time);
   shown_ = wanted;
   shown_at_ = now;
   has_shown_ = true;

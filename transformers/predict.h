@@ -1,5 +1,6 @@
 // predict: shows the dancer as they are now, or nearer to it than what has arrived: takes the way's delay back by
-// predicting (transformers/dance_predictor.h). What has arrived is shown as it is; corrections go in without a pop.
+// predicting (transformers/dance_predictor.h). What has arrived is shown as it is; corrections go in without a pop, and
+// guessed feet stand where they stand.
 //
 // Units/frames: capture times and `now` are of one clock, as the tunnel maps them. `lead` is the part of the delay that is
 //               taken back, 0 to 1.5; `most` is the furthest that is predicted.
@@ -14,7 +15,7 @@
 
 #include "core/pose/history.h"
 #include "transformers/dance_predictor.h"
-#include "transformers/inertializer.h"
+#include "transformers/finish.h"
 #include "transformers/transformer.h"
 
 namespace dance {
@@ -38,13 +39,13 @@ class Predict : public Transformer {
 
  private:
   void note_transit(Duration transit, MonoTime now);
-  bool pose_at(MonoTime moment, Pose& out) const;
+  bool pose_at(MonoTime moment, Duration most, Pose& out) const;
   void forget();
 
   PredictOptions options_;
   DancePredictor predictor_;
   PoseHistory history_;
-  Inertializer correction_;
+  Finish finish_;
 
   // The least transit of the last 5 to 10 s, as play-out buffers take it.
   struct Bucket {
