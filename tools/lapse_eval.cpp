@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/assert.h"
 #include "tools/motion_measures.h"
+#include "transformers/chain.h"
 #include "transformers/continuation.h"
 #include "transformers/finish.h"
 
@@ -55,13 +57,35 @@ class ContinuationSubject : public LapseSubject {
   Finish finish_;
 };
 
+class ChainSubject : public LapseSubject {
+ public:
+  ChainSubject(const std::vector<std::string>& specifications, const Skeleton& skeleton) {
+    auto chain = Chain::make(specifications);
+    DANCE_ASSERT(chain.has_value());
+    chain_ = std::move(*chain);
+    chain_.set_body(skeleton);
+    learners_ = chain_.learners();
+  }
+  void observe(const Pose& pose, MonoTime now) override {
+    chain_.observe(pose, now);
+    // As the house's own thread does, a few times a second.
+    if (pose.sequence % 20 == 0)
+      for (auto& learner : learners_) learner->learn();
+  }
+  bool sample(MonoTime now, Pose& out) override { return chain_.sample(now, out); }
+
+ private:
+  Chain chain_;
+  std::vector<std::shared_ptr<Learner>> learners_;
+};
+
 // Frames of a trial: what was danced, and what was shown.
 struct Trial {
   std::vector<Pose> danced, shown;
   std::size_t lapse_begin = 0, lapse_end = 0;  // [begin, end) had no pose
 };
 
-Trial run_trial(const MotionTake& take, LapseSubject& subject, std::size_t last_seen,
+Trial run_trial(const CodecTake& take, LapseSubject& subject, std::size_t last_seen,
                 std::size_t length, std::size_t after) {
   Trial trial;
   // What peaks are compared with, too.
@@ -86,7 +110,7 @@ struct Sums {
   double return_error = 0.0;
 };
 
-void add_trial(const MotionTake& take, const Trial& trial, Sums& sums, LapseFigures& figures) {
+void add_trial(const CodecTake& take, const Trial& trial, Sums& sums, LapseFigures& figures) {
   const JointTrack danced(take.skeleton, trial.danced, take.hz);
   const JointTrack shown(take.skeleton, trial.shown, take.hz);
   const std::size_t begin = trial.lapse_begin, end = trial.lapse_end;
@@ -125,11 +149,17 @@ MakeSubject continuation_subject() {
   return [](const Skeleton& skeleton) { return std::make_unique<ContinuationSubject>(skeleton); };
 }
 
-LapseFigures evaluate_lapse(const std::vector<MotionTake>& takes, const MakeSubject& make,
+MakeSubject chain_subject(const std::vector<std::string>& specifications) {
+  return [specifications](const Skeleton& skeleton) {
+    return std::make_unique<ChainSubject>(specifications, skeleton);
+  };
+}
+
+LapseFigures evaluate_lapse(const std::vector<CodecTake>& takes, const MakeSubject& make,
                             Duration length, const LapseOptions& options) {
   LapseFigures figures;
   Sums sums;
-  for (const MotionTake& take : takes) {
+  for (const CodecTake& take : takes) {
     const auto frames_of = [&](Duration d) {
       return static_cast<std::size_t>(std::lround(d.as_seconds() * take.hz));
     };

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/motion_take.h"
-#include "transformers/transformer.h"
+#include "core/pose/skeleton.h"
+#include "tools/codec_takes.h"
 
 namespace dance {
 
@@ -30,6 +30,8 @@ using MakeSubject = std::function<std::unique_ptr<LapseSubject>(const Skeleton& 
 MakeSubject hold_subject();
 // Continuation (transformers/continuation.h) from the first missing pose on, with a Finish: no prediction before it.
 MakeSubject continuation_subject();
+// A chain of stations (transformers/chain.h), whose specifications must be right.
+MakeSubject chain_subject(const std::vector<std::string>& specifications);
 
 struct LapseFigures {
   double error_m = 0.0;        // mean over the lapse
@@ -50,7 +52,7 @@ struct LapseOptions {
 };
 
 // All lapses of one length over all takes. Peaks are the largest of all trials.
-LapseFigures evaluate_lapse(const std::vector<MotionTake>& takes, const MakeSubject& make,
+LapseFigures evaluate_lapse(const std::vector<CodecTake>& takes, const MakeSubject& make,
                             Duration length, const LapseOptions& options = {});
 
 }  // namespace dance
