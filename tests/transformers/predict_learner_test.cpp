@@ -14,9 +14,11 @@ TEST(PredictLearner, LearnsBesideThePosePath) {
   auto predictor = std::make_unique<DancePredictor>(built_in_predict_model());
   std::shared_ptr<Learner> learner = predictor->personal();
   std::atomic<bool> ends{false};
+  std::atomic<int> turns{0};
   std::thread thread([&] {
     while (!ends.load()) {
       learner->learn();
+      ++turns;
       std::this_thread::yield();
     }
   });
@@ -38,7 +40,7 @@ TEST(PredictLearner, LearnsBesideThePosePath) {
   EXPECT_TRUE(has_weights);
   // The dancer goes; what is being learned of them may still be.
   predictor.reset();
-  learner->learn();
+  for (const int before = turns; turns < before + 3;) std::this_thread::yield();
   ends = true;
   thread.join();
 }
