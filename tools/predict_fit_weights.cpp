@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t kWeighEvery = 4;
 constexpr double kWeightRidge = 1e-3;
+// Frames: a dancer is met anew; the network can be asked; there is a past to look at.
+constexpr std::size_t kMetEvery = 300;
+constexpr std::size_t kHasHistory = kNetHistory;
+constexpr std::size_t kHasPast = 360;
 
 using Gram = Eigen::Matrix<double, kGuesses, kGuesses>;
 using Cross = Eigen::Matrix<double, kGuesses, 1>;
@@ -21,7 +25,7 @@ struct WeightSums {
 using AllSums = std::array<std::array<WeightSums, kHorizons>, kWeightKinds>;
 
 void add_moment(const PredictModel& model, const MomentGuesses& guesses, std::size_t h,
-                const BodyRow& way, AllSums& sums) {
+                const BodyRow& way, double weight, AllSums& sums) {
   for (std::size_t g = 0; g < kRowGroups; ++g)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t i = BodyRow::at(g, axis);
@@ -31,15 +35,15 @@ void add_moment(const PredictModel& model, const MomentGuesses& guesses, std::si
             static_cast<double>(guesses.row(h, e)[i] * model.lever[g]);
       if (features.squaredNorm() == 0.0) continue;
       WeightSums& sum = sums[kKindOfGroup[g]][h];
-      sum.gram += features * features.transpose();
-      sum.cross += features * static_cast<double>(way.v[i] * model.lever[g]);
+      sum.gram += weight * features * features.transpose();
+      sum.cross += weight * features * static_cast<double>(way.v[i] * model.lever[g]);
     }
 }
 
 }  // namespace
 
 KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_deg, bool asks_net,
-                        float& tremble_rad) {
+                        bool is_just_met, float& tremble_rad) {
   auto sums = std::make_unique<AllSums>();
   double trembles = 0.0;
   std::size_t moments = 0;
@@ -50,14 +54,18 @@ KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_de
     DancePredictor predictor(std::shared_ptr<const PredictModel>(weighed.model, [](auto*) {}));
     predictor.set_acquaintance(asks_net ? Acquaintance::kOthers : Acquaintance::kNone);
     const BodySpace space(weighed.model->centres);
-    const auto heard = trembling(weighed.take->poses, tremble_deg, random);
+    auto heard = trembling(weighed.take->poses, tremble_deg, random);
+    if (is_just_met)
+      for (std::size_t i = 0; i < heard.size(); ++i)
+        heard[i].capture_time += Duration::s(2 * static_cast<std::int64_t>(i / kMetEvery));
+    const std::size_t first = (is_just_met ? kHasHistory : kHasPast) + kLongest;
     std::vector<BodyRow> danced;
     for (std::size_t i = 0; i < heard.size(); ++i) {
       predictor.observe(heard[i]);
       danced.push_back(
           space.row_of(weighed.take->poses[i], danced.empty() ? nullptr : &danced.back()));
       // The moment of a second ago, as it was guessed then, against the dance as it went.
-      if (i < 3 * kLongest || i % kWeighEvery != 0) continue;
+      if ((is_just_met ? i % kMetEvery : i) < first || i % kWeighEvery != 0) continue;
       trembles += static_cast<double>(predictor.tremble_rad());
       ++moments;
       const std::size_t then = i - kLongest;
@@ -67,7 +75,8 @@ KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_de
         // Headings are counted on alike.
         to(kHeadingGroup, 0) +=
             6.28318531f * std::round((from.heading() - to.heading()) / 6.28318531f);
-        add_moment(*weighed.model, predictor.guesses(kLongest), h, way_between(from, to), *sums);
+        add_moment(*weighed.model, predictor.guesses(kLongest), h, way_between(from, to),
+                   weighed.weight, *sums);
       }
     }
   }

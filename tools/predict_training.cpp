@@ -117,6 +117,10 @@ Result<PredictModel> train_predict(const PredictTraining& training) {
       if (!is_kept_back) jobs[j].takes.push_back(&training.takes[t]);
     }
   run_jobs(jobs, training);
+  // Dancers count alike, however long they were recorded: what holds for one is not what holds for all.
+  std::vector<double> frames(model.dancers.size());
+  for (std::size_t t = 0; t < training.takes.size(); ++t)
+    frames[origins[t].dancer] += static_cast<double>(training.takes[t].poses.size());
   for (std::size_t a = 0; a < kAcquaintances; ++a) {
     const auto acquaintance = static_cast<Acquaintance>(a);
     std::vector<WeighedTake> takes;
@@ -124,11 +128,15 @@ Result<PredictModel> train_predict(const PredictTraining& training) {
       const std::size_t job = acquaintance == Acquaintance::kDancer
                                   ? 1 + origins[t].fold
                                   : 1 + folds + origins[t].dancer % dancers;
-      takes.push_back({&training.takes[t], &jobs[job].model});
+      const double weight =
+          acquaintance == Acquaintance::kDancer ? 1.0 : 1e4 / frames[origins[t].dancer];
+      takes.push_back({&training.takes[t], &jobs[job].model, weight});
     }
-    for (std::size_t n = 0; n < kTrainedTremble_deg.size(); ++n)
-      model.weights[a][n] = fit_weights(takes, kTrainedTremble_deg[n],
-                                        acquaintance != Acquaintance::kNone, model.tremble_rad[n]);
+    for (std::size_t past = 0; past < 2; ++past)
+      for (std::size_t n = 0; n < kTrainedTremble_deg.size(); ++n)
+        model.weights[a][past][n] =
+            fit_weights(takes, kTrainedTremble_deg[n], acquaintance != Acquaintance::kNone,
+                        past == 0, model.tremble_rad[n]);
   }
   model.net = jobs[0].model.net;
   model.horizon_scale = jobs[0].model.horizon_scale;

@@ -53,13 +53,15 @@ struct NetFit {
 };
 void fit_net(PredictModel& model, const NetSamples& samples, const NetFit& fit);
 
-// A take, and the model whose network is asked.
+// A take, the model whose network is asked, and what its moments count.
 struct WeighedTake {
   const PredictTake* take;
   const PredictModel* model;
+  double weight = 1.0;
 };
-// Weights of all kinds of groups at one trembling, by least squares.
+// Weights of all kinds of groups at one trembling, by least squares; of a dancer seen for long, or met anew every five
+// seconds.
 KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_deg, bool asks_net,
-                        float& tremble_rad);
+                        bool is_just_met, float& tremble_rad);
 
 }  // namespace dance

@@ -9,8 +9,10 @@
 namespace dance {
 namespace {
 
-constexpr std::size_t kPriorRows = 64;  // how often the weights hear of the trembling
-constexpr std::size_t kSolveRows = 2;   // a horizon's weights are solved every 16 rows
+constexpr std::size_t kPriorRows = 32;  // how often the weights hear of the trembling
+// A dancer was just met until here, and has a past this much later.
+constexpr float kYoung_rows = 240.0f, kGrowing_rows = 360.0f;
+constexpr std::size_t kSolveRows = 2;  // a horizon's weights are solved every 16 rows
 // What no body does within a second.
 constexpr float kFurthestTurn_rad = 3.0f;
 constexpr float kFurthestWay_m = 3.0f;
@@ -83,12 +85,18 @@ void DancePredictor::set_prior() {
   // Between the weights for a still and for a trembling sensor, by what is measured.
   const float still = model_->tremble_rad[0], trembling = model_->tremble_rad[1];
   const float part = std::clamp((rows_.tremble_rad() - still) / (trembling - still), 0.0f, 1.0f);
-  const auto& [a, b] = model_->weights[static_cast<std::size_t>(acquaintance_)];
+  // And between those for a dancer just met and for one with a past to look at.
+  const float seen =
+      std::clamp((static_cast<float>(memory_.size()) - kYoung_rows) / kGrowing_rows, 0.0f, 1.0f);
+  const auto& weights = model_->weights[static_cast<std::size_t>(acquaintance_)];
+  const auto between = [](float a, float b, float share) { return a + share * (b - a); };
   KindWeights prior;
   for (std::size_t kind = 0; kind < kWeightKinds; ++kind)
     for (std::size_t h = 0; h < kHorizons; ++h)
       for (std::size_t e = 0; e < kGuesses; ++e)
-        prior[kind][h][e] = a[kind][h][e] + part * (b[kind][h][e] - a[kind][h][e]);
+        prior[kind][h][e] =
+            between(between(weights[0][0][kind][h][e], weights[0][1][kind][h][e], part),
+                    between(weights[1][0][kind][h][e], weights[1][1][kind][h][e], part), seen);
   blend_.set_prior(prior);
 }
 

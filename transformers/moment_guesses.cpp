@@ -33,18 +33,33 @@ void add_slope(const DanceMemory& memory, std::size_t rows, float cosine, float 
   turn_place(slope, sine, cosine);
 }
 
-void add_way(const BodyRow& from, const BodyRow& to, float weight, BodyRow& sum) {
-  const BodyRow way = way_between(from, to);
-  add_scaled(weight, way.v.data(), kRowSize, sum.v.data());
-}
+// Sums of ways of one moment of the past, turned into the heading that it had.
+class WaySum {
+ public:
+  WaySum(float heading, float weight)
+      : sine_(-std::sin(heading)), cosine_(std::cos(heading)), weight_(weight) {}
+  void add(const BodyRow& from, const BodyRow& to, BodyRow& sum) const {
+    add_difference(weight_, from.v.data(), to.v.data(), kRowSize, sum.v.data());
+    // Of the place the turned way, not the one in W.
+    constexpr std::size_t kX = BodyRow::at(kPlaceGroup, 0), kZ = BodyRow::at(kPlaceGroup, 2);
+    const float x = weight_ * (to.v[kX] - from.v[kX]), z = weight_ * (to.v[kZ] - from.v[kZ]);
+    sum.v[kX] += cosine_ * x + sine_ * z - x;
+    sum.v[kZ] += cosine_ * z - sine_ * x - z;
+  }
+
+ private:
+  float sine_, cosine_, weight_;
+};
 
 void add_likeness(const DanceMemory& memory, const DanceMemory::Likeness& likeness,
                   std::size_t first, std::size_t last, std::size_t window, MomentGuesses& guesses) {
   for (std::size_t k = 0; k < likeness.count; ++k) {
     const std::size_t lag = likeness.lag[k];
+    const BodyRow& then = memory(lag);
+    const WaySum ways(then.heading(), likeness.weight[k]);
     for (std::size_t h = first; h < last; ++h)
-      add_way(memory(lag), memory(lag - static_cast<std::size_t>(kHorizonFrames[h])),
-              likeness.weight[k], guesses.by_horizon[h][window]);
+      ways.add(then, memory(lag - static_cast<std::size_t>(kHorizonFrames[h])),
+               guesses.by_horizon[h][window]);
   }
 }
 
@@ -89,9 +104,9 @@ void make_guesses(const DanceMemory& memory, const RowMean& mean, MomentGuesses&
     BodyRow& went = common(guesses, kLike[2 * w + 1]);
     for (std::size_t k = 0; k < likeness.count; ++k) {
       const BodyRow& then = memory(likeness.lag[k]);
-      for (std::size_t i = 0; i < kRowSize; ++i)
-        stood.v[i] += likeness.weight[k] * (then.v[i] - now.v[i]);
-      add_way(memory(likeness.lag[k] + 1), then, likeness.weight[k], went);
+      add_difference(likeness.weight[k], now.v.data(), then.v.data(), kRowSize, stood.v.data());
+      const BodyRow& before = memory(likeness.lag[k] + 1);
+      WaySum(before.heading(), likeness.weight[k]).add(before, then, went);
     }
     stood(kPlaceGroup, 0) = stood(kPlaceGroup, 2) = stood(kHeadingGroup, 0) = 0.0f;
   }

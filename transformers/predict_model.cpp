@@ -13,7 +13,7 @@ namespace dance {
 namespace {
 
 constexpr std::uint32_t kPredictMagic = 0x44505044;  // "DPPD" as bytes
-constexpr std::uint16_t kPredictVersion = 1;
+constexpr std::uint16_t kPredictVersion = 2;
 constexpr float kMostNumber = 1e6f;
 constexpr float kSameBone_m = 0.004f;
 
@@ -24,11 +24,12 @@ void visit_floats(Model& model, Visit visit) {
     for (auto& x : q.coeffs()) visit(x);
   for (auto& x : model.lever) visit(x);
   for (auto& x : model.horizon_scale) visit(x);
-  for (auto& by_tremble : model.weights)
-    for (auto& by_kind : by_tremble)
-      for (auto& by_horizon : by_kind)
-        for (auto& guesses : by_horizon)
-          for (auto& x : guesses) visit(x);
+  for (auto& by_length : model.weights)
+    for (auto& by_tremble : by_length)
+      for (auto& by_kind : by_tremble)
+        for (auto& by_horizon : by_kind)
+          for (auto& guesses : by_horizon)
+            for (auto& x : guesses) visit(x);
   for (auto& x : model.tremble_rad) visit(x);
 }
 

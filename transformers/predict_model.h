@@ -62,8 +62,8 @@ struct PredictModel {
   // Errors at a horizon are counted in this: the usual length of a way there, m.
   std::array<float, kHorizons> horizon_scale{};
   BodyNet net = BodyNet::blank();
-  // [Acquaintance][trembling sensor]
-  std::array<std::array<KindWeights, 2>, kAcquaintances> weights{};
+  // [Acquaintance][0: seen for some seconds only, 1: for long][0: a still sensor, 1: one that trembles]
+  std::array<std::array<std::array<KindWeights, 2>, 2>, kAcquaintances> weights{};
   std::array<float, 2> tremble_rad{};  // of those two
   std::vector<BoneLengths> dancers;
 

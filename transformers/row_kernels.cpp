@@ -38,6 +38,24 @@ DANCE_WIDE_VECTORS void add_scaled(float a, const float* __restrict x, std::size
   for (std::size_t j = 0; j < count; ++j) y[j] += a * x[j];
 }
 
+DANCE_WIDE_VECTORS void add_difference(float weight, const float* __restrict from,
+                                       const float* __restrict to, std::size_t count,
+                                       float* __restrict sum) {
+  for (std::size_t j = 0; j < count; ++j) sum[j] += weight * (to[j] - from[j]);
+}
+
+DANCE_WIDE_VECTORS void weigh_rows(const float* const* rows, std::size_t count,
+                                   const float* __restrict weights, float* __restrict way) {
+  float sum[kRowSize] = {};
+  for (std::size_t e = 0; e < count; ++e) {
+    const float* row = rows[e];
+    const float* weight = weights + e * kG;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t g = 0; g < kG; ++g) sum[axis * kG + g] += weight[g] * row[axis * kG + g];
+  }
+  for (std::size_t i = 0; i < kRowSize; ++i) way[i] = sum[i];
+}
+
 DANCE_WIDE_VECTORS void follow_distances(const float* __restrict now, std::size_t dimensions,
                                          const float* __restrict past, std::size_t stride,
                                          std::size_t lags, float* __restrict distances,

@@ -25,6 +25,13 @@ void add_product(const float* x, std::size_t rows, const float* matrix, std::siz
 // y[j] += a * x[j]
 void add_scaled(float a, const float* x, std::size_t count, float* y);
 
+// sum[j] += weight * (to[j] - from[j])
+void add_difference(float weight, const float* from, const float* to, std::size_t count,
+                    float* sum);
+
+// Groups of three numbers, group fastest: way = sum over e of weights[e * groups + group] * rows[e].
+void weigh_rows(const float* const* rows, std::size_t count, const float* weights, float* way);
+
 // distances[l] = keep * distances[l] + sum over d of (now[d] - past[d * stride + l])², for l < lags.
 void follow_distances(const float* now, std::size_t dimensions, const float* past,
                       std::size_t stride, std::size_t lags, float* distances, float keep_a,
