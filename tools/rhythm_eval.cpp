@@ -12,6 +12,8 @@ namespace {
 
 constexpr Duration kBeatEvery = Duration::ms(100);
 constexpr Duration kLearnEvery = Duration::s(1);
+// Nobody sees a foot slide more slowly: synthetic dancers' do not at all.
+constexpr double kStill_m_s = 0.02;
 // The last bar is left out: the lock-in needs half a bar on both sides.
 constexpr Duration kCoolDown = Duration::s(1);
 
@@ -156,7 +158,8 @@ RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusi
         stance.stands[static_cast<std::size_t>(std::clamp(frame, 0.0, last))]);
     as_danced.stands.push_back(stance.stands[shown.frames[i]]);
   }
-  score.foot_slide_ratio = slide_m_s(ours, as_shown) / std::max(1e-9, slide_m_s(theirs, as_danced));
+  score.foot_slide_ratio =
+      slide_m_s(ours, as_shown) / std::max(kStill_m_s, slide_m_s(theirs, as_danced));
   score.bone_length_error_mm = track.bone_length_error_m * 1e3;
   const Rates rates = rates_of(shown.poses, options.hz, from, to);
   score.least_rate = rates.least;
