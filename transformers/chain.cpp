@@ -3,6 +3,7 @@
 #include <array>
 
 #include "transformers/hold.h"
+#include "transformers/predict.h"
 #include "transformers/rhythm.h"
 
 namespace dance {
@@ -19,6 +20,15 @@ Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   if (window < Duration() || window > Duration::s(2))
     return fail("hold takes 0ms to 2s, not '" + std::string(arguments[0]) + "'");
   return std::make_unique<Hold>(window);
+}
+
+Result<std::unique_ptr<Transformer>> make_predict(const Arguments& arguments) {
+  PredictOptions options;
+  Settings settings("predict", arguments);
+  settings.number("lead", options.lead, 0.0, 1.5)
+      .duration("most", options.most, Duration(), DancePredictor::kFurthest);
+  if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
+  return std::make_unique<Predict>(options);
 }
 
 Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
@@ -40,8 +50,9 @@ struct Entry {
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 2> kTransformers{{
+constexpr std::array<Entry, 3> kTransformers{{
     {"hold", make_hold},
+    {"predict", make_predict},
     {"rhythm", make_rhythm},
 }};
 
