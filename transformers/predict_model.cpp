@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
 
