@@ -84,6 +84,9 @@ BeatPhase beat_phase(const DanceOnBeats& shown, const DanceOnBeats& truth,
     const double b = shown.beats[i], offset = offset_beats[i];
     if (!wave_at(shown, b, z) || !wave_at(truth, b - offset, z_truth)) continue;
     ++looked_at;
+    if (std::any_of(shown.jumps.begin(), shown.jumps.end(),
+                    [b](double jump) { return std::abs(jump - b) < 0.5 * kBar_beats; }))
+      continue;
     double error = 0.0;
     bool tells = true;
     // The truth is looked at where it was found last: bars differ, and the same one is meant.
