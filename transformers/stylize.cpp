@@ -1,0 +1,194 @@
+#include "transformers/stylize.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transformers/rotation_vector.h"
+
+namespace dance {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+constexpr float kGainPerSecond = 1.0f;
+constexpr Duration kLongestStep = Duration::ms(100);
+constexpr double kComeIn_s = 2.0;
+// Two poses further apart than this are not one movement.
+constexpr Duration kGap = Duration::s(1);
+// A foot slower than the one stands, faster than the other it swings; it changes within a tenth of a second.
+constexpr float kStands_m_s = 0.15f, kSwings_m_s = 0.6f;
+constexpr float kStandingPerSecond = 10.0f;
+constexpr float kFloorRises_m_s = 0.02f;
+
+float towards(float from, float to, float most) {
+  return from + std::clamp(to - from, -most, most);
+}
+
+}  // namespace
+
+Stylize::Stylize(const Style& base) : base_(base), skeleton_(average_skeleton()) {
+  aim();
+  // What the session says holds from the first pose on.
+  gain_ = wanted_gain_;
+  periodic_ = wanted_periodic_;
+  dynamic_ = wanted_dynamic_;
+}
+
+void Stylize::aim() {
+  for (std::size_t z = 0; z < kBodyZones; ++z)
+    wanted_gain_[z] = std::min(base_.gain[z] * live_.gain[z], kMostStyleGain);
+  wanted_periodic_ = std::min(base_.periodic * live_.periodic, kMostStyleGain);
+  wanted_dynamic_ = std::min(base_.dynamic * live_.dynamic, kMostStyleGain);
+}
+
+void Stylize::set_style(const Style& style) {
+  if (!is_valid(style)) {
+    ++counters_.refused;
+    return;
+  }
+  live_ = style;
+  aim();
+}
+
+void Stylize::set_body(const Skeleton& skeleton) {
+  skeleton_ = skeleton;
+  period_.set_body(skeleton);
+}
+
+void Stylize::observe(const Pose& pose, MonoTime now) {
+  // Where the dancer's music is known, nobody has to guess the bar.
+  if (!std::isfinite(pose.music_beats)) period_.observe(pose, now);
+  newest_ = pose;
+  has_newest_ = true;
+}
+
+void Stylize::advance_gains(MonoTime now) {
+  const Duration step = std::clamp(now - sampled_, Duration(), kLongestStep);
+  sampled_ = now;
+  const float most = kGainPerSecond * static_cast<float>(step.as_seconds());
+  for (std::size_t z = 0; z < kBodyZones; ++z)
+    gain_[z] = towards(gain_[z], wanted_gain_[z], most);
+  periodic_ = towards(periodic_, wanted_periodic_, most);
+  dynamic_ = towards(dynamic_, wanted_dynamic_, most);
+}
+
+double Stylize::bars_of(const Pose& pose) const {
+  if (std::isfinite(pose.music_beats)) return pose.music_beats / Period::kBeatsPerBar;
+  return period_.is_known() ? period_.beats(pose.capture_time) / Period::kBeatsPerBar : kNoMusic;
+}
+
+bool Stylize::is_plain() const {
+  const bool is_as_danced =
+      std::all_of(gain_.begin(), gain_.end(), [](float gain) { return gain == 1.0f; });
+  return is_as_danced || (periodic_ == 0.0f && dynamic_ == 0.0f) || come_in_ == 0.0f;
+}
+
+bool Stylize::sample(MonoTime now, Pose& out) {
+  if (input_ ? !input_->sample(now, out) : !has_newest_) return false;
+  if (!input_) out = newest_;
+  advance_gains(now);
+  BodyFrames frames;
+  forward_kinematics(skeleton_, out, frames);
+  const double bars = bars_of(out);
+  const Duration step = out.capture_time - learnt_;
+  const bool begins =
+      !split_.has_begun() || out.clock_id != clock_id_ || step > kGap || step < -kGap;
+  if (begins) {
+    if (split_.has_begun()) ++counters_.restarts;
+    split_.forget();
+    come_in_ = 0.0f;
+  }
+  split_.split(out, frames, bars, parts_);
+  if (begins || step > Duration()) follow(out, frames, bars, begins);
+  if (!is_plain()) apply(frames, parts_, out);
+  return true;
+}
+
+bool Stylize::sample_at(MonoTime moment, MonoTime now, Pose& out) {
+  if (!input_ || !input_->sample_at(moment, now, out)) return false;
+  if (is_plain() || !split_.has_begun()) return true;
+  BodyFrames frames;
+  forward_kinematics(skeleton_, out, frames);
+  MotionSplit::Parts parts;
+  split_.split(out, frames, bars_of(out), parts);
+  apply(frames, parts, out);
+  return true;
+}
+
+void Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins) {
+  // The first pose counts as one of sixty a second.
+  const double dt_s = begins ? 1.0 / 60.0 : (pose.capture_time - learnt_).as_seconds();
+  split_.learn(parts_, bars, std::min(dt_s, kLongestStep.as_seconds()));
+  follow_feet(frames, static_cast<float>(dt_s), begins);
+  come_in_ = towards(come_in_, 1.0f, static_cast<float>(dt_s / kComeIn_s));
+  learnt_ = pose.capture_time;
+  clock_id_ = pose.clock_id;
+}
+
+void Stylize::follow_feet(const BodyFrames& frames, float dt_s, bool begins) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    Foot& foot = feet_[side];
+    const Vector3f& p_W_m = frames.position(side == 0 ? Bone::kLeftFoot : Bone::kRightFoot);
+    if (begins) foot = {p_W_m, 1.0f, p_W_m.y()};
+    const float speed = (p_W_m - foot.p_W_m).norm() / dt_s;
+    const float wanted =
+        std::clamp((kSwings_m_s - speed) / (kSwings_m_s - kStands_m_s), 0.0f, 1.0f);
+    foot.standing = towards(foot.standing, wanted, kStandingPerSecond * dt_s);
+    foot.floor_m = std::min(p_W_m.y(), foot.floor_m + kFloorRises_m_s * dt_s);
+    foot.p_W_m = p_W_m;
+  }
+}
+
+void Stylize::apply(const BodyFrames& before, const MotionSplit::Parts& parts, Pose& pose) const {
+  const Pose was = pose;
+  const auto gain_of = [&](BodyZone zone) { return gain_[index_of(zone)]; };
+  const auto added = [&](float gain, const Vector3f& periodic, const Vector3f& rest) -> Vector3f {
+    return come_in_ * (gain - 1.0f) * (periodic_ * periodic + dynamic_ * rest);
+  };
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    const float gain = gain_of(kZoneOfBone[b]);
+    if (gain == 1.0f || (pose.presence >> b & 1u) == 0) continue;
+    const Quaternionf turned =
+        split_.turned(b, parts.deviation.turn[b] +
+                             added(gain, parts.periodic.turn[b], parts.rest.turn[b]));
+    pose.R_PB[b] = b == 0 ? (parts.R_heading * turned).normalized() : turned;
+  }
+  const float hips = gain_of(BodyZone::kHips);
+  if (hips != 1.0f) {
+    Vector3f sway = added(hips, parts.periodic.sway_m, parts.rest.sway_m);
+    sway.z() = 0.0f;  // forward and back is where the steps go
+    pose.p_WH_m += parts.R_heading * sway;
+  }
+  if (hips != 1.0f || gain_of(BodyZone::kLegs) != 1.0f) stand(was, before, pose);
+}
+
+void Stylize::stand(const Pose& was, const BodyFrames& before, Pose& pose) const {
+  BodyFrames frames;
+  forward_kinematics(skeleton_, pose, frames);
+  const bool legs_swing = gain_[index_of(BodyZone::kLegs)] != 1.0f;
+  const BodyFrames swung = frames;
+  const float drop = needed_drop_m(
+      skeleton_, before,
+      {frames.position(Bone::kLeftUpperLeg), frames.position(Bone::kRightUpperLeg)});
+  pose.p_WH_m.y() -= drop;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Limb& leg = side == 0 ? kLeftLeg : kRightLeg;
+    const std::size_t upper = index_of(leg.upper), end = index_of(leg.end);
+    frames.p_WB_m[upper].y() -= drop;
+    Vector3f target = before.p_WB_m[end];
+    Quaternionf R_WFoot = before.R_WB[end];
+    if (legs_swing) {
+      const float swing = 1.0f - feet_[side].standing;
+      const Vector3f hip_moved = swung.p_WB_m[upper] - before.p_WB_m[upper];
+      target += swing * (swung.p_WB_m[end] - hip_moved - before.p_WB_m[end]);
+      target.y() = std::max(target.y(), std::min(before.p_WB_m[end].y(), feet_[side].floor_m));
+      R_WFoot = R_WFoot.slerp(swing, swung.R_WB[end]);
+      const std::size_t toes = end + 1;
+      pose.R_PB[toes] = was.R_PB[toes].slerp(swing, pose.R_PB[toes]);
+    }
+    reach_ankle(skeleton_, leg, legs_swing ? swung : before, target, R_WFoot, pose, frames);
+  }
+}
+
+}  // namespace dance
