@@ -11,8 +11,6 @@ using Eigen::Vector3f;
 
 namespace {
 
-// (1 + x) e^-x = 1/2.
-constexpr double kHalf = 1.67834699001666;
 // A spring let go at rest is fastest, with offset · y / e, after 1/y. What is far is taken back slower, so that no
 // correction moves faster than dancers do.
 constexpr float kE = 2.7182818f;
@@ -21,9 +19,6 @@ constexpr float kFastestTurn_rad_s = 9.0f;
 // A correction's own speed at its begin, where the caller tells it.
 constexpr float kMostSpeed_m_s = 6.0f;
 constexpr float kMostTurn_rad_s = 20.0f;
-// Less than any display shows.
-constexpr float kNothing = 1e-5f;
-constexpr float kNoSpeed = 1e-4f;
 
 float decay_for(float y, float size, float fastest) {
   return size * y > kE * fastest ? kE * fastest / size : y;
@@ -35,24 +30,13 @@ Inertializer::Inertializer(Duration half_life) { set_half_life(half_life); }
 
 void Inertializer::set_half_life(Duration half_life) {
   half_life_ = std::clamp(half_life, Duration::ms(1), Duration::s(2));
-  y_ = static_cast<float>(kHalf / half_life_.as_seconds());
+  y_ = Spring::y_of_half_life(half_life_);
   set_decay();
 }
 
-void Inertializer::Spring::advance(float seconds) {
-  const float fade = std::exp(-y * seconds);
-  const Vector3f pull = velocity + y * offset;
-  offset = fade * (offset + seconds * pull);
-  velocity = fade * (velocity - (y * seconds) * pull);
-}
-
-bool Inertializer::Spring::is_at_rest() const {
-  return offset.cwiseAbs().maxCoeff() < kNothing && velocity.cwiseAbs().maxCoeff() < kNoSpeed;
-}
-
 void Inertializer::clear() {
-  rotations_.fill(Spring());
-  hips_ = Spring();
+  rotations_.fill(Offset());
+  hips_ = Offset();
   at_rest_ = true;
 }
 
@@ -63,20 +47,20 @@ void Inertializer::advance_to(MonoTime now) {
   // After so long nothing is left of anything, and the numbers stay finite.
   if (step > Duration::s(10)) return clear();
   const auto seconds = static_cast<float>(step.as_seconds());
-  hips_.advance(seconds);
+  hips_.advance(hips_.y, seconds);
   at_rest_ = hips_.is_at_rest();
-  for (Spring& spring : rotations_) {
-    spring.advance(seconds);
-    at_rest_ = at_rest_ && spring.is_at_rest();
+  for (Offset& rotation : rotations_) {
+    rotation.advance(rotation.y, seconds);
+    at_rest_ = at_rest_ && rotation.is_at_rest();
   }
   if (at_rest_) clear();
 }
 
 void Inertializer::set_decay() {
-  for (Spring& spring : rotations_)
-    spring.y = decay_for(y_, spring.offset.norm(), kFastestTurn_rad_s);
+  for (Offset& rotation : rotations_)
+    rotation.y = decay_for(y_, rotation.offset.norm(), kFastestTurn_rad_s);
   // Where the hips are and where they turn to is one movement.
-  Spring& turn = rotations_[index_of(Bone::kHips)];
+  Offset& turn = rotations_[index_of(Bone::kHips)];
   hips_.y = std::min(turn.y, decay_for(y_, hips_.offset.norm(), kFastestHips_m_s));
   turn.y = hips_.y;
 }
@@ -94,16 +78,16 @@ void Inertializer::add(MonoTime now, const Pose& was, const Pose& is) {
     // shown = exp(offset) · was = exp(new offset) · is
     Vector3f& offset = rotations_[b].offset;
     offset = rotation_vector(exp_rotation(offset) * was.R_PB[b] * is.R_PB[b].conjugate());
-    if (!offset.allFinite()) rotations_[b] = Spring();
+    if (!offset.allFinite()) rotations_[b] = Offset();
   }
   at_rest_ = false;
   set_decay();
 }
 
-void Inertializer::add_speed(Spring& spring, const Vector3f& velocity, float most) const {
-  spring.velocity += velocity;
-  const float speed = spring.velocity.norm();
-  if (speed > most) spring.velocity *= most / speed;
+void Inertializer::add_speed(Offset& offset, const Vector3f& velocity, float most) const {
+  offset.velocity += velocity;
+  const float speed = offset.velocity.norm();
+  if (speed > most) offset.velocity *= most / speed;
 }
 
 void Inertializer::add(MonoTime now, const Pose& was_before, const Pose& was, const Pose& is_before,

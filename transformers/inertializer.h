@@ -18,6 +18,7 @@
 
 #include "core/base/time.h"
 #include "core/pose/pose.h"
+#include "transformers/spring.h"
 
 namespace dance {
 
@@ -45,24 +46,18 @@ class Inertializer {
   std::uint64_t jumps() const { return jumps_; }
 
  private:
-  // x(t) = (x + (v + y x) t) e^(-y t): critically damped, y in 1/s.
-  struct Spring {
-    Eigen::Vector3f offset = Eigen::Vector3f::Zero();
-    Eigen::Vector3f velocity = Eigen::Vector3f::Zero();
-    float y = 0.0f;
-
-    void advance(float seconds);
-    bool is_at_rest() const;
+  struct Offset : Spring {
+    float y = 0.0f;  // 1/s
   };
 
   void advance_to(MonoTime now);
-  void add_speed(Spring& spring, const Eigen::Vector3f& velocity, float most) const;
+  void add_speed(Offset& offset, const Eigen::Vector3f& velocity, float most) const;
   void set_decay();
 
   Duration half_life_;
   float y_ = 0.0f;
-  std::array<Spring, kBoneCount> rotations_;
-  Spring hips_;
+  std::array<Offset, kBoneCount> rotations_;
+  Offset hips_;
   MonoTime time_;
   bool at_rest_ = true;
   std::uint64_t jumps_ = 0;
