@@ -21,7 +21,7 @@ float leg_length_m(const Skeleton& skeleton, const Limb& leg) {
   return skeleton.offset(leg.lower).norm() + skeleton.offset(leg.end).norm();
 }
 
-Quaternionf turned(const Vector3f& from, const Vector3f& to, const Quaternionf& R) {
+Quaternionf turned_short(const Vector3f& from, const Vector3f& to, const Quaternionf& R) {
   return shortest_turn(from.cast<double>(), to.cast<double>()).cast<float>() * R;
 }
 
@@ -68,16 +68,15 @@ float reach_ankle(const Skeleton& skeleton, const Limb& leg, const BodyFrames& l
   if (bend.squaredNorm() < 1e-12f) bend = along.unitOrthogonal();
   bend.normalize();
   // Law of cosines at the hip.
-  const float cosine = std::clamp(
-      (thigh * thigh + distance * distance - shank * shank) / (2.0f * thigh * distance), -1.0f,
-      1.0f);
-  const Vector3f knee =
-      hip + thigh * (cosine * along + std::sqrt(1.0f - cosine * cosine) * bend);
+  const float cosine =
+      std::clamp((thigh * thigh + distance * distance - shank * shank) / (2.0f * thigh * distance),
+                 -1.0f, 1.0f);
+  const Vector3f knee = hip + thigh * (cosine * along + std::sqrt(1.0f - cosine * cosine) * bend);
   const Vector3f ankle = hip + distance * along;
 
   const auto parent = static_cast<std::size_t>(kBones[upper].parent);
-  const Quaternionf R_WU = turned(knee_was - hip_was, knee - hip, like.R_WB[upper]);
-  const Quaternionf R_WL = turned(ankle_was - knee_was, ankle - knee, like.R_WB[lower]);
+  const Quaternionf R_WU = turned_short(knee_was - hip_was, knee - hip, like.R_WB[upper]);
+  const Quaternionf R_WL = turned_short(ankle_was - knee_was, ankle - knee, like.R_WB[lower]);
   pose.R_PB[upper] = (frames.R_WB[parent].conjugate() * R_WU).normalized();
   pose.R_PB[lower] = (R_WU.conjugate() * R_WL).normalized();
   pose.R_PB[end] = (R_WL.conjugate() * R_WFoot).normalized();

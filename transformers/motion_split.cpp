@@ -12,19 +12,18 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 // A mean pose that follows a change of hold within a figure or two, and none within a bar.
-constexpr double kMean_s = 6.0;
-constexpr double kFirstMean_s = 0.5;
+constexpr double kMeanPose_s = 6.0;
+constexpr double kFirstMeanPose_s = 0.5;
 constexpr double kMemory_bars = 4.0;
 // A position so far from where the last one leads is another place of the music.
-constexpr double kJump_bars = 0.25;
+constexpr double kSplitJump_bars = 0.25;
 constexpr double kShy_bars = 1.0, kSure_bars = 2.5;
 constexpr std::size_t kSwayChannel = 3 * kBoneCount;
 
 HarmonicFit::Channels channels_of(const MotionSplit::Part& part) {
   HarmonicFit::Channels out{};
   for (std::size_t b = 0; b < kBoneCount; ++b)
-    for (int i = 0; i < 3; ++i)
-      out[3 * b + static_cast<std::size_t>(i)] = part.turn[b][i];
+    for (int i = 0; i < 3; ++i) out[3 * b + static_cast<std::size_t>(i)] = part.turn[b][i];
   for (int i = 0; i < 3; ++i) out[kSwayChannel + static_cast<std::size_t>(i)] = part.sway_m[i];
   return out;
 }
@@ -86,7 +85,7 @@ void MotionSplit::split(const Pose& pose, const BodyFrames& frames, double bars,
 
 void MotionSplit::learn(const Parts& parts, double bars, double dt_s) {
   // The periodic part is left out of the means: they stand still through the bars, and what is scaled keeps its phase.
-  const auto share = static_cast<float>(dt_s / std::min(kMean_s, kFirstMean_s + seen_s_));
+  const auto share = static_cast<float>(dt_s / std::min(kMeanPose_s, kFirstMeanPose_s + seen_s_));
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     const Vector3f error = parts.deviation.turn[b] - parts.periodic.turn[b];
     mean_turn_[b] = turned(b, share * error);
@@ -109,7 +108,7 @@ void MotionSplit::learn(const Parts& parts, double bars, double dt_s) {
   }
   if (has_bars_) {
     const double step = bars - bars_;
-    if (std::abs(step - bars_per_s_ * dt_s) > kJump_bars) {
+    if (std::abs(step - bars_per_s_ * dt_s) > kSplitJump_bars) {
       fit_.forget();
       seen_bars_ = 0.0;
     } else {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transformers/joint_limits.h"
 #include "transformers/rotation_vector.h"
 
 namespace dance {
@@ -12,14 +13,14 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 constexpr float kGainPerSecond = 1.0f;
-constexpr Duration kLongestStep = Duration::ms(100);
+constexpr Duration kLongestStyleStep = Duration::ms(100);
 constexpr double kComeIn_s = 2.0;
 // Two poses further apart than this are not one movement.
-constexpr Duration kGap = Duration::s(1);
+constexpr Duration kAnotherTake = Duration::s(1);
 // A foot slower than the one stands, faster than the other it swings; it changes within a tenth of a second.
 constexpr float kStands_m_s = 0.15f, kSwings_m_s = 0.6f;
 constexpr float kStandingPerSecond = 10.0f;
-constexpr float kFloorRises_m_s = 0.02f;
+constexpr float kAnkleFloorRises_m_s = 0.02f;
 
 float towards(float from, float to, float most) {
   return from + std::clamp(to - from, -most, most);
@@ -64,7 +65,7 @@ void Stylize::observe(const Pose& pose, MonoTime now) {
 }
 
 void Stylize::advance_gains(MonoTime now) {
-  const Duration step = std::clamp(now - sampled_, Duration(), kLongestStep);
+  const Duration step = std::clamp(now - sampled_, Duration(), kLongestStyleStep);
   sampled_ = now;
   const float most = kGainPerSecond * static_cast<float>(step.as_seconds());
   for (std::size_t z = 0; z < kBodyZones; ++z)
@@ -93,7 +94,7 @@ bool Stylize::sample(MonoTime now, Pose& out) {
   const double bars = bars_of(out);
   const Duration step = out.capture_time - learnt_;
   const bool begins =
-      !split_.has_begun() || out.clock_id != clock_id_ || step > kGap || step < -kGap;
+      !split_.has_begun() || out.clock_id != clock_id_ || step > kAnotherTake || step < -kAnotherTake;
   if (begins) {
     if (split_.has_begun()) ++counters_.restarts;
     split_.forget();
@@ -119,7 +120,7 @@ bool Stylize::sample_at(MonoTime moment, MonoTime now, Pose& out) {
 void Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins) {
   // The first pose counts as one of sixty a second.
   const double dt_s = begins ? 1.0 / 60.0 : (pose.capture_time - learnt_).as_seconds();
-  split_.learn(parts_, bars, std::min(dt_s, kLongestStep.as_seconds()));
+  split_.learn(parts_, bars, std::min(dt_s, kLongestStyleStep.as_seconds()));
   follow_feet(frames, static_cast<float>(dt_s), begins);
   come_in_ = towards(come_in_, 1.0f, static_cast<float>(dt_s / kComeIn_s));
   learnt_ = pose.capture_time;
@@ -135,7 +136,7 @@ void Stylize::follow_feet(const BodyFrames& frames, float dt_s, bool begins) {
     const float wanted =
         std::clamp((kSwings_m_s - speed) / (kSwings_m_s - kStands_m_s), 0.0f, 1.0f);
     foot.standing = towards(foot.standing, wanted, kStandingPerSecond * dt_s);
-    foot.floor_m = std::min(p_W_m.y(), foot.floor_m + kFloorRises_m_s * dt_s);
+    foot.floor_m = std::min(p_W_m.y(), foot.floor_m + kAnkleFloorRises_m_s * dt_s);
     foot.p_W_m = p_W_m;
   }
 }
@@ -154,6 +155,11 @@ void Stylize::apply(const BodyFrames& before, const MotionSplit::Parts& parts, P
                              added(gain, parts.periodic.turn[b], parts.rest.turn[b]));
     pose.R_PB[b] = b == 0 ? (parts.R_heading * turned).normalized() : turned;
   }
+  // What made a joint's turn larger may not break the joint; who goes beyond by themselves may.
+  Pose limited = pose;
+  if (limit_joints(limited) > 0)
+    for (std::size_t b = 1; b < kBoneCount; ++b)
+      if (gain_of(kZoneOfBone[b]) > 1.0f) pose.R_PB[b] = limited.R_PB[b];
   const float hips = gain_of(BodyZone::kHips);
   if (hips != 1.0f) {
     Vector3f sway = added(hips, parts.periodic.sway_m, parts.rest.sway_m);
