@@ -43,6 +43,7 @@ constexpr std::array kCommands{
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
+    Command{"stylize eval", "what styles do to recorded dances: gain, mean pose, bones, feet"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
     Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},

@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 constexpr float kStraightest = 0.996f;
 // Where the knee hardly bends, forward decides.
 constexpr float kForward_m = 0.005f;
-constexpr float kMostDrop_m = 0.2f;
+constexpr float kMostDrop_m = 0.4f;
 
 float leg_length_m(const Skeleton& skeleton, const Limb& leg) {
   return skeleton.offset(leg.lower).norm() + skeleton.offset(leg.end).norm();

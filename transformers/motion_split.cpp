@@ -14,7 +14,7 @@ using Eigen::Vector3f;
 // A mean pose that follows a change of hold within a figure or two, and none within a bar.
 constexpr double kMeanPose_s = 6.0;
 constexpr double kFirstMeanPose_s = 0.5;
-constexpr double kMemory_bars = 4.0;
+constexpr double kMemory_bars = 2.0;
 // A position so far from where the last one leads is another place of the music.
 constexpr double kSplitJump_bars = 0.25;
 constexpr double kShy_bars = 1.0, kSure_bars = 2.5;
@@ -42,6 +42,10 @@ Quaternionf heading_of(const Quaternionf& R) {
 }  // namespace
 
 void MotionSplit::forget() { *this = MotionSplit(); }
+
+double MotionSplit::mean_share(double dt_s) const {
+  return dt_s / std::min(kMeanPose_s, kFirstMeanPose_s + seen_s_);
+}
 
 float MotionSplit::trust() const {
   const double sure = std::clamp((seen_bars_ - kShy_bars) / (kSure_bars - kShy_bars), 0.0, 1.0);
@@ -77,29 +81,18 @@ void MotionSplit::split(const Pose& pose, const BodyFrames& frames, double bars,
   }
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     out.periodic.turn[b] = three_of(periodic, 3 * b);
-    out.rest.turn[b] = out.deviation.turn[b] - out.periodic.turn[b] - three_of(drift_, 3 * b);
+    out.rest.turn[b] = out.deviation.turn[b] - out.periodic.turn[b];
   }
   out.periodic.sway_m = three_of(periodic, kSwayChannel);
-  out.rest.sway_m = out.deviation.sway_m - out.periodic.sway_m - three_of(drift_, kSwayChannel);
+  out.rest.sway_m = out.deviation.sway_m - out.periodic.sway_m;
 }
 
 void MotionSplit::learn(const Parts& parts, double bars, double dt_s) {
   // The periodic part is left out of the means: they stand still through the bars, and what is scaled keeps its phase.
-  const auto share = static_cast<float>(dt_s / std::min(kMeanPose_s, kFirstMeanPose_s + seen_s_));
-  for (std::size_t b = 0; b < kBoneCount; ++b) {
-    const Vector3f error = parts.deviation.turn[b] - parts.periodic.turn[b];
-    mean_turn_[b] = turned(b, share * error);
-    for (int i = 0; i < 3; ++i) {
-      float& drift = drift_[3 * b + static_cast<std::size_t>(i)];
-      drift += share * (error[i] - drift);
-    }
-  }
-  const Vector3f error = parts.deviation.sway_m - parts.periodic.sway_m;
-  mean_sway_m_ += share * error;
-  for (int i = 0; i < 3; ++i) {
-    float& drift = drift_[kSwayChannel + static_cast<std::size_t>(i)];
-    drift += share * (error[i] - drift);
-  }
+  const auto share = static_cast<float>(mean_share(dt_s));
+  for (std::size_t b = 0; b < kBoneCount; ++b)
+    mean_turn_[b] = turned(b, share * parts.rest.turn[b]);
+  mean_sway_m_ += share * parts.rest.sway_m;
   seen_s_ += dt_s;
 
   if (!std::isfinite(bars)) {

@@ -25,7 +25,7 @@ class MotionSplit {
   };
   struct Parts {
     Eigen::Quaternionf R_heading;  // of the hips, about +Y
-    Part deviation;                // from the mean: periodic + rest + what drifts
+    Part deviation;                // from the mean: periodic + rest
     Part periodic;
     Part rest;
   };
@@ -37,6 +37,8 @@ class MotionSplit {
   // The same pose's parts are learnt from, dt_s after the one before.
   void learn(const Parts& parts, double bars, double dt_s);
 
+  // How much of dt_s counts in a mean that follows as the mean pose does.
+  double mean_share(double dt_s) const;
   // The mean with a deviation: the local rotation of a bone; for the hips their tilt against the heading.
   Eigen::Quaternionf turned(std::size_t bone, const Eigen::Vector3f& deviation) const;
 
@@ -45,7 +47,6 @@ class MotionSplit {
 
   std::array<Eigen::Quaternionf, kBoneCount> mean_turn_;
   Eigen::Vector3f mean_sway_m_;
-  std::array<float, HarmonicFit::kChannels> drift_{};
   HarmonicFit fit_;
   double bars_ = 0.0, bars_per_s_ = 0.0, seen_bars_ = 0.0;
   double seen_s_ = 0.0;

@@ -14,6 +14,10 @@
 
 namespace dance {
 
+// How much of what does not come again with the bar follows the gains, where nobody says: all of it shows more, and a
+// sensor's noise too.
+constexpr double kUsualMix = 0.5;
+
 std::optional<Style> find_style_preset(std::string_view name);
 // "calm, subtle, …"
 std::string style_preset_names();

@@ -51,6 +51,10 @@ class Stylize : public Transformer {
   void follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins);
   void follow_feet(const BodyFrames& frames, float dt_s, bool begins);
   bool is_plain() const;
+  void follow_bias(const MotionSplit::Parts& parts, double dt_s);
+  // What is added to the deviations: of a bone's turn, of the sway.
+  Eigen::Vector3f added_turn(std::size_t bone, const MotionSplit::Parts& parts) const;
+  Eigen::Vector3f added_sway(const MotionSplit::Parts& parts) const;
   void apply(const BodyFrames& before, const MotionSplit::Parts& parts, Pose& pose) const;
   void stand(const Pose& was, const BodyFrames& before, Pose& pose) const;
 
@@ -62,6 +66,7 @@ class Stylize : public Transformer {
   Period period_;
   MotionSplit split_;
   MotionSplit::Parts parts_;
+  MotionSplit::Part bias_;  // what would be added in the mean
   std::array<Foot, 2> feet_;
   Pose newest_;
   MonoTime sampled_, learnt_;
