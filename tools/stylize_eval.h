@@ -21,7 +21,7 @@ namespace dance {
 struct StylizeEvalOptions {
   BodyZone zone = BodyZone::kHips;
   double gain = 1.5;
-  double mix = kUsualMix;        // 0: only what comes again with each bar … 1: all of the motion
+  double mix = kUsualMix;  // 0: only what comes again with each bar … 1: all of the motion
   double warm_up_s = 8.0;  // not measured
   bool untagged = false;   // poses come without musical time
 };

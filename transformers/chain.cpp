@@ -4,6 +4,8 @@
 
 #include "transformers/hold.h"
 #include "transformers/rhythm.h"
+#include "transformers/style_presets.h"
+#include "transformers/stylize.h"
 
 namespace dance {
 namespace {
@@ -34,15 +36,21 @@ Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
   return std::make_unique<Rhythm>(options);
 }
 
+Result<std::unique_ptr<Transformer>> make_stylize(const Arguments& arguments) {
+  DANCE_TRY(const Style style, read_style("stylize", arguments, kUsualMix));
+  return std::make_unique<Stylize>(style);
+}
+
 struct Entry {
   std::string_view name;
   Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments);
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 2> kTransformers{{
+constexpr std::array<Entry, 3> kTransformers{{
     {"hold", make_hold},
     {"rhythm", make_rhythm},
+    {"stylize", make_stylize},
 }};
 
 Arguments split(std::string_view text) {
