@@ -5,6 +5,7 @@
 
 #include "transformers/bridge.h"
 #include "transformers/hold.h"
+#include "transformers/predict.h"
 #include "transformers/rhythm.h"
 #include "transformers/style_presets.h"
 #include "transformers/stylize.h"
@@ -31,6 +32,15 @@ Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   if (window < Duration() || window > Duration::s(2))
     return fail("hold takes 0ms to 2s, not '" + std::string(arguments[0]) + "'");
   return std::make_unique<Hold>(window);
+}
+
+Result<std::unique_ptr<Transformer>> make_predict(const Arguments& arguments) {
+  PredictOptions options;
+  Settings settings("predict", arguments);
+  settings.number("lead", options.lead, 0.0, 1.5)
+      .duration("most", options.most, Duration(), DancePredictor::kFurthest);
+  if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
+  return std::make_unique<Predict>(options);
 }
 
 Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
@@ -60,6 +70,7 @@ struct Entry {
 constexpr std::array<Entry, 4> kTransformers{{
     {"bridge", make_bridge},
     {"hold", make_hold},
+    {"predict", make_predict},
     {"rhythm", make_rhythm},
     {"stylize", make_stylize},
 }};
