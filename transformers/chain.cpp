@@ -67,13 +67,10 @@ struct Entry {
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 4> kTransformers{{
-    {"bridge", make_bridge},
-    {"hold", make_hold},
-    {"predict", make_predict},
-    {"rhythm", make_rhythm},
-    {"stylize", make_stylize},
-}};
+constexpr Entry kTransformers[]{
+    {"bridge", make_bridge}, {"hold", make_hold},       {"predict", make_predict},
+    {"rhythm", make_rhythm}, {"stylize", make_stylize},
+};
 
 Arguments split(std::string_view text) {
   Arguments words;
