@@ -13,12 +13,10 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "transformers/settings.h"
 #include "transformers/transformer.h"
 
 namespace dance {
-
-// "20ms", "1.5s", "800us": a length of time as people write it.
-Result<Duration> parse_duration(std::string_view text);
 
 class Chain {
  public:
@@ -41,6 +39,8 @@ class Chain {
   // What learns beside the pose path; see transformers/learner.h.
   std::vector<std::shared_ptr<Learner>> learners() const;
   bool sample(MonoTime now, Pose& out) { return stations_.back()->sample(now, out); }
+  // The longest of the stations'.
+  Duration patience() const;
   // Summed over the stations.
   Transformer::Counters counters() const;
 

@@ -15,7 +15,7 @@ constexpr std::array<Bone, 2> kBalls{Bone::kLeftToes, Bone::kRightToes};
 // A longer gap is not a step of the same dance.
 constexpr Duration kLongestStep = Duration::ms(250);
 // Nobody's foot does; where it seems to, the dancer is elsewhere.
-constexpr float kFastestFoot_m_s = 25.0f;
+constexpr float kFastestBall_m_s = 25.0f;
 // The floor is found at once and forgotten slowly: a dancer who jumps comes down again.
 constexpr float kFloorFalls_s = 0.05f;
 constexpr float kFloorRises_m_s = 0.02f;
@@ -131,7 +131,7 @@ bool FootLock::apply(MonoTime now, Pose& pose, bool may_lock) {
   const Duration step = now - time_;
   const auto seconds = static_cast<float>(step.as_seconds());
   const bool goes_on = began_ && step > Duration() && step <= kLongestStep &&
-                       (balls[0] - feet_[0].raw).norm() < kFastestFoot_m_s * seconds;
+                       (balls[0] - feet_[0].raw).norm() < kFastestBall_m_s * seconds;
   time_ = now;
   const float low_m = std::min(balls[0].y(), balls[1].y());
   if (!goes_on) {
