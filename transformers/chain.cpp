@@ -1,15 +1,27 @@
 #include "transformers/chain.h"
 
+#include <algorithm>
 #include <array>
 
+#include "transformers/bridge.h"
 #include "transformers/hold.h"
 #include "transformers/predict.h"
 #include "transformers/rhythm.h"
+#include "transformers/style_presets.h"
+#include "transformers/stylize.h"
 
 namespace dance {
 namespace {
 
 using Arguments = std::vector<std::string_view>;
+
+Result<std::unique_ptr<Transformer>> make_bridge(const Arguments& arguments) {
+  BridgeOptions options;
+  Settings settings("bridge", arguments);
+  settings.duration("blend", options.blend, Duration::ms(5), Duration::s(1));
+  if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
+  return std::make_unique<Bridge>(options);
+}
 
 Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   if (arguments.empty()) return std::make_unique<Hold>();
@@ -44,17 +56,21 @@ Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
   return std::make_unique<Rhythm>(options);
 }
 
+Result<std::unique_ptr<Transformer>> make_stylize(const Arguments& arguments) {
+  DANCE_TRY(const Style style, read_style("stylize", arguments, kUsualMix));
+  return std::make_unique<Stylize>(style);
+}
+
 struct Entry {
   std::string_view name;
   Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments);
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 3> kTransformers{{
-    {"hold", make_hold},
-    {"predict", make_predict},
-    {"rhythm", make_rhythm},
-}};
+constexpr Entry kTransformers[]{
+    {"bridge", make_bridge}, {"hold", make_hold},       {"predict", make_predict},
+    {"rhythm", make_rhythm}, {"stylize", make_stylize},
+};
 
 Arguments split(std::string_view text) {
   Arguments words;
@@ -99,6 +115,12 @@ std::vector<std::shared_ptr<Learner>> Chain::learners() const {
   for (const auto& station : stations_)
     if (auto learner = station->learner()) learners.push_back(std::move(learner));
   return learners;
+}
+
+Duration Chain::patience() const {
+  Duration longest;
+  for (const auto& station : stations_) longest = std::max(longest, station->patience());
+  return longest;
 }
 
 Transformer::Counters Chain::counters() const {

@@ -12,8 +12,12 @@ constexpr float kErrorKeep = 0.9942f;
 // What a correction must have proved before it counts, as a part of what it would prove in the half-life.
 constexpr float kCaution = 0.05f;
 constexpr float kDampedRows = 6.0f;  // 100 ms
-// From here on the prediction gives way to a plain one, and from there on wholly.
-constexpr float kBegins = 0.92f, kWholly = 1.0f;
+// From here on, of the best plain guess's error, the prediction gives way to it, and from there on wholly.
+constexpr float kBegins = 0.96f, kWholly = 1.02f;
+// A few moments that were worse say nothing yet.
+constexpr float kHeardEnough_moments = 60.0f;
+// Root of the sum of all joints' squared speeds, m/s: less is standing.
+constexpr float kMoving_m_s = 0.4f;
 
 const float* slope_of(const MomentGuesses& guesses, Guess guess) {
   return guesses.common[static_cast<std::size_t>(guess)].v.data();
@@ -34,10 +38,31 @@ std::array<BodyRow, kPlainGuesses> plain_ways(const MomentGuesses& guesses, std:
   return ways;
 }
 
-GuessProof::GuessProof(const std::array<float, kRowGroups>& lever) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t g = 0; g < kBoneCount; ++g)
-      weight_[BodyRow::at(g, axis)] = lever[g] * lever[g];
+GuessProof::GuessProof(const std::array<float, kRowGroups>& lever) : lever_(lever) {}
+
+// Lengths, not their squares: what is seen of an error is how far it is.
+float GuessProof::error_m(const BodyRow& said, const BodyRow& way) const {
+  float sum = 0.0f;
+  for (std::size_t g = 0; g < kBoneCount; ++g) {
+    float squares = 0.0f;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float error = said(g, axis) - way(g, axis);
+      squares += error * error;
+    }
+    sum += lever_[g] * std::sqrt(squares);
+  }
+  return sum;
+}
+
+bool GuessProof::is_moving(const MomentGuesses& guesses) const {
+  const float* slope = slope_of(guesses, Guess::kSlope12);
+  float squares = 0.0f;
+  for (std::size_t g = 0; g < kBoneCount; ++g)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float speed = lever_[g] * slope[BodyRow::at(g, axis)];
+      squares += speed * speed;
+    }
+  return squares * static_cast<float>(kGridHz * kGridHz) > kMoving_m_s * kMoving_m_s;
 }
 
 void GuessProof::clear() { horizons_ = {}; }
@@ -51,8 +76,6 @@ void GuessProof::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
   Horizon& horizon = horizons_[h];
   const BodyRow& p = guesses.blended[h];
   const BodyRow& c = guesses.personal[h];
-  BodyRow done;
-  finish(h, guesses, done);
   for (std::size_t g = 0; g < kRowGroups; ++g) {
     float right = 0.0f, size = 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -70,25 +93,11 @@ void GuessProof::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
   for (std::size_t i = 0; i < kRowSize; ++i)
     mixed.v[i] = p.v[i] + horizon.share[i % kRowGroups] * c.v[i];
   const auto plain = plain_ways(guesses, h);
-  const auto squares = [&](auto difference) {
-    float sum = 0.0f;
-    for (std::size_t i = 0; i < kRowSize; ++i) sum += weight_[i] * difference(i);
-    return sum;
-  };
-  const auto square = [](float x) { return x * x; };
-  horizon.error = kErrorKeep * horizon.error +
-                  squares([&](std::size_t i) { return square(way.v[i] - mixed.v[i]); });
-  for (std::size_t b = 0; b < kPlainGuesses; ++b) {
-    horizon.plain_error[b] = kErrorKeep * horizon.plain_error[b] + squares([&](std::size_t i) {
-                               return square(way.v[i] - plain[b].v[i]);
-                             });
-    horizon.plain_right[b] = kErrorKeep * horizon.plain_right[b] + squares([&](std::size_t i) {
-                               return (way.v[i] - mixed.v[i]) * (plain[b].v[i] - mixed.v[i]);
-                             });
-    horizon.plain_size[b] = kErrorKeep * horizon.plain_size[b] + squares([&](std::size_t i) {
-                              return square(plain[b].v[i] - mixed.v[i]);
-                            });
-  }
+  Horizon::Errors& errors = horizon.errors[is_moving(guesses) ? 1 : 0];
+  errors.heard = kErrorKeep * errors.heard + 1.0f;
+  errors.ours = kErrorKeep * errors.ours + error_m(mixed, way);
+  for (std::size_t b = 0; b < kPlainGuesses; ++b)
+    errors.plain[b] = kErrorKeep * errors.plain[b] + error_m(plain[b], way);
 }
 
 void GuessProof::finish(std::size_t h, const MomentGuesses& guesses, BodyRow& way) const {
@@ -97,16 +106,14 @@ void GuessProof::finish(std::size_t h, const MomentGuesses& guesses, BodyRow& wa
   const BodyRow& c = guesses.personal[h];
   for (std::size_t i = 0; i < kRowSize; ++i)
     way.v[i] = p.v[i] + horizon.share[i % kRowGroups] * c.v[i];
-  std::size_t best = 0;
-  for (std::size_t b = 1; b < kPlainGuesses; ++b)
-    if (horizon.plain_error[b] < horizon.plain_error[best]) best = b;
-  const float least = horizon.plain_error[best];
-  if (horizon.error <= kBegins * least || horizon.plain_size[best] <= 0.0f) return;
-  const float urgency =
-      std::clamp((horizon.error / (least + 1e-12f) - kBegins) / (kWholly - kBegins), 0.0f, 1.0f);
+  const Horizon::Errors& errors = horizon.errors[is_moving(guesses) ? 1 : 0];
+  const auto best = std::min_element(errors.plain.begin(), errors.plain.end());
+  if (errors.ours <= kBegins * *best) return;
   const float back =
-      urgency * std::clamp(horizon.plain_right[best] / horizon.plain_size[best], 0.0f, 1.0f);
-  const BodyRow plain = plain_ways(guesses, h)[best];
+      std::clamp((errors.ours / (*best + 1e-9f) - kBegins) / (kWholly - kBegins), 0.0f, 1.0f) *
+      std::clamp(errors.heard / kHeardEnough_moments, 0.0f, 1.0f);
+  const BodyRow plain =
+      plain_ways(guesses, h)[static_cast<std::size_t>(best - errors.plain.begin())];
   for (std::size_t i = 0; i < kRowSize; ++i) way.v[i] += back * (plain.v[i] - way.v[i]);
 }
 

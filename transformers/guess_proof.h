@@ -37,14 +37,18 @@ class GuessProof {
     // Share s of a correction c to a guess p that is least wrong: sum (y - p) c / sum c².
     alignas(64) std::array<float, kRowGroups> right{}, size{};
     alignas(64) std::array<float, kRowGroups> share{};
-    // Of the finished prediction and of the plain ones.
-    float error = 0.0f;
-    std::array<float, kPlainGuesses> plain_error{}, plain_right{}, plain_size{};
+    // Mean errors of the prediction and of the plain guesses, while the dancer stands and while they move.
+    struct Errors {
+      float heard = 0.0f;
+      float ours = 0.0f;
+      std::array<float, kPlainGuesses> plain{};
+    };
+    std::array<Errors, 2> errors{};
   };
-  void add_share(const Horizon& horizon, const MomentGuesses& guesses, std::size_t h,
-                 BodyRow& way) const;
+  bool is_moving(const MomentGuesses& guesses) const;
+  float error_m(const BodyRow& said, const BodyRow& way) const;
 
-  std::array<float, kRowSize> weight_{};  // lever², for every number of a row
+  std::array<float, kRowGroups> lever_{};
   std::array<Horizon, kHorizons> horizons_{};
 };
 
