@@ -10,13 +10,13 @@ namespace dance {
 namespace {
 
 constexpr double kThinnedRate_hz = 5512.5;
-constexpr double kWindow_s = 0.186;  // tells semitones apart from 120 Hz on
+constexpr double kHarmonyWindow_s = 0.186;  // tells semitones apart from 120 Hz on
 constexpr double kLowest_hz = 60.0;
 constexpr double kHighest_hz = 2000.0;
 constexpr std::size_t kNeighbours = 7;  // a tone stands out of so many bins on either side
 constexpr double kMeanTime_hops = 600.0;
-constexpr double kFaintest = 3e-6;
-constexpr float kContrast = 2.0f;
+constexpr double kFaintestTone = 3e-6;
+constexpr float kToneContrast = 2.0f;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ HarmonyChange::HarmonyChange(double sample_rate_hz) {
   DANCE_ASSERT(sample_rate_hz >= 4000.0);
   thinning_ = static_cast<std::size_t>(std::max(1L, std::lround(sample_rate_hz / kThinnedRate_hz)));
   const double rate_hz = sample_rate_hz / static_cast<double>(thinning_);
-  const std::size_t n = std::size_t{1} << std::lround(std::log2(rate_hz * kWindow_s));
+  const std::size_t n = std::size_t{1} << std::lround(std::log2(rate_hz * kHarmonyWindow_s));
   recent_.assign(n, 0.0f);
   weighted_.assign(n, 0.0f);
   window_.resize(n);
@@ -53,7 +53,7 @@ void HarmonyChange::find_tones(std::span<float> tones) {
   }
   const double weight = 1.0 / std::min(static_cast<double>(hops_ + 1), kMeanTime_hops);
   mean_ += weight * (sum / static_cast<double>(bins_) - mean_);
-  const auto scale = kContrast / static_cast<float>(std::max(mean_, kFaintest));
+  const auto scale = kToneContrast / static_cast<float>(std::max(mean_, kFaintestTone));
   for (float& l : loudness_) l = std::log1p(scale * l);
   float near = 0.0f;
   for (std::size_t i = 0; i < kNeighbours; ++i) near += loudness_[i];
