@@ -136,6 +136,10 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
   result.us_per_hop =
       heard.words.empty() ? 0.0 : heard.seconds * 1e6 / static_cast<double>(heard.words.size());
 
+  if (!options.with_aubio) {
+    result.aubio_missing = "aubio was not asked";
+    return result;
+  }
   if (options.speed != 1.0 || options.start_s != 0.0 || options.gain_db != 0.0 ||
       options.noise_db > -200.0) {
     result.aubio_missing = "aubio hears files as they are: nothing to compare a changed one with";

@@ -22,6 +22,7 @@ struct MusicEvalOptions {
   double speed = 1.0;        // as a record that turns faster
   double start_s = 0.0;
   double left_out_s = 5.0;  // at the begin
+  bool with_aubio = true;
 };
 
 struct SongEval {
