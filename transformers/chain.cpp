@@ -5,7 +5,10 @@
 
 #include "transformers/bridge.h"
 #include "transformers/hold.h"
+#include "transformers/predict.h"
 #include "transformers/rhythm.h"
+#include "transformers/style_presets.h"
+#include "transformers/stylize.h"
 
 namespace dance {
 namespace {
@@ -31,6 +34,15 @@ Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   return std::make_unique<Hold>(window);
 }
 
+Result<std::unique_ptr<Transformer>> make_predict(const Arguments& arguments) {
+  PredictOptions options;
+  Settings settings("predict", arguments);
+  settings.number("lead", options.lead, 0.0, 1.5)
+      .duration("most", options.most, Duration(), DancePredictor::kFurthest);
+  if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
+  return std::make_unique<Predict>(options);
+}
+
 Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
   RhythmOptions options;
   double most_error_mm = options.most_error_m * 1e3;
@@ -44,17 +56,21 @@ Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
   return std::make_unique<Rhythm>(options);
 }
 
+Result<std::unique_ptr<Transformer>> make_stylize(const Arguments& arguments) {
+  DANCE_TRY(const Style style, read_style("stylize", arguments, kUsualMix));
+  return std::make_unique<Stylize>(style);
+}
+
 struct Entry {
   std::string_view name;
   Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments);
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 3> kTransformers{{
-    {"bridge", make_bridge},
-    {"hold", make_hold},
-    {"rhythm", make_rhythm},
-}};
+constexpr Entry kTransformers[]{
+    {"bridge", make_bridge}, {"hold", make_hold},       {"predict", make_predict},
+    {"rhythm", make_rhythm}, {"stylize", make_stylize},
+};
 
 Arguments split(std::string_view text) {
   Arguments words;

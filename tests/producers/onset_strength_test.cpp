@@ -26,7 +26,7 @@ TEST(OnsetStrength, ShowsAClickAboutItsDelayLater) {
     for (std::size_t k = first; k < first + 20; ++k)
       if (all[k][3] > all[strongest][3]) strongest = k;
     const double end_of_hop_s = static_cast<double>(strongest + 1) / 100.0;
-    EXPECT_NEAR(end_of_hop_s - OnsetStrength::kDelay_s, click_s - 0.006, 0.009);
+    EXPECT_NEAR(end_of_hop_s - OnsetStrength::kDelay_s, click_s - 0.006, 0.010);
     EXPECT_GT(all[strongest][3], 5.0f);
   }
 }
