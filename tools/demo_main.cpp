@@ -97,6 +97,8 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--seed", options.seed, "which synthetic dance").range(0, 1'000'000);
   line.add("--hz", options.hz, "poses a second").range(1.0, 240.0).shows_default();
+  line.add_flag("--compare", options.compare,
+                "two halves: as poses come, and as the stage shows them; measures both");
   line.add("--port", options.port, "UDP port of the server; 0 = one that is free").range(0, 65535);
   line.add_flag("--here", here,
                 "use this machine's network even where multicast does not run over loopback");

@@ -1,5 +1,6 @@
 #include "tools/demo_monitor.h"
 
+#include "core/base/raw_twin.h"
 #include "core/base/sequence.h"
 #include "core/net/mono_clock.h"
 #include "manager/roster.h"
@@ -60,6 +61,7 @@ void DemoMonitor::listen(Bus& bus, int house) {
               });
   bus.on_pose(Where::kStage, GuestId(), Delivery::kEvery,
               [this, house](const Channel& channel, const Pose& pose, MonoTime) {
+                if (twin_of_whom(channel.guest())) return;
                 if (DancerAccount* account = account_of(channel.guest()))
                   on_staged(*account, house, pose);
               });

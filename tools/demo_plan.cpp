@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/raw_twin.h"
 #include "core/net/udp_socket.h"
 #include "producers/clip_file.h"
 #include "tools/demo_options.h"
@@ -162,6 +163,11 @@ std::string session_text(const DemoPlan& plan, const DemoOptions& options, int h
     comma = ", ";
   }
   text << "]\nto = \"POSE/stage/*\"\n";
+  for (const DemoDancer& dancer : plan.dancers) {
+    if (!options.compare || dancer.house == house) continue;
+    text << "\n[[route]]\nfrom = \"POSE/guest/" << dancer.guest.view() << "\"\nto = \"POSE/stage/"
+         << raw_twin_of(dancer.guest)->view() << "\"\n";
+  }
   return text.str();
 }
 

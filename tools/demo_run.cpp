@@ -149,6 +149,7 @@ Result<void> DemoRun::start_dancers(MonoTime origin) {
 Result<void> DemoRun::start_viewer() {
   if (!options_.view) return {};
   std::vector<std::string> arguments{"--bus", plan_.bus_url[0]};
+  if (options_.compare) arguments.push_back("--compare");
   if (options_.headless)
     for (const std::string& argument :
          {std::string("--headless"), std::string("--out"), options_.out, std::string("--at"),

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "viewer/beat_panel.h"
 #include "viewer/gl_objects.h"
 #include "viewer/guest_look.h"
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr float kTagFont_px = 17.0f;
 constexpr float kHudFont_px = 14.0f;
+constexpr float kPanelLines = 7.4f;  // of the smaller font
 constexpr std::array<const char*, 3> kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                             "/usr/share/fonts/TTF/DejaVuSans.ttf",
                                             "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
@@ -85,19 +87,62 @@ void Overlay::set_scale(float scale) {
 
 void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
                    const OverlayChoice& choice) {
-  ImGuiIO& io = ImGui::GetIO();
   const auto width = static_cast<float>(width_px);
   const auto height = static_cast<float>(height_px);
-  io.DisplaySize = ImVec2(width, height);
+  begin_frame(width_px, height_px);
+  if (choice.tags) draw_tags(scene, camera, width, height);
+  if (choice.hud) draw_hud(scene);
+  draw_words(choice, width, height);
+  draw_notes(scene, height);
+  end_frame();
+}
+
+void Overlay::begin_frame(int width_px, int height_px) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
   io.DeltaTime = 1.0f / 60.0f;  // nothing of ours moves with ImGui's time
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  if (choice.tags) draw_tags(scene, camera, width, height);
-  if (choice.hud) draw_hud(scene);
-  draw_notes(scene, height);
+}
+
+void Overlay::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  check_gl("Overlay::draw");
+  check_gl("Overlay");
+}
+
+int Overlay::panel_height_px(int height_px) const {
+  return std::min(static_cast<int>(std::lround(kPanelLines * hud_font_->FontSize)), height_px / 3);
+}
+
+void Overlay::draw_beats(const Comparison& comparison, int width_px, int height_px) {
+  begin_frame(width_px, height_px);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto middle = static_cast<float>(width_px / 2);
+  const auto bottom = static_cast<float>(height_px);
+  const auto top = static_cast<float>(height_px - panel_height_px(height_px));
+  const PanelFonts fonts{tag_font_, hud_font_};
+  draw_beat_panel(list, fonts, comparison.raw, {0.0f, top, middle, bottom}, "as it comes");
+  draw_beat_panel(list, fonts, comparison.shown,
+                  {middle, top, static_cast<float>(width_px), bottom}, "in rhythm");
+  list.AddRectFilled({middle - 1.0f, 0.0f}, {middle + 1.0f, bottom}, shade(1.0f));
+  end_frame();
+}
+
+// In dark rounds, as the tags are.
+void Overlay::draw_words(const OverlayChoice& choice, float width_px, float height_px) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float size = tag_font_->FontSize;
+  const auto put = [&](const std::string& words, float x, float y) {
+    const float width = tag_font_->CalcTextSizeA(size, 1e4f, 0.0f, words.c_str()).x;
+    x = std::max(0.5f * size, x - 0.5f * width);
+    list.AddRectFilled(on_pixel(x - 0.4f * size, y - 0.2f * size),
+                       on_pixel(x + width + 0.4f * size, y + 1.25f * size), shade(0.72f),
+                       0.6f * size);
+    list.AddText(tag_font_, size, on_pixel(x, y), white(0.94f), words.c_str());
+  };
+  if (!choice.title.empty() && !choice.hud) put(choice.title, 0.0f, 0.5f * size);
+  if (!choice.caption.empty()) put(choice.caption, 0.5f * width_px, height_px - 1.7f * size);
 }
 
 void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera, float width_px,
