@@ -84,6 +84,9 @@ endif()
 dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
   "libglfw3-dev libepoxy-dev libimgui-dev libstb-dev libegl-dev")
 
+pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
+dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
+
 find_package(GTest QUIET)
 set(gtest_found FALSE)
 if(GTest_FOUND)

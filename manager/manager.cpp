@@ -18,6 +18,10 @@ Manager::Manager(ManagerOptions options, Bus& bus, Poller& poller)
       begin_(mono_now()) {
   listen(Where::kCapture);
   if (options_.hear_guests_on_bus) listen(Where::kGuest);
+  bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime now) {
+    // Of another machine's clock it says nothing about the music here.
+    if (beat.clock_id == this_clock_id()) router_.hear(beat, now);
+  });
   start_timers(poller);
 }
 

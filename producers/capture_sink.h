@@ -8,6 +8,7 @@
 #include "core/bus/bus.h"
 #include "core/bus/messages.h"
 #include "core/net/mono_clock.h"
+#include "core/pose/music_tag.h"
 #include "core/pose/pose.h"
 
 namespace dance {
@@ -21,11 +22,16 @@ class CaptureSink {
   virtual void capture(const GuestId& guest, const TimedSkeleton& skeleton) = 0;
 };
 
-// Publishes on POSE/capture/<guest> and its companions.
+// Publishes on POSE/capture/<guest> and its companions, with the musical time of the house: whoever owns the bus drains it.
 class BusCaptureSink : public CaptureSink {
  public:
-  explicit BusCaptureSink(Bus& bus) : bus_(bus) {}
+  explicit BusCaptureSink(Bus& bus) : bus_(bus), tag_(this_clock_id()) {
+    bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime) { tag_.hear(beat); });
+  }
+  BusCaptureSink(const BusCaptureSink&) = delete;
+  BusCaptureSink& operator=(const BusCaptureSink&) = delete;
   void capture(const GuestId& guest, Pose& pose, MonoTime) override {
+    tag_.tag(pose);
     pose.stamp(Hop::kPublished, mono_now());
     bus_.publish(Channel::of(Signal::kPose, Where::kCapture, guest), pose);
   }
@@ -38,6 +44,7 @@ class BusCaptureSink : public CaptureSink {
 
  private:
   Bus& bus_;
+  MusicTag tag_;
 };
 
 }  // namespace dance

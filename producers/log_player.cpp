@@ -27,10 +27,11 @@ LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller
 
 bool LogPlayer::is_wanted(const Channel& channel) const {
   if (channel.signal() != Signal::kPose && channel.signal() != Signal::kHands &&
-      channel.signal() != Signal::kSkeleton)
+      channel.signal() != Signal::kSkeleton && channel.signal() != Signal::kBeat)
     return false;
-  return options_.only.empty() || std::find(options_.only.begin(), options_.only.end(),
-                                            channel.where()) != options_.only.end();
+  const Where where = channel.signal() == Signal::kBeat ? Where::kCapture : channel.where();
+  return options_.only.empty() ||
+         std::find(options_.only.begin(), options_.only.end(), where) != options_.only.end();
 }
 
 bool LogPlayer::read_next() {
@@ -116,6 +117,26 @@ void LogPlayer::publish_as(const Channel& channel, const LogEvent& event, MonoTi
   ++counters_.played;
 }
 
+// Slower music has its next beat later, and fewer of them a minute.
+void LogPlayer::publish_beat(const Channel& channel, const LogEvent& event, MonoTime deadline) {
+  Beat beat;
+  if (decode(event.data.data(), event.data.size(), beat) != Decoded::kFine) {
+    ++counters_.undecodable;
+    return;
+  }
+  const Duration until = beat.beat_time - beat.time;
+  beat.time = restamp(channel, beat.time, deadline);
+  beat.beat_time = beat.time + Duration::seconds(until.as_seconds() / options_.speed);
+  beat.clock_id = this_clock_id();
+  beat.tempo_bpm *= options_.speed;
+  if (!is_valid(beat)) {
+    ++counters_.left_out;
+    return;
+  }
+  bus_.publish(channel, beat);
+  ++counters_.played;
+}
+
 void LogPlayer::publish(const LogEvent& event, MonoTime deadline) {
   const auto channel = Channel::parse(event.channel);
   switch (channel->signal()) {
@@ -125,6 +146,8 @@ void LogPlayer::publish(const LogEvent& event, MonoTime deadline) {
       return publish_as<Hands>(*channel, event, deadline);
     case Signal::kSkeleton:
       return publish_as<TimedSkeleton>(*channel, event, deadline);
+    case Signal::kBeat:
+      return publish_beat(*channel, event, deadline);
     default:
       return;
   }

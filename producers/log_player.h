@@ -1,5 +1,5 @@
 // LogPlayer: plays an LCM log, packed or not, onto a bus as if its dancers were live: events at their old distances (divided by the
-// speed), by absolute deadlines, poses stamped anew with this house's clock. Reports (STATS, GUEST, STAGE_TIME) and what
+// speed), by absolute deadlines, poses and the beats they were danced to stamped anew with this house's clock. Reports (STATS, GUEST, STAGE_TIME) and what
 // is not ours are left out and counted.
 //
 // Units/frames: speed 1 = as recorded.
@@ -21,7 +21,7 @@ namespace dance {
 struct LogPlayerOptions {
   double speed = 1.0;
   bool loop = true;
-  // Play only these; empty = capture, guest and stage.
+  // Play only these; empty = capture, guest and stage. The house's beats go with its captures.
   std::vector<Where> only;
 };
 
@@ -57,6 +57,7 @@ class LogPlayer {
   MonoTime restamp(const Channel& channel, MonoTime captured, MonoTime deadline);
   template <class Message>
   void publish_as(const Channel& channel, const LogEvent& event, MonoTime deadline);
+  void publish_beat(const Channel& channel, const LogEvent& event, MonoTime deadline);
   bool is_wanted(const Channel& channel) const;
   MonoTime deadline_of(const LogEvent& event) const;
 

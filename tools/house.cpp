@@ -59,6 +59,9 @@ std::vector<GuestId> hosted_guests(const Session& session) {
 
 }  // namespace
 
+House::House(const Session& session, Poller& poller)
+    : session_(session), poller_(poller), tag_(this_clock_id()) {}
+
 Result<std::unique_ptr<House>> House::open(const Session& session, Poller& poller) {
   std::unique_ptr<House> house(new House(session, poller));
   DANCE_TRY(house->bus_, Bus::open(session.bus));
@@ -73,6 +76,8 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   if (auto opened = house->open_consumers(); !opened) return tl::make_unexpected(opened.error());
   if (auto opened = house->open_producers(); !opened) return tl::make_unexpected(opened.error());
   House* self = house.get();
+  house->bus_->on_beat(
+      [self](const Channel&, const Beat& beat, MonoTime) { self->tag_.hear(beat); });
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
     self->link_bus_->publish_second(now);
@@ -217,6 +222,7 @@ bool House::is_sent(const GuestId& guest) const {
 }
 
 void House::capture(const GuestId& guest, Pose& pose, MonoTime now) {
+  tag_.tag(pose);
   pose.stamp(Hop::kPublished, mono_now());
   if (is_sent(guest)) link_->send(guest, pose, now);
   manager_->take(Where::kCapture, guest, pose, now);

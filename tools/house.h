@@ -15,6 +15,7 @@
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
+#include "core/pose/music_tag.h"
 #include "manager/manager.h"
 #include "manager/session.h"
 #include "producers/capture_sink.h"
@@ -35,7 +36,7 @@ class House : public CaptureSink {
   std::string report_json(MonoTime now);
 
  private:
-  House(const Session& session, Poller& poller) : session_(session), poller_(poller) {}
+  House(const Session& session, Poller& poller);
   Result<void> open_link();
   Result<void> open_producers();
   Result<void> open_consumers();
@@ -55,6 +56,7 @@ class House : public CaptureSink {
   std::unique_ptr<LinkBus> link_bus_;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Manager> manager_;
+  MusicTag tag_;  // of hosted producers
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   std::vector<std::unique_ptr<OutputFile>> outputs_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;

@@ -44,13 +44,19 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
     Fingerprint fingerprint;
     std::string_view type;
   };
-  static const std::array<Known, 6> kKnown{{
+  static const std::array<Known, 12> kKnown{{
       {fingerprint_of(Pose()), "pose_t"},
       {fingerprint_of(Hands()), "hands_t"},
       {fingerprint_of(any_skeleton()), "skeleton_t"},
       {fingerprint_of(GuestStatus()), "guest_t"},
       {fingerprint_of(Stats()), "stats_t"},
       {fingerprint_of(StageTime()), "stage_time_t"},
+      {fingerprint_of(Music()), "music_t"},
+      {fingerprint_of(Scene()), "scene_t"},
+      {fingerprint_of(Avatar()), "avatar_t"},
+      {fingerprint_of(Style()), "style_t"},
+      {fingerprint_of(Placement()), "placement_t"},
+      {fingerprint_of(Beat()), "beat_t"},
   }};
   if (message.size() < sizeof(Fingerprint)) return "";
   for (const Known& known : kKnown)

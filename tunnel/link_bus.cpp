@@ -52,9 +52,14 @@ void LinkBus::on_channel(const GuestId& guest, std::string_view name, ChannelCla
 }
 
 void LinkBus::send_captures_of(const GuestId& guest) {
+  if (!hears_beats_)
+    bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime) { tag_.hear(beat); });
+  hears_beats_ = true;
   bus_.on_pose(Where::kCapture, guest, Delivery::kEvery,
                [this](const Channel& channel, const Pose& pose, MonoTime now) {
-                 link_->send(channel.guest(), pose, now);
+                 Pose tagged = pose;
+                 tag_.tag(tagged);
+                 link_->send(channel.guest(), tagged, now);
                });
   bus_.on_hands(Where::kCapture, guest, Delivery::kEvery,
                 [this](const Channel& channel, const Hands& hands, MonoTime now) {

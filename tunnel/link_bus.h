@@ -1,6 +1,6 @@
 // Puts a link on a house's bus: what this house captures goes to the link, and what the link hears
 // of the others goes to POSE/guest/<id> and its like; the room's music and scene to MUSIC/room and
-// SCENE/room; further channels to <channel>/guest/<id>.
+// SCENE/room; further channels to <channel>/guest/<id>. Captures that bear no musical time get this house's.
 //
 // Units/frames: as in core/bus; one clock for both.
 // Ownership:    bus and link must outlive it; make it before the link, whose handlers it gives.
@@ -15,13 +15,14 @@
 #include <vector>
 
 #include "core/bus/bus.h"
+#include "core/pose/music_tag.h"
 #include "tunnel/link.h"
 
 namespace dance {
 
 class LinkBus {
  public:
-  explicit LinkBus(Bus& bus, std::uint64_t clock_id) : bus_(bus), clock_id_(clock_id) {}
+  LinkBus(Bus& bus, std::uint64_t clock_id) : bus_(bus), clock_id_(clock_id), tag_(clock_id) {}
 
   // What the link is to be opened with; on_state, on_refused and the guests' coming and going are
   // the caller's to add.
@@ -57,6 +58,8 @@ class LinkBus {
 
   Bus& bus_;
   std::uint64_t clock_id_;
+  MusicTag tag_;
+  bool hears_beats_ = false;
   Link* link_ = nullptr;
   std::map<GuestId, Known> known_;
   std::optional<std::pair<GuestId, Scene>> scene_;

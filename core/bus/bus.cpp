@@ -283,6 +283,7 @@ void Bus::publish(const Channel& channel, const Style& style) { impl_->publish(c
 void Bus::publish(const Channel& channel, const Placement& placement) {
   impl_->publish(channel, placement);
 }
+void Bus::publish(const Channel& channel, const Beat& beat) { impl_->publish(channel, beat); }
 void Bus::publish_raw(const char* channel, const void* data, std::size_t size) {
   impl_->publish_bytes(channel, data, size);
 }
@@ -325,6 +326,9 @@ void Bus::on_avatar(Where where, const GuestId& guest, Handler<Avatar> handler) 
 void Bus::on_style(Where where, const GuestId& guest, Handler<Style> handler) {
   impl_->subscribe_typed<Style>(channel_pattern(Signal::kStyle, where, guest), Delivery::kEvery,
                                 std::move(handler));
+}
+void Bus::on_beat(Handler<Beat> handler) {
+  impl_->subscribe_typed<Beat>("BEAT/local", Delivery::kEvery, std::move(handler));
 }
 void Bus::on_placement(Where where, const GuestId& guest, Handler<Placement> handler) {
   impl_->subscribe_typed<Placement>(channel_pattern(Signal::kPlacement, where, guest),

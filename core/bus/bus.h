@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/beat.h"
 #include "core/base/result.h"
 #include "core/bus/channel.h"
 #include "core/bus/channel_pattern.h"
@@ -65,6 +66,7 @@ class Bus {
   void publish(const Channel& channel, const Avatar& avatar);
   void publish(const Channel& channel, const Style& style);
   void publish(const Channel& channel, const Placement& placement);
+  void publish(const Channel& channel, const Beat& beat);
   // A message as it came from a log or another house: published byte for byte.
   void publish_raw(const char* channel, const void* data, std::size_t size);
 
@@ -79,6 +81,7 @@ class Bus {
   void on_scene(Where where, const GuestId& guest, Handler<Scene> handler);
   void on_avatar(Where where, const GuestId& guest, Handler<Avatar> handler);
   void on_style(Where where, const GuestId& guest, Handler<Style> handler);
+  void on_beat(Handler<Beat> handler);
   void on_placement(Where where, const GuestId& guest, Handler<Placement> handler);
   // Every message of every channel, undecoded: for recorders and `dance top`. `name` may be any LCM
   // channel.

@@ -9,7 +9,7 @@ struct Word {
   int value;
   std::string_view text;
 };
-constexpr std::array<Word, 11> kSignals{{
+constexpr std::array<Word, 12> kSignals{{
     {static_cast<int>(Signal::kPose), "POSE"},
     {static_cast<int>(Signal::kSkeleton), "SKELETON"},
     {static_cast<int>(Signal::kHands), "HANDS"},
@@ -21,7 +21,9 @@ constexpr std::array<Word, 11> kSignals{{
     {static_cast<int>(Signal::kAvatar), "AVATAR"},
     {static_cast<int>(Signal::kStyle), "STYLE"},
     {static_cast<int>(Signal::kPlacement), "PLACEMENT"},
+    {static_cast<int>(Signal::kBeat), "BEAT"},
 }};
+constexpr std::string_view kLocalWord = "local";
 constexpr std::array<Word, 5> kWheres{{
     {static_cast<int>(Where::kCapture), "capture"},
     {static_cast<int>(Where::kGuest), "guest"},
@@ -89,6 +91,14 @@ Channel Channel::of(Signal signal, Where where, const GuestId& guest) {
   return channel;
 }
 
+Channel Channel::of_house(Signal signal) {
+  Channel channel;
+  channel.signal_ = signal;
+  channel.where_ = Where::kLocal;
+  channel.name_ = join(signal_name(signal), kLocalWord, {});
+  return channel;
+}
+
 Channel Channel::of_program(Signal signal, std::string_view program) {
   DANCE_ASSERT(GuestId::parse(program).has_value());
   Channel channel;
@@ -109,6 +119,8 @@ std::optional<Channel> Channel::parse(std::string_view name) {
     if (!GuestId::parse(rest)) return std::nullopt;
     return of_program(Signal::kStats, rest);
   }
+  if (static_cast<Signal>(*signal) == Signal::kBeat)
+    return rest == kLocalWord ? std::optional(of_house(Signal::kBeat)) : std::nullopt;
   const std::size_t second = rest.find('/');
   if (second == std::string_view::npos) return std::nullopt;
   const auto where = find_where(rest.substr(0, second));

@@ -1,4 +1,4 @@
-// Channel names: <SIGNAL>/<where>[/<guest>], e.g. POSE/capture/alice. The one place that builds and
+// Channel names: <SIGNAL>/<where>[/<guest>], e.g. POSE/capture/alice or BEAT/local. The one place that builds and
 // parses them; lcmtypes/README.md holds the table of all channels and a test compares the two.
 //
 // Ownership: plain values, no allocation.
@@ -27,6 +27,7 @@ enum class Signal : std::uint8_t {
   kAvatar,
   kStyle,
   kPlacement,
+  kBeat,
 };
 
 // Where on its journey the signal is.
@@ -36,11 +37,12 @@ enum class Where : std::uint8_t {
   kStage,    // to be shown in this house
   kView,     // what a display has shown
   kRoom,     // holds for all in the room; the guest is who set it
+  kLocal,    // of the whole house; there is no guest
   kProgram,  // about a program; its name takes the place of `where`, there is no guest
 };
 
-// The words of a channel name; find_where() knows what where_name() says (kProgram has no word of
-// its own).
+// The words of a channel name; find_where() knows what where_name() says (kLocal and kProgram, which
+// have no guest, are not among them).
 std::string_view signal_name(Signal signal);
 std::string_view where_name(Where where);
 std::optional<Where> find_where(std::string_view name);
@@ -52,12 +54,13 @@ class Channel {
   Channel() = default;
   // Panics (our bug) only on a guest that is not set, or a program name that is too long.
   static Channel of(Signal signal, Where where, const GuestId& guest);
+  static Channel of_house(Signal signal);  // BEAT/local
   static Channel of_program(Signal signal, std::string_view program);
   static std::optional<Channel> parse(std::string_view name);
 
   Signal signal() const { return signal_; }
   Where where() const { return where_; }
-  const GuestId& guest() const { return guest_; }  // not set for a program's channel
+  const GuestId& guest() const { return guest_; }  // not set for a house's or a program's channel
   std::string_view program() const { return program_.view(); }
   const char* c_str() const { return name_.c_str(); }
   std::string_view view() const { return name_.view(); }
@@ -78,7 +81,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 22> kChannelTable{{
+constexpr std::array<ChannelRow, 23> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -100,6 +103,7 @@ constexpr std::array<ChannelRow, 22> kChannelTable{{
     {Signal::kStyle, Where::kGuest, "STYLE/guest/<guest>", "style_t"},
     {Signal::kPlacement, Where::kCapture, "PLACEMENT/capture/<guest>", "placement_t"},
     {Signal::kPlacement, Where::kGuest, "PLACEMENT/guest/<guest>", "placement_t"},
+    {Signal::kBeat, Where::kLocal, "BEAT/local", "beat_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 

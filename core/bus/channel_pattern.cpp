@@ -25,9 +25,9 @@ bool has_only_words(std::string_view text) {
 
 std::string_view first_word(std::string_view text) { return text.substr(0, text.find('/')); }
 
-// PACKED is what packed logs put in front of our channels; BEAT never leaves its house.
+// PACKED is what packed logs put in front of our channels.
 bool is_own_signal(std::string_view word) {
-  if (word == "PACKED" || word == "BEAT") return true;
+  if (word == "PACKED") return true;
   for (const ChannelRow& row : kChannelTable)
     if (first_word(row.pattern) == word) return true;
   return false;

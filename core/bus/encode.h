@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/beat.h"
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
 #include "core/pose/pose.h"
@@ -34,6 +35,7 @@ std::size_t encode(const Scene& scene, MessageBuffer& buffer);
 std::size_t encode(const Avatar& avatar, MessageBuffer& buffer);
 std::size_t encode(const Style& style, MessageBuffer& buffer);
 std::size_t encode(const Placement& placement, MessageBuffer& buffer);
+std::size_t encode(const Beat& beat, MessageBuffer& buffer);
 
 // A pose_t as it stands in a message, every bit of it and checked for nothing: for recordings, which
 // give back what they were given. Whoever looks at poses wants decode().
@@ -66,5 +68,6 @@ Decoded decode(const void* data, std::size_t size, Scene& scene);
 Decoded decode(const void* data, std::size_t size, Avatar& avatar);
 Decoded decode(const void* data, std::size_t size, Style& style);
 Decoded decode(const void* data, std::size_t size, Placement& placement);
+Decoded decode(const void* data, std::size_t size, Beat& beat);
 
 }  // namespace dance

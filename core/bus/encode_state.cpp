@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <dancelcm/avatar_t.hpp>
+#include <dancelcm/beat_t.hpp>
 #include <dancelcm/music_t.hpp>
 #include <dancelcm/placement_t.hpp>
 #include <dancelcm/scene_t.hpp>
@@ -171,6 +172,35 @@ Decoded decode(const void* data, std::size_t size, Placement& placement) {
   read.z_m = m.z_m;
   read.heading_rad = m.heading_rad;
   return checked(get_stamp(m, read), read, placement);
+}
+
+std::size_t encode(const Beat& beat, MessageBuffer& buffer) {
+  dancelcm::beat_t m{};
+  put_stamp(beat, m);
+  m.beat_time_us = to_us(beat.beat_time);
+  m.beat = beat.beat;
+  m.tempo_bpm = beat.tempo_bpm;
+  m.confidence = beat.confidence;
+  m.beats_per_bar = static_cast<std::int8_t>(beat.beats_per_bar);
+  m.playing = beat.playing ? 1 : 0;
+  return pack(m, buffer);
+}
+
+Decoded decode(const void* data, std::size_t size, Beat& beat) {
+  // A clock that is fed with a beat far ahead would believe in the music until then.
+  constexpr std::int64_t kFarthestBeat_us = 60'000'000;
+  dancelcm::beat_t m{};
+  if (!unpack(data, size, m)) return Decoded::kUndecodable;
+  Beat read;
+  if (!is_time(m.beat_time_us) || !get_stamp(m, read)) return Decoded::kInvalid;
+  const std::int64_t away_us = m.beat_time_us - m.time_us;
+  read.beat_time = from_us(m.beat_time_us);
+  read.beat = m.beat;
+  read.tempo_bpm = m.tempo_bpm;
+  read.confidence = m.confidence;
+  read.beats_per_bar = m.beats_per_bar;
+  read.playing = m.playing != 0;
+  return checked(away_us <= kFarthestBeat_us && away_us >= -kFarthestBeat_us, read, beat);
 }
 
 }  // namespace dance

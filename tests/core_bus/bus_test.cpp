@@ -161,6 +161,7 @@ TEST(Bus, StateReachesItsHandlers) {
   receiver->on_avatar(Where::kGuest, guest("a"), count);
   receiver->on_style(Where::kCapture, GuestId(), count);
   receiver->on_placement(Where::kGuest, GuestId(), count);
+  receiver->on_beat(count);
   sender->publish(Channel::of(Signal::kMusic, Where::kCapture, guest("a")), Music());
   sender->publish(Channel::of(Signal::kMusic, Where::kRoom, guest("a")), Music());
   sender->publish(Channel::of(Signal::kScene, Where::kRoom, guest("a")), Scene());
@@ -168,12 +169,16 @@ TEST(Bus, StateReachesItsHandlers) {
   sender->publish(Channel::of(Signal::kAvatar, Where::kGuest, guest("a")), Avatar());
   sender->publish(Channel::of(Signal::kStyle, Where::kCapture, guest("a")), Style());
   sender->publish(Channel::of(Signal::kPlacement, Where::kGuest, guest("a")), Placement());
-  drain_until(*receiver, [&] { return heard["PLACEMENT/guest/a"] == 1; });
+  Beat beat;
+  beat.tempo_bpm = 120.0;
+  sender->publish(Channel::of_house(Signal::kBeat), beat);
+  drain_until(*receiver, [&] { return heard["BEAT/local"] == 1; });
   EXPECT_EQ(heard, (std::map<std::string, int>{{"MUSIC/room/a", 1},
                                                {"SCENE/room/a", 1},
                                                {"AVATAR/guest/a", 1},
                                                {"STYLE/capture/a", 1},
-                                               {"PLACEMENT/guest/a", 1}}));
+                                               {"PLACEMENT/guest/a", 1},
+                                               {"BEAT/local", 1}}));
 }
 
 ChannelPattern pattern(std::string_view text) { return *ChannelPattern::parse(text); }

@@ -20,6 +20,7 @@ const std::string kTypesFolder = std::string(DANCE_SOURCE_DIR) + "/lcmtypes";
 GuestId guest(std::string_view text) { return GuestId::parse(text).value(); }
 
 Channel example_of(const ChannelRow& row) {
+  if (row.where == Where::kLocal) return Channel::of_house(row.signal);
   return row.where == Where::kProgram ? Channel::of_program(row.signal, "manager")
                                       : Channel::of(row.signal, row.where, guest("alice"));
 }
@@ -76,6 +77,9 @@ TEST(Channel, ComesBackFromItsNameInEveryRow) {
     if (row.where == Where::kProgram) {
       EXPECT_EQ(parsed->program(), "manager");
       EXPECT_FALSE(parsed->guest().is_set());
+    } else if (row.where == Where::kLocal) {
+      EXPECT_FALSE(parsed->guest().is_set());
+      EXPECT_TRUE(parsed->program().empty());
     } else {
       EXPECT_EQ(parsed->guest(), guest("alice"));
       EXPECT_TRUE(parsed->program().empty());
@@ -86,6 +90,7 @@ TEST(Channel, ComesBackFromItsNameInEveryRow) {
 TEST(Channel, FitsWithTheLongestGuest) {
   const std::string longest(kMaxGuestIdLength, 'z');
   for (const ChannelRow& row : kChannelTable) {
+    if (row.where == Where::kLocal) continue;
     const Channel channel = row.where == Where::kProgram
                                 ? Channel::of_program(row.signal, longest)
                                 : Channel::of(row.signal, row.where, guest(longest));
@@ -127,6 +132,13 @@ TEST(Channel, RefusesNamesThatAreNotOurs) {
                                 "STATS/",
                                 "STATS/stage/alice",
                                 "STATS/Manager",
+                                "BEAT",
+                                "BEAT/",
+                                "BEAT/alice",
+                                "BEAT/local/",
+                                "BEAT/local/alice",
+                                "POSE/local",
+                                "POSE/local/alice",
                                 " POSE/capture/alice",
                                 "POSE/capture/alice\n",
                                 "LCM_TEST",
@@ -187,6 +199,7 @@ TEST(Where, IsFoundByItsName) {
     EXPECT_EQ(find_where(where_name(where)), where);
   EXPECT_FALSE(find_where(""));
   EXPECT_FALSE(find_where("program"));
+  EXPECT_FALSE(find_where("local"));
 }
 
 TEST(ChannelDeathTest, DiesOnAGuestThatIsNotSet) {

@@ -1,5 +1,5 @@
 // As golden_test.cpp, for what changes seldom: the room's music and scene, a guest's avatar, style and
-// place.
+// place; and for the beat.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -67,12 +67,24 @@ Placement golden_placement() {
   return placement;
 }
 
+Beat golden_beat() {
+  auto beat = stamped<Beat>();
+  beat.beat_time = MonoTime::from_us(1'234'567'890'373);
+  beat.beat = 127.0;
+  beat.tempo_bpm = 184.25;
+  beat.beats_per_bar = 8;
+  beat.confidence = 0.75f;
+  beat.playing = true;
+  return beat;
+}
+
 TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("music_t", golden_music());
   expect_golden("scene_t", golden_scene());
   expect_golden("avatar_t", golden_avatar());
   expect_golden("style_t", golden_style());
   expect_golden("placement_t", golden_placement());
+  expect_golden("beat_t", golden_beat());
 }
 
 TEST(GoldenState, SurvivesEverySingleBitFlip) {
@@ -81,6 +93,7 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Avatar>("avatar_t");
   expect_survives_bit_flips<Style>("style_t");
   expect_survives_bit_flips<Placement>("placement_t");
+  expect_survives_bit_flips<Beat>("beat_t");
 }
 
 TEST(GoldenState, IsSmallEnoughForTheTunnel) {
@@ -140,6 +153,22 @@ TEST(DecodeState, CallsImpossibleValuesInvalid) {
   EXPECT_EQ(outcome_of(golden_style(), [](Style& s) { s.dynamic = 5.0f; }), invalid);
   EXPECT_EQ(outcome_of(golden_placement(), [](Placement& p) { p.x_m = 1e6f; }), invalid);
   EXPECT_EQ(outcome_of(golden_placement(), [](Placement& p) { p.heading_rad = 4.0f; }), invalid);
+}
+
+TEST(DecodeState, CallsImpossibleBeatsInvalid) {
+  const auto fine = Decoded::kFine, invalid = Decoded::kInvalid;
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beats_per_bar = 0; }), fine);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beats_per_bar = 17; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beats_per_bar = -1; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [&](Beat& b) { b.beat = nan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beat = 2e7; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.tempo_bpm = 19.0; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [&](Beat& b) { b.tempo_bpm = nan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.confidence = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beat_time += Duration::s(61); }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beat_time += Duration::s(-61); }), invalid);
 }
 
 TEST(DecodeState, RefusesTextsThatGoOnBehindTheirEndAndNamesThatAreNone) {

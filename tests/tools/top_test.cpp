@@ -33,6 +33,12 @@ TEST(TopTable, TellsEachTypeByItsFingerprint) {
   EXPECT_EQ(type_of(GuestStatus()), "guest_t");
   EXPECT_EQ(type_of(Stats()), "stats_t");
   EXPECT_EQ(type_of(StageTime()), "stage_time_t");
+  EXPECT_EQ(type_of(Music()), "music_t");
+  EXPECT_EQ(type_of(Scene()), "scene_t");
+  EXPECT_EQ(type_of(Avatar()), "avatar_t");
+  EXPECT_EQ(type_of(Style()), "style_t");
+  EXPECT_EQ(type_of(Placement()), "placement_t");
+  EXPECT_EQ(type_of(Beat()), "beat_t");
   const std::uint8_t other[16] = {1, 2, 3};
   EXPECT_EQ(type_of_message(other), "");
   EXPECT_EQ(type_of_message({other, 7}), "");

@@ -1,0 +1,35 @@
+// MusicTag: puts musical time on the poses of this house: where the music stood, as it is heard here, when each was
+// captured. Producers use it, and the link once more for those in other languages.
+//
+// Units/frames: beats as core/base/beat.h counts them; times of the clock that the tag is made with.
+// Ownership:    plain value, no heap.
+// Threads:      none inside.
+// Failure:      a pose that has musical time keeps it; one of another clock, or captured while no music is known, gets none.
+#pragma once
+
+#include <cmath>
+
+#include "core/base/beat_clock.h"
+#include "core/pose/pose.h"
+
+namespace dance {
+
+class MusicTag {
+ public:
+  explicit MusicTag(std::uint64_t clock_id) : clock_id_(clock_id) {}
+
+  // Beats of another clock say nothing here.
+  void hear(const Beat& beat) {
+    if (beat.clock_id == clock_id_) clock_.hear(beat);
+  }
+  void tag(Pose& pose) const {
+    if (!std::isnan(pose.music_beats) || pose.clock_id != clock_id_) return;
+    if (clock_.is_known(pose.capture_time)) pose.music_beats = clock_.position(pose.capture_time);
+  }
+
+ private:
+  std::uint64_t clock_id_;
+  BeatClock clock_;
+};
+
+}  // namespace dance

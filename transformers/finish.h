@@ -1,0 +1,54 @@
+// Finish: the last step of a station that guesses, so that whatever comes out is a body that moves like one: corrections
+// without a pop, joints within their limits, feet that stand where they stand, rotations of unit length.
+//
+// Units/frames: as transformers/transformer.h; times of the stage's clock.
+// Ownership:    plain value; never allocates. Costs 1 to 4 us a frame.
+// Threads:      none inside; one owner.
+// Failure:      none. A pose that is no guess, with nothing left to correct, is not touched.
+#pragma once
+
+#include "transformers/foot_lock.h"
+#include "transformers/inertializer.h"
+#include "transformers/joint_limits.h"
+
+namespace dance {
+
+class Finish {
+ public:
+  explicit Finish(Duration half_life = Inertializer::kHalfLife) : corrections_(half_life) {}
+
+  void set_body(const Skeleton& skeleton) { feet_.set_body(skeleton); }
+  void set_half_life(Duration half_life) { corrections_.set_half_life(half_life); }
+  void set_feet(const FootLock::Settings& settings) { feet_.set_settings(settings); }
+
+  // See Inertializer::add().
+  void correct(MonoTime now, const Pose& was, const Pose& is) { corrections_.add(now, was, is); }
+  void correct(MonoTime now, const Pose& was_before, const Pose& was, const Pose& is_before,
+               const Pose& is, Duration step) {
+    corrections_.add(now, was_before, was, is_before, is, step);
+  }
+
+  // Once a frame. `is_guess`: the pose was not danced so, or not yet.
+  void apply(MonoTime now, Pose& pose, bool is_guess) {
+    bool is_changed = is_guess || !corrections_.is_at_rest();
+    corrections_.apply(now, pose);
+    if (is_guess) limit_joints(pose);
+    is_changed = feet_.apply(now, pose, is_guess || !corrections_.is_at_rest()) || is_changed;
+    if (is_changed) normalize(pose);
+  }
+
+  // Another dancer, or the same one anew: nothing of before is taken along.
+  void clear() {
+    corrections_.clear();
+    feet_.clear();
+  }
+
+  const Inertializer& corrections() const { return corrections_; }
+  const FootLock& feet() const { return feet_; }
+
+ private:
+  Inertializer corrections_;
+  FootLock feet_;
+};
+
+}  // namespace dance
