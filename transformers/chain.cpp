@@ -1,9 +1,9 @@
 #include "transformers/chain.h"
 
 #include <array>
-#include <charconv>
 
 #include "transformers/hold.h"
+#include "transformers/rhythm.h"
 
 namespace dance {
 namespace {
@@ -21,14 +21,28 @@ Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   return std::make_unique<Hold>(window);
 }
 
+Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
+  RhythmOptions options;
+  double most_error_mm = options.most_error_m * 1e3;
+  Settings settings("rhythm", arguments);
+  settings.number_or("beats", "auto", -1.0, options.beats, 0.0, 8.0)
+      .number("count", options.count, 1.0, 8.0)
+      .number("strength", options.strength, 0.0, 1.0)
+      .number("error", most_error_mm, 1.0, 1000.0);
+  if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
+  options.most_error_m = most_error_mm * 1e-3;
+  return std::make_unique<Rhythm>(options);
+}
+
 struct Entry {
   std::string_view name;
   Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments);
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 1> kTransformers{{
+constexpr std::array<Entry, 2> kTransformers{{
     {"hold", make_hold},
+    {"rhythm", make_rhythm},
 }};
 
 Arguments split(std::string_view text) {
@@ -58,17 +72,6 @@ Result<std::unique_ptr<Transformer>> make_station(std::string_view specification
 }
 
 }  // namespace
-
-Result<Duration> parse_duration(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
-  const double scale = unit == "s" ? 1.0 : unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : 0.0;
-  // The comparison also refuses NaN.
-  if (error != std::errc() || scale == 0.0 || !(number >= -1e6 && number <= 1e6))
-    return fail("'" + std::string(text) + "' is not a length of time like 20ms, 1.5s or 800us");
-  return Duration::seconds(number * scale);
-}
 
 Result<Chain> Chain::make(const std::vector<std::string>& specifications) {
   Chain chain;

@@ -13,12 +13,10 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "transformers/settings.h"
 #include "transformers/transformer.h"
 
 namespace dance {
-
-// "20ms", "1.5s", "800us": a length of time as people write it.
-Result<Duration> parse_duration(std::string_view text);
 
 class Chain {
  public:

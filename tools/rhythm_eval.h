@@ -1,0 +1,67 @@
+// How well the stage keeps a remote dancer on the beat: a take is laid onto the beats of a song, as the sender danced to them,
+// sent over a simulated line, and played by a chain of transformers in a house whose own music may run a little
+// faster. Everything that is measured is measured on what was shown.
+//
+// Units/frames: stage and capture at `hz`; times of one clock, as after a link's clock mapping; beats as core/base/beat.h.
+// Ownership:    plain values.
+// Threads:      none inside; learners are run between poses.
+// Failure:      a chain that cannot be made names the word.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "producers/music/beat_grid.h"
+#include "tools/codec_takes.h"
+#include "tools/motion_measures.h"
+
+namespace dance {
+
+struct RhythmEvalOptions {
+  double hz = 60.0;
+  Duration delay = Duration::ms(150);
+  Duration jitter;
+  double loss_percent = 0.0;
+  Duration stall;                     // one, in the middle
+  double tempo_offset_percent = 0.0;  // the listener's music against the sender's
+  bool untagged = false;
+  std::uint64_t seed = 1;
+  Duration warm_up = Duration::s(5);
+};
+
+// What one chain showed.
+struct RhythmScore {
+  double phase_mean_ms = 0.0, phase_sd_ms = 0.0, phase_told = 0.0;
+  double content_delay_ms = 0.0;
+  double mpjpe_mm = 0.0;  // against the dance as it is danced at that moment
+  double jerk_ratio = 0.0, foot_slide_ratio = 0.0, bone_length_error_mm = 0.0;
+  double least_rate = 0.0, most_rate = 0.0;
+  double jumps = 0.0;  // changes of the moment by more than a rate can explain
+};
+
+struct RhythmRun {
+  std::string name;  // of the chain
+  std::vector<RhythmScore> takes;
+  RhythmScore mean;
+  double phase_mean_ms_worst = 0.0, phase_sd_ms_worst = 0.0;
+};
+
+struct NamedChain {
+  std::string name;
+  std::vector<std::string> stations;  // none: poses as they come
+};
+
+// A take laid onto the beats of the song.
+struct BeatDance {
+  Skeleton skeleton;
+  std::vector<Pose> poses;    // tagged, from 0 s on
+  std::vector<double> beats;  // of each pose
+  double take_tempo_bpm = 0.0;
+};
+BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz);
+
+Result<RhythmRun> evaluate_rhythm(const std::vector<CodecTake>& takes, const BeatGrid& music,
+                                  const NamedChain& chain, const RhythmEvalOptions& options);
+
+}  // namespace dance

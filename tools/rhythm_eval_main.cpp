@@ -1,0 +1,84 @@
+// dance rhythm eval: remote dancers on the listener's beat, on recorded dances.
+#include <cstdio>
+
+#include "core/program/command_line.h"
+#include "core/program/program.h"
+#include "producers/music/beats_file.h"
+#include "tools/rhythm_eval.h"
+#include "tools/rhythm_eval_report.h"
+#include "transformers/chain.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance rhythm eval salsa.bvh --beats song.beats --delay 150ms
+  dance rhythm eval *.bvh.xz --beats song.beats --delay 180ms --jitter 20ms --loss 2 --stall 400ms --tempo-offset 1 --beta 1
+  dance rhythm eval *.bvh.xz --beats song.beats --beta auto --json
+  dance rhythm eval salsa.bvh --beats song.beats --untagged --each
+)";
+
+struct Wishes {
+  std::vector<std::string> files;
+  RhythmEvalOptions eval;
+  std::string beats, delay = "150ms", jitter = "0ms", stall = "0ms", beta = "auto", through;
+  double strength = 1.0;
+  bool json = false, each = false;
+};
+
+Result<void> run(Wishes wishes) {
+  DANCE_TRY(wishes.eval.delay, parse_duration(wishes.delay));
+  DANCE_TRY(wishes.eval.jitter, parse_duration(wishes.jitter));
+  DANCE_TRY(wishes.eval.stall, parse_duration(wishes.stall));
+  DANCE_TRY(const BeatGrid music, read_beats_file(wishes.beats));
+  std::vector<CodecTake> takes;
+  for (const std::string& file : wishes.files) {
+    DANCE_TRY(CodecTake take, load_codec_take(file, 60.0));
+    takes.push_back(std::move(take));
+  }
+  const std::string rhythm =
+      "rhythm beats=" + wishes.beta + " strength=" + std::to_string(wishes.strength);
+  const std::vector<NamedChain> chains{
+      {"raw", {}},
+      {"hold", {"hold"}},
+      {rhythm, {rhythm}},
+  };
+  std::vector<RhythmRun> runs;
+  for (const NamedChain& chain : chains) {
+    DANCE_TRY(RhythmRun run, evaluate_rhythm(takes, music, chain, wishes.eval));
+    runs.push_back(std::move(run));
+  }
+  const std::string text =
+      wishes.json ? rhythm_eval_json(takes, runs) : rhythm_eval_table(takes, runs, wishes.each);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::Wishes wishes;
+  dance::CommandLine line("Remote dancers on the listener's beat, on recorded dances.",
+                          "dance rhythm eval");
+  line.add("FILE", wishes.files, "BVH files, also packed with xz").required();
+  line.add("--beats", wishes.beats, "the song that is danced to: a .beats file").required();
+  line.add("--delay", wishes.delay, "of the line, one way").shows_default();
+  line.add("--jitter", wishes.jitter, "mean of what comes on top").shows_default();
+  line.add("--loss", wishes.eval.loss_percent, "percent of poses that are lost").range(0.0, 90.0);
+  line.add("--stall", wishes.stall, "once, in the middle, nothing comes for so long")
+      .shows_default();
+  line.add("--tempo-offset", wishes.eval.tempo_offset_percent,
+           "percent by which the listener's music is faster")
+      .range(-20.0, 20.0);
+  line.add("--beta", wishes.beta, "beats of delay that the room wishes, or auto").shows_default();
+  line.add("--strength", wishes.strength, "0 untouched to 1 on the beat")
+      .range(0.0, 1.0)
+      .shows_default();
+  line.add("--seed", wishes.eval.seed, "of the line").shows_default();
+  line.add_flag("--untagged", wishes.eval.untagged, "poses come without musical time");
+  line.add_flag("--each", wishes.each, "a line for each take, too");
+  line.add_flag("--json", wishes.json, "one JSON object on stdout");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });
+}

@@ -1,0 +1,87 @@
+// BeatOffset: by how many beats the stage plays behind the dancer: the whole number (or multiple of `count`) that keeps the
+// dance on the listener's beat with the delay that is wished, or the least that prediction can bridge. It changes
+// seldom: each change is a jump in the dance.
+//
+// Units/frames: beats of the listener's music. `difference` is where the listener's music stands minus where the dancer's
+//               stands at the same moment; offset - difference is the delay of what is shown.
+// Ownership:    plain value, no heap.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+class BeatOffset {
+ public:
+  struct Wish {
+    double beats = -1.0;       // the delay that the room wishes; negative: the least that can be
+    double least_beats = 0.0;  // of delay: what is newer has not come and cannot be guessed well
+    double spare_beats = 0.3;  // lowered only where this much is left over
+    double count = 1.0;        // offsets are multiples of it
+  };
+
+  bool is_set() const { return is_set_; }
+  double value() const { return value_; }
+  void reset() { is_set_ = false; }
+
+  // Returns true where the offset has changed.
+  bool update(const Wish& wish, double difference, MonoTime now) {
+    const double best = best_of(wish, difference);
+    if (!is_set_) {
+      is_set_ = true;
+      value_ = best;
+      since_ = now;
+      wrong_ = Wrong::kNo;
+      return true;
+    }
+    const Wrong wrong = best == value_ ? Wrong::kNo : wrong_of(wish, difference);
+    if (wrong != wrong_) since_ = now;
+    wrong_ = wrong;
+    const Duration patience = wrong == Wrong::kTooLow ? kRaiseAfter : kLowerAfter;
+    if (wrong == Wrong::kNo || now - since_ < patience) return false;
+    value_ = best;
+    wrong_ = Wrong::kNo;
+    return true;
+  }
+
+ private:
+  enum class Wrong { kNo, kTooLow, kTooHigh };
+  static constexpr Duration kRaiseAfter = Duration::ms(150);
+  static constexpr Duration kLowerAfter = Duration::s(4);
+  // A wished delay is kept as long as what is shown is no further from it than this many counts: half of one would
+  // flutter, and each change is a jump in the dance.
+  static constexpr double kFlutter_counts = 1.0;
+  static constexpr double kRaiseSlack_beats = 0.1;
+
+  static double best_of(const Wish& wish, double difference) {
+    const double least =
+        wish.count * std::ceil((difference + wish.least_beats) / wish.count - 1e-9);
+    if (wish.beats < 0.0) return least;
+    return std::max(least, wish.count * std::round((difference + wish.beats) / wish.count));
+  }
+
+  Wrong wrong_of(const Wish& wish, double difference) const {
+    const double delay = value_ - difference;
+    if (delay < wish.least_beats - kRaiseSlack_beats) return Wrong::kTooLow;
+    if (wish.beats < 0.0)
+      return delay - wish.count > wish.least_beats + wish.spare_beats ? Wrong::kTooHigh
+                                                                      : Wrong::kNo;
+    const double most = kFlutter_counts * wish.count;
+    if (delay < wish.beats - most) return Wrong::kTooLow;
+    // Above the wish because the line needs it is not too high.
+    const bool is_needed = delay - wish.count < wish.least_beats + wish.spare_beats;
+    return delay > wish.beats + most && !is_needed ? Wrong::kTooHigh : Wrong::kNo;
+  }
+
+  double value_ = 0.0;
+  bool is_set_ = false;
+  Wrong wrong_ = Wrong::kNo;
+  MonoTime since_;
+};
+
+}  // namespace dance
