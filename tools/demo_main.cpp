@@ -27,6 +27,9 @@ constexpr const char* kExamples = R"(Examples:
   dance demo --guests 30 --headless --json       a crowd, measured
 )";
 
+// Between continents, on Wi-Fi.
+constexpr const char* kFarLine = "delay=120ms jitter=15ms loss=1%";
+
 // The buses stay on this machine: over loopback where that carries multicast, else in a network of our own.
 Result<void> choose_network(bool here) {
   const std::string device = multicast_device("239.255.76.67");
@@ -54,6 +57,15 @@ Result<void> run_demo(DemoOptions options, bool here) {
     talk::info("there is no display: writing pictures to {} instead (--headless)", options.out);
     options.headless = true;
   }
+  if (options.compare) {
+    if (options.guests != 2) return fail("--compare is for two dancers: leave out --guests");
+    if (options.line.is_perfect_line()) {
+      options.line.link = kFarLine;
+      talk::info("the houses are far apart: --link \"{}\"", kFarLine);
+    }
+  }
+  if (options.film && !(options.compare && options.headless))
+    return fail("--film is of a comparison in files: add --compare --headless");
   options.view = std::filesystem::exists(program_folder() + "/dance-view");
   if (!options.view) {
     talk::info("built without the viewer: numbers and a log, no pictures");
@@ -99,6 +111,8 @@ int main(int argc, char** argv) {
   line.add("--hz", options.hz, "poses a second").range(1.0, 240.0).shows_default();
   line.add_flag("--compare", options.compare,
                 "two halves: as poses come, and as the stage shows them; measures both");
+  line.add_flag("--film", options.film,
+                "with --compare --headless: a film of it too, picture by picture");
   line.add("--port", options.port, "UDP port of the server; 0 = one that is free").range(0, 65535);
   line.add_flag("--here", here,
                 "use this machine's network even where multicast does not run over loopback");

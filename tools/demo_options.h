@@ -27,6 +27,7 @@ struct DemoOptions {
   double tempo_bpm = 180.0;
   int seed = 1;
   double hz = 60.0;
+  bool film = false;     // of the comparison
   bool compare = false;  // remote dancers on the stage as their poses come too, and both measured
   std::vector<std::string> through = {"hold"};  // of remote dancers
   int port = 0;                                 // of the server; 0 = one that is free

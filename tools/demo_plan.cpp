@@ -47,13 +47,13 @@ std::string text_of(const Place& place) {
 }
 
 // Where a take's dancer stands and looks in its first second, on the floor plane.
-struct Stance {
+struct TakeStance {
   Eigen::Vector2d p_m = Eigen::Vector2d::Zero();  // x, z
   double heading_rad = 0.0;                       // 0 = facing +Z, positive to the left
 };
 
-Stance stance_of(const MotionClip& clip) {
-  Stance stance;
+TakeStance take_stance(const MotionClip& clip) {
+  TakeStance stance;
   Eigen::Vector2d facing = Eigen::Vector2d::Zero();
   const std::size_t count = std::min(clip.frames.size(), static_cast<std::size_t>(clip.frame_hz));
   for (std::size_t i = 0; i < count; ++i) {
@@ -85,7 +85,7 @@ bool are_a_couple(const MotionClip& a, const MotionClip& b) {
 
 // dance-replay's --place turns about the file's origin and then shifts. This one brings a dancer who stands at `stance`
 // to `target`, looking along heading_rad.
-Place place_at(const Stance& stance, const Eigen::Vector2d& target, double heading_rad) {
+Place place_at(const TakeStance& stance, const Eigen::Vector2d& target, double heading_rad) {
   const double turn = heading_rad - stance.heading_rad;
   // A turn about +Y by θ takes (x, z) to (x cos θ + z sin θ, z cos θ − x sin θ).
   const Eigen::Vector2d turned(stance.p_m.x() * std::cos(turn) + stance.p_m.y() * std::sin(turn),
@@ -103,7 +103,8 @@ std::array<Place, 2> places_of(const MotionClip& a, const MotionClip& b, const P
   }
   constexpr double kHalfDistance_m = 0.6;
   const Eigen::Vector2d half(0.0, kHalfDistance_m);
-  return {place_at(stance_of(a), target - half, 0.0), place_at(stance_of(b), target + half, M_PI)};
+  return {place_at(take_stance(a), target - half, 0.0),
+          place_at(take_stance(b), target + half, M_PI)};
 }
 
 Result<void> deal_out_motion(const DemoOptions& options, DemoPlan& plan) {

@@ -61,6 +61,9 @@ Result<std::unique_ptr<DemoRun>> DemoRun::prepare(const DemoOptions& options, De
   DANCE_TRY(run->bus_a_, Bus::open(run->plan_.bus_url[0]));
   DANCE_TRY(run->bus_b_, Bus::open(run->plan_.bus_url[1]));
   run->monitor_ = std::make_unique<DemoMonitor>(*run->bus_a_, *run->bus_b_);
+  if (options.compare)
+    run->trace_ = std::make_unique<DemoTrace>(
+        *run->bus_a_, *run->bus_b_, run->plan_.dancers[0].guest, run->plan_.dancers[1].guest);
   for (Bus* bus : {run->bus_a_.get(), run->bus_b_.get()})
     run->poller_->watch(bus->fd(), [bus](MonoTime now) { bus->drain(now); });
   return run;
@@ -198,6 +201,7 @@ void DemoRun::stop_in_order() {
   // Dancers first, so that every pose that was sent has its chance to arrive; then the rest.
   ending_ = true;
   monitor_->stop_timing();
+  if (trace_) trace_->stop();
   for (Role* role : dancers_)
     if (role->process) role->process->ask_to_stop();
   const MonoTime arrived = mono_now() + kStillUnderWay;
@@ -224,11 +228,25 @@ DemoResult DemoRun::result(MonoTime origin) const {
   return result;
 }
 
+Result<void> DemoRun::add_comparison(DemoResult& result) const {
+  if (!trace_) return {};
+  result.rhythm = measure_rhythm(*trace_);
+  if (!result.rhythm) {
+    talk::info("too little was danced to compare; --seconds 10 is enough");
+    return {};
+  }
+  if (!options_.headless) return {};
+  DANCE_TRY(result.comparison, draw_comparison(options_, plan_, *trace_, *result.rhythm));
+  return {};
+}
+
 Result<DemoResult> DemoRun::run() {
   if (auto started = start_houses(); !started) return tl::make_unexpected(started.error());
   if (auto met = wait_until_connected(); !met) return tl::make_unexpected(met.error());
   poller_->add_timer(mono_now(), [this](MonoTime now) { return watch_over(now); });
   const MonoTime origin = mono_now() + Duration::ms(300);
+  beats_ = std::make_unique<DemoBeats>(*bus_a_, *bus_b_, origin, options_.tempo_bpm);
+  poller_->add_timer(mono_now(), [this](MonoTime now) { return beats_->say(now); });
   if (auto started = start_viewer(); !started) return tl::make_unexpected(started.error());
   if (auto started = start_dancers(origin); !started) return tl::make_unexpected(started.error());
   talk::info("{} dancers in two houses; Ctrl-C ends it", plan_.dancers.size());
@@ -237,7 +255,10 @@ Result<DemoResult> DemoRun::run() {
   turn_until(end_);
   end_ = std::min(end_, mono_now());
   stop_in_order();
-  return result(origin);
+  DemoResult ended = result(origin);
+  if (auto compared = add_comparison(ended); !compared)
+    return tl::make_unexpected(compared.error());
+  return ended;
 }
 
 }  // namespace dance

@@ -58,9 +58,16 @@ Result<void> LogFeed::look_through() {
   bool was_known = false;
   while (const auto event = log_.next()) {
     const auto channel = Channel::parse(event->channel);
-    if (!channel || !is_pose(*channel, Where::kCapture)) continue;
+    if (!channel) continue;
     Pose pose;
-    if (decode(event->data.data(), event->data.size(), pose) == Decoded::kFine) music.see(pose);
+    Beat beat;
+    if (is_pose(*channel, Where::kCapture)) {
+      if (decode(event->data.data(), event->data.size(), pose) == Decoded::kFine) music.see(pose);
+    } else if (channel->signal() == Signal::kBeat) {
+      if (decode(event->data.data(), event->data.size(), beat) == Decoded::kFine) music.hear(beat);
+    } else {
+      continue;
+    }
     const MonoTime now = time_of(*event);
     if (!music.clock().is_known(now)) continue;
     const double beats = music.clock().position(now);
@@ -103,6 +110,10 @@ void LogFeed::take(const LogEvent& event, MonoTime now) {
     return decode(event.data.data(), event.data.size(), message) == Decoded::kFine;
   };
   const Where where = channel->where();
+  if (channel->signal() == Signal::kBeat) {
+    if (Beat beat; read(beat)) board_->on_beat(beat);
+    return;
+  }
   if (where != Where::kCapture && where != Where::kStage) return;
   if (channel->signal() == Signal::kPose) {
     if (Pose pose; read(pose)) board_->on_pose(where, channel->guest(), pose, now);

@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <vector>
 
 #include "viewer/beat_panel.h"
 #include "viewer/gl_objects.h"
 #include "viewer/guest_look.h"
+#include "viewer/overlay_fonts.h"
 
 namespace dance {
 
@@ -23,10 +23,6 @@ namespace {
 constexpr float kTagFont_px = 17.0f;
 constexpr float kHudFont_px = 14.0f;
 constexpr float kPanelLines = 7.4f;  // of the smaller font
-constexpr std::array<const char*, 3> kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                            "/usr/share/fonts/TTF/DejaVuSans.ttf",
-                                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
-
 ImU32 colour_of(const Vector3f& linear, float alpha) {
   const Vector3f s = srgb_from_linear(linear);
   return ImGui::ColorConvertFloat4ToU32(ImVec4(s.x(), s.y(), s.z(), alpha));
@@ -65,14 +61,9 @@ Overlay::~Overlay() {
 void Overlay::make_fonts() {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  for (const char* file : kFonts) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) continue;
-    tag_font_ = atlas.AddFontFromFileTTF(file, std::round(kTagFont_px * scale_));
-    hud_font_ = atlas.AddFontFromFileTTF(file, std::round(kHudFont_px * scale_));
-    if (tag_font_ != nullptr && hud_font_ != nullptr) return;
-  }
-  tag_font_ = hud_font_ = atlas.AddFontDefault();
+  tag_font_ = add_overlay_font(atlas, kTagFont_px * scale_);
+  hud_font_ = add_overlay_font(atlas, kHudFont_px * scale_);
+  if (find_overlay_font() != nullptr) return;
   font_note_ =
       "no DejaVu font here, text is coarse; install it with: apt-get install fonts-dejavu-core";
 }
