@@ -86,6 +86,8 @@ dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
 
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
 dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
+pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
+dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 
 find_package(GTest QUIET)
 set(gtest_found FALSE)

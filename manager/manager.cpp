@@ -16,6 +16,7 @@ Manager::Manager(ManagerOptions options, Bus& bus, Poller& poller)
       bus_(bus),
       router_(options_.routes, this_clock_id(), *this),
       begin_(mono_now()) {
+  router_.on_learner([this](std::shared_ptr<Learner> learner) { study_.add(std::move(learner)); });
   listen(Where::kCapture);
   if (options_.hear_guests_on_bus) listen(Where::kGuest);
   bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime now) {

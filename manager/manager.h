@@ -4,7 +4,7 @@
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the bus and the poller, which must outlive it.
-// Threads:      none inside; runs in the poller's thread.
+// Threads:      runs in the poller's thread; one more learns the dancers (manager/study.h).
 // Failure:      what cannot be routed is counted in STATS/manager.
 #pragma once
 
@@ -16,6 +16,7 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "manager/router.h"
+#include "manager/study.h"
 
 namespace dance {
 
@@ -68,6 +69,7 @@ class Manager : private StageSink {
 
   ManagerOptions options_;
   Bus& bus_;
+  Study study_;
   Router router_;
   std::vector<Pacer> pacers_;  // one per route
   Histogram lateness_;

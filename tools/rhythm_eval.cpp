@@ -3,23 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/pose/interpolate.h"
 #include "tools/beat_phase.h"
 #include "tools/stream_line.h"
-#include "tools/take_grid.h"
 #include "transformers/chain.h"
 
 namespace dance {
 namespace {
 
-constexpr MonoTime kBegin = MonoTime::from_us(1'000'000'000);
 constexpr Duration kBeatEvery = Duration::ms(100);
 constexpr Duration kLearnEvery = Duration::s(1);
 // The last bar is left out: the lock-in needs half a bar on both sides.
 constexpr Duration kCoolDown = Duration::s(1);
 
-MonoTime at_second(double s) { return kBegin + Duration::seconds(s); }
-double second_of(MonoTime t) { return (t - kBegin).as_seconds(); }
+MonoTime at_second(double s) { return kRhythmEvalBegin + Duration::seconds(s); }
+double second_of(MonoTime t) { return (t - kRhythmEvalBegin).as_seconds(); }
 
 // What a house hears: the song, a little faster or slower.
 struct HeardMusic {
@@ -52,7 +49,7 @@ Shown play(const BeatDance& dance, const std::vector<StreamArrival>& arrivals, C
   Shown shown;
   const auto learners = chain.learners();
   chain.set_body(dance.skeleton);
-  MonoTime next_beat = kBegin, next_learn = kBegin + kLearnEvery;
+  MonoTime next_beat = kRhythmEvalBegin, next_learn = kRhythmEvalBegin + kLearnEvery;
   const Pose* newest = nullptr;
   std::size_t arrived = 0;
   for (std::size_t i = 0; i < dance.poses.size(); ++i) {
@@ -101,6 +98,15 @@ Rates rates_of(const std::vector<Pose>& shown, double hz, std::size_t from, std:
   return rates;
 }
 
+// To which beat the moment was danced; before the first and behind the last pose the pace goes on.
+double danced_beats(const BeatDance& dance, MonoTime moment, double hz) {
+  const double frame = second_of(moment) * hz;
+  const double last = static_cast<double>(dance.beats.size() - 2);
+  const double below = std::clamp(std::floor(frame), 0.0, last);
+  const auto i = static_cast<std::size_t>(below);
+  return dance.beats[i] + (frame - below) * (dance.beats[i + 1] - dance.beats[i]);
+}
+
 RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusic& listener,
                      const RhythmEvalOptions& options) {
   RhythmScore score;
@@ -122,8 +128,7 @@ RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusi
     const MonoTime moment = shown.poses[i].capture_time;
     const double heard = listener.beats_at(now);
     on_beats.beats.push_back(heard);
-    const HeardMusic sender{listener.grid, 1.0};
-    offsets.push_back(std::round(heard - sender.beats_at(moment)));
+    offsets.push_back(std::round(heard - danced_beats(dance, moment, options.hz)));
     if (i >= from && i < to)
       delay_s += (now - moment).as_seconds() / static_cast<double>(to - from);
   }
@@ -184,48 +189,12 @@ RhythmScore mean_of(const std::vector<RhythmScore>& scores) {
 
 }  // namespace
 
-BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz) {
-  BeatDance dance;
-  dance.skeleton = take.skeleton;
-  const JointTrack track(take.skeleton, take.poses, take.hz);
-  TakeGrid grid = find_take_grid(track);
-  dance.take_tempo_bpm = grid.tempo_bpm;
-  // Whoever hears music of half or double the tempo dances every second beat, or each twice.
-  const double ratio = music.tempo_bpm(music.first_beat() + 4.0) / grid.tempo_bpm;
-  grid.tempo_bpm *= std::exp2(std::round(std::log2(ratio)));
-  const double shift = std::ceil(music.beat_at(0.0) - grid.beats_at(0.0));
-  const double last_s = static_cast<double>(take.poses.size() - 1) / take.hz;
-  for (std::uint32_t i = 0;; ++i) {
-    const double t_s = i / hz;
-    const double beats = music.beat_at(t_s);
-    const double take_s = grid.time_of(beats - shift);
-    if (take_s < 0.0) {
-      // The take begins a little after the music: its first pose waits.
-      dance.poses.push_back(take.poses.front());
-    } else {
-      if (take_s >= last_s) break;
-      const double frame = take_s * take.hz;
-      const auto whole = static_cast<std::size_t>(frame);
-      dance.poses.push_back(interpolate(take.poses[whole], take.poses[whole + 1],
-                                        static_cast<float>(frame - std::floor(frame))));
-    }
-    Pose& pose = dance.poses.back();
-    pose.sequence = i;
-    pose.clock_id = 1;
-    pose.capture_time = at_second(t_s);
-    pose.music_beats = beats;
-    dance.beats.push_back(beats);
-  }
-  return dance;
-}
-
-Result<RhythmRun> evaluate_rhythm(const std::vector<CodecTake>& takes, const BeatGrid& music,
+Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const BeatGrid& music,
                                   const NamedChain& chain, const RhythmEvalOptions& options) {
   RhythmRun run;
   run.name = chain.name;
   const HeardMusic listener{music, 1.0 + options.tempo_offset_percent / 100.0};
-  for (const CodecTake& take : takes) {
-    BeatDance dance = lay_onto_beats(take, music, options.hz);
+  for (const BeatDance& dance : dances) {
     StreamLine line;
     line.delay = options.delay;
     line.jitter = options.jitter;
@@ -239,12 +208,12 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<CodecTake>& takes, const Bea
       for (Pose& pose : sent.poses) pose.music_beats = kNoMusic;
     DANCE_TRY(Chain made, Chain::make(chain.stations));
     const Shown shown = play(sent, arrivals, made, listener);
-    run.takes.push_back(score_of(dance, shown, listener, options));
-    const RhythmScore& score = run.takes.back();
+    run.dances.push_back(score_of(dance, shown, listener, options));
+    const RhythmScore& score = run.dances.back();
     run.phase_mean_ms_worst = std::max(run.phase_mean_ms_worst, std::abs(score.phase_mean_ms));
     run.phase_sd_ms_worst = std::max(run.phase_sd_ms_worst, score.phase_sd_ms);
   }
-  run.mean = mean_of(run.takes);
+  run.mean = mean_of(run.dances);
   return run;
 }
 

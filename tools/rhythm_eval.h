@@ -13,10 +13,14 @@
 
 #include "core/base/result.h"
 #include "producers/music/beat_grid.h"
+#include "producers/salsa_style.h"
 #include "tools/codec_takes.h"
 #include "tools/motion_measures.h"
 
 namespace dance {
+
+// When the song and the dance begin.
+constexpr MonoTime kRhythmEvalBegin = MonoTime::from_us(1'000'000'000);
 
 struct RhythmEvalOptions {
   double hz = 60.0;
@@ -42,7 +46,7 @@ struct RhythmScore {
 
 struct RhythmRun {
   std::string name;  // of the chain
-  std::vector<RhythmScore> takes;
+  std::vector<RhythmScore> dances;
   RhythmScore mean;
   double phase_mean_ms_worst = 0.0, phase_sd_ms_worst = 0.0;
 };
@@ -52,16 +56,20 @@ struct NamedChain {
   std::vector<std::string> stations;  // none: poses as they come
 };
 
-// A take laid onto the beats of the song.
+// A dance to the song, from its first second on.
 struct BeatDance {
+  std::string name;
   Skeleton skeleton;
-  std::vector<Pose> poses;    // tagged, from 0 s on
-  std::vector<double> beats;  // of each pose
-  double take_tempo_bpm = 0.0;
+  std::vector<Pose> poses;    // tagged with the beats of the music that the dancer hears
+  std::vector<double> beats;  // that each pose was danced to: the music's, or the dancer's own
 };
+// A take, stretched so that its own beats fall on those of the song.
 BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz);
+// A synthetic salsa dancer, for as long as told; at a tempo of 0 to the song, else at a pace of its own.
+BeatDance salsa_to_music(SalsaRole role, std::uint64_t seed, double tempo_bpm, Duration length,
+                         const BeatGrid& music, double hz);
 
-Result<RhythmRun> evaluate_rhythm(const std::vector<CodecTake>& takes, const BeatGrid& music,
+Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const BeatGrid& music,
                                   const NamedChain& chain, const RhythmEvalOptions& options);
 
 }  // namespace dance

@@ -15,14 +15,17 @@ constexpr const char* kExamples = R"(Examples:
   dance rhythm eval salsa.bvh --beats song.beats --delay 150ms
   dance rhythm eval *.bvh.xz --beats song.beats --delay 180ms --jitter 20ms --loss 2 --stall 400ms --tempo-offset 1 --beta 1
   dance rhythm eval *.bvh.xz --beats song.beats --beta auto --json
-  dance rhythm eval salsa.bvh --beats song.beats --untagged --each
+  dance rhythm eval --salsa 4 --beats song.beats --untagged --each
 )";
+
+constexpr Duration kSalsaLength = Duration::s(60);
 
 struct Wishes {
   std::vector<std::string> files;
   RhythmEvalOptions eval;
   std::string beats, delay = "150ms", jitter = "0ms", stall = "0ms", beta = "auto", through;
-  double strength = 1.0;
+  double strength = 1.0, salsa_bpm = 0.0;
+  std::uint32_t salsa = 0;
   bool json = false, each = false;
 };
 
@@ -31,11 +34,15 @@ Result<void> run(Wishes wishes) {
   DANCE_TRY(wishes.eval.jitter, parse_duration(wishes.jitter));
   DANCE_TRY(wishes.eval.stall, parse_duration(wishes.stall));
   DANCE_TRY(const BeatGrid music, read_beats_file(wishes.beats));
-  std::vector<CodecTake> takes;
+  std::vector<BeatDance> dances;
   for (const std::string& file : wishes.files) {
-    DANCE_TRY(CodecTake take, load_codec_take(file, 60.0));
-    takes.push_back(std::move(take));
+    DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.eval.hz));
+    dances.push_back(lay_onto_beats(take, music, wishes.eval.hz));
   }
+  for (std::uint32_t i = 0; i < wishes.salsa; ++i)
+    dances.push_back(salsa_to_music(i % 2 == 0 ? SalsaRole::kLead : SalsaRole::kFollow, 1 + i / 2,
+                                    wishes.salsa_bpm, kSalsaLength, music, wishes.eval.hz));
+  if (dances.empty()) return fail("nobody dances: name BVH files, or --salsa 2");
   const std::string rhythm =
       "rhythm beats=" + wishes.beta + " strength=" + std::to_string(wishes.strength);
   const std::vector<NamedChain> chains{
@@ -45,11 +52,11 @@ Result<void> run(Wishes wishes) {
   };
   std::vector<RhythmRun> runs;
   for (const NamedChain& chain : chains) {
-    DANCE_TRY(RhythmRun run, evaluate_rhythm(takes, music, chain, wishes.eval));
+    DANCE_TRY(RhythmRun run, evaluate_rhythm(dances, music, chain, wishes.eval));
     runs.push_back(std::move(run));
   }
   const std::string text =
-      wishes.json ? rhythm_eval_json(takes, runs) : rhythm_eval_table(takes, runs, wishes.each);
+      wishes.json ? rhythm_eval_json(dances, runs) : rhythm_eval_table(dances, runs, wishes.each);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return {};
 }
@@ -61,7 +68,11 @@ int main(int argc, char** argv) {
   dance::Wishes wishes;
   dance::CommandLine line("Remote dancers on the listener's beat, on recorded dances.",
                           "dance rhythm eval");
-  line.add("FILE", wishes.files, "BVH files, also packed with xz").required();
+  line.add("FILE", wishes.files, "BVH files, also packed with xz");
+  line.add("--salsa", wishes.salsa, "so many synthetic dancers as well").range(0.0, 64.0);
+  line.add("--salsa-tempo", wishes.salsa_bpm,
+           "at which they dance, whatever the music; 0: to the music")
+      .range(0.0, 240.0);
   line.add("--beats", wishes.beats, "the song that is danced to: a .beats file").required();
   line.add("--delay", wishes.delay, "of the line, one way").shows_default();
   line.add("--jitter", wishes.jitter, "mean of what comes on top").shows_default();

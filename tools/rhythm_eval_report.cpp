@@ -36,16 +36,16 @@ Json score_json(const RhythmScore& s) {
 
 }  // namespace
 
-std::string rhythm_eval_table(const std::vector<CodecTake>& takes,
-                              const std::vector<RhythmRun>& runs, bool each_take) {
+std::string rhythm_eval_table(const std::vector<BeatDance>& dances,
+                              const std::vector<RhythmRun>& runs, bool each) {
   std::string text =
       fmt::format("{:<34} {:>8} {:>7} {:>7} {:>8} {:>7} {:>6} {:>6} {:>14} {:>5}\n", "", "off beat",
                   "sd ms", "told", "delay ms", "mm", "jerk", "feet", "play rate", "jumps");
   for (const RhythmRun& run : runs) {
     text += score_line(run.name, run.mean);
-    if (!each_take) continue;
-    for (std::size_t i = 0; i < takes.size(); ++i)
-      text += score_line("  " + takes[i].name, run.takes[i]);
+    if (!each) continue;
+    for (std::size_t i = 0; i < dances.size(); ++i)
+      text += score_line("  " + dances[i].name, run.dances[i]);
   }
   text +=
       "off beat: the wave of the four-count against the beat that the listener hears, ms, late is "
@@ -55,7 +55,7 @@ std::string rhythm_eval_table(const std::vector<CodecTake>& takes,
   return text;
 }
 
-std::string rhythm_eval_json(const std::vector<CodecTake>& takes,
+std::string rhythm_eval_json(const std::vector<BeatDance>& dances,
                              const std::vector<RhythmRun>& runs) {
   const RhythmRun& ours = runs.back();
   const RhythmRun* hold = nullptr;
@@ -71,10 +71,10 @@ std::string rhythm_eval_json(const std::vector<CodecTake>& takes,
   json["phase_sd_ms_worst"] = rounded(ours.phase_sd_ms_worst, 100.0);
   for (const RhythmRun& run : runs)
     if (&run != &ours) json["baseline_" + run.name] = score_json(run.mean);
-  for (std::size_t i = 0; i < takes.size(); ++i) {
-    Json take = {{"name", takes[i].name}};
-    take.update(score_json(ours.takes[i]));
-    json["takes"].push_back(std::move(take));
+  for (std::size_t i = 0; i < dances.size(); ++i) {
+    Json dance = {{"name", dances[i].name}};
+    dance.update(score_json(ours.dances[i]));
+    json["dances"].push_back(std::move(dance));
   }
   return json.dump(2) + "\n";
 }

@@ -13,9 +13,9 @@
 namespace dance {
 
 // The first runs are the baselines; the last is ours.
-std::string rhythm_eval_table(const std::vector<CodecTake>& takes,
-                              const std::vector<RhythmRun>& runs, bool each_take);
-std::string rhythm_eval_json(const std::vector<CodecTake>& takes,
+std::string rhythm_eval_table(const std::vector<BeatDance>& dances,
+                              const std::vector<RhythmRun>& runs, bool each);
+std::string rhythm_eval_json(const std::vector<BeatDance>& dances,
                              const std::vector<RhythmRun>& runs);
 
 }  // namespace dance

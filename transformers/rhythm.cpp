@@ -151,8 +151,9 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   double pace = 1.0;
   const MonoTime wanted = wanted_moment(now, pace);
   Pose is;
-  // What came since the last picture has changed what that picture should have been.
-  if (has_shown_ && has_news_ && pose_at(shown_moment_, now, is)) finish_.correct(now, shown_, is);
+  // What came since the last picture has changed what that picture should have been, where it was a guess.
+  if (has_shown_ && shown_is_guess_ && has_news_ && pose_at(shown_moment_, now, is))
+    finish_.correct(now, shown_, is);
   has_news_ = false;
   MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
@@ -167,6 +168,7 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   const bool is_guess = moment > history_.newest().capture_time;
   if (is_guess && !input_) ++counters_.starved;
   shown_ = out;
+  shown_is_guess_ = is_guess;
   shown_moment_ = moment;
   has_shown_ = true;
   finish_.apply(now, out, is_guess);

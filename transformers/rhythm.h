@@ -16,8 +16,8 @@
 #include "core/pose/history.h"
 #include "transformers/beat_offset.h"
 #include "transformers/dance_line.h"
-#include "transformers/guess_meter.h"
 #include "transformers/finish.h"
+#include "transformers/guess_meter.h"
 #include "transformers/own_beat.h"
 #include "transformers/play_head.h"
 #include "transformers/play_out.h"
@@ -71,7 +71,7 @@ class Rhythm : public Transformer {
   Pose shown_;  // before the finish
   MonoTime shown_moment_;
   std::uint32_t observed_ = 0, untagged_ = 0;
-  bool has_shown_ = false, has_news_ = false, in_time_ = false;
+  bool has_shown_ = false, shown_is_guess_ = false, has_news_ = false, in_time_ = false;
 };
 
 }  // namespace dance

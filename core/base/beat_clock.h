@@ -35,9 +35,9 @@ class BeatClock {
   double position(MonoTime t) const { return beat_.beats_at(t) + correction_at(t); }
   // When the music stands, or stood, at `beats`.
   MonoTime time_of(double beats) const {
-    // The correction is slow: two rounds leave less than a microsecond.
+    // The correction changes more slowly than the music goes on: each round leaves less than it.
     MonoTime t = line_time_of(beats);
-    for (int i = 0; i < 4; ++i) t = line_time_of(beats - correction_at(t));
+    for (int i = 0; i < 16; ++i) t = line_time_of(beats - correction_at(t));
     return t;
   }
   double beats_per_second() const { return beat_.tempo_bpm / 60.0; }

@@ -1,0 +1,46 @@
+// MusicPlayer: plays a song, or keeps its time, so that its second 0 is or was heard at a given moment.
+//
+// Units/frames: song seconds as in producers/music/song.h; times of this house's clock.
+// Ownership:    of each implementation.
+// Threads:      none inside; runs in the program's loop.
+// Failure:      work() says what has ended the playing for good.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/time.h"
+
+namespace dance {
+
+class MusicPlayer {
+ public:
+  virtual ~MusicPlayer() = default;
+  // Another moment, a little or far from the last, may be given at any time.
+  virtual void play_from(MonoTime begin) = 0;
+  virtual void pause() = 0;
+  // What is heard of the song at t; nothing while that is not known.
+  virtual std::optional<double> heard_s(MonoTime t) const = 0;
+  // To be called a hundred times a second.
+  virtual Result<void> work(MonoTime now) = 0;
+  // How it went, in words, for the end.
+  virtual std::string summary() const = 0;
+};
+
+// Keeps the time only: for machines without sound.
+class SilentPlayer : public MusicPlayer {
+ public:
+  void play_from(MonoTime begin) override { begin_ = begin; }
+  void pause() override { begin_.reset(); }
+  std::optional<double> heard_s(MonoTime t) const override {
+    return begin_ ? std::optional((t - *begin_).as_seconds()) : std::nullopt;
+  }
+  Result<void> work(MonoTime) override { return {}; }
+  std::string summary() const override { return "kept the time without sound"; }
+
+ private:
+  std::optional<MonoTime> begin_;
+};
+
+}  // namespace dance

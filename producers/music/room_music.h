@@ -1,0 +1,43 @@
+// What a song that is played here is to the room, as a music_t, and what the room's music_t means for a song here: both
+// houses that have the same song hear the same of it at the same time.
+//
+// Units/frames: `begin` is when song second 0 was or will be heard; all times in this house's clock.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <string>
+
+#include "core/base/beat.h"
+#include "core/bus/state_messages.h"
+#include "producers/music/song.h"
+
+namespace dance {
+
+// The song's name for the room: the file's, without folders and ending, cut where a title ends.
+MusicTitle music_title(const std::string& path);
+
+// The line of one tempo that tells where a song stands, told anew only where the song leaves it: who hears it every second
+// then hears the same, and music that sways is right in every bar.
+class RoomMusic {
+ public:
+  RoomMusic(const MusicTitle& title, std::uint64_t clock_id) : title_(title), clock_id_(clock_id) {}
+
+  const Music& tell(const Song& song, MonoTime begin, MonoTime now);
+  const Music& tell_stopped(double beats, MonoTime now);
+  const Music& last() const { return music_; }
+
+ private:
+  MusicTitle title_;
+  std::uint64_t clock_id_;
+  Music music_;
+};
+
+// When song second 0 was heard, by what the room says. The music plays.
+MonoTime begin_of_room_music(const Music& music, const Song& song);
+
+// The beat of a room whose song is not here.
+Beat beat_of_room_music(const Music& music, MonoTime now);
+
+}  // namespace dance

@@ -1,0 +1,47 @@
+// Song: a piece of music that is played, over and over if wanted: which beat stands at which of its seconds.
+//
+// Units/frames: song seconds count on from round to round; beats too, by as many whole bars as a round holds, so that the
+//               first beat of each round is the first of a bar.
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      none; beyond the ends it is as producers/music/beat_grid.h says.
+#pragma once
+
+#include <optional>
+
+#include "producers/music/beat_grid.h"
+
+namespace dance {
+
+class Song {
+ public:
+  Song(BeatGrid grid, double length_s, bool loops);
+
+  double length_s() const { return length_s_; }
+  bool loops() const { return loops_; }
+  bool is_over(double song_s) const { return !loops_ && song_s >= length_s_; }
+  int beats_per_bar() const { return grid_.beats_per_bar(); }
+  const BeatGrid& grid() const { return grid_; }
+
+  double beat_at(double song_s) const;
+  double time_of(double beat) const;  // song seconds
+  double tempo_bpm(double song_s) const;
+
+  struct NextBeat {
+    double beat = 0.0;  // whole
+    double song_s = 0.0;
+    double tempo_bpm = 0.0;
+  };
+  // The first one after that second.
+  NextBeat next_beat(double song_s) const;
+
+ private:
+  double round_of(double song_s) const;
+
+  BeatGrid grid_;
+  double length_s_;
+  bool loops_;
+  double round_beats_;
+};
+
+}  // namespace dance

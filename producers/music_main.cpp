@@ -1,0 +1,164 @@
+// dance music: plays a file of music, says the beat that is heard in this house, and plays in step with the room.
+
+#include <sys/stat.h>
+
+#include <charconv>
+#include <cstdio>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "producers/music/beats_file.h"
+#include "producers/music/music_house.h"
+#include "producers/music/pulse_player.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance music song.ogg                       plays it, with the beats of song.beats beside it
+  dance music song.ogg --beats list.beats    with others
+  dance music song.ogg --guest alice         for the room: whoever follows hears the same of it
+  dance music song.ogg --guest bob --follow  joins the room's song where it stands; begins it where
+                                             the room has no music
+  dance music --follow                       keeps the room's time, without the song
+  dance music song.ogg --silent              keeps the time only, on a machine without sound
+  dance music song.ogg --trim 120ms          through a loudspeaker that is late by so much
+A .beats file is text: seconds, TAB, position in the bar.
+)";
+
+struct ProgramOptions {
+  std::string file;
+  std::string beats;
+  std::string bus;
+  std::string guest;
+  std::string start;
+  std::string trim = "0ms";
+  bool follow = false;
+  bool silent = false;
+  bool loop = false;
+  double volume = 1.0;
+  double seconds = 0.0;
+};
+
+// "20ms", "-5ms", "1.5s", "800us".
+std::optional<Duration> duration_of(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  const double scale = unit == "s" ? 1.0 : unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : 0.0;
+  if (scale == 0.0 || !(value * scale > -1e9 && value * scale < 1e9)) return std::nullopt;
+  return Duration::seconds(value * scale);
+}
+
+Result<MonoTime> start_of(const ProgramOptions& options, MonoTime now) {
+  // Time for the sound to get ready, and for the room to hear of it.
+  if (options.start.empty())
+    return now + (options.guest.empty() ? Duration::ms(500) : Duration::s(2));
+  if (options.start[0] == '+') {
+    if (const auto later = duration_of(std::string_view(options.start).substr(1)))
+      return now + *later;
+  } else {
+    std::int64_t us = 0;
+    const char* end = options.start.data() + options.start.size();
+    const auto read = std::from_chars(options.start.data(), end, us);
+    if (read.ec == std::errc() && read.ptr == end && us > 0) return MonoTime::from_us(us);
+  }
+  return fail("--start '" + options.start +
+              "': give microseconds of this machine's monotonic clock, as --start-us of other "
+              "producers, or a time from now like +2s");
+}
+
+bool is_there(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0;
+}
+
+struct Loaded {
+  std::optional<Song> song;
+  std::optional<AudioFile> audio;
+  float confidence = 1.0f;
+};
+
+Result<Loaded> load(const ProgramOptions& options) {
+  Loaded loaded;
+  if (options.file.empty()) return loaded;
+  DANCE_TRY(loaded.audio, AudioFile::open(options.file));
+  const bool is_given = !options.beats.empty();
+  const std::string beats = is_given ? options.beats : beats_path_beside(options.file);
+  if (!is_given && !is_there(beats))
+    return fail(options.file + ": no beats known: put a list of them beside it as " + beats +
+                ", or name one with --beats");
+  DANCE_TRY(BeatGrid grid, read_beats_file(beats));
+  if (grid.time_of(grid.first_beat()) > loaded.audio->length_s())
+    return fail(beats + ": its first beat is behind the end of " + options.file);
+  loaded.song.emplace(std::move(grid), loaded.audio->length_s(), options.loop);
+  return loaded;
+}
+
+Result<std::unique_ptr<MusicPlayer>> player_of(const ProgramOptions& options, Loaded& loaded) {
+  if (options.silent || !loaded.audio) return std::make_unique<SilentPlayer>();
+  const auto trim = duration_of(options.trim);
+  if (!trim || *trim > Duration::s(5) || *trim < -Duration::s(5))
+    return fail("--trim '" + options.trim + "': give a time like 20ms");
+  auto player = PulsePlayer::open(std::move(*loaded.audio), {options.loop, options.volume, *trim});
+  if (player) return std::move(*player);
+  talk::warn("{}; keeps the time without sound", player.error().what);
+  return std::make_unique<SilentPlayer>();
+}
+
+Result<void> play(const ProgramOptions& options) {
+  if (options.file.empty() && !options.follow)
+    return fail("nothing to play: name a file, or keep the room's time with --follow");
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(Loaded loaded, load(options));
+  MusicHouseOptions house_options;
+  house_options.song = loaded.song;
+  house_options.confidence = loaded.confidence;
+  house_options.title = music_title(options.file);
+  if (!options.guest.empty()) house_options.guest = *GuestId::parse(options.guest);
+  house_options.follows = options.follow;
+  DANCE_TRY(auto player, player_of(options, loaded));
+  DANCE_TRY(auto bus, Bus::open(options.bus));
+  DANCE_TRY(house_options.begin, start_of(options, mono_now()));
+  MusicHouse house(std::move(house_options), std::move(player), *bus, *poller);
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  if (options.seconds > 0.0)
+    poller->add_timer(mono_now() + Duration::seconds(options.seconds), [&](MonoTime) {
+      poller->stop();
+      return MonoTime();
+    });
+  talk::info("{}; Ctrl-C ends it", options.follow ? "listens for the room's music" : "playing");
+  poller->run();
+  house.stop(mono_now());
+  poller->unwatch(bus->fd());
+  talk::info("{} beats said; {}", house.teller().told(), house.summary());
+  if (house.failure()) return tl::make_unexpected(*house.failure());
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::ProgramOptions options;
+  dance::CommandLine line("Plays music, and says the beat that is heard in this house.",
+                          "dance music");
+  line.add("FILE", options.file, "the music: .ogg, .flac, .wav, .mp3, .opus");
+  line.add("--beats", options.beats, "list of its beats; without it, the .beats file beside FILE");
+  line.add("--bus", options.bus, "LCM URL of the house's bus");
+  line.add("--guest", options.guest, "play for the room, as this guest of the house").guest_name();
+  line.add_flag("--follow", options.follow, "in step with the room's music, where there is some");
+  line.add("--start", options.start,
+           "when it begins: +2s from now, or microseconds of this machine's monotonic clock");
+  line.add_flag("--silent", options.silent, "keep the time only, without sound");
+  line.add_flag("--loop", options.loop, "over and over");
+  line.add("--volume", options.volume, "0 to 1").range(0.0, 1.0);
+  line.add("--trim", options.trim,
+           "latency of the loudspeaker that the sound server does not know of, like 20ms");
+  line.add("--seconds", options.seconds, "end after so long; 0 = when it is over").range(0.0, 1e7);
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::play(options); });
+}

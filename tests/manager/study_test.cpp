@@ -1,0 +1,54 @@
+#include "manager/study.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+
+namespace dance {
+namespace {
+
+struct Counting : Learner {
+  explicit Counting(std::atomic<int>& left) : gone(left) {}
+  ~Counting() override { ++gone; }
+  void learn() override { ++lessons; }
+  std::atomic<int>& gone;
+  std::atomic<int> lessons{0};
+};
+
+template <class Condition>
+bool comes_true(Condition condition) {
+  for (int i = 0; i < 6000 && !condition(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return condition();
+}
+
+TEST(Study, TeachesEachLearnerAgainAndAgain) {
+  std::atomic<int> gone{0};
+  const auto a = std::make_shared<Counting>(gone), b = std::make_shared<Counting>(gone);
+  Study study;
+  EXPECT_EQ(study.failure(), "");
+  study.add(a);
+  EXPECT_TRUE(comes_true([&] { return a->lessons > 1; }));
+  study.add(b);
+  EXPECT_TRUE(comes_true([&] { return b->lessons > 1; }));
+}
+
+TEST(Study, LetsGoOfALearnerWhoseTransformerHasGone) {
+  std::atomic<int> gone{0};
+  Study study;
+  study.add(std::make_shared<Counting>(gone));
+  EXPECT_TRUE(comes_true([&] { return gone == 1; }));
+}
+
+TEST(Study, EndsWithoutWaitingForALesson) {
+  std::atomic<int> gone{0};
+  for (int i = 0; i < 20; ++i) {
+    Study study;
+    study.add(std::make_shared<Counting>(gone));
+  }
+  EXPECT_EQ(gone, 20);
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,229 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/beat_clock.h"
+#include "core/base/random.h"
+#include "transformers/beat_offset.h"
+#include "transformers/dance_line.h"
+#include "transformers/guess_meter.h"
+#include "transformers/play_head.h"
+
+namespace dance {
+namespace {
+
+MonoTime second(double s) { return MonoTime::from_us(1'000'000) + Duration::seconds(s); }
+
+Beat beat_at(double s, double beats_per_second, double beats) {
+  Beat beat;
+  beat.time = second(s);
+  beat.beat_time = second(s);
+  beat.beat = beats;
+  beat.tempo_bpm = 60.0 * beats_per_second;
+  beat.confidence = 1.0f;
+  beat.playing = true;
+  return beat;
+}
+
+TEST(BeatClock, RunsOnBetweenBeatsAndBack) {
+  BeatClock clock;
+  EXPECT_FALSE(clock.is_known(second(0)));
+  EXPECT_TRUE(clock.hear(beat_at(0.0, 2.0, 10.0)));
+  EXPECT_DOUBLE_EQ(clock.position(second(1.25)), 12.5);
+  EXPECT_EQ(clock.time_of(12.5), second(1.25));
+  EXPECT_TRUE(clock.is_known(second(2.9)));
+  EXPECT_FALSE(clock.is_known(second(3.1)));
+}
+
+TEST(BeatClock, TakesASmallCorrectionInWithoutAJumpOrAStandstill) {
+  BeatClock clock;
+  clock.hear(beat_at(0.0, 50.0 / 60.0, 0.0));
+  const double before = clock.position(second(1.0));
+  EXPECT_FALSE(clock.hear(beat_at(1.0, 50.0 / 60.0, before - 0.2)));
+  EXPECT_NEAR(clock.position(second(1.0)), before, 1e-9);
+  for (double s = 1.0; s < 3.0; s += 0.01)
+    EXPECT_GT(clock.position(second(s + 0.01)), clock.position(second(s)));
+  EXPECT_NEAR(clock.position(second(3.0)), before - 0.2 + 2.0 * 50.0 / 60.0, 1e-3);
+  // And the way back agrees while it is being taken in.
+  EXPECT_NEAR(clock.position(clock.time_of(1.0)), 1.0, 1e-5);
+}
+
+TEST(BeatClock, SaysThatTheMusicJumpedOrStands) {
+  BeatClock clock;
+  clock.hear(beat_at(0.0, 2.0, 0.0));
+  EXPECT_TRUE(clock.hear(beat_at(1.0, 2.0, 40.0)));
+  EXPECT_DOUBLE_EQ(clock.position(second(1.0)), 40.0);
+  Beat still = beat_at(2.0, 2.0, 42.0);
+  still.playing = false;
+  clock.hear(still);
+  EXPECT_FALSE(clock.is_known(second(2.0)));
+}
+
+TEST(DanceLine, FindsMomentsOfBeatsAndBeatsOfMoments) {
+  DanceLine line;
+  EXPECT_FALSE(line.is_known(second(0)));
+  for (int i = 0; i <= 300; ++i) line.add(second(i / 60.0), 7.0 + 2.5 * i / 60.0);
+  ASSERT_TRUE(line.is_known(second(5.0)));
+  EXPECT_NEAR(line.beats_per_second(), 2.5, 1e-9);
+  for (const double s : {-1.0, 0.0, 1.234, 4.999, 5.0, 6.5}) {
+    EXPECT_NEAR(line.position(second(s)), 7.0 + 2.5 * s, 1e-6) << s;
+    EXPECT_NEAR((line.time_of(7.0 + 2.5 * s) - second(s)).as_seconds(), 0.0, 1e-6) << s;
+  }
+  EXPECT_FALSE(line.is_known(second(16.0)));
+}
+
+TEST(DanceLine, FollowsATempoThatDrifts) {
+  DanceLine line;
+  double beats = 0.0;
+  for (int i = 0; i < 1200; ++i) {
+    const double s = i / 60.0;
+    beats += (2.7 + 0.15 * std::sin(s / 3.0)) / 60.0;
+    line.add(second(s), beats);
+    if (i < 120) continue;
+    const double ahead = beats + (2.7 + 0.15 * std::sin(s / 3.0)) * 0.2;
+    EXPECT_NEAR(line.position(second(s + 0.2)), ahead, 0.02);
+  }
+}
+
+TEST(DanceLine, BeginsAnewWhereTheMusicJumps) {
+  DanceLine line;
+  for (int i = 0; i < 120; ++i) EXPECT_FALSE(line.add(second(i / 60.0), 2.0 * i / 60.0));
+  EXPECT_FALSE(line.add(second(1.0), 99.0)) << "not newer: passed over";
+  EXPECT_TRUE(line.add(second(2.0), 99.0));
+  EXPECT_FALSE(line.is_known(second(2.0)));
+  for (int i = 1; i < 60; ++i)
+    EXPECT_FALSE(line.add(second(2.0 + i / 60.0), 99.0 + 2.0 * i / 60.0));
+  EXPECT_NEAR(line.position(second(2.5)), 100.0, 1e-6);
+  EXPECT_TRUE(line.add(second(3.0), 50.0)) << "backwards";
+}
+
+TEST(PlayHead, StandsOnTheWantedMomentAndGoesNoFasterThanABody) {
+  PlayHead head;
+  double s = 0.0;
+  EXPECT_EQ(head.advance(second(0.0), second(-0.4), 1.0), second(-0.4));
+  // The wanted moment goes on at 1.02 of the pace, and the head with it.
+  for (; s < 4.0; s += 1.0 / 60.0) head.advance(second(s), second(-0.4 + 1.02 * s), 1.02);
+  const double last = s - 1.0 / 60.0;
+  EXPECT_NEAR((head.moment() - second(-0.4 + 1.02 * last)).as_ms(), 0.0, 0.1);
+  // A jump of the wanted moment by 0.2 s is walked, with rates that a body can do.
+  MonoTime before = head.moment();
+  double rate_before = head.rate();
+  for (; s < 8.0; s += 1.0 / 60.0) {
+    const MonoTime now_at = head.advance(second(s), second(-0.2 + 1.02 * s), 1.02);
+    const double rate = (now_at - before).as_seconds() * 60.0;
+    EXPECT_GE(rate, kSlowestPlay - 1e-6);
+    EXPECT_LE(rate, kFastestPlay + 1e-6);
+    EXPECT_LE(std::abs(head.rate() - rate_before), 6.0 / 60.0 + 1e-6);
+    rate_before = head.rate();
+    before = now_at;
+  }
+  EXPECT_NEAR((head.moment() - second(-0.2 + 1.02 * (s - 1.0 / 60.0))).as_ms(), 0.0, 2.0);
+}
+
+TEST(PlayHead, BeginsAnewAfterAStandstill) {
+  PlayHead head;
+  head.advance(second(0.0), second(0.0), 1.0);
+  EXPECT_EQ(head.advance(second(5.0), second(3.0), 1.0), second(3.0));
+  EXPECT_EQ(head.advance(second(4.0), second(2.0), 1.0), second(2.0)) << "time that goes back";
+}
+
+BeatOffset::Wish wish(double beats, double least = -0.25) {
+  BeatOffset::Wish wish;
+  wish.beats = beats;
+  wish.least_beats = least;
+  return wish;
+}
+
+TEST(BeatOffset, KeepsTheWishedDelayOverWholeBeats) {
+  for (const double beats : {0.0, 1.0, 2.0, 4.0})
+    for (const double difference : {-3.3, 0.0, 0.2, 17.4}) {
+      BeatOffset offset;
+      EXPECT_TRUE(offset.update(wish(beats), difference, second(0)));
+      EXPECT_DOUBLE_EQ(offset.value(), std::round(offset.value()));
+      EXPECT_NEAR(offset.value() - difference, beats, 0.75);
+      EXPECT_GE(offset.value() - difference, -0.25);
+    }
+}
+
+TEST(BeatOffset, ChangesSeldomWhileTheMusicsDrift) {
+  BeatOffset offset;
+  int changes = 0;
+  // One per cent at 160 BPM for two minutes: 3.2 beats.
+  for (double s = 0.0; s < 120.0; s += 0.02)
+    changes += offset.update(wish(1.0), 0.01 * s * 160.0 / 60.0, second(s)) ? 1 : 0;
+  EXPECT_LE(changes, 4);
+  EXPECT_NEAR(offset.value() - 3.2, 1.0, 1.0);
+}
+
+TEST(BeatOffset, TakesMoreDelayWhereTheLineNeedsItAndGivesItBackLater) {
+  BeatOffset offset;
+  offset.update(wish(-1.0, 0.2), 0.0, second(0));
+  EXPECT_DOUBLE_EQ(offset.value(), 1.0);
+  // Prediction has become good enough for nothing but itself.
+  double s = 0.0;
+  for (; s < 3.9; s += 0.02) EXPECT_FALSE(offset.update(wish(-1.0, -0.4), 0.0, second(s)));
+  for (; s < 5.0; s += 0.02) offset.update(wish(-1.0, -0.4), 0.0, second(s));
+  EXPECT_DOUBLE_EQ(offset.value(), 0.0);
+  // And the line worse again: not at once, but soon.
+  EXPECT_FALSE(offset.update(wish(-1.0, 0.5), 0.0, second(5.0)));
+  EXPECT_FALSE(offset.update(wish(-1.0, 0.5), 0.0, second(5.1)));
+  EXPECT_TRUE(offset.update(wish(-1.0, 0.5), 0.0, second(5.2)));
+  EXPECT_DOUBLE_EQ(offset.value(), 1.0);
+}
+
+TEST(BeatOffset, KeepsTheBarWhereAskedTo) {
+  BeatOffset offset;
+  BeatOffset::Wish bars = wish(1.0, 0.3);
+  bars.count = 4.0;
+  offset.update(bars, 0.1, second(0));
+  EXPECT_DOUBLE_EQ(std::fmod(offset.value(), 4.0), 0.0);
+  EXPECT_GE(offset.value(), 0.4);
+}
+
+// One arm that swings: guesses that repeat the newest pose lag by their whole distance, those that know are right.
+Pose swing(double s) {
+  Pose pose;
+  pose.capture_time = second(s);
+  pose.clock_id = 1;
+  const auto angle = static_cast<float>(0.8 * std::sin(2.0 * s));
+  pose.R_PB[index_of(Bone::kLeftUpperArm)] =
+      Eigen::Quaternionf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ()));
+  return pose;
+}
+
+// What guesses of a dancer who knows `lag_share` of the way too little are worth.
+GuessMeter measured(double lag_share) {
+  GuessMeter meter;
+  PoseHistory history(512);
+  for (int i = 0; i < 1800; ++i) {
+    const double s = i / 60.0;
+    history.push(swing(s));
+    meter.learn(history);
+    if (i % 4 != 0) continue;
+    const double ahead = meter.next_horizon().as_seconds();
+    meter.guess(swing(s + (1.0 - lag_share) * ahead), second(s + ahead));
+  }
+  return meter;
+}
+
+TEST(GuessMeter, KnowsHowGoodGuessesAre) {
+  EXPECT_FALSE(GuessMeter().is_known());
+  const GuessMeter good = measured(0.0), bad = measured(1.0);
+  ASSERT_TRUE(good.is_known());
+  EXPECT_LT(good.error_m(Duration::ms(300)), 0.001);
+  EXPECT_GE(good.reach(0.02), Duration::ms(400));
+  EXPECT_GT(bad.error_m(Duration::ms(300)), 2.0 * bad.error_m(Duration::ms(100)));
+  const Duration reach = bad.reach(bad.error_m(Duration::ms(150)));
+  EXPECT_NEAR(reach.as_ms(), 150.0, 1.0);
+}
+
+TEST(GuessMeter, LeadsByWhatGuessesLag) {
+  EXPECT_NEAR(measured(0.0).lead(Duration::ms(200)).as_ms(), 200.0, 4.0);
+  // Of what it guesses a third is missing: 300 ms have to be asked for where 200 are to be seen.
+  EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration::ms(200)).as_ms(), 300.0, 20.0);
+  EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration()).as_ms(), 0.0, 1e-6);
+  EXPECT_EQ(GuessMeter().lead(Duration::ms(120)), Duration::ms(120)) << "unknown: as asked";
+}
+
+}  // namespace
+}  // namespace dance
