@@ -104,7 +104,9 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add_flag("--json", options.json, "the summary as JSON on stdout, and nothing else there");
   line.add("--through", options.through, "transformers for remote dancers").shows_default();
-  line.add("--tempo", options.tempo_bpm, "beats a minute of the synthetic dancers")
+  line.add("--music", options.music,
+           "a song with its .beats beside it, or none; without it a percussion at --tempo");
+  line.add("--tempo", options.tempo_bpm, "beats a minute, without a song")
       .range(60.0, 240.0)
       .shows_default();
   line.add("--seed", options.seed, "which synthetic dance").range(0, 1'000'000);

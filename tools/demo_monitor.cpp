@@ -65,6 +65,9 @@ void DemoMonitor::listen(Bus& bus, int house) {
                 if (DancerAccount* account = account_of(channel.guest()))
                   on_staged(*account, house, pose);
               });
+  bus.on_beat([this, house](const Channel&, const Beat& beat, MonoTime) {
+    has_music_[static_cast<std::size_t>(house)] = beat.playing;
+  });
   bus.on_stats([this, house](const Channel& channel, const Stats& stats, MonoTime) {
     if (channel.program() != "link") return;
     connected_[static_cast<std::size_t>(house)] = stats.sessions > 0;

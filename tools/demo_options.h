@@ -25,6 +25,8 @@ struct DemoOptions {
   std::string out = "out/demo";
   bool json = false;
   double tempo_bpm = 180.0;
+  // A song with its list of beats beside it; "" = the demo's own percussion; "none" = beats that nobody hears.
+  std::string music;
   int seed = 1;
   double hz = 60.0;
   bool film = false;     // of the comparison
@@ -48,6 +50,7 @@ struct DemoPlan {
   std::string bus_url[2];
   std::string session_file[2];
   std::string log_file;
+  std::string song;  // "" = none is played
   int server_port = 0;
   int line_port = 0;  // 0 = no emulated line
   std::vector<DemoDancer> dancers;

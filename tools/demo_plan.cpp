@@ -7,8 +7,11 @@
 
 #include "core/base/raw_twin.h"
 #include "core/net/udp_socket.h"
+#include "core/program/program.h"
 #include "producers/clip_file.h"
+#include "producers/music/beats_file.h"
 #include "tools/demo_options.h"
+#include "tools/demo_song.h"
 
 namespace dance {
 namespace {
@@ -180,6 +183,27 @@ Result<void> write_file(const std::string& path, const std::string& text) {
   return {};
 }
 
+// Read before anything starts, so that a song without beats is said at once.
+Result<std::string> song_of(const DemoOptions& options) {
+  if (options.music == "none") return std::string();
+  const bool can_play = fs::exists(program_folder() + "/dance-music");
+  if (!options.music.empty()) {
+    if (!can_play)
+      return fail("--music: built without dance music; install libsndfile1-dev and build again");
+    std::error_code error;
+    if (!fs::is_regular_file(options.music, error))
+      return fail("--music " + options.music + ": cannot be read; is the name right?");
+    if (auto beats = read_beats_file(beats_path_beside(options.music)); !beats)
+      return tl::make_unexpected(beats.error());
+    return options.music;
+  }
+  if (!can_play) return std::string();
+  const std::string wav = programs_folder(options) + "/percussion.wav";
+  if (auto written = write_demo_song(wav, options.tempo_bpm); !written)
+    return tl::make_unexpected(written.error());
+  return wav;
+}
+
 }  // namespace
 
 Result<DemoPlan> plan_demo(const DemoOptions& options) {
@@ -215,6 +239,7 @@ Result<DemoPlan> plan_demo(const DemoOptions& options) {
         !written)
       return tl::make_unexpected(written.error());
   }
+  DANCE_TRY(plan.song, song_of(options));
   plan.log_file = options.out + "/demo.lcm";
   fs::remove(plan.log_file, error);  // of the last demo
   return plan;

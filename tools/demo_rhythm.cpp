@@ -16,15 +16,8 @@ constexpr Duration kLongest = Duration::s(60);
 constexpr Duration kShortest = Duration::s(3);
 constexpr double kBar_beats = 8.0;  // as dancers count
 
-// The last pose at that time; nothing before the first.
-const Pose* pose_at(const std::vector<TracedPose>& list, MonoTime t) {
-  const auto after = std::upper_bound(
-      list.begin(), list.end(), t, [](MonoTime a, const TracedPose& pose) { return a < pose.at; });
-  return after == list.begin() ? nullptr : &(after - 1)->pose;
-}
-
-// Between two captures.
-std::optional<Pose> danced_at(const std::vector<TracedPose>& list, MonoTime t) {
+// Between two poses, as an eye sees them.
+std::optional<Pose> pose_at(const std::vector<TracedPose>& list, MonoTime t) {
   const auto after = std::upper_bound(
       list.begin(), list.end(), t, [](MonoTime a, const TracedPose& pose) { return a < pose.at; });
   if (after == list.begin() || after == list.end()) return std::nullopt;
@@ -73,7 +66,7 @@ Pictures pictures_of(const std::vector<TracedPose>& list, const DemoTrace& trace
   Pictures pictures;
   const Duration period = Duration::period_of_hz(kPicture_hz);
   for (MonoTime t = span.from; t < span.to; t += period) {
-    const Pose* pose = pose_at(list, t);
+    const auto pose = pose_at(list, t);
     const auto beats = beats_at(trace.music(), t);
     if (!pose || !beats) continue;
     pictures.times.push_back(t);
@@ -97,7 +90,7 @@ StageFigures figures_of(const std::vector<TracedPose>& list, const DemoTrace& tr
     // Whole beats behind are no fault; where the dancer's own music says it.
     const double behind = pictures.beats[i] - pose.music_beats;
     offsets.push_back(std::isfinite(behind) ? std::round(behind) : 0.0);
-    const auto truth = danced_at(trace.danced(), pictures.times[i]);
+    const auto truth = pose_at(trace.danced(), pictures.times[i]);
     at_that_moment.push_back(truth.value_or(pose));
   }
   const JointTrack track(trace.body_of_remote(), pictures.poses, kPicture_hz);
@@ -183,11 +176,10 @@ std::optional<SwayLines> sway_lines(const DemoTrace& trace, double span_beats) {
   for (const TracedPose& traced : trace.danced())
     add(lines.danced, beats_danced_at(trace, traced.pose), trace.body_of_remote(), traced.pose);
   for (const auto& [list, line] :
-       {std::pair{&trace.raw(), &lines.raw}, std::pair{&trace.shown(), &lines.shown}}) {
-    const Pictures pictures = pictures_of(*list, trace, *span);
-    for (std::size_t i = 0; i < pictures.poses.size(); ++i)
-      add(*line, pictures.beats[i], trace.body_of_remote(), pictures.poses[i]);
-  }
+       {std::pair{&trace.raw(), &lines.raw}, std::pair{&trace.shown(), &lines.shown}})
+    for (const TracedPose& traced : *list)
+      if (const auto beats = beats_at(trace.music(), traced.at))
+        add(*line, *beats, trace.body_of_remote(), traced.pose);
   return lines;
 }
 

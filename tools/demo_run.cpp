@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr Duration kPatience = Duration::s(15);  // for the houses to meet
 constexpr Duration kPatienceForPictures = Duration::s(60);
+constexpr Duration kPatienceForMusic = Duration::s(5);
 constexpr Duration kRestartAfter = Duration::ms(500);
 constexpr Duration kStillUnderWay = Duration::ms(1500);  // longest that a pose may take to arrive
 
@@ -134,6 +135,36 @@ Result<void> DemoRun::wait_until_connected() {
   return {};
 }
 
+// House A plays for the room; house B hears of it through the tunnel, and keeps step by its own clock.
+Result<void> DemoRun::start_music() {
+  if (plan_.song.empty()) {
+    beats_ = std::make_unique<DemoBeats>(*bus_a_, *bus_b_, mono_now(), options_.tempo_bpm);
+    poller_->add_timer(mono_now(), [this](MonoTime now) { return beats_->say(now); });
+    return {};
+  }
+  for (int house = 0; house < 2; ++house) {
+    std::vector<std::string> arguments{
+        plan_.song, "--loop",
+        "--bus",    plan_.bus_url[house],
+        "--guest",  std::string(plan_.dancers[static_cast<std::size_t>(house)].guest.view())};
+    if (house == 0) arguments.insert(arguments.end(), {"--start", "+500ms"});
+    if (house == 1) arguments.push_back("--follow");
+    // One loudspeaker is enough for one machine.
+    if (house == 1 || options_.headless) arguments.push_back("--silent");
+    Role& role = add(house == 0 ? "music-a" : "music-b", "dance-music", arguments);
+    if (auto started = start(role); !started) return started;
+  }
+  return {};
+}
+
+// Dancers begin when they have something to dance to; after a while without it too.
+void DemoRun::wait_for_music() {
+  const MonoTime give_up = mono_now() + kPatienceForMusic;
+  while (!poller_->is_stopped() && mono_now() < give_up &&
+         !(monitor_->has_music(0) && monitor_->has_music(1)))
+    poller_->run_once(Duration::ms(20));
+}
+
 Result<void> DemoRun::start_dancers(MonoTime origin) {
   for (const DemoDancer& dancer : plan_.dancers) {
     std::vector<std::string> arguments = dancer.arguments;
@@ -244,9 +275,9 @@ Result<DemoResult> DemoRun::run() {
   if (auto started = start_houses(); !started) return tl::make_unexpected(started.error());
   if (auto met = wait_until_connected(); !met) return tl::make_unexpected(met.error());
   poller_->add_timer(mono_now(), [this](MonoTime now) { return watch_over(now); });
+  if (auto started = start_music(); !started) return tl::make_unexpected(started.error());
+  wait_for_music();
   const MonoTime origin = mono_now() + Duration::ms(300);
-  beats_ = std::make_unique<DemoBeats>(*bus_a_, *bus_b_, origin, options_.tempo_bpm);
-  poller_->add_timer(mono_now(), [this](MonoTime now) { return beats_->say(now); });
   if (auto started = start_viewer(); !started) return tl::make_unexpected(started.error());
   if (auto started = start_dancers(origin); !started) return tl::make_unexpected(started.error());
   talk::info("{} dancers in two houses; Ctrl-C ends it", plan_.dancers.size());

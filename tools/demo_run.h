@@ -56,6 +56,8 @@ class DemoRun {
   Result<void> start(Role& role);
   Result<void> start_houses();
   Result<void> wait_until_connected();
+  Result<void> start_music();
+  void wait_for_music();
   Result<void> start_dancers(MonoTime origin);
   Result<void> start_viewer();
   void turn_until(MonoTime deadline);

@@ -13,9 +13,9 @@ namespace {
 using Anchor = PlotCanvas::Anchor;
 using Size = PlotCanvas::Size;
 
-constexpr int kWidth_px = 1200, kHeight_px = 760;
+constexpr int kWidth_px = 1200, kHeight_px = 780;
 constexpr double kLeft = 74.0, kRight = kWidth_px - 24.0;
-constexpr double kTop = 62.0, kRowHeight = 176.0, kBetweenRows = 42.0;
+constexpr double kTop = 82.0, kRowHeight = 176.0, kBetweenRows = 42.0;
 constexpr int kRows = 3;
 
 constexpr std::uint32_t kInk = 0x222222, kFaint = 0x6a6a6a, kGrid = 0xd9d9d9, kOne = 0x8a8a8a;
@@ -77,10 +77,9 @@ class SwayDrawing {
     }
     for (const double cm : {-most_cm_, 0.0, most_cm_}) {
       canvas_.line({kLeft, y_of(r, cm)}, {kRight, y_of(r, cm)}, kGrid, 1.0);
-      canvas_.text({kLeft - 8.0, y_of(r, cm)}, fmt::format("{:+.0f}", cm + 0.0), kFaint,
-                   Anchor::kRight);
+      canvas_.text({kLeft - 8.0, y_of(r, cm)}, fmt::format("{:.0f}", cm), kFaint, Anchor::kRight);
     }
-    canvas_.text({kLeft - 8.0, row_top(r) - 19.0}, "cm", kFaint, Anchor::kRight);
+    canvas_.text({kLeft - 8.0, row_top(r) - 19.0}, "left cm", kFaint, Anchor::kRight);
     canvas_.text({kLeft, row_top(r) - 19.0}, title, kInk);
   }
 
@@ -97,7 +96,7 @@ class SwayDrawing {
     canvas_.text({kRight, row_top(r) - 19.0},
                  fmt::format("{:.0f} ms {} the beat, \u00b1 {:.0f} ms;  {:.0f} ms old",
                              std::abs(f.phase_mean_ms), f.phase_mean_ms < 0.0 ? "before" : "behind",
-                             f.phase_sd_ms, f.content_delay_ms),
+                             f.phase_sd_ms, std::abs(f.content_delay_ms)),
                  colour, Anchor::kRight);
   }
 
