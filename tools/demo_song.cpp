@@ -43,7 +43,7 @@ class Band {
   }
   void open_tone(double beat, double hz) {
     stroke(beat, 0.3, [hz](double t) {
-      return 0.6 * std::exp(-11.0 * t) *
+      return 0.6 * std::exp(-18.0 * t) *
              std::sin(kTau * (hz * t + 1.2 * (1.0 - std::exp(-30.0 * t))));
     });
   }

@@ -50,7 +50,7 @@ class SwayDrawing {
     figures(2, plot_.rhythm.shown, kShown);
     canvas_.text({0.5 * (kLeft + kRight), row_bottom(kRows - 1) + 44.0},
                  fmt::format("count of the music in house A ({:.0f} beats a minute: {:.0f} ms each)"
-                             "      grey: as danced, on the beat",
+                             "     grey: as danced, on the beat     up: to the dancer's left",
                              plot_.rhythm.tempo_bpm, 60e3 / plot_.rhythm.tempo_bpm),
                  kInk, Anchor::kMiddle);
   }
@@ -79,7 +79,7 @@ class SwayDrawing {
       canvas_.line({kLeft, y_of(r, cm)}, {kRight, y_of(r, cm)}, kGrid, 1.0);
       canvas_.text({kLeft - 8.0, y_of(r, cm)}, fmt::format("{:.0f}", cm), kFaint, Anchor::kRight);
     }
-    canvas_.text({kLeft - 8.0, row_top(r) - 19.0}, "left cm", kFaint, Anchor::kRight);
+    canvas_.text({kLeft - 8.0, row_top(r) - 19.0}, "cm", kFaint, Anchor::kRight);
     canvas_.text({kLeft, row_top(r) - 19.0}, title, kInk);
   }
 
@@ -93,10 +93,13 @@ class SwayDrawing {
   }
 
   void figures(int r, const StageFigures& f, std::uint32_t colour) {
+    const double off_ms = std::round(f.phase_mean_ms);
+    const std::string off = off_ms == 0.0 ? "on the beat"
+                                          : fmt::format("{:.0f} ms {} the beat", std::abs(off_ms),
+                                                        off_ms < 0.0 ? "before" : "behind");
     canvas_.text({kRight, row_top(r) - 19.0},
-                 fmt::format("{:.0f} ms {} the beat, \u00b1 {:.0f} ms;  {:.0f} ms old",
-                             std::abs(f.phase_mean_ms), f.phase_mean_ms < 0.0 ? "before" : "behind",
-                             f.phase_sd_ms, std::abs(f.content_delay_ms)),
+                 fmt::format("{}, \u00b1 {:.0f} ms;  what is seen was danced {:.0f} ms before", off,
+                             f.phase_sd_ms, f.content_delay_ms),
                  colour, Anchor::kRight);
   }
 

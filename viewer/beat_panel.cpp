@@ -118,10 +118,16 @@ class Panel {
     if (last == nullptr) return;
     const BeatFigures& beat = *last->figures.beat;
     std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), "%s: %.0f ms %s the beat, \u00b1 %.0f ms; %.0f ms old",
-                  last->id.c_str(), static_cast<double>(std::abs(beat.behind_ms)),
-                  beat.behind_ms < 0.0f ? "before" : "behind", static_cast<double>(beat.wander_ms),
-                  static_cast<double>(*beat.delay_ms));
+    const double off_ms = std::round(static_cast<double>(beat.behind_ms));
+    if (off_ms == 0.0)
+      std::snprintf(text.data(), text.size(), "%s: on the beat, \u00b1 %.0f ms; %.0f ms old",
+                    last->id.c_str(), static_cast<double>(beat.wander_ms),
+                    static_cast<double>(*beat.delay_ms));
+    else
+      std::snprintf(text.data(), text.size(),
+                    "%s: %.0f ms %s the beat, \u00b1 %.0f ms; %.0f ms old", last->id.c_str(),
+                    std::abs(off_ms), off_ms < 0.0 ? "before" : "behind",
+                    static_cast<double>(beat.wander_ms), static_cast<double>(*beat.delay_ms));
     const float width = fonts_.text->CalcTextSizeA(line_, 1e4f, 0.0f, text.data()).x;
     list_.AddText(fonts_.text, line_, whole(box_.right - line_ - width, y), grey(0.85f),
                   text.data());

@@ -25,8 +25,8 @@ namespace dance {
 struct OverlayChoice {
   bool tags = true;
   bool hud = true;
-  std::string title;    // at the top left, where there are no figures
-  std::string caption;  // in the middle of the bottom
+  std::string title = {};    // at the top left, where there are no figures
+  std::string caption = {};  // in the middle of the bottom
 };
 
 class Overlay {

@@ -23,8 +23,8 @@ namespace dance {
 struct GuestFigures {
   float arrival_hz = 0.0f;
   std::optional<float> age_ms;
-  std::optional<float> loss_percent;
-  std::optional<BeatFigures> beat;
+  std::optional<float> loss_percent = {};
+  std::optional<BeatFigures> beat = {};
 };
 
 // The music of this house at the moment of the picture.

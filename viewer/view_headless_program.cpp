@@ -95,7 +95,7 @@ class HeadlessRun {
 
   // One picture of the stage, or of both halves where there is something to compare.
   Result<Picture> paint(const SceneState& scene) {
-    const OverlayChoice choice{options_.tags, options_.hud, "", ""};
+    const OverlayChoice choice{options_.tags, options_.hud};
     if (!has_twins(scene)) {
       if (auto drawn = draw(scene, options_.size.width_px, choice); !drawn)
         return tl::make_unexpected(drawn.error());

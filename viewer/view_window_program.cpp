@@ -77,7 +77,7 @@ class WindowRun {
     painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
     painter_.overlay().set_scale(window_.scale());
     write_notes();
-    const OverlayChoice choice{options_.tags, options_.hud && window_.shows_hud(), "", ""};
+    const OverlayChoice choice{options_.tags, options_.hud && window_.shows_hud()};
     auto drawn =
         is_split
             ? painter_.draw(compare(scene_), rig_.camera(), size.width_px, size.height_px, choice)
