@@ -138,6 +138,29 @@ void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Sess
   session.consumers.push_back(consumer);
 }
 
+// In a room, the house plays along with it unless told otherwise.
+void read_music(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  HostedMusic music;
+  const bool has_room = !session.server.empty();
+  music.file = read_file_name(reader, "file", folder);
+  music.beats = read_file_name(reader, "beats", folder);
+  music.microphone = reader.bool_or("microphone", false);
+  music.follow = reader.bool_or("follow", has_room && !music.microphone);
+  if (const auto guest = reader.maybe_string("guest"))
+    music.guest = read_guest(reader, "guest", *guest);
+  else if (has_room && !music.file.empty() && !session.guests.empty())
+    music.guest = session.guests.front();
+  music.loop = reader.bool_or("loop", false);
+  music.silent = reader.bool_or("silent", false);
+  music.volume = reader.number_or("volume", 1.0, 0.0, 1.0);
+  music.trim_ms = reader.number_or("trim_ms", 0.0, -5000.0, 5000.0);
+  reader.finish();  // first, so that a misspelt key is told from a missing one
+  if (music.file.empty() && !music.follow && !music.microphone)
+    reader.complain("file",
+                    "is missing: name the music, or write follow = true or microphone = true");
+  session.music = music;
+}
+
 // The words of --channel as keys; numbers and truths stand as such.
 void read_channel(TomlReader& reader, Session& session) {
   const std::string name = reader.required_string("name");
@@ -185,11 +208,12 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
-    if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "channel")
+    if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "channel" &&
+        k != "music")
       return Error{name + ":" + std::to_string(key.source().begin.line) + ":" +
                    std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
                    "' in a session; there are [house], [[route]], [[produce]], "
-                   "[[listen]] and [[channel]]"};
+                   "[[listen]], [[channel]] and [music]"};
   }
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
@@ -206,7 +230,16 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   if (!problem)
     problem =
         read_each(document, "channel", name, [&](TomlReader& r) { read_channel(r, session); });
-  return problem;
+  const toml::node* music = document.get("music");
+  if (problem || !music) return problem;
+  if (!music->is_table()) {
+    const auto begin = music->source().begin;
+    return Error{name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
+                 ": write music as [music], once"};
+  }
+  TomlReader music_reader(*music->as_table(), name, "[music]");
+  read_music(music_reader, folder, session);
+  return music_reader.problem();
 }
 
 }  // namespace

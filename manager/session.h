@@ -1,5 +1,5 @@
 // Session: what a house is and does, read from its TOML file: who dances here, the server and room, the bus, routes,
-// whom it wants to hear, hosted producers and consumers, further channels.
+// whom it wants to hear, hosted producers and consumers, music, further channels.
 //
 // Units/frames: rates in Hz.
 // Ownership:    plain values.
@@ -56,6 +56,19 @@ struct HostedConsumer {
   std::string file;  // "" = standard output
 };
 
+// The music of the house, played beside it.
+struct HostedMusic {
+  std::string file;   // "" = the room's time only, or what the microphone hears
+  std::string beats;  // "" = the .beats file beside it
+  GuestId guest;      // plays for the room as this guest; not set = for the house alone
+  bool follow = false;
+  bool loop = false;
+  bool silent = false;
+  bool microphone = false;
+  double volume = 1.0;
+  double trim_ms = 0.0;
+};
+
 struct Session {
   std::vector<GuestId>
       guests;  // who dances in this house; may be empty (a house that only watches)
@@ -74,6 +87,7 @@ struct Session {
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;
   std::vector<HostedConsumer> consumers;
+  std::optional<HostedMusic> music;
   std::vector<ChannelRule> channels;  // that ride along, or are let in
 };
 

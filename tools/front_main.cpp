@@ -46,6 +46,7 @@ constexpr std::array kCommands{
     Command{"codec train", "trains a model of the pose codec"},
     Command{"rhythm eval",
             "remote dancers on the beat that the listener hears, on recorded dances"},
+    Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
     Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},

@@ -79,6 +79,9 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   house->manager_ = std::make_unique<Manager>(options, *house->bus_, poller);
   if (auto opened = house->open_consumers(); !opened) return tl::make_unexpected(opened.error());
   if (auto opened = house->open_producers(); !opened) return tl::make_unexpected(opened.error());
+  if (session.music) {
+    DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
+  }
   House* self = house.get();
   house->bus_->on_beat([self](const Channel&, const Beat& beat, MonoTime) {
     self->tag_.hear(beat);

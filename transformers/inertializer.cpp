@@ -11,9 +11,10 @@ using Eigen::Vector3f;
 
 namespace {
 
-// A spring let go at rest is fastest, with offset · y / e, after 1/y. What is far is taken back slower, so that no
-// correction moves faster than dancers do.
+// A spring let go at rest is fastest, with offset · y / e, after 1/y. What is far is taken back slower, so that no joint
+// moves faster for a correction than dancers do: the bones of a limb together, and where the hips are.
 constexpr float kE = 2.7182818f;
+constexpr float kFastestJoint_m_s = 6.0f;
 constexpr float kFastestHips_m_s = 2.5f;
 constexpr float kFastestTurn_rad_s = 9.0f;
 // A correction's own speed at its begin, where the caller tells it.
@@ -23,6 +24,13 @@ constexpr float kMostTurn_rad_s = 20.0f;
 float decay_for(float y, float size, float fastest) {
   return size * y > kE * fastest ? kE * fastest / size : y;
 }
+
+// From each bone to the end of its limb, metres, of an adult.
+constexpr std::array<float, kBoneCount> kLever_m{0.9f, 0.8f, 0.7f, 0.65f, 0.3f, 0.25f, 0.8f, 0.7f,
+                                                 0.4f, 0.2f, 0.8f, 0.7f,  0.4f, 0.2f,  0.9f, 0.5f,
+                                                 0.2f, 0.1f, 0.9f, 0.5f,  0.2f, 0.1f};
+constexpr std::array<Bone, 5> kEnds{Bone::kHead, Bone::kLeftHand, Bone::kRightHand, Bone::kLeftToes,
+                                    Bone::kRightToes};
 
 }  // namespace
 
@@ -35,8 +43,8 @@ void Inertializer::set_half_life(Duration half_life) {
 }
 
 void Inertializer::clear() {
-  rotations_.fill(Offset());
-  hips_ = Offset();
+  rotations_.fill(Spring());
+  hips_ = Spring();
   at_rest_ = true;
 }
 
@@ -47,22 +55,28 @@ void Inertializer::advance_to(MonoTime now) {
   // After so long nothing is left of anything, and the numbers stay finite.
   if (step > Duration::s(10)) return clear();
   const auto seconds = static_cast<float>(step.as_seconds());
-  hips_.advance(hips_.y, seconds);
+  hips_.advance(decay_, seconds);
   at_rest_ = hips_.is_at_rest();
-  for (Offset& rotation : rotations_) {
-    rotation.advance(rotation.y, seconds);
+  for (Spring& rotation : rotations_) {
+    rotation.advance(decay_, seconds);
     at_rest_ = at_rest_ && rotation.is_at_rest();
   }
   if (at_rest_) clear();
 }
 
 void Inertializer::set_decay() {
-  for (Offset& rotation : rotations_)
-    rotation.y = decay_for(y_, rotation.offset.norm(), kFastestTurn_rad_s);
-  // Where the hips are and where they turn to is one movement.
-  Offset& turn = rotations_[index_of(Bone::kHips)];
-  hips_.y = std::min(turn.y, decay_for(y_, hips_.offset.norm(), kFastestHips_m_s));
-  turn.y = hips_.y;
+  // One y for all: a body is taken back as a whole.
+  float y = decay_for(y_, hips_.offset.norm(), kFastestHips_m_s);
+  std::array<float, kBoneCount> moved_m;  // at most, of the bone's end
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    const float turn = rotations_[b].offset.norm();
+    y = std::min(y, decay_for(y_, turn, kFastestTurn_rad_s));
+    moved_m[b] = kLever_m[b] * turn +
+                 (b ? moved_m[static_cast<std::size_t>(kBones[b].parent)] : hips_.offset.norm());
+  }
+  for (const Bone end : kEnds)
+    y = std::min(y, decay_for(y_, moved_m[index_of(end)], kFastestJoint_m_s));
+  decay_ = y;
 }
 
 void Inertializer::add(MonoTime now, const Pose& was, const Pose& is) {
@@ -78,16 +92,16 @@ void Inertializer::add(MonoTime now, const Pose& was, const Pose& is) {
     // shown = exp(offset) · was = exp(new offset) · is
     Vector3f& offset = rotations_[b].offset;
     offset = rotation_vector(exp_rotation(offset) * was.R_PB[b] * is.R_PB[b].conjugate());
-    if (!offset.allFinite()) rotations_[b] = Offset();
+    if (!offset.allFinite()) rotations_[b] = Spring();
   }
   at_rest_ = false;
   set_decay();
 }
 
-void Inertializer::add_speed(Offset& offset, const Vector3f& velocity, float most) const {
-  offset.velocity += velocity;
-  const float speed = offset.velocity.norm();
-  if (speed > most) offset.velocity *= most / speed;
+void Inertializer::add_speed(Spring& spring, const Vector3f& velocity, float most) const {
+  spring.velocity += velocity;
+  const float speed = spring.velocity.norm();
+  if (speed > most) spring.velocity *= most / speed;
 }
 
 void Inertializer::add(MonoTime now, const Pose& was_before, const Pose& was, const Pose& is_before,

@@ -46,18 +46,15 @@ class Inertializer {
   std::uint64_t jumps() const { return jumps_; }
 
  private:
-  struct Offset : Spring {
-    float y = 0.0f;  // 1/s
-  };
-
   void advance_to(MonoTime now);
-  void add_speed(Offset& offset, const Eigen::Vector3f& velocity, float most) const;
+  void add_speed(Spring& spring, const Eigen::Vector3f& velocity, float most) const;
   void set_decay();
 
   Duration half_life_;
-  float y_ = 0.0f;
-  std::array<Offset, kBoneCount> rotations_;
-  Offset hips_;
+  float y_ = 0.0f;      // 1/s, of the half-life
+  float decay_ = 0.0f;  // the one that is taken: slower for what is far
+  std::array<Spring, kBoneCount> rotations_;
+  Spring hips_;
   MonoTime time_;
   bool at_rest_ = true;
   std::uint64_t jumps_ = 0;

@@ -108,6 +108,34 @@ TEST(Session, SaysWhatIsWrongWithAChannel) {
   EXPECT_NE(error_of(many).find("at most 16"), std::string::npos) << error_of(many);
 }
 
+TEST(Session, ReadsTheMusicWhichFollowsItsRoomUnlessToldOtherwise) {
+  const auto alone = parse_session("[house]\n[music]\nfile = \"a.ogg\"\n", "h/s.toml");
+  ASSERT_TRUE(alone) << alone.error().what;
+  ASSERT_TRUE(alone->music);
+  EXPECT_EQ(alone->music->file, "h/a.ogg");
+  EXPECT_FALSE(alone->music->follow);
+  EXPECT_FALSE(alone->music->guest.is_set());
+
+  const auto in_room = parse_session(
+      "[house]\nguest = \"ann\"\nserver = \"h:1\"\n[music]\nfile = \"a.ogg\"\nloop = true\n"
+      "trim_ms = 20\nvolume = 0.5\n",
+      "s.toml");
+  ASSERT_TRUE(in_room) << in_room.error().what;
+  EXPECT_TRUE(in_room->music->follow);
+  EXPECT_EQ(in_room->music->guest.view(), "ann");
+  EXPECT_TRUE(in_room->music->loop);
+  EXPECT_EQ(in_room->music->trim_ms, 20.0);
+
+  const auto error_of = [](const std::string& music) {
+    const auto session = parse_session("[house]\n" + music, "s.toml");
+    return session ? "no error" : session.error().what;
+  };
+  EXPECT_NE(error_of("[music]\n").find("microphone = true"), std::string::npos);
+  EXPECT_NE(error_of("[music]\nfile = \"a\"\nvolume = 2\n").find("s.toml:4"), std::string::npos);
+  EXPECT_NE(error_of("[[music]]\nfile = \"a\"\n").find("[music], once"), std::string::npos);
+  EXPECT_NE(error_of("[music]\nfil = \"a\"\n").find("'fil'"), std::string::npos);
+}
+
 TEST(Session, WithoutRoutesGetsTheUsualTwo) {
   const auto session = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(session);

@@ -207,6 +207,40 @@ TEST_F(MusicRoom, TheOneWhoIsOverruledSaysSoAndAFollowerGoesAlong) {
   })) << talk();
 }
 
+TEST_F(MusicRoom, AHouseWithMusicInItsSessionDancesToTheRooms) {
+  const std::string song = make_song("song", even_beats_at(0.5, 0.4, 400), 4);
+  start("dance-music", {song, "--silent", "--bus", kBus, "--guest", "alice"});
+  constexpr const char* kHouseBus = "udpm://239.255.76.67:7745?ttl=0";
+  std::ofstream(folder_.path("house.toml"))
+      << "[house]\nguest = \"dora\"\nserver = \"127.0.0.1:7457\"\nview = false\nbus = \""
+      << kHouseBus << "\"\n[music]\nfile = \"song.wav\"\nsilent = true\n"
+      << "[[produce]]\nkind = \"replay\"\nguest = \"dora\"\nfile = \"" << DANCE_SOURCE_DIR
+      << "/tests/core_pose/data/cgspeed.bvh\"\n";
+  start("dance-join", {folder_.path("house.toml")});
+  BeatEar a(kBus), d(kHouseBus);
+  auto other = Bus::open(kOtherBus);
+  ASSERT_TRUE(other);
+  // The room's own line, which carries dora's poses to bob's house.
+  std::vector<double> off_beats;
+  std::optional<Beat> heard;
+  (*other)->on_pose(
+      Where::kGuest, *GuestId::parse("dora"), Delivery::kEvery,
+      [&](const Channel&, const Pose& pose, MonoTime) {
+        if (heard && !std::isnan(pose.music_beats))
+          off_beats.push_back(std::abs(pose.music_beats - heard->beats_at(pose.capture_time)));
+      });
+  ASSERT_TRUE(wait_for([&] {
+    a.work();
+    d.work();
+    if (!a.said().empty() && a.said().back().playing) heard = a.said().back();
+    (*other)->drain(mono_now());
+    return off_beats.size() >= 60 && d.playing() >= 20;
+  })) << talk();
+  EXPECT_NEAR(apart_s(a.said().back(), d.said().back()), 0.0, 0.010);
+  // In beats of 0.4 s: 10 ms between the houses and as much for the capture's time through two clocks' mapping.
+  EXPECT_LT(median(off_beats), 0.05);
+}
+
 #ifdef DANCE_HAVE_SOUND
 class MusicSound : public MusicPrograms {
  protected:

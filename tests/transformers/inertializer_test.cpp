@@ -79,7 +79,7 @@ TEST(Inertializer, IsAtRestAndExactAgainOnceTheOffsetHasDied) {
   inertializer.add(kBegin, was, is);
   EXPECT_FALSE(inertializer.is_at_rest());
   Pose out = is;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 1200; ++i) {
     out = is;
     inertializer.apply(kBegin + kFrame * i, out);
   }
