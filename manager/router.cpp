@@ -124,8 +124,9 @@ void Router::hear(const Beat& beat, MonoTime now) {
 void Router::tick(std::size_t route, MonoTime now) {
   Line& line = *lines_[route];
   for (auto& instance : line.instances) {
-    // A guest who is silent is not held on the stage for ever.
-    if (now - instance->last_heard > Roster::kSilence) continue;
+    // A guest who is silent is not held on the stage for ever; a chain that goes on with the dance has its own patience.
+    const Duration patience = std::max(Roster::kSilence, instance->chain.patience());
+    if (now - instance->last_heard > patience) continue;
     Pose pose;
     if (!instance->chain.sample(now, pose)) continue;
     pose.sequence = instance->staged++;  // the stage's own count: it makes these poses

@@ -1,7 +1,9 @@
 #include "transformers/chain.h"
 
+#include <algorithm>
 #include <array>
 
+#include "transformers/bridge.h"
 #include "transformers/hold.h"
 #include "transformers/rhythm.h"
 
@@ -9,6 +11,14 @@ namespace dance {
 namespace {
 
 using Arguments = std::vector<std::string_view>;
+
+Result<std::unique_ptr<Transformer>> make_bridge(const Arguments& arguments) {
+  BridgeOptions options;
+  Settings settings("bridge", arguments);
+  settings.duration("blend", options.blend, Duration::ms(5), Duration::s(1));
+  if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
+  return std::make_unique<Bridge>(options);
+}
 
 Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   if (arguments.empty()) return std::make_unique<Hold>();
@@ -40,7 +50,8 @@ struct Entry {
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 2> kTransformers{{
+constexpr std::array<Entry, 3> kTransformers{{
+    {"bridge", make_bridge},
     {"hold", make_hold},
     {"rhythm", make_rhythm},
 }};
@@ -88,6 +99,12 @@ std::vector<std::shared_ptr<Learner>> Chain::learners() const {
   for (const auto& station : stations_)
     if (auto learner = station->learner()) learners.push_back(std::move(learner));
   return learners;
+}
+
+Duration Chain::patience() const {
+  Duration longest;
+  for (const auto& station : stations_) longest = std::max(longest, station->patience());
+  return longest;
 }
 
 Transformer::Counters Chain::counters() const {

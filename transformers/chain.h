@@ -39,6 +39,8 @@ class Chain {
   // What learns beside the pose path; see transformers/learner.h.
   std::vector<std::shared_ptr<Learner>> learners() const;
   bool sample(MonoTime now, Pose& out) { return stations_.back()->sample(now, out); }
+  // The longest of the stations'.
+  Duration patience() const;
   // Summed over the stations.
   Transformer::Counters counters() const;
 

@@ -36,6 +36,7 @@ class Continuation {
   bool begin(const PoseHistory& history, const Skeleton& skeleton, Duration beat = Duration());
   void end() { history_ = nullptr; }
   bool is_running() const { return history_ != nullptr; }
+  MonoTime newest_time() const { return newest_.capture_time; }
 
   // The pose `since_newest` after the newest that came. False where nothing was begun.
   bool at(Duration since_newest, Pose& out) const;

@@ -49,6 +49,8 @@ class Transformer {
   virtual void set_body(const Skeleton& /*skeleton*/) {}
   virtual void set_style(const Style& /*style*/) {}
   virtual std::shared_ptr<Learner> learner() { return nullptr; }
+  // How long after the last word of a dancer there is something of them to show. Nothing: as long as anybody's silence.
+  virtual Duration patience() const { return Duration(); }
 
   void set_input(Transformer* input) { input_ = input; }
   const Counters& counters() const { return counters_; }

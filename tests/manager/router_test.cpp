@@ -164,6 +164,30 @@ TEST(Router, DoesNotHoldASilentGuestOnTheStageForEver) {
   EXPECT_EQ(stage.count, 2);
 }
 
+TEST(Router, ShowsASilentGuestForAsLongAsTheChainGoesOnWithTheDance) {
+  Stage stage;
+  Route route = held("hold 0ms");
+  route.through.push_back("bridge");
+  Router router({route}, kClock, stage);
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    const MonoTime capture = at_ms(1000.0 + 1000.0 / 60.0 * i);
+    router.take(Where::kGuest, guest("bob"), pose_of(0, capture), capture + Duration::ms(10));
+  }
+  const double last_ms = 1000.0 + 1000.0 / 60.0 * 599 + 10.0;
+  for (const double silent_ms : {500.0, 2500.0, 5000.0, 9900.0}) {
+    const int before = stage.count;
+    router.tick(0, at_ms(last_ms + silent_ms));
+    EXPECT_EQ(stage.count, before + 1) << silent_ms;
+  }
+  const int before = stage.count;
+  router.tick(0, at_ms(last_ms + 10'100.0));
+  EXPECT_EQ(stage.count, before) << "who is not there leaves the stage";
+  router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(last_ms + 12'000.0)),
+              at_ms(last_ms + 12'010.0));
+  router.tick(0, at_ms(last_ms + 12'012.0));
+  EXPECT_EQ(stage.count, before + 1);
+}
+
 TEST(Router, KeepsThirtyGuestsApart) {
   Stage stage;
   Router router({held("hold 0ms")}, kClock, stage);

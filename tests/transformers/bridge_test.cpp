@@ -1,0 +1,172 @@
+#include "transformers/bridge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/pose/interpolate.h"
+#include "tests/allocation_guard.h"
+#include "tests/core_pose/random_pose.h"
+#include "tools/motion_measures.h"
+#include "transformers/chain.h"
+#include "transformers/hold.h"
+
+namespace dance {
+namespace {
+
+MonoTime at_s(double seconds) { return MonoTime() + Duration::seconds(seconds); }
+
+Pose swaying(double t_s) {
+  Pose pose;
+  const auto phase = static_cast<float>(2.0 * M_PI * t_s / 1.5);
+  pose.R_PB[index_of(Bone::kLeftUpperArm)] =
+      Eigen::Quaternionf(Eigen::AngleAxisf(0.8f * std::sin(phase), Eigen::Vector3f::UnitZ()));
+  pose.R_PB[index_of(Bone::kSpine)] =
+      Eigen::Quaternionf(Eigen::AngleAxisf(0.2f * std::cos(phase), Eigen::Vector3f::UnitX()));
+  pose.p_WH_m.x() = 0.1f * std::sin(phase);
+  pose.capture_time = at_s(t_s);
+  pose.clock_id = 3;
+  return pose;
+}
+
+constexpr double kDelay_s = 0.05;
+
+// Dances from 1 s to 20 s at 60 Hz over a line of 50 ms, silent between two moments; what is shown from `from_s` on.
+std::vector<Pose> show(Chain& chain, double silent_from_s, double silent_to_s, double from_s,
+                       double to_s) {
+  std::vector<Pose> shown;
+  for (int i = 60; i / 60.0 < to_s; ++i) {
+    const double t_s = i / 60.0;
+    if (t_s < silent_from_s || t_s >= silent_to_s)
+      chain.observe(swaying(t_s), at_s(t_s + kDelay_s));
+    Pose out;
+    EXPECT_TRUE(chain.sample(at_s(t_s + kDelay_s + 0.001), out));
+    EXPECT_TRUE(is_valid(out));
+    if (t_s >= from_s) shown.push_back(out);
+  }
+  return shown;
+}
+
+TEST(Bridge, ShowsWhatTheStationBeforeShowsWhilePosesCome) {
+  Chain bare = *Chain::make({"hold 20ms"}), bridged = *Chain::make({"hold 20ms", "bridge"});
+  const auto expected = show(bare, 99.0, 99.0, 2.0, 8.0);
+  const auto shown = show(bridged, 99.0, 99.0, 2.0, 8.0);
+  ASSERT_EQ(shown.size(), expected.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    EXPECT_EQ(shown[i].p_WH_m, expected[i].p_WH_m);
+    EXPECT_EQ(shown[i].capture_time, expected[i].capture_time);
+    for (std::size_t b = 0; b < kBoneCount; ++b)
+      EXPECT_EQ(shown[i].R_PB[b].coeffs(), expected[i].R_PB[b].coeffs());
+  }
+}
+
+TEST(Bridge, KeepsADancerDancingThroughALapseAndComesBackWithoutAJump) {
+  Chain chain = *Chain::make({"hold 0ms", "bridge"});
+  const auto shown = show(chain, 12.0, 14.0, 11.0, 16.0);
+  std::vector<Pose> danced;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    danced.push_back(swaying(11.0 + static_cast<double>(i) / 60.0));
+  const JointTrack track(average_skeleton(), shown, 60.0), truth(average_skeleton(), danced, 60.0);
+  const double alive =
+      activity_m_s(track, Places::kWorld, 90, 180) / activity_m_s(truth, Places::kWorld, 90, 180);
+  EXPECT_GT(alive, 0.8);
+  EXPECT_LT(alive, 1.25);
+  EXPECT_LT(body_error_m(track, truth, 90, 180), 0.02) << "the dance repeats";
+  EXPECT_LT(peak_speed_m_s(track, Places::kWorld, 0, shown.size()),
+            2.0 * peak_speed_m_s(truth, Places::kWorld, 0, shown.size()));
+  EXPECT_LT(world_error_m(track, truth, 270, 300), 0.002) << "as danced again";
+}
+
+TEST(Bridge, DoesNotTakeALongDelayForALapse) {
+  Bridge bridge;
+  for (int i = 60; i < 600; ++i) {
+    const double t_s = i / 60.0;
+    bridge.observe(swaying(t_s), at_s(t_s + 0.4));
+    Pose out;
+    ASSERT_TRUE(bridge.sample(at_s(t_s + 0.401), out));
+    ASSERT_FALSE(bridge.is_continuing()) << t_s;
+  }
+  Pose out;
+  bridge.sample(at_s(10.0 + 0.6), out);
+  EXPECT_TRUE(bridge.is_continuing());
+}
+
+TEST(Bridge, AnswersForMomentsAsTheStationBehindAsks) {
+  Chain chain = *Chain::make({"hold 0ms", "bridge"});
+  Hold hold(Duration::ms(0));
+  Bridge bridge;
+  bridge.set_input(&hold);
+  for (int i = 60; i < 720; ++i) {
+    const Pose pose = swaying(i / 60.0);
+    hold.observe(pose, pose.capture_time + Duration::ms(50));
+    bridge.observe(pose, pose.capture_time + Duration::ms(50));
+  }
+  const double newest_s = 719 / 60.0;
+  Pose out;
+  ASSERT_TRUE(bridge.sample_at(at_s(newest_s - 1.0), at_s(newest_s + 1.05), out));
+  EXPECT_LT(largest_angle_rad(out, swaying(newest_s - 1.0)), 0.02f);
+  float before = 0.0f, largest = 0.0f;
+  for (int i = 0; i < 240; ++i) {
+    const double since_s = i / 60.0;
+    ASSERT_TRUE(bridge.sample_at(at_s(newest_s + since_s), at_s(newest_s + since_s + 0.05), out));
+    const float x = out.p_WH_m.x();
+    if (i > 0) largest = std::max(largest, std::abs(x - before));
+    before = x;
+  }
+  EXPECT_LT(largest * 60.0f, 1.2f) << "the hips sway at 0.42 m/s at most";
+  ASSERT_TRUE(bridge.sample_at(at_s(newest_s + 0.05), at_s(newest_s + 4.0), out));
+}
+
+TEST(Bridge, StartsAnewWhenTheSourceChangesItsClockOrJumpsBack) {
+  Bridge bridge;
+  for (int i = 60; i < 300; ++i) bridge.observe(swaying(i / 60.0), at_s(i / 60.0));
+  Pose out;
+  ASSERT_TRUE(bridge.sample(at_s(6.0), out));
+  EXPECT_TRUE(bridge.is_continuing());
+  Pose other = swaying(2.0);
+  other.clock_id = 77;
+  bridge.observe(other, at_s(6.1));
+  ASSERT_TRUE(bridge.sample(at_s(6.11), out));
+  EXPECT_FALSE(bridge.is_continuing());
+  EXPECT_LT((out.p_WH_m - other.p_WH_m).norm(), 1e-4f);
+  EXPECT_EQ(bridge.counters().restarts, 1u);
+}
+
+TEST(Bridge, StaysABodyAndAllocatesNothingWhateverComes) {
+  Hold hold(Duration::ms(20));
+  Bridge bridge;
+  bridge.set_input(&hold);
+  Random random(8);
+  MonoTime now = at_s(50.0);
+  const AllocationGuard guard;
+  for (int i = 0; i < 3000; ++i) {
+    Pose pose = i % 3 ? swaying((now - MonoTime()).as_seconds()) : random_pose(random);
+    pose.capture_time =
+        now - Duration::ms(static_cast<std::int64_t>(random.uniform(-300.0, 300.0)));
+    pose.clock_id = i % 500 == 499 ? 5 : 3;
+    if (random.uniform() < 0.7) {
+      hold.observe(pose, now);
+      bridge.observe(pose, now);
+    }
+    Pose out;
+    if (bridge.sample(now, out)) {
+      ASSERT_TRUE(is_valid(out)) << i;
+    }
+    if (bridge.sample_at(now + Duration::ms(i % 700), now, out)) {
+      ASSERT_TRUE(is_valid(out)) << i;
+    }
+    now += Duration::ms(static_cast<std::int64_t>(random.uniform(-20.0, i % 50 ? 60.0 : 6000.0)));
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+TEST(Bridge, TakesItsBlendAndRefusesNonsense) {
+  EXPECT_TRUE(Chain::make({"hold", "bridge blend=80ms"}));
+  EXPECT_FALSE(Chain::make({"bridge blend=80"}));
+  EXPECT_FALSE(Chain::make({"bridge blind=80ms"}));
+  EXPECT_EQ(Chain::make({"hold", "bridge"})->patience(), Continuation::kLongest);
+  EXPECT_EQ(Chain::make({"hold"})->patience(), Duration());
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,114 @@
+#include "transformers/bridge.h"
+
+#include <algorithm>
+
+#include "core/pose/interpolate.h"
+
+namespace dance {
+namespace {
+
+constexpr std::size_t kBridgedPoses = 1536;
+// A line whose delay is long is no silent line.
+constexpr Duration kSilentLine = Duration::ms(120);
+// Where the station before only repeats its last pose, there is nothing to wait for but jitter.
+constexpr Duration kRepeated = Duration::ms(60);
+constexpr Duration kBackInTime = Duration::s(1);
+
+}  // namespace
+
+Bridge::Bridge(const BridgeOptions& options)
+    : history_(kBridgedPoses), finish_(options.blend), skeleton_(average_skeleton()) {}
+
+void Bridge::set_body(const Skeleton& skeleton) {
+  if (!is_valid(skeleton)) return;
+  skeleton_ = skeleton;
+  finish_.set_body(skeleton);
+}
+
+void Bridge::hear(const Beat& beat, MonoTime /*now*/) {
+  beat_ = is_valid(beat) && beat.playing ? Duration::seconds(60.0 / beat.tempo_bpm) : Duration();
+}
+
+void Bridge::end_lapse() {
+  continuation_.end();
+  comes_back_ = false;
+}
+
+void Bridge::observe(const Pose& pose, MonoTime now) {
+  if (!history_.empty()) {
+    const Pose& newest = history_.newest();
+    if (pose.clock_id != newest.clock_id || pose.capture_time < newest.capture_time - kBackInTime) {
+      ++counters_.restarts;
+      history_.clear();
+      finish_.clear();
+      end_lapse();
+    }
+  }
+  if (!history_.push(pose)) return;  // the station before counts it
+  heard_ = now;
+  // The continuation is asked once more, for what it would have shown.
+  comes_back_ = continuation_.is_running();
+}
+
+bool Bridge::is_lapse(MonoTime moment, MonoTime now, bool is_repeated) const {
+  if (history_.empty()) return false;
+  return moment - history_.newest().capture_time >
+             (is_repeated ? kRepeated : Continuation::kPredictedUntil) &&
+         now - heard_ > (is_repeated ? kRepeated : kSilentLine);
+}
+
+void Bridge::carry_on(MonoTime moment, bool has_input, Pose& pose) const {
+  const Duration since = moment - continuation_.newest_time();
+  Pose continued;
+  if (!continuation_.at(since, continued)) return;
+  // From nothing on, however late the lapse was noticed.
+  const float share =
+      has_input ? Continuation::share_at(since - lapse_after_ + Continuation::kPredictedUntil)
+                : 1.0f;
+  if (share <= 0.0f) return;
+  const double beats = pose.music_beats;
+  pose = share >= 1.0f ? continued : interpolate(pose, continued, share);
+  pose.capture_time = moment;
+  pose.music_beats = beats;
+}
+
+bool Bridge::sample(MonoTime now, Pose& out) {
+  const MonoTime wanted = moment(now);
+  bool has_input = input_ && input_->sample(now, out);
+  if (history_.empty()) return has_input;
+  if (!input_) {
+    out = history_.newest();
+    has_input = true;
+  }
+  if (comes_back_) {
+    Pose was = out;
+    carry_on(wanted, has_input, was);
+    finish_.correct(now, was, out);
+    end_lapse();
+  }
+  const bool is_repeated = out.capture_time <= history_.newest().capture_time;
+  if (!continuation_.is_running() && is_lapse(wanted, now, is_repeated)) {
+    lapse_after_ = wanted - history_.newest().capture_time;
+    continuation_.begin(history_, skeleton_, beat_);
+  }
+  const bool is_guess = continuation_.is_running() || !is_repeated;
+  if (continuation_.is_running()) carry_on(wanted, has_input, out);
+  finish_.apply(now, out, is_guess);
+  return true;
+}
+
+bool Bridge::sample_at(MonoTime moment, MonoTime now, Pose& out) {
+  const bool has_input = input_ && input_->sample_at(moment, now, out);
+  if (comes_back_) end_lapse();
+  if (history_.empty() || moment <= history_.newest().capture_time) return has_input;
+  if (!continuation_.is_running() && is_lapse(moment, now, !has_input)) {
+    lapse_after_ = std::max(Continuation::kPredictedUntil, now - heard_);
+    continuation_.begin(history_, skeleton_, beat_);
+  }
+  if (!continuation_.is_running()) return has_input;
+  if (!has_input) out = history_.newest();
+  carry_on(moment, has_input, out);
+  return true;
+}
+
+}  // namespace dance
