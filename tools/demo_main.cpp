@@ -24,11 +24,24 @@ constexpr const char* kExamples = R"(Examples:
                                                  the same, over a recorded line
   dance demo --motion lead.bvh,follow.bvh        your own takes
   dance demo --headless --seconds 10 --out pics  pictures and numbers instead of a window
+  dance demo --compare                           as poses come, and in rhythm, side by side
+  dance demo --compare --music song.ogg          to your own song, its beats in song.beats
+  dance demo --compare --headless --film --out pics
+                                                 the same as pictures, a plot and a film
   dance demo --guests 30 --headless --json       a crowd, measured
 )";
 
 // Between continents, on Wi-Fi.
 constexpr const char* kFarLine = "delay=120ms jitter=15ms loss=1%";
+
+// What the comparison is about: the dancer here and now, on the beat that is heard here.
+const std::vector<std::string> kInRhythm{"rhythm beats=1"};
+
+std::string words_of(const std::vector<std::string>& stations) {
+  std::string words;
+  for (const std::string& station : stations) words += (words.empty() ? "" : ", ") + station;
+  return words;
+}
 
 // The buses stay on this machine: over loopback where that carries multicast, else in a network of our own.
 Result<void> choose_network(bool here) {
@@ -66,6 +79,8 @@ Result<void> run_demo(DemoOptions options, bool here) {
   }
   if (options.film && !(options.compare && options.headless))
     return fail("--film is of a comparison in files: add --compare --headless");
+  if (options.through.empty())
+    options.through = options.compare ? kInRhythm : std::vector<std::string>{"hold"};
   options.view = std::filesystem::exists(program_folder() + "/dance-view");
   if (!options.view) {
     talk::info("built without the viewer: numbers and a log, no pictures");
@@ -103,7 +118,9 @@ int main(int argc, char** argv) {
   line.add("--out", options.out, "folder for pictures, log and what the programs said")
       .shows_default();
   line.add_flag("--json", options.json, "the summary as JSON on stdout, and nothing else there");
-  line.add("--through", options.through, "transformers for remote dancers").shows_default();
+  line.add("--through", options.through,
+           "a transformer for remote dancers; once more for the next. hold, and with --compare: " +
+               dance::words_of(dance::kInRhythm));
   line.add("--music", options.music,
            "a song with its .beats beside it, or none; without it a percussion at --tempo");
   line.add("--tempo", options.tempo_bpm, "beats a minute, without a song")

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/bus/bus.h"
-#include "core/pose/house_music.h"
+#include "core/pose/music_here.h"
 
 namespace dance {
 
@@ -50,7 +50,7 @@ class DemoTrace {
 
   GuestId here_, remote_;
   bool is_over_ = false;
-  HouseMusic heard_;
+  MusicHere heard_;
   std::vector<TracedPose> captured_here_, danced_, raw_, shown_;
   std::vector<TracedBeats> music_;
   Skeleton body_of_here_ = average_skeleton(), body_of_remote_ = average_skeleton();

@@ -85,7 +85,7 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   House* self = house.get();
   house->bus_->on_beat([self](const Channel&, const Beat& beat, MonoTime) {
     self->tag_.hear(beat);
-    if (beat.clock_id == this_clock_id()) self->music_.hear(beat);
+    if (beat.clock_id == this_clock_id()) self->heard_.hear(beat);
   });
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
@@ -183,7 +183,7 @@ void House::add_talk(LinkHandlers& handlers) {
 
 Result<void> House::open_producers() {
   for (const HostedProducer& producer : session_.producers) {
-    DANCE_TRY(auto dancer, make_dancer(producer, music_));
+    DANCE_TRY(auto dancer, make_dancer(producer, heard_));
     feeds_.push_back(std::make_unique<DancerFeed>(std::move(dancer), producer.guest,
                                                   producer.rate_hz, *this, poller_,
                                                   start_of(producer, mono_now())));

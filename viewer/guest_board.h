@@ -17,7 +17,7 @@
 #include "core/base/latest.h"
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
-#include "core/pose/house_music.h"
+#include "core/pose/music_here.h"
 #include "viewer/arrival_meter.h"
 #include "viewer/scene.h"
 
@@ -74,7 +74,7 @@ class GuestBoard {
   std::uint64_t clock_id_;
   bool stage_only_;
   std::unique_ptr<Slot[]> slots_;
-  HouseMusic music_;  // the bus thread's
+  MusicHere music_;  // the bus thread's
   Latest<BeatClock> music_latest_;
   std::atomic<std::uint64_t> poses_{0};
   std::atomic<std::uint64_t> no_room_{0};

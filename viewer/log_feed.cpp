@@ -53,7 +53,7 @@ Result<void> LogFeed::look_through() {
   end_ = MonoTime::from_us(last_us - wall_ahead_us_);
 
   log_.rewind();
-  HouseMusic music(clock_id_);
+  MusicHere music(clock_id_);
   double before = 0.0;
   bool was_known = false;
   while (const auto event = log_.next()) {

@@ -1,4 +1,4 @@
-#include "core/pose/house_music.h"
+#include "core/pose/music_here.h"
 
 #include <gtest/gtest.h>
 
@@ -29,29 +29,29 @@ Pose danced_at(double s, double beats) {
   return pose;
 }
 
-TEST(HouseMusic, StandsWhereItIsSaidToStand) {
-  HouseMusic music(kHouseClock);
+TEST(MusicHere, StandsWhereItIsSaidToStand) {
+  MusicHere music(kHouseClock);
   music.hear(said_at(0.0, 8.0, 120.0));
   EXPECT_NEAR(music.clock().position(house_second(0.75)), 9.5, 1e-9);
 }
 
-TEST(HouseMusic, StandsWhereTheDancersOfTheHouseAreWhileNobodySaysIt) {
-  HouseMusic music(kHouseClock);
+TEST(MusicHere, StandsWhereTheDancersOfTheHouseAreWhileNobodySaysIt) {
+  MusicHere music(kHouseClock);
   for (int i = 0; i < 60; ++i) music.see(danced_at(i / 60.0, 3.0 * i / 60.0));
   ASSERT_TRUE(music.clock().is_known(house_second(1.0)));
   EXPECT_NEAR(music.clock().position(house_second(1.2)), 3.6, 1e-6);
   EXPECT_NEAR(music.clock().beats_per_second(), 3.0, 1e-9);
 }
 
-TEST(HouseMusic, BelievesWhoPlaysMoreThanWhoDances) {
-  HouseMusic music(kHouseClock);
+TEST(MusicHere, BelievesWhoPlaysMoreThanWhoDances) {
+  MusicHere music(kHouseClock);
   music.hear(said_at(0.0, 0.0, 120.0));
   for (int i = 0; i < 60; ++i) music.see(danced_at(i / 60.0, 100.0 + 3.0 * i / 60.0));
   EXPECT_NEAR(music.clock().position(house_second(1.0)), 2.0, 1e-9);
 }
 
-TEST(HouseMusic, HearsNothingFromOtherClocksAndNothingFromPosesWithoutMusic) {
-  HouseMusic music(kHouseClock);
+TEST(MusicHere, HearsNothingFromOtherClocksAndNothingFromPosesWithoutMusic) {
+  MusicHere music(kHouseClock);
   Beat foreign = said_at(0.0, 0.0, 120.0);
   foreign.clock_id = 1;
   music.hear(foreign);
@@ -64,8 +64,8 @@ TEST(HouseMusic, HearsNothingFromOtherClocksAndNothingFromPosesWithoutMusic) {
   EXPECT_FALSE(music.clock().is_known(house_second(1.0)));
 }
 
-TEST(HouseMusic, FollowsNoDancerWhoJumps) {
-  HouseMusic music(kHouseClock);
+TEST(MusicHere, FollowsNoDancerWhoJumps) {
+  MusicHere music(kHouseClock);
   for (int i = 0; i < 8; ++i) music.see(danced_at(0.3 * i, i % 2 == 0 ? 0.0 : 1000.0));
   EXPECT_FALSE(music.clock().is_known(house_second(2.4)));
 }

@@ -1,4 +1,4 @@
-// HouseMusic: where the music of this house stands, for whoever shows or measures it: as what plays the music says; where
+// MusicHere: where the music of this house stands, for whoever shows or measures it: as what plays the music says; where
 // nothing plays, as the dancers of this house carry it in their own poses.
 //
 // Units/frames: beats as core/base/beat.h counts them; times of the clock that it is made with.
@@ -14,9 +14,9 @@
 
 namespace dance {
 
-class HouseMusic {
+class MusicHere {
  public:
-  explicit HouseMusic(std::uint64_t clock_id) : clock_id_(clock_id) {}
+  explicit MusicHere(std::uint64_t clock_id) : clock_id_(clock_id) {}
 
   void hear(const Beat& beat) {
     if (beat.clock_id != clock_id_) return;
