@@ -46,6 +46,8 @@ constexpr std::array kCommands{
     Command{"codec train", "trains a model of the pose codec"},
     Command{"rhythm eval",
             "remote dancers on the beat that the listener hears, on recorded dances"},
+    Command{"predict eval", "prediction on recorded dances: errors beside plain guesses, cost"},
+    Command{"predict train", "trains a model of prediction"},
     Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
