@@ -31,8 +31,8 @@ struct DemoOptions {
   double hz = 60.0;
   bool film = false;     // of the comparison
   bool compare = false;  // remote dancers on the stage as their poses come too, and both measured
-  std::vector<std::string> through;             // of remote dancers
-  int port = 0;                                 // of the server; 0 = one that is free
+  std::vector<std::string> through;  // of remote dancers
+  int port = 0;                      // of the server; 0 = one that is free
 };
 
 // Where the demo's programs have their session files, reports and talk: pictures and log lie above.

@@ -39,6 +39,21 @@ struct Tag {
   ScreenPoint at;
 };
 
+// More names than these stand in each other's way whatever one does.
+constexpr std::size_t kTagsKeptApart = 4;
+
+// A couple, one before the other: the tag of who is further off goes above the nearer one's. Tags from far to near.
+void keep_apart(std::vector<Tag>& tags, float width_px, float height_px) {
+  if (tags.size() > kTagsKeptApart) return;
+  for (std::size_t far = tags.size(); far-- > 0;)
+    for (std::size_t near = far + 1; near < tags.size(); ++near) {
+      ScreenPoint& at = tags[far].at;
+      const ScreenPoint& other = tags[near].at;
+      if (std::abs(at.x_px - other.x_px) < width_px && std::abs(at.y_px - other.y_px) < height_px)
+        at.y_px = other.y_px - height_px;
+    }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Overlay>> Overlay::create(float scale) {
@@ -148,6 +163,7 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera, floa
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float size = tag_font_->FontSize;
   const float pad = 0.42f * size;
+  keep_apart(tags, 3.6f * size, 1.6f * size);
   for (const Tag& tag : tags) {
     const char* name = tag.guest->id.c_str();
     const float alpha = tag.guest->opacity;
