@@ -29,6 +29,7 @@ bool has_twins(const SceneState& scene) {
 Comparison compare(const SceneState& scene) {
   Comparison comparison{scene, scene};
   leave_out_twins(comparison.shown);
+  comparison.shown.notes.clear();  // once is enough
   comparison.raw.guests.clear();
   for (const SceneGuest& guest : scene.guests) {
     if (is_twin(scene, guest.id)) continue;
