@@ -6,16 +6,16 @@
 namespace dance {
 namespace {
 
-// 30 moments a second: half-lives of 15 s and of 2 s.
+// 30 moments a second: half-lives of 15 s and of 1 s.
 constexpr float kShareKeep = 0.99846f;
-constexpr float kErrorKeep = 0.9885f;
+constexpr float kErrorKeep = 0.977f;
 // What a correction must have proved before it counts, as a part of what it would prove in the half-life.
 constexpr float kCaution = 0.05f;
 constexpr float kDampedRows = 6.0f;  // 100 ms
 // From here on, of the best plain guess's error, the prediction gives way to it, and from there on wholly.
-constexpr float kBegins = 0.94f, kWholly = 1.0f;
+constexpr float kBegins = 0.9f, kWholly = 0.98f;
 // A few moments that were worse say nothing yet.
-constexpr float kHeardEnough_moments = 60.0f;
+constexpr float kHeardEnough_moments = 30.0f;
 // Root of the sum of all joints' squared speeds, m/s: less is standing.
 constexpr float kMoving_m_s = 0.4f;
 
