@@ -47,6 +47,8 @@ constexpr std::array kCommands{
     Command{"rhythm eval",
             "remote dancers on the beat that the listener hears, on recorded dances"},
     Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
+    Command{"predict stream",
+            "dances over a line with delay, jitter and loss: how late, how smooth"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
     Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},

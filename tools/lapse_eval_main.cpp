@@ -45,7 +45,7 @@ Result<std::vector<Duration>> parse_lapses(std::string_view text) {
 Result<void> run(const Wishes& wishes) {
   DANCE_TRY(const std::vector<Duration> lapses, parse_lapses(wishes.lapses));
   std::vector<std::pair<std::string, MakeSubject>> subjects{
-      {"hold", hold_subject()}, {"continuation", continuation_subject()}};
+      {"newest", newest_subject()}, {"continuation", continuation_subject()}};
   for (const std::string& through : wishes.through) {
     DANCE_TRY(const Chain chain, Chain::make({through}));
     if (chain.is_pass_through()) continue;
