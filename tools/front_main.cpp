@@ -46,6 +46,8 @@ constexpr std::array kCommands{
     Command{"codec train", "trains a model of the pose codec"},
     Command{"rhythm eval",
             "remote dancers on the beat that the listener hears, on recorded dances"},
+    Command{"predict eval", "prediction on recorded dances: errors beside plain guesses, cost"},
+    Command{"predict train", "trains a model of prediction"},
     Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
     Command{"predict stream",
             "dances over a line with delay, jitter and loss: how late, how smooth"},

@@ -5,6 +5,7 @@
 
 #include "transformers/bridge.h"
 #include "transformers/hold.h"
+#include "transformers/predict.h"
 #include "transformers/rhythm.h"
 
 namespace dance {
@@ -31,6 +32,15 @@ Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   return std::make_unique<Hold>(window);
 }
 
+Result<std::unique_ptr<Transformer>> make_predict(const Arguments& arguments) {
+  PredictOptions options;
+  Settings settings("predict", arguments);
+  settings.number("lead", options.lead, 0.0, 1.5)
+      .duration("most", options.most, Duration(), DancePredictor::kFurthest);
+  if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
+  return std::make_unique<Predict>(options);
+}
+
 Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
   RhythmOptions options;
   double most_error_mm = options.most_error_m * 1e3;
@@ -50,9 +60,10 @@ struct Entry {
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 3> kTransformers{{
+constexpr std::array<Entry, 4> kTransformers{{
     {"bridge", make_bridge},
     {"hold", make_hold},
+    {"predict", make_predict},
     {"rhythm", make_rhythm},
 }};
 

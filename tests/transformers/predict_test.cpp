@@ -1,0 +1,177 @@
+#include "transformers/predict.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/allocation_guard.h"
+#include "tests/transformers/predicted_dances.h"
+#include "transformers/chain.h"
+#include "transformers/hold.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kWay = Duration::ms(100);
+
+TEST(Predict, ShowsTheDancerAsTheyAreNow) {
+  Predict station;
+  const auto dance = shaken(salsa(1200), 0.002);
+  double ours = 0.0, raw = 0.0;
+  Pose out;
+  EXPECT_FALSE(station.sample(MonoTime::from_us(1), out));
+  for (std::size_t i = 6; i < dance.size(); ++i) {
+    const MonoTime now = dance[i - 6].capture_time + kWay;
+    station.observe(dance[i - 6], now);
+    ASSERT_TRUE(station.sample(now, out));
+    if (i < 300) continue;
+    EXPECT_EQ(out.capture_time, now);
+    ours += mean_angle_rad(out, dance[i]);
+    raw += mean_angle_rad(dance[i - 6], dance[i]);
+  }
+  EXPECT_LT(ours, 0.7 * raw);
+}
+
+TEST(Predict, TakesBackAsMuchAsItIsTold) {
+  PredictOptions options;
+  options.lead = 0.5;
+  Predict station(options);
+  const auto dance = salsa(300);
+  Pose out;
+  for (const Pose& pose : dance) station.observe(pose, pose.capture_time + kWay);
+  ASSERT_TRUE(station.sample(dance.back().capture_time + kWay, out));
+  EXPECT_NEAR((out.capture_time - dance.back().capture_time).as_ms(), 50.0, 1.0);
+}
+
+TEST(Predict, WhatHasArrivedIsShownAsItIs) {
+  Predict station;
+  const auto dance = salsa(300);
+  for (const Pose& pose : dance) station.observe(pose, pose.capture_time);
+  Pose out;
+  ASSERT_TRUE(station.sample_at(dance[200].capture_time, dance.back().capture_time, out));
+  EXPECT_EQ(out.R_PB[5].coeffs(), dance[200].R_PB[5].coeffs());
+}
+
+TEST(Predict, AnyMomentMayBeAskedForWithoutAChangeToWhatIsShown) {
+  Predict asked, alone;
+  const auto dance = shaken(salsa(400), 0.004);
+  for (std::size_t i = 0; i < dance.size(); ++i) {
+    const MonoTime now = dance[i].capture_time + kWay;
+    asked.observe(dance[i], now);
+    alone.observe(dance[i], now);
+    Pose out, other;
+    for (int ahead = -200; ahead < 700; ahead += 150)
+      ASSERT_TRUE(asked.sample_at(now + Duration::ms(ahead), now, out));
+    ASSERT_TRUE(asked.sample(now, out));
+    ASSERT_TRUE(alone.sample(now, other));
+    ASSERT_EQ(out.R_PB[9].coeffs(), other.R_PB[9].coeffs());
+  }
+}
+
+// A pose that comes late corrects what was shown without a pop: no step between two frames is much larger than the
+// dance's own.
+TEST(Predict, CorrectsWithoutAPop) {
+  Predict station;
+  const auto dance = shaken(salsa(1800), 0.004);
+  Random random(2);
+  double most = 0.0, own = 0.0;
+  Pose before, out;
+  std::size_t heard = 0;
+  for (std::size_t i = 30; i < dance.size(); ++i) {
+    const MonoTime now = dance[i].capture_time;
+    // Six to ten frames late, in bursts.
+    const std::size_t late = 6 + random.below(5);
+    for (; heard + late < i; ++heard) station.observe(dance[heard], now);
+    ASSERT_TRUE(station.sample(now, out));
+    if (i > 600) {
+      most = std::max(most, mean_angle_rad(out, before));
+      own = std::max(own, mean_angle_rad(dance[i], dance[i - 1]));
+    }
+    before = out;
+  }
+  EXPECT_LT(most, 1.5 * own);
+}
+
+TEST(Predict, BehindAHoldShowsItsMomentAndFillsWhatIsLate) {
+  auto chain = Chain::make({"hold 40ms", "predict"});
+  ASSERT_TRUE(chain);
+  Hold alone(Duration::ms(40));
+  const auto dance = salsa(600);
+  Pose out, held;
+  for (std::size_t i = 0; i < dance.size(); ++i) {
+    const MonoTime now = dance[i].capture_time + kWay;
+    // A tenth of a second is missing now and then.
+    if (i % 100 < 94) {
+      chain->observe(dance[i], now);
+      alone.observe(dance[i], now);
+    }
+    ASSERT_TRUE(chain->sample(now, out));
+    ASSERT_TRUE(alone.sample(now, held));
+    if (i < 200) continue;
+    if (i % 100 < 90) {
+      EXPECT_LT(std::abs((out.capture_time - held.capture_time).as_ms()), 0.1);
+    }
+    // The hold stands where it has nothing; the prediction's time goes on.
+    if (i % 100 == 99) {
+      EXPECT_GT(out.capture_time, held.capture_time + Duration::ms(20));
+    }
+  }
+}
+
+TEST(Predict, MusicGoesOnWithTheDance) {
+  Predict station;
+  auto dance = salsa(300);
+  for (std::size_t i = 0; i < dance.size(); ++i) {
+    dance[i].music_beats = 3.0 * static_cast<double>(i) / 60.0;
+    station.observe(dance[i], dance[i].capture_time + kWay);
+  }
+  Pose out;
+  ASSERT_TRUE(station.sample(dance.back().capture_time + kWay, out));
+  EXPECT_NEAR(out.music_beats, dance.back().music_beats + 0.3, 1e-3);
+  ASSERT_TRUE(is_valid(out));
+}
+
+TEST(Predict, PosesOfAnotherClockAreShownAsTheyCome) {
+  Predict station;
+  const auto dance = salsa(300);
+  Pose out;
+  for (const Pose& pose : dance) station.observe(pose, pose.capture_time + Duration::s(100000));
+  ASSERT_TRUE(station.sample(dance.back().capture_time + Duration::s(100000), out));
+  EXPECT_NEAR((out.capture_time - dance.back().capture_time).as_ms(), 0.0, 1.0);
+}
+
+TEST(Predict, CountsWhatItRefusesWhatStartsAnewAndWhatItCannotReach) {
+  Predict station;
+  const auto dance = salsa(100);
+  for (const Pose& pose : dance) station.observe(pose, pose.capture_time + kWay);
+  station.observe(dance[50], dance.back().capture_time + kWay);
+  EXPECT_EQ(station.counters().refused, 1u);
+  Pose out;
+  ASSERT_TRUE(station.sample(dance.back().capture_time + Duration::ms(900), out));
+  EXPECT_EQ(station.counters().starved, 1u);
+  Pose other = dance[0];
+  other.clock_id = 2;
+  station.observe(other, dance.back().capture_time + Duration::s(1));
+  EXPECT_EQ(station.counters().restarts, 1u);
+}
+
+TEST(Predict, AllocatesNothing) {
+  Predict station;
+  const auto dance = shaken(salsa(900), 0.004);
+  const AllocationGuard guard;
+  Pose out;
+  for (const Pose& pose : dance) {
+    station.observe(pose, pose.capture_time + kWay);
+    station.sample(pose.capture_time + kWay, out);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+TEST(Predict, RefusesSettingsThatMakeNoSense) {
+  EXPECT_TRUE(Chain::make({"predict lead=0.8 most=200ms"}));
+  for (const char* text : {"predict lead=2", "predict most=5s", "predict lead", "predict far=1"})
+    EXPECT_FALSE(Chain::make({text})) << text;
+}
+
+}  // namespace
+}  // namespace dance

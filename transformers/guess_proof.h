@@ -1,0 +1,55 @@
+// GuessProof: who has been right lately. It tells how much of the personal model's correction to take, joint by joint; and
+// where the whole prediction was worse than standing still, than going on, or than going on and slowing down, how far to
+// go back to that.
+//
+// Units/frames: ways as transformers/moment_guesses.h.
+// Ownership:    plain value; never allocates.
+// Threads:      none inside; one owner.
+// Failure:      none; before anything is known, nothing of the personal model, and the prediction as it is.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "transformers/moment_guesses.h"
+#include "transformers/predict_model.h"
+
+namespace dance {
+
+// What anyone can do: stand still, go on as between the last two rows, go on and slow down (100 ms).
+constexpr std::size_t kPlainGuesses = 3;
+std::array<BodyRow, kPlainGuesses> plain_ways(const MomentGuesses& guesses, std::size_t horizon);
+
+class GuessProof {
+ public:
+  explicit GuessProof(const std::array<float, kRowGroups>& lever);
+  void clear();
+
+  // A moment that is over: it went `way`.
+  void learn(std::size_t horizon, const MomentGuesses& guesses, const BodyRow& way);
+  // Adds what is proved of guesses.personal to guesses.blended, and goes back to plain guesses where those were better.
+  void finish(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
+  // Forgets what the personal model has proved: a new one is there.
+  void doubt_personal();
+
+ private:
+  struct Horizon {
+    // Share s of a correction c to a guess p that is least wrong: sum (y - p) c / sum c².
+    alignas(64) std::array<float, kRowGroups> right{}, size{};
+    alignas(64) std::array<float, kRowGroups> share{};
+    // Mean errors of the prediction and of the plain guesses, while the dancer stands and while they move.
+    struct Errors {
+      float heard = 0.0f;
+      float ours = 0.0f;
+      std::array<float, kPlainGuesses> plain{};
+    };
+    std::array<Errors, 2> errors{};
+  };
+  bool is_moving(const MomentGuesses& guesses) const;
+  float error_m(const BodyRow& said, const BodyRow& way) const;
+
+  std::array<float, kRowGroups> lever_{};
+  std::array<Horizon, kHorizons> horizons_{};
+};
+
+}  // namespace dance

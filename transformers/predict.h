@@ -1,0 +1,63 @@
+// predict: shows the dancer as they are now, or nearer to it than what has arrived: takes the way's delay back by
+// predicting (transformers/dance_predictor.h). What has arrived is shown as it is; corrections go in without a pop, and
+// guessed feet stand where they stand.
+//
+// Units/frames: capture times and `now` are of one clock, as the tunnel maps them. `lead` is the part of the delay that is
+//               taken back, 0 to 1.5; `most` is the furthest that is predicted.
+// Ownership:    about four megabytes and the last 12 s of poses; never allocates after construction.
+// Threads:      one owner; learner() is for another thread.
+// Failure:      a pose that is not newer is refused and counted; a source that jumps or changes its clock starts anew and
+//               is counted. Poses whose clock is not this house's are shown as they come, without a lead.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/pose/history.h"
+#include "transformers/dance_predictor.h"
+#include "transformers/finish.h"
+#include "transformers/transformer.h"
+
+namespace dance {
+
+struct PredictOptions {
+  double lead = 1.0;
+  Duration most = Duration::ms(300);
+  std::shared_ptr<const PredictModel> model;  // null: the built-in one
+};
+
+class Predict : public Transformer {
+ public:
+  explicit Predict(const PredictOptions& options = {});
+
+  void observe(const Pose& pose, MonoTime now) override;
+  bool sample(MonoTime now, Pose& out) override;
+  MonoTime moment(MonoTime now) override;
+  bool sample_at(MonoTime moment, MonoTime now, Pose& out) override;
+  void set_body(const Skeleton& skeleton) override;
+  std::shared_ptr<Learner> learner() override { return predictor_.personal(); }
+
+ private:
+  void note_transit(Duration transit, MonoTime now);
+  bool pose_at(MonoTime moment, Duration most, Pose& out) const;
+  void forget();
+
+  PredictOptions options_;
+  DancePredictor predictor_;
+  PoseHistory history_;
+  Finish finish_;
+
+  // The least transit of the last 5 to 10 s, as play-out buffers take it.
+  struct Bucket {
+    Duration least;
+    bool filled = false;
+  };
+  std::array<Bucket, 2> buckets_{};
+  MonoTime bucket_begin_;
+  Duration transit_;  // followed slowly
+
+  MonoTime shown_, shown_at_;
+  bool has_shown_ = false;
+};
+
+}  // namespace dance
