@@ -25,7 +25,7 @@ struct Wishes {
   std::string delay = "100ms", jitter = "15ms";
   double loss_percent = 1.0;
   std::uint64_t seed = 1;
-  std::vector<std::string> through{"hold", "hold 0ms,bridge"};
+  std::vector<std::string> through{"hold", "predict", "predict,bridge"};
   bool is_json = false;
 };
 
