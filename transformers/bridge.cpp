@@ -46,6 +46,7 @@ void Bridge::observe(const Pose& pose, MonoTime now) {
   }
   if (!history_.push(pose)) return;  // the station before counts it
   heard_ = now;
+  finish_.observe(pose, now);
   // The continuation is asked once more, for what it would have shown.
   comes_back_ = continuation_.is_running();
 }

@@ -24,6 +24,9 @@ constexpr float kFarAbove_m = 0.5f;
 // Speeds are of this much time, so that a trembling sensor does not lift a foot.
 constexpr float kSpeedOver_s = 0.04f;
 constexpr float kGlide_s = 0.04f;
+constexpr float kSeenSpeedOver_s = 0.02f;
+constexpr float kStandsBelow_m_s = 0.2f;
+constexpr float kToSeen_s = 0.3f;
 constexpr float kNothing_m = 1e-5f;
 constexpr float kStraight = 0.9995f;
 
@@ -44,6 +47,7 @@ void FootLock::set_body(const Skeleton& skeleton) {
 void FootLock::clear() {
   feet_ = {};
   began_ = false;
+  seen_at_ = MonoTime();
 }
 
 void FootLock::follow_floor(float low_m, float seconds) {
@@ -55,12 +59,41 @@ void FootLock::follow_floor(float low_m, float seconds) {
         std::min(above_m, seconds * (above_m > kFarAbove_m ? kFloorRisesFar_m_s : kFloorRises_m_s));
 }
 
-bool FootLock::should_hold(const Foot& foot, bool may_lock) const {
-  if (!may_lock) return false;
+void FootLock::observe(const Pose& real, MonoTime now) {
+  BodyFrames frames;
+  forward_kinematics(skeleton_, real, frames);
+  const Duration step = real.capture_time - seen_capture_;
+  const auto seconds = static_cast<float>(step.as_seconds());
+  seen_capture_ = real.capture_time;
+  seen_at_ = now;
+  for (std::size_t side = 0; side < 2; ++side) {
+    Foot& foot = feet_[side];
+    const Vector3f ball = frames.position(kBalls[side]);
+    if (step > Duration() && step <= kLongestStep && ball.allFinite()) {
+      const float speed_m_s = (ball - foot.seen).norm() / seconds;
+      foot.seen_speed_m_s +=
+          (speed_m_s - foot.seen_speed_m_s) * (1.0f - std::exp(-seconds / kSeenSpeedOver_s));
+    } else {
+      foot.seen_speed_m_s = settings_.release_above_m_s;
+    }
+    foot.seen = ball;
+    foot.seen_standing =
+        foot.seen_speed_m_s < kStandsBelow_m_s && ball.y() - floor_m_ < settings_.release_above_m;
+  }
+}
+
+bool FootLock::should_hold(const Foot& foot) const {
+  const bool is_seen = is_fresh();
+  if (is_seen && foot.seen_standing)
+    return (foot.seen - foot.raw).norm() <
+           (foot.locked ? settings_.furthest_m : settings_.lifts_beyond_m);
   const float height_m = foot.raw.y() - floor_m_;
   if (!foot.locked)
-    return foot.speed_m_s < settings_.lock_below_m_s && height_m < settings_.lock_below_m;
-  return foot.speed_m_s < settings_.release_above_m_s && height_m < settings_.release_above_m &&
+    return foot.speed_m_s < (is_seen ? settings_.seen_lock_below_m_s : settings_.lock_below_m_s) &&
+           height_m < settings_.lock_below_m;
+  return foot.speed_m_s <
+             (is_seen ? settings_.seen_release_above_m_s : settings_.release_above_m_s) &&
+         height_m < settings_.release_above_m &&
          (foot.held - foot.raw).norm() < settings_.furthest_m;
 }
 
@@ -70,7 +103,7 @@ void FootLock::follow(Foot& foot, const Vector3f& raw, float seconds, bool may_l
   const Vector3f shown_before = foot.raw + foot.shift.offset;
   foot.raw = raw;
   const bool was_locked = foot.locked;
-  foot.locked = should_hold(foot, may_lock);
+  foot.locked = may_lock && should_hold(foot);
   const Vector3f offset_before = foot.shift.offset;
   if (foot.locked) {
     if (!was_locked) {
@@ -80,6 +113,9 @@ void FootLock::follow(Foot& foot, const Vector3f& raw, float seconds, bool may_l
     const float fade = std::exp(-seconds / kGlide_s);
     foot.held += foot.glide * (kGlide_s * (1.0f - fade));
     foot.glide *= fade;
+    // Where it really stands, slowly.
+    if (is_fresh() && foot.seen_standing)
+      foot.held += (foot.seen - foot.held) * (1.0f - std::exp(-seconds / kToSeen_s));
     foot.shift.offset = foot.held - raw;
     foot.shift.velocity = (foot.shift.offset - offset_before) / seconds;
     return;
@@ -136,10 +172,12 @@ bool FootLock::apply(MonoTime now, Pose& pose, bool may_lock) {
   const float low_m = std::min(balls[0].y(), balls[1].y());
   if (!goes_on) {
     if (!began_ || std::abs(low_m - floor_m_) > kFarAbove_m) floor_m_ = low_m;
-    feet_ = {};
     for (std::size_t side = 0; side < 2; ++side) {
-      feet_[side].raw = balls[side];
-      feet_[side].speed_m_s = settings_.release_above_m_s;
+      Foot& foot = feet_[side];
+      foot.raw = balls[side];
+      foot.speed_m_s = settings_.seen_release_above_m_s;
+      foot.shift = Spring();
+      foot.locked = false;
     }
     began_ = true;
     return false;
