@@ -19,6 +19,13 @@ Manager::Manager(ManagerOptions options, Bus& bus, Poller& poller)
   router_.on_learner([this](std::shared_ptr<Learner> learner) { study_.add(std::move(learner)); });
   listen(Where::kCapture);
   if (options_.hear_guests_on_bus) listen(Where::kGuest);
+  // A style is said over the bus whoever hands the poses over.
+  for (const Where where : {Where::kCapture, Where::kGuest})
+    if (router_.wants(where))
+      bus_.on_style(where, GuestId(),
+                    [this, where](const Channel& channel, const Style& style, MonoTime) {
+                      router_.take(where, channel.guest(), style);
+                    });
   bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime now) {
     // Of another machine's clock it says nothing about the music here.
     if (beat.clock_id == this_clock_id()) router_.hear(beat, now);

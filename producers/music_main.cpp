@@ -9,8 +9,10 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/music/beats_file.h"
+#include "producers/music/microphone_beats.h"
 #include "producers/music/music_house.h"
 #include "producers/music/pulse_player.h"
+#include "producers/music/tracked_song.h"
 
 namespace dance {
 namespace {
@@ -24,8 +26,12 @@ constexpr const char* kExamples = R"(Examples:
   dance music --follow                       keeps the room's time, without the song
   dance music song.ogg --silent              keeps the time only, on a machine without sound
   dance music song.ogg --trim 120ms          through a loudspeaker that is late by so much
+  dance music --microphone                   plays nothing: says the beat of what the microphone hears
+Without a list of its beats a song is listened to before it begins, which takes a hundredth of its length.
 A .beats file is text: seconds, TAB, position in the bar.
 )";
+
+constexpr Duration kMicrophoneTurn = Duration::ms(10);
 
 struct ProgramOptions {
   std::string file;
@@ -37,6 +43,8 @@ struct ProgramOptions {
   bool follow = false;
   bool silent = false;
   bool loop = false;
+  bool microphone = false;
+  std::string source;
   double volume = 1.0;
   double seconds = 0.0;
 };
@@ -85,11 +93,19 @@ Result<Loaded> load(const ProgramOptions& options) {
   Loaded loaded;
   if (options.file.empty()) return loaded;
   DANCE_TRY(loaded.audio, AudioFile::open(options.file));
-  const bool is_given = !options.beats.empty();
-  const std::string beats = is_given ? options.beats : beats_path_beside(options.file);
-  if (!is_given && !is_there(beats))
-    return fail(options.file + ": no beats known: put a list of them beside it as " + beats +
-                ", or name one with --beats");
+  const std::string beats = options.beats.empty() ? beats_path_beside(options.file) : options.beats;
+  if (options.beats.empty() && !is_there(beats)) {
+    talk::info("there is no {}: listens for the beats of {}", beats, options.file);
+    auto tracked = track_song(*loaded.audio);
+    if (!tracked)
+      return fail(options.file + ": " + tracked.error().what +
+                  "; put a list of its beats beside it as " + beats);
+    loaded.confidence = tracked->confidence;
+    talk::info("{} beats, about {:.0f} a minute", tracked->grid.size(),
+               tracked->grid.tempo_bpm(tracked->grid.last_beat() / 2.0));
+    loaded.song.emplace(std::move(tracked->grid), loaded.audio->length_s(), options.loop);
+    return loaded;
+  }
   DANCE_TRY(BeatGrid grid, read_beats_file(beats));
   if (grid.time_of(grid.first_beat()) > loaded.audio->length_s())
     return fail(beats + ": its first beat is behind the end of " + options.file);
@@ -97,23 +113,69 @@ Result<Loaded> load(const ProgramOptions& options) {
   return loaded;
 }
 
-Result<std::unique_ptr<MusicPlayer>> player_of(const ProgramOptions& options, Loaded& loaded) {
-  if (options.silent || !loaded.audio) return std::make_unique<SilentPlayer>();
+Result<Duration> trim_of(const ProgramOptions& options) {
   const auto trim = duration_of(options.trim);
   if (!trim || *trim > Duration::s(5) || *trim < -Duration::s(5))
     return fail("--trim '" + options.trim + "': give a time like 20ms");
-  auto player = PulsePlayer::open(std::move(*loaded.audio), {options.loop, options.volume, *trim});
+  return *trim;
+}
+
+Result<std::unique_ptr<MusicPlayer>> player_of(const ProgramOptions& options, Loaded& loaded) {
+  if (options.silent || !loaded.audio) return std::make_unique<SilentPlayer>();
+  DANCE_TRY(const Duration trim, trim_of(options));
+  auto player = PulsePlayer::open(std::move(*loaded.audio), {options.loop, options.volume, trim});
   if (player) return std::move(*player);
   talk::warn("{}; keeps the time without sound", player.error().what);
   return std::make_unique<SilentPlayer>();
 }
 
-Result<void> play(const ProgramOptions& options) {
-  if (options.file.empty() && !options.follow)
-    return fail("nothing to play: name a file, or keep the room's time with --follow");
+void stop_after(Poller& poller, double seconds) {
+  if (seconds > 0.0)
+    poller.add_timer(mono_now() + Duration::seconds(seconds), [&poller](MonoTime) {
+      poller.stop();
+      return MonoTime();
+    });
+}
+
+// Nothing is played: what is heard is followed.
+Result<void> listen(const ProgramOptions& options) {
+  DANCE_TRY(const Duration trim, trim_of(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto ear, MicrophoneBeats::open(options.source, trim));
+  DANCE_TRY(auto bus, Bus::open(options.bus));
+  BeatTeller teller(*bus, *poller, [&](MonoTime now) { return ear->beat(now); });
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  Result<void> worked;
+  poller->add_timer(mono_now(), [&](MonoTime now) {
+    worked = ear->work(now);
+    if (!worked) poller->stop();
+    return now + kMicrophoneTurn;
+  });
+  bool said_another = false;
+  poller->add_timer(mono_now(), [&](MonoTime now) {
+    if (teller.hears_another(now) && !said_another) talk::warn("{}", kAnotherSaysTheBeat);
+    said_another = teller.hears_another(now);
+    return now + Duration::s(1);
+  });
+  stop_after(*poller, options.seconds);
+  talk::info("listens; Ctrl-C ends it");
+  poller->run();
+  poller->unwatch(bus->fd());
+  talk::info("{} beats said", teller.told());
+  return worked;
+}
+
+Result<void> play(const ProgramOptions& options) {
+  if (options.microphone) return listen(options);
+  if (options.file.empty() && !options.follow)
+    return fail(
+        "nothing to play: name a file, keep the room's time with --follow, or listen with "
+        "--microphone");
+  // First: until the song has been listened to, Ctrl-C ends the program by itself.
   DANCE_TRY(Loaded loaded, load(options));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
   MusicHouseOptions house_options;
   house_options.song = loaded.song;
   house_options.confidence = loaded.confidence;
@@ -125,11 +187,7 @@ Result<void> play(const ProgramOptions& options) {
   DANCE_TRY(house_options.begin, start_of(options, mono_now()));
   MusicHouse house(std::move(house_options), std::move(player), *bus, *poller);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
-  if (options.seconds > 0.0)
-    poller->add_timer(mono_now() + Duration::seconds(options.seconds), [&](MonoTime) {
-      poller->stop();
-      return MonoTime();
-    });
+  stop_after(*poller, options.seconds);
   talk::info("{}; Ctrl-C ends it", options.follow ? "listens for the room's music" : "playing");
   poller->run();
   house.stop(mono_now());
@@ -147,13 +205,17 @@ int main(int argc, char** argv) {
   dance::CommandLine line("Plays music, and says the beat that is heard in this house.",
                           "dance music");
   line.add("FILE", options.file, "the music: .ogg, .flac, .wav, .mp3, .opus");
-  line.add("--beats", options.beats, "list of its beats; without it, the .beats file beside FILE");
+  line.add("--beats", options.beats,
+           "list of its beats; without it, the .beats file beside FILE, or what is heard");
   line.add("--bus", options.bus, "LCM URL of the house's bus");
   line.add("--guest", options.guest, "play for the room, as this guest of the house").guest_name();
   line.add_flag("--follow", options.follow, "in step with the room's music, where there is some");
   line.add("--start", options.start,
            "when it begins: +2s from now, or microseconds of this machine's monotonic clock");
   line.add_flag("--silent", options.silent, "keep the time only, without sound");
+  line.add_flag("--microphone", options.microphone,
+                "play nothing, and say the beat of what the microphone hears");
+  line.add("--source", options.source, "which microphone; `pactl list short sources` names them");
   line.add_flag("--loop", options.loop, "over and over");
   line.add("--volume", options.volume, "0 to 1").range(0.0, 1.0);
   line.add("--trim", options.trim,

@@ -83,6 +83,7 @@ void TopTable::take(std::string_view name, std::span<const std::uint8_t> message
   channel.type = type_of_message(message);
 
   const auto parsed = Channel::parse(name);
+  if (parsed && parsed->signal() == Signal::kStyle) take_style(name, message, now);
   ProgramRow program{Stats(), now};
   if (!parsed || parsed->signal() != Signal::kStats) return;
   if (decode(message.data(), message.size(), program.stats) != Decoded::kFine) return;
@@ -93,16 +94,44 @@ void TopTable::take(std::string_view name, std::span<const std::uint8_t> message
     programs_.emplace(parsed->program(), program);
 }
 
+void TopTable::take_style(std::string_view name, std::span<const std::uint8_t> message,
+                          MonoTime now) {
+  StyleRow row{Style(), now};
+  if (decode(message.data(), message.size(), row.style) != Decoded::kFine) return;
+  const auto known = styles_.find(name);
+  if (known != styles_.end())
+    known->second = row;
+  else if (styles_.size() < kMaxPrograms)
+    styles_.emplace(name, row);
+}
+
+void TopTable::append_styles(std::string& out) const {
+  const auto back = std::back_inserter(out);
+  if (!styles_.empty())
+    fmt::format_to(back, "\n{:<34}{:>6}{:>7}{:>10}{:>6}{:>7}{:>6}{:>6}{:>10}{:>9}\n", "style",
+                   "hips", "torso", "shoulders", "arms", "hands", "legs", "head", "periodic",
+                   "dynamic");
+  for (const auto& [name, row] : styles_) {
+    const auto& gain = row.style.gain;
+    fmt::format_to(
+        back, "{:<34}{:>6.2f}{:>7.2f}{:>10.2f}{:>6.2f}{:>7.2f}{:>6.2f}{:>6.2f}{:>10.2f}{:>9.2f}\n",
+        printable(name), gain[0], gain[1], gain[2], gain[3], gain[4], gain[5], gain[6],
+        row.style.periodic, row.style.dynamic);
+  }
+}
+
 std::string TopTable::text(MonoTime now) {
   const double seconds = begin_.is_set() ? std::max((now - begin_).as_seconds(), 1e-3) : 1.0;
   std::string out;
   append_channels(out, now, seconds);
+  append_styles(out);
   append_programs(out, now);
   if (beyond_bounds_ > 0)
     fmt::format_to(std::back_inserter(out), "{} messages on more channels than the table holds\n",
                    beyond_bounds_);
   for (auto& [name, row] : channels_) row.messages = row.bytes = 0;
   std::erase_if(channels_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  std::erase_if(styles_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(programs_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   begin_ = now;
   return out;

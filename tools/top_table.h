@@ -15,6 +15,7 @@
 
 #include "core/base/time.h"
 #include "core/bus/messages.h"
+#include "core/pose/style.h"
 
 namespace dance {
 
@@ -41,16 +42,23 @@ class TopTable {
     MonoTime last;
     std::string_view type;
   };
+  struct StyleRow {
+    Style style;
+    MonoTime last;
+  };
   struct ProgramRow {
     Stats stats;
     MonoTime last;
   };
 
   void append_channels(std::string& out, MonoTime now, double seconds);
+  void take_style(std::string_view name, std::span<const std::uint8_t> message, MonoTime now);
+  void append_styles(std::string& out) const;
   void append_programs(std::string& out, MonoTime now) const;
 
   std::map<std::string, ChannelRow, std::less<>> channels_;
   std::map<std::string, ProgramRow, std::less<>> programs_;
+  std::map<std::string, StyleRow, std::less<>> styles_;  // by channel, at most kMaxPrograms
   std::uint64_t beyond_bounds_ = 0;
   MonoTime begin_;
 };

@@ -7,6 +7,8 @@
 #include "transformers/hold.h"
 #include "transformers/predict.h"
 #include "transformers/rhythm.h"
+#include "transformers/style_presets.h"
+#include "transformers/stylize.h"
 
 namespace dance {
 namespace {
@@ -54,18 +56,21 @@ Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
   return std::make_unique<Rhythm>(options);
 }
 
+Result<std::unique_ptr<Transformer>> make_stylize(const Arguments& arguments) {
+  DANCE_TRY(const Style style, read_style("stylize", arguments, kUsualMix));
+  return std::make_unique<Stylize>(style);
+}
+
 struct Entry {
   std::string_view name;
   Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments);
 };
 
 // Every transformer of the tree.
-constexpr std::array<Entry, 4> kTransformers{{
-    {"bridge", make_bridge},
-    {"hold", make_hold},
-    {"predict", make_predict},
-    {"rhythm", make_rhythm},
-}};
+constexpr Entry kTransformers[]{
+    {"bridge", make_bridge}, {"hold", make_hold},       {"predict", make_predict},
+    {"rhythm", make_rhythm}, {"stylize", make_stylize},
+};
 
 Arguments split(std::string_view text) {
   Arguments words;

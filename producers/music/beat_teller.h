@@ -17,6 +17,10 @@
 
 namespace dance {
 
+constexpr const char* kAnotherSaysTheBeat =
+    "another program says the beat in this house: dancers hear both; end one of them (dance top "
+    "shows the channels)";
+
 class BeatTeller {
  public:
   // The next beat as it is known now.

@@ -120,10 +120,7 @@ MonoTime MusicHouse::each_second(MonoTime now) {
     bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest),
                  room_music_.tell(*options_.song, begin_, now));
   const bool hears_another = teller_->hears_another(now);
-  if (hears_another && !said_another_)
-    talk::warn(
-        "another program says the beat in this house: dancers hear both; end one of them "
-        "(dance top shows the channels)");
+  if (hears_another && !said_another_) talk::warn("{}", kAnotherSaysTheBeat);
   said_another_ = hears_another;
   return now + kMusicSecond;
 }

@@ -1,16 +1,30 @@
 // A build without PulseAudio: says so, and music is played without sound.
+#include "producers/music/microphone_beats.h"
 #include "producers/music/pulse_player.h"
 
 namespace dance {
+namespace {
+
+constexpr const char* kNoSound =
+    "this dance was built without sound: install libpulse-dev and build again";
+
+}  // namespace
 
 Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile, const PulsePlayerOptions&) {
-  return fail("this dance was built without sound: install libpulse-dev and build again");
+  return fail(kNoSound);
 }
 
 std::optional<double> PulsePlayer::heard_s(MonoTime) const { return std::nullopt; }
 Result<void> PulsePlayer::work(MonoTime) { return {}; }
 std::string PulsePlayer::summary() const { return {}; }
 
+Result<std::unique_ptr<MicrophoneBeats>> MicrophoneBeats::open(const std::string&, Duration) {
+  return fail(kNoSound);
+}
+Result<void> MicrophoneBeats::work(MonoTime) { return {}; }
+std::optional<Beat> MicrophoneBeats::beat(MonoTime) const { return std::nullopt; }
+
+PulseInput::~PulseInput() = default;
 PulseServer::~PulseServer() = default;
 PulseOutput::~PulseOutput() = default;
 

@@ -15,7 +15,7 @@ constexpr double kAhead_s = 0.3;
 
 Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server, double rate_hz,
                                                        OnHeard on_heard) {
-  std::unique_ptr<PulseOutput> output(new PulseOutput(server, rate_hz, std::move(on_heard)));
+  std::unique_ptr<PulseOutput> output(new PulseOutput(rate_hz, std::move(on_heard)));
   output->playing_hz_ = static_cast<std::uint32_t>(std::lround(rate_hz));
   const pa_sample_spec format{PA_SAMPLE_FLOAT32LE, output->playing_hz_, 2};
   if (pa_sample_spec_valid(&format) == 0)

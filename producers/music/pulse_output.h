@@ -39,11 +39,10 @@ class PulseOutput {
   void ask_what_is_heard();
 
  private:
-  PulseOutput(PulseServer& server, double rate_hz, OnHeard on_heard)
-      : server_(server), rate_hz_(rate_hz), on_heard_(std::move(on_heard)) {}
+  PulseOutput(double rate_hz, OnHeard on_heard)
+      : rate_hz_(rate_hz), on_heard_(std::move(on_heard)) {}
   void tell_heard();
 
-  PulseServer& server_;
   double rate_hz_;
   OnHeard on_heard_;
   pa_stream* stream_ = nullptr;

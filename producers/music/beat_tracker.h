@@ -1,0 +1,55 @@
+// BeatTracker: hears samples and says where the beat is: a causal, streaming tracker for music that comes without a list
+// of its beats. After each hop of 10 ms it tells when the next beat will be heard, which number it has and how fast the
+// music goes. It looks for 94 to 214 beats a minute, the one octave of tempo that couples dance in.
+//
+// Units/frames: mono samples at a given rate. Times in Beat count from the first sample on a clock that has zero there;
+//               whoever knows when samples are heard adds that. A hop costs about 0.1 ms of one core.
+// Ownership:    owns its tables, about 2 MB; never allocates after construction.
+// Threads:      none inside; one owner.
+// Failure:      samples that are not finite count as silence. beat().playing is false before the first two seconds of
+//               sound and in silence of more than four; the line goes on inside.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/beat.h"
+#include "producers/music/bar_pointer.h"
+#include "producers/music/beat_line.h"
+#include "producers/music/onset_strength.h"
+
+namespace dance {
+
+class BeatTracker {
+ public:
+  // The rate is between kLeastRate_hz and kMostRate_hz.
+  explicit BeatTracker(double sample_rate_hz);
+
+  static constexpr double kLeastRate_hz = OnsetStrength::kLeastRate_hz;
+  static constexpr double kMostRate_hz = OnsetStrength::kMostRate_hz;
+
+  // Any number of samples; returns how many hops they ended.
+  int push(std::span<const float> samples);
+  std::size_t hop_samples() const { return onsets_.hop_samples(); }
+
+  // What is known at the end of the newest hop.
+  const Beat& beat() const { return beat_; }
+
+ private:
+  void end_hop();
+
+  OnsetStrength onsets_;
+  double hop_s_;
+  BarPointer pointer_;
+  BeatLine line_;
+  std::vector<float> hop_;
+  std::size_t filled_ = 0;
+  std::int64_t hops_ = 0;
+  float activity_ = 0.0f;  // mean strength of the last second
+  std::int64_t sounding_hops_ = 0;
+  std::int64_t silent_hops_ = 0;
+  Beat beat_;
+};
+
+}  // namespace dance

@@ -1,0 +1,41 @@
+// MicrophoneBeats: the beat of the music that a microphone hears, on this house's clock: the sound server's latency is
+// counted out.
+//
+// Units/frames: `trim` is the latency before the server's knowledge.
+// Ownership:    owns its connection with the server and the tracker.
+// Threads:      none inside; work() is to be called a hundred times a second.
+// Failure:      open() names what is missing; work() fails when the server has gone.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/beat.h"
+#include "producers/music/beat_tracker.h"
+#include "producers/music/pulse_input.h"
+
+namespace dance {
+
+class MicrophoneBeats {
+ public:
+  // `source` as PulseInput takes it.
+  static Result<std::unique_ptr<MicrophoneBeats>> open(const std::string& source, Duration trim);
+  MicrophoneBeats(const MicrophoneBeats&) = delete;
+  MicrophoneBeats& operator=(const MicrophoneBeats&) = delete;
+
+  Result<void> work(MonoTime now);
+  // The next beat, while one is heard.
+  std::optional<Beat> beat(MonoTime now) const;
+
+ private:
+  explicit MicrophoneBeats(Duration trim);
+
+  Duration trim_;
+  std::unique_ptr<PulseServer> server_;
+  BeatTracker tracker_;
+  std::unique_ptr<PulseInput> input_;  // last: its samples go to what stands above
+  MonoTime next_question_;
+};
+
+}  // namespace dance

@@ -1,0 +1,23 @@
+// The beats of a file of music that comes without a list of them: listened to in advance, by the same tracker that hears a
+// microphone, so that every house that has the file has the same beats, from its first second on.
+//
+// Units/frames: as producers/music/beat_grid.h; the bar is not known.
+// Ownership:    plain values; leaves the file at its begin.
+// Threads:      none inside; takes about a hundredth of the music's length.
+// Failure:      an Error where no steady beat is heard, or the file is damaged.
+#pragma once
+
+#include "core/base/result.h"
+#include "producers/music/audio_file.h"
+#include "producers/music/beat_grid.h"
+
+namespace dance {
+
+struct TrackedSong {
+  BeatGrid grid;
+  float confidence = 0.0f;  // mean, as core/base/beat.h
+};
+
+Result<TrackedSong> track_song(AudioFile& file);
+
+}  // namespace dance

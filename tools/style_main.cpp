@@ -1,0 +1,62 @@
+// dance-style: says over the bus how large a guest's dance is to be shown.
+#include <string_view>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "tools/bus_program.h"
+#include "transformers/style_presets.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance style alice hips=1.5 arms=1.2          until ctrl-C, once a second
+  dance style alice preset=cuban head=1 --seconds 5
+  dance style alice preset=as-danced --once
+Zones: hips, torso, shoulders, arms, hands, legs, head; gains 0 to 3, 1 as danced; mix=0 shows larger what comes again
+with each bar alone, mix=1 (usual here) all of the motion. The link tells it the other houses; a stage shows it where its
+route says stylize, whose own gains are multiplied with these. What was said last stays.
+)";
+
+struct Options {
+  std::string bus_url;
+  std::string guest;
+  std::vector<std::string> words;
+  double seconds = 0.0;
+  bool is_once = false;
+};
+
+Result<void> say(const Options& options) {
+  const std::vector<std::string_view> words(options.words.begin(), options.words.end());
+  DANCE_TRY(Style style, read_style("style", words, 1.0));
+  style.clock_id = this_clock_id();
+  const auto guest = GuestId::parse(options.guest);
+  DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
+  const Channel channel = Channel::of(Signal::kStyle, Where::kCapture, *guest);
+  const auto publish = [&] {
+    style.time = mono_now();
+    program.bus().publish(channel, style);
+  };
+  publish();
+  if (options.is_once) return {};
+  program.every(Duration::s(1), [&](MonoTime) { publish(); });
+  program.stop_after(options.seconds);
+  program.run();
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::Options options;
+  dance::CommandLine line("Says how large a guest's dance is to be shown, zone by zone.",
+                          "dance style");
+  line.add("GUEST", options.guest, "whose dance").required().guest_name();
+  line.add("ZONE=GAIN", options.words, "hips=1.5 preset=cuban mix=0.5 ...").required();
+  line.add("--bus", options.bus_url, "LCM URL of the bus");
+  line.add("--seconds", options.seconds, "stop after so long (0: ctrl-C)").range(0.0, 1e7);
+  line.add_flag("--once", options.is_once, "say it once and end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::say(options); });
+}

@@ -1,0 +1,77 @@
+// stylize: how large a dance is shown, zone by zone: the sway of the hips, the swing of the arms, made more or less, while
+// the mean pose, the beat and the feet's places stay. r is how a joint deviates from its slow mean, p the part of it that
+// comes again with each bar; shown is r + (gain − 1) (periodic · p + dynamic · (r − p)).
+//
+// What the session says and what the guest says live multiply: the room's taste and the dancer's wish both count, and a
+// guest who says nothing, or 1, leaves the room's as it is.
+//
+// Units/frames: gains 0 .. 4, 1 as danced. The bar is the music's where poses carry it, else found in the motion
+//               (transformers/period.h). Hips: their tilt, and their sway over the feet sideways and up and down; the legs
+//               are solved anew. Legs: feet that stand stay, those that swing swing wider.
+// Ownership:    about 120 kB; never allocates after construction. No delay; 5 to 10 us a pose.
+// Threads:      none inside; one owner.
+// Failure:      with all gains 1 poses pass through bit for bit. A style that is not valid is refused and counted. Hips come
+//               down where a leg would not reach its foot any more. A jump in time starts anew: gains come in within 2 s.
+// Source:       Unuma et al. 1995 (periodic part), Bruderlin and Williams 1995 (gains on all deviation).
+#pragma once
+
+#include <array>
+
+#include "transformers/leg_reach.h"
+#include "transformers/motion_split.h"
+#include "transformers/period.h"
+#include "transformers/transformer.h"
+
+namespace dance {
+
+class Stylize : public Transformer {
+ public:
+  // What the session wants; time and clock of it are not looked at.
+  explicit Stylize(const Style& base);
+
+  void observe(const Pose& pose, MonoTime now) override;
+  bool sample(MonoTime now, Pose& out) override;
+  bool sample_at(MonoTime moment, MonoTime now, Pose& out) override;
+  void set_body(const Skeleton& skeleton) override;
+  void set_style(const Style& style) override;
+
+  // As they are now: what was asked for is come to gradually.
+  float gain(BodyZone zone) const { return gain_[static_cast<std::size_t>(zone)]; }
+
+ private:
+  struct Foot {
+    Eigen::Vector3f p_W_m = Eigen::Vector3f::Zero();
+    float standing = 1.0f;
+    float floor_m = 0.0f;  // lowest that its ankle was lately
+  };
+
+  void aim();
+  void advance_gains(MonoTime now);
+  double bars_of(const Pose& pose) const;
+  void follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins);
+  void follow_feet(const BodyFrames& frames, float dt_s, bool begins);
+  bool is_plain() const;
+  void follow_bias(const MotionSplit::Parts& parts, double dt_s);
+  // What is added to the deviations: of a bone's turn, of the sway.
+  Eigen::Vector3f added_turn(std::size_t bone, const MotionSplit::Parts& parts) const;
+  Eigen::Vector3f added_sway(const MotionSplit::Parts& parts) const;
+  void apply(const BodyFrames& before, const MotionSplit::Parts& parts, Pose& pose) const;
+  void stand(const Pose& was, const BodyFrames& before, Pose& pose) const;
+
+  Style base_, live_;
+  std::array<float, kBodyZones> wanted_gain_{}, gain_{};
+  float wanted_periodic_ = 1.0f, wanted_dynamic_ = 1.0f, periodic_ = 1.0f, dynamic_ = 1.0f;
+  float come_in_ = 0.0f;  // 0 at the begin, 1 once the mean is known
+  Skeleton skeleton_;
+  Period period_;
+  MotionSplit split_;
+  MotionSplit::Parts parts_;
+  MotionSplit::Part bias_;  // what would be added in the mean
+  std::array<Foot, 2> feet_;
+  Pose newest_;
+  MonoTime sampled_, learnt_;
+  std::uint64_t clock_id_ = 0;
+  bool has_newest_ = false;
+};
+
+}  // namespace dance
