@@ -29,16 +29,6 @@ struct Wishes {
   bool is_json = false;
 };
 
-std::vector<std::string> stations_of(std::string_view text) {
-  std::vector<std::string> stations;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(','), text.size());
-    stations.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return stations;
-}
-
 Result<void> run(const Wishes& wishes) {
   StreamOptions options;
   DANCE_TRY(options.line.delay, parse_duration(wishes.delay));

@@ -162,4 +162,14 @@ MakeSubject damped_velocity_subject(Duration half_life) {
       [half_life](const Skeleton&) { return std::make_unique<DampedVelocitySubject>(half_life); };
 }
 
+std::vector<std::string> stations_of(std::string_view text) {
+  std::vector<std::string> stations;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    stations.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return stations;
+}
+
 }  // namespace dance

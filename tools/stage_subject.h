@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/pose/pose.h"
@@ -34,5 +35,8 @@ MakeSubject damped_velocity_subject(Duration half_life = Duration());
 MakeSubject continuation_subject();
 // A chain of stations (transformers/chain.h), whose specifications must be right.
 MakeSubject chain_subject(const std::vector<std::string>& specifications);
+
+// "predict lead=1,bridge": the stations of a chain as one word of a command line.
+std::vector<std::string> stations_of(std::string_view text);
 
 }  // namespace dance

@@ -16,11 +16,13 @@ constexpr std::array<Bone, 2> kBalls{Bone::kLeftToes, Bone::kRightToes};
 constexpr Duration kLongestStep = Duration::ms(250);
 // Nobody's foot does; where it seems to, the dancer is elsewhere.
 constexpr float kFastestBall_m_s = 25.0f;
-// The floor is found at once and forgotten slowly: a dancer who jumps comes down again.
-constexpr float kFloorFalls_s = 0.05f;
+// The floor is found soon and forgotten slowly, so that a dancer who jumps comes down again; a sensor that throws a foot
+// about for a few frames hardly moves it. What is far above it for long was never on it.
+constexpr float kFloorFalls_m_s = 0.3f;
 constexpr float kFloorRises_m_s = 0.02f;
-constexpr float kFloorRisesFar_m_s = 0.3f;
-constexpr float kFarAbove_m = 0.5f;
+constexpr float kFloorRises_1_s = 0.3f;
+constexpr float kFarAbove_m = 0.08f;
+constexpr float kElsewhere_m = 0.5f;
 // Speeds are of this much time, so that a trembling sensor does not lift a foot.
 constexpr float kSpeedOver_s = 0.04f;
 constexpr float kGlide_s = 0.04f;
@@ -52,11 +54,8 @@ void FootLock::clear() {
 
 void FootLock::follow_floor(float low_m, float seconds) {
   const float above_m = low_m - floor_m_;
-  if (above_m < 0.0f)
-    floor_m_ += above_m * (1.0f - std::exp(-seconds / kFloorFalls_s));
-  else
-    floor_m_ +=
-        std::min(above_m, seconds * (above_m > kFarAbove_m ? kFloorRisesFar_m_s : kFloorRises_m_s));
+  const float rise_m_s = kFloorRises_m_s + kFloorRises_1_s * std::max(0.0f, above_m - kFarAbove_m);
+  floor_m_ += std::clamp(above_m, -kFloorFalls_m_s * seconds, rise_m_s * seconds);
 }
 
 void FootLock::observe(const Pose& real, MonoTime now) {
@@ -171,7 +170,7 @@ bool FootLock::apply(MonoTime now, Pose& pose, bool may_lock) {
   time_ = now;
   const float low_m = std::min(balls[0].y(), balls[1].y());
   if (!goes_on) {
-    if (!began_ || std::abs(low_m - floor_m_) > kFarAbove_m) floor_m_ = low_m;
+    if (!began_ || std::abs(low_m - floor_m_) > kElsewhere_m) floor_m_ = low_m;
     for (std::size_t side = 0; side < 2; ++side) {
       Foot& foot = feet_[side];
       foot.raw = balls[side];
