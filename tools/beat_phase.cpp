@@ -11,6 +11,9 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kBar_beats = 4.0;
 constexpr double kLeastCoherence = 0.6;
+// Joints that swing by a millimetre: 21 of them, summed over the steps of a bar.
+constexpr double kLeastPower = 5e-3;
+constexpr int kRounds = 3;
 constexpr std::size_t kChannels = 3 * (kBoneCount - 1);
 using Wave = std::array<Complex, kChannels>;
 
@@ -51,6 +54,23 @@ bool wave_at(const DanceOnBeats& dance, double beats, Wave& z) {
   return true;
 }
 
+// Adds to `error` by how much the wave `z` is behind `z_truth`, which is `behind` before it; false where they are not alike.
+bool lateness(const Wave& z, const Wave& z_truth, double behind, double& error) {
+  Complex together = 0.0;
+  double power = 0.0, power_truth = 0.0;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    together += z[c] * std::conj(z_truth[c]);
+    power += std::norm(z[c]);
+    power_truth += std::norm(z_truth[c]);
+  }
+  const double both = std::sqrt(power * power_truth);
+  if (both <= kLeastPower || std::abs(together) < kLeastCoherence * both) return false;
+  // Shown late by e, y(b) = truth(b - behind - e): the wave is turned by -2 pi (behind + e) / 4.
+  together *= std::polar(1.0, 2.0 * std::numbers::pi * behind / kBar_beats);
+  error -= std::arg(together) * kBar_beats / (2.0 * std::numbers::pi);
+  return true;
+}
+
 }  // namespace
 
 BeatPhase beat_phase(const DanceOnBeats& shown, const DanceOnBeats& truth,
@@ -64,18 +84,17 @@ BeatPhase beat_phase(const DanceOnBeats& shown, const DanceOnBeats& truth,
     const double b = shown.beats[i], offset = offset_beats[i];
     if (!wave_at(shown, b, z) || !wave_at(truth, b - offset, z_truth)) continue;
     ++looked_at;
-    Complex together = 0.0;
-    double power = 0.0, power_truth = 0.0;
-    for (std::size_t c = 0; c < kChannels; ++c) {
-      together += z[c] * std::conj(z_truth[c]);
-      power += std::norm(z[c]);
-      power_truth += std::norm(z_truth[c]);
+    if (std::any_of(shown.jumps.begin(), shown.jumps.end(),
+                    [b](double jump) { return std::abs(jump - b) < 0.5 * kBar_beats; }))
+      continue;
+    double error = 0.0;
+    bool tells = true;
+    // The truth is looked at where it was found last: bars differ, and the same one is meant.
+    for (int round = 0; round < kRounds && tells; ++round) {
+      tells = (round == 0 || wave_at(truth, b - offset - error, z_truth)) &&
+              lateness(z, z_truth, offset + error, error);
     }
-    const double both = std::sqrt(power * power_truth);
-    if (both <= 1e-12 || std::abs(together) < kLeastCoherence * both) continue;
-    // Shown late by e, y(b) = truth(b - offset - e): the wave is turned by -2 pi (offset + e) / 4.
-    together *= std::polar(1.0, 2.0 * std::numbers::pi * offset / kBar_beats);
-    double error = -std::arg(together) * kBar_beats / (2.0 * std::numbers::pi);
+    if (!tells) continue;
     error -= fold_beats * std::round(error / fold_beats);
     phase.errors_beats.push_back(error);
     phase.at_beats.push_back(b);

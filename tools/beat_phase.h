@@ -7,7 +7,8 @@
 // Ownership:    owns its samples.
 // Threads:      none inside.
 // Failure:      where the motion has no four-count, or the shown one is not like the truth, there is no error to tell:
-//               such moments are left out, and `told` says how many were not.
+//               such moments are left out, and so are those whose bar has a jump in it, as half of it is of another place
+//               of the dance; `told` says how many were not.
 #pragma once
 
 #include <vector>
@@ -20,6 +21,7 @@ namespace dance {
 struct DanceOnBeats {
   const JointTrack* track = nullptr;
   std::vector<double> beats;
+  std::vector<double> jumps = {};  // beats at which it does not go on from the frame before
 };
 
 struct BeatPhase {

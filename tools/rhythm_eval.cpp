@@ -12,6 +12,8 @@ namespace {
 
 constexpr Duration kBeatEvery = Duration::ms(100);
 constexpr Duration kLearnEvery = Duration::s(1);
+// Nobody sees a foot slide more slowly: synthetic dancers' do not at all.
+constexpr double kStill_m_s = 0.02;
 // The last bar is left out: the lock-in needs half a bar on both sides.
 constexpr Duration kCoolDown = Duration::s(1);
 
@@ -79,7 +81,8 @@ Shown play(const BeatDance& dance, const std::vector<StreamArrival>& arrivals, C
 }
 
 struct Rates {
-  double least = 10.0, most = 0.0, jumps = 0.0;
+  double least = 10.0, most = 0.0;
+  std::vector<std::size_t> jumps;  // frames that do not go on from the one before
 };
 
 // How fast the moment that is shown goes on.
@@ -89,13 +92,23 @@ Rates rates_of(const std::vector<Pose>& shown, double hz, std::size_t from, std:
   for (std::size_t i = from + 1; i < to; ++i) {
     const double rate = (shown[i].capture_time - shown[i - 1].capture_time).as_seconds() * hz;
     if (rate > kJumpRate || rate < -0.01) {
-      rates.jumps += 1.0;
+      rates.jumps.push_back(i);
       continue;
     }
     rates.least = std::min(rates.least, rate);
     rates.most = std::max(rates.most, rate);
   }
   return rates;
+}
+
+// Without the first and the last frame of each stance: between two frames of the dance a foot may just have lifted.
+Stance well_within(const Stance& stance) {
+  Stance inner = stance;
+  for (std::size_t i = 0; i < stance.stands.size(); ++i)
+    for (std::size_t side = 0; side < 2; ++side)
+      inner.stands[i][side] = i > 0 && i + 1 < stance.stands.size() && stance.stands[i - 1][side] &&
+                              stance.stands[i][side] && stance.stands[i + 1][side];
+  return inner;
 }
 
 // To which beat the moment was danced; before the first and behind the last pose the pace goes on.
@@ -132,6 +145,8 @@ RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusi
     if (i >= from && i < to)
       delay_s += (now - moment).as_seconds() / static_cast<double>(to - from);
   }
+  const Rates rates = rates_of(shown.poses, options.hz, from, to);
+  for (const std::size_t jump : rates.jumps) on_beats.jumps.push_back(on_beats.beats[jump]);
   const BeatPhase phase = beat_phase(on_beats, {&all, dance.beats}, offsets, from, to);
   const double beat_ms = 60e3 / (listener.grid.tempo_bpm(on_beats.beats[from]) * listener.speed);
   score.phase_mean_ms = phase.mean_beats * beat_ms;
@@ -147,7 +162,7 @@ RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusi
   score.jerk_ratio =
       jerk_m_s3(ours, Places::kWorld) / std::max(1e-9, jerk_m_s3(theirs, Places::kWorld));
   // Feet that stood in the moment that is shown should stand in the picture.
-  const Stance stance = stance_of(all);
+  const Stance stance = well_within(stance_of(all));
   Stance as_danced, as_shown;
   for (std::size_t i = from; i < to; ++i) {
     const double frame = second_of(shown.poses[i].capture_time) * options.hz;
@@ -156,12 +171,12 @@ RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusi
         stance.stands[static_cast<std::size_t>(std::clamp(frame, 0.0, last))]);
     as_danced.stands.push_back(stance.stands[shown.frames[i]]);
   }
-  score.foot_slide_ratio = slide_m_s(ours, as_shown) / std::max(1e-9, slide_m_s(theirs, as_danced));
+  score.foot_slide_ratio =
+      slide_m_s(ours, as_shown) / std::max(kStill_m_s, slide_m_s(theirs, as_danced));
   score.bone_length_error_mm = track.bone_length_error_m * 1e3;
-  const Rates rates = rates_of(shown.poses, options.hz, from, to);
   score.least_rate = rates.least;
   score.most_rate = rates.most;
-  score.jumps = rates.jumps;
+  score.jumps = static_cast<double>(rates.jumps.size());
   return score;
 }
 

@@ -43,12 +43,13 @@ Result<void> run(Wishes wishes) {
     dances.push_back(salsa_to_music(i % 2 == 0 ? SalsaRole::kLead : SalsaRole::kFollow, 1 + i / 2,
                                     wishes.salsa_bpm, kSalsaLength, music, wishes.eval.hz));
   if (dances.empty()) return fail("nobody dances: name BVH files, or --salsa 2");
-  const std::string rhythm =
-      "rhythm beats=" + wishes.beta + " strength=" + std::to_string(wishes.strength);
+  std::string rhythm = "rhythm beats=" + wishes.beta;
+  if (wishes.strength < 1.0) rhythm += " strength=" + std::to_string(wishes.strength);
   const std::vector<NamedChain> chains{
       {"raw", {}},
       {"hold", {"hold"}},
-      {rhythm, {rhythm}},
+      {"predict", {"predict"}},
+      {"predict, " + rhythm, {"predict", rhythm}},
   };
   std::vector<RhythmRun> runs;
   for (const NamedChain& chain : chains) {

@@ -12,11 +12,13 @@ constexpr std::uint32_t kPosesPerProbe = 4;
 constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
 // Where the delay is wished, a guess may bridge so much before the delay grows by a count.
-constexpr Duration kBridgedByGuess = Duration::ms(150);
+constexpr Duration kBridgedByGuess = Duration::ms(30);
 // Before guesses of this dancer have been measured.
 constexpr Duration kUnknownReach = Duration::ms(150);
 // Nobody is shown further ahead of what they dance now than this.
-constexpr double kMostAhead_beats = 0.25;
+constexpr double kMostAhead_beats = 0.05;
+// Of the lag of guesses so much is taken back: the further a guess reaches, the less sure it is.
+constexpr double kLeadShare = 0.5;
 constexpr Duration kSpare = Duration::ms(120);
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
 constexpr Duration kJumpInTime = Duration::ms(300);
@@ -130,7 +132,8 @@ MonoTime Rhythm::wanted_moment(MonoTime now, double& pace) {
 bool Rhythm::pose_at(MonoTime moment, MonoTime now, Pose& out) {
   const Duration ahead = moment - history_.newest().capture_time;
   MonoTime asked = moment;
-  if (ahead > Duration()) asked += guesses_.lead(ahead) - ahead;
+  if (ahead > Duration())
+    asked += Duration::seconds(kLeadShare * (guesses_.lead(ahead) - ahead).as_seconds());
   if (!input_ || !input_->sample_at(asked, now, out)) {
     const auto answer = history_.at(moment);
     if (!answer) return false;

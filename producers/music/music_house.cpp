@@ -42,7 +42,13 @@ void MusicHouse::begin_own(MonoTime now) {
   begin_ = options_.begin.is_set() ? options_.begin : now;
   is_leader_ = options_.guest.is_set();
   state_ = State::kPlays;
-  player_->play_from(begin_);
+  play();
+}
+
+// What another house plays is over when that house says so.
+void MusicHouse::play() {
+  options_.song->set_loops(options_.loops || (state_ == State::kFollows && !is_leader_));
+  player_->play_from(begin_, options_.song->loops());
 }
 
 void MusicHouse::hear_room(const GuestId& setter, const Music& music, MonoTime now) {
@@ -74,6 +80,8 @@ void MusicHouse::follow(const GuestId& setter, const Music& music, MonoTime now)
     player_->pause();
     return;
   }
+  const bool is_ours = setter == options_.guest;
+  options_.song->set_loops(options_.loops || !is_ours);
   const MonoTime begin = begin_of_room_music(music, *options_.song);
   // Yesterday's song that nobody has ended is none.
   if (options_.song->is_over((now - begin).as_seconds()) && state_ == State::kWaits) return;
@@ -82,9 +90,9 @@ void MusicHouse::follow(const GuestId& setter, const Music& music, MonoTime now)
                std::max(0.0, (now - begin).as_seconds()));
   state_ = State::kFollows;
   // What this guest had wished for is taken up again, as after a pause of this program.
-  is_leader_ = setter == options_.guest;
+  is_leader_ = is_ours;
   begin_ = begin;
-  player_->play_from(begin);
+  play();
 }
 
 // Whoever stopped the music may begin it again; it is not for us to do so.
@@ -97,9 +105,9 @@ void MusicHouse::wait_for_room(MonoTime now) {
 
 MonoTime MusicHouse::work(MonoTime now) {
   if (auto worked = player_->work(now); !worked) {
-    failure_ = worked.error();
-    poller_.stop();
-    return {};
+    talk::warn("{}; keeps the time without sound", worked.error().what);
+    player_ = std::make_unique<SilentPlayer>();
+    if (state_ == State::kPlays || state_ == State::kFollows) play();
   }
   if (state_ == State::kWaits && options_.song && now >= wait_until_) {
     talk::info("the room has no music: begins '{}'", options_.title.view());

@@ -4,7 +4,7 @@
 // Units/frames: times of this house's clock.
 // Ownership:    owns the player; refers to the bus and the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      failure() is set when the player has ended for good; the poller is stopped then. What others do is said.
+// Failure:      where the sound ends for good that is said, and the time is kept without. What others do is said.
 #pragma once
 
 #include <memory>
@@ -24,6 +24,8 @@ namespace dance {
 struct MusicHouseOptions {
   std::optional<Song> song;  // none: keeps the room's time only
   MusicTitle title;
+  bool loops =
+      false;  // of a song that is this house's; one that is joined goes on while the room's does
   float confidence = 1.0f;  // of the song's beats
   GuestId guest;            // plays for the room; not set = for this house alone
   bool follows = false;     // joins the room's music where there is some
@@ -38,7 +40,6 @@ class MusicHouse {
   MusicHouse& operator=(const MusicHouse&) = delete;
 
   bool is_over() const { return is_over_; }
-  const std::optional<Error>& failure() const { return failure_; }
   const BeatTeller& teller() const { return *teller_; }
   std::string summary() const { return player_->summary(); }
   // Says in the house and in the room that the music stands.
@@ -51,6 +52,7 @@ class MusicHouse {
   void follow(const GuestId& setter, const Music& music, MonoTime now);
   void wait_for_room(MonoTime now);
   void begin_own(MonoTime now);
+  void play();
   MonoTime work(MonoTime now);
   MonoTime each_second(MonoTime now);
   std::optional<Beat> beat(MonoTime now) const;
@@ -71,7 +73,6 @@ class MusicHouse {
   std::optional<Music> room_;
   GuestId room_setter_;
   double stood_at_beats_ = 0.0;
-  std::optional<Error> failure_;
 };
 
 }  // namespace dance

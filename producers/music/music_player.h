@@ -17,8 +17,8 @@ namespace dance {
 class MusicPlayer {
  public:
   virtual ~MusicPlayer() = default;
-  // Another moment, a little or far from the last, may be given at any time.
-  virtual void play_from(MonoTime begin) = 0;
+  // Another moment, a little or far from the last, may be given at any time. Over and over, or silent behind the end.
+  virtual void play_from(MonoTime begin, bool loops) = 0;
   virtual void pause() = 0;
   // What is heard of the song at t; nothing while that is not known.
   virtual std::optional<double> heard_s(MonoTime t) const = 0;
@@ -31,7 +31,7 @@ class MusicPlayer {
 // Keeps the time only: for machines without sound.
 class SilentPlayer : public MusicPlayer {
  public:
-  void play_from(MonoTime begin) override { begin_ = begin; }
+  void play_from(MonoTime begin, bool /*loops*/) override { begin_ = begin; }
   void pause() override { begin_.reset(); }
   std::optional<double> heard_s(MonoTime t) const override {
     return begin_ ? std::optional((t - *begin_).as_seconds()) : std::nullopt;

@@ -93,7 +93,7 @@ Result<void> PulsePlayer::read_song(std::int64_t song_frame, std::span<float> st
     song_frame += silent;
   }
   while (!stereo.empty()) {
-    if (song_frame >= length && !options_.loops) return {};
+    if (song_frame >= length && !loops_) return {};
     const std::int64_t file_frame = song_frame % length;
     if (file_.at_frame() != file_frame)
       if (auto found = file_.seek(file_frame); !found) return found;

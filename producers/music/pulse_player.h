@@ -18,7 +18,6 @@
 namespace dance {
 
 struct PulsePlayerOptions {
-  bool loops = false;
   double volume = 1.0;
   Duration trim;
 };
@@ -28,7 +27,10 @@ class PulsePlayer : public MusicPlayer {
   static Result<std::unique_ptr<PulsePlayer>> open(AudioFile file,
                                                    const PulsePlayerOptions& options);
 
-  void play_from(MonoTime begin) override { begin_ = begin; }
+  void play_from(MonoTime begin, bool loops) override {
+    begin_ = begin;
+    loops_ = loops;
+  }
   void pause() override { begin_.reset(); }
   std::optional<double> heard_s(MonoTime t) const override;
   Result<void> work(MonoTime now) override;
@@ -47,6 +49,7 @@ class PulsePlayer : public MusicPlayer {
   PlayPlan plan_;
   std::unique_ptr<PulseOutput> output_;  // last: its reports go to what stands above
   std::optional<MonoTime> begin_;
+  bool loops_ = false;
   MonoTime next_question_;
   MonoTime next_correction_;
   std::vector<float> block_;

@@ -19,6 +19,7 @@ class Song {
 
   double length_s() const { return length_s_; }
   bool loops() const { return loops_; }
+  void set_loops(bool loops) { loops_ = loops; }
   bool is_over(double song_s) const { return !loops_ && song_s >= length_s_; }
   int beats_per_bar() const { return grid_.beats_per_bar(); }
   const BeatGrid& grid() const { return grid_; }

@@ -3,7 +3,7 @@
 //
 // Units/frames: as producers/music/beat_grid.h; the bar is not known.
 // Ownership:    plain values; leaves the file at its begin.
-// Threads:      none inside; takes about a hundredth of the music's length.
+// Threads:      none inside; takes some hundredths of the music's length.
 // Failure:      an Error where no steady beat is heard, or the file is damaged.
 #pragma once
 
