@@ -64,8 +64,9 @@ void Bridge::carry_on(MonoTime moment, bool has_input, Pose& pose) const {
   if (!continuation_.at(since, continued)) return;
   // From nothing on, however late the lapse was noticed.
   const float share =
-      has_input ? Continuation::share_at(since - lapse_after_ + Continuation::kPredictedUntil)
-                : 1.0f;
+      has_input && fades_in_
+          ? Continuation::share_at(since - lapse_after_ + Continuation::kPredictedUntil)
+          : 1.0f;
   if (share <= 0.0f) return;
   const double beats = pose.music_beats;
   pose = share >= 1.0f ? continued : interpolate(pose, continued, share);
@@ -91,6 +92,12 @@ bool Bridge::sample(MonoTime now, Pose& out) {
   if (!continuation_.is_running() && is_lapse(wanted, now, is_repeated)) {
     lapse_after_ = wanted - history_.newest().capture_time;
     continuation_.begin(history_, skeleton_, beat_);
+    fades_in_ = !is_repeated;
+    // What stands begins to move.
+    if (Pose continued = out; is_repeated) {
+      carry_on(wanted, has_input, continued);
+      finish_.correct(now, out, continued);
+    }
   }
   const bool is_guess = continuation_.is_running() || !is_repeated;
   if (continuation_.is_running()) carry_on(wanted, has_input, out);
@@ -104,6 +111,7 @@ bool Bridge::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   if (history_.empty() || moment <= history_.newest().capture_time) return has_input;
   if (!continuation_.is_running() && is_lapse(moment, now, !has_input)) {
     lapse_after_ = std::max(Continuation::kPredictedUntil, now - heard_);
+    fades_in_ = has_input;
     continuation_.begin(history_, skeleton_, beat_);
   }
   if (!continuation_.is_running()) return has_input;
