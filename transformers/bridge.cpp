@@ -1,8 +1,10 @@
 #include "transformers/bridge.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/pose/interpolate.h"
+#include "transformers/rotation_vector.h"
 
 namespace dance {
 namespace {
@@ -30,6 +32,7 @@ void Bridge::hear(const Beat& beat, MonoTime /*now*/) {
 }
 
 void Bridge::end_lapse() {
+  turn_ = identity_rotations();
   continuation_.end();
   comes_back_ = false;
 }
@@ -58,7 +61,21 @@ bool Bridge::is_lapse(MonoTime moment, MonoTime now, bool is_repeated) const {
          now - heard_ > (is_repeated ? kRepeated : kSilentLine);
 }
 
-void Bridge::carry_on(MonoTime moment, bool has_input, Pose& pose) const {
+Pose Bridge::mix(const Pose& guess, const Pose& continued, float share) {
+  Pose out = interpolate(guess, continued, share);
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    Eigen::Quaternionf turn = continued.R_PB[b] * guess.R_PB[b].conjugate();
+    if (turn.dot(turn_[b]) < 0.0f) turn.coeffs() *= -1.0f;
+    turn_[b] = turn;
+    const float sine = turn.vec().norm();
+    if (sine < 1e-4f) continue;
+    const float angle = 2.0f * std::atan2(sine, turn.w());
+    out.R_PB[b] = exp_rotation(turn.vec() * (share * angle / sine)) * guess.R_PB[b];
+  }
+  return out;
+}
+
+void Bridge::carry_on(MonoTime moment, bool has_input, Pose& pose) {
   const Duration since = moment - continuation_.newest_time();
   Pose continued;
   if (!continuation_.at(since, continued)) return;
@@ -69,7 +86,7 @@ void Bridge::carry_on(MonoTime moment, bool has_input, Pose& pose) const {
           : 1.0f;
   if (share <= 0.0f) return;
   const double beats = pose.music_beats;
-  pose = share >= 1.0f ? continued : interpolate(pose, continued, share);
+  pose = share >= 1.0f ? continued : mix(pose, continued, share);
   pose.capture_time = moment;
   pose.music_beats = beats;
 }

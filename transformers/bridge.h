@@ -36,7 +36,8 @@ class Bridge : public Transformer {
  private:
   bool is_lapse(MonoTime moment, MonoTime now, bool is_repeated) const;
   // Mixes what is continued into what the station before says of the moment.
-  void carry_on(MonoTime moment, bool has_input, Pose& pose) const;
+  void carry_on(MonoTime moment, bool has_input, Pose& pose);
+  Pose mix(const Pose& guess, const Pose& continued, float share);
   void end_lapse();
 
   PoseHistory history_;
@@ -48,6 +49,8 @@ class Bridge : public Transformer {
   Duration lapse_after_;   // how far after the newest pose the lapse began
   bool fades_in_ = false;  // from a prediction; not from a pose that stands
   bool comes_back_ = false;
+  // From the guess to what is continued, as it was last mixed: beyond half a turn it goes on the way that it went.
+  BoneRotations turn_ = identity_rotations();
 };
 
 }  // namespace dance
