@@ -43,6 +43,7 @@ constexpr std::array kCommands{
     Command{"spy", "lcm-spy with our types"},
     Command{"doctor", "checks this machine, and names what mends it"},
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
+    Command{"music eval", "the beat tracker on songs whose beats are known"},
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
     Command{"stylize eval", "what styles do to recorded dances: gain, mean pose, bones, feet"},
@@ -75,20 +76,19 @@ std::string program_of(std::string_view name) {
   return program;
 }
 
-// The command that is meant, and how many words of the command line it takes.
+// The command that is meant, and how many words of the command line it takes: the most that make one.
 const Command* find_command(int argc, char** argv, int& words) {
   std::string name;
   const Command* found = nullptr;
-  for (words = 0; words + 1 < argc && words < 2; ++words) {
-    name += (words ? " " : "") + std::string(argv[words + 1]);
-    for (const Command& command : kCommands)
-      if (command.name == name) found = &command;
-    if (found) {
-      ++words;
-      return found;
+  for (int i = 1; i < argc && i <= 2; ++i) {
+    name += (i > 1 ? " " : "") + std::string(argv[i]);
+    for (const Command& command : kCommands) {
+      if (command.name != name) continue;
+      found = &command;
+      words = i;
     }
   }
-  return nullptr;
+  return found;
 }
 
 }  // namespace

@@ -18,6 +18,11 @@ Option& Option::one_of(std::vector<std::string> words) {
   return *this;
 }
 
+Option& Option::one_each_time() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
 Option& Option::check(std::function<std::string(const std::string& text)> wrong) {
   option_->check(std::move(wrong));
   return *this;

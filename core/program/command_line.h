@@ -32,6 +32,8 @@ class Option {
   // --help says the value that it has now.
   Option& shows_default();
   Option& split_at(char separator);
+  // Each time it is given it takes one value: what comes behind that is something else.
+  Option& one_each_time();
   Option& hidden();
 
  private:

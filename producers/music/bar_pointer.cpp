@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "core/base/assert.h"
@@ -49,20 +50,23 @@ void BarPointer::make_states(std::span<const MeterPattern> patterns) {
       const double tempo_bpm = 60.0 / (period(tempo) * hop_s_);
       if (tempo_bpm < patterns[p].least_tempo_bpm || tempo_bpm > patterns[p].most_tempo_bpm)
         continue;
-      blocks_.push_back({p, tempo, states});
+      blocks_.push_back({p, tempo, states, 0.0f});
       states += static_cast<int>(kPatternBeats) * period(tempo);
     }
-  for (Eigen::ArrayXf* array : {&state_, &moved_, &start_, &constant_})
-    *array = Eigen::ArrayXf::Zero(states);
+  for (Eigen::ArrayXf* array : {&state_, &constant_}) *array = Eigen::ArrayXf::Zero(states);
   for (Eigen::ArrayXf& slope : slope_) slope = Eigen::ArrayXf::Zero(states);
-  for (const Block& block : blocks_) {
+  float sum = 0.0f;
+  for (Block& block : blocks_) {
     describe(patterns[block.pattern], block);
     const int n = static_cast<int>(kPatternBeats) * period(block.tempo);
-    start_.segment(block.first, n) =
-        static_cast<float>(tempo_weight(60.0 / (period(block.tempo) * hop_s_)));
+    block.start = static_cast<float>(tempo_weight(60.0 / (period(block.tempo) * hop_s_)));
+    sum += block.start * static_cast<float>(n);
   }
-  start_ /= start_.sum();
-  state_ = start_;
+  for (Block& block : blocks_) {
+    block.start /= sum;
+    state_.segment(block.first, static_cast<int>(kPatternBeats) * period(block.tempo)) =
+        block.start;
+  }
   int places = 0;
   for (int tempo = 0; tempo < tempi_; ++tempo) {
     beat_first_.push_back(places);
@@ -116,8 +120,8 @@ void BarPointer::make_tempo_changes() {
   }
 }
 
-// One hop on. Within a beat nothing can change; at its end tempo, pattern and the beat of the bar can.
-void BarPointer::move() {
+// Within a beat nothing can change; at its end tempo, pattern and the beat of the bar can.
+void BarPointer::gather_beat_ends() {
   constexpr auto kBeats = static_cast<Eigen::Index>(kPatternBeats);
   ending_.setZero();
   for (const Block& block : blocks_) {
@@ -145,31 +149,39 @@ void BarPointer::move() {
   }
   for (Eigen::Index c = 0; c < ending_.cols(); ++c)
     entering_.col(c).noalias() = tempo_change_.lazyProduct(ending_.col(c));
-  for (const Block& block : blocks_) {
-    const int n = period(block.tempo);
-    const int all = n * static_cast<int>(kBeats);
-    moved_.segment(block.first + 1, all - 1) = state_.segment(block.first, all - 1);
-    for (Eigen::Index beat = 0; beat < kBeats; ++beat)
-      moved_[block.first + static_cast<int>(beat) * n] =
-          entering_(block.tempo, static_cast<Eigen::Index>(block.pattern) * kBeats + beat);
-  }
 }
 
+// Block by block, so that a block's numbers are still near when they are needed again.
 void BarPointer::push(const OnsetStrength::Strengths& strengths, float weight) {
-  move();
+  gather_beat_ends();
   std::array<float, kOnsetGroups> y{};
   for (std::size_t g = 0; g < kOnsetGroups; ++g) y[g] = std::min(strengths[g], kMostStrength);
   static_assert(kOnsetGroups == 5);
-  state_ = moved_ * (weight * (constant_ - y[0] * slope_[0] - y[1] * slope_[1] - y[2] * slope_[2] -
-                               y[3] * slope_[3] - y[4] * slope_[4]))
-                        .exp();
-  state_ = state_ * ((1.0f - kForget) / state_.sum()) + kForget * start_;
+  constexpr auto kBeats = static_cast<int>(kPatternBeats);
+  float sum = 0.0f;
+  for (const Block& block : blocks_) {
+    const int n = period(block.tempo);
+    const int all = n * kBeats;
+    float* states = state_.data() + block.first;
+    std::memmove(states + 1, states, static_cast<std::size_t>(all - 1) * sizeof(float));
+    for (int beat = 0; beat < kBeats; ++beat)
+      states[beat * n] =
+          entering_(block.tempo, static_cast<Eigen::Index>(block.pattern) * kBeats + beat);
+    const auto part = [&](const Eigen::ArrayXf& of) { return of.segment(block.first, all); };
+    auto state = state_.segment(block.first, all);
+    state *= (weight * (part(constant_) - y[0] * part(slope_[0]) - y[1] * part(slope_[1]) -
+                        y[2] * part(slope_[2]) - y[3] * part(slope_[3]) - y[4] * part(slope_[4])))
+                 .exp();
+    sum += state.sum();
+  }
+  const float scale = (1.0f - kForget) / sum;
   beat_.setZero();
   for (const Block& block : blocks_) {
     const int n = period(block.tempo);
+    auto state = state_.segment(block.first, n * kBeats);
+    state = state * scale + kForget * block.start;
     auto places = beat_.segment(beat_first_[static_cast<std::size_t>(block.tempo)], n);
-    for (int beat = 0; beat < static_cast<int>(kPatternBeats); ++beat)
-      places += state_.segment(block.first + beat * n, n);
+    for (int beat = 0; beat < kBeats; ++beat) places += state_.segment(block.first + beat * n, n);
   }
 }
 

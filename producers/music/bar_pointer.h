@@ -40,15 +40,16 @@ class BarPointer {
   // The places of a bar at one tempo under one pattern.
   struct Block {
     std::size_t pattern;
-    int tempo;  // index
-    int first;  // of its states
+    int tempo;    // index
+    int first;    // of its states
+    float start;  // probability of each before anything is heard
   };
 
   int period(int tempo) const { return least_period_ + tempo; }
   void make_states(std::span<const MeterPattern> patterns);
   void describe(const MeterPattern& pattern, const Block& block);
   void make_tempo_changes();
-  void move();
+  void gather_beat_ends();
 
   double hop_s_;
   int least_period_;
@@ -56,8 +57,6 @@ class BarPointer {
   std::size_t patterns_;
   std::vector<Block> blocks_;
   Eigen::ArrayXf state_;
-  Eigen::ArrayXf moved_;
-  Eigen::ArrayXf start_;  // probabilities before anything is heard
   // Logarithm of a strength's law in a state: constant_ - sum of slopes * strengths.
   Eigen::ArrayXf constant_;
   std::array<Eigen::ArrayXf, kOnsetGroups> slope_;

@@ -1,5 +1,8 @@
 #include "producers/music/beat_line.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace dance {
 namespace {
 
@@ -22,12 +25,18 @@ void BeatLine::follow(const BarPointer& pointer, double heard_s, double now_s) {
   const BarPointer::Place other = pointer.likeliest();
   const BarPointer::Place here = pointer.near(period_s_ / hop_s_, (next_s_ - heard_s) / hop_s_);
   if (!begun_ || here.probability * kClearly < other.probability) {
+    const double old_next_s = begun_ ? next_s_ : now_s;
+    const double old_period_s = period_s_;
     begun_ = true;
     period_s_ = other.period_hops * hop_s_;
     next_s_ = heard_s + other.to_beat_hops * hop_s_;
     certainty_ = other.probability;
     // A beat that was told is over: neither again, nor another at once.
     while (next_s_ <= now_s || next_s_ < last_s_ + 0.5 * period_s_) next_s_ += period_s_;
+    // Whoever counts along is not to lose the bar: the number that is nearest on the old line.
+    number_ +=
+        std::max(std::int64_t{0},
+                 static_cast<std::int64_t>(std::lround((next_s_ - old_next_s) / old_period_s)));
     return;
   }
   certainty_ = here.probability;

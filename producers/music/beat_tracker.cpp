@@ -5,9 +5,12 @@
 namespace dance {
 namespace {
 
-constexpr float kActivityWeight = 0.01f;  // a hop's part of the last second
-// Below so much of the usual activity strokes are believed less, in a silence not at all.
-constexpr float kUsualActivity = 0.4f;
+// A hop with a mean strength above this is a stroke.
+constexpr float kStroke = 1.0f;
+// The slowest beat that is looked for lasts 64 hops. Where no stroke has been for longer the music has a break, which says
+// nothing of where the beat is: belief fades from the first to the second.
+constexpr std::int64_t kBreakBegins_hops = 50;
+constexpr std::int64_t kBreak_hops = 70;
 constexpr std::int64_t kKnownAfter_hops = 200;
 constexpr std::int64_t kSilentAfter_hops = 400;
 
@@ -41,21 +44,21 @@ void BeatTracker::end_hop() {
   float strokes = 0.0f;
   for (std::size_t g = 0; g + 1 < kOnsetGroups; ++g)
     strokes += strengths[g] / static_cast<float>(kOnsetGroups - 1);
-  activity_ += kActivityWeight * (strokes - activity_);
-  const float believed = std::min(1.0f, activity_ / kUsualActivity);
+  since_stroke_hops_ = strokes > kStroke ? 0 : since_stroke_hops_ + 1;
+  const float believed = std::clamp(static_cast<float>(kBreak_hops - since_stroke_hops_) /
+                                        static_cast<float>(kBreak_hops - kBreakBegins_hops),
+                                    0.0f, 1.0f);
   pointer_.push(strengths, believed);
 
   const double now_s = static_cast<double>(hops_) * hop_s_;
   line_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);
-  const bool sounds = believed > 0.1f;
-  silent_hops_ = sounds ? 0 : silent_hops_ + 1;
-  if (sounds) ++sounding_hops_;
+  if (since_stroke_hops_ < kBreak_hops) ++sounding_hops_;
   beat_.time = MonoTime{} + Duration::seconds(now_s);
   beat_.beat_time = MonoTime{} + Duration::seconds(line_.next_s());
   beat_.beat = static_cast<double>(line_.number());
   beat_.tempo_bpm = 60.0 / line_.period_s();
   beat_.confidence = std::clamp(static_cast<float>(line_.certainty()), 0.0f, 1.0f) * believed;
-  beat_.playing = sounding_hops_ >= kKnownAfter_hops && silent_hops_ < kSilentAfter_hops;
+  beat_.playing = sounding_hops_ >= kKnownAfter_hops && since_stroke_hops_ < kSilentAfter_hops;
 }
 
 }  // namespace dance

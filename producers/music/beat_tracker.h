@@ -3,7 +3,7 @@
 // music goes. It looks for 94 to 214 beats a minute, the one octave of tempo that couples dance in.
 //
 // Units/frames: mono samples at a given rate. Times in Beat count from the first sample on a clock that has zero there;
-//               whoever knows when samples are heard adds that. A hop costs about 0.1 ms of one core.
+//               whoever knows when samples are heard adds that. A hop costs about 0.2 ms of one core.
 // Ownership:    owns its tables, about 2 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      samples that are not finite count as silence. beat().playing is false before the first two seconds of
@@ -46,9 +46,8 @@ class BeatTracker {
   std::vector<float> hop_;
   std::size_t filled_ = 0;
   std::int64_t hops_ = 0;
-  float activity_ = 0.0f;  // mean strength of the last second
   std::int64_t sounding_hops_ = 0;
-  std::int64_t silent_hops_ = 0;
+  std::int64_t since_stroke_hops_ = 1000;
   Beat beat_;
 };
 

@@ -10,7 +10,7 @@ namespace dance {
 namespace {
 
 constexpr double kThinnedRate_hz = 5512.5;
-constexpr double kToneWindow_s = 0.186;  // tells semitones apart from 120 Hz on
+constexpr double kHarmonyWindow_s = 0.186;  // tells semitones apart from 120 Hz on
 constexpr double kLowest_hz = 60.0;
 constexpr double kHighest_hz = 2000.0;
 constexpr std::size_t kNeighbours = 7;  // a tone stands out of so many bins on either side
@@ -24,7 +24,7 @@ HarmonyChange::HarmonyChange(double sample_rate_hz) {
   DANCE_ASSERT(sample_rate_hz >= 4000.0);
   thinning_ = static_cast<std::size_t>(std::max(1L, std::lround(sample_rate_hz / kThinnedRate_hz)));
   const double rate_hz = sample_rate_hz / static_cast<double>(thinning_);
-  const std::size_t n = std::size_t{1} << std::lround(std::log2(rate_hz * kToneWindow_s));
+  const std::size_t n = std::size_t{1} << std::lround(std::log2(rate_hz * kHarmonyWindow_s));
   recent_.assign(n, 0.0f);
   weighted_.assign(n, 0.0f);
   window_.resize(n);

@@ -1,0 +1,36 @@
+// The tracker on real songs beside this tree, where they are there.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tools/music_eval.h"
+
+namespace dance {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(BeatSongs, AreTrackedCausallyAndInTheirOwnOctave) {
+  const fs::path folder = DANCE_SOURCE_DIR "/../shared/data/music";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is missing: no real songs beside this tree";
+  double sum = 0.0;
+  int songs = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".ogg") continue;
+    const fs::path beats = fs::path(entry.path()).replace_extension(".beats");
+    const auto song = evaluate_song(entry.path(), beats, {.with_aubio = false});
+    ASSERT_TRUE(song) << song.error().what;
+    EXPECT_TRUE(song->causal) << song->name;
+    EXPECT_LE(song->tempo_error_percent, 4.0) << song->name;
+    EXPECT_GE(song->score.f_measure(), 0.85) << song->name;
+    EXPECT_LE(std::abs(song->score.mean_error_s), 0.015) << song->name;
+    EXPECT_LE(song->score.sd_error_s, 0.015) << song->name;
+    sum += song->score.f_measure();
+    ++songs;
+  }
+  if (songs == 0) GTEST_SKIP() << folder << " has no songs";
+  EXPECT_GE(sum / songs, 0.95);
+}
+
+}  // namespace
+}  // namespace dance
