@@ -232,7 +232,7 @@ void Stylize::stand(const Pose& was, const BodyFrames& before, Pose& pose) const
       const std::size_t toes = end + 1;
       pose.R_PB[toes] = was.R_PB[toes].slerp(swing, pose.R_PB[toes]);
     }
-    reach_ankle(skeleton_, leg, legs_swing ? swung : before, target, R_WFoot, pose, frames);
+    reach_ankle(skeleton_, leg, before, target, R_WFoot, pose, frames);
   }
 }
 

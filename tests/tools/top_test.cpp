@@ -75,6 +75,22 @@ TEST(TopTable, ProgramsAreShownFromTheirStatistics) {
   EXPECT_NE(row.find(" 3 "), std::string::npos) << row;
 }
 
+TEST(TopTable, AGuestsStyleIsShownZoneByZone) {
+  TopTable table;
+  Style style;
+  style.gain[0] = 1.5f;
+  style.dynamic = 0.25f;
+  take(table, "STYLE/guest/alice", style, kBegin);
+  const std::string text = table.text(kBegin + Duration::s(1));
+  const std::string row = text.substr(text.rfind("STYLE/guest/alice"));
+  EXPECT_NE(row.find("1.50"), std::string::npos) << text;
+  EXPECT_NE(row.find("0.25"), std::string::npos) << text;
+  EXPECT_NE(text.find("shoulders"), std::string::npos);
+  style.gain[0] = 2.0f;
+  take(table, "STYLE/guest/alice", style, kBegin + Duration::s(2));
+  EXPECT_EQ(table.text(kBegin + Duration::s(2)).find("1.50"), std::string::npos);
+}
+
 TEST(TopTable, AFloodOfNamesIsBoundedAndSaid) {
   TopTable table;
   for (int i = 0; i < 100'000; ++i)
