@@ -1,5 +1,6 @@
 // dance salsa: a synthetic salsa dancer on the bus, for machines with no camera and no data.
 
+#include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/producer_program.h"
@@ -33,10 +34,16 @@ Result<void> run_salsa(SalsaOptions& options) {
   }
   options.style.role = options.role == "lead" ? SalsaRole::kLead : SalsaRole::kFollow;
   DANCE_TRY(const SalsaStyle style, checked_style(options.style));
-  // Unless told otherwise the dance counts from the clock's zero, so that all salsa dancers of a machine are in step.
+  // To the music of the house where there is some. Unless told otherwise the dance counts from the clock's zero, so that all salsa dancers of a machine are in step.
   if (options.producer.start_us == 0) options.producer.start_us = 1;
   DANCE_TRY(auto program, ProducerProgram::open(options.producer));
-  program->add(std::make_unique<SalsaDancer>(style), *guest);
+  BeatClock music;
+  program->bus().on_beat([&music](const Channel&, const Beat& beat, MonoTime) {
+    if (beat.clock_id == this_clock_id()) music.hear(beat);
+  });
+  auto dancer = std::make_unique<SalsaDancer>(style);
+  dancer->listen_to(music, program->start());
+  program->add(std::move(dancer), *guest);
   talk::info("{} dances on POSE/capture/{}; Ctrl-C ends it", options.guest, options.guest);
   program->run([] { return true; });
   talk::info("{} poses", program->sent());
@@ -49,14 +56,15 @@ Result<void> run_salsa(SalsaOptions& options) {
 int main(int argc, char** argv) {
   dance::SalsaOptions options;
   dance::CommandLine line(
-      "A synthetic salsa dancer: basic steps with hip sway and arms, lead or follow.",
+      "A synthetic salsa dancer: basic steps with hip sway and arms, lead or follow, to the music "
+      "of the house.",
       "dance salsa");
   line.add("--guest", options.guest, "who dances").guest_name().shows_default();
   line.add("--role", options.role,
            "lead or follow; two with the same tempo, seed and start are a couple")
       .one_of({"lead", "follow"})
       .shows_default();
-  line.add("--tempo", options.style.tempo_bpm, "beats a minute")
+  line.add("--tempo", options.style.tempo_bpm, "beats a minute, where no music is heard")
       .range(dance::kSlowestSalsa_bpm, dance::kFastestSalsa_bpm);
   line.add("--seed", options.style.seed, "which dance: figures, bodies, small variations")
       .range(0, 1'000'000'000);

@@ -24,8 +24,24 @@ constexpr const char* kExamples = R"(Examples:
                                                  the same, over a recorded line
   dance demo --motion lead.bvh,follow.bvh        your own takes
   dance demo --headless --seconds 10 --out pics  pictures and numbers instead of a window
+  dance demo --compare                           as poses come, and in rhythm, side by side
+  dance demo --compare --music song.ogg          to your own song, its beats in song.beats
+  dance demo --compare --headless --film --out pics
+                                                 the same as pictures, a plot and a film
   dance demo --guests 30 --headless --json       a crowd, measured
 )";
+
+// Between continents, on Wi-Fi.
+constexpr const char* kFarLine = "delay=120ms jitter=15ms loss=1%";
+
+// What the comparison is about: the dancer on the beat that is heard here, as near to now as guesses are good.
+const std::vector<std::string> kInRhythm{"predict", "rhythm"};
+
+std::string words_of(const std::vector<std::string>& stations) {
+  std::string words;
+  for (const std::string& station : stations) words += (words.empty() ? "" : ", ") + station;
+  return words;
+}
 
 // The buses stay on this machine: over loopback where that carries multicast, else in a network of our own.
 Result<void> choose_network(bool here) {
@@ -54,6 +70,17 @@ Result<void> run_demo(DemoOptions options, bool here) {
     talk::info("there is no display: writing pictures to {} instead (--headless)", options.out);
     options.headless = true;
   }
+  if (options.compare) {
+    if (options.guests != 2) return fail("--compare is for two dancers: leave out --guests");
+    if (options.line.is_perfect_line()) {
+      options.line.link = kFarLine;
+      talk::info("the houses are far apart: --link \"{}\"", kFarLine);
+    }
+  }
+  if (options.film && !(options.compare && options.headless))
+    return fail("--film is of a comparison in files: add --compare --headless");
+  if (options.through.empty())
+    options.through = options.compare ? kInRhythm : std::vector<std::string>{"hold"};
   options.view = std::filesystem::exists(program_folder() + "/dance-view");
   if (!options.view) {
     talk::info("built without the viewer: numbers and a log, no pictures");
@@ -91,12 +118,20 @@ int main(int argc, char** argv) {
   line.add("--out", options.out, "folder for pictures, log and what the programs said")
       .shows_default();
   line.add_flag("--json", options.json, "the summary as JSON on stdout, and nothing else there");
-  line.add("--through", options.through, "transformers for remote dancers").shows_default();
-  line.add("--tempo", options.tempo_bpm, "beats a minute of the synthetic dancers")
+  line.add("--through", options.through,
+           "a transformer for remote dancers; once more for the next. hold, and with --compare: " +
+               dance::words_of(dance::kInRhythm));
+  line.add("--music", options.music,
+           "a song with its .beats beside it, or none; without it a percussion at --tempo");
+  line.add("--tempo", options.tempo_bpm, "beats a minute, without a song")
       .range(60.0, 240.0)
       .shows_default();
   line.add("--seed", options.seed, "which synthetic dance").range(0, 1'000'000);
   line.add("--hz", options.hz, "poses a second").range(1.0, 240.0).shows_default();
+  line.add_flag("--compare", options.compare,
+                "two halves: as poses come, and as the stage shows them; measures both");
+  line.add_flag("--film", options.film,
+                "with --compare --headless: a film of it too, picture by picture");
   line.add("--port", options.port, "UDP port of the server; 0 = one that is free").range(0, 65535);
   line.add_flag("--here", here,
                 "use this machine's network even where multicast does not run over loopback");

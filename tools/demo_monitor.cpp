@@ -1,5 +1,6 @@
 #include "tools/demo_monitor.h"
 
+#include "core/base/raw_twin.h"
 #include "core/base/sequence.h"
 #include "core/net/mono_clock.h"
 #include "manager/roster.h"
@@ -60,9 +61,13 @@ void DemoMonitor::listen(Bus& bus, int house) {
               });
   bus.on_pose(Where::kStage, GuestId(), Delivery::kEvery,
               [this, house](const Channel& channel, const Pose& pose, MonoTime) {
+                if (twin_of_whom(channel.guest())) return;
                 if (DancerAccount* account = account_of(channel.guest()))
                   on_staged(*account, house, pose);
               });
+  bus.on_beat([this, house](const Channel&, const Beat& beat, MonoTime) {
+    has_music_[static_cast<std::size_t>(house)] = beat.playing;
+  });
   bus.on_stats([this, house](const Channel& channel, const Stats& stats, MonoTime) {
     if (channel.program() != "link") return;
     connected_[static_cast<std::size_t>(house)] = stats.sessions > 0;

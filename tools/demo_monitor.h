@@ -54,6 +54,8 @@ class DemoMonitor {
   void stop_timing() { timing_ = false; }
   // Newest report of each house's link: whether it is in session with the server.
   bool is_connected(int house) const { return connected_[static_cast<std::size_t>(house)]; }
+  // Whether the music of the house has begun.
+  bool has_music(int house) const { return has_music_[static_cast<std::size_t>(house)]; }
   std::int64_t guests_seen(int house) const {
     return guests_seen_[static_cast<std::size_t>(house)];
   }
@@ -66,6 +68,7 @@ class DemoMonitor {
   std::vector<DancerAccount> accounts_;
   bool timing_ = true;
   std::array<bool, 2> connected_{};
+  std::array<bool, 2> has_music_{};
   std::array<std::int64_t, 2> guests_seen_{};
 };
 

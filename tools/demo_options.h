@@ -25,10 +25,14 @@ struct DemoOptions {
   std::string out = "out/demo";
   bool json = false;
   double tempo_bpm = 180.0;
+  // A song with its list of beats beside it; "" = the demo's own percussion; "none" = beats that nobody hears.
+  std::string music;
   int seed = 1;
   double hz = 60.0;
-  std::vector<std::string> through = {"hold"};  // of remote dancers
-  int port = 0;                                 // of the server; 0 = one that is free
+  bool film = false;     // of the comparison
+  bool compare = false;  // remote dancers on the stage as their poses come too, and both measured
+  std::vector<std::string> through;  // of remote dancers
+  int port = 0;                      // of the server; 0 = one that is free
 };
 
 // Where the demo's programs have their session files, reports and talk: pictures and log lie above.
@@ -46,6 +50,7 @@ struct DemoPlan {
   std::string bus_url[2];
   std::string session_file[2];
   std::string log_file;
+  std::string song;  // "" = none is played
   int server_port = 0;
   int line_port = 0;  // 0 = no emulated line
   std::vector<DemoDancer> dancers;

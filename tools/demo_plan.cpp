@@ -5,9 +5,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/raw_twin.h"
 #include "core/net/udp_socket.h"
+#include "core/program/program.h"
 #include "producers/clip_file.h"
+#include "producers/music/beats_file.h"
 #include "tools/demo_options.h"
+#include "tools/demo_song.h"
 
 namespace dance {
 namespace {
@@ -46,13 +50,13 @@ std::string text_of(const Place& place) {
 }
 
 // Where a take's dancer stands and looks in its first second, on the floor plane.
-struct Stance {
+struct TakeStance {
   Eigen::Vector2d p_m = Eigen::Vector2d::Zero();  // x, z
   double heading_rad = 0.0;                       // 0 = facing +Z, positive to the left
 };
 
-Stance stance_of(const MotionClip& clip) {
-  Stance stance;
+TakeStance take_stance(const MotionClip& clip) {
+  TakeStance stance;
   Eigen::Vector2d facing = Eigen::Vector2d::Zero();
   const std::size_t count = std::min(clip.frames.size(), static_cast<std::size_t>(clip.frame_hz));
   for (std::size_t i = 0; i < count; ++i) {
@@ -84,7 +88,7 @@ bool are_a_couple(const MotionClip& a, const MotionClip& b) {
 
 // dance-replay's --place turns about the file's origin and then shifts. This one brings a dancer who stands at `stance`
 // to `target`, looking along heading_rad.
-Place place_at(const Stance& stance, const Eigen::Vector2d& target, double heading_rad) {
+Place place_at(const TakeStance& stance, const Eigen::Vector2d& target, double heading_rad) {
   const double turn = heading_rad - stance.heading_rad;
   // A turn about +Y by θ takes (x, z) to (x cos θ + z sin θ, z cos θ − x sin θ).
   const Eigen::Vector2d turned(stance.p_m.x() * std::cos(turn) + stance.p_m.y() * std::sin(turn),
@@ -102,7 +106,8 @@ std::array<Place, 2> places_of(const MotionClip& a, const MotionClip& b, const P
   }
   constexpr double kHalfDistance_m = 0.6;
   const Eigen::Vector2d half(0.0, kHalfDistance_m);
-  return {place_at(stance_of(a), target - half, 0.0), place_at(stance_of(b), target + half, M_PI)};
+  return {place_at(take_stance(a), target - half, 0.0),
+          place_at(take_stance(b), target + half, M_PI)};
 }
 
 Result<void> deal_out_motion(const DemoOptions& options, DemoPlan& plan) {
@@ -162,6 +167,11 @@ std::string session_text(const DemoPlan& plan, const DemoOptions& options, int h
     comma = ", ";
   }
   text << "]\nto = \"POSE/stage/*\"\n";
+  for (const DemoDancer& dancer : plan.dancers) {
+    if (!options.compare || dancer.house == house) continue;
+    text << "\n[[route]]\nfrom = \"POSE/guest/" << dancer.guest.view() << "\"\nto = \"POSE/stage/"
+         << raw_twin_of(dancer.guest)->view() << "\"\n";
+  }
   return text.str();
 }
 
@@ -171,6 +181,27 @@ Result<void> write_file(const std::string& path, const std::string& text) {
   if (!file.flush())
     return fail(path + ": cannot be written; is the disk full, or the folder not yours?");
   return {};
+}
+
+// Read before anything starts, so that a song without beats is said at once.
+Result<std::string> song_of(const DemoOptions& options) {
+  if (options.music == "none") return std::string();
+  const bool can_play = fs::exists(program_folder() + "/dance-music");
+  if (!options.music.empty()) {
+    if (!can_play)
+      return fail("--music: built without dance music; install libsndfile1-dev and build again");
+    std::error_code error;
+    if (!fs::is_regular_file(options.music, error))
+      return fail("--music " + options.music + ": cannot be read; is the name right?");
+    if (auto beats = read_beats_file(beats_path_beside(options.music)); !beats)
+      return tl::make_unexpected(beats.error());
+    return options.music;
+  }
+  if (!can_play) return std::string();
+  const std::string wav = programs_folder(options) + "/percussion.wav";
+  if (auto written = write_demo_song(wav, options.tempo_bpm); !written)
+    return tl::make_unexpected(written.error());
+  return wav;
 }
 
 }  // namespace
@@ -208,6 +239,7 @@ Result<DemoPlan> plan_demo(const DemoOptions& options) {
         !written)
       return tl::make_unexpected(written.error());
   }
+  DANCE_TRY(plan.song, song_of(options));
   plan.log_file = options.out + "/demo.lcm";
   fs::remove(plan.log_file, error);  // of the last demo
   return plan;

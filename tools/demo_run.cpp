@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr Duration kPatience = Duration::s(15);  // for the houses to meet
 constexpr Duration kPatienceForPictures = Duration::s(60);
+constexpr Duration kPatienceForMusic = Duration::s(5);
 constexpr Duration kRestartAfter = Duration::ms(500);
 constexpr Duration kStillUnderWay = Duration::ms(1500);  // longest that a pose may take to arrive
 
@@ -61,6 +62,9 @@ Result<std::unique_ptr<DemoRun>> DemoRun::prepare(const DemoOptions& options, De
   DANCE_TRY(run->bus_a_, Bus::open(run->plan_.bus_url[0]));
   DANCE_TRY(run->bus_b_, Bus::open(run->plan_.bus_url[1]));
   run->monitor_ = std::make_unique<DemoMonitor>(*run->bus_a_, *run->bus_b_);
+  if (options.compare)
+    run->trace_ = std::make_unique<DemoTrace>(
+        *run->bus_a_, *run->bus_b_, run->plan_.dancers[0].guest, run->plan_.dancers[1].guest);
   for (Bus* bus : {run->bus_a_.get(), run->bus_b_.get()})
     run->poller_->watch(bus->fd(), [bus](MonoTime now) { bus->drain(now); });
   return run;
@@ -131,6 +135,36 @@ Result<void> DemoRun::wait_until_connected() {
   return {};
 }
 
+// House A plays for the room; house B hears of it through the tunnel, and keeps step by its own clock.
+Result<void> DemoRun::start_music() {
+  if (plan_.song.empty()) {
+    beats_ = std::make_unique<DemoBeats>(*bus_a_, *bus_b_, mono_now(), options_.tempo_bpm);
+    poller_->add_timer(mono_now(), [this](MonoTime now) { return beats_->say(now); });
+    return {};
+  }
+  for (int house = 0; house < 2; ++house) {
+    std::vector<std::string> arguments{
+        plan_.song, "--loop",
+        "--bus",    plan_.bus_url[house],
+        "--guest",  std::string(plan_.dancers[static_cast<std::size_t>(house)].guest.view())};
+    if (house == 0) arguments.insert(arguments.end(), {"--start", "+500ms"});
+    if (house == 1) arguments.push_back("--follow");
+    // One loudspeaker is enough for one machine.
+    if (house == 1 || options_.headless) arguments.push_back("--silent");
+    Role& role = add(house == 0 ? "music-a" : "music-b", "dance-music", arguments);
+    if (auto started = start(role); !started) return started;
+  }
+  return {};
+}
+
+// Dancers begin when they have something to dance to; after a while without it too.
+void DemoRun::wait_for_music() {
+  const MonoTime give_up = mono_now() + kPatienceForMusic;
+  while (!poller_->is_stopped() && mono_now() < give_up &&
+         !(monitor_->has_music(0) && monitor_->has_music(1)))
+    poller_->run_once(Duration::ms(20));
+}
+
 Result<void> DemoRun::start_dancers(MonoTime origin) {
   for (const DemoDancer& dancer : plan_.dancers) {
     std::vector<std::string> arguments = dancer.arguments;
@@ -149,6 +183,7 @@ Result<void> DemoRun::start_dancers(MonoTime origin) {
 Result<void> DemoRun::start_viewer() {
   if (!options_.view) return {};
   std::vector<std::string> arguments{"--bus", plan_.bus_url[0]};
+  if (options_.compare) arguments.push_back("--compare");
   if (options_.headless)
     for (const std::string& argument :
          {std::string("--headless"), std::string("--out"), options_.out, std::string("--at"),
@@ -197,6 +232,7 @@ void DemoRun::stop_in_order() {
   // Dancers first, so that every pose that was sent has its chance to arrive; then the rest.
   ending_ = true;
   monitor_->stop_timing();
+  if (trace_) trace_->stop();
   for (Role* role : dancers_)
     if (role->process) role->process->ask_to_stop();
   const MonoTime arrived = mono_now() + kStillUnderWay;
@@ -223,10 +259,24 @@ DemoResult DemoRun::result(MonoTime origin) const {
   return result;
 }
 
+Result<void> DemoRun::add_comparison(DemoResult& result) const {
+  if (!trace_) return {};
+  result.rhythm = measure_rhythm(*trace_);
+  if (!result.rhythm) {
+    talk::info("too little was danced to compare; --seconds 10 is enough");
+    return {};
+  }
+  if (!options_.headless) return {};
+  DANCE_TRY(result.comparison, draw_comparison(options_, plan_, *trace_, *result.rhythm));
+  return {};
+}
+
 Result<DemoResult> DemoRun::run() {
   if (auto started = start_houses(); !started) return tl::make_unexpected(started.error());
   if (auto met = wait_until_connected(); !met) return tl::make_unexpected(met.error());
   poller_->add_timer(mono_now(), [this](MonoTime now) { return watch_over(now); });
+  if (auto started = start_music(); !started) return tl::make_unexpected(started.error());
+  wait_for_music();
   const MonoTime origin = mono_now() + Duration::ms(300);
   if (auto started = start_viewer(); !started) return tl::make_unexpected(started.error());
   if (auto started = start_dancers(origin); !started) return tl::make_unexpected(started.error());
@@ -236,7 +286,10 @@ Result<DemoResult> DemoRun::run() {
   turn_until(end_);
   end_ = std::min(end_, mono_now());
   stop_in_order();
-  return result(origin);
+  DemoResult ended = result(origin);
+  if (auto compared = add_comparison(ended); !compared)
+    return tl::make_unexpected(compared.error());
+  return ended;
 }
 
 }  // namespace dance

@@ -8,14 +8,17 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "tools/child_process.h"
+#include "tools/demo_beats.h"
 #include "tools/demo_monitor.h"
 #include "tools/demo_options.h"
+#include "tools/demo_pictures.h"
 
 namespace dance {
 
@@ -26,7 +29,9 @@ struct DemoResult {
   std::string log;
   int restarts = 0;
   std::string
-      house_reports[2];     // JSON that each house's program said at its end; "" if it was killed
+      house_reports[2];  // JSON that each house's program said at its end; "" if it was killed
+  std::optional<DemoRhythm> rhythm;  // of the comparison
+  DemoPictures comparison;
   std::string line_report;  // likewise of the emulated line
 };
 
@@ -51,12 +56,15 @@ class DemoRun {
   Result<void> start(Role& role);
   Result<void> start_houses();
   Result<void> wait_until_connected();
+  Result<void> start_music();
+  void wait_for_music();
   Result<void> start_dancers(MonoTime origin);
   Result<void> start_viewer();
   void turn_until(MonoTime deadline);
   MonoTime watch_over(MonoTime now);
   void stop_in_order();
   DemoResult result(MonoTime origin) const;
+  Result<void> add_comparison(DemoResult& result) const;
   std::string report_file(const std::string& name) const {
     return programs_folder(options_) + "/" + name + ".json";
   }
@@ -67,6 +75,8 @@ class DemoRun {
   std::unique_ptr<Bus> bus_a_;
   std::unique_ptr<Bus> bus_b_;
   std::unique_ptr<DemoMonitor> monitor_;
+  std::unique_ptr<DemoBeats> beats_;
+  std::unique_ptr<DemoTrace> trace_;  // of a comparison
   std::vector<std::unique_ptr<Role>> roles_;
   Role* viewer_ = nullptr;
   std::vector<Role*> dancers_;

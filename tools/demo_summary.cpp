@@ -61,6 +61,37 @@ const Histogram& stage_age(const DancerAccount& account) {
   return account.age_at_hop[static_cast<std::size_t>(Hop::kStaged)];
 }
 
+void add_rhythm(const DemoRhythm& rhythm, ordered_json& document) {
+  document["tempo_bpm"] = rhythm.tempo_bpm;
+  for (const auto& [ending, figures] :
+       {std::pair{"_raw", &rhythm.raw}, std::pair{"", &rhythm.shown}}) {
+    const std::string of = ending;
+    document["phase_mean_ms" + of] = figures->phase_mean_ms;
+    document["phase_sd_ms" + of] = figures->phase_sd_ms;
+    document["content_delay_ms" + of] = figures->content_delay_ms;
+    document["mpjpe_mm" + of] = figures->error_mm;
+    document["jerk_ratio" + of] = figures->jerk_ratio;
+  }
+}
+
+void add_comparison(const DemoPictures& pictures, ordered_json& document) {
+  for (const auto& [key, file] :
+       {std::pair{"strip", &pictures.strip}, {"sway", &pictures.sway}, {"film", &pictures.film}})
+    if (!file->empty()) document[key] = *file;
+}
+
+std::string rhythm_table(const DemoRhythm& rhythm) {
+  std::string text =
+      fmt::format("\n{:<28} {:>14} {:>10} {:>12} {:>14} {:>10}\n", "on the far stage",
+                  "behind beat ms", "sd ms", "old ms", "off now mm", "jerk x");
+  for (const auto& [name, figures] : {std::pair{"as poses come", &rhythm.raw},
+                                      std::pair{"as the stage shows them", &rhythm.shown}})
+    text += fmt::format("{:<28} {:>14.0f} {:>10.1f} {:>12.0f} {:>14.1f} {:>10.2f}\n", name,
+                        figures->phase_mean_ms, figures->phase_sd_ms, figures->content_delay_ms,
+                        figures->error_mm, figures->jerk_ratio);
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string summary_json(const DemoResult& result) {
@@ -87,6 +118,8 @@ std::string summary_json(const DemoResult& result) {
                         {"restarts", result.restarts}};
   const auto line = ordered_json::parse(result.line_report, nullptr, false);
   if (line.is_object()) document["line"] = line;
+  if (result.rhythm) add_rhythm(*result.rhythm, document);
+  add_comparison(result.comparison, document);
   return document.dump(2);
 }
 
@@ -118,7 +151,11 @@ std::string summary_table(const DemoResult& result) {
                             ms(age, 0.99));
     }
   }
+  if (result.rhythm) text += rhythm_table(*result.rhythm);
   for (const std::string& picture : result.pictures) text += "picture " + picture + "\n";
+  for (const std::string* file :
+       {&result.comparison.strip, &result.comparison.sway, &result.comparison.film})
+    if (!file->empty()) text += "picture " + *file + "\n";
   text += "log     " + result.log + "\n";
   return text;
 }

@@ -17,7 +17,14 @@ namespace {
 
 constexpr Duration kSecond = Duration::s(1);
 
-Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer) {
+// Synthetic dancers count from the clock's zero, so that all of a machine are in step; a recording begins now.
+MonoTime start_of(const HostedProducer& producer, MonoTime now) {
+  return producer.kind == HostedProducer::Kind::kSalsa ? MonoTime::from_us(1) : now;
+}
+
+// A synthetic dancer dances to `music` while there is some.
+Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer,
+                                            const BeatClock& music) {
   if (producer.kind == HostedProducer::Kind::kReplay) {
     DANCE_TRY(LoadedClip loaded, load_clip(producer.file));
     for (const std::string& note : loaded.notes) talk::info("{}: {}", producer.file, note);
@@ -31,12 +38,9 @@ Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer) {
   style.tempo_bpm = producer.tempo_bpm;
   style.seed = static_cast<std::uint64_t>(producer.seed);
   DANCE_TRY(const SalsaStyle checked, checked_style(style));
-  return std::make_unique<SalsaDancer>(checked);
-}
-
-// Synthetic dancers count from the clock's zero, so that all of a machine are in step; a recording begins now.
-MonoTime start_of(const HostedProducer& producer, MonoTime now) {
-  return producer.kind == HostedProducer::Kind::kSalsa ? MonoTime::from_us(1) : now;
+  auto dancer = std::make_unique<SalsaDancer>(checked);
+  dancer->listen_to(music, start_of(producer, MonoTime()));
+  return dancer;
 }
 
 // evening.csv, or evening-2.csv where that is there: a house that is started again loses nothing.
@@ -79,8 +83,10 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
   }
   House* self = house.get();
-  house->bus_->on_beat(
-      [self](const Channel&, const Beat& beat, MonoTime) { self->tag_.hear(beat); });
+  house->bus_->on_beat([self](const Channel&, const Beat& beat, MonoTime) {
+    self->tag_.hear(beat);
+    if (beat.clock_id == this_clock_id()) self->heard_.hear(beat);
+  });
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
     self->link_bus_->publish_second(now);
@@ -177,7 +183,7 @@ void House::add_talk(LinkHandlers& handlers) {
 
 Result<void> House::open_producers() {
   for (const HostedProducer& producer : session_.producers) {
-    DANCE_TRY(auto dancer, make_dancer(producer));
+    DANCE_TRY(auto dancer, make_dancer(producer, heard_));
     feeds_.push_back(std::make_unique<DancerFeed>(std::move(dancer), producer.guest,
                                                   producer.rate_hz, *this, poller_,
                                                   start_of(producer, mono_now())));

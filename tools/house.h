@@ -57,7 +57,8 @@ class House : public CaptureSink {
   std::unique_ptr<LinkBus> link_bus_;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Manager> manager_;
-  MusicTag tag_;  // of hosted producers
+  MusicTag tag_;     // of hosted producers
+  BeatClock heard_;  // the music, for those who dance to it
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   std::vector<std::unique_ptr<OutputFile>> outputs_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;

@@ -165,7 +165,7 @@ std::size_t ServerCore::open_room(const wire::Hello& hello) {
   free->members.clear();
   free->guest_count = 0;
   for (HeldState& state : free->states) state.version = 0;
-  free->has_fresh_states = false;
+  free->has_fresh_states = free->has_first_body = false;
   free->fresh_states_due = MonoTime();
   free->host_count = 0;
   return static_cast<std::size_t>(free - rooms_.begin());

@@ -99,6 +99,8 @@ void ServerCore::on_channel_record(std::size_t session, wire::Record record, Mon
 
 void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime now) {
   ServerRoom& room = rooms_[sessions_[from].room];
+  // Once for each guest: without the proportions nobody could decode the pose.
+  if (room.has_first_body) send_fresh_states(room, now);
   for (const std::size_t member : room.members) {
     if (member == from || !take_share(member, record, now)) continue;
     if (record.kind == wire::RecordKind::kPose)

@@ -244,7 +244,8 @@ struct ServerRoom {
   std::array<HeldState, wire::kRoomStates> states;
   std::array<GuestId, wire::kRoomStates> setters;
   bool has_fresh_states = false;
-  MonoTime fresh_states_due;         // not before then
+  MonoTime fresh_states_due;    // not before then
+  bool has_first_body = false;  // fresh: a guest's first proportions, without which no pose decodes
   std::vector<std::size_t> members;  // sessions
   std::size_t guest_count = 0;
   std::size_t host_count = 0;  // links of it with a host's key

@@ -41,6 +41,8 @@ void ServerCore::on_states(std::size_t session, wire::Bytes body, MonoTime now) 
 }
 
 void ServerCore::hold_state(ServerRoom& room, HeldState& held, const wire::State& state) {
+  if (state.name.kind == wire::StateKind::kSkeleton && held.version == 0)
+    room.has_first_body = true;
   held.version = state.version;
   held.size = static_cast<std::uint16_t>(state.payload.size());
   std::copy(state.payload.begin(), state.payload.end(), held.payload.begin());
@@ -185,7 +187,7 @@ void ServerCore::send_fresh_states(ServerRoom& room, MonoTime now) {
   for (HeldState& held : room.states) held.is_fresh = false;
   for (ServerGuest& guest : room.guests)
     for (HeldState& held : guest.states) held.is_fresh = false;
-  room.has_fresh_states = false;
+  room.has_fresh_states = room.has_first_body = false;
   room.fresh_states_due = now + kFreshStatesPeriod;
 }
 

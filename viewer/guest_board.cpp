@@ -10,7 +10,10 @@ constexpr Duration kSlotHolds = Duration::s(10);
 }  // namespace
 
 GuestBoard::GuestBoard(std::uint64_t clock_id, bool stage_only)
-    : clock_id_(clock_id), stage_only_(stage_only), slots_(std::make_unique<Slot[]>(kMaxGuests)) {}
+    : clock_id_(clock_id),
+      stage_only_(stage_only),
+      slots_(std::make_unique<Slot[]>(kMaxGuests)),
+      music_(clock_id) {}
 
 GuestBoard::Slot* GuestBoard::slot_of(const GuestId& guest, MonoTime now) {
   Slot* spare = nullptr;
@@ -30,6 +33,7 @@ GuestBoard::Slot* GuestBoard::slot_of(const GuestId& guest, MonoTime now) {
   spare->news = GuestNews();
   spare->news.id = guest;
   spare->meter = ArrivalMeter();
+  spare->beat_meter = BeatMeter();
   spare->capture_heard = spare->status_heard = MonoTime();
   spare->last_word = now;
   return spare;
@@ -44,7 +48,11 @@ void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, Mo
   Slot* slot = slot_of(guest, now);
   if (slot == nullptr) return;
   poses_.fetch_add(1, std::memory_order_relaxed);
-  if (where == Where::kCapture) slot->capture_heard = now;
+  if (where == Where::kCapture) {
+    slot->capture_heard = now;
+    music_.see(pose);
+    music_latest_.put(music_.clock());
+  }
   if (is_superseded(*slot, where, now)) return;
 
   // Ages compare stamps of one clock only.
@@ -54,6 +62,10 @@ void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, Mo
   const bool status_is_fresh =
       slot->status_heard.is_set() && now - slot->status_heard < kStatusHolds;
   if (!status_is_fresh) slot->news.figures = slot->meter.figures();
+  const BeatClock& music = music_.clock();
+  if (music.is_known(now))
+    slot->beat_meter.add(pose.music_beats, music.position(now), music.beats_per_second(), age);
+  slot->news.figures.beat = slot->beat_meter.figures();
   slot->news.pose = pose;
   slot->news.heard = now;
   slot->latest.put(slot->news);
@@ -69,6 +81,11 @@ void GuestBoard::on_hands(Where where, const GuestId& guest, const Hands& hands,
 
 void GuestBoard::on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
   if (Slot* slot = slot_of(guest, now)) slot->news.skeleton = skeleton;
+}
+
+void GuestBoard::on_beat(const Beat& beat) {
+  music_.hear(beat);
+  music_latest_.put(music_.clock());
 }
 
 void GuestBoard::on_status(const GuestId& guest, const GuestStatus& status, MonoTime now) {

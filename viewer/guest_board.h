@@ -17,6 +17,7 @@
 #include "core/base/latest.h"
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
+#include "core/pose/music_here.h"
 #include "viewer/arrival_meter.h"
 #include "viewer/scene.h"
 
@@ -44,9 +45,13 @@ class GuestBoard {
   void on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now);
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
   void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now);
+  void on_beat(const Beat& beat);
 
   // The newest of a slot if it is new since the last call, else nullptr. Valid until the next call.
   const GuestNews* take(std::size_t slot) { return slots_[slot].latest.take(); }
+
+  // As take(), of this house's music.
+  const BeatClock* take_music() { return music_latest_.take(); }
 
   std::uint64_t poses() const { return poses_.load(std::memory_order_relaxed); }
   std::uint64_t no_room() const { return no_room_.load(std::memory_order_relaxed); }
@@ -56,6 +61,7 @@ class GuestBoard {
     // The bus thread's own; `latest` is the way out.
     GuestNews news;
     ArrivalMeter meter;
+    BeatMeter beat_meter;
     MonoTime last_word;  // anything of this guest
     MonoTime capture_heard;
     MonoTime status_heard;
@@ -68,6 +74,8 @@ class GuestBoard {
   std::uint64_t clock_id_;
   bool stage_only_;
   std::unique_ptr<Slot[]> slots_;
+  MusicHere music_;  // the bus thread's
+  Latest<BeatClock> music_latest_;
   std::atomic<std::uint64_t> poses_{0};
   std::atomic<std::uint64_t> no_room_{0};
 };

@@ -7,11 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <vector>
 
+#include "viewer/beat_panel.h"
 #include "viewer/gl_objects.h"
 #include "viewer/guest_look.h"
+#include "viewer/overlay_fonts.h"
 
 namespace dance {
 
@@ -21,10 +22,7 @@ namespace {
 
 constexpr float kTagFont_px = 17.0f;
 constexpr float kHudFont_px = 14.0f;
-constexpr std::array<const char*, 3> kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-                                            "/usr/share/fonts/TTF/DejaVuSans.ttf",
-                                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
-
+constexpr float kPanelLines = 7.4f;  // of the smaller font
 ImU32 colour_of(const Vector3f& linear, float alpha) {
   const Vector3f s = srgb_from_linear(linear);
   return ImGui::ColorConvertFloat4ToU32(ImVec4(s.x(), s.y(), s.z(), alpha));
@@ -40,6 +38,21 @@ struct Tag {
   const SceneGuest* guest;
   ScreenPoint at;
 };
+
+// More names than these stand in each other's way whatever one does.
+constexpr std::size_t kTagsKeptApart = 4;
+
+// A couple, one before the other: the tag of who is further off goes above the nearer one's. Tags from far to near.
+void keep_apart(std::vector<Tag>& tags, float width_px, float height_px) {
+  if (tags.size() > kTagsKeptApart) return;
+  for (std::size_t far = tags.size(); far-- > 0;)
+    for (std::size_t near = far + 1; near < tags.size(); ++near) {
+      ScreenPoint& at = tags[far].at;
+      const ScreenPoint& other = tags[near].at;
+      if (std::abs(at.x_px - other.x_px) < width_px && std::abs(at.y_px - other.y_px) < height_px)
+        at.y_px = other.y_px - height_px;
+    }
+}
 
 }  // namespace
 
@@ -63,14 +76,9 @@ Overlay::~Overlay() {
 void Overlay::make_fonts() {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  for (const char* file : kFonts) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) continue;
-    tag_font_ = atlas.AddFontFromFileTTF(file, std::round(kTagFont_px * scale_));
-    hud_font_ = atlas.AddFontFromFileTTF(file, std::round(kHudFont_px * scale_));
-    if (tag_font_ != nullptr && hud_font_ != nullptr) return;
-  }
-  tag_font_ = hud_font_ = atlas.AddFontDefault();
+  tag_font_ = add_overlay_font(atlas, kTagFont_px * scale_);
+  hud_font_ = add_overlay_font(atlas, kHudFont_px * scale_);
+  if (find_overlay_font() != nullptr) return;
   font_note_ =
       "no DejaVu font here, text is coarse; install it with: apt-get install fonts-dejavu-core";
 }
@@ -85,19 +93,62 @@ void Overlay::set_scale(float scale) {
 
 void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
                    const OverlayChoice& choice) {
-  ImGuiIO& io = ImGui::GetIO();
   const auto width = static_cast<float>(width_px);
   const auto height = static_cast<float>(height_px);
-  io.DisplaySize = ImVec2(width, height);
+  begin_frame(width_px, height_px);
+  if (choice.tags) draw_tags(scene, camera, width, height);
+  if (choice.hud) draw_hud(scene);
+  draw_words(choice, width, height);
+  draw_notes(scene, height);
+  end_frame();
+}
+
+void Overlay::begin_frame(int width_px, int height_px) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
   io.DeltaTime = 1.0f / 60.0f;  // nothing of ours moves with ImGui's time
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  if (choice.tags) draw_tags(scene, camera, width, height);
-  if (choice.hud) draw_hud(scene);
-  draw_notes(scene, height);
+}
+
+void Overlay::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  check_gl("Overlay::draw");
+  check_gl("Overlay");
+}
+
+int Overlay::panel_height_px(int height_px) const {
+  return std::min(static_cast<int>(std::lround(kPanelLines * hud_font_->FontSize)), height_px / 3);
+}
+
+void Overlay::draw_beats(const Comparison& comparison, int width_px, int height_px) {
+  begin_frame(width_px, height_px);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto middle = static_cast<float>(width_px / 2);
+  const auto bottom = static_cast<float>(height_px);
+  const auto top = static_cast<float>(height_px - panel_height_px(height_px));
+  const PanelFonts fonts{tag_font_, hud_font_};
+  draw_beat_panel(list, fonts, comparison.raw, {0.0f, top, middle, bottom}, "as it comes");
+  draw_beat_panel(list, fonts, comparison.shown,
+                  {middle, top, static_cast<float>(width_px), bottom}, "in rhythm");
+  list.AddRectFilled({middle - 1.0f, 0.0f}, {middle + 1.0f, bottom}, shade(1.0f));
+  end_frame();
+}
+
+// In dark rounds, as the tags are.
+void Overlay::draw_words(const OverlayChoice& choice, float width_px, float height_px) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float size = tag_font_->FontSize;
+  const auto put = [&](const std::string& words, float x, float y) {
+    const float width = tag_font_->CalcTextSizeA(size, 1e4f, 0.0f, words.c_str()).x;
+    x = std::max(0.5f * size, x - 0.5f * width);
+    list.AddRectFilled(on_pixel(x - 0.4f * size, y - 0.2f * size),
+                       on_pixel(x + width + 0.4f * size, y + 1.25f * size), shade(0.72f),
+                       0.6f * size);
+    list.AddText(tag_font_, size, on_pixel(x, y), white(0.94f), words.c_str());
+  };
+  if (!choice.title.empty() && !choice.hud) put(choice.title, 0.0f, 0.5f * size);
+  if (!choice.caption.empty()) put(choice.caption, 0.5f * width_px, height_px - 1.7f * size);
 }
 
 void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera, float width_px,
@@ -112,6 +163,7 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera, floa
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float size = tag_font_->FontSize;
   const float pad = 0.42f * size;
+  keep_apart(tags, 3.6f * size, 1.6f * size);
   for (const Tag& tag : tags) {
     const char* name = tag.guest->id.c_str();
     const float alpha = tag.guest->opacity;

@@ -14,6 +14,7 @@
 
 #include "core/base/result.h"
 #include "viewer/camera.h"
+#include "viewer/comparison.h"
 #include "viewer/scene.h"
 
 struct ImDrawList;
@@ -24,6 +25,8 @@ namespace dance {
 struct OverlayChoice {
   bool tags = true;
   bool hud = true;
+  std::string title = {};    // at the top left, where there are no figures
+  std::string caption = {};  // in the middle of the bottom
 };
 
 class Overlay {
@@ -38,6 +41,9 @@ class Overlay {
   // Draws onto the bound framebuffer.
   void draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
             const OverlayChoice& choice);
+  // The beats under the two halves of a comparison, in the lowest panel_height_px() of the bound framebuffer.
+  void draw_beats(const Comparison& comparison, int width_px, int height_px);
+  int panel_height_px(int height_px) const;
   const std::string& font_note() const { return font_note_; }
 
  private:
@@ -46,6 +52,9 @@ class Overlay {
   void draw_tags(const SceneState& scene, const OrbitCamera& camera, float width_px,
                  float height_px);
   void draw_hud(const SceneState& scene);
+  void begin_frame(int width_px, int height_px);
+  void end_frame();
+  void draw_words(const OverlayChoice& choice, float width_px, float height_px);
   void draw_notes(const SceneState& scene, float height_px);
 
   float scale_;

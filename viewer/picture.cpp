@@ -41,6 +41,17 @@ Picture side_by_side(std::span<const Picture> pictures) {
   return strip;
 }
 
+Picture one_above_the_other(std::span<const Picture> pictures) {
+  Picture tall;
+  for (const Picture& picture : pictures) {
+    DANCE_ASSERT(picture.width_px == pictures.front().width_px, picture.width_px);
+    tall.width_px = picture.width_px;
+    tall.height_px += picture.height_px;
+    tall.rgb.insert(tall.rgb.end(), picture.rgb.begin(), picture.rgb.end());
+  }
+  return tall;
+}
+
 Result<void> write_png(const std::string& file, const Picture& picture) {
   const auto append = [](void* context, void* data, int size) {
     static_cast<std::ofstream*>(context)->write(static_cast<const char*>(data), size);

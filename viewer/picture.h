@@ -36,6 +36,8 @@ Picture read_bound_framebuffer(int width_px, int height_px);
 // Moments side by side in one picture; all of one height.
 Picture side_by_side(std::span<const Picture> pictures);
 
+Picture one_above_the_other(std::span<const Picture> pictures);  // all of one width
+
 Result<void> write_png(const std::string& file, const Picture& picture);
 
 }  // namespace dance

@@ -1,7 +1,7 @@
 // SceneState: everything that a picture of the stage shows, as plain values. It knows of no bus and
 // no window, so that the viewer, tests and pictures for the documents draw through the same door.
 //
-// Units/frames: poses in W, metres; rates in Hz, ages in ms.
+// Units/frames: poses in W, metres; rates in Hz, ages in ms; music in beats as core/base/beat.h counts them.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none.
@@ -15,6 +15,7 @@
 #include "core/base/guest_id.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
+#include "viewer/beat_meter.h"
 
 namespace dance {
 
@@ -22,7 +23,15 @@ namespace dance {
 struct GuestFigures {
   float arrival_hz = 0.0f;
   std::optional<float> age_ms;
-  std::optional<float> loss_percent;
+  std::optional<float> loss_percent = {};
+  std::optional<BeatFigures> beat = {};
+};
+
+// The music of this house at the moment of the picture.
+struct SceneMusic {
+  double beats = 0.0;
+  double beats_per_second = 2.0;
+  int beats_per_bar = 0;  // 0: not known
 };
 
 struct SceneGuest {
@@ -36,6 +45,7 @@ struct SceneGuest {
 
 struct SceneState {
   std::vector<SceneGuest> guests;
+  std::optional<SceneMusic> music;
   // Free lines at the bottom left: the viewer's own rate, a hint when nobody is here.
   std::vector<std::string> notes;
 };

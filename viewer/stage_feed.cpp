@@ -71,6 +71,7 @@ void StageFeed::subscribe(const FeedOptions& options) {
                         board_.on_skeleton(channel.guest(), skeleton.skeleton, now);
                       });
   }
+  bus_->on_beat([this](const Channel&, const Beat& beat, MonoTime) { board_.on_beat(beat); });
   bus_->on_guest_status([this](const Channel& channel, const GuestStatus& status, MonoTime now) {
     board_.on_status(channel.guest(), status, now);
   });

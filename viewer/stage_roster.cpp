@@ -44,6 +44,11 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
     guest.figures = entry.news.figures;
     scene.guests.push_back(guest);
   }
+  if (const BeatClock* music = board_.take_music()) music_ = *music;
+  scene.music.reset();
+  if (music_.is_known(now))
+    scene.music =
+        SceneMusic{music_.position(now), music_.beats_per_second(), music_.beats_per_bar()};
   std::sort(scene.guests.begin(), scene.guests.end(),
             [](const SceneGuest& a, const SceneGuest& b) { return a.id < b.id; });
 }

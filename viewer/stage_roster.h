@@ -19,7 +19,7 @@ class StageRoster {
  public:
   explicit StageRoster(GuestBoard& board);
 
-  // Takes what is new and fills scene.guests, sorted by name.
+  // Takes what is new and fills scene.guests, sorted by name, and scene.music.
   void update(MonoTime now, SceneState& scene);
 
   // The guests whose pose was new in the last update().
@@ -38,6 +38,7 @@ class StageRoster {
     bool is_shown = false;
   };
   GuestBoard& board_;
+  BeatClock music_;
   std::vector<Entry> entries_;
   std::vector<Fresh> fresh_;
   int arrivals_ = 0;

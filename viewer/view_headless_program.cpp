@@ -1,12 +1,13 @@
 #include <sys/resource.h>
 
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
-#include "core/net/mono_clock.h"
 #include "core/program/talk.h"
 #include "viewer/offscreen.h"
+#include "viewer/picture_source.h"
 #include "viewer/stage_painter.h"
 #include "viewer/stage_roster.h"
 #include "viewer/view_program.h"
@@ -19,29 +20,28 @@ namespace {
 constexpr int kDrawingNiceness = 10;
 
 constexpr std::size_t kFewMoments = 16;
+constexpr const char* kTitleOfRaw = "as it comes";
+constexpr const char* kTitleOfShown = "in rhythm";
 
 class HeadlessRun {
  public:
-  HeadlessRun(const ViewOptions& options, StageFeed& feed, StagePainter& painter)
+  HeadlessRun(const ViewOptions& options, PictureSource& source, StagePainter& painter)
       : options_(options),
-        feed_(feed),
+        source_(source),
         painter_(painter),
-        roster_(feed.board()),
+        roster_(source.board()),
         rig_(options.camera) {
     if (options.focus) rig_.focus(*options.focus);
   }
 
   Result<void> run() {
-    const MonoTime start = mono_now();
-    for (const double moment_s : options_.moments_s) {
-      wait_until(start + Duration::seconds(moment_s));
-      SceneState scene;
-      roster_.update(mono_now(), scene);
-      if (scene.guests.empty()) scene.notes.push_back("nobody is on the stage of " + feed_.url());
-      scenes_.push_back(std::move(scene));
+    DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
+    if (options_.film) return film();
+    for (const MonoTime moment : moments) {
+      scenes_.push_back(scene_at(moment));
       if (draws_at_once())
         if (auto written = write_picture(scenes_.back()); !written) return written;
-      if (feed_.is_over()) break;
+      if (source_.is_over()) break;
     }
     if (options_.strip) {
       if (auto written = write_strip(); !written) return written;
@@ -49,8 +49,8 @@ class HeadlessRun {
       for (const SceneState& scene : scenes_)
         if (auto written = write_picture(scene); !written) return written;
     }
-    if (feed_.board().poses() > 0) return {};
-    return fail("no poses heard on " + feed_.url() +
+    if (source_.board().poses() > 0) return {};
+    return fail("no poses heard on " + source_.name() +
                 "; bring dancers with: dance salsa, or dance replay FILE");
   }
 
@@ -59,11 +59,28 @@ class HeadlessRun {
   // missed. Many are drawn as they come, for whoever waits for them.
   bool draws_at_once() const { return !options_.strip && options_.moments_s.size() > kFewMoments; }
 
-  void wait_until(MonoTime moment) const {
-    constexpr Duration kLook = Duration::ms(20);
-    for (MonoTime now = mono_now(); now < moment && !feed_.is_over(); now = mono_now())
-      std::this_thread::sleep_for(
-          std::chrono::nanoseconds(std::min(moment - now, kLook).count_ns()));
+  Result<std::vector<MonoTime>> moments_to_draw() const {
+    std::vector<MonoTime> moments;
+    for (const double moment_s : options_.moments_s)
+      moments.push_back(source_.begin() + Duration::seconds(moment_s));
+    if (options_.beats.empty()) return moments;
+    moments.clear();
+    for (const double beat : options_.beats) {
+      const auto moment = source_.time_of_beat(beat);
+      if (!moment)
+        return fail("--beats: the music of " + source_.name() + " has no beat " +
+                    std::to_string(std::lround(beat)));
+      moments.push_back(*moment);
+    }
+    return moments;
+  }
+
+  SceneState scene_at(MonoTime moment) {
+    SceneState scene;
+    roster_.update(source_.wait_until(moment), scene);
+    if (!options_.compare) leave_out_twins(scene);
+    if (scene.guests.empty()) scene.notes.push_back("nobody is on the stage of " + source_.name());
+    return scene;
   }
 
   Result<void> draw(const SceneState& scene, int width_px, const OverlayChoice& choice) {
@@ -71,14 +88,60 @@ class HeadlessRun {
     return painter_.draw(scene, rig_.camera(), width_px, options_.size.height_px, choice);
   }
 
-  Result<void> write_picture(const SceneState& scene) {
+  float aspect() const {
     const PictureSize& size = options_.size;
-    rig_.jump({&scene}, static_cast<float>(size.width_px) / static_cast<float>(size.height_px));
-    if (auto drawn = draw(scene, size.width_px, {options_.tags, options_.hud}); !drawn)
-      return drawn;
+    return static_cast<float>(size.width_px) / static_cast<float>(size.height_px);
+  }
+
+  // One picture of the stage, or of both halves where there is something to compare.
+  Result<Picture> paint(const SceneState& scene) {
+    const OverlayChoice choice{options_.tags, options_.hud};
+    if (!has_twins(scene)) {
+      if (auto drawn = draw(scene, options_.size.width_px, choice); !drawn)
+        return tl::make_unexpected(drawn.error());
+      return painter_.read();
+    }
+    painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
+    const PictureSize& size = options_.size;
+    if (auto drawn =
+            painter_.draw(compare(scene), rig_.camera(), size.width_px, size.height_px, choice);
+        !drawn)
+      return tl::make_unexpected(drawn.error());
+    return painter_.read();
+  }
+
+  float aspect_of(const SceneState& scene) const {
+    return has_twins(scene)
+               ? painter_.aspect_of_half(options_.size.width_px, options_.size.height_px)
+               : aspect();
+  }
+
+  Result<void> write_picture(const SceneState& scene) {
+    rig_.jump({&scene}, aspect_of(scene));
+    DANCE_TRY(const Picture picture, paint(scene));
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "stage-%04d.png", ++pictures_);
-    return write(name.data(), painter_.read());
+    return write(name.data(), picture);
+  }
+
+  // Every picture of it, whatever they take. The camera follows as in a window.
+  Result<void> film() {
+    const Duration period = Duration::period_of_hz(kFilm_hz);
+    const double most_s = options_.moments_s.back();
+    for (int k = 0; static_cast<double>(k) / kFilm_hz < most_s; ++k) {
+      const SceneState scene = scene_at(source_.begin() + period * k);
+      if (source_.is_over()) break;
+      if (k == 0)
+        rig_.jump({&scene}, aspect_of(scene));
+      else
+        rig_.update(scene, aspect_of(scene), period);
+      DANCE_TRY(const Picture picture, paint(scene));
+      std::array<char, 32> name{};
+      std::snprintf(name.data(), name.size(), "%04d.png", ++pictures_);
+      if (auto written = write(name.data(), picture); !written) return written;
+    }
+    if (pictures_ > 0) return {};
+    return fail(source_.name() + " ends before the first picture");
   }
 
   // The moments share one camera, so that what changes between them is the dance.
@@ -87,12 +150,41 @@ class HeadlessRun {
     std::vector<const SceneState*> all;
     for (const SceneState& scene : scenes_) all.push_back(&scene);
     rig_.jump(all, static_cast<float>(width_px) / static_cast<float>(options_.size.height_px));
-    std::vector<Picture> moments;
+    if (!has_twins(scenes_.front())) {
+      DANCE_TRY(const Picture row, paint_row(scenes_, width_px, ""));
+      return write("stage-strip.png", row);
+    }
+    std::vector<SceneState> raw, shown;
     for (const SceneState& scene : scenes_) {
-      if (auto drawn = draw(scene, width_px, {options_.tags, false}); !drawn) return drawn;
+      Comparison both = compare(scene);
+      raw.push_back(std::move(both.raw));
+      shown.push_back(std::move(both.shown));
+    }
+    DANCE_TRY(const Picture above, paint_row(raw, width_px, kTitleOfRaw));
+    DANCE_TRY(const Picture below, paint_row(shown, width_px, kTitleOfShown));
+    return write("stage-strip.png", one_above_the_other(std::array{above, below}));
+  }
+
+  Result<Picture> paint_row(const std::vector<SceneState>& scenes, int width_px,
+                            const std::string& title) {
+    std::vector<Picture> moments;
+    for (const SceneState& scene : scenes) {
+      const bool is_first = &scene == &scenes.front();
+      const OverlayChoice choice{options_.tags, false, is_first ? title : "",
+                                 options_.beats.empty() ? "" : caption_of(scene)};
+      if (auto drawn = draw(scene, width_px, choice); !drawn)
+        return tl::make_unexpected(drawn.error());
       moments.push_back(painter_.read());
     }
-    return write("stage-strip.png", side_by_side(moments));
+    return side_by_side(moments);
+  }
+
+  // What a dancer counts there.
+  static std::string caption_of(const SceneState& scene) {
+    if (!scene.music) return "";
+    const int beat = static_cast<int>(std::lround(scene.music->beats));
+    if (scene.music->beats_per_bar != 4) return "beat " + std::to_string(beat);
+    return "count " + std::to_string(((beat % 8) + 8) % 8 + 1);
   }
 
   Result<void> write(const std::string& name, const Picture& picture) {
@@ -104,7 +196,7 @@ class HeadlessRun {
   }
 
   const ViewOptions& options_;
-  StageFeed& feed_;
+  PictureSource& source_;
   StagePainter& painter_;
   StageRoster roster_;
   CameraRig rig_;
@@ -120,14 +212,14 @@ Result<void> run_headless(const ViewOptions& options) {
   if (error)
     return fail("--out " + options.out + " cannot be made: " + error.message() +
                 "; choose another directory");
-  DANCE_TRY(auto feed, StageFeed::create(options.feed));
+  DANCE_TRY(auto source, PictureSource::open(options));
   // This thread alone, and those that the driver starts from it.
   setpriority(PRIO_PROCESS, 0, kDrawingNiceness);
   DANCE_TRY(auto context, OffscreenContext::create());
   const Quality quality = options.quality == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
   DANCE_TRY(auto painter, StagePainter::create(quality, 1.0f));
   if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
-  return HeadlessRun(options, *feed, *painter).run();
+  return HeadlessRun(options, *source, *painter).run();
 }
 
 }  // namespace dance

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kExamples =
     R"(In the window: drag turns the camera, the wheel comes nearer, right or shift drag moves it;
   F frames everybody, 1 to 9 one guest, space starts and stops the slow turn, H shows or hides the
-  figures, Q quits.
+  figures, C compares where there is something to compare, Q quits.
 Examples:
   dance view                                         who dances in this house
   dance view --focus alice --camera front
@@ -20,6 +20,8 @@ Examples:
   dance view --headless --out pictures --seconds 10 --every 0.5 --size 640x360
   dance view --headless --out pictures --seconds 2 --strip 6 --no-hud
   dance view --show capture                          only what this house's cameras see
+  dance view --headless --log out/demo/demo.lcm --compare --beats 16,17,18,19 --strip 4
+                                                     a recorded demo, on the beats of its music
 )";
 
 struct Wishes {
@@ -69,6 +71,14 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add("--strip", wishes.moments.strip,
            "headless: so many moments side by side in stage-strip.png")
       .range(2, 24);
+  line.add("--log", view.log, "headless: pictures of a recorded house, from its LCM log");
+  line.add("--beats", view.beats, "headless, with --log: pictures on these beats of the music")
+      .split_at(',')
+      .range(-1'000'000.0, 1'000'000.0);
+  line.add_flag("--film", wishes.moments.film,
+                "headless, with --log: every picture of a film, 25 a second, as 0001.png …");
+  line.add_flag("--compare", view.compare,
+                "two halves: left as poses come (guests NAME-raw), right as routes show them");
   line.footer(kExamples);
 }
 
@@ -77,6 +87,12 @@ Result<void> finish(Wishes& wishes) {
   DANCE_TRY(wishes.view.size, parse_size(wishes.size));
   DANCE_TRY(wishes.view.moments_s, plan_moments(wishes.moments));
   wishes.view.strip = wishes.moments.strip > 0;
+  wishes.view.film = wishes.moments.film;
+  if (wishes.view.log.empty() && (wishes.view.film || !wishes.view.beats.empty()))
+    return fail("--film and --beats need a recorded house: name it with --log");
+  if (!wishes.view.log.empty() && !wishes.view.headless)
+    return fail("--log is for pictures: add --headless, or play it with: dance replay " +
+                wishes.view.log);
   if (!wishes.focus.empty()) wishes.view.focus = GuestId::parse(wishes.focus);
   wishes.view.hud = !wishes.no_hud;
   wishes.view.tags = !wishes.no_tags;

@@ -18,6 +18,9 @@ Result<std::vector<double>> plan_moments(const MomentWish& wish) {
   if (!moments.empty() && wish.every_s > 0.0)
     return fail("--at and --every are two ways to say the same; give one of them");
   const double seconds = wish.seconds > 0.0 ? wish.seconds : kUsualSeconds;
+  if (wish.film && (!moments.empty() || wish.every_s > 0.0 || wish.strip > 0))
+    return fail("--film takes all pictures; leave out --at, --every and --strip");
+  if (wish.film) return std::vector<double>{wish.seconds > 0.0 ? wish.seconds : kLongest_s};
   if (moments.empty() && wish.every_s > 0.0) {
     if (seconds / wish.every_s > static_cast<double>(kMostPictures))
       return fail("--every asks for more than 10000 pictures; give a longer time between them");

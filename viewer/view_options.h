@@ -16,6 +16,8 @@
 
 namespace dance {
 
+constexpr double kFilm_hz = 25.0;
+
 enum class QualityWish { kAuto, kLow, kHigh };
 
 struct PictureSize {
@@ -31,11 +33,15 @@ struct ViewOptions {
   PictureSize size;
   bool hud = true;
   bool tags = true;
+  bool compare = false;  // two halves, where there are twins (viewer/comparison.h)
 
   bool headless = false;
   std::string out = ".";
   std::vector<double> moments_s;
   bool strip = false;
+  std::string log;            // a recorded house; "" = a live one
+  std::vector<double> beats;  // of its music: moments that stand for moments_s
+  bool film = false;          // kFilm_hz pictures a second up to the last of moments_s
 };
 
 // The moments of --at, or every so often up to `seconds`, or `strip` moments spread over them, or
@@ -45,6 +51,7 @@ struct MomentWish {
   double every_s = 0.0;
   double seconds = 0.0;  // 0 = not given
   int strip = 0;
+  bool film = false;
 };
 Result<std::vector<double>> plan_moments(const MomentWish& wish);
 

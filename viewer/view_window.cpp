@@ -109,6 +109,7 @@ void ViewWindow::on_key(int key, int action) {
   if (key == GLFW_KEY_F) rig_.frame_all();
   if (key == GLFW_KEY_SPACE) rig_.toggle_turning();
   if (key == GLFW_KEY_H) shows_hud_ = !shows_hud_;
+  if (key == GLFW_KEY_C) compares_ = !compares_;
   if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
     focus_key_ = static_cast<std::size_t>(key - GLFW_KEY_1);
 }

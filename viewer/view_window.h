@@ -42,6 +42,8 @@ class ViewWindow {
   double refresh_hz() const;
   bool is_over() const;
   bool shows_hud() const { return shows_hud_; }
+  bool compares() const { return compares_; }
+  void set_comparing(bool compares) { compares_ = compares; }
   // The guest of the number key that was pressed last, from 0; once.
   std::optional<std::size_t> take_focus_key();
 
@@ -54,6 +56,7 @@ class ViewWindow {
   CameraRig& rig_;
   GLFWwindow* window_ = nullptr;
   bool shows_hud_ = true;
+  bool compares_ = false;
   std::optional<std::size_t> focus_key_;
   enum class Drag { kNone, kOrbit, kPan };
   Drag drag_ = Drag::kNone;

@@ -65,17 +65,24 @@ class WindowRun {
  private:
   Result<void> draw(MonoTime now, Duration since_last, ViewWindow::Size size) {
     roster_.update(now, scene_);
+    has_twins_ = has_twins(scene_);
+    const bool is_split = has_twins_ && window_.compares();
+    if (!is_split) leave_out_twins(scene_);
     if (const auto key = window_.take_focus_key(); key && *key < scene_.guests.size())
       rig_.focus(scene_.guests[*key].id);
-    const float aspect = static_cast<float>(size.width_px) / static_cast<float>(size.height_px);
+    const float aspect =
+        is_split ? painter_.aspect_of_half(size.width_px, size.height_px)
+                 : static_cast<float>(size.width_px) / static_cast<float>(size.height_px);
     rig_.update(scene_, aspect, since_last);
     painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
     painter_.overlay().set_scale(window_.scale());
     write_notes();
     const OverlayChoice choice{options_.tags, options_.hud && window_.shows_hud()};
-    if (auto drawn = painter_.draw(scene_, rig_.camera(), size.width_px, size.height_px, choice);
-        !drawn)
-      return drawn;
+    auto drawn =
+        is_split
+            ? painter_.draw(compare(scene_), rig_.camera(), size.width_px, size.height_px, choice)
+            : painter_.draw(scene_, rig_.camera(), size.width_px, size.height_px, choice);
+    if (!drawn) return drawn;
     painter_.present();
     window_.swap();
     report_shown(mono_now());
@@ -101,8 +108,8 @@ class WindowRun {
     if (!options_.hud || !window_.shows_hud()) return;
     std::array<char, 96> text{};
     std::snprintf(text.data(), text.size(),
-                  "%.0f pictures/s   F all   1-9 one   space turn   H figures   Q quit",
-                  rate_.hz());
+                  "%.0f pictures/s   F all   1-9 one   space turn   H figures   %sQ quit",
+                  rate_.hz(), has_twins_ ? "C compare   " : "");
     scene_.notes.push_back(text.data());
   }
 
@@ -122,6 +129,7 @@ class WindowRun {
   StageRoster roster_;
   SceneState scene_;
   PictureRate rate_;
+  bool has_twins_ = false;
 };
 
 }  // namespace
@@ -136,6 +144,7 @@ Result<void> run_window(const ViewOptions& options) {
   if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
   if (options.quality == QualityWish::kAuto && painter->renderer().quality() == Quality::kLow)
     talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
+  window->set_comparing(options.compare);
   auto ended = WindowRun(options, rig, *feed, *window, *painter).run();
   if (feed->board().no_room() > 0)
     talk::warn("{} messages of guests beyond the {} that fit were left out",

@@ -77,6 +77,29 @@ TEST(SalsaDancer, CarriesTheMusicalTimeOfItsTempo) {
   EXPECT_DOUBLE_EQ(pose.music_beats, 42.5);
 }
 
+TEST(SalsaDancer, DancesToWhatIsHeardAndGoesOnAloneWhereItEnds) {
+  SalsaStyle style = salsa_style(1, 180.0);
+  SalsaDancer deaf(style), dancer(style);
+  const MonoTime start = MonoTime::from_us(5'000'000);
+  BeatClock music;
+  dancer.listen_to(music, start);
+  Pose pose, other;
+  dancer.dance_at(Duration::s(2), pose);
+  EXPECT_DOUBLE_EQ(pose.music_beats, 6.0) << "nothing is heard yet";
+  Beat beat;
+  beat.time = beat.beat_time = start + Duration::s(2);
+  beat.beat = 20.0;
+  beat.tempo_bpm = 200.0;
+  beat.playing = true;
+  music.hear(beat);
+  dancer.dance_at(Duration::ms(2300), pose);
+  EXPECT_NEAR(pose.music_beats, 21.0, 1e-9);
+  deaf.dance_at(Duration::s(7), other);  // its beat 21
+  EXPECT_NEAR((pose.p_WH_m - other.p_WH_m).norm(), 0.0f, 0.01f) << "the same step";
+  dancer.dance_at(Duration::s(9), pose);
+  EXPECT_DOUBLE_EQ(pose.music_beats, 27.0);
+}
+
 TEST(SalsaDancer, DancesTheSameWhereverTheCoupleIsPlaced) {
   SalsaStyle placed = salsa_style(4);
   placed.x_m = 3.0;

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -169,6 +172,90 @@ TEST(Demo, AccountsForEveryPoseOfABadLine) {
   }
 }
 
+// Not all of one brightness: something is drawn. Width and height stand in the head, 24 bytes in.
+void expect_drawn(const std::string& file, std::uint32_t width_px, std::uint32_t height_px) {
+  const std::string png = dance::text_of(file);
+  ASSERT_GT(png.size(), 24u) << file;
+  EXPECT_EQ(png.substr(1, 3), "PNG") << file;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t n = 0;
+    for (std::size_t i = 0; i < 4; ++i) n = n << 8 | static_cast<std::uint8_t>(png[at + i]);
+    return n;
+  };
+  EXPECT_EQ(number(16), width_px) << file;
+  EXPECT_EQ(number(20), height_px) << file;
+  // A blank sheet of a million pixels takes some thousand bytes.
+  EXPECT_GT(png.size(), 20'000u) << file;
+}
+
+TEST(Demo, ShowsADancerOnTheBeatBesideThePosesAsTheyCome) {
+  const TestFolder folder("compare");
+  const std::string out = folder.path();
+  const auto summary = run_demo(
+      "--seconds 9 --compare --through 'rhythm beats=1' --link 'delay=120ms jitter=15ms loss=1%'",
+      out);
+  ASSERT_EQ(summary["guests"].size(), 2u) << "twins are no guests";
+  expect_all_delivered(summary, 2);
+  // Off by more than a third of a beat, and by less than a thirtieth, whatever the machine does meanwhile.
+  ASSERT_TRUE(summary.contains("phase_mean_ms")) << summary;
+  const auto of = [&](const char* key) { return std::abs(summary[key].get<double>()); };
+  EXPECT_GT(of("phase_mean_ms_raw"), 60.0);
+  EXPECT_LT(4.0 * of("phase_mean_ms"), of("phase_mean_ms_raw"));
+  EXPECT_LT(2.0 * of("phase_sd_ms"), of("phase_sd_ms_raw"));
+  EXPECT_GT(of("content_delay_ms_raw"), 100.0);
+  EXPECT_GT(of("content_delay_ms"), of("content_delay_ms_raw")) << "a beat later, and true";
+  if (!fs::exists(bin("dance-view"))) return;
+  expect_drawn(summary["strip"].get<std::string>(), 1440, 800);
+  expect_drawn(summary["sway"].get<std::string>(), 1200, 780);
+}
+
+TEST(Demo, PlaysTheSongThatItIsGivenInBothHouses) {
+  if (!fs::exists(bin("dance-music"))) GTEST_SKIP() << "built without dance music";
+  const TestFolder folder("song");
+  // A song of silence, at a tempo of its own.
+  std::ofstream beats(folder.path("still.beats"));
+  for (int i = 0; i < 40; ++i) beats << 0.3 * i << '\t' << i % 4 + 1 << '\n';
+  beats.close();
+  std::ofstream wav(folder.path("still.wav"), std::ios::binary);
+  constexpr std::uint32_t kData_bytes = 2 * 8000 * 12;
+  const auto put = [&](std::uint32_t value, int size) {
+    for (int i = 0; i < size; ++i) wav.put(static_cast<char>(value >> (8 * i) & 0xff));
+  };
+  wav << "RIFF";
+  put(36 + kData_bytes, 4);
+  wav << "WAVEfmt ";
+  for (const auto& [value, size] :
+       {std::pair{16u, 4}, {1u, 2}, {1u, 2}, {8000u, 4}, {16000u, 4}, {2u, 2}, {16u, 2}})
+    put(value, size);
+  wav << "data";
+  put(kData_bytes, 4);
+  wav << std::string(kData_bytes, '\0');
+  wav.close();
+  const auto summary = run_demo(
+      "--seconds 8 --compare --through 'rhythm beats=1' --music " + folder.path("still.wav"),
+      folder.path());
+  ASSERT_TRUE(summary.contains("tempo_bpm")) << summary;
+  EXPECT_NEAR(summary["tempo_bpm"].get<double>(), 200.0, 1.0);
+  EXPECT_LT(4.0 * std::abs(summary["phase_mean_ms"].get<double>()),
+            std::abs(summary["phase_mean_ms_raw"].get<double>()));
+}
+
+TEST(Demo, DrawsAFilmOfWhatWasRecorded) {
+  if (!fs::exists(bin("dance-view"))) GTEST_SKIP() << "built without the viewer";
+  const TestFolder folder("film");
+  const auto demo = run_demo("--seconds 7 --compare", folder.path());
+  const Finished film = dance::run(
+      bin("dance-view") + " --headless --log " + folder.path("demo.lcm") +
+      " --compare --film --seconds 0.4 --size " + "320x180 --out " + folder.path("film"));
+  EXPECT_EQ(film.exit_code, 0) << film.talk;
+  for (int i = 1; i <= 10; ++i) {
+    std::array<char, 16> name{};
+    std::snprintf(name.data(), name.size(), "/%04d.png", i);
+    EXPECT_TRUE(fs::exists(folder.path("film") + name.data())) << name.data();
+  }
+  EXPECT_FALSE(fs::exists(folder.path("film") + "/0011.png"));
+}
+
 TEST(Demo, NamesATraceThatIsNotThereBeforeAnythingStarts) {
   const TestFolder folder("no-trace");
   const Finished demo = dance::run(bin("dance-demo") + " --headless --out " + folder.path() +
@@ -223,6 +310,9 @@ TEST(Demo, RefusesWhatCannotBeInOneLine) {
   for (const auto& [options, word] :
        {std::pair<std::string, std::string>{"--motion /nonexistent.bvh", "nonexistent.bvh"},
         {"--guests 1", "guests"},
+        {"--compare --guests 4", "--compare"},
+        {"--film", "--film"},
+        {"--music /no/song.ogg", "/no/song.ogg"},
         {"--through fly", "fly"},
         {"--nonsense", "nonsense"}}) {
     const TestFolder folder("wrong");

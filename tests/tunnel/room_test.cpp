@@ -95,6 +95,34 @@ TEST_F(LatticeRoom, ANewcomerDecodesEverybodyWithinARoundTripOverTheSenders) {
   EXPECT_LE(newcomer.link->counters().reference_missing, 6u * 3u);
 }
 
+TEST_F(LatticeRoom, WhoeverBeginsToDanceIsSeenFromTheFirstPoseOn) {
+  std::vector<House*> houses;
+  for (int i = 0; i < 8; ++i)
+    houses.push_back(&tunnel.add_house("salsa", {"late-" + std::to_string(i)}));
+  dance.run(Duration::ms(200));
+  const LinkCounters before = sum();
+  // A producer says the proportions, and dances at once; one dancer a few milliseconds after the other.
+  for (int ms = 0; ms < 100; ++ms) {
+    for (int i = 0; i < 8; ++i) {
+      const std::string name = "late-" + std::to_string(i);
+      House& house = *houses[static_cast<std::size_t>(i)];
+      if (ms == 3 * i)
+        house.link->send(guest(name), average_skeleton(1.5f + 0.05f * static_cast<float>(i)),
+                         tunnel.time_in(house));
+      if (ms >= 3 * i && (ms - 3 * i) % 16 == 0) tunnel.dance(house, guest(name));
+    }
+    dance.run(Duration::ms(1));
+  }
+  dance.run(Duration::ms(100));
+  EXPECT_EQ(sum().skeleton_missing, before.skeleton_missing);
+  for (int i = 0; i < 8; ++i) {
+    const GuestId who = guest("late-" + std::to_string(i));
+    EXPECT_EQ(houses[static_cast<std::size_t>(i)]->link->counters().skeleton_missing, 0u) << i;
+    for (const auto& [house, dancer] : dance.dancers)
+      EXPECT_EQ(house->heard_of(who), static_cast<std::size_t>((99 - 3 * i) / 16 + 1)) << i;
+  }
+}
+
 TEST_F(LatticeRoom, TheRateMakesPosesCoarserAndTheyStillDecode) {
   tunnel.link_options.pose_bytes_per_second = 200.0;
   House& thrifty = add("dora", 1.7f);

@@ -57,6 +57,12 @@ class PictureTest : public testing::Test {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return painter_->read();
   }
+  static Picture draw_comparison(const SceneState& scene, const OrbitCamera& camera) {
+    const auto drawn = painter_->draw(compare(scene), camera, kWidth_px, kHeight_px, {true, true});
+    EXPECT_TRUE(drawn) << drawn.error().what;
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    return painter_->read();
+  }
   static void make_painter(Quality quality) {
     painter_.reset();
     auto made = StagePainter::create(quality, 1.0f);
@@ -108,6 +114,48 @@ TEST_F(PictureTest, HasTheBodyWhereTheJointsAreAndTheStageBeside) {
         Vector3f(-0.6f, 1.65f, 0), Vector3f(head + Vector3f(0, 0.08f, 0))})
     EXPECT_LT(change_at(with, without, camera, beside), 12)
         << "beside the body at " << beside.transpose();
+}
+
+TEST_F(PictureTest, ShowsBothSidesOfAComparisonAndTheBeatsUnderThem) {
+  SceneState scene = scene_of(guest_in_t_pose("alice"));
+  scene.music = SceneMusic{20.3, 3.0, 4};
+  SceneGuest bob = guest_in_t_pose("bob");
+  bob.pose.p_WH_m.x() += 1.0f;
+  BeatMeter meter;
+  for (int i = 0; i < 120; ++i) {
+    const double heard = 14.0 + 0.05 * i;
+    meter.add(heard - 0.4, heard, 3.0, Duration::ms(133));
+  }
+  bob.figures.beat = meter.figures();
+  SceneGuest twin = bob;
+  twin.id = *GuestId::parse("bob-raw");
+  twin.pose.p_WH_m.x() += 0.5f;
+  scene.guests.push_back(bob);
+  scene.guests.push_back(twin);
+  const OrbitCamera camera = camera_for(scene);
+  draw(SceneState(), camera);  // makes the painter
+  const Picture picture = draw_comparison(scene, camera);
+  ASSERT_EQ(picture.width_px, kWidth_px);
+  ASSERT_EQ(picture.height_px, kHeight_px);
+  // Alice stands in both halves alike, bob does not.
+  int alike = 0, unlike = 0, panel = 0;
+  for (int y = 0; y < kHeight_px; ++y)
+    for (int x = 2; x < kWidth_px / 2 - 2; ++x) {
+      const int off = difference(picture.at(x, y), picture.at(x + kWidth_px / 2, y));
+      (off < 12 ? alike : unlike) += 1;
+      if (y > kHeight_px - 60) panel += brightness(picture.at(x, y)) > 300 ? 1 : 0;
+    }
+  EXPECT_GT(alike, 20 * kHeight_px);
+  EXPECT_GT(unlike, 500);
+  EXPECT_GT(panel, 200) << "the ruler, the names and the dots";
+  // The same on both sides is the same picture twice, but for the words below.
+  scene.guests[2].pose = scene.guests[1].pose;
+  const Picture same = draw_comparison(scene, camera);
+  int differs = 0;
+  for (int y = 0; y < kHeight_px / 2; ++y)
+    for (int x = 2; x < kWidth_px / 2 - 2; ++x)
+      differs += difference(same.at(x, y), same.at(x + kWidth_px / 2, y)) > 12 ? 1 : 0;
+  EXPECT_EQ(differs, 0);
 }
 
 TEST_F(PictureTest, ShowsAllOfThirtyDancers) {

@@ -26,6 +26,17 @@ TEST(PlanMoments, RefusesTwoPlansAndTooManyPictures) {
   EXPECT_FALSE(plan_moments({{}, 0.02, 86400.0, 0}));
 }
 
+TEST(PlanMoments, AFilmGoesOnToItsEndAndTakesNoOtherPlan) {
+  MomentWish wish;
+  wish.film = true;
+  wish.seconds = 6.0;
+  EXPECT_EQ(*plan_moments(wish), (std::vector<double>{6.0}));
+  wish.seconds = 0.0;
+  EXPECT_GT(plan_moments(wish)->at(0), 3600.0);
+  wish.strip = 4;
+  EXPECT_FALSE(plan_moments(wish));
+}
+
 TEST(ParseSize, TakesWidthByHeight) {
   const auto size = parse_size("640x360");
   ASSERT_TRUE(size);

@@ -1,0 +1,62 @@
+#include "viewer/comparison.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/raw_twin.h"
+
+namespace dance {
+namespace {
+
+SceneState scene_of_names(std::initializer_list<const char*> names) {
+  SceneState scene;
+  for (const char* name : names) {
+    SceneGuest guest;
+    guest.id = *GuestId::parse(name);
+    guest.pose.p_WH_m.x() = static_cast<float>(scene.guests.size());
+    scene.guests.push_back(guest);
+  }
+  return scene;
+}
+
+std::string names_in(const SceneState& scene) {
+  std::string names;
+  for (const SceneGuest& guest : scene.guests) names += std::string(guest.id.view()) + " ";
+  return names;
+}
+
+TEST(Comparison, HasTheTwinOnOneSideAndItsDancerOnTheOther) {
+  const SceneState scene = scene_of_names({"alice", "bob", "bob-raw"});
+  ASSERT_TRUE(has_twins(scene));
+  const Comparison both = compare(scene);
+  EXPECT_EQ(names_in(both.raw), "alice bob ");
+  EXPECT_EQ(names_in(both.shown), "alice bob ");
+  EXPECT_EQ(both.raw.guests[1].pose.p_WH_m.x(), 2.0f);
+  EXPECT_EQ(both.shown.guests[1].pose.p_WH_m.x(), 1.0f);
+}
+
+TEST(Comparison, APlainPictureShowsNobodyTwice) {
+  SceneState scene = scene_of_names({"alice", "bob", "bob-raw"});
+  leave_out_twins(scene);
+  EXPECT_EQ(names_in(scene), "alice bob ");
+}
+
+TEST(Comparison, WhoIsMerelyCalledSoIsAGuestLikeOthers) {
+  SceneState scene = scene_of_names({"alice", "sushi-raw"});
+  EXPECT_FALSE(has_twins(scene));
+  EXPECT_EQ(names_in(compare(scene).raw), "alice sushi-raw ");
+  leave_out_twins(scene);
+  EXPECT_EQ(names_in(scene), "alice sushi-raw ");
+}
+
+TEST(RawTwin, NamesGoBothWays) {
+  const GuestId bob = *GuestId::parse("bob");
+  ASSERT_TRUE(raw_twin_of(bob));
+  EXPECT_EQ(raw_twin_of(bob)->view(), "bob-raw");
+  EXPECT_EQ(twin_of_whom(*raw_twin_of(bob)), bob);
+  EXPECT_FALSE(twin_of_whom(bob));
+  EXPECT_FALSE(twin_of_whom(*GuestId::parse("-raw")));
+  EXPECT_FALSE(raw_twin_of(*GuestId::parse("a-name-of-24-characters1"))) << "no room";
+}
+
+}  // namespace
+}  // namespace dance
