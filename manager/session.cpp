@@ -281,7 +281,7 @@ std::vector<Route> default_routes() {
   Route others;
   others.from.where = Where::kGuest;
   others.to.where = Where::kStage;
-  others.through = {"hold"};
+  others.through = {"predict", "bridge", "rhythm", "stylize"};
   others.rate_hz = 60.0;
   return {own, others};
 }

@@ -95,7 +95,8 @@ struct Session {
 Result<Session> parse_session(std::string_view text, const std::string& name);
 Result<Session> load_session(const std::string& path);
 
-// The session of a house that was given no file: own dancers straight to the stage, remote ones held as their lines need.
+// The session of a house that was given no file: own dancers straight to the stage, remote ones predicted, carried over
+// lapses, on the beat and in their style.
 std::vector<Route> default_routes();
 
 }  // namespace dance

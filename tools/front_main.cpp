@@ -52,6 +52,8 @@ constexpr std::array kCommands{
     Command{"predict eval", "prediction on recorded dances: errors beside plain guesses, cost"},
     Command{"predict train", "trains a model of prediction"},
     Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
+    Command{"predict stream",
+            "dances over a line with delay, jitter and loss: how late, how smooth"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
     Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},

@@ -3,81 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/assert.h"
 #include "tools/motion_measures.h"
-#include "transformers/chain.h"
-#include "transformers/continuation.h"
-#include "transformers/finish.h"
 
 namespace dance {
 namespace {
-
-class HoldSubject : public LapseSubject {
- public:
-  void observe(const Pose& pose, MonoTime) override { newest_ = pose; }
-  bool sample(MonoTime, Pose& out) override {
-    out = newest_;
-    return true;
-  }
-
- private:
-  Pose newest_;
-};
-
-class ContinuationSubject : public LapseSubject {
- public:
-  explicit ContinuationSubject(const Skeleton& skeleton) : skeleton_(skeleton), history_(2048) {
-    finish_.set_body(skeleton);
-  }
-  void observe(const Pose& pose, MonoTime now) override {
-    Pose was;
-    const bool was_guessed = continuation_.is_running();
-    if (was_guessed) continuation_.at(now - history_.newest().capture_time, was);
-    continuation_.end();
-    history_.push(pose);
-    if (was_guessed) finish_.correct(now, was, pose);
-  }
-  bool sample(MonoTime now, Pose& out) override {
-    if (history_.empty()) return false;
-    const Duration since = now - history_.newest().capture_time;
-    out = history_.newest();
-    const bool is_guess = since > Duration::ms(1);
-    if (is_guess) {
-      if (!continuation_.is_running()) continuation_.begin(history_, skeleton_);
-      continuation_.at(since, out);
-    }
-    finish_.apply(now, out, is_guess);
-    return true;
-  }
-
- private:
-  Skeleton skeleton_;
-  PoseHistory history_;
-  Continuation continuation_;
-  Finish finish_;
-};
-
-class ChainSubject : public LapseSubject {
- public:
-  ChainSubject(const std::vector<std::string>& specifications, const Skeleton& skeleton) {
-    auto chain = Chain::make(specifications);
-    DANCE_ASSERT(chain.has_value());
-    chain_ = std::move(*chain);
-    chain_.set_body(skeleton);
-    learners_ = chain_.learners();
-  }
-  void observe(const Pose& pose, MonoTime now) override {
-    chain_.observe(pose, now);
-    // As the house's own thread does, a few times a second.
-    if (pose.sequence % 20 == 0)
-      for (auto& learner : learners_) learner->learn();
-  }
-  bool sample(MonoTime now, Pose& out) override { return chain_.sample(now, out); }
-
- private:
-  Chain chain_;
-  std::vector<std::shared_ptr<Learner>> learners_;
-};
 
 // Frames of a trial: what was danced, and what was shown.
 struct Trial {
@@ -85,7 +14,7 @@ struct Trial {
   std::size_t lapse_begin = 0, lapse_end = 0;  // [begin, end) had no pose
 };
 
-Trial run_trial(const CodecTake& take, LapseSubject& subject, std::size_t last_seen,
+Trial run_trial(const CodecTake& take, StageSubject& subject, std::size_t last_seen,
                 std::size_t length, std::size_t after) {
   Trial trial;
   // What peaks are compared with, too.
@@ -140,20 +69,6 @@ void add_trial(const CodecTake& take, const Trial& trial, Sums& sums, LapseFigur
 }
 
 }  // namespace
-
-MakeSubject hold_subject() {
-  return [](const Skeleton&) { return std::make_unique<HoldSubject>(); };
-}
-
-MakeSubject continuation_subject() {
-  return [](const Skeleton& skeleton) { return std::make_unique<ContinuationSubject>(skeleton); };
-}
-
-MakeSubject chain_subject(const std::vector<std::string>& specifications) {
-  return [specifications](const Skeleton& skeleton) {
-    return std::make_unique<ChainSubject>(specifications, skeleton);
-  };
-}
 
 LapseFigures evaluate_lapse(const std::vector<CodecTake>& takes, const MakeSubject& make,
                             Duration length, const LapseOptions& options) {

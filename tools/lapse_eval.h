@@ -7,31 +7,12 @@
 // Failure:      a take that is too short for any lapse adds nothing.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "core/pose/skeleton.h"
 #include "tools/codec_takes.h"
+#include "tools/stage_subject.h"
 
 namespace dance {
-
-// One station, or a chain's last with those before it: whatever is asked for the pose to show.
-class LapseSubject {
- public:
-  virtual ~LapseSubject() = default;
-  virtual void observe(const Pose& pose, MonoTime now) = 0;
-  virtual bool sample(MonoTime now, Pose& out) = 0;
-};
-using MakeSubject = std::function<std::unique_ptr<LapseSubject>(const Skeleton& skeleton)>;
-
-// Shows the newest pose that came.
-MakeSubject hold_subject();
-// Continuation (transformers/continuation.h) from the first missing pose on, with a Finish: no prediction before it.
-MakeSubject continuation_subject();
-// A chain of stations (transformers/chain.h), whose specifications must be right.
-MakeSubject chain_subject(const std::vector<std::string>& specifications);
 
 struct LapseFigures {
   double error_m = 0.0;        // mean over the lapse

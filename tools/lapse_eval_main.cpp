@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kLapseExamples = R"(Examples:
   dance lapse eval salsa.bvh
   dance lapse eval *.bvh.xz --lapses 250ms,1s,4s
-  dance lapse eval salsa.bvh --through "predict" --json
+  dance lapse eval salsa.bvh --through "predict,bridge" --json
   error     mean distance of the joints from what was danced, the hips' place and rotation removed
   activity  mean speed of the joints while it lasts, the dancer's own is 1; body: relative to the hips
   start, wraps, return
@@ -45,11 +45,11 @@ Result<std::vector<Duration>> parse_lapses(std::string_view text) {
 Result<void> run(const Wishes& wishes) {
   DANCE_TRY(const std::vector<Duration> lapses, parse_lapses(wishes.lapses));
   std::vector<std::pair<std::string, MakeSubject>> subjects{
-      {"hold", hold_subject()}, {"continuation", continuation_subject()}};
+      {"newest", newest_subject()}, {"continuation", continuation_subject()}};
   for (const std::string& through : wishes.through) {
-    DANCE_TRY(const Chain chain, Chain::make({through}));
-    if (chain.is_pass_through()) continue;
-    subjects.emplace_back(through, chain_subject({through}));
+    const std::vector<std::string> stations = stations_of(through);
+    DANCE_TRY(const Chain chain, Chain::make(stations));
+    if (!chain.is_pass_through()) subjects.emplace_back(through, chain_subject(stations));
   }
   std::vector<CodecTake> takes;
   for (const std::string& file : wishes.files) {
@@ -77,7 +77,8 @@ int main(int argc, char** argv) {
   line.add("FILE", wishes.files, "BVH files, also packed with xz").required();
   line.add("--lapses", wishes.lapses, "how long the poses stay away, one after the other")
       .shows_default();
-  line.add("--through", wishes.through, "stations to judge too, as session files name them");
+  line.add("--through", wishes.through,
+           "chains to judge too: stations as session files name them, with commas between");
   line.add_flag("--json", wishes.is_json, "one JSON array on stdout");
   line.footer(dance::kLapseExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });

@@ -23,6 +23,7 @@ struct MusicEvalOptions {
   double start_s = 0.0;
   double left_out_s = 5.0;  // at the begin
   bool with_aubio = true;
+  bool check_causal = true;  // takes as long again
 };
 
 struct SongEval {

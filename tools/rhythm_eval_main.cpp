@@ -49,7 +49,7 @@ Result<void> run(Wishes wishes) {
       {"raw", {}},
       {"hold", {"hold"}},
       {"predict", {"predict"}},
-      {"predict, " + rhythm, {"predict", rhythm}},
+      {"predict, bridge, " + rhythm, {"predict", "bridge", rhythm}},
   };
   std::vector<RhythmRun> runs;
   for (const NamedChain& chain : chains) {

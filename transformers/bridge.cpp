@@ -1,8 +1,10 @@
 #include "transformers/bridge.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/pose/interpolate.h"
+#include "transformers/rotation_vector.h"
 
 namespace dance {
 namespace {
@@ -30,6 +32,7 @@ void Bridge::hear(const Beat& beat, MonoTime /*now*/) {
 }
 
 void Bridge::end_lapse() {
+  turn_ = identity_rotations();
   continuation_.end();
   comes_back_ = false;
 }
@@ -46,6 +49,7 @@ void Bridge::observe(const Pose& pose, MonoTime now) {
   }
   if (!history_.push(pose)) return;  // the station before counts it
   heard_ = now;
+  finish_.observe(pose, now);
   // The continuation is asked once more, for what it would have shown.
   comes_back_ = continuation_.is_running();
 }
@@ -57,17 +61,32 @@ bool Bridge::is_lapse(MonoTime moment, MonoTime now, bool is_repeated) const {
          now - heard_ > (is_repeated ? kRepeated : kSilentLine);
 }
 
-void Bridge::carry_on(MonoTime moment, bool has_input, Pose& pose) const {
+Pose Bridge::mix(const Pose& guess, const Pose& continued, float share) {
+  Pose out = interpolate(guess, continued, share);
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    Eigen::Quaternionf turn = continued.R_PB[b] * guess.R_PB[b].conjugate();
+    if (turn.dot(turn_[b]) < 0.0f) turn.coeffs() *= -1.0f;
+    turn_[b] = turn;
+    const float sine = turn.vec().norm();
+    if (sine < 1e-4f) continue;
+    const float angle = 2.0f * std::atan2(sine, turn.w());
+    out.R_PB[b] = exp_rotation(turn.vec() * (share * angle / sine)) * guess.R_PB[b];
+  }
+  return out;
+}
+
+void Bridge::carry_on(MonoTime moment, bool has_input, Pose& pose) {
   const Duration since = moment - continuation_.newest_time();
   Pose continued;
   if (!continuation_.at(since, continued)) return;
   // From nothing on, however late the lapse was noticed.
   const float share =
-      has_input ? Continuation::share_at(since - lapse_after_ + Continuation::kPredictedUntil)
-                : 1.0f;
+      has_input && fades_in_
+          ? Continuation::share_at(since - lapse_after_ + Continuation::kPredictedUntil)
+          : 1.0f;
   if (share <= 0.0f) return;
   const double beats = pose.music_beats;
-  pose = share >= 1.0f ? continued : interpolate(pose, continued, share);
+  pose = share >= 1.0f ? continued : mix(pose, continued, share);
   pose.capture_time = moment;
   pose.music_beats = beats;
 }
@@ -90,6 +109,12 @@ bool Bridge::sample(MonoTime now, Pose& out) {
   if (!continuation_.is_running() && is_lapse(wanted, now, is_repeated)) {
     lapse_after_ = wanted - history_.newest().capture_time;
     continuation_.begin(history_, skeleton_, beat_);
+    fades_in_ = !is_repeated;
+    // What stands begins to move.
+    if (Pose continued = out; is_repeated) {
+      carry_on(wanted, has_input, continued);
+      finish_.correct(now, out, continued);
+    }
   }
   const bool is_guess = continuation_.is_running() || !is_repeated;
   if (continuation_.is_running()) carry_on(wanted, has_input, out);
@@ -103,6 +128,7 @@ bool Bridge::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   if (history_.empty() || moment <= history_.newest().capture_time) return has_input;
   if (!continuation_.is_running() && is_lapse(moment, now, !has_input)) {
     lapse_after_ = std::max(Continuation::kPredictedUntil, now - heard_);
+    fades_in_ = has_input;
     continuation_.begin(history_, skeleton_, beat_);
   }
   if (!continuation_.is_running()) return has_input;

@@ -2,7 +2,7 @@
 // dance goes on with the dancer's own past (transformers/continuation.h) until they come back; what is not yet known
 // keeps joints in their limits and feet where they stand (transformers/finish.h). Stands behind hold or predict.
 //
-// Units/frames: as transformers/transformer.h. A lapse begins 200 ms after the newest pose (60 where the
+// Units/frames: as transformers/transformer.h. A lapse begins 250 ms after the newest pose (60 where the
 //               station before only repeats it), when the line is silent too.
 // Ownership:    keeps the last 12 s of poses (at up to 120 Hz, 650 kB); never allocates after construction.
 // Threads:      none inside; one owner. A frame costs some microseconds, the first of a lapse about 200.
@@ -36,7 +36,8 @@ class Bridge : public Transformer {
  private:
   bool is_lapse(MonoTime moment, MonoTime now, bool is_repeated) const;
   // Mixes what is continued into what the station before says of the moment.
-  void carry_on(MonoTime moment, bool has_input, Pose& pose) const;
+  void carry_on(MonoTime moment, bool has_input, Pose& pose);
+  Pose mix(const Pose& guess, const Pose& continued, float share);
   void end_lapse();
 
   PoseHistory history_;
@@ -44,9 +45,12 @@ class Bridge : public Transformer {
   Finish finish_;
   Skeleton skeleton_;
   Duration beat_;
-  MonoTime heard_;        // when the newest pose came
-  Duration lapse_after_;  // how far after the newest pose the lapse began
+  MonoTime heard_;         // when the newest pose came
+  Duration lapse_after_;   // how far after the newest pose the lapse began
+  bool fades_in_ = false;  // from a prediction; not from a pose that stands
   bool comes_back_ = false;
+  // From the guess to what is continued, as it was last mixed: beyond half a turn it goes on the way that it went.
+  BoneRotations turn_ = identity_rotations();
 };
 
 }  // namespace dance

@@ -21,8 +21,8 @@ namespace dance {
 class Continuation {
  public:
   // Until here what is predicted is better, from there on what is continued; between them they are mixed.
-  static constexpr Duration kPredictedUntil = Duration::ms(200);
-  static constexpr Duration kContinuedFrom = Duration::ms(350);
+  static constexpr Duration kPredictedUntil = Duration::ms(250);
+  static constexpr Duration kContinuedFrom = Duration::ms(650);
   static constexpr Duration kLoopedFrom = Duration::s(2);
   static constexpr Duration kCalmingFrom = Duration::s(4);
   static constexpr Duration kCalmFrom = Duration::s(8);

@@ -28,6 +28,9 @@ class Finish {
     corrections_.add(now, was_before, was, is_before, is, step);
   }
 
+  // What was really danced, as it becomes known: feet that stand are known by it. Optional.
+  void observe(const Pose& real, MonoTime now) { feet_.observe(real, now); }
+
   // Once a frame. `is_guess`: the pose was not danced so, or not yet.
   void apply(MonoTime now, Pose& pose, bool is_guess) {
     bool is_changed = is_guess || !corrections_.is_at_rest();

@@ -16,14 +16,19 @@ constexpr std::array<Bone, 2> kBalls{Bone::kLeftToes, Bone::kRightToes};
 constexpr Duration kLongestStep = Duration::ms(250);
 // Nobody's foot does; where it seems to, the dancer is elsewhere.
 constexpr float kFastestBall_m_s = 25.0f;
-// The floor is found at once and forgotten slowly: a dancer who jumps comes down again.
-constexpr float kFloorFalls_s = 0.05f;
+// The floor is found soon and forgotten slowly, so that a dancer who jumps comes down again; a sensor that throws a foot
+// about for a few frames hardly moves it. What is far above it for long was never on it.
+constexpr float kFloorFalls_m_s = 0.3f;
 constexpr float kFloorRises_m_s = 0.02f;
-constexpr float kFloorRisesFar_m_s = 0.3f;
-constexpr float kFarAbove_m = 0.5f;
+constexpr float kFloorRises_1_s = 0.3f;
+constexpr float kFarAbove_m = 0.08f;
+constexpr float kElsewhere_m = 0.5f;
 // Speeds are of this much time, so that a trembling sensor does not lift a foot.
 constexpr float kSpeedOver_s = 0.04f;
 constexpr float kGlide_s = 0.04f;
+constexpr float kSeenSpeedOver_s = 0.02f;
+constexpr float kStandsBelow_m_s = 0.2f;
+constexpr float kToSeen_s = 0.3f;
 constexpr float kNothing_m = 1e-5f;
 constexpr float kStraight = 0.9995f;
 
@@ -44,23 +49,50 @@ void FootLock::set_body(const Skeleton& skeleton) {
 void FootLock::clear() {
   feet_ = {};
   began_ = false;
+  seen_at_ = MonoTime();
 }
 
 void FootLock::follow_floor(float low_m, float seconds) {
   const float above_m = low_m - floor_m_;
-  if (above_m < 0.0f)
-    floor_m_ += above_m * (1.0f - std::exp(-seconds / kFloorFalls_s));
-  else
-    floor_m_ +=
-        std::min(above_m, seconds * (above_m > kFarAbove_m ? kFloorRisesFar_m_s : kFloorRises_m_s));
+  const float rise_m_s = kFloorRises_m_s + kFloorRises_1_s * std::max(0.0f, above_m - kFarAbove_m);
+  floor_m_ += std::clamp(above_m, -kFloorFalls_m_s * seconds, rise_m_s * seconds);
 }
 
-bool FootLock::should_hold(const Foot& foot, bool may_lock) const {
-  if (!may_lock) return false;
+void FootLock::observe(const Pose& real, MonoTime now) {
+  BodyFrames frames;
+  forward_kinematics(skeleton_, real, frames);
+  const Duration step = real.capture_time - seen_capture_;
+  const auto seconds = static_cast<float>(step.as_seconds());
+  seen_capture_ = real.capture_time;
+  seen_at_ = now;
+  for (std::size_t side = 0; side < 2; ++side) {
+    Foot& foot = feet_[side];
+    const Vector3f ball = frames.position(kBalls[side]);
+    if (step > Duration() && step <= kLongestStep && ball.allFinite()) {
+      const float speed_m_s = (ball - foot.seen).norm() / seconds;
+      foot.seen_speed_m_s +=
+          (speed_m_s - foot.seen_speed_m_s) * (1.0f - std::exp(-seconds / kSeenSpeedOver_s));
+    } else {
+      foot.seen_speed_m_s = settings_.release_above_m_s;
+    }
+    foot.seen = ball;
+    foot.seen_standing =
+        foot.seen_speed_m_s < kStandsBelow_m_s && ball.y() - floor_m_ < settings_.release_above_m;
+  }
+}
+
+bool FootLock::should_hold(const Foot& foot) const {
+  const bool is_seen = is_fresh();
+  if (is_seen && foot.seen_standing)
+    return (foot.seen - foot.raw).norm() <
+           (foot.locked ? settings_.furthest_m : settings_.lifts_beyond_m);
   const float height_m = foot.raw.y() - floor_m_;
   if (!foot.locked)
-    return foot.speed_m_s < settings_.lock_below_m_s && height_m < settings_.lock_below_m;
-  return foot.speed_m_s < settings_.release_above_m_s && height_m < settings_.release_above_m &&
+    return foot.speed_m_s < (is_seen ? settings_.seen_lock_below_m_s : settings_.lock_below_m_s) &&
+           height_m < settings_.lock_below_m;
+  return foot.speed_m_s <
+             (is_seen ? settings_.seen_release_above_m_s : settings_.release_above_m_s) &&
+         height_m < settings_.release_above_m &&
          (foot.held - foot.raw).norm() < settings_.furthest_m;
 }
 
@@ -70,7 +102,7 @@ void FootLock::follow(Foot& foot, const Vector3f& raw, float seconds, bool may_l
   const Vector3f shown_before = foot.raw + foot.shift.offset;
   foot.raw = raw;
   const bool was_locked = foot.locked;
-  foot.locked = should_hold(foot, may_lock);
+  foot.locked = may_lock && should_hold(foot);
   const Vector3f offset_before = foot.shift.offset;
   if (foot.locked) {
     if (!was_locked) {
@@ -80,6 +112,9 @@ void FootLock::follow(Foot& foot, const Vector3f& raw, float seconds, bool may_l
     const float fade = std::exp(-seconds / kGlide_s);
     foot.held += foot.glide * (kGlide_s * (1.0f - fade));
     foot.glide *= fade;
+    // Where it really stands, slowly.
+    if (is_fresh() && foot.seen_standing)
+      foot.held += (foot.seen - foot.held) * (1.0f - std::exp(-seconds / kToSeen_s));
     foot.shift.offset = foot.held - raw;
     foot.shift.velocity = (foot.shift.offset - offset_before) / seconds;
     return;
@@ -135,11 +170,13 @@ bool FootLock::apply(MonoTime now, Pose& pose, bool may_lock) {
   time_ = now;
   const float low_m = std::min(balls[0].y(), balls[1].y());
   if (!goes_on) {
-    if (!began_ || std::abs(low_m - floor_m_) > kFarAbove_m) floor_m_ = low_m;
-    feet_ = {};
+    if (!began_ || std::abs(low_m - floor_m_) > kElsewhere_m) floor_m_ = low_m;
     for (std::size_t side = 0; side < 2; ++side) {
-      feet_[side].raw = balls[side];
-      feet_[side].speed_m_s = settings_.release_above_m_s;
+      Foot& foot = feet_[side];
+      foot.raw = balls[side];
+      foot.speed_m_s = settings_.seen_release_above_m_s;
+      foot.shift = Spring();
+      foot.locked = false;
     }
     began_ = true;
     return false;

@@ -28,9 +28,15 @@ class FootLock {
   struct Settings {
     float lock_below_m_s = 0.15f;
     float release_above_m_s = 0.35f;
+    // The same while it is known how the feet moved a moment ago: a prediction lets them land late and slide to their
+    // place, so that most of what seems to move stands.
+    float seen_lock_below_m_s = 0.7f;
+    float seen_release_above_m_s = 1.2f;
     float lock_below_m = 0.05f;  // of the ball over the floor
     float release_above_m = 0.08f;
     float furthest_m = 0.12f;  // a foot that ought to be so far away is let go
+    // A foot that was seen to stand a moment ago does so until it is guessed to be so far away.
+    float lifts_beyond_m = 0.07f;
     Duration release_half_life = Duration::ms(60);
   };
 
@@ -38,6 +44,9 @@ class FootLock {
   explicit FootLock(const Settings& settings);
   void set_body(const Skeleton& skeleton);
   void set_settings(const Settings& settings) { settings_ = settings; }
+
+  // What was really danced, as it becomes known: which feet stand, and where. Guesses alone are told less well.
+  void observe(const Pose& real, MonoTime now);
 
   // Moves the legs of `pose`, which is to be shown at `now`. With `may_lock` false nothing new is held and what is held
   // is let go; once that has died away the pose is not touched. Returns whether it was.
@@ -47,6 +56,8 @@ class FootLock {
   bool is_locked(std::size_t side) const { return feet_[side].locked; }
 
  private:
+  // What was seen before tells nothing of now.
+  static constexpr Duration kFresh = Duration::ms(250);
   struct Foot {
     Eigen::Vector3f raw = Eigen::Vector3f::Zero();    // the ball, as it came in the last frame
     Eigen::Vector3f held = Eigen::Vector3f::Zero();   // where it is held
@@ -54,18 +65,23 @@ class FootLock {
     Spring shift;                                     // what is added to the ball
     float speed_m_s = 0.0f;
     bool locked = false;
+    // Of what was really danced.
+    Eigen::Vector3f seen = Eigen::Vector3f::Zero();
+    float seen_speed_m_s = 0.0f;
+    bool seen_standing = false;
   };
 
   void follow_floor(float low_m, float seconds);
   void follow(Foot& foot, const Eigen::Vector3f& raw, float seconds, bool may_lock);
-  bool should_hold(const Foot& foot, bool may_lock) const;
+  bool should_hold(const Foot& foot) const;
+  bool is_fresh() const { return seen_at_.is_set() && time_ - seen_at_ < kFresh; }
   void move_leg(const Limb& leg, const Eigen::Vector3f& offset, Pose& pose, BodyFrames& frames);
 
   Settings settings_;
   Skeleton skeleton_;
   std::array<Foot, 2> feet_;
   float floor_m_ = 0.0f;  // of the balls
-  MonoTime time_;
+  MonoTime time_, seen_at_, seen_capture_;
   bool began_ = false;
 };
 

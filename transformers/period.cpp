@@ -24,8 +24,6 @@ constexpr double kFirst_bars = 1.5;
 constexpr double kSameTempo = 0.04;
 constexpr double kMusicJump_bars = 0.0625;
 constexpr double kMostStep_bars = 0.02;  // of the phase, in one tick
-// Another place in the two bars is believed when it has fitted so much better for a bar.
-constexpr float kFitsBetter = 1.3f;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 std::complex<float> turned(double bars) {

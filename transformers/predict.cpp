@@ -65,7 +65,7 @@ void Predict::observe(const Pose& pose, MonoTime now) {
     case SteadyRows::Heard::kTaken:
       break;
   }
-  history_.push(pose);
+  if (history_.push(pose)) finish_.observe(pose, now);
   note_transit(now - pose.capture_time, now);
   Pose is;
   if (corrects && has_shown_ && pose_at(shown_, options_.most, is))

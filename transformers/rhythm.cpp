@@ -18,7 +18,7 @@ constexpr Duration kUnknownReach = Duration::ms(150);
 // Nobody is shown further ahead of what they dance now than this.
 constexpr double kMostAhead_beats = 0.05;
 // Of the lag of guesses so much is taken back: the further a guess reaches, the less sure it is.
-constexpr double kLeadShare = 0.5;
+constexpr double kLeadShare = 0.4;
 constexpr Duration kSpare = Duration::ms(120);
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
 constexpr Duration kJumpInTime = Duration::ms(300);

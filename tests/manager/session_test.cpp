@@ -141,7 +141,8 @@ TEST(Session, WithoutRoutesGetsTheUsualTwo) {
   ASSERT_TRUE(session);
   ASSERT_EQ(session->routes.size(), 2u);
   EXPECT_TRUE(session->routes[0].through.empty());
-  EXPECT_EQ(session->routes[1].through.front(), "hold");
+  EXPECT_EQ(session->routes[1].through,
+            (std::vector<std::string>{"predict", "bridge", "rhythm", "stylize"}));
 }
 
 TEST(Session, ErrorsNameFileLineAndColumn) {

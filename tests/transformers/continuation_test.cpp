@@ -231,11 +231,11 @@ TEST(Continuation, AllocatesNothing) {
 }
 
 TEST(Continuation, IsHandedOverToWithoutAStep) {
-  EXPECT_EQ(Continuation::share_at(Duration::ms(200)), 0.0f);
-  EXPECT_EQ(Continuation::share_at(Duration::ms(350)), 1.0f);
+  EXPECT_EQ(Continuation::share_at(Continuation::kPredictedUntil), 0.0f);
+  EXPECT_EQ(Continuation::share_at(Continuation::kContinuedFrom), 1.0f);
   EXPECT_EQ(Continuation::share_at(Duration::s(9)), 1.0f);
   float before = 0.0f;
-  for (int ms = 190; ms < 360; ++ms) {
+  for (int ms = 190; ms < 700; ++ms) {
     const float share = Continuation::share_at(Duration::ms(ms));
     EXPECT_GE(share, before);
     EXPECT_LT(share - before, 0.011f);

@@ -143,6 +143,25 @@ TEST(FootLock, NeverStretchesALegBeyondItsReach) {
   }
 }
 
+TEST(FootLock, AFootSeenToStandStaysWhereItWasSeenWhateverThePredictionDoes) {
+  FootLock lock;
+  Eigen::Vector3f before = Eigen::Vector3f::Zero();
+  for (int i = 0; i < 90; ++i) {
+    Pose real = crouching(0.0f);
+    real.capture_time = frame_at(i);
+    lock.observe(real, frame_at(i));
+    // The guess wanders by 4 cm at up to 0.5 m/s, as predictions do.
+    Pose guess = crouching(0.04f * std::sin(0.2f * static_cast<float>(i)));
+    lock.apply(frame_at(i), guess);
+    const Eigen::Vector3f shown = ball(guess);
+    if (i > 45) {
+      EXPECT_LT((shown - before).norm() * 60.0f, 0.02f) << i;
+      EXPECT_LT((shown - ball(crouching(0.0f))).norm(), 0.02f) << "where it really stands";
+    }
+    before = shown;
+  }
+}
+
 TEST(FootLock, LetsGoWhereItMayNotLockAndIsExactAfterwards) {
   FootLock lock;
   for (int i = 0; i < 40; ++i) {
@@ -168,6 +187,9 @@ TEST(FootLock, StaysABodyWhateverComesIn) {
   MonoTime now = frame_at(0);
   for (int i = 0; i < 4000; ++i) {
     Pose pose = i % 5 ? crouching(0.001f * static_cast<float>(i)) : random_pose(random);
+    Pose real = random_pose(random);
+    real.capture_time = now;
+    if (i % 3 == 0) lock.observe(real, now);
     lock.apply(now, pose);
     ASSERT_TRUE(is_valid(pose)) << i;
     now += Duration::ms(static_cast<std::int64_t>(random.uniform(-30.0, 50.0)));
