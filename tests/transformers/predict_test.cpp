@@ -29,7 +29,8 @@ TEST(Predict, ShowsTheDancerAsTheyAreNow) {
     ours += mean_angle_rad(out, dance[i]);
     raw += mean_angle_rad(dance[i - 6], dance[i]);
   }
-  EXPECT_LT(ours, 0.7 * raw);
+  // Corrections that die away, feet that stand and joints within their limits give a part of it back.
+  EXPECT_LT(ours, 0.8 * raw);
 }
 
 TEST(Predict, TakesBackAsMuchAsItIsTold) {
