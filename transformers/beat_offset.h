@@ -21,7 +21,7 @@ class BeatOffset {
   struct Wish {
     double beats = -1.0;       // the delay that the room wishes; negative: the least that can be
     double least_beats = 0.0;  // of delay: what is newer has not come and cannot be guessed well
-    double spare_beats = 0.3;  // lowered only where this much is left over
+    double easy_beats = 0.0;   // lowered only where what is left is no less than this
     double count = 1.0;        // offsets are multiples of it
   };
 
@@ -69,12 +69,11 @@ class BeatOffset {
     const double delay = value_ - difference;
     if (delay < wish.least_beats - kRaiseSlack_beats) return Wrong::kTooLow;
     if (wish.beats < 0.0)
-      return delay - wish.count > wish.least_beats + wish.spare_beats ? Wrong::kTooHigh
-                                                                      : Wrong::kNo;
+      return delay - wish.count > wish.easy_beats ? Wrong::kTooHigh : Wrong::kNo;
     const double most = kFlutter_counts * wish.count;
     if (delay < wish.beats - most) return Wrong::kTooLow;
     // Above the wish because the line needs it is not too high.
-    const bool is_needed = delay - wish.count < wish.least_beats + wish.spare_beats;
+    const bool is_needed = delay - wish.count < wish.easy_beats;
     return delay > wish.beats + most && !is_needed ? Wrong::kTooHigh : Wrong::kNo;
   }
 

@@ -64,7 +64,8 @@ void Rhythm::observe(const Pose& pose, MonoTime now) {
 
 void Rhythm::take_tag(const Pose& pose, MonoTime now) {
   double beats = pose.music_beats;
-  if (std::isfinite(beats)) {
+  // The comparison is false for no tag, too.
+  if (std::abs(beats) <= kMostBeats) {
     untagged_ = 0;
   } else {
     // One pose without a tag is none; a dance without is one whose steps have to tell.
@@ -105,12 +106,13 @@ void Rhythm::choose_offset(MonoTime now) {
   BeatOffset::Wish wish;
   wish.beats = options_.beats;
   wish.count = options_.count;
-  wish.spare_beats = kSpare.as_seconds() * beats_per_second;
   // Who asks for no delay at all gets guesses however far they have to reach.
-  wish.least_beats = -kMostAhead_beats;
-  if (options_.beats != 0.0)
-    wish.least_beats =
-        std::max(wish.least_beats, (play_out_.needed() - reach).as_seconds() * beats_per_second);
+  wish.least_beats = wish.easy_beats = -kMostAhead_beats;
+  if (options_.beats != 0.0) {
+    const Duration beyond = play_out_.needed() - reach;
+    wish.least_beats = std::max(wish.least_beats, beyond.as_seconds() * beats_per_second);
+    wish.easy_beats = std::max(wish.easy_beats, (beyond + kSpare).as_seconds() * beats_per_second);
+  }
   offset_.update(wish, music_.position(now) - dance_.position(now), now);
 }
 

@@ -131,6 +131,7 @@ BeatOffset::Wish wish(double beats, double least = -0.25) {
   BeatOffset::Wish wish;
   wish.beats = beats;
   wish.least_beats = least;
+  wish.easy_beats = least + 0.3;
   return wish;
 }
 

@@ -268,7 +268,9 @@ TEST(Rhythm, SurvivesTimesThatMakeNoSense) {
     Pose pose;
     pose.clock_id = 1;
     pose.capture_time = now + Duration::seconds(random.uniform(-3.0, 1.0));
-    pose.music_beats = random.uniform() < 0.3 ? kNoMusic : random.uniform(-1e7, 1e7);
+    pose.music_beats = random.uniform() < 0.3   ? kNoMusic
+                       : random.uniform() < 0.3 ? random.uniform(-1e300, 1e300)
+                                                : random.uniform(-1e7, 1e7);
     rhythm.observe(pose, now);
     Beat beat;
     beat.time = now;
