@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <system_error>
 
 namespace dance {
@@ -39,17 +40,24 @@ void Study::add(std::shared_ptr<Learner> learner) {
 void Study::run() {
   // Of this thread only, on Linux; where it is not allowed, the poses still come first by their sleep being short.
   setpriority(PRIO_PROCESS, 0, kNice);
-  std::vector<std::shared_ptr<Learner>> lesson;
+  std::vector<std::shared_ptr<Learner>> lesson, gone;
   std::unique_lock lock(mutex_);
   while (!ends_) {
     // The last one to hold a learner is this thread: its transformer has gone.
-    std::erase_if(learners_, [](const auto& learner) { return learner.use_count() == 1; });
+    const auto first_gone =
+        std::stable_partition(learners_.begin(), learners_.end(),
+                              [](const auto& learner) { return learner.use_count() > 1; });
+    // They are large: freed when nobody waits for the lock.
+    gone.assign(std::make_move_iterator(first_gone), std::make_move_iterator(learners_.end()));
+    learners_.erase(first_gone, learners_.end());
     lesson = learners_;
     lock.unlock();
-    for (const auto& learner : lesson) learner->learn();
+    gone.clear();
+    for (const auto& learner : lesson)
+      if (!ends_) learner->learn();
     lesson.clear();
     lock.lock();
-    wakes_.wait_for(lock, kBetweenLessons, [this] { return ends_; });
+    wakes_.wait_for(lock, kBetweenLessons, [this] { return ends_.load(); });
   }
 }
 

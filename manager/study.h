@@ -6,6 +6,7 @@
 // Failure:      where no thread can be had nothing is learned, and failure() says why.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -33,7 +34,7 @@ class Study {
   std::mutex mutex_;
   std::condition_variable wakes_;
   std::vector<std::shared_ptr<Learner>> learners_;  // guarded
-  bool ends_ = false;                               // guarded
+  std::atomic<bool> ends_{false};
   std::string failure_;
   std::thread thread_;
 };

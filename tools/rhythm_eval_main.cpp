@@ -30,6 +30,8 @@ struct Wishes {
 };
 
 Result<void> run(Wishes wishes) {
+  // Steps have to be seen for a while before they tell a beat.
+  if (wishes.eval.untagged) wishes.eval.warm_up = Duration::s(12);
   DANCE_TRY(wishes.eval.delay, parse_duration(wishes.delay));
   DANCE_TRY(wishes.eval.jitter, parse_duration(wishes.jitter));
   DANCE_TRY(wishes.eval.stall, parse_duration(wishes.stall));

@@ -28,7 +28,11 @@ void Bridge::set_body(const Skeleton& skeleton) {
 }
 
 void Bridge::hear(const Beat& beat, MonoTime /*now*/) {
-  beat_ = is_valid(beat) && beat.playing ? Duration::seconds(60.0 / beat.tempo_bpm) : Duration();
+  if (is_valid(beat)) music_.hear(beat);
+}
+
+Duration Bridge::beat(MonoTime now) const {
+  return music_.is_known(now) ? music_.period() : Duration();
 }
 
 void Bridge::end_lapse() {
@@ -108,7 +112,7 @@ bool Bridge::sample(MonoTime now, Pose& out) {
   const bool is_repeated = out.capture_time <= history_.newest().capture_time;
   if (!continuation_.is_running() && is_lapse(wanted, now, is_repeated)) {
     lapse_after_ = wanted - history_.newest().capture_time;
-    continuation_.begin(history_, skeleton_, beat_);
+    continuation_.begin(history_, skeleton_, beat(now));
     fades_in_ = !is_repeated;
     // What stands begins to move.
     if (Pose continued = out; is_repeated) {
@@ -129,7 +133,7 @@ bool Bridge::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   if (!continuation_.is_running() && is_lapse(moment, now, !has_input)) {
     lapse_after_ = std::max(Continuation::kPredictedUntil, now - heard_);
     fades_in_ = has_input;
-    continuation_.begin(history_, skeleton_, beat_);
+    continuation_.begin(history_, skeleton_, beat(now));
   }
   if (!continuation_.is_running()) return has_input;
   if (!has_input) out = history_.newest();

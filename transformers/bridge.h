@@ -10,6 +10,7 @@
 //               Continuation::kLongest who is not heard of.
 #pragma once
 
+#include "core/base/beat_clock.h"
 #include "transformers/continuation.h"
 #include "transformers/finish.h"
 #include "transformers/transformer.h"
@@ -39,12 +40,13 @@ class Bridge : public Transformer {
   void carry_on(MonoTime moment, bool has_input, Pose& pose);
   Pose mix(const Pose& guess, const Pose& continued, float share);
   void end_lapse();
+  Duration beat(MonoTime now) const;  // of the music here; 0: none
 
   PoseHistory history_;
   Continuation continuation_;
   Finish finish_;
   Skeleton skeleton_;
-  Duration beat_;
+  BeatClock music_;
   MonoTime heard_;         // when the newest pose came
   Duration lapse_after_;   // how far after the newest pose the lapse began
   bool fades_in_ = false;  // from a prediction; not from a pose that stands

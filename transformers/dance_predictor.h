@@ -30,6 +30,11 @@ class DancePredictor {
   void set_acquaintance(Acquaintance acquaintance);
 
   SteadyRows::Heard observe(const Pose& pose);
+  // How many rows a pose of that moment would take in, each at the price of a frame; and forgets where the last one was, so
+  // that the next pose takes in one.
+  double rows_until(MonoTime capture) const { return rows_.rows_until(capture); }
+  void lose_thread() { rows_.forget(); }
+  std::size_t rows_taken() const { return turn_; }
   bool is_empty() const { return !has_newest_; }
   const Pose& newest() const { return newest_; }
   // The pose of a moment from the newest on; what lies further than kFurthest stands as it would be there.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/beat.h"
+
 namespace dance {
 namespace {
 
@@ -140,7 +142,8 @@ void Period::tick(const MotionFrame& frame) {
   if (has_music_) {
     const double step_bars = (frame.music_beats - before_beats) / kBeatsPerBar;
     if (had_music && std::abs(step_bars - bars_per_s_ * kTick_s) < kMusicJump_bars) {
-      bars_per_s_ += 0.1 * (step_bars / kTick_s - bars_per_s_);
+      bars_per_s_ = std::clamp(bars_per_s_ + 0.1 * (step_bars / kTick_s - bars_per_s_), 0.0,
+                               kMostTempo_bpm / 60.0 / kBeatsPerBar);
     } else {
       // Another place of the music, or the first of it.
       known_ticks_ = 0;
@@ -279,6 +282,7 @@ void Period::anchor(std::size_t new_beats) {
     const MotionBeat& beat = motion_beats_.newest(i);
     if (!beat.is_foot_fall()) continue;
     const double at = beats(beat.time);
+    if (!std::isfinite(at)) continue;
     // About sixteen steps are remembered: two of eight counts and a half.
     constexpr double kForget = 0.94;
     beat_anchor_ *= kForget;

@@ -47,7 +47,7 @@ struct PersonalModel::Sums {
 
 PersonalModel::PersonalModel(std::shared_ptr<const PredictModel> model)
     : model_(std::move(model)),
-      samples_(std::make_unique<SpscRing<Sample, 1024>>()),
+      samples_(std::make_unique<SpscRing<Sample, kRing>>()),
       solved_(std::make_unique<Latest<Weights>>()),
       sums_(std::make_unique<Sums>()) {}
 
@@ -65,9 +65,15 @@ const PersonalModel::Weights* PersonalModel::weights(bool& is_new) {
 }
 
 void PersonalModel::learn() {
-  const std::uint64_t lost = samples_->overwritten();
-  while (const auto sample = samples_->pop()) {
-    if (samples_->overwritten() != lost) sums_->size = 0;
+  std::uint64_t lost = samples_->overwritten();
+  // No more than the ring holds, however fast it is filled.
+  for (std::size_t i = 0; i < kRing; ++i) {
+    const auto sample = samples_->pop();
+    if (!sample) break;
+    if (samples_->overwritten() != lost) {
+      lost = samples_->overwritten();
+      sums_->size = 0;
+    }
     take(*sample);
   }
   if (moments_ >= kFirstSolve && moments_ - sums_->solved_at >= kMomentsASolve) solve();

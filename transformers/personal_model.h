@@ -50,7 +50,8 @@ class PersonalModel : public Learner {
 
   std::shared_ptr<const PredictModel> model_;
   std::atomic<bool> asks_net_{true};
-  std::unique_ptr<SpscRing<Sample, 1024>> samples_;
+  static constexpr std::size_t kRing = 1024;  // 17 s
+  std::unique_ptr<SpscRing<Sample, kRing>> samples_;
   std::unique_ptr<Latest<Weights>> solved_;
   const Weights* newest_ = nullptr;
 

@@ -35,9 +35,11 @@ Predict::Predict(const PredictOptions& options)
       history_(kPredictedPoses) {}
 
 void Predict::set_body(const Skeleton& skeleton) {
+  if (!is_valid(skeleton)) return;
   const auto& model = options_.model ? options_.model : built_in_predict_model();
   predictor_.set_acquaintance(model->knows(skeleton) ? Acquaintance::kDancer
                                                      : Acquaintance::kOthers);
+  finish_.set_body(skeleton);
 }
 
 void Predict::forget() {
@@ -54,6 +56,8 @@ void Predict::observe(const Pose& pose, MonoTime now) {
   const bool had = !predictor_.is_empty();
   const MonoTime before = had ? predictor_.newest().capture_time : MonoTime();
   const bool same_clock = had && predictor_.newest().clock_id == pose.clock_id;
+  // A gap is filled with rows, each of which costs as much as a pose: who makes gaps all the time begins anew instead.
+  if (!rows_allowed_.take(predictor_.rows_until(pose.capture_time), now)) predictor_.lose_thread();
   switch (predictor_.observe(pose)) {
     case SteadyRows::Heard::kRefused:
       ++counters_.refused;

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/base/token_bucket.h"
 #include "core/pose/history.h"
 #include "transformers/dance_predictor.h"
 #include "transformers/finish.h"
@@ -37,6 +38,9 @@ class Predict : public Transformer {
   void set_body(const Skeleton& skeleton) override;
   std::shared_ptr<Learner> learner() override { return predictor_.personal(); }
 
+  // What was worked through so far, in frames' worth.
+  std::size_t rows_taken() const { return predictor_.rows_taken(); }
+
  private:
   void note_transit(Duration transit, MonoTime now);
   bool pose_at(MonoTime moment, Duration most, Pose& out) const;
@@ -55,6 +59,9 @@ class Predict : public Transformer {
   std::array<Bucket, 2> buckets_{};
   MonoTime bucket_begin_;
   Duration transit_;  // followed slowly
+
+  // By arrival: as many as a dance has, and a lapse of two seconds at once.
+  TokenBucket rows_allowed_{90.0, 120.0};
 
   MonoTime shown_, shown_at_;
   bool has_shown_ = false;

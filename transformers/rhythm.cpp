@@ -57,6 +57,7 @@ void Rhythm::observe(const Pose& pose, MonoTime now) {
   }
   play_out_.add(pose.capture_time - before, now - pose.capture_time);
   take_tag(pose, now);
+  finish_.observe(pose, now);
   has_news_ = true;
   guesses_.learn(history_);
   if (++observed_ % kPosesPerProbe == 0) probe(now);
@@ -71,7 +72,9 @@ void Rhythm::take_tag(const Pose& pose, MonoTime now) {
     // One pose without a tag is none; a dance without is one whose steps have to tell.
     if (++untagged_ < kUntaggedPoses || !music_.is_known(now)) return;
     if (untagged_ == kUntaggedPoses) own_beat_.forget();
-    const auto position = own_beat_.observe(pose, now, 60.0 * music_.beats_per_second());
+    Pose untagged = pose;
+    untagged.music_beats = kNoMusic;
+    const auto position = own_beat_.observe(untagged, now, 60.0 * music_.beats_per_second());
     if (!position) {
       dance_.clear();
       return;
@@ -92,7 +95,12 @@ void Rhythm::hear(const Beat& beat, MonoTime /*now*/) {
   if (music_.hear(beat)) offset_.reset();
 }
 
-void Rhythm::set_body(const Skeleton& skeleton) { guesses_.set_body(skeleton); }
+void Rhythm::set_body(const Skeleton& skeleton) {
+  if (!is_valid(skeleton)) return;
+  guesses_.set_body(skeleton);
+  own_beat_.set_body(skeleton);
+  finish_.set_body(skeleton);
+}
 
 MonoTime Rhythm::free_moment(MonoTime now) {
   return input_ ? input_->moment(now) : now - play_out_.needed();
@@ -134,7 +142,8 @@ MonoTime Rhythm::wanted_moment(MonoTime now, double& pace) {
 bool Rhythm::pose_at(MonoTime moment, MonoTime now, Pose& out) {
   const Duration ahead = moment - history_.newest().capture_time;
   MonoTime asked = moment;
-  if (ahead > Duration())
+  // Only who is to be on the beat is worth the scatter.
+  if (in_time_ && ahead > Duration())
     asked += Duration::seconds(kLeadShare * (guesses_.lead(ahead) - ahead).as_seconds());
   if (!input_ || !input_->sample_at(asked, now, out)) {
     const auto answer = history_.at(moment);

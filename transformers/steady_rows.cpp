@@ -40,6 +40,12 @@ SteadyRows::Heard SteadyRows::observe(const Pose& pose) {
   return Heard::kTaken;
 }
 
+double SteadyRows::rows_until(MonoTime capture) const {
+  if (is_empty_ || capture <= seen_time_ || capture > seen_time_ + kLongestGap) return 1.0;
+  return static_cast<double>((capture - seen_time_).count_ns()) /
+         static_cast<double>(kRowPeriod.count_ns());
+}
+
 void SteadyRows::follow_source(MonoTime capture) {
   const Duration late = capture - due_time_;
   if (late < kFollowed && late > -kFollowed) due_time_ += late / kFollowOneIn;

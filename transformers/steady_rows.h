@@ -32,6 +32,10 @@ class SteadyRows {
   MonoTime row_time() const { return row_time_; }
   MonoTime seen_time() const { return seen_time_; }
   const BodyRow& seen() const { return seen_; }
+  // How many rows a pose of that moment would bring.
+  double rows_until(MonoTime capture) const;
+  // The next pose is the first.
+  void forget() { is_empty_ = true; }
   // Standard deviation of a bone's angle about each axis, rad: what is not movement.
   float tremble_rad() const { return tremble_rad_; }
 

@@ -31,7 +31,7 @@ class BeatClock {
     return false;
   }
 
-  bool is_known(MonoTime t) const { return heard_ && beat_.playing && t - beat_.time < kPatience; }
+  bool is_known(MonoTime t) const { return heard_ && beat_.playing && age_is_fine(t - beat_.time); }
   double position(MonoTime t) const { return beat_.beats_at(t) + correction_at(t); }
   // When the music stands, or stood, at `beats`.
   MonoTime time_of(double beats) const {
@@ -52,6 +52,8 @@ class BeatClock {
   static constexpr double kJump_beats = 0.25;
   static constexpr double kTakenIn_s = 0.3;
 
+  // What was said in the future is no more to be believed than what is old.
+  static bool age_is_fine(Duration age) { return age < kPatience && age > -kPatience; }
   MonoTime line_time_of(double beats) const {
     return beat_.beat_time + Duration::seconds((beats - beat_.beat) * 60.0 / beat_.tempo_bpm);
   }

@@ -69,6 +69,22 @@ TEST(Predict, AnyMomentMayBeAskedForWithoutAChangeToWhatIsShown) {
   }
 }
 
+TEST(Predict, WhoeverMakesGapsAllTheTimeCostsNoMoreThanADancer) {
+  Predict station;
+  const Pose pose = salsa(1)[0];
+  MonoTime capture = pose.capture_time, now = capture;
+  // Nine tenths of a second between captures, six hundred of them a second: fifty rows each, if all were filled.
+  for (int i = 0; i < 6000; ++i) {
+    capture += Duration::ms(900);
+    now += Duration::us(1667);
+    Pose next = pose;
+    next.capture_time = capture;
+    station.observe(next, now);
+  }
+  // Ten seconds of arrivals: each pose is one row, and what a dance has beside.
+  EXPECT_LT(station.rows_taken(), 6000u + 10u * 90u + 200u);
+}
+
 // A pose that comes late corrects what was shown without a pop: no step between two frames is much larger than the
 // dance's own.
 TEST(Predict, CorrectsWithoutAPop) {

@@ -59,6 +59,13 @@ TEST(BeatClock, SaysThatTheMusicJumpedOrStands) {
   EXPECT_FALSE(clock.is_known(second(2.0)));
 }
 
+TEST(BeatClock, DoesNotBelieveWhatIsSaidInTheFuture) {
+  BeatClock clock;
+  clock.hear(beat_at(1e6, 2.0, 0.0));
+  EXPECT_FALSE(clock.is_known(second(0.0)));
+  EXPECT_TRUE(clock.is_known(second(1e6 + 1.0)));
+}
+
 TEST(DanceLine, FindsMomentsOfBeatsAndBeatsOfMoments) {
   DanceLine line;
   EXPECT_FALSE(line.is_known(second(0)));
