@@ -75,11 +75,12 @@ function(dance_program name)
 endfunction()
 
 # dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s]): one GoogleTest program,
-# one CTest entry per TEST. A flow test runs in a network namespace of its own. thread_targets are those in which threads
+# one CTest entry per TEST. A flow test runs in a network namespace of its own, and alone on the machine, unless it bears the
+# company of tests that are not flow: BESIDE_OTHERS. thread_targets are those in which threads
 # or programs meet: what the thread sanitizer is for.
 add_custom_target(thread_targets)
 function(dance_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "BESIDE_OTHERS" "LABEL;TIMEOUT" "SOURCES;LIBS")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE dance_settings ${arg_LIBS} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
@@ -96,6 +97,9 @@ function(dance_test name)
     set_target_properties(${name} PROPERTIES
       CROSSCOMPILING_EMULATOR ${PROJECT_SOURCE_DIR}/tests/private_network.sh)
     set(serial RUN_SERIAL ON)
+    if(arg_BESIDE_OTHERS)
+      set(serial RESOURCE_LOCK beside_others)
+    endif()
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     # The keys that programs make for this machine are not those of whoever runs the tests.

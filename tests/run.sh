@@ -77,7 +77,8 @@ if [ "$sanitizers" = yes ]; then
   export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt
   # One build of clang's for both; libFuzzer has the corpora.
   if has_time_for "address and undefined-behaviour sanitizers, fuzzing" 13 && step asan; then
-    run asan -LE 'check|soak|docs|fuzz' "${only[@]}"
+    # Drawing in software is ten times slower here, and the same code as in the other demos.
+    run asan -LE 'check|soak|docs|fuzz' -E 'Demo\.(DrawsAFilm|PlaysTheSong)' "${only[@]}"
     # As many at a time as there are processors; each writes its own log.
     fuzz_one() { # TARGET
       "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 -artifact_prefix=build/ \
@@ -97,7 +98,9 @@ if [ "$sanitizers" = yes ]; then
       fi
     done
   fi
-  has_time_for "thread sanitizer" 4 && step tsan thread_targets && run tsan -L 'threads|flow' "${only[@]}"
+  # What these start has no threads that others do not have.
+  alone='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)|MusicRoom|MusicPrograms|Bench'
+  has_time_for "thread sanitizer" 4 && step tsan thread_targets && run tsan -L 'threads|flow' -E "$alone" "${only[@]}"
 fi
 summary="$passed passed, $failed failed"
 [ "$skipped" = 0 ] || summary="$summary, $skipped skipped"
