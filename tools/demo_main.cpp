@@ -34,9 +34,8 @@ constexpr const char* kExamples = R"(Examples:
 // Between continents, on Wi-Fi.
 constexpr const char* kFarLine = "delay=120ms jitter=15ms loss=1%";
 
-// What the comparison is about: the dancer on the beat that is heard here. A beat later everything has come, so that it
-// shows the same on every machine; what a house does by itself guesses more and waits less.
-const std::vector<std::string> kInRhythm{"predict", "bridge", "rhythm beats=1"};
+// What the comparison is about: the dancer on the beat that is heard here, as near to now as guesses are good.
+const std::vector<std::string> kInRhythm{"predict", "bridge", "rhythm"};
 
 std::string words_of(const std::vector<std::string>& stations) {
   std::string words;
