@@ -75,10 +75,11 @@ step ci && run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
   export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
   export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt
-  # One build of clang's for both; libFuzzer has the corpora.
-  if has_time_for "address and undefined-behaviour sanitizers, fuzzing" 13 && step asan; then
-    # Drawing in software is ten times slower here, and the same code as in the other demos.
-    run asan -LE 'check|soak|docs|fuzz' -E 'Demo\.(DrawsAFilm|PlaysTheSong)' "${only[@]}"
+  # One build of clang's for both; libFuzzer has the corpora. What needs least time for what it finds comes first.
+  built=no
+  if has_time_for "address and undefined-behaviour sanitizers, fuzzing" 12 && step asan; then
+    built=yes
+    run asan -LE 'check|soak|docs|fuzz|flow' "${only[@]}"
     # As many at a time as there are processors; each writes its own log.
     fuzz_one() { # TARGET
       "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 -artifact_prefix=build/ \
@@ -98,9 +99,13 @@ if [ "$sanitizers" = yes ]; then
       fi
     done
   fi
+  has_time_for "threads under the thread sanitizer" 3 && step tsan thread_targets && run tsan -L threads "${only[@]}"
+  # Drawing in software is ten times slower here, and the same code as in the other demos.
+  [ "$built" = no ] || ! has_time_for "programs under the address sanitizer" 5 ||
+    run asan -L flow -E 'Demo\.(DrawsAFilm|PlaysTheSong)' "${only[@]}"
   # What these start has no threads that others do not have.
   alone='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)|MusicRoom|MusicPrograms|Bench'
-  has_time_for "thread sanitizer" 4 && step tsan thread_targets && run tsan -L 'threads|flow' -E "$alone" "${only[@]}"
+  has_time_for "programs under the thread sanitizer" 7 && step tsan flow_targets && run tsan -L flow -E "$alone" "${only[@]}"
 fi
 summary="$passed passed, $failed failed"
 [ "$skipped" = 0 ] || summary="$summary, $skipped skipped"
