@@ -53,11 +53,8 @@ Result<void> run(Wishes wishes) {
   wishes.eval.round_trip = line.delay;
   wishes.eval.room_guests = wishes.room;
   wishes.eval.room_time = Duration::seconds(wishes.room_s);
-  std::vector<CodecTake> takes;
-  for (const std::string& file : wishes.files) {
-    DANCE_TRY(CodecTake take, load_codec_take(file, wishes.eval.hz, wishes.eval.jitter_deg));
-    takes.push_back(std::move(take));
-  }
+  DANCE_TRY(const std::vector<CodecTake> takes,
+            load_codec_takes(wishes.files, wishes.eval.hz, wishes.eval.jitter_deg));
   const CodecEval result = evaluate_codec(takes, wishes.eval);
   const std::string text =
       wishes.json ? codec_eval_json(result, wishes.eval) : codec_eval_table(result, wishes.eval);

@@ -51,4 +51,14 @@ Result<CodecTake> load_codec_take(const std::string& path, double hz, double jit
   return take;
 }
 
+Result<std::vector<CodecTake>> load_codec_takes(const std::vector<std::string>& paths, double hz,
+                                                double jitter_deg) {
+  std::vector<CodecTake> takes;
+  for (const std::string& path : paths) {
+    DANCE_TRY(CodecTake take, load_codec_take(path, hz, jitter_deg));
+    takes.push_back(std::move(take));
+  }
+  return takes;
+}
+
 }  // namespace dance

@@ -25,5 +25,8 @@ struct CodecTake {
 // Every n-th frame of the file, where n brings its rate nearest to hz; jitter_deg turns each bone by a
 // random angle of that size, as cameras do, the same each time.
 Result<CodecTake> load_codec_take(const std::string& path, double hz, double jitter_deg = 0.0);
+// Each of the files.
+Result<std::vector<CodecTake>> load_codec_takes(const std::vector<std::string>& paths, double hz,
+                                                double jitter_deg = 0.0);
 
 }  // namespace dance

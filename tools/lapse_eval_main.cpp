@@ -44,18 +44,10 @@ Result<std::vector<Duration>> parse_lapses(std::string_view text) {
 
 Result<void> run(const Wishes& wishes) {
   DANCE_TRY(const std::vector<Duration> lapses, parse_lapses(wishes.lapses));
-  std::vector<std::pair<std::string, MakeSubject>> subjects{
-      {"newest", newest_subject()}, {"continuation", continuation_subject()}};
-  for (const std::string& through : wishes.through) {
-    const std::vector<std::string> stations = stations_of(through);
-    DANCE_TRY(const Chain chain, Chain::make(stations));
-    if (!chain.is_pass_through()) subjects.emplace_back(through, chain_subject(stations));
-  }
-  std::vector<CodecTake> takes;
-  for (const std::string& file : wishes.files) {
-    DANCE_TRY(CodecTake take, load_codec_take(file, 60.0));
-    takes.push_back(std::move(take));
-  }
+  NamedSubjects subjects{{"newest", newest_subject()}, {"continuation", continuation_subject()}};
+  if (auto added = add_chain_subjects(wishes.through, subjects); !added)
+    return tl::make_unexpected(added.error());
+  DANCE_TRY(const std::vector<CodecTake> takes, load_codec_takes(wishes.files, 60.0));
   std::vector<LapseRow> rows;
   for (const Duration lapse : lapses)
     for (const auto& subject : subjects)

@@ -39,20 +39,13 @@ Result<void> run(const Wishes& wishes) {
                 " cannot be judged: 0ms to 1s, please");
   options.line.loss_percent = wishes.loss_percent;
   options.line.seed = wishes.seed;
-  std::vector<std::pair<std::string, MakeSubject>> subjects{
+  NamedSubjects subjects{
       {"raw", newest_subject()},
       {"damped velocity", damped_velocity_subject()},
       {"damped velocity, inertialised", damped_velocity_subject(Duration::ms(60))}};
-  for (const std::string& through : wishes.through) {
-    const std::vector<std::string> stations = stations_of(through);
-    DANCE_TRY(const Chain chain, Chain::make(stations));
-    if (!chain.is_pass_through()) subjects.emplace_back(through, chain_subject(stations));
-  }
-  std::vector<CodecTake> takes;
-  for (const std::string& file : wishes.files) {
-    DANCE_TRY(CodecTake take, load_codec_take(file, 60.0));
-    takes.push_back(std::move(take));
-  }
+  if (auto added = add_chain_subjects(wishes.through, subjects); !added)
+    return tl::make_unexpected(added.error());
+  DANCE_TRY(const std::vector<CodecTake> takes, load_codec_takes(wishes.files, 60.0));
   std::vector<StreamRow> rows;
   for (const auto& subject : subjects)
     rows.push_back({subject.first, evaluate_stream(takes, subject.second, options)});

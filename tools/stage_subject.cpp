@@ -162,6 +162,15 @@ MakeSubject damped_velocity_subject(Duration half_life) {
       [half_life](const Skeleton&) { return std::make_unique<DampedVelocitySubject>(half_life); };
 }
 
+Result<void> add_chain_subjects(const std::vector<std::string>& chains, NamedSubjects& subjects) {
+  for (const std::string& words : chains) {
+    const std::vector<std::string> stations = stations_of(words);
+    DANCE_TRY(const Chain chain, Chain::make(stations));
+    if (!chain.is_pass_through()) subjects.emplace_back(words, chain_subject(stations));
+  }
+  return {};
+}
+
 std::vector<std::string> stations_of(std::string_view text) {
   std::vector<std::string> stations;
   while (!text.empty()) {

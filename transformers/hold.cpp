@@ -28,7 +28,7 @@ void Hold::observe(const Pose& pose, MonoTime now) {
       ++counters_.restarts;
       history_.clear();
       shown_ = MonoTime();
-      buckets_ = {};
+      transit_.forget();
       has_delay_ = false;
       play_out_.forget();
     }
@@ -38,25 +38,12 @@ void Hold::observe(const Pose& pose, MonoTime now) {
     ++counters_.refused;
     return;
   }
-  note_transit(now - pose.capture_time, now);
+  transit_.add(now - pose.capture_time, now);
   if (!window_) play_out_.add(pose.capture_time - before, now - pose.capture_time);
 }
 
-void Hold::note_transit(Duration transit, MonoTime now) {
-  if (!buckets_[0].filled || now - bucket_begin_ > kBucketLength) {
-    buckets_[1] = buckets_[0];
-    buckets_[0] = {transit, true};
-    bucket_begin_ = now;
-  }
-  buckets_[0].least = std::min(buckets_[0].least, transit);
-}
-
-Duration Hold::least_transit() const {
-  return buckets_[1].filled ? std::min(buckets_[0].least, buckets_[1].least) : buckets_[0].least;
-}
-
 Duration Hold::target() const {
-  const Duration least = least_transit();
+  const Duration least = transit_.value();
   return window_ ? least + *window_ : std::clamp(play_out_.needed(), least, least + kLongestWindow);
 }
 

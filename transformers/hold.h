@@ -13,10 +13,10 @@
 //               buffers of voice do.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "core/pose/history.h"
+#include "transformers/least_transit.h"
 #include "transformers/play_out.h"
 #include "transformers/transformer.h"
 
@@ -36,23 +36,13 @@ class Hold : public Transformer {
   Duration delay() const { return delay_; }
 
  private:
-  void note_transit(Duration transit, MonoTime now);
-  Duration least_transit() const;
   Duration target() const;
   void follow_target(MonoTime now);
-
-  // The least transit of the last 5 to 10 s: one bucket is filled while the other still counts.
-  static constexpr Duration kBucketLength = Duration::s(5);
-  struct Bucket {
-    Duration least;
-    bool filled = false;
-  };
 
   std::optional<Duration> window_;
   PlayOut play_out_;
   PoseHistory history_;
-  std::array<Bucket, 2> buckets_{};
-  MonoTime bucket_begin_;
+  LeastTransit transit_;
   Duration delay_;
   MonoTime begin_, delay_set_;
   MonoTime shown_;  // the newest moment that was shown

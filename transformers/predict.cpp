@@ -7,7 +7,6 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kPredictedPoses = 1024;  // 12 s at 60 Hz and somewhat more
-constexpr Duration kBucketLength = Duration::s(5);
 // Beyond this the capture times are of another clock.
 constexpr Duration kLongestTransit = Duration::s(2);
 constexpr Duration kEarliest = Duration::ms(-100);
@@ -45,7 +44,7 @@ void Predict::set_body(const Skeleton& skeleton) {
 void Predict::forget() {
   ++counters_.restarts;
   history_.clear();
-  buckets_ = {};
+  least_transit_.forget();
   has_shown_ = false;
   finish_.clear();
 }
@@ -77,18 +76,9 @@ void Predict::observe(const Pose& pose, MonoTime now) {
 }
 
 void Predict::note_transit(Duration transit, MonoTime now) {
-  if (!buckets_[0].filled || now - bucket_begin_ > kBucketLength) {
-    const bool first = !buckets_[0].filled;
-    buckets_[1] = buckets_[0];
-    buckets_[0] = {transit, true};
-    bucket_begin_ = now;
-    if (first) transit_ = transit;
-  }
-  buckets_[0].least = std::min(buckets_[0].least, transit);
-  const Duration least =
-      buckets_[1].filled ? std::min(buckets_[0].least, buckets_[1].least) : buckets_[0].least;
+  if (least_transit_.add(transit, now)) transit_ = transit;
   // A large change is another line or clock.
-  const Duration error = least - transit_;
+  const Duration least = least_transit_.value(), error = least - transit_;
   transit_ = error > kJumpBack || error < -kJumpBack ? least : transit_ + error / 64;
 }
 

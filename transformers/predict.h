@@ -17,6 +17,7 @@
 #include "core/pose/history.h"
 #include "transformers/dance_predictor.h"
 #include "transformers/finish.h"
+#include "transformers/least_transit.h"
 #include "transformers/transformer.h"
 
 namespace dance {
@@ -51,13 +52,7 @@ class Predict : public Transformer {
   PoseHistory history_;
   Finish finish_;
 
-  // The least transit of the last 5 to 10 s, as play-out buffers take it.
-  struct Bucket {
-    Duration least;
-    bool filled = false;
-  };
-  std::array<Bucket, 2> buckets_{};
-  MonoTime bucket_begin_;
+  LeastTransit least_transit_;
   Duration transit_;  // followed slowly
 
   // By arrival: as many as a dance has, and a lapse of two seconds at once.
