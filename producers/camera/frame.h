@@ -1,0 +1,23 @@
+// Frame: one picture of a camera or a video, and when light fell on it.
+//
+// Units/frames: rows × columns × 3 bytes, blue green red as OpenCV has them, row 0 at the top; capture_time in this machine's monotonic
+//               clock (the driver's own stamp where it gives one).
+// Ownership:    `image` shares the source's buffer: it is good until the source is asked again, and is never written by who reads it.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+struct Frame {
+  cv::Mat image;
+  MonoTime capture_time;
+  std::uint64_t sequence = 0;  // counts what the camera took, also what nobody saw
+};
+
+}  // namespace dance
