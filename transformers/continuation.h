@@ -34,6 +34,9 @@ class Continuation {
   // The poses have stopped: looks for what to go on with, once. `beat`: a beat of the music; 0: read off the poses'
   // musical time, where they carry it, and no loop on the beat otherwise.
   bool begin(const PoseHistory& history, const Skeleton& skeleton, Duration beat = Duration());
+  // Turns and shifts everything, so that the dancer at `since_newest` stands and faces as in `there`. At most once after a
+  // begin(), before the first at().
+  void put(Duration since_newest, const Pose& there);
   void end() { history_ = nullptr; }
   bool is_running() const { return history_ != nullptr; }
   MonoTime newest_time() const { return newest_.capture_time; }

@@ -13,9 +13,13 @@ constexpr std::size_t kPriorRows = 32;  // how often the weights hear of the tre
 // A dancer was just met until here, and has a past this much later.
 constexpr float kYoung_rows = 240.0f, kGrowing_rows = 360.0f;
 constexpr std::size_t kSolveRows = 2;  // a horizon's weights are solved every 16 rows
-// What no body does within a second.
+// What no body does: a joint turns, and the hips get, no further than this at once and this each second.
 constexpr float kFurthestTurn_rad = 3.0f;
+constexpr float kSwiftestTurn_rad_s = 16.0f;
 constexpr float kFurthestWay_m = 3.0f;
+constexpr float kSwiftestWay_m_s = 8.0f;
+constexpr float kSuddenTurn_rad = 0.2f;
+constexpr float kSuddenWay_m = 0.1f;
 // How fast what lies between two rows is forgotten.
 constexpr double kSeenKept_rows = 6.0;
 
@@ -47,17 +51,23 @@ std::array<float, kHorizons + 1> knot_weights(double rows) {
 }
 
 // False, and no way at all, where the numbers are none.
-bool keep_possible(BodyRow& way) {
+bool keep_possible(std::size_t horizon, BodyRow& way) {
   float sum = 0.0f;
   for (const float x : way.v) sum += x * 0.0f;
   if (sum != 0.0f || std::isnan(sum)) {
     way.v.fill(0.0f);
     return false;
   }
-  for (std::size_t i = 0; i < kRowSize; ++i) {
-    const bool is_place = i % kRowGroups == kPlaceGroup;
-    const float most = is_place ? kFurthestWay_m : kFurthestTurn_rad;
-    way.v[i] = std::clamp(way.v[i], -most, most);
+  const auto seconds = static_cast<float>(kHorizonFrames[horizon] / kGridHz);
+  const float turn_rad =
+      std::min(kFurthestTurn_rad, kSuddenTurn_rad + kSwiftestTurn_rad_s * seconds);
+  const float way_m = std::min(kFurthestWay_m, kSuddenWay_m + kSwiftestWay_m_s * seconds);
+  for (std::size_t g = 0; g < kRowGroups; ++g) {
+    const float most = g == kPlaceGroup ? way_m : turn_rad;
+    const float size =
+        std::sqrt(way(g, 0) * way(g, 0) + way(g, 1) * way(g, 1) + way(g, 2) * way(g, 2));
+    if (size <= most) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) way(g, axis) *= most / size;
   }
   return true;
 }
@@ -175,10 +185,10 @@ void DancePredictor::make_ways(MomentGuesses& now) {
   path_[0].v.fill(0.0f);
   for (std::size_t h = 0; h < kHorizons; ++h) {
     blend_.blend(h, now, now.blended[h]);
-    if (!keep_possible(now.blended[h])) ++dropped_;
+    if (!keep_possible(h, now.blended[h])) ++dropped_;
     BodyRow& way = path_[h + 1];
     proof_.finish(h, now, way);
-    if (!keep_possible(way)) ++dropped_;
+    if (!keep_possible(h, way)) ++dropped_;
     for (std::size_t b = 0; b < kBoneCount; ++b)
       if ((newest_.presence >> b & 1u) == 0) way(b, 0) = way(b, 1) = way(b, 2) = 0.0f;
   }
