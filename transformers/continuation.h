@@ -22,7 +22,7 @@ class Continuation {
  public:
   // Until here what is predicted is better, from there on what is continued; between them they are mixed.
   static constexpr Duration kPredictedUntil = Duration::ms(250);
-  static constexpr Duration kContinuedFrom = Duration::ms(650);
+  static constexpr Duration kContinuedFrom = Duration::ms(550);
   static constexpr Duration kLoopedFrom = Duration::s(2);
   static constexpr Duration kCalmingFrom = Duration::s(4);
   static constexpr Duration kCalmFrom = Duration::s(8);
