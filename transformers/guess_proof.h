@@ -33,18 +33,19 @@ class GuessProof {
   void doubt_personal();
 
  private:
+  // Sums of the errors of the prediction and of the plain guesses, lately.
+  struct Errors {
+    float heard = 0.0f;
+    float ours = 0.0f;
+    std::array<float, kPlainGuesses> plain{};
+  };
   struct Horizon {
     // Share s of a correction c to a guess p that is least wrong: sum (y - p) c / sum c².
     alignas(64) std::array<float, kRowGroups> right{}, size{};
     alignas(64) std::array<float, kRowGroups> share{};
-    // Mean errors of the prediction and of the plain guesses, while the dancer stands and while they move.
-    struct Errors {
-      float heard = 0.0f;
-      float ours = 0.0f;
-      std::array<float, kPlainGuesses> plain{};
-    };
-    std::array<Errors, 2> errors{};
+    std::array<Errors, 2> errors{};  // while the dancer stands and while they move
   };
+  static float way_back(const Errors& errors);
   bool is_moving(const MomentGuesses& guesses) const;
   float error_m(const BodyRow& said, const BodyRow& way) const;
 
