@@ -98,15 +98,21 @@ void DancePredictor::set_prior() {
   // And between those for a dancer just met and for one with a past to look at.
   const float seen =
       std::clamp((static_cast<float>(memory_.size()) - kYoung_rows) / kGrowing_rows, 0.0f, 1.0f);
-  const auto& weights = model_->weights[static_cast<std::size_t>(acquaintance_)];
   const auto between = [](float a, float b, float share) { return a + share * (b - a); };
+  const auto weight = [&](Acquaintance who, std::size_t kind, std::size_t h, std::size_t e) {
+    const auto& w = model_->weights[static_cast<std::size_t>(who)];
+    return between(between(w[0][0][kind][h][e], w[0][1][kind][h][e], part),
+                   between(w[1][0][kind][h][e], w[1][1][kind][h][e], part), seen);
+  };
   KindWeights prior;
-  for (std::size_t kind = 0; kind < kWeightKinds; ++kind)
-    for (std::size_t h = 0; h < kHorizons; ++h)
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    // The network together with a personal model that has proved itself knows this dancer.
+    const float known = acquaintance_ == Acquaintance::kOthers ? proof_.proved(h) : 0.0f;
+    for (std::size_t kind = 0; kind < kWeightKinds; ++kind)
       for (std::size_t e = 0; e < kGuesses; ++e)
-        prior[kind][h][e] =
-            between(between(weights[0][0][kind][h][e], weights[0][1][kind][h][e], part),
-                    between(weights[1][0][kind][h][e], weights[1][1][kind][h][e], part), seen);
+        prior[kind][h][e] = between(weight(acquaintance_, kind, h, e),
+                                    weight(Acquaintance::kDancer, kind, h, e), known);
+  }
   blend_.set_prior(prior);
 }
 
@@ -147,25 +153,27 @@ void DancePredictor::take(const BodyRow& row) {
 }
 
 void DancePredictor::ask_models(MomentGuesses& now) {
+  for (BodyRow& way : now.impersonal) way.v.fill(0.0f);
   for (BodyRow& way : now.personal) way.v.fill(0.0f);
   if (memory_.size() < kNetHistory) return;
   net_inputs(memory_, rows_.tremble_rad(), inputs_);
   model_->net.normalise(inputs_);
   NetAnswers answers;
-  if (acquaintance_ != Acquaintance::kNone) {
-    BodyWays ways;
-    model_->net.answer(inputs_, answers);
-    model_->net.ways_of(answers, ways);
-    for (std::size_t h = 0; h < kHorizons; ++h)
-      now.by_horizon[h][static_cast<std::size_t>(Guess::kNet) - kCommonGuesses] = ways[h];
-  }
   bool is_new = false;
-  const PersonalModel::Weights* weights = personal_->weights(is_new);
-  if (!weights) return;
-  if (is_new) proof_.doubt_personal();
-  answers.fill(0.0f);
-  add_product(inputs_.data(), kNetInputs, weights->data(), kNetAnswers, answers.data());
-  model_->net.ways_of(answers, now.personal);
+  if (const PersonalModel::Weights* weights = personal_->weights(is_new)) {
+    if (is_new) proof_.doubt_personal();
+    answers.fill(0.0f);
+    add_product(inputs_.data(), kNetInputs, weights->data(), kNetAnswers, answers.data());
+    model_->net.ways_of(answers, now.personal);
+  }
+  if (acquaintance_ == Acquaintance::kNone) return;
+  model_->net.answer(inputs_, answers);
+  model_->net.ways_of(answers, now.impersonal);
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    BodyRow& way = now.by_horizon[h][static_cast<std::size_t>(Guess::kNet) - kCommonGuesses];
+    way = now.impersonal[h];
+    proof_.add_personal(h, now, way);
+  }
 }
 
 void DancePredictor::learn_from_past() {
@@ -185,6 +193,10 @@ void DancePredictor::make_ways(MomentGuesses& now) {
   path_[0].v.fill(0.0f);
   for (std::size_t h = 0; h < kHorizons; ++h) {
     blend_.blend(h, now, now.blended[h]);
+    if (acquaintance_ == Acquaintance::kNone) {
+      now.impersonal[h] = now.blended[h];
+      proof_.add_personal(h, now, now.blended[h]);
+    }
     if (!keep_possible(h, now.blended[h])) ++dropped_;
     BodyRow& way = path_[h + 1];
     proof_.finish(h, now, way);

@@ -11,6 +11,8 @@ constexpr float kShareKeep = 0.99846f;
 constexpr float kErrorKeep = 0.965f;
 // What a correction must have proved before it counts, as a part of what it would prove in the half-life.
 constexpr float kCaution = 0.05f;
+// As much as is right of the corrections of a dancer who was seen for some minutes.
+constexpr float kShareOfAcquainted = 0.33f;
 constexpr float kDampedRows = 6.0f;  // 100 ms
 // From here on, of the best plain guess's error, the prediction gives way to it, and from there on wholly.
 constexpr float kBegins = 0.86f, kWholly = 0.96f;
@@ -76,9 +78,20 @@ void GuessProof::doubt_personal() {
     for (std::size_t g = 0; g < kRowGroups; ++g) horizon.right[g] *= 0.9f, horizon.size[g] *= 0.9f;
 }
 
+void GuessProof::add_personal(std::size_t h, const MomentGuesses& guesses, BodyRow& way) const {
+  for (std::size_t i = 0; i < kRowSize; ++i)
+    way.v[i] += horizons_[h].share[i % kRowGroups] * guesses.personal[h].v[i];
+}
+
+float GuessProof::proved(std::size_t h) const {
+  float sum = 0.0f;
+  for (std::size_t bone = 1; bone < kBoneCount; ++bone) sum += horizons_[h].share[bone];
+  return std::min(1.0f, sum / (kShareOfAcquainted * static_cast<float>(kBoneCount - 1)));
+}
+
 void GuessProof::learn(std::size_t h, const MomentGuesses& guesses, const BodyRow& way) {
   Horizon& horizon = horizons_[h];
-  const BodyRow& p = guesses.blended[h];
+  const BodyRow& p = guesses.impersonal[h];
   const BodyRow& c = guesses.personal[h];
   for (std::size_t g = 0; g < kRowGroups; ++g) {
     float right = 0.0f, size = 0.0f;
@@ -93,13 +106,10 @@ void GuessProof::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
     const float held = kCaution * size / (1.0f - kShareKeep);
     horizon.share[g] = std::clamp(horizon.right[g] / (horizon.size[g] + held + 1e-9f), 0.0f, 1.0f);
   }
-  BodyRow mixed;
-  for (std::size_t i = 0; i < kRowSize; ++i)
-    mixed.v[i] = p.v[i] + horizon.share[i % kRowGroups] * c.v[i];
   const auto plain = plain_ways(guesses, h);
   Errors& errors = horizon.errors[is_moving(guesses) ? 1 : 0];
   errors.heard = kErrorKeep * errors.heard + 1.0f;
-  errors.ours = kErrorKeep * errors.ours + error_m(mixed, way);
+  errors.ours = kErrorKeep * errors.ours + error_m(guesses.blended[h], way);
   for (std::size_t b = 0; b < kPlainGuesses; ++b)
     errors.plain[b] = kErrorKeep * errors.plain[b] + error_m(plain[b], way);
 }
@@ -113,10 +123,7 @@ float GuessProof::way_back(const Errors& errors) {
 
 void GuessProof::finish(std::size_t h, const MomentGuesses& guesses, BodyRow& way) const {
   const Horizon& horizon = horizons_[h];
-  const BodyRow& p = guesses.blended[h];
-  const BodyRow& c = guesses.personal[h];
-  for (std::size_t i = 0; i < kRowSize; ++i)
-    way.v[i] = p.v[i] + horizon.share[i % kRowGroups] * c.v[i];
+  way = guesses.blended[h];
   const std::size_t state = is_moving(guesses) ? 1 : 0;
   float back = way_back(horizon.errors[state]);
   for (std::size_t nearer = h - std::min(h, kHorizonsBefore); nearer < h; ++nearer)

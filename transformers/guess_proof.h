@@ -27,7 +27,11 @@ class GuessProof {
 
   // A moment that is over: it went `way`.
   void learn(std::size_t horizon, const MomentGuesses& guesses, const BodyRow& way);
-  // Adds what is proved of guesses.personal to guesses.blended, and goes back to plain guesses where those were better.
+  // Adds what is proved of guesses.personal.
+  void add_personal(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
+  // How far it is proved that the personal model knows this dancer: 0 to 1.
+  float proved(std::size_t horizon) const;
+  // guesses.blended, or as far back to plain guesses as those were better.
   void finish(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
   // Forgets what the personal model has proved: a new one is there.
   void doubt_personal();
