@@ -21,7 +21,7 @@ constexpr float kBegins = 0.86f, kWholly = 0.96f;
 constexpr std::size_t kHorizonsBefore = 3;
 constexpr float kFromNearer = 0.8f;
 // A few moments that were worse say nothing yet.
-constexpr float kHeardEnough_moments = 30.0f;
+constexpr float kHeardEnough_moments = 25.0f;
 // Root of the sum of all joints' squared speeds, m/s: less is standing.
 constexpr float kMoving_m_s = 0.4f;
 
