@@ -51,6 +51,7 @@ constexpr std::array kCommands{
             "remote dancers on the beat that the listener hears, on recorded dances"},
     Command{"predict eval", "prediction on recorded dances: errors beside plain guesses, cost"},
     Command{"predict train", "trains a model of prediction"},
+    Command{"capture stereo eval", "depth from two eyes, on drawn dancers whose distance is known"},
     Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
     Command{"predict stream",
             "dances over a line with delay, jitter and loss: how late, how smooth"},
@@ -82,7 +83,7 @@ std::string program_of(std::string_view name) {
 const Command* find_command(int argc, char** argv, int& words) {
   std::string name;
   const Command* found = nullptr;
-  for (int i = 1; i < argc && i <= 2; ++i) {
+  for (int i = 1; i < argc && i <= 3; ++i) {
     name += (i > 1 ? " " : "") + std::string(argv[i]);
     for (const Command& command : kCommands) {
       if (command.name != name) continue;

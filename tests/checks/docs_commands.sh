@@ -52,7 +52,10 @@ while IFS= read -r entry <&3; do
     test | setup) continue ;;  # the script ./dance does these itself
   esac
   # `dance bench path` is dance-bench-path.
-  if [ $# -gt 0 ] && [ -x "$bin/dance-$program-$1" ]; then
+  if [ $# -gt 1 ] && [ -x "$bin/dance-$program-$1-$2" ]; then
+    program=$program-$1-$2
+    shift 2
+  elif [ $# -gt 0 ] && [ -x "$bin/dance-$program-$1" ]; then
     program=$program-$1
     shift
   fi
