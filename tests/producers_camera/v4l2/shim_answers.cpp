@@ -177,6 +177,7 @@ int ShimDevice::answer_stream(int fd, unsigned long request, void* argument) {
       auto& out = *static_cast<v4l2_buffer*>(argument);
       out.index = full_.front();
       full_.pop_front();
+      ++fetched_;
       Buffer& buffer = buffers_[out.index];
       buffer.is_queued = false;
       out.bytesused = buffer.used;

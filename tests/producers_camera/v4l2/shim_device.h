@@ -82,6 +82,7 @@ class ShimDevice : public VideoShim {
   bool is_streaming_ = false;
   std::uint32_t sequence_ = 0;
   std::int64_t newest_stamp_us_ = 0;
+  int fetched_ = 0;  // pictures that the program took out
 };
 
 }  // namespace dance
