@@ -27,6 +27,7 @@ constexpr std::array kCommands{
     Command{"view", "the viewer"},
     Command{"replay", "plays BVH files and LCM logs as dancers"},
     Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
+    Command{"capture", "a dancer before a camera, or in a video"},
     Command{"music", "plays music, and says the beat that is heard"},
     Command{"server", "the tunnel server"},
     Command{"status", "rooms and guests of a server on this machine, in a terminal"},
