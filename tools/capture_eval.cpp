@@ -142,6 +142,8 @@ CaptureRun CaptureEval::finish() && {
     run_.counters.searches += c.searches;
     run_.counters.losses += c.losses;
     run_.counters.refused += c.refused;
+    run_.counters.looks += c.looks;
+    run_.counters.exchanged += c.exchanged;
     run_.counters.found += c.found;
     run_.counters.pictures += c.pictures;
     const EstimatorTimes& t = estimator->times();
