@@ -5,7 +5,6 @@
 
 #include "tools/beat_phase.h"
 #include "tools/stream_line.h"
-#include "transformers/chain.h"
 
 namespace dance {
 namespace {
@@ -221,7 +220,7 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const Be
     BeatDance sent = dance;
     if (options.untagged)
       for (Pose& pose : sent.poses) pose.music_beats = kNoMusic;
-    DANCE_TRY(Chain made, Chain::make(chain.stations));
+    DANCE_TRY(Chain made, Chain::make(chain.stations, chain.parts));
     const Shown shown = play(sent, arrivals, made, listener);
     run.dances.push_back(score_of(dance, shown, listener, options));
     const RhythmScore& score = run.dances.back();

@@ -16,6 +16,7 @@
 #include "producers/salsa_style.h"
 #include "tools/codec_takes.h"
 #include "tools/motion_measures.h"
+#include "transformers/chain.h"
 
 namespace dance {
 
@@ -54,6 +55,7 @@ struct RhythmRun {
 struct NamedChain {
   std::string name;
   std::vector<std::string> stations;  // none: poses as they come
+  ChainParts parts = {};
 };
 
 // A dance to the song, from its first second on.
