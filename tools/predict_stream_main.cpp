@@ -25,6 +25,7 @@ struct Wishes {
   std::string delay = "100ms", jitter = "15ms";
   double loss_percent = 1.0;
   std::uint64_t seed = 1;
+  std::size_t every = 1;
   std::vector<std::string> through{"hold", "predict", "predict,bridge"};
   std::string model;
   bool is_json = false;
@@ -40,6 +41,7 @@ Result<void> run(const Wishes& wishes) {
                 " cannot be judged: 0ms to 1s, please");
   options.line.loss_percent = wishes.loss_percent;
   options.line.seed = wishes.seed;
+  options.line.every = wishes.every;
   NamedSubjects subjects{
       {"raw", newest_subject()},
       {"damped velocity", damped_velocity_subject()},
@@ -70,6 +72,9 @@ int main(int argc, char** argv) {
   line.add("--jitter", wishes.jitter, "mean of what is added to it").shows_default();
   line.add("--loss", wishes.loss_percent, "percent of the poses that never come")
       .range(0.0, 90.0)
+      .shows_default();
+  line.add("--every", wishes.every, "only each so many-th pose is sent: 2 is a camera of 30 Hz")
+      .range(1.0, 12.0)
       .shows_default();
   line.add("--seed", wishes.seed, "another draw of the same line").shows_default();
   line.add("--through", wishes.through,

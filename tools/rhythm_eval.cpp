@@ -214,6 +214,7 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const Be
     line.jitter = options.jitter;
     line.loss_percent = options.loss_percent;
     line.seed = options.seed;
+    line.every = options.every;
     const MonoTime middle = at_second(0.5 * static_cast<double>(dance.poses.size()) / options.hz);
     if (options.stall > Duration()) line.stalls.push_back({middle, options.stall, false});
     const auto arrivals = arrivals_over(line, dance.poses);

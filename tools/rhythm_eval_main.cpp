@@ -93,6 +93,10 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--model", wishes.model,
            "a model of dance predict train instead of the built-in one, which knows some takes");
+  line.add("--every", wishes.eval.every,
+           "only each so many-th pose is sent: 2 is a camera of 30 Hz")
+      .range(1.0, 12.0)
+      .shows_default();
   line.add("--seed", wishes.eval.seed, "of the line").shows_default();
   line.add_flag("--untagged", wishes.eval.untagged, "poses come without musical time");
   line.add_flag("--each", wishes.each, "a line for each take, too");
