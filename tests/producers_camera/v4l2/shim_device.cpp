@@ -27,7 +27,7 @@ std::int64_t clock_us(clockid_t clock) {
   return std::int64_t{t.tv_sec} * 1'000'000 + t.tv_nsec / 1'000;
 }
 
-void real_close(int fd) { ::syscall(SYS_close, fd); }
+void real_close(int fd) { ::syscall(SYS_close, static_cast<long>(fd)); }
 
 }  // namespace
 
