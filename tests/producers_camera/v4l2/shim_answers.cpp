@@ -146,6 +146,8 @@ int ShimDevice::answer_stream(int fd, unsigned long request, void* argument) {
       if (memory == -1) std::abort();
       memory_ = reinterpret_cast<std::uint8_t*>(memory);
       buffers_.assign(wanted.count, {});
+      empty_.reserve(wanted.count);
+      full_.reserve(wanted.count);
       owner_ = fd;
       return 0;
     }
@@ -177,7 +179,7 @@ int ShimDevice::answer_stream(int fd, unsigned long request, void* argument) {
       if (::read(fd, &byte, 1) != 1) std::abort();
       auto& out = *static_cast<v4l2_buffer*>(argument);
       out.index = full_.front();
-      full_.pop_front();
+      full_.erase(full_.begin());
       ++fetched_;
       Buffer& buffer = buffers_[out.index];
       buffer.is_queued = false;
