@@ -27,6 +27,7 @@ constexpr std::array kCommands{
     Command{"view", "the viewer"},
     Command{"replay", "plays BVH files and LCM logs as dancers"},
     Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
+    Command{"capture", "a dancer before a camera, or in a video"},
     Command{"music", "plays music, and says the beat that is heard"},
     Command{"server", "the tunnel server"},
     Command{"status", "rooms and guests of a server on this machine, in a terminal"},
@@ -82,7 +83,7 @@ std::string program_of(std::string_view name) {
 const Command* find_command(int argc, char** argv, int& words) {
   std::string name;
   const Command* found = nullptr;
-  for (int i = 1; i < argc && i <= 2; ++i) {
+  for (int i = 1; i < argc && i <= 3; ++i) {
     name += (i > 1 ? " " : "") + std::string(argv[i]);
     for (const Command& command : kCommands) {
       if (command.name != name) continue;
