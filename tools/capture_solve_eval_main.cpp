@@ -29,7 +29,7 @@ constexpr const char* kSolveExamples = R"(Examples:
 struct Wishes {
   std::vector<std::string> files;
   double hz = 30.0;
-  double warm_up_s = 4.0;
+  double warm_up_s = 6.0;
   double smooth = 1.0;
   double camera_height_m = 1.2;
   double camera_pitch_deg = 5.0;
@@ -50,8 +50,8 @@ std::string line_of(const std::string& name, const SolveFigures& f) {
 }
 
 std::string table_of(const std::string& name, const SolveScore& s) {
-  return fmt::format("{} ({} frames)\n", name, s.frames) + line_of("  truth", s.truth) + line_of("  network alone", s.baseline) +
-         line_of("  solver", s.solver) +
+  return fmt::format("{} ({} frames)\n", name, s.frames) + line_of("  truth", s.truth) +
+         line_of("  network alone", s.baseline) + line_of("  solver", s.solver) +
          fmt::format(
              "  camera off by {:.0f} mm and {:.1f} deg, dancer's height by {:.1f} %, {} frames "
              "without a pose, {:.0f} us a frame\n",

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kSeenWell = 0.35;
 // What the median is worth beside an average body, in logarithms. Feet, ears and hip joints are said less well than long bones.
-constexpr std::array<double, kLengthCount> kWorth{0.95, 0.8, 0.95, 0.95, 0.95, 0.95, 0.95, 0.7, 0.7};
+constexpr std::array<double, kLengthCount> kWorth{0.95, 0.8,  0.95, 0.95, 0.95,
+                                                  0.95, 0.95, 0.7,  0.7};
 // No body is further from the average in one length than this factor.
 constexpr double kOdd = 1.35;
 constexpr double kLeastBody_m = 0.8, kMostBody_m = 2.4;

@@ -19,7 +19,7 @@ namespace dance {
 class Proportions {
  public:
   // Pictures after which a first guess is worth showing, and after which it is held.
-  static constexpr int kFirst = 20, kHeld = 90;
+  static constexpr int kFirst = 20, kHeld = 150;
 
   // `height_m`: what the dancer says; else a second eye's scale decides, else the network's metres are true.
   explicit Proportions(std::optional<double> height_m = {}) : height_m_(height_m) {}
