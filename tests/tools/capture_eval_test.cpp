@@ -17,17 +17,17 @@ TEST(CaptureEval, GivesEveryFrameItsPoints) {
   const std::string dark = testing::TempDir() + "/dance_dark.png";
   ASSERT_TRUE(cv::imwrite(dark, cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(0))));
   CaptureEvalOptions options;
-  options.every = 40;
+  options.every = 12;
   options.compares_engines = kHasXnnpack;
   const auto run = evaluate_capture({dark, taiji_video()}, options);
   ASSERT_TRUE(run) << run.error().what;
   const auto json = nlohmann::json::parse(capture_eval_json(*run));
   const auto& frames = json.at("frames");
-  ASSERT_EQ(frames.size(), 12u);
+  ASSERT_EQ(frames.size(), 36u);
   EXPECT_EQ(frames[0].at("name"), "dance_dark.png");
   EXPECT_EQ(frames[0].at("detected"), false);
   EXPECT_TRUE(frames[0].at("landmarks_px").empty());
-  EXPECT_EQ(frames[2].at("name"), "taiji.mp4#40");
+  EXPECT_EQ(frames[2].at("name"), "taiji.mp4#12");
   for (std::size_t i = 1; i < frames.size(); ++i) {
     EXPECT_EQ(frames[i].at("detected"), true);
     ASSERT_EQ(frames[i].at("landmarks_px").size(), kLandmarkCount);
@@ -37,11 +37,11 @@ TEST(CaptureEval, GivesEveryFrameItsPoints) {
   }
   EXPECT_GT(json.at("ms_per_frame").get<double>(), 0.0);
   if (kHasXnnpack) {
-    EXPECT_EQ(run->engines.regions, 11u);
+    EXPECT_EQ(run->engines.regions, 35u);
     EXPECT_LT(run->engines.worst_point_px, 0.05);
     EXPECT_LT(run->engines.worst_world_m, 1e-3);
   }
-  EXPECT_NE(capture_eval_table(*run, options).find("12 frames, 11 with a dancer"),
+  EXPECT_NE(capture_eval_table(*run, options).find("36 frames, 35 with a dancer"),
             std::string::npos);
   std::filesystem::remove(dark);
 }
