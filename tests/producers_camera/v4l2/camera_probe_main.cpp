@@ -8,7 +8,7 @@
 #include "core/net/mono_clock.h"
 #include "producers/camera/files/open_frame_source.h"
 #include "producers/camera/v4l2/camera_list.h"
-#include "producers/camera/v4l2/v4l2_camera.h"
+#include "tests/producers_camera/v4l2/press_control.h"
 
 namespace dance {
 namespace {
@@ -23,22 +23,24 @@ void print(const FrameSource& source) {
               static_cast<unsigned long long>(c.unplugged));
 }
 
-// Until `wanted` pictures came, the file ended, the camera was gone and, where that is not waited for, did not come back.
-int probe(const std::string& called, const SourceOptions& options, int wanted, bool waits,
+enum class WhenGone { kEnd, kGoOn, kCountAnew };
+
+// Until `wanted` pictures came (kCountAnew: came after it was unplugged and back), the file ended, or time is over.
+int probe(const std::string& called, const SourceOptions& options, int wanted, WhenGone when_gone,
           double seconds) {
   auto source = open_frame_source(called, options);
   if (!source) {
     std::fprintf(stderr, "%s\n", source.error().what.c_str());
     return 1;
   }
-  if (const auto* camera = dynamic_cast<const V4l2Camera*>(source->get())) {
-    std::printf("%s\n", camera->negotiated().c_str());
-  }
+  std::printf("%s\n", line_on(**source).c_str());
   const MonoTime end = mono_now() + Duration::seconds(seconds);
   Frame frame;
   Duration oldest;
   bool was_gone = false;
-  for (int taken = 0; taken < wanted && mono_now() < end;) {
+  int taken = 0;
+  bool counts = when_gone != WhenGone::kCountAnew;
+  while ((!counts || taken < wanted) && mono_now() < end) {
     switch ((*source)->next(kPatience, frame)) {
       case FrameState::kFrame: {
         const cv::Scalar mean = cv::mean(frame.image);
@@ -57,13 +59,15 @@ int probe(const std::string& called, const SourceOptions& options, int wanted, b
       case FrameState::kGone:
         if (!was_gone) std::printf("gone\n");
         was_gone = true;
-        if (!waits) {
+        if (when_gone == WhenGone::kEnd) {
           print(**source);
           return 0;
         }
         break;
       case FrameState::kBack:
         std::printf("back\n");
+        if (!counts) taken = 0;
+        counts = true;
         break;
       case FrameState::kOver:
         std::printf("over\n");
@@ -74,7 +78,7 @@ int probe(const std::string& called, const SourceOptions& options, int wanted, b
   }
   print(**source);
   std::printf("oldest %.1f ms\n", oldest.as_ms());
-  return (*source)->counters().taken == static_cast<std::uint64_t>(wanted) ? 0 : 1;
+  return counts && taken == wanted ? 0 : 1;
 }
 
 }  // namespace
@@ -85,18 +89,25 @@ int main(int argc, char** argv) {
     std::fputs(dance::camera_table(dance::list_cameras()).c_str(), stdout);
     return 0;
   }
+  if (argc == 5 && std::string(argv[1]) == "--press") {
+    return dance::press_control(argv[2], argv[3], std::atoi(argv[4])) ? 0 : 1;
+  }
   if (argc < 4) {
     std::fprintf(
-        stderr, "camera_probe SOURCE PICTURES SECONDS [wait] [WIDTHxHEIGHT] [ENCODING] | --list\n");
+        stderr,
+        "camera_probe SOURCE PICTURES SECONDS [wait|back] [WIDTHxHEIGHT] [ENCODING] | --list | "
+        "--press DEVICE BUTTON VALUE\n");
     return 2;
   }
   dance::SourceOptions options;
-  bool waits = false;
+  dance::WhenGone when_gone = dance::WhenGone::kEnd;
   for (int i = 4; i < argc; ++i) {
     const std::string word = argv[i];
     int width_px = 0, height_px = 0;
     if (word == "wait") {
-      waits = true;
+      when_gone = dance::WhenGone::kGoOn;
+    } else if (word == "back") {
+      when_gone = dance::WhenGone::kCountAnew;
     } else if (std::sscanf(argv[i], "%dx%d", &width_px, &height_px) == 2) {
       options.camera.width_px = width_px;
       options.camera.height_px = height_px;
@@ -104,5 +115,5 @@ int main(int argc, char** argv) {
       options.camera.encoding = word;
     }
   }
-  return dance::probe(argv[1], options, std::atoi(argv[2]), waits, std::atof(argv[3]));
+  return dance::probe(argv[1], options, std::atoi(argv[2]), when_gone, std::atof(argv[3]));
 }

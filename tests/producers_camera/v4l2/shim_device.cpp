@@ -27,7 +27,7 @@ std::int64_t clock_us(clockid_t clock) {
   return std::int64_t{t.tv_sec} * 1'000'000 + t.tv_nsec / 1'000;
 }
 
-void real_close(int fd) { ::syscall(SYS_close, fd); }
+void real_close(int fd) { ::syscall(SYS_close, static_cast<long>(fd)); }
 
 }  // namespace
 
@@ -111,7 +111,7 @@ void ShimDevice::tick_once() {
   const std::uint32_t sequence = sequence_++;
   if (words_.gaps.contains(sequence) || empty_.empty()) return;
   const std::uint32_t index = empty_.front();
-  empty_.pop_front();
+  empty_.erase(empty_.begin());
   fill(index, sequence);
   full_.push_back(index);
   const char byte = 0;
@@ -155,7 +155,7 @@ void ShimDevice::stop_stream() {
   char byte = 0;
   while (!full_.empty()) {
     if (owner_ >= 0 && ::read(owner_, &byte, 1) != 1) break;
-    full_.pop_front();
+    full_.erase(full_.begin());
   }
   full_.clear();
   for (Buffer& buffer : buffers_) buffer.is_queued = false;
