@@ -20,7 +20,7 @@ double network_spread_m(const Eigen::Vector3d& p_m) {
 // make it less.
 constexpr double kSkin_m = 0.02;
 // Of all disparities alike, what a good calibration leaves.
-constexpr double kCalibration_px = 0.15;
+constexpr double kCalibration_px = 0.2;
 // Samples of one limb or torso share joints: two of them count as one.
 constexpr double kSamplesPerJoint = 2.0;
 
