@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   line.add("--landmarks", wishes.image_px, "error of the network in that case, pixels")
       .range(0.0, 20.0)
       .shows_default();
+  line.add_flag("--exact", wishes.options.is_calibration_exact, "a calibration without errors");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kStereoEvalExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });

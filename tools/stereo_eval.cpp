@@ -105,11 +105,11 @@ class Motion {
   SalsaDancer dancer_;
 };
 
-void evaluate_dancer(const StereoEvalCase& what, std::uint64_t seed, int frames,
+void evaluate_dancer(const StereoEvalCase& what, std::uint64_t seed, int frames, bool is_exact,
                      const std::vector<CodecTake>& takes, StereoEval& out, Tally& tally) {
   Random random(seed);
   const StereoRig truth = drawn_rig();
-  const StereoRig known = calibrated_rig(truth, seed);
+  const StereoRig known = is_exact ? truth : calibrated_rig(truth, seed);
   SceneEyes eyes;
   eyes.wall_m = what.distance_m + 2.0;
   eyes.right_gain = random.uniform(0.85, 1.18);
@@ -213,7 +213,8 @@ StereoEval evaluate_stereo(const StereoEvalCase& what, const StereoEvalOptions& 
   const int dancers = std::max(1, std::min(options.dancers, options.frames));
   for (int i = 0; i < dancers; ++i)
     evaluate_dancer(what, options.seed + static_cast<std::uint64_t>(i),
-                    (options.frames + dancers - 1 - i) / dancers, takes, out, tally);
+                    (options.frames + dancers - 1 - i) / dancers, options.is_calibration_exact,
+                    takes, out, tally);
   for (std::size_t way = 0; way < kDepthWayCount; ++way)
     out.errors[way] = summary_of(tally.errors[way]);
   if (out.hinted > 0) {

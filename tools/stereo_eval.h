@@ -58,6 +58,7 @@ struct StereoEvalOptions {
   int frames = 60;
   int dancers = 6;  // of each case: other bodies, other sizes of the network's metres
   std::uint64_t seed = 1;
+  bool is_calibration_exact = false;
 };
 std::vector<StereoEvalCase> stereo_eval_cases();
 // Of the salsa dancer, where no takes are given.
