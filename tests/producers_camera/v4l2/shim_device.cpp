@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <linux/videodev2.h>
+#include <pthread.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -38,6 +39,9 @@ ShimDevice& ShimDevice::here() {
 }
 
 ShimDevice::ShimDevice() {
+  // Who forks while the sensor runs must not find the lock taken for ever in the child, whose first act is to close files.
+  ::pthread_atfork([] { here().lock_.lock(); }, [] { here().lock_.unlock(); },
+                   [] { here().lock_.unlock(); });
   const char* words = std::getenv("DANCE_VIDEO_SHIM");
   if (words == nullptr) {
     words_.is_absent = true;
