@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +17,9 @@
 
 namespace dance {
 namespace {
+
+constexpr const char* kStart = "/dev/video";
+std::atomic<int> handle_count = 0;
 
 void sleep_ms(int ms) {
   const timespec time{ms / 1000, (ms % 1000) * 1'000'000L};
@@ -36,6 +40,12 @@ ShimDevice& ShimDevice::here() {
   static ShimDevice* const device =
       new ShimDevice;  // never destroyed: files are closed after everything
   return *device;
+}
+
+int ShimDevice::open_handles() { return handle_count.load(std::memory_order_relaxed); }
+
+bool ShimDevice::is_video(const char* path) {
+  return std::strncmp(path, kStart, std::strlen(kStart)) == 0;
 }
 
 ShimDevice::ShimDevice() {
@@ -199,8 +209,6 @@ int ShimDevice::priority() const {
 }
 
 int ShimDevice::open(const char* path, int flags) {
-  constexpr const char* kStart = "/dev/video";
-  if (std::strncmp(path, kStart, std::strlen(kStart)) != 0) return -2;
   const std::lock_guard guard(lock_);
   const std::string number = path + std::strlen(kStart);
   const bool is_metadata = words_.has_metadata && number == std::to_string(words_.device + 1);
@@ -216,6 +224,7 @@ int ShimDevice::open(const char* path, int flags) {
   int ends[2] = {};
   if (::pipe2(ends, O_CLOEXEC | (flags & O_NONBLOCK)) != 0) return -1;
   handles_[ends[0]] = {ends[1], is_metadata};
+  ++handle_count;
   return ends[0];
 }
 
@@ -238,6 +247,7 @@ void ShimDevice::close(int fd) {
   }
   if (handle.write_fd >= 0) real_close(handle.write_fd);
   handles_.erase(fd);
+  --handle_count;
 }
 
 int ShimDevice::memory_of(int fd) const {
