@@ -16,6 +16,7 @@
 #include "core/net/private_network.h"
 #include "core/program/program.h"
 #include "tools/doctor_drawing.h"
+#include "tools/doctor_sound.h"
 
 namespace dance {
 
@@ -178,6 +179,7 @@ std::vector<Finding> examine_machine(const std::string& bus_url) {
   findings.push_back(check_display());
   findings.push_back(check_drawing());
   findings.push_back(check_camera());
+  findings.push_back(check_sound());
   findings.push_back(check_java());
   return findings;
 }
