@@ -45,6 +45,7 @@ constexpr std::array kCommands{
     Command{"doctor", "checks this machine, and names what mends it"},
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
     Command{"music eval", "the beat tracker on songs whose beats are known"},
+    Command{"capture eval", "what the camera's eye sees in pictures and videos, frame by frame"},
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
     Command{"stylize eval", "what styles do to recorded dances: gain, mean pose, bones, feet"},
