@@ -19,17 +19,20 @@ CaptureChain::CaptureChain(const GuestId& guest, CaptureSink& sink,
       sink_(sink),
       estimator_(std::move(estimator)),
       solver_(std::move(solver)),
+      body_(&estimator_->unfiltered()),
       next_sequence_(sequence_to_begin_with()) {}
 
 void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   const MonoTime dequeued = mono_now();
   ++stats_.pictures;
-  estimator_->estimate(frame.image, frame.capture_time, body_);
-  if (body_.found) ++stats_.seen;
+  body_ = &estimator_->estimate(frame);
+  // The solver smooths what it makes of them, and smoothing twice would be late twice.
+  const BodyLandmarks& seen = estimator_->unfiltered();
+  if (seen.found) ++stats_.seen;
   std::optional<DepthHint> depth;
-  if (stereo_ && right && body_.found) depth = stereo_->measure(frame.image, *right, body_);
+  if (stereo_ && right && seen.found) depth = stereo_->hint(frame.image, *right, seen);
   Pose pose;
-  if (!solver_->solve(body_, depth, pose)) return;
+  if (!solver_->solve(seen, depth, pose)) return;
   pose.sequence = next_sequence_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = frame.capture_time;
@@ -51,7 +54,7 @@ void CaptureChain::say_skeleton(MonoTime now) {
 }
 
 void CaptureChain::start_anew() {
-  estimator_->reset();
+  estimator_->forget();
   solver_->reset();
 }
 
