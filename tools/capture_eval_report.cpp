@@ -21,6 +21,7 @@ nlohmann::json frame_json(const CaptureFrame& frame) {
   }
   return {{"name", frame.name},
           {"detected", body.found},
+          {"region_side_px", rounded(body.found ? body.region.side_px : 0.0, 1e3)},
           {"landmarks_px", std::move(image)},
           {"world_m", std::move(world)}};
 }

@@ -2,10 +2,11 @@
 # Fetches the networks that see a dancer's pose into models/pose: MediaPipe Pose (BlazePose) of Google, Apache-2.0, from the
 # npm package @mediapipe/pose. Where they lie already it does nothing and needs no network; each file is checked
 # against its sum before it takes its place.
-#   tools/fetch_pose_models.sh [FOLDER]    exit 0: all are there; 1: they are not, and a line says why
+#   tools/fetch_pose_models.sh            exit 0: all are there; 1: they are not, and a line says why
+#   tools/fetch_pose_models.sh --there    fetches nothing: exit 0 where all are there
 set -euo pipefail
 package=@mediapipe/pose@0.5.1675469404
-folder=${1:-$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/models/pose}
+folder=${DANCE_POSE_MODELS:-$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/models/pose}
 
 # sum, name here, name in the package
 files() {
@@ -34,13 +35,14 @@ all_there() {
 }
 
 all_there && exit 0
+[ "${1:-}" = --there ] && exit 1
 command -v npm >/dev/null || fail "npm is missing, which fetches $package; install it with: apt-get install npm"
 mkdir -p "$folder"
 # In the same file system, so that taking its place is one step.
 scratch=$(mktemp -d "$folder/.fetch.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
-npm pack --silent --pack-destination "$scratch" "$package" >/dev/null 2>"$scratch/log" ||
-  fail "$package cannot be fetched: $(tail -n 1 "$scratch/log"); look at the network and run this again"
+npm pack --loglevel error --fetch-retries 1 --pack-destination "$scratch" "$package" >/dev/null 2>"$scratch/log" ||
+  fail "$package cannot be fetched: $(grep -m 1 -E 'code|network|ERR' "$scratch/log"); look at the network and run this again"
 tar -xzf "$scratch"/*.tgz -C "$scratch" || fail "what came of $package is no archive; run this again"
 while read -r sum name source; do
   has_sum "$sum" "$scratch/package/$source" || fail "$source of $package is not the file that is known (its sha256 is another)"

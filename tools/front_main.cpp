@@ -53,6 +53,7 @@ constexpr std::array kCommands{
             "remote dancers on the beat that the listener hears, on recorded dances"},
     Command{"predict eval", "prediction on recorded dances: errors beside plain guesses, cost"},
     Command{"predict train", "trains a model of prediction"},
+    Command{"capture stereo eval", "depth from two eyes, on drawn dancers whose distance is known"},
     Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
     Command{"predict stream",
             "dances over a line with delay, jitter and loss: how late, how smooth"},

@@ -98,6 +98,8 @@ Result<std::vector<float>> TfliteTensors::stored_floats(const Tensor& tensor,
     return fail("'" + tensor.name + "' has " + std::to_string(tensor.data.count) +
                 " bytes, where " + std::to_string(count * width) + " are due");
   const auto bytes = tensor.data.bytes();
+  // Nothing more is read once something pointed out of the file.
+  if (bytes.size() != count * width) return fail("'" + tensor.name + "' is not in the file");
   std::vector<float> values(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (width == 2) {

@@ -14,6 +14,8 @@ constexpr double kNetworkDepth_m = 0.05;
 // What bodies and clothes differ by from kLimbPlaces and the torso's ellipse: common to all joints, so that more of them do not
 // make it less.
 constexpr double kSkin_m = 0.015;
+// Of all disparities alike, what a good calibration leaves.
+constexpr double kCalibration_px = 0.15;
 // Samples of one limb or torso share joints: two of them count as one.
 constexpr double kSamplesPerJoint = 2.0;
 
@@ -111,7 +113,7 @@ std::optional<MonocularFit> fit_monocular(const BodySamples& samples) {
 }
 
 std::optional<DepthHint> fit_depth(const BodySamples& samples, std::span<const SampleDepth> depths,
-                                   const MonocularFit& one_eye) {
+                                   const MonocularFit& one_eye, double focal_baseline_px_m) {
   if (depths.size() < static_cast<std::size_t>(kLeastJoints) || depths.size() > kMostBodySamples)
     return std::nullopt;
   const double one_eye_m = one_eye.p_CH_m.z();
@@ -132,7 +134,8 @@ std::optional<DepthHint> fit_depth(const BodySamples& samples, std::span<const S
     hint.scale = mean.value / one_eye_m;
   }
   hint.hips_depth_m = mean.value;
-  hint.spread_m = std::hypot(mean.spread, hint.scale * kSkin_m);
+  const double calibration_m = mean.value * mean.value / focal_baseline_px_m * kCalibration_px;
+  hint.spread_m = std::hypot(mean.spread, hint.scale * kSkin_m, calibration_m);
   hint.scale_spread = hint.scale * std::hypot(hint.spread_m / hint.hips_depth_m,
                                               one_eye.depth_spread_m / one_eye_m);
   hint.joints = mean.joints;

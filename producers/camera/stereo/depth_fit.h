@@ -29,9 +29,9 @@ struct SampleDepth {
   double skin_depth_m = 0.0;
   double spread_m = 0.0;  // of the matching alone
 };
-// Two eyes: joints is at least kLeastJoints.
+// Two eyes, whose disparity is focal_baseline_px_m over the depth: joints is at least kLeastJoints.
 constexpr int kLeastJoints = 4;
 std::optional<DepthHint> fit_depth(const BodySamples& samples, std::span<const SampleDepth> depths,
-                                   const MonocularFit& one_eye);
+                                   const MonocularFit& one_eye, double focal_baseline_px_m);
 
 }  // namespace dance

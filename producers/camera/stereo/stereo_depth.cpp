@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -239,7 +240,8 @@ DepthHint StereoDepth::hint(const cv::Mat& left, const cv::Mat& right, const Bod
         depths.try_push({i, depth_m, depth_m / match.disparity_px * kMatchSpread_px});
     DANCE_ASSERT(has_room);
   }
-  const auto found = fit_depth(samples_, {depths.begin(), depths.end()}, *one_eye);
+  const auto found = fit_depth(samples_, {depths.begin(), depths.end()}, *one_eye,
+                               pair_.f_px() * pair_.baseline_m());
   if (!found) {
     ++counters_.too_few;
     return {};

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "producers/camera/v4l2/v4l2_device.h"
 
@@ -27,7 +28,7 @@ bool is_number(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-std::string rates_of(const std::vector<double>& rates) {
+std::string rates_of(const std::set<double>& rates) {
   std::string text;
   for (const double hz : rates) {
     char number[32];
@@ -66,21 +67,29 @@ std::string camera_table(std::span<const CameraEntry> cameras) {
     table += camera.path + "  " + camera.name + "  (" + camera.bus_info + ")\n";
     // One line a size, in the order in which the camera lists its encodings.
     std::vector<std::string> order;
-    std::map<std::string, std::vector<double>> rates;
-    std::map<std::string, bool> is_good;
+    std::map<std::string, std::set<double>> rates;
+    std::vector<std::string> unread;
     for (const VideoMode& mode : camera.modes) {
-      const std::string what = text_of_fourcc(mode.fourcc) + " " + std::to_string(mode.width_px) +
-                               "x" + std::to_string(mode.height_px);
+      const std::string encoding = text_of_fourcc(mode.fourcc);
+      if (!is_readable(mode.fourcc)) {
+        if (std::find(unread.begin(), unread.end(), encoding) == unread.end())
+          unread.push_back(encoding);
+        continue;
+      }
+      const std::string what =
+          encoding + " " + std::to_string(mode.width_px) + "x" + std::to_string(mode.height_px);
       if (rates[what].empty()) order.push_back(what);
-      rates[what].push_back(mode.hz());
-      is_good[what] = is_readable(mode.fourcc);
+      rates[what].insert(mode.hz());
     }
     for (const std::string& what : order) {
       char line[64];
       std::snprintf(line, sizeof line, "  %-16s ", what.c_str());
-      std::sort(rates[what].begin(), rates[what].end());
-      table += line + rates_of(rates[what]);
-      table += is_good[what] ? "\n" : "  (cannot be read)\n";
+      table += line + rates_of(rates[what]) + "\n";
+    }
+    if (!unread.empty()) {
+      table += "  not read:";
+      for (const std::string& encoding : unread) table += " " + encoding;
+      table += "\n";
     }
     const auto chosen = choose_mode(camera.modes, {});
     table += "  taken unless asked otherwise: " +

@@ -103,7 +103,8 @@ std::string text_of_fourcc(std::uint32_t fourcc) {
     text += c >= ' ' && c <= '~' ? c : '?';
   }
   while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
+  // The highest bit means the other order of bytes.
+  return (fourcc >> 31) != 0 ? text + "-BE" : text;
 }
 
 bool is_readable(std::uint32_t fourcc) { return rank_of(fourcc) >= 0; }

@@ -32,14 +32,18 @@ TEST(CameraList, TheTableSaysWhatACameraOffersAndWhatIsTaken) {
        {{kListedYuyv, 640, 480, 1, 30},
         {kListedYuyv, 640, 480, 1, 15},
         {V4L2_PIX_FMT_MJPEG, 1280, 720, 1001, 30000},
-        {v4l2_fourcc('H', '2', '6', '4'), 1920, 1080, 0, 0}},
+        {v4l2_fourcc('H', '2', '6', '4'), 1920, 1080, 1, 30},
+        {v4l2_fourcc('H', '2', '6', '4'), 1280, 720, 1, 30},
+        {V4L2_PIX_FMT_Y16_BE, 1280, 720, 1, 30},
+        {V4L2_PIX_FMT_NV12, 640, 480, 0, 0}},
        ""},
       {"/dev/video2", "", "", {}, "/dev/video2: no permission; be in the group video"}};
   EXPECT_EQ(camera_table(cameras),
             "/dev/video0  HD Webcam  (usb-0000:00:14.0-1)\n"
             "  YUYV 640x480     15 30 Hz\n"
             "  MJPG 1280x720    29.97 Hz\n"
-            "  H264 1920x1080   ? Hz  (cannot be read)\n"
+            "  NV12 640x480     ? Hz\n"
+            "  not read: H264 Y16-BE\n"
             "  taken unless asked otherwise: 1280x720 MJPG at 29.97 Hz\n"
             "/dev/video2: no permission; be in the group video\n");
 }

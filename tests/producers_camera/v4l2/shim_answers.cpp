@@ -139,12 +139,15 @@ int ShimDevice::answer_stream(int fd, unsigned long request, void* argument) {
       memory_fd_ = ::memfd_create("dance_video_shim", MFD_CLOEXEC);
       const std::size_t size = buffer_bytes_ * wanted.count;
       if (memory_fd_ < 0 || ::ftruncate(memory_fd_, static_cast<off_t>(size)) != 0) std::abort();
-      // Not by mmap(), which is ours.
+      // Not by mmap(), which is ours. A system call takes all of it as long.
       const long memory =
-          ::syscall(SYS_mmap, nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, memory_fd_, 0);
+          ::syscall(SYS_mmap, 0L, static_cast<long>(size), long{PROT_READ | PROT_WRITE},
+                    long{MAP_SHARED}, static_cast<long>(memory_fd_), 0L);
       if (memory == -1) std::abort();
       memory_ = reinterpret_cast<std::uint8_t*>(memory);
       buffers_.assign(wanted.count, {});
+      empty_.reserve(wanted.count);
+      full_.reserve(wanted.count);
       owner_ = fd;
       return 0;
     }
@@ -176,7 +179,8 @@ int ShimDevice::answer_stream(int fd, unsigned long request, void* argument) {
       if (::read(fd, &byte, 1) != 1) std::abort();
       auto& out = *static_cast<v4l2_buffer*>(argument);
       out.index = full_.front();
-      full_.pop_front();
+      full_.erase(full_.begin());
+      ++fetched_;
       Buffer& buffer = buffers_[out.index];
       buffer.is_queued = false;
       out.bytesused = buffer.used;

@@ -27,7 +27,7 @@ std::int64_t clock_us(clockid_t clock) {
   return std::int64_t{t.tv_sec} * 1'000'000 + t.tv_nsec / 1'000;
 }
 
-void real_close(int fd) { ::syscall(SYS_close, fd); }
+void real_close(int fd) { ::syscall(SYS_close, static_cast<long>(fd)); }
 
 }  // namespace
 
@@ -53,21 +53,24 @@ ShimDevice::ShimDevice() {
 
 void ShimDevice::run_by_itself() {
   const std::int64_t period_us = 1'000'000 / words_.hz;
-  int shown = 0;
+  bool was_unplugged = false;
   bool is_first = true;
   for (std::int64_t due_us = clock_us(CLOCK_MONOTONIC);; due_us += period_us) {
     const timespec due{due_us / 1'000'000, (due_us % 1'000'000) * 1'000};
     ::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
     bool is_on = false;
+    int fetched = 0;
     {
       const std::lock_guard guard(lock_);
       is_on = is_streaming_;
+      fetched = fetched_;
     }
     if (!is_on) continue;
     if (is_first) sleep_ms(words_.slow_start_ms);
     is_first = false;
     tick(1);
-    if (words_.unplug_after > 0 && ++shown == words_.unplug_after) {
+    if (words_.unplug_after > 0 && fetched >= words_.unplug_after && !was_unplugged) {
+      was_unplugged = true;
       unplug();
       sleep_ms(words_.replug_ms);
       if (words_.again >= 0) words_.device = words_.again;
@@ -108,7 +111,7 @@ void ShimDevice::tick_once() {
   const std::uint32_t sequence = sequence_++;
   if (words_.gaps.contains(sequence) || empty_.empty()) return;
   const std::uint32_t index = empty_.front();
-  empty_.pop_front();
+  empty_.erase(empty_.begin());
   fill(index, sequence);
   full_.push_back(index);
   const char byte = 0;
@@ -152,7 +155,7 @@ void ShimDevice::stop_stream() {
   char byte = 0;
   while (!full_.empty()) {
     if (owner_ >= 0 && ::read(owner_, &byte, 1) != 1) break;
-    full_.pop_front();
+    full_.erase(full_.begin());
   }
   full_.clear();
   for (Buffer& buffer : buffers_) buffer.is_queued = false;

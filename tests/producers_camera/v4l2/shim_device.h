@@ -8,7 +8,6 @@
 // Source:       Video for Linux API, kernel documentation.
 #pragma once
 
-#include <deque>
 #include <map>
 #include <mutex>
 #include <string>
@@ -77,11 +76,12 @@ class ShimDevice : public VideoShim {
   std::uint8_t* memory_ = nullptr;
   std::size_t buffer_bytes_ = 0;
   std::vector<Buffer> buffers_;
-  std::deque<std::uint32_t> empty_;
-  std::deque<std::uint32_t> full_;
+  std::vector<std::uint32_t> empty_;  // in turn; their memory stays
+  std::vector<std::uint32_t> full_;
   bool is_streaming_ = false;
   std::uint32_t sequence_ = 0;
   std::int64_t newest_stamp_us_ = 0;
+  int fetched_ = 0;  // pictures that the program took out
 };
 
 }  // namespace dance

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include "core/net/mono_clock.h"
+#include "tests/allocation_guard.h"
 #include "tests/producers_camera/v4l2/shim_fixture.h"
 
 namespace dance {
@@ -132,6 +135,28 @@ TEST_F(CameraTest, PicturesTakeTurnsInTheSameMemory) {
     ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
     if (i == 0) memory = frame.image.data;
     EXPECT_EQ(frame.image.data, memory);
+  }
+}
+
+TEST_F(CameraTest, APictureAllocatesNothing) {
+  cv::setNumThreads(1);
+  for (const bool is_planar : {false, true}) {
+    shim_->set_up(is_planar ? "modes=NV12:64x48@30" : "modes=YUYV:64x48@30 gap=12 error=14");
+    const cv::Mat seen = drawn_grey(64, 48, 100);
+    add(is_planar ? nv12_of(seen) : yuyv_of(seen));
+    const auto camera = opened();
+    ASSERT_NE(camera, nullptr);
+    Frame frame;
+    for (int i = 0; i < 10; ++i) {
+      shim_->tick(1);
+      ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+    }
+    const AllocationGuard guard;
+    for (int i = 0; i < 50; ++i) {
+      shim_->tick(1 + i % 5);
+      camera->next(Duration(), frame);
+    }
+    EXPECT_EQ(guard.allocations(), 0u) << (is_planar ? "NV12" : "YUYV");
   }
 }
 

@@ -15,7 +15,7 @@
 //   priority=1                             it has the control by which exposure may slow down the rate
 //   gap=3,4 error=5 truncate=6             by sequence: pictures that never come, are marked damaged, or are cut in half
 //   file=… hz=30 slow_start_ms=…           for a program: the pictures, one behind the other, and their pace
-//   unplug=100 replug_ms=500 again=43      for a program: unplugged after so many, back after so long under that number
+//   unplug=100 replug_ms=500 again=43      for a program: unplugged when it fetched so many, back after so long under that number
 //
 // Ownership: one per process; it copies what it is given.
 // Threads:   any; one lock.
