@@ -44,6 +44,8 @@ constexpr std::array kCommands{
     Command{"spy", "lcm-spy with our types"},
     Command{"doctor", "checks this machine, and names what mends it"},
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
+    Command{"capture solve eval",
+            "the camera's solver on recorded dances: errors, feet, bones, lag"},
     Command{"music eval", "the beat tracker on songs whose beats are known"},
     Command{"capture eval", "what the camera's eye sees in pictures and videos, frame by frame"},
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
