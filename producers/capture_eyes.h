@@ -26,14 +26,16 @@ struct EyesFrame {
 class CaptureEyes {
  public:
   static Result<std::unique_ptr<CaptureEyes>> open(const CaptureOptions& options);
-  // For a calibration to come: two eyes where --right or --side-by-side says so, whatever a file says.
+  // For a calibration to come: as the source alone says.
   static Result<std::unique_ptr<CaptureEyes>> open_uncalibrated(const CaptureOptions& options);
   virtual ~CaptureEyes() = default;
 
   virtual FrameState next(Duration patience, EyesFrame& out) = 0;
-  virtual const FrameCounters& counters() const = 0;
+  virtual FrameCounters counters() const = 0;
   virtual const std::string& name() const = 0;
   virtual int eyes() const = 0;
+  // "" as long as all is well, else one line with the cure.
+  virtual std::string trouble() const { return {}; }
 
   // Of one eye.
   const FrameFormat& format() const { return format_; }

@@ -156,12 +156,13 @@ void CaptureProgram::say_trouble(MonoTime now) {
   };
   if (recording_) say_once(has_said_recording_, recording_->trouble());
   if (preview_) say_once(has_said_preview_, preview_->trouble());
+  say_once(has_said_eyes_, eyes_->trouble());
   if (chain_->stereo()) say_once(has_said_stereo_, chain_->stereo()->trouble());
 }
 
 void CaptureProgram::report() const {
   const CaptureStats& stats = chain_->stats();
-  const FrameCounters& counters = eyes_->counters();
+  const FrameCounters counters = eyes_->counters();
   const double seconds = (mono_now() - begin_).as_seconds();
   const double hz = seconds > 0.0 ? static_cast<double>(stats.pictures) / seconds : 0.0;
   const auto ms = [](const Histogram& h, double fraction) {

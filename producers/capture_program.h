@@ -52,6 +52,7 @@ class CaptureProgram {
   bool has_said_silence_ = false;
   bool has_said_recording_ = false;
   bool has_said_preview_ = false;
+  bool has_said_eyes_ = false;
   bool has_said_stereo_ = false;
 };
 
