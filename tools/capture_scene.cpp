@@ -203,8 +203,8 @@ BodyLandmarks Network::see(const std::array<Vector3d, kLandmarkCount>& p_C_m, co
                 static_cast<float>(side), 0.0f};
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const double worse = is_hidden_[i] ? errors_.hidden_image_sd : 1.0;
-    const Eigen::Vector2d pixel =
-        camera.project(p_C_m[i]) + errors_.image_sd * worse * side * image_[i].value.head<2>();
+    const Eigen::Vector2d pixel = camera.project(p_C_m[i]) + Eigen::Vector2d(0.5, 0.5) +
+                                  errors_.image_sd * worse * side * image_[i].value.head<2>();
     out.image_px[i] =
         Eigen::Vector3f(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), 0.0f);
     out.visibility[i] = is_hidden_[i] ? 0.1f : 0.97f;

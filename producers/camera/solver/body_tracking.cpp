@@ -21,6 +21,8 @@ constexpr int kFirstRounds = 10, kRounds = 4, kTrustingRounds = 2;
 // A fit that costs so much more than usual may be caught in a wrong posture.
 constexpr double kDear = 4.0, kLeastDear = 150.0;
 constexpr double kUsualOver = 30.0;
+// One that is always dear is doubted so often.
+constexpr double kDoubt_s = 1.0;
 
 }  // namespace
 
@@ -64,6 +66,7 @@ bool BodyTracking::fit_anew(const Observation& seen, BodyState& state) {
   problem_.expected.state = state;
   problem_.expected.precision.setZero();
   problem_.expected.ease = precision_of_ease(sight_of(seen));
+  problem_.has_floor = false;
   return fit_.solve(problem_, kFirstRounds, kFirstRounds - 4, state);
 }
 
@@ -118,11 +121,15 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds)
   BodyState state = expected.state;
   bool is_fitted = fit_.solve(problem_, kRounds, kTrustingRounds, state);
   const double cost = fit_.cost();
-  if (!is_fitted || (cost > kLeastDear && cost > kDear * usual_cost_)) {
+  since_doubt_s_ += seconds;
+  if (!is_fitted ||
+      (cost > kLeastDear && (cost > kDear * usual_cost_ || since_doubt_s_ > kDoubt_s))) {
+    since_doubt_s_ = 0.0;
     BodyState anew;
     if (fit_anew(seen, anew) && (!is_fitted || fit_.cost() < 0.5 * cost)) {
-      // The contacts of a posture that was wrong are wrong.
+      // The contacts of a posture that was wrong are wrong, and so may be the floor that they were on.
       contacts_.clear();
+      if (cost < kDear * usual_cost_) placement_.forget_feet();
       Pose carried, found;
       write_pose(expected.state, carried);
       write_pose(anew, found);
@@ -133,6 +140,7 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds)
     }
     if (!is_fitted) return false;
     problem_.expected = expected;
+    problem_.has_floor = placement_.is_known();
     if (!fit_.solve(problem_, 1, 0, state)) return false;
   }
   usual_cost_ +=

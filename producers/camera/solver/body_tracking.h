@@ -58,6 +58,7 @@ class BodyTracking {
   bool is_tracking_ = false;
   MonoTime seen_at_, time_;
   double usual_cost_ = 0.0;
+  double since_doubt_s_ = 0.0;
 };
 
 }  // namespace dance

@@ -19,20 +19,26 @@ constexpr double kFoot = 0.015;
 constexpr double kSame = 8.0;
 constexpr double kMostWeight = 3600.0 / kSame;
 constexpr double kGuess_m = 0.15;
+constexpr int kMostRefused = 60;
 constexpr double kMostLean = 0.3, kMostTilt = 1.0, kLeastHeight_m = 0.1, kMostHeight_m = 5.0;
 
 }  // namespace
 
 void CameraPlacement::reset() {
-  feet_information_.setZero();
-  feet_sum_.setZero();
-  feet_weight_ = 0.0;
+  forget_feet();
   up_sum_C_.setZero();
-  feet_ = ups_ = 0;
+  ups_ = 0;
   guessed_h_m_ = 1.2;
   plane_ = {1.2, 0.0, 0.0};
   origin_C_m_ = {0.0, 1.2, 3.0};
   place();
+}
+
+void CameraPlacement::forget_feet() {
+  feet_information_.setZero();
+  feet_sum_.setZero();
+  feet_weight_ = 0.0;
+  feet_ = refused_ = 0;
 }
 
 void CameraPlacement::see_upright(const Vector3d& up_C) {
@@ -49,7 +55,12 @@ void CameraPlacement::see_foot(const Vector3d& p) {
   const Vector3d row(1.0 / p.z(), p.x() / p.z(), 1.0);
   const double seen = p.y() / p.z();
   // Feet on a table or a glitch: not where the floor can be.
-  if (is_known() && std::abs(row.dot(plane_) - seen) > 6.0 * kFoot) return;
+  if (is_known() && std::abs(row.dot(plane_) - seen) > 6.0 * kFoot) {
+    // Feet that stand elsewhere for so long: it is the floor that was wrong, or the camera was moved.
+    if (++refused_ > kMostRefused) forget_feet();
+    return;
+  }
+  refused_ = 0;
   const double keep = feet_weight_ < kMostWeight ? 1.0 : 1.0 - 1.0 / (kSame * kMostWeight);
   feet_information_ = keep * feet_information_ + row * row.transpose() / kSame;
   feet_sum_ = keep * feet_sum_ + row * seen / kSame;

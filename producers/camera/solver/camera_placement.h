@@ -23,6 +23,8 @@ class CameraPlacement {
   void see_upright(const Eigen::Vector3d& up_C);
   // The sole of a foot that stands, where the picture alone puts it.
   void see_foot(const Eigen::Vector3d& p_C_m);
+  // The floor was wrong.
+  void forget_feet();
   // Before any foot is seen to stand: these are on the floor, more or less.
   void guess(const Eigen::Vector3d& lowest_C_m);
   // The place that is W's origin once it is put onto the floor.
@@ -56,7 +58,7 @@ class CameraPlacement {
   Eigen::Vector3d feet_sum_;
   double feet_weight_ = 0.0;
   Eigen::Vector3d up_sum_C_;
-  int feet_ = 0, ups_ = 0;
+  int feet_ = 0, ups_ = 0, refused_ = 0;
   double guessed_h_m_ = 1.2;
   Eigen::Vector3d plane_;  // h, a, b
   Eigen::Vector3d origin_C_m_;

@@ -84,7 +84,8 @@ Observation observe(const BodyLandmarks& landmarks, const Pinhole& camera) {
     }
     if (!image.head<2>().allFinite() || image.head<2>().cwiseAbs().maxCoeff() > kFurthestPoint_px)
       continue;
-    const Vector2d pixel = image.head<2>().cast<double>();
+    // A Pinhole counts from the middle of the first pixel, landmarks from its corner.
+    const Vector2d pixel = image.head<2>().cast<double>().array() - 0.5;
     seen.ray[i] = undistorted(camera, pixel);
     if (pixel.x() > -margin_x && pixel.x() < camera.width_px + margin_x && pixel.y() > -margin_y &&
         pixel.y() < camera.height_px + margin_y)

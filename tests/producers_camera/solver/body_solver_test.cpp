@@ -46,7 +46,7 @@ TEST(BodySolver, FindsPosturesThatAreSeenWithoutErrors) {
     write_pose(state, pose);
     SolverOptions options;
     options.holds_feet = false;  // they are nowhere near a floor
-    EXPECT_LT(error_before_camera_m(still_scene(pose, 4.0, no_errors()), options, 110), 0.03)
+    EXPECT_LT(error_before_camera_m(still_scene(pose, 4.0, no_errors()), options, 110), 0.05)
         << round;
   }
 }

@@ -101,8 +101,9 @@ TEST(Observation, RaysAreFreedFromTheLens) {
       Eigen::Vector2d(2.0 * 0.001 * ray.x() * ray.y() - 0.0005 * (r2 + 2.0 * ray.x() * ray.x()),
                       0.001 * (r2 + 2.0 * ray.y() * ray.y()) - 2.0 * 0.0005 * ray.x() * ray.y());
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    landmarks.image_px[i] = {static_cast<float>(camera.fx_px * bent.x() + camera.cx_px),
-                             static_cast<float>(camera.fy_px * bent.y() + camera.cy_px), 0.0f};
+    landmarks.image_px[i] = {static_cast<float>(camera.fx_px * bent.x() + camera.cx_px + 0.5),
+                             static_cast<float>(camera.fy_px * bent.y() + camera.cy_px + 0.5),
+                             0.0f};
     landmarks.world_m[i].setZero();
     landmarks.visibility[i] = 1.0f;
   }
