@@ -5,6 +5,9 @@
 namespace dance {
 namespace {
 
+// Away for longer than this: whoever is seen next may be somebody else, and is measured anew.
+constexpr Duration kSomebodyElse = Duration::s(10);
+
 // As DancerFeed: a producer that is started again leaps far above the numbers that it used before.
 std::uint32_t sequence_to_begin_with() {
   return static_cast<std::uint32_t>(mono_now().since_zero_us() / 100);
@@ -28,7 +31,11 @@ void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   body_ = &estimator_->estimate(frame);
   // The solver smooths what it makes of them, and smoothing twice would be late twice.
   const BodyLandmarks& seen = estimator_->unfiltered();
-  if (seen.found) ++stats_.seen;
+  if (seen.found) {
+    if (last_seen_.is_set() && frame.capture_time - last_seen_ > kSomebodyElse) solver_->reset();
+    last_seen_ = frame.capture_time;
+    ++stats_.seen;
+  }
   std::optional<DepthHint> depth;
   if (stereo_ && right && seen.found) depth = stereo_->hint(frame.image, *right, seen);
   Pose pose;
@@ -53,9 +60,6 @@ void CaptureChain::say_skeleton(MonoTime now) {
   next_skeleton_ = now + Duration::s(1);
 }
 
-void CaptureChain::start_anew() {
-  estimator_->forget();
-  solver_->reset();
-}
+void CaptureChain::start_anew() { estimator_->forget(); }
 
 }  // namespace dance

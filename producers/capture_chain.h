@@ -36,7 +36,7 @@ class CaptureChain {
 
   // `right` is the other eye's picture of the same moment, or null.
   void see(const Frame& frame, const cv::Mat* right = nullptr);
-  // The camera was away: who is seen next may be somebody else.
+  // The camera was away: the next picture is searched for the dancer.
   void start_anew();
 
   // What the network saw in the last picture.
@@ -59,6 +59,7 @@ class CaptureChain {
   std::uint32_t next_sequence_;
   std::uint32_t said_version_ = 0;
   MonoTime next_skeleton_;
+  MonoTime last_seen_;
 };
 
 }  // namespace dance
