@@ -17,6 +17,7 @@
 #include "core/program/program.h"
 #include "tools/doctor_camera.h"
 #include "tools/doctor_drawing.h"
+#include "tools/doctor_sound.h"
 
 namespace dance {
 
@@ -167,6 +168,7 @@ std::vector<Finding> examine_machine(const std::string& bus_url) {
   findings.push_back(check_drawing());
   findings.push_back(check_camera());
   findings.push_back(check_pose_network());
+  findings.push_back(check_sound());
   findings.push_back(check_java());
   return findings;
 }
