@@ -13,7 +13,6 @@ namespace {
 using Grade = Finding::Grade;
 }
 
-
 #ifdef DANCE_HAVE_CAMERA
 Finding check_camera() {
   const auto cameras = list_cameras();

@@ -39,7 +39,7 @@ constexpr Limb kLimbs[] = {{kLeftShoulder, kRightShoulder},
                            {kRightEye, kRightEar}};
 
 constexpr float kFar_px = 20000.0f;  // far outside of any picture, and whole in an int
-constexpr float kSeen = 0.5f;  // visibility from which a point is drawn in full
+constexpr float kSeen = 0.5f;        // visibility from which a point is drawn in full
 
 cv::Scalar colour_of(Landmark from, Landmark to) {
   // Left points have odd numbers from the shoulders on, 1…3 and 7 in the face.
