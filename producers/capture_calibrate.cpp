@@ -1,12 +1,11 @@
 #include "producers/capture_calibrate.h"
 
-#include <opencv2/calib3d.hpp>
-
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
 #include "core/program/talk.h"
 #include "producers/camera/stereo/calibration_file.h"
 #include "producers/camera/stereo/chessboard_calibration.h"
+#include "producers/camera/view/overlay.h"
 #include "producers/camera/view/preview.h"
 #include "producers/capture_eyes.h"
 
@@ -31,8 +30,7 @@ class BoardPreview {
             const std::vector<cv::Point2f>& corners, const std::string& caption) {
     frame.image.copyTo(drawn_.image);
     drawn_.capture_time = frame.capture_time;
-    if (!corners.empty())
-      cv::drawChessboardCorners(drawn_.image, {board.columns, board.rows}, corners, true);
+    draw_board(drawn_.image, board.columns, board.rows, corners);
     preview.show(drawn_, nobody_, caption);
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
@@ -81,6 +82,10 @@ void draw_landmarks(cv::Mat& picture, const BodyLandmarks& body) {
     cv::circle(picture, pixel_of(body.image(landmark)), width + 1, {255, 255, 255}, cv::FILLED,
                cv::LINE_AA);
   }
+}
+
+void draw_board(cv::Mat& picture, int columns, int rows, const std::vector<cv::Point2f>& corners) {
+  if (!corners.empty()) cv::drawChessboardCorners(picture, {columns, rows}, corners, true);
 }
 
 void draw_caption(cv::Mat& picture, std::string_view text) {
