@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tools/doctor_camera.h"
 #include "tools/doctor_checks.h"
 #include "tools/doctor_drawing.h"
 #include "tools/doctor_sound.h"
@@ -41,6 +42,15 @@ TEST(Doctor, TriesToDraw) {
   const Finding drawing = check_drawing();
   EXPECT_FALSE(drawing.what.empty());
   EXPECT_EQ(drawing.cure.empty(), drawing.grade == Grade::kOk);
+}
+
+TEST(Doctor, NamesTheCureOfEveryFaultOfACamera) {
+  const Finding camera = check_camera();
+  EXPECT_FALSE(camera.what.empty());
+  EXPECT_NE(camera.grade, Grade::kProblem) << "a house needs no camera";
+  const Finding network = check_pose_network();
+  EXPECT_FALSE(network.what.empty());
+  EXPECT_EQ(network.cure.empty(), network.grade == Grade::kOk);
 }
 
 TEST(Doctor, TellsWhereSoundGoesAndHowToMendIt) {
