@@ -24,6 +24,16 @@ if(DANCE_SANITIZE)
   target_link_options(dance_settings INTERFACE -fsanitize=${DANCE_SANITIZE})
   target_compile_definitions(dance_settings INTERFACE DANCE_SANITIZED=1)
 endif()
+# g++'s sanitizers are libraries that want to be loaded before any other; clang's are part of the program.
+set(DANCE_PRELOAD_FIRST "")
+if(DANCE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  string(REGEX MATCH "address|thread" sanitizer "${DANCE_SANITIZE}")
+  string(REPLACE "address" "asan" sanitizer "${sanitizer}")
+  string(REPLACE "thread" "tsan" sanitizer "${sanitizer}")
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=lib${sanitizer}.so
+    OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(DANCE_PRELOAD_FIRST "${runtime}:")
+endif()
 if(DANCE_FUZZ)
   target_compile_options(dance_settings INTERFACE -fsanitize=fuzzer-no-link)
   target_link_options(dance_settings INTERFACE -fsanitize=fuzzer-no-link)
@@ -74,14 +84,14 @@ function(dance_program name)
   set_target_properties(dance-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 endfunction()
 
-# dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s]): one GoogleTest program,
-# one CTest entry per TEST. A flow test runs in a network namespace of its own, and alone on the machine, unless it bears the
-# company of tests that are not flow: BESIDE_OTHERS. thread_targets are those in which threads
-# meet, flow_targets those in which programs do: what the thread sanitizer is for.
+# dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]): one
+# GoogleTest program, one CTest entry per TEST, run with that library loaded before all others. A flow test runs in a network
+# namespace of its own, and alone on the machine, unless it bears the company of tests that are not flow: BESIDE_OTHERS.
+# thread_targets are those in which threads meet, flow_targets those in which programs do: what the thread sanitizer is for.
 add_custom_target(thread_targets)
 add_custom_target(flow_targets)
 function(dance_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "BESIDE_OTHERS" "LABEL;TIMEOUT" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "BESIDE_OTHERS" "LABEL;TIMEOUT;PRELOAD" "SOURCES;LIBS")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE dance_settings ${arg_LIBS} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
@@ -103,10 +113,14 @@ function(dance_test name)
       set(serial RESOURCE_LOCK beside_others)
     endif()
   endif()
+  set(preload "")
+  if(arg_PRELOAD)
+    set(preload ENVIRONMENT_MODIFICATION "LD_PRELOAD=set:${DANCE_PRELOAD_FIRST}${arg_PRELOAD}")
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     # The keys that programs make for this machine are not those of whoever runs the tests.
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT}
-      ENVIRONMENT "XDG_CONFIG_HOME=${PROJECT_BINARY_DIR}/test-config" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${serial})
+      ENVIRONMENT "XDG_CONFIG_HOME=${PROJECT_BINARY_DIR}/test-config" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${serial} ${preload})
 endfunction()
 
 # dance_fuzz(NAME SOURCES x_fuzz.cpp LIBS targets … CORPUS dir): with DANCE_FUZZ a libFuzzer program fuzz/NAME; in a build

@@ -103,9 +103,34 @@ void read_route(TomlReader& reader, Session& session) {
   session.routes.push_back(route);
 }
 
+// A file's name is taken from the folder of the session; a device's as it is.
+std::string device_from(const std::filesystem::path& folder, const std::string& device) {
+  const bool is_number = device.find_first_not_of("0123456789") == std::string::npos;
+  return is_number || device.starts_with("/dev/") ? device : (folder / device).string();
+}
+
+void read_camera(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  HostedCamera camera;
+  camera.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  camera.device = device_from(folder, reader.string_or("device", ""));
+  camera.model = reader.string_or("model", "");
+  if (!camera.model.empty() && camera.model != "lite" && camera.model != "full" &&
+      camera.model != "heavy")
+    reader.complain("model", "is lite, full or heavy");
+  if (const auto file = reader.maybe_string("calibration"))
+    camera.calibration = (folder / *file).string();
+  camera.height_m = reader.number_or("height", 0.0, 0.0, 2.5);
+  if (camera.height_m != 0.0 && camera.height_m < 0.8)
+    reader.complain("height", "is the dancer's, in metres, from 0.8 to 2.5");
+  camera.mirror = reader.bool_or("mirror", false);
+  reader.finish();
+  session.cameras.push_back(camera);
+}
+
 void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   HostedProducer producer;
   const std::string kind = reader.required_string("kind");
+  if (kind == "camera") return read_camera(reader, folder, session);
   producer.guest = read_guest(reader, "guest", reader.required_string("guest"));
   producer.rate_hz = reader.number_or("rate", 60.0, 1.0, 1000.0);
   if (kind == "salsa") {
@@ -120,7 +145,7 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Sess
     producer.file = (folder / reader.required_string("file")).string();
     producer.speed = reader.number_or("speed", 1.0, 0.05, 20.0);
   } else {
-    reader.complain("kind", "is salsa or replay");
+    reader.complain("kind", "is camera, salsa or replay");
   }
   reader.finish();
   session.producers.push_back(producer);

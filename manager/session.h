@@ -49,6 +49,16 @@ struct HostedProducer {
   double speed = 1.0;
 };
 
+// A dancer whom a camera sees: `dance capture`, started beside the house.
+struct HostedCamera {
+  GuestId guest;
+  std::string device;       // as dance capture takes it; "" = the first camera
+  std::string model;        // lite, full or heavy; "" = as dance capture chooses
+  std::string calibration;  // a file; "" = none
+  double height_m = 0.0;    // of the dancer; 0 = not told
+  bool mirror = false;
+};
+
 // A consumer inside the manager's process.
 struct HostedConsumer {
   std::string to = "text";  // text, csv or bvh
@@ -86,6 +96,7 @@ struct Session {
   bool view = true;                    // open the viewer (dance join)
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;
+  std::vector<HostedCamera> cameras;
   std::vector<HostedConsumer> consumers;
   std::optional<HostedMusic> music;
   std::vector<ChannelRule> channels;  // that ride along, or are let in

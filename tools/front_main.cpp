@@ -27,6 +27,7 @@ constexpr std::array kCommands{
     Command{"view", "the viewer"},
     Command{"replay", "plays BVH files and LCM logs as dancers"},
     Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
+    Command{"capture", "a dancer before a camera, or in a video"},
     Command{"music", "plays music, and says the beat that is heard"},
     Command{"server", "the tunnel server"},
     Command{"status", "rooms and guests of a server on this machine, in a terminal"},
@@ -43,7 +44,10 @@ constexpr std::array kCommands{
     Command{"spy", "lcm-spy with our types"},
     Command{"doctor", "checks this machine, and names what mends it"},
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
+    Command{"capture solve eval",
+            "the camera's solver on recorded dances: errors, feet, bones, lag"},
     Command{"music eval", "the beat tracker on songs whose beats are known"},
+    Command{"capture eval", "what the camera's eye sees in pictures and videos, frame by frame"},
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
     Command{"stylize eval", "what styles do to recorded dances: gain, mean pose, bones, feet"},
@@ -51,6 +55,7 @@ constexpr std::array kCommands{
             "remote dancers on the beat that the listener hears, on recorded dances"},
     Command{"predict eval", "prediction on recorded dances: errors beside plain guesses, cost"},
     Command{"predict train", "trains a model of prediction"},
+    Command{"capture stereo eval", "depth from two eyes, on drawn dancers whose distance is known"},
     Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
     Command{"predict stream",
             "dances over a line with delay, jitter and loss: how late, how smooth"},
@@ -82,7 +87,7 @@ std::string program_of(std::string_view name) {
 const Command* find_command(int argc, char** argv, int& words) {
   std::string name;
   const Command* found = nullptr;
-  for (int i = 1; i < argc && i <= 2; ++i) {
+  for (int i = 1; i < argc && i <= 3; ++i) {
     name += (i > 1 ? " " : "") + std::string(argv[i]);
     for (const Command& command : kCommands) {
       if (command.name != name) continue;

@@ -20,6 +20,7 @@
 #include "manager/session.h"
 #include "producers/capture_sink.h"
 #include "producers/dancer_feed.h"
+#include "tools/house_camera.h"
 #include "tools/house_music.h"
 #include "tunnel/link.h"
 #include "tunnel/link_bus.h"
@@ -63,6 +64,7 @@ class House : public CaptureSink {
   std::vector<std::unique_ptr<OutputFile>> outputs_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
   std::unique_ptr<HouseMusic> music_;
+  std::vector<std::unique_ptr<HouseCamera>> cameras_;
   MonoTime last_refusal_;
 };
 

@@ -1,5 +1,6 @@
 // dance join: all of a house in one: manager, link and hosted producers in this process, the viewer beside it.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -19,6 +20,8 @@ constexpr const char* kExamples = R"(Examples:
                                                      the room, the others held as their lines need
   dance join sessions/alice.toml --want default=4 --want bob=1
                                                      bob in full, of the others each fourth pose
+  dance join dance.example.org --guest alice --camera auto
+                                                     alice dances before the first camera
   dance join sessions/alice.toml --no-view           without a window
 )";
 
@@ -28,6 +31,7 @@ struct JoinOptions {
   std::string room;
   std::vector<std::string> want;
   std::string bus;
+  std::string camera;
   bool no_view = false;
   bool json = false;
 };
@@ -61,6 +65,20 @@ Result<Session> session_of(const JoinOptions& options) {
     const auto interest = parse_interest(options.want);
     if (!interest) return fail("--want " + interest.error().what);
     session.interest = *interest;
+  }
+  if (!options.camera.empty()) {
+    if (session.guests.empty()) return fail("--camera: who dances? name the guest with --guest");
+    HostedCamera camera;
+    camera.guest = session.guests.front();
+    if (options.camera != "auto") camera.device = options.camera;
+    // Where the session has one for this guest, another device; a dancer that stands in for the camera makes room.
+    std::erase_if(session.producers, [&](const auto& p) { return p.guest == camera.guest; });
+    const auto has = std::find_if(session.cameras.begin(), session.cameras.end(),
+                                  [&](const auto& c) { return c.guest == camera.guest; });
+    if (has == session.cameras.end())
+      session.cameras.push_back(camera);
+    else
+      has->device = camera.device;
   }
   if (!options.bus.empty()) session.bus = options.bus;
   if (options.no_view) session.view = false;
@@ -112,6 +130,9 @@ int main(int argc, char** argv) {
       "how many of a guest's poses come here, instead of the session's want: NAME=1 every one, "
       "NAME=N at most every N-th, NAME=0 none; default=N for all who are not named; may be "
       "repeated");
+  line.add("--camera", options.camera,
+           "a camera sees the first guest: auto, /dev/videoN, a number or a video; instead of what "
+           "the session says");
   line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");

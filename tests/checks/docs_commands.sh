@@ -51,8 +51,11 @@ while IFS= read -r entry <&3; do
   case $program in
     test | setup) continue ;;  # the script ./dance does these itself
   esac
-  # `dance bench path` is dance-bench-path.
-  if [ $# -gt 0 ] && [ -x "$bin/dance-$program-$1" ]; then
+  # `dance bench path` is dance-bench-path, `dance capture solve eval` dance-capture-solve-eval.
+  if [ $# -gt 1 ] && [ -x "$bin/dance-$program-$1-$2" ]; then
+    program=$program-$1-$2
+    shift 2
+  elif [ $# -gt 0 ] && [ -x "$bin/dance-$program-$1" ]; then
     program=$program-$1
     shift
   fi

@@ -34,6 +34,28 @@ TEST(Session, ReadsAWholeHouse) {
   EXPECT_EQ(session->consumers[0].file, "/home/alice/out.csv");
 }
 
+TEST(Session, NamesTheCameraOfADancer) {
+  const auto session = parse_session(
+      std::string(kHouse) +
+          "[[produce]]\nkind = \"camera\"\nguest = \"alice\"\ndevice = \"/dev/video2\"\nmodel = "
+          "\"lite\"\n"
+          "calibration = \"left.yml\"\nheight = 1.68\nmirror = true\n"
+          "[[produce]]\nkind = \"camera\"\nguest = \"bob\"\ndevice = \"takes/bob.mp4\"\n"
+          "[[produce]]\nkind = \"camera\"\nguest = \"cara\"\ndevice = \"1\"\n",
+      "/home/alice/s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  EXPECT_TRUE(session->producers.empty());
+  ASSERT_EQ(session->cameras.size(), 3u);
+  EXPECT_EQ(session->cameras[0].device, "/dev/video2");
+  EXPECT_EQ(session->cameras[0].model, "lite");
+  EXPECT_EQ(session->cameras[0].calibration, "/home/alice/left.yml");
+  EXPECT_EQ(session->cameras[0].height_m, 1.68);
+  EXPECT_TRUE(session->cameras[0].mirror);
+  EXPECT_EQ(session->cameras[1].device, "/home/alice/takes/bob.mp4")
+      << "a file of the session's folder";
+  EXPECT_EQ(session->cameras[2].device, "1") << "the camera's number";
+}
+
 TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {
   const auto usual = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(usual);
@@ -180,6 +202,10 @@ TEST(Session, RefusesWhatCannotBe) {
                 "nan\n",
         house + "[[produce]]\nkind = \"camel\"\nguest = \"a\"\n",
         house + "[[produce]]\nkind = \"salsa\"\nguest = \"a\"\nrole = \"judge\"\n",
+        house + "[[produce]]\nkind = \"camera\"\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nmodel = \"best\"\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nheight = 0.3\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nrole = \"lead\"\n",
         house + "[[listen]]\nto = \"fax\"\n",
         house + "route = 3\n",
         house + "room = \"No Spaces\"\n",

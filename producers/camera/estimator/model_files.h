@@ -1,0 +1,26 @@
+// Where the trained networks lie on this machine, and reading them.
+//
+// Ownership: what is returned owns its numbers.
+// Threads:   none inside; reads files on the caller's thread.
+// Failure:   an Error names the file that is missing or damaged, and the cure.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+#include "producers/camera/estimator/pose_graph.h"
+
+namespace dance {
+
+enum class PoseModel { kLite, kFull, kHeavy };
+std::string_view name_of(PoseModel model);
+
+// The folder that is wished; "" where none is: then the environment's DANCE_POSE_MODELS, and without it models/pose of the source tree that
+// this program was built from.
+std::string pose_models_folder(const std::string& wished);
+
+Result<PoseGraph> read_detector(const std::string& folder);
+Result<PoseGraph> read_landmark_model(const std::string& folder, PoseModel model);
+
+}  // namespace dance

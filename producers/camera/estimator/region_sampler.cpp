@@ -1,0 +1,84 @@
+#include "producers/camera/estimator/region_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dance {
+namespace {
+
+// The network sees a little more than the circle about the hips that the body fits in.
+constexpr float kMargin = 1.25f;
+
+struct Reading {
+  const std::uint8_t* pixels;
+  std::size_t row_bytes;
+  float last_x, last_y;
+  float gain, least;
+
+  bool is_beyond(float x, float y) const {
+    return x < -0.5f || y < -0.5f || x > last_x + 0.5f || y > last_y + 0.5f;
+  }
+  // The next pixel and the next row stand so many bytes behind.
+  void between(float x, float y, std::size_t right, std::size_t down, float* to) const {
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const float fx = x - static_cast<float>(column), fy = y - static_cast<float>(row);
+    const std::uint8_t* upper =
+        pixels + static_cast<std::size_t>(row) * row_bytes + 3 * static_cast<std::size_t>(column);
+    const std::uint8_t* lower = upper + down;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto ul = static_cast<float>(upper[c]), ll = static_cast<float>(lower[c]);
+      const float u = ul + fx * (static_cast<float>(upper[c + right]) - ul);
+      const float l = ll + fx * (static_cast<float>(lower[c + right]) - ll);
+      to[2 - c] = least + gain * (u + fy * (l - u));
+    }
+  }
+  void at_border(float wished_x, float wished_y, float* to) const {
+    const float x = std::clamp(wished_x, 0.0f, last_x), y = std::clamp(wished_y, 0.0f, last_y);
+    between(x, y, x < last_x ? 3 : 0, y < last_y ? row_bytes : 0, to);
+  }
+};
+
+}  // namespace
+
+void sample_region(const cv::Mat& picture, const BodyRegion& region, int size_px, Beyond beyond,
+                   float least, float most, std::span<float> out) {
+  const float step = region.side_px / static_cast<float>(size_px);
+  const float along_x = std::cos(region.turn_rad) * step;
+  const float along_y = std::sin(region.turn_rad) * step;
+  const Reading reading{picture.data,
+                        picture.step[0],
+                        static_cast<float>(picture.cols - 1),
+                        static_cast<float>(picture.rows - 1),
+                        (most - least) / 255.0f,
+                        least};
+  const float first = 0.5f - 0.5f * static_cast<float>(size_px);
+  float* to = out.data();
+  for (int row = 0; row < size_px; ++row) {
+    const float v = static_cast<float>(row) + first;
+    // From here on (0, 0) is the middle of the left upper pixel.
+    const float start_x = region.centre_x_px - 0.5f + first * along_x - v * along_y;
+    const float start_y = region.centre_y_px - 0.5f + first * along_y + v * along_x;
+    for (int column = 0; column < size_px; ++column, to += 3) {
+      const float x = start_x + static_cast<float>(column) * along_x;
+      const float y = start_y + static_cast<float>(column) * along_y;
+      if (x >= 0.0f && y >= 0.0f && x < reading.last_x && y < reading.last_y)
+        reading.between(x, y, 3, reading.row_bytes, to);
+      else if (beyond == Beyond::kBlack && reading.is_beyond(x, y))
+        to[0] = to[1] = to[2] = least;
+      else
+        reading.at_border(x, y, to);
+    }
+  }
+}
+
+BodyRegion region_of(const Eigen::Vector2f& middle_px, const Eigen::Vector2f& edge_px) {
+  constexpr float kPi = std::numbers::pi_v<float>;
+  const Eigen::Vector2f up = edge_px - middle_px;
+  // 0 where the body stands upright.
+  float turn = 0.5f * kPi - std::atan2(-up.y(), up.x());
+  turn -= 2.0f * kPi * std::floor((turn + kPi) / (2.0f * kPi));
+  return {middle_px.x(), middle_px.y(), 2.0f * kMargin * up.norm(), turn};
+}
+
+}  // namespace dance

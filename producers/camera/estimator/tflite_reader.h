@@ -1,0 +1,73 @@
+// What stands behind parse_tflite(): walks the tables of one file and builds the graph, operation by operation.
+//
+// Units/frames: as producers/camera/estimator/pose_graph.h says.
+// Ownership:    looks at the file's bytes; the graph that it returns owns its numbers.
+// Threads:      none inside.
+// Failure:      an Error says which operation is wrong, and how.
+#pragma once
+
+#include <optional>
+
+#include "core/base/result.h"
+#include "producers/camera/estimator/flat_bytes.h"
+#include "producers/camera/estimator/pose_graph.h"
+#include "producers/camera/estimator/tflite_tensors.h"
+
+namespace dance {
+
+// The schema's numbers of the operations.
+enum class TfliteBuiltin {
+  kAdd = 0,
+  kConcatenation = 2,
+  kConv2d = 3,
+  kDepthwiseConv2d = 4,
+  kDepthToSpace = 5,
+  kDequantize = 6,
+  kLogistic = 14,
+  kMaxPool2d = 17,
+  kReshape = 22,
+  kResizeBilinear = 23,
+  kPad = 34,
+  kDensify = 124,
+};
+class TfliteReader {
+ public:
+  explicit TfliteReader(std::span<const std::uint8_t> bytes) : file_(bytes) {}
+  Result<PoseGraph> read();
+
+ private:
+  struct Operator {
+    FlatTable options;
+    std::vector<int> inputs;
+    int output = -1;
+  };
+  using Done = Result<void>;
+
+  Done read_operators(const FlatTable& model, const FlatTable& subgraph);
+  Done read_operator(const FlatTable& table, const FlatVector& codes, const FlatTable& model);
+  Done take(TfliteBuiltin builtin, Operator& op);
+  Done take_same(const Operator& op);
+  Done take_convolution(Operator& op, bool is_depthwise);
+  Done take_pool(const Operator& op);
+  Done take_add(const Operator& op);
+  Done take_pad(const Operator& op);
+  Done take_resize(const Operator& op);
+  Done take_concatenation(const Operator& op);
+  Done take_depth_to_space(const Operator& op);
+  Done take_plain(const Operator& op, GraphOp kind);
+
+  Done set_activation(GraphNode& node, int activation) const;
+  // Where the window of kernel and stride goes over rows or columns: what is added before and after them, and how often it fits.
+  static Done place_window(int size, int kernel, int stride, int padding, int& before, int& after,
+                           int& places);
+  Done load(int tensor, const Shape& shape);
+  Done push(GraphNode node, const Operator& op, std::size_t data_inputs, const Shape& shape);
+  const Shape& shape(int tensor) const { return tensors_->shape(tensor); }
+
+  FlatBytes file_;
+  std::optional<TfliteTensors> tensors_;
+  std::vector<bool> is_computed_;
+  PoseGraph graph_;
+};
+
+}  // namespace dance

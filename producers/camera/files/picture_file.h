@@ -1,0 +1,25 @@
+// What kind of thing a path is, said so that a person can mend it.
+//
+// Ownership: plain values.
+// Threads:   none inside.
+// Failure:   one line with the path, the reason and the cure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace dance {
+
+// That it is there, a file, readable and not empty.
+Result<void> check_file(const std::string& path);
+
+// By its first bytes, not by its name.
+bool is_picture(const std::string& path);
+
+// The files of a folder that are called as pictures are (.jpg .jpeg .png .bmp .webp .tif .tiff .pgm .ppm), by name, numbers in them by
+// value: 2.png comes before 10.png.
+Result<std::vector<std::string>> pictures_in(const std::string& folder);
+
+}  // namespace dance

@@ -1,0 +1,30 @@
+// PicturePool: a few pictures in turn, so that one that is still held is not painted over, and none is allocated anew for each frame.
+//
+// Ownership: shares the pictures that it gave out.
+// Threads:   one owner; who holds a picture may let go of it on any thread.
+// Failure:   none; where all are held one more is allocated.
+#pragma once
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+
+namespace dance {
+
+class PicturePool {
+ public:
+  // One that nobody else holds.
+  cv::Mat& unheld() {
+    for (cv::Mat& picture : pictures_) {
+      if (picture.u == nullptr || __atomic_load_n(&picture.u->refcount, __ATOMIC_ACQUIRE) == 1) {
+        return picture;
+      }
+    }
+    pictures_[0] = cv::Mat();
+    return pictures_[0];
+  }
+
+ private:
+  std::array<cv::Mat, 4> pictures_;
+};
+
+}  // namespace dance

@@ -1,0 +1,69 @@
+// VideoWriter: pictures into a video file beside the capture, and a table of when each was taken: for later evaluation with the poses
+// of the same moments.
+//
+// Units/frames: times in microseconds of this machine's monotonic clock, in a text file of the video's name + ".tsv": number of the
+//               picture in the video, TAB, capture time.
+// Ownership:    owns its thread and files.
+// Threads:      one inside, which encodes; add() never waits for it: what it cannot follow is left out and counted.
+// Failure:      create() names the file and the reason; trouble() later tells what ended it (a full disk).
+#pragma once
+
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/base/latest.h"
+#include "core/base/result.h"
+#include "producers/camera/frame.h"
+
+namespace dance {
+
+// A picture on its way to the file. Copies are deep, as the slots of Latest need them, into buffers that stay.
+struct VideoShot {
+  cv::Mat picture;
+  MonoTime capture_time;
+
+  VideoShot() = default;
+  VideoShot(const VideoShot& other) { *this = other; }
+  VideoShot& operator=(const VideoShot& other);
+};
+
+class VideoWriter {
+ public:
+  // `hz` is what the video's head says; the table has the truth.
+  static Result<std::unique_ptr<VideoWriter>> create(const std::string& path, double hz);
+  ~VideoWriter();
+  VideoWriter(const VideoWriter&) = delete;
+  VideoWriter& operator=(const VideoWriter&) = delete;
+
+  void add(const Frame& frame);
+  // Writes what is waiting and closes the files.
+  void finish();
+  std::uint64_t written() const { return written_; }
+  // Pictures that came faster than they could be written.
+  std::uint64_t left_out() const { return shots_.overwritten(); }
+  // "" while all is well. Any thread may ask.
+  std::string trouble() const { return failed_ ? trouble_ : std::string(); }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  VideoWriter(std::string path, double hz) : path_(std::move(path)), hz_(hz) {}
+  void run();
+
+  std::string path_;
+  double hz_;
+  std::unique_ptr<std::FILE, CloseFile> times_;
+  VideoShot scratch_;  // the capture's side
+  Latest<VideoShot> shots_;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> failed_{false};
+  std::atomic<std::uint64_t> written_{0};
+  std::string trouble_;  // written before failed_, read after
+  std::thread thread_;
+};
+
+}  // namespace dance

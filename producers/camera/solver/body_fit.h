@@ -1,0 +1,78 @@
+// BodyFit: the posture that agrees best with what is seen, where it was expected, what a body does, and the floor: damped Gauss-Newton over
+// the 44 ways to move, with bones whose lengths cannot change.
+//
+// Units/frames: rays in C, body in W; the floor is y = 0.
+// Ownership:    keeps its numbers (about 60 KB); never allocates.
+// Threads:      none inside; one owner.
+// Failure:      solve() is false where the numbers are not finite; the state is then as it was.
+// Source:       Nocedal and Wright, Numerical Optimization, 2006, chapter 10. Each term of the sum is a squared difference over its variance:
+//               rays of landmarks (with Cauchy's weight, against outliers), directions of body vectors from the network, the expectation,
+//               a body at ease, soles on the floor, the depth that a second eye saw.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "producers/camera/depth_hint.h"
+#include "producers/camera/solver/body_model.h"
+#include "producers/camera/solver/camera_placement.h"
+#include "producers/camera/solver/observation.h"
+
+namespace dance {
+
+// What is known of a sole.
+struct SoleTouch {
+  bool stands = false;
+  double stands_for_s = 0.0;
+  Eigen::Vector3d held_W_m = Eigen::Vector3d::Zero();
+};
+
+struct Expectation {
+  BodyState state;
+  DofVector precision = DofVector::Zero();  // 1/variance; 0: nothing is expected
+  DofVector ease = DofVector::Zero();       // 1/variance about a body at ease
+};
+
+struct FitProblem {
+  const Observation* seen = nullptr;
+  const CameraPlacement* camera = nullptr;
+  const BodyShape* shape = nullptr;
+  Expectation expected;
+  std::array<SoleTouch, kSoleCount> soles;
+  bool has_floor = false;
+  std::optional<DepthHint> depth;
+};
+
+// A body at ease: arms hang, knees a little bent. Place and heading are not part of it.
+BodyState state_at_ease();
+
+class BodyFit {
+ public:
+  // Improves `state`. Outliers are weighed down in all but the first `trusting` rounds.
+  bool solve(const FitProblem& problem, int rounds, int trusting, BodyState& state);
+  // Half the sum of squares at the end of the last solve().
+  double cost() const { return cost_; }
+  const BodyModel& model() const { return model_; }
+
+ private:
+  using Normal = Eigen::Matrix<double, dof::kCount, dof::kCount>;
+
+  void build(const FitProblem& problem, bool trusting, const BodyState& state);
+  void add_rays(const FitProblem& problem, bool trusting);
+  void add_vectors(const FitProblem& problem);
+  void add_expectation(const FitProblem& problem, const BodyState& state);
+  void add_soles(const FitProblem& problem);
+  void add_depth(const FitProblem& problem);
+  // One line of the Jacobian, of which only the columns in `moved` are not 0.
+  void add_row(const Eigen::Matrix<double, 1, dof::kCount>& row, std::uint64_t moved,
+               double residual, double weight);
+  void hold_ends(const BodyState& state);
+
+  BodyModel model_;
+  Normal normal_;
+  DofVector gradient_;
+  double cost_ = 0.0;
+};
+
+}  // namespace dance

@@ -1,0 +1,59 @@
+// BodyShape: the size of one dancer: bones, and where on them the points sit that the network sees.
+//
+// Units/frames: metres; a point's place is in the axes of its bone in T-pose, from the bone's origin.
+// Ownership:    plain value, no heap.
+// Threads:      none inside.
+// Failure:      none.
+// Source:       places of the head's points: Tilley, The Measure of Man and Woman, 2002, shares of the standing height; the rest follows
+//               from core/pose/skeleton.h.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+#include "core/pose/skeleton.h"
+#include "producers/camera/body_landmarks.h"
+
+namespace dance {
+
+// The landmarks first, then where feet touch the floor.
+enum class Sole : std::uint8_t { kLeftHeel, kLeftBall, kRightHeel, kRightBall };
+constexpr std::size_t kSoleCount = 4;
+constexpr std::size_t kBodyPointCount = kLandmarkCount + kSoleCount;
+constexpr std::size_t point_of(Landmark landmark) { return index_of(landmark); }
+constexpr std::size_t point_of(Sole sole) {
+  return kLandmarkCount + static_cast<std::size_t>(sole);
+}
+
+struct BodyShape {
+  Skeleton skeleton;
+  std::array<Eigen::Vector3d, kBodyPointCount> point_m;
+};
+
+// Which bone carries a point.
+Bone bone_of(std::size_t body_point);
+
+// The lengths that make a body what it is; the rest of it follows the standing height.
+enum class Length : std::uint8_t {
+  kShoulders,  // from one shoulder joint to the other
+  kHips,
+  kTorso,  // between the middles of these two
+  kUpperArm,
+  kLowerArm,
+  kThigh,
+  kShank,
+  kFoot,  // from heel to the tip of the toes
+  kEars,
+};
+constexpr std::size_t kLengthCount = 9;
+using BodyLengths = std::array<double, kLengthCount>;  // metres
+
+// Those of an adult of this height with average proportions.
+BodyLengths average_lengths(double height_m);
+// A body of these lengths; what they do not say is average for their height.
+BodyShape shape_of(const BodyLengths& lengths);
+// How tall whoever has these lengths stands.
+double height_of(const BodyLengths& lengths);
+
+}  // namespace dance

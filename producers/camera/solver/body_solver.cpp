@@ -1,0 +1,30 @@
+#include "producers/camera/solver/body_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "producers/camera/solver/body_tracking.h"
+
+namespace dance {
+
+class BodySolver::Inside : public BodyTracking {
+ public:
+  using BodyTracking::BodyTracking;
+};
+
+BodySolver::BodySolver(const SolverOptions& options, const Pinhole& camera)
+    : inside_(std::make_unique<Inside>(options, camera)) {}
+BodySolver::~BodySolver() = default;
+BodySolver::BodySolver(BodySolver&&) noexcept = default;
+BodySolver& BodySolver::operator=(BodySolver&&) noexcept = default;
+
+bool BodySolver::solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth,
+                       Pose& out) {
+  return inside_->solve(landmarks, depth, out);
+}
+const Skeleton& BodySolver::skeleton() const { return inside_->skeleton(); }
+bool BodySolver::is_settled() const { return inside_->is_settled(); }
+CameraStand BodySolver::camera_stand() const { return inside_->camera_stand(); }
+void BodySolver::reset() { inside_->reset(); }
+
+}  // namespace dance

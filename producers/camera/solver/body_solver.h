@@ -1,0 +1,61 @@
+// BodySolver: what the pose network sees of a dancer, picture by picture, becomes a pose on the dancer's own skeleton: bones that keep their
+// length, knees and elbows that bend one way, feet that stand on the floor of the stage, and a place on it in metres.
+//
+// Units/frames: W of core/pose/pose.h, floor at y = 0. The dancer's first place is the origin; +z goes from there to the camera, where the
+//               audience is.
+// Ownership:    keeps all it knows of one dancer and one camera (about 150 KB); solve() never allocates.
+// Threads:      none inside; one owner.
+// Failure:      solve() is false where nobody was seen for half a second, too little of a body, or a picture that is not newer than the
+//               last; `out` is then not touched. Whatever the landmarks hold, a pose that is handed out is valid.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/pose/pose.h"
+#include "core/pose/skeleton.h"
+#include "producers/camera/body_landmarks.h"
+#include "producers/camera/depth_hint.h"
+#include "producers/camera/pinhole.h"
+
+namespace dance {
+
+struct SolverOptions {
+  std::optional<double> height_m;  // of the dancer; none: what the network or a second eye says
+  bool is_mirrored = false;        // as in a mirror: left and right change sides
+  double smooth = 1.0;             // 0 hardly smooths, 2 twice as much as tuned
+  bool holds_feet = true;          // feet that stand are held in their place
+};
+
+struct CameraStand {
+  double height_m = 0.0;   // over the floor
+  double pitch_rad = 0.0;  // positive: it looks down
+  bool is_settled = false;
+};
+
+class BodySolver {
+ public:
+  BodySolver(const SolverOptions& options, const Pinhole& camera);
+  ~BodySolver();
+  BodySolver(BodySolver&&) noexcept;
+  BodySolver& operator=(BodySolver&&) noexcept;
+
+  // Writes rotations, hips, presence, confidence and capture time of `out`; the rest of it stays.
+  bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out);
+
+  // The dancer's bones as far as they are known. Whoever shows poses is told when `version` changes.
+  const Skeleton& skeleton() const;
+  // True once bones are held and the floor is found.
+  bool is_settled() const;
+  CameraStand camera_stand() const;
+
+  // Another dancer: bones are learned anew. The camera stays where it is.
+  void reset();
+
+ private:
+  class Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace dance

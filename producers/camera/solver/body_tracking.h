@@ -1,0 +1,64 @@
+// BodyTracking: the inside of BodySolver, picture after picture: observe, expect, fit, learn bones and floor, remember, and write the pose.
+//
+// Units/frames, Ownership: as body_solver.h says.
+// Threads:      none inside; one owner.
+// Failure:      as body_solver.h says.
+#pragma once
+
+#include <optional>
+
+#include "producers/camera/solver/body_fit.h"
+#include "producers/camera/solver/body_solver.h"
+#include "producers/camera/solver/camera_placement.h"
+#include "producers/camera/solver/floor_feet.h"
+#include "producers/camera/solver/motion_memory.h"
+#include "producers/camera/solver/proportions.h"
+#include "producers/camera/solver/sight_memory.h"
+#include "producers/camera/solver/sole_contacts.h"
+
+namespace dance {
+
+class BodyTracking {
+ public:
+  BodyTracking(const SolverOptions& options, const Pinhole& camera);
+
+  bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out);
+  const Skeleton& skeleton() const { return shape_.skeleton; }
+  bool is_settled() const { return proportions_.is_held() && placement_.is_settled(); }
+  CameraStand camera_stand() const {
+    return {placement_.height_m(), placement_.pitch_rad(), placement_.is_settled()};
+  }
+  void reset();
+
+ private:
+  bool begin(const Observation& seen, MonoTime now);
+  bool follow(const Observation& seen, MonoTime now, double seconds);
+  void carry(double seconds, MonoTime now);
+  bool fit_anew(const Observation& seen, BodyState& state);
+  void learn_bones(const Observation& seen, const std::optional<DepthHint>& depth, MonoTime now);
+  void learn_camera(const Observation& seen);
+  void set_shape(const BodyLengths& lengths);
+  Eigen::Vector3d middle_of_hips_C(const BodyState& state);
+  bool write(const BodyState& state, const Observation& seen, MonoTime now, double seconds,
+             Pose& out);
+
+  SolverOptions options_;
+  Pinhole camera_;
+  BodyShape shape_;
+  Proportions proportions_;
+  CameraPlacement placement_;
+  bool has_placement_ = false;
+  BodyModel model_;  // for what is asked outside a fit
+  BodyFit fit_;
+  FitProblem problem_;
+  MotionMemory memory_;
+  SoleContacts contacts_;
+  SightMemory sight_;
+  FloorFeet feet_;
+  bool is_tracking_ = false;
+  MonoTime seen_at_, time_;
+  double usual_cost_ = 0.0;
+  double since_doubt_s_ = 0.0;
+};
+
+}  // namespace dance

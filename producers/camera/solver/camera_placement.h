@@ -1,0 +1,70 @@
+// CameraPlacement: where the camera stands over the floor and how it is tilted, learned from feet that stand and from how upright people are.
+//
+// Units/frames: C as in producers/camera/pinhole.h; W has the floor at y = 0, +z from the dancer's first place towards the camera, the origin
+//               on the floor where the dancer was first. The floor in C: y = h + a x + b z.
+// Ownership:    plain value, no heap.
+// Threads:      none inside; one owner.
+// Failure:      none: what is learned stays within bounds (camera 0.1 m to 5 m high, tilted by 45° at most, leaning by 17°), and what is
+//               too little to learn from is replaced by a likely camera.
+// Source:       each standing foot gives y/z = h/z + a x/z + b, whose left side is what a picture tells best. Where nobody walks nearer
+//               or away, h and b cannot be told apart by feet; there the body's upright mean decides.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace dance {
+
+class CameraPlacement {
+ public:
+  CameraPlacement() { reset(); }
+  void reset();
+
+  // The body's axis, from ankles to shoulders, of a moment; any length.
+  void see_upright(const Eigen::Vector3d& up_C);
+  // The sole of a foot that stands, where the picture alone puts it.
+  void see_foot(const Eigen::Vector3d& p_C_m);
+  // The floor was wrong.
+  void forget_feet();
+  // Before any foot is seen to stand: these are on the floor, more or less.
+  void guess(const Eigen::Vector3d& lowest_C_m);
+  // The place that is W's origin once it is put onto the floor.
+  void set_origin(const Eigen::Vector3d& p_C_m) {
+    origin_C_m_ = p_C_m;
+    place();
+  }
+  // What was taken for a metre is `by` metres.
+  void scale(double by);
+  // Takes over what was seen.
+  void update();
+
+  bool is_known() const { return feet_ >= kKnown; }
+  bool is_settled() const { return feet_ >= kSettled; }
+  double height_m() const { return height_m_; }
+  // Positive: it looks down.
+  double pitch_rad() const;
+
+  const Eigen::Matrix3d& R_WC() const { return R_WC_; }
+  Eigen::Vector3d to_W(const Eigen::Vector3d& p_C_m) const { return R_WC_ * p_C_m + p_WC_m_; }
+  Eigen::Vector3d to_C(const Eigen::Vector3d& p_W_m) const {
+    return R_WC_.transpose() * (p_W_m - p_WC_m_);
+  }
+
+ private:
+  static constexpr int kKnown = 12, kSettled = 90;
+  void place();
+
+  // Of (h, a, b): J^T W J and J^T W r of what was seen, old sights fading.
+  Eigen::Matrix3d feet_information_;
+  Eigen::Vector3d feet_sum_;
+  double feet_weight_ = 0.0;
+  Eigen::Vector3d up_sum_C_;
+  int feet_ = 0, ups_ = 0, refused_ = 0;
+  double guessed_h_m_ = 1.2;
+  Eigen::Vector3d plane_;  // h, a, b
+  Eigen::Vector3d origin_C_m_;
+  Eigen::Matrix3d R_WC_;
+  Eigen::Vector3d p_WC_m_;
+  double height_m_ = 1.2;
+};
+
+}  // namespace dance

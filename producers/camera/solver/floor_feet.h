@@ -1,0 +1,35 @@
+// FloorFeet: what is shown stands on the floor: a ball that stands does not slide, nothing of a foot is below the floor. The legs are bent anew
+// for it; what was held dies away when a foot lifts.
+//
+// Units/frames: metres in W, floor at y = 0.
+// Ownership:    plain value, no heap.
+// Threads:      none inside; one owner.
+// Failure:      a leg is not stretched beyond its reach: the foot gives way.
+#pragma once
+
+#include <array>
+
+#include "core/pose/kinematics.h"
+#include "producers/camera/solver/body_shape.h"
+#include "producers/camera/solver/sole_contacts.h"
+#include "transformers/spring.h"
+
+namespace dance {
+
+class FloorFeet {
+ public:
+  void clear() { feet_.fill(Foot()); }
+  // `seconds` since the last pose.
+  void apply(const BodyShape& shape, const SoleContacts& contacts, bool has_floor, double seconds,
+             Pose& pose);
+
+ private:
+  struct Foot {
+    bool is_held = false;
+    Eigen::Vector3f held_W_m = Eigen::Vector3f::Zero();
+    Spring shift;
+  };
+  std::array<Foot, 2> feet_;
+};
+
+}  // namespace dance

@@ -1,0 +1,131 @@
+#include "producers/camera/view/preview.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "core/net/mono_clock.h"
+#include "producers/camera/view/overlay.h"
+#include "producers/camera/view/picture_window.h"
+
+namespace dance {
+namespace {
+
+constexpr int kWidest_px = 640;
+constexpr Duration kFileEvery = Duration::ms(200);
+
+std::string ending_of(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  return dot == std::string::npos ? "" : file.substr(dot);
+}
+
+// Mirrored, left and right stay the dancer's: only the places change.
+void mirror(PreviewShot& shot) {
+  cv::flip(shot.picture, shot.picture, 1);
+  for (Eigen::Vector3f& point : shot.body.image_px)
+    point.x() = static_cast<float>(shot.picture.cols - 1) - point.x();
+}
+
+}  // namespace
+
+PreviewShot& PreviewShot::operator=(const PreviewShot& other) {
+  if (this == &other) return *this;
+  other.picture.copyTo(picture);
+  body = other.body;
+  caption = other.caption;
+  return *this;
+}
+
+Result<std::unique_ptr<Preview>> Preview::open(const PreviewOptions& options) {
+  std::unique_ptr<Preview> preview(new Preview(options));
+  if (!options.file.empty()) {
+    const std::string ending = ending_of(options.file);
+    if (ending != ".jpg" && ending != ".png")
+      return fail("--preview-file '" + options.file + "': name a .jpg or a .png");
+    const cv::Mat black(120, 160, CV_8UC3, cv::Scalar::all(0));
+    if (!preview->write_file(black)) return fail(preview->trouble_);
+  }
+  if (options.window) {
+    // Tried here, so that what is missing is said before anything starts; the thread opens its own.
+    auto trial = PictureWindow::open(options.title, kWidest_px, kWidest_px * 9 / 16);
+    if (!trial) return tl::make_unexpected(trial.error());
+  }
+  preview->thread_ = std::thread([p = preview.get()] { p->run(); });
+  return preview;
+}
+
+Preview::~Preview() {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void Preview::show(const Frame& frame, const BodyLandmarks& body, std::string_view caption) {
+  const double scale = std::min(1.0, static_cast<double>(kWidest_px) / frame.image.cols);
+  cv::resize(frame.image, scratch_.picture, {}, scale, scale, cv::INTER_AREA);
+  scratch_.body = body;
+  for (Eigen::Vector3f& point : scratch_.body.image_px) point *= static_cast<float>(scale);
+  scratch_.body.region.side_px *= static_cast<float>(scale);
+  const std::size_t length = std::min(caption.size(), scratch_.caption.size() - 1);
+  std::copy_n(caption.begin(), length, scratch_.caption.begin());
+  scratch_.caption[length] = '\0';
+  shots_.put(scratch_);
+}
+
+void Preview::run() {
+  std::unique_ptr<PictureWindow> window;
+  if (options_.window) {
+    auto opened = PictureWindow::open(options_.title, kWidest_px, kWidest_px * 9 / 16);
+    if (!opened) {
+      trouble_ = opened.error().what;
+      failed_ = true;
+      return;
+    }
+    window = std::move(*opened);
+  }
+  MonoTime next_file;
+  PreviewShot shot;
+  while (!stop_) {
+    if (window && !window->is_open()) {
+      was_closed_ = true;
+      return;
+    }
+    const PreviewShot* newest = shots_.take();
+    if (!newest) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      continue;
+    }
+    shot = *newest;
+    if (options_.is_mirrored) mirror(shot);
+    draw_landmarks(shot.picture, shot.body);
+    draw_caption(shot.picture, shot.caption.data());
+    if (window) window->show(shot.picture);
+    const MonoTime now = mono_now();
+    if (options_.file.empty() || now < next_file) continue;
+    next_file = now + kFileEvery;
+    if (!write_file(shot.picture)) {
+      failed_ = true;
+      return;
+    }
+  }
+}
+
+// Whoever reads the file finds a whole picture, the old one or the new.
+bool Preview::write_file(const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  const std::string next = options_.file + ".next";
+  std::FILE* file = nullptr;
+  if (cv::imencode(ending_of(options_.file), picture, bytes)) file = std::fopen(next.c_str(), "wb");
+  bool fine = file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (file) fine = std::fclose(file) == 0 && fine;
+  fine = fine && std::rename(next.c_str(), options_.file.c_str()) == 0;
+  if (!fine)
+    trouble_ = "the preview cannot be written to '" + options_.file +
+               "'; is its folder there, and has the disk room?";
+  return fine;
+}
+
+}  // namespace dance

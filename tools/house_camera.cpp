@@ -1,0 +1,82 @@
+#include "tools/house_camera.h"
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kCameraLook = Duration::ms(200);
+constexpr Duration kCameraPause = Duration::s(1);  // before it is started again
+constexpr Duration kCameraEnds = Duration::s(2);
+
+}  // namespace
+
+std::vector<std::string> camera_arguments(const HostedCamera& camera, const std::string& bus) {
+  std::vector<std::string> words{"--bus", bus, "--guest", std::string(camera.guest.view())};
+  const auto add = [&](const char* option, const std::string& value) {
+    if (value.empty()) return;
+    words.emplace_back(option);
+    words.push_back(value);
+  };
+  add("--model", camera.model);
+  add("--calibration", camera.calibration);
+  if (camera.height_m > 0.0) add("--height", std::to_string(camera.height_m));
+  if (camera.mirror) words.emplace_back("--mirror");
+  // Behind a mark, as a file's name may begin with a dash.
+  words.emplace_back("--");
+  if (!camera.device.empty()) words.push_back(camera.device);
+  return words;
+}
+
+Result<std::unique_ptr<HouseCamera>> HouseCamera::open(const HostedCamera& camera,
+                                                       const std::string& bus, Poller& poller) {
+  std::unique_ptr<HouseCamera> made(new HouseCamera(camera, bus, poller));
+  if (auto started = made->start(); !started) return tl::make_unexpected(started.error());
+  made->watch_ = poller.add_timer(mono_now() + kCameraLook,
+                                  [self = made.get()](MonoTime now) { return self->look(now); });
+  return made;
+}
+
+HouseCamera::HouseCamera(const HostedCamera& camera, const std::string& bus, Poller& poller)
+    : guest_(camera.guest), arguments_(camera_arguments(camera, bus)), poller_(poller) {}
+
+HouseCamera::~HouseCamera() {
+  if (!program_) return;
+  poller_.set_deadline(watch_, MonoTime());
+  program_->stop(kCameraEnds);
+}
+
+Result<void> HouseCamera::start() {
+  DANCE_TRY(ChildProcess program,
+            ChildProcess::start({program_folder() + "/dance-capture", arguments_, "", ""}));
+  program_ = std::make_unique<ChildProcess>(std::move(program));
+  return {};
+}
+
+MonoTime HouseCamera::look(MonoTime now) {
+  if (is_down_) {
+    is_down_ = false;
+    if (auto started = start(); !started) {
+      talk::warn("{}; {} dances without a camera", started.error().what, guest_.view());
+      return MonoTime();
+    }
+    return now + kCameraLook;
+  }
+  if (!program_->has_ended()) return now + kCameraLook;
+  if (program_->ended_well()) {
+    talk::info("the capture of {} is over", guest_.view());
+    return MonoTime();
+  }
+  const std::string& how = program_->exit_text();
+  if (how == "ended with exit 1" || how == "ended with exit 2") {
+    talk::warn("no camera for {}; the house goes on without it", guest_.view());
+    return MonoTime();
+  }
+  talk::warn("the capture of {} {}; it is started again", guest_.view(), how);
+  is_down_ = true;
+  return now + kCameraPause;
+}
+
+}  // namespace dance
