@@ -75,8 +75,8 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
   const EngineComparison& e = run.engines;
   if (e.regions > 0) {
     fmt::format_to(out, "\n  the network on the same {} regions\n", e.regions);
-    line(std::string(name_of(e.first)).c_str(), e.first_ms, e.regions);
-    line(std::string(name_of(e.second)).c_str(), e.second_ms, e.regions);
+    fmt::format_to(out, "  {:<22} {:>26.2f}\n", name_of(e.first), per(e.first_ms, e.regions));
+    fmt::format_to(out, "  {:<22} {:>26.2f}\n", name_of(e.second), per(e.second_ms, e.regions));
     fmt::format_to(out, "  ratio {:.2f}; worst difference {:.5f} px of 256, {:.6f} m\n",
                    e.second_ms / e.first_ms, e.worst_point_px, e.worst_world_m);
   }
