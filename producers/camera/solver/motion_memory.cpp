@@ -30,7 +30,7 @@ constexpr Way kSideWays[]{
     {dof::kHand, 2, Part::kHandLeft, 100.0, {0.4, 0.3, 0.0}},
     {dof::kUpperLeg, 3, Part::kLegLeft, 90.0, {1.2, 0.5, 0.8}},
     {dof::kKnee, 1, Part::kLegLeft, 130.0, {1.5, 0.0, 0.0}},
-    {dof::kFoot, 3, Part::kFootLeft, 130.0, {0.5, 0.2, 0.2}},
+    {dof::kFoot, 3, Part::kFootLeft, 130.0, {0.5, 0.4, 0.3}},
 };
 // Speeds die away so fast, seen and unseen.
 constexpr double kFade_s = 0.4, kBlindFade_s = 0.12;
