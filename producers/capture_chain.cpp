@@ -5,6 +5,9 @@
 namespace dance {
 namespace {
 
+// Away for longer than this: whoever is seen next may be somebody else, and is measured anew.
+constexpr Duration kSomebodyElse = Duration::s(10);
+
 // As DancerFeed: a producer that is started again leaps far above the numbers that it used before.
 std::uint32_t sequence_to_begin_with() {
   return static_cast<std::uint32_t>(mono_now().since_zero_us() / 100);
@@ -19,17 +22,24 @@ CaptureChain::CaptureChain(const GuestId& guest, CaptureSink& sink,
       sink_(sink),
       estimator_(std::move(estimator)),
       solver_(std::move(solver)),
+      body_(&estimator_->unfiltered()),
       next_sequence_(sequence_to_begin_with()) {}
 
 void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   const MonoTime dequeued = mono_now();
   ++stats_.pictures;
-  estimator_->estimate(frame.image, frame.capture_time, body_);
-  if (body_.found) ++stats_.seen;
+  body_ = &estimator_->estimate(frame);
+  // The solver smooths what it makes of them, and smoothing twice would be late twice.
+  const BodyLandmarks& seen = estimator_->unfiltered();
+  if (seen.found) {
+    if (last_seen_.is_set() && frame.capture_time - last_seen_ > kSomebodyElse) solver_->reset();
+    last_seen_ = frame.capture_time;
+    ++stats_.seen;
+  }
   std::optional<DepthHint> depth;
-  if (stereo_ && right && body_.found) depth = stereo_->measure(frame.image, *right, body_);
+  if (stereo_ && right && seen.found) depth = stereo_->hint(frame.image, *right, seen);
   Pose pose;
-  if (!solver_->solve(body_, depth, pose)) return;
+  if (!solver_->solve(seen, depth, pose)) return;
   pose.sequence = next_sequence_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = frame.capture_time;
@@ -50,9 +60,6 @@ void CaptureChain::say_skeleton(MonoTime now) {
   next_skeleton_ = now + Duration::s(1);
 }
 
-void CaptureChain::start_anew() {
-  estimator_->reset();
-  solver_->reset();
-}
+void CaptureChain::start_anew() { estimator_->forget(); }
 
 }  // namespace dance

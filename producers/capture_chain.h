@@ -36,11 +36,15 @@ class CaptureChain {
 
   // `right` is the other eye's picture of the same moment, or null.
   void see(const Frame& frame, const cv::Mat* right = nullptr);
-  // The camera was away: who is seen next may be somebody else.
+  // The camera was away: the next picture is searched for the dancer.
   void start_anew();
 
-  const BodyLandmarks& body() const { return body_; }
+  // What the network saw in the last picture.
+  const BodyLandmarks& body() const { return *body_; }
   const CaptureStats& stats() const { return stats_; }
+  const PoseEstimator& estimator() const { return *estimator_; }
+  const BodySolver& solver() const { return *solver_; }
+  const StereoDepth* stereo() const { return stereo_.get(); }
 
  private:
   void say_skeleton(MonoTime now);
@@ -50,11 +54,12 @@ class CaptureChain {
   std::unique_ptr<PoseEstimator> estimator_;
   std::unique_ptr<BodySolver> solver_;
   std::unique_ptr<StereoDepth> stereo_;
-  BodyLandmarks body_;
+  const BodyLandmarks* body_;  // the estimator's
   CaptureStats stats_;
   std::uint32_t next_sequence_;
   std::uint32_t said_version_ = 0;
   MonoTime next_skeleton_;
+  MonoTime last_seen_;
 };
 
 }  // namespace dance

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
+
+#include "producers/camera/files/picture_file.h"
+#include "producers/camera/files/video_reel.h"
 
 namespace dance {
 namespace {
@@ -116,25 +118,21 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
 }
 
 Result<void> CaptureEval::add_video(const std::string& path) {
-  cv::VideoCapture video(path);
-  if (!video.isOpened())
-    return fail(path + ": is neither a picture nor a video that OpenCV can read");
-  const double hz = video.get(cv::CAP_PROP_FPS);
-  const double frame_s = hz > 0.1 && hz < 1000.0 ? 1.0 / hz : 1.0 / 30.0;
-  const std::string name = std::filesystem::path(path).filename().string();
+  DANCE_TRY(const auto reel, VideoReel::open(path));
   moving_->forget();
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {
     const std::int64_t start_ns = thread_ns();
-    if (!video.grab()) break;
+    if (!reel->step()) break;
     if (i % options_.every != 0) continue;
-    if (!video.retrieve(frame.image)) return fail(name + "#" + std::to_string(i) + ": is damaged");
+    const std::string name = reel->name() + "#" + std::to_string(i);
+    if (!reel->read(frame.image))
+      return fail(path + ": frame " + std::to_string(i) + " is damaged");
     run_.decode_ms += ms_since(start_ns);
     frame.sequence = i;
-    frame.capture_time = MonoTime{} + Duration::seconds(1.0 + static_cast<double>(i) * frame_s);
-    if (auto taken = take(*moving_, frame, name + "#" + std::to_string(i)); !taken) return taken;
+    frame.capture_time = MonoTime{} + Duration::s(1) + reel->time();
+    if (auto taken = take(*moving_, frame, name); !taken) return taken;
   }
-  if (frame.image.empty()) return fail(path + ": holds no frame");
   return {};
 }
 
@@ -144,6 +142,8 @@ CaptureRun CaptureEval::finish() && {
     run_.counters.searches += c.searches;
     run_.counters.losses += c.losses;
     run_.counters.refused += c.refused;
+    run_.counters.looks += c.looks;
+    run_.counters.exchanged += c.exchanged;
     run_.counters.found += c.found;
     run_.counters.pictures += c.pictures;
     const EstimatorTimes& t = estimator->times();
@@ -162,10 +162,8 @@ Result<CaptureRun> evaluate_capture(const std::vector<std::string>& files,
   CaptureEval eval(options);
   if (auto opened = eval.open(); !opened) return tl::make_unexpected(opened.error());
   for (const std::string& file : files) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-      return fail(file + ": there is no such file");
-    auto added = cv::haveImageReader(file) ? eval.add_picture(file) : eval.add_video(file);
+    if (auto fine = check_file(file); !fine) return tl::make_unexpected(fine.error());
+    auto added = is_picture(file) ? eval.add_picture(file) : eval.add_video(file);
     if (!added) return tl::make_unexpected(added.error());
   }
   return std::move(eval).finish();

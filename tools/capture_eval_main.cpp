@@ -26,7 +26,7 @@ Result<void> set_follow(const std::string& text, FollowOptions& follow) {
   if (text == "surest") {
     // As the original does: nobody is remembered, and no jump is refused.
     follow.remembers = Duration{};
-    follow.refuses_jumps = false;
+    follow.refuses_jumps = follow.watches_others = false;
     return {};
   }
   if (text == "largest") {

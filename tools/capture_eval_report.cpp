@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -57,15 +57,17 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
                  name_of(options.estimator.engine));
   fmt::format_to(out, "{:>7} frames, {} with a dancer ({:.1f} %)\n", frames, c.found,
                  100.0 * per(static_cast<double>(c.found), frames));
-  fmt::format_to(out, "{:>7} searches of the whole picture, {} losses, {} of them jumps\n\n",
-                 c.searches, c.losses, c.refused);
+  fmt::format_to(out,
+                 "{:>7} searches of the whole picture, {} looks for others, {} losses ({} jumps), "
+                 "{} exchanged\n\n",
+                 c.searches, c.looks, c.losses, c.refused, c.exchanged);
   fmt::format_to(out, "  processor time          ms a frame   ms each time\n");
   const auto line = [&](const char* what, double ms, std::size_t times) {
     fmt::format_to(out, "  {:<22} {:>11.2f} {:>14.2f}\n", what, per(ms, frames), per(ms, times));
   };
   const EstimatorTimes& t = run.times;
   line("read the file", run.decode_ms, frames);
-  line("search", static_cast<double>(t.search_ns) * 1e-6, c.searches);
+  line("search", static_cast<double>(t.search_ns) * 1e-6, c.searches + c.looks);
   line("take the region", static_cast<double>(t.region_ns) * 1e-6, frames);
   line("network", static_cast<double>(t.network_ns) * 1e-6, frames);
   line("points, smoothing", static_cast<double>(t.rest_ns) * 1e-6, frames);
@@ -73,8 +75,8 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
   const EngineComparison& e = run.engines;
   if (e.regions > 0) {
     fmt::format_to(out, "\n  the network on the same {} regions\n", e.regions);
-    line(std::string(name_of(e.first)).c_str(), e.first_ms, e.regions);
-    line(std::string(name_of(e.second)).c_str(), e.second_ms, e.regions);
+    fmt::format_to(out, "  {:<22} {:>26.2f}\n", name_of(e.first), per(e.first_ms, e.regions));
+    fmt::format_to(out, "  {:<22} {:>26.2f}\n", name_of(e.second), per(e.second_ms, e.regions));
     fmt::format_to(out, "  ratio {:.2f}; worst difference {:.5f} px of 256, {:.6f} m\n",
                    e.second_ms / e.first_ms, e.worst_point_px, e.worst_world_m);
   }

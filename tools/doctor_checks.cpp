@@ -15,7 +15,9 @@
 #include "core/net/poller.h"
 #include "core/net/private_network.h"
 #include "core/program/program.h"
+#include "tools/doctor_camera.h"
 #include "tools/doctor_drawing.h"
+#include "tools/doctor_sound.h"
 
 namespace dance {
 
@@ -111,19 +113,6 @@ Finding check_java() {
   return finding;
 }
 
-Finding check_camera() {
-  Finding finding{"camera", Grade::kNote, "none; replay and salsa dance without one", ""};
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev", error)) {
-    const std::string path = entry.path().string();
-    if (path.rfind("/dev/video", 0) != 0) continue;
-    if (access(path.c_str(), R_OK | W_OK) == 0) return {"camera", Grade::kOk, path, ""};
-    finding.what = path + " is not yours to open";
-    finding.cure = "usermod -aG video $USER   (and log in again)";
-  }
-  return finding;
-}
-
 }  // namespace
 
 Finding check_multicast_device(const std::string& device, bool private_network_possible) {
@@ -178,6 +167,8 @@ std::vector<Finding> examine_machine(const std::string& bus_url) {
   findings.push_back(check_display());
   findings.push_back(check_drawing());
   findings.push_back(check_camera());
+  findings.push_back(check_pose_network());
+  findings.push_back(check_sound());
   findings.push_back(check_java());
   return findings;
 }

@@ -4,7 +4,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "tools/lapse_eval_report.h"
-#include "transformers/chain.h"
+#include "tools/predict_model_file.h"
 
 namespace dance {
 namespace {
@@ -24,6 +24,7 @@ struct Wishes {
   std::vector<std::string> files;
   std::string lapses = "250ms,500ms,1s,2s,4s";
   std::vector<std::string> through;
+  std::string model;
   bool is_json = false;
 };
 
@@ -45,7 +46,8 @@ Result<std::vector<Duration>> parse_lapses(std::string_view text) {
 Result<void> run(const Wishes& wishes) {
   DANCE_TRY(const std::vector<Duration> lapses, parse_lapses(wishes.lapses));
   NamedSubjects subjects{{"newest", newest_subject()}, {"continuation", continuation_subject()}};
-  if (auto added = add_chain_subjects(wishes.through, subjects); !added)
+  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
+  if (auto added = add_chain_subjects(wishes.through, subjects, parts); !added)
     return tl::make_unexpected(added.error());
   DANCE_TRY(const std::vector<CodecTake> takes, load_codec_takes(wishes.files, 60.0));
   std::vector<LapseRow> rows;
@@ -71,6 +73,7 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--through", wishes.through,
            "chains to judge too: stations as session files name them, with commas between");
+  line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
   line.add_flag("--json", wishes.is_json, "one JSON array on stdout");
   line.footer(dance::kLapseExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });

@@ -5,8 +5,8 @@
 
 #include "core/program/command_line.h"
 #include "core/program/program.h"
-#include "producers/clip_file.h"
 #include "tools/predict_eval.h"
+#include "tools/predict_model_file.h"
 
 namespace dance {
 namespace {
@@ -33,14 +33,9 @@ struct PredictEvalWishes {
 
 Result<void> run_predict_eval(const PredictEvalWishes& wishes) {
   PredictEvalOptions options;
-  if (wishes.model.empty()) {
-    options.model = built_in_predict_model();
-  } else {
-    DANCE_TRY(const std::string file, read_clip_text(wishes.model, 1 << 24));
-    auto model =
-        read_predict_model({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
-    if (!model) return fail(wishes.model + ": " + model.error().what);
-    options.model = *model;
+  options.model = built_in_predict_model();
+  if (!wishes.model.empty()) {
+    DANCE_TRY(options.model, read_predict_model_file(wishes.model));
   }
   options.noise_deg = wishes.noise_deg;
   options.fresh = wishes.fresh;

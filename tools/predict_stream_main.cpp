@@ -3,8 +3,8 @@
 
 #include "core/program/command_line.h"
 #include "core/program/program.h"
+#include "tools/predict_model_file.h"
 #include "tools/predict_stream.h"
-#include "transformers/chain.h"
 
 namespace dance {
 namespace {
@@ -25,7 +25,9 @@ struct Wishes {
   std::string delay = "100ms", jitter = "15ms";
   double loss_percent = 1.0;
   std::uint64_t seed = 1;
+  std::size_t every = 1;
   std::vector<std::string> through{"hold", "predict", "predict,bridge"};
+  std::string model;
   bool is_json = false;
 };
 
@@ -39,11 +41,13 @@ Result<void> run(const Wishes& wishes) {
                 " cannot be judged: 0ms to 1s, please");
   options.line.loss_percent = wishes.loss_percent;
   options.line.seed = wishes.seed;
+  options.line.every = wishes.every;
   NamedSubjects subjects{
       {"raw", newest_subject()},
       {"damped velocity", damped_velocity_subject()},
       {"damped velocity, inertialised", damped_velocity_subject(Duration::ms(60))}};
-  if (auto added = add_chain_subjects(wishes.through, subjects); !added)
+  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
+  if (auto added = add_chain_subjects(wishes.through, subjects, parts); !added)
     return tl::make_unexpected(added.error());
   DANCE_TRY(const std::vector<CodecTake> takes, load_codec_takes(wishes.files, 60.0));
   std::vector<StreamRow> rows;
@@ -69,9 +73,13 @@ int main(int argc, char** argv) {
   line.add("--loss", wishes.loss_percent, "percent of the poses that never come")
       .range(0.0, 90.0)
       .shows_default();
+  line.add("--every", wishes.every, "only each so many-th pose is sent: 2 is a camera of 30 Hz")
+      .range(1.0, 12.0)
+      .shows_default();
   line.add("--seed", wishes.seed, "another draw of the same line").shows_default();
   line.add("--through", wishes.through,
            "chains to judge: stations as session files name them, with commas between");
+  line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
   line.add_flag("--json", wishes.is_json, "one JSON array on stdout");
   line.footer(dance::kStreamExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });

@@ -5,7 +5,6 @@
 
 #include "tools/beat_phase.h"
 #include "tools/stream_line.h"
-#include "transformers/chain.h"
 
 namespace dance {
 namespace {
@@ -215,13 +214,14 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const Be
     line.jitter = options.jitter;
     line.loss_percent = options.loss_percent;
     line.seed = options.seed;
+    line.every = options.every;
     const MonoTime middle = at_second(0.5 * static_cast<double>(dance.poses.size()) / options.hz);
     if (options.stall > Duration()) line.stalls.push_back({middle, options.stall, false});
     const auto arrivals = arrivals_over(line, dance.poses);
     BeatDance sent = dance;
     if (options.untagged)
       for (Pose& pose : sent.poses) pose.music_beats = kNoMusic;
-    DANCE_TRY(Chain made, Chain::make(chain.stations));
+    DANCE_TRY(Chain made, Chain::make(chain.stations, chain.parts));
     const Shown shown = play(sent, arrivals, made, listener);
     run.dances.push_back(score_of(dance, shown, listener, options));
     const RhythmScore& score = run.dances.back();

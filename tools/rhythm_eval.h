@@ -16,6 +16,7 @@
 #include "producers/salsa_style.h"
 #include "tools/codec_takes.h"
 #include "tools/motion_measures.h"
+#include "transformers/chain.h"
 
 namespace dance {
 
@@ -27,6 +28,7 @@ struct RhythmEvalOptions {
   Duration delay = Duration::ms(150);
   Duration jitter;
   double loss_percent = 0.0;
+  std::size_t every = 1;              // so many-th pose alone is sent
   Duration stall;                     // one, in the middle
   double tempo_offset_percent = 0.0;  // the listener's music against the sender's
   bool untagged = false;
@@ -54,6 +56,7 @@ struct RhythmRun {
 struct NamedChain {
   std::string name;
   std::vector<std::string> stations;  // none: poses as they come
+  ChainParts parts = {};
 };
 
 // A dance to the song, from its first second on.

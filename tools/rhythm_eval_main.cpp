@@ -4,9 +4,9 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "producers/music/beats_file.h"
+#include "tools/predict_model_file.h"
 #include "tools/rhythm_eval.h"
 #include "tools/rhythm_eval_report.h"
-#include "transformers/chain.h"
 
 namespace dance {
 namespace {
@@ -15,6 +15,7 @@ constexpr const char* kExamples = R"(Examples:
   dance rhythm eval salsa.bvh --beats song.beats --delay 150ms
   dance rhythm eval *.bvh.xz --beats song.beats --delay 180ms --jitter 20ms --loss 2 --stall 400ms --tempo-offset 1 --beta 1
   dance rhythm eval *.bvh.xz --beats song.beats --beta auto --json
+  dance rhythm eval *.bvh.xz --beats song.beats --beta 0 --model kept.model
   dance rhythm eval --salsa 4 --beats song.beats --untagged --each
 )";
 
@@ -23,7 +24,7 @@ constexpr Duration kSalsaLength = Duration::s(60);
 struct Wishes {
   std::vector<std::string> files;
   RhythmEvalOptions eval;
-  std::string beats, delay = "150ms", jitter = "0ms", stall = "0ms", beta = "auto", through;
+  std::string beats, delay = "150ms", jitter = "0ms", stall = "0ms", beta = "auto", model;
   double strength = 1.0, salsa_bpm = 0.0;
   std::uint32_t salsa = 0;
   bool json = false, each = false;
@@ -47,11 +48,12 @@ Result<void> run(Wishes wishes) {
   if (dances.empty()) return fail("nobody dances: name BVH files, or --salsa 2");
   std::string rhythm = "rhythm beats=" + wishes.beta;
   if (wishes.strength < 1.0) rhythm += " strength=" + std::to_string(wishes.strength);
+  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
   const std::vector<NamedChain> chains{
       {"raw", {}},
       {"hold", {"hold"}},
-      {"predict", {"predict"}},
-      {"predict, bridge, " + rhythm, {"predict", "bridge", rhythm}},
+      {"predict", {"predict"}, parts},
+      {"predict, bridge, " + rhythm, {"predict", "bridge", rhythm}, parts},
   };
   std::vector<RhythmRun> runs;
   for (const NamedChain& chain : chains) {
@@ -88,6 +90,12 @@ int main(int argc, char** argv) {
   line.add("--beta", wishes.beta, "beats of delay that the room wishes, or auto").shows_default();
   line.add("--strength", wishes.strength, "0 untouched to 1 on the beat")
       .range(0.0, 1.0)
+      .shows_default();
+  line.add("--model", wishes.model,
+           "a model of dance predict train instead of the built-in one, which knows some takes");
+  line.add("--every", wishes.eval.every,
+           "only each so many-th pose is sent: 2 is a camera of 30 Hz")
+      .range(1.0, 12.0)
       .shows_default();
   line.add("--seed", wishes.eval.seed, "of the line").shows_default();
   line.add_flag("--untagged", wishes.eval.untagged, "poses come without musical time");

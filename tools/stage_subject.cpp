@@ -5,7 +5,6 @@
 
 #include "core/base/assert.h"
 #include "core/pose/history.h"
-#include "transformers/chain.h"
 #include "transformers/continuation.h"
 #include "transformers/finish.h"
 #include "transformers/rotation_vector.h"
@@ -64,8 +63,9 @@ class ContinuationSubject : public StageSubject {
 
 class ChainSubject : public StageSubject {
  public:
-  ChainSubject(const std::vector<std::string>& specifications, const Skeleton& skeleton) {
-    auto chain = Chain::make(specifications);
+  ChainSubject(const std::vector<std::string>& specifications, const ChainParts& parts,
+               const Skeleton& skeleton) {
+    auto chain = Chain::make(specifications, parts);
     DANCE_ASSERT(chain.has_value());
     chain_ = std::move(*chain);
     chain_.set_body(skeleton);
@@ -151,9 +151,9 @@ MakeSubject continuation_subject() {
   return [](const Skeleton& skeleton) { return std::make_unique<ContinuationSubject>(skeleton); };
 }
 
-MakeSubject chain_subject(const std::vector<std::string>& specifications) {
-  return [specifications](const Skeleton& skeleton) {
-    return std::make_unique<ChainSubject>(specifications, skeleton);
+MakeSubject chain_subject(const std::vector<std::string>& specifications, const ChainParts& parts) {
+  return [specifications, parts](const Skeleton& skeleton) {
+    return std::make_unique<ChainSubject>(specifications, parts, skeleton);
   };
 }
 
@@ -162,11 +162,12 @@ MakeSubject damped_velocity_subject(Duration half_life) {
       [half_life](const Skeleton&) { return std::make_unique<DampedVelocitySubject>(half_life); };
 }
 
-Result<void> add_chain_subjects(const std::vector<std::string>& chains, NamedSubjects& subjects) {
+Result<void> add_chain_subjects(const std::vector<std::string>& chains, NamedSubjects& subjects,
+                                const ChainParts& parts) {
   for (const std::string& words : chains) {
     const std::vector<std::string> stations = stations_of(words);
-    DANCE_TRY(const Chain chain, Chain::make(stations));
-    if (!chain.is_pass_through()) subjects.emplace_back(words, chain_subject(stations));
+    DANCE_TRY(const Chain chain, Chain::make(stations, parts));
+    if (!chain.is_pass_through()) subjects.emplace_back(words, chain_subject(stations, parts));
   }
   return {};
 }

@@ -17,6 +17,7 @@
 #include "core/base/result.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
+#include "transformers/chain.h"
 
 namespace dance {
 
@@ -36,12 +37,14 @@ MakeSubject damped_velocity_subject(Duration half_life = Duration());
 // Continuation (transformers/continuation.h) from the first missing pose on, with a Finish: no prediction before it.
 MakeSubject continuation_subject();
 // A chain of stations (transformers/chain.h), whose specifications must be right.
-MakeSubject chain_subject(const std::vector<std::string>& specifications);
+MakeSubject chain_subject(const std::vector<std::string>& specifications,
+                          const ChainParts& parts = {});
 
 // What an evaluation holds beside each other, and adding to it the chains that a command line names; the first that
 // cannot be made is an error. One without stations shows what comes, and is left out.
 using NamedSubjects = std::vector<std::pair<std::string, MakeSubject>>;
-Result<void> add_chain_subjects(const std::vector<std::string>& chains, NamedSubjects& subjects);
+Result<void> add_chain_subjects(const std::vector<std::string>& chains, NamedSubjects& subjects,
+                                const ChainParts& parts = {});
 
 // "predict lead=1,bridge": the stations of a chain as one word of a command line.
 std::vector<std::string> stations_of(std::string_view text);

@@ -76,22 +76,47 @@ struct Tally {
   std::vector<double> rows_px;
 };
 
-void evaluate_dancer(const StereoEvalCase& what, std::uint64_t seed, int frames, StereoEval& out,
-                     Tally& tally) {
+// The salsa dancer or a take, moment by moment.
+class Motion {
+ public:
+  Motion(std::uint64_t seed, const std::vector<CodecTake>& takes)
+      : take_(takes.empty() ? nullptr : &takes[seed % takes.size()]), dancer_(style_of(seed)) {}
+
+  const Skeleton& skeleton() const { return take_ ? take_->skeleton : dancer_.skeleton(); }
+  Pose at(Duration t) {
+    Pose pose;
+    if (!take_) {
+      dancer_.dance_at(t, pose);
+      return pose;
+    }
+    const double place = t.as_seconds() * take_->hz;
+    return take_->poses[static_cast<std::size_t>(place) % take_->poses.size()];
+  }
+
+ private:
+  static SalsaStyle style_of(std::uint64_t seed) {
+    SalsaStyle style;
+    style.role = seed % 2 ? SalsaRole::kLead : SalsaRole::kFollow;
+    style.seed = seed;
+    style.heading_deg = Random(seed + 5).uniform(-180.0, 180.0);
+    return style;
+  }
+  const CodecTake* take_;
+  SalsaDancer dancer_;
+};
+
+void evaluate_dancer(const StereoEvalCase& what, std::uint64_t seed, int frames, bool is_exact,
+                     const std::vector<CodecTake>& takes, StereoEval& out, Tally& tally) {
   Random random(seed);
   const StereoRig truth = drawn_rig();
-  const StereoRig known = calibrated_rig(truth, seed);
+  const StereoRig known = is_exact ? truth : calibrated_rig(truth, seed);
   SceneEyes eyes;
   eyes.wall_m = what.distance_m + 2.0;
   eyes.right_gain = random.uniform(0.85, 1.18);
   StereoScene scene(truth, eyes, seed);
   StereoDepth depth(known);
   const RectifiedPair pair(known);
-  SalsaStyle style;
-  style.role = seed % 2 ? SalsaRole::kLead : SalsaRole::kFollow;
-  style.seed = seed;
-  style.heading_deg = random.uniform(-180.0, 180.0);
-  SalsaDancer dancer(style);
+  Motion motion(seed, takes);
   NetworkErrors errors;
   errors.image_px = what.image_px;
   errors.scale = random.uniform(0.92, 1.08);
@@ -100,21 +125,31 @@ void evaluate_dancer(const StereoEvalCase& what, std::uint64_t seed, int frames,
   camera.distance_m = what.distance_m;
   cv::Mat left;
   cv::Mat right;
+  const Duration later = Duration::seconds(1e-3 * what.right_later_ms);
   for (int frame = 0; frame < frames; ++frame) {
-    Pose pose;
-    dancer.dance_at(Duration::ms(370 * frame + 500), pose);
+    const Duration t = Duration::ms(500) + Duration::ms(370) * frame;
+    Pose pose = motion.at(t);
+    Pose pose_later = motion.at(t + later);
     // Couples walk about; the camera is to see the dancer at the distance that is asked about.
-    camera.aside_m = random.uniform(-0.5, 0.5) - pose.p_WH_m.x();
-    pose.p_WH_m.z() *= 0.3f;
+    const Eigen::Vector3f start = pose.p_WH_m;
+    camera.aside_m = random.uniform(-0.5, 0.5);
+    for (Pose* p : {&pose, &pose_later}) {
+      p->p_WH_m.x() -= start.x();
+      p->p_WH_m.z() -= 0.7f * start.z();
+    }
     BodyFrames body;
-    forward_kinematics(dancer.skeleton(), pose, body);
-    scene.draw(body_of(body, camera, look), left, right);
+    BodyFrames body_later;
+    forward_kinematics(motion.skeleton(), pose, body);
+    forward_kinematics(motion.skeleton(), pose_later, body_later);
+    scene.draw(body_of(body, camera, look), body_of(body_later, camera, look), left, right);
     const auto joints = joints_of(body, camera);
     const double true_m =
         0.5 * (joints[index_of(Landmark::kLeftHip)] + joints[index_of(Landmark::kRightHip)]).z();
     BodyLandmarks seen = landmarks_of(joints, truth, Side::kLeft, errors, random);
-    const BodyLandmarks other = landmarks_of(joints, truth, Side::kRight, errors, random);
+    const BodyLandmarks other =
+        landmarks_of(joints_of(body_later, camera), truth, Side::kRight, errors, random);
     seen.is_new = frame == 0;
+    seen.capture_time = MonoTime() + t;
     const double start_us = thread_us();
     const DepthHint hint = depth.hint(left, right, seen);
     tally.us += thread_us() - start_us;
@@ -170,14 +205,16 @@ StereoRig calibrated_rig(const StereoRig& truth, std::uint64_t seed) {
   return rig;
 }
 
-StereoEval evaluate_stereo(const StereoEvalCase& what, const StereoEvalOptions& options) {
+StereoEval evaluate_stereo(const StereoEvalCase& what, const StereoEvalOptions& options,
+                           const std::vector<CodecTake>& takes) {
   StereoEval out;
   out.what = what;
   Tally tally;
   const int dancers = std::max(1, std::min(options.dancers, options.frames));
   for (int i = 0; i < dancers; ++i)
     evaluate_dancer(what, options.seed + static_cast<std::uint64_t>(i),
-                    (options.frames + dancers - 1 - i) / dancers, out, tally);
+                    (options.frames + dancers - 1 - i) / dancers, options.is_calibration_exact,
+                    takes, out, tally);
   for (std::size_t way = 0; way < kDepthWayCount; ++way)
     out.errors[way] = summary_of(tally.errors[way]);
   if (out.hinted > 0) {
@@ -191,11 +228,9 @@ StereoEval evaluate_stereo(const StereoEvalCase& what, const StereoEvalOptions& 
 }
 
 std::vector<StereoEvalCase> stereo_eval_cases() {
-  return {{"near", 2.2, 25.0, 1.75},
-          {"usual", 3.0, 25.0, 1.75},
-          {"far", 4.5, 25.0, 1.75},
-          {"plain clothes", 3.0, 7.0, 1.75},
-          {"poor landmarks", 3.0, 25.0, 4.0}};
+  return {{"near", 2.2, 25.0, 1.75},          {"usual", 3.0, 25.0, 1.75},
+          {"far", 4.5, 25.0, 1.75},           {"plain clothes", 3.0, 7.0, 1.75},
+          {"poor landmarks", 3.0, 25.0, 4.0}, {"eyes 10 ms apart", 3.0, 25.0, 1.75, 10.0}};
 }
 
 }  // namespace dance

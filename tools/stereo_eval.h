@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "producers/camera/stereo/stereo_depth.h"
+#include "tools/codec_takes.h"
 #include "tools/stereo_dancer.h"
 
 namespace dance {
@@ -27,6 +28,7 @@ struct StereoEvalCase {
   double distance_m = 3.0;
   double contrast = 25.0;
   double image_px = 1.75;
+  double right_later_ms = 0.0;  // of two cameras that no wire triggers
 };
 
 struct ErrorSummary {
@@ -56,9 +58,12 @@ struct StereoEvalOptions {
   int frames = 60;
   int dancers = 6;  // of each case: other bodies, other sizes of the network's metres
   std::uint64_t seed = 1;
+  bool is_calibration_exact = false;
 };
 std::vector<StereoEvalCase> stereo_eval_cases();
-StereoEval evaluate_stereo(const StereoEvalCase& what, const StereoEvalOptions& options);
+// Of the salsa dancer, where no takes are given.
+StereoEval evaluate_stereo(const StereoEvalCase& what, const StereoEvalOptions& options,
+                           const std::vector<CodecTake>& takes = {});
 
 std::string stereo_eval_table(const std::vector<StereoEval>& evals);
 std::string stereo_eval_json(const std::vector<StereoEval>& evals);

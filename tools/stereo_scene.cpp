@@ -75,10 +75,11 @@ StereoScene::StereoScene(const StereoRig& rig, const SceneEyes& eyes, std::uint6
   for (const Side side : {Side::kLeft, Side::kRight}) draw_wall(side);
 }
 
-void StereoScene::draw(std::span<const SceneLimb> limbs, cv::Mat& left, cv::Mat& right) {
+void StereoScene::draw(std::span<const SceneLimb> limbs, std::span<const SceneLimb> limbs_of_right,
+                       cv::Mat& left, cv::Mat& right) {
   ++frame_;
   draw_eye(Side::kLeft, limbs, left);
-  draw_eye(Side::kRight, limbs, right);
+  draw_eye(Side::kRight, limbs_of_right, right);
 }
 
 void StereoScene::draw_eye(Side side, std::span<const SceneLimb> limbs, cv::Mat& out) {

@@ -44,7 +44,12 @@ class StereoScene {
   StereoScene(const StereoRig& rig, const SceneEyes& eyes, std::uint64_t seed);
 
   // Both pictures, blue green red, of the rig's size.
-  void draw(std::span<const SceneLimb> limbs, cv::Mat& left, cv::Mat& right);
+  void draw(std::span<const SceneLimb> limbs, cv::Mat& left, cv::Mat& right) {
+    draw(limbs, limbs, left, right);
+  }
+  // Eyes that open at different moments.
+  void draw(std::span<const SceneLimb> limbs, std::span<const SceneLimb> limbs_of_right,
+            cv::Mat& left, cv::Mat& right);
   const StereoRig& rig() const { return rig_; }
 
  private:

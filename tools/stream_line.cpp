@@ -32,6 +32,7 @@ std::vector<StreamArrival> arrivals_over(const StreamLine& line, std::span<const
   Random random(line.seed);
   std::vector<StreamArrival> arrivals;
   for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (i % std::max<std::size_t>(1, line.every) != 0) continue;
     // Drawn for every pose, so that loss and jitter do not depend on each other.
     const bool is_lost = 100.0 * random.uniform() < line.loss_percent;
     const double late = draw_jitter(line.shape, random);

@@ -36,6 +36,7 @@ struct StreamLine {
   Jitter shape = Jitter::kGamma;
   double loss_percent = 0.0;
   std::vector<Stall> stalls;
+  std::size_t every = 1;  // so many-th pose alone is sent: a sensor that is slower than the stage
   std::uint64_t seed = 1;
 };
 

@@ -35,7 +35,8 @@ struct StyleTake {
   std::vector<Pose> poses;  // with capture times, and musical time where it is known
 };
 
-StyleTake style_take_of(const CodecTake& take);
+// `tempo_off_percent`: told a tempo that is off by so much, what is measured is chance.
+StyleTake style_take_of(const CodecTake& take, double tempo_off_percent = 0.0);
 // A body that sways at known harmonics, with a drift and half a degree of noise: two minutes.
 StyleTake synthetic_sway(double hz);
 

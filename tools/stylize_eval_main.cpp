@@ -13,6 +13,7 @@ constexpr const char* kExamples = R"(Examples:
   dance stylize eval *.bvh.xz --zone arms --gain 2 --mix 0 --json
   dance stylize eval --synthetic --zone hips --gain 0.5 --mix 0
   dance stylize eval salsa.bvh --zone shoulders --gain 1.3 --untagged
+  dance stylize eval salsa.bvh --mix 0 --tempo-off 9
 Gains are measured by least squares at the harmonics of the bar over the whole take, not by the station's own filters.
 Hips: their tilt and their sway over the feet; the legs are solved anew, so the feet's places are what must not change.
 Others: the largest change of a bone of another zone, in degrees.
@@ -21,7 +22,7 @@ Others: the largest change of a bone of another zone, in degrees.
 struct Wishes {
   std::vector<std::string> files;
   StylizeEvalOptions eval;
-  double hz = 60.0;
+  double hz = 60.0, tempo_off_percent = 0.0;
   bool synthetic = false, json = false;
 };
 
@@ -30,7 +31,7 @@ Result<void> run(Wishes wishes) {
   if (wishes.synthetic) takes.push_back(synthetic_sway(wishes.hz));
   for (const std::string& file : wishes.files) {
     DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.hz));
-    takes.push_back(style_take_of(take));
+    takes.push_back(style_take_of(take, wishes.tempo_off_percent));
   }
   if (takes.empty()) return fail("nobody dances: name BVH files, or --synthetic");
   std::vector<StylizeEval> evals;
@@ -71,6 +72,9 @@ int main(int argc, char** argv) {
       .range(0.0, 600.0)
       .shows_default();
   line.add_flag("--synthetic", wishes.synthetic, "two minutes of known sway, too");
+  line.add("--tempo-off", wishes.tempo_off_percent,
+           "percent by which the music that takes are told is faster: what is found then is chance")
+      .range(-30.0, 30.0);
   line.add_flag("--untagged", wishes.eval.untagged,
                 "poses come without musical time: the bar is found in the motion");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");

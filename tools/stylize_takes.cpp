@@ -26,15 +26,16 @@ float wave(double bars, double phase_rad) {
 
 }  // namespace
 
-StyleTake style_take_of(const CodecTake& take) {
+StyleTake style_take_of(const CodecTake& take, double tempo_off_percent) {
   StyleTake out{take.name, take.skeleton, take.hz, 0.0, take.poses};
   const TakeGrid grid = find_take_grid(JointTrack(take.skeleton, take.poses, take.hz));
-  out.tempo_bpm = grid.tempo_bpm;
+  const double pace = 1.0 + tempo_off_percent / 100.0;
+  out.tempo_bpm = pace * grid.tempo_bpm;
   for (std::size_t i = 0; i < out.poses.size(); ++i) {
     const double t_s = static_cast<double>(i) / take.hz;
     out.poses[i].capture_time = style_moment(t_s);
     out.poses[i].clock_id = 1;
-    out.poses[i].music_beats = grid.beats_at(t_s);
+    out.poses[i].music_beats = pace * grid.beats_at(t_s);
   }
   return out;
 }

@@ -22,6 +22,7 @@ class BeatOffset {
     double beats = -1.0;       // the delay that the room wishes; negative: the least that can be
     double least_beats = 0.0;  // of delay: what is newer has not come and cannot be guessed well
     double easy_beats = 0.0;   // lowered only where what is left is no less than this
+    double slack_beats = 0.0;  // below `least_beats` that is borne before it is raised
     double count = 1.0;        // offsets are multiples of it
   };
 
@@ -54,9 +55,8 @@ class BeatOffset {
   static constexpr Duration kRaiseAfter = Duration::ms(150);
   static constexpr Duration kLowerAfter = Duration::s(4);
   // A wished delay is kept as long as what is shown is no further from it than this many counts: half of one would
-  // flutter, and each change is a jump in the dance.
-  static constexpr double kFlutter_counts = 1.0;
-  static constexpr double kRaiseSlack_beats = 0.1;
+  // flutter, and each change is a jump in the dance. With one whole the delay would not come back after a bad minute.
+  static constexpr double kFlutter_counts = 0.75;
 
   static double best_of(const Wish& wish, double difference) {
     const double least =
@@ -67,7 +67,7 @@ class BeatOffset {
 
   Wrong wrong_of(const Wish& wish, double difference) const {
     const double delay = value_ - difference;
-    if (delay < wish.least_beats - kRaiseSlack_beats) return Wrong::kTooLow;
+    if (delay < wish.least_beats - wish.slack_beats) return Wrong::kTooLow;
     if (wish.beats < 0.0)
       return delay - wish.count > wish.easy_beats ? Wrong::kTooHigh : Wrong::kNo;
     const double most = kFlutter_counts * wish.count;

@@ -15,7 +15,7 @@ namespace {
 
 using Arguments = std::vector<std::string_view>;
 
-Result<std::unique_ptr<Transformer>> make_bridge(const Arguments& arguments) {
+Result<std::unique_ptr<Transformer>> make_bridge(const Arguments& arguments, const ChainParts&) {
   BridgeOptions options;
   Settings settings("bridge", arguments);
   settings.duration("blend", options.blend, Duration::ms(5), Duration::s(1));
@@ -23,7 +23,7 @@ Result<std::unique_ptr<Transformer>> make_bridge(const Arguments& arguments) {
   return std::make_unique<Bridge>(options);
 }
 
-Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
+Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments, const ChainParts&) {
   if (arguments.empty()) return std::make_unique<Hold>();
   if (arguments.size() != 1)
     return fail(
@@ -34,8 +34,10 @@ Result<std::unique_ptr<Transformer>> make_hold(const Arguments& arguments) {
   return std::make_unique<Hold>(window);
 }
 
-Result<std::unique_ptr<Transformer>> make_predict(const Arguments& arguments) {
+Result<std::unique_ptr<Transformer>> make_predict(const Arguments& arguments,
+                                                  const ChainParts& parts) {
   PredictOptions options;
+  options.model = parts.predict_model;
   Settings settings("predict", arguments);
   settings.number("lead", options.lead, 0.0, 1.5)
       .duration("most", options.most, Duration(), DancePredictor::kFurthest);
@@ -43,7 +45,7 @@ Result<std::unique_ptr<Transformer>> make_predict(const Arguments& arguments) {
   return std::make_unique<Predict>(options);
 }
 
-Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
+Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments, const ChainParts&) {
   RhythmOptions options;
   double most_error_mm = options.most_error_m * 1e3;
   Settings settings("rhythm", arguments);
@@ -56,14 +58,14 @@ Result<std::unique_ptr<Transformer>> make_rhythm(const Arguments& arguments) {
   return std::make_unique<Rhythm>(options);
 }
 
-Result<std::unique_ptr<Transformer>> make_stylize(const Arguments& arguments) {
+Result<std::unique_ptr<Transformer>> make_stylize(const Arguments& arguments, const ChainParts&) {
   DANCE_TRY(const Style style, read_style("stylize", arguments, kUsualMix));
   return std::make_unique<Stylize>(style);
 }
 
 struct Entry {
   std::string_view name;
-  Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments);
+  Result<std::unique_ptr<Transformer>> (*make)(const Arguments& arguments, const ChainParts& parts);
 };
 
 // Every transformer of the tree.
@@ -85,13 +87,14 @@ Arguments split(std::string_view text) {
   return words;
 }
 
-Result<std::unique_ptr<Transformer>> make_station(std::string_view specification) {
+Result<std::unique_ptr<Transformer>> make_station(std::string_view specification,
+                                                  const ChainParts& parts) {
   Arguments words = split(specification);
   std::string known;
   for (const Entry& entry : kTransformers) {
     if (!words.empty() && entry.name == words[0]) {
       words.erase(words.begin());
-      return entry.make(words);
+      return entry.make(words, parts);
     }
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
@@ -100,10 +103,10 @@ Result<std::unique_ptr<Transformer>> make_station(std::string_view specification
 
 }  // namespace
 
-Result<Chain> Chain::make(const std::vector<std::string>& specifications) {
+Result<Chain> Chain::make(const std::vector<std::string>& specifications, const ChainParts& parts) {
   Chain chain;
   for (const std::string& specification : specifications) {
-    DANCE_TRY(auto station, make_station(specification));
+    DANCE_TRY(auto station, make_station(specification, parts));
     if (!chain.stations_.empty()) station->set_input(chain.stations_.back().get());
     chain.stations_.push_back(std::move(station));
   }

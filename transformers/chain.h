@@ -18,9 +18,17 @@
 
 namespace dance {
 
+struct PredictModel;
+
+// What stations may be made with and no specification can say, as nothing here reads files.
+struct ChainParts {
+  std::shared_ptr<const PredictModel> predict_model;  // null: the built-in one
+};
+
 class Chain {
  public:
-  static Result<Chain> make(const std::vector<std::string>& specifications);
+  static Result<Chain> make(const std::vector<std::string>& specifications,
+                            const ChainParts& parts = {});
 
   // A chain without stations hands poses through as they come.
   bool is_pass_through() const { return stations_.empty(); }

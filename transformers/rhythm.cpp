@@ -11,10 +11,10 @@ constexpr Duration kRhythmRestart = Duration::s(1);
 constexpr std::uint32_t kPosesPerProbe = 4;
 constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
-// Where the delay is wished, a guess may bridge so much before the delay grows by a count.
-constexpr Duration kBridgedByGuess = Duration::ms(30);
 // Before guesses of this dancer have been measured.
 constexpr Duration kUnknownReach = Duration::ms(150);
+// Where the delay is the least that guesses allow, they need not be that good all the time.
+constexpr double kSlack_beats = 0.1;
 // Nobody is shown further ahead of what they dance now than this.
 constexpr double kMostAhead_beats = 0.05;
 // Of the lag of guesses so much is taken back: the further a guess reaches, the less sure it is.
@@ -108,10 +108,13 @@ MonoTime Rhythm::free_moment(MonoTime now) {
 
 void Rhythm::choose_offset(MonoTime now) {
   const double beats_per_second = dance_.beats_per_second();
-  Duration reach = kBridgedByGuess;
+  // Who asks for a beat of delay asks for the truth: it grows as soon as what is shown would have to be guessed. A stall
+  // then finds as much behind the newest pose as can be.
+  Duration reach;
   if (options_.beats < 0.0)
     reach = guesses_.is_known() ? guesses_.reach(options_.most_error_m) : kUnknownReach;
   BeatOffset::Wish wish;
+  wish.slack_beats = options_.beats > 0.0 ? 0.0 : kSlack_beats;
   wish.beats = options_.beats;
   wish.count = options_.count;
   // Who asks for no delay at all gets guesses however far they have to reach.

@@ -27,32 +27,38 @@ Result<LogFeed> LogFeed::open(const std::string& path, bool stage_only) {
   return feed;
 }
 
-// Which clock the house has, how the log's stamps lie to it, and where the beats are.
-Result<void> LogFeed::look_through() {
+// Which clock the house has, and how the log's stamps lie to it: from the stage, or where nobody dances there, from captures.
+bool LogFeed::find_times(Where where, Hop last) {
   std::int64_t least_ahead_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t first_us = 0, last_us = 0;
   while (const auto event = log_.next()) {
     const auto channel = Channel::parse(event->channel);
     Pose pose;
-    if (!channel || !is_pose(*channel, Where::kStage) ||
+    if (!channel || !is_pose(*channel, where) ||
         decode(event->data.data(), event->data.size(), pose) != Decoded::kFine ||
-        !pose.stamped(Hop::kStaged).is_set())
+        !pose.stamped(last).is_set())
       continue;
     if (clock_id_ == 0) {
       clock_id_ = pose.clock_id;
       first_us = event->time_us;
     }
     last_us = event->time_us;
-    least_ahead_us =
-        std::min(least_ahead_us, event->time_us - pose.stamped(Hop::kStaged).since_zero_us());
+    least_ahead_us = std::min(least_ahead_us, event->time_us - pose.stamped(last).since_zero_us());
   }
-  if (clock_id_ == 0)
-    return fail(path_ + ": nobody dances on a stage in this log; record a house with a manager");
+  log_.rewind();
+  if (clock_id_ == 0) return false;
   wall_ahead_us_ = least_ahead_us;
   begin_ = MonoTime::from_us(first_us - wall_ahead_us_);
   end_ = MonoTime::from_us(last_us - wall_ahead_us_);
+  return true;
+}
 
-  log_.rewind();
+// Its times, and where the beats are.
+Result<void> LogFeed::look_through() {
+  if (!find_times(Where::kStage, Hop::kStaged) && !find_times(Where::kCapture, Hop::kPublished))
+    return fail(path_ +
+                ": nobody dances in this log; record a house with a manager, or a camera with "
+                "dance capture --record");
   MusicHere music(clock_id_);
   double before = 0.0;
   bool was_known = false;

@@ -20,6 +20,8 @@ namespace {
 
 constexpr int kEventsPerTurn = 16;
 
+pthread_t signal_thread;  // in which the poller of this process hears of signals
+
 std::string reason(const char* call) {
   std::array<char, 128> text{};
   return std::string(call) + ": " + strerror_r(errno, text.data(), text.size());
@@ -79,6 +81,14 @@ Result<void> Poller::stop_on_signals() {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   if (pthread_sigmask(SIG_BLOCK, &signals, nullptr) != 0) return fail(reason("pthread_sigmask"));
+  // Libraries may have started threads before main did anything (OpenBLAS does), which have nothing blocked: these hand on
+  // what they get.
+  signal_thread = pthread_self();
+  struct sigaction handing_on {};
+  handing_on.sa_handler = [](int signal) { pthread_kill(signal_thread, signal); };
+  handing_on.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM})
+    if (sigaction(signal, &handing_on, nullptr) != 0) return fail(reason("sigaction"));
   signal_fd_ = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
   if (signal_fd_ < 0) return fail(reason("signalfd"));
   add_to_epoll(epoll_fd_, signal_fd_);

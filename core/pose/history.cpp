@@ -40,7 +40,16 @@ std::optional<PoseHistory::Answer> PoseHistory::at(MonoTime t) const {
   const Pose& after = newest(low - 1);
   const double fraction = (t - before.capture_time).as_seconds() /
                           (after.capture_time - before.capture_time).as_seconds();
-  return Answer{interpolate(before, after, static_cast<float>(fraction)), How::kInterpolated};
+  const auto is_close = [](const Pose& earlier, const Pose& later) {
+    return later.capture_time - earlier.capture_time <= kCloseTogether;
+  };
+  const Pose *first = nullptr, *last = nullptr;
+  if (is_close(before, after)) {
+    if (low + 1 < size_ && is_close(newest(low + 1), before)) first = &newest(low + 1);
+    if (low >= 2 && is_close(after, newest(low - 2))) last = &newest(low - 2);
+  }
+  return Answer{interpolate_smoothly(first, before, after, last, static_cast<float>(fraction)),
+                How::kInterpolated};
 }
 
 }  // namespace dance

@@ -23,12 +23,15 @@ class PoseHistory {
     How how;
   };
 
+  static constexpr Duration kCloseTogether = Duration::ms(100);
+
   explicit PoseHistory(std::size_t capacity);
 
   bool push(const Pose& pose);
   void clear() { size_ = 0; }
 
-  // The pose at time t: one that was pushed, or between two, or the nearest end.
+  // The pose at time t: one that was pushed, or between two, or the nearest end. Between poses that are no more than
+  // kCloseTogether apart it goes smoothly, in straight lines across longer gaps.
   std::optional<Answer> at(MonoTime t) const;
 
   std::size_t size() const { return size_; }

@@ -1,4 +1,5 @@
 // A build without PulseAudio: says so, and music is played without sound.
+#include "producers/music/loudspeaker.h"
 #include "producers/music/microphone_beats.h"
 #include "producers/music/pulse_player.h"
 
@@ -23,6 +24,8 @@ Result<std::unique_ptr<MicrophoneBeats>> MicrophoneBeats::open(const std::string
 }
 Result<void> MicrophoneBeats::work(MonoTime) { return {}; }
 std::optional<Beat> MicrophoneBeats::beat(MonoTime) const { return std::nullopt; }
+
+Result<Loudspeaker> default_loudspeaker(const std::string&) { return fail(kNoSound); }
 
 PulseInput::~PulseInput() = default;
 PulseServer::~PulseServer() = default;

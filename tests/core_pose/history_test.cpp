@@ -50,6 +50,31 @@ TEST(PoseHistory, InterpolatesBetweenNeighbours) {
   }
 }
 
+TEST(PoseHistory, GoesSmoothlyBetweenPosesCloseTogetherAndStraightAcrossGaps) {
+  for (const double step_s : {0.033, 0.2}) {
+    PoseHistory history(8);
+    for (int n = 0; n < 6; ++n) {
+      Pose pose = numbered(n);
+      pose.capture_time = MonoTime::from_us(1'000'000) + Duration::seconds(step_s * n);
+      pose.p_WH_m.x() = static_cast<float>(n * n);
+      history.push(pose);
+    }
+    const bool is_smooth = step_s < 0.1;
+    for (double n = 1.5; n < 4.0; n += 1.0) {
+      const auto answer = history.at(MonoTime::from_us(1'000'000) + Duration::seconds(step_s * n));
+      EXPECT_NEAR(static_cast<double>(answer->pose.p_WH_m.x()), is_smooth ? n * n : n * n + 0.25,
+                  1e-3);
+    }
+    // At the ends there is one neighbour only, and between two poses none.
+    EXPECT_TRUE(history.at(history.oldest().capture_time + Duration::ms(1)));
+    EXPECT_TRUE(history.at(history.newest().capture_time - Duration::ms(1)));
+  }
+  PoseHistory two(4);
+  two.push(numbered(0));
+  two.push(numbered(1));
+  EXPECT_NEAR(static_cast<double>(two.at(time_of(0.25))->pose.p_WH_m.x()), 0.25, 1e-4);
+}
+
 TEST(PoseHistory, HoldsItsEnds) {
   PoseHistory history(8);
   for (int n = 0; n < 5; ++n) history.push(numbered(n));

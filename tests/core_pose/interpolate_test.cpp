@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "tests/core_pose/random_pose.h"
 
 namespace dance {
@@ -44,6 +47,120 @@ TEST(Interpolate, TurnsEvenlyAndTheShortWay) {
       EXPECT_NEAR(between.R_PB[bone].norm(), 1.0f, 1e-5f);
     }
   }
+}
+
+// A hand that swings and hips that sway, one after the other as a camera sees them.
+Pose swinging(double s) {
+  Pose pose;
+  pose.capture_time = MonoTime::from_us(1'000'000) + Duration::seconds(s);
+  const auto angle = static_cast<float>(1.2 * std::sin(7.0 * s));
+  pose.R_PB[5] = Quaternionf(AngleAxisf(0.7f, Vector3f::UnitY())) *
+                 Quaternionf(AngleAxisf(angle, Vector3f(1, 2, 3).normalized()));
+  pose.p_WH_m = Vector3f(0.1f * angle, 0.9f, 0.3f * std::cos(angle));
+  return pose;
+}
+
+TEST(InterpolateSmoothly, GivesItsEndsAndValidPosesBetween) {
+  Random random(43);
+  for (int i = 0; i < 300; ++i) {
+    std::array<Pose, 4> poses;
+    MonoTime t = MonoTime::from_us(1000);
+    for (Pose& pose : poses) {
+      pose = random_pose(random, i % 2 == 0 ? 0.3f : 3.14f);
+      t += Duration::seconds(random.uniform(0.001, 0.1));
+      pose.capture_time = t;
+    }
+    for (const bool has_before : {false, true})
+      for (const bool has_after : {false, true}) {
+        const Pose* before = has_before ? &poses[0] : nullptr;
+        const Pose* after = has_after ? &poses[3] : nullptr;
+        const auto at = [&](float fraction) {
+          return interpolate_smoothly(before, poses[1], poses[2], after, fraction);
+        };
+        EXPECT_LT(largest_angle_rad(at(0.0f), poses[1]), 2e-3f);
+        EXPECT_LT(largest_angle_rad(at(1.0f), poses[2]), 2e-3f);
+        EXPECT_TRUE(at(0.0f).p_WH_m.isApprox(poses[1].p_WH_m));
+        EXPECT_TRUE(at(1.0f).p_WH_m.isApprox(poses[2].p_WH_m));
+        const Pose between = at(static_cast<float>(random.uniform()));
+        EXPECT_TRUE(is_valid(between));
+        for (const auto& rotation : between.R_PB) EXPECT_NEAR(rotation.norm(), 1.0f, 1e-5f);
+      }
+  }
+}
+
+TEST(InterpolateSmoothly, FollowsASwingThatStraightLinesCut) {
+  double straight_rad = 0.0, smooth_rad = 0.0, straight_m = 0.0, smooth_m = 0.0;
+  for (double s = 0.0; s < 2.0; s += 1.0 / 30.0) {
+    // Uneven times, as after losses; and rotations of any sign.
+    const Pose before = swinging(s - 1.0 / 15.0), a = swinging(s), after = swinging(s + 1.0 / 15.0);
+    Pose b = swinging(s + 1.0 / 30.0);
+    b.R_PB[5].coeffs() *= -1.0f;
+    for (const float fraction : {0.25f, 0.5f, 0.75f}) {
+      const Pose truth = swinging(s + static_cast<double>(fraction) / 30.0);
+      const auto add = [&](const Pose& is, double& rad, double& m) {
+        rad += static_cast<double>(largest_angle_rad(is, truth));
+        m += static_cast<double>((is.p_WH_m - truth.p_WH_m).norm());
+      };
+      add(interpolate(a, b, fraction), straight_rad, straight_m);
+      add(interpolate_smoothly(&before, a, b, &after, fraction), smooth_rad, smooth_m);
+    }
+  }
+  EXPECT_LT(smooth_rad, 0.25 * straight_rad);
+  EXPECT_LT(smooth_m, 0.25 * straight_m);
+}
+
+TEST(InterpolateSmoothly, HasNoCornerWhereItPassesAPose) {
+  const Pose first = swinging(0.0), a = swinging(0.03), b = swinging(0.07), c = swinging(0.1),
+             last = swinging(0.12);
+  const float h = 1e-2f;
+  const Pose before = interpolate_smoothly(&first, a, b, &c, 1.0f - h);
+  const Pose after = interpolate_smoothly(&a, b, c, &last, h * 4.0f / 3.0f);
+  // Half way between two moments around b lies b.
+  const Vector3f corner_m = before.p_WH_m + after.p_WH_m - 2.0f * b.p_WH_m;
+  EXPECT_LT(corner_m.norm(), 0.02f * (after.p_WH_m - before.p_WH_m).norm());
+  const Pose middle = interpolate(before, after, 0.5f);
+  EXPECT_LT(middle.R_PB[5].angularDistance(b.R_PB[5]),
+            0.02f * before.R_PB[5].angularDistance(after.R_PB[5]));
+}
+
+TEST(InterpolateSmoothly, DoesNotSwingOverWhereAMotionStopsOrStarts) {
+  const auto at = [](double s, float x) {
+    Pose pose;
+    pose.capture_time = MonoTime::from_us(1000) + Duration::seconds(s);
+    pose.p_WH_m = Vector3f(x, 0, 0);
+    pose.R_PB[7] = AngleAxisf(x, Vector3f::UnitZ());
+    return pose;
+  };
+  // A foot that comes to stand; one that leaves; a step of which most is done at once.
+  for (const auto& xs : {std::array{0.0f, 0.3f, 0.3f, 0.3f}, std::array{0.0f, 0.0f, 0.3f, 0.6f},
+                         std::array{0.0f, 0.02f, 0.5f, 0.51f}, std::array{0.0f, 0.3f, 0.31f, 0.6f}})
+    for (const double gap_s : {0.01, 0.033, 0.09}) {
+      const Pose before = at(0.0, xs[0]), a = at(gap_s, xs[1]), b = at(gap_s + 0.033, xs[2]),
+                 after = at(gap_s + 0.066, xs[3]);
+      for (float fraction = 0.0f; fraction <= 1.0f; fraction += 0.05f) {
+        const Pose is = interpolate_smoothly(&before, a, b, &after, fraction);
+        const float angle_rad = 2.0f * std::atan2(is.R_PB[7].z(), is.R_PB[7].w());
+        for (const float x : {is.p_WH_m.x(), angle_rad}) {
+          EXPECT_GE(x, xs[1] - 1e-3f);
+          EXPECT_LE(x, xs[2] + 1e-3f);
+        }
+      }
+    }
+}
+
+TEST(InterpolateSmoothly, GoesTheStraightWayWhereABoneTurnsFar) {
+  Random random(44);
+  Pose before = random_pose(random), a = random_pose(random), after = random_pose(random);
+  before.capture_time = MonoTime::from_us(1000);
+  a.capture_time = MonoTime::from_us(2000);
+  Pose b = a;
+  b.capture_time = MonoTime::from_us(3000);
+  after.capture_time = MonoTime::from_us(4000);
+  for (auto& rotation : b.R_PB) rotation = rotation * AngleAxisf(1.5f, random_direction(random));
+  const Pose straight = interpolate(a, b, 0.3f);
+  const Pose smooth = interpolate_smoothly(&before, a, b, &after, 0.3f);
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone)
+    EXPECT_EQ(smooth.R_PB[bone].coeffs(), straight.R_PB[bone].coeffs());
 }
 
 TEST(Interpolate, GoesOnBeyondItsEnds) {

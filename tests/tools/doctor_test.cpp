@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "tools/doctor_camera.h"
 #include "tools/doctor_checks.h"
 #include "tools/doctor_drawing.h"
+#include "tools/doctor_sound.h"
 
 namespace dance {
 namespace {
@@ -40,6 +42,43 @@ TEST(Doctor, TriesToDraw) {
   const Finding drawing = check_drawing();
   EXPECT_FALSE(drawing.what.empty());
   EXPECT_EQ(drawing.cure.empty(), drawing.grade == Grade::kOk);
+}
+
+TEST(Doctor, NamesTheCureOfEveryFaultOfACamera) {
+  const Finding camera = check_camera();
+  EXPECT_FALSE(camera.what.empty());
+  EXPECT_NE(camera.grade, Grade::kProblem) << "a house needs no camera";
+  const Finding network = check_pose_network();
+  EXPECT_FALSE(network.what.empty());
+  EXPECT_EQ(network.cure.empty(), network.grade == Grade::kOk);
+}
+
+TEST(Doctor, TellsWhereSoundGoesAndHowToMendIt) {
+  Loudspeaker loudspeaker{"hdmi", "A loudspeaker", false, false, Duration::ms(40)};
+  const Finding good = check_loudspeaker(loudspeaker);
+  EXPECT_EQ(good.grade, Grade::kOk);
+  EXPECT_NE(good.what.find("40 ms"), std::string::npos) << good.what;
+  EXPECT_TRUE(good.cure.empty());
+  const auto expect_note = [](const Result<Loudspeaker>& of, const std::string& cure) {
+    const Finding finding = check_loudspeaker(of);
+    EXPECT_EQ(finding.grade, Grade::kNote) << finding.what;
+    EXPECT_NE(finding.cure.find(cure), std::string::npos) << finding.cure;
+  };
+  loudspeaker.latency = Duration::ms(700);
+  expect_note(loudspeaker, "--trim");
+  loudspeaker.is_muted = true;
+  expect_note(loudspeaker, "pactl set-sink-mute hdmi 0");
+  loudspeaker.leads_nowhere = true;
+  expect_note(loudspeaker, "set-default-sink");
+  expect_note(fail("no sound server"), "systemctl --user start");
+}
+
+TEST(Doctor, AsksTheSoundServerOfThisMachine) {
+  const Finding sound = check_sound();
+  EXPECT_EQ(sound.name, "sound");
+  EXPECT_FALSE(sound.what.empty());
+  EXPECT_NE(sound.grade, Grade::kProblem) << "nobody needs sound to dance";
+  EXPECT_EQ(sound.cure.empty(), sound.grade == Grade::kOk);
 }
 
 TEST(Doctor, TellsABusUrlThatIsNone) {

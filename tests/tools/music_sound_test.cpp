@@ -1,4 +1,5 @@
 // dance music with a sound server: what is heard, and when; a microphone; a server that goes away.
+#include "producers/music/loudspeaker.h"
 #include "tests/tools/music_programs.h"
 #include "tests/tools/sound_server.h"
 
@@ -51,6 +52,20 @@ class MusicSound : public MusicPrograms {
 TEST_F(MusicSound, ClicksAreHeardWhenTheBeatWasSaidToBe) {
   if (!SoundServer::is_there()) GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
   expect_clicks_on_the_beat(Duration());
+}
+
+TEST_F(MusicSound, TheLoudspeakerIsToldWithItsLatency) {
+  if (!SoundServer::is_there()) GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
+  SoundServer sound(folder_);
+  ASSERT_TRUE(sound.is_open()) << text_of(folder_.path("pulse/talk"));
+  const auto loudspeaker = default_loudspeaker("test");
+  ASSERT_TRUE(loudspeaker) << loudspeaker.error().what;
+  EXPECT_EQ(loudspeaker->name, "dance");
+  EXPECT_FALSE(loudspeaker->description.empty());
+  EXPECT_TRUE(loudspeaker->leads_nowhere) << "a null sink";
+  EXPECT_FALSE(loudspeaker->is_muted);
+  EXPECT_GT(loudspeaker->latency, Duration());
+  EXPECT_LT(loudspeaker->latency, Duration::s(2));
 }
 
 TEST_F(MusicSound, ALateLoudspeakerIsPlayedEarlierBySoMuch) {

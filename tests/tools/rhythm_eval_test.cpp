@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/beat_phase.h"
+#include "tools/predict_model_file.h"
 #include "tools/take_grid.h"
 
 namespace dance {
@@ -106,6 +107,35 @@ TEST(RhythmEval, TellsTheDelayOfALineAndFindsRhythmBetterThanHold) {
   EXPECT_LT(ours->mean.most_rate, 1.03);
   EXPECT_LT(ours->mean.bone_length_error_mm, 0.01);
   EXPECT_LT(ours->mean.foot_slide_ratio, 1.2);
+}
+
+TEST(RhythmEval, JudgesAnotherModelOfPrediction) {
+  const BeatGrid music = steady_music(160.0);
+  const std::vector<BeatDance> dances{salsa(music)};
+  RhythmEvalOptions options;
+  options.delay = Duration::ms(120);
+  const auto with = [&](const ChainParts& parts) {
+    return evaluate_rhythm(dances, music, {"predict", {"predict"}, parts}, options)->mean.mpjpe_mm;
+  };
+  // One that trusts no guess at all repeats the newest pose.
+  auto distrusts = std::make_shared<PredictModel>(*built_in_predict_model());
+  distrusts->weights = {};
+  EXPECT_LT(with({}), 0.8 * with({distrusts}));
+  EXPECT_DOUBLE_EQ(with({}), with({built_in_predict_model()}));
+}
+
+TEST(PredictModelFile, IsReadOrNamedWithWhatIsWrong) {
+  const std::string file = DANCE_SOURCE_DIR "/data/predict/dance.model";
+  const auto model = read_predict_model_file(file);
+  ASSERT_TRUE(model);
+  EXPECT_EQ((*model)->name, built_in_predict_model()->name);
+  EXPECT_EQ(parts_with_model(file)->predict_model->name, (*model)->name);
+  EXPECT_EQ(parts_with_model("")->predict_model, nullptr);
+  for (const char* wrong : {"/no/such.model", DANCE_SOURCE_DIR "/README.md"}) {
+    const auto refused = parts_with_model(wrong);
+    ASSERT_FALSE(refused) << wrong;
+    EXPECT_NE(refused.error().what.find(wrong), std::string::npos) << refused.error().what;
+  }
 }
 
 TEST(RhythmEval, RefusesAStationThatIsNot) {

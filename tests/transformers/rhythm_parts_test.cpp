@@ -179,6 +179,34 @@ TEST(BeatOffset, TakesMoreDelayWhereTheLineNeedsItAndGivesItBackLater) {
   EXPECT_DOUBLE_EQ(offset.value(), 1.0);
 }
 
+TEST(BeatOffset, ComesBackToTheWishAfterABadMinute) {
+  BeatOffset offset;
+  offset.update(wish(1.0, 0.5), 0.0, second(0));
+  EXPECT_DOUBLE_EQ(offset.value(), 1.0);
+  double s = 0.0;
+  for (; s < 60.0; s += 0.02) offset.update(wish(1.0, 1.3), 0.0, second(s));
+  EXPECT_DOUBLE_EQ(offset.value(), 2.0);
+  for (; s < 63.9; s += 0.02) EXPECT_FALSE(offset.update(wish(1.0, 0.5), 0.0, second(s)));
+  for (; s < 65.0; s += 0.02) offset.update(wish(1.0, 0.5), 0.0, second(s));
+  EXPECT_DOUBLE_EQ(offset.value(), 1.0);
+}
+
+TEST(BeatOffset, BearsAsMuchAsItIsToldBeforeItGrows) {
+  for (const double slack : {0.0, 0.1}) {
+    BeatOffset offset;
+    BeatOffset::Wish line = wish(1.0, 0.5);
+    line.slack_beats = slack;
+    double s = 0.0;
+    // The listener's music runs ahead, and what is left of the beat grows less.
+    double difference = 0.0;
+    for (; offset.value() < 2.0 && s < 60.0; s += 0.02) {
+      difference = 0.02 * s;
+      offset.update(line, difference, second(s));
+    }
+    EXPECT_NEAR(1.0 - difference, 0.5 - slack, 0.01);
+  }
+}
+
 TEST(BeatOffset, KeepsTheBarWhereAskedTo) {
   BeatOffset offset;
   BeatOffset::Wish bars = wish(1.0, 0.3);

@@ -177,6 +177,26 @@ TEST(Rhythm, LetsGoWithoutAJumpWhenTheMusicStops) {
   EXPECT_LT(last_delay_s, 0.25);
 }
 
+TEST(Rhythm, GuessesNothingWhereABeatOfDelayIsWished) {
+  for (const double speed : {0.98, 1.0, 1.02})
+    for (const double sender_hz : {2.0, 3.3}) {
+      TwoHouses houses;
+      houses.jitter_s = 0.02;
+      houses.listener_speed = speed;
+      houses.sender_hz = sender_hz;
+      RhythmOptions options;
+      options.beats = 1.0;
+      Rhythm rhythm(options);
+      int guesses = 0;
+      dance(rhythm, houses, 0.0, 30.0, [&](double s, const Pose& shown) {
+        const double newest_s = s - houses.delay_s - houses.jitter_s - 1.0 / kStageHz;
+        guesses += s > 4.0 && shown.capture_time > stage_time(newest_s + 0.5 / kStageHz) ? 1 : 0;
+      });
+      // Until it is sure that the delay has to grow.
+      EXPECT_LE(guesses, 45) << speed << " " << sender_hz;
+    }
+}
+
 TEST(Rhythm, StaysOnTheBeatThroughAStall) {
   TwoHouses houses;
   RhythmOptions options;

@@ -87,6 +87,24 @@ TEST_F(LogFeedTest, ShowsTheStageOfAnyMomentInTheHousesOwnTime) {
   EXPECT_NEAR(scene.guests[0].figures.beat->behind_ms, 0.0f, 1.0f);
 }
 
+TEST_F(LogFeedTest, ShowsWhatACameraRecordedWithoutAStage) {
+  for (int i = 0; i < 120; ++i) {
+    Pose pose = pose_of(i / 30.0, kNoMusic);
+    pose.stamp(Hop::kPublished, logged_second(i / 30.0));
+    write(i / 30.0, Channel::of(Signal::kPose, Where::kCapture, *GuestId::parse("alice")), pose);
+  }
+  ASSERT_TRUE(writer_->flush());
+  auto feed = LogFeed::open(path_, false);
+  ASSERT_TRUE(feed) << feed.error().what;
+  EXPECT_NEAR((feed->begin() - logged_second(0.0)).as_seconds(), 0.0, 1e-5);
+  feed->go_on_to(logged_second(2.0));
+  StageRoster roster(feed->board());
+  SceneState scene;
+  roster.update(logged_second(2.0), scene);
+  ASSERT_EQ(scene.guests.size(), 1u);
+  EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), 2.0, 0.04);
+}
+
 TEST_F(LogFeedTest, KnowsWhenEachBeatWasHeard) {
   write_couple(4.0);
   auto feed = LogFeed::open(path_, false);

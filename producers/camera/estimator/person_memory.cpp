@@ -16,12 +16,8 @@ constexpr Duration kShort = Duration::ms(500);
 constexpr float kNear_sides = 0.6f;
 constexpr float kSpeedWeight = 0.3f;
 
-Eigen::Vector2f centre(const BodyRegion& region) {
-  return {region.centre_x_px, region.centre_y_px};
-}
-
 float strangeness(const BodyRegion& was, const BodyRegion& is) {
-  return (centre(is) - centre(was)).norm() / was.side_px +
+  return (centre_of(is) - centre_of(was)).norm() / was.side_px +
          std::abs(std::log(is.side_px / was.side_px));
 }
 
@@ -47,7 +43,7 @@ const SeenPerson* PersonMemory::choose(std::span<const SeenPerson> people, MonoT
       return best([](const BodyRegion& region) { return -region.side_px; });
     case FollowOptions::Choice::kNearest:
       return best(
-          [&](const BodyRegion& region) { return (centre(region) - options.place_px).norm(); });
+          [&](const BodyRegion& region) { return (centre_of(region) - options.place_px).norm(); });
     case FollowOptions::Choice::kSurest:
       break;
   }
@@ -57,17 +53,17 @@ const SeenPerson* PersonMemory::choose(std::span<const SeenPerson> people, MonoT
 bool PersonMemory::is_plausible(const BodyRegion& region, MonoTime now) const {
   if (!last_) return true;
   const float passed_s = static_cast<float>((now - last_time_).as_seconds());
-  const Eigen::Vector2f expected = centre(*last_) + passed_s * speed_px_s_;
+  const Eigen::Vector2f expected = centre_of(*last_) + passed_s * speed_px_s_;
   const float allowed = kJump_sides + kJump_sides_per_s * passed_s;
   const float growth = region.side_px / last_->side_px;
-  return (centre(region) - expected).norm() <= allowed * last_->side_px &&
+  return (centre_of(region) - expected).norm() <= allowed * last_->side_px &&
          growth <= kGrowth * (1.0f + passed_s) && growth * kGrowth * (1.0f + passed_s) >= 1.0f;
 }
 
 void PersonMemory::see(const BodyRegion& region, MonoTime now) {
   if (last_ && now > last_time_) {
     const float passed_s = static_cast<float>((now - last_time_).as_seconds());
-    const Eigen::Vector2f speed = (centre(region) - centre(*last_)) / passed_s;
+    const Eigen::Vector2f speed = (centre_of(region) - centre_of(*last_)) / passed_s;
     speed_px_s_ += kSpeedWeight * (speed - speed_px_s_);
   }
   last_ = region;

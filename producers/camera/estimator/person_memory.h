@@ -22,6 +22,8 @@ struct FollowOptions {
   // So long after a loss whoever is nearest in place and size to the lost one comes first; 0: nobody does.
   Duration remembers = Duration::s(3);
   bool refuses_jumps = true;
+  // Looks now and then at the whole picture, to notice who crosses: PeopleWatch.
+  bool watches_others = true;
 };
 
 class PersonMemory {

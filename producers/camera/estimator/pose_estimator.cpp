@@ -29,8 +29,10 @@ void PoseEstimator::forget() {
   next_region_.reset();
   nobody_since_.reset();
   last_search_.reset();
+  is_exchanged_ = false;
   smoothing_.reset();
   memory_.forget();
+  watch_.forget();
 }
 
 void PoseEstimator::follow(float x_px, float y_px) {
@@ -65,8 +67,27 @@ void PoseEstimator::lose(MonoTime now) {
     nobody_since_ = now;
   }
   next_region_.reset();
+  is_exchanged_ = false;
   smoothing_.reset();
   memory_.lose();
+  watch_.lose(now);
+}
+
+bool PoseEstimator::is_exchanged(const Frame& frame, const BodyRegion& seen) {
+  const MonoTime now = frame.capture_time;
+  if (!options_.tracks || !options_.follow.watches_others || !watch_.is_due(now)) return false;
+  const std::int64_t start_ns = clock_ns();
+  ++counters_.looks;
+  const auto people = detector_.find(frame.image, options_.least_score);
+  const std::optional<BodyRegion> other = watch_.look(people, seen, now);
+  times_.search_ns += clock_ns() - start_ns;
+  if (!other || !(other->side_px >= 1.0f)) return false;
+  ++counters_.exchanged;
+  smoothing_.reset();
+  memory_.forget();
+  next_region_ = other;
+  is_exchanged_ = true;
+  return true;
 }
 
 void PoseEstimator::fill(const SeenBody& body, BodyLandmarks& out) {
@@ -93,8 +114,8 @@ const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
   if (!options_.tracks || frame.image.size() != picture_size_) forget();
   picture_size_ = frame.image.size();
 
-  const bool is_new = !next_region_;
-  const std::optional<BodyRegion> region = is_new ? search(frame) : next_region_;
+  const bool is_new = !next_region_ || std::exchange(is_exchanged_, false);
+  const std::optional<BodyRegion> region = next_region_ ? next_region_ : search(frame);
   if (!region) return result_;
   std::int64_t last_ns = clock_ns();
   const auto stage = [&](std::int64_t& sum) {
@@ -120,6 +141,9 @@ const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
     lose(now);
     return result_;
   }
+  stage(times_.rest_ns);
+  if (!is_new && is_exchanged(frame, seen)) return result_;
+  last_ns = clock_ns();
   memory_.see(seen, now);
   fill(body_, unfiltered_);
   unfiltered_.found = true;

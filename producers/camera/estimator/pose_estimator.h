@@ -18,6 +18,7 @@
 #include "producers/camera/estimator/body_smoothing.h"
 #include "producers/camera/estimator/landmark_network.h"
 #include "producers/camera/estimator/model_files.h"
+#include "producers/camera/estimator/people_watch.h"
 #include "producers/camera/estimator/person_detector.h"
 #include "producers/camera/estimator/person_memory.h"
 #include "producers/camera/frame.h"
@@ -43,9 +44,12 @@ struct EstimatorOptions {
 struct EstimatorCounters {
   std::uint64_t pictures = 0;
   std::uint64_t found = 0;
-  std::uint64_t searches = 0;  // of the whole picture
+  std::uint64_t searches = 0;  // of the whole picture, while nobody is followed
+  std::uint64_t looks = 0;     // at the whole picture, while somebody is: for others who cross
   std::uint64_t losses = 0;    // of somebody who was followed
   std::uint64_t refused = 0;   // of these: the body jumped farther than a body can
+  std::uint64_t exchanged =
+      0;  // the one who is followed was taken for somebody who crossed, and is followed again
   std::uint64_t unusable = 0;  // no picture of three bytes a pixel, or the network refused
 };
 
@@ -78,6 +82,8 @@ class PoseEstimator {
   bool is_due_to_search(MonoTime now) const;
   std::optional<BodyRegion> search(const Frame& frame);
   void lose(MonoTime now);
+  // True where the body in `seen` is not the one who is followed; the next picture is that one's.
+  bool is_exchanged(const Frame& frame, const BodyRegion& seen);
   static void fill(const SeenBody& body, BodyLandmarks& out);
   std::int64_t clock_ns() const { return options_.clock_ns ? options_.clock_ns() : 0; }
 
@@ -86,7 +92,9 @@ class PoseEstimator {
   LandmarkNetwork network_;
   BodySmoothing smoothing_;
   PersonMemory memory_;
+  PeopleWatch watch_;
   std::optional<BodyRegion> next_region_;  // while somebody is followed
+  bool is_exchanged_ = false;              // it is somebody else's than the last picture's
   std::optional<MonoTime> nobody_since_, last_search_;
   cv::Size picture_size_;
   SeenBody body_;

@@ -1,5 +1,6 @@
 #include "producers/camera/files/open_frame_source.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <sstream>
 
@@ -67,6 +68,15 @@ Result<std::vector<std::string>> picture_files(const std::vector<std::string>& c
     all.insert(all.end(), files.begin(), files.end());
   }
   return all;
+}
+
+std::string line_on(const FrameSource& source) {
+  if (const auto* camera = dynamic_cast<const V4l2Camera*>(&source)) return camera->negotiated();
+  const FrameFormat& format = source.format();
+  char rate[32];
+  std::snprintf(rate, sizeof rate, "%.4g", format.hz);
+  return source.name() + ": " + std::to_string(format.width_px) + "x" +
+         std::to_string(format.height_px) + " " + format.encoding + " at " + rate + " Hz";
 }
 
 Result<std::unique_ptr<FrameSource>> open_frame_source(const std::string& called,

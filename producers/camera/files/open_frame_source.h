@@ -31,6 +31,9 @@ Result<std::unique_ptr<FrameSource>> open_frame_source(const std::string& called
 Result<std::unique_ptr<FrameSource>> open_frame_source(const std::vector<std::string>& called,
                                                        const SourceOptions& options = {});
 
+// One line for people on what was opened: for a camera what was asked for and what was made of it.
+std::string line_on(const FrameSource& source);
+
 // The files of pictures that these names mean, in the order in which they are played: Frame::sequence counts them from 1.
 Result<std::vector<std::string>> picture_files(const std::vector<std::string>& called);
 

@@ -9,13 +9,18 @@
 namespace dance {
 namespace {
 
-// The network's own errors of a joint, relative to the hips: what it is trusted with here.
-constexpr double kNetworkDepth_m = 0.05;
+// The network's own error of a point's depth relative to the hips: it grows with the way from there.
+double network_spread_m(const Eigen::Vector3d& p_m) {
+  constexpr double kAtHips_m = 0.02;
+  constexpr double kPerMetre = 0.1;
+  return std::hypot(kAtHips_m, kPerMetre * p_m.norm());
+}
+
 // What bodies and clothes differ by from kLimbPlaces and the torso's ellipse: common to all joints, so that more of them do not
 // make it less.
-constexpr double kSkin_m = 0.015;
+constexpr double kSkin_m = 0.02;
 // Of all disparities alike, what a good calibration leaves.
-constexpr double kCalibration_px = 0.15;
+constexpr double kCalibration_px = 0.2;
 // Samples of one limb or torso share joints: two of them count as one.
 constexpr double kSamplesPerJoint = 2.0;
 
@@ -124,7 +129,7 @@ std::optional<DepthHint> fit_depth(const BodySamples& samples, std::span<const S
     std::array<Weighed, kMostBodySamples> hips;
     for (std::size_t i = 0; i < depths.size(); ++i) {
       const BodySample& sample = samples[depths[i].sample];
-      const double network = hint.scale * kNetworkDepth_m;
+      const double network = hint.scale * network_spread_m(sample.p_m);
       const double variance = depths[i].spread_m * depths[i].spread_m + network * network;
       hips[i] = {depths[i].skin_depth_m + hint.scale * (sample.skin_m - sample.p_m.z()),
                  sample.weight / variance};

@@ -44,6 +44,10 @@ void add_to(cv::Rect& box, const Eigen::Vector2d& p) {
   box = box.empty() ? one : (box | one);
 }
 
+bool is_of_rig(const cv::Mat& picture, cv::Size size) {
+  return picture.size() == size && (picture.type() == CV_8UC3 || picture.type() == CV_8UC1);
+}
+
 void to_grey(const cv::Mat& from, const cv::Rect& box, cv::Mat& grey) {
   if (box.empty()) return;
   cv::Mat part = grey(box);
@@ -206,12 +210,15 @@ void StereoDepth::refine(std::size_t i, double expected_px) {
 }
 
 DepthHint StereoDepth::hint(const cv::Mat& left, const cv::Mat& right, const BodyLandmarks& body) {
-  DANCE_ASSERT(left.size() == left_grey_.size() && right.size() == left_grey_.size());
-  DANCE_ASSERT(left.depth() == CV_8U && right.depth() == CV_8U);
   matches_.clear();
   samples_.clear();
   if (!body.found) return {};
   ++counters_.asked;
+  // A camera that comes back may come back with another size.
+  if (!is_of_rig(left, left_grey_.size()) || !is_of_rig(right, left_grey_.size())) {
+    ++counters_.other_size;
+    return {};
+  }
   if (body.is_new || ++misses_ > kMissesToForget) scale_ = 0.0;
   take_body_samples(pair_.rig().left, body, samples_);
   const auto one_eye = fit_monocular(samples_);
@@ -289,6 +296,11 @@ std::string StereoDepth::trouble() const {
         "the rig was bent or the file is another's; calibrate with dance capture "
         "--calibrate",
         std::abs(row_offset_px_), row_offset_px_ > 0.0 ? "below" : "above");
+  if (counters_.other_size > 0)
+    return fmt::format(
+        "the calibration is for pictures of {} x {} an eye, and others come: choose "
+        "that size with --size",
+        left_grey_.cols, left_grey_.rows);
   if (counters_.asked >= 200 && counters_.hinted * 10 < counters_.asked)
     return "the two eyes hardly agree on anything: are left and right swapped, a lens covered, or "
            "the "

@@ -22,11 +22,12 @@
 namespace dance {
 
 struct StereoDepthCounters {
-  std::uint64_t asked = 0;      // somebody was seen
-  std::uint64_t hinted = 0;     // got a depth
-  std::uint64_t one_eyed = 0;   // too few points for even one eye to tell
-  std::uint64_t disagreed = 0;  // no distance that the patches agree on
-  std::uint64_t too_few = 0;    // agreed on, but too few matched well
+  std::uint64_t asked = 0;       // somebody was seen
+  std::uint64_t hinted = 0;      // got a depth
+  std::uint64_t one_eyed = 0;    // too few points for even one eye to tell
+  std::uint64_t disagreed = 0;   // no distance that the patches agree on
+  std::uint64_t other_size = 0;  // pictures that are not the rig's
+  std::uint64_t too_few = 0;     // agreed on, but too few matched well
 };
 
 // What became of one sample.

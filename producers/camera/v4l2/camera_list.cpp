@@ -1,11 +1,14 @@
 #include "producers/camera/v4l2/camera_list.h"
 
+#include <linux/videodev2.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "producers/camera/v4l2/v4l2_device.h"
 
@@ -26,6 +29,13 @@ std::string in_lower_case(std::string text) {
 bool is_number(const std::string& text) {
   return !text.empty() && text.size() <= 3 &&
          text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// A notebook's second camera sees heat or grey, to know a face by; a device that plays back may have nothing to give.
+int rank_of(const CameraEntry& camera) {
+  const auto mode = choose_mode(camera.modes, {});
+  if (!mode) return 2;
+  return mode->fourcc == V4L2_PIX_FMT_GREY ? 1 : 0;
 }
 
 std::string rates_of(const std::set<double>& rates) {
@@ -113,11 +123,16 @@ Result<std::string> camera_path(const std::string& called, std::span<const Camer
   const bool is_any = called.empty() || called == "auto";
   const std::string wanted = in_lower_case(called);
   const CameraEntry* best = nullptr;
+  std::pair<bool, int> best_key;
   for (const CameraEntry& camera : cameras) {
     if (!camera.trouble.empty()) continue;
     const std::string name = in_lower_case(camera.name);
-    if (name == wanted) return camera.path;
-    if (best == nullptr && (is_any || name.find(wanted) != std::string::npos)) best = &camera;
+    if (!is_any && name.find(wanted) == std::string::npos) continue;
+    const std::pair<bool, int> key{!is_any && name != wanted, rank_of(camera)};
+    if (best == nullptr || key < best_key) {
+      best = &camera;
+      best_key = key;
+    }
   }
   if (best != nullptr) return best->path;
   if (is_any) {

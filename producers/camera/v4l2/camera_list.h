@@ -34,7 +34,7 @@ std::string camera_table(std::span<const CameraEntry> cameras);
 std::string cameras_in_a_line(std::span<const CameraEntry> cameras);
 
 // The device path of a camera that is called by path, number or (part of its) name, whether or not it is there:
-// "" and "auto" mean the first.
+// "" and "auto" mean the first, before others one that sees colours.
 Result<std::string> camera_path(const std::string& called, std::span<const CameraEntry> cameras);
 
 // Of what is there now the camera that `lost` was: in the same socket, or of the same name in a socket where no other of its name was

@@ -21,10 +21,11 @@ void wait_until(MonoTime when) {
 }  // namespace
 
 Result<std::unique_ptr<V4l2Camera>> V4l2Camera::open(const std::string& called,
-                                                     const CameraWish& wish, Duration look_every) {
+                                                     const CameraWish& wish,
+                                                     const CameraPatience& patience) {
   const std::vector<CameraEntry> cameras = list_cameras();
   DANCE_TRY(const std::string path, camera_path(called, cameras));
-  std::unique_ptr<V4l2Camera> camera(new V4l2Camera(wish, look_every));
+  std::unique_ptr<V4l2Camera> camera(new V4l2Camera(wish, patience));
   if (auto started = camera->start(path); !started) return tl::make_unexpected(started.error());
   for (const CameraEntry& other : cameras) {
     if (other.name == camera->identity_.name && other.bus_info != camera->identity_.bus_info) {
@@ -54,6 +55,7 @@ Result<void> V4l2Camera::start(const std::string& path) {
              text_of_fourcc(stream_->mode().fourcc)};
   driver_sequence_.reset();
   is_refreshing_ = false;
+  alive_at_ = mono_now();
   return {};
 }
 
@@ -75,7 +77,7 @@ void V4l2Camera::lose() {
   convert_.reset();
   stream_.reset();
   ++counters_.unplugged;
-  look_at_ = mono_now() + look_every_;
+  look_at_ = mono_now() + patience_.look_every;
 }
 
 FrameState V4l2Camera::look_again(MonoTime deadline) {
@@ -83,7 +85,7 @@ FrameState V4l2Camera::look_again(MonoTime deadline) {
     wait_until(std::min(look_at_, deadline));
     if (look_at_ > mono_now()) return FrameState::kGone;
   }
-  look_at_ = mono_now() + look_every_;
+  look_at_ = mono_now() + patience_.look_every;
   const std::vector<CameraEntry> cameras = list_cameras();
   const CameraEntry* found = found_again(identity_, others_, cameras);
   // It may not be ready yet, or another program was faster: the next look tells.
@@ -135,6 +137,13 @@ bool V4l2Camera::is_stale(const RawPicture& picture, MonoTime now) const {
   return !picture.is_stamp_monotonic || now - picture.stamp > Duration::period_of_hz(hz);
 }
 
+// Some cameras stop behind a hub of too little power and come again when they are opened anew.
+bool V4l2Camera::is_stalled(MonoTime now) const {
+  const double hz = stream_->mode().hz();
+  const Duration pictures = hz > 0.0 ? Duration::period_of_hz(hz) * 5 : Duration();
+  return now - alive_at_ > std::max(patience_.stalled_after, pictures);
+}
+
 bool V4l2Camera::show(const RawPicture& picture, Frame& out) {
   const MonoTime now = mono_now();
   const bool is_believable =
@@ -162,10 +171,13 @@ FrameState V4l2Camera::next(Duration patience, Frame& out) {
         lose();
         return FrameState::kGone;
       case V4l2Stream::Ready::kNo:
-        return FrameState::kNone;
+        if (!is_stalled(mono_now())) return FrameState::kNone;
+        lose();
+        return FrameState::kGone;
       case V4l2Stream::Ready::kYes:
         break;
     }
+    alive_at_ = mono_now();
     RawPicture newest;
     if (take_newest(newest)) {
       if (is_stale(newest, mono_now())) {

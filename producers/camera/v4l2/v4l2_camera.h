@@ -24,12 +24,17 @@
 
 namespace dance {
 
+struct CameraPatience {
+  Duration look_every = Duration::s(1);      // for a camera that is gone
+  Duration stalled_after = Duration::s(10);  // without a picture a camera hangs, and is opened anew
+};
+
 class V4l2Camera : public FrameSource {
  public:
-  // `called`: "/dev/video0", "0", "HD Webcam" or a part of it; "" for the first camera. A camera that is gone is looked for every `look_every`.
+  // `called`: "/dev/video0", "0", "HD Webcam" or a part of it; "" for the first camera.
   static Result<std::unique_ptr<V4l2Camera>> open(const std::string& called,
                                                   const CameraWish& wish = {},
-                                                  Duration look_every = Duration::s(1));
+                                                  const CameraPatience& patience = {});
 
   FrameState next(Duration patience, Frame& out) override;
   const FrameFormat& format() const override { return format_; }
@@ -42,17 +47,19 @@ class V4l2Camera : public FrameSource {
   bool has_driver_stamps() const { return has_driver_stamps_; }
 
  private:
-  V4l2Camera(const CameraWish& wish, Duration look_every) : wish_(wish), look_every_(look_every) {}
+  V4l2Camera(const CameraWish& wish, const CameraPatience& patience)
+      : wish_(wish), patience_(patience) {}
   Result<void> start(const std::string& path);
   FrameState look_again(MonoTime deadline);
   void lose();
   bool take_newest(RawPicture& newest);
   bool is_stale(const RawPicture& picture, MonoTime now) const;
+  bool is_stalled(MonoTime now) const;
   bool show(const RawPicture& picture, Frame& out);
   void count(const RawPicture& picture);
 
   CameraWish wish_;
-  Duration look_every_;
+  CameraPatience patience_;
   CameraEntry identity_;                     // by which it is found again
   std::vector<std::string> others_;          // sockets of other cameras of its name
   std::optional<V4l2Stream> stream_;         // empty: the camera is gone
@@ -62,6 +69,7 @@ class V4l2Camera : public FrameSource {
   FrameCounters counters_;
   std::string name_;
   MonoTime look_at_;
+  MonoTime alive_at_;           // when something last came
   std::uint64_t sequence_ = 0;  // of the newest picture, over all times that it was unplugged
   std::optional<std::uint32_t> driver_sequence_;  // of the newest picture since it streams
   int waited_ = 0;                                // pictures that waited when last asked

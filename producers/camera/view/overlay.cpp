@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
@@ -39,7 +40,7 @@ constexpr Limb kLimbs[] = {{kLeftShoulder, kRightShoulder},
                            {kRightEye, kRightEar}};
 
 constexpr float kFar_px = 20000.0f;  // far outside of any picture, and whole in an int
-constexpr float kSeen = 0.5f;  // visibility from which a point is drawn in full
+constexpr float kSeen = 0.5f;        // visibility from which a point is drawn in full
 
 cv::Scalar colour_of(Landmark from, Landmark to) {
   // Left points have odd numbers from the shoulders on, 1…3 and 7 in the face.
@@ -81,6 +82,10 @@ void draw_landmarks(cv::Mat& picture, const BodyLandmarks& body) {
     cv::circle(picture, pixel_of(body.image(landmark)), width + 1, {255, 255, 255}, cv::FILLED,
                cv::LINE_AA);
   }
+}
+
+void draw_board(cv::Mat& picture, int columns, int rows, const std::vector<cv::Point2f>& corners) {
+  if (!corners.empty()) cv::drawChessboardCorners(picture, {columns, rows}, corners, true);
 }
 
 void draw_caption(cv::Mat& picture, std::string_view text) {

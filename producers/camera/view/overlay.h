@@ -8,6 +8,7 @@
 
 #include <opencv2/core/mat.hpp>
 #include <string_view>
+#include <vector>
 
 #include "producers/camera/body_landmarks.h"
 
@@ -15,6 +16,9 @@ namespace dance {
 
 // The dancer's left side is drawn warm, the right side cool; what is barely visible is pale.
 void draw_landmarks(cv::Mat& picture, const BodyLandmarks& body);
+
+// The inner corners of a chessboard, row by row; nothing where there are none.
+void draw_board(cv::Mat& picture, int columns, int rows, const std::vector<cv::Point2f>& corners);
 
 // A line of text at the lower edge, on a dark band.
 void draw_caption(cv::Mat& picture, std::string_view text);

@@ -5,6 +5,7 @@
 
 #include "core/base/random.h"
 #include "producers/camera/estimator/one_euro.h"
+#include "producers/camera/estimator/people_watch.h"
 #include "producers/camera/estimator/person_memory.h"
 #include "producers/camera/estimator/region_sampler.h"
 
@@ -158,6 +159,61 @@ TEST(PersonMemory, ABodyDoesNotJump) {
   EXPECT_FALSE(memory.is_plausible({260.0f, 50.0f, 100.0f, 0.0f}, ms(33 * 20)));
   EXPECT_FALSE(memory.is_plausible({300.0f, 50.0f, 170.0f, 0.0f}, ms(33 * 20)));
   EXPECT_FALSE(memory.is_plausible({300.0f, 50.0f, 60.0f, 0.0f}, ms(33 * 20)));
+}
+
+// Somebody walks past a dancer who stands at 600 px; while they are near each other one person is seen, and the one who is followed is from
+// then on wherever `taken_along` says.
+class Passing {
+ public:
+  explicit Passing(float walk_px_s) : walk_px_s_(walk_px_s) {}
+
+  // Gives where the region was sent, if anywhere.
+  std::optional<BodyRegion> play(bool is_taken_along) {
+    PeopleWatch watch;
+    bool have_met = false;
+    for (int i = 0; i < 100; ++i) {
+      const MonoTime now = ms(50 * i);
+      const float walker_px = 200.0f + walk_px_s_ * 0.05f * static_cast<float>(i);
+      const bool is_one = std::abs(walker_px - 600.0f) < 60.0f;
+      have_met = have_met || is_one;
+      const BodyRegion followed = region_at(is_taken_along && have_met ? walker_px : 600.0f);
+      const std::array<SeenPerson, 2> both{SeenPerson{0.9f, region_at(walker_px)},
+                                           SeenPerson{0.8f, region_at(600.0f)}};
+      if (!watch.is_due(now)) continue;
+      const auto sent = watch.look({both.data(), is_one ? 1u : 2u}, followed, now);
+      if (sent) return sent;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static BodyRegion region_at(float x_px) { return {x_px, 300.0f, 500.0f, 0.0f}; }
+  float walk_px_s_;
+};
+
+TEST(PeopleWatch, WhoPassesDoesNotTakeTheDancersPlace) {
+  for (const float walk_px_s : {120.0f, 200.0f, 300.0f}) {
+    const auto sent = Passing(walk_px_s).play(true);
+    ASSERT_TRUE(sent) << walk_px_s;
+    EXPECT_NEAR(sent->centre_x_px, 600.0f, 1.0f);
+  }
+}
+
+TEST(PeopleWatch, NobodyIsExchangedWhereTheDancerStayed) {
+  for (const float walk_px_s : {120.0f, 200.0f, 300.0f})
+    EXPECT_FALSE(Passing(walk_px_s).play(false)) << walk_px_s;
+}
+
+TEST(PeopleWatch, LooksSeldomAtOneWhoIsAlone) {
+  PeopleWatch watch;
+  const SeenPerson alone{0.9f, {600.0f, 300.0f, 500.0f, 0.0f}};
+  int looks = 0;
+  for (int i = 0; i < 300; ++i) {
+    if (!watch.is_due(ms(33 * i))) continue;
+    ++looks;
+    EXPECT_FALSE(watch.look({&alone, 1}, alone.region, ms(33 * i)));
+  }
+  EXPECT_LE(looks, 10);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -176,6 +177,41 @@ TEST(PoseEstimator, FollowsWhomOnePointsAt) {
       EXPECT_EQ(middle_px > kHalf_px, place > 0.5f) << "frame " << i;
     }
   }
+}
+
+// A strip with another man in it goes from left to right across the picture, in front of the dancer. Where the hips of the one who is followed
+// are in the end.
+float hips_after_passing(PoseEstimator& estimator, const std::vector<cv::Mat>& frames) {
+  constexpr int kDancer_px = 640, kHalf_px = 130, kStep_px = 12;
+  cv::Mat passer;
+  cv::flip(frames[0](cv::Rect(kDancer_px - kHalf_px, 0, 2 * kHalf_px, frames[0].rows)), passer, 1);
+  estimator.follow(kDancer_px, 400.0f);
+  float hips_px = 0.0f;
+  std::size_t number = 0;
+  for (int x = 0; x + 2 * kHalf_px < frames[0].cols; x += kStep_px, ++number) {
+    cv::Mat picture = frames[number / 4 % frames.size()].clone();
+    passer.copyTo(picture(cv::Rect(x, 0, passer.cols, passer.rows)));
+    const BodyLandmarks& body = estimator.estimate(frame_of(picture, number));
+    if (body.found)
+      hips_px = 0.5f * (body.image(Landmark::kLeftHip) + body.image(Landmark::kRightHip)).x();
+  }
+  return hips_px;
+}
+
+TEST(PoseEstimator, WhoWalksPastInFrontDoesNotTakeTheDancersPlace) {
+  SKIP_WITHOUT_POSE_MODELS();
+  SKIP_WITHOUT_VIDEO();
+  const auto frames = video_frames(24);
+  const auto watchful = opened({});
+  ASSERT_TRUE(watchful);
+  EXPECT_NEAR(hips_after_passing(*watchful, frames), 650.0f, 50.0f);
+  EXPECT_EQ(watchful->counters().exchanged, 1u);
+  // What it would be without looking at the others.
+  EstimatorOptions options;
+  options.follow.watches_others = false;
+  const auto blind = opened(options);
+  ASSERT_TRUE(blind);
+  EXPECT_GT(hips_after_passing(*blind, frames), 900.0f);
 }
 
 TEST(PoseEstimator, AllocatesNothingOfOursOncePeopleAreFollowed) {

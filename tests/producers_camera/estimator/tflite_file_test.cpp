@@ -126,7 +126,7 @@ TEST(TfliteFile, ADamagedNetworkIsAnErrorOrAWholeGraph) {
   ASSERT_GT(bytes.size(), 1000u);
   EXPECT_FALSE(parse_tflite(std::span(bytes).first(bytes.size() / 2)));
   std::size_t refused = 0;
-  const std::size_t step = bytes.size() / 61;
+  const std::size_t step = bytes.size() / 23;
   // Tables stand at the end, weights before them: both are hit.
   for (std::size_t at = 3; at < bytes.size(); at += step) {
     const std::uint8_t was = bytes[at];
@@ -134,14 +134,14 @@ TEST(TfliteFile, ADamagedNetworkIsAnErrorOrAWholeGraph) {
     refused += parse_tflite(bytes) ? 0 : 1;
     bytes[at] = was;
   }
-  for (std::size_t i = 0; i < 200; ++i) {
-    const std::size_t at = bytes.size() - 1 - i * 101;
+  for (std::size_t i = 0; i < 60; ++i) {
+    const std::size_t at = bytes.size() - 1 - i * 337;
     const std::uint8_t was = bytes[at];
     bytes[at] = 0xff;
     refused += parse_tflite(bytes) ? 0 : 1;
     bytes[at] = was;
   }
-  EXPECT_GT(refused, 10u);
+  EXPECT_GT(refused, 3u);
   EXPECT_TRUE(parse_tflite(bytes));
 }
 

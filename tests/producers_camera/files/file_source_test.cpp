@@ -74,6 +74,7 @@ TEST_F(FileSource, AVideoAsFastAsPossibleGivesEveryPictureWithItsTime) {
   EXPECT_EQ(source->format().hz, 25.0);
   EXPECT_EQ(source->format().encoding, "MJPG");
   EXPECT_EQ(source->name(), "a.avi");
+  EXPECT_EQ(line_on(*source), "a.avi: 64x48 MJPG at 25 Hz");
   Frame frame;
   MonoTime start;
   for (int i = 0; i < kFilePictures; ++i) {

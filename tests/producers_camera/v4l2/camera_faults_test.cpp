@@ -122,6 +122,20 @@ TEST_F(CameraFaults, AnUnpluggedCameraComesBackUnderAnotherNumber) {
   EXPECT_EQ(camera->counters().lost, 0u);
 }
 
+TEST_F(CameraFaults, ACameraThatHangsIsOpenedAnew) {
+  shim_->set_up("modes=YUYV:64x48@1000");
+  add_numbered(64, 48);
+  stalled_after_ = Duration::ms(20);
+  const auto camera = opened();
+  ASSERT_NE(camera, nullptr);
+  Frame frame;
+  ASSERT_EQ(after(FrameState::kNone, *camera, frame), FrameState::kGone);
+  ASSERT_EQ(after(FrameState::kGone, *camera, frame), FrameState::kBack);
+  shim_->tick(1);
+  EXPECT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  EXPECT_EQ(camera->counters().unplugged, 1u);
+}
+
 TEST_F(CameraFaults, AnotherCameraIsNotTakenForTheLostOne) {
   shim_->set_up("modes=YUYV:64x48@30");
   const auto camera = opened();

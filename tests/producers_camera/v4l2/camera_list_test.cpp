@@ -67,6 +67,23 @@ TEST(CameraList, ACameraIsCalledByPathNumberOrName) {
   EXPECT_FALSE(camera_path("elgato", cameras).has_value());
 }
 
+TEST(CameraList, TheFirstThatSeesColoursIsTaken) {
+  std::vector<CameraEntry> cameras{
+      {"/dev/video0", "Loopback", "virtual-1", {}, ""},
+      {"/dev/video1", "Notebook: I", "usb-1", {{V4L2_PIX_FMT_GREY, 640, 360, 1, 30}}, ""},
+      {"/dev/video2", "Notebook: C", "usb-1", {{kListedYuyv, 640, 480, 1, 30}}, ""},
+      {"/dev/video3", "Another", "usb-2", {{kListedYuyv, 1280, 720, 1, 30}}, ""}};
+  EXPECT_EQ(camera_path("", cameras).value(), "/dev/video2");
+  EXPECT_EQ(camera_path("notebook", cameras).value(), "/dev/video2");
+  EXPECT_EQ(camera_path("Notebook: I", cameras).value(), "/dev/video1");
+  cameras.resize(2);
+  EXPECT_EQ(camera_path("auto", cameras).value(), "/dev/video1");
+  cameras.resize(1);
+  EXPECT_EQ(camera_path("auto", cameras).value(), "/dev/video0");
+  cameras[0].trouble = "/dev/video0: no permission";
+  EXPECT_EQ(camera_path("auto", cameras).error().what, "/dev/video0: no permission");
+}
+
 TEST(CameraList, OneIsFoundAgainInItsSocketOrInAFreeOne) {
   const std::vector<CameraEntry> cameras = two_of_a_kind();
   const std::vector<std::string> others{"usb-2"};

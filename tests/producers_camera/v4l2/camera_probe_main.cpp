@@ -8,7 +8,6 @@
 #include "core/net/mono_clock.h"
 #include "producers/camera/files/open_frame_source.h"
 #include "producers/camera/v4l2/camera_list.h"
-#include "producers/camera/v4l2/v4l2_camera.h"
 #include "tests/producers_camera/v4l2/press_control.h"
 
 namespace dance {
@@ -34,9 +33,7 @@ int probe(const std::string& called, const SourceOptions& options, int wanted, W
     std::fprintf(stderr, "%s\n", source.error().what.c_str());
     return 1;
   }
-  if (const auto* camera = dynamic_cast<const V4l2Camera*>(source->get())) {
-    std::printf("%s\n", camera->negotiated().c_str());
-  }
+  std::printf("%s\n", line_on(**source).c_str());
   const MonoTime end = mono_now() + Duration::seconds(seconds);
   Frame frame;
   Duration oldest;

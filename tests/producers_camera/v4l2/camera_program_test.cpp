@@ -18,11 +18,11 @@ struct Ended {
   std::string said;
 };
 
-// Through a shell, which has the shim loaded as well: it does not mind.
+// The shell loads it for the program alone.
 Ended run_probe(const std::string& shim_words, const std::string& arguments) {
-  const std::string command =
-      "LD_PRELOAD=" DANCE_BINARY_DIR "/tests/libdance_video_shim.so DANCE_VIDEO_SHIM='" +
-      shim_words + "' " DANCE_BINARY_DIR "/tests/camera_probe " + arguments + " 2>&1";
+  const std::string command = "LD_PRELOAD=" DANCE_VIDEO_SHIM_PRELOAD " DANCE_VIDEO_SHIM='" +
+                              shim_words + "' " DANCE_BINARY_DIR "/tests/camera_probe " +
+                              arguments + " 2>&1";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   Ended ended;
   std::array<char, 4096> part{};

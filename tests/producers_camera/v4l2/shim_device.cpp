@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <linux/videodev2.h>
+#include <pthread.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +17,9 @@
 
 namespace dance {
 namespace {
+
+constexpr const char* kStart = "/dev/video";
+std::atomic<int> handle_count = 0;
 
 void sleep_ms(int ms) {
   const timespec time{ms / 1000, (ms % 1000) * 1'000'000L};
@@ -37,7 +42,16 @@ ShimDevice& ShimDevice::here() {
   return *device;
 }
 
+int ShimDevice::open_handles() { return handle_count.load(std::memory_order_relaxed); }
+
+bool ShimDevice::is_video(const char* path) {
+  return std::strncmp(path, kStart, std::strlen(kStart)) == 0;
+}
+
 ShimDevice::ShimDevice() {
+  // Who forks while the sensor runs must not find the lock taken for ever in the child, whose first act is to close files.
+  ::pthread_atfork([] { here().lock_.lock(); }, [] { here().lock_.unlock(); },
+                   [] { here().lock_.unlock(); });
   const char* words = std::getenv("DANCE_VIDEO_SHIM");
   if (words == nullptr) {
     words_.is_absent = true;
@@ -195,8 +209,6 @@ int ShimDevice::priority() const {
 }
 
 int ShimDevice::open(const char* path, int flags) {
-  constexpr const char* kStart = "/dev/video";
-  if (std::strncmp(path, kStart, std::strlen(kStart)) != 0) return -2;
   const std::lock_guard guard(lock_);
   const std::string number = path + std::strlen(kStart);
   const bool is_metadata = words_.has_metadata && number == std::to_string(words_.device + 1);
@@ -212,6 +224,7 @@ int ShimDevice::open(const char* path, int flags) {
   int ends[2] = {};
   if (::pipe2(ends, O_CLOEXEC | (flags & O_NONBLOCK)) != 0) return -1;
   handles_[ends[0]] = {ends[1], is_metadata};
+  ++handle_count;
   return ends[0];
 }
 
@@ -234,6 +247,7 @@ void ShimDevice::close(int fd) {
   }
   if (handle.write_fd >= 0) real_close(handle.write_fd);
   handles_.erase(fd);
+  --handle_count;
 }
 
 int ShimDevice::memory_of(int fd) const {

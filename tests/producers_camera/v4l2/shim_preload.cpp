@@ -18,9 +18,16 @@ Function* next_of(Function*, const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
 }
 
+// Sanitizers call these before they are ready for anybody's memory or locks: nothing is touched until a camera is opened.
+bool is_ours(int fd) {
+  return dance::ShimDevice::open_handles() > 0 && dance::ShimDevice::here().is_ours(fd);
+}
+
 int open_ours_or(const char* name, const char* path, int flags, mode_t mode) {
-  const int ours = dance::ShimDevice::here().open(path, flags);
-  if (ours != -2) return ours;
+  if (dance::ShimDevice::is_video(path)) {
+    const int ours = dance::ShimDevice::here().open(path, flags);
+    if (ours != -2) return ours;
+  }
   using Open = int(const char*, int, ...);
   static Open* const next = next_of(static_cast<Open*>(nullptr), name);
   return next(path, flags, mode);
@@ -53,8 +60,7 @@ int open64(const char* path, int flags, ...) {
 }
 
 int close(int fd) {
-  dance::ShimDevice& shim = dance::ShimDevice::here();
-  if (shim.is_ours(fd)) shim.close(fd);
+  if (is_ours(fd)) dance::ShimDevice::here().close(fd);
   static auto* const next = next_of(&close, "close");
   return next(fd);
 }
@@ -64,9 +70,8 @@ int ioctl(int fd, unsigned long request, ...) noexcept {
   va_start(more, request);
   void* argument = va_arg(more, void*);
   va_end(more);
-  dance::ShimDevice& shim = dance::ShimDevice::here();
-  if (shim.is_ours(fd)) {
-    const int number = shim.answer(fd, request, argument);
+  if (is_ours(fd)) {
+    const int number = dance::ShimDevice::here().answer(fd, request, argument);
     if (number == 0) return 0;
     errno = number;
     return -1;
@@ -77,9 +82,8 @@ int ioctl(int fd, unsigned long request, ...) noexcept {
 }
 
 void* mmap(void* at, size_t size, int protection, int flags, int fd, off_t offset) noexcept {
-  // The loader and the C library map long before anybody can have opened a camera.
   static auto* const next = next_of(&mmap, "mmap");
-  if (fd >= 0) {
+  if (fd >= 0 && dance::ShimDevice::open_handles() > 0) {
     const int memory = dance::ShimDevice::here().memory_of(fd);
     if (memory >= 0) fd = memory;
   }

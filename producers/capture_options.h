@@ -1,0 +1,62 @@
+// What `dance capture` was asked for.
+//
+// Units/frames: as each field says.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      none; what is wrong with a value is said where it is used.
+#pragma once
+
+#include <string>
+
+#include "producers/camera/estimator/pose_estimator.h"
+#include "producers/camera/v4l2/video_mode.h"
+
+namespace dance {
+
+struct CaptureOptions {
+  std::string source;  // camera, video, folder; "" = the first camera
+  std::string right;   // the right eye, where it is a camera of its own
+  std::string guest = "alice";
+  std::string bus;
+  double seconds = 0.0;  // 0 = until told to stop
+
+  // camera
+  std::string size;  // "1280x720"
+  double hz = 0.0;
+  std::string encoding;
+  bool loops = false;  // a video begins again
+
+  // pose network
+  PoseModel model = PoseModel::kFull;
+  EngineKind engine = EngineKind::kFastest;
+  std::string models_folder;
+  std::string follow;  // "largest", or "x,y" as shares of the picture
+
+  // solver
+  std::string calibration;
+  double fov_deg = 65.0;  // horizontal, where nothing is measured
+  double height_m = 0.0;  // of the dancer; 0 = not told
+  double smooth = 1.0;
+  bool is_mirrored = false;
+
+  // what comes out beside poses
+  bool has_preview = false;
+  std::string preview_file;
+  std::string record_folder;
+  bool wants_json = false;
+
+  // other work
+  bool only_lists = false;
+  std::string calibrate_file;
+  std::string board = "9x6";
+  double square_mm = 25.0;
+};
+
+// What the words of --size, --hz and --format wish for.
+Result<CameraWish> camera_wish(const CaptureOptions& options);
+// Whom --follow means, in a picture of this size.
+Result<FollowOptions> follow_options(const CaptureOptions& options, int width_px, int height_px);
+// Two whole numbers with an x between them.
+Result<std::pair<int, int>> parse_pair(const std::string& option, const std::string& text);
+
+}  // namespace dance

@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "core/net/poller.h"
+
+namespace dance {
+namespace {
+
+// As OpenBLAS does when it is loaded: a thread that was there before anything was blocked.
+TEST(PollerSignals, ReachThePollerWhicheverThreadTheyHit) {
+  std::atomic<bool> is_over{false};
+  std::thread early([&] {
+    while (!is_over) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  auto poller = Poller::create();
+  ASSERT_TRUE(poller) << poller.error().what;
+  ASSERT_TRUE((*poller)->stop_on_signals());
+  EXPECT_EQ(pthread_kill(early.native_handle(), SIGTERM), 0);
+  for (int turn = 0; turn < 600 && !(*poller)->is_stopped(); ++turn)
+    (*poller)->run_once(Duration::ms(100));
+  EXPECT_TRUE((*poller)->is_stopped());
+  is_over = true;
+  early.join();
+}
+
+}  // namespace
+}  // namespace dance
