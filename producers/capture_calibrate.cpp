@@ -42,7 +42,10 @@ class BoardPreview {
 Result<void> solve_and_save(const CaptureOptions& options, const ChessboardCalibration& board) {
   talk::info("{} views; solving", board.views());
   DANCE_TRY(const CalibrationReport report, board.solve());
-  talk::info("{}", report.judgement);
+  if (report.is_good)
+    talk::info("{}", report.judgement);
+  else
+    talk::warn("{}; it is kept, as it is better than none", report.judgement);
   if (!report.dropped.empty())
     talk::info("{} views did not fit the others and were left out", report.dropped.size());
   const Pinhole& camera = report.calibration.camera;

@@ -6,6 +6,7 @@
 #include "core/program/talk.h"
 #include "producers/camera/files/open_frame_source.h"
 #include "producers/camera/stereo/calibration_file.h"
+#include "producers/camera/stereo/row_check.h"
 #include "producers/camera/stereo/stereo_source.h"
 
 namespace dance {
@@ -51,6 +52,26 @@ class TwoEyes : public CaptureEyes {
   std::unique_ptr<StereoSource> source_;
   StereoFrame pair_;
 };
+
+// Makers write down how eyes stand to each other one way or the other: what the eyes see decides.
+StereoRig settled(CaptureEyes& eyes, const StereoRig& rig) {
+  EyesFrame seen;
+  FrameState state = FrameState::kNone;
+  for (int look = 0; look < 60 && state != FrameState::kFrame && state != FrameState::kOver; ++look)
+    state = eyes.next(Duration::ms(50), seen);
+  if (state != FrameState::kFrame || seen.right.empty()) return rig;
+  const SettledRig settled = settle_signs(seen.left.image, seen.right, rig);
+  if (settled.reading != RigReading::kAsWritten)
+    talk::info("{}: the calibration is read {}: so its rows fit", eyes.name(),
+               text_of(settled.reading));
+  if (!settled.is_sure)
+    talk::warn(
+        "{}: what both eyes see does not lie in the same rows ({} points, {:.1f} px off); is this "
+        "the file of this camera, and is "
+        "there light? --calibrate makes a new one",
+        eyes.name(), settled.rows.points, settled.rows.residual_px);
+  return settled.rig;
+}
 
 bool is_picture(const std::string& name) {
   for (const char* ending : {".jpg", ".jpeg", ".png", ".bmp", ".ppm", ".pgm", ".tif", ".tiff"})
@@ -107,7 +128,7 @@ Result<std::unique_ptr<CaptureEyes>> CaptureEyes::open(const CaptureOptions& opt
         const Calibration calibration,
         load_calibration(options.calibration, eyes->format_.width_px, eyes->format_.height_px));
     eyes->camera_ = calibration.camera;
-    if (eyes->eyes() == 2) eyes->rig_ = calibration.pair;
+    if (eyes->eyes() == 2 && calibration.pair) eyes->rig_ = settled(*eyes, *calibration.pair);
   }
   if (eyes->eyes() == 2 && !eyes->rig_)
     talk::warn(

@@ -91,18 +91,4 @@ PredictTake mirrored(const PredictTake& take) {
   return out;
 }
 
-PredictTake at_speed(const PredictTake& take, double speed) {
-  MotionClip clip;
-  clip.frame_hz = take.hz;
-  clip.frames = take.poses;
-  PredictTake out = take;
-  const auto count = static_cast<std::size_t>(static_cast<double>(take.poses.size()) / speed);
-  out.poses.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
-    sample_clip(clip, Duration::seconds(static_cast<double>(i) * speed / take.hz), ClipEnd::kHold,
-                out.poses[i]);
-  stamp_poses(out);
-  return out;
-}
-
 }  // namespace dance

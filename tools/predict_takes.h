@@ -30,7 +30,5 @@ std::vector<Pose> trembling(const std::vector<Pose>& poses, double sd_deg, Rando
 
 // Left and right exchanged.
 PredictTake mirrored(const PredictTake& take);
-// Danced at another speed: 1.1 is a tenth faster.
-PredictTake at_speed(const PredictTake& take, double speed);
 
 }  // namespace dance

@@ -14,6 +14,9 @@ constexpr std::size_t kBridgedPoses = 1536;
 constexpr Duration kSilentLine = Duration::ms(120);
 // Where the station before only repeats its last pose, there is nothing to wait for but jitter.
 constexpr Duration kRepeated = Duration::ms(60);
+// So far into the fade from what is predicted to what is continued both stand and face alike: a fade between two places
+// far apart would be faster than a dancer.
+constexpr Duration kMeet = Duration::ms(100);
 constexpr Duration kBackInTime = Duration::s(1);
 
 }  // namespace
@@ -114,6 +117,7 @@ bool Bridge::sample(MonoTime now, Pose& out) {
     lapse_after_ = wanted - history_.newest().capture_time;
     continuation_.begin(history_, skeleton_, beat(now));
     fades_in_ = !is_repeated;
+    if (fades_in_) continuation_.put(lapse_after_ + kMeet, out);
     // What stands begins to move.
     if (Pose continued = out; is_repeated) {
       carry_on(wanted, has_input, continued);
@@ -134,6 +138,7 @@ bool Bridge::sample_at(MonoTime moment, MonoTime now, Pose& out) {
     lapse_after_ = std::max(Continuation::kPredictedUntil, now - heard_);
     fades_in_ = has_input;
     continuation_.begin(history_, skeleton_, beat(now));
+    if (fades_in_) continuation_.put(lapse_after_ + kMeet, out);
   }
   if (!continuation_.is_running()) return has_input;
   if (!has_input) out = history_.newest();

@@ -65,6 +65,26 @@ bool Continuation::begin(const PoseHistory& history, const Skeleton& skeleton, D
   return true;
 }
 
+void Continuation::put(Duration since_newest, const Pose& there) {
+  if (!history_) return;
+  const Pose here = dance_at(since_newest);
+  const float yaw_rad = wrapped(heading_rad(there) - heading_rad(here));
+  const Quaternionf turn = about_vertical(yaw_rad);
+  Vector3f shift_m = there.p_WH_m - turn * here.p_WH_m;
+  shift_m.y() = 0.0f;
+  for (std::size_t i = 0; i < segment_count_; ++i) {
+    Segment& segment = segments_[i];
+    segment.yaw_rad = wrapped(segment.yaw_rad + yaw_rad);
+    segment.shift_m = turn * segment.shift_m + shift_m;
+    // Springs of the hips are in W.
+    for (Spring* spring : {&segment.place, &segment.turn[0]}) {
+      spring->offset = turn * spring->offset;
+      spring->velocity = turn * spring->velocity;
+    }
+  }
+  find_places();
+}
+
 void Continuation::find_lags(Duration beat) {
   lag_ = loop_ = Duration();
   const auto match = match_.best(kShortestLag, HistoryMatch::kLookBack);

@@ -22,7 +22,7 @@ class Continuation {
  public:
   // Until here what is predicted is better, from there on what is continued; between them they are mixed.
   static constexpr Duration kPredictedUntil = Duration::ms(250);
-  static constexpr Duration kContinuedFrom = Duration::ms(650);
+  static constexpr Duration kContinuedFrom = Duration::ms(550);
   static constexpr Duration kLoopedFrom = Duration::s(2);
   static constexpr Duration kCalmingFrom = Duration::s(4);
   static constexpr Duration kCalmFrom = Duration::s(8);
@@ -34,6 +34,9 @@ class Continuation {
   // The poses have stopped: looks for what to go on with, once. `beat`: a beat of the music; 0: read off the poses'
   // musical time, where they carry it, and no loop on the beat otherwise.
   bool begin(const PoseHistory& history, const Skeleton& skeleton, Duration beat = Duration());
+  // Turns and shifts everything, so that the dancer at `since_newest` stands and faces as in `there`. At most once after a
+  // begin(), before the first at().
+  void put(Duration since_newest, const Pose& there);
   void end() { history_ = nullptr; }
   bool is_running() const { return history_ != nullptr; }
   MonoTime newest_time() const { return newest_.capture_time; }

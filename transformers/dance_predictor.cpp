@@ -13,9 +13,13 @@ constexpr std::size_t kPriorRows = 32;  // how often the weights hear of the tre
 // A dancer was just met until here, and has a past this much later.
 constexpr float kYoung_rows = 240.0f, kGrowing_rows = 360.0f;
 constexpr std::size_t kSolveRows = 2;  // a horizon's weights are solved every 16 rows
-// What no body does within a second.
+// What no body does: a joint turns, and the hips get, no further than this at once and this each second.
 constexpr float kFurthestTurn_rad = 3.0f;
+constexpr float kSwiftestTurn_rad_s = 16.0f;
 constexpr float kFurthestWay_m = 3.0f;
+constexpr float kSwiftestWay_m_s = 8.0f;
+constexpr float kSuddenTurn_rad = 0.2f;
+constexpr float kSuddenWay_m = 0.1f;
 // How fast what lies between two rows is forgotten.
 constexpr double kSeenKept_rows = 6.0;
 
@@ -47,17 +51,23 @@ std::array<float, kHorizons + 1> knot_weights(double rows) {
 }
 
 // False, and no way at all, where the numbers are none.
-bool keep_possible(BodyRow& way) {
+bool keep_possible(std::size_t horizon, BodyRow& way) {
   float sum = 0.0f;
   for (const float x : way.v) sum += x * 0.0f;
   if (sum != 0.0f || std::isnan(sum)) {
     way.v.fill(0.0f);
     return false;
   }
-  for (std::size_t i = 0; i < kRowSize; ++i) {
-    const bool is_place = i % kRowGroups == kPlaceGroup;
-    const float most = is_place ? kFurthestWay_m : kFurthestTurn_rad;
-    way.v[i] = std::clamp(way.v[i], -most, most);
+  const auto seconds = static_cast<float>(kHorizonFrames[horizon] / kGridHz);
+  const float turn_rad =
+      std::min(kFurthestTurn_rad, kSuddenTurn_rad + kSwiftestTurn_rad_s * seconds);
+  const float way_m = std::min(kFurthestWay_m, kSuddenWay_m + kSwiftestWay_m_s * seconds);
+  for (std::size_t g = 0; g < kRowGroups; ++g) {
+    const float most = g == kPlaceGroup ? way_m : turn_rad;
+    const float size =
+        std::sqrt(way(g, 0) * way(g, 0) + way(g, 1) * way(g, 1) + way(g, 2) * way(g, 2));
+    if (size <= most) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) way(g, axis) *= most / size;
   }
   return true;
 }
@@ -88,15 +98,21 @@ void DancePredictor::set_prior() {
   // And between those for a dancer just met and for one with a past to look at.
   const float seen =
       std::clamp((static_cast<float>(memory_.size()) - kYoung_rows) / kGrowing_rows, 0.0f, 1.0f);
-  const auto& weights = model_->weights[static_cast<std::size_t>(acquaintance_)];
   const auto between = [](float a, float b, float share) { return a + share * (b - a); };
+  const auto weight = [&](Acquaintance who, std::size_t kind, std::size_t h, std::size_t e) {
+    const auto& w = model_->weights[static_cast<std::size_t>(who)];
+    return between(between(w[0][0][kind][h][e], w[0][1][kind][h][e], part),
+                   between(w[1][0][kind][h][e], w[1][1][kind][h][e], part), seen);
+  };
   KindWeights prior;
-  for (std::size_t kind = 0; kind < kWeightKinds; ++kind)
-    for (std::size_t h = 0; h < kHorizons; ++h)
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    // The network together with a personal model that has proved itself knows this dancer.
+    const float known = acquaintance_ == Acquaintance::kOthers ? proof_.proved(h) : 0.0f;
+    for (std::size_t kind = 0; kind < kWeightKinds; ++kind)
       for (std::size_t e = 0; e < kGuesses; ++e)
-        prior[kind][h][e] =
-            between(between(weights[0][0][kind][h][e], weights[0][1][kind][h][e], part),
-                    between(weights[1][0][kind][h][e], weights[1][1][kind][h][e], part), seen);
+        prior[kind][h][e] = between(weight(acquaintance_, kind, h, e),
+                                    weight(Acquaintance::kDancer, kind, h, e), known);
+  }
   blend_.set_prior(prior);
 }
 
@@ -137,25 +153,27 @@ void DancePredictor::take(const BodyRow& row) {
 }
 
 void DancePredictor::ask_models(MomentGuesses& now) {
+  for (BodyRow& way : now.impersonal) way.v.fill(0.0f);
   for (BodyRow& way : now.personal) way.v.fill(0.0f);
   if (memory_.size() < kNetHistory) return;
   net_inputs(memory_, rows_.tremble_rad(), inputs_);
   model_->net.normalise(inputs_);
   NetAnswers answers;
-  if (acquaintance_ != Acquaintance::kNone) {
-    BodyWays ways;
-    model_->net.answer(inputs_, answers);
-    model_->net.ways_of(answers, ways);
-    for (std::size_t h = 0; h < kHorizons; ++h)
-      now.by_horizon[h][static_cast<std::size_t>(Guess::kNet) - kCommonGuesses] = ways[h];
-  }
   bool is_new = false;
-  const PersonalModel::Weights* weights = personal_->weights(is_new);
-  if (!weights) return;
-  if (is_new) proof_.doubt_personal();
-  answers.fill(0.0f);
-  add_product(inputs_.data(), kNetInputs, weights->data(), kNetAnswers, answers.data());
-  model_->net.ways_of(answers, now.personal);
+  if (const PersonalModel::Weights* weights = personal_->weights(is_new)) {
+    if (is_new) proof_.doubt_personal();
+    answers.fill(0.0f);
+    add_product(inputs_.data(), kNetInputs, weights->data(), kNetAnswers, answers.data());
+    model_->net.ways_of(answers, now.personal);
+  }
+  if (acquaintance_ == Acquaintance::kNone) return;
+  model_->net.answer(inputs_, answers);
+  model_->net.ways_of(answers, now.impersonal);
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    BodyRow& way = now.by_horizon[h][static_cast<std::size_t>(Guess::kNet) - kCommonGuesses];
+    way = now.impersonal[h];
+    proof_.add_personal(h, now, way);
+  }
 }
 
 void DancePredictor::learn_from_past() {
@@ -175,10 +193,14 @@ void DancePredictor::make_ways(MomentGuesses& now) {
   path_[0].v.fill(0.0f);
   for (std::size_t h = 0; h < kHorizons; ++h) {
     blend_.blend(h, now, now.blended[h]);
-    if (!keep_possible(now.blended[h])) ++dropped_;
+    if (acquaintance_ == Acquaintance::kNone) {
+      now.impersonal[h] = now.blended[h];
+      proof_.add_personal(h, now, now.blended[h]);
+    }
+    if (!keep_possible(h, now.blended[h])) ++dropped_;
     BodyRow& way = path_[h + 1];
     proof_.finish(h, now, way);
-    if (!keep_possible(way)) ++dropped_;
+    if (!keep_possible(h, way)) ++dropped_;
     for (std::size_t b = 0; b < kBoneCount; ++b)
       if ((newest_.presence >> b & 1u) == 0) way(b, 0) = way(b, 1) = way(b, 2) = 0.0f;
   }

@@ -10,6 +10,7 @@
 #include "transformers/foot_lock.h"
 #include "transformers/inertializer.h"
 #include "transformers/joint_limits.h"
+#include "transformers/turn_limit.h"
 
 namespace dance {
 
@@ -36,6 +37,7 @@ class Finish {
     bool is_changed = is_guess || !corrections_.is_at_rest();
     corrections_.apply(now, pose);
     if (is_guess) limit_joints(pose);
+    is_changed = turns_.apply(now, pose, is_guess || is_changed) || is_changed;
     is_changed = feet_.apply(now, pose, is_guess || !corrections_.is_at_rest()) || is_changed;
     if (is_changed) normalize(pose);
   }
@@ -43,6 +45,7 @@ class Finish {
   // Another dancer, or the same one anew: nothing of before is taken along.
   void clear() {
     corrections_.clear();
+    turns_.clear();
     feet_.clear();
   }
 
@@ -51,6 +54,7 @@ class Finish {
 
  private:
   Inertializer corrections_;
+  TurnLimit turns_;
   FootLock feet_;
 };
 

@@ -27,24 +27,29 @@ class GuessProof {
 
   // A moment that is over: it went `way`.
   void learn(std::size_t horizon, const MomentGuesses& guesses, const BodyRow& way);
-  // Adds what is proved of guesses.personal to guesses.blended, and goes back to plain guesses where those were better.
+  // Adds what is proved of guesses.personal.
+  void add_personal(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
+  // How far it is proved that the personal model knows this dancer: 0 to 1.
+  float proved(std::size_t horizon) const;
+  // guesses.blended, or as far back to plain guesses as those were better.
   void finish(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
   // Forgets what the personal model has proved: a new one is there.
   void doubt_personal();
 
  private:
+  // Sums of the errors of the prediction and of the plain guesses, lately.
+  struct Errors {
+    float heard = 0.0f;
+    float ours = 0.0f;
+    std::array<float, kPlainGuesses> plain{};
+  };
   struct Horizon {
     // Share s of a correction c to a guess p that is least wrong: sum (y - p) c / sum c².
     alignas(64) std::array<float, kRowGroups> right{}, size{};
     alignas(64) std::array<float, kRowGroups> share{};
-    // Mean errors of the prediction and of the plain guesses, while the dancer stands and while they move.
-    struct Errors {
-      float heard = 0.0f;
-      float ours = 0.0f;
-      std::array<float, kPlainGuesses> plain{};
-    };
-    std::array<Errors, 2> errors{};
+    std::array<Errors, 2> errors{};  // while the dancer stands and while they move
   };
+  static float way_back(const Errors& errors);
   bool is_moving(const MomentGuesses& guesses) const;
   float error_m(const BodyRow& said, const BodyRow& way) const;
 

@@ -14,8 +14,8 @@ namespace {
 // A spring let go at rest is fastest, with offset · y / e, after 1/y. What is far is taken back slower, so that no joint
 // moves faster for a correction than dancers do: the bones of a limb together, and where the hips are.
 constexpr float kE = 2.7182818f;
-constexpr float kFastestJoint_m_s = 6.0f;
-constexpr float kFastestHips_m_s = 2.5f;
+constexpr float kFastestJoint_m_s = 4.5f;
+constexpr float kFastestHips_m_s = 2.0f;
 constexpr float kFastestTurn_rad_s = 9.0f;
 // A correction's own speed at its begin, where the caller tells it.
 constexpr float kMostSpeed_m_s = 6.0f;

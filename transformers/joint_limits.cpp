@@ -1,5 +1,6 @@
 #include "transformers/joint_limits.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -15,6 +16,8 @@ namespace {
 constexpr float kRad = 0.017453293f;
 // Beyond a range a joint gives way by this much at most.
 constexpr float kGive_rad = 10.0f * kRad;
+constexpr float kTurn_rad = 360.0f * kRad;
+constexpr float kTellsApart_rad = 90.0f * kRad;
 // A joint turned by less than the narrowest range, 5°, is not looked at closer: sin²(2.4°).
 constexpr float kSurelyWithin = 0.00175f;
 
@@ -94,6 +97,10 @@ bool saturate(float& angle, float low, float high) {
   return true;
 }
 
+float beyond(float angle, float low, float high) {
+  return std::max({0.0f, low - angle, angle - high});
+}
+
 bool limit_joint(const Limit& limit, Quaternionf& q) {
   const int axis = limit.twist_axis;
   const float w = std::abs(q.w());
@@ -107,6 +114,18 @@ bool limit_joint(const Limit& limit, Quaternionf& q) {
   }
   float twist_rad = 2.0f * std::atan2(along, w);
   Vector3f swing = rotation_vector(q * twist.conjugate());
+  // Beyond half a turn the angles change their sign: a joint bent too far is not one bent the other way.
+  const float turn = swing.norm();
+  if (turn > kTellsApart_rad) {
+    const Vector3f other = swing * ((turn - kTurn_rad) / turn);
+    float here_rad = 0.0f, there_rad = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+      if (i == axis) continue;
+      here_rad += beyond(swing[i], limit.low[i], limit.high[i]);
+      there_rad += beyond(other[i], limit.low[i], limit.high[i]);
+    }
+    if (there_rad < here_rad) swing = other;
+  }
   bool is_beyond = false;
   for (int i = 0; i < 3; ++i) {
     float& angle = i == axis ? twist_rad : swing[i];

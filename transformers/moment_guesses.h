@@ -2,7 +2,7 @@
 // added. Computed once a row; kept, until it is known how the moment went on.
 //
 // Units/frames: differences of rows in the dancer's heading at that moment; slopes a row; horizons as kHorizonFrames.
-// Ownership:    plain value of 16 kB; allocates nothing.
+// Ownership:    plain value of 19 kB; allocates nothing.
 // Threads:      none inside.
 // Failure:      none; what cannot be guessed yet is a row of zeros.
 #pragma once
@@ -18,8 +18,10 @@ namespace dance {
 struct MomentGuesses {
   std::array<BodyRow, kCommonGuesses> common;
   std::array<std::array<BodyRow, kGuesses - kCommonGuesses>, kHorizons> by_horizon;
-  // What was made of them: the weighted sum, and what the personal model adds to it.
+  // What was made of them: their weighted sum.
   BodyWays blended;
+  // What the personal model corrects, the network's answer where that is asked, and its correction.
+  BodyWays impersonal;
   BodyWays personal;
 
   const float* row(std::size_t horizon, std::size_t guess) const {

@@ -16,7 +16,7 @@ constexpr std::size_t kBatch = 64;
 constexpr std::uint64_t kMomentsASolve = 150;  // 5 s
 constexpr std::uint64_t kFirstSolve = 150;
 // (Z Zᵀ + ridge (n + first) I) W = Z Y, the inputs of standard deviation 1.
-constexpr float kPersonalRidge = 0.1f;
+constexpr float kPersonalRidge = 0.2f;
 constexpr float kPersonalFirst = 300.0f;
 constexpr float kBatchKeep = 0.9975f;  // a half-life of ten minutes
 

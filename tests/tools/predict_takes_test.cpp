@@ -43,14 +43,13 @@ TEST(PredictTakes, SalsaIsPredictedBetterThanAnyoneCould) {
   }
 }
 
-TEST(PredictTakes, TakesAreMirroredAndHastenedAsTheyShould) {
+TEST(PredictTakes, TakesAreMirroredAsTheyShould) {
   const auto takes = real_takes({"cmu_60_05_salsa"});
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   const PredictTake twice = mirrored(mirrored(takes[0]));
   for (std::size_t i = 0; i < twice.poses.size(); i += 100)
     for (std::size_t b = 0; b < kBoneCount; ++b)
       ASSERT_LT(twice.poses[i].R_PB[b].angularDistance(takes[0].poses[i].R_PB[b]), 1e-3f);
-  EXPECT_EQ(at_speed(takes[0], 1.2).poses.size(), 1000u);
 }
 
 TEST(PlainForecast, GoesOnAsItShould) {

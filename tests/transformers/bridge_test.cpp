@@ -77,6 +77,46 @@ TEST(Bridge, KeepsADancerDancingThroughALapseAndComesBackWithoutAJump) {
   EXPECT_LT(world_error_m(track, truth, 270, 300), 0.002) << "as danced again";
 }
 
+// A station that says of every moment after the newest pose that the dancer stands.
+class Standing : public Transformer {
+ public:
+  void observe(const Pose& pose, MonoTime) override { newest_ = pose; }
+  bool sample(MonoTime now, Pose& out) override {
+    out = newest_;
+    out.capture_time = now;
+    return true;
+  }
+
+ private:
+  Pose newest_;
+};
+
+TEST(Bridge, FadesFromOneWhoStandsToOneWhoSpinsNoFasterThanTheySpun) {
+  constexpr float kSpin_rad_s = 4.0f;
+  Standing standing;
+  Bridge bridge;
+  bridge.set_input(&standing);
+  float largest_rad_s = 0.0f;
+  Pose before;
+  for (int i = 60; i < 720; ++i) {
+    const double t_s = i / 60.0;
+    Pose pose = swaying(t_s);
+    pose.R_PB[0] = Eigen::Quaternionf(
+        Eigen::AngleAxisf(kSpin_rad_s * static_cast<float>(t_s), Eigen::Vector3f::UnitY()));
+    if (t_s < 10.0) {
+      standing.observe(pose, at_s(t_s));
+      bridge.observe(pose, at_s(t_s));
+    }
+    Pose out;
+    ASSERT_TRUE(bridge.sample(at_s(t_s), out));
+    if (i > 60)
+      largest_rad_s = std::max(largest_rad_s, 60.0f * before.R_PB[0].angularDistance(out.R_PB[0]));
+    before = out;
+  }
+  EXPECT_TRUE(bridge.is_continuing());
+  EXPECT_LT(largest_rad_s, 1.5f * kSpin_rad_s);
+}
+
 TEST(Bridge, DoesNotTakeALongDelayForALapse) {
   Bridge bridge;
   for (int i = 60; i < 600; ++i) {

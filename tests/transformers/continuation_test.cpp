@@ -78,6 +78,33 @@ TEST(Continuation, BeginsAtTheNewestPoseAndTheWayItMoves) {
   EXPECT_LT((out.p_WH_m - history.newest().p_WH_m).norm(), 1e-4f);
 }
 
+TEST(Continuation, StandsAndFacesWhereItIsPutAndDancesAsBefore) {
+  const PoseHistory history = danced(9.37, 0.4);
+  Continuation continuation, there;
+  continuation.begin(history, average_skeleton());
+  there.begin(history, average_skeleton());
+  Pose met = dance_pose(9.5);
+  met.R_PB[0] = turn_about(1.2f, Eigen::Vector3f::UnitY());
+  met.p_WH_m += Eigen::Vector3f(0.3f, 0.0f, -0.2f);
+  const Duration meeting = Duration::ms(350);
+  there.put(meeting, met);
+  Pose as_before, out;
+  there.at(meeting, out);
+  EXPECT_LT((out.p_WH_m - met.p_WH_m).head<1>().norm(), 1e-3f);
+  EXPECT_NEAR(out.p_WH_m.z(), met.p_WH_m.z(), 1e-3f);
+  EXPECT_NEAR(heading_rad(out), heading_rad(met), 1e-3f);
+  Pose before;
+  for (double since_s = 0.0; since_s < 9.5; since_s += 0.05) {
+    continuation.at(Duration::seconds(since_s), as_before);
+    there.at(Duration::seconds(since_s), out);
+    EXPECT_LT(body_error_m(average_skeleton(), out, as_before), 2e-3) << since_s;
+    if (since_s > 0.0) {
+      EXPECT_LT((out.p_WH_m - before.p_WH_m).norm(), 0.06f) << since_s;
+    }
+    before = out;
+  }
+}
+
 TEST(Continuation, IsTheSameForTheSameMomentInWhateverOrder) {
   const PoseHistory history = danced(8.0);
   Continuation continuation;

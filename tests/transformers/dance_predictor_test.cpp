@@ -74,6 +74,24 @@ TEST(DancePredictor, GivesUnitRotationsAndBonesOfTheirLengthWhateverItHears) {
   EXPECT_EQ(predictor.dropped(), 0u);
 }
 
+// A sensor throws a foot round within some frames.
+TEST(DancePredictor, TurnsNoJointFasterThanBodiesDo) {
+  auto dance = salsa(400);
+  const std::size_t foot = index_of(Bone::kLeftFoot);
+  for (std::size_t i = 392; i < 400; ++i)
+    dance[i].R_PB[foot] =
+        dance[391].R_PB[foot] *
+        exp_rotation(Eigen::Vector3f(0.0f, 0.7f * static_cast<float>(i - 391), 0.0f));
+  DancePredictor predictor(built_in_predict_model());
+  for (const Pose& pose : dance) predictor.observe(pose);
+  Pose before = dance.back(), out;
+  for (int ms = 10; ms <= 250; ms += 10) {
+    predictor.predict(dance.back().capture_time + Duration::ms(ms), out);
+    EXPECT_LT(out.R_PB[foot].angularDistance(before.R_PB[foot]), 0.3f) << ms;
+    before = out;
+  }
+}
+
 TEST(DancePredictor, AllocatesNothing) {
   DancePredictor predictor(built_in_predict_model());
   const auto dance = shaken(salsa(1400), kHalfDegree_rad);
@@ -159,7 +177,7 @@ TEST(DancePredictor, IsNeverMuchWorseThanPlainGuessesWhileSomebodyStopsAgainAndA
 
 TEST(DancePredictor, IsBetterThanPlainGuessesOnADance) {
   const auto dance = salsa(3000);
-  expect_never_much_worse(dance, shaken(dance, kHalfDegree_rad), 0.95, "salsa, trembling");
+  expect_never_much_worse(dance, shaken(dance, kHalfDegree_rad), 0.97, "salsa, trembling");
 }
 
 TEST(DancePredictor, GoesOnThroughOtherRatesAndUnevenTimes) {

@@ -38,6 +38,28 @@ TEST(Finish, LimitsTheJointsOfAGuess) {
       1.4f);
 }
 
+TEST(Finish, ThrowsNoLimbOfAGuessAndCatchesUp) {
+  constexpr std::size_t kFoot = index_of(Bone::kLeftFoot);
+  Finish finish;
+  Pose kicked;
+  kicked.R_PB[kFoot] = Eigen::Quaternionf(Eigen::AngleAxisf(1.2f, Eigen::Vector3f::UnitX()));
+  Pose before, out;
+  finish.apply(MonoTime() + Duration::ms(100), before, true);
+  for (int i = 1; i <= 8; ++i) {
+    out = kicked;
+    // The guess is over before the foot is there.
+    finish.apply(MonoTime() + Duration::ms(100 + 16 * i), out, i < 3);
+    EXPECT_LT(out.R_PB[kFoot].angularDistance(before.R_PB[kFoot]),
+              1.001f * TurnLimit::kFastest_rad_s * 0.016f);
+    before = out;
+  }
+  EXPECT_EQ(out.R_PB[kFoot].coeffs(), kicked.R_PB[kFoot].coeffs());
+  // What is danced so is shown so, however fast.
+  out = Pose();
+  finish.apply(MonoTime() + Duration::ms(300), out, false);
+  EXPECT_EQ(out.R_PB[kFoot].coeffs(), Pose().R_PB[kFoot].coeffs());
+}
+
 TEST(Finish, ComesBackToTheDanceAfterACorrection) {
   Finish finish(Duration::ms(60));
   Pose was, is;

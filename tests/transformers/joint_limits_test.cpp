@@ -92,6 +92,21 @@ TEST(JointLimits, GiveWayWithoutAKink) {
   }
 }
 
+TEST(JointLimits, AJointBentTooFarIsNotOneBentTheOtherWay) {
+  constexpr std::size_t kElbow = index_of(Bone::kLeftLowerArm);
+  Eigen::Quaternionf before;
+  for (int deg = 100; deg <= 230; ++deg) {
+    Pose pose;
+    pose.R_PB[kElbow] = Eigen::Quaternionf(
+        Eigen::AngleAxisf(-0.017453293f * static_cast<float>(deg), Eigen::Vector3f::UnitY()));
+    limit_joints(pose);
+    if (deg > 100) {
+      EXPECT_LT(pose.R_PB[kElbow].angularDistance(before), 0.02f) << deg;
+    }
+    before = pose.R_PB[kElbow];
+  }
+}
+
 TEST(JointLimits, WhateverComesInIsABodyAfterwards) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {

@@ -78,7 +78,9 @@ void draw_landmarks(cv::Mat& picture, const BodyLandmarks& body) {
   }
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const auto landmark = static_cast<Landmark>(i);
-    if (body.visible(landmark) < kSeen) continue;
+    // A face is as wide as three of these dots: its nose will do.
+    const bool is_face = landmark > kNose && landmark < kLeftShoulder;
+    if (is_face || body.visible(landmark) < kSeen) continue;
     cv::circle(picture, pixel_of(body.image(landmark)), width + 1, {255, 255, 255}, cv::FILLED,
                cv::LINE_AA);
   }
