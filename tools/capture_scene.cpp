@@ -44,11 +44,11 @@ constexpr Place kPlaces[]{
     {Landmark::kLeftKnee, Landmark::kRightKnee, Bone::kLeftLowerLeg, Bone::kRightLowerLeg, 0.0, 0.0,
      0.0},
     {Landmark::kLeftAnkle, Landmark::kRightAnkle, Bone::kLeftFoot, Bone::kRightFoot, 0.0, 0.0, 0.0},
-    {Landmark::kLeftHeel, Landmark::kRightHeel, Bone::kLeftFoot, Bone::kRightFoot, 0.0, -0.055,
-     -0.045},
+    {Landmark::kLeftHeel, Landmark::kRightHeel, Bone::kLeftFoot, Bone::kRightFoot, 0.0, -0.048,
+     0.01},
 };
-// The toe's point lies on the toes, before their joint.
-constexpr double kToe_m = 0.055;
+// The toe's point, from the toes' joint.
+constexpr double kToeUp_m = 0.012, kToeBefore_m = 0.015;
 constexpr double kReferenceBody_m = 1.72;
 
 // The network tells a body from the hips outwards: who hangs on whom.
@@ -213,8 +213,8 @@ BodyLandmarks Network::see(const std::array<Vector3d, kLandmarkCount>& p_C_m, co
   return out;
 }
 
-std::array<Vector3d, kLandmarkCount> points_of(const BodyFrames& frames, const Skeleton& skeleton,
-                                               double size, const Network& network) {
+std::array<Vector3d, kLandmarkCount> points_of(const BodyFrames& frames, double size,
+                                               const Network& network) {
   std::array<Vector3d, kLandmarkCount> points;
   const auto put = [&](Landmark l, Bone bone, const Vector3d& in_bone) {
     points[index_of(l)] =
@@ -226,12 +226,8 @@ std::array<Vector3d, kLandmarkCount> points_of(const BodyFrames& frames, const S
     put(p.left, p.on_left, left);
     if (p.left != p.right) put(p.right, p.on_right, {-left.x(), left.y(), left.z()});
   }
-  for (const auto& [toe, bone, tip] :
-       {std::tuple{Landmark::kLeftFootIndex, Bone::kLeftToes, Tip::kLeftToes},
-        std::tuple{Landmark::kRightFootIndex, Bone::kRightToes, Tip::kRightToes}}) {
-    const Vector3d along = skeleton.tip(tip).cast<double>();
-    put(toe, bone, along.normalized() * std::min(along.norm(), size * kToe_m));
-  }
+  put(Landmark::kLeftFootIndex, Bone::kLeftToes, {0.0, size * kToeUp_m, size * kToeBefore_m});
+  put(Landmark::kRightFootIndex, Bone::kRightToes, {0.0, size * kToeUp_m, size * kToeBefore_m});
   return points;
 }
 
@@ -265,7 +261,7 @@ CaptureScene make_scene(const std::string& name, const Skeleton& skeleton,
   for (std::size_t f = 0; f < poses.size(); ++f) {
     forward_kinematics(skeleton, poses[f], frames);
     SceneFrame frame;
-    frame.truth_W_m = points_of(frames, skeleton, scene.height_m / kReferenceBody_m, network);
+    frame.truth_W_m = points_of(frames, scene.height_m / kReferenceBody_m, network);
     if (f == 0) {
       origin = 0.5 * (frame.truth_W_m[index_of(Landmark::kLeftHip)] +
                       frame.truth_W_m[index_of(Landmark::kRightHip)]);

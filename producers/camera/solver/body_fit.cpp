@@ -19,6 +19,8 @@ namespace {
 
 // Rays further off than so many of their standard deviations count ever less.
 constexpr double kOutlier = 4.0;
+// The same of what was expected.
+constexpr double kSurprise = 3.0;
 // Of a sole that stands, above the floor and beside where it is held; of one that is below the floor.
 constexpr double kFloorSd_m = 0.008, kHeldSd_m = 0.015, kBelowSd_m = 0.01;
 constexpr double kDamping = 1e-3;
@@ -114,9 +116,14 @@ void BodyFit::add_expectation(const FitProblem& problem, const BodyState& state)
   const DofVector off = step_between(problem.expected.state, state);
   DofVector strained = step_between(ease, state);
   strained.head<6>().setZero();
-  const DofVector pull = problem.expected.precision.cwiseProduct(off),
+  // Dancers change their mind: who is far from where he was expected is not held back.
+  const DofVector precision =
+      (problem.expected.precision.array() /
+       (1.0 + off.array().square() * problem.expected.precision.array() / (kSurprise * kSurprise)))
+          .matrix();
+  const DofVector pull = precision.cwiseProduct(off),
                   ease_pull = problem.expected.ease.cwiseProduct(strained);
-  normal_.diagonal() += problem.expected.precision + problem.expected.ease;
+  normal_.diagonal() += precision + problem.expected.ease;
   gradient_ += pull + ease_pull;
   cost_ += 0.5 * (pull.dot(off) + ease_pull.dot(strained));
 }
@@ -160,6 +167,7 @@ void BodyFit::build(const FitProblem& problem, bool trusting, const BodyState& s
   cost_ = 0.0;
   add_rays(problem, trusting);
   add_vectors(problem);
+  picture_cost_ = cost_;
   add_expectation(problem, state);
   add_soles(problem);
   add_depth(problem);

@@ -53,6 +53,8 @@ class BodyFit {
   bool solve(const FitProblem& problem, int rounds, int trusting, BodyState& state);
   // Half the sum of squares at the end of the last solve().
   double cost() const { return cost_; }
+  // The share of it that the picture alone has.
+  double picture_cost() const { return picture_cost_; }
   const BodyModel& model() const { return model_; }
 
  private:
@@ -73,6 +75,7 @@ class BodyFit {
   Normal normal_;
   DofVector gradient_;
   double cost_ = 0.0;
+  double picture_cost_ = 0.0;
 };
 
 }  // namespace dance

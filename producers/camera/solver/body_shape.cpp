@@ -8,8 +8,11 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr double kReference_m = 1.72;
-// The network puts its points of the foot within it, so much above the floor.
-constexpr double kSole_m = 0.02;
+// The network's heel and toe, from the ankle of a foot whose ankle is 8 cm above the floor: both lie within the shoe, the heel nearly below the
+// ankle. Medians over a video of a man in shoes.
+constexpr double kAnkle_m = 0.08, kHeelY_m = -0.045, kHeelZ_m = 0.014, kFoot_m = 0.146;
+// A foot's heel is behind its ankle by this share of what its toes are before it.
+constexpr double kBehind = 0.24;
 
 double& length(BodyLengths& lengths, Length which) {
   return lengths[static_cast<std::size_t>(which)];
@@ -68,11 +71,14 @@ void place_points(BodyShape& shape, const BodyLengths& lengths) {
   const Vector3d toes = shape.skeleton.offset(Bone::kLeftToes).cast<double>();
   const Vector3d tip = shape.skeleton.tip(Tip::kLeftToes).cast<double>();
   const double floor_y = toes.y() + tip.y();
-  const double heel_z = toes.z() + tip.z() - length(lengths, Length::kFoot);
+  const double foot = length(lengths, Length::kFoot) / kFoot_m;
+  const double up = -floor_y / kAnkle_m;
   for (const Landmark heel : {Landmark::kLeftHeel, Landmark::kRightHeel})
-    put(shape, heel, {0.0, floor_y + kSole_m, heel_z});
+    put(shape, heel, {0.0, up * kHeelY_m, foot * kHeelZ_m});
   for (const Landmark toe : {Landmark::kLeftFootIndex, Landmark::kRightFootIndex})
-    put(shape, toe, {0.0, tip.y() + kSole_m, tip.z()});
+    put(shape, toe, Vector3d(0.0, up * kHeelY_m, foot * (kHeelZ_m + kFoot_m)) - toes);
+  // The body's own heel lies behind what the network calls so.
+  const double heel_z = -kBehind * (toes.z() + tip.z());
   for (const Sole heel : {Sole::kLeftHeel, Sole::kRightHeel})
     shape.point_m[point_of(heel)] = {0.0, floor_y, heel_z};
   for (const Sole ball : {Sole::kLeftBall, Sole::kRightBall})
@@ -120,7 +126,7 @@ BodyLengths average_lengths(double height_m) {
   length(lengths, Length::kLowerArm) = of(Bone::kLeftHand).norm();
   length(lengths, Length::kThigh) = of(Bone::kLeftLowerLeg).norm();
   length(lengths, Length::kShank) = of(Bone::kLeftFoot).norm();
-  length(lengths, Length::kFoot) = 0.25;
+  length(lengths, Length::kFoot) = kFoot_m;
   length(lengths, Length::kEars) = kEars_m;
   for (double& l : lengths) l *= height_m / kReference_m;
   return lengths;

@@ -4,8 +4,8 @@
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      none.
-// Source:       places of the head's points: Tilley, The Measure of Man and Woman, 2002, shares of the standing height; the rest follows
-//               from core/pose/skeleton.h.
+// Source:       places of the head's points: Tilley, The Measure of Man and Woman, 2002, shares of the standing height; of the foot's: measured;
+//               the rest follows from core/pose/skeleton.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,7 +43,7 @@ enum class Length : std::uint8_t {
   kLowerArm,
   kThigh,
   kShank,
-  kFoot,  // from heel to the tip of the toes
+  kFoot,  // from what the network calls heel to what it calls foot index
   kEars,
 };
 constexpr std::size_t kLengthCount = 9;

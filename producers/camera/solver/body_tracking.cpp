@@ -20,6 +20,7 @@ constexpr Duration kGone = Duration::ms(500);
 constexpr int kFirstRounds = 10, kRounds = 4, kTrustingRounds = 2;
 // A fit that costs so much more than usual may be caught in a wrong posture.
 constexpr double kDear = 4.0, kLeastDear = 150.0;
+constexpr double kClearlyBetter = 0.4;
 constexpr double kUsualOver = 30.0;
 // One that is always dear is doubted so often.
 constexpr double kDoubt_s = 1.0;
@@ -119,17 +120,20 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds)
   problem_.expected = expected;
   for (std::size_t i = 0; i < kSoleCount; ++i) problem_.soles[i] = contacts_.touch(i);
   BodyState state = expected.state;
+  model_.place(shape_, state);
+  take_far_limbs(seen, placement_.R_WC(), model_, first_posture(seen, shape_, placement_.R_WC()),
+                 state);
   bool is_fitted = fit_.solve(problem_, kRounds, kTrustingRounds, state);
-  const double cost = fit_.cost();
+  const double cost = fit_.picture_cost();
   since_doubt_s_ += seconds;
   if (!is_fitted ||
       (cost > kLeastDear && (cost > kDear * usual_cost_ || since_doubt_s_ > kDoubt_s))) {
     since_doubt_s_ = 0.0;
     BodyState anew;
-    if (fit_anew(seen, anew) && (!is_fitted || fit_.cost() < 0.5 * cost)) {
+    if (fit_anew(seen, anew) && (!is_fitted || fit_.picture_cost() < kClearlyBetter * cost)) {
       // The contacts of a posture that was wrong are wrong, and so may be the floor that they were on.
       contacts_.clear();
-      if (cost < kDear * usual_cost_) placement_.forget_feet();
+      if (usual_cost_ > kLeastDear) placement_.forget_feet();
       Pose carried, found;
       write_pose(expected.state, carried);
       write_pose(anew, found);
@@ -168,7 +172,13 @@ void BodyTracking::learn_bones(const Observation& seen, const std::optional<Dept
                                MonoTime now) {
   if (proportions_.is_held()) return;
   const int before = proportions_.pictures();
-  proportions_.see(seen, depth);
+  model_.place(shape_, memory_.state());
+  std::array<Vector3d, kLandmarkCount> pictured;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    const double z = placement_.to_C(model_.point(i)).z();
+    pictured[i] = {seen.ray[i].x() * z, seen.ray[i].y() * z, z};
+  }
+  proportions_.see(seen, pictured, depth);
   const int pictures = proportions_.pictures();
   const bool is_due =
       pictures != before && (pictures == Proportions::kFirst || pictures == Proportions::kHeld);
@@ -179,6 +189,7 @@ void BodyTracking::learn_bones(const Observation& seen, const std::optional<Dept
   write_pose(state, carried);
   const Vector3d hips_C = placement_.to_C(state.p_WH_m);
   set_shape(proportions_.lengths());
+  proportions_.forget_pictured();
   // The same picture of a larger body is further away, and the floor with it.
   const double by = static_cast<double>(standing_height_m(shape_.skeleton)) / was_m;
   placement_.scale(by);

@@ -22,15 +22,15 @@ constexpr BodyVector between(Landmark from, Landmark to, double sd) {
   return {from, from, to, to, sd};
 }
 
-constexpr double kBoneSd = 0.14, kAcrossSd = 0.2, kHandSd = 0.35, kFootSd = 0.3;
+constexpr double kBoneSd = 0.11, kAcrossSd = 0.16, kHandSd = 0.35, kFootSd = 0.3;
 
 constexpr std::array<BodyVector, 26> kBodyVectors{{
     between(Landmark::kRightHip, Landmark::kLeftHip, kAcrossSd),
     between(Landmark::kRightShoulder, Landmark::kLeftShoulder, kAcrossSd),
     {Landmark::kLeftHip, Landmark::kRightHip, Landmark::kLeftShoulder, Landmark::kRightShoulder,
-     0.1},
+     0.08},
     {Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftEar, Landmark::kRightEar,
-     0.25},
+     0.15},
     between(Landmark::kRightEar, Landmark::kLeftEar, kAcrossSd),
     {Landmark::kLeftEar, Landmark::kRightEar, Landmark::kNose, Landmark::kNose, 0.25},
     between(Landmark::kLeftShoulder, Landmark::kLeftElbow, kBoneSd),

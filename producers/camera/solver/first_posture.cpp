@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kSeenEnough = 0.1;
+// Cosine of how far a bone may be off: 40 degrees.
+constexpr double kFarLimb = 0.766;
 
 // The frame with y along `up` and x as near to `across` as that allows.
 Quaterniond frame_of(const Vector3d& across, const Vector3d& up) {
@@ -138,6 +140,34 @@ BodyState first_posture(const Observation& seen, const BodyShape& shape, const M
     place_leg(look, s, state.R_WH, state.sides[s]);
   }
   return state;
+}
+
+void take_far_limbs(const Observation& seen, const Matrix3d& R_WC, const BodyModel& placed,
+                    const BodyState& told, BodyState& state) {
+  const Directions look{seen, R_WC};
+  const auto is_far = [&](Landmark from, Landmark to) {
+    if (!look.sees(from) || !look.sees(to)) return false;
+    const Vector3d is = look.at(to) - look.at(from), was = placed.point(to) - placed.point(from);
+    return is.dot(was) < kFarLimb * is.norm() * was.norm();
+  };
+  for (std::size_t s = 0; s < 2; ++s) {
+    const auto far_limb = [&](Landmark upper, Landmark middle, Landmark end) {
+      return is_far(of_side(upper, s), of_side(middle, s)) ||
+             is_far(of_side(middle, s), of_side(end, s));
+    };
+    BodyState::Side& to = state.sides[s];
+    const BodyState::Side& from = told.sides[s];
+    if (far_limb(Landmark::kLeftShoulder, Landmark::kLeftElbow, Landmark::kLeftWrist)) {
+      to.upper_arm = from.upper_arm;
+      to.elbow = from.elbow;
+      to.turn = from.turn;
+    }
+    if (far_limb(Landmark::kLeftHip, Landmark::kLeftKnee, Landmark::kLeftAnkle)) {
+      to.upper_leg = from.upper_leg;
+      to.knee = from.knee;
+      to.foot = from.foot;
+    }
+  }
 }
 
 }  // namespace dance

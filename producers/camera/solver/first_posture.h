@@ -7,6 +7,7 @@
 // Failure:      limbs of which too little is seen are at ease.
 #pragma once
 
+#include "producers/camera/solver/body_model.h"
 #include "producers/camera/solver/body_shape.h"
 #include "producers/camera/solver/body_state.h"
 #include "producers/camera/solver/observation.h"
@@ -16,5 +17,9 @@ namespace dance {
 // All but the hips' place.
 BodyState first_posture(const Observation& seen, const BodyShape& shape,
                         const Eigen::Matrix3d& R_WC);
+
+// Takes those limbs from `told` that `state` has in quite another direction than is seen: a fit that begins there would be caught.
+void take_far_limbs(const Observation& seen, const Eigen::Matrix3d& R_WC, const BodyModel& placed,
+                    const BodyState& told, BodyState& state);
 
 }  // namespace dance

@@ -18,7 +18,10 @@ namespace dance {
 
 class FloorFeet {
  public:
-  void clear() { feet_.fill(Foot()); }
+  void clear() {
+    feet_.fill(Foot());
+    drop_ = Spring();
+  }
   // `seconds` since the last pose.
   void apply(const BodyShape& shape, const SoleContacts& contacts, bool has_floor, double seconds,
              Pose& pose);
@@ -29,7 +32,11 @@ class FloorFeet {
     Eigen::Vector3f held_W_m = Eigen::Vector3f::Zero();
     Spring shift;
   };
+  void lower_hips(const BodyShape& shape, const BodyFrames& like,
+                  const std::array<Eigen::Vector3f, 2>& offsets, float step, Pose& pose);
+
   std::array<Foot, 2> feet_;
+  Spring drop_;  // of the hips, so that legs reach
 };
 
 }  // namespace dance

@@ -30,7 +30,7 @@ constexpr Way kSideWays[]{
     {dof::kHand, 2, Part::kHandLeft, 100.0, {0.4, 0.3, 0.0}},
     {dof::kUpperLeg, 3, Part::kLegLeft, 90.0, {1.2, 0.5, 0.8}},
     {dof::kKnee, 1, Part::kLegLeft, 130.0, {1.5, 0.0, 0.0}},
-    {dof::kFoot, 3, Part::kFootLeft, 130.0, {0.5, 0.2, 0.2}},
+    {dof::kFoot, 3, Part::kFootLeft, 130.0, {0.5, 0.4, 0.3}},
 };
 // Speeds die away so fast, seen and unseen.
 constexpr double kFade_s = 0.4, kBlindFade_s = 0.12;
@@ -38,6 +38,8 @@ constexpr double kFade_s = 0.4, kBlindFade_s = 0.12;
 constexpr double kBlindEase = 2.2;
 // Of what the body was found off its expectation, the share that its speed takes over.
 constexpr double kBeta = 0.6;
+// Between two pictures of most cameras.
+constexpr double kUsual_s = 1.0 / 30.0;
 constexpr double kHardlySeen = 0.1;
 
 template <class Visit>
@@ -136,7 +138,9 @@ Expectation MotionMemory::expect(double seconds, const PartSight& sight) const {
         sight[static_cast<std::size_t>(part)] < kHardlySeen ? kBlindFade_s : kFade_s;
     // ∫ e^(−t/τ) dt
     const double way_s = fade_s * (1.0 - std::exp(-seconds / fade_s));
-    const double sd = way.change * seconds * seconds / std::max(smooth_, 0.05);
+    // A speed that changes moves the body off by its change times the time squared; of quick cameras' pictures, whose errors last, two shall
+    // weigh as much as one of a slow camera's.
+    const double sd = way.change * seconds * std::max(seconds, kUsual_s) / std::max(smooth_, 0.05);
     for (int i = 0; i < way.count; ++i) {
       step[first + i] = way_s * speed_[first + i];
       expected.precision[first + i] = 1.0 / (sd * sd);

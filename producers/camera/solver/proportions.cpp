@@ -14,9 +14,11 @@ constexpr double kSeenWell = 0.35;
 constexpr std::array<double, kLengthCount> kWorth{0.95, 0.8,  0.95, 0.95, 0.95,
                                                   0.95, 0.95, 0.7,  0.7};
 // No body is further from the average in one length than this factor.
-constexpr double kOdd = 1.35;
+constexpr double kOdd = 1.7;
 constexpr double kLeastBody_m = 0.8, kMostBody_m = 2.4;
 constexpr int kFewest = 8;
+// A bone lies across the view where its depth is less than half its length; what a picture says of it is worth so much of the whole.
+constexpr double kAcross = 0.87, kPictureWorth = 0.7;
 
 struct Span {
   Length length;
@@ -46,12 +48,42 @@ constexpr std::array kSpans{
 }  // namespace
 
 void Proportions::reset() {
-  for (Samples& s : samples_) s.count = 0;
+  for (Samples& s : told_) s.count = 0;
+  forget_pictured();
   scale_sum_ = scale_weight_ = 0.0;
   pictures_ = 0;
 }
 
-void Proportions::see(const Observation& seen, const std::optional<DepthHint>& depth) {
+void Proportions::forget_pictured() {
+  for (Samples& s : pictured_) s.count = 0;
+}
+
+void Proportions::measure(const Observation& seen, const Points& points, bool across_only,
+                          AllSamples& all) {
+  // Left and right share one row of samples: the mean of both of a picture.
+  std::array<double, kLengthCount> sum{}, count{};
+  for (const Span& span : kSpans) {
+    const std::size_t i[]{index_of(span.from_a), index_of(span.from_b), index_of(span.to_a),
+                          index_of(span.to_b)};
+    bool is_seen = true;
+    for (const std::size_t point : i)
+      is_seen = is_seen && seen.world_weight[point] >= kSeenWell && seen.weight[point] >= kSeenWell;
+    if (!is_seen) continue;
+    const Vector3d way = 0.5 * (points[i[2]] + points[i[3]] - points[i[0]] - points[i[1]]);
+    if (across_only && way.head<2>().norm() < kAcross * way.norm()) continue;
+    sum[static_cast<std::size_t>(span.length)] += way.norm();
+    count[static_cast<std::size_t>(span.length)] += 1.0;
+  }
+  for (std::size_t l = 0; l < kLengthCount; ++l) {
+    Samples& samples = all[l];
+    if (count[l] > 0.0 && samples.count < kHeld)
+      samples.values[static_cast<std::size_t>(samples.count++)] =
+          static_cast<float>(sum[l] / count[l]);
+  }
+}
+
+void Proportions::see(const Observation& seen, const Points& pictured_m,
+                      const std::optional<DepthHint>& depth) {
   if (!seen.is_usable || is_held()) return;
   if (depth && depth->joints > 0 && std::isfinite(depth->scale) && depth->scale > 0.3 &&
       depth->scale < 3.0 && std::isfinite(depth->scale_spread)) {
@@ -59,26 +91,8 @@ void Proportions::see(const Observation& seen, const std::optional<DepthHint>& d
     scale_sum_ += depth->scale / (sd * sd);
     scale_weight_ += 1.0 / (sd * sd);
   }
-  // Left and right share one row of samples: the mean of both of a picture.
-  std::array<double, kLengthCount> sum{}, count{};
-  for (const Span& span : kSpans) {
-    const std::size_t i[]{index_of(span.from_a), index_of(span.from_b), index_of(span.to_a),
-                          index_of(span.to_b)};
-    bool is_seen = true;
-    for (const std::size_t point : i) is_seen = is_seen && seen.world_weight[point] >= kSeenWell;
-    if (!is_seen) continue;
-    const double metres =
-        0.5 *
-        (seen.world_m[i[2]] + seen.world_m[i[3]] - seen.world_m[i[0]] - seen.world_m[i[1]]).norm();
-    sum[static_cast<std::size_t>(span.length)] += metres;
-    count[static_cast<std::size_t>(span.length)] += 1.0;
-  }
-  for (std::size_t l = 0; l < kLengthCount; ++l) {
-    Samples& samples = samples_[l];
-    if (count[l] > 0.0 && samples.count < kHeld)
-      samples.values[static_cast<std::size_t>(samples.count++)] =
-          static_cast<float>(sum[l] / count[l]);
-  }
+  measure(seen, seen.world_m, false, told_);
+  measure(seen, pictured_m, true, pictured_);
   if (seen.visible > 0.8) ++pictures_;
 }
 
@@ -89,36 +103,52 @@ double Proportions::scale(const BodyLengths& measured) const {
   return std::clamp(scale * tall_m, kLeastBody_m, kMostBody_m) / tall_m;
 }
 
-BodyLengths Proportions::lengths() const {
-  BodyLengths measured{};
-  std::array<bool, kLengthCount> is_measured{};
+bool Proportions::medians(const AllSamples& all, BodyLengths& lengths,
+                          std::array<bool, kLengthCount>& is_measured) {
+  const BodyLengths average = average_lengths(1.0);
   double ratio = 0.0;
   int ratios = 0;
-  const BodyLengths average = average_lengths(1.0);
   for (std::size_t l = 0; l < kLengthCount; ++l) {
-    const Samples& samples = samples_[l];
+    const Samples& samples = all[l];
+    is_measured[l] = false;
     if (samples.count < kFewest) continue;
     std::array<float, kHeld> sorted = samples.values;
     const auto middle = sorted.begin() + samples.count / 2;
     std::nth_element(sorted.begin(), middle, sorted.begin() + samples.count);
-    measured[l] = static_cast<double>(*middle);
-    is_measured[l] = measured[l] > 0.01;
+    lengths[l] = static_cast<double>(*middle);
+    is_measured[l] = lengths[l] > 0.01;
     if (is_measured[l] && kWorth[l] > 0.9) {
-      ratio += std::log(measured[l] / average[l]);
+      ratio += std::log(lengths[l] / average[l]);
       ++ratios;
     }
   }
-  if (ratios == 0) return average_lengths(height_m_.value_or(1.72));
-  const double height = std::exp(ratio / ratios);
+  if (ratios < 3) return false;
+  // What was not measured follows the rest.
+  for (std::size_t l = 0; l < kLengthCount; ++l)
+    if (!is_measured[l]) lengths[l] = std::exp(ratio / ratios) * average[l];
+  return true;
+}
+
+BodyLengths Proportions::lengths() const {
+  BodyLengths told{}, pictured{};
+  std::array<bool, kLengthCount> is_told{}, is_pictured{};
+  if (!medians(told_, told, is_told)) return average_lengths(height_m_.value_or(1.72));
+  const double height = height_of(told);
+  const BodyLengths average = average_lengths(height);
+  const bool has_pictured = medians(pictured_, pictured, is_pictured);
+  // A picture tells shares of a body, not metres.
+  const double to_told = has_pictured ? height / height_of(pictured) : 1.0;
+  BodyLengths lengths = told;
   for (std::size_t l = 0; l < kLengthCount; ++l) {
-    const double expected = height * average[l];
-    if (!is_measured[l]) measured[l] = expected;
-    const double odd = std::clamp(measured[l] / expected, 1.0 / kOdd, kOdd);
-    measured[l] = expected * std::pow(odd, kWorth[l]);
+    if (has_pictured && is_pictured[l])
+      lengths[l] = is_told[l] ? told[l] * std::pow(to_told * pictured[l] / told[l], kPictureWorth)
+                              : to_told * pictured[l];
+    const double odd = std::clamp(lengths[l] / average[l], 1.0 / kOdd, kOdd);
+    lengths[l] = average[l] * std::pow(odd, kWorth[l]);
   }
-  const double by = scale(measured);
-  for (double& l : measured) l *= by;
-  return measured;
+  const double by = scale(lengths);
+  for (double& l : lengths) l *= by;
+  return lengths;
 }
 
 }  // namespace dance

@@ -1,5 +1,6 @@
-// Proportions: how long a dancer's bones are, learned from the first seconds and then held. Each length is the median over pictures of what the
-// network says of left and right alike; what it says of a single picture differs by six percent.
+// Proportions: how long a dancer's bones are, learned from the first seconds and then held. Each length is the median over pictures, of left and
+// right alike, of what the network says in space (which differs by six percent from picture to picture) and of what the picture itself shows
+// of bones that lie across the view, at the depth where the body was found.
 //
 // Units/frames: metres of the network go in, true metres come out.
 // Ownership:    keeps its samples (about 10 KB); never allocates.
@@ -25,7 +26,11 @@ class Proportions {
   explicit Proportions(std::optional<double> height_m = {}) : height_m_(height_m) {}
   void reset();
 
-  void see(const Observation& seen, const std::optional<DepthHint>& depth);
+  // `pictured_m`: the landmarks where their rays meet the body's depth, in C and in metres of the body that was fitted.
+  void see(const Observation& seen, const std::array<Eigen::Vector3d, kLandmarkCount>& pictured_m,
+           const std::optional<DepthHint>& depth);
+  // The body that is fitted has changed: what was pictured on it counts no more.
+  void forget_pictured();
   int pictures() const { return pictures_; }
   bool is_held() const { return pictures_ >= kHeld; }
   BodyLengths lengths() const;
@@ -35,10 +40,17 @@ class Proportions {
     std::array<float, kHeld> values{};
     int count = 0;
   };
+  using Points = std::array<Eigen::Vector3d, kLandmarkCount>;
+  using AllSamples = std::array<Samples, kLengthCount>;
+  static void measure(const Observation& seen, const Points& points, bool across_only,
+                      AllSamples& samples);
+  // False where nothing was measured well enough.
+  static bool medians(const AllSamples& samples, BodyLengths& lengths,
+                      std::array<bool, kLengthCount>& is_measured);
   double scale(const BodyLengths& measured) const;
 
   std::optional<double> height_m_;
-  std::array<Samples, kLengthCount> samples_;
+  AllSamples told_, pictured_;
   double scale_sum_ = 0.0, scale_weight_ = 0.0;
   int pictures_ = 0;
 };
