@@ -135,7 +135,8 @@ bool Bridge::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   if (comes_back_) end_lapse();
   if (history_.empty() || moment <= history_.newest().capture_time) return has_input;
   if (!continuation_.is_running() && is_lapse(moment, now, !has_input)) {
-    lapse_after_ = std::max(Continuation::kPredictedUntil, now - heard_);
+    // Of the dance's time, as all that is shown here: how late the line is says nothing about it.
+    lapse_after_ = std::max(Continuation::kPredictedUntil, moment - history_.newest().capture_time);
     fades_in_ = has_input;
     continuation_.begin(history_, skeleton_, beat(now));
     if (fades_in_) continuation_.put(lapse_after_ + kMeet, out);

@@ -48,7 +48,7 @@ class Bridge : public Transformer {
   Skeleton skeleton_;
   BeatClock music_;
   MonoTime heard_;         // when the newest pose came
-  Duration lapse_after_;   // how far after the newest pose the lapse began
+  Duration lapse_after_;   // how far after the newest pose is what was shown first of the lapse
   bool fades_in_ = false;  // from a prediction; not from a pose that stands
   bool comes_back_ = false;
   // From the guess to what is continued, as it was last mixed: beyond half a turn it goes on the way that it went.

@@ -107,7 +107,8 @@ void DancePredictor::set_prior() {
   KindWeights prior;
   for (std::size_t h = 0; h < kHorizons; ++h) {
     // The network together with a personal model that has proved itself knows this dancer.
-    const float known = acquaintance_ == Acquaintance::kOthers ? proof_.proved(h) : 0.0f;
+    const float known =
+        acquaintance_ == Acquaintance::kOthers ? proof_.proved(h, newest_.presence) : 0.0f;
     for (std::size_t kind = 0; kind < kWeightKinds; ++kind)
       for (std::size_t e = 0; e < kGuesses; ++e)
         prior[kind][h][e] = between(weight(acquaintance_, kind, h, e),
@@ -116,14 +117,31 @@ void DancePredictor::set_prior() {
   blend_.set_prior(prior);
 }
 
+void DancePredictor::forget_dancer() {
+  rows_.forget();
+  blend_.clear();
+  proof_.clear();
+  personal_->forget();
+}
+
 SteadyRows::Heard DancePredictor::observe(const Pose& pose) {
   const SteadyRows::Heard heard = rows_.observe(pose);
   if (heard == SteadyRows::Heard::kRefused) return heard;
+  const bool jumps = has_newest_ && (pose.clock_id != newest_.clock_id ||
+                                     pose.capture_time < newest_.capture_time);
   newest_ = pose;
   has_newest_ = true;
   if (heard == SteadyRows::Heard::kRestarted) {
     memory_.clear();
     mean_.clear();
+    // After a mere gap it is the same dancer, whose ways are still those that were proved.
+    if (jumps) {
+      proof_.clear();
+      blend_.clear();
+    } else {
+      proof_.forget_errors();
+    }
+    set_prior();
     since_ = 0;
     anew_ = true;
   }

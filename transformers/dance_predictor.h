@@ -28,6 +28,8 @@ class DancePredictor {
   explicit DancePredictor(std::shared_ptr<const PredictModel> model);
   // Whether the model was trained on this dancer too: then its network is trusted from the beginning.
   void set_acquaintance(Acquaintance acquaintance);
+  // Another dancer from the next pose on: nothing that was learned of the one before holds.
+  void forget_dancer();
 
   SteadyRows::Heard observe(const Pose& pose);
   // How many rows a pose of that moment would take in, each at the price of a frame; and forgets where the last one was, so

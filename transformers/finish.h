@@ -34,11 +34,11 @@ class Finish {
 
   // Once a frame. `is_guess`: the pose was not danced so, or not yet.
   void apply(MonoTime now, Pose& pose, bool is_guess) {
-    bool is_changed = is_guess || !corrections_.is_at_rest();
     corrections_.apply(now, pose);
+    const bool is_free = is_guess || !corrections_.is_at_rest();
     if (is_guess) limit_joints(pose);
-    is_changed = turns_.apply(now, pose, is_guess || is_changed) || is_changed;
-    is_changed = feet_.apply(now, pose, is_guess || !corrections_.is_at_rest()) || is_changed;
+    bool is_changed = turns_.apply(now, pose, is_free) || is_free;
+    is_changed = feet_.apply(now, pose, is_free) || is_changed;
     if (is_changed) normalize(pose);
   }
 

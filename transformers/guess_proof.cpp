@@ -73,6 +73,10 @@ bool GuessProof::is_moving(const MomentGuesses& guesses) const {
 
 void GuessProof::clear() { horizons_ = {}; }
 
+void GuessProof::forget_errors() {
+  for (Horizon& horizon : horizons_) horizon.errors = {};
+}
+
 void GuessProof::doubt_personal() {
   for (Horizon& horizon : horizons_)
     for (std::size_t g = 0; g < kRowGroups; ++g) horizon.right[g] *= 0.9f, horizon.size[g] *= 0.9f;
@@ -83,10 +87,14 @@ void GuessProof::add_personal(std::size_t h, const MomentGuesses& guesses, BodyR
     way.v[i] += horizons_[h].share[i % kRowGroups] * guesses.personal[h].v[i];
 }
 
-float GuessProof::proved(std::size_t h) const {
-  float sum = 0.0f;
-  for (std::size_t bone = 1; bone < kBoneCount; ++bone) sum += horizons_[h].share[bone];
-  return std::min(1.0f, sum / (kShareOfAcquainted * static_cast<float>(kBoneCount - 1)));
+float GuessProof::proved(std::size_t h, std::uint32_t presence) const {
+  float sum = 0.0f, seen = 0.0f;
+  for (std::size_t bone = 1; bone < kBoneCount; ++bone) {
+    if ((presence >> bone & 1u) == 0) continue;
+    sum += horizons_[h].share[bone];
+    seen += 1.0f;
+  }
+  return seen > 0.0f ? std::min(1.0f, sum / (kShareOfAcquainted * seen)) : 0.0f;
 }
 
 void GuessProof::learn(std::size_t h, const MomentGuesses& guesses, const BodyRow& way) {

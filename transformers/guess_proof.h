@@ -29,10 +29,12 @@ class GuessProof {
   void learn(std::size_t horizon, const MomentGuesses& guesses, const BodyRow& way);
   // Adds what is proved of guesses.personal.
   void add_personal(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
-  // How far it is proved that the personal model knows this dancer: 0 to 1.
-  float proved(std::size_t horizon) const;
+  // How far it is proved that the personal model knows this dancer: 0 to 1, by the bones that are seen.
+  float proved(std::size_t horizon, std::uint32_t presence) const;
   // guesses.blended, or as far back to plain guesses as those were better.
   void finish(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
+  // After a gap: how good guesses were lately is not known.
+  void forget_errors();
   // Forgets what the personal model has proved: a new one is there.
   void doubt_personal();
 

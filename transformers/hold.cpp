@@ -78,7 +78,7 @@ bool Hold::sample(MonoTime now, Pose& out) {
   if (history_.empty()) return false;
   // A delay that jumps up would have the dance go back: it stands still until its time comes again.
   const MonoTime wanted = moment(now);
-  const auto answer = history_.at(std::max(wanted, shown_));
+  const auto answer = history_.at_for_good(std::max(wanted, shown_));
   out = answer->pose;
   if (answer->how == PoseHistory::How::kHeldLast || wanted < shown_) ++counters_.starved;
   shown_ = out.capture_time;

@@ -25,6 +25,13 @@ float decay_for(float y, float size, float fastest) {
   return size * y > kE * fastest ? kE * fastest / size : y;
 }
 
+// False for NaN.
+bool is_same(const Pose& a, const Pose& b) {
+  for (std::size_t i = 0; i < kBoneCount; ++i)
+    if (a.R_PB[i].coeffs() != b.R_PB[i].coeffs()) return false;
+  return a.p_WH_m == b.p_WH_m;
+}
+
 // From each bone to the end of its limb, metres, of an adult.
 constexpr std::array<float, kBoneCount> kLever_m{0.9f, 0.8f, 0.7f, 0.65f, 0.3f, 0.25f, 0.8f, 0.7f,
                                                  0.4f, 0.2f, 0.8f, 0.7f,  0.4f, 0.2f,  0.9f, 0.5f,
@@ -81,6 +88,7 @@ void Inertializer::set_decay() {
 
 void Inertializer::add(MonoTime now, const Pose& was, const Pose& is) {
   advance_to(now);
+  if (is_same(was, is)) return;
   const Vector3f hips = hips_.offset + (was.p_WH_m - is.p_WH_m);
   // Also true for NaN.
   if (!(hips.squaredNorm() <= kFurthest_m * kFurthest_m)) {
@@ -94,7 +102,10 @@ void Inertializer::add(MonoTime now, const Pose& was, const Pose& is) {
     offset = rotation_vector(exp_rotation(offset) * was.R_PB[b] * is.R_PB[b].conjugate());
     if (!offset.allFinite()) rotations_[b] = Spring();
   }
-  at_rest_ = false;
+  at_rest_ = hips_.is_at_rest() &&
+             std::all_of(rotations_.begin(), rotations_.end(),
+                         [](const Spring& rotation) { return rotation.is_at_rest(); });
+  if (at_rest_) return clear();
   set_decay();
 }
 
@@ -112,6 +123,7 @@ void Inertializer::add(MonoTime now, const Pose& was_before, const Pose& was, co
   const auto per_s = static_cast<float>(1.0 / step.as_seconds());
   add_speed(hips_, per_s * ((was.p_WH_m - was_before.p_WH_m) - (is.p_WH_m - is_before.p_WH_m)),
             kMostSpeed_m_s);
+  at_rest_ = false;
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     const Vector3f was_turn = rotation_vector(was.R_PB[b] * was_before.R_PB[b].conjugate());
     const Vector3f is_turn = rotation_vector(is.R_PB[b] * is_before.R_PB[b].conjugate());

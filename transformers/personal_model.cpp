@@ -41,6 +41,7 @@ struct PersonalModel::Sums {
   Matrix cross = Matrix::Zero(kNetInputs, kNetAnswers);
   float heard = 0.0f;
   std::uint64_t solved_at = 0;
+  std::uint32_t dancer = 0;
 
   const BodyRow& operator()(std::size_t age) const { return rows[(newest + age) % kKept]; }
 };
@@ -48,19 +49,25 @@ struct PersonalModel::Sums {
 PersonalModel::PersonalModel(std::shared_ptr<const PredictModel> model)
     : model_(std::move(model)),
       samples_(std::make_unique<SpscRing<Sample, kRing>>()),
-      solved_(std::make_unique<Latest<Weights>>()),
+      solved_(std::make_unique<Latest<Solved>>()),
       sums_(std::make_unique<Sums>()) {}
 
 PersonalModel::~PersonalModel() = default;
 
 void PersonalModel::push(const BodyRow& row, float tremble_rad, bool anew) {
-  samples_->push({row, tremble_rad, anew});
+  samples_->push({row, tremble_rad, anew, dancer_});
+}
+
+void PersonalModel::forget() {
+  ++dancer_;
+  newest_ = nullptr;
 }
 
 const PersonalModel::Weights* PersonalModel::weights(bool& is_new) {
-  const Weights* taken = solved_->take();
-  is_new = taken != nullptr;
-  if (taken) newest_ = taken;
+  const Solved* taken = solved_->take();
+  // What was solved may still be of the dancer before.
+  is_new = taken && taken->dancer == dancer_;
+  if (is_new) newest_ = &taken->weights;
   return newest_;
 }
 
@@ -81,6 +88,7 @@ void PersonalModel::learn() {
 
 void PersonalModel::take(const Sample& sample) {
   Sums& s = *sums_;
+  if (sample.dancer != s.dancer) begin_dancer(sample.dancer);
   if (sample.anew) s.size = 0;
   s.newest = (s.newest + kKept - 1) % kKept;
   s.rows[s.newest] = sample.row;
@@ -121,6 +129,16 @@ void PersonalModel::take(const Sample& sample) {
   if (++s.batched == kBatch) take_in_batch();
 }
 
+void PersonalModel::begin_dancer(std::uint32_t dancer) {
+  Sums& s = *sums_;
+  s.dancer = dancer;
+  s.size = s.batched = 0;
+  s.gram.setZero();
+  s.cross.setZero();
+  s.heard = 0.0f;
+  s.solved_at = moments_ = 0;
+}
+
 void PersonalModel::take_in_batch() {
   Sums& s = *sums_;
   const auto count = static_cast<Eigen::Index>(s.batched);
@@ -143,12 +161,13 @@ void PersonalModel::solve() {
   if (decomposed.info() != Eigen::Success) return;
   const Matrix solved = decomposed.solve(s.cross);
   if (!solved.allFinite()) return;
-  auto weights = std::make_unique<Weights>();
+  auto result = std::make_unique<Solved>();
+  result->dancer = s.dancer;
   for (std::size_t i = 0; i < kNetInputs; ++i)
     for (std::size_t k = 0; k < kNetAnswers; ++k)
-      (*weights)[i * kNetAnswers + k] =
+      result->weights[i * kNetAnswers + k] =
           solved(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-  solved_->put(*weights);
+  solved_->put(*result);
 }
 
 }  // namespace dance

@@ -30,6 +30,8 @@ class PersonalModel : public Learner {
 
   // Pose path: a row more; `anew` where it does not follow the one before.
   void push(const BodyRow& row, float tremble_rad, bool anew);
+  // Pose path: the rows from here on are another dancer's; there are no weights before those are learned.
+  void forget();
   // Pose path: the newest weights, nullptr before the first. `is_new`: since the last call.
   const Weights* weights(bool& is_new);
 
@@ -42,9 +44,15 @@ class PersonalModel : public Learner {
     BodyRow row;
     float tremble_rad;
     bool anew;
+    std::uint32_t dancer;
+  };
+  struct Solved {
+    Weights weights{};
+    std::uint32_t dancer = 0;
   };
   struct Sums;
   void take(const Sample& sample);
+  void begin_dancer(std::uint32_t dancer);
   void take_in_batch();
   void solve();
 
@@ -52,8 +60,9 @@ class PersonalModel : public Learner {
   std::atomic<bool> asks_net_{true};
   static constexpr std::size_t kRing = 1024;  // 17 s
   std::unique_ptr<SpscRing<Sample, kRing>> samples_;
-  std::unique_ptr<Latest<Weights>> solved_;
+  std::unique_ptr<Latest<Solved>> solved_;
   const Weights* newest_ = nullptr;
+  std::uint32_t dancer_ = 0;  // counts those who were here
 
   // The learning thread's.
   std::unique_ptr<Sums> sums_;

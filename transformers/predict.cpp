@@ -13,6 +13,8 @@ constexpr Duration kEarliest = Duration::ms(-100);
 // A dance does not go back by less than this: then its time has jumped.
 constexpr Duration kJumpBack = Duration::ms(500);
 constexpr Duration kTempoSpan = Duration::s(1);
+// A body that is measured again differs by less; this is another dancer's.
+constexpr float kOtherBody_m = 0.03f;
 constexpr double kMostBeatsPerSecond = kMostTempo_bpm / 60.0;
 
 // How fast the dancer's music goes, by the poses of the last second; 0 where there is none.
@@ -35,6 +37,9 @@ Predict::Predict(const PredictOptions& options)
 
 void Predict::set_body(const Skeleton& skeleton) {
   if (!is_valid(skeleton)) return;
+  const BoneLengths lengths = bone_lengths(skeleton);
+  if (body_ && !is_alike(*body_, lengths, kOtherBody_m)) predictor_.forget_dancer();
+  body_ = lengths;
   const auto& model = options_.model ? options_.model : built_in_predict_model();
   predictor_.set_acquaintance(model->knows(skeleton) ? Acquaintance::kDancer
                                                      : Acquaintance::kOthers);

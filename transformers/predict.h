@@ -49,6 +49,7 @@ class Predict : public Transformer {
 
   PredictOptions options_;
   DancePredictor predictor_;
+  std::optional<BoneLengths> body_;
   PoseHistory history_;
   Finish finish_;
 

@@ -61,12 +61,16 @@ BoneLengths bone_lengths(const Skeleton& skeleton) {
   return lengths;
 }
 
+bool is_alike(const BoneLengths& a, const BoneLengths& b, float most_m) {
+  for (std::size_t i = 0; i < kBoneCount; ++i)
+    if (!(std::abs(a[i] - b[i]) <= most_m)) return false;
+  return true;
+}
+
 bool PredictModel::knows(const Skeleton& skeleton) const {
   const BoneLengths lengths = bone_lengths(skeleton);
   return std::any_of(dancers.begin(), dancers.end(), [&](const BoneLengths& known) {
-    for (std::size_t b = 0; b < kBoneCount; ++b)
-      if (!(std::abs(known[b] - lengths[b]) <= kSameBone_m)) return false;
-    return true;
+    return is_alike(known, lengths, kSameBone_m);
   });
 }
 

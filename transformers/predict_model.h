@@ -53,6 +53,8 @@ constexpr std::size_t kAcquaintances = 3;
 // A dancer that the model was trained on: lengths of the bones, m.
 using BoneLengths = std::array<float, kBoneCount>;
 BoneLengths bone_lengths(const Skeleton& skeleton);
+// Whether no bone differs by more than `most_m`.
+bool is_alike(const BoneLengths& a, const BoneLengths& b, float most_m);
 constexpr std::size_t kMostKnownDancers = 64;
 
 struct PredictModel {

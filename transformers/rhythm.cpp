@@ -185,7 +185,8 @@ bool Rhythm::sample(MonoTime now, Pose& out) {
   const bool is_guess = moment > history_.newest().capture_time;
   if (is_guess && !input_) ++counters_.starved;
   shown_ = out;
-  shown_is_guess_ = is_guess;
+  // Between the newest two poses the curve is not known before the next one, either.
+  shown_is_guess_ = is_guess || (history_.size() >= 2 && moment > history_.newest(1).capture_time);
   shown_moment_ = moment;
   has_shown_ = true;
   finish_.apply(now, out, is_guess);

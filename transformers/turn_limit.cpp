@@ -15,6 +15,11 @@ bool is_hand(std::size_t bone) {
 
 bool TurnLimit::apply(MonoTime now, Pose& pose, bool is_guess) {
   const Duration step = now - time_;
+  if (time_.is_set() && step == Duration()) {
+    // The same picture once more: a limb is no less behind for it.
+    if (is_behind_) pose.R_PB = shown_;
+    return is_behind_;
+  }
   const bool goes_on = time_.is_set() && step > Duration() && step <= kLongestFrame;
   time_ = now;
   const bool limits = goes_on && (is_guess || is_behind_);

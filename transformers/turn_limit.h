@@ -19,7 +19,7 @@ class TurnLimit {
   static constexpr float kFastest_rad_s = 16.0f;
   static constexpr float kFastestHand_rad_s = 30.0f;
 
-  // Once a frame. What is danced is not touched, unless a limb is still behind. Returns whether the pose was changed.
+  // Once a frame; the same moment again shows what is behind as before. What is danced is not touched, unless a limb is still behind. Returns whether the pose was changed.
   bool apply(MonoTime now, Pose& pose, bool is_guess);
   void clear() { is_behind_ = false, time_ = MonoTime(); }
 

@@ -5,13 +5,14 @@
 
 namespace dance {
 
-PoseHistory::PoseHistory(std::size_t capacity) : ring_(capacity) {
+PoseHistory::PoseHistory(std::size_t capacity) : ring_(capacity), is_reached_straight_(capacity) {
   DANCE_ASSERT(capacity >= 2, capacity);
 }
 
 bool PoseHistory::push(const Pose& pose) {
   if (size_ > 0 && pose.capture_time <= newest().capture_time) return false;
   ring_[next_] = pose;
+  is_reached_straight_[next_] = false;
   next_ = (next_ + 1) % ring_.size();
   if (size_ < ring_.size()) ++size_;
   return true;
@@ -19,7 +20,17 @@ bool PoseHistory::push(const Pose& pose) {
 
 const Pose& PoseHistory::newest(std::size_t back) const {
   DANCE_ASSERT(back < size_, back, size_);
-  return ring_[(next_ + 2 * ring_.size() - 1 - back) % ring_.size()];
+  return ring_[slot(back)];
+}
+
+std::size_t PoseHistory::slot(std::size_t back) const {
+  return (next_ + 2 * ring_.size() - 1 - back) % ring_.size();
+}
+
+std::optional<PoseHistory::Answer> PoseHistory::at_for_good(MonoTime t) {
+  if (size_ >= 2 && t > newest(1).capture_time && t < newest().capture_time)
+    is_reached_straight_[slot(0)] = true;
+  return at(t);
 }
 
 std::optional<PoseHistory::Answer> PoseHistory::at(MonoTime t) const {
@@ -46,7 +57,8 @@ std::optional<PoseHistory::Answer> PoseHistory::at(MonoTime t) const {
   const Pose *first = nullptr, *last = nullptr;
   if (is_close(before, after)) {
     if (low + 1 < size_ && is_close(newest(low + 1), before)) first = &newest(low + 1);
-    if (low >= 2 && is_close(after, newest(low - 2))) last = &newest(low - 2);
+    if (low >= 2 && !is_reached_straight_[slot(low - 1)] && is_close(after, newest(low - 2)))
+      last = &newest(low - 2);
   }
   return Answer{interpolate_smoothly(first, before, after, last, static_cast<float>(fraction)),
                 How::kInterpolated};

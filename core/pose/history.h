@@ -33,6 +33,9 @@ class PoseHistory {
   // The pose at time t: one that was pushed, or between two, or the nearest end. Between poses that are no more than
   // kCloseTogether apart it goes smoothly, in straight lines across longer gaps.
   std::optional<Answer> at(MonoTime t) const;
+  // The same, and for good: no pose that comes later changes what at() and this answer about this moment. Between the
+  // newest two poses, where the curve is not known before the next one, it ends as straight as it is seen now.
+  std::optional<Answer> at_for_good(MonoTime t);
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -40,7 +43,10 @@ class PoseHistory {
   const Pose& oldest() const { return newest(size_ - 1); }
 
  private:
+  std::size_t slot(std::size_t back) const;
+
   std::vector<Pose> ring_;
+  std::vector<bool> is_reached_straight_;  // the way to the pose in that slot, for good
   std::size_t next_ = 0;
   std::size_t size_ = 0;
 };

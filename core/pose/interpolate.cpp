@@ -11,6 +11,9 @@ constexpr float kLeastDot = 0.92f;
 // A slope that is no steeper than three times either step keeps between its ends.
 constexpr float kMostSlope = 3.0f;
 
+// Who is nearer than this part of the step says little about how fast it goes.
+constexpr float kLeastGap = 0.3f;
+
 // All but what moves.
 Pose between_stamps(const Pose& a, const Pose& b, float fraction) {
   Pose out = fraction < 0.5f ? a : b;  // what cannot be between: sequence, presence, stamps
@@ -49,10 +52,27 @@ struct Cubic {
   // At a or b, of the parabola through it and its neighbours; with one neighbour, straight.
   template <class Vector>
   static Vector slope(const Vector& outer, float outer_time, const Vector& step, float step2) {
-    const Vector slope = (outer + outer_time * step) / (1.0f + outer_time);
+    return limited(Vector((outer + outer_time * step) / (1.0f + outer_time)), outer, step, step2);
+  }
+
+  // A place, along each axis; no slope where it turns back there.
+  static Eigen::Vector3f limited(Eigen::Vector3f slope, const Eigen::Vector3f& outer,
+                                 const Eigen::Vector3f& step, float /*step2*/) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const float most = outer[i] * step[i] > 0.0f
+                             ? kMostSlope * std::min(std::abs(outer[i]), std::abs(step[i]))
+                             : 0.0f;
+      slope[i] = std::clamp(slope[i], -most, most);
+    }
+    return slope;
+  }
+
+  // A rotation, which has no axes of its own.
+  static Eigen::Vector4f limited(const Eigen::Vector4f& slope, const Eigen::Vector4f& outer,
+                                 const Eigen::Vector4f& /*step*/, float step2) {
     const float most2 = kMostSlope * kMostSlope * std::min(step2, outer.squaredNorm());
     const float is2 = slope.squaredNorm();
-    return is2 > most2 ? Vector(slope * std::sqrt(most2 / is2)) : slope;
+    return is2 > most2 ? Eigen::Vector4f(slope * std::sqrt(most2 / is2)) : slope;
   }
 
   float before_time, after_time, h00, h10, h01, h11;
@@ -63,9 +83,10 @@ Eigen::Vector4f on_side_of(const Eigen::Vector4f& q, const Eigen::Vector4f& side
 }
 
 float ratio(const Pose* from, const Pose* to, Duration step) {
-  return from && to ? static_cast<float>((to->capture_time - from->capture_time).as_seconds() /
-                                         step.as_seconds())
-                    : 0.0f;
+  if (!from || !to) return 0.0f;
+  const auto gap =
+      static_cast<float>((to->capture_time - from->capture_time).as_seconds() / step.as_seconds());
+  return gap < kLeastGap ? 0.0f : gap;
 }
 
 }  // namespace

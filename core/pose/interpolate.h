@@ -17,7 +17,8 @@ namespace dance {
 
 Pose interpolate(const Pose& a, const Pose& b, float fraction);
 
-// The same on a cubic. `before` comes before a and `after` after b, in time too; either may be null. Fraction within 0..1.
+// The same on a cubic. `before` comes before a and `after` after b, in time too; either may be null, and counts as such
+// where it is nearer than 0.3 of the step. Fraction within 0..1.
 Pose interpolate_smoothly(const Pose* before, const Pose& a, const Pose& b, const Pose* after,
                           float fraction);
 

@@ -148,6 +148,35 @@ TEST(InterpolateSmoothly, DoesNotSwingOverWhereAMotionStopsOrStarts) {
     }
 }
 
+Pose hips_at(double s, const Vector3f& p_m) {
+  Pose pose;
+  pose.capture_time = MonoTime::from_us(1000) + Duration::seconds(s);
+  pose.p_WH_m = p_m;
+  return pose;
+}
+
+TEST(InterpolateSmoothly, DoesNotSwingOverAlongOneAxisWhileAnotherGoesOn) {
+  // Comes down and stands, while it goes on forward; and turns back at the second pose.
+  for (const float last_y : {0.0f, 0.1f}) {
+    const Pose before = hips_at(0.0, {0.0f, 0.3f, 0.0f}), a = hips_at(0.033, {0.2f, 0.0f, 0.0f}),
+               b = hips_at(0.066, {0.4f, 0.0f, 0.0f}), after = hips_at(0.1, {0.6f, last_y, 0.0f});
+    for (float fraction = 0.0f; fraction <= 1.0f; fraction += 0.05f) {
+      const Pose is = interpolate_smoothly(&before, a, b, &after, fraction);
+      EXPECT_NEAR(is.p_WH_m.y(), 0.0f, 1e-6f) << fraction;
+      EXPECT_NEAR(is.p_WH_m.x(), 0.2f + 0.2f * fraction, 1e-3f);
+    }
+  }
+}
+
+TEST(InterpolateSmoothly, HearsNoSpeedFromAPoseNextToAnother) {
+  // Half a centimetre within a millisecond is no speed of 5 m/s.
+  const Pose before = hips_at(0.032, {0.0f, 0.0f, 0.0f}), a = hips_at(0.033, {0.005f, 0.0f, 0.0f}),
+             b = hips_at(0.066, {0.03f, 0.0f, 0.0f}), after = hips_at(0.067, {0.035f, 0.0f, 0.0f});
+  for (float fraction = 0.0f; fraction <= 1.0f; fraction += 0.1f)
+    EXPECT_NEAR(interpolate_smoothly(&before, a, b, &after, fraction).p_WH_m.x(),
+                0.005f + 0.025f * fraction, 1e-5f);
+}
+
 TEST(InterpolateSmoothly, GoesTheStraightWayWhereABoneTurnsFar) {
   Random random(44);
   Pose before = random_pose(random), a = random_pose(random), after = random_pose(random);

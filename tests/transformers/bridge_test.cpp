@@ -157,6 +157,51 @@ TEST(Bridge, AnswersForMomentsAsTheStationBehindAsks) {
   ASSERT_TRUE(bridge.sample_at(at_s(newest_s + 0.05), at_s(newest_s + 4.0), out));
 }
 
+// A station that knows where the dancer goes: at 0.4 m/s along x.
+class Walking : public Transformer {
+ public:
+  static Pose at(MonoTime moment) {
+    Pose pose = swaying((moment - MonoTime()).as_seconds());
+    pose.p_WH_m.x() = 0.4f * static_cast<float>((moment - at_s(10.0)).as_seconds());
+    return pose;
+  }
+  void observe(const Pose&, MonoTime) override {}
+  bool sample(MonoTime now, Pose& out) override { return sample_at(now, now, out); }
+  bool sample_at(MonoTime moment, MonoTime, Pose& out) override {
+    out = at(moment);
+    return true;
+  }
+};
+
+TEST(Bridge, FadesByTheDancesTimeHoweverLateTheLineAndTheMomentsAskedFor) {
+  // A listener who is a beat and more behind, over a line of 300 ms.
+  for (const double late_s : {0.35, 0.8, 1.5}) {
+    Walking walking;
+    Bridge bridge;
+    bridge.set_input(&walking);
+    for (int i = 60; i <= 600; ++i) {
+      const Pose pose = Walking::at(at_s(i / 60.0));
+      bridge.observe(pose, pose.capture_time + Duration::ms(300));
+    }
+    Pose out, continued;
+    for (double since_s = 0.01; since_s < 0.9; since_s += 1.0 / 60.0) {
+      const MonoTime moment = at_s(10.0 + since_s);
+      ASSERT_TRUE(bridge.sample_at(moment, moment + Duration::seconds(late_s), out));
+      const Pose danced = Walking::at(moment);
+      EXPECT_NEAR(out.p_WH_m.x(), danced.p_WH_m.x(), 0.06f) << late_s << " " << since_s;
+      const bool is_predicted = (out.R_PB[index_of(Bone::kLeftUpperArm)].coeffs() -
+                                 danced.R_PB[index_of(Bone::kLeftUpperArm)].coeffs())
+                                    .norm() == 0.0f;
+      if (since_s < 0.25) {
+        EXPECT_TRUE(is_predicted) << late_s << " " << since_s;
+      }
+      if (since_s > 0.35) {
+        EXPECT_FALSE(is_predicted) << late_s << " " << since_s;
+      }
+    }
+  }
+}
+
 TEST(Bridge, StartsAnewWhenTheSourceChangesItsClockOrJumpsBack) {
   Bridge bridge;
   for (int i = 60; i < 300; ++i) bridge.observe(swaying(i / 60.0), at_s(i / 60.0));

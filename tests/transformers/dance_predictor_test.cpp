@@ -231,5 +231,57 @@ TEST(DancePredictor, StartsAnewAfterAGapAndRefusesWhatIsNotNewer) {
   EXPECT_LT(mean_angle_rad(out, later), 0.05);
 }
 
+// One who was proved to repeat their dance for half a minute; then comes something else.
+TEST(DancePredictor, OnAnotherClockOrAnotherDancerBeginsAnewAndAfterAGapGoesOn) {
+  const auto dance = salsa(1800);
+  const auto other = stopping(400);
+  enum Change { kClock, kDancer, kGap };
+  // Mean difference to one who never saw the dance before.
+  const auto difference_rad = [&](Change change) {
+    DancePredictor predictor(built_in_predict_model()), fresh(built_in_predict_model());
+    for (const Pose& pose : dance) predictor.observe(pose);
+    if (change == kDancer) predictor.forget_dancer();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < other.size(); ++i) {
+      Pose pose = other[i], ours, expected;
+      pose.capture_time = dance.back().capture_time + Duration::s(3) +
+                          (other[i].capture_time - other[0].capture_time);
+      if (change == kClock) pose.clock_id = 2;
+      predictor.observe(pose);
+      fresh.observe(pose);
+      predictor.predict(pose.capture_time + Duration::ms(200), ours);
+      fresh.predict(pose.capture_time + Duration::ms(200), expected);
+      sum += mean_angle_rad(ours, expected);
+    }
+    return sum / static_cast<double>(other.size());
+  };
+  const double clock = difference_rad(kClock), dancer = difference_rad(kDancer),
+               gap = difference_rad(kGap);
+  EXPECT_LT(clock, 0.25 * gap);
+  EXPECT_LT(dancer, 0.25 * gap);
+}
+
+TEST(DancePredictor, TheLearnerTakesNothingOfTheDancerBefore) {
+  const auto dance = shaken(salsa(900), kHalfDegree_rad);
+  DancePredictor predictor(built_in_predict_model());
+  bool is_new = false;
+  for (const Pose& pose : dance) {
+    predictor.observe(pose);
+    predictor.personal()->learn();
+  }
+  predictor.forget_dancer();
+  predictor.personal()->learn();
+  EXPECT_EQ(predictor.personal()->weights(is_new), nullptr);
+  for (std::size_t i = 0; i < 120; ++i) {
+    Pose pose = dance[i];
+    pose.capture_time = dance.back().capture_time + Duration::s(2) +
+                        (dance[i].capture_time - dance[0].capture_time);
+    predictor.observe(pose);
+    predictor.personal()->learn();
+  }
+  EXPECT_LT(predictor.personal()->moments(), 60u);
+  EXPECT_EQ(predictor.personal()->weights(is_new), nullptr);
+}
+
 }  // namespace
 }  // namespace dance

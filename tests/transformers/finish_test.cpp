@@ -60,6 +60,40 @@ TEST(Finish, ThrowsNoLimbOfAGuessAndCatchesUp) {
   EXPECT_EQ(out.R_PB[kFoot].coeffs(), Pose().R_PB[kFoot].coeffs());
 }
 
+TEST(Finish, ACorrectionByNothingLimitsNothing) {
+  constexpr std::size_t kFoot = index_of(Bone::kLeftFoot);
+  Finish finish;
+  for (int i = 0; i < 8; ++i) {
+    Pose pose;
+    pose.R_PB[kFoot] =
+        Eigen::Quaternionf(Eigen::AngleAxisf(i % 2 ? 0.6f : 0.0f, Eigen::Vector3f::UnitX()));
+    finish.correct(finish_frame(i), pose, pose);
+    Pose out = pose;
+    finish.apply(finish_frame(i), out, false);
+    EXPECT_EQ(out.R_PB[kFoot].coeffs(), pose.R_PB[kFoot].coeffs()) << i;
+  }
+}
+
+TEST(Finish, CatchesUpAlsoWhereAMomentIsSampledTwice) {
+  constexpr std::size_t kFoot = index_of(Bone::kLeftFoot);
+  Finish finish;
+  Pose kicked;
+  kicked.R_PB[kFoot] = Eigen::Quaternionf(Eigen::AngleAxisf(1.2f, Eigen::Vector3f::UnitX()));
+  Pose before, out;
+  finish.apply(finish_frame(0), before, true);
+  for (int i = 1; i <= 6; ++i) {
+    out = kicked;
+    finish.apply(finish_frame(i), out, i < 2);
+    EXPECT_LT(out.R_PB[kFoot].angularDistance(before.R_PB[kFoot]),
+              1.001f * TurnLimit::kFastest_rad_s / 60.0f);
+    Pose again = kicked;
+    finish.apply(finish_frame(i), again, i < 2);
+    EXPECT_EQ(again.R_PB[kFoot].coeffs(), out.R_PB[kFoot].coeffs()) << i;
+    before = out;
+  }
+  EXPECT_EQ(out.R_PB[kFoot].coeffs(), kicked.R_PB[kFoot].coeffs());
+}
+
 TEST(Finish, ComesBackToTheDanceAfterACorrection) {
   Finish finish(Duration::ms(60));
   Pose was, is;

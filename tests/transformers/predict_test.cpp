@@ -184,6 +184,49 @@ TEST(Predict, AllocatesNothing) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
+// 25 rad/s is faster than a guess may be, but it was danced.
+TEST(Predict, WithoutALeadShowsAKickAsItWasDanced) {
+  for (const bool is_behind_hold : {false, true}) {
+    auto chain =
+        is_behind_hold ? Chain::make({"hold 0ms", "predict"}) : Chain::make({"predict lead=0"});
+    ASSERT_TRUE(chain);
+    auto dance = salsa(240);
+    const std::size_t shank = index_of(Bone::kRightLowerLeg);
+    for (std::size_t i = 200; i < 206; ++i)
+      dance[i].R_PB[shank] = exp_rotation(
+          Eigen::Vector3f(25.0f / 60.0f * static_cast<float>(std::min(i, 406 - i) - 199), 0, 0));
+    for (std::size_t i = 0; i < dance.size(); ++i) {
+      const MonoTime now = dance[i].capture_time + kWay;
+      chain->observe(dance[i], now);
+      Pose out;
+      ASSERT_TRUE(chain->sample(now, out));
+      if (i < 60) continue;
+      ASSERT_EQ(out.capture_time, dance[i].capture_time);
+      for (std::size_t b = 0; b < kBoneCount; ++b)
+        ASSERT_EQ(out.R_PB[b].coeffs(), dance[i].R_PB[b].coeffs()) << i << " " << kBones[b].name;
+    }
+  }
+}
+
+TEST(Predict, ForgetsADancerWhenAnotherBodyComesAndNotWhenTheSameIsMeasuredAgain) {
+  Predict station;
+  const auto personal = std::static_pointer_cast<PersonalModel>(station.learner());
+  Skeleton body = average_skeleton();
+  station.set_body(body);
+  for (const Pose& pose : salsa(900)) {
+    station.observe(pose, pose.capture_time + kWay);
+    personal->learn();
+  }
+  bool is_new = false;
+  ASSERT_NE(personal->weights(is_new), nullptr);
+  for (auto& offset_m : body.offset_m) offset_m *= 1.01f;
+  station.set_body(body);
+  EXPECT_NE(personal->weights(is_new), nullptr);
+  for (auto& offset_m : body.offset_m) offset_m *= 1.15f;
+  station.set_body(body);
+  EXPECT_EQ(personal->weights(is_new), nullptr);
+}
+
 TEST(Predict, RefusesSettingsThatMakeNoSense) {
   EXPECT_TRUE(Chain::make({"predict lead=0.8 most=200ms"}));
   for (const char* text : {"predict lead=2", "predict most=5s", "predict lead", "predict far=1"})
