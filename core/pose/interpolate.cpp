@@ -10,6 +10,8 @@ namespace {
 constexpr float kLeastDot = 0.92f;
 // A slope that is no steeper than three times either step keeps between its ends.
 constexpr float kMostSlope = 3.0f;
+// Where a place turns back it may swing over as a body does: by a seventh of the smaller step.
+constexpr float kMostTurningSlope = 1.0f;
 
 // Who is nearer than this part of the step says little about how fast it goes.
 constexpr float kLeastGap = 0.3f;
@@ -55,14 +57,13 @@ struct Cubic {
     return limited(Vector((outer + outer_time * step) / (1.0f + outer_time)), outer, step, step2);
   }
 
-  // A place, along each axis; no slope where it turns back there.
+  // A place, along each axis.
   static Eigen::Vector3f limited(Eigen::Vector3f slope, const Eigen::Vector3f& outer,
                                  const Eigen::Vector3f& step, float /*step2*/) {
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const float most = outer[i] * step[i] > 0.0f
-                             ? kMostSlope * std::min(std::abs(outer[i]), std::abs(step[i]))
-                             : 0.0f;
-      slope[i] = std::clamp(slope[i], -most, most);
+      const float most = outer[i] * step[i] > 0.0f ? kMostSlope : kMostTurningSlope;
+      const float least_step = std::min(std::abs(outer[i]), std::abs(step[i]));
+      slope[i] = std::clamp(slope[i], -most * least_step, most * least_step);
     }
     return slope;
   }
