@@ -36,6 +36,8 @@ class CaptureChain {
 
   // `right` is the other eye's picture of the same moment, or null.
   void see(const Frame& frame, const cv::Mat* right = nullptr);
+  // Another solver, as pictures have another size.
+  void use(std::unique_ptr<BodySolver> solver) { solver_ = std::move(solver); }
   // The camera was away: the next picture is searched for the dancer.
   void start_anew();
 
