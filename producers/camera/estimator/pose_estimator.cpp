@@ -1,5 +1,6 @@
 #include "producers/camera/estimator/pose_estimator.h"
 
+#include <opencv2/core/utility.hpp>
 #include <utility>
 
 namespace dance {
