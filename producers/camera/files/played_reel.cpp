@@ -22,6 +22,7 @@ PlayedReel::PlayedReel(std::unique_ptr<PictureReel> reel, const PlayOptions& opt
 }
 
 bool PlayedReel::step() {
+  fetched_ = mono_now();
   if (!reel_->step()) {
     if (reel_->is_cut_off()) ++counters_.damaged;
     round_ = last_time_ + period_;
@@ -40,7 +41,8 @@ bool PlayedReel::wait_until_due(Duration patience) {
   if (due <= now) return true;
   const std::int64_t ms = (std::min(due - now, patience).count_ns() + 999'999) / 1'000'000;
   if (ms > 0) ::poll(nullptr, 0, static_cast<int>(std::min<std::int64_t>(ms, 1 << 30)));
-  return due <= mono_now();
+  fetched_ = mono_now();
+  return due <= fetched_;
 }
 
 // False: that was the end.
@@ -59,6 +61,7 @@ bool PlayedReel::skip_what_is_late() {
 
 FrameState PlayedReel::next(Duration patience, Frame& out) {
   out.image.release();
+  if (stands_) fetched_ = mono_now();  // what lay here since the last call is no work of ours
   if (is_over_ || (!stands_ && !step())) return FrameState::kOver;
   if (!start_.is_set()) start_ = mono_now();
   if (options_.is_real_time) {
@@ -76,6 +79,8 @@ FrameState PlayedReel::next(Duration patience, Frame& out) {
   out.capture_time = options_.is_real_time
                          ? start_ + last_time_
                          : start_ + period_ * static_cast<std::int64_t>(stepped_ - 1);
+  // A film that waited for its reader is of now.
+  out.fetched = options_.is_real_time ? std::max(fetched_, out.capture_time) : fetched_;
   ++counters_.taken;
   return FrameState::kFrame;
 }

@@ -45,6 +45,7 @@ class PlayedReel : public FrameSource {
   Duration period_;
   Duration round_;             // of all rounds of a loop before this one
   Duration last_time_;         // of the picture where it stands, since the first of the first round
+  MonoTime fetched_;           // when work on the picture where it stands began
   MonoTime start_;             // not set: nobody asked yet
   std::uint64_t stepped_ = 0;  // pictures so far
   bool stands_ = false;        // on a picture that was not given out

@@ -108,6 +108,7 @@ class Paired : public StereoSource {
   FrameState give(Duration skew, StereoFrame& out) {
     out.left = held_[0];
     out.right = held_[1];
+    out.left.fetched = out.right.fetched = std::max(held_[0].fetched, held_[1].fetched);
     has_[0] = has_[1] = false;
     ++pairs_;
     const double steps = static_cast<double>(std::min(pairs_, kPairsToJudge));

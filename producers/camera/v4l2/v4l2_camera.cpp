@@ -156,6 +156,7 @@ bool V4l2Camera::show(const RawPicture& picture, Frame& out) {
   }
   out.image = picture_now;
   out.capture_time = is_believable ? picture.stamp : now;
+  out.fetched = now;
   out.sequence = sequence_;
   ++counters_.taken;
   return true;

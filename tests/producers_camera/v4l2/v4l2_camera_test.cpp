@@ -45,6 +45,8 @@ TEST_F(CameraTest, StampsAreTheDrivers) {
   Frame frame;
   ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
   EXPECT_EQ(frame.capture_time.since_zero_us(), shim_->newest_stamp_us());
+  EXPECT_GE(frame.fetched, frame.capture_time);
+  EXPECT_LE(frame.fetched, mono_now());
   EXPECT_TRUE(camera->has_driver_stamps());
   EXPECT_EQ(camera->name(), "Shim Camera (/dev/video42)");
 }
@@ -61,6 +63,7 @@ TEST_F(CameraTest, SaysWhereTheDriverHasAnotherClock) {
     ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
     EXPECT_GE(frame.capture_time, before);
     EXPECT_LE(frame.capture_time, mono_now());
+    EXPECT_EQ(frame.fetched, frame.capture_time);
     EXPECT_FALSE(camera->has_driver_stamps());
     EXPECT_NE(camera->negotiated().find("stamped when fetched"), std::string::npos);
   }
