@@ -10,8 +10,8 @@ namespace {
 constexpr float kLeastDot = 0.92f;
 // A slope that is no steeper than three times either step keeps between its ends.
 constexpr float kMostSlope = 3.0f;
-// Where a place turns back it may swing over as a body does: by a seventh of the smaller step.
-constexpr float kMostTurningSlope = 1.0f;
+// Where a place turns back it may swing over as a body does: by less than a third of the smaller step.
+constexpr float kMostTurningSlope = 2.0f;
 
 // Who is nearer than this part of the step says little about how fast it goes.
 constexpr float kLeastGap = 0.3f;

@@ -8,6 +8,7 @@
 #include "transformers/dance_line.h"
 #include "transformers/guess_meter.h"
 #include "transformers/play_head.h"
+#include "transformers/rhythm.h"
 
 namespace dance {
 namespace {
@@ -259,6 +260,49 @@ TEST(GuessMeter, LeadsByWhatGuessesLag) {
   EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration::ms(200)).as_ms(), 300.0, 20.0);
   EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration()).as_ms(), 0.0, 1e-6);
   EXPECT_EQ(GuessMeter().lead(Duration::ms(120)), Duration::ms(120)) << "unknown: as asked";
+}
+
+// 30 poses a second; pictures between the newest two, whose way is not known before the next one comes.
+TEST(Rhythm, WhatTheNextPoseChangesOfWhatWasShownGoesInWithoutAPop) {
+  // A station that shows the moments of its poses at once.
+  class Now : public Transformer {
+   public:
+    void observe(const Pose& pose, MonoTime) override { history_.push(pose); }
+    bool sample(MonoTime, Pose&) override { return false; }
+    MonoTime moment(MonoTime now) override { return now - Duration::ms(1); }
+    bool sample_at(MonoTime moment, MonoTime, Pose& out) override {
+      const auto answer = history_.at(moment);
+      if (answer) out = answer->pose;
+      return answer.has_value();
+    }
+
+   private:
+    PoseHistory history_{64};
+  };
+  Now input;
+  Rhythm rhythm;
+  rhythm.set_input(&input);
+  // Turns back at every other pose: the curve changes as much as it can.
+  const auto observe = [&](int i) {
+    Pose pose;
+    pose.capture_time = second(i / 30.0);
+    pose.clock_id = 1;
+    pose.p_WH_m.x() = i / 2 % 2 ? 0.05f : 0.0f;
+    input.observe(pose, pose.capture_time);
+    rhythm.observe(pose, pose.capture_time);
+  };
+  float largest_m = 0.0f;
+  for (int i = 0; i < 90; ++i) {
+    observe(i);
+    Pose before, after;
+    const MonoTime now = second(i / 30.0);
+    // 17 ms before the newest pose, and again as soon as the next has come.
+    ASSERT_TRUE(rhythm.sample(now - Duration::ms(16), before));
+    observe(++i);
+    ASSERT_TRUE(rhythm.sample(now - Duration::ms(15), after));
+    if (i > 10) largest_m = std::max(largest_m, (after.p_WH_m - before.p_WH_m).norm());
+  }
+  EXPECT_LT(largest_m, 0.003f);
 }
 
 }  // namespace

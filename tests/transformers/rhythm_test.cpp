@@ -361,48 +361,5 @@ TEST(Rhythm, ItsWordsAreChecked) {
   }
 }
 
-// 30 poses a second; pictures between the newest two, whose way is not known before the next one comes.
-TEST(Rhythm, WhatTheNextPoseChangesOfWhatWasShownGoesInWithoutAPop) {
-  // A station that shows the moments of its poses at once.
-  class Now : public Transformer {
-   public:
-    void observe(const Pose& pose, MonoTime) override { history_.push(pose); }
-    bool sample(MonoTime, Pose&) override { return false; }
-    MonoTime moment(MonoTime now) override { return now - Duration::ms(1); }
-    bool sample_at(MonoTime moment, MonoTime, Pose& out) override {
-      const auto answer = history_.at(moment);
-      if (answer) out = answer->pose;
-      return answer.has_value();
-    }
-
-   private:
-    PoseHistory history_{64};
-  };
-  Now input;
-  Rhythm rhythm;
-  rhythm.set_input(&input);
-  // Turns back at every other pose: the curve changes as much as it can.
-  const auto observe = [&](int i) {
-    Pose pose;
-    pose.capture_time = stage_time(i / 30.0);
-    pose.clock_id = 1;
-    pose.p_WH_m.x() = i / 2 % 2 ? 0.05f : 0.0f;
-    input.observe(pose, pose.capture_time);
-    rhythm.observe(pose, pose.capture_time);
-  };
-  float largest_m = 0.0f;
-  for (int i = 0; i < 90; ++i) {
-    observe(i);
-    Pose before, after;
-    const MonoTime now = stage_time(i / 30.0);
-    // 17 ms before the newest pose, and again as soon as the next has come.
-    ASSERT_TRUE(rhythm.sample(now - Duration::ms(16), before));
-    observe(++i);
-    ASSERT_TRUE(rhythm.sample(now - Duration::ms(15), after));
-    if (i > 10) largest_m = std::max(largest_m, (after.p_WH_m - before.p_WH_m).norm());
-  }
-  EXPECT_LT(largest_m, 0.003f);
-}
-
 }  // namespace
 }  // namespace dance
