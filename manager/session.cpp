@@ -103,10 +103,14 @@ void read_route(TomlReader& reader, Session& session) {
   session.routes.push_back(route);
 }
 
-// A file's name is taken from the folder of the session; a device's as it is.
+// A file's name is taken from the folder of the session; what a camera is called stays as it is: "auto", "1", "HD Webcam".
 std::string device_from(const std::filesystem::path& folder, const std::string& device) {
-  const bool is_number = device.find_first_not_of("0123456789") == std::string::npos;
-  return is_number || device.starts_with("/dev/") ? device : (folder / device).string();
+  const std::filesystem::path path = device;
+  if (path.is_absolute()) return device;
+  std::error_code error;
+  const bool is_file = path.has_parent_path() || path.has_extension() ||
+                       std::filesystem::exists(folder / path, error);
+  return is_file && !device.empty() ? (folder / path).string() : device;
 }
 
 void read_camera(TomlReader& reader, const std::filesystem::path& folder, Session& session) {

@@ -81,10 +81,15 @@ Result<void> calibrate_camera(const CaptureOptions& options) {
              eyes->name(), options.board);
   EyesFrame seen;
   MonoTime next_progress;
+  bool is_gone = false;
   while (!poller->is_stopped() && !board.has_enough()) {
     const FrameState state = eyes->next(Duration::ms(50), seen);
     poller->run_once(Duration());
     if (state == FrameState::kOver) break;
+    if (state == FrameState::kGone && !is_gone)
+      talk::warn("{} is gone; plug it in again, it is looked for", eyes->name());
+    if (state == FrameState::kBack) talk::info("{} is back", eyes->name());
+    if (state != FrameState::kNone) is_gone = state == FrameState::kGone;
     if (state != FrameState::kFrame) continue;
     const BoardAdded added =
         wished.eyes == 2 ? board.add(seen.left.image, seen.right) : board.add(seen.left.image);

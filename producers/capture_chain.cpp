@@ -26,7 +26,6 @@ CaptureChain::CaptureChain(const GuestId& guest, CaptureSink& sink,
       next_sequence_(sequence_to_begin_with()) {}
 
 void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
-  const MonoTime dequeued = mono_now();
   ++stats_.pictures;
   body_ = &estimator_->estimate(frame);
   // The solver smooths what it makes of them, and smoothing twice would be late twice.
@@ -49,7 +48,7 @@ void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   sink_.capture(guest_, pose, now);
   const MonoTime published = mono_now();
   ++stats_.published;
-  stats_.dequeued_to_published.add(published - dequeued);
+  stats_.dequeued_to_published.add(published - frame.fetched);
   stats_.captured_to_published.add(published - frame.capture_time);
   if (published >= next_skeleton_) say_skeleton(published);
 }

@@ -1,7 +1,7 @@
 // CaptureChain: a picture's way to a pose on the bus: pose network, second eye where there is one, solver, sink. One call a picture, in
 // one thread: nothing waits for anything.
 //
-// Units/frames: poses in W; latencies from the moment the picture was handed in to the moment its pose was published.
+// Units/frames: poses in W; latencies from the moment the picture was in hand, before it was decoded, to the moment its pose was published.
 // Ownership:    owns estimator, solver and stereo; refers to the sink, which must outlive it.
 // Threads:      none inside; one owner.
 // Failure:      what is not seen gives no pose, and is counted.
@@ -36,6 +36,8 @@ class CaptureChain {
 
   // `right` is the other eye's picture of the same moment, or null.
   void see(const Frame& frame, const cv::Mat* right = nullptr);
+  // Another solver, as pictures have another size.
+  void use(std::unique_ptr<BodySolver> solver) { solver_ = std::move(solver); }
   // The camera was away: the next picture is searched for the dancer.
   void start_anew();
 

@@ -1,7 +1,8 @@
 #include "producers/capture_eyes.h"
 
+#include <fmt/core.h>
+
 #include <array>
-#include <filesystem>
 
 #include "core/program/talk.h"
 #include "producers/camera/files/open_frame_source.h"
@@ -12,8 +13,8 @@
 namespace dance {
 namespace {
 
-// Wider than any screen or film: two pictures side by side.
-constexpr double kTwoPictures = 2.4;
+// Wider than any film: two pictures side by side; two of 4:3 are 2.67.
+constexpr double kTwoPictures = 2.6;
 
 class OneEye : public CaptureEyes {
  public:
@@ -26,6 +27,7 @@ class OneEye : public CaptureEyes {
   }
   FrameCounters counters() const override { return source_->counters(); }
   const std::string& name() const override { return source_->name(); }
+  std::string line() const override { return line_on(*source_); }
   int eyes() const override { return 1; }
 
  private:
@@ -45,6 +47,10 @@ class TwoEyes : public CaptureEyes {
   }
   FrameCounters counters() const override { return source_->counters(); }
   const std::string& name() const override { return source_->name(); }
+  std::string line() const override {
+    return fmt::format("{}: {}x{} {} at {:g} Hz of each eye", source_->name(), format_.width_px,
+                       format_.height_px, format_.encoding, format_.hz);
+  }
   int eyes() const override { return 2; }
   std::string trouble() const override { return source_->trouble(); }
 
@@ -73,12 +79,6 @@ StereoRig settled(CaptureEyes& eyes, const StereoRig& rig) {
   return settled.rig;
 }
 
-bool is_picture(const std::string& name) {
-  for (const char* ending : {".jpg", ".jpeg", ".png", ".bmp", ".ppm", ".pgm", ".tif", ".tiff"})
-    if (name.ends_with(ending)) return true;
-  return name.find(',') != std::string::npos;
-}
-
 // Who has a calibration of two eyes wants both of them from a camera that gives several sizes.
 void wish_for_both(const CaptureOptions& options, CameraWish& wish) {
   constexpr std::array<std::array<int, 2>, 6> kUsualSizes{
@@ -100,9 +100,7 @@ Result<std::unique_ptr<CaptureEyes>> CaptureEyes::open_uncalibrated(const Captur
   DANCE_TRY(wished.camera, camera_wish(options));
   wish_for_both(options, wished.camera);
   // Pictures of a calibration were chosen one by one; all else is as if it happened now.
-  const bool is_live =
-      options.calibrate_file.empty() ||
-      !(is_picture(options.source) || std::filesystem::is_directory(options.source));
+  const bool is_live = options.calibrate_file.empty() || !picture_files({options.source});
   wished.play = {is_live, options.loops, options.hz};
   DANCE_TRY(auto source, open_frame_source(options.source, wished));
   std::unique_ptr<CaptureEyes> eyes;
@@ -117,8 +115,25 @@ Result<std::unique_ptr<CaptureEyes>> CaptureEyes::open_uncalibrated(const Captur
     eyes = std::make_unique<OneEye>(std::move(source));
   }
   eyes->is_live_ = is_live;
+  eyes->calibration_ = options.calibration;
+  eyes->fov_deg_ = options.fov_deg;
   eyes->camera_ = assumed_pinhole(eyes->format_.width_px, eyes->format_.height_px, options.fov_deg);
   return eyes;
+}
+
+Result<void> CaptureEyes::take_size(int width_px, int height_px) {
+  if (eyes() == 2)
+    return fail(name() +
+                ": pictures of another size came; two eyes keep theirs. Start dance capture anew");
+  Pinhole camera = assumed_pinhole(width_px, height_px, fov_deg_);
+  if (!calibration_.empty()) {
+    DANCE_TRY(const Calibration calibration, load_calibration(calibration_, width_px, height_px));
+    camera = calibration.camera;
+  }
+  format_.width_px = width_px;
+  format_.height_px = height_px;
+  camera_ = camera;
+  return {};
 }
 
 Result<std::unique_ptr<CaptureEyes>> CaptureEyes::open(const CaptureOptions& options) {

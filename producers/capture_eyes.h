@@ -33,9 +33,15 @@ class CaptureEyes {
   virtual FrameState next(Duration patience, EyesFrame& out) = 0;
   virtual FrameCounters counters() const = 0;
   virtual const std::string& name() const = 0;
+  // What was negotiated, in one line for people.
+  virtual std::string line() const = 0;
   virtual int eyes() const = 0;
   // "" as long as all is well, else one line with the cure.
   virtual std::string trouble() const { return {}; }
+
+  // Pictures have another size from now on, as of a camera that came back in a slower socket: format() and camera() become
+  // those of it. Fails where the calibration does not fit; two eyes keep their size.
+  Result<void> take_size(int width_px, int height_px);
 
   // Of one eye.
   const FrameFormat& format() const { return format_; }
@@ -49,6 +55,8 @@ class CaptureEyes {
   Pinhole camera_;
   std::optional<StereoRig> rig_;
   bool is_live_ = true;
+  std::string calibration_;  // file
+  double fov_deg_ = 65.0;
 };
 
 }  // namespace dance

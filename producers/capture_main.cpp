@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   line.add_flag("--list", options.only_lists, "which cameras are here, and what they give");
   line.add("--guest", options.guest, "who dances").guest_name().shows_default();
   line.add("--size", options.size, "of the picture, like 1280x720; chosen where it is not given");
-  line.add("--hz", options.hz, "pictures a second; 0 = as many as the camera gives, up to 60")
+  line.add("--hz", options.hz, "pictures a second of a camera; 0 = as many as it gives, up to 60")
       .range(0.0, 1000.0);
   line.add("--format", options.encoding, "how the camera packs them; chosen where it is not given")
       .one_of({"YUYV", "MJPG", "NV12", "GREY"});
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   line.add_choice<PoseModel>(
       "--model", options.model,
       {{"lite", PoseModel::kLite}, {"full", PoseModel::kFull}, {"heavy", PoseModel::kHeavy}},
-      "size of the pose network; full, unless the machine is too slow for it");
+      "size of the pose network; full where it is not given, lite is twice as fast");
   line.add_choice<EngineKind>("--engine", options.engine,
                               {{"auto", EngineKind::kFastest},
                                {"xnnpack", EngineKind::kXnnpack},

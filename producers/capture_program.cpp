@@ -29,8 +29,10 @@ Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOption
   if (auto stops = program->poller_->stop_on_signals(); !stops)
     return tl::make_unexpected(stops.error());
   DANCE_TRY(program->eyes_, CaptureEyes::open(options));
+  // What may fail without a trace first; a recording makes files.
+  if (auto opened = program->open_preview(); !opened) return tl::make_unexpected(opened.error());
   if (auto opened = program->open_chain(); !opened) return tl::make_unexpected(opened.error());
-  if (auto opened = program->open_extras(); !opened) return tl::make_unexpected(opened.error());
+  program->say_what_runs();
   return program;
 }
 
@@ -42,12 +44,6 @@ Result<void> CaptureProgram::open_chain() {
   DANCE_TRY(seeing.follow,
             follow_options(options_, eyes_->format().width_px, eyes_->format().height_px));
   DANCE_TRY(auto estimator, PoseEstimator::open(seeing));
-  SolverOptions solving;
-  if (options_.height_m > 0.0) solving.height_m = options_.height_m;
-  solving.is_mirrored = options_.is_mirrored;
-  solving.smooth = options_.smooth;
-  auto solver = std::make_unique<BodySolver>(solving, eyes_->camera());
-
   DANCE_TRY(bus_, Bus::open(options_.bus));
   bus_sink_ = std::make_unique<BusCaptureSink>(*bus_);
   CaptureSink* sink = bus_sink_.get();
@@ -56,31 +52,39 @@ Result<void> CaptureProgram::open_chain() {
               CaptureRecording::create(options_.record_folder, eyes_->format().hz, *sink));
     sink = recording_.get();
   }
-  chain_ = std::make_unique<CaptureChain>(guest_, *sink, std::move(estimator), std::move(solver));
+  chain_ = std::make_unique<CaptureChain>(guest_, *sink, std::move(estimator), make_solver());
   if (eyes_->rig()) chain_->add_second_eye(std::make_unique<StereoDepth>(*eyes_->rig()));
   poller_->watch(bus_->fd(), [bus = bus_.get()](MonoTime now) { bus->drain(now); });
   return {};
 }
 
-Result<void> CaptureProgram::open_extras() {
-  if (options_.has_preview || !options_.preview_file.empty()) {
-    PreviewOptions preview;
-    preview.window = options_.has_preview;
-    preview.file = options_.preview_file;
-    preview.is_mirrored = options_.is_mirrored;
-    preview.title = options_.guest + " before " + eyes_->name();
-    DANCE_TRY(preview_, Preview::open(preview));
-  }
-  const FrameFormat& format = eyes_->format();
-  talk::info("{}: {}x{} {} at {:g} Hz{}", eyes_->name(), format.width_px, format.height_px,
-             format.encoding, format.hz, eyes_->rig() ? ", two eyes" : "");
+std::unique_ptr<BodySolver> CaptureProgram::make_solver() const {
+  SolverOptions solving;
+  if (options_.height_m > 0.0) solving.height_m = options_.height_m;
+  solving.is_mirrored = options_.is_mirrored;
+  solving.smooth = options_.smooth;
+  return std::make_unique<BodySolver>(solving, eyes_->camera());
+}
+
+Result<void> CaptureProgram::open_preview() {
+  if (!options_.has_preview && options_.preview_file.empty()) return {};
+  PreviewOptions preview;
+  preview.window = options_.has_preview;
+  preview.file = options_.preview_file;
+  preview.is_mirrored = options_.is_mirrored;
+  preview.title = options_.guest + " before " + eyes_->name();
+  DANCE_TRY(preview_, Preview::open(preview));
+  return {};
+}
+
+void CaptureProgram::say_what_runs() const {
+  talk::info("{}", eyes_->line());
   if (!eyes_->camera().is_measured)
     talk::info("the lens is not measured: {:g} degrees across are assumed (--fov, or --calibrate)",
                options_.fov_deg);
   talk::info("pose network {} on {}; {} dances on POSE/capture/{}; Ctrl-C ends it",
              name_of(options_.model), name_of(chosen_engine(options_.engine)), options_.guest,
              options_.guest);
-  return {};
 }
 
 void CaptureProgram::run() {
@@ -97,14 +101,14 @@ void CaptureProgram::run() {
       case FrameState::kNone:
         break;
       case FrameState::kGone:
-        if (!has_said_silence_)
+        if (!has_said_gone_)
           talk::warn("{} is gone; plug it in again, it is looked for", eyes_->name());
-        has_said_silence_ = true;
+        has_said_gone_ = true;
         break;
       case FrameState::kBack:
         talk::info("{} is back", eyes_->name());
         chain_->start_anew();
-        has_said_silence_ = false;
+        has_said_silence_ = has_said_gone_ = false;
         last_picture_ = mono_now();
         break;
       case FrameState::kOver:
@@ -121,9 +125,26 @@ void CaptureProgram::run() {
   report();
 }
 
+// A camera that comes back in a slower socket may give another size: the lens is then that of this size.
+bool CaptureProgram::has_usual_size(const cv::Mat& picture) {
+  const FrameFormat& format = eyes_->format();
+  if (picture.cols == format.width_px && picture.rows == format.height_px) return true;
+  if (auto taken = eyes_->take_size(picture.cols, picture.rows); !taken) {
+    if (!has_said_size_) talk::warn("{}", taken.error().what);
+    has_said_size_ = true;
+    return false;
+  }
+  talk::info("{} gives {}x{} now; the dancer is measured anew", eyes_->name(), picture.cols,
+             picture.rows);
+  chain_->use(make_solver());
+  chain_->start_anew();
+  return true;
+}
+
 void CaptureProgram::look(const EyesFrame& seen) {
   last_picture_ = mono_now();
   has_said_silence_ = false;
+  if (!has_usual_size(seen.left.image)) return;
   chain_->see(seen.left, seen.right.empty() ? nullptr : &seen.right);
   // The pose is away; nothing below is waited for.
   const std::string_view advice = advice_.see(seen.left.image, chain_->body());
@@ -142,7 +163,7 @@ void CaptureProgram::look(const EyesFrame& seen) {
 // Each is said once.
 void CaptureProgram::say_trouble(MonoTime now) {
   next_look_at_trouble_ = now + kTroubleEvery;
-  if (!has_said_silence_ && now - last_picture_ > kSilence) {
+  if (!has_said_silence_ && !has_said_gone_ && now - last_picture_ > kSilence) {
     has_said_silence_ = true;
     talk::warn(
         "{} gives no pictures; is another program using it, or the line too slow for {}x{}? Try "

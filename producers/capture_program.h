@@ -30,7 +30,10 @@ class CaptureProgram {
  private:
   explicit CaptureProgram(const CaptureOptions& options) : options_(options) {}
   Result<void> open_chain();
-  Result<void> open_extras();
+  Result<void> open_preview();
+  void say_what_runs() const;
+  std::unique_ptr<BodySolver> make_solver() const;
+  bool has_usual_size(const cv::Mat& picture);
   void look(const EyesFrame& seen);
   void say_trouble(MonoTime now);
   void report() const;
@@ -50,6 +53,8 @@ class CaptureProgram {
   MonoTime last_picture_;
   MonoTime next_look_at_trouble_;
   bool has_said_silence_ = false;
+  bool has_said_gone_ = false;
+  bool has_said_size_ = false;
   bool has_said_recording_ = false;
   bool has_said_preview_ = false;
   bool has_said_eyes_ = false;

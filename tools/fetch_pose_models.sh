@@ -41,8 +41,9 @@ mkdir -p "$folder"
 # In the same file system, so that taking its place is one step.
 scratch=$(mktemp -d "$folder/.fetch.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
-npm pack --loglevel error --fetch-retries 1 --pack-destination "$scratch" "$package" >/dev/null 2>"$scratch/log" ||
-  fail "$package cannot be fetched: $(grep -m 1 -E 'code|network|ERR' "$scratch/log"); look at the network and run this again"
+# A silent network is no reason to wait for minutes.
+timeout 180 npm pack --loglevel error --fetch-retries 1 --fetch-timeout 20000 --pack-destination "$scratch" "$package" >/dev/null 2>"$scratch/log" ||
+  fail "$package cannot be fetched: $(grep -m 1 -E 'code|network|ERR' "$scratch/log" || echo "no answer"); look at the network and run this again"
 tar -xzf "$scratch"/*.tgz -C "$scratch" || fail "what came of $package is no archive; run this again"
 while read -r sum name source; do
   has_sum "$sum" "$scratch/package/$source" || fail "$source of $package is not the file that is known (its sha256 is another)"

@@ -82,10 +82,8 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   if (session.music) {
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
   }
-  for (const HostedCamera& camera : session.cameras) {
-    DANCE_TRY(auto opened, HouseCamera::open(camera, house->bus_->url(), poller));
-    house->cameras_.push_back(std::move(opened));
-  }
+  for (const HostedCamera& camera : session.cameras)
+    house->cameras_.push_back(HouseCamera::open(camera, house->bus_->url(), poller));
   House* self = house.get();
   house->bus_->on_beat([self](const Channel&, const Beat& beat, MonoTime) {
     self->tag_.hear(beat);

@@ -1,5 +1,7 @@
 #include "tools/house_camera.h"
 
+#include <algorithm>
+
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
@@ -8,7 +10,10 @@ namespace dance {
 namespace {
 
 constexpr Duration kCameraLook = Duration::ms(200);
-constexpr Duration kCameraPause = Duration::s(1);  // before it is started again
+constexpr Duration kCameraPause = Duration::s(1);  // before one that died is started again
+constexpr Duration kCameraMissing =
+    Duration::s(10);  // before one that found no camera is, and at most
+constexpr Duration kCameraStable = Duration::s(30);  // it ran so long: its death was a chance
 constexpr Duration kCameraEnds = Duration::s(2);
 
 }  // namespace
@@ -30,17 +35,24 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
   return words;
 }
 
-Result<std::unique_ptr<HouseCamera>> HouseCamera::open(const HostedCamera& camera,
-                                                       const std::string& bus, Poller& poller) {
+std::unique_ptr<HouseCamera> HouseCamera::open(const HostedCamera& camera, const std::string& bus,
+                                               Poller& poller) {
   std::unique_ptr<HouseCamera> made(new HouseCamera(camera, bus, poller));
-  if (auto started = made->start(); !started) return tl::make_unexpected(started.error());
+  if (auto started = made->start(); !started) {
+    talk::warn("{}; {} dances without a camera", started.error().what, camera.guest.view());
+    return made;
+  }
   made->watch_ = poller.add_timer(mono_now() + kCameraLook,
                                   [self = made.get()](MonoTime now) { return self->look(now); });
   return made;
 }
 
 HouseCamera::HouseCamera(const HostedCamera& camera, const std::string& bus, Poller& poller)
-    : guest_(camera.guest), arguments_(camera_arguments(camera, bus)), poller_(poller) {}
+    : guest_(camera.guest),
+      arguments_(camera_arguments(camera, bus)),
+      poller_(poller),
+      started_(mono_now()),
+      pause_(kCameraPause / 2) {}
 
 HouseCamera::~HouseCamera() {
   if (!program_) return;
@@ -58,6 +70,7 @@ Result<void> HouseCamera::start() {
 MonoTime HouseCamera::look(MonoTime now) {
   if (is_down_) {
     is_down_ = false;
+    started_ = now;
     if (auto started = start(); !started) {
       talk::warn("{}; {} dances without a camera", started.error().what, guest_.view());
       return MonoTime();
@@ -70,13 +83,22 @@ MonoTime HouseCamera::look(MonoTime now) {
     return MonoTime();
   }
   const std::string& how = program_->exit_text();
-  if (how == "ended with exit 1" || how == "ended with exit 2") {
-    talk::warn("no camera for {}; the house goes on without it", guest_.view());
+  if (how == "ended with exit 2") {
+    talk::warn("no camera for {}: the session asks for what dance capture does not know",
+               guest_.view());
     return MonoTime();
   }
-  talk::warn("the capture of {} {}; it is started again", guest_.view(), how);
   is_down_ = true;
-  return now + kCameraPause;
+  if (how == "ended with exit 1") {
+    if (!has_said_missing_)
+      talk::warn("no camera for {} yet; the house goes on and looks again", guest_.view());
+    has_said_missing_ = true;
+    return now + kCameraMissing;
+  }
+  // One that danced for a while may come back at once; one that dies each time is not to keep the machine busy.
+  pause_ = now - started_ > kCameraStable ? kCameraPause : std::min(pause_ * 2, kCameraMissing);
+  talk::warn("the capture of {} {}; it is started again", guest_.view(), how);
+  return now + pause_;
 }
 
 }  // namespace dance

@@ -4,8 +4,8 @@
 // Units/frames: none.
 // Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      open() names a program that cannot be started; its later ends are said. One that ends with a message about the camera
-//               or the models (exit 1 or 2) is not started again: it has said the cure.
+// Failure:      nothing ends the house. A program that cannot be started is said; one that ends because there is no camera (it has said
+//               the cure) is started again every ten seconds, one that died a second later, then after longer and longer pauses.
 #pragma once
 
 #include <memory>
@@ -23,13 +23,11 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
 
 class HouseCamera {
  public:
-  static Result<std::unique_ptr<HouseCamera>> open(const HostedCamera& camera,
-                                                   const std::string& bus, Poller& poller);
+  static std::unique_ptr<HouseCamera> open(const HostedCamera& camera, const std::string& bus,
+                                           Poller& poller);
   ~HouseCamera();
   HouseCamera(const HouseCamera&) = delete;
   HouseCamera& operator=(const HouseCamera&) = delete;
-
-  pid_t pid() const { return program_->pid(); }
 
  private:
   HouseCamera(const HostedCamera& camera, const std::string& bus, Poller& poller);
@@ -42,6 +40,9 @@ class HouseCamera {
   std::unique_ptr<ChildProcess> program_;
   Poller::TimerId watch_ = 0;
   bool is_down_ = false;
+  bool has_said_missing_ = false;
+  MonoTime started_;
+  Duration pause_;
 };
 
 }  // namespace dance

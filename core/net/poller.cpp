@@ -3,11 +3,13 @@
 #include <sys/epoll.h>
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
+#include <sys/syscall.h>
 #include <sys/timerfd.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -20,7 +22,8 @@ namespace {
 
 constexpr int kEventsPerTurn = 16;
 
-pthread_t signal_thread;  // in which the poller of this process hears of signals
+// In which the poller of this process hears of signals, by the kernel's number: that of a thread that has ended names nobody.
+std::atomic<pid_t> signal_thread{0};
 
 std::string reason(const char* call) {
   std::array<char, 128> text{};
@@ -83,12 +86,21 @@ Result<void> Poller::stop_on_signals() {
   if (pthread_sigmask(SIG_BLOCK, &signals, nullptr) != 0) return fail(reason("pthread_sigmask"));
   // Libraries may have started threads before main did anything (OpenBLAS does), which have nothing blocked: these hand on
   // what they get.
-  signal_thread = pthread_self();
+  signal_thread = static_cast<pid_t>(syscall(SYS_gettid));
   struct sigaction handing_on {};
-  handing_on.sa_handler = [](int signal) { pthread_kill(signal_thread, signal); };
+  handing_on.sa_handler = [](int signal) {
+    const int before = errno;
+    syscall(SYS_tgkill, getpid(), signal_thread.load(), signal);
+    errno = before;
+  };
   handing_on.sa_flags = SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction inherited {};
+    if (sigaction(signal, nullptr, &inherited) != 0) return fail(reason("sigaction"));
+    // Who starts a program in the background of a script may have it ignore Ctrl-C.
+    if (inherited.sa_handler == SIG_IGN) continue;
     if (sigaction(signal, &handing_on, nullptr) != 0) return fail(reason("sigaction"));
+  }
   signal_fd_ = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
   if (signal_fd_ < 0) return fail(reason("signalfd"));
   add_to_epoll(epoll_fd_, signal_fd_);

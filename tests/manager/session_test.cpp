@@ -41,11 +41,12 @@ TEST(Session, NamesTheCameraOfADancer) {
           "\"lite\"\n"
           "calibration = \"left.yml\"\nheight = 1.68\nmirror = true\n"
           "[[produce]]\nkind = \"camera\"\nguest = \"bob\"\ndevice = \"takes/bob.mp4\"\n"
-          "[[produce]]\nkind = \"camera\"\nguest = \"cara\"\ndevice = \"1\"\n",
+          "[[produce]]\nkind = \"camera\"\nguest = \"cara\"\ndevice = \"1\"\n"
+          "[[produce]]\nkind = \"camera\"\nguest = \"dora\"\ndevice = \"HD Webcam\"\n",
       "/home/alice/s.toml");
   ASSERT_TRUE(session) << session.error().what;
   EXPECT_TRUE(session->producers.empty());
-  ASSERT_EQ(session->cameras.size(), 3u);
+  ASSERT_EQ(session->cameras.size(), 4u);
   EXPECT_EQ(session->cameras[0].device, "/dev/video2");
   EXPECT_EQ(session->cameras[0].model, "lite");
   EXPECT_EQ(session->cameras[0].calibration, "/home/alice/left.yml");
@@ -54,6 +55,7 @@ TEST(Session, NamesTheCameraOfADancer) {
   EXPECT_EQ(session->cameras[1].device, "/home/alice/takes/bob.mp4")
       << "a file of the session's folder";
   EXPECT_EQ(session->cameras[2].device, "1") << "the camera's number";
+  EXPECT_EQ(session->cameras[3].device, "HD Webcam") << "the camera's name";
 }
 
 TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {

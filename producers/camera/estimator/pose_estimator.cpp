@@ -1,10 +1,13 @@
 #include "producers/camera/estimator/pose_estimator.h"
 
+#include <opencv2/core/utility.hpp>
 #include <utility>
 
 namespace dance {
 
 Result<std::unique_ptr<PoseEstimator>> PoseEstimator::open(const EstimatorOptions& options) {
+  // One core is what a camera takes; the others are for music, network and display.
+  cv::setNumThreads(1);
   const std::string folder = pose_models_folder(options.models_folder);
   const auto in_file = [&](const std::string& name, const Error& error) {
     return fail(folder + "/" + name + ": " + error.what);
