@@ -104,8 +104,9 @@ void expect_good_dance(const CaptureEar& ear) {
 TEST_F(CapturePrograms, TurnAVideoIntoADanceOnTheBus) {
   CaptureEar ear;
   const std::string json = folder_.path("output");
-  ChildProcess& capture = start("dance-capture", {kVideo, "--model", "lite", "--guest", "mei",
-                                                  "--height", "1.75", "--bus", kBus, "--json"});
+  ChildProcess& capture =
+      start("dance-capture", {kVideo, "--loop", "--model", "lite", "--guest", "mei", "--height",
+                              "1.75", "--bus", kBus, "--json"});
   ASSERT_TRUE(wait_for([&] { return ear.has_more_than(40); })) << talk();
   capture.ask_to_stop();
   ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));
@@ -138,8 +139,8 @@ TEST_F(CapturePrograms, KeepVideoBesidePoses) {
   const std::string folder = folder_.path("take");
   {
     CaptureEar ear;
-    ChildProcess& capture =
-        start("dance-capture", {kVideo, "--model", "lite", "--bus", kBus, "--record", folder});
+    ChildProcess& capture = start(
+        "dance-capture", {kVideo, "--loop", "--model", "lite", "--bus", kBus, "--record", folder});
     ASSERT_TRUE(wait_for([&] { return ear.has_more_than(15); })) << talk();
     capture.ask_to_stop();
     ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));

@@ -2,16 +2,35 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <opencv2/videoio.hpp>
 
 namespace dance {
+namespace {
+
+// Of a camera that does not say.
+constexpr double kUsualHz = 30.0;
+
+std::string text_of(const cv::Size& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+}  // namespace
 
 VideoShot& VideoShot::operator=(const VideoShot& other) {
   if (this == &other) return *this;
   other.picture.copyTo(picture);
   capture_time = other.capture_time;
   return *this;
+}
+
+VideoWriter::VideoWriter(std::string path, double hz)
+    : path_(std::move(path)), hz_(std::isfinite(hz) && hz > 0.0 ? hz : kUsualHz) {}
+
+std::string VideoWriter::trouble() const {
+  if (failed_) return trouble_;
+  return other_size_ > 0 ? size_trouble_ : std::string();
 }
 
 Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path, double hz) {
@@ -39,13 +58,23 @@ void VideoWriter::add(const Frame& frame) {
   scratch_.picture.release();
 }
 
-// Matroska, so that what was written before a crash can be read; Motion JPEG, so that each picture stands for itself.
+void VideoWriter::end_with(std::string why) {
+  trouble_ = std::move(why);
+  failed_ = true;
+}
+
 void VideoWriter::run() {
+  try {
+    write_all();
+  } catch (const cv::Exception& e) {
+    end_with("the video '" + path_ + "' cannot be written: " + e.err);
+  }
+}
+
+// Matroska, so that what was written before a crash can be read; Motion JPEG, so that each picture stands for itself.
+void VideoWriter::write_all() {
   cv::VideoWriter video;
-  const auto end_with = [this](std::string why) {
-    trouble_ = std::move(why);
-    failed_ = true;
-  };
+  cv::Size size;
   for (;;) {
     const bool is_last_look = stop_;
     const VideoShot* shot = shots_.take();
@@ -55,10 +84,20 @@ void VideoWriter::run() {
       continue;
     }
     if (!video.isOpened()) {
+      size = shot->picture.size();
       const int code = cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-      if (!video.open(path_, cv::CAP_FFMPEG, code, hz_, shot->picture.size()))
+      if (!video.open(path_, cv::CAP_FFMPEG, code, hz_, size))
         return end_with("the video '" + path_ +
                         "' cannot be written; is its folder there, and has the disk room?");
+    }
+    // A video has one size, and OpenCV drops others without a word.
+    if (shot->picture.size() != size) {
+      if (other_size_ == 0)
+        size_trouble_ = "the video '" + path_ + "' has pictures of " + text_of(size) +
+                        "; those of " + text_of(shot->picture.size()) +
+                        " are left out; record them into another folder";
+      ++other_size_;
+      continue;
     }
     video.write(shot->picture);
     const std::uint64_t number = written_++;

@@ -5,7 +5,8 @@
 //               picture in the video, TAB, capture time.
 // Ownership:    owns its thread and files.
 // Threads:      one inside, which encodes; add() never waits for it: what it cannot follow is left out and counted.
-// Failure:      create() names the file and the reason; trouble() later tells what ended it (a full disk).
+// Failure:      create() names the file and the reason; trouble() later tells what ended it (a full disk), or that pictures of another
+//               size than the first are left out, as a video has one size.
 #pragma once
 
 #include <atomic>
@@ -32,7 +33,7 @@ struct VideoShot {
 
 class VideoWriter {
  public:
-  // `hz` is what the video's head says; the table has the truth.
+  // `hz` is what the video's head says, 0 where nobody knows; the table has the truth.
   static Result<std::unique_ptr<VideoWriter>> create(const std::string& path, double hz);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
@@ -42,17 +43,19 @@ class VideoWriter {
   // Writes what is waiting and closes the files.
   void finish();
   std::uint64_t written() const { return written_; }
-  // Pictures that came faster than they could be written.
-  std::uint64_t left_out() const { return shots_.overwritten(); }
+  // Pictures that came faster than they could be written, or in another size than the first.
+  std::uint64_t left_out() const { return shots_.overwritten() + other_size_; }
   // "" while all is well. Any thread may ask.
-  std::string trouble() const { return failed_ ? trouble_ : std::string(); }
+  std::string trouble() const;
 
  private:
   struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  VideoWriter(std::string path, double hz) : path_(std::move(path)), hz_(hz) {}
+  VideoWriter(std::string path, double hz);
   void run();
+  void write_all();
+  void end_with(std::string why);
 
   std::string path_;
   double hz_;
@@ -62,7 +65,9 @@ class VideoWriter {
   std::atomic<bool> stop_{false};
   std::atomic<bool> failed_{false};
   std::atomic<std::uint64_t> written_{0};
-  std::string trouble_;  // written before failed_, read after
+  std::atomic<std::uint64_t> other_size_{0};
+  std::string trouble_;       // written before failed_, read after
+  std::string size_trouble_;  // as well, of other_size_
   std::thread thread_;
 };
 

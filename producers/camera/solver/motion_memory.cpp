@@ -40,6 +40,8 @@ constexpr double kBlindEase = 2.2;
 constexpr double kBeta = 0.6;
 // Between two pictures of most cameras.
 constexpr double kUsual_s = 1.0 / 30.0;
+// Between two pictures of the quickest cameras, and what is no time at all: only what would divide by nothing.
+constexpr double kLeast_s = 0.002, kNoTime_s = 1e-9;
 constexpr double kHardlySeen = 0.1;
 
 template <class Visit>
@@ -154,8 +156,9 @@ Expectation MotionMemory::expect(double seconds, const PartSight& sight) const {
 void MotionMemory::follow(const Expectation& expected, const BodyState& state, double seconds) {
   const DofVector way = step_between(state_, expected.state),
                   missed = step_between(expected.state, state);
-  // What was expected to be gone is the old speed, faded.
-  speed_ = (way + kBeta * missed) / seconds;
+  // What was expected to be gone is the old speed, faded. Pictures that are stamped microseconds apart miss by as much as others do: no speed
+  // can be told from that.
+  speed_ = way / std::max(seconds, kNoTime_s) + kBeta * missed / std::max(seconds, kLeast_s);
   state_ = state;
 }
 

@@ -51,10 +51,13 @@ class Paired : public StereoSource {
     name_ = eyes_[0]->name() + " and " + eyes_[1]->name();
   }
 
-  // Holds the newest of each eye; while they do not belong together the older is dropped and that eye asked again.
+  // Holds the newest of each eye; while they do not belong together the older is dropped and that eye asked again. One eye is enough
+  // to dance: while the right one is gone the left one's pictures go on alone.
   FrameState next(Duration patience, StereoFrame& out) override {
     const MonoTime deadline = mono_now() + patience;
+    if (is_right_gone_) look_for_right();
     for (int asked = 0; asked < kMostAsked; ++asked) {
+      if (is_right_gone_ && has_[0]) return give_left(out);
       int older = -1;
       if (!has_[0] || !has_[1]) {
         older = has_[0] ? 1 : 0;
@@ -72,6 +75,10 @@ class Paired : public StereoSource {
         has_[older] = true;
         continue;
       }
+      if (older == 1 && (state == FrameState::kGone || state == FrameState::kBack)) {
+        is_right_gone_ = state == FrameState::kGone;
+        continue;
+      }
       if (state != FrameState::kNone) forget();
       return state;
     }
@@ -82,7 +89,7 @@ class Paired : public StereoSource {
   FrameCounters counters() const override {
     FrameCounters sum = eyes_[0]->counters();
     const FrameCounters& other = eyes_[1]->counters();
-    sum.taken = pairs_;
+    sum.taken = pairs_ + alone_;
     sum.outrun += other.outrun;
     sum.lost += other.lost;
     sum.damaged += other.damaged;
@@ -93,6 +100,10 @@ class Paired : public StereoSource {
   std::uint64_t unpaired() const override { return unpaired_; }
 
   std::string trouble() const override {
+    if (is_right_gone_)
+      return fmt::format(
+          "{} is gone: {} goes on alone, without depth; plug it in again, it is looked for",
+          eyes_[1]->name(), eyes_[0]->name());
     if (pairs_ < kPairsToJudge || mean_skew_ms_ < kGoodSkew_ms) return {};
     return fmt::format(
         "{} take their pictures {:.1f} ms apart: whoever dances sideways seems nearer or "
@@ -115,6 +126,20 @@ class Paired : public StereoSource {
     mean_skew_ms_ += (std::abs(skew.as_ms()) - mean_skew_ms_) / steps;
     return FrameState::kFrame;
   }
+  FrameState give_left(StereoFrame& out) {
+    out.left = held_[0];
+    out.right = Frame();
+    has_[0] = false;
+    ++alone_;
+    ++unpaired_;
+    return FrameState::kFrame;
+  }
+  // Does not wait: the left one's picture comes first.
+  void look_for_right() {
+    const FrameState state = eyes_[1]->next(Duration(), held_[1]);
+    has_[1] = state == FrameState::kFrame;
+    is_right_gone_ = !has_[1] && state != FrameState::kBack;
+  }
   void forget() {
     for (int eye = 0; eye < 2; ++eye) {
       if (has_[eye]) ++unpaired_;
@@ -128,7 +153,9 @@ class Paired : public StereoSource {
   Duration half_frame_;
   std::array<Frame, 2> held_;
   bool has_[2] = {false, false};
+  bool is_right_gone_ = false;
   std::uint64_t pairs_ = 0;
+  std::uint64_t alone_ = 0;  // of the left eye while the right one was gone
   std::uint64_t unpaired_ = 0;
   double mean_skew_ms_ = 0.0;
 };

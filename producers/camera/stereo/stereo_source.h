@@ -6,7 +6,8 @@
 //               call.
 // Threads:      one owner; none inside.
 // Failure:      making one names the sources and the cure. Later trouble is a FrameState; a picture without its partner is dropped
-//               and counted. trouble() says when the two are too far apart in time for somebody who moves.
+//               and counted; while the right one of two cameras is gone the left one's pictures come alone, their right ones empty.
+//               trouble() says that, and when the two are too far apart in time for somebody who moves.
 #pragma once
 
 #include <array>
@@ -31,7 +32,7 @@ class StereoSource {
   virtual FrameState next(Duration patience, StereoFrame& out) = 0;
   // Of one eye.
   virtual const FrameFormat& format() const = 0;
-  // Taken counts pairs; the others are those of both cameras together.
+  // Taken counts pairs, and pictures of the left eye that were given alone; the others are those of both cameras together.
   virtual FrameCounters counters() const = 0;
   virtual const std::string& name() const = 0;
   // Pictures that came without the other eye's.

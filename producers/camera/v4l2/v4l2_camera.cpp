@@ -54,6 +54,7 @@ Result<void> V4l2Camera::start(const std::string& path) {
   format_ = {convert_->width_px(), convert_->height_px(), stream_->mode().hz(),
              text_of_fourcc(stream_->mode().fourcc)};
   driver_sequence_.reset();
+  has_driver_stamps_ = true;
   is_refreshing_ = false;
   alive_at_ = mono_now();
   return {};
@@ -134,7 +135,8 @@ bool V4l2Camera::take_newest(RawPicture& newest) {
 bool V4l2Camera::is_stale(const RawPicture& picture, MonoTime now) const {
   if (is_refreshing_ || waited_ < stream_->buffer_count()) return false;
   const double hz = stream_->mode().hz() > 0.0 ? stream_->mode().hz() : 30.0;
-  return !picture.is_stamp_monotonic || now - picture.stamp > Duration::period_of_hz(hz);
+  return !picture.is_stamp_monotonic || !has_driver_stamps_ ||
+         now - picture.stamp > Duration::period_of_hz(hz);
 }
 
 // Some cameras stop behind a hub of too little power and come again when they are opened anew.
@@ -146,8 +148,9 @@ bool V4l2Camera::is_stalled(MonoTime now) const {
 
 bool V4l2Camera::show(const RawPicture& picture, Frame& out) {
   const MonoTime now = mono_now();
-  const bool is_believable =
-      picture.is_stamp_monotonic && picture.stamp <= now && now - picture.stamp < kOldest;
+  const bool is_believable = picture.is_stamp_monotonic && picture.stamp <= now &&
+                             now - picture.stamp < kOldest && picture.stamp >= shown_time_;
+  // One clock for a stream: two in turn would make time run back.
   has_driver_stamps_ = has_driver_stamps_ && is_believable;
   cv::Mat& picture_now = pictures_.unheld();
   if (!convert_->convert(picture.bytes, picture_now)) {
@@ -155,7 +158,7 @@ bool V4l2Camera::show(const RawPicture& picture, Frame& out) {
     return false;
   }
   out.image = picture_now;
-  out.capture_time = is_believable ? picture.stamp : now;
+  out.capture_time = shown_time_ = has_driver_stamps_ ? picture.stamp : now;
   out.fetched = now;
   out.sequence = sequence_;
   ++counters_.taken;

@@ -43,7 +43,8 @@ class V4l2Camera : public FrameSource {
 
   // One line for people: what was asked for, what was made of it, whose stamps.
   std::string negotiated() const;
-  // False as soon as a picture came without a believable stamp of the driver's: it was then stamped when fetched.
+  // False as soon as a picture came without a believable stamp of the driver's: it and all after it are stamped when fetched, until the
+  // camera is opened anew. Times never go back.
   bool has_driver_stamps() const { return has_driver_stamps_; }
 
  private:
@@ -68,6 +69,7 @@ class V4l2Camera : public FrameSource {
   FrameFormat format_;
   FrameCounters counters_;
   std::string name_;
+  MonoTime shown_time_;  // of the picture given out last
   MonoTime look_at_;
   MonoTime alive_at_;           // when something last came
   std::uint64_t sequence_ = 0;  // of the newest picture, over all times that it was unplugged

@@ -76,6 +76,15 @@ void Preview::show(const Frame& frame, const BodyLandmarks& body, std::string_vi
 }
 
 void Preview::run() {
+  try {
+    draw_all();
+  } catch (const cv::Exception& e) {
+    trouble_ = "the preview cannot be drawn: " + e.err;
+    failed_ = true;
+  }
+}
+
+void Preview::draw_all() {
   std::unique_ptr<PictureWindow> window;
   if (options_.window) {
     auto opened = PictureWindow::open(options_.title, kWidest_px, kWidest_px * 9 / 16);

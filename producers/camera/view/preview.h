@@ -4,8 +4,8 @@
 // Units/frames: pixels; the preview is at most 640 wide.
 // Ownership:    owns its thread and its window.
 // Threads:      one inside, which draws and writes; show() never waits for it.
-// Failure:      open() says why there can be no window, or that the file cannot be written; later trouble with the file ends
-//               the preview, and trouble() tells it.
+// Failure:      open() says why there can be no window, or that the file cannot be written; later trouble with the file or
+//               a picture ends the preview, and trouble() tells it.
 #pragma once
 
 #include <array>
@@ -56,6 +56,7 @@ class Preview {
  private:
   explicit Preview(const PreviewOptions& options) : options_(options) {}
   void run();
+  void draw_all();
   bool write_file(const cv::Mat& picture);
 
   PreviewOptions options_;

@@ -66,6 +66,41 @@ TEST(VideoWriter, NeverHoldsTheCameraUp) {
   EXPECT_GE((*writer)->written(), 1u);
 }
 
+TEST(VideoWriter, LeavesOutAndCountsWhatHasAnotherSize) {
+  const std::string path = video_for("sizes");
+  const auto writer = VideoWriter::create(path, 0.0);  // a camera that does not say its rate
+  ASSERT_TRUE(writer) << writer.error().what;
+  const Frame small{cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(50)), MonoTime::from_us(5), 0};
+  const Frame large{cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(90)), MonoTime::from_us(6), 1};
+  std::uint64_t added = 0;
+  for (const Frame* frame : {&small, &large, &large, &small}) {
+    (*writer)->add(*frame);
+    ++added;
+    while ((*writer)->written() + (*writer)->left_out() < added)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  (*writer)->finish();
+  EXPECT_EQ((*writer)->written(), 2u);
+  EXPECT_EQ((*writer)->left_out(), 2u);
+  EXPECT_NE((*writer)->trouble().find("320x240"), std::string::npos) << (*writer)->trouble();
+  cv::VideoCapture video(path);
+  EXPECT_NEAR(video.get(cv::CAP_PROP_FPS), 30.0, 0.1);
+  int count = 0;
+  for (cv::Mat picture; video.read(picture); ++count) EXPECT_EQ(picture.size(), small.image.size());
+  EXPECT_EQ(count, 2);
+}
+
+TEST(VideoWriter, APictureThatOpenCvRefusesEndsTheVideoAlone) {
+  const auto writer = VideoWriter::create(video_for("deep"), 30.0);
+  ASSERT_TRUE(writer) << writer.error().what;
+  (*writer)->add({cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(50)), MonoTime::from_us(5), 0});
+  while ((*writer)->written() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  (*writer)->add({cv::Mat(120, 160, CV_16UC3, cv::Scalar::all(50)), MonoTime::from_us(6), 1});
+  (*writer)->finish();
+  EXPECT_EQ((*writer)->written(), 1u);
+  EXPECT_NE((*writer)->trouble().find("deep/video.mkv"), std::string::npos);
+}
+
 TEST(VideoWriter, SaysWhatItCannotWrite) {
   const auto writer = VideoWriter::create("/nowhere/at/all/video.mkv", 30.0);
   ASSERT_FALSE(writer);

@@ -5,6 +5,7 @@
 #include "core/base/random.h"
 #include "core/pose/kinematics.h"
 #include "producers/camera/solver/body_fit.h"
+#include "producers/camera/solver/motion_memory.h"
 
 namespace dance {
 namespace {
@@ -49,6 +50,33 @@ TEST(BodyState, KneesAndElbowsStopWhereTheyEnd) {
   for (const auto& side : state.sides) {
     EXPECT_EQ(side.elbow, kMostElbow_rad);
     EXPECT_EQ(side.knee, kMostKnee_rad);
+  }
+}
+
+// Two pictures may be stamped microseconds apart; where they differ the body is not as fast as a bullet.
+TEST(MotionMemory, PicturesOfOneMomentMakeNoSpeed) {
+  PartSight sight;
+  sight.fill(1.0);
+  const BodyState here = state_at_ease();
+  DofVector centimetre = DofVector::Zero();
+  centimetre[dof::kPlace] = 0.01;
+  for (const double seconds : {0.0, 1e-6, 1e-4, 1e-3}) {
+    MotionMemory memory;
+    memory.begin(here);
+    BodyState there = here;
+    move(there, centimetre);
+    memory.follow(memory.expect(seconds, sight), there, seconds);
+    const double gone_m = step_between(there, memory.expect(0.01, sight).state)[dof::kPlace] / 0.01;
+    EXPECT_GT(gone_m, 0.0) << seconds;
+    EXPECT_LT(gone_m, 5.0) << seconds << " s: metres a second";
+    // And a speed that it has stays.
+    const BodyState now = memory.expect(seconds, sight).state;
+    memory.follow(memory.expect(seconds, sight), now, seconds);
+    if (seconds > 0.0) {
+      EXPECT_NEAR(step_between(now, memory.expect(0.01, sight).state)[dof::kPlace] / 0.01, gone_m,
+                  0.01 * gone_m)
+          << seconds;
+    }
   }
 }
 

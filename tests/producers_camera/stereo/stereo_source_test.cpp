@@ -11,6 +11,8 @@
 namespace dance {
 namespace {
 
+constexpr Duration kToFetch = Duration::ms(4);
+
 // Gives what it is told to, without waiting: the deeds of a camera, one a call.
 class ScriptedSource : public FrameSource {
  public:
@@ -32,6 +34,7 @@ class ScriptedSource : public FrameSource {
     ++counters_.taken;
     out.image = picture_;
     out.capture_time = MonoTime::from_us(1'000'000 + static_cast<std::int64_t>(1e3 * deed.ms));
+    out.fetched = out.capture_time + kToFetch;
     return deed.state;
   }
   const FrameFormat& format() const override { return format_; }
@@ -115,16 +118,42 @@ TEST(StereoSource, APictureWaitsForItsPartnerOverCalls) {
   EXPECT_EQ(source->next(Duration(), frame), kFrame);
 }
 
-TEST(StereoSource, SaysWhenOneEyeIsGoneBackOrOver) {
-  const auto source = paired({{kFrame, 0.0}, {kFrame, 300.0}}, {{FrameState::kGone, 0.0},
-                                                                {FrameState::kBack, 0.0},
-                                                                {kFrame, 300.0},
-                                                                {FrameState::kOver, 0.0}});
+TEST(StereoSource, SaysWhenTheLeftEyeIsGoneBackOrOver) {
+  const auto source =
+      paired({{FrameState::kGone, 0.0}, {FrameState::kBack, 0.0}, {kFrame, 300.0}, {kFrame, 333.3}},
+             {{kFrame, 300.0}, {FrameState::kOver, 0.0}});
   StereoFrame frame;
   EXPECT_EQ(source->next(Duration(), frame), FrameState::kGone);
-  EXPECT_EQ(source->unpaired(), 1u);
-  // The left one's next picture is held meanwhile.
   EXPECT_EQ(source->next(Duration(), frame), FrameState::kBack);
+  EXPECT_EQ(source->next(Duration(), frame), kFrame);
+  EXPECT_EQ(source->next(Duration(), frame), FrameState::kOver);
+  EXPECT_EQ(source->unpaired(), 1u);
+}
+
+TEST(StereoSource, TheLeftEyeGoesOnAloneWhileTheRightOneIsGone) {
+  const auto source =
+      paired({{kFrame, 0.0}, {kFrame, 33.3}, {FrameState::kNone, 0.0}, {kFrame, 300.0}},
+             {{FrameState::kGone, 0.0},
+              {FrameState::kGone, 0.0},
+              {FrameState::kGone, 0.0},
+              {FrameState::kBack, 0.0},
+              {kFrame, 301.0}});
+  StereoFrame frame;
+  EXPECT_EQ(source->trouble(), "");
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(source->next(Duration(), frame), kFrame) << i;
+    EXPECT_FALSE(frame.left.image.empty());
+    EXPECT_TRUE(frame.right.image.empty());
+    EXPECT_NE(source->trouble().find("right is gone: left goes on alone"), std::string::npos);
+  }
+  EXPECT_EQ(source->next(Duration(), frame), FrameState::kNone);
+  ASSERT_EQ(source->next(Duration(), frame), kFrame);
+  EXPECT_FALSE(frame.right.image.empty());
+  EXPECT_NEAR(skew_ms(frame), 1.0, 1e-3);
+  EXPECT_EQ(frame.left.fetched, frame.right.capture_time + kToFetch) << "the later of both";
+  EXPECT_EQ(source->trouble(), "");
+  EXPECT_EQ(source->counters().taken, 3u);
+  EXPECT_EQ(source->unpaired(), 2u);
 }
 
 TEST(StereoSource, AnEndlessMismatchDoesNotHang) {

@@ -102,7 +102,7 @@ void ShimWords::read(const std::string& words) {
     else if (key == "stamp")
       stamp = value;
     else if (key == "age_ms")
-      age_ms = number(value);
+      age_ms = value.starts_with('-') ? -number(value.substr(1)) : number(value);
     else if (key == "priority")
       priority = number(value);
     else if (key == "gap")

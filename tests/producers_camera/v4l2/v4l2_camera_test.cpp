@@ -69,6 +69,31 @@ TEST_F(CameraTest, SaysWhereTheDriverHasAnotherClock) {
   }
 }
 
+TEST_F(CameraTest, AStampThatCannotBeIsTheLastThatIsBelieved) {
+  // Of the future; older than the one before; older than anything that waits.
+  for (const char* odd : {"age_ms=-60000", "age_ms=8000", "age_ms=20000"}) {
+    shim_->set_up("modes=YUYV:64x48@30");
+    add_numbered(64, 48);
+    const auto camera = opened();
+    ASSERT_NE(camera, nullptr);
+    Frame frame;
+    MonoTime last;
+    for (const char* words : {"age_ms=0", odd, "age_ms=100", "age_ms=0"}) {
+      shim_->change(words);
+      const MonoTime before = mono_now();
+      shim_->tick(1);
+      ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+      EXPECT_GE(frame.capture_time, last) << odd << ", then " << words;
+      last = frame.capture_time;
+      EXPECT_LE(last, mono_now());
+      if (!camera->has_driver_stamps()) {
+        EXPECT_GE(last, before) << odd << ", then " << words;
+      }
+    }
+    EXPECT_FALSE(camera->has_driver_stamps()) << odd;
+  }
+}
+
 TEST_F(CameraTest, GivesASlowReaderTheNewestAndCountsTheRest) {
   shim_->set_up("modes=YUYV:64x48@30");
   add_numbered(64, 48);

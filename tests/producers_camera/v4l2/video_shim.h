@@ -11,7 +11,7 @@
 //   makes=YUYV:32x24@10                    whatever it is asked for, it makes this of it
 //   pad=16                                 bytes behind each row
 //   busy=1 denied=1 absent=1 metadata=1    another program has it; no permission; not plugged in; a second node without pictures
-//   stamp=monotonic|realtime|zero age_ms=9 the driver's clock, and how old its stamps are
+//   stamp=monotonic|realtime|zero age_ms=9 the driver's clock, and how old its stamps are; age_ms=-9: of the future
 //   priority=1                             it has the control by which exposure may slow down the rate
 //   gap=3,4 error=5 truncate=6             by sequence: pictures that never come, are marked damaged, or are cut in half
 //   file=… hz=30 slow_start_ms=…           for a program: the pictures, one behind the other, and their pace

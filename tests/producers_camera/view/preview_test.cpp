@@ -68,6 +68,15 @@ TEST(Preview, IsAMirrorWhereAskedFor) {
       << "the left thigh, at the left as in a mirror";
 }
 
+TEST(Preview, APictureThatOpenCvRefusesEndsThePreviewAlone) {
+  const auto preview = Preview::open(to_file(file_for("two.png")));
+  ASSERT_TRUE(preview) << preview.error().what;
+  const Frame frame{cv::Mat(200, 160, CV_8UC2, cv::Scalar(40, 60)), MonoTime::from_us(1), 1};
+  (*preview)->show(frame, standing_body(), "two colours");
+  while ((*preview)->trouble().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_NE((*preview)->trouble().find("cannot be drawn"), std::string::npos);
+}
+
 TEST(Preview, SaysWhatItCannotWrite) {
   const auto nowhere = Preview::open(to_file("/nowhere/at/all.jpg"));
   ASSERT_FALSE(nowhere);
