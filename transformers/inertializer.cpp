@@ -88,7 +88,11 @@ void Inertializer::set_decay() {
 
 void Inertializer::add(MonoTime now, const Pose& was, const Pose& is) {
   advance_to(now);
-  if (is_same(was, is)) return;
+  if (is_same(was, is)) {
+    // What has come nearer is taken back faster from here on.
+    if (!at_rest_) set_decay();
+    return;
+  }
   const Vector3f hips = hips_.offset + (was.p_WH_m - is.p_WH_m);
   // Also true for NaN.
   if (!(hips.squaredNorm() <= kFurthest_m * kFurthest_m)) {

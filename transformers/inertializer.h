@@ -32,7 +32,7 @@ class Inertializer {
   Duration half_life() const { return half_life_; }
 
   // At the moment `now`, `was` was to be shown and `is` is from here on: both of the same moment of the dance, and both
-  // without what apply() adds. What is left of earlier corrections stays. Two that are the same leave all as it is.
+  // without what apply() adds. What is left of earlier corrections stays. Two that are the same add nothing.
   void add(MonoTime now, const Pose& was, const Pose& is);
   // The same, and the speed goes on too: the poses a Duration `step` before, on either side.
   void add(MonoTime now, const Pose& was_before, const Pose& was, const Pose& is_before,
