@@ -1,17 +1,13 @@
 #include "producers/capture_chain.h"
 
 #include "core/net/mono_clock.h"
+#include "producers/first_sequence.h"
 
 namespace dance {
 namespace {
 
 // Away for longer than this: whoever is seen next may be somebody else, and is measured anew.
 constexpr Duration kSomebodyElse = Duration::s(10);
-
-// As DancerFeed: a producer that is started again leaps far above the numbers that it used before.
-std::uint32_t sequence_to_begin_with() {
-  return static_cast<std::uint32_t>(mono_now().since_zero_us() / 100);
-}
 
 }  // namespace
 
@@ -23,7 +19,7 @@ CaptureChain::CaptureChain(const GuestId& guest, CaptureSink& sink,
       estimator_(std::move(estimator)),
       solver_(std::move(solver)),
       body_(&estimator_->unfiltered()),
-      next_sequence_(sequence_to_begin_with()) {}
+      next_sequence_(first_sequence(mono_now())) {}
 
 void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   ++stats_.pictures;

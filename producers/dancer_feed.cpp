@@ -1,18 +1,9 @@
 #include "producers/dancer_feed.h"
 
 #include "core/net/mono_clock.h"
+#include "producers/first_sequence.h"
 
 namespace dance {
-namespace {
-
-// A producer that is started again leaps far above the numbers that it used before, 10,000 for each second: nobody takes
-// its new poses for old ones, nor the leap for a loss.
-std::uint32_t first_sequence(MonoTime now) {
-  return static_cast<std::uint32_t>(now.since_zero_us() / 100);
-}
-
-}  // namespace
-
 DancerFeed::DancerFeed(std::unique_ptr<Dancer> dancer, const GuestId& guest, double hz,
                        CaptureSink& sink, Poller& poller, MonoTime start)
     : dancer_(std::move(dancer)),
