@@ -65,6 +65,7 @@ while IFS= read -r entry <&3; do
   fi
   subcommand=""
   case ${1:-} in
+    *[!a-z-]*) ;;  # a file
     [a-z]*) "$bin/dance-$program" --help 2>/dev/null | grep -qE "^  $1( |\$)" && subcommand=$1 ;;
   esac
   # shellcheck disable=SC2086
