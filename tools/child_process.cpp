@@ -57,7 +57,7 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
   stop(Duration::s(1));
   pid_ = std::exchange(other.pid_, -1);
   ended_ = other.ended_;
-  ended_well_ = other.ended_well_;
+  exit_code_ = other.exit_code_;
   exit_text_ = std::move(other.exit_text_);
   return *this;
 }
@@ -66,7 +66,7 @@ ChildProcess::~ChildProcess() { stop(Duration::s(1)); }
 
 void ChildProcess::note_end(int status) {
   ended_ = true;
-  ended_well_ = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   exit_text_ = WIFSIGNALED(status) ? "ended by signal " + std::to_string(WTERMSIG(status))
                                    : "ended with exit " + std::to_string(WEXITSTATUS(status));
 }

@@ -36,7 +36,9 @@ class ChildProcess {
   // True once the process has ended; then exit_text() says how.
   bool has_ended();
   const std::string& exit_text() const { return exit_text_; }
-  bool ended_well() const { return ended_well_; }
+  bool ended_well() const { return exit_code_ == 0; }
+  // Of one that has ended by itself; -1 while it runs, and for one that a signal ended.
+  int exit_code() const { return exit_code_; }
 
   void ask_to_stop();
   // Waits up to `patience` for it to end, then kills it.
@@ -48,7 +50,7 @@ class ChildProcess {
 
   pid_t pid_ = -1;
   bool ended_ = false;
-  bool ended_well_ = false;
+  int exit_code_ = -1;
   std::string exit_text_;
 };
 

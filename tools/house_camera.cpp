@@ -82,14 +82,13 @@ MonoTime HouseCamera::look(MonoTime now) {
     talk::info("the capture of {} is over", guest_.view());
     return MonoTime();
   }
-  const std::string& how = program_->exit_text();
-  if (how == "ended with exit 2") {
+  if (program_->exit_code() == 2) {
     talk::warn("no camera for {}: the session asks for what dance capture does not know",
                guest_.view());
     return MonoTime();
   }
   is_down_ = true;
-  if (how == "ended with exit 1") {
+  if (program_->exit_code() == 1) {
     if (!has_said_missing_)
       talk::warn("no camera for {} yet; the house goes on and looks again", guest_.view());
     has_said_missing_ = true;
@@ -97,7 +96,7 @@ MonoTime HouseCamera::look(MonoTime now) {
   }
   // One that danced for a while may come back at once; one that dies each time is not to keep the machine busy.
   pause_ = now - started_ > kCameraStable ? kCameraPause : std::min(pause_ * 2, kCameraMissing);
-  talk::warn("the capture of {} {}; it is started again", guest_.view(), how);
+  talk::warn("the capture of {} {}; it is started again", guest_.view(), program_->exit_text());
   return now + pause_;
 }
 
