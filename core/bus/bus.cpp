@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <vector>
 
+#include "core/bus/channel_filter.h"
 #include "core/bus/encode.h"
 #include "core/bus/multicast_route.h"
 
@@ -205,6 +207,9 @@ class PatternSubscription : public Subscription {
 
 struct Bus::Impl {
   lcm_t* lcm = nullptr;
+  int port = 0;
+  int socket = -1;  // LCM's, by which it hears; -1: not yet, or not found
+  ChannelFilter filter;
   std::string url;
   Counters counters;
   std::vector<std::unique_ptr<Subscription>> subscriptions;
@@ -213,10 +218,26 @@ struct Bus::Impl {
     if (lcm) lcm_destroy(lcm);
   }
   void subscribe(const std::string& pattern, std::unique_ptr<Subscription> subscription) {
-    lcm_subscription_t* handle =
-        lcm_subscribe(lcm, pattern.c_str(), on_lcm_message, subscription.get());
+    const auto add = [&] {
+      return lcm_subscribe(lcm, pattern.c_str(), on_lcm_message, subscription.get());
+    };
+    lcm_subscription_t* handle = subscriptions.empty() ? find_socket_of(add) : add();
     if (handle) lcm_subscription_set_queue_capacity(handle, kLcmQueueCapacity);
     subscriptions.push_back(std::move(subscription));
+    filter.want(pattern);
+    if (socket >= 0) filter.attach(socket);
+  }
+  // LCM makes the socket that it hears by with its first subscription, and does not tell it.
+  template <class Subscribe>
+  lcm_subscription_t* find_socket_of(Subscribe add) {
+    static std::mutex
+        one_at_a_time;  // of all buses: two that begin at once would be taken for each other
+    const std::scoped_lock lock(one_at_a_time);
+    const std::vector<int> before = udp_sockets_on(port);
+    lcm_subscription_t* handle = add();
+    for (const int fd : udp_sockets_on(port))
+      if (std::find(before.begin(), before.end(), fd) == before.end()) socket = fd;
+    return handle;
   }
   template <class T>
   void subscribe_typed(const std::string& pattern, Delivery delivery, Handler<T> handler) {
@@ -252,6 +273,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const std::string& given_url) {
                 std::string(kMulticastCure));
   auto impl = std::make_unique<Impl>();
   impl->url = url;
+  impl->port = address.port;
   if (url.find("recv_buf_size=") == std::string::npos)
     url += (url.find('?') == std::string::npos ? "?" : "&") + std::string("recv_buf_size=") +
            std::to_string(max_receive_buffer_bytes());

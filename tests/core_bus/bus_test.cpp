@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -247,6 +248,49 @@ TEST(Bus, ThirtyGuestsAtSixtyHertzLoseNothing) {
   EXPECT_EQ(receiver->counters().received, 30u * kTicks);
   EXPECT_TRUE(is_in_order);
   EXPECT_EQ(sender->counters().publish_failed, 0u);
+}
+
+// Datagrams that the kernel kept back from the sockets on the tests' port, by the last column of its table.
+std::uint64_t kept_back() {
+  std::ifstream table("/proc/net/udp");
+  std::uint64_t sum = 0;
+  for (std::string line; std::getline(table, line);)
+    if (line.find(":4501 ") != std::string::npos)  // 17665
+      sum += std::stoull(line.substr(line.find_last_of(' ', line.find_last_not_of(' ')) + 1));
+  return sum;
+}
+
+TEST(Bus, WhoWantsTheBeatIsNotWokenByPoses) {
+  constexpr const char* kOwnPort = "udpm://239.255.76.67:17665?ttl=0";
+  const auto sender = *Bus::open(kOwnPort), receiver = *Bus::open(kOwnPort);
+  int beats = 0, stages = 0;
+  receiver->on_beat([&](const Channel&, const Beat&, MonoTime) { ++beats; });
+  Beat beat;
+  beat.tempo_bpm = 120.0;
+  const auto send = [&] {
+    for (std::uint32_t i = 0; i < 100; ++i) sender->publish(capture_of("alice"), numbered(i));
+    for (std::uint32_t i = 0; i < 100; ++i)
+      sender->publish(Channel::of(Signal::kPose, Where::kStage, guest("bob")), numbered(i));
+    sender->publish(Channel::of_house(Signal::kBeat), beat);
+  };
+  send();
+  drain_until(*receiver, [&] { return beats == 1; });
+  EXPECT_EQ(beats, 1);
+  EXPECT_EQ(kept_back(), 200u);
+  // Who wants more later gets it, and a second bus of the same process only its own.
+  const auto second = *Bus::open(kOwnPort);
+  int captures = 0;
+  second->on_pose(Where::kCapture, GuestId(), Delivery::kEvery,
+                  [&](const Channel&, const Pose&, MonoTime) { ++captures; });
+  receiver->on_pose(Where::kStage, GuestId(), Delivery::kEvery,
+                    [&](const Channel&, const Pose&, MonoTime) { ++stages; });
+  const std::uint64_t before = kept_back();
+  send();
+  drain_until(*receiver, [&] { return beats == 2 && stages == 100; });
+  drain_until(*second, [&] { return captures == 100; });
+  EXPECT_EQ(stages, 100);
+  EXPECT_EQ(captures, 100);
+  EXPECT_EQ(kept_back() - before, 100u + 101u);
 }
 
 TEST(Bus, ASlowListenerStillGetsTheNewestPose) {
