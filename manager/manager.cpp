@@ -131,6 +131,7 @@ void Manager::end_second(MonoTime now) {
       });
   bus_.publish(Channel::of_program(Signal::kStats, "manager"), stats(now));
   repeat_skeletons(now);
+  router_.let_go_of_the_gone(now);
 }
 
 }  // namespace dance

@@ -29,7 +29,7 @@ Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime
         std::find_if(line.instances.begin(), line.instances.end(),
                      [&](const auto& i) { return now - i->last_heard > Roster::kSilence; });
     if (silent == line.instances.end()) return nullptr;
-    line.instances.erase(silent);
+    erase(line, silent);
   }
   auto chain = Chain::make(line.route.through);
   DANCE_ASSERT(chain.has_value());
@@ -37,6 +37,30 @@ Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime
       Instance{guest, shown_as(line, guest), std::move(*chain), now, 0, {}}));
   prepare(line, *line.instances.back(), now);
   return line.instances.back().get();
+}
+
+bool Router::is_shown(const Instance& instance, MonoTime now) {
+  // A guest who is silent is not held on the stage for ever; a chain that goes on with the dance has its own patience.
+  return now - instance.last_heard <= std::max(Roster::kSilence, instance.chain.patience());
+}
+
+void Router::erase(Line& line, Instances::iterator instance) {
+  stats_.dropped_late += static_cast<std::int64_t>((*instance)->chain.counters().refused);
+  line.instances.erase(instance);
+}
+
+void Router::let_go_of_the_gone(MonoTime now) {
+  for (auto& line : lines_) {
+    Instances& instances = line->instances;
+    const auto longest = std::min_element(
+        instances.begin(), instances.end(),
+        [](const auto& a, const auto& b) { return a->last_heard < b->last_heard; });
+    if (longest == instances.end()) continue;
+    const auto away = std::count_if(instances.begin(), instances.end(),
+                                    [&](const auto& i) { return !is_shown(*i, now); });
+    if (now - (*longest)->last_heard > kComesBack || away > static_cast<std::ptrdiff_t>(kMostAway))
+      erase(*line, longest);
+  }
 }
 
 void Router::prepare(const Line& line, Instance& instance, MonoTime now) {
@@ -124,9 +148,7 @@ void Router::hear(const Beat& beat, MonoTime now) {
 void Router::tick(std::size_t route, MonoTime now) {
   Line& line = *lines_[route];
   for (auto& instance : line.instances) {
-    // A guest who is silent is not held on the stage for ever; a chain that goes on with the dance has its own patience.
-    const Duration patience = std::max(Roster::kSilence, instance->chain.patience());
-    if (now - instance->last_heard > patience) continue;
+    if (!is_shown(*instance, now)) continue;
     Pose pose;
     if (!instance->chain.sample(now, pose)) continue;
     pose.sequence = instance->staged++;  // the stage's own count: it makes these poses

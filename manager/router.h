@@ -53,6 +53,13 @@ class Router {
   double rate_hz(std::size_t route) const { return lines_[route]->rate_hz; }
   void tick(std::size_t route, MonoTime now);
 
+  // A chain is megabytes, and what it has learned of its dancer is in it. Who comes back within kComesBack is danced with as
+  // before, unless more than kMostAway have gone since; then it is freed.
+  static constexpr Duration kComesBack = Duration::s(300);
+  static constexpr std::size_t kMostAway = 8;
+  // Call once a second: frees one chain of each route at most, so that no turn of the stage waits for many.
+  void let_go_of_the_gone(MonoTime now);
+
   bool wants(Where where) const { return !lines_from_[static_cast<std::size_t>(where)].empty(); }
   Roster& roster() { return roster_; }
   // Counters of poses; time, uptime and lateness are the caller's.
@@ -68,6 +75,7 @@ class Router {
     std::uint32_t staged = 0;
     HandsQueue hands;  // where the chain keeps the body back
   };
+  using Instances = std::vector<std::unique_ptr<Instance>>;
   // What is known of a guest before, or beside, the poses: newcomers on a route begin with it.
   struct Known {
     Where where;
@@ -78,10 +86,13 @@ class Router {
   struct Line {
     Route route;
     double rate_hz;
-    std::vector<std::unique_ptr<Instance>> instances;
+    Instances instances;
   };
 
   Instance* instance_of(Line& line, const GuestId& guest, MonoTime now);
+  // Still on the stage: heard of lately, or danced on with.
+  static bool is_shown(const Instance& instance, MonoTime now);
+  void erase(Line& line, Instances::iterator instance);
   bool is_for(const Line& line, const GuestId& guest) const {
     return !line.route.from.guest.is_set() || line.route.from.guest == guest;
   }

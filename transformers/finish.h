@@ -29,11 +29,15 @@ class Finish {
     corrections_.add(now, was_before, was, is_before, is, step);
   }
 
-  // What was really danced, as it becomes known: feet that stand are known by it. Optional.
-  void observe(const Pose& real, MonoTime now) { feet_.observe(real, now); }
+  // What was really danced, as it becomes known: feet that stand are known by it. Optional. A station that is only asked
+  // for moments finishes nothing, and has nothing to know: of a chain the last one does it.
+  void observe(const Pose& real, MonoTime now) {
+    if (finishes_) feet_.observe(real, now);
+  }
 
   // Once a frame. `is_guess`: the pose was not danced so, or not yet.
   void apply(MonoTime now, Pose& pose, bool is_guess) {
+    finishes_ = true;
     corrections_.apply(now, pose);
     const bool is_free = is_guess || !corrections_.is_at_rest();
     if (is_guess) limit_joints(pose);
@@ -56,6 +60,7 @@ class Finish {
   Inertializer corrections_;
   TurnLimit turns_;
   FootLock feet_;
+  bool finishes_ = false;  // has been applied
 };
 
 }  // namespace dance

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -209,6 +211,85 @@ TEST(Router, BoundsItsGuestsAndCountsWhomItTurnsAway) {
   EXPECT_EQ(router.stats().dropped_overflow, 5);
   router.tick(0, at_ms(102));
   EXPECT_EQ(stage.poses.size(), kMaxGuests);
+}
+
+// A router whose dancers are learned; whose chain has gone, its learner has gone.
+struct LearnedGuests {
+  LearnedGuests() {
+    router.on_learner(
+        [this](const std::shared_ptr<Learner>& learner) { learners.emplace_back(learner); });
+  }
+  static Route predicted() {
+    Route route = held("predict");
+    route.through.push_back("hold 0ms");
+    return route;
+  }
+  void hear(const std::string& name, double ms) {
+    router.take(Where::kGuest, guest(name), pose_of(0, at_ms(ms)), at_ms(ms));
+  }
+  std::ptrdiff_t kept() const {
+    return std::count_if(learners.begin(), learners.end(),
+                         [](const auto& learner) { return !learner.expired(); });
+  }
+
+  Stage stage;
+  Router router{{predicted()}, kClock, stage};
+  std::vector<std::weak_ptr<Learner>> learners;
+};
+
+TEST(Router, KeepsWhatWasLearnedOfWhoComesRightBack) {
+  LearnedGuests house;
+  house.hear("bob", 0.0);
+  for (double s = 1.0; s < 299.0; s += 1.0) house.router.let_go_of_the_gone(at_ms(1e3 * s));
+  house.hear("bob", 299e3);
+  for (double s = 299.0; s < 598.0; s += 1.0) house.router.let_go_of_the_gone(at_ms(1e3 * s));
+  house.hear("bob", 598e3);
+  EXPECT_EQ(house.learners.size(), 1u) << "one chain all the time";
+  EXPECT_EQ(house.kept(), 1);
+}
+
+TEST(Router, FreesTheChainOfWhoHasGoneForLong) {
+  LearnedGuests house;
+  house.hear("bob", 0.0);
+  house.hear("carol", 0.0);
+  house.hear("carol", 200e3);
+  house.router.let_go_of_the_gone(at_ms(299e3));
+  EXPECT_EQ(house.kept(), 2);
+  house.router.let_go_of_the_gone(at_ms(301e3));
+  EXPECT_EQ(house.kept(), 1);
+  EXPECT_TRUE(house.learners[0].expired());
+  house.router.tick(0, at_ms(302e3));
+  house.hear("bob", 303e3);
+  EXPECT_EQ(house.learners.size(), 3u) << "begins anew";
+  house.router.tick(0, at_ms(303e3));
+  EXPECT_EQ(house.stage.poses.back().first, guest("bob"));
+}
+
+TEST(Router, OfManyWhoHaveGoneKeepsTheLast) {
+  LearnedGuests house;
+  for (int i = 0; i < 30; ++i) house.hear("g" + std::to_string(i), 1000.0 * i);
+  house.router.let_go_of_the_gone(at_ms(29.5e3));
+  EXPECT_EQ(house.kept(), 29) << "one at a time";
+  for (int i = 0; i < 60; ++i) {
+    house.hear("g29", 29.5e3 + 5.0 * i);
+    house.router.let_go_of_the_gone(at_ms(29.5e3 + 5.0 * i));
+  }
+  EXPECT_EQ(house.kept(), static_cast<std::ptrdiff_t>(Router::kMostAway) + 2)
+      << "and who is shown: g28 and g29";
+  for (std::size_t i = 0; i < 30; ++i) EXPECT_EQ(house.learners[i].expired(), i < 20) << i;
+}
+
+TEST(Router, WhatAChainHasRefusedIsCountedWhenItHasGone) {
+  Stage stage;
+  Router router({held("hold 0ms")}, kClock, stage);
+  for (int i = 0; i < 3; ++i)
+    router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(100)), at_ms(101));
+  EXPECT_EQ(router.stats().dropped_late, 2);
+  router.let_go_of_the_gone(at_ms(400e3));
+  EXPECT_EQ(router.stats().dropped_late, 2);
+  router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(100)), at_ms(400e3));
+  router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(100)), at_ms(400e3));
+  EXPECT_EQ(router.stats().dropped_late, 3);
 }
 
 TEST(Router, AllocatesNothingPerPoseOnceAGuestIsKnown) {
