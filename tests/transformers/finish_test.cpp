@@ -60,6 +60,30 @@ TEST(Finish, ThrowsNoLimbOfAGuessAndCatchesUp) {
   EXPECT_EQ(out.R_PB[kFoot].coeffs(), Pose().R_PB[kFoot].coeffs());
 }
 
+TEST(Finish, FollowsTheFeetOfWhomItFinishesOnly) {
+  // A dancer who stands, and a guess of them that slides at walking pace: what was seen holds the foot.
+  const auto slides = [](Finish& finish) {
+    Pose standing;
+    standing.p_WH_m.y() = 1.0f;
+    for (int i = 1; i <= 6; ++i) {
+      standing.capture_time = finish_frame(i);
+      finish.observe(standing, finish_frame(i));
+    }
+    for (int i = 7; i <= 12; ++i) {
+      Pose guess = standing;
+      guess.p_WH_m.x() = 0.5f * static_cast<float>(i - 7) / 60.0f;
+      finish.apply(finish_frame(i), guess, true);
+    }
+    return !finish.feet().is_locked(0);
+  };
+  Finish last, not_asked;
+  Pose first;
+  first.p_WH_m.y() = 1.0f;
+  last.apply(finish_frame(0), first, true);
+  EXPECT_FALSE(slides(last));
+  EXPECT_TRUE(slides(not_asked)) << "nothing was looked at";
+}
+
 TEST(Finish, ACorrectionByNothingLimitsNothing) {
   constexpr std::size_t kFoot = index_of(Bone::kLeftFoot);
   Finish finish;
