@@ -79,7 +79,7 @@ DancePredictor::DancePredictor(std::shared_ptr<const PredictModel> model)
       space_(model_->centres),
       rows_(space_),
       memory_(model_->lever),
-      proof_(model_->lever),
+      guard_(model_->lever),
       personal_(std::make_shared<PersonalModel>(model_)),
       moments_(kMoments) {
   set_prior();
@@ -121,6 +121,7 @@ void DancePredictor::forget_dancer() {
   rows_.forget();
   blend_.clear();
   proof_.clear();
+  guard_.clear();
   personal_->forget();
 }
 
@@ -137,9 +138,10 @@ SteadyRows::Heard DancePredictor::observe(const Pose& pose) {
     // After a mere gap it is the same dancer, whose ways are still those that were proved.
     if (jumps) {
       proof_.clear();
+      guard_.clear();
       blend_.clear();
     } else {
-      proof_.forget_errors();
+      guard_.forget_lately();
     }
     set_prior();
     since_ = 0;
@@ -203,6 +205,7 @@ void DancePredictor::learn_from_past() {
     const BodyRow way = way_between(memory_(age), memory_(0));
     blend_.learn(h, then, way);
     proof_.learn(h, then, way);
+    guard_.learn(h, then, way);
   }
   if (turn_ % kSolveRows == 0) blend_.solve(turn_ / kSolveRows % kHorizons);
 }
@@ -217,7 +220,7 @@ void DancePredictor::make_ways(MomentGuesses& now) {
     }
     if (!keep_possible(h, now.blended[h])) ++dropped_;
     BodyRow& way = path_[h + 1];
-    proof_.finish(h, now, way);
+    guard_.finish(h, now, way);
     if (!keep_possible(h, way)) ++dropped_;
     for (std::size_t b = 0; b < kBoneCount; ++b)
       if ((newest_.presence >> b & 1u) == 0) way(b, 0) = way(b, 1) = way(b, 2) = 0.0f;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "transformers/guess_blend.h"
+#include "transformers/guess_guard.h"
 #include "transformers/guess_proof.h"
 #include "transformers/moment_guesses.h"
 #include "transformers/personal_model.h"
@@ -67,6 +68,7 @@ class DancePredictor {
   RowMean mean_;
   GuessBlend blend_;
   GuessProof proof_;
+  GuessGuard guard_;
   std::shared_ptr<PersonalModel> personal_;
 
   std::vector<MomentGuesses> moments_;
