@@ -18,7 +18,7 @@ constexpr float kBeforehand = 0.2f;
 // A bone's errors are few and rough: so much of the whole body's is among them.
 constexpr float kOfTheBody = 0.1f;
 // How steeply a worse candidate counts less: by about exp(-kSharp × its error's excess).
-constexpr float kSharp = 12.0f;
+constexpr float kSharp = 24.0f;
 // m: what no sensor sees; errors of a body that stands like stone are all alike.
 constexpr float kFloor_m = 1e-6f;
 constexpr float kDampedRows = 6.0f;  // 100 ms
