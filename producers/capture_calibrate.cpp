@@ -6,8 +6,8 @@
 #include "producers/camera/stereo/calibration_file.h"
 #include "producers/camera/stereo/chessboard_calibration.h"
 #include "producers/camera/view/overlay.h"
-#include "producers/camera/view/preview.h"
 #include "producers/capture_eyes.h"
+#include "producers/capture_preview.h"
 
 namespace dance {
 namespace {
@@ -17,15 +17,6 @@ constexpr Duration kProgressEvery = Duration::s(2);
 // What the camera sees with the board's corners in it, for the preview.
 class BoardPreview {
  public:
-  static Result<std::unique_ptr<Preview>> open(const CaptureOptions& options,
-                                               const std::string& name) {
-    if (!options.has_preview && options.preview_file.empty()) return nullptr;
-    PreviewOptions preview;
-    preview.window = options.has_preview;
-    preview.file = options.preview_file;
-    preview.title = "calibration of " + name;
-    return Preview::open(preview);
-  }
   void show(Preview& preview, const Frame& frame, const BoardShape& board,
             const std::vector<cv::Point2f>& corners, const std::string& caption) {
     frame.image.copyTo(drawn_.image);
@@ -75,7 +66,8 @@ Result<void> calibrate_camera(const CaptureOptions& options) {
   // Whoever holds the board before a camera moves; pictures from a folder were chosen.
   wished.wants_stillness = eyes->is_live();
   DANCE_TRY(auto board, ChessboardCalibration::make(wished));
-  DANCE_TRY(auto preview, BoardPreview::open(options, eyes->name()));
+  DANCE_TRY(auto preview,
+            open_preview(options, PreviewSide::kAsTheCameraSees, "calibration of " + eyes->name()));
   BoardPreview drawing;
   talk::info("{}: show a chessboard of {} inner corners, held still in many places and tilts",
              eyes->name(), options.board);

@@ -8,6 +8,7 @@
 
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
+#include "producers/capture_preview.h"
 
 namespace dance {
 namespace {
@@ -30,7 +31,8 @@ Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOption
     return tl::make_unexpected(stops.error());
   DANCE_TRY(program->eyes_, CaptureEyes::open(options));
   // What may fail without a trace first; a recording makes files.
-  if (auto opened = program->open_preview(); !opened) return tl::make_unexpected(opened.error());
+  DANCE_TRY(program->preview_, open_preview(options, PreviewSide::kAsTheStageShows,
+                                            options.guest + " before " + program->eyes_->name()));
   if (auto opened = program->open_chain(); !opened) return tl::make_unexpected(opened.error());
   program->say_what_runs();
   return program;
@@ -64,17 +66,6 @@ std::unique_ptr<BodySolver> CaptureProgram::make_solver() const {
   solving.is_mirrored = options_.is_mirrored;
   solving.smooth = options_.smooth;
   return std::make_unique<BodySolver>(solving, eyes_->camera());
-}
-
-Result<void> CaptureProgram::open_preview() {
-  if (!options_.has_preview && options_.preview_file.empty()) return {};
-  PreviewOptions preview;
-  preview.window = options_.has_preview;
-  preview.file = options_.preview_file;
-  preview.is_mirrored = options_.is_mirrored;
-  preview.title = options_.guest + " before " + eyes_->name();
-  DANCE_TRY(preview_, Preview::open(preview));
-  return {};
 }
 
 void CaptureProgram::say_what_runs() const {

@@ -30,7 +30,6 @@ class CaptureProgram {
  private:
   explicit CaptureProgram(const CaptureOptions& options) : options_(options) {}
   Result<void> open_chain();
-  Result<void> open_preview();
   void say_what_runs() const;
   std::unique_ptr<BodySolver> make_solver() const;
   bool has_usual_size(const cv::Mat& picture);

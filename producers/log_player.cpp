@@ -62,7 +62,7 @@ MonoTime LogPlayer::deadline_of(const LogEvent& event) const {
 }
 
 bool LogPlayer::start_again(MonoTime now) {
-  if (!options_.loop || !played_this_round_) return false;
+  if (!options_.loop || !played_this_round_ || !log_.ended()) return false;
   ++counters_.loops;
   log_.rewind();
   played_this_round_ = false;

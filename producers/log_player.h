@@ -6,7 +6,7 @@
 // Ownership:    owns the log; refers to the bus and the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
 // Failure:      damaged stretches of the log are skipped (UnpackedLog counts the bytes, and the packed poses that are lost
-//               with them); undecodable messages are counted.
+//               with them); undecodable messages are counted. A log that cannot be read on ends, and ended() says why.
 #pragma once
 
 #include <optional>
@@ -38,6 +38,7 @@ class LogPlayer {
   LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller& poller, MonoTime start);
 
   bool is_over() const { return is_over_; }
+  Result<void> ended() const { return log_.ended(); }
   const Counters& counters() const { return counters_; }
   std::uint64_t skipped_bytes() const { return log_.skipped_bytes(); }
   const LogUnpacker::Counters& unpacking() const { return log_.unpacking(); }

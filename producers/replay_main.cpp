@@ -121,6 +121,7 @@ Result<void> run_replay(const ReplayOptions& options) {
       DANCE_TRY(UnpackedLog log, UnpackedLog::open(options.files[i]));
       players.push_back(std::make_unique<LogPlayer>(std::move(log), log_options, program->bus(),
                                                     program->poller(), program->start()));
+      if (auto ended = players.back()->ended(); !ended) return ended;
       if (players.back()->is_over())
         return fail(options.files[i] + nothing_to_play(*players.back(), !options.only.empty()));
     } else if (auto added = add_clip(options, i, *program); !added) {
@@ -141,6 +142,8 @@ Result<void> run_replay(const ReplayOptions& options) {
       talk::warn("{} packed messages lost to damage; `dance unpack` tells more", lost);
   }
   if (program->sent() > 0) talk::info("{} poses", program->sent());
+  for (const auto& player : players)
+    if (auto ended = player->ended(); !ended) return ended;
   return {};
 }
 

@@ -60,6 +60,7 @@ Result<LogConversion> convert_log(const std::string& from, const std::string& to
     if (!written) return tl::make_unexpected(written.error());
     ++conversion.events;
   }
+  if (auto ended = log.ended(); !ended) return tl::make_unexpected(ended.error());
   conversion.skipped_bytes = log.skipped_bytes();
   conversion.unpacking = log.unpacking();
   if (conversion.events == 0) return fail(from + ": " + why_nothing_was_read(conversion));

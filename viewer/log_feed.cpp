@@ -28,7 +28,7 @@ Result<LogFeed> LogFeed::open(const std::string& path, bool stage_only) {
 }
 
 // Which clock the house has, and how the log's stamps lie to it: from the stage, or where nobody dances there, from captures.
-bool LogFeed::find_times(Where where, Hop last) {
+Result<bool> LogFeed::find_times(Where where, Hop last) {
   std::int64_t least_ahead_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t first_us = 0, last_us = 0;
   while (const auto event = log_.next()) {
@@ -45,6 +45,8 @@ bool LogFeed::find_times(Where where, Hop last) {
     last_us = event->time_us;
     least_ahead_us = std::min(least_ahead_us, event->time_us - pose.stamped(last).since_zero_us());
   }
+  // A log that breaks off may have its dancers behind that.
+  if (auto ended = log_.ended(); !ended) return tl::make_unexpected(ended.error());
   log_.rewind();
   if (clock_id_ == 0) return false;
   wall_ahead_us_ = least_ahead_us;
@@ -55,7 +57,11 @@ bool LogFeed::find_times(Where where, Hop last) {
 
 // Its times, and where the beats are.
 Result<void> LogFeed::look_through() {
-  if (!find_times(Where::kStage, Hop::kStaged) && !find_times(Where::kCapture, Hop::kPublished))
+  DANCE_TRY(bool is_found, find_times(Where::kStage, Hop::kStaged));
+  if (!is_found) {
+    DANCE_TRY(is_found, find_times(Where::kCapture, Hop::kPublished));
+  }
+  if (!is_found)
     return fail(path_ +
                 ": nobody dances in this log; record a house with a manager, or a camera with "
                 "dance capture --record");
@@ -83,7 +89,7 @@ Result<void> LogFeed::look_through() {
     before = beats;
     was_known = true;
   }
-  return {};
+  return log_.ended();
 }
 
 MonoTime LogFeed::time_of(const LogEvent& event) const {

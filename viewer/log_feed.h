@@ -32,7 +32,7 @@ class LogFeed {
  private:
   LogFeed(std::string path, UnpackedLog log) : path_(std::move(path)), log_(std::move(log)) {}
   Result<void> look_through();
-  bool find_times(Where where, Hop last);
+  Result<bool> find_times(Where where, Hop last);
   void take(const LogEvent& event, MonoTime now);
   MonoTime time_of(const LogEvent& event) const;
 

@@ -36,9 +36,9 @@ bool is_header(const std::uint8_t* bytes) {
          get_big_endian<std::uint32_t>(bytes + 24) <= kMaxDataBytes;
 }
 
-std::string reason() {
+std::string reason(int error = errno) {
   std::array<char, 128> text{};
-  return strerror_r(errno, text.data(), text.size());
+  return strerror_r(error, text.data(), text.size());
 }
 
 }  // namespace
@@ -47,9 +47,15 @@ Result<LogReader> LogReader::open(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     return fail(path + ": is a folder, not an LCM log; name a file in it");
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file) return fail(path + ": " + reason());
+  return of(file, path);
+}
+
+LogReader LogReader::of(std::FILE* file, std::string name) {
   LogReader reader;
-  reader.file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!reader.file_) return fail(path + ": " + reason());
+  reader.path_ = std::move(name);
+  reader.file_.reset(file);
   return reader;
 }
 
@@ -63,7 +69,14 @@ void LogReader::rewind() {
   buffer_.clear();
   begin_ = pending_ = memory_at_ = 0;
   at_end_ = false;
+  read_error_ = 0;
   if (file_) std::rewind(file_.get());
+}
+
+Result<void> LogReader::ended() const {
+  if (read_error_ == 0) return {};
+  return fail(path_ + ": cannot be read to its end: " + reason(read_error_) +
+              "; copy what can be had of it to another disk");
 }
 
 // Makes `wanted` unused bytes available in buffer_; false at the end.
@@ -81,7 +94,9 @@ bool LogReader::fill(std::size_t wanted) {
     std::size_t got = 0;
     if (file_) {
       buffer_.resize(old + kChunk);
+      errno = 0;
       got = std::fread(buffer_.data() + old, 1, kChunk, file_.get());
+      if (got < kChunk && std::ferror(file_.get())) read_error_ = errno != 0 ? errno : EIO;
       buffer_.resize(old + got);
     } else {
       got = std::min(kChunk, memory_.size() - memory_at_);
@@ -89,9 +104,9 @@ bool LogReader::fill(std::size_t wanted) {
       buffer_.insert(buffer_.end(), from, from + static_cast<std::ptrdiff_t>(got));
       memory_at_ += got;
     }
-    if (got == 0) {
+    if (got == 0 || read_error_ != 0) {
       at_end_ = true;
-      return false;
+      return buffer_.size() - begin_ >= wanted;
     }
   }
   return true;

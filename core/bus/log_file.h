@@ -6,7 +6,7 @@
 // Ownership:    a reader's events are valid until its next call.
 // Threads:      none inside; one owner.
 // Failure:      open() and append() name the file and the reason; damaged bytes are skipped to the
-//               next event and counted.
+//               next event and counted. A disk that cannot be read on is no end: ended() says so.
 // Source:       LCM documentation, "Log file format": big-endian sync word 0xEDA1DA01, event number,
 //               time, lengths, channel, data.
 #pragma once
@@ -40,14 +40,18 @@ struct LogEvent {
 class LogReader {
  public:
   static Result<LogReader> open(const std::string& path);
+  // Reads, and closes, what is open already.
+  static LogReader of(std::FILE* file, std::string name);
   // Reads bytes in memory, which must outlive the reader.
   static LogReader over(std::span<const std::uint8_t> bytes);
 
-  // The next whole event; nullopt at the end of the file.
+  // The next whole event; nullopt at the end of the file, or where it cannot be read on.
   std::optional<LogEvent> next();
+  // After the last event: fine at the end of the file, else what kept the rest from being read.
+  Result<void> ended() const;
   void rewind();
 
-  // Bytes that belonged to no whole event: damage, or a log cut off while it was written.
+  // Bytes that belonged to no whole event: damage, or a log cut off while it was written or read.
   std::uint64_t skipped_bytes() const { return skipped_bytes_; }
 
  private:
@@ -59,6 +63,7 @@ class LogReader {
   bool reaches_into_another(std::size_t whole);
   void skip(std::size_t count);
 
+  std::string path_;
   std::unique_ptr<std::FILE, CloseFile> file_;  // null when reading memory
   std::span<const std::uint8_t> memory_;
   std::size_t memory_at_ = 0;
@@ -66,6 +71,7 @@ class LogReader {
   std::size_t begin_ = 0;    // of what is not used yet in buffer_
   std::size_t pending_ = 0;  // bytes of the event handed out last
   bool at_end_ = false;
+  int read_error_ = 0;  // errno
   std::uint64_t skipped_bytes_ = 0;
 };
 

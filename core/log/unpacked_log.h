@@ -4,7 +4,8 @@
 // Units/frames: event times are microseconds of the recorder's wall clock.
 // Ownership:    owns the file; an event is valid until the next call.
 // Threads:      none inside; one owner.
-// Failure:      open() names the file and the reason; damage is skipped and counted.
+// Failure:      open() names the file and the reason; damage is skipped and counted. A file that could not be read on is no
+//               end: ended() says so.
 #pragma once
 
 #include <optional>
@@ -24,6 +25,8 @@ class UnpackedLog {
   static UnpackedLog over(std::span<const std::uint8_t> bytes);
 
   std::optional<LogEvent> next();
+  // After the last event: fine at the end of the file, else what kept the rest from being read.
+  Result<void> ended() const { return reader_.ended(); }
   void rewind();
 
   // Bytes of the file that belonged to no whole event, and packed events that could not be had.

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -183,6 +186,60 @@ TEST_F(LogFile, LyingLengthsAreNotBelieved) {
     LogReader data_lie = LogReader::over(bytes);
     EXPECT_EQ(count_events(data_lie), 1u) << "data length " << lie;
   }
+}
+
+// A file on a disk that fails behind its first bytes.
+struct FailingDisk {
+  Bytes bytes;
+  std::size_t at = 0;
+  bool fails = true;
+
+  static ssize_t read(void* cookie, char* out, std::size_t size) {
+    auto& disk = *static_cast<FailingDisk*>(cookie);
+    const std::size_t left = disk.bytes.size() - disk.at;
+    if (left == 0 && disk.fails) {
+      errno = EIO;
+      return -1;
+    }
+    const std::size_t got = std::min({size, left, std::size_t{100}});
+    std::copy_n(disk.bytes.begin() + static_cast<std::ptrdiff_t>(disk.at), got, out);
+    disk.at += got;
+    return static_cast<ssize_t>(got);
+  }
+  static int seek(void* cookie, off64_t* offset, int) {
+    static_cast<FailingDisk*>(cookie)->at = static_cast<std::size_t>(*offset);
+    return 0;
+  }
+  LogReader open() {
+    return LogReader::of(fopencookie(this, "rb", {read, nullptr, seek, nullptr}), "worn.lcm");
+  }
+};
+
+TEST_F(LogFile, ADiskThatFailsIsNoEnd) {
+  const Bytes whole = read_file(write_log("a.lcm", 20));
+  for (const std::size_t size : {std::size_t{0}, std::size_t{10}, whole.size() - 5, whole.size()}) {
+    FailingDisk disk{{whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}};
+    LogReader reader = disk.open();
+    LogReader cut = LogReader::over(disk.bytes);
+    EXPECT_EQ(count_events(reader), count_events(cut)) << "what could be read is had";
+    EXPECT_TRUE(cut.ended());
+    const auto ended = reader.ended();
+    ASSERT_FALSE(ended) << size;
+    EXPECT_NE(ended.error().what.find("worn.lcm"), std::string::npos) << ended.error().what;
+    EXPECT_NE(ended.error().what.find("Input/output error"), std::string::npos);
+    // A second try, that goes well.
+    disk.fails = false;
+    reader.rewind();
+    EXPECT_EQ(count_events(reader), size == whole.size() ? 20u : size < 40 ? 0u : 19u);
+    EXPECT_TRUE(reader.ended());
+  }
+}
+
+TEST_F(LogFile, AFileThatTheKernelDoesNotReadIsSaid) {
+  auto reader = LogReader::open("/proc/self/mem");  // at address 0, where nothing is
+  ASSERT_TRUE(reader) << reader.error().what;
+  EXPECT_FALSE(reader->next());
+  EXPECT_FALSE(reader->ended());
 }
 
 TEST_F(LogFile, AFileOfSyncWordsThatPromiseMuchIsReadOnce) {

@@ -59,7 +59,7 @@ TEST(Doctor, TellsWhereSoundGoesAndHowToMendIt) {
   EXPECT_EQ(good.grade, Grade::kOk);
   EXPECT_NE(good.what.find("40 ms"), std::string::npos) << good.what;
   EXPECT_TRUE(good.cure.empty());
-  const auto expect_note = [](const Result<Loudspeaker>& of, const std::string& cure) {
+  const auto expect_note = [](const Loudspeaker& of, const std::string& cure) {
     const Finding finding = check_loudspeaker(of);
     EXPECT_EQ(finding.grade, Grade::kNote) << finding.what;
     EXPECT_NE(finding.cure.find(cure), std::string::npos) << finding.cure;
@@ -70,7 +70,31 @@ TEST(Doctor, TellsWhereSoundGoesAndHowToMendIt) {
   expect_note(loudspeaker, "pactl set-sink-mute hdmi 0");
   loudspeaker.leads_nowhere = true;
   expect_note(loudspeaker, "set-default-sink");
-  expect_note(fail("no sound server"), "systemctl --user start");
+}
+
+TEST(Doctor, TellsWhyThereIsNoSoundAndTheCureOfEach) {
+  SoundFailure failure;
+  failure.socket = "/run/user/1000/pulse/native";
+  const auto expect = [&](SoundTrouble trouble, const std::string& what, const std::string& cure) {
+    failure.trouble = trouble;
+    const Finding finding = check_loudspeaker(tl::make_unexpected(failure));
+    EXPECT_EQ(finding.grade, Grade::kNote) << "nobody needs sound to dance";
+    EXPECT_NE(finding.what.find(what), std::string::npos) << finding.what;
+    EXPECT_NE(finding.cure.find(cure), std::string::npos) << finding.cure;
+  };
+  expect(SoundTrouble::kNoServer, "nobody is at /run/user/1000", "apt-get install pulseaudio");
+  failure.installed_server = "pipewire-pulse";
+  expect(SoundTrouble::kNoServer, "nobody is at", "systemctl --user start pipewire-pulse");
+  failure.installed_server = "pulseaudio";
+  expect(SoundTrouble::kNoServer, "nobody is at", "pulseaudio --start");
+  failure.is_named = true;
+  expect(SoundTrouble::kNoServer, "nobody is at", "unset PULSE_SERVER");
+  expect(SoundTrouble::kNotYours, "another user's", "stat -c %U /run/user/1000/pulse/native");
+  expect(SoundTrouble::kRefused, "does not let us in", "PULSE_COOKIE");
+  failure.reason = "No such entity";
+  expect(SoundTrouble::kNoLoudspeaker, "no loudspeaker (No such entity)", "module-udev-detect");
+  expect(SoundTrouble::kFarServer, "PULSE_SERVER", "unset PULSE_SERVER");
+  expect(SoundTrouble::kNotBuilt, "built without", "libpulse-dev");
 }
 
 TEST(Doctor, AsksTheSoundServerOfThisMachine) {

@@ -128,6 +128,11 @@ TEST_F(BusPrograms, PackOfWhatIsNoLogSaysNoSizesAndIsNotInTheWayOfTheNextTry) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_EQ(refused.output, "");
   EXPECT_NE(refused.talk.find("notes.txt: is no LCM log"), std::string::npos) << refused.talk;
+  // What the disk does not give is not taken for a log's end.
+  const Finished broken = run(bin("dance-pack") + " /proc/self/mem -o " + packed);
+  EXPECT_EQ(broken.exit_code, 1);
+  EXPECT_NE(broken.talk.find("cannot be read to its end"), std::string::npos) << broken.talk;
+  EXPECT_FALSE(std::filesystem::exists(packed + ".part"));
   ASSERT_EQ(
       run(bin("dance-record") + " -o " + log + " --seconds 0.5 --bus " + quoted(kBus)).exit_code,
       0);

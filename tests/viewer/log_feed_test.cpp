@@ -125,6 +125,13 @@ TEST_F(LogFeedTest, NamesWhatCannotBeShown) {
   EXPECT_NE(empty.error().what.find(path_), std::string::npos);
 }
 
+TEST_F(LogFeedTest, ALogThatCannotBeReadIsNotOneWithoutDancers) {
+  const auto feed = LogFeed::open("/proc/self/mem", false);  // which the kernel does not read at 0
+  ASSERT_FALSE(feed);
+  EXPECT_NE(feed.error().what.find("cannot be read to its end"), std::string::npos)
+      << feed.error().what;
+}
+
 TEST_F(LogFeedTest, DamageIsPassedOver) {
   write_couple(2.0);
   const std::string garbage = "\xED\xA1\xDA\x01 no event";

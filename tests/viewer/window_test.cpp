@@ -2,17 +2,13 @@
 // headless run writes.
 
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
 #include <cstdlib>
 #include <string>
 
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
+#include "tests/virtual_display.h"
 #include "viewer/offscreen.h"
 #include "viewer/stage_painter.h"
 #include "viewer/view_window.h"
@@ -22,45 +18,6 @@ namespace {
 
 constexpr int kWidth_px = 480;
 constexpr int kHeight_px = 300;
-
-// An X server that ends with the test; display() is empty where there is none.
-class VirtualDisplay {
- public:
-  VirtualDisplay() {
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) return;
-    pid_ = fork();
-    if (pid_ == 0) {
-      close(ends[0]);
-      const std::string fd = std::to_string(ends[1]);
-      execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", "800x600x24", "-nolisten",
-             "tcp", "+extension", "GLX", "-noreset", nullptr);
-      _exit(127);
-    }
-    close(ends[1]);
-    // The number and its end of line come in two writes.
-    std::string number;
-    pollfd readable{ends[0], POLLIN, 0};
-    for (char c = 0; c != '\n' && poll(&readable, 1, 20'000) == 1;) {
-      if (read(ends[0], &c, 1) != 1) break;
-      if (c == '\n')
-        display_ = ":" + number;
-      else
-        number += c;
-    }
-    close(ends[0]);
-  }
-  ~VirtualDisplay() {
-    if (pid_ <= 0) return;
-    kill(pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
-  }
-  const std::string& display() const { return display_; }
-
- private:
-  pid_t pid_ = -1;
-  std::string display_;
-};
 
 OrbitCamera camera_for(const SceneState& scene) {
   std::vector<Eigen::Vector3f> points;
@@ -97,7 +54,7 @@ TEST(ViewWindow, ShowsThePixelsThatAFileWouldHold) {
     headless = (*painter)->read();
   }
   const VirtualDisplay display;
-  if (display.display().empty()) GTEST_SKIP() << "no Xvfb here; apt-get install xvfb";
+  if (display.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
   setenv("DISPLAY", display.display().c_str(), 1);
   CameraRig rig(CameraPreset::kAuto);
   auto window = ViewWindow::create({kWidth_px, kHeight_px}, rig);

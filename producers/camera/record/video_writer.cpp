@@ -18,13 +18,6 @@ std::string text_of(const cv::Size& size) {
 
 }  // namespace
 
-VideoShot& VideoShot::operator=(const VideoShot& other) {
-  if (this == &other) return *this;
-  other.picture.copyTo(picture);
-  capture_time = other.capture_time;
-  return *this;
-}
-
 VideoWriter::VideoWriter(std::string path, double hz)
     : path_(std::move(path)), hz_(std::isfinite(hz) && hz > 0.0 ? hz : kUsualHz) {}
 
@@ -52,10 +45,10 @@ void VideoWriter::finish() {
 }
 
 void VideoWriter::add(const Frame& frame) {
-  scratch_.picture = frame.image;  // shares; put() copies the pixels
+  scratch_.picture.pixels = frame.image;  // shares; put() copies the pixels
   scratch_.capture_time = frame.capture_time;
   shots_.put(scratch_);
-  scratch_.picture.release();
+  scratch_.picture.pixels.release();
 }
 
 void VideoWriter::end_with(std::string why) {
@@ -84,22 +77,22 @@ void VideoWriter::write_all() {
       continue;
     }
     if (!video.isOpened()) {
-      size = shot->picture.size();
+      size = shot->picture.pixels.size();
       const int code = cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
       if (!video.open(path_, cv::CAP_FFMPEG, code, hz_, size))
         return end_with("the video '" + path_ +
                         "' cannot be written; is its folder there, and has the disk room?");
     }
     // A video has one size, and OpenCV drops others without a word.
-    if (shot->picture.size() != size) {
+    if (shot->picture.pixels.size() != size) {
       if (other_size_ == 0)
         size_trouble_ = "the video '" + path_ + "' has pictures of " + text_of(size) +
-                        "; those of " + text_of(shot->picture.size()) +
+                        "; those of " + text_of(shot->picture.pixels.size()) +
                         " are left out; record them into another folder";
       ++other_size_;
       continue;
     }
-    video.write(shot->picture);
+    video.write(shot->picture.pixels);
     const std::uint64_t number = written_++;
     if (std::fprintf(times_.get(), "%llu\t%lld\n", static_cast<unsigned long long>(number),
                      static_cast<long long>(shot->capture_time.since_zero_us())) < 0 ||

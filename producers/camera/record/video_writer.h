@@ -17,18 +17,15 @@
 
 #include "core/base/latest.h"
 #include "core/base/result.h"
+#include "producers/camera/deep_picture.h"
 #include "producers/camera/frame.h"
 
 namespace dance {
 
-// A picture on its way to the file. Copies are deep, as the slots of Latest need them, into buffers that stay.
+// A picture on its way to the file.
 struct VideoShot {
-  cv::Mat picture;
+  DeepPicture picture;
   MonoTime capture_time;
-
-  VideoShot() = default;
-  VideoShot(const VideoShot& other) { *this = other; }
-  VideoShot& operator=(const VideoShot& other);
 };
 
 class VideoWriter {

@@ -25,20 +25,13 @@ std::string ending_of(const std::string& file) {
 
 // Mirrored, left and right stay the dancer's: only the places change.
 void mirror(PreviewShot& shot) {
-  cv::flip(shot.picture, shot.picture, 1);
+  cv::Mat& picture = shot.picture.pixels;
+  cv::flip(picture, picture, 1);
   for (Eigen::Vector3f& point : shot.body.image_px)
-    point.x() = static_cast<float>(shot.picture.cols - 1) - point.x();
+    point.x() = static_cast<float>(picture.cols - 1) - point.x();
 }
 
 }  // namespace
-
-PreviewShot& PreviewShot::operator=(const PreviewShot& other) {
-  if (this == &other) return *this;
-  other.picture.copyTo(picture);
-  body = other.body;
-  caption = other.caption;
-  return *this;
-}
 
 Result<std::unique_ptr<Preview>> Preview::open(const PreviewOptions& options) {
   std::unique_ptr<Preview> preview(new Preview(options));
@@ -65,7 +58,7 @@ Preview::~Preview() {
 
 void Preview::show(const Frame& frame, const BodyLandmarks& body, std::string_view caption) {
   const double scale = std::min(1.0, static_cast<double>(kWidest_px) / frame.image.cols);
-  cv::resize(frame.image, scratch_.picture, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(frame.image, scratch_.picture.pixels, {}, scale, scale, cv::INTER_AREA);
   scratch_.body = body;
   for (Eigen::Vector3f& point : scratch_.body.image_px) point *= static_cast<float>(scale);
   scratch_.body.region.side_px *= static_cast<float>(scale);
@@ -109,13 +102,14 @@ void Preview::draw_all() {
     }
     shot = *newest;
     if (options_.is_mirrored) mirror(shot);
-    draw_landmarks(shot.picture, shot.body);
-    draw_caption(shot.picture, shot.caption.data());
-    if (window) window->show(shot.picture);
+    cv::Mat& picture = shot.picture.pixels;
+    draw_landmarks(picture, shot.body);
+    draw_caption(picture, shot.caption.data());
+    if (window) window->show(picture);
     const MonoTime now = mono_now();
     if (options_.file.empty() || now < next_file) continue;
     next_file = now + kFileEvery;
-    if (!write_file(shot.picture)) {
+    if (!write_file(picture)) {
       failed_ = true;
       return;
     }

@@ -18,19 +18,16 @@
 #include "core/base/latest.h"
 #include "core/base/result.h"
 #include "producers/camera/body_landmarks.h"
+#include "producers/camera/deep_picture.h"
 #include "producers/camera/frame.h"
 
 namespace dance {
 
-// One picture on its way to the preview. Copies are deep, as the slots of Latest need them, into buffers that stay.
+// One picture on its way to the preview.
 struct PreviewShot {
-  cv::Mat picture;
+  DeepPicture picture;
   BodyLandmarks body;
   std::array<char, 120> caption{};
-
-  PreviewShot() = default;
-  PreviewShot(const PreviewShot& other) { *this = other; }
-  PreviewShot& operator=(const PreviewShot& other);
 };
 
 struct PreviewOptions {
