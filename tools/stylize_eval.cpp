@@ -137,6 +137,33 @@ void measure_gain(const std::vector<Signal>& was, const std::vector<Signal>& is,
   out.periodic_share = spread_was > 0.0 ? 0.5 * frames * energy / spread_was : 0.0;
 }
 
+// Of legs, what swings can be shown larger: how far the joints of a leg go from their mean while its ankle is faster than
+// kSwings_m_s, of how far they were danced.
+void measure_swings(const StyleTake& take, std::span<const Pose> poses, const Rotations& was,
+                    const Rotations& is, StylizeEval& out) {
+  constexpr double kSwings_m_s = 0.6;
+  constexpr std::size_t kJointsOfLeg = 3;
+  const JointTrack track(take.skeleton, poses, take.hz);
+  double along = 0.0, energy = 0.0;
+  std::size_t swings = 0;
+  for (const Bone thigh : {Bone::kLeftUpperLeg, Bone::kRightUpperLeg})
+    for (std::size_t b = index_of(thigh); b < index_of(thigh) + kJointsOfLeg; ++b) {
+      const Quaternionf back = mean_of(was, b).conjugate();
+      const std::size_t ankle = index_of(thigh) + kJointsOfLeg - 1;
+      for (std::size_t i = 1; i < was.size(); ++i) {
+        const float step_m = (track.world[i][ankle] - track.world[i - 1][ankle]).norm();
+        if (static_cast<double>(step_m) * take.hz < kSwings_m_s) continue;
+        const Vector3f danced = rotation_vector(back * was[i][b]);
+        along += static_cast<double>(danced.dot(rotation_vector(back * is[i][b])));
+        energy += static_cast<double>(danced.squaredNorm());
+        ++swings;
+      }
+    }
+  out.swing_gain = energy > 0.0 ? along / energy : 0.0;
+  out.swing_share =
+      static_cast<double>(swings) / static_cast<double>(2 * kJointsOfLeg * was.size());
+}
+
 void measure_others(BodyZone zone, const Rotations& was, const Rotations& is, StylizeEval& out) {
   const bool legs_are_solved = zone == BodyZone::kHips || zone == BodyZone::kLegs;
   for (std::size_t b = 0; b < kBoneCount; ++b) {
@@ -160,6 +187,9 @@ void measure_places(const StyleTake& take, std::span<const Pose> was, std::span<
   out.bone_length_error_mm = 1e3 * after.bone_length_error_m;
   const double jerk = jerk_m_s3(before, Places::kWorld);
   out.jerk_ratio = jerk > 0.0 ? jerk_m_s3(after, Places::kWorld) / jerk : 0.0;
+  const Stance stance = stance_of(before);
+  out.slide_mm_s = 1e3 * slide_m_s(after, stance);
+  out.danced_slide_mm_s = 1e3 * slide_m_s(before, stance);
   std::vector<double> moved_mm;
   for (std::size_t i = 0; i < before.size(); ++i)
     for (const Bone foot : {Bone::kLeftFoot, Bone::kRightFoot}) {
@@ -208,6 +238,7 @@ StylizeEval evaluate_stylize(const StyleTake& take, const StylizeEvalOptions& op
                deviations(options.zone, take.skeleton, is, turns_is, turns_was), LineFit(was, bars),
                out);
   measure_others(options.zone, turns_was, turns_is, out);
+  if (options.zone == BodyZone::kLegs) measure_swings(take, was, turns_was, turns_is, out);
   measure_places(take, was, is, out);
   return out;
 }
@@ -223,6 +254,10 @@ StylizeEval sum_up(std::span<const StylizeEval> takes) {
     sum.phase_deg += share * take.phase_deg;
     sum.overall_gain += take.overall_gain / count;
     sum.periodic_share += take.periodic_share / count;
+    sum.swing_gain += take.swing_gain / count;
+    sum.swing_share += take.swing_share / count;
+    sum.slide_mm_s += take.slide_mm_s / count;
+    sum.danced_slide_mm_s += take.danced_slide_mm_s / count;
     sum.jerk_ratio += take.jerk_ratio / count;
     sum.ns_per_pose += take.ns_per_pose / count;
     const auto largest = [&](double StylizeEval::*of) { sum.*of = std::max(sum.*of, take.*of); };

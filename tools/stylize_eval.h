@@ -52,7 +52,11 @@ struct StylizeEval {
       0.0;  // largest; for hips and legs, which are solved anew, without the legs
   double feet_moved_mm = 0.0;  // largest, of an ankle; 0.0 means that feet stand where they stood
   double feet_moved_p99_mm = 0.0;
+  double slide_mm_s = 0.0;         // of balls of feet that stand …
+  double danced_slide_mm_s = 0.0;  // … and as they were danced
   double jerk_ratio = 0.0;
+  double swing_gain = 0.0;   // of legs: of their joints' turns while the foot swings
+  double swing_share = 0.0;  // of the time
   double ns_per_pose = 0.0;
   bool is_identical = false;
   double line_energy = 0.0;  // what the gain was measured on, to weigh takes by

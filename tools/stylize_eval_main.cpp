@@ -4,6 +4,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "tools/stylize_eval.h"
+#include "tools/stylize_overview.h"
 
 namespace dance {
 namespace {
@@ -14,17 +15,32 @@ constexpr const char* kExamples = R"(Examples:
   dance stylize eval --synthetic --zone hips --gain 0.5 --mix 0
   dance stylize eval salsa.bvh --zone shoulders --gain 1.3 --untagged
   dance stylize eval salsa.bvh --mix 0 --tempo-off 9
+  dance stylize eval *.bvh.xz --overview --gain 1.5
 Gains are measured by least squares at the harmonics of the bar over the whole take, not by the station's own filters.
 Hips: their tilt and their sway over the feet; the legs are solved anew, so the feet's places are what must not change.
 Others: the largest change of a bone of another zone, in degrees.
+Swing: the gain of legs while their foot is on its way; slide: of the balls of feet that stand, mm/s, and as danced.
 )";
 
 struct Wishes {
   std::vector<std::string> files;
   StylizeEvalOptions eval;
   double hz = 60.0, tempo_off_percent = 0.0;
-  bool synthetic = false, json = false;
+  bool synthetic = false, overview = false, json = false;
 };
+
+std::string report_of(const std::vector<StyleTake>& takes, const Wishes& wishes) {
+  std::vector<StylizeEval> evals;
+  for (const StyleTake& take : takes) evals.push_back(evaluate_stylize(take, wishes.eval));
+  const StylizeEval all = sum_up(evals);
+  return wishes.json ? stylize_eval_json(all, evals, wishes.eval)
+                     : stylize_eval_table(all, evals, wishes.eval);
+}
+
+std::string overview_of(const std::vector<StyleTake>& takes, const Wishes& wishes) {
+  const std::vector<StylizeRow> rows = stylize_overview(takes, wishes.eval);
+  return wishes.json ? stylize_overview_json(rows) : stylize_overview_table(rows);
+}
 
 Result<void> run(Wishes wishes) {
   std::vector<StyleTake> takes;
@@ -34,17 +50,13 @@ Result<void> run(Wishes wishes) {
     takes.push_back(style_take_of(take, wishes.tempo_off_percent));
   }
   if (takes.empty()) return fail("nobody dances: name BVH files, or --synthetic");
-  std::vector<StylizeEval> evals;
   for (const StyleTake& take : takes) {
     const double length_s = static_cast<double>(take.poses.size()) / take.hz;
     if (length_s < wishes.eval.warm_up_s + 4.0)
       return fail(take.name + " is too short to measure after a warm-up of " +
                   std::to_string(wishes.eval.warm_up_s) + " s: give --warm-up less");
-    evals.push_back(evaluate_stylize(take, wishes.eval));
   }
-  const StylizeEval all = sum_up(evals);
-  const std::string text = wishes.json ? stylize_eval_json(all, evals, wishes.eval)
-                                       : stylize_eval_table(all, evals, wishes.eval);
+  const std::string text = wishes.overview ? overview_of(takes, wishes) : report_of(takes, wishes);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return {};
 }
@@ -77,6 +89,8 @@ int main(int argc, char** argv) {
       .range(-30.0, 30.0);
   line.add_flag("--untagged", wishes.eval.untagged,
                 "poses come without musical time: the bar is found in the motion");
+  line.add_flag("--overview", wishes.overview,
+                "all zones at mix 0, 0.5 and 1: one row each, over all takes");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });

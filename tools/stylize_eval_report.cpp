@@ -18,6 +18,10 @@ nlohmann::ordered_json report_of(const StylizeEval& eval) {
           {"periodic_share", eval.periodic_share},
           {"feet_moved_mm", eval.feet_moved_mm},
           {"feet_moved_p99_mm", eval.feet_moved_p99_mm},
+          {"swing_gain", eval.swing_gain},
+          {"swing_share", eval.swing_share},
+          {"slide_mm_s", eval.slide_mm_s},
+          {"danced_slide_mm_s", eval.danced_slide_mm_s},
           {"jerk_ratio", eval.jerk_ratio},
           {"identical", eval.is_identical},
           {"ns_per_pose", eval.ns_per_pose}};

@@ -14,7 +14,10 @@ using Eigen::Vector3f;
 // A mean pose that follows a change of hold within a figure or two, and none within a bar.
 constexpr double kMeanPose_s = 6.0;
 constexpr double kFirstMeanPose_s = 0.5;
+// The harmonics are told apart over this long …
 constexpr double kMemory_bars = 2.0;
+// … and what the fit missed counts again so much: a change of the dance is followed within 1 / (1 + so much) of it.
+constexpr float kMissedAgain = 1.5f;
 // A position so far from where the last one leads is another place of the music.
 constexpr double kSplitJump_bars = 0.25;
 constexpr double kShy_bars = 1.0, kSure_bars = 2.5;
@@ -112,7 +115,13 @@ void MotionSplit::learn(const Parts& parts, double bars, double dt_s) {
   has_bars_ = true;
   bars_ = bars;
   const double bar_s = 1.0 / std::clamp(bars_per_s_, 0.1, 2.0);
-  fit_.add(bars, dt_s, kMemory_bars * bar_s, channels_of(parts.deviation));
+  HarmonicFit::Channels channels = channels_of(parts.deviation);
+  if (const float sure = trust(); sure > 0.0f) {
+    const HarmonicFit::Channels shown = channels_of(parts.periodic);
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      channels[c] += kMissedAgain * (sure * channels[c] - shown[c]);
+  }
+  fit_.add(bars, dt_s, kMemory_bars * bar_s, channels);
 }
 
 }  // namespace dance

@@ -16,19 +16,14 @@ constexpr float kGainPerSecond = 1.0f;
 constexpr Duration kLongestStyleStep = Duration::ms(100);
 constexpr double kComeIn_s = 2.0;
 // So much faster than the mean pose itself: a new hold is not shown larger while the mean comes to it.
-constexpr double kBiasFaster = 3.0;
+constexpr double kBiasFaster = 4.0;
 // Two poses further apart than this are not one movement.
 constexpr Duration kAnotherTake = Duration::s(1);
-// A foot slower than the one stands, faster than the other it swings; it changes within a tenth of a second.
-constexpr float kStands_m_s = 0.15f, kSwings_m_s = 0.6f;
-constexpr float kStandingPerSecond = 10.0f;
-constexpr float kAnkleFloorRises_m_s = 0.02f;
-
 // What is added to a joint, to the sway, and to where a foot swings, stays below this, whatever the gain: arms that are
 // thrown up are not thrown over. Two thirds of it are added as they are, within half a hundredth.
 constexpr float kMostAdded_rad = 0.7f;
 constexpr float kMostSway_m = 0.2f;
-constexpr float kMostSwing_m = 0.15f;
+constexpr float kMostSwing_m = 0.3f;
 
 // v / (1 + |v / most|⁸)^(1/8)
 Vector3f saturated(const Vector3f& v, float most) {
@@ -135,29 +130,15 @@ void Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, bo
   // The first pose counts as one of sixty a second.
   const double dt_s = begins ? 1.0 / 60.0 : (pose.capture_time - learnt_).as_seconds();
   if (begins) {
-    bias_.turn.fill(Vector3f::Zero());
-    bias_.sway_m.setZero();
+    bias_.fill({});
+    sway_bias_ = {};
   }
   follow_bias(parts_, std::min(dt_s, kLongestStyleStep.as_seconds()));
   split_.learn(parts_, bars, std::min(dt_s, kLongestStyleStep.as_seconds()));
-  follow_feet(frames, static_cast<float>(dt_s), begins);
+  feet_.follow(frames, static_cast<float>(dt_s), begins);
   come_in_ = towards(come_in_, 1.0f, static_cast<float>(dt_s / kComeIn_s));
   learnt_ = pose.capture_time;
   clock_id_ = pose.clock_id;
-}
-
-void Stylize::follow_feet(const BodyFrames& frames, float dt_s, bool begins) {
-  for (std::size_t side = 0; side < 2; ++side) {
-    Foot& foot = feet_[side];
-    const Vector3f& p_W_m = frames.position(side == 0 ? Bone::kLeftFoot : Bone::kRightFoot);
-    if (begins) foot = {p_W_m, 1.0f, p_W_m.y()};
-    const float speed = (p_W_m - foot.p_W_m).norm() / dt_s;
-    const float wanted =
-        std::clamp((kSwings_m_s - speed) / (kSwings_m_s - kStands_m_s), 0.0f, 1.0f);
-    foot.standing = towards(foot.standing, wanted, kStandingPerSecond * dt_s);
-    foot.floor_m = std::min(p_W_m.y(), foot.floor_m + kAnkleFloorRises_m_s * dt_s);
-    foot.p_W_m = p_W_m;
-  }
 }
 
 Vector3f Stylize::added_turn(std::size_t bone, const MotionSplit::Parts& parts) const {
@@ -173,15 +154,24 @@ Vector3f Stylize::added_sway(const MotionSplit::Parts& parts) const {
                    kMostSway_m);
 }
 
-// The mean pose is kept by what is added, too: its own mean is taken off. The periodic part has none.
+// The mean pose is kept by what is added, too: its own mean is taken off. What comes again with each bar has next to none:
+// there a slow mean takes off what has changed since, and the bar keeps its phase. Hips and legs hold their bar, and after a
+// stunt they are not to lean to its other side.
 void Stylize::follow_bias(const MotionSplit::Parts& parts, double dt_s) {
-  const auto share = static_cast<float>(std::min(1.0, kBiasFaster * split_.mean_share(dt_s)));
-  for (std::size_t b = 0; b < kBoneCount; ++b) {
-    const float more = (gain_[index_of(kZoneOfBone[b])] - 1.0f) * periodic_;
-    bias_.turn[b] += share * (added_turn(b, parts) - more * parts.periodic.turn[b] - bias_.turn[b]);
-  }
-  const float more = (gain_[index_of(BodyZone::kHips)] - 1.0f) * periodic_;
-  bias_.sway_m += share * (added_sway(parts) - more * parts.periodic.sway_m - bias_.sway_m);
+  const double share = split_.mean_share(dt_s);
+  const auto slow = static_cast<float>(std::min(1.0, share));
+  const auto fast = static_cast<float>(std::min(1.0, kBiasFaster * share));
+  const auto follow_one = [&](BodyZone zone, const Vector3f& added, const Vector3f& periodic,
+                              Bias& bias) {
+    const Vector3f bar = (gain_[index_of(zone)] - 1.0f) * periodic_ * periodic;
+    bias.rest.follow(added - bar, fast);
+    bias.bar.follow(bar, slow);
+    const bool is_held = zone == BodyZone::kHips || zone == BodyZone::kLegs;
+    bias.value = is_held ? bias.rest.once : Vector3f(bias.rest.value() + bias.bar.value());
+  };
+  for (std::size_t b = 0; b < kBoneCount; ++b)
+    follow_one(kZoneOfBone[b], added_turn(b, parts), parts.periodic.turn[b], bias_[b]);
+  follow_one(BodyZone::kHips, added_sway(parts), parts.periodic.sway_m, sway_bias_);
 }
 
 void Stylize::apply(const BodyFrames& before, const MotionSplit::Parts& parts, Pose& pose) const {
@@ -190,49 +180,70 @@ void Stylize::apply(const BodyFrames& before, const MotionSplit::Parts& parts, P
   for (std::size_t b = 0; b < kBoneCount; ++b) {
     const float gain = gain_of(kZoneOfBone[b]);
     if (gain == 1.0f || (pose.presence >> b & 1u) == 0) continue;
-    const Vector3f more = come_in_ * (added_turn(b, parts) - bias_.turn[b]);
+    float share = come_in_;
+    if (kZoneOfBone[b] == BodyZone::kLegs)
+      share *= feet_.swing(b < index_of(Bone::kRightUpperLeg) ? 0 : 1);
+    if (share == 0.0f) continue;
+    const Vector3f more = share * (added_turn(b, parts) - bias_[b].value);
     const Quaternionf turned = split_.turned(b, parts.deviation.turn[b] + more);
     pose.R_PB[b] = b == 0 ? (parts.R_heading * turned).normalized() : turned;
   }
-  // What made a joint's turn larger may not break the joint; who goes beyond by themselves may.
+  // What made a joint's turn larger may not break the joint; who goes beyond by themselves stays as far beyond.
   Pose limited = pose;
-  if (limit_joints(limited) > 0)
+  if (limit_joints(limited) > 0) {
+    Pose within = was;
+    limit_joints(within);
     for (std::size_t b = 1; b < kBoneCount; ++b)
-      if (gain_of(kZoneOfBone[b]) > 1.0f) pose.R_PB[b] = limited.R_PB[b];
-  const float hips = gain_of(BodyZone::kHips);
-  if (hips != 1.0f) {
-    Vector3f sway = come_in_ * (added_sway(parts) - bias_.sway_m);
-    sway.z() = 0.0f;  // forward and back is where the steps go
-    pose.p_WH_m += parts.R_heading * sway;
+      if (gain_of(kZoneOfBone[b]) > 1.0f)
+        pose.R_PB[b] = (limited.R_PB[b] * within.R_PB[b].conjugate() * was.R_PB[b]).normalized();
   }
-  if (hips != 1.0f || gain_of(BodyZone::kLegs) != 1.0f) stand(was, before, pose);
+  BodyFrames swung = before;
+  if (gain_of(BodyZone::kLegs) != 1.0f) swing_legs(was, before, pose, swung);
+  if (gain_of(BodyZone::kHips) == 1.0f) return;
+  Vector3f sway = come_in_ * saturated(added_sway(parts) - sway_bias_.value, kMostSway_m);
+  sway.z() = 0.0f;  // forward and back is where the steps go
+  pose.p_WH_m += parts.R_heading * sway;
+  stand(before, swung, pose);
 }
 
-void Stylize::stand(const Pose& was, const BodyFrames& before, Pose& pose) const {
+void Stylize::swing_legs(const Pose& was, const BodyFrames& before, Pose& pose,
+                         BodyFrames& swung) const {
+  Pose legs = was;
+  const std::size_t thigh = index_of(Bone::kLeftUpperLeg);
+  for (std::size_t b = thigh; b < kBoneCount; ++b) legs.R_PB[b] = pose.R_PB[b];
+  forward_kinematics(skeleton_, legs, swung);
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    const Limb& leg = kSwingLegs[side];
+    const std::size_t end = index_of(leg.end);
+    const Vector3f moved = swung.p_WB_m[end] - before.p_WB_m[end];
+    if (moved.squaredNorm() < 1e-12f) continue;
+    const float kept = saturated(moved, kMostSwing_m).norm() / moved.norm();
+    for (std::size_t b = index_of(leg.upper); b <= end + 1; ++b)
+      legs.R_PB[b] = was.R_PB[b].slerp(kept, legs.R_PB[b]);
+  }
+  forward_kinematics(skeleton_, legs, swung);
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    const std::size_t end = index_of(kSwingLegs[side].end);
+    const float below = feet_.below_floor_m(side, swung, before);
+    if (below == 0.0f) continue;
+    const BodyFrames like = swung;
+    const Vector3f target = like.p_WB_m[end] + below * Vector3f::UnitY();
+    reach_ankle(skeleton_, kSwingLegs[side], like, target, like.R_WB[end], legs, swung);
+  }
+  for (std::size_t b = thigh; b < kBoneCount; ++b) pose.R_PB[b] = legs.R_PB[b];
+}
+
+void Stylize::stand(const BodyFrames& before, const BodyFrames& swung, Pose& pose) const {
   BodyFrames frames;
   forward_kinematics(skeleton_, pose, frames);
-  const bool legs_swing = gain_[index_of(BodyZone::kLegs)] != 1.0f;
-  const BodyFrames swung = frames;
   const float drop =
       needed_drop_m(skeleton_, before,
                     {frames.position(Bone::kLeftUpperLeg), frames.position(Bone::kRightUpperLeg)});
   pose.p_WH_m.y() -= drop;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const Limb& leg = side == 0 ? kLeftLeg : kRightLeg;
-    const std::size_t upper = index_of(leg.upper), end = index_of(leg.end);
-    frames.p_WB_m[upper].y() -= drop;
-    Vector3f target = before.p_WB_m[end];
-    Quaternionf R_WFoot = before.R_WB[end];
-    if (legs_swing) {
-      const float swing = 1.0f - feet_[side].standing;
-      const Vector3f hip_moved = swung.p_WB_m[upper] - before.p_WB_m[upper];
-      target += swing * saturated(swung.p_WB_m[end] - hip_moved - before.p_WB_m[end], kMostSwing_m);
-      target.y() = std::max(target.y(), std::min(before.p_WB_m[end].y(), feet_[side].floor_m));
-      R_WFoot = R_WFoot.slerp(swing, swung.R_WB[end]);
-      const std::size_t toes = end + 1;
-      pose.R_PB[toes] = was.R_PB[toes].slerp(swing, pose.R_PB[toes]);
-    }
-    reach_ankle(skeleton_, leg, before, target, R_WFoot, pose, frames);
+  for (const Limb& leg : kSwingLegs) {
+    const std::size_t end = index_of(leg.end);
+    frames.p_WB_m[index_of(leg.upper)].y() -= drop;
+    reach_ankle(skeleton_, leg, swung, swung.p_WB_m[end], swung.R_WB[end], pose, frames);
   }
 }
 

@@ -8,7 +8,7 @@
 // Units/frames: gains 0 .. 4, 1 as danced. The bar is the music's where poses carry it, else found in the motion
 //               (transformers/period.h). Hips: their tilt, and their sway over the feet sideways and up and down; the legs
 //               are solved anew. Legs: feet that stand stay, those that swing swing wider.
-// Ownership:    about 120 kB; never allocates after construction. No delay. 2.5 us a pose with all gains 1, 5 us else, 9 us without music
+// Ownership:    about 120 kB; never allocates after construction. No delay. 3 us a pose with all gains 1, 6 us else, 9 us without music
 //               (dance bench parts --only style).
 // Threads:      none inside; one owner.
 // Failure:      with all gains 1 poses pass through bit for bit. A style that is not valid is refused and counted. Hips come
@@ -18,9 +18,11 @@
 
 #include <array>
 
+#include "transformers/kept_mean.h"
 #include "transformers/leg_reach.h"
 #include "transformers/motion_split.h"
 #include "transformers/period.h"
+#include "transformers/swing_feet.h"
 #include "transformers/transformer.h"
 
 namespace dance {
@@ -40,24 +42,25 @@ class Stylize : public Transformer {
   float gain(BodyZone zone) const { return gain_[static_cast<std::size_t>(zone)]; }
 
  private:
-  struct Foot {
-    Eigen::Vector3f p_W_m = Eigen::Vector3f::Zero();
-    float standing = 1.0f;
-    float floor_m = 0.0f;  // lowest that its ankle was lately
+  // What of an addition stays in its mean: of what is added to the rest, and of what is added to the bar's.
+  struct Bias {
+    KeptMean rest, bar;
+    Eigen::Vector3f value = Eigen::Vector3f::Zero();
   };
 
   void aim();
   void advance_gains(MonoTime now);
   double bars_of(const Pose& pose) const;
   void follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins);
-  void follow_feet(const BodyFrames& frames, float dt_s, bool begins);
   bool is_plain() const;
   void follow_bias(const MotionSplit::Parts& parts, double dt_s);
   // What is added to the deviations: of a bone's turn, of the sway.
   Eigen::Vector3f added_turn(std::size_t bone, const MotionSplit::Parts& parts) const;
   Eigen::Vector3f added_sway(const MotionSplit::Parts& parts) const;
   void apply(const BodyFrames& before, const MotionSplit::Parts& parts, Pose& pose) const;
-  void stand(const Pose& was, const BodyFrames& before, Pose& pose) const;
+  // Legs as they swing, above the floor, under hips that are where they were danced.
+  void swing_legs(const Pose& was, const BodyFrames& before, Pose& pose, BodyFrames& swung) const;
+  void stand(const BodyFrames& before, const BodyFrames& swung, Pose& pose) const;
 
   Style base_, live_;
   std::array<float, kBodyZones> wanted_gain_{}, gain_{};
@@ -67,8 +70,9 @@ class Stylize : public Transformer {
   Period period_;
   MotionSplit split_;
   MotionSplit::Parts parts_;
-  MotionSplit::Part bias_;  // what would be added in the mean
-  std::array<Foot, 2> feet_;
+  std::array<Bias, kBoneCount> bias_;
+  Bias sway_bias_;
+  SwingFeet feet_;
   Pose newest_;
   MonoTime sampled_, learnt_;
   std::uint64_t clock_id_ = 0;

@@ -2,28 +2,33 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "tools/stylize_eval.h"
 
 namespace dance {
 namespace {
 
+// None where there are no real takes beside this tree.
+std::optional<StyleTake> real_take(const std::string& name) {
+  const std::string path = DANCE_SOURCE_DIR "/../shared/data/mocap/" + name + ".bvh.xz";
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const auto loaded = load_codec_take(path, 60.0);
+  EXPECT_TRUE(loaded);
+  return style_take_of(*loaded);
+}
+
 TEST(StylizeTakes, HipsOfRealSalsaSwayAsMuchMoreAsWasAskedForOverFeetThatStand) {
   for (const char* name : {"cmu_60_03_salsa", "cmu_61_05_salsa"}) {
-    const std::string path =
-        DANCE_SOURCE_DIR "/../shared/data/mocap/" + std::string(name) + ".bvh.xz";
-    if (!std::filesystem::exists(path))
-      GTEST_SKIP() << path << " is missing: no real takes beside this tree";
-    const auto loaded = load_codec_take(path, 60.0);
-    ASSERT_TRUE(loaded);
-    const StyleTake take = style_take_of(*loaded);
+    const std::optional<StyleTake> take = real_take(name);
+    if (!take) GTEST_SKIP() << name << ": no real takes beside this tree";
     for (const double gain : {0.5, 1.5, 2.0}) {
       for (const double mix : {0.0, kUsualMix, 1.0}) {
         StylizeEvalOptions options;
         options.gain = gain;
         options.mix = mix;
-        const StylizeEval eval = evaluate_stylize(take, options);
-        EXPECT_NEAR(eval.measured_gain, gain, 0.09 * gain) << name << ", mix " << mix;
+        const StylizeEval eval = evaluate_stylize(*take, options);
+        EXPECT_NEAR(eval.measured_gain, gain, 0.06 * gain) << name << ", mix " << mix;
         EXPECT_LT(eval.mean_pose_shift_deg, 0.5);
         EXPECT_EQ(eval.other_zones_change_deg, 0.0);
         EXPECT_LT(eval.bone_length_error_mm, 0.01);
@@ -32,6 +37,29 @@ TEST(StylizeTakes, HipsOfRealSalsaSwayAsMuchMoreAsWasAskedForOverFeetThatStand) 
       }
     }
   }
+}
+
+TEST(StylizeTakes, StepsOfRealSalsaAreLargerAndFeetThatStandDoNotSlide) {
+  const std::optional<StyleTake> take = real_take("cmu_61_05_salsa");
+  if (!take) GTEST_SKIP() << "no real takes beside this tree";
+  StylizeEvalOptions options;
+  options.zone = BodyZone::kLegs;
+  const StylizeEval eval = evaluate_stylize(*take, options);
+  EXPECT_GT(eval.swing_gain, 1.15);
+  EXPECT_LT(eval.slide_mm_s, 1.15 * eval.danced_slide_mm_s);
+  EXPECT_LT(eval.jerk_ratio, 1.3);
+  EXPECT_EQ(eval.other_zones_change_deg, 0.0);
+}
+
+TEST(StylizeTakes, ArmsOfRealSalsaKeepTheirMeanPoseAtAllOfTheMotion) {
+  const std::optional<StyleTake> take = real_take("cmu_60_03_salsa");
+  if (!take) GTEST_SKIP() << "no real takes beside this tree";
+  StylizeEvalOptions options;
+  options.zone = BodyZone::kArms;
+  options.mix = 1.0;
+  const StylizeEval eval = evaluate_stylize(*take, options);
+  EXPECT_NEAR(eval.measured_gain, 1.5, 0.09);
+  EXPECT_LT(eval.mean_pose_shift_deg, 1.8);
 }
 
 }  // namespace

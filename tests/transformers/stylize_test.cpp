@@ -10,6 +10,7 @@
 #include "producers/salsa_dancer.h"
 #include "tests/allocation_guard.h"
 #include "tools/stylize_eval.h"
+#include "tools/stylize_overview.h"
 #include "transformers/chain.h"
 #include "transformers/style_presets.h"
 
@@ -99,6 +100,57 @@ TEST(Stylize, FeetThatStandStayWhereTheyStandWhenLegsAreShownLarger) {
   const StylizeEval eval = evaluate_stylize(take, options);
   EXPECT_LT(eval.feet_moved_mm, 0.5);
   EXPECT_LT(eval.bone_length_error_mm, 0.01);
+}
+
+TEST(Stylize, StepsAreLargerAndSmallerAndTheFootThatStandsDoesNotSlide) {
+  const StyleTake take = salsa_take(60.0, 40.0);
+  for (const double gain : {0.5, 1.5}) {
+    StylizeEvalOptions options;
+    options.zone = BodyZone::kLegs;
+    options.gain = gain;
+    options.mix = 1.0;
+    const StylizeEval eval = evaluate_stylize(take, options);
+    EXPECT_GT((eval.swing_gain - 1.0) / (gain - 1.0), 0.3) << gain;
+    EXPECT_LT(eval.slide_mm_s, 25.0) << gain;  // danced: 6
+    EXPECT_EQ(eval.other_zones_change_deg, 0.0);
+    EXPECT_LT(eval.bone_length_error_mm, 0.01);
+  }
+}
+
+TEST(Stylize, AJointThatIsBeyondItsLimitsAsDancedIsLeftThereByALargerGain) {
+  Stylize station(style_of(BodyZone::kLegs, 2.0, 1.0));
+  const std::size_t toes = index_of(Bone::kLeftToes);
+  Pose pose;
+  pose.R_PB[toes] = Eigen::Quaternionf(Eigen::AngleAxisf(1.9f, Eigen::Vector3f::UnitX()));
+  pose.p_WH_m.y() = 1.0f;
+  for (int i = 1; i < 300; ++i) {
+    pose.capture_time = MonoTime::from_us(16'667 * i);
+    const Pose out = shown(station, pose);
+    ASSERT_LT(out.R_PB[toes].angularDistance(pose.R_PB[toes]), 1e-3f) << i;
+  }
+}
+
+TEST(Stylize, TheOverviewHasEachZoneAtEachMixAndSaysWhatHolds) {
+  const StyleTake take = synthetic_sway(60.0);
+  StylizeEvalOptions asked;
+  asked.gain = 2.0;
+  const std::vector<StylizeRow> rows = stylize_overview(std::span(&take, 1), asked);
+  ASSERT_EQ(rows.size(), 3 * kBodyZones);
+  for (const StylizeRow& row : rows) {
+    EXPECT_EQ(row.takes, 1u);
+    EXPECT_EQ(row.least_gain, row.most_gain);
+    EXPECT_EQ(row.least_gain, row.all.measured_gain);
+    // Nobody steps there: legs are not shown larger.
+    EXPECT_EQ(row.takes_within, row.asked.zone == BodyZone::kLegs ? 0u : 1u)
+        << kZoneNames[index_of(row.asked.zone)] << " " << row.asked.mix;
+  }
+  const std::string table = stylize_overview_table(rows), json = stylize_overview_json(rows);
+  for (const std::string_view zone : kZoneNames) {
+    EXPECT_NE(table.find(zone), std::string::npos) << zone;
+    EXPECT_NE(json.find("\"zone\": \"" + std::string(zone)), std::string::npos) << json;
+  }
+  EXPECT_TRUE(stylize_overview({}, asked).empty());
+  EXPECT_EQ(stylize_overview_table({}), "");
 }
 
 TEST(Stylize, AllGainsOneLeavesEveryPoseBitForBitWhateverTheWeights) {

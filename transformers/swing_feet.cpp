@@ -1,0 +1,48 @@
+#include "transformers/swing_feet.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dance {
+namespace {
+
+using Eigen::Vector3f;
+
+// Slower than the one a foot stands, or is about to land; a step is faster than the other at its middle.
+constexpr float kFootStands_m_s = 0.35f, kFootSwings_m_s = 1.4f;
+// A sensor's noise is no step, and the delay is that of two poses.
+constexpr float kFootSmooth_s = 0.025f;
+constexpr float kFootFloorRises_m_s = 0.02f;
+
+}  // namespace
+
+void SwingFeet::Point::follow(const Vector3f& now_W_m, float dt_s, bool begins) {
+  if (begins) *this = {now_W_m, Vector3f::Zero(), now_W_m.y()};
+  v_W_m_s += ((now_W_m - p_W_m) / dt_s - v_W_m_s) * (dt_s / (dt_s + kFootSmooth_s));
+  floor_m = std::min(now_W_m.y(), floor_m + kFootFloorRises_m_s * dt_s);
+  p_W_m = now_W_m;
+}
+
+void SwingFeet::follow(const BodyFrames& frames, float dt_s, bool begins) {
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    Foot& foot = feet_[side];
+    const std::size_t ankle = index_of(kSwingLegs[side].end);
+    foot.ankle.follow(frames.p_WB_m[ankle], dt_s, begins);
+    foot.ball.follow(frames.p_WB_m[ankle + 1], dt_s, begins);
+    const float speed = std::min(foot.ankle.v_W_m_s.norm(), foot.ball.v_W_m_s.norm());
+    const float x =
+        std::clamp((speed - kFootStands_m_s) / (kFootSwings_m_s - kFootStands_m_s), 0.0f, 1.0f);
+    foot.swing = x * x * (3.0f - 2.0f * x);
+  }
+}
+
+float SwingFeet::below_floor_m(std::size_t side, const BodyFrames& frames,
+                               const BodyFrames& danced) const {
+  const std::size_t ankle = index_of(kSwingLegs[side].end), ball = ankle + 1;
+  const auto below = [&](std::size_t bone, const Point& point) {
+    return std::min(point.floor_m, danced.p_WB_m[bone].y()) - frames.p_WB_m[bone].y();
+  };
+  return std::max({0.0f, below(ankle, feet_[side].ankle), below(ball, feet_[side].ball)});
+}
+
+}  // namespace dance

@@ -1,0 +1,43 @@
+// SwingFeet: which foot is on its way. A foot swings as much as both its ankle and its ball are fast: one that stands, or
+// turns on its heel or ball, does not at all. What is done to a leg in that measure is back where it was when it lands.
+//
+// Units/frames: metres in W, +Y up; metres a second.
+// Ownership:    plain value; never allocates.
+// Threads:      none inside; one owner.
+// Failure:      none. The floor is the lowest that a foot was lately: stairs are learned within seconds.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "core/pose/kinematics.h"
+
+namespace dance {
+
+constexpr std::array<Limb, 2> kSwingLegs{kLeftLeg, kRightLeg};
+
+class SwingFeet {
+ public:
+  // One pose after the other; `begins`: it has none before it.
+  void follow(const BodyFrames& frames, float dt_s, bool begins);
+  // 0 stands … 1 swings.
+  float swing(std::size_t side) const { return feet_[side].swing; }
+  // By how much a leg in `frames` is below the floor, or below where it was in `danced` if that is lower.
+  float below_floor_m(std::size_t side, const BodyFrames& frames, const BodyFrames& danced) const;
+
+ private:
+  struct Point {
+    Eigen::Vector3f p_W_m = Eigen::Vector3f::Zero();
+    Eigen::Vector3f v_W_m_s = Eigen::Vector3f::Zero();
+    float floor_m = 0.0f;
+
+    void follow(const Eigen::Vector3f& now_W_m, float dt_s, bool begins);
+  };
+  struct Foot {
+    Point ankle, ball;
+    float swing = 0.0f;
+  };
+  std::array<Foot, 2> feet_;
+};
+
+}  // namespace dance
