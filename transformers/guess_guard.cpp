@@ -93,16 +93,26 @@ void GuessGuard::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
     const float keep = kept == &horizon.lately ? kLatelyKeep : kLongerKeep;
     kept->heard_moments = keep * kept->heard_moments + 1.0f;
   }
+  ByCandidate squares{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t g = 0; g < kRowGroups; ++g) {
+      const std::size_t i = BodyRow::at(g, axis);
+      const float still = -way.v[i];
+      const float ours = sources.rows[0][i] + still;
+      const float going_on = sources.times[1] * sources.rows[1][i] + still;
+      const float damped = sources.times[2] * sources.rows[2][i] + still;
+      // In the order of kParts.
+      const std::array<float, kCandidates> errors{ours,
+                                                  still,
+                                                  going_on,
+                                                  damped,
+                                                  0.5f * (ours + still),
+                                                  0.5f * (ours + damped),
+                                                  0.5f * (still + damped)};
+      for (std::size_t k = 0; k < kCandidates; ++k) squares[k][g] += errors[k] * errors[k];
+    }
   for (std::size_t k = 0; k < kCandidates; ++k) {
-    Groups errors{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t g = 0; g < kRowGroups; ++g) {
-        const std::size_t i = BodyRow::at(g, axis);
-        float error = -way.v[i];
-        for (std::size_t s = 0; s < 3; ++s)
-          error += kParts[k][s] * sources.times[s] * sources.rows[s][i];
-        errors[g] += error * error;
-      }
+    Groups& errors = squares[k];
     // Lengths, not their squares: what is seen of an error is how far it is.
     float body = 0.0f;
     for (std::size_t g = 0; g < kRowGroups; ++g) errors[g] = lever_[g] * std::sqrt(errors[g]);
@@ -128,9 +138,12 @@ void GuessGuard::weigh(std::size_t h, std::size_t state) {
   for (std::size_t k = 1; k < kCandidates; ++k) excess[k].fill(beforehand);
   const auto add = [&](const Kept& kept, float weight) {
     const float counts = weight * known(kept);
+    Groups per_error;
+    for (std::size_t g = 0; g < kRowGroups; ++g)
+      per_error[g] = counts / (kept.sum[0][g] + kFloor_m);
     for (std::size_t k = 1; k < kCandidates; ++k)
       for (std::size_t g = 0; g < kRowGroups; ++g)
-        excess[k][g] += counts * (kept.sum[k][g] / (kept.sum[0][g] + kFloor_m) - 1.0f);
+        excess[k][g] += per_error[g] * kept.sum[k][g] - counts;
   };
   add(horizon.longer, kLongerWeight);
   add(horizon.lately, kLatelyWeight);
