@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <memory>
@@ -126,14 +127,19 @@ void ChannelFilter::want(std::string_view regex) {
 }
 
 bool ChannelFilter::attach(int socket_fd) const {
-  if (beginnings_.size() == 1 && beginnings_[0].empty()) {
-    // Returns an error where there was none, which is as good.
-    setsockopt(socket_fd, SOL_SOCKET, SO_DETACH_FILTER, nullptr, 0);
-    return true;
-  }
+  const auto detach = [&] {
+    const int unread = 0;  // the kernel looks for a number here, and refuses without
+    return setsockopt(socket_fd, SOL_SOCKET, SO_DETACH_FILTER, &unread, sizeof unread) == 0 ||
+           errno == ENOENT;
+  };
+  if (beginnings_.size() == 1 && beginnings_[0].empty()) return detach();
   std::vector<sock_filter> program = program_of(beginnings_);
   const sock_fprog code{static_cast<unsigned short>(program.size()), program.data()};
-  return setsockopt(socket_fd, SOL_SOCKET, SO_ATTACH_FILTER, &code, sizeof code) == 0;
+  const auto attach = [&] {
+    return setsockopt(socket_fd, SOL_SOCKET, SO_ATTACH_FILTER, &code, sizeof code) == 0;
+  };
+  // Where there is no room for two, the last one stays; it keeps back what is wanted since.
+  return attach() || (detach() && attach());
 }
 
 }  // namespace dance

@@ -4,8 +4,8 @@
 //
 // Ownership: keeps the beginnings of the subscribed names; the socket is LCM's.
 // Threads:   none inside; one owner.
-// Failure:   where the kernel takes no filter LCM chooses, as it does anyway: the same messages, with more work. The kernel
-//            counts what it keeps back with what a full buffer loses (`drops` in /proc/net/udp).
+// Failure:   where the kernel takes no filter, or none as long as this, there is none, and LCM chooses, as it does anyway:
+//            the same messages, with more work. The kernel counts what it keeps back with what a full buffer loses (`drops` in /proc/net/udp).
 // Source:    BSD packet filter as Linux takes it for any socket (Documentation/networking/filter.rst); LCM's UDP multicast
 //            protocol: "LC02", sequence, name, NUL, message.
 #pragma once
@@ -31,7 +31,7 @@ class ChannelFilter {
 
   // From now on names that `regex` matches are wanted too. What is let through may be more than what is wanted.
   void want(std::string_view regex);
-  // False where the kernel does not take it.
+  // In place of the one before. False where the kernel does not take it; then the socket has none.
   bool attach(int socket_fd) const;
 
   // None contains another; "" alone: everything.
