@@ -37,6 +37,9 @@ std::string channel_pattern(Signal signal, Where where, const GuestId& guest) {
          (guest.is_set() ? std::string(guest.view()) : "[a-z0-9-]+");
 }
 
+// Two that begin at once would be taken for each other.
+std::mutex one_bus_at_a_time;
+
 class Subscription {
  public:
   virtual ~Subscription() = default;
@@ -208,6 +211,7 @@ class PatternSubscription : public Subscription {
 struct Bus::Impl {
   lcm_t* lcm = nullptr;
   int port = 0;
+  bool is_hearing = false;
   int socket = -1;  // LCM's, by which it hears; -1: not yet, or not found
   ChannelFilter filter;
   std::string url;
@@ -217,27 +221,31 @@ struct Bus::Impl {
   ~Impl() {
     if (lcm) lcm_destroy(lcm);
   }
+  // LCM makes the socket that it hears by when something first needs it, and does not tell it.
+  template <class Need>
+  auto with_socket(Need need) {
+    if (is_hearing) return need();
+    const std::scoped_lock lock(one_bus_at_a_time);
+    const std::vector<int> before = udp_sockets_on(port);
+    const auto got = need();
+    for (const int fd : udp_sockets_on(port))
+      if (std::find(before.begin(), before.end(), fd) == before.end()) socket = fd;
+    is_hearing = true;
+    if (socket >= 0) filter.attach(socket);
+    return got;
+  }
   void subscribe(const std::string& pattern, std::unique_ptr<Subscription> subscription) {
+    filter.want(pattern);
     const auto add = [&] {
       return lcm_subscribe(lcm, pattern.c_str(), on_lcm_message, subscription.get());
     };
-    lcm_subscription_t* handle = subscriptions.empty() ? find_socket_of(add) : add();
+    lcm_subscription_t* handle = with_socket(add);
     if (handle) lcm_subscription_set_queue_capacity(handle, kLcmQueueCapacity);
     subscriptions.push_back(std::move(subscription));
-    filter.want(pattern);
     if (socket >= 0) filter.attach(socket);
   }
-  // LCM makes the socket that it hears by with its first subscription, and does not tell it.
-  template <class Subscribe>
-  lcm_subscription_t* find_socket_of(Subscribe add) {
-    static std::mutex
-        one_at_a_time;  // of all buses: two that begin at once would be taken for each other
-    const std::scoped_lock lock(one_at_a_time);
-    const std::vector<int> before = udp_sockets_on(port);
-    lcm_subscription_t* handle = add();
-    for (const int fd : udp_sockets_on(port))
-      if (std::find(before.begin(), before.end(), fd) == before.end()) socket = fd;
-    return handle;
+  int fd() {
+    return with_socket([&] { return lcm_get_fileno(lcm); });
   }
   template <class T>
   void subscribe_typed(const std::string& pattern, Delivery delivery, Handler<T> handler) {
@@ -367,7 +375,7 @@ void Bus::on_raw(const ChannelPattern& pattern, Delivery delivery, std::size_t m
                                                          std::move(handler), impl_->counters));
 }
 
-int Bus::fd() const { return lcm_get_fileno(impl_->lcm); }
+int Bus::fd() const { return impl_->fd(); }
 
 void Bus::drain(MonoTime now) {
   for (auto& subscription : impl_->subscriptions) subscription->now = now;

@@ -34,7 +34,7 @@ class ChannelFilter {
   // In place of the one before. False where the kernel does not take it; then the socket has none.
   bool attach(int socket_fd) const;
 
-  // None contains another; "" alone: everything.
+  // None contains another; "" alone: everything; empty: nothing is wanted yet.
   const std::vector<std::string>& beginnings() const { return beginnings_; }
 
  private:

@@ -293,6 +293,27 @@ TEST(Bus, WhoWantsTheBeatIsNotWokenByPoses) {
   EXPECT_EQ(kept_back() - before, 100u + 101u);
 }
 
+TEST(Bus, WhoIsWatchedBeforeItWantsAnythingIsNotWokenEither) {
+  constexpr const char* kOwnPort = "udpm://239.255.76.67:17665?ttl=0";
+  const auto sender = *Bus::open(kOwnPort), receiver = *Bus::open(kOwnPort);
+  EXPECT_GE(receiver->fd(), 0);
+  const auto send = [&] {
+    for (std::uint32_t i = 0; i < 100; ++i) sender->publish(capture_of("alice"), numbered(i));
+    Beat beat;
+    beat.tempo_bpm = 120.0;
+    sender->publish(Channel::of_house(Signal::kBeat), beat);
+  };
+  const std::uint64_t before = kept_back();
+  send();
+  EXPECT_EQ(kept_back() - before, 101u);
+  int beats = 0;
+  receiver->on_beat([&](const Channel&, const Beat&, MonoTime) { ++beats; });
+  send();
+  drain_until(*receiver, [&] { return beats == 1; });
+  EXPECT_EQ(beats, 1);
+  EXPECT_EQ(kept_back() - before, 201u);
+}
+
 TEST(Bus, WhoComesToWantEverythingHearsEverything) {
   const auto sender = open_bus(), receiver = open_bus();
   int beats = 0, all = 0;
