@@ -13,7 +13,7 @@ constexpr float kLatelyKeep = 0.965f, kLongerKeep = 0.99f;
 constexpr float kLatelyWeight = 0.5f, kLongerWeight = 0.5f, kNearerWeight = 0.33f;
 constexpr std::size_t kNearerHorizons = 3;
 // A few moments say little yet; until then the others count as so much worse than the prediction.
-constexpr float kFirst_moments = 20.0f;
+constexpr float kFewMoments = 20.0f;
 constexpr float kBeforehand = 0.2f;
 // A bone's errors are few and rough: so much of the whole body's is among them.
 constexpr float kOfTheBody = 0.1f;
@@ -117,8 +117,9 @@ void GuessGuard::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
     float body = 0.0f;
     for (std::size_t g = 0; g < kRowGroups; ++g) errors[g] = lever_[g] * std::sqrt(errors[g]);
     for (std::size_t g = 0; g < kBoneCount; ++g) body += errors[g];
+    // Where the hips go is seen by itself: joints that only tremble say nothing about it.
     for (std::size_t g = 0; g < kRowGroups; ++g)
-      errors[g] = g < kBoneCount ? errors[g] + kOfTheBody * body : body;
+      if (g != kPlaceGroup) errors[g] += kOfTheBody * body;
     for (std::size_t g = 0; g < kRowGroups; ++g) {
       horizon.lately.sum[k][g] = kLatelyKeep * horizon.lately.sum[k][g] + errors[g];
       horizon.longer.sum[k][g] = kLongerKeep * horizon.longer.sum[k][g] + errors[g];
@@ -130,7 +131,7 @@ void GuessGuard::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
 void GuessGuard::weigh(std::size_t h, std::size_t state) {
   Horizon& horizon = horizons_[h][state];
   const auto known = [](const Kept& kept) {
-    return kept.heard_moments / (kept.heard_moments + kFirst_moments);
+    return kept.heard_moments / (kept.heard_moments + kFewMoments);
   };
   // How much worse than the prediction each has been, as a part of its error.
   ByCandidate excess{};

@@ -75,6 +75,19 @@ TEST_F(GuessGuards, JudgeABoneByItselfAndALittleByTheBody) {
   EXPECT_LT(now(kWrong, 1), 0.3f);
 }
 
+TEST_F(GuessGuards, JudgeTheHipsPlaceByItself) {
+  // The joints are guessed well, and best by standing still; the hips go on, which is guessed badly.
+  auto guesses = guess_of(0.0f);
+  const float rows = static_cast<float>(kHorizonFrames[kGuarded]);
+  guesses->common[static_cast<std::size_t>(Guess::kSlope1)] = everywhere(0.01f);
+  BodyRow way = everywhere(0.0f);
+  for (std::size_t axis = 0; axis < 3; ++axis) way(kPlaceGroup, axis) = 0.01f * rows;
+  moments(120, kGuarded, *guesses, way);
+  const BodyRow now = shown(kGuarded, *guesses);
+  EXPECT_NEAR(now(kPlaceGroup, 0), 0.01f * rows, 0.001f);
+  EXPECT_NEAR(now(index_of(Bone::kLeftHand), 0), 0.0f, 0.002f);
+}
+
 // Nothing jumps: from one moment to the next what is shown moves a part of the way between the guesses.
 TEST_F(GuessGuards, LeanWithoutASwitch) {
   const auto guesses = guess_of(0.3f);
