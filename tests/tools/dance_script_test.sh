@@ -6,11 +6,12 @@ source_tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
+unset DEBIAN_FRONTEND
 tree=$scratch/tree bin=$scratch/bin calls=$scratch/calls
 
 # Only what the script may use is there to be used.
 mkdir -p "$bin"
-for tool in bash cat chmod dirname grep mkdir mktemp rm tail; do ln -s "$(command -v "$tool")" "$bin/$tool"; done
+for tool in bash cat chmod dirname env grep mkdir mktemp rm tail; do ln -s "$(command -v "$tool")" "$bin/$tool"; done
 fake() { # NAME: a program whose text comes on stdin
   { printf '#!%s\nscratch=%q calls=%q tree=%q\n' "$(command -v bash)" "$scratch" "$calls" "$tree"; cat; } >"$bin/$1"
   chmod +x "$bin/$1"
@@ -24,6 +25,7 @@ END
 fake apt-get <<'END'
 echo "apt-get $*" >>"$calls"
 [ "$1" = update ] && exit 0
+[ "${DEBIAN_FRONTEND:-}" = noninteractive ] || { echo "which keyboard?"; exit 100; }
 [ -e "$scratch/apt_fails" ] && { echo "E: Unable to locate package"; exit 100; }
 for word in "$@"; do
   case $word in -* | install) ;; *)
@@ -131,7 +133,7 @@ begin "sudo"
 touch "$scratch/is_no_root"
 fake sudo <<'END'
 echo "sudo $*" >>"$calls"
-exec "$@"
+exec env -i PATH="$PATH" "$@"
 END
 dance demo
 expect_code 7

@@ -35,7 +35,10 @@ sources=(pose_solution_packed_assets.data pose_landmark_lite.tflite pose_landmar
 names=(pose_detection.tflite pose_landmark_lite.tflite pose_landmark_full.tflite pose_landmark_heavy.tflite)
 lay_out_package() {
   local source
-  for source in "${sources[@]}"; do printf 'the network in %s\n' "$source" >"$package/$source"; done
+  for source in "${sources[@]}"; do
+    printf 'the network in %s\n' "$source" >"$package/$source"
+    chmod 600 "$package/$source" # as careless as a package may be
+  done
 }
 lay_out_package
 cp "$source_tree/tools/fetch_pose_models.sh" "$script"
