@@ -15,7 +15,7 @@ constexpr std::size_t kMostKnown = 2 * kMaxGuests;
 Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink)
     : our_clock_id_(our_clock_id), sink_(sink) {
   for (const Route& route : routes) {
-    lines_.push_back(std::make_unique<Line>(Line{route, route.rate_hz, {}}));
+    lines_.push_back(std::make_unique<Line>(Line{route, route.rate_hz, {}, {}}));
     lines_from_[static_cast<std::size_t>(route.from.where)].push_back(lines_.back().get());
   }
 }
@@ -56,10 +56,13 @@ void Router::let_go_of_the_gone(MonoTime now) {
         instances.begin(), instances.end(),
         [](const auto& a, const auto& b) { return a->last_heard < b->last_heard; });
     if (longest == instances.end()) continue;
-    const auto away = std::count_if(instances.begin(), instances.end(),
-                                    [&](const auto& i) { return !is_shown(*i, now); });
-    if (now - (*longest)->last_heard > kComesBack || away > static_cast<std::ptrdiff_t>(kMostAway))
-      erase(*line, longest);
+    const auto is_heard = [&](const auto& i) { return is_shown(*i, now); };
+    if (std::none_of(instances.begin(), instances.end(), is_heard)) line->silent = now;
+    const bool is_line_there = !line->silent || now - *line->silent > kHasLeft;
+    const auto left = std::count_if(instances.begin(), instances.end(),
+                                    [&](const auto& i) { return now - i->last_heard > kHasLeft; });
+    const bool too_many = is_line_there && left > static_cast<std::ptrdiff_t>(kMostAway);
+    if (now - (*longest)->last_heard > kComesBack || too_many) erase(*line, longest);
   }
 }
 

@@ -54,8 +54,10 @@ class Router {
   void tick(std::size_t route, MonoTime now);
 
   // A chain is megabytes, and what it has learned of its dancer is in it. Who comes back within kComesBack is danced with as
-  // before, unless more than kMostAway have gone since; then it is freed.
+  // before, unless more than kMostAway have left since; then it is freed. Who is silent has left after kHasLeft, if others
+  // are heard meanwhile: where nobody is, it is the line.
   static constexpr Duration kComesBack = Duration::s(300);
+  static constexpr Duration kHasLeft = Duration::s(60);
   static constexpr std::size_t kMostAway = 8;
   // Call once a second: frees one chain of each route at most, so that no turn of the stage waits for many.
   void let_go_of_the_gone(MonoTime now);
@@ -87,6 +89,7 @@ class Router {
     Route route;
     double rate_hz;
     Instances instances;
+    std::optional<MonoTime> silent;  // when nobody of it was heard, last
   };
 
   Instance* instance_of(Line& line, const GuestId& guest, MonoTime now);

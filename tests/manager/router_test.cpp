@@ -268,15 +268,30 @@ TEST(Router, FreesTheChainOfWhoHasGoneForLong) {
 TEST(Router, OfManyWhoHaveGoneKeepsTheLast) {
   LearnedGuests house;
   for (int i = 0; i < 30; ++i) house.hear("g" + std::to_string(i), 1000.0 * i);
-  house.router.let_go_of_the_gone(at_ms(29.5e3));
-  EXPECT_EQ(house.kept(), 29) << "one at a time";
-  for (int i = 0; i < 60; ++i) {
-    house.hear("g29", 29.5e3 + 5.0 * i);
-    house.router.let_go_of_the_gone(at_ms(29.5e3 + 5.0 * i));
+  const auto g29_dances_on = [&](double from_s, double to_s) {
+    for (double s = from_s; s < to_s; s += 1.0) {
+      house.hear("g29", 1e3 * s);
+      house.router.let_go_of_the_gone(at_ms(1e3 * s));
+    }
+  };
+  g29_dances_on(30.0, 68.5);
+  EXPECT_EQ(house.kept(), 30) << "eight have been away for more than a minute";
+  g29_dances_on(68.5, 69.5);
+  EXPECT_EQ(house.kept(), 29) << "the ninth has";
+  g29_dances_on(69.5, 120.0);
+  EXPECT_EQ(house.kept(), static_cast<std::ptrdiff_t>(Router::kMostAway) + 1);
+  for (std::size_t i = 0; i < 30; ++i) EXPECT_EQ(house.learners[i].expired(), i < 21) << i;
+}
+
+TEST(Router, ALineThatIsAwayForMinutesCostsNobodyWhatWasLearned) {
+  LearnedGuests house;
+  for (int i = 0; i < 30; ++i) house.hear("g" + std::to_string(i), 10.0 * i);
+  for (double s = 1.0; s < 280.0; s += 1.0) house.router.let_go_of_the_gone(at_ms(1e3 * s));
+  for (int i = 0; i < 30; ++i) {
+    house.hear("g" + std::to_string(i), 280e3 + 10.0 * i);
+    house.router.let_go_of_the_gone(at_ms(280e3 + 10.0 * i));
   }
-  EXPECT_EQ(house.kept(), static_cast<std::ptrdiff_t>(Router::kMostAway) + 2)
-      << "and who is shown: g28 and g29";
-  for (std::size_t i = 0; i < 30; ++i) EXPECT_EQ(house.learners[i].expired(), i < 20) << i;
+  EXPECT_EQ(house.learners.size(), 30u) << "no chain was made anew";
 }
 
 TEST(Router, WhatAChainHasRefusedIsCountedWhenItHasGone) {
