@@ -47,6 +47,8 @@ constexpr std::array kCommands{
     Command{"capture solve eval",
             "the camera's solver on recorded dances: errors, feet, bones, lag"},
     Command{"music eval", "the beat tracker on songs whose beats are known"},
+    Command{"music make", "makes songs whose beats are known, to train with"},
+    Command{"music train", "trains a model of the beat tracker"},
     Command{"capture eval", "what the camera's eye sees in pictures and videos, frame by frame"},
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
