@@ -1,6 +1,7 @@
 #include "manager/manager.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "core/net/mono_clock.h"
 
@@ -8,6 +9,13 @@ namespace dance {
 namespace {
 
 constexpr Duration kSecond = Duration::s(1);
+constexpr std::string_view kProgram = "manager";  // STATS/manager
+
+// Of two that were rounded to microseconds on the way.
+bool is_same_moment(MonoTime a, MonoTime b) {
+  constexpr Duration kRounding = Duration::us(10);
+  return a - b < kRounding && b - a < kRounding;
+}
 
 }  // namespace
 
@@ -80,6 +88,19 @@ void Manager::on_staged(OnStagedPose on_pose, OnStagedSkeleton on_skeleton) {
   on_staged_skeleton_.push_back(std::move(on_skeleton));
 }
 
+void Manager::on_other_manager(std::function<void()> tell) {
+  bus_.on_stats(
+      [this, tell = std::move(tell)](const Channel& channel, const Stats& stats, MonoTime now) {
+        // What another machine or a log says is of another clock or another time.
+        if (channel.program() != kProgram || stats.clock_id != this_clock_id()) return;
+        if (now - stats.time > kSecond || stats.time - now > kSecond) return;
+        const MonoTime begin = stats.time - stats.uptime;
+        if (is_same_moment(begin, begin_) || is_same_moment(begin, other_begin_)) return;
+        other_begin_ = begin;
+        tell();
+      });
+}
+
 void Manager::stage(const GuestId& guest, Pose& pose, MonoTime now) {
   pose.stamp(Hop::kStaged, mono_now());
   bus_.publish(Channel::of(Signal::kPose, Where::kStage, guest), pose);
@@ -129,7 +150,7 @@ void Manager::end_second(MonoTime now) {
       now, this_clock_id(), [this](const RosterEntry& entry, const GuestStatus& status) {
         bus_.publish(Channel::of(Signal::kGuest, Where::kStage, entry.guest), status);
       });
-  bus_.publish(Channel::of_program(Signal::kStats, "manager"), stats(now));
+  bus_.publish(Channel::of_program(Signal::kStats, kProgram), stats(now));
   repeat_skeletons(now);
   router_.let_go_of_the_gone(now);
 }

@@ -48,6 +48,9 @@ class Manager : private StageSink {
   using OnStagedSkeleton = std::function<void(const GuestId& guest, const Skeleton& skeleton)>;
   void on_staged(OnStagedPose on_pose, OnStagedSkeleton on_skeleton);
 
+  // Called once for each other manager on this bus: two fill one stage, and nobody else would say so.
+  void on_other_manager(std::function<void()> tell);
+
   Stats stats(MonoTime now);
 
  private:
@@ -75,6 +78,7 @@ class Manager : private StageSink {
   Histogram lateness_;
   Duration lateness_p99_;
   MonoTime begin_;
+  MonoTime other_begin_;                   // of the last other manager that was told of
   std::vector<StagedSkeleton> skeletons_;  // at most kMaxGuests
   std::vector<OnStagedPose> on_staged_pose_;
   std::vector<OnStagedSkeleton> on_staged_skeleton_;

@@ -1,6 +1,7 @@
 #include "manager/toml_reader.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace dance {
 
@@ -50,7 +51,9 @@ double TomlReader::number_or(std::string_view key, double fallback, double low, 
   if (!node) return fallback;
   const auto value = node->is_number() ? node->value<double>() : std::nullopt;
   if (value && *value >= low && *value <= high) return *value;
-  complain(key, "takes a number from " + std::to_string(low) + " to " + std::to_string(high));
+  std::ostringstream span;  // without zeros that say nothing
+  span << low << " to " << high;
+  complain(key, "takes a number from " + span.str());
   return fallback;
 }
 

@@ -6,6 +6,16 @@
 #include "manager/roster.h"
 
 namespace dance {
+namespace {
+
+constexpr auto kFirstOfStage = static_cast<std::size_t>(Hop::kStageTaken);
+
+void add_ages(DancerAccount& account, const Pose& pose, std::size_t from, std::size_t to) {
+  for (std::size_t hop = from; hop < to; ++hop)
+    if (pose.hops[hop].is_set()) account.age_at_hop[hop].add(pose.hops[hop] - pose.capture_time);
+}
+
+}  // namespace
 
 bool SequenceSet::insert(std::uint32_t sequence) {
   const auto bit = [&](std::uint32_t s) -> std::pair<std::uint64_t&, std::uint64_t> {
@@ -54,10 +64,11 @@ void DemoMonitor::listen(Bus& bus, int house) {
                 account->sent += account->sent_set.insert(pose.sequence) ? 1 : 0;
               });
   bus.on_pose(Where::kGuest, GuestId(), Delivery::kEvery,
-              [this](const Channel& channel, const Pose& pose, MonoTime) {
+              [this, house](const Channel& channel, const Pose& pose, MonoTime) {
                 DancerAccount* account = account_of(channel.guest());
-                if (account)
-                  account->delivered += account->delivered_set.insert(pose.sequence) ? 1 : 0;
+                if (!account) return;
+                account->delivered += account->delivered_set.insert(pose.sequence) ? 1 : 0;
+                on_arrived(*account, house, pose);
               });
   bus.on_pose(Where::kStage, GuestId(), Delivery::kEvery,
               [this, house](const Channel& channel, const Pose& pose, MonoTime) {
@@ -83,8 +94,13 @@ void DemoMonitor::on_staged(DancerAccount& account, int house, const Pose& pose)
     return;
   }
   ++account.staged;
-  for (std::size_t hop = 0; hop < kHopCount; ++hop)
-    if (pose.hops[hop].is_set()) account.age_at_hop[hop].add(pose.hops[hop] - pose.capture_time);
+  add_ages(account, pose, kFirstOfStage, kHopCount);
+}
+
+// The way here, before a transformer makes other poses of it: `predict` moves their stamps along with them.
+void DemoMonitor::on_arrived(DancerAccount& account, int house, const Pose& pose) {
+  if (!timing_ || house == account.house || pose.clock_id != this_clock_id()) return;
+  add_ages(account, pose, 0, kFirstOfStage);
 }
 
 }  // namespace dance

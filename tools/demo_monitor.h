@@ -64,6 +64,7 @@ class DemoMonitor {
   void listen(Bus& bus, int house);
   DancerAccount* account_of(const GuestId& guest);
   void on_staged(DancerAccount& account, int house, const Pose& pose);
+  void on_arrived(DancerAccount& account, int house, const Pose& pose);
 
   std::vector<DancerAccount> accounts_;
   bool timing_ = true;

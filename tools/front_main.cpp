@@ -47,6 +47,8 @@ constexpr std::array kCommands{
     Command{"capture solve eval",
             "the camera's solver on recorded dances: errors, feet, bones, lag"},
     Command{"music eval", "the beat tracker on songs whose beats are known"},
+    Command{"music make", "makes songs whose beats are known, to train with"},
+    Command{"music train", "trains a model of the beat tracker"},
     Command{"capture eval", "what the camera's eye sees in pictures and videos, frame by frame"},
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
@@ -69,10 +71,15 @@ constexpr std::array kCommands{
 
 void print_commands(std::FILE* out) {
   std::fputs("usage: dance COMMAND [OPTIONS]   (dance COMMAND --help tells more)\n\n", out);
-  for (const Command& command : kCommands)
-    std::fprintf(out, "  %-12.*s %.*s\n", static_cast<int>(command.name.size()),
-                 command.name.data(), static_cast<int>(command.summary.size()),
-                 command.summary.data());
+  bool is_for_dancers = true;  // of one word
+  for (const Command& command : kCommands) {
+    const bool is_measure = command.name.find(' ') != std::string_view::npos;
+    if (is_for_dancers && is_measure) std::fputs("\nMeasuring and training:\n", out);
+    is_for_dancers = !is_measure;
+    std::fprintf(out, "  %-*.*s %.*s\n", is_measure ? 19 : 12,
+                 static_cast<int>(command.name.size()), command.name.data(),
+                 static_cast<int>(command.summary.size()), command.summary.data());
+  }
   std::fputs("\nFirst steps:\n  dance doctor\n  dance demo\n", out);
 }
 
@@ -83,19 +90,29 @@ std::string program_of(std::string_view name) {
   return program;
 }
 
-// The command that is meant, and how many words of the command line it takes: the most that make one.
-const Command* find_command(int argc, char** argv, int& words) {
+// The command that is meant, and how many words it takes: the most that make one.
+const Command* find_command(const std::vector<char*>& words, std::size_t& taken) {
   std::string name;
   const Command* found = nullptr;
-  for (int i = 1; i < argc && i <= 3; ++i) {
-    name += (i > 1 ? " " : "") + std::string(argv[i]);
+  for (std::size_t i = 0; i < words.size() && i < 3; ++i) {
+    name += (i > 0 ? " " : "") + std::string(words[i]);
     for (const Command& command : kCommands) {
       if (command.name != name) continue;
       found = &command;
-      words = i;
+      taken = i + 1;
     }
   }
   return found;
+}
+
+// What to say to a word that is none, or only the first of several.
+std::string no_command_line(const std::string& word) {
+  std::string longer;
+  for (const Command& command : kCommands)
+    if (command.name.substr(0, word.size() + 1) == word + " ")
+      longer += (longer.empty() ? "" : ", ") + ("dance " + std::string(command.name));
+  if (!longer.empty()) return "'" + word + "' needs another word: " + longer;
+  return "there is no command '" + word + "'; `dance help` lists them";
 }
 
 }  // namespace
@@ -106,20 +123,25 @@ int main(int argc, char** argv) {
     return 0;
   }
   const std::string_view first = argv[1];
-  if (first == "--help" || first == "-h" || first == "help") {
+  const bool is_help = first == "--help" || first == "-h" || first == "help";
+  if (is_help && argc == 2) {
     print_commands(stdout);
     return 0;
   }
-  int words = 0;
-  const Command* command = find_command(argc, argv, words);
+  const std::vector<char*> words(argv + (is_help ? 2 : 1), argv + argc);
+  std::size_t taken = 0;
+  const Command* command = find_command(words, taken);
   if (!command) {
-    std::fprintf(stderr, "dance: there is no command '%s'; `dance help` lists them\n", argv[1]);
+    std::fprintf(stderr, "dance: %s\n", no_command_line(words[0]).c_str());
     return 2;
   }
   const std::string program = program_of(command->name);
   const std::string path = dance::program_folder() + "/" + program;
   std::vector<char*> arguments{const_cast<char*>(program.c_str())};
-  for (int i = words + 1; i < argc; ++i) arguments.push_back(argv[i]);
+  std::string help = "--help";
+  if (is_help) arguments.push_back(help.data());
+  arguments.insert(arguments.end(), words.begin() + static_cast<std::ptrdiff_t>(taken),
+                   words.end());
   arguments.push_back(nullptr);
   execv(path.c_str(), arguments.data());
   std::fprintf(stderr,

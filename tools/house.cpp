@@ -77,6 +77,12 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   options.hear_guests_on_bus = session.server.empty();
   options.hosted_captures = hosted_guests(session);
   house->manager_ = std::make_unique<Manager>(options, *house->bus_, poller);
+  house->manager_->on_other_manager([url = house->bus_->url()] {
+    talk::warn(
+        "another house is open on {}: both fill one stage, and dancers jump to and fro; end one of "
+        "them, or give one another --bus",
+        url);
+  });
   if (auto opened = house->open_consumers(); !opened) return tl::make_unexpected(opened.error());
   if (auto opened = house->open_producers(); !opened) return tl::make_unexpected(opened.error());
   if (session.music) {
@@ -156,8 +162,10 @@ void House::add_stage(LinkHandlers& handlers) {
 
 void House::add_talk(LinkHandlers& handlers) {
   handlers.on_state = [this](LinkState state, MonoTime) {
-    if (state == LinkState::kConnected)
+    if (state == LinkState::kConnected) {
+      troubles_.forget();
       talk::info("in room '{}' on {}", session_.room, session_.server);
+    }
     if (state == LinkState::kLapsed)
       talk::warn("the server {} is silent; the house dances on, and asks it again",
                  session_.server);
@@ -172,14 +180,16 @@ void House::add_talk(LinkHandlers& handlers) {
   handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
     talk::info("{}", room_state_line(kind, verdict));
   };
-  handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
+  handlers.on_no_answer = [this](const Address& address) {
+    const std::string line = no_answer_line(address);
+    if (troubles_.is_due(line, mono_now())) talk::warn("{}", line);
+  };
   handlers.on_no_entry = [this](SealTrouble trouble) {
     talk::warn("{}", no_entry_line(trouble, session_.server));
   };
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
-    if (now - last_refusal_ < kSecond) return;  // asked again up to ten times a second
-    last_refusal_ = now;
-    talk::warn("{}", refusal_line(refusal, *wire::RoomName::parse(session_.room)));
+    const std::string line = refusal_line(refusal, *wire::RoomName::parse(session_.room));
+    if (troubles_.is_due(line, now)) talk::warn("{}", line);
   };
 }
 
@@ -234,9 +244,10 @@ bool House::is_sent(const GuestId& guest) const {
 
 void House::capture(const GuestId& guest, Pose& pose, MonoTime now) {
   tag_.tag(pose);
-  pose.stamp(Hop::kPublished, mono_now());
+  const MonoTime published = mono_now();  // the dancer has been worked out since `now`
+  pose.stamp(Hop::kPublished, published);
   if (is_sent(guest)) link_->send(guest, pose, now);
-  manager_->take(Where::kCapture, guest, pose, now);
+  manager_->take(Where::kCapture, guest, pose, published);
   bus_->publish(Channel::of(Signal::kPose, Where::kCapture, guest), pose);
 }
 

@@ -16,6 +16,7 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "core/pose/music_tag.h"
+#include "core/program/seldom.h"
 #include "manager/manager.h"
 #include "manager/session.h"
 #include "producers/capture_sink.h"
@@ -65,7 +66,7 @@ class House : public CaptureSink {
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
   std::unique_ptr<HouseMusic> music_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;
-  MonoTime last_refusal_;
+  Seldom troubles_;  // of the link
 };
 
 }  // namespace dance

@@ -90,7 +90,10 @@ MonoTime HouseCamera::look(MonoTime now) {
   is_down_ = true;
   if (program_->exit_code() == 1) {
     if (!has_said_missing_)
-      talk::warn("no camera for {} yet; the house goes on and looks again", guest_.view());
+      talk::warn(
+          "no poses from the camera of {} yet, for what dance capture says; the house goes on and "
+          "tries again",
+          guest_.view());
     has_said_missing_ = true;
     return now + kCameraMissing;
   }

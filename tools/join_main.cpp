@@ -17,7 +17,7 @@ constexpr const char* kExamples = R"(Examples:
   dance join sessions/alice.toml                     everything as the session file says
   dance join dance.example.org --guest alice --room salsa
                                                      without a file: own captures to the stage and to
-                                                     the room, the others held as their lines need
+                                                     the room, the others guessed ahead, in rhythm
   dance join sessions/alice.toml --want default=4 --want bob=1
                                                      bob in full, of the others each fourth pose
   dance join dance.example.org --guest alice --camera auto
@@ -102,7 +102,10 @@ Result<void> run_join(const JoinOptions& options) {
         poller->stop();  // the window was closed
         return MonoTime();
       }
-      talk::warn("the viewer {}; the house goes on without it (--no-view)", viewer->exit_text());
+      talk::warn(
+          "the viewer {}; the house goes on. `dance view --bus \"{}\"` opens it again, and with "
+          "--no-view it is not opened",
+          viewer->exit_text(), house->bus().url());
       return MonoTime();
     });
   }

@@ -49,7 +49,9 @@ void append_notes(std::string& out, const GuestJourney& guest) {
                    "this machine's\n",
                    guest.of_another_clock());
   if (guest.backwards() > 0)
-    fmt::format_to(back, "  {} times a step seemed to end before it began: clocks were off\n",
+    fmt::format_to(back,
+                   "  {} times a step ended before it began and is left out: the stage shows a "
+                   "guess ahead of what has come (predict), or clocks were off\n",
                    guest.backwards());
 }
 

@@ -9,7 +9,7 @@ namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
-  dance manager                          own captures to the stage, remote guests held as their lines need
+  dance manager                          own captures to the stage, remote guests guessed ahead, in rhythm
   dance manager sessions/alice.toml      the routes, hosted producers and consumers of a session file
 )";
 

@@ -6,11 +6,13 @@
 // Failure:      an Error names the file that cannot be read.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
+#include "producers/music/beat_model.h"
 #include "tools/beat_score.h"
 
 namespace dance {
@@ -22,6 +24,7 @@ struct MusicEvalOptions {
   double speed = 1.0;        // as a record that turns faster
   double start_s = 0.0;
   double left_out_s = 5.0;  // at the begin
+  std::shared_ptr<const BeatModel> model = built_in_beat_model();
   bool with_aubio = true;
   bool check_causal = true;  // takes as long again
 };
@@ -32,7 +35,7 @@ struct SongEval {
   double tempo_bpm = 0.0;            // median
   double tempo_error_percent = 0.0;  // median of what each hop's tempo is off by
   // A tracker that hears noise instead of the second half said the same of the first half.
-  bool causal = false;
+  std::optional<bool> causal;  // unless it was not looked at
   double us_per_hop = 0.0;
   std::optional<BeatScore> aubio;
   std::string aubio_missing;  // why there is none

@@ -4,6 +4,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "producers/music/beats_file.h"
+#include "tools/beat_model_file.h"
 #include "tools/music_eval.h"
 
 namespace dance {
@@ -13,17 +14,22 @@ constexpr const char* kMusicEvalExamples = R"(Examples:
   dance music eval song.ogg --beats song.beats
   dance music eval *.ogg
   dance music eval a.ogg --beats a.beats b.wav --beats b.beats --json
+  dance music eval *.ogg --model beats.model
   dance music eval song.ogg --speed 1.1 --noise -40
 )";
 
 struct MusicEvalWishes {
   std::vector<std::string> files;
   std::vector<std::string> beats;
+  std::string model;
   MusicEvalOptions options;
   bool json = false;
 };
 
-Result<void> run(const MusicEvalWishes& wishes) {
+Result<void> run(MusicEvalWishes wishes) {
+  if (!wishes.model.empty()) {
+    DANCE_TRY(wishes.options.model, read_beat_model_file(wishes.model));
+  }
   std::vector<SongEval> songs;
   for (std::size_t i = 0; i < wishes.files.size(); ++i) {
     const std::string beats =
@@ -55,6 +61,7 @@ int main(int argc, char** argv) {
       .range(-200.0, 0.0);
   line.add("--start", wishes.options.start_s, "begins so many seconds into the file")
       .range(0.0, 3600.0);
+  line.add("--model", wishes.model, "a model of dance music train, instead of the built in one");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kMusicEvalExamples);
   line.finally([&]() -> dance::Result<void> {

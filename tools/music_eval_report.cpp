@@ -20,6 +20,16 @@ bool all_have_aubio(const std::vector<SongEval>& songs) {
   return std::all_of(songs.begin(), songs.end(), [](const SongEval& s) { return s.aubio; });
 }
 
+std::optional<bool> all_causal(const std::vector<SongEval>& songs) {
+  if (std::any_of(songs.begin(), songs.end(), [](const SongEval& s) { return !s.causal; }))
+    return std::nullopt;
+  return std::all_of(songs.begin(), songs.end(), [](const SongEval& s) { return *s.causal; });
+}
+
+nlohmann::ordered_json causal_json(std::optional<bool> causal) {
+  return causal ? nlohmann::ordered_json(*causal) : nlohmann::ordered_json(nullptr);
+}
+
 double aubio_f(const SongEval& song) { return song.aubio ? song.aubio->f_measure() : 0.0; }
 
 nlohmann::ordered_json score_json(const BeatScore& score) {
@@ -35,7 +45,7 @@ nlohmann::ordered_json song_json(const SongEval& song) {
   out["tempo_error_percent"] = rounded(song.tempo_error_percent, 1e2);
   out["mean_error_ms"] = rounded(song.score.mean_error_s * 1e3, 1e2);
   out["sd_error_ms"] = rounded(song.score.sd_error_s * 1e3, 1e2);
-  out["causal"] = song.causal;
+  out["causal"] = causal_json(song.causal);
   out["us_per_hop"] = rounded(song.us_per_hop, 10.0);
   if (song.aubio)
     out["baseline_aubio"] = score_json(*song.aubio);
@@ -50,9 +60,14 @@ std::string music_eval_table(const std::vector<SongEval>& songs) {
   std::string out = fmt::format("  {:<32} {:>6} {:>9} {:>8} {:>9} {:>8} {:>7} {:>8}\n", "song", "F",
                                 "tempo BPM", "off by", "mean ms", "sd ms", "causal", "F aubio");
   const auto row = [&](const std::string& name, double f, const std::string& tempo, double off,
-                       double mean_ms, double sd_ms, bool causal, const std::string& aubio) {
+                       double mean_ms, double sd_ms, std::optional<bool> causal,
+                       const std::string& aubio) {
     out += fmt::format("  {:<32} {:>6.3f} {:>9} {:>7.2f}% {:>+9.1f} {:>8.1f} {:>7} {:>8}\n", name,
-                       f, tempo, off, mean_ms, sd_ms, causal ? "yes" : "NO", aubio);
+                       f, tempo, off, mean_ms, sd_ms,
+                       !causal   ? "-"
+                       : *causal ? "yes"
+                                 : "NO",
+                       aubio);
   };
   for (const SongEval& song : songs)
     row(song.name, song.score.f_measure(), fmt::format("{:.1f}", song.tempo_bpm),
@@ -63,7 +78,7 @@ std::string music_eval_table(const std::vector<SongEval>& songs) {
         mean_over(songs, [](const SongEval& s) { return s.tempo_error_percent; }),
         mean_over(songs, [](const SongEval& s) { return s.score.mean_error_s * 1e3; }),
         mean_over(songs, [](const SongEval& s) { return s.score.sd_error_s * 1e3; }),
-        std::all_of(songs.begin(), songs.end(), [](const SongEval& s) { return s.causal; }),
+        all_causal(songs),
         all_have_aubio(songs) ? fmt::format("{:.3f}", mean_over(songs, aubio_f)) : "-");
   out += fmt::format(
       "\n  beats within 70 ms, first 5 s left out; {:.0f} us of one core a hop of 10 ms\n",
@@ -91,8 +106,7 @@ std::string music_eval_json(const std::vector<SongEval>& songs) {
         mean_over(songs, [](const SongEval& s) { return s.score.mean_error_s; }) * 1e3, 1e2);
     report["sd_error_ms"] =
         rounded(mean_over(songs, [](const SongEval& s) { return s.score.sd_error_s; }) * 1e3, 1e2);
-    report["causal"] =
-        std::all_of(songs.begin(), songs.end(), [](const SongEval& s) { return s.causal; });
+    report["causal"] = causal_json(all_causal(songs));
     if (all_have_aubio(songs))
       report["baseline_aubio"] = {{"f_measure", rounded(mean_over(songs, aubio_f), 1e4)}};
     else

@@ -3,6 +3,7 @@
 
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
+#include "core/program/talk.h"
 #include "tools/bus_program.h"
 #include "transformers/style_presets.h"
 
@@ -39,6 +40,7 @@ Result<void> say(const Options& options) {
   };
   publish();
   if (options.is_once) return {};
+  talk::info("says how {} is to be shown, once a second; Ctrl-C ends it", options.guest);
   program.every(Duration::s(1), [&](MonoTime) { publish(); });
   program.stop_after(options.seconds);
   program.run();

@@ -62,8 +62,8 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
              "' has as many listeners as the server allows: wait for one to leave, or ask its "
              "keeper for more --max-listeners";
     case wire::Refusal::kOnlyListens:
-      return "this house's key only listens: start the link with --listen-only and without "
-             "guests, or ask the server's keeper for a key that dances";
+      return "this house's key only listens: join without --guest (dance link: with "
+             "--listen-only), or ask the server's keeper for a key that dances";
     case wire::Refusal::kServerFull:
       return "the server has no place for another link or room: try later, or start it with more "
              "--max-sessions or --max-rooms";

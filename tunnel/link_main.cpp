@@ -1,9 +1,11 @@
 // dance link: joins a house's bus to a room on a server.
 
 #include <cstdio>
+#include <memory>
 
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
+#include "core/program/seldom.h"
 #include "core/program/talk.h"
 #include "tunnel/link_bus.h"
 #include "tunnel/link_report.h"
@@ -68,9 +70,12 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
 
 void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOptions& options,
               const wire::RoomName& room) {
-  handlers.on_state = [&options](LinkState state, MonoTime) {
-    if (state == LinkState::kConnected)
+  const auto troubles = std::make_shared<Seldom>();
+  handlers.on_state = [&options, troubles](LinkState state, MonoTime) {
+    if (state == LinkState::kConnected) {
+      troubles->forget();
       talk::info("in room '{}' on {}", options.room, options.server);
+    }
     if (state == LinkState::kLapsed)
       talk::warn("the server {} is silent; poses are dropped until it answers", options.server);
   };
@@ -84,16 +89,16 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
   handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
     talk::info("{}", room_state_line(kind, verdict));
   };
-  handlers.on_no_answer = [](const Address& address) { talk::warn("{}", no_answer_line(address)); };
+  handlers.on_no_answer = [troubles](const Address& address) {
+    const std::string line = no_answer_line(address);
+    if (troubles->is_due(line, mono_now())) talk::warn("{}", line);
+  };
   handlers.on_no_entry = [&options](SealTrouble trouble) {
     talk::warn("{}", no_entry_line(trouble, options.server));
   };
-  // Asked again up to ten times a second at first: said once a second.
-  handlers.on_refused = [room, last = MonoTime()](const wire::RefusalNotice& refusal,
-                                                  MonoTime now) mutable {
-    if (last.is_set() && now - last < kSecond) return;
-    last = now;
-    talk::warn("{}", refusal_line(refusal, room));
+  handlers.on_refused = [room, troubles](const wire::RefusalNotice& refusal, MonoTime now) {
+    const std::string line = refusal_line(refusal, room);
+    if (troubles->is_due(line, now)) talk::warn("{}", line);
   };
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "core/program/talk.h"
 #include "tunnel/seal/house_keys.h"
 #include "tunnel/seal/key_files.h"
 
@@ -87,7 +88,10 @@ Result<void> ServerKeys::run(const KeyCommand& command) {
     if (!ring.remove(command.remove))
       return fail("there is no key of '" + command.remove + "' in " + path_ +
                   "; --list-keys says whose there are");
-    return write_secret(path_, ring.text());
+    if (auto written = write_secret(path_, ring.text()); !written) return written;
+    talk::info("{}'s key is gone; a server that runs lets nobody in with it from now on",
+               command.remove);
+    return {};
   }
   DANCE_TRY(const KeyEntry entry, entry_of(command));
   HouseKey line;

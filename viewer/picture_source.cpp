@@ -47,6 +47,7 @@ class RecordedSource final : public PictureSource {
   std::optional<MonoTime> time_of_beat(double beat) const override {
     return feed_.time_of_beat(beat);
   }
+  Duration recorded() const override { return feed_.end() - feed_.begin(); }
   bool is_over() const override { return is_over_; }
   const std::string& name() const override { return name_; }
 

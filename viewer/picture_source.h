@@ -27,6 +27,8 @@ class PictureSource {
   virtual MonoTime wait_until(MonoTime moment) = 0;
   // Of a beat of the house's music; nothing where it is not known yet.
   virtual std::optional<MonoTime> time_of_beat(double) const { return std::nullopt; }
+  // How long a recorded house was; nothing of a live one.
+  virtual Duration recorded() const { return Duration(); }
   virtual bool is_over() const = 0;
   virtual const std::string& name() const = 0;  // for people
 };

@@ -25,8 +25,10 @@ constexpr const char* kTitleOfShown = "in rhythm";
 
 class HeadlessRun {
  public:
-  HeadlessRun(const ViewOptions& options, PictureSource& source, StagePainter& painter)
+  HeadlessRun(const ViewOptions& options, std::vector<double> moments_s, PictureSource& source,
+              StagePainter& painter)
       : options_(options),
+        moments_s_(std::move(moments_s)),
         source_(source),
         painter_(painter),
         roster_(source.board()),
@@ -36,14 +38,14 @@ class HeadlessRun {
 
   Result<void> run() {
     DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
-    if (options_.film) return film();
+    if (options_.moments.film) return film();
     for (const MonoTime moment : moments) {
       scenes_.push_back(scene_at(moment));
       if (draws_at_once())
         if (auto written = write_picture(scenes_.back()); !written) return written;
       if (source_.is_over()) break;
     }
-    if (options_.strip) {
+    if (is_strip()) {
       if (auto written = write_strip(); !written) return written;
     } else if (!draws_at_once()) {
       for (const SceneState& scene : scenes_)
@@ -55,13 +57,14 @@ class HeadlessRun {
   }
 
  private:
+  bool is_strip() const { return options_.moments.strip > 0; }
   // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the next moment would be
   // missed. Many are drawn as they come, for whoever waits for them.
-  bool draws_at_once() const { return !options_.strip && options_.moments_s.size() > kFewMoments; }
+  bool draws_at_once() const { return !is_strip() && moments_s_.size() > kFewMoments; }
 
   Result<std::vector<MonoTime>> moments_to_draw() const {
     std::vector<MonoTime> moments;
-    for (const double moment_s : options_.moments_s)
+    for (const double moment_s : moments_s_)
       moments.push_back(source_.begin() + Duration::seconds(moment_s));
     if (options_.beats.empty()) return moments;
     moments.clear();
@@ -127,7 +130,7 @@ class HeadlessRun {
   // Every picture of it, whatever they take. The camera follows as in a window.
   Result<void> film() {
     const Duration period = Duration::period_of_hz(kFilm_hz);
-    const double most_s = options_.moments_s.back();
+    const double most_s = moments_s_.back();
     for (int k = 0; static_cast<double>(k) / kFilm_hz < most_s; ++k) {
       const SceneState scene = scene_at(source_.begin() + period * k);
       if (source_.is_over()) break;
@@ -196,6 +199,7 @@ class HeadlessRun {
   }
 
   const ViewOptions& options_;
+  const std::vector<double> moments_s_;
   PictureSource& source_;
   StagePainter& painter_;
   StageRoster roster_;
@@ -213,13 +217,15 @@ Result<void> run_headless(const ViewOptions& options) {
     return fail("--out " + options.out + " cannot be made: " + error.message() +
                 "; choose another directory");
   DANCE_TRY(auto source, PictureSource::open(options));
+  DANCE_TRY(const std::vector<double> moments_s,
+            plan_moments(options.moments, source->recorded().as_seconds()));
   // This thread alone, and those that the driver starts from it.
   setpriority(PRIO_PROCESS, 0, kDrawingNiceness);
   DANCE_TRY(auto context, OffscreenContext::create());
   const Quality quality = options.quality == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
   DANCE_TRY(auto painter, StagePainter::create(quality, 1.0f));
   if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
-  return HeadlessRun(options, *source, *painter).run();
+  return HeadlessRun(options, moments_s, *source, *painter).run();
 }
 
 }  // namespace dance

@@ -26,7 +26,6 @@ Examples:
 
 struct Wishes {
   ViewOptions view;
-  MomentWish moments;
   std::string size = "1280x720";
   std::string focus;
   bool no_hud = false;
@@ -61,21 +60,22 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
   line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
   line.add("--out", view.out, "directory of the pictures").shows_default();
-  line.add("--seconds", wishes.moments.seconds, "headless: how long to listen; 3 unless said")
+  line.add("--seconds", wishes.view.moments.seconds,
+           "headless: how long to listen, 3 unless said; of a log all, unless said")
       .range(0.05, 86400.0);
-  line.add("--at", wishes.moments.at_s, "headless: pictures at these seconds, as 2,5,8")
+  line.add("--at", wishes.view.moments.at_s, "headless: pictures at these seconds, as 2,5,8")
       .split_at(',')
       .range(0.0, 86400.0);
-  line.add("--every", wishes.moments.every_s, "headless: a picture every so many seconds")
+  line.add("--every", wishes.view.moments.every_s, "headless: a picture every so many seconds")
       .range(0.02, 86400.0);
-  line.add("--strip", wishes.moments.strip,
+  line.add("--strip", wishes.view.moments.strip,
            "headless: so many moments side by side in stage-strip.png")
       .range(2, 24);
   line.add("--log", view.log, "headless: pictures of a recorded house, from its LCM log");
   line.add("--beats", view.beats, "headless, with --log: pictures on these beats of the music")
       .split_at(',')
       .range(-1'000'000.0, 1'000'000.0);
-  line.add_flag("--film", wishes.moments.film,
+  line.add_flag("--film", wishes.view.moments.film,
                 "headless, with --log: every picture of a film, 25 a second, as 0001.png …");
   line.add_flag("--compare", view.compare,
                 "two halves: left as poses come (guests NAME-raw), right as routes show them");
@@ -85,10 +85,9 @@ void add_options(CommandLine& line, Wishes& wishes) {
 // What one option cannot check by itself.
 Result<void> finish(Wishes& wishes) {
   DANCE_TRY(wishes.view.size, parse_size(wishes.size));
-  DANCE_TRY(wishes.view.moments_s, plan_moments(wishes.moments));
-  wishes.view.strip = wishes.moments.strip > 0;
-  wishes.view.film = wishes.moments.film;
-  if (wishes.view.log.empty() && (wishes.view.film || !wishes.view.beats.empty()))
+  if (auto planned = plan_moments(wishes.view.moments); !planned)
+    return tl::make_unexpected(planned.error());
+  if (wishes.view.log.empty() && (wishes.view.moments.film || !wishes.view.beats.empty()))
     return fail("--film and --beats need a recorded house: name it with --log");
   if (!wishes.view.log.empty() && !wishes.view.headless)
     return fail("--log is for pictures: add --headless, or play it with: dance replay " +

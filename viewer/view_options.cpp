@@ -13,11 +13,16 @@ constexpr int kSmallest_px = 64;
 constexpr int kLargest_px = 8192;
 }  // namespace
 
-Result<std::vector<double>> plan_moments(const MomentWish& wish) {
+Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded_s) {
   std::vector<double> moments = wish.at_s;
   if (!moments.empty() && wish.every_s > 0.0)
     return fail("--at and --every are two ways to say the same; give one of them");
-  const double seconds = wish.seconds > 0.0 ? wish.seconds : kUsualSeconds;
+  const bool is_one = moments.empty() && wish.every_s <= 0.0 && wish.strip <= 0;
+  double seconds = wish.seconds;
+  if (seconds <= 0.0) {
+    seconds = kUsualSeconds;
+    if (recorded_s > 0.0) seconds = is_one ? std::min(seconds, recorded_s) : recorded_s;
+  }
   if (wish.film && (!moments.empty() || wish.every_s > 0.0 || wish.strip > 0))
     return fail("--film takes all pictures; leave out --at, --every and --strip");
   if (wish.film) return std::vector<double>{wish.seconds > 0.0 ? wish.seconds : kLongest_s};

@@ -25,6 +25,14 @@ struct PictureSize {
   int height_px = 720;
 };
 
+struct MomentWish {
+  std::vector<double> at_s;
+  double every_s = 0.0;
+  double seconds = 0.0;  // 0 = not given
+  int strip = 0;
+  bool film = false;  // kFilm_hz pictures a second up to the end
+};
+
 struct ViewOptions {
   FeedOptions feed;
   CameraPreset camera = CameraPreset::kAuto;
@@ -37,23 +45,15 @@ struct ViewOptions {
 
   bool headless = false;
   std::string out = ".";
-  std::vector<double> moments_s;
-  bool strip = false;
+  MomentWish moments;
   std::string log;            // a recorded house; "" = a live one
-  std::vector<double> beats;  // of its music: moments that stand for moments_s
-  bool film = false;          // kFilm_hz pictures a second up to the last of moments_s
+  std::vector<double> beats;  // of its music: they stand for the moments
 };
 
 // The moments of --at, or every so often up to `seconds`, or `strip` moments spread over them, or
-// one at the end.
-struct MomentWish {
-  std::vector<double> at_s;
-  double every_s = 0.0;
-  double seconds = 0.0;  // 0 = not given
-  int strip = 0;
-  bool film = false;
-};
-Result<std::vector<double>> plan_moments(const MomentWish& wish);
+// one at the end. Of a recorded house, recorded_s long, all of it unless `seconds` says otherwise;
+// where one picture is to do, not later than of a live one. 0 = a live house.
+Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded_s = 0.0);
 
 // "1280x720", each side 64 to 8192.
 Result<PictureSize> parse_size(const std::string& text);

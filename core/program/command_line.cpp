@@ -1,5 +1,7 @@
 #include "core/program/command_line.h"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
@@ -9,7 +11,15 @@
 namespace dance {
 
 Option& Option::range(double lowest, double highest) {
-  option_->check(CLI::Range(lowest, highest));
+  const std::string span = fmt::format("{:g} to {:g}", lowest, highest);
+  option_->check(CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        double value = 0.0;
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        if (is_number && value >= lowest && value <= highest) return "";
+        return fmt::format("'{}' is not {}", text, span);
+      },
+      span));
   return *this;
 }
 

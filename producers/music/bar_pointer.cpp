@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include "core/base/assert.h"
 
@@ -11,22 +10,23 @@ namespace dance {
 namespace {
 
 // None of these is sharp: on songs that were left out of the fit of the patterns, evidence from 0.06 to 0.15, floors from
-// 0.25 to 0.5, stiffness from 50 to 120 and chances of change five times as large moved the mean F by at most 0.04.
+// 0.25 to 0.5, stiffness from 50 to 120 and chances of change five times as large moved the mean F by at most 0.04, and
+// evidence of meanings from 0.2 to 0.3 by 0.015.
 constexpr double kFastest_bpm = 214.0;
 constexpr double kSlowest_bpm = 93.7;
 constexpr double kLikelyTempo_bpm = 140.0;
-constexpr double kTempoSpread = 0.45;  // of its logarithm
-constexpr float kEvidence = 0.1f;      // neighbouring hops tell much the same
-constexpr float kMostStrength = 15.0f;
+constexpr double kTempoSpread = 0.45;     // of its logarithm
+constexpr float kEvidence = 0.1f;         // neighbouring hops tell much the same
 constexpr double kFloor = 0.35;           // of a law's mean: strokes that no pattern has
 constexpr double kTempoStiffness = 80.0;  // from beat to beat
 constexpr float kTempoJump = 2e-3f;       // probability a beat
 constexpr float kPatternChange = 0.05f;   // probability a beat
 constexpr float kBeatSlip = 1e-3f;        // that the bar goes on elsewhere, a beat
 constexpr float kForget = 1e-6f;          // to anywhere, a hop
-// How long a stroke stays visible, and how much later low and tonal groups show it than high ones do.
-constexpr std::array<double, kOnsetGroups> kBlur_s{0.012, 0.012, 0.012, 0.012, 0.035};
-constexpr std::array<double, kOnsetGroups> kLater_s{0.014, 0.006, 0.004, 0.0, 0.15};
+constexpr float kMeaningEvidence = 0.2f;
+constexpr double kMeaningBlur_s = 0.016;
+// What a meaning tells of was heard so long before what the newest strengths tell of.
+constexpr double kMeaningLater_s = StrokeFeatures::kDelay_s - OnsetStrength::kDelay_s;
 
 double tempo_weight(double tempo_bpm) {
   const double octaves = std::log(tempo_bpm / kLikelyTempo_bpm) / kTempoSpread;
@@ -35,11 +35,13 @@ double tempo_weight(double tempo_bpm) {
 
 }  // namespace
 
-BarPointer::BarPointer(double hop_s) : hop_s_(hop_s) {
+BarPointer::BarPointer(double hop_s, std::span<const MeterPattern> patterns) : hop_s_(hop_s) {
   DANCE_ASSERT(hop_s > 0.005 && hop_s < 0.02);
   least_period_ = static_cast<int>(std::lround(60.0 / kFastest_bpm / hop_s));
   tempi_ = static_cast<int>(std::lround(60.0 / kSlowest_bpm / hop_s)) - least_period_ + 1;
-  make_states(meter_patterns());
+  DANCE_ASSERT(!patterns.empty());
+  make_states(patterns);
+  make_places();
   make_tempo_changes();
 }
 
@@ -68,16 +70,34 @@ void BarPointer::make_states(std::span<const MeterPattern> patterns) {
     state_.segment(block.first, static_cast<int>(kPatternBeats) * period(block.tempo)) =
         block.start;
   }
-  int places = 0;
-  for (int tempo = 0; tempo < tempi_; ++tempo) {
-    beat_first_.push_back(places);
-    places += period(tempo);
-  }
-  beat_ = Eigen::ArrayXf::Zero(places);
   const auto columns = static_cast<Eigen::Index>(patterns_ * kPatternBeats);
   ending_ = Eigen::MatrixXf::Zero(tempi_, columns);
   entering_ = Eigen::MatrixXf::Zero(tempi_, columns);
   total_ = Eigen::VectorXf::Zero(tempi_);
+}
+
+void BarPointer::make_places() {
+  int places = 0;
+  for (int tempo = 0; tempo < tempi_; ++tempo) {
+    beat_first_.push_back(places);
+    bar_first_.push_back(static_cast<int>(kPatternBeats) * places);
+    places += period(tempo);
+  }
+  beat_ = Eigen::ArrayXf::Zero(places);
+  for (Eigen::ArrayXf* array : {&on_beat_, &on_half_, &meant_})
+    *array = Eigen::ArrayXf::Zero(static_cast<int>(kPatternBeats) * places);
+  for (int tempo = 0; tempo < tempi_; ++tempo)
+    for (int i = 0; i < static_cast<int>(kPatternBeats) * period(tempo); ++i) {
+      const double beat = period(tempo);
+      const auto near = [&](double place_beats) {
+        const double away =
+            std::remainder(i - kMeaningLater_s / hop_s_ - place_beats * beat, beat) * hop_s_ /
+            kMeaningBlur_s;
+        return kMeaningEvidence * static_cast<float>(std::exp(-0.5 * away * away));
+      };
+      on_beat_[bar_first_[static_cast<std::size_t>(tempo)] + i] = near(0.0);
+      on_half_[bar_first_[static_cast<std::size_t>(tempo)] + i] = near(0.5);
+    }
 }
 
 // The mean m of a group's strength at each place of a bar; the law is (1/m) exp(-y/m), its logarithm times kEvidence.
@@ -153,10 +173,12 @@ void BarPointer::gather_beat_ends() {
 }
 
 // Block by block, so that a block's numbers are still near when they are needed again.
-void BarPointer::push(const OnsetStrength::Strengths& strengths, float weight) {
+void BarPointer::push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning,
+                      float weight) {
   gather_beat_ends();
   std::array<float, kOnsetGroups> y{};
   for (std::size_t g = 0; g < kOnsetGroups; ++g) y[g] = std::min(strengths[g], kMostStrength);
+  meant_ = meaning.beat * on_beat_ + meaning.half * on_half_;
   static_assert(kOnsetGroups == 5);
   constexpr auto kBeats = static_cast<int>(kPatternBeats);
   float sum = 0.0f;
@@ -171,7 +193,8 @@ void BarPointer::push(const OnsetStrength::Strengths& strengths, float weight) {
     const auto part = [&](const Eigen::ArrayXf& of) { return of.segment(block.first, all); };
     auto state = state_.segment(block.first, all);
     state *= (weight * (part(constant_) - y[0] * part(slope_[0]) - y[1] * part(slope_[1]) -
-                        y[2] * part(slope_[2]) - y[3] * part(slope_[3]) - y[4] * part(slope_[4])))
+                        y[2] * part(slope_[2]) - y[3] * part(slope_[3]) - y[4] * part(slope_[4]) +
+                        meant_.segment(bar_first_[static_cast<std::size_t>(block.tempo)], all)))
                  .exp();
     sum += state.sum();
   }

@@ -16,10 +16,12 @@ constexpr std::int64_t kSilentAfter_hops = 400;
 
 }  // namespace
 
-BeatTracker::BeatTracker(double sample_rate_hz)
+BeatTracker::BeatTracker(double sample_rate_hz, std::shared_ptr<const BeatModel> model)
     : onsets_(sample_rate_hz),
       hop_s_(static_cast<double>(onsets_.hop_samples()) / sample_rate_hz),
-      pointer_(hop_s_),
+      model_(std::move(model)),
+      features_(onsets_),
+      pointer_(hop_s_, model_->patterns),
       line_(hop_s_),
       hop_(onsets_.hop_samples()) {}
 
@@ -48,7 +50,9 @@ void BeatTracker::end_hop() {
   const float believed = std::clamp(static_cast<float>(kBreak_hops - since_stroke_hops_) /
                                         static_cast<float>(kBreak_hops - kBreakBegins_hops),
                                     0.0f, 1.0f);
-  pointer_.push(strengths, believed);
+  features_.push(onsets_, strengths);
+  features_.read(told_);
+  pointer_.push(strengths, model_->net.judge(told_), believed);
 
   const double now_s = static_cast<double>(hops_) * hop_s_;
   line_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);

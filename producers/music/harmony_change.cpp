@@ -36,9 +36,9 @@ HarmonyChange::HarmonyChange(double sample_rate_hz) {
   spectrum_.resize(n / 2 + 1);
   fft_.SetFlag(Eigen::FFT<float>::HalfSpectrum);
   fft_.fwd(spectrum_.data(), weighted_.data(), static_cast<int>(n));  // makes its tables here
-  const double bin_hz = rate_hz / static_cast<double>(n);
-  first_bin_ = static_cast<std::size_t>(std::ceil(kLowest_hz / bin_hz));
-  bins_ = static_cast<std::size_t>(std::min(kHighest_hz, 0.45 * rate_hz) / bin_hz) - first_bin_;
+  bin_hz_ = rate_hz / static_cast<double>(n);
+  first_bin_ = static_cast<std::size_t>(std::ceil(kLowest_hz / bin_hz_));
+  bins_ = static_cast<std::size_t>(std::min(kHighest_hz, 0.45 * rate_hz) / bin_hz_) - first_bin_;
   loudness_.assign(bins_, 0.0f);
   tones_.assign(bins_, 0.0f);
   history_.assign(kLag * bins_, 0.0f);

@@ -24,6 +24,10 @@ class HarmonyChange {
 
   float push(std::span<const float> hop);
 
+  // How far each bin stood out of its neighbourhood in the newest hop, and where the bins are.
+  std::span<const float> tones() const { return tones_; }
+  double tone_hz(std::size_t bin) const { return static_cast<double>(first_bin_ + bin) * bin_hz_; }
+
  private:
   // Tones are compared over so many hops, which is most of the window: less would compare a window with itself.
   static constexpr std::size_t kLag = 16;
@@ -39,6 +43,7 @@ class HarmonyChange {
   std::vector<float> weighted_;
   std::vector<std::complex<float>> spectrum_;
   Eigen::FFT<float> fft_;
+  double bin_hz_;
   std::size_t first_bin_;
   std::size_t bins_;
   std::vector<float> loudness_;

@@ -3,17 +3,16 @@
 // the strokes that come at even distances is the beat.
 //
 // Units/frames: weights are relative within a row; tempi in beats a minute.
-// Ownership:    constants.
+// Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none.
 // Source:       patterns in a bar pointer model follow Krebs, Böck and Widmer, "Rhythmic pattern modeling for beat and
-//               downbeat tracking in musical audio", ISMIR 2013. The weights are means over songs: docs/music-tracking.md.
+//               downbeat tracking in musical audio", ISMIR 2013. The weights are means over songs: tools/music_training.h.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "producers/music/onset_strength.h"
 
@@ -29,7 +28,5 @@ struct MeterPattern {
   int most_tempo_bpm;
   std::array<std::array<std::uint8_t, kPatternSlots>, kOnsetGroups> weights;
 };
-
-std::span<const MeterPattern> meter_patterns();
 
 }  // namespace dance

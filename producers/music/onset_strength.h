@@ -41,6 +41,11 @@ class OnsetStrength {
   // Exactly hop_samples() samples, which follow those of the last call.
   Strengths push(std::span<const float> hop);
 
+  // What the newest hop's strengths are made of.
+  std::span<const std::complex<float>> spectrum() const { return spectrum_; }
+  double bin_hz() const { return sample_rate_hz_ / window_samples_; }
+  const HarmonyChange& harmony() const { return harmony_; }
+
  private:
   static constexpr std::size_t kMostBands = 48;
   // A rise is one over so many hops: the window is longer than a hop.

@@ -52,10 +52,15 @@ END
 fake ninja <<'END'
 [ -e "$tree/build/release/bin/dance" ] && echo "ninja: no work to do."
 END
+fake flock <<'END'
+[ -e "$scratch/is_taken" ] || exit 0
+echo "flock $*" >>"$calls"
+[ "$1" != -n ]
+END
 
 begin() { # CASE: a fresh machine
   case=$1
-  rm -rf "$tree" "$calls" "$scratch"/is_no_root "$scratch"/apt_* "$scratch"/*_fails "$scratch"/has_models
+  rm -rf "$tree" "$calls" "$scratch"/is_no_root "$scratch"/is_taken "$scratch"/apt_* "$scratch"/*_fails "$scratch"/has_models
   mkdir -p "$tree/tools" "$tree/tests"
   : >"$scratch/installed"
   : >"$calls"
@@ -87,6 +92,14 @@ expect_said() { [[ "$said" == *"$1"* ]] || wrong "does not say: $1"; }
 expect_call() { grep -qF -- "$1" "$calls" || wrong "does not ask for: $1"; }
 expect_no_call() { ! grep -qF -- "$1" "$calls" || wrong "asks for: $1"; }
 
+for word in "" help --help; do
+  begin "a fresh machine, asked for help: '$word'"
+  dance $word
+  expect_code 0
+  expect_said "usage: ./dance COMMAND"
+  [ ! -s "$calls" ] || wrong "does anything but say so"
+done
+
 begin "a fresh machine"
 dance demo --guests 3
 expect_code 7 # what was started says how it ended
@@ -104,6 +117,19 @@ case="a second time"
 dance demo
 expect_code 7
 [ ! -s "$calls" ] || wrong "does anything but start"
+
+case="help of what is built"
+dance help
+expect_code 7
+expect_said "dance help"
+
+case="another one builds"
+touch "$scratch/is_taken"
+dance demo
+expect_code 7
+expect_said "another ./dance installs or builds here"
+expect_call "flock 9" # waits for it
+rm "$scratch/is_taken"
 
 case="one package is gone"
 grep -vx libssl-dev "$scratch/installed" >"$scratch/left" || true

@@ -71,6 +71,58 @@ TEST_F(HousePrograms, HearWhomTheSessionWantsAndTheCommandLineCountsMore) {
   EXPECT_GT(received(without, "bob"), 0u) << without;
 }
 
+class TwoHouses : public BusPrograms {
+ protected:
+  // How often it has been said that there is another house.
+  int said() const {
+    const std::string talk = text_of(folder_.path("talk"));
+    const std::string line = "another house is open on " + std::string(kBus);
+    int times = 0;
+    for (std::size_t at = talk.find(line); at != std::string::npos; at = talk.find(line, at + 1))
+      ++times;
+    return times;
+  }
+};
+
+TEST_F(TwoHouses, OnOneBusBothSaySoOnce) {
+  open_house();
+  auto ear = Bus::open(kBus);
+  ASSERT_TRUE(ear) << ear.error().what;
+  int seconds = 0;
+  (*ear)->on_stats([&](const Channel&, const Stats&, MonoTime) { ++seconds; });
+  const auto wait_for_seconds = [&](int more) {
+    const int until = seconds + more;
+    return wait_for([&] {
+      (*ear)->drain(mono_now());
+      return seconds >= until;
+    });
+  };
+  ASSERT_TRUE(wait_for_seconds(2));
+  EXPECT_EQ(said(), 0) << "it is not another house to itself";
+  start("dance-manager", {"--bus", kBus});
+  EXPECT_TRUE(wait_for([&] { return said() >= 2; })) << text_of(folder_.path("talk"));
+  ASSERT_TRUE(wait_for_seconds(4));  // of both together
+  EXPECT_EQ(said(), 2) << text_of(folder_.path("talk"));
+}
+
+TEST_F(HousePrograms, ARefusalThatStaysIsSaidOnce) {
+  ASSERT_TRUE(wait_for([&] {
+    return text_of(folder_.path("talk")).find("in room 'salsa'") != std::string::npos;
+  })) << text_of(folder_.path("talk"));
+  start("dance-join",
+        {kServer, "--room", "salsa", "--guest", "alice", "--bus", kOtherBus, "--no-view"});
+  const auto refusals = [&] {
+    const Finished status = run(bin("dance-status --port 7445 --once --json"));
+    const auto all = nlohmann::json::parse(status.output, nullptr, false);
+    return all.is_object() ? all["rejects"].value("refused", 0) : 0;
+  };
+  EXPECT_TRUE(wait_for([&] { return refusals() >= 4; }));
+  const std::string talk = text_of(folder_.path("talk"));
+  const std::string line = "guest 'alice' is in room 'salsa' already";
+  EXPECT_NE(talk.find(line), std::string::npos) << talk;
+  EXPECT_EQ(talk.find(line), talk.rfind(line)) << talk;
+}
+
 TEST_F(HousePrograms, AWishThatIsNoneIsOneLineThatNamesIt) {
   const std::string session = folder_.path("house.toml");
   std::ofstream(session) << "[house]\nroom = \"salsa\"\nwant = [\"bob\"]\n";

@@ -96,6 +96,8 @@ TEST(GuestJourney, StampsThatRunBackwardsAreCountedAndLeftOut) {
   GuestJourney journey(guest("bob"));
   journey.heard(pose, at_us(2110), kOurs);
   EXPECT_EQ(journey.backwards(), 1u);
+  EXPECT_NE(journey_table(journey).find("1 times a step ended before it began and is left out"),
+            std::string::npos);
   EXPECT_EQ(find_row(journey.rows(), Step::kLinkSent, Step::kServer), nullptr);
   EXPECT_NE(find_row(journey.rows(), Step::kServer, Step::kLinkReceived), nullptr);
 }

@@ -1,47 +1,12 @@
 // dance music eval as a user starts it, on a song that the test writes.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <nlohmann/json.hpp>
 
-#include "tests/producers/drum_music.h"
-#include "tests/tools/run_program.h"
+#include "tests/tools/song_on_disk.h"
 
 namespace dance {
 namespace {
-
-void write_wav(const std::string& path, const std::vector<float>& samples, std::uint32_t rate_hz) {
-  static_assert(std::endian::native == std::endian::little);
-  std::string out = "RIFF";
-  const auto put = [&](auto value) {
-    out.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  const auto bytes = static_cast<std::uint32_t>(2 * samples.size());
-  put(36 + bytes);
-  out += "WAVEfmt ";
-  put(std::uint32_t{16});
-  put(std::uint16_t{1});
-  put(std::uint16_t{1});
-  put(rate_hz);
-  put(2 * rate_hz);
-  put(std::uint16_t{2});
-  put(std::uint16_t{16});
-  out += "data";
-  put(bytes);
-  for (const float x : samples)
-    put(static_cast<std::int16_t>(std::lround(32767.0f * std::clamp(x, -1.0f, 1.0f))));
-  std::ofstream(path, std::ios::binary) << out;
-}
-
-struct SongOnDisk {
-  SongOnDisk() : folder("music-eval") {
-    const auto beats = DrumMusic::steady(14.0, 148.0);
-    write_wav(folder.path("song.wav"), DrumMusic(22050.0).play(beats, 14.0), 22050);
-    std::ofstream file(folder.path("song.beats"));
-    for (std::size_t i = 0; i < beats.size(); ++i) file << beats[i] << "\t" << i % 4 + 1 << "\n";
-  }
-  TestFolder folder;
-};
 
 TEST(MusicEval, SaysWhatTheContractSays) {
   const SongOnDisk song;

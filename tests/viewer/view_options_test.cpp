@@ -21,6 +21,14 @@ TEST(PlanMoments, SpreadsAStripOverTheTime) {
   EXPECT_EQ(*plan_moments({{}, 0.0, 4.0, 4}), (std::vector<double>{1, 2, 3, 4}));
 }
 
+TEST(PlanMoments, GoesOnToTheEndOfARecordedHouse) {
+  EXPECT_EQ(*plan_moments({{}, 2.0, 0.0, 0}, 7.0), (std::vector<double>{2, 4, 6}));
+  EXPECT_EQ(*plan_moments({{}, 0.0, 0.0, 4}, 8.0), (std::vector<double>{2, 4, 6, 8}));
+  EXPECT_EQ(*plan_moments({{}, 2.0, 4.0, 0}, 7.0), (std::vector<double>{2, 4})) << "as asked for";
+  EXPECT_EQ(*plan_moments({{}, 0.0, 0.0, 0}, 7.0), (std::vector<double>{3})) << "one picture";
+  EXPECT_EQ(*plan_moments({{}, 0.0, 0.0, 0}, 2.0), (std::vector<double>{2})) << "a short one";
+}
+
 TEST(PlanMoments, RefusesTwoPlansAndTooManyPictures) {
   EXPECT_FALSE(plan_moments({{1.0}, 0.5, 0.0, 0}));
   EXPECT_FALSE(plan_moments({{}, 0.02, 86400.0, 0}));

@@ -1,0 +1,42 @@
+// Seldom: which line of what happens again and again is worth saying: a new one at once, the same one each minute.
+//
+// Ownership: keeps copies of the last few lines.
+// Threads:   none inside; one owner.
+// Failure:   none; of more lines than it keeps, who came first is forgotten, and is new again.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+class Seldom {
+ public:
+  bool is_due(const std::string& line, MonoTime now) {
+    for (Said& said : said_) {
+      if (said.line != line) continue;
+      if (now - said.time < kAgain) return false;
+      said.time = now;
+      return true;
+    }
+    if (said_.size() == kMost) said_.erase(said_.begin());
+    said_.push_back({line, now});
+    return true;
+  }
+  // All is well again: what comes next is new.
+  void forget() { said_.clear(); }
+
+ private:
+  static constexpr Duration kAgain = Duration::s(60);
+  static constexpr std::size_t kMost = 8;
+  struct Said {
+    std::string line;
+    MonoTime time;
+  };
+  std::vector<Said> said_;
+};
+
+}  // namespace dance

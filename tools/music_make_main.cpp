@@ -1,0 +1,101 @@
+// dance music make: makes songs whose beats are known, for the beat tracker to learn from.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/program/command_line.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "tools/outside_program.h"
+#include "tools/scratch_folder.h"
+#include "tools/song_maker.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kMusicMakeExamples = R"(Examples:
+  dance music make songs
+  dance music make songs --of-each 2 --seed 7 --soundfont /usr/share/sounds/sf2/TimGM6mb.sf2
+)";
+
+struct MusicMakeWishes {
+  std::string folder;
+  std::vector<std::string> soundfonts{"/usr/share/sounds/sf2/FluidR3_GM.sf2",
+                                      "/usr/share/sounds/sf2/TimGM6mb.sf2"};
+  int of_each = 5;
+  int seed = 1;
+  double seconds = 60.0;
+};
+
+Result<void> write_file(const std::string& path, std::string_view content) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (!file) return fail("cannot write " + path);
+  return {};
+}
+
+Result<void> render(const MadeSong& song, const std::string& stem, const std::string& soundfont) {
+  DANCE_TRY(const auto scratch, ScratchFolder::make());
+  const std::string midi = scratch->file("song.mid");
+  const std::vector<std::uint8_t> bytes = write_midi(song);
+  if (auto ok = write_file(midi, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok)
+    return ok;
+  if (auto ok = run_outside_program({.name = "fluidsynth",
+                                     .package = "fluidsynth",
+                                     .arguments = {"-ni", "-q", "-g", "0.5", "-r", "44100", "-T",
+                                                   "oga", "-F", stem + ".ogg", soundfont, midi},
+                                     .output_file = scratch->file("out"),
+                                     .talk_file = scratch->file("talk")});
+      !ok)
+    return ok;
+  std::string beats = "# made: the beats are exact\n";
+  for (std::size_t i = 0; i < song.beats_s.size(); ++i)
+    beats += fmt::format("{:.4f}\t{}\n", song.beats_s[i], i % 4 + 1);
+  return write_file(stem + ".beats", beats);
+}
+
+Result<void> run(const MusicMakeWishes& wishes) {
+  for (const std::string& soundfont : wishes.soundfonts)
+    if (!std::filesystem::exists(soundfont))
+      return fail(soundfont +
+                  ": no such file: apt-get install fluid-soundfont-gm timgm6mb-soundfont, "
+                  "or name another with --soundfont");
+  std::error_code error;
+  std::filesystem::create_directories(wishes.folder, error);
+  if (error) return fail(wishes.folder + ": cannot be made, " + error.message());
+  std::vector<SongStyle> styles = latin_styles();
+  styles.insert(styles.end(), other_styles().begin(), other_styles().end());
+  std::uint64_t number = 0;
+  for (int turn = 0; turn < wishes.of_each; ++turn)
+    for (const SongStyle& style : styles) {
+      const auto seed = static_cast<std::uint64_t>(wishes.seed) * 1'000'000 + number;
+      const MadeSong song = make_song(style, wishes.seconds, seed);
+      const std::string stem =
+          fmt::format("{}/{}_{}_{:.0f}", wishes.folder, style.name, turn + 1, song.tempo_bpm);
+      if (auto ok = render(song, stem, wishes.soundfonts[number % wishes.soundfonts.size()]); !ok)
+        return ok;
+      ++number;
+    }
+  talk::info("{}: {} songs", wishes.folder, number);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::MusicMakeWishes wishes;
+  dance::CommandLine line("makes songs whose beats are known, for the beat tracker to learn from",
+                          "dance music make");
+  line.add("FOLDER", wishes.folder, "where the songs go, each with its .beats file").required();
+  line.add("--of-each", wishes.of_each, "songs of each style").range(1, 100).shows_default();
+  line.add("--seconds", wishes.seconds, "how long each is").range(20.0, 600.0).shows_default();
+  line.add("--seed", wishes.seed, "another number makes other songs")
+      .range(0, 1000000)
+      .shows_default();
+  line.add("--soundfont", wishes.soundfonts, "the instruments, taken in turn");
+  line.footer(dance::kMusicMakeExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });
+}
