@@ -123,6 +123,10 @@ int main(int argc, char** argv) {
     return 0;
   }
   const std::string_view first = argv[1];
+  if (first == "--version" && argc == 2) {
+    std::puts("DanceGraph " DANCE_VERSION);
+    return 0;
+  }
   const bool is_help = first == "--help" || first == "-h" || first == "help";
   if (is_help && argc == 2) {
     print_commands(stdout);

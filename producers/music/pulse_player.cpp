@@ -18,7 +18,9 @@ constexpr Duration kCorrections = Duration::s(1);
 Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile file,
                                                        const PulsePlayerOptions& options) {
   std::unique_ptr<PulsePlayer> player(new PulsePlayer(std::move(file), options));
-  DANCE_TRY(player->server_, PulseServer::connect("music"));
+  auto server = PulseServer::connect("music");
+  if (!server) return fail(server.error().what + "; --silent plays without");
+  player->server_ = std::move(*server);
   PulsePlayer* self = player.get();
   DANCE_TRY(player->output_, PulseOutput::open(*player->server_, player->file_.rate_hz(),
                                                [self](MonoTime at, double frame) {

@@ -8,7 +8,7 @@ namespace dance {
 namespace {
 
 constexpr const char* kNoServer =
-    "no sound server: start PulseAudio or PipeWire, or set PULSE_SERVER; --silent plays without";
+    "no sound server: start PulseAudio or PipeWire, or set PULSE_SERVER";
 
 bool is_on_its_way(pa_context_state_t state) {
   return state != PA_CONTEXT_READY && PA_CONTEXT_IS_GOOD(state);

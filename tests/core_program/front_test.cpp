@@ -33,5 +33,11 @@ TEST(Front, ANumberOutOfRangeIsToldItsRangeWithoutIdleZeros) {
   }
 }
 
+TEST(Front, SaysWhichVersionItIs) {
+  const Finished asked = run(bin("dance --version"));
+  EXPECT_EQ(asked.exit_code, 0);
+  EXPECT_EQ(asked.output.rfind("DanceGraph ", 0), 0u) << asked.output;
+}
+
 }  // namespace
 }  // namespace dance
