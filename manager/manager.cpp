@@ -95,8 +95,10 @@ void Manager::on_other_manager(std::function<void()> tell) {
         if (channel.program() != kProgram || stats.clock_id != this_clock_id()) return;
         if (now - stats.time > kSecond || stats.time - now > kSecond) return;
         const MonoTime begin = stats.time - stats.uptime;
-        if (is_same_moment(begin, begin_) || is_same_moment(begin, other_begin_)) return;
-        other_begin_ = begin;
+        if (is_same_moment(begin, begin_)) return;
+        for (const MonoTime told : others_begun_)
+          if (is_same_moment(begin, told)) return;
+        others_begun_[others_++ % others_begun_.size()] = begin;
         tell();
       });
 }

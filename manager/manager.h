@@ -8,6 +8,7 @@
 // Failure:      what cannot be routed is counted in STATS/manager.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -78,7 +79,8 @@ class Manager : private StageSink {
   Histogram lateness_;
   Duration lateness_p99_;
   MonoTime begin_;
-  MonoTime other_begin_;                   // of the last other manager that was told of
+  std::array<MonoTime, 8> others_begun_{};  // managers that were told of; the oldest gives way
+  std::size_t others_ = 0;
   std::vector<StagedSkeleton> skeletons_;  // at most kMaxGuests
   std::vector<OnStagedPose> on_staged_pose_;
   std::vector<OnStagedSkeleton> on_staged_skeleton_;

@@ -24,12 +24,10 @@ Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime
   for (auto& instance : line.instances)
     if (instance->guest == guest) return instance.get();
   if (line.instances.size() == kMaxGuests) {
-    // Full: a guest who is silent gives the place to the newcomer.
-    const auto silent =
-        std::find_if(line.instances.begin(), line.instances.end(),
-                     [&](const auto& i) { return now - i->last_heard > Roster::kSilence; });
-    if (silent == line.instances.end()) return nullptr;
-    erase(line, silent);
+    // Full: the guest who is silent for longest gives the place to the newcomer.
+    const auto longest = longest_silent(line);
+    if (now - (*longest)->last_heard <= Roster::kSilence) return nullptr;
+    erase(line, longest);
   }
   auto chain = Chain::make(line.route.through);
   DANCE_ASSERT(chain.has_value());
@@ -44,6 +42,12 @@ bool Router::is_shown(const Instance& instance, MonoTime now) {
   return now - instance.last_heard <= std::max(Roster::kSilence, instance.chain.patience());
 }
 
+Router::Instances::iterator Router::longest_silent(Line& line) {
+  return std::min_element(
+      line.instances.begin(), line.instances.end(),
+      [](const auto& a, const auto& b) { return a->last_heard < b->last_heard; });
+}
+
 void Router::erase(Line& line, Instances::iterator instance) {
   stats_.dropped_late += static_cast<std::int64_t>((*instance)->chain.counters().refused);
   line.instances.erase(instance);
@@ -52,10 +56,8 @@ void Router::erase(Line& line, Instances::iterator instance) {
 void Router::let_go_of_the_gone(MonoTime now) {
   for (auto& line : lines_) {
     Instances& instances = line->instances;
-    const auto longest = std::min_element(
-        instances.begin(), instances.end(),
-        [](const auto& a, const auto& b) { return a->last_heard < b->last_heard; });
-    if (longest == instances.end()) continue;
+    if (instances.empty()) continue;
+    const auto longest = longest_silent(*line);
     const auto is_heard = [&](const auto& i) { return is_shown(*i, now); };
     if (std::none_of(instances.begin(), instances.end(), is_heard)) line->silent = now;
     const bool is_line_there = !line->silent || now - *line->silent > kHasLeft;

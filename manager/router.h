@@ -95,6 +95,7 @@ class Router {
   Instance* instance_of(Line& line, const GuestId& guest, MonoTime now);
   // Still on the stage: heard of lately, or danced on with.
   static bool is_shown(const Instance& instance, MonoTime now);
+  static Instances::iterator longest_silent(Line& line);
   void erase(Line& line, Instances::iterator instance);
   bool is_for(const Line& line, const GuestId& guest) const {
     return !line.route.from.guest.is_set() || line.route.from.guest == guest;

@@ -77,7 +77,9 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   options.hear_guests_on_bus = session.server.empty();
   options.hosted_captures = hosted_guests(session);
   house->manager_ = std::make_unique<Manager>(options, *house->bus_, poller);
-  house->manager_->on_other_manager([url = house->bus_->url()] {
+  // Of more than the manager remembers each would be new again and again.
+  house->manager_->on_other_manager([url = house->bus_->url(), said = Seldom()]() mutable {
+    if (!said.is_due(url, mono_now())) return;
     talk::warn(
         "another house is open on {}: both fill one stage, and dancers jump to and fro; end one of "
         "them, or give one another --bus",
@@ -185,7 +187,8 @@ void House::add_talk(LinkHandlers& handlers) {
     if (troubles_.is_due(line, mono_now())) talk::warn("{}", line);
   };
   handlers.on_no_entry = [this](SealTrouble trouble) {
-    talk::warn("{}", no_entry_line(trouble, session_.server));
+    const std::string line = no_entry_line(trouble, session_.server);
+    if (troubles_.is_due(line, mono_now())) talk::warn("{}", line);
   };
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
     const std::string line = refusal_line(refusal, *wire::RoomName::parse(session_.room));

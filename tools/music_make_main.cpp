@@ -36,20 +36,33 @@ Result<void> write_file(const std::string& path, std::string_view content) {
   return {};
 }
 
+// fluidsynth ends well whatever it was given, and plays another font or none.
+bool is_soundfont(const std::string& path) {
+  std::string head(12, '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.substr(0, 4) == "RIFF" && head.substr(8) == "sfbk";
+}
+
 Result<void> render(const MadeSong& song, const std::string& stem, const std::string& soundfont) {
   DANCE_TRY(const auto scratch, ScratchFolder::make());
   const std::string midi = scratch->file("song.mid");
   const std::vector<std::uint8_t> bytes = write_midi(song);
   if (auto ok = write_file(midi, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok)
     return ok;
+  const std::string ogg = stem + ".ogg";
+  std::error_code error;
+  std::filesystem::remove(ogg, error);
   if (auto ok = run_outside_program({.name = "fluidsynth",
                                      .package = "fluidsynth",
                                      .arguments = {"-ni", "-q", "-g", "0.5", "-r", "44100", "-T",
-                                                   "oga", "-F", stem + ".ogg", soundfont, midi},
+                                                   "oga", "-F", ogg, soundfont, midi},
                                      .output_file = scratch->file("out"),
                                      .talk_file = scratch->file("talk")});
       !ok)
     return ok;
+  if (const auto size = std::filesystem::file_size(ogg, error); error || size == 0)
+    return fail(ogg + ": fluidsynth wrote nothing; is there room, and may one write there?");
   std::string beats = "# made: the beats are exact\n";
   for (std::size_t i = 0; i < song.beats_s.size(); ++i)
     beats += fmt::format("{:.4f}\t{}\n", song.beats_s[i], i % 4 + 1);
@@ -57,11 +70,14 @@ Result<void> render(const MadeSong& song, const std::string& stem, const std::st
 }
 
 Result<void> run(const MusicMakeWishes& wishes) {
-  for (const std::string& soundfont : wishes.soundfonts)
+  for (const std::string& soundfont : wishes.soundfonts) {
     if (!std::filesystem::exists(soundfont))
       return fail(soundfont +
                   ": no such file: apt-get install fluid-soundfont-gm timgm6mb-soundfont, "
                   "or name another with --soundfont");
+    if (!is_soundfont(soundfont))
+      return fail(soundfont + ": is no SoundFont; name an .sf2 file with --soundfont");
+  }
   std::error_code error;
   std::filesystem::create_directories(wishes.folder, error);
   if (error) return fail(wishes.folder + ": cannot be made, " + error.message());
@@ -95,7 +111,7 @@ int main(int argc, char** argv) {
   line.add("--seed", wishes.seed, "another number makes other songs")
       .range(0, 1000000)
       .shows_default();
-  line.add("--soundfont", wishes.soundfonts, "the instruments, taken in turn");
+  line.add("--soundfont", wishes.soundfonts, "the instruments, taken in turn").one_each_time();
   line.footer(dance::kMusicMakeExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });
 }

@@ -117,6 +117,12 @@ Result<BeatModel> train_beats(const std::vector<const TrainingSong*>& songs,
   if (songs.empty()) return fail("no song to learn from");
   BeatModel model;
   model.patterns = fit_patterns(songs, training);
+  if (model.patterns.empty())
+    return fail(
+        "no kind of bar is left to learn: the songs' beats are slower or faster than what is "
+        "looked for, 94 to 214 a "
+        "minute (give a slow song's at their double), or --patterns asks for more kinds than the "
+        "songs have");
   model.net = fit_stroke_net(songs, training);
   return model;
 }

@@ -93,8 +93,9 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
     const std::string line = no_answer_line(address);
     if (troubles->is_due(line, mono_now())) talk::warn("{}", line);
   };
-  handlers.on_no_entry = [&options](SealTrouble trouble) {
-    talk::warn("{}", no_entry_line(trouble, options.server));
+  handlers.on_no_entry = [&options, troubles](SealTrouble trouble) {
+    const std::string line = no_entry_line(trouble, options.server);
+    if (troubles->is_due(line, mono_now())) talk::warn("{}", line);
   };
   handlers.on_refused = [room, troubles](const wire::RefusalNotice& refusal, MonoTime now) {
     const std::string line = refusal_line(refusal, room);

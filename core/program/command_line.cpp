@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/base/guest_id.h"
@@ -11,7 +12,11 @@
 namespace dance {
 
 Option& Option::range(double lowest, double highest) {
-  const std::string span = fmt::format("{:g} to {:g}", lowest, highest);
+  const auto plain = [](double x) {
+    return x == std::round(x) && std::abs(x) < 1e15 ? fmt::format("{:.0f}", x)
+                                                    : fmt::format("{:g}", x);
+  };
+  const std::string span = plain(lowest) + " to " + plain(highest);
   option_->check(CLI::Validator(
       [=](const std::string& text) -> std::string {
         double value = 0.0;

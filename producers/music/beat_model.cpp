@@ -86,7 +86,8 @@ Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::ui
                  pattern.most_tempo_bpm <= kMostPatternTempo_bpm &&
                  pattern.least_tempo_bpm <= kFastestOfUse_bpm &&
                  pattern.most_tempo_bpm >= kSlowestOfUse_bpm &&
-                 pattern.least_tempo_bpm < pattern.most_tempo_bpm;
+                 // Periods are whole hops: between narrower bounds there may be none.
+                 pattern.most_tempo_bpm * 20 >= pattern.least_tempo_bpm * 21;
       for (auto& row : pattern.weights)
         for (std::uint8_t& weight : row) weight = in.u8();
     }

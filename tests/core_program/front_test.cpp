@@ -33,6 +33,11 @@ TEST(Front, ANumberOutOfRangeIsToldItsRangeWithoutIdleZeros) {
   }
 }
 
+TEST(Front, LargeRangesAreToldInDigits) {
+  const Finished refused = run(bin("dance-listen --seconds -1"));
+  EXPECT_NE(refused.talk.find("'-1' is not 0 to 10000000"), std::string::npos) << refused.talk;
+}
+
 TEST(Front, SaysWhichVersionItIs) {
   const Finished asked = run(bin("dance --version"));
   EXPECT_EQ(asked.exit_code, 0);

@@ -265,6 +265,16 @@ TEST(Router, FreesTheChainOfWhoHasGoneForLong) {
   EXPECT_EQ(house.stage.poses.back().first, guest("bob"));
 }
 
+TEST(Router, OfAFullStageWhoIsSilentForLongestGivesTheirPlace) {
+  LearnedGuests house;
+  for (std::size_t i = 0; i < kMaxGuests; ++i) house.hear("g" + std::to_string(i), 10.0);
+  for (std::size_t i = 0; i < kMaxGuests; ++i)
+    if (i != 5) house.hear("g" + std::to_string(i), 1000.0 + static_cast<double>(i));
+  house.router.roster().end_second(at_ms(100e3), kClock, [](const auto&, const auto&) {});
+  house.hear("newcomer", 100e3);
+  for (std::size_t i = 0; i < kMaxGuests; ++i) EXPECT_EQ(house.learners[i].expired(), i == 5) << i;
+}
+
 TEST(Router, OfManyWhoHaveGoneKeepsTheLast) {
   LearnedGuests house;
   for (int i = 0; i < 30; ++i) house.hear("g" + std::to_string(i), 1000.0 * i);

@@ -32,9 +32,18 @@ TEST(BeatModel, RefusesWhatIsDamaged) {
   auto longer = whole;
   longer.push_back(0);
   EXPECT_FALSE(read_beat_model(longer));
-  auto other = whole;
-  other[0] ^= 1;
-  EXPECT_FALSE(read_beat_model(other));
+  const auto changed = [&](std::size_t byte, std::uint8_t value) {
+    auto other = whole;
+    other[byte] = value;
+    return read_beat_model(other);
+  };
+  constexpr std::size_t kVersionByte = 4, kPatternsByte = 6;
+  EXPECT_FALSE(changed(0, whole[0] ^ 1));
+  for (const int patterns : {0, 1, 33, 255})
+    EXPECT_FALSE(changed(kPatternsByte, static_cast<std::uint8_t>(patterns))) << patterns;
+  const auto newer = changed(kVersionByte, 2);
+  ASSERT_FALSE(newer);
+  EXPECT_NE(newer.error().what.find("version 2"), std::string::npos) << newer.error().what;
 }
 
 TEST(BeatModel, RefusesNumbersNoTrackerCouldUse) {
@@ -48,6 +57,14 @@ TEST(BeatModel, RefusesNumbersNoTrackerCouldUse) {
   model.patterns.front().least_tempo_bpm = 130;
   model.patterns.front().most_tempo_bpm = 120;
   EXPECT_FALSE(read_beat_model(write_beat_model(model)));
+  model.patterns.front().least_tempo_bpm = 102;
+  model.patterns.front().most_tempo_bpm = 103;
+  EXPECT_FALSE(read_beat_model(write_beat_model(model))) << "no period of whole hops is between";
+  for (const float wrong : {std::numeric_limits<float>::infinity(), -2e4f}) {
+    model = *built_in_beat_model();
+    model.net.out(1, 2) = wrong;
+    EXPECT_FALSE(read_beat_model(write_beat_model(model))) << wrong;
+  }
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ TEST(BeatSongs, AreTrackedCausallyAndInTheirOwnOctave) {
     options.check_causal = songs == 0;
     const auto song = evaluate_song(entry.path(), beats, options);
     ASSERT_TRUE(song) << song.error().what;
+    EXPECT_EQ(song->causal.has_value(), songs == 0) << song->name;
     EXPECT_TRUE(song->causal.value_or(true)) << song->name;
     EXPECT_LE(song->tempo_error_percent, 4.0) << song->name;
     EXPECT_GE(song->score.f_measure(), 0.9) << song->name;

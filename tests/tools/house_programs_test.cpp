@@ -103,6 +103,13 @@ TEST_F(TwoHouses, OnOneBusBothSaySoOnce) {
   EXPECT_TRUE(wait_for([&] { return said() >= 2; })) << text_of(folder_.path("talk"));
   ASSERT_TRUE(wait_for_seconds(4));  // of both together
   EXPECT_EQ(said(), 2) << text_of(folder_.path("talk"));
+  // A third is told of, too, and then there is an end of it.
+  start("dance-manager", {"--bus", kBus});
+  EXPECT_TRUE(wait_for([&] { return said() >= 3; })) << text_of(folder_.path("talk"));
+  ASSERT_TRUE(wait_for_seconds(6));
+  const int times = said();
+  ASSERT_TRUE(wait_for_seconds(9));
+  EXPECT_EQ(said(), times) << text_of(folder_.path("talk"));
 }
 
 TEST_F(HousePrograms, ARefusalThatStaysIsSaidOnce) {

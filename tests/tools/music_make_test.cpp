@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "tests/tools/run_program.h"
 
@@ -14,6 +15,15 @@ TEST(MusicMake, NamesTheSoundfontThatIsMissing) {
       run(bin("dance") + " music make " + folder.path("songs") + " --soundfont /nowhere/none.sf2");
   EXPECT_EQ(finished.exit_code, 1);
   EXPECT_NE(finished.talk.find("/nowhere/none.sf2"), std::string::npos) << finished.talk;
+}
+
+TEST(MusicMake, RefusesWhatIsNoSoundfont) {
+  const TestFolder folder("music-make");
+  std::ofstream(folder.path("notes.sf2")) << "these are no instruments at all\n";
+  const Finished finished = run(bin("dance") + " music make --soundfont " +
+                                folder.path("notes.sf2") + " " + folder.path("songs"));
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.talk.find("is no SoundFont"), std::string::npos) << finished.talk;
 }
 
 TEST(MusicMake, MakesSongsThatCanBeLearntFrom) {

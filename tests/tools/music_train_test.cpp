@@ -36,6 +36,15 @@ TEST(MusicTraining, FindsWhereInABarAGroupStrikes) {
   }
 }
 
+TEST(MusicTraining, SaysThatSongsAreTooSlowToLearnFrom) {
+  const SongOnDisk disk;
+  disk.add("slow", 40.0, 60.0);
+  const Finished refused = run(bin("dance-music-train") + " " + disk.folder.path("slow.wav") +
+                               " -o " + disk.folder.path("own.model") + " --rounds 1");
+  EXPECT_EQ(refused.exit_code, 1) << refused.talk;
+  EXPECT_NE(refused.talk.find("slower"), std::string::npos) << refused.talk;
+}
+
 TEST(MusicTraining, ANetworkTellsBeatsFromHalvesInASongItNeverHeard) {
   const SongOnDisk disk;
   std::vector<TrainingSong> songs;
