@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -87,7 +88,8 @@ std::string rhythm_table(const DemoRhythm& rhythm) {
   for (const auto& [name, figures] : {std::pair{"as poses come", &rhythm.raw},
                                       std::pair{"as the stage shows them", &rhythm.shown}})
     text += fmt::format("{:<28} {:>14.0f} {:>10.1f} {:>12.0f} {:>14.1f} {:>10.2f}\n", name,
-                        figures->phase_mean_ms, figures->phase_sd_ms, figures->content_delay_ms,
+                        figures->phase_mean_ms, figures->phase_sd_ms,
+                        std::round(figures->content_delay_ms) + 0.0,  // never -0
                         figures->error_mm, figures->jerk_ratio);
   return text + "\n";
 }

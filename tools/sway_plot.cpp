@@ -97,10 +97,13 @@ class SwayDrawing {
     const std::string off = off_ms == 0.0 ? "on the beat"
                                           : fmt::format("{:.0f} ms {} the beat", std::abs(off_ms),
                                                         off_ms < 0.0 ? "before" : "behind");
+    const double old_ms = std::round(f.content_delay_ms);
+    const std::string old = old_ms > 0.0
+                                ? fmt::format("what is seen was danced {:.0f} ms before", old_ms)
+                                : "what is seen is a guess of now";
     canvas_.text({kRight, row_top(r) - 19.0},
-                 fmt::format("{}, \u00b1 {:.0f} ms;  what is seen was danced {:.0f} ms before", off,
-                             f.phase_sd_ms, f.content_delay_ms),
-                 colour, Anchor::kRight);
+                 fmt::format("{}, \u00b1 {:.0f} ms;  {}", off, f.phase_sd_ms, old), colour,
+                 Anchor::kRight);
   }
 
   PlotCanvas& canvas_;

@@ -59,9 +59,12 @@ class BeatOffset {
   static constexpr double kFlutter_counts = 0.75;
 
   static double best_of(const Wish& wish, double difference) {
-    const double least =
-        wish.count * std::ceil((difference + wish.least_beats) / wish.count - 1e-9);
-    if (wish.beats < 0.0) return least;
+    const auto least_above = [&](double beats) {
+      return wish.count * std::ceil((difference + beats) / wish.count - 1e-9);
+    };
+    // What is borne later is borne from the start: a whole count for some milliseconds is a bad bargain.
+    if (wish.beats < 0.0) return least_above(wish.least_beats - wish.slack_beats);
+    const double least = least_above(wish.least_beats);
     return std::max(least, wish.count * std::round((difference + wish.beats) / wish.count));
   }
 

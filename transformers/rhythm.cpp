@@ -11,15 +11,15 @@ constexpr Duration kRhythmRestart = Duration::s(1);
 constexpr std::uint32_t kPosesPerProbe = 4;
 constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
-// Before guesses of this dancer have been measured.
-constexpr Duration kUnknownReach = Duration::ms(150);
+// Before guesses of this dancer have been measured: what is usual for dancers whom no model has seen.
+constexpr Duration kUnknownReach = Duration::ms(180);
 // Where the delay is the least that guesses allow, they need not be that good all the time.
 constexpr double kSlack_beats = 0.1;
 // Nobody is shown further ahead of what they dance now than this.
 constexpr double kMostAhead_beats = 0.05;
 // Of the lag of guesses so much is taken back: the further a guess reaches, the less sure it is.
 constexpr double kLeadShare = 0.4;
-constexpr Duration kSpare = Duration::ms(120);
+constexpr Duration kSpare = Duration::ms(60);
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
 constexpr Duration kJumpInTime = Duration::ms(300);
 constexpr Duration kJumpFree = Duration::s(1);

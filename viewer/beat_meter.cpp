@@ -19,7 +19,7 @@ void BeatMeter::add(double own, double heard, double beats_per_second,
   const double angle = kTurn * (heard - own);
   samples_[count_++ % kSamples] = {static_cast<float>(std::cos(angle)),
                                    static_cast<float>(std::sin(angle)),
-                                   delay ? static_cast<float>(delay->as_ms()) : -1.0f};
+                                   delay ? static_cast<float>(delay->as_ms()) : kNotKnown};
 }
 
 void BeatMeter::note_own_beats(double own, double heard) {
@@ -46,7 +46,7 @@ std::optional<BeatFigures> BeatMeter::figures() const {
   for (std::size_t i = 0; i < n; ++i) {
     cosines += static_cast<double>(samples_[i].cosine);
     sines += static_cast<double>(samples_[i].sine);
-    if (samples_[i].delay_ms < 0.0f) continue;
+    if (std::isnan(samples_[i].delay_ms)) continue;
     delays_ms += static_cast<double>(samples_[i].delay_ms);
     ++delayed;
   }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/base/time.h"
@@ -17,9 +18,9 @@
 namespace dance {
 
 struct BeatFigures {
-  float behind_ms = 0.0f;  // the nearest beat; circular mean of the last seconds
-  float wander_ms = 0.0f;  // its standard deviation
-  std::optional<float> delay_ms;
+  float behind_ms = 0.0f;         // the nearest beat; circular mean of the last seconds
+  float wander_ms = 0.0f;         // its standard deviation
+  std::optional<float> delay_ms;  // negative: guessed ahead of now
   // Where the music of this house stood when the dancer's own beats were shown, oldest first.
   static constexpr std::size_t kOwnBeats = 16;
   std::array<double, kOwnBeats> own_beats{};
@@ -36,9 +37,10 @@ class BeatMeter {
  private:
   static constexpr std::size_t kSamples = 240;  // 4 s at 60 Hz
   static constexpr std::size_t kFewest = 8;
+  static constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
   struct Sample {
     float cosine = 1.0f, sine = 0.0f;  // of the part of a beat behind, as an angle
-    float delay_ms = -1.0f;            // not known
+    float delay_ms = kNotKnown;
   };
   void note_own_beats(double own, double heard);
 

@@ -108,26 +108,27 @@ class Panel {
     list_.PopClipRect();
   }
 
-  // Of who is furthest off the beat: the others are there for the eye.
+  // Of the dancer from another house who is furthest behind: the others are there for the eye.
   void draw_numbers(const SceneState& scene, float y) {
     const SceneGuest* last = nullptr;
     for (const SceneGuest& guest : scene.guests)
-      if (guest.figures.beat && guest.figures.beat->delay_ms &&
+      if (guest.is_compared && guest.figures.beat && guest.figures.beat->delay_ms &&
           (last == nullptr || *guest.figures.beat->delay_ms > *last->figures.beat->delay_ms))
         last = &guest;
     if (last == nullptr) return;
     const BeatFigures& beat = *last->figures.beat;
-    std::array<char, 128> text{};
     const double off_ms = std::round(static_cast<double>(beat.behind_ms));
-    if (off_ms == 0.0)
-      std::snprintf(text.data(), text.size(), "%s: on the beat, \u00b1 %.0f ms; %.0f ms old",
-                    last->id.c_str(), static_cast<double>(beat.wander_ms),
-                    static_cast<double>(*beat.delay_ms));
-    else
-      std::snprintf(text.data(), text.size(),
-                    "%s: %.0f ms %s the beat, \u00b1 %.0f ms; %.0f ms old", last->id.c_str(),
-                    std::abs(off_ms), off_ms < 0.0 ? "before" : "behind",
-                    static_cast<double>(beat.wander_ms), static_cast<double>(*beat.delay_ms));
+    const double old_ms = std::round(static_cast<double>(*beat.delay_ms));
+    std::array<char, 32> off{"on"}, old{"now"};
+    if (off_ms != 0.0)
+      std::snprintf(off.data(), off.size(), "%.0f ms %s", std::abs(off_ms),
+                    off_ms < 0.0 ? "before" : "behind");
+    if (old_ms != 0.0)
+      std::snprintf(old.data(), old.size(), "%.0f ms %s", std::abs(old_ms),
+                    old_ms < 0.0 ? "ahead" : "old");
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), "%s: %s the beat, \u00b1 %.0f ms; %s", last->id.c_str(),
+                  off.data(), static_cast<double>(beat.wander_ms), old.data());
     const float width = fonts_.text->CalcTextSizeA(line_, 1e4f, 0.0f, text.data()).x;
     list_.AddText(fonts_.text, line_, whole(box_.right - line_ - width, y), grey(0.85f),
                   text.data());

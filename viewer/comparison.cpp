@@ -35,9 +35,13 @@ Comparison compare(const SceneState& scene) {
     if (is_twin(scene, guest.id)) continue;
     const auto twin_id = raw_twin_of(guest.id);
     const SceneGuest* twin = twin_id ? find_guest(scene, *twin_id) : nullptr;
-    comparison.raw.guests.push_back(twin != nullptr ? *twin : guest);
-    comparison.raw.guests.back().id = guest.id;
+    SceneGuest& raw = comparison.raw.guests.emplace_back(twin != nullptr ? *twin : guest);
+    raw.id = guest.id;
+    raw.is_compared = twin != nullptr;
   }
+  // Both halves have the same guests now, in one order.
+  for (std::size_t i = 0; i < comparison.raw.guests.size(); ++i)
+    comparison.shown.guests[i].is_compared = comparison.raw.guests[i].is_compared;
   return comparison;
 }
 

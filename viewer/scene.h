@@ -41,6 +41,7 @@ struct SceneGuest {
   std::optional<Hands> hands;
   float opacity = 1.0f;  // 0 = faded out
   GuestFigures figures;
+  bool is_compared = false;  // in both halves of a Comparison, each way once
 };
 
 struct SceneState {

@@ -180,6 +180,16 @@ TEST(BeatOffset, TakesMoreDelayWhereTheLineNeedsItAndGivesItBackLater) {
   EXPECT_DOUBLE_EQ(offset.value(), 1.0);
 }
 
+TEST(BeatOffset, BearsFromTheStartWhatItBearsLater) {
+  for (const double slack : {0.0, 0.1}) {
+    BeatOffset offset;
+    BeatOffset::Wish line = wish(-1.0, 0.05);
+    line.slack_beats = slack;
+    offset.update(line, 0.0, second(0));
+    EXPECT_DOUBLE_EQ(offset.value(), slack > 0.05 ? 0.0 : 1.0);
+  }
+}
+
 TEST(BeatOffset, ComesBackToTheWishAfterABadMinute) {
   BeatOffset offset;
   offset.update(wish(1.0, 0.5), 0.0, second(0));

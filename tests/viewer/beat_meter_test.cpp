@@ -40,6 +40,15 @@ TEST(BeatMeter, AWholeBeatLaterIsOnTheBeatAndStillOld) {
   EXPECT_NEAR(*figures->delay_ms, 333.3f, 1.0f);
 }
 
+TEST(BeatMeter, WhatIsGuessedAheadHasANegativeAge) {
+  const auto figures = meter_of(-0.013, 0.0).figures();
+  ASSERT_TRUE(figures && figures->delay_ms);
+  EXPECT_NEAR(*figures->delay_ms, -13.0f, 0.1f);
+  BeatMeter unknown;
+  for (int i = 0; i < 20; ++i) unknown.add(i, i, kBeatsPerSecond, std::nullopt);
+  EXPECT_FALSE(unknown.figures()->delay_ms) << "a clock that cannot be compared";
+}
+
 TEST(BeatMeter, OwnBeatsAreWhereTheyWereShown) {
   const auto figures = meter_of(0.1, 0.0).figures();
   ASSERT_TRUE(figures);

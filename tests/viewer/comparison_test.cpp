@@ -32,6 +32,10 @@ TEST(Comparison, HasTheTwinOnOneSideAndItsDancerOnTheOther) {
   EXPECT_EQ(names_in(both.shown), "alice bob ");
   EXPECT_EQ(both.raw.guests[1].pose.p_WH_m.x(), 2.0f);
   EXPECT_EQ(both.shown.guests[1].pose.p_WH_m.x(), 1.0f);
+  for (const SceneState* half : {&both.raw, &both.shown}) {
+    EXPECT_FALSE(half->guests[0].is_compared) << "alice is here";
+    EXPECT_TRUE(half->guests[1].is_compared);
+  }
 }
 
 TEST(Comparison, APlainPictureShowsNobodyTwice) {
