@@ -72,6 +72,10 @@ Result<void> record(Options options) {
                 static_cast<unsigned long long>(packing->kept),
                 static_cast<unsigned long long>(packing->plain_bytes));
   if (recorder.failure()) return tl::make_unexpected(*recorder.failure());
+  if (recorder.events() == 0)
+    talk::warn("nothing was heard on {}{}: {} is empty; dance doctor looks at the bus",
+               program.bus().url(), options.channels.empty() ? "" : " of these channels",
+               options.path);
   return {};
 }
 

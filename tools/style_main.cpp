@@ -19,6 +19,8 @@ with each bar alone, mix=1 (usual here) all of the motion. The link tells it the
 route says stylize, whose own gains are multiplied with these. What was said last stays.
 )";
 
+constexpr Duration kLooksFor = Duration::s(3);
+
 struct Options {
   std::string bus_url;
   std::string guest;
@@ -42,6 +44,17 @@ Result<void> say(const Options& options) {
   if (options.is_once) return {};
   talk::info("says how {} is to be shown, once a second; Ctrl-C ends it", options.guest);
   program.every(Duration::s(1), [&](MonoTime) { publish(); });
+  bool is_here = false;
+  for (const Where where : {Where::kCapture, Where::kGuest})
+    program.bus().on_pose(where, *guest, Delivery::kNewest,
+                          [&](const Channel&, const Pose&, MonoTime) { is_here = true; });
+  bool is_told = false;
+  program.every(kLooksFor, [&](MonoTime) {
+    if (!is_here && !is_told)
+      talk::warn("nobody called {} dances on {} yet; who does, dance top shows", options.guest,
+                 program.bus().url());
+    is_told = true;
+  });
   program.stop_after(options.seconds);
   program.run();
   return {};

@@ -38,7 +38,15 @@ class HeadlessRun {
 
   Result<void> run() {
     DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
-    if (options_.moments.film) return film();
+    auto drawn = options_.moments.film ? film() : pictures(moments);
+    if (drawn && options_.focus && !focus_was_here_)
+      talk::warn("--focus {0}: nobody called {0} was on the stage of {1}", options_.focus->view(),
+                 source_.name());
+    return drawn;
+  }
+
+ private:
+  Result<void> pictures(const std::vector<MonoTime>& moments) {
     for (const MonoTime moment : moments) {
       scenes_.push_back(scene_at(moment));
       if (draws_at_once())
@@ -56,7 +64,6 @@ class HeadlessRun {
                 "; bring dancers with: dance salsa, or dance replay FILE");
   }
 
- private:
   bool is_strip() const { return options_.moments.strip > 0; }
   // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the next moment would be
   // missed. Many are drawn as they come, for whoever waits for them.
@@ -81,6 +88,8 @@ class HeadlessRun {
   SceneState scene_at(MonoTime moment) {
     SceneState scene;
     roster_.update(source_.wait_until(moment), scene);
+    for (const SceneGuest& guest : scene.guests)
+      focus_was_here_ = focus_was_here_ || guest.id == options_.focus;
     if (!options_.compare) leave_out_twins(scene);
     if (scene.guests.empty()) scene.notes.push_back("nobody is on the stage of " + source_.name());
     return scene;
@@ -206,6 +215,7 @@ class HeadlessRun {
   CameraRig rig_;
   std::vector<SceneState> scenes_;
   int pictures_ = 0;
+  bool focus_was_here_ = false;
 };
 
 }  // namespace

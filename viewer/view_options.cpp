@@ -1,5 +1,7 @@
 #include "viewer/view_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -7,6 +9,7 @@
 namespace dance {
 namespace {
 constexpr double kUsualSeconds = 3.0;
+constexpr double kPastTheEnd_s = 0.5;  // who asks for the end may have rounded it
 constexpr double kLongest_s = 24.0 * 3600.0;
 constexpr std::size_t kMostPictures = 10'000;
 constexpr int kSmallest_px = 64;
@@ -37,6 +40,9 @@ Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded
   for (const double moment : moments)
     if (!std::isfinite(moment) || moment < 0.0 || moment > kLongest_s)
       return fail("a moment of --at is not between 0 and 86400 seconds");
+  for (const double moment : wish.at_s)
+    if (recorded_s > 0.0 && moment > recorded_s + kPastTheEnd_s)
+      return fail(fmt::format("--at {:g}: the recording is {:.1f} s long", moment, recorded_s));
   std::sort(moments.begin(), moments.end());
   return moments;
 }

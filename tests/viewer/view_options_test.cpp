@@ -29,6 +29,13 @@ TEST(PlanMoments, GoesOnToTheEndOfARecordedHouse) {
   EXPECT_EQ(*plan_moments({{}, 0.0, 0.0, 0}, 2.0), (std::vector<double>{2})) << "a short one";
 }
 
+TEST(PlanMoments, RefusesMomentsThatNobodyRecorded) {
+  EXPECT_TRUE(plan_moments({{2.0, 5.0}, 0.0, 0.0, 0}, 5.0));
+  const auto late = plan_moments({{2.0, 100.0}, 0.0, 0.0, 0}, 5.0);
+  ASSERT_FALSE(late);
+  EXPECT_EQ(late.error().what, "--at 100: the recording is 5.0 s long");
+}
+
 TEST(PlanMoments, RefusesTwoPlansAndTooManyPictures) {
   EXPECT_FALSE(plan_moments({{1.0}, 0.5, 0.0, 0}));
   EXPECT_FALSE(plan_moments({{}, 0.02, 86400.0, 0}));
