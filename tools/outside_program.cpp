@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <thread>
 
@@ -21,8 +23,25 @@ std::string find_program(const std::string& name) {
   return "";
 }
 
-// Ten times as long as an hour of music takes aubio.
+// An hour of music takes aubio half a minute.
 constexpr Duration kPatience = Duration::s(300);
+
+std::uintmax_t size_of(const std::string& file) {
+  std::error_code missing;
+  const std::uintmax_t size = std::filesystem::file_size(file, missing);
+  return missing ? 0 : size;
+}
+
+// What it said before it ended, if it said anything; the file may have more, of who spoke before it.
+std::string last_words(const std::string& talk_file, std::uintmax_t begin) {
+  constexpr std::size_t kMostLetters = 200;
+  std::ifstream talk(talk_file);
+  talk.seekg(static_cast<std::streamoff>(begin));
+  std::string last;
+  for (std::string line; std::getline(talk, line);)
+    if (!line.empty()) last = line.substr(0, kMostLetters);
+  return last.empty() ? "" : ": " + last;
+}
 
 }  // namespace
 
@@ -30,6 +49,7 @@ Result<void> run_outside_program(const OutsideProgram& wanted) {
   const std::string program = find_program(wanted.name);
   if (program.empty())
     return fail(wanted.name + " is not installed: apt-get install " + wanted.package);
+  const std::uintmax_t said_before = size_of(wanted.talk_file);
   DANCE_TRY(ChildProcess child, ChildProcess::start({.program = program,
                                                      .arguments = wanted.arguments,
                                                      .output_file = wanted.output_file,
@@ -39,7 +59,8 @@ Result<void> run_outside_program(const OutsideProgram& wanted) {
     if (waited > kPatience) return fail(wanted.name + " did not come to an end");
     std::this_thread::sleep_for(std::chrono::milliseconds(kTurn.count_ms()));
   }
-  if (!child.ended_well()) return fail(wanted.name + ": " + child.exit_text());
+  if (!child.ended_well())
+    return fail(wanted.name + ": " + child.exit_text() + last_words(wanted.talk_file, said_before));
   return {};
 }
 
