@@ -73,9 +73,9 @@ Result<void> record(Options options) {
                 static_cast<unsigned long long>(packing->plain_bytes));
   if (recorder.failure()) return tl::make_unexpected(*recorder.failure());
   if (recorder.events() == 0)
-    talk::warn("nothing was heard on {}{}: {} is empty; dance doctor looks at the bus",
+    talk::warn("nothing was heard on {}{}: {} {}; dance doctor looks at the bus",
                program.bus().url(), options.channels.empty() ? "" : " of these channels",
-               options.path);
+               options.path, options.append ? "is as it was" : "is empty");
   return {};
 }
 

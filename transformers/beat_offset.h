@@ -43,9 +43,17 @@ class BeatOffset {
     const Wrong wrong = best == value_ ? Wrong::kNo : wrong_of(wish, difference);
     if (wrong != wrong_) since_ = now;
     wrong_ = wrong;
-    const Duration patience = wrong == Wrong::kTooLow ? kRaiseAfter : kLowerAfter;
+    const Duration patience = wrong == Wrong::kTooLow ? kRaiseAfter : lower_after_;
     if (wrong == Wrong::kNo || now - since_ < patience) return false;
-    value_ = best;
+    if (wrong == Wrong::kTooLow) {
+      // On a line that is bad every so often, or with guesses that are, the next lowering would be as short.
+      const bool was_short = lowered_.is_set() && now - lowered_ < kLongestPatience;
+      lower_after_ = was_short ? std::min(lower_after_ * 2, kLongestPatience) : kLowerAfter;
+      value_ = best;
+    } else {
+      lowered_ = now;
+      value_ = wish.beats < 0.0 ? above(wish, difference, wish.easy_beats) : best;
+    }
     wrong_ = Wrong::kNo;
     return true;
   }
@@ -54,17 +62,18 @@ class BeatOffset {
   enum class Wrong { kNo, kTooLow, kTooHigh };
   static constexpr Duration kRaiseAfter = Duration::ms(150);
   static constexpr Duration kLowerAfter = Duration::s(4);
+  static constexpr Duration kLongestPatience = Duration::s(60);
   // A wished delay is kept as long as what is shown is no further from it than this many counts: half of one would
   // flutter, and each change is a jump in the dance. With one whole the delay would not come back after a bad minute.
   static constexpr double kFlutter_counts = 0.75;
 
+  static double above(const Wish& wish, double difference, double beats) {
+    return wish.count * std::ceil((difference + beats) / wish.count - 1e-9);
+  }
+
   static double best_of(const Wish& wish, double difference) {
-    const auto least_above = [&](double beats) {
-      return wish.count * std::ceil((difference + beats) / wish.count - 1e-9);
-    };
-    // What is borne later is borne from the start: a whole count for some milliseconds is a bad bargain.
-    if (wish.beats < 0.0) return least_above(wish.least_beats - wish.slack_beats);
-    const double least = least_above(wish.least_beats);
+    const double least = above(wish, difference, wish.least_beats);
+    if (wish.beats < 0.0) return least;
     return std::max(least, wish.count * std::round((difference + wish.beats) / wish.count));
   }
 
@@ -84,6 +93,8 @@ class BeatOffset {
   bool is_set_ = false;
   Wrong wrong_ = Wrong::kNo;
   MonoTime since_;
+  MonoTime lowered_;
+  Duration lower_after_ = kLowerAfter;
 };
 
 }  // namespace dance

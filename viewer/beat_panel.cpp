@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr float kPastBeats = 6.4f;
 constexpr float kComingBeats = 1.6f;
+constexpr double kNow_ms = 10.0;  // nobody sees the difference
 
 ImU32 grey(float light, float alpha = 1.0f) {
   return ImGui::ColorConvertFloat4ToU32(ImVec4(light, light, light, alpha));
@@ -103,32 +105,38 @@ class Panel {
     list_.PushClipRect({left_ - 0.35f * line_, box_.top}, {right_, box_.bottom}, true);
     for (std::size_t i = 0; i < beat.own_beat_count; ++i) {
       const float x = x_of(music, beat.own_beats[i]);
-      list_.AddCircleFilled({x, y}, 0.32f * line_, colour, 20);
+      if (guest.is_guess)
+        list_.AddCircle({x, y}, 0.3f * line_, colour, 20, 2.0f);
+      else
+        list_.AddCircleFilled({x, y}, 0.32f * line_, colour, 20);
     }
     list_.PopClipRect();
   }
 
-  // Of the dancer from another house who is furthest behind: the others are there for the eye.
+  // A guess is on the beat by what it is a guess of: that says nothing of how well it was guessed.
   void draw_numbers(const SceneState& scene, float y) {
-    const SceneGuest* last = nullptr;
-    for (const SceneGuest& guest : scene.guests)
-      if (guest.is_compared && guest.figures.beat && guest.figures.beat->delay_ms &&
-          (last == nullptr || *guest.figures.beat->delay_ms > *last->figures.beat->delay_ms))
-        last = &guest;
-    if (last == nullptr) return;
-    const BeatFigures& beat = *last->figures.beat;
+    const auto compared =
+        std::find_if(scene.guests.begin(), scene.guests.end(), [](const SceneGuest& guest) {
+          return guest.is_compared && guest.figures.beat && guest.figures.beat->delay_ms;
+        });
+    if (compared == scene.guests.end()) return;
+    const BeatFigures& beat = *compared->figures.beat;
     const double off_ms = std::round(static_cast<double>(beat.behind_ms));
     const double old_ms = std::round(static_cast<double>(*beat.delay_ms));
-    std::array<char, 32> off{"on"}, old{"now"};
-    if (off_ms != 0.0)
-      std::snprintf(off.data(), off.size(), "%.0f ms %s", std::abs(off_ms),
-                    off_ms < 0.0 ? "before" : "behind");
-    if (old_ms != 0.0)
-      std::snprintf(old.data(), old.size(), "%.0f ms %s", std::abs(old_ms),
-                    old_ms < 0.0 ? "ahead" : "old");
+    const char* name = compared->id.c_str();
     std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), "%s: %s the beat, \u00b1 %.0f ms; %s", last->id.c_str(),
-                  off.data(), static_cast<double>(beat.wander_ms), old.data());
+    if (compared->is_guess && old_ms <= kNow_ms)
+      std::snprintf(text.data(), text.size(), "%s: a guess of now", name);
+    else if (compared->is_guess)
+      std::snprintf(text.data(), text.size(), "%s: a guess of %.0f ms ago", name, old_ms);
+    else if (off_ms == 0.0)
+      std::snprintf(text.data(), text.size(), "%s: on the beat, \u00b1 %.0f ms; %.0f ms old", name,
+                    static_cast<double>(beat.wander_ms), old_ms);
+    else
+      std::snprintf(text.data(), text.size(),
+                    "%s: %.0f ms %s the beat, \u00b1 %.0f ms; %.0f ms old", name, std::abs(off_ms),
+                    off_ms < 0.0 ? "before" : "behind", static_cast<double>(beat.wander_ms),
+                    old_ms);
     const float width = fonts_.text->CalcTextSizeA(line_, 1e4f, 0.0f, text.data()).x;
     list_.AddText(fonts_.text, line_, whole(box_.right - line_ - width, y), grey(0.85f),
                   text.data());

@@ -13,6 +13,13 @@ const SceneGuest* find_guest(const SceneState& scene, const GuestId& id) {
   return found == scene.guests.end() ? nullptr : &*found;
 }
 
+std::optional<float> delay_of(const SceneGuest& guest) {
+  return guest.figures.beat ? guest.figures.beat->delay_ms : std::nullopt;
+}
+
+// What is newer by so much than what has come is a guess.
+constexpr float kNewer_ms = 5.0f;
+
 // Whoever is merely called so is a guest like others.
 bool is_twin(const SceneState& scene, const GuestId& id) {
   const auto whose = twin_of_whom(id);
@@ -31,17 +38,22 @@ Comparison compare(const SceneState& scene) {
   leave_out_twins(comparison.shown);
   comparison.shown.notes.clear();  // once is enough
   comparison.raw.guests.clear();
-  for (const SceneGuest& guest : scene.guests) {
-    if (is_twin(scene, guest.id)) continue;
+  // Both halves have the same guests, in one order.
+  std::optional<std::size_t> latest;
+  for (const SceneGuest& guest : comparison.shown.guests) {
     const auto twin_id = raw_twin_of(guest.id);
     const SceneGuest* twin = twin_id ? find_guest(scene, *twin_id) : nullptr;
-    SceneGuest& raw = comparison.raw.guests.emplace_back(twin != nullptr ? *twin : guest);
-    raw.id = guest.id;
-    raw.is_compared = twin != nullptr;
+    comparison.raw.guests.push_back(twin != nullptr ? *twin : guest);
+    comparison.raw.guests.back().id = guest.id;
+    if (twin == nullptr || !delay_of(*twin)) continue;
+    if (!latest || *delay_of(*twin) > *delay_of(comparison.raw.guests[*latest]))
+      latest = comparison.raw.guests.size() - 1;
   }
-  // Both halves have the same guests now, in one order.
-  for (std::size_t i = 0; i < comparison.raw.guests.size(); ++i)
-    comparison.shown.guests[i].is_compared = comparison.raw.guests[i].is_compared;
+  if (!latest) return comparison;
+  SceneGuest& raw = comparison.raw.guests[*latest];
+  SceneGuest& shown = comparison.shown.guests[*latest];
+  raw.is_compared = shown.is_compared = true;
+  shown.is_guess = delay_of(shown) && *delay_of(shown) < *delay_of(raw) - kNewer_ms;
   return comparison;
 }
 

@@ -41,7 +41,9 @@ struct SceneGuest {
   std::optional<Hands> hands;
   float opacity = 1.0f;  // 0 = faded out
   GuestFigures figures;
-  bool is_compared = false;  // in both halves of a Comparison, each way once
+  // Of a Comparison: whose figures stand under both halves, and that this half shows a guess of the dance.
+  bool is_compared = false;
+  bool is_guess = false;
 };
 
 struct SceneState {

@@ -30,7 +30,7 @@ void expect_viewer_sees_dancers(const TestFolder& folder, const char* bus) {
   // tests look for leaks with the driver pinned.
   const Finished view =
       run_until("ASAN_OPTIONS=detect_leaks=0 " + bin("dance-view") +
-                    " --headless --quality low --size 160x90 --at 1 --out " +
+                    " --headless --quality low --size 160x90 --at 1 --focus ghost --out " +
                     folder.path("pictures") + " --bus " + quoted(bus),
                 [](const Finished& it) {
                   return it.exit_code == 0 || it.talk.find("EGL") != std::string::npos;
@@ -38,6 +38,7 @@ void expect_viewer_sees_dancers(const TestFolder& folder, const char* bus) {
   if (view.talk.find("EGL") != std::string::npos) return;  // no driver that can draw
   EXPECT_EQ(view.exit_code, 0) << view.talk;
   EXPECT_TRUE(std::filesystem::exists(folder.path("pictures/stage-0001.png"))) << view.talk;
+  EXPECT_NE(view.talk.find("--focus ghost: "), std::string::npos) << view.talk;
 }
 
 TEST_F(BusPrograms, RecordWritesALogThatReplayPlaysLive) {
@@ -117,6 +118,19 @@ TEST_F(BusPrograms, RecordPackedHoldsThatVeryDanceInFewerBytesAndReplays) {
 
   start("dance-replay", {packed, "--bus", kOtherBus});
   expect_couple_on_stage(kOtherBus);
+}
+
+TEST_F(BusPrograms, RecordSaysThatItHeardNothing) {
+  const std::string log = folder_.path("silence.lcm");
+  const std::string record =
+      bin("dance-record") + " --seconds 0.5 --bus " + quoted(kBus) + " -o " + log;
+  const Finished silent = run(record);
+  EXPECT_EQ(silent.exit_code, 0);
+  EXPECT_TRUE(has_all(silent.talk, {"nothing was heard on ", "silence.lcm is empty"}))
+      << silent.talk;
+  const Finished more = run(record + " --append");
+  EXPECT_TRUE(has_all(more.talk, {"nothing was heard on ", "silence.lcm is as it was"}))
+      << more.talk;
 }
 
 TEST_F(BusPrograms, PackOfWhatIsNoLogSaysNoSizesAndIsNotInTheWayOfTheNextTry) {

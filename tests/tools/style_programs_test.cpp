@@ -83,6 +83,13 @@ TEST_F(StylePrograms, SaidInATerminalReachesTheStageOfTheOtherHouseAndTop) {
   EXPECT_NE(top.output.substr(row).find("0.00"), std::string::npos) << top.output;
 }
 
+TEST_F(StylePrograms, OfSomebodyWhoIsNotThereIsSaid) {
+  const Finished said =
+      run(bin("dance-style") + " ghost hips=2 --seconds 3.5 --bus " + quoted(kBus));
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_TRUE(has_all(said.talk, {"ghost", "dance top"})) << said.talk;
+}
+
 TEST_F(StylePrograms, WrongWordsAreNamedWithWhatThereIs) {
   for (const char* wrong : {"nose=2", "hips", "hips=9", "preset=loud"}) {
     const Finished said = run(bin("dance-style") + " alice " + wrong);

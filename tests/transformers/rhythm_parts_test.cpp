@@ -180,14 +180,40 @@ TEST(BeatOffset, TakesMoreDelayWhereTheLineNeedsItAndGivesItBackLater) {
   EXPECT_DOUBLE_EQ(offset.value(), 1.0);
 }
 
-TEST(BeatOffset, BearsFromTheStartWhatItBearsLater) {
-  for (const double slack : {0.0, 0.1}) {
+TEST(BeatOffset, BearsALittleMoreThanItBeganWith) {
+  BeatOffset offset;
+  BeatOffset::Wish line = wish(-1.0, -0.01);
+  line.slack_beats = 0.1;
+  offset.update(line, 0.0, second(0));
+  EXPECT_DOUBLE_EQ(offset.value(), 0.0);
+  line.least_beats = 0.09;
+  for (double s = 0.0; s < 60.0; s += 0.02) EXPECT_FALSE(offset.update(line, 0.0, second(s)));
+}
+
+TEST(BeatOffset, ComesDownNoFurtherThanIsEasy) {
+  BeatOffset offset;
+  offset.update(wish(-1.0, 2.5), 0.0, second(0));
+  EXPECT_DOUBLE_EQ(offset.value(), 3.0);
+  BeatOffset::Wish line = wish(-1.0, -0.1);  // easy from 0.2 on
+  line.slack_beats = 0.2;
+  for (double s = 0.0; s < 30.0; s += 0.02) offset.update(line, 0.0, second(s));
+  EXPECT_DOUBLE_EQ(offset.value(), 1.0);
+}
+
+TEST(BeatOffset, ComesDownLaterWhereThatNeverLasts) {
+  // Half a second of every twenty the line is worse by half a beat.
+  const auto changes_in = [](double from_s, double to_s) {
     BeatOffset offset;
-    BeatOffset::Wish line = wish(-1.0, 0.05);
-    line.slack_beats = slack;
-    offset.update(line, 0.0, second(0));
-    EXPECT_DOUBLE_EQ(offset.value(), slack > 0.05 ? 0.0 : 1.0);
-  }
+    int changes = 0;
+    for (double s = 0.0; s < to_s; s += 0.02) {
+      const bool is_bad = std::fmod(s, 20.0) > 19.5;
+      const bool changed = offset.update(wish(-1.0, is_bad ? 0.4 : -0.4), 0.0, second(s));
+      changes += changed && s >= from_s ? 1 : 0;
+    }
+    return changes;
+  };
+  EXPECT_GE(changes_in(0.0, 60.0), 4) << "at first it is worth a try";
+  EXPECT_EQ(changes_in(120.0, 1200.0), 0);
 }
 
 TEST(BeatOffset, ComesBackToTheWishAfterABadMinute) {

@@ -32,10 +32,26 @@ TEST(Comparison, HasTheTwinOnOneSideAndItsDancerOnTheOther) {
   EXPECT_EQ(names_in(both.shown), "alice bob ");
   EXPECT_EQ(both.raw.guests[1].pose.p_WH_m.x(), 2.0f);
   EXPECT_EQ(both.shown.guests[1].pose.p_WH_m.x(), 1.0f);
-  for (const SceneState* half : {&both.raw, &both.shown}) {
-    EXPECT_FALSE(half->guests[0].is_compared) << "alice is here";
-    EXPECT_TRUE(half->guests[1].is_compared);
-  }
+}
+
+TEST(Comparison, TellsOfTheDancerWhoIsBehindMost) {
+  SceneState scene = scene_of_names({"alice", "bob", "bob-raw", "carol", "carol-raw"});
+  const auto shown_ms_ago = [&](std::size_t i, float ms) {
+    scene.guests[i].figures.beat.emplace().delay_ms = ms;
+  };
+  shown_ms_ago(0, 700.0f);  // here: nobody to compare with
+  shown_ms_ago(1, -2.0f);
+  shown_ms_ago(2, 120.0f);
+  shown_ms_ago(3, 420.0f);
+  shown_ms_ago(4, 90.0f);
+  Comparison both = compare(scene);
+  for (const SceneState* half : {&both.raw, &both.shown})
+    for (const SceneGuest& guest : half->guests)
+      EXPECT_EQ(guest.is_compared, guest.id.view() == "bob") << guest.id.view();
+  EXPECT_TRUE(both.shown.guests[1].is_guess) << "newer than what has come";
+  EXPECT_FALSE(both.raw.guests[1].is_guess);
+  shown_ms_ago(1, 410.0f);
+  EXPECT_FALSE(compare(scene).shown.guests[1].is_guess);
 }
 
 TEST(Comparison, APlainPictureShowsNobodyTwice) {
