@@ -83,6 +83,8 @@ Result<void> run_demo(DemoOptions options, bool here) {
     options.through = options.compare ? kInRhythm : std::vector<std::string>{"hold"};
   options.view = std::filesystem::exists(program_folder() + "/dance-view");
   if (!options.view) {
+    if (options.film)
+      return fail("--film wants the viewer, which was not built; ./dance setup builds it");
     talk::info("built without the viewer: numbers and a log, no pictures");
     options.headless = true;
   }

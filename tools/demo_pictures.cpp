@@ -12,9 +12,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "tools/child_process.h"
-#ifdef DANCE_HAVE_VIEWER
 #include "tools/sway_plot.h"
-#endif
 
 namespace dance {
 namespace {
@@ -75,10 +73,8 @@ Result<std::string> draw_film(const DemoOptions& options, const DemoPlan& plan) 
 }  // namespace
 
 Result<DemoPictures> draw_comparison(const DemoOptions& options, const DemoPlan& plan,
-                                     const DemoTrace& trace,
-                                     [[maybe_unused]] const DemoRhythm& rhythm) {
+                                     const DemoTrace& trace, const DemoRhythm& rhythm) {
   DemoPictures pictures;
-#ifdef DANCE_HAVE_VIEWER
   DANCE_TRY(pictures.strip, draw_strip(options, plan, trace));
   if (auto lines = sway_lines(trace, kPlot_beats)) {
     const std::string file = options.out + "/sway.png";
@@ -87,7 +83,6 @@ Result<DemoPictures> draw_comparison(const DemoOptions& options, const DemoPlan&
     if (auto drawn = write_sway_plot(file, plot); !drawn) return tl::make_unexpected(drawn.error());
     pictures.sway = file;
   }
-#endif
   if (options.film) {
     DANCE_TRY(pictures.film, draw_film(options, plan));
   }
