@@ -106,8 +106,8 @@ if [ "$sanitizers" = yes ]; then
   # the viewer's own tests draw under sanitizers.
   draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)'
   [ "$built" = no ] || ! has_time_for "programs under the address sanitizer" 5 || run asan -L flow -E "$draws" "${only[@]}"
-  # What these start has no threads that others do not have.
-  alone="$draws|MusicRoom|MusicPrograms|Bench"
+  # What these start has no threads that others do not have; and a camera that is preloaded comes before the sanitizer.
+  alone="$draws|MusicRoom|MusicPrograms|Bench|ACameraThatWasUnplugged"
   has_time_for "programs under the thread sanitizer" 7 && step tsan flow_targets && run tsan -L flow -E "$alone" "${only[@]}"
 fi
 summary="$passed passed, $failed failed"
