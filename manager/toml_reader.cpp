@@ -1,7 +1,8 @@
 #include "manager/toml_reader.h"
 
 #include <algorithm>
-#include <sstream>
+
+#include "core/base/plain_number.h"
 
 namespace dance {
 
@@ -51,9 +52,7 @@ double TomlReader::number_or(std::string_view key, double fallback, double low, 
   if (!node) return fallback;
   const auto value = node->is_number() ? node->value<double>() : std::nullopt;
   if (value && *value >= low && *value <= high) return *value;
-  std::ostringstream span;  // without zeros that say nothing
-  span << low << " to " << high;
-  complain(key, "takes a number from " + span.str());
+  complain(key, "takes a number from " + plain_number(low) + " to " + plain_number(high));
   return fallback;
 }
 

@@ -72,7 +72,7 @@ has_time_for() { # WHAT MINUTES
 }
 
 # One more at a time than there are processors: programs that dance for seconds wait for most of them.
-step ci && run ci -j "$((jobs + 1))" "${only[@]}"
+step ci && jobs=$((jobs + 1)) run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
   export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
   export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt

@@ -1,7 +1,8 @@
 #include "tools/beat_model_file.h"
 
-#include <filesystem>
 #include <fstream>
+
+#include "core/program/whole_file.h"
 
 namespace dance {
 namespace {
@@ -24,20 +25,11 @@ Result<std::shared_ptr<const BeatModel>> read_beat_model_file(const std::string&
 
 Result<void> write_beat_model_file(const BeatModel& model, const std::string& path) {
   const std::vector<std::uint8_t> bytes = write_beat_model(model);
-  // What was there before stays until what takes its place is whole.
   if (!read_beat_model(bytes))
     return fail(path +
                 " is left as it was: what was learnt has numbers that no tracker could use; look "
                 "at the songs' beats");
-  const std::string beside = path + ".new";
-  std::ofstream file(beside, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(beside, path, error);
-  if (!file || error) return fail("cannot write " + path + ": name another file with -o");
-  return {};
+  return write_whole_file(path, bytes);
 }
 
 }  // namespace dance

@@ -85,14 +85,18 @@ Duration ChildProcess::cpu_time() const {
   return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
 }
 
+bool ChildProcess::wait(Duration patience) {
+  for (Duration waited; !has_ended() && waited < patience; waited += Duration::ms(5)) usleep(5000);
+  return has_ended();
+}
+
 void ChildProcess::ask_to_stop() {
   if (!has_ended()) kill(pid_, SIGTERM);
 }
 
 void ChildProcess::stop(Duration patience) {
   ask_to_stop();
-  for (Duration waited; !has_ended() && waited < patience; waited += Duration::ms(5)) usleep(5000);
-  if (has_ended()) return;
+  if (wait(patience)) return;
   kill(pid_, SIGKILL);
   int status = 0;
   if (waitpid(pid_, &status, 0) == pid_) note_end(status);

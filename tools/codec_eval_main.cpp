@@ -1,12 +1,12 @@
 // dance codec eval: the pose codec on recorded dances.
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 
 #include "core/net/lossy_spec.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "core/program/whole_file.h"
 #include "producers/clip_file.h"
 #include "tools/codec_eval.h"
 #include "tools/codec_plot.h"
@@ -60,12 +60,7 @@ Result<void> run(Wishes wishes) {
       wishes.json ? codec_eval_json(result, wishes.eval) : codec_eval_table(result, wishes.eval);
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (wishes.plot.empty()) return {};
-  const std::string picture = rate_plot_svg(measure_rates(takes, wishes.eval, result));
-  std::ofstream file(wishes.plot, std::ios::binary);
-  file << picture;
-  file.close();
-  if (!file) return fail("cannot write " + wishes.plot + ": name another file with --plot");
-  return {};
+  return write_whole_file(wishes.plot, rate_plot_svg(measure_rates(takes, wishes.eval, result)));
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // dance codec train: makes a model of the pose codec from recorded dances.
-#include <fstream>
-
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "core/program/whole_file.h"
 #include "tools/codec_training.h"
 
 namespace dance {
@@ -28,11 +27,7 @@ Result<void> train(const std::vector<std::string>& files, const std::string& out
   DANCE_TRY(const auto model, train_codec(training));
   const std::vector<std::uint8_t> bytes = write_model(*model);
   DANCE_TRY(const auto read, read_model(bytes));
-  std::ofstream file(out, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return fail("cannot write " + out + ": name another file with -o");
+  if (auto written = write_whole_file(out, bytes); !written) return written;
   talk::info("{}: model {:08x}, {} bytes", out, read->name, bytes.size());
   return {};
 }

@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
-#include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "tools/child_process.h"
@@ -32,10 +29,7 @@ Result<void> run_viewer(const DemoOptions& options, const DemoPlan& plan, const 
   how.output_file = programs_folder(options) + "/" + name + ".json";
   how.talk_file = programs_folder(options) + "/" + name + ".txt";
   DANCE_TRY(ChildProcess viewer, ChildProcess::start(how));
-  const MonoTime give_up = mono_now() + kPatienceForFilm;
-  while (!viewer.has_ended() && mono_now() < give_up)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  if (viewer.has_ended() && viewer.ended_well()) return {};
+  if (viewer.wait(kPatienceForFilm) && viewer.ended_well()) return {};
   std::ostringstream talk;
   talk << std::ifstream(how.talk_file).rdbuf();
   return fail("the " + name + " was not drawn: " + talk.str());

@@ -2,12 +2,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "core/base/raw_twin.h"
 #include "core/net/udp_socket.h"
 #include "core/program/program.h"
+#include "core/program/whole_file.h"
 #include "producers/clip_file.h"
 #include "producers/music/beats_file.h"
 #include "tools/demo_options.h"
@@ -175,14 +175,6 @@ std::string session_text(const DemoPlan& plan, const DemoOptions& options, int h
   return text.str();
 }
 
-Result<void> write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::trunc);
-  file << text;
-  if (!file.flush())
-    return fail(path + ": cannot be written; is the disk full, or the folder not yours?");
-  return {};
-}
-
 // Read before anything starts, so that a song without beats is said at once.
 Result<std::string> song_of(const DemoOptions& options) {
   if (options.music == "none") return std::string();
@@ -235,7 +227,7 @@ Result<DemoPlan> plan_demo(const DemoOptions& options) {
     plan.session_file[house] =
         programs_folder(options) + (house == 0 ? "/house-a.toml" : "/house-b.toml");
     if (auto written =
-            write_file(plan.session_file[house], session_text(plan, options, house, port));
+            write_whole_file(plan.session_file[house], session_text(plan, options, house, port));
         !written)
       return tl::make_unexpected(written.error());
   }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/program/whole_file.h"
 
 namespace dance {
 namespace {
@@ -95,14 +95,6 @@ std::string wav_of(const std::vector<std::int16_t>& samples) {
   return bytes;
 }
 
-Result<void> write_whole(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << bytes;
-  if (!file.flush())
-    return fail(path + ": cannot be written; is the disk full, or the folder not yours?");
-  return {};
-}
-
 }  // namespace
 
 std::vector<std::int16_t> demo_song(double tempo_bpm) {
@@ -124,11 +116,11 @@ std::vector<std::int16_t> demo_song(double tempo_bpm) {
 }
 
 Result<void> write_demo_song(const std::string& wav, double tempo_bpm) {
-  if (auto written = write_whole(wav, wav_of(demo_song(tempo_bpm))); !written) return written;
+  if (auto written = write_whole_file(wav, wav_of(demo_song(tempo_bpm))); !written) return written;
   std::string beats;
   for (int beat = 0; beat < kDemoSong_beats; ++beat)
     beats += fmt::format("{:.6f}\t{}\n", beat * 60.0 / tempo_bpm, beat % 4 + 1);
-  return write_whole(wav.substr(0, wav.rfind('.')) + ".beats", beats);
+  return write_whole_file(wav.substr(0, wav.rfind('.')) + ".beats", beats);
 }
 
 }  // namespace dance

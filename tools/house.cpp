@@ -183,16 +183,13 @@ void House::add_talk(LinkHandlers& handlers) {
     talk::info("{}", room_state_line(kind, verdict));
   };
   handlers.on_no_answer = [this](const Address& address) {
-    const std::string line = no_answer_line(address);
-    if (troubles_.is_due(line, mono_now())) talk::warn("{}", line);
+    troubles_.warn(no_answer_line(address), mono_now());
   };
   handlers.on_no_entry = [this](SealTrouble trouble) {
-    const std::string line = no_entry_line(trouble, session_.server);
-    if (troubles_.is_due(line, mono_now())) talk::warn("{}", line);
+    troubles_.warn(no_entry_line(trouble, session_.server), mono_now());
   };
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
-    const std::string line = refusal_line(refusal, *wire::RoomName::parse(session_.room));
-    if (troubles_.is_due(line, now)) talk::warn("{}", line);
+    troubles_.warn(refusal_line(refusal, *wire::RoomName::parse(session_.room)), now);
   };
 }
 

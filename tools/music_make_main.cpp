@@ -7,6 +7,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "core/program/whole_file.h"
 #include "tools/outside_program.h"
 #include "tools/scratch_folder.h"
 #include "tools/song_maker.h"
@@ -28,14 +29,6 @@ struct MusicMakeWishes {
   double seconds = 60.0;
 };
 
-Result<void> write_file(const std::string& path, std::string_view content) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  if (!file) return fail("cannot write " + path);
-  return {};
-}
-
 // fluidsynth ends well whatever it was given, and plays another font or none.
 bool is_soundfont(const std::string& path) {
   std::string head(12, '\0');
@@ -47,9 +40,7 @@ bool is_soundfont(const std::string& path) {
 Result<void> render(const MadeSong& song, const std::string& stem, const std::string& soundfont) {
   DANCE_TRY(const auto scratch, ScratchFolder::make());
   const std::string midi = scratch->file("song.mid");
-  const std::vector<std::uint8_t> bytes = write_midi(song);
-  if (auto ok = write_file(midi, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}); !ok)
-    return ok;
+  if (auto ok = write_whole_file(midi, write_midi(song)); !ok) return ok;
   const std::string ogg = stem + ".ogg";
   std::error_code error;
   std::filesystem::remove(ogg, error);
@@ -66,7 +57,7 @@ Result<void> render(const MadeSong& song, const std::string& stem, const std::st
   std::string beats = "# made: the beats are exact\n";
   for (std::size_t i = 0; i < song.beats_s.size(); ++i)
     beats += fmt::format("{:.4f}\t{}\n", song.beats_s[i], i % 4 + 1);
-  return write_file(stem + ".beats", beats);
+  return write_whole_file(stem + ".beats", beats);
 }
 
 Result<void> run(const MusicMakeWishes& wishes) {

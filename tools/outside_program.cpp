@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "tools/child_process.h"
 
@@ -54,11 +53,7 @@ Result<void> run_outside_program(const OutsideProgram& wanted) {
                                                      .arguments = wanted.arguments,
                                                      .output_file = wanted.output_file,
                                                      .talk_file = wanted.talk_file}));
-  Duration waited;
-  for (constexpr auto kTurn = Duration::ms(20); !child.has_ended(); waited += kTurn) {
-    if (waited > kPatience) return fail(wanted.name + " did not come to an end");
-    std::this_thread::sleep_for(std::chrono::milliseconds(kTurn.count_ms()));
-  }
+  if (!child.wait(kPatience)) return fail(wanted.name + " did not come to an end");
   if (!child.ended_well())
     return fail(wanted.name + ": " + child.exit_text() + last_words(wanted.talk_file, said_before));
   return {};

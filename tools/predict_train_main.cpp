@@ -1,9 +1,8 @@
 // dance predict train: makes a model of prediction from recorded dances.
-#include <fstream>
-
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "core/program/whole_file.h"
 #include "tools/predict_training.h"
 
 namespace dance {
@@ -25,11 +24,7 @@ Result<void> run_predict_train(PredictTraining& training, const std::vector<std:
   DANCE_TRY(const PredictModel model, train_predict(training));
   const std::vector<std::uint8_t> bytes = write_predict_model(model);
   DANCE_TRY(const auto read, read_predict_model(bytes));
-  std::ofstream file(out, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return fail("cannot write " + out + ": name another file with -o");
+  if (auto written = write_whole_file(out, bytes); !written) return written;
   talk::info("{}: model {:08x}, {} bytes, {} dancers", out, read->name, bytes.size(),
              read->dancers.size());
   return {};

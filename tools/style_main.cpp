@@ -48,12 +48,11 @@ Result<void> say(const Options& options) {
   for (const Where where : {Where::kCapture, Where::kGuest})
     program.bus().on_pose(where, *guest, Delivery::kNewest,
                           [&](const Channel&, const Pose&, MonoTime) { is_here = true; });
-  bool is_told = false;
-  program.every(kLooksFor, [&](MonoTime) {
-    if (!is_here && !is_told)
+  program.poller().add_timer(mono_now() + kLooksFor, [&](MonoTime) {
+    if (!is_here)
       talk::warn("nobody called {} dances on {} yet; who does, dance top shows", options.guest,
                  program.bus().url());
-    is_told = true;
+    return MonoTime();
   });
   program.stop_after(options.seconds);
   program.run();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/beat_words.h"
 #include "viewer/plot_canvas.h"
 
 namespace dance {
@@ -43,13 +44,11 @@ class SwayDrawing {
     row(1, fmt::format("{} as the poses come", plot_.remote));
     curve(1, plot_.lines.danced, kDanced, 3.4);
     curve(1, plot_.lines.raw, kRaw, 2.2);
-    figures(1, plot_.rhythm.raw, kRaw, false);
+    figures(1, plot_.rhythm.raw, kRaw);
     row(2, fmt::format("{} as the stage shows the dance", plot_.remote));
     curve(2, plot_.lines.danced, kDanced, 3.4);
     curve(2, plot_.lines.shown, kShown, 2.2);
-    // What is newer than what has come is a guess.
-    figures(2, plot_.rhythm.shown, kShown,
-            plot_.rhythm.shown.content_delay_ms < plot_.rhythm.raw.content_delay_ms);
+    figures(2, plot_.rhythm.shown, kShown);
     canvas_.text({0.5 * (kLeft + kRight), row_bottom(kRows - 1) + 44.0},
                  fmt::format("count of the music in house A ({:.0f} beats a minute: {:.0f} ms each)"
                              "     grey: as danced, on the beat     up: to the dancer's left",
@@ -94,19 +93,14 @@ class SwayDrawing {
     canvas_.end_clip();
   }
 
-  void figures(int r, const StageFigures& f, std::uint32_t colour, bool is_guess) {
-    const double off_ms = std::round(f.phase_mean_ms);
-    const std::string off = off_ms == 0.0 ? "on the beat"
-                                          : fmt::format("{:.0f} ms {} the beat", std::abs(off_ms),
-                                                        off_ms < 0.0 ? "before" : "behind");
-    constexpr double kNow_ms = 10.0;  // nobody sees the difference
-    const std::string when = fmt::format("{:.0f} ms before", f.content_delay_ms);
-    const std::string old =
-        !is_guess ? "what is seen was danced " + when
-                  : "what is seen is a guess of " + (f.content_delay_ms > kNow_ms ? when : "now");
+  void figures(int r, const StageFigures& f, std::uint32_t colour) {
+    const std::string seen = is_guess(f.content_delay_ms, plot_.rhythm.raw.content_delay_ms)
+                                 ? "is " + guess_words(f.content_delay_ms)
+                                 : fmt::format("was danced {:.0f} ms before", f.content_delay_ms);
     canvas_.text({kRight, row_top(r) - 19.0},
-                 fmt::format("{}, \u00b1 {:.0f} ms;  {}", off, f.phase_sd_ms, old), colour,
-                 Anchor::kRight);
+                 fmt::format("{}, \u00b1 {:.0f} ms;  what is seen {}", beat_words(f.phase_mean_ms),
+                             f.phase_sd_ms, seen),
+                 colour, Anchor::kRight);
   }
 
   PlotCanvas& canvas_;

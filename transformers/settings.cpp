@@ -5,6 +5,8 @@
 #include <charconv>
 #include <optional>
 
+#include "core/base/plain_number.h"
+
 namespace dance {
 namespace {
 
@@ -62,8 +64,8 @@ Settings& Settings::number(std::string_view name, double& value, double least, d
 
 Settings& Settings::number_or(std::string_view name, std::string_view word, double word_value,
                               double& value, double least, double most) {
-  const std::string takes = word.empty() ? fmt::format("{:g} to {:g}", least, most)
-                                         : fmt::format("{} or {:g} to {:g}", word, least, most);
+  const std::string takes = (word.empty() ? "" : std::string(word) + " or ") + plain_number(least) +
+                            " to " + plain_number(most);
   const std::string_view* text = find(name, takes);
   if (!text) return *this;
   if (!word.empty() && *text == word) {
@@ -80,7 +82,8 @@ Settings& Settings::number_or(std::string_view name, std::string_view word, doub
 
 Settings& Settings::duration(std::string_view name, Duration& value, Duration least,
                              Duration most) {
-  const std::string takes = fmt::format("{:g}ms to {:g}ms", least.as_ms(), most.as_ms());
+  const std::string takes =
+      plain_number(least.as_ms()) + "ms to " + plain_number(most.as_ms()) + "ms";
   const std::string_view* text = find(name, takes);
   if (!text) return *this;
   const auto duration = parse_duration(*text);

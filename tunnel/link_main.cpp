@@ -90,16 +90,13 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
     talk::info("{}", room_state_line(kind, verdict));
   };
   handlers.on_no_answer = [troubles](const Address& address) {
-    const std::string line = no_answer_line(address);
-    if (troubles->is_due(line, mono_now())) talk::warn("{}", line);
+    troubles->warn(no_answer_line(address), mono_now());
   };
   handlers.on_no_entry = [&options, troubles](SealTrouble trouble) {
-    const std::string line = no_entry_line(trouble, options.server);
-    if (troubles->is_due(line, mono_now())) talk::warn("{}", line);
+    troubles->warn(no_entry_line(trouble, options.server), mono_now());
   };
   handlers.on_refused = [room, troubles](const wire::RefusalNotice& refusal, MonoTime now) {
-    const std::string line = refusal_line(refusal, room);
-    if (troubles->is_due(line, now)) talk::warn("{}", line);
+    troubles->warn(refusal_line(refusal, room), now);
   };
 }
 

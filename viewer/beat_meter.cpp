@@ -17,9 +17,9 @@ void BeatMeter::add(double own, double heard, double beats_per_second,
   note_own_beats(own, heard);
   beats_per_second_ = beats_per_second;
   const double angle = kTurn * (heard - own);
-  samples_[count_++ % kSamples] = {static_cast<float>(std::cos(angle)),
-                                   static_cast<float>(std::sin(angle)),
-                                   delay ? static_cast<float>(delay->as_ms()) : kNotKnown};
+  Sample& sample = samples_[count_++ % kSamples];
+  sample = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), {}};
+  if (delay) sample.delay_ms = static_cast<float>(delay->as_ms());
 }
 
 void BeatMeter::note_own_beats(double own, double heard) {
@@ -46,8 +46,8 @@ std::optional<BeatFigures> BeatMeter::figures() const {
   for (std::size_t i = 0; i < n; ++i) {
     cosines += static_cast<double>(samples_[i].cosine);
     sines += static_cast<double>(samples_[i].sine);
-    if (std::isnan(samples_[i].delay_ms)) continue;
-    delays_ms += static_cast<double>(samples_[i].delay_ms);
+    if (!samples_[i].delay_ms) continue;
+    delays_ms += static_cast<double>(*samples_[i].delay_ms);
     ++delayed;
   }
   const double beat_ms = 1e3 / beats_per_second_;

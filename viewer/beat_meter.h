@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "core/base/time.h"
@@ -37,10 +36,9 @@ class BeatMeter {
  private:
   static constexpr std::size_t kSamples = 240;  // 4 s at 60 Hz
   static constexpr std::size_t kFewest = 8;
-  static constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
   struct Sample {
     float cosine = 1.0f, sine = 0.0f;  // of the part of a beat behind, as an angle
-    float delay_ms = kNotKnown;
+    std::optional<float> delay_ms;
   };
   void note_own_beats(double own, double heard);
 

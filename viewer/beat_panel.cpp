@@ -1,5 +1,6 @@
 #include "viewer/beat_panel.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "viewer/beat_words.h"
 #include "viewer/guest_look.h"
 
 namespace dance {
@@ -14,7 +16,6 @@ namespace {
 
 constexpr float kPastBeats = 6.4f;
 constexpr float kComingBeats = 1.6f;
-constexpr double kNow_ms = 10.0;  // nobody sees the difference
 
 ImU32 grey(float light, float alpha = 1.0f) {
   return ImGui::ColorConvertFloat4ToU32(ImVec4(light, light, light, alpha));
@@ -121,25 +122,15 @@ class Panel {
         });
     if (compared == scene.guests.end()) return;
     const BeatFigures& beat = *compared->figures.beat;
-    const double off_ms = std::round(static_cast<double>(beat.behind_ms));
-    const double old_ms = std::round(static_cast<double>(*beat.delay_ms));
-    const char* name = compared->id.c_str();
-    std::array<char, 128> text{};
-    if (compared->is_guess && old_ms <= kNow_ms)
-      std::snprintf(text.data(), text.size(), "%s: a guess of now", name);
-    else if (compared->is_guess)
-      std::snprintf(text.data(), text.size(), "%s: a guess of %.0f ms ago", name, old_ms);
-    else if (off_ms == 0.0)
-      std::snprintf(text.data(), text.size(), "%s: on the beat, \u00b1 %.0f ms; %.0f ms old", name,
-                    static_cast<double>(beat.wander_ms), old_ms);
-    else
-      std::snprintf(text.data(), text.size(),
-                    "%s: %.0f ms %s the beat, \u00b1 %.0f ms; %.0f ms old", name, std::abs(off_ms),
-                    off_ms < 0.0 ? "before" : "behind", static_cast<double>(beat.wander_ms),
-                    old_ms);
-    const float width = fonts_.text->CalcTextSizeA(line_, 1e4f, 0.0f, text.data()).x;
+    const auto age_ms = static_cast<double>(*beat.delay_ms);
+    std::string text = std::string(compared->id.view()) + ": ";
+    text += compared->is_guess ? guess_words(age_ms)
+                               : fmt::format("{}, \u00b1 {:.0f} ms; {:.0f} ms old",
+                                             beat_words(static_cast<double>(beat.behind_ms)),
+                                             beat.wander_ms, age_ms);
+    const float width = fonts_.text->CalcTextSizeA(line_, 1e4f, 0.0f, text.c_str()).x;
     list_.AddText(fonts_.text, line_, whole(box_.right - line_ - width, y), grey(0.85f),
-                  text.data());
+                  text.c_str());
   }
 
   ImDrawList& list_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/raw_twin.h"
+#include "viewer/beat_words.h"
 
 namespace dance {
 namespace {
@@ -13,12 +14,9 @@ const SceneGuest* find_guest(const SceneState& scene, const GuestId& id) {
   return found == scene.guests.end() ? nullptr : &*found;
 }
 
-std::optional<float> delay_of(const SceneGuest& guest) {
+std::optional<double> delay_of(const SceneGuest& guest) {
   return guest.figures.beat ? guest.figures.beat->delay_ms : std::nullopt;
 }
-
-// What is newer by so much than what has come is a guess.
-constexpr float kNewer_ms = 5.0f;
 
 // Whoever is merely called so is a guest like others.
 bool is_twin(const SceneState& scene, const GuestId& id) {
@@ -40,20 +38,19 @@ Comparison compare(const SceneState& scene) {
   comparison.raw.guests.clear();
   // Both halves have the same guests, in one order.
   std::optional<std::size_t> latest;
-  for (const SceneGuest& guest : comparison.shown.guests) {
-    const auto twin_id = raw_twin_of(guest.id);
+  for (SceneGuest& shown : comparison.shown.guests) {
+    const auto twin_id = raw_twin_of(shown.id);
     const SceneGuest* twin = twin_id ? find_guest(scene, *twin_id) : nullptr;
-    comparison.raw.guests.push_back(twin != nullptr ? *twin : guest);
-    comparison.raw.guests.back().id = guest.id;
-    if (twin == nullptr || !delay_of(*twin)) continue;
-    if (!latest || *delay_of(*twin) > *delay_of(comparison.raw.guests[*latest]))
+    SceneGuest& raw = comparison.raw.guests.emplace_back(twin != nullptr ? *twin : shown);
+    raw.id = shown.id;
+    if (twin == nullptr || !delay_of(raw)) continue;
+    shown.is_guess = delay_of(shown) && is_guess(*delay_of(shown), *delay_of(raw));
+    if (!latest || *delay_of(raw) > *delay_of(comparison.raw.guests[*latest]))
       latest = comparison.raw.guests.size() - 1;
   }
-  if (!latest) return comparison;
-  SceneGuest& raw = comparison.raw.guests[*latest];
-  SceneGuest& shown = comparison.shown.guests[*latest];
-  raw.is_compared = shown.is_compared = true;
-  shown.is_guess = delay_of(shown) && *delay_of(shown) < *delay_of(raw) - kNewer_ms;
+  if (latest)
+    for (SceneState* half : {&comparison.raw, &comparison.shown})
+      half->guests[*latest].is_compared = true;
   return comparison;
 }
 

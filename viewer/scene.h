@@ -41,7 +41,7 @@ struct SceneGuest {
   std::optional<Hands> hands;
   float opacity = 1.0f;  // 0 = faded out
   GuestFigures figures;
-  // Of a Comparison: whose figures stand under both halves, and that this half shows a guess of the dance.
+  // Of a Comparison: that the figures of this dancer stand under both halves, and that this half shows a guess of the dance.
   bool is_compared = false;
   bool is_guess = false;
 };

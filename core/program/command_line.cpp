@@ -4,19 +4,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "core/base/guest_id.h"
+#include "core/base/plain_number.h"
 
 namespace dance {
 
 Option& Option::range(double lowest, double highest) {
-  const auto plain = [](double x) {
-    return x == std::round(x) && std::abs(x) < 1e15 ? fmt::format("{:.0f}", x)
-                                                    : fmt::format("{:g}", x);
-  };
-  const std::string span = plain(lowest) + " to " + plain(highest);
+  const std::string span = plain_number(lowest) + " to " + plain_number(highest);
   option_->check(CLI::Validator(
       [=](const std::string& text) -> std::string {
         double value = 0.0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/time.h"
+#include "core/program/talk.h"
 
 namespace dance {
 
@@ -25,6 +26,9 @@ class Seldom {
     if (said_.size() == kMost) said_.erase(said_.begin());
     said_.push_back({line, now});
     return true;
+  }
+  void warn(const std::string& line, MonoTime now) {
+    if (is_due(line, now)) talk::warn("{}", line);
   }
   // All is well again: what comes next is new.
   void forget() { said_.clear(); }

@@ -50,8 +50,11 @@ TEST(Comparison, TellsOfTheDancerWhoIsBehindMost) {
       EXPECT_EQ(guest.is_compared, guest.id.view() == "bob") << guest.id.view();
   EXPECT_TRUE(both.shown.guests[1].is_guess) << "newer than what has come";
   EXPECT_FALSE(both.raw.guests[1].is_guess);
+  EXPECT_FALSE(both.shown.guests[2].is_guess) << "carol is shown late and true";
   shown_ms_ago(1, 410.0f);
   EXPECT_FALSE(compare(scene).shown.guests[1].is_guess);
+  shown_ms_ago(3, 0.0f);
+  EXPECT_TRUE(compare(scene).shown.guests[2].is_guess) << "and so is who is not compared";
 }
 
 TEST(Comparison, APlainPictureShowsNobodyTwice) {

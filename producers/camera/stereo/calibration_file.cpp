@@ -1,7 +1,6 @@
 #include "producers/camera/stereo/calibration_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -10,6 +9,7 @@
 #include <fstream>
 #include <opencv2/core.hpp>
 
+#include "core/program/whole_file.h"
 #include "producers/camera/stereo/zed_ini.h"
 
 namespace dance {
@@ -180,26 +180,7 @@ Result<Calibration> load_calibration(const std::string& path, int width_px, int 
 
 Result<void> save_calibration(const std::string& path, const Calibration& calibration,
                               double rms_px) {
-  const std::string text = text_of(calibration, rms_px);
-  const std::string beside = fmt::format("{}.{}.part", path, getpid());
-  std::error_code error;
-  {
-    std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-    file << text;
-    file.close();
-    if (!file) {
-      const std::string reason = std::strerror(errno);  // NOLINT(concurrency-mt-unsafe)
-      std::filesystem::remove(beside, error);
-      return fail(fmt::format(
-          "{} cannot be written: {}; name a folder that is yours, with space left", path, reason));
-    }
-  }
-  std::filesystem::rename(beside, path, error);
-  if (!error) return {};
-  const std::string reason = error.message();
-  std::filesystem::remove(beside, error);
-  return fail(
-      fmt::format("{} cannot be written: {}; name a file in a folder that is yours", path, reason));
+  return write_whole_file(path, text_of(calibration, rms_px));
 }
 
 }  // namespace dance

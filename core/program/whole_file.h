@@ -1,0 +1,23 @@
+// Writes a file whole or not at all: beside its place first, so that whoever reads it, or stops the writer, has the old one
+// or the new one.
+//
+// Units/frames: none.
+// Ownership:    nothing stays.
+// Threads:      any; of two processes that write one file, one's is there.
+// Failure:      an Error names the file, the reason and the cure; what was there before stays. A device or a pipe has no
+//               place beside it: what it got, it has.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace dance {
+
+Result<void> write_whole_file(const std::string& path, std::string_view content);
+Result<void> write_whole_file(const std::string& path, std::span<const std::uint8_t> content);
+
+}  // namespace dance

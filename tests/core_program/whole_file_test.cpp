@@ -1,0 +1,60 @@
+#include "core/program/whole_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/tools/run_program.h"
+
+namespace dance {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_in(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(WholeFile, IsThereOrAsItWas) {
+  const TestFolder folder("whole-file");
+  const std::string path = folder.path("a.model");
+  for (const char* text : {"first", "second, and longer", ""}) {
+    ASSERT_TRUE(write_whole_file(path, text));
+    EXPECT_EQ(text_in(path), text);
+  }
+  ASSERT_TRUE(write_whole_file(path, "kept"));
+  fs::create_directory(folder.path("b.model"));
+  const auto refused = write_whole_file(folder.path("b.model"), "is a folder");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("b.model cannot be written: "), std::string::npos);
+  EXPECT_FALSE(write_whole_file(folder.path("none/c.model"), "no such folder"));
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path(""))) ++files;
+  EXPECT_EQ(files, 2u) << "nothing is left beside them";
+}
+
+TEST(WholeFile, GoesWhereALinkLeads) {
+  const TestFolder folder("whole-file");
+  ASSERT_TRUE(write_whole_file(folder.path("old"), "old"));
+  fs::create_symlink(folder.path("old"), folder.path("link"));
+  ASSERT_TRUE(write_whole_file(folder.path("link"), "new"));
+  EXPECT_TRUE(fs::is_symlink(folder.path("link")));
+  EXPECT_EQ(text_in(folder.path("old")), "new");
+}
+
+TEST(WholeFile, TakesNoDevicesPlace) {
+  const TestFolder folder("whole-file");
+  fs::create_symlink("/dev/null", folder.path("nowhere"));
+  EXPECT_TRUE(write_whole_file(folder.path("nowhere"), "gone"));
+  EXPECT_TRUE(fs::is_character_file(folder.path("nowhere")));
+  fs::create_symlink("/dev/full", folder.path("full"));
+  const auto refused = write_whole_file(folder.path("full"), "too much");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("No space left"), std::string::npos) << refused.error().what;
+}
+
+}  // namespace
+}  // namespace dance
