@@ -4,6 +4,7 @@
 
 #include "tools/predict_training.h"
 #include "transformers/dance_predictor.h"
+#include "transformers/way_bounds.h"
 
 namespace dance {
 namespace {
@@ -75,8 +76,9 @@ KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_de
         // Headings are counted on alike.
         to(kHeadingGroup, 0) +=
             6.28318531f * std::round((from.heading() - to.heading()) / 6.28318531f);
-        add_moment(*weighed.model, predictor.guesses(kLongest), h, way_between(from, to),
-                   weighed.weight, *sums);
+        BodyRow way = way_between(from, to);
+        keep_possible(h, way);
+        add_moment(*weighed.model, predictor.guesses(kLongest), h, way, weighed.weight, *sums);
       }
     }
   }

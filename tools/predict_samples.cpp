@@ -6,6 +6,7 @@
 #include "transformers/dance_memory.h"
 #include "transformers/moment_guesses.h"
 #include "transformers/steady_rows.h"
+#include "transformers/way_bounds.h"
 
 namespace dance {
 namespace {
@@ -88,8 +89,9 @@ void add_samples(const PredictModel& model, const PredictTake& take, double trem
   for (std::size_t t = kFirstRow + random.below(every); t + longest < heard.size(); t += every) {
     net_inputs(RowsBack{heard, t}, tremble_rad[t], inputs);
     samples.inputs.insert(samples.inputs.end(), inputs.begin(), inputs.end());
-    for (const int ahead : kHorizonFrames) {
-      const BodyRow way = way_between(heard[t], danced[t + static_cast<std::size_t>(ahead)]);
+    for (std::size_t h = 0; h < kHorizons; ++h) {
+      BodyRow way = way_between(heard[t], danced[t + static_cast<std::size_t>(kHorizonFrames[h])]);
+      keep_possible(h, way);
       for (std::size_t i = 0; i < kRowSize; ++i)
         samples.ways.push_back(way.v[i] * model.lever[i % kRowGroups]);
     }

@@ -5,6 +5,7 @@
 
 #include "core/base/assert.h"
 #include "transformers/row_kernels.h"
+#include "transformers/way_bounds.h"
 
 namespace dance {
 namespace {
@@ -13,13 +14,6 @@ constexpr std::size_t kPriorRows = 32;  // how often the weights hear of the tre
 // A dancer was just met until here, and has a past this much later.
 constexpr float kYoung_rows = 240.0f, kGrowing_rows = 360.0f;
 constexpr std::size_t kSolveRows = 2;  // a horizon's weights are solved every 16 rows
-// What no body does: a joint turns, and the hips get, no further than this at once and this each second.
-constexpr float kFurthestTurn_rad = 3.0f;
-constexpr float kSwiftestTurn_rad_s = 16.0f;
-constexpr float kFurthestWay_m = 3.0f;
-constexpr float kSwiftestWay_m_s = 8.0f;
-constexpr float kSuddenTurn_rad = 0.2f;
-constexpr float kSuddenWay_m = 0.1f;
 // How fast what lies between two rows is forgotten.
 constexpr double kSeenKept_rows = 6.0;
 
@@ -48,28 +42,6 @@ std::array<float, kHorizons + 1> knot_weights(double rows) {
   std::array<float, kHorizons + 1> out;
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(weights[i]);
   return out;
-}
-
-// False, and no way at all, where the numbers are none.
-bool keep_possible(std::size_t horizon, BodyRow& way) {
-  float sum = 0.0f;
-  for (const float x : way.v) sum += x * 0.0f;
-  if (sum != 0.0f || std::isnan(sum)) {
-    way.v.fill(0.0f);
-    return false;
-  }
-  const auto seconds = static_cast<float>(kHorizonFrames[horizon] / kGridHz);
-  const float turn_rad =
-      std::min(kFurthestTurn_rad, kSuddenTurn_rad + kSwiftestTurn_rad_s * seconds);
-  const float way_m = std::min(kFurthestWay_m, kSuddenWay_m + kSwiftestWay_m_s * seconds);
-  for (std::size_t g = 0; g < kRowGroups; ++g) {
-    const float most = g == kPlaceGroup ? way_m : turn_rad;
-    const float size =
-        std::sqrt(way(g, 0) * way(g, 0) + way(g, 1) * way(g, 1) + way(g, 2) * way(g, 2));
-    if (size <= most) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) way(g, axis) *= most / size;
-  }
-  return true;
 }
 
 }  // namespace
@@ -202,7 +174,8 @@ void DancePredictor::learn_from_past() {
     const auto age = static_cast<std::size_t>(kHorizonFrames[h]);
     if (since_ < kNetHistory + age) continue;
     const MomentGuesses& then = moments_[(turn_ - age) % kMoments];
-    const BodyRow way = way_between(memory_(age), memory_(0));
+    BodyRow way = way_between(memory_(age), memory_(0));
+    keep_possible(h, way);
     blend_.learn(h, then, way);
     proof_.learn(h, then, way);
     guard_.learn(h, then, way);

@@ -6,15 +6,18 @@
 namespace dance {
 namespace {
 
-// 30 moments a second: half-lives of 0.65 s and of 2.3 s.
-constexpr float kLatelyKeep = 0.965f, kLongerKeep = 0.99f;
+// 30 moments a second: half-lives of 0.45 s and of 2.3 s.
+constexpr float kLatelyKeep = 0.95f, kLongerKeep = 0.99f;
 // What each counts. What is wrong near at hand is known before what is wrong further ahead: the three horizons before are
 // heard too.
 constexpr float kLatelyWeight = 0.5f, kLongerWeight = 0.5f, kNearerWeight = 0.33f;
 constexpr std::size_t kNearerHorizons = 3;
 // A few moments say little yet; until then the others count as so much worse than the prediction.
-constexpr float kFewMoments = 20.0f;
-constexpr float kBeforehand = 0.2f;
+constexpr float kFewMoments = 6.0f;
+constexpr float kBeforehand = 0.1f;
+// An error counts less and less from about so many radians (metres, of the place) on, and so many more a second ahead: one
+// limb that was lost for a frame says little of the seconds around it.
+constexpr float kWildError = 0.5f, kWildError_s = 1.0f;
 // A bone's errors are few and rough: so much of the whole body's is among them.
 constexpr float kOfTheBody = 0.1f;
 // How steeply a worse candidate counts less: by about exp(-kSharp × its error's excess).
@@ -111,11 +114,15 @@ void GuessGuard::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
                                                   0.5f * (still + damped)};
       for (std::size_t k = 0; k < kCandidates; ++k) squares[k][g] += errors[k] * errors[k];
     }
+  const float wild = kWildError + kWildError_s * static_cast<float>(kHorizonFrames[h] / kGridHz);
   for (std::size_t k = 0; k < kCandidates; ++k) {
     Groups& errors = squares[k];
     // Lengths, not their squares: what is seen of an error is how far it is.
     float body = 0.0f;
-    for (std::size_t g = 0; g < kRowGroups; ++g) errors[g] = lever_[g] * std::sqrt(errors[g]);
+    for (std::size_t g = 0; g < kRowGroups; ++g) {
+      const float error = std::sqrt(errors[g]);
+      errors[g] = lever_[g] * error / (1.0f + error / wild);
+    }
     for (std::size_t g = 0; g < kBoneCount; ++g) body += errors[g];
     // Where the hips go is seen by itself: joints that only tremble say nothing about it.
     for (std::size_t g = 0; g < kRowGroups; ++g)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "transformers/row_kernels.h"
+#include "transformers/way_bounds.h"
 
 namespace dance {
 namespace {
@@ -30,6 +31,7 @@ void add_slope(const DanceMemory& memory, std::size_t rows, float cosine, float 
     add_scaled(arm, memory(l).v.data(), kRowSize, slope.v.data());
   }
   for (float& x : slope.v) x /= size;
+  keep_slope_possible(slope);
   turn_place(slope, sine, cosine);
 }
 

@@ -12,6 +12,10 @@ constexpr Duration kAsGoodAs = Duration::ms(1);
 constexpr Duration kFollowed = Duration::ms(6);
 constexpr std::int64_t kFollowOneIn = 16;
 constexpr float kTrembleKeep = 1.0f - 1.0f / 120.0f;  // 2 s
+// More than this at once and a second, no bone turns; who is seen there for so long is there.
+constexpr float kSuddenTurn_rad = 0.4f;
+constexpr float kSwiftestTurn_rad_s = 40.0f;
+constexpr Duration kLongestLost = Duration::ms(70);
 // The third difference of white noise has 20 times its variance.
 constexpr float kThirdOfWhite = 20.0f;
 
@@ -27,6 +31,8 @@ SteadyRows::Heard SteadyRows::observe(const Pose& pose) {
     seen_time_ = before_time_ = due_time_ = capture;
     row_time_ = capture;
     looked_count_ = 0;
+    accepted_ = pose.R_PB;
+    lost_.fill(Duration());
     const Heard heard = Heard::kRestarted;
     is_empty_ = false;
     return heard;
@@ -34,10 +40,34 @@ SteadyRows::Heard SteadyRows::observe(const Pose& pose) {
   if (capture <= seen_time_) return Heard::kRefused;
   before_ = seen_;
   before_time_ = seen_time_;
-  seen_ = space_.row_of(pose, &before_);
+  Pose held = pose;
+  hold_lost_bones(capture - before_time_, held);
+  seen_ = space_.row_of(held, &before_);
   seen_time_ = capture;
   follow_source(capture);
   return Heard::kTaken;
+}
+
+// A bone that turns as no body does was mistaken: it stays until it comes back, or has stayed there.
+void SteadyRows::hold_lost_bones(Duration step, Pose& pose) {
+  const float most_rad =
+      std::min(3.0f, kSuddenTurn_rad + kSwiftestTurn_rad_s * static_cast<float>(step.as_seconds()));
+  const float least_cosine = std::cos(0.5f * most_rad);
+  for (std::size_t b = 1; b < kBoneCount; ++b) {
+    const float cosine = std::abs(pose.R_PB[b].dot(accepted_[b]));
+    if (cosine >= least_cosine || (pose.presence >> b & 1u) == 0) {
+      lost_[b] = Duration();
+      if ((pose.presence >> b & 1u) != 0) accepted_[b] = pose.R_PB[b];
+      continue;
+    }
+    lost_[b] += step;
+    if (lost_[b] > kLongestLost) {
+      lost_[b] = Duration();
+      accepted_[b] = pose.R_PB[b];
+    } else {
+      pose.R_PB[b] = accepted_[b];
+    }
+  }
 }
 
 double SteadyRows::rows_until(MonoTime capture) const {

@@ -42,6 +42,7 @@ class SteadyRows {
  private:
   void follow_source(MonoTime capture);
   void note_tremble(const BodyRow& row);
+  void hold_lost_bones(Duration step, Pose& pose);
 
   static constexpr std::size_t kLooked = 4;
 
@@ -49,6 +50,8 @@ class SteadyRows {
   bool is_empty_ = true;
   std::uint64_t clock_id_ = 0;
   BodyRow before_, seen_;
+  BoneRotations accepted_;
+  std::array<Duration, kBoneCount> lost_{};
   MonoTime before_time_, seen_time_;
   MonoTime row_time_, due_time_;
   std::array<BodyRow, kLooked> looked_;  // the rows before, newest first

@@ -180,6 +180,30 @@ TEST(DancePredictor, IsBetterThanPlainGuessesOnADance) {
   expect_never_much_worse(dance, shaken(dance, kHalfDegree_rad), 0.95, "salsa, trembling");
 }
 
+// A sensor turns a leg right round for two frames, every second: that makes little of what was learned of it wrong.
+TEST(DancePredictor, ForgetsALimbThatASensorLostForAFrame) {
+  const auto danced = salsa(2400);
+  auto heard = danced;
+  const std::size_t leg = index_of(Bone::kLeftUpperLeg);
+  for (std::size_t i = 60; i < heard.size(); i += i % 60 == 0 ? 1 : 59)
+    heard[i].R_PB[leg] = heard[i].R_PB[leg] * exp_rotation(Eigen::Vector3f(0.0f, 3.0f, 0.5f));
+  constexpr std::size_t kAhead = 6;
+  std::array<double, 2> sums{};
+  for (std::size_t which = 0; which < 2; ++which) {
+    DancePredictor predictor(built_in_predict_model());
+    for (std::size_t i = 0; i + kAhead < danced.size(); ++i) {
+      predictor.observe(which == 0 ? danced[i] : heard[i]);
+      // A third of a second after it.
+      if (i < 600 || i % 60 < 20) continue;
+      Pose out;
+      predictor.predict(danced[i].capture_time + Duration::ms(100), out);
+      sums[which] +=
+          static_cast<double>(out.R_PB[leg].angularDistance(danced[i + kAhead].R_PB[leg]));
+    }
+  }
+  EXPECT_LT(sums[1], 1.2 * sums[0]);
+}
+
 // Who glides through the room in one pose: joints that only tremble best stand still, and the hips do not.
 TEST(DancePredictor, LetsHipsGoOnWhoseBodyHoldsItsPose) {
   auto danced = standing(1800);
