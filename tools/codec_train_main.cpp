@@ -14,6 +14,7 @@ constexpr const char* kExamples = R"(Examples:
 )";
 
 Result<void> train(const std::vector<std::string>& files, const std::string& out, int rounds) {
+  if (auto possible = try_whole_file(out); !possible) return possible;
   CodecTraining training;
   training.rounds = rounds;
   training.tell = [](const std::string& line) { talk::info("{}", line); };

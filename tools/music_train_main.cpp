@@ -8,6 +8,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "core/program/whole_file.h"
 #include "producers/music/beats_file.h"
 #include "tools/beat_model_file.h"
 #include "tools/music_eval.h"
@@ -97,6 +98,8 @@ Result<std::vector<SongEval>> hold_out(const Songs& songs, const MusicTrainWishe
 }
 
 Result<void> run(MusicTrainWishes wishes) {
+  if (wishes.hold_out == 0)
+    if (auto possible = try_whole_file(wishes.out); !possible) return possible;
   Songs songs;
   DANCE_TRY(songs.recorded, load_songs(wishes.files, 1.0f, kSpeeds));
   DANCE_TRY(songs.made, load_songs(wishes.made, kMadeWeight, std::array{1.0}));

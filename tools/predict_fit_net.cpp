@@ -68,10 +68,19 @@ class NetTrainer {
     forward();
     Pass& p = pass_;
     error = 0.0;
-    for (std::size_t i = 0; i < p.answers.size(); ++i) {
-      p.answers[i] -= targets[i];
-      error += static_cast<double>(p.answers[i] * p.answers[i]);
-      p.answers[i] *= 2.0f / static_cast<float>(kNetBatch);
+    for (std::size_t s = 0; s < kNetBatch; ++s) {
+      float* answer = &p.answers[s * kNetAnswers];
+      float square = 0.0f;
+      for (std::size_t k = 0; k < kNetAnswers; ++k) {
+        answer[k] -= targets[s * kNetAnswers + k];
+        square += answer[k] * answer[k];
+      }
+      error += static_cast<double>(square);
+      // What a moment is off by counts as it is, not as its square: a leap is not to outweigh ten steps. All horizons' ways
+      // together have a mean square of one each.
+      const float counts = 1.0f / std::sqrt(1.0f + square);
+      for (std::size_t k = 0; k < kNetAnswers; ++k)
+        answer[k] *= 2.0f * counts / static_cast<float>(kNetBatch);
     }
     error /= static_cast<double>(kNetBatch);
     backward(rate);

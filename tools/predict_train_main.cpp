@@ -15,6 +15,7 @@ constexpr const char* kPredictTrainExamples = R"(Examples:
 
 Result<void> run_predict_train(PredictTraining& training, const std::vector<std::string>& files,
                                const std::string& out) {
+  if (auto possible = try_whole_file(out); !possible) return possible;
   training.tell = [](const std::string& line) { talk::info("{}", line); };
   for (const std::string& file : files) {
     DANCE_TRY(PredictTake take, load_predict_take(file, kGridHz));

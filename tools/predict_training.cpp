@@ -14,6 +14,9 @@ namespace {
 constexpr std::array<double, 4> kNetTrembles_deg{0.0, 0.25, 0.5, 0.5};
 constexpr std::size_t kNetEvery = 2;
 
+// Half a second to look back on, a second to look ahead, and something between.
+constexpr std::size_t kLeastFrames = 180;
+
 struct TakeOrigin {
   std::size_t dancer;
   std::size_t fold;
@@ -92,6 +95,10 @@ void run_jobs(std::vector<NetJob>& jobs, const PredictTraining& training) {
 }  // namespace
 
 Result<PredictModel> train_predict(const PredictTraining& training) {
+  for (const PredictTake& take : training.takes)
+    if (take.poses.size() < kLeastFrames)
+      return fail(fmt::format("{} has {} frames, {} at least are needed: leave it out", take.name,
+                              take.poses.size(), kLeastFrames));
   const auto folds = static_cast<std::size_t>(training.folds);
   PredictModel model;
   const auto origins = origins_of(training.takes, folds, model.dancers);
@@ -100,6 +107,10 @@ Result<PredictModel> train_predict(const PredictTraining& training) {
   if (model.dancers.size() < 2 || training.takes.size() < 2 * folds)
     return fail("at least two dancers and " + std::to_string(2 * folds) +
                 " takes are needed: some are kept back to learn what guesses are worth");
+  if (std::all_of(origins.begin(), origins.end(), [](const auto& o) { return o.fold == 0; }))
+    return fail(
+        "two takes of one dancer at least are needed: without one, the other is left to learn "
+        "from");
   fit_space(model, training.takes);
   // The network of the model, those that have not seen a part of the takes, and those that have not seen a dancer.
   std::vector<NetJob> jobs;

@@ -21,7 +21,7 @@ namespace dance {
 
 struct PredictTraining {
   std::vector<PredictTake> takes;
-  int epochs = 10;
+  int epochs = 32;
   int folds = 3;
   std::uint64_t seed = 1;
   std::function<void(const std::string&)>
@@ -47,7 +47,7 @@ void add_samples(const PredictModel& model, const PredictTake& take, double trem
                  std::size_t every, Random& random, NetSamples& samples);
 void fit_basis(PredictModel& model, const NetSamples& samples);
 struct NetFit {
-  int epochs = 10;
+  int epochs = 32;
   std::uint64_t seed = 1;
   std::function<void(int epoch, double error)> tell;
 };

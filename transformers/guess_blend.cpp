@@ -1,5 +1,7 @@
 #include "transformers/guess_blend.h"
 
+#include <cmath>
+
 #include "transformers/row_kernels.h"
 
 namespace dance {
@@ -12,6 +14,9 @@ constexpr float kKeep = 0.99835f;
 constexpr std::array<float, kHorizons> kRidge{0.05f, 0.08f, 0.15f, 0.2f, 0.3f, 0.5f, 1.0f, 3.0f};
 constexpr float kFirstWeight = 1500.0f;
 constexpr float kFirstMoments = 30.0f;
+// How soon the usual error is known, as a share of a moment's; and what is none, rad.
+constexpr float kUsualShare = 0.02f;
+constexpr float kLeastError = 1e-4f;
 
 }  // namespace
 
@@ -21,6 +26,7 @@ void GuessBlend::clear() {
   for (Horizon& horizon : *horizons_) {
     horizon.pairs.fill(0.0f);
     horizon.targets.fill(0.0f);
+    horizon.usual_error.fill(0.0f);
     horizon.weights = horizon.prior;
     horizon.heard = 0.0f;
   }
@@ -40,7 +46,19 @@ void GuessBlend::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
   Horizon& horizon = (*horizons_)[h];
   std::array<const float*, kGuesses> rows;
   for (std::size_t e = 0; e < kGuesses; ++e) rows[e] = guesses.row(h, e);
-  follow_gram(rows.data(), kGuesses, way.v.data(), kKeep, horizon.pairs.data(),
+  // What is to be small is how far off a bone is, not the square of that.
+  std::array<float, kRowGroups> counts;
+  for (std::size_t g = 0; g < kRowGroups; ++g) {
+    float square = 0.0f;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float error = way(g, axis) - guesses.blended[h](g, axis);
+      square += error * error;
+    }
+    const float error = std::sqrt(square);
+    horizon.usual_error[g] += kUsualShare * (error - horizon.usual_error[g]);
+    counts[g] = 1.0f / (1.0f + error / (horizon.usual_error[g] + kLeastError));
+  }
+  follow_gram(rows.data(), kGuesses, way.v.data(), counts.data(), kKeep, horizon.pairs.data(),
               horizon.targets.data());
   horizon.heard = kKeep * horizon.heard + 1.0f;
 }

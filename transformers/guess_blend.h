@@ -1,5 +1,6 @@
 // GuessBlend: how much each guess is worth for this dancer, joint by joint and horizon by horizon: a ridge regression that
-// begins with the model's weights and follows how past moments went on.
+// begins with the model's weights and follows how past moments went on. Moments count less the more their guess was off, so
+// that the mean error becomes small, not that of squares.
 //
 // Units/frames: guesses and ways as transformers/moment_guesses.h.
 // Ownership:    its own sums; never allocates after construction.
@@ -35,6 +36,7 @@ class GuessBlend {
     alignas(64) std::array<float, kGuesses * kRowGroups> targets{};
     alignas(64) std::array<float, kGuesses * kRowGroups> prior{};
     alignas(64) std::array<float, kGuesses * kRowGroups> weights{};
+    std::array<float, kRowGroups> usual_error{};
     float heard = 0.0f;
   };
   std::unique_ptr<std::array<Horizon, kHorizons>> horizons_;

@@ -80,11 +80,15 @@ DANCE_WIDE_VECTORS void follow_distances(const float* __restrict now, std::size_
 }
 
 DANCE_WIDE_VECTORS void follow_gram(const float* const* features, std::size_t count,
-                                    const float* __restrict y, float keep, float* __restrict pairs,
+                                    const float* __restrict y, const float* __restrict counts,
+                                    float keep, float* __restrict pairs,
                                     float* __restrict targets) {
   std::size_t pair = 0;
+  float a[3 * kG];
   for (std::size_t e = 0; e < count; ++e) {
-    const float* a = features[e];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t g = 0; g < kG; ++g)
+        a[axis * kG + g] = counts[g] * features[e][axis * kG + g];
     for (std::size_t f = e; f < count; ++f, ++pair) {
       const float* b = features[f];
       float* out = pairs + pair * kG;

@@ -38,9 +38,9 @@ void follow_distances(const float* now, std::size_t dimensions, const float* pas
                       float* distances_b, float keep_b);
 
 // Groups of three numbers, group fastest: pairs[p * groups + g] = keep * pairs[...] + sum over axes of
-// features[e] * features[f] for every e <= f, and targets[e * groups + g] likewise with y.
-void follow_gram(const float* const* features, std::size_t count, const float* y, float keep,
-                 float* pairs, float* targets);
+// counts[g] * features[e] * features[f] for every e <= f, and targets[e * groups + g] likewise with y.
+void follow_gram(const float* const* features, std::size_t count, const float* y,
+                 const float* counts, float keep, float* pairs, float* targets);
 
 // For each of 24 groups: (G + diag(G) * ridge) w = c + diag(G) * ridge * prior, by Cholesky; G packed as above.
 // Where G has no size, w becomes the prior.

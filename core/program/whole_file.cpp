@@ -29,19 +29,47 @@ std::error_code put(const fs::path& file, std::string_view content) {
   return {errno != 0 ? errno : EIO, std::generic_category()};
 }
 
-}  // namespace
+struct Place {
+  fs::path file, beside;
+  bool is_device = false;  // or a pipe, or what else has no place beside it
+};
 
-Result<void> write_whole_file(const std::string& path, std::string_view content) {
+Place place_of(const std::string& path) {
   std::error_code error;
   // A link stays a link: what it leads to is written.
-  fs::path place = fs::canonical(path, error);
-  if (error) place = path;
-  const fs::file_status status = fs::status(place, error);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
+  Place place{fs::canonical(path, error), {}};
+  if (error) place.file = path;
+  const fs::file_status status = fs::status(place.file, error);
+  place.is_device = fs::exists(status) && !fs::is_regular_file(status);
+  place.beside = fmt::format("{}.{}.part", place.file.native(), getpid());
+  return place;
+}
+
+}  // namespace
+
+Result<void> try_whole_file(const std::string& path) {
+  const Place place = place_of(path);
+  std::error_code why, error;
+  if (place.is_device) {
+    if (fs::is_directory(place.file, error))
+      why = std::make_error_code(std::errc::is_a_directory);
+    else if (access(place.file.c_str(), W_OK) != 0)
+      why = {errno, std::generic_category()};
+  } else {
+    why = put(place.beside, {});
+    fs::remove(place.beside, error);
+  }
+  if (why) return not_written(path, why);
+  return {};
+}
+
+Result<void> write_whole_file(const std::string& path, std::string_view content) {
+  const auto [place, beside, is_device] = place_of(path);
+  std::error_code error;
+  if (is_device) {
     if (const std::error_code why = put(place, content)) return not_written(path, why);
     return {};
   }
-  const fs::path beside = fmt::format("{}.{}.part", place.native(), getpid());
   std::error_code why = put(beside, content);
   if (!why) fs::rename(beside, place, why);
   if (!why) return {};

@@ -17,6 +17,9 @@
 
 namespace dance {
 
+// Whether it could be written now: asked before work that takes minutes.
+Result<void> try_whole_file(const std::string& path);
+
 Result<void> write_whole_file(const std::string& path, std::string_view content);
 Result<void> write_whole_file(const std::string& path, std::span<const std::uint8_t> content);
 

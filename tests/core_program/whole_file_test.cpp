@@ -36,6 +36,23 @@ TEST(WholeFile, IsThereOrAsItWas) {
   EXPECT_EQ(files, 2u) << "nothing is left beside them";
 }
 
+TEST(WholeFile, IsTriedWithoutATrace) {
+  const TestFolder folder("whole-file");
+  ASSERT_TRUE(write_whole_file(folder.path("a.model"), "kept"));
+  fs::create_directory(folder.path("b.model"));
+  EXPECT_TRUE(try_whole_file(folder.path("a.model")));
+  EXPECT_TRUE(try_whole_file(folder.path("new.model")));
+  EXPECT_TRUE(try_whole_file("/dev/null"));
+  for (const char* bad : {"b.model", "none/c.model"}) {
+    const auto refused = try_whole_file(folder.path(bad));
+    ASSERT_FALSE(refused) << bad;
+    EXPECT_NE(refused.error().what.find(std::string(bad) + " cannot be written: "),
+              std::string::npos);
+  }
+  EXPECT_EQ(text_in(folder.path("a.model")), "kept");
+  EXPECT_FALSE(fs::exists(folder.path("new.model")));
+}
+
 TEST(WholeFile, GoesWhereALinkLeads) {
   const TestFolder folder("whole-file");
   ASSERT_TRUE(write_whole_file(folder.path("old"), "old"));
