@@ -1,5 +1,7 @@
 // dance server: where the houses' links meet.
 
+#include <array>
+#include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -73,20 +75,28 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
           {"kept_out", kept_out}};
 }
 
-// At most one line a second for each cause.
-void log_rejects(const ServerCounters& before, const ServerCounters& after) {
-  // What comes twice is meant to, where a way loses some.
-  for (std::size_t i = 0; i < kServerRejects; ++i)
-    if (after.rejected[i] != before.rejected[i] &&
-        i != static_cast<std::size_t>(ServerReject::kDuplicate))
-      talk::warn("{} dropped: {}", after.rejected[i] - before.rejected[i], kServerRejectNames[i]);
-}
+// What was refused: each cause at once, and while it goes on, how often since, each minute.
+template <std::size_t kCauses>
+class RejectLog {
+ public:
+  using Counts = std::array<std::uint64_t, kCauses>;
 
-void log_seal_rejects(const SealCounters& before, const SealCounters& after) {
-  for (std::size_t i = 0; i < kSealRejects; ++i)
-    if (after.rejected[i] != before.rejected[i])
-      talk::warn("{} kept out: {}", after.rejected[i] - before.rejected[i], kSealRejectNames[i]);
-}
+  template <class Names>
+  void tell(const Counts& rejected, const Names& names, const char* what, MonoTime now) {
+    for (std::size_t i = 0; i < kCauses; ++i) {
+      const bool was_said_lately = said_at_[i].is_set() && now - said_at_[i] < kAgain;
+      if (rejected[i] == said_[i] || was_said_lately) continue;
+      talk::warn("{} {}: {}", rejected[i] - said_[i], what, names[i]);
+      said_[i] = rejected[i];
+      said_at_[i] = now;
+    }
+  }
+
+ private:
+  static constexpr Duration kAgain = Duration::s(60);
+  Counts said_{};
+  std::array<MonoTime, kCauses> said_at_{};
+};
 
 void log_status(const Server& server, const ServerCounters& before) {
   const ServerCore& core = server.core();
@@ -154,16 +164,18 @@ Result<void> run_server(const ServerProgramOptions& options) {
     talk::warn("nobody elsewhere has a key yet: dance server --new-guest NAME makes one");
 
   const MonoTime begin = mono_now();
-  ServerCounters last_second;
-  ServerCounters last_status;
-  SealCounters last_door;
+  ServerCounters last_second, last_status;
+  RejectLog<kServerRejects> dropped;
+  RejectLog<kSealRejects> kept_out;
   int seconds = 0;
   poller->add_timer(begin + kSecond, [&](MonoTime now) {
     read_keys_again(keys, *server);
-    log_rejects(last_second, server->core().counters());
-    log_seal_rejects(last_door, server->door().counters());
-    last_door = server->door().counters();
     last_second = server->core().counters();
+    auto rejected = last_second.rejected;
+    // What comes twice is meant to, where a way loses some.
+    rejected[static_cast<std::size_t>(ServerReject::kDuplicate)] = 0;
+    dropped.tell(rejected, kServerRejectNames, "dropped", now);
+    kept_out.tell(server->door().counters().rejected, kSealRejectNames, "kept out", now);
     if (++seconds % kSecondsPerStatus == 0) {
       if (last_second.datagrams_in != last_status.datagrams_in) log_status(*server, last_status);
       last_status = last_second;

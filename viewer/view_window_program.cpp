@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -105,6 +106,14 @@ class WindowRun {
       scene_.notes.push_back("nobody is on the stage of " + feed_.url() +
                              " yet; bring dancers with: dance salsa, or dance replay FILE");
     }
+    if (options_.focus && !focus_was_here_) {
+      focus_was_here_ =
+          std::any_of(scene_.guests.begin(), scene_.guests.end(),
+                      [&](const SceneGuest& guest) { return guest.id == *options_.focus; });
+      if (!focus_was_here_ && !scene_.guests.empty())
+        scene_.notes.push_back("--focus " + std::string(options_.focus->view()) +
+                               ": not here yet; until then everybody is shown");
+    }
     if (!options_.hud || !window_.shows_hud()) return;
     std::array<char, 96> text{};
     std::snprintf(text.data(), text.size(),
@@ -130,6 +139,7 @@ class WindowRun {
   SceneState scene_;
   PictureRate rate_;
   bool has_twins_ = false;
+  bool focus_was_here_ = false;
 };
 
 }  // namespace
