@@ -11,10 +11,9 @@ namespace {
 
 constexpr std::size_t kWeighEvery = 4;
 constexpr double kWeightRidge = 1e-3;
-// Frames: a dancer is met anew; the network can be asked; there is a past to look at.
+// Frames: a dancer is met anew; the network can be asked.
 constexpr std::size_t kMetEvery = 300;
 constexpr std::size_t kHasHistory = kNetHistory;
-constexpr std::size_t kHasPast = 360;
 
 using Gram = Eigen::Matrix<double, kGuesses, kGuesses>;
 using Cross = Eigen::Matrix<double, kGuesses, 1>;
@@ -59,7 +58,7 @@ KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_de
     if (is_just_met)
       for (std::size_t i = 0; i < heard.size(); ++i)
         heard[i].capture_time += Duration::s(2 * static_cast<std::int64_t>(i / kMetEvery));
-    const std::size_t first = (is_just_met ? kHasHistory : kHasPast) + kLongest;
+    const std::size_t first = (is_just_met ? kHasHistory : kFramesOfPast) + kLongest;
     std::vector<BodyRow> danced;
     for (std::size_t i = 0; i < heard.size(); ++i) {
       predictor.observe(heard[i]);

@@ -14,9 +14,6 @@ namespace {
 constexpr std::array<double, 4> kNetTrembles_deg{0.0, 0.25, 0.5, 0.5};
 constexpr std::size_t kNetEvery = 2;
 
-// Half a second to look back on, a second to look ahead, and something between.
-constexpr std::size_t kLeastFrames = 180;
-
 struct TakeOrigin {
   std::size_t dancer;
   std::size_t fold;
@@ -96,9 +93,9 @@ void run_jobs(std::vector<NetJob>& jobs, const PredictTraining& training) {
 
 Result<PredictModel> train_predict(const PredictTraining& training) {
   for (const PredictTake& take : training.takes)
-    if (take.poses.size() < kLeastFrames)
+    if (take.poses.size() < kLeastTakeFrames)
       return fail(fmt::format("{} has {} frames, {} at least are needed: leave it out", take.name,
-                              take.poses.size(), kLeastFrames));
+                              take.poses.size(), kLeastTakeFrames));
   const auto folds = static_cast<std::size_t>(training.folds);
   PredictModel model;
   const auto origins = origins_of(training.takes, folds, model.dancers);

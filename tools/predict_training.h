@@ -28,6 +28,11 @@ struct PredictTraining {
       tell;  // progress, a line each; of several threads, one at a time
 };
 
+// Frames until a dancer has a past to look at; with the longest horizon behind them, what a take has at least.
+constexpr std::size_t kFramesOfPast = 360;
+constexpr std::size_t kLeastTakeFrames =
+    kFramesOfPast + static_cast<std::size_t>(kHorizonFrames[kHorizons - 1]) + 1;
+
 Result<PredictModel> train_predict(const PredictTraining& training);
 
 // What a sensor trembles by, in the two sets of weights.

@@ -175,7 +175,7 @@ void DancePredictor::learn_from_past() {
     if (since_ < kNetHistory + age) continue;
     const MomentGuesses& then = moments_[(turn_ - age) % kMoments];
     BodyRow way = way_between(memory_(age), memory_(0));
-    keep_possible(h, way);
+    if (!keep_possible(h, way)) ++dropped_;
     blend_.learn(h, then, way);
     proof_.learn(h, then, way);
     guard_.learn(h, then, way);

@@ -45,6 +45,8 @@ class DancePredictor {
 
   const std::shared_ptr<PersonalModel>& personal() const { return personal_; }
   std::uint64_t dropped() const { return dropped_; }
+  // How often a bone turned as no body does, and was held where it was.
+  std::uint64_t held_bones() const { return rows_.held(); }
 
   // For training: the guesses of `age` rows ago, and the rows.
   const MomentGuesses& guesses(std::size_t age = 0) const;

@@ -55,8 +55,9 @@ void GuessBlend::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
       square += error * error;
     }
     const float error = std::sqrt(square);
-    horizon.usual_error[g] += kUsualShare * (error - horizon.usual_error[g]);
-    counts[g] = 1.0f / (1.0f + error / (horizon.usual_error[g] + kLeastError));
+    float& usual = horizon.usual_error[g];
+    usual = horizon.heard == 0.0f ? error : usual + kUsualShare * (error - usual);
+    counts[g] = 1.0f / (1.0f + error / (usual + kLeastError));
   }
   follow_gram(rows.data(), kGuesses, way.v.data(), counts.data(), kKeep, horizon.pairs.data(),
               horizon.targets.data());

@@ -32,7 +32,8 @@ SteadyRows::Heard SteadyRows::observe(const Pose& pose) {
     row_time_ = capture;
     looked_count_ = 0;
     accepted_ = pose.R_PB;
-    lost_.fill(Duration());
+    for (std::size_t b = 0; b < kBoneCount; ++b)
+      lost_[b] = (pose.presence >> b & 1u) != 0 ? Duration() : kLongestLost;
     const Heard heard = Heard::kRestarted;
     is_empty_ = false;
     return heard;
@@ -48,24 +49,29 @@ SteadyRows::Heard SteadyRows::observe(const Pose& pose) {
   return Heard::kTaken;
 }
 
-// A bone that turns as no body does was mistaken: it stays until it comes back, or has stayed there.
+// A bone that turns as no body does was mistaken: it stays until it comes back, or has stayed there. Soon after that, or
+// after it was not seen at all, it may be anywhere.
 void SteadyRows::hold_lost_bones(Duration step, Pose& pose) {
   const float most_rad =
       std::min(3.0f, kSuddenTurn_rad + kSwiftestTurn_rad_s * static_cast<float>(step.as_seconds()));
   const float least_cosine = std::cos(0.5f * most_rad);
   for (std::size_t b = 1; b < kBoneCount; ++b) {
-    const float cosine = std::abs(pose.R_PB[b].dot(accepted_[b]));
-    if (cosine >= least_cosine || (pose.presence >> b & 1u) == 0) {
-      lost_[b] = Duration();
-      if ((pose.presence >> b & 1u) != 0) accepted_[b] = pose.R_PB[b];
+    if ((pose.presence >> b & 1u) == 0) {
+      lost_[b] = kLongestLost;
+      continue;
+    }
+    if (std::abs(pose.R_PB[b].dot(accepted_[b])) >= least_cosine) {
+      lost_[b] = std::max(Duration(), lost_[b] - step / 8);
+      accepted_[b] = pose.R_PB[b];
       continue;
     }
     lost_[b] += step;
     if (lost_[b] > kLongestLost) {
-      lost_[b] = Duration();
+      lost_[b] = kLongestLost;
       accepted_[b] = pose.R_PB[b];
     } else {
       pose.R_PB[b] = accepted_[b];
+      ++held_;
     }
   }
 }

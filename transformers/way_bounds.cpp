@@ -8,17 +8,17 @@
 namespace dance {
 namespace {
 
-// A joint turns, and the hips get, no further than this at once and this each second.
+// A joint turns, and the hips get, no further than this at once and this each second. Dancers spin faster than joints turn,
+// and on and on.
 constexpr float kFurthestTurn_rad = 3.0f;
 constexpr float kSwiftestTurn_rad_s = 16.0f;
 constexpr float kFurthestWay_m = 3.0f;
 constexpr float kSwiftestWay_m_s = 8.0f;
 constexpr float kSuddenTurn_rad = 0.2f;
 constexpr float kSuddenWay_m = 0.1f;
-// Of a slope, which is gone on along: a hand is flung faster than 9 rad/s, but not for as long as is guessed. Dancers spin
-// faster than joints turn.
+constexpr float kSwiftestSpin_rad_s = 20.0f;
+// Of a slope, which is gone on along: a hand is flung faster than 9 rad/s, but not for as long as is guessed.
 constexpr float kSteadyTurn_rad_s = 9.0f;
-constexpr float kSteadySpin_rad_s = 20.0f;
 
 void bound_group(std::size_t g, float most, BodyRow& way) {
   const float size =
@@ -40,8 +40,9 @@ bool keep_possible(std::size_t horizon, BodyRow& way) {
   const float turn_rad =
       std::min(kFurthestTurn_rad, kSuddenTurn_rad + kSwiftestTurn_rad_s * seconds);
   const float way_m = std::min(kFurthestWay_m, kSuddenWay_m + kSwiftestWay_m_s * seconds);
-  for (std::size_t g = 0; g < kRowGroups; ++g)
-    bound_group(g, g == kPlaceGroup ? way_m : turn_rad, way);
+  for (std::size_t g = 0; g < kBoneCount; ++g) bound_group(g, turn_rad, way);
+  bound_group(kPlaceGroup, way_m, way);
+  bound_group(kHeadingGroup, kSuddenTurn_rad + kSwiftestSpin_rad_s * seconds, way);
   return true;
 }
 
@@ -49,7 +50,7 @@ void keep_slope_possible(BodyRow& slope) {
   constexpr auto kHz = static_cast<float>(kGridHz);
   for (std::size_t g = 0; g < kBoneCount; ++g) bound_group(g, kSteadyTurn_rad_s / kHz, slope);
   bound_group(kPlaceGroup, kSwiftestWay_m_s / kHz, slope);
-  bound_group(kHeadingGroup, kSteadySpin_rad_s / kHz, slope);
+  bound_group(kHeadingGroup, kSwiftestSpin_rad_s / kHz, slope);
 }
 
 }  // namespace dance

@@ -13,10 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-tl::unexpected<Error> not_written(const std::string& path, const std::error_code& why) {
-  return fail(fmt::format(
-      "{} cannot be written: {}; name a file in a folder that is yours, with space left", path,
-      why.message()));
+constexpr const char* kCure = "name a file in a folder that is yours, with space left";
+
+tl::unexpected<Error> not_written(const std::string& path, const std::error_code& why,
+                                  const std::string& then = kCure) {
+  return fail(fmt::format("{} cannot be written: {}; {}", path, why.message(), then));
 }
 
 // What the system says of it where it went wrong.
@@ -38,7 +39,11 @@ Place place_of(const std::string& path) {
   std::error_code error;
   // A link stays a link: what it leads to is written.
   Place place{fs::canonical(path, error), {}};
-  if (error) place.file = path;
+  if (error) {
+    place.file = path;
+    const fs::path target = fs::read_symlink(path, error);
+    if (!error) place.file = place.file.parent_path() / target;
+  }
   const fs::file_status status = fs::status(place.file, error);
   place.is_device = fs::exists(status) && !fs::is_regular_file(status);
   place.beside = fmt::format("{}.{}.part", place.file.native(), getpid());
@@ -70,11 +75,17 @@ Result<void> write_whole_file(const std::string& path, std::string_view content)
     if (const std::error_code why = put(place, content)) return not_written(path, why);
     return {};
   }
-  std::error_code why = put(beside, content);
-  if (!why) fs::rename(beside, place, why);
-  if (!why) return {};
-  fs::remove(beside, error);
-  return not_written(path, why);
+  if (const std::error_code why = put(beside, content)) {
+    fs::remove(beside, error);
+    return not_written(path, why);
+  }
+  const fs::file_status was = fs::status(place, error);
+  if (fs::is_regular_file(was)) fs::permissions(beside, was.permissions(), error);
+  std::error_code why;
+  fs::rename(beside, place, why);
+  // What took minutes to make is not thrown away.
+  if (why) return not_written(path, why, "what was to be there is in " + beside.native());
+  return {};
 }
 
 Result<void> write_whole_file(const std::string& path, std::span<const std::uint8_t> content) {

@@ -4,7 +4,8 @@
 // Units/frames: none.
 // Ownership:    nothing stays.
 // Threads:      any; of two processes that write one file, one's is there.
-// Failure:      an Error names the file, the reason and the cure; what was there before stays. A device or a pipe has no
+// Failure:      an Error names the file, the reason and the cure; what was there before stays. Where it could be written
+//               but not take its place, it stays beside it, and the Error says where. A device or a pipe has no
 //               place beside it: what it got, it has.
 #pragma once
 

@@ -60,6 +60,19 @@ TEST(WholeFile, GoesWhereALinkLeads) {
   ASSERT_TRUE(write_whole_file(folder.path("link"), "new"));
   EXPECT_TRUE(fs::is_symlink(folder.path("link")));
   EXPECT_EQ(text_in(folder.path("old")), "new");
+  fs::create_symlink("not-yet", folder.path("ahead"));
+  ASSERT_TRUE(write_whole_file(folder.path("ahead"), "now"));
+  EXPECT_TRUE(fs::is_symlink(folder.path("ahead")));
+  EXPECT_EQ(text_in(folder.path("not-yet")), "now");
+}
+
+TEST(WholeFile, StaysAsPrivateAsItWas) {
+  const TestFolder folder("whole-file");
+  ASSERT_TRUE(write_whole_file(folder.path("key"), "old"));
+  fs::permissions(folder.path("key"), fs::perms::owner_read | fs::perms::owner_write);
+  ASSERT_TRUE(write_whole_file(folder.path("key"), "new"));
+  EXPECT_EQ(fs::status(folder.path("key")).permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
 }
 
 TEST(WholeFile, TakesNoDevicesPlace) {

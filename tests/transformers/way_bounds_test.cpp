@@ -45,6 +45,16 @@ TEST(WayBounds, ShortenWhatNoBodyDoesAndKeepItsDirection) {
   EXPECT_NEAR(size_of(way, kLeg), 3.0f, 1e-4f) << "at most, however late";
 }
 
+TEST(WayBounds, ASpinGoesOnOverFullTurns) {
+  for (std::size_t h = 0; h < kHorizons; ++h) {
+    BodyRow way;
+    way(kHeadingGroup, 0) = 15.0f * static_cast<float>(kHorizonFrames[h] / kGridHz);
+    const BodyRow was = way;
+    EXPECT_TRUE(keep_possible(h, way));
+    EXPECT_EQ(way.v, was.v) << "two turns and a half a second, " << h;
+  }
+}
+
 TEST(WayBounds, ASlopeIsNoFasterThanBodiesGoOn) {
   BodyRow slope;
   slope.v.fill(5.0f);
