@@ -51,9 +51,9 @@ constexpr std::size_t kWaySize = kHorizons * kRowSize;
 void add_samples(const PredictModel& model, const PredictTake& take, double tremble_deg,
                  std::size_t every, Random& random, NetSamples& samples);
 void fit_basis(PredictModel& model, const NetSamples& samples);
-struct NetFit {
-  int epochs = 32;
-  std::uint64_t seed = 1;
+struct NetFit {  // as in PredictTraining
+  int epochs;
+  std::uint64_t seed;
   std::function<void(int epoch, double error)> tell;
 };
 void fit_net(PredictModel& model, const NetSamples& samples, const NetFit& fit);

@@ -32,20 +32,21 @@ std::error_code put(const fs::path& file, std::string_view content) {
 
 struct Place {
   fs::path file, beside;
-  bool is_device = false;  // or a pipe, or what else has no place beside it
+  fs::file_status was;
+  // Or a pipe, or what else has no place beside it.
+  bool is_device() const { return fs::exists(was) && !fs::is_regular_file(was); }
 };
 
 Place place_of(const std::string& path) {
   std::error_code error;
   // A link stays a link: what it leads to is written.
-  Place place{fs::canonical(path, error), {}};
+  Place place{fs::canonical(path, error), {}, {}};
   if (error) {
     place.file = path;
     const fs::path target = fs::read_symlink(path, error);
     if (!error) place.file = place.file.parent_path() / target;
   }
-  const fs::file_status status = fs::status(place.file, error);
-  place.is_device = fs::exists(status) && !fs::is_regular_file(status);
+  place.was = fs::status(place.file, error);
   place.beside = fmt::format("{}.{}.part", place.file.native(), getpid());
   return place;
 }
@@ -55,8 +56,8 @@ Place place_of(const std::string& path) {
 Result<void> try_whole_file(const std::string& path) {
   const Place place = place_of(path);
   std::error_code why, error;
-  if (place.is_device) {
-    if (fs::is_directory(place.file, error))
+  if (place.is_device()) {
+    if (fs::is_directory(place.was))
       why = std::make_error_code(std::errc::is_a_directory);
     else if (access(place.file.c_str(), W_OK) != 0)
       why = {errno, std::generic_category()};
@@ -69,22 +70,21 @@ Result<void> try_whole_file(const std::string& path) {
 }
 
 Result<void> write_whole_file(const std::string& path, std::string_view content) {
-  const auto [place, beside, is_device] = place_of(path);
+  const Place place = place_of(path);
   std::error_code error;
-  if (is_device) {
-    if (const std::error_code why = put(place, content)) return not_written(path, why);
+  if (place.is_device()) {
+    if (const std::error_code why = put(place.file, content)) return not_written(path, why);
     return {};
   }
-  if (const std::error_code why = put(beside, content)) {
-    fs::remove(beside, error);
+  if (const std::error_code why = put(place.beside, content)) {
+    fs::remove(place.beside, error);
     return not_written(path, why);
   }
-  const fs::file_status was = fs::status(place, error);
-  if (fs::is_regular_file(was)) fs::permissions(beside, was.permissions(), error);
+  if (fs::exists(place.was)) fs::permissions(place.beside, place.was.permissions(), error);
   std::error_code why;
-  fs::rename(beside, place, why);
+  fs::rename(place.beside, place.file, why);
   // What took minutes to make is not thrown away.
-  if (why) return not_written(path, why, "what was to be there is in " + beside.native());
+  if (why) return not_written(path, why, "what was to be there is in " + place.beside.native());
   return {};
 }
 

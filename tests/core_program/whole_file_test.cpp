@@ -1,7 +1,6 @@
 #include "core/program/whole_file.h"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
