@@ -1,9 +1,10 @@
 // ChildProcess: a program of ours run beside us, for the demo and the house: started, watched, stopped. It ends when we
 // end, however we end.
 //
-// Ownership: owns the process: the destructor asks it to stop (SIGTERM) and, if it will not, ends it.
-// Threads:   one.
-// Failure:   start() names the program and the reason.
+// Units/frames: none; times as Duration.
+// Ownership:    owns the process: the destructor asks it to stop (SIGTERM) and, if it will not, ends it.
+// Threads:      one.
+// Failure:      start() names the program and the reason.
 #pragma once
 
 #include <sys/types.h>

@@ -1,8 +1,9 @@
 // Seldom: which line of what happens again and again is worth saying: a new one at once, the same one each minute.
 //
-// Ownership: keeps copies of the last few lines.
-// Threads:   none inside; one owner.
-// Failure:   none; of more lines than it keeps, who came first is forgotten, and is new again.
+// Units/frames: times of the monotonic clock.
+// Ownership:    keeps copies of the last few lines.
+// Threads:      none inside; one owner.
+// Failure:      none; of more lines than it keeps, who came first is forgotten, and is new again.
 #pragma once
 
 #include <cstddef>
