@@ -72,7 +72,7 @@ Moments gather(const std::vector<const TrainingSong*>& songs) {
 
 class Trainer {
  public:
-  explicit Trainer(const Moments& moments) : moments_(moments), random_(1) {
+  Trainer(const Moments& moments, std::uint64_t seed) : moments_(moments), random_(seed) {
     const auto start = [&](Matrix& m, Eigen::Index rows, Eigen::Index columns) {
       m.resize(rows, columns);
       for (float& x : m.reshaped())
@@ -184,7 +184,7 @@ class Trainer {
 StrokeNet fit_stroke_net(const std::vector<const TrainingSong*>& songs,
                          const MusicTraining& training) {
   const Moments moments = gather(songs);
-  return Trainer(moments).train(training);
+  return Trainer(moments, training.seed).train(training);
 }
 
 }  // namespace dance

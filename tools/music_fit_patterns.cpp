@@ -205,7 +205,7 @@ std::vector<MeterPattern> fit_patterns(const std::vector<const TrainingSong*>& s
     }
   const std::size_t count = std::min(
       {static_cast<std::size_t>(training.patterns), bars.size(), BeatModel::kMostPatterns});
-  Random random(1);
+  Random random(training.seed);
   std::vector<Bar> best;
   double least = std::numeric_limits<double>::max();
   for (int start = 0; start < kStarts; ++start) {

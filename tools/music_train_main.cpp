@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <thread>
 
 #include "core/program/command_line.h"
@@ -36,21 +37,43 @@ struct MusicTrainWishes {
 constexpr float kMadeWeight = 0.25f;
 // A recorded song teaches at these speeds: there are few, and a style is danced to at more tempi than one.
 constexpr std::array kSpeeds{1.0, 0.88, 1.13};
+// Beside the song as it is, so many others of how it may have been mastered.
+constexpr std::size_t kStudios = 2;
 
 struct Songs {
-  std::vector<TrainingSong> recorded;  // each at all speeds, one after another
+  std::vector<TrainingSong> recorded;  // each in all its ways, one after another
   std::vector<TrainingSong> made;
 };
 
+// A song's ways weigh as much together as one at each speed would.
+std::size_t ways_of(std::span<const double> speeds) { return speeds.size() * (1 + kStudios); }
+
+// work(0), work(1), … below count, on two threads, which end with the call.
+void in_two_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
+  const auto each_second = [&](std::size_t first) {
+    for (std::size_t i = first; i < count; i += 2) work(i);
+  };
+  std::thread other([&] { each_second(1); });
+  each_second(0);
+  other.join();
+}
+
 Result<std::vector<TrainingSong>> load_songs(const std::vector<std::string>& files, float weight,
-                                             std::span<const double> speeds) {
+                                             std::span<const double> speeds, std::uint64_t seed) {
+  const std::size_t ways = ways_of(speeds);
+  std::vector<Result<TrainingSong>> loaded(files.size() * ways, fail("was not loaded"));
+  in_two_threads(loaded.size(), [&](std::size_t i) {
+    const std::string& file = files[i / ways];
+    const HeardAs heard_as{.speed = speeds[i % speeds.size()],
+                           .studio = i % ways < speeds.size() ? 0 : seed * 1'000'000 + i};
+    loaded[i] = load_training_song(file, beats_path_beside(file), heard_as);
+  });
   std::vector<TrainingSong> songs;
-  for (const std::string& file : files)
-    for (const double speed : speeds) {
-      DANCE_TRY(TrainingSong song, load_training_song(file, beats_path_beside(file), speed));
-      song.weight = weight;
-      songs.push_back(std::move(song));
-    }
+  for (Result<TrainingSong>& song : loaded) {
+    if (!song) return tl::make_unexpected(song.error());
+    song->weight = weight / static_cast<float>(1 + kStudios);
+    songs.push_back(std::move(*song));
+  }
   return songs;
 }
 
@@ -60,35 +83,30 @@ Result<BeatModel> train_without(const Songs& songs, const MusicTrainWishes& wish
   std::vector<const TrainingSong*> chosen;
   const auto parts = static_cast<std::size_t>(std::max(1, wishes.hold_out));
   for (std::size_t i = 0; i < songs.recorded.size(); ++i)
-    if (i / kSpeeds.size() % parts != without || wishes.hold_out == 0)
+    if (i / ways_of(kSpeeds) % parts != without || wishes.hold_out == 0)
       chosen.push_back(&songs.recorded[i]);
   for (const TrainingSong& song : songs.made) chosen.push_back(&song);
   return train_beats(chosen, wishes.training);
 }
 
-// Each song tracked by a model that was made without it. Two threads, which end with the call.
+// Each song tracked by a model that was made without it.
 Result<std::vector<SongEval>> hold_out(const Songs& songs, const MusicTrainWishes& wishes) {
   const auto parts = static_cast<std::size_t>(wishes.hold_out);
   std::vector<Result<SongEval>> evals(wishes.files.size(), fail("was not tracked"));
-  const auto work = [&](std::size_t first) {
-    for (std::size_t part = first; part < parts; part += 2) {
-      const auto model = train_without(songs, wishes, part);
-      for (std::size_t i = part; i < evals.size(); i += parts) {
-        if (!model) {
-          evals[i] = tl::make_unexpected(model.error());
-          continue;
-        }
-        MusicEvalOptions options;
-        options.with_aubio = false;
-        options.check_causal = false;
-        options.model = std::make_shared<BeatModel>(*model);
-        evals[i] = evaluate_song(wishes.files[i], beats_path_beside(wishes.files[i]), options);
+  in_two_threads(parts, [&](std::size_t part) {
+    const auto model = train_without(songs, wishes, part);
+    for (std::size_t i = part; i < evals.size(); i += parts) {
+      if (!model) {
+        evals[i] = tl::make_unexpected(model.error());
+        continue;
       }
+      MusicEvalOptions options;
+      options.with_aubio = false;
+      options.check_causal = false;
+      options.model = std::make_shared<BeatModel>(*model);
+      evals[i] = evaluate_song(wishes.files[i], beats_path_beside(wishes.files[i]), options);
     }
-  };
-  std::thread other([&] { work(1); });
-  work(0);
-  other.join();
+  });
   std::vector<SongEval> whole;
   for (auto& eval : evals) {
     if (!eval) return tl::make_unexpected(eval.error());
@@ -101,8 +119,9 @@ Result<void> run(MusicTrainWishes wishes) {
   if (wishes.hold_out == 0)
     if (auto possible = try_whole_file(wishes.out); !possible) return possible;
   Songs songs;
-  DANCE_TRY(songs.recorded, load_songs(wishes.files, 1.0f, kSpeeds));
-  DANCE_TRY(songs.made, load_songs(wishes.made, kMadeWeight, std::array{1.0}));
+  DANCE_TRY(songs.recorded, load_songs(wishes.files, 1.0f, kSpeeds, wishes.training.seed));
+  DANCE_TRY(songs.made,
+            load_songs(wishes.made, kMadeWeight, std::array{1.0}, wishes.training.seed));
   if (wishes.hold_out > 0) {
     DANCE_TRY(const std::vector<SongEval> evals, hold_out(songs, wishes));
     const std::string text = music_eval_table(evals);
@@ -134,6 +153,9 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--patterns", wishes.training.patterns, "how many kinds of bars there are")
       .range(1, 32)
+      .shows_default();
+  line.add("--seed", wishes.training.seed, "another number begins elsewhere, in other studios")
+      .range(1, 1000000)
       .shows_default();
   line.add("--hold-out", wishes.hold_out,
            "makes no model, but tracks each of so many parts of the songs with one made from the "

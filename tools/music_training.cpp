@@ -6,6 +6,7 @@
 
 #include "producers/music/beats_file.h"
 #include "tools/music_samples.h"
+#include "tools/song_mastering.h"
 
 namespace dance {
 namespace {
@@ -64,13 +65,14 @@ void find_bars(TrainingSong& song, std::span<const OnsetStrength::Strengths> str
 }  // namespace
 
 Result<TrainingSong> load_training_song(const std::string& audio_path,
-                                        const std::string& beats_path, double speed) {
+                                        const std::string& beats_path, HeardAs heard_as) {
   DANCE_TRY(const BeatGrid grid, read_beats_file(beats_path));
   DANCE_TRY(const MusicSamples music, read_music_samples(audio_path));
-  const std::vector<float> samples = turned(music.samples, speed);
+  std::vector<float> samples = turned(music.samples, heard_as.speed);
+  if (heard_as.studio != 0) samples = mastered(std::move(samples), music.rate_hz, heard_as.studio);
   std::vector<double> beats_s;
   for (double b = grid.first_beat(); b <= grid.last_beat(); b += 1.0)
-    beats_s.push_back(grid.time_of(b) / speed);
+    beats_s.push_back(grid.time_of(b) / heard_as.speed);
   if (beats_s.size() < kFewestBeats)
     return fail(beats_path + ": has " + std::to_string(beats_s.size()) + " beats, but " +
                 std::to_string(kFewestBeats) + " are needed to learn from");

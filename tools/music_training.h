@@ -3,13 +3,14 @@
 //
 // Units/frames: seconds of a song; hops of onset strengths.
 // Ownership:    returns a model of its own.
-// Threads:      one; the same songs give the same model.
+// Threads:      one; the same songs and seed give the same model.
 // Failure:      an Error names the song that cannot be learnt from.
 // Source:       softmax regression with one hidden layer, dropout (Srivastava et al., 2014) and Adam (Kingma and Ba, 2015);
 //               k-means with seeds drawn by distance (Arthur and Vassilvitskii, 2007).
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,13 +39,19 @@ struct TrainingSong {
 struct MusicTraining {
   int rounds = 12;
   int patterns = 14;
+  std::uint64_t seed = 1;
   std::function<void(const std::string&)> tell = [](const std::string&) {
   };  // progress, a line each
 };
 
-// speed: as a record that turns faster.
+// How a song is listened to.
+struct HeardAs {
+  double speed = 1.0;        // as a record that turns faster
+  std::uint64_t studio = 0;  // which one mastered it (tools/song_mastering.h); 0: as the file is
+};
+
 Result<TrainingSong> load_training_song(const std::string& audio_path,
-                                        const std::string& beats_path, double speed = 1.0);
+                                        const std::string& beats_path, HeardAs heard_as = {});
 Result<BeatModel> train_beats(const std::vector<const TrainingSong*>& songs,
                               const MusicTraining& training);
 

@@ -22,7 +22,10 @@ constexpr double kTempoStiffness = 80.0;  // from beat to beat
 constexpr float kTempoJump = 2e-3f;       // probability a beat
 constexpr float kPatternChange = 0.05f;   // probability a beat
 constexpr float kBeatSlip = 1e-3f;        // that the bar goes on elsewhere, a beat
-constexpr float kForget = 1e-6f;          // to anywhere, a hop
+// To anywhere, a hop. Music that plays keeps its beat: a verse whose drums strike on the halves is not to turn it. What comes
+// after a pause may be another song.
+constexpr float kForget = 1e-8f;
+constexpr float kForgetInPause = 1e-5f;
 constexpr float kMeaningEvidence = 0.2f;
 constexpr double kMeaningBlur_s = 0.016;
 // What a meaning tells of was heard so long before what the newest strengths tell of.
@@ -198,12 +201,13 @@ void BarPointer::push(const OnsetStrength::Strengths& strengths, const StrokeMea
                  .exp();
     sum += state.sum();
   }
-  const float scale = (1.0f - kForget) / sum;
+  const float forgotten = weight * kForget + (1.0f - weight) * kForgetInPause;
+  const float scale = (1.0f - forgotten) / sum;
   beat_.setZero();
   for (const Block& block : blocks_) {
     const int n = period(block.tempo);
     auto state = state_.segment(block.first, n * kBeats);
-    state = state * scale + kForget * block.start;
+    state = state * scale + forgotten * block.start;
     auto places = beat_.segment(beat_first_[static_cast<std::size_t>(block.tempo)], n);
     for (int beat = 0; beat < kBeats; ++beat) places += state_.segment(block.first + beat * n, n);
   }

@@ -105,6 +105,21 @@ TEST(BeatTracker, CountsOnThroughABreak) {
   EXPECT_NEAR(at(23.0) - at(6.0), 17.0 / period_s, 0.1);
 }
 
+TEST(BeatTracker, FindsTheNextSongAfterAPause) {
+  // The same tempo half a beat later, after five seconds of nothing: the hardest song to tell from the last.
+  constexpr double kBpm = 136.0, kFirst_s = 26.0, kPause_s = 5.0, kSecond_s = 14.0;
+  const double period_s = 60.0 / kBpm;
+  const DrumMusic band(kRate_hz);
+  std::vector<float> music = band.play(DrumMusic::steady(kFirst_s, kBpm), kFirst_s);
+  const double again_s = std::ceil((kFirst_s + kPause_s) / period_s) * period_s + 0.5 * period_s;
+  music.resize(static_cast<std::size_t>(again_s * kRate_hz), 0.0f);
+  std::vector<double> beats = DrumMusic::steady(kSecond_s, kBpm);
+  const std::vector<float> second = band.play(beats, kSecond_s);
+  music.insert(music.end(), second.begin(), second.end());
+  for (double& beat_s : beats) beat_s += again_s;
+  EXPECT_GE(score(beats, track(music), again_s + 6.0).f_measure(), 0.95);
+}
+
 TEST(BeatTracker, NumbersEachBeatOnce) {
   const auto beats = DrumMusic::beats(24.0, [](double t) { return t < 12.0 ? 180.0 : 140.0; });
   const Tracked tracked = track(DrumMusic(kRate_hz).play(beats, 24.0));
