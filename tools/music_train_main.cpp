@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <thread>
 
@@ -64,8 +65,12 @@ Result<std::vector<TrainingSong>> load_songs(const std::vector<std::string>& fil
   std::vector<Result<TrainingSong>> loaded(files.size() * ways, fail("was not loaded"));
   in_two_threads(loaded.size(), [&](std::size_t i) {
     const std::string& file = files[i / ways];
-    const HeardAs heard_as{.speed = speeds[i % speeds.size()],
-                           .studio = i % ways < speeds.size() ? 0 : seed * 1'000'000 + i};
+    const std::size_t way = i % ways;
+    const HeardAs heard_as{
+        .speed = speeds[way % speeds.size()],
+        .studio = way < speeds.size()
+                      ? 0
+                      : studio_of(std::filesystem::path(file).filename().string(), way, seed)};
     loaded[i] = load_training_song(file, beats_path_beside(file), heard_as);
   });
   std::vector<TrainingSong> songs;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/random.h"
 #include "producers/music/beats_file.h"
 #include "tools/music_samples.h"
 #include "tools/song_mastering.h"
@@ -63,6 +64,14 @@ void find_bars(TrainingSong& song, std::span<const OnsetStrength::Strengths> str
 }
 
 }  // namespace
+
+std::uint64_t studio_of(std::string_view file_name, std::size_t way, std::uint64_t seed) {
+  std::uint64_t studio = Random(seed).next_u64();
+  const auto mix = [&](std::uint64_t x) { studio = Random(studio ^ x).next_u64(); };
+  mix(way);
+  for (const char c : file_name) mix(static_cast<unsigned char>(c));
+  return std::max<std::uint64_t>(studio, 1);
+}
 
 Result<TrainingSong> load_training_song(const std::string& audio_path,
                                         const std::string& beats_path, HeardAs heard_as) {

@@ -3,7 +3,7 @@
 //
 // Units/frames: seconds of a song; hops of onset strengths.
 // Ownership:    returns a model of its own.
-// Threads:      one; the same songs and seed give the same model.
+// Threads:      none inside; songs may be loaded at the same time. The same songs and seed give the same model.
 // Failure:      an Error names the song that cannot be learnt from.
 // Source:       softmax regression with one hidden layer, dropout (Srivastava et al., 2014) and Adam (Kingma and Ba, 2015);
 //               k-means with seeds drawn by distance (Arthur and Vassilvitskii, 2007).
@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -52,6 +53,8 @@ struct HeardAs {
 
 Result<TrainingSong> load_training_song(const std::string& audio_path,
                                         const std::string& beats_path, HeardAs heard_as = {});
+// Of a song, by its file's name; never 0.
+std::uint64_t studio_of(std::string_view file_name, std::size_t way, std::uint64_t seed);
 Result<BeatModel> train_beats(const std::vector<const TrainingSong*>& songs,
                               const MusicTraining& training);
 

@@ -10,8 +10,8 @@ namespace dance {
 namespace {
 
 // None of these is sharp: on songs that were left out of the fit of the patterns, evidence from 0.06 to 0.15, floors from
-// 0.25 to 0.5, stiffness from 50 to 120 and chances of change five times as large moved the mean F by at most 0.04, and
-// evidence of meanings from 0.2 to 0.3 by 0.015.
+// 0.25 to 0.5, stiffness from 50 to 120 and chances of a change of tempo, pattern or bar five times as large moved the mean F
+// by at most 0.04, and evidence of meanings from 0.2 to 0.3 by 0.015.
 constexpr double kFastest_bpm = 214.0;
 constexpr double kSlowest_bpm = 93.7;
 constexpr double kLikelyTempo_bpm = 140.0;
@@ -22,10 +22,9 @@ constexpr double kTempoStiffness = 80.0;  // from beat to beat
 constexpr float kTempoJump = 2e-3f;       // probability a beat
 constexpr float kPatternChange = 0.05f;   // probability a beat
 constexpr float kBeatSlip = 1e-3f;        // that the bar goes on elsewhere, a beat
-// To anywhere, a hop. Music that plays keeps its beat: a verse whose drums strike on the halves is not to turn it. What comes
-// after a pause may be another song.
+// To anywhere, a hop. A hundred times as much, and one verse whose drums strike on the halves turns a beat that was known for half a
+// minute; a hundredth, and after a cut to another song the old beat stays longer.
 constexpr float kForget = 1e-8f;
-constexpr float kForgetInPause = 1e-5f;
 constexpr float kMeaningEvidence = 0.2f;
 constexpr double kMeaningBlur_s = 0.016;
 // What a meaning tells of was heard so long before what the newest strengths tell of.
@@ -201,13 +200,12 @@ void BarPointer::push(const OnsetStrength::Strengths& strengths, const StrokeMea
                  .exp();
     sum += state.sum();
   }
-  const float forgotten = weight * kForget + (1.0f - weight) * kForgetInPause;
-  const float scale = (1.0f - forgotten) / sum;
+  const float scale = 1.0f / sum;
   beat_.setZero();
   for (const Block& block : blocks_) {
     const int n = period(block.tempo);
     auto state = state_.segment(block.first, n * kBeats);
-    state = state * scale + forgotten * block.start;
+    state = state * scale + kForget * block.start;
     auto places = beat_.segment(beat_first_[static_cast<std::size_t>(block.tempo)], n);
     for (int beat = 0; beat < kBeats; ++beat) places += state_.segment(block.first + beat * n, n);
   }

@@ -5,7 +5,7 @@
 // Units/frames: time in hops of onset strengths; periods are hops a beat.
 // Ownership:    owns its tables, about 2 MB; never allocates after construction.
 // Threads:      none inside; one owner.
-// Failure:      wants strengths that are finite. Where nothing is heard (weight 0) it moves on, and slowly forgets.
+// Failure:      wants strengths that are finite. Where nothing is heard (weight 0) it moves on and forgets slowly.
 // Source:       the state space and its changes of tempo at beats follow Krebs, Böck and Widmer, "An efficient state-space
 //               model for joint tempo and meter tracking", ISMIR 2015; here with exponential laws of strengths, filtered.
 #pragma once

@@ -84,6 +84,46 @@ TEST(MusicTraining, TheSameSongsGiveTheSameModel) {
   EXPECT_EQ(write_beat_model(*one), write_beat_model(*two));
 }
 
+TEST(MusicTraining, AnotherStudioTellsOfTheSameBeatsWithOtherStrokes) {
+  const SongOnDisk disk;
+  const auto heard = [&](std::uint64_t studio) {
+    auto song = load_training_song(disk.folder.path("song.wav"), disk.folder.path("song.beats"),
+                                   {.speed = 1.0, .studio = studio});
+    EXPECT_TRUE(song);
+    return std::move(*song);
+  };
+  const TrainingSong plain = heard(0), other = heard(7), again = heard(7);
+  EXPECT_EQ(other.classes, plain.classes);
+  EXPECT_EQ(other.least_tempo_bpm, plain.least_tempo_bpm);
+  EXPECT_NE(other.features, plain.features);
+  EXPECT_EQ(other.features, again.features);
+}
+
+TEST(MusicTraining, StudiosHangOnNameWayAndSeed) {
+  const std::uint64_t studio = studio_of("song.ogg", 3, 1);
+  EXPECT_EQ(studio_of("song.ogg", 3, 1), studio);
+  EXPECT_NE(studio_of("other.ogg", 3, 1), studio);
+  EXPECT_NE(studio_of("song.ogg", 4, 1), studio);
+  EXPECT_NE(studio_of("song.ogg", 3, 2), studio);
+}
+
+TEST(MusicTrain, TheSameSeedGivesTheSameModelAndAnotherSeedAnother) {
+  const SongOnDisk disk;
+  const auto made = [&](const std::string& name, int seed) {
+    const std::string model = disk.folder.path(name);
+    const Finished finished =
+        run(bin("dance-music-train") + " " + disk.folder.path("song.wav") + " -o " + model +
+            " --rounds 1 --patterns 1 --seed " + std::to_string(seed));
+    EXPECT_EQ(finished.exit_code, 0) << finished.talk;
+    const auto read = read_beat_model_file(model);
+    return read ? (*read)->name : 0u;
+  };
+  const std::uint32_t first = made("first.model", 1);
+  EXPECT_NE(first, 0u);
+  EXPECT_EQ(made("again.model", 1), first);
+  EXPECT_NE(made("other.model", 2), first);
+}
+
 TEST(MusicTrain, WritesAModelThatTheEvaluationTakes) {
   const SongOnDisk disk;
   const std::string song = disk.folder.path("song.wav");
