@@ -129,7 +129,7 @@ TEST(BeatTracker, KeepsTheBeatThroughAVerseOnTheHalves) {
 TEST(BeatTracker, FindsTheNextSongAfterAPause) {
   // The same tempo half a beat later: the hardest song to tell from the last. In five seconds of nothing the tempo grows so
   // uncertain that the beat may be anywhere.
-  constexpr double kBpm = 136.0, kFirst_s = 26.0, kPause_s = 5.0, kSecond_s = 14.0;
+  constexpr double kBpm = 136.0, kFirst_s = 16.0, kPause_s = 5.0, kSecond_s = 14.0;
   const double period_s = 60.0 / kBpm;
   const DrumMusic band(kRate_hz);
   std::vector<float> music = band.play(DrumMusic::steady(kFirst_s, kBpm), kFirst_s);
