@@ -1,9 +1,9 @@
 #include <Eigen/Dense>
 #include <cmath>
-#include <thread>
 
 #include "core/codec/body_predictor.h"
 #include "tools/codec_training.h"
+#include "tools/in_two_threads.h"
 
 namespace dance {
 namespace {
@@ -105,12 +105,7 @@ void fit_spreads(PoseModel& model, const std::vector<TakeLattice>& takes,
          rows[c].push_back(static_cast<float>(n - predictor.mean()));
        });
   auto& laws = model.laws[case_index(which.slow != 0, which.age, which.run)];
-  const auto fit_every_other = [&](std::size_t c) {
-    for (; c < kCoordinateCount; c += 2) fit_spread(laws[c].spread, rows[c]);
-  };
-  std::thread other(fit_every_other, 1);
-  fit_every_other(0);
-  other.join();
+  in_two_threads(kCoordinateCount, [&](std::size_t c) { fit_spread(laws[c].spread, rows[c]); });
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <thread>
-
 #include "core/codec/lattice_codec.h"
+#include "tools/in_two_threads.h"
 
 namespace dance {
 namespace {
@@ -41,12 +40,8 @@ double encode_all(const std::vector<CodecTake>& takes, const PoseModel& model, s
                   std::vector<DecodedTake>& decoded) {
   const auto shared = std::make_shared<const PoseModel>(model);
   std::vector<Decoded> results(takes.size());
-  const auto encode_every_other = [&](std::size_t i) {
-    for (; i < takes.size(); i += 2) results[i] = encode_take(takes[i], shared, age);
-  };
-  std::thread other(encode_every_other, 1);
-  encode_every_other(0);
-  other.join();
+  in_two_threads(takes.size(),
+                 [&](std::size_t i) { results[i] = encode_take(takes[i], shared, age); });
   double bytes = 0.0, frames = 0.0;
   decoded.clear();
   for (Decoded& result : results) {

@@ -16,8 +16,8 @@ namespace {
 
 std::vector<float> change(const std::vector<float>& song, double rate_hz,
                           const MusicEvalOptions& options) {
-  const auto gain = static_cast<float>(std::pow(10.0, options.gain_db / 20.0));
-  const auto noise = static_cast<float>(std::pow(10.0, options.noise_db / 20.0));
+  const auto gain = gain_of_db(options.gain_db);
+  const auto noise = gain_of_db(options.noise_db);
   Random random(1);
   std::vector<float> out = turned(song, options.speed, options.start_s * rate_hz);
   for (float& x : out) x = gain * x + noise * static_cast<float>(random.uniform(-1.0, 1.0));

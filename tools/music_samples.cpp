@@ -1,5 +1,7 @@
 #include "tools/music_samples.h"
 
+#include <cmath>
+
 #include "producers/music/audio_file.h"
 #include "producers/music/beat_tracker.h"
 
@@ -9,6 +11,8 @@ namespace {
 constexpr double kLongestSong_s = 3600.0;
 
 }  // namespace
+
+float gain_of_db(double db) { return static_cast<float>(std::pow(10.0, db / 20.0)); }
 
 Result<MusicSamples> read_music_samples(const std::string& path) {
   DANCE_TRY(AudioFile file, AudioFile::open(path));

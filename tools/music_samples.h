@@ -18,6 +18,9 @@ struct MusicSamples {
   std::vector<float> samples;
 };
 
+// What samples are multiplied by.
+float gain_of_db(double db);
+
 Result<MusicSamples> read_music_samples(const std::string& path);
 std::vector<float> turned(const std::vector<float>& samples, double speed, double from = 0.0);
 

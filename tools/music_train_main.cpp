@@ -4,8 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
-#include <thread>
 
 #include "core/program/command_line.h"
 #include "core/program/program.h"
@@ -13,6 +11,7 @@
 #include "core/program/whole_file.h"
 #include "producers/music/beats_file.h"
 #include "tools/beat_model_file.h"
+#include "tools/in_two_threads.h"
 #include "tools/music_eval.h"
 #include "tools/music_training.h"
 
@@ -46,18 +45,7 @@ struct Songs {
   std::vector<TrainingSong> made;
 };
 
-// A song's ways weigh as much together as one at each speed would.
 std::size_t ways_of(std::span<const double> speeds) { return speeds.size() * (1 + kStudios); }
-
-// work(0), work(1), … below count, on two threads, which end with the call.
-void in_two_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
-  const auto each_second = [&](std::size_t first) {
-    for (std::size_t i = first; i < count; i += 2) work(i);
-  };
-  std::thread other([&] { each_second(1); });
-  each_second(0);
-  other.join();
-}
 
 Result<std::vector<TrainingSong>> load_songs(const std::vector<std::string>& files, float weight,
                                              std::span<const double> speeds, std::uint64_t seed) {
@@ -76,6 +64,7 @@ Result<std::vector<TrainingSong>> load_songs(const std::vector<std::string>& fil
   std::vector<TrainingSong> songs;
   for (Result<TrainingSong>& song : loaded) {
     if (!song) return tl::make_unexpected(song.error());
+    // A song's ways weigh as much together as one at each speed would.
     song->weight = weight / static_cast<float>(1 + kStudios);
     songs.push_back(std::move(*song));
   }

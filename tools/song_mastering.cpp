@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
+#include "tools/music_samples.h"
 
 namespace dance {
 namespace {
@@ -18,8 +19,6 @@ constexpr double kMostDriven_db = 15.0;
 constexpr double kLeastHiss_db = -70.0, kMostHiss_db = -40.0;
 // A compressor lifts no more than this, of the loudest sample.
 constexpr float kFaintestLifted = 0.03f;
-
-float gain_of(double db) { return static_cast<float>(std::pow(10.0, db / 20.0)); }
 
 // Follows what it hears below `hz`.
 class LowPass {
@@ -39,7 +38,7 @@ void turn_knobs(std::vector<float>& samples, double rate_hz, Random& random) {
   };
   LowPass bass(about(kBassBelow_hz), rate_hz);
   LowPass below_treble(about(kTrebleAbove_hz), rate_hz);
-  const auto knob = [&](double most_db) { return gain_of(random.uniform(-most_db, most_db)); };
+  const auto knob = [&](double most_db) { return gain_of_db(random.uniform(-most_db, most_db)); };
   const float bass_gain = knob(kMostBass_db);
   const float middle_gain = knob(kMostMiddle_db);
   const float treble_gain = knob(kMostTreble_db);
@@ -56,8 +55,8 @@ void make_loud(std::vector<float>& samples, double rate_hz, Random& random) {
   const double release_s = random.uniform(kShortestRelease_s, kLongestRelease_s);
   const auto kept = static_cast<float>(std::exp(-1.0 / (rate_hz * release_s)));
   const auto compressed = static_cast<float>(random.uniform(0.0, kMostCompressed));
-  const float drive = gain_of(random.uniform(0.0, kMostDriven_db));
-  const float hiss = gain_of(random.uniform(kLeastHiss_db, kMostHiss_db));
+  const float drive = gain_of_db(random.uniform(0.0, kMostDriven_db));
+  const float hiss = gain_of_db(random.uniform(kLeastHiss_db, kMostHiss_db));
   float level = kFaintestLifted;
   for (float& x : samples) {
     const float in = x / loudest;
