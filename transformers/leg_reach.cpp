@@ -33,8 +33,9 @@ float needed_drop_m(const Skeleton& skeleton, const BodyFrames& before,
   for (std::size_t side = 0; side < 2; ++side) {
     const Limb& leg = side == 0 ? kLeftLeg : kRightLeg;
     const Vector3f ankle = before.position(leg.end);
-    const float was = (before.position(leg.upper) - ankle).norm();
-    const float reach = std::max(was, kStraightest * leg_length_m(skeleton, leg));
+    const float length = leg_length_m(skeleton, leg);
+    const float was = std::min((before.position(leg.upper) - ankle).norm(), length);
+    const float reach = std::max(was, kStraightest * length);
     const Vector3f up = hip_joints_W_m[side] - ankle;
     const float aside2 = up.x() * up.x() + up.z() * up.z();
     const float highest = std::sqrt(std::max(0.0f, reach * reach - aside2));

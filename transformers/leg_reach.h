@@ -12,7 +12,7 @@
 namespace dance {
 
 // By how much hips that are moved by `moved_W_m` have to come down so that legs reach their ankles again, 0 where they do.
-// `before` is the body as it was, whose ankles stay; `hips` the new place of the two hip joints.
+// `before` is the body as it was, its ankles where they are to be; `hips` the new place of the two hip joints.
 float needed_drop_m(const Skeleton& skeleton, const BodyFrames& before,
                     const std::array<Eigen::Vector3f, 2>& hip_joints_W_m);
 

@@ -5,6 +5,7 @@
 
 #include "transformers/joint_limits.h"
 #include "transformers/rotation_vector.h"
+#include "transformers/saturated.h"
 
 namespace dance {
 namespace {
@@ -17,20 +18,13 @@ constexpr Duration kLongestStyleStep = Duration::ms(100);
 constexpr double kComeIn_s = 2.0;
 // So much faster than the mean pose itself: a new hold is not shown larger while the mean comes to it.
 constexpr double kBiasFaster = 4.0;
+// Of what legs are told to do more, straight knees and flat soles let through about so much less.
+constexpr float kLegsMore = 1.2f;
 // Two poses further apart than this are not one movement.
 constexpr Duration kAnotherTake = Duration::s(1);
-// What is added to a joint, to the sway, and to where a foot swings, stays below this, whatever the gain: arms that are
-// thrown up are not thrown over. Two thirds of it are added as they are, within half a hundredth.
+// What is added to a joint and to the sway stays below this, whatever the gain: arms that are thrown up are not thrown over.
 constexpr float kMostAdded_rad = 0.7f;
 constexpr float kMostSway_m = 0.2f;
-constexpr float kMostSwing_m = 0.3f;
-
-// v / (1 + |v / most|⁸)^(1/8)
-Vector3f saturated(const Vector3f& v, float most) {
-  const float size2 = v.squaredNorm() / (most * most);
-  const float size8 = size2 * size2 * size2 * size2;
-  return v / std::sqrt(std::sqrt(std::sqrt(1.0f + size8)));
-}
 
 float towards(float from, float to, float most) {
   return from + std::clamp(to - from, -most, most);
@@ -91,7 +85,12 @@ double Stylize::bars_of(const Pose& pose) const {
 bool Stylize::is_plain() const {
   const bool is_as_danced =
       std::all_of(gain_.begin(), gain_.end(), [](float gain) { return gain == 1.0f; });
-  return is_as_danced || (periodic_ == 0.0f && dynamic_ == 0.0f) || come_in_ == 0.0f;
+  const bool adds = !is_as_danced && (periodic_ != 0.0f || dynamic_ != 0.0f);
+  return come_in_ == 0.0f || (!adds && steps_.is_home());
+}
+
+bool Stylize::legs_are_scaled() const {
+  return gain_[index_of(BodyZone::kLegs)] != 1.0f || !steps_.is_home();
 }
 
 bool Stylize::sample(MonoTime now, Pose& out) {
@@ -107,11 +106,19 @@ bool Stylize::sample(MonoTime now, Pose& out) {
   if (begins) {
     if (split_.has_begun()) ++counters_.restarts;
     split_.forget();
+    steps_ = {};
     come_in_ = 0.0f;
   }
   split_.split(out, frames, bars, parts_);
-  if (begins || step > Duration()) follow(out, frames, bars, begins);
-  if (!is_plain()) apply(frames, parts_, out);
+  const double step_s = begins || step > Duration() ? follow(out, frames, bars, begins) : 0.0;
+  if (is_plain()) return true;
+  const Pose danced = out;
+  turn_bones(parts_, out);
+  const BodyFrames scaled = scaled_legs(danced, out);
+  if (legs_are_scaled())
+    steps_.follow(feet_, frames, scaled, static_cast<float>(step_s),
+                  gain_[index_of(BodyZone::kLegs)] == 1.0f);
+  stand(frames, scaled, parts_, out);
   return true;
 }
 
@@ -122,36 +129,43 @@ bool Stylize::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   forward_kinematics(skeleton_, out, frames);
   MotionSplit::Parts parts;
   split_.split(out, frames, bars_of(out), parts);
-  apply(frames, parts, out);
+  const Pose danced = out;
+  turn_bones(parts, out);
+  stand(frames, scaled_legs(danced, out), parts, out);
   return true;
 }
 
-void Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins) {
+double Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins) {
   // The first pose counts as one of sixty a second.
   const double dt_s = begins ? 1.0 / 60.0 : (pose.capture_time - learnt_).as_seconds();
+  const double step_s = std::min(dt_s, kLongestStyleStep.as_seconds());
   if (begins) {
     bias_.fill({});
     sway_bias_ = {};
   }
-  follow_bias(parts_, std::min(dt_s, kLongestStyleStep.as_seconds()));
-  split_.learn(parts_, bars, std::min(dt_s, kLongestStyleStep.as_seconds()));
+  follow_bias(parts_, step_s);
+  split_.learn(parts_, bars, step_s);
   feet_.follow(frames, static_cast<float>(dt_s), begins);
   come_in_ = towards(come_in_, 1.0f, static_cast<float>(dt_s / kComeIn_s));
   learnt_ = pose.capture_time;
   clock_id_ = pose.clock_id;
+  return step_s;
+}
+
+float Stylize::more_of(BodyZone zone) const {
+  return (zone == BodyZone::kLegs ? kLegsMore : 1.0f) * (gain_[index_of(zone)] - 1.0f);
 }
 
 Vector3f Stylize::added_turn(std::size_t bone, const MotionSplit::Parts& parts) const {
-  const float gain = gain_[index_of(kZoneOfBone[bone])];
-  return saturated(
-      (gain - 1.0f) * (periodic_ * parts.periodic.turn[bone] + dynamic_ * parts.rest.turn[bone]),
-      kMostAdded_rad);
+  return saturated(more_of(kZoneOfBone[bone]) *
+                       (periodic_ * parts.periodic.turn[bone] + dynamic_ * parts.rest.turn[bone]),
+                   kMostAdded_rad);
 }
 
 Vector3f Stylize::added_sway(const MotionSplit::Parts& parts) const {
-  return saturated((gain_[index_of(BodyZone::kHips)] - 1.0f) *
-                       (periodic_ * parts.periodic.sway_m + dynamic_ * parts.rest.sway_m),
-                   kMostSway_m);
+  return saturated(
+      more_of(BodyZone::kHips) * (periodic_ * parts.periodic.sway_m + dynamic_ * parts.rest.sway_m),
+      kMostSway_m);
 }
 
 // The mean pose is kept by what is added, too: its own mean is taken off. What comes again with each bar has next to none:
@@ -163,7 +177,7 @@ void Stylize::follow_bias(const MotionSplit::Parts& parts, double dt_s) {
   const auto fast = static_cast<float>(std::min(1.0, kBiasFaster * share));
   const auto follow_one = [&](BodyZone zone, const Vector3f& added, const Vector3f& periodic,
                               Bias& bias) {
-    const Vector3f bar = (gain_[index_of(zone)] - 1.0f) * periodic_ * periodic;
+    const Vector3f bar = more_of(zone) * periodic_ * periodic;
     bias.rest.follow(added - bar, fast);
     bias.bar.follow(bar, slow);
     const bool is_held = zone == BodyZone::kHips || zone == BodyZone::kLegs;
@@ -174,76 +188,66 @@ void Stylize::follow_bias(const MotionSplit::Parts& parts, double dt_s) {
   follow_one(BodyZone::kHips, added_sway(parts), parts.periodic.sway_m, sway_bias_);
 }
 
-void Stylize::apply(const BodyFrames& before, const MotionSplit::Parts& parts, Pose& pose) const {
+void Stylize::turn_bones(const MotionSplit::Parts& parts, Pose& pose) const {
   const Pose was = pose;
-  const auto gain_of = [&](BodyZone zone) { return gain_[index_of(zone)]; };
+  const auto is_turned = [&](std::size_t b) {
+    return gain_[index_of(kZoneOfBone[b])] != 1.0f && (pose.presence >> b & 1u) != 0;
+  };
   for (std::size_t b = 0; b < kBoneCount; ++b) {
-    const float gain = gain_of(kZoneOfBone[b]);
-    if (gain == 1.0f || (pose.presence >> b & 1u) == 0) continue;
-    float share = come_in_;
-    if (kZoneOfBone[b] == BodyZone::kLegs)
-      share *= feet_.swing(b < index_of(Bone::kRightUpperLeg) ? 0 : 1);
-    if (share == 0.0f) continue;
-    const Vector3f more = share * (added_turn(b, parts) - bias_[b].value);
+    if (!is_turned(b)) continue;
+    const Vector3f more = come_in_ * (added_turn(b, parts) - bias_[b].value);
     const Quaternionf turned = split_.turned(b, parts.deviation.turn[b] + more);
     pose.R_PB[b] = b == 0 ? (parts.R_heading * turned).normalized() : turned;
   }
   // What made a joint's turn larger may not break the joint; who goes beyond by themselves stays as far beyond.
   Pose limited = pose;
-  if (limit_joints(limited) > 0) {
-    Pose within = was;
-    limit_joints(within);
-    for (std::size_t b = 1; b < kBoneCount; ++b)
-      if (gain_of(kZoneOfBone[b]) > 1.0f)
-        pose.R_PB[b] = (limited.R_PB[b] * within.R_PB[b].conjugate() * was.R_PB[b]).normalized();
-  }
-  BodyFrames swung = before;
-  if (gain_of(BodyZone::kLegs) != 1.0f) swing_legs(was, before, pose, swung);
-  if (gain_of(BodyZone::kHips) == 1.0f) return;
-  Vector3f sway = come_in_ * saturated(added_sway(parts) - sway_bias_.value, kMostSway_m);
-  sway.z() = 0.0f;  // forward and back is where the steps go
-  pose.p_WH_m += parts.R_heading * sway;
-  stand(before, swung, pose);
+  if (limit_joints(limited) == 0) return;
+  Pose within = was;
+  limit_joints(within);
+  for (std::size_t b = 1; b < kBoneCount; ++b)
+    if (is_turned(b) && gain_[index_of(kZoneOfBone[b])] > 1.0f)
+      pose.R_PB[b] = (limited.R_PB[b] * within.R_PB[b].conjugate() * was.R_PB[b]).normalized();
 }
 
-void Stylize::swing_legs(const Pose& was, const BodyFrames& before, Pose& pose,
-                         BodyFrames& swung) const {
-  Pose legs = was;
-  const std::size_t thigh = index_of(Bone::kLeftUpperLeg);
-  for (std::size_t b = thigh; b < kBoneCount; ++b) legs.R_PB[b] = pose.R_PB[b];
-  forward_kinematics(skeleton_, legs, swung);
-  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
-    const Limb& leg = kSwingLegs[side];
-    const std::size_t end = index_of(leg.end);
-    const Vector3f moved = swung.p_WB_m[end] - before.p_WB_m[end];
-    if (moved.squaredNorm() < 1e-12f) continue;
-    const float kept = saturated(moved, kMostSwing_m).norm() / moved.norm();
-    for (std::size_t b = index_of(leg.upper); b <= end + 1; ++b)
-      legs.R_PB[b] = was.R_PB[b].slerp(kept, legs.R_PB[b]);
-  }
-  forward_kinematics(skeleton_, legs, swung);
-  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
-    const std::size_t end = index_of(kSwingLegs[side].end);
-    const float below = feet_.below_floor_m(side, swung, before);
-    if (below == 0.0f) continue;
-    const BodyFrames like = swung;
-    const Vector3f target = like.p_WB_m[end] + below * Vector3f::UnitY();
-    reach_ankle(skeleton_, kSwingLegs[side], like, target, like.R_WB[end], legs, swung);
-  }
-  for (std::size_t b = thigh; b < kBoneCount; ++b) pose.R_PB[b] = legs.R_PB[b];
+BodyFrames Stylize::scaled_legs(const Pose& danced, const Pose& turned) const {
+  Pose legs = danced;
+  for (std::size_t b = index_of(Bone::kLeftUpperLeg); b < kBoneCount; ++b)
+    legs.R_PB[b] = turned.R_PB[b];
+  BodyFrames frames;
+  forward_kinematics(skeleton_, legs, frames);
+  return frames;
 }
 
-void Stylize::stand(const BodyFrames& before, const BodyFrames& swung, Pose& pose) const {
+void Stylize::stand(const BodyFrames& danced, const BodyFrames& scaled,
+                    const MotionSplit::Parts& parts, Pose& pose) const {
+  const bool hips_are_scaled = gain_[index_of(BodyZone::kHips)] != 1.0f;
+  if (!hips_are_scaled && !legs_are_scaled()) return;
+  BodyFrames there = danced;
+  if (legs_are_scaled()) {
+    const ScaledSteps::Aim aim = steps_.aim(feet_, danced, scaled);
+    pose.p_WH_m += aim.hips_moved_m;
+    for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+      const std::size_t ankle = index_of(kSwingLegs[side].end), toes = ankle + 1;
+      there.p_WB_m[ankle] = aim.p_WAnkle_m[side];
+      there.R_WB[ankle] = aim.R_WFoot[side];
+      pose.R_PB[toes] = (aim.R_WFoot[side].conjugate() * aim.R_WToes[side]).normalized();
+    }
+  }
+  if (hips_are_scaled) {
+    Vector3f sway = come_in_ * saturated(added_sway(parts) - sway_bias_.value, kMostSway_m);
+    sway.z() = 0.0f;  // forward and back is where the steps go
+    pose.p_WH_m += parts.R_heading * sway;
+  }
   BodyFrames frames;
   forward_kinematics(skeleton_, pose, frames);
   const float drop =
-      needed_drop_m(skeleton_, before,
+      needed_drop_m(skeleton_, there,
                     {frames.position(Bone::kLeftUpperLeg), frames.position(Bone::kRightUpperLeg)});
   pose.p_WH_m.y() -= drop;
   for (const Limb& leg : kSwingLegs) {
-    const std::size_t end = index_of(leg.end);
+    const std::size_t ankle = index_of(leg.end);
     frames.p_WB_m[index_of(leg.upper)].y() -= drop;
-    reach_ankle(skeleton_, leg, swung, swung.p_WB_m[end], swung.R_WB[end], pose, frames);
+    reach_ankle(skeleton_, leg, scaled, there.p_WB_m[ankle], there.R_WB[ankle], pose, frames);
   }
 }
 

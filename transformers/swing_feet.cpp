@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3f;
 
 // Slower than the one a foot stands, or is about to land; a step is faster than the other at its middle.
-constexpr float kFootStands_m_s = 0.35f, kFootSwings_m_s = 1.4f;
+constexpr float kFootStands_m_s = 0.2f, kFootSwings_m_s = 1.0f;
 // A sensor's noise is no step, and the delay is that of two poses.
 constexpr float kFootSmooth_s = 0.025f;
 constexpr float kFootFloorRises_m_s = 0.02f;

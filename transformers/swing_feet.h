@@ -1,5 +1,5 @@
 // SwingFeet: which foot is on its way. A foot swings as much as both its ankle and its ball are fast: one that stands, or
-// turns on its heel or ball, does not at all. What is done to a leg in that measure is back where it was when it lands.
+// turns on its heel or ball, does not at all.
 //
 // Units/frames: metres in W, +Y up; metres a second.
 // Ownership:    plain value; never allocates.
@@ -22,6 +22,10 @@ class SwingFeet {
   void follow(const BodyFrames& frames, float dt_s, bool begins);
   // 0 stands … 1 swings.
   float swing(std::size_t side) const { return feet_[side].swing; }
+  // How high a heel is above where it stands.
+  float heel_m(std::size_t side, const BodyFrames& frames) const {
+    return frames.p_WB_m[index_of(kSwingLegs[side].end)].y() - feet_[side].ankle.floor_m;
+  }
   // By how much a leg in `frames` is below the floor, or below where it was in `danced` if that is lower.
   float below_floor_m(std::size_t side, const BodyFrames& frames, const BodyFrames& danced) const;
 

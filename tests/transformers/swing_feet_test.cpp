@@ -6,24 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/transformers/on_its_feet.h"
 #include "transformers/kept_mean.h"
 
 namespace dance {
 namespace {
 
 using Eigen::Vector3f;
-
-BodyFrames on_its_feet() {
-  BodyFrames frames;
-  for (Vector3f& p : frames.p_WB_m) p = Vector3f(0.0f, 1.0f, 0.0f);
-  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
-    const std::size_t ankle = index_of(kSwingLegs[side].end);
-    const float aside = side == 0 ? 0.1f : -0.1f;
-    frames.p_WB_m[ankle] = Vector3f(aside, 0.08f, 0.0f);
-    frames.p_WB_m[ankle + 1] = Vector3f(aside, 0.02f, 0.12f);
-  }
-  return frames;
-}
 
 void move_left(BodyFrames& frames, const Vector3f& ankle_by, const Vector3f& ball_by) {
   frames.p_WB_m[index_of(Bone::kLeftFoot)] += ankle_by;

@@ -1,0 +1,149 @@
+#include "transformers/scaled_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transformers/saturated.h"
+
+namespace dance {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+// A leg's end is moved by its scaled turns, and hips over their feet, by this at most.
+constexpr float kMostSwing_m = 0.3f;
+constexpr float kMostHips_m = 0.3f;
+// A foot on its way comes to its place so fast, and takes so much of the hips' way back.
+constexpr float kSetDownPerSecond = 120.0f;
+constexpr float kComeBack_s = 0.2f;
+// … when legs are as danced again, so slowly that it is seen as a step.
+constexpr float kGoHomePerSecond = 12.0f;
+constexpr float kFootFastest_m_s = 3.0f;
+// A foot in the air carries so little: hips hang between two feet that both swing.
+constexpr float kLeastCarried = 0.02f;
+// Hips are heavy: they come to their place in this time, and no faster than that.
+constexpr float kHipsCome_s = 0.03f;
+constexpr float kHipsFastest_m_s = 2.0f;
+// A heel so high is free to turn about its ball, and to lift higher.
+constexpr float kHeelIsUp_m = 0.015f;
+// Feet that stand closer than this to where they were danced stand there.
+constexpr float kHome_m = 1e-3f, kHome_rad = 2e-3f;
+
+// Of R the turn about +Y, rad.
+float heading_of(const Quaternionf& R) {
+  const float side = R.w() < 0.0f ? -1.0f : 1.0f;
+  return 2.0f * std::atan2(side * R.y(), side * R.w());
+}
+
+Quaternionf about_up(float angle_rad) {
+  return Quaternionf(std::cos(0.5f * angle_rad), 0.0f, std::sin(0.5f * angle_rad), 0.0f);
+}
+
+Vector3f no_longer_than(float most, const Vector3f& v) {
+  const float size = v.norm();
+  return size > most ? Vector3f(most / size * v) : v;
+}
+
+std::size_t ankle_of(std::size_t side) { return index_of(kSwingLegs[side].end); }
+std::size_t ball_of(std::size_t side) { return ankle_of(side) + 1; }
+
+// What the scaled leg moves its ball by, and turns its foot by.
+Vector3f leg_moves_m(std::size_t side, const BodyFrames& danced, const BodyFrames& scaled) {
+  const std::size_t ball = ball_of(side);
+  return saturated(scaled.p_WB_m[ball] - danced.p_WB_m[ball], kMostSwing_m);
+}
+
+Quaternionf leg_turns(std::size_t side, const BodyFrames& danced, const BodyFrames& scaled) {
+  const std::size_t ankle = ankle_of(side);
+  return scaled.R_WB[ankle] * danced.R_WB[ankle].conjugate();
+}
+
+// How free a foot is to turn: 0 flat on the floor … 1 with its heel up, or on its way.
+float leaves_floor(const SwingFeet& feet, std::size_t side, const BodyFrames& danced) {
+  const float heel = std::clamp(feet.heel_m(side, danced) / kHeelIsUp_m, 0.0f, 1.0f);
+  return std::max(feet.swing(side), heel * heel * (3.0f - 2.0f * heel));
+}
+
+}  // namespace
+
+Vector3f ScaledSteps::hips_wanted_m(const SwingFeet& feet, const BodyFrames& danced,
+                                    const BodyFrames& scaled) const {
+  Vector3f sum = Vector3f::Zero();
+  float carried = 0.0f;
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    const float carries = 1.0f - feet.swing(side) + kLeastCarried;
+    sum += carries * (feet_[side].moved_m - leg_moves_m(side, danced, scaled));
+    carried += carries;
+  }
+  return saturated(sum / carried, kMostHips_m);
+}
+
+void ScaledSteps::follow(const SwingFeet& feet, const BodyFrames& danced, const BodyFrames& scaled,
+                         float dt_s, bool goes_home) {
+  const Vector3f wanted = hips_wanted_m(feet, danced, scaled) - hips_moved_m_;
+  const Vector3f hips_step = (1.0f - std::exp(-dt_s / kHipsCome_s)) * wanted;
+  hips_moved_m_ += no_longer_than(kHipsFastest_m_s * dt_s, hips_step);
+  is_home_ = hips_moved_m_.norm() < kHome_m;
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    Foot& foot = feet_[side];
+    const float swing = feet.swing(side);
+    const float per_s = goes_home ? kGoHomePerSecond : kSetDownPerSecond;
+    const auto coming = [&](float free) { return 1.0f - std::exp(-per_s * free * dt_s); };
+    Vector3f target = Vector3f::Zero();
+    float turned_rad = 0.0f;
+    if (!goes_home) {
+      target = leg_moves_m(side, danced, scaled) + hips_moved_m_;
+      turned_rad = heading_of(leg_turns(side, danced, scaled));
+    }
+    Vector3f change = coming(swing) * (target - foot.moved_m);
+    if (!goes_home) change -= std::min(1.0f, swing * swing * dt_s / kComeBack_s) * hips_moved_m_;
+    change.y() = 0.0f;
+    foot.moved_m += no_longer_than(kFootFastest_m_s * dt_s, change);
+    foot.turned_rad += coming(leaves_floor(feet, side, danced)) * (turned_rad - foot.turned_rad);
+    is_home_ = is_home_ && foot.moved_m.norm() < kHome_m && std::abs(foot.turned_rad) < kHome_rad;
+  }
+}
+
+ScaledSteps::Aim ScaledSteps::aim(const SwingFeet& feet, const BodyFrames& danced,
+                                  const BodyFrames& scaled) const {
+  Aim out;
+  out.hips_moved_m = hips_moved_m_;
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    const Foot& foot = feet_[side];
+    const std::size_t ankle = ankle_of(side), ball = ball_of(side);
+    const Vector3f ankle_to_ball =
+        danced.R_WB[ankle].conjugate() * (danced.p_WB_m[ball] - danced.p_WB_m[ankle]);
+    Vector3f place = danced.p_WB_m[ball] + foot.moved_m;
+    place.y() += feet.swing(side) * (leg_moves_m(side, danced, scaled).y() + out.hips_moved_m.y());
+    const Quaternionf turns = leg_turns(side, danced, scaled);
+    const Quaternionf tilts = about_up(-heading_of(turns)) * turns;
+    BodyFrames there = danced;
+    const auto set_down = [&](float tilt) {
+      there.R_WB[ankle] = about_up(foot.turned_rad) * Quaternionf::Identity().slerp(tilt, tilts) *
+                          danced.R_WB[ankle];
+      there.p_WB_m[ball] = place;
+      there.p_WB_m[ankle] = place - there.R_WB[ankle] * ankle_to_ball;
+      return feet.below_floor_m(side, there, danced);
+    };
+    const float most_tilt = leaves_floor(feet, side, danced);
+    if (const float below = set_down(most_tilt); below > 0.0f) {
+      // A sole that is flat is not tilted any further than the floor.
+      const float tilted = there.p_WB_m[ankle].y();
+      set_down(0.0f);
+      const float tilt_lowers = there.p_WB_m[ankle].y() - tilted;
+      const float tilt = tilt_lowers > 1e-5f
+                             ? most_tilt * std::clamp(1.0f - below / tilt_lowers, 0.0f, 1.0f)
+                             : 0.0f;
+      there.p_WB_m[ankle].y() += set_down(tilt);
+    }
+    out.p_WAnkle_m[side] = there.p_WB_m[ankle];
+    out.R_WFoot[side] = there.R_WB[ankle];
+    // Toes that stand lie as they lay.
+    out.R_WToes[side] =
+        (about_up(foot.turned_rad) * danced.R_WB[ball]).slerp(feet.swing(side), scaled.R_WB[ball]);
+  }
+  return out;
+}
+
+}  // namespace dance
