@@ -25,7 +25,7 @@ Swing: the gain of legs while their foot is on its way; slide: of the balls of f
 struct Wishes {
   std::vector<std::string> files;
   StylizeEvalOptions eval;
-  double hz = 60.0, tempo_off_percent = 0.0;
+  double hz = 60.0, noise_deg = 0.0, tempo_off_percent = 0.0;
   bool synthetic = false, overview = false, json = false;
 };
 
@@ -46,7 +46,7 @@ Result<void> run(Wishes wishes) {
   std::vector<StyleTake> takes;
   if (wishes.synthetic) takes.push_back(synthetic_sway(wishes.hz));
   for (const std::string& file : wishes.files) {
-    DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.hz));
+    DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.hz, wishes.noise_deg));
     takes.push_back(style_take_of(take, wishes.tempo_off_percent));
   }
   if (takes.empty()) return fail("nobody dances: name BVH files, or --synthetic");
@@ -80,6 +80,9 @@ int main(int argc, char** argv) {
       .range(0.0, 1.0)
       .shows_default();
   line.add("--hz", wishes.hz, "poses a second").range(10.0, 240.0).shows_default();
+  line.add("--noise", wishes.noise_deg,
+           "degrees by which each bone of a file trembles from pose to pose, as sensors do")
+      .range(0.0, 20.0);
   line.add("--warm-up", wishes.eval.warm_up_s, "seconds that are not measured")
       .range(0.0, 600.0)
       .shows_default();
