@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   line.add("--parts", training.folds, "how many parts are kept back in turn to weigh the guesses")
       .range(2, 10)
       .shows_default();
+  line.add("--seed", training.seed, "another number begins elsewhere").shows_default();
   line.footer(dance::kPredictTrainExamples);
   return dance::run_program(line, argc, argv,
                             [&] { return dance::run_predict_train(training, files, out); });
