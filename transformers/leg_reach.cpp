@@ -27,19 +27,20 @@ Quaternionf turned_short(const Vector3f& from, const Vector3f& to, const Quatern
 
 }  // namespace
 
-float needed_drop_m(const Skeleton& skeleton, const BodyFrames& before,
-                    const std::array<Vector3f, 2>& hip_joints_W_m) {
+float needed_drop_m(const Skeleton& skeleton, const BodyFrames& there,
+                    const std::array<Vector3f, 2>& hip_joints_W_m,
+                    const std::array<float, 2>& carries) {
   float drop = 0.0f;
   for (std::size_t side = 0; side < 2; ++side) {
     const Limb& leg = side == 0 ? kLeftLeg : kRightLeg;
-    const Vector3f ankle = before.position(leg.end);
+    const Vector3f ankle = there.position(leg.end);
     const float length = leg_length_m(skeleton, leg);
-    const float was = std::min((before.position(leg.upper) - ankle).norm(), length);
+    const float was = std::min((there.position(leg.upper) - ankle).norm(), length);
     const float reach = std::max(was, kStraightest * length);
     const Vector3f up = hip_joints_W_m[side] - ankle;
     const float aside2 = up.x() * up.x() + up.z() * up.z();
     const float highest = std::sqrt(std::max(0.0f, reach * reach - aside2));
-    drop = std::max(drop, up.y() - highest);
+    drop = std::max(drop, carries[side] * (up.y() - highest));
   }
   return std::min(drop, kMostDrop_m);
 }

@@ -27,6 +27,7 @@ constexpr float kHipsCome_s = 0.03f;
 constexpr float kHipsFastest_m_s = 2.0f;
 // A heel so high is free to turn about its ball, and to lift higher.
 constexpr float kHeelIsUp_m = 0.015f;
+constexpr float kAlmost_m = 1e-3f;
 // Feet that stand closer than this to where they were danced stand there.
 constexpr float kHome_m = 1e-3f, kHome_rad = 2e-3f;
 
@@ -76,7 +77,10 @@ Vector3f ScaledSteps::hips_wanted_m(const SwingFeet& feet, const BodyFrames& dan
     sum += carries * (feet_[side].moved_m - leg_moves_m(side, danced, scaled));
     carried += carries;
   }
-  return saturated(sum / carried, kMostHips_m);
+  Vector3f moved = sum / carried;
+  // Nobody is pressed down in the air.
+  moved.y() *= std::min(1.0f, carried);
+  return saturated(moved, kMostHips_m);
 }
 
 void ScaledSteps::follow(const SwingFeet& feet, const BodyFrames& danced, const BodyFrames& scaled,
@@ -118,30 +122,23 @@ ScaledSteps::Aim ScaledSteps::aim(const SwingFeet& feet, const BodyFrames& dance
     place.y() += feet.swing(side) * (leg_moves_m(side, danced, scaled).y() + out.hips_moved_m.y());
     const Quaternionf turns = leg_turns(side, danced, scaled);
     const Quaternionf tilts = about_up(-heading_of(turns)) * turns;
-    BodyFrames there = danced;
+    place.y() = std::max(place.y(), feet.lowest_ball_m(side, danced));
+    const float floor_m = feet.lowest_ankle_m(side, danced);
+    const Quaternionf flat = about_up(foot.turned_rad);
+    // The foot on its ball, tilted by a part of what its leg tilts it by.
     const auto set_down = [&](float tilt) {
-      there.R_WB[ankle] = about_up(foot.turned_rad) * Quaternionf::Identity().slerp(tilt, tilts) *
-                          danced.R_WB[ankle];
-      there.p_WB_m[ball] = place;
-      there.p_WB_m[ankle] = place - there.R_WB[ankle] * ankle_to_ball;
-      return feet.below_floor_m(side, there, danced);
+      out.R_WFoot[side] = flat * Quaternionf::Identity().slerp(tilt, tilts) * danced.R_WB[ankle];
+      out.p_WAnkle_m[side] = place - out.R_WFoot[side] * ankle_to_ball;
+      return out.p_WAnkle_m[side].y();
     };
+    // The floor takes as much of the tilt as would bring the heel below it.
     const float most_tilt = leaves_floor(feet, side, danced);
-    if (const float below = set_down(most_tilt); below > 0.0f) {
-      // A sole that is flat is not tilted any further than the floor.
-      const float tilted = there.p_WB_m[ankle].y();
-      set_down(0.0f);
-      const float tilt_lowers = there.p_WB_m[ankle].y() - tilted;
-      const float tilt = tilt_lowers > 1e-5f
-                             ? most_tilt * std::clamp(1.0f - below / tilt_lowers, 0.0f, 1.0f)
-                             : 0.0f;
-      there.p_WB_m[ankle].y() += set_down(tilt);
-    }
-    out.p_WAnkle_m[side] = there.p_WB_m[ankle];
-    out.R_WFoot[side] = there.R_WB[ankle];
+    const float untilted = set_down(0.0f), tilted = set_down(most_tilt);
+    const float too_low = std::max(0.0f, floor_m - tilted) - std::max(0.0f, floor_m - untilted);
+    if (too_low > 0.0f) set_down(most_tilt * (1.0f - too_low / (untilted - tilted + kAlmost_m)));
+    out.p_WAnkle_m[side].y() = std::max(out.p_WAnkle_m[side].y(), floor_m);
     // Toes that stand lie as they lay.
-    out.R_WToes[side] =
-        (about_up(foot.turned_rad) * danced.R_WB[ball]).slerp(feet.swing(side), scaled.R_WB[ball]);
+    out.R_WToes[side] = (flat * danced.R_WB[ball]).slerp(feet.swing(side), scaled.R_WB[ball]);
   }
   return out;
 }

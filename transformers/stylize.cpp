@@ -19,12 +19,22 @@ constexpr double kComeIn_s = 2.0;
 // So much faster than the mean pose itself: a new hold is not shown larger while the mean comes to it.
 constexpr double kBiasFaster = 4.0;
 // Of what legs are told to do more, straight knees and flat soles let through about so much less.
-constexpr float kLegsMore = 1.2f;
+constexpr float kLegsMore = 1.3f;
 // Two poses further apart than this are not one movement.
 constexpr Duration kAnotherTake = Duration::s(1);
 // What is added to a joint and to the sway stays below this, whatever the gain: arms that are thrown up are not thrown over.
 constexpr float kMostAdded_rad = 0.7f;
 constexpr float kMostSway_m = 0.2f;
+// Hips make so much more of the sway at most, where legs have made it larger already.
+constexpr float kMostSwayOfLegs = 2.0f;
+// A knee is told to bend by this at least, or by as little as it was danced with.
+constexpr float kLeastBend_rad = 0.05f;
+constexpr std::size_t kFirstLegBone = index_of(Bone::kLeftUpperLeg);
+// Thighs, shanks and feet; toes are not everywhere.
+constexpr std::uint32_t kLegBones =
+    7u << index_of(Bone::kLeftUpperLeg) | 7u << index_of(Bone::kRightUpperLeg);
+// Over longer steps hips come down this fast where a leg would not reach.
+constexpr float kDropComes_s = 0.03f, kDropFastest_m_s = 2.0f;
 
 float towards(float from, float to, float most) {
   return from + std::clamp(to - from, -most, most);
@@ -57,6 +67,8 @@ void Stylize::set_style(const Style& style) {
 }
 
 void Stylize::set_body(const Skeleton& skeleton) {
+  // Other legs have their ankles elsewhere over the floor.
+  if (skeleton.offset_m != skeleton_.offset_m) feet_begin_ = true;
   skeleton_ = skeleton;
   period_.set_body(skeleton);
 }
@@ -86,7 +98,7 @@ bool Stylize::is_plain() const {
   const bool is_as_danced =
       std::all_of(gain_.begin(), gain_.end(), [](float gain) { return gain == 1.0f; });
   const bool adds = !is_as_danced && (periodic_ != 0.0f || dynamic_ != 0.0f);
-  return come_in_ == 0.0f || (!adds && steps_.is_home());
+  return steps_.is_home() && (come_in_ == 0.0f || !adds);
 }
 
 bool Stylize::legs_are_scaled() const {
@@ -106,7 +118,8 @@ bool Stylize::sample(MonoTime now, Pose& out) {
   if (begins) {
     if (split_.has_begun()) ++counters_.restarts;
     split_.forget();
-    steps_ = {};
+    // Over a gap feet stay where they were set down.
+    if (out.clock_id != clock_id_ || step < Duration()) steps_ = {};
     come_in_ = 0.0f;
   }
   split_.split(out, frames, bars, parts_);
@@ -114,11 +127,11 @@ bool Stylize::sample(MonoTime now, Pose& out) {
   if (is_plain()) return true;
   const Pose danced = out;
   turn_bones(parts_, out);
-  const BodyFrames scaled = scaled_legs(danced, out);
+  const BodyFrames scaled = scaled_legs(danced, out, parts_);
+  const auto dt_s = static_cast<float>(step_s);
   if (legs_are_scaled())
-    steps_.follow(feet_, frames, scaled, static_cast<float>(step_s),
-                  gain_[index_of(BodyZone::kLegs)] == 1.0f);
-  stand(frames, scaled, parts_, out);
+    steps_.follow(feet_, frames, scaled, dt_s, gain_[index_of(BodyZone::kLegs)] == 1.0f);
+  stand(danced, frames, scaled, parts_, dt_s, drop_m_, out);
   return true;
 }
 
@@ -131,7 +144,8 @@ bool Stylize::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   split_.split(out, frames, bars_of(out), parts);
   const Pose danced = out;
   turn_bones(parts, out);
-  stand(frames, scaled_legs(danced, out), parts, out);
+  float drop_m = drop_m_;
+  stand(danced, frames, scaled_legs(danced, out, parts), parts, 0.0f, drop_m, out);
   return true;
 }
 
@@ -145,7 +159,8 @@ double Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, 
   }
   follow_bias(parts_, step_s);
   split_.learn(parts_, bars, step_s);
-  feet_.follow(frames, static_cast<float>(dt_s), begins);
+  feet_.follow(frames, static_cast<float>(dt_s), begins || feet_begin_);
+  feet_begin_ = false;
   come_in_ = towards(come_in_, 1.0f, static_cast<float>(dt_s / kComeIn_s));
   learnt_ = pose.capture_time;
   clock_id_ = pose.clock_id;
@@ -153,19 +168,16 @@ double Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, 
 }
 
 float Stylize::more_of(BodyZone zone) const {
-  return (zone == BodyZone::kLegs ? kLegsMore : 1.0f) * (gain_[index_of(zone)] - 1.0f);
+  const float more = gain_[index_of(zone)] - 1.0f;
+  return zone == BodyZone::kLegs ? std::max(-1.0f, kLegsMore * more) : more;
 }
 
-Vector3f Stylize::added_turn(std::size_t bone, const MotionSplit::Parts& parts) const {
-  return saturated(more_of(kZoneOfBone[bone]) *
-                       (periodic_ * parts.periodic.turn[bone] + dynamic_ * parts.rest.turn[bone]),
-                   kMostAdded_rad);
+Vector3f Stylize::addable_turn(std::size_t bone, const MotionSplit::Parts& parts) const {
+  return periodic_ * parts.periodic.turn[bone] + dynamic_ * parts.rest.turn[bone];
 }
 
-Vector3f Stylize::added_sway(const MotionSplit::Parts& parts) const {
-  return saturated(
-      more_of(BodyZone::kHips) * (periodic_ * parts.periodic.sway_m + dynamic_ * parts.rest.sway_m),
-      kMostSway_m);
+Vector3f Stylize::addable_sway(const MotionSplit::Parts& parts) const {
+  return periodic_ * parts.periodic.sway_m + dynamic_ * parts.rest.sway_m;
 }
 
 // The mean pose is kept by what is added, too: its own mean is taken off. What comes again with each bar has next to none:
@@ -175,55 +187,84 @@ void Stylize::follow_bias(const MotionSplit::Parts& parts, double dt_s) {
   const double share = split_.mean_share(dt_s);
   const auto slow = static_cast<float>(std::min(1.0, share));
   const auto fast = static_cast<float>(std::min(1.0, kBiasFaster * share));
-  const auto follow_one = [&](BodyZone zone, const Vector3f& added, const Vector3f& periodic,
-                              Bias& bias) {
-    const Vector3f bar = more_of(zone) * periodic_ * periodic;
+  const auto follow_one = [&](BodyZone zone, const Vector3f& addable, const Vector3f& periodic,
+                              float most, Bias& bias) {
+    const float more = more_of(zone);
+    const Vector3f added =
+        more == 0.0f ? addable : Vector3f(saturated(more * addable, most) / more);
+    const Vector3f bar = periodic_ * periodic;
     bias.rest.follow(added - bar, fast);
     bias.bar.follow(bar, slow);
     const bool is_held = zone == BodyZone::kHips || zone == BodyZone::kLegs;
     bias.value = is_held ? bias.rest.once : Vector3f(bias.rest.value() + bias.bar.value());
   };
   for (std::size_t b = 0; b < kBoneCount; ++b)
-    follow_one(kZoneOfBone[b], added_turn(b, parts), parts.periodic.turn[b], bias_[b]);
-  follow_one(BodyZone::kHips, added_sway(parts), parts.periodic.sway_m, sway_bias_);
+    follow_one(kZoneOfBone[b], addable_turn(b, parts), parts.periodic.turn[b], kMostAdded_rad,
+               bias_[b]);
+  follow_one(BodyZone::kHips, addable_sway(parts), parts.periodic.sway_m, kMostSway_m, sway_bias_);
+}
+
+Quaternionf Stylize::turned(std::size_t bone, const MotionSplit::Parts& parts, float more) const {
+  const Vector3f added = saturated(more * addable_turn(bone, parts), kMostAdded_rad);
+  const Quaternionf R = split_.turned(
+      bone, parts.deviation.turn[bone] + come_in_ * (added - more * bias_[bone].value));
+  return bone == 0 ? (parts.R_heading * R).normalized() : R;
+}
+
+bool Stylize::is_turned(std::size_t bone, const Pose& pose) const {
+  const BodyZone zone = kZoneOfBone[bone];
+  // Legs step together or not at all.
+  const std::uint32_t needed = zone == BodyZone::kLegs ? kLegBones : 1u << bone;
+  return gain_[index_of(zone)] != 1.0f && (pose.presence & needed) == needed;
 }
 
 void Stylize::turn_bones(const MotionSplit::Parts& parts, Pose& pose) const {
   const Pose was = pose;
-  const auto is_turned = [&](std::size_t b) {
-    return gain_[index_of(kZoneOfBone[b])] != 1.0f && (pose.presence >> b & 1u) != 0;
-  };
-  for (std::size_t b = 0; b < kBoneCount; ++b) {
-    if (!is_turned(b)) continue;
-    const Vector3f more = come_in_ * (added_turn(b, parts) - bias_[b].value);
-    const Quaternionf turned = split_.turned(b, parts.deviation.turn[b] + more);
-    pose.R_PB[b] = b == 0 ? (parts.R_heading * turned).normalized() : turned;
-  }
+  for (std::size_t b = 0; b < kBoneCount; ++b)
+    if (is_turned(b, was)) pose.R_PB[b] = turned(b, parts, more_of(kZoneOfBone[b]));
   // What made a joint's turn larger may not break the joint; who goes beyond by themselves stays as far beyond.
   Pose limited = pose;
   if (limit_joints(limited) == 0) return;
   Pose within = was;
   limit_joints(within);
   for (std::size_t b = 1; b < kBoneCount; ++b)
-    if (is_turned(b) && gain_[index_of(kZoneOfBone[b])] > 1.0f)
+    if (is_turned(b, was) && gain_[index_of(kZoneOfBone[b])] > 1.0f)
       pose.R_PB[b] = (limited.R_PB[b] * within.R_PB[b].conjugate() * was.R_PB[b]).normalized();
 }
 
-BodyFrames Stylize::scaled_legs(const Pose& danced, const Pose& turned) const {
+BodyFrames Stylize::scaled_legs(const Pose& danced, const Pose& turned_pose,
+                                const MotionSplit::Parts& parts) const {
   Pose legs = danced;
-  for (std::size_t b = index_of(Bone::kLeftUpperLeg); b < kBoneCount; ++b)
-    legs.R_PB[b] = turned.R_PB[b];
+  for (std::size_t b = kFirstLegBone; b < kBoneCount; ++b) legs.R_PB[b] = turned_pose.R_PB[b];
+  // Hips tilt against the legs: were these scaled alone, feet would go to the side.
+  if (is_turned(kFirstLegBone, danced))
+    legs.R_PB[0] = turned(0, parts, gain_[index_of(BodyZone::kLegs)] - 1.0f);
+  // A knee that is straight does not bend the other way.
+  for (const Limb& leg : kSwingLegs) {
+    const std::size_t knee = index_of(leg.lower);
+    Vector3f bend = rotation_vector(legs.R_PB[knee]);
+    const float least = std::min(kLeastBend_rad, rotation_vector(danced.R_PB[knee]).x());
+    if (bend.x() >= least) continue;
+    bend.x() = least;
+    legs.R_PB[knee] = exp_rotation(bend);
+  }
   BodyFrames frames;
   forward_kinematics(skeleton_, legs, frames);
   return frames;
 }
 
-void Stylize::stand(const BodyFrames& danced, const BodyFrames& scaled,
-                    const MotionSplit::Parts& parts, Pose& pose) const {
+void Stylize::stand(const Pose& danced_pose, const BodyFrames& danced, const BodyFrames& scaled,
+                    const MotionSplit::Parts& parts, float step_s, float& drop_m,
+                    Pose& pose) const {
   const bool hips_are_scaled = gain_[index_of(BodyZone::kHips)] != 1.0f;
-  if (!hips_are_scaled && !legs_are_scaled()) return;
+  const bool steps_are_scaled = legs_are_scaled();
+  if (!hips_are_scaled && !steps_are_scaled) {
+    drop_m = 0.0f;
+    return;
+  }
   BodyFrames there = danced;
-  if (legs_are_scaled()) {
+  std::array<float, 2> carries{1.0f, 1.0f};
+  if (steps_are_scaled) {
     const ScaledSteps::Aim aim = steps_.aim(feet_, danced, scaled);
     pose.p_WH_m += aim.hips_moved_m;
     for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
@@ -231,23 +272,38 @@ void Stylize::stand(const BodyFrames& danced, const BodyFrames& scaled,
       there.p_WB_m[ankle] = aim.p_WAnkle_m[side];
       there.R_WB[ankle] = aim.R_WFoot[side];
       pose.R_PB[toes] = (aim.R_WFoot[side].conjugate() * aim.R_WToes[side]).normalized();
+      carries[side] = 1.0f - feet_.swing(side);
     }
   }
   if (hips_are_scaled) {
-    Vector3f sway = come_in_ * saturated(added_sway(parts) - sway_bias_.value, kMostSway_m);
+    const float more = more_of(BodyZone::kHips);
+    Vector3f sway = saturated(more * addable_sway(parts), kMostSway_m) - more * sway_bias_.value;
+    const float by_legs = std::clamp(1.0f + more_of(BodyZone::kLegs), 0.0f, kMostSwayOfLegs);
+    sway = come_in_ * saturated(by_legs * sway, kMostSway_m);
     sway.z() = 0.0f;  // forward and back is where the steps go
     pose.p_WH_m += parts.R_heading * sway;
   }
   BodyFrames frames;
   forward_kinematics(skeleton_, pose, frames);
-  const float drop =
-      needed_drop_m(skeleton_, there,
-                    {frames.position(Bone::kLeftUpperLeg), frames.position(Bone::kRightUpperLeg)});
-  pose.p_WH_m.y() -= drop;
+  const float needed = needed_drop_m(
+      skeleton_, there,
+      {frames.position(Bone::kLeftUpperLeg), frames.position(Bone::kRightUpperLeg)}, carries);
+  if (steps_are_scaled) {
+    // Over longer steps hips are heavy.
+    const float come = (1.0f - std::exp(-step_s / kDropComes_s)) * (needed - drop_m);
+    drop_m = towards(drop_m, drop_m + come, kDropFastest_m_s * step_s);
+  } else {
+    drop_m = needed;
+  }
+  pose.p_WH_m.y() -= drop_m;
+
   for (const Limb& leg : kSwingLegs) {
     const std::size_t ankle = index_of(leg.end);
-    frames.p_WB_m[index_of(leg.upper)].y() -= drop;
+    frames.p_WB_m[index_of(leg.upper)].y() -= drop_m;
     reach_ankle(skeleton_, leg, scaled, there.p_WB_m[ankle], there.R_WB[ankle], pose, frames);
+    // What is not there is left as it came.
+    for (std::size_t b = index_of(leg.upper); b <= ankle + 1; ++b)
+      if ((pose.presence >> b & 1u) == 0) pose.R_PB[b] = danced_pose.R_PB[b];
   }
 }
 

@@ -1,5 +1,5 @@
 // stylize: how large a dance is shown, zone by zone: the sway of the hips, the swing of the arms, made more or less, while
-// the mean pose, the beat and the feet's places stay. r is how a joint deviates from its slow mean, p the part of it that
+// the mean pose and the beat stay, and feet that stand do not slide. r is how a joint deviates from its slow mean, p the part of it that
 // comes again with each bar; shown is r + (gain − 1) (periodic · p + dynamic · (r − p)).
 //
 // What the session says and what the guest says live multiply: the room's taste and the dancer's wish both count, and a
@@ -7,11 +7,12 @@
 //
 // Units/frames: gains 0 .. 4, 1 as danced. The bar is the music's where poses carry it, else found in the motion
 //               (transformers/period.h). Hips: their tilt, and their sway over the feet sideways and up and down; the legs
-//               are solved anew. Legs: steps are longer, hips go further over the feet, and no foot slides.
+//               are solved anew. Legs: steps are longer or shorter, and hips go as much further over the feet.
+//               sample_at() has feet where they stand by the newest pose, whatever moment it is asked for.
 // Ownership:    about 120 kB; never allocates after construction. No delay. 3 us a pose with all gains 1, 6 us else, 9 us without music
 //               (dance bench parts --only style).
 // Threads:      none inside; one owner.
-// Failure:      with all gains 1 poses pass through bit for bit. A style that is not valid is refused and counted. Hips come
+// Failure:      with all gains 1, and feet back where they are danced, poses pass through bit for bit. A style that is not valid is refused and counted. Hips come
 //               down where a leg would not reach its foot any more. A jump in time starts anew: gains come in within 2 s.
 // Source:       Unuma et al. 1995 (periodic part), Bruderlin and Williams 1995 (gains on all deviation).
 #pragma once
@@ -42,7 +43,8 @@ class Stylize : public Transformer {
   float gain(BodyZone zone) const { return gain_[static_cast<std::size_t>(zone)]; }
 
  private:
-  // What of an addition stays in its mean: of what is added to the rest, and of what is added to the bar's.
+  // What of an addition stays in its mean: of what is added to the rest, and of what is added to the bar's; at a gain of 2,
+  // so that it follows the gain at once.
   struct Bias {
     KeptMean rest, bar;
     Eigen::Vector3f value = Eigen::Vector3f::Zero();
@@ -57,15 +59,19 @@ class Stylize : public Transformer {
   void follow_bias(const MotionSplit::Parts& parts, double dt_s);
   // How much of a zone's motion is added.
   float more_of(BodyZone zone) const;
-  // What is added to the deviations: of a bone's turn, of the sway.
-  Eigen::Vector3f added_turn(std::size_t bone, const MotionSplit::Parts& parts) const;
-  Eigen::Vector3f added_sway(const MotionSplit::Parts& parts) const;
+  // What is added to the deviations at a gain of 2: to a bone's turn, to the sway.
+  Eigen::Vector3f addable_turn(std::size_t bone, const MotionSplit::Parts& parts) const;
+  Eigen::Vector3f addable_sway(const MotionSplit::Parts& parts) const;
+  // A bone's local turn, with `more` of its motion.
+  Eigen::Quaternionf turned(std::size_t bone, const MotionSplit::Parts& parts, float more) const;
+  bool is_turned(std::size_t bone, const Pose& pose) const;
   void turn_bones(const MotionSplit::Parts& parts, Pose& pose) const;
-  // The body with the legs of `turned`, under hips that are as they were danced.
-  BodyFrames scaled_legs(const Pose& danced, const Pose& turned) const;
-  // Hips where they sway and step to, legs solved anew.
-  void stand(const BodyFrames& danced, const BodyFrames& scaled, const MotionSplit::Parts& parts,
-             Pose& pose) const;
+  // The body with its legs as turned, under hips that tilt with them.
+  BodyFrames scaled_legs(const Pose& danced, const Pose& turned,
+                         const MotionSplit::Parts& parts) const;
+  // Hips where they sway and step to, legs solved anew; `step_s`: since the pose that was followed before.
+  void stand(const Pose& danced_pose, const BodyFrames& danced, const BodyFrames& scaled,
+             const MotionSplit::Parts& parts, float step_s, float& drop_m, Pose& pose) const;
   bool legs_are_scaled() const;
 
   Style base_, live_;
@@ -80,10 +86,11 @@ class Stylize : public Transformer {
   Bias sway_bias_;
   SwingFeet feet_;
   ScaledSteps steps_;
+  float drop_m_ = 0.0f;  // by how much hips came down so that legs reach
   Pose newest_;
   MonoTime sampled_, learnt_;
   std::uint64_t clock_id_ = 0;
-  bool has_newest_ = false;
+  bool has_newest_ = false, feet_begin_ = false;
 };
 
 }  // namespace dance

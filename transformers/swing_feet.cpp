@@ -36,13 +36,12 @@ void SwingFeet::follow(const BodyFrames& frames, float dt_s, bool begins) {
   }
 }
 
-float SwingFeet::below_floor_m(std::size_t side, const BodyFrames& frames,
-                               const BodyFrames& danced) const {
-  const std::size_t ankle = index_of(kSwingLegs[side].end), ball = ankle + 1;
-  const auto below = [&](std::size_t bone, const Point& point) {
-    return std::min(point.floor_m, danced.p_WB_m[bone].y()) - frames.p_WB_m[bone].y();
-  };
-  return std::max({0.0f, below(ankle, feet_[side].ankle), below(ball, feet_[side].ball)});
+float SwingFeet::lowest_ankle_m(std::size_t side, const BodyFrames& danced) const {
+  return std::min(feet_[side].ankle.floor_m, danced.p_WB_m[index_of(kSwingLegs[side].end)].y());
+}
+
+float SwingFeet::lowest_ball_m(std::size_t side, const BodyFrames& danced) const {
+  return std::min(feet_[side].ball.floor_m, danced.p_WB_m[index_of(kSwingLegs[side].end) + 1].y());
 }
 
 }  // namespace dance

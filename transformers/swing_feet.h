@@ -26,8 +26,9 @@ class SwingFeet {
   float heel_m(std::size_t side, const BodyFrames& frames) const {
     return frames.p_WB_m[index_of(kSwingLegs[side].end)].y() - feet_[side].ankle.floor_m;
   }
-  // By how much a leg in `frames` is below the floor, or below where it was in `danced` if that is lower.
-  float below_floor_m(std::size_t side, const BodyFrames& frames, const BodyFrames& danced) const;
+  // How low an ankle, or a ball, may be: on the floor, or where it was danced if that is lower.
+  float lowest_ankle_m(std::size_t side, const BodyFrames& danced) const;
+  float lowest_ball_m(std::size_t side, const BodyFrames& danced) const;
 
  private:
   struct Point {

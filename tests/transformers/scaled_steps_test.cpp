@@ -146,6 +146,49 @@ TEST(ScaledSteps, ASoleThatIsFlatIsNotTiltedAndAHeelThatIsUpLiftsHigher) {
   EXPECT_LT(aim.R_WToes[0].angularDistance(Quaternionf::Identity()), 1e-4f);
 }
 
+TEST(ScaledSteps, AFootThatIsTiltedOnItsWayDoesNotSnapWhereItMeetsTheFloor) {
+  for (const float pitch : {0.3f, -0.3f}) {
+    SwingFeet feet;
+    ScaledSteps steps;
+    BodyFrames danced = on_its_feet();
+    feet.follow(danced, kStep_s, true);
+    for (int i = 0; i < 20; ++i) {
+      move_foot(danced, 0, {0.0f, 0.0f, 0.02f});
+      feet.follow(danced, kStep_s, false);
+    }
+    ASSERT_EQ(feet.swing(0), 1.0f);
+    move_foot(danced, 0, {0.0f, 0.02f, 0.0f});
+    Quaternionf before;
+    for (int i = 0; i <= 60; ++i) {
+      BodyFrames scaled = danced;
+      scaled.R_WB[ankle_of_side(0)] = Eigen::AngleAxisf(pitch, Vector3f::UnitX());
+      // The ball comes down by a millimetre at a time, from above the floor to below it.
+      scaled.p_WB_m[ankle_of_side(0) + 1].y() += 0.01f - 0.001f * static_cast<float>(i);
+      const ScaledSteps::Aim aim = steps.aim(feet, danced, scaled);
+      EXPECT_TRUE(i == 0 || aim.R_WFoot[0].angularDistance(before) < 0.06f) << pitch << " " << i;
+      const Vector3f ball = aim.p_WAnkle_m[0] + aim.R_WFoot[0] * Vector3f(0.0f, -0.06f, 0.12f);
+      EXPECT_GT(ball.y(), 0.02f - 1e-4f) << pitch << " " << i;
+      EXPECT_GT(aim.p_WAnkle_m[0].y(), 0.08f - 1e-4f) << pitch << " " << i;
+      before = aim.R_WFoot[0];
+    }
+  }
+}
+
+TEST(ScaledSteps, NobodyIsPressedDownInTheAir) {
+  SwingFeet feet;
+  ScaledSteps steps;
+  BodyFrames danced = on_its_feet();
+  feet.follow(danced, kStep_s, true);
+  for (int i = 0; i < 30; ++i) {
+    for (std::size_t side = 0; side < 2; ++side) move_foot(danced, side, {0.0f, 0.02f, 0.02f});
+    feet.follow(danced, kStep_s, false);
+    BodyFrames scaled = danced;
+    for (std::size_t side = 0; side < 2; ++side) move_foot(scaled, side, {0.0f, 0.25f, 0.0f});
+    if (i >= 5) steps.follow(feet, danced, scaled, kStep_s, false);
+    EXPECT_GT(steps.aim(feet, danced, scaled).hips_moved_m.y(), -0.03f) << i;
+  }
+}
+
 TEST(ScaledSteps, FeetGoHomeWithTheirNextSteps) {
   SwingFeet feet;
   ScaledSteps steps;

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "core/base/random.h"
-#include "producers/salsa_dancer.h"
 #include "tests/allocation_guard.h"
+#include "tests/transformers/styled_dances.h"
 #include "tools/stylize_eval.h"
 #include "tools/stylize_overview.h"
 #include "transformers/chain.h"
@@ -16,46 +15,6 @@
 
 namespace dance {
 namespace {
-
-Style style_of(BodyZone zone, double gain, double mix) {
-  Style style;
-  style.gain[index_of(zone)] = static_cast<float>(gain);
-  style.dynamic = static_cast<float>(mix);
-  return style;
-}
-
-StyleTake salsa_take(double hz, double length_s, bool with_music = true) {
-  SalsaStyle style;
-  style.seed = 4;
-  SalsaDancer dancer(style);
-  StyleTake take{"salsa", dancer.skeleton(), hz, style.tempo_bpm, {}};
-  for (int i = 0; i < static_cast<int>(length_s * hz); ++i) {
-    Pose pose;
-    dancer.dance_at(Duration::seconds(i / hz), pose);
-    pose.capture_time = MonoTime::from_ns(static_cast<std::int64_t>(1e9 * (1.0 + i / hz)));
-    pose.clock_id = 1;
-    if (!with_music) pose.music_beats = kNoMusic;
-    take.poses.push_back(pose);
-  }
-  return take;
-}
-
-bool is_bit_for_bit(const Pose& a, const Pose& b) {
-  return std::memcmp(a.R_PB.data(), b.R_PB.data(), sizeof(a.R_PB)) == 0 && a.p_WH_m == b.p_WH_m;
-}
-
-bool is_sound(const Pose& pose) {
-  for (const auto& R : pose.R_PB)
-    if (!R.coeffs().allFinite() || std::abs(R.norm() - 1.0f) > 1e-5f) return false;
-  return pose.p_WH_m.allFinite();
-}
-
-Pose shown(Stylize& station, const Pose& pose) {
-  station.observe(pose, pose.capture_time);
-  Pose out;
-  EXPECT_TRUE(station.sample(pose.capture_time, out));
-  return out;
-}
 
 TEST(Stylize, GainsOfKnownSwayAreWhatWasAskedForAtAnyRateOfPoses) {
   for (const double hz : {30.0, 60.0, 120.0}) {
@@ -85,63 +44,11 @@ TEST(Stylize, EachZoneIsScaledAloneAndOnlyItself) {
     StylizeEvalOptions options;
     options.zone = static_cast<BodyZone>(z);
     options.gain = 1.5;
-    if (options.zone == BodyZone::kLegs) continue;  // feet stand: next tests
+    if (options.zone == BodyZone::kLegs) continue;  // feet stand: tests of their own
     const StylizeEval eval = evaluate_stylize(take, options);
     EXPECT_NEAR(eval.measured_gain, 1.5, 0.015) << kZoneNames[z];
     EXPECT_EQ(eval.other_zones_change_deg, 0.0) << kZoneNames[z];
   }
-}
-
-TEST(Stylize, FeetThatStandStayWhereTheyStandWhenLegsAreShownLarger) {
-  const StyleTake take = synthetic_sway(60.0);  // nobody steps there
-  StylizeEvalOptions options;
-  options.zone = BodyZone::kLegs;
-  options.gain = 2.0;
-  const StylizeEval eval = evaluate_stylize(take, options);
-  EXPECT_LT(eval.feet_moved_mm, 0.5);
-  EXPECT_LT(eval.bone_length_error_mm, 0.01);
-}
-
-TEST(Stylize, StepsAreLargerAndSmallerAndTheFootThatStandsDoesNotSlide) {
-  const StyleTake take = salsa_take(60.0, 40.0);
-  for (const double gain : {0.5, 1.5}) {
-    StylizeEvalOptions options;
-    options.zone = BodyZone::kLegs;
-    options.gain = gain;
-    options.mix = 1.0;
-    const StylizeEval eval = evaluate_stylize(take, options);
-    EXPECT_GT((eval.measured_gain - 1.0) / (gain - 1.0), 0.55) << gain;
-    EXPECT_LT(eval.slide_mm_s, eval.danced_slide_mm_s + 5.0) << gain;
-    EXPECT_EQ(eval.other_zones_change_deg, 0.0);
-    EXPECT_LT(eval.bone_length_error_mm, 0.01);
-  }
-}
-
-TEST(Stylize, LegsThatAreAskedBackComeHomeStepByStepAndAreThenAsDancedBitForBit) {
-  const StyleTake take = salsa_take(60.0, 30.0);
-  Stylize station{Style()};
-  station.set_body(take.skeleton);
-  station.set_style(style_of(BodyZone::kLegs, 1.7, 1.0));
-  Pose before_danced, before;
-  bool was_moved = false;
-  int plain_from = -1;
-  for (int i = 0; i < static_cast<int>(take.poses.size()); ++i) {
-    if (i == 900) station.set_style(Style());
-    const Pose& danced = take.poses[static_cast<std::size_t>(i)];
-    const Pose out = shown(station, danced);
-    was_moved = was_moved || (out.p_WH_m - danced.p_WH_m).norm() > 0.03f;
-    if (i > 0) {
-      const Eigen::Vector3f more =
-          out.p_WH_m - danced.p_WH_m - (before.p_WH_m - before_danced.p_WH_m);
-      ASSERT_LT(more.norm(), 0.04f) << i;  // 2 m/s, and a hand's breadth down a second
-    }
-    if (i > 900 && is_bit_for_bit(out, danced) && plain_from < 0) plain_from = i;
-    ASSERT_TRUE(plain_from < 0 || is_bit_for_bit(out, danced)) << i;
-    before = out;
-    before_danced = danced;
-  }
-  EXPECT_TRUE(was_moved);
-  EXPECT_GT(plain_from, 900);
 }
 
 TEST(Stylize, AJointThatIsBeyondItsLimitsAsDancedIsLeftThereByALargerGain) {

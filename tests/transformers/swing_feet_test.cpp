@@ -57,26 +57,28 @@ TEST(SwingFeet, AFootThatTurnsOnItsBallOrItsHeelStands) {
   }
 }
 
-TEST(SwingFeet, ALegBelowTheFloorIsSaidSoUnlessItWasDancedThere) {
+TEST(SwingFeet, AFootMayBeAsLowAsTheFloorOrAsItWasDanced) {
   SwingFeet feet;
   const BodyFrames danced = on_its_feet();
   feet.follow(danced, 1.0f / 60.0f, true);
-  EXPECT_EQ(feet.below_floor_m(0, danced, danced), 0.0f);
-  BodyFrames shown = danced;
-  move_left(shown, Vector3f::Zero(), -0.03f * Vector3f::UnitY());
-  EXPECT_NEAR(feet.below_floor_m(0, shown, danced), 0.03f, 1e-5f);
-  EXPECT_EQ(feet.below_floor_m(1, shown, danced), 0.0f);
-  EXPECT_EQ(feet.below_floor_m(0, shown, shown), 0.0f);
+  BodyFrames up = danced, down = danced;
+  move_left(up, 0.03f * Vector3f::UnitY(), 0.03f * Vector3f::UnitY());
+  move_left(down, -0.03f * Vector3f::UnitY(), -0.03f * Vector3f::UnitY());
+  EXPECT_FLOAT_EQ(feet.lowest_ankle_m(0, up), 0.08f);
+  EXPECT_FLOAT_EQ(feet.lowest_ball_m(0, up), 0.02f);
+  EXPECT_NEAR(feet.lowest_ankle_m(0, down), 0.05f, 1e-6f);
+  EXPECT_NEAR(feet.lowest_ball_m(0, down), -0.01f, 1e-6f);
+  EXPECT_NEAR(feet.heel_m(0, up), 0.03f, 1e-6f);
 }
 
 TEST(SwingFeet, AHigherFloorIsLearntWithinSeconds) {
   SwingFeet feet;
   BodyFrames frames = on_its_feet();
   feet.follow(frames, 1.0f / 60.0f, true);
-  const BodyFrames down = frames;
   move_left(frames, 0.1f * Vector3f::UnitY(), 0.1f * Vector3f::UnitY());
   for (int i = 0; i < 600; ++i) feet.follow(frames, 1.0f / 60.0f, false);
-  EXPECT_NEAR(feet.below_floor_m(0, down, frames), 0.1f, 1e-3f);
+  EXPECT_NEAR(feet.lowest_ankle_m(0, frames), 0.18f, 1e-3f);
+  EXPECT_NEAR(feet.lowest_ball_m(0, frames), 0.12f, 1e-3f);
 }
 
 TEST(KeptMean, WhatDriftsIsTakenOffWithoutLag) {
