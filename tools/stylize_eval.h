@@ -37,6 +37,8 @@ struct StyleTake {
 
 // `tempo_off_percent`: told a tempo that is off by so much, what is measured is chance.
 StyleTake style_take_of(const CodecTake& take, double tempo_off_percent = 0.0);
+// Takes of one dancer that follow each other as one long dance, each on its own beat; who is another body begins another.
+std::vector<StyleTake> joined(std::span<const StyleTake> takes);
 // A body that sways at known harmonics, with a drift and half a degree of noise: two minutes.
 StyleTake synthetic_sway(double hz);
 

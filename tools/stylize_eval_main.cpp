@@ -16,6 +16,7 @@ constexpr const char* kExamples = R"(Examples:
   dance stylize eval salsa.bvh --zone shoulders --gain 1.3 --untagged
   dance stylize eval salsa.bvh --mix 0 --tempo-off 9
   dance stylize eval *.bvh.xz --overview --gain 1.5
+  dance stylize eval *.bvh.xz --overview --gain 1.5 --joined
 Gains are measured by least squares at the harmonics of the bar over the whole take, not by the station's own filters.
 Hips: their tilt and their sway over the feet; the legs are solved anew, so the feet's places are what must not change.
 Others: the largest change of a bone of another zone, in degrees.
@@ -26,7 +27,7 @@ struct Wishes {
   std::vector<std::string> files;
   StylizeEvalOptions eval;
   double hz = 60.0, noise_deg = 0.0, tempo_off_percent = 0.0;
-  bool synthetic = false, overview = false, json = false;
+  bool synthetic = false, joined = false, overview = false, json = false;
 };
 
 std::string report_of(const std::vector<StyleTake>& takes, const Wishes& wishes) {
@@ -49,6 +50,7 @@ Result<void> run(Wishes wishes) {
     DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.hz, wishes.noise_deg));
     takes.push_back(style_take_of(take, wishes.tempo_off_percent));
   }
+  if (wishes.joined) takes = joined(takes);
   if (takes.empty()) return fail("nobody dances: name BVH files, or --synthetic");
   for (const StyleTake& take : takes) {
     const double length_s = static_cast<double>(take.poses.size()) / take.hz;
@@ -87,6 +89,8 @@ int main(int argc, char** argv) {
       .range(0.0, 600.0)
       .shows_default();
   line.add_flag("--synthetic", wishes.synthetic, "two minutes of known sway, too");
+  line.add_flag("--joined", wishes.joined,
+                "files of one dancer that follow each other are one long dance, as a song is");
   line.add("--tempo-off", wishes.tempo_off_percent,
            "percent by which the music that takes are told is faster: what is found then is chance")
       .range(-30.0, 30.0);

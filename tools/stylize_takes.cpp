@@ -6,6 +6,8 @@
 #include "tools/stylize_eval.h"
 #include "tools/take_grid.h"
 #include "transformers/leg_reach.h"
+#include "transformers/period.h"
+#include "transformers/predict_model.h"
 #include "transformers/rotation_vector.h"
 
 namespace dance {
@@ -36,6 +38,32 @@ StyleTake style_take_of(const CodecTake& take, double tempo_off_percent) {
     out.poses[i].capture_time = style_moment(t_s);
     out.poses[i].clock_id = 1;
     out.poses[i].music_beats = pace * grid.beats_at(t_s);
+  }
+  return out;
+}
+
+std::vector<StyleTake> joined(std::span<const StyleTake> takes) {
+  constexpr float kSameBody_m = 1e-3f;
+  std::vector<StyleTake> out;
+  for (const StyleTake& take : takes) {
+    if (take.poses.empty()) continue;
+    if (out.empty() || out.back().hz != take.hz ||
+        !is_alike(bone_lengths(out.back().skeleton), bone_lengths(take.skeleton), kSameBody_m)) {
+      out.push_back(take);
+      continue;
+    }
+    StyleTake& dance = out.back();
+    const Pose last = dance.poses.back(), first = take.poses.front();
+    const Duration later =
+        last.capture_time + Duration::seconds(1.0 / take.hz) - first.capture_time;
+    // Whole bars later: the next song is on its own one.
+    const double bars = std::ceil((last.music_beats - first.music_beats) / Period::kBeatsPerBar);
+    for (Pose pose : take.poses) {
+      pose.capture_time += later;
+      pose.music_beats += bars * Period::kBeatsPerBar;
+      dance.poses.push_back(pose);
+    }
+    dance.name += " " + take.name;
   }
   return out;
 }

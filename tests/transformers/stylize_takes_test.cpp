@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "tools/stylize_eval.h"
 
@@ -49,6 +50,34 @@ TEST(StylizeTakes, StepsOfRealSalsaAreLargerAndFeetThatStandDoNotSlide) {
   EXPECT_LT(eval.slide_mm_s, 1.05 * eval.danced_slide_mm_s);
   EXPECT_LT(eval.jerk_ratio, 1.45);
   EXPECT_EQ(eval.other_zones_change_deg, 0.0);
+}
+
+TEST(StylizeTakes, InADanceAsLongAsASongArmsKeepTheirMeanPose) {
+  std::vector<StyleTake> takes;
+  for (const char* name : {"cmu_61_01_salsa", "cmu_61_03_salsa", "cmu_61_05_salsa",
+                           "cmu_61_07_salsa", "cmu_61_14_salsa", "cmu_60_03_salsa"}) {
+    const std::optional<StyleTake> take = real_take(name);
+    if (!take) GTEST_SKIP() << name << ": no real takes beside this tree";
+    takes.push_back(*take);
+  }
+  const std::vector<StyleTake> dances = joined(takes);
+  ASSERT_EQ(dances.size(), 2u);  // the last is another dancer's
+  EXPECT_EQ(dances[1].poses.size(), takes[5].poses.size());
+  const StyleTake& dance = dances[0];
+  for (std::size_t i = 1; i < dance.poses.size(); ++i) {
+    const double step_s =
+        (dance.poses[i].capture_time - dance.poses[i - 1].capture_time).as_seconds();
+    ASSERT_NEAR(step_s, 1.0 / dance.hz, 1e-6) << i;
+    ASSERT_GE(dance.poses[i].music_beats, dance.poses[i - 1].music_beats) << i;
+  }
+  for (const double mix : {0.0, 1.0}) {
+    StylizeEvalOptions options;
+    options.zone = BodyZone::kArms;
+    options.mix = mix;
+    const StylizeEval eval = evaluate_stylize(dance, options);
+    EXPECT_NEAR(eval.measured_gain, 1.5, 0.09) << mix;
+    EXPECT_LT(eval.mean_pose_shift_deg, 0.3) << mix;
+  }
 }
 
 TEST(StylizeTakes, ArmsOfRealSalsaKeepTheirMeanPoseAtAllOfTheMotion) {
