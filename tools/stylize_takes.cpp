@@ -56,8 +56,9 @@ std::vector<StyleTake> joined(std::span<const StyleTake> takes) {
     const Pose last = dance.poses.back(), first = take.poses.front();
     const Duration later =
         last.capture_time + Duration::seconds(1.0 / take.hz) - first.capture_time;
-    // Whole bars later: the next song is on its own one.
-    const double bars = std::ceil((last.music_beats - first.music_beats) / Period::kBeatsPerBar);
+    // Two bars, or four … later: the next take is on its own one, and so are the half harmonics.
+    const double bars =
+        2.0 * std::ceil((last.music_beats - first.music_beats) / (2.0 * Period::kBeatsPerBar));
     for (Pose pose : take.poses) {
       pose.capture_time += later;
       pose.music_beats += bars * Period::kBeatsPerBar;

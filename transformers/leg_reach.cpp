@@ -27,17 +27,17 @@ Quaternionf turned_short(const Vector3f& from, const Vector3f& to, const Quatern
 
 }  // namespace
 
-float needed_drop_m(const Skeleton& skeleton, const BodyFrames& there,
+float needed_drop_m(const Skeleton& skeleton, const BodyFrames& like,
                     const std::array<Vector3f, 2>& hip_joints_W_m,
+                    const std::array<Vector3f, 2>& ankles_W_m,
                     const std::array<float, 2>& carries) {
   float drop = 0.0f;
   for (std::size_t side = 0; side < 2; ++side) {
     const Limb& leg = side == 0 ? kLeftLeg : kRightLeg;
-    const Vector3f ankle = there.position(leg.end);
     const float length = leg_length_m(skeleton, leg);
-    const float was = std::min((there.position(leg.upper) - ankle).norm(), length);
+    const float was = std::min((like.position(leg.upper) - like.position(leg.end)).norm(), length);
     const float reach = std::max(was, kStraightest * length);
-    const Vector3f up = hip_joints_W_m[side] - ankle;
+    const Vector3f up = hip_joints_W_m[side] - ankles_W_m[side];
     const float aside2 = up.x() * up.x() + up.z() * up.z();
     const float highest = std::sqrt(std::max(0.0f, reach * reach - aside2));
     drop = std::max(drop, carries[side] * (up.y() - highest));
@@ -60,13 +60,20 @@ float reach_ankle(const Skeleton& skeleton, const Limb& leg, const BodyFrames& l
   along /= wanted;
   const float was = (ankle_was - hip_was).norm();
   const float most = std::max(std::min(was, thigh + shank), kStraightest * (thigh + shank));
-  const float least = 1.05f * std::abs(thigh - shank) + 1e-3f;
+  const float least = std::min(most, 1.05f * std::abs(thigh - shank) + 1e-3f);
   const float distance = std::clamp(wanted, least, most);
 
   const Vector3f along_was = (ankle_was - hip_was).normalized();
   Vector3f bend = knee_was - hip_was + kForward_m * (like.R_WB[upper] * Vector3f::UnitZ());
   bend -= along_was * along_was.dot(bend);
   bend -= along * along.dot(bend);
+  // A knee that was straight, or beyond, bends forward.
+  Vector3f forward = like.R_WB[upper] * Vector3f::UnitZ();
+  forward -= along * along.dot(forward);
+  if (const float size = forward.norm(); size > 1e-3f) {
+    forward /= size;
+    bend += std::max(0.0f, kForward_m - forward.dot(bend)) * forward;
+  }
   if (bend.squaredNorm() < 1e-12f) bend = along.unitOrthogonal();
   bend.normalize();
   // Law of cosines at the hip.

@@ -11,11 +11,12 @@
 
 namespace dance {
 
-// By how much hips have to come down so that legs reach their ankles again, 0 where they do. `there` has the ankles where
-// they are to be, `hip_joints_W_m` the two hip joints; a leg counts as much as it carries, 0 … 1.
-float needed_drop_m(const Skeleton& skeleton, const BodyFrames& there,
+// By how much hips have to come down so that legs reach their ankles again, 0 where they do: no straighter than in `like`, or
+// than nearly straight. A leg counts as much as it carries, 0 … 1.
+float needed_drop_m(const Skeleton& skeleton, const BodyFrames& like,
                     const std::array<Eigen::Vector3f, 2>& hip_joints_W_m,
-                    const std::array<float, 2>& carries = {1.0f, 1.0f});
+                    const std::array<Eigen::Vector3f, 2>& ankles_W_m,
+                    const std::array<float, 2>& carries);
 
 // Turns thigh, shank and foot of `pose` so that the ankle comes to target and the foot stands as R_WFoot. `like` is the
 // body whose knee and twist the leg takes over. The parents' frames must be current; the leg's are updated.

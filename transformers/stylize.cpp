@@ -97,8 +97,7 @@ double Stylize::bars_of(const Pose& pose) const {
 bool Stylize::is_plain() const {
   const bool is_as_danced =
       std::all_of(gain_.begin(), gain_.end(), [](float gain) { return gain == 1.0f; });
-  const bool adds = !is_as_danced && (periodic_ != 0.0f || dynamic_ != 0.0f);
-  return steps_.is_home() && (come_in_ == 0.0f || !adds);
+  return steps_.is_home() && (come_in_ == 0.0f || is_as_danced);
 }
 
 bool Stylize::legs_are_scaled() const {
@@ -119,7 +118,10 @@ bool Stylize::sample(MonoTime now, Pose& out) {
     if (split_.has_begun()) ++counters_.restarts;
     split_.forget();
     // Over a gap feet stay where they were set down.
-    if (out.clock_id != clock_id_ || step < Duration()) steps_ = {};
+    if (out.clock_id != clock_id_ || step < Duration()) {
+      steps_ = {};
+      drop_ = {};
+    }
     come_in_ = 0.0f;
   }
   split_.split(out, frames, bars, parts_);
@@ -131,7 +133,7 @@ bool Stylize::sample(MonoTime now, Pose& out) {
   const auto dt_s = static_cast<float>(step_s);
   if (legs_are_scaled())
     steps_.follow(feet_, frames, scaled, dt_s, gain_[index_of(BodyZone::kLegs)] == 1.0f);
-  stand(danced, frames, scaled, parts_, dt_s, drop_m_, out);
+  stand(danced, frames, scaled, parts_, dt_s, drop_, out);
   return true;
 }
 
@@ -144,8 +146,8 @@ bool Stylize::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   split_.split(out, frames, bars_of(out), parts);
   const Pose danced = out;
   turn_bones(parts, out);
-  float drop_m = drop_m_;
-  stand(danced, frames, scaled_legs(danced, out, parts), parts, 0.0f, drop_m, out);
+  Drop drop = drop_;
+  stand(danced, frames, scaled_legs(danced, out, parts), parts, 0.0f, drop, out);
   return true;
 }
 
@@ -206,8 +208,8 @@ void Stylize::follow_bias(const MotionSplit::Parts& parts, double dt_s) {
 
 Quaternionf Stylize::turned(std::size_t bone, const MotionSplit::Parts& parts, float more) const {
   const Vector3f added = saturated(more * addable_turn(bone, parts), kMostAdded_rad);
-  const Quaternionf R = split_.turned(
-      bone, parts.deviation.turn[bone] + come_in_ * (added - more * bias_[bone].value));
+  const Vector3f kept = saturated(added - more * bias_[bone].value, kMostAdded_rad);
+  const Quaternionf R = split_.turned(bone, parts.deviation.turn[bone] + come_in_ * kept);
   return bone == 0 ? (parts.R_heading * R).normalized() : R;
 }
 
@@ -254,55 +256,62 @@ BodyFrames Stylize::scaled_legs(const Pose& danced, const Pose& turned_pose,
 }
 
 void Stylize::stand(const Pose& danced_pose, const BodyFrames& danced, const BodyFrames& scaled,
-                    const MotionSplit::Parts& parts, float step_s, float& drop_m,
-                    Pose& pose) const {
+                    const MotionSplit::Parts& parts, float step_s, Drop& drop, Pose& pose) const {
   const bool hips_are_scaled = gain_[index_of(BodyZone::kHips)] != 1.0f;
-  const bool steps_are_scaled = legs_are_scaled();
-  if (!hips_are_scaled && !steps_are_scaled) {
-    drop_m = 0.0f;
+  const bool is_over_steps = legs_are_scaled();
+  if (!hips_are_scaled && !is_over_steps) {
+    drop = {};
     return;
   }
-  BodyFrames there = danced;
+  std::array<Vector3f, 2> ankles{danced.position(kLeftLeg.end), danced.position(kRightLeg.end)};
+  std::array<Quaternionf, 2> soles{danced.R_WB[index_of(kLeftLeg.end)],
+                                   danced.R_WB[index_of(kRightLeg.end)]};
   std::array<float, 2> carries{1.0f, 1.0f};
-  if (steps_are_scaled) {
+  if (is_over_steps) {
     const ScaledSteps::Aim aim = steps_.aim(feet_, danced, scaled);
     pose.p_WH_m += aim.hips_moved_m;
+    ankles = aim.p_WAnkle_m;
+    soles = aim.R_WFoot;
     for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
-      const std::size_t ankle = index_of(kSwingLegs[side].end), toes = ankle + 1;
-      there.p_WB_m[ankle] = aim.p_WAnkle_m[side];
-      there.R_WB[ankle] = aim.R_WFoot[side];
-      pose.R_PB[toes] = (aim.R_WFoot[side].conjugate() * aim.R_WToes[side]).normalized();
+      pose.R_PB[index_of(kSwingLegs[side].end) + 1] =
+          (soles[side].conjugate() * aim.R_WToes[side]).normalized();
       carries[side] = 1.0f - feet_.swing(side);
     }
   }
+  Vector3f sway = Vector3f::Zero();
   if (hips_are_scaled) {
     const float more = more_of(BodyZone::kHips);
-    Vector3f sway = saturated(more * addable_sway(parts), kMostSway_m) - more * sway_bias_.value;
-    const float by_legs = std::clamp(1.0f + more_of(BodyZone::kLegs), 0.0f, kMostSwayOfLegs);
-    sway = come_in_ * saturated(by_legs * sway, kMostSway_m);
+    sway = saturated(more * addable_sway(parts), kMostSway_m) - more * sway_bias_.value;
+    // What the legs make of the sway, the hips make more of.
+    if (is_turned(kFirstLegBone, danced_pose))
+      sway *= std::clamp(1.0f + more_of(BodyZone::kLegs), 0.0f, kMostSwayOfLegs);
+    sway = come_in_ * saturated(sway, kMostSway_m);
     sway.z() = 0.0f;  // forward and back is where the steps go
-    pose.p_WH_m += parts.R_heading * sway;
+    sway = parts.R_heading * sway;
   }
+  pose.p_WH_m += sway;
   BodyFrames frames;
   forward_kinematics(skeleton_, pose, frames);
-  const float needed = needed_drop_m(
-      skeleton_, there,
-      {frames.position(Bone::kLeftUpperLeg), frames.position(Bone::kRightUpperLeg)}, carries);
-  if (steps_are_scaled) {
-    // Over longer steps hips are heavy.
-    const float come = (1.0f - std::exp(-step_s / kDropComes_s)) * (needed - drop_m);
-    drop_m = towards(drop_m, drop_m + come, kDropFastest_m_s * step_s);
-  } else {
-    drop_m = needed;
-  }
-  pose.p_WH_m.y() -= drop_m;
-
-  for (const Limb& leg : kSwingLegs) {
-    const std::size_t ankle = index_of(leg.end);
-    frames.p_WB_m[index_of(leg.upper)].y() -= drop_m;
-    reach_ankle(skeleton_, leg, scaled, there.p_WB_m[ankle], there.R_WB[ankle], pose, frames);
+  std::array<Vector3f, 2> hip_joints{frames.position(kLeftLeg.upper),
+                                     frames.position(kRightLeg.upper)};
+  const float needed = needed_drop_m(skeleton_, scaled, hip_joints, ankles, carries);
+  for (Vector3f& hip_joint : hip_joints) hip_joint -= sway;
+  const float by_steps =
+      is_over_steps ? needed_drop_m(skeleton_, scaled, hip_joints, ankles, carries) : 0.0f;
+  // What the sway needs is there at once, what steps need comes in its own time.
+  const float at_once = std::max(0.0f, needed - by_steps);
+  if (drop.is_over_steps != is_over_steps) drop.slow_m = drop.all_m - at_once;
+  const float come = (1.0f - std::exp(-step_s / kDropComes_s)) * (by_steps - drop.slow_m);
+  drop.slow_m = towards(drop.slow_m, drop.slow_m + come, kDropFastest_m_s * step_s);
+  drop.all_m = drop.slow_m + at_once;
+  drop.is_over_steps = is_over_steps;
+  pose.p_WH_m.y() -= drop.all_m;
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    const Limb& leg = kSwingLegs[side];
+    frames.p_WB_m[index_of(leg.upper)].y() -= drop.all_m;
+    reach_ankle(skeleton_, leg, scaled, ankles[side], soles[side], pose, frames);
     // What is not there is left as it came.
-    for (std::size_t b = index_of(leg.upper); b <= ankle + 1; ++b)
+    for (std::size_t b = index_of(leg.upper); b <= index_of(leg.end) + 1; ++b)
       if ((pose.presence >> b & 1u) == 0) pose.R_PB[b] = danced_pose.R_PB[b];
   }
 }

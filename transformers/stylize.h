@@ -7,13 +7,14 @@
 //
 // Units/frames: gains 0 .. 4, 1 as danced. The bar is the music's where poses carry it, else found in the motion
 //               (transformers/period.h). Hips: their tilt, and their sway over the feet sideways and up and down; the legs
-//               are solved anew. Legs: steps are longer or shorter, and hips go as much further over the feet.
+//               are solved anew. Legs: steps are longer or shorter, and hips go further over the feet, or less far.
 //               sample_at() has feet where they stand by the newest pose, whatever moment it is asked for.
 // Ownership:    about 120 kB; never allocates after construction. No delay. 3 us a pose with all gains 1, 6 us else, 9 us without music
 //               (dance bench parts --only style).
 // Threads:      none inside; one owner.
 // Failure:      with all gains 1, and feet back where they are danced, poses pass through bit for bit. A style that is not valid is refused and counted. Hips come
-//               down where a leg would not reach its foot any more. A jump in time starts anew: gains come in within 2 s.
+//               down where a leg would not reach its foot any more. A jump in time starts anew: gains come in within 2 s; over a
+//               gap feet stay where they stand.
 // Source:       Unuma et al. 1995 (periodic part), Bruderlin and Williams 1995 (gains on all deviation).
 #pragma once
 
@@ -50,6 +51,12 @@ class Stylize : public Transformer {
     Eigen::Vector3f value = Eigen::Vector3f::Zero();
   };
 
+  // By how much hips are down so that legs reach: over longer steps they are heavy, and come down in their own time.
+  struct Drop {
+    float slow_m = 0.0f, all_m = 0.0f;
+    bool is_over_steps = false;
+  };
+
   void aim();
   void advance_gains(MonoTime now);
   double bars_of(const Pose& pose) const;
@@ -71,7 +78,7 @@ class Stylize : public Transformer {
                          const MotionSplit::Parts& parts) const;
   // Hips where they sway and step to, legs solved anew; `step_s`: since the pose that was followed before.
   void stand(const Pose& danced_pose, const BodyFrames& danced, const BodyFrames& scaled,
-             const MotionSplit::Parts& parts, float step_s, float& drop_m, Pose& pose) const;
+             const MotionSplit::Parts& parts, float step_s, Drop& drop, Pose& pose) const;
   bool legs_are_scaled() const;
 
   Style base_, live_;
@@ -86,7 +93,7 @@ class Stylize : public Transformer {
   Bias sway_bias_;
   SwingFeet feet_;
   ScaledSteps steps_;
-  float drop_m_ = 0.0f;  // by how much hips came down so that legs reach
+  Drop drop_;
   Pose newest_;
   MonoTime sampled_, learnt_;
   std::uint64_t clock_id_ = 0;
