@@ -26,7 +26,7 @@ class ScaledSteps {
     std::array<Eigen::Quaternionf, 2> R_WFoot, R_WToes;
   };
 
-  // `scaled` is the body with scaled legs under hips that are where they were danced.
+  // `scaled` is the body with its legs scaled, its hips in the place where they were danced.
   Aim aim(const SwingFeet& feet, const BodyFrames& danced, const BodyFrames& scaled) const;
   // One pose after the other, `dt_s` after the one before. `goes_home`: legs are as danced again, and each foot goes back to
   // where it is danced with its next step.
