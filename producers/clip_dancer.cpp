@@ -5,15 +5,11 @@
 #include <numbers>
 
 #include "core/base/assert.h"
+#include "core/base/smooth_step.h"
 #include "core/pose/interpolate.h"
 
 namespace dance {
 namespace {
-
-float smooth_step(float x) {
-  x = std::clamp(x, 0.0f, 1.0f);
-  return x * x * (3.0f - 2.0f * x);
-}
 
 void interpolate_hands(const Hands& a, const Hands& b, float fraction, Hands& out) {
   for (std::size_t f = 0; f < kFingerBoneCount; ++f)

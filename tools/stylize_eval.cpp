@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/pose/heading.h"
 #include "tools/motion_measures.h"
 #include "tools/take_grid.h"
 #include "transformers/rotation_vector.h"
@@ -26,16 +27,12 @@ constexpr float kTiltLever_m = 0.2f;
 
 using Rotations = std::vector<std::array<Quaternionf, kBoneCount>>;
 
-Quaternionf heading_alone(const Quaternionf& R) {
-  return Quaternionf(R.w(), 0.0f, R.y(), 0.0f).normalized();
-}
-
 // Local rotations, of the hips the tilt.
 Rotations rotations_of(std::span<const Pose> poses) {
   Rotations all;
   for (const Pose& pose : poses) {
     all.push_back(pose.R_PB);
-    all.back()[0] = heading_alone(pose.R_PB[0]).conjugate() * pose.R_PB[0];
+    all.back()[0] = heading_turn(pose.R_PB[0]).conjugate() * pose.R_PB[0];
   }
   return all;
 }
@@ -72,7 +69,7 @@ std::vector<Signal> deviations(BodyZone zone, const Skeleton& skeleton, std::spa
     forward_kinematics(skeleton, pose, frames);
     const Vector3f feet =
         0.5f * (frames.position(Bone::kLeftFoot) + frames.position(Bone::kRightFoot));
-    const Vector3f sway = heading_alone(pose.R_PB[0]).conjugate() * (pose.p_WH_m - feet);
+    const Vector3f sway = heading_turn(pose.R_PB[0]).conjugate() * (pose.p_WH_m - feet);
     channels[channels.size() - 2].push_back(sway.x());
     channels[channels.size() - 1].push_back(sway.y());
   }

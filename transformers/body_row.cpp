@@ -1,5 +1,6 @@
 #include "transformers/body_row.h"
 
+#include "core/pose/heading.h"
 #include "transformers/rotation_vector.h"
 
 namespace dance {
@@ -17,10 +18,6 @@ Vector3f counted_on(const Vector3f& vector, const Vector3f& before) {
   if (angle < 1.0f) return vector;
   const Vector3f other = vector * ((angle - kTurn) / angle);
   return (other - before).squaredNorm() < (vector - before).squaredNorm() ? other : vector;
-}
-
-Quaternionf about_up(float heading) {
-  return {std::cos(0.5f * heading), 0.0f, std::sin(0.5f * heading), 0.0f};
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
+#include "core/pose/heading.h"
 #include "transformers/rotation_vector.h"
 
 namespace dance {
@@ -29,15 +31,6 @@ constexpr float kFree_m = 0.7f;
 constexpr float kBeyond_m = 0.6f;
 constexpr Duration kEaseEvery = Duration::ms(150);
 
-Quaternionf about_vertical(float yaw_rad) {
-  return Quaternionf(Eigen::AngleAxisf(yaw_rad, Vector3f::UnitY()));
-}
-
-float smooth_step(double x) {
-  const double c = std::clamp(x, 0.0, 1.0);
-  return static_cast<float>(c * c * (3.0 - 2.0 * c));
-}
-
 Vector3f limited(const Vector3f& v, float most) {
   const float size = v.norm();
   return size > most ? Vector3f(v * (most / size)) : v;
@@ -48,8 +41,8 @@ float wrapped(float angle_rad) { return std::remainder(angle_rad, 6.2831853f); }
 }  // namespace
 
 float Continuation::share_at(Duration since_newest) {
-  return smooth_step((since_newest - kPredictedUntil).as_seconds() /
-                     (kContinuedFrom - kPredictedUntil).as_seconds());
+  return static_cast<float>(smooth_step((since_newest - kPredictedUntil).as_seconds() /
+                                        (kContinuedFrom - kPredictedUntil).as_seconds()));
 }
 
 bool Continuation::begin(const PoseHistory& history, const Skeleton& skeleton, Duration beat) {
@@ -68,8 +61,8 @@ bool Continuation::begin(const PoseHistory& history, const Skeleton& skeleton, D
 void Continuation::put(Duration since_newest, const Pose& there) {
   if (!history_) return;
   const Pose here = dance_at(since_newest);
-  const float yaw_rad = wrapped(heading_rad(there) - heading_rad(here));
-  const Quaternionf turn = about_vertical(yaw_rad);
+  const float yaw_rad = wrapped(heading_rad(there.R_PB[0]) - heading_rad(here.R_PB[0]));
+  const Quaternionf turn = about_up(yaw_rad);
   Vector3f shift_m = there.p_WH_m - turn * here.p_WH_m;
   shift_m.y() = 0.0f;
   for (std::size_t i = 0; i < segment_count_; ++i) {
@@ -129,8 +122,8 @@ void Continuation::add_segment(Duration begin, Duration lag, Duration half_life)
   const Pose was = before(begin), was_before = before(begin - kSpeedOver);
   ++segment_count_;
   const Pose raw = dance_at(segment_count_ - 1, begin);
-  segment.yaw_rad = wrapped(heading_rad(was) - heading_rad(raw));
-  const Quaternionf turn = about_vertical(segment.yaw_rad);
+  segment.yaw_rad = wrapped(heading_rad(was.R_PB[0]) - heading_rad(raw.R_PB[0]));
+  const Quaternionf turn = about_up(segment.yaw_rad);
   segment.shift_m = was.p_WH_m - turn * raw.p_WH_m;
   segment.shift_m.y() = 0.0f;
   const Pose is = dance_at(segment_count_ - 1, begin);
@@ -173,7 +166,7 @@ Pose Continuation::dance_at(std::size_t index, Duration since) const {
   const Segment& segment = segments_[index];
   const Duration into = since - segment.begin;
   Pose pose = segment.stands ? newest_ : history_->at(segment.source + into)->pose;
-  const Quaternionf turn = about_vertical(segment.yaw_rad);
+  const Quaternionf turn = about_up(segment.yaw_rad);
   pose.R_PB[0] = turn * pose.R_PB[0];
   pose.p_WH_m = turn * pose.p_WH_m + segment.shift_m;
   if (into < Duration()) return pose;
@@ -202,7 +195,7 @@ void Continuation::find_ease(const Skeleton& skeleton) {
     if (pose.capture_time > next) continue;
     if (newest_.capture_time - pose.capture_time > HistoryMatch::kLookBack) break;
     next = pose.capture_time - kEaseEvery;
-    const Quaternionf upright = about_vertical(-heading_rad(pose));
+    const Quaternionf upright = about_up(-heading_rad(pose.R_PB[0]));
     for (std::size_t b = 0; b < kBoneCount; ++b) {
       const Quaternionf q = b == 0 ? upright * pose.R_PB[0] : pose.R_PB[b];
       const Quaternionf to = b == 0 ? Quaternionf::Identity() : newest_.R_PB[b];
@@ -212,7 +205,7 @@ void Continuation::find_ease(const Skeleton& skeleton) {
   ease_ = newest_;
   for (std::size_t b = 0; b < kBoneCount; ++b)
     if (sums[b].norm() > 1e-3f) ease_.R_PB[b] = Quaternionf(Eigen::Vector4f(sums[b].normalized()));
-  ease_.R_PB[0] = about_vertical(-heading_rad(ease_)) * ease_.R_PB[0];
+  ease_.R_PB[0] = about_up(-heading_rad(ease_.R_PB[0])) * ease_.R_PB[0];
   ease_.p_WH_m = Vector3f(0.0f, newest_.p_WH_m.y(), 0.0f);
   // The mean of standing and lifted feet floats: down to the floor.
   BodyFrames frames;
@@ -225,14 +218,15 @@ void Continuation::find_places() {
   const Duration step = (kCalmFrom - kCalmingFrom) / static_cast<std::int64_t>(kCalmSteps);
   Pose before = dance_at(kCalmingFrom);
   bound(before);
-  places_[0] = {heading_rad(before), before.p_WH_m};
+  places_[0] = {heading_rad(before.R_PB[0]), before.p_WH_m};
   for (std::size_t i = 1; i <= kCalmSteps; ++i) {
     Pose pose = dance_at(kCalmingFrom + step * static_cast<std::int64_t>(i));
     bound(pose);
     const float share =
-        1.0f - smooth_step(static_cast<double>(i) / static_cast<double>(kCalmSteps));
-    places_[i].yaw_rad =
-        places_[i - 1].yaw_rad + share * wrapped(heading_rad(pose) - heading_rad(before));
+        1.0f -
+        static_cast<float>(smooth_step(static_cast<double>(i) / static_cast<double>(kCalmSteps)));
+    places_[i].yaw_rad = places_[i - 1].yaw_rad +
+                         share * wrapped(heading_rad(pose.R_PB[0]) - heading_rad(before.R_PB[0]));
     places_[i].p_m = places_[i - 1].p_m + share * (pose.p_WH_m - before.p_WH_m);
     before = pose;
   }
@@ -250,15 +244,15 @@ void Continuation::bound(Pose& pose) const {
 
 void Continuation::calm(Duration since, Pose& pose) const {
   const double x = (since - kCalmingFrom).as_seconds() / (kCalmFrom - kCalmingFrom).as_seconds();
-  const float share = smooth_step(x);
+  const auto share = static_cast<float>(smooth_step(x));
   const double at = std::clamp(x, 0.0, 1.0) * static_cast<double>(kCalmSteps);
   const auto i = std::min(static_cast<std::size_t>(at), kCalmSteps - 1);
   const auto between = static_cast<float>(at - static_cast<double>(i));
   const float yaw_rad =
       places_[i].yaw_rad + between * (places_[i + 1].yaw_rad - places_[i].yaw_rad);
   const Vector3f p_m = places_[i].p_m + between * (places_[i + 1].p_m - places_[i].p_m);
-  const Quaternionf tilt = about_vertical(-heading_rad(pose)) * pose.R_PB[0];
-  pose.R_PB[0] = about_vertical(yaw_rad) * tilt.slerp(share, ease_.R_PB[0]);
+  const Quaternionf tilt = about_up(-heading_rad(pose.R_PB[0])) * pose.R_PB[0];
+  pose.R_PB[0] = about_up(yaw_rad) * tilt.slerp(share, ease_.R_PB[0]);
   for (std::size_t b = 1; b < kBoneCount; ++b)
     pose.R_PB[b] = pose.R_PB[b].slerp(share, ease_.R_PB[b]);
   const float height_m = pose.p_WH_m.y() + share * (ease_.p_WH_m.y() - pose.p_WH_m.y());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pose/heading.h"
+
 namespace dance {
 
 using Eigen::Vector3f;
@@ -42,15 +44,10 @@ bool is_broken(const Pose& before, const Pose& after) {
 
 }  // namespace
 
-float heading_rad(const Pose& pose) {
-  const Eigen::Quaternionf& q = pose.R_PB[0];
-  return 2.0f * std::atan2(q.w() < 0.0f ? -q.y() : q.y(), std::abs(q.w()));
-}
-
 void HistoryMatch::measure(const Skeleton& skeleton, const Pose& pose, std::size_t at) {
   BodyFrames frames;
   forward_kinematics(skeleton, pose, frames);
-  const float heading = heading_rad(pose), c = std::cos(heading), s = std::sin(heading);
+  const float heading = heading_rad(pose.R_PB[0]), c = std::cos(heading), s = std::sin(heading);
   Row& row = rows_[at];
   row.setZero();
   for (std::size_t j = 0; j < kJoints; ++j) {

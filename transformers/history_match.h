@@ -17,9 +17,6 @@
 
 namespace dance {
 
-// Where a pose faces: the hips' turn about the vertical, rad.
-float heading_rad(const Pose& pose);
-
 class HistoryMatch {
  public:
   static constexpr Duration kLookBack = Duration::s(12);

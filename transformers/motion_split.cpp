@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
+#include "core/pose/heading.h"
 #include "transformers/rotation_vector.h"
 
 namespace dance {
@@ -35,13 +37,6 @@ Vector3f three_of(const HarmonicFit::Channels& channels, std::size_t at) {
   return {channels[at], channels[at + 1], channels[at + 2]};
 }
 
-// Of R = R_heading · R_tilt the turn about +Y.
-Quaternionf heading_of(const Quaternionf& R) {
-  const float size = std::hypot(R.w(), R.y());
-  return size > 1e-6f ? Quaternionf(R.w() / size, 0.0f, R.y() / size, 0.0f)
-                      : Quaternionf(Quaternionf::Identity());
-}
-
 }  // namespace
 
 void MotionSplit::forget() { *this = MotionSplit(); }
@@ -51,8 +46,7 @@ double MotionSplit::mean_share(double dt_s) const {
 }
 
 float MotionSplit::trust() const {
-  const double sure = std::clamp((seen_bars_ - kShy_bars) / (kSure_bars - kShy_bars), 0.0, 1.0);
-  return static_cast<float>(sure * sure * (3.0 - 2.0 * sure));
+  return static_cast<float>(smooth_step((seen_bars_ - kShy_bars) / (kSure_bars - kShy_bars)));
 }
 
 Quaternionf MotionSplit::turned(std::size_t bone, const Vector3f& deviation) const {
@@ -60,7 +54,7 @@ Quaternionf MotionSplit::turned(std::size_t bone, const Vector3f& deviation) con
 }
 
 void MotionSplit::split(const Pose& pose, const BodyFrames& frames, double bars, Parts& out) {
-  out.R_heading = heading_of(pose.R_PB[0]);
+  out.R_heading = heading_turn(pose.R_PB[0]);
   const Quaternionf R_tilt = out.R_heading.conjugate() * pose.R_PB[0];
   const Vector3f feet =
       0.5f * (frames.position(Bone::kLeftFoot) + frames.position(Bone::kRightFoot));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
+#include "core/pose/heading.h"
 #include "transformers/saturated.h"
 
 namespace dance {
@@ -31,23 +33,10 @@ constexpr float kAlmost_m = 1e-3f;
 // Feet that stand closer than this to where they were danced stand there.
 constexpr float kHome_m = 1e-3f, kHome_rad = 2e-3f;
 
-// Of R the turn about +Y, rad.
-float heading_of(const Quaternionf& R) {
-  const float side = R.w() < 0.0f ? -1.0f : 1.0f;
-  return 2.0f * std::atan2(side * R.y(), side * R.w());
-}
-
-Quaternionf about_up(float angle_rad) {
-  return Quaternionf(std::cos(0.5f * angle_rad), 0.0f, std::sin(0.5f * angle_rad), 0.0f);
-}
-
 Vector3f no_longer_than(float most, const Vector3f& v) {
   const float size = v.norm();
   return size > most ? Vector3f(most / size * v) : v;
 }
-
-std::size_t ankle_of(std::size_t side) { return index_of(kSwingLegs[side].end); }
-std::size_t ball_of(std::size_t side) { return ankle_of(side) + 1; }
 
 // What the scaled leg moves its ball by, and turns its foot by.
 Vector3f leg_moves_m(std::size_t side, const BodyFrames& danced, const BodyFrames& scaled) {
@@ -62,8 +51,7 @@ Quaternionf leg_turns(std::size_t side, const BodyFrames& danced, const BodyFram
 
 // How free a foot is to turn: 0 flat on the floor … 1 with its heel up, or on its way.
 float leaves_floor(const SwingFeet& feet, std::size_t side, const BodyFrames& danced) {
-  const float heel = std::clamp(feet.heel_m(side, danced) / kHeelIsUp_m, 0.0f, 1.0f);
-  return std::max(feet.swing(side), heel * heel * (3.0f - 2.0f * heel));
+  return std::max(feet.swing(side), smooth_step(feet.heel_m(side, danced) / kHeelIsUp_m));
 }
 
 }  // namespace
@@ -98,7 +86,7 @@ void ScaledSteps::follow(const SwingFeet& feet, const BodyFrames& danced, const 
     float turned_rad = 0.0f;
     if (!goes_home) {
       target = leg_moves_m(side, danced, scaled) + hips_moved_m_;
-      turned_rad = heading_of(leg_turns(side, danced, scaled));
+      turned_rad = heading_rad(leg_turns(side, danced, scaled));
     }
     Vector3f change = coming(swing) * (target - foot.moved_m);
     if (!goes_home) change -= std::min(1.0f, swing * swing * dt_s / kComeBack_s) * hips_moved_m_;
@@ -120,9 +108,9 @@ ScaledSteps::Aim ScaledSteps::aim(const SwingFeet& feet, const BodyFrames& dance
         danced.R_WB[ankle].conjugate() * (danced.p_WB_m[ball] - danced.p_WB_m[ankle]);
     Vector3f place = danced.p_WB_m[ball] + foot.moved_m;
     place.y() += feet.swing(side) * (leg_moves_m(side, danced, scaled).y() + out.hips_moved_m.y());
-    const Quaternionf turns = leg_turns(side, danced, scaled);
-    const Quaternionf tilts = about_up(-heading_of(turns)) * turns;
     place.y() = std::max(place.y(), feet.lowest_ball_m(side, danced));
+    const Quaternionf turns = leg_turns(side, danced, scaled);
+    const Quaternionf tilts = about_up(-heading_rad(turns)) * turns;
     const float floor_m = feet.lowest_ankle_m(side, danced);
     const Quaternionf flat = about_up(foot.turned_rad);
     // The foot on its ball, tilted by a part of what its leg tilts it by.

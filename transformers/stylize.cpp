@@ -97,11 +97,11 @@ double Stylize::bars_of(const Pose& pose) const {
 bool Stylize::is_plain() const {
   const bool is_as_danced =
       std::all_of(gain_.begin(), gain_.end(), [](float gain) { return gain == 1.0f; });
-  return steps_.is_home() && (come_in_ == 0.0f || is_as_danced);
+  return standing_.steps.is_home() && (come_in_ == 0.0f || is_as_danced);
 }
 
-bool Stylize::legs_are_scaled() const {
-  return gain_[index_of(BodyZone::kLegs)] != 1.0f || !steps_.is_home();
+bool Stylize::legs_are_scaled(const Standing& standing) const {
+  return gain_[index_of(BodyZone::kLegs)] != 1.0f || !standing.steps.is_home();
 }
 
 bool Stylize::sample(MonoTime now, Pose& out) {
@@ -118,22 +118,12 @@ bool Stylize::sample(MonoTime now, Pose& out) {
     if (split_.has_begun()) ++counters_.restarts;
     split_.forget();
     // Over a gap feet stay where they were set down.
-    if (out.clock_id != clock_id_ || step < Duration()) {
-      steps_ = {};
-      drop_ = {};
-    }
+    if (out.clock_id != clock_id_ || step < Duration()) standing_ = {};
     come_in_ = 0.0f;
   }
   split_.split(out, frames, bars, parts_);
   const double step_s = begins || step > Duration() ? follow(out, frames, bars, begins) : 0.0;
-  if (is_plain()) return true;
-  const Pose danced = out;
-  turn_bones(parts_, out);
-  const BodyFrames scaled = scaled_legs(danced, out, parts_);
-  const auto dt_s = static_cast<float>(step_s);
-  if (legs_are_scaled())
-    steps_.follow(feet_, frames, scaled, dt_s, gain_[index_of(BodyZone::kLegs)] == 1.0f);
-  stand(danced, frames, scaled, parts_, dt_s, drop_, out);
+  if (!is_plain()) show(frames, parts_, static_cast<float>(step_s), standing_, out);
   return true;
 }
 
@@ -144,10 +134,8 @@ bool Stylize::sample_at(MonoTime moment, MonoTime now, Pose& out) {
   forward_kinematics(skeleton_, out, frames);
   MotionSplit::Parts parts;
   split_.split(out, frames, bars_of(out), parts);
-  const Pose danced = out;
-  turn_bones(parts, out);
-  Drop drop = drop_;
-  stand(danced, frames, scaled_legs(danced, out, parts), parts, 0.0f, drop, out);
+  Standing standing = standing_;
+  show(frames, parts, 0.0f, standing, out);
   return true;
 }
 
@@ -239,8 +227,7 @@ BodyFrames Stylize::scaled_legs(const Pose& danced, const Pose& turned_pose,
   Pose legs = danced;
   for (std::size_t b = kFirstLegBone; b < kBoneCount; ++b) legs.R_PB[b] = turned_pose.R_PB[b];
   // Hips tilt against the legs: were these scaled alone, feet would go to the side.
-  if (is_turned(kFirstLegBone, danced))
-    legs.R_PB[0] = turned(0, parts, gain_[index_of(BodyZone::kLegs)] - 1.0f);
+  legs.R_PB[0] = turned(0, parts, gain_[index_of(BodyZone::kLegs)] - 1.0f);
   // A knee that is straight does not bend the other way.
   for (const Limb& leg : kSwingLegs) {
     const std::size_t knee = index_of(leg.lower);
@@ -255,64 +242,79 @@ BodyFrames Stylize::scaled_legs(const Pose& danced, const Pose& turned_pose,
   return frames;
 }
 
-void Stylize::stand(const Pose& danced_pose, const BodyFrames& danced, const BodyFrames& scaled,
-                    const MotionSplit::Parts& parts, float step_s, Drop& drop, Pose& pose) const {
+Vector3f Stylize::more_sway_m(const MotionSplit::Parts& parts, bool legs_are_turned) const {
+  const float more = more_of(BodyZone::kHips);
+  Vector3f sway = saturated(more * addable_sway(parts), kMostSway_m) - more * sway_bias_.value;
+  // What the legs make of the sway, the hips make more of.
+  if (legs_are_turned) sway *= std::clamp(1.0f + more_of(BodyZone::kLegs), 0.0f, kMostSwayOfLegs);
+  sway = come_in_ * saturated(sway, kMostSway_m);
+  sway.z() = 0.0f;  // forward and back is where the steps go
+  return parts.R_heading * sway;
+}
+
+// What the sway needs is there at once, what steps need comes in its own time.
+void Stylize::come_down(float needed_m, float by_steps_m, bool is_over_steps, float step_s,
+                        Drop& drop) {
+  const float at_once_m = std::max(0.0f, needed_m - by_steps_m);
+  if (drop.is_over_steps != is_over_steps) drop.slow_m = drop.all_m - at_once_m;
+  const float come_m = (1.0f - std::exp(-step_s / kDropComes_s)) * (by_steps_m - drop.slow_m);
+  drop.slow_m = towards(drop.slow_m, drop.slow_m + come_m, kDropFastest_m_s * step_s);
+  drop.all_m = drop.slow_m + at_once_m;
+  drop.is_over_steps = is_over_steps;
+}
+
+void Stylize::show(const BodyFrames& danced, const MotionSplit::Parts& parts, float step_s,
+                   Standing& standing, Pose& pose) const {
+  const Pose was = pose;
+  turn_bones(parts, pose);
+  const bool legs_are_turned = is_turned(kFirstLegBone, was);
+  const BodyFrames scaled = legs_are_turned ? scaled_legs(was, pose, parts) : danced;
+  if (legs_are_scaled(standing))
+    standing.steps.follow(feet_, danced, scaled, step_s, gain_[index_of(BodyZone::kLegs)] == 1.0f);
   const bool hips_are_scaled = gain_[index_of(BodyZone::kHips)] != 1.0f;
-  const bool is_over_steps = legs_are_scaled();
+  const bool is_over_steps = legs_are_scaled(standing);
   if (!hips_are_scaled && !is_over_steps) {
-    drop = {};
+    standing.drop = {};
     return;
   }
-  std::array<Vector3f, 2> ankles{danced.position(kLeftLeg.end), danced.position(kRightLeg.end)};
-  std::array<Quaternionf, 2> soles{danced.R_WB[index_of(kLeftLeg.end)],
-                                   danced.R_WB[index_of(kRightLeg.end)]};
+  std::array<Vector3f, 2> ankles;
+  std::array<Quaternionf, 2> soles;
   std::array<float, 2> carries{1.0f, 1.0f};
+  for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
+    ankles[side] = danced.p_WB_m[ankle_of(side)];
+    soles[side] = danced.R_WB[ankle_of(side)];
+  }
   if (is_over_steps) {
-    const ScaledSteps::Aim aim = steps_.aim(feet_, danced, scaled);
+    const ScaledSteps::Aim aim = standing.steps.aim(feet_, danced, scaled);
     pose.p_WH_m += aim.hips_moved_m;
     ankles = aim.p_WAnkle_m;
     soles = aim.R_WFoot;
     for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
-      pose.R_PB[index_of(kSwingLegs[side].end) + 1] =
-          (soles[side].conjugate() * aim.R_WToes[side]).normalized();
+      pose.R_PB[ball_of(side)] = (soles[side].conjugate() * aim.R_WToes[side]).normalized();
       carries[side] = 1.0f - feet_.swing(side);
     }
   }
-  Vector3f sway = Vector3f::Zero();
-  if (hips_are_scaled) {
-    const float more = more_of(BodyZone::kHips);
-    sway = saturated(more * addable_sway(parts), kMostSway_m) - more * sway_bias_.value;
-    // What the legs make of the sway, the hips make more of.
-    if (is_turned(kFirstLegBone, danced_pose))
-      sway *= std::clamp(1.0f + more_of(BodyZone::kLegs), 0.0f, kMostSwayOfLegs);
-    sway = come_in_ * saturated(sway, kMostSway_m);
-    sway.z() = 0.0f;  // forward and back is where the steps go
-    sway = parts.R_heading * sway;
-  }
+  const Vector3f sway =
+      hips_are_scaled ? more_sway_m(parts, legs_are_turned) : Vector3f(Vector3f::Zero());
   pose.p_WH_m += sway;
   BodyFrames frames;
   forward_kinematics(skeleton_, pose, frames);
   std::array<Vector3f, 2> hip_joints{frames.position(kLeftLeg.upper),
                                      frames.position(kRightLeg.upper)};
-  const float needed = needed_drop_m(skeleton_, scaled, hip_joints, ankles, carries);
+  const float needed_m = needed_drop_m(skeleton_, scaled, hip_joints, ankles, carries);
   for (Vector3f& hip_joint : hip_joints) hip_joint -= sway;
-  const float by_steps =
+  const float by_steps_m =
       is_over_steps ? needed_drop_m(skeleton_, scaled, hip_joints, ankles, carries) : 0.0f;
-  // What the sway needs is there at once, what steps need comes in its own time.
-  const float at_once = std::max(0.0f, needed - by_steps);
-  if (drop.is_over_steps != is_over_steps) drop.slow_m = drop.all_m - at_once;
-  const float come = (1.0f - std::exp(-step_s / kDropComes_s)) * (by_steps - drop.slow_m);
-  drop.slow_m = towards(drop.slow_m, drop.slow_m + come, kDropFastest_m_s * step_s);
-  drop.all_m = drop.slow_m + at_once;
-  drop.is_over_steps = is_over_steps;
-  pose.p_WH_m.y() -= drop.all_m;
+  come_down(needed_m, by_steps_m, is_over_steps, step_s, standing.drop);
+  const float drop_m = standing.drop.all_m;
+  pose.p_WH_m.y() -= drop_m;
   for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
     const Limb& leg = kSwingLegs[side];
-    frames.p_WB_m[index_of(leg.upper)].y() -= drop.all_m;
+    frames.p_WB_m[index_of(leg.upper)].y() -= drop_m;
     reach_ankle(skeleton_, leg, scaled, ankles[side], soles[side], pose, frames);
     // What is not there is left as it came.
-    for (std::size_t b = index_of(leg.upper); b <= index_of(leg.end) + 1; ++b)
-      if ((pose.presence >> b & 1u) == 0) pose.R_PB[b] = danced_pose.R_PB[b];
+    for (std::size_t b = index_of(leg.upper); b <= ball_of(side); ++b)
+      if ((pose.presence >> b & 1u) == 0) pose.R_PB[b] = was.R_PB[b];
   }
 }
 

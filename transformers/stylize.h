@@ -56,6 +56,11 @@ class Stylize : public Transformer {
     float slow_m = 0.0f, all_m = 0.0f;
     bool is_over_steps = false;
   };
+  // Where feet and hips are brought to, from pose to pose.
+  struct Standing {
+    ScaledSteps steps;
+    Drop drop;
+  };
 
   void aim();
   void advance_gains(MonoTime now);
@@ -76,10 +81,14 @@ class Stylize : public Transformer {
   // The body with its legs as turned, under hips that tilt with them.
   BodyFrames scaled_legs(const Pose& danced, const Pose& turned,
                          const MotionSplit::Parts& parts) const;
-  // Hips where they sway and step to, legs solved anew; `step_s`: since the pose that was followed before.
-  void stand(const Pose& danced_pose, const BodyFrames& danced, const BodyFrames& scaled,
-             const MotionSplit::Parts& parts, float step_s, Drop& drop, Pose& pose) const;
-  bool legs_are_scaled() const;
+  // What the hips sway more, in W.
+  Eigen::Vector3f more_sway_m(const MotionSplit::Parts& parts, bool legs_are_turned) const;
+  static void come_down(float needed_m, float by_steps_m, bool is_over_steps, float step_s,
+                        Drop& drop);
+  // Turns the bones, and puts hips and feet where they sway and step to; `step_s`: since the pose that was shown before.
+  void show(const BodyFrames& danced, const MotionSplit::Parts& parts, float step_s,
+            Standing& standing, Pose& pose) const;
+  bool legs_are_scaled(const Standing& standing) const;
 
   Style base_, live_;
   std::array<float, kBodyZones> wanted_gain_{}, gain_{};
@@ -92,8 +101,7 @@ class Stylize : public Transformer {
   std::array<Bias, kBoneCount> bias_;
   Bias sway_bias_;
   SwingFeet feet_;
-  ScaledSteps steps_;
-  Drop drop_;
+  Standing standing_;
   Pose newest_;
   MonoTime sampled_, learnt_;
   std::uint64_t clock_id_ = 0;

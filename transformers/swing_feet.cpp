@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
+
 namespace dance {
 namespace {
 
@@ -26,22 +28,19 @@ void SwingFeet::Point::follow(const Vector3f& now_W_m, float dt_s, bool begins) 
 void SwingFeet::follow(const BodyFrames& frames, float dt_s, bool begins) {
   for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
     Foot& foot = feet_[side];
-    const std::size_t ankle = index_of(kSwingLegs[side].end);
-    foot.ankle.follow(frames.p_WB_m[ankle], dt_s, begins);
-    foot.ball.follow(frames.p_WB_m[ankle + 1], dt_s, begins);
+    foot.ankle.follow(frames.p_WB_m[ankle_of(side)], dt_s, begins);
+    foot.ball.follow(frames.p_WB_m[ball_of(side)], dt_s, begins);
     const float speed = std::min(foot.ankle.v_W_m_s.norm(), foot.ball.v_W_m_s.norm());
-    const float x =
-        std::clamp((speed - kFootStands_m_s) / (kFootSwings_m_s - kFootStands_m_s), 0.0f, 1.0f);
-    foot.swing = x * x * (3.0f - 2.0f * x);
+    foot.swing = smooth_step((speed - kFootStands_m_s) / (kFootSwings_m_s - kFootStands_m_s));
   }
 }
 
 float SwingFeet::lowest_ankle_m(std::size_t side, const BodyFrames& danced) const {
-  return std::min(feet_[side].ankle.floor_m, danced.p_WB_m[index_of(kSwingLegs[side].end)].y());
+  return std::min(feet_[side].ankle.floor_m, danced.p_WB_m[ankle_of(side)].y());
 }
 
 float SwingFeet::lowest_ball_m(std::size_t side, const BodyFrames& danced) const {
-  return std::min(feet_[side].ball.floor_m, danced.p_WB_m[index_of(kSwingLegs[side].end) + 1].y());
+  return std::min(feet_[side].ball.floor_m, danced.p_WB_m[ball_of(side)].y());
 }
 
 }  // namespace dance

@@ -15,6 +15,8 @@
 namespace dance {
 
 constexpr std::array<Limb, 2> kSwingLegs{kLeftLeg, kRightLeg};
+constexpr std::size_t ankle_of(std::size_t side) { return index_of(kSwingLegs[side].end); }
+constexpr std::size_t ball_of(std::size_t side) { return ankle_of(side) + 1; }
 
 class SwingFeet {
  public:
@@ -24,7 +26,7 @@ class SwingFeet {
   float swing(std::size_t side) const { return feet_[side].swing; }
   // How high a heel is above where it stands.
   float heel_m(std::size_t side, const BodyFrames& frames) const {
-    return frames.p_WB_m[index_of(kSwingLegs[side].end)].y() - feet_[side].ankle.floor_m;
+    return frames.p_WB_m[ankle_of(side)].y() - feet_[side].ankle.floor_m;
   }
   // How low an ankle, or a ball, may be: on the floor, or where it was danced if that is lower.
   float lowest_ankle_m(std::size_t side, const BodyFrames& danced) const;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/pose/heading.h"
 #include "core/pose/interpolate.h"
 #include "tests/allocation_guard.h"
 #include "tests/core_pose/random_pose.h"
@@ -92,7 +93,7 @@ TEST(Continuation, StandsAndFacesWhereItIsPutAndDancesAsBefore) {
   there.at(meeting, out);
   EXPECT_LT((out.p_WH_m - met.p_WH_m).head<1>().norm(), 1e-3f);
   EXPECT_NEAR(out.p_WH_m.z(), met.p_WH_m.z(), 1e-3f);
-  EXPECT_NEAR(heading_rad(out), heading_rad(met), 1e-3f);
+  EXPECT_NEAR(heading_rad(out.R_PB[0]), heading_rad(met.R_PB[0]), 1e-3f);
   Pose before;
   for (double since_s = 0.0; since_s < 9.5; since_s += 0.05) {
     continuation.at(Duration::seconds(since_s), as_before);

@@ -10,14 +10,12 @@
 
 namespace dance {
 
-inline std::size_t ankle_of_side(std::size_t side) { return index_of(kSwingLegs[side].end); }
-
 inline BodyFrames on_its_feet() {
   BodyFrames frames;
   for (Eigen::Vector3f& p : frames.p_WB_m) p = Eigen::Vector3f(0.0f, 1.0f, 0.0f);
   for (Eigen::Quaternionf& R : frames.R_WB) R.setIdentity();
   for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
-    const std::size_t ankle = ankle_of_side(side);
+    const std::size_t ankle = ankle_of(side);
     const float aside = side == 0 ? 0.1f : -0.1f;
     frames.p_WB_m[ankle] = Eigen::Vector3f(aside, 0.08f, 0.0f);
     frames.p_WB_m[ankle + 1] = Eigen::Vector3f(aside, 0.02f, 0.12f);

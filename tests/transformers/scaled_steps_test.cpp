@@ -17,8 +17,8 @@ using Eigen::Vector3f;
 constexpr float kStep_s = 1.0f / 60.0f;
 
 void move_foot(BodyFrames& frames, std::size_t side, const Vector3f& by) {
-  frames.p_WB_m[ankle_of_side(side)] += by;
-  frames.p_WB_m[ankle_of_side(side) + 1] += by;
+  frames.p_WB_m[ankle_of(side)] += by;
+  frames.p_WB_m[ankle_of(side) + 1] += by;
 }
 
 // Someone whose hips go on while their feet step after them, `stride_m` a step; every leg is scaled by half again.
@@ -91,7 +91,7 @@ TEST(ScaledSteps, NobodyIsMovedWhoseLegsAreAsDanced) {
   const ScaledSteps::Aim aim = steps.aim(feet, danced, danced);
   EXPECT_EQ(aim.hips_moved_m, Vector3f::Zero());
   for (std::size_t side = 0; side < 2; ++side)
-    EXPECT_LT((aim.p_WAnkle_m[side] - danced.p_WB_m[ankle_of_side(side)]).norm(), 1e-6f);
+    EXPECT_LT((aim.p_WAnkle_m[side] - danced.p_WB_m[ankle_of(side)]).norm(), 1e-6f);
 }
 
 TEST(ScaledSteps, AStrideIsLongerAndTheFootThatStandsDoesNotMove) {
@@ -124,7 +124,7 @@ TEST(ScaledSteps, HipsGoDownOverBothFeetWhenKneesBendMore) {
   const ScaledSteps::Aim aim = steps.aim(feet, danced, scaled);
   EXPECT_NEAR(aim.hips_moved_m.y(), -0.05f, 1e-3f);
   for (std::size_t side = 0; side < 2; ++side)
-    EXPECT_LT((aim.p_WAnkle_m[side] - danced.p_WB_m[ankle_of_side(side)]).norm(), 1e-6f);
+    EXPECT_LT((aim.p_WAnkle_m[side] - danced.p_WB_m[ankle_of(side)]).norm(), 1e-6f);
 }
 
 TEST(ScaledSteps, ASoleThatIsFlatIsNotTiltedAndAHeelThatIsUpLiftsHigher) {
@@ -134,14 +134,14 @@ TEST(ScaledSteps, ASoleThatIsFlatIsNotTiltedAndAHeelThatIsUpLiftsHigher) {
   feet.follow(danced, kStep_s, true);
   const Quaternionf tilt(Eigen::AngleAxisf(0.2f, Vector3f::UnitX()));
   BodyFrames scaled = danced;
-  scaled.R_WB[ankle_of_side(0)] = tilt;
+  scaled.R_WB[ankle_of(0)] = tilt;
   EXPECT_LT(steps.aim(feet, danced, scaled).R_WFoot[0].angularDistance(Quaternionf::Identity()),
             1e-4f);
-  danced.p_WB_m[ankle_of_side(0)].y() += 0.05f;
-  scaled.p_WB_m[ankle_of_side(0)].y() += 0.05f;
+  danced.p_WB_m[ankle_of(0)].y() += 0.05f;
+  scaled.p_WB_m[ankle_of(0)].y() += 0.05f;
   const ScaledSteps::Aim aim = steps.aim(feet, danced, scaled);
   EXPECT_LT(aim.R_WFoot[0].angularDistance(tilt), 1e-4f);
-  EXPECT_GT(aim.p_WAnkle_m[0].y(), danced.p_WB_m[ankle_of_side(0)].y() + 0.015f);
+  EXPECT_GT(aim.p_WAnkle_m[0].y(), danced.p_WB_m[ankle_of(0)].y() + 0.015f);
   // Its toes stay on the floor.
   EXPECT_LT(aim.R_WToes[0].angularDistance(Quaternionf::Identity()), 1e-4f);
 }
@@ -161,9 +161,9 @@ TEST(ScaledSteps, AFootThatIsTiltedOnItsWayDoesNotSnapWhereItMeetsTheFloor) {
     Quaternionf before;
     for (int i = 0; i <= 60; ++i) {
       BodyFrames scaled = danced;
-      scaled.R_WB[ankle_of_side(0)] = Eigen::AngleAxisf(pitch, Vector3f::UnitX());
+      scaled.R_WB[ankle_of(0)] = Eigen::AngleAxisf(pitch, Vector3f::UnitX());
       // The ball comes down by a millimetre at a time, from above the floor to below it.
-      scaled.p_WB_m[ankle_of_side(0) + 1].y() += 0.01f - 0.001f * static_cast<float>(i);
+      scaled.p_WB_m[ankle_of(0) + 1].y() += 0.01f - 0.001f * static_cast<float>(i);
       const ScaledSteps::Aim aim = steps.aim(feet, danced, scaled);
       EXPECT_TRUE(i == 0 || aim.R_WFoot[0].angularDistance(before) < 0.06f) << pitch << " " << i;
       const Vector3f ball = aim.p_WAnkle_m[0] + aim.R_WFoot[0] * Vector3f(0.0f, -0.06f, 0.12f);

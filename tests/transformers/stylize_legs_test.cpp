@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/pose/heading.h"
 #include "tests/transformers/styled_dances.h"
 #include "transformers/rotation_vector.h"
 
@@ -25,9 +26,7 @@ double sway_m(const Skeleton& skeleton, const Pose& pose) {
   forward_kinematics(skeleton, pose, frames);
   const Vector3f feet =
       0.5f * (frames.position(Bone::kLeftFoot) + frames.position(Bone::kRightFoot));
-  const Eigen::Quaternionf heading =
-      Eigen::Quaternionf(pose.R_PB[0].w(), 0.0f, pose.R_PB[0].y(), 0.0f).normalized();
-  return static_cast<double>((heading.conjugate() * (pose.p_WH_m - feet)).x());
+  return static_cast<double>((heading_turn(pose.R_PB[0]).conjugate() * (pose.p_WH_m - feet)).x());
 }
 
 // By how much the sway of a dance is multiplied.
