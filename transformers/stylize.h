@@ -10,7 +10,7 @@
 //               are solved anew. Legs: steps are longer or shorter, and hips go further over the feet, or less far.
 //               sample_at() has feet where they stand by the newest pose, whatever moment it is asked for.
 // Ownership:    about 120 kB; never allocates after construction. No delay. 3 to 6 us a pose with all gains 1, 2.4 times as
-//               much else, 3.7 times without music (dance bench parts --only style).
+//               much else, 4 times without music (dance bench parts --only style).
 // Threads:      none inside; one owner.
 // Failure:      with all gains 1, and feet back where they are danced, poses pass through bit for bit. A style that is not
 //               valid is refused and counted. Hips come down where a leg would not reach its foot any more. A jump in time
