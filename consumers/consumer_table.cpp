@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "consumers/bvh_consumer.h"
-#include "consumers/csv_consumer.h"
-#include "consumers/text_consumer.h"
+#include "consumers/text/bvh_consumer.h"
+#include "consumers/text/csv_consumer.h"
+#include "consumers/text/text_consumer.h"
 
 namespace dance {
 namespace {

@@ -1,4 +1,5 @@
-// dance listen: hears the dancers of a bus and writes them down: as text, as a table, as a BVH file.
+// dance listen: hears the dancers of a bus and writes them down: as text, as a table, as a BVH
+// file.
 
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
@@ -12,9 +13,9 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance listen                                          who is on the stage, a line for each pose
-  dance listen --hz 1 --where capture                   a line a second for each dancer of this house
+  dance listen --hz 1 --where capture                   a line a second for each dancer here
   dance listen --to csv -o dance.csv --seconds 60       a minute as a table
-  dance listen --to bvh -o alice.bvh --guest alice      alice's dance, until ctrl-C, for any animation program
+  dance listen --to bvh -o alice.bvh --guest alice      alice's dance as BVH, until ctrl-C
 )";
 
 struct ListenOptions {

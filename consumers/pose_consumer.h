@@ -1,5 +1,6 @@
-// PoseConsumer: who listens to dancers and makes something of their poses: lines of text, a table, a BVH file. A new
-// consumer is one class that implements this, and one row in the table of consumer_table.cpp.
+// PoseConsumer: who listens to dancers and makes something of their poses: lines of text, a table,
+// a BVH file. A new consumer is one class that implements this, and one row in the table of
+// consumer_table.cpp.
 //
 // Units/frames: poses as in core/pose/pose.h; now is this process's clock.
 // Ownership:    keeps what it needs of a pose; memory is bounded however long it listens.

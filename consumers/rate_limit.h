@@ -1,4 +1,5 @@
-// RateLimit: lets through at most so many poses a second of each guest, evenly by the poses' own capture times.
+// RateLimit: lets through at most so many poses a second of each guest, evenly by the poses' own
+// capture times.
 //
 // Units/frames: hz; 0 lets everything through.
 // Ownership:    remembers kMostGuests guests; never allocates.

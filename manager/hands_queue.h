@@ -1,5 +1,5 @@
-// HandsQueue: fingers that wait for their body. A transformer shows the body later than it came; the fingers of that
-// moment are shown with it, by capture time.
+// HandsQueue: fingers that wait for their body. A transformer shows the body later than it came;
+// the fingers of that moment are shown with it, by capture time.
 //
 // Units/frames: capture times of the dancer's poses, whatever clock they are of.
 // Ownership:    keeps up to 256 hands (two seconds at 120 Hz); never allocates.
@@ -28,8 +28,8 @@ class HandsQueue {
     slots_[(begin_ + size_++) % slots_.size()] = hands;
   }
 
-  // The newest that are due with a body captured then, and none after them; null where nothing new is due. Those of
-  // another clock than the body's are due at once. Valid until the next call.
+  // The newest that are due with a body captured then, and none after them; null where nothing new
+  // is due. Those of another clock than the body's are due at once. Valid until the next call.
   const Hands* take_due(MonoTime capture, std::uint64_t clock_id) {
     std::size_t due = 0;
     while (due < size_ && (at(due).capture_time <= capture || at(due).clock_id != clock_id)) ++due;

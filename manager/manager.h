@@ -1,6 +1,6 @@
-// Manager: the signal manager of one house. Hears captures and remote guests on the bus (or from a link in the same
-// process), routes them to the stage at its steady rate, keeps the roster and says once a second who is alive and what
-// was counted.
+// Manager: the signal manager of one house. Hears captures and remote guests on the bus (or from a
+// link in the same process), routes them to the stage at its steady rate, keeps the roster and says
+// once a second who is alive and what was counted.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the bus and the poller, which must outlive it.
@@ -23,7 +23,8 @@ namespace dance {
 
 struct ManagerOptions {
   std::vector<Route> routes;
-  // False when a link in this process hands remote guests over directly: their copies on the bus are then not heard.
+  // False when a link in this process hands remote guests over directly: their copies on the bus
+  // are then not heard.
   bool hear_guests_on_bus = true;
   // Captures that a producer in this process hands over directly, likewise.
   std::vector<GuestId> hosted_captures;
@@ -49,7 +50,8 @@ class Manager : private StageSink {
   using OnStagedSkeleton = std::function<void(const GuestId& guest, const Skeleton& skeleton)>;
   void on_staged(OnStagedPose on_pose, OnStagedSkeleton on_skeleton);
 
-  // Called once for each other manager on this bus: two fill one stage, and nobody else would say so.
+  // Called once for each other manager on this bus: two fill one stage, and nobody else would say
+  // so.
   void on_other_manager(std::function<void()> tell);
 
   Stats stats(MonoTime now);

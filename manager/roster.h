@@ -1,9 +1,10 @@
-// Roster: who is on this house's stage, and how well their poses arrive: rates, ages, losses, alive or silent.
+// Roster: who is on this house's stage, and how well their poses arrive: rates, ages, losses, alive
+// or silent.
 //
-// Units/frames: times of this house's clock; ages only from poses whose clock is ours and whose capture is less than
-//               10 s back (a replay's old stamps say nothing of latency).
-// Ownership:    room for kMaxGuests; a silent guest's place goes to a newcomer when it is full, so entries are looked up,
-//               not kept. Never allocates after construction.
+// Units/frames: times of this house's clock; ages only from poses whose clock is ours and whose
+//               capture is less than 10 s back (a replay's old stamps say nothing of latency).
+// Ownership:    room for kMaxGuests; a silent guest's place goes to a newcomer when it is full, so
+//               entries are looked up, not kept. Never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      a guest beyond the bound is refused (nullptr) and the caller counts it.
 #pragma once
@@ -43,8 +44,8 @@ class Roster {
   static void staged(RosterEntry& entry, const Pose& pose, MonoTime now,
                      std::uint64_t our_clock_id);
 
-  // Ends the second: hands each guest's status to `say` and begins to count anew; guests gone silent are said once more,
-  // as not alive, and then left out until they return.
+  // Ends the second: hands each guest's status to `say` and begins to count anew; guests gone
+  // silent are said once more, as not alive, and then left out until they return.
   template <class Say>
   void end_second(MonoTime now, std::uint64_t our_clock_id, Say say) {
     for (std::size_t i = 0; i < size_; ++i) {

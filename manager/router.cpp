@@ -38,7 +38,8 @@ Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime
 }
 
 bool Router::is_shown(const Instance& instance, MonoTime now) {
-  // A guest who is silent is not held on the stage for ever; a chain that goes on with the dance has its own patience.
+  // A guest who is silent is not held on the stage for ever; a chain that goes on with the dance
+  // has its own patience.
   return now - instance.last_heard <= std::max(Roster::kSilence, instance.chain.patience());
 }
 

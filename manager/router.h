@@ -1,10 +1,12 @@
-// Router: which pose reaches the stage through which transformers. Routes are resolved when it is made: a pose's way is
-// a walk over pointers, without a lookup by name and without a copy but the stage's own.
+// Router: which pose reaches the stage through which transformers. Routes are resolved when it is
+// made: a pose's way is a walk over pointers, without a lookup by name and without a copy but the
+// stage's own.
 //
 // Units/frames: `now` is this house's clock.
 // Ownership:    owns the chains; allocates when a guest comes, not per pose.
 // Threads:      none inside; one owner. Pure: the poses it stages go to a sink.
-// Failure:      poses that no route wants, or beyond the bound of guests, are counted in the statistics.
+// Failure:      poses that no route wants, or beyond the bound of guests, are counted in the
+//               statistics.
 #pragma once
 
 #include <array>
@@ -17,7 +19,7 @@
 #include "core/bus/messages.h"
 #include "manager/hands_queue.h"
 #include "manager/roster.h"
-#include "manager/session.h"
+#include "manager/route.h"
 #include "transformers/chain.h"
 
 namespace dance {
@@ -53,13 +55,15 @@ class Router {
   double rate_hz(std::size_t route) const { return lines_[route]->rate_hz; }
   void tick(std::size_t route, MonoTime now);
 
-  // A chain is megabytes, and what it has learned of its dancer is in it. Who comes back within kComesBack is danced with as
-  // before, unless more than kMostAway have left since; then it is freed. Who is silent has left after kHasLeft, if others
-  // are heard meanwhile: where nobody is, it is the line.
+  // A chain is megabytes, and what it has learned of its dancer is in it. Who comes back within
+  // kComesBack is danced with as before, unless more than kMostAway have left since; then it is
+  // freed. Who is silent has left after kHasLeft, if others are heard meanwhile: where nobody is,
+  // it is the line.
   static constexpr Duration kComesBack = Duration::s(300);
   static constexpr Duration kHasLeft = Duration::s(60);
   static constexpr std::size_t kMostAway = 8;
-  // Call once a second: frees one chain of each route at most, so that no turn of the stage waits for many.
+  // Call once a second: frees one chain of each route at most, so that no turn of the stage waits
+  // for many.
   void let_go_of_the_gone(MonoTime now);
 
   bool wants(Where where) const { return !lines_from_[static_cast<std::size_t>(where)].empty(); }

@@ -38,7 +38,8 @@ void Study::add(std::shared_ptr<Learner> learner) {
 }
 
 void Study::run() {
-  // Of this thread only, on Linux; where it is not allowed, the poses still come first by their sleep being short.
+  // Of this thread only, on Linux; where it is not allowed, the poses still come first by their
+  // sleep being short.
   setpriority(PRIO_PROCESS, 0, kNice);
   std::vector<std::shared_ptr<Learner>> lesson, gone;
   std::unique_lock lock(mutex_);

@@ -1,8 +1,9 @@
-// Study: the thread in which transformers learn of their dancers, beside the pose path and below it: the machine gives it
-// time only when nobody else wants any.
+// Study: the thread in which transformers learn of their dancers, beside the pose path and below
+// it: the machine gives it time only when nobody else wants any.
 //
 // Ownership:    shares the learners; lets go of one when its transformer has gone.
-// Threads:      starts one. add() may be called from another and waits for nothing longer than the copy of a pointer.
+// Threads:      starts one. add() may be called from another and waits for nothing longer than the
+//               copy of a pointer.
 // Failure:      where no thread can be had nothing is learned, and failure() says why.
 #pragma once
 
@@ -14,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "transformers/learner.h"
+#include "transformers/predict/learner.h"
 
 namespace dance {
 

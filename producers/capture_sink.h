@@ -1,4 +1,5 @@
-// CaptureSink: where a producer's poses go: to the house's bus, or straight into the manager that hosts the producer.
+// CaptureSink: where a producer's poses go: to the house's bus, or straight into the manager that
+// hosts the producer.
 //
 // Threads: none inside; the producer's thread calls.
 // Failure: none; a sink that cannot take a message counts it.
@@ -22,7 +23,8 @@ class CaptureSink {
   virtual void capture(const GuestId& guest, const TimedSkeleton& skeleton) = 0;
 };
 
-// Publishes on POSE/capture/<guest> and its companions, with the musical time of the house: whoever owns the bus drains it.
+// Publishes on POSE/capture/<guest> and its companions, with the musical time of the house: whoever
+// owns the bus drains it.
 class BusCaptureSink : public CaptureSink {
  public:
   explicit BusCaptureSink(Bus& bus) : bus_(bus), tag_(this_clock_id()) {

@@ -1,11 +1,13 @@
-// DancerFeed: dances a Dancer into a sink at a steady rate, by absolute deadlines: numbers and stamps the poses, and
-// repeats the skeleton once a second for whoever comes late.
+// DancerFeed: dances a Dancer into a sink at a steady rate, by absolute deadlines: numbers and
+// stamps the poses, and repeats the skeleton once a second for whoever comes late.
 //
-// Units/frames: `start` is the dance's own zero; it may lie in the past, so that a couple in two processes, or a producer
-//               that was started again, dances on in step. The capture time of a pose is its deadline, in this house's clock.
+// Units/frames: `start` is the dance's own zero; it may lie in the past, so that a couple in two
+//               processes, or a producer that was started again, dances on in step. The capture
+//               time of a pose is its deadline, in this house's clock.
 // Ownership:    owns the dancer; refers to the sink and the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      deadlines missed by more than a period are skipped and counted, not made up in a burst.
+// Failure:      deadlines missed by more than a period are skipped and counted, not made up in a
+//               burst.
 #pragma once
 
 #include <memory>

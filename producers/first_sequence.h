@@ -1,5 +1,6 @@
-// The number that a producer's first pose bears: one that is started again leaps far above the numbers that it used before, 10,000
-// for each second, so that nobody takes its new poses for old ones, nor the leap for a loss.
+// The number that a producer's first pose bears: one that is started again leaps far above the
+// numbers that it used before, 10,000 for each second, so that nobody takes its new poses for old
+// ones, nor the leap for a loss.
 //
 // Threads: none inside.
 // Failure: none; numbers wrap.

@@ -1,5 +1,5 @@
-// What a producer that runs as a program of its own does: opens the bus, feeds its dancers into it by absolute deadlines,
-// and ends when they are over, when its time is up or when it is told to.
+// What a producer that runs as a program of its own does: opens the bus, feeds its dancers into it
+// by absolute deadlines, and ends when they are over, when its time is up or when it is told to.
 //
 // Units/frames: start_us counts in this machine's monotonic clock.
 // Ownership:    owns bus, poller and dancers.

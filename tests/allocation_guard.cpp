@@ -18,8 +18,8 @@ std::uint64_t AllocationGuard::allocated_by_this_thread() { return allocation_co
 
 #ifndef DANCE_SANITIZED
 
-// glibc lets a program define the malloc family; its own stays reachable under these names. The library's operator new
-// calls malloc, so that this alone sees everything.
+// glibc lets a program define the malloc family; its own stays reachable under these names. The
+// library's operator new calls malloc, so that this alone sees everything.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

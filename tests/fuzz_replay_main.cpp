@@ -1,9 +1,10 @@
-// Runs a fuzz target without libFuzzer: every file of the given corpus directories, and what damage makes of it
-// (prefixes, bit flips, extreme bytes, removed and repeated pieces, splices of two files). The seed is fixed, so that a
-// failure comes back; CTest's time limit is the bound on time.
+// Runs a fuzz target without libFuzzer: every file of the given corpus directories, and what damage
+// makes of it (prefixes, bit flips, extreme bytes, removed and repeated pieces, splices of two
+// files). The seed is fixed, so that a failure comes back; CTest's time limit is the bound on time.
 //
 // Threads: one.
-// Failure: exit 1 where a directory is missing or holds no file; a target that fails aborts with the input's name.
+// Failure: exit 1 where a directory is missing or holds no file; a target that fails aborts with
+//          the input's name.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -25,7 +26,8 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kSeed = 20'240'229;
-// Work per file and kind of damage: small inputs are damaged everywhere, large ones at evenly spaced places.
+// Work per file and kind of damage: small inputs are damaged everywhere, large ones at evenly
+// spaced places.
 constexpr std::size_t kWork_bytes = 8u << 20;
 constexpr std::size_t kMostRuns = 1024;
 constexpr std::size_t kFewestRuns = 16;
@@ -42,7 +44,8 @@ struct File {
 
 class Replay {
  public:
-  // The target gets a block of exactly the input's size, so that a sanitizer sees a read beyond its end.
+  // The target gets a block of exactly the input's size, so that a sanitizer sees a read beyond its
+  // end.
   void run(std::span<const std::uint8_t> input) {
     const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[input.size()]);
     if (!input.empty()) std::memcpy(exact.get(), input.data(), input.size());

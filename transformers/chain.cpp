@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include "transformers/bridge.h"
-#include "transformers/hold.h"
-#include "transformers/predict.h"
-#include "transformers/rhythm.h"
-#include "transformers/style_presets.h"
-#include "transformers/stylize.h"
+#include "transformers/conceal/bridge.h"
+#include "transformers/playout/hold.h"
+#include "transformers/predict/predict.h"
+#include "transformers/rhythm/rhythm.h"
+#include "transformers/style/style_presets.h"
+#include "transformers/style/stylize.h"
 
 namespace dance {
 namespace {

@@ -1,5 +1,5 @@
-// Chain: the stations of one route for one guest, made from their specifications ("hold 20ms"). The table of
-// transformers stands in chain.cpp: a new one is one line there.
+// Chain: the stations of one route for one guest, made from their specifications ("hold 20ms"). The
+// table of transformers stands in chain.cpp: a new one is one line there.
 //
 // Units/frames: as transformers/transformer.h.
 // Ownership:    owns its stations; allocates only in make().
@@ -44,7 +44,7 @@ class Chain {
   void set_style(const Style& style) {
     for (auto& station : stations_) station->set_style(style);
   }
-  // What learns beside the pose path; see transformers/learner.h.
+  // What learns beside the pose path; see transformers/predict/learner.h.
   std::vector<std::shared_ptr<Learner>> learners() const;
   bool sample(MonoTime now, Pose& out) { return stations_.back()->sample(now, out); }
   // The longest of the stations'.

@@ -1,5 +1,5 @@
-// The settings of a station as people write them in a route: "rhythm beats=1 strength=0.5". Each is a name, =, and a
-// value; what is not written keeps the value that it had.
+// The settings of a station as people write them in a route: "rhythm beats=1 strength=0.5". Each is
+// a name, =, and a value; what is not written keeps the value that it had.
 //
 // Units/frames: durations carry their unit, as "20ms".
 // Ownership:    refers to the texts, which must outlive it.

@@ -1,11 +1,12 @@
-// Transformer: one station of a route, pose in and pose out: hold, predict, rhythm, stylize. Stations of a chain
-// know the one before them; the stage asks the last one.
+// Transformer: one station of a route, pose in and pose out: hold, predict, rhythm, stylize.
+// Stations of a chain know the one before them; the stage asks the last one.
 //
-// Units/frames: `now` is this house's clock. A pose's capture_time says which moment of the dance it shows; stations may
-//               shift it, and the difference to `now` is what is still to be taken back.
+// Units/frames: `now` is this house's clock. A pose's capture_time says which moment of the dance
+//               it shows; stations may shift it, and the difference to `now` is what is still to be
+//               taken back.
 // Ownership:    the chain owns its stations; never allocate after construction.
-// Threads:      none inside; one owner. Pure: no I/O, no clock of their own. What is too slow for the pose path is in a
-//               Learner, which another thread may run.
+// Threads:      none inside; one owner. Pure: no I/O, no clock of their own. What is too slow for
+//               the pose path is in a Learner, which another thread may run.
 // Failure:      sample() is false while there is nothing to show.
 #pragma once
 
@@ -17,7 +18,7 @@
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
 #include "core/pose/style.h"
-#include "transformers/learner.h"
+#include "transformers/predict/learner.h"
 
 namespace dance {
 
@@ -35,12 +36,12 @@ class Transformer {
   // The pose to show at `now`.
   virtual bool sample(MonoTime now, Pose& out) = 0;
 
-  // Which moment of the dance sample(now) shows, in the capture clock: for a station behind that makes the pose of it
-  // better than a repetition.
+  // Which moment of the dance sample(now) shows, in the capture clock: for a station behind that
+  // makes the pose of it better than a repetition.
   virtual MonoTime moment(MonoTime now) { return input_ ? input_->moment(now) : now; }
-  // The pose of a moment as far as it is known at `now`, past, under way or to come: for a station behind that chooses
-  // the moment by itself. Nothing is smoothed from call to call: that is the last station's part. False where this
-  // station cannot.
+  // The pose of a moment as far as it is known at `now`, past, under way or to come: for a station
+  // behind that chooses the moment by itself. Nothing is smoothed from call to call: that is the
+  // last station's part. False where this station cannot.
   virtual bool sample_at(MonoTime /*moment*/, MonoTime /*now*/, Pose& /*out*/) { return false; }
 
   // The music that this house hears.
@@ -49,7 +50,8 @@ class Transformer {
   virtual void set_body(const Skeleton& /*skeleton*/) {}
   virtual void set_style(const Style& /*style*/) {}
   virtual std::shared_ptr<Learner> learner() { return nullptr; }
-  // How long after the last word of a dancer there is something of them to show. Nothing: as long as anybody's silence.
+  // How long after the last word of a dancer there is something of them to show. Nothing: as long
+  // as anybody's silence.
   virtual Duration patience() const { return Duration(); }
 
   void set_input(Transformer* input) { input_ = input; }

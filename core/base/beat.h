@@ -1,11 +1,13 @@
-// Beat: where the music stands, as it is heard in this house: what a producer of music says a few times a second, and
-// what musical time is made of (core/base/beat_clock.h).
+// Beat: where the music stands, as it is heard in this house: what a producer of music says a few
+// times a second, and what musical time is made of (core/base/beat_clock.h).
 //
-// Units/frames: beats count from the first beat of the first bar of the music; a beat is what dancers count. Times are of
-//               the clock that clock_id names, and of what is *heard*: a loudspeaker's latency is in them.
+// Units/frames: beats count from the first beat of the first bar of the music; a beat is what
+//               dancers count. Times are of the clock that clock_id names, and of what is *heard*:
+//               a loudspeaker's latency is in them.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      is_valid() is false for what is no music: not finite, a tempo outside 20 to 400, a bar of more than 16.
+// Failure:      is_valid() is false for what is no music: not finite, a tempo outside 20 to 400, a
+//               bar of more than 16.
 #pragma once
 
 #include <cmath>

@@ -1,10 +1,12 @@
-// BeatClock: musical time as a clock that one can ask at any moment: fed with beats as they are told, it runs on between
-// them, takes small corrections in without a jump, and says when it no longer knows.
+// BeatClock: musical time as a clock that one can ask at any moment: fed with beats as they are
+// told, it runs on between them, takes small corrections in without a jump, and says when it no
+// longer knows.
 //
 // Units/frames: positions in beats as core/base/beat.h counts them; times of one clock.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      is_known() is false before the first beat, where the music stands still, and 3 s after the last word.
+// Failure:      is_known() is false before the first beat, where the music stands still, and 3 s
+//               after the last word.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +50,8 @@ class BeatClock {
 
  private:
   static constexpr Duration kPatience = Duration::s(3);
-  // What is larger is another place of the music; smaller, the time goes on forward at 50 BPM too while it is taken in.
+  // What is larger is another place of the music; smaller, the time goes on forward at 50 BPM too
+  // while it is taken in.
   static constexpr double kJump_beats = 0.25;
   static constexpr double kTakenIn_s = 0.3;
 

@@ -1,5 +1,5 @@
-// Reads little-endian numbers from bytes that a stranger sent, and never past their end: a read that
-// would, sets the error flag and gives zeros, so a parser may read on and look at ok() once.
+// Reads little-endian numbers from bytes that a stranger sent, and never past their end: a read
+// that would, sets the error flag and gives zeros, so a parser may read on and look at ok() once.
 //
 // Units/frames: little-endian whatever the host.
 // Ownership:    looks at the caller's bytes.

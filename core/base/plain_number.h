@@ -1,4 +1,5 @@
-// A number as people write it: all digits that it needs and no zeros that say nothing; 10000000, not 1e+07.
+// A number as people write it: all digits that it needs and no zeros that say nothing; 10000000,
+// not 1e+07.
 //
 // Units/frames: whatever the number has.
 // Ownership:    returns a text of its own.

@@ -1,5 +1,6 @@
-// A dancer may stand on a stage twice: NAME as the house's routes show the dance, and NAME-raw as its poses came, for whoever
-// wants to see what the routes do. Displays show one of the two, or both side by side; nobody counts twins as guests.
+// A dancer may stand on a stage twice: NAME as the house's routes show the dance, and NAME-raw as
+// its poses came, for whoever wants to see what the routes do. Displays show one of the two, or
+// both side by side; nobody counts twins as guests.
 //
 // Ownership: plain values.
 // Threads:   none inside.

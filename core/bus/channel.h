@@ -1,5 +1,6 @@
-// Channel names: <SIGNAL>/<where>[/<guest>], e.g. POSE/capture/alice or BEAT/local. The one place that builds and
-// parses them; lcmtypes/README.md holds the table of all channels and a test compares the two.
+// Channel names: <SIGNAL>/<where>[/<guest>], e.g. POSE/capture/alice or BEAT/local. The one place
+// that builds and parses them; lcmtypes/README.md holds the table of all channels and a test
+// compares the two.
 //
 // Ownership: plain values, no allocation.
 // Threads:   none inside.
@@ -41,8 +42,8 @@ enum class Where : std::uint8_t {
   kProgram,  // about a program; its name takes the place of `where`, there is no guest
 };
 
-// The words of a channel name; find_where() knows what where_name() says (kLocal and kProgram, which
-// have no guest, are not among them).
+// The words of a channel name; find_where() knows what where_name() says (kLocal and kProgram,
+// which have no guest, are not among them).
 std::string_view signal_name(Signal signal);
 std::string_view where_name(Where where);
 std::optional<Where> find_where(std::string_view name);

@@ -21,7 +21,8 @@ constexpr std::uint32_t kMagicAt = 8;
 constexpr std::uint32_t kNameAt = 16;
 constexpr std::uint32_t kShortMessage =
     0x4c433032;  // "LC02"; parts of longer messages have no name and are let through
-// Reading beyond a datagram's end would drop it: one so short that a name might end there is let through.
+// Reading beyond a datagram's end would drop it: one so short that a name might end there is let
+// through.
 constexpr std::uint32_t kSureToHoldAName = kNameAt + kMaxChannelLength + 1;
 constexpr std::uint32_t kPass = 0xffffffff;
 constexpr std::uint32_t kDrop = 0;

@@ -22,9 +22,9 @@ namespace dance {
 constexpr std::size_t kMaxForeignName = kMaxChannelLength - 7 - kMaxGuestIdLength;
 using ForeignName = FixedString<kMaxForeignName>;
 
-// Whether a channel may ride along under this name: words of A-Z a-z 0-9 _ . - between slashes, none
-// of our own signals in front, and no word "guest" in it, as what came from another house must not
-// go out again.
+// Whether a channel may ride along under this name: words of A-Z a-z 0-9 _ . - between slashes,
+// none of our own signals in front, and no word "guest" in it, as what came from another house must
+// not go out again.
 bool is_foreign_name(std::string_view name);
 
 // What `name` of that guest's house is called here. Panics (our bug) on a name that is not foreign.

@@ -37,8 +37,8 @@ std::size_t encode(const Style& style, MessageBuffer& buffer);
 std::size_t encode(const Placement& placement, MessageBuffer& buffer);
 std::size_t encode(const Beat& beat, MessageBuffer& buffer);
 
-// A pose_t as it stands in a message, every bit of it and checked for nothing: for recordings, which
-// give back what they were given. Whoever looks at poses wants decode().
+// A pose_t as it stands in a message, every bit of it and checked for nothing: for recordings,
+// which give back what they were given. Whoever looks at poses wants decode().
 struct RawPose {
   Pose pose;  // but its times, which may be more than MonoTime holds
   std::int64_t capture_time_us = 0;

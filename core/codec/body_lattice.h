@@ -3,8 +3,8 @@
 // hips as a place, a heading and a tilt. The dancer's own proportions give the steps, a trained
 // model where each bone mostly is.
 //
-// Units/frames: coordinates are radians, and metres for the hips' place; coordinate i is whole steps
-//               of step(i, level). Bones as in core/pose/bone.h, hips first.
+// Units/frames: coordinates are radians, and metres for the hips' place; coordinate i is whole
+//               steps of step(i, level). Bones as in core/pose/bone.h, hips first.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
 // Failure:      none: a body of no size still has steps.
@@ -88,8 +88,8 @@ class BodyLattice {
     const double* x = body.x.data() + first_coordinate(bone);
     return rotation_of(bone, exact::SwingTwist{x[0], x[1], x[2]});
   }
-  // With a seated bone turned to a rotation in W: what turns W's axes to those that its swing and twist
-  // begin in, and the two as one.
+  // With a seated bone turned to a rotation in W: what turns W's axes to those that its swing and
+  // twist begin in, and the two as one.
   exact::Quat from_room(std::size_t bone, const BodyState& state, const exact::Quat& R_WB) const {
     return exact::conj(bone == 0 ? R_WB * frames_[0].before : state.seat[bone]);
   }

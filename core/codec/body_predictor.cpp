@@ -90,8 +90,8 @@ void BodyPredictor::look_back() {
   body_noise_ = (exact::sum(noise) - nothing) / static_cast<float>(kCoordinateCount);
 }
 
-// Where a bone's end and its roll were in the room in the newest reference, seen from its parent now,
-// from where they were in the parent; and how that went; in steps.
+// Where a bone's end and its roll were in the room in the newest reference, seen from its parent
+// now, from where they were in the parent; and how that went; in steps.
 struct BodyPredictor::Room {
   Four hold{}, speed{}, turn{};
 };

@@ -38,7 +38,8 @@ class BodyPredictor {
   Spread predict(std::size_t coordinate, const BodyState& body);
   // What the coordinate turned out to be.
   void decoded(std::size_t coordinate, double steps);
-  // predict() in two: look_at() before the three coordinates of the place or of a bone, then of each.
+  // predict() in two: look_at() before the three coordinates of the place or of a bone, then of
+  // each.
   void look_at(std::size_t first, const BodyState& body);
   Spread predict_axis(std::size_t first, std::size_t axis, const BodyState& body);
 
@@ -80,8 +81,8 @@ class BodyPredictor {
   alignas(16) std::array<float, kCoordinateCount> residual_{};
   float residual_before_ = 0.0f, residual_before_that_ = 0.0f;  // of the same bone
   Mood mood_;
-  // Of u, v and w of the bone: what the room and its parent say, how sure that is, and how its other
-  // way of swinging went.
+  // Of u, v and w of the bone: what the room and its parent say, how sure that is, and how its
+  // other way of swinging went.
   std::array<exact::Four, 3> said_, said_sizes_, beside_;
   // Of the coordinate that was predicted last.
   std::size_t coordinate_ = 0;

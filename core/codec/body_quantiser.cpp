@@ -240,16 +240,16 @@ bool BodyQuantiser::aim_bone(std::size_t bone, double lambda) {
   const double H_ww = r2 * exact::dot(axes.w, axes.w) - ww;
   const double g_u = exact::dot(axes.u, torque), g_v = exact::dot(axes.v, torque),
                g_w = exact::dot(axes.w, torque);
-  // Solves for u by cofactors; S is what a step of u costs when the others follow it, T one of v when
-  // w does.
+  // Solves for u by cofactors; S is what a step of u costs when the others follow it, T one of v
+  // when w does.
   const double C_u = H_vv * H_ww - H_vw * H_vw, C_v = H_uw * H_vw - H_uv * H_ww,
                C_w = H_uv * H_vw - H_vv * H_uw;
   const double det = H_uu * C_u + H_uv * C_v + H_uw * C_w;
   const double du_aim = -(C_u * g_u + C_v * g_v + C_w * g_w) / det;
   const double per_ww = 1.0 / H_ww;
   const double S = det / C_u, T = C_u * per_ww;
-  // Where two of the three turn about the same axis (a swing of half a turn) no aim can be reckoned:
-  // there the truth is rounded as it is.
+  // Where two of the three turn about the same axis (a swing of half a turn) no aim can be
+  // reckoned: there the truth is rounded as it is.
   const bool can_aim = std::abs(du_aim) < kFarthestAim_rad && S > 1e-4 * shell && T > 1e-4 * shell;
   const double du = can_aim ? du_aim : 0.0;
 

@@ -77,7 +77,8 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
 }
 inline float sum(Four x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
-// log2 of positive numbers, straight between powers of two: exponent and mantissa read as one number.
+// log2 of positive numbers, straight between powers of two: exponent and mantissa read as one
+// number.
 inline Four rough_log2(Four x) {
   return __builtin_convertvector(reinterpret_cast<FourInts>(x), Four) * 0x1p-23f - 127.0f;
 }

@@ -1,14 +1,14 @@
 // The hands codec: 30 finger bones, each message for itself, with nothing to remember or to lose.
 // Every rotation is an index on a grid of rotation vectors, within half a degree whatever it is;
-// fingers curl alike, so an index is told by how it differs from the neighbour's. 25 to 60 bytes for
-// both hands in a natural pose, 11 at rest, 1 where there are none.
+// fingers curl alike, so an index is told by how it differs from the neighbour's. 25 to 60 bytes
+// for both hands in a natural pose, 11 at rest, 1 where there are none.
 //
 // Units/frames: as Hands in core/pose/pose.h; layout in docs/codec.md.
 // Ownership:    no state, no heap.
 // Threads:      none inside.
-// Failure:      encode_hands() gives 0 for what is not is_valid() or does not fit; decode_hands() false
-//               for what the encoder never makes. What it lets through is_valid(), and the same bits
-//               on every machine.
+// Failure:      encode_hands() gives 0 for what is not is_valid() or does not fit; decode_hands()
+//               false for what the encoder never makes. What it lets through is_valid(), and the
+//               same bits on every machine.
 #pragma once
 
 #include <cstddef>

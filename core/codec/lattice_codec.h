@@ -7,8 +7,8 @@
 //               made once per guest, they never allocate afterwards.
 // Threads:      none inside; one owner.
 // Failure:      as the seam says. A pose that no lattice brings within the error (none is known) is
-//               refused. What was damaged on its way decodes to another pose or is kMalformed; every
-//               32nd frame or so carries a sum by which ends that came apart notice.
+//               refused. What was damaged on its way decodes to another pose or is kMalformed;
+//               every 32nd frame or so carries a sum by which ends that came apart notice.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,8 @@ class LatticeEncoder final : public PoseEncoder {
 
   // Of the newest frame, for whoever measures.
   const CodedFrame* newest() { return has_last_ ? ring_.find(last_sequence_) : nullptr; }
-  // For measuring: refers to the frame this many frames ago, whatever the policy; 0 = by the policy.
+  // For measuring: refers to the frame this many frames ago, whatever the policy; 0 = by the
+  // policy.
   void refer_to_age(std::uint32_t age) { fixed_age_ = age; }
 
  private:

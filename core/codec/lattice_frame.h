@@ -92,8 +92,8 @@ struct FrameHead {
 constexpr std::size_t kTwiceHeadBytes = 2;
 
 void write_head(const FrameHead& head, std::uint8_t base_level, RangeEncoder& out);
-// The kind first; then the rest of an intra or delta head; then, with the base frame known, a delta's
-// level.
+// The kind first; then the rest of an intra or delta head; then, with the base frame known, a
+// delta's level.
 void read_kind(RangeDecoder& in, FrameHead& head);
 bool read_head(RangeDecoder& in, FrameHead& head);
 bool read_level(RangeDecoder& in, std::uint8_t base_level, FrameHead& head);
@@ -104,8 +104,8 @@ void write_extras(const PoseExtras& extras, const CodedFrame* base, const CodedF
 bool read_extras(RangeDecoder& in, const CodedFrame* base, const CodedFrame* before, unsigned age,
                  const BellShape& bell, PoseExtras& extras);
 
-// One frame in 32 carries this sum of its body, so that ends that have come apart notice: spread evenly
-// (Fibonacci hashing), whatever step sequences count by.
+// One frame in 32 carries this sum of its body, so that ends that have come apart notice: spread
+// evenly (Fibonacci hashing), whatever step sequences count by.
 constexpr bool has_check(std::uint32_t sequence) { return sequence * 2654435761u < 1u << 27; }
 std::uint16_t check_of(const BodyLattice& lattice, std::size_t level, std::uint8_t skeleton_tag,
                        const ReferenceBody& body);

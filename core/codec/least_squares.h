@@ -5,8 +5,8 @@
 // Units/frames: those of the samples.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
-// Failure:      weights stay as they were where the samples determine none; bounded samples give finite
-//               weights.
+// Failure:      weights stay as they were where the samples determine none; bounded samples give
+//               finite weights.
 // Source:       (C + ridge) (w − prior) = Σ x (y − xᵀ prior) by Cholesky's decomposition.
 #pragma once
 

@@ -1,7 +1,7 @@
 // The lossless codec: every bit of a pose's rotations, hips, presence, confidence and musical time,
-// for recordings and for truth to compare with. Real dance takes about a third of the raw size. Each
-// frame leans on all frames since the last key frame, so a stream is read from a key frame on, in
-// order; it is no codec for a network that loses.
+// for recordings and for truth to compare with. Real dance takes about a third of the raw size.
+// Each frame leans on all frames since the last key frame, so a stream is read from a key frame on,
+// in order; it is no codec for a network that loses.
 //
 // Units/frames: as in core/pose/pose.h; sequence, clock and times travel outside. Layout in
 //               docs/codec.md.
@@ -9,8 +9,8 @@
 //               allocate.
 // Threads:      none inside; one owner.
 // Failure:      encode() gives 0 bytes where they do not fit, and begins anew. decode() never gives
-//               a pose for a frame whose predecessor it has not seen, or had damaged. What it gives is
-//               what the encoder was given: is_valid() or not.
+//               a pose for a frame whose predecessor it has not seen, or had damaged. What it gives
+//               is what the encoder was given: is_valid() or not.
 #pragma once
 
 #include <cstddef>

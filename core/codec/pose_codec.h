@@ -5,7 +5,8 @@
 //
 // Units/frames: as in core/pose/pose.h. The payload holds rotations, hips, presence, confidence and
 //               musical time; sequence, capture time and hops travel in the record around it.
-// Ownership:    encoders and decoders are made once per guest; encode() and decode() never allocate.
+// Ownership:    encoders and decoders are made once per guest; encode() and decode() never
+//               allocate.
 // Threads:      none inside; one owner.
 // Failure:      encode() of an invalid pose gives 0 bytes; decode() says why there is no pose. What
 //               it lets through is_valid().
@@ -91,8 +92,8 @@ class PoseDecoder {
  public:
   virtual ~PoseDecoder() = default;
   virtual CodecName name() const = 0;
-  // Fills what the payload holds; `sequence` is the record's. Anything but kPose leaves pose as it may be:
-  // do not use it.
+  // Fills what the payload holds; `sequence` is the record's. Anything but kPose leaves pose as it
+  // may be: do not use it.
   virtual DecodeResult decode(std::uint32_t sequence, std::span<const std::uint8_t> payload,
                               Pose& pose) = 0;
   // A new stream of the guest begins: earlier frames are no references any more.

@@ -133,7 +133,8 @@ BellShape logistic_bell(double wide_share) {
   return bell;
 }
 
-// Everything goes on as it went, by 0.8 of its speed, and a third of it as its end went in the room.
+// Everything goes on as it went, by 0.8 of its speed, and a third of it as its end went in the
+// room.
 std::shared_ptr<const PoseModel> generic_model() {
   static const std::shared_ptr<const PoseModel> kModel = [] {
     auto model = std::make_shared<PoseModel>();

@@ -62,8 +62,8 @@ struct PoseModel {
 // Where the nearest trained case stands in laws. `run` frames stand in a row, the newest `age` old.
 std::size_t case_index(bool slow, std::size_t age, std::size_t run);
 
-// Numbers are kept in half precision, so a model that was written and read again differs a little from
-// what training found: it is what is read that counts. Its name is a hash of the file.
+// Numbers are kept in half precision, so a model that was written and read again differs a little
+// from what training found: it is what is read that counts. Its name is a hash of the file.
 std::vector<std::uint8_t> write_model(const PoseModel& model);
 Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t> file);
 

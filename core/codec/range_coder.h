@@ -3,12 +3,12 @@
 // the same order. Integers only, so every machine makes the same bytes. A message costs less than
 // one byte beyond its entropy, and its length must be told by what is around it.
 //
-// Units/frames: a law's frequencies add up to 1 << bits, bits 1 to 16; a symbol is its own frequency
-//               and what the frequencies of the symbols before it add up to.
+// Units/frames: a law's frequencies add up to 1 << bits, bits 1 to 16; a symbol is its own
+//               frequency and what the frequencies of the symbols before it add up to.
 // Ownership:    they look at, or write into, the caller's bytes; no heap.
 // Threads:      none inside.
-// Failure:      the encoder never writes past the end: ok() is false once something did not fit. The
-//               decoder reads zeros beyond the end, and any bytes decode to some symbols.
+// Failure:      the encoder never writes past the end: ok() is false once something did not fit.
+//               The decoder reads zeros beyond the end, and any bytes decode to some symbols.
 // Source:       G. N. N. Martin, Range encoding, 1979; carries run into bytes already written.
 #pragma once
 
@@ -50,8 +50,8 @@ class RangeEncoder {
     narrow(unit * (value & mask), unit);
   }
 
-  // Ends the message with as few bytes as tell it from every other, and gives its length; nothing may
-  // be encoded after it. 0 where it did not fit, and also where nothing needs saying: see ok().
+  // Ends the message with as few bytes as tell it from every other, and gives its length; nothing
+  // may be encoded after it. 0 where it did not fit, and also where nothing needs saying: see ok().
   std::size_t finish() {
     // The roundest number of [low, low + range): zeros need not be written.
     if (low_ != 0 && low_ + range_ > detail::kRangeWhole) {
@@ -120,7 +120,8 @@ class RangeDecoder {
     return static_cast<std::uint32_t>(std::min(code_ / unit_, (std::uint64_t{1} << bits) - 1));
   }
   // The same question without dividing: after begin(), whether the target lies below an edge of the
-  // law, as often as is needed; then consume(). Bytes that no encoder makes may lie above every edge.
+  // law, as often as is needed; then consume(). Bytes that no encoder makes may lie above every
+  // edge.
   void begin(int bits) { unit_ = range_ >> bits; }
   bool is_below(std::uint32_t edge) const { return code_ < unit_ * edge; }
   void consume(std::uint32_t cum_low, std::uint32_t freq) {

@@ -21,8 +21,8 @@ struct SwingTwist {
 };
 
 namespace detail {
-// cos h and sin h / h, from h²: within 1e-7 for |h| ≤ 2.5, more than half a turn of the whole angle.
-// Taylor's series, the two side by side.
+// cos h and sin h / h, from h²: within 1e-7 for |h| ≤ 2.5, more than half a turn of the whole
+// angle. Taylor's series, the two side by side.
 struct CosSinc {
   double cos, sinc;
 };
@@ -42,8 +42,8 @@ struct CosSinc {
   for (int i = 1; i < 9; ++i) sum = sum * x + kTerms[i];
   return {sum[0], sum[1]};
 }
-// atan t / t from t² ≤ 1, within 2e-8, of two; the terms in pairs, which is quicker than one after the
-// other. Source: Abramowitz and Stegun 4.4.49.
+// atan t / t from t² ≤ 1, within 2e-8, of two; the terms in pairs, which is quicker than one after
+// the other. Source: Abramowitz and Stegun 4.4.49.
 inline Two atan_of_square(Two t2) {
   const Two t4 = t2 * t2, t8 = t4 * t4;
   const Two a = 1.0 - 0.3333314528 * t2, b = 0.1999355085 - 0.1420889944 * t2;

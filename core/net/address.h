@@ -1,6 +1,6 @@
-// An IPv4 or IPv6 address with its port, as a small value that can be compared: whom a datagram came
-// from or goes to. IPv4 seen through an IPv6 socket (::ffff:a.b.c.d) is kept as IPv4, so that one
-// peer has one address.
+// An IPv4 or IPv6 address with its port, as a small value that can be compared: whom a datagram
+// came from or goes to. IPv4 seen through an IPv6 socket (::ffff:a.b.c.d) is kept as IPv4, so that
+// one peer has one address.
 //
 // Units/frames: port in host order.
 // Ownership:    plain value.
@@ -24,7 +24,8 @@ class Address {
   enum class Family : std::uint8_t { kNone, kIpv4, kIpv6 };
 
   Address() = default;  // nobody
-  // "host:port", "1.2.3.4:7400", "[::1]:7400"; the port may be left out where default_port is not 0.
+  // "host:port", "1.2.3.4:7400", "[::1]:7400"; the port may be left out where default_port is not
+  // 0.
   static Result<Address> resolve(std::string_view text, std::uint16_t default_port = 0);
   // All addresses of a name, at most 8, in the order in which the system would try them.
   static Result<std::vector<Address>> resolve_all(std::string_view text,

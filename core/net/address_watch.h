@@ -1,5 +1,5 @@
-// Tells when this machine's addresses or routes change: a house that goes from Wi-Fi to a phone's line
-// notices at once, not when its server has been silent for a while.
+// Tells when this machine's addresses or routes change: a house that goes from Wi-Fi to a phone's
+// line notices at once, not when its server has been silent for a while.
 //
 // Units/frames: none.
 // Ownership:    owns its descriptor.

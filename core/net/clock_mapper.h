@@ -1,7 +1,7 @@
 // Maps another clock's stamps onto ours and back: the offset between the two, estimated from
-// ping/pong round trips. Delay only ever adds to a round trip, so the shortest of the last ones tell
-// the offset best; an older one counts as less certain by what the clocks may have drifted since.
-// The applied offset follows the estimate slowly, so that mapped times do not jump.
+// ping/pong round trips. Delay only ever adds to a round trip, so the shortest of the last ones
+// tell the offset best; an older one counts as less certain by what the clocks may have drifted
+// since. The applied offset follows the estimate slowly, so that mapped times do not jump.
 //
 // Units/frames: theirs are plain microseconds of their clock; ours is MonoTime. offset = theirs −
 //               ours. What is left is half the difference between the two directions' shortest

@@ -2,8 +2,8 @@
 // may enter. Whoever connects gets one text and the end; it is asked nothing.
 //
 // Units/frames: texts are bytes.
-// Ownership:    LocalTextServer owns its socket file and at most kMaxClients connections; the poller
-//               must outlive it.
+// Ownership:    LocalTextServer owns its socket file and at most kMaxClients connections; the
+//               poller must outlive it.
 // Threads:      the poller's; read_local_text() waits, and is for programs that only ask.
 // Failure:      nothing that a client does, or leaves undone, makes the server wait: who does not
 //               read is dropped. open() and read_local_text() say what is wrong.
@@ -35,7 +35,8 @@ class LocalTextServer {
     std::uint64_t dropped = 0;  // did not read, or one too many
   };
 
-  // Makes the folder, closed to others, and takes the place of a socket that nobody serves any more.
+  // Makes the folder, closed to others, and takes the place of a socket that nobody serves any
+  // more.
   static Result<std::unique_ptr<LocalTextServer>> open(const std::string& path, MakeText make_text,
                                                        Poller& poller);
   ~LocalTextServer();

@@ -22,7 +22,8 @@ namespace {
 
 constexpr int kEventsPerTurn = 16;
 
-// In which the poller of this process hears of signals, by the kernel's number: that of a thread that has ended names nobody.
+// In which the poller of this process hears of signals, by the kernel's number: that of a thread
+// that has ended names nobody.
 std::atomic<pid_t> signal_thread{0};
 
 std::string reason(const char* call) {
@@ -84,8 +85,8 @@ Result<void> Poller::stop_on_signals() {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   if (pthread_sigmask(SIG_BLOCK, &signals, nullptr) != 0) return fail(reason("pthread_sigmask"));
-  // Libraries may have started threads before main did anything (OpenBLAS does), which have nothing blocked: these hand on
-  // what they get.
+  // Libraries may have started threads before main did anything (OpenBLAS does), which have nothing
+  // blocked: these hand on what they get.
   signal_thread = static_cast<pid_t>(syscall(SYS_gettid));
   struct sigaction handing_on {};
   handing_on.sa_handler = [](int signal) {

@@ -41,7 +41,8 @@ class Poller {
   void at_turn_end(OnReadable work) { turn_end_ = std::move(work); }
 
   // SIGINT and SIGTERM end run() instead of the process. Call before threads are started (LCM
-  // starts some), as these inherit the blocked signals; those that libraries started before main hand them on.
+  // starts some), as these inherit the blocked signals; those that libraries started before main
+  // hand them on.
   Result<void> stop_on_signals();
   void stop() { stopped_ = true; }
   bool is_stopped() const { return stopped_; }

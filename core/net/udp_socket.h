@@ -1,8 +1,8 @@
 // A UDP socket that never blocks, over IPv4 or IPv6 (a socket bound to an IPv6 address also hears
 // IPv4), read and written in batches: one system call for many datagrams.
 //
-// Units/frames: receive times are MonoTime of this process's clock; from the kernel's stamp where it
-//               gives one, so that a late turn does not look like a late datagram.
+// Units/frames: receive times are MonoTime of this process's clock; from the kernel's stamp where
+//               it gives one, so that a late turn does not look like a late datagram.
 // Ownership:    owns the descriptor and the batch buffers; never allocates after construction.
 // Threads:      one owner.
 // Failure:      bind() and connect() name the address, the reason and the cure; later errors are

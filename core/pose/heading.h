@@ -1,4 +1,5 @@
-// Where somebody faces: of a rotation the turn about the upright, and the rotation that is only that.
+// Where somebody faces: of a rotation the turn about the upright, and the rotation that is only
+// that.
 //
 // Units/frames: radians about +Y, 0 along +Z, positive to the left; −π … π.
 // Ownership:    plain values.

@@ -30,11 +30,12 @@ class PoseHistory {
   bool push(const Pose& pose);
   void clear() { size_ = 0; }
 
-  // The pose at time t: one that was pushed, or between two, or the nearest end. Between poses that are no more than
-  // kCloseTogether apart it goes smoothly, in straight lines across longer gaps.
+  // The pose at time t: one that was pushed, or between two, or the nearest end. Between poses that
+  // are no more than kCloseTogether apart it goes smoothly, in straight lines across longer gaps.
   std::optional<Answer> at(MonoTime t) const;
-  // The same, and for good: no pose that comes later changes what at() and this answer about this moment. Between the
-  // newest two poses, where the curve is not known before the next one, it ends as straight as it is seen now.
+  // The same, and for good: no pose that comes later changes what at() and this answer about this
+  // moment. Between the newest two poses, where the curve is not known before the next one, it ends
+  // as straight as it is seen now.
   std::optional<Answer> at_for_good(MonoTime t);
 
   std::size_t size() const { return size_; }

@@ -10,7 +10,8 @@ namespace {
 constexpr float kLeastDot = 0.92f;
 // A slope that is no steeper than three times either step keeps between its ends.
 constexpr float kMostSlope = 3.0f;
-// Where a place turns back it may swing over as a body does: by less than a third of the smaller step.
+// Where a place turns back it may swing over as a body does: by less than a third of the smaller
+// step.
 constexpr float kMostTurningSlope = 2.0f;
 
 // Who is nearer than this part of the step says little about how fast it goes.
@@ -24,14 +25,16 @@ Pose between_stamps(const Pose& a, const Pose& b, float fraction) {
   const MonoTime stamped = out.capture_time;
   out.capture_time =
       a.capture_time + Duration::seconds(step.as_seconds() * static_cast<double>(fraction));
-  // Stamps are those of the nearer pose, moved with the capture time, so that each step keeps its age.
+  // Stamps are those of the nearer pose, moved with the capture time, so that each step keeps its
+  // age.
   for (MonoTime& hop : out.hops)
     if (hop.is_set()) hop += out.capture_time - stamped;
   out.music_beats = a.music_beats + static_cast<double>(fraction) * (b.music_beats - a.music_beats);
   return out;
 }
 
-// The cubic from a to b, whose time apart is 1; the poses around them are `before` and `after` of it away, 0: not known.
+// The cubic from a to b, whose time apart is 1; the poses around them are `before` and `after` of
+// it away, 0: not known.
 struct Cubic {
   Cubic(float before, float after, float t)
       : before_time(before),

@@ -27,7 +27,8 @@ namespace {
 // Below this a bone has no direction that could be turned.
 constexpr float kShortestBone_m = 1e-3f;
 
-// The rotation whose first column is along x and whose third is normal, which is at right angles to x.
+// The rotation whose first column is along x and whose third is normal, which is at right angles to
+// x.
 Quaternionf frame_along(const Vector3f& x, const Vector3f& normal) {
   Eigen::Matrix3f m;
   m.col(0) = x.normalized();
@@ -78,8 +79,8 @@ float solve_two_bone(const Skeleton& skeleton, const Limb& limb, const Vector3f&
   const Vector3f rest_pole = limb.upper == Bone::kLeftUpperArm || limb.upper == Bone::kRightUpperArm
                                  ? Vector3f(0, 0, -1)
                                  : Vector3f(0, 0, 1);
-  // The plane's normal is the same for both bones, however far the limb is bent; were it taken from each bone and the
-  // pole, a hand close to the shoulder would twist the forearm by half a turn.
+  // The plane's normal is the same for both bones, however far the limb is bent; were it taken from
+  // each bone and the pole, a hand close to the shoulder would twist the forearm by half a turn.
   const Vector3f normal = along.cross(side);
   const auto aim = [&](const Vector3f& rest, const Vector3f& direction) {
     return frame_along(direction, normal) *

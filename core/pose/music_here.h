@@ -1,10 +1,11 @@
-// MusicHere: where the music of this house stands, for whoever shows or measures it: as what plays the music says; where
-// nothing plays, as the dancers of this house carry it in their own poses.
+// MusicHere: where the music of this house stands, for whoever shows or measures it: as what plays
+// the music says; where nothing plays, as the dancers of this house carry it in their own poses.
 //
 // Units/frames: beats as core/base/beat.h counts them; times of the clock that it is made with.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
-// Failure:      words and poses of other clocks say nothing; the clock knows nothing 3 s after the last word.
+// Failure:      words and poses of other clocks say nothing; the clock knows nothing 3 s after the
+//               last word.
 #pragma once
 
 #include <cmath>

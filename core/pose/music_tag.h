@@ -1,10 +1,13 @@
-// MusicTag: puts musical time on the poses of this house: where the music stood, as it is heard here, when each was
-// captured. Producers use it, and the link once more for those in other languages.
+// MusicTag: puts musical time on the poses of this house: where the music stood, as it is heard
+// here, when each was captured. Producers use it, and the link once more for those in other
+// languages.
 //
-// Units/frames: beats as core/base/beat.h counts them; times of the clock that the tag is made with.
+// Units/frames: beats as core/base/beat.h counts them; times of the clock that the tag is made
+//               with.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      a pose that has musical time keeps it; one of another clock, or captured while no music is known, gets none.
+// Failure:      a pose that has musical time keeps it; one of another clock, or captured while no
+//               music is known, gets none.
 #pragma once
 
 #include <cmath>

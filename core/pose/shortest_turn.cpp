@@ -6,7 +6,8 @@ Eigen::Quaterniond shortest_turn(const Eigen::Vector3d& from, const Eigen::Vecto
   using Eigen::Vector3d;
   const double length = from.norm() * to.norm();
   if (!(length > 0.0)) return Eigen::Quaterniond::Identity();
-  // Half the angle: (1 + cos, sin · axis) made unit. Within a millionth of opposite the axis is noise.
+  // Half the angle: (1 + cos, sin · axis) made unit. Within a millionth of opposite the axis is
+  // noise.
   constexpr double kOpposite = 1e-12;
   const double w = 1.0 + from.dot(to) / length;
   if (w < kOpposite) {

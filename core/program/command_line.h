@@ -1,7 +1,9 @@
-// The options of a program, over CLI11. Its headers cost ten seconds of every file that includes them (thirty under
-// sanitizers), so that one file does, and the programs name their options through this one.
+// The options of a program, over CLI11. Its headers cost ten seconds of every file that includes
+// them (thirty under sanitizers), so that one file does, and the programs name their options
+// through this one.
 //
-// Ownership: values are the caller's and must outlive parse(); an Option is a handle on the CommandLine's own.
+// Ownership: values are the caller's and must outlive parse(); an Option is a handle on the
+//            CommandLine's own.
 // Threads:   one.
 // Failure:   parse() gives one line that names the option and says what it takes.
 #pragma once
@@ -56,8 +58,8 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  // T: std::string, double, int, std::int64_t, std::uint16_t, std::uint32_t, std::uint64_t, and vectors of the first two.
-  // A name without dashes is an argument by its place.
+  // T: std::string, double, int, std::int64_t, std::uint16_t, std::uint32_t, std::uint64_t, and
+  // vectors of the first two. A name without dashes is an argument by its place.
   template <class T>
   Option add(const std::string& name, T& value, const std::string& help);
   Option add_flag(const std::string& name, bool& value, const std::string& help);

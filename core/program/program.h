@@ -1,5 +1,5 @@
-// What every program of the tree does alike: options, talk on stderr, one line for what went wrong, and the exit code:
-// 0 fine, 1 the world, 2 wrong use.
+// What every program of the tree does alike: options, talk on stderr, one line for what went wrong,
+// and the exit code: 0 fine, 1 the world, 2 wrong use.
 //
 // Ownership: refers to the command line for the length of the call.
 // Threads:   call from main.

@@ -1,4 +1,5 @@
-// Seldom: which line of what happens again and again is worth saying: a new one at once, the same one each minute.
+// Seldom: which line of what happens again and again is worth saying: a new one at once, the same
+// one each minute.
 //
 // Units/frames: times of the monotonic clock.
 // Ownership:    keeps copies of the last few lines.

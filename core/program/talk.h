@@ -1,6 +1,6 @@
-// What a program says to its user while it runs: lines on stderr with the time and the program's name. Stdout is data.
-// Formats are checked when they are compiled and worked out in one place, so that a file that talks costs no more to
-// build than one that does not. Never on the pose path.
+// What a program says to its user while it runs: lines on stderr with the time and the program's
+// name. Stdout is data. Formats are checked when they are compiled and worked out in one place, so
+// that a file that talks costs no more to build than one that does not. Never on the pose path.
 //
 // Ownership: nothing is kept.
 // Threads:   any.

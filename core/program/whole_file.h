@@ -1,12 +1,12 @@
-// Writes a file whole or not at all: beside its place first, so that whoever reads it, or stops the writer, has the old one
-// or the new one.
+// Writes a file whole or not at all: beside its place first, so that whoever reads it, or stops the
+// writer, has the old one or the new one.
 //
 // Units/frames: none.
 // Ownership:    nothing stays.
 // Threads:      any; of two processes that write one file, one's is there.
-// Failure:      an Error names the file, the reason and the cure; what was there before stays. Where it could be written
-//               but not take its place, it stays beside it, and the Error says where. A device or a pipe has no
-//               place beside it: what it got, it has.
+// Failure:      an Error names the file, the reason and the cure; what was there before stays.
+//               Where it could be written but not take its place, it stays beside it, and the Error
+//               says where. A device or a pipe has no place beside it: what it got, it has.
 #pragma once
 
 #include <cstdint>

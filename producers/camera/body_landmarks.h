@@ -1,8 +1,11 @@
-// BodyLandmarks: what the pose network sees of one person in one picture: 33 points of the body in pixels and in metres.
+// BodyLandmarks: what the pose network sees of one person in one picture: 33 points of the body in
+// pixels and in metres.
 //
-// Units/frames: image points in pixels of the whole picture, (0, 0) the left upper corner of the left upper pixel as the network's makers have
-//               it: half a pixel more than in a Pinhole (z in the same scale, smaller is nearer, 0 at the hips); world points in metres,
-//               axes of the camera (x right, y down, z away), origin midway between the hips. Left and right are the dancer's own.
+// Units/frames: image points in pixels of the whole picture, (0, 0) the left upper corner of the
+//               left upper pixel as the network's makers have it: half a pixel more than in a
+//               Pinhole (z in the same scale, smaller is nearer, 0 at the hips); world points in
+//               metres, axes of the camera (x right, y down, z away), origin midway between the
+//               hips. Left and right are the dancer's own.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
 // Failure:      `found` is false where nobody is seen; the rest is then not to be read.

@@ -1,7 +1,9 @@
-// DeepPicture: a picture whose copies are pictures of their own, in buffers that stay: for the slots between two threads
-// (core/base/latest.h), where an OpenCV matrix would be shared and painted over.
+// DeepPicture: a picture whose copies are pictures of their own, in buffers that stay: for the
+// slots between two threads (core/base/latest.h), where an OpenCV matrix would be shared and
+// painted over.
 //
-// Ownership: each copy owns its pixels. What `pixels` is set to directly is shared, as OpenCV does it.
+// Ownership: each copy owns its pixels. What `pixels` is set to directly is shared, as OpenCV does
+//            it.
 // Threads:   none inside; one owner.
 // Failure:   none.
 #pragma once

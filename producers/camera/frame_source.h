@@ -1,11 +1,13 @@
-// FrameSource: where pictures come from: a V4L2 camera, a video file, a folder of images. The newest picture wins: what is older and still
-// waiting when the source is asked is given back unseen and counted.
+// FrameSource: where pictures come from: a V4L2 camera, a video file, a folder of images. The
+// newest picture wins: what is older and still waiting when the source is asked is given back
+// unseen and counted.
 //
 // Units/frames: pixels; hertz.
 // Ownership:    the source owns its buffers; a Frame borrows one until the next call.
 // Threads:      one owner; none inside.
-// Failure:      opening names the device or file, the reason and the cure. Later trouble is a state, not an error: a camera that was
-//               unplugged is looked for until it is back, a damaged picture is counted and left out.
+// Failure:      opening names the device or file, the reason and the cure. Later trouble is a
+//               state, not an error: a camera that was unplugged is looked for until it is back, a
+//               damaged picture is counted and left out.
 #pragma once
 
 #include <cstdint>

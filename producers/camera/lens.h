@@ -3,8 +3,10 @@
 // Units/frames: normalised points are x/z, y/z in C of producers/camera/pinhole.h; pixels as there.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
-// Failure:      undistorted() of a pixel that the lens model never reaches gives the nearest that its steps come to.
-// Source:       Brown: Close-range camera calibration, 1971, in the letters of OpenCV's documentation.
+// Failure:      undistorted() of a pixel that the lens model never reaches gives the nearest that
+//               its steps come to.
+// Source:       Brown: Close-range camera calibration, 1971, in the letters of OpenCV's
+//               documentation.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,8 +31,8 @@ inline Eigen::Vector2d pixel_of(const Pinhole& camera, const Eigen::Vector2d& st
   return {camera.fx_px * bent.x() + camera.cx_px, camera.fy_px * bent.y() + camera.cy_px};
 }
 
-// The normalised point that the lens shows at a pixel: fixed-point steps, which settle within the picture of any lens that
-// five coefficients describe.
+// The normalised point that the lens shows at a pixel: fixed-point steps, which settle within the
+// picture of any lens that five coefficients describe.
 inline Eigen::Vector2d undistorted(const Pinhole& camera, const Eigen::Vector2d& pixel_px) {
   const Eigen::Vector2d bent((pixel_px.x() - camera.cx_px) / camera.fx_px,
                              (pixel_px.y() - camera.cy_px) / camera.fy_px);

@@ -1,4 +1,5 @@
-// PicturePool: a few pictures in turn, so that one that is still held is not painted over, and none is allocated anew for each frame.
+// PicturePool: a few pictures in turn, so that one that is still held is not painted over, and none
+// is allocated anew for each frame.
 //
 // Ownership: shares the pictures that it gave out.
 // Threads:   one owner; who holds a picture may let go of it on any thread.

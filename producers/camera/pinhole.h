@@ -1,7 +1,8 @@
 // Pinhole: how a camera maps space to pixels.
 //
-// Units/frames: C, the camera's frame: x right, y down, z into the scene, metres; pixels of the given picture size, centre of the top left
-//               pixel at (0, 0). u = fx·x/z + cx, v = fy·y/z + cy, after the distortion of OpenCV's five coefficients.
+// Units/frames: C, the camera's frame: x right, y down, z into the scene, metres; pixels of the
+//               given picture size, centre of the top left pixel at (0, 0). u = fx·x/z + cx, v =
+//               fy·y/z + cy, after the distortion of OpenCV's five coefficients.
 // Ownership:    plain value.
 // Threads:      none inside.
 // Failure:      none; who reads one from a file checks it.

@@ -1,9 +1,12 @@
-// A file of music, read block by block: WAV, FLAC, Ogg Vorbis, Opus, MP3 and what else libsndfile knows.
+// A file of music, read block by block: WAV, FLAC, Ogg Vorbis, Opus, MP3 and what else libsndfile
+// knows.
 //
-// Units/frames: samples are -1 to 1 at rate_hz(); a frame is one sample of each channel. mono is the mean of all channels.
+// Units/frames: samples are -1 to 1 at rate_hz(); a frame is one sample of each channel. mono is
+//               the mean of all channels.
 // Ownership:    owns the open file and one block of it.
 // Threads:      none inside; one owner. Reads the file on the caller's thread.
-// Failure:      an Error names the file and the cure. A file that turns out damaged half-way ends there with an Error.
+// Failure:      an Error names the file and the cure. A file that turns out damaged half-way ends
+//               there with an Error.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +35,8 @@ class AudioFile {
 
   // Fill what they are given, but for the last block; 0 = the end.
   Result<std::size_t> read(std::span<float> mono);
-  // Left and right in turns; a file of one channel is on both, of more than two as mono is. Returns frames.
+  // Left and right in turns; a file of one channel is on both, of more than two as mono is. Returns
+  // frames.
   Result<std::size_t> read_stereo(std::span<float> interleaved);
   // To a frame within the file.
   Result<void> seek(std::int64_t frame);

@@ -12,8 +12,8 @@ namespace {
 constexpr int kLongestBar_beats = 16;
 constexpr double kLongestMusic_s = 12.0 * 3600.0;
 constexpr std::size_t kTempoReach_beats = 2;
-// A beat this far from the line through its neighbours is another tempo, not the odd millisecond: 6 ms of jitter is 2 % of
-// a beat at 180 BPM.
+// A beat this far from the line through its neighbours is another tempo, not the odd millisecond: 6
+// ms of jitter is 2 % of a beat at 180 BPM.
 constexpr double kSteady_beats = 0.05;
 
 std::string beat_name(std::size_t index) { return "beat " + std::to_string(index + 1); }

@@ -1,11 +1,13 @@
-// BeatGrid: where each beat of a piece of music is: beat number to seconds and back, and the tempo around.
+// BeatGrid: where each beat of a piece of music is: beat number to seconds and back, and the tempo
+// around.
 //
-// Units/frames: seconds from the begin of the music; beats count as core/base/beat.h says: 0 is the first beat of the first
-//               bar, so that a grid that begins with the third of a bar of four begins with beat 2.
+// Units/frames: seconds from the begin of the music; beats count as core/base/beat.h says: 0 is the
+//               first beat of the first bar, so that a grid that begins with the third of a bar of
+//               four begins with beat 2.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      make() says which beat is wrong and why; it counts them from 1. Before the first beat and behind the last
-//               the tempo there goes on.
+// Failure:      make() says which beat is wrong and why; it counts them from 1. Before the first
+//               beat and behind the last the tempo there goes on.
 #pragma once
 
 #include <span>
@@ -35,8 +37,8 @@ class BeatGrid {
 
   double beat_at(double time_s) const;
   double time_of(double beat) const;  // seconds
-  // Of the beats around this one, so that the odd millisecond of one beat is not a change of tempo. Where it does change,
-  // of the way to this beat, which is what is being heard.
+  // Of the beats around this one, so that the odd millisecond of one beat is not a change of tempo.
+  // Where it does change, of the way to this beat, which is what is being heard.
   double tempo_bpm(double beat) const;
 
  private:

@@ -1,8 +1,9 @@
-// BeatTeller: says on BEAT/local where the music stands, ten times a second and right after each beat, and notices who
-// else says so in this house: two musics would pull every dancer to and fro.
+// BeatTeller: says on BEAT/local where the music stands, ten times a second and right after each
+// beat, and notices who else says so in this house: two musics would pull every dancer to and fro.
 //
 // Units/frames: as core/base/beat.h.
-// Ownership:    refers to the bus and the poller, which must outlive it; the program drains the bus.
+// Ownership:    refers to the bus and the poller, which must outlive it; the program drains the
+//               bus.
 // Threads:      none inside; runs in the poller's thread.
 // Failure:      says nothing while nothing is known.
 #pragma once

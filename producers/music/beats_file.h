@@ -1,5 +1,6 @@
-// Reads .beats files: one beat a line, its seconds, a TAB, its position in the bar from 1. Empty lines and lines that begin
-// with # say nothing; a position may be missing in all of them where the bar is not known.
+// Reads .beats files: one beat a line, its seconds, a TAB, its position in the bar from 1. Empty
+// lines and lines that begin with # say nothing; a position may be missing in all of them where the
+// bar is not known.
 //
 // Units/frames: seconds from the begin of the music.
 // Ownership:    plain values.

@@ -1,11 +1,11 @@
-// HeardLine: which frame of a stream of sound is heard when, from what the sound server reports a few times a second: its
-// reports tremble and its card's clock drifts against ours.
+// HeardLine: which frame of a stream of sound is heard when, from what the sound server reports a
+// few times a second: its reports tremble and its card's clock drifts against ours.
 //
 // Units/frames: frames of the stream; times of this house's clock.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      is_known() is false before a few reports. Reports that have jumped (the sound had a gap) are believed when
-//               three in a row have, and counted.
+// Failure:      is_known() is false before a few reports. Reports that have jumped (the sound had a
+//               gap) are believed when three in a row have, and counted.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,8 @@
-// Where this machine's sound goes: the loudspeaker that the sound server gives to a program that names none.
+// Where this machine's sound goes: the loudspeaker that the sound server gives to a program that
+// names none.
 //
-// Units/frames: the latency is what the server knows of, from its hands to the air, while something plays.
+// Units/frames: the latency is what the server knows of, from its hands to the air, while something
+//               plays.
 // Ownership:    plain values.
 // Threads:      call from main; takes half a second, in which silence is played.
 // Failure:      says why there is none, as a build without sound does.

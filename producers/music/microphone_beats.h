@@ -1,5 +1,5 @@
-// MicrophoneBeats: the beat of the music that a microphone hears, on this house's clock: the sound server's latency is
-// counted out.
+// MicrophoneBeats: the beat of the music that a microphone hears, on this house's clock: the sound
+// server's latency is counted out.
 //
 // Units/frames: `trim` is the latency before the server's knowledge.
 // Ownership:    owns its connection with the server and the tracker.
@@ -12,8 +12,8 @@
 #include <string>
 
 #include "core/base/beat.h"
-#include "producers/music/beat_tracker.h"
-#include "producers/music/pulse_input.h"
+#include "producers/music/sound/pulse_input.h"
+#include "producers/music/tracker/beat_tracker.h"
 
 namespace dance {
 

@@ -1,10 +1,11 @@
-// MusicHouse: a song in a house and in its room: begins it, or joins it where the room stands, says the beat that is heard
-// here, and tells the room where the song stands while it is this house's.
+// MusicHouse: a song in a house and in its room: begins it, or joins it where the room stands, says
+// the beat that is heard here, and tells the room where the song stands while it is this house's.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    owns the player; refers to the bus and the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      where the sound ends for good that is said, and the time is kept without. What others do is said.
+// Failure:      where the sound ends for good that is said, and the time is kept without. What
+//               others do is said.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// MusicPlayer: plays a song, or keeps its time, so that its second 0 is or was heard at a given moment.
+// MusicPlayer: plays a song, or keeps its time, so that its second 0 is or was heard at a given
+// moment.
 //
 // Units/frames: song seconds as in producers/music/song.h; times of this house's clock.
 // Ownership:    of each implementation.
@@ -17,7 +18,8 @@ namespace dance {
 class MusicPlayer {
  public:
   virtual ~MusicPlayer() = default;
-  // Another moment, a little or far from the last, may be given at any time. Over and over, or silent behind the end.
+  // Another moment, a little or far from the last, may be given at any time. Over and over, or
+  // silent behind the end.
   virtual void play_from(MonoTime begin, bool loops) = 0;
   virtual void pause() = 0;
   // What is heard of the song at t; nothing while that is not known.

@@ -1,9 +1,11 @@
-// PlayPlan: which frame of a song goes into which frame of a stream of sound, so that the song is heard when it should be
-// though the sound has a latency, and stays so though the sound card's clock drifts: small errors are taken in by playing
-// up to two in a thousand faster or slower, large ones by a jump.
+// PlayPlan: which frame of a song goes into which frame of a stream of sound, so that the song is
+// heard when it should be though the sound has a latency, and stays so though the sound card's
+// clock drifts: small errors are taken in by playing up to two in a thousand faster or slower,
+// large ones by a jump.
 //
-// Units/frames: stream frames count from the stream's begin; song frames are the song's seconds times the rate, and may be
-//               negative: not yet begun. `begin` is when song frame 0 is to be heard.
+// Units/frames: stream frames count from the stream's begin; song frames are the song's seconds
+//               times the rate, and may be negative: not yet begun. `begin` is when song frame 0 is
+//               to be heard.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      heard_s() and song_frame() tell nothing before align().
@@ -42,7 +44,8 @@ class PlayPlan {
     if (frame < static_cast<double>(parts_[0].from)) return std::nullopt;
     return (frame - static_cast<double>(part.shift)) / rate_hz_;
   }
-  // How far ahead of where it should be the song is, or will be once what was written before a jump has been heard.
+  // How far ahead of where it should be the song is, or will be once what was written before a jump
+  // has been heard.
   double error_s(const HeardLine& line, MonoTime begin, MonoTime now) const {
     const Part& part = parts_[count_ - 1];
     return (line.frame_at(now) - static_cast<double>(part.shift)) / rate_hz_ -
@@ -60,7 +63,8 @@ class PlayPlan {
     std::int64_t shift = 0;  // stream frame of song frame 0
   };
   static constexpr std::size_t kMost = 8;
-  // A gap of the sound or a line that was lost; what is less is taken in within ten seconds and not heard.
+  // A gap of the sound or a line that was lost; what is less is taken in within ten seconds and not
+  // heard.
   static constexpr double kJump_s = 0.040;
   static constexpr double kGoodEnough_s = 0.0003;
   static constexpr double kTakenIn_s = 8.0;

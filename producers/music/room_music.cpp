@@ -48,7 +48,8 @@ const Music& RoomMusic::tell(const Song& song, MonoTime begin, MonoTime now) {
     music_.playing = true;
     music_.title = title_;
     music_.clock_id = clock_id_;
-    // The mean tempo where the song keeps it, else the way to where it will be when this is told again.
+    // The mean tempo where the song keeps it, else the way to where it will be when this is told
+    // again.
     music_.tempo_bpm = steady_tempo_bpm(song.grid());
     if (!is_on_line(music_, song, begin, song_s + kLookAhead_s))
       music_.tempo_bpm =

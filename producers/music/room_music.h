@@ -1,7 +1,8 @@
-// What a song that is played here is to the room, as a music_t, and what the room's music_t means for a song here: both
-// houses that have the same song hear the same of it at the same time.
+// What a song that is played here is to the room, as a music_t, and what the room's music_t means
+// for a song here: both houses that have the same song hear the same of it at the same time.
 //
-// Units/frames: `begin` is when song second 0 was or will be heard; all times in this house's clock.
+// Units/frames: `begin` is when song second 0 was or will be heard; all times in this house's
+//               clock.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none.
@@ -18,8 +19,8 @@ namespace dance {
 // The song's name for the room: the file's, without folders and ending, cut where a title ends.
 MusicTitle music_title(const std::string& path);
 
-// The line of one tempo that tells where a song stands, told anew only where the song leaves it: who hears it every second
-// then hears the same, and music that sways is right in every bar.
+// The line of one tempo that tells where a song stands, told anew only where the song leaves it:
+// who hears it every second then hears the same, and music that sways is right in every bar.
 class RoomMusic {
  public:
   RoomMusic(const MusicTitle& title, std::uint64_t clock_id) : title_(title), clock_id_(clock_id) {}

@@ -1,7 +1,8 @@
-// Song: a piece of music that is played, over and over if wanted: which beat stands at which of its seconds.
+// Song: a piece of music that is played, over and over if wanted: which beat stands at which of its
+// seconds.
 //
-// Units/frames: song seconds count on from round to round; beats too, by as many whole bars as a round holds, so that the
-//               first beat of each round is the first of a bar.
+// Units/frames: song seconds count on from round to round; beats too, by as many whole bars as a
+//               round holds, so that the first beat of each round is the first of a bar.
 // Ownership:    plain value.
 // Threads:      none inside.
 // Failure:      none; beyond the ends it is as producers/music/beat_grid.h says.

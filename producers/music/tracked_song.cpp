@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "producers/music/beat_tracker.h"
+#include "producers/music/tracker/beat_tracker.h"
 
 namespace dance {
 namespace {

@@ -32,7 +32,7 @@ wrong() { echo "$1"; failed=1; }
 for program in "$bin"/dance-*; do
   name=$(basename "$program" | sed 's/^dance-//')
   tr - ' ' <"$scratch/listed" | grep -qE "^  $(echo "$name" | tr - ' ') " ||
-    wrong "tools/front_main.cpp: dance help does not list dance-$name"
+    wrong "apps/front/front_main.cpp: dance help does not list dance-$name"
 done
 
 while IFS= read -r entry <&3; do

@@ -1,10 +1,10 @@
 #!/bin/sh
-# What a file may be: at most 400 lines, no name that says nothing, no tab or trailing space, one line break at its end;
+# What a file may be: at most 400 lines of at most 100 columns (C++), no name that says nothing, no tab or trailing space, one line break at its end;
 # a header begins with a comment that says what it is for, and labels its threads and its failures.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
-"$here/sources.sh" .h .cpp .lcm .sh .cmake CMakeLists.txt | awk '
+"$here/sources.sh" .h .cpp .lcm .sh .cmake CMakeLists.txt | LC_ALL=C awk '
 function wrong(what) { printf "%s\n", what; failed = 1 }
 {
   file = $0
@@ -22,6 +22,9 @@ function wrong(what) { printf "%s\n", what; failed = 1 }
     ++line
     if (text ~ /\t/) wrong(file ":" line ": a tab")
     if (text ~ /[ \r]$/) wrong(file ":" line ": a space at the end")
+    columns = text
+    gsub(/[\200-\277]/, "", columns)  # bytes that continue a character
+    if (file ~ /\.(h|cpp)$/ && length(columns) > 100) wrong(file ":" line ": " length(columns) " columns; at most 100")
     if (is_head && text ~ /^\/\//) comment = comment "\n" text
     else is_head = 0
   }

@@ -27,7 +27,7 @@ function check_others(header,   start, i, n, list, is_allowed) {
   for (start in only) if (begins(header, start)) {
     n = split(only[start], list, " ")
     is_allowed = 0
-    for (i = 1; i <= n; ++i) if (is_under(folder, list[i])) is_allowed = 1
+    for (i = 1; i <= n; ++i) if (is_under(file, list[i])) is_allowed = 1
     if (!is_allowed) wrong("<" header "> is only for " only[start])
   }
   n = split(never[folder], list, " ")

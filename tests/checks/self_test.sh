@@ -57,6 +57,10 @@ expect_fine layers.sh
 fault core/base/pose_utils.cpp 'int x;\n'
 expect files.sh 'core/base/pose_utils.cpp: the name says nothing'
 rm "$tree/core/base/pose_utils.cpp"
+fault core/base/wide.cpp "// $(printf '%098d' 0)\n"
+expect files.sh 'core/base/wide.cpp:1: 101 columns; at most 100'
+fault core/base/wide.cpp "// $(printf '%096d' 0)é\n"
+rm "$tree/core/base/wide.cpp"
 fault core/base/bad.cpp 'int\tx;\nint y; \n'
 expect files.sh 'core/base/bad.cpp:1: a tab'
 expect files.sh 'core/base/bad.cpp:2: a space at the end'

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "consumers/bvh_consumer.h"
 #include "consumers/consumer_table.h"
-#include "consumers/csv_consumer.h"
-#include "consumers/text_consumer.h"
-#include "core/pose/bvh.h"
+#include "consumers/text/bvh_consumer.h"
+#include "consumers/text/csv_consumer.h"
+#include "consumers/text/text_consumer.h"
+#include "formats/bvh/bvh.h"
 #include "tests/allocation_guard.h"
-#include "tests/core_pose/random_pose.h"
+#include "tests/core/pose/random_pose.h"
 
 namespace dance {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
-#include "core/pose/bvh.h"
+#include "formats/bvh/bvh.h"
 
 namespace dance {
 namespace {

@@ -1,15 +1,15 @@
-#include "transformers/bridge.h"
+#include "transformers/conceal/bridge.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/pose/interpolate.h"
+#include "testing/motion/motion_measures.h"
 #include "tests/allocation_guard.h"
-#include "tests/core_pose/random_pose.h"
-#include "tools/motion_measures.h"
+#include "tests/core/pose/random_pose.h"
 #include "transformers/chain.h"
-#include "transformers/hold.h"
+#include "transformers/playout/hold.h"
 
 namespace dance {
 namespace {
@@ -31,7 +31,8 @@ Pose swaying(double t_s) {
 
 constexpr double kDelay_s = 0.05;
 
-// Dances from 1 s to 20 s at 60 Hz over a line of 50 ms, silent between two moments; what is shown from `from_s` on.
+// Dances from 1 s to 20 s at 60 Hz over a line of 50 ms, silent between two moments; what is shown
+// from `from_s` on.
 std::vector<Pose> show(Chain& chain, double silent_from_s, double silent_to_s, double from_s,
                        double to_s) {
   std::vector<Pose> shown;

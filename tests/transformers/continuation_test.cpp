@@ -1,4 +1,4 @@
-#include "transformers/continuation.h"
+#include "transformers/conceal/continuation.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 
 #include "core/pose/heading.h"
 #include "core/pose/interpolate.h"
+#include "testing/motion/motion_measures.h"
 #include "tests/allocation_guard.h"
-#include "tests/core_pose/random_pose.h"
+#include "tests/core/pose/random_pose.h"
 #include "tests/transformers/real_takes.h"
-#include "tools/motion_measures.h"
 
 namespace dance {
 namespace {

@@ -1,4 +1,4 @@
-#include "transformers/dance_predictor.h"
+#include "transformers/predict/dance_predictor.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,8 @@ TEST(DancePredictor, AtTheNewestMomentShowsTheNewestPose) {
   }
 }
 
-// What comes later has no part in what is said now: two dances that part after a moment are predicted alike up to it.
+// What comes later has no part in what is said now: two dances that part after a moment are
+// predicted alike up to it.
 TEST(DancePredictor, KnowsNothingOfTheFuture) {
   const auto dance = salsa(400);
   auto other = dance;
@@ -180,7 +181,8 @@ TEST(DancePredictor, IsBetterThanPlainGuessesOnADance) {
   expect_never_much_worse(dance, shaken(dance, kHalfDegree_rad), 0.95, "salsa, trembling");
 }
 
-// Who glides through the room in one pose: joints that only tremble best stand still, and the hips do not.
+// Who glides through the room in one pose: joints that only tremble best stand still, and the hips
+// do not.
 TEST(DancePredictor, LetsHipsGoOnWhoseBodyHoldsItsPose) {
   auto danced = standing(1800);
   for (std::size_t i = 0; i < danced.size(); ++i) {

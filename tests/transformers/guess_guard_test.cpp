@@ -1,4 +1,4 @@
-#include "transformers/guess_guard.h"
+#include "transformers/predict/guess_guard.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,8 @@ TEST_F(GuessGuards, JudgeABoneByItselfAndALittleByTheBody) {
 }
 
 TEST_F(GuessGuards, JudgeTheHipsPlaceByItself) {
-  // The joints are guessed well, and best by standing still; the hips go on, which is guessed badly.
+  // The joints are guessed well, and best by standing still; the hips go on, which is guessed
+  // badly.
   auto guesses = guess_of(0.0f);
   const float rows = static_cast<float>(kHorizonFrames[kGuarded]);
   guesses->common[static_cast<std::size_t>(Guess::kSlope1)] = everywhere(0.01f);
@@ -88,7 +89,8 @@ TEST_F(GuessGuards, JudgeTheHipsPlaceByItself) {
   EXPECT_NEAR(now(index_of(Bone::kLeftHand), 0), 0.0f, 0.002f);
 }
 
-// Nothing jumps: from one moment to the next what is shown moves a part of the way between the guesses.
+// Nothing jumps: from one moment to the next what is shown moves a part of the way between the
+// guesses.
 TEST_F(GuessGuards, LeanWithoutASwitch) {
   const auto guesses = guess_of(0.3f);
   moments(90, kGuarded, *guesses, everywhere(0.3f));
@@ -118,7 +120,8 @@ TEST_F(GuessGuards, DoNotWaitForASecondWhereTheNearerGuessesAreWrong) {
   EXPECT_EQ(shown(3, *guesses).v[0], nearer) << "what is nearer than that is not concerned";
 }
 
-// A limb that a sensor loses for a frame is eleven radians away from where anyone would have guessed it.
+// A limb that a sensor loses for a frame is eleven radians away from where anyone would have
+// guessed it.
 TEST_F(GuessGuards, DoNotLetAFrameOfNonsenseOutweighADance) {
   constexpr std::size_t kLost = index_of(Bone::kLeftUpperLeg);
   auto guesses = guess_of(0.0f);

@@ -1,4 +1,4 @@
-#include "transformers/guess_proof.h"
+#include "transformers/predict/guess_proof.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "transformers/hold.h"
+#include "transformers/playout/hold.h"
 
 #include <gtest/gtest.h>
 

@@ -4,12 +4,13 @@
 #include <algorithm>
 
 #include "tests/transformers/predicted_dances.h"
-#include "transformers/dance_predictor.h"
+#include "transformers/predict/dance_predictor.h"
 
 namespace dance {
 namespace {
 
-// A sensor turns a leg right round for two frames, every second: that makes little of what was learned of it wrong.
+// A sensor turns a leg right round for two frames, every second: that makes little of what was
+// learned of it wrong.
 TEST(LostLimbs, ForgetsALimbThatASensorLostForAFrame) {
   const auto danced = salsa(2400);
   auto heard = danced;
@@ -63,7 +64,8 @@ TEST(LostLimbs, BelievesAtOnceWhereABoneIsThatWasNotSeen) {
   }
 }
 
-// A bone that stays where it seemed impossible is there, from the fifth frame on, and may come back from there at once.
+// A bone that stays where it seemed impossible is there, from the fifth frame on, and may come back
+// from there at once.
 TEST(LostLimbs, HoldsABoneNoLongerThanItTakesToBelieveIt) {
   const std::size_t leg = index_of(Bone::kLeftUpperLeg);
   auto dance = salsa(300);

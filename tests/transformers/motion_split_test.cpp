@@ -1,5 +1,6 @@
-// What comes again with each bar, told apart from the rest: how soon it follows, and that it never runs away.
-#include "transformers/motion_split.h"
+// What comes again with each bar, told apart from the rest: how soon it follows, and that it never
+// runs away.
+#include "transformers/style/motion_split.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 #include <numbers>
 
 #include "core/base/random.h"
-#include "transformers/rotation_vector.h"
+#include "core/motion/rotation_vector.h"
 
 namespace dance {
 namespace {
@@ -19,7 +20,8 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 // An arm that swings, pose by pose.
 class SwingingArm {
  public:
-  // The arm at `angle_rad`, at a position of the music, dt_s after the one before: what of it is periodic.
+  // The arm at `angle_rad`, at a position of the music, dt_s after the one before: what of it is
+  // periodic.
   float show(double angle_rad, double bars, double dt_s) {
     Pose pose;
     pose.R_PB[kSplitArm] = exp_rotation(Eigen::Vector3f(0.0f, 0.0f, static_cast<float>(angle_rad)));
@@ -80,8 +82,8 @@ TEST(MotionSplit, WhoStandsStillHasNothingPeriodicSoonAfter) {
                   [](float periodic, float) { ASSERT_LT(std::abs(periodic), 0.02f); });
 }
 
-// Fewer poses than a camera ever sends, fast music, and nothing but chance: what is missed counts again, and must not feed
-// itself.
+// Fewer poses than a camera ever sends, fast music, and nothing but chance: what is missed counts
+// again, and must not feed itself.
 TEST(MotionSplit, NoiseAtFewPosesNeverRunsAway) {
   for (const double hz : {10.0, 15.0, 30.0}) {
     Random random(3);
@@ -118,7 +120,8 @@ TEST(MotionSplit, WithoutMusicAllIsRestAndAnotherPlaceOfTheMusicBeginsAnew) {
     ASSERT_GT(arm.rest(), 0.1f);
   }
   bars = swing_for(arm, bars, 3.0, 0.3, kLooksAway);
-  // Somewhere else in the music, the swing the other way round: what was learnt there is not shown here.
+  // Somewhere else in the music, the swing the other way round: what was learnt there is not shown
+  // here.
   (void)swing_for(arm, bars + 0.5, 0.1, 0.3, kLooksAway);
   float missed = 0.0f;
   (void)swing_for(arm, bars + 0.6, 0.8, -0.3,

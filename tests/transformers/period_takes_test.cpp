@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "producers/clip_file.h"
-#include "transformers/period.h"
+#include "formats/bvh/clip_file.h"
+#include "transformers/tempo/period.h"
 
 namespace dance {
 namespace {

@@ -1,4 +1,4 @@
-#include "transformers/period.h"
+#include "transformers/tempo/period.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "producers/salsa_dancer.h"
+#include "producers/salsa/salsa_dancer.h"
 #include "tests/allocation_guard.h"
 
 namespace dance {
@@ -39,7 +39,8 @@ struct Salsa {
   SalsaDancer dancer;
 };
 
-// Root mean square of what is left when the mean is taken away, where the coherence allows to trust it.
+// Root mean square of what is left when the mean is taken away, where the coherence allows to trust
+// it.
 struct PhaseError {
   double rms_beats = 0.0;
   double trusted = 0.0;

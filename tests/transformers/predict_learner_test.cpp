@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "tests/transformers/predicted_dances.h"
-#include "transformers/dance_predictor.h"
+#include "transformers/predict/dance_predictor.h"
 
 namespace dance {
 namespace {

@@ -1,12 +1,14 @@
-// A model of prediction as a stranger would hand it over: what is let through predicts finite poses.
+// A model of prediction as a stranger would hand it over: what is let through predicts finite
+// poses.
 #include <algorithm>
 #include <memory>
 
 #include "core/base/assert.h"
-#include "transformers/dance_predictor.h"
+#include "transformers/predict/dance_predictor.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  // The input stands in for the beginning of a whole file: header, weights, dancers. Of 550 kB no mutation would be whole.
+  // The input stands in for the beginning of a whole file: header, weights, dancers. Of 550 kB no
+  // mutation would be whole.
   static const std::vector<std::uint8_t> kWhole =
       dance::write_predict_model(*dance::built_in_predict_model());
   const auto alone = dance::read_predict_model({data, size});

@@ -1,4 +1,4 @@
-#include "transformers/predict.h"
+#include "transformers/predict/predict.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "tests/allocation_guard.h"
 #include "tests/transformers/predicted_dances.h"
 #include "transformers/chain.h"
-#include "transformers/hold.h"
+#include "transformers/playout/hold.h"
 
 namespace dance {
 namespace {
@@ -29,7 +29,8 @@ TEST(Predict, ShowsTheDancerAsTheyAreNow) {
     ours += mean_angle_rad(out, dance[i]);
     raw += mean_angle_rad(dance[i - 6], dance[i]);
   }
-  // Corrections that die away, feet that stand and joints within their limits give a part of it back.
+  // Corrections that die away, feet that stand and joints within their limits give a part of it
+  // back.
   EXPECT_LT(ours, 0.8 * raw);
 }
 
@@ -73,7 +74,8 @@ TEST(Predict, WhoeverMakesGapsAllTheTimeCostsNoMoreThanADancer) {
   Predict station;
   const Pose pose = salsa(1)[0];
   MonoTime capture = pose.capture_time, now = capture;
-  // Nine tenths of a second between captures, six hundred of them a second: fifty rows each, if all were filled.
+  // Nine tenths of a second between captures, six hundred of them a second: fifty rows each, if all
+  // were filled.
   for (int i = 0; i < 6000; ++i) {
     capture += Duration::ms(900);
     now += Duration::us(1667);
@@ -85,8 +87,8 @@ TEST(Predict, WhoeverMakesGapsAllTheTimeCostsNoMoreThanADancer) {
   EXPECT_LT(station.rows_taken(), 6000u + 10u * 90u + 200u);
 }
 
-// A pose that comes late corrects what was shown without a pop: no step between two frames is much larger than the
-// dance's own.
+// A pose that comes late corrects what was shown without a pop: no step between two frames is much
+// larger than the dance's own.
 TEST(Predict, CorrectsWithoutAPop) {
   Predict station;
   const auto dance = shaken(salsa(1800), 0.004);

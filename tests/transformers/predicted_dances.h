@@ -1,5 +1,5 @@
-// Dances for the tests of prediction: the synthetic salsa dancer, one who stands, one who stops at once; still and seen
-// by a sensor that trembles.
+// Dances for the tests of prediction: the synthetic salsa dancer, one who stands, one who stops at
+// once; still and seen by a sensor that trembles.
 //
 // Units/frames: 60 poses a second, from 1 s on, of clock 1.
 // Ownership:    plain values.
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "producers/salsa_dancer.h"
-#include "transformers/rotation_vector.h"
+#include "core/motion/rotation_vector.h"
+#include "producers/salsa/salsa_dancer.h"
 
 namespace dance {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "producers/clip_file.h"
+#include "formats/bvh/clip_file.h"
 
 namespace dance {
 

@@ -4,11 +4,11 @@
 
 #include "core/base/beat_clock.h"
 #include "core/base/random.h"
-#include "transformers/beat_offset.h"
-#include "transformers/dance_line.h"
-#include "transformers/guess_meter.h"
-#include "transformers/play_head.h"
-#include "transformers/rhythm.h"
+#include "transformers/playout/play_head.h"
+#include "transformers/predict/guess_meter.h"
+#include "transformers/rhythm/beat_offset.h"
+#include "transformers/rhythm/dance_line.h"
+#include "transformers/rhythm/rhythm.h"
 
 namespace dance {
 namespace {
@@ -253,7 +253,8 @@ TEST(BeatOffset, KeepsTheBarWhereAskedTo) {
   EXPECT_GE(offset.value(), 0.4);
 }
 
-// One arm that swings: guesses that repeat the newest pose lag by their whole distance, those that know are right.
+// One arm that swings: guesses that repeat the newest pose lag by their whole distance, those that
+// know are right.
 Pose swing(double s) {
   Pose pose;
   pose.capture_time = second(s);
@@ -298,7 +299,8 @@ TEST(GuessMeter, LeadsByWhatGuessesLag) {
   EXPECT_EQ(GuessMeter().lead(Duration::ms(120)), Duration::ms(120)) << "unknown: as asked";
 }
 
-// 30 poses a second; pictures between the newest two, whose way is not known before the next one comes.
+// 30 poses a second; pictures between the newest two, whose way is not known before the next one
+// comes.
 TEST(Rhythm, WhatTheNextPoseChangesOfWhatWasShownGoesInWithoutAPop) {
   // A station that shows the moments of its poses at once.
   class Now : public Transformer {

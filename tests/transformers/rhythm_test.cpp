@@ -1,4 +1,4 @@
-#include "transformers/rhythm.h"
+#include "transformers/rhythm/rhythm.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/base/random.h"
 #include "core/pose/interpolate.h"
-#include "producers/salsa_dancer.h"
+#include "producers/salsa/salsa_dancer.h"
 #include "tests/allocation_guard.h"
 #include "transformers/chain.h"
 

@@ -1,12 +1,12 @@
 // Longer and shorter steps: what stands stays, hips go over it, and nobody is led away.
-#include "transformers/scaled_steps.h"
+#include "transformers/style/scaled_steps.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/transformers/on_its_feet.h"
+#include "tests/core/motion/on_its_feet.h"
 
 namespace dance {
 namespace {
@@ -21,7 +21,8 @@ void move_foot(BodyFrames& frames, std::size_t side, const Vector3f& by) {
   frames.p_WB_m[ankle_of(side) + 1] += by;
 }
 
-// Someone whose hips go on while their feet step after them, `stride_m` a step; every leg is scaled by half again.
+// Someone whose hips go on while their feet step after them, `stride_m` a step; every leg is scaled
+// by half again.
 class Walk {
  public:
   explicit Walk(float stride_m) : stride_m_(stride_m) {}

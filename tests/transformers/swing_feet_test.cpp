@@ -1,13 +1,13 @@
 // Which foot is on its way, and the mean that is kept.
-#include "transformers/swing_feet.h"
+#include "transformers/style/swing_feet.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/transformers/on_its_feet.h"
-#include "transformers/kept_mean.h"
+#include "tests/core/motion/on_its_feet.h"
+#include "transformers/style/kept_mean.h"
 
 namespace dance {
 namespace {

@@ -1,11 +1,11 @@
-#include "transformers/way_bounds.h"
+#include "transformers/predict/way_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "transformers/body_net.h"
+#include "transformers/predict/body_net.h"
 
 namespace dance {
 namespace {

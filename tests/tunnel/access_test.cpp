@@ -1,5 +1,5 @@
 // Who may do what, and listeners.
-#include "tunnel/access.h"
+#include "tunnel/server/access.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "tunnel/ack_window.h"
-#include "tunnel/held_frames.h"
-#include "tunnel/reference_policy.h"
-#include "tunnel/sent_ring.h"
+#include "tunnel/session/ack_window.h"
+#include "tunnel/session/held_frames.h"
+#include "tunnel/session/reference_policy.h"
+#include "tunnel/session/sent_ring.h"
 
 namespace dance {
 namespace {
@@ -168,7 +168,8 @@ TEST(SentRing, MeasuresLossThroughTheWrapOfItsNumbers) {
   EXPECT_NEAR(ring.loss().loss(), 0.05, 0.03);
 }
 
-// Feedback alone is not acknowledged: through a pause of the dance it would look like a way that is cut.
+// Feedback alone is not acknowledged: through a pause of the dance it would look like a way that is
+// cut.
 TEST(SentRing, WhatNobodyAnswersIsNotLost) {
   SentRing ring;
   AckWindow received;
@@ -239,8 +240,8 @@ TEST_F(Policy, TurnsToWhatReceiversHaveWhileTheyTellOfNothing) {
   EXPECT_EQ(policy.current(), References::kPrevious) << "the choice itself stands";
 }
 
-// Who misses what a frame refers to has it healed a round trip after the next that arrives. Losses of
-// Gilbert's two states: by themselves, or several in a row.
+// Who misses what a frame refers to has it healed a round trip after the next that arrives. Losses
+// of Gilbert's two states: by themselves, or several in a row.
 TEST_F(Policy, OfWhatArrivesNearlyAllDecodesWhateverTheLine) {
   Random random(7);
   for (const double burst : {1.0, 3.0}) {

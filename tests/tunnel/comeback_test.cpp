@@ -154,7 +154,8 @@ TEST(Comeback, WhatFirstComesThroughALineThatWasCutIsAPose) {
   EXPECT_GT(b.heard_of(guest("alice")), before);
 }
 
-// What is still under way from the old session looks as if it stood, until its successor's welcome comes.
+// What is still under way from the old session looks as if it stood, until its successor's welcome
+// comes.
 TEST(Comeback, TheOldSessionsLastDatagramsDoNotHideTheNewOne) {
   SimulatedTunnel tunnel;
   auto& a = tunnel.add_house("salsa", {"alice"});
@@ -185,7 +186,8 @@ TEST(Comeback, TheOldSessionsLastDatagramsDoNotHideTheNewOne) {
   EXPECT_GE(b.heard_of(guest("alice")), before + 60);
 }
 
-// Until its welcome comes, a link dances on in the session before, where its guests had other slots.
+// Until its welcome comes, a link dances on in the session before, where its guests had other
+// slots.
 TEST(Comeback, NobodyDancesAsSomebodyElseOfTheHouse) {
   SimulatedTunnel tunnel;
   ASSERT_TRUE(tunnel.link_options.codecs.try_push({CodecId::kPlain, 0}));
@@ -235,7 +237,8 @@ TEST(Comeback, AfterACutThatEndedTheSessionTheDanceIsBackSoonWheneverTheWayIs) {
     ASSERT_EQ(tunnel.server().session_count(), 1u);
     a.is_cut = false;
     const auto at_a = a.heard_of(guest("bob")), at_b = b.heard_of(guest("alice"));
-    // Until it asks again, and four round trips of 20 ms: asking, roster and proportions, a key frame.
+    // Until it asks again, and four round trips of 20 ms: asking, roster and proportions, a key
+    // frame.
     dance.run(Duration::ms(250 + 4 * 20));
     EXPECT_GT(a.heard_of(guest("bob")), at_a) << cut_ms;
     EXPECT_GT(b.heard_of(guest("alice")), at_b) << cut_ms;

@@ -2,8 +2,8 @@
 // pose each way, then datagrams as the input says. The scene is the same every time, random numbers
 // included, so that the corpus's datagrams belong to it.
 //
-// Units/frames: a script is a row of steps: a byte (low 2 bits: which peer; high 4 bits: tenths of a
-//               second that pass first), a length of 16 bits (little-endian), the datagram.
+// Units/frames: a script is a row of steps: a byte (low 2 bits: which peer; high 4 bits: tenths of
+//               a second that pass first), a length of 16 bits (little-endian), the datagram.
 // Ownership:    looks at the caller's bytes.
 // Threads:      none.
 // Failure:      a script that ends in the middle ends there.

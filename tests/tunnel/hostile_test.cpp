@@ -1,4 +1,5 @@
-// What damage, and peers who mean ill, can do to a server and to a link: be counted, and nothing else.
+// What damage, and peers who mean ill, can do to a server and to a link: be counted, and nothing
+// else.
 #include <gtest/gtest.h>
 
 #include "tests/tunnel/simulated_tunnel.h"

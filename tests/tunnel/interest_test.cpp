@@ -1,5 +1,5 @@
 // Links that want less than all: who gets what, that it decodes, and what it costs the others.
-#include "tunnel/interest.h"
+#include "tunnel/session/interest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// Who may dance under which name: taken names, guests who come with their first pose, and go with their producer.
+// Who may dance under which name: taken names, guests who come with their first pose, and go with
+// their producer.
 #include <gtest/gtest.h>
 
 #include "tests/tunnel/simulated_tunnel.h"

@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/net/lossy_proxy.h"
 #include "core/net/mono_clock.h"
+#include "testing/line/lossy_proxy.h"
 #include "tests/tunnel/simulated_tunnel.h"
-#include "tunnel/link.h"
-#include "tunnel/link_report.h"
-#include "tunnel/server.h"
+#include "tunnel/link/link.h"
+#include "tunnel/link/link_report.h"
+#include "tunnel/server/server.h"
 
 namespace dance {
 namespace {
@@ -241,8 +241,8 @@ TEST_F(Loopback, SessionsStandThroughALineThatLosesAThird) {
   const auto stats = b->remote_stats();
   ASSERT_EQ(stats.size(), 1u);
   EXPECT_GT(stats[0].lost, 0u);
-  // Some refer to what was lost. One that the server keeps may fail, be said again, and then decode;
-  // none goes without a trace.
+  // Some refer to what was lost. One that the server keeps may fail, be said again, and then
+  // decode; none goes without a trace.
   const std::uint64_t failed =
       stats[0].reference_missing + stats[0].skeleton_missing + stats[0].invalid;
   EXPECT_LE(stats[0].received, heard + failed);

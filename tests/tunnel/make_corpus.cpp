@@ -1,5 +1,5 @@
-// Writes the seeds of the fuzz targets from real encodings: `make_corpus tests` from the root of the
-// tree, after a change of the wire format or the codec. Not built unless asked for by name.
+// Writes the seeds of the fuzz targets from real encodings: `make_corpus tests` from the root of
+// the tree, after a change of the wire format or the codec. Not built unless asked for by name.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "tunnel/wire_records.h"
+#include "tunnel/wire/wire_records.h"
 
 namespace dance::wire {
 namespace {

@@ -89,8 +89,8 @@ TEST_F(ReferencesTest, ANewcomerDecodesWithinARoundTripOverItsSender) {
   dance.run(Duration::s(2));
   const int before = log(0).key_frames_wanted;
   House& c = add({"carol"});
-  // With the hello, 5 ms, the newcomer is known. To the sender 5 ms, up to a frame, to the server 5 ms,
-  // down 5 ms.
+  // With the hello, 5 ms, the newcomer is known. To the sender 5 ms, up to a frame, to the server 5
+  // ms, down 5 ms.
   dance.run(Duration::ms(1 + 5 + 5 + 17 + 5 + 5));
   EXPECT_GE(c.heard_of(guest("alice")), 1u);
   EXPECT_EQ(log(0).key_frames_wanted, before + 1) << "one, not many";

@@ -15,7 +15,7 @@
 #include "core/base/byte_writer.h"
 #include "core/base/sequence.h"
 #include "core/codec/plain_codec.h"
-#include "tunnel/link_options.h"
+#include "tunnel/link/link_options.h"
 
 namespace dance {
 

@@ -1,5 +1,5 @@
 // Poses that go once more where a way loses some.
-#include "tunnel/repetition.h"
+#include "tunnel/session/repetition.h"
 
 #include <gtest/gtest.h>
 

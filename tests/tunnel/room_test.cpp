@@ -79,8 +79,8 @@ TEST_F(LatticeRoom, ANewcomerDecodesEverybodyWithinARoundTripOverTheSenders) {
   tunnel.link_options.key_frame_period = Duration();
   House& newcomer = add("carol", 1.63f);
   const LinkCounters before = sum();
-  // Hello and welcome 10 ms, the ping 5 ms: the newcomer is known. To the senders 5 ms, which are told
-  // with what waits for them, up to a frame, to the server 5 ms, down 5 ms.
+  // Hello and welcome 10 ms, the ping 5 ms: the newcomer is known. To the senders 5 ms, which are
+  // told with what waits for them, up to a frame, to the server 5 ms, down 5 ms.
   dance.run(Duration::ms(1 + 10 + 5 + 5 + 1 + 17 + 5 + 5));
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_GE(newcomer.heard_of(dance.dancers[i].second), 1u) << i;
@@ -101,7 +101,8 @@ TEST_F(LatticeRoom, WhoeverBeginsToDanceIsSeenFromTheFirstPoseOn) {
     houses.push_back(&tunnel.add_house("salsa", {"late-" + std::to_string(i)}));
   dance.run(Duration::ms(200));
   const LinkCounters before = sum();
-  // A producer says the proportions, and dances at once; one dancer a few milliseconds after the other.
+  // A producer says the proportions, and dances at once; one dancer a few milliseconds after the
+  // other.
   for (int ms = 0; ms < 100; ++ms) {
     for (int i = 0; i < 8; ++i) {
       const std::string name = "late-" + std::to_string(i);

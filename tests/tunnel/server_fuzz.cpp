@@ -1,5 +1,5 @@
-// Datagrams at a server: of its two links, and of peers without a session yet, of whom one's key opens one room for one
-// name.
+// Datagrams at a server: of its two links, and of peers without a session yet, of whom one's key
+// opens one room for one name.
 #include "tests/tunnel/datagram_script.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

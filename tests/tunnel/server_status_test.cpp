@@ -1,5 +1,5 @@
 // What the server tells of itself, against what really passes through a simulated tunnel.
-#include "tunnel/server_status.h"
+#include "tunnel/server/server_status.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "tests/allocation_guard.h"
 #include "tests/tunnel/simulated_tunnel.h"
-#include "tunnel/arrival_jitter.h"
-#include "tunnel/server_metrics.h"
+#include "tunnel/server/server_metrics.h"
+#include "tunnel/session/arrival_jitter.h"
 
 namespace dance {
 namespace {

@@ -87,8 +87,8 @@ class BriefCodec final : public PoseEncoder, public PoseDecoder {
   void set_skeleton(const Skeleton&) override {}
 };
 
-// What one of thirty hears in a second at 60 Hz, with the seal and the headers of IP and UDP. `phases`: in how many
-// milliseconds of a frame the others dance.
+// What one of thirty hears in a second at 60 Hz, with the seal and the headers of IP and UDP.
+// `phases`: in how many milliseconds of a frame the others dance.
 double heard_kB_per_s(std::size_t phases) {
   SimulatedTunnel tunnel;
   if (!tunnel.link_options.codecs.try_push(kReferring)) std::abort();

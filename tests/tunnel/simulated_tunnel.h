@@ -1,7 +1,7 @@
 // A server, houses and the lines between them without sockets and without waiting: time passes when
-// the test says so, each house has a clock of its own, and lines can be slow or cut. Sealed sessions
-// are only played: a house has one at once when it begins, and a new one when the server does not
-// know the one it had.
+// the test says so, each house has a clock of its own, and lines can be slow or cut. Sealed
+// sessions are only played: a house has one at once when it begins, and a new one when the server
+// does not know the one it had.
 //
 // Units/frames: now() is the server's clock; a house's clock is now() + its clock_ahead.
 // Ownership:    owns everything.
@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "tunnel/link_core.h"
-#include "tunnel/server_core.h"
+#include "tunnel/link/link_core.h"
+#include "tunnel/server/server_core.h"
 
 namespace dance {
 

@@ -1,7 +1,7 @@
-// Hours of dancing in minutes: houses that come, go, are cut off and come back at random, clocks that
-// run apart, lines that change, a server that is started anew; and nothing grows, drifts or gets stuck.
-// DANCE_SOAK_MINUTES says how long it lasts in the dancers' time; an hour where it is not set, which lets
-// every 16-bit number go round.
+// Hours of dancing in minutes: houses that come, go, are cut off and come back at random, clocks
+// that run apart, lines that change, a server that is started anew; and nothing grows, drifts or
+// gets stuck. DANCE_SOAK_MINUTES says how long it lasts in the dancers' time; an hour where it is
+// not set, which lets every 16-bit number go round.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -159,8 +159,8 @@ TEST_F(Soak, NothingGrowsDriftsOrGetsStuck) {
       EXPECT_LT(used, used_early + 300'000) << "in minute " << minute;
     }
   }
-  // Nobody knows the asymmetry of a line: half of what delays can differ by, and a way's change that
-  // the mapping has not seen yet.
+  // Nobody knows the asymmetry of a line: half of what delays can differ by, and a way's change
+  // that the mapping has not seen yet.
   EXPECT_LT(worst_error, Duration::ms(85));
   // When nothing happens any more everybody is there again.
   for (Dancer& dancer : dancers) {

@@ -1,10 +1,10 @@
-#include "tunnel/stream_gate.h"
+#include "tunnel/session/stream_gate.h"
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
 #include "core/base/token_bucket.h"
-#include "tunnel/link_guests.h"
+#include "tunnel/link/link_guests.h"
 
 namespace dance {
 namespace {

@@ -1,4 +1,4 @@
-#include "tunnel/wire_state.h"
+#include "tunnel/wire/wire_state.h"
 
 #include <gtest/gtest.h>
 

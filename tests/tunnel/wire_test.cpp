@@ -1,4 +1,4 @@
-#include "tunnel/wire.h"
+#include "tunnel/wire/wire.h"
 
 #include <gtest/gtest.h>
 

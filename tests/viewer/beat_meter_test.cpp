@@ -1,4 +1,4 @@
-#include "viewer/beat_meter.h"
+#include "viewer/draw/beat_meter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/camera_rig.h"
+#include "viewer/program/camera_rig.h"
 
 #include <gtest/gtest.h>
 

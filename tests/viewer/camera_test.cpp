@@ -1,4 +1,4 @@
-#include "viewer/camera.h"
+#include "viewer/draw/camera.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/comparison.h"
+#include "viewer/draw/comparison.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "viewer/guest_board.h"
+#include "viewer/program/guest_board.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "tests/allocation_guard.h"
-#include "viewer/stage_roster.h"
+#include "viewer/program/stage_roster.h"
 
 namespace dance {
 namespace {

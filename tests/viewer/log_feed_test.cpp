@@ -1,5 +1,5 @@
 // A recorded house, looked at as late as one likes.
-#include "viewer/log_feed.h"
+#include "viewer/program/log_feed.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/bus/encode.h"
-#include "viewer/stage_roster.h"
+#include "viewer/program/stage_roster.h"
 
 namespace dance {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
-#include "viewer/guest_look.h"
-#include "viewer/offscreen.h"
-#include "viewer/stage_painter.h"
+#include "viewer/draw/guest_look.h"
+#include "viewer/draw/offscreen.h"
+#include "viewer/draw/stage_painter.h"
 
 namespace dance {
 namespace {

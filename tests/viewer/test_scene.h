@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/pose/kinematics.h"
-#include "viewer/scene.h"
+#include "viewer/draw/scene.h"
 
 namespace dance {
 

@@ -1,4 +1,4 @@
-#include "viewer/view_options.h"
+#include "viewer/program/view_options.h"
 
 #include <gtest/gtest.h>
 

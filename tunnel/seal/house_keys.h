@@ -42,8 +42,8 @@ class HouseKeys {
   // Replaces the one of the same name, server and room.
   void put(const HouseKey& key);
   bool remove(std::string_view title);
-  // The one to show a server (HOST:PORT): a key of that server before one of any, one that opens the
-  // room only before one of all rooms, one in whose name the first guest can go before another.
+  // The one to show a server (HOST:PORT): a key of that server before one of any, one that opens
+  // the room only before one of all rooms, one in whose name the first guest can go before another.
   // nullptr: none.
   const HouseKey* find(std::string_view server, const GuestId& room, const GuestId& guest) const;
   const std::vector<HouseKey>& keys() const { return keys_; }

@@ -4,8 +4,8 @@
 // Units/frames: none.
 // Ownership:    plain values; wiped when they go.
 // Threads:      none inside.
-// Failure:      parse() gives nullopt for anything that text() never writes; make() panics only where
-//               the kernel has no random numbers.
+// Failure:      parse() gives nullopt for anything that text() never writes; make() panics only
+//               where the kernel has no random numbers.
 #pragma once
 
 #include <array>

@@ -1,12 +1,12 @@
-// One sealed session, from its first handshake datagram to its end: datagrams in, plaintext out, and
-// back. What OpenSSL wants to send goes to the sink, framed with the session's id.
+// One sealed session, from its first handshake datagram to its end: datagrams in, plaintext out,
+// and back. What OpenSSL wants to send goes to the sink, framed with the session's id.
 //
 // Units/frames: whole datagrams as in tunnel/seal/seal_format.h; plaintexts of at most kMaxPlain.
 // Ownership:    owns the OpenSSL object and its buffers; the context and the sink must outlive it.
 //               Sealing and opening allocate nothing.
 // Threads:      none inside; one owner.
-// Failure:      open() gives nullopt for what is not authentic or comes twice; handshake() tells how
-//               it ended.
+// Failure:      open() gives nullopt for what is not authentic or comes twice; handshake() tells
+//               how it ended.
 #pragma once
 
 #include <array>

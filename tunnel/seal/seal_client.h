@@ -1,12 +1,12 @@
-// A link's way to its server's door: makes the sealed session, keeps it, and makes another beside it
-// when the server no longer knows it or is silent. Plaintext in, sealed datagrams out; and back.
+// A link's way to its server's door: makes the sealed session, keeps it, and makes another beside
+// it when the server no longer knows it or is silent. Plaintext in, sealed datagrams out; and back.
 //
 // Units/frames: MonoTime of this house's clock.
 // Ownership:    owns context and sessions; the sink and what the handlers refer to must outlive it.
 //               Opening and sealing allocate nothing.
 // Threads:      none inside; one owner.
-// Failure:      make_…() as SealContext; what is not authentic is counted and dropped; why there is no
-//               session is told by on_trouble, again with each try.
+// Failure:      make_…() as SealContext; what is not authentic is counted and dropped; why there is
+//               no session is told by on_trouble, again with each try.
 #pragma once
 
 #include <cstdint>

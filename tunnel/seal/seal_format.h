@@ -72,8 +72,8 @@ void write_record_header(std::uint64_t sequence, std::size_t body, std::span<std
 std::optional<Bytes> cookie_of(Bytes records);
 
 // What the two ends of the seal tell each other within it: the first byte of a plaintext is one of
-// these only there. A server asks a new address whether its peer hears there, and the peer gives the
-// eight bytes back.
+// these only there. A server asks a new address whether its peer hears there, and the peer gives
+// the eight bytes back.
 constexpr std::uint8_t kPathQuestion = 0xf0;
 constexpr std::uint8_t kPathAnswer = 0xf1;
 constexpr std::size_t kPathBytes = 1 + 8;

@@ -197,8 +197,8 @@ bool SealServer::make_place(const KeyEntry& key, MonoTime now) {
   return true;
 }
 
-// One network has so many under way and no more; where all places are taken, the oldest of the network
-// that has most makes room.
+// One network has so many under way and no more; where all places are taken, the oldest of the
+// network that has most makes room.
 bool SealServer::make_handshake_place(const Address& from) {
   const auto of = [this](const Address& address) {
     return std::count_if(handshakes_.begin(), handshakes_.end(), [&](const Handshake& h) {

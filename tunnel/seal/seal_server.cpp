@@ -117,8 +117,8 @@ void SealServer::on_compact(const Address& from, const seal::Opening& opening, M
   handlers_.on_datagram(opening.id, peer.key, plain, received, now);
 }
 
-// To another address the peer goes on at once, and hears at most three times what it says until it has
-// shown that it hears there: else any guest could aim a room's poses at anybody.
+// To another address the peer goes on at once, and hears at most three times what it says until it
+// has shown that it hears there: else any guest could aim a room's poses at anybody.
 bool SealServer::on_moved(Peer& peer, const Address& from) {
   if (peer.key.is_local && !from.is_loopback()) {
     reject(SealReject::kNotLocal);

@@ -1,5 +1,5 @@
-// So many a second for each network that asks, and for all of them together: one noisy stranger does
-// not use up what the others may have.
+// So many a second for each network that asks, and for all of them together: one noisy stranger
+// does not use up what the others may have.
 //
 // Units/frames: tokens are whatever is counted.
 // Ownership:    a table of fixed size; networks that fall on one place of it share its tokens.

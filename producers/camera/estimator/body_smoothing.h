@@ -1,9 +1,11 @@
-// BodySmoothing: takes the tremble out of what the network sees, as MediaPipe does, at the cost of some delay in slow motion.
+// BodySmoothing: takes the tremble out of what the network sees, as MediaPipe does, at the cost of
+// some delay in slow motion.
 //
 // Units/frames: as producers/camera/estimator/landmark_network.h says.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      none; a time that is not later than the last one changes nothing in the filters and smooths nothing.
+// Failure:      none; a time that is not later than the last one changes nothing in the filters and
+//               smooths nothing.
 // Source:       settings of the filters: MediaPipe's graph of pose landmark filtering.
 #pragma once
 
@@ -18,7 +20,8 @@ namespace dance {
 
 class BodySmoothing {
  public:
-  // With `only_region` the points are left as they are; where the body is looked for next is always steadied.
+  // With `only_region` the points are left as they are; where the body is looked for next is always
+  // steadied.
   void smooth(MonoTime now, bool only_region, SeenBody& body);
   void reset();
 

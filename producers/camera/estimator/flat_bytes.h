@@ -1,10 +1,11 @@
-// Reads FlatBuffers, the format that .tflite files are written in: tables that name their fields by number, vectors, text.
+// Reads FlatBuffers, the format that .tflite files are written in: tables that name their fields by
+// number, vectors, text.
 //
 // Units/frames: little-endian; places are offsets from the file's first byte.
 // Ownership:    looks at the caller's bytes, which must outlive what is read of them.
 // Threads:      none inside.
-// Failure:      a read that would leave the file sets the file's flag and gives 0, an absent table or an empty vector; ok() is then false
-//               and stays so. Nothing is allocated.
+// Failure:      a read that would leave the file sets the file's flag and gives 0, an absent table
+//               or an empty vector; ok() is then false and stays so. Nothing is allocated.
 // Source:       the FlatBuffers binary format (internals page of its documentation).
 #pragma once
 

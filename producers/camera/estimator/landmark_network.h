@@ -1,10 +1,13 @@
 // LandmarkNetwork: the points of the body of one person, within the region where that person is.
 //
-// Units/frames: as producers/camera/body_landmarks.h says; pixels as producers/camera/estimator/region_sampler.h has them.
+// Units/frames: as producers/camera/body_landmarks.h says; pixels as
+//               producers/camera/estimator/region_sampler.h has them.
 // Ownership:    owns its network and its memory; after make() it allocates nothing of its own.
 // Threads:      one owner.
-// Failure:      make() gives an Error. read() is false where the network refuses to run or makes what is no number.
-// Source:       BlazePose GHUM 3D: the models pose_landmark_{lite,full,heavy}.tflite and what belongs to their numbers.
+// Failure:      make() gives an Error. read() is false where the network refuses to run or makes
+//               what is no number.
+// Source:       BlazePose GHUM 3D: the models pose_landmark_{lite,full,heavy}.tflite and what
+//               belongs to their numbers.
 #pragma once
 
 #include <array>

@@ -20,7 +20,8 @@ struct OneEuroSetting {
 
 class OneEuro {
  public:
-  // `hz`: one over the time since the last number. `scale` makes speeds of large and small things alike.
+  // `hz`: one over the time since the last number. `scale` makes speeds of large and small things
+  // alike.
   float next(float value, double hz, double scale, const OneEuroSetting& setting) {
     if (!has_last_) {
       has_last_ = true;

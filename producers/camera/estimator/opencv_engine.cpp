@@ -25,7 +25,8 @@ class OpenCvEngine final : public PoseEngine {
   }
 
  private:
-  // A layer, and the tensor that it makes: which lies as in the file, or, of pictures, channels first.
+  // A layer, and the tensor that it makes: which lies as in the file, or, of pictures, channels
+  // first.
   void add(LayerParams& layer, const char* type, const std::vector<int>& from);
   int made(int tensor) const { return made_.at(tensor); }
   void add_node(const PoseGraph& graph, const GraphNode& node);
@@ -235,7 +236,8 @@ bool OpenCvEngine::run() {
 }  // namespace
 
 Result<std::unique_ptr<PoseEngine>> make_opencv_engine(const PoseGraph& graph) {
-  // The cores belong to network, music and display; with more threads than one it is little faster on a busy machine.
+  // The cores belong to network, music and display; with more threads than one it is little faster
+  // on a busy machine.
   cv::setNumThreads(1);
   try {
     std::unique_ptr<PoseEngine> engine = std::make_unique<OpenCvEngine>(graph);

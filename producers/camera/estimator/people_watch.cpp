@@ -5,8 +5,8 @@
 namespace dance {
 namespace {
 
-// In sides of the region of the one who is followed, which are about one and a half times a body's height. A detection nearer than this is
-// that one's own.
+// In sides of the region of the one who is followed, which are about one and a half times a body's
+// height. A detection nearer than this is that one's own.
 constexpr float kSame_sides = 0.12f;
 // Who comes as near as this is met; who is as far as this has parted.
 constexpr float kMeet_sides = 0.2f;

@@ -1,5 +1,6 @@
-// PeopleWatch: whether the one who is followed is still the same after somebody crossed in front. It remembers how everybody moved before
-// they met; once they have parted, whoever stands where the one who is followed would be by that motion is the one.
+// PeopleWatch: whether the one who is followed is still the same after somebody crossed in front.
+// It remembers how everybody moved before they met; once they have parted, whoever stands where the
+// one who is followed would be by that motion is the one.
 //
 // Units/frames: regions in pixels; times are those of the frames.
 // Ownership:    plain value, no heap.
@@ -23,8 +24,8 @@ class PeopleWatch {
   static constexpr Duration kInCompany = Duration::ms(200);
 
   bool is_due(MonoTime now) const;
-  // Everybody in the picture, and the region of the one who is followed. Gives the region of the one who is to be followed from now on,
-  // where that is somebody else.
+  // Everybody in the picture, and the region of the one who is followed. Gives the region of the
+  // one who is to be followed from now on, where that is somebody else.
   std::optional<BodyRegion> look(std::span<const SeenPerson> people, const BodyRegion& followed,
                                  MonoTime now);
   // The one who is followed was lost, maybe behind somebody.

@@ -73,7 +73,8 @@ void PersonDetector::decode(float least_score) {
             [](const Guess& a, const Guess& b) { return a.score > b.score; });
 }
 
-// Those that mean the same person as the first one left, weighed by their scores; they are no longer there afterwards.
+// Those that mean the same person as the first one left, weighed by their scores; they are no
+// longer there afterwards.
 PersonDetector::Guess PersonDetector::merge(std::size_t first) {
   const Guess best = guesses_[first];
   Guess merged = best;

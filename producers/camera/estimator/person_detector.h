@@ -1,10 +1,14 @@
-// PersonDetector: finds people in a whole picture: where their hips are, how large they are and how they are turned.
+// PersonDetector: finds people in a whole picture: where their hips are, how large they are and how
+// they are turned.
 //
-// Units/frames: pixels of the whole picture as producers/camera/estimator/region_sampler.h has them.
+// Units/frames: pixels of the whole picture as producers/camera/estimator/region_sampler.h has
+//               them.
 // Ownership:    owns its network and its memory; after make() it allocates nothing of its own.
 // Threads:      one owner.
-// Failure:      make() gives an Error; a picture in which the network refuses to run has nobody in it.
-// Source:       BlazePose (Bazarevsky et al. 2020) and its model pose_detection.tflite: anchors, decoding, weighted suppression.
+// Failure:      make() gives an Error; a picture in which the network refuses to run has nobody in
+//               it.
+// Source:       BlazePose (Bazarevsky et al. 2020) and its model pose_detection.tflite: anchors,
+//               decoding, weighted suppression.
 #pragma once
 
 #include <array>

@@ -6,8 +6,9 @@
 namespace dance {
 namespace {
 
-// In sides of the region, which are about one and a half times a body's height: how far the middle of the hips may be from where it is
-// expected, at once and for each second since the last picture. Half of it is what the fastest dancers do.
+// In sides of the region, which are about one and a half times a body's height: how far the middle
+// of the hips may be from where it is expected, at once and for each second since the last picture.
+// Half of it is what the fastest dancers do.
 constexpr float kJump_sides = 0.15f;
 constexpr float kJump_sides_per_s = 2.0f;
 constexpr float kGrowth = 1.5f;

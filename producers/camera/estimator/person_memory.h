@@ -1,5 +1,5 @@
-// PersonMemory: which of several people is the one who is followed. It knows where that person was last and how fast, and says whether
-// what is seen now can be the same body.
+// PersonMemory: which of several people is the one who is followed. It knows where that person was
+// last and how fast, and says whether what is seen now can be the same body.
 //
 // Units/frames: regions in pixels; times are those of the frames.
 // Ownership:    plain value, no heap.
@@ -19,7 +19,8 @@ struct FollowOptions {
   enum class Choice { kSurest, kLargest, kNearest };
   Choice choice = Choice::kSurest;
   Eigen::Vector2f place_px = Eigen::Vector2f::Zero();  // of kNearest
-  // So long after a loss whoever is nearest in place and size to the lost one comes first; 0: nobody does.
+  // So long after a loss whoever is nearest in place and size to the lost one comes first; 0:
+  // nobody does.
   Duration remembers = Duration::s(3);
   bool refuses_jumps = true;
   // Looks now and then at the whole picture, to notice who crosses: PeopleWatch.

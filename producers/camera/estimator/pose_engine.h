@@ -1,11 +1,12 @@
-// PoseEngine: runs a network on one picture. There are two: XNNPACK where it is built in, and OpenCV's own everywhere; both compute the
-// same numbers up to rounding.
+// PoseEngine: runs a network on one picture. There are two: XNNPACK where it is built in, and
+// OpenCV's own everywhere; both compute the same numbers up to rounding.
 //
-// Units/frames: input and outputs lie as producers/camera/estimator/pose_graph.h says, one batch: rows, columns, channels.
+// Units/frames: input and outputs lie as producers/camera/estimator/pose_graph.h says, one batch:
+//               rows, columns, channels.
 // Ownership:    owns its memory; input() and output() stay where they are.
 // Threads:      one owner; runs on the caller's thread alone.
-// Failure:      making one gives an Error; run() is false where the engine refuses, and the outputs are then not to be read. run()
-//               allocates nothing of ours.
+// Failure:      making one gives an Error; run() is false where the engine refuses, and the outputs
+//               are then not to be read. run() allocates nothing of ours.
 #pragma once
 
 #include <cstddef>

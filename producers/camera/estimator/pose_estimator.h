@@ -1,12 +1,15 @@
-// PoseEstimator: from pictures to the points of one dancer's body. It searches the whole picture until it has somebody, follows that
-// person from picture to picture, and searches again when the person is lost.
+// PoseEstimator: from pictures to the points of one dancer's body. It searches the whole picture
+// until it has somebody, follows that person from picture to picture, and searches again when the
+// person is lost.
 //
 // Units/frames: as producers/camera/body_landmarks.h says; times are those of the frames.
 // Ownership:    owns networks and memory. What estimate() returns is good until the next call.
 // Threads:      one owner; computes on the caller's thread alone.
-// Failure:      open() names the file that is missing or damaged, and the cure. A picture without anybody, a black one or one that is no
-//               picture has found == false. In one call it runs each network at most once.
-// Source:       the order of steps: BlazePose (Bazarevsky et al. 2020) and MediaPipe's graph of pose landmarks.
+// Failure:      open() names the file that is missing or damaged, and the cure. A picture without
+//               anybody, a black one or one that is no picture has found == false. In one call it
+//               runs each network at most once.
+// Source:       the order of steps: BlazePose (Bazarevsky et al. 2020) and MediaPipe's graph of
+//               pose landmarks.
 #pragma once
 
 #include <cstdint>

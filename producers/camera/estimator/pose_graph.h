@@ -1,11 +1,14 @@
-// PoseGraph: a neural network as the engines run it: tensors, and the few operations that the pose networks are made of, in the order in
-// which they are computed. What a file leaves to be worked out (SAME padding, half-precision and sparse weights) is worked out here.
+// PoseGraph: a neural network as the engines run it: tensors, and the few operations that the pose
+// networks are made of, in the order in which they are computed. What a file leaves to be worked
+// out (SAME padding, half-precision and sparse weights) is worked out here.
 //
-// Units/frames: tensors of four dimensions are batch (1), rows, columns, channels; weights of a convolution are output channel, row, column,
-//               input channel; of a depthwise one 1, row, column, channel.
+// Units/frames: tensors of four dimensions are batch (1), rows, columns, channels; weights of a
+//               convolution are output channel, row, column, input channel; of a depthwise one 1,
+//               row, column, channel.
 // Ownership:    owns its numbers.
 // Threads:      none inside.
-// Failure:      none; who makes one checks it: every shape follows from those before it, every index is in range.
+// Failure:      none; who makes one checks it: every shape follows from those before it, every
+//               index is in range.
 #pragma once
 
 #include <array>

@@ -34,7 +34,8 @@ Colour colour_of(std::uint32_t red_green_blue) {
   return __builtin_convertvector(bytes, Colour);
 #endif
 }
-// Both read four bytes, of which three are the pixel's: one takes the one behind it, the other the one before.
+// Both read four bytes, of which three are the pixel's: one takes the one behind it, the other the
+// one before.
 Colour pixel_before_another(const std::uint8_t* pixel) {
   std::uint32_t word;
   std::memcpy(&word, pixel, sizeof word);

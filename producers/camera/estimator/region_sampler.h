@@ -1,7 +1,9 @@
-// Takes a turned square out of a picture, as the networks want to see it: rows of red, green, blue in a range of their own, read between
-// the pixels in single precision. OpenCV's own warp rounds places to 1/32 pixel, which shows in the landmarks.
+// Takes a turned square out of a picture, as the networks want to see it: rows of red, green, blue
+// in a range of their own, read between the pixels in single precision. OpenCV's own warp rounds
+// places to 1/32 pixel, which shows in the landmarks.
 //
-// Units/frames: places in pixels, (0, 0) the left upper corner of the left upper pixel, whose middle is (0.5, 0.5).
+// Units/frames: places in pixels, (0, 0) the left upper corner of the left upper pixel, whose
+//               middle is (0.5, 0.5).
 // Ownership:    reads the picture, writes the caller's numbers; allocates nothing.
 // Threads:      none inside.
 // Failure:      none; the picture has three bytes a pixel and at least one pixel.
@@ -24,7 +26,8 @@ inline Eigen::Vector2f centre_of(const BodyRegion& region) {
   return {region.centre_x_px, region.centre_y_px};
 }
 
-// The region whose middle is `middle`, and whose upper edge `edge` says together with the size: how the networks name a body.
+// The region whose middle is `middle`, and whose upper edge `edge` says together with the size: how
+// the networks name a body.
 BodyRegion region_of(const Eigen::Vector2f& middle_px, const Eigen::Vector2f& edge_px);
 
 }  // namespace dance

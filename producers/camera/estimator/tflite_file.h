@@ -1,11 +1,11 @@
-// Reads a network from a .tflite file: those operations of TensorFlow Lite that the pose networks use, with weights in single or half
-// precision, dense or sparse.
+// Reads a network from a .tflite file: those operations of TensorFlow Lite that the pose networks
+// use, with weights in single or half precision, dense or sparse.
 //
 // Units/frames: as producers/camera/estimator/pose_graph.h says.
 // Ownership:    the graph owns its numbers; the bytes are not needed afterwards.
 // Threads:      none inside.
-// Failure:      an Error says which part of the file is wrong or not known here. Memory is bounded (64 MiB of weights), and so is time,
-//               whatever the bytes are.
+// Failure:      an Error says which part of the file is wrong or not known here. Memory is bounded
+//               (64 MiB of weights), and so is time, whatever the bytes are.
 // Source:       the schema of TensorFlow Lite, version 3.
 #pragma once
 

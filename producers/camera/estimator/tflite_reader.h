@@ -1,4 +1,5 @@
-// What stands behind parse_tflite(): walks the tables of one file and builds the graph, operation by operation.
+// What stands behind parse_tflite(): walks the tables of one file and builds the graph, operation
+// by operation.
 //
 // Units/frames: as producers/camera/estimator/pose_graph.h says.
 // Ownership:    looks at the file's bytes; the graph that it returns owns its numbers.
@@ -57,7 +58,8 @@ class TfliteReader {
   Done take_plain(const Operator& op, GraphOp kind);
 
   Done set_activation(GraphNode& node, int activation) const;
-  // Where the window of kernel and stride goes over rows or columns: what is added before and after them, and how often it fits.
+  // Where the window of kernel and stride goes over rows or columns: what is added before and after
+  // them, and how often it fits.
   static Done place_window(int size, int kernel, int stride, int padding, int& before, int& after,
                            int& places);
   Done load(int tensor, const Shape& shape);

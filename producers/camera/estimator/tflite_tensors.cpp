@@ -117,7 +117,8 @@ Result<std::vector<float>> TfliteTensors::stored_floats(const Tensor& tensor,
   return values;
 }
 
-// As the pose networks have them: dense in all dimensions but the last, of which the places that are not 0 are listed.
+// As the pose networks have them: dense in all dimensions but the last, of which the places that
+// are not 0 are listed.
 Result<std::vector<float>> TfliteTensors::dense(const Tensor& tensor) const {
   const std::size_t rank = tensor.shape.size();
   const FlatVector order = tensor.sparsity.vector(kTraversalOrder, 4);

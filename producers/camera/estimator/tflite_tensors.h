@@ -1,10 +1,11 @@
-// The tensors of a .tflite file: shapes, and the numbers of those that are constants, whichever way the file keeps them.
+// The tensors of a .tflite file: shapes, and the numbers of those that are constants, whichever way
+// the file keeps them.
 //
 // Units/frames: as producers/camera/estimator/pose_graph.h says.
 // Ownership:    looks at the file's bytes; what it returns owns its numbers.
 // Threads:      none inside.
-// Failure:      an Error names the tensor and what is wrong with it. No tensor has more than 4 Mi elements, all constants together not more
-//               than 16 Mi.
+// Failure:      an Error names the tensor and what is wrong with it. No tensor has more than 4 Mi
+//               elements, all constants together not more than 16 Mi.
 // Source:       the schema of TensorFlow Lite, version 3.
 #pragma once
 

@@ -42,7 +42,8 @@ class XnnpackEngine final : public PoseEngine {
   std::vector<float> input_;
   std::vector<std::vector<float>> outputs_;
   std::vector<std::uint32_t> ids_;
-  // Where tensors go that leave the network. XNNPACK of Debian 12 cannot join: the parts are written behind each other instead.
+  // Where tensors go that leave the network. XNNPACK of Debian 12 cannot join: the parts are
+  // written behind each other instead.
   std::map<int, float*> leaving_;
 };
 

@@ -3,8 +3,8 @@
 // Units/frames: picture i is of i/hz.
 // Ownership:    holds paths; a picture is read when it is asked for.
 // Threads:      one owner.
-// Failure:      open() names the file that is missing or no picture. One that turns out damaged when it is read is left out and counted
-//               by who plays it.
+// Failure:      open() names the file that is missing or no picture. One that turns out damaged
+//               when it is read is left out and counted by who plays it.
 #pragma once
 
 #include <memory>

@@ -22,8 +22,9 @@ struct SourceOptions {
   PlayOptions play;
 };
 
-// "" or "auto": the first camera. "/dev/video0", "0": that camera. A file: a video or a picture. A folder: its pictures.
-// "a.jpg,b.jpg": these pictures. Else a camera of that name, or with that in its name.
+// "" or "auto": the first camera. "/dev/video0", "0": that camera. A file: a video or a picture. A
+// folder: its pictures. "a.jpg,b.jpg": these pictures. Else a camera of that name, or with that in
+// its name.
 Result<std::unique_ptr<FrameSource>> open_frame_source(const std::string& called,
                                                        const SourceOptions& options = {});
 
@@ -34,7 +35,8 @@ Result<std::unique_ptr<FrameSource>> open_frame_source(const std::vector<std::st
 // One line for people on what was opened: for a camera what was asked for and what was made of it.
 std::string line_on(const FrameSource& source);
 
-// The files of pictures that these names mean, in the order in which they are played: Frame::sequence counts them from 1.
+// The files of pictures that these names mean, in the order in which they are played:
+// Frame::sequence counts them from 1.
 Result<std::vector<std::string>> picture_files(const std::vector<std::string>& called);
 
 }  // namespace dance

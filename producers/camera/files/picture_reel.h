@@ -1,4 +1,5 @@
-// PictureReel: pictures of a file or of a folder, one behind the other, each with its time from the beginning. PlayedReel plays it.
+// PictureReel: pictures of a file or of a folder, one behind the other, each with its time from the
+// beginning. PlayedReel plays it.
 //
 // Units/frames: times from the first picture; hertz.
 // Ownership:    as who implements it says.

@@ -9,7 +9,8 @@
 namespace dance {
 namespace {
 
-// A reader that cannot decode as fast as the film runs would skip for ever: further behind than this, the film waits.
+// A reader that cannot decode as fast as the film runs would skip for ever: further behind than
+// this, the film waits.
 constexpr Duration kFarthestBehind = Duration::s(1);
 
 }  // namespace

@@ -1,9 +1,12 @@
-// PlayedReel: a PictureReel as a FrameSource: in real time, as a camera would see it, or as fast as it is asked.
+// PlayedReel: a PictureReel as a FrameSource: in real time, as a camera would see it, or as fast as
+// it is asked.
 //
-// Units/frames: in real time capture times follow the reel's own, from the first call on; else picture i is of start + i/hz.
+// Units/frames: in real time capture times follow the reel's own, from the first call on; else
+//               picture i is of start + i/hz.
 // Ownership:    owns the reel and its pictures; one that is still held is not painted over.
 // Threads:      one owner; none inside.
-// Failure:      a picture that cannot be read is counted as damaged and left out, as is one time a file that ends too early.
+// Failure:      a picture that cannot be read is counted as damaged and left out, as is one time a
+//               file that ends too early.
 #pragma once
 
 #include <memory>
@@ -19,8 +22,9 @@ struct PlayOptions {
   bool is_real_time =
       true;            // who is slower than the reel gets the newest; the rest is counted as outrun
   bool loops = false;  // from the end to the beginning, for ever
-  double hz =
-      0.0;  // of pictures without times of their own, and of all where it is not in real time; 0: the file's, for images 30
+  // Of frames without times of their own, and of all where it is not in real time; 0: the file's
+  // own rate, 30 for still images.
+  double hz = 0.0;
 };
 
 class PlayedReel : public FrameSource {

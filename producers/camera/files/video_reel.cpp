@@ -30,7 +30,8 @@ Result<std::unique_ptr<VideoReel>> VideoReel::open(const std::string& path) {
   reel->path_ = path;
   reel->name_ = std::filesystem::path(path).filename();
   cv::VideoCapture& video = reel->video_;
-  // FFmpeg by name: left to choose, OpenCV would take "a12.txt" for the twelfth picture of a series.
+  // FFmpeg by name: left to choose, OpenCV would take "a12.txt" for the twelfth picture of a
+  // series.
   if (!video.open(path, cv::CAP_FFMPEG)) {
     return fail(path +
                 ": is neither a video nor a picture that can be read; make it one with ffmpeg -i " +

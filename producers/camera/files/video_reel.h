@@ -3,7 +3,8 @@
 // Units/frames: as PictureReel.
 // Ownership:    owns the decoder.
 // Threads:      one owner; FFmpeg decodes on threads of its own.
-// Failure:      open() names the file, the reason and the cure. A file that is cut off ends earlier, and is_cut_off().
+// Failure:      open() names the file, the reason and the cure. A file that is cut off ends
+//               earlier, and is_cut_off().
 #pragma once
 
 #include <memory>

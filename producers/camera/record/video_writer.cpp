@@ -64,7 +64,8 @@ void VideoWriter::run() {
   }
 }
 
-// Matroska, so that what was written before a crash can be read; Motion JPEG, so that each picture stands for itself.
+// Matroska, so that what was written before a crash can be read; Motion JPEG, so that each picture
+// stands for itself.
 void VideoWriter::write_all() {
   cv::VideoWriter video;
   cv::Size size;

@@ -1,12 +1,14 @@
-// VideoWriter: pictures into a video file beside the capture, and a table of when each was taken: for later evaluation with the poses
-// of the same moments.
+// VideoWriter: pictures into a video file beside the capture, and a table of when each was taken:
+// for later evaluation with the poses of the same moments.
 //
-// Units/frames: times in microseconds of this machine's monotonic clock, in a text file of the video's name + ".tsv": number of the
-//               picture in the video, TAB, capture time.
+// Units/frames: times in microseconds of this machine's monotonic clock, in a text file of the
+//               video's name + ".tsv": number of the picture in the video, TAB, capture time.
 // Ownership:    owns its thread and files.
-// Threads:      one inside, which encodes; add() never waits for it: what it cannot follow is left out and counted.
-// Failure:      create() names the file and the reason; trouble() later tells what ended it (a full disk), or that pictures of another
-//               size than the first are left out, as a video has one size.
+// Threads:      one inside, which encodes; add() never waits for it: what it cannot follow is left
+//               out and counted.
+// Failure:      create() names the file and the reason; trouble() later tells what ended it (a full
+//               disk), or that pictures of another size than the first are left out, as a video has
+//               one size.
 #pragma once
 
 #include <atomic>

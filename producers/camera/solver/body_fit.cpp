@@ -21,7 +21,8 @@ namespace {
 constexpr double kOutlier = 4.0;
 // The same of what was expected.
 constexpr double kSurprise = 3.0;
-// Of a sole that stands, above the floor and beside where it is held; of one that is below the floor.
+// Of a sole that stands, above the floor and beside where it is held; of one that is below the
+// floor.
 constexpr double kFloorSd_m = 0.008, kHeldSd_m = 0.015, kBelowSd_m = 0.01;
 constexpr double kDamping = 1e-3;
 // No joint turns further in one round.

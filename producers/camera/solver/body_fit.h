@@ -1,13 +1,15 @@
-// BodyFit: the posture that agrees best with what is seen, where it was expected, what a body does, and the floor: damped Gauss-Newton over
-// the 44 ways to move, with bones whose lengths cannot change.
+// BodyFit: the posture that agrees best with what is seen, where it was expected, what a body does,
+// and the floor: damped Gauss-Newton over the 44 ways to move, with bones whose lengths cannot
+// change.
 //
 // Units/frames: rays in C, body in W; the floor is y = 0.
 // Ownership:    keeps its numbers (about 60 KB); never allocates.
 // Threads:      none inside; one owner.
 // Failure:      solve() is false where the numbers are not finite; the state is then as it was.
-// Source:       Nocedal and Wright, Numerical Optimization, 2006, chapter 10. Each term of the sum is a squared difference over its variance:
-//               rays of landmarks (with Cauchy's weight, against outliers), directions of body vectors from the network, the expectation,
-//               a body at ease, soles on the floor, the depth that a second eye saw.
+// Source:       Nocedal and Wright, Numerical Optimization, 2006, chapter 10. Each term of the sum
+//               is a squared difference over its variance: rays of landmarks (with Cauchy's weight,
+//               against outliers), directions of body vectors from the network, the expectation, a
+//               body at ease, soles on the floor, the depth that a second eye saw.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
-// BodyModel: where every point of a body is in a given posture, and how each of them goes when a joint moves.
+// BodyModel: where every point of a body is in a given posture, and how each of them goes when a
+// joint moves.
 //
 // Units/frames: metres in W; columns of a Jacobian are the ways to move of body_state.h.
 // Ownership:    keeps its numbers (about 50 KB); never allocates.

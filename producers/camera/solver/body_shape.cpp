@@ -8,8 +8,8 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr double kReference_m = 1.72;
-// The network's heel and toe, from the ankle of a foot whose ankle is 8 cm above the floor: both lie within the shoe, the heel nearly below the
-// ankle. Medians over a video of a man in shoes.
+// The network's heel and toe, from the ankle of a foot whose ankle is 8 cm above the floor: both
+// lie within the shoe, the heel nearly below the ankle. Medians over a video of a man in shoes.
 constexpr double kAnkle_m = 0.08, kHeelY_m = -0.045, kHeelZ_m = 0.014, kFoot_m = 0.146;
 // A foot's heel is behind its ankle by this share of what its toes are before it.
 constexpr double kBehind = 0.24;

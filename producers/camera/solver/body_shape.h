@@ -1,11 +1,13 @@
 // BodyShape: the size of one dancer: bones, and where on them the points sit that the network sees.
 //
-// Units/frames: metres; a point's place is in the axes of its bone in T-pose, from the bone's origin.
+// Units/frames: metres; a point's place is in the axes of its bone in T-pose, from the bone's
+//               origin.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      none.
-// Source:       places of the head's points: Tilley, The Measure of Man and Woman, 2002, shares of the standing height; of the foot's: measured;
-//               the rest follows from core/pose/skeleton.h.
+// Source:       places of the head's points: Tilley, The Measure of Man and Woman, 2002, shares of
+//               the standing height; of the foot's: measured; the rest follows from
+//               core/pose/skeleton.h.
 #pragma once
 
 #include <Eigen/Core>

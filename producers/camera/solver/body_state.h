@@ -1,7 +1,9 @@
-// BodyState: a dancer's posture in as many numbers as a body has ways to move: 44. A knee is one angle, an elbow two, a back is bent
-// evenly over its three bones, a neck over its two. A posture in these numbers has its bones' lengths whatever they are.
+// BodyState: a dancer's posture in as many numbers as a body has ways to move: 44. A knee is one
+// angle, an elbow two, a back is bent evenly over its three bones, a neck over its two. A posture
+// in these numbers has its bones' lengths whatever they are.
 //
-// Units/frames: metres and radians; W and the bones of core/pose/pose.h. Angles of the right side are those of the left seen in a mirror.
+// Units/frames: metres and radians; W and the bones of core/pose/pose.h. Angles of the right side
+//               are those of the left seen in a mirror.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      none.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/joint_limits.h"
 #include "producers/camera/solver/first_posture.h"
-#include "transformers/joint_limits.h"
 
 namespace dance {
 
@@ -131,7 +131,8 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds)
     since_doubt_s_ = 0.0;
     BodyState anew;
     if (fit_anew(seen, anew) && (!is_fitted || fit_.picture_cost() < kClearlyBetter * cost)) {
-      // The contacts of a posture that was wrong are wrong, and so may be the floor that they were on.
+      // The contacts of a posture that was wrong are wrong, and so may be the floor that they were
+      // on.
       contacts_.clear();
       if (usual_cost_ > kLeastDear) placement_.forget_feet();
       Pose carried, found;
@@ -206,7 +207,8 @@ void BodyTracking::learn_camera(const Observation& seen) {
   };
   if (seen.visible > 0.8)
     placement_.see_upright(middle(Landmark::kLeftShoulder) - middle(Landmark::kLeftAnkle));
-  // Where the picture alone has the body: its depth must not come from the floor that is being learned.
+  // Where the picture alone has the body: its depth must not come from the floor that is being
+  // learned.
   BodyState state = memory_.state();
   model_.place(shape_, state);
   std::array<Vector3d, kLandmarkCount> relative_C;

@@ -1,4 +1,5 @@
-// BodyTracking: the inside of BodySolver, picture after picture: observe, expect, fit, learn bones and floor, remember, and write the pose.
+// BodyTracking: the inside of BodySolver, picture after picture: observe, expect, fit, learn bones
+// and floor, remember, and write the pose.
 //
 // Units/frames, Ownership: as body_solver.h says.
 // Threads:      none inside; one owner.

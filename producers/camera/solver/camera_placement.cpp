@@ -56,7 +56,8 @@ void CameraPlacement::see_foot(const Vector3d& p) {
   const double seen = p.y() / p.z();
   // Feet on a table or a glitch: not where the floor can be.
   if (is_known() && std::abs(row.dot(plane_) - seen) > 6.0 * kFoot) {
-    // Feet that stand elsewhere for so long: it is the floor that was wrong, or the camera was moved.
+    // Feet that stand elsewhere for so long: it is the floor that was wrong, or the camera was
+    // moved.
     if (++refused_ > kMostRefused) forget_feet();
     return;
   }

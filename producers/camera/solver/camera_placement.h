@@ -1,13 +1,17 @@
-// CameraPlacement: where the camera stands over the floor and how it is tilted, learned from feet that stand and from how upright people are.
+// CameraPlacement: where the camera stands over the floor and how it is tilted, learned from feet
+// that stand and from how upright people are.
 //
-// Units/frames: C as in producers/camera/pinhole.h; W has the floor at y = 0, +z from the dancer's first place towards the camera, the origin
-//               on the floor where the dancer was first. The floor in C: y = h + a x + b z.
+// Units/frames: C as in producers/camera/pinhole.h; W has the floor at y = 0, +z from the dancer's
+//               first place towards the camera, the origin on the floor where the dancer was first.
+//               The floor in C: y = h + a x + b z.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
-// Failure:      none: what is learned stays within bounds (camera 0.1 m to 5 m high, tilted by 45° at most, leaning by 17°), and what is
-//               too little to learn from is replaced by a likely camera.
-// Source:       each standing foot gives y/z = h/z + a x/z + b, whose left side is what a picture tells best. Where nobody walks nearer
-//               or away, h and b cannot be told apart by feet; there the body's upright mean decides.
+// Failure:      none: what is learned stays within bounds (camera 0.1 m to 5 m high, tilted by 45°
+//               at most, leaning by 17°), and what is too little to learn from is replaced by a
+//               likely camera.
+// Source:       each standing foot gives y/z = h/z + a x/z + b, whose left side is what a picture
+//               tells best. Where nobody walks nearer or away, h and b cannot be told apart by
+//               feet; there the body's upright mean decides.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -42,13 +42,15 @@ struct Directions {
 
 Landmark of_side(Landmark left, std::size_t s) { return static_cast<Landmark>(index_of(left) + s); }
 
-// The bone that lies along `rest` in T-pose and turns its next joint about `hinge`, where the next bone goes on along `next`.
+// The bone that lies along `rest` in T-pose and turns its next joint about `hinge`, where the next
+// bone goes on along `next`.
 Quaterniond limb_turn(const Vector3d& rest, const Vector3d& hinge, const Vector3d& along,
                       const Vector3d& bent_hinge, const Quaterniond& R_WParent) {
   const Quaterniond R_PW = R_WParent.conjugate();
   const Vector3d direction = R_PW * along.normalized();
   const Quaterniond short_way = shortest_turn(rest, direction);
-  // Twist: by how much the hinge has to turn about the bone to be where it is seen. A limb that is nearly straight does not say.
+  // Twist: by how much the hinge has to turn about the bone to be where it is seen. A limb that is
+  // nearly straight does not say.
   const double sine = bent_hinge.norm();
   if (sine < 0.15) return short_way;
   const Vector3d wanted = R_PW * bent_hinge / sine;

@@ -1,5 +1,6 @@
-// FloorFeet: what is shown stands on the floor: a ball that stands does not slide, nothing of a foot is below the floor. The legs are bent anew
-// for it; what was held dies away when a foot lifts.
+// FloorFeet: what is shown stands on the floor: a ball that stands does not slide, nothing of a
+// foot is below the floor. The legs are bent anew for it; what was held dies away when a foot
+// lifts.
 //
 // Units/frames: metres in W, floor at y = 0.
 // Ownership:    plain value, no heap.
@@ -9,10 +10,10 @@
 
 #include <array>
 
+#include "core/motion/spring.h"
 #include "core/pose/kinematics.h"
 #include "producers/camera/solver/body_shape.h"
 #include "producers/camera/solver/sole_contacts.h"
-#include "transformers/spring.h"
 
 namespace dance {
 

@@ -6,8 +6,8 @@
 namespace dance {
 namespace {
 
-// How fast speeds change while people dance (standard deviation, m/s² and rad/s²), and how far from a body at ease they are (m and rad).
-// `dance capture solve eval` tuned them.
+// How fast speeds change while people dance (standard deviation, m/s² and rad/s²), and how far from
+// a body at ease they are (m and rad). `dance capture solve eval` tuned them.
 struct Way {
   int first, count;
   Part part;
@@ -40,7 +40,8 @@ constexpr double kBlindEase = 2.2;
 constexpr double kBeta = 0.6;
 // Between two pictures of most cameras.
 constexpr double kUsual_s = 1.0 / 30.0;
-// Between two pictures of the quickest cameras, and what is no time at all: only what would divide by nothing.
+// Between two pictures of the quickest cameras, and what is no time at all: only what would divide
+// by nothing.
 constexpr double kLeast_s = 0.002, kNoTime_s = 1e-9;
 constexpr double kHardlySeen = 0.1;
 
@@ -140,8 +141,8 @@ Expectation MotionMemory::expect(double seconds, const PartSight& sight) const {
         sight[static_cast<std::size_t>(part)] < kHardlySeen ? kBlindFade_s : kFade_s;
     // ∫ e^(−t/τ) dt
     const double way_s = fade_s * (1.0 - std::exp(-seconds / fade_s));
-    // A speed that changes moves the body off by its change times the time squared; of quick cameras' pictures, whose errors last, two shall
-    // weigh as much as one of a slow camera's.
+    // A speed that changes moves the body off by its change times the time squared; of quick
+    // cameras' pictures, whose errors last, two shall weigh as much as one of a slow camera's.
     const double sd = way.change * seconds * std::max(seconds, kUsual_s) / std::max(smooth_, 0.05);
     for (int i = 0; i < way.count; ++i) {
       step[first + i] = way_s * speed_[first + i];
@@ -156,8 +157,8 @@ Expectation MotionMemory::expect(double seconds, const PartSight& sight) const {
 void MotionMemory::follow(const Expectation& expected, const BodyState& state, double seconds) {
   const DofVector way = step_between(state_, expected.state),
                   missed = step_between(expected.state, state);
-  // What was expected to be gone is the old speed, faded. Pictures that are stamped microseconds apart miss by as much as others do: no speed
-  // can be told from that.
+  // What was expected to be gone is the old speed, faded. Pictures that are stamped microseconds
+  // apart miss by as much as others do: no speed can be told from that.
   speed_ = way / std::max(seconds, kNoTime_s) + kBeta * missed / std::max(seconds, kLeast_s);
   state_ = state;
 }

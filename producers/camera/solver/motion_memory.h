@@ -1,12 +1,14 @@
-// MotionMemory: how a body has just moved, and from that where it is expected in the next picture, and how surely. What is seen well goes
-// where it is seen; what is not goes on as it did, ever slower, and then to a posture at ease.
+// MotionMemory: how a body has just moved, and from that where it is expected in the next picture,
+// and how surely. What is seen well goes where it is seen; what is not goes on as it did, ever
+// slower, and then to a posture at ease.
 //
 // Units/frames: the ways to move of body_state.h; seconds.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
 // Failure:      none.
-// Source:       an alpha-beta filter whose alpha is what the fit makes of precision and picture: Bar-Shalom, Li, Kirubarajan, Estimation with
-//               Applications to Tracking and Navigation, 2001, chapter 6.
+// Source:       an alpha-beta filter whose alpha is what the fit makes of precision and picture:
+//               Bar-Shalom, Li, Kirubarajan, Estimation with Applications to Tracking and
+//               Navigation, 2001, chapter 6.
 #pragma once
 
 #include <array>
@@ -57,7 +59,8 @@ class MotionMemory {
   double smooth_ = 1.0;
 };
 
-// Of a body at ease in a picture that shows this much of it; also for a first picture, when nothing is expected.
+// Of a body at ease in a picture that shows this much of it; also for a first picture, when nothing
+// is expected.
 DofVector precision_of_ease(const PartSight& sight);
 
 }  // namespace dance

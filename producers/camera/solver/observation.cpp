@@ -35,7 +35,8 @@ double trust(std::size_t i) {
   return 1.0;
 }
 
-// Inverse of OpenCV's distortion by fixed point, which converges for every lens that is not a fisheye.
+// Inverse of OpenCV's distortion by fixed point, which converges for every lens that is not a
+// fisheye.
 Vector2d undistorted(const Pinhole& camera, const Vector2d& pixel) {
   const Vector2d seen((pixel.x() - camera.cx_px) / camera.fx_px,
                       (pixel.y() - camera.cy_px) / camera.fy_px);

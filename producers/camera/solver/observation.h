@@ -1,11 +1,13 @@
-// Observation: what one picture says of the body, made fit for computing: rays instead of pixels, a weight for each point, nothing that is
-// not finite. All that comes from outside is checked here, once.
+// Observation: what one picture says of the body, made fit for computing: rays instead of pixels, a
+// weight for each point, nothing that is not finite. All that comes from outside is checked here,
+// once.
 //
-// Units/frames: rays are x/z and y/z in C (producers/camera/pinhole.h), freed from the lens' distortion; world points in metres of the network.
+// Units/frames: rays are x/z and y/z in C (producers/camera/pinhole.h), freed from the lens'
+//               distortion; world points in metres of the network.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      is_usable is false where too little of a body is seen to place it; weights of points that are not finite, far outside the
-//               picture or said to be hidden are 0.
+// Failure:      is_usable is false where too little of a body is seen to place it; weights of
+//               points that are not finite, far outside the picture or said to be hidden are 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,8 +33,9 @@ struct Observation {
 
 Observation observe(const BodyLandmarks& landmarks, const Pinhole& camera);
 
-// Where a body whose points relative to some place of it are `relative_C_m` must be so that they are seen on their rays: least squares in
-// x/z and y/z over the points with a weight. Says whether it is in front of the camera.
+// Where a body whose points relative to some place of it are `relative_C_m` must be so that they
+// are seen on their rays: least squares in x/z and y/z over the points with a weight. Says whether
+// it is in front of the camera.
 //   t_x − a t_z = a Z − X,  t_y − e t_z = e Z − Y   for a ray (a, e) and a point (X, Y, Z)
 bool place_on_rays(const Observation& seen,
                    const std::array<Eigen::Vector3d, kLandmarkCount>& relative_C_m,

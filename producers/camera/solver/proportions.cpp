@@ -10,14 +10,16 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kSeenWell = 0.35;
-// What the median is worth beside an average body, in logarithms. Feet, ears and hip joints are said less well than long bones.
+// What the median is worth beside an average body, in logarithms. Feet, ears and hip joints are
+// said less well than long bones.
 constexpr std::array<double, kLengthCount> kWorth{0.95, 0.8,  0.95, 0.95, 0.95,
                                                   0.95, 0.95, 0.7,  0.7};
 // No body is further from the average in one length than this factor.
 constexpr double kOdd = 1.7;
 constexpr double kLeastBody_m = 0.8, kMostBody_m = 2.4;
 constexpr int kFewest = 8;
-// A bone lies across the view where its depth is less than half its length; what a picture says of it is worth so much of the whole.
+// A bone lies across the view where its depth is less than half its length; what a picture says of
+// it is worth so much of the whole.
 constexpr double kAcross = 0.87, kPictureWorth = 0.7;
 
 struct Span {

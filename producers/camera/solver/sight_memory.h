@@ -1,4 +1,5 @@
-// SightMemory: how long each part of the body has not been seen, what a pose says of that, and a soft way back for what is seen again.
+// SightMemory: how long each part of the body has not been seen, what a pose says of that, and a
+// soft way back for what is seen again.
 //
 // Units/frames: seconds; bones and confidence of core/pose/pose.h.
 // Ownership:    plain value, no heap.
@@ -8,8 +9,8 @@
 
 #include <array>
 
+#include "core/motion/inertializer.h"
 #include "producers/camera/solver/motion_memory.h"
-#include "transformers/inertializer.h"
 
 namespace dance {
 
@@ -17,7 +18,8 @@ class SightMemory {
  public:
   void clear();
   void follow(const PartSight& sight, double seconds);
-  // Parts that came back with the picture just followed are shown from `carried` on, where they were, to where they are.
+  // Parts that came back with the picture just followed are shown from `carried` on, where they
+  // were, to where they are.
   void blend(MonoTime now, const Pose& carried, Pose& pose);
   // The whole body, where it is found anew or grows to its true size.
   void blend_all(MonoTime now, const Pose& carried, const Pose& pose) {

@@ -14,7 +14,8 @@ constexpr double kStandsBelow_m_s = 0.25, kGoesAbove_m_s = 0.5;
 constexpr double kStandsUnder_m = 0.045, kGoesOver_m = 0.07;
 constexpr double kGone_m = 0.05;
 constexpr double kSpeedOver_s = 0.05;
-// A foot that has just come down may still settle. After that, one that is seen elsewhere is followed so slowly that nobody sees it slide.
+// A foot that has just come down may still settle. After that, one that is seen elsewhere is
+// followed so slowly that nobody sees it slide.
 constexpr double kSettles_s = 0.12, kSettleOver_s = 0.06, kFollowSole_s = 1.5,
                  kMostFollow_m_s = 0.01;
 constexpr double kPatience_s = 0.3;

@@ -1,5 +1,5 @@
-// SoleContacts: which heels and balls stand on the floor, and where. A sole that is near the floor and hardly moves stands; it is held where it
-// came down until it rises, or is seen to have gone.
+// SoleContacts: which heels and balls stand on the floor, and where. A sole that is near the floor
+// and hardly moves stands; it is held where it came down until it rises, or is seen to have gone.
 //
 // Units/frames: metres in W, floor at y = 0; seconds.
 // Ownership:    plain value, no heap.

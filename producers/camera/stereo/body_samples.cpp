@@ -13,7 +13,8 @@ namespace {
 
 constexpr float kLeastVisible = 0.5f;
 
-// Half of an adult's girths, metres: what clothes add and what bodies differ by is in StereoDepth's spread.
+// Half of an adult's girths, metres: what clothes add and what bodies differ by is in StereoDepth's
+// spread.
 constexpr double kTorsoHalfDepth_m = 0.115;
 constexpr double kTorsoHalfWidth_m = 0.165;
 
@@ -89,8 +90,8 @@ struct Torso {
   Eigen::Vector3d front;  // unit, out of breast or back
 };
 
-// The torso is an elliptic cylinder about its middle: how far along `view` its skin is from a point `aside` of the middle. A
-// point outside that the torso does not hide is a joint of its own.
+// The torso is an elliptic cylinder about its middle: how far along `view` its skin is from a point
+// `aside` of the middle. A point outside that the torso does not hide is a joint of its own.
 double torso_skin_m(const Torso& torso, double aside_m, const Eigen::Vector3d& view) {
   constexpr double kJoint_m = 0.055;
   const double vx = view.dot(torso.left) / kTorsoHalfWidth_m;

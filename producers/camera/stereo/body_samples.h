@@ -1,7 +1,9 @@
-// BodySamples: places on a dancer's body where two eyes can be compared: joints, limbs between them, a grid on the torso; with
-// how deep under the skin the joint's own point lies, as eyes see skin and skeletons have joints.
+// BodySamples: places on a dancer's body where two eyes can be compared: joints, limbs between
+// them, a grid on the torso; with how deep under the skin the joint's own point lies, as eyes see
+// skin and skeletons have joints.
 //
-// Units/frames: pixels of the raw left picture; metres of the pose network, axes of the camera, origin midway between the hips.
+// Units/frames: pixels of the raw left picture; metres of the pose network, axes of the camera,
+//               origin midway between the hips.
 // Ownership:    plain values of fixed size.
 // Threads:      none inside.
 // Failure:      none; what the network calls hidden is left out.

@@ -1,12 +1,13 @@
-// Files of calibration: OpenCV's YAML or XML for one camera or two, and a ZED's own SN<serial>.conf.
+// Files of calibration: OpenCV's YAML or XML for one camera or two, and a ZED's own
+// SN<serial>.conf.
 //
-// Units/frames: lengths in metres. Of one camera the keys are image_width, image_height, camera_matrix and
-//               distortion_coefficients; of two image_width, image_height, M1, D1, M2, D2, R and T, as OpenCV's own programs
-//               call them.
+// Units/frames: lengths in metres. Of one camera the keys are image_width, image_height,
+//               camera_matrix and distortion_coefficients; of two image_width, image_height, M1,
+//               D1, M2, D2, R and T, as OpenCV's own programs call them.
 // Ownership:    plain values.
 // Threads:      none inside; reads and writes files on the caller's thread.
-// Failure:      an Error names the file, the key and the cure. A file is whole or not there: what is saved is written beside
-//               it and then takes its name.
+// Failure:      an Error names the file, the key and the cure. A file is whole or not there: what
+//               is saved is written beside it and then takes its name.
 #pragma once
 
 #include <string>

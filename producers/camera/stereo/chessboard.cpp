@@ -8,7 +8,8 @@
 namespace dance {
 namespace {
 
-// The search is done on a picture of at most this width: its time grows with the picture, its success does not.
+// The search is done on a picture of at most this width: its time grows with the picture, its
+// success does not.
 constexpr int kSearchWidth_px = 800;
 constexpr double kTilted = 0.09;  // a side is by a tenth longer
 constexpr int kViewsEachWay = 2;

@@ -1,6 +1,8 @@
-// A chessboard in a picture: where its corners are, and how it is held, so that a calibration gets views that differ.
+// A chessboard in a picture: where its corners are, and how it is held, so that a calibration gets
+// views that differ.
 //
-// Units/frames: pixels; inner corners, row by row. Places and sizes of a BoardView are parts of the picture's.
+// Units/frames: pixels; inner corners, row by row. Places and sizes of a BoardView are parts of the
+//               picture's.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      find_board() gives nullopt where the whole board is not seen.
@@ -46,7 +48,8 @@ class BoardCoverage {
 
   void add(const std::vector<cv::Point2f>& corners, const BoardView& view, cv::Size picture);
   bool is_complete() const { return missing().empty(); }
-  // In plain words what is to be shown next, the most wanted first: "the upper left corner of the picture".
+  // In plain words what is to be shown next, the most wanted first: "the upper left corner of the
+  // picture".
   std::vector<std::string> missing() const;
   int views() const { return views_; }
 

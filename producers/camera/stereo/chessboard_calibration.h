@@ -1,11 +1,14 @@
-// ChessboardCalibration: one camera or two calibrated with a chessboard: it is given pictures as they come, keeps those that tell
-// something new, says what is still to be shown, and solves.
+// ChessboardCalibration: one camera or two calibrated with a chessboard: it is given pictures as
+// they come, keeps those that tell something new, says what is still to be shown, and solves.
 //
 // Units/frames: pixels; millimetres of the board's squares in, metres out.
 // Ownership:    keeps corners, no pictures; at most kMostBoardViews of them.
-// Threads:      none inside; one owner. add() takes tens of milliseconds, solve() up to some seconds.
-// Failure:      solve() says which views are missing, or what is wrong with what came out; nothing is smoothed over.
-// Source:       Zhang: A flexible new technique for camera calibration, 2000, in OpenCV's calibrateCamera and stereoCalibrate.
+// Threads:      none inside; one owner. add() takes tens of milliseconds, solve() up to some
+//               seconds.
+// Failure:      solve() says which views are missing, or what is wrong with what came out; nothing
+//               is smoothed over.
+// Source:       Zhang: A flexible new technique for camera calibration, 2000, in OpenCV's
+//               calibrateCamera and stereoCalibrate.
 #pragma once
 
 #include <string>

@@ -53,7 +53,8 @@ EyeSolution solve_eye(const BoardCorners& corners, int eye, const std::vector<st
   return out;
 }
 
-// The third radial coefficient where the lens has it: on others it is noise that bends the picture's corners.
+// The third radial coefficient where the lens has it: on others it is noise that bends the
+// picture's corners.
 EyeSolution solve_eye(const BoardCorners& corners, int eye, const std::vector<std::size_t>& kept) {
   constexpr double kWorthIt = 0.95;
   EyeSolution plain = solve_eye(corners, eye, kept, cv::CALIB_FIX_K3);

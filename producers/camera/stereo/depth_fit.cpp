@@ -9,15 +9,16 @@
 namespace dance {
 namespace {
 
-// The network's own error of a point's depth relative to the hips: it grows with the way from there.
+// The network's own error of a point's depth relative to the hips: it grows with the way from
+// there.
 double network_spread_m(const Eigen::Vector3d& p_m) {
   constexpr double kAtHips_m = 0.02;
   constexpr double kPerMetre = 0.1;
   return std::hypot(kAtHips_m, kPerMetre * p_m.norm());
 }
 
-// What bodies and clothes differ by from kLimbPlaces and the torso's ellipse: common to all joints, so that more of them do not
-// make it less.
+// What bodies and clothes differ by from kLimbPlaces and the torso's ellipse: common to all joints,
+// so that more of them do not make it less.
 constexpr double kSkin_m = 0.02;
 // Of all disparities alike, what a good calibration leaves.
 constexpr double kCalibration_px = 0.2;
@@ -48,7 +49,8 @@ struct RobustMean {
   int joints = 0;
 };
 
-// Tukey's biweight about the weighted median; the scale is the median deviation, and never below that of a good match.
+// Tukey's biweight about the weighted median; the scale is the median deviation, and never below
+// that of a good match.
 RobustMean robust_mean(std::span<const Weighed> all) {
   constexpr int kSteps = 8;
   constexpr double kLeastScale_m = 0.03;
@@ -124,7 +126,8 @@ std::optional<DepthHint> fit_depth(const BodySamples& samples, std::span<const S
   const double one_eye_m = one_eye.p_CH_m.z();
   DepthHint hint;
   RobustMean mean;
-  // The joints' depths behind the hips grow with the scale, and the scale is known from the depth: a few rounds settle both.
+  // The joints' depths behind the hips grow with the scale, and the scale is known from the depth:
+  // a few rounds settle both.
   for (int round = 0; round < 4; ++round) {
     std::array<Weighed, kMostBodySamples> hips;
     for (std::size_t i = 0; i < depths.size(); ++i) {

@@ -1,10 +1,12 @@
 // What samples of a body, some with a measured depth, say of its distance and its size.
 //
-// Units/frames: metres in C of producers/camera/pinhole.h; the network's metres times `scale` are true ones.
+// Units/frames: metres in C of producers/camera/pinhole.h; the network's metres times `scale` are
+//               true ones.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
 // Failure:      nullopt where there is too little to tell from, or it lies behind the camera.
-// Source:       translation-only least squares; Tukey's biweight, iterated (Holland and Welsch, 1977).
+// Source:       translation-only least squares; Tukey's biweight, iterated (Holland and Welsch,
+//               1977).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,13 +1,16 @@
-// RectifiedPair: both eyes turned so that what one sees in a row, the other sees in the same row. No picture is made: points go
-// between the raw pictures and X, the common frame, so that a few patches cost what a few patches do.
+// RectifiedPair: both eyes turned so that what one sees in a row, the other sees in the same row.
+// No picture is made: points go between the raw pictures and X, the common frame, so that a few
+// patches cost what a few patches do.
 //
-// Units/frames: X is the left eye's place, x along the line between the eyes, z midway between their views; its pictures have
-//               f_px() and the middle (cx_px(), cy_px()) in both eyes, so that depth along X's z = f·baseline / disparity. L and R
-//               as stereo_rig.h says.
+// Units/frames: X is the left eye's place, x along the line between the eyes, z midway between
+//               their views; its pictures have f_px() and the middle (cx_px(), cy_px()) in both
+//               eyes, so that depth along X's z = f·baseline / disparity. L and R as stereo_rig.h
+//               says.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; const calls from anywhere.
 // Failure:      none; the rig was checked.
-// Source:       Fusiello, Trucco, Verri: A compact algorithm for rectification of stereo pairs, 2000.
+// Source:       Fusiello, Trucco, Verri: A compact algorithm for rectification of stereo pairs,
+//               2000.
 #pragma once
 
 #include <Eigen/Core>

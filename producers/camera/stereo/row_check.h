@@ -1,10 +1,13 @@
-// Whether a rig's calibration fits what its eyes see: the same thing must lie in the same row of both, and farther left in the
-// right one. Tells a wrong file, a bent rig and a maker's other convention of signs from a good one.
+// Whether a rig's calibration fits what its eyes see: the same thing must lie in the same row of
+// both, and farther left in the right one. Tells a wrong file, a bent rig and a maker's other
+// convention of signs from a good one.
 //
 // Units/frames: rectified pixels (producers/camera/stereo/rectified_pair.h).
 // Ownership:    plain values; allocates while it works.
-// Threads:      none inside. Takes tenths of a second: for the start and for the doctor, not for each frame.
-// Failure:      a picture without texture gives few points; the rest is then not to be believed (kFewestRowPoints).
+// Threads:      none inside. Takes tenths of a second: for the start and for the doctor, not for
+//               each frame.
+// Failure:      a picture without texture gives few points; the rest is then not to be believed
+//               (kFewestRowPoints).
 #pragma once
 
 #include <opencv2/core/mat.hpp>
@@ -23,8 +26,8 @@ constexpr double kGoodRows_px = 0.7;
 
 RowCheck check_rows(const cv::Mat& left, const cv::Mat& right, const StereoRig& rig);
 
-// Makers write rotation and translation one way or the other. The reading of this rig whose rows fit best: itself, unless
-// another fits clearly better.
+// Makers write rotation and translation one way or the other. The reading of this rig whose rows
+// fit best: itself, unless another fits clearly better.
 enum class RigReading { kAsWritten, kTranslationOther, kRotationOther, kBothOther };
 const char* text_of(RigReading reading);
 StereoRig read_otherwise(const StereoRig& rig, RigReading reading);

@@ -8,8 +8,8 @@
 namespace dance {
 namespace {
 
-// Rays are worked out at every so many columns, in the top and the bottom row; between them raw positions are straight lines to
-// within a hundredth of a pixel.
+// Rays are worked out at every so many columns, in the top and the bottom row; between them raw
+// positions are straight lines to within a hundredth of a pixel.
 constexpr int kNodeStep_px = 8;
 // Below it a patch is the camera's noise.
 constexpr float kLeastDeviation = 1.5f;
@@ -140,7 +140,8 @@ bool Patch::take(const RowStrip& strip, int column) {
   return true;
 }
 
-// ZNCC(c) = Σ w·(l − m_l)·r / (s_l · s_r(c)),  s_r² = Σ w·r² − (Σ w·r)²; all sums under the window at column c.
+// ZNCC(c) = Σ w·(l − m_l)·r / (s_l · s_r(c)),  s_r² = Σ w·r² − (Σ w·r)²; all sums under the window
+// at column c.
 void Patch::scores_along(const RowStrip& strip, std::span<float> scores) const {
   const int count = strip.columns() - kPatchSide_px + 1;
   DANCE_ASSERT(static_cast<int>(scores.size()) >= count);

@@ -1,9 +1,12 @@
-// RowStrip: a piece of a rectified row with its neighbours, sampled from a raw grey picture, and how well a patch fits along it.
+// RowStrip: a piece of a rectified row with its neighbours, sampled from a raw grey picture, and
+// how well a patch fits along it.
 //
-// Units/frames: rectified pixels (producers/camera/stereo/rectified_pair.h); grey levels 0…255; scores are correlations, -1…1.
+// Units/frames: rectified pixels (producers/camera/stereo/rectified_pair.h); grey levels 0…255;
+//               scores are correlations, -1…1.
 // Ownership:    buffers of fixed size inside; never allocates after construction.
 // Threads:      none inside; one owner.
-// Failure:      columns whose rays leave the picture are told by is_inside(); scores there are kNoScore.
+// Failure:      columns whose rays leave the picture are told by is_inside(); scores there are
+//               kNoScore.
 // Source:       zero-mean normalised cross-correlation under a Gaussian window.
 #pragma once
 
@@ -25,8 +28,8 @@ class RowStrip {
  public:
   RowStrip();
 
-  // Columns first_u_px, first_u_px + 1, … (at most kMostStripColumns), rows v_px ± kPatchRadius_px. `valid` is the part of the
-  // grey picture that may be read.
+  // Columns first_u_px, first_u_px + 1, … (at most kMostStripColumns), rows v_px ± kPatchRadius_px.
+  // `valid` is the part of the grey picture that may be read.
   void sample(const cv::Mat& grey, const cv::Rect& valid, const RectifiedPair& pair, Side side,
               double first_u_px, double v_px, int columns);
 
@@ -47,11 +50,13 @@ class RowStrip {
 // A patch as scores need it: zero mean, unit deviation under the window, multiplied by the window.
 class Patch {
  public:
-  // The one at the strip's column (of its left edge); false where it has no texture to speak of, or lies outside.
+  // The one at the strip's column (of its left edge); false where it has no texture to speak of, or
+  // lies outside.
   bool take(const RowStrip& strip, int column);
   // Grey levels under the window.
   float deviation() const { return deviation_; }
-  // scores[i] is how well it fits at column i; as many as the strip has columns less kPatchSide_px - 1.
+  // scores[i] is how well it fits at column i; as many as the strip has columns less kPatchSide_px
+  // - 1.
   void scores_along(const RowStrip& strip, std::span<float> scores) const;
 
  private:

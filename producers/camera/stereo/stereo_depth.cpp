@@ -12,8 +12,8 @@
 namespace dance {
 namespace {
 
-// Sizes of dancers over what the network takes them for: from a child to a tall man while unknown, and what a frame may differ
-// by once known.
+// Sizes of dancers over what the network takes them for: from a child to a tall man while unknown,
+// and what a frame may differ by once known.
 constexpr double kSmallest = 0.5;
 constexpr double kTallest = 1.6;
 constexpr double kKnownWithin = 0.2;
@@ -135,7 +135,8 @@ void StereoDepth::search(std::size_t i) {
   patch_.scores_along(strip_, curve.scores);
 }
 
-// One unknown, the hips' distance, in steps of half a pixel: how well all patches fit where it puts them.
+// One unknown, the hips' distance, in steps of half a pixel: how well all patches fit where it puts
+// them.
 bool StereoDepth::agree(const MonocularFit& one_eye, double& hips_m) const {
   const double fb = pair_.f_px() * pair_.baseline_m();
   const double first = fb / hips_range_.farthest_m;
@@ -261,7 +262,8 @@ DepthHint StereoDepth::hint(const cv::Mat& left, const cv::Mat& right, const Bod
   return *found;
 }
 
-// How well the matched patch fits in the rows above and below: the top of that is where the right eye really has it.
+// How well the matched patch fits in the rows above and below: the top of that is where the right
+// eye really has it.
 void StereoDepth::look_at_rows(std::size_t i) {
   constexpr int kReach_px = 3;
   const SampleMatch& match = matches_[i];

@@ -1,13 +1,17 @@
-// StereoDepth: how far a dancer is, from two eyes: the pose network looks with the left one, and patches around what it found are
-// looked for in the right one. All patches vote together for one distance of the hips, then each is matched by itself near
-// there, and a robust mean of what they say is the hint.
+// StereoDepth: how far a dancer is, from two eyes: the pose network looks with the left one, and
+// patches around what it found are looked for in the right one. All patches vote together for one
+// distance of the hips, then each is matched by itself near there, and a robust mean of what they
+// say is the hint.
 //
-// Units/frames: landmarks in pixels of the raw left picture; pictures blue green red, or grey, of the rig's size; the hint as
-//               producers/camera/depth_hint.h.
-// Ownership:    buffers inside, of the rig's size; nothing is allocated after the first call. Pictures are read during the call.
+// Units/frames: landmarks in pixels of the raw left picture; pictures blue green red, or grey, of
+//               the rig's size; the hint as producers/camera/depth_hint.h.
+// Ownership:    buffers inside, of the rig's size; nothing is allocated after the first call.
+//               Pictures are read during the call.
 // Threads:      none inside; one owner.
-// Failure:      hint().joints is 0 where the eyes find too little in common; counted. trouble() says when it is the rig's fault.
-// Source:       zero-mean normalised cross-correlation; consensus as a plane sweep over the one unknown.
+// Failure:      hint().joints is 0 where the eyes find too little in common; counted. trouble()
+//               says when it is the rig's fault.
+// Source:       zero-mean normalised cross-correlation; consensus as a plane sweep over the one
+//               unknown.
 #pragma once
 
 #include <array>
@@ -49,7 +53,8 @@ class StereoDepth {
   // Of the last call.
   std::span<const SampleMatch> matches() const { return {matches_.begin(), matches_.end()}; }
   const BodySamples& samples() const { return samples_; }
-  // By how much the right eye's rows lie below the left one's where they should be the same: a good calibration is within one.
+  // By how much the right eye's rows lie below the left one's where they should be the same: a good
+  // calibration is within one.
   double row_offset_px() const { return row_offset_px_; }
   // "" as long as all is well, else one line with the cure, once there is enough to judge by.
   std::string trouble() const;

@@ -1,8 +1,9 @@
-// StereoRig: two cameras that look the same way, and how they stand to each other; Calibration: what a file of either one
-// camera or two says.
+// StereoRig: two cameras that look the same way, and how they stand to each other; Calibration:
+// what a file of either one camera or two says.
 //
-// Units/frames: L and R are the frames of the left and the right camera, each as C of producers/camera/pinhole.h (raw, not
-//               rectified); p_R = R_RL · p_L + p_RL_m, as OpenCV has it: for eyes side by side p_RL_m is about (-baseline, 0, 0).
+// Units/frames: L and R are the frames of the left and the right camera, each as C of
+//               producers/camera/pinhole.h (raw, not rectified); p_R = R_RL · p_L + p_RL_m, as
+//               OpenCV has it: for eyes side by side p_RL_m is about (-baseline, 0, 0).
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      none; who reads one from a file checks it with checked().
@@ -31,8 +32,9 @@ struct Calibration {
   std::optional<StereoRig> pair;  // its `left` is `camera`
 };
 
-// The same camera at a picture of another size: whole pictures that were made smaller or larger, of the same shape. Pixel
-// centres are whole numbers, so that the middle of the picture stays the middle.
+// The same camera at a picture of another size: whole pictures that were made smaller or larger, of
+// the same shape. Pixel centres are whole numbers, so that the middle of the picture stays the
+// middle.
 inline Pinhole resized(const Pinhole& camera, int width_px, int height_px) {
   const double sx = static_cast<double>(width_px) / camera.width_px;
   const double sy = static_cast<double>(height_px) / camera.height_px;
@@ -46,7 +48,8 @@ inline Pinhole resized(const Pinhole& camera, int width_px, int height_px) {
   return out;
 }
 
-// The value, or an Error that names `what` ("calib.yml: the left camera"), what is absurd about it and the cure.
+// The value, or an Error that names `what` ("calib.yml: the left camera"), what is absurd about it
+// and the cure.
 Result<Pinhole> checked(const Pinhole& camera, const std::string& what);
 Result<StereoRig> checked(const StereoRig& rig, const std::string& what);
 

@@ -51,8 +51,9 @@ class Paired : public StereoSource {
     name_ = eyes_[0]->name() + " and " + eyes_[1]->name();
   }
 
-  // Holds the newest of each eye; while they do not belong together the older is dropped and that eye asked again. One eye is enough
-  // to dance: while the right one is gone the left one's pictures go on alone.
+  // Holds the newest of each eye; while they do not belong together the older is dropped and that
+  // eye asked again. One eye is enough to dance: while the right one is gone the left one's
+  // pictures go on alone.
   FrameState next(Duration patience, StereoFrame& out) override {
     const MonoTime deadline = mono_now() + patience;
     if (is_right_gone_) look_for_right();

@@ -111,7 +111,8 @@ class Ini {
   const std::string& name_;
 };
 
-// The size whose section fits: the very one, else that of the same shape that is next larger, else the largest.
+// The size whose section fits: the very one, else that of the same shape that is next larger, else
+// the largest.
 const ZedSize* size_for(const Ini& ini, int width_px, int height_px) {
   const ZedSize* best = nullptr;
   for (const ZedSize& size : kZedSizes) {

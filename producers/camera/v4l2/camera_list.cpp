@@ -31,7 +31,8 @@ bool is_number(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// A notebook's second camera sees heat or grey, to know a face by; a device that plays back may have nothing to give.
+// A notebook's second camera sees heat or grey, to know a face by; a device that plays back may
+// have nothing to give.
 int rank_of(const CameraEntry& camera) {
   const auto mode = choose_mode(camera.modes, {});
   if (!mode) return 2;

@@ -3,8 +3,8 @@
 // Units/frames: pixels, hertz.
 // Ownership:    plain values.
 // Threads:      none inside; looking opens each device for a moment.
-// Failure:      a device that is there and cannot be opened is listed with the reason and the cure; no camera is an empty list, and the
-//               table then says what to do.
+// Failure:      a device that is there and cannot be opened is listed with the reason and the cure;
+//               no camera is an empty list, and the table then says what to do.
 #pragma once
 
 #include <span>
@@ -33,12 +33,12 @@ std::string camera_table(std::span<const CameraEntry> cameras);
 // "/dev/video0 (HD Webcam), /dev/video2 (…)", or what to do where there is none.
 std::string cameras_in_a_line(std::span<const CameraEntry> cameras);
 
-// The device path of a camera that is called by path, number or (part of its) name, whether or not it is there:
-// "" and "auto" mean the first, before others one that sees colours.
+// The device path of a camera that is called by path, number or (part of its) name, whether or not
+// it is there: "" and "auto" mean the first, before others one that sees colours.
 Result<std::string> camera_path(const std::string& called, std::span<const CameraEntry> cameras);
 
-// Of what is there now the camera that `lost` was: in the same socket, or of the same name in a socket where no other of its name was
-// when it was opened. Nullptr where it is not back.
+// Of what is there now the camera that `lost` was: in the same socket, or of the same name in a
+// socket where no other of its name was when it was opened. Nullptr where it is not back.
 const CameraEntry* found_again(const CameraEntry& lost,
                                std::span<const std::string> taken_bus_infos,
                                std::span<const CameraEntry> cameras);

@@ -70,8 +70,8 @@ class PictureConverter::Jpeg {
   }
 
  private:
-  // Filling bytes between the parts of a JPEG, as many a webcam sends them, harm nothing. All else that is only warned of
-  // is a picture with a grey or smeared rest.
+  // Filling bytes between the parts of a JPEG, as many a webcam sends them, harm nothing. All else
+  // that is only warned of is a picture with a grey or smeared rest.
   bool is_only_filling() const {
     return tjGetErrorCode(handle_) == TJERR_WARNING &&
            std::strstr(tjGetErrorStr2(handle_), "extraneous bytes") != nullptr;

@@ -1,10 +1,11 @@
 // PictureConverter: a camera's bytes into the blue-green-red picture that all else here reads.
 //
 // Units/frames: pixels. YUYV and NV12 by BT.601 with 16…235, MJPG by JFIF (0…255), GREY as it is.
-// Ownership:    owns the decompressor; the picture is the caller's and is allocated by the first conversion into it only.
+// Ownership:    owns the decompressor; the picture is the caller's and is allocated by the first
+//               conversion into it only.
 // Threads:      one owner.
-// Failure:      make() names an encoding that it cannot read. convert() is false where bytes are missing or a JPEG is cut off or broken;
-//               the picture then holds rubbish.
+// Failure:      make() names an encoding that it cannot read. convert() is false where bytes are
+//               missing or a JPEG is cut off or broken; the picture then holds rubbish.
 // Source:       libjpeg-turbo's TurboJPEG for JPEG, OpenCV's cvtColor for the rest.
 #pragma once
 
@@ -27,8 +28,8 @@ struct PixelLayout {
 
 class PictureConverter {
  public:
-  // A JPEG that is higher than max_height_px is decoded at a half, a quarter or an eighth, the first that fits (an eighth where none
-  // does); 0 for full size.
+  // A JPEG that is higher than max_height_px is decoded at a half, a quarter or an eighth, the
+  // first that fits (an eighth where none does); 0 for full size.
   static Result<PictureConverter> make(const PixelLayout& layout, int max_height_px = 0);
   PictureConverter(PictureConverter&&) noexcept;
   PictureConverter& operator=(PictureConverter&&) noexcept;

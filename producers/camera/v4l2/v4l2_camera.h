@@ -1,8 +1,11 @@
-// V4l2Camera: a camera of the kernel's as a FrameSource. The newest picture wins, stamps are the driver's, and a camera that was unplugged
-// is looked for until it is back, in whatever socket and under whatever number.
+// V4l2Camera: a camera of the kernel's as a FrameSource. The newest picture wins, stamps are the
+// driver's, and a camera that was unplugged is looked for until it is back, in whatever socket and
+// under whatever number.
 //
-// Units/frames: pixels; capture times are the driver's stamps where it stamps by the monotonic clock, else when the picture was fetched.
-// Ownership:    owns the device, its buffers and the pictures that frames share; one that is still held is not painted over.
+// Units/frames: pixels; capture times are the driver's stamps where it stamps by the monotonic
+//               clock, else when the picture was fetched.
+// Ownership:    owns the device, its buffers and the pictures that frames share; one that is still
+//               held is not painted over.
 // Threads:      one owner; none inside.
 // Failure:      open() names the device, the reason and the cure. Later: see FrameSource.
 #pragma once
@@ -43,8 +46,8 @@ class V4l2Camera : public FrameSource {
 
   // One line for people: what was asked for, what was made of it, whose stamps.
   std::string negotiated() const;
-  // False as soon as a picture came without a believable stamp of the driver's: it and all after it are stamped when fetched, until the
-  // camera is opened anew. Times never go back.
+  // False as soon as a picture came without a believable stamp of the driver's: it and all after it
+  // are stamped when fetched, until the camera is opened anew. Times never go back.
   bool has_driver_stamps() const { return has_driver_stamps_; }
 
  private:

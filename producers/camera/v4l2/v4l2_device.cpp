@@ -65,7 +65,8 @@ void add_rates(const V4l2Device& device, VideoMode mode, const CameraWish& wish,
       add(entry.discrete.numerator, entry.discrete.denominator);
       continue;
     }
-    // Any rate between two: the fastest and slowest, and of the usual and the wished for those that lie between.
+    // Any rate between two: the fastest and slowest, and of the usual and the wished for those that
+    // lie between.
     const v4l2_fract least = entry.stepwise.min;
     const v4l2_fract most = entry.stepwise.max;
     if (least.denominator == 0 || most.denominator == 0) break;
@@ -149,7 +150,8 @@ tl::expected<V4l2Device, DeviceTrouble> V4l2Device::open(const std::string& path
   device.card_ = text_of_field(can.card, sizeof can.card);
   device.bus_info_ = text_of_field(can.bus_info, sizeof can.bus_info);
   if (device.card_.empty()) device.card_ = "camera";
-  // `capabilities` is of the whole device: a camera's node for metadata claims there to capture pictures.
+  // `capabilities` is of the whole device: a camera's node for metadata claims there to capture
+  // pictures.
   const __u32 caps = (can.capabilities & V4L2_CAP_DEVICE_CAPS) ? can.device_caps : can.capabilities;
   if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0) {
     const bool is_planar = (caps & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0;

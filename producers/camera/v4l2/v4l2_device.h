@@ -3,7 +3,8 @@
 // Units/frames: pixels, hertz.
 // Ownership:    owns the file descriptor; move only.
 // Threads:      one owner.
-// Failure:      open() says why not, with errno where it was the kernel's; call() returns errno, 0 where it went well.
+// Failure:      open() says why not, with errno where it was the kernel's; call() returns errno, 0
+//               where it went well.
 // Source:       Video for Linux API, linux/videodev2.h.
 #pragma once
 
@@ -53,7 +54,8 @@ class V4l2Device {
   std::string bus_info_;
 };
 
-// Programs that have the file open, as "firefox (1234), cheese (77)": those that this user may look at; "" for none.
+// Programs that have the file open, as "firefox (1234), cheese (77)": those that this user may look
+// at; "" for none.
 std::string holders_of(const std::string& path);
 
 }  // namespace dance

@@ -133,7 +133,8 @@ Result<void> V4l2Stream::map_buffers() {
   return {};
 }
 
-// Many cameras expose longer than a picture's time in a dim room, and so come at 15 Hz instead of 30.
+// Many cameras expose longer than a picture's time in a dim room, and so come at 15 Hz instead of
+// 30.
 void V4l2Stream::hold_the_rate() {
   v4l2_control control{};
   control.id = V4L2_CID_EXPOSURE_AUTO_PRIORITY;

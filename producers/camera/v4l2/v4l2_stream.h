@@ -1,9 +1,12 @@
-// V4l2Stream: a camera that is streaming: what was negotiated, its buffers, and the pictures in them as the driver left them.
+// V4l2Stream: a camera that is streaming: what was negotiated, its buffers, and the pictures in
+// them as the driver left them.
 //
 // Units/frames: pixels, hertz; stamps as the driver gives them.
-// Ownership:    owns the device and its mapped buffers. A RawPicture's bytes are the driver's memory: good until give_back().
+// Ownership:    owns the device and its mapped buffers. A RawPicture's bytes are the driver's
+//               memory: good until give_back().
 // Threads:      one owner.
-// Failure:      start() names the device, the reason and the cure. A device that went away is kGone, and stays so.
+// Failure:      start() names the device, the reason and the cure. A device that went away is
+//               kGone, and stays so.
 // Source:       Video for Linux API, streaming I/O with memory mapping.
 #pragma once
 

@@ -1,5 +1,6 @@
-// DancerAdvice: tells the dancer in plain words what the camera misses: a covered lens, nobody in the picture, feet or hands cut off. Once a
-// state has lasted, and once when it is over; never a line for every picture.
+// DancerAdvice: tells the dancer in plain words what the camera misses: a covered lens, nobody in
+// the picture, feet or hands cut off. Once a state has lasted, and once when it is over; never a
+// line for every picture.
 //
 // Units/frames: times of the pictures.
 // Ownership:    allocates nothing in see().

@@ -1,4 +1,5 @@
-// The skeleton drawn over the picture that it was seen in: for whoever sets up a camera, and for recordings.
+// The skeleton drawn over the picture that it was seen in: for whoever sets up a camera, and for
+// recordings.
 //
 // Units/frames: landmarks in pixels of the picture that is drawn on; blue green red.
 // Ownership:    writes into the caller's picture.

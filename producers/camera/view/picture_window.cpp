@@ -41,7 +41,8 @@ Result<std::unique_ptr<PictureWindow>> PictureWindow::open(const std::string& ti
                 "); --preview-file FILE.jpg writes it as a picture instead");
   }
   glfwMakeContextCurrent(parts.window);
-  // Not at the display's pace: for a hidden window some wait for ever, and the preview could not end.
+  // Not at the display's pace: for a hidden window some wait for ever, and the preview could not
+  // end.
   glfwSwapInterval(0);
   glGenTextures(1, &parts.texture);
   glGenFramebuffers(1, &parts.target);

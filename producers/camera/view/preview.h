@@ -1,11 +1,12 @@
-// Preview: what the camera sees with the skeleton over it, for whoever asks for it: in a window, or as a picture file that is
-// written anew several times a second. Nothing of it happens on the way of a pose but one shrunken copy.
+// Preview: what the camera sees with the skeleton over it, for whoever asks for it: in a window, or
+// as a picture file that is written anew several times a second. Nothing of it happens on the way
+// of a pose but one shrunken copy.
 //
 // Units/frames: pixels; the preview is at most 640 wide.
 // Ownership:    owns its thread and its window.
 // Threads:      one inside, which draws and writes; show() never waits for it.
-// Failure:      open() says why there can be no window, or that the file cannot be written; later trouble with the file or
-//               a picture ends the preview, and trouble() tells it.
+// Failure:      open() says why there can be no window, or that the file cannot be written; later
+//               trouble with the file or a picture ends the preview, and trouble() tells it.
 #pragma once
 
 #include <array>

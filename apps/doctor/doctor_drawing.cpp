@@ -1,0 +1,60 @@
+#include "apps/doctor/doctor_drawing.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstring>
+
+#if DANCE_HAVE_VIEWER
+#include "viewer/draw/offscreen.h"
+#endif
+
+namespace dance {
+
+using Grade = Finding::Grade;
+
+#if DANCE_HAVE_VIEWER
+namespace {
+
+// In the child: 0 and the renderer's name, or 1 and what is missing.
+[[noreturn]] void try_context(int out) {
+  // What drivers say to stderr is not ours to print.
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDERR_FILENO);
+  const auto context = OffscreenContext::create();
+  const std::string text = context ? renderer_name() : context.error().what;
+  [[maybe_unused]] const auto written = write(out, text.data(), text.size());
+  _exit(context ? 0 : 1);
+}
+
+}  // namespace
+
+Finding check_drawing() {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) return {"drawing", Grade::kNote, "cannot be tried", ""};
+  const pid_t child = fork();
+  if (child == 0) try_context(ends[1]);
+  close(ends[1]);
+  std::string text;
+  std::array<char, 512> chunk;
+  for (ssize_t n; (n = read(ends[0], chunk.data(), chunk.size())) > 0 && text.size() < 4096;)
+    text.append(chunk.data(), static_cast<std::size_t>(n));
+  close(ends[0]);
+  int status = 1;
+  const bool has_ended = child > 0 && waitpid(child, &status, 0) == child;
+  if (has_ended && WIFEXITED(status) && WEXITSTATUS(status) == 0)
+    return {"drawing", Grade::kOk, "OpenGL 3.3 by " + text, ""};
+  if (has_ended && WIFSIGNALED(status))
+    text = std::string("the OpenGL driver ended by ") + strsignal(WTERMSIG(status));
+  return {"drawing", Grade::kProblem, text, "apt-get install libegl1 libgl1-mesa-dri libegl-mesa0"};
+}
+#else
+Finding check_drawing() {
+  return {"drawing", Grade::kNote, "built without the viewer: this house shows nothing",
+          "apt-get install libglfw3-dev libepoxy-dev libimgui-dev libstb-dev libegl-dev"};
+}
+#endif
+
+}  // namespace dance

@@ -1,0 +1,48 @@
+// Whether music can be heard from this machine: the sound server is asked, and silence played for
+// half a second.
+//
+// Ownership: plain values.
+// Threads:   call from main.
+// Failure:   the finding says what is missing and the cure. It is a note at most: a house without
+//            sound keeps the time of the music and dances.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+
+#include "apps/doctor/doctor_checks.h"
+#include "producers/music/loudspeaker.h"
+
+namespace dance {
+
+enum class SoundTrouble : std::uint8_t {
+  kNotBuilt,
+  kNoServer,       // nobody is at the server's socket
+  kNotYours,       // the socket is another user's
+  kRefused,        // somebody is there, who does not let us in
+  kNoLoudspeaker,  // the server lets us in, and has nothing to play on
+  kFarServer,      // on another machine, by PULSE_SERVER: from here nothing more is seen
+};
+
+// What is known of a sound that is not to be had.
+struct SoundFailure {
+  SoundTrouble trouble = SoundTrouble::kNoServer;
+  std::string reason;            // in the server's or its library's words
+  std::string socket;            // of the server
+  bool is_named = false;         // the socket or machine, by PULSE_SERVER
+  std::string installed_server;  // the program that could be started, or ""
+};
+
+// From what was found of the loudspeaker, or why nothing was. Pure.
+Finding check_loudspeaker(const tl::expected<Loudspeaker, SoundFailure>& loudspeaker);
+
+// Where programs of this user find the sound server: a socket's path, or with PULSE_SERVER what
+// that names.
+std::string sound_server_place();
+// Asks this machine.
+tl::expected<Loudspeaker, SoundFailure> find_loudspeaker();
+
+Finding check_sound();
+
+}  // namespace dance

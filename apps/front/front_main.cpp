@@ -1,0 +1,156 @@
+// dance: the front end of all programs. `dance demo` runs dance-demo, as git does; words that are
+// not a command are looked up with the next one, so that `dance bench path` runs dance-bench-path.
+
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/program/program.h"
+
+namespace {
+
+struct Command {
+  std::string_view name;  // as typed
+  std::string_view summary;
+};
+
+constexpr std::array kCommands{
+    Command{"demo",
+            "two houses, a server between them, dancers, a stage: the main job on one machine"},
+    Command{"join", "all of a house in one, from one session file"},
+    Command{"view", "the viewer"},
+    Command{"replay", "plays BVH files and LCM logs as dancers"},
+    Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
+    Command{"capture", "a dancer before a camera, or in a video"},
+    Command{"music", "plays music, and says the beat that is heard"},
+    Command{"server", "the tunnel server"},
+    Command{"status", "rooms and guests of a server on this machine, in a terminal"},
+    Command{"key", "keeps the keys that servers gave to this house"},
+    Command{"link", "a house's link to the server"},
+    Command{"manager", "the signal manager of a house"},
+    Command{"listen", "poses as text, CSV or BVH"},
+    Command{"record", "records the bus to an LCM log, packed or plain"},
+    Command{"pack", "makes an LCM log smaller, and loses nothing"},
+    Command{"unpack", "makes a plain LCM log of a packed one"},
+    Command{"style", "says how large a guest's dance is shown: hips=1.5, preset=cuban"},
+    Command{"latency", "the table of a pose's journey, with numbers"},
+    Command{"top", "channels and programs of the bus, in a terminal"},
+    Command{"spy", "lcm-spy with our types"},
+    Command{"doctor", "checks this machine, and names what mends it"},
+    Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
+    Command{"capture solve eval",
+            "the camera's solver on recorded dances: errors, feet, bones, lag"},
+    Command{"music eval", "the beat tracker on songs whose beats are known"},
+    Command{"music make", "makes songs whose beats are known, to train with"},
+    Command{"music train", "trains a model of the beat tracker"},
+    Command{"capture eval", "what the camera's eye sees in pictures and videos, frame by frame"},
+    Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
+    Command{"codec train", "trains a model of the pose codec"},
+    Command{"stylize eval", "what styles do to recorded dances: gain, mean pose, bones, feet"},
+    Command{"rhythm eval",
+            "remote dancers on the beat that the listener hears, on recorded dances"},
+    Command{"predict eval", "prediction on recorded dances: errors beside plain guesses, cost"},
+    Command{"predict train", "trains a model of prediction"},
+    Command{"capture stereo eval", "depth from two eyes, on drawn dancers whose distance is known"},
+    Command{"lapse eval", "dances whose poses stop for a while: what is shown meanwhile"},
+    Command{"predict stream",
+            "dances over a line with delay, jitter and loss: how late, how smooth"},
+    Command{"bench path", "a pose's journey against the same number of bare hops"},
+    Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},
+    Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},
+    Command{"bench line", "two dancers over recorded lines: ages, freezes, recovery"},
+    Command{"bench hold", "play-out buffers over recorded lines: delay against freezes"},
+    Command{"bench parts", "what each part of the pose path costs, against a baseline"},
+};
+
+void print_commands(std::FILE* out) {
+  std::fputs("usage: dance COMMAND [OPTIONS]   (dance COMMAND --help tells more)\n\n", out);
+  bool is_for_dancers = true;  // of one word
+  for (const Command& command : kCommands) {
+    const bool is_measure = command.name.find(' ') != std::string_view::npos;
+    if (is_for_dancers && is_measure) std::fputs("\nMeasuring and training:\n", out);
+    is_for_dancers = !is_measure;
+    std::fprintf(out, "  %-*.*s %.*s\n", is_measure ? 19 : 12,
+                 static_cast<int>(command.name.size()), command.name.data(),
+                 static_cast<int>(command.summary.size()), command.summary.data());
+  }
+  std::fputs("\nFirst steps:\n  dance doctor\n  dance demo\n", out);
+}
+
+std::string program_of(std::string_view name) {
+  std::string program = "dance-" + std::string(name);
+  for (char& c : program)
+    if (c == ' ') c = '-';
+  return program;
+}
+
+// The command that is meant, and how many words it takes: the most that make one.
+const Command* find_command(const std::vector<char*>& words, std::size_t& taken) {
+  std::string name;
+  const Command* found = nullptr;
+  for (std::size_t i = 0; i < words.size() && i < 3; ++i) {
+    name += (i > 0 ? " " : "") + std::string(words[i]);
+    for (const Command& command : kCommands) {
+      if (command.name != name) continue;
+      found = &command;
+      taken = i + 1;
+    }
+  }
+  return found;
+}
+
+// What to say to a word that is none, or only the first of several.
+std::string no_command_line(const std::string& word) {
+  std::string longer;
+  for (const Command& command : kCommands)
+    if (command.name.substr(0, word.size() + 1) == word + " ")
+      longer += (longer.empty() ? "" : ", ") + ("dance " + std::string(command.name));
+  if (!longer.empty()) return "'" + word + "' needs another word: " + longer;
+  return "there is no command '" + word + "'; `dance help` lists them";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    print_commands(stdout);
+    return 0;
+  }
+  const std::string_view first = argv[1];
+  if (first == "--version" && argc == 2) {
+    std::puts("DanceGraph " DANCE_VERSION);
+    return 0;
+  }
+  const bool is_help = first == "--help" || first == "-h" || first == "help";
+  if (is_help && argc == 2) {
+    print_commands(stdout);
+    return 0;
+  }
+  const std::vector<char*> words(argv + (is_help ? 2 : 1), argv + argc);
+  std::size_t taken = 0;
+  const Command* command = find_command(words, taken);
+  if (!command) {
+    std::fprintf(stderr, "dance: %s\n", no_command_line(words[0]).c_str());
+    return 2;
+  }
+  const std::string program = program_of(command->name);
+  const std::string path = dance::program_folder() + "/" + program;
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
+  std::string help = "--help";
+  if (is_help) arguments.push_back(help.data());
+  arguments.insert(arguments.end(), words.begin() + static_cast<std::ptrdiff_t>(taken),
+                   words.end());
+  arguments.push_back(nullptr);
+  execv(path.c_str(), arguments.data());
+  std::fprintf(stderr,
+               "dance: %s cannot be run: %s; it was not built: run ./dance setup and look at the "
+               "table of features\n",
+               path.c_str(), std::strerror(errno));  // NOLINT(concurrency-mt-unsafe): one thread
+  return 1;
+}

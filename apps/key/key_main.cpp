@@ -1,0 +1,93 @@
+// dance key: keeps the keys that servers have given to this house.
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+
+#include "apps/key/secret_prompt.h"
+#include "core/net/address.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "tunnel/seal/key_files.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance key                            asks for the line that the server's keeper gave you
+  dance key < line.txt                 takes it from a file
+  dance key --list                     which servers let you in, and as whom
+  dance key --remove alice@dance.example.org:7400
+)";
+
+struct KeyOptions {
+  std::string file;
+  std::string server;
+  std::string remove;
+  bool list = false;
+};
+
+Result<HouseKey> asked_key() {
+  std::string line;
+  {
+    const SecretPrompt prompt;  // first, so that who is asked can paste at once
+    if (isatty(STDIN_FILENO)) talk::info("paste the line that you were given (it is not shown):");
+    std::getline(std::cin, line);
+  }
+  if (line.empty()) return fail("nothing was pasted; the keys are as they were");
+  return HouseKey::parse(line);
+}
+
+Result<void> run_key(const KeyOptions& options) {
+  std::string path = options.file;
+  if (path.empty()) {
+    DANCE_TRY(const std::string folder, key_folder());
+    path = folder + "/keys";
+  }
+  DANCE_TRY(const auto text, read_secret(path));
+  HouseKeys keys;
+  if (text) {
+    DANCE_TRY(keys, HouseKeys::parse(*text, path));
+  }
+  if (options.list) {
+    for (const HouseKey& key : keys.keys()) std::printf("%s\n", key.title().c_str());
+    if (keys.keys().empty()) talk::info("no keys in {} yet", path);
+    return {};
+  }
+  if (!options.remove.empty()) {
+    if (!keys.remove(options.remove))
+      return fail("there is no key '" + options.remove + "' in " + path +
+                  "; --list says which there are");
+    return write_secret(path, keys.text());
+  }
+  DANCE_TRY(HouseKey key, asked_key());
+  if (!options.server.empty()) {
+    key.server = server_name_of(options.server, 0);
+    if (!HouseKey::parse(key.line()))
+      return fail("--server '" + options.server + "' is no HOST or HOST:PORT");
+  }
+  keys.put(key);
+  if (auto written = write_secret(path, keys.text()); !written) return written;
+  const std::string room = key.room.is_set() ? " --room " + std::string(key.room.view()) : "";
+  // With a room's key everybody goes by a name of her own.
+  const std::string guest = key.room == key.name ? "YOUR-NAME" : std::string(key.name.view());
+  talk::info("kept in {}; now: dance join {} --guest {}{}", path,
+             key.server.empty() ? "HOST" : key.server, guest, room);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::KeyOptions options;
+  dance::CommandLine line("Keeps the keys that servers have given to this house.", "dance key");
+  line.add("--server", options.server, "HOST[:PORT] of the server, where the line does not say it");
+  line.add_flag("--list", options.list, "whose keys there are, without the keys");
+  line.add("--remove", options.remove, "takes one away, named as --list does");
+  line.add("--file", options.file,
+           "where keys are kept (else in the folder of the user's settings)");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_key(options); });
+}

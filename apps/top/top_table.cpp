@@ -1,0 +1,171 @@
+#include "apps/top/top_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <iterator>
+
+#include "core/bus/channel.h"
+#include "core/bus/encode.h"
+
+namespace dance {
+namespace {
+
+// Channels that have been silent for so long give their place to others.
+constexpr Duration kForgotten = Duration::s(60);
+
+using Fingerprint = std::array<std::uint8_t, 8>;
+
+template <class Message>
+Fingerprint fingerprint_of(const Message& message) {
+  MessageBuffer buffer;
+  encode(message, buffer);
+  Fingerprint fingerprint;
+  std::memcpy(fingerprint.data(), buffer.data(), fingerprint.size());
+  return fingerprint;
+}
+
+TimedSkeleton any_skeleton() { return {average_skeleton(), MonoTime(), 0}; }
+
+// Names come from anybody: what a terminal could take for a command does not reach it.
+std::string printable(std::string_view name) {
+  std::string text(name.substr(0, kMaxChannelLength));
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return text;
+}
+
+}  // namespace
+
+std::string_view type_of_message(std::span<const std::uint8_t> message) {
+  struct Known {
+    Fingerprint fingerprint;
+    std::string_view type;
+  };
+  static const std::array<Known, 12> kKnown{{
+      {fingerprint_of(Pose()), "pose_t"},
+      {fingerprint_of(Hands()), "hands_t"},
+      {fingerprint_of(any_skeleton()), "skeleton_t"},
+      {fingerprint_of(GuestStatus()), "guest_t"},
+      {fingerprint_of(Stats()), "stats_t"},
+      {fingerprint_of(StageTime()), "stage_time_t"},
+      {fingerprint_of(Music()), "music_t"},
+      {fingerprint_of(Scene()), "scene_t"},
+      {fingerprint_of(Avatar()), "avatar_t"},
+      {fingerprint_of(Style()), "style_t"},
+      {fingerprint_of(Placement()), "placement_t"},
+      {fingerprint_of(Beat()), "beat_t"},
+  }};
+  if (message.size() < sizeof(Fingerprint)) return "";
+  for (const Known& known : kKnown)
+    if (std::memcmp(message.data(), known.fingerprint.data(), sizeof(Fingerprint)) == 0)
+      return known.type;
+  return "";
+}
+
+void TopTable::take(std::string_view name, std::span<const std::uint8_t> message, MonoTime now) {
+  if (!begin_.is_set()) begin_ = now;
+  auto row = channels_.find(name);
+  if (row == channels_.end()) {
+    if (channels_.size() == kMaxChannels) {
+      ++beyond_bounds_;
+      return;
+    }
+    row = channels_.emplace(name, ChannelRow()).first;
+  }
+  ChannelRow& channel = row->second;
+  ++channel.messages;
+  ++channel.all_messages;
+  channel.bytes += message.size();
+  channel.last = now;
+  channel.type = type_of_message(message);
+
+  const auto parsed = Channel::parse(name);
+  if (parsed && parsed->signal() == Signal::kStyle) take_style(name, message, now);
+  ProgramRow program{Stats(), now};
+  if (!parsed || parsed->signal() != Signal::kStats) return;
+  if (decode(message.data(), message.size(), program.stats) != Decoded::kFine) return;
+  const auto known = programs_.find(parsed->program());
+  if (known != programs_.end())
+    known->second = program;
+  else if (programs_.size() < kMaxPrograms)
+    programs_.emplace(parsed->program(), program);
+}
+
+void TopTable::take_style(std::string_view name, std::span<const std::uint8_t> message,
+                          MonoTime now) {
+  StyleRow row{Style(), now};
+  if (decode(message.data(), message.size(), row.style) != Decoded::kFine) return;
+  const auto known = styles_.find(name);
+  if (known != styles_.end())
+    known->second = row;
+  else if (styles_.size() < kMaxPrograms)
+    styles_.emplace(name, row);
+}
+
+void TopTable::append_styles(std::string& out) const {
+  const auto back = std::back_inserter(out);
+  if (!styles_.empty())
+    fmt::format_to(back, "\n{:<34}{:>6}{:>7}{:>10}{:>6}{:>7}{:>6}{:>6}{:>10}{:>9}\n", "style",
+                   "hips", "torso", "shoulders", "arms", "hands", "legs", "head", "periodic",
+                   "dynamic");
+  for (const auto& [name, row] : styles_) {
+    const auto& gain = row.style.gain;
+    fmt::format_to(
+        back, "{:<34}{:>6.2f}{:>7.2f}{:>10.2f}{:>6.2f}{:>7.2f}{:>6.2f}{:>6.2f}{:>10.2f}{:>9.2f}\n",
+        printable(name), gain[0], gain[1], gain[2], gain[3], gain[4], gain[5], gain[6],
+        row.style.periodic, row.style.dynamic);
+  }
+}
+
+std::string TopTable::text(MonoTime now) {
+  const double seconds = begin_.is_set() ? std::max((now - begin_).as_seconds(), 1e-3) : 1.0;
+  std::string out;
+  append_channels(out, now, seconds);
+  append_styles(out);
+  append_programs(out, now);
+  if (beyond_bounds_ > 0)
+    fmt::format_to(std::back_inserter(out), "{} messages on more channels than the table holds\n",
+                   beyond_bounds_);
+  for (auto& [name, row] : channels_) row.messages = row.bytes = 0;
+  std::erase_if(channels_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  std::erase_if(styles_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  std::erase_if(programs_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  begin_ = now;
+  return out;
+}
+
+void TopTable::append_channels(std::string& out, MonoTime now, double seconds) {
+  const auto back = std::back_inserter(out);
+  fmt::format_to(back, "{:<34}{:>8}{:>11}{:>9}  {:<14}{:>10}\n", "channel", "Hz", "bytes/s", "age",
+                 "type", "messages");
+  for (const auto& [name, row] : channels_) {
+    fmt::format_to(back, "{:<34}{:>8.1f}{:>11.0f}{:>7.1f} s  {:<14}{:>10}\n", printable(name),
+                   static_cast<double>(row.messages) / seconds,
+                   static_cast<double>(row.bytes) / seconds,
+                   std::max(0.0, (now - row.last).as_seconds()),
+                   row.type.empty() ? "(not ours)" : row.type, row.all_messages);
+  }
+  if (channels_.empty()) out += "(nobody speaks)\n";
+}
+
+void TopTable::append_programs(std::string& out, MonoTime now) const {
+  if (programs_.empty()) return;
+  const auto back = std::back_inserter(out);
+  fmt::format_to(back, "\n{:<14}{:>9}{:>10}{:>10}{:>8}{:>9}{:>8}{:>10}{:>11}{:>8}\n", "program",
+                 "up", "received", "forwarded", "lost", "dropped", "guests", "rtt", "lateness",
+                 "age");
+  for (const auto& [name, row] : programs_) {
+    const Stats& s = row.stats;
+    const std::int64_t dropped =
+        s.dropped_late + s.dropped_invalid + s.dropped_unrouted + s.dropped_overflow;
+    fmt::format_to(
+        back, "{:<14}{:>7.0f} s{:>10}{:>10}{:>8}{:>9}{:>8}{:>7.1f} ms{:>8.1f} ms{:>6.1f} s\n",
+        printable(name), s.uptime.as_seconds(), s.received, s.forwarded, s.lost, dropped, s.guests,
+        s.round_trip.as_ms(), s.lateness_p99.as_ms(), (now - row.last).as_seconds());
+  }
+}
+
+}  // namespace dance

@@ -1,0 +1,36 @@
+// CsvConsumer: a wide table, one row for each pose: for spreadsheets and notebooks. The first row
+// names the columns and their units.
+//
+// Units/frames: capture_us and heard_us in microseconds, the former of the clock clock_id; hips in
+//               metres in W; each bone's rotation in its parent as unit quaternion x, y, z, w. An
+//               empty music_beats is no music.
+// Ownership:    the output must outlive it.
+// Threads:      none inside; one owner.
+// Failure:      finish() tells what could not be written.
+#pragma once
+
+#include "consumers/output_file.h"
+#include "consumers/pose_consumer.h"
+#include "consumers/rate_limit.h"
+#include "consumers/text/line_builder.h"
+
+namespace dance {
+
+class CsvConsumer : public PoseConsumer {
+ public:
+  // At most hz rows a second for each guest; 0 = all.
+  CsvConsumer(OutputFile& output, double hz);
+
+  void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) override;
+  Result<void> finish() override { return output_.flush(); }
+  std::string summary() const override;
+
+ private:
+  OutputFile& output_;
+  RateLimit limit_;
+  LineBuilder line_;
+  std::uint64_t heard_ = 0;
+  std::uint64_t written_ = 0;
+};
+
+}  // namespace dance

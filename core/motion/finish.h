@@ -1,0 +1,68 @@
+// Finish: the last step of a station that guesses, so that whatever comes out is a body that moves
+// like one: corrections without a pop, joints within their limits, feet that stand where they
+// stand, rotations of unit length.
+//
+// Units/frames: as transformers/transformer.h; times of the stage's clock.
+// Ownership:    plain value; never allocates. Costs 1 to 4 us a frame.
+// Threads:      none inside; one owner.
+// Failure:      none. A pose that is no guess, with nothing left to correct, is not touched.
+#pragma once
+
+#include "core/motion/foot_lock.h"
+#include "core/motion/inertializer.h"
+#include "core/motion/joint_limits.h"
+#include "core/motion/turn_limit.h"
+
+namespace dance {
+
+class Finish {
+ public:
+  explicit Finish(Duration half_life = Inertializer::kHalfLife) : corrections_(half_life) {}
+
+  void set_body(const Skeleton& skeleton) { feet_.set_body(skeleton); }
+  void set_half_life(Duration half_life) { corrections_.set_half_life(half_life); }
+  void set_feet(const FootLock::Settings& settings) { feet_.set_settings(settings); }
+
+  // See Inertializer::add().
+  void correct(MonoTime now, const Pose& was, const Pose& is) { corrections_.add(now, was, is); }
+  void correct(MonoTime now, const Pose& was_before, const Pose& was, const Pose& is_before,
+               const Pose& is, Duration step) {
+    corrections_.add(now, was_before, was, is_before, is, step);
+  }
+
+  // What was really danced, as it becomes known: feet that stand are known by it. Optional. A
+  // station that is only asked for moments finishes nothing, and has nothing to know: of a chain
+  // the last one does it.
+  void observe(const Pose& real, MonoTime now) {
+    if (finishes_) feet_.observe(real, now);
+  }
+
+  // Once a frame. `is_guess`: the pose was not danced so, or not yet.
+  void apply(MonoTime now, Pose& pose, bool is_guess) {
+    finishes_ = true;
+    corrections_.apply(now, pose);
+    const bool is_free = is_guess || !corrections_.is_at_rest();
+    if (is_guess) limit_joints(pose);
+    bool is_changed = turns_.apply(now, pose, is_free) || is_free;
+    is_changed = feet_.apply(now, pose, is_free) || is_changed;
+    if (is_changed) normalize(pose);
+  }
+
+  // Another dancer, or the same one anew: nothing of before is taken along.
+  void clear() {
+    corrections_.clear();
+    turns_.clear();
+    feet_.clear();
+  }
+
+  const Inertializer& corrections() const { return corrections_; }
+  const FootLock& feet() const { return feet_; }
+
+ private:
+  Inertializer corrections_;
+  TurnLimit turns_;
+  FootLock feet_;
+  bool finishes_ = false;  // has been applied
+};
+
+}  // namespace dance

@@ -1,0 +1,34 @@
+// TurnLimit: no joint turns faster than bodies do, in what is guessed: a prediction that follows a
+// broken sensor, or a joint that is bent beyond where its angles are told apart, must not throw a
+// limb within a frame. What is cut off is caught up with in the next frames.
+//
+// Units/frames: turns of each bone in its parent; times of the stage's clock.
+// Ownership:    plain value; never allocates. Costs about 0.1 us a frame.
+// Threads:      none inside; one owner.
+// Failure:      none. After a gap in time nothing is limited.
+// Source:       CMU motion capture (mocap.cs.cmu.edu), subjects 60, 61 and 131: 99.9 % of all
+//               frames are below.
+#pragma once
+
+#include "core/base/time.h"
+#include "core/pose/pose.h"
+
+namespace dance {
+
+class TurnLimit {
+ public:
+  static constexpr float kFastest_rad_s = 16.0f;
+  static constexpr float kFastestHand_rad_s = 30.0f;
+
+  // Once a frame; the same moment again shows what is behind as before. What is danced is not
+  // touched, unless a limb is still behind. Returns whether the pose was changed.
+  bool apply(MonoTime now, Pose& pose, bool is_guess);
+  void clear() { is_behind_ = false, time_ = MonoTime(); }
+
+ private:
+  BoneRotations shown_ = identity_rotations();
+  MonoTime time_;
+  bool is_behind_ = false;
+};
+
+}  // namespace dance

@@ -1,0 +1,105 @@
+#include "core/program/child_process.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+namespace dance {
+namespace {
+
+// In the child, between fork and exec: only calls that are safe there.
+[[noreturn]] void become(const ChildProcess::Options& options, char* const* arguments,
+                         pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(127);  // the parent died before we could ask
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const auto redirect = [](const std::string& file, int to) {
+    if (file.empty()) return;
+    const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    if (fd < 0 || dup2(fd, to) < 0) _exit(126);
+  };
+  redirect(options.output_file, STDOUT_FILENO);
+  redirect(options.talk_file, STDERR_FILENO);
+  execv(options.program.c_str(), arguments);
+  _exit(127);
+}
+
+}  // namespace
+
+Result<ChildProcess> ChildProcess::start(const Options& options) {
+  if (access(options.program.c_str(), X_OK) != 0)
+    return fail(options.program + ": cannot be run; was it built? ./dance setup builds all");
+  std::vector<char*> arguments{const_cast<char*>(options.program.c_str())};
+  for (const std::string& argument : options.arguments)
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  const pid_t pid = fork();
+  if (pid < 0) return fail(options.program + ": fork failed; is the machine out of processes?");
+  if (pid == 0) become(options, arguments.data(), parent);
+  return ChildProcess(pid);
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept { *this = std::move(other); }
+
+ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
+  if (this == &other) return *this;
+  stop(Duration::s(1));
+  pid_ = std::exchange(other.pid_, -1);
+  ended_ = other.ended_;
+  exit_code_ = other.exit_code_;
+  exit_text_ = std::move(other.exit_text_);
+  return *this;
+}
+
+ChildProcess::~ChildProcess() { stop(Duration::s(1)); }
+
+void ChildProcess::note_end(int status) {
+  ended_ = true;
+  exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  exit_text_ = WIFSIGNALED(status) ? "ended by signal " + std::to_string(WTERMSIG(status))
+                                   : "ended with exit " + std::to_string(WEXITSTATUS(status));
+}
+
+bool ChildProcess::has_ended() {
+  if (pid_ < 0 || ended_) return true;
+  int status = 0;
+  if (waitpid(pid_, &status, WNOHANG) == pid_) note_end(status);
+  return ended_;
+}
+
+Duration ChildProcess::cpu_time() const {
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &time) != 0) return Duration();
+  return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
+}
+
+bool ChildProcess::wait(Duration patience) {
+  for (Duration waited; !has_ended() && waited < patience; waited += Duration::ms(5)) usleep(5000);
+  return has_ended();
+}
+
+void ChildProcess::ask_to_stop() {
+  if (!has_ended()) kill(pid_, SIGTERM);
+}
+
+void ChildProcess::stop(Duration patience) {
+  ask_to_stop();
+  if (wait(patience)) return;
+  kill(pid_, SIGKILL);
+  int status = 0;
+  if (waitpid(pid_, &status, 0) == pid_) note_end(status);
+}
+
+}  // namespace dance

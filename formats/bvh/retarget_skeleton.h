@@ -1,0 +1,17 @@
+// The canonical skeleton of a captured dancer: every offset learnt from the reference pose, so that
+// forward kinematics puts the joints where the file has them.
+//
+// Units/frames: metres, T-pose axes.
+// Threads:      none inside.
+// Failure:      bones that the file lacks are laid between those that it has, or get average
+//               lengths.
+#pragma once
+
+#include "core/pose/skeleton.h"
+#include "formats/bvh/rig_reference.h"
+
+namespace dance {
+
+Skeleton learn_skeleton(const Bvh& bvh, const Rig& rig, const RigReference& reference);
+
+}  // namespace dance

@@ -1,0 +1,44 @@
+// Rig: which joints of a motion capture file are which bones of the canonical skeleton. Read from
+// the joints' names, in the words of many tools; where those say nothing, from the shape of the
+// figure.
+//
+// Units/frames: indices into Bvh::joints; kNoJoint where the file has no such bone.
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      find_rig() of what is no human names the bones that it could not find.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/pose/bone.h"
+#include "formats/bvh/bvh.h"
+
+namespace dance {
+
+constexpr int kNoJoint = -1;
+
+struct Rig {
+  std::array<int, kBoneCount> joint_of;
+  std::array<int, kFingerBoneCount> finger_of;
+  bool is_from_names = true;
+
+  Rig() {
+    joint_of.fill(kNoJoint);
+    finger_of.fill(kNoJoint);
+  }
+  int joint(Bone bone) const { return joint_of[index_of(bone)]; }
+  bool has(Bone bone) const { return joint(bone) != kNoJoint; }
+  int& operator[](Bone bone) { return joint_of[index_of(bone)]; }
+};
+
+// Joint order, helper joints between the bones and missing chest, shoulders, hands, feet, toes,
+// neck and head are all fine; hips, upper and lower arms and legs must be there.
+Result<Rig> find_rig(const Bvh& bvh);
+
+// The bones without which a figure is no human, and which this rig lacks.
+std::vector<std::string> missing_bones(const Rig& rig);
+
+}  // namespace dance

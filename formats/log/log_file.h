@@ -1,0 +1,106 @@
+// LCM log files, read and written by bounded code of our own, as liblcm's reader believes the
+// lengths in a damaged file. The format is LCM's, so lcm-logger, lcm-logplayer and these are
+// interchangeable.
+//
+// Units/frames: event times are microseconds of the recorder's wall clock.
+// Ownership:    a reader's events are valid until its next call.
+// Threads:      none inside; one owner.
+// Failure:      open() and append() name the file and the reason; damaged bytes are skipped to the
+//               next event and counted. A disk that cannot be read on is no end: ended() says so.
+// Source:       LCM documentation, "Log file format": big-endian sync word 0xEDA1DA01, event
+//               number, time, lengths, channel, data.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace dance {
+
+// What LCM puts before an event's channel and data.
+constexpr std::size_t kLogHeader_bytes = 28;
+
+struct LogEvent {
+  std::int64_t number = 0;  // as its recorder counted
+  std::int64_t time_us = 0;
+  std::string_view channel;
+  std::span<const std::uint8_t> data;
+
+  // What it takes in a file.
+  std::size_t stored_bytes() const { return kLogHeader_bytes + channel.size() + data.size(); }
+};
+
+class LogReader {
+ public:
+  static Result<LogReader> open(const std::string& path);
+  // Reads, and closes, what is open already.
+  static LogReader of(std::FILE* file, std::string name);
+  // Reads bytes in memory, which must outlive the reader.
+  static LogReader over(std::span<const std::uint8_t> bytes);
+
+  // The next whole event; nullopt at the end of the file, or where it cannot be read on.
+  std::optional<LogEvent> next();
+  // After the last event: fine at the end of the file, else what kept the rest from being read.
+  Result<void> ended() const;
+  void rewind();
+
+  // Bytes that belonged to no whole event: damage, or a log cut off while it was written or read.
+  std::uint64_t skipped_bytes() const { return skipped_bytes_; }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  LogReader() = default;
+  bool fill(std::size_t wanted);
+  bool reaches_into_another(std::size_t whole);
+  void skip(std::size_t count);
+
+  std::string path_;
+  std::unique_ptr<std::FILE, CloseFile> file_;  // null when reading memory
+  std::span<const std::uint8_t> memory_;
+  std::size_t memory_at_ = 0;
+  std::vector<std::uint8_t> buffer_;
+  std::size_t begin_ = 0;    // of what is not used yet in buffer_
+  std::size_t pending_ = 0;  // bytes of the event handed out last
+  bool at_end_ = false;
+  int read_error_ = 0;  // errno
+  std::uint64_t skipped_bytes_ = 0;
+};
+
+class LogWriter {
+ public:
+  // Refuses to overwrite a file that is there.
+  // A new file: one that is there already is refused.
+  static Result<LogWriter> create(const std::string& path);
+  // Behind what is there, or a new file. An event that was cut off there costs no other: readers
+  // look for the next one.
+  static Result<LogWriter> append_to(const std::string& path);
+  // Numbered by how many this writer has written.
+  Result<void> append(std::int64_t time_us, std::string_view channel,
+                      std::span<const std::uint8_t> data);
+  // With the number that it has, for copies of logs.
+  Result<void> append(const LogEvent& event);
+  Result<void> flush();
+  std::uint64_t events() const { return static_cast<std::uint64_t>(events_); }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  LogWriter() = default;
+  std::string path_;
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::int64_t events_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,280 @@
+#include "house/house.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/net/mono_clock.h"
+#include "core/program/talk.h"
+#include "formats/bvh/clip_file.h"
+#include "producers/replay/clip_dancer.h"
+#include "producers/salsa/salsa_dancer.h"
+#include "tunnel/link/link_report.h"
+#include "tunnel/server/server.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kSecond = Duration::s(1);
+
+// Synthetic dancers count from the clock's zero, so that all of a machine are in step; a recording
+// begins now.
+MonoTime start_of(const HostedProducer& producer, MonoTime now) {
+  return producer.kind == HostedProducer::Kind::kSalsa ? MonoTime::from_us(1) : now;
+}
+
+// A synthetic dancer dances to `music` while there is some.
+Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer,
+                                            const BeatClock& music) {
+  if (producer.kind == HostedProducer::Kind::kReplay) {
+    DANCE_TRY(LoadedClip loaded, load_clip(producer.file));
+    for (const std::string& note : loaded.notes) talk::info("{}: {}", producer.file, note);
+    ClipDancerOptions options;
+    options.speed = producer.speed;
+    return std::make_unique<ClipDancer>(std::make_shared<const MotionClip>(std::move(loaded.clip)),
+                                        options);
+  }
+  SalsaStyle style;
+  style.role = producer.role == "lead" ? SalsaRole::kLead : SalsaRole::kFollow;
+  style.tempo_bpm = producer.tempo_bpm;
+  style.seed = static_cast<std::uint64_t>(producer.seed);
+  DANCE_TRY(const SalsaStyle checked, checked_style(style));
+  auto dancer = std::make_unique<SalsaDancer>(checked);
+  dancer->listen_to(music, start_of(producer, MonoTime()));
+  return dancer;
+}
+
+// evening.csv, or evening-2.csv where that is there: a house that is started again loses nothing.
+std::string free_name(const std::string& wanted) {
+  namespace fs = std::filesystem;
+  fs::path path = wanted;
+  std::error_code error;  // what cannot be looked at is told when it is opened
+  for (int i = 2; fs::is_regular_file(path, error) && i < 1000; ++i)
+    path = fs::path(wanted).replace_filename(fs::path(wanted).stem().string() + "-" +
+                                             std::to_string(i) +
+                                             fs::path(wanted).extension().string());
+  return path.string();
+}
+
+std::vector<GuestId> hosted_guests(const Session& session) {
+  std::vector<GuestId> guests;
+  for (const HostedProducer& producer : session.producers) guests.push_back(producer.guest);
+  return guests;
+}
+
+}  // namespace
+
+House::House(const Session& session, Poller& poller)
+    : session_(session), poller_(poller), tag_(this_clock_id()) {}
+
+Result<std::unique_ptr<House>> House::open(const Session& session, Poller& poller) {
+  std::unique_ptr<House> house(new House(session, poller));
+  DANCE_TRY(house->bus_, Bus::open(session.bus));
+  house->link_bus_ = std::make_unique<LinkBus>(*house->bus_, this_clock_id());
+  // The link first: a capture goes to the network before this house's own stage.
+  if (auto linked = house->open_link(); !linked) return tl::make_unexpected(linked.error());
+  ManagerOptions options;
+  options.routes = session.routes;
+  options.hear_guests_on_bus = session.server.empty();
+  options.hosted_captures = hosted_guests(session);
+  house->manager_ = std::make_unique<Manager>(options, *house->bus_, poller);
+  // Of more than the manager remembers each would be new again and again.
+  house->manager_->on_other_manager([url = house->bus_->url(), said = Seldom()]() mutable {
+    if (!said.is_due(url, mono_now())) return;
+    talk::warn(
+        "another house is open on {}: both fill one stage, and dancers jump to and fro; end one of "
+        "them, or give one another --bus",
+        url);
+  });
+  if (auto opened = house->open_consumers(); !opened) return tl::make_unexpected(opened.error());
+  if (auto opened = house->open_producers(); !opened) return tl::make_unexpected(opened.error());
+  if (session.music) {
+    DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
+  }
+  for (const HostedCamera& camera : session.cameras)
+    house->cameras_.push_back(HouseCamera::open(camera, house->bus_->url(), poller));
+  House* self = house.get();
+  house->bus_->on_beat([self](const Channel&, const Beat& beat, MonoTime) {
+    self->tag_.hear(beat);
+    if (beat.clock_id == this_clock_id()) self->heard_.hear(beat);
+  });
+  poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
+  poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
+    self->link_bus_->publish_second(now);
+    return now + kSecond;
+  });
+  return house;
+}
+
+House::~House() {
+  if (bus_) poller_.unwatch(bus_->fd());
+  for (auto& consumer : consumers_) {
+    if (auto finished = consumer->finish(); !finished) talk::error("{}", finished.error().what);
+  }
+}
+
+Result<void> House::open_link() {
+  if (session_.server.empty()) return {};
+  DANCE_TRY(const auto server, Address::resolve_all(session_.server, kDefaultServerPort));
+  LinkOptions options;
+  options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
+  options.listen_only = session_.guests.empty();
+  options.interest = session_.interest;
+  options.channels = session_.channels;
+  options.clock_id = this_clock_id();
+  options.quality_m = session_.quality_mm * 1e-3;
+  options.pose_bytes_per_second = session_.pose_bytes_per_second;
+  for (const GuestId& guest : session_.guests)
+    if (!options.guests.contains(guest) && !options.guests.try_push(guest))
+      return fail("a house has at most 16 guests");
+  LinkHandlers handlers = link_bus_->handlers();
+  add_stage(handlers);
+  add_talk(handlers);
+  LinkKeySource source;
+  source.key_file = session_.key_file;
+  source.certificates = {session_.certificate, session_.private_key, session_.authorities};
+  const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
+  DANCE_TRY(const LinkKey key, choose_link_key(session_.server, options.room, first, source));
+  DANCE_TRY(link_, Link::open(server, key, options, std::move(handlers), poller_));
+  link_bus_->attach(*link_);
+  for (const GuestId& guest : session_.guests)
+    if (!is_hosted(guest)) link_bus_->send_captures_of(guest);
+  for (const GuestId& guest : session_.guests) link_bus_->send_states_of(guest);
+  if (!options.listen_only) link_bus_->send_channels(session_.channels);
+  return {};
+}
+
+// What the link hears goes to the stage first, and then over the bus for whoever listens.
+void House::add_stage(LinkHandlers& handlers) {
+  handlers.on_pose = [this, publish = std::move(handlers.on_pose)](const GuestId& guest,
+                                                                   const Pose& pose, MonoTime now) {
+    manager_->take(Where::kGuest, guest, pose, now);
+    publish(guest, pose, now);
+  };
+  handlers.on_hands = [this, publish = std::move(handlers.on_hands)](
+                          const GuestId& guest, const Hands& hands, MonoTime now) {
+    manager_->take(Where::kGuest, guest, hands);
+    publish(guest, hands, now);
+  };
+  handlers.on_skeleton = [this, publish = std::move(handlers.on_skeleton)](
+                             const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
+    manager_->take(Where::kGuest, guest, TimedSkeleton{skeleton, now, this_clock_id()});
+    publish(guest, skeleton, now);
+  };
+}
+
+void House::add_talk(LinkHandlers& handlers) {
+  handlers.on_state = [this](LinkState state, MonoTime) {
+    if (state == LinkState::kConnected) {
+      troubles_.forget();
+      talk::info("in room '{}' on {}", session_.room, session_.server);
+    }
+    if (state == LinkState::kLapsed)
+      talk::warn("the server {} is silent; the house dances on, and asks it again",
+                 session_.server);
+  };
+  handlers.on_guest_joined = [](const GuestId& guest, MonoTime) {
+    talk::info("{} is here", guest.view());
+  };
+  handlers.on_guest_left = [this](const GuestId& guest, MonoTime) {
+    link_bus_->forget(guest);
+    talk::info("{} has left", guest.view());
+  };
+  handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
+    talk::info("{}", room_state_line(kind, verdict));
+  };
+  handlers.on_no_answer = [this](const Address& address) {
+    troubles_.warn(no_answer_line(address), mono_now());
+  };
+  handlers.on_no_entry = [this](SealTrouble trouble) {
+    troubles_.warn(no_entry_line(trouble, session_.server), mono_now());
+  };
+  handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
+    troubles_.warn(refusal_line(refusal, *wire::RoomName::parse(session_.room)), now);
+  };
+}
+
+Result<void> House::open_producers() {
+  for (const HostedProducer& producer : session_.producers) {
+    DANCE_TRY(auto dancer, make_dancer(producer, heard_));
+    feeds_.push_back(std::make_unique<DancerFeed>(std::move(dancer), producer.guest,
+                                                  producer.rate_hz, *this, poller_,
+                                                  start_of(producer, mono_now())));
+  }
+  return {};
+}
+
+Result<void> House::open_consumers() {
+  for (const HostedConsumer& wanted : session_.consumers) {
+    // A terminal that is stopped, or a pipe that nobody reads, would stop the house's dancers.
+    if (wanted.file.empty() || wanted.file == "-")
+      return fail("[[listen]] needs a file; to see poses in a terminal run dance listen");
+    DANCE_TRY(auto output, OutputFile::open(free_name(wanted.file)));
+    talk::info("writes the stage as {} to {}", wanted.to, output->name());
+    outputs_.push_back(std::move(output));
+    ConsumerOptions options;
+    options.guest = wanted.from.guest;
+    options.own_clock_id = this_clock_id();
+    DANCE_TRY(auto consumer, make_consumer(wanted.to, *outputs_.back(), options));
+    PoseConsumer* listener = consumer.get();
+    consumers_.push_back(std::move(consumer));
+    const GuestId only = wanted.from.guest;
+    if (wanted.from.where != Where::kStage)
+      return fail(
+          "[[listen]] from: a hosted consumer hears POSE/stage; for others run dance listen");
+    manager_->on_staged(
+        [listener, only](const GuestId& guest, const Pose& pose, MonoTime now) {
+          if (!only.is_set() || only == guest) listener->on_pose(guest, pose, now);
+        },
+        [listener, only](const GuestId& guest, const Skeleton& skeleton) {
+          if (!only.is_set() || only == guest) listener->on_skeleton(guest, skeleton, mono_now());
+        });
+  }
+  return {};
+}
+
+bool House::is_hosted(const GuestId& guest) const {
+  return std::any_of(session_.producers.begin(), session_.producers.end(),
+                     [&](const HostedProducer& producer) { return producer.guest == guest; });
+}
+
+bool House::is_sent(const GuestId& guest) const {
+  return link_ &&
+         std::find(session_.guests.begin(), session_.guests.end(), guest) != session_.guests.end();
+}
+
+void House::capture(const GuestId& guest, Pose& pose, MonoTime now) {
+  tag_.tag(pose);
+  const MonoTime published = mono_now();  // the dancer has been worked out since `now`
+  pose.stamp(Hop::kPublished, published);
+  if (is_sent(guest)) link_->send(guest, pose, now);
+  manager_->take(Where::kCapture, guest, pose, published);
+  bus_->publish(Channel::of(Signal::kPose, Where::kCapture, guest), pose);
+}
+
+void House::capture(const GuestId& guest, const Hands& hands) {
+  if (is_sent(guest)) link_->send(guest, hands, mono_now());
+  manager_->take(Where::kCapture, guest, hands);
+  bus_->publish(Channel::of(Signal::kHands, Where::kCapture, guest), hands);
+}
+
+void House::capture(const GuestId& guest, const TimedSkeleton& skeleton) {
+  if (is_sent(guest)) link_->send(guest, skeleton.skeleton, mono_now());
+  manager_->take(Where::kCapture, guest, skeleton);
+  bus_->publish(Channel::of(Signal::kSkeleton, Where::kCapture, guest), skeleton);
+}
+
+std::string House::report_json(MonoTime now) {
+  nlohmann::ordered_json report = nlohmann::ordered_json::object();
+  if (link_) report = nlohmann::ordered_json::parse(link_report_json(*link_));
+  const Stats stats = manager_->stats(now);
+  report["manager"] = {{"received", stats.received},
+                       {"forwarded", stats.forwarded},
+                       {"dropped_late", stats.dropped_late},
+                       {"dropped_invalid", stats.dropped_invalid},
+                       {"dropped_unrouted", stats.dropped_unrouted},
+                       {"dropped_overflow", stats.dropped_overflow}};
+  return report.dump();
+}
+
+}  // namespace dance

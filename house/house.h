@@ -1,0 +1,73 @@
+// House: all of a house's routing in one process: bus, signal manager, link to the server, hosted
+// producers and consumers, from one session. A pose from the link or from a hosted producer reaches
+// the stage without a bus hop; it goes over the bus as well, for recorders and whoever else
+// listens.
+//
+// Units/frames: times of this house's clock.
+// Ownership:    owns its parts; refers to the poller, which must outlive it.
+// Threads:      none inside; runs in the poller's thread.
+// Failure:      open() names what cannot be had (bus, server's name, motion file) and the cure.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "consumers/consumer_table.h"
+#include "core/bus/bus.h"
+#include "core/net/poller.h"
+#include "core/pose/music_tag.h"
+#include "core/program/seldom.h"
+#include "house/house_camera.h"
+#include "house/house_music.h"
+#include "house/session.h"
+#include "manager/manager.h"
+#include "producers/capture_sink.h"
+#include "producers/dancer_feed.h"
+#include "tunnel/link/link.h"
+#include "tunnel/link/link_bus.h"
+
+namespace dance {
+
+class House : public CaptureSink {
+ public:
+  static Result<std::unique_ptr<House>> open(const Session& session, Poller& poller);
+  ~House() override;
+
+  Bus& bus() { return *bus_; }
+  bool is_connected() const { return link_ && link_->is_connected(); }
+  // What the house counted, as one JSON object: per remote guest, link and manager.
+  std::string report_json(MonoTime now);
+
+ private:
+  House(const Session& session, Poller& poller);
+  Result<void> open_link();
+  Result<void> open_producers();
+  Result<void> open_consumers();
+  void add_stage(LinkHandlers& handlers);
+  void add_talk(LinkHandlers& handlers);
+  bool is_hosted(const GuestId& guest) const;
+  bool is_sent(const GuestId& guest) const;  // a guest of this house whom the link announces
+
+  // Of hosted producers.
+  void capture(const GuestId& guest, Pose& pose, MonoTime now) override;
+  void capture(const GuestId& guest, const Hands& hands) override;
+  void capture(const GuestId& guest, const TimedSkeleton& skeleton) override;
+
+  Session session_;
+  Poller& poller_;
+  std::unique_ptr<Bus> bus_;
+  std::unique_ptr<LinkBus> link_bus_;
+  std::unique_ptr<Link> link_;
+  std::unique_ptr<Manager> manager_;
+  MusicTag tag_;     // of hosted producers
+  BeatClock heard_;  // the music, for those who dance to it
+  std::vector<std::unique_ptr<DancerFeed>> feeds_;
+  std::vector<std::unique_ptr<OutputFile>> outputs_;
+  std::vector<std::unique_ptr<PoseConsumer>> consumers_;
+  std::unique_ptr<HouseMusic> music_;
+  std::vector<std::unique_ptr<HouseCamera>> cameras_;
+  Seldom troubles_;  // of the link
+};
+
+}  // namespace dance

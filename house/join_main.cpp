@@ -1,0 +1,146 @@
+// dance join: all of a house in one: manager, link and hosted producers in this process, the viewer
+// beside it.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/net/mono_clock.h"
+#include "core/program/child_process.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "house/house.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance join sessions/alice.toml                     everything as the session file says
+  dance join dance.example.org --guest alice --room salsa
+                                                     without a file: own captures to the stage and
+                                                     the room; the others predicted, in rhythm
+  dance join sessions/alice.toml --want default=4 --want bob=1
+                                                     bob in full, of the others each fourth pose
+  dance join dance.example.org --guest alice --camera auto
+                                                     alice dances before the first camera
+  dance join sessions/alice.toml --no-view           without a window
+)";
+
+struct JoinOptions {
+  std::string host_or_session;
+  std::vector<std::string> guests;
+  std::string room;
+  std::vector<std::string> want;
+  std::string bus;
+  std::string camera;
+  bool no_view = false;
+  bool json = false;
+};
+
+Result<GuestId> guest_of(const std::string& name) {
+  const auto guest = GuestId::parse(name);
+  if (!guest) return fail("--guest '" + name + "': " + kGuestIdRule);
+  return *guest;
+}
+
+Result<Session> session_of(const JoinOptions& options) {
+  Session session;
+  const bool is_file = options.host_or_session.ends_with(".toml") ||
+                       std::filesystem::exists(options.host_or_session);
+  if (is_file) {
+    DANCE_TRY(session, load_session(options.host_or_session));
+  } else {
+    session.server = options.host_or_session;
+    session.routes = default_routes();
+  }
+  if (!options.guests.empty()) session.guests.clear();
+  for (const std::string& name : options.guests) {
+    DANCE_TRY(const GuestId guest, guest_of(name));
+    session.guests.push_back(guest);
+  }
+  if (!options.room.empty()) session.room = options.room;
+  if (!GuestId::parse(session.room))
+    return fail("--room '" + session.room +
+                "': a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
+  if (!options.want.empty()) {
+    const auto interest = parse_interest(options.want);
+    if (!interest) return fail("--want " + interest.error().what);
+    session.interest = *interest;
+  }
+  if (!options.camera.empty()) {
+    if (session.guests.empty()) return fail("--camera: who dances? name the guest with --guest");
+    HostedCamera camera;
+    camera.guest = session.guests.front();
+    if (options.camera != "auto") camera.device = options.camera;
+    // Where the session has one for this guest, another device; a dancer that stands in for the
+    // camera makes room.
+    std::erase_if(session.producers, [&](const auto& p) { return p.guest == camera.guest; });
+    const auto has = std::find_if(session.cameras.begin(), session.cameras.end(),
+                                  [&](const auto& c) { return c.guest == camera.guest; });
+    if (has == session.cameras.end())
+      session.cameras.push_back(camera);
+    else
+      has->device = camera.device;
+  }
+  if (!options.bus.empty()) session.bus = options.bus;
+  if (options.no_view) session.view = false;
+  return session;
+}
+
+Result<void> run_join(const JoinOptions& options) {
+  DANCE_TRY(const Session session, session_of(options));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto house, House::open(session, *poller));
+  std::unique_ptr<ChildProcess> viewer;
+  if (session.view) {
+    DANCE_TRY(ChildProcess started,
+              ChildProcess::start(
+                  {program_folder() + "/dance-view", {"--bus", house->bus().url()}, "", ""}));
+    viewer = std::make_unique<ChildProcess>(std::move(started));
+    poller->add_timer(mono_now() + Duration::ms(200), [&](MonoTime now) {
+      if (!viewer->has_ended()) return now + Duration::ms(200);
+      if (viewer->ended_well()) {
+        poller->stop();  // the window was closed
+        return MonoTime();
+      }
+      talk::warn(
+          "the viewer {}; the house goes on. `dance view --bus \"{}\"` opens it again, and with "
+          "--no-view it is not opened",
+          viewer->exit_text(), house->bus().url());
+      return MonoTime();
+    });
+  }
+  talk::info("the house is open on {}; Ctrl-C ends it", house->bus().url());
+  poller->run();
+  if (options.json) std::printf("%s\n", house->report_json(mono_now()).c_str());
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::JoinOptions options;
+  dance::CommandLine line("All of a house in one: manager, link, hosted producers, viewer.",
+                          "dance join");
+  line.add("HOST|SESSION", options.host_or_session,
+           "a session file (.toml), or the server's HOST[:PORT]")
+      .required();
+  line.add("--guest", options.guests, "who dances here, instead of the session's guests")
+      .guest_name();
+  line.add("--room", options.room, "which room, instead of the session's");
+  line.add(
+      "--want", options.want,
+      "how many of a guest's poses come here, instead of the session's want: NAME=1 every one, "
+      "NAME=N at most every N-th, NAME=0 none; default=N for all who are not named; may be "
+      "repeated");
+  line.add("--camera", options.camera,
+           "a camera sees the first guest: auto, /dev/videoN, a number or a video; instead of what "
+           "the session says");
+  line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
+  line.add_flag("--no-view", options.no_view, "no viewer");
+  line.add_flag("--json", options.json, "write what was counted to stdout at the end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_join(options); });
+}

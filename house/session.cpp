@@ -1,0 +1,319 @@
+#include "house/session.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "house/toml_reader.h"
+#include "transformers/chain.h"
+
+namespace dance {
+namespace {
+
+constexpr std::uintmax_t kMaxSessionBytes = 1 << 20;
+constexpr std::size_t kMaxGuestsPerHouse = 16;
+constexpr std::size_t kMaxRoutes = 64;
+
+// "POSE/guest/*" or "POSE/capture/alice".
+std::optional<RouteEnd> parse_end(std::string_view text) {
+  constexpr std::string_view kPrefix = "POSE/";
+  if (!text.starts_with(kPrefix)) return std::nullopt;
+  text.remove_prefix(kPrefix.size());
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  RouteEnd end;
+  const auto where = find_where(text.substr(0, slash));
+  if (!where || *where == Where::kView) return std::nullopt;
+  end.where = *where;
+  const std::string_view guest = text.substr(slash + 1);
+  if (guest == "*") return end;
+  const auto id = GuestId::parse(guest);
+  if (!id) return std::nullopt;
+  end.guest = *id;
+  return end;
+}
+
+RouteEnd read_end(TomlReader& reader, std::string_view key, const std::string& text) {
+  const auto end = parse_end(text);
+  if (!end)
+    reader.complain(key, "'" + text + "' is not a channel like POSE/guest/* or POSE/capture/alice");
+  return end.value_or(RouteEnd());
+}
+
+GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& text) {
+  const auto id = GuestId::parse(text);
+  if (!id) reader.complain(key, "'" + text + "': " + std::string(kGuestIdRule));
+  return id.value_or(GuestId());
+}
+
+std::string read_file_name(TomlReader& reader, const char* key,
+                           const std::filesystem::path& folder) {
+  const auto file = reader.maybe_string(key);
+  return file ? (folder / *file).string() : "";
+}
+
+void read_house(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  if (const auto guest = reader.maybe_string("guest"))
+    session.guests.push_back(read_guest(reader, "guest", *guest));
+  for (const std::string& guest : reader.strings("guests", "[\"alice\", \"ann\"]"))
+    session.guests.push_back(read_guest(reader, "guests", guest));
+  if (session.guests.size() > kMaxGuestsPerHouse)
+    reader.complain("guests", "at most 16 guests dance in one house");
+  session.room = reader.string_or("room", session.room);
+  if (!GuestId::parse(session.room))
+    reader.complain("room", "a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
+  session.server = reader.string_or("server", "");
+  session.key_file = read_file_name(reader, "key_file", folder);
+  session.certificate = read_file_name(reader, "certificate", folder);
+  session.private_key = read_file_name(reader, "private_key", folder);
+  session.authorities = read_file_name(reader, "authorities", folder);
+  session.bus = reader.string_or("bus", "");
+  session.view = reader.bool_or("view", true);
+  session.quality_mm = reader.number_or("quality_mm", session.quality_mm, 0.125, 20.0);
+  session.pose_bytes_per_second = reader.number_or("pose_bytes_per_second", 0.0, 0.0, 1e6);
+  const auto interest = parse_interest(reader.strings("want", "[\"default=4\", \"bob=1\"]"));
+  if (interest)
+    session.interest = *interest;
+  else
+    reader.complain("want", interest.error().what);
+  reader.finish();
+}
+
+void read_route(TomlReader& reader, Session& session) {
+  Route route;
+  route.from = read_end(reader, "from", reader.required_string("from"));
+  route.to = read_end(reader, "to", reader.required_string("to"));
+  route.through = reader.strings("through", "[\"hold 20ms\"]");
+  const auto chain = Chain::make(route.through);
+  if (!chain) reader.complain("through", chain.error().what);
+  // Without a rate, poses go on as they come; transformers need the stage's steady rate.
+  route.rate_hz = reader.number_or("rate", route.through.empty() ? 0.0 : 60.0, 0.0, 1000.0);
+  if (!route.through.empty() && route.rate_hz < 1.0)
+    reader.complain("rate", "a route with transformers needs a rate from 1 to 1000 Hz");
+  if (route.through.empty() && route.rate_hz > 0.0)
+    reader.complain("rate",
+                    "a route without transformers gives poses on as they come; add \"hold 0ms\" "
+                    "for a steady rate");
+  if (route.to.where != Where::kStage) reader.complain("to", "a route leads to POSE/stage");
+  if (route.from.where == Where::kStage)
+    reader.complain("from", "a route from the stage to the stage would run in a circle");
+  if (route.to.guest.is_set() && !route.from.guest.is_set())
+    reader.complain("to", "all guests cannot become one; write POSE/stage/*");
+  reader.finish();
+  session.routes.push_back(route);
+}
+
+// A file's name is taken from the folder of the session; what a camera is called stays as it is:
+// "auto", "1", "HD Webcam".
+std::string device_from(const std::filesystem::path& folder, const std::string& device) {
+  const std::filesystem::path path = device;
+  if (path.is_absolute()) return device;
+  std::error_code error;
+  const bool is_file = path.has_parent_path() || path.has_extension() ||
+                       std::filesystem::exists(folder / path, error);
+  return is_file && !device.empty() ? (folder / path).string() : device;
+}
+
+void read_camera(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  HostedCamera camera;
+  camera.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  camera.device = device_from(folder, reader.string_or("device", ""));
+  camera.model = reader.string_or("model", "");
+  if (!camera.model.empty() && camera.model != "lite" && camera.model != "full" &&
+      camera.model != "heavy")
+    reader.complain("model", "is lite, full or heavy");
+  if (const auto file = reader.maybe_string("calibration"))
+    camera.calibration = (folder / *file).string();
+  camera.height_m = reader.number_or("height", 0.0, 0.0, 2.5);
+  if (camera.height_m != 0.0 && camera.height_m < 0.8)
+    reader.complain("height", "is the dancer's, in metres, from 0.8 to 2.5");
+  camera.mirror = reader.bool_or("mirror", false);
+  reader.finish();
+  session.cameras.push_back(camera);
+}
+
+void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  HostedProducer producer;
+  const std::string kind = reader.required_string("kind");
+  if (kind == "camera") return read_camera(reader, folder, session);
+  producer.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  producer.rate_hz = reader.number_or("rate", 60.0, 1.0, 1000.0);
+  if (kind == "salsa") {
+    producer.kind = HostedProducer::Kind::kSalsa;
+    producer.role = reader.string_or("role", "lead");
+    if (producer.role != "lead" && producer.role != "follow")
+      reader.complain("role", "is lead or follow");
+    producer.tempo_bpm = reader.number_or("tempo", 180.0, 60.0, 300.0);
+    producer.seed = reader.integer_or("seed", 1, 0, 1'000'000'000);
+  } else if (kind == "replay") {
+    producer.kind = HostedProducer::Kind::kReplay;
+    producer.file = (folder / reader.required_string("file")).string();
+    producer.speed = reader.number_or("speed", 1.0, 0.05, 20.0);
+  } else {
+    reader.complain("kind", "is camera, salsa or replay");
+  }
+  reader.finish();
+  session.producers.push_back(producer);
+}
+
+void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  HostedConsumer consumer;
+  consumer.to = reader.required_string("to");
+  if (consumer.to != "text" && consumer.to != "csv" && consumer.to != "bvh")
+    reader.complain("to", "is text, csv or bvh");
+  consumer.from = read_end(reader, "from", reader.string_or("from", "POSE/stage/*"));
+  const auto file = reader.maybe_string("file");
+  if (file) consumer.file = (folder / *file).string();
+  reader.finish();
+  session.consumers.push_back(consumer);
+}
+
+// In a room, the house plays along with it unless told otherwise.
+void read_music(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  HostedMusic music;
+  const bool has_room = !session.server.empty();
+  music.file = read_file_name(reader, "file", folder);
+  music.beats = read_file_name(reader, "beats", folder);
+  music.microphone = reader.bool_or("microphone", false);
+  music.follow = reader.bool_or("follow", has_room && !music.microphone);
+  if (const auto guest = reader.maybe_string("guest"))
+    music.guest = read_guest(reader, "guest", *guest);
+  else if (has_room && !music.file.empty() && !session.guests.empty())
+    music.guest = session.guests.front();
+  music.loop = reader.bool_or("loop", false);
+  music.silent = reader.bool_or("silent", false);
+  music.volume = reader.number_or("volume", 1.0, 0.0, 1.0);
+  music.trim_ms = reader.number_or("trim_ms", 0.0, -5000.0, 5000.0);
+  reader.finish();  // first, so that a misspelt key is told from a missing one
+  if (music.file.empty() && !music.follow && !music.microphone)
+    reader.complain("file",
+                    "is missing: name the music, or write follow = true or microphone = true");
+  session.music = music;
+}
+
+// The words of --channel as keys; numbers and truths stand as such.
+void read_channel(TomlReader& reader, Session& session) {
+  const std::string name = reader.required_string("name");
+  ChannelRule::Words words;
+  for (const char* key : {"class", "direction", "layout", "fingerprint", "guest"})
+    if (const auto value = reader.maybe_string(key)) words.emplace_back(key, *value);
+  constexpr auto kMostBytes = static_cast<std::int64_t>(kMaxChannelNewestBytes);
+  const std::int64_t size = reader.integer_or("size", 0, 1, kMostBytes);
+  if (size > 0) words.emplace_back("size", std::to_string(size));
+  const double rate = reader.number_or("rate", 0.0, 0.1, kMaxChannelRate_hz);
+  if (rate > 0.0) words.emplace_back("rate", std::to_string(rate));
+  if (reader.bool_or("unchecked", false)) words.emplace_back("unchecked", "yes");
+  reader.finish();  // first, so that a misspelt key is told from a missing one
+  const auto rule = ChannelRule::of(name, words);
+  if (!rule) reader.complain("name", rule.error().what);
+  if (session.channels.size() == kMaxChannelRules)
+    reader.complain("name", "a house has at most " + std::to_string(kMaxChannelRules) +
+                                " channels; join some, as LIGHT/*");
+  if (rule) session.channels.push_back(*rule);
+}
+
+// Calls `read` for each table of an array of tables; the first problem ends it.
+template <class Read>
+std::optional<Error> read_each(const toml::table& document, std::string_view key,
+                               const std::string& name, Read read) {
+  const toml::node* node = document.get(key);
+  if (!node) return std::nullopt;
+  const toml::array* array = node->as_array();
+  if (!array || !array->is_array_of_tables() || array->size() > kMaxRoutes) {
+    const auto begin = node->source().begin;
+    return Error{name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
+                 ": write " + std::string(key) + " as [[" + std::string(key) + "]], at most " +
+                 std::to_string(kMaxRoutes) + " times"};
+  }
+  for (const toml::node& element : *array) {
+    TomlReader reader(*element.as_table(), name, "[[" + std::string(key) + "]]");
+    read(reader);
+    if (reader.problem()) return reader.problem();
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> read_document(const toml::table& document, const std::string& name,
+                                   Session& session) {
+  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+  for (const auto& [key, node] : document) {
+    const std::string_view k = key.str();
+    if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "channel" &&
+        k != "music")
+      return Error{name + ":" + std::to_string(key.source().begin.line) + ":" +
+                   std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
+                   "' in a session; there are [house], [[route]], [[produce]], "
+                   "[[listen]], [[channel]] and [music]"};
+  }
+  const toml::node* house = document.get("house");
+  if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
+  TomlReader reader(*house->as_table(), name, "[house]");
+  read_house(reader, folder, session);
+  if (reader.problem()) return reader.problem();
+  auto problem = read_each(document, "route", name, [&](TomlReader& r) { read_route(r, session); });
+  if (!problem)
+    problem = read_each(document, "produce", name,
+                        [&](TomlReader& r) { read_producer(r, folder, session); });
+  if (!problem)
+    problem = read_each(document, "listen", name,
+                        [&](TomlReader& r) { read_consumer(r, folder, session); });
+  if (!problem)
+    problem =
+        read_each(document, "channel", name, [&](TomlReader& r) { read_channel(r, session); });
+  const toml::node* music = document.get("music");
+  if (problem || !music) return problem;
+  if (!music->is_table()) {
+    const auto begin = music->source().begin;
+    return Error{name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
+                 ": write music as [music], once"};
+  }
+  TomlReader music_reader(*music->as_table(), name, "[music]");
+  read_music(music_reader, folder, session);
+  return music_reader.problem();
+}
+
+}  // namespace
+
+Result<Session> parse_session(std::string_view text, const std::string& name) {
+  // toml++ as Debian builds it reports by exception; it ends here.
+  try {
+    const toml::table document = toml::parse(text, std::string_view(name));
+    Session session;
+    if (auto problem = read_document(document, name, session))
+      return tl::make_unexpected(std::move(*problem));
+    if (session.routes.empty()) session.routes = default_routes();
+    return session;
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    return fail(name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
+                ": " + std::string(error.description()));
+  }
+}
+
+Result<Session> load_session(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    return fail(path + ": is a folder; name the session file in it");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(path + ": cannot be read; is the name right?");
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || size > kMaxSessionBytes)
+    return fail(path + ": is no session file (it is larger than 1 MiB)");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return parse_session(text.str(), path);
+}
+
+std::vector<Route> default_routes() {
+  Route own;
+  own.from.where = Where::kCapture;
+  own.to.where = Where::kStage;
+  Route others;
+  others.from.where = Where::kGuest;
+  others.to.where = Where::kStage;
+  others.through = {"predict", "bridge", "rhythm", "stylize"};
+  others.rate_hz = 60.0;
+  return {own, others};
+}
+
+}  // namespace dance

@@ -1,0 +1,100 @@
+// Session: what a house is and does, read from its TOML file: who dances here, the server and room,
+// the bus, routes, whom it wants to hear, hosted producers and consumers, music, further channels.
+//
+// Units/frames: rates in Hz.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      an error names file, line and column, the thing and the cure; a key that is not
+//               known is an error too, as a misspelt one would be silently without effect.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "core/base/result.h"
+#include "manager/route.h"
+#include "tunnel/policy/channel_rule.h"
+#include "tunnel/policy/interest.h"
+
+namespace dance {
+
+// A producer inside the manager's process: no bus hop before its poses are routed.
+struct HostedProducer {
+  enum class Kind { kSalsa, kReplay };
+  Kind kind = Kind::kSalsa;
+  GuestId guest;
+  double rate_hz = 60.0;
+  // salsa
+  std::string role = "lead";
+  double tempo_bpm = 180.0;
+  std::int64_t seed = 1;
+  // replay
+  std::string file;
+  double speed = 1.0;
+};
+
+// A dancer whom a camera sees: `dance capture`, started beside the house.
+struct HostedCamera {
+  GuestId guest;
+  std::string device;       // as dance capture takes it; "" = the first camera
+  std::string model;        // lite, full or heavy; "" = as dance capture chooses
+  std::string calibration;  // a file; "" = none
+  double height_m = 0.0;    // of the dancer; 0 = not told
+  bool mirror = false;
+};
+
+// A consumer inside the manager's process.
+struct HostedConsumer {
+  std::string to = "text";  // text, csv or bvh
+  RouteEnd from;
+  std::string file;  // "" = standard output
+};
+
+// The music of the house, played beside it.
+struct HostedMusic {
+  std::string file;   // "" = the room's time only, or what the microphone hears
+  std::string beats;  // "" = the .beats file beside it
+  GuestId guest;      // plays for the room as this guest; not set = for the house alone
+  bool follow = false;
+  bool loop = false;
+  bool silent = false;
+  bool microphone = false;
+  double volume = 1.0;
+  double trim_ms = 0.0;
+};
+
+struct Session {
+  std::vector<GuestId>
+      guests;  // who dances in this house; may be empty (a house that only watches)
+  std::string room = "dance";
+  std::string server;  // host:port; "" = no tunnel
+  // How the server knows this house; "" = by the key that `dance key` keeps.
+  std::string key_file;
+  std::string certificate;
+  std::string private_key;
+  std::string authorities;
+  std::string bus;                     // LCM URL; "" = default
+  double quality_mm = 1.0;             // the largest error in a joint at the others'
+  double pose_bytes_per_second = 0.0;  // of each guest, at most; 0 = whatever quality_mm takes
+  Interest interest;                   // whom it wants to hear, and how often
+  bool view = true;                    // open the viewer (dance join)
+  std::vector<Route> routes;
+  std::vector<HostedProducer> producers;
+  std::vector<HostedCamera> cameras;
+  std::vector<HostedConsumer> consumers;
+  std::optional<HostedMusic> music;
+  std::vector<ChannelRule> channels;  // that ride along, or are let in
+};
+
+// `name` stands in errors. Relative file names in it are taken from the folder of `name`.
+Result<Session> parse_session(std::string_view text, const std::string& name);
+Result<Session> load_session(const std::string& path);
+
+// The session of a house that was given no file: own dancers straight to the stage, remote ones
+// predicted, carried over lapses, on the beat and in their style.
+std::vector<Route> default_routes();
+
+}  // namespace dance

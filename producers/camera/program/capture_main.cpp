@@ -1,0 +1,101 @@
+// dance capture: a dancer before a camera, or in a video.
+
+#include <cstdio>
+
+#include "core/program/program.h"
+#include "producers/camera/program/capture_calibrate.h"
+#include "producers/camera/program/capture_program.h"
+#include "producers/camera/v4l2/camera_list.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance capture --list                            which cameras are here, and what they give
+  dance capture                                   the first of them sees alice
+  dance capture /dev/video2 --guest bob --preview
+  dance capture evening.mp4 --guest bob --loop    a video as if it were a camera
+  dance capture --height 1.68 --mirror            as tall as she is; the stage as a mirror
+  dance capture --calibrate camera.yml --board 9x6 --square 25
+  dance capture --calibration camera.yml
+  dance capture zed --calibration SN1234.conf     two eyes side by side
+  dance capture --record takes/first              video beside poses
+)";
+
+Result<void> run_capture(const CaptureOptions& options) {
+  if (options.only_lists) {
+    std::fputs(camera_table(list_cameras()).c_str(), stdout);
+    return {};
+  }
+  if (!options.calibrate_file.empty()) return calibrate_camera(options);
+  DANCE_TRY(auto program, CaptureProgram::open(options));
+  program->run();
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  using dance::EngineKind;
+  using dance::PoseModel;
+  dance::CaptureOptions options;
+  dance::CommandLine line(
+      "A dancer before a camera, or in a video: poses on POSE/capture/<guest>. The picture itself "
+      "goes nowhere.",
+      "dance capture");
+  line.add("SOURCE", options.source,
+           "a camera (/dev/video0, 0, a part of its name), a video, a picture or a folder of "
+           "pictures; without it the first camera");
+  line.add_flag("--list", options.only_lists, "which cameras are here, and what they give");
+  line.add("--guest", options.guest, "who dances").guest_name().shows_default();
+  line.add("--size", options.size, "of the picture, like 1280x720; chosen where it is not given");
+  line.add("--hz", options.hz, "pictures a second of a camera; 0 = as many as it gives, up to 60")
+      .range(0.0, 1000.0);
+  line.add("--format", options.encoding, "how the camera packs them; chosen where it is not given")
+      .one_of({"YUYV", "MJPG", "NV12", "GREY"});
+  line.add_flag("--loop", options.loops, "a video begins again at its end");
+  line.add_choice<PoseModel>(
+      "--model", options.model,
+      {{"lite", PoseModel::kLite}, {"full", PoseModel::kFull}, {"heavy", PoseModel::kHeavy}},
+      "size of the pose network; full where it is not given, lite is twice as fast");
+  line.add_choice<EngineKind>("--engine", options.engine,
+                              {{"auto", EngineKind::kFastest},
+                               {"xnnpack", EngineKind::kXnnpack},
+                               {"opencv", EngineKind::kOpenCv}},
+                              "what computes it");
+  line.add("--models", options.models_folder, "folder of the networks, instead of models/pose");
+  line.add("--follow", options.follow,
+           "of several people: largest, or who is nearest to a place, as shares of the picture: "
+           "0.3,0.5");
+  line.add("--calibration", options.calibration,
+           "of the lens, or of two eyes: what --calibrate wrote, OpenCV's YAML, or a ZED's "
+           "SN<serial>.conf");
+  line.add("--right", options.right, "the right eye, where it is a camera of its own");
+  line.add("--fov", options.fov_deg,
+           "degrees that the picture is wide, where no calibration says it")
+      .range(20.0, 150.0)
+      .shows_default();
+  line.add("--height", options.height_m, "of the dancer, in metres; 0 = as it looks")
+      .range(0.0, 2.5);
+  line.add("--smooth", options.smooth, "0 hardly smooths, 1 as usual, 2 twice as much")
+      .range(0.0, 4.0)
+      .shows_default();
+  line.add_flag("--mirror", options.is_mirrored, "left and right change sides, as in a mirror");
+  line.add_flag("--preview", options.has_preview, "a window with the skeleton over the picture");
+  line.add("--preview-file", options.preview_file,
+           "the same as a picture file, .jpg or .png, written anew five times a second");
+  line.add("--record", options.record_folder, "keeps the video and the poses in this folder");
+  line.add("--calibrate", options.calibrate_file,
+           "measures the lens, or both, with a chessboard, and writes this file");
+  line.add("--board", options.board, "inner corners of the chessboard, across and down")
+      .shows_default();
+  line.add("--square", options.square_mm, "millimetres of one of its squares")
+      .range(1.0, 1000.0)
+      .shows_default();
+  line.add("--bus", options.bus, "LCM URL of the house's bus");
+  line.add("--seconds", options.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
+  line.add_flag("--json", options.wants_json, "write what was counted to stdout at the end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_capture(options); });
+}

@@ -1,0 +1,21 @@
+// The preview that --preview and --preview-file wish for.
+//
+// Ownership: plain function.
+// Threads:   as producers/camera/view/preview.h.
+// Failure:   says why there can be none; null where nobody wishes for one.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "producers/camera/program/capture_options.h"
+#include "producers/camera/view/preview.h"
+
+namespace dance {
+
+enum class PreviewSide { kAsTheCameraSees, kAsTheStageShows };  // which may be a mirror
+
+Result<std::unique_ptr<Preview>> open_preview(const CaptureOptions& options, PreviewSide side,
+                                              const std::string& title);
+
+}  // namespace dance

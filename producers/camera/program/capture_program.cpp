@@ -1,0 +1,220 @@
+#include "producers/camera/program/capture_program.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "core/net/mono_clock.h"
+#include "core/program/talk.h"
+#include "producers/camera/program/capture_preview.h"
+
+namespace dance {
+namespace {
+
+// As long as nothing comes this is how soon the program hears that it is to stop.
+constexpr Duration kPatience = Duration::ms(50);
+constexpr Duration kSilence = Duration::s(3);
+constexpr Duration kTroubleEvery = Duration::s(1);
+
+}  // namespace
+
+Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOptions& options) {
+  std::unique_ptr<CaptureProgram> program(new CaptureProgram(options));
+  const auto guest = GuestId::parse(options.guest);
+  if (!guest) return fail("--guest '" + options.guest + "': " + kGuestIdRule);
+  program->guest_ = *guest;
+  // Before any thread is started, as these inherit the blocked signals.
+  DANCE_TRY(program->poller_, Poller::create());
+  if (auto stops = program->poller_->stop_on_signals(); !stops)
+    return tl::make_unexpected(stops.error());
+  DANCE_TRY(program->eyes_, CaptureEyes::open(options));
+  // What may fail without a trace first; a recording makes files.
+  DANCE_TRY(program->preview_, open_preview(options, PreviewSide::kAsTheStageShows,
+                                            options.guest + " before " + program->eyes_->name()));
+  if (auto opened = program->open_chain(); !opened) return tl::make_unexpected(opened.error());
+  program->say_what_runs();
+  return program;
+}
+
+Result<void> CaptureProgram::open_chain() {
+  EstimatorOptions seeing;
+  seeing.model = options_.model;
+  seeing.engine = options_.engine;
+  seeing.models_folder = options_.models_folder;
+  DANCE_TRY(seeing.follow,
+            follow_options(options_, eyes_->format().width_px, eyes_->format().height_px));
+  DANCE_TRY(auto estimator, PoseEstimator::open(seeing));
+  DANCE_TRY(bus_, Bus::open(options_.bus));
+  bus_sink_ = std::make_unique<BusCaptureSink>(*bus_);
+  CaptureSink* sink = bus_sink_.get();
+  if (!options_.record_folder.empty()) {
+    DANCE_TRY(recording_,
+              CaptureRecording::create(options_.record_folder, eyes_->format().hz, *sink));
+    sink = recording_.get();
+  }
+  chain_ = std::make_unique<CaptureChain>(guest_, *sink, std::move(estimator), make_solver());
+  if (eyes_->rig()) chain_->add_second_eye(std::make_unique<StereoDepth>(*eyes_->rig()));
+  poller_->watch(bus_->fd(), [bus = bus_.get()](MonoTime now) { bus->drain(now); });
+  return {};
+}
+
+std::unique_ptr<BodySolver> CaptureProgram::make_solver() const {
+  SolverOptions solving;
+  if (options_.height_m > 0.0) solving.height_m = options_.height_m;
+  solving.is_mirrored = options_.is_mirrored;
+  solving.smooth = options_.smooth;
+  return std::make_unique<BodySolver>(solving, eyes_->camera());
+}
+
+void CaptureProgram::say_what_runs() const {
+  talk::info("{}", eyes_->line());
+  if (!eyes_->camera().is_measured)
+    talk::info("the lens is not measured: {:g} degrees across are assumed (--fov, or --calibrate)",
+               options_.fov_deg);
+  talk::info("pose network {} on {}; {} dances on POSE/capture/{}; Ctrl-C ends it",
+             name_of(options_.model), name_of(chosen_engine(options_.engine)), options_.guest,
+             options_.guest);
+}
+
+void CaptureProgram::run() {
+  begin_ = mono_now();
+  last_picture_ = begin_;
+  if (options_.seconds > 0.0) end_ = begin_ + Duration::seconds(options_.seconds);
+  EyesFrame seen;
+  bool is_over = false;
+  while (!is_over && !poller_->is_stopped()) {
+    switch (eyes_->next(kPatience, seen)) {
+      case FrameState::kFrame:
+        look(seen);
+        break;
+      case FrameState::kNone:
+        break;
+      case FrameState::kGone:
+        if (!has_said_gone_)
+          talk::warn("{} is gone; plug it in again, it is looked for", eyes_->name());
+        has_said_gone_ = true;
+        break;
+      case FrameState::kBack:
+        talk::info("{} is back", eyes_->name());
+        chain_->start_anew();
+        has_said_silence_ = has_said_gone_ = false;
+        last_picture_ = mono_now();
+        break;
+      case FrameState::kOver:
+        is_over = true;
+        break;
+    }
+    poller_->run_once(Duration());  // the bus, and whether to stop
+    const MonoTime now = mono_now();
+    if (now >= next_look_at_trouble_) say_trouble(now);
+    if (end_.is_set() && now >= end_) is_over = true;
+    if (preview_ && preview_->was_closed()) is_over = true;
+  }
+  if (recording_) recording_->finish();
+  report();
+}
+
+// A camera that comes back in a slower socket may give another size: the lens is then that of this
+// size.
+bool CaptureProgram::has_usual_size(const cv::Mat& picture) {
+  const FrameFormat& format = eyes_->format();
+  if (picture.cols == format.width_px && picture.rows == format.height_px) return true;
+  if (auto taken = eyes_->take_size(picture.cols, picture.rows); !taken) {
+    if (!has_said_size_) talk::warn("{}", taken.error().what);
+    has_said_size_ = true;
+    return false;
+  }
+  talk::info("{} gives {}x{} now; the dancer is measured anew", eyes_->name(), picture.cols,
+             picture.rows);
+  chain_->use(make_solver());
+  chain_->start_anew();
+  return true;
+}
+
+void CaptureProgram::look(const EyesFrame& seen) {
+  last_picture_ = mono_now();
+  has_said_silence_ = false;
+  if (!has_usual_size(seen.left.image)) return;
+  chain_->see(seen.left, seen.right.empty() ? nullptr : &seen.right);
+  // The pose is away; nothing below is waited for.
+  const std::string_view advice = advice_.see(seen.left.image, chain_->body());
+  if (!advice.empty()) talk::info("{}", advice);
+  if (preview_) {
+    const CaptureStats& stats = chain_->stats();
+    const double seconds = std::max(0.1, (last_picture_ - begin_).as_seconds());
+    preview_->show(seen.left, chain_->body(),
+                   fmt::format("{}  {:.0f} Hz  {:.1f} ms", options_.guest,
+                               static_cast<double>(stats.pictures) / seconds,
+                               stats.dequeued_to_published.percentile(0.5).as_ms()));
+  }
+  if (recording_) recording_->add(seen.left);
+}
+
+// Each is said once.
+void CaptureProgram::say_trouble(MonoTime now) {
+  next_look_at_trouble_ = now + kTroubleEvery;
+  if (!has_said_silence_ && !has_said_gone_ && now - last_picture_ > kSilence) {
+    has_said_silence_ = true;
+    talk::warn(
+        "{} gives no pictures; is another program using it, or the line too slow for {}x{}? Try "
+        "--size 640x480",
+        eyes_->name(), eyes_->format().width_px, eyes_->format().height_px);
+  }
+  const auto say_once = [](bool& said, const std::string& trouble) {
+    if (said || trouble.empty()) return;
+    said = true;
+    talk::warn("{}", trouble);
+  };
+  if (recording_) say_once(has_said_recording_, recording_->trouble());
+  if (preview_) say_once(has_said_preview_, preview_->trouble());
+  say_once(has_said_eyes_, eyes_->trouble());
+  if (chain_->stereo()) say_once(has_said_stereo_, chain_->stereo()->trouble());
+}
+
+void CaptureProgram::report() const {
+  const CaptureStats& stats = chain_->stats();
+  const FrameCounters counters = eyes_->counters();
+  const double seconds = (mono_now() - begin_).as_seconds();
+  const double hz = seconds > 0.0 ? static_cast<double>(stats.pictures) / seconds : 0.0;
+  const auto ms = [](const Histogram& h, double fraction) {
+    return h.percentile(fraction).as_ms();
+  };
+  talk::info(
+      "{} pictures ({:.1f} Hz), a dancer in {}, {} poses; picture to bus {:.1f} ms p50, {:.1f} ms "
+      "p99",
+      stats.pictures, hz, stats.seen, stats.published, ms(stats.dequeued_to_published, 0.5),
+      ms(stats.dequeued_to_published, 0.99));
+  if (counters.outrun + counters.lost + counters.damaged + counters.unplugged > 0)
+    talk::info(
+        "{} pictures were outrun by newer ones, {} lost in the driver, {} damaged; unplugged {} "
+        "times",
+        counters.outrun, counters.lost, counters.damaged, counters.unplugged);
+  if (recording_) talk::info("{}: {}", options_.record_folder, recording_->summary());
+  if (!options_.wants_json) return;
+  const CameraStand stand = chain_->solver().camera_stand();
+  nlohmann::ordered_json json{
+      {"source", eyes_->name()},
+      {"seconds", seconds},
+      {"pictures", stats.pictures},
+      {"hz", hz},
+      {"seen", stats.seen},
+      {"poses", stats.published},
+      {"dequeued_to_published_p50_ms", ms(stats.dequeued_to_published, 0.5)},
+      {"dequeued_to_published_p99_ms", ms(stats.dequeued_to_published, 0.99)},
+      {"captured_to_published_p50_ms", ms(stats.captured_to_published, 0.5)},
+      {"captured_to_published_p99_ms", ms(stats.captured_to_published, 0.99)},
+      {"outrun", counters.outrun},
+      {"lost", counters.lost},
+      {"damaged", counters.damaged},
+      {"unplugged", counters.unplugged},
+      {"searches", chain_->estimator().counters().searches},
+      {"camera_height_m", stand.height_m},
+      {"camera_pitch_deg", stand.pitch_rad * 180.0 / std::numbers::pi},
+      {"standing_height_m", standing_height_m(chain_->solver().skeleton())}};
+  if (chain_->stereo()) json["stereo_hints"] = chain_->stereo()->counters().hinted;
+  std::printf("%s\n", json.dump().c_str());
+}
+
+}  // namespace dance

@@ -1,0 +1,64 @@
+// CaptureProgram: `dance capture`: opens camera, pose network, solver and bus, and runs pictures
+// through them until it is told to stop or the video is over.
+//
+// Units/frames: as the parts say.
+// Ownership:    owns all parts.
+// Threads:      one for all of it; preview and recording have one of their own each. Call from main
+//               before other threads start.
+// Failure:      open() names the part that is missing, the reason and the cure. Later a camera may
+//               come and go: that is said, and waited for.
+#pragma once
+
+#include <memory>
+
+#include "core/net/poller.h"
+#include "producers/camera/program/capture_chain.h"
+#include "producers/camera/program/capture_eyes.h"
+#include "producers/camera/program/capture_options.h"
+#include "producers/camera/program/capture_recording.h"
+#include "producers/camera/stereo/stereo_rig.h"
+#include "producers/camera/view/dancer_advice.h"
+#include "producers/camera/view/preview.h"
+
+namespace dance {
+
+class CaptureProgram {
+ public:
+  static Result<std::unique_ptr<CaptureProgram>> open(const CaptureOptions& options);
+  // Until it is over; prints what was counted.
+  void run();
+
+ private:
+  explicit CaptureProgram(const CaptureOptions& options) : options_(options) {}
+  Result<void> open_chain();
+  void say_what_runs() const;
+  std::unique_ptr<BodySolver> make_solver() const;
+  bool has_usual_size(const cv::Mat& picture);
+  void look(const EyesFrame& seen);
+  void say_trouble(MonoTime now);
+  void report() const;
+
+  CaptureOptions options_;
+  GuestId guest_;
+  std::unique_ptr<Poller> poller_;
+  std::unique_ptr<CaptureEyes> eyes_;
+  std::unique_ptr<Bus> bus_;
+  std::unique_ptr<BusCaptureSink> bus_sink_;
+  std::unique_ptr<CaptureRecording> recording_;
+  std::unique_ptr<CaptureChain> chain_;
+  std::unique_ptr<Preview> preview_;
+  DancerAdvice advice_;
+  MonoTime begin_;
+  MonoTime end_;
+  MonoTime last_picture_;
+  MonoTime next_look_at_trouble_;
+  bool has_said_silence_ = false;
+  bool has_said_gone_ = false;
+  bool has_said_size_ = false;
+  bool has_said_recording_ = false;
+  bool has_said_preview_ = false;
+  bool has_said_eyes_ = false;
+  bool has_said_stereo_ = false;
+};
+
+}  // namespace dance

@@ -1,0 +1,228 @@
+// dance music: plays a file of music, says the beat that is heard in this house, and plays in step
+// with the room.
+
+#include <sys/stat.h>
+
+#include <charconv>
+#include <cstdio>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "producers/music/beats_file.h"
+#include "producers/music/microphone_beats.h"
+#include "producers/music/music_house.h"
+#include "producers/music/sound/pulse_player.h"
+#include "producers/music/tracked_song.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance music song.ogg                       plays it, with the beats of song.beats beside it
+  dance music song.ogg --beats list.beats    with others
+  dance music song.ogg --guest alice         for the room: followers hear the same position in it
+  dance music song.ogg --guest bob --follow  joins the room's song where it stands; begins it where
+                                             the room has no music
+  dance music --follow                       keeps the room's time, without the song
+  dance music song.ogg --silent              keeps the time only, on a machine without sound
+  dance music song.ogg --trim 120ms          through a loudspeaker that is late by so much
+  dance music --microphone                   plays nothing: publishes the beat that it hears
+A song without a list of beats is analysed before it starts, within a few per cent of its length.
+A .beats file is text: seconds, TAB, position in the bar.
+)";
+
+constexpr Duration kMicrophoneTurn = Duration::ms(10);
+
+struct ProgramOptions {
+  std::string file;
+  std::string beats;
+  std::string bus;
+  std::string guest;
+  std::string start;
+  std::string trim = "0ms";
+  bool follow = false;
+  bool silent = false;
+  bool loop = false;
+  bool microphone = false;
+  std::string source;
+  double volume = 1.0;
+  double seconds = 0.0;
+};
+
+// "20ms", "-5ms", "1.5s", "800us".
+std::optional<Duration> duration_of(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  const double scale = unit == "s" ? 1.0 : unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : 0.0;
+  if (scale == 0.0 || !(value * scale > -1e9 && value * scale < 1e9)) return std::nullopt;
+  return Duration::seconds(value * scale);
+}
+
+Result<MonoTime> start_of(const ProgramOptions& options, MonoTime now) {
+  // Time for the sound to get ready, and for the room to hear of it.
+  if (options.start.empty())
+    return now + (options.guest.empty() ? Duration::ms(500) : Duration::s(2));
+  if (options.start[0] == '+') {
+    if (const auto later = duration_of(std::string_view(options.start).substr(1)))
+      return now + *later;
+  } else {
+    std::int64_t us = 0;
+    const char* end = options.start.data() + options.start.size();
+    const auto read = std::from_chars(options.start.data(), end, us);
+    if (read.ec == std::errc() && read.ptr == end && us > 0) return MonoTime::from_us(us);
+  }
+  return fail("--start '" + options.start +
+              "': give microseconds of this machine's monotonic clock, as --start-us of other "
+              "producers, or a time from now like +2s");
+}
+
+bool is_there(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0;
+}
+
+struct Loaded {
+  std::optional<Song> song;
+  std::optional<AudioFile> audio;
+  float confidence = 1.0f;
+};
+
+Result<Loaded> load(const ProgramOptions& options) {
+  Loaded loaded;
+  if (options.file.empty()) return loaded;
+  DANCE_TRY(loaded.audio, AudioFile::open(options.file));
+  const std::string beats = options.beats.empty() ? beats_path_beside(options.file) : options.beats;
+  if (options.beats.empty() && !is_there(beats)) {
+    talk::info("there is no {}: listens for the beats of {}", beats, options.file);
+    auto tracked = track_song(*loaded.audio);
+    if (!tracked)
+      return fail(options.file + ": " + tracked.error().what +
+                  "; put a list of its beats beside it as " + beats);
+    loaded.confidence = tracked->confidence;
+    talk::info("{} beats, about {:.0f} a minute", tracked->grid.size(),
+               tracked->grid.tempo_bpm(tracked->grid.last_beat() / 2.0));
+    loaded.song.emplace(std::move(tracked->grid), loaded.audio->length_s(), false);
+    return loaded;
+  }
+  DANCE_TRY(BeatGrid grid, read_beats_file(beats));
+  if (grid.time_of(grid.first_beat()) > loaded.audio->length_s())
+    return fail(beats + ": its first beat is behind the end of " + options.file);
+  loaded.song.emplace(std::move(grid), loaded.audio->length_s(), false);
+  return loaded;
+}
+
+Result<Duration> trim_of(const ProgramOptions& options) {
+  const auto trim = duration_of(options.trim);
+  if (!trim || *trim > Duration::s(5) || *trim < -Duration::s(5))
+    return fail("--trim '" + options.trim + "': give a time like 20ms");
+  return *trim;
+}
+
+Result<std::unique_ptr<MusicPlayer>> player_of(const ProgramOptions& options, Loaded& loaded) {
+  if (options.silent || !loaded.audio) return std::make_unique<SilentPlayer>();
+  DANCE_TRY(const Duration trim, trim_of(options));
+  auto player = PulsePlayer::open(std::move(*loaded.audio), {options.volume, trim});
+  if (player) return std::move(*player);
+  talk::warn("{}; keeps the time without sound", player.error().what);
+  return std::make_unique<SilentPlayer>();
+}
+
+void stop_after(Poller& poller, double seconds) {
+  if (seconds > 0.0)
+    poller.add_timer(mono_now() + Duration::seconds(seconds), [&poller](MonoTime) {
+      poller.stop();
+      return MonoTime();
+    });
+}
+
+// Nothing is played: what is heard is followed.
+Result<void> listen(const ProgramOptions& options) {
+  DANCE_TRY(const Duration trim, trim_of(options));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto ear, MicrophoneBeats::open(options.source, trim));
+  DANCE_TRY(auto bus, Bus::open(options.bus));
+  BeatTeller teller(*bus, *poller, [&](MonoTime now) { return ear->beat(now); });
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  Result<void> worked;
+  poller->add_timer(mono_now(), [&](MonoTime now) {
+    worked = ear->work(now);
+    if (!worked) poller->stop();
+    return now + kMicrophoneTurn;
+  });
+  bool said_another = false;
+  poller->add_timer(mono_now(), [&](MonoTime now) {
+    if (teller.hears_another(now) && !said_another) talk::warn("{}", kAnotherSaysTheBeat);
+    said_another = teller.hears_another(now);
+    return now + Duration::s(1);
+  });
+  stop_after(*poller, options.seconds);
+  talk::info("listens; Ctrl-C ends it");
+  poller->run();
+  poller->unwatch(bus->fd());
+  talk::info("{} beats said", teller.told());
+  return worked;
+}
+
+Result<void> play(const ProgramOptions& options) {
+  if (options.microphone) return listen(options);
+  if (options.file.empty() && !options.follow)
+    return fail(
+        "nothing to play: name a file, keep the room's time with --follow, or listen with "
+        "--microphone");
+  // First: until the song has been listened to, Ctrl-C ends the program by itself.
+  DANCE_TRY(Loaded loaded, load(options));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  MusicHouseOptions house_options;
+  house_options.song = loaded.song;
+  house_options.loops = options.loop;
+  house_options.confidence = loaded.confidence;
+  house_options.title = music_title(options.file);
+  if (!options.guest.empty()) house_options.guest = *GuestId::parse(options.guest);
+  house_options.follows = options.follow;
+  DANCE_TRY(auto player, player_of(options, loaded));
+  DANCE_TRY(auto bus, Bus::open(options.bus));
+  DANCE_TRY(house_options.begin, start_of(options, mono_now()));
+  MusicHouse house(std::move(house_options), std::move(player), *bus, *poller);
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  stop_after(*poller, options.seconds);
+  talk::info("{}; Ctrl-C ends it", options.follow ? "listens for the room's music" : "playing");
+  poller->run();
+  house.stop(mono_now());
+  poller->unwatch(bus->fd());
+  talk::info("{} beats said; {}", house.teller().told(), house.summary());
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::ProgramOptions options;
+  dance::CommandLine line("Plays music, and says the beat that is heard in this house.",
+                          "dance music");
+  line.add("FILE", options.file, "the music: .ogg, .flac, .wav, .mp3, .opus");
+  line.add("--beats", options.beats,
+           "list of its beats; without it, the .beats file beside FILE, or what is heard");
+  line.add("--bus", options.bus, "LCM URL of the house's bus");
+  line.add("--guest", options.guest, "play for the room, as this guest of the house").guest_name();
+  line.add_flag("--follow", options.follow, "in step with the room's music, where there is some");
+  line.add("--start", options.start,
+           "when it begins: +2s from now, or microseconds of this machine's monotonic clock");
+  line.add_flag("--silent", options.silent, "keep the time only, without sound");
+  line.add_flag("--microphone", options.microphone,
+                "play nothing, and say the beat of what the microphone hears");
+  line.add("--source", options.source, "which microphone; `pactl list short sources` names them");
+  line.add_flag("--loop", options.loop,
+                "over and over, while it is this house that plays for the room or for itself");
+  line.add("--volume", options.volume, "0 to 1").range(0.0, 1.0);
+  line.add("--trim", options.trim,
+           "latency of the loudspeaker that the sound server does not know of, like 20ms");
+  line.add("--seconds", options.seconds, "end after so long; 0 = when it is over").range(0.0, 1e7);
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::play(options); });
+}

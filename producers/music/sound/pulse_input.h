@@ -1,0 +1,58 @@
+// PulseInput: what a microphone hears, or what a sink plays (its monitor), as mono samples, and
+// when each of them sounded, as far as the sound server knows.
+//
+// Units/frames: samples -1 to 1 at the rate asked for; frames count from the stream's begin. `trim`
+//               is a latency that the server does not know of.
+// Ownership:    refers to the server, which must outlive it.
+// Threads:      none inside: callbacks run in PulseServer::iterate().
+// Failure:      open() names what the server refused; is_alive() is false once the stream has gone.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "producers/music/heard_line.h"
+#include "producers/music/sound/pulse_server.h"
+
+struct pa_stream;
+
+namespace dance {
+
+class PulseInput {
+ public:
+  using OnSamples = std::function<void(std::span<const float> samples)>;
+
+  // `source` is its name for the server; "" = its default.
+  static Result<std::unique_ptr<PulseInput>> open(PulseServer& server, const std::string& source,
+                                                  double rate_hz, OnSamples on_samples);
+  ~PulseInput();
+  PulseInput(const PulseInput&) = delete;
+  PulseInput& operator=(const PulseInput&) = delete;
+
+  bool is_alive() const;
+  // Once the server's answers have come; samples before that have no time.
+  bool is_timed() const { return line_.is_known(); }
+  // When the frame sounded.
+  MonoTime time_of(std::int64_t frame) const { return line_.time_of(static_cast<double>(frame)); }
+  std::int64_t read_frames() const { return read_; }
+  void ask_when();
+
+ private:
+  PulseInput(double rate_hz, OnSamples on_samples)
+      : rate_hz_(rate_hz), on_samples_(std::move(on_samples)), line_(rate_hz) {}
+  void take_all();
+  void tell_when();
+
+  double rate_hz_;
+  OnSamples on_samples_;
+  HeardLine line_;
+  pa_stream* stream_ = nullptr;
+  std::int64_t read_ = 0;
+  std::vector<float> silence_;
+};
+
+}  // namespace dance

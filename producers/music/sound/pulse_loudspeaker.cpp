@@ -1,0 +1,86 @@
+#include <pulse/pulseaudio.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/net/mono_clock.h"
+#include "producers/music/loudspeaker.h"
+#include "producers/music/sound/pulse_output.h"
+
+namespace dance {
+namespace {
+
+constexpr double kSilence_hz = 48000.0;
+// Until the latency of a loudspeaker that has slept is what it is while it plays.
+constexpr Duration kPlayed = Duration::ms(500);
+// What is written at once of what the server wants.
+constexpr std::size_t kMostFrames = 4800;
+
+struct Asked {
+  Loudspeaker found;
+  bool is_done = false;
+};
+
+void take_default(pa_context*, const pa_server_info* info, void* data) {
+  auto& asked = *static_cast<Asked*>(data);
+  if (info != nullptr && info->default_sink_name != nullptr)
+    asked.found.name = info->default_sink_name;
+  asked.is_done = true;
+}
+
+void take_sink(pa_context*, const pa_sink_info* info, int is_last, void* data) {
+  auto& asked = *static_cast<Asked*>(data);
+  if (is_last != 0 || info == nullptr) {
+    asked.is_done = true;
+    return;
+  }
+  const auto text = [](const char* t) { return std::string(t != nullptr ? t : ""); };
+  asked.found.description = text(info->description);
+  asked.found.is_muted = info->mute != 0;
+  asked.found.latency = Duration::us(static_cast<std::int64_t>(info->latency));
+  const std::string factory = text(pa_proplist_gets(info->proplist, "factory.name"));
+  asked.found.leads_nowhere = asked.found.name == "auto_null" ||
+                              text(info->driver).find("null-sink") != std::string::npos ||
+                              factory.find("null-audio-sink") != std::string::npos;
+}
+
+Result<void> wait_for_answer(PulseServer& server, pa_operation* operation, const Asked& asked) {
+  if (operation == nullptr) return fail("the sound server tells nothing: " + server.error_text());
+  const bool has_answered = server.iterate_until([&] { return asked.is_done; });
+  if (!has_answered) pa_operation_cancel(operation);
+  pa_operation_unref(operation);
+  if (!has_answered) return fail("the sound server does not answer");
+  return {};
+}
+
+}  // namespace
+
+Result<Loudspeaker> default_loudspeaker(const std::string& program) {
+  DANCE_TRY(const auto server, PulseServer::connect(program));
+  Asked asked;
+  pa_context* context = server->context();
+  if (auto told = wait_for_answer(*server,
+                                  pa_context_get_server_info(context, take_default, &asked), asked);
+      !told)
+    return tl::make_unexpected(told.error());
+  DANCE_TRY(const auto output, PulseOutput::open(*server, kSilence_hz, [](MonoTime, double) {}));
+  const std::vector<float> silence(2 * kMostFrames, 0.0f);
+  const MonoTime end = mono_now() + kPlayed;
+  server->iterate_until([&] {
+    const std::size_t frames = std::min(output->wanted_frames(), kMostFrames);
+    if (frames > 0) output->write(std::span(silence).first(2 * frames));
+    return mono_now() >= end;
+  });
+  asked.is_done = false;
+  const char* name = asked.found.name.c_str();
+  if (auto told = wait_for_answer(
+          *server, pa_context_get_sink_info_by_name(context, name, take_sink, &asked), asked);
+      !told)
+    return tl::make_unexpected(told.error());
+  if (asked.found.description.empty())
+    return fail("the sound server has no loudspeaker: " + server->error_text() +
+                "; `pactl list short sinks` names what it has");
+  return asked.found;
+}
+
+}  // namespace dance

@@ -1,0 +1,62 @@
+// PulsePlayer: plays a file through the sound server, heard when it should be: latency counted in,
+// drift taken in.
+//
+// Units/frames: `trim` is the latency behind the server's knowledge (an amplifier, a television).
+// Ownership:    owns the file and its connection with the server.
+// Threads:      none inside.
+// Failure:      open() names what is missing; work() fails where the file is damaged or the server
+//               has gone.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/histogram.h"
+#include "producers/music/audio_file.h"
+#include "producers/music/music_player.h"
+#include "producers/music/play_plan.h"
+#include "producers/music/sound/pulse_output.h"
+
+namespace dance {
+
+struct PulsePlayerOptions {
+  double volume = 1.0;
+  Duration trim;
+};
+
+class PulsePlayer : public MusicPlayer {
+ public:
+  static Result<std::unique_ptr<PulsePlayer>> open(AudioFile file,
+                                                   const PulsePlayerOptions& options);
+
+  void play_from(MonoTime begin, bool loops) override {
+    begin_ = begin;
+    loops_ = loops;
+  }
+  void pause() override { begin_.reset(); }
+  std::optional<double> heard_s(MonoTime t) const override;
+  Result<void> work(MonoTime now) override;
+  std::string summary() const override;
+
+ private:
+  PulsePlayer(AudioFile file, const PulsePlayerOptions& options);
+  void keep_in_step(MonoTime now);
+  Result<void> fill();
+  Result<void> read_song(std::int64_t song_frame, std::span<float> stereo);
+
+  AudioFile file_;
+  PulsePlayerOptions options_;
+  std::unique_ptr<PulseServer> server_;
+  HeardLine line_;
+  PlayPlan plan_;
+  std::unique_ptr<PulseOutput> output_;  // last: its reports go to what stands above
+  std::optional<MonoTime> begin_;
+  bool loops_ = false;
+  MonoTime next_question_;
+  MonoTime next_correction_;
+  std::vector<float> block_;
+  Histogram errors_;
+  std::uint64_t jumps_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,62 @@
+// PulseServer: a connection with the machine's sound server (PulseAudio, or PipeWire, which speaks
+// the same), driven from the program's own loop.
+//
+// Units/frames: the server's stamps are wall-clock times; mono_time_of() makes them this process's
+//               MonoTime.
+// Ownership:    owns the connection; streams on it must go before it.
+// Threads:      none: everything happens in iterate(), which is to be called some hundred times a
+//               second.
+// Failure:      connect() says why there is no server and what to do; is_alive() is false once it
+//               has gone.
+#pragma once
+
+#include <sys/time.h>
+
+#include <memory>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/time.h"
+
+struct pa_context;
+struct pa_mainloop;
+
+namespace dance {
+
+class PulseServer {
+ public:
+  // Waits for the server's answer, a few seconds at most.
+  static Result<std::unique_ptr<PulseServer>> connect(const std::string& program);
+  ~PulseServer();
+  PulseServer(const PulseServer&) = delete;
+  PulseServer& operator=(const PulseServer&) = delete;
+
+  pa_context* context() const { return context_; }
+  // Handles what has come; the streams' callbacks run in it.
+  void iterate();
+  // The same until `is_done`, for a few seconds at most; false when it did not come to that.
+  template <class IsDone>
+  bool iterate_until(IsDone is_done) {
+    for (int i = 0; i < kTurnsOfPatience; ++i) {
+      if (is_done()) return true;
+      if (!is_alive()) return false;
+      iterate_waiting();
+    }
+    return is_done();
+  }
+  bool is_alive() const;
+  std::string error_text() const;
+
+  static MonoTime mono_time_of(const timeval& wall);
+
+ private:
+  static constexpr int kTurnsOfPatience = 300;  // of 10 ms
+
+  PulseServer() = default;
+  void iterate_waiting();
+
+  pa_mainloop* mainloop_ = nullptr;
+  pa_context* context_ = nullptr;
+};
+
+}  // namespace dance

@@ -1,0 +1,103 @@
+#include "producers/music/tracker/beat_model.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "core/base/assert.h"
+#include "core/base/byte_reader.h"
+#include "core/base/byte_writer.h"
+
+namespace dance {
+namespace {
+
+constexpr std::uint32_t kBeatMagic = 0x54424744;  // "DGBT" as bytes
+constexpr std::uint16_t kBeatVersion = 1;
+constexpr float kMostWeight = 1e4f;
+constexpr int kLeastPatternTempo_bpm = 40;
+constexpr int kMostPatternTempo_bpm = 400;
+// Each pattern knows some of the tempi that are looked for.
+constexpr int kSlowestOfUse_bpm = 100;
+constexpr int kFastestOfUse_bpm = 200;
+constexpr std::size_t kMostBeatModelBytes = 1 << 16;
+
+// Visits every number that is kept as a float, in the order of the file.
+template <class Net, class Visit>
+void visit_net(Net& net, Visit visit) {
+  const auto all = [&](auto& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) visit(matrix.data()[i]);
+  };
+  all(net.in);
+  all(net.in_bias);
+  all(net.out);
+  all(net.out_bias);
+}
+
+std::uint32_t name_of(std::span<const std::uint8_t> file) {
+  std::uint64_t sum = 14695981039346656037u;  // FNV-1a
+  for (const std::uint8_t byte : file) sum = (sum ^ byte) * 1099511628211u;
+  return static_cast<std::uint32_t>(sum ^ sum >> 32);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> write_beat_model(const BeatModel& model) {
+  DANCE_ASSERT(!model.patterns.empty() && model.patterns.size() <= BeatModel::kMostPatterns);
+  std::vector<std::uint8_t> file(kMostBeatModelBytes);
+  ByteWriter out(file);
+  out.u32(kBeatMagic);
+  out.u16(kBeatVersion);
+  out.u16(static_cast<std::uint16_t>(model.patterns.size()));
+  visit_net(model.net, [&](const float& x) { out.u32(std::bit_cast<std::uint32_t>(x)); });
+  for (const MeterPattern& pattern : model.patterns) {
+    out.u16(static_cast<std::uint16_t>(pattern.least_tempo_bpm));
+    out.u16(static_cast<std::uint16_t>(pattern.most_tempo_bpm));
+    for (const auto& row : pattern.weights)
+      for (const std::uint8_t weight : row) out.u8(weight);
+  }
+  DANCE_ASSERT(out.ok());
+  file.resize(out.size());
+  return file;
+}
+
+Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::uint8_t> file) {
+  ByteReader in(file);
+  if (in.u32() != kBeatMagic)
+    return fail("this is not a model of beats: make one with dance music train");
+  const std::uint16_t version = in.u16();
+  if (version != kBeatVersion)
+    return fail("the model is of version " + std::to_string(version) +
+                ", this build reads version " + std::to_string(kBeatVersion) +
+                ": train it again with dance music train");
+  auto model = std::make_shared<BeatModel>();
+  const std::size_t patterns = in.u16();
+  bool is_whole = patterns > 0 && patterns <= BeatModel::kMostPatterns;
+  if (is_whole) {
+    visit_net(model->net, [&](float& x) {
+      x = std::bit_cast<float>(in.u32());
+      is_whole = is_whole && std::abs(x) <= kMostWeight;  // refuses NaN too
+    });
+    model->patterns.resize(patterns);
+    for (MeterPattern& pattern : model->patterns) {
+      pattern.least_tempo_bpm = in.u16();
+      pattern.most_tempo_bpm = in.u16();
+      is_whole = is_whole && pattern.least_tempo_bpm >= kLeastPatternTempo_bpm &&
+                 pattern.most_tempo_bpm <= kMostPatternTempo_bpm &&
+                 pattern.least_tempo_bpm <= kFastestOfUse_bpm &&
+                 pattern.most_tempo_bpm >= kSlowestOfUse_bpm &&
+                 // Periods are whole hops: between narrower bounds there may be none.
+                 pattern.most_tempo_bpm * 20 >= pattern.least_tempo_bpm * 21;
+      for (auto& row : pattern.weights)
+        for (std::uint8_t& weight : row) weight = in.u8();
+    }
+    is_whole = is_whole && in.is_exhausted();
+  }
+  if (!is_whole)
+    return fail("the model is damaged (" + std::to_string(file.size()) +
+                " bytes): fetch it again, or train it with dance music train");
+  model->name = name_of(file);
+  return std::shared_ptr<const BeatModel>(std::move(model));
+}
+
+}  // namespace dance

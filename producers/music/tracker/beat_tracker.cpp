@@ -1,0 +1,68 @@
+#include "producers/music/tracker/beat_tracker.h"
+
+#include <algorithm>
+
+namespace dance {
+namespace {
+
+// A hop with a mean strength above this is a stroke.
+constexpr float kStroke = 1.0f;
+// The slowest beat that is looked for lasts 64 hops. Where no stroke has been for longer the music
+// has a break, which says nothing of where the beat is: belief fades from the first to the second.
+constexpr std::int64_t kBreakBegins_hops = 50;
+constexpr std::int64_t kBreak_hops = 70;
+constexpr std::int64_t kKnownAfter_hops = 200;
+constexpr std::int64_t kSilentAfter_hops = 400;
+
+}  // namespace
+
+BeatTracker::BeatTracker(double sample_rate_hz, std::shared_ptr<const BeatModel> model)
+    : onsets_(sample_rate_hz),
+      hop_s_(static_cast<double>(onsets_.hop_samples()) / sample_rate_hz),
+      model_(std::move(model)),
+      features_(onsets_),
+      pointer_(hop_s_, model_->patterns),
+      line_(hop_s_),
+      hop_(onsets_.hop_samples()) {}
+
+int BeatTracker::push(std::span<const float> samples) {
+  int ended = 0;
+  while (!samples.empty()) {
+    const std::size_t n = std::min(samples.size(), hop_.size() - filled_);
+    std::copy_n(samples.begin(), n, hop_.begin() + static_cast<std::ptrdiff_t>(filled_));
+    samples = samples.subspan(n);
+    filled_ += n;
+    if (filled_ < hop_.size()) break;
+    filled_ = 0;
+    ++ended;
+    end_hop();
+  }
+  return ended;
+}
+
+void BeatTracker::end_hop() {
+  const OnsetStrength::Strengths strengths = onsets_.push(hop_);
+  ++hops_;
+  float strokes = 0.0f;
+  for (std::size_t g = 0; g + 1 < kOnsetGroups; ++g)
+    strokes += strengths[g] / static_cast<float>(kOnsetGroups - 1);
+  since_stroke_hops_ = strokes > kStroke ? 0 : since_stroke_hops_ + 1;
+  const float believed = std::clamp(static_cast<float>(kBreak_hops - since_stroke_hops_) /
+                                        static_cast<float>(kBreak_hops - kBreakBegins_hops),
+                                    0.0f, 1.0f);
+  features_.push(onsets_, strengths);
+  features_.read(told_);
+  pointer_.push(strengths, model_->net.judge(told_), believed);
+
+  const double now_s = static_cast<double>(hops_) * hop_s_;
+  line_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);
+  if (since_stroke_hops_ < kBreak_hops) ++sounding_hops_;
+  beat_.time = MonoTime{} + Duration::seconds(now_s);
+  beat_.beat_time = MonoTime{} + Duration::seconds(line_.next_s());
+  beat_.beat = static_cast<double>(line_.number());
+  beat_.tempo_bpm = 60.0 / line_.period_s();
+  beat_.confidence = std::clamp(static_cast<float>(line_.certainty()), 0.0f, 1.0f) * believed;
+  beat_.playing = sounding_hops_ >= kKnownAfter_hops && since_stroke_hops_ < kSilentAfter_hops;
+}
+
+}  // namespace dance

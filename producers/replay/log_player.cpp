@@ -1,0 +1,158 @@
+#include "producers/replay/log_player.h"
+
+#include <algorithm>
+
+#include "core/bus/encode.h"
+#include "core/net/mono_clock.h"
+
+namespace dance {
+namespace {
+
+// Events played in one turn of the poller: a log with thousands of events at one instant must not
+// stall the loop.
+constexpr int kEventsPerTurn = 1024;
+// Channels with a time of their own; more are stamped with their deadline.
+constexpr std::size_t kMaxAnchors = 256;
+// A pose further from its deadline than this has another clock behind it (a looped or joined log):
+// begin anew.
+constexpr Duration kLargestDrift = Duration::ms(500);
+constexpr std::int64_t kLongestPause_us = 60'000'000;
+
+}  // namespace
+
+LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller& poller,
+                     MonoTime start)
+    : log_(std::move(log)), options_(std::move(options)), bus_(bus), start_(start) {
+  is_over_ = !read_next();
+  if (!is_over_) poller.add_timer(start, [this](MonoTime now) { return play(now); });
+}
+
+bool LogPlayer::is_wanted(const Channel& channel) const {
+  if (channel.signal() != Signal::kPose && channel.signal() != Signal::kHands &&
+      channel.signal() != Signal::kSkeleton && channel.signal() != Signal::kBeat)
+    return false;
+  const Where where = channel.signal() == Signal::kBeat ? Where::kCapture : channel.where();
+  return options_.only.empty() ||
+         std::find(options_.only.begin(), options_.only.end(), where) != options_.only.end();
+}
+
+bool LogPlayer::read_next() {
+  while ((next_ = log_.next())) {
+    const auto channel = Channel::parse(next_->channel);
+    if (!channel || !is_wanted(*channel)) {
+      ++counters_.left_out;
+      continue;
+    }
+    if (!has_first_) {
+      first_time_us_ = last_time_us_ = next_->time_us;
+      has_first_ = true;
+    }
+    const std::int64_t step_us = next_->time_us - last_time_us_;
+    if (step_us > kLongestPause_us || step_us < -kLongestPause_us) {
+      first_time_us_ += step_us;  // a joined or damaged log: go on without the gap
+      ++counters_.gaps;
+    }
+    last_time_us_ = next_->time_us;
+    return true;
+  }
+  return false;
+}
+
+MonoTime LogPlayer::deadline_of(const LogEvent& event) const {
+  const double since_first = static_cast<double>(event.time_us - first_time_us_) * 1e-6;
+  return start_ + Duration::seconds(std::clamp(since_first, 0.0, 1e6) / options_.speed);
+}
+
+bool LogPlayer::start_again(MonoTime now) {
+  if (!options_.loop || !played_this_round_ || !log_.ended()) return false;
+  ++counters_.loops;
+  log_.rewind();
+  played_this_round_ = false;
+  has_first_ = false;
+  start_ = now + Duration::ms(16);
+  return read_next();
+}
+
+MonoTime LogPlayer::play(MonoTime now) {
+  for (int i = 0; i < kEventsPerTurn; ++i) {
+    const MonoTime deadline = deadline_of(*next_);
+    if (deadline > now) return deadline;
+    publish(*next_, deadline);
+    played_this_round_ = true;
+    if (!read_next() && !start_again(now)) {
+      is_over_ = true;
+      return {};
+    }
+  }
+  return now;
+}
+
+MonoTime LogPlayer::restamp(const Channel& channel, MonoTime captured, MonoTime deadline) {
+  for (Anchor& anchor : anchors_) {
+    if (!(anchor.channel == channel)) continue;
+    const Duration since = captured - anchor.then;
+    const MonoTime stamped = anchor.now + Duration::seconds(since.as_seconds() / options_.speed);
+    const Duration drift = stamped - deadline;
+    if (drift < kLargestDrift && drift > -kLargestDrift) return stamped;
+    anchor.then = captured;
+    anchor.now = deadline;
+    return deadline;
+  }
+  if (anchors_.size() < kMaxAnchors) anchors_.push_back({channel, captured, deadline});
+  return deadline;
+}
+
+template <class Message>
+void LogPlayer::publish_as(const Channel& channel, const LogEvent& event, MonoTime deadline) {
+  Message message;
+  if (decode(event.data.data(), event.data.size(), message) != Decoded::kFine) {
+    ++counters_.undecodable;
+    return;
+  }
+  message.capture_time = restamp(channel, message.capture_time, deadline);
+  message.clock_id = this_clock_id();
+  if constexpr (std::is_same_v<Message, Pose>) {
+    message.hops = {};
+    message.stamp(Hop::kPublished, mono_now());
+  }
+  bus_.publish(channel, message);
+  ++counters_.played;
+}
+
+// Slower music has its next beat later, and fewer of them a minute.
+void LogPlayer::publish_beat(const Channel& channel, const LogEvent& event, MonoTime deadline) {
+  Beat beat;
+  if (decode(event.data.data(), event.data.size(), beat) != Decoded::kFine) {
+    ++counters_.undecodable;
+    return;
+  }
+  const Duration until = beat.beat_time - beat.time;
+  beat.time = restamp(channel, beat.time, deadline);
+  beat.beat_time = beat.time + Duration::seconds(until.as_seconds() / options_.speed);
+  beat.clock_id = this_clock_id();
+  beat.tempo_bpm *= options_.speed;
+  if (!is_valid(beat)) {
+    ++counters_.left_out;
+    return;
+  }
+  bus_.publish(channel, beat);
+  ++counters_.played;
+}
+
+void LogPlayer::publish(const LogEvent& event, MonoTime deadline) {
+  const auto channel = Channel::parse(event.channel);
+  switch (channel->signal()) {
+    case Signal::kPose:
+      return publish_as<Pose>(*channel, event, deadline);
+    case Signal::kHands:
+      return publish_as<Hands>(*channel, event, deadline);
+    case Signal::kSkeleton:
+      return publish_as<TimedSkeleton>(*channel, event, deadline);
+    case Signal::kBeat:
+      return publish_beat(*channel, event, deadline);
+    default:
+      return;
+  }
+}
+
+}  // namespace dance

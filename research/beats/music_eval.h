@@ -1,0 +1,51 @@
+// The beat tracker on songs whose beats are known, fed hop by hop as a microphone would feed it,
+// beside aubio.
+//
+// Units/frames: errors are told minus true.
+// Ownership:    plain values.
+// Threads:      one.
+// Failure:      an Error names the file that cannot be read.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "producers/music/tracker/beat_model.h"
+#include "testing/music/beat_score.h"
+
+namespace dance {
+
+struct MusicEvalOptions {
+  // What the file is changed by first, to see what the tracker hangs on.
+  double gain_db = 0.0;
+  double noise_db = -200.0;  // of full scale
+  double speed = 1.0;        // as a record that turns faster
+  double start_s = 0.0;
+  double left_out_s = 5.0;  // at the begin
+  std::shared_ptr<const BeatModel> model = built_in_beat_model();
+  bool with_aubio = true;
+  bool check_causal = true;  // takes as long again
+};
+
+struct SongEval {
+  std::string name;
+  BeatScore score;
+  double tempo_bpm = 0.0;            // median
+  double tempo_error_percent = 0.0;  // median of what each hop's tempo is off by
+  // A tracker that hears noise instead of the second half said the same of the first half.
+  std::optional<bool> causal;  // unless it was not looked at
+  double us_per_hop = 0.0;
+  std::optional<BeatScore> aubio;
+  std::string aubio_missing;  // why there is none
+};
+
+Result<SongEval> evaluate_song(const std::string& audio_path, const std::string& beats_path,
+                               const MusicEvalOptions& options);
+
+std::string music_eval_table(const std::vector<SongEval>& songs);
+std::string music_eval_json(const std::vector<SongEval>& songs);
+
+}  // namespace dance

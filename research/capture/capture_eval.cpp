@@ -1,0 +1,172 @@
+#include "research/capture/capture_eval.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "producers/camera/files/picture_file.h"
+#include "producers/camera/files/video_reel.h"
+
+namespace dance {
+namespace {
+
+std::int64_t thread_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return now.tv_sec * 1000'000'000LL + now.tv_nsec;
+}
+
+double ms_since(std::int64_t start_ns) {
+  return static_cast<double>(thread_ns() - start_ns) * 1e-6;
+}
+
+double worst_difference(std::span<const float> a, std::span<const float> b) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    worst = std::max(worst, static_cast<double>(std::abs(a[i] - b[i])));
+  return worst;
+}
+
+class CaptureEval {
+ public:
+  explicit CaptureEval(const CaptureEvalOptions& options) : options_(options) {
+    options_.estimator.clock_ns = thread_ns;
+  }
+  Result<void> open();
+  Result<void> add_picture(const std::string& path);
+  Result<void> add_video(const std::string& path);
+  CaptureRun finish() &&;
+
+ private:
+  Result<std::unique_ptr<PoseEstimator>> opened(bool tracks) const;
+  Result<void> take(PoseEstimator& estimator, const Frame& frame, std::string name);
+  Result<void> compare(PoseEstimator& estimator);
+
+  CaptureEvalOptions options_;
+  CaptureRun run_;
+  std::unique_ptr<PoseEstimator> still_, moving_;
+  std::unique_ptr<LandmarkNetwork> other_;
+};
+
+Result<std::unique_ptr<PoseEstimator>> CaptureEval::opened(bool tracks) const {
+  EstimatorOptions options = options_.estimator;
+  options.tracks = tracks;
+  return PoseEstimator::open(options);
+}
+
+Result<void> CaptureEval::open() {
+  DANCE_TRY(still_, opened(false));
+  DANCE_TRY(moving_, opened(true));
+  // What engines do once only is not counted.
+  Frame blank;
+  blank.image = cv::Mat(64, 64, CV_8UC3, cv::Scalar::all(0));
+  for (PoseEstimator* estimator : {still_.get(), moving_.get()}) {
+    estimator->network().look(blank.image, {32.0f, 32.0f, 64.0f, 0.0f});
+    if (!estimator->network().run()) return fail("the network does not run");
+  }
+  if (!options_.compares_engines) return {};
+  EngineComparison& engines = run_.engines;
+  engines.first = chosen_engine(options_.estimator.engine);
+  engines.second =
+      engines.first == EngineKind::kXnnpack ? EngineKind::kOpenCv : EngineKind::kXnnpack;
+  DANCE_TRY(PoseGraph graph,
+            read_landmark_model(pose_models_folder(options_.estimator.models_folder),
+                                options_.estimator.model));
+  DANCE_TRY(LandmarkNetwork network, LandmarkNetwork::make(engines.second, std::move(graph)));
+  other_ = std::make_unique<LandmarkNetwork>(std::move(network));
+  if (!other_->run()) return fail("the second engine does not run");
+  return {};
+}
+
+Result<void> CaptureEval::compare(PoseEstimator& estimator) {
+  LandmarkNetwork& first = estimator.network();
+  EngineComparison& engines = run_.engines;
+  std::copy(first.input().begin(), first.input().end(), other_->input().begin());
+  std::int64_t start_ns = thread_ns();
+  if (!first.run()) return fail("the network does not run");
+  engines.first_ms += ms_since(start_ns);
+  start_ns = thread_ns();
+  if (!other_->run()) return fail("the second engine does not run");
+  engines.second_ms += ms_since(start_ns);
+  ++engines.regions;
+  engines.worst_point_px =
+      std::max(engines.worst_point_px,
+               worst_difference(first.landmark_numbers(), other_->landmark_numbers()));
+  engines.worst_world_m = std::max(
+      engines.worst_world_m, worst_difference(first.world_numbers(), other_->world_numbers()));
+  return {};
+}
+
+Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std::string name) {
+  const std::int64_t start_ns = thread_ns();
+  const BodyLandmarks& body = estimator.estimate(frame);
+  run_.ms += ms_since(start_ns);
+  run_.frames.push_back({std::move(name), body});
+  return other_ && body.found ? compare(estimator) : Result<void>{};
+}
+
+Result<void> CaptureEval::add_picture(const std::string& path) {
+  const std::int64_t start_ns = thread_ns();
+  Frame frame;
+  frame.image = cv::imread(path, cv::IMREAD_COLOR);
+  run_.decode_ms += ms_since(start_ns);
+  if (frame.image.empty()) return fail(path + ": is no picture that OpenCV can read");
+  return take(*still_, frame, std::filesystem::path(path).filename().string());
+}
+
+Result<void> CaptureEval::add_video(const std::string& path) {
+  DANCE_TRY(const auto reel, VideoReel::open(path));
+  moving_->forget();
+  Frame frame;
+  for (std::uint64_t i = 0;; ++i) {
+    const std::int64_t start_ns = thread_ns();
+    if (!reel->step()) break;
+    if (i % options_.every != 0) continue;
+    const std::string name = reel->name() + "#" + std::to_string(i);
+    if (!reel->read(frame.image))
+      return fail(path + ": frame " + std::to_string(i) + " is damaged");
+    run_.decode_ms += ms_since(start_ns);
+    frame.sequence = i;
+    frame.capture_time = MonoTime{} + Duration::s(1) + reel->time();
+    if (auto taken = take(*moving_, frame, name); !taken) return taken;
+  }
+  return {};
+}
+
+CaptureRun CaptureEval::finish() && {
+  for (const PoseEstimator* estimator : {still_.get(), moving_.get()}) {
+    const EstimatorCounters& c = estimator->counters();
+    run_.counters.searches += c.searches;
+    run_.counters.losses += c.losses;
+    run_.counters.refused += c.refused;
+    run_.counters.looks += c.looks;
+    run_.counters.exchanged += c.exchanged;
+    run_.counters.found += c.found;
+    run_.counters.pictures += c.pictures;
+    const EstimatorTimes& t = estimator->times();
+    run_.times.search_ns += t.search_ns;
+    run_.times.region_ns += t.region_ns;
+    run_.times.network_ns += t.network_ns;
+    run_.times.rest_ns += t.rest_ns;
+  }
+  return std::move(run_);
+}
+
+}  // namespace
+
+Result<CaptureRun> evaluate_capture(const std::vector<std::string>& files,
+                                    const CaptureEvalOptions& options) {
+  CaptureEval eval(options);
+  if (auto opened = eval.open(); !opened) return tl::make_unexpected(opened.error());
+  for (const std::string& file : files) {
+    if (auto fine = check_file(file); !fine) return tl::make_unexpected(fine.error());
+    auto added = is_picture(file) ? eval.add_picture(file) : eval.add_video(file);
+    if (!added) return tl::make_unexpected(added.error());
+  }
+  return std::move(eval).finish();
+}
+
+}  // namespace dance

@@ -1,0 +1,54 @@
+// dance capture eval: what the camera's eye makes of pictures and videos, frame by frame, and what
+// it costs.
+//
+// Units/frames: as producers/camera/body_landmarks.h says; milliseconds of this thread's processor
+//               time.
+// Ownership:    plain values.
+// Threads:      none inside; reads files on the caller's thread.
+// Failure:      an Error names the file and what is wrong with it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "producers/camera/estimator/pose_estimator.h"
+
+namespace dance {
+
+struct CaptureEvalOptions {
+  EstimatorOptions estimator;
+  std::uint32_t every = 1;  // n-th frame of a video
+  bool compares_engines = false;
+};
+
+struct CaptureFrame {
+  std::string name;  // "messi.jpg", "dance.mp4#12"
+  BodyLandmarks body;
+};
+
+// The same regions in both engines.
+struct EngineComparison {
+  std::size_t regions = 0;
+  double first_ms = 0.0, second_ms = 0.0;  // together
+  double worst_point_px = 0.0;             // of the network's 256
+  double worst_world_m = 0.0;
+  EngineKind first = EngineKind::kFastest, second = EngineKind::kOpenCv;
+};
+
+struct CaptureRun {
+  std::vector<CaptureFrame> frames;
+  double ms = 0.0;  // estimating, all frames together
+  double decode_ms = 0.0;
+  EstimatorCounters counters;
+  EstimatorTimes times;
+  EngineComparison engines;
+};
+
+// Pictures are each for themselves; a video's frames follow each other in its own time.
+Result<CaptureRun> evaluate_capture(const std::vector<std::string>& files,
+                                    const CaptureEvalOptions& options);
+
+std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& options);
+std::string capture_eval_json(const CaptureRun& run);
+
+}  // namespace dance

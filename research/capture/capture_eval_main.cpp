@@ -1,0 +1,91 @@
+// dance capture eval: the points of the body that the pose network sees in pictures and videos.
+#include <cstdio>
+
+#include "core/program/command_line.h"
+#include "core/program/program.h"
+#include "research/capture/capture_eval.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance capture eval dance.mp4
+  dance capture eval *.jpg --model heavy --json
+  dance capture eval dance.mp4 --compare-engines
+  dance capture eval crowd.mp4 --follow 640,360
+)";
+
+struct Wishes {
+  std::vector<std::string> files;
+  CaptureEvalOptions eval;
+  std::string follow = "surest";
+  bool json = false;
+};
+
+Result<void> set_follow(const std::string& text, FollowOptions& follow) {
+  if (text == "surest") {
+    // As the original does: nobody is remembered, and no jump is refused.
+    follow.remembers = Duration{};
+    follow.refuses_jumps = follow.watches_others = false;
+    return {};
+  }
+  if (text == "largest") {
+    follow.choice = FollowOptions::Choice::kLargest;
+    return {};
+  }
+  float x = 0.0f, y = 0.0f;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%f,%f%c", &x, &y, &rest) != 2)  // NOLINT(cert-err34-c)
+    return fail("--follow takes surest, largest, or a place in pixels: 640,360");
+  follow.choice = FollowOptions::Choice::kNearest;
+  follow.place_px = {x, y};
+  return {};
+}
+
+Result<void> run(Wishes wishes) {
+  // Every frame is searched, however long nobody was there: nothing here is in real time.
+  wishes.eval.estimator.search_interval = Duration{};
+  DANCE_TRY(const CaptureRun run, evaluate_capture(wishes.files, wishes.eval));
+  const std::string text =
+      wishes.json ? capture_eval_json(run) : capture_eval_table(run, wishes.eval);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  using dance::EngineKind;
+  using dance::PoseModel;
+  dance::Wishes wishes;
+  dance::EstimatorOptions& estimator = wishes.eval.estimator;
+  dance::CommandLine line(
+      "The points of the body that the pose network sees in pictures and videos.",
+      "dance capture eval");
+  line.add("IMAGE_OR_VIDEO", wishes.files,
+           "pictures, each for itself, and videos, whose frames follow each other")
+      .required();
+  line.add_choice<PoseModel>(
+      "--model", estimator.model,
+      {{"lite", PoseModel::kLite}, {"full", PoseModel::kFull}, {"heavy", PoseModel::kHeavy}},
+      "the network (default full)");
+  line.add_choice<EngineKind>("--engine", estimator.engine,
+                              {{"xnnpack", EngineKind::kXnnpack}, {"opencv", EngineKind::kOpenCv}},
+                              "what it runs on (default: xnnpack where it is built in)");
+  line.add("--models", estimator.models_folder,
+           "the folder of the networks (default: DANCE_POSE_MODELS, or models/pose of the source)");
+  line.add("--follow", wishes.follow,
+           "of several people: surest (as the original does), largest, or the one nearest to a "
+           "place in pixels, 640,360")
+      .shows_default();
+  line.add("--every", wishes.eval.every, "n-th frame of videos").range(1, 100000).shows_default();
+  line.add_choice<bool>("--smooth", estimator.smooths, {{"on", true}, {"off", false}},
+                        "frames of a video, as the original does (default on)");
+  line.add_flag("--compare-engines", wishes.eval.compares_engines,
+                "runs the other engine on the same regions, too");
+  line.add_flag("--json", wishes.json, "one JSON object on stdout");
+  line.footer(dance::kExamples);
+  line.finally([&] { return dance::set_follow(wishes.follow, estimator.follow); });
+  return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });
+}

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/program/figures.h"
+#include "research/capture/capture_eval.h"
+
+namespace dance {
+namespace {
+
+nlohmann::json frame_json(const CaptureFrame& frame) {
+  nlohmann::json image = nlohmann::json::array(), world = nlohmann::json::array();
+  const BodyLandmarks& body = frame.body;
+  for (std::size_t i = 0; body.found && i < kLandmarkCount; ++i) {
+    const Eigen::Vector3f& p = body.image_px[i];
+    const Eigen::Vector3f& w = body.world_m[i];
+    image.push_back({rounded(p.x(), 1e3), rounded(p.y(), 1e3), rounded(p.z(), 1e3),
+                     rounded(body.visibility[i], 1e5)});
+    world.push_back({rounded(w.x(), 1e6), rounded(w.y(), 1e6), rounded(w.z(), 1e6)});
+  }
+  return {{"name", frame.name},
+          {"detected", body.found},
+          {"region_side_px", rounded(body.found ? body.region.side_px : 0.0, 1e3)},
+          {"landmarks_px", std::move(image)},
+          {"world_m", std::move(world)}};
+}
+
+double per(double sum, std::size_t count) {
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+std::string capture_eval_json(const CaptureRun& run) {
+  nlohmann::json frames = nlohmann::json::array();
+  for (const CaptureFrame& frame : run.frames) frames.push_back(frame_json(frame));
+  nlohmann::json out{{"frames", std::move(frames)},
+                     {"ms_per_frame", rounded(per(run.ms, run.frames.size()), 1e3)}};
+  if (run.engines.regions > 0)
+    out["engines"] = {{"first", name_of(run.engines.first)},
+                      {"second", name_of(run.engines.second)},
+                      {"regions", run.engines.regions},
+                      {"first_ms", rounded(per(run.engines.first_ms, run.engines.regions), 1e3)},
+                      {"second_ms", rounded(per(run.engines.second_ms, run.engines.regions), 1e3)},
+                      {"worst_point_px", run.engines.worst_point_px},
+                      {"worst_world_m", run.engines.worst_world_m}};
+  return out.dump() + "\n";
+}
+
+std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& options) {
+  const EstimatorCounters& c = run.counters;
+  const std::size_t frames = run.frames.size();
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "model {}, engine {}, one thread\n", name_of(options.estimator.model),
+                 name_of(options.estimator.engine));
+  fmt::format_to(out, "{:>7} frames, {} with a dancer ({:.1f} %)\n", frames, c.found,
+                 100.0 * per(static_cast<double>(c.found), frames));
+  fmt::format_to(out,
+                 "{:>7} searches of the whole picture, {} looks for others, {} losses ({} jumps), "
+                 "{} exchanged\n\n",
+                 c.searches, c.looks, c.losses, c.refused, c.exchanged);
+  fmt::format_to(out, "  processor time          ms a frame   ms each time\n");
+  const auto line = [&](const char* what, double ms, std::size_t times) {
+    fmt::format_to(out, "  {:<22} {:>11.2f} {:>14.2f}\n", what, per(ms, frames), per(ms, times));
+  };
+  const EstimatorTimes& t = run.times;
+  line("read the file", run.decode_ms, frames);
+  line("search", static_cast<double>(t.search_ns) * 1e-6, c.searches + c.looks);
+  line("take the region", static_cast<double>(t.region_ns) * 1e-6, frames);
+  line("network", static_cast<double>(t.network_ns) * 1e-6, frames);
+  line("points, smoothing", static_cast<double>(t.rest_ns) * 1e-6, frames);
+  line("picture to points", run.ms, frames);
+  const EngineComparison& e = run.engines;
+  if (e.regions > 0) {
+    fmt::format_to(out, "\n  the network on the same {} regions\n", e.regions);
+    fmt::format_to(out, "  {:<22} {:>26.2f}\n", name_of(e.first), per(e.first_ms, e.regions));
+    fmt::format_to(out, "  {:<22} {:>26.2f}\n", name_of(e.second), per(e.second_ms, e.regions));
+    fmt::format_to(out, "  ratio {:.2f}; worst difference {:.5f} px of 256, {:.6f} m\n",
+                   e.second_ms / e.first_ms, e.worst_point_px, e.worst_world_m);
+  }
+  return text;
+}
+
+}  // namespace dance

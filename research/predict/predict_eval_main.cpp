@@ -1,0 +1,78 @@
+// dance predict eval: prediction on recorded dances.
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "core/program/command_line.h"
+#include "core/program/program.h"
+#include "research/predict/predict_eval.h"
+#include "research/predict_model_file.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kPredictEvalExamples = R"(Examples:
+  dance predict eval salsa.bvh
+  dance predict eval *.bvh.xz --hz 60 --noise 0.5
+  dance predict eval *.bvh.xz --noise 0.5 --fresh --json
+
+Files are danced in the order given; what was learned of a dancer (told by the lengths of the bones)
+is kept for the next file. --fresh begins anew with each, as with a dancer never met, and does not
+use a network that was trained on this dancer.
+)";
+
+struct PredictEvalWishes {
+  std::vector<std::string> files;
+  double hz = 60.0;
+  std::vector<double> horizons_ms{50, 100, 150, 200, 300, 400, 600, 1000};
+  double noise_deg = 0.0;
+  bool fresh = false;
+  bool json = false;
+  std::string model;
+};
+
+Result<void> run_predict_eval(const PredictEvalWishes& wishes) {
+  PredictEvalOptions options;
+  options.model = built_in_predict_model();
+  if (!wishes.model.empty()) {
+    DANCE_TRY(options.model, read_predict_model_file(wishes.model));
+  }
+  options.noise_deg = wishes.noise_deg;
+  options.fresh = wishes.fresh;
+  for (const double ms : wishes.horizons_ms) {
+    if (!(ms > 0.0 && ms <= 1000.0))
+      return fail("--horizons takes milliseconds above 0, at most 1000");
+    options.horizons.push_back(Duration::seconds(ms * 1e-3));
+  }
+  std::vector<PredictTake> takes;
+  for (const std::string& file : wishes.files) {
+    DANCE_TRY(PredictTake take, load_predict_take(file, wishes.hz));
+    takes.push_back(std::move(take));
+  }
+  const PredictEval eval = evaluate_prediction(takes, options);
+  const std::string text =
+      wishes.json ? predict_eval_json(eval, options) : predict_eval_table(eval, options);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::PredictEvalWishes wishes;
+  dance::CommandLine line("Prediction on recorded dances: errors beside plain guesses, cost.",
+                          "dance predict eval");
+  line.add("FILE", wishes.files, "BVH files, also packed with xz").required();
+  line.add("--hz", wishes.hz, "poses a second that are heard").range(10.0, 240.0).shows_default();
+  line.add("--horizons", wishes.horizons_ms, "milliseconds ahead, with commas").split_at(',');
+  line.add("--noise", wishes.noise_deg,
+           "degrees that each bone trembles by about each axis, as sensors do; half a degree "
+           "shakes the hips by 3 mm")
+      .range(0.0, 10.0);
+  line.add_flag("--fresh", wishes.fresh, "each file as the first of a dancer never met");
+  line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
+  line.add_flag("--json", wishes.json, "one JSON object on stdout");
+  line.footer(dance::kPredictEvalExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_predict_eval(wishes); });
+}

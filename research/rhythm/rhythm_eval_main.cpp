@@ -1,0 +1,106 @@
+// dance rhythm eval: remote dancers on the listener's beat, on recorded dances.
+#include <cstdio>
+
+#include "core/program/command_line.h"
+#include "core/program/program.h"
+#include "producers/music/beats_file.h"
+#include "research/predict_model_file.h"
+#include "research/rhythm/rhythm_eval.h"
+#include "research/rhythm/rhythm_eval_report.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance rhythm eval salsa.bvh --beats song.beats --delay 150ms
+  dance rhythm eval *.bvh.xz --beats song.beats --delay 180ms --jitter 20ms --loss 2 --stall 400ms
+  dance rhythm eval *.bvh.xz --beats song.beats --beta auto --json
+  dance rhythm eval *.bvh.xz --beats song.beats --beta 0 --model kept.model
+  dance rhythm eval --salsa 4 --beats song.beats --untagged --each
+)";
+
+constexpr Duration kSalsaLength = Duration::s(60);
+
+struct Wishes {
+  std::vector<std::string> files;
+  RhythmEvalOptions eval;
+  std::string beats, delay = "150ms", jitter = "0ms", stall = "0ms", beta = "auto", model;
+  double strength = 1.0, salsa_bpm = 0.0;
+  std::uint32_t salsa = 0;
+  bool json = false, each = false;
+};
+
+Result<void> run(Wishes wishes) {
+  // Steps have to be seen for a while before they tell a beat.
+  if (wishes.eval.untagged) wishes.eval.warm_up = Duration::s(12);
+  DANCE_TRY(wishes.eval.delay, parse_duration(wishes.delay));
+  DANCE_TRY(wishes.eval.jitter, parse_duration(wishes.jitter));
+  DANCE_TRY(wishes.eval.stall, parse_duration(wishes.stall));
+  DANCE_TRY(const BeatGrid music, read_beats_file(wishes.beats));
+  std::vector<BeatDance> dances;
+  for (const std::string& file : wishes.files) {
+    DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.eval.hz));
+    dances.push_back(lay_onto_beats(take, music, wishes.eval.hz));
+  }
+  for (std::uint32_t i = 0; i < wishes.salsa; ++i)
+    dances.push_back(salsa_to_music(i % 2 == 0 ? SalsaRole::kLead : SalsaRole::kFollow, 1 + i / 2,
+                                    wishes.salsa_bpm, kSalsaLength, music, wishes.eval.hz));
+  if (dances.empty()) return fail("nobody dances: name BVH files, or --salsa 2");
+  std::string rhythm = "rhythm beats=" + wishes.beta;
+  if (wishes.strength < 1.0) rhythm += " strength=" + std::to_string(wishes.strength);
+  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
+  const std::vector<NamedChain> chains{
+      {"raw", {}},
+      {"hold", {"hold"}},
+      {"predict", {"predict"}, parts},
+      {"predict, bridge, " + rhythm, {"predict", "bridge", rhythm}, parts},
+  };
+  std::vector<RhythmRun> runs;
+  for (const NamedChain& chain : chains) {
+    DANCE_TRY(RhythmRun run, evaluate_rhythm(dances, music, chain, wishes.eval));
+    runs.push_back(std::move(run));
+  }
+  const std::string text =
+      wishes.json ? rhythm_eval_json(dances, runs) : rhythm_eval_table(dances, runs, wishes.each);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::Wishes wishes;
+  dance::CommandLine line("Remote dancers on the listener's beat, on recorded dances.",
+                          "dance rhythm eval");
+  line.add("FILE", wishes.files, "BVH files, also packed with xz");
+  line.add("--salsa", wishes.salsa, "so many synthetic dancers as well").range(0.0, 64.0);
+  line.add("--salsa-tempo", wishes.salsa_bpm,
+           "at which they dance, whatever the music; 0: to the music")
+      .range(0.0, 240.0);
+  line.add("--beats", wishes.beats, "the song that is danced to: a .beats file").required();
+  line.add("--delay", wishes.delay, "of the line, one way").shows_default();
+  line.add("--jitter", wishes.jitter, "mean of what comes on top").shows_default();
+  line.add("--loss", wishes.eval.loss_percent, "percent of poses that are lost").range(0.0, 90.0);
+  line.add("--stall", wishes.stall, "once, in the middle, nothing comes for so long")
+      .shows_default();
+  line.add("--tempo-offset", wishes.eval.tempo_offset_percent,
+           "percent by which the listener's music is faster")
+      .range(-20.0, 20.0);
+  line.add("--beta", wishes.beta, "beats of delay that the room wishes, or auto").shows_default();
+  line.add("--strength", wishes.strength, "0 untouched to 1 on the beat")
+      .range(0.0, 1.0)
+      .shows_default();
+  line.add("--model", wishes.model,
+           "a model of dance predict train instead of the built-in one, which knows some takes");
+  line.add("--every", wishes.eval.every,
+           "only each so many-th pose is sent: 2 is a camera of 30 Hz")
+      .range(1.0, 12.0)
+      .shows_default();
+  line.add("--seed", wishes.eval.seed, "of the line").shows_default();
+  line.add_flag("--untagged", wishes.eval.untagged, "poses come without musical time");
+  line.add_flag("--each", wishes.each, "a line for each take, too");
+  line.add_flag("--json", wishes.json, "one JSON object on stdout");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });
+}

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include "apps/doctor/doctor_camera.h"
+#include "apps/doctor/doctor_checks.h"
+#include "apps/doctor/doctor_drawing.h"
+#include "apps/doctor/doctor_sound.h"
+
+namespace dance {
+namespace {
+
+using Grade = Finding::Grade;
+
+TEST(Doctor, IsContentWithMulticastOverLoopback) {
+  EXPECT_EQ(check_multicast_device("lo", false).grade, Grade::kOk);
+}
+
+TEST(Doctor, WarnsOfABusThatRidesOnANetworkCardAndNamesTheCure) {
+  const Finding finding = check_multicast_device("eth0", false);
+  EXPECT_EQ(finding.grade, Grade::kNote);
+  EXPECT_NE(finding.what.find("eth0"), std::string::npos);
+  EXPECT_EQ(finding.cure, "ip route add 224.0.0.0/4 dev lo");
+}
+
+TEST(Doctor, CallsItAProblemOnlyWhereNothingHelps) {
+  EXPECT_EQ(check_multicast_device("", true).grade, Grade::kNote);
+  EXPECT_EQ(check_multicast_device("", false).grade, Grade::kProblem);
+}
+
+TEST(Doctor, NotesSmallSocketBuffers) {
+  EXPECT_EQ(check_receive_buffer(212'992).grade, Grade::kNote);
+  EXPECT_EQ(check_receive_buffer(4 << 20).grade, Grade::kOk);
+}
+
+TEST(Doctor, NotesAMachineThatWakesLate) {
+  EXPECT_EQ(check_wake_ups(Duration::us(80)).grade, Grade::kOk);
+  const Finding late = check_wake_ups(Duration::ms(7));
+  EXPECT_EQ(late.grade, Grade::kNote);
+  EXPECT_NE(late.what.find("7000"), std::string::npos);
+}
+
+TEST(Doctor, TriesToDraw) {
+  const Finding drawing = check_drawing();
+  EXPECT_FALSE(drawing.what.empty());
+  EXPECT_EQ(drawing.cure.empty(), drawing.grade == Grade::kOk);
+}
+
+TEST(Doctor, NamesTheCureOfEveryFaultOfACamera) {
+  const Finding camera = check_camera();
+  EXPECT_FALSE(camera.what.empty());
+  EXPECT_NE(camera.grade, Grade::kProblem) << "a house needs no camera";
+  const Finding network = check_pose_network();
+  EXPECT_FALSE(network.what.empty());
+  EXPECT_EQ(network.cure.empty(), network.grade == Grade::kOk);
+}
+
+TEST(Doctor, TellsWhereSoundGoesAndHowToMendIt) {
+  Loudspeaker loudspeaker{"hdmi", "A loudspeaker", false, false, Duration::ms(40)};
+  const Finding good = check_loudspeaker(loudspeaker);
+  EXPECT_EQ(good.grade, Grade::kOk);
+  EXPECT_NE(good.what.find("40 ms"), std::string::npos) << good.what;
+  EXPECT_TRUE(good.cure.empty());
+  const auto expect_note = [](const Loudspeaker& of, const std::string& cure) {
+    const Finding finding = check_loudspeaker(of);
+    EXPECT_EQ(finding.grade, Grade::kNote) << finding.what;
+    EXPECT_NE(finding.cure.find(cure), std::string::npos) << finding.cure;
+  };
+  loudspeaker.latency = Duration::ms(700);
+  expect_note(loudspeaker, "--trim");
+  loudspeaker.is_muted = true;
+  expect_note(loudspeaker, "pactl set-sink-mute hdmi 0");
+  loudspeaker.leads_nowhere = true;
+  expect_note(loudspeaker, "set-default-sink");
+}
+
+TEST(Doctor, TellsWhyThereIsNoSoundAndTheCureOfEach) {
+  SoundFailure failure;
+  failure.socket = "/run/user/1000/pulse/native";
+  const auto expect = [&](SoundTrouble trouble, const std::string& what, const std::string& cure) {
+    failure.trouble = trouble;
+    const Finding finding = check_loudspeaker(tl::make_unexpected(failure));
+    EXPECT_EQ(finding.grade, Grade::kNote) << "nobody needs sound to dance";
+    EXPECT_NE(finding.what.find(what), std::string::npos) << finding.what;
+    EXPECT_NE(finding.cure.find(cure), std::string::npos) << finding.cure;
+  };
+  expect(SoundTrouble::kNoServer, "nobody is at /run/user/1000", "apt-get install pulseaudio");
+  failure.installed_server = "pipewire-pulse";
+  expect(SoundTrouble::kNoServer, "nobody is at", "systemctl --user start pipewire-pulse");
+  failure.installed_server = "pulseaudio";
+  expect(SoundTrouble::kNoServer, "nobody is at", "pulseaudio --start");
+  failure.is_named = true;
+  expect(SoundTrouble::kNoServer, "nobody is at", "unset PULSE_SERVER");
+  expect(SoundTrouble::kNotYours, "another user's", "stat -c %U /run/user/1000/pulse/native");
+  expect(SoundTrouble::kRefused, "does not let us in", "PULSE_COOKIE");
+  failure.reason = "No such entity";
+  expect(SoundTrouble::kNoLoudspeaker, "no loudspeaker (No such entity)", "module-udev-detect");
+  expect(SoundTrouble::kFarServer, "PULSE_SERVER", "unset PULSE_SERVER");
+  expect(SoundTrouble::kNotBuilt, "built without", "libpulse-dev");
+}
+
+TEST(Doctor, AsksTheSoundServerOfThisMachine) {
+  const Finding sound = check_sound();
+  EXPECT_EQ(sound.name, "sound");
+  EXPECT_FALSE(sound.what.empty());
+  EXPECT_NE(sound.grade, Grade::kProblem) << "nobody needs sound to dance";
+  EXPECT_EQ(sound.cure.empty(), sound.grade == Grade::kOk);
+}
+
+TEST(Doctor, TellsABusUrlThatIsNone) {
+  const auto findings = examine_machine("http://nowhere");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].grade, Grade::kProblem);
+}
+
+}  // namespace
+}  // namespace dance

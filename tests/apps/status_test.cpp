@@ -1,0 +1,74 @@
+// The tables of `dance status`, and whose a port is, from texts as a server and the kernel give
+// them.
+#include <gtest/gtest.h>
+
+#include "apps/status/status_source.h"
+#include "apps/status/status_table.h"
+
+namespace dance {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json some_status() {
+  return json::parse(R"({"version": "9.9", "address": "127.0.0.1:7400", "uptime_s": 61.4,
+    "rooms": [{"name": "salsa", "guests": 2, "listeners": 1, "codec": "lattice",
+      "share_window_ms": 0.25, "links": [
+      {"peer": "10.0.0.7:999", "age_s": 60.2, "last_heard_s": 0.012, "round_trip_ms": 42.5,
+       "loss_up": 0.125, "loss_down": null, "bytes_in_per_s": 12345, "bytes_out_per_s": 500,
+       "guests": [{"name": "alice", "jitter_ms": 1.75}, {"name": "anna", "jitter_ms": null}]},
+      {"peer": "10.0.0.8:999", "round_trip_ms": null, "guests": []}]}],
+    "rejects": {"malformed": 0, "late": 3}, "handshakes": {"unknown_key": 2, "done": 0}})");
+}
+
+TEST(StatusTable, TellsRoomsGuestsAndWhatWasRefused) {
+  const std::string text = status_text(some_status());
+  for (const char* words :
+       {"dance server 9.9 on 127.0.0.1:7400, up 61 s", "salsa", "lattice", "0.25 ms", "alice",
+        "anna", "(listens)", "42.50 ms", "1.75 ms", "12.5%", "12.3 kB", "0.5 kB", "10.0.0.7:999",
+        "10.0.0.8:999", "\ndropped:  late 3\n", "\nhandshakes:  unknown_key 2\n"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+  EXPECT_EQ(text.find("malformed"), std::string::npos) << "what did not happen is left out";
+  EXPECT_EQ(text.find("done"), std::string::npos);
+}
+
+TEST(StatusTable, AnEmptyServerSaysSo) {
+  const std::string text = status_text(json{{"version", "1"}, {"rooms", json::array()}});
+  EXPECT_NE(text.find("(nobody is here)"), std::string::npos);
+  EXPECT_EQ(text.find("dropped"), std::string::npos);
+}
+
+TEST(StatusTable, WhateverTheServerTellsItIsATable) {
+  // Each value by something of another kind.
+  const json good = some_status().flatten();
+  for (const auto& [path, value] : good.items())
+    for (const json& other : {json(), json(-1e300), json("\033[2J\n"),
+                              json::array({1, json::array()}), json::object(), json(true)}) {
+      json changed = some_status();
+      changed[json::json_pointer(path)] = other;
+      const std::string text = status_text(changed);
+      EXPECT_EQ(text.find('\033'), std::string::npos) << path;
+    }
+  for (const json& other : {json(), json(1), json("x"), json::array()}) status_text(other);
+}
+
+TEST(StatusSource, FindsTheOwnerOfAPort) {
+  const std::string table =
+      "   sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout "
+      "inode ref pointer drops\n"
+      "  421: 0100007F:1CE8 00000000:0000 07 00000000:00000000 00:00000000 00000000  1000        0 "
+      "29385 2 0000000000000000 0\n"
+      "  422: 00000000:0044 0100007F:1CE9 07 00000000:00000000 00:00000000 00000000     0        0 "
+      "29386 2 0000000000000000 0\n"
+      "  423: 00000000000000000000000000000000:1CEA 00000000000000000000000000000000:0000 07 "
+      "00000000:00000000 00:00000000 00000000    33        0 29387 2 0000000000000000 0\n";
+  EXPECT_EQ(owner_of_udp_port(table, 7400), 1000u);
+  EXPECT_EQ(owner_of_udp_port(table, 68), 0u);
+  EXPECT_EQ(owner_of_udp_port(table, 7401), std::nullopt) << "that is the other end's";
+  EXPECT_EQ(owner_of_udp_port(table, 7402), 33u);
+  EXPECT_EQ(owner_of_udp_port("", 7400), std::nullopt);
+  for (std::size_t i = 0; i < table.size(); ++i) owner_of_udp_port(table.substr(0, i), 7400);
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,40 @@
+// Messages and channel names as a stranger on the bus might send them: whatever decodes must encode
+// again.
+#include <cstdint>
+#include <string_view>
+
+#include "core/base/assert.h"
+#include "core/bus/channel.h"
+#include "core/bus/encode.h"
+
+namespace {
+
+template <class T>
+void try_decode(const std::uint8_t* data, std::size_t size) {
+  T value;
+  if (dance::decode(data, size, value) != dance::Decoded::kFine) return;
+  dance::MessageBuffer buffer;
+  DANCE_ASSERT(dance::encode(value, buffer) == size, size);
+  T again;
+  DANCE_ASSERT(dance::decode(buffer.data(), size, again) == dance::Decoded::kFine);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try_decode<dance::Pose>(data, size);
+  try_decode<dance::Hands>(data, size);
+  try_decode<dance::TimedSkeleton>(data, size);
+  try_decode<dance::GuestStatus>(data, size);
+  try_decode<dance::StageTime>(data, size);
+  try_decode<dance::Stats>(data, size);
+  try_decode<dance::Music>(data, size);
+  try_decode<dance::Scene>(data, size);
+  try_decode<dance::Avatar>(data, size);
+  try_decode<dance::Style>(data, size);
+  try_decode<dance::Placement>(data, size);
+  try_decode<dance::Beat>(data, size);
+  const std::string_view name(reinterpret_cast<const char*>(data), size);
+  if (const auto channel = dance::Channel::parse(name)) DANCE_ASSERT(channel->view() == name);
+  return 0;
+}

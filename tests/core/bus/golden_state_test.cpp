@@ -1,0 +1,198 @@
+// As golden_test.cpp, for what changes seldom: the room's music and scene, a guest's avatar, style
+// and place; and for the beat.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "tests/allocation_guard.h"
+#include "tests/core/bus/golden_files.h"
+
+namespace dance {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+template <class T>
+T stamped() {
+  T value;
+  value.time = kCaptured;
+  value.clock_id = kClock;
+  return value;
+}
+
+Music golden_music() {
+  auto music = stamped<Music>();
+  music.start_time = MonoTime::from_us(1'234'567'000'000);
+  music.start_beats = -2.5;
+  music.tempo_bpm = 184.25;
+  music.beats_per_bar = 4;
+  music.playing = true;
+  EXPECT_TRUE(music.title.assign("Fr\xc3\xbchling in Havanna"));
+  return music;
+}
+
+Scene golden_scene() {
+  auto scene = stamped<Scene>();
+  scene.name = *SceneName::parse("old-mill");
+  scene.floor_width_m = 12.5f;
+  scene.floor_depth_m = 9.25f;
+  scene.light_rgb = {1.0f, 0.5f, 0.25f};
+  scene.brightness = 0.75f;
+  scene.pulse = 0.125f;
+  return scene;
+}
+
+Avatar golden_avatar() {
+  auto avatar = stamped<Avatar>();
+  avatar.name = *AvatarName::parse("fox-2");
+  avatar.colour_rgb = {0.125f, 0.25f, 1.0f};
+  avatar.height_scale = 1.5f;
+  return avatar;
+}
+
+Style golden_style() {
+  auto style = stamped<Style>();
+  style.gain = {1.25f, 0.5f, 0.75f, 2.0f, 3.0f, 1.0f, 0.25f};
+  style.periodic = 1.5f;
+  style.dynamic = 0.5f;
+  return style;
+}
+
+Placement golden_placement() {
+  auto placement = stamped<Placement>();
+  placement.x_m = -1.5f;
+  placement.z_m = 2.25f;
+  placement.heading_rad = -1.75f;
+  return placement;
+}
+
+Beat golden_beat() {
+  auto beat = stamped<Beat>();
+  beat.beat_time = MonoTime::from_us(1'234'567'890'373);
+  beat.beat = 127.0;
+  beat.tempo_bpm = 184.25;
+  beat.beats_per_bar = 8;
+  beat.confidence = 0.75f;
+  beat.playing = true;
+  return beat;
+}
+
+TEST(GoldenState, IsWrittenAndReadByteForByte) {
+  expect_golden("music_t", golden_music());
+  expect_golden("scene_t", golden_scene());
+  expect_golden("avatar_t", golden_avatar());
+  expect_golden("style_t", golden_style());
+  expect_golden("placement_t", golden_placement());
+  expect_golden("beat_t", golden_beat());
+}
+
+TEST(GoldenState, SurvivesEverySingleBitFlip) {
+  expect_survives_bit_flips<Music>("music_t");
+  expect_survives_bit_flips<Scene>("scene_t");
+  expect_survives_bit_flips<Avatar>("avatar_t");
+  expect_survives_bit_flips<Style>("style_t");
+  expect_survives_bit_flips<Placement>("placement_t");
+  expect_survives_bit_flips<Beat>("beat_t");
+}
+
+TEST(GoldenState, IsSmallEnoughForTheTunnel) {
+  for (const char* type : {"music_t", "scene_t", "avatar_t", "style_t", "placement_t"})
+    EXPECT_LE(read_golden(type).size(), 400u) << type;
+}
+
+TEST(GoldenState, TellsALateJoinerTheBar) {
+  const Bytes golden = read_golden("music_t");
+  Music music;
+  ASSERT_EQ(decode(golden.data(), golden.size(), music), Decoded::kFine);
+  EXPECT_EQ(music.title.view(), "Fr\xc3\xbchling in Havanna");
+  const MonoTime later = MonoTime::from_us(1'234'567'000'000 + 60'000'000);
+  EXPECT_DOUBLE_EQ(music.beats_at(later), -2.5 + 184.25);
+  music.playing = false;
+  EXPECT_DOUBLE_EQ(music.beats_at(later), -2.5);
+}
+
+template <class T, class Change>
+Decoded outcome_of(T value, Change change) {
+  change(value);
+  const Bytes bytes = encoded(value);
+  T decoded;
+  return decode(bytes.data(), bytes.size(), decoded);
+}
+
+TEST(DecodeState, CallsImpossibleValuesInvalid) {
+  const auto fine = Decoded::kFine, invalid = Decoded::kInvalid;
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(outcome_of(golden_music(), [](Music&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_music(), [](Music& m) { m.tempo_bpm = 0.0; }), invalid);
+  EXPECT_EQ(outcome_of(golden_music(), [&](Music& m) { m.tempo_bpm = nan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_music(), [&](Music& m) { m.start_beats = nan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_music(), [](Music& m) { m.start_beats = 1e12; }), invalid);
+  EXPECT_EQ(outcome_of(golden_music(), [](Music& m) { m.beats_per_bar = 0; }), invalid);
+  EXPECT_EQ(outcome_of(golden_music(),
+                       [](Music& m) {
+                         m.start_time = MonoTime::from_ns(std::numeric_limits<std::int64_t>::max());
+                       }),
+            invalid);
+  for (const char* title : {"\x1b[2J", "a\nb", "\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80",
+                            "\xf4\x90\x80\x80", "\xc2\x9b", "\x7f"})
+    EXPECT_EQ(outcome_of(golden_music(), [&](Music& m) { EXPECT_TRUE(m.title.assign(title)); }),
+              invalid)
+        << title;
+  for (const char* title : {"", "Guantanamera", "\xe2\x99\xab", "\xf0\x9f\x92\x83"})
+    EXPECT_EQ(outcome_of(golden_music(), [&](Music& m) { EXPECT_TRUE(m.title.assign(title)); }),
+              fine)
+        << title;
+  EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.floor_width_m = 0.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.light_rgb[2] = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.brightness = 1.5f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.name = SceneName(); }), fine);
+  EXPECT_EQ(outcome_of(golden_avatar(), [](Avatar& a) { a.height_scale = 0.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_avatar(), [](Avatar& a) { a.colour_rgb[0] = -1.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_style(), [](Style& s) { s.gain[6] = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_style(), [](Style& s) { s.dynamic = 5.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_placement(), [](Placement& p) { p.x_m = 1e6f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_placement(), [](Placement& p) { p.heading_rad = 4.0f; }), invalid);
+}
+
+TEST(DecodeState, CallsImpossibleBeatsInvalid) {
+  const auto fine = Decoded::kFine, invalid = Decoded::kInvalid;
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beats_per_bar = 0; }), fine);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beats_per_bar = 17; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beats_per_bar = -1; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [&](Beat& b) { b.beat = nan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beat = 2e7; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.tempo_bpm = 19.0; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [&](Beat& b) { b.tempo_bpm = nan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.confidence = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beat_time += Duration::s(61); }), invalid);
+  EXPECT_EQ(outcome_of(golden_beat(), [](Beat& b) { b.beat_time += Duration::s(-61); }), invalid);
+}
+
+TEST(DecodeState, RefusesTextsThatGoOnBehindTheirEndAndNamesThatAreNone) {
+  Bytes bytes = read_golden("avatar_t");
+  const std::size_t name = 8 + 8 + 8;
+  Avatar avatar;
+  bytes[name + 31] = 'x';  // behind the zeros
+  EXPECT_EQ(decode(bytes.data(), bytes.size(), avatar), Decoded::kInvalid);
+  bytes = read_golden("avatar_t");
+  bytes[name] = '/';
+  EXPECT_EQ(decode(bytes.data(), bytes.size(), avatar), Decoded::kInvalid);
+  for (std::size_t i = 0; i < 32; ++i) bytes[name + i] = 'a';  // no end
+  EXPECT_EQ(decode(bytes.data(), bytes.size(), avatar), Decoded::kInvalid);
+}
+
+TEST(DecodeState, AllocatesNothing) {
+  const Music music = golden_music();
+  MessageBuffer buffer;
+  Music decoded;
+  const AllocationGuard guard;
+  const std::size_t size = encode(music, buffer);
+  EXPECT_EQ(decode(buffer.data(), size, decoded), Decoded::kFine);
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+}  // namespace
+}  // namespace dance

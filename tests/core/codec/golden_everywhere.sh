@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Builds the decoder of the lattice codec with several compilers and flags and compares what it makes of the golden
+# packets, bit by bit.   usage: golden_everywhere.sh SOURCE_DIR WORK_DIR EIGEN_INCLUDE EXPECTED_INCLUDE
+set -euo pipefail
+source=$1 work=$2
+shift 2
+cd "$source"
+mkdir -p "$work"
+files="tests/core/codec/lattice_golden_main.cpp core/codec/body_lattice.cpp core/codec/body_predictor.cpp
+  core/codec/built_in_model.cpp core/codec/lattice_decoder.cpp core/codec/lattice_frame.cpp core/codec/pose_model.cpp core/codec/symbol_law.cpp core/pose/pose.cpp core/pose/skeleton.cpp"
+includes=()
+for include in "$@"; do includes+=(-isystem "$include"); done
+# All in one file: its headers are read once.
+for file in $files; do echo "#include \"$file\""; done >"$work/all.cpp"
+golden=tests/core/codec/golden/lattice_v1.bin
+expected=$(cat tests/core/codec/golden/lattice_v1.txt)
+bad=0 count=0
+while read -r name compiler flags; do
+  if ! command -v "$compiler" >/dev/null; then
+    echo "$name: SKIPPED, there is no $compiler here"
+    continue
+  fi
+  # shellcheck disable=SC2086
+  "$compiler" -std=c++20 -ffp-contract=off $flags -DDANCE_DECODE_ONLY -DDANCE_MODEL_FILE='"data/codec/body.model"' -I. \
+    "${includes[@]}" "$work/all.cpp" -o "$work/$name"
+  got=$("$work/$name" "$golden")
+  count=$((count + 1))
+  echo "$name: $got"
+  [ "$got" = "$expected" ] || bad=$((bad + 1))
+done <<'VARIANTS'
+gcc-O0 g++ -O0
+gcc-native g++ -O3 -march=native -fno-tree-vectorize
+clang-O2 clang++ -O2
+VARIANTS
+echo "$count builds, $bad differ from '$expected'"
+[ "$bad" = 0 ]

@@ -1,0 +1,174 @@
+// Sockets on this machine's loopback address.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/net/mono_clock.h"
+#include "core/net/poller.h"
+#include "core/net/udp_socket.h"
+#include "testing/line/lossy_proxy.h"
+
+namespace dance {
+namespace {
+
+std::vector<std::uint8_t> bytes(std::size_t size, std::uint8_t fill) {
+  return std::vector<std::uint8_t>(size, fill);
+}
+
+struct Echo {
+  std::vector<std::vector<std::uint8_t>> got;
+  Address from;
+};
+
+Echo receive_all(UdpSocket& socket, std::size_t count) {
+  Echo echo;
+  for (int turns = 0; turns < 10'000 && echo.got.size() < count; ++turns)
+    for (const auto& datagram : socket.receive()) {
+      echo.got.emplace_back(datagram.bytes.begin(), datagram.bytes.end());
+      echo.from = datagram.from;
+    }
+  return echo;
+}
+
+TEST(UdpSocket, CarriesBatchesBothWaysOverIpv4) {
+  auto server = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(server);
+  auto client = UdpSocket::connect(server->local_address());
+  ASSERT_TRUE(client);
+  for (std::uint8_t i = 0; i < 150; ++i) client->send({}, bytes(100u + i, i));
+  client->flush();
+  const Echo heard = receive_all(*server, 150);
+  ASSERT_EQ(heard.got.size(), 150u);
+  EXPECT_EQ(heard.got[149], bytes(249, 149));
+  EXPECT_EQ(heard.from, client->local_address());
+  server->send_now(heard.from, bytes(3, 7));
+  EXPECT_EQ(receive_all(*client, 1).got.at(0), bytes(3, 7));
+  EXPECT_EQ(client->counters().sent, 150u);
+}
+
+TEST(UdpSocket, AnIpv6SocketHearsIpv4Too) {
+  auto server = UdpSocket::bind(Address::resolve("[::]:1")->with_port(0));
+  if (!server) GTEST_SKIP() << "no IPv6 here: " << server.error().what;
+  const std::uint16_t port = server->local_address().port();
+  auto client = UdpSocket::connect(Address::loopback(port));
+  ASSERT_TRUE(client);
+  client->send_now({}, bytes(5, 1));
+  const Echo heard = receive_all(*server, 1);
+  ASSERT_EQ(heard.got.size(), 1u);
+  EXPECT_EQ(heard.from, client->local_address()) << "as the IPv4 address that it is";
+  server->send(heard.from, bytes(6, 2));
+  server->flush();
+  EXPECT_EQ(receive_all(*client, 1).got.size(), 1u);
+}
+
+TEST(UdpSocket, NamesAPortThatIsTaken) {
+  auto first = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(first);
+  const Address taken = first->local_address();
+  const auto second = UdpSocket::bind(taken);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().what.find("port " + std::to_string(taken.port()) + " is taken"),
+            std::string::npos);
+  EXPECT_NE(second.error().what.find("choose another port"), std::string::npos);
+}
+
+TEST(UdpSocket, NamesAnAddressThatIsNotOurs) {
+  const auto socket = UdpSocket::bind(*Address::resolve("192.0.2.77:7400"));
+  ASSERT_FALSE(socket);
+  EXPECT_NE(socket.error().what.find("192.0.2.77"), std::string::npos);
+}
+
+TEST(UdpSocket, DropsAndCountsWhatIsLongerThanAnythingOfOurs) {
+  auto server = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(server);
+  auto client = UdpSocket::connect(server->local_address());
+  ASSERT_TRUE(client);
+  client->send_now({}, bytes(5000, 1));
+  client->send_now({}, bytes(10, 2));
+  EXPECT_EQ(receive_all(*server, 1).got.at(0), bytes(10, 2));
+  EXPECT_EQ(server->counters().truncated, 1u);
+}
+
+TEST(UdpSocket, AnEarlierRefusalDoesNotSwallowTheNextDatagram) {
+  auto server = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(server);
+  const Address address = server->local_address();
+  auto client = UdpSocket::connect(address);
+  ASSERT_TRUE(client);
+  *server = *UdpSocket::bind(Address::loopback(0));  // nobody is at the first address now
+  client->send_now({}, bytes(1, 1));
+  auto again = UdpSocket::bind(address);
+  ASSERT_TRUE(again);
+  client->send_now({}, bytes(2, 2));
+  EXPECT_EQ(receive_all(*again, 1).got.at(0), bytes(2, 2));
+  EXPECT_EQ(client->counters().refused, 1u);
+}
+
+TEST(LossyProxy, CarriesBothWaysAndCountsWhatItLoses) {
+  auto poller = Poller::create();
+  ASSERT_TRUE(poller);
+  auto target = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(target);
+  auto proxy =
+      LossyProxy::open(Address::loopback(0), target->local_address(),
+                       *load_line({.link = "loss=30% seed=2 dup=10% delay=1ms"}), **poller);
+  ASSERT_TRUE(proxy);
+  auto client = UdpSocket::connect((*proxy)->local_address());
+  ASSERT_TRUE(client);
+  std::uint64_t up = 0;
+  std::uint64_t down = 0;
+  for (int i = 0; i < 400; ++i) {
+    client->send_now({}, bytes(50, 1));
+    (*poller)->run_once(Duration::ms(1));
+    for (const auto& datagram : target->receive()) {
+      ++up;
+      target->send_now(datagram.from, datagram.bytes);
+    }
+    down += client->receive().size();
+  }
+  using Direction = LossyProxy::Direction;
+  const auto done = [&] {
+    const auto u = (*proxy)->totals(Direction::kUp);
+    const auto d = (*proxy)->totals(Direction::kDown);
+    return u.line.offered == 400 && u.delivered == u.line.forwarded + u.line.duplicated &&
+           up == u.delivered && d.line.offered == up &&
+           d.delivered == d.line.forwarded + d.line.duplicated && down == d.delivered;
+  };
+  for (int i = 0; i < 1000 && !done(); ++i) {
+    (*poller)->run_once(Duration::ms(1));
+    for (const auto& datagram : target->receive()) {
+      ++up;
+      target->send_now(datagram.from, datagram.bytes);
+    }
+    down += client->receive().size();
+  }
+  EXPECT_TRUE(done());
+  EXPECT_EQ((*proxy)->client_count(), 1u);
+  EXPECT_NEAR(static_cast<double>((*proxy)->totals(Direction::kUp).line.lost), 120.0, 40.0);
+}
+
+// Traces are of the line, not of whoever comes to it.
+TEST(LossyProxy, BeginsItsTracesWithTheFirstClientAndNotAnewWithOthers) {
+  auto poller = Poller::create();
+  ASSERT_TRUE(poller);
+  auto target = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(target);
+  auto proxy = LossyProxy::open(Address::loopback(0), target->local_address(), {}, **poller);
+  ASSERT_TRUE(proxy);
+  EXPECT_FALSE((*proxy)->begin().is_set());
+  MonoTime begin;
+  for (std::size_t clients = 1; clients <= 3; ++clients) {
+    auto client = UdpSocket::connect((*proxy)->local_address());
+    ASSERT_TRUE(client);
+    client->send_now({}, bytes(50, 1));
+    for (int i = 0; i < 10'000 && (*proxy)->client_count() < clients; ++i)
+      (*poller)->run_once(Duration::ms(1));
+    ASSERT_EQ((*proxy)->client_count(), clients);
+    if (clients == 1) begin = (*proxy)->begin();
+    EXPECT_TRUE(begin.is_set());
+    EXPECT_EQ((*proxy)->begin(), begin);
+  }
+}
+
+}  // namespace
+}  // namespace dance

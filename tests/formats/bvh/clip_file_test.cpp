@@ -1,0 +1,138 @@
+#include "formats/bvh/clip_file.h"
+
+#include <gtest/gtest.h>
+#include <lzma.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace dance {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kSample = DANCE_SOURCE_DIR "/tests/formats/bvh/data/vrm.bvh";
+
+// A directory of this test's own that goes with it.
+class ClipFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("clip_file_test." + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+  static std::string error_of(const std::string& file) {
+    const auto clip = load_clip(file);
+    return clip ? "no error" : clip.error().what;
+  }
+
+ private:
+  fs::path directory_;
+};
+
+std::string xz(const std::string& text) {
+  std::string packed(lzma_stream_buffer_bound(text.size()), '\0');
+  std::size_t size = 0;
+  EXPECT_EQ(lzma_easy_buffer_encode(
+                6, LZMA_CHECK_CRC64, nullptr, reinterpret_cast<const std::uint8_t*>(text.data()),
+                text.size(), reinterpret_cast<std::uint8_t*>(packed.data()), &size, packed.size()),
+            LZMA_OK);
+  packed.resize(size);
+  return packed;
+}
+
+std::string sample_text() {
+  std::ifstream file(kSample, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST_F(ClipFile, LoadsABvhAndSaysWhatItGuessed) {
+  const auto clip = load_clip(kSample);
+  ASSERT_TRUE(clip.has_value()) << clip.error().what;
+  EXPECT_EQ(clip->clip.frames.size(), 3u);
+  EXPECT_DOUBLE_EQ(clip->clip.frame_hz, 30.0);
+  EXPECT_FALSE(clip->notes.empty());
+}
+
+TEST_F(ClipFile, LoadsTheSameFromXzUnderAnyName) {
+  const auto plain = load_clip(kSample);
+  for (const char* name : {"take.bvh.xz", "take.bvh", "take"}) {
+    const auto packed = load_clip(write(name, xz(sample_text())));
+    ASSERT_TRUE(packed.has_value()) << packed.error().what;
+    EXPECT_EQ(packed->clip.frames[2].p_WH_m, plain->clip.frames[2].p_WH_m);
+    EXPECT_EQ(packed->clip.skeleton, plain->clip.skeleton);
+  }
+}
+
+TEST_F(ClipFile, LoadsXzStreamsThatFollowEachOther) {
+  const std::string text = sample_text();
+  const auto clip =
+      load_clip(write("two.bvh.xz", xz(text.substr(0, 1000)) + xz(text.substr(1000))));
+  ASSERT_TRUE(clip.has_value()) << clip.error().what;
+  EXPECT_EQ(clip->clip.frames.size(), 3u);
+}
+
+TEST_F(ClipFile, NamesTheFileAndTheCure) {
+  EXPECT_EQ(error_of(path("no.bvh")), path("no.bvh") + ": no such file");
+  EXPECT_EQ(error_of(path("")), path("") + ": a directory; name a .bvh or .bvh.xz file in it");
+  EXPECT_EQ(error_of("/dev/null"), "/dev/null: no regular file; name a .bvh or .bvh.xz file");
+  EXPECT_EQ(error_of(write("empty.bvh", "")), path("empty.bvh") + ": empty; copy it again");
+  EXPECT_EQ(error_of(write("page.bvh", "<html>")),
+            path("page.bvh") +
+                ": line 1: '<html>' stands where HIERARCHY should: this is not a BVH file");
+  EXPECT_EQ(error_of(write("plain.bvh.xz", sample_text())),
+            path("plain.bvh.xz") + ": no xz file inside; rename or pack it with xz");
+}
+
+TEST_F(ClipFile, DoesNotWaitForAPipe) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(error_of(path("pipe")),
+            path("pipe") + ": no regular file; name a .bvh or .bvh.xz file");
+}
+
+TEST_F(ClipFile, SaysThatAnXzFileWasCutShortOrDamaged) {
+  std::string packed = xz(sample_text());
+  EXPECT_EQ(error_of(write("cut.bvh.xz", packed.substr(0, packed.size() / 2))),
+            path("cut.bvh.xz") + ": the xz file is cut short; copy it again");
+  packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 1);
+  EXPECT_EQ(error_of(write("hurt.bvh.xz", packed)),
+            path("hurt.bvh.xz") + ": the xz file is damaged; copy it again");
+}
+
+TEST_F(ClipFile, RefusesEveryPrefixOfAnXzFile) {
+  const std::string packed = xz(sample_text());
+  for (std::size_t size = 1; size < packed.size(); size += 7) {
+    const auto text = read_clip_text(write("cut.bvh.xz", packed.substr(0, size)));
+    EXPECT_FALSE(text.has_value()) << "first " << size << " bytes";
+  }
+}
+
+TEST_F(ClipFile, BoundsWhatAFileUnpacksTo) {
+  const std::string file = write("bomb.bvh.xz", xz(std::string(std::size_t{8} << 20, ' ')));
+  EXPECT_LT(fs::file_size(file), 10'000u);
+  const auto text = read_clip_text(file, std::size_t{1} << 20);
+  ASSERT_FALSE(text.has_value());
+  EXPECT_EQ(text.error().what, file + ": unpacks to more than 1 MiB; cut the take into parts");
+  EXPECT_TRUE(read_clip_text(file, std::size_t{8} << 20).has_value());
+}
+
+TEST_F(ClipFile, BoundsWhatItReads) {
+  const std::string file = write("large.bvh", std::string((std::size_t{1} << 20) + 1, ' '));
+  const auto text = read_clip_text(file, std::size_t{1} << 20);
+  ASSERT_FALSE(text.has_value());
+  EXPECT_EQ(text.error().what, file + ": larger than 1 MiB; cut the take into parts");
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,249 @@
+#include "house/session.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace dance {
+namespace {
+
+constexpr const char* kHouse = "[house]\nguest = \"alice\"\nserver = \"example.org:7400\"\n";
+
+std::string error_of(const std::string& text) {
+  const auto session = parse_session(text, "s.toml");
+  return session ? "no error" : session.error().what;
+}
+
+TEST(Session, ReadsAWholeHouse) {
+  const auto session =
+      parse_session(std::string(kHouse) +
+                        "room = \"salsa\"\n[[route]]\nfrom = \"POSE/guest/*\"\n"
+                        "through = [\"hold 20ms\"]\nto = \"POSE/stage/*\"\nrate = 30\n"
+                        "[[produce]]\nkind = \"replay\"\nguest = \"bob\"\nfile = \"b.bvh\"\n"
+                        "[[listen]]\nto = \"csv\"\nfile = \"out.csv\"\n",
+                    "/home/alice/s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  EXPECT_EQ(session->guests.size(), 1u);
+  EXPECT_EQ(session->room, "salsa");
+  ASSERT_EQ(session->routes.size(), 1u);
+  EXPECT_EQ(session->routes[0].rate_hz, 30.0);
+  EXPECT_EQ(session->routes[0].from.where, Where::kGuest);
+  EXPECT_FALSE(session->routes[0].from.guest.is_set());
+  EXPECT_EQ(session->producers[0].file, "/home/alice/b.bvh") << "taken from the session's folder";
+  EXPECT_EQ(session->consumers[0].file, "/home/alice/out.csv");
+}
+
+TEST(Session, NamesTheCameraOfADancer) {
+  const auto session = parse_session(
+      std::string(kHouse) +
+          "[[produce]]\nkind = \"camera\"\nguest = \"alice\"\ndevice = \"/dev/video2\"\nmodel = "
+          "\"lite\"\n"
+          "calibration = \"left.yml\"\nheight = 1.68\nmirror = true\n"
+          "[[produce]]\nkind = \"camera\"\nguest = \"bob\"\ndevice = \"takes/bob.mp4\"\n"
+          "[[produce]]\nkind = \"camera\"\nguest = \"cara\"\ndevice = \"1\"\n"
+          "[[produce]]\nkind = \"camera\"\nguest = \"dora\"\ndevice = \"HD Webcam\"\n",
+      "/home/alice/s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  EXPECT_TRUE(session->producers.empty());
+  ASSERT_EQ(session->cameras.size(), 4u);
+  EXPECT_EQ(session->cameras[0].device, "/dev/video2");
+  EXPECT_EQ(session->cameras[0].model, "lite");
+  EXPECT_EQ(session->cameras[0].calibration, "/home/alice/left.yml");
+  EXPECT_EQ(session->cameras[0].height_m, 1.68);
+  EXPECT_TRUE(session->cameras[0].mirror);
+  EXPECT_EQ(session->cameras[1].device, "/home/alice/takes/bob.mp4")
+      << "a file of the session's folder";
+  EXPECT_EQ(session->cameras[2].device, "1") << "the camera's number";
+  EXPECT_EQ(session->cameras[3].device, "HD Webcam") << "the camera's name";
+}
+
+TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {
+  const auto usual = parse_session(kHouse, "s.toml");
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(usual->quality_mm, 1.0);
+  EXPECT_EQ(usual->pose_bytes_per_second, 0.0);
+  const auto given = parse_session(
+      std::string(kHouse) + "quality_mm = 2\npose_bytes_per_second = 900.0\n", "s.toml");
+  ASSERT_TRUE(given) << given.error().what;
+  EXPECT_EQ(given->quality_mm, 2.0);
+  EXPECT_EQ(given->pose_bytes_per_second, 900.0);
+  const std::string error = error_of(std::string(kHouse) + "quality_mm = 0.01\n");
+  EXPECT_EQ(error.rfind("s.toml:4:14: ", 0), 0u) << error;
+  EXPECT_NE(error.find("0.125"), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+TEST(Session, SaysWhomItWantsToHearInTheWordsOfTheCommandLine) {
+  const GuestId bob = *GuestId::parse("bob"), carol = *GuestId::parse("carol");
+  const auto usual = parse_session(kHouse, "s.toml");
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(usual->interest.divider_of(bob), 1) << "all of everybody";
+  const auto given =
+      parse_session(std::string(kHouse) + "want = [\"default=4\", \"bob=0\"]\n", "s.toml");
+  ASSERT_TRUE(given) << given.error().what;
+  EXPECT_EQ(given->interest.divider_of(bob), 0);
+  EXPECT_EQ(given->interest.divider_of(carol), 4);
+}
+
+TEST(Session, SaysWhatIsWrongWithWhomItWants) {
+  const std::string house = kHouse;
+  std::string error = error_of(house + "want = [\"bob=256\"]\n");
+  EXPECT_EQ(error.rfind("s.toml:4:8: [house] want: 'bob=256': write NAME=N", 0), 0u) << error;
+  error = error_of(house + "want = [\"bob=1\", \"bob=2\"]\n");
+  EXPECT_EQ(error, "s.toml:4:8: [house] want: 'bob=2': bob is given twice");
+  error = error_of(house + "want = \"bob=1\"\n");
+  EXPECT_EQ(error.rfind("s.toml:4:8: [house] want: ", 0), 0u) << error;
+  EXPECT_NE(error.find("[\"default=4\", \"bob=1\"]"), std::string::npos) << error;
+  error = error_of(house + "want = [\"bob=1\", 2]\n");
+  EXPECT_EQ(error.rfind("s.toml:4:18: [house] want: ", 0), 0u) << error;
+}
+
+TEST(Session, ReadsChannels) {
+  const auto session = parse_session(
+      std::string(kHouse) +
+          "[[channel]]\nname = \"LIGHT/desk\"\nclass = \"state\"\nsize = 300\nrate = 2.5\n"
+          "layout = \"n:i32,f32[n]\"\nfingerprint = \"0123456789abcdef\"\n"
+          "[[channel]]\nname = \"ROBOT/*\"\nclass = \"newest\"\nlayout = \"any\"\n"
+          "unchecked = true\nguest = \"alice\"\n",
+      "s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  ASSERT_EQ(session->channels.size(), 2u);
+  EXPECT_EQ(session->channels[0].kind, ChannelClass::kState);
+  EXPECT_EQ(session->channels[0].max_bytes, 300u);
+  EXPECT_EQ(session->channels[0].rate_hz, 2.5);
+  EXPECT_TRUE(session->channels[1].pattern.matches("ROBOT/arm"));
+  EXPECT_EQ(session->channels[1].guest.view(), "alice");
+}
+
+TEST(Session, SaysWhatIsWrongWithAChannel) {
+  const std::string channel = std::string(kHouse) + "[[channel]]\nname = \"LIGHT/desk\"\n";
+  std::string error = error_of(channel + "class = \"state\"\n");
+  EXPECT_EQ(error.rfind("s.toml:5:8: ", 0), 0u) << error;
+  EXPECT_NE(error.find("say layout="), std::string::npos) << error;
+  error = error_of(channel + "class = \"state\"\nlayout = \"i8\"\nsize = 700\n");
+  EXPECT_EQ(error.rfind("s.toml:8:8: ", 0), 0u) << error;
+  error = error_of(channel + "clas = \"state\"\nlayout = \"i8\"\n");
+  EXPECT_EQ(error.rfind("s.toml:6:1: ", 0), 0u) << error;
+  std::string many = kHouse;
+  for (int i = 0; i < 17; ++i)
+    many +=
+        "[[channel]]\nname = \"A/" + std::to_string(i) + "\"\nclass = \"state\"\nlayout = \"i8\"\n";
+  EXPECT_NE(error_of(many).find("at most 16"), std::string::npos) << error_of(many);
+}
+
+TEST(Session, ReadsTheMusicWhichFollowsItsRoomUnlessToldOtherwise) {
+  const auto alone = parse_session("[house]\n[music]\nfile = \"a.ogg\"\n", "h/s.toml");
+  ASSERT_TRUE(alone) << alone.error().what;
+  ASSERT_TRUE(alone->music);
+  EXPECT_EQ(alone->music->file, "h/a.ogg");
+  EXPECT_FALSE(alone->music->follow);
+  EXPECT_FALSE(alone->music->guest.is_set());
+
+  const auto in_room = parse_session(
+      "[house]\nguest = \"ann\"\nserver = \"h:1\"\n[music]\nfile = \"a.ogg\"\nloop = true\n"
+      "trim_ms = 20\nvolume = 0.5\n",
+      "s.toml");
+  ASSERT_TRUE(in_room) << in_room.error().what;
+  EXPECT_TRUE(in_room->music->follow);
+  EXPECT_EQ(in_room->music->guest.view(), "ann");
+  EXPECT_TRUE(in_room->music->loop);
+  EXPECT_EQ(in_room->music->trim_ms, 20.0);
+
+  const auto error_of = [](const std::string& music) {
+    const auto session = parse_session("[house]\n" + music, "s.toml");
+    return session ? "no error" : session.error().what;
+  };
+  EXPECT_NE(error_of("[music]\n").find("microphone = true"), std::string::npos);
+  EXPECT_NE(error_of("[music]\nfile = \"a\"\nvolume = 2\n").find("s.toml:4"), std::string::npos);
+  EXPECT_NE(error_of("[[music]]\nfile = \"a\"\n").find("[music], once"), std::string::npos);
+  EXPECT_NE(error_of("[music]\nfil = \"a\"\n").find("'fil'"), std::string::npos);
+}
+
+TEST(Session, WithoutRoutesGetsTheUsualTwo) {
+  const auto session = parse_session(kHouse, "s.toml");
+  ASSERT_TRUE(session);
+  ASSERT_EQ(session->routes.size(), 2u);
+  EXPECT_TRUE(session->routes[0].through.empty());
+  EXPECT_EQ(session->routes[1].through,
+            (std::vector<std::string>{"predict", "bridge", "rhythm", "stylize"}));
+}
+
+TEST(Session, ErrorsNameFileLineAndColumn) {
+  EXPECT_EQ(error_of("[house]\nguest = 7\n").rfind("s.toml:2:9: ", 0), 0u)
+      << error_of("[house]\nguest = 7\n");
+  EXPECT_EQ(error_of("[house]\nguest = \"alice\nroom = 1\n").rfind("s.toml:2:", 0), 0u);
+}
+
+TEST(Session, RefusesAMisspeltKeyAndListsTheKnownOnes) {
+  const std::string error = error_of("[house]\nguest = \"alice\"\nsever = \"x:1\"\n");
+  EXPECT_EQ(error.rfind("s.toml:3:1: ", 0), 0u) << error;
+  EXPECT_NE(error.find("sever"), std::string::npos);
+  EXPECT_NE(error.find("server"), std::string::npos);
+}
+
+TEST(Session, RefusesWhatCannotBe) {
+  const std::string house = kHouse;
+  const std::string route = house + "[[route]]\n";
+  for (const std::string& text :
+       {std::string(""),
+        std::string("[house]\nguest = \"Alice\"\n"),
+        house + "[hose]\n",
+        std::string("house = 3\n"),
+        route + "from = \"POSE/guest/*\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/alice\"\n",
+        route + "from = \"POSE/stage/*\"\nto = \"POSE/stage/*\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/guest/*\"\n",
+        route + "from = \"POSE/nowhere/*\"\nto = \"POSE/stage/*\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"fly\"]\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = \"hold 20ms\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nrate = 60\n",
+        route +
+            "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"hold 1ms\"]\nrate = 0\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"hold 1ms\"]\nrate = "
+                "nan\n",
+        house + "[[produce]]\nkind = \"camel\"\nguest = \"a\"\n",
+        house + "[[produce]]\nkind = \"salsa\"\nguest = \"a\"\nrole = \"judge\"\n",
+        house + "[[produce]]\nkind = \"camera\"\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nmodel = \"best\"\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nheight = 0.3\n",
+        house + "[[produce]]\nkind = \"camera\"\nguest = \"a\"\nrole = \"lead\"\n",
+        house + "[[listen]]\nto = \"fax\"\n",
+        house + "route = 3\n",
+        house + "room = \"No Spaces\"\n",
+        house + "quality_mm = 0\n",
+        house + "quality_mm = 21\n",
+        house + "quality_mm = \"fine\"\n",
+        house + "quality_mm = nan\n",
+        house + "pose_bytes_per_second = -1\n",
+        house + "pose_bytes_per_second = inf\n"}) {
+    const std::string error = error_of(text);
+    EXPECT_EQ(error.rfind("s.toml:", 0), 0u) << text << " -> " << error;
+  }
+}
+
+TEST(Session, RefusesMoreGuestsThanALinkCarries) {
+  std::string text = "[house]\nguests = [";
+  for (int i = 0; i < 17; ++i) text += (i ? ", \"g" : "\"g") + std::to_string(i) + "\"";
+  EXPECT_NE(error_of(text + "]\n").find("16"), std::string::npos);
+}
+
+TEST(LoadSession, NamesAMissingFileAFolderAndAFileTooLarge) {
+  EXPECT_FALSE(load_session("/nonexistent/s.toml"));
+  const auto folder = std::filesystem::temp_directory_path();
+  EXPECT_NE(load_session(folder.string()).error().what.find("folder"), std::string::npos);
+  const std::string large = (folder / "dance-session-test-large.toml").string();
+  std::ofstream(large) << std::string(2 << 20, '#');
+  EXPECT_NE(load_session(large).error().what.find("1 MiB"), std::string::npos);
+  std::filesystem::remove(large);
+}
+
+TEST(LoadSession, TakesTheSessionsThatComeWithTheTree) {
+  for (const char* name : {"/sessions/alice.toml", "/sessions/bob.toml"}) {
+    const auto session = load_session(std::string(DANCE_SOURCE_DIR) + name);
+    EXPECT_TRUE(session) << session.error().what;
+  }
+}
+
+}  // namespace
+}  // namespace dance

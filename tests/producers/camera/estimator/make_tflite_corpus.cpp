@@ -1,0 +1,45 @@
+// Writes the corpus of the fuzz target of .tflite files: make_tflite_corpus FOLDER. All of it is
+// made here, nothing is anybody's network.
+//
+// Threads: one.
+// Failure: exit 1 where the folder cannot be written to.
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "tests/producers/camera/estimator/tiny_network.h"
+
+namespace {
+
+bool write(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  return file.good();
+}
+
+// A vector that says it is longer than the file, of a field that is read as a list.
+std::vector<std::uint8_t> endless_vector() {
+  std::vector<std::uint8_t> bytes = dance::tiny_convolution_file();
+  for (std::size_t at = 8; at + 4 <= bytes.size(); at += 4) {
+    if (bytes[at] != 4 || bytes[at + 1] || bytes[at + 2] || bytes[at + 3]) continue;
+    bytes[at] = bytes[at + 1] = bytes[at + 2] = bytes[at + 3] = 0xff;
+    break;
+  }
+  return bytes;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: make_tflite_corpus FOLDER\n", stderr);
+    return 2;
+  }
+  const std::string folder = argv[1];
+  const bool did_write = write(folder + "/every_operation", dance::tiny_network_file()) &&
+                         write(folder + "/convolution", dance::tiny_convolution_file()) &&
+                         write(folder + "/endless_vector", endless_vector());
+  if (!did_write) std::fprintf(stderr, "%s: cannot be written to\n", folder.c_str());
+  return did_write ? 0 : 1;
+}

@@ -1,0 +1,56 @@
+// dance music eval as a user starts it, on a song that the test writes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/research/song_on_disk.h"
+
+namespace dance {
+namespace {
+
+TEST(MusicEval, SaysWhatTheContractSays) {
+  const SongOnDisk song;
+  const Finished finished = run(bin("dance") + " music eval " + song.folder.path("song.wav") +
+                                " --beats " + song.folder.path("song.beats") + " --json");
+  ASSERT_EQ(finished.exit_code, 0) << finished.talk;
+  const auto report = nlohmann::json::parse(finished.output);
+  EXPECT_GE(report["f_measure"].get<double>(), 0.95);
+  EXPECT_NEAR(report["tempo_bpm"].get<double>(), 148.0, 2.0);
+  EXPECT_LE(report["tempo_error_percent"].get<double>(), 2.0);
+  EXPECT_LE(std::abs(report["mean_error_ms"].get<double>()), 15.0);
+  EXPECT_LE(report["sd_error_ms"].get<double>(), 15.0);
+  EXPECT_TRUE(report["causal"].get<bool>());
+  // Where aubio is not there, the report says so.
+  if (report["baseline_aubio"].is_null())
+    EXPECT_FALSE(report["baseline_aubio_missing"].get<std::string>().empty());
+  else
+    EXPECT_TRUE(report["baseline_aubio"].contains("f_measure"));
+}
+
+TEST(MusicEval, TakesSeveralSongsAndMeansThem) {
+  const SongOnDisk song;
+  const std::string audio = song.folder.path("song.wav");
+  const std::string beats = song.folder.path("song.beats");
+  const Finished finished = run(bin("dance-music-eval") + " " + audio + " --beats " + beats + " " +
+                                audio + " --beats " + beats + " --json --speed 1.05");
+  ASSERT_EQ(finished.exit_code, 0) << finished.talk;
+  const auto report = nlohmann::json::parse(finished.output);
+  ASSERT_EQ(report["files"].size(), 2u);
+  EXPECT_EQ(report["f_measure"], report["files"][0]["f_measure"]);
+  EXPECT_NEAR(report["tempo_bpm"].get<double>(), 148.0 * 1.05, 3.0);
+}
+
+TEST(MusicEval, NamesWhatIsMissing) {
+  const SongOnDisk song;
+  const std::string audio = song.folder.path("song.wav");
+  const Finished none = run(bin("dance-music-eval") + " " + song.folder.path("none.ogg"));
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.talk.find("none.ogg"), std::string::npos);
+  const Finished few =
+      run(bin("dance-music-eval") + " " + audio + " " + audio + " --beats x.beats");
+  EXPECT_EQ(few.exit_code, 2);
+  EXPECT_NE(few.talk.find("--beats"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dance

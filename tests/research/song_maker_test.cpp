@@ -1,0 +1,90 @@
+#include "research/beats/song_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace dance {
+namespace {
+
+std::vector<SongStyle> all_styles() {
+  std::vector<SongStyle> styles = latin_styles();
+  styles.insert(styles.end(), other_styles().begin(), other_styles().end());
+  return styles;
+}
+
+TEST(SongStyle, RowsAreBarsOfLettersThatMeanSomething) {
+  std::set<std::string_view> names;
+  for (const SongStyle& style : all_styles()) {
+    EXPECT_TRUE(names.insert(style.name).second) << style.name;
+    EXPECT_LT(style.least_tempo_bpm, style.most_tempo_bpm) << style.name;
+    for (const SongLayer& layer : style.layers) {
+      const bool is_drum = layer.voice == SongVoice::kDrums;
+      EXPECT_EQ(is_drum, !layer.drums.empty()) << style.name;
+      ASSERT_FALSE(layer.rows.empty()) << style.name;
+      for (const std::string_view row : layer.rows) {
+        ASSERT_TRUE(row.size() == 16 || (row.size() == 33 && row[16] == '|'))
+            << style.name << " " << row;
+        EXPECT_EQ(row.find_first_not_of(is_drum ? ".xyzXYZop|" : ".1358ncr|"),
+                  std::string_view::npos)
+            << style.name << " " << row;
+        for (const auto& drums : layer.drums) {
+          EXPECT_TRUE(row.find_first_of("yY") == std::string_view::npos || drums[1] > 0) << row;
+          EXPECT_TRUE(row.find_first_of("zZ") == std::string_view::npos || drums[2] > 0) << row;
+        }
+      }
+    }
+  }
+}
+
+TEST(SongMaker, PlaysOnTheBeatsItTells) {
+  for (const SongStyle& style : all_styles())
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const MadeSong song = make_song(style, 40.0, seed);
+      ASSERT_GT(song.beats_s.size(), 40u) << style.name;
+      for (std::size_t i = 1; i < song.beats_s.size(); ++i) {
+        const double tempo_bpm = 60.0 / (song.beats_s[i] - song.beats_s[i - 1]);
+        EXPECT_GT(tempo_bpm, 0.8 * style.least_tempo_bpm) << style.name;
+        EXPECT_LT(tempo_bpm, 219.0) << style.name;
+      }
+      ASSERT_GT(song.notes.size(), 100u) << style.name;
+      std::size_t at_beats = 0;
+      for (const SongNote& note : song.notes) {
+        ASSERT_LT(note.start_s, song.beats_s.back() + 0.05);
+        const auto next = std::lower_bound(song.beats_s.begin(), song.beats_s.end(), note.start_s);
+        double away = std::abs(*std::prev(song.beats_s.end()) - note.start_s);
+        if (next != song.beats_s.end()) away = *next - note.start_s;
+        if (next != song.beats_s.begin()) away = std::min(away, note.start_s - *std::prev(next));
+        at_beats += away < 0.03;
+      }
+      EXPECT_GT(at_beats, song.notes.size() / 8) << style.name << " " << seed;
+    }
+}
+
+TEST(SongMaker, MakesTheSameSongOfTheSameSeed) {
+  const SongStyle& style = latin_styles().front();
+  const auto one = write_midi(make_song(style, 30.0, 7));
+  EXPECT_EQ(one, write_midi(make_song(style, 30.0, 7)));
+  EXPECT_NE(one, write_midi(make_song(style, 30.0, 8)));
+}
+
+TEST(SongMaker, WritesMidiThatReadsBack) {
+  MadeSong song;
+  song.notes = {{1.0, 0.5, MadeSong::kDrumChannel, 36, 100}, {0.25, 2.0, 1, 40, 90}};
+  const std::vector<std::uint8_t> file = write_midi(song);
+  const std::vector<std::uint8_t> head{'M', 'T',  'h',  'd', 0,   0,   0,   6, 0, 0, 0,
+                                       1,   0x03, 0xe8, 'M', 'T', 'r', 'k', 0, 0, 0};
+  ASSERT_GT(file.size(), head.size());
+  EXPECT_TRUE(std::equal(head.begin(), head.end(), file.begin()));
+  // 250 ms to the bass, 750 to the drum, 500 to its end, 750 to the bass's; then the end of the
+  // track.
+  const std::vector<std::uint8_t> tail{0x81, 0x7a, 0x91, 40,   90,   0x85, 0x6e, 0x99,
+                                       36,   100,  0x83, 0x74, 0x99, 36,   0,    0x85,
+                                       0x6e, 0x91, 40,   0,    0x00, 0xff, 0x2f, 0x00};
+  ASSERT_GT(file.size(), tail.size());
+  EXPECT_TRUE(std::equal(tail.rbegin(), tail.rend(), file.rbegin()));
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,61 @@
+// MomentGuesses: all ways of guessing how a moment goes on (transformers/predict/predict_model.h),
+// as rows that are weighted and added. Computed once a row; kept, until it is known how the moment
+// went on.
+//
+// Units/frames: differences of rows in the dancer's heading at that moment; slopes a row; horizons
+//               as kHorizonFrames.
+// Ownership:    plain value of 19 kB; allocates nothing.
+// Threads:      none inside.
+// Failure:      none; what cannot be guessed yet is a row of zeros.
+#pragma once
+
+#include <array>
+
+#include "transformers/predict/body_net.h"
+#include "transformers/predict/dance_memory.h"
+#include "transformers/predict/predict_model.h"
+
+namespace dance {
+
+struct MomentGuesses {
+  std::array<BodyRow, kCommonGuesses> common;
+  std::array<std::array<BodyRow, kGuesses - kCommonGuesses>, kHorizons> by_horizon;
+  // What was made of them: their weighted sum.
+  BodyWays blended;
+  // What the personal model corrects, the network's answer where that is asked, and its correction.
+  BodyWays impersonal;
+  BodyWays personal;
+
+  const float* row(std::size_t horizon, std::size_t guess) const {
+    return guess < kCommonGuesses ? common[guess].v.data()
+                                  : by_horizon[horizon][guess - kCommonGuesses].v.data();
+  }
+};
+
+// The way from one row to another, in the heading of the first.
+inline BodyRow way_between(const BodyRow& from, const BodyRow& to) {
+  BodyRow way;
+  for (std::size_t i = 0; i < kRowSize; ++i) way.v[i] = to.v[i] - from.v[i];
+  place_into_heading(way, from.heading());
+  return way;
+}
+
+// Sums of the rows of the last 4 s, so that their mean costs nothing.
+class RowMean {
+ public:
+  static constexpr std::size_t kRows = 240;
+  void clear() { sum_.fill(0.0), count_ = 0; }
+  // After the memory has taken the row in.
+  void push(const DanceMemory& memory);
+  // From the newest row to the mean; of the root only its height.
+  void way_to_mean(const BodyRow& now, BodyRow& way) const;
+
+ private:
+  std::array<double, kRowSize> sum_{};
+  std::size_t count_ = 0;
+};
+
+// Everything but the network's answer, which the caller writes.
+void make_guesses(const DanceMemory& memory, const RowMean& mean, MomentGuesses& guesses);
+
+}  // namespace dance

@@ -1,0 +1,40 @@
+// The zones of a body in which a dance is spoken of: which bones turn in which zone, and what the
+// zones are called.
+//
+// Units/frames: none.
+// Threads:      constants only.
+// Failure:      find_zone() returns nullopt for an unknown name.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/pose/bone.h"
+#include "core/pose/style.h"
+
+namespace dance {
+
+constexpr std::array<std::string_view, kBodyZones> kZoneNames{"hips",  "torso", "shoulders", "arms",
+                                                              "hands", "legs",  "head"};
+
+// By the joint that a bone turns in: the upper arm turns in the shoulder, but it is the arm that
+// one sees swing.
+constexpr std::array<BodyZone, kBoneCount> kZoneOfBone = [] {
+  using Z = BodyZone;
+  return std::array<Z, kBoneCount>{
+      Z::kHips, Z::kTorso, Z::kTorso,     Z::kTorso, Z::kHead, Z::kHead,  Z::kShoulders, Z::kArms,
+      Z::kArms, Z::kHands, Z::kShoulders, Z::kArms,  Z::kArms, Z::kHands, Z::kLegs,      Z::kLegs,
+      Z::kLegs, Z::kLegs,  Z::kLegs,      Z::kLegs,  Z::kLegs, Z::kLegs};
+}();
+
+constexpr BodyZone zone_of(Bone bone) { return kZoneOfBone[index_of(bone)]; }
+constexpr std::size_t index_of(BodyZone zone) { return static_cast<std::size_t>(zone); }
+
+constexpr std::optional<BodyZone> find_zone(std::string_view name) {
+  for (std::size_t i = 0; i < kBodyZones; ++i)
+    if (kZoneNames[i] == name) return static_cast<BodyZone>(i);
+  return std::nullopt;
+}
+
+}  // namespace dance

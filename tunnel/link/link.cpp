@@ -1,0 +1,180 @@
+#include "tunnel/link/link.h"
+
+#include <algorithm>
+
+#include "core/base/assert.h"
+#include "core/net/mono_clock.h"
+#include "core/net/secure_random.h"
+
+namespace dance {
+namespace {
+
+constexpr int kLinkBatches = 8;
+// A socket keeps the address of the network it was made on. When the server stays silent, the house
+// may have moved to another one: every so many hellos a new socket is tried.
+constexpr int kHellosPerSocket = 4;
+constexpr Duration kTroubleIsSaidEach = Duration::s(30);
+
+}  // namespace
+
+Result<std::unique_ptr<Link>> Link::open(std::vector<Address> server, const LinkKey& key,
+                                         LinkOptions options, LinkHandlers handlers,
+                                         Poller& poller) {
+  DANCE_ASSERT(!server.empty());
+  DANCE_TRY(auto context, key.context());
+  // One that this machine has no way to (IPv6 without IPv6, say) is left out.
+  auto socket = UdpSocket::connect(server.front());
+  while (!socket && server.size() > 1) {
+    server.erase(server.begin());
+    socket = UdpSocket::connect(server.front());
+  }
+  if (!socket) return tl::make_unexpected(socket.error());
+  while (options.token == 0) options.token = secure_random_u64();
+  if (options.clock_id == 0) options.clock_id = this_clock_id();
+  options.seed = secure_random_u64();
+  return std::unique_ptr<Link>(new Link(std::move(server), std::move(*socket), std::move(context),
+                                        options, std::move(handlers), poller));
+}
+
+Link::Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealContext> context,
+           const LinkOptions& options, LinkHandlers handlers, Poller& poller)
+    : poller_(poller),
+      server_(std::move(server)),
+      on_no_answer_(handlers.on_no_answer),
+      on_no_entry_(handlers.on_no_entry),
+      clock_id_(options.clock_id),
+      begin_(mono_now()),
+      socket_(std::move(socket)),
+      sink_(socket_),
+      seal_(std::move(context), secure_random_u64, seal_handlers(), sink_),
+      core_(options, std::move(handlers), seal_) {
+  watch_socket();
+  addresses_ = AddressWatch::open();
+  if (addresses_)
+    poller_.watch(addresses_->fd(), [this](MonoTime now) {
+      if (addresses_->drain()) on_addresses_changed(now);
+    });
+  timer_ = poller_.add_timer(begin_, [this](MonoTime now) { return tick(now); });
+}
+
+SealClient::Handlers Link::seal_handlers() {
+  SealClient::Handlers handlers;
+  handlers.on_sealed = [this](MonoTime now) { core_.on_sealed(now); };
+  handlers.on_unsealed = [this](MonoTime now) { core_.on_unsealed(now); };
+  handlers.on_datagram = [this](wire::Bytes plain, MonoTime received, MonoTime now) {
+    core_.receive(plain, received, now);
+  };
+  handlers.on_trouble = [this](SealTrouble trouble, MonoTime now) { on_trouble(trouble, now); };
+  return handlers;
+}
+
+void Link::on_trouble(SealTrouble trouble, MonoTime now) {
+  if (trouble == SealTrouble::kNoAnswer) return try_another_socket();
+  // Tried again every few seconds: said when it is news, and now and then.
+  const bool is_news = !told_at_.is_set() || trouble != told_trouble_;
+  if (!on_no_entry_ || (!is_news && now - told_at_ < kTroubleIsSaidEach)) return;
+  told_trouble_ = trouble;
+  told_at_ = now;
+  on_no_entry_(trouble);
+}
+
+MonoTime Link::tick(MonoTime now) {
+  // Before the next hello, so that the one before had all its time.
+  if (core_.unanswered_hellos() == 0) hellos_on_socket_ = 0;
+  if (core_.unanswered_hellos() - hellos_on_socket_ >= kHellosPerSocket) {
+    try_another_socket();
+    if (seal_.is_trying()) seal_.begin_anew(now);
+  }
+  if (now >= seal_.next_deadline()) seal_.tick(now);
+  core_.tick(now);
+  return next_deadline();
+}
+
+MonoTime Link::next_deadline() const {
+  const MonoTime core = core_.next_deadline();
+  // Before its first turn the seal has no deadline: that is now, not never.
+  const MonoTime seal = std::max(seal_.next_deadline(), MonoTime::from_ns(1));
+  return core.is_set() ? std::min(core, seal) : seal;
+}
+
+Link::~Link() {
+  core_.say_goodbye();
+  seal_.close();
+  poller_.set_deadline(timer_, MonoTime());
+  poller_.unwatch(socket_.fd());
+  if (addresses_) poller_.unwatch(addresses_->fd());
+}
+
+// Another network: the session goes on from there, as soon as the server hears from there.
+void Link::on_addresses_changed(MonoTime now) {
+  const Address before = socket_.local_address();
+  const auto probe = UdpSocket::connect(server_[tried_]);
+  if (!probe || probe->local_address().with_port(0) == before.with_port(0)) return;
+  if (!use_socket_to(tried_)) return;
+  // A handshake is bound to where it began.
+  if (seal_.is_trying()) seal_.begin_anew(now);
+  core_.on_moved(now);
+  rearm();
+}
+
+void Link::watch_socket() {
+  poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
+}
+
+void Link::on_readable(MonoTime now) {
+  for (int i = 0; i < kLinkBatches; ++i) {
+    const auto batch = socket_.receive();
+    for (const UdpSocket::Datagram& datagram : batch)
+      seal_.receive(datagram.bytes, datagram.received, now);
+    if (batch.size() < UdpSocket::kBatch) break;
+  }
+  rearm();
+}
+
+void Link::rearm() { poller_.set_deadline(timer_, next_deadline()); }
+
+void Link::try_another_socket() {
+  hellos_on_socket_ = core_.unanswered_hellos();
+  // Where the server has once answered, there it is.
+  std::size_t next = tried_;
+  if (!seal_.has_heard_server()) {
+    if (on_no_answer_) on_no_answer_(server_[tried_]);
+    next = (tried_ + 1) % server_.size();
+  }
+  use_socket_to(next);
+}
+
+bool Link::use_socket_to(std::size_t which) {
+  auto socket = UdpSocket::connect(server_[which]);
+  if (!socket) return false;  // no network at all just now: the old one will do as well
+  tried_ = which;
+  poller_.unwatch(socket_.fd());
+  socket_ = std::move(*socket);
+  watch_socket();
+  return true;
+}
+
+void Link::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
+  core_.send_channel(name, message, now);
+  rearm();
+}
+
+void Link::set_interest(const Interest& interest, MonoTime now) {
+  core_.set_interest(interest, now);
+}
+
+Duration Link::uptime() const { return mono_now() - begin_; }
+
+Stats Link::stats(MonoTime now) const {
+  Stats stats;
+  stats.time = now;
+  stats.clock_id = clock_id_;
+  stats.uptime = now - begin_;
+  core_.fill(stats);
+  // What the seal keeps out is a stranger's or damaged; copies of what came may be the network's
+  // own.
+  stats.rejected_datagrams += static_cast<std::int64_t>(seal_.counters().forged);
+  return stats;
+}
+
+}  // namespace dance

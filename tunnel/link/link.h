@@ -1,0 +1,110 @@
+// A house's link to the server: LinkCore with a sealed session and a socket around it, for whoever
+// has a poller. No bus in here: tunnel/link/link_bus.h puts one on it, and a whole house in one
+// process needs none.
+//
+// Units/frames: poses in and out are in this process's clock.
+// Ownership:    owns socket and core; the poller, and what the handlers refer to, must outlive it.
+// Threads:      the poller's; handlers run there too.
+// Failure:      open() tells when there is no way to the address; a server that does not answer is
+//               asked again for as long as the link lives.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/bus/messages.h"
+#include "core/net/address_watch.h"
+#include "core/net/poller.h"
+#include "core/net/udp_socket.h"
+#include "tunnel/link/link_core.h"
+#include "tunnel/link/link_key.h"
+#include "tunnel/seal/seal_client.h"
+
+namespace dance {
+
+class Link {
+ public:
+  // Token, clock and seed of the options are filled in where they are 0.
+  // Addresses of one server: until one has answered they are tried in turn.
+  static Result<std::unique_ptr<Link>> open(std::vector<Address> server, const LinkKey& key,
+                                            LinkOptions options, LinkHandlers handlers,
+                                            Poller& poller);
+  // Says goodbye.
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  // Leave at once, in this turn; dropped and counted where there is no session. A guest that was
+  // not announced is, with its first pose.
+  // Signal: whatever LinkCore::send() takes.
+  template <class Signal>
+  void send(const GuestId& guest, const Signal& signal, MonoTime now) {
+    core_.send(guest, signal, now);
+    rearm();
+  }
+  void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
+
+  // As LinkCore does.
+  void set_interest(const Interest& interest, MonoTime now);
+
+  bool is_connected() const { return core_.is_connected(); }
+  LinkState state() const { return core_.state(); }
+  const LinkCounters& counters() const { return core_.counters(); }
+  const SealClientCounters& seal_counters() const { return seal_.counters(); }
+  const ClockMapper& clock() const { return core_.clock(); }
+  std::vector<RemoteGuestStats> remote_stats() const { return core_.remote_stats(); }
+  std::vector<LocalGuestStats> local_stats() const { return core_.local_stats(); }
+  const PathStats& path() const { return core_.path(); }
+  std::optional<Music> room_music(MonoTime now) const { return core_.room_music(now); }
+  const GuestId& room_music_setter() const { return core_.room_music_setter(); }
+  // Since the link began.
+  Duration uptime() const;
+  // As STATS/link says it.
+  Stats stats(MonoTime now) const;
+
+ private:
+  // Past the batch: each datagram of a link is due when it is made.
+  class DirectSink final : public DatagramSink {
+   public:
+    explicit DirectSink(UdpSocket& socket) : socket_(socket) {}
+    void send(const Address& to, std::span<const std::uint8_t> bytes) override {
+      socket_.send_now(to, bytes);
+    }
+
+   private:
+    UdpSocket& socket_;
+  };
+
+  Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealContext> context,
+       const LinkOptions& options, LinkHandlers handlers, Poller& poller);
+  SealClient::Handlers seal_handlers();
+  void on_trouble(SealTrouble trouble, MonoTime now);
+  MonoTime tick(MonoTime now);
+  MonoTime next_deadline() const;
+  void watch_socket();
+  void on_readable(MonoTime now);
+  void rearm();
+  void try_another_socket();
+  void on_addresses_changed(MonoTime now);
+  bool use_socket_to(std::size_t which);
+
+  Poller& poller_;
+  std::vector<Address> server_;
+  std::size_t tried_ = 0;  // which of them the socket speaks to
+  std::function<void(const Address&)> on_no_answer_;
+  std::function<void(SealTrouble)> on_no_entry_;
+  SealTrouble told_trouble_ = SealTrouble::kNoAnswer;
+  MonoTime told_at_;
+  std::uint64_t clock_id_;
+  MonoTime begin_;
+  std::unique_ptr<AddressWatch> addresses_;  // nullptr where the kernel does not tell
+  UdpSocket socket_;
+  DirectSink sink_;
+  SealClient seal_;
+  LinkCore core_;
+  Poller::TimerId timer_;
+  int hellos_on_socket_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,184 @@
+// What this house has of the others, and what the others have of this house.
+#include <algorithm>
+
+#include "core/base/assert.h"
+#include "tunnel/link/link_core.h"
+
+namespace dance {
+namespace {
+
+// One that only listens says it within this.
+constexpr Duration kAckDelay = Duration::ms(5);
+// A dancing link says it with its next pose, if that is due within this.
+constexpr Duration kLongestAckDelay = Duration::ms(45);
+// Where nothing is lost, nobody waits for it: every second pose at 60 Hz brings one.
+constexpr Duration kCleanAckGap = Duration::ms(25);
+constexpr double kCleanLoss = 0.002;
+// An acknowledgement tells of 33 datagrams: half of them come at most before one is made.
+constexpr int kMostUnacked = 16;
+constexpr Duration kLeastWantGap = Duration::ms(50);
+constexpr Duration kLongestWantGap = Duration::s(1);
+
+}  // namespace
+
+void LinkCore::begin_session_records() {
+  bundle_size_ = 0;
+  next_number_ = 0;
+  acked_datagrams_.clear();
+  received_ = AckWindow();
+  excepts_.clear();
+  wants_.clear();
+  ack_due_ = acked_at_ = MonoTime();
+  unacked_ = 0;
+  has_feedback_ = wants_repeats_ = false;
+  path_ = PathStats();
+}
+
+// For a guest whom nobody has heard in this slot: what was encoded before is no reference.
+void LinkCore::settle_encoder(LocalGuest& guest) {
+  guest.encoder = options_.make_encoder(codec_);
+  DANCE_ASSERT(guest.encoder != nullptr, static_cast<int>(codec_.id), codec_.model);
+  guest.references = guest.policy.current();
+  guest.encoder->set_references(guest.references);
+  guest.encoder->set_quality(guest.quality.quality_m());
+  guest.sent_frames.clear();
+  guest.acked_frames.clear();
+  guest.base_acked_frames.clear();
+  guest.base_log2 = 0;
+  guest.still_log2 = kFewestStills_log2;
+  guest.key_frames_seen = 0;
+  guest.key_frame_at = MonoTime();
+  guest.unstamped = 0;
+  Skeleton skeleton;
+  const OwnState& state = guest.states[wire::place_of({wire::StateKind::kSkeleton, 0})];
+  if (state.version != 0 && decode_skeleton(state.bytes(), skeleton))
+    guest.encoder->set_skeleton(skeleton);
+}
+
+// A datagram of which nothing decoded is as good as lost; of others the failed guests are excepted.
+void LinkCore::acknowledge(std::uint16_t number, const Slots& failed, bool has_decoded,
+                           bool has_records, MonoTime now) {
+  for (std::size_t i = excepts_.size(); i-- > 0;)
+    if (!received_.covers(excepts_[i].number)) excepts_.erase_at(i);
+  if (has_records && !has_decoded) return;
+  if (failed.size() > wire::kMaxAckExcepts) return;
+  if (failed.size() > wire::kMaxAckExcepts - excepts_.size()) {
+    // Somebody fails in each datagram: the others' acknowledgements must go on.
+    excepts_.clear();
+    received_.forget();
+  }
+  for (const std::uint8_t slot : failed) {
+    const bool pushed = excepts_.try_push({number, slot});
+    DANCE_ASSERT(pushed);
+  }
+  received_.note(number);
+  // An acknowledgement alone is not acknowledged: that would never end.
+  if (!has_records) return;
+  if (++unacked_ >= kMostUnacked)
+    ack_due_ = now;
+  else if (!ack_due_.is_set())
+    ack_due_ = when_to_acknowledge(now);
+}
+
+// Neither to the server nor from there to the worst of the others is much lost.
+bool LinkCore::is_way_clean() const { return path_.is_known && path_.loss < kCleanLoss; }
+
+bool LinkCore::is_ack_ripe(MonoTime now) const {
+  return ack_due_.is_set() &&
+         (now >= ack_due_ || !is_way_clean() || now - acked_at_ >= kCleanAckGap);
+}
+
+// Alone it would cost three times what it does with a pose, and wake both ends once more.
+MonoTime LinkCore::when_to_acknowledge(MonoTime now) const {
+  for (const LocalGuest& guest : locals_) {
+    // A quarter late is in time.
+    MonoTime next_pose = guest.last_pose + guest.frame + guest.frame / 4;
+    if (is_way_clean() && next_pose < acked_at_ + kCleanAckGap) next_pose += guest.frame;
+    if (guest.has_slot && guest.last_pose.is_set() && next_pose > now &&
+        next_pose - now <= kLongestAckDelay)
+      return next_pose;
+  }
+  return now + kAckDelay;
+}
+
+void LinkCore::want_key_frame(RemoteGuest& remote, MonoTime now) {
+  const Duration gap = std::clamp(clock_.newest_round_trip() * 2, kLeastWantGap, kLongestWantGap);
+  if (remote.key_asked_at.is_set() && now - remote.key_asked_at < gap) return;
+  const auto slot = static_cast<std::uint8_t>(&remote - remotes_.data());
+  if (!wants_.try_push(slot)) return;  // its next failure asks again
+  remote.key_asked_at = now;
+  ++remote.key_frames_asked;
+  ++counters_.key_frames_asked;
+  ack_due_ = now;
+}
+
+void LinkCore::on_acks(const wire::Acks& acks) {
+  const auto behind = static_cast<std::uint16_t>(next_number_ - 1 - acks.newest);
+  if (behind >= 0x4000) return;  // never sent
+  const auto take = [&](std::uint16_t number) {
+    if (acked_datagrams_.has(number)) return;
+    acked_datagrams_.add(0, number);
+    ++counters_.datagrams_acked;
+  };
+  for (int i = 32; i > 0; --i)
+    if ((acks.before >> (i - 1) & 1) != 0) take(static_cast<std::uint16_t>(acks.newest - i));
+  take(acks.newest);
+}
+
+void LinkCore::on_feedback(std::uint16_t number, const wire::Feedback& feedback, MonoTime now) {
+  // An older one says what a receiver that has come since does not have.
+  if (has_feedback_ && static_cast<std::int16_t>(number - newest_feedback_) <= 0) return;
+  has_feedback_ = true;
+  newest_feedback_ = number;
+  wants_repeats_ = feedback.wants_repeats;
+  if (feedback.round_trip != 0)
+    path_ = PathStats{true, feedback.loss / 65535.0, feedback.in_a_row / 65535.0,
+                      Duration::us(feedback.round_trip * std::int64_t{100})};
+  for (const wire::GuestFeedback& about : feedback.guests)
+    for (LocalGuest& guest : locals_)
+      if (guest.has_slot && guest.slot.slot == about.slot && guest.encoder)
+        on_guest_feedback(about, guest, now);
+}
+
+void LinkCore::on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& guest,
+                                 MonoTime now) {
+  if (about.key_frames != guest.key_frames_seen) {
+    guest.key_frames_seen = about.key_frames;
+    guest.encoder->key_frame_wanted();
+    guest.key_frame_at = now;
+    ++guest.key_frames_sent;
+    ++counters_.key_frames_sent;
+  }
+  // The encoder is told with the next pose.
+  if (path_.is_known)
+    guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
+  guest.base_log2 = about.base_log2;
+  guest.still_log2 = about.still_log2;
+  on_held(about, guest, now);
+}
+
+void LinkCore::on_held(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now) {
+  if (about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;
+  // Only what was sent, and each once.
+  const auto each_new = [&](std::uint16_t newest, std::uint16_t before, HeldFrames& told,
+                            const auto& tell) {
+    for (int back = 16; back >= 0; --back) {
+      if (back > 0 && (before >> (back - 1) & 1) == 0) continue;
+      const auto sequence = static_cast<std::uint16_t>(newest - back);
+      if (!guest.sent_frames.has(sequence) || told.has(sequence)) continue;
+      told.add(guest.poses.stream(), sequence);
+      tell(guest.last_sequence - static_cast<std::uint16_t>(guest.last_sequence - sequence));
+    }
+  };
+  if (about.has_held)
+    each_new(about.newest_held, about.held_before, guest.acked_frames, [&](std::uint32_t sequence) {
+      ++guest.acked;
+      guest.acked_at = now;
+      guest.encoder->acknowledged(sequence);
+    });
+  if (about.has_base_held)
+    each_new(about.newest_base_held, about.base_held_before, guest.base_acked_frames,
+             [&](std::uint32_t sequence) { guest.encoder->base_acknowledged(sequence); });
+}
+
+}  // namespace dance

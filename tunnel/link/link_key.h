@@ -1,0 +1,41 @@
+// With what a link proves to its server who it is: a key that both share, or a certificate; and
+// where a program finds it.
+//
+// Units/frames: none.
+// Ownership:    plain values.
+// Threads:      none inside. choose_link_key() reads files: not for the pose path.
+// Failure:      choose_link_key() says which server there is no key for, and how to get one.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/result.h"
+#include "tunnel/seal/seal_context.h"
+#include "tunnel/wire/wire.h"
+
+namespace dance {
+
+struct LinkKey {
+  std::string name;  // whom the server knows it by
+  PresharedKey key;
+  // Set: used in the key's stead; `server` is the name that the server's certificate must bear.
+  std::optional<SealCertificates> certificates;
+  std::string server;
+
+  Result<std::unique_ptr<SealContext>> context() const;
+};
+
+// Where to look; empty = the places where `dance key` puts keys.
+struct LinkKeySource {
+  std::string key_file;
+  SealCertificates certificates;
+};
+
+// For a server as the user names it (HOST or HOST:PORT). On this machine none is needed: its own
+// key is used, and made where there is none yet.
+Result<LinkKey> choose_link_key(const std::string& server, const wire::RoomName& room,
+                                const GuestId& first_guest, const LinkKeySource& source);
+
+}  // namespace dance

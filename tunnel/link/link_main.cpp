@@ -1,0 +1,187 @@
+// dance link: joins a house's bus to a room on a server.
+
+#include <cstdio>
+#include <memory>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "core/program/seldom.h"
+#include "core/program/talk.h"
+#include "tunnel/link/link_bus.h"
+#include "tunnel/link/link_report.h"
+#include "tunnel/server/server.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance link --guest alice                                room 'dance' on this machine's server
+  dance link --server dance.example.org --room salsa --guest alice
+  dance link --server 192.0.2.7:7400 --room salsa         every dancer captured in this house
+  dance link --server dance.example.org --room salsa --listen-only
+                                                          receives only, sends nothing
+  dance link --guest alice --want default=4 --want bob=1  all of bob, every fourth of the others
+  dance link --guest bob --bus 'udpm://239.255.76.67:7668?ttl=0'
+                                                          a second house on this machine
+  dance link --guest alice --channel 'LIGHT/desk class=state layout=n:i32,f32[n]'
+                                                          also forwards a light desk's channel
+)";
+
+constexpr Duration kSecond = Duration::s(1);
+
+struct LinkProgramOptions {
+  std::string server = "127.0.0.1:7400";
+  std::string room = "dance";
+  std::vector<std::string> guests;
+  std::string bus;
+  LinkKeySource key;
+  double quality_mm = LinkOptions().quality_m * 1e3;
+  double pose_bytes_per_second = 0.0;
+  std::vector<std::string> want;
+  std::vector<std::string> channels;
+  bool listen_only = false;
+  bool json = false;
+};
+
+Result<LinkOptions> checked(const LinkProgramOptions& given) {
+  LinkOptions options;
+  const auto room = wire::RoomName::parse(given.room);
+  if (!room)
+    return fail("--room '" + given.room +
+                "': a room's name is 1 to 24 characters of a-z, 0-9 and "
+                "'-'");
+  options.room = *room;
+  for (const std::string& name : given.guests) {
+    const auto guest = GuestId::parse(name);
+    if (!guest) return fail("--guest '" + name + "': " + kGuestIdRule);
+    if (options.guests.contains(*guest)) return fail("--guest '" + name + "' is named twice");
+    if (!options.guests.try_push(*guest)) return fail("--guest: a link has at most 16 guests");
+  }
+  if (given.listen_only && !given.guests.empty())
+    return fail("--listen-only brings no guests: leave out --guest, or --listen-only");
+  options.listen_only = given.listen_only;
+  const auto interest = parse_interest(given.want);
+  if (!interest) return fail("--want " + interest.error().what);
+  options.interest = *interest;
+  DANCE_TRY(options.channels, parse_channel_rules(given.channels));
+  options.clock_id = this_clock_id();
+  options.quality_m = given.quality_mm * 1e-3;
+  options.pose_bytes_per_second = given.pose_bytes_per_second;
+  return options;
+}
+
+void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOptions& options,
+              const wire::RoomName& room) {
+  const auto troubles = std::make_shared<Seldom>();
+  handlers.on_state = [&options, troubles](LinkState state, MonoTime) {
+    if (state == LinkState::kConnected) {
+      troubles->forget();
+      talk::info("in room '{}' on {}", options.room, options.server);
+    }
+    if (state == LinkState::kLapsed)
+      talk::warn("the server {} is silent; poses are dropped until it answers", options.server);
+  };
+  handlers.on_guest_joined = [](const GuestId& guest, MonoTime) {
+    talk::info("{} is here", guest.view());
+  };
+  handlers.on_guest_left = [&link_bus](const GuestId& guest, MonoTime) {
+    link_bus.forget(guest);
+    talk::info("{} has left", guest.view());
+  };
+  handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
+    talk::info("{}", room_state_line(kind, verdict));
+  };
+  handlers.on_no_answer = [troubles](const Address& address) {
+    troubles->warn(no_answer_line(address), mono_now());
+  };
+  handlers.on_no_entry = [&options, troubles](SealTrouble trouble) {
+    troubles->warn(no_entry_line(trouble, options.server), mono_now());
+  };
+  handlers.on_refused = [room, troubles](const wire::RefusalNotice& refusal, MonoTime now) {
+    troubles->warn(refusal_line(refusal, room), now);
+  };
+}
+
+Result<void> run_link(const LinkProgramOptions& given) {
+  DANCE_TRY(const LinkOptions options, checked(given));
+  const GuestId first = options.guests.empty() ? GuestId() : options.guests[0];
+  DANCE_TRY(const LinkKey key, choose_link_key(given.server, options.room, first, given.key));
+  DANCE_TRY(const auto server, Address::resolve_all(given.server, kDefaultServerPort));
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(auto bus, Bus::open(bus_url_or_default(given.bus)));
+  LinkBus link_bus(*bus, options.clock_id);
+  LinkHandlers handlers = link_bus.handlers();
+  add_talk(handlers, link_bus, given, options.room);
+  DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
+  link_bus.attach(*link);
+  if (options.guests.empty() && !options.listen_only) {
+    link_bus.send_captures_of(GuestId());
+    link_bus.send_states_of(GuestId());
+  }
+  for (const GuestId& guest : options.guests) {
+    link_bus.send_captures_of(guest);
+    link_bus.send_states_of(guest);
+  }
+  if (!options.listen_only) link_bus.send_channels(options.channels);
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  const MonoTime begin = mono_now();
+  poller->add_timer(begin + kSecond, [&](MonoTime now) {
+    link_bus.publish_second(now);
+    return now + kSecond;
+  });
+  talk::info("asks {} for room '{}'; Ctrl-C ends it", given.server, given.room);
+  poller->run();
+  poller->unwatch(bus->fd());
+  if (given.json)
+    std::printf("%s\n", link_report_json(*link).c_str());
+  else
+    talk::info("{} poses sent, {} delivered{}", link->counters().poses_sent,
+               link->counters().poses_delivered, seal_trouble_text(link->seal_counters()));
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::LinkProgramOptions options;
+  dance::CommandLine line(
+      "A house's link: its guests' poses go to the room, the others' come to its bus.",
+      "dance link");
+  line.add("--server", options.server, "HOST or HOST:PORT of `dance server`").shows_default();
+  line.add("--room", options.room, "which room").shows_default();
+  line.add("--guest", options.guests,
+           "whose captures go to the room, may be repeated; none = everybody captured here")
+      .guest_name();
+  line.add(
+      "--want", options.want,
+      "how many of a guest's poses come here: NAME=1 every one, NAME=N at most every N-th, NAME=0 "
+      "none; default=N for all who are not named; may be repeated");
+  line.add_flag("--listen-only", options.listen_only,
+                "hears the room and sends nothing of this house");
+  line.add("--bus", options.bus, "LCM URL of the house's bus");
+  line.add("--quality", options.quality_mm,
+           "millimetres that no joint is off by more at the others'")
+      .range(0.125, 20.0)
+      .shows_default();
+  line.add("--rate", options.pose_bytes_per_second,
+           "bytes a second that the poses of a guest may take, without headers; where they take "
+           "more, joints are off "
+           "by up to 5 mm; 0 = whatever --quality takes")
+      .range(0.0, 1e6)
+      .shows_default();
+  line.add("--key-file", options.key.key_file,
+           "file of keys to servers (else where dance key keeps them)");
+  line.add("--certificate", options.key.certificates.chain,
+           "PEM file with this house's certificate, instead of a key");
+  line.add("--private-key", options.key.certificates.private_key, "PEM file of its private key");
+  line.add("--authorities", options.key.certificates.authorities,
+           "PEM file of those who may sign the server's certificate (else the system's)");
+  line.add("--channel", options.channels,
+           "a further channel that rides along, or is let in, as 'NAME class=… layout=…' "
+           "(docs/channels.md); may be repeated");
+  line.add_flag("--json", options.json, "write a summary to stdout at the end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_link(options); });
+}

@@ -1,0 +1,295 @@
+// From this house to the server.
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/assert.h"
+#include "tunnel/link/link_core.h"
+
+namespace dance {
+namespace {
+
+// Half of what the server takes, so that clocks may be off and a line slow.
+constexpr Duration kOldestCapture = Duration::s(30);
+constexpr Duration kFarthestAhead = Duration::ms(500);
+constexpr Duration kDancesOnInLapse = Duration::s(10);
+constexpr Duration kAckStands = Duration::s(1);
+constexpr Duration kStillStands = Duration::ms(2500);
+constexpr Duration kStillDancing = Duration::ms(100);
+
+std::int32_t age_us(MonoTime step, MonoTime capture) {
+  if (!step.is_set()) return wire::kNoAge;
+  const std::int64_t us = (step - capture).count_us();
+  return us > -INT32_MAX && us < INT32_MAX ? static_cast<std::int32_t>(us) : wire::kNoAge;
+}
+
+// How long a frame is, for the choice of references: a gap is none.
+void keep_time(LocalGuest& guest, MonoTime capture) {
+  const Duration since = capture - guest.last_capture;
+  if (guest.last_capture.is_set() && since > Duration() && since < Duration::ms(200))
+    guest.frame += (since - guest.frame) / 16;
+  guest.last_capture = capture;
+}
+
+// The producer began anew: nothing of before is a reference.
+void begin_stream(LocalGuest& guest) {
+  guest.encoder->restart();
+  guest.sent_frames.clear();
+  guest.acked_frames.clear();
+  guest.base_acked_frames.clear();
+  guest.unstamped = 0;
+}
+
+void note_sent(LocalGuest& guest, const wire::Record& record, MonoTime now) {
+  guest.sent_frames.add(guest.poses.stream(), static_cast<std::uint16_t>(record.sequence));
+  guest.last_sequence = record.sequence;
+  ++guest.sent;
+  ++guest.since_still;
+  if (!record.needs_no_other) return;
+  guest.since_still = 0;
+  guest.still_at = now;
+  guest.key_frame_at = now;
+}
+
+}  // namespace
+
+bool LinkCore::stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
+                     Stamp& out) {
+  if (clock_id != options_.clock_id || !capture.is_set()) {
+    // Stamps of a clock that we do not know cannot be compared with ours: it is taken as made now.
+    ++counters_.foreign_clock;
+    capture = now;
+    published = MonoTime();
+  }
+  const Duration age = now - capture;
+  if (age > kOldestCapture || age < -kFarthestAhead) return false;
+  out.capture = capture;
+  // In the wire's ticks from the begin, so that nobody rounds it again; ages count from there.
+  const std::int64_t exact_us = clock_.to_theirs_us(capture);
+  out.capture_us = wire::to_ticks(exact_us) * wire::kTick_us;
+  const MonoTime sent = capture + Duration::us(out.capture_us - exact_us);
+  out.published_age_us = age_us(published, sent);
+  out.sent_age_us = age_us(now, sent);
+  return true;
+}
+
+// Guests of whom something came of late: whose records are worth waiting for.
+std::size_t LinkCore::count_dancing(MonoTime now) const {
+  return static_cast<std::size_t>(std::count_if(locals_.begin(), locals_.end(), [&](const auto& g) {
+    return g.has_slot && now - g.last_pose < kStillDancing;
+  }));
+}
+
+void LinkCore::add_record(const wire::Record& record, MonoTime now) {
+  put(record, now);
+  if (record.kind == wire::RecordKind::kPose) ++bundle_poses_;
+  if (now >= bundle_due_ || bundle_poses_ >= count_dancing(now)) flush_records(now);
+}
+
+// What the others have, the server has: from there it reckons the high bits.
+bool LinkCore::is_narrow(const wire::Record& record) const {
+  if (record.kind != wire::RecordKind::kPose) return false;
+  for (const LocalGuest& guest : locals_)
+    if (guest.has_slot && guest.slot.slot == record.slot)
+      return guest.acked_frames.is_of(record.stream) &&
+             static_cast<std::uint16_t>(record.sequence - guest.acked_frames.newest()) <=
+                 wire::kNarrowReach;
+  return false;
+}
+
+// Through a lapse too: the others may hear what this link does not, and what first comes through a
+// line that was cut is a pose, not a hello. Until the server has surely forgotten the session.
+bool LinkCore::may_send(MonoTime now) const {
+  return is_connected() ||
+         (state_ == LinkState::kLapsed && is_welcome_ && now - last_heard_ < kDancesOnInLapse);
+}
+
+// The pose before goes once more, in front of this one.
+void LinkCore::repeat_before(LocalGuest& guest, const wire::Record& next, MonoTime now) {
+  if (wants_repeats_ && guest.previous.is_before(next)) {
+    put(guest.previous.again(), now);
+    ++counters_.poses_repeated;
+  }
+  guest.previous.keep(next);
+}
+
+void LinkCore::put(const wire::Record& record, MonoTime now) {
+  if (bundle_.size() - bundle_size_ < wire::kMaxRecordHeader + record.payload.size())
+    flush_records(now);
+  if (bundle_size_ == 0) {
+    chain_ = {clock_.to_theirs_us(now)};
+    bundle_due_ = now + options_.share_window;
+    bundle_poses_ = 0;
+  }
+  ByteWriter out(std::span<std::uint8_t>(bundle_).subspan(bundle_size_));
+  wire::add_record(record, is_narrow(record), chain_, out);
+  DANCE_ASSERT(out.ok());
+  bundle_size_ += out.size();
+}
+
+// What waits, with what there is to acknowledge.
+void LinkCore::flush_records(MonoTime now) {
+  const std::size_t extras = is_ack_ripe(now) ? 2 + 2 * excepts_.size() + wants_.size() : 0;
+  const bool fits = wire::kMaxRecordsBody - bundle_size_ >= extras;
+  if (bundle_size_ == 0 || !fits) send_records_datagram(false, now);
+  if (bundle_size_ > 0) send_records_datagram(true, now);
+}
+
+void LinkCore::send_records_datagram(bool with_bundle, MonoTime now) {
+  wire::RecordsHeader header;
+  header.number = next_number_++;
+  header.has_records = with_bundle;
+  if (is_ack_ripe(now)) {
+    acked_at_ = now;
+    header.has_acks = received_.has_any();
+    header.acks.newest = received_.newest();
+    header.acks.before = received_.before();
+    for (const Except& except : excepts_) {
+      if (!header.has_acks || !received_.covers(except.number)) continue;
+      const auto back = static_cast<std::uint8_t>(received_.newest() - except.number);
+      const bool pushed = header.acks.excepts.try_push({back, except.slot});
+      DANCE_ASSERT(pushed);
+    }
+    header.wants = wants_;
+    wants_.clear();
+    ack_due_ = MonoTime();
+    unacked_ = 0;
+  }
+  std::array<std::uint8_t, wire::kMaxPlain> bytes;
+  ByteWriter out(bytes);
+  wire::begin_records(header, out);
+  if (with_bundle) {
+    out.bytes(std::span<const std::uint8_t>(bundle_).first(bundle_size_));
+    bundle_size_ = 0;
+  }
+  DANCE_ASSERT(out.ok());
+  send_datagram(out.written());
+}
+
+// A key frame now and then, lest a loss that nobody told of be missed for long. Frames that all
+// have need none.
+void LinkCore::refresh(LocalGuest& guest, MonoTime now) {
+  if (options_.key_frame_period <= Duration()) return;
+  const bool is_safe = guest.policy.current() == References::kAcknowledged &&
+                       guest.acked_at.is_set() && now - guest.acked_at < kAckStands;
+  if (!guest.key_frame_at.is_set() || is_safe) {
+    guest.key_frame_at = now;
+  } else if (now - guest.key_frame_at >= options_.key_frame_period) {
+    guest.encoder->key_frame_wanted();
+    guest.key_frame_at = now;
+  }
+}
+
+// For receivers who get only some frames, and for those who come later: the server keeps the newest
+// that needs no other. True for a base frame. Counted, as sequences may leave some out.
+bool LinkCore::prepare(LocalGuest& guest, MonoTime now) {
+  const bool is_base = guest.base_log2 != 0 && guest.sent % (1u << guest.base_log2) == 0;
+  if (is_base) guest.encoder->base_wanted();
+  const bool is_old = guest.still_at.is_set() && now - guest.still_at > kStillStands;
+  if (is_old || guest.since_still + 1 >= 1u << guest.still_log2) guest.encoder->still_wanted();
+  return is_base;
+}
+
+void LinkCore::settle_references(LocalGuest& guest, MonoTime now) {
+  const References references =
+      guest.acked_at.is_set() ? guest.policy.while_silent_for(now - guest.acked_at, guest.frame)
+                              : guest.policy.current();
+  if (references == guest.references) return;
+  guest.references = references;
+  guest.encoder->set_references(references);
+}
+
+void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
+  ++counters_.poses_offered;
+  LocalGuest* guest = find_or_add(id, now);
+  if (guest == nullptr) return;
+  if (!may_send(now) || !guest->has_slot) {
+    ++counters_.unrouted;
+    return;
+  }
+  std::array<std::uint8_t, kMaxPosePayload> payload;
+  wire::Record record;
+  Stamp times{};
+  if (!is_valid(pose) ||
+      !stamp(pose.capture_time, pose.clock_id, pose.stamped(Hop::kPublished), now, times)) {
+    ++counters_.invalid;
+    return;
+  }
+  const std::uint64_t restarts = guest->poses.restarts();
+  if (!guest->poses.advance(pose.sequence, times.capture, pose.clock_id)) {
+    ++counters_.late;
+    return;
+  }
+  if (guest->poses.restarts() != restarts) {
+    ++counters_.stream_restarts;
+    begin_stream(*guest);
+  }
+  keep_time(*guest, times.capture);
+  refresh(*guest, now);
+  settle_references(*guest, now);
+  const bool is_base = prepare(*guest, now);
+  // Only what is sent: an encoder may refer to what it encoded before.
+  const std::size_t size = guest->encoder->encode(pose, payload);
+  if (size == 0) {
+    ++counters_.invalid;
+    return;
+  }
+  if (guest->quality.add(size, now)) guest->encoder->set_quality(guest->quality.quality_m());
+  record.kind = wire::RecordKind::kPose;
+  record.slot = guest->slot.slot;
+  record.stream = guest->poses.stream();
+  record.sequence = pose.sequence;
+  record.capture_us = times.capture_us;
+  record.needs_no_other = guest->encoder->needs_no_other();
+  record.is_base = is_base;
+  if (guest->unstamped == 0) {
+    record.published_age_us = times.published_age_us;
+    record.sent_age_us = times.sent_age_us;
+  }
+  guest->unstamped = (guest->unstamped + 1) % std::max(options_.poses_per_stamp, 1u);
+  record.payload = {payload.data(), size};
+  note_sent(*guest, record, now);
+  ++counters_.poses_sent;
+  repeat_before(*guest, record, now);
+  add_record(record, now);
+}
+
+void LinkCore::send(const GuestId& id, const Hands& hands, MonoTime now) {
+  LocalGuest* guest = find_or_add(id, now);
+  if (guest == nullptr || !may_send(now) || !guest->has_slot) return;
+  std::array<std::uint8_t, kMaxHandsPayload> payload;
+  Stamp times{};
+  const std::size_t size = encode_hands(hands, payload);
+  if (size == 0 || !stamp(hands.capture_time, hands.clock_id, MonoTime(), now, times) ||
+      !guest->hands.advance(hands.sequence, times.capture, hands.clock_id))
+    return;
+  wire::Record record;
+  record.kind = wire::RecordKind::kHands;
+  record.slot = guest->slot.slot;
+  record.stream = guest->hands.stream();
+  record.sequence = hands.sequence;
+  record.capture_us = times.capture_us;
+  record.payload = {payload.data(), size};
+  ++counters_.hands_sent;
+  add_record(record, now);
+}
+
+void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
+  LocalGuest* guest = find_or_add(id, now);
+  if (guest == nullptr) return;
+  std::array<std::uint8_t, kSkeletonPayload> payload;
+  const std::size_t size = encode_skeleton(skeleton, payload);
+  if (size == 0) {
+    ++counters_.invalid;
+    return;
+  }
+  // Producers say it once a second: only a change is news.
+  OwnState& state = guest->states[wire::place_of({wire::StateKind::kSkeleton, 0})];
+  if (!state.set({payload.data(), size})) return;
+  // As the others get it: rounded.
+  Skeleton rounded;
+  if (guest->encoder && decode_skeleton(payload, rounded)) guest->encoder->set_skeleton(rounded);
+  if (is_connected() && guest->has_slot && state_changes_.take(1.0, now))
+    send_state({{wire::StateKind::kSkeleton, 0}, guest->slot, {}, state.version, state.bytes()});
+}
+
+}  // namespace dance

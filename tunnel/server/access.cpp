@@ -1,0 +1,34 @@
+#include "tunnel/server/access.h"
+
+namespace dance {
+
+bool Access::may_bear(const GuestId& guest) const {
+  if (!may_have_guests(*this) || !guest.is_set()) return false;
+  if (any_name) return true;
+  const std::string_view own = name.view();
+  const std::string_view wanted = guest.view();
+  return name.is_set() && wanted.starts_with(own) &&
+         (wanted.size() == own.size() || wanted[own.size()] == '-');
+}
+
+bool Access::may_enter(const wire::RoomName& wanted) const {
+  return !room.is_set() || room == wanted;
+}
+
+bool may_have_guests(const Access& access) { return access.role != Role::kListener; }
+
+bool may_send_records(const Access& access) { return may_have_guests(access); }
+
+bool may_set_room_state(const Access& access, bool room_has_host) {
+  switch (access.role) {
+    case Role::kHost:
+      return true;
+    case Role::kGuest:
+      return !room_has_host;
+    case Role::kListener:
+      break;
+  }
+  return false;
+}
+
+}  // namespace dance

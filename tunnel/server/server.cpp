@@ -1,0 +1,97 @@
+#include "tunnel/server/server.h"
+
+#include <algorithm>
+
+#include "core/net/secure_random.h"
+
+namespace dance {
+namespace {
+
+// A flood gets this many batches a turn; then timers have their say.
+constexpr int kBatchesPerTurn = 8;
+
+}  // namespace
+
+Access access_of(const KeyEntry& key) {
+  Access access;
+  access.name = key.name;
+  access.room = key.room;
+  access.any_name = key.kind == KeyKind::kRoom;
+  access.role = key.kind == KeyKind::kListener               ? Role::kListener
+                : key.kind == KeyKind::kHost || key.is_local ? Role::kHost
+                                                             : Role::kGuest;
+  return access;
+}
+
+Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerOptions& options,
+                                             Poller& poller) {
+  DANCE_TRY(UdpSocket socket, UdpSocket::bind(local));
+  auto server = std::unique_ptr<Server>(new Server(std::move(socket), options.limits, poller));
+  SealServer::Handlers handlers;
+  handlers.on_datagram = [core = &server->core_](PeerId from, const KeyEntry& key,
+                                                 wire::Bytes plain, MonoTime received,
+                                                 MonoTime now) {
+    core->receive(from, access_of(key), plain, received, now);
+  };
+  handlers.on_end = [core = &server->core_](PeerId peer) { core->forget(peer); };
+  SealLimits seal = options.seal;
+  // A link that begins anew has two for a while.
+  seal.peers = std::max(seal.peers, 2 * options.limits.sessions);
+  DANCE_TRY(server->door_,
+            SealServer::make(seal, options.keys, options.certificates, secure_random_u64,
+                             std::move(handlers), server->socket_));
+  server->sealed_.door = server->door_.get();
+  server->core_.set_reserved([self = server.get()](const GuestId& name) {
+    return self->door_->keys().is_own_name(name.view());
+  });
+  return server;
+}
+
+Server::Server(UdpSocket socket, const ServerLimits& limits, Poller& poller)
+    : poller_(poller), socket_(std::move(socket)), core_(limits, secure_random_u64, sealed_) {
+  poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
+  timer_ = poller_.add_timer(MonoTime(), [this](MonoTime now) { return tick(now); });
+}
+
+MonoTime Server::tick(MonoTime now) {
+  core_.tick(now);
+  door_->tick(now);
+  socket_.flush();
+  return next_deadline();
+}
+
+MonoTime Server::next_deadline() const {
+  const MonoTime core = core_.next_deadline();
+  const MonoTime door = door_->next_deadline();
+  if (!core.is_set() || !door.is_set()) return core.is_set() ? core : door;
+  return std::min(core, door);
+}
+
+void Server::set_keys(std::shared_ptr<const KeyRing> keys) {
+  door_->set_keys(std::move(keys));
+  socket_.flush();
+}
+
+Server::~Server() {
+  poller_.set_deadline(timer_, MonoTime());
+  poller_.unwatch(socket_.fd());
+}
+
+void Server::on_readable(MonoTime now) {
+  for (int i = 0; i < kBatchesPerTurn; ++i) {
+    const auto batch = socket_.receive();
+    for (const UdpSocket::Datagram& datagram : batch)
+      door_->receive(datagram.from, datagram.bytes, datagram.received, now);
+    core_.end_turn(now);
+    socket_.flush();
+    if (batch.size() < UdpSocket::kBatch) break;
+  }
+  poller_.set_deadline(timer_, next_deadline());
+}
+
+void Server::say_goodbye() {
+  core_.say_goodbye();
+  socket_.flush();
+}
+
+}  // namespace dance

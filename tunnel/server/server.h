@@ -1,0 +1,72 @@
+// The tunnel's server on a UDP port: ServerCore behind its door, with a socket around both. What a
+// turn brings in is forwarded in the same turn, with batched system calls; an idle server sleeps.
+//
+// Units/frames: MonoTime of this process's clock.
+// Ownership:    owns socket and core; the poller must outlive it.
+// Threads:      the poller's.
+// Failure:      open() names the port that cannot be had and the cure.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/base/result.h"
+#include "core/net/poller.h"
+#include "core/net/udp_socket.h"
+#include "tunnel/seal/seal_server.h"
+#include "tunnel/server/server_core.h"
+
+namespace dance {
+
+constexpr std::uint16_t kDefaultServerPort = 7400;
+
+struct ServerOptions {
+  ServerLimits limits;
+  SealLimits seal;
+  std::shared_ptr<const KeyRing> keys;  // not nullptr
+  std::optional<SealCertificates> certificates;
+};
+
+// What a key lets its holder do.
+Access access_of(const KeyEntry& key);
+
+class Server {
+ public:
+  static Result<std::unique_ptr<Server>> open(const Address& local, const ServerOptions& options,
+                                              Poller& poller);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  // From now on these keys count.
+  void set_keys(std::shared_ptr<const KeyRing> keys);
+  // Tells every link, so that none has to notice the silence.
+  void say_goodbye();
+
+  Address local_address() const { return socket_.local_address(); }
+  const ServerCore& core() const { return core_; }
+  const SealServer& door() const { return *door_; }
+  const UdpSocket::Counters& socket_counters() const { return socket_.counters(); }
+
+ private:
+  // What the state machine sends goes out sealed.
+  class Sealed final : public PeerSink {
+   public:
+    void send(PeerId to, std::span<const std::uint8_t> bytes) override { door->send(to, bytes); }
+    SealServer* door = nullptr;
+  };
+
+  Server(UdpSocket socket, const ServerLimits& limits, Poller& poller);
+  void on_readable(MonoTime now);
+  MonoTime tick(MonoTime now);
+  MonoTime next_deadline() const;
+
+  Poller& poller_;
+  UdpSocket socket_;
+  Sealed sealed_;
+  ServerCore core_;
+  std::unique_ptr<SealServer> door_;
+  Poller::TimerId timer_;
+};
+
+}  // namespace dance

@@ -1,0 +1,256 @@
+// dance server: where the houses' links meet.
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "tunnel/server/server.h"
+#include "tunnel/server/server_keys.h"
+#include "tunnel/server/server_watch.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance server                                  for houses on this machine, on port 7400
+  dance server --new-guest alice --address dance.example.org
+                                                prints Alice's key, for her to paste into dance key
+  dance server --bind 0.0.0.0                   for houses elsewhere: those who have a key
+  dance server --metrics 127.0.0.1:9464         a page for Prometheus at /metrics
+  dance server --json > summary.json            what it did, when it is ended with Ctrl-C
+While it runs, `dance status` on the same machine shows its rooms and guests.
+)";
+
+constexpr Duration kSecond = Duration::s(1);
+constexpr int kSecondsPerStatus = 10;
+
+struct ServerProgramOptions {
+  std::string bind = "127.0.0.1";
+  std::uint16_t port = kDefaultServerPort;
+  ServerLimits limits;
+  std::string key_file;
+  KeyCommand keys;
+  SealCertificates certificates;
+  double share_ms = -1.0;  // < 0: by the room
+  std::string metrics;
+  bool json = false;
+};
+
+nlohmann::ordered_json summary(const Server& server, Duration uptime) {
+  const ServerCounters& c = server.core().counters();
+  const UdpSocket::Counters& socket = server.socket_counters();
+  nlohmann::ordered_json rejected = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < kServerRejects; ++i)
+    rejected[std::string(kServerRejectNames[i])] = c.rejected[i];
+  const SealCounters& door = server.door().counters();
+  nlohmann::ordered_json kept_out = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < kSealRejects; ++i)
+    kept_out[std::string(kSealRejectNames[i])] = door.rejected[i];
+  return {{"seconds", uptime.as_seconds()},
+          {"datagrams_in", c.datagrams_in},
+          {"datagrams_out", c.datagrams_out},
+          {"bytes_in", c.bytes_in},
+          {"bytes_out", c.bytes_out},
+          {"records_in", c.records_in},
+          {"records_out", c.records_out},
+          {"records_repeated", c.records_repeated},
+          {"states_in", c.states_in},
+          {"states_out", c.states_out},
+          {"datagrams_acked", c.datagrams_acked},
+          {"key_frames_wanted", c.key_frames_wanted},
+          {"key_frames_asked", c.key_frames_asked},
+          {"sessions_begun", c.sessions_begun},
+          {"sessions_resumed", c.sessions_resumed},
+          {"sessions_timed_out", c.sessions_timed_out},
+          {"goodbyes", c.goodbyes},
+          {"send_failed", socket.send_failed},
+          {"truncated", socket.truncated},
+          {"rejected", rejected},
+          {"handshakes", door.handshakes_done},
+          {"moves", door.moves},
+          {"kept_out", kept_out}};
+}
+
+// What was refused: each cause at once, and while it goes on, how often since, each minute.
+template <std::size_t kCauses>
+class RejectLog {
+ public:
+  using Counts = std::array<std::uint64_t, kCauses>;
+
+  template <class Names>
+  void tell(const Counts& rejected, const Names& names, const char* what, MonoTime now) {
+    for (std::size_t i = 0; i < kCauses; ++i) {
+      const bool was_said_lately = said_at_[i].is_set() && now - said_at_[i] < kAgain;
+      if (rejected[i] == said_[i] || was_said_lately) continue;
+      talk::warn("{} {}: {}", rejected[i] - said_[i], what, names[i]);
+      said_[i] = rejected[i];
+      said_at_[i] = now;
+    }
+  }
+
+ private:
+  static constexpr Duration kAgain = Duration::s(60);
+  Counts said_{};
+  std::array<MonoTime, kCauses> said_at_{};
+};
+
+void log_status(const Server& server, const ServerCounters& before) {
+  const ServerCore& core = server.core();
+  const ServerCounters& c = core.counters();
+  talk::info(
+      "{} rooms, {} links, {} guests, {} listeners; in the last {} s {} records in, {} out, {} kB "
+      "out",
+      core.room_count(), core.session_count(), core.guest_count(), core.listener_count(),
+      kSecondsPerStatus, c.records_in - before.records_in, c.records_out - before.records_out,
+      (c.bytes_out - before.bytes_out) / 1000);
+}
+
+// New keys count at once, and those that are gone no more.
+void read_keys_again(ServerKeys& keys, Server& server) {
+  const auto has_changed = keys.read_again();
+  if (!has_changed) return talk::warn("{}; the keys stay as they were", has_changed.error().what);
+  if (!*has_changed) return;
+  server.set_keys(keys.ring());
+  talk::info("{} keys now", keys.guest_count());
+}
+
+Result<std::optional<SealCertificates>> certificates_of(const ServerProgramOptions& options) {
+  const SealCertificates& given = options.certificates;
+  if (given.chain.empty() && given.private_key.empty() && given.authorities.empty())
+    return std::optional<SealCertificates>();
+  if (given.chain.empty() || given.private_key.empty() || given.authorities.empty())
+    return fail(
+        "--certificate, --private-key and --authorities belong together: the server's own, "
+        "and whose it trusts");
+  return std::optional(given);
+}
+
+std::vector<NamedCount> handshakes_of(const SealCounters& door) {
+  std::vector<NamedCount> counts{{"done", door.handshakes_done}, {"moved", door.moves}};
+  for (std::size_t i = 0; i < kSealRejects; ++i)
+    counts.push_back({std::string(kSealRejectNames[i]), door.rejected[i]});
+  return counts;
+}
+
+Result<void> run_server(const ServerProgramOptions& options) {
+  DANCE_TRY(ServerKeys keys, ServerKeys::open(options.key_file));
+  if (options.keys.is_given()) return keys.run(options.keys);
+  DANCE_TRY(auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return stops;
+  DANCE_TRY(Address local, Address::resolve(options.bind, options.port));
+  ServerOptions of;
+  of.limits = options.limits;
+  if (options.share_ms >= 0.0) of.limits.share_window = Duration::seconds(options.share_ms * 1e-3);
+  of.keys = keys.ring();
+  DANCE_TRY(of.certificates, certificates_of(options));
+  DANCE_TRY(auto server, Server::open(local, of, *poller));
+  local = server->local_address();
+  ServerWatch::Options shown;
+  shown.address = local;
+  shown.limits = of.limits;
+  shown.metrics = options.metrics;
+  shown.peer_text = [&](const ServerSession& session) {
+    return server->door().address_of(session.peer).to_string() + " " +
+           std::string(session.access.name.view());
+  };
+  shown.handshakes = [&] { return handshakes_of(server->door().counters()); };
+  DANCE_TRY(auto watch, ServerWatch::open(server->core(), shown, *poller));
+  talk::info("hears on {}; Ctrl-C ends it", local.to_string());
+  if (!local.is_loopback() && keys.guest_count() == 0 && !of.certificates)
+    talk::warn("nobody elsewhere has a key yet: dance server --new-guest NAME makes one");
+
+  const MonoTime begin = mono_now();
+  ServerCounters last_second, last_status;
+  RejectLog<kServerRejects> dropped;
+  RejectLog<kSealRejects> kept_out;
+  int seconds = 0;
+  poller->add_timer(begin + kSecond, [&](MonoTime now) {
+    read_keys_again(keys, *server);
+    last_second = server->core().counters();
+    auto rejected = last_second.rejected;
+    // What comes twice is meant to, where a way loses some.
+    rejected[static_cast<std::size_t>(ServerReject::kDuplicate)] = 0;
+    dropped.tell(rejected, kServerRejectNames, "dropped", now);
+    kept_out.tell(server->door().counters().rejected, kSealRejectNames, "kept out", now);
+    if (++seconds % kSecondsPerStatus == 0) {
+      if (last_second.datagrams_in != last_status.datagrams_in) log_status(*server, last_status);
+      last_status = last_second;
+    }
+    return now + kSecond;
+  });
+  poller->run();
+
+  watch->say_stopping();
+  server->say_goodbye();
+  const auto report = summary(*server, mono_now() - begin);
+  if (options.json)
+    std::printf("%s\n", report.dump().c_str());
+  else
+    talk::info("{} records in, {} out, {} datagrams dropped", server->core().counters().records_in,
+               server->core().counters().records_out, server->core().counters().rejected_total());
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::ServerProgramOptions options;
+  dance::CommandLine line(
+      "The tunnel's server: forwards each guest's newest pose to everybody in the room.",
+      "dance server");
+  line.add("--port", options.port, "UDP port").range(1, 65535).shows_default();
+  line.add("--bind", options.bind,
+           "address to hear on: 127.0.0.1 = this machine only, 0.0.0.0 or :: = everywhere")
+      .shows_default();
+  line.add("--max-sessions", options.limits.sessions, "links at a time")
+      .range(1, 10'000)
+      .shows_default();
+  line.add("--max-rooms", options.limits.rooms, "rooms at a time").range(1, 10'000).shows_default();
+  line.add("--max-guests", options.limits.guests_per_room, "guests in a room")
+      .range(1, static_cast<int>(dance::wire::kMaxGuestsPerRoom))
+      .shows_default();
+  line.add("--max-listeners", options.limits.listeners_per_room,
+           "links in a room that bring no guests")
+      .range(0, 10'000)
+      .shows_default();
+  line.add(
+          "--share-ms", options.share_ms,
+          "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
+          "all (else 0 for up to 8 guests, then more, to 5 for 28)")
+      .range(0, 20);
+  line.add("--metrics", options.metrics,
+           "HOST:PORT of a page of metrics for Prometheus; none unless asked for");
+  line.add("--new-guest", options.keys.new_guest,
+           "makes a key for NAME, prints the line that NAME pastes, and ends");
+  line.add_choice<dance::KeyKind>(
+      "--role", options.keys.kind,
+      {{"guest", dance::KeyKind::kGuest},
+       {"host", dance::KeyKind::kHost},
+       {"listener", dance::KeyKind::kListener}},
+      "what --new-guest may do: dance; set music and scene too; only hear");
+  line.add("--room", options.keys.room, "the only room that --new-guest may enter");
+  line.add("--new-room-key", options.keys.new_room_key,
+           "makes a key for all who come to ROOM, prints its line, and ends");
+  line.add("--address", options.keys.address,
+           "HOST[:PORT] as guests reach this server, for the line that they paste");
+  line.add("--remove-key", options.keys.remove,
+           "takes NAME's key away: NAME is out at once; and ends");
+  line.add_flag("--list-keys", options.keys.list,
+                "whose keys there are, without the keys; and ends");
+  line.add("--keys", options.key_file,
+           "file of keys (else server-keys in the folder of the user's settings)");
+  line.add("--certificate", options.certificates.chain,
+           "PEM file with this server's certificate and its chain, for links that have one too");
+  line.add("--private-key", options.certificates.private_key, "PEM file of its private key");
+  line.add(
+      "--authorities", options.certificates.authorities,
+      "PEM file of those whose signature lets a guest in, under the certificate's common name");
+  line.add_flag("--json", options.json, "write a summary to stdout at the end");
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run_server(options); });
+}

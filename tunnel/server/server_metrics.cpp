@@ -1,0 +1,231 @@
+#include "tunnel/server/server_metrics.h"
+
+#include <prometheus/collectable.h>
+#include <prometheus/exposer.h>
+#include <prometheus/metric_family.h>
+#include <prometheus/text_serializer.h>
+
+#include <exception>
+#include <mutex>
+#include <sstream>
+#include <utility>
+
+namespace dance {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+using Labels = std::vector<ClientMetric::Label>;
+
+class Page {
+ public:
+  // The values that follow are of this metric.
+  void begin(const char* name, MetricType type, const char* help) {
+    families_.push_back({std::string("dance_server_") + name, help, type, {}});
+  }
+  void add(double value, Labels labels = {}) {
+    ClientMetric metric;
+    metric.label = std::move(labels);
+    if (families_.back().type == MetricType::Counter)
+      metric.counter.value = value;
+    else
+      metric.gauge.value = value;
+    families_.back().metric.push_back(std::move(metric));
+  }
+  void gauge(const char* name, const char* help, double value) {
+    begin(name, MetricType::Gauge, help);
+    add(value);
+  }
+  void counter(const char* name, const char* help, std::uint64_t value) {
+    begin(name, MetricType::Counter, help);
+    add(static_cast<double>(value));
+  }
+  void counters(const char* name, const char* help, const std::vector<NamedCount>& counts) {
+    begin(name, MetricType::Counter, help);
+    for (const NamedCount& count : counts)
+      add(static_cast<double>(count.count), {{"cause", count.name}});
+  }
+  // A metric without values is left out.
+  std::vector<MetricFamily> take() {
+    std::erase_if(families_, [](const auto& family) { return family.metric.empty(); });
+    return std::move(families_);
+  }
+
+ private:
+  std::vector<MetricFamily> families_;
+};
+
+void add_totals(const ServerStatus& status, Page& page) {
+  const ServerCounters& c = status.totals;
+  page.begin("build_info", MetricType::Gauge, "Always 1; the version stands in the label.");
+  page.add(1.0, {{"version", status.version}});
+  page.gauge("uptime_seconds", "Since the server began.", status.uptime.as_seconds());
+  std::size_t links = 0, guests = 0;
+  for (const ServerRoomStatus& room : status.rooms) {
+    links += room.links.size();
+    guests += room.guests;
+  }
+  page.gauge("rooms", "Rooms with somebody in them.", static_cast<double>(status.rooms.size()));
+  page.gauge("links", "Links of houses, those that only listen too.", static_cast<double>(links));
+  page.gauge("guests", "Guests in all rooms.", static_cast<double>(guests));
+  page.counter("datagrams_received_total", "Datagrams taken in.", c.datagrams_in);
+  page.counter("datagrams_sent_total", "Datagrams sent.", c.datagrams_out);
+  page.counter("received_bytes_total", "Bytes of datagrams taken in.", c.bytes_in);
+  page.counter("sent_bytes_total", "Bytes of datagrams sent.", c.bytes_out);
+  page.counter("records_received_total", "Poses and hands that were taken.", c.records_in);
+  page.counter("records_sent_total", "Poses and hands sent on, once for each receiver.",
+               c.records_out);
+  page.counter("key_frames_asked_total", "Key frames asked of guests.", c.key_frames_asked);
+  page.counter("sessions_begun_total", "Links that came.", c.sessions_begun);
+  page.counter("sessions_resumed_total", "Links that came back from elsewhere.",
+               c.sessions_resumed);
+  page.counter("sessions_timed_out_total", "Links that fell silent.", c.sessions_timed_out);
+  page.counter("goodbyes_total", "Links that said goodbye.", c.goodbyes);
+  page.counters("rejected_total", "Datagrams, or records in them, that went no further.",
+                status.rejects);
+  page.counters("handshakes_total", "Handshakes by how they ended.", status.handshakes);
+}
+
+template <class Value>
+void add_rooms(const ServerStatus& status, Page& page, Value value) {
+  for (const ServerRoomStatus& room : status.rooms)
+    page.add(value(room), {{"room", std::string(room.name.view())}});
+}
+
+// A link is named by its first guest; links that only listen have no name that could stay theirs.
+template <class Value>
+void add_links(const ServerStatus& status, Page& page, Value value) {
+  for (const ServerRoomStatus& room : status.rooms)
+    for (const ServerLinkStatus& link : room.links) {
+      if (link.guests.empty()) continue;
+      if (const std::optional<double> number = value(link))
+        page.add(*number, {{"room", std::string(room.name.view())},
+                           {"guest", std::string(link.guests[0].id.view())}});
+    }
+}
+
+template <class Value>
+void add_guests(const ServerStatus& status, Page& page, Value value) {
+  for (const ServerRoomStatus& room : status.rooms)
+    for (const ServerLinkStatus& link : room.links)
+      for (const ServerGuestStatus& guest : link.guests)
+        if (const std::optional<double> number = value(guest))
+          page.add(*number, {{"room", std::string(room.name.view())},
+                             {"guest", std::string(guest.id.view())}});
+}
+
+std::optional<double> seconds_of(const std::optional<Duration>& duration) {
+  return duration ? std::optional(duration->as_seconds()) : std::nullopt;
+}
+
+void add_parts(const ServerStatus& status, Page& page) {
+  using Room = ServerRoomStatus;
+  using OfLink = ServerLinkStatus;
+  using OfGuest = ServerGuestStatus;
+  constexpr MetricType kGauge = MetricType::Gauge;
+  constexpr MetricType kCounter = MetricType::Counter;
+  using Number = std::optional<double>;
+  page.begin("room_guests", kGauge, "Guests in a room.");
+  add_rooms(status, page, [](const Room& room) { return static_cast<double>(room.guests); });
+  page.begin("room_listeners", kGauge, "Links of a room that only listen.");
+  add_rooms(status, page, [](const Room& room) { return static_cast<double>(room.listeners); });
+  page.begin("room_share_window_seconds", kGauge,
+             "How long a pose waits for others to share a datagram with.");
+  add_rooms(status, page, [](const Room& room) { return room.share_window.as_seconds(); });
+
+  page.begin("link_round_trip_seconds", kGauge, "As the link's newest ping says.");
+  add_links(status, page, [](const OfLink& link) { return seconds_of(link.round_trip); });
+  page.begin("link_loss_up_ratio", kGauge, "Share of the link's poses that did not come.");
+  add_links(status, page, [](const OfLink& link) { return link.loss_up; });
+  page.begin("link_loss_down_ratio", kGauge,
+             "Share of the others' poses that the link did not get, as its pings say.");
+  add_links(status, page, [](const OfLink& link) { return link.loss_down; });
+  page.begin("link_last_heard_seconds", kGauge, "Since the link's newest datagram.");
+  add_links(status, page, [](const OfLink& link) { return Number(link.last_heard.as_seconds()); });
+  page.begin("link_received_bytes_total", kCounter, "Bytes from the link in this session.");
+  add_links(status, page,
+            [](const OfLink& link) { return Number(static_cast<double>(link.bytes_in)); });
+  page.begin("link_sent_bytes_total", kCounter, "Bytes to the link in this session.");
+  add_links(status, page,
+            [](const OfLink& link) { return Number(static_cast<double>(link.bytes_out)); });
+
+  page.begin("guest_jitter_seconds", kGauge, "Interarrival jitter of the guest's poses, RFC 3550.");
+  add_guests(status, page, [](const OfGuest& guest) { return seconds_of(guest.jitter); });
+  page.begin("guest_poses_total", kCounter, "Poses of the guest that went on.");
+  add_guests(status, page,
+             [](const OfGuest& guest) { return Number(static_cast<double>(guest.poses)); });
+  // What comes late after all is taken off again, so this is no counter.
+  page.begin("guest_poses_lost", kGauge, "Poses of the guest that did not come until now.");
+  add_guests(status, page,
+             [](const OfGuest& guest) { return Number(static_cast<double>(guest.lost)); });
+}
+
+std::vector<MetricFamily> families_of(const ServerStatus& status) {
+  Page page;
+  add_totals(status, page);
+  add_parts(status, page);
+  return page.take();
+}
+
+class Newest final : public prometheus::Collectable {
+ public:
+  void show(std::shared_ptr<const ServerStatus> status) {
+    const std::lock_guard lock(mutex_);
+    status_.swap(status);
+  }  // what was shown before goes after the lock
+  std::vector<MetricFamily> Collect() const override {
+    std::shared_ptr<const ServerStatus> status;
+    {
+      const std::lock_guard lock(mutex_);
+      status = status_;
+    }
+    return status ? families_of(*status) : std::vector<MetricFamily>();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::shared_ptr<const ServerStatus> status_;
+};
+
+class Exposed final : public ServerMetrics {
+ public:
+  // Throws what the exposer throws.
+  explicit Exposed(const Address& address)
+      : exposer_(std::vector<std::string>{"listening_ports", address.to_string(), "num_threads",
+                                          "2", "request_timeout_ms", "5000"}) {
+    exposer_.RegisterCollectable(newest_);
+  }
+  void show(ServerStatus status) override {
+    newest_->show(std::make_shared<const ServerStatus>(std::move(status)));
+  }
+  std::uint16_t port() const override {
+    return static_cast<std::uint16_t>(exposer_.GetListeningPorts().at(0));
+  }
+
+ private:
+  std::shared_ptr<Newest> newest_ = std::make_shared<Newest>();
+  prometheus::Exposer exposer_;
+};
+
+}  // namespace
+
+bool ServerMetrics::is_built() { return true; }
+
+Result<std::unique_ptr<ServerMetrics>> ServerMetrics::open(const Address& address) {
+  try {
+    return std::unique_ptr<ServerMetrics>(std::make_unique<Exposed>(address));
+  } catch (const std::exception&) {  // says no more than that the port may be taken
+    return fail("--metrics " + address.to_string() +
+                ": cannot be had: the port is another program's, or the address not this "
+                "machine's; choose another");
+  }
+}
+
+std::string metrics_text(const ServerStatus& status) {
+  std::ostringstream text;
+  prometheus::TextSerializer().Serialize(text, families_of(status));
+  return text.str();
+}
+
+}  // namespace dance

@@ -1,0 +1,258 @@
+// What the server knows: sessions, rooms, guests; its bounds; and its counters. Plain data that
+// ServerCore works on.
+//
+// Units/frames: MonoTime of the server's clock.
+// Ownership:    plain values of fixed size; sessions and rooms refer to each other by index.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/base/fixed_list.h"
+#include "core/base/time.h"
+#include "core/base/token_bucket.h"
+#include "tunnel/link/link_meter.h"
+#include "tunnel/server/access.h"
+#include "tunnel/session/ack_window.h"
+#include "tunnel/session/arrival_jitter.h"
+#include "tunnel/session/held_frames.h"
+#include "tunnel/session/peer.h"
+#include "tunnel/session/repetition.h"
+#include "tunnel/session/sent_ring.h"
+#include "tunnel/session/stream_gate.h"
+#include "tunnel/wire/wire_records.h"
+#include "tunnel/wire/wire_state.h"
+
+namespace dance {
+
+struct ServerLimits {
+  std::size_t sessions = 256;
+  std::size_t rooms = 64;
+  std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
+  std::size_t listeners_per_room = 64;  // links without guests
+  // Per session: 16 guests with hands at 60 Hz need 2,000 datagrams a second.
+  double datagrams_per_second = 4000.0;
+  double datagram_burst = 1000.0;
+  double bytes_per_second = 2e6;
+  double byte_burst = 500e3;
+  // With one key: each may change the room's roster.
+  double hellos_per_second = 20.0;
+  double hello_burst = 200.0;
+  // Per guest: poses and hands at 240 Hz, and every receiver must decode them.
+  double records_per_second = 600.0;
+  double record_burst = 150.0;
+  // Per guest: messages of its further channels.
+  double channel_records_per_second = 500.0;
+  double channel_record_burst = 100.0;
+  double channel_bytes_per_second = 128e3;
+  double channel_byte_burst = 32e3;
+  // Per guest: changes of its states and of those of the room that it sets.
+  double state_changes_per_second = 60.0;
+  double state_change_burst = 60.0;
+  // Records to one receiver wait this long for others to share a datagram with, unless all who
+  // dance have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's
+  // guests.
+  std::optional<Duration> share_window{};
+  // Poses go once more with the next where a way loses some.
+  bool repeats = true;
+};
+
+// A few never wait: they seldom dance within the same millisecond. In a crowd headers would cost
+// more than poses.
+constexpr Duration share_window_of(std::size_t guests) {
+  constexpr std::size_t kFew = 8, kCrowd = 24;
+  if (guests <= kFew) return Duration();
+  return Duration::us(250) * static_cast<std::int64_t>(std::min(guests, kCrowd) - kFew);
+}
+
+// Why a datagram, or a record of it, went no further.
+enum class ServerReject : std::uint8_t {
+  kTooShort,
+  kMalformed,
+  kUnknownType,
+  kVersion,
+  kOldHello,
+  kNoSession,
+  kSessionRate,
+  kGuestRate,
+  kForeignSlot,
+  kBadTime,
+  kBadAck,
+  kLate,
+  kDuplicate,
+  kRefused,
+  kNotAllowed,
+  kOverruled,
+  kStateRate,
+  kChannelRate,
+  kCount,
+};
+constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
+// As the log and the summary say it.
+constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
+    "too_short",    "malformed",  "unknown_type", "version",   "old_hello",  "no_session",
+    "session_rate", "guest_rate", "foreign_slot", "bad_time",  "bad_ack",    "late",
+    "duplicate",    "refused",    "not_allowed",  "overruled", "state_rate", "channel_rate"};
+
+struct ServerCounters {
+  std::uint64_t datagrams_in = 0;
+  std::uint64_t bytes_in = 0;
+  std::uint64_t datagrams_out = 0;
+  std::uint64_t bytes_out = 0;
+  std::uint64_t records_in = 0;         // poses, hands and messages of channels that were taken
+  std::uint64_t states_in = 0;          // changes that were taken
+  std::uint64_t states_out = 0;         // once per receiver, and again where not acknowledged
+  std::uint64_t records_out = 0;        // once per receiver
+  std::uint64_t records_repeated = 0;   // besides: once more, where a way loses some
+  std::uint64_t datagrams_acked = 0;    // of records, by their receivers
+  std::uint64_t key_frames_wanted = 0;  // by newcomers, and by who could not decode
+  std::uint64_t key_frames_asked = 0;   // of the senders: several wants in one
+  std::uint64_t sessions_begun = 0;
+  std::uint64_t sessions_resumed = 0;
+  std::uint64_t sessions_timed_out = 0;
+  std::uint64_t goodbyes = 0;
+  std::array<std::uint64_t, kServerRejects> rejected{};
+
+  std::uint64_t of(ServerReject cause) const { return rejected[static_cast<std::size_t>(cause)]; }
+  std::uint64_t rejected_total() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t n : rejected) sum += n;
+    return sum;
+  }
+};
+
+// What of one guest's poses goes to one receiver.
+struct Thinning {
+  std::uint8_t divider = 1;
+  // It has nothing that frames could refer to: the next that needs no other is the first it gets.
+  bool awaits_still = true;
+  std::uint32_t last_sent = 0;  // sequence
+  // Poses of this generation that it was not sent; told with each record until it has one that was
+  // sent after the last of them.
+  bool tells_left_out = false;
+  std::uint16_t left_out = 0;
+  std::uint16_t last_left_out = 0;  // sequence, low half
+};
+
+struct ServerSession {
+  bool in_use = false;
+  PeerId peer = 0;
+  Access access;
+  std::uint64_t token = 0;
+  std::uint64_t epoch = 0;  // another one for the link = nothing of before counts
+  MonoTime last_heard;
+  std::int64_t hello_time_us = 0;  // link's clock; an older hello is a stale copy
+  std::size_t room = 0;
+  FixedList<std::uint8_t, wire::kMaxGuestsPerLink> slots;
+  // Versions that the link has acknowledged.
+  std::array<std::array<std::uint32_t, wire::kGuestStates>, wire::kMaxGuestsPerRoom> state_acked{};
+  std::array<std::uint32_t, wire::kRoomStates> room_state_acked{};
+  std::size_t state_cursor = 0;  // slot to begin with when not all fitted the last time
+  TokenBucket datagrams;
+  TokenBucket bytes;
+  std::uint32_t datagrams_received = 0;
+  wire::Ping newest_ping;
+  LinkMeter meter;
+  // Records that wait for the end of this turn, or of their window.
+  std::array<std::uint8_t, wire::kMaxRecordsBody> bundle;
+  std::size_t bundle_size = 0;
+  std::size_t bundle_poses = 0;
+  wire::RecordChain chain;
+  MonoTime bundle_due;
+  // What it wants of the others: the list as it said it, and what follows for each slot.
+  wire::InterestList interest;
+  std::array<Thinning, wire::kMaxGuestsPerRoom> thinning;
+  std::size_t full_shares = 0;  // others in the room whose every pose it gets
+  // What the link has of the others, as it acknowledges; and what has come from it.
+  SentRing sent;
+  std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
+  AckWindow received;
+  // Whether poses go once more, to the link and from it.
+  Repetition repeats_down;
+  Repetition repeats_up;
+  // When the link is next told what its receivers have; not set = nothing new.
+  bool knows_epoch = false;  // what comes is of this session, not of the link's last one
+  MonoTime feedback_due;     // goes along with a bundle from then on,
+  MonoTime feedback_alone;   // and alone from then on
+  MonoTime feedback_made;
+  bool bears_losses = false;        // as told then: nothing that was lost is missed for long
+  bool feedback_is_repeat = false;  // goes out though nothing has changed
+};
+
+// The newest version of one state, for those who have not got it.
+struct HeldState {
+  std::uint32_t version = 0;  // 0 = none yet
+  bool is_fresh = false;      // not told yet
+  std::uint16_t size = 0;
+  std::array<std::uint8_t, wire::kMaxStatePayload> payload;
+
+  wire::Bytes bytes() const { return {payload.data(), size}; }
+};
+
+// Of one further channel of a guest: newest wins in each by itself.
+struct ChannelGate {
+  bool has_any = false;
+  std::uint32_t sequence = 0;
+};
+
+// The newest pose of a guest that needs no other, for those who come later.
+struct KeptPose {
+  bool is_set = false;
+  wire::Record record;  // but for its payload
+  std::size_t size = 0;
+  std::array<std::uint8_t, wire::kMaxPayload> payload;
+};
+
+struct ServerGuest {
+  bool in_use = false;
+  GuestId id;
+  std::uint16_t generation = 0;
+  std::size_t owner = 0;  // session
+  StreamGate poses;
+  StreamGate hands;
+  ArrivalJitter jitter;  // of poses
+  TokenBucket records;
+  SentPose previous;  // goes once more to whom it may be lost
+  bool key_wanted = false;
+  std::uint8_t key_frames = 0;  // counts key frames asked for
+  MonoTime key_asked_at;
+  wire::GuestFeedback told;  // what the link was told last
+  KeptPose kept;
+  MonoTime last_pose;            // when the newest came in
+  std::uint32_t base_count = 0;  // base frames that came
+  std::uint32_t hands_count = 0;
+  std::array<HeldState, wire::kGuestStates> states;
+  TokenBucket state_changes;
+  std::array<ChannelGate, kMaxChannelsPerGuest> channels{};
+  TokenBucket channel_records;
+  TokenBucket channel_bytes;
+};
+
+struct ServerRoom {
+  bool in_use = false;
+  wire::RoomName name;
+  CodecName codec;
+  std::uint32_t roster_version = 1;
+  bool is_astir = false;  // in the list of those with something to tell
+  bool roster_changed = false;
+  std::uint16_t next_generation = 0;
+  std::array<HeldState, wire::kRoomStates> states;
+  std::array<GuestId, wire::kRoomStates> setters;
+  bool has_fresh_states = false;
+  MonoTime fresh_states_due;    // not before then
+  bool has_first_body = false;  // fresh: a guest's first proportions, without which no pose decodes
+  std::vector<std::size_t> members;  // sessions
+  std::size_t guest_count = 0;
+  std::size_t host_count = 0;  // links of it with a host's key
+  std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
+
+  bool has_host() const { return host_count > 0; }
+};
+
+}  // namespace dance

@@ -1,0 +1,142 @@
+#include "tunnel/server/server_status.h"
+
+#include <algorithm>
+
+namespace dance {
+namespace {
+
+// Share of `lost` among all; a guest who left takes its counts along, so that a change may be
+// negative.
+std::optional<double> share(std::int64_t lost, std::int64_t came) {
+  lost = std::max<std::int64_t>(lost, 0);
+  if (came <= 0 && lost == 0) return std::nullopt;
+  return static_cast<double>(lost) / static_cast<double>(lost + std::max<std::int64_t>(came, 0));
+}
+
+std::int64_t change(std::uint64_t before, std::uint64_t after) {
+  return static_cast<std::int64_t>(after - before);
+}
+
+}  // namespace
+
+const ServerStatusMaker::Sample* ServerStatusMaker::History::oldest() const {
+  return count == 0 ? nullptr : &ring[count < ring.size() ? 0 : count % ring.size()];
+}
+
+ServerStatusMaker::ServerStatusMaker(const ServerCore& core, const ServerLimits& limits,
+                                     std::string address, PeerText peer_text, MonoTime begin)
+    : core_(core),
+      limits_(limits),
+      address_(std::move(address)),
+      peer_text_(std::move(peer_text)),
+      begin_(begin),
+      histories_(core.sessions().size()) {
+  static_assert(kStatusWindow.count_ms() == 1000 * std::tuple_size_v<decltype(History::ring)>);
+}
+
+ServerStatusMaker::Sample ServerStatusMaker::sample_of(const ServerSession& session,
+                                                       MonoTime now) const {
+  Sample sample;
+  sample.at = now;
+  sample.meter = session.meter;
+  for (const std::uint8_t slot : session.slots) {
+    const StreamGate::Counters& poses = core_.rooms()[session.room].guests[slot].poses.counters();
+    sample.poses_up += poses.received;
+    sample.lost_up += poses.lost;
+  }
+  sample.has_ping = session.newest_ping.sequence != 0;
+  sample.poses_down = session.newest_ping.poses_received;
+  sample.lost_down = session.newest_ping.poses_lost;
+  return sample;
+}
+
+void ServerStatusMaker::sample(MonoTime now) {
+  for (std::size_t i = 0; i < histories_.size(); ++i) {
+    const ServerSession& session = core_.sessions()[i];
+    History& history = histories_[i];
+    if (!session.in_use || history.since != session.meter.since) history.count = 0;
+    history.since = session.meter.since;
+    if (!session.in_use || !session.meter.since.is_set()) continue;
+    history.ring[history.count++ % history.ring.size()] = sample_of(session, now);
+    // Bounded: full once and full twice are the same to oldest().
+    if (history.count == 2 * history.ring.size()) history.count = history.ring.size();
+  }
+}
+
+ServerLinkStatus ServerStatusMaker::link_status(std::size_t index, MonoTime now) const {
+  const ServerSession& session = core_.sessions()[index];
+  const Sample after = sample_of(session, now);
+  Sample before;  // nothing, at the link's begin
+  before.at = session.meter.since;
+  const History& history = histories_[index];
+  if (history.since == session.meter.since && history.oldest() != nullptr)
+    before = *history.oldest();
+
+  ServerLinkStatus link;
+  link.peer = peer_text_(session);
+  link.age = now - session.meter.since;
+  link.last_heard = std::max(Duration(), now - session.last_heard);
+  if (session.newest_ping.round_trip_us != 0)
+    link.round_trip = Duration::us(session.newest_ping.round_trip_us);
+  link.poses_lost = session.newest_ping.poses_lost;
+  link.bytes_in = session.meter.bytes_in;
+  link.bytes_out = session.meter.bytes_out;
+  // Shorter than this, one datagram would look like a stream.
+  const double seconds = std::max((now - before.at).as_seconds(), 0.5);
+  const auto rate = [&](std::uint64_t LinkMeter::*what) {
+    return static_cast<double>(after.meter.*what - before.meter.*what) / seconds;
+  };
+  link.datagrams_in_per_s = rate(&LinkMeter::datagrams_in);
+  link.datagrams_out_per_s = rate(&LinkMeter::datagrams_out);
+  link.bytes_in_per_s = rate(&LinkMeter::bytes_in);
+  link.bytes_out_per_s = rate(&LinkMeter::bytes_out);
+  link.loss_up =
+      share(change(before.lost_up, after.lost_up), change(before.poses_up, after.poses_up));
+  // The link counts from its own begin, which may be before the session's.
+  if (before.has_ping && after.has_ping)
+    link.loss_down = share(sequence_ahead(before.lost_down, after.lost_down),
+                           sequence_ahead(before.poses_down, after.poses_down));
+
+  for (const std::uint8_t slot : session.slots) {
+    const ServerGuest& guest = core_.rooms()[session.room].guests[slot];
+    const StreamGate::Counters& poses = guest.poses.counters();
+    ServerGuestStatus status{guest.id, poses.received, poses.lost, poses.late, std::nullopt};
+    if (guest.jitter.has_any()) {
+      status.jitter = guest.jitter.jitter();
+      link.jitter = std::max(link.jitter.value_or(Duration()), *status.jitter);
+    }
+    link.guests.push_back(std::move(status));
+  }
+  return link;
+}
+
+ServerStatus ServerStatusMaker::make(MonoTime now, std::span<const NamedCount> handshakes) const {
+  ServerStatus status;
+  status.version = server_version();
+  status.address = address_;
+  status.uptime = now - begin_;
+  status.totals = core_.counters();
+  for (std::size_t i = 0; i < kServerRejects; ++i)
+    status.rejects.push_back({std::string(kServerRejectNames[i]), status.totals.rejected[i]});
+  status.handshakes.assign(handshakes.begin(), handshakes.end());
+  for (const ServerRoom& room : core_.rooms()) {
+    if (!room.in_use) continue;
+    ServerRoomStatus about;
+    about.name = room.name;
+    about.codec = room.codec;
+    about.share_window = limits_.share_window.value_or(share_window_of(room.guest_count));
+    for (const std::size_t member : room.members) {
+      // Who has said no more than hello may be nobody.
+      if (!core_.sessions()[member].meter.since.is_set()) continue;
+      about.links.push_back(link_status(member, now));
+      about.guests += about.links.back().guests.size();
+      about.listeners += about.links.back().guests.empty() ? 1 : 0;
+    }
+    if (!about.links.empty()) status.rooms.push_back(std::move(about));
+  }
+  std::sort(status.rooms.begin(), status.rooms.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  return status;
+}
+
+}  // namespace dance

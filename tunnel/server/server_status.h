@@ -1,0 +1,124 @@
+// A snapshot of what goes on at the server, as plain data and as JSON: rooms, links, guests, and
+// why datagrams went no further. What shows a server takes it from here: `dance status`, the
+// metrics. There is no key, token or session id in it.
+//
+// Units/frames: Durations; rates and losses are of the last kStatusWindow, and each unit stands in
+//               the JSON's names.
+// Ownership:    a snapshot owns its values and refers to nothing. The maker refers to the core, and
+//               keeps a few numbers of each session; sample() never allocates.
+// Threads:      the maker belongs to the core's thread; a snapshot may go to any.
+// Failure:      none; what is not known is not set, and null in JSON.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/time.h"
+#include "tunnel/server/server_core.h"
+
+namespace dance {
+
+// Long enough to tell one loss in a hundred, short enough to see what mends it.
+constexpr Duration kStatusWindow = Duration::s(5);
+
+struct NamedCount {
+  std::string name;
+  std::uint64_t count = 0;
+};
+
+struct ServerGuestStatus {
+  GuestId id;
+  std::uint64_t poses = 0;  // that came and went on
+  std::uint64_t lost = 0;   // of those that it sent
+  std::uint64_t late = 0;
+  std::optional<Duration> jitter;
+};
+
+struct ServerLinkStatus {
+  std::string peer;  // address, or how its key is called
+  Duration age;
+  Duration last_heard;
+  std::optional<Duration> round_trip;  // as the link's ping says
+  std::optional<double> loss_up;       // of its poses, on their way to the server; 0 to 1
+  std::optional<double> loss_down;     // of the others' poses, as its pings say: both halves
+  std::optional<Duration> jitter;      // of the worst of its guests
+  double datagrams_in_per_s = 0.0;
+  double datagrams_out_per_s = 0.0;
+  double bytes_in_per_s = 0.0;
+  double bytes_out_per_s = 0.0;
+  std::uint64_t bytes_in = 0;
+  std::uint64_t bytes_out = 0;
+  std::uint32_t poses_lost = 0;           // of the others', as its newest ping says
+  std::vector<ServerGuestStatus> guests;  // none: it only listens
+};
+
+struct ServerRoomStatus {
+  wire::RoomName name;
+  std::size_t guests = 0;
+  std::size_t listeners = 0;
+  CodecName codec;
+  Duration share_window;
+  std::vector<ServerLinkStatus> links;
+};
+
+struct ServerStatus {
+  std::string version;
+  std::string address;
+  Duration uptime;
+  std::vector<ServerRoomStatus> rooms;
+  ServerCounters totals;
+  std::vector<NamedCount> rejects;
+  std::vector<NamedCount> handshakes;
+};
+
+std::string server_version();
+std::string codec_text(const CodecName& codec);
+// One object, on one line.
+std::string to_json(const ServerStatus& status);
+
+class ServerStatusMaker {
+ public:
+  using PeerText = std::function<std::string(const ServerSession&)>;
+
+  ServerStatusMaker(const ServerCore& core, const ServerLimits& limits, std::string address,
+                    PeerText peer_text, MonoTime begin);
+  // Once a second: what rates are counted from.
+  void sample(MonoTime now);
+  // Handshakes by cause are those of whoever seals the sessions.
+  ServerStatus make(MonoTime now, std::span<const NamedCount> handshakes) const;
+
+ private:
+  struct Sample {
+    MonoTime at;
+    LinkMeter meter;
+    std::uint64_t poses_up = 0;
+    std::uint64_t lost_up = 0;
+    bool has_ping = false;
+    std::uint32_t poses_down = 0;
+    std::uint32_t lost_down = 0;
+  };
+  // The newest samples of one session, in a ring.
+  struct History {
+    MonoTime since;  // whose session it is
+    std::array<Sample, 5> ring;
+    std::size_t count = 0;
+    const Sample* oldest() const;
+  };
+
+  Sample sample_of(const ServerSession& session, MonoTime now) const;
+  ServerLinkStatus link_status(std::size_t session, MonoTime now) const;
+
+  const ServerCore& core_;
+  ServerLimits limits_;
+  std::string address_;
+  PeerText peer_text_;
+  MonoTime begin_;
+  std::vector<History> histories_;  // by session
+};
+
+}  // namespace dance

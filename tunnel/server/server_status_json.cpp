@@ -1,0 +1,174 @@
+// The snapshot as JSON, written in one go: a full server has four thousand guests, and poses wait
+// meanwhile.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "tunnel/server/server_status.h"
+
+namespace dance {
+namespace {
+
+// {"a":1,"b":[…]}: members and elements in the order in which they are written.
+class JsonText {
+ public:
+  void open(char bracket) {
+    out_ += bracket;
+    is_first_ = true;
+  }
+  void close(char bracket) {
+    out_ += bracket;
+    is_first_ = false;
+  }
+  // Before each element of a list.
+  void next() {
+    if (!is_first_) out_ += ',';
+    is_first_ = false;
+  }
+  void key(std::string_view name) {
+    next();
+    text(name);
+    out_ += ':';
+  }
+  // Names and addresses: what would need to be escaped does not belong there.
+  void text(std::string_view value) {
+    out_ += '"';
+    for (const char c : value) out_ += c < ' ' || c > '~' || c == '"' || c == '\\' ? '?' : c;
+    out_ += '"';
+  }
+  void member(std::string_view name, std::string_view value) {
+    key(name);
+    text(value);
+  }
+  void member(std::string_view name, std::uint64_t value) {
+    key(name);
+    fmt::format_to(std::back_inserter(out_), "{}", value);
+  }
+  // To a thousandth.
+  void member(std::string_view name, double value) {
+    key(name);
+    fmt::format_to(std::back_inserter(out_), "{:.3f}", value);
+  }
+  void member(std::string_view name, const std::optional<double>& value) {
+    if (value) return member(name, *value);
+    key(name);
+    out_ += "null";
+  }
+  void member(std::string_view name, const std::vector<NamedCount>& counts) {
+    key(name);
+    open('{');
+    for (const NamedCount& count : counts) member(count.name, count.count);
+    close('}');
+  }
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string out_;
+  bool is_first_ = true;
+};
+
+std::optional<double> ms_of(const std::optional<Duration>& duration) {
+  return duration ? std::optional(duration->as_ms()) : std::nullopt;
+}
+
+void add_json(const ServerLinkStatus& link, JsonText& json) {
+  json.next();
+  json.open('{');
+  json.member("peer", link.peer);
+  json.member("age_s", link.age.as_seconds());
+  json.member("last_heard_s", link.last_heard.as_seconds());
+  json.member("round_trip_ms", ms_of(link.round_trip));
+  json.member("loss_up", link.loss_up);
+  json.member("loss_down", link.loss_down);
+  json.member("jitter_ms", ms_of(link.jitter));
+  json.member("datagrams_in_per_s", link.datagrams_in_per_s);
+  json.member("datagrams_out_per_s", link.datagrams_out_per_s);
+  json.member("bytes_in_per_s", link.bytes_in_per_s);
+  json.member("bytes_out_per_s", link.bytes_out_per_s);
+  json.member("bytes_in", link.bytes_in);
+  json.member("bytes_out", link.bytes_out);
+  json.member("poses_lost", std::uint64_t{link.poses_lost});
+  json.key("guests");
+  json.open('[');
+  for (const ServerGuestStatus& guest : link.guests) {
+    json.next();
+    json.open('{');
+    json.member("name", guest.id.view());
+    json.member("poses", guest.poses);
+    json.member("lost", guest.lost);
+    json.member("late", guest.late);
+    json.member("jitter_ms", ms_of(guest.jitter));
+    json.close('}');
+  }
+  json.close(']');
+  json.close('}');
+}
+
+void add_json(const ServerRoomStatus& room, JsonText& json) {
+  json.next();
+  json.open('{');
+  json.member("name", room.name.view());
+  json.member("guests", std::uint64_t{room.guests});
+  json.member("listeners", std::uint64_t{room.listeners});
+  json.member("codec", codec_text(room.codec));
+  json.member("share_window_ms", room.share_window.as_ms());
+  json.key("links");
+  json.open('[');
+  for (const ServerLinkStatus& link : room.links) add_json(link, json);
+  json.close(']');
+  json.close('}');
+}
+
+void add_counters(const ServerCounters& c, JsonText& json) {
+  json.key("totals");
+  json.open('{');
+  json.member("datagrams_in", c.datagrams_in);
+  json.member("datagrams_out", c.datagrams_out);
+  json.member("bytes_in", c.bytes_in);
+  json.member("bytes_out", c.bytes_out);
+  json.member("records_in", c.records_in);
+  json.member("records_out", c.records_out);
+  json.member("key_frames_asked", c.key_frames_asked);
+  json.member("sessions_begun", c.sessions_begun);
+  json.member("sessions_resumed", c.sessions_resumed);
+  json.member("sessions_timed_out", c.sessions_timed_out);
+  json.member("goodbyes", c.goodbyes);
+  json.close('}');
+}
+
+}  // namespace
+
+std::string server_version() { return DANCE_VERSION; }
+
+std::string codec_text(const CodecName& codec) {
+  switch (codec.id) {
+    case CodecId::kNone:
+      return "none";
+    case CodecId::kPlain:
+      return "plain";
+    case CodecId::kLattice:
+      return "lattice";
+  }
+  // A link may bring one that is newer than this server, which looks at no payload.
+  return "codec " + std::to_string(static_cast<int>(codec.id));
+}
+
+std::string to_json(const ServerStatus& status) {
+  JsonText json;
+  json.open('{');
+  json.member("version", status.version);
+  json.member("address", status.address);
+  json.member("uptime_s", status.uptime.as_seconds());
+  json.member("window_s", kStatusWindow.as_seconds());
+  json.key("rooms");
+  json.open('[');
+  for (const ServerRoomStatus& room : status.rooms) add_json(room, json);
+  json.close(']');
+  add_counters(status.totals, json);
+  json.member("rejects", status.rejects);
+  json.member("handshakes", status.handshakes);
+  json.close('}');
+  return json.take();
+}
+
+}  // namespace dance

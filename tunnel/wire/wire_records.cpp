@@ -1,0 +1,391 @@
+#include "tunnel/wire/wire_records.h"
+
+namespace dance::wire {
+namespace {
+
+constexpr std::uint8_t kHasAcks = 1, kHasExcepts = 2, kHasWants = 4, kHasFeedback = 8,
+                       kHasRecords = 16, kWantsRepeats = 32, kKnownFlags = 63;
+constexpr std::uint8_t kSlotMask = 0x3f;  // 64 slots of a room
+constexpr std::uint8_t kIsHands = 0x40, kIsWide = 0x80;
+// Hands are always wide: narrow ones mean a message of a channel.
+constexpr std::uint8_t kIsChannel = kIsHands;
+constexpr std::uint8_t kHeldFlag = 0x80, kSpacingFlag = 0x40;
+// Of the spacings: bits 0 and 1 base, high half stills.
+constexpr std::uint8_t kBaseMask = 0x03, kBaseHeldFlag = 0x08;
+constexpr std::uint8_t kLeastStill_log2 = 4;
+constexpr std::uint8_t kLengthMask = 0x3f, kLongLength = 0x40, kIsBrief = 0x80;
+// Of a narrow record's sequence.
+constexpr std::uint8_t kSequenceMask = 0x3f, kOddGeneration = 0x40, kOddRestarts = 0x80;
+// Of the byte that follows a long length.
+constexpr std::uint8_t kHighLengthMask = 0x0f, kNeedsNoOther = 0x10, kIsBase = 0x20,
+                       kCountsLeftOut = 0x40, kIsKept = 0x80;
+constexpr std::uint16_t kEscape = 0xffff;  // a number that does not fit follows
+constexpr std::uint16_t kNoAgeTicks = 0xfffe;
+// Of captures: after the one before, or whole, the low 24 bits. Ages follow, and the capture once
+// more.
+constexpr std::uint16_t kMiddle = 0x8000, kAgesFollow = 0xfffe;
+constexpr std::uint32_t kWholeEscape = 0xffffff, kWholeAgesFollow = 0xfffffe;
+// Beyond it nothing can be reckoned; whoever takes the record asks for much nearer.
+constexpr std::int64_t kFarthestCapture_us = std::int64_t{1} << 60;
+// What is further off is told in full: half of what 24 bits reach.
+constexpr std::int64_t kWholeReach = 1 << 22;
+
+void write_acks(const Acks& acks, ByteWriter& out) {
+  out.u16(acks.newest);
+  out.u32(acks.before);
+  if (acks.excepts.empty()) return;
+  out.u8(static_cast<std::uint8_t>(acks.excepts.size()));
+  for (const AckExcept& except : acks.excepts) {
+    out.u8(except.back);
+    out.u8(except.slot);
+  }
+}
+
+bool read_excepts(ByteReader& in, Acks& acks) {
+  const std::size_t count = in.u8();
+  if (count == 0) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    AckExcept except;
+    except.back = in.u8();
+    except.slot = in.u8();
+    if (except.back >= kAckSpan || except.slot >= kMaxGuestsPerRoom ||
+        !acks.excepts.try_push(except))
+      return false;
+  }
+  return in.ok();
+}
+
+bool read_wants(ByteReader& in, FixedList<std::uint8_t, kMaxWants>& wants) {
+  const std::size_t count = in.u8();
+  if (count == 0) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t slot = in.u8();
+    if (slot >= kMaxGuestsPerRoom || !wants.try_push(slot)) return false;
+  }
+  return in.ok();
+}
+
+void write_feedback(const Feedback& feedback, ByteWriter& out) {
+  out.u16(feedback.loss);
+  out.u16(feedback.in_a_row);
+  out.u16(feedback.round_trip);
+  out.u8(static_cast<std::uint8_t>(feedback.guests.size()));
+  for (const GuestFeedback& guest : feedback.guests) {
+    const bool has_spacing =
+        guest.base_log2 != 0 || guest.still_log2 != kFewestStills_log2 || guest.has_base_held;
+    out.u8(static_cast<std::uint8_t>(guest.slot | (guest.has_held ? kHeldFlag : 0) |
+                                     (has_spacing ? kSpacingFlag : 0)));
+    out.u8(guest.restarts);
+    out.u8(guest.key_frames);
+    if (guest.has_held) {
+      out.u16(guest.newest_held);
+      out.u16(guest.held_before);
+    }
+    if (!has_spacing) continue;
+    out.u8(static_cast<std::uint8_t>(guest.base_log2 | (guest.has_base_held ? kBaseHeldFlag : 0) |
+                                     guest.still_log2 << 4));
+    if (!guest.has_base_held) continue;
+    out.u16(guest.newest_base_held);
+    out.u16(guest.base_held_before);
+  }
+}
+
+bool read_feedback(ByteReader& in, Feedback& feedback) {
+  feedback.loss = in.u16();
+  feedback.in_a_row = in.u16();
+  feedback.round_trip = in.u16();
+  const std::size_t count = in.u8();
+  for (std::size_t i = 0; i < count; ++i) {
+    GuestFeedback guest;
+    const std::uint8_t slot = in.u8();
+    guest.has_held = (slot & kHeldFlag) != 0;
+    guest.slot = slot & kSlotMask;
+    guest.restarts = in.u8();
+    guest.key_frames = in.u8();
+    if (guest.has_held) {
+      guest.newest_held = in.u16();
+      guest.held_before = in.u16();
+    }
+    if ((slot & kSpacingFlag) != 0) {
+      const std::uint8_t spacing = in.u8();
+      guest.base_log2 = spacing & kBaseMask;
+      guest.still_log2 = spacing >> 4;
+      guest.has_base_held = (spacing & kBaseHeldFlag) != 0;
+      if ((spacing & ~(kBaseMask | kBaseHeldFlag | 0xf0)) != 0 ||
+          guest.still_log2 < kLeastStill_log2 || guest.still_log2 > kFewestStills_log2)
+        return false;
+      if (guest.has_base_held) {
+        guest.newest_base_held = in.u16();
+        guest.base_held_before = in.u16();
+      }
+    }
+    if (guest.slot >= kMaxGuestsPerRoom || !feedback.guests.try_push(guest)) return false;
+  }
+  return in.ok();
+}
+
+void write_age(std::int32_t age_us, ByteWriter& out) {
+  if (age_us == kNoAge) return out.u16(kNoAgeTicks);
+  const std::int64_t ticks = to_ticks(age_us);
+  if (ticks >= 0 && ticks < kNoAgeTicks) return out.u16(static_cast<std::uint16_t>(ticks));
+  out.u16(kEscape);
+  out.i32(age_us);
+}
+
+std::int32_t read_age(ByteReader& in) {
+  const std::uint16_t ticks = in.u16();
+  if (ticks == kNoAgeTicks) return kNoAge;
+  return ticks == kEscape ? in.i32() : ticks * static_cast<std::int32_t>(kTick_us);
+}
+
+}  // namespace
+
+void begin_records(const RecordsHeader& header, ByteWriter& out) {
+  const bool has_excepts = header.has_acks && !header.acks.excepts.empty();
+  out.u8(static_cast<std::uint8_t>(
+      kRecordsMark | (header.has_acks ? kHasAcks : 0) | (has_excepts ? kHasExcepts : 0) |
+      (header.wants.empty() ? 0 : kHasWants) | (header.has_feedback ? kHasFeedback : 0) |
+      (header.has_records ? kHasRecords : 0) |
+      (header.has_feedback && header.feedback.wants_repeats ? kWantsRepeats : 0)));
+  out.u16(header.number);
+  if (header.has_acks) write_acks(header.acks, out);
+  if (!header.wants.empty()) {
+    out.u8(static_cast<std::uint8_t>(header.wants.size()));
+    for (const std::uint8_t slot : header.wants) out.u8(slot);
+  }
+  if (header.has_feedback) write_feedback(header.feedback, out);
+}
+
+std::optional<RecordsHeader> parse_records_header(ByteReader& in) {
+  RecordsHeader header;
+  const auto flags = static_cast<std::uint8_t>(in.u8() & ~kRecordsMark);
+  header.number = in.u16();
+  if (!in.ok() || (flags & ~kKnownFlags) != 0) return std::nullopt;
+  header.has_acks = (flags & kHasAcks) != 0;
+  header.has_feedback = (flags & kHasFeedback) != 0;
+  header.has_records = (flags & kHasRecords) != 0;
+  if (header.has_acks) {
+    header.acks.newest = in.u16();
+    header.acks.before = in.u32();
+  }
+  if ((flags & kHasExcepts) != 0 && (!header.has_acks || !read_excepts(in, header.acks)))
+    return std::nullopt;
+  if ((flags & kHasWants) != 0 && !read_wants(in, header.wants)) return std::nullopt;
+  if (header.has_feedback && !read_feedback(in, header.feedback)) return std::nullopt;
+  header.feedback.wants_repeats = (flags & kWantsRepeats) != 0;
+  if (header.feedback.wants_repeats && !header.has_feedback) return std::nullopt;
+  // Records follow where it says so, and nowhere else.
+  if (!in.ok() || (in.remaining() > 0) != header.has_records) return std::nullopt;
+  return header;
+}
+
+namespace {
+
+// The number near to `near` whose low 24 bits these are.
+std::int64_t nearest(std::uint32_t low, std::int64_t near) {
+  return near + (static_cast<std::int32_t>((low - static_cast<std::uint32_t>(near)) << 8) >> 8);
+}
+
+void write_capture(const Record& record, bool has_ages, const RecordChain& chain, ByteWriter& out) {
+  const std::int64_t ticks = to_ticks(record.capture_us);
+  if (chain.has_any) {
+    if (has_ages) out.u16(kAgesFollow);
+    const std::int64_t after = ticks - chain.capture_ticks + kMiddle;
+    if (after >= 0 && after < kAgesFollow) return out.u16(static_cast<std::uint16_t>(after));
+    out.u16(kEscape);
+  } else {
+    if (has_ages) out.u24(kWholeAgesFollow);
+    const auto low = static_cast<std::uint32_t>(ticks & 0xffffff);
+    const std::int64_t off = ticks - to_ticks(chain.near_us);
+    if (off > -kWholeReach && off < kWholeReach && low < kWholeAgesFollow) return out.u24(low);
+    out.u24(kWholeEscape);
+  }
+  out.i64(record.capture_us);
+}
+
+bool read_capture(ByteReader& in, const RecordChain& chain, bool& has_ages, Record& record) {
+  std::uint32_t told = chain.has_any ? in.u16() : in.u24();
+  const std::uint32_t ages_follow = chain.has_any ? kAgesFollow : kWholeAgesFollow;
+  has_ages = told == ages_follow;
+  if (has_ages) told = chain.has_any ? in.u16() : in.u24();
+  if (told == ages_follow) return false;
+  if (told > ages_follow) {
+    record.capture_us = in.i64();
+    return record.capture_us > -kFarthestCapture_us && record.capture_us < kFarthestCapture_us;
+  }
+  if (chain.has_any)
+    record.capture_us =
+        (chain.capture_ticks + static_cast<std::int64_t>(told) - kMiddle) * kTick_us;
+  else
+    record.capture_us = nearest(told, to_ticks(chain.near_us)) * kTick_us;
+  return true;
+}
+
+void go_on(RecordChain& chain, const Record& record) {
+  chain.has_any = true;
+  chain.slot = record.slot;
+  chain.capture_ticks = to_ticks(record.capture_us);
+}
+
+std::uint8_t next_slot(const RecordChain& chain) { return (chain.slot + 1) & kSlotMask; }
+
+std::uint8_t narrow_sequence(const Record& record) {
+  return static_cast<std::uint8_t>((record.sequence & kSequenceMask) |
+                                   ((record.stream >> 16 & 1) != 0 ? kOddGeneration : 0) |
+                                   ((record.stream & 1) != 0 ? kOddRestarts : 0));
+}
+
+void read_narrow(std::uint8_t sequence, Record& record) {
+  record.is_narrow = true;
+  record.sequence = sequence & kSequenceMask;
+  record.stream = ((sequence & kOddGeneration) != 0 ? 1u << 16 : 0u) |
+                  ((sequence & kOddRestarts) != 0 ? 1u : 0u);
+}
+
+// Behind length and slot.
+void add_channel_record(const Record& record, ByteWriter& out) {
+  out.u8(static_cast<std::uint8_t>((record.stream >> 16 & 15) << 4 | (record.channel & 7)));
+  out.u32(record.sequence);
+  out.bytes(record.payload);
+}
+
+void read_channel_record(ByteReader& in, std::size_t length, Record& record) {
+  record.kind = RecordKind::kChannel;
+  const std::uint8_t tag = in.u8();
+  record.stream = static_cast<std::uint32_t>(tag >> 4) << 16;
+  record.channel = tag & 15;
+  record.sequence = in.u32();
+  record.payload = in.bytes(length);
+}
+
+}  // namespace
+
+void add_record(const Record& record, bool is_narrow, RecordChain& chain, ByteWriter& out) {
+  const bool is_channel = record.kind == RecordKind::kChannel;
+  const bool is_hands = record.kind == RecordKind::kHands;
+  const bool has_ages = record.published_age_us != kNoAge || record.sent_age_us != kNoAge ||
+                        record.server_age_us != kNoAge;
+  const std::size_t length = record.payload.size();
+  // Nothing more is said about a message than its length.
+  const auto flags = static_cast<std::uint8_t>(
+      is_channel
+          ? 0
+          : (record.needs_no_other ? kNeedsNoOther : 0) | (record.is_base ? kIsBase : 0) |
+                (record.counts_left_out ? kCountsLeftOut : 0) | (record.is_kept ? kIsKept : 0));
+  const auto more = static_cast<std::uint8_t>(length >> 6 | flags);
+  const std::int64_t after = to_ticks(record.capture_us) - chain.capture_ticks;
+  if (is_narrow && !has_ages && more == 0 && chain.has_any && record.slot == next_slot(chain) &&
+      after >= INT8_MIN && after <= INT8_MAX) {
+    out.u8(static_cast<std::uint8_t>(length | kIsBrief));
+    out.u8(narrow_sequence(record));
+    out.u8(static_cast<std::uint8_t>(after));
+    out.bytes(record.payload);
+    return go_on(chain, record);
+  }
+  out.u8(static_cast<std::uint8_t>((length & kLengthMask) | (more != 0 ? kLongLength : 0)));
+  if (more != 0) out.u8(more);
+  out.u8(static_cast<std::uint8_t>(record.slot | (is_hands || is_channel ? kIsHands : 0) |
+                                   (is_narrow || is_channel ? 0 : kIsWide)));
+  if (is_channel) return add_channel_record(record, out);
+  if (record.counts_left_out) out.u16(record.left_out);
+  if (is_narrow) {
+    out.u8(narrow_sequence(record));
+  } else {
+    out.u8(static_cast<std::uint8_t>((record.stream >> 16 & 15) << 4 | (record.stream & 15)));
+    out.u16(static_cast<std::uint16_t>(record.stream));
+    out.u32(record.sequence);
+  }
+  write_capture(record, has_ages, chain, out);
+  if (has_ages) {
+    write_age(record.published_age_us, out);
+    write_age(record.sent_age_us, out);
+    write_age(record.server_age_us, out);
+  }
+  out.bytes(record.payload);
+  go_on(chain, record);
+}
+
+namespace {
+
+std::optional<Record> parse_brief(std::uint8_t length, RecordChain& chain, ByteReader& in) {
+  if (!chain.has_any) return std::nullopt;
+  Record record;
+  record.slot = next_slot(chain);
+  read_narrow(in.u8(), record);
+  record.capture_us = (chain.capture_ticks + static_cast<std::int8_t>(in.u8())) * kTick_us;
+  record.payload = in.bytes(length);
+  if (!in.ok() || length == 0) return std::nullopt;
+  go_on(chain, record);
+  return record;
+}
+
+bool read_numbers(ByteReader& in, Record& record) {
+  const std::uint8_t tag = in.u8();
+  const std::uint16_t restarts = in.u16();
+  record.stream = static_cast<std::uint32_t>(tag >> 4) << 16 | restarts;
+  record.sequence = in.u32();
+  return (restarts & 15) == (tag & 15);
+}
+
+}  // namespace
+
+std::optional<Record> parse_record(RecordChain& chain, ByteReader& in) {
+  const std::uint8_t length_byte = in.u8();
+  std::size_t length = length_byte & kLengthMask;
+  if ((length_byte & kIsBrief) != 0) {
+    if ((length_byte & kLongLength) != 0) return std::nullopt;
+    return parse_brief(static_cast<std::uint8_t>(length), chain, in);
+  }
+  const std::uint8_t more = (length_byte & kLongLength) != 0 ? in.u8() : 0;
+  length |= static_cast<std::size_t>(more & kHighLengthMask) << 6;
+  Record record;
+  const std::uint8_t first = in.u8();
+  record.kind = (first & kIsHands) != 0 ? RecordKind::kHands : RecordKind::kPose;
+  record.slot = first & kSlotMask;
+  if ((first & (kIsHands | kIsWide)) == kIsChannel) {
+    if ((more & ~kHighLengthMask) != 0) return std::nullopt;
+    read_channel_record(in, length, record);
+    if (!in.ok() || length == 0 || length > kMaxPayload || record.channel > 7) return std::nullopt;
+    return record;
+  }
+  record.needs_no_other = (more & kNeedsNoOther) != 0;
+  record.is_base = (more & kIsBase) != 0;
+  record.is_kept = (more & kIsKept) != 0;
+  record.counts_left_out = (more & kCountsLeftOut) != 0;
+  if (record.counts_left_out) record.left_out = in.u16();
+  if ((first & kIsWide) == 0)
+    read_narrow(in.u8(), record);
+  else if (!read_numbers(in, record))
+    return std::nullopt;
+  bool has_ages = false;
+  if (!read_capture(in, chain, has_ages, record)) return std::nullopt;
+  if (has_ages) {
+    record.published_age_us = read_age(in);
+    record.sent_age_us = read_age(in);
+    record.server_age_us = read_age(in);
+  }
+  record.payload = in.bytes(length);
+  if (!in.ok() || length == 0 || length > kMaxPayload) return std::nullopt;
+  go_on(chain, record);
+  return record;
+}
+
+bool widen(std::uint16_t generation, bool has_any, std::uint32_t stream, std::uint32_t sequence,
+           Record& record) {
+  const std::uint32_t known = record.is_narrow ? 1 : 15;
+  if ((record.stream >> 16 & known) != (generation & known)) return false;
+  auto restarts = static_cast<std::uint16_t>(record.stream);
+  if (record.is_narrow) {
+    if (!has_any || (record.stream & 1) != (stream & 1)) return false;
+    restarts = static_cast<std::uint16_t>(stream);
+    // The difference modulo 64. Further ahead than the reach is none: it came late.
+    std::uint32_t ahead = (record.sequence - sequence) & kSequenceMask;
+    if (ahead > kNarrowReach) ahead -= kSequenceMask + 1;
+    record.sequence = sequence + ahead;
+    record.is_narrow = false;
+  }
+  record.stream = std::uint32_t{generation} << 16 | restarts;
+  return true;
+}
+
+}  // namespace dance::wire

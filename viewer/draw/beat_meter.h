@@ -1,0 +1,54 @@
+// BeatMeter: how well one dancer on this stage is in time with the music of this house: how far
+// behind the beat, how much that wanders, how long after it was danced a moment is shown, and where
+// the dancer's own beats fell.
+//
+// Units/frames: positions in beats of this house's music; ms, positive is behind the beat.
+// Ownership:    plain value, no heap.
+// Threads:      none inside; one owner.
+// Failure:      figures() is nothing before eight poses with musical time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+struct BeatFigures {
+  float behind_ms = 0.0f;         // the nearest beat; circular mean of the last seconds
+  float wander_ms = 0.0f;         // its standard deviation
+  std::optional<float> delay_ms;  // negative: guessed ahead of now
+  // Where the music of this house stood when the dancer's own beats were shown, oldest first.
+  static constexpr std::size_t kOwnBeats = 16;
+  std::array<double, kOwnBeats> own_beats{};
+  std::size_t own_beat_count = 0;
+};
+
+class BeatMeter {
+ public:
+  // A pose that was danced at `own` beats is shown when this house's music stands at `heard`. The
+  // delay is from capture, of poses of a clock that can be compared.
+  void add(double own, double heard, double beats_per_second, std::optional<Duration> delay);
+  std::optional<BeatFigures> figures() const;
+
+ private:
+  static constexpr std::size_t kSamples = 240;  // 4 s at 60 Hz
+  static constexpr std::size_t kFewest = 8;
+  struct Sample {
+    float cosine = 1.0f, sine = 0.0f;  // of the part of a beat behind, as an angle
+    std::optional<float> delay_ms;
+  };
+  void note_own_beats(double own, double heard);
+
+  std::array<Sample, kSamples> samples_{};
+  std::size_t count_ = 0;
+  std::array<double, BeatFigures::kOwnBeats> own_beats_{};
+  std::size_t own_beat_count_ = 0;
+  double beats_per_second_ = 1.0;
+  double last_own_ = 0.0, last_heard_ = 0.0;
+};
+
+}  // namespace dance

@@ -1,0 +1,18 @@
+// The font of all text in pictures: DejaVu Sans where this machine has it, else ImGui's own, which
+// is coarse.
+//
+// Units/frames: sizes in pixels.
+// Ownership:    the atlas owns its fonts.
+// Threads:      the one whose ImGui context is current.
+// Failure:      find_overlay_font() is nothing where there is no DejaVu font.
+#pragma once
+
+struct ImFont;
+struct ImFontAtlas;
+
+namespace dance {
+
+const char* find_overlay_font();
+ImFont* add_overlay_font(ImFontAtlas& atlas, float size_px);
+
+}  // namespace dance

@@ -1,0 +1,68 @@
+// SceneState: everything that a picture of the stage shows, as plain values. It knows of no bus and
+// no window, so that the viewer, tests and pictures for the documents draw through the same door.
+//
+// Units/frames: poses in W, metres; rates in Hz, ages in ms; music in beats as core/base/beat.h
+//               counts them.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "core/pose/pose.h"
+#include "core/pose/skeleton.h"
+#include "viewer/draw/beat_meter.h"
+
+namespace dance {
+
+// What the HUD says about one guest; what is not known is not shown.
+struct GuestFigures {
+  float arrival_hz = 0.0f;
+  std::optional<float> age_ms;
+  std::optional<float> loss_percent = {};
+  std::optional<BeatFigures> beat = {};
+};
+
+// The music of this house at the moment of the picture.
+struct SceneMusic {
+  double beats = 0.0;
+  double beats_per_second = 2.0;
+  int beats_per_bar = 0;  // 0: not known
+};
+
+struct SceneGuest {
+  GuestId id;
+  Skeleton skeleton = average_skeleton();
+  Pose pose;
+  std::optional<Hands> hands;
+  float opacity = 1.0f;  // 0 = faded out
+  GuestFigures figures;
+  // Of a Comparison: that the figures of this dancer stand under both halves, and that this half
+  // shows a guess of the dance.
+  bool is_compared = false;
+  bool is_guess = false;
+};
+
+struct SceneState {
+  std::vector<SceneGuest> guests;
+  std::optional<SceneMusic> music;
+  // Free lines at the bottom left: the viewer's own rate, a hint when nobody is here.
+  std::vector<std::string> notes;
+};
+
+// The points of a guest that must be in the picture: all joints and ends, and room for the name
+// tag.
+void append_outline(const SceneGuest& guest, std::vector<Eigen::Vector3f>& points_W_m);
+
+// Where the tag hangs: above the head.
+Eigen::Vector3f tag_anchor_W_m(const SceneGuest& guest);
+
+// The direction in which the guest's hips look, on the floor.
+Eigen::Vector3f facing_W(const SceneGuest& guest);
+
+}  // namespace dance

@@ -1,0 +1,53 @@
+// LogFeed: a recorded house instead of a live one, for pictures that may take as long as they like:
+// fills a GuestBoard from an LCM log up to any moment, as a bus would have by then.
+//
+// Units/frames: times of the recorded house's clock; the wall clock's stamps of the log are laid
+//               onto it by the poses that reached the log soonest.
+// Ownership:    owns the log and the board.
+// Threads:      none inside; one owner.
+// Failure:      open() names a log that cannot be read, or that nobody dances in.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/log/unpacked_log.h"
+#include "viewer/program/guest_board.h"
+
+namespace dance {
+
+class LogFeed {
+ public:
+  static Result<LogFeed> open(const std::string& path, bool stage_only);
+
+  GuestBoard& board() { return *board_; }
+  MonoTime begin() const { return begin_; }
+  MonoTime end() const { return end_; }
+  // When the house's music stood there; nothing where it never did.
+  std::optional<MonoTime> time_of_beat(double beat) const;
+  // Takes in what had been said by then; moments only go on.
+  void go_on_to(MonoTime now);
+
+ private:
+  LogFeed(std::string path, UnpackedLog log) : path_(std::move(path)), log_(std::move(log)) {}
+  Result<void> look_through();
+  Result<bool> find_times(Where where, Hop last);
+  void take(const LogEvent& event, MonoTime now);
+  MonoTime time_of(const LogEvent& event) const;
+
+  struct WholeBeat {
+    double beat;
+    MonoTime time;
+  };
+  std::string path_;
+  UnpackedLog log_;
+  std::unique_ptr<GuestBoard> board_;
+  std::optional<LogEvent> next_;
+  std::uint64_t clock_id_ = 0;
+  std::int64_t wall_ahead_us_ = 0;  // of the house's clock
+  MonoTime begin_, end_;
+  std::vector<WholeBeat> beats_;
+};
+
+}  // namespace dance

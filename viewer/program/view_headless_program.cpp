@@ -1,0 +1,241 @@
+#include <sys/resource.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/program/talk.h"
+#include "viewer/draw/offscreen.h"
+#include "viewer/draw/stage_painter.h"
+#include "viewer/program/picture_source.h"
+#include "viewer/program/stage_roster.h"
+#include "viewer/program/view_program.h"
+
+namespace dance {
+namespace {
+
+// A picture may take its time, the dance may not: on a machine without a graphics card, drawing
+// would take the processor from those who send and route.
+constexpr int kDrawingNiceness = 10;
+
+constexpr std::size_t kFewMoments = 16;
+constexpr const char* kTitleOfRaw = "as it comes";
+constexpr const char* kTitleOfShown = "in rhythm";
+
+class HeadlessRun {
+ public:
+  HeadlessRun(const ViewOptions& options, std::vector<double> moments_s, PictureSource& source,
+              StagePainter& painter)
+      : options_(options),
+        moments_s_(std::move(moments_s)),
+        source_(source),
+        painter_(painter),
+        roster_(source.board()),
+        rig_(options.camera) {
+    if (options.focus) rig_.focus(*options.focus);
+  }
+
+  Result<void> run() {
+    DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
+    auto drawn = options_.moments.film ? film() : pictures(moments);
+    if (drawn && options_.focus && !focus_was_here_)
+      talk::warn("--focus {0}: nobody called {0} was on the stage of {1}", options_.focus->view(),
+                 source_.name());
+    return drawn;
+  }
+
+ private:
+  Result<void> pictures(const std::vector<MonoTime>& moments) {
+    for (const MonoTime moment : moments) {
+      scenes_.push_back(scene_at(moment));
+      if (draws_at_once())
+        if (auto written = write_picture(scenes_.back()); !written) return written;
+      if (source_.is_over()) break;
+    }
+    if (is_strip()) {
+      if (auto written = write_strip(); !written) return written;
+    } else if (!draws_at_once()) {
+      for (const SceneState& scene : scenes_)
+        if (auto written = write_picture(scene); !written) return written;
+    }
+    if (source_.board().poses() > 0) return {};
+    return fail("no poses heard on " + source_.name() +
+                "; bring dancers with: dance salsa, or dance replay FILE");
+  }
+
+  bool is_strip() const { return options_.moments.strip > 0; }
+  // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the
+  // next moment would be missed. Many are drawn as they come, for whoever waits for them.
+  bool draws_at_once() const { return !is_strip() && moments_s_.size() > kFewMoments; }
+
+  Result<std::vector<MonoTime>> moments_to_draw() const {
+    std::vector<MonoTime> moments;
+    for (const double moment_s : moments_s_)
+      moments.push_back(source_.begin() + Duration::seconds(moment_s));
+    if (options_.beats.empty()) return moments;
+    moments.clear();
+    for (const double beat : options_.beats) {
+      const auto moment = source_.time_of_beat(beat);
+      if (!moment)
+        return fail("--beats: the music of " + source_.name() + " has no beat " +
+                    std::to_string(std::lround(beat)));
+      moments.push_back(*moment);
+    }
+    return moments;
+  }
+
+  SceneState scene_at(MonoTime moment) {
+    SceneState scene;
+    roster_.update(source_.wait_until(moment), scene);
+    for (const SceneGuest& guest : scene.guests)
+      focus_was_here_ = focus_was_here_ || guest.id == options_.focus;
+    if (!options_.compare) leave_out_twins(scene);
+    if (scene.guests.empty()) scene.notes.push_back("nobody is on the stage of " + source_.name());
+    return scene;
+  }
+
+  Result<void> draw(const SceneState& scene, int width_px, const OverlayChoice& choice) {
+    painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
+    return painter_.draw(scene, rig_.camera(), width_px, options_.size.height_px, choice);
+  }
+
+  float aspect() const {
+    const PictureSize& size = options_.size;
+    return static_cast<float>(size.width_px) / static_cast<float>(size.height_px);
+  }
+
+  // One picture of the stage, or of both halves where there is something to compare.
+  Result<Picture> paint(const SceneState& scene) {
+    const OverlayChoice choice{options_.tags, options_.hud};
+    if (!has_twins(scene)) {
+      if (auto drawn = draw(scene, options_.size.width_px, choice); !drawn)
+        return tl::make_unexpected(drawn.error());
+      return painter_.read();
+    }
+    painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
+    const PictureSize& size = options_.size;
+    if (auto drawn =
+            painter_.draw(compare(scene), rig_.camera(), size.width_px, size.height_px, choice);
+        !drawn)
+      return tl::make_unexpected(drawn.error());
+    return painter_.read();
+  }
+
+  float aspect_of(const SceneState& scene) const {
+    return has_twins(scene)
+               ? painter_.aspect_of_half(options_.size.width_px, options_.size.height_px)
+               : aspect();
+  }
+
+  Result<void> write_picture(const SceneState& scene) {
+    rig_.jump({&scene}, aspect_of(scene));
+    DANCE_TRY(const Picture picture, paint(scene));
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "stage-%04d.png", ++pictures_);
+    return write(name.data(), picture);
+  }
+
+  // Every picture of it, whatever they take. The camera follows as in a window.
+  Result<void> film() {
+    const Duration period = Duration::period_of_hz(kFilm_hz);
+    const double most_s = moments_s_.back();
+    for (int k = 0; static_cast<double>(k) / kFilm_hz < most_s; ++k) {
+      const SceneState scene = scene_at(source_.begin() + period * k);
+      if (source_.is_over()) break;
+      if (k == 0)
+        rig_.jump({&scene}, aspect_of(scene));
+      else
+        rig_.update(scene, aspect_of(scene), period);
+      DANCE_TRY(const Picture picture, paint(scene));
+      std::array<char, 32> name{};
+      std::snprintf(name.data(), name.size(), "%04d.png", ++pictures_);
+      if (auto written = write(name.data(), picture); !written) return written;
+    }
+    if (pictures_ > 0) return {};
+    return fail(source_.name() + " ends before the first picture");
+  }
+
+  // The moments share one camera, so that what changes between them is the dance.
+  Result<void> write_strip() {
+    const int width_px = std::max(1, options_.size.width_px / static_cast<int>(scenes_.size()));
+    std::vector<const SceneState*> all;
+    for (const SceneState& scene : scenes_) all.push_back(&scene);
+    rig_.jump(all, static_cast<float>(width_px) / static_cast<float>(options_.size.height_px));
+    if (!has_twins(scenes_.front())) {
+      DANCE_TRY(const Picture row, paint_row(scenes_, width_px, ""));
+      return write("stage-strip.png", row);
+    }
+    std::vector<SceneState> raw, shown;
+    for (const SceneState& scene : scenes_) {
+      Comparison both = compare(scene);
+      raw.push_back(std::move(both.raw));
+      shown.push_back(std::move(both.shown));
+    }
+    DANCE_TRY(const Picture above, paint_row(raw, width_px, kTitleOfRaw));
+    DANCE_TRY(const Picture below, paint_row(shown, width_px, kTitleOfShown));
+    return write("stage-strip.png", one_above_the_other(std::array{above, below}));
+  }
+
+  Result<Picture> paint_row(const std::vector<SceneState>& scenes, int width_px,
+                            const std::string& title) {
+    std::vector<Picture> moments;
+    for (const SceneState& scene : scenes) {
+      const bool is_first = &scene == &scenes.front();
+      const OverlayChoice choice{options_.tags, false, is_first ? title : "",
+                                 options_.beats.empty() ? "" : caption_of(scene)};
+      if (auto drawn = draw(scene, width_px, choice); !drawn)
+        return tl::make_unexpected(drawn.error());
+      moments.push_back(painter_.read());
+    }
+    return side_by_side(moments);
+  }
+
+  // What a dancer counts there.
+  static std::string caption_of(const SceneState& scene) {
+    if (!scene.music) return "";
+    const int beat = static_cast<int>(std::lround(scene.music->beats));
+    if (scene.music->beats_per_bar != 4) return "beat " + std::to_string(beat);
+    return "count " + std::to_string(((beat % 8) + 8) % 8 + 1);
+  }
+
+  Result<void> write(const std::string& name, const Picture& picture) {
+    const std::string file = (std::filesystem::path(options_.out) / name).string();
+    if (auto written = write_png(file, picture); !written) return written;
+    std::printf("%s\n", file.c_str());
+    std::fflush(stdout);
+    return {};
+  }
+
+  const ViewOptions& options_;
+  const std::vector<double> moments_s_;
+  PictureSource& source_;
+  StagePainter& painter_;
+  StageRoster roster_;
+  CameraRig rig_;
+  std::vector<SceneState> scenes_;
+  int pictures_ = 0;
+  bool focus_was_here_ = false;
+};
+
+}  // namespace
+
+Result<void> run_headless(const ViewOptions& options) {
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error)
+    return fail("--out " + options.out + " cannot be made: " + error.message() +
+                "; choose another directory");
+  DANCE_TRY(auto source, PictureSource::open(options));
+  DANCE_TRY(const std::vector<double> moments_s,
+            plan_moments(options.moments, source->recorded().as_seconds()));
+  // This thread alone, and those that the driver starts from it.
+  setpriority(PRIO_PROCESS, 0, kDrawingNiceness);
+  DANCE_TRY(auto context, OffscreenContext::create());
+  const Quality quality = options.quality == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
+  DANCE_TRY(auto painter, StagePainter::create(quality, 1.0f));
+  if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
+  return HeadlessRun(options, moments_s, *source, *painter).run();
+}
+
+}  // namespace dance

@@ -1,0 +1,113 @@
+// dance view: the stage of this house, in a window or as pictures.
+
+#include <string>
+#include <vector>
+
+#include "core/program/program.h"
+#include "viewer/program/view_program.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples =
+    R"(In the window: drag turns the camera, the wheel comes nearer, right or shift drag moves it;
+  F frames everybody, 1 to 9 one guest, space starts and stops the slow turn, H shows or hides the
+  figures, C compares where there is something to compare, Q quits.
+Examples:
+  dance view                                         who dances in this house
+  dance view --focus alice --camera front
+  dance view --headless --out pictures --at 2,5,8    three pictures, no display needed
+  dance view --headless --out pictures --seconds 10 --every 0.5 --size 640x360
+  dance view --headless --out pictures --seconds 2 --strip 6 --no-hud
+  dance view --show capture                          only what this house's cameras see
+  dance view --headless --log out/demo/demo.lcm --compare --beats 16,17,18,19 --strip 4
+                                                     a recorded demo, on the beats of its music
+)";
+
+struct Wishes {
+  ViewOptions view;
+  std::string size = "1280x720";
+  std::string focus;
+  bool no_hud = false;
+  bool no_tags = false;
+};
+
+void add_options(CommandLine& line, Wishes& wishes) {
+  ViewOptions& view = wishes.view;
+  line.add("--bus", view.feed.bus_url, "LCM URL of the house's bus");
+  line.add_choice<Shown>("--show", view.feed.shown,
+                         {{"best", Shown::kBest},
+                          {"capture", Shown::kCapture},
+                          {"guest", Shown::kGuest},
+                          {"stage", Shown::kStage}},
+                         "best (own guests straight from the capture, the others from the stage), "
+                         "capture, guest or stage");
+  line.add_flag("--stage-only", view.feed.stage_only, "own guests from the stage too");
+  line.add_choice<CameraPreset>("--camera", view.camera,
+                                {{"auto", CameraPreset::kAuto},
+                                 {"front", CameraPreset::kFront},
+                                 {"side", CameraPreset::kSide},
+                                 {"top", CameraPreset::kTop},
+                                 {"orbit", CameraPreset::kOrbit}},
+                                "auto (across the line of dancers), front, side, top or orbit");
+  line.add("--focus", wishes.focus, "frame this guest").guest_name();
+  line.add_choice<QualityWish>(
+      "--quality", view.quality,
+      {{"auto", QualityWish::kAuto}, {"low", QualityWish::kLow}, {"high", QualityWish::kHigh}},
+      "auto, low (no antialiasing, mirror image or fingers) or high");
+  line.add("--size", wishes.size, "of window or pictures").shows_default();
+  line.add_flag("--no-hud", wishes.no_hud, "without the figures");
+  line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
+  line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
+  line.add("--out", view.out, "directory of the pictures").shows_default();
+  line.add("--seconds", wishes.view.moments.seconds,
+           "headless: how long to listen, 3 unless said; of a log all, unless said")
+      .range(0.05, 86400.0);
+  line.add("--at", wishes.view.moments.at_s, "headless: pictures at these seconds, as 2,5,8")
+      .split_at(',')
+      .range(0.0, 86400.0);
+  line.add("--every", wishes.view.moments.every_s, "headless: a picture every so many seconds")
+      .range(0.02, 86400.0);
+  line.add("--strip", wishes.view.moments.strip,
+           "headless: so many moments side by side in stage-strip.png")
+      .range(2, 24);
+  line.add("--log", view.log, "headless: pictures of a recorded house, from its LCM log");
+  line.add("--beats", view.beats, "headless, with --log: pictures on these beats of the music")
+      .split_at(',')
+      .range(-1'000'000.0, 1'000'000.0);
+  line.add_flag("--film", wishes.view.moments.film,
+                "headless, with --log: every picture of a film, 25 a second, as 0001.png …");
+  line.add_flag("--compare", view.compare,
+                "two halves: left as poses come (guests NAME-raw), right as routes show them");
+  line.footer(kExamples);
+}
+
+// What one option cannot check by itself.
+Result<void> finish(Wishes& wishes) {
+  DANCE_TRY(wishes.view.size, parse_size(wishes.size));
+  if (auto planned = plan_moments(wishes.view.moments); !planned)
+    return tl::make_unexpected(planned.error());
+  if (wishes.view.log.empty() && (wishes.view.moments.film || !wishes.view.beats.empty()))
+    return fail("--film and --beats need a recorded house: name it with --log");
+  if (!wishes.view.log.empty() && !wishes.view.headless)
+    return fail("--log is for pictures: add --headless, or play it with: dance replay " +
+                wishes.view.log);
+  if (!wishes.focus.empty()) wishes.view.focus = GuestId::parse(wishes.focus);
+  wishes.view.hud = !wishes.no_hud;
+  wishes.view.tags = !wishes.no_tags;
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::Wishes wishes;
+  dance::CommandLine line("Shows the stage of this house, in a window or as pictures.",
+                          "dance view");
+  dance::add_options(line, wishes);
+  line.finally([&] { return dance::finish(wishes); });
+  return dance::run_program(line, argc, argv, [&] {
+    return wishes.view.headless ? dance::run_headless(wishes.view) : dance::run_window(wishes.view);
+  });
+}

@@ -1,0 +1,61 @@
+// ViewOptions: what `dance view` was asked for.
+//
+// Units/frames: moments in seconds from the start.
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      plan_moments() and parse_size() refuse what makes no sense, in one line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "viewer/program/camera_rig.h"
+#include "viewer/program/stage_feed.h"
+
+namespace dance {
+
+constexpr double kFilm_hz = 25.0;
+
+enum class QualityWish { kAuto, kLow, kHigh };
+
+struct PictureSize {
+  int width_px = 1280;
+  int height_px = 720;
+};
+
+struct MomentWish {
+  std::vector<double> at_s;
+  double every_s = 0.0;
+  double seconds = 0.0;  // 0 = not given
+  int strip = 0;
+  bool film = false;  // kFilm_hz pictures a second up to the end
+};
+
+struct ViewOptions {
+  FeedOptions feed;
+  CameraPreset camera = CameraPreset::kAuto;
+  std::optional<GuestId> focus;
+  QualityWish quality = QualityWish::kAuto;
+  PictureSize size;
+  bool hud = true;
+  bool tags = true;
+  bool compare = false;  // two halves, where there are twins (viewer/draw/comparison.h)
+
+  bool headless = false;
+  std::string out = ".";
+  MomentWish moments;
+  std::string log;            // a recorded house; "" = a live one
+  std::vector<double> beats;  // of its music: they stand for the moments
+};
+
+// The moments of --at, or every so often up to `seconds`, or `strip` moments spread over them, or
+// one at the end. Of a recorded house, recorded_s long, all of it unless `seconds` says otherwise;
+// where one picture is to do, not later than of a live one. 0 = a live house.
+Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded_s = 0.0);
+
+// "1280x720", each side 64 to 8192.
+Result<PictureSize> parse_size(const std::string& text);
+
+}  // namespace dance
