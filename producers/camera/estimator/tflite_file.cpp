@@ -97,7 +97,7 @@ Result<PoseGraph> parse_tflite(std::span<const std::uint8_t> bytes) {
 
 Result<PoseGraph> read_tflite_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(path + ": cannot be opened; ./dance setup fetches it");
+  if (!file) return fail(path + ": cannot be opened; `dance fetch-models` fetches it");
   file.seekg(0, std::ios::end);
   const std::streamoff size = file.tellg();
   if (size < 0 || static_cast<std::size_t>(size) > kMostFile_bytes)
@@ -107,7 +107,8 @@ Result<PoseGraph> read_tflite_file(const std::string& path) {
   if (size > 0 && !file.read(reinterpret_cast<char*>(bytes.data()), size))
     return fail(path + ": cannot be read");
   auto graph = parse_tflite(bytes);
-  if (!graph) return fail(path + ": " + graph.error().what + "; ./dance setup fetches it anew");
+  if (!graph)
+    return fail(path + ": " + graph.error().what + "; `dance fetch-models` fetches it anew");
   return graph;
 }
 
