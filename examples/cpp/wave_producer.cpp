@@ -14,15 +14,15 @@ class Waver : public dance::Dancer {
   double natural_hz() const override { return 60.0; }
 
   // Rotations are of a bone in its parent; all identities are a T-pose facing +Z, +Y up. The right
-  // arm points to -X then: the upper arm turns up by 45 degrees, the lower arm waves.
+  // arm points to -X then: the upper arm turns up a little, the lower arm waves.
   void dance_at(dance::Duration t, dance::Pose& out) override {
     const auto about_z = [](float angle_rad) {
       return Eigen::Quaternionf(Eigen::AngleAxisf(angle_rad, Eigen::Vector3f::UnitZ()));
     };
     const auto wave_rad = static_cast<float>(0.5 * std::sin(2.0 * M_PI * t.as_seconds()));
     out.R_PB = dance::identity_rotations();
-    out.R_PB[index_of(dance::Bone::kRightUpperArm)] = about_z(-0.8f);
-    out.R_PB[index_of(dance::Bone::kRightLowerArm)] = about_z(-0.8f + wave_rad);
+    out.R_PB[index_of(dance::Bone::kRightUpperArm)] = about_z(-0.4f);
+    out.R_PB[index_of(dance::Bone::kRightLowerArm)] = about_z(-0.4f + wave_rad);
     out.R_PB[index_of(dance::Bone::kLeftUpperArm)] = about_z(-1.3f);  // hangs down
     out.p_WH_m = {0.0f, skeleton_.hips_height_m(), 0.0f};
   }

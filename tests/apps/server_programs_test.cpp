@@ -304,8 +304,7 @@ TEST_F(Unit, IsOneThatSystemdTakes) {
   if (run("systemd-analyze --version").exit_code != 0) GTEST_SKIP() << "systemd is not here";
   // The program is not installed here: another one stands in its place.
   const std::string unit = folder_.path("dance-server.service");
-  ASSERT_EQ(run("sed 's|^ExecStart=dance|ExecStart=/bin/true|' " +
-                std::string(kUnit) + " >" + unit)
+  ASSERT_EQ(run("sed 's|^ExecStart=dance|ExecStart=/bin/true|' " + std::string(kUnit) + " >" + unit)
                 .exit_code,
             0);
   const Finished verified = run("systemd-analyze verify " + unit + " 2>&1");
