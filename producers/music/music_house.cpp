@@ -28,10 +28,11 @@ MusicHouse::MusicHouse(MusicHouseOptions options, std::unique_ptr<MusicPlayer> p
   const MonoTime now = mono_now();
   teller_ = std::make_unique<BeatTeller>(bus_, poller_, [this](MonoTime t) { return beat(t); });
   if (options_.follows || options_.guest.is_set())
-    bus_.on_music(Where::kRoom, GuestId(),
-                  [this](const Channel& channel, const Music& music, MonoTime t) {
-                    if (music.clock_id == this_clock_id()) hear_room(channel.guest(), music, t);
-                  });
+    bus_.subscribe<Music>(Where::kRoom,
+                          [this](const Channel& channel, const Music& music, MonoTime t) {
+                            if (music.clock_id == this_clock_id())
+                              hear_room(channel.guest(), music, t);
+                          });
   wait_until_ = now + kRoomPatience;
   if (!options_.follows) begin_own(now);
   poller_.add_timer(now, [this](MonoTime t) { return work(t); });
