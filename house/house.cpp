@@ -179,7 +179,7 @@ Result<void> House::open_producers() {
 
 Result<void> House::open_consumers() {
   for (const HostedConsumer& wanted : session_.consumers) {
-    // A terminal that is stopped, or a pipe that nobody reads, would stop the house's dancers.
+    // A terminal that is stopped, or a pipe that is not read, would stop the house's dancers.
     if (wanted.file.empty() || wanted.file == "-")
       return fail("[[listen]] needs a file; to see poses in a terminal run dance listen");
     DANCE_TRY(auto output, OutputFile::open(free_name(wanted.file)));

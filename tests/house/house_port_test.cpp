@@ -1,4 +1,4 @@
-// What is hosted in one process is heard there at once, and over the bus by the others, never twice.
+// What is hosted in one process is heard there at once, and by others over the bus: never twice.
 #include "house/house_port.h"
 
 #include <gtest/gtest.h>
