@@ -76,8 +76,8 @@ LossyModel::Fate LossyModel::offer(std::size_t bytes, MonoTime now) {
   const LossySpec& spec = way_.spec;
   ++counters_.offered;
   Fate fate;
-  // With a tail both are drawn for each datagram, so that lines which differ in one of them have the
-  // other in common.
+  // With a tail both are drawn for each datagram, so that lines which differ in one of them have
+  // the other in common.
   const bool is_lost = loses(now);
   const Duration tail = draw_tail();
   if (is_lost) {

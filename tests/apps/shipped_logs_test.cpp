@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/apps/bus_programs.h"
+#include "tests/virtual_display.h"
 
 namespace dance {
 namespace {
@@ -60,6 +61,25 @@ TEST_F(ShippedLogs, ViewerDrawsThem) {
     EXPECT_EQ(view.exit_code, 0) << view.talk;
     EXPECT_TRUE(std::filesystem::remove(folder_.path("pictures/stage-0002.png"))) << view.talk;
   }
+}
+
+TEST_F(ShippedLogs, ViewerPlaysThemInAWindowOverAndOver) {
+  if (!std::filesystem::exists(bin("dance-view"))) GTEST_SKIP() << "built without the viewer";
+  const VirtualDisplay display(folder_.path());
+  if (display.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
+  setenv("DISPLAY", display.display().c_str(), 1);
+  unsetenv("WAYLAND_DISPLAY");
+  ChildProcess& view =
+      start("dance-view", {"--log", kPlain, "--quality", "low", "--camera", "front", "--no-hud"});
+  // Other pictures for longer than the recording, which is less than three seconds.
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  std::set<std::string> late_pictures;
+  ASSERT_TRUE(wait_for([&] {
+    if (std::chrono::steady_clock::now() > until)
+      late_pictures.insert(text_of(folder_.path("Xvfb_screen0")));
+    return late_pictures.size() > 5 || view.has_ended();
+  })) << text_of(folder_.path("talk"));
+  EXPECT_FALSE(view.has_ended()) << text_of(folder_.path("talk"));
 }
 
 TEST_F(ShippedLogs, GitTracksThemAndNoOtherRecording) {
