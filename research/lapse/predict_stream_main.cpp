@@ -34,15 +34,15 @@ struct Wishes {
 
 Result<void> run(const Wishes& wishes) {
   StreamOptions options;
-  DANCE_TRY(options.line.delay, parse_duration(wishes.delay));
-  DANCE_TRY(options.line.jitter, parse_duration(wishes.jitter));
-  if (options.line.delay < Duration() || options.line.delay > Duration::s(1) ||
-      options.line.jitter < Duration() || options.line.jitter > Duration::s(1))
+  DANCE_TRY(options.delay, parse_duration(wishes.delay));
+  DANCE_TRY(options.jitter, parse_duration(wishes.jitter));
+  if (options.delay < Duration() || options.delay > Duration::s(1) || options.jitter < Duration() ||
+      options.jitter > Duration::s(1))
     return fail("a line with --delay " + wishes.delay + " --jitter " + wishes.jitter +
                 " cannot be judged: 0ms to 1s, please");
-  options.line.loss_percent = wishes.loss_percent;
-  options.line.seed = wishes.seed;
-  options.line.every = wishes.every;
+  options.loss_percent = wishes.loss_percent;
+  options.seed = wishes.seed;
+  options.every = wishes.every;
   NamedSubjects subjects{
       {"raw", newest_subject()},
       {"damped velocity", damped_velocity_subject()},

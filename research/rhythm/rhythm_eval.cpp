@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "research/lapse/stream_line.h"
+#include "testing/line/line_arrivals.h"
 #include "testing/motion/beat_phase.h"
 
 namespace dance {
@@ -45,7 +45,7 @@ struct Shown {
 };
 
 // Plays the arrivals through the chain, one picture for each moment of the dance.
-Shown play(const BeatDance& dance, const std::vector<StreamArrival>& arrivals, Chain& chain,
+Shown play(const BeatDance& dance, const std::vector<LineArrival>& arrivals, Chain& chain,
            const HeardMusic& music) {
   Shown shown;
   const auto learners = chain.learners();
@@ -210,15 +210,17 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const Be
   run.name = chain.name;
   const HeardMusic listener{music, 1.0 + options.tempo_offset_percent / 100.0};
   for (const BeatDance& dance : dances) {
-    StreamLine line;
-    line.delay = options.delay;
-    line.jitter = options.jitter;
-    line.loss_percent = options.loss_percent;
-    line.seed = options.seed;
-    line.every = options.every;
+    LossySpec spec;
+    spec.delay = options.delay;
+    spec.tail = options.jitter;
+    spec.loss = 0.01 * options.loss_percent;
+    spec.seed = 0;
+    LossyModel line({.spec = spec}, options.seed);
+    auto arrivals = arrivals_over(
+        line, dance.poses.size(), [&](std::size_t i) { return dance.poses[i].capture_time; },
+        options.every);
     const MonoTime middle = at_second(0.5 * static_cast<double>(dance.poses.size()) / options.hz);
-    if (options.stall > Duration()) line.stalls.push_back({middle, options.stall, false});
-    const auto arrivals = arrivals_over(line, dance.poses);
+    stall(arrivals, middle, options.stall);
     BeatDance sent = dance;
     if (options.untagged)
       for (Pose& pose : sent.poses) pose.music_beats = kNoMusic;

@@ -1,19 +1,18 @@
-#include "research/codec/codec_line.h"
+#include "research/codec/codec_loss.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <deque>
 
-#include "core/base/random.h"
 #include "core/codec/lattice_codec.h"
+#include "testing/line/lossy_model.h"
 
 namespace dance {
 namespace {
 
 // What comes back after a round trip.
 struct Answer {
-  std::size_t at_frame = 0;
+  MonoTime at;
   std::uint32_t sequence = 0;
   bool is_decoded = false;
 };
@@ -24,9 +23,14 @@ LossResult send_over_line(const std::vector<CodecTake>& takes, const CodecEvalOp
                           References policy) {
   LossResult result;
   result.policy = name_of(policy);
-  const double loss = options.loss_percent.value_or(0.0) / 100.0;
   double sent = 0.0, bytes = 0.0, received = 0.0, decoded = 0.0, keys = 0.0;
-  Random random(7);
+  // Both directions take turns on one line, which loses in each; its delay is the round trip.
+  LossySpec spec;
+  spec.delay = options.round_trip;
+  spec.loss = options.loss_percent.value_or(0.0) / 100.0;
+  spec.seed = 0;
+  LossyModel line({.spec = spec}, 7);
+  MonoTime begin = MonoTime::from_us(1'000'000);
   for (const CodecTake& take : takes) {
     LatticeEncoder encoder(options.model);
     LatticeDecoder decoder(options.model);
@@ -34,20 +38,19 @@ LossResult send_over_line(const std::vector<CodecTake>& takes, const CodecEvalOp
     decoder.set_skeleton(take.skeleton);
     encoder.set_quality(options.error_m);
     encoder.set_references(policy);
-    const auto trip = static_cast<std::size_t>(
-        std::max(1.0, std::ceil(options.round_trip.as_seconds() * take.hz - 1e-6)));
     std::deque<Answer> answers;
-    std::size_t asked_at = 0;
+    MonoTime may_ask_from = begin;
     double gap = 0.0;
     std::array<std::uint8_t, kMaxPosePayload> payload{};
     for (std::size_t i = 0; i < take.poses.size(); ++i) {
-      for (; !answers.empty() && answers.front().at_frame <= i; answers.pop_front()) {
+      const MonoTime now = begin + Duration::seconds(static_cast<double>(i) / take.hz);
+      for (; !answers.empty() && answers.front().at <= now; answers.pop_front()) {
         if (answers.front().is_decoded) {
           encoder.acknowledged(answers.front().sequence);
-        } else if (i >= asked_at) {
+        } else if (now >= may_ask_from) {
           // One request a round trip.
           encoder.key_frame_wanted();
-          asked_at = i + trip;
+          may_ask_from = now + options.round_trip;
           keys += 1.0;
         }
       }
@@ -55,7 +58,7 @@ LossResult send_over_line(const std::vector<CodecTake>& takes, const CodecEvalOp
       const std::size_t size = encoder.encode(pose, payload);
       sent += 1.0;
       bytes += static_cast<double>(size);
-      if (random.uniform() < loss) continue;
+      if (line.offer(size, now).is_lost()) continue;
       received += 1.0;
       Pose got;
       const bool is_decoded =
@@ -63,10 +66,11 @@ LossResult send_over_line(const std::vector<CodecTake>& takes, const CodecEvalOp
       decoded += is_decoded ? 1.0 : 0.0;
       gap = is_decoded ? 0.0 : gap + 1.0;
       result.longest_gap_frames = std::max(result.longest_gap_frames, gap);
-      // The way back loses too.
-      if (random.uniform() < loss) continue;
-      answers.push_back({i + trip, pose.sequence, is_decoded});
+      const LossyModel::Fate answer = line.offer(size, now);
+      for (const MonoTime at : answer.deliveries())
+        answers.push_back({at, pose.sequence, is_decoded});
     }
+    begin += Duration::seconds(static_cast<double>(take.poses.size()) / take.hz);
   }
   result.wire_bytes = bytes / sent;
   result.decoded_fraction = decoded / received;

@@ -1,7 +1,7 @@
-// Sends takes over an emulated line that loses, under one policy of references, with
+// Sends takes over a lossy line in simulated time, under one policy of references, with
 // acknowledgements and requests for key frames on the way back, as the tunnel has them.
 //
-// Units/frames: frames are one period of the take apart.
+// Units/frames: poses are one period of the take apart; losses are the same for each policy.
 // Ownership:    none.
 // Threads:      none inside.
 // Failure:      none.
