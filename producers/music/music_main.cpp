@@ -99,8 +99,7 @@ Result<Loaded> load(const ProgramOptions& options) {
     talk::info("there is no {}: listens for the beats of {}", beats, options.file);
     auto tracked = track_song(*loaded.audio);
     if (!tracked)
-      return fail(options.file + ": " + tracked.error().what +
-                  "; put a list of its beats beside it as " + beats);
+      return fail(tracked.error().what + "; or put a list of its beats beside it as " + beats);
     loaded.confidence = tracked->confidence;
     talk::info("{} beats, about {:.0f} a minute", tracked->grid.size(),
                tracked->grid.tempo_bpm(tracked->grid.last_beat() / 2.0));
@@ -205,7 +204,7 @@ int main(int argc, char** argv) {
   dance::ProgramOptions options;
   dance::CommandLine line("Plays music, and says the beat that is heard in this house.",
                           "dance music");
-  line.add("FILE", options.file, "the music: .ogg, .flac, .wav, .mp3, .opus");
+  line.add("FILE", options.file, "the music: .ogg, .flac, .wav, .mp3, .opus, .m4a");
   line.add("--beats", options.beats,
            "list of its beats; without it, the .beats file beside FILE, or what is heard");
   line.add("--bus", options.bus, "LCM URL of the house's bus");

@@ -13,7 +13,8 @@ constexpr std::size_t kFewestTrackedBeats = 8;
 
 Result<TrackedSong> track_song(AudioFile& file) {
   if (file.rate_hz() < BeatTracker::kLeastRate_hz || file.rate_hz() > BeatTracker::kMostRate_hz)
-    return fail("no beats can be heard at " + std::to_string(static_cast<int>(file.rate_hz())) +
+    return fail(file.path() + ": no beats can be heard at " +
+                std::to_string(static_cast<int>(file.rate_hz())) +
                 " samples a second; convert it to 44100");
   BeatTracker tracker(file.rate_hz());
   std::vector<float> hop(tracker.hop_samples());
@@ -35,7 +36,8 @@ Result<TrackedSong> track_song(AudioFile& file) {
     next.playing = has_begun;
   }
   if (auto back = file.seek(0); !back) return tl::make_unexpected(back.error());
-  if (beats.size() < kFewestTrackedBeats) return fail("no steady beat is heard in it");
+  if (beats.size() < kFewestTrackedBeats)
+    return fail(file.path() + ": no steady beat is heard in it");
   DANCE_TRY(BeatGrid grid, BeatGrid::make(beats));
   return TrackedSong{std::move(grid),
                      static_cast<float>(confidence / static_cast<double>(beats.size()))};

@@ -9,8 +9,8 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "producers/music/audio_file.h"
 #include "producers/music/beat_grid.h"
+#include "producers/music/decode/audio_file.h"
 
 namespace dance {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/histogram.h"
-#include "producers/music/audio_file.h"
+#include "producers/music/decode/audio_file.h"
 #include "producers/music/music_player.h"
 #include "producers/music/play_plan.h"
 #include "producers/music/sound/pulse_output.h"
