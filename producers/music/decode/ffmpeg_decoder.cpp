@@ -10,11 +10,12 @@ extern "C" {
 namespace dance {
 namespace {
 
+constexpr AVRational kMicroseconds = {1, AV_TIME_BASE};
 constexpr int kMostBadPackets = 64;
 constexpr int kMostDecoded_frames = 1 << 20;
 // Decoders that begin in the middle need some packets before what they give is right; the second
 // is for containers that find their way roughly.
-constexpr std::array<int, 2> kPreroll_s = {1, 10};
+constexpr std::array<std::int64_t, 2> kPreroll_s = {1, 10};
 // So far it is quicker to read on than to seek.
 constexpr int kReadOn_s = 2;
 // Of the preroll at least this part has to be there in truth.
@@ -23,6 +24,13 @@ constexpr int kLastPart_s = 10;
 // What the container left out is silence where it is longer than a fiftieth of a second: shorter is
 // how coarsely it counts.
 constexpr int kGapsPerSecond = 50;
+constexpr int kLongestGap_s = 60;  // longer is a damaged time
+
+// A time that can be reckoned with; not each packet has one.
+bool is_time(std::int64_t time) {
+  constexpr std::int64_t kMostTime = std::int64_t{1} << 60;
+  return time > -kMostTime && time < kMostTime;  // AV_NOPTS_VALUE is below
+}
 constexpr std::int64_t kDiscarded_frames = 4096;
 
 }  // namespace
@@ -63,10 +71,10 @@ Result<void> FfmpegDecoder::find_length() {
   format_.length_frames = kMostAudio_frames + 1;
   bool is_there = false;
   if (said_us > 0) {
-    const std::int64_t said_frames = frame_of(said_us, AV_TIME_BASE_Q);
+    const std::int64_t said_frames = frame_of(said_us, kMicroseconds);
     if (said_frames > kMostAudio_frames) return fail("longer than 12 hours; cut it");
     const std::int64_t last_part_frames = std::int64_t{kLastPart_s} * format_.rate_hz;
-    DANCE_TRY(is_there, enter(said_frames, last_part_frames));
+    is_there = enter(said_frames, last_part_frames);
   }
   // Or the whole, where there is no way to the last part.
   if (!is_there)
@@ -135,14 +143,15 @@ Result<bool> FfmpegDecoder::next_samples() {
   DANCE_TRY(const bool more, decode());
   if (!more) return false;
   if (auto converted = convert(); !converted) return tl::make_unexpected(converted.error());
-  if (decoded_->pts == AV_NOPTS_VALUE || first_time_ == AV_NOPTS_VALUE) return true;
-  const std::int64_t frame = frame_of(decoded_->pts - first_time_, input_->sound().time_base);
-  const std::int64_t missing = std::min(frame, format_.length_frames) - at_frame_;
+  const auto frame = decoded_frame();
+  if (!frame) return true;
+  const std::int64_t missing = std::min(*frame, format_.length_frames) - at_frame_;
+  if (missing > std::int64_t{kLongestGap_s} * format_.rate_hz) return true;
   if (missing > format_.rate_hz / kGapsPerSecond || (needs_place_ && missing > 0))
     silent_ = static_cast<std::size_t>(missing);
   else if (needs_place_)
-    used_ = std::min(static_cast<std::size_t>(-missing),
-                     samples_.size() / static_cast<std::size_t>(format_.channels));
+    used_ = static_cast<std::size_t>(std::min<std::int64_t>(
+        -missing, static_cast<std::int64_t>(samples_.size()) / format_.channels));
   needs_place_ = false;
   return true;
 }
@@ -190,11 +199,9 @@ Result<void> FfmpegDecoder::make_converter(const Sampling& from) {
 
 Result<void> FfmpegDecoder::seek(std::int64_t frame) {
   if (frame < at_frame_ || frame - at_frame_ > std::int64_t{kReadOn_s} * format_.rate_hz) {
-    bool is_there = false;
-    for (const int preroll_s : kPreroll_s)
-      if (!is_there) {
-        DANCE_TRY(is_there, enter(frame, std::int64_t{preroll_s} * format_.rate_hz));
-      }
+    const bool is_there = std::any_of(
+        kPreroll_s.begin(), kPreroll_s.end(),
+        [&](std::int64_t preroll_s) { return enter(frame, preroll_s * format_.rate_hz); });
     if (!is_there)
       if (auto begun = rewind(); !begun) return begun;
   }
@@ -202,27 +209,31 @@ Result<void> FfmpegDecoder::seek(std::int64_t frame) {
 }
 
 // Whether the container has a way to somewhere before that frame, and says where that is.
-Result<bool> FfmpegDecoder::enter(std::int64_t frame, std::int64_t preroll_frames) {
-  if (first_time_ == AV_NOPTS_VALUE || frame <= preroll_frames) return false;
-  const AVRational unit = input_->sound().time_base;
-  const std::int64_t time =
-      first_time_ + av_rescale_q(frame - preroll_frames, AVRational{1, format_.rate_hz}, unit);
-  if (!input_->seek(time)) return false;
+bool FfmpegDecoder::enter(std::int64_t frame, std::int64_t preroll_frames) {
+  if (!is_time(first_time_) || frame <= preroll_frames) return false;
+  const std::int64_t from_first = av_rescale_q(
+      frame - preroll_frames, AVRational{1, format_.rate_hz}, input_->sound().time_base);
+  if (!input_->seek(first_time_ + from_first)) return false;
   avcodec_flush_buffers(decoder_.get());
   converter_.reset();
   silent_ = 0;
-  // The first packet may need one before it.
+  // The first packet may need one before it, and not each has a time.
   for (int packets = 0; packets < kMostBadPackets; ++packets) {
-    DANCE_TRY(const bool more, decode());
-    if (!more) return false;
-    if (decoded_->pts == AV_NOPTS_VALUE) continue;
-    at_frame_ = frame_of(decoded_->pts - first_time_, unit);
+    if (!decode().value_or(false)) return false;
+    const auto at = decoded_frame();
+    if (!at) continue;
+    at_frame_ = *at;
     needs_place_ = false;
-    if (at_frame_ < 0 || at_frame_ > frame - preroll_frames / kSettledPart) return false;
-    if (auto converted = convert(); !converted) return tl::make_unexpected(converted.error());
-    return true;
+    return at_frame_ >= 0 && at_frame_ <= frame - preroll_frames / kSettledPart &&
+           convert().has_value();
   }
   return false;
+}
+
+// Where in the song decoded_ is, by its container.
+std::optional<std::int64_t> FfmpegDecoder::decoded_frame() const {
+  if (!is_time(decoded_->pts) || !is_time(first_time_)) return std::nullopt;
+  return frame_of(decoded_->pts - first_time_, input_->sound().time_base);
 }
 
 // To that frame, or to the end where it comes first.

@@ -8,6 +8,7 @@
 //               a row are an Error.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "producers/music/decode/audio_decoder.h"
@@ -36,11 +37,12 @@ class FfmpegDecoder : public AudioDecoder {
   Result<void> rewind();
   Result<void> find_length();
   std::int64_t frame_of(std::int64_t time, AVRational unit) const;
+  std::optional<std::int64_t> decoded_frame() const;
   Result<bool> decode();
   Result<bool> next_samples();
   Result<void> convert();
   Result<void> make_converter(const Sampling& from);
-  Result<bool> enter(std::int64_t frame, std::int64_t preroll_frames);
+  bool enter(std::int64_t frame, std::int64_t preroll_frames);
   Result<void> discard_until(std::int64_t frame);
 
   std::string path_;

@@ -16,16 +16,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kRate_hz = 44100;
-constexpr double kLength_s = 13.0;
+constexpr int kSongRate_hz = 44100;
+constexpr double kSong_s = 13.0;
 constexpr double kFirst_s = 0.25, kPeriod_s = 0.5;
 constexpr double kClose_s = 0.005;
 constexpr const char* kDecoderPackages =
     "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev";
 
-std::vector<double> clicks_s() {
+std::vector<double> song_clicks_s() {
   std::vector<double> times_s;
-  for (double at_s = kFirst_s; at_s < kLength_s - 0.1; at_s += kPeriod_s) times_s.push_back(at_s);
+  for (double at_s = kFirst_s; at_s < kSong_s - 0.1; at_s += kPeriod_s) times_s.push_back(at_s);
   return times_s;
 }
 
@@ -46,7 +46,8 @@ class AudioFormats : public testing::Test {
       GTEST_SKIP() << "no ffmpeg program, which makes the songs; apt-get install ffmpeg";
     folder_ = fs::temp_directory_path() / ("audio_formats_test." + std::to_string(::getpid()));
     fs::create_directories(folder_);
-    write_wav(path("clicks.wav"), click_track(clicks_s(), kLength_s, kRate_hz), 1, kRate_hz);
+    write_wav(path("clicks.wav"), click_track(song_clicks_s(), kSong_s, kSongRate_hz), 1,
+              kSongRate_hz);
   }
   void TearDown() override { fs::remove_all(folder_); }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -63,16 +64,16 @@ class AudioFormats : public testing::Test {
   fs::path folder_;
 };
 
-struct Song {
+struct SongFile {
   const char* name;
   const char* arguments;
   bool needs_ffmpeg;
   std::int64_t seek_error_frames = 0;
 };
 
-std::ostream& operator<<(std::ostream& out, const Song& song) { return out << song.name; }
+std::ostream& operator<<(std::ostream& out, const SongFile& song) { return out << song.name; }
 
-class SongFormat : public AudioFormats, public testing::WithParamInterface<Song> {
+class SongFormat : public AudioFormats, public testing::WithParamInterface<SongFile> {
  protected:
   void SetUp() override {
     AudioFormats::SetUp();
@@ -87,7 +88,7 @@ class SongFormat : public AudioFormats, public testing::WithParamInterface<Song>
   }
 };
 
-std::vector<float> all_of(AudioFile& file) {
+std::vector<float> samples_of(AudioFile& file) {
   std::vector<float> samples(static_cast<std::size_t>(file.length_frames()) + 4096);
   const auto read = file.read(samples);
   EXPECT_TRUE(read) << read.error().what;
@@ -99,13 +100,13 @@ TEST_P(SongFormat, HasItsClicksWhereTheWavHasThem) {
   const std::string path = song();
   testing::internal::CaptureStderr();
   auto file = AudioFile::open(path);
-  const std::vector<float> samples = file ? all_of(*file) : std::vector<float>();
+  const std::vector<float> samples = file ? samples_of(*file) : std::vector<float>();
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   ASSERT_TRUE(file) << file.error().what;
-  EXPECT_NEAR(file->length_s(), kLength_s, kClose_s);
+  EXPECT_NEAR(file->length_s(), kSong_s, kClose_s);
   EXPECT_NEAR(static_cast<double>(samples.size()), static_cast<double>(file->length_frames()),
               static_cast<double>(GetParam().seek_error_frames));
-  for (const double click_s : clicks_s()) {
+  for (const double click_s : song_clicks_s()) {
     auto at = static_cast<std::size_t>((click_s - 0.1) * file->rate_hz());
     while (at < samples.size() && std::abs(samples[at]) < 0.3f) ++at;
     EXPECT_NEAR(static_cast<double>(at) / file->rate_hz(), click_s, kClose_s);
@@ -115,7 +116,7 @@ TEST_P(SongFormat, HasItsClicksWhereTheWavHasThem) {
 TEST_P(SongFormat, ReadsTheSameAfterASeekAsWithoutOne) {
   auto file = AudioFile::open(song());
   ASSERT_TRUE(file) << file.error().what;
-  const std::vector<float> samples = all_of(*file);
+  const std::vector<float> samples = samples_of(*file);
   constexpr std::int64_t kEdge = 100;
   std::vector<float> again(3000);
   for (const double to_s : {0.01, 12.2, 0.3, 11.7, 4.1, 4.2, 8.9, 2.0, 1.01, 0.003}) {
@@ -147,21 +148,22 @@ TEST_P(SongFormat, ReadsTheSameAfterASeekAsWithoutOne) {
 INSTANTIATE_TEST_SUITE_P(
     AsFfmpegWritesThem, SongFormat,
     testing::Values(
-        Song{"song.mp3", "-i clicks.wav", false},
-        Song{"cover.mp3", "-i clicks.wav -i cover.png -map 0 -map 1 -c:v copy -id3v2_version 3",
-             false},
-        Song{"song.flac", "-i clicks.wav", false}, Song{"song.opus", "-i clicks.wav", false},
+        SongFile{"song.mp3", "-i clicks.wav", false},
+        SongFile{"cover.mp3", "-i clicks.wav -i cover.png -map 0 -map 1 -c:v copy -id3v2_version 3",
+                 false},
+        SongFile{"song.flac", "-i clicks.wav", false},
+        SongFile{"song.opus", "-i clicks.wav", false},
         // libsndfile is off by the padding of the last page when it enters there.
-        Song{"song.ogg", "-i clicks.wav", false, 1024},
-        Song{"cover.ogg", "-i clicks.wav -i cover.png -map 1 -map 0", true},
-        Song{"song.m4a", "-i clicks.wav", true},
-        Song{"cover.m4a",
-             "-i clicks.wav -i cover.png -map 0 -map 1 -c:v copy -disposition:v attached_pic",
-             true},
-        Song{"lossless.m4a", "-i clicks.wav -c:a alac", true},
+        SongFile{"song.ogg", "-i clicks.wav", false, 1024},
+        SongFile{"cover.ogg", "-i clicks.wav -i cover.png -map 1 -map 0", true},
+        SongFile{"song.m4a", "-i clicks.wav", true},
+        SongFile{"cover.m4a",
+                 "-i clicks.wav -i cover.png -map 0 -map 1 -c:v copy -disposition:v attached_pic",
+                 true},
+        SongFile{"lossless.m4a", "-i clicks.wav -c:a alac", true},
         // Its times are milliseconds.
-        Song{"song.webm", "-i clicks.wav", true, 48},
-        Song{"film.mp4", "-f lavfi -i testsrc=s=64x64:r=25:d=13 -i clicks.wav", true}),
+        SongFile{"song.webm", "-i clicks.wav", true, 48},
+        SongFile{"film.mp4", "-f lavfi -i testsrc=s=64x64:r=25:d=13 -i clicks.wav", true}),
     [](const auto& test) {
       std::string name = test.param.name;
       name[name.find('.')] = '_';
@@ -170,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 #ifdef DANCE_HAVE_FFMPEG
 
-std::string open_error(const std::string& file) {
+std::string error_of(const std::string& file) {
   const auto audio = AudioFile::open(file);
   return audio ? "no error" : audio.error().what;
 }
@@ -179,16 +181,16 @@ TEST_F(AudioFormats, AFileWithoutSoundIsNamedWithItsCure) {
   testing::internal::CaptureStderr();
   for (const char* name : {"silent.ogg", "silent.mp4"}) {
     const std::string film = make("-f lavfi -i testsrc=s=64x64:r=5:d=1", name);
-    EXPECT_EQ(open_error(film), film + ": no sound in it; name a file of music");
+    EXPECT_EQ(error_of(film), film + ": no sound in it; name a file of music");
   }
   const std::string picture = make("-f lavfi -i testsrc=s=64x64 -frames:v 1", "cover.png");
-  EXPECT_EQ(open_error(picture).find(picture + ": no music that can be read"), 0u);
+  EXPECT_EQ(error_of(picture).find(picture + ": no music that can be read"), 0u);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(AudioFormats, ADamagedFileIsNotAdvisedToBecomeWhatItIs) {
   write_bytes(path("noise.ogg"), "OggS" + std::string(3000, '\x5a'));
-  const std::string error = open_error(path("noise.ogg"));
+  const std::string error = error_of(path("noise.ogg"));
   EXPECT_EQ(error.find(path("noise.ogg") + ": "), 0u) << error;
   EXPECT_NE(error.find("copy it again"), std::string::npos) << error;
   EXPECT_EQ(error.find("to .ogg"), std::string::npos) << error;
@@ -207,7 +209,7 @@ TEST_F(AudioFormats, NoFileLeadsToAnother) {
             "<Period><BaseURL>" +
                 url + "</BaseURL></Period></MPD>\n"}}) {
     write_bytes(path(name), text);
-    EXPECT_EQ(open_error(path(name)).find(path(name) + ": no "), 0u) << open_error(path(name));
+    EXPECT_EQ(error_of(path(name)).find(path(name) + ": no "), 0u) << error_of(path(name));
   }
 }
 
@@ -219,9 +221,9 @@ TEST_F(AudioFormats, ATruncatedSongEndsOrSaysSo) {
     EXPECT_NE(file.error().what.find("copy it again"), std::string::npos) << file.error().what;
     return;
   }
-  std::vector<float> samples(static_cast<std::size_t>(kLength_s * kRate_hz) + 4096);
+  std::vector<float> samples(static_cast<std::size_t>(kSong_s * kSongRate_hz) + 4096);
   const auto read = file->read(samples);
-  EXPECT_LE(read.value_or(0), static_cast<std::size_t>(kLength_s * kRate_hz));
+  EXPECT_LE(read.value_or(0), static_cast<std::size_t>(kSong_s * kSongRate_hz));
 }
 
 // Packets in the middle that cannot be decoded: what comes after them stays where it was.
@@ -232,9 +234,9 @@ TEST_F(AudioFormats, ADamagedMiddleDoesNotMoveTheRest) {
   write_bytes(path("hurt.webm"), bytes);
   auto file = AudioFile::open(path("hurt.webm"));
   ASSERT_TRUE(file) << file.error().what;
-  const std::vector<float> samples = all_of(*file);
-  for (const double click_s : clicks_s()) {
-    if (click_s > 0.35 * kLength_s && click_s < 0.8 * kLength_s) continue;
+  const std::vector<float> samples = samples_of(*file);
+  for (const double click_s : song_clicks_s()) {
+    if (click_s > 0.35 * kSong_s && click_s < 0.8 * kSong_s) continue;
     auto at = static_cast<std::size_t>((click_s - 0.1) * file->rate_hz());
     while (at < samples.size() && std::abs(samples[at]) < 0.3f) ++at;
     EXPECT_NEAR(static_cast<double>(at) / file->rate_hz(), click_s, kClose_s);
