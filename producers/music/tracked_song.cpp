@@ -20,7 +20,7 @@ Result<TrackedSong> track_song(AudioFile& file) {
   std::vector<float> hop(tracker.hop_samples());
   std::vector<GridBeat> beats;
   double confidence = 0.0;
-  Beat next;  // as it was said last before it came
+  Beat next;  // as last predicted
   for (;;) {
     DANCE_TRY(const std::size_t read, file.read(hop));
     if (read == 0) break;
@@ -32,7 +32,7 @@ Result<TrackedSong> track_song(AudioFile& file) {
     }
     const bool has_begun = next.playing || beat.playing;
     next = beat;
-    // In a pause the line goes on, and so do the beats.
+    // In a pause the phase lock goes on, and so do the beats.
     next.playing = has_begun;
   }
   if (auto back = file.seek(0); !back) return tl::make_unexpected(back.error());
