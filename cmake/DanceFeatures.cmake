@@ -76,6 +76,10 @@ dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
 
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
 dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
+# What libsndfile cannot read; from FFmpeg 5.1 on, which has the channel layouts that are used.
+pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample)
+dance_optional(DANCE_FFMPEG "Music with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
+  "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 

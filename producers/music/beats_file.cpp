@@ -42,7 +42,8 @@ bool read_whole(std::string_view text, T& value) {
 }  // namespace
 
 Result<BeatGrid> parse_beats(std::string_view text) {
-  if (text.size() > kMostBeatsFile_bytes) return fail("more than 4 MiB; no list of beats is");
+  if (text.size() > kMostBeatsFile_bytes)
+    return fail("more than 4 MiB; a list of beats is smaller");
   std::vector<GridBeat> beats;
   std::vector<std::size_t> lines;  // of each beat, for what is found wrong later
   for (std::size_t number = 1; !text.empty(); ++number) {
@@ -74,7 +75,7 @@ Result<BeatGrid> read_beats_file(const std::string& path) {
     return fail(path + ": " + (errno == ENOENT ? "no such file" : std::strerror(errno)));
   if (!S_ISREG(status.st_mode)) return fail(path + ": no regular file; name a .beats file");
   if (static_cast<std::size_t>(status.st_size) > kMostBeatsFile_bytes)
-    return fail(path + ": more than 4 MiB; no list of beats is");
+    return fail(path + ": more than 4 MiB; a list of beats is smaller");
   std::ifstream file(path, std::ios::binary);
   if (!file.is_open()) return fail(path + ": " + std::strerror(errno));
   std::string text(static_cast<std::size_t>(status.st_size), '\0');

@@ -1,4 +1,4 @@
-// data/music/beats.model, as bytes of this library: the assembler takes the file in.
+// data/music/beats.model, as bytes of this library: included by the assembler.
 #include "core/base/assert.h"
 #include "producers/music/tracker/beat_model.h"
 

@@ -1,4 +1,4 @@
-#include "producers/music/music_house.h"
+#include "producers/music/music_program.h"
 
 #include <cmath>
 
@@ -10,48 +10,49 @@ namespace {
 
 constexpr Duration kPlayerTurn = Duration::ms(10);
 constexpr Duration kMusicSecond = Duration::s(1);
-// A link says the room's music once a second.
-constexpr Duration kRoomPatience = Duration::ms(3500);
+// A link publishes the room's music once a second.
+constexpr Duration kRoomTimeout = Duration::ms(3500);
 constexpr Duration kNever = Duration::s(1LL << 32);
-// A room whose music has been over for longer has none.
-constexpr Duration kRoomSilence = Duration::s(4);
+// Music that was not heard of for longer has ended.
+constexpr Duration kRoomMusicTimeout = Duration::s(4);
 
 }  // namespace
 
-MusicHouse::MusicHouse(MusicHouseOptions options, std::unique_ptr<MusicPlayer> player, Bus& bus,
-                       Poller& poller)
+MusicProgram::MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPlayer> player,
+                           Bus& bus, Poller& poller)
     : options_(std::move(options)),
       player_(std::move(player)),
       bus_(bus),
       poller_(poller),
       room_music_(options_.title, this_clock_id()) {
   const MonoTime now = mono_now();
-  teller_ = std::make_unique<BeatTeller>(bus_, poller_, [this](MonoTime t) { return beat(t); });
+  publisher_ =
+      std::make_unique<BeatPublisher>(bus_, poller_, [this](MonoTime t) { return beat(t); });
   if (options_.follows || options_.guest.is_set())
     bus_.on_music(Where::kRoom, GuestId(),
                   [this](const Channel& channel, const Music& music, MonoTime t) {
-                    if (music.clock_id == this_clock_id()) hear_room(channel.guest(), music, t);
+                    if (music.clock_id == this_clock_id()) on_room_music(channel.guest(), music, t);
                   });
-  wait_until_ = now + kRoomPatience;
+  wait_until_ = now + kRoomTimeout;
   if (!options_.follows) begin_own(now);
   poller_.add_timer(now, [this](MonoTime t) { return work(t); });
   poller_.add_timer(now, [this](MonoTime t) { return each_second(t); });
 }
 
-void MusicHouse::begin_own(MonoTime now) {
+void MusicProgram::begin_own(MonoTime now) {
   begin_ = options_.begin.is_set() ? options_.begin : now;
   is_leader_ = options_.guest.is_set();
   state_ = State::kPlays;
   play();
 }
 
-// What another house plays is over when that house says so.
-void MusicHouse::play() {
+// A song that another house leads ends when that house ends it.
+void MusicProgram::play() {
   options_.song->set_loops(options_.loops || (state_ == State::kFollows && !is_leader_));
   player_->play_from(begin_, options_.song->loops());
 }
 
-void MusicHouse::hear_room(const GuestId& setter, const Music& music, MonoTime now) {
+void MusicProgram::on_room_music(const GuestId& setter, const Music& music, MonoTime now) {
   room_ = music;
   room_setter_ = setter;
   const bool is_ours = setter == options_.guest;
@@ -64,7 +65,7 @@ void MusicHouse::hear_room(const GuestId& setter, const Music& music, MonoTime n
   if (options_.follows && state_ != State::kStopped) follow(setter, music, now);
 }
 
-void MusicHouse::follow(const GuestId& setter, const Music& music, MonoTime now) {
+void MusicProgram::follow(const GuestId& setter, const Music& music, MonoTime now) {
   const bool is_this_song = options_.song && music.title == options_.title;
   if (!music.playing) {
     if (state_ != State::kWaits) wait_for_room(now);
@@ -83,27 +84,27 @@ void MusicHouse::follow(const GuestId& setter, const Music& music, MonoTime now)
   const bool is_ours = setter == options_.guest;
   options_.song->set_loops(options_.loops || !is_ours);
   const MonoTime begin = begin_of_room_music(music, *options_.song);
-  // Yesterday's song that nobody has ended is none.
+  // A song whose leader left without ending it is over.
   if (options_.song->is_over((now - begin).as_seconds()) && state_ == State::kWaits) return;
   if (state_ != State::kFollows)
     talk::info("joins '{}', which {} plays, at {:.1f} s", music.title.view(), setter.view(),
                std::max(0.0, (now - begin).as_seconds()));
   state_ = State::kFollows;
-  // What this guest had wished for is taken up again, as after a pause of this program.
+  // This guest's own song, from before a restart of this program: it leads again.
   is_leader_ = is_ours;
   begin_ = begin;
   play();
 }
 
-// Whoever stopped the music may begin it again; it is not for us to do so.
-void MusicHouse::wait_for_room(MonoTime now) {
-  talk::info("the room's music stands; Ctrl-C ends this");
+// Only the house that stopped the music starts it again.
+void MusicProgram::wait_for_room(MonoTime now) {
+  talk::info("the room's music has stopped; Ctrl-C ends this");
   stop(now);
   state_ = State::kWaits;
   wait_until_ = now + kNever;
 }
 
-MonoTime MusicHouse::work(MonoTime now) {
+MonoTime MusicProgram::work(MonoTime now) {
   if (auto worked = player_->work(now); !worked) {
     talk::warn("{}; keeps the time without sound", worked.error().what);
     player_ = std::make_unique<SilentPlayer>();
@@ -123,22 +124,22 @@ MonoTime MusicHouse::work(MonoTime now) {
   return now + kPlayerTurn;
 }
 
-MonoTime MusicHouse::each_second(MonoTime now) {
+MonoTime MusicProgram::each_second(MonoTime now) {
   if (is_leader_ && (state_ == State::kPlays || state_ == State::kFollows))
     bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest),
-                 room_music_.tell(*options_.song, begin_, now));
-  const bool hears_another = teller_->hears_another(now);
-  if (hears_another && !said_another_) talk::warn("{}", kAnotherSaysTheBeat);
-  said_another_ = hears_another;
+                 room_music_.update(*options_.song, begin_, now));
+  const bool hears_another_publisher = publisher_->hears_another_publisher(now);
+  if (hears_another_publisher && !warned_of_another_) talk::warn("{}", kAnotherPublisher);
+  warned_of_another_ = hears_another_publisher;
   return now + kMusicSecond;
 }
 
-std::optional<Beat> MusicHouse::beat(MonoTime now) const {
+std::optional<Beat> MusicProgram::beat(MonoTime now) const {
   switch (state_) {
     case State::kWaits:
       return std::nullopt;
     case State::kKeepsRoomTime:
-      if (!room_ || now - room_->time > kRoomSilence) return std::nullopt;
+      if (!room_ || now - room_->time > kRoomMusicTimeout) return std::nullopt;
       return beat_of_room_music(*room_, now);
     case State::kPlays:
     case State::kFollows: {
@@ -150,7 +151,7 @@ std::optional<Beat> MusicHouse::beat(MonoTime now) const {
       Beat stopped;
       stopped.time = stopped.beat_time = now;
       stopped.clock_id = this_clock_id();
-      stopped.beat = stood_at_beats_;
+      stopped.beat = stopped_at_beats_;
       stopped.tempo_bpm = options_.song ? options_.song->tempo_bpm(0.0) : 120.0;
       stopped.beats_per_bar = options_.song ? options_.song->beats_per_bar() : 0;
       stopped.confidence = options_.confidence;
@@ -160,40 +161,40 @@ std::optional<Beat> MusicHouse::beat(MonoTime now) const {
   return std::nullopt;
 }
 
-std::optional<Beat> MusicHouse::beat_of_song(double heard_s, MonoTime now) const {
+std::optional<Beat> MusicProgram::beat_of_song(double heard_s, MonoTime now) const {
   const Song& song = *options_.song;
   const Song::NextBeat next = song.next_beat(heard_s);
-  Beat said;
-  said.time = now;
-  said.clock_id = this_clock_id();
-  said.beat_time = now + Duration::seconds(next.song_s - heard_s);
-  said.beat = next.beat;
-  said.tempo_bpm = next.tempo_bpm;
-  said.beats_per_bar = song.beats_per_bar();
-  said.confidence = options_.confidence;
-  said.playing = true;
+  Beat coming;
+  coming.time = now;
+  coming.clock_id = this_clock_id();
+  coming.beat_time = now + Duration::seconds(next.song_s - heard_s);
+  coming.beat = next.beat;
+  coming.tempo_bpm = next.tempo_bpm;
+  coming.beats_per_bar = song.beats_per_bar();
+  coming.confidence = options_.confidence;
+  coming.playing = true;
   // Before the song there is nothing to dance to.
   if (heard_s < 0.0) {
-    said.playing = false;
-    said.beat = song.beat_at(0.0);
-    said.beat_time = now;
+    coming.playing = false;
+    coming.beat = song.beat_at(0.0);
+    coming.beat_time = now;
   }
-  return said;
+  return coming;
 }
 
-void MusicHouse::stop(MonoTime now) {
+void MusicProgram::stop(MonoTime now) {
   if (state_ == State::kStopped) return;
   const auto heard_s = player_->heard_s(now);
   const bool was_song = state_ == State::kPlays || state_ == State::kFollows;
-  if (was_song && heard_s) stood_at_beats_ = options_.song->beat_at(std::max(0.0, *heard_s));
-  const bool had_said = teller_->told() > 0;
+  if (was_song && heard_s) stopped_at_beats_ = options_.song->beat_at(std::max(0.0, *heard_s));
+  const bool had_published = publisher_->published() > 0;
   if (is_leader_ && was_song)
     bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest),
-                 room_music_.tell_stopped(stood_at_beats_, now));
+                 room_music_.update_stopped(stopped_at_beats_, now));
   is_leader_ = false;
   player_->pause();
   state_ = State::kStopped;
-  if (had_said) teller_->tell(now);
+  if (had_published) publisher_->publish(now);
 }
 
 }  // namespace dance

@@ -1,10 +1,10 @@
-// MicrophoneBeats: the beat of the music that a microphone hears, on this house's clock: the sound
-// server's latency is counted out.
+// MicrophoneBeats: tracks the beat of the music that a microphone records, on this house's clock;
+// the sound server's latency is subtracted.
 //
-// Units/frames: `trim` is the latency before the server's knowledge.
+// Units/frames: `trim` is latency that the server does not know of.
 // Ownership:    owns its connection with the server and the tracker.
 // Threads:      none inside; work() is to be called a hundred times a second.
-// Failure:      open() names what is missing; work() fails when the server has gone.
+// Failure:      open() names what is missing; work() fails when the connection is lost.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ class MicrophoneBeats {
   std::unique_ptr<PulseServer> server_;
   BeatTracker tracker_;
   std::unique_ptr<PulseInput> input_;  // last: its samples go to what stands above
-  MonoTime next_question_;
+  MonoTime next_timing_request_;
 };
 
 }  // namespace dance

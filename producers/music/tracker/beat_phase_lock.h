@@ -1,11 +1,11 @@
-// BeatLine: the beats as one steady, counted line through what a BarPointer believes: small
-// corrections are taken in softly, another line is taken only when it is clearly the likelier one,
-// and each beat has the next number.
+// BeatPhaseLock: locks a steady, counted sequence of beats to the probabilities of a BarPointer:
+// small differences are corrected gradually, another phase or tempo is adopted only when it is
+// clearly likelier, and beats are numbered without a gap.
 //
 // Units/frames: seconds of one clock that the caller chooses.
 // Ownership:    plain value.
 // Threads:      none inside; one owner.
-// Failure:      none; where nothing is near the line it runs on as it went.
+// Failure:      none; where no beat is near, period and phase are kept.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,21 @@
 
 namespace dance {
 
-class BeatLine {
+class BeatPhaseLock {
  public:
-  explicit BeatLine(double hop_s) : hop_s_(hop_s) {}
+  explicit BeatPhaseLock(double hop_s) : hop_s_(hop_s) {}
 
-  // heard_s: when what the pointer heard last was to be heard. now_s: a beat is only predicted for
-  // later.
+  // heard_s: the time of the pointer's newest strengths. now_s: only later beats are predicted.
   void follow(const BarPointer& pointer, double heard_s, double now_s);
 
   double next_s() const { return next_s_; }  // the next beat
   double period_s() const { return period_s_; }
   std::int64_t number() const { return number_; }  // of the next beat
-  // Probability that the beats are where the line has them.
+  // Probability that the beats are where the lock has them.
   double certainty() const { return certainty_; }
 
  private:
-  // Counts what is over.
+  // Counts the beats that are over.
   void pass(double now_s);
 
   double hop_s_;

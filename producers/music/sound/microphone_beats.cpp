@@ -1,4 +1,4 @@
-#include "producers/music/microphone_beats.h"
+#include "producers/music/sound/microphone_beats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace dance {
 namespace {
 
 constexpr double kMicrophone_hz = 44100.0;
-constexpr Duration kMicrophoneQuestions = Duration::ms(100);
+constexpr Duration kMicrophoneTimingRequests = Duration::ms(100);
 
 }  // namespace
 
@@ -17,23 +17,23 @@ MicrophoneBeats::MicrophoneBeats(Duration trim) : trim_(trim), tracker_(kMicroph
 
 Result<std::unique_ptr<MicrophoneBeats>> MicrophoneBeats::open(const std::string& source,
                                                                Duration trim) {
-  std::unique_ptr<MicrophoneBeats> ear(new MicrophoneBeats(trim));
-  DANCE_TRY(ear->server_, PulseServer::connect("music"));
-  BeatTracker* tracker = &ear->tracker_;
-  DANCE_TRY(ear->input_, PulseInput::open(*ear->server_, source, kMicrophone_hz,
-                                          [tracker](std::span<const float> samples) {
-                                            tracker->push(samples);
-                                          }));
-  return ear;
+  std::unique_ptr<MicrophoneBeats> beats(new MicrophoneBeats(trim));
+  DANCE_TRY(beats->server_, PulseServer::connect("music"));
+  BeatTracker* tracker = &beats->tracker_;
+  DANCE_TRY(beats->input_, PulseInput::open(*beats->server_, source, kMicrophone_hz,
+                                            [tracker](std::span<const float> samples) {
+                                              tracker->push(samples);
+                                            }));
+  return beats;
 }
 
 Result<void> MicrophoneBeats::work(MonoTime now) {
   server_->iterate();
   if (!server_->is_alive() || !input_->is_alive())
-    return fail("the sound server has gone (" + server_->error_text() + ")");
-  if (now >= next_question_) {
-    input_->ask_when();
-    next_question_ = now + kMicrophoneQuestions;
+    return fail("the connection to the sound server is lost (" + server_->error_text() + ")");
+  if (now >= next_timing_request_) {
+    input_->request_timing();
+    next_timing_request_ = now + kMicrophoneTimingRequests;
   }
   return {};
 }
@@ -44,7 +44,7 @@ std::optional<Beat> MicrophoneBeats::beat(MonoTime now) const {
   if (!heard.playing) return std::nullopt;
   const double frame = (heard.beat_time - MonoTime()).as_seconds() * kMicrophone_hz;
   heard.beat_time = input_->time_of(static_cast<std::int64_t>(std::llround(frame))) - trim_;
-  // What was next when it sounded may have passed on its way here.
+  // The next beat at the time of the samples may be over by now.
   const double period_s = 60.0 / heard.tempo_bpm;
   const double passed = std::floor((now - heard.beat_time).as_seconds() / period_s) + 1.0;
   if (passed > 0.0) {

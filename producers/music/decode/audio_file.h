@@ -1,5 +1,5 @@
-// A file of music, read block by block: WAV, FLAC, Ogg Vorbis, Opus, MP3 and what else libsndfile
-// knows.
+// A file of music, read block by block. libsndfile decodes WAV, FLAC, Ogg Vorbis, Opus and MP3;
+// FFmpeg decodes what libsndfile cannot: M4A, WebM, an Ogg file with a cover picture, films.
 //
 // Units/frames: samples are -1 to 1 at rate_hz(); a frame is one sample of each channel. mono is
 //               the mean of all channels.
@@ -9,27 +9,22 @@
 //               there with an Error.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "core/base/result.h"
+#include "producers/music/decode/audio_decoder.h"
 
 namespace dance {
 
 class AudioFile {
  public:
   static Result<AudioFile> open(const std::string& path);
-  AudioFile(AudioFile&&) noexcept;
-  AudioFile& operator=(AudioFile&&) noexcept;
-  ~AudioFile();
 
-  double rate_hz() const { return rate_hz_; }
-  int channels() const { return channels_; }
-  std::int64_t length_frames() const { return length_frames_; }
-  double length_s() const { return static_cast<double>(length_frames_) / rate_hz_; }
+  const std::string& path() const { return path_; }
+  double rate_hz() const { return format_.rate_hz; }
+  int channels() const { return format_.channels; }
+  std::int64_t length_frames() const { return format_.length_frames; }
+  double length_s() const { return static_cast<double>(length_frames()) / rate_hz(); }
   // The next frame that is read.
   std::int64_t at_frame() const { return at_frame_; }
 
@@ -42,15 +37,12 @@ class AudioFile {
   Result<void> seek(std::int64_t frame);
 
  private:
-  struct Handle;
-  AudioFile();
+  AudioFile(std::string path, std::unique_ptr<AudioDecoder> decoder);
   Result<std::size_t> read_block(std::size_t most_frames);
 
-  std::unique_ptr<Handle> handle_;
   std::string path_;
-  double rate_hz_ = 0.0;
-  int channels_ = 0;
-  std::int64_t length_frames_ = 0;
+  std::unique_ptr<AudioDecoder> decoder_;
+  AudioFormat format_;
   std::int64_t at_frame_ = 0;
   std::vector<float> block_;  // interleaved, as the file has it
 };

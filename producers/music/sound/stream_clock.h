@@ -1,11 +1,11 @@
-// HeardLine: which frame of a stream of sound is heard when, from what the sound server reports a
-// few times a second: its reports tremble and its card's clock drifts against ours.
+// StreamClock: maps frames of a sound stream to times, from the positions that the sound server
+// reports a few times a second: they have jitter, and the sound card's clock drifts.
 //
 // Units/frames: frames of the stream; times of this house's clock.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      is_known() is false before a few reports. Reports that have jumped (the sound had a
-//               gap) are believed when three in a row have, and counted.
+//               gap) are accepted when three in a row have, and counted.
 #pragma once
 
 #include <cmath>
@@ -15,9 +15,9 @@
 
 namespace dance {
 
-class HeardLine {
+class StreamClock {
  public:
-  explicit HeardLine(double rate_hz) : rate_hz_(rate_hz), frames_per_s_(rate_hz) {}
+  explicit StreamClock(double rate_hz) : rate_hz_(rate_hz), frames_per_s_(rate_hz) {}
 
   void report(MonoTime at, double frame) {
     if (reports_ == 0) {
@@ -26,12 +26,12 @@ class HeardLine {
     }
     const double error_s = (frame - frame_at(at)) / rate_hz_;
     if (std::abs(error_s) > kJump_s) {
-      if (++strange_ < kBelieved) return;
+      if (++outliers_ < kJumpReports) return;
       ++jumps_;
       restart(at, frame);
       return;
     }
-    strange_ = 0;
+    outliers_ = 0;
     ++reports_;
     const double weight = reports_ < kSettled ? 1.0 / reports_ : 1.0 / kSettled;
     frame_ = frame_at(at) + weight * error_s * rate_hz_;
@@ -54,14 +54,14 @@ class HeardLine {
  private:
   static constexpr int kEnough = 3;
   static constexpr int kSettled = 16;
-  static constexpr int kBelieved = 3;
+  static constexpr int kJumpReports = 3;
   static constexpr double kJump_s = 0.015;
 
   void restart(MonoTime at, double frame) {
     at_ = at;
     frame_ = frame;
     reports_ = 1;
-    strange_ = 0;
+    outliers_ = 0;
   }
 
   double rate_hz_;
@@ -69,7 +69,7 @@ class HeardLine {
   MonoTime at_;
   double frame_ = 0.0;
   int reports_ = 0;
-  int strange_ = 0;
+  int outliers_ = 0;
   std::uint64_t jumps_ = 0;
 };
 
