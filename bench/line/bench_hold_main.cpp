@@ -11,7 +11,7 @@
 #include "core/program/figures.h"
 #include "core/program/program.h"
 #include "testing/line/lossy_model.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 
 namespace dance {
 namespace {
@@ -61,7 +61,7 @@ std::vector<Arrival> arrivals_of(LossyModel& line, MonoTime begin, Duration span
   return heard;
 }
 
-Shown show(Chain& chain, const std::vector<Arrival>& heard, MonoTime begin, Duration frame) {
+Shown show(Flow& flow, const std::vector<Arrival>& heard, MonoTime begin, Duration frame) {
   std::vector<double> ages_ms;
   Duration least = Duration::s(1000);
   std::size_t samples = 0, late = 0, in_a_row = 0, longest = 0;
@@ -72,10 +72,10 @@ Shown show(Chain& chain, const std::vector<Arrival>& heard, MonoTime begin, Dura
   for (const Arrival& arrival : heard) {
     for (; next < arrival.at; next += tick) {
       Pose out;
-      if (!chain.sample(next, out)) continue;
+      if (!flow.sample(next, out)) continue;
       ++samples;
       ages_ms.push_back((next - out.capture_time).as_ms());
-      const std::uint64_t now = chain.counters().starved;
+      const std::uint64_t now = flow.counters().starved;
       in_a_row = now != starved ? in_a_row + 1 : 0;
       late += now != starved ? 1 : 0;
       starved = now;
@@ -86,7 +86,7 @@ Shown show(Chain& chain, const std::vector<Arrival>& heard, MonoTime begin, Dura
     pose.clock_id = 1;
     pose.capture_time = begin + frame * static_cast<std::int64_t>(arrival.sequence);
     least = std::min(least, arrival.at - pose.capture_time);
-    chain.observe(pose, arrival.at);
+    flow.observe(pose, arrival.at);
   }
   Shown shown;
   if (samples == 0) return shown;
@@ -114,8 +114,8 @@ Result<void> measure(const std::string& name, const LossyWay& way, const Options
                "longest freeze ms");
   nlohmann::ordered_json rows;
   for (const std::string& through : options.through) {
-    DANCE_TRY(Chain chain, Chain::make({through}));
-    const Shown shown = show(chain, heard, begin, frame);
+    DANCE_TRY(Flow flow, Flow::make({through}));
+    const Shown shown = show(flow, heard, begin, frame);
     rows[through] = {{"added_p50_ms", shown.added_p50_ms},
                      {"added_p99_ms", shown.added_p99_ms},
                      {"late_percent", shown.late_percent},
