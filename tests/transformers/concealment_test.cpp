@@ -1,4 +1,4 @@
-#include "transformers/conceal/bridge.h"
+#include "transformers/conceal/concealment.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 #include "testing/motion/motion_measures.h"
 #include "tests/allocation_guard.h"
 #include "tests/core/pose/random_pose.h"
-#include "transformers/chain.h"
-#include "transformers/playout/hold.h"
+#include "tests/transformers/flows.h"
 
 namespace dance {
 namespace {
@@ -33,23 +32,22 @@ constexpr double kDelay_s = 0.05;
 
 // Dances from 1 s to 20 s at 60 Hz over a line of 50 ms, silent between two moments; what is shown
 // from `from_s` on.
-std::vector<Pose> show(Chain& chain, double silent_from_s, double silent_to_s, double from_s,
+std::vector<Pose> show(Flow& flow, double silent_from_s, double silent_to_s, double from_s,
                        double to_s) {
   std::vector<Pose> shown;
   for (int i = 60; i / 60.0 < to_s; ++i) {
     const double t_s = i / 60.0;
-    if (t_s < silent_from_s || t_s >= silent_to_s)
-      chain.observe(swaying(t_s), at_s(t_s + kDelay_s));
+    if (t_s < silent_from_s || t_s >= silent_to_s) flow.observe(swaying(t_s), at_s(t_s + kDelay_s));
     Pose out;
-    EXPECT_TRUE(chain.sample(at_s(t_s + kDelay_s + 0.001), out));
+    EXPECT_TRUE(flow.sample(at_s(t_s + kDelay_s + 0.001), out));
     EXPECT_TRUE(is_valid(out));
     if (t_s >= from_s) shown.push_back(out);
   }
   return shown;
 }
 
-TEST(Bridge, ShowsWhatTheStationBeforeShowsWhilePosesCome) {
-  Chain bare = *Chain::make({"hold 20ms"}), bridged = *Chain::make({"hold 20ms", "bridge"});
+TEST(Bridge, ShowsWhatItWouldWithoutWhilePosesCome) {
+  Flow bare = *Flow::make({"hold 20ms"}), bridged = *Flow::make({"hold 20ms", "bridge"});
   const auto expected = show(bare, 99.0, 99.0, 2.0, 8.0);
   const auto shown = show(bridged, 99.0, 99.0, 2.0, 8.0);
   ASSERT_EQ(shown.size(), expected.size());
@@ -62,8 +60,8 @@ TEST(Bridge, ShowsWhatTheStationBeforeShowsWhilePosesCome) {
 }
 
 TEST(Bridge, KeepsADancerDancingThroughALapseAndComesBackWithoutAJump) {
-  Chain chain = *Chain::make({"hold 0ms", "bridge"});
-  const auto shown = show(chain, 12.0, 14.0, 11.0, 16.0);
+  Flow flow = *Flow::make({"hold 0ms", "bridge"});
+  const auto shown = show(flow, 12.0, 14.0, 11.0, 16.0);
   std::vector<Pose> danced;
   for (std::size_t i = 0; i < shown.size(); ++i)
     danced.push_back(swaying(11.0 + static_cast<double>(i) / 60.0));
@@ -78,15 +76,11 @@ TEST(Bridge, KeepsADancerDancingThroughALapseAndComesBackWithoutAJump) {
   EXPECT_LT(world_error_m(track, truth, 270, 300), 0.002) << "as danced again";
 }
 
-// A station that says of every moment after the newest pose that the dancer stands.
-class Standing : public Transformer {
+// Says of every moment after the newest pose that the dancer stands.
+class Standing : public Extrapolator {
  public:
   void observe(const Pose& pose, MonoTime) override { newest_ = pose; }
-  bool sample(MonoTime now, Pose& out) override {
-    out = newest_;
-    out.capture_time = now;
-    return true;
-  }
+  void predict(MonoTime, Pose& out) const override { out = newest_; }
 
  private:
   Pose newest_;
@@ -94,9 +88,7 @@ class Standing : public Transformer {
 
 TEST(Bridge, FadesFromOneWhoStandsToOneWhoSpinsNoFasterThanTheySpun) {
   constexpr float kSpin_rad_s = 4.0f;
-  Standing standing;
-  Bridge bridge;
-  bridge.set_input(&standing);
+  Flow flow = concealed(std::make_unique<Standing>());
   float largest_rad_s = 0.0f;
   Pose before;
   for (int i = 60; i < 720; ++i) {
@@ -104,62 +96,43 @@ TEST(Bridge, FadesFromOneWhoStandsToOneWhoSpinsNoFasterThanTheySpun) {
     Pose pose = swaying(t_s);
     pose.R_PB[0] = Eigen::Quaternionf(
         Eigen::AngleAxisf(kSpin_rad_s * static_cast<float>(t_s), Eigen::Vector3f::UnitY()));
-    if (t_s < 10.0) {
-      standing.observe(pose, at_s(t_s));
-      bridge.observe(pose, at_s(t_s));
-    }
+    if (t_s < 10.0) flow.observe(pose, at_s(t_s));
     Pose out;
-    ASSERT_TRUE(bridge.sample(at_s(t_s), out));
+    ASSERT_TRUE(flow.sample(at_s(t_s), out));
     if (i > 60)
       largest_rad_s = std::max(largest_rad_s, 60.0f * before.R_PB[0].angularDistance(out.R_PB[0]));
     before = out;
   }
-  EXPECT_TRUE(bridge.is_continuing());
+  EXPECT_TRUE(flow.is_continuing());
   EXPECT_LT(largest_rad_s, 1.5f * kSpin_rad_s);
 }
 
 TEST(Bridge, DoesNotTakeALongDelayForALapse) {
-  Bridge bridge;
+  Flow flow = *Flow::make({"bridge"});
   for (int i = 60; i < 600; ++i) {
     const double t_s = i / 60.0;
-    bridge.observe(swaying(t_s), at_s(t_s + 0.4));
+    flow.observe(swaying(t_s), at_s(t_s + 0.4));
     Pose out;
-    ASSERT_TRUE(bridge.sample(at_s(t_s + 0.401), out));
-    ASSERT_FALSE(bridge.is_continuing()) << t_s;
+    ASSERT_TRUE(flow.sample(at_s(t_s + 0.401), out));
+    ASSERT_FALSE(flow.is_continuing()) << t_s;
   }
   Pose out;
-  bridge.sample(at_s(10.0 + 0.6), out);
-  EXPECT_TRUE(bridge.is_continuing());
+  flow.sample(at_s(10.0 + 0.6), out);
+  EXPECT_TRUE(flow.is_continuing());
 }
 
-TEST(Bridge, AnswersForMomentsAsTheStationBehindAsks) {
-  Chain chain = *Chain::make({"hold 0ms", "bridge"});
-  Hold hold(Duration::ms(0));
-  Bridge bridge;
-  bridge.set_input(&hold);
-  for (int i = 60; i < 720; ++i) {
-    const Pose pose = swaying(i / 60.0);
-    hold.observe(pose, pose.capture_time + Duration::ms(50));
-    bridge.observe(pose, pose.capture_time + Duration::ms(50));
-  }
-  const double newest_s = 719 / 60.0;
-  Pose out;
-  ASSERT_TRUE(bridge.sample_at(at_s(newest_s - 1.0), at_s(newest_s + 1.05), out));
-  EXPECT_LT(largest_angle_rad(out, swaying(newest_s - 1.0)), 0.02f);
-  float before = 0.0f, largest = 0.0f;
-  for (int i = 0; i < 240; ++i) {
-    const double since_s = i / 60.0;
-    ASSERT_TRUE(bridge.sample_at(at_s(newest_s + since_s), at_s(newest_s + since_s + 0.05), out));
-    const float x = out.p_WH_m.x();
-    if (i > 0) largest = std::max(largest, std::abs(x - before));
-    before = x;
-  }
+TEST(Bridge, BeginsToMoveWithoutAJumpWhereAPoseStood) {
+  Flow flow = *Flow::make({"hold 0ms", "bridge"});
+  const auto shown = show(flow, 12.0, 99.0, 11.5, 15.0);
+  float largest = 0.0f;
+  for (std::size_t i = 1; i < shown.size(); ++i)
+    largest = std::max(largest, (shown[i].p_WH_m - shown[i - 1].p_WH_m).norm());
+  EXPECT_TRUE(flow.is_continuing());
   EXPECT_LT(largest * 60.0f, 1.2f) << "the hips sway at 0.42 m/s at most";
-  ASSERT_TRUE(bridge.sample_at(at_s(newest_s + 0.05), at_s(newest_s + 4.0), out));
 }
 
-// A station that knows where the dancer goes: at 0.4 m/s along x.
-class Walking : public Transformer {
+// Knows where the dancer goes: at 0.4 m/s along x.
+class Walking : public Extrapolator {
  public:
   static Pose at(MonoTime moment) {
     Pose pose = swaying((moment - MonoTime()).as_seconds());
@@ -167,27 +140,28 @@ class Walking : public Transformer {
     return pose;
   }
   void observe(const Pose&, MonoTime) override {}
-  bool sample(MonoTime now, Pose& out) override { return sample_at(now, now, out); }
-  bool sample_at(MonoTime moment, MonoTime, Pose& out) override {
-    out = at(moment);
-    return true;
-  }
+  void predict(MonoTime moment, Pose& out) const override { out = at(moment); }
 };
 
 TEST(Bridge, FadesByTheDancesTimeHoweverLateTheLineAndTheMomentsAskedFor) {
   // A listener who is a beat and more behind, over a line of 300 ms.
   for (const double late_s : {0.35, 0.8, 1.5}) {
-    Walking walking;
-    Bridge bridge;
-    bridge.set_input(&walking);
+    DancerTimeline timeline(Concealment::kPoses);
+    MotionSource::Parts parts;
+    parts.extrapolator = std::make_unique<Walking>();
+    parts.reach = Duration::s(1);
+    parts.concealment = std::make_unique<Concealment>();
+    MotionSource source(timeline, std::move(parts));
     for (int i = 60; i <= 600; ++i) {
       const Pose pose = Walking::at(at_s(i / 60.0));
-      bridge.observe(pose, pose.capture_time + Duration::ms(300));
+      timeline.take(pose, pose.capture_time + Duration::ms(300));
+      source.observe();
     }
-    Pose out, continued;
+    Pose out;
     for (double since_s = 0.01; since_s < 0.9; since_s += 1.0 / 60.0) {
       const MonoTime moment = at_s(10.0 + since_s);
-      ASSERT_TRUE(bridge.sample_at(moment, moment + Duration::seconds(late_s), out));
+      source.begin_continuation(moment, moment + Duration::seconds(late_s));
+      source.at(moment, out);
       const Pose danced = Walking::at(moment);
       EXPECT_NEAR(out.p_WH_m.x(), danced.p_WH_m.x(), 0.06f) << late_s << " " << since_s;
       const bool is_predicted = (out.R_PB[index_of(Bone::kLeftUpperArm)].coeffs() -
@@ -200,11 +174,14 @@ TEST(Bridge, FadesByTheDancesTimeHoweverLateTheLineAndTheMomentsAskedFor) {
         EXPECT_FALSE(is_predicted) << late_s << " " << since_s;
       }
     }
+    // What was danced stays what it was.
+    EXPECT_EQ(source.at(at_s(9.0), out), MotionSource::Kind::kDanced);
+    EXPECT_LT(largest_angle_rad(out, Walking::at(at_s(9.0))), 1e-3f);
   }
 }
 
 TEST(Bridge, StartsAnewWhenTheSourceChangesItsClockOrJumpsBack) {
-  Bridge bridge;
+  Flow bridge = *Flow::make({"bridge"});
   for (int i = 60; i < 300; ++i) bridge.observe(swaying(i / 60.0), at_s(i / 60.0));
   Pose out;
   ASSERT_TRUE(bridge.sample(at_s(6.0), out));
@@ -219,9 +196,7 @@ TEST(Bridge, StartsAnewWhenTheSourceChangesItsClockOrJumpsBack) {
 }
 
 TEST(Bridge, StaysABodyAndAllocatesNothingWhateverComes) {
-  Hold hold(Duration::ms(20));
-  Bridge bridge;
-  bridge.set_input(&hold);
+  Flow flow = *Flow::make({"hold 20ms", "bridge"});
   Random random(8);
   MonoTime now = at_s(50.0);
   const AllocationGuard guard;
@@ -230,15 +205,9 @@ TEST(Bridge, StaysABodyAndAllocatesNothingWhateverComes) {
     pose.capture_time =
         now - Duration::ms(static_cast<std::int64_t>(random.uniform(-300.0, 300.0)));
     pose.clock_id = i % 500 == 499 ? 5 : 3;
-    if (random.uniform() < 0.7) {
-      hold.observe(pose, now);
-      bridge.observe(pose, now);
-    }
+    if (random.uniform() < 0.7) flow.observe(pose, now);
     Pose out;
-    if (bridge.sample(now, out)) {
-      ASSERT_TRUE(is_valid(out)) << i;
-    }
-    if (bridge.sample_at(now + Duration::ms(i % 700), now, out)) {
+    if (flow.sample(now, out)) {
       ASSERT_TRUE(is_valid(out)) << i;
     }
     now += Duration::ms(static_cast<std::int64_t>(random.uniform(-20.0, i % 50 ? 60.0 : 6000.0)));
@@ -247,11 +216,11 @@ TEST(Bridge, StaysABodyAndAllocatesNothingWhateverComes) {
 }
 
 TEST(Bridge, TakesItsBlendAndRefusesNonsense) {
-  EXPECT_TRUE(Chain::make({"hold", "bridge blend=80ms"}));
-  EXPECT_FALSE(Chain::make({"bridge blend=80"}));
-  EXPECT_FALSE(Chain::make({"bridge blind=80ms"}));
-  EXPECT_EQ(Chain::make({"hold", "bridge"})->patience(), Continuation::kLongest);
-  EXPECT_EQ(Chain::make({"hold"})->patience(), Duration());
+  EXPECT_TRUE(Flow::make({"hold", "bridge blend=80ms"}));
+  EXPECT_FALSE(Flow::make({"bridge blend=80"}));
+  EXPECT_FALSE(Flow::make({"bridge blind=80ms"}));
+  EXPECT_EQ(Flow::make({"hold", "bridge"})->patience(), Continuation::kLongest);
+  EXPECT_EQ(Flow::make({"hold"})->patience(), Duration());
 }
 
 }  // namespace
