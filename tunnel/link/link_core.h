@@ -22,7 +22,7 @@
 #include "core/net/datagram_sink.h"
 #include "tunnel/link/link_guests.h"
 #include "tunnel/link/link_options.h"
-#include "tunnel/session/ack_window.h"
+#include "tunnel/session/stream.h"
 #include "tunnel/wire/wire_records.h"
 
 namespace dance {
@@ -175,11 +175,7 @@ class LinkCore {
   // link_feedback.cpp
   void begin_session_records();
   void settle_encoder(LocalGuest& guest);
-  using Slots = FixedList<std::uint8_t, wire::kMaxGuestsPerRoom>;
-  void acknowledge(std::uint16_t number, const Slots& failed, bool has_decoded, bool has_records,
-                   MonoTime now);
   MonoTime when_to_acknowledge(MonoTime now) const;
-  bool is_ack_ripe(MonoTime now) const;
   bool is_way_clean() const;
   void want_key_frame(RemoteGuest& remote, MonoTime now);
   void on_acks(const wire::Acks& acks);
@@ -223,24 +219,7 @@ class LinkCore {
   RosterAssembly roster_;
   wire::InterestList interest_;  // as the server was told, or is being told
   std::uint32_t interest_acked_ = 0;
-  // Records that wait for those of other guests, and what the server is to be told with them.
-  std::array<std::uint8_t, wire::kMaxRecordsBody> bundle_;
-  std::size_t bundle_size_ = 0;
-  std::size_t bundle_poses_ = 0;
-  wire::RecordChain chain_;
-  MonoTime bundle_due_;
-  std::uint16_t next_number_ = 0;
-  HeldFrames acked_datagrams_;
-  AckWindow received_;
-  struct Except {
-    std::uint16_t number;
-    std::uint8_t slot;
-  };
-  FixedList<Except, wire::kMaxAckExcepts> excepts_;
-  FixedList<std::uint8_t, wire::kMaxWants> wants_;
-  MonoTime ack_due_;            // set: there is something to acknowledge, or to ask for
-  MonoTime acked_at_;           // when it was last said,
-  int unacked_ = 0;             // and datagrams with records since then
+  Stream stream_;
   bool wants_repeats_ = false;  // the server, of our poses
   bool has_feedback_ = false;
   std::uint16_t newest_feedback_ = 0;  // number of its datagram

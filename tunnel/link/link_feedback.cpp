@@ -11,25 +11,14 @@ namespace {
 constexpr Duration kAckDelay = Duration::ms(5);
 // A dancing link says it with its next pose, if that is due within this.
 constexpr Duration kLongestAckDelay = Duration::ms(45);
-// Where nothing is lost, nobody waits for it: every second pose at 60 Hz brings one.
-constexpr Duration kCleanAckGap = Duration::ms(25);
 constexpr double kCleanLoss = 0.002;
-// An acknowledgement tells of 33 datagrams: half of them come at most before one is made.
-constexpr int kMostUnacked = 16;
 constexpr Duration kLeastWantGap = Duration::ms(50);
 constexpr Duration kLongestWantGap = Duration::s(1);
 
 }  // namespace
 
 void LinkCore::begin_session_records() {
-  bundle_size_ = 0;
-  next_number_ = 0;
-  acked_datagrams_.clear();
-  received_ = AckWindow();
-  excepts_.clear();
-  wants_.clear();
-  ack_due_ = acked_at_ = MonoTime();
-  unacked_ = 0;
+  stream_ = Stream();
   has_feedback_ = wants_repeats_ = false;
   path_ = PathStats();
 }
@@ -55,45 +44,16 @@ void LinkCore::settle_encoder(LocalGuest& guest) {
     guest.encoder->set_skeleton(skeleton);
 }
 
-// A datagram of which nothing decoded is as good as lost; of others the failed guests are excepted.
-void LinkCore::acknowledge(std::uint16_t number, const Slots& failed, bool has_decoded,
-                           bool has_records, MonoTime now) {
-  for (std::size_t i = excepts_.size(); i-- > 0;)
-    if (!received_.covers(excepts_[i].number)) excepts_.erase_at(i);
-  if (has_records && !has_decoded) return;
-  if (failed.size() > wire::kMaxAckExcepts) return;
-  if (failed.size() > wire::kMaxAckExcepts - excepts_.size()) {
-    // Somebody fails in each datagram: the others' acknowledgements must go on.
-    excepts_.clear();
-    received_.forget();
-  }
-  for (const std::uint8_t slot : failed) {
-    const bool pushed = excepts_.try_push({number, slot});
-    DANCE_ASSERT(pushed);
-  }
-  received_.note(number);
-  // An acknowledgement alone is not acknowledged: that would never end.
-  if (!has_records) return;
-  if (++unacked_ >= kMostUnacked)
-    ack_due_ = now;
-  else if (!ack_due_.is_set())
-    ack_due_ = when_to_acknowledge(now);
-}
-
 // Neither to the server nor from there to the worst of the others is much lost.
 bool LinkCore::is_way_clean() const { return path_.is_known && path_.loss < kCleanLoss; }
-
-bool LinkCore::is_ack_ripe(MonoTime now) const {
-  return ack_due_.is_set() &&
-         (now >= ack_due_ || !is_way_clean() || now - acked_at_ >= kCleanAckGap);
-}
 
 // Alone it would cost three times what it does with a pose, and wake both ends once more.
 MonoTime LinkCore::when_to_acknowledge(MonoTime now) const {
   for (const LocalGuest& guest : locals_) {
     // A quarter late is in time.
     MonoTime next_pose = guest.last_pose + guest.frame + guest.frame / 4;
-    if (is_way_clean() && next_pose < acked_at_ + kCleanAckGap) next_pose += guest.frame;
+    if (is_way_clean() && next_pose < stream_.received.told_at() + AckTracker::kCleanGap)
+      next_pose += guest.frame;
     if (guest.has_slot && guest.last_pose.is_set() && next_pose > now &&
         next_pose - now <= kLongestAckDelay)
       return next_pose;
@@ -105,24 +65,16 @@ void LinkCore::want_key_frame(RemoteGuest& remote, MonoTime now) {
   const Duration gap = std::clamp(clock_.newest_round_trip() * 2, kLeastWantGap, kLongestWantGap);
   if (remote.key_asked_at.is_set() && now - remote.key_asked_at < gap) return;
   const auto slot = static_cast<std::uint8_t>(&remote - remotes_.data());
-  if (!wants_.try_push(slot)) return;  // its next failure asks again
+  if (!stream_.received.want_key_frame(slot, now)) return;  // its next failure asks again
   remote.key_asked_at = now;
   ++remote.key_frames_asked;
   ++counters_.key_frames_asked;
-  ack_due_ = now;
 }
 
 void LinkCore::on_acks(const wire::Acks& acks) {
-  const auto behind = static_cast<std::uint16_t>(next_number_ - 1 - acks.newest);
-  if (behind >= 0x4000) return;  // never sent
-  const auto take = [&](std::uint16_t number) {
-    if (acked_datagrams_.has(number)) return;
-    acked_datagrams_.add(0, number);
-    ++counters_.datagrams_acked;
-  };
-  for (int i = 32; i > 0; --i)
-    if ((acks.before >> (i - 1) & 1) != 0) take(static_cast<std::uint16_t>(acks.newest - i));
-  take(acks.newest);
+  const std::uint64_t before = stream_.sent.acked();
+  stream_.sent.acknowledge(acks, [](const SentRing::Frame&) {});
+  counters_.datagrams_acked += stream_.sent.acked() - before;
 }
 
 void LinkCore::on_feedback(std::uint16_t number, const wire::Feedback& feedback, MonoTime now) {

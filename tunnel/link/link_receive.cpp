@@ -27,8 +27,8 @@ bool LinkCore::on_records(wire::Bytes body, MonoTime received, MonoTime now) {
   if (header->has_acks) on_acks(header->acks);
   if (header->has_feedback) on_feedback(header->number, header->feedback, now);
   if (header->has_records) heard_records_ = now;
-  const bool is_again = received_.has(header->number);
-  Slots failed;
+  const bool is_again = stream_.received.has(header->number);
+  AckTracker::Slots failed;
   bool has_decoded = false;
   for (wire::RecordChain chain = begin; in.remaining() > 0;) {
     const wire::Record record = *wire::parse_record(chain, in);
@@ -37,7 +37,11 @@ bool LinkCore::on_records(wire::Bytes body, MonoTime received, MonoTime now) {
     else if (!failed.contains(record.slot))
       (void)failed.try_push(record.slot);  // as many as there are slots
   }
-  if (!is_again) acknowledge(header->number, failed, has_decoded, header->has_records, now);
+  // A datagram of which nothing decoded is as good as lost; of others the failed guests are
+  // excepted. An acknowledgement alone is not acknowledged: that would never end.
+  if (is_again || (header->has_records && !has_decoded)) return true;
+  if (stream_.received.note_except(header->number, failed) && header->has_records)
+    stream_.received.owe(when_to_acknowledge(now), now);
   return true;
 }
 

@@ -81,18 +81,15 @@ std::size_t LinkCore::count_dancing(MonoTime now) const {
 
 void LinkCore::add_record(const wire::Record& record, MonoTime now) {
   put(record, now);
-  if (record.kind == wire::RecordKind::kPose) ++bundle_poses_;
-  if (now >= bundle_due_ || bundle_poses_ >= count_dancing(now)) flush_records(now);
+  if (record.kind == wire::RecordKind::kPose) stream_.bundle.count_pose();
+  if (stream_.bundle.is_due(now, count_dancing(now))) flush_records(now);
 }
 
 // What the others have, the server has: from there it reckons the high bits.
 bool LinkCore::is_narrow(const wire::Record& record) const {
-  if (record.kind != wire::RecordKind::kPose) return false;
   for (const LocalGuest& guest : locals_)
     if (guest.has_slot && guest.slot.slot == record.slot)
-      return guest.acked_frames.is_of(record.stream) &&
-             static_cast<std::uint16_t>(record.sequence - guest.acked_frames.newest()) <=
-                 wire::kNarrowReach;
+      return is_narrow_for(guest.acked_frames, record);
   return false;
 }
 
@@ -113,56 +110,25 @@ void LinkCore::repeat_before(LocalGuest& guest, const wire::Record& next, MonoTi
 }
 
 void LinkCore::put(const wire::Record& record, MonoTime now) {
-  if (bundle_.size() - bundle_size_ < wire::kMaxRecordHeader + record.payload.size())
-    flush_records(now);
-  if (bundle_size_ == 0) {
-    chain_ = {clock_.to_theirs_us(now)};
-    bundle_due_ = now + options_.share_window;
-    bundle_poses_ = 0;
-  }
-  ByteWriter out(std::span<std::uint8_t>(bundle_).subspan(bundle_size_));
-  wire::add_record(record, is_narrow(record), chain_, out);
-  DANCE_ASSERT(out.ok());
-  bundle_size_ += out.size();
+  if (!stream_.bundle.has_room_for(record)) flush_records(now);
+  stream_.bundle.add(record, is_narrow(record), clock_.to_theirs_us(now),
+                     now + options_.share_window);
 }
 
-// What waits, with what there is to acknowledge.
+// What waits, with what there is to acknowledge: ahead of the records where there is no room.
 void LinkCore::flush_records(MonoTime now) {
-  const std::size_t extras = is_ack_ripe(now) ? 2 + 2 * excepts_.size() + wants_.size() : 0;
-  const bool fits = wire::kMaxRecordsBody - bundle_size_ >= extras;
-  if (bundle_size_ == 0 || !fits) send_records_datagram(false, now);
-  if (bundle_size_ > 0) send_records_datagram(true, now);
+  const bool is_ripe = stream_.received.is_ripe(now, is_way_clean());
+  const std::size_t extras = is_ripe ? stream_.received.extra_bytes() : 0;
+  if (stream_.bundle.is_empty() || stream_.bundle.room() < extras)
+    send_records_datagram(false, now);
+  if (!stream_.bundle.is_empty()) send_records_datagram(true, now);
 }
 
-void LinkCore::send_records_datagram(bool with_bundle, MonoTime now) {
+void LinkCore::send_records_datagram(bool with_records, MonoTime now) {
   wire::RecordsHeader header;
-  header.number = next_number_++;
-  header.has_records = with_bundle;
-  if (is_ack_ripe(now)) {
-    acked_at_ = now;
-    header.has_acks = received_.has_any();
-    header.acks.newest = received_.newest();
-    header.acks.before = received_.before();
-    for (const Except& except : excepts_) {
-      if (!header.has_acks || !received_.covers(except.number)) continue;
-      const auto back = static_cast<std::uint8_t>(received_.newest() - except.number);
-      const bool pushed = header.acks.excepts.try_push({back, except.slot});
-      DANCE_ASSERT(pushed);
-    }
-    header.wants = wants_;
-    wants_.clear();
-    ack_due_ = MonoTime();
-    unacked_ = 0;
-  }
+  if (stream_.received.is_ripe(now, is_way_clean())) stream_.received.tell(header, now);
   std::array<std::uint8_t, wire::kMaxPlain> bytes;
-  ByteWriter out(bytes);
-  wire::begin_records(header, out);
-  if (with_bundle) {
-    out.bytes(std::span<const std::uint8_t>(bundle_).first(bundle_size_));
-    bundle_size_ = 0;
-  }
-  DANCE_ASSERT(out.ok());
-  send_datagram(out.written());
+  send_datagram(stream_.write(header, with_records, bytes));
 }
 
 // A key frame now and then, lest a loss that nobody told of be missed for long. Frames that all

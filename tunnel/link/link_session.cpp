@@ -38,10 +38,10 @@ MonoTime LinkCore::next_deadline() const {
   if (state_ == LinkState::kConnected) {
     next = earlier(next, next_ping_);
     next = earlier(next, last_heard_ + kSilenceLimit);
-    next = earlier(next, ack_due_);
+    next = earlier(next, stream_.received.due());
     for (const LocalGuest& guest : locals_) next = earlier(next, guest.refused_until);
   }
-  if (bundle_size_ > 0) next = earlier(next, bundle_due_);
+  if (!stream_.bundle.is_empty()) next = earlier(next, stream_.bundle.due());
   return next;
 }
 
@@ -54,11 +54,11 @@ MonoTime LinkCore::tick(MonoTime now) {
       guest.refused_until = MonoTime();
       schedule_update(now);
     }
-    if (ack_due_.is_set() && now >= ack_due_) flush_records(now);
+    if (stream_.received.owes() && now >= stream_.received.due()) flush_records(now);
     if (now >= next_ping_) send_ping(now);
   }
-  if (!may_send(now)) bundle_size_ = 0;
-  if (bundle_size_ > 0 && now >= bundle_due_) flush_records(now);
+  if (!may_send(now)) stream_.bundle.clear();
+  if (!stream_.bundle.is_empty() && now >= stream_.bundle.due()) flush_records(now);
   if (hello_wanted_ && is_sealed_ && now >= next_hello_) send_hello(now);
   return next_deadline();
 }

@@ -222,7 +222,8 @@ void ServerCore::flush_due(MonoTime now) {
   for (std::size_t i = reporting_.size(); i-- > 0;) {
     const ServerSession& session = sessions_[reporting_[i]];
     // With a bundle under way it goes along.
-    if (session.feedback_alone <= now && session.bundle_size == 0 && !is_newcomer(reporting_[i]))
+    if (session.feedback_alone <= now && session.stream.bundle.is_empty() &&
+        !is_newcomer(reporting_[i]))
       send_records(reporting_[i], now);
   }
 }
@@ -252,9 +253,9 @@ MonoTime ServerCore::tick(MonoTime now) {
 MonoTime ServerCore::next_deadline() const {
   if (by_peer_.empty()) return MonoTime();
   MonoTime next = next_sweep_.is_set() ? next_sweep_ : MonoTime::from_ns(1);
-  for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].bundle_due);
+  for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].stream.bundle.due());
   for (const std::size_t i : reporting_)
-    if (sessions_[i].bundle_size == 0) next = std::min(next, sessions_[i].feedback_alone);
+    if (sessions_[i].stream.bundle.is_empty()) next = std::min(next, sessions_[i].feedback_alone);
   for (const std::size_t i : astir_)
     if (const ServerRoom& room = rooms_[i]; room.has_fresh_states)
       next = std::min(next, room.fresh_states_due);

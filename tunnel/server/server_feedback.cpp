@@ -39,15 +39,15 @@ bool ServerCore::is_receiver(std::size_t member, std::size_t sender, MonoTime no
 void ServerCore::on_acks(std::size_t index, const wire::Acks& acks, MonoTime now) {
   ServerSession& session = sessions_[index];
   const ServerRoom& room = rooms_[session.room];
-  const std::uint64_t before = session.sent.acked();
-  const bool is_good = session.sent.acknowledge(acks, [&](const SentRing::Frame& frame) {
+  const std::uint64_t before = session.stream.sent.acked();
+  const bool is_good = session.stream.sent.acknowledge(acks, [&](const SentRing::Frame& frame) {
     const ServerGuest& guest = room.guests[frame.slot];
     if (!guest.in_use || guest.poses.stream() != frame.stream) return;
     session.held[frame.slot].add(frame.stream, frame.sequence);
     schedule_feedback(guest.owner, now);
   });
-  counters_.datagrams_acked += session.sent.acked() - before;
-  if (limits_.repeats) session.repeats_down.update(session.sent.loss());
+  counters_.datagrams_acked += session.stream.sent.acked() - before;
+  if (limits_.repeats) session.repeats_down.update(session.stream.sent.loss());
   if (!is_good) reject(ServerReject::kBadAck);
 }
 
@@ -193,14 +193,14 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
   for (const std::size_t member : room.members) {
     if (!is_receiver(member, index, now) || !wants_any_of(sessions_[member], session)) continue;
     has_receiver = true;
-    const LossMeter& down = sessions_[member].sent.loss();
+    const LossMeter& down = sessions_[member].stream.sent.loss();
     loss = std::max(loss, sessions_[member].repeats_down.residual(down));
     in_a_row = std::max(in_a_row, down.in_a_row());
     round_trip = std::max(round_trip, round_trip_of(sessions_[member]));
   }
   if (has_receiver) {
     // What is lost on either way does not arrive.
-    const LossMeter& up = session.received.loss();
+    const LossMeter& up = session.stream.received.loss();
     if (limits_.repeats) session.repeats_up.update(up);
     feedback.wants_repeats = session.repeats_up.is_on();
     const float lost_up = session.repeats_up.residual(up);

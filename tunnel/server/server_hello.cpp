@@ -186,12 +186,10 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   session.epoch = new_epoch();
   session.state_acked = {};
   session.room_state_acked = {};
-  session.bundle_size = 0;
-  session.sent = SentRing();
+  session.stream = Stream();
   session.held = {};
   session.interest = {};
   session.thinning = {};
-  session.received = AckWindow();
   session.knows_epoch = false;
   session.feedback_due = session.feedback_alone = MonoTime();
   std::erase(bundled_, index);
@@ -301,7 +299,7 @@ void ServerCore::drop_session(std::size_t index) {
   by_peer_.erase(session.peer);
   session.in_use = false;
   session.slots.clear();
-  session.bundle_size = 0;
+  session.stream.bundle.clear();
   if (room.members.empty()) {
     room.in_use = false;
     room.roster_changed = false;

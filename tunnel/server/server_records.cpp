@@ -30,7 +30,7 @@ void ServerCore::on_records(std::size_t index, wire::Bytes body, MonoTime receiv
     if (!wire::parse_record(chain, check)) return reject(ServerReject::kMalformed);
   // Until the welcome has come a link dances on in the session before: other slots, other numbers.
   if (!sessions_[index].knows_epoch) return reject(ServerReject::kLate);
-  sessions_[index].received.note(header->number);
+  sessions_[index].stream.received.note(header->number);
   if (header->has_acks) on_acks(index, header->acks, now);
   for (const std::uint8_t slot : header->wants) on_want(index, slot, now);
   if (header->has_records && !may_send_records(sessions_[index].access))
@@ -125,77 +125,54 @@ void ServerCore::add_to_bundle(std::size_t index, const wire::Record& record, Mo
   put_in_bundle(index, record, now);
   ServerSession& to = sessions_[index];
   if (record.kind == wire::RecordKind::kPose) {
-    to.sent.add({record.stream, static_cast<std::uint16_t>(record.sequence), record.slot});
-    ++to.bundle_poses;
+    to.stream.sent.add({record.stream, static_cast<std::uint16_t>(record.sequence), record.slot});
+    to.stream.bundle.count_pose();
   }
   ++counters_.records_out;
 }
 
 void ServerCore::put_in_bundle(std::size_t index, const wire::Record& record, MonoTime now) {
-  const bool is_pose = record.kind == wire::RecordKind::kPose;
-  const auto sequence = static_cast<std::uint16_t>(record.sequence);
   ServerSession& to = sessions_[index];
-  if (to.bundle.size() - to.bundle_size < wire::kMaxRecordHeader + record.payload.size())
-    flush_bundle(index, now);
-  if (to.bundle_size == 0) {
-    to.chain = {now.since_zero_us()};
-    to.bundle_due = now + share_window(rooms_[to.room]);
-    to.bundle_poses = 0;
-    bundled_.push_back(index);
-  }
-  // What the receiver is known to have gives the high bits.
-  const HeldFrames& held = to.held[record.slot];
-  const bool is_narrow = is_pose && held.is_of(record.stream) &&
-                         static_cast<std::uint16_t>(sequence - held.newest()) <= wire::kNarrowReach;
-  ByteWriter out(std::span<std::uint8_t>(to.bundle).subspan(to.bundle_size));
+  RecordBundler& bundle = to.stream.bundle;
+  if (!bundle.has_room_for(record)) flush_bundle(index, now);
+  if (bundle.is_empty()) bundled_.push_back(index);
   wire::Record told = record;
   told.needs_no_other = told.is_base = false;  // the receiver sees it
   tell_left_out(to, told);
-  wire::add_record(told, is_narrow, to.chain, out);
-  DANCE_ASSERT(out.ok());
-  to.bundle_size += out.size();
+  bundle.add(told, is_narrow_for(to.held[record.slot], record), now.since_zero_us(),
+             now + share_window(rooms_[to.room]));
 }
 
 Duration ServerCore::share_window(const ServerRoom& room) const {
   return limits_.share_window.value_or(share_window_of(room.guest_count));
 }
 
-// Full of what can come, or has waited long enough. Who wants less than all of everybody waits:
-// what comes next is not known.
+// Who wants less than all of everybody waits: what comes next is not known.
 bool ServerCore::is_bundle_due(const ServerSession& session, MonoTime now) const {
-  return now >= session.bundle_due ||
-         (session.full_shares > 0 && session.bundle_poses >= session.full_shares);
+  return session.stream.bundle.is_due(now,
+                                      session.full_shares > 0 ? session.full_shares : SIZE_MAX);
 }
 
 void ServerCore::flush_bundle(std::size_t index, MonoTime now) {
-  if (sessions_[index].bundle_size > 0) send_records(index, now);
+  if (!sessions_[index].stream.bundle.is_empty()) send_records(index, now);
   std::erase(bundled_, index);
 }
 
 // The bundle, if there is one, and the feedback, if it is due.
 void ServerCore::send_records(std::size_t index, MonoTime now) {
   ServerSession& session = sessions_[index];
+  Stream& stream = session.stream;
   wire::RecordsHeader header;
-  header.has_records = session.bundle_size > 0;
-  const std::size_t room = wire::kMaxRecordsBody - session.bundle_size;
   if (session.feedback_due.is_set() && session.feedback_due <= now &&
-      room >= kFeedbackHead + kFeedbackGuest * session.slots.size()) {
+      stream.bundle.room() >= kFeedbackHead + kFeedbackGuest * session.slots.size()) {
     // Links count what the server has of them; seldom is enough.
     const bool is_repeat = session.feedback_is_repeat;
     header.has_feedback = fill_feedback(index, now, header.feedback);
-    header.has_acks = header.has_feedback && is_repeat && session.received.has_any();
-    header.acks.newest = session.received.newest();
-    header.acks.before = session.received.before();
+    if (header.has_feedback && is_repeat) stream.received.fill(header);
   }
-  if (!header.has_records && !header.has_feedback) return;
-  header.number = session.sent.commit(header.has_records);
+  if (stream.bundle.is_empty() && !header.has_feedback) return;
   std::array<std::uint8_t, wire::kMaxPlain> bytes;
-  ByteWriter out(bytes);
-  wire::begin_records(header, out);
-  out.bytes(std::span<const std::uint8_t>(session.bundle).first(session.bundle_size));
-  DANCE_ASSERT(out.ok());
-  session.bundle_size = 0;
-  send(session.peer, out.written());
+  send(session.peer, stream.write(header, true, bytes));
 }
 
 }  // namespace dance

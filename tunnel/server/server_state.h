@@ -19,12 +19,11 @@
 #include "core/base/token_bucket.h"
 #include "tunnel/link/link_meter.h"
 #include "tunnel/server/access.h"
-#include "tunnel/session/ack_window.h"
 #include "tunnel/session/arrival_jitter.h"
 #include "tunnel/session/held_frames.h"
 #include "tunnel/session/peer.h"
 #include "tunnel/session/repetition.h"
-#include "tunnel/session/sent_ring.h"
+#include "tunnel/session/stream.h"
 #include "tunnel/session/stream_gate.h"
 #include "tunnel/wire/wire_records.h"
 #include "tunnel/wire/wire_state.h"
@@ -159,20 +158,14 @@ struct ServerSession {
   std::uint32_t datagrams_received = 0;
   wire::Ping newest_ping;
   LinkMeter meter;
-  // Records that wait for the end of this turn, or of their window.
-  std::array<std::uint8_t, wire::kMaxRecordsBody> bundle;
-  std::size_t bundle_size = 0;
-  std::size_t bundle_poses = 0;
-  wire::RecordChain chain;
-  MonoTime bundle_due;
+  // Records wait here for the end of this turn, or of their window.
+  Stream stream;
   // What it wants of the others: the list as it said it, and what follows for each slot.
   wire::InterestList interest;
   std::array<Thinning, wire::kMaxGuestsPerRoom> thinning;
   std::size_t full_shares = 0;  // others in the room whose every pose it gets
-  // What the link has of the others, as it acknowledges; and what has come from it.
-  SentRing sent;
+  // What the link has of the others, as it acknowledges.
   std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
-  AckWindow received;
   // Whether poses go once more, to the link and from it.
   Repetition repeats_down;
   Repetition repeats_up;
