@@ -181,7 +181,8 @@ std::vector<RemoteGuestStats> LinkCore::remote_stats() const {
 std::vector<LocalGuestStats> LinkCore::local_stats() const {
   std::vector<LocalGuestStats> all;
   for (const LocalGuest& guest : locals_)
-    all.push_back({guest.id, guest.policy.current(), guest.sent, guest.acked, guest.key_frames_sent,
+    all.push_back({guest.id, guest.references.references(), guest.references.sent(),
+                   guest.references.acked(), guest.references.intra_asked(),
                    guest.quality.quality_m()});
   return all;
 }

@@ -154,9 +154,6 @@ class LinkCore {
   };
   bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
              Stamp& out);
-  void refresh(LocalGuest& guest, MonoTime now);
-  bool prepare(LocalGuest& guest, MonoTime now);
-  void settle_references(LocalGuest& guest, MonoTime now);
   void add_record(const wire::Record& record, MonoTime now);
   void repeat_before(LocalGuest& guest, const wire::Record& next, MonoTime now);
   void put(const wire::Record& record, MonoTime now);
@@ -180,8 +177,6 @@ class LinkCore {
   void want_key_frame(RemoteGuest& remote, MonoTime now);
   void on_acks(const wire::Acks& acks);
   void on_feedback(std::uint16_t number, const wire::Feedback& feedback, MonoTime now);
-  void on_held(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now);
-  void on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now);
 
   LinkOptions options_;
   LinkHandlers handlers_;

@@ -27,16 +27,8 @@ void LinkCore::begin_session_records() {
 void LinkCore::settle_encoder(LocalGuest& guest) {
   guest.encoder = options_.make_encoder(codec_);
   DANCE_ASSERT(guest.encoder != nullptr, static_cast<int>(codec_.id), codec_.model);
-  guest.references = guest.policy.current();
-  guest.encoder->set_references(guest.references);
+  guest.references.begin(*guest.encoder);
   guest.encoder->set_quality(guest.quality.quality_m());
-  guest.sent_frames.clear();
-  guest.acked_frames.clear();
-  guest.base_acked_frames.clear();
-  guest.base_log2 = 0;
-  guest.still_log2 = kFewestStills_log2;
-  guest.key_frames_seen = 0;
-  guest.key_frame_at = MonoTime();
   guest.unstamped = 0;
   Skeleton skeleton;
   const OwnState& state = guest.states[wire::place_of({wire::StateKind::kSkeleton, 0})];
@@ -51,9 +43,9 @@ bool LinkCore::is_way_clean() const { return path_.is_known && path_.loss < kCle
 MonoTime LinkCore::when_to_acknowledge(MonoTime now) const {
   for (const LocalGuest& guest : locals_) {
     // A quarter late is in time.
-    MonoTime next_pose = guest.last_pose + guest.frame + guest.frame / 4;
+    MonoTime next_pose = guest.last_pose + guest.references.frame() * 5 / 4;
     if (is_way_clean() && next_pose < stream_.received.told_at() + AckTracker::kCleanGap)
-      next_pose += guest.frame;
+      next_pose += guest.references.frame();
     if (guest.has_slot && guest.last_pose.is_set() && next_pose > now &&
         next_pose - now <= kLongestAckDelay)
       return next_pose;
@@ -89,48 +81,8 @@ void LinkCore::on_feedback(std::uint16_t number, const wire::Feedback& feedback,
   for (const wire::GuestFeedback& about : feedback.guests)
     for (LocalGuest& guest : locals_)
       if (guest.has_slot && guest.slot.slot == about.slot && guest.encoder)
-        on_guest_feedback(about, guest, now);
-}
-
-void LinkCore::on_guest_feedback(const wire::GuestFeedback& about, LocalGuest& guest,
-                                 MonoTime now) {
-  if (about.key_frames != guest.key_frames_seen) {
-    guest.key_frames_seen = about.key_frames;
-    guest.encoder->key_frame_wanted();
-    guest.key_frame_at = now;
-    ++guest.key_frames_sent;
-    ++counters_.key_frames_sent;
-  }
-  // The encoder is told with the next pose.
-  if (path_.is_known)
-    guest.policy.update(path_.loss, path_.in_a_row, path_.round_trip, guest.frame, now);
-  guest.base_log2 = about.base_log2;
-  guest.still_log2 = about.still_log2;
-  on_held(about, guest, now);
-}
-
-void LinkCore::on_held(const wire::GuestFeedback& about, LocalGuest& guest, MonoTime now) {
-  if (about.restarts != static_cast<std::uint8_t>(guest.poses.stream())) return;
-  // Only what was sent, and each once.
-  const auto each_new = [&](std::uint16_t newest, std::uint16_t before, HeldFrames& told,
-                            const auto& tell) {
-    for (int back = 16; back >= 0; --back) {
-      if (back > 0 && (before >> (back - 1) & 1) == 0) continue;
-      const auto sequence = static_cast<std::uint16_t>(newest - back);
-      if (!guest.sent_frames.has(sequence) || told.has(sequence)) continue;
-      told.add(guest.poses.stream(), sequence);
-      tell(guest.last_sequence - static_cast<std::uint16_t>(guest.last_sequence - sequence));
-    }
-  };
-  if (about.has_held)
-    each_new(about.newest_held, about.held_before, guest.acked_frames, [&](std::uint32_t sequence) {
-      ++guest.acked;
-      guest.acked_at = now;
-      guest.encoder->acknowledged(sequence);
-    });
-  if (about.has_base_held)
-    each_new(about.newest_base_held, about.base_held_before, guest.base_acked_frames,
-             [&](std::uint32_t sequence) { guest.encoder->base_acknowledged(sequence); });
+        counters_.key_frames_sent +=
+            guest.references.take(about, path_, *guest.encoder, now) ? 1 : 0;
 }
 
 }  // namespace dance

@@ -17,8 +17,7 @@
 #include "core/codec/quality_by_rate.h"
 #include "tunnel/link/link_options.h"
 #include "tunnel/link/link_states.h"
-#include "tunnel/session/held_frames.h"
-#include "tunnel/session/reference_policy.h"
+#include "tunnel/session/reference_control.h"
 #include "tunnel/session/repetition.h"
 #include "tunnel/session/stream_gate.h"
 
@@ -52,28 +51,9 @@ struct LocalGuest {
   StreamTag hands;
   std::unique_ptr<PoseEncoder> encoder;
   QualityByRate quality;
-  ReferencePolicy policy;
-  References references = policy.current();  // as the encoder was told
-  Duration frame = Duration::us(16'667);     // between captures, as it is of late
-  MonoTime last_capture;
-  HeldFrames sent_frames;        // what there is to acknowledge,
-  HeldFrames acked_frames;       // and what the encoder was told of it
-  HeldFrames base_acked_frames;  // the same, of those too who get only base frames
-  // For receivers who want less than all: each 2^n-th pose is a base frame (0: none), or needs no
-  // other.
-  std::uint8_t base_log2 = 0;
-  std::uint8_t still_log2 = kFewestStills_log2;
-  MonoTime still_at;              // the newest that needed no other, whatever for,
-  std::uint32_t since_still = 0;  // and the poses since then
-  std::uint32_t last_sequence = 0;
-  std::uint8_t key_frames_seen = 0;  // the server's count
-  MonoTime key_frame_at;
-  MonoTime acked_at;            // when the encoder was last told of a frame that all have
+  ReferenceControl references;
   std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
   SentPose previous;            // goes once more where the way loses some
-  std::uint64_t sent = 0;
-  std::uint64_t acked = 0;
-  std::uint64_t key_frames_sent = 0;
   // Skeleton, avatar, style and placement, by wire::place_of().
   std::array<OwnState, wire::kFirstChannelPlace> states;
   // What this guest wished for the room last: programs say it again each second, which is no new

@@ -12,42 +12,12 @@ namespace {
 constexpr Duration kOldestCapture = Duration::s(30);
 constexpr Duration kFarthestAhead = Duration::ms(500);
 constexpr Duration kDancesOnInLapse = Duration::s(10);
-constexpr Duration kAckStands = Duration::s(1);
-constexpr Duration kStillStands = Duration::ms(2500);
 constexpr Duration kStillDancing = Duration::ms(100);
 
 std::int32_t age_us(MonoTime step, MonoTime capture) {
   if (!step.is_set()) return wire::kNoAge;
   const std::int64_t us = (step - capture).count_us();
   return us > -INT32_MAX && us < INT32_MAX ? static_cast<std::int32_t>(us) : wire::kNoAge;
-}
-
-// How long a frame is, for the choice of references: a gap is none.
-void keep_time(LocalGuest& guest, MonoTime capture) {
-  const Duration since = capture - guest.last_capture;
-  if (guest.last_capture.is_set() && since > Duration() && since < Duration::ms(200))
-    guest.frame += (since - guest.frame) / 16;
-  guest.last_capture = capture;
-}
-
-// The producer began anew: nothing of before is a reference.
-void begin_stream(LocalGuest& guest) {
-  guest.encoder->restart();
-  guest.sent_frames.clear();
-  guest.acked_frames.clear();
-  guest.base_acked_frames.clear();
-  guest.unstamped = 0;
-}
-
-void note_sent(LocalGuest& guest, const wire::Record& record, MonoTime now) {
-  guest.sent_frames.add(guest.poses.stream(), static_cast<std::uint16_t>(record.sequence));
-  guest.last_sequence = record.sequence;
-  ++guest.sent;
-  ++guest.since_still;
-  if (!record.needs_no_other) return;
-  guest.since_still = 0;
-  guest.still_at = now;
-  guest.key_frame_at = now;
 }
 
 }  // namespace
@@ -89,7 +59,7 @@ void LinkCore::add_record(const wire::Record& record, MonoTime now) {
 bool LinkCore::is_narrow(const wire::Record& record) const {
   for (const LocalGuest& guest : locals_)
     if (guest.has_slot && guest.slot.slot == record.slot)
-      return is_narrow_for(guest.acked_frames, record);
+      return is_narrow_for(guest.references.acked_frames(), record);
   return false;
 }
 
@@ -131,39 +101,6 @@ void LinkCore::send_records_datagram(bool with_records, MonoTime now) {
   send_datagram(stream_.write(header, with_records, bytes));
 }
 
-// A key frame now and then, lest a loss that nobody told of be missed for long. Frames that all
-// have need none.
-void LinkCore::refresh(LocalGuest& guest, MonoTime now) {
-  if (options_.key_frame_period <= Duration()) return;
-  const bool is_safe = guest.policy.current() == References::kAcknowledged &&
-                       guest.acked_at.is_set() && now - guest.acked_at < kAckStands;
-  if (!guest.key_frame_at.is_set() || is_safe) {
-    guest.key_frame_at = now;
-  } else if (now - guest.key_frame_at >= options_.key_frame_period) {
-    guest.encoder->key_frame_wanted();
-    guest.key_frame_at = now;
-  }
-}
-
-// For receivers who get only some frames, and for those who come later: the server keeps the newest
-// that needs no other. True for a base frame. Counted, as sequences may leave some out.
-bool LinkCore::prepare(LocalGuest& guest, MonoTime now) {
-  const bool is_base = guest.base_log2 != 0 && guest.sent % (1u << guest.base_log2) == 0;
-  if (is_base) guest.encoder->base_wanted();
-  const bool is_old = guest.still_at.is_set() && now - guest.still_at > kStillStands;
-  if (is_old || guest.since_still + 1 >= 1u << guest.still_log2) guest.encoder->still_wanted();
-  return is_base;
-}
-
-void LinkCore::settle_references(LocalGuest& guest, MonoTime now) {
-  const References references =
-      guest.acked_at.is_set() ? guest.policy.while_silent_for(now - guest.acked_at, guest.frame)
-                              : guest.policy.current();
-  if (references == guest.references) return;
-  guest.references = references;
-  guest.encoder->set_references(references);
-}
-
 void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   ++counters_.poses_offered;
   LocalGuest* guest = find_or_add(id, now);
@@ -187,12 +124,11 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   }
   if (guest->poses.restarts() != restarts) {
     ++counters_.stream_restarts;
-    begin_stream(*guest);
+    guest->references.restart(*guest->encoder, guest->poses.stream());
+    guest->unstamped = 0;
   }
-  keep_time(*guest, times.capture);
-  refresh(*guest, now);
-  settle_references(*guest, now);
-  const bool is_base = prepare(*guest, now);
+  const bool is_base =
+      guest->references.prepare(*guest->encoder, times.capture, options_.key_frame_period, now);
   // Only what is sent: an encoder may refer to what it encoded before.
   const std::size_t size = guest->encoder->encode(pose, payload);
   if (size == 0) {
@@ -213,7 +149,7 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   }
   guest->unstamped = (guest->unstamped + 1) % std::max(options_.poses_per_stamp, 1u);
   record.payload = {payload.data(), size};
-  note_sent(*guest, record, now);
+  guest->references.note_sent(record.sequence, record.needs_no_other, now);
   ++counters_.poses_sent;
   repeat_before(*guest, record, now);
   add_record(record, now);

@@ -5,7 +5,7 @@
 
 #include "core/base/assert.h"
 #include "tunnel/server/server_core.h"
-#include "tunnel/session/reference_policy.h"
+#include "tunnel/session/reference_control.h"
 
 namespace dance {
 namespace {
@@ -121,60 +121,19 @@ void ServerCore::schedule_feedback(std::size_t index, MonoTime at, Duration wait
   session.feedback_alone = std::min(session.feedback_alone, at + waits);
 }
 
-// Frames: as far back as a codec may refer.
-constexpr std::uint16_t kLongestHeld = 63;
-
-// What all receivers have of a guest; and what those have too who get only base frames.
 wire::GuestFeedback ServerCore::feedback_about(std::size_t index, std::uint8_t slot,
                                                MonoTime now) const {
   const ServerRoom& room = rooms_[sessions_[index].room];
   const ServerGuest& guest = room.guests[slot];
+  ReceiverSummary receivers(guest.poses.has_any(), guest.poses.stream(), guest.poses.newest());
+  for (const std::size_t member : room.members)
+    if (is_receiver(member, index, now))
+      receivers.add(sessions_[member].thinning[slot].divider, sessions_[member].held[slot]);
   wire::GuestFeedback about;
   about.slot = slot;
   about.restarts = static_cast<std::uint8_t>(guest.poses.stream());
   about.key_frames = guest.key_frames;
-  HeldFrames full, base;
-  bool has_full = false, has_base = false;
-  for (const std::size_t member : room.members) {
-    if (!is_receiver(member, index, now)) continue;
-    const std::uint8_t divider = sessions_[member].thinning[slot].divider;
-    const Share share = share_of(divider);
-    if (share == Share::kBase) {
-      const std::uint8_t wanted = spacing_log2(divider);
-      about.base_log2 = about.base_log2 == 0 ? wanted : std::min(about.base_log2, wanted);
-    }
-    if (share == Share::kStills)
-      about.still_log2 = std::min(about.still_log2, spacing_log2(divider));
-    if (share != Share::kAll && share != Share::kBase) continue;
-    // Who has nothing of late asks for a key frame; the others need not do without references.
-    const HeldFrames& held = sessions_[member].held[slot];
-    if (!guest.poses.has_any() || !held.is_of(guest.poses.stream()) ||
-        static_cast<std::uint16_t>(guest.poses.newest() - held.newest()) > kLongestHeld)
-      continue;
-    if (share == Share::kAll) {
-      if (std::exchange(has_full, true))
-        full.intersect(held);
-      else
-        full = held;
-    }
-    if (std::exchange(has_base, true))
-      base.intersect(held);
-    else
-      base = held;
-  }
-  // With nobody who gets all, there is nothing that only those have.
-  const HeldFrames& common = has_full ? full : base;
-  about.has_held = guest.poses.has_any() && common.is_of(guest.poses.stream());
-  if (about.has_held) {
-    about.newest_held = common.newest();
-    about.held_before = static_cast<std::uint16_t>(common.bits() >> 1);
-  }
-  about.has_base_held =
-      about.base_log2 != 0 && guest.poses.has_any() && base.is_of(guest.poses.stream());
-  if (about.has_base_held) {
-    about.newest_base_held = base.newest();
-    about.base_held_before = static_cast<std::uint16_t>(base.bits() >> 1);
-  }
+  receivers.fill(about);
   return about;
 }
 
