@@ -29,7 +29,7 @@ void LinkCore::set_payload(HouseChannel& channel, wire::Bytes message) {
   const std::size_t size =
       wire::build(wire::ChannelPayload{channel.rule->kind, channel.name, message}, payload);
   DANCE_ASSERT(size > 0);
-  channel.state.set({payload.data(), size});
+  channel.state.change({payload.data(), size});
 }
 
 void LinkCore::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
@@ -58,7 +58,8 @@ void LinkCore::send_channel(std::string_view name, wire::Bytes message, MonoTime
                   {},
                   channel->state.version,
                   channel->state.bytes()});
-    else if (is_state && channel->state.is_due())
+    else if (is_state &&
+             is_due(channel->state, {wire::StateKind::kChannel, channel->index}, channel->slot))
       ++counters_.channels_limited;  // for now: its newest goes with a ping
   }
   if (!is_state) send_channel_record(*channel, message, now);
@@ -104,14 +105,10 @@ bool LinkCore::bind_channel(HouseChannel& channel) {
     return false;
   }
   const wire::Slot& slot = owner->slot;
-  if (channel.is_bound && channel.slot.slot == slot.slot &&
-      channel.slot.generation == slot.generation)
-    return true;
+  if (channel.is_bound && channel.slot == slot) return true;
   std::array<bool, kMaxChannelsPerGuest> is_taken{};
   for (const HouseChannel& other : channels_)
-    if (&other != &channel && other.is_bound && other.slot.slot == slot.slot &&
-        other.slot.generation == slot.generation)
-      is_taken[other.index] = true;
+    if (&other != &channel && other.is_bound && other.slot == slot) is_taken[other.index] = true;
   const auto free = std::find(is_taken.begin(), is_taken.end(), false);
   channel.is_bound = free != is_taken.end();
   if (!channel.is_bound) {
@@ -120,14 +117,16 @@ bool LinkCore::bind_channel(HouseChannel& channel) {
   }
   channel.slot = slot;
   channel.index = static_cast<std::uint8_t>(free - is_taken.begin());
-  channel.state.acked = 0;
+  stream_.states.forget({wire::StateKind::kChannel, channel.index}, slot.slot);
   channel.sent_version = 0;
   return true;
 }
 
 // A version that was sent before may be repeated; a new one costs of the rule's rate.
 bool LinkCore::is_channel_due(HouseChannel& channel, MonoTime now) {
-  if (!channel.state.is_due() || !bind_channel(channel)) return false;
+  if (!bind_channel(channel) ||
+      !is_due(channel.state, {wire::StateKind::kChannel, channel.index}, channel.slot))
+    return false;
   const bool is_free =
       channel.sent_version == channel.state.version || channel.rule->kind == ChannelClass::kNewest;
   if (!is_free && !channel.changes.take(1.0, now)) return false;

@@ -22,6 +22,7 @@
 #include "core/net/datagram_sink.h"
 #include "tunnel/link/link_guests.h"
 #include "tunnel/link/link_options.h"
+#include "tunnel/session/interest_filter.h"
 #include "tunnel/session/stream.h"
 #include "tunnel/wire/wire_records.h"
 
@@ -116,7 +117,11 @@ class LinkCore {
   void tell_message(const GuestId& id, wire::StateKind kind, const Message& message, MonoTime now);
   void send_state(const wire::State& state);
   void repeat_states(MonoTime now);
-  void forget_acks();
+  void forget_room();
+  bool is_due(const ReplicatedState& state, const wire::StateName& name,
+              const wire::Slot& slot) const {
+    return state.version != 0 && !stream_.states.has(name, slot.slot, state.version);
+  }
   bool on_states(wire::Bytes body, MonoTime now);
   bool on_guest_state(const wire::State& state, MonoTime now);
   bool deliver_guest_state(RemoteGuest& remote, const wire::State& state, MonoTime now);
@@ -124,7 +129,6 @@ class LinkCore {
   bool deliver_message(const GuestId& id, wire::Bytes payload, const Handler& handler,
                        MonoTime now);
   bool on_state_acks(wire::Bytes body);
-  void on_guest_state_ack(const wire::StateAck& ack);
 
   // link_wishes.cpp
   void make_wish(const GuestId& setter, wire::StateKind kind, wire::Bytes payload, MonoTime now);
@@ -164,7 +168,6 @@ class LinkCore {
   std::size_t count_dancing(MonoTime now) const;
 
   // link_interest.cpp
-  void begin_session_interest();
   void settle_interest();
   void tell_interest();
   bool on_interest_ack(wire::Bytes body);
@@ -212,8 +215,7 @@ class LinkCore {
   // Counts of those who left or got another slot, so that a summary at the end has everybody.
   std::vector<RemoteGuestStats> departed_;  // reserved; the oldest makes room
   RosterAssembly roster_;
-  wire::InterestList interest_;  // as the server was told, or is being told
-  std::uint32_t interest_acked_ = 0;
+  InterestRequest interest_;
   Stream stream_;
   bool wants_repeats_ = false;  // the server, of our poses
   bool has_feedback_ = false;

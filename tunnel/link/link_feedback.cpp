@@ -31,7 +31,7 @@ void LinkCore::settle_encoder(LocalGuest& guest) {
   guest.encoder->set_quality(guest.quality.quality_m());
   guest.unstamped = 0;
   Skeleton skeleton;
-  const OwnState& state = guest.states[wire::place_of({wire::StateKind::kSkeleton, 0})];
+  const ReplicatedState& state = guest.states[wire::place_of({wire::StateKind::kSkeleton, 0})];
   if (state.version != 0 && decode_skeleton(state.bytes(), skeleton))
     guest.encoder->set_skeleton(skeleton);
 }

@@ -55,7 +55,7 @@ struct LocalGuest {
   std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
   SentPose previous;            // goes once more where the way loses some
   // Skeleton, avatar, style and placement, by wire::place_of().
-  std::array<OwnState, wire::kFirstChannelPlace> states;
+  std::array<ReplicatedState, wire::kFirstChannelPlace> states;
   // What this guest wished for the room last: programs say it again each second, which is no new
   // wish.
   std::optional<Music> wished_music;  // in our clock

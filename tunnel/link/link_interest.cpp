@@ -10,13 +10,6 @@ void LinkCore::set_interest(const Interest& interest, MonoTime) {
   if (is_welcome_) settle_interest();
 }
 
-// The hello has told what counts for those who are not named.
-void LinkCore::begin_session_interest() {
-  interest_.default_divider = options_.interest.others;
-  interest_.entries.clear();
-  interest_acked_ = interest_.version;
-}
-
 void LinkCore::settle_interest() {
   wire::InterestList wanted;
   wanted.default_divider = options_.interest.others;
@@ -28,28 +21,18 @@ void LinkCore::settle_interest() {
     (void)wanted.entries.try_push(  // as many as there are slots
         {{static_cast<std::uint8_t>(slot), remote.generation}, divider});
   }
-  if (wanted.default_divider == interest_.default_divider &&
-      std::equal(wanted.entries.begin(), wanted.entries.end(), interest_.entries.begin(),
-                 interest_.entries.end()))
-    return;
-  wanted.version = interest_.version + 1;
-  if (wanted.version == 0) wanted.version = 1;
-  interest_ = wanted;
-  if (is_connected()) tell_interest();
+  if (interest_.change(wanted) && is_connected()) tell_interest();
 }
 
 void LinkCore::tell_interest() {
   std::array<std::uint8_t, wire::kMaxHello> out;
-  send_datagram({out.data(), wire::build(interest_, out)});
+  send_datagram({out.data(), wire::build(interest_.list(), out)});
 }
 
 bool LinkCore::on_interest_ack(wire::Bytes body) {
   const auto version = wire::parse_interest_ack(body);
   if (!version) return false;
-  // The server took something for a later list of ours: ours must be later still.
-  if (interest_.version == 0 || is_newer_sequence(*version, interest_.version))
-    interest_.version = *version + 1 == 0 ? 1 : *version + 1;
-  if (*version == interest_.version) interest_acked_ = *version;
+  interest_.take_ack(*version);
   return true;
 }
 

@@ -21,7 +21,7 @@
 #include "core/pose/skeleton.h"
 #include "tunnel/policy/channel_rule.h"
 #include "tunnel/seal/seal_trouble.h"
-#include "tunnel/session/interest.h"
+#include "tunnel/session/pose_share.h"
 #include "tunnel/session/reference_policy.h"
 #include "tunnel/wire/wire.h"
 #include "tunnel/wire/wire_state.h"

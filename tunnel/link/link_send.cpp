@@ -185,8 +185,8 @@ void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
     return;
   }
   // Producers say it once a second: only a change is news.
-  OwnState& state = guest->states[wire::place_of({wire::StateKind::kSkeleton, 0})];
-  if (!state.set({payload.data(), size})) return;
+  ReplicatedState& state = guest->states[wire::place_of({wire::StateKind::kSkeleton, 0})];
+  if (!state.change({payload.data(), size})) return;
   // As the others get it: rounded.
   Skeleton rounded;
   if (guest->encoder && decode_skeleton(payload, rounded)) guest->encoder->set_skeleton(rounded);

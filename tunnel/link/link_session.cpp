@@ -139,8 +139,7 @@ Duration LinkCore::ping_period(MonoTime now) const {
   if (quick_pings_left_ > 0) return kQuickPingPeriod;
   const bool is_dancing = count_dancing(now) > 0 && heard_records_.is_set() &&
                           now - heard_records_ < kHeardOfLate && is_way_clean();
-  const bool is_calm =
-      interest_.version == interest_acked_ && clock_.newest_round_trip() < kLongestCalmRoundTrip;
+  const bool is_calm = interest_.is_acked() && clock_.newest_round_trip() < kLongestCalmRoundTrip;
   return is_dancing && is_calm ? kDancingPingPeriod : kPingPeriod;
 }
 
@@ -161,7 +160,7 @@ void LinkCore::send_ping(MonoTime now) {
   if (quick_pings_left_ > 0) --quick_pings_left_;
   next_ping_ = now + ping_period(now);
   repeat_states(now);
-  if (interest_.version != interest_acked_) tell_interest();
+  if (!interest_.is_acked()) tell_interest();
 }
 
 void LinkCore::heard_server(MonoTime now) {
@@ -190,8 +189,8 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   codec_ = welcome->codec;
   if (is_new) {
     begin_session_records();
-    forget_acks();
-    begin_session_interest();
+    forget_room();
+    interest_.begin(options_.interest.others);
     clock_.reset();
     roster_.reset();
     for (RemoteGuest& remote : remotes_) {
@@ -212,8 +211,7 @@ void LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
     const wire::Slot& slot = welcome->slots[i];
     const bool is_same =
         !is_new && guest.slot.slot == slot.slot && guest.slot.generation == slot.generation;
-    if (!is_same)
-      for (OwnState& state : guest.states) state.acked = 0;
+    if (!is_same) stream_.states.forget(slot.slot);
     guest.has_slot = true;
     guest.slot = slot;
     // A new session's hearers know nothing of what was encoded before.

@@ -20,8 +20,8 @@ void LinkCore::tell(const GuestId& id, wire::StateKind kind, wire::Bytes payload
     ++counters_.unrouted;  // nobody of this name dances here yet; it is said again each second
     return;
   }
-  OwnState& state = guest->states[wire::place_of({kind, 0})];
-  if (!state.set(payload) || !is_connected() || !guest->has_slot) return;
+  ReplicatedState& state = guest->states[wire::place_of({kind, 0})];
+  if (!state.change(payload) || !is_connected() || !guest->has_slot) return;
   if (state_changes_.take(1.0, now))
     send_state({{kind, 0}, guest->slot, {}, state.version, state.bytes()});
 }
@@ -60,27 +60,25 @@ void LinkCore::send_state(const wire::State& state) {
 
 // With each ping: what the server has not acknowledged.
 void LinkCore::repeat_states(MonoTime now) {
-  std::array<std::uint8_t, wire::kMaxPlain> bytes;
-  ByteWriter out(bytes);
+  StateWriter writer([this](wire::Bytes bytes) { send_datagram(bytes); });
   const auto add = [&](const wire::State& state) {
-    if (out.room() < wire::size_of(state)) {
-      send_datagram(out.written());
-      out = ByteWriter(bytes);
-    }
-    if (out.size() == 0) wire::begin_states(wire::Type::kState, out);
-    wire::add_state(state, out);
+    writer.add(state);
     ++counters_.states_sent;
   };
   for (std::size_t place = 0; place < wire::kRoomStates; ++place) {
     const RoomWish& wish = wishes_[place];
     const LocalGuest* guest = wish.is_alive ? find_local(wish.setter) : nullptr;
-    if (guest != nullptr && guest->has_slot && wish.state.is_due())
-      add({wire::room_state_at(place), {}, wish.setter, wish.state.version, wish.state.bytes()});
+    const wire::StateName name = wire::room_state_at(place);
+    if (guest != nullptr && guest->has_slot && !wish.is_refused && is_due(wish.state, name, {}))
+      add({name, {}, wish.setter, wish.state.version, wish.state.bytes()});
   }
   for (const LocalGuest& guest : locals_)
-    for (std::size_t place = 0; guest.has_slot && place < guest.states.size(); ++place)
-      if (const OwnState& state = guest.states[place]; state.is_due())
-        add({wire::guest_state_at(place), guest.slot, {}, state.version, state.bytes()});
+    for (std::size_t place = 0; guest.has_slot && place < guest.states.size(); ++place) {
+      const ReplicatedState& state = guest.states[place];
+      const wire::StateName name = wire::guest_state_at(place);
+      if (is_due(state, name, guest.slot))
+        add({name, guest.slot, {}, state.version, state.bytes()});
+    }
   for (HouseChannel& channel : channels_)
     if (is_channel_due(channel, now))
       add({{wire::StateKind::kChannel, channel.index},
@@ -88,40 +86,24 @@ void LinkCore::repeat_states(MonoTime now) {
            {},
            channel.state.version,
            channel.state.bytes()});
-  if (out.size() > 0) send_datagram(out.written());
 }
 
-// A new session: what was acknowledged there is not known here.
-void LinkCore::forget_acks() {
-  for (std::size_t place = 0; place < wire::kRoomStates; ++place) {
-    wishes_[place].state.acked = 0;
-    held_[place] = RoomHeld();
-  }
+// A new session: what holds there is not known yet.
+void LinkCore::forget_room() {
+  held_ = {};
   has_held_music_ = false;
-  for (HouseChannel& channel : channels_) channel.state.acked = 0;
 }
 
 bool LinkCore::on_states(wire::Bytes body, MonoTime now) {
-  ByteReader in(body);
-  ByteReader check = in;
-  do {
-    if (!wire::parse_state(check)) return false;
-  } while (check.remaining() > 0);
-  std::array<std::uint8_t, wire::kMaxPlain> bytes;
-  ByteWriter out(bytes);
-  wire::begin_states(wire::Type::kStateAck, out);
-  bool has_acks = false;
-  while (in.remaining() > 0) {
-    const wire::State state = *wire::parse_state(in);
-    const bool is_taken =
-        wire::is_of_room(state.name.kind) ? on_room_state(state, now) : on_guest_state(state, now);
-    if (!is_taken) continue;
-    wire::add_state_ack({state.name, state.slot, state.version, wire::StateVerdict::kHeld}, out);
-    has_acks = true;
-  }
-  DANCE_ASSERT(out.ok());
-  if (has_acks) send_datagram(out.written());
-  return true;
+  return answer_states(
+      body,
+      [&](const wire::State& state) -> std::optional<wire::StateAck> {
+        if (wire::is_of_room(state.name.kind) ? !on_room_state(state, now)
+                                              : !on_guest_state(state, now))
+          return std::nullopt;
+        return wire::StateAck{state.name, state.slot, state.version, wire::StateVerdict::kHeld};
+      },
+      [this](wire::Bytes answer) { send_datagram(answer); });
 }
 
 // False where it is to come again. Acknowledged even if damaged: asking again would bring the same.
@@ -183,33 +165,13 @@ bool LinkCore::deliver_guest_state(RemoteGuest& remote, const wire::State& state
 }
 
 bool LinkCore::on_state_acks(wire::Bytes body) {
-  ByteReader in(body);
-  ByteReader check = in;
-  do {
-    if (!wire::parse_state_ack(check)) return false;
-  } while (check.remaining() > 0);
-  while (in.remaining() > 0) {
-    const wire::StateAck ack = *wire::parse_state_ack(in);
-    if (wire::is_of_room(ack.name.kind))
-      on_wish_ack(ack);
-    else
-      on_guest_state_ack(ack);
-  }
-  return true;
-}
-
-void LinkCore::on_guest_state_ack(const wire::StateAck& ack) {
-  if (ack.name.kind == wire::StateKind::kChannel) {
-    for (HouseChannel& channel : channels_)
-      if (channel.is_bound && channel.slot.slot == ack.slot.slot &&
-          channel.slot.generation == ack.slot.generation && channel.index == ack.name.index)
-        channel.state.acked = ack.version;
-    return;
-  }
-  for (LocalGuest& guest : locals_)
-    if (guest.has_slot && guest.slot.slot == ack.slot.slot &&
-        guest.slot.generation == ack.slot.generation)
-      guest.states[wire::place_of(ack.name)].acked = ack.version;
+  return take_state_acks(body, [this](const wire::StateAck& ack) {
+    if (wire::is_of_room(ack.name.kind)) return on_wish_ack(ack);
+    const bool is_own = std::any_of(locals_.begin(), locals_.end(), [&](const LocalGuest& guest) {
+      return guest.has_slot && guest.slot == ack.slot;
+    });
+    if (is_own) stream_.states.take(ack);
+  });
 }
 
 }  // namespace dance

@@ -14,33 +14,9 @@
 #include "core/base/assert.h"
 #include "core/base/token_bucket.h"
 #include "core/bus/state_messages.h"
-#include "tunnel/wire/wire_state.h"
+#include "tunnel/session/state_replicator.h"
 
 namespace dance {
-
-// The newest version of one state of ours, repeated until the server has it.
-struct OwnState {
-  std::uint32_t version = 0;  // our own count of changes; 0 = none yet
-  std::uint32_t acked = 0;
-  bool is_refused = false;  // until it changes
-  std::uint16_t size = 0;
-  std::array<std::uint8_t, wire::kMaxStatePayload> payload;
-
-  wire::Bytes bytes() const { return {payload.data(), size}; }
-  bool is_due() const { return version != 0 && version != acked && !is_refused; }
-  // False where it is what it was.
-  bool set(wire::Bytes bytes) {
-    DANCE_ASSERT(bytes.size() <= payload.size(), bytes.size());
-    if (version != 0 &&
-        std::equal(bytes.begin(), bytes.end(), payload.begin(), payload.begin() + size))
-      return false;
-    std::copy(bytes.begin(), bytes.end(), payload.begin());
-    size = static_cast<std::uint16_t>(bytes.size());
-    if (++version == 0) version = 1;
-    is_refused = false;
-    return true;
-  }
-};
 
 // What a guest of this house wants the room's music or scene to be. It stands until somebody else
 // has set it.
@@ -49,7 +25,8 @@ struct RoomWish {
   bool is_alive = false;
   // It was wished before the room's was known: its version may have to be raised, once.
   bool is_blind = false;
-  OwnState state;
+  bool is_refused = false;  // until it changes
+  ReplicatedState state;
 };
 
 // What the room's music or scene is.
@@ -70,7 +47,7 @@ struct HouseChannel {
   bool is_bound = false;
   wire::Slot slot;
   std::uint8_t index = 0;
-  OwnState state;  // of class newest: its name
+  ReplicatedState state;  // of class newest: its name
   std::uint32_t sent_version = 0;
   std::uint32_t sequence = 0;
 };

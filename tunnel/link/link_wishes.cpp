@@ -90,16 +90,16 @@ void LinkCore::make_wish(const GuestId& setter, wire::StateKind kind, wire::Byte
   const std::size_t place = wire::place_of({kind, 0});
   RoomWish& wish = wishes_[place];
   const std::uint32_t before = wish.state.version;
-  if (!wish.state.set(payload) && wish.setter == setter) return;
+  if (!wish.state.change(payload) && wish.setter == setter) return;
   wish.setter = setter;
   wish.is_alive = true;
-  wish.state.is_refused = false;
+  wish.is_refused = false;
   // Above what holds; while that is not known, above what we said last.
   const std::uint32_t held = held_[place].version;
   wish.is_blind = held == 0;
   const std::uint32_t base =
       held != 0 && (before == 0 || is_newer_sequence(held, before)) ? held : before;
-  wish.state.version = base + 1 == 0 ? 1 : base + 1;
+  wish.state.version = next_version(base);
   const LocalGuest* guest = find_local(setter);
   if (guest != nullptr && guest->has_slot && is_connected() && state_changes_.take(1.0, now))
     send_state({{kind, 0}, {}, setter, wish.state.version, wish.state.bytes()});
@@ -113,9 +113,7 @@ void LinkCore::map_wished_music() {
   music.start_time = MonoTime::from_us(clock_.to_theirs_us(music.start_time));
   MessageBuffer buffer;
   const std::size_t size = encode_for_tunnel(music, buffer);
-  const std::uint32_t version = wish.state.version;
-  wish.state.set({buffer.data(), size});
-  wish.state.version = version;
+  wish.state.set(wish.state.version, {buffer.data(), size});
 }
 
 bool LinkCore::on_room_state(const wire::State& state, MonoTime now) {
@@ -158,7 +156,7 @@ void LinkCore::give_way(std::size_t place, const GuestId& setter, std::uint32_t 
   if (wish.is_blind) {
     // Made before anybody told us that the room had one already.
     wish.is_blind = false;
-    wish.state.version = version + 1 == 0 ? 1 : version + 1;
+    wish.state.version = next_version(version);
     return;
   }
   wish.is_alive = false;
@@ -175,14 +173,14 @@ void LinkCore::on_wish_ack(const wire::StateAck& ack) {
   switch (ack.verdict) {
     case wire::StateVerdict::kHeld:
       if (ack.version != wish.state.version) return;
-      wish.state.acked = ack.version;
+      stream_.states.take(ack);
       wish.is_blind = false;
       return;
     case wire::StateVerdict::kOverruled:
       return give_way(place, GuestId(), ack.version);
     case wire::StateVerdict::kNotAllowed:
-      if (ack.version != wish.state.version || wish.state.is_refused) return;
-      wish.state.is_refused = true;
+      if (ack.version != wish.state.version || wish.is_refused) return;
+      wish.is_refused = true;
       ++counters_.states_refused;
       if (handlers_.on_room_state_refused)
         handlers_.on_room_state_refused(ack.name.kind, ack.verdict);

@@ -107,9 +107,8 @@ class ServerCore {
                                            MonoTime now);
   std::optional<wire::StateAck> take_room_state(std::size_t session, const wire::State& state,
                                                 MonoTime now);
-  void hold_state(ServerRoom& room, HeldState& held, const wire::State& state);
+  void hold_state(ServerRoom& room, RetainedState& held, const wire::State& state);
   void on_state_acks(std::size_t session, wire::Bytes body);
-  class StateSender;
   // All that the link has not acknowledged, or of that only what nobody has been told yet.
   void send_states(std::size_t session, bool only_fresh, std::size_t most_datagrams);
   void send_fresh_states(ServerRoom& room, MonoTime now);
@@ -141,9 +140,6 @@ class ServerCore {
   bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) const;
   // Whether a record goes to a receiver; counts those that do not.
   bool take_share(std::size_t to, const wire::Record& record, MonoTime now);
-  bool is_in_share(const Thinning& thinning, const ServerGuest& guest,
-                   const wire::Record& record) const;
-  void tell_left_out(ServerSession& to, wire::Record& record);
 
   // server_feedback.cpp
   void on_acks(std::size_t session, const wire::Acks& acks, MonoTime now);

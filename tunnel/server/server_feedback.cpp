@@ -43,7 +43,7 @@ void ServerCore::on_acks(std::size_t index, const wire::Acks& acks, MonoTime now
   const bool is_good = session.stream.sent.acknowledge(acks, [&](const SentRing::Frame& frame) {
     const ServerGuest& guest = room.guests[frame.slot];
     if (!guest.in_use || guest.poses.stream() != frame.stream) return;
-    session.held[frame.slot].add(frame.stream, frame.sequence);
+    session.filters[frame.slot].frames().add(frame.stream, frame.sequence);
     schedule_feedback(guest.owner, now);
   });
   counters_.datagrams_acked += session.stream.sent.acked() - before;
@@ -55,12 +55,12 @@ void ServerCore::on_want(std::size_t index, std::uint8_t slot, MonoTime now) {
   ServerSession& session = sessions_[index];
   ServerGuest& guest = rooms_[session.room].guests[slot];
   if (!guest.in_use || guest.owner == index) return reject(ServerReject::kForeignSlot);
-  session.held[slot].clear();
-  Thinning& thinning = session.thinning[slot];
+  InterestFilter& filter = session.filters[slot];
+  filter.frames().clear();
   // Who gets frames that need no other has lost the first of them, or its proportions: the next
   // comes.
-  if (share_of(thinning.divider) == Share::kStills) {
-    thinning.awaits_still = true;
+  if (filter.share() == Share::kStills) {
+    filter.await_intra(true);
     return;
   }
   // The one that was asked for last may be under way still.
@@ -68,15 +68,15 @@ void ServerCore::on_want(std::size_t index, std::uint8_t slot, MonoTime now) {
   const Duration way =
       (is_known ? round_trip_of(session) : kNewcomersWay) + round_trip_of(sessions_[guest.owner]);
   if (guest.key_asked_at.is_set() && now - guest.key_asked_at < way) return;
-  thinning.awaits_still = share_of(thinning.divider) == Share::kBase;
+  filter.await_intra(filter.share() == Share::kBase);
   want_key_frame(guest, now);
 }
 
 void ServerCore::want_key_frames_for(std::size_t newcomer, MonoTime now) {
   const ServerSession& session = sessions_[newcomer];
-  for (std::size_t slot = 0; slot < session.thinning.size(); ++slot) {
+  for (std::size_t slot = 0; slot < session.filters.size(); ++slot) {
     ServerGuest& guest = rooms_[session.room].guests[slot];
-    if (guest.in_use && guest.owner != newcomer && session.thinning[slot].divider != 0)
+    if (guest.in_use && guest.owner != newcomer && session.filters[slot].wants_any())
       want_key_frame(guest, now);
   }
 }
@@ -127,8 +127,10 @@ wire::GuestFeedback ServerCore::feedback_about(std::size_t index, std::uint8_t s
   const ServerGuest& guest = room.guests[slot];
   ReceiverSummary receivers(guest.poses.has_any(), guest.poses.stream(), guest.poses.newest());
   for (const std::size_t member : room.members)
-    if (is_receiver(member, index, now))
-      receivers.add(sessions_[member].thinning[slot].divider, sessions_[member].held[slot]);
+    if (is_receiver(member, index, now)) {
+      const InterestFilter& filter = sessions_[member].filters[slot];
+      receivers.add(filter.divider(), filter.frames());
+    }
   wire::GuestFeedback about;
   about.slot = slot;
   about.restarts = static_cast<std::uint8_t>(guest.poses.stream());

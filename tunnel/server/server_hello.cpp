@@ -164,7 +164,7 @@ std::size_t ServerCore::open_room(const wire::Hello& hello) {
   free->next_generation = static_cast<std::uint16_t>(random_());
   free->members.clear();
   free->guest_count = 0;
-  for (HeldState& state : free->states) state.version = 0;
+  for (RetainedState& state : free->states) state.version = 0;
   free->has_fresh_states = free->has_first_body = false;
   free->fresh_states_due = MonoTime();
   free->host_count = 0;
@@ -184,12 +184,9 @@ void ServerCore::move_session(std::size_t index, PeerId to) {
   session.peer = to;
   by_peer_.emplace(to, index);
   session.epoch = new_epoch();
-  session.state_acked = {};
-  session.room_state_acked = {};
   session.stream = Stream();
-  session.held = {};
   session.interest = {};
-  session.thinning = {};
+  session.filters.fill(InterestFilter());
   session.knows_epoch = false;
   session.feedback_due = session.feedback_alone = MonoTime();
   std::erase(bundled_, index);
@@ -267,10 +264,8 @@ void ServerCore::add_guest(std::size_t index, const GuestId& id) {
   free->owner = index;
   const bool pushed = session.slots.try_push(slot);
   DANCE_ASSERT(pushed);
-  for (const std::size_t member : room.members) {
-    sessions_[member].thinning[slot] = Thinning();
-    sessions_[member].thinning[slot].divider = sessions_[member].interest.default_divider;
-  }
+  for (const std::size_t member : room.members)
+    sessions_[member].filters[slot] = InterestFilter(sessions_[member].interest.default_divider);
   ++room.guest_count;
   ++room.roster_version;
   room.roster_changed = true;
@@ -281,7 +276,7 @@ void ServerCore::remove_guest(std::size_t room_index, std::uint8_t slot) {
   ServerRoom& room = rooms_[room_index];
   room.guests[slot].in_use = false;
   --room.guest_count;
-  for (const std::size_t member : room.members) sessions_[member].state_acked[slot] = {};
+  for (const std::size_t member : room.members) sessions_[member].stream.states.forget(slot);
   ++room.roster_version;
   room.roster_changed = true;
   stir(room);

@@ -35,7 +35,7 @@ void ServerCore::greet(std::size_t newcomer, MonoTime now) {
 void ServerCore::send_kept(std::size_t to, std::uint8_t slot, MonoTime now) {
   const ServerGuest& guest = rooms_[sessions_[to].room].guests[slot];
   if (!guest.in_use || guest.owner == to || !guest.kept.is_set ||
-      sessions_[to].thinning[slot].divider == 0)
+      !sessions_[to].filters[slot].wants_any())
     return;
   wire::Record record = guest.kept.record;
   record.payload = {guest.kept.payload.data(), guest.kept.size};
@@ -49,7 +49,7 @@ void ServerCore::repeat_kept(std::size_t to, MonoTime now) {
   for (std::uint8_t slot = 0; slot < room.guests.size(); ++slot) {
     const ServerGuest& guest = room.guests[slot];
     if (guest.in_use && guest.kept.is_set && now - guest.last_pose > kStillMoves &&
-        !session.held[slot].is_of(guest.kept.record.stream))
+        !session.filters[slot].frames().is_of(guest.kept.record.stream))
       send_kept(to, slot, now);
   }
 }

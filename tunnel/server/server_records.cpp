@@ -114,7 +114,7 @@ void ServerCore::forward(std::size_t from, const wire::Record& record, MonoTime 
 void ServerCore::repeat_before(std::size_t member, const ServerGuest& guest,
                                const wire::Record& next, MonoTime now) {
   ServerSession& to = sessions_[member];
-  if (!to.repeats_down.is_on() || to.thinning[next.slot].divider != 1 ||
+  if (!to.repeats_down.is_on() || to.filters[next.slot].divider() != 1 ||
       !guest.previous.is_before(next))
     return;
   put_in_bundle(member, guest.previous.again(), now);
@@ -138,8 +138,8 @@ void ServerCore::put_in_bundle(std::size_t index, const wire::Record& record, Mo
   if (bundle.is_empty()) bundled_.push_back(index);
   wire::Record told = record;
   told.needs_no_other = told.is_base = false;  // the receiver sees it
-  tell_left_out(to, told);
-  bundle.add(told, is_narrow_for(to.held[record.slot], record), now.since_zero_us(),
+  to.filters[record.slot].tell_left_out(told);
+  bundle.add(told, is_narrow_for(to.filters[record.slot].frames(), record), now.since_zero_us(),
              now + share_window(rooms_[to.room]));
 }
 
