@@ -58,7 +58,7 @@ class InterestFilter {
 
   // Whether the record goes to the receiver; counts poses that do not.
   bool take(const wire::Record& record, const Counts& counts);
-  // Writes into a pose how many were left out, until the receiver has one that told the whole count.
+  // Writes into a pose how many were left out, until the receiver has one that told all of them.
   void tell_left_out(wire::Record& record);
 
  private:
