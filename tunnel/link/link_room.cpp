@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t kMusicPlace = 0;
 // What the music may be off by before the others are told again.
 constexpr double kMusicTolerance_s = 0.003;
-// Music that is said to be as far off as this is another request, and not the same one in a clock that
-// drifts.
+// Music that is said to be as far off as this is another request, and not the same one in a clock
+// that drifts.
 constexpr double kSameMusic_s = 0.25;
 constexpr Duration kLongestMusic = Duration::s(24 * 3600);
 

@@ -172,7 +172,7 @@ struct ChannelGate {
 };
 
 // The newest pose of a guest that needs no other, for those who come later.
-struct KeptPose {
+struct RetainedPose {
   bool is_set = false;
   wire::Record record;  // but for its payload
   std::size_t size = 0;
@@ -193,7 +193,7 @@ struct ServerGuest {
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;
   wire::GuestFeedback told;  // what the link was told last
-  KeptPose kept;
+  RetainedPose retained;
   MonoTime last_pose;            // when the newest came in
   std::uint32_t base_count = 0;  // base frames that came
   std::uint32_t hands_count = 0;
@@ -210,7 +210,7 @@ struct ServerRoom {
   wire::RoomName name;
   CodecName codec;
   std::uint32_t roster_version = 1;
-  bool is_astir = false;  // in the list of those with something to tell
+  bool is_listed = false;  // in the list of those with something to tell
   bool roster_changed = false;
   std::uint16_t next_generation = 0;
   std::array<RetainedState, wire::kRoomStates> states;

@@ -1,10 +1,6 @@
-// What changes seldom, at the server: kept while its guest, or the room, is there; told at once,
-// and again with each pong until acknowledged.
-#include <algorithm>
+#include "tunnel/server/server_states.h"
 
-#include "core/base/assert.h"
-#include "core/base/sequence.h"
-#include "tunnel/server/server_core.h"
+#include <algorithm>
 
 namespace dance {
 namespace {
@@ -18,89 +14,89 @@ constexpr std::size_t kFreshDatagramsOfRoom = 64;
 
 }  // namespace
 
-void ServerCore::on_states(std::size_t session, wire::Bytes body, MonoTime now) {
+void ServerStates::on_states(std::size_t session, wire::Bytes body, MonoTime now) {
   const bool is_good = answer_states(
       body,
       [&](const wire::State& state) {
-        return wire::is_of_room(state.name.kind) ? take_room_state(session, state, now)
-                                                 : take_state(session, state, now);
+        return wire::is_of_room(state.name.kind) ? take_of_room(session, state, now)
+                                                 : take(session, state, now);
       },
-      [&](wire::Bytes answer) { send(sessions_[session].peer, answer); });
-  if (!is_good) reject(ServerReject::kMalformed);
+      [&](wire::Bytes answer) { server_.send(server_.sessions[session].peer, answer); });
+  if (!is_good) server_.reject(ServerReject::kMalformed);
 }
 
-void ServerCore::hold_state(ServerRoom& room, RetainedState& held, const wire::State& state) {
-  if (state.name.kind == wire::StateKind::kSkeleton && held.version == 0)
+void ServerStates::retain(ServerRoom& room, RetainedState& retained, const wire::State& state) {
+  if (state.name.kind == wire::StateKind::kSkeleton && retained.version == 0)
     room.has_first_body = true;
-  held.set(state.version, state.payload);
-  held.is_fresh = true;
+  retained.set(state.version, state.payload);
+  retained.is_fresh = true;
   room.has_fresh_states = true;
-  stir(room);
-  ++counters_.states_in;
+  server_.mark_changed(room);
+  ++server_.counters.states_in;
 }
 
 // What is too much now is not acknowledged: the link says its newest again with its next ping.
-std::optional<wire::StateAck> ServerCore::take_state(std::size_t session, const wire::State& state,
-                                                     MonoTime now) {
-  ServerGuest* guest = guest_of(session, state.slot.slot);
+std::optional<wire::StateAck> ServerStates::take(std::size_t session, const wire::State& state,
+                                                 MonoTime now) {
+  ServerGuest* guest = server_.guest_of(session, state.slot.slot);
   if (guest == nullptr) {
-    reject(ServerReject::kForeignSlot);
+    server_.reject(ServerReject::kForeignSlot);
     return std::nullopt;
   }
-  RetainedState& held = guest->states[wire::place_of(state.name)];
-  if (held.is_newer(state.version)) {
+  RetainedState& retained = guest->states[wire::place_of(state.name)];
+  if (retained.is_newer(state.version)) {
     if (!guest->state_changes.take(1.0, now)) {
-      reject(ServerReject::kStateRate);
+      server_.reject(ServerReject::kStateRate);
       return std::nullopt;
     }
-    hold_state(rooms_[sessions_[session].room], held, state);
+    retain(server_.rooms[server_.sessions[session].room], retained, state);
   }
-  return wire::StateAck{state.name, {state.slot.slot, guest->generation}, held.version, {}};
+  return wire::StateAck{state.name, {state.slot.slot, guest->generation}, retained.version, {}};
 }
 
 // The highest version wins, of equal ones the first; who comes second is told.
-std::optional<wire::StateAck> ServerCore::take_room_state(std::size_t session,
-                                                          const wire::State& state, MonoTime now) {
-  const ServerSession& from = sessions_[session];
-  ServerRoom& room = rooms_[from.room];
+std::optional<wire::StateAck> ServerStates::take_of_room(std::size_t session,
+                                                         const wire::State& state, MonoTime now) {
+  const ServerSession& from = server_.sessions[session];
+  ServerRoom& room = server_.rooms[from.room];
   const auto slot = std::find_if(from.slots.begin(), from.slots.end(),
                                  [&](std::uint8_t s) { return room.guests[s].id == state.setter; });
   if (slot == from.slots.end() || !may_set_room_state(from.access, room.has_host())) {
-    reject(ServerReject::kNotAllowed);
+    server_.reject(ServerReject::kNotAllowed);
     return wire::StateAck{state.name, {}, state.version, wire::StateVerdict::kNotAllowed};
   }
   const std::size_t place = wire::place_of(state.name);
-  RetainedState& held = room.states[place];
-  if (held.is_newer(state.version)) {
+  RetainedState& retained = room.states[place];
+  if (retained.is_newer(state.version)) {
     if (!room.guests[*slot].state_changes.take(1.0, now)) {
-      reject(ServerReject::kStateRate);
+      server_.reject(ServerReject::kStateRate);
       return std::nullopt;
     }
-    hold_state(room, held, state);
+    retain(room, retained, state);
     room.setters[place] = state.setter;
-  } else if (held.version != state.version || room.setters[place] != state.setter) {
-    reject(ServerReject::kOverruled);
-    return wire::StateAck{state.name, {}, held.version, wire::StateVerdict::kOverruled};
+  } else if (retained.version != state.version || room.setters[place] != state.setter) {
+    server_.reject(ServerReject::kOverruled);
+    return wire::StateAck{state.name, {}, retained.version, wire::StateVerdict::kOverruled};
   }
-  return wire::StateAck{state.name, {}, held.version, wire::StateVerdict::kHeld};
+  return wire::StateAck{state.name, {}, retained.version, wire::StateVerdict::kHeld};
 }
 
-void ServerCore::on_state_acks(std::size_t session, wire::Bytes body) {
-  ServerSession& from = sessions_[session];
-  const ServerRoom& room = rooms_[from.room];
+void ServerStates::on_acks(std::size_t session, wire::Bytes body) {
+  ServerSession& from = server_.sessions[session];
+  const ServerRoom& room = server_.rooms[from.room];
   const bool is_good = take_state_acks(body, [&](const wire::StateAck& ack) {
     const ServerGuest& guest = room.guests[ack.slot.slot];
     if (wire::is_of_room(ack.name.kind) ||
         (guest.in_use && guest.generation == ack.slot.generation))
       from.stream.states.take(ack);
   });
-  if (!is_good) reject(ServerReject::kMalformed);
+  if (!is_good) server_.reject(ServerReject::kMalformed);
 }
 
-void ServerCore::send_states(std::size_t index, bool only_fresh, std::size_t most_datagrams) {
-  ServerSession& session = sessions_[index];
-  const ServerRoom& room = rooms_[session.room];
-  StateWriter writer([&](wire::Bytes bytes) { send(session.peer, bytes); }, most_datagrams);
+void ServerStates::send(std::size_t index, bool only_fresh, std::size_t most_datagrams) {
+  ServerSession& session = server_.sessions[index];
+  const ServerRoom& room = server_.rooms[session.room];
+  StateWriter writer([&](wire::Bytes bytes) { server_.send(session.peer, bytes); }, most_datagrams);
   // False where there is no room for it any more.
   const auto add = [&](const wire::StateName& name, const wire::Slot& slot, const GuestId& setter,
                        const RetainedState& state) {
@@ -108,7 +104,7 @@ void ServerCore::send_states(std::size_t index, bool only_fresh, std::size_t mos
         session.stream.states.has(name, slot.slot, state.version))
       return true;
     if (!writer.add({name, slot, setter, state.version, state.bytes()})) return false;
-    ++counters_.states_out;
+    ++server_.counters.states_out;
     return true;
   };
   bool has_room = true;
@@ -127,13 +123,13 @@ void ServerCore::send_states(std::size_t index, bool only_fresh, std::size_t mos
   }
 }
 
-void ServerCore::send_fresh_states(ServerRoom& room, MonoTime now) {
+void ServerStates::send_fresh(ServerRoom& room, MonoTime now) {
   const std::size_t most = std::clamp<std::size_t>(
       kFreshDatagramsOfRoom / std::max<std::size_t>(room.members.size(), 1), 1, kFreshDatagrams);
-  for (const std::size_t member : room.members) send_states(member, true, most);
-  for (RetainedState& held : room.states) held.is_fresh = false;
+  for (const std::size_t member : room.members) send(member, true, most);
+  for (RetainedState& retained : room.states) retained.is_fresh = false;
   for (ServerGuest& guest : room.guests)
-    for (RetainedState& held : guest.states) held.is_fresh = false;
+    for (RetainedState& retained : guest.states) retained.is_fresh = false;
   room.has_fresh_states = room.has_first_body = false;
   room.fresh_states_due = now + kFreshStatesPeriod;
 }
