@@ -18,21 +18,20 @@ dance::Result<void> listen(dance::Where where, double seconds) {
   DANCE_TRY(const auto bus, dance::Bus::open(""));  // DANCE_BUS_URL, else the default
   std::map<std::string, dance::Skeleton> skeletons;
 
-  const dance::GuestId all;
-  bus->on_skeleton(
-      where, all,
+  bus->subscribe<dance::TimedSkeleton>(
+      where,
       [&](const dance::Channel& channel, const dance::TimedSkeleton& timed, dance::MonoTime) {
         skeletons[std::string(channel.guest().view())] = timed.skeleton;
       });
-  bus->on_pose(where, all, dance::Delivery::kEvery,
-               [&](const dance::Channel& channel, const dance::Pose& pose, dance::MonoTime) {
-                 const std::string guest(channel.guest().view());
-                 const auto body = skeletons.try_emplace(guest, dance::average_skeleton()).first;
-                 dance::BodyFrames frames;
-                 dance::forward_kinematics(body->second, pose, frames);
-                 std::printf("%s %u %.3f\n", guest.c_str(), pose.sequence,
-                             static_cast<double>(frames.position(dance::Bone::kRightHand).y()));
-               });
+  bus->subscribe<dance::Pose>(
+      where, [&](const dance::Channel& channel, const dance::Pose& pose, dance::MonoTime) {
+        const std::string guest(channel.guest().view());
+        const auto body = skeletons.try_emplace(guest, dance::average_skeleton()).first;
+        dance::BodyFrames frames;
+        dance::forward_kinematics(body->second, pose, frames);
+        std::printf("%s %u %.3f\n", guest.c_str(), pose.sequence,
+                    static_cast<double>(frames.position(dance::Bone::kRightHand).y()));
+      });
   poller->watch(bus->fd(), [&](dance::MonoTime now) { bus->drain(now); });
   if (seconds > 0.0) {
     poller->add_timer(dance::mono_now() + dance::Duration::seconds(seconds), [&](dance::MonoTime) {
