@@ -8,8 +8,8 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "core/program/whole_file.h"
-#include "research/beats/outside_program.h"
 #include "research/beats/song_maker.h"
+#include "research/outside_program.h"
 #include "testing/scratch_folder.h"
 
 namespace dance {
