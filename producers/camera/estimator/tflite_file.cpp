@@ -1,9 +1,8 @@
 #include "producers/camera/estimator/tflite_file.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
+#include "core/program/whole_file.h"
 #include "producers/camera/estimator/tflite_reader.h"
 
 namespace dance {
@@ -79,17 +78,9 @@ Result<PoseGraph> parse_tflite(std::span<const std::uint8_t> bytes) {
 }
 
 Result<PoseGraph> read_tflite_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(path + ": cannot be opened; ./dance setup fetches it");
-  file.seekg(0, std::ios::end);
-  const std::streamoff size = file.tellg();
-  if (size < 0 || static_cast<std::size_t>(size) > kMostFile_bytes)
-    return fail(path + ": is no file of at most 64 MiB");
-  file.seekg(0);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-  if (size > 0 && !file.read(reinterpret_cast<char*>(bytes.data()), size))
-    return fail(path + ": cannot be read");
-  auto graph = parse_tflite(bytes);
+  auto file = read_whole_file(path, kMostFile_bytes);
+  if (!file) return fail(file.error().what + "; ./dance setup fetches it");
+  auto graph = parse_tflite({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()});
   if (!graph) return fail(path + ": " + graph.error().what + "; ./dance setup fetches it anew");
   return graph;
 }
