@@ -98,8 +98,10 @@ foreach(module calib3d dnn videoio imgcodecs imgproc core)
 endforeach()
 find_library(TURBOJPEG_LIBRARY turbojpeg)
 find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h)
+find_path(FLATBUFFERS_INCLUDE_DIR flatbuffers/flatbuffers.h)
+find_program(FLATC flatc)
 set(camera_found FALSE)
-if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR)
+if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR AND FLATBUFFERS_INCLUDE_DIR AND FLATC)
   set(camera_found TRUE)
   target_include_directories(dance_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
   add_library(dance_turbojpeg INTERFACE)
@@ -108,7 +110,8 @@ if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR)
   target_link_libraries(dance_turbojpeg INTERFACE ${TURBOJPEG_LIBRARY})
 endif()
 dance_optional(DANCE_CAMERA "Camera" DANCE_HAVE_CAMERA ${camera_found}
-  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev libturbojpeg0-dev")
+  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev libturbojpeg0-dev flatbuffers-compiler \
+libflatbuffers-dev")
 
 # Without it OpenCV runs the pose network: the same numbers, four times slower.
 find_path(XNNPACK_INCLUDE_DIR xnnpack.h)
