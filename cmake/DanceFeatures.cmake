@@ -76,6 +76,10 @@ dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
 
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
 dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
+# What libsndfile cannot read; from FFmpeg 5.1 on, which has the channel layouts that are used.
+pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample)
+dance_optional(DANCE_FFMPEG "Music with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
+  "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 
@@ -94,8 +98,10 @@ foreach(module calib3d dnn videoio imgcodecs imgproc core)
 endforeach()
 find_library(TURBOJPEG_LIBRARY turbojpeg)
 find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h)
+find_path(FLATBUFFERS_INCLUDE_DIR flatbuffers/flatbuffers.h)
+find_program(FLATC flatc)
 set(camera_found FALSE)
-if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR)
+if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR AND FLATBUFFERS_INCLUDE_DIR AND FLATC)
   set(camera_found TRUE)
   target_include_directories(dance_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
   add_library(dance_turbojpeg INTERFACE)
@@ -104,7 +110,8 @@ if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR)
   target_link_libraries(dance_turbojpeg INTERFACE ${TURBOJPEG_LIBRARY})
 endif()
 dance_optional(DANCE_CAMERA "Camera" DANCE_HAVE_CAMERA ${camera_found}
-  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev libturbojpeg0-dev")
+  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev libturbojpeg0-dev flatbuffers-compiler \
+libflatbuffers-dev")
 
 # Without it OpenCV runs the pose network: the same numbers, four times slower.
 find_path(XNNPACK_INCLUDE_DIR xnnpack.h)

@@ -75,6 +75,15 @@ function(dance_library name)
   dance_use_pch(dance_${name})
 endfunction()
 
+# dance_embed(TARGET NAME FILE): the file's bytes are part of the target, std::span<const std::uint8_t> dance::NAME().
+function(dance_embed target name file)
+  set(file ${PROJECT_SOURCE_DIR}/${file})
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/embedded_file.cpp.in ${source} @ONLY)
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${file})
+  target_sources(${target} PRIVATE ${source})
+endfunction()
+
 # dance_program(NAME SOURCES x_main.cpp … LIBS targets …): the program dance-NAME in <build>/bin.
 function(dance_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
