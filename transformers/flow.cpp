@@ -51,7 +51,7 @@ void Flow::correct(const PlayoutClock::Choice& choice, MonoTime now, bool contin
   Pose is;
   // What is known by now has changed what the picture before should have been.
   if (has_shown_ && (continues_from_here || has_news_)) {
-    const bool is_changed = continues_from_here || is_shown_open_;
+    const bool is_changed = is_shown_open_ || (continues_from_here && is_shown_repeated_);
     if (is_changed) source_->at(asked(shown_moment_), is);
     if (is_changed || (!corrects_from_now_ && !finish_->corrections().is_at_rest()))
       finish_->correct(corrects_from_now_ ? now : shown_at_, shown_, is_changed ? is : shown_);
@@ -77,8 +77,9 @@ bool Flow::sample(MonoTime now, Pose& out) {
        asked > timeline_->newest().capture_time + source_->reach()))
     ++starved_;
   if (finish_) {
-    shown_ = out;
     is_shown_open_ = source_->is_open(asked, kind);
+    is_shown_repeated_ = is_repeated;
+    if (is_shown_open_ || is_shown_repeated_) shown_ = out;
     finish_->apply(
         now, out, kind == MotionSource::Kind::kPredicted || kind == MotionSource::Kind::kContinued);
   }

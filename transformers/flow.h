@@ -98,7 +98,7 @@ class Flow {
   MonoTime shown_moment_, shown_at_;
   MonoTime shown_capture_;  // the moment that was shown
   bool corrects_from_now_ = false;
-  bool has_shown_ = false, is_shown_open_ = false, has_news_ = false;
+  bool has_shown_ = false, is_shown_open_ = false, is_shown_repeated_ = false, has_news_ = false;
   std::uint64_t starved_ = 0;
 };
 
