@@ -110,7 +110,7 @@ TEST(WireRecords, WhatIsForReceiversOfLessLooksAsItIsDocumented) {
   ASSERT_TRUE(first && second);
   EXPECT_TRUE(first->is_retained && first->counts_left_out);
   EXPECT_EQ(first->left_out, told.left_out);
-  EXPECT_TRUE(second->is_base && second->needs_no_other && !second->counts_left_out);
+  EXPECT_TRUE(second->is_base && second->is_intra && !second->counts_left_out);
   for (const int wrong : {0x4a, 0x3a, 0x8a, 0x5e}) {
     Written changed = bytes;
     changed[17] = static_cast<std::uint8_t>(wrong);
@@ -184,7 +184,7 @@ TEST(WireRecords, ACrowdComesBackWhateverItsOrder) {
       EXPECT_EQ(read->sequence, sent.sequence);
       EXPECT_EQ(read->capture_us, sent.capture_us);
       EXPECT_EQ(read->sent_age_us, sent.sent_age_us);
-      EXPECT_EQ(read->needs_no_other, sent.is_intra);
+      EXPECT_EQ(read->is_intra, sent.is_intra);
     }
     EXPECT_TRUE(in.is_exhausted());
   }
