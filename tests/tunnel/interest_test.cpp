@@ -23,7 +23,7 @@ TEST(Interest, IsRoundedToPowersOfTwoAndNeverToMore) {
   EXPECT_EQ(spacing_log2(3), 2);
   EXPECT_EQ(spacing_log2(8), 3);
   EXPECT_EQ(spacing_log2(9), 4);
-  EXPECT_EQ(spacing_log2(255), kFewestStills_log2);
+  EXPECT_EQ(spacing_log2(255), kFewestIntra_log2);
 }
 
 class InterestRoom : public ::testing::Test {

@@ -42,7 +42,7 @@ std::string more_of(wire::Bytes datagram) {
   for (wire::RecordChain chain; in.remaining() > 0;) {
     const auto record = wire::parse_record(chain, in);
     if (record->kind == wire::RecordKind::kChannel) return "_channel";
-    if (record->is_kept) return "_kept";
+    if (record->is_retained) return "_kept";
     if (record->counts_left_out) return "_left_out";
     if (record->is_base) return "_base";
   }

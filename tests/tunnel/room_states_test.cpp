@@ -26,7 +26,7 @@ TEST_F(RoomStates, OfTwoWhoSetTheRoomsTheLastOneHoldsAndTheOtherIsTold) {
   tunnel.run(Duration::ms(100));
   expect_holds("bob", "beach");
   EXPECT_EQ(a.refused, std::vector<std::string>{"scene overruled"});
-  // Alice's program says its own again each second, which is no new wish.
+  // Alice's program says its own again each second, which is no new request.
   say(a, "alice", scene_named("mill"));
   tunnel.run(Duration::ms(500));
   expect_holds("bob", "beach");
@@ -44,7 +44,7 @@ TEST_F(RoomStates, OfTwoWhoSetTheRoomsTheLastOneHoldsAndTheOtherIsTold) {
   EXPECT_EQ(b.link->counters().states_overruled, 2u);
 }
 
-// A player that was overruled goes on playing, and its clock drifts: that is no new wish either.
+// A player that was overruled goes on playing, and its clock drifts: that is no new request either.
 TEST_F(RoomStates, AnOverruledPlayerDoesNotTakeTheRoomBackByDrifting) {
   House& a = tunnel.add_house("salsa", {"alice"});
   House& b = tunnel.add_house("salsa", {"bob"});

@@ -63,7 +63,7 @@ TEST_F(LatticeRoom, WhateverArrivesOverALosingLineDecodes) {
   const LinkCounters after = sum();
   const auto received = after.poses_received - before.poses_received;
   const auto delivered = after.poses_delivered - before.poses_delivered;
-  // 6 dancers, 5 hearers each, 62.5 Hz, two lines that lose.
+  // 6 dancers, 5 receivers each, 62.5 Hz, two lines that lose.
   EXPECT_NEAR(static_cast<double>(received), 6 * 5 * 125 * 0.9, 150.0);
   EXPECT_GE(static_cast<double>(delivered), 0.995 * static_cast<double>(received));
   EXPECT_EQ(after.reference_missing, before.reference_missing);

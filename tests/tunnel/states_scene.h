@@ -1,4 +1,4 @@
-// The scene of tests of what changes seldom: what houses say of it, and lines that lose.
+// The scene of tests of states: what houses say of it, and lines that lose.
 //
 // Units/frames: as SimulatedTunnel.
 // Ownership:    the fixture owns the tunnel.

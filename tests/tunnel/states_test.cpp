@@ -1,4 +1,4 @@
-// What changes seldom: everybody has the newest of it, whoever comes late too, whatever lines lose,
+// States: everybody has the newest of each, who comes late too, whatever lines lose,
 // and poses do not notice.
 #include <gtest/gtest.h>
 

@@ -50,7 +50,7 @@ TEST(WireState, ComesBackAsItWas) {
 TEST(WireState, AcknowledgementsComeBackAsTheyWere) {
   for (const State& state : every_state({})) {
     for (const auto verdict :
-         {StateVerdict::kHeld, StateVerdict::kOverruled, StateVerdict::kNotAllowed}) {
+         {StateVerdict::kAccepted, StateVerdict::kOverruled, StateVerdict::kNotAllowed}) {
       std::array<std::uint8_t, 16> bytes;
       ByteWriter out(bytes);
       add_state_ack({state.name, state.slot, state.version, verdict}, out);

@@ -1,6 +1,6 @@
-// A house's link to the server: LinkCore with a sealed session and a socket around it, for whoever
-// has a poller. No bus in here: tunnel/link/link_bus.h puts one on it, and a whole house in one
-// process needs none.
+// A house's link to the server: LinkCore with a sealed session and a socket around it, for a
+// process that has a poller. No bus in here: tunnel/link/link_bus.h puts one on it, and a whole
+// house in one process needs none.
 //
 // Units/frames: poses in and out are in this process's clock.
 // Ownership:    owns socket and core; the poller, and what the handlers refer to, must outlive it.

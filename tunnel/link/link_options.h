@@ -41,7 +41,7 @@ struct LinkOptions {
   std::function<std::unique_ptr<PoseDecoder>(CodecName)> make_decoder = make_pose_decoder;
   // Records wait this long for those of the house's other guests; 0 = each leaves at once.
   Duration share_window = Duration::ms(1);
-  // A frame that needs no other comes this often, asked for or not; 0 = only when asked for.
+  // An intra frame comes this often, asked for or not; 0 = only when asked for.
   Duration key_frame_period = Duration::s(2);
   // Every so many poses bring the ages of their hops.
   std::uint32_t poses_per_stamp = 32;
@@ -72,7 +72,7 @@ struct LinkHandlers {
   // What holds in the room, and who set it: also a guest of this house.
   std::function<void(const GuestId&, const Music&, MonoTime now)> on_music;
   std::function<void(const GuestId&, const Scene&, MonoTime now)> on_scene;
-  // A guest of this house wished for something else: overruled, or not allowed to.
+  // A guest of this house requested something else: overruled, or not allowed to.
   std::function<void(wire::StateKind, wire::StateVerdict)> on_room_state_refused;
   // A message of a further channel of another house: of a name, size and layout that a rule lets
   // in.
@@ -112,8 +112,8 @@ struct LinkCounters {
   std::uint64_t states_sent = 0;        // repetitions included
   std::uint64_t states_delivered = 0;
   std::uint64_t states_invalid = 0;    // both ways
-  std::uint64_t states_overruled = 0;  // wishes for the room that somebody else's replaced
-  std::uint64_t states_refused = 0;    // wishes that the server does not allow
+  std::uint64_t states_overruled = 0;  // requests for the room that somebody else's replaced
+  std::uint64_t states_refused = 0;    // requests that the server does not allow
   std::uint64_t channels_sent = 0;     // messages of further channels
   std::uint64_t channels_delivered = 0;
   std::uint64_t channels_unlisted = 0;  // both ways: no rule lets them pass
@@ -159,7 +159,7 @@ struct LocalGuestStats {
 
 // One line: what was refused, why, and the cure.
 std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomName& room);
-// One line: what became of a guest's wish for the room.
+// One line: what became of a guest's request for the room.
 std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict);
 // One line: who does not answer, and what to look at.
 std::string no_answer_line(const Address& server);

@@ -63,7 +63,7 @@ bool LinkReceiver::on_record(wire::Record record, MonoTime received, MonoTime no
   }
   const std::int64_t server_now_us = link_.clock.to_theirs_us(now);
   // Who has not moved for long was captured long ago.
-  if ((record.capture_us < server_now_us - kOldestTold_us && !record.is_kept) ||
+  if ((record.capture_us < server_now_us - kOldestTold_us && !record.is_retained) ||
       record.capture_us > server_now_us + kFarthestTold_us) {
     link_.counters.poses_received += is_pose ? 1 : 0;
     ++link_.counters.invalid;
@@ -80,9 +80,9 @@ bool LinkReceiver::on_record(wire::Record record, MonoTime received, MonoTime no
       gate.judge(record.stream, record.sequence, record.capture_us, left_out);
   const bool is_newest =
       verdict == StreamGate::Verdict::kNewest || verdict == StreamGate::Verdict::kNewStream;
-  // The kept one is said again until it could be decoded: its proportions may have come after it.
+  // The retained one is said again until it could be decoded: its proportions may have come later.
   const bool is_awaited =
-      record.is_kept && !remote.heard.has_decoded && verdict != StreamGate::Verdict::kOldStream;
+      record.is_retained && !remote.heard.has_decoded && verdict != StreamGate::Verdict::kOldStream;
   // Once more, in case it was lost: it was not.
   if (verdict == StreamGate::Verdict::kDuplicate && !is_awaited) return true;
   link_.counters.poses_received += is_pose ? 1 : 0;
@@ -90,7 +90,7 @@ bool LinkReceiver::on_record(wire::Record record, MonoTime received, MonoTime no
     ++link_.counters.late;
     return !is_pose;
   }
-  if (record.is_kept) gate.forgive_gap();
+  if (record.is_retained) gate.forgive_gap();
   const MonoTime capture = link_.clock.to_ours(record.capture_us);
   if (!is_pose) {
     on_hands(record, remote.id, capture, now);
@@ -99,8 +99,8 @@ bool LinkReceiver::on_record(wire::Record record, MonoTime received, MonoTime no
   if (verdict == StreamGate::Verdict::kNewStream) remote.decoder->restart();
   if (!decode(remote, record, now)) return false;
   remote.heard.has_decoded = true;
-  // Through another sealed session the stage has seen more than the server kept.
-  if (record.is_kept && remote.shown.is_set() && capture <= remote.shown) return true;
+  // Through another sealed session the stage has seen more than the server retained.
+  if (record.is_retained && remote.shown.is_set() && capture <= remote.shown) return true;
   remote.shown = capture;
   decoded_.sequence = record.sequence;
   decoded_.clock_id = link_.options.clock_id;

@@ -178,7 +178,7 @@ void LinkRoom::on_ack(const wire::StateAck& ack) {
   Request& request = requests_[place];
   if (!request.is_open) return;
   switch (ack.verdict) {
-    case wire::StateVerdict::kHeld:
+    case wire::StateVerdict::kAccepted:
       if (ack.version != request.state.version) return;
       link_.stream.states.take(ack);
       request.is_blind = false;

@@ -14,7 +14,7 @@ constexpr Duration kLongestHelloWait = Duration::s(1);
 constexpr Duration kLongestWaitInLapse = Duration::ms(250);
 constexpr int kHellosInLapse = 40;
 constexpr Duration kPingPeriod = Duration::ms(200);
-// Where poses say both ways that the line lives, and none is lost, they need less company.
+// Where poses say both ways that the path lives, and none is lost, fewer pings do.
 constexpr Duration kDancingPingPeriod = Duration::ms(500);
 constexpr Duration kLongestCalmRoundTrip = Duration::ms(250);
 // The first pings come quickly: the shortest of eight round trips maps the clock well.
@@ -101,7 +101,7 @@ void LinkSession::on_unsealed(MonoTime now) {
 }
 
 void LinkSession::send_hello(MonoTime now) {
-  // One nonce for all tries of one list of guests, so that an answer on a long line still counts.
+  // One nonce for all tries of one list of guests, so that an answer on a long path still counts.
   if (hello_nonce_ == 0) {
     do {
       hello_nonce_ = random_.next_u64();

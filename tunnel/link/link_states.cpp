@@ -73,7 +73,7 @@ bool LinkStates::on_states(wire::Bytes body, MonoTime now) {
         if (wire::is_of_room(state.name.kind) ? !room_.on_state(state, now)
                                               : !on_guest_state(state, now))
           return std::nullopt;
-        return wire::StateAck{state.name, state.slot, state.version, wire::StateVerdict::kHeld};
+        return wire::StateAck{state.name, state.slot, state.version, wire::StateVerdict::kAccepted};
       },
       [this](wire::Bytes answer) { link_.send(answer); });
 }

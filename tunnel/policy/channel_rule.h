@@ -23,7 +23,7 @@
 
 namespace dance {
 
-// kState: the last message counts, and whoever comes later gets it. kNewest: as poses, a lost one
+// kState: the last message counts, and those who come later get it. kNewest: as poses, a lost one
 // is made good by the next.
 enum class ChannelClass : std::uint8_t { kState = 1, kNewest = 2 };
 

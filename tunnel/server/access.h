@@ -24,7 +24,7 @@ struct Access {
   GuestId name{};  // of the key
   Role role = Role::kGuest;
   wire::RoomName room{};  // the only one it opens; not set = any room
-  bool any_name = false;  // a room's key: whoever has it chooses the names
+  bool any_name = false;  // a room's key: its holder chooses the names
 
   // Its own name, or one that begins with it and a '-': "alice", "alice-2".
   bool may_bear(const GuestId& guest) const;

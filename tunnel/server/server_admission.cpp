@@ -17,7 +17,7 @@ ServerAdmission::ServerAdmission(ServerContext& server, ServerFeedback& feedback
   hellos_.fill(TokenBucket(server.limits.hellos_per_second, server.limits.hello_burst));
 }
 
-// A token counts with the key that it came with: whoever learnt it gets nobody's place by it.
+// A token counts with the key that it came with: another key gets no place by it.
 std::optional<std::size_t> ServerAdmission::find_token(std::uint64_t token,
                                                        const GuestId& key) const {
   for (std::size_t i = 0; i < server_.sessions.size(); ++i)

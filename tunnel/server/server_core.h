@@ -2,7 +2,7 @@
 // pose to everybody else in the room without looking into it; keeps who is in which room and the
 // newest states (bodies, music, further channels) for those who come later.
 //
-// Speaks with peers that have proved who they are: whoever calls receive() has checked their keys.
+// Speaks with peers that have proved who they are: the caller of receive() has checked their keys.
 //
 // Units/frames: now and received are MonoTime of the server's clock, which is the tunnel's clock.
 // Ownership:    owns sessions and rooms, all made at construction; the sink must outlive it. Taking

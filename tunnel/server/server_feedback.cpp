@@ -62,9 +62,9 @@ void ServerFeedback::on_want(std::size_t index, std::uint8_t slot, MonoTime now)
   if (!guest.in_use || guest.owner == index) return server_.reject(ServerReject::kForeignSlot);
   InterestFilter& filter = session.filters[slot];
   filter.frames().clear();
-  // Who gets frames that need no other has lost the first of them, or its proportions: the next
+  // Who gets intra frames only has lost the first of them, or its proportions: the next
   // comes.
-  if (filter.share() == Share::kStills) {
+  if (filter.share() == Share::kIntra) {
     filter.await_intra(true);
     return;
   }

@@ -80,7 +80,7 @@ void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTi
   if (record.is_base) ++guest->base_count;
   if (!is_pose) ++guest->hands_count;
   if (is_pose) guest->last_pose = now;
-  if (is_pose && record.needs_no_other) retain(*guest, record);
+  if (is_pose && record.is_intra) retain(*guest, record);
   forward(session, record, now);
   if (is_pose) guest->previous.keep(record);
 }
@@ -114,7 +114,7 @@ void ServerForwarder::forward(std::size_t from, const wire::Record& record, Mono
 }
 
 // The pose before goes once more, in front of this one, to whom it may be lost. Who gets only some
-// poses gets those that need no other, or few: there it would be of no use.
+// poses gets intra frames, or few others: there it would be of no use.
 void ServerForwarder::repeat_before(std::size_t member, const ServerGuest& guest,
                                     const wire::Record& next, MonoTime now) {
   ServerSession& to = server_.sessions[member];
@@ -141,7 +141,7 @@ void ServerForwarder::put(std::size_t index, const wire::Record& record, MonoTim
   if (!bundle.has_room_for(record)) flush_bundle(index, now);
   if (bundle.is_empty()) server_.bundled.push_back(index);
   wire::Record told = record;
-  told.needs_no_other = told.is_base = false;  // the receiver sees it
+  told.is_intra = told.is_base = false;  // the receiver sees it
   to.filters[record.slot].tell_left_out(told);
   bundle.add(told, is_narrow_for(to.filters[record.slot].frames(), record), now.since_zero_us(),
              now + share_window(server_.rooms[to.room]));
@@ -169,7 +169,7 @@ void ServerForwarder::send_records(std::size_t index, MonoTime now) {
   wire::RecordsHeader header;
   if (session.feedback_due.is_set() && session.feedback_due <= now &&
       stream.bundle.room() >= kFeedbackHead + kFeedbackGuest * session.slots.size()) {
-    // Links count what the server has of them; seldom is enough.
+    // Links count what the server has of them; rarely is enough.
     const bool is_repeat = session.feedback_is_repeat;
     header.has_feedback = feedback_.fill(index, now, header.feedback);
     if (header.has_feedback && is_repeat) stream.received.fill(header);
@@ -202,7 +202,7 @@ void ServerForwarder::retain(ServerGuest& guest, const wire::Record& record) {
   guest.retained.is_set = true;
   guest.retained.record = record;
   guest.retained.record.payload = {};
-  guest.retained.record.is_kept = true;
+  guest.retained.record.is_retained = true;
   guest.retained.size = record.payload.size();
   std::memcpy(guest.retained.payload.data(), record.payload.data(), record.payload.size());
 }

@@ -1,6 +1,6 @@
 // The way of records through the server: checked against their session and sequence, and forwarded
-// undecoded, with others in one datagram where they come within the room's window. The newest pose
-// of each guest that needs no other is retained for those who come later.
+// undecoded, with others in one datagram where they come within the room's window. The newest
+// intra frame of each guest is retained for those who come later.
 //
 // Units/frames: MonoTime of the server's clock; sessions by index.
 // Ownership:    refers to the server's context and parts. Never allocates.

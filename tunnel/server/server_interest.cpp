@@ -7,7 +7,7 @@ namespace {
 
 // How long a receiver without anything to refer to waits before what was asked for is asked for
 // again.
-constexpr Duration kStillIsLate = Duration::ms(250);
+constexpr Duration kIntraIsLate = Duration::ms(250);
 
 }  // namespace
 
@@ -58,7 +58,7 @@ bool ServerInterest::take(std::size_t to, const wire::Record& record, MonoTime n
   ServerGuest& guest = server_.rooms[session.room].guests[record.slot];
   InterestFilter& filter = session.filters[record.slot];
   if (filter.take(record, guest.counts())) return true;
-  const bool is_late = !guest.key_asked_at.is_set() || now - guest.key_asked_at > kStillIsLate;
+  const bool is_late = !guest.key_asked_at.is_set() || now - guest.key_asked_at > kIntraIsLate;
   if (record.kind == wire::RecordKind::kPose && filter.awaits_intra() && is_late &&
       !guest.key_wanted && filter.wants_any())
     feedback_.want_key_frame(guest, now);

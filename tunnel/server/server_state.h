@@ -62,7 +62,7 @@ struct ServerLimits {
   bool repeats = true;
 };
 
-// A few never wait: they seldom dance within the same millisecond. In a crowd headers would cost
+// A few never wait: they rarely dance within the same millisecond. In a crowd headers would cost
 // more than poses.
 constexpr Duration share_window_of(std::size_t guests) {
   constexpr std::size_t kFew = 8, kCrowd = 24;
@@ -171,7 +171,7 @@ struct ChannelGate {
   std::uint32_t sequence = 0;
 };
 
-// The newest pose of a guest that needs no other, for those who come later.
+// The newest intra frame of a guest, for those who come later.
 struct RetainedPose {
   bool is_set = false;
   wire::Record record;  // but for its payload

@@ -78,7 +78,7 @@ std::optional<wire::StateAck> ServerStates::take_of_room(std::size_t session,
     server_.reject(ServerReject::kOverruled);
     return wire::StateAck{state.name, {}, retained.version, wire::StateVerdict::kOverruled};
   }
-  return wire::StateAck{state.name, {}, retained.version, wire::StateVerdict::kHeld};
+  return wire::StateAck{state.name, {}, retained.version, wire::StateVerdict::kAccepted};
 }
 
 void ServerStates::on_acks(std::size_t session, wire::Bytes body) {

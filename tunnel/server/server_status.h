@@ -89,7 +89,7 @@ class ServerStatusMaker {
                     PeerText peer_text, MonoTime begin);
   // Once a second: what rates are counted from.
   void sample(MonoTime now);
-  // Handshakes by cause are those of whoever seals the sessions.
+  // Handshakes by cause are counted where sessions are sealed.
   ServerStatus make(MonoTime now, std::span<const NamedCount> handshakes) const;
 
  private:

@@ -40,7 +40,7 @@ bool InterestFilter::set_divider(std::uint8_t divider, std::uint32_t stream) {
   // Who had everything has what base frames refer to; all others begin with an intra frame.
   if (after == Share::kBase && before == Share::kAll && frames_.is_of(stream)) return false;
   awaits_intra_ = true;
-  return after != Share::kStills || before == Share::kNone;
+  return after != Share::kIntra || before == Share::kNone;
 }
 
 bool InterestFilter::admits(const wire::Record& record, const Counts& counts) const {
@@ -48,10 +48,9 @@ bool InterestFilter::admits(const wire::Record& record, const Counts& counts) co
   // What a message means is not known: whether the others can do without it neither.
   if (record.kind == wire::RecordKind::kChannel) return true;
   if (record.kind == wire::RecordKind::kHands) return counts.hands % divider_ == 0;
-  if (awaits_intra_) return record.needs_no_other;
+  if (awaits_intra_) return record.is_intra;
   if (share() == Share::kAll) return true;
-  if (share() == Share::kStills)
-    return record.needs_no_other && record.sequence - last_sent_ >= divider_;
+  if (share() == Share::kIntra) return record.is_intra && record.sequence - last_sent_ >= divider_;
   // The sender's base frames come as often as the most eager wants them: of those each 2^n-th, the
   // same for all who want so many.
   const std::uint8_t wanted = spacing_log2(divider_);

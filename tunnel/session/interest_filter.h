@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-#include "tunnel/session/held_frames.h"
+#include "tunnel/session/frame_window.h"
 #include "tunnel/session/pose_share.h"
 #include "tunnel/wire/wire_records.h"
 
@@ -50,8 +50,8 @@ class InterestFilter {
   // `stream`: the guest's. True where the receiver needs an intra frame asked for.
   bool set_divider(std::uint8_t divider, std::uint32_t stream);
 
-  HeldFrames& frames() { return frames_; }
-  const HeldFrames& frames() const { return frames_; }
+  FrameWindow& frames() { return frames_; }
+  const FrameWindow& frames() const { return frames_; }
   // It has nothing that frames could refer to: the next intra frame is the first it gets.
   bool awaits_intra() const { return awaits_intra_; }
   void await_intra(bool awaits) { awaits_intra_ = awaits; }
@@ -70,7 +70,7 @@ class InterestFilter {
   bool tells_left_out_ = false;
   std::uint16_t left_out_ = 0;       // poses of this generation
   std::uint16_t last_left_out_ = 0;  // sequence, low half
-  HeldFrames frames_;
+  FrameWindow frames_;
 };
 
 }  // namespace dance

@@ -1,11 +1,11 @@
 // Who is at the other end of a sealed session, and where datagrams for it go: the seam between the
-// server's state machine and what seals its datagrams. Whoever seals has checked the peer's key, so
+// server's state machine and what seals its datagrams. The seal has checked the peer's key, so
 // that a PeerId proves who speaks, whatever address its datagrams come from.
 //
 // Units/frames: bytes of inner datagrams, docs/wire-format.md.
 // Ownership:    send() copies or passes on the bytes before it returns.
 // Threads:      the caller's.
-// Failure:      none here; whoever carries counts what could not be sent.
+// Failure:      none here; the carrier counts what could not be sent.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 namespace dance {
 
-bool is_narrow_for(const HeldFrames& frames, const wire::Record& record) {
+bool is_narrow_for(const FrameWindow& frames, const wire::Record& record) {
   return record.kind == wire::RecordKind::kPose && frames.is_of(record.stream) &&
          static_cast<std::uint16_t>(record.sequence - frames.newest()) <= wire::kNarrowReach;
 }

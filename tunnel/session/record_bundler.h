@@ -11,13 +11,13 @@
 #include <cstdint>
 
 #include "core/base/time.h"
-#include "tunnel/session/held_frames.h"
+#include "tunnel/session/frame_window.h"
 #include "tunnel/wire/wire_records.h"
 
 namespace dance {
 
 // Whether a receiver that has these frames can tell the record's whole numbers from the low bits.
-bool is_narrow_for(const HeldFrames& frames, const wire::Record& record);
+bool is_narrow_for(const FrameWindow& frames, const wire::Record& record);
 
 class RecordBundler {
  public:

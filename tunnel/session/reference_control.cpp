@@ -22,7 +22,7 @@ void ReferenceControl::begin(PoseEncoder& encoder) {
   acked_frames_.clear();
   base_acked_frames_.clear();
   base_log2_ = 0;
-  intra_log2_ = kFewestStills_log2;
+  intra_log2_ = kFewestIntra_log2;
   requests_seen_ = 0;
   refreshed_at_ = MonoTime();
 }
@@ -98,14 +98,14 @@ bool ReferenceControl::take(const wire::GuestFeedback& about, const PathStats& p
   // The encoder is told with the next frame.
   if (path.is_known) policy_.update(path.loss, path.in_a_row, path.round_trip, frame_, now);
   base_log2_ = about.base_log2;
-  intra_log2_ = about.still_log2;
+  intra_log2_ = about.intra_log2;
   if (about.restarts == static_cast<std::uint8_t>(stream_)) acknowledge(about, encoder, now);
   return is_asked;
 }
 
 // Only what was sent, and each once.
 template <class Tell>
-void ReferenceControl::each_new(std::uint16_t newest, std::uint16_t before, HeldFrames& told,
+void ReferenceControl::each_new(std::uint16_t newest, std::uint16_t before, FrameWindow& told,
                                 Tell tell) const {
   for (int back = 16; back >= 0; --back) {
     if (back > 0 && (before >> (back - 1) & 1) == 0) continue;
@@ -118,31 +118,31 @@ void ReferenceControl::each_new(std::uint16_t newest, std::uint16_t before, Held
 
 void ReferenceControl::acknowledge(const wire::GuestFeedback& about, PoseEncoder& encoder,
                                    MonoTime now) {
-  if (about.has_held)
-    each_new(about.newest_held, about.held_before, acked_frames_, [&](std::uint32_t sequence) {
+  if (about.has_acked)
+    each_new(about.newest_acked, about.acked_before, acked_frames_, [&](std::uint32_t sequence) {
       ++acked_;
       acked_at_ = now;
       encoder.acknowledged(sequence);
     });
-  if (about.has_base_held)
-    each_new(about.newest_base_held, about.base_held_before, base_acked_frames_,
+  if (about.has_base_acked)
+    each_new(about.newest_base_acked, about.base_acked_before, base_acked_frames_,
              [&](std::uint32_t sequence) { encoder.base_acknowledged(sequence); });
 }
 
-void ReceiverSummary::intersect(const HeldFrames& frames, bool& has_some, HeldFrames& common) {
+void ReceiverSummary::intersect(const FrameWindow& frames, bool& has_some, FrameWindow& common) {
   if (std::exchange(has_some, true))
     common.intersect(frames);
   else
     common = frames;
 }
 
-void ReceiverSummary::add(std::uint8_t divider, const HeldFrames& frames) {
+void ReceiverSummary::add(std::uint8_t divider, const FrameWindow& frames) {
   const Share share = share_of(divider);
   if (share == Share::kBase) {
     const std::uint8_t wanted = spacing_log2(divider);
     base_log2_ = base_log2_ == 0 ? wanted : std::min(base_log2_, wanted);
   }
-  if (share == Share::kStills) intra_log2_ = std::min(intra_log2_, spacing_log2(divider));
+  if (share == Share::kIntra) intra_log2_ = std::min(intra_log2_, spacing_log2(divider));
   if (share != Share::kAll && share != Share::kBase) return;
   // Who has nothing of late asks for an intra frame; the others need not do without references.
   if (!has_any_ || !frames.is_of(stream_) ||
@@ -154,18 +154,18 @@ void ReceiverSummary::add(std::uint8_t divider, const HeldFrames& frames) {
 
 void ReceiverSummary::fill(wire::GuestFeedback& about) const {
   about.base_log2 = base_log2_;
-  about.still_log2 = intra_log2_;
+  about.intra_log2 = intra_log2_;
   // With nobody who gets all, there is nothing that only those have.
-  const HeldFrames& common = has_full_ ? full_ : base_;
-  about.has_held = has_any_ && common.is_of(stream_);
-  if (about.has_held) {
-    about.newest_held = common.newest();
-    about.held_before = static_cast<std::uint16_t>(common.bits() >> 1);
+  const FrameWindow& common = has_full_ ? full_ : base_;
+  about.has_acked = has_any_ && common.is_of(stream_);
+  if (about.has_acked) {
+    about.newest_acked = common.newest();
+    about.acked_before = static_cast<std::uint16_t>(common.bits() >> 1);
   }
-  about.has_base_held = base_log2_ != 0 && has_any_ && base_.is_of(stream_);
-  if (about.has_base_held) {
-    about.newest_base_held = base_.newest();
-    about.base_held_before = static_cast<std::uint16_t>(base_.bits() >> 1);
+  about.has_base_acked = base_log2_ != 0 && has_any_ && base_.is_of(stream_);
+  if (about.has_base_acked) {
+    about.newest_base_acked = base_.newest();
+    about.base_acked_before = static_cast<std::uint16_t>(base_.bits() >> 1);
   }
 }
 

@@ -13,7 +13,7 @@
 
 #include "core/base/time.h"
 #include "core/codec/pose_codec.h"
-#include "tunnel/session/held_frames.h"
+#include "tunnel/session/frame_window.h"
 #include "tunnel/session/reference_policy.h"
 #include "tunnel/wire/wire_records.h"
 
@@ -38,7 +38,7 @@ class ReferenceControl {
   // Between captures, as it is of late.
   Duration frame() const { return frame_; }
   // What the encoder was told that all receivers have.
-  const HeldFrames& acked_frames() const { return acked_frames_; }
+  const FrameWindow& acked_frames() const { return acked_frames_; }
   std::uint64_t sent() const { return sent_; }
   std::uint64_t acked() const { return acked_; }
   std::uint64_t intra_asked() const { return intra_asked_; }
@@ -48,7 +48,7 @@ class ReferenceControl {
   void refresh(PoseEncoder& encoder, Duration intra_period, MonoTime now);
   void acknowledge(const wire::GuestFeedback& about, PoseEncoder& encoder, MonoTime now);
   template <class Tell>
-  void each_new(std::uint16_t newest, std::uint16_t before, HeldFrames& told, Tell tell) const;
+  void each_new(std::uint16_t newest, std::uint16_t before, FrameWindow& told, Tell tell) const;
 
   ReferencePolicy policy_;
   References told_ = policy_.current();  // to the encoder
@@ -56,13 +56,13 @@ class ReferenceControl {
   MonoTime last_capture_;
   std::uint16_t stream_ = 0;
   std::uint32_t last_sequence_ = 0;
-  HeldFrames sent_frames_;        // what there is to acknowledge,
-  HeldFrames acked_frames_;       // what the encoder was told of it,
-  HeldFrames base_acked_frames_;  // and of what those have too who get only base frames
+  FrameWindow sent_frames_;        // what there is to acknowledge,
+  FrameWindow acked_frames_;       // what the encoder was told of it,
+  FrameWindow base_acked_frames_;  // and of what those have too who get only base frames
   MonoTime acked_at_;
   // For receivers who want less than all: each 2^n-th is a base frame (0: none), or an intra frame.
   std::uint8_t base_log2_ = 0;
-  std::uint8_t intra_log2_ = kFewestStills_log2;
+  std::uint8_t intra_log2_ = kFewestIntra_log2;
   MonoTime intra_at_;              // the newest intra frame, whatever for,
   std::uint32_t since_intra_ = 0;  // and the frames since then
   std::uint8_t requests_seen_ = 0;
@@ -80,21 +80,21 @@ class ReceiverSummary {
       : has_any_(has_any), stream_(stream), newest_(newest) {}
 
   // One receiver: how often it wants the guest, and which of the guest's frames it has.
-  void add(std::uint8_t divider, const HeldFrames& frames);
+  void add(std::uint8_t divider, const FrameWindow& frames);
   void fill(wire::GuestFeedback& about) const;
 
  private:
-  static void intersect(const HeldFrames& frames, bool& has_some, HeldFrames& common);
+  static void intersect(const FrameWindow& frames, bool& has_some, FrameWindow& common);
 
   bool has_any_;
   std::uint32_t stream_;
   std::uint32_t newest_;
-  HeldFrames full_;  // of those who get all
-  HeldFrames base_;  // and of those too who get only base frames
+  FrameWindow full_;  // of those who get all
+  FrameWindow base_;  // and of those too who get only base frames
   bool has_full_ = false;
   bool has_base_ = false;
   std::uint8_t base_log2_ = 0;
-  std::uint8_t intra_log2_ = kFewestStills_log2;
+  std::uint8_t intra_log2_ = kFewestIntra_log2;
 };
 
 }  // namespace dance

@@ -1,4 +1,4 @@
-// Messages of what changes seldom as they travel through the tunnel: those of the bus, without who
+// States as they travel through the tunnel: the messages of the bus, without who
 // said them when.
 //
 // Units/frames: times as the caller mapped them.

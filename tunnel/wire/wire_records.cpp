@@ -10,22 +10,22 @@ constexpr std::uint8_t kIsHands = 0x40, kIsWide = 0x80;
 // Hands are always wide: narrow ones mean a message of a channel.
 constexpr std::uint8_t kIsChannel = kIsHands;
 constexpr std::uint8_t kHeldFlag = 0x80, kSpacingFlag = 0x40;
-// Of the spacings: bits 0 and 1 base, high half stills.
+// Of the spacings: bits 0 and 1 base, high half intra frames.
 constexpr std::uint8_t kBaseMask = 0x03, kBaseHeldFlag = 0x08;
 constexpr std::uint8_t kLeastStill_log2 = 4;
 constexpr std::uint8_t kLengthMask = 0x3f, kLongLength = 0x40, kIsBrief = 0x80;
 // Of a narrow record's sequence.
 constexpr std::uint8_t kSequenceMask = 0x3f, kOddGeneration = 0x40, kOddRestarts = 0x80;
 // Of the byte that follows a long length.
-constexpr std::uint8_t kHighLengthMask = 0x0f, kNeedsNoOther = 0x10, kIsBase = 0x20,
-                       kCountsLeftOut = 0x40, kIsKept = 0x80;
+constexpr std::uint8_t kHighLengthMask = 0x0f, kIsIntra = 0x10, kIsBase = 0x20,
+                       kCountsLeftOut = 0x40, kIsRetained = 0x80;
 constexpr std::uint16_t kEscape = 0xffff;  // a number that does not fit follows
 constexpr std::uint16_t kNoAgeTicks = 0xfffe;
 // Of captures: after the one before, or whole, the low 24 bits. Ages follow, and the capture once
 // more.
 constexpr std::uint16_t kMiddle = 0x8000, kAgesFollow = 0xfffe;
 constexpr std::uint32_t kWholeEscape = 0xffffff, kWholeAgesFollow = 0xfffffe;
-// Beyond it nothing can be reckoned; whoever takes the record asks for much nearer.
+// Beyond it nothing can be reckoned; the receiver of a record asks for much nearer.
 constexpr std::int64_t kFarthestCapture_us = std::int64_t{1} << 60;
 // What is further off is told in full: half of what 24 bits reach.
 constexpr std::int64_t kWholeReach = 1 << 22;
@@ -72,21 +72,21 @@ void write_feedback(const Feedback& feedback, ByteWriter& out) {
   out.u8(static_cast<std::uint8_t>(feedback.guests.size()));
   for (const GuestFeedback& guest : feedback.guests) {
     const bool has_spacing =
-        guest.base_log2 != 0 || guest.still_log2 != kFewestStills_log2 || guest.has_base_held;
-    out.u8(static_cast<std::uint8_t>(guest.slot | (guest.has_held ? kHeldFlag : 0) |
+        guest.base_log2 != 0 || guest.intra_log2 != kFewestIntra_log2 || guest.has_base_acked;
+    out.u8(static_cast<std::uint8_t>(guest.slot | (guest.has_acked ? kHeldFlag : 0) |
                                      (has_spacing ? kSpacingFlag : 0)));
     out.u8(guest.restarts);
     out.u8(guest.key_frames);
-    if (guest.has_held) {
-      out.u16(guest.newest_held);
-      out.u16(guest.held_before);
+    if (guest.has_acked) {
+      out.u16(guest.newest_acked);
+      out.u16(guest.acked_before);
     }
     if (!has_spacing) continue;
-    out.u8(static_cast<std::uint8_t>(guest.base_log2 | (guest.has_base_held ? kBaseHeldFlag : 0) |
-                                     guest.still_log2 << 4));
-    if (!guest.has_base_held) continue;
-    out.u16(guest.newest_base_held);
-    out.u16(guest.base_held_before);
+    out.u8(static_cast<std::uint8_t>(guest.base_log2 | (guest.has_base_acked ? kBaseHeldFlag : 0) |
+                                     guest.intra_log2 << 4));
+    if (!guest.has_base_acked) continue;
+    out.u16(guest.newest_base_acked);
+    out.u16(guest.base_acked_before);
   }
 }
 
@@ -98,25 +98,25 @@ bool read_feedback(ByteReader& in, Feedback& feedback) {
   for (std::size_t i = 0; i < count; ++i) {
     GuestFeedback guest;
     const std::uint8_t slot = in.u8();
-    guest.has_held = (slot & kHeldFlag) != 0;
+    guest.has_acked = (slot & kHeldFlag) != 0;
     guest.slot = slot & kSlotMask;
     guest.restarts = in.u8();
     guest.key_frames = in.u8();
-    if (guest.has_held) {
-      guest.newest_held = in.u16();
-      guest.held_before = in.u16();
+    if (guest.has_acked) {
+      guest.newest_acked = in.u16();
+      guest.acked_before = in.u16();
     }
     if ((slot & kSpacingFlag) != 0) {
       const std::uint8_t spacing = in.u8();
       guest.base_log2 = spacing & kBaseMask;
-      guest.still_log2 = spacing >> 4;
-      guest.has_base_held = (spacing & kBaseHeldFlag) != 0;
+      guest.intra_log2 = spacing >> 4;
+      guest.has_base_acked = (spacing & kBaseHeldFlag) != 0;
       if ((spacing & ~(kBaseMask | kBaseHeldFlag | 0xf0)) != 0 ||
-          guest.still_log2 < kLeastStill_log2 || guest.still_log2 > kFewestStills_log2)
+          guest.intra_log2 < kLeastStill_log2 || guest.intra_log2 > kFewestIntra_log2)
         return false;
-      if (guest.has_base_held) {
-        guest.newest_base_held = in.u16();
-        guest.base_held_before = in.u16();
+      if (guest.has_base_acked) {
+        guest.newest_base_acked = in.u16();
+        guest.base_acked_before = in.u16();
       }
     }
     if (guest.slot >= kMaxGuestsPerRoom || !feedback.guests.try_push(guest)) return false;
@@ -268,10 +268,10 @@ void add_record(const Record& record, bool is_narrow, RecordChain& chain, ByteWr
   const std::size_t length = record.payload.size();
   // Nothing more is said about a message than its length.
   const auto flags = static_cast<std::uint8_t>(
-      is_channel
-          ? 0
-          : (record.needs_no_other ? kNeedsNoOther : 0) | (record.is_base ? kIsBase : 0) |
-                (record.counts_left_out ? kCountsLeftOut : 0) | (record.is_kept ? kIsKept : 0));
+      is_channel ? 0
+                 : (record.is_intra ? kIsIntra : 0) | (record.is_base ? kIsBase : 0) |
+                       (record.counts_left_out ? kCountsLeftOut : 0) |
+                       (record.is_retained ? kIsRetained : 0));
   const auto more = static_cast<std::uint8_t>(length >> 6 | flags);
   const std::int64_t after = to_ticks(record.capture_us) - chain.capture_ticks;
   if (is_narrow && !has_ages && more == 0 && chain.has_any && record.slot == next_slot(chain) &&
@@ -348,9 +348,9 @@ std::optional<Record> parse_record(RecordChain& chain, ByteReader& in) {
     if (!in.ok() || length == 0 || length > kMaxPayload || record.channel > 7) return std::nullopt;
     return record;
   }
-  record.needs_no_other = (more & kNeedsNoOther) != 0;
+  record.is_intra = (more & kIsIntra) != 0;
   record.is_base = (more & kIsBase) != 0;
-  record.is_kept = (more & kIsKept) != 0;
+  record.is_retained = (more & kIsRetained) != 0;
   record.counts_left_out = (more & kCountsLeftOut) != 0;
   if (record.counts_left_out) record.left_out = in.u16();
   if ((first & kIsWide) == 0)

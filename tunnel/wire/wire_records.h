@@ -37,17 +37,17 @@ struct GuestFeedback {
   std::uint8_t slot = 0;
   std::uint8_t restarts = 0;    // low byte of the stream that it speaks of
   std::uint8_t key_frames = 0;  // counts key frames asked for; a change asks for one
-  bool has_held = false;        // whether all receivers have some frame in common
-  std::uint16_t newest_held = 0;
-  std::uint16_t held_before = 0;  // bit i: newest − 1 − i
+  bool has_acked = false;       // whether all receivers have some frame in common
+  std::uint16_t newest_acked = 0;
+  std::uint16_t acked_before = 0;  // bit i: newest − 1 − i
   // For receivers who want less than all. Each 2^n-th pose should be a base frame (0: none has to
   // be), and refer only to what those have too;
   std::uint8_t base_log2 = 0;
-  bool has_base_held = false;
-  std::uint16_t newest_base_held = 0;
-  std::uint16_t base_held_before = 0;
-  // and each 2^n-th should need no other.
-  std::uint8_t still_log2 = kFewestStills_log2;
+  bool has_base_acked = false;
+  std::uint16_t newest_base_acked = 0;
+  std::uint16_t base_acked_before = 0;
+  // and each 2^n-th should be an intra frame.
+  std::uint8_t intra_log2 = kFewestIntra_log2;
 
   bool operator==(const GuestFeedback&) const = default;
 };
@@ -94,11 +94,11 @@ struct Record {
   std::int32_t server_age_us = kNoAge;  // written by the server
   Bytes payload;
   // From a link: what receivers who want less than all can decode.
-  bool needs_no_other = false;
+  bool is_intra = false;
   bool is_base = false;
   // From the server: made before the receiver came, or before it was asked for; and how many poses
   // of this stream the receiver was not sent so far, where some were not.
-  bool is_kept = false;
+  bool is_retained = false;
   bool counts_left_out = false;
   std::uint16_t left_out = 0;
   // As parsed: only 1 bit of generation and restarts each, and 6 of the sequence, have come.

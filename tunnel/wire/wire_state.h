@@ -1,4 +1,4 @@
-// The datagrams of what changes seldom, built and parsed: states and their acknowledgements,
+// The datagrams of states, built and parsed: states and their acknowledgements,
 // several to a datagram. docs/wire-format.md says them byte by byte.
 //
 // Units/frames: little-endian.
@@ -14,7 +14,7 @@ namespace dance::wire {
 
 enum class StateKind : std::uint8_t {
   kSkeleton = 1,
-  // Of the room: whoever may set it sets it for all.
+  // Of the room: who may set it sets it for all.
   kMusic = 2,
   kScene = 3,
   // Of a guest.
@@ -54,7 +54,7 @@ struct State {
 };
 
 enum class StateVerdict : std::uint8_t {
-  kHeld = 0,        // the receiver has this version
+  kAccepted = 0,    // the receiver has this version
   kOverruled = 1,   // somebody else has set the room's state; `version` is that of theirs
   kNotAllowed = 2,  // the sender may not set it
 };
@@ -62,7 +62,7 @@ struct StateAck {
   StateName name;
   Slot slot;
   std::uint32_t version = 0;
-  StateVerdict verdict = StateVerdict::kHeld;
+  StateVerdict verdict = StateVerdict::kAccepted;
 };
 
 // At most this many bytes: what add_state() takes for it.

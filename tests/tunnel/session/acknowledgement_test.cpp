@@ -6,7 +6,7 @@
 
 #include "core/base/random.h"
 #include "tunnel/session/ack_window.h"
-#include "tunnel/session/held_frames.h"
+#include "tunnel/session/frame_window.h"
 #include "tunnel/session/reference_policy.h"
 #include "tunnel/session/sent_ring.h"
 
@@ -61,8 +61,8 @@ TEST(AckWindow, ADamagedNumberDoesNotStopItForLong) {
   EXPECT_EQ(window.newest(), 29);
 }
 
-TEST(HeldFrames, KeepsOneStreamAndWraps) {
-  HeldFrames held;
+TEST(FrameWindow, KeepsOneStreamAndWraps) {
+  FrameWindow held;
   held.add(1, 65'535);
   held.add(1, 2);
   EXPECT_EQ(held.newest(), 2);
@@ -75,23 +75,23 @@ TEST(HeldFrames, KeepsOneStreamAndWraps) {
   EXPECT_TRUE(held.is_of(2));
 }
 
-TEST(HeldFrames, TheIntersectionIsWhatBothHave) {
+TEST(FrameWindow, TheIntersectionIsWhatBothHave) {
   Random random(8);
   for (int round = 0; round < 500; ++round) {
-    HeldFrames a, b;
+    FrameWindow a, b;
     const auto begin = static_cast<std::uint16_t>(random.next_u64());
     for (std::uint16_t i = 0; i < 50; ++i) {
       if (random.uniform() < 0.7) a.add(4, static_cast<std::uint16_t>(begin + i));
       if (random.uniform() < 0.7) b.add(4, static_cast<std::uint16_t>(begin + i));
     }
-    HeldFrames both = a;
+    FrameWindow both = a;
     both.intersect(b);
     for (std::uint16_t i = 0; i < 50; ++i) {
       const auto sequence = static_cast<std::uint16_t>(begin + i);
       EXPECT_EQ(both.bits() != 0 && both.has(sequence), a.has(sequence) && b.has(sequence));
     }
   }
-  HeldFrames some, none;
+  FrameWindow some, none;
   some.add(1, 5);
   some.intersect(none);
   EXPECT_EQ(some.bits(), 0u);
@@ -194,9 +194,9 @@ TEST(LossMeter, OneLossInAThousandIsNotNoneAndABurstShowsAtOnce) {
   LossMeter clean;
   for (int i = 0; i < 20'000; ++i) clean.add(false);
   EXPECT_LT(clean.loss(), 0.0001f);
-  LossMeter seldom;
-  for (int i = 0; i < 20'000; ++i) seldom.add(i % 200 == 0);
-  EXPECT_GT(seldom.loss(), 0.002f);
+  LossMeter rare;
+  for (int i = 0; i < 20'000; ++i) rare.add(i % 200 == 0);
+  EXPECT_GT(rare.loss(), 0.002f);
   for (int i = 0; i < 6; ++i) clean.add(true);
   EXPECT_GT(clean.loss(), 0.05f);
 }
@@ -233,7 +233,7 @@ TEST_F(Policy, TurnsToWhatReceiversHaveWhileTheyTellOfNothing) {
   EXPECT_EQ(after(17, 16), References::kPrevious);
   EXPECT_EQ(after(100, 16), References::kPrevious);
   EXPECT_EQ(after(101, 16), References::kAcknowledged);
-  EXPECT_EQ(after(130, 33), References::kPrevious) << "a slow dancer is told of seldom";
+  EXPECT_EQ(after(130, 33), References::kPrevious) << "a slow dancer is told of rarely";
   EXPECT_EQ(after(133, 33), References::kAcknowledged);
   EXPECT_EQ(after(1999, 16), References::kAcknowledged);
   EXPECT_EQ(after(2000, 16), References::kPrevious) << "nobody will come back with these";

@@ -88,14 +88,14 @@ TEST_F(RecordBundlerTest, HasRoomForWhatFitsBesideTheLongestHeaderOfARecord) {
 }
 
 TEST(IsNarrowFor, OnlyAPoseLittleAheadOfWhatTheReceiverHasInItsStream) {
-  HeldFrames frames;
+  FrameWindow frames;
   frames.add(7, 100);
   const std::array<std::uint8_t, 4> payload{};
   EXPECT_TRUE(is_narrow_for(frames, record_of(1, 101, payload)));
   EXPECT_TRUE(is_narrow_for(frames, record_of(1, 100 + wire::kNarrowReach, payload)));
   EXPECT_FALSE(is_narrow_for(frames, record_of(1, 101 + wire::kNarrowReach, payload)));
   EXPECT_FALSE(is_narrow_for(frames, record_of(1, 99, payload)));
-  EXPECT_FALSE(is_narrow_for(HeldFrames(), record_of(1, 101, payload)));
+  EXPECT_FALSE(is_narrow_for(FrameWindow(), record_of(1, 101, payload)));
   wire::Record other = record_of(1, 101, payload);
   other.stream = 8;
   EXPECT_FALSE(is_narrow_for(frames, other));

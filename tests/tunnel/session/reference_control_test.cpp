@@ -37,9 +37,9 @@ class ReferenceControlTest : public ::testing::Test {
   }
   static wire::GuestFeedback feedback_of(std::uint16_t newest, std::uint16_t before) {
     wire::GuestFeedback about;
-    about.has_held = true;
-    about.newest_held = newest;
-    about.held_before = before;
+    about.has_acked = true;
+    about.newest_acked = newest;
+    about.acked_before = before;
     return about;
   }
 
@@ -95,7 +95,7 @@ TEST_F(ReferenceControlTest, MakesEachSecondPoseABaseFrameWhereReceiversWantHalf
 
 TEST_F(ReferenceControlTest, MakesAnIntraFrameAsOftenAsReceiversWantOneAndWhenTheLastIsOld) {
   wire::GuestFeedback about;
-  about.still_log2 = 2;
+  about.intra_log2 = 2;
   control.take(about, {}, encoder, now);
   send(1, true);
   for (std::uint32_t i = 2; i <= 4; ++i) send(i);
@@ -121,8 +121,8 @@ TEST_F(ReferenceControlTest, TurnsToAcknowledgedFramesWhileReceiversTellOfNothin
   EXPECT_EQ(encoder.references, References::kAcknowledged);
 }
 
-HeldFrames frames_of(std::initializer_list<std::uint16_t> sequences, std::uint32_t stream = 5) {
-  HeldFrames frames;
+FrameWindow frames_of(std::initializer_list<std::uint16_t> sequences, std::uint32_t stream = 5) {
+  FrameWindow frames;
   for (const std::uint16_t sequence : sequences) frames.add(stream, sequence);
   return frames;
 }
@@ -134,10 +134,10 @@ TEST(ReceiverSummary, SaysWhatAllReceiversHaveInCommon) {
   summary.add(0, frames_of({1})) /* wants nothing */;
   wire::GuestFeedback about;
   summary.fill(about);
-  ASSERT_TRUE(about.has_held);
-  EXPECT_EQ(about.newest_held, 9);
-  EXPECT_EQ(about.held_before, 0b10) << "7, but not 8";
-  EXPECT_FALSE(about.has_base_held);
+  ASSERT_TRUE(about.has_acked);
+  EXPECT_EQ(about.newest_acked, 9);
+  EXPECT_EQ(about.acked_before, 0b10) << "7, but not 8";
+  EXPECT_FALSE(about.has_base_acked);
 }
 
 TEST(ReceiverSummary, WhoHasNothingOfTheStreamIsNotWaitedFor) {
@@ -147,7 +147,7 @@ TEST(ReceiverSummary, WhoHasNothingOfTheStreamIsNotWaitedFor) {
   summary.add(1, frames_of({100}));
   wire::GuestFeedback about;
   summary.fill(about);
-  EXPECT_EQ(about.newest_held, 200);
+  EXPECT_EQ(about.newest_acked, 200);
 }
 
 TEST(ReceiverSummary, TellsWhatTheMostEagerOfThoseWithLessWants) {
@@ -160,10 +160,10 @@ TEST(ReceiverSummary, TellsWhatTheMostEagerOfThoseWithLessWants) {
   wire::GuestFeedback about;
   summary.fill(about);
   EXPECT_EQ(about.base_log2, 1);
-  EXPECT_EQ(about.still_log2, 4);
-  EXPECT_EQ(about.newest_held, 10) << "of those who get all";
-  ASSERT_TRUE(about.has_base_held);
-  EXPECT_EQ(about.newest_base_held, 8);
+  EXPECT_EQ(about.intra_log2, 4);
+  EXPECT_EQ(about.newest_acked, 10) << "of those who get all";
+  ASSERT_TRUE(about.has_base_acked);
+  EXPECT_EQ(about.newest_base_acked, 8);
 }
 
 }  // namespace

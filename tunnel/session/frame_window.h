@@ -4,14 +4,14 @@
 //               tunnel/session/stream_gate.h.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      none; what is older than the window is not kept.
+// Failure:      none; what is older than the window is forgotten.
 #pragma once
 
 #include <cstdint>
 
 namespace dance {
 
-class HeldFrames {
+class FrameWindow {
  public:
   void add(std::uint32_t stream, std::uint16_t sequence) {
     const auto ahead = static_cast<std::int16_t>(sequence - newest_);
@@ -29,7 +29,7 @@ class HeldFrames {
   void clear() { bits_ = 0; }
 
   // Only what both have.
-  void intersect(const HeldFrames& other) {
+  void intersect(const FrameWindow& other) {
     const auto ahead = static_cast<std::int16_t>(newest_ - other.newest_);
     if (bits_ == 0 || other.bits_ == 0 || stream_ != other.stream_ || ahead >= kSpan ||
         ahead <= -kSpan) {
@@ -48,7 +48,7 @@ class HeldFrames {
     }
   }
 
-  bool operator==(const HeldFrames&) const = default;
+  bool operator==(const FrameWindow&) const = default;
 
   bool is_of(std::uint32_t stream) const { return bits_ != 0 && stream_ == stream; }
   bool has(std::uint16_t sequence) const {

@@ -88,7 +88,7 @@ TEST_F(Kept, WhatDancesOnIsNoLossAndNeverOlderThanBefore) {
     EXPECT_EQ(c.link->counters().reference_missing, 0u);
   };
   check();
-  // Through another sealed session: what is kept is older than what the stage has seen.
+  // Through another sealed session: what is retained is older than what the stage has seen.
   const auto before = c.poses.size();
   tunnel.seal_anew(c);
   dance.run(Duration::s(1));
