@@ -11,7 +11,7 @@
 #include "core/program/figures.h"
 #include "core/program/program.h"
 #include "testing/line/line_arrivals.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 
 namespace dance {
 namespace {
@@ -51,7 +51,7 @@ std::vector<LineArrival> heard_over(LossyModel& line, MonoTime begin, Duration s
   return heard;
 }
 
-Shown show(Chain& chain, const std::vector<LineArrival>& heard, MonoTime begin, Duration frame) {
+Shown show(Flow& flow, const std::vector<LineArrival>& heard, MonoTime begin, Duration frame) {
   std::vector<double> ages_ms;
   Duration least = Duration::s(1000);
   std::size_t samples = 0, late = 0, in_a_row = 0, longest = 0;
@@ -62,10 +62,10 @@ Shown show(Chain& chain, const std::vector<LineArrival>& heard, MonoTime begin, 
   for (const LineArrival& arrival : heard) {
     for (; next < arrival.at; next += tick) {
       Pose out;
-      if (!chain.sample(next, out)) continue;
+      if (!flow.sample(next, out)) continue;
       ++samples;
       ages_ms.push_back((next - out.capture_time).as_ms());
-      const std::uint64_t now = chain.counters().starved;
+      const std::uint64_t now = flow.counters().starved;
       in_a_row = now != starved ? in_a_row + 1 : 0;
       late += now != starved ? 1 : 0;
       starved = now;
@@ -76,7 +76,7 @@ Shown show(Chain& chain, const std::vector<LineArrival>& heard, MonoTime begin, 
     pose.clock_id = 1;
     pose.capture_time = begin + frame * static_cast<std::int64_t>(arrival.index);
     least = std::min(least, arrival.at - pose.capture_time);
-    chain.observe(pose, arrival.at);
+    flow.observe(pose, arrival.at);
   }
   Shown shown;
   if (samples == 0) return shown;
@@ -104,8 +104,8 @@ Result<void> measure(const std::string& name, const LossyWay& way, const Options
                "longest freeze ms");
   nlohmann::ordered_json rows;
   for (const std::string& through : options.through) {
-    DANCE_TRY(Chain chain, Chain::make({through}));
-    const Shown shown = show(chain, heard, begin, frame);
+    DANCE_TRY(Flow flow, Flow::make({through}));
+    const Shown shown = show(flow, heard, begin, frame);
     rows[through] = {{"added_p50_ms", shown.added_p50_ms},
                      {"added_p99_ms", shown.added_p99_ms},
                      {"late_percent", shown.late_percent},

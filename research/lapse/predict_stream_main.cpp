@@ -6,6 +6,7 @@
 #include "core/program/program.h"
 #include "research/lapse/predict_stream.h"
 #include "research/predict_model_file.h"
+#include "transformers/settings.h"
 
 namespace dance {
 namespace {
@@ -47,8 +48,8 @@ Result<void> run(const Wishes& wishes) {
       {"raw", newest_subject()},
       {"damped velocity", damped_velocity_subject()},
       {"damped velocity, inertialised", damped_velocity_subject(Duration::ms(60))}};
-  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
-  if (auto added = add_chain_subjects(wishes.through, subjects, parts); !added)
+  DANCE_TRY(const FlowParts parts, parts_with_model(wishes.model));
+  if (auto added = add_flow_subjects(wishes.through, subjects, parts); !added)
     return tl::make_unexpected(added.error());
   DANCE_TRY(const std::vector<CodecTake> takes, load_codec_takes(wishes.files, 60.0));
   std::vector<StreamRow> rows;
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--seed", wishes.seed, "another draw of the same line").shows_default();
   line.add("--through", wishes.through,
-           "chains to judge: stations as session files name them, with commas between");
+           "routes to judge: transformers as session files name them, with commas between");
   line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
   line.add_flag("--json", wishes.is_json, "one JSON array on stdout");
   line.footer(dance::kStreamExamples);

@@ -73,9 +73,9 @@ TEST(PredictStream, JitterShowsAsJerkAndDeadReckoningTakesLagBack) {
 }
 
 TEST(StationsOf, ReadsChainsAsPeopleWriteThem) {
-  EXPECT_EQ(stations_of("predict lead=1,bridge"),
+  EXPECT_EQ(words_of("predict lead=1,bridge"),
             (std::vector<std::string>{"predict lead=1", "bridge"}));
-  EXPECT_TRUE(stations_of("").empty());
+  EXPECT_TRUE(words_of("").empty());
 }
 
 }  // namespace
