@@ -1,5 +1,5 @@
-// What a program needs that listens to a bus for a while: the poll loop, the bus in it, an end by
-// signal or after a number of seconds.
+// BusProgram: the frame of a program that listens to a bus: the poll loop, the bus in it, an end
+// by signal or after a number of seconds.
 //
 // Ownership: owns the loop and the bus; the bus's handlers must outlive it.
 // Threads:   one.

@@ -1,4 +1,4 @@
-// The table of consumers that `dance listen --to` knows: a new one is one row.
+// The table of consumers for `dance listen --to`: a new one is one row.
 //
 // Ownership: the caller owns the consumer; the output must outlive it.
 // Threads:   constants only.
@@ -16,7 +16,7 @@ namespace dance {
 
 struct ConsumerOptions {
   double hz = 0.0;  // lines, rows or frames a second of each guest; 0 = the consumer's own choice
-  GuestId guest;    // not set: all, or for what holds one guest the first
+  GuestId guest;    // not set: all; the first for a format of one guest
   std::uint64_t own_clock_id = 0;
 };
 

@@ -1,5 +1,5 @@
-// OutputFile: where a consumer writes to, a file or standard output. Remembers the first thing that
-// went wrong and writes nothing after it, so that nobody has to look after each line.
+// OutputFile: where a consumer writes to, a file or standard output. Keeps the first error and
+// writes nothing after it, so that callers need not check each line.
 //
 // Ownership: closes the file it opened; standard output stays open.
 // Threads:   none inside; one owner.

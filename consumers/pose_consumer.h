@@ -1,6 +1,5 @@
-// PoseConsumer: who listens to dancers and makes something of their poses: lines of text, a table,
-// a BVH file. A new consumer is one class that implements this, and one row in the table of
-// consumer_table.cpp.
+// PoseConsumer: the interface of what is made of poses: lines of text, a table, a BVH file. A new
+// consumer is one class that implements this, and one row in the table of consumer_table.cpp.
 //
 // Units/frames: poses as in core/pose/pose.h; now is this process's clock.
 // Ownership:    keeps what it needs of a pose; memory is bounded however long it listens.
@@ -25,7 +24,7 @@ class PoseConsumer {
   virtual void on_skeleton(const GuestId&, const Skeleton&, MonoTime) {}
   // Writes what is still held back.
   virtual Result<void> finish() = 0;
-  // One line on what was made, and what was left out and why.
+  // One line: what was written, and what was left out and why.
   virtual std::string summary() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// RateLimit: lets through at most so many poses a second of each guest, evenly by the poses' own
+// RateLimit: a throttle: at most so many poses a second of each guest, evenly by the poses'
 // capture times.
 //
 // Units/frames: hz; 0 lets everything through.
@@ -23,7 +23,8 @@ class RateLimit {
     if (period_ == Duration()) return true;
     for (Entry& entry : entries_) {
       if (!(entry.guest == guest)) continue;
-      // Half a millisecond of grace: 60 Hz out of 120 Hz must not become 40 Hz because of jitter.
+      // Half a millisecond of tolerance: 60 Hz out of 120 Hz must not become 40 Hz because of
+      // jitter.
       const Duration early = entry.next - captured;
       if (early > Duration::us(500) && early <= period_) return false;
       // On the grid where the poses keep up with it, so that the rate is met on average.

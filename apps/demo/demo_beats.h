@@ -1,5 +1,5 @@
-// DemoBeats: the music of a demo without a song: says on both houses' buses where it stands, at the
-// tempo of the synthetic dancers. Nothing is heard of it.
+// DemoBeats: the music of a demo without a song: publishes its beats on both houses' buses, at the
+// tempo of the synthetic dancers. It makes no sound.
 //
 // Units/frames: beats as core/base/beat.h counts them; the first is heard at `origin`.
 // Ownership:    refers to the buses, which must outlive it.
@@ -20,7 +20,7 @@ class DemoBeats {
   DemoBeats(Bus& bus_a, Bus& bus_b, MonoTime origin, double tempo_bpm)
       : buses_{&bus_a, &bus_b}, origin_(origin), tempo_bpm_(tempo_bpm) {}
 
-  // Says it, and returns when to say it again.
+  // Publishes, and returns when to publish again.
   MonoTime say(MonoTime now) {
     Beat beat;
     beat.time = now;

@@ -108,7 +108,7 @@ int main(int argc, char** argv) {
   dance::add_link_options(line, options.line);
   dance::add_trace_options(line, options.line);
   line.add_flag("--headless", options.headless, "no window: pictures and a summary");
-  line.add("--out", options.out, "folder for pictures, log and what the programs said")
+  line.add("--out", options.out, "folder for pictures, log and the programs' messages")
       .shows_default();
   line.add_flag("--json", options.json, "the summary as JSON on stdout, and nothing else there");
   line.add(

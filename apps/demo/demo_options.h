@@ -1,4 +1,4 @@
-// What a demo is asked to be, and the files and programs that this makes of it.
+// The options of a demo, and the files and programs that are made of them.
 //
 // Units/frames: places are metres on the stage, headings degrees about +Y.
 // Ownership:    plain values.
@@ -18,15 +18,15 @@ namespace dance {
 struct DemoOptions {
   double seconds = 0.0;  // 0 = until the viewer is closed; headless: 10
   int guests = 2;
-  std::vector<std::string> motion;  // BVH files, dealt out to the dancers in turn
+  std::vector<std::string> motion;  // BVH files, assigned to the dancers in turn
   LineWords line;                   // between house B and the server
   bool headless = false;
   bool view = true;  // false: this build has no viewer
   std::string out = "out/demo";
   bool json = false;
   double tempo_bpm = 180.0;
-  // A song with its list of beats beside it; "" = the demo's own percussion; "none" = beats that
-  // nobody hears.
+  // A song with its list of beats beside it; "" = the demo's own percussion; "none" = beats
+  // without sound.
   std::string music;
   int seed = 1;
   double hz = 60.0;
@@ -36,10 +36,10 @@ struct DemoOptions {
   int port = 0;                      // of the server; 0 = one that is free
 };
 
-// Where the demo's programs have their session files, reports and talk: pictures and log lie above.
+// Session files, reports and log messages of the demo's programs; pictures and recording lie above.
 inline std::string programs_folder(const DemoOptions& options) { return options.out + "/programs"; }
 
-// One dancer of the demo and the program that dances it.
+// One dancer of the demo and the program that produces its poses.
 struct DemoDancer {
   GuestId guest;
   int house = 0;  // 0 = A, 1 = B
@@ -57,8 +57,8 @@ struct DemoPlan {
   std::vector<DemoDancer> dancers;
 };
 
-// Makes the out folder, writes the two session files into it and deals out the dancers. Reads the
-// motion files, so that a broken one is said before anything starts.
+// Makes the out folder, writes the two session files into it and assigns the dancers. Reads the
+// motion files, so that a broken one is an error before anything starts.
 Result<DemoPlan> plan_demo(const DemoOptions& options);
 
 }  // namespace dance

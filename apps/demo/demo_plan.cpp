@@ -112,7 +112,7 @@ std::array<Place, 2> places_of(const MotionClip& a, const MotionClip& b, const P
           place_at(take_stance(b), target + half, M_PI)};
 }
 
-Result<void> deal_out_motion(const DemoOptions& options, DemoPlan& plan) {
+Result<void> assign_motion(const DemoOptions& options, DemoPlan& plan) {
   std::vector<MotionClip> clips;
   for (const std::string& file : options.motion) {
     DANCE_TRY(LoadedClip loaded, load_clip(file));
@@ -132,7 +132,7 @@ Result<void> deal_out_motion(const DemoOptions& options, DemoPlan& plan) {
   return {};
 }
 
-void deal_out_salsa(const DemoOptions& options, DemoPlan& plan) {
+void assign_salsa(const DemoOptions& options, DemoPlan& plan) {
   const int couples = (options.guests + 1) / 2;
   for (int i = 0; i < options.guests; ++i) {
     Place place = place_of_couple(i / 2, couples);
@@ -195,7 +195,7 @@ std::string session_text(const DemoPlan& plan, const DemoOptions& options, int h
   return text.str();
 }
 
-// Read before anything starts, so that a song without beats is said at once.
+// Read before anything starts, so that a song without beats is an error at once.
 Result<std::string> song_of(const DemoOptions& options) {
   if (options.music == "none") return std::string();
   const bool can_play = fs::exists(program_folder() + "/dance-music");
@@ -226,9 +226,9 @@ Result<DemoPlan> plan_demo(const DemoOptions& options) {
 
   for (int i = 0; i < options.guests; ++i) plan.dancers.push_back({name_of(i), i % 2, "", {}});
   if (options.motion.empty()) {
-    deal_out_salsa(options, plan);
-  } else if (auto dealt = deal_out_motion(options, plan); !dealt) {
-    return tl::make_unexpected(dealt.error());
+    assign_salsa(options, plan);
+  } else if (auto assigned = assign_motion(options, plan); !assigned) {
+    return tl::make_unexpected(assigned.error());
   }
 
   plan.bus_url[0] = "udpm://239.255.76.67:7667?ttl=0";

@@ -11,12 +11,12 @@ namespace dance {
 namespace {
 
 constexpr double kPicture_hz = 60.0;
-constexpr Duration kWarmUp = Duration::s(3);  // of the stage, which gets to know line and music
+constexpr Duration kWarmUp = Duration::s(3);  // of the stage, which adapts to line and music
 constexpr Duration kLongest = Duration::s(60);
 constexpr Duration kShortest = Duration::s(3);
 constexpr double kBar_beats = 8.0;  // as dancers count
 
-// Between two poses, as an eye sees them.
+// Interpolated between two poses.
 std::optional<Pose> pose_at(const std::vector<TracedPose>& list, MonoTime t) {
   const auto after = std::upper_bound(
       list.begin(), list.end(), t, [](MonoTime a, const TracedPose& pose) { return a < pose.at; });
@@ -40,7 +40,7 @@ struct Span {
   MonoTime from, to;
 };
 
-// Where everything is there that is compared.
+// The span in which all that is compared is present.
 std::optional<Span> common_span(const DemoTrace& trace) {
   Span span{MonoTime::from_us(1), MonoTime::from_us(INT64_MAX / 2000)};
   for (const auto* list : {&trace.danced(), &trace.raw(), &trace.shown(), &trace.of_here()}) {
@@ -87,7 +87,7 @@ StageFigures figures_of(const std::vector<TracedPose>& list, const DemoTrace& tr
     const Pose& pose = pictures.poses[i];
     figures.content_delay_ms += (pictures.times[i] - pose.capture_time).as_ms() /
                                 static_cast<double>(pictures.poses.size());
-    // Whole beats behind are no fault; where the dancer's own music says it.
+    // Whole beats behind are no error; as tagged with the dancer's own musical time.
     const double behind = pictures.beats[i] - pose.music_beats;
     offsets.push_back(std::isfinite(behind) ? std::round(behind) : 0.0);
     const auto truth = pose_at(trace.danced(), pictures.times[i]);
@@ -105,7 +105,7 @@ StageFigures figures_of(const std::vector<TracedPose>& list, const DemoTrace& tr
   return figures;
 }
 
-// The music in house A when the dancer's own stood there.
+// When the music in house A was at this musical time of the dancer.
 double beats_danced_at(const DemoTrace& trace, const Pose& pose) {
   return std::isfinite(pose.music_beats) ? pose.music_beats
                                          : beats_at(trace.music(), pose.capture_time).value_or(0.0);

@@ -27,16 +27,16 @@ struct StageFigures {
 struct DemoRhythm {
   StageFigures raw, shown;
   double tempo_bpm = 0.0;
-  double seconds = 0.0;  // that were looked at
+  double seconds = 0.0;  // measured
 };
 
 std::optional<DemoRhythm> measure_rhythm(const DemoTrace& trace);
 
 // Six beats one after the other, late in the dance, from the first count of a bar on where that can
-// be; none without music.
+// be; nullopt without music.
 std::vector<double> beats_to_show(const DemoTrace& trace);
 
-// The hips' way over the feet, as the eye sees the beat in salsa.
+// The hips' path over the feet, which shows the beat in salsa.
 struct SwayLine {
   std::vector<double> beats, sway_cm;
 };

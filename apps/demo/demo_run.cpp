@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Duration kPatience = Duration::s(15);  // for the houses to meet
-constexpr Duration kPatienceForPictures = Duration::s(60);
-constexpr Duration kPatienceForMusic = Duration::s(5);
+constexpr Duration kConnectTimeout = Duration::s(15);  // for the houses to connect
+constexpr Duration kPicturesTimeout = Duration::s(60);
+constexpr Duration kMusicTimeout = Duration::s(5);
 constexpr Duration kRestartAfter = Duration::ms(500);
-constexpr Duration kStillUnderWay = Duration::ms(1500);  // longest that a pose may take to arrive
+constexpr Duration kLongestWay = Duration::ms(1500);  // that a pose may take to arrive
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path);
@@ -28,8 +28,8 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-// stage-0001.png and its like: whatever else lies in the folder is not the demo's.
-bool is_the_viewers(const std::string& name) {
+// stage-0001.png and so on: other files in the folder are not the demo's.
+bool is_viewer_picture(const std::string& name) {
   constexpr std::string_view kBegin = "stage-", kEnd = ".png";
   if (!name.starts_with(kBegin) || !name.ends_with(kEnd)) return false;
   const std::string number = name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
@@ -40,7 +40,8 @@ std::vector<std::string> pictures_in(const std::string& folder) {
   std::vector<std::string> pictures;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_the_viewers(entry.path().filename().string())) pictures.push_back(entry.path().string());
+    if (is_viewer_picture(entry.path().filename().string()))
+      pictures.push_back(entry.path().string());
   std::sort(pictures.begin(), pictures.end());
   return pictures;
 }
@@ -72,7 +73,7 @@ Result<std::unique_ptr<DemoRun>> DemoRun::prepare(const DemoOptions& options, De
 
 DemoRun::DemoRun(const DemoOptions& options, DemoPlan plan)
     : options_(options), plan_(std::move(plan)) {
-  std::error_code ignored;  // the viewer says what it cannot write
+  std::error_code ignored;  // the viewer reports what it cannot write
   for (const std::string& picture : pictures_in(options_.out)) fs::remove(picture, ignored);
 }
 
@@ -120,7 +121,7 @@ Result<void> DemoRun::start_houses() {
 }
 
 Result<void> DemoRun::wait_until_connected() {
-  const MonoTime give_up = mono_now() + kPatience;
+  const MonoTime give_up = mono_now() + kConnectTimeout;
   while (!poller_->is_stopped()) {
     if (monitor_->is_connected(0) && monitor_->is_connected(1)) return {};
     for (const auto& role : roles_)
@@ -135,8 +136,7 @@ Result<void> DemoRun::wait_until_connected() {
   return {};
 }
 
-// House A plays for the room; house B hears of it through the tunnel, and keeps step by its own
-// clock.
+// House A plays for the room; house B follows it through the tunnel by its own clock.
 Result<void> DemoRun::start_music() {
   if (plan_.song.empty()) {
     beats_ = std::make_unique<DemoBeats>(*bus_a_, *bus_b_, mono_now(), options_.tempo_bpm);
@@ -160,7 +160,7 @@ Result<void> DemoRun::start_music() {
 
 // Dancers begin when they have something to dance to; after a while without it too.
 void DemoRun::wait_for_music() {
-  const MonoTime give_up = mono_now() + kPatienceForMusic;
+  const MonoTime give_up = mono_now() + kMusicTimeout;
   while (!poller_->is_stopped() && mono_now() < give_up &&
          !(monitor_->has_music(0) && monitor_->has_music(1)))
     poller_->run_once(Duration::ms(20));
@@ -194,14 +194,14 @@ Result<void> DemoRun::start_viewer() {
   return start(*viewer_);
 }
 
-// Looks after the programs; returns when to look again.
-MonoTime DemoRun::watch_over(MonoTime now) {
+// Restarts programs that ended; returns when to look again.
+MonoTime DemoRun::restart_ended(MonoTime now) {
   if (ending_) return {};
   for (const auto& role : roles_) {
     if (role->is_over) continue;
     if (role->restart_at.is_set()) {
       if (now < role->restart_at) continue;
-      talk::info("{} is started again", role->name);
+      talk::info("{}: restarted", role->name);
       if (auto result = start(*role); !result) {
         talk::error("{}", result.error().what);
         role->restart_at = now + Duration::s(1);
@@ -221,7 +221,7 @@ MonoTime DemoRun::watch_over(MonoTime now) {
   return now + Duration::ms(100);
 }
 
-void DemoRun::turn_until(MonoTime deadline) {
+void DemoRun::run_until(MonoTime deadline) {
   while (!poller_->is_stopped()) {
     const MonoTime now = mono_now();
     if (now >= deadline) return;
@@ -236,11 +236,11 @@ void DemoRun::stop_in_order() {
   if (trace_) trace_->stop();
   for (Role* role : dancers_)
     if (role->process) role->process->ask_to_stop();
-  const MonoTime arrived = mono_now() + kStillUnderWay;
+  const MonoTime arrived = mono_now() + kLongestWay;
   while (mono_now() < arrived) poller_->run_once(Duration::ms(50));
   // Pictures drawn by the processor take a second or more each: the viewer ends by itself after the
   // last.
-  const MonoTime drawn = mono_now() + kPatienceForPictures;
+  const MonoTime drawn = mono_now() + kPicturesTimeout;
   while (options_.headless && viewer_ && viewer_->process && !poller_->is_stopped() &&
          !viewer_->process->has_ended() && mono_now() < drawn)
     poller_->run_once(Duration::ms(50));
@@ -275,8 +275,9 @@ Result<void> DemoRun::add_comparison(DemoResult& result) const {
 
 Result<DemoResult> DemoRun::run() {
   if (auto started = start_houses(); !started) return tl::make_unexpected(started.error());
-  if (auto met = wait_until_connected(); !met) return tl::make_unexpected(met.error());
-  poller_->add_timer(mono_now(), [this](MonoTime now) { return watch_over(now); });
+  if (auto connected = wait_until_connected(); !connected)
+    return tl::make_unexpected(connected.error());
+  poller_->add_timer(mono_now(), [this](MonoTime now) { return restart_ended(now); });
   if (auto started = start_music(); !started) return tl::make_unexpected(started.error());
   wait_for_music();
   const MonoTime origin = mono_now() + Duration::ms(300);
@@ -285,7 +286,7 @@ Result<DemoResult> DemoRun::run() {
   talk::info("{} dancers in two houses; Ctrl-C ends it", plan_.dancers.size());
   const bool endless = options_.seconds <= 0.0;
   end_ = origin + (endless ? Duration::s(365 * 24 * 3600) : Duration::seconds(options_.seconds));
-  turn_until(end_);
+  run_until(end_);
   end_ = std::min(end_, mono_now());
   stop_in_order();
   DemoResult ended = result(origin);

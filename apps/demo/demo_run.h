@@ -1,5 +1,5 @@
 // DemoRun: starts the programs of a planned demo, keeps them going (one that dies is started again
-// while the others go on), and ends with an account of every dancer.
+// while the others go on), and ends with the figures of every dancer.
 //
 // Units/frames: times of this machine's clock.
 // Ownership:    owns the programs, the monitor and its two buses; the programs end with it.
@@ -29,7 +29,7 @@ struct DemoResult {
   std::string log;
   int restarts = 0;
   std::string
-      house_reports[2];  // JSON that each house's program said at its end; "" if it was killed
+      house_reports[2];  // JSON that each house's program printed at its end; "" if it was killed
   std::optional<DemoRhythm> rhythm;  // of the comparison
   DemoPictures comparison;
   std::string line_report;  // likewise of the emulated line
@@ -43,7 +43,7 @@ class DemoRun {
  private:
   // One program of the demo.
   struct Role {
-    std::string name;  // what is said of it
+    std::string name;  // in messages
     ChildProcess::Options how;
     std::unique_ptr<ChildProcess> process;
     MonoTime restart_at;
@@ -60,8 +60,8 @@ class DemoRun {
   void wait_for_music();
   Result<void> start_dancers(MonoTime origin);
   Result<void> start_viewer();
-  void turn_until(MonoTime deadline);
-  MonoTime watch_over(MonoTime now);
+  void run_until(MonoTime deadline);
+  MonoTime restart_ended(MonoTime now);
   void stop_in_order();
   DemoResult result(MonoTime origin) const;
   Result<void> add_comparison(DemoResult& result) const;

@@ -16,7 +16,7 @@ constexpr std::array<const char*, kHopCount> kHopNames{"published",     "link_se
                                                        "link_received", "on_stage",  "staged"};
 constexpr auto kFirstOfStage = static_cast<std::size_t>(Hop::kStageTaken);
 
-// What the receiving house's link said of this dancer, if it lived to say it.
+// The report of the receiving house's link on this dancer, if it was not killed.
 ordered_json link_report(const DemoResult& result, const DancerAccount& account) {
   const std::string& text = result.house_reports[1 - account.house];
   const auto report = ordered_json::parse(text, nullptr, false);
@@ -26,8 +26,8 @@ ordered_json link_report(const DemoResult& result, const DancerAccount& account)
   return {};
 }
 
-// Sent, and not delivered, by cause. What no counter explains was lost while a program was away or
-// on the buses.
+// Sent, and not delivered, by cause. What no counter explains was lost while a program was
+// restarted or on the buses.
 std::map<std::string, std::int64_t> losses(const DemoResult& result, const DancerAccount& account) {
   std::map<std::string, std::int64_t> causes;
   std::int64_t missing = std::max<std::int64_t>(0, account.sent - account.delivered);

@@ -1,6 +1,6 @@
-// DemoTrace: what a demo's comparison is measured on: the remote dancer of house A as he was danced
-// in house B, as his poses came, and as the stage showed him; and where the music stood that house
-// A heard meanwhile.
+// DemoTrace: what a demo's comparison is measured on: the remote dancer of house A as danced in
+// house B, as the poses came, and as the stage showed them; and the musical time of house A
+// meanwhile.
 //
 // Units/frames: both houses share this machine's clock; beats of the music in house A, but for the
 //               tags of poses.
@@ -34,7 +34,7 @@ class DemoTrace {
   // `here` dances in house A, `remote` in house B.
   DemoTrace(Bus& bus_a, Bus& bus_b, const GuestId& here, const GuestId& remote);
 
-  // From now on nobody dances any more.
+  // The dance is over.
   void stop() { is_over_ = true; }
 
   const GuestId& here() const { return here_; }

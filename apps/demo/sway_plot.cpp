@@ -20,7 +20,7 @@ constexpr double kTop = 82.0, kRowHeight = 176.0, kBetweenRows = 42.0;
 constexpr int kRows = 3;
 
 constexpr std::uint32_t kInk = 0x222222, kFaint = 0x6a6a6a, kGrid = 0xd9d9d9, kOne = 0x8a8a8a;
-// Told apart by those who see fewer colours too. Source: Okabe and Ito, 2008.
+// Distinct under colour blindness too. Source: Okabe and Ito, 2008.
 constexpr std::uint32_t kHere = 0x009e73, kDanced = 0xa8a8a8, kRaw = 0xd55e00, kShown = 0x0072b2;
 
 class SwayDrawing {
@@ -94,8 +94,8 @@ class SwayDrawing {
   }
 
   void figures(int r, const StageFigures& f, std::uint32_t colour) {
-    const std::string seen = is_guess(f.content_delay_ms, plot_.rhythm.raw.content_delay_ms)
-                                 ? "is " + guess_words(f.content_delay_ms)
+    const std::string seen = is_predicted(f.content_delay_ms, plot_.rhythm.raw.content_delay_ms)
+                                 ? "is " + prediction_words(f.content_delay_ms)
                                  : fmt::format("was danced {:.0f} ms before", f.content_delay_ms);
     canvas_.text({kRight, row_top(r) - 19.0},
                  fmt::format("{}, \u00b1 {:.0f} ms;  what is seen {}", beat_words(f.phase_mean_ms),

@@ -1,5 +1,5 @@
 // A picture of a demo's comparison: the hips' sway of both dancers over the beats of the music, in
-// three rows of one axis: who dances here, the remote dancer as the poses come, and as the stage
+// three rows of one axis: the local dancer, the remote dancer as the poses come, and as the stage
 // shows them, each beside the dance as it was danced.
 //
 // Units/frames: centimetres over beats of the music in house A.

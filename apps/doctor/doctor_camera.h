@@ -1,4 +1,4 @@
-// What the doctor says of cameras and of the pose network that sees dancers in their pictures.
+// Checks of cameras and of the pose network.
 //
 // Ownership: plain values.
 // Threads:   one; looking opens each camera for a moment.

@@ -20,7 +20,7 @@ namespace {
 
 // In the child: 0 and the renderer's name, or 1 and what is missing.
 [[noreturn]] void try_context(int out) {
-  // What drivers say to stderr is not ours to print.
+  // Drivers' messages on stderr are dropped.
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDERR_FILENO);
   const auto context = OffscreenContext::create();

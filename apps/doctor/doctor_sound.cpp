@@ -12,8 +12,8 @@
 namespace dance {
 namespace {
 
-// A loudspeaker this late is one on a radio link or a television, whose own delay a server knows
-// but in part.
+// A loudspeaker this late is on a radio link or in a television, of whose own delay a server knows
+// only a part.
 constexpr Duration kLongLatency = Duration::ms(450);
 
 std::string variable(const char* name) {
@@ -67,7 +67,7 @@ Finding finding_of(const SoundFailure& failure) {
 }
 
 #if defined(DANCE_HAVE_MUSIC) && defined(DANCE_HAVE_SOUND)
-// Of a sound server that waits for us to speak first.
+// Of a sound server: the client sends first.
 constexpr Duration kKnock = Duration::ms(100);
 
 std::string installed_server() {
@@ -79,7 +79,7 @@ std::string installed_server() {
   return "";
 }
 
-// Why there is no loudspeaker: who is at the socket, and whether they let us in.
+// Why there is no loudspeaker: what listens at the socket, and whether it accepts the connection.
 SoundFailure why_not(std::string reason) {
   SoundFailure failure;
   failure.socket = sound_server_place();

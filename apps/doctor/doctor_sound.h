@@ -1,4 +1,4 @@
-// Whether music can be heard from this machine: the sound server is asked, and silence played for
+// Whether music can be heard from this machine: connects to the sound server and plays silence for
 // half a second.
 //
 // Ownership: plain values.
@@ -18,14 +18,14 @@ namespace dance {
 
 enum class SoundTrouble : std::uint8_t {
   kNotBuilt,
-  kNoServer,       // nobody is at the server's socket
+  kNoServer,       // no server listens at the socket
   kNotYours,       // the socket is another user's
-  kRefused,        // somebody is there, who does not let us in
-  kNoLoudspeaker,  // the server lets us in, and has nothing to play on
-  kFarServer,      // on another machine, by PULSE_SERVER: from here nothing more is seen
+  kRefused,        // a server is there and refuses the connection
+  kNoLoudspeaker,  // connected, but the server has no output device
+  kFarServer,      // on another machine, by PULSE_SERVER: cannot be checked from here
 };
 
-// What is known of a sound that is not to be had.
+// Why there is no sound.
 struct SoundFailure {
   SoundTrouble trouble = SoundTrouble::kNoServer;
   std::string reason;            // in the server's or its library's words
@@ -34,13 +34,13 @@ struct SoundFailure {
   std::string installed_server;  // the program that could be started, or ""
 };
 
-// From what was found of the loudspeaker, or why nothing was. Pure.
+// From the state of the loudspeaker, or why there is none. Pure.
 Finding check_loudspeaker(const tl::expected<Loudspeaker, SoundFailure>& loudspeaker);
 
 // Where programs of this user find the sound server: a socket's path, or with PULSE_SERVER what
 // that names.
 std::string sound_server_place();
-// Asks this machine.
+// Of this machine.
 tl::expected<Loudspeaker, SoundFailure> find_loudspeaker();
 
 Finding check_sound();

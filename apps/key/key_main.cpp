@@ -31,7 +31,7 @@ struct KeyOptions {
 Result<HouseKey> asked_key() {
   std::string line;
   {
-    const SecretPrompt prompt;  // first, so that who is asked can paste at once
+    const SecretPrompt prompt;  // before the prompt is printed, so that pasting at once works
     if (isatty(STDIN_FILENO)) talk::info("paste the line that you were given (it is not shown):");
     std::getline(std::cin, line);
   }
@@ -70,7 +70,7 @@ Result<void> run_key(const KeyOptions& options) {
   keys.put(key);
   if (auto written = write_secret(path, keys.text()); !written) return written;
   const std::string room = key.room.is_set() ? " --room " + std::string(key.room.view()) : "";
-  // With a room's key everybody goes by a name of her own.
+  // A room's key is shared: each guest chooses a name.
   const std::string guest = key.room == key.name ? "YOUR-NAME" : std::string(key.name.view());
   talk::info("kept in {}; now: dance join {} --guest {}{}", path,
              key.server.empty() ? "HOST" : key.server, guest, room);

@@ -1,5 +1,5 @@
-// The terminal does not show what is typed or pasted while this lives, and shows it again
-// afterwards: also where a signal ends the program meanwhile.
+// Turns the terminal's echo off while this lives and on again afterwards, also where a signal ends
+// the program meanwhile.
 //
 // Ownership: the terminal's echo, and what SIGINT, SIGQUIT, SIGTERM and SIGHUP do. One at a time. A
 //            signal that was ignored before (nohup) stays so.

@@ -68,8 +68,8 @@ void GuestJourney::add(Way& way, const Stamps& stamps) {
   std::size_t from = kStepCount;  // the last step that was passed
   for (std::size_t to = 0; to < kStepCount; ++to) {
     if (!stamps[to].is_set()) continue;
-    // Only now and then does a pose bring the stamps of its way through the tunnel: without them
-    // its coming is the end of no step.
+    // Only some poses carry the stamps of their way through the tunnel: without them the arrival
+    // ends no step.
     if (to == index_of(Step::kLinkReceived) && !stamps[index_of(Step::kServer)].is_set())
       from = kStepCount;
     if (from < kStepCount) add_one(way.took[from][to], stamps[to] - stamps[from]);

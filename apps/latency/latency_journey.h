@@ -57,7 +57,7 @@ class GuestJourney {
     const Histogram* since_capture;  // null where the capture's time is not known
   };
   // Step by step in the order of the journey. The last steps are a display's where one runs, else
-  // they end with ourselves; a step that no pose has passed has no row.
+  // they end with this program; a step without poses has no row.
   std::vector<Row> rows() const;
   bool has_passed(Step step) const;
 

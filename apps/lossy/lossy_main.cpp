@@ -1,4 +1,4 @@
-// dance lossy: a UDP proxy that is a bad line.
+// dance lossy: a UDP proxy that emulates a bad line.
 
 #include <cstdio>
 #include <nlohmann/json.hpp>

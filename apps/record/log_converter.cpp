@@ -35,7 +35,7 @@ class PartFile {
   bool is_kept_ = false;
 };
 
-std::string why_nothing_was_read(const LogConversion& conversion) {
+std::string reason_for_no_events(const LogConversion& conversion) {
   const LogUnpacker::Counters& lost = conversion.unpacking;
   if (lost.newer > 0) return "was packed by a newer version of dance: update this one";
   if (lost.lost() > 0) return "all of its packed events are damaged";
@@ -63,7 +63,7 @@ Result<LogConversion> convert_log(const std::string& from, const std::string& to
   if (auto ended = log.ended(); !ended) return tl::make_unexpected(ended.error());
   conversion.skipped_bytes = log.skipped_bytes();
   conversion.unpacking = log.unpacking();
-  if (conversion.events == 0) return fail(from + ": " + why_nothing_was_read(conversion));
+  if (conversion.events == 0) return fail(from + ": " + reason_for_no_events(conversion));
   if (auto flushed = writer.flush(); !flushed) return tl::make_unexpected(flushed.error());
   if (auto kept = part.keep_as(to); !kept) return tl::make_unexpected(kept.error());
   const auto size = fs::file_size(from, unknown);

@@ -47,7 +47,7 @@ Result<void> show(const StatusOptions& options) {
       std::printf("%s%s%s", is_screen ? kClearScreen : "", status_text(*status).c_str(),
                   options.is_once ? "" : "\n");
     const bool is_written = std::fflush(stdout) == 0;
-    // Whoever reads us (head, less) may be gone.
+    // The reader of a pipe (head, less) may have ended.
     if (options.is_once || !is_written) poller->stop();
     return now + Duration::s(1);
   });

@@ -1,4 +1,4 @@
-// Asks a server on this machine how it fares, through the socket that it opens for its user.
+// Reads a server's status on this machine, through the socket that it opens for its user.
 //
 // Units/frames: the answer is the JSON of tunnel/server/server_status.h.
 // Ownership:    plain values.
@@ -21,7 +21,7 @@ namespace dance {
 
 Result<nlohmann::ordered_json> ask_server(std::uint16_t port);
 
-// Whose program has a UDP port, by a table as in /proc/net/udp and /proc/net/udp6.
+// The user whose program has a UDP port, by a table as in /proc/net/udp and /proc/net/udp6.
 std::optional<uid_t> owner_of_udp_port(std::string_view table, std::uint16_t port);
 
 }  // namespace dance

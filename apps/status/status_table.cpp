@@ -22,7 +22,7 @@ std::optional<double> number(const json& object, const char* key) {
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
-// Names come from anybody: what a terminal could take for a command does not reach it.
+// Names are untrusted: control characters do not reach the terminal.
 std::string text(const json& object, const char* key) {
   const json& value = member(object, key);
   std::string out = value.is_string() ? value.get<std::string>().substr(0, 48) : "-";

@@ -17,7 +17,7 @@ constexpr const char* kExamples =
     "  dance top                            this house's bus, until ctrl-C\n"
     "  dance top --once                     one table after a second and a half\n"
     "  dance top --bus 'udpm://239.255.76.67:7668?ttl=0' --seconds 10\n";
-// Longer than a period of what is said once a second: skeletons, counters.
+// Longer than a period of what is sent once a second: skeletons, counters.
 constexpr Duration kListensOnce = Duration::ms(1500);
 constexpr const char* kClearScreen = "\033[H\033[2J";
 
@@ -40,7 +40,7 @@ Result<void> watch(const Options& options) {
     std::printf("%s%s\n%s\n", is_terminal ? kClearScreen : "", program.bus().url().c_str(),
                 text.c_str());
     const bool is_written = std::fflush(stdout) == 0;
-    // Whoever reads us (head, less) may be gone.
+    // The reader of a pipe (head, less) may have ended.
     if (options.is_once || !is_written) program.poller().stop();
   });
   program.stop_after(options.seconds);

@@ -13,7 +13,7 @@
 namespace dance {
 namespace {
 
-// Channels that have been silent for so long give their place to others.
+// Eviction: channels that have been silent for so long make room for others.
 constexpr Duration kForgotten = Duration::s(60);
 
 using Fingerprint = std::array<std::uint8_t, 8>;
@@ -29,7 +29,7 @@ Fingerprint fingerprint_of(const Message& message) {
 
 TimedSkeleton any_skeleton() { return {average_skeleton(), MonoTime(), 0}; }
 
-// Names come from anybody: what a terminal could take for a command does not reach it.
+// Names are untrusted: control characters do not reach the terminal.
 std::string printable(std::string_view name) {
   std::string text(name.substr(0, kMaxChannelLength));
   for (char& c : text)

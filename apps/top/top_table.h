@@ -1,5 +1,5 @@
-// Who speaks on a bus: rate, bytes, type and age of each channel, and what programs say of
-// themselves. `dance top` prints it.
+// The traffic of a bus: rate, bytes, type and age of each channel, and the statistics that programs
+// publish. `dance top` prints it.
 //
 // Units/frames: now is this process's clock; rates are per second since the last table.
 // Ownership:    keeps at most kMaxChannels channels and kMaxPrograms programs, whatever is sent.

@@ -44,7 +44,7 @@ void BvhConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime) {
     begin_grid(pose);
   } else if (pose.clock_id != previous_->clock_id ||
              pose.capture_time - previous_->capture_time > kLongestGap) {
-    // Another clock, or a long silence: the dance goes on here, with the next frame.
+    // Another clock, or a long silence: the pause is cut out.
     ++gaps_;
     begin_grid(pose);
   } else if (pose.capture_time <= previous_->capture_time) {

@@ -15,7 +15,7 @@ namespace dance {
 
 class TextConsumer : public PoseConsumer {
  public:
-  // At most hz lines a second for each guest; 0 = all. Ages are told of poses with this clock only.
+  // At most hz lines a second for each guest; 0 = all. Ages only of poses with this clock.
   TextConsumer(OutputFile& output, double hz, std::uint64_t own_clock_id)
       : output_(output), limit_(hz), own_clock_id_(own_clock_id) {}
 

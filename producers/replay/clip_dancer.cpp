@@ -25,7 +25,7 @@ ClipDancer::ClipDancer(std::shared_ptr<const MotionClip> clip, const ClipDancerO
   DANCE_ASSERT(options_.speed > 0.0 && std::isfinite(options_.speed), options_.speed);
   DANCE_ASSERT(clip_->hands.empty() || clip_->hands.size() == clip_->frames.size());
   last_ = Duration::seconds(static_cast<double>(clip_->frames.size() - 1) / clip_->frame_hz);
-  // A clip too short for the crossing crosses over half of it.
+  // A clip too short for the cross-fade uses half of it.
   crossing_ = std::min(options_.crossing, last_ / 2);
   round_ = last_ - crossing_;
   walking_back_ = std::min(options_.walking_back, round_ / 2);

@@ -1,6 +1,6 @@
 // ClipDancer: plays a recorded dance: once or over and over, at any speed, anywhere on the floor.
-// A loop crosses over from the clip's end into its beginning and walks back to where it began, so
-// that nobody jumps. Clips of equal length loop in step, so couples stay couples.
+// A loop cross-fades from the clip's end into its beginning and moves back to its first place, so
+// that the dancer does not jump. Clips of equal length loop in step, so couples stay couples.
 //
 // Units/frames: metres and degrees on the floor plane of W; heading turns about +Y, 0 leaves the
 //               clip as it is.
@@ -27,7 +27,7 @@ struct ClipDancerOptions {
   ClipEnd end = ClipEnd::kLoop;
   double speed = 1.0;
   FloorPlacement placement;
-  Duration crossing = Duration::ms(300);   // from the end into the beginning
+  Duration crossing = Duration::ms(300);   // cross-fade from the end into the beginning
   Duration walking_back = Duration::s(2);  // to where the clip began, before it ends
 };
 
@@ -42,7 +42,7 @@ class ClipDancer final : public Dancer {
   bool hands_at(Duration t, Hands& out) override;
   bool is_over(Duration t) const override;
 
-  // How long one round of a loop is: the clip without the part that crosses over.
+  // Length of one round of a loop: the clip without the part that is cross-faded.
   Duration round() const { return round_; }
 
  private:

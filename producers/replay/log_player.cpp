@@ -13,10 +13,10 @@ namespace {
 constexpr int kEventsPerTurn = 1024;
 // Channels with a time of their own; more are stamped with their deadline.
 constexpr std::size_t kMaxAnchors = 256;
-// A pose further from its deadline than this has another clock behind it (a looped or joined log):
-// begin anew.
-constexpr Duration kLargestDrift = Duration::ms(500);
-constexpr std::int64_t kLongestPause_us = 60'000'000;
+// A pose further from its deadline than this is of another clock (a looped or joined log): a new
+// anchor.
+constexpr Duration kMaxDrift = Duration::ms(500);
+constexpr std::int64_t kMaxPause_us = 60'000'000;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ bool LogPlayer::read_next() {
       has_first_ = true;
     }
     const std::int64_t step_us = next_->time_us - last_time_us_;
-    if (step_us > kLongestPause_us || step_us < -kLongestPause_us) {
+    if (step_us > kMaxPause_us || step_us < -kMaxPause_us) {
       first_time_us_ += step_us;  // a joined or damaged log: go on without the gap
       ++counters_.gaps;
     }
@@ -93,7 +93,7 @@ MonoTime LogPlayer::restamp(const Channel& channel, MonoTime captured, MonoTime 
     const Duration since = captured - anchor.then;
     const MonoTime stamped = anchor.now + Duration::seconds(since.as_seconds() / options_.speed);
     const Duration drift = stamped - deadline;
-    if (drift < kLargestDrift && drift > -kLargestDrift) return stamped;
+    if (drift < kMaxDrift && drift > -kMaxDrift) return stamped;
     anchor.then = captured;
     anchor.now = deadline;
     return deadline;
@@ -119,7 +119,7 @@ void LogPlayer::publish_as(const Channel& channel, const LogEvent& event, MonoTi
   ++counters_.played;
 }
 
-// Slower music has its next beat later, and fewer of them a minute.
+// At a lower speed the next beat is later and the tempo lower.
 void LogPlayer::publish_beat(const Channel& channel, const LogEvent& event, MonoTime deadline) {
   Beat beat;
   if (decode(event.data.data(), event.data.size(), beat) != Decoded::kFine) {

@@ -34,7 +34,7 @@ struct ReplayOptions {
   double speed = 1.0;
   bool once = false;
   int copies = 1;
-  // What a BVH file does not say, where the guess is wrong.
+  // What a BVH file does not say, where the estimate is wrong.
   RetargetOptions retarget;
   double frame_hz = 0.0;  // 0 = the file's
 };

@@ -87,7 +87,7 @@ struct Couple {
   const SalsaBody& follow;
 };
 
-// The hands that never let go: his left, her right.
+// The hands that are always joined: his left, her right.
 void led_hands(const Couple& c, CoupleGoals& goals) {
   const SalsaHold& hold = c.lead.hold;
   const Vector3f& his = shoulder_of(c.lead, kLeft);
@@ -239,7 +239,7 @@ void pose_head(const Skeleton& skeleton, const Vector3f& partner_W_m, SalsaBody&
   const Quaternionf& R_WC = chest_of(body);
   const Vector3f gaze = R_WC.conjugate() * (partner_W_m - body.frames.position(Bone::kHead));
   // sin: straight at the partner while she is in front, as far as a neck turns beside, and ahead
-  // again while she is behind, so that a turning head lets go and finds the partner anew.
+  // again while she is behind, so that a turning head leaves the partner and returns (spotting).
   const double beside = std::atan2(static_cast<double>(gaze.x()), static_cast<double>(gaze.z()));
   const double yaw = 1.05 * std::sin(beside);
   const double flat = std::hypot(static_cast<double>(gaze.x()), static_cast<double>(gaze.z()));

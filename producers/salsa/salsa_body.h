@@ -1,5 +1,5 @@
 // One salsa dancer without arms: feet that stand where the score says and roll over ball and heel,
-// hips that go to the standing leg, a spine that answers them a moment later.
+// hips that go to the standing leg, a spine that follows them a moment later.
 //
 // Units/frames: beats of the music; places in W.
 // Ownership:    plain values, no allocation.

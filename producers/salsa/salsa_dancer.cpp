@@ -18,7 +18,7 @@ double SalsaDancer::music_beats_at(Duration t) const {
 }
 
 void SalsaDancer::dance_at(Duration t, Pose& out) {
-  // The upper body answers the hips after a twentieth of a second.
+  // The upper body follows the hips after a twentieth of a second.
   constexpr double kDelay_s = 0.05;
   const double beats = music_beats_at(t);
   const double delay_beats = kDelay_s * style_.tempo_bpm / 60.0;

@@ -1,6 +1,6 @@
 // The synthetic salsa dancer, for machines that have no motion data at all: lead or follow of a
 // couple that dances to a tempo, a different dance for each seed. A pure function of the musical
-// time, so that two processes that never hear each other dance together.
+// time, so that two processes without any connection dance together.
 //
 // Units/frames: as producers/dancer.h; musical time is start_beat + t · tempo/60, or that of the
 //               music which it hears.
@@ -29,13 +29,13 @@ class SalsaDancer : public Dancer {
   const SalsaStyle& style() const { return style_; }
   const SalsaScore& score() const { return score_; }
   double music_beats_at(Duration t) const;
-  // From now on dances to what is heard, while it is: `music` must outlive the dancer, whose t
-  // counts from `start`.
+  // From now on dances to the music that is heard, while there is some: `music` must outlive the
+  // dancer, whose t counts from `start`.
   void listen_to(const BeatClock& music, MonoTime start) {
     music_ = &music;
     start_ = start;
   }
-  // What dance_at works out on its way: both bodies need each other.
+  // Intermediate results of dance_at: each body depends on the other.
   const SalsaBody& body() const { return own().body; }
 
  private:

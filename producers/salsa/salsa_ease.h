@@ -22,8 +22,8 @@ constexpr double ease(double u) {
   return u * u * u * (10.0 + u * (6.0 * u - 15.0));
 }
 
-// 16u²(1−u)² within 0..1: a hill of height 1 that leaves the ground before ease() has got under
-// way, and meets it after, so that a foot on its way does not scrape.
+// 16u²(1−u)² within 0..1: a bump of height 1 that rises before ease() starts to move and ends after
+// it, so that a foot does not scrape the floor.
 constexpr double hill(double u) {
   if (u <= 0.0 || u >= 1.0) return 0.0;
   const double v = 4.0 * u * (1.0 - u);

@@ -108,8 +108,8 @@ SalsaScore::SalsaScore(const SalsaStyle& style) : style_(style) {
 }
 
 // A chorus is eight eights: a basic, then seven figures in an order of the seed's choice, two of
-// which are cross body leads, so that everybody is home again when the next chorus begins and the
-// eights before need not be known.
+// which are cross body leads, so that both are at their first places again when the next chorus
+// begins and the eights before need not be known.
 SalsaScore::Eight SalsaScore::eight(std::int64_t index) const {
   using enum SalsaFigure;
   const std::int64_t chorus = floor_div(index, kEightsInChorus);

@@ -1,6 +1,6 @@
 // The choreography of a salsa couple: which figure is danced in which eight, and for every count of
 // the music where each dancer's body is, where the stepping foot lands and how the hands are held.
-// Both dancers read the same score, so that they dance together without hearing each other.
+// Both dancers read the same score, so that they dance together without a connection.
 //
 // Units/frames: count n is beat n of the music; places in W, metres and radians (yaw about +Y).
 // Ownership:    plain values, no allocation.
@@ -38,7 +38,7 @@ struct FloorPlace {
 };
 
 // Where the hands are; the first three shares add up to 1 (lead's left and follow's right, which
-// never let go), the next three as well (lead's right and follow's left).
+// are always joined), the next three as well (lead's right and follow's left).
 struct SalsaHold {
   double low = 1.0;       // between the two, at the waist
   double side = 0.0;      // out to the side, at the shoulder

@@ -48,13 +48,13 @@ TEST(Comparison, TellsOfTheDancerWhoIsBehindMost) {
   for (const SceneState* half : {&both.raw, &both.shown})
     for (const SceneGuest& guest : half->guests)
       EXPECT_EQ(guest.is_compared, guest.id.view() == "bob") << guest.id.view();
-  EXPECT_TRUE(both.shown.guests[1].is_guess) << "newer than what has come";
-  EXPECT_FALSE(both.raw.guests[1].is_guess);
-  EXPECT_FALSE(both.shown.guests[2].is_guess) << "carol is shown late and true";
+  EXPECT_TRUE(both.shown.guests[1].is_predicted) << "newer than what has come";
+  EXPECT_FALSE(both.raw.guests[1].is_predicted);
+  EXPECT_FALSE(both.shown.guests[2].is_predicted) << "carol is shown late and true";
   shown_ms_ago(1, 410.0f);
-  EXPECT_FALSE(compare(scene).shown.guests[1].is_guess);
+  EXPECT_FALSE(compare(scene).shown.guests[1].is_predicted);
   shown_ms_ago(3, 0.0f);
-  EXPECT_TRUE(compare(scene).shown.guests[2].is_guess) << "and so is who is not compared";
+  EXPECT_TRUE(compare(scene).shown.guests[2].is_predicted) << "and so is who is not compared";
 }
 
 TEST(Comparison, APlainPictureShowsNobodyTwice) {

@@ -106,7 +106,7 @@ class Panel {
     list_.PushClipRect({left_ - 0.35f * line_, box_.top}, {right_, box_.bottom}, true);
     for (std::size_t i = 0; i < beat.own_beat_count; ++i) {
       const float x = x_of(music, beat.own_beats[i]);
-      if (guest.is_guess)
+      if (guest.is_predicted)
         list_.AddCircle({x, y}, 0.3f * line_, colour, 20, 2.0f);
       else
         list_.AddCircleFilled({x, y}, 0.32f * line_, colour, 20);
@@ -114,7 +114,7 @@ class Panel {
     list_.PopClipRect();
   }
 
-  // A guess is on the beat by what it is a guess of: that says nothing of how well it was guessed.
+  // A prediction is on the beat by construction, which says nothing of how good it is.
   void draw_numbers(const SceneState& scene, float y) {
     const auto compared =
         std::find_if(scene.guests.begin(), scene.guests.end(), [](const SceneGuest& guest) {
@@ -124,10 +124,10 @@ class Panel {
     const BeatFigures& beat = *compared->figures.beat;
     const auto age_ms = static_cast<double>(*beat.delay_ms);
     std::string text = std::string(compared->id.view()) + ": ";
-    text += compared->is_guess ? guess_words(age_ms)
-                               : fmt::format("{}, \u00b1 {:.0f} ms; {:.0f} ms old",
-                                             beat_words(static_cast<double>(beat.behind_ms)),
-                                             beat.wander_ms, age_ms);
+    text += compared->is_predicted ? prediction_words(age_ms)
+                                   : fmt::format("{}, \u00b1 {:.0f} ms; {:.0f} ms old",
+                                                 beat_words(static_cast<double>(beat.behind_ms)),
+                                                 beat.wander_ms, age_ms);
     const float width = fonts_.text->CalcTextSizeA(line_, 1e4f, 0.0f, text.c_str()).x;
     list_.AddText(fonts_.text, line_, whole(box_.right - line_ - width, y), grey(0.85f),
                   text.c_str());

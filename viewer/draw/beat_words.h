@@ -1,4 +1,4 @@
-// What is said of a dancer and the beat, alike under a stage and beside a plot.
+// The words for a dancer's timing, the same under a stage and beside a plot.
 //
 // Units/frames: ms; positive is behind the beat, or before now.
 // Ownership:    returns texts of its own.
@@ -12,9 +12,9 @@ namespace dance {
 
 // "38 ms behind the beat", "on the beat".
 std::string beat_words(double behind_ms);
-// Of what is newer than what has come: "a guess of now", "a guess of 70 ms ago".
-std::string guess_words(double age_ms);
+// Of what is newer than what has come: "predicted as of now", "predicted as of 70 ms ago".
+std::string prediction_words(double age_ms);
 // Whether what is shown is newer than the newest that has come.
-bool is_guess(double shown_age_ms, double come_age_ms);
+bool is_predicted(double shown_age_ms, double come_age_ms);
 
 }  // namespace dance

@@ -18,7 +18,7 @@ std::optional<double> delay_of(const SceneGuest& guest) {
   return guest.figures.beat ? guest.figures.beat->delay_ms : std::nullopt;
 }
 
-// Whoever is merely called so is a guest like others.
+// A guest with such a name but without its original is a guest like others.
 bool is_twin(const SceneState& scene, const GuestId& id) {
   const auto whose = twin_of_whom(id);
   return whose && find_guest(scene, *whose) != nullptr;
@@ -44,7 +44,7 @@ Comparison compare(const SceneState& scene) {
     SceneGuest& raw = comparison.raw.guests.emplace_back(twin != nullptr ? *twin : shown);
     raw.id = shown.id;
     if (twin == nullptr || !delay_of(raw)) continue;
-    shown.is_guess = delay_of(shown) && is_guess(*delay_of(shown), *delay_of(raw));
+    shown.is_predicted = delay_of(shown) && is_predicted(*delay_of(shown), *delay_of(raw));
     if (!latest || *delay_of(raw) > *delay_of(comparison.raw.guests[*latest]))
       latest = comparison.raw.guests.size() - 1;
   }

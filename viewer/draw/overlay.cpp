@@ -39,10 +39,10 @@ struct Tag {
   ScreenPoint at;
 };
 
-// More names than these stand in each other's way whatever one does.
+// More name tags than these overlap wherever they are placed.
 constexpr std::size_t kTagsKeptApart = 4;
 
-// A couple, one before the other: the tag of who is further off goes above the nearer one's. Tags
+// A couple, one in front of the other: the tag of the farther one goes above the nearer one's. Tags
 // from far to near.
 void keep_apart(std::vector<Tag>& tags, float width_px, float height_px) {
   if (tags.size() > kTagsKeptApart) return;

@@ -4,7 +4,7 @@
 // Units/frames: sizes in pixels.
 // Ownership:    the atlas owns its fonts.
 // Threads:      the one whose ImGui context is current.
-// Failure:      find_overlay_font() is nothing where there is no DejaVu font.
+// Failure:      find_overlay_font() is nullopt where there is no DejaVu font.
 #pragma once
 
 struct ImFont;

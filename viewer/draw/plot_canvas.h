@@ -31,7 +31,7 @@ class PlotCanvas {
   virtual void line(PlotPoint from, PlotPoint to, std::uint32_t colour, double width) = 0;
   virtual void curve(const std::vector<PlotPoint>& points, std::uint32_t colour, double width) = 0;
   virtual void box(PlotPoint low, PlotPoint high, std::uint32_t colour) = 0;
-  // `at` is the baseline's height's middle.
+  // `at` is the middle of the line's height.
   virtual void text(PlotPoint at, const std::string& words, std::uint32_t colour,
                     Anchor anchor = Anchor::kLeft, Size size = Size::kText) = 0;
   virtual double width_of(const std::string& words, Size size = Size::kText) const = 0;

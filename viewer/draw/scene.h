@@ -1,5 +1,5 @@
-// SceneState: everything that a picture of the stage shows, as plain values. It knows of no bus and
-// no window, so that the viewer, tests and pictures for the documents draw through the same door.
+// SceneState: everything that a picture of the stage shows, as plain values. It depends on no bus
+// and no window, so that the viewer, tests and pictures for the documents draw the same way.
 //
 // Units/frames: poses in W, metres; rates in Hz, ages in ms; music in beats as core/base/beat.h
 //               counts them.
@@ -43,9 +43,9 @@ struct SceneGuest {
   float opacity = 1.0f;  // 0 = faded out
   GuestFigures figures;
   // Of a Comparison: that the figures of this dancer stand under both halves, and that this half
-  // shows a guess of the dance.
+  // shows a prediction of the dance.
   bool is_compared = false;
-  bool is_guess = false;
+  bool is_predicted = false;
 };
 
 struct SceneState {

@@ -1,5 +1,5 @@
 // StagePainter: the stage and what is written over it, as one picture. A window shows that picture
-// and a headless run writes it to a file; there is no other way to either.
+// and a headless run writes it to a file.
 //
 // Units/frames: W; pixels.
 // Ownership:    owns renderer and overlay; the OpenGL context must outlive it.

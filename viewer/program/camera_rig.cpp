@@ -131,7 +131,7 @@ void CameraRig::update(const SceneState& scene, float aspect, Duration dt) {
 
 void CameraRig::jump(const std::vector<const SceneState*>& scenes, float aspect) {
   std::vector<Vector3f> points;
-  yaw_chosen_for_ = 0;  // pictures that stand alone have no view to keep
+  yaw_chosen_for_ = 0;  // single pictures have no view to keep
   for (const SceneState* scene : scenes) {
     choose_yaw(*scene);
     const std::vector<Vector3f> more = points_of(*scene);

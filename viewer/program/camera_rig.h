@@ -1,10 +1,10 @@
-// CameraRig: who moves the camera: presets, the drag of a mouse, the frame that keeps everybody (or
-// one guest) in the picture, and a slow turn when nobody touches it.
+// CameraRig: moves the camera: presets, mouse drags, a frame that keeps everybody (or one guest) in
+// the picture, and a slow turn while the mouse is not used.
 //
 // Units/frames: angles in rad, W; drags are shares of the picture's height.
 // Ownership:    plain value.
 // Threads:      none inside; the drawing thread owns it.
-// Failure:      none; a focus on somebody who is not there frames everybody.
+// Failure:      none; a focus on a guest who is not there frames everybody.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,13 +33,13 @@ class CameraRig {
   void set_turning(bool turning) { is_turning_ = turning; }
   bool is_turning() const { return is_turning_; }
 
-  // Moves on by dt towards what the scene asks for, softly.
+  // Moves on by dt towards the frame of the scene, smoothly.
   void update(const SceneState& scene, float aspect, Duration dt);
-  // Is there at once, for pictures that stand alone. Several scenes share one frame.
+  // Without a transition, for single pictures. Several scenes share one frame.
   void jump(const std::vector<const SceneState*>& scenes, float aspect);
 
   const OrbitCamera& camera() const { return camera_; }
-  // The view that was chosen for this stage, before anybody dragged or turned it: the light stands
+  // The view that was chosen for this stage, before any drag or turn: the light is placed
   // by it.
   float stage_yaw_rad() const { return stage_yaw_rad_; }
 
@@ -51,8 +51,8 @@ class CameraRig {
   OrbitCamera camera_;
   std::optional<GuestId> focus_;
   bool is_turning_ = false;
-  bool is_free_ = false;        // panned away: frames nobody until told to
-  bool yaw_is_chosen_ = false;  // by hand, by preset, or from who was there first
+  bool is_free_ = false;        // panned away: frames nothing until frame_all() or focus()
+  bool yaw_is_chosen_ = false;  // by hand, by preset, or from the first guests
   std::size_t yaw_chosen_for_ = 0;
   bool has_framed_ = false;
   float zoom_ = 1.0f;

@@ -2,10 +2,10 @@
 
 namespace dance {
 namespace {
-// How long one source of a guest's poses keeps the other out after its last.
+// How long one source of a guest's poses takes precedence after its last pose.
 constexpr Duration kSourceHolds = Duration::s(1);
 constexpr Duration kStatusHolds = Duration::s(3);
-// After so much silence a slot may go to somebody else; by then the guest has faded out.
+// Eviction: after so much silence a slot may go to another guest; by then this one has faded out.
 constexpr Duration kSlotHolds = Duration::s(10);
 }  // namespace
 
@@ -20,11 +20,11 @@ GuestBoard::Slot* GuestBoard::slot_of(const GuestId& guest, MonoTime now) {
   for (std::size_t i = 0; i < kMaxGuests; ++i) {
     Slot& slot = slots_[i];
     if (slot.news.id == guest) {
-      slot.last_word = now;
+      slot.last_heard = now;
       return &slot;
     }
-    if (!slot.last_word.is_set() || now - slot.last_word > kSlotHolds)
-      if (spare == nullptr || slot.last_word < spare->last_word) spare = &slot;
+    if (!slot.last_heard.is_set() || now - slot.last_heard > kSlotHolds)
+      if (spare == nullptr || slot.last_heard < spare->last_heard) spare = &slot;
   }
   if (spare == nullptr) {
     no_room_.fetch_add(1, std::memory_order_relaxed);
@@ -35,7 +35,7 @@ GuestBoard::Slot* GuestBoard::slot_of(const GuestId& guest, MonoTime now) {
   spare->meter = ArrivalMeter();
   spare->beat_meter = BeatMeter();
   spare->capture_heard = spare->status_heard = MonoTime();
-  spare->last_word = now;
+  spare->last_heard = now;
   return spare;
 }
 
@@ -74,7 +74,7 @@ void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, Mo
 void GuestBoard::on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now) {
   Slot* slot = slot_of(guest, now);
   if (slot == nullptr || is_superseded(*slot, where, now)) return;
-  // The pose that follows takes them along: hands alone move nobody.
+  // Published with the next pose: hands alone show nothing new.
   slot->news.hands = hands;
   slot->news.hands_heard = now;
 }

@@ -58,11 +58,11 @@ class GuestBoard {
 
  private:
   struct Slot {
-    // The bus thread's own; `latest` is the way out.
+    // Of the bus thread; `latest` passes it to the drawing thread.
     GuestNews news;
     ArrivalMeter meter;
     BeatMeter beat_meter;
-    MonoTime last_word;  // anything of this guest
+    MonoTime last_heard;  // anything of this guest
     MonoTime capture_heard;
     MonoTime status_heard;
     Latest<GuestNews> latest;

@@ -28,8 +28,8 @@ Result<LogFeed> LogFeed::open(const std::string& path, bool stage_only) {
   return feed;
 }
 
-// Which clock the house has, and how the log's stamps lie to it: from the stage, or where nobody
-// dances there, from captures.
+// The house's clock, and the offset of the log's stamps from it: from the stage, or where it is
+// empty, from captures.
 Result<bool> LogFeed::find_times(Where where, Hop last) {
   std::int64_t least_ahead_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t first_us = 0, last_us = 0;
@@ -47,7 +47,7 @@ Result<bool> LogFeed::find_times(Where where, Hop last) {
     last_us = event->time_us;
     least_ahead_us = std::min(least_ahead_us, event->time_us - pose.stamped(last).since_zero_us());
   }
-  // A log that breaks off may have its dancers behind that.
+  // A log that cannot be read on may have its poses behind that.
   if (auto ended = log_.ended(); !ended) return tl::make_unexpected(ended.error());
   log_.rewind();
   if (clock_id_ == 0) return false;

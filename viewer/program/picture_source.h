@@ -27,11 +27,11 @@ class PictureSource {
   virtual MonoTime begin() const = 0;
   // Returns when it is that moment, or the program is to end, with the time that it is.
   virtual MonoTime wait_until(MonoTime moment) = 0;
-  // Of a beat of the house's music; nothing where it is not known yet.
+  // Of a beat of the house's music; nullopt where it is not known yet.
   virtual std::optional<MonoTime> time_of_beat(double) const { return std::nullopt; }
   // What the last picture showed first, and when it was on the screen.
   virtual void report_shown(std::span<const StageRoster::Fresh>, MonoTime) {}
-  // How long a recorded house was; nothing of a live one.
+  // Length of a recording; 0 of a live house.
   virtual Duration recorded() const { return Duration(); }
   virtual bool is_over() const = 0;
   virtual const std::string& name() const = 0;  // for people

@@ -1,5 +1,6 @@
-// StageFeed: the viewer's ear: the house's bus on a thread of its own, because the window system
-// wants the main thread. It fills a GuestBoard, and publishes when each pose was shown.
+// StageFeed: receives what the viewer shows: the house's bus on a thread of its own, because the
+// window system wants the main thread. It fills a GuestBoard, and publishes when each pose was
+// shown.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    owns bus, poll loop and thread; the destructor ends the thread.

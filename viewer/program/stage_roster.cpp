@@ -15,33 +15,29 @@ float opacity_after(Duration silence) {
 }
 }  // namespace
 
-StageRoster::StageRoster(GuestBoard& board) : board_(board), entries_(GuestBoard::kMaxGuests) {
+StageRoster::StageRoster(GuestBoard& board) : board_(board), guests_(GuestBoard::kMaxGuests) {
   fresh_.reserve(GuestBoard::kMaxGuests);
 }
 
 void StageRoster::update(MonoTime now, SceneState& scene) {
   fresh_.clear();
   scene.guests.clear();
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    Entry& entry = entries_[i];
+  for (std::size_t i = 0; i < guests_.size(); ++i) {
+    GuestNews& known = guests_[i];
     if (const GuestNews* news = board_.take(i)) {
-      entry.news = *news;
+      known = *news;
       fresh_.push_back({news->id, news->pose, news->heard});
     }
-    const float opacity = entry.news.heard.is_set() ? opacity_after(now - entry.news.heard) : 0.0f;
-    if (entry.is_shown != (opacity > 0.0f)) {
-      entry.is_shown = !entry.is_shown;
-      ++arrivals_;
-    }
-    if (!entry.is_shown) continue;
+    const float opacity = known.heard.is_set() ? opacity_after(now - known.heard) : 0.0f;
+    if (opacity <= 0.0f) continue;
     SceneGuest guest;
-    guest.id = entry.news.id;
-    guest.skeleton = entry.news.skeleton;
-    guest.pose = entry.news.pose;
-    if (entry.news.hands_heard.is_set() && entry.news.heard - entry.news.hands_heard < kHandsHold)
-      guest.hands = entry.news.hands;
+    guest.id = known.id;
+    guest.skeleton = known.skeleton;
+    guest.pose = known.pose;
+    if (known.hands_heard.is_set() && known.heard - known.hands_heard < kHandsHold)
+      guest.hands = known.hands;
     guest.opacity = opacity;
-    guest.figures = entry.news.figures;
+    guest.figures = known.figures;
     scene.guests.push_back(guest);
   }
   if (const BeatClock* music = board_.take_music()) music_ = *music;

@@ -1,5 +1,5 @@
-// StageRoster: turns a GuestBoard's news into the scene to draw: who is there, who fades out after
-// silence, who has come back, and whose pose is new in this picture.
+// StageRoster: turns a GuestBoard's updates into the scene to draw: guests who are present, those
+// who fade out after silence or have come back, and those whose pose is new in this picture.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    borrows the board.
@@ -29,19 +29,12 @@ class StageRoster {
     MonoTime heard;
   };
   std::span<const Fresh> fresh() const { return fresh_; }
-  // A count that changes whenever somebody comes or goes.
-  int arrivals() const { return arrivals_; }
 
  private:
-  struct Entry {
-    GuestNews news;
-    bool is_shown = false;
-  };
   GuestBoard& board_;
   BeatClock music_;
-  std::vector<Entry> entries_;
+  std::vector<GuestNews> guests_;
   std::vector<Fresh> fresh_;
-  int arrivals_ = 0;
 };
 
 }  // namespace dance

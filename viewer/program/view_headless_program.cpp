@@ -15,8 +15,8 @@
 namespace dance {
 namespace {
 
-// A picture may take its time, the dance may not: on a machine without a graphics card, drawing
-// would take the processor from those who send and route.
+// Low priority: on a machine without a graphics card, drawing would take the processor from the
+// programs that send and route.
 constexpr int kDrawingNiceness = 10;
 
 constexpr std::size_t kFewMoments = 16;
@@ -66,7 +66,7 @@ class HeadlessRun {
 
   bool is_strip() const { return options_.moments.strip > 0; }
   // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the
-  // next moment would be missed. Many are drawn as they come, for whoever waits for them.
+  // next moment would be missed. Many are drawn as they come, so that each file is there soon.
   bool draws_at_once() const { return !is_strip() && moments_s_.size() > kFewMoments; }
 
   Result<std::vector<MonoTime>> moments_to_draw() const {
@@ -136,7 +136,7 @@ class HeadlessRun {
     return write(name.data(), picture);
   }
 
-  // Every picture of it, whatever they take. The camera follows as in a window.
+  // Every picture of it, however long they take. The camera follows as in a window.
   Result<void> film() {
     const Duration period = Duration::period_of_hz(kFilm_hz);
     const double most_s = moments_s_.back();

@@ -14,7 +14,7 @@ constexpr const char* kExamples =
   F frames everybody, 1 to 9 one guest, space starts and stops the slow turn, H shows or hides the
   figures, C compares where there is something to compare, Q quits.
 Examples:
-  dance view                                         who dances in this house
+  dance view                                         the stage of this house
   dance view --focus alice --camera front
   dance view --headless --out pictures --at 2,5,8    three pictures, no display needed
   dance view --headless --out pictures --seconds 10 --every 0.5 --size 640x360

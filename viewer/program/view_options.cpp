@@ -9,7 +9,7 @@
 namespace dance {
 namespace {
 constexpr double kUsualSeconds = 3.0;
-constexpr double kPastTheEnd_s = 0.5;  // who asks for the end may have rounded it
+constexpr double kPastTheEnd_s = 0.5;  // a moment at the end may have been rounded
 constexpr double kLongest_s = 24.0 * 3600.0;
 constexpr std::size_t kMostPictures = 10'000;
 constexpr int kSmallest_px = 64;

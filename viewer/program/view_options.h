@@ -1,4 +1,4 @@
-// ViewOptions: what `dance view` was asked for.
+// ViewOptions: the options of `dance view`.
 //
 // Units/frames: moments in seconds from the start.
 // Ownership:    plain value.

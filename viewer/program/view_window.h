@@ -32,7 +32,7 @@ class ViewWindow {
   ViewWindow& operator=(const ViewWindow&) = delete;
 
   void poll_events();
-  // Returns early when somebody touches mouse or keys.
+  // Returns early on mouse or key events.
   void wait_for_events(Duration longest);
   // Shows what was drawn; waits for the display's turn where the driver can.
   void swap();
