@@ -16,7 +16,7 @@ namespace dance {
 enum class PoseModel { kLite, kFull, kHeavy };
 std::string_view name_of(PoseModel model);
 
-// The folder that is wished; "" where none is: then the environment's DANCE_POSE_MODELS, and
+// The folder of the options; "" where none is given: then the environment's DANCE_POSE_MODELS, and
 // without it models/pose of the source tree that this program was built from.
 std::string pose_models_folder(const std::string& wished);
 

@@ -107,7 +107,7 @@ Result<PoseGraph> read_tflite_file(const std::string& path) {
   if (size > 0 && !file.read(reinterpret_cast<char*>(bytes.data()), size))
     return fail(path + ": cannot be read");
   auto graph = parse_tflite(bytes);
-  if (!graph) return fail(path + ": " + graph.error().what + "; ./dance setup fetches it anew");
+  if (!graph) return fail(path + ": " + graph.error().what + "; ./dance setup fetches it again");
   return graph;
 }
 
