@@ -209,9 +209,8 @@ TEST_F(MusicRoom, AHouseWithMusicInItsSessionDancesToTheRooms) {
   // The room's own line, which carries dora's poses to bob's house.
   std::vector<double> off_beats;
   std::optional<Beat> heard;
-  (*other)->on_pose(
-      Where::kGuest, *GuestId::parse("dora"), Delivery::kEvery,
-      [&](const Channel&, const Pose& pose, MonoTime) {
+  (*other)->subscribe<Pose>(
+      {Where::kGuest, *GuestId::parse("dora")}, [&](const Channel&, const Pose& pose, MonoTime) {
         if (heard && !std::isnan(pose.music_beats))
           off_beats.push_back(std::abs(pose.music_beats - heard->beats_at(pose.capture_time)));
       });

@@ -100,4 +100,12 @@ Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::ui
   return std::shared_ptr<const BeatModel>(std::move(model));
 }
 
+std::span<const std::uint8_t> beat_model_file();  // data/, by dance_embed
+
+std::shared_ptr<const BeatModel> built_in_beat_model() {
+  static const auto kModel = read_beat_model(beat_model_file());
+  DANCE_ASSERT(kModel.has_value());  // a test reads it too
+  return *kModel;
+}
+
 }  // namespace dance
