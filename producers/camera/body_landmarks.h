@@ -1,5 +1,5 @@
-// BodyLandmarks: what the pose network sees of one person in one picture: 33 points of the body in
-// pixels and in metres.
+// BodyLandmarks: the pose network's 33 landmarks of one person in one picture, in pixels and in
+// metres.
 //
 // Units/frames: image points in pixels of the whole picture, (0, 0) the left upper corner of the
 //               left upper pixel as the network's makers have it: half a pixel more than in a
@@ -8,7 +8,7 @@
 //               hips. Left and right are the dancer's own.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
-// Failure:      `found` is false where nobody is seen; the rest is then not to be read.
+// Failure:      `found` is false where no person was detected; the rest is then not valid.
 // Source:       order and meaning of the points: MediaPipe Pose (BlazePose GHUM 3D model card).
 #pragma once
 

@@ -1,6 +1,6 @@
-// DeepPicture: a picture whose copies are pictures of their own, in buffers that stay: for the
+// DeepPicture: a picture whose copies are deep, in buffers that are reused: for the
 // slots between two threads (core/base/latest.h), where an OpenCV matrix would be shared and
-// painted over.
+// overwritten.
 //
 // Ownership: each copy owns its pixels. What `pixels` is set to directly is shared, as OpenCV does
 //            it.

@@ -1,10 +1,10 @@
-// DepthHint: what a second eye knows that one eye can only guess: how far the dancer is.
+// DepthHint: the dancer's distance, measured by a stereo camera.
 //
 // Units/frames: metres along the camera's z (C of producers/camera/pinhole.h), of the point midway
 //               between the hips.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      `joints` is 0 where nothing could be matched; the rest is then not to be read.
+// Failure:      `joints` is 0 where nothing could be matched; the rest is then not valid.
 #pragma once
 
 namespace dance {

@@ -79,7 +79,7 @@ trap 'rm -rf "$scratch"' EXIT
 timeout 180 npm pack --loglevel error --fetch-retries 1 --fetch-timeout 20000 --pack-destination "$scratch" "$package" >/dev/null 2>"$scratch/log" ||
   fail "$package cannot be fetched: $(grep -m 1 -E 'code|network|ERR' "$scratch/log" || echo "no answer"); look at the network and run this again"
 tar -xzf "$scratch"/*.tgz -C "$scratch" || fail "what came of $package is no archive; run this again"
-# All of them before the first takes its place: whoever looks finds what was there, or what is known.
+# All of them are checked before the first is installed: a reader finds the old files or the new ones.
 while read -r sum name source; do
   [ -f "$scratch/package/$source" ] || fail "$package has no $source in it; run this again"
   has_sum "$sum" "$scratch/package/$source" || fail "$source of $package is not the file that is known (its sha256 is another)"

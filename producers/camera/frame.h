@@ -1,12 +1,12 @@
-// Frame: one picture of a camera or a video, when light fell on it, and when we had it in hand.
+// Frame: one picture of a camera or a video, when it was taken, and when it was fetched.
 //
 // Units/frames: rows × columns × 3 bytes, blue green red as OpenCV has them, row 0 at the top;
 //               capture_time in this machine's monotonic clock (the driver's own stamp where it
 //               gives one). `fetched` is of the same clock, before anything was decoded or
-//               converted: what passed between the two is the camera's and the kernel's, what comes
-//               after is ours.
-// Ownership:    `image` shares the source's buffer: it is good until the source is asked again, and
-//               is never written by who reads it.
+//               converted: the time between the two belongs to camera and kernel, the time after to
+//               this program.
+// Ownership:    `image` shares the source's buffer: it is valid until the source is read again, and
+//               is never written by its readers.
 // Threads:      none inside.
 // Failure:      none.
 #pragma once
@@ -21,7 +21,7 @@ namespace dance {
 struct Frame {
   cv::Mat image;
   MonoTime capture_time;
-  std::uint64_t sequence = 0;  // counts what the camera took, also what nobody saw
+  std::uint64_t sequence = 0;  // counts all pictures of the camera, dropped ones too
   MonoTime fetched{};  // never before capture_time, but for a file that plays faster than time
 };
 

@@ -1,6 +1,5 @@
-// FrameSource: where pictures come from: a V4L2 camera, a video file, a folder of images. The
-// newest picture wins: what is older and still waiting when the source is asked is given back
-// unseen and counted.
+// FrameSource: a source of pictures: a V4L2 camera, a video file, a folder of images. The newest
+// picture wins: older ones that still wait when the source is read are dropped and counted.
 //
 // Units/frames: pixels; hertz.
 // Ownership:    the source owns its buffers; a Frame borrows one until the next call.
@@ -20,9 +19,9 @@ namespace dance {
 
 enum class FrameState {
   kFrame,  // `out` is the newest picture
-  kNone,   // nothing within the patience
-  kGone,   // the camera is not there; ask again, it may come back
-  kBack,   // it is there again: whoever tracks starts anew; the next call gives pictures
+  kNone,   // nothing within the timeout
+  kGone,   // the camera is unplugged; call again, it may come back
+  kBack,   // it is plugged in again: trackers have to be reset; the next call gives pictures
   kOver,   // the file has ended
 };
 
@@ -35,7 +34,7 @@ struct FrameFormat {
 
 struct FrameCounters {
   std::uint64_t taken = 0;      // given to the caller
-  std::uint64_t outrun = 0;     // waited behind a newer one, given back unseen
+  std::uint64_t outrun = 0;     // waited behind a newer one, dropped
   std::uint64_t lost = 0;       // gaps in the driver's sequence
   std::uint64_t damaged = 0;    // the driver or the decoder said so
   std::uint64_t unplugged = 0;  // times that the device went away
@@ -44,8 +43,8 @@ struct FrameCounters {
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
-  // Waits at most `patience`.
-  virtual FrameState next(Duration patience, Frame& out) = 0;
+  // Waits at most `timeout`.
+  virtual FrameState next(Duration timeout, Frame& out) = 0;
   virtual const FrameFormat& format() const = 0;
   virtual const FrameCounters& counters() const = 0;
   // As a person would call it: "HD Webcam (/dev/video0)", "taiji.mp4".

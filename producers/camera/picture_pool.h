@@ -1,8 +1,8 @@
-// PicturePool: a few pictures in turn, so that one that is still held is not painted over, and none
-// is allocated anew for each frame.
+// PicturePool: a few pictures in turn, so that one that is still held is not overwritten, and
+// frames need no allocation.
 //
 // Ownership: shares the pictures that it gave out.
-// Threads:   one owner; who holds a picture may let go of it on any thread.
+// Threads:   one owner; a picture may be released on any thread.
 // Failure:   none; where all are held one more is allocated.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace dance {
 
 class PicturePool {
  public:
-  // One that nobody else holds.
+  // One without other holders.
   cv::Mat& unheld() {
     for (cv::Mat& picture : pictures_) {
       if (picture.u == nullptr || __atomic_load_n(&picture.u->refcount, __ATOMIC_ACQUIRE) == 1) {

@@ -1,6 +1,5 @@
 // BeatPublisher: publishes the next beat on BEAT/local ten times a second and right after each
-//                beat,
-// and detects other publishers in this house: dancers cannot follow two musics.
+// beat, and detects other publishers in this house: dancers cannot follow two musics.
 //
 // Units/frames: as core/base/beat.h.
 // Ownership:    refers to the bus and the poller, which must outlive it; the program drains the

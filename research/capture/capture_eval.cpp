@@ -119,7 +119,7 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
 
 Result<void> CaptureEval::add_video(const std::string& path) {
   DANCE_TRY(const auto reel, VideoReel::open(path));
-  moving_->forget();
+  moving_->reset();
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {
     const std::int64_t start_ns = thread_ns();

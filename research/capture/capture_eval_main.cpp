@@ -25,7 +25,7 @@ struct Wishes {
 Result<void> set_follow(const std::string& text, FollowOptions& follow) {
   if (text == "surest") {
     // As the original does: nobody is remembered, and no jump is refused.
-    follow.remembers = Duration{};
+    follow.reacquire_time = Duration{};
     follow.refuses_jumps = follow.watches_others = false;
     return {};
   }

@@ -105,7 +105,7 @@ if [ -e "$usr/bin/dance-capture" ]; then
   mkdir -p "$XDG_DATA_HOME/dancegraph/pose"
   echo damage >"$XDG_DATA_HOME/dancegraph/pose/pose_detection.tflite"
   ! "$dance" capture demo/stage-0001.png >capture.log 2>&1 || wrong "dance capture sees with a damaged network"
-  expect '`dance fetch-models` fetches it anew' capture.log "dance capture"
+  expect '`dance fetch-models` fetches it again' capture.log "dance capture"
 fi
 
 # The examples, built as their README says.

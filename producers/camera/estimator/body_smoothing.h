@@ -1,4 +1,4 @@
-// BodySmoothing: takes the tremble out of what the network sees, as MediaPipe does, at the cost of
+// BodySmoothing: removes jitter from the network's landmarks, as MediaPipe does, at the cost of
 // some delay in slow motion.
 //
 // Units/frames: as producers/camera/estimator/landmark_network.h says.

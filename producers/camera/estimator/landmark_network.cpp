@@ -41,8 +41,8 @@ void LandmarkNetwork::look(const cv::Mat& picture, const BodyRegion& region) {
   sample_region(picture, region, kSide_px, Beyond::kNearest, 0.0f, 1.0f, engine_->input());
 }
 
-// The mean of the cells about the guess, weighed by their heat, where one of them is hot. All in
-// parts of the region.
+// The heatmap's centroid around the regressed point, where its peak is high enough; in parts of the
+// region.
 Eigen::Vector2f LandmarkNetwork::refined(std::size_t point, const Eigen::Vector2f& guess) const {
   constexpr auto kCells = static_cast<float>(kHeat_cells);
   // Far beyond the region nothing is near; and such numbers do not fit an int.

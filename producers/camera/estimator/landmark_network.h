@@ -33,7 +33,7 @@ class LandmarkNetwork {
 
   static Result<LandmarkNetwork> make(EngineKind engine, PoseGraph graph);
 
-  // In this order, as what they cost is told apart.
+  // To be called in this order; separate, so that each can be timed.
   void look(const cv::Mat& blue_green_red, const BodyRegion& region);
   bool run() { return engine_->run(); }
   bool read(SeenBody& out) const;

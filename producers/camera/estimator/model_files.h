@@ -16,7 +16,7 @@ namespace dance {
 enum class PoseModel { kLite, kFull, kHeavy };
 std::string_view name_of(PoseModel model);
 
-// The folder that is wished; "" where none is: then the environment's DANCE_POSE_MODELS, and
+// The folder of the options; "" where none is given: then the environment's DANCE_POSE_MODELS, and
 // without it the first that has the detector in it of
 //   data_folder()/pose                     the build's: models/pose of the source tree
 //   $XDG_DATA_HOME/dancegraph/pose         where `dance fetch-models` of an installation puts them

@@ -1,4 +1,4 @@
-// OneEuro: smooths a number that trembles: the more, the slower it changes.
+// OneEuro: the 1€ filter: a low pass whose cutoff rises with the speed of its input.
 //
 // Units/frames: what the caller gives; hertz.
 // Ownership:    plain value.

@@ -84,7 +84,7 @@ void OpenCvEngine::add_convolution(const PoseGraph& graph, const GraphNode& node
   const int out = is_depthwise ? kernel[3] : kernel[0];
   const int in = is_depthwise ? 1 : kernel[3];
   int from = made(node.inputs[0]);
-  // OpenCV's convolution wants as much on one side as on the other.
+  // OpenCV's convolution pads both sides alike.
   const bool is_even = node.pad_top == node.pad_bottom && node.pad_left == node.pad_right;
   if (!is_even) {
     LayerParams pad;
@@ -223,7 +223,7 @@ OpenCvEngine::OpenCvEngine(const PoseGraph& graph) {
 
 bool OpenCvEngine::run() {
   cv::split(cv::Mat(rows_, columns_, CV_32FC(channels_), input_.data()), channel_headers_);
-  // OpenCV says by exception what it does not like.
+  // OpenCV reports errors as exceptions.
   try {
     net_.setInput(planes_, "picture");
     net_.forward(results_, outputs_);

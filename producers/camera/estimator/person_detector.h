@@ -5,8 +5,7 @@
 //               them.
 // Ownership:    owns its network and its memory; after make() it allocates nothing of its own.
 // Threads:      one owner.
-// Failure:      make() gives an Error; a picture in which the network refuses to run has nobody in
-//               it.
+// Failure:      make() gives an Error; where the network fails to run nobody is found.
 // Source:       BlazePose (Bazarevsky et al. 2020) and its model pose_detection.tflite: anchors,
 //               decoding, weighted suppression.
 #pragma once
@@ -38,7 +37,7 @@ class PersonDetector {
 
  private:
   static constexpr std::size_t kAnchors = 2254;
-  static constexpr std::size_t kNumbers = 12;  // of an anchor's guess: a box, and four points
+  static constexpr std::size_t kNumbers = 12;  // an anchor regresses: a box, and four points
 
   struct Guess {
     float score = 0.0f;

@@ -6,7 +6,7 @@
 namespace dance {
 
 Result<std::unique_ptr<PoseEstimator>> PoseEstimator::open(const EstimatorOptions& options) {
-  // One core is what a camera takes; the others are for music, network and display.
+  // One core for the camera; the others are for music, network and display.
   cv::setNumThreads(1);
   const std::string folder = pose_models_folder(options.models_folder);
   const auto in_file = [&](const std::string& name, const Error& error) {
@@ -28,18 +28,18 @@ PoseEstimator::PoseEstimator(const EstimatorOptions& options, PersonDetector det
                              LandmarkNetwork network)
     : options_(options), detector_(std::move(detector)), network_(std::move(network)) {}
 
-void PoseEstimator::forget() {
+void PoseEstimator::reset() {
   next_region_.reset();
   nobody_since_.reset();
   last_search_.reset();
   is_exchanged_ = false;
   smoothing_.reset();
-  memory_.forget();
-  watch_.forget();
+  target_.reset();
+  switch_detector_.reset();
 }
 
 void PoseEstimator::follow(float x_px, float y_px) {
-  forget();
+  reset();
   options_.follow.choice = FollowOptions::Choice::kNearest;
   options_.follow.place_px = {x_px, y_px};
 }
@@ -58,7 +58,7 @@ std::optional<BodyRegion> PoseEstimator::search(const Frame& frame) {
   ++counters_.searches;
   const std::int64_t start_ns = clock_ns();
   const auto people = detector_.find(frame.image, options_.least_score);
-  const SeenPerson* person = memory_.choose(people, now, options_.follow);
+  const SeenPerson* person = target_.choose(people, now, options_.follow);
   times_.search_ns += clock_ns() - start_ns;
   if (!person || !(person->region.side_px >= 1.0f)) return std::nullopt;
   return person->region;
@@ -72,22 +72,23 @@ void PoseEstimator::lose(MonoTime now) {
   next_region_.reset();
   is_exchanged_ = false;
   smoothing_.reset();
-  memory_.lose();
-  watch_.lose(now);
+  target_.on_lost();
+  switch_detector_.on_lost(now);
 }
 
 bool PoseEstimator::is_exchanged(const Frame& frame, const BodyRegion& seen) {
   const MonoTime now = frame.capture_time;
-  if (!options_.tracks || !options_.follow.watches_others || !watch_.is_due(now)) return false;
+  if (!options_.tracks || !options_.follow.watches_others || !switch_detector_.is_due(now))
+    return false;
   const std::int64_t start_ns = clock_ns();
   ++counters_.looks;
   const auto people = detector_.find(frame.image, options_.least_score);
-  const std::optional<BodyRegion> other = watch_.look(people, seen, now);
+  const std::optional<BodyRegion> other = switch_detector_.update(people, seen, now);
   times_.search_ns += clock_ns() - start_ns;
   if (!other || !(other->side_px >= 1.0f)) return false;
   ++counters_.exchanged;
   smoothing_.reset();
-  memory_.forget();
+  target_.reset();
   next_region_ = other;
   is_exchanged_ = true;
   return true;
@@ -113,8 +114,8 @@ const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
     lose(now);
     return result_;
   }
-  // What is remembered in pixels means nothing in a picture of another size.
-  if (!options_.tracks || frame.image.size() != picture_size_) forget();
+  // State in pixels is invalid in a picture of another size.
+  if (!options_.tracks || frame.image.size() != picture_size_) reset();
   picture_size_ = frame.image.size();
 
   const bool is_new = !next_region_ || std::exchange(is_exchanged_, false);
@@ -139,7 +140,7 @@ const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
     return result_;
   }
   const BodyRegion seen = region_of(body_.next_px[0], body_.next_px[1]);
-  if (!is_new && options_.follow.refuses_jumps && !memory_.is_plausible(seen, now)) {
+  if (!is_new && options_.follow.refuses_jumps && !target_.is_plausible(seen, now)) {
     ++counters_.refused;
     lose(now);
     return result_;
@@ -147,7 +148,7 @@ const BodyLandmarks& PoseEstimator::estimate(const Frame& frame) {
   stage(times_.rest_ns);
   if (!is_new && is_exchanged(frame, seen)) return result_;
   last_ns = clock_ns();
-  memory_.see(seen, now);
+  target_.update(seen, now);
   fill(body_, unfiltered_);
   unfiltered_.found = true;
   unfiltered_.is_new = is_new;

@@ -17,7 +17,7 @@ namespace {
 // The network sees a little more than the circle about the hips that the body fits in.
 constexpr float kMargin = 1.25f;
 
-// Red, green and blue side by side in one register; what the fourth holds is nobody's.
+// Red, green and blue side by side in one register; the fourth is unused.
 using Colour = float __attribute__((vector_size(16)));
 static_assert(std::endian::native == std::endian::little);
 

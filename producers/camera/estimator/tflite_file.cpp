@@ -82,7 +82,7 @@ Result<PoseGraph> read_tflite_file(const std::string& path) {
   if (!file) return fail(file.error().what + "; `dance fetch-models` fetches it");
   auto graph = parse_tflite({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()});
   if (!graph)
-    return fail(path + ": " + graph.error().what + "; `dance fetch-models` fetches it anew");
+    return fail(path + ": " + graph.error().what + "; `dance fetch-models` fetches it again");
   return graph;
 }
 

@@ -4,7 +4,7 @@
 // Ownership:    holds paths; a picture is read when it is asked for.
 // Threads:      one owner.
 // Failure:      open() names the file that is missing or no picture. One that turns out damaged
-//               when it is read is left out and counted by who plays it.
+//               when it is read is skipped and counted by the player.
 #pragma once
 
 #include <memory>

@@ -17,13 +17,13 @@ namespace fs = std::filesystem;
 constexpr double kUsualImagesHz = 30.0;
 
 bool is_there(const std::string& path) {
-  std::error_code unseen;
-  return fs::exists(path, unseen);
+  std::error_code ignored;
+  return fs::exists(path, ignored);
 }
 
 bool is_folder(const std::string& path) {
-  std::error_code unseen;
-  return fs::is_directory(path, unseen);
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
 }
 
 bool is_number(const std::string& text) {

@@ -1,4 +1,4 @@
-// Where pictures come from, by what a person calls it.
+// Opens a source of pictures by the name that a person gives.
 //
 // Units/frames: as FrameSource.
 // Ownership:    the source is the caller's.

@@ -1,4 +1,4 @@
-// What kind of thing a path is, said so that a person can mend it.
+// What kind of file a path is, with errors that a person can act on.
 //
 // Ownership: plain values.
 // Threads:   none inside.

@@ -2,7 +2,7 @@
 // beginning. PlayedReel plays it.
 //
 // Units/frames: times from the first picture; hertz.
-// Ownership:    as who implements it says.
+// Ownership:    as each implementation says.
 // Threads:      one owner.
 // Failure:      step() is false at the end; read() is false where this one picture is damaged.
 #pragma once

@@ -9,8 +9,8 @@
 namespace dance {
 namespace {
 
-// A reader that cannot decode as fast as the film runs would skip for ever: further behind than
-// this, the film waits.
+// A reader that cannot decode in real time would skip for ever: further behind than this, the film
+// waits.
 constexpr Duration kFarthestBehind = Duration::s(1);
 
 }  // namespace
@@ -36,11 +36,11 @@ bool PlayedReel::step() {
   return true;
 }
 
-bool PlayedReel::wait_until_due(Duration patience) {
+bool PlayedReel::wait_until_due(Duration timeout) {
   const MonoTime due = start_ + last_time_;
   const MonoTime now = mono_now();
   if (due <= now) return true;
-  const std::int64_t ms = (std::min(due - now, patience).count_ns() + 999'999) / 1'000'000;
+  const std::int64_t ms = (std::min(due - now, timeout).count_ns() + 999'999) / 1'000'000;
   if (ms > 0) ::poll(nullptr, 0, static_cast<int>(std::min<std::int64_t>(ms, 1 << 30)));
   fetched_ = mono_now();
   return due <= fetched_;
@@ -60,13 +60,13 @@ bool PlayedReel::skip_what_is_late() {
   return true;
 }
 
-FrameState PlayedReel::next(Duration patience, Frame& out) {
+FrameState PlayedReel::next(Duration timeout, Frame& out) {
   out.image.release();
-  if (stands_) fetched_ = mono_now();  // what lay here since the last call is no work of ours
+  if (stands_) fetched_ = mono_now();  // time since the last call is not decoding time
   if (is_over_ || (!stands_ && !step())) return FrameState::kOver;
   if (!start_.is_set()) start_ = mono_now();
   if (options_.is_real_time) {
-    if (!wait_until_due(patience)) return FrameState::kNone;
+    if (!wait_until_due(timeout)) return FrameState::kNone;
     if (!skip_what_is_late()) return FrameState::kOver;
   }
   stands_ = false;

@@ -77,7 +77,7 @@ bool VideoReel::read(cv::Mat& bgr) {
 bool VideoReel::rewind() {
   index_ = -1;
   time_ = {};
-  // Opened anew: not every format can be wound back exactly.
+  // Reopened: not every format can be wound back exactly.
   return video_.open(path_, cv::CAP_FFMPEG);
 }
 

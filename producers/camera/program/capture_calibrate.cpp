@@ -3,7 +3,7 @@
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
 #include "core/program/talk.h"
-#include "producers/camera/program/capture_eyes.h"
+#include "producers/camera/program/capture_input.h"
 #include "producers/camera/program/capture_preview.h"
 #include "producers/camera/stereo/calibration_file.h"
 #include "producers/camera/stereo/chessboard_calibration.h"
@@ -43,7 +43,7 @@ Result<void> solve_and_save(const CaptureOptions& options, const ChessboardCalib
   talk::info("focal length {:.1f} px of {} x {}, reprojection error {:.2f} px", camera.fx_px,
              camera.width_px, camera.height_px, report.rms_px);
   if (report.calibration.pair)
-    talk::info("two eyes, {:.1f} mm apart; rows agree to {:.2f} px",
+    talk::info("two cameras, {:.1f} mm apart; rows agree to {:.2f} px",
                1e3 * report.calibration.pair->baseline_m(), report.epipolar_rms_px);
   if (auto saved = save_calibration(options.calibrate_file, report.calibration, report.rms_px);
       !saved)
@@ -61,33 +61,33 @@ Result<void> calibrate_camera(const CaptureOptions& options) {
   wished.board = {shape.first, shape.second, options.square_mm};
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
-  DANCE_TRY(auto eyes, CaptureEyes::open_uncalibrated(options));
-  wished.eyes = eyes->eyes();
-  // Whoever holds the board before a camera moves; pictures from a folder were chosen.
-  wished.wants_stillness = eyes->is_live();
+  DANCE_TRY(auto input, CaptureInput::open_uncalibrated(options));
+  wished.cameras = input->cameras();
+  // A board that is held before a camera moves; pictures from a folder were chosen.
+  wished.wants_stillness = input->is_live();
   DANCE_TRY(auto board, ChessboardCalibration::make(wished));
-  DANCE_TRY(auto preview,
-            open_preview(options, PreviewSide::kAsTheCameraSees, "calibration of " + eyes->name()));
+  DANCE_TRY(auto preview, open_preview(options, PreviewSide::kAsTheCameraSees,
+                                       "calibration of " + input->name()));
   BoardPreview drawing;
   talk::info("{}: show a chessboard of {} inner corners, held still in many places and tilts",
-             eyes->name(), options.board);
-  EyesFrame seen;
+             input->name(), options.board);
+  CaptureFrame seen;
   MonoTime next_progress;
   bool is_gone = false;
   while (!poller->is_stopped() && !board.has_enough()) {
-    const FrameState state = eyes->next(Duration::ms(50), seen);
+    const FrameState state = input->next(Duration::ms(50), seen);
     poller->run_once(Duration());
     if (state == FrameState::kOver) break;
     if (state == FrameState::kGone && !is_gone)
-      talk::warn("{} is gone; plug it in again, it is looked for", eyes->name());
-    if (state == FrameState::kBack) talk::info("{} is back", eyes->name());
+      talk::warn("{} is gone; plug it in again, it is looked for", input->name());
+    if (state == FrameState::kBack) talk::info("{} is back", input->name());
     if (state != FrameState::kNone) is_gone = state == FrameState::kGone;
     if (state != FrameState::kFrame) continue;
     const BoardAdded added =
-        wished.eyes == 2 ? board.add(seen.left.image, seen.right) : board.add(seen.left.image);
+        wished.cameras == 2 ? board.add(seen.left.image, seen.right) : board.add(seen.left.image);
     const MonoTime now = mono_now();
     if (added == BoardAdded::kKept || now >= next_progress) {
-      if (eyes->is_live() || added == BoardAdded::kKept)
+      if (input->is_live() || added == BoardAdded::kKept)
         talk::info("{}; {}", text_of(added), board.progress());
       next_progress = now + kProgressEvery;
     }

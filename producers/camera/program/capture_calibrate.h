@@ -1,5 +1,5 @@
-// `dance capture --calibrate FILE`: measures a lens, or two eyes, with a chessboard that is shown
-// to the camera, and says what is still to be shown until there is enough.
+// `dance capture --calibrate FILE`: measures a lens, or two cameras, with a chessboard that is
+// shown to the camera, and prints what is still to be shown until there is enough.
 //
 // Units/frames: as ChessboardCalibration.
 // Ownership:    nothing is kept.

@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-// Away for longer than this: whoever is seen next may be somebody else, and is measured anew.
+// After a longer absence the next dancer may be another one, and is measured again.
 constexpr Duration kSomebodyElse = Duration::s(10);
 
 }  // namespace
@@ -24,7 +24,7 @@ CaptureChain::CaptureChain(const GuestId& guest, CaptureSink& sink,
 void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   ++stats_.pictures;
   body_ = &estimator_->estimate(frame);
-  // The solver smooths what it makes of them, and smoothing twice would be late twice.
+  // The solver smooths too, and smoothing twice would double the delay.
   const BodyLandmarks& seen = estimator_->unfiltered();
   if (seen.found) {
     if (last_seen_.is_set() && frame.capture_time - last_seen_ > kSomebodyElse) solver_->reset();
@@ -38,8 +38,8 @@ void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   pose.sequence = next_sequence_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = frame.capture_time;
-  // Nobody can decode a dancer of unknown proportions: they go first, and again when the solver
-  // knows them better.
+  // Receivers need the proportions to decode a dancer: they are sent first, and again when the
+  // solver has better ones.
   const MonoTime now = mono_now();
   if (!next_skeleton_.is_set() || solver_->skeleton().version != said_version_) say_skeleton(now);
   sink_.capture(guest_, pose, now);
@@ -56,6 +56,6 @@ void CaptureChain::say_skeleton(MonoTime now) {
   next_skeleton_ = now + Duration::s(1);
 }
 
-void CaptureChain::start_anew() { estimator_->forget(); }
+void CaptureChain::restart() { estimator_->reset(); }
 
 }  // namespace dance

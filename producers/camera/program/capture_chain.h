@@ -1,11 +1,11 @@
-// CaptureChain: a picture's way to a pose on the bus: pose network, second eye where there is one,
-// solver, sink. One call a picture, in one thread: nothing waits for anything.
+// CaptureChain: the pipeline from a picture to a pose on the bus: pose network, stereo depth where
+// there are two cameras, solver, sink. One call a picture, in one thread, without queues.
 //
 // Units/frames: poses in W; latencies from the moment the picture was in hand, before it was
 //               decoded, to the moment its pose was published.
 // Ownership:    owns estimator, solver and stereo; refers to the sink, which must outlive it.
 // Threads:      none inside; one owner.
-// Failure:      what is not seen gives no pose, and is counted.
+// Failure:      a picture without a dancer gives no pose, and is counted.
 #pragma once
 
 #include <memory>
@@ -33,14 +33,14 @@ class CaptureChain {
  public:
   CaptureChain(const GuestId& guest, CaptureSink& sink, std::unique_ptr<PoseEstimator> estimator,
                std::unique_ptr<BodySolver> solver);
-  void add_second_eye(std::unique_ptr<StereoDepth> stereo) { stereo_ = std::move(stereo); }
+  void enable_stereo(std::unique_ptr<StereoDepth> stereo) { stereo_ = std::move(stereo); }
 
-  // `right` is the other eye's picture of the same moment, or null.
+  // `right` is the other camera's picture of the same moment, or null.
   void see(const Frame& frame, const cv::Mat* right = nullptr);
   // Another solver, as pictures have another size.
   void use(std::unique_ptr<BodySolver> solver) { solver_ = std::move(solver); }
-  // The camera was away: the next picture is searched for the dancer.
-  void start_anew();
+  // The camera was unplugged: the next picture is searched for the dancer.
+  void restart();
 
   // What the network saw in the last picture.
   const BodyLandmarks& body() const { return *body_; }

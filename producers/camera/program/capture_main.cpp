@@ -18,7 +18,7 @@ constexpr const char* kExamples = R"(Examples:
   dance capture --height 1.68 --mirror            as tall as she is; the stage as a mirror
   dance capture --calibrate camera.yml --board 9x6 --square 25
   dance capture --calibration camera.yml
-  dance capture zed --calibration SN1234.conf     two eyes side by side
+  dance capture zed --calibration SN1234.conf     two cameras side by side
   dance capture --record takes/first              video beside poses
 )";
 
@@ -70,9 +70,9 @@ int main(int argc, char** argv) {
            "of several people: largest, or who is nearest to a place, as shares of the picture: "
            "0.3,0.5");
   line.add("--calibration", options.calibration,
-           "of the lens, or of two eyes: what --calibrate wrote, OpenCV's YAML, or a ZED's "
+           "of the lens, or of two cameras: what --calibrate wrote, OpenCV's YAML, or a ZED's "
            "SN<serial>.conf");
-  line.add("--right", options.right, "the right eye, where it is a camera of its own");
+  line.add("--right", options.right, "the right camera, where it is a device of its own");
   line.add("--fov", options.fov_deg,
            "degrees that the picture is wide, where no calibration says it")
       .range(20.0, 150.0)
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   line.add_flag("--mirror", options.is_mirrored, "left and right change sides, as in a mirror");
   line.add_flag("--preview", options.has_preview, "a window with the skeleton over the picture");
   line.add("--preview-file", options.preview_file,
-           "the same as a picture file, .jpg or .png, written anew five times a second");
+           "the same as a picture file, .jpg or .png, rewritten five times a second");
   line.add("--record", options.record_folder, "keeps the video and the poses in this folder");
   line.add("--calibrate", options.calibrate_file,
            "measures the lens, or both, with a chessboard, and writes this file");
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
       .range(1.0, 1000.0)
       .shows_default();
   line.add("--bus", options.bus, "LCM URL of the house's bus");
-  line.add("--seconds", options.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
+  line.add("--seconds", options.seconds, "how long; 0 = until stopped").range(0.0, 1e7);
   line.add_flag("--json", options.wants_json, "write what was counted to stdout at the end");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_capture(options); });

@@ -1,4 +1,4 @@
-// What `dance capture` was asked for.
+// The options of `dance capture`.
 //
 // Units/frames: as each field says.
 // Ownership:    plain values.
@@ -15,10 +15,10 @@ namespace dance {
 
 struct CaptureOptions {
   std::string source;  // camera, video, folder; "" = the first camera
-  std::string right;   // the right eye, where it is a camera of its own
+  std::string right;   // the right camera, where it is a device of its own
   std::string guest = "alice";
   std::string bus;
-  double seconds = 0.0;  // 0 = until told to stop
+  double seconds = 0.0;  // 0 = until stopped
 
   // camera
   std::string size;  // "1280x720"
@@ -35,7 +35,7 @@ struct CaptureOptions {
   // solver
   std::string calibration;
   double fov_deg = 65.0;  // horizontal, where nothing is measured
-  double height_m = 0.0;  // of the dancer; 0 = not told
+  double height_m = 0.0;  // of the dancer; 0 = not known
   double smooth = 1.0;
   bool is_mirrored = false;
 
@@ -52,9 +52,9 @@ struct CaptureOptions {
   double square_mm = 25.0;
 };
 
-// What the words of --size, --hz and --format wish for.
+// The mode that --size, --hz and --format ask for.
 Result<CameraWish> camera_wish(const CaptureOptions& options);
-// Whom --follow means, in a picture of this size.
+// The person that --follow selects, in a picture of this size.
 Result<FollowOptions> follow_options(const CaptureOptions& options, int width_px, int height_px);
 // Two whole numbers with an x between them.
 Result<std::pair<int, int>> parse_pair(const std::string& option, const std::string& text);

@@ -1,8 +1,8 @@
-// The preview that --preview and --preview-file wish for.
+// The preview that --preview and --preview-file ask for.
 //
 // Ownership: plain function.
 // Threads:   as producers/camera/view/preview.h.
-// Failure:   says why there can be none; null where nobody wishes for one.
+// Failure:   an Error tells why there can be none; null where none was asked for.
 #pragma once
 
 #include <memory>

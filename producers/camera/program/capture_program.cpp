@@ -13,8 +13,8 @@
 namespace dance {
 namespace {
 
-// As long as nothing comes this is how soon the program hears that it is to stop.
-constexpr Duration kPatience = Duration::ms(50);
+// Without pictures this is how often the program checks whether it has to stop.
+constexpr Duration kFrameTimeout = Duration::ms(50);
 constexpr Duration kSilence = Duration::s(3);
 constexpr Duration kTroubleEvery = Duration::s(1);
 
@@ -29,10 +29,10 @@ Result<std::unique_ptr<CaptureProgram>> CaptureProgram::open(const CaptureOption
   DANCE_TRY(program->poller_, Poller::create());
   if (auto stops = program->poller_->stop_on_signals(); !stops)
     return tl::make_unexpected(stops.error());
-  DANCE_TRY(program->eyes_, CaptureEyes::open(options));
-  // What may fail without a trace first; a recording makes files.
+  DANCE_TRY(program->input_, CaptureInput::open(options));
+  // First what fails without side effects; a recording creates files.
   DANCE_TRY(program->preview_, open_preview(options, PreviewSide::kAsTheStageShows,
-                                            options.guest + " before " + program->eyes_->name()));
+                                            options.guest + " before " + program->input_->name()));
   if (auto opened = program->open_chain(); !opened) return tl::make_unexpected(opened.error());
   program->say_what_runs();
   return program;
@@ -44,18 +44,18 @@ Result<void> CaptureProgram::open_chain() {
   seeing.engine = options_.engine;
   seeing.models_folder = options_.models_folder;
   DANCE_TRY(seeing.follow,
-            follow_options(options_, eyes_->format().width_px, eyes_->format().height_px));
+            follow_options(options_, input_->format().width_px, input_->format().height_px));
   DANCE_TRY(auto estimator, PoseEstimator::open(seeing));
   DANCE_TRY(bus_, Bus::open(options_.bus));
   bus_sink_ = std::make_unique<PortCaptureSink>(*bus_);
   CaptureSink* sink = bus_sink_.get();
   if (!options_.record_folder.empty()) {
     DANCE_TRY(recording_,
-              CaptureRecording::create(options_.record_folder, eyes_->format().hz, *sink));
+              CaptureRecording::create(options_.record_folder, input_->format().hz, *sink));
     sink = recording_.get();
   }
   chain_ = std::make_unique<CaptureChain>(guest_, *sink, std::move(estimator), make_solver());
-  if (eyes_->rig()) chain_->add_second_eye(std::make_unique<StereoDepth>(*eyes_->rig()));
+  if (input_->rig()) chain_->enable_stereo(std::make_unique<StereoDepth>(*input_->rig()));
   poller_->watch(bus_->fd(), [bus = bus_.get()](MonoTime now) { bus->drain(now); });
   return {};
 }
@@ -65,12 +65,12 @@ std::unique_ptr<BodySolver> CaptureProgram::make_solver() const {
   if (options_.height_m > 0.0) solving.height_m = options_.height_m;
   solving.is_mirrored = options_.is_mirrored;
   solving.smooth = options_.smooth;
-  return std::make_unique<BodySolver>(solving, eyes_->camera());
+  return std::make_unique<BodySolver>(solving, input_->camera());
 }
 
 void CaptureProgram::say_what_runs() const {
-  talk::info("{}", eyes_->line());
-  if (!eyes_->camera().is_measured)
+  talk::info("{}", input_->line());
+  if (!input_->camera().is_measured)
     talk::info("the lens is not measured: {:g} degrees across are assumed (--fov, or --calibrate)",
                options_.fov_deg);
   talk::info("pose network {} on {}; {} dances on POSE/capture/{}; Ctrl-C ends it",
@@ -82,10 +82,10 @@ void CaptureProgram::run() {
   begin_ = mono_now();
   last_picture_ = begin_;
   if (options_.seconds > 0.0) end_ = begin_ + Duration::seconds(options_.seconds);
-  EyesFrame seen;
+  CaptureFrame seen;
   bool is_over = false;
   while (!is_over && !poller_->is_stopped()) {
-    switch (eyes_->next(kPatience, seen)) {
+    switch (input_->next(kFrameTimeout, seen)) {
       case FrameState::kFrame:
         look(seen);
         break;
@@ -93,12 +93,12 @@ void CaptureProgram::run() {
         break;
       case FrameState::kGone:
         if (!has_said_gone_)
-          talk::warn("{} is gone; plug it in again, it is looked for", eyes_->name());
+          talk::warn("{} is gone; plug it in again, it is looked for", input_->name());
         has_said_gone_ = true;
         break;
       case FrameState::kBack:
-        talk::info("{} is back", eyes_->name());
-        chain_->start_anew();
+        talk::info("{} is back", input_->name());
+        chain_->restart();
         has_said_silence_ = has_said_gone_ = false;
         last_picture_ = mono_now();
         break;
@@ -119,26 +119,26 @@ void CaptureProgram::run() {
 // A camera that comes back in a slower socket may give another size: the lens is then that of this
 // size.
 bool CaptureProgram::has_usual_size(const cv::Mat& picture) {
-  const FrameFormat& format = eyes_->format();
+  const FrameFormat& format = input_->format();
   if (picture.cols == format.width_px && picture.rows == format.height_px) return true;
-  if (auto taken = eyes_->take_size(picture.cols, picture.rows); !taken) {
+  if (auto taken = input_->take_size(picture.cols, picture.rows); !taken) {
     if (!has_said_size_) talk::warn("{}", taken.error().what);
     has_said_size_ = true;
     return false;
   }
-  talk::info("{} gives {}x{} now; the dancer is measured anew", eyes_->name(), picture.cols,
+  talk::info("{} gives {}x{} now; the dancer is measured again", input_->name(), picture.cols,
              picture.rows);
   chain_->use(make_solver());
-  chain_->start_anew();
+  chain_->restart();
   return true;
 }
 
-void CaptureProgram::look(const EyesFrame& seen) {
+void CaptureProgram::look(const CaptureFrame& seen) {
   last_picture_ = mono_now();
   has_said_silence_ = false;
   if (!has_usual_size(seen.left.image)) return;
   chain_->see(seen.left, seen.right.empty() ? nullptr : &seen.right);
-  // The pose is away; nothing below is waited for.
+  // The pose is sent; nothing below blocks.
   const std::string_view advice = advice_.see(seen.left.image, chain_->body());
   if (!advice.empty()) talk::info("{}", advice);
   if (preview_) {
@@ -160,7 +160,7 @@ void CaptureProgram::say_trouble(MonoTime now) {
     talk::warn(
         "{} gives no pictures; is another program using it, or the line too slow for {}x{}? Try "
         "--size 640x480",
-        eyes_->name(), eyes_->format().width_px, eyes_->format().height_px);
+        input_->name(), input_->format().width_px, input_->format().height_px);
   }
   const auto say_once = [](bool& said, const std::string& trouble) {
     if (said || trouble.empty()) return;
@@ -169,13 +169,13 @@ void CaptureProgram::say_trouble(MonoTime now) {
   };
   if (recording_) say_once(has_said_recording_, recording_->trouble());
   if (preview_) say_once(has_said_preview_, preview_->trouble());
-  say_once(has_said_eyes_, eyes_->trouble());
+  say_once(has_said_input_, input_->trouble());
   if (chain_->stereo()) say_once(has_said_stereo_, chain_->stereo()->trouble());
 }
 
 void CaptureProgram::report() const {
   const CaptureStats& stats = chain_->stats();
-  const FrameCounters counters = eyes_->counters();
+  const FrameCounters counters = input_->counters();
   const double seconds = (mono_now() - begin_).as_seconds();
   const double hz = seconds > 0.0 ? static_cast<double>(stats.pictures) / seconds : 0.0;
   const auto ms = [](const Histogram& h, double fraction) {
@@ -195,7 +195,7 @@ void CaptureProgram::report() const {
   if (!options_.wants_json) return;
   const CameraStand stand = chain_->solver().camera_stand();
   nlohmann::ordered_json json{
-      {"source", eyes_->name()},
+      {"source", input_->name()},
       {"seconds", seconds},
       {"pictures", stats.pictures},
       {"hz", hz},

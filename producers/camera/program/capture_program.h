@@ -1,12 +1,12 @@
 // CaptureProgram: `dance capture`: opens camera, pose network, solver and bus, and runs pictures
-// through them until it is told to stop or the video is over.
+// through them until it is stopped or the video is over.
 //
 // Units/frames: as the parts say.
 // Ownership:    owns all parts.
 // Threads:      one for all of it; preview and recording have one of their own each. Call from main
 //               before other threads start.
 // Failure:      open() names the part that is missing, the reason and the cure. Later a camera may
-//               come and go: that is said, and waited for.
+//               be unplugged and come back: that is logged, and waited for.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "producers/camera/program/capture_chain.h"
-#include "producers/camera/program/capture_eyes.h"
+#include "producers/camera/program/capture_input.h"
 #include "producers/camera/program/capture_options.h"
 #include "producers/camera/program/capture_recording.h"
 #include "producers/camera/stereo/stereo_rig.h"
@@ -35,14 +35,14 @@ class CaptureProgram {
   void say_what_runs() const;
   std::unique_ptr<BodySolver> make_solver() const;
   bool has_usual_size(const cv::Mat& picture);
-  void look(const EyesFrame& seen);
+  void look(const CaptureFrame& seen);
   void say_trouble(MonoTime now);
   void report() const;
 
   CaptureOptions options_;
   GuestId guest_;
   std::unique_ptr<Poller> poller_;
-  std::unique_ptr<CaptureEyes> eyes_;
+  std::unique_ptr<CaptureInput> input_;
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<PortCaptureSink> bus_sink_;
   std::unique_ptr<CaptureRecording> recording_;
@@ -58,7 +58,7 @@ class CaptureProgram {
   bool has_said_size_ = false;
   bool has_said_recording_ = false;
   bool has_said_preview_ = false;
-  bool has_said_eyes_ = false;
+  bool has_said_input_ = false;
   bool has_said_stereo_ = false;
 };
 

@@ -32,7 +32,7 @@ Result<std::unique_ptr<CaptureRecording>> CaptureRecording::create(const std::st
   return made;
 }
 
-// What began nothing leaves nothing behind, so that the same folder can be named again.
+// A recording that failed to start removes its files, so that the same folder can be named again.
 CaptureRecording::~CaptureRecording() {
   finish();
   if (written_ > 0 || (video_ && video_->written() > 0)) return;

@@ -6,11 +6,11 @@
 //               as LCM's.
 // Ownership:    owns its files; refers to the sink behind it, which must outlive it.
 // Threads:      as VideoWriter, and one that writes the log: the capture's never waits for a disk.
-//               What a disk cannot follow is left out, the oldest first, and summary() tells it
+//               What a slow disk cannot take is dropped, the oldest first, and summary() counts it
 //               after finish().
 // Failure:      create() refuses a folder that has a recording already and names what cannot be
-//               written; a log that fails later ends, and trouble() tells it. The poses go on
-//               either way.
+//               written; a log that fails later ends, and trouble() gives the reason. Poses are
+//               published either way.
 #pragma once
 
 #include <atomic>

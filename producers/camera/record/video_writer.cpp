@@ -84,7 +84,7 @@ void VideoWriter::write_all() {
         return end_with("the video '" + path_ +
                         "' cannot be written; is its folder there, and has the disk room?");
     }
-    // A video has one size, and OpenCV drops others without a word.
+    // A video has one size, and OpenCV drops others silently.
     if (shot->picture.pixels.size() != size) {
       if (other_size_ == 0)
         size_trouble_ = "the video '" + path_ + "' has pictures of " + text_of(size) +

@@ -4,11 +4,11 @@
 // Units/frames: times in microseconds of this machine's monotonic clock, in a text file of the
 //               video's name + ".tsv": number of the picture in the video, TAB, capture time.
 // Ownership:    owns its thread and files.
-// Threads:      one inside, which encodes; add() never waits for it: what it cannot follow is left
-//               out and counted.
-// Failure:      create() names the file and the reason; trouble() later tells what ended it (a full
-//               disk), or that pictures of another size than the first are left out, as a video has
-//               one size.
+// Threads:      one inside, which encodes; add() never waits for it: pictures that it cannot take
+//               are dropped and counted.
+// Failure:      create() names the file and the reason; trouble() later gives the reason that ended
+//               it (a full disk), or that pictures of another size than the first are left out, as
+//               a video has one size.
 #pragma once
 
 #include <atomic>
@@ -32,7 +32,7 @@ struct VideoShot {
 
 class VideoWriter {
  public:
-  // `hz` is what the video's head says, 0 where nobody knows; the table has the truth.
+  // `hz` goes into the video's header, 0 where unknown; the table has the true times.
   static Result<std::unique_ptr<VideoWriter>> create(const std::string& path, double hz);
   ~VideoWriter();
   VideoWriter(const VideoWriter&) = delete;
@@ -44,7 +44,7 @@ class VideoWriter {
   std::uint64_t written() const { return written_; }
   // Pictures that came faster than they could be written, or in another size than the first.
   std::uint64_t left_out() const { return shots_.overwritten() + other_size_; }
-  // "" while all is well. Any thread may ask.
+  // "" while all is well. Callable from any thread.
   std::string trouble() const;
 
  private:

@@ -17,15 +17,15 @@ using Row = Eigen::Matrix<double, 1, dof::kCount>;
 
 namespace {
 
-// Rays further off than so many of their standard deviations count ever less.
+// Rays with larger residuals, in standard deviations, are down-weighted.
 constexpr double kOutlier = 4.0;
-// The same of what was expected.
+// The same for the prediction.
 constexpr double kSurprise = 3.0;
 // Of a sole that stands, above the floor and beside where it is held; of one that is below the
 // floor.
 constexpr double kFloorSd_m = 0.008, kHeldSd_m = 0.015, kBelowSd_m = 0.01;
 constexpr double kDamping = 1e-3;
-// No joint turns further in one round.
+// No joint turns further in one iteration.
 constexpr double kMostStep = 0.7;
 
 }  // namespace
@@ -94,13 +94,14 @@ void BodyFit::add_vectors(const FitProblem& problem) {
     const double weight = std::min({seen.world_weight[fa], seen.world_weight[fb],
                                     seen.world_weight[ta], seen.world_weight[tb]});
     if (weight <= 0.0) continue;
-    const Vector3d told = seen.world_m[ta] + seen.world_m[tb] - seen.world_m[fa] - seen.world_m[fb];
-    const double told_m = told.norm();
+    const Vector3d measured =
+        seen.world_m[ta] + seen.world_m[tb] - seen.world_m[fa] - seen.world_m[fb];
+    const double measured_m = measured.norm();
     const Vector3d has =
         0.5 * (model_.point(ta) + model_.point(tb) - model_.point(fa) - model_.point(fb));
     const double has_m = has.norm();
-    if (told_m < 1e-3 || has_m < 1e-3) continue;
-    const Vector3d residual = has - R_WC * told * (has_m / told_m);
+    if (measured_m < 1e-3 || has_m < 1e-3) continue;
+    const Vector3d residual = has - R_WC * measured * (has_m / measured_m);
     const double sd = v.sd * has_m;
     const std::uint64_t moved =
         model_.moved_by(ta) | model_.moved_by(tb) | model_.moved_by(fa) | model_.moved_by(fb);
@@ -117,7 +118,7 @@ void BodyFit::add_expectation(const FitProblem& problem, const BodyState& state)
   const DofVector off = step_between(problem.expected.state, state);
   DofVector strained = step_between(ease, state);
   strained.head<6>().setZero();
-  // Dancers change their mind: who is far from where he was expected is not held back.
+  // Dancers change direction suddenly: a prediction that is far off is down-weighted.
   const DofVector precision =
       (problem.expected.precision.array() /
        (1.0 + off.array().square() * problem.expected.precision.array() / (kSurprise * kSurprise)))

@@ -1,6 +1,5 @@
-// BodyFit: the posture that agrees best with what is seen, where it was expected, what a body does,
-// and the floor: damped Gauss-Newton over the 44 ways to move, with bones whose lengths cannot
-// change.
+// BodyFit: the posture that fits the landmarks, the prediction, a body's priors and the floor best:
+// damped Gauss-Newton over the 44 degrees of freedom, with bones whose lengths cannot change.
 //
 // Units/frames: rays in C, body in W; the floor is y = 0.
 // Ownership:    keeps its numbers (about 60 KB); never allocates.
@@ -9,7 +8,7 @@
 // Source:       Nocedal and Wright, Numerical Optimization, 2006, chapter 10. Each term of the sum
 //               is a squared difference over its variance: rays of landmarks (with Cauchy's weight,
 //               against outliers), directions of body vectors from the network, the expectation, a
-//               body at ease, soles on the floor, the depth that a second eye saw.
+//               rest posture, soles on the floor, the depth from the second camera.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,8 +31,8 @@ struct SoleTouch {
 
 struct Expectation {
   BodyState state;
-  DofVector precision = DofVector::Zero();  // 1/variance; 0: nothing is expected
-  DofVector ease = DofVector::Zero();       // 1/variance about a body at ease
+  DofVector precision = DofVector::Zero();  // 1/variance; 0: no prediction
+  DofVector ease = DofVector::Zero();       // 1/variance about the rest posture
 };
 
 struct FitProblem {
@@ -46,16 +45,16 @@ struct FitProblem {
   std::optional<DepthHint> depth;
 };
 
-// A body at ease: arms hang, knees a little bent. Place and heading are not part of it.
+// The rest posture: arms hang, knees a little bent. Place and heading are not part of it.
 BodyState state_at_ease();
 
 class BodyFit {
  public:
-  // Improves `state`. Outliers are weighed down in all but the first `trusting` rounds.
+  // Improves `state`. Outliers are down-weighted in all but the first `trusting` iterations.
   bool solve(const FitProblem& problem, int rounds, int trusting, BodyState& state);
   // Half the sum of squares at the end of the last solve().
   double cost() const { return cost_; }
-  // The share of it that the picture alone has.
+  // The share of it that comes from the picture.
   double picture_cost() const { return picture_cost_; }
   const BodyModel& model() const { return model_; }
 
@@ -68,7 +67,7 @@ class BodyFit {
   void add_expectation(const FitProblem& problem, const BodyState& state);
   void add_soles(const FitProblem& problem);
   void add_depth(const FitProblem& problem);
-  // One line of the Jacobian, of which only the columns in `moved` are not 0.
+  // One row of the Jacobian, of which only the columns in `moved` are not 0.
   void add_row(const Eigen::Matrix<double, 1, dof::kCount>& row, std::uint64_t moved,
                double residual, double weight);
   void hold_ends(const BodyState& state);

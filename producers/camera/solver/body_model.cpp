@@ -115,8 +115,8 @@ void BodyModel::place(const BodyShape& shape, const BodyState& state) {
   p_WB_m_[0] = state.p_WH_m;
   R_WB_[0] = state.R_WH.toRotationMatrix();
   set_axes(kHipsAxes, 3, R_WB_[0]);
-  // A share of a turn that is added to the whole vector turns about axes that stand half way into
-  // the bone's own turn.
+  // A bone's share of a rotation vector turns about axes that are half way into the bone's own
+  // turn.
   const auto bend = [this](std::size_t first, std::size_t count, std::size_t axes,
                            const Vector3d& whole) {
     const Vector3d share = whole / static_cast<double>(count);

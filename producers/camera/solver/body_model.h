@@ -1,7 +1,6 @@
-// BodyModel: where every point of a body is in a given posture, and how each of them goes when a
-// joint moves.
+// BodyModel: forward kinematics of a body's points, and their Jacobian.
 //
-// Units/frames: metres in W; columns of a Jacobian are the ways to move of body_state.h.
+// Units/frames: metres in W; columns of a Jacobian are the degrees of freedom of body_state.h.
 // Ownership:    keeps its numbers (about 50 KB); never allocates.
 // Threads:      none inside; one owner.
 // Failure:      none.
@@ -29,14 +28,14 @@ class BodyModel {
   const Eigen::Vector3d& point(std::size_t i) const { return point_W_m_[i]; }
   const Eigen::Vector3d& point(Landmark l) const { return point_W_m_[point_of(l)]; }
   const PointJacobian& jacobian(std::size_t i) const { return jacobian_[i]; }
-  // Bit d: the point goes with the d-th way to move.
+  // Bit d: the point depends on the d-th degree of freedom.
   std::uint64_t moved_by(std::size_t i) const { return moved_by_[i]; }
 
   const Eigen::Vector3d& origin(Bone bone) const { return p_WB_m_[index_of(bone)]; }
   const Eigen::Matrix3d& rotation(Bone bone) const { return R_WB_[index_of(bone)]; }
 
  private:
-  // One axis that a way to move turns about; several where it is shared out over bones.
+  // An axis of a degree of freedom; several where bones share it.
   struct Axis {
     int dof;
     std::size_t bone;

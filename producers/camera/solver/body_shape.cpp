@@ -77,7 +77,7 @@ void place_points(BodyShape& shape, const BodyLengths& lengths) {
     put(shape, heel, {0.0, up * kHeelY_m, foot * kHeelZ_m});
   for (const Landmark toe : {Landmark::kLeftFootIndex, Landmark::kRightFootIndex})
     put(shape, toe, Vector3d(0.0, up * kHeelY_m, foot * (kHeelZ_m + kFoot_m)) - toes);
-  // The body's own heel lies behind what the network calls so.
+  // The body's own heel lies behind the network's heel point.
   const double heel_z = -kBehind * (toes.z() + tip.z());
   for (const Sole heel : {Sole::kLeftHeel, Sole::kRightHeel})
     shape.point_m[point_of(heel)] = {0.0, floor_y, heel_z};

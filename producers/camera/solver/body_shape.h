@@ -36,7 +36,7 @@ struct BodyShape {
 // Which bone carries a point.
 Bone bone_of(std::size_t body_point);
 
-// The lengths that make a body what it is; the rest of it follows the standing height.
+// The lengths that are fitted; the rest of the body follows the standing height.
 enum class Length : std::uint8_t {
   kShoulders,  // from one shoulder joint to the other
   kHips,
@@ -53,9 +53,9 @@ using BodyLengths = std::array<double, kLengthCount>;  // metres
 
 // Those of an adult of this height with average proportions.
 BodyLengths average_lengths(double height_m);
-// A body of these lengths; what they do not say is average for their height.
+// A body of these lengths; all others are average for its height.
 BodyShape shape_of(const BodyLengths& lengths);
-// How tall whoever has these lengths stands.
+// The standing height of a body with these lengths.
 double height_of(const BodyLengths& lengths);
 
 }  // namespace dance

@@ -1,15 +1,15 @@
-// BodySolver: what the pose network sees of a dancer, picture by picture, becomes a pose on the
-// dancer's own skeleton: bones that keep their length, knees and elbows that bend one way, feet
-// that stand on the floor of the stage, and a place on it in metres.
+// BodySolver: turns the pose network's landmarks of a dancer into a pose on the dancer's own
+// skeleton: bones that keep their length, knees and elbows that bend one way, feet that stand on
+// the floor of the stage, and a place on it in metres.
 //
 // Units/frames: W of core/pose/pose.h, floor at y = 0. The dancer's first place is the origin; +z
 //               goes from there to the camera, where the audience is.
-// Ownership:    keeps all it knows of one dancer and one camera (about 150 KB); solve() never
+// Ownership:    keeps the state of one dancer and one camera (about 150 KB); solve() never
 //               allocates.
 // Threads:      none inside; one owner.
-// Failure:      solve() is false where nobody was seen for half a second, too little of a body, or
-//               a picture that is not newer than the last; `out` is then not touched. Whatever the
-//               landmarks hold, a pose that is handed out is valid.
+// Failure:      solve() is false where nobody was detected for half a second, too little of a body,
+//               or a picture that is not newer than the last; `out` is then not touched. Whatever
+//               the landmarks hold, a pose that is handed out is valid.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@
 namespace dance {
 
 struct SolverOptions {
-  std::optional<double> height_m;  // of the dancer; none: what the network or a second eye says
+  std::optional<double> height_m;  // of the dancer; none: from the network or the stereo depth
   bool is_mirrored = false;        // as in a mirror: left and right change sides
   double smooth = 1.0;             // 0 hardly smooths, 2 twice as much as tuned
   bool holds_feet = true;          // feet that stand are held in their place
@@ -47,14 +47,13 @@ class BodySolver {
   // Writes rotations, hips, presence, confidence and capture time of `out`; the rest of it stays.
   bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out);
 
-  // The dancer's bones as far as they are known. Whoever shows poses is told when `version`
-  // changes.
+  // The dancer's bones as far as they are known. `version` changes with them.
   const Skeleton& skeleton() const;
   // True once bones are held and the floor is found.
   bool is_settled() const;
   CameraStand camera_stand() const;
 
-  // Another dancer: bones are learned anew. The camera stays where it is.
+  // Another dancer: bones are estimated again. The camera's placement is kept.
   void reset();
 
  private:

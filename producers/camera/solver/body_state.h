@@ -1,4 +1,4 @@
-// BodyState: a dancer's posture in as many numbers as a body has ways to move: 44. A knee is one
+// BodyState: a dancer's posture as 44 degrees of freedom. A knee is one
 // angle, an elbow two, a back is bent evenly over its three bones, a neck over its two. A posture
 // in these numbers has its bones' lengths whatever they are.
 //
@@ -16,7 +16,7 @@
 
 namespace dance {
 
-// Where each way to move stands in a vector of all.
+// Index of each degree of freedom in the vector of all.
 namespace dof {
 constexpr int kPlace = 0;  // of the hips in W
 constexpr int kHips = 3;   // a turn about the hips' own axes

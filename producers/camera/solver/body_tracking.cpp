@@ -15,21 +15,21 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kAverageHeight_m = 1.72;
-// Whoever is not seen for so long is gone.
+// Without a detection for so long the dancer is lost.
 constexpr Duration kGone = Duration::ms(500);
 constexpr int kFirstRounds = 10, kRounds = 4, kTrustingRounds = 2;
-// A fit that costs so much more than usual may be caught in a wrong posture.
+// A fit that costs so much more than usual may be a wrong local minimum.
 constexpr double kDear = 4.0, kLeastDear = 150.0;
 constexpr double kClearlyBetter = 0.4;
 constexpr double kUsualOver = 30.0;
-// One that is always dear is doubted so often.
+// A permanently high cost is checked at this interval.
 constexpr double kDoubt_s = 1.0;
 
 }  // namespace
 
 BodyTracking::BodyTracking(const SolverOptions& options, const Pinhole& camera)
     : options_(options), camera_(camera), proportions_(options.height_m) {
-  memory_.set_smooth(options.smooth);
+  motion_.set_smooth(options.smooth);
   set_shape(average_lengths(options.height_m.value_or(kAverageHeight_m)));
 }
 
@@ -44,7 +44,7 @@ void BodyTracking::reset() {
   set_shape(average_lengths(options_.height_m.value_or(kAverageHeight_m)));
   is_tracking_ = false;
   contacts_.clear();
-  sight_.clear();
+  visibility_.clear();
   feet_.clear();
 }
 
@@ -54,7 +54,7 @@ Vector3d BodyTracking::middle_of_hips_C(const BodyState& state) {
                          (model_.point(Landmark::kLeftHip) + model_.point(Landmark::kRightHip)));
 }
 
-bool BodyTracking::fit_anew(const Observation& seen, BodyState& state) {
+bool BodyTracking::refit(const Observation& seen, BodyState& state) {
   state = first_posture(seen, shape_, placement_.R_WC());
   state.p_WH_m.setZero();
   model_.place(shape_, state);
@@ -66,7 +66,7 @@ bool BodyTracking::fit_anew(const Observation& seen, BodyState& state) {
   state.p_WH_m = placement_.to_W(hips_C);
   problem_.expected.state = state;
   problem_.expected.precision.setZero();
-  problem_.expected.ease = precision_of_ease(sight_of(seen));
+  problem_.expected.ease = rest_precision(visibility_of(seen));
   problem_.has_floor = false;
   return fit_.solve(problem_, kFirstRounds, kFirstRounds - 4, state);
 }
@@ -78,11 +78,11 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
     const auto middle = [&seen](Landmark left) {
       return Vector3d(0.5 * (seen.world(left) + seen.world_m[index_of(left) + 1]));
     };
-    placement_.see_upright(middle(Landmark::kLeftShoulder) - middle(Landmark::kLeftAnkle));
+    placement_.add_upright(middle(Landmark::kLeftShoulder) - middle(Landmark::kLeftAnkle));
     placement_.update();
   }
   BodyState state;
-  if (!fit_anew(seen, state)) return false;
+  if (!refit(seen, state)) return false;
   if (!has_placement_) {
     std::size_t lowest = kLandmarkCount;
     for (std::size_t i = kLandmarkCount; i < kBodyPointCount; ++i)
@@ -91,32 +91,32 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
     const Vector3d hips_C = middle_of_hips_C(state);
     const Vector3d root_C = placement_.to_C(state.p_WH_m);
     const Matrix3d was = placement_.R_WC();
-    placement_.guess(lowest_C);
+    placement_.set_initial_floor(lowest_C);
     placement_.update();
     placement_.set_origin(hips_C);
     state.p_WH_m = placement_.to_W(root_C);
     state.R_WH = Quaterniond(placement_.R_WC() * was.transpose()) * state.R_WH;
     has_placement_ = true;
   }
-  // The same dancer a moment later: what is shown goes over.
+  // The same dancer a moment later: the shown pose is blended.
   if (is_tracking_ && now - seen_at_ <= kGone) {
     Pose carried, found;
-    write_pose(memory_.state(), carried);
+    write_pose(motion_.state(), carried);
     write_pose(state, found);
-    sight_.blend_all(now, carried, found);
+    visibility_.blend_all(now, carried, found);
   } else {
-    sight_.clear();
+    visibility_.clear();
     feet_.clear();
   }
-  memory_.begin(state);
+  motion_.begin(state);
   usual_cost_ = 0.0;
   is_tracking_ = true;
   return true;
 }
 
 bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds) {
-  const PartSight sight = sight_of(seen);
-  const Expectation expected = memory_.expect(seconds, sight);
+  const PartVisibility visibility = visibility_of(seen);
+  const Expectation expected = motion_.expect(seconds, visibility);
   problem_.expected = expected;
   for (std::size_t i = 0; i < kSoleCount; ++i) problem_.soles[i] = contacts_.touch(i);
   BodyState state = expected.state;
@@ -125,22 +125,21 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds)
                  state);
   bool is_fitted = fit_.solve(problem_, kRounds, kTrustingRounds, state);
   const double cost = fit_.picture_cost();
-  since_doubt_s_ += seconds;
+  since_suspect_s_ += seconds;
   if (!is_fitted ||
-      (cost > kLeastDear && (cost > kDear * usual_cost_ || since_doubt_s_ > kDoubt_s))) {
-    since_doubt_s_ = 0.0;
-    BodyState anew;
-    if (fit_anew(seen, anew) && (!is_fitted || fit_.picture_cost() < kClearlyBetter * cost)) {
-      // The contacts of a posture that was wrong are wrong, and so may be the floor that they were
-      // on.
+      (cost > kLeastDear && (cost > kDear * usual_cost_ || since_suspect_s_ > kDoubt_s))) {
+    since_suspect_s_ = 0.0;
+    BodyState refitted;
+    if (refit(seen, refitted) && (!is_fitted || fit_.picture_cost() < kClearlyBetter * cost)) {
+      // The contacts of a wrong posture are wrong, and so may be the floor found from them.
       contacts_.clear();
-      if (usual_cost_ > kLeastDear) placement_.forget_feet();
+      if (usual_cost_ > kLeastDear) placement_.discard_feet();
       Pose carried, found;
       write_pose(expected.state, carried);
-      write_pose(anew, found);
-      sight_.blend_all(now, carried, found);
-      memory_.begin(anew);
-      sight_.follow(sight, seconds);
+      write_pose(refitted, found);
+      visibility_.blend_all(now, carried, found);
+      motion_.begin(refitted);
+      visibility_.follow(visibility, seconds);
       return true;
     }
     if (!is_fitted) return false;
@@ -150,30 +149,30 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds)
   }
   usual_cost_ +=
       (std::min(cost, 2.0 * std::max(usual_cost_, kLeastDear)) - usual_cost_) / kUsualOver;
-  sight_.follow(sight, seconds);
+  visibility_.follow(visibility, seconds);
   Pose carried, found;
   write_pose(expected.state, carried);
   write_pose(state, found);
-  sight_.blend(now, carried, found);
-  memory_.follow(expected, state, seconds);
+  visibility_.blend(now, carried, found);
+  motion_.follow(expected, state, seconds);
   contacts_.follow(fit_.model(), seen, placement_, seconds);
   return true;
 }
 
 void BodyTracking::carry(double seconds, MonoTime) {
-  const PartSight blind{};
-  const Expectation expected = memory_.expect(seconds, blind);
+  const PartVisibility blind{};
+  const Expectation expected = motion_.expect(seconds, blind);
   BodyState state = expected.state;
-  // Without a picture nobody walks on.
-  memory_.follow(expected, state, seconds);
-  sight_.follow(blind, seconds);
+  // Without a picture the place is kept.
+  motion_.follow(expected, state, seconds);
+  visibility_.follow(blind, seconds);
 }
 
 void BodyTracking::learn_bones(const Observation& seen, const std::optional<DepthHint>& depth,
                                MonoTime now) {
   if (proportions_.is_held()) return;
   const int before = proportions_.pictures();
-  model_.place(shape_, memory_.state());
+  model_.place(shape_, motion_.state());
   std::array<Vector3d, kLandmarkCount> pictured;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const double z = placement_.to_C(model_.point(i)).z();
@@ -185,20 +184,20 @@ void BodyTracking::learn_bones(const Observation& seen, const std::optional<Dept
       pictures != before && (pictures == Proportions::kFirst || pictures == Proportions::kHeld);
   if (!is_due) return;
   const double was_m = static_cast<double>(standing_height_m(shape_.skeleton));
-  BodyState state = memory_.state();
+  BodyState state = motion_.state();
   Pose carried, found;
   write_pose(state, carried);
   const Vector3d hips_C = placement_.to_C(state.p_WH_m);
   set_shape(proportions_.lengths());
-  proportions_.forget_pictured();
-  // The same picture of a larger body is further away, and the floor with it.
+  proportions_.discard_image_lengths();
+  // A larger body in the same picture is further away, and the floor with it.
   const double by = static_cast<double>(standing_height_m(shape_.skeleton)) / was_m;
   placement_.scale(by);
   state.p_WH_m = placement_.to_W(hips_C * by);
-  contacts_.retell([by](const Vector3d& p) { return Vector3d(p * by); });
-  memory_.retell(state);
+  contacts_.rebase([by](const Vector3d& p) { return Vector3d(p * by); });
+  motion_.rebase(state);
   write_pose(state, found);
-  sight_.blend_all(now, carried, found);
+  visibility_.blend_all(now, carried, found);
 }
 
 void BodyTracking::learn_camera(const Observation& seen) {
@@ -206,10 +205,9 @@ void BodyTracking::learn_camera(const Observation& seen) {
     return Vector3d(0.5 * (seen.world(left) + seen.world_m[index_of(left) + 1]));
   };
   if (seen.visible > 0.8)
-    placement_.see_upright(middle(Landmark::kLeftShoulder) - middle(Landmark::kLeftAnkle));
-  // Where the picture alone has the body: its depth must not come from the floor that is being
-  // learned.
-  BodyState state = memory_.state();
+    placement_.add_upright(middle(Landmark::kLeftShoulder) - middle(Landmark::kLeftAnkle));
+  // The place by the picture alone: the floor that is being estimated must not influence it.
+  BodyState state = motion_.state();
   model_.place(shape_, state);
   std::array<Vector3d, kLandmarkCount> relative_C;
   const Matrix3d R_CW = placement_.R_WC().transpose();
@@ -219,14 +217,14 @@ void BodyTracking::learn_camera(const Observation& seen) {
   if (place_on_rays(seen, relative_C, hips_C))
     for (std::size_t i = 0; i < kSoleCount; ++i)
       if (contacts_.touch(i).stands)
-        placement_.see_foot(hips_C + R_CW * (model_.point(kLandmarkCount + i) - state.p_WH_m));
+        placement_.add_foot(hips_C + R_CW * (model_.point(kLandmarkCount + i) - state.p_WH_m));
   const CameraPlacement was = placement_;
   placement_.update();
   const auto again = [&](const Vector3d& p) { return placement_.to_W(was.to_C(p)); };
   state.p_WH_m = again(state.p_WH_m);
   state.R_WH = (Quaterniond(placement_.R_WC() * was.R_WC().transpose()) * state.R_WH).normalized();
-  contacts_.retell(again);
-  memory_.retell(state);
+  contacts_.rebase(again);
+  motion_.rebase(state);
 }
 
 bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTime now,
@@ -234,9 +232,9 @@ bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTi
   Pose pose = out;
   write_pose(state, pose);
   limit_joints(pose);
-  sight_.apply(now, pose);
+  visibility_.apply(now, pose);
   if (options_.holds_feet) feet_.apply(shape_, contacts_, placement_.is_known(), seconds, pose);
-  pose.presence = sight_.presence();
+  pose.presence = visibility_.presence();
   pose.confidence = static_cast<float>(std::clamp(seen.visible, 0.0, 1.0));
   pose.capture_time = now;
   if (options_.is_mirrored) mirror(pose);
@@ -268,7 +266,7 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
   if (!seen.is_usable) {
     if (!is_tracking_) return false;
     carry(seconds, now);
-    return write(memory_.state(), seen, now, seconds, out);
+    return write(motion_.state(), seen, now, seconds, out);
   }
   const bool is_found =
       is_tracking_ && !landmarks.is_new ? follow(seen, now, seconds) : begin(seen, now);
@@ -279,7 +277,7 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
   seen_at_ = now;
   learn_camera(seen);
   learn_bones(seen, depth, now);
-  return write(memory_.state(), seen, now, seconds, out);
+  return write(motion_.state(), seen, now, seconds, out);
 }
 
 }  // namespace dance

@@ -1,5 +1,5 @@
-// BodyTracking: the inside of BodySolver, picture after picture: observe, expect, fit, learn bones
-// and floor, remember, and write the pose.
+// BodyTracking: the implementation of BodySolver: observe, predict, fit, estimate bones and floor,
+// correct the filter, and write the pose.
 //
 // Units/frames, Ownership: as body_solver.h says.
 // Threads:      none inside; one owner.
@@ -12,10 +12,10 @@
 #include "producers/camera/solver/body_solver.h"
 #include "producers/camera/solver/camera_placement.h"
 #include "producers/camera/solver/floor_feet.h"
-#include "producers/camera/solver/motion_memory.h"
+#include "producers/camera/solver/motion_filter.h"
 #include "producers/camera/solver/proportions.h"
-#include "producers/camera/solver/sight_memory.h"
 #include "producers/camera/solver/sole_contacts.h"
+#include "producers/camera/solver/visibility_tracker.h"
 
 namespace dance {
 
@@ -35,7 +35,7 @@ class BodyTracking {
   bool begin(const Observation& seen, MonoTime now);
   bool follow(const Observation& seen, MonoTime now, double seconds);
   void carry(double seconds, MonoTime now);
-  bool fit_anew(const Observation& seen, BodyState& state);
+  bool refit(const Observation& seen, BodyState& state);
   void learn_bones(const Observation& seen, const std::optional<DepthHint>& depth, MonoTime now);
   void learn_camera(const Observation& seen);
   void set_shape(const BodyLengths& lengths);
@@ -49,17 +49,17 @@ class BodyTracking {
   Proportions proportions_;
   CameraPlacement placement_;
   bool has_placement_ = false;
-  BodyModel model_;  // for what is asked outside a fit
+  BodyModel model_;  // for use outside a fit
   BodyFit fit_;
   FitProblem problem_;
-  MotionMemory memory_;
+  MotionFilter motion_;
   SoleContacts contacts_;
-  SightMemory sight_;
+  VisibilityTracker visibility_;
   FloorFeet feet_;
   bool is_tracking_ = false;
   MonoTime seen_at_, time_;
   double usual_cost_ = 0.0;
-  double since_doubt_s_ = 0.0;
+  double since_suspect_s_ = 0.0;
 };
 
 }  // namespace dance

@@ -1,6 +1,6 @@
-// BodyVectors: the differences of places of a body whose directions the network tells in space:
-// along bones, across the hips and the shoulders, from hand to knuckles. A direction is what it
-// tells best; lengths it changes by six percent from picture to picture.
+// BodyVectors: vectors between points of a body whose directions in space the network measures:
+// along bones, across the hips and the shoulders, from hand to knuckles. Directions are its best
+// measurement; lengths vary by six percent from picture to picture.
 //
 // Units/frames: each is the mean of two landmarks less the mean of two others.
 // Ownership:    constants only.

@@ -11,11 +11,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Standard deviations of what is likely of a camera that somebody put up, and of one sight.
+// Standard deviations of the prior for a camera's placement, and of one observation.
 constexpr double kLean = 0.03, kTilt = 0.15, kHeight_m = 0.6;
 constexpr double kUpright = 0.06, kUprightAside = 0.04;
 constexpr double kFoot = 0.015;
-// Sights of the same standing foot tell nearly the same: so many count as one.
+// Observations of one standing foot are correlated: so many count as one.
 constexpr double kSame = 8.0;
 constexpr double kMostWeight = 3600.0 / kSame;
 constexpr double kGuess_m = 0.15;
@@ -25,40 +25,39 @@ constexpr double kMostLean = 0.3, kMostTilt = 1.0, kLeastHeight_m = 0.1, kMostHe
 }  // namespace
 
 void CameraPlacement::reset() {
-  forget_feet();
+  discard_feet();
   up_sum_C_.setZero();
   ups_ = 0;
-  guessed_h_m_ = 1.2;
+  initial_h_m_ = 1.2;
   plane_ = {1.2, 0.0, 0.0};
   origin_C_m_ = {0.0, 1.2, 3.0};
   place();
 }
 
-void CameraPlacement::forget_feet() {
+void CameraPlacement::discard_feet() {
   feet_information_.setZero();
   feet_sum_.setZero();
   feet_weight_ = 0.0;
   feet_ = refused_ = 0;
 }
 
-void CameraPlacement::see_upright(const Vector3d& up_C) {
+void CameraPlacement::add_upright(const Vector3d& up_C) {
   const double norm = up_C.norm();
-  // Whoever lies or bends tells nothing of what is upright.
+  // A body that lies or bends does not show what is upright.
   if (!(norm > 0.3) || up_C.y() > -0.7 * norm) return;
   const double keep = ups_ < 300 ? 1.0 : 1.0 - 1.0 / 300.0;
   up_sum_C_ = keep * up_sum_C_ + up_C / norm;
   ++ups_;
 }
 
-void CameraPlacement::see_foot(const Vector3d& p) {
+void CameraPlacement::add_foot(const Vector3d& p) {
   if (!p.allFinite() || !(p.z() > 0.5) || !(p.z() < 20.0)) return;
   const Vector3d row(1.0 / p.z(), p.x() / p.z(), 1.0);
   const double seen = p.y() / p.z();
-  // Feet on a table or a glitch: not where the floor can be.
+  // Feet on a table or an outlier: the floor cannot be there.
   if (is_known() && std::abs(row.dot(plane_) - seen) > 6.0 * kFoot) {
-    // Feet that stand elsewhere for so long: it is the floor that was wrong, or the camera was
-    // moved.
-    if (++refused_ > kMostRefused) forget_feet();
+    // So many in a row: the floor was wrong, or the camera was moved.
+    if (++refused_ > kMostRefused) discard_feet();
     return;
   }
   refused_ = 0;
@@ -69,9 +68,9 @@ void CameraPlacement::see_foot(const Vector3d& p) {
   feet_ = std::min(feet_ + 1, kSettled);
 }
 
-void CameraPlacement::guess(const Vector3d& lowest_C_m) {
+void CameraPlacement::set_initial_floor(const Vector3d& lowest_C_m) {
   const double h = lowest_C_m.y() - plane_[1] * lowest_C_m.x() - plane_[2] * lowest_C_m.z();
-  guessed_h_m_ = std::clamp(h, kLeastHeight_m, kMostHeight_m);
+  initial_h_m_ = std::clamp(h, kLeastHeight_m, kMostHeight_m);
 }
 
 void CameraPlacement::scale(double by) {
@@ -79,7 +78,7 @@ void CameraPlacement::scale(double by) {
   const Vector3d unit(1.0 / by, 1.0, 1.0);
   feet_information_ = unit.asDiagonal() * feet_information_ * unit.asDiagonal();
   feet_sum_ = unit.asDiagonal() * feet_sum_;
-  guessed_h_m_ *= by;
+  initial_h_m_ *= by;
   plane_[0] *= by;
   origin_C_m_ *= by;
   place();
@@ -95,7 +94,7 @@ void CameraPlacement::update() {
   expect(0, 1.2, kHeight_m);
   expect(1, 0.0, kLean);
   expect(2, 0.0, kTilt);
-  if (feet_ < kKnown) expect(0, guessed_h_m_, kGuess_m);
+  if (feet_ < kKnown) expect(0, initial_h_m_, kGuess_m);
   if (ups_ > 0 && up_sum_C_.y() < 0.0) {
     // up is along (a, −1, b)
     expect(1, up_sum_C_.x() / -up_sum_C_.y(), kUprightAside);

@@ -7,11 +7,11 @@
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
 // Failure:      none: what is learned stays within bounds (camera 0.1 m to 5 m high, tilted by 45°
-//               at most, leaning by 17°), and what is too little to learn from is replaced by a
-//               likely camera.
-// Source:       each standing foot gives y/z = h/z + a x/z + b, whose left side is what a picture
-//               tells best. Where nobody walks nearer or away, h and b cannot be told apart by
-//               feet; there the body's upright mean decides.
+//               at most, leaning by 17°), and the prior of a typical camera replaces missing
+//               observations.
+// Source:       each standing foot gives y/z = h/z + a x/z + b, whose left side a picture measures
+//               best. Where nobody walks nearer or away, feet do not separate h from b; there the
+//               body's mean upright direction decides.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -24,21 +24,21 @@ class CameraPlacement {
   void reset();
 
   // The body's axis, from ankles to shoulders, of a moment; any length.
-  void see_upright(const Eigen::Vector3d& up_C);
+  void add_upright(const Eigen::Vector3d& up_C);
   // The sole of a foot that stands, where the picture alone puts it.
-  void see_foot(const Eigen::Vector3d& p_C_m);
-  // The floor was wrong.
-  void forget_feet();
-  // Before any foot is seen to stand: these are on the floor, more or less.
-  void guess(const Eigen::Vector3d& lowest_C_m);
+  void add_foot(const Eigen::Vector3d& p_C_m);
+  // Drops the observations of feet: the floor was wrong.
+  void discard_feet();
+  // Before any foot was seen to stand: this point is about on the floor.
+  void set_initial_floor(const Eigen::Vector3d& lowest_C_m);
   // The place that is W's origin once it is put onto the floor.
   void set_origin(const Eigen::Vector3d& p_C_m) {
     origin_C_m_ = p_C_m;
     place();
   }
-  // What was taken for a metre is `by` metres.
+  // Multiplies all lengths by `by`.
   void scale(double by);
-  // Takes over what was seen.
+  // Solves for the placement with all observations.
   void update();
 
   bool is_known() const { return feet_ >= kKnown; }
@@ -57,13 +57,13 @@ class CameraPlacement {
   static constexpr int kKnown = 12, kSettled = 90;
   void place();
 
-  // Of (h, a, b): J^T W J and J^T W r of what was seen, old sights fading.
+  // Of (h, a, b): J^T W J and J^T W r of the observations, old ones fading.
   Eigen::Matrix3d feet_information_;
   Eigen::Vector3d feet_sum_;
   double feet_weight_ = 0.0;
   Eigen::Vector3d up_sum_C_;
   int feet_ = 0, ups_ = 0, refused_ = 0;
-  double guessed_h_m_ = 1.2;
+  double initial_h_m_ = 1.2;
   Eigen::Vector3d plane_;  // h, a, b
   Eigen::Vector3d origin_C_m_;
   Eigen::Matrix3d R_WC_;

@@ -49,8 +49,8 @@ Quaterniond limb_turn(const Vector3d& rest, const Vector3d& hinge, const Vector3
   const Quaterniond R_PW = R_WParent.conjugate();
   const Vector3d direction = R_PW * along.normalized();
   const Quaterniond short_way = shortest_turn(rest, direction);
-  // Twist: by how much the hinge has to turn about the bone to be where it is seen. A limb that is
-  // nearly straight does not say.
+  // Twist: by how much the hinge has to turn about the bone to be where it is seen. A nearly
+  // straight limb leaves it undetermined.
   const double sine = bent_hinge.norm();
   if (sine < 0.15) return short_way;
   const Vector3d wanted = R_PW * bent_hinge / sine;
@@ -145,7 +145,7 @@ BodyState first_posture(const Observation& seen, const BodyShape& shape, const M
 }
 
 void take_far_limbs(const Observation& seen, const Matrix3d& R_WC, const BodyModel& placed,
-                    const BodyState& told, BodyState& state) {
+                    const BodyState& direct, BodyState& state) {
   const Directions look{seen, R_WC};
   const auto is_far = [&](Landmark from, Landmark to) {
     if (!look.sees(from) || !look.sees(to)) return false;
@@ -158,7 +158,7 @@ void take_far_limbs(const Observation& seen, const Matrix3d& R_WC, const BodyMod
              is_far(of_side(middle, s), of_side(end, s));
     };
     BodyState::Side& to = state.sides[s];
-    const BodyState::Side& from = told.sides[s];
+    const BodyState::Side& from = direct.sides[s];
     if (far_limb(Landmark::kLeftShoulder, Landmark::kLeftElbow, Landmark::kLeftWrist)) {
       to.upper_arm = from.upper_arm;
       to.elbow = from.elbow;

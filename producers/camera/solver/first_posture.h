@@ -1,11 +1,10 @@
-// The posture that the network's metres tell directly, from the directions of bones: where a fit
-// begins when nothing is expected, and what it is held against when it seems to be caught in a
-// wrong one.
+// An initial posture directly from the directions of bones in the network's world points: the start
+// of a fit without a prediction, and the alternative when a fit seems to be in a wrong minimum.
 //
 // Units/frames: directions in C come into W through the camera's placement.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      limbs of which too little is seen are at ease.
+// Failure:      limbs of which too little is visible are in the rest posture.
 #pragma once
 
 #include "producers/camera/solver/body_model.h"
@@ -19,9 +18,9 @@ namespace dance {
 BodyState first_posture(const Observation& seen, const BodyShape& shape,
                         const Eigen::Matrix3d& R_WC);
 
-// Takes those limbs from `told` that `state` has in quite another direction than is seen: a fit
-// that begins there would be caught.
+// Takes from `direct` those limbs whose direction in `state` is far from the observed one: a fit
+// from there would end in a wrong minimum.
 void take_far_limbs(const Observation& seen, const Eigen::Matrix3d& R_WC, const BodyModel& placed,
-                    const BodyState& told, BodyState& state);
+                    const BodyState& direct, BodyState& state);
 
 }  // namespace dance

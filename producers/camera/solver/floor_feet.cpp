@@ -48,8 +48,7 @@ void FloorFeet::apply(const BodyShape& shape, const SoleContacts& contacts, bool
     if (stands) {
       Vector3f held = foot.is_held ? foot.held_W_m : Vector3f(ball_W + foot.shift.offset);
       held.y() = joint_height;
-      // Towards where the foot is known to stand: at once while it comes down, later so that nobody
-      // sees it.
+      // Towards the contact's place: at once while the foot comes down, later imperceptibly slowly.
       Vector3f off = touch.held_W_m.cast<float>() - held;
       off.y() = 0.0f;
       const float way = off.norm();

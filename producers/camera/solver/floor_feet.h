@@ -1,11 +1,10 @@
-// FloorFeet: what is shown stands on the floor: a ball that stands does not slide, nothing of a
-// foot is below the floor. The legs are bent anew for it; what was held dies away when a foot
-// lifts.
+// FloorFeet: foot locking for the shown pose: a standing ball does not slide, and no part of a foot
+// is below the floor. The legs are solved again for it; the correction decays when a foot lifts.
 //
 // Units/frames: metres in W, floor at y = 0.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
-// Failure:      a leg is not stretched beyond its reach: the foot gives way.
+// Failure:      a leg is not stretched beyond its reach: then the foot slides.
 #pragma once
 
 #include <array>

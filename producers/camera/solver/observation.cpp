@@ -12,9 +12,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Below the first a point tells nothing, above the second all that it can.
+// Visibilities at which a point's weight begins and is full.
 constexpr double kHidden = 0.2, kSeen = 0.65;
-// A point outside the picture is guessed by the network.
+// Points outside the picture are extrapolated by the network.
 constexpr double kMargin = 0.02;
 // Share of the region's side, of one coordinate; hands and feet are seen less well.
 constexpr double kPointSd = 0.004;

@@ -1,13 +1,12 @@
-// Observation: what one picture says of the body, made fit for computing: rays instead of pixels, a
-// weight for each point, nothing that is not finite. All that comes from outside is checked here,
-// once.
+// Observation: one picture's landmarks as measurements: rays instead of pixels, a weight for each
+// point, all finite. The only place that checks them.
 //
 // Units/frames: rays are x/z and y/z in C (producers/camera/pinhole.h), freed from the lens'
 //               distortion; world points in metres of the network.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      is_usable is false where too little of a body is seen to place it; weights of
-//               points that are not finite, far outside the picture or said to be hidden are 0.
+//               points that are not finite, far outside the picture or marked as hidden are 0.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,16 +10,16 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kSeenWell = 0.35;
-// What the median is worth beside an average body, in logarithms. Feet, ears and hip joints are
-// said less well than long bones.
+// Weight of the median against an average body, in logarithms. Feet, ears and hip joints are
+// measured less well than long bones.
 constexpr std::array<double, kLengthCount> kWorth{0.95, 0.8,  0.95, 0.95, 0.95,
                                                   0.95, 0.95, 0.7,  0.7};
-// No body is further from the average in one length than this factor.
-constexpr double kOdd = 1.7;
+// Bound of a length's ratio to the average.
+constexpr double kMostRatio = 1.7;
 constexpr double kLeastBody_m = 0.8, kMostBody_m = 2.4;
 constexpr int kFewest = 8;
-// A bone lies across the view where its depth is less than half its length; what a picture says of
-// it is worth so much of the whole.
+// A bone lies across the view where its depth is less than half its length; its length in the
+// picture then has this weight.
 constexpr double kAcross = 0.87, kPictureWorth = 0.7;
 
 struct Span {
@@ -50,19 +50,19 @@ constexpr std::array kSpans{
 }  // namespace
 
 void Proportions::reset() {
-  for (Samples& s : told_) s.count = 0;
-  forget_pictured();
+  for (Samples& s : network_) s.count = 0;
+  discard_image_lengths();
   scale_sum_ = scale_weight_ = 0.0;
   pictures_ = 0;
 }
 
-void Proportions::forget_pictured() {
+void Proportions::discard_image_lengths() {
   for (Samples& s : pictured_) s.count = 0;
 }
 
 void Proportions::measure(const Observation& seen, const Points& points, bool across_only,
                           AllSamples& all) {
-  // Left and right share one row of samples: the mean of both of a picture.
+  // Left and right share one list of samples: the mean of both in a picture.
   std::array<double, kLengthCount> sum{}, count{};
   for (const Span& span : kSpans) {
     const std::size_t i[]{index_of(span.from_a), index_of(span.from_b), index_of(span.to_a),
@@ -93,7 +93,7 @@ void Proportions::see(const Observation& seen, const Points& pictured_m,
     scale_sum_ += depth->scale / (sd * sd);
     scale_weight_ += 1.0 / (sd * sd);
   }
-  measure(seen, seen.world_m, false, told_);
+  measure(seen, seen.world_m, false, network_);
   measure(seen, pictured_m, true, pictured_);
   if (seen.visible > 0.8) ++pictures_;
 }
@@ -125,28 +125,29 @@ bool Proportions::medians(const AllSamples& all, BodyLengths& lengths,
     }
   }
   if (ratios < 3) return false;
-  // What was not measured follows the rest.
+  // Lengths without a measurement follow the others.
   for (std::size_t l = 0; l < kLengthCount; ++l)
     if (!is_measured[l]) lengths[l] = std::exp(ratio / ratios) * average[l];
   return true;
 }
 
 BodyLengths Proportions::lengths() const {
-  BodyLengths told{}, pictured{};
-  std::array<bool, kLengthCount> is_told{}, is_pictured{};
-  if (!medians(told_, told, is_told)) return average_lengths(height_m_.value_or(1.72));
-  const double height = height_of(told);
+  BodyLengths network{}, pictured{};
+  std::array<bool, kLengthCount> has_network{}, is_pictured{};
+  if (!medians(network_, network, has_network)) return average_lengths(height_m_.value_or(1.72));
+  const double height = height_of(network);
   const BodyLengths average = average_lengths(height);
   const bool has_pictured = medians(pictured_, pictured, is_pictured);
-  // A picture tells shares of a body, not metres.
-  const double to_told = has_pictured ? height / height_of(pictured) : 1.0;
-  BodyLengths lengths = told;
+  // A picture shows relative lengths only.
+  const double to_network = has_pictured ? height / height_of(pictured) : 1.0;
+  BodyLengths lengths = network;
   for (std::size_t l = 0; l < kLengthCount; ++l) {
     if (has_pictured && is_pictured[l])
-      lengths[l] = is_told[l] ? told[l] * std::pow(to_told * pictured[l] / told[l], kPictureWorth)
-                              : to_told * pictured[l];
-    const double odd = std::clamp(lengths[l] / average[l], 1.0 / kOdd, kOdd);
-    lengths[l] = average[l] * std::pow(odd, kWorth[l]);
+      lengths[l] = has_network[l]
+                       ? network[l] * std::pow(to_network * pictured[l] / network[l], kPictureWorth)
+                       : to_network * pictured[l];
+    const double ratio = std::clamp(lengths[l] / average[l], 1.0 / kMostRatio, kMostRatio);
+    lengths[l] = average[l] * std::pow(ratio, kWorth[l]);
   }
   const double by = scale(lengths);
   for (double& l : lengths) l *= by;

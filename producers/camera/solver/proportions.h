@@ -1,7 +1,7 @@
-// Proportions: how long a dancer's bones are, learned from the first seconds and then held. Each
-// length is the median over pictures, of left and right alike, of what the network says in space
-// (which differs by six percent from picture to picture) and of what the picture itself shows of
-// bones that lie across the view, at the depth where the body was found.
+// Proportions: a dancer's bone lengths, estimated in the first seconds and then held. Each is the
+// median over pictures, of left and right together, of the length in the network's world points
+// (which varies by six percent from picture to picture) and of that in the picture, for bones that
+// lie across the view, at the body's depth.
 //
 // Units/frames: metres of the network go in, true metres come out.
 // Ownership:    keeps its samples (about 10 KB); never allocates.
@@ -21,11 +21,11 @@ namespace dance {
 
 class Proportions {
  public:
-  // Pictures after which a first guess is worth showing, and after which it is held.
+  // Pictures after which the first estimate is used, and after which it is held.
   static constexpr int kFirst = 20, kHeld = 150;
 
-  // `height_m`: what the dancer says; else a second eye's scale decides, else the network's metres
-  // are true.
+  // `height_m`: given by the dancer; else the stereo scale decides, else the network's metres are
+  // taken as true.
   explicit Proportions(std::optional<double> height_m = {}) : height_m_(height_m) {}
   void reset();
 
@@ -33,8 +33,8 @@ class Proportions {
   // body that was fitted.
   void see(const Observation& seen, const std::array<Eigen::Vector3d, kLandmarkCount>& pictured_m,
            const std::optional<DepthHint>& depth);
-  // The body that is fitted has changed: what was pictured on it counts no more.
-  void forget_pictured();
+  // The fitted body has changed: lengths measured in pictures with the old one are dropped.
+  void discard_image_lengths();
   int pictures() const { return pictures_; }
   bool is_held() const { return pictures_ >= kHeld; }
   BodyLengths lengths() const;
@@ -54,7 +54,7 @@ class Proportions {
   double scale(const BodyLengths& measured) const;
 
   std::optional<double> height_m_;
-  AllSamples told_, pictured_;
+  AllSamples network_, pictured_;
   double scale_sum_ = 0.0, scale_weight_ = 0.0;
   int pictures_ = 0;
 };

@@ -15,7 +15,7 @@ constexpr double kStandsUnder_m = 0.045, kGoesOver_m = 0.07;
 constexpr double kGone_m = 0.05;
 constexpr double kSpeedOver_s = 0.05;
 // A foot that has just come down may still settle. After that, one that is seen elsewhere is
-// followed so slowly that nobody sees it slide.
+// followed imperceptibly slowly.
 constexpr double kSettles_s = 0.12, kSettleOver_s = 0.06, kFollowSole_s = 1.5,
                  kMostFollow_m_s = 0.01;
 constexpr double kPatience_s = 0.3;
@@ -24,7 +24,7 @@ struct Share {
   Landmark left;
   double share;
 };
-// Points that tell where a sole is.
+// The landmarks that place a sole.
 constexpr Share kOfHeel[]{{Landmark::kLeftHeel, 0.6}, {Landmark::kLeftAnkle, 0.4}};
 constexpr Share kOfBall[]{
     {Landmark::kLeftFootIndex, 0.5}, {Landmark::kLeftAnkle, 0.3}, {Landmark::kLeftHeel, 0.2}};
@@ -43,7 +43,7 @@ void SoleContacts::follow(const BodyModel& body, const Observation& seen,
   for (std::size_t i = 0; i < kSoleCount; ++i) {
     Foot& sole = soles_[i];
     const std::size_t side = i / 2;
-    // By how much the picture has the foot elsewhere than the body, at the body's depth.
+    // The foot's residual in the picture, at the body's depth.
     Vector3d off_C = Vector3d::Zero();
     double weight = 0.0;
     const auto look = [&](const Share& share) {
@@ -59,14 +59,14 @@ void SoleContacts::follow(const BodyModel& body, const Observation& seen,
     else
       for (const Share& share : kOfBall) look(share);
     if (weight < 0.15) {
-      sole.unseen_s += seconds;
-      if (sole.unseen_s > kPatience_s) sole.touch.stands = false;
+      sole.hidden_s += seconds;
+      if (sole.hidden_s > kPatience_s) sole.touch.stands = false;
       continue;
     }
-    sole.unseen_s = 0.0;
+    sole.hidden_s = 0.0;
     const Vector3d own_C = camera.to_C(body.point(kLandmarkCount + i));
     const Vector3d place = body.point(kLandmarkCount + i) + R_WC * off_C / weight;
-    // Across the view alone: along it a picture does not tell how fast anything is.
+    // Across the view only: a picture does not show speed along it.
     const Eigen::Vector2d ray = (own_C + off_C / weight).head<2>() / own_C.z();
     if (sole.is_new || !(seconds > 0.0)) {
       sole.velocity.setConstant(kGoesAbove_m_s);

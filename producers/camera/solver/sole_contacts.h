@@ -1,10 +1,10 @@
 // SoleContacts: which heels and balls stand on the floor, and where. A sole that is near the floor
-// and hardly moves stands; it is held where it came down until it rises, or is seen to have gone.
+// and hardly moves stands; it is held where it came down until it rises, or is observed elsewhere.
 //
 // Units/frames: metres in W, floor at y = 0; seconds.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
-// Failure:      a sole that is not seen keeps standing for a moment and is then let go.
+// Failure:      a hidden sole stays in contact for a moment and is then released.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ class SoleContacts {
               double seconds);
   // The same soles in another W, or another scale.
   template <class Move>
-  void retell(Move move_place) {
+  void rebase(Move move_place) {
     for (Foot& sole : soles_) {
       sole.touch.held_W_m = move_place(sole.touch.held_W_m);
       sole.touch.held_W_m.y() = 0.0;
@@ -42,7 +42,7 @@ class SoleContacts {
     Eigen::Vector3d seen_W_m = Eigen::Vector3d::Zero();
     Eigen::Vector2d ray = Eigen::Vector2d::Zero();       // of the place, in C
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // m/s across the view
-    double unseen_s = 0.0;
+    double hidden_s = 0.0;
     bool is_new = true;
   };
   std::array<Foot, kSoleCount> soles_;

@@ -1,12 +1,11 @@
-// BodySamples: places on a dancer's body where two eyes can be compared: joints, limbs between
-// them, a grid on the torso; with how deep under the skin the joint's own point lies, as eyes see
-// skin and skeletons have joints.
+// BodySamples: places on a dancer's body for stereo matching: joints, limbs between them, a grid on
+// the torso; with the depth of the joint under the skin that the cameras see.
 //
 // Units/frames: pixels of the raw left picture; metres of the pose network, axes of the camera,
 //               origin midway between the hips.
 // Ownership:    plain values of fixed size.
 // Threads:      none inside.
-// Failure:      none; what the network calls hidden is left out.
+// Failure:      none; landmarks that are marked as hidden are left out.
 #pragma once
 
 #include <Eigen/Core>

@@ -18,13 +18,13 @@
 
 namespace dance {
 
-// For pictures of this size of one eye. Which kind of file it is, its content says.
+// For pictures of this size of one camera. The kind of file is detected by its content.
 Result<Calibration> load_calibration(const std::string& path, int width_px, int height_px);
 
 // What is in OpenCV's text, at the size that it was made with.
 Result<Calibration> parse_opencv_calibration(std::string_view text, const std::string& name);
 
-// rms_px is the reprojection error, kept in the file for who reads it.
+// rms_px is the reprojection error, kept in the file for its readers.
 Result<void> save_calibration(const std::string& path, const Calibration& calibration,
                               double rms_px);
 

@@ -24,7 +24,8 @@ struct BoardShape {
 
 std::optional<std::vector<cv::Point2f>> find_board(const cv::Mat& picture, const BoardShape& shape);
 
-// Boards look the same from two sides: the order of the right eye's corners as that of the left's.
+// Boards look the same from two sides: the order of the right camera's corners as that of the
+// left's.
 void match_order(const std::vector<cv::Point2f>& left, std::vector<cv::Point2f>& right);
 
 // How a board is held, from the shape that it has in the picture.
@@ -48,8 +49,8 @@ class BoardCoverage {
 
   void add(const std::vector<cv::Point2f>& corners, const BoardView& view, cv::Size picture);
   bool is_complete() const { return missing().empty(); }
-  // In plain words what is to be shown next, the most wanted first: "the upper left corner of the
-  // picture".
+  // Text for people on what is to be shown next, the most needed first: "the upper left corner of
+  // the picture".
   std::vector<std::string> missing() const;
   int views() const { return views_; }
 

@@ -10,7 +10,7 @@
 namespace dance {
 namespace {
 
-// Of a board that is held still, at a width of 1280; hands tremble by less.
+// Of a board that is held still, at a width of 1280; hands shake by less.
 constexpr double kStill_px = 1.5;
 
 double mean_step_px(const std::vector<cv::Point2f>& a, const std::vector<cv::Point2f>& b) {
@@ -28,8 +28,8 @@ const char* text_of(BoardAdded added) {
       return "kept";
     case BoardAdded::kNoBoard:
       return "no whole board seen: show all of it, flat, well lit, with its white rim";
-    case BoardAdded::kOneEyeOnly:
-      return "only one eye sees the whole board: move it to where both do";
+    case BoardAdded::kOneCameraOnly:
+      return "only one side sees the whole board: move it to where both do";
     case BoardAdded::kMoving:
       return "hold the board still";
     case BoardAdded::kSimilar:
@@ -52,13 +52,13 @@ Result<ChessboardCalibration> ChessboardCalibration::make(const ChessboardOption
   if (!(board.square_mm >= 1.0 && board.square_mm <= 1000.0))
     return fail(
         fmt::format("squares of {} mm: measure one with a ruler, 1 to 1000 mm", board.square_mm));
-  if (options.eyes != 1 && options.eyes != 2)
-    return fail(fmt::format("{} eyes can not be calibrated: 1 or 2", options.eyes));
+  if (options.cameras != 1 && options.cameras != 2)
+    return fail(fmt::format("{} cameras can not be calibrated: 1 or 2", options.cameras));
   return ChessboardCalibration(options);
 }
 
 BoardAdded ChessboardCalibration::add(const cv::Mat& picture) {
-  DANCE_ASSERT(options_.eyes == 1);
+  DANCE_ASSERT(options_.cameras == 1);
   auto corners = find_board(picture, options_.board);
   if (!corners) {
     last_.clear();
@@ -68,13 +68,13 @@ BoardAdded ChessboardCalibration::add(const cv::Mat& picture) {
 }
 
 BoardAdded ChessboardCalibration::add(const cv::Mat& left, const cv::Mat& right) {
-  DANCE_ASSERT(options_.eyes == 2);
+  DANCE_ASSERT(options_.cameras == 2);
   if (left.size() != right.size()) return BoardAdded::kOtherSize;
   auto in_left = find_board(left, options_.board);
   auto in_right = find_board(right, options_.board);
   if (!in_left || !in_right) {
     last_.clear();
-    return in_left || in_right ? BoardAdded::kOneEyeOnly : BoardAdded::kNoBoard;
+    return in_left || in_right ? BoardAdded::kOneCameraOnly : BoardAdded::kNoBoard;
   }
   match_order(*in_left, *in_right);
   return keep(std::move(*in_left), std::move(*in_right), left.size());
@@ -112,7 +112,8 @@ Result<CalibrationReport> ChessboardCalibration::solve() const {
                             views_.size(), kFewestBoardViews, progress()));
   BoardCorners corners{options_.board, picture_, {}};
   for (const View& view : views_)
-    for (int eye = 0; eye < options_.eyes; ++eye) corners.views[eye].push_back(view.corners[eye]);
+    for (int side = 0; side < options_.cameras; ++side)
+      corners.views[side].push_back(view.corners[side]);
   DANCE_TRY(CalibrationReport report, solve_chessboard(corners));
   report.is_complete = has_enough();
   if (!report.is_complete)

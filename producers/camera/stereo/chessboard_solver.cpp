@@ -26,7 +26,7 @@ std::vector<cv::Point3f> board_points(const BoardShape& board) {
   return out;
 }
 
-struct EyeSolution {
+struct CameraSolution {
   cv::Mat_<double> matrix;
   cv::Mat_<double> distortion;
   double rms_px = 0.0;
@@ -34,12 +34,12 @@ struct EyeSolution {
   double focal_spread_percent = 0.0;
 };
 
-EyeSolution solve_eye(const BoardCorners& corners, int eye, const std::vector<std::size_t>& kept,
-                      int flags) {
+CameraSolution solve_camera(const BoardCorners& corners, int side,
+                            const std::vector<std::size_t>& kept, int flags) {
   std::vector<std::vector<cv::Point2f>> points;
-  for (const std::size_t i : kept) points.push_back(corners.views[eye][i]);
+  for (const std::size_t i : kept) points.push_back(corners.views[side][i]);
   const std::vector<std::vector<cv::Point3f>> board(kept.size(), board_points(corners.board));
-  EyeSolution out;
+  CameraSolution out;
   cv::Mat spreads;
   cv::Mat outer_spreads;
   cv::Mat view_errors;
@@ -55,14 +55,15 @@ EyeSolution solve_eye(const BoardCorners& corners, int eye, const std::vector<st
 
 // The third radial coefficient where the lens has it: on others it is noise that bends the
 // picture's corners.
-EyeSolution solve_eye(const BoardCorners& corners, int eye, const std::vector<std::size_t>& kept) {
+CameraSolution solve_camera(const BoardCorners& corners, int side,
+                            const std::vector<std::size_t>& kept) {
   constexpr double kWorthIt = 0.95;
-  EyeSolution plain = solve_eye(corners, eye, kept, cv::CALIB_FIX_K3);
-  EyeSolution rich = solve_eye(corners, eye, kept, 0);
+  CameraSolution plain = solve_camera(corners, side, kept, cv::CALIB_FIX_K3);
+  CameraSolution rich = solve_camera(corners, side, kept, 0);
   return rich.rms_px < kWorthIt * plain.rms_px ? rich : plain;
 }
 
-Pinhole pinhole_of(const EyeSolution& solution, cv::Size picture) {
+Pinhole pinhole_of(const CameraSolution& solution, cv::Size picture) {
   Pinhole out;
   out.width_px = picture.width;
   out.height_px = picture.height;
@@ -101,18 +102,18 @@ struct PairSolution {
 };
 
 PairSolution solve_pair(const BoardCorners& corners, const std::vector<std::size_t>& kept,
-                        EyeSolution eyes[2]) {
+                        CameraSolution solutions[2]) {
   std::vector<std::vector<cv::Point2f>> points[2];
   for (const std::size_t i : kept)
-    for (int eye = 0; eye < 2; ++eye) points[eye].push_back(corners.views[eye][i]);
+    for (int side = 0; side < 2; ++side) points[side].push_back(corners.views[side][i]);
   const std::vector<std::vector<cv::Point3f>> board(kept.size(), board_points(corners.board));
   PairSolution out;
   cv::Mat essential;
   cv::Mat fundamental;
   cv::Mat errors;
-  cv::stereoCalibrate(board, points[0], points[1], eyes[0].matrix, eyes[0].distortion,
-                      eyes[1].matrix, eyes[1].distortion, corners.picture, out.turn, out.place,
-                      essential, fundamental, errors, cv::CALIB_FIX_INTRINSIC,
+  cv::stereoCalibrate(board, points[0], points[1], solutions[0].matrix, solutions[0].distortion,
+                      solutions[1].matrix, solutions[1].distortion, corners.picture, out.turn,
+                      out.place, essential, fundamental, errors, cv::CALIB_FIX_INTRINSIC,
                       cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-7));
   for (int i = 0; i < errors.rows; ++i)
     out.view_rms_px.push_back(std::max(errors.at<double>(i, 0), errors.at<double>(i, 1)));
@@ -158,7 +159,7 @@ void judge(const BoardCorners& corners, CalibrationReport& report) {
     const double rows = report.epipolar_rms_px / width;
     const double squares = std::abs(report.square_mm / corners.board.square_mm - 1.0);
     report.judgement += fmt::format(
-        ", eyes {:.1f} mm apart, rows to {:.2f} px, squares measured as {:.2f} mm",
+        ", solutions {:.1f} mm apart, rows to {:.2f} px, squares measured as {:.2f} mm",
         1e3 * report.calibration.pair->baseline_m(), report.epipolar_rms_px, report.square_mm);
     if (rows > 0.5) word = rows < 1.0 ? "usable" : "poor";
     if (rows > 1.0 || squares > 0.01) report.is_good = false;
@@ -177,31 +178,32 @@ Result<CalibrationReport> solve_chessboard(const BoardCorners& corners) try {
   std::vector<std::size_t> kept(corners.views[0].size());
   std::iota(kept.begin(), kept.end(), std::size_t{0});
   CalibrationReport report;
-  EyeSolution eyes[2];
+  CameraSolution solutions[2];
   PairSolution pair;
   std::vector<double> errors;
   do {
-    eyes[0] = solve_eye(corners, 0, kept);
-    errors = eyes[0].view_rms_px;
+    solutions[0] = solve_camera(corners, 0, kept);
+    errors = solutions[0].view_rms_px;
     if (!is_pair) continue;
-    eyes[1] = solve_eye(corners, 1, kept);
-    pair = solve_pair(corners, kept, eyes);
+    solutions[1] = solve_camera(corners, 1, kept);
+    pair = solve_pair(corners, kept, solutions);
     for (std::size_t i = 0; i < errors.size(); ++i)
-      errors[i] = std::max({errors[i], eyes[1].view_rms_px[i], pair.view_rms_px[i]});
+      errors[i] = std::max({errors[i], solutions[1].view_rms_px[i], pair.view_rms_px[i]});
   } while (drop_worst(kept, report.dropped, errors));
 
   std::sort(report.dropped.begin(), report.dropped.end());
   report.view_rms_px = errors;
-  report.rms_px = is_pair ? std::max(eyes[0].rms_px, eyes[1].rms_px) : eyes[0].rms_px;
-  report.focal_spread_percent = eyes[0].focal_spread_percent;
+  report.rms_px =
+      is_pair ? std::max(solutions[0].rms_px, solutions[1].rms_px) : solutions[0].rms_px;
+  report.focal_spread_percent = solutions[0].focal_spread_percent;
   DANCE_TRY(report.calibration.camera,
-            checked(pinhole_of(eyes[0], corners.picture), "this calibration"));
+            checked(pinhole_of(solutions[0], corners.picture), "this calibration"));
   if (is_pair) {
     report.focal_spread_percent =
-        std::max(report.focal_spread_percent, eyes[1].focal_spread_percent);
+        std::max(report.focal_spread_percent, solutions[1].focal_spread_percent);
     StereoRig rig;
     rig.left = report.calibration.camera;
-    rig.right = pinhole_of(eyes[1], corners.picture);
+    rig.right = pinhole_of(solutions[1], corners.picture);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) rig.R_RL(i, j) = pair.turn(i, j);
       rig.p_RL_m(i) = pair.place(i, 0);

@@ -13,7 +13,8 @@ namespace dance {
 struct BoardCorners {
   BoardShape board;
   cv::Size picture;
-  std::vector<std::vector<cv::Point2f>> views[2];  // of the left or only eye, and of the right one
+  std::vector<std::vector<cv::Point2f>>
+      views[2];  // of the left or only camera, and of the right one
 };
 
 Result<CalibrationReport> solve_chessboard(const BoardCorners& corners);

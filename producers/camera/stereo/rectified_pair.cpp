@@ -7,7 +7,7 @@
 namespace dance {
 
 RectifiedPair::RectifiedPair(const StereoRig& rig) : rig_(rig), baseline_m_(rig.baseline_m()) {
-  // The right eye, seen from the left one: p_LR = −Rᵀ·t.
+  // The right camera, seen from the left one: p_LR = −Rᵀ·t.
   const Eigen::Vector3d across = (-rig.R_RL.transpose() * rig.p_RL_m).normalized();
   const Eigen::Vector3d views =
       Eigen::Vector3d::UnitZ() + rig.R_RL.transpose() * Eigen::Vector3d::UnitZ();
@@ -22,7 +22,7 @@ RectifiedPair::RectifiedPair(const StereoRig& rig) : rig_(rig), baseline_m_(rig.
 }
 
 Eigen::Vector2d RectifiedPair::rectified(Side side, const Eigen::Vector2d& raw_px) const {
-  const Eigen::Vector2d straight = undistorted(eye(side), raw_px);
+  const Eigen::Vector2d straight = undistorted(camera(side), raw_px);
   const Eigen::Vector3d ray = (side == Side::kLeft ? R_XL_ : R_XR_) * straight.homogeneous();
   return {f_px_ * ray.x() / ray.z() + cx_px_, f_px_ * ray.y() / ray.z() + cy_px_};
 }
@@ -31,7 +31,7 @@ Eigen::Vector2d RectifiedPair::raw(Side side, const Eigen::Vector2d& rectified_p
   const Eigen::Vector3d ray((rectified_px.x() - cx_px_) / f_px_,
                             (rectified_px.y() - cy_px_) / f_px_, 1.0);
   const Eigen::Vector3d seen = (side == Side::kLeft ? R_XL_ : R_XR_).transpose() * ray;
-  return pixel_of(eye(side), {seen.x() / seen.z(), seen.y() / seen.z()});
+  return pixel_of(camera(side), {seen.x() / seen.z(), seen.y() / seen.z()});
 }
 
 Eigen::Vector3d RectifiedPair::p_L_m(const Eigen::Vector2d& rectified_px,

@@ -1,11 +1,11 @@
-// RectifiedPair: both eyes turned so that what one sees in a row, the other sees in the same row.
-// No picture is made: points go between the raw pictures and X, the common frame, so that a few
-// patches cost what a few patches do.
+// RectifiedPair: rectification of a stereo pair: a point lies in the same row of both pictures.
+// No picture is made: points go between the raw pictures and X, the common frame, so that only the
+// patches in use are computed.
 //
-// Units/frames: X is the left eye's place, x along the line between the eyes, z midway between
-//               their views; its pictures have f_px() and the middle (cx_px(), cy_px()) in both
-//               eyes, so that depth along X's z = f·baseline / disparity. L and R as stereo_rig.h
-//               says.
+// Units/frames: X is the left camera's place, x along the line between the cameras, z midway
+//               between their views; its pictures have f_px() and the middle (cx_px(), cy_px()) in
+//               both cameras, so that depth along X's z = f·baseline / disparity. L and R as
+//               stereo_rig.h says.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; const calls from anywhere.
 // Failure:      none; the rig was checked.
@@ -30,7 +30,7 @@ class RectifiedPair {
   double cy_px() const { return cy_px_; }
   double baseline_m() const { return baseline_m_; }
   const StereoRig& rig() const { return rig_; }
-  const Pinhole& eye(Side side) const { return side == Side::kLeft ? rig_.left : rig_.right; }
+  const Pinhole& camera(Side side) const { return side == Side::kLeft ? rig_.left : rig_.right; }
 
   // The axis along which X measures depth, in L.
   Eigen::Vector3d depth_axis_in_left() const { return R_XL_.row(2).transpose(); }

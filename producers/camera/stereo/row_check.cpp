@@ -31,8 +31,8 @@ double median_of(std::vector<double>& all) {
   return *middle;
 }
 
-// The row, relative to its own, in which the right eye has the patch; false where it has it in none
-// for sure.
+// The row, relative to its own, in which the right camera has the patch; false where it has it in
+// none for sure.
 class RowFinder {
  public:
   RowFinder(const cv::Mat& left, const cv::Mat& right, const StereoRig& rig)

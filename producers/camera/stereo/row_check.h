@@ -1,12 +1,12 @@
-// Whether a rig's calibration fits what its eyes see: the same thing must lie in the same row of
-// both, and farther left in the right one. Tells a wrong file, a bent rig and a maker's other
-// convention of signs from a good one.
+// Whether a rig's calibration fits what its cameras see: the same thing must lie in the same row of
+// both, and farther left in the right one. Detects a wrong file, a bent rig and a maker's other
+// convention of signs.
 //
 // Units/frames: rectified pixels (producers/camera/stereo/rectified_pair.h).
 // Ownership:    plain values; allocates while it works.
 // Threads:      none inside. Takes tenths of a second: for the start and for the doctor, not for
 //               each frame.
-// Failure:      a picture without texture gives few points; the rest is then not to be believed
+// Failure:      a picture without texture gives few points; the rest is then meaningless
 //               (kFewestRowPoints).
 #pragma once
 
@@ -17,8 +17,8 @@
 namespace dance {
 
 struct RowCheck {
-  int points = 0;            // found again by both eyes
-  double offset_px = 0.0;    // median: how far below its row the right eye sees them
+  int points = 0;            // found again by both cameras
+  double offset_px = 0.0;    // median: how far below its row the right camera sees them
   double residual_px = 0.0;  // median of what they are off, either way
 };
 constexpr int kFewestRowPoints = 20;

@@ -5,7 +5,7 @@
 //               scores are correlations, -1…1.
 // Ownership:    buffers of fixed size inside; never allocates after construction.
 // Threads:      none inside; one owner.
-// Failure:      columns whose rays leave the picture are told by is_inside(); scores there are
+// Failure:      is_inside() is false for columns whose rays leave the picture; scores there are
 //               kNoScore.
 // Source:       zero-mean normalised cross-correlation under a Gaussian window.
 #pragma once

@@ -18,7 +18,7 @@ constexpr double kSmallest = 0.5;
 constexpr double kTallest = 1.6;
 constexpr double kKnownWithin = 0.2;
 constexpr double kScaleFollows = 0.1;
-// So many frames without a depth, and the dancer's size is looked for anew.
+// So many frames without a depth, and the dancer's size is looked for again.
 constexpr int kMissesToForget = 10;
 
 // Of the patches' weights, in a vote for the right distance.
@@ -194,7 +194,7 @@ void StereoDepth::refine(std::size_t i, double expected_px) {
     }
   match.disparity_px =
       curve.most_px - (best + peak_offset(score(best - 1), score(best), score(best + 1)));
-  // Back again: the right eye's patch must find its way to where it came from.
+  // Consistency check: the right patch has to match the left one it came from.
   const double u = rectified_[i].x();
   const double v = rectified_[i].y();
   match.how = SampleMatch::How::kOneSided;
@@ -224,7 +224,7 @@ DepthHint StereoDepth::hint(const cv::Mat& left, const cv::Mat& right, const Bod
   take_body_samples(pair_.rig().left, body, samples_);
   const auto one_eye = fit_monocular(samples_);
   if (!one_eye || !find_ranges(*one_eye)) {
-    ++counters_.one_eyed;
+    ++counters_.too_few_points;
     return {};
   }
   make_grey(left, right);
@@ -263,7 +263,7 @@ DepthHint StereoDepth::hint(const cv::Mat& left, const cv::Mat& right, const Bod
 }
 
 // How well the matched patch fits in the rows above and below: the top of that is where the right
-// eye really has it.
+// camera really has it.
 void StereoDepth::look_at_rows(std::size_t i) {
   constexpr int kReach_px = 3;
   const SampleMatch& match = matches_[i];
@@ -294,17 +294,17 @@ std::string StereoDepth::trouble() const {
   constexpr double kBadRows_px = 1.5;
   if (row_looks_ >= kRowLooksToJudge && std::abs(row_offset_px_) > kBadRows_px)
     return fmt::format(
-        "the right eye sees everything {:.1f} rows {} where its calibration puts it: "
+        "the right camera sees everything {:.1f} rows {} where its calibration puts it: "
         "the rig was bent or the file is another's; calibrate with dance capture "
         "--calibrate",
         std::abs(row_offset_px_), row_offset_px_ > 0.0 ? "below" : "above");
   if (counters_.other_size > 0)
     return fmt::format(
-        "the calibration is for pictures of {} x {} an eye, and others come: choose "
+        "the calibration is for pictures of {} x {} a camera, and others come: choose "
         "that size with --size",
         left_grey_.cols, left_grey_.rows);
   if (counters_.asked >= 200 && counters_.hinted * 10 < counters_.asked)
-    return "the two eyes hardly agree on anything: are left and right swapped, a lens covered, or "
+    return "the two pictures hardly match: are left and right swapped, a lens covered, or "
            "the "
            "calibration of another camera? dance capture --calibrate makes a new one";
   return {};

@@ -1,15 +1,14 @@
-// StereoDepth: how far a dancer is, from two eyes: the pose network looks with the left one, and
-// patches around what it found are looked for in the right one. All patches vote together for one
-// distance of the hips, then each is matched by itself near there, and a robust mean of what they
-// say is the hint.
+// StereoDepth: a dancer's distance from two cameras: patches around the landmarks in the left
+// picture are matched in the right one. All patches vote together for one distance of the hips,
+// then each is matched near it, and the hint is a robust mean.
 //
 // Units/frames: landmarks in pixels of the raw left picture; pictures blue green red, or grey, of
 //               the rig's size; the hint as producers/camera/depth_hint.h.
 // Ownership:    buffers inside, of the rig's size; nothing is allocated after the first call.
 //               Pictures are read during the call.
 // Threads:      none inside; one owner.
-// Failure:      hint().joints is 0 where the eyes find too little in common; counted. trouble()
-//               says when it is the rig's fault.
+// Failure:      hint().joints is 0 where too few patches match; counted. trouble() reports when the
+//               rig is the cause.
 // Source:       zero-mean normalised cross-correlation; consensus as a plane sweep over the one
 //               unknown.
 #pragma once
@@ -26,12 +25,12 @@
 namespace dance {
 
 struct StereoDepthCounters {
-  std::uint64_t asked = 0;       // somebody was seen
-  std::uint64_t hinted = 0;      // got a depth
-  std::uint64_t one_eyed = 0;    // too few points for even one eye to tell
-  std::uint64_t disagreed = 0;   // no distance that the patches agree on
-  std::uint64_t other_size = 0;  // pictures that are not the rig's
-  std::uint64_t too_few = 0;     // agreed on, but too few matched well
+  std::uint64_t asked = 0;           // with a dancer
+  std::uint64_t hinted = 0;          // got a depth
+  std::uint64_t too_few_points = 0;  // too few points to start the search
+  std::uint64_t disagreed = 0;       // no distance that the patches agree on
+  std::uint64_t other_size = 0;      // pictures that are not the rig's
+  std::uint64_t too_few = 0;         // agreed on, but too few matched well
 };
 
 // What became of one sample.
@@ -53,8 +52,8 @@ class StereoDepth {
   // Of the last call.
   std::span<const SampleMatch> matches() const { return {matches_.begin(), matches_.end()}; }
   const BodySamples& samples() const { return samples_; }
-  // By how much the right eye's rows lie below the left one's where they should be the same: a good
-  // calibration is within one.
+  // By how much the right camera's rows lie below the left one's where they should be the same: a
+  // good calibration is within one.
   double row_offset_px() const { return row_offset_px_; }
   // "" as long as all is well, else one line with the cure, once there is enough to judge by.
   std::string trouble() const;

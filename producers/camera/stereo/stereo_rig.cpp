@@ -9,7 +9,7 @@ namespace dance {
 namespace {
 
 constexpr int kMostPixels = 16384;
-constexpr const char* kCalibrateAnew = "calibrate anew with dance capture --calibrate";
+constexpr const char* kCalibrateAgain = "calibrate again with dance capture --calibrate";
 
 bool is_within(double value, double low, double high) { return value >= low && value <= high; }
 
@@ -26,13 +26,13 @@ Result<Pinhole> checked(const Pinhole& camera, const std::string& what) {
   for (const auto& [name, f] : {std::pair{"fx", camera.fx_px}, std::pair{"fy", camera.fy_px}})
     if (!is_within(f, 0.2 * w, 20.0 * w))
       return fail(fmt::format("{}: {} is {} pixels at a width of {}; {}", what, name, f,
-                              camera.width_px, kCalibrateAnew));
+                              camera.width_px, kCalibrateAgain));
   if (!is_within(camera.cx_px, 0.0, w) || !is_within(camera.cy_px, 0.0, h))
     return fail(fmt::format("{}: its middle ({}, {}) lies outside the picture; {}", what,
-                            camera.cx_px, camera.cy_px, kCalibrateAnew));
+                            camera.cx_px, camera.cy_px, kCalibrateAgain));
   for (double k : camera.distortion)
     if (!is_within(k, -100.0, 100.0))
-      return fail(fmt::format("{}: a distortion coefficient is {}; {}", what, k, kCalibrateAnew));
+      return fail(fmt::format("{}: a distortion coefficient is {}; {}", what, k, kCalibrateAgain));
   return camera;
 }
 
@@ -41,28 +41,29 @@ Result<StereoRig> checked(const StereoRig& rig, const std::string& what) {
   DANCE_TRY(const Pinhole right, checked(rig.right, what + ": the right camera"));
   if (left.width_px != right.width_px || left.height_px != right.height_px)
     return fail(
-        fmt::format("{}: the eyes' pictures differ in size ({} x {}, {} x {}); set both "
-                    "cameras to the same and calibrate anew",
+        fmt::format("{}: the cameras' pictures differ in size ({} x {}, {} x {}); set both "
+                    "cameras to the same and calibrate again",
                     what, left.width_px, left.height_px, right.width_px, right.height_px));
   if (!rig.R_RL.allFinite() ||
       !(rig.R_RL * rig.R_RL.transpose()).isApprox(Eigen::Matrix3d::Identity(), 1e-3) ||
       rig.R_RL.determinant() < 0.0)
-    return fail(fmt::format("{}: R is no rotation; {}", what, kCalibrateAnew));
+    return fail(fmt::format("{}: R is no rotation; {}", what, kCalibrateAgain));
   if (!rig.p_RL_m.allFinite() || !is_within(rig.baseline_m(), 0.01, 2.0))
     return fail(
-        fmt::format("{}: the eyes are {} m apart (T is in metres: divide millimetres by "
+        fmt::format("{}: the cameras are {} m apart (T is in metres: divide millimetres by "
                     "1000); between 0.01 and 2 can be used",
                     what, rig.baseline_m()));
   if (rig.p_RL_m.x() > 0.0)
     return fail(what + ": the right camera stands left of the left one; swap the two");
   if (-rig.p_RL_m.x() < 0.9 * rig.baseline_m())
-    return fail(what +
-                ": the eyes do not stand side by side; mount them in one row, and calibrate anew");
-  // Two eyes that squint by more than this see little in common.
+    return fail(
+        what +
+        ": the cameras do not stand side by side; mount them in one row, and calibrate again");
+  // Cameras turned by more than this have little in common in their pictures.
   if (rig.R_RL.trace() < 1.0 + 2.0 * std::cos(0.5))
     return fail(what +
-                ": the eyes are turned by more than 28 degrees; mount them parallel, and "
-                "calibrate anew");
+                ": the cameras are turned by more than 28 degrees; mount them parallel, and "
+                "calibrate again");
   return rig;
 }
 
@@ -74,7 +75,7 @@ Result<Pinhole> fitted(const Pinhole& camera, int width_px, int height_px,
   if (std::abs(rows - height_px) > 1.0)
     return fail(
         fmt::format("{} was made at {} x {}, and the camera gives {} x {}, which is another "
-                    "shape of picture; calibrate anew at this size, or choose a size of the "
+                    "shape of picture; calibrate again at this size, or choose a size of the "
                     "same shape",
                     what, camera.width_px, camera.height_px, width_px, height_px));
   return resized(camera, width_px, height_px);

@@ -1,12 +1,12 @@
-// StereoRig: two cameras that look the same way, and how they stand to each other; Calibration:
-// what a file of either one camera or two says.
+// StereoRig: two cameras that look the same way, and how they stand to each other; Calibration: of
+// one camera or of two, as a file has it.
 //
 // Units/frames: L and R are the frames of the left and the right camera, each as C of
 //               producers/camera/pinhole.h (raw, not rectified); p_R = R_RL · p_L + p_RL_m, as
-//               OpenCV has it: for eyes side by side p_RL_m is about (-baseline, 0, 0).
+//               OpenCV has it: for cameras side by side p_RL_m is about (-baseline, 0, 0).
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      none; who reads one from a file checks it with checked().
+// Failure:      none; values read from a file have to pass checked().
 #pragma once
 
 #include <Eigen/Core>
@@ -48,7 +48,7 @@ inline Pinhole resized(const Pinhole& camera, int width_px, int height_px) {
   return out;
 }
 
-// The value, or an Error that names `what` ("calib.yml: the left camera"), what is absurd about it
+// The value, or an Error that names `what` ("calib.yml: the left camera"), the implausible value
 // and the cure.
 Result<Pinhole> checked(const Pinhole& camera, const std::string& what);
 Result<StereoRig> checked(const StereoRig& rig, const std::string& what);

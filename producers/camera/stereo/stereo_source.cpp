@@ -17,14 +17,14 @@ class SideBySide : public StereoSource {
     format_.width_px /= 2;
   }
 
-  FrameState next(Duration patience, StereoFrame& out) override {
+  FrameState next(Duration timeout, StereoFrame& out) override {
     Frame frame;
-    const FrameState state = both_->next(patience, frame);
+    const FrameState state = both_->next(timeout, frame);
     if (state != FrameState::kFrame) return state;
     out.left = out.right = frame;
-    EyeViews eyes = split_side_by_side(frame.image);
-    out.left.image = std::move(eyes.left);
-    out.right.image = std::move(eyes.right);
+    StereoViews views = split_side_by_side(frame.image);
+    out.left.image = std::move(views.left);
+    out.right.image = std::move(views.right);
     return state;
   }
   const FrameFormat& format() const override { return format_; }
@@ -36,7 +36,7 @@ class SideBySide : public StereoSource {
   FrameFormat format_;
 };
 
-// What drivers do not say; the slower half of it still tells frames apart.
+// Where drivers report no rate; half its period still separates frames.
 constexpr double kAssumedHz = 30.0;
 // At 10 ms `dance capture stereo eval` finds depth half as exact as at 0.
 constexpr double kGoodSkew_ms = 5.0;
@@ -45,17 +45,17 @@ constexpr std::uint64_t kPairsToJudge = 60;
 class Paired : public StereoSource {
  public:
   Paired(std::unique_ptr<FrameSource> left, std::unique_ptr<FrameSource> right)
-      : eyes_{std::move(left), std::move(right)}, format_(eyes_[0]->format()) {
-    format_.hz = std::min(eyes_[0]->format().hz, eyes_[1]->format().hz);
+      : cameras_{std::move(left), std::move(right)}, format_(cameras_[0]->format()) {
+    format_.hz = std::min(cameras_[0]->format().hz, cameras_[1]->format().hz);
     half_frame_ = Duration::seconds(0.5 / (format_.hz > 0.0 ? format_.hz : kAssumedHz));
-    name_ = eyes_[0]->name() + " and " + eyes_[1]->name();
+    name_ = cameras_[0]->name() + " and " + cameras_[1]->name();
   }
 
-  // Holds the newest of each eye; while they do not belong together the older is dropped and that
-  // eye asked again. One eye is enough to dance: while the right one is gone the left one's
-  // pictures go on alone.
-  FrameState next(Duration patience, StereoFrame& out) override {
-    const MonoTime deadline = mono_now() + patience;
+  // Holds the newest of each side; while they are no pair the older is dropped and that side read
+  // again. The left one is enough to dance: while the right one is unplugged its pictures go on
+  // alone.
+  FrameState next(Duration timeout, StereoFrame& out) override {
+    const MonoTime deadline = mono_now() + timeout;
     if (is_right_gone_) look_for_right();
     for (int asked = 0; asked < kMostAsked; ++asked) {
       if (is_right_gone_ && has_[0]) return give_left(out);
@@ -70,7 +70,7 @@ class Paired : public StereoSource {
         ++unpaired_;
       }
       const Duration left_over = std::max(Duration(), deadline - mono_now());
-      const FrameState state = eyes_[static_cast<std::size_t>(older)]->next(
+      const FrameState state = cameras_[static_cast<std::size_t>(older)]->next(
           left_over, held_[static_cast<std::size_t>(older)]);
       if (state == FrameState::kFrame) {
         has_[older] = true;
@@ -80,7 +80,7 @@ class Paired : public StereoSource {
         is_right_gone_ = state == FrameState::kGone;
         continue;
       }
-      if (state != FrameState::kNone) forget();
+      if (state != FrameState::kNone) reset();
       return state;
     }
     return FrameState::kNone;
@@ -88,8 +88,8 @@ class Paired : public StereoSource {
 
   const FrameFormat& format() const override { return format_; }
   FrameCounters counters() const override {
-    FrameCounters sum = eyes_[0]->counters();
-    const FrameCounters& other = eyes_[1]->counters();
+    FrameCounters sum = cameras_[0]->counters();
+    const FrameCounters& other = cameras_[1]->counters();
     sum.taken = pairs_ + alone_;
     sum.outrun += other.outrun;
     sum.lost += other.lost;
@@ -104,11 +104,11 @@ class Paired : public StereoSource {
     if (is_right_gone_)
       return fmt::format(
           "{} is gone: {} goes on alone, without depth; plug it in again, it is looked for",
-          eyes_[1]->name(), eyes_[0]->name());
+          cameras_[1]->name(), cameras_[0]->name());
     if (pairs_ < kPairsToJudge || mean_skew_ms_ < kGoodSkew_ms) return {};
     return fmt::format(
-        "{} take their pictures {:.1f} ms apart: whoever dances sideways seems nearer or "
-        "farther by that; use a camera that gives both eyes in one picture, or two that "
+        "{} take their pictures {:.1f} ms apart: a dancer who moves sideways seems nearer or "
+        "farther by that; use a camera that delivers both views in one picture, or two that "
         "a wire triggers",
         name_, mean_skew_ms_);
   }
@@ -137,18 +137,18 @@ class Paired : public StereoSource {
   }
   // Does not wait: the left one's picture comes first.
   void look_for_right() {
-    const FrameState state = eyes_[1]->next(Duration(), held_[1]);
+    const FrameState state = cameras_[1]->next(Duration(), held_[1]);
     has_[1] = state == FrameState::kFrame;
     is_right_gone_ = !has_[1] && state != FrameState::kBack;
   }
-  void forget() {
-    for (int eye = 0; eye < 2; ++eye) {
-      if (has_[eye]) ++unpaired_;
-      has_[eye] = false;
+  void reset() {
+    for (int side = 0; side < 2; ++side) {
+      if (has_[side]) ++unpaired_;
+      has_[side] = false;
     }
   }
 
-  std::array<std::unique_ptr<FrameSource>, 2> eyes_;
+  std::array<std::unique_ptr<FrameSource>, 2> cameras_;
   FrameFormat format_;
   std::string name_;
   Duration half_frame_;
@@ -156,21 +156,21 @@ class Paired : public StereoSource {
   bool has_[2] = {false, false};
   bool is_right_gone_ = false;
   std::uint64_t pairs_ = 0;
-  std::uint64_t alone_ = 0;  // of the left eye while the right one was gone
+  std::uint64_t alone_ = 0;  // of the left side while the right one was gone
   std::uint64_t unpaired_ = 0;
   double mean_skew_ms_ = 0.0;
 };
 
 }  // namespace
 
-EyeViews split_side_by_side(const cv::Mat& both) {
+StereoViews split_side_by_side(const cv::Mat& both) {
   const int half = both.cols / 2;
   return {both.colRange(0, half), both.colRange(half, 2 * half)};
 }
 
 Result<std::unique_ptr<StereoSource>> make_side_by_side(std::unique_ptr<FrameSource> both) {
   const FrameFormat& format = both->format();
-  // Two pictures side by side are wider than any single one: 4:3 eyes make 8:3.
+  // Two pictures side by side are wider than any single one: 4:3 cameras make 8:3.
   if (format.width_px % 2 != 0 || format.width_px < 2 * format.height_px)
     return fail(
         fmt::format("{} gives {} x {}, which is no two pictures side by side; choose such a "

@@ -23,7 +23,7 @@ constexpr std::array<ZedSize, 6> kZedSizes{{{"2K", 2208, 1242},
                                             {"SVGA", 960, 600},
                                             {"VGA", 672, 376}}};
 
-constexpr const char* kFetchAnew = "fetch the file anew by the camera's serial number";
+constexpr const char* kFetchAgain = "fetch the file again by the camera's serial number";
 
 std::string_view trimmed(std::string_view text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -78,7 +78,7 @@ class Ini {
 
   Result<double> number(std::string_view section, std::string_view key) const {
     const auto text = text_of(section, key);
-    if (!text) return fail(fmt::format("{}: [{}] has no {}; {}", name_, section, key, kFetchAnew));
+    if (!text) return fail(fmt::format("{}: [{}] has no {}; {}", name_, section, key, kFetchAgain));
     return number_in(*text, section, key);
   }
 
@@ -88,8 +88,8 @@ class Ini {
     const std::string longer = fmt::format("{}_{}", key, suffix);
     if (const auto text = text_of(section, longer)) return number_in(*text, section, longer);
     if (const auto text = text_of(section, key)) return number_in(*text, section, key);
-    return fail(
-        fmt::format("{}: [{}] has neither {} nor {}; {}", name_, section, longer, key, kFetchAnew));
+    return fail(fmt::format("{}: [{}] has neither {} nor {}; {}", name_, section, longer, key,
+                            kFetchAgain));
   }
 
  private:
@@ -103,7 +103,7 @@ class Ini {
     const auto [stop, error] = std::from_chars(begin, end, value);
     if (error != std::errc{} || stop != end || !std::isfinite(value))
       return fail(fmt::format("{}: [{}] {}={} is no number; {}", name_, section, key,
-                              std::string(text.substr(0, 40)), kFetchAnew));
+                              std::string(text.substr(0, 40)), kFetchAgain));
     return value;
   }
 
@@ -128,22 +128,22 @@ const ZedSize* size_for(const Ini& ini, int width_px, int height_px) {
   return best;
 }
 
-Result<Pinhole> read_eye(const Ini& ini, const std::string& section, const ZedSize& size) {
-  Pinhole eye;
-  eye.width_px = size.width_px;
-  eye.height_px = size.height_px;
-  eye.is_measured = true;
-  DANCE_TRY(eye.fx_px, ini.number(section, "fx"));
-  DANCE_TRY(eye.fy_px, ini.number(section, "fy"));
-  DANCE_TRY(eye.cx_px, ini.number(section, "cx"));
-  DANCE_TRY(eye.cy_px, ini.number(section, "cy"));
+Result<Pinhole> read_camera(const Ini& ini, const std::string& section, const ZedSize& size) {
+  Pinhole camera;
+  camera.width_px = size.width_px;
+  camera.height_px = size.height_px;
+  camera.is_measured = true;
+  DANCE_TRY(camera.fx_px, ini.number(section, "fx"));
+  DANCE_TRY(camera.fy_px, ini.number(section, "fy"));
+  DANCE_TRY(camera.cx_px, ini.number(section, "cx"));
+  DANCE_TRY(camera.cy_px, ini.number(section, "cy"));
   constexpr std::array<std::string_view, 5> kNames{"k1", "k2", "p1", "p2", "k3"};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     // Old files end with k2: their lenses were measured without the others.
     if (i >= 2 && !ini.text_of(section, kNames[i])) continue;
-    DANCE_TRY(eye.distortion[i], ini.number(section, kNames[i]));
+    DANCE_TRY(camera.distortion[i], ini.number(section, kNames[i]));
   }
-  return eye;
+  return camera;
 }
 
 }  // namespace
@@ -161,17 +161,17 @@ Result<StereoRig> parse_zed_ini(std::string_view text, const std::string& name, 
                                 int height_px) {
   if (text.size() > kMostZedIni_bytes)
     return fail(fmt::format("{}: {} bytes, and a ZED's file has a few thousand; {}", name,
-                            text.size(), kFetchAnew));
+                            text.size(), kFetchAgain));
   const Ini ini(text, name);
   const ZedSize* size = size_for(ini, width_px, height_px);
   if (!size)
     return fail(
-        fmt::format("{}: no section LEFT_CAM_… for pictures of {} x {} an eye; choose "
-                    "--size so that an eye has 2208x1242, 1920x1080, 1280x720 or 672x376",
+        fmt::format("{}: no section LEFT_CAM_… for pictures of {} x {} a camera; choose "
+                    "--size so that a camera has 2208x1242, 1920x1080, 1280x720 or 672x376",
                     name, width_px, height_px));
   StereoRig rig;
-  DANCE_TRY(rig.left, read_eye(ini, fmt::format("LEFT_CAM_{}", size->suffix), *size));
-  DANCE_TRY(rig.right, read_eye(ini, fmt::format("RIGHT_CAM_{}", size->suffix), *size));
+  DANCE_TRY(rig.left, read_camera(ini, fmt::format("LEFT_CAM_{}", size->suffix), *size));
+  DANCE_TRY(rig.right, read_camera(ini, fmt::format("RIGHT_CAM_{}", size->suffix), *size));
   DANCE_TRY(const double baseline_mm, ini.number("STEREO", "Baseline"));
   DANCE_TRY(const double ty_mm, ini.number("STEREO", "TY", size->suffix));
   DANCE_TRY(const double tz_mm, ini.number("STEREO", "TZ", size->suffix));
@@ -179,12 +179,13 @@ Result<StereoRig> parse_zed_ini(std::string_view text, const std::string& name, 
   DANCE_TRY(const double ry_rad, ini.number("STEREO", "CV", size->suffix));
   DANCE_TRY(const double rz_rad, ini.number("STEREO", "RZ", size->suffix));
   if (baseline_mm < 10.0 || baseline_mm > 2000.0)
-    return fail(fmt::format("{}: [STEREO] Baseline={} mm; a ZED's eyes are 63 to 120 mm apart; {}",
-                            name, baseline_mm, kFetchAnew));
+    return fail(
+        fmt::format("{}: [STEREO] Baseline={} mm; a ZED's cameras are 63 to 120 mm apart; {}", name,
+                    baseline_mm, kFetchAgain));
   const Eigen::Vector3d turn_rad(rx_rad, ry_rad, rz_rad);
   if (turn_rad.norm() > 0.5)
-    return fail(fmt::format("{}: [STEREO] RX, CV, RZ turn the eyes by {} rad; {}", name,
-                            turn_rad.norm(), kFetchAnew));
+    return fail(fmt::format("{}: [STEREO] RX, CV, RZ turn the cameras by {} rad; {}", name,
+                            turn_rad.norm(), kFetchAgain));
   if (turn_rad.norm() > 0.0)
     rig.R_RL = Eigen::AngleAxisd(turn_rad.norm(), turn_rad.normalized()).toRotationMatrix();
   rig.p_RL_m = -1e-3 * Eigen::Vector3d(baseline_mm, ty_mm, tz_mm);

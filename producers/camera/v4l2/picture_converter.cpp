@@ -57,7 +57,7 @@ class PictureConverter::Jpeg {
       handle_ = tjInitDecompress();
       return false;
     }
-    // The header's word is not taken for how much memory to fill.
+    // The header's size is not trusted for allocating memory.
     if (width_px < layout_.width_px || width_px >= layout_.width_px + kJpegSlack_px ||
         height_px < layout_.height_px || height_px >= layout_.height_px + kJpegSlack_px) {
       return false;

@@ -37,7 +37,7 @@ class PictureConverter {
 
   bool convert(std::span<const std::uint8_t> bytes, cv::Mat& bgr);
 
-  // Of the pictures that come out, as far as the layout tells.
+  // Of the converted pictures, as far as the layout determines it.
   int width_px() const;
   int height_px() const;
 

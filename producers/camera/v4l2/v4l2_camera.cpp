@@ -22,10 +22,10 @@ void wait_until(MonoTime when) {
 
 Result<std::unique_ptr<V4l2Camera>> V4l2Camera::open(const std::string& called,
                                                      const CameraWish& wish,
-                                                     const CameraPatience& patience) {
+                                                     const CameraTimeouts& timeout) {
   const std::vector<CameraEntry> cameras = list_cameras();
   DANCE_TRY(const std::string path, camera_path(called, cameras));
-  std::unique_ptr<V4l2Camera> camera(new V4l2Camera(wish, patience));
+  std::unique_ptr<V4l2Camera> camera(new V4l2Camera(wish, timeout));
   if (auto started = camera->start(path); !started) return tl::make_unexpected(started.error());
   for (const CameraEntry& other : cameras) {
     if (other.name == camera->identity_.name && other.bus_info != camera->identity_.bus_info) {
@@ -78,7 +78,7 @@ void V4l2Camera::lose() {
   convert_.reset();
   stream_.reset();
   ++counters_.unplugged;
-  look_at_ = mono_now() + patience_.look_every;
+  look_at_ = mono_now() + timeouts_.look_every;
 }
 
 FrameState V4l2Camera::look_again(MonoTime deadline) {
@@ -86,10 +86,10 @@ FrameState V4l2Camera::look_again(MonoTime deadline) {
     wait_until(std::min(look_at_, deadline));
     if (look_at_ > mono_now()) return FrameState::kGone;
   }
-  look_at_ = mono_now() + patience_.look_every;
+  look_at_ = mono_now() + timeouts_.look_every;
   const std::vector<CameraEntry> cameras = list_cameras();
   const CameraEntry* found = found_again(identity_, others_, cameras);
-  // It may not be ready yet, or another program was faster: the next look tells.
+  // It may not be ready yet, or another program has opened it: tried again at the next look.
   if (found == nullptr || !start(found->path)) return FrameState::kGone;
   return FrameState::kBack;
 }
@@ -97,7 +97,7 @@ FrameState V4l2Camera::look_again(MonoTime deadline) {
 void V4l2Camera::count(const RawPicture& picture) {
   if (driver_sequence_) {
     const std::uint32_t step = picture.sequence - *driver_sequence_;
-    // Some drivers do not count, and some begin anew: neither is a gap.
+    // Some drivers do not count, and some begin again: neither is a gap.
     const bool is_gap = step > 1 && step < (1u << 31);
     if (is_gap) counters_.lost += step - 1;
     sequence_ += is_gap ? step : 1;
@@ -107,12 +107,12 @@ void V4l2Camera::count(const RawPicture& picture) {
   driver_sequence_ = picture.sequence;
 }
 
-// False: none waits that is whole. All others that waited are given back.
+// False: no complete one waits. All others that waited are returned to the driver.
 bool V4l2Camera::take_newest(RawPicture& newest) {
   bool has_one = false;
   RawPicture taken;
   waited_ = 0;
-  // A driver that fills as fast as we give back must not keep us here.
+  // Bounded: a driver may fill buffers as fast as they are returned.
   while (waited_ < 2 * stream_->buffer_count() && stream_->take(taken) == V4l2Stream::Ready::kYes) {
     ++waited_;
     count(taken);
@@ -131,7 +131,8 @@ bool V4l2Camera::take_newest(RawPicture& newest) {
   return has_one;
 }
 
-// With all buffers full a driver throws away what is newer: what waited is as old as we were away.
+// With all buffers full a driver drops newer pictures: those that waited are as old as the last
+// read.
 bool V4l2Camera::is_stale(const RawPicture& picture, MonoTime now) const {
   if (is_refreshing_ || waited_ < stream_->buffer_count()) return false;
   const double hz = stream_->mode().hz() > 0.0 ? stream_->mode().hz() : 30.0;
@@ -139,18 +140,18 @@ bool V4l2Camera::is_stale(const RawPicture& picture, MonoTime now) const {
          now - picture.stamp > Duration::period_of_hz(hz);
 }
 
-// Some cameras stop behind a hub of too little power and come again when they are opened anew.
+// Some cameras stall behind a hub of too little power and work again when they are reopened.
 bool V4l2Camera::is_stalled(MonoTime now) const {
   const double hz = stream_->mode().hz();
   const Duration pictures = hz > 0.0 ? Duration::period_of_hz(hz) * 5 : Duration();
-  return now - alive_at_ > std::max(patience_.stalled_after, pictures);
+  return now - alive_at_ > std::max(timeouts_.stalled_after, pictures);
 }
 
 bool V4l2Camera::show(const RawPicture& picture, Frame& out) {
   const MonoTime now = mono_now();
   const bool is_believable = picture.is_stamp_monotonic && picture.stamp <= now &&
                              now - picture.stamp < kOldest && picture.stamp >= shown_time_;
-  // One clock for a stream: two in turn would make time run back.
+  // One clock for a stream: alternating between two would make times go back.
   has_driver_stamps_ = has_driver_stamps_ && is_believable;
   cv::Mat& picture_now = pictures_.unheld();
   if (!convert_->convert(picture.bytes, picture_now)) {
@@ -165,8 +166,8 @@ bool V4l2Camera::show(const RawPicture& picture, Frame& out) {
   return true;
 }
 
-FrameState V4l2Camera::next(Duration patience, Frame& out) {
-  const MonoTime deadline = mono_now() + patience;
+FrameState V4l2Camera::next(Duration timeout, Frame& out) {
+  const MonoTime deadline = mono_now() + timeout;
   if (!stream_) return look_again(deadline);
   out.image.release();
   for (MonoTime now = mono_now();; now = mono_now()) {

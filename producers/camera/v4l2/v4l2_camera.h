@@ -1,11 +1,11 @@
 // V4l2Camera: a camera of the kernel's as a FrameSource. The newest picture wins, stamps are the
-// driver's, and a camera that was unplugged is looked for until it is back, in whatever socket and
-// under whatever number.
+// driver's, and a camera that was unplugged is looked for until it is back, in any socket and under
+// any number.
 //
 // Units/frames: pixels; capture times are the driver's stamps where it stamps by the monotonic
 //               clock, else when the picture was fetched.
 // Ownership:    owns the device, its buffers and the pictures that frames share; one that is still
-//               held is not painted over.
+//               held is not overwritten.
 // Threads:      one owner; none inside.
 // Failure:      open() names the device, the reason and the cure. Later: see FrameSource.
 #pragma once
@@ -27,9 +27,9 @@
 
 namespace dance {
 
-struct CameraPatience {
-  Duration look_every = Duration::s(1);      // for a camera that is gone
-  Duration stalled_after = Duration::s(10);  // without a picture a camera hangs, and is opened anew
+struct CameraTimeouts {
+  Duration look_every = Duration::s(1);      // for a camera that is unplugged
+  Duration stalled_after = Duration::s(10);  // a camera without pictures for so long is reopened
 };
 
 class V4l2Camera : public FrameSource {
@@ -37,22 +37,22 @@ class V4l2Camera : public FrameSource {
   // `called`: "/dev/video0", "0", "HD Webcam" or a part of it; "" for the first camera.
   static Result<std::unique_ptr<V4l2Camera>> open(const std::string& called,
                                                   const CameraWish& wish = {},
-                                                  const CameraPatience& patience = {});
+                                                  const CameraTimeouts& timeout = {});
 
-  FrameState next(Duration patience, Frame& out) override;
+  FrameState next(Duration timeout, Frame& out) override;
   const FrameFormat& format() const override { return format_; }
   const FrameCounters& counters() const override { return counters_; }
   const std::string& name() const override { return name_; }
 
   // One line for people: what was asked for, what was made of it, whose stamps.
   std::string negotiated() const;
-  // False as soon as a picture came without a believable stamp of the driver's: it and all after it
-  // are stamped when fetched, until the camera is opened anew. Times never go back.
+  // False as soon as a picture came without a plausible driver timestamp: it and all after it
+  // are stamped when fetched, until the camera is reopened. Times never go back.
   bool has_driver_stamps() const { return has_driver_stamps_; }
 
  private:
-  V4l2Camera(const CameraWish& wish, const CameraPatience& patience)
-      : wish_(wish), patience_(patience) {}
+  V4l2Camera(const CameraWish& wish, const CameraTimeouts& timeout)
+      : wish_(wish), timeouts_(timeout) {}
   Result<void> start(const std::string& path);
   FrameState look_again(MonoTime deadline);
   void lose();
@@ -63,7 +63,7 @@ class V4l2Camera : public FrameSource {
   void count(const RawPicture& picture);
 
   CameraWish wish_;
-  CameraPatience patience_;
+  CameraTimeouts timeouts_;
   CameraEntry identity_;                     // by which it is found again
   std::vector<std::string> others_;          // sockets of other cameras of its name
   std::optional<V4l2Stream> stream_;         // empty: the camera is gone

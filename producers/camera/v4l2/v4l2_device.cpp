@@ -15,7 +15,7 @@
 namespace dance {
 namespace {
 
-// Whatever a driver answers, this much is listed.
+// Bound of what is listed of a driver's answers.
 constexpr std::uint32_t kMaxEntries = 256;
 
 std::string text_of_field(const __u8* bytes, std::size_t size) {
@@ -34,7 +34,7 @@ DeviceTrouble open_trouble(const std::string& path, int number) {
     case EACCES:
     case EPERM:
       trouble.what +=
-          "no permission; be in the group video (sudo usermod -aG video $USER, then log in anew)";
+          "no permission; be in the group video (sudo usermod -aG video $USER, then log in again)";
       break;
     case EBUSY:
       trouble.what += "in use; close the program that has it (fuser -v " + path + " names it)";
@@ -214,9 +214,9 @@ std::string holders_of(const std::string& path) {
        process.increment(trouble)) {
     const std::string pid = process->path().filename();
     if (pid.find_first_not_of("0123456789") != std::string::npos || pid == self) continue;
-    std::error_code unseen;
-    for (fs::directory_iterator file(process->path() / "fd", unseen); !unseen && file != end;
-         file.increment(unseen)) {
+    std::error_code ignored;
+    for (fs::directory_iterator file(process->path() / "fd", ignored); !ignored && file != end;
+         file.increment(ignored)) {
       std::error_code gone;
       if (fs::read_symlink(file->path(), gone) != wanted || gone) continue;
       std::ifstream name_file(process->path() / "comm");

@@ -1,4 +1,4 @@
-// V4l2Device: an open video device of the kernel that can capture: who it is and what it offers.
+// V4l2Device: an open video capture device of the kernel: its identity and its modes.
 //
 // Units/frames: pixels, hertz.
 // Ownership:    owns the file descriptor; move only.

@@ -13,7 +13,7 @@
 namespace dance {
 namespace {
 
-// One that the driver fills, one that is read, two for when we are late.
+// One being filled, one being read, two for a reader that is late.
 constexpr __u32 kBuffers = 4;
 constexpr int kMaxTroubles = 50;  // one after the other
 constexpr __u32 kType = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -26,7 +26,7 @@ Error trouble_of(const V4l2Device& device, const std::string& what, int number) 
                          : who + "; close that")};
   }
   if (number == ENODEV) return {device.name() + ": was unplugged; plug it in again"};
-  std::string cure = "; try another size with the wish for it, or plug the camera in anew";
+  std::string cure = "; try another size with the wish for it, or plug the camera in again";
   if (number == ENOSPC) {
     cure = "; the USB bus has no room for it: take another socket, a smaller size or MJPG";
   }
@@ -82,7 +82,7 @@ Result<void> V4l2Stream::negotiate(const CameraWish& wish) {
   }
   if (!is_in_range(format.fmt.pix.width) || !is_in_range(format.fmt.pix.height) ||
       format.fmt.pix.bytesperline > (1u << 20)) {
-    return fail(device_.name() + ": the driver names an impossible size; plug the camera in anew");
+    return fail(device_.name() + ": the driver names an impossible size; plug the camera in again");
   }
   mode_ = *chosen;
   mode_.fourcc = format.fmt.pix.pixelformat;
@@ -145,12 +145,12 @@ void V4l2Stream::hold_the_rate() {
   must_give_the_rate_free_ = was_free && holds_the_rate_;
 }
 
-V4l2Stream::Ready V4l2Stream::wait(Duration patience) const {
+V4l2Stream::Ready V4l2Stream::wait(Duration timeout) const {
   if (is_gone_) return Ready::kGone;
   pollfd wanted{device_.fd(), POLLIN, 0};
   // A fraction of a millisecond rounds up: rounded down it would wait by spinning.
   const std::int64_t ms =
-      std::clamp<std::int64_t>((patience.count_ns() + 999'999) / 1'000'000, 0, 1 << 30);
+      std::clamp<std::int64_t>((timeout.count_ns() + 999'999) / 1'000'000, 0, 1 << 30);
   const int ready = ::poll(&wanted, 1, static_cast<int>(ms));
   if (ready <= 0) return Ready::kNo;
   if ((wanted.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0) return Ready::kGone;

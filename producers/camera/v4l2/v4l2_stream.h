@@ -40,8 +40,8 @@ class V4l2Stream {
   V4l2Stream(V4l2Stream&&) noexcept;
   ~V4l2Stream();
 
-  // Waits for a picture, at most `patience`.
-  Ready wait(Duration patience) const;
+  // Waits for a picture, at most `timeout`.
+  Ready wait(Duration timeout) const;
   // The oldest picture that waits; kNo: none does.
   Ready take(RawPicture& out);
   void give_back(const RawPicture& picture);

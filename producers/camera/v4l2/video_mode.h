@@ -1,4 +1,4 @@
-// VideoMode: one thing a camera offers (encoding, size, rate), and which of them a dancer wants.
+// VideoMode: a mode that a camera offers (encoding, size, rate), and the choice among them.
 //
 // Units/frames: pixels, hertz; the interval between pictures as the fraction of a second that the
 //               driver says, since drivers compare it so.
@@ -30,8 +30,8 @@ struct VideoMode {
   bool operator==(const VideoMode&) const = default;
 };
 
-// What the caller wants; what is not set is chosen: 1280×720, or what is nearest to it, as fast as
-// it goes up to 60 Hz.
+// The requested mode; fields that are not set are chosen: 1280×720, or what is nearest to it, as
+// fast as it goes up to 60 Hz.
 struct CameraWish {
   std::optional<int> width_px;
   std::optional<int> height_px;
@@ -47,8 +47,8 @@ std::string text_of_fourcc(std::uint32_t fourcc);
 // Whether pictures of this encoding can be read.
 bool is_readable(std::uint32_t fourcc);
 
-// Size first, then rate, then the encoding that costs least to read and loses least. Where nobody
-// asked for a size, one that comes at less than 24 Hz loses to the next nearest that does not.
+// Size first, then rate, then the encoding that is cheapest to decode and loses least. Without a
+// requested size, one that comes at less than 24 Hz loses to the next nearest that does not.
 Result<VideoMode> choose_mode(std::span<const VideoMode> modes, const CameraWish& wish);
 
 // "1280x720 MJPG at 30 Hz".

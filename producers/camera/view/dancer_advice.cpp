@@ -42,7 +42,7 @@ std::string_view DancerAdvice::see(const cv::Mat& picture, const BodyLandmarks& 
     view_ = view;
     since_ = body.capture_time;
   }
-  // Good news at once, the rest when it lasts.
+  // Improvements at once, problems when they last.
   const bool is_due = view == View::kWhole || body.capture_time - since_ >= kLasts;
   if (!is_due || (view == said_ && has_said_)) return "";
   said_ = view;

@@ -1,6 +1,6 @@
-// DancerAdvice: tells the dancer in plain words what the camera misses: a covered lens, nobody in
-// the picture, feet or hands cut off. Once a state has lasted, and once when it is over; never a
-// line for every picture.
+// DancerAdvice: messages for the dancer on what the camera misses: a covered lens, nobody in the
+// picture, feet or hands cut off. Once a state has lasted, and once when it is over; never a line
+// for every picture.
 //
 // Units/frames: times of the pictures.
 // Ownership:    allocates nothing in see().
@@ -18,15 +18,14 @@ namespace dance {
 
 class DancerAdvice {
  public:
-  // What is to be said now; "" mostly. The text lives for ever.
+  // The message that is due now; "" mostly. Static text.
   std::string_view see(const cv::Mat& picture, const BodyLandmarks& body);
 
  private:
   enum class View { kWhole, kNobody, kDark, kNoFeet };
   View view_of(const cv::Mat& picture, const BodyLandmarks& body) const;
 
-  View said_ =
-      View::kNobody;  // what the dancer was last told; nobody is there before the first picture
+  View said_ = View::kNobody;  // of the last message; nobody is there before the first picture
   View view_ = View::kNobody;
   MonoTime since_;  // view_ is so since then
   bool has_said_ = false;

@@ -1,4 +1,4 @@
-// The skeleton drawn over the picture that it was seen in: for whoever sets up a camera, and for
+// The skeleton drawn over the picture that it was seen in: for setting up a camera, and for
 // recordings.
 //
 // Units/frames: landmarks in pixels of the picture that is drawn on; blue green red.

@@ -116,7 +116,7 @@ void Preview::draw_all() {
   }
 }
 
-// Whoever reads the file finds a whole picture, the old one or the new.
+// Readers of the file find a complete picture, the old one or the new.
 bool Preview::write_file(const cv::Mat& picture) {
   std::vector<std::uint8_t> bytes;
   const std::string next = options_.file + ".next";

@@ -1,12 +1,13 @@
-// Preview: what the camera sees with the skeleton over it, for whoever asks for it: in a window, or
-// as a picture file that is written anew several times a second. Nothing of it happens on the way
+// Preview: the camera's picture with the skeleton over it, on request: in a window, or
+// as a picture file that is rewritten several times a second. Nothing of it happens on the way
 // of a pose but one shrunken copy.
 //
 // Units/frames: pixels; the preview is at most 640 wide.
 // Ownership:    owns its thread and its window.
 // Threads:      one inside, which draws and writes; show() never waits for it.
 // Failure:      open() says why there can be no window, or that the file cannot be written; later
-//               trouble with the file or a picture ends the preview, and trouble() tells it.
+//               trouble with the file or a picture ends the preview, and trouble() gives the
+//               reason.
 #pragma once
 
 #include <array>
@@ -48,7 +49,7 @@ class Preview {
   void show(const Frame& frame, const BodyLandmarks& body, std::string_view caption);
   // True once the window was closed by its user.
   bool was_closed() const { return was_closed_; }
-  // Set once: what ended the preview; "" while all is well. Any thread may ask.
+  // Set once: what ended the preview; "" while all is well. Callable from any thread.
   std::string trouble() const { return failed_ ? trouble_ : std::string(); }
 
  private:

@@ -1,7 +1,6 @@
 // PlayPlan: which frame of a song goes into which frame of a sound stream, so that the song is
-//           heard
-// on time in spite of latency and of the sound card's drift: small errors are corrected by playing
-// up to 0.2 % faster or slower, large ones by a jump.
+// heard on time in spite of latency and of the sound card's drift: small errors are corrected by
+// playing up to 0.2 % faster or slower, large ones by a jump.
 //
 // Units/frames: stream frames count from the stream's begin; song frames are the song's seconds
 //               times the rate, and may be negative: not yet begun. `begin` is when song frame 0 is

@@ -47,12 +47,12 @@ void BeatTracker::end_hop() {
   for (std::size_t g = 0; g + 1 < kOnsetGroups; ++g)
     strokes += strengths[g] / static_cast<float>(kOnsetGroups - 1);
   since_stroke_hops_ = strokes > kStroke ? 0 : since_stroke_hops_ + 1;
-  const float believed = std::clamp(static_cast<float>(kBreak_hops - since_stroke_hops_) /
-                                        static_cast<float>(kBreak_hops - kBreakBegins_hops),
-                                    0.0f, 1.0f);
+  const float weight = std::clamp(static_cast<float>(kBreak_hops - since_stroke_hops_) /
+                                      static_cast<float>(kBreak_hops - kBreakBegins_hops),
+                                  0.0f, 1.0f);
   features_.push(onsets_, strengths);
   features_.read(feature_values_);
-  pointer_.push(strengths, model_->net.judge(feature_values_), believed);
+  pointer_.push(strengths, model_->net.judge(feature_values_), weight);
 
   const double now_s = static_cast<double>(hops_) * hop_s_;
   lock_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);
@@ -61,7 +61,7 @@ void BeatTracker::end_hop() {
   beat_.beat_time = MonoTime{} + Duration::seconds(lock_.next_s());
   beat_.beat = static_cast<double>(lock_.number());
   beat_.tempo_bpm = 60.0 / lock_.period_s();
-  beat_.confidence = std::clamp(static_cast<float>(lock_.certainty()), 0.0f, 1.0f) * believed;
+  beat_.confidence = std::clamp(static_cast<float>(lock_.certainty()), 0.0f, 1.0f) * weight;
   beat_.playing = sounding_hops_ >= kKnownAfter_hops && since_stroke_hops_ < kSilentAfter_hops;
 }
 

@@ -4,10 +4,10 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/random.h"
+#include "producers/camera/estimator/identity_switch_detector.h"
 #include "producers/camera/estimator/one_euro.h"
-#include "producers/camera/estimator/people_watch.h"
-#include "producers/camera/estimator/person_memory.h"
 #include "producers/camera/estimator/region_sampler.h"
+#include "producers/camera/estimator/target_tracker.h"
 
 namespace dance {
 namespace {
@@ -116,11 +116,11 @@ TEST(OneEuro, TheFirstNumberComesBackAsItIs) {
 
 MonoTime ms(std::int64_t n) { return MonoTime{} + Duration::ms(n); }
 
-TEST(PersonMemory, ChoosesAsOneWishes) {
+TEST(TargetTracker, ChoosesAsOneWishes) {
   const std::array<SeenPerson, 3> people{SeenPerson{0.9f, {100.0f, 100.0f, 50.0f, 0.0f}},
                                          SeenPerson{0.8f, {300.0f, 100.0f, 90.0f, 0.0f}},
                                          SeenPerson{0.7f, {500.0f, 100.0f, 60.0f, 0.0f}}};
-  const PersonMemory memory;
+  const TargetTracker memory;
   FollowOptions follow;
   EXPECT_EQ(memory.choose(people, ms(0), follow), &people[0]);
   follow.choice = FollowOptions::Choice::kLargest;
@@ -131,13 +131,13 @@ TEST(PersonMemory, ChoosesAsOneWishes) {
   EXPECT_EQ(memory.choose({}, ms(0), follow), nullptr);
 }
 
-TEST(PersonMemory, ALostPersonComesFirstForAWhile) {
+TEST(TargetTracker, ALostPersonComesFirstForAWhile) {
   const std::array<SeenPerson, 2> people{SeenPerson{0.9f, {100.0f, 100.0f, 50.0f, 0.0f}},
                                          SeenPerson{0.7f, {500.0f, 100.0f, 60.0f, 0.0f}}};
-  PersonMemory memory;
+  TargetTracker memory;
   const FollowOptions follow;
-  memory.see({490.0f, 100.0f, 60.0f, 0.0f}, ms(1000));
-  memory.lose();
+  memory.update({490.0f, 100.0f, 60.0f, 0.0f}, ms(1000));
+  memory.on_lost();
   EXPECT_EQ(memory.choose(people, ms(1100), follow), &people[1]);
   // Somebody else, far away, is not taken for the lost one at once.
   const std::span<const SeenPerson> other(people.data(), 1);
@@ -146,13 +146,13 @@ TEST(PersonMemory, ALostPersonComesFirstForAWhile) {
   EXPECT_EQ(memory.choose(people, ms(9000), follow), &people[0]);
 }
 
-TEST(PersonMemory, ABodyDoesNotJump) {
-  PersonMemory memory;
+TEST(TargetTracker, ABodyDoesNotJump) {
+  TargetTracker memory;
   // It moves by 10 px, a tenth of the region's side, each 33 ms.
   for (int i = 0; i < 20; ++i) {
     const BodyRegion region{100.0f + 10.0f * static_cast<float>(i), 50.0f, 100.0f, 0.0f};
     EXPECT_TRUE(memory.is_plausible(region, ms(33 * i)));
-    memory.see(region, ms(33 * i));
+    memory.update(region, ms(33 * i));
   }
   EXPECT_TRUE(memory.is_plausible({300.0f, 50.0f, 100.0f, 0.0f}, ms(33 * 20)));
   // To somebody who stands where it passed.
@@ -169,7 +169,7 @@ class Passing {
 
   // Gives where the region was sent, if anywhere.
   std::optional<BodyRegion> play(bool is_taken_along) {
-    PeopleWatch watch;
+    IdentitySwitchDetector watch;
     bool have_met = false;
     for (int i = 0; i < 100; ++i) {
       const MonoTime now = ms(50 * i);
@@ -180,7 +180,7 @@ class Passing {
       const std::array<SeenPerson, 2> both{SeenPerson{0.9f, region_at(walker_px)},
                                            SeenPerson{0.8f, region_at(600.0f)}};
       if (!watch.is_due(now)) continue;
-      const auto sent = watch.look({both.data(), is_one ? 1u : 2u}, followed, now);
+      const auto sent = watch.update({both.data(), is_one ? 1u : 2u}, followed, now);
       if (sent) return sent;
     }
     return std::nullopt;
@@ -191,7 +191,7 @@ class Passing {
   float walk_px_s_;
 };
 
-TEST(PeopleWatch, WhoPassesDoesNotTakeTheDancersPlace) {
+TEST(IdentitySwitchDetector, WhoPassesDoesNotTakeTheDancersPlace) {
   for (const float walk_px_s : {120.0f, 200.0f, 300.0f}) {
     const auto sent = Passing(walk_px_s).play(true);
     ASSERT_TRUE(sent) << walk_px_s;
@@ -199,19 +199,19 @@ TEST(PeopleWatch, WhoPassesDoesNotTakeTheDancersPlace) {
   }
 }
 
-TEST(PeopleWatch, NobodyIsExchangedWhereTheDancerStayed) {
+TEST(IdentitySwitchDetector, NobodyIsExchangedWhereTheDancerStayed) {
   for (const float walk_px_s : {120.0f, 200.0f, 300.0f})
     EXPECT_FALSE(Passing(walk_px_s).play(false)) << walk_px_s;
 }
 
-TEST(PeopleWatch, LooksSeldomAtOneWhoIsAlone) {
-  PeopleWatch watch;
+TEST(IdentitySwitchDetector, LooksSeldomAtOneWhoIsAlone) {
+  IdentitySwitchDetector watch;
   const SeenPerson alone{0.9f, {600.0f, 300.0f, 500.0f, 0.0f}};
   int looks = 0;
   for (int i = 0; i < 300; ++i) {
     if (!watch.is_due(ms(33 * i))) continue;
     ++looks;
-    EXPECT_FALSE(watch.look({&alone, 1}, alone.region, ms(33 * i)));
+    EXPECT_FALSE(watch.update({&alone, 1}, alone.region, ms(33 * i)));
   }
   EXPECT_LE(looks, 10);
 }

@@ -5,7 +5,7 @@
 #include "core/base/random.h"
 #include "core/pose/kinematics.h"
 #include "producers/camera/solver/body_fit.h"
-#include "producers/camera/solver/motion_memory.h"
+#include "producers/camera/solver/motion_filter.h"
 
 namespace dance {
 namespace {
@@ -55,14 +55,14 @@ TEST(BodyState, KneesAndElbowsStopWhereTheyEnd) {
 
 // Two pictures may be stamped microseconds apart; where they differ the body is not as fast as a
 // bullet.
-TEST(MotionMemory, PicturesOfOneMomentMakeNoSpeed) {
-  PartSight sight;
+TEST(MotionFilter, PicturesOfOneMomentMakeNoSpeed) {
+  PartVisibility sight;
   sight.fill(1.0);
   const BodyState here = state_at_ease();
   DofVector centimetre = DofVector::Zero();
   centimetre[dof::kPlace] = 0.01;
   for (const double seconds : {0.0, 1e-6, 1e-4, 1e-3}) {
-    MotionMemory memory;
+    MotionFilter memory;
     memory.begin(here);
     BodyState there = here;
     move(there, centimetre);

@@ -21,7 +21,7 @@ TEST(CameraPlacement, FindsTheFloorFromFeetThatWalkOnIt) {
   Random random(3);
   CameraPlacement placement;
   for (int i = 0; i < 600; ++i) {
-    placement.see_foot(on_floor(random.uniform(-1.0, 1.0), random.uniform(2.0, 5.0), 1.6, 0.2));
+    placement.add_foot(on_floor(random.uniform(-1.0, 1.0), random.uniform(2.0, 5.0), 1.6, 0.2));
     placement.update();
   }
   EXPECT_TRUE(placement.is_settled());
@@ -34,8 +34,8 @@ TEST(CameraPlacement, FindsTheFloorFromFeetThatWalkOnIt) {
 TEST(CameraPlacement, OfOneWhoStandsStillUprightDecidesTheTilt) {
   CameraPlacement placement;
   for (int i = 0; i < 300; ++i) {
-    placement.see_upright({0.0, -std::cos(0.2), -std::sin(0.2)});
-    placement.see_foot(on_floor(0.0, 3.0, 1.6, 0.2));
+    placement.add_upright({0.0, -std::cos(0.2), -std::sin(0.2)});
+    placement.add_foot(on_floor(0.0, 3.0, 1.6, 0.2));
     placement.update();
   }
   EXPECT_NEAR(placement.pitch_rad(), 0.2, 0.06);
@@ -58,9 +58,9 @@ TEST(CameraPlacement, WhateverFeetDoTheCameraStaysPlausible) {
   for (int i = 0; i < 2000; ++i) {
     const double size = std::pow(10.0, random.uniform(-3.0, 6.0));
     const double bad = i % 7 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1.0;
-    placement.see_foot(
+    placement.add_foot(
         {size * random.normal(), bad * size * random.normal(), size * random.normal()});
-    placement.see_upright({random.normal(), bad * random.normal(), random.normal()});
+    placement.add_upright({random.normal(), bad * random.normal(), random.normal()});
     placement.update();
     ASSERT_GE(placement.height_m(), 0.05);
     ASSERT_LE(placement.height_m(), 5.0);

@@ -58,7 +58,7 @@ TEST_F(CameraFaults, ADamagedNewestLeavesTheOneBeforeIt) {
   ASSERT_NE(camera, nullptr);
   Frame frame;
   shim_->tick(3);
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_EQ(number_of(frame), 1);
   EXPECT_EQ(camera->counters().damaged, 1u);
   EXPECT_EQ(camera->counters().outrun, 1u);
@@ -85,7 +85,7 @@ TEST_F(CameraFaults, WaitsForACameraThatIsSlowToStart) {
   Frame frame;
   for (int i = 0; i < 5; ++i) EXPECT_EQ(camera->next(Duration::ms(1), frame), FrameState::kNone);
   shim_->tick(1);
-  EXPECT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  EXPECT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
 }
 
 // Asks until something else comes than `is_over`.
@@ -102,11 +102,11 @@ TEST_F(CameraFaults, AnUnpluggedCameraComesBackUnderAnotherNumber) {
   ASSERT_NE(camera, nullptr);
   Frame frame;
   shim_->tick(2);
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   const std::uint64_t before = frame.sequence;
   shim_->tick(1);  // what still waits goes with the cable
   shim_->unplug();
-  EXPECT_EQ(camera->next(kPatience, frame), FrameState::kGone);
+  EXPECT_EQ(camera->next(kFrameTimeout, frame), FrameState::kGone);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(camera->next(Duration::ms(2), frame), FrameState::kGone);
   EXPECT_EQ(camera->negotiated(), "Shim Camera (/dev/video42): unplugged");
 
@@ -115,7 +115,7 @@ TEST_F(CameraFaults, AnUnpluggedCameraComesBackUnderAnotherNumber) {
   ASSERT_EQ(after(FrameState::kGone, *camera, frame), FrameState::kBack);
   EXPECT_EQ(camera->name(), "Shim Camera (/dev/video47)");
   shim_->tick(1);
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_EQ(number_of(frame), 0);
   EXPECT_GT(frame.sequence, before);
   EXPECT_EQ(camera->counters().unplugged, 1u);
@@ -132,7 +132,7 @@ TEST_F(CameraFaults, ACameraThatHangsIsOpenedAnew) {
   ASSERT_EQ(after(FrameState::kNone, *camera, frame), FrameState::kGone);
   ASSERT_EQ(after(FrameState::kGone, *camera, frame), FrameState::kBack);
   shim_->tick(1);
-  EXPECT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  EXPECT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_EQ(camera->counters().unplugged, 1u);
 }
 
@@ -142,7 +142,7 @@ TEST_F(CameraFaults, AnotherCameraIsNotTakenForTheLostOne) {
   ASSERT_NE(camera, nullptr);
   Frame frame;
   shim_->unplug();
-  EXPECT_EQ(camera->next(kPatience, frame), FrameState::kGone);
+  EXPECT_EQ(camera->next(kFrameTimeout, frame), FrameState::kGone);
   shim_->change("card=Another_Camera");
   shim_->plug();
   for (int i = 0; i < 20; ++i) EXPECT_EQ(camera->next(Duration::ms(2), frame), FrameState::kGone);

@@ -14,7 +14,7 @@
 namespace dance {
 namespace {
 
-constexpr Duration kPatience = Duration::ms(500);
+constexpr Duration kFrameTimeout = Duration::ms(500);
 
 void print(const FrameSource& source) {
   const FrameCounters& c = source.counters();
@@ -43,7 +43,7 @@ int probe(const std::string& called, const SourceOptions& options, int wanted, W
   int taken = 0;
   bool counts = when_gone != WhenGone::kCountAnew;
   while ((!counts || taken < wanted) && mono_now() < end) {
-    switch ((*source)->next(kPatience, frame)) {
+    switch ((*source)->next(kFrameTimeout, frame)) {
       case FrameState::kFrame: {
         const cv::Scalar mean = cv::mean(frame.image);
         const Duration age = mono_now() - frame.capture_time;

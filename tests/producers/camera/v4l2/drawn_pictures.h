@@ -1,5 +1,5 @@
 // Pictures that tests draw, and the bytes that a camera would make of them by the book: written
-// here anew, so that nothing is compared with itself.
+// here again, so that nothing is compared with itself.
 //
 // Units/frames: pixels; blue green red.
 // Ownership:    plain values.

@@ -23,7 +23,7 @@ class CameraTest : public testing::Test {
  protected:
   static constexpr const char* kPath = "/dev/video42";
   // Long enough for any machine; what it waits for comes before it.
-  static constexpr Duration kPatience = Duration::s(60);
+  static constexpr Duration kFrameTimeout = Duration::s(60);
 
   void SetUp() override {
     using Find = VideoShim*();

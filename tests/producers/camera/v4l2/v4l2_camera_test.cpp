@@ -26,7 +26,7 @@ TEST_P(Colours, AreThoseThatTheCameraSaw) {
     ASSERT_NE(camera, nullptr);
     shim_->tick(1);
     Frame frame;
-    ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+    ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
     EXPECT_LT(mean_difference(frame.image, seen), 2.5) << encoding << " padded by " << pad_bytes;
     EXPECT_EQ(camera->format().encoding, encoding);
     EXPECT_EQ(camera->format().width_px, 96);
@@ -44,7 +44,7 @@ TEST_F(CameraTest, StampsAreTheDrivers) {
   ASSERT_NE(camera, nullptr);
   shim_->tick(1);
   Frame frame;
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_EQ(frame.capture_time.since_zero_us(), shim_->newest_stamp_us());
   EXPECT_GE(frame.fetched, frame.capture_time);
   EXPECT_LE(frame.fetched, mono_now());
@@ -61,7 +61,7 @@ TEST_F(CameraTest, SaysWhereTheDriverHasAnotherClock) {
     const MonoTime before = mono_now();
     shim_->tick(1);
     Frame frame;
-    ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+    ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
     EXPECT_GE(frame.capture_time, before);
     EXPECT_LE(frame.capture_time, mono_now());
     EXPECT_EQ(frame.fetched, frame.capture_time);
@@ -83,7 +83,7 @@ TEST_F(CameraTest, AStampThatCannotBeIsTheLastThatIsBelieved) {
       shim_->change(words);
       const MonoTime before = mono_now();
       shim_->tick(1);
-      ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+      ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
       EXPECT_GE(frame.capture_time, last) << odd << ", then " << words;
       last = frame.capture_time;
       EXPECT_LE(last, mono_now());
@@ -102,11 +102,11 @@ TEST_F(CameraTest, GivesASlowReaderTheNewestAndCountsTheRest) {
   ASSERT_NE(camera, nullptr);
   Frame frame;
   shim_->tick(1);
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_EQ(number_of(frame), 0);
   const std::uint64_t first = frame.sequence;
   shim_->tick(3);
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_EQ(number_of(frame), 3);
   EXPECT_EQ(frame.sequence, first + 3);
   EXPECT_EQ(camera->counters().taken, 2u);
@@ -129,7 +129,7 @@ TEST_F(CameraTest, DoesNotShowWhatWaitedWhileTheDriverHadNoRoomForTheNew) {
   EXPECT_EQ(camera->counters().outrun, 4u);
   EXPECT_EQ(shim_->free_buffers(), 4);
   shim_->tick(1);
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_EQ(number_of(frame), 9);
   EXPECT_EQ(camera->counters().lost, 5u);
   // Somebody who is always so slow still gets pictures: every second time.
@@ -146,9 +146,9 @@ TEST_F(CameraTest, AFrameThatIsStillHeldIsNotPaintedOver) {
   ASSERT_NE(camera, nullptr);
   Frame first, second;
   shim_->tick(1);
-  ASSERT_EQ(camera->next(kPatience, first), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, first), FrameState::kFrame);
   shim_->tick(1);
-  ASSERT_EQ(camera->next(kPatience, second), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, second), FrameState::kFrame);
   EXPECT_EQ(number_of(first), 0);
   EXPECT_EQ(number_of(second), 1);
 }
@@ -162,7 +162,7 @@ TEST_F(CameraTest, PicturesTakeTurnsInTheSameMemory) {
   const void* memory = nullptr;
   for (int i = 0; i < 5; ++i) {
     shim_->tick(1);
-    ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+    ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
     if (i == 0) memory = frame.image.data;
     EXPECT_EQ(frame.image.data, memory);
   }
@@ -179,7 +179,7 @@ TEST_F(CameraTest, APictureAllocatesNothing) {
     Frame frame;
     for (int i = 0; i < 10; ++i) {
       shim_->tick(1);
-      ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+      ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
     }
     const AllocationGuard guard;
     for (int i = 0; i < 50; ++i) {
@@ -197,7 +197,7 @@ TEST_F(CameraTest, TakesWhatTheDriverMadeOfTheWish) {
   ASSERT_NE(camera, nullptr);
   shim_->tick(1);
   Frame frame;
-  ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+  ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
   EXPECT_LT(mean_difference(frame.image, drawn_colours(32, 24)), 3.5);
   EXPECT_EQ(camera->format().hz, 10.0);
   EXPECT_EQ(camera->negotiated(),
@@ -240,7 +240,7 @@ TEST_F(CameraTest, ReadsMotionJpegOfFourThousandPixels) {
     ASSERT_NE(camera, nullptr);
     shim_->tick(1);
     Frame frame;
-    ASSERT_EQ(camera->next(kPatience, frame), FrameState::kFrame);
+    ASSERT_EQ(camera->next(kFrameTimeout, frame), FrameState::kFrame);
     const int height_px = max_height_px == 0 ? 2160 : max_height_px == 1080 ? 1080 : 540;
     EXPECT_EQ(frame.image.rows, height_px);
     EXPECT_EQ(frame.image.cols, height_px * 16 / 9);

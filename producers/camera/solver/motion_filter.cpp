@@ -1,4 +1,4 @@
-#include "producers/camera/solver/motion_memory.h"
+#include "producers/camera/solver/motion_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@ namespace dance {
 namespace {
 
 // How fast speeds change while people dance (standard deviation, m/s² and rad/s²), and how far from
-// a body at ease they are (m and rad). `dance capture solve eval` tuned them.
+// the rest posture they are (m and rad). `dance capture solve eval` tuned them.
 struct Way {
   int first, count;
   Part part;
@@ -32,16 +32,15 @@ constexpr Way kSideWays[]{
     {dof::kKnee, 1, Part::kLegLeft, 130.0, {1.5, 0.0, 0.0}},
     {dof::kFoot, 3, Part::kFootLeft, 130.0, {0.5, 0.4, 0.3}},
 };
-// Speeds die away so fast, seen and unseen.
+// Decay times of speeds, visible and hidden.
 constexpr double kFade_s = 0.4, kBlindFade_s = 0.12;
-// A part that is not seen is drawn to ease so much more.
+// A hidden part is drawn so much more to the rest posture.
 constexpr double kBlindEase = 2.2;
-// Of what the body was found off its expectation, the share that its speed takes over.
+// The filter's beta: the share of the prediction error that corrects the speed.
 constexpr double kBeta = 0.6;
 // Between two pictures of most cameras.
 constexpr double kUsual_s = 1.0 / 30.0;
-// Between two pictures of the quickest cameras, and what is no time at all: only what would divide
-// by nothing.
+// Between two pictures of the quickest cameras, and a lower bound that avoids division by zero.
 constexpr double kLeast_s = 0.002, kNoTime_s = 1e-9;
 constexpr double kHardlySeen = 0.1;
 
@@ -57,19 +56,19 @@ void visit_ways(Visit visit) {
 
 }  // namespace
 
-PartSight sight_of(const Observation& seen) {
+PartVisibility visibility_of(const Observation& seen) {
   const auto least = [&seen](std::initializer_list<Landmark> points, std::size_t s) {
     double weight = 1.0;
     for (const Landmark l : points) weight = std::min(weight, seen.weight[index_of(l) + s]);
     return weight;
   };
-  PartSight sight{};
-  const auto put = [&sight](Part part, double value) {
-    sight[static_cast<std::size_t>(part)] = value;
+  PartVisibility visibility{};
+  const auto put = [&visibility](Part part, double value) {
+    visibility[static_cast<std::size_t>(part)] = value;
   };
   put(Part::kTorso, std::min(least({Landmark::kLeftShoulder, Landmark::kLeftHip}, 0),
                              least({Landmark::kLeftShoulder, Landmark::kLeftHip}, 1)));
-  // Points of the head and the hand are trusted half.
+  // Points of the head and the hand have half the weight.
   put(Part::kHead,
       2.0 * std::max(seen.weight_of(Landmark::kLeftEar), seen.weight_of(Landmark::kRightEar)));
   for (std::size_t s = 0; s < 2; ++s) {
@@ -82,8 +81,8 @@ PartSight sight_of(const Observation& seen) {
         least({Landmark::kLeftKnee, Landmark::kLeftAnkle}, s));
     put(left ? Part::kFootLeft : Part::kFootRight, least({Landmark::kLeftFootIndex}, s));
   }
-  for (double& value : sight) value = std::min(value, 1.0);
-  return sight;
+  for (double& value : visibility) value = std::min(value, 1.0);
+  return visibility;
 }
 
 std::uint32_t bones_of(Part part) {
@@ -115,10 +114,10 @@ std::uint32_t bones_of(Part part) {
   return 0;
 }
 
-DofVector precision_of_ease(const PartSight& sight) {
+DofVector rest_precision(const PartVisibility& visibility) {
   DofVector precision;
   visit_ways([&](const Way& way, int first, Part part) {
-    const bool blind = sight[static_cast<std::size_t>(part)] < kHardlySeen;
+    const bool blind = visibility[static_cast<std::size_t>(part)] < kHardlySeen;
     for (int i = 0; i < way.count; ++i) {
       const double sd = way.ease[i] / (blind && way.ease[i] < kAnywhere ? kBlindEase : 1.0);
       precision[first + i] = 1.0 / (sd * sd);
@@ -127,18 +126,18 @@ DofVector precision_of_ease(const PartSight& sight) {
   return precision;
 }
 
-void MotionMemory::begin(const BodyState& state) {
+void MotionFilter::begin(const BodyState& state) {
   state_ = state;
   speed_.setZero();
 }
 
-Expectation MotionMemory::expect(double seconds, const PartSight& sight) const {
+Expectation MotionFilter::expect(double seconds, const PartVisibility& visibility) const {
   Expectation expected;
-  expected.ease = precision_of_ease(sight);
+  expected.ease = rest_precision(visibility);
   DofVector step;
   visit_ways([&](const Way& way, int first, Part part) {
     const double fade_s =
-        sight[static_cast<std::size_t>(part)] < kHardlySeen ? kBlindFade_s : kFade_s;
+        visibility[static_cast<std::size_t>(part)] < kHardlySeen ? kBlindFade_s : kFade_s;
     // ∫ e^(−t/τ) dt
     const double way_s = fade_s * (1.0 - std::exp(-seconds / fade_s));
     // A speed that changes moves the body off by its change times the time squared; of quick
@@ -154,11 +153,11 @@ Expectation MotionMemory::expect(double seconds, const PartSight& sight) const {
   return expected;
 }
 
-void MotionMemory::follow(const Expectation& expected, const BodyState& state, double seconds) {
+void MotionFilter::follow(const Expectation& expected, const BodyState& state, double seconds) {
   const DofVector way = step_between(state_, expected.state),
                   missed = step_between(expected.state, state);
   // What was expected to be gone is the old speed, faded. Pictures that are stamped microseconds
-  // apart miss by as much as others do: no speed can be told from that.
+  // apart miss by as much as others do: they do not determine a speed.
   speed_ = way / std::max(seconds, kNoTime_s) + kBeta * missed / std::max(seconds, kLeast_s);
   state_ = state;
 }

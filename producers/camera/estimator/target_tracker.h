@@ -1,10 +1,10 @@
-// PersonMemory: which of several people is the one who is followed. It knows where that person was
-// last and how fast, and says whether what is seen now can be the same body.
+// TargetTracker: which of several people is the tracked one, and whether a new detection can be the
+// same body, by its last place and speed.
 //
 // Units/frames: regions in pixels; times are those of the frames.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      none; who is nobody's neighbour is chosen as FollowOptions says.
+// Failure:      none; without a recent target one is chosen as FollowOptions says.
 #pragma once
 
 #include <optional>
@@ -19,26 +19,26 @@ struct FollowOptions {
   enum class Choice { kSurest, kLargest, kNearest };
   Choice choice = Choice::kSurest;
   Eigen::Vector2f place_px = Eigen::Vector2f::Zero();  // of kNearest
-  // So long after a loss whoever is nearest in place and size to the lost one comes first; 0:
-  // nobody does.
-  Duration remembers = Duration::s(3);
+  // For this long after a loss the person most similar in place and size to the lost one is
+  // preferred; 0: never.
+  Duration reacquire_time = Duration::s(3);
   bool refuses_jumps = true;
-  // Looks now and then at the whole picture, to notice who crosses: PeopleWatch.
+  // Searches the whole picture now and then, for IdentitySwitchDetector.
   bool watches_others = true;
 };
 
-class PersonMemory {
+class TargetTracker {
  public:
-  // nullptr where nobody is there who may be the one.
+  // nullptr where no candidate is plausible.
   const SeenPerson* choose(std::span<const SeenPerson> people, MonoTime now,
                            const FollowOptions& options) const;
-  // Whether a body that was where see() said may be in this region now.
+  // Whether the target can be in this region now.
   bool is_plausible(const BodyRegion& region, MonoTime now) const;
-  // The person was seen in this region.
-  void see(const BodyRegion& region, MonoTime now);
-  // The person was lost: the speed is no longer known.
-  void lose() { speed_px_s_.setZero(); }
-  void forget() { *this = {}; }
+  // The target was detected in this region.
+  void update(const BodyRegion& region, MonoTime now);
+  // The target was lost: its speed is no longer known.
+  void on_lost() { speed_px_s_.setZero(); }
+  void reset() { *this = {}; }
 
  private:
   std::optional<BodyRegion> last_;

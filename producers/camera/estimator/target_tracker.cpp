@@ -1,4 +1,4 @@
-#include "producers/camera/estimator/person_memory.h"
+#include "producers/camera/estimator/target_tracker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,35 +8,34 @@ namespace {
 
 // In sides of the region, which are about one and a half times a body's height: how far the middle
 // of the hips may be from where it is expected, at once and for each second since the last picture.
-// Half of it is what the fastest dancers do.
+// Twice what the fastest dancers reach.
 constexpr float kJump_sides = 0.15f;
 constexpr float kJump_sides_per_s = 2.0f;
 constexpr float kGrowth = 1.5f;
-// Just after a loss somebody farther away than this is somebody else.
+// Just after a loss a person farther away than this is not the target.
 constexpr Duration kShort = Duration::ms(500);
 constexpr float kNear_sides = 0.6f;
 constexpr float kSpeedWeight = 0.3f;
 
-float strangeness(const BodyRegion& was, const BodyRegion& is) {
+float dissimilarity(const BodyRegion& was, const BodyRegion& is) {
   return (centre_of(is) - centre_of(was)).norm() / was.side_px +
          std::abs(std::log(is.side_px / was.side_px));
 }
 
 }  // namespace
 
-const SeenPerson* PersonMemory::choose(std::span<const SeenPerson> people, MonoTime now,
-                                       const FollowOptions& options) const {
+const SeenPerson* TargetTracker::choose(std::span<const SeenPerson> people, MonoTime now,
+                                        const FollowOptions& options) const {
   if (people.empty()) return nullptr;
-  const auto best = [&](const auto& badness) {
-    return &*std::min_element(people.begin(), people.end(),
-                              [&](const SeenPerson& a, const SeenPerson& b) {
-                                return badness(a.region) < badness(b.region);
-                              });
+  const auto best = [&](const auto& cost) {
+    return &*std::min_element(
+        people.begin(), people.end(),
+        [&](const SeenPerson& a, const SeenPerson& b) { return cost(a.region) < cost(b.region); });
   };
-  if (last_ && now - last_time_ < options.remembers) {
+  if (last_ && now - last_time_ < options.reacquire_time) {
     const SeenPerson* person =
-        best([&](const BodyRegion& region) { return strangeness(*last_, region); });
-    const bool is_near = strangeness(*last_, person->region) < kNear_sides;
+        best([&](const BodyRegion& region) { return dissimilarity(*last_, region); });
+    const bool is_near = dissimilarity(*last_, person->region) < kNear_sides;
     return is_near || now - last_time_ > kShort ? person : nullptr;
   }
   switch (options.choice) {
@@ -51,7 +50,7 @@ const SeenPerson* PersonMemory::choose(std::span<const SeenPerson> people, MonoT
   return &people.front();
 }
 
-bool PersonMemory::is_plausible(const BodyRegion& region, MonoTime now) const {
+bool TargetTracker::is_plausible(const BodyRegion& region, MonoTime now) const {
   if (!last_) return true;
   const float passed_s = static_cast<float>((now - last_time_).as_seconds());
   const Eigen::Vector2f expected = centre_of(*last_) + passed_s * speed_px_s_;
@@ -61,7 +60,7 @@ bool PersonMemory::is_plausible(const BodyRegion& region, MonoTime now) const {
          growth <= kGrowth * (1.0f + passed_s) && growth * kGrowth * (1.0f + passed_s) >= 1.0f;
 }
 
-void PersonMemory::see(const BodyRegion& region, MonoTime now) {
+void TargetTracker::update(const BodyRegion& region, MonoTime now) {
   if (last_ && now > last_time_) {
     const float passed_s = static_cast<float>((now - last_time_).as_seconds());
     const Eigen::Vector2f speed = (centre_of(region) - centre_of(*last_)) / passed_s;

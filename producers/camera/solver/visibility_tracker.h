@@ -1,5 +1,5 @@
-// SightMemory: how long each part of the body has not been seen, what a pose says of that, and a
-// soft way back for what is seen again.
+// VisibilityTracker: how long each part of the body has been hidden, the pose's presence bits that
+// follow, and a smooth transition for parts that reappear.
 //
 // Units/frames: seconds; bones and confidence of core/pose/pose.h.
 // Ownership:    plain value, no heap.
@@ -10,18 +10,17 @@
 #include <array>
 
 #include "core/motion/inertializer.h"
-#include "producers/camera/solver/motion_memory.h"
+#include "producers/camera/solver/motion_filter.h"
 
 namespace dance {
 
-class SightMemory {
+class VisibilityTracker {
  public:
   void clear();
-  void follow(const PartSight& sight, double seconds);
-  // Parts that came back with the picture just followed are shown from `carried` on, where they
-  // were, to where they are.
+  void follow(const PartVisibility& visibility, double seconds);
+  // Parts that reappeared in this picture are blended from `carried`, their predicted pose.
   void blend(MonoTime now, const Pose& carried, Pose& pose);
-  // The whole body, where it is found anew or grows to its true size.
+  // The whole body, where it is found again or grows to its true size.
   void blend_all(MonoTime now, const Pose& carried, const Pose& pose) {
     blend_.add(now, carried, pose);
   }
@@ -31,8 +30,8 @@ class SightMemory {
 
  private:
   Inertializer blend_{Duration::ms(80)};
-  std::array<double, kPartCount> unseen_s_{};
-  std::array<bool, kPartCount> is_back_{};
+  std::array<double, kPartCount> hidden_s_{};
+  std::array<bool, kPartCount> reappeared_{};
 };
 
 }  // namespace dance
