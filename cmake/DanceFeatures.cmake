@@ -17,18 +17,8 @@ function(dance_require what found package)
   dance_feature("${what}" "found" "${package}")
 endfunction()
 
-# Debian's LCM has a pkg-config file that needs glib's headers, which it does not bring, and no CMake package.
-find_path(LCM_INCLUDE_DIR lcm/lcm.h)
-find_library(LCM_LIBRARY lcm)
-find_program(LCM_GEN lcm-gen)
-if(LCM_INCLUDE_DIR AND LCM_LIBRARY AND LCM_GEN)
-  set(DANCE_LCM_FOUND TRUE)
-  add_library(dance_lcm INTERFACE)
-  add_library(lcm::lcm ALIAS dance_lcm)
-  target_include_directories(dance_lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
-  target_link_libraries(dance_lcm INTERFACE ${LCM_LIBRARY})
-endif()
-dance_require("LCM" DANCE_LCM_FOUND "liblcm-dev liblcm-bin")
+find_package(LCM QUIET MODULE)
+dance_require("LCM" LCM_FOUND "liblcm-dev liblcm-bin")
 
 find_package(Eigen3 3.4 QUIET NO_MODULE)
 dance_require("Eigen 3.4" Eigen3_FOUND "libeigen3-dev")
@@ -86,6 +76,10 @@ dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
 
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
 dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
+# What libsndfile cannot read; from FFmpeg 5.1 on, which has the channel layouts that are used.
+pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample)
+dance_optional(DANCE_FFMPEG "Music with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
+  "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 

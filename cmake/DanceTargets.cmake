@@ -71,7 +71,7 @@ function(dance_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PUBLIC;PRIVATE")
   add_library(dance_${name} STATIC ${arg_SOURCES})
   add_library(dance::${name} ALIAS dance_${name})
-  target_link_libraries(dance_${name} PUBLIC dance_settings ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_link_libraries(dance_${name} PUBLIC $<BUILD_INTERFACE:dance_settings> ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   dance_use_pch(dance_${name})
 endfunction()
 
@@ -91,6 +91,7 @@ function(dance_program name)
   target_link_libraries(dance-${name} PRIVATE dance_settings ${arg_LIBS})
   dance_use_pch(dance-${name})
   set_target_properties(dance-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  set_property(GLOBAL APPEND PROPERTY DANCE_PROGRAMS dance-${name})
 endfunction()
 
 # dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]): one

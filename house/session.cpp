@@ -4,7 +4,7 @@
 
 #include "core/program/whole_file.h"
 #include "house/toml_reader.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 
 namespace dance {
 namespace {
@@ -83,8 +83,8 @@ void read_route(TomlReader& reader, Session& session) {
   route.from = read_end(reader, "from", reader.required_string("from"));
   route.to = read_end(reader, "to", reader.required_string("to"));
   route.through = reader.strings("through", "[\"hold 20ms\"]");
-  const auto chain = Chain::make(route.through);
-  if (!chain) reader.complain("through", chain.error().what);
+  const auto flow = Flow::make(route.through);
+  if (!flow) reader.complain("through", flow.error().what);
   // Without a rate, poses go on as they come; transformers need the stage's steady rate.
   route.rate_hz = reader.number_or("rate", route.through.empty() ? 0.0 : 60.0, 0.0, 1000.0);
   if (!route.through.empty() && route.rate_hz < 1.0)

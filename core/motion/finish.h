@@ -1,11 +1,11 @@
-// Finish: the last step of a station that guesses, so that whatever comes out is a body that moves
-// like one: corrections without a pop, joints within their limits, feet that stand where they
-// stand, rotations of unit length.
+// Finish: keeps what is shown a body that moves like one, wherever it is predicted: corrections
+// without a pop, joints within their limits, feet that stand where they stand, rotations of unit
+// length. A stage has one for each guest (transformers/flow.h).
 //
-// Units/frames: as transformers/transformer.h; times of the stage's clock.
+// Units/frames: as core/pose/pose.h; times of the stage's clock.
 // Ownership:    plain value; never allocates. Costs 1 to 4 us a frame.
 // Threads:      none inside; one owner.
-// Failure:      none. A pose that is no guess, with nothing left to correct, is not touched.
+// Failure:      none. A pose that was danced so, with nothing left to correct, is not touched.
 #pragma once
 
 #include "core/motion/foot_lock.h"
@@ -30,19 +30,14 @@ class Finish {
     corrections_.add(now, was_before, was, is_before, is, step);
   }
 
-  // What was really danced, as it becomes known: feet that stand are known by it. Optional. A
-  // station that is only asked for moments finishes nothing, and has nothing to know: of a chain
-  // the last one does it.
-  void observe(const Pose& real, MonoTime now) {
-    if (finishes_) feet_.observe(real, now);
-  }
+  // What was really danced, as it becomes known: feet that stand are known by it. Optional.
+  void observe(const Pose& real, MonoTime now) { feet_.observe(real, now); }
 
-  // Once a frame. `is_guess`: the pose was not danced so, or not yet.
-  void apply(MonoTime now, Pose& pose, bool is_guess) {
-    finishes_ = true;
+  // Once a frame. `is_predicted`: the pose was not danced so, or not yet.
+  void apply(MonoTime now, Pose& pose, bool is_predicted) {
     corrections_.apply(now, pose);
-    const bool is_free = is_guess || !corrections_.is_at_rest();
-    if (is_guess) limit_joints(pose);
+    const bool is_free = is_predicted || !corrections_.is_at_rest();
+    if (is_predicted) limit_joints(pose);
     bool is_changed = turns_.apply(now, pose, is_free) || is_free;
     is_changed = feet_.apply(now, pose, is_free) || is_changed;
     if (is_changed) normalize(pose);
@@ -62,7 +57,6 @@ class Finish {
   Inertializer corrections_;
   TurnLimit turns_;
   FootLock feet_;
-  bool finishes_ = false;  // has been applied
 };
 
 }  // namespace dance

@@ -18,8 +18,11 @@ namespace dance {
 int run_program(CommandLine& line, int argc, char** argv,
                 const std::function<Result<void>()>& body);
 
-// The folder that this program lies in, where its sisters are.
+// The folder that this program lies in, with all other programs of the build or the installation.
 std::string program_folder();
+
+// share/dancegraph beside that folder: files that programs read, in a build and in an installation.
+std::string data_folder();
 
 // Where windows would open, by DISPLAY or WAYLAND_DISPLAY; "" where nowhere.
 std::string display_name();

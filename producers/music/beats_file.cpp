@@ -38,7 +38,8 @@ bool read_whole(std::string_view text, T& value) {
 }  // namespace
 
 Result<BeatGrid> parse_beats(std::string_view text) {
-  if (text.size() > kMostBeatsFile_bytes) return fail("more than 4 MiB; no list of beats is");
+  if (text.size() > kMostBeatsFile_bytes)
+    return fail("more than 4 MiB; a list of beats is smaller");
   std::vector<GridBeat> beats;
   std::vector<std::size_t> lines;  // of each beat, for what is found wrong later
   for (std::size_t number = 1; !text.empty(); ++number) {

@@ -1,11 +1,12 @@
-// LogFeed: a recorded house instead of a live one, for pictures that may take as long as they like:
-// fills a GuestBoard from an LCM log up to any moment, as a bus would have by then.
+// LogFeed: a recorded house instead of a live one: fills a GuestBoard from an LCM log up to any
+// moment, as a bus would have by then, at any pace and over and over.
 //
-// Units/frames: times of the recorded house's clock; the wall clock's stamps of the log are laid
-//               onto it by the poses that reached the log soonest.
+// Units/frames: times of the recorded house's clock, which goes on when the log begins again; the
+//               wall clock's stamps of the log are laid onto it by the poses that reached the log
+//               soonest.
 // Ownership:    owns the log and the board.
 // Threads:      none inside; one owner.
-// Failure:      open() names a log that cannot be read, or that nobody dances in.
+// Failure:      open() names a log that cannot be read, or without poses.
 #pragma once
 
 #include <optional>
@@ -23,11 +24,13 @@ class LogFeed {
 
   GuestBoard& board() { return *board_; }
   MonoTime begin() const { return begin_; }
-  MonoTime end() const { return end_; }
+  MonoTime end() const { return end_ + shift_; }
   // When the house's music stood there; nothing where it never did.
   std::optional<MonoTime> time_of_beat(double beat) const;
   // Takes in what had been said by then; moments only go on.
   void go_on_to(MonoTime now);
+  // The log once more, behind its end.
+  void begin_again();
 
  private:
   LogFeed(std::string path, UnpackedLog log) : path_(std::move(path)), log_(std::move(log)) {}
@@ -47,6 +50,7 @@ class LogFeed {
   std::uint64_t clock_id_ = 0;
   std::int64_t wall_ahead_us_ = 0;  // of the house's clock
   MonoTime begin_, end_;
+  Duration shift_;  // of what is taken in now against the recording
   std::vector<WholeBeat> beats_;
 };
 

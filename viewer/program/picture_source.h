@@ -1,5 +1,5 @@
-// PictureSource: where pictures in files come from: a live house, whose moments have to be waited
-// for, or a recorded one, whose moments come when they are asked for.
+// PictureSource: what pictures are drawn of: a live house, whose moments have to be waited for, or
+// a recorded one, which is at any moment at once, and in a window begins again at its end.
 //
 // Units/frames: moments in the house's clock.
 // Ownership:    owns its feed.
@@ -9,9 +9,11 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "viewer/program/guest_board.h"
+#include "viewer/program/stage_roster.h"
 #include "viewer/program/view_options.h"
 
 namespace dance {
@@ -23,10 +25,12 @@ class PictureSource {
 
   virtual GuestBoard& board() = 0;
   virtual MonoTime begin() const = 0;
-  // Returns when it is that moment, or somebody has asked to end, with the time that it is.
+  // Returns when it is that moment, or the program is to end, with the time that it is.
   virtual MonoTime wait_until(MonoTime moment) = 0;
   // Of a beat of the house's music; nothing where it is not known yet.
   virtual std::optional<MonoTime> time_of_beat(double) const { return std::nullopt; }
+  // What the last picture showed first, and when it was on the screen.
+  virtual void report_shown(std::span<const StageRoster::Fresh>, MonoTime) {}
   // How long a recorded house was; nothing of a live one.
   virtual Duration recorded() const { return Duration(); }
   virtual bool is_over() const = 0;

@@ -1,8 +1,8 @@
-// The two ways of `dance view`: a window, and pictures in files. Both hear the bus through a
-// StageFeed and draw through a StagePainter.
+// The two ways of `dance view`: a window, and pictures in files. Both take poses from a
+// PictureSource, live or recorded, and draw through a StagePainter.
 //
 // Ownership: each call owns all it needs while it runs.
-// Threads:   call from main; the feed brings the bus thread.
+// Threads:   call from main; a live source brings the bus thread.
 // Failure:   the Error names what is missing and the cure.
 #pragma once
 

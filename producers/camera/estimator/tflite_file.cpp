@@ -79,9 +79,10 @@ Result<PoseGraph> parse_tflite(std::span<const std::uint8_t> bytes) {
 
 Result<PoseGraph> read_tflite_file(const std::string& path) {
   auto file = read_whole_file(path, kMostFile_bytes);
-  if (!file) return fail(file.error().what + "; ./dance setup fetches it");
+  if (!file) return fail(file.error().what + "; `dance fetch-models` fetches it");
   auto graph = parse_tflite({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()});
-  if (!graph) return fail(path + ": " + graph.error().what + "; ./dance setup fetches it anew");
+  if (!graph)
+    return fail(path + ": " + graph.error().what + "; `dance fetch-models` fetches it anew");
   return graph;
 }
 

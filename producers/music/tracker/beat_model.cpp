@@ -17,7 +17,7 @@ constexpr std::uint16_t kBeatVersion = 1;
 constexpr float kMostWeight = 1e4f;
 constexpr int kLeastPatternTempo_bpm = 40;
 constexpr int kMostPatternTempo_bpm = 400;
-// Each pattern knows some of the tempi that are looked for.
+// Each pattern covers some of the tempi that are searched.
 constexpr int kSlowestOfUse_bpm = 100;
 constexpr int kFastestOfUse_bpm = 200;
 constexpr std::size_t kMostBeatModelBytes = 1 << 16;

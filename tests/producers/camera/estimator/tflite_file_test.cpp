@@ -103,7 +103,7 @@ TEST(TfliteFile, AMissingFileIsNamedWithItsCure) {
   const auto graph = read_tflite_file("/nowhere/pose_detection.tflite");
   ASSERT_FALSE(graph);
   EXPECT_EQ(graph.error().what,
-            "/nowhere/pose_detection.tflite: no such file; ./dance setup fetches it");
+            "/nowhere/pose_detection.tflite: no such file; `dance fetch-models` fetches it");
 }
 
 TEST(TfliteFile, ReadsTheRealNetworks) {
