@@ -22,9 +22,9 @@ bool is_same_beat(const Beat& a, const Beat& b) {
 
 BeatPublisher::BeatPublisher(Bus& bus, Poller& poller, Source source)
     : bus_(bus), source_(std::move(source)) {
-  bus_.subscribe<Beat>(
-      Where::kLocal,
-      [this](const Channel&, const Beat& beat, MonoTime now) { on_beat_heard(beat, now); });
+  bus_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime now) {
+    on_beat_heard(beat, now);
+  });
   poller.add_timer(mono_now(), [this](MonoTime now) { return work(now); });
 }
 

@@ -29,10 +29,11 @@ MusicProgram::MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPla
   publisher_ =
       std::make_unique<BeatPublisher>(bus_, poller_, [this](MonoTime t) { return beat(t); });
   if (options_.follows || options_.guest.is_set())
-    bus_.subscribe<Music>(
-        Where::kRoom, [this](const Channel& channel, const Music& music, MonoTime t) {
-          if (music.clock_id == this_clock_id()) on_room_music(channel.guest(), music, t);
-        });
+    bus_.subscribe<Music>(Where::kRoom,
+                          [this](const Channel& channel, const Music& music, MonoTime t) {
+                            if (music.clock_id == this_clock_id())
+                              on_room_music(channel.guest(), music, t);
+                          });
   wait_until_ = now + kRoomTimeout;
   if (!options_.follows) begin_own(now);
   poller_.add_timer(now, [this](MonoTime t) { return work(t); });
