@@ -83,7 +83,6 @@ void DemoMonitor::listen(Bus& bus, int house) {
                        [this, house](const Channel& channel, const Stats& stats, MonoTime) {
                          if (channel.program() != "link") return;
                          connected_[static_cast<std::size_t>(house)] = stats.sessions > 0;
-                         guests_seen_[static_cast<std::size_t>(house)] = stats.guests;
                        });
 }
 

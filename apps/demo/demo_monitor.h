@@ -57,9 +57,6 @@ class DemoMonitor {
   bool is_connected(int house) const { return connected_[static_cast<std::size_t>(house)]; }
   // Whether the music of the house has begun.
   bool has_music(int house) const { return has_music_[static_cast<std::size_t>(house)]; }
-  std::int64_t guests_seen(int house) const {
-    return guests_seen_[static_cast<std::size_t>(house)];
-  }
 
  private:
   void listen(Bus& bus, int house);
@@ -71,7 +68,6 @@ class DemoMonitor {
   bool timing_ = true;
   std::array<bool, 2> connected_{};
   std::array<bool, 2> has_music_{};
-  std::array<std::int64_t, 2> guests_seen_{};
 };
 
 }  // namespace dance

@@ -39,9 +39,6 @@ class ByteWriter {
     u8(static_cast<std::uint8_t>(text.size()));
     bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   }
-  void zeros(std::size_t n) {
-    if (take(n)) std::memset(buffer_.data() + at_ - n, 0, n);
-  }
 
   bool ok() const { return ok_; }
   std::size_t size() const { return at_; }

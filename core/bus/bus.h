@@ -1,6 +1,6 @@
 // Bus: the house's LCM bus behind a seam. Messages come out as this tree's types, checked once here
 // (finite, unit rotations, sizes); what is not right is dropped and counted. Everything pending is
-// drained in each turn, as LCM's own queue would keep the oldest messages and drop the new.
+// drained in each turn, as LCM's own queue would keep the oldest messages and drop the new ones.
 // Messages that this program has not subscribed to do not wake it (core/bus/channel_filter.h).
 //
 // Units/frames: as in core/pose; stamps in the house's clock.

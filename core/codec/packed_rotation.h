@@ -16,7 +16,6 @@
 
 namespace dance {
 
-constexpr std::size_t kPackedRotationBytes = 6;
 // Three components of half a step each, seen where they weigh most (all four components 0.5).
 constexpr double kPackedRotationError_deg = 0.0087;
 

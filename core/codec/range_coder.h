@@ -123,7 +123,6 @@ class RangeDecoder {
   // law, as often as is needed; then consume(). Bytes that no encoder makes may lie above every
   // edge.
   void begin(int bits) { unit_ = range_ >> bits; }
-  bool is_below(std::uint32_t edge) const { return code_ < unit_ * edge; }
   void consume(std::uint32_t cum_low, std::uint32_t freq) {
     code_ -= unit_ * cum_low;
     range_ = unit_ * freq;

@@ -21,7 +21,6 @@ class Finish {
 
   void set_body(const Skeleton& skeleton) { feet_.set_body(skeleton); }
   void set_half_life(Duration half_life) { corrections_.set_half_life(half_life); }
-  void set_feet(const FootLock::Settings& settings) { feet_.set_settings(settings); }
 
   // See Inertializer::add().
   void correct(MonoTime now, const Pose& was, const Pose& is) { corrections_.add(now, was, is); }

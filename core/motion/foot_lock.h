@@ -44,7 +44,6 @@ class FootLock {
   FootLock();
   explicit FootLock(const Settings& settings);
   void set_body(const Skeleton& skeleton);
-  void set_settings(const Settings& settings) { settings_ = settings; }
 
   // What was really danced, as it becomes known: which feet stand, and where. Guesses alone are
   // told less well.

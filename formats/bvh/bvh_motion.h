@@ -32,7 +32,6 @@ class BvhMotion {
   // position channels are those of the first frame.
   void zero_figure(BvhFigure& figure) const;
   // True where position channels of joints other than the root are added to OFFSETs; tools differ.
-  bool adds_positions() const { return adds_positions_; }
 
   const Bvh& bvh() const { return bvh_; }
 

@@ -44,10 +44,6 @@ enum class RigPart : std::uint8_t {
   kHelper,  // twist, roll and end joints: never a bone of their own
 };
 
-constexpr bool is_finger(RigPart part) {
-  return part >= RigPart::kThumb && part <= RigPart::kLittle;
-}
-
 struct RigName {
   RigSide side = RigSide::kMiddle;
   RigPart part = RigPart::kNone;

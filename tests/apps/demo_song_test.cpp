@@ -2,12 +2,12 @@
 #include "apps/demo/demo_song.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 
 #include "producers/music/beats_file.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -37,11 +37,8 @@ TEST(DemoSong, IsLoudFromTheBeatOnAndLessBefore) {
 }
 
 TEST(DemoSong, ItsListOfBeatsIsOneThatMusicIsPlayedBy) {
-  const std::string folder =
-      (std::filesystem::temp_directory_path() / ("dance-song-" + std::to_string(getpid())))
-          .string();
-  std::filesystem::create_directories(folder);
-  const std::string wav = folder + "/song.wav";
+  const TestFolder folder("song");
+  const std::string wav = folder.path("song.wav");
   ASSERT_TRUE(write_demo_song(wav, 190.0));
   const auto grid = read_beats_file(beats_path_beside(wav));
   ASSERT_TRUE(grid) << grid.error().what;
@@ -50,7 +47,6 @@ TEST(DemoSong, ItsListOfBeatsIsOneThatMusicIsPlayedBy) {
   EXPECT_NEAR(grid->tempo_bpm(8.0), 190.0, 0.01);
   EXPECT_NEAR(grid->beat_at(0.0), 0.0, 1e-9);
   EXPECT_EQ(std::filesystem::file_size(wav), 44 + 2 * demo_song(190.0).size());
-  std::filesystem::remove_all(folder);
   EXPECT_FALSE(write_demo_song("/no/such/folder/song.wav", 190.0));
 }
 

@@ -1,17 +1,16 @@
 // The recorder without a bus: what it keeps, and what it says when the disk is full.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "apps/record/log_converter.h"
 #include "apps/record/recorder.h"
 #include "formats/log/unpacked_log.h"
 #include "tests/formats/log/recorded_dance.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -20,16 +19,11 @@ namespace fs = std::filesystem;
 
 class RecorderTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("dance-record-test-" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
   static ChannelFilter filter(const std::vector<std::string>& patterns) {
     return *ChannelFilter::make(patterns);
   }
-  fs::path folder_;
+  TestFolder folder_{"record"};
 };
 
 TEST(ChannelFilter, PatternsMatchWholeNames) {
@@ -162,10 +156,7 @@ class PackedRecording : public RecorderTest {
       EXPECT_LT(packing->bytes, packing->plain_bytes / 2);
     }
   }
-  std::string bytes_in(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  std::string bytes_in(const std::string& name) const { return text_of(path(name)); }
 };
 
 TEST_F(PackedRecording, UnpackedIsByteForByteThePlainOne) {

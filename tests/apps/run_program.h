@@ -1,22 +1,20 @@
 // Programs of the build, run by tests as a user runs them, and waits for what they do: up to a
 // patience that no machine should need, and no longer than it takes.
 //
-// Ownership: a TestFolder and what is in it go with the object.
+// Ownership: values.
 // Threads:   any; each run() has its own folder only where one runs at a time in a process.
 // Failure:   what cannot be started has the exit code -1 or 127.
 #pragma once
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
+
+#include "tests/test_folder.h"
 
 namespace dance {
 
@@ -27,34 +25,6 @@ struct Finished {
   std::string output;  // stdout
   std::string talk;    // stderr
 };
-
-// An empty folder of this test's own, gone when it ends.
-class TestFolder {
- public:
-  explicit TestFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() /
-              ("dance-" + name + "-" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TestFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  std::string path(const std::string& name = "") const {
-    return (name.empty() ? path_ : path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // Runs a shell's command line to its end.
 inline Finished run(const std::string& command) {

@@ -71,7 +71,6 @@ class SoundServer {
     server_->iterate();
     if (ear_ && ++turns_ % 10 == 0) ear_->request_timing();
   }
-  std::size_t click_count() const { return clicks_.size(); }
   std::vector<MonoTime> clicks() const {
     std::vector<MonoTime> times;
     for (const std::int64_t frame : clicks_) times.push_back(ear_->time_of(frame));

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "formats/bvh/bvh.h"
 #include "tests/allocation_guard.h"
 #include "tests/core/pose/random_pose.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -47,8 +47,7 @@ class Consumers : public testing::Test {
 
   std::string written() {
     EXPECT_TRUE(output_->flush().has_value());
-    std::ifstream file(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return text_of(path_);
   }
   static std::vector<std::string> split(const std::string& text, char by) {
     std::vector<std::string> parts;

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
 #include "formats/bvh/bvh.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -132,9 +132,7 @@ TEST_F(Listen, WritesABvhWhenToldToStop) {
               output_);
   dance_until([&] { return child.has_ended(); });
   EXPECT_EQ(child.exit_code(), 0);
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const auto bvh = read_bvh(text);
+  const auto bvh = read_bvh(text_of(path));
   ASSERT_TRUE(bvh.has_value()) << bvh.error().what;
   EXPECT_GT(bvh->frame_count, 1u);
   EXPECT_TRUE(lines().empty());  // stdout is data, and the data went to the file

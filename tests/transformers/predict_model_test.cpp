@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
 
 std::vector<std::uint8_t> built_in_file() {
-  std::ifstream file(DANCE_SOURCE_DIR "/data/predict/dance.model", std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return bytes_in(DANCE_SOURCE_DIR "/data/predict/dance.model");
 }
 
 TEST(PredictModel, TheBuiltInOneIsTheFileOfTheTree) {

@@ -2,11 +2,9 @@
 #include "viewer/program/log_feed.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "core/bus/encode.h"
+#include "tests/test_folder.h"
 #include "viewer/program/stage_roster.h"
 
 namespace dance {
@@ -19,18 +17,10 @@ MonoTime logged_second(double s) { return MonoTime() + Duration::seconds(50.0 + 
 
 class LogFeedTest : public ::testing::Test {
  protected:
-  LogFeedTest()
-      : path_((std::filesystem::temp_directory_path() /
-               ("dance-log-feed-" + std::to_string(getpid()) + ".lcm"))
-                  .string()) {
-    std::filesystem::remove(path_);
+  LogFeedTest() {
     auto log = LogWriter::create(path_);
     EXPECT_TRUE(log);
     writer_ = std::make_unique<LogWriter>(std::move(*log));
-  }
-  ~LogFeedTest() override {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
   }
 
   template <class Message>
@@ -61,7 +51,8 @@ class LogFeedTest : public ::testing::Test {
     ASSERT_TRUE(writer_->flush());
   }
 
-  std::string path_;
+  TestFolder folder_{"log-feed"};
+  std::string path_ = folder_.path("log.lcm");
   std::unique_ptr<LogWriter> writer_;
 };
 

@@ -3,11 +3,10 @@
 //
 // Units/frames: none.
 // Threads:      constants only.
-// Failure:      find_zone() returns nullopt for an unknown name.
+// Failure:      none.
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string_view>
 
 #include "core/pose/bone.h"
@@ -28,13 +27,6 @@ constexpr std::array<BodyZone, kBoneCount> kZoneOfBone = [] {
       Z::kLegs, Z::kLegs,  Z::kLegs,      Z::kLegs,  Z::kLegs, Z::kLegs};
 }();
 
-constexpr BodyZone zone_of(Bone bone) { return kZoneOfBone[index_of(bone)]; }
 constexpr std::size_t index_of(BodyZone zone) { return static_cast<std::size_t>(zone); }
-
-constexpr std::optional<BodyZone> find_zone(std::string_view name) {
-  for (std::size_t i = 0; i < kBodyZones; ++i)
-    if (kZoneNames[i] == name) return static_cast<BodyZone>(i);
-  return std::nullopt;
-}
 
 }  // namespace dance

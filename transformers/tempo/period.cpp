@@ -176,8 +176,6 @@ void Period::lock_in() {
     lock_ = {};
     template_ = {};
     coherence_ = 0.0f;
-    zone_coherence_ = {};
-    zone_phase_ = {};
   }
   ++known_ticks_;
   std::array<std::array<Complex, kMotionGroups>, kHarmonics> match{};
@@ -198,10 +196,7 @@ void Period::lock_in() {
       }
     }
   }
-  if (known_ticks_ * kTick_s * bars_per_s_ > kFirst_bars) {
-    follow(match);
-    weigh_zones(match);
-  }
+  if (known_ticks_ * kTick_s * bars_per_s_ > kFirst_bars) follow(match);
   learn();
 }
 
@@ -239,25 +234,6 @@ void Period::follow(const std::array<std::array<Complex, kMotionGroups>, kHarmon
     slip_ -= taken;
   }
   coherence_ = std::clamp(fit(phase_) / static_cast<float>(size), 0.0f, 1.0f);
-}
-
-void Period::weigh_zones(const std::array<std::array<Complex, kMotionGroups>, kHarmonics>& match) {
-  for (std::size_t zone = 0; zone < kBodyZones; ++zone) {
-    const bool is_legs = zone == index_of(BodyZone::kLegs);
-    double slope = 0.0, bend = 0.0, fit = 0.0;
-    for (std::size_t h = 0; h < kHarmonics; ++h) {
-      const Complex sum = match[h][zone] + (is_legs ? match[h][kBodyZones] : Complex());
-      const Complex c = sum * std::conj(turned(kHarmonic[h] * phase_));
-      fit += static_cast<double>(c.real());
-      slope += kHarmonic[h] * static_cast<double>(c.imag());
-      bend += kHarmonic[h] * kHarmonic[h] * static_cast<double>(c.real());
-    }
-    const float t = template_power_[zone] + (is_legs ? template_power_[kBodyZones] : 0.0f);
-    const float z = match_power_[zone] + (is_legs ? match_power_[kBodyZones] : 0.0f);
-    const double size = static_cast<double>(std::sqrt(t * z)) + 1e-9;
-    zone_coherence_[zone] = std::clamp(static_cast<float>(fit / size), 0.0f, 1.0f);
-    zone_phase_[zone] = std::clamp(slope / (kTwoPi * std::max(bend, 0.1 * size)), -0.25, 0.25);
-  }
 }
 
 void Period::learn() {

@@ -54,9 +54,6 @@ class Period {
   // How well the last bar fits what was learnt of this dancer: 0 none .. 1 the same; trust phases
   // above 0.6.
   float coherence() const { return coherence_; }
-  float coherence(BodyZone zone) const { return zone_coherence_[index_of(zone)]; }
-  // By how much a zone leads the body, in beats, against what it usually does.
-  double lead_beats(BodyZone zone) const { return kBeatsPerBar * zone_phase_[index_of(zone)]; }
 
   const MotionBeats& motion_beats() const { return motion_beats_; }
   MonoTime newest() const { return frame_.time; }
@@ -75,7 +72,6 @@ class Period {
   void lock_in();
   void follow(const std::array<std::array<Complex, kMotionGroups>, kHarmonics>& match);
   void learn();
-  void weigh_zones(const std::array<std::array<Complex, kMotionGroups>, kHarmonics>& match);
   void anchor(std::size_t new_beats);
 
   MotionChannels channels_;
@@ -96,8 +92,6 @@ class Period {
   std::array<Channels, kHarmonics> lock_{}, template_{};
   int known_ticks_ = 0, ticks_ = 0;
   float coherence_ = 0.0f;
-  std::array<float, kBodyZones> zone_coherence_{};
-  std::array<double, kBodyZones> zone_phase_{};
   std::complex<double> beat_anchor_;
   std::array<double, 4> step_at_{};
   int rest_ = 0;

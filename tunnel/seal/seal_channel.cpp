@@ -154,12 +154,6 @@ void SealChannel::resend_when_due() {
   ERR_clear_error();
 }
 
-std::optional<Duration> SealChannel::until_resend() const {
-  timeval left{};
-  if (DTLSv1_get_timeout(ssl_, &left) != 1) return std::nullopt;
-  return Duration::s(left.tv_sec) + Duration::us(left.tv_usec);
-}
-
 bool SealChannel::awaits_proof() const { return SSL_get_state(ssl_) == TLS_ST_SR_CHANGE; }
 
 bool SealChannel::awaits_answer_to_proof() const {

@@ -46,9 +46,8 @@ class SealChannel {
   bool listen(seal::Bytes records, std::size_t longest);
   // Takes a step, with `records` of the other side or with nothing.
   Progress handshake(seal::Bytes records);
-  // Sends again what may be lost, when it is time; and how long until then, nothing when it is not.
+  // Sends again what may be lost, when it is time.
   void resend_when_due();
-  std::optional<Duration> until_resend() const;
   // The server has all it needs for the keys but for the proof that the other side has the same.
   bool awaits_proof() const;
   // The same moment, as the link sees it.

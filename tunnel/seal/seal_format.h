@@ -31,7 +31,6 @@ constexpr std::size_t kOverhead = kCompactHeader + kTag;
 constexpr std::size_t kMaxSealed = 1200;
 constexpr std::size_t kMaxPlain = kMaxSealed - kOverhead;
 
-constexpr std::uint8_t kChangeCipherSpec = 20;
 constexpr std::uint8_t kAlert = 21;
 constexpr std::uint8_t kHandshake = 22;
 constexpr std::uint8_t kApplicationData = 23;

@@ -31,7 +31,6 @@ class CameraRig {
   void focus(const GuestId& guest);
   void toggle_turning() { is_turning_ = !is_turning_; }
   void set_turning(bool turning) { is_turning_ = turning; }
-  bool is_turning() const { return is_turning_; }
 
   // Moves on by dt towards the frame of the scene, smoothly.
   void update(const SceneState& scene, float aspect, Duration dt);

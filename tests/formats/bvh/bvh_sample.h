@@ -1,12 +1,12 @@
 // A small BVH text and files of tests/formats/bvh/data, for the BVH and retargeting tests.
 //
 // Threads: none inside.
-// Failure: text_of() of a missing file is empty, which no reader takes for a BVH.
+// Failure: sample() of a missing file is empty, which no reader takes for a BVH.
 #pragma once
 
-#include <fstream>
-#include <iterator>
 #include <string>
+
+#include "tests/test_folder.h"
 
 namespace dance::test {
 
@@ -37,11 +37,6 @@ inline std::string replaced(std::string text, const std::string& from, const std
        at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
-}
-
-inline std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 inline std::string sample(const std::string& name) {

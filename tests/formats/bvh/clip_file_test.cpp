@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/test_folder.h"
+
 namespace dance {
 namespace {
 
@@ -21,13 +23,7 @@ const std::string kSample = DANCE_SOURCE_DIR "/tests/formats/bvh/data/vrm.bvh";
 // A directory of this test's own that goes with it.
 class ClipFile : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("clip_file_test." + std::to_string(::getpid()));
-    fs::create_directories(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
   std::string write(const std::string& name, const std::string& bytes) const {
     std::ofstream(path(name), std::ios::binary) << bytes;
     return path(name);
@@ -38,7 +34,7 @@ class ClipFile : public testing::Test {
   }
 
  private:
-  fs::path directory_;
+  TestFolder folder_{"clip-file"};
 };
 
 std::string xz(const std::string& text) {
@@ -52,11 +48,6 @@ std::string xz(const std::string& text) {
   return packed;
 }
 
-std::string sample_text() {
-  std::ifstream file(kSample, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 TEST_F(ClipFile, LoadsABvhAndSaysWhatItGuessed) {
   const auto clip = load_clip(kSample);
   ASSERT_TRUE(clip.has_value()) << clip.error().what;
@@ -68,7 +59,7 @@ TEST_F(ClipFile, LoadsABvhAndSaysWhatItGuessed) {
 TEST_F(ClipFile, LoadsTheSameFromXzUnderAnyName) {
   const auto plain = load_clip(kSample);
   for (const char* name : {"take.bvh.xz", "take.bvh", "take"}) {
-    const auto packed = load_clip(write(name, xz(sample_text())));
+    const auto packed = load_clip(write(name, xz(text_of(kSample))));
     ASSERT_TRUE(packed.has_value()) << packed.error().what;
     EXPECT_EQ(packed->clip.frames[2].p_WH_m, plain->clip.frames[2].p_WH_m);
     EXPECT_EQ(packed->clip.skeleton, plain->clip.skeleton);
@@ -76,7 +67,7 @@ TEST_F(ClipFile, LoadsTheSameFromXzUnderAnyName) {
 }
 
 TEST_F(ClipFile, LoadsXzStreamsThatFollowEachOther) {
-  const std::string text = sample_text();
+  const std::string text = text_of(kSample);
   const auto clip =
       load_clip(write("two.bvh.xz", xz(text.substr(0, 1000)) + xz(text.substr(1000))));
   ASSERT_TRUE(clip.has_value()) << clip.error().what;
@@ -91,7 +82,7 @@ TEST_F(ClipFile, NamesTheFileAndTheCure) {
   EXPECT_EQ(error_of(write("page.bvh", "<html>")),
             path("page.bvh") +
                 ": line 1: '<html>' stands where HIERARCHY should: this is not a BVH file");
-  EXPECT_EQ(error_of(write("plain.bvh.xz", sample_text())),
+  EXPECT_EQ(error_of(write("plain.bvh.xz", text_of(kSample))),
             path("plain.bvh.xz") + ": no xz file inside; rename or pack it with xz");
 }
 
@@ -101,7 +92,7 @@ TEST_F(ClipFile, DoesNotWaitForAPipe) {
 }
 
 TEST_F(ClipFile, SaysThatAnXzFileWasCutShortOrDamaged) {
-  std::string packed = xz(sample_text());
+  std::string packed = xz(text_of(kSample));
   EXPECT_EQ(error_of(write("cut.bvh.xz", packed.substr(0, packed.size() / 2))),
             path("cut.bvh.xz") + ": the xz file is cut short; copy it again");
   packed[packed.size() / 2] = static_cast<char>(packed[packed.size() / 2] ^ 1);
@@ -110,7 +101,7 @@ TEST_F(ClipFile, SaysThatAnXzFileWasCutShortOrDamaged) {
 }
 
 TEST_F(ClipFile, RefusesEveryPrefixOfAnXzFile) {
-  const std::string packed = xz(sample_text());
+  const std::string packed = xz(text_of(kSample));
   for (std::size_t size = 1; size < packed.size(); size += 7) {
     const auto text = read_clip_text(write("cut.bvh.xz", packed.substr(0, size)));
     EXPECT_FALSE(text.has_value()) << "first " << size << " bytes";

@@ -1,22 +1,18 @@
 // Packed logs that lost something or were damaged: what is gone is counted, and what comes is true.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "core/bus/channel.h"
 #include "formats/log/log_packer.h"
 #include "formats/log/unpacked_log.h"
 #include "tests/formats/log/recorded_dance.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
-
-namespace fs = std::filesystem;
 
 OwnEvents packed_events(const OwnEvents& events) {
   LogPacker packer;
@@ -25,23 +21,16 @@ OwnEvents packed_events(const OwnEvents& events) {
   return packed;
 }
 
-Bytes file_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(file), {});
-}
-
 Bytes log_of(const OwnEvents& events) {
-  const std::string path =
-      (fs::temp_directory_path() / ("dance-packed-test-" + std::to_string(getpid()))).string();
+  const TestFolder folder("packed-log");
+  const std::string path = folder.path("log.lcm");
   {
     auto writer = LogWriter::create(path);
     EXPECT_TRUE(writer) << writer.error().what;
     for (const OwnEvent& event : events) EXPECT_TRUE(writer->append(event.event()));
     EXPECT_TRUE(writer->flush());
   }
-  Bytes bytes = file_bytes(path);
-  fs::remove(path);
-  return bytes;
+  return bytes_in(path);
 }
 
 OwnEvents events_of(UnpackedLog& log) {
@@ -175,7 +164,7 @@ TEST(DamagedPackedLog, OddEventsAreCountedByCause) {
 // A file of version 1 that an earlier build wrote: its checksums say whether this one reads it to
 // the bit.
 TEST(DamagedPackedLog, YesterdaysPackedLogIsReadToTheBit) {
-  const Bytes bytes = file_bytes(DANCE_SOURCE_DIR "/tests/formats/log/golden/version_1.lcm");
+  const Bytes bytes = bytes_in(DANCE_SOURCE_DIR "/tests/formats/log/golden/version_1.lcm");
   ASSERT_GT(bytes.size(), 1000u);
   UnpackedLog log = UnpackedLog::over(bytes);
   EXPECT_TRUE(events_of(log) == recorded_evening(40));

@@ -2,16 +2,16 @@
 #include "formats/log/log_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
+
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -21,12 +21,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 class LogFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("dance-log-test-" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
 
   // A log of `count` events; event i is on "CH/i" at 1000 i µs and carries i bytes of value i.
   std::string write_log(const std::string& name, int count) const {
@@ -42,13 +37,8 @@ class LogFile : public ::testing::Test {
     return path(name);
   }
 
-  fs::path folder_;
+  TestFolder folder_{"log-file"};
 };
-
-Bytes read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return Bytes(std::istreambuf_iterator<char>(file), {});
-}
 
 std::size_t count_events(LogReader& reader) {
   std::size_t count = 0;
@@ -108,7 +98,7 @@ TEST_F(LogFile, WhatCannotBeOpenedIsNamed) {
   const auto missing = LogReader::open(path("nothing.lcm"));
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().what.find("nothing.lcm"), std::string::npos);
-  const auto directory = LogReader::open(folder_.string());
+  const auto directory = LogReader::open(folder_.path());
   ASSERT_FALSE(directory);
   EXPECT_NE(directory.error().what.find("folder"), std::string::npos);
 }
@@ -123,7 +113,7 @@ TEST_F(LogFile, EventsThatDoNotFitTheFormatAreRefused) {
 }
 
 TEST_F(LogFile, EveryPrefixGivesItsWholeEvents) {
-  const Bytes bytes = read_file(write_log("a.lcm", 20));
+  const Bytes bytes = bytes_in(write_log("a.lcm", 20));
   std::vector<std::size_t> ends;  // where each event ends
   for (int i = 0; i < 20; ++i) {
     const std::size_t channel = 3 + std::to_string(i).size();
@@ -140,7 +130,7 @@ TEST_F(LogFile, EveryPrefixGivesItsWholeEvents) {
 }
 
 TEST_F(LogFile, ADamagedEventCostsNoOther) {
-  const Bytes bytes = read_file(write_log("a.lcm", 12));
+  const Bytes bytes = bytes_in(write_log("a.lcm", 12));
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     Bytes damaged = bytes;
     damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ (1u << (bit % 8)));
@@ -156,7 +146,7 @@ TEST_F(LogFile, ADamagedEventCostsNoOther) {
 }
 
 TEST_F(LogFile, RubbishBetweenEventsIsSkippedAndCounted) {
-  const Bytes one = read_file(write_log("a.lcm", 1));
+  const Bytes one = bytes_in(write_log("a.lcm", 1));
   Bytes bytes(1000, 0x5a);
   bytes.insert(bytes.end(), one.begin(), one.end());
   bytes.insert(bytes.end(), {0xED, 0xA1, 0xDA});  // nearly a sync word
@@ -168,7 +158,7 @@ TEST_F(LogFile, RubbishBetweenEventsIsSkippedAndCounted) {
 
 TEST_F(LogFile, LyingLengthsAreNotBelieved) {
   const Bytes two = [&] {
-    Bytes bytes = read_file(write_log("a.lcm", 1));
+    Bytes bytes = bytes_in(write_log("a.lcm", 1));
     const Bytes again = bytes;
     bytes.insert(bytes.end(), again.begin(), again.end());
     return bytes;
@@ -216,7 +206,7 @@ struct FailingDisk {
 };
 
 TEST_F(LogFile, ADiskThatFailsIsNoEnd) {
-  const Bytes whole = read_file(write_log("a.lcm", 20));
+  const Bytes whole = bytes_in(write_log("a.lcm", 20));
   for (const std::size_t size : {std::size_t{0}, std::size_t{10}, whole.size() - 5, whole.size()}) {
     FailingDisk disk{{whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}};
     LogReader reader = disk.open();

@@ -8,27 +8,21 @@
 #include <fstream>
 
 #include "tests/producers/music/wav_file.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
 
-namespace fs = std::filesystem;
-
 class AudioFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("audio_file_test." + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
   static std::string open_error(const std::string& file) {
     const auto audio = AudioFile::open(file);
     return audio ? "no error" : audio.error().what;
   }
 
  private:
-  fs::path folder_;
+  TestFolder folder_{"audio-file"};
 };
 
 // Sample n of the left channel tells n, the right one its negative half.

@@ -2,16 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <limits>
+
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
 
 std::vector<std::uint8_t> beats_model_file() {
-  std::ifstream file(DANCE_SOURCE_DIR "/data/music/beats.model", std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return bytes_in(DANCE_SOURCE_DIR "/data/music/beats.model");
 }
 
 TEST(BeatModel, TheBuiltInOneIsTheFileOfTheTree) {

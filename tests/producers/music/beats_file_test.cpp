@@ -1,10 +1,10 @@
 #include "producers/music/beats_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
+
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -50,12 +50,9 @@ TEST(BeatsFile, NamesTheFileAndStandsBesideTheMusic) {
   EXPECT_EQ(missing.error().what, "/nowhere/song.beats: no such file");
   ASSERT_FALSE(read_beats_file("/tmp"));
 
-  namespace fs = std::filesystem;
-  const fs::path path =
-      fs::temp_directory_path() / ("beats_file_test." + std::to_string(::getpid()) + ".beats");
-  std::ofstream(path) << "0.5\t1\n1.0\t2\n";
-  const auto grid = read_beats_file(path.string());
-  fs::remove(path);
+  const TestFolder folder("beats-file");
+  std::ofstream(folder.path("song.beats")) << "0.5\t1\n1.0\t2\n";
+  const auto grid = read_beats_file(folder.path("song.beats"));
   ASSERT_TRUE(grid) << grid.error().what;
   EXPECT_NEAR(grid->tempo_bpm(0), 120.0, 1e-9);
 

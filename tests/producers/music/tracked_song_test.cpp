@@ -1,11 +1,9 @@
 #include "producers/music/tracked_song.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "tests/producers/music/wav_file.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -13,16 +11,14 @@ namespace {
 // A file of this test's own that goes with it.
 class TrackedSongTest : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   AudioFile written(const std::vector<float>& samples) {
     write_wav(path_, samples, 1, kTrackedRate_hz);
     return AudioFile::open(path_).value();
   }
 
   static constexpr int kTrackedRate_hz = 22050;
-  std::string path_ = (std::filesystem::temp_directory_path() /
-                       ("tracked_song_test." + std::to_string(::getpid()) + ".wav"))
-                          .string();
+  TestFolder folder_{"tracked-song"};
+  std::string path_ = folder_.path("song.wav");
 };
 
 TEST_F(TrackedSongTest, HasTheBeatsOfItsClicksFromItsFirstSecondOn) {

@@ -2,19 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "tests/producers/camera/estimator/pose_models.h"
 #include "tests/producers/camera/estimator/tiny_network.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
-
-std::vector<std::uint8_t> bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 TEST(TfliteFile, ReadsHalvesSparseWeightsAndPadding) {
   const auto graph = parse_tflite(tiny_network_file());
@@ -125,7 +118,7 @@ TEST(TfliteFile, ReadsTheRealNetworks) {
 
 TEST(TfliteFile, ADamagedNetworkIsAnErrorOrAWholeGraph) {
   SKIP_WITHOUT_POSE_MODELS();
-  std::vector<std::uint8_t> bytes = bytes_of(pose_models_folder("") + "/pose_detection.tflite");
+  std::vector<std::uint8_t> bytes = bytes_in(pose_models_folder("") + "/pose_detection.tflite");
   ASSERT_GT(bytes.size(), 1000u);
   EXPECT_FALSE(parse_tflite(std::span(bytes).first(bytes.size() / 2)));
   std::size_t refused = 0;

@@ -9,6 +9,7 @@
 #include "testing/camera/drawn_rig.h"
 #include "testing/camera/stereo_dancer.h"
 #include "tests/producers/camera/stereo/opencv_doc.h"
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
@@ -132,8 +133,7 @@ TEST_F(CalibrationFile, DamagedFilesAreErrorsAndNothingWorse) {
   const StereoRig rig = drawn_rig();
   const std::string path = folder_ + "/pair.yml";
   ASSERT_TRUE(save_calibration(path, {rig.left, rig}, 0.25));
-  std::ifstream file(path);
-  const std::string whole{std::istreambuf_iterator<char>(file), {}};
+  const std::string whole = text_of(path);
   int read = 0;
   for (std::size_t i = 0; i < whole.size(); i += 7) {
     read += parse_opencv_calibration(whole.substr(0, i), "cut").has_value() ? 1 : 0;

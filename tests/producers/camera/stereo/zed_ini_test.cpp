@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
-#include <fstream>
-#include <iterator>
+
+#include "tests/test_folder.h"
 
 namespace dance {
 namespace {
 
 std::string zed_file(const std::string& name) {
-  std::ifstream file(DANCE_SOURCE_DIR "/tests/producers/camera/stereo/zed_corpus/" + name);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return text_of(DANCE_SOURCE_DIR "/tests/producers/camera/stereo/zed_corpus/" + name);
 }
 
 std::string without(std::string text, const std::string& line_begin, const std::string& instead) {

@@ -3,14 +3,12 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
 #include "producers/camera/view/picture_window.h"
 #include "producers/camera/view/preview.h"
+#include "tests/test_folder.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/virtual_display.h"
 
@@ -20,13 +18,11 @@ namespace {
 // What is on the screen, by the dump that the server keeps: 25 words, a name, a table of colours,
 // rows.
 cv::Mat screen_of(const std::string& folder) {
-  std::ifstream file(folder + "/Xvfb_screen0", std::ios::binary);
-  std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
+  std::vector<std::uint8_t> bytes = bytes_in(folder + "/Xvfb_screen0");
   if (bytes.size() < 100) return {};
   const auto word = [&](std::size_t i) {
     std::size_t value = 0;
-    for (std::size_t b = 0; b < 4; ++b)
-      value = value << 8 | static_cast<unsigned char>(bytes[4 * i + b]);
+    for (std::size_t b = 0; b < 4; ++b) value = value << 8 | bytes[4 * i + b];
     return value;
   };
   constexpr std::size_t kHeadSize = 0, kWidth = 4, kHeight = 5, kBitsPerPixel = 11, kRowBytes = 12,
@@ -57,13 +53,9 @@ bool is_near(const cv::Mat& screen, int x, int y, const cv::Vec3b& colour) {
 
 class PreviewWindow : public ::testing::Test {
  protected:
-  PreviewWindow()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("dance-preview-window-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
+  PreviewWindow() {
     ::unsetenv("WAYLAND_DISPLAY");  // NOLINT(concurrency-mt-unsafe): one thread
   }
-  ~PreviewWindow() override { std::filesystem::remove_all(folder_); }
 
   static PreviewOptions in_a_window(bool is_mirrored = false) {
     PreviewOptions options;
@@ -84,7 +76,7 @@ class PreviewWindow : public ::testing::Test {
     while (std::chrono::steady_clock::now() < give_up && (*preview)->trouble().empty()) {
       (*preview)->show(frame, BodyLandmarks(), "alice, 30 Hz");
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      const cv::Mat screen = screen_of(folder_.string());
+      const cv::Mat screen = screen_of(folder_.path());
       // 640 x 360 in a window without a frame, in the corner, as nobody manages windows here.
       if (!screen.empty() && is_near(screen, 160, 90, fields[0]) &&
           is_near(screen, 480, 90, fields[1]) && is_near(screen, 160, 270, fields[2]) &&
@@ -97,7 +89,7 @@ class PreviewWindow : public ::testing::Test {
     return false;
   }
 
-  std::filesystem::path folder_;
+  TestFolder folder_{"preview-window"};
 };
 
 TEST_F(PreviewWindow, SaysWhereThereIsNoDisplayAndTheWayOut) {
@@ -109,7 +101,7 @@ TEST_F(PreviewWindow, SaysWhereThereIsNoDisplayAndTheWayOut) {
 }
 
 TEST_F(PreviewWindow, ShowsOnTheScreenWhatTheCameraSees) {
-  const VirtualDisplay display(folder_.string());
+  const VirtualDisplay display(folder_.path());
   if (display.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
   ::setenv("DISPLAY", display.display().c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
   {
