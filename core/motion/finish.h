@@ -1,11 +1,10 @@
-// Finish: the last step of a station that guesses, so that whatever comes out is a body that moves
-// like one: corrections without a pop, joints within their limits, feet that stand where they
-// stand, rotations of unit length.
+// Finish: the last step for predicted poses: inertialised corrections, joint limits, turn limits,
+// foot lock, unit rotations.
 //
 // Units/frames: as transformers/transformer.h; times of the stage's clock.
 // Ownership:    plain value; never allocates. Costs 1 to 4 us a frame.
 // Threads:      none inside; one owner.
-// Failure:      none. A pose that is no guess, with nothing left to correct, is not touched.
+// Failure:      none. A pose that is not predicted, with no correction in progress, is not changed.
 #pragma once
 
 #include "core/motion/foot_lock.h"
@@ -30,9 +29,7 @@ class Finish {
     corrections_.add(now, was_before, was, is_before, is, step);
   }
 
-  // What was really danced, as it becomes known: feet that stand are known by it. Optional. A
-  // station that is only asked for moments finishes nothing, and has nothing to know: of a chain
-  // the last one does it.
+  // The poses that arrived, for foot lock to detect standing feet. Optional.
   void observe(const Pose& real, MonoTime now) {
     if (finishes_) feet_.observe(real, now);
   }
