@@ -17,7 +17,7 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "core/pose/music_tag.h"
-#include "core/program/seldom.h"
+#include "core/program/message_throttle.h"
 #include "house/house_camera.h"
 #include "house/house_music.h"
 #include "house/session.h"
@@ -67,7 +67,7 @@ class House : public CaptureSink {
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
   std::unique_ptr<HouseMusic> music_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;
-  Seldom troubles_;  // of the link
+  MessageThrottle troubles_;  // of the link
 };
 
 }  // namespace dance

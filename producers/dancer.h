@@ -1,6 +1,6 @@
 // Dancer: a producer of poses that is asked for the pose of a moment: a recorded clip, the
-// synthetic salsa dancer. It is paced and published by producers/producer_program.h, or by the house
-// that hosts it.
+// synthetic salsa dancer. producers/producer_program.h, or the house that hosts it, paces and
+// publishes it.
 //
 // Units/frames: t counts from the dancer's start; poses in W, metres.
 // Ownership:    the caller owns the dancer.

@@ -1,5 +1,5 @@
-// What every program of the tree does alike: options, talk on stderr, one line for what went wrong,
-// and the exit code: 0 fine, 1 the world, 2 wrong use.
+// What every program needs: options, messages on stderr, one line for an error, and the exit code:
+// 0 success, 1 the environment, 2 wrong use.
 //
 // Ownership: refers to the command line for the length of the call.
 // Threads:   call from main.
@@ -18,10 +18,10 @@ namespace dance {
 int run_program(CommandLine& line, int argc, char** argv,
                 const std::function<Result<void>()>& body);
 
-// The folder that this program lies in, where its sisters are.
+// The folder of this program and the others of the tree.
 std::string program_folder();
 
-// Where windows would open, by DISPLAY or WAYLAND_DISPLAY; "" where nowhere.
+// The display for windows, by DISPLAY or WAYLAND_DISPLAY; "" without one.
 std::string display_name();
 
 }  // namespace dance

@@ -1,12 +1,12 @@
-// Writes a file whole or not at all: beside its place first, so that whoever reads it, or stops the
-// writer, has the old one or the new one.
+// Writes a file atomically: to a temporary file beside it, then renamed, so that readers see the
+// old one or the new one, also when the writer is stopped.
 //
 // Units/frames: none.
 // Ownership:    nothing stays.
-// Threads:      any; of two processes that write one file, one's is there.
-// Failure:      an Error names the file, the reason and the cure; what was there before stays.
-//               Where it could be written but not take its place, it stays beside it, and the Error
-//               says where. A device or a pipe has no place beside it: what it got, it has.
+// Threads:      any; of two processes that write one file, one wins.
+// Failure:      an Error names the file, the reason and the cure; the old file stays. If renaming
+//               fails the temporary file stays, and the Error names it. Devices and pipes are
+//               written directly.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace dance {
 
-// Whether it could be written now: asked before work that takes minutes.
+// Whether it could be written now: to be checked before work that takes minutes.
 Result<void> try_whole_file(const std::string& path);
 
 Result<void> write_whole_file(const std::string& path, std::string_view content);
