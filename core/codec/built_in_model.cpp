@@ -1,4 +1,4 @@
-// data/codec/body.model, as bytes of this library: the assembler takes the file in.
+// data/codec/body.model, embedded in this library by the assembler.
 #include "core/base/assert.h"
 #include "core/codec/pose_model.h"
 

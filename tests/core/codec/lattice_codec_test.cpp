@@ -305,7 +305,7 @@ TEST(PoseModel, IsReadAsItWasWrittenAndRefusedWhenDamaged) {
   EXPECT_NE(read_model(other).error().what.find("version"), std::string::npos);
   other = file;
   // The first coordinate of a key frame has none before it to look at.
-  const std::size_t intra_begin = 6 + kBoneCount * 14 + 2 * 4 * (kBellSteps + 1);
+  const std::size_t intra_begin = 6 + kBoneCount * 14 + 2 * 4 * (kTableSteps + 1);
   other[intra_begin] = 200;
   EXPECT_FALSE(read_model(other));
   other = file;
