@@ -18,7 +18,7 @@ constexpr std::string_view kXzMagic(
     "7zXZ\0",
     6);
 constexpr std::size_t kBlock_bytes = std::size_t{1} << 16;
-// What the decoder may take for itself: the strongest preset needs 65 MiB.
+// Memory limit of the decoder: the strongest preset needs 65 MiB.
 constexpr std::uint64_t kDecoderMemory_bytes = std::uint64_t{128} << 20;
 
 std::string megabytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
