@@ -7,7 +7,7 @@
 namespace dance {
 namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
-// More at once is another place of the music.
+// A larger jump is another place of the music.
 constexpr double kLongestStep_beats = 1.0;
 }  // namespace
 

@@ -1,11 +1,11 @@
-// BeatMeter: how well one dancer on this stage is in time with the music of this house: how far
-// behind the beat, how much that wanders, how long after it was danced a moment is shown, and where
-// the dancer's own beats fell.
+// BeatMeter: how well one dancer on this stage is in time with the music of this house: mean offset
+// behind the beat, its spread, the delay from capture to display, and where the dancer's own beats
+// fell.
 //
 // Units/frames: positions in beats of this house's music; ms, positive is behind the beat.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
-// Failure:      figures() is nothing before eight poses with musical time.
+// Failure:      figures() is nullopt before eight poses with musical time.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace dance {
 struct BeatFigures {
   float behind_ms = 0.0f;         // the nearest beat; circular mean of the last seconds
   float wander_ms = 0.0f;         // its standard deviation
-  std::optional<float> delay_ms;  // negative: guessed ahead of now
+  std::optional<float> delay_ms;  // negative: predicted ahead of now
   // Where the music of this house stood when the dancer's own beats were shown, oldest first.
   static constexpr std::size_t kOwnBeats = 16;
   std::array<double, kOwnBeats> own_beats{};

@@ -114,7 +114,8 @@ class Panel {
     list_.PopClipRect();
   }
 
-  // A guess is on the beat by what it is a guess of: that says nothing of how well it was guessed.
+  // A predicted beat is on the beat by construction, which says nothing about the prediction's
+  // error.
   void draw_numbers(const SceneState& scene, float y) {
     const auto compared =
         std::find_if(scene.guests.begin(), scene.guests.end(), [](const SceneGuest& guest) {

@@ -7,7 +7,7 @@
 namespace dance {
 namespace {
 
-constexpr double kNow_ms = 10.0;  // nobody sees the difference
+constexpr double kNow_ms = 10.0;  // below what is visible
 // Ages are means over some seconds, each of its own poses.
 constexpr double kNewer_ms = 5.0;
 

@@ -1,7 +1,7 @@
-// What is said of a dancer and the beat, alike under a stage and beside a plot.
+// Texts on a dancer and the beat, for stage and plot.
 //
 // Units/frames: ms; positive is behind the beat, or before now.
-// Ownership:    returns texts of its own.
+// Ownership:    returns new texts.
 // Threads:      any.
 // Failure:      none.
 #pragma once
@@ -12,9 +12,9 @@ namespace dance {
 
 // "38 ms behind the beat", "on the beat".
 std::string beat_words(double behind_ms);
-// Of what is newer than what has come: "a guess of now", "a guess of 70 ms ago".
+// Of a predicted pose: "a guess of now", "a guess of 70 ms ago".
 std::string guess_words(double age_ms);
-// Whether what is shown is newer than the newest that has come.
+// Whether the shown moment is newer than the newest pose.
 bool is_guess(double shown_age_ms, double come_age_ms);
 
 }  // namespace dance

@@ -18,7 +18,7 @@ std::optional<double> delay_of(const SceneGuest& guest) {
   return guest.figures.beat ? guest.figures.beat->delay_ms : std::nullopt;
 }
 
-// Whoever is merely called so is a guest like others.
+// A guest with such a name but without a twin is a guest like others.
 bool is_twin(const SceneState& scene, const GuestId& id) {
   const auto whose = twin_of_whom(id);
   return whose && find_guest(scene, *whose) != nullptr;

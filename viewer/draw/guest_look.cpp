@@ -23,8 +23,7 @@ constexpr std::array<std::uint32_t, 5> kShoes{0x1c1b1d, 0xf1ece2, 0x8a5a33, 0xb0
 constexpr std::array<std::uint32_t, 6> kHairs{0x1d1613, 0x3a251a, 0x6b4226,
                                               0xb98a4e, 0x8a3b22, 0x8f8a86};
 
-// Where the hash starts, tried out so that the names which dancers of the documents and the demo
-// bear come out apart.
+// Seed of the hash, chosen so that the names in the documents and the demo get different colours.
 constexpr std::uint64_t kTaste = 31893;
 
 std::uint64_t hash_of(const GuestId& guest) {

@@ -1,5 +1,5 @@
 // GuestLook: the colours and clothes of a guest, made from the guest id alone, so that the same
-// dancer looks the same on every screen and nobody has to agree on anything.
+// dancer looks the same on every screen without negotiation.
 //
 // Units/frames: colours are linear RGB in 0..1.
 // Ownership:    plain value.

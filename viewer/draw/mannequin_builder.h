@@ -1,4 +1,4 @@
-// MannequinBuilder: what the makers of torso, head, limbs and hands share: the guest's frames,
+// MannequinBuilder: shared by the builders of torso, head, limbs and hands: the guest's frames,
 // colours and scale, and places given in a bone's own axes.
 //
 // Units/frames: local places are metres of a body 1.72 m tall, in the axes of the bone (in T-pose

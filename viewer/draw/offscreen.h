@@ -28,7 +28,7 @@ class OffscreenContext {
   void* context_ = nullptr;
 };
 
-// Who draws in the current context, as the driver calls it; "" without a context.
+// The renderer of the current context, as the driver names it; "" without a context.
 std::string renderer_name();
 // True when pixels are made by the processor alone (llvmpipe and its kin) in the current context.
 bool is_software_rendering();

@@ -39,11 +39,11 @@ struct Tag {
   ScreenPoint at;
 };
 
-// More names than these stand in each other's way whatever one does.
+// More tags overlap in any arrangement.
 constexpr std::size_t kTagsKeptApart = 4;
 
-// A couple, one before the other: the tag of who is further off goes above the nearer one's. Tags
-// from far to near.
+// A couple, one before the other: the tag of the further one goes above the nearer one's. Tags from
+// far to near.
 void keep_apart(std::vector<Tag>& tags, float width_px, float height_px) {
   if (tags.size() > kTagsKeptApart) return;
   for (std::size_t far = tags.size(); far-- > 0;)
@@ -107,7 +107,7 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
 void Overlay::begin_frame(int width_px, int height_px) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
-  io.DeltaTime = 1.0f / 60.0f;  // nothing of ours moves with ImGui's time
+  io.DeltaTime = 1.0f / 60.0f;  // ImGui's time is not used
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }

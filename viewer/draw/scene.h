@@ -1,5 +1,5 @@
-// SceneState: everything that a picture of the stage shows, as plain values. It knows of no bus and
-// no window, so that the viewer, tests and pictures for the documents draw through the same door.
+// SceneState: everything that a picture of the stage shows, as plain values. It depends on no bus
+// and no window: the viewer, tests and pictures for the documents draw from it.
 //
 // Units/frames: poses in W, metres; rates in Hz, ages in ms; music in beats as core/base/beat.h
 //               counts them.
@@ -20,7 +20,7 @@
 
 namespace dance {
 
-// What the HUD says about one guest; what is not known is not shown.
+// The HUD's figures of one guest; unknown ones are not shown.
 struct GuestFigures {
   float arrival_hz = 0.0f;
   std::optional<float> age_ms;
@@ -43,7 +43,7 @@ struct SceneGuest {
   float opacity = 1.0f;  // 0 = faded out
   GuestFigures figures;
   // Of a Comparison: that the figures of this dancer stand under both halves, and that this half
-  // shows a guess of the dance.
+  // shows a prediction.
   bool is_compared = false;
   bool is_guess = false;
 };
@@ -51,7 +51,7 @@ struct SceneGuest {
 struct SceneState {
   std::vector<SceneGuest> guests;
   std::optional<SceneMusic> music;
-  // Free lines at the bottom left: the viewer's own rate, a hint when nobody is here.
+  // Free lines at the bottom left: the viewer's own rate, a hint when no dancer is here.
   std::vector<std::string> notes;
 };
 

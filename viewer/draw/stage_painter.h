@@ -1,10 +1,10 @@
-// StagePainter: the stage and what is written over it, as one picture. A window shows that picture
-// and a headless run writes it to a file; there is no other way to either.
+// StagePainter: the stage and its overlay as one picture, which a window shows or a headless run
+// writes to a file.
 //
 // Units/frames: W; pixels.
 // Ownership:    owns renderer and overlay; the OpenGL context must outlive it.
 // Threads:      the one whose context is current.
-// Failure:      create() and draw() tell what the driver refuses.
+// Failure:      create() and draw() name what the driver refuses.
 #pragma once
 
 #include <memory>
@@ -45,7 +45,7 @@ class StagePainter {
   GlTexture wide_texture_;  // both halves
   GlFramebuffer wide_;
   int wide_width_px_ = 0, wide_height_px_ = 0;
-  bool is_wide_ = false;  // what draw() has made last
+  bool is_wide_ = false;  // of the last draw()
   std::unique_ptr<StageRenderer> renderer_;
   std::unique_ptr<Overlay> overlay_;
 };

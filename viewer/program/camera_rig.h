@@ -1,10 +1,10 @@
-// CameraRig: who moves the camera: presets, the drag of a mouse, the frame that keeps everybody (or
-// one guest) in the picture, and a slow turn when nobody touches it.
+// CameraRig: controls the camera: presets, mouse drags, framing of all dancers (or one), and a slow
+// turn when idle.
 //
 // Units/frames: angles in rad, W; drags are shares of the picture's height.
 // Ownership:    plain value.
 // Threads:      none inside; the drawing thread owns it.
-// Failure:      none; a focus on somebody who is not there frames everybody.
+// Failure:      none; a focus on a missing guest frames all.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,14 +33,13 @@ class CameraRig {
   void set_turning(bool turning) { is_turning_ = turning; }
   bool is_turning() const { return is_turning_; }
 
-  // Moves on by dt towards what the scene asks for, softly.
+  // Moves smoothly by dt towards the target of the scene.
   void update(const SceneState& scene, float aspect, Duration dt);
-  // Is there at once, for pictures that stand alone. Several scenes share one frame.
+  // Jumps to the target, for single pictures. Several scenes share one frame.
   void jump(const std::vector<const SceneState*>& scenes, float aspect);
 
   const OrbitCamera& camera() const { return camera_; }
-  // The view that was chosen for this stage, before anybody dragged or turned it: the light stands
-  // by it.
+  // The view chosen for this stage before any user input: it determines the light's direction.
   float stage_yaw_rad() const { return stage_yaw_rad_; }
 
  private:
@@ -51,8 +50,8 @@ class CameraRig {
   OrbitCamera camera_;
   std::optional<GuestId> focus_;
   bool is_turning_ = false;
-  bool is_free_ = false;        // panned away: frames nobody until told to
-  bool yaw_is_chosen_ = false;  // by hand, by preset, or from who was there first
+  bool is_free_ = false;        // panned away: no framing until requested
+  bool yaw_is_chosen_ = false;  // by hand, by preset, or from the first dancers
   std::size_t yaw_chosen_for_ = 0;
   bool has_framed_ = false;
   float zoom_ = 1.0f;

@@ -1,5 +1,5 @@
-// PictureSource: where pictures in files come from: a live house, whose moments have to be waited
-// for, or a recorded one, whose moments come when they are asked for.
+// PictureSource: source of the scenes for pictures in files: a live house, in real time, or a
+// recorded one.
 //
 // Units/frames: moments in the house's clock.
 // Ownership:    owns its feed.
@@ -23,11 +23,11 @@ class PictureSource {
 
   virtual GuestBoard& board() = 0;
   virtual MonoTime begin() const = 0;
-  // Returns when it is that moment, or somebody has asked to end, with the time that it is.
+  // Waits until that moment or a request to end; returns the present time.
   virtual MonoTime wait_until(MonoTime moment) = 0;
-  // Of a beat of the house's music; nothing where it is not known yet.
+  // The time of a beat of the house's music; nullopt while it is unknown.
   virtual std::optional<MonoTime> time_of_beat(double) const { return std::nullopt; }
-  // How long a recorded house was; nothing of a live one.
+  // Duration of a recorded house; nullopt of a live one.
   virtual Duration recorded() const { return Duration(); }
   virtual bool is_over() const = 0;
   virtual const std::string& name() const = 0;  // for people

@@ -1,11 +1,11 @@
-// StageFeed: the viewer's ear: the house's bus on a thread of its own, because the window system
-// wants the main thread. It fills a GuestBoard, and publishes when each pose was shown.
+// StageFeed: the viewer's input: the house's bus on a thread of its own, because the window system
+// needs the main thread. It fills a GuestBoard, and publishes when each pose was shown.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    owns bus, poll loop and thread; the destructor ends the thread.
 // Threads:      create() before any other thread starts (signals); board().take(), report_shown()
 //               and is_over() on the drawing thread; the rest happens on the bus thread.
-// Failure:      create() names a bus that cannot be had.
+// Failure:      create() names the bus and the reason.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// StageRoster: turns a GuestBoard's news into the scene to draw: who is there, who fades out after
-// silence, who has come back, and whose pose is new in this picture.
+// StageRoster: turns a GuestBoard's news into the scene to draw: which guests are present, fading
+// out after silence, or back, and whose pose is new in this picture.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    borrows the board.
@@ -29,7 +29,7 @@ class StageRoster {
     MonoTime heard;
   };
   std::span<const Fresh> fresh() const { return fresh_; }
-  // A count that changes whenever somebody comes or goes.
+  // A count that changes whenever a guest comes or goes.
   int arrivals() const { return arrivals_; }
 
  private:

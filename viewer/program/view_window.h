@@ -4,7 +4,7 @@
 // Units/frames: drags as shares of the window's height.
 // Ownership:    owns the window; one per process. Borrows the rig.
 // Threads:      the main thread, as window systems want it.
-// Failure:      create() tells where no display can be had, and what to do instead.
+// Failure:      create() reports a missing display, and the alternative.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ class ViewWindow {
   ViewWindow& operator=(const ViewWindow&) = delete;
 
   void poll_events();
-  // Returns early when somebody touches mouse or keys.
+  // Returns early on input from mouse or keys.
   void wait_for_events(Duration longest);
   // Shows what was drawn; waits for the display's turn where the driver can.
   void swap();
