@@ -17,18 +17,8 @@ function(dance_require what found package)
   dance_feature("${what}" "found" "${package}")
 endfunction()
 
-# Debian's LCM has a pkg-config file that needs glib's headers, which it does not bring, and no CMake package.
-find_path(LCM_INCLUDE_DIR lcm/lcm.h)
-find_library(LCM_LIBRARY lcm)
-find_program(LCM_GEN lcm-gen)
-if(LCM_INCLUDE_DIR AND LCM_LIBRARY AND LCM_GEN)
-  set(DANCE_LCM_FOUND TRUE)
-  add_library(dance_lcm INTERFACE)
-  add_library(lcm::lcm ALIAS dance_lcm)
-  target_include_directories(dance_lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
-  target_link_libraries(dance_lcm INTERFACE ${LCM_LIBRARY})
-endif()
-dance_require("LCM" DANCE_LCM_FOUND "liblcm-dev liblcm-bin")
+find_package(LCM QUIET MODULE)
+dance_require("LCM" LCM_FOUND "liblcm-dev liblcm-bin")
 
 find_package(Eigen3 3.4 QUIET NO_MODULE)
 dance_require("Eigen 3.4" Eigen3_FOUND "libeigen3-dev")
@@ -86,6 +76,10 @@ dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
 
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
 dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
+# What libsndfile cannot read; from FFmpeg 5.1 on, which has the channel layouts that are used.
+pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample)
+dance_optional(DANCE_FFMPEG "Music with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
+  "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 
@@ -104,8 +98,10 @@ foreach(module calib3d dnn videoio imgcodecs imgproc core)
 endforeach()
 find_library(TURBOJPEG_LIBRARY turbojpeg)
 find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h)
+find_path(FLATBUFFERS_INCLUDE_DIR flatbuffers/flatbuffers.h)
+find_program(FLATC flatc)
 set(camera_found FALSE)
-if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR)
+if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR AND FLATBUFFERS_INCLUDE_DIR AND FLATC)
   set(camera_found TRUE)
   target_include_directories(dance_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
   add_library(dance_turbojpeg INTERFACE)
@@ -114,7 +110,8 @@ if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR)
   target_link_libraries(dance_turbojpeg INTERFACE ${TURBOJPEG_LIBRARY})
 endif()
 dance_optional(DANCE_CAMERA "Camera" DANCE_HAVE_CAMERA ${camera_found}
-  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev libturbojpeg0-dev")
+  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev libturbojpeg0-dev flatbuffers-compiler \
+libflatbuffers-dev")
 
 # Without it OpenCV runs the pose network: the same numbers, four times slower.
 find_path(XNNPACK_INCLUDE_DIR xnnpack.h)

@@ -71,8 +71,17 @@ function(dance_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PUBLIC;PRIVATE")
   add_library(dance_${name} STATIC ${arg_SOURCES})
   add_library(dance::${name} ALIAS dance_${name})
-  target_link_libraries(dance_${name} PUBLIC dance_settings ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_link_libraries(dance_${name} PUBLIC $<BUILD_INTERFACE:dance_settings> ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   dance_use_pch(dance_${name})
+endfunction()
+
+# dance_embed(TARGET NAME FILE): the file's bytes are part of the target, std::span<const std::uint8_t> dance::NAME().
+function(dance_embed target name file)
+  set(file ${PROJECT_SOURCE_DIR}/${file})
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/embedded_file.cpp.in ${source} @ONLY)
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${file})
+  target_sources(${target} PRIVATE ${source})
 endfunction()
 
 # dance_program(NAME SOURCES x_main.cpp … LIBS targets …): the program dance-NAME in <build>/bin.
@@ -82,6 +91,7 @@ function(dance_program name)
   target_link_libraries(dance-${name} PRIVATE dance_settings ${arg_LIBS})
   dance_use_pch(dance-${name})
   set_target_properties(dance-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  set_property(GLOBAL APPEND PROPERTY DANCE_PROGRAMS dance-${name})
 endfunction()
 
 # dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]): one

@@ -43,15 +43,16 @@ Result<void> listen(const ListenOptions& options) {
   DANCE_TRY(const auto bus, Bus::open(options.bus));
 
   std::uint64_t heard = 0;
-  bus->on_pose(where, consumer_options.guest, Delivery::kEvery,
-               [&](const Channel& channel, const Pose& pose, MonoTime now) {
-                 ++heard;
-                 consumer->on_pose(channel.guest(), pose, now);
-               });
-  bus->on_skeleton(where, consumer_options.guest,
-                   [&](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
-                     consumer->on_skeleton(channel.guest(), timed.skeleton, now);
-                   });
+  bus->subscribe<Pose>({where, consumer_options.guest},
+                       [&](const Channel& channel, const Pose& pose, MonoTime now) {
+                         ++heard;
+                         consumer->on_pose(channel.guest(), pose, now);
+                       });
+  bus->subscribe<TimedSkeleton>(
+      {where, consumer_options.guest},
+      [&](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
+        consumer->on_skeleton(channel.guest(), timed.skeleton, now);
+      });
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   // After each turn, so that whoever reads a pipe behind us sees a pose when it comes.
   poller->at_turn_end([&](MonoTime) {

@@ -64,20 +64,19 @@ std::vector<GuestId> hosted_guests(const Session& session) {
 
 }  // namespace
 
-House::House(const Session& session, Poller& poller)
-    : session_(session), poller_(poller), tag_(this_clock_id()) {}
+House::House(const Session& session, Poller& poller) : session_(session), poller_(poller) {}
 
 Result<std::unique_ptr<House>> House::open(const Session& session, Poller& poller) {
   std::unique_ptr<House> house(new House(session, poller));
   DANCE_TRY(house->bus_, Bus::open(session.bus));
-  house->link_bus_ = std::make_unique<LinkBus>(*house->bus_, this_clock_id());
+  house->port_ = std::make_unique<HousePort>(
+      *house->bus_, HostedParts{!session.server.empty(), hosted_guests(session)});
+  house->captures_ = std::make_unique<PortCaptureSink>(*house->port_);
+  house->link_bus_ =
+      std::make_unique<LinkBus>(*house->bus_, house->captures_->captures(), this_clock_id());
   // The link first: a capture goes to the network before this house's own stage.
   if (auto linked = house->open_link(); !linked) return tl::make_unexpected(linked.error());
-  ManagerOptions options;
-  options.routes = session.routes;
-  options.hear_guests_on_bus = session.server.empty();
-  options.hosted_captures = hosted_guests(session);
-  house->manager_ = std::make_unique<Manager>(options, *house->bus_, poller);
+  house->manager_ = std::make_unique<Manager>(session.routes, *house->port_, poller);
   // Of more than the manager remembers each would be new again and again.
   house->manager_->on_other_manager([url = house->bus_->url(), said = MessageThrottle()]() mutable {
     if (!said.is_due(url, mono_now())) return;
@@ -94,10 +93,6 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   for (const HostedCamera& camera : session.cameras)
     house->cameras_.push_back(HouseCamera::open(camera, house->bus_->url(), poller));
   House* self = house.get();
-  house->bus_->on_beat([self](const Channel&, const Beat& beat, MonoTime) {
-    self->tag_.hear(beat);
-    if (beat.clock_id == this_clock_id()) self->heard_.hear(beat);
-  });
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
     self->link_bus_->publish_second(now);
@@ -128,7 +123,6 @@ Result<void> House::open_link() {
     if (!options.guests.contains(guest) && !options.guests.try_push(guest))
       return fail("a house has at most 16 guests");
   LinkHandlers handlers = link_bus_->handlers();
-  add_stage(handlers);
   add_talk(handlers);
   LinkKeySource source;
   source.key_file = session_.key_file;
@@ -137,30 +131,9 @@ Result<void> House::open_link() {
   DANCE_TRY(const LinkKey key, choose_link_key(session_.server, options.room, first, source));
   DANCE_TRY(link_, Link::open(server, key, options, std::move(handlers), poller_));
   link_bus_->attach(*link_);
-  for (const GuestId& guest : session_.guests)
-    if (!is_hosted(guest)) link_bus_->send_captures_of(guest);
-  for (const GuestId& guest : session_.guests) link_bus_->send_states_of(guest);
+  for (const GuestId& guest : session_.guests) link_bus_->send_signals_of(guest);
   if (!options.listen_only) link_bus_->send_channels(session_.channels);
   return {};
-}
-
-// What the link hears goes to the stage first, and then over the bus for whoever listens.
-void House::add_stage(LinkHandlers& handlers) {
-  handlers.on_pose = [this, publish = std::move(handlers.on_pose)](const GuestId& guest,
-                                                                   const Pose& pose, MonoTime now) {
-    manager_->take(Where::kGuest, guest, pose, now);
-    publish(guest, pose, now);
-  };
-  handlers.on_hands = [this, publish = std::move(handlers.on_hands)](
-                          const GuestId& guest, const Hands& hands, MonoTime now) {
-    manager_->take(Where::kGuest, guest, hands);
-    publish(guest, hands, now);
-  };
-  handlers.on_skeleton = [this, publish = std::move(handlers.on_skeleton)](
-                             const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
-    manager_->take(Where::kGuest, guest, TimedSkeleton{skeleton, now, this_clock_id()});
-    publish(guest, skeleton, now);
-  };
 }
 
 void House::add_talk(LinkHandlers& handlers) {
@@ -196,9 +169,9 @@ void House::add_talk(LinkHandlers& handlers) {
 
 Result<void> House::open_producers() {
   for (const HostedProducer& producer : session_.producers) {
-    DANCE_TRY(auto dancer, make_dancer(producer, heard_));
+    DANCE_TRY(auto dancer, make_dancer(producer, captures_->captures().music()));
     feeds_.push_back(std::make_unique<DancerFeed>(std::move(dancer), producer.guest,
-                                                  producer.rate_hz, *this, poller_,
+                                                  producer.rate_hz, *captures_, poller_,
                                                   start_of(producer, mono_now())));
   }
   return {};
@@ -206,7 +179,7 @@ Result<void> House::open_producers() {
 
 Result<void> House::open_consumers() {
   for (const HostedConsumer& wanted : session_.consumers) {
-    // A terminal that is stopped, or a pipe that nobody reads, would stop the house's dancers.
+    // A terminal that is stopped, or a pipe that is not read, would stop the house's dancers.
     if (wanted.file.empty() || wanted.file == "-")
       return fail("[[listen]] needs a file; to see poses in a terminal run dance listen");
     DANCE_TRY(auto output, OutputFile::open(free_name(wanted.file)));
@@ -218,50 +191,20 @@ Result<void> House::open_consumers() {
     DANCE_TRY(auto consumer, make_consumer(wanted.to, *outputs_.back(), options));
     PoseConsumer* listener = consumer.get();
     consumers_.push_back(std::move(consumer));
-    const GuestId only = wanted.from.guest;
     if (wanted.from.where != Where::kStage)
       return fail(
           "[[listen]] from: a hosted consumer hears POSE/stage; for others run dance listen");
-    manager_->on_staged(
-        [listener, only](const GuestId& guest, const Pose& pose, MonoTime now) {
-          if (!only.is_set() || only == guest) listener->on_pose(guest, pose, now);
-        },
-        [listener, only](const GuestId& guest, const Skeleton& skeleton) {
-          if (!only.is_set() || only == guest) listener->on_skeleton(guest, skeleton, mono_now());
+    const From stage(Where::kStage, wanted.from.guest);
+    port_->subscribe<Pose>(stage,
+                           [listener](const Channel& channel, const Pose& pose, MonoTime now) {
+                             listener->on_pose(channel.guest(), pose, now);
+                           });
+    port_->subscribe<TimedSkeleton>(
+        stage, [listener](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
+          listener->on_skeleton(channel.guest(), timed.skeleton, now);
         });
   }
   return {};
-}
-
-bool House::is_hosted(const GuestId& guest) const {
-  return std::any_of(session_.producers.begin(), session_.producers.end(),
-                     [&](const HostedProducer& producer) { return producer.guest == guest; });
-}
-
-bool House::is_sent(const GuestId& guest) const {
-  return link_ &&
-         std::find(session_.guests.begin(), session_.guests.end(), guest) != session_.guests.end();
-}
-
-void House::capture(const GuestId& guest, Pose& pose, MonoTime now) {
-  tag_.tag(pose);
-  const MonoTime published = mono_now();  // the dancer has been worked out since `now`
-  pose.stamp(Hop::kPublished, published);
-  if (is_sent(guest)) link_->send(guest, pose, now);
-  manager_->take(Where::kCapture, guest, pose, published);
-  bus_->publish(Channel::of(Signal::kPose, Where::kCapture, guest), pose);
-}
-
-void House::capture(const GuestId& guest, const Hands& hands) {
-  if (is_sent(guest)) link_->send(guest, hands, mono_now());
-  manager_->take(Where::kCapture, guest, hands);
-  bus_->publish(Channel::of(Signal::kHands, Where::kCapture, guest), hands);
-}
-
-void House::capture(const GuestId& guest, const TimedSkeleton& skeleton) {
-  if (is_sent(guest)) link_->send(guest, skeleton.skeleton, mono_now());
-  manager_->take(Where::kCapture, guest, skeleton);
-  bus_->publish(Channel::of(Signal::kSkeleton, Where::kCapture, guest), skeleton);
 }
 
 std::string House::report_json(MonoTime now) {

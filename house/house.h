@@ -1,7 +1,7 @@
 // House: all of a house's routing in one process: bus, signal manager, link to the server, hosted
-// producers and consumers, from one session. A pose from the link or from a hosted producer reaches
-// the stage without a bus hop; it goes over the bus as well, for recorders and whoever else
-// listens.
+// producers and consumers, from one session. They meet on one port (house/house_port.h): a pose
+// from the link or from a hosted producer reaches the stage without a bus hop; it goes over the bus
+// as well, for recorders and other programs.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    owns its parts; refers to the poller, which must outlive it.
@@ -16,10 +16,10 @@
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
-#include "core/pose/music_tag.h"
 #include "core/program/message_throttle.h"
 #include "house/house_camera.h"
 #include "house/house_music.h"
+#include "house/house_port.h"
 #include "house/session.h"
 #include "manager/manager.h"
 #include "producers/capture_sink.h"
@@ -29,10 +29,12 @@
 
 namespace dance {
 
-class House : public CaptureSink {
+class House {
  public:
   static Result<std::unique_ptr<House>> open(const Session& session, Poller& poller);
-  ~House() override;
+  ~House();
+  House(const House&) = delete;
+  House& operator=(const House&) = delete;
 
   Bus& bus() { return *bus_; }
   bool is_connected() const { return link_ && link_->is_connected(); }
@@ -44,24 +46,16 @@ class House : public CaptureSink {
   Result<void> open_link();
   Result<void> open_producers();
   Result<void> open_consumers();
-  void add_stage(LinkHandlers& handlers);
   void add_talk(LinkHandlers& handlers);
-  bool is_hosted(const GuestId& guest) const;
-  bool is_sent(const GuestId& guest) const;  // a guest of this house whom the link announces
-
-  // Of hosted producers.
-  void capture(const GuestId& guest, Pose& pose, MonoTime now) override;
-  void capture(const GuestId& guest, const Hands& hands) override;
-  void capture(const GuestId& guest, const TimedSkeleton& skeleton) override;
 
   Session session_;
   Poller& poller_;
   std::unique_ptr<Bus> bus_;
+  std::unique_ptr<HousePort> port_;
+  std::unique_ptr<PortCaptureSink> captures_;  // of hosted producers
   std::unique_ptr<LinkBus> link_bus_;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Manager> manager_;
-  MusicTag tag_;     // of hosted producers
-  BeatClock heard_;  // the music, for those who dance to it
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   std::vector<std::unique_ptr<OutputFile>> outputs_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;

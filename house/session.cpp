@@ -1,16 +1,15 @@
 #include "house/session.h"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "core/program/whole_file.h"
 #include "house/toml_reader.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 
 namespace dance {
 namespace {
 
-constexpr std::uintmax_t kMaxSessionBytes = 1 << 20;
+constexpr std::size_t kMaxSessionBytes = 1 << 20;
 constexpr std::size_t kMaxGuestsPerHouse = 16;
 constexpr std::size_t kMaxRoutes = 64;
 
@@ -84,8 +83,8 @@ void read_route(TomlReader& reader, Session& session) {
   route.from = read_end(reader, "from", reader.required_string("from"));
   route.to = read_end(reader, "to", reader.required_string("to"));
   route.through = reader.strings("through", "[\"hold 20ms\"]");
-  const auto chain = Chain::make(route.through);
-  if (!chain) reader.complain("through", chain.error().what);
+  const auto flow = Flow::make(route.through);
+  if (!flow) reader.complain("through", flow.error().what);
   // Without a rate, poses go on as they come; transformers need the stage's steady rate.
   route.rate_hz = reader.number_or("rate", route.through.empty() ? 0.0 : 60.0, 0.0, 1000.0);
   if (!route.through.empty() && route.rate_hz < 1.0)
@@ -291,17 +290,8 @@ Result<Session> parse_session(std::string_view text, const std::string& name) {
 }
 
 Result<Session> load_session(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    return fail(path + ": is a folder; name the session file in it");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(path + ": cannot be read; is the name right?");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error || size > kMaxSessionBytes)
-    return fail(path + ": is no session file (it is larger than 1 MiB)");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_session(text.str(), path);
+  DANCE_TRY(const std::string text, read_whole_file(path, kMaxSessionBytes));
+  return parse_session(text, path);
 }
 
 std::vector<Route> default_routes() {

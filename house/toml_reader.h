@@ -36,7 +36,7 @@ class TomlReader {
   // Complains about the value of a key that was read but makes no sense.
   void complain(std::string_view key, const std::string& what);
   bool has(std::string_view key) const { return table_.contains(key); }
-  // Complains about keys that nobody asked for.
+  // Complains about keys that have not been read.
   void finish();
   const std::optional<Error>& problem() const { return problem_; }
 

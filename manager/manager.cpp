@@ -19,51 +19,30 @@ bool is_same_moment(MonoTime a, MonoTime b) {
 
 }  // namespace
 
-Manager::Manager(ManagerOptions options, Bus& bus, Poller& poller)
-    : options_(std::move(options)),
-      bus_(bus),
-      router_(options_.routes, this_clock_id(), *this),
-      begin_(mono_now()) {
+Manager::Manager(const std::vector<Route>& routes, SignalPort& port, Poller& poller)
+    : port_(port), router_(routes, this_clock_id(), *this), begin_(mono_now()) {
   router_.on_learner([this](std::shared_ptr<Learner> learner) { study_.add(std::move(learner)); });
   listen(Where::kCapture);
-  if (options_.hear_guests_on_bus) listen(Where::kGuest);
-  // A style is said over the bus whoever hands the poses over.
-  for (const Where where : {Where::kCapture, Where::kGuest})
-    if (router_.wants(where))
-      bus_.on_style(where, GuestId(),
-                    [this, where](const Channel& channel, const Style& style, MonoTime) {
-                      router_.take(where, channel.guest(), style);
-                    });
-  bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime now) {
+  listen(Where::kGuest);
+  port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime now) {
     // Of another machine's clock it says nothing about the music here.
     if (beat.clock_id == this_clock_id()) router_.hear(beat, now);
   });
   start_timers(poller);
 }
 
-bool Manager::is_hosted(Where where, const GuestId& guest) const {
-  return where == Where::kCapture &&
-         std::find(options_.hosted_captures.begin(), options_.hosted_captures.end(), guest) !=
-             options_.hosted_captures.end();
-}
-
 void Manager::listen(Where where) {
   if (!router_.wants(where)) return;
-  bus_.on_pose(where, GuestId(), Delivery::kEvery,
-               [this, where](const Channel& channel, const Pose& pose, MonoTime now) {
-                 if (!is_hosted(where, channel.guest()))
-                   router_.take(where, channel.guest(), pose, now);
-               });
-  bus_.on_hands(where, GuestId(), Delivery::kEvery,
-                [this, where](const Channel& channel, const Hands& hands, MonoTime) {
-                  if (!is_hosted(where, channel.guest()))
-                    router_.take(where, channel.guest(), hands);
-                });
-  bus_.on_skeleton(where, GuestId(),
-                   [this, where](const Channel& channel, const TimedSkeleton& skeleton, MonoTime) {
-                     if (!is_hosted(where, channel.guest()))
-                       router_.take(where, channel.guest(), skeleton);
-                   });
+  const auto take = [this, where](const Channel& channel, const auto& message, MonoTime) {
+    router_.take(where, channel.guest(), message);
+  };
+  port_.subscribe<Pose>(where,
+                        [this, where](const Channel& channel, const Pose& pose, MonoTime now) {
+                          router_.take(where, channel.guest(), pose, now);
+                        });
+  port_.subscribe<Hands>(where, take);
+  port_.subscribe<TimedSkeleton>(where, take);
+  port_.subscribe<Style>(where, take);
 }
 
 void Manager::start_timers(Poller& poller) {
@@ -83,13 +62,9 @@ void Manager::start_timers(Poller& poller) {
   });
 }
 
-void Manager::on_staged(OnStagedPose on_pose, OnStagedSkeleton on_skeleton) {
-  on_staged_pose_.push_back(std::move(on_pose));
-  on_staged_skeleton_.push_back(std::move(on_skeleton));
-}
-
 void Manager::on_other_manager(std::function<void()> tell) {
-  bus_.on_stats(
+  port_.subscribe<Stats>(
+      Where::kProgram,
       [this, tell = std::move(tell)](const Channel& channel, const Stats& stats, MonoTime now) {
         // What another machine or a log says is of another clock or another time.
         if (channel.program() != kProgram || stats.clock_id != this_clock_id()) return;
@@ -103,19 +78,17 @@ void Manager::on_other_manager(std::function<void()> tell) {
       });
 }
 
-void Manager::stage(const GuestId& guest, Pose& pose, MonoTime now) {
+void Manager::stage(const GuestId& guest, Pose& pose, MonoTime) {
   pose.stamp(Hop::kStaged, mono_now());
-  bus_.publish(Channel::of(Signal::kPose, Where::kStage, guest), pose);
-  for (const auto& on_pose : on_staged_pose_) on_pose(guest, pose, now);
+  port_.publish(Where::kStage, guest, pose);
 }
 
 void Manager::stage(const GuestId& guest, const Hands& hands) {
-  bus_.publish(Channel::of(Signal::kHands, Where::kStage, guest), hands);
+  port_.publish(Where::kStage, guest, hands);
 }
 
 void Manager::stage(const GuestId& guest, const TimedSkeleton& skeleton) {
-  bus_.publish(Channel::of(Signal::kSkeleton, Where::kStage, guest), skeleton);
-  for (const auto& on_skeleton : on_staged_skeleton_) on_skeleton(guest, skeleton.skeleton);
+  port_.publish(Where::kStage, guest, skeleton);
   const auto known = std::find_if(skeletons_.begin(), skeletons_.end(),
                                   [&](const StagedSkeleton& s) { return s.guest == guest; });
   if (known != skeletons_.end()) {
@@ -130,7 +103,7 @@ void Manager::repeat_skeletons(MonoTime now) {
   for (StagedSkeleton& staged : skeletons_) {
     const RosterEntry* entry = router_.roster().find(staged.guest);
     if (!entry || !entry->alive || now - staged.published < kSecond) continue;
-    bus_.publish(Channel::of(Signal::kSkeleton, Where::kStage, staged.guest), staged.skeleton);
+    port_.publish(Where::kStage, staged.guest, staged.skeleton);
     staged.published = now;
   }
 }
@@ -140,7 +113,7 @@ Stats Manager::stats(MonoTime now) {
   stats.time = now;
   stats.clock_id = this_clock_id();
   stats.uptime = now - begin_;
-  stats.dropped_invalid = static_cast<std::int64_t>(bus_.counters().invalid);
+  stats.dropped_invalid = static_cast<std::int64_t>(port_.counters().invalid);
   stats.lateness_p99 = lateness_p99_;
   return stats;
 }
@@ -148,11 +121,11 @@ Stats Manager::stats(MonoTime now) {
 void Manager::end_second(MonoTime now) {
   lateness_p99_ = lateness_.percentile(0.99);
   lateness_.clear();
-  router_.roster().end_second(
-      now, this_clock_id(), [this](const RosterEntry& entry, const GuestStatus& status) {
-        bus_.publish(Channel::of(Signal::kGuest, Where::kStage, entry.guest), status);
-      });
-  bus_.publish(Channel::of_program(Signal::kStats, kProgram), stats(now));
+  router_.roster().end_second(now, this_clock_id(),
+                              [this](const RosterEntry& entry, const GuestStatus& status) {
+                                port_.publish(Where::kStage, entry.guest, status);
+                              });
+  port_.publish(Channel::of_program(Signal::kStats, kProgram), stats(now));
   repeat_skeletons(now);
   router_.let_go_of_the_gone(now);
 }

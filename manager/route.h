@@ -3,7 +3,7 @@
 // Units/frames: rates in Hz.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      none; the words of `through` are checked where a chain is made of them.
+// Failure:      none; the words of `through` are checked where a flow is made of them.
 #pragma once
 
 #include <string>

@@ -29,18 +29,18 @@ Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime
     if (now - (*longest)->last_heard <= Roster::kSilence) return nullptr;
     erase(line, longest);
   }
-  auto chain = Chain::make(line.route.through);
-  DANCE_ASSERT(chain.has_value());
+  auto flow = Flow::make(line.route.through);
+  DANCE_ASSERT(flow.has_value());
   line.instances.push_back(std::make_unique<Instance>(
-      Instance{guest, shown_as(line, guest), std::move(*chain), now, 0, {}}));
-  prepare(line, *line.instances.back(), now);
+      Instance{guest, shown_as(line, guest), std::move(*flow), now, 0, {}}));
+  prepare(line, *line.instances.back());
   return line.instances.back().get();
 }
 
 bool Router::is_shown(const Instance& instance, MonoTime now) {
-  // A guest who is silent is not held on the stage for ever; a chain that goes on with the dance
+  // A guest who is silent is not held on the stage for ever; a flow that goes on with the dance
   // has its own patience.
-  return now - instance.last_heard <= std::max(Roster::kSilence, instance.chain.patience());
+  return now - instance.last_heard <= std::max(Roster::kSilence, instance.flow.patience());
 }
 
 Router::Instances::iterator Router::longest_silent(Line& line) {
@@ -50,7 +50,7 @@ Router::Instances::iterator Router::longest_silent(Line& line) {
 }
 
 void Router::erase(Line& line, Instances::iterator instance) {
-  stats_.dropped_late += static_cast<std::int64_t>((*instance)->chain.counters().refused);
+  stats_.dropped_late += static_cast<std::int64_t>((*instance)->flow.counters().refused);
   line.instances.erase(instance);
 }
 
@@ -69,15 +69,15 @@ void Router::let_go_of_the_gone(MonoTime now) {
   }
 }
 
-void Router::prepare(const Line& line, Instance& instance, MonoTime now) {
+void Router::prepare(const Line& line, Instance& instance) {
   for (const Known& known : known_) {
     if (known.where != line.route.from.where || known.guest != instance.guest) continue;
-    if (known.body) instance.chain.set_body(*known.body);
-    if (known.style) instance.chain.set_style(*known.style);
+    if (known.body) instance.flow.set_body(*known.body);
+    if (known.style) instance.flow.set_style(*known.style);
   }
-  if (beat_) instance.chain.hear(*beat_, now);
-  if (on_learner_)
-    for (auto& learner : instance.chain.learners()) on_learner_(std::move(learner));
+  if (beat_) instance.flow.hear(*beat_);
+  if (auto learner = instance.flow.learner(); learner && on_learner_)
+    on_learner_(std::move(learner));
 }
 
 Router::Known& Router::known_of(Where where, const GuestId& guest) {
@@ -102,8 +102,8 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
     if (!instance) continue;
     wanted = true;
     instance->last_heard = now;
-    if (!instance->chain.is_pass_through()) {
-      instance->chain.observe(pose, now);
+    if (!instance->flow.is_pass_through()) {
+      instance->flow.observe(pose, now);
       continue;
     }
     Pose staged = pose;
@@ -120,7 +120,7 @@ void Router::take(Where where, const GuestId& guest, const Hands& hands) {
     // Fingers come after their body's first pose, which makes the instance.
     for (auto& instance : line->instances) {
       if (instance->guest != guest) continue;
-      if (instance->chain.is_pass_through())
+      if (instance->flow.is_pass_through())
         sink_.stage(instance->shown_as, hands);
       else
         instance->hands.push(hands);
@@ -134,7 +134,7 @@ void Router::take(Where where, const GuestId& guest, const TimedSkeleton& skelet
     if (!is_for(*line, guest)) continue;
     sink_.stage(shown_as(*line, guest), skeleton);
     for (auto& instance : line->instances)
-      if (instance->guest == guest) instance->chain.set_body(skeleton.skeleton);
+      if (instance->guest == guest) instance->flow.set_body(skeleton.skeleton);
   }
 }
 
@@ -142,13 +142,13 @@ void Router::take(Where where, const GuestId& guest, const Style& style) {
   known_of(where, guest).style = style;
   for (Line* line : lines_from_[static_cast<std::size_t>(where)])
     for (auto& instance : line->instances)
-      if (instance->guest == guest) instance->chain.set_style(style);
+      if (instance->guest == guest) instance->flow.set_style(style);
 }
 
-void Router::hear(const Beat& beat, MonoTime now) {
+void Router::hear(const Beat& beat, MonoTime /*now*/) {
   beat_ = beat;
   for (auto& line : lines_)
-    for (auto& instance : line->instances) instance->chain.hear(beat, now);
+    for (auto& instance : line->instances) instance->flow.hear(beat);
 }
 
 void Router::tick(std::size_t route, MonoTime now) {
@@ -156,7 +156,7 @@ void Router::tick(std::size_t route, MonoTime now) {
   for (auto& instance : line.instances) {
     if (!is_shown(*instance, now)) continue;
     Pose pose;
-    if (!instance->chain.sample(now, pose)) continue;
+    if (!instance->flow.sample(now, pose)) continue;
     pose.sequence = instance->staged++;  // the stage's own count: it makes these poses
     pose.stamp(Hop::kStageTaken, now);
     sink_.stage(instance->shown_as, pose, now);
@@ -171,7 +171,7 @@ Stats Router::stats() const {
   Stats stats = stats_;
   for (const auto& line : lines_)
     for (const auto& instance : line->instances)
-      stats.dropped_late += static_cast<std::int64_t>(instance->chain.counters().refused);
+      stats.dropped_late += static_cast<std::int64_t>(instance->flow.counters().refused);
   stats.guests = roster_.alive_count();
   return stats;
 }

@@ -3,7 +3,7 @@
 // stage's own.
 //
 // Units/frames: `now` is this house's clock.
-// Ownership:    owns the chains; allocates when a guest comes, not per pose.
+// Ownership:    owns the flows; allocates when a guest comes, not per pose.
 // Threads:      none inside; one owner. Pure: the poses it stages go to a sink.
 // Failure:      poses that no route wants, or beyond the bound of guests, are counted in the
 //               statistics.
@@ -20,7 +20,7 @@
 #include "manager/hands_queue.h"
 #include "manager/roster.h"
 #include "manager/route.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 
 namespace dance {
 
@@ -36,7 +36,7 @@ class StageSink {
 
 class Router {
  public:
-  // The routes must have passed the session's checks (a chain that cannot be made is our bug).
+  // The routes must have passed the session's checks (a flow that cannot be made is our bug).
   Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink);
 
   void take(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
@@ -55,14 +55,14 @@ class Router {
   double rate_hz(std::size_t route) const { return lines_[route]->rate_hz; }
   void tick(std::size_t route, MonoTime now);
 
-  // A chain is megabytes, and what it has learned of its dancer is in it. Who comes back within
+  // A flow is megabytes, and what it has learned of its dancer is in it. Who comes back within
   // kComesBack is danced with as before, unless more than kMostAway have left since; then it is
   // freed. Who is silent has left after kHasLeft, if others are heard meanwhile: where nobody is,
   // it is the line.
   static constexpr Duration kComesBack = Duration::s(300);
   static constexpr Duration kHasLeft = Duration::s(60);
   static constexpr std::size_t kMostAway = 8;
-  // Call once a second: frees one chain of each route at most, so that no turn of the stage waits
+  // Call once a second: frees one flow of each route at most, so that no turn of the stage waits
   // for many.
   void let_go_of_the_gone(MonoTime now);
 
@@ -76,10 +76,10 @@ class Router {
   struct Instance {
     GuestId guest;
     GuestId shown_as;
-    Chain chain;
+    Flow flow;
     MonoTime last_heard;
     std::uint32_t staged = 0;
-    HandsQueue hands;  // where the chain keeps the body back
+    HandsQueue hands;  // where the flow shows the body later
   };
   using Instances = std::vector<std::unique_ptr<Instance>>;
   // What is known of a guest before, or beside, the poses: newcomers on a route begin with it.
@@ -108,7 +108,7 @@ class Router {
     return line.route.to.guest.is_set() ? line.route.to.guest : guest;
   }
   Known& known_of(Where where, const GuestId& guest);
-  void prepare(const Line& line, Instance& instance, MonoTime now);
+  void prepare(const Line& line, Instance& instance);
   std::uint64_t our_clock_id_;
   StageSink& sink_;
   std::vector<std::unique_ptr<Line>> lines_;

@@ -1,16 +1,12 @@
-// CaptureSink: where a producer's poses go: to the house's bus, or straight into the manager that
-// hosts the producer.
+// CaptureSink: where a producer's poses go: to the house's captures, or to a recording before them.
 //
 // Threads: none inside; the producer's thread calls.
 // Failure: none; a sink that cannot take a message counts it.
 #pragma once
 
 #include "core/base/guest_id.h"
-#include "core/bus/bus.h"
-#include "core/bus/messages.h"
+#include "core/bus/captures.h"
 #include "core/net/mono_clock.h"
-#include "core/pose/music_tag.h"
-#include "core/pose/pose.h"
 
 namespace dance {
 
@@ -23,30 +19,24 @@ class CaptureSink {
   virtual void capture(const GuestId& guest, const TimedSkeleton& skeleton) = 0;
 };
 
-// Publishes on POSE/capture/<guest> and its companions, with the musical time of the house: whoever
-// owns the bus drains it.
-class BusCaptureSink : public CaptureSink {
+// Publishes on POSE/capture/<guest> and its companions.
+class PortCaptureSink : public CaptureSink {
  public:
-  explicit BusCaptureSink(Bus& bus) : bus_(bus), tag_(this_clock_id()) {
-    bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime) { tag_.hear(beat); });
-  }
-  BusCaptureSink(const BusCaptureSink&) = delete;
-  BusCaptureSink& operator=(const BusCaptureSink&) = delete;
+  explicit PortCaptureSink(SignalPort& port) : captures_(port, this_clock_id()) {}
+  Captures& captures() { return captures_; }
+  // The dancer has been worked out since `now`: published later.
   void capture(const GuestId& guest, Pose& pose, MonoTime) override {
-    tag_.tag(pose);
-    pose.stamp(Hop::kPublished, mono_now());
-    bus_.publish(Channel::of(Signal::kPose, Where::kCapture, guest), pose);
+    captures_.publish(guest, pose, mono_now());
   }
   void capture(const GuestId& guest, const Hands& hands) override {
-    bus_.publish(Channel::of(Signal::kHands, Where::kCapture, guest), hands);
+    captures_.port().publish(Where::kCapture, guest, hands);
   }
   void capture(const GuestId& guest, const TimedSkeleton& skeleton) override {
-    bus_.publish(Channel::of(Signal::kSkeleton, Where::kCapture, guest), skeleton);
+    captures_.port().publish(Where::kCapture, guest, skeleton);
   }
 
  private:
-  Bus& bus_;
-  MusicTag tag_;
+  Captures captures_;
 };
 
 }  // namespace dance

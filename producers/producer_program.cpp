@@ -46,7 +46,7 @@ Result<std::unique_ptr<ProducerProgram>> ProducerProgram::open(const ProducerOpt
   if (auto stops = program->poller_->stop_on_signals(); !stops)
     return tl::make_unexpected(stops.error());
   DANCE_TRY(program->bus_, Bus::open(options.bus));
-  program->sink_ = std::make_unique<BusCaptureSink>(*program->bus_);
+  program->sink_ = std::make_unique<PortCaptureSink>(*program->bus_);
   program->poller_->watch(program->bus_->fd(),
                           [bus = program->bus_.get()](MonoTime now) { bus->drain(now); });
   program->start_ = options.start_us > 0 ? MonoTime::from_us(options.start_us) : mono_now();

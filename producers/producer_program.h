@@ -44,6 +44,8 @@ class ProducerProgram {
   void add(std::unique_ptr<Dancer> dancer, const GuestId& guest);
   Bus& bus() { return *bus_; }
   Poller& poller() { return *poller_; }
+  // The music of the house.
+  const BeatClock& music() const { return sink_->captures().music(); }
   MonoTime start() const { return start_; }
   // Until all dancers are over and `is_over` says so too.
   void run(const std::function<bool()>& is_over);
@@ -54,7 +56,7 @@ class ProducerProgram {
   ProducerOptions options_;
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<Bus> bus_;
-  std::unique_ptr<BusCaptureSink> sink_;
+  std::unique_ptr<PortCaptureSink> sink_;
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   MonoTime start_;
 };

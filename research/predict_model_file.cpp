@@ -17,8 +17,8 @@ Result<std::shared_ptr<const PredictModel>> read_predict_model_file(const std::s
   return *model;
 }
 
-Result<ChainParts> parts_with_model(const std::string& path) {
-  ChainParts parts;
+Result<FlowParts> parts_with_model(const std::string& path) {
+  FlowParts parts;
   if (path.empty()) return parts;
   DANCE_TRY(parts.predict_model, read_predict_model_file(path));
   return parts;

@@ -11,14 +11,14 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 #include "transformers/predict/predict_model.h"
 
 namespace dance {
 
 Result<std::shared_ptr<const PredictModel>> read_predict_model_file(const std::string& path);
 
-// What chains are made with: the built-in model where no file is named.
-Result<ChainParts> parts_with_model(const std::string& path);
+// What flows are made with: the built-in model where no file is named.
+Result<FlowParts> parts_with_model(const std::string& path);
 
 }  // namespace dance

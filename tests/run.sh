@@ -24,7 +24,7 @@ jobs=$(nproc)
 build() { # PRESET [TARGET…]
   local preset=$1 log="build/$1.log"
   shift
-  echo "== building ($preset)"
+  echo "== building ($preset), minute $((SECONDS / 60))"
   mkdir -p build
   cmake --preset "$preset" >"$log" 2>&1 || { cat "$log"; return 1; }
   cmake --build --preset "$preset" ${1:+--target "$@"} >>"$log" 2>&1 || { tail -n 60 "$log"; return 1; }
@@ -37,7 +37,7 @@ count_of() { # ATTRIBUTE FILE
 run() { # PRESET [CTEST OPTION…]
   local preset=$1 report="$PWD/build/$1.xml" total bad left_out
   shift
-  echo "== testing ($preset)"
+  echo "== testing ($preset), minute $((SECONDS / 60))"
   rm -f "$report"
   ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error --output-junit "$report" "$@" \
     >"build/$preset.tests.log" 2>&1 || true
@@ -63,25 +63,18 @@ step() { # PRESET [TARGET…]: a build that fails is a failed test.
   build "$@" || { failed=$((failed + 1)); return 1; }
 }
 
-# With DANCE_TEST_MINUTES set, what would not end in time is skipped, and said and counted so.
-has_time_for() { # WHAT MINUTES
-  [ -n "${DANCE_TEST_MINUTES:-}" ] && [ $((SECONDS / 60 + $2)) -gt "$DANCE_TEST_MINUTES" ] || return 0
-  echo "== $1: SKIPPED, $((SECONDS / 60)) of $DANCE_TEST_MINUTES minutes are over"
-  skipped=$((skipped + 1))
-  return 1
-}
-
 # One more at a time than there are processors: programs that dance for seconds wait for most of them.
 step ci && jobs=$((jobs + 1)) run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
   export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
   export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt
-  # One build of clang's for both; libFuzzer has the corpora. What needs least time for what it finds comes first.
-  built=no
-  if has_time_for "address and undefined-behaviour sanitizers, fuzzing" 12 && step asan; then
-    built=yes
-    # How good a result is on whole songs and takes takes minutes here, and no code that smaller tests leave out.
-    run asan -LE 'check|soak|docs|fuzz|flow' -E '^BeatSongs|Takes\.' "${only[@]}"
+  # Drawing in software is ten times slower here, and memory that a graphics driver keeps until it is unloaded counts as
+  # lost: the viewer's own tests draw under sanitizers.
+  draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)'
+  # One build of clang's for the sanitizers and the fuzz targets; libFuzzer has the corpora.
+  if step asan; then
+    # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
+    run asan -LE 'check|soak|docs|fuzz' -E "^BeatSongs|Takes\.|$draws" "${only[@]}"
     # As many at a time as there are processors; each writes its own log.
     fuzz_one() { # TARGET
       "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 -artifact_prefix=build/ \
@@ -89,7 +82,7 @@ if [ "$sanitizers" = yes ]; then
     }
     export -f fuzz_one
     rm -f build/fuzz_*.failed
-    echo "== fuzzing ($(ls build/asan/fuzz/fuzz_* | wc -l) targets, 10 s each)"
+    echo "== fuzzing, minute $((SECONDS / 60)) ($(ls build/asan/fuzz/fuzz_* | wc -l) targets, 10 s each)"
     printf '%s\n' build/asan/fuzz/fuzz_* | xargs -P "$jobs" -I{} bash -c 'fuzz_one {}'
     for target in build/asan/fuzz/fuzz_*; do
       name=$(basename "$target")
@@ -101,14 +94,9 @@ if [ "$sanitizers" = yes ]; then
       fi
     done
   fi
-  has_time_for "threads under the thread sanitizer" 3 && step tsan thread_targets && run tsan -L threads "${only[@]}"
-  # Drawing in software is ten times slower here, and memory that a graphics driver keeps until it is unloaded counts as lost:
-  # the viewer's own tests draw under sanitizers.
-  draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)'
-  [ "$built" = no ] || ! has_time_for "programs under the address sanitizer" 5 || run asan -L flow -E "$draws" "${only[@]}"
   # What these start has no threads that others do not have; and a camera that is preloaded comes before the sanitizer.
-  alone="$draws|MusicRoom|MusicPrograms|Bench|ACameraThatWasUnplugged"
-  has_time_for "programs under the thread sanitizer" 7 && step tsan flow_targets && run tsan -L flow -E "$alone" "${only[@]}"
+  no_threads="$draws|MusicRoom|MusicPrograms|Bench|ACameraThatWasUnplugged"
+  step tsan thread_targets flow_targets && run tsan -L 'threads|flow' -E "$no_threads" "${only[@]}"
 fi
 summary="$passed passed, $failed failed"
 [ "$skipped" = 0 ] || summary="$summary, $skipped skipped"

@@ -35,16 +35,6 @@ constexpr const char* kExamples = R"(Examples:
 // Between continents, on Wi-Fi.
 constexpr const char* kFarLine = "delay=120ms jitter=15ms loss=1%";
 
-// What the comparison is about: the dancer on the beat that is heard here, as near to now as
-// guesses are good.
-const std::vector<std::string> kInRhythm{"predict", "bridge", "rhythm"};
-
-std::string words_of(const std::vector<std::string>& stations) {
-  std::string words;
-  for (const std::string& station : stations) words += (words.empty() ? "" : ", ") + station;
-  return words;
-}
-
 // The buses stay on this machine: over loopback where that carries multicast, else in a network of
 // our own.
 Result<void> choose_network(bool here) {
@@ -82,8 +72,6 @@ Result<void> run_demo(DemoOptions options, bool here) {
   }
   if (options.film && !(options.compare && options.headless))
     return fail("--film is of a comparison in files: add --compare --headless");
-  if (options.through.empty())
-    options.through = options.compare ? kInRhythm : std::vector<std::string>{"hold"};
   options.view = std::filesystem::exists(program_folder() + "/dance-view");
   if (!options.view) {
     if (options.film)
@@ -123,9 +111,9 @@ int main(int argc, char** argv) {
   line.add("--out", options.out, "folder for pictures, log and what the programs said")
       .shows_default();
   line.add_flag("--json", options.json, "the summary as JSON on stdout, and nothing else there");
-  line.add("--through", options.through,
-           "a transformer for remote dancers; once more for the next. hold, and with --compare: " +
-               dance::words_of(dance::kInRhythm));
+  line.add(
+      "--through", options.through,
+      "a transformer for remote dancers instead of those of dance join; once more for the next");
   line.add("--music", options.music,
            "a song with its .beats beside it, or none; without it a percussion at --tempo");
   line.add("--tempo", options.tempo_bpm, "beats a minute, without a song")

@@ -56,34 +56,35 @@ DancerAccount* DemoMonitor::account_of(const GuestId& guest) {
 }
 
 void DemoMonitor::listen(Bus& bus, int house) {
-  bus.on_pose(Where::kCapture, GuestId(), Delivery::kEvery,
-              [this, house](const Channel& channel, const Pose& pose, MonoTime) {
-                DancerAccount* account = account_of(channel.guest());
-                if (!account) return;
-                account->house = house;
-                account->sent += account->sent_set.insert(pose.sequence) ? 1 : 0;
-              });
-  bus.on_pose(Where::kGuest, GuestId(), Delivery::kEvery,
-              [this, house](const Channel& channel, const Pose& pose, MonoTime) {
-                DancerAccount* account = account_of(channel.guest());
-                if (!account) return;
-                account->delivered += account->delivered_set.insert(pose.sequence) ? 1 : 0;
-                on_arrived(*account, house, pose);
-              });
-  bus.on_pose(Where::kStage, GuestId(), Delivery::kEvery,
-              [this, house](const Channel& channel, const Pose& pose, MonoTime) {
-                if (twin_of_whom(channel.guest())) return;
-                if (DancerAccount* account = account_of(channel.guest()))
-                  on_staged(*account, house, pose);
-              });
-  bus.on_beat([this, house](const Channel&, const Beat& beat, MonoTime) {
+  bus.subscribe<Pose>(Where::kCapture,
+                      [this, house](const Channel& channel, const Pose& pose, MonoTime) {
+                        DancerAccount* account = account_of(channel.guest());
+                        if (!account) return;
+                        account->house = house;
+                        account->sent += account->sent_set.insert(pose.sequence) ? 1 : 0;
+                      });
+  bus.subscribe<Pose>(Where::kGuest,
+                      [this, house](const Channel& channel, const Pose& pose, MonoTime) {
+                        DancerAccount* account = account_of(channel.guest());
+                        if (!account) return;
+                        account->delivered += account->delivered_set.insert(pose.sequence) ? 1 : 0;
+                        on_arrived(*account, house, pose);
+                      });
+  bus.subscribe<Pose>(Where::kStage,
+                      [this, house](const Channel& channel, const Pose& pose, MonoTime) {
+                        if (twin_of_whom(channel.guest())) return;
+                        if (DancerAccount* account = account_of(channel.guest()))
+                          on_staged(*account, house, pose);
+                      });
+  bus.subscribe<Beat>(Where::kLocal, [this, house](const Channel&, const Beat& beat, MonoTime) {
     has_music_[static_cast<std::size_t>(house)] = beat.playing;
   });
-  bus.on_stats([this, house](const Channel& channel, const Stats& stats, MonoTime) {
-    if (channel.program() != "link") return;
-    connected_[static_cast<std::size_t>(house)] = stats.sessions > 0;
-    guests_seen_[static_cast<std::size_t>(house)] = stats.guests;
-  });
+  bus.subscribe<Stats>(Where::kProgram,
+                       [this, house](const Channel& channel, const Stats& stats, MonoTime) {
+                         if (channel.program() != "link") return;
+                         connected_[static_cast<std::size_t>(house)] = stats.sessions > 0;
+                         guests_seen_[static_cast<std::size_t>(house)] = stats.guests;
+                       });
 }
 
 void DemoMonitor::on_staged(DancerAccount& account, int house, const Pose& pose) {

@@ -32,7 +32,7 @@ struct DemoOptions {
   double hz = 60.0;
   bool film = false;     // of the comparison
   bool compare = false;  // remote dancers on the stage as their poses come too, and both measured
-  std::vector<std::string> through;  // of remote dancers
+  std::vector<std::string> through;  // of remote dancers; empty = as a house without a session file
   int port = 0;                      // of the server; 0 = one that is free
 };
 

@@ -11,6 +11,7 @@
 #include "core/program/program.h"
 #include "core/program/whole_file.h"
 #include "formats/bvh/clip_file.h"
+#include "house/session.h"
 #include "producers/music/beats_file.h"
 
 namespace dance {
@@ -148,31 +149,49 @@ void deal_out_salsa(const DemoOptions& options, DemoPlan& plan) {
   }
 }
 
+std::string quoted(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "\"" : ", \"") + word + '"';
+  return text;
+}
+
+std::string text_of(const RouteEnd& end) {
+  return "POSE/" + std::string(where_name(end.where)) + "/" +
+         (end.guest.is_set() ? std::string(end.guest.view()) : "*");
+}
+
+std::string text_of(const Route& route) {
+  std::ostringstream text;
+  text << "\n[[route]]\nfrom = \"" << text_of(route.from) << "\"\n";
+  if (!route.through.empty()) text << "through = [" << quoted(route.through) << "]\n";
+  if (route.rate_hz > 0.0) text << "rate = " << route.rate_hz << "\n";
+  text << "to = \"" << text_of(route.to) << "\"\n";
+  return text.str();
+}
+
+// As any house has them, unless --through says otherwise; and for a comparison the remote dancers
+// once more, as their poses come.
+std::vector<Route> routes_of(const DemoPlan& plan, const DemoOptions& options, int house) {
+  std::vector<Route> routes = default_routes();
+  for (Route& route : routes)
+    if (route.from.where == Where::kGuest && !options.through.empty())
+      route.through = options.through;
+  for (const DemoDancer& dancer : plan.dancers)
+    if (options.compare && dancer.house != house)
+      routes.push_back(
+          {{Where::kGuest, dancer.guest}, {Where::kStage, *raw_twin_of(dancer.guest)}, {}, 0.0});
+  return routes;
+}
+
 std::string session_text(const DemoPlan& plan, const DemoOptions& options, int house, int port) {
+  std::vector<std::string> guests;
+  for (const DemoDancer& dancer : plan.dancers)
+    if (dancer.house == house) guests.emplace_back(dancer.guest.view());
   std::ostringstream text;
   text << "# House " << (house == 0 ? "A" : "B") << " of a demo; made by dance demo.\n[house]\n"
-       << "guests = [";
-  const char* comma = "";
-  for (const DemoDancer& dancer : plan.dancers) {
-    if (dancer.house != house) continue;
-    text << comma << '"' << dancer.guest.view() << '"';
-    comma = ", ";
-  }
-  text << "]\nroom = \"demo\"\nserver = \"127.0.0.1:" << port << "\"\nbus = \""
-       << plan.bus_url[house]
-       << "\"\nview = false\n\n[[route]]\nfrom = \"POSE/capture/*\"\nto = \"POSE/stage/*\"\n\n"
-       << "[[route]]\nfrom = \"POSE/guest/*\"\nthrough = [";
-  comma = "";
-  for (const std::string& station : options.through) {
-    text << comma << '"' << station << '"';
-    comma = ", ";
-  }
-  text << "]\nto = \"POSE/stage/*\"\n";
-  for (const DemoDancer& dancer : plan.dancers) {
-    if (!options.compare || dancer.house == house) continue;
-    text << "\n[[route]]\nfrom = \"POSE/guest/" << dancer.guest.view() << "\"\nto = \"POSE/stage/"
-         << raw_twin_of(dancer.guest)->view() << "\"\n";
-  }
+       << "guests = [" << quoted(guests) << "]\nroom = \"demo\"\nserver = \"127.0.0.1:" << port
+       << "\"\nbus = \"" << plan.bus_url[house] << "\"\nview = false\n";
+  for (const Route& route : routes_of(plan, options, house)) text << text_of(route);
   return text.str();
 }
 

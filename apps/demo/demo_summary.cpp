@@ -14,6 +14,7 @@ using nlohmann::ordered_json;
 
 constexpr std::array<const char*, kHopCount> kHopNames{"published",     "link_sent", "server",
                                                        "link_received", "on_stage",  "staged"};
+constexpr auto kFirstOfStage = static_cast<std::size_t>(Hop::kStageTaken);
 
 // What the receiving house's link said of this dancer, if it lived to say it.
 ordered_json link_report(const DemoResult& result, const DancerAccount& account) {
@@ -82,6 +83,17 @@ void add_comparison(const DemoPictures& pictures, ordered_json& document) {
     if (!file->empty()) document[key] = *file;
 }
 
+std::string ages_table(const DancerAccount& account, std::size_t from, std::size_t to) {
+  std::string text;
+  for (std::size_t i = from; i < to; ++i) {
+    const Histogram& age = account.age_at_hop[i];
+    if (age.count() > 0)
+      text += fmt::format("  {:<14} p50 {:>8.3f}   p99 {:>8.3f}\n", kHopNames[i], ms(age, 0.5),
+                          ms(age, 0.99));
+  }
+  return text;
+}
+
 std::string rhythm_table(const DemoRhythm& rhythm) {
   std::string text =
       fmt::format("\n{:<28} {:>14} {:>10} {:>12} {:>14} {:>10}\n", "on the far stage",
@@ -146,13 +158,10 @@ std::string summary_table(const DemoResult& result) {
   }
   if (!result.accounts.empty()) {
     const DancerAccount& first = result.accounts.front();
-    text += fmt::format("\n{}'s poses on the way, age in ms:\n", first.guest.view());
-    for (std::size_t i = 0; i < kHopCount; ++i) {
-      const Histogram& age = first.age_at_hop[i];
-      if (age.count() > 0)
-        text += fmt::format("  {:<14} p50 {:>8.3f}   p99 {:>8.3f}\n", kHopNames[i], ms(age, 0.5),
-                            ms(age, 0.99));
-    }
+    text += fmt::format("\n{}'s poses on the way, age in ms:\n", first.guest.view()) +
+            ages_table(first, 0, kFirstOfStage) +
+            "and those that the far stage shows, where prediction makes up for the way:\n" +
+            ages_table(first, kFirstOfStage, kHopCount);
   }
   if (result.rhythm) text += rhythm_table(*result.rhythm);
   for (const std::string& picture : result.pictures) text += "picture " + picture + "\n";

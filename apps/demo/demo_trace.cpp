@@ -18,9 +18,10 @@ void keep_newest(std::vector<T>& list, const T& next) {
 
 DemoTrace::DemoTrace(Bus& bus_a, Bus& bus_b, const GuestId& here, const GuestId& remote)
     : here_(here), remote_(remote), heard_(this_clock_id()) {
-  bus_a.on_beat([this](const Channel&, const Beat& beat, MonoTime) { heard_.hear(beat); });
-  bus_a.on_pose(
-      Where::kCapture, here_, Delivery::kEvery, [this](const Channel&, const Pose& pose, MonoTime) {
+  bus_a.subscribe<Beat>(Where::kLocal,
+                        [this](const Channel&, const Beat& beat, MonoTime) { heard_.hear(beat); });
+  bus_a.subscribe<Pose>(
+      {Where::kCapture, here_}, [this](const Channel&, const Pose& pose, MonoTime) {
         heard_.see(pose);
         keep(captured_here_, pose, pose.capture_time);
         const BeatClock& clock = heard_.clock();
@@ -28,27 +29,27 @@ DemoTrace::DemoTrace(Bus& bus_a, Bus& bus_b, const GuestId& here, const GuestId&
         if (!is_over_ && clock.is_known(at))
           keep_newest(music_, TracedBeats{at, clock.position(at), clock.beats_per_second()});
       });
-  bus_b.on_pose(Where::kCapture, remote_, Delivery::kEvery,
-                [this](const Channel&, const Pose& pose, MonoTime) {
-                  keep(danced_, pose, pose.capture_time);
-                });
-  bus_a.on_pose(Where::kStage, remote_, Delivery::kEvery,
-                [this](const Channel&, const Pose& pose, MonoTime) {
-                  keep(shown_, pose, pose.stamped(Hop::kStaged));
-                });
+  bus_b.subscribe<Pose>({Where::kCapture, remote_},
+                        [this](const Channel&, const Pose& pose, MonoTime) {
+                          keep(danced_, pose, pose.capture_time);
+                        });
+  bus_a.subscribe<Pose>({Where::kStage, remote_},
+                        [this](const Channel&, const Pose& pose, MonoTime) {
+                          keep(shown_, pose, pose.stamped(Hop::kStaged));
+                        });
   if (const auto twin = raw_twin_of(remote_))
-    bus_a.on_pose(Where::kStage, *twin, Delivery::kEvery,
-                  [this](const Channel&, const Pose& pose, MonoTime) {
-                    keep(raw_, pose, pose.stamped(Hop::kStaged));
-                  });
-  bus_a.on_skeleton(Where::kCapture, here_,
-                    [this](const Channel&, const TimedSkeleton& timed, MonoTime) {
-                      body_of_here_ = timed.skeleton;
-                    });
-  bus_b.on_skeleton(Where::kCapture, remote_,
-                    [this](const Channel&, const TimedSkeleton& timed, MonoTime) {
-                      body_of_remote_ = timed.skeleton;
-                    });
+    bus_a.subscribe<Pose>({Where::kStage, *twin},
+                          [this](const Channel&, const Pose& pose, MonoTime) {
+                            keep(raw_, pose, pose.stamped(Hop::kStaged));
+                          });
+  bus_a.subscribe<TimedSkeleton>({Where::kCapture, here_},
+                                 [this](const Channel&, const TimedSkeleton& timed, MonoTime) {
+                                   body_of_here_ = timed.skeleton;
+                                 });
+  bus_b.subscribe<TimedSkeleton>({Where::kCapture, remote_},
+                                 [this](const Channel&, const TimedSkeleton& timed, MonoTime) {
+                                   body_of_remote_ = timed.skeleton;
+                                 });
 }
 
 void DemoTrace::keep(std::vector<TracedPose>& list, const Pose& pose, MonoTime at) {

@@ -30,7 +30,7 @@ Finding check_pose_network() {
             folder + ", on " + std::string(name_of(chosen_engine(EngineKind::kFastest))), ""};
   return {"pose network", Finding::Grade::kNote,
           detector ? body.error().what : detector.error().what,
-          "./dance setup   (only dance capture needs it)"};
+          "dance fetch-models   (only dance capture needs it)"};
 }
 #else
 Finding check_camera() {

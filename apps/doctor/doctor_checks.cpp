@@ -105,7 +105,7 @@ Finding check_java() {
   Finding finding{"lcm-spy", Grade::kOk, "Java, LCM's jars and our types are there", ""};
   for (const std::string& file :
        {std::string("/usr/share/java/lcm.jar"), std::string("/usr/share/java/jchart2d.jar"),
-        std::string("/usr/bin/java"), program_folder() + "/../share/dance_types.jar"})
+        std::string("/usr/bin/java"), data_folder() + "/dance_types.jar"})
     if (!std::filesystem::exists(file)) {
       finding.grade = Grade::kNote;
       finding.what = file + " is missing; only `dance spy` needs it";

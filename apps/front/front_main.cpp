@@ -28,6 +28,7 @@ constexpr std::array kCommands{
     Command{"replay", "plays BVH files and LCM logs as dancers"},
     Command{"salsa", "a synthetic salsa dancer, for machines with no camera and no data"},
     Command{"capture", "a dancer before a camera, or in a video"},
+    Command{"fetch-models", "fetches the networks that capture sees a dancer with"},
     Command{"music", "plays music, and says the beat that is heard"},
     Command{"server", "the tunnel server"},
     Command{"status", "rooms and guests of a server on this machine, in a terminal"},
@@ -69,10 +70,19 @@ constexpr std::array kCommands{
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 
+std::string program_of(std::string_view name) {
+  std::string program = "dance-" + std::string(name);
+  for (char& c : program)
+    if (c == ' ') c = '-';
+  return dance::program_folder() + "/" + program;
+}
+
+// Those that were built or installed.
 void print_commands(std::FILE* out) {
   std::fputs("usage: dance COMMAND [OPTIONS]   (dance COMMAND --help tells more)\n\n", out);
   bool is_for_dancers = true;  // of one word
   for (const Command& command : kCommands) {
+    if (access(program_of(command.name).c_str(), X_OK) != 0) continue;
     const bool is_measure = command.name.find(' ') != std::string_view::npos;
     if (is_for_dancers && is_measure) std::fputs("\nMeasuring and training:\n", out);
     is_for_dancers = !is_measure;
@@ -81,13 +91,6 @@ void print_commands(std::FILE* out) {
                  static_cast<int>(command.summary.size()), command.summary.data());
   }
   std::fputs("\nFirst steps:\n  dance doctor\n  dance demo\n", out);
-}
-
-std::string program_of(std::string_view name) {
-  std::string program = "dance-" + std::string(name);
-  for (char& c : program)
-    if (c == ' ') c = '-';
-  return program;
 }
 
 // The command that is meant, and how many words it takes: the most that make one.
@@ -139,18 +142,19 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "dance: %s\n", no_command_line(words[0]).c_str());
     return 2;
   }
-  const std::string program = program_of(command->name);
-  const std::string path = dance::program_folder() + "/" + program;
-  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
+  const std::string path = program_of(command->name);
+  std::string name = path.substr(path.rfind('/') + 1);
+  std::vector<char*> arguments{name.data()};
   std::string help = "--help";
   if (is_help) arguments.push_back(help.data());
   arguments.insert(arguments.end(), words.begin() + static_cast<std::ptrdiff_t>(taken),
                    words.end());
   arguments.push_back(nullptr);
   execv(path.c_str(), arguments.data());
-  std::fprintf(stderr,
-               "dance: %s cannot be run: %s; it was not built: run ./dance setup and look at the "
-               "table of features\n",
-               path.c_str(), std::strerror(errno));  // NOLINT(concurrency-mt-unsafe): one thread
+  std::fprintf(
+      stderr,
+      "dance: %s cannot be run: %s; it was not built, or not installed: in the source tree "
+      "run ./dance setup and look at the table of features\n",
+      path.c_str(), std::strerror(errno));  // NOLINT(concurrency-mt-unsafe): one thread
   return 1;
 }

@@ -30,15 +30,17 @@ Result<void> measure(const Options& options) {
   const GuestId guest = GuestId::parse(options.guest).value_or(GuestId());
   DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   Journeys journeys;
-  program.bus().on_pose(Where::kStage, guest, Delivery::kEvery,
-                        [&](const Channel& channel, const Pose& pose, MonoTime now) {
-                          if (GuestJourney* journey = journeys.of(channel.guest()))
-                            journey->heard(pose, now, this_clock_id());
-                        });
-  program.bus().on_stage_time([&](const Channel& channel, const StageTime& time, MonoTime) {
-    if (guest.is_set() && !(channel.guest() == guest)) return;
-    if (GuestJourney* journey = journeys.of(channel.guest())) journey->shown(time);
-  });
+  program.bus().subscribe<Pose>({Where::kStage, guest},
+                                [&](const Channel& channel, const Pose& pose, MonoTime now) {
+                                  if (GuestJourney* journey = journeys.of(channel.guest()))
+                                    journey->heard(pose, now, this_clock_id());
+                                });
+  program.bus().subscribe<StageTime>(Where::kView,
+                                     [&](const Channel& channel, const StageTime& time, MonoTime) {
+                                       if (guest.is_set() && !(channel.guest() == guest)) return;
+                                       if (GuestJourney* journey = journeys.of(channel.guest()))
+                                         journey->shown(time);
+                                     });
   program.stop_after(options.seconds);
   const MonoTime begin = mono_now();
   program.run();

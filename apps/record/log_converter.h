@@ -5,7 +5,7 @@
 // Ownership:    plain values.
 // Threads:      none inside; reads and writes files on the caller's thread.
 // Failure:      an Error names the file and the cure, and leaves no file behind. What is damaged is
-//               left out and counted; then check_is_whole() is an Error, so that nobody deletes the
+//               left out and counted; then check_is_whole() is an Error, so that the user keeps the
 //               only good copy.
 #pragma once
 

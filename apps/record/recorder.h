@@ -25,7 +25,7 @@
 
 namespace dance {
 
-// logs/2026-03-01-201530.lcm: where a recording goes that nobody named.
+// logs/2026-03-01-201530.lcm: where a recording goes unless it is named.
 std::string default_log_path(std::chrono::system_clock::time_point now);
 
 // Channel patterns as LCM reads them: regular expressions that have to match the whole name.

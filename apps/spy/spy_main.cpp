@@ -39,7 +39,7 @@ bool is_on_path(const std::string& program) {
 }
 
 Result<std::vector<std::string>> spy_command(const std::string& bus) {
-  const std::string types = program_folder() + "/../share/dance_types.jar";
+  const std::string types = data_folder() + "/dance_types.jar";
   if (!is_on_path("java"))
     return fail("java is missing; install it with: " + std::string(kInstall));
   std::string class_path;
@@ -47,7 +47,7 @@ Result<std::vector<std::string>> spy_command(const std::string& bus) {
                                  std::string("/usr/share/java/jchart2d.jar"), types}) {
     if (!std::filesystem::exists(jar))
       return fail(jar + " is missing; install it with: " + std::string(kInstall) +
-                  " (and build again: ./dance spy does both)");
+                  " (and, in the source tree, build again: ./dance spy does both)");
     class_path += (class_path.empty() ? "" : ":") + jar;
   }
   return std::vector<std::string>{"java",        "-Djava.net.preferIPv4Stack=true",

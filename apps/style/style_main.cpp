@@ -47,8 +47,9 @@ Result<void> say(const Options& options) {
   program.every(Duration::s(1), [&](MonoTime) { publish(); });
   bool is_here = false;
   for (const Where where : {Where::kCapture, Where::kGuest})
-    program.bus().on_pose(where, *guest, Delivery::kNewest,
-                          [&](const Channel&, const Pose&, MonoTime) { is_here = true; });
+    program.bus().subscribe<Pose>(
+        {where, *guest}, [&](const Channel&, const Pose&, MonoTime) { is_here = true; },
+        Delivery::kNewest);
   program.poller().add_timer(mono_now() + kLooksFor, [&](MonoTime) {
     if (!is_here)
       talk::warn("nobody called {} dances on {} yet; who does, dance top shows", options.guest,

@@ -10,8 +10,8 @@
 
 #include "core/program/figures.h"
 #include "core/program/program.h"
-#include "testing/line/lossy_model.h"
-#include "transformers/chain.h"
+#include "testing/line/line_arrivals.h"
+#include "transformers/flow.h"
 
 namespace dance {
 namespace {
@@ -39,29 +39,19 @@ struct Shown {
   double longest_freeze_ms = 0.0;
 };
 
-struct Arrival {
-  MonoTime at;
-  std::uint32_t sequence;
-};
-
 // What a receiver hears: in order, each once, the newest wins.
-std::vector<Arrival> arrivals_of(LossyModel& line, MonoTime begin, Duration span, Duration frame) {
-  constexpr std::size_t kDatagramBytes = 90;
-  std::vector<Arrival> all;
-  std::uint32_t sequence = 0;
-  for (Duration t; t < span; t += frame, ++sequence) {
-    const LossyModel::Fate fate = line.offer(kDatagramBytes, begin + t);
-    for (const MonoTime at : fate.deliveries()) all.push_back({at, sequence});
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
-  std::vector<Arrival> heard;
-  for (const Arrival& arrival : all)
-    if (heard.empty() || arrival.sequence > heard.back().sequence) heard.push_back(arrival);
+std::vector<LineArrival> heard_over(LossyModel& line, MonoTime begin, Duration span,
+                                    Duration frame) {
+  const std::int64_t count = (span.count_ns() + frame.count_ns() - 1) / frame.count_ns();
+  std::vector<LineArrival> heard;
+  for (const LineArrival& arrival :
+       arrivals_over(line, static_cast<std::size_t>(count),
+                     [&](std::size_t i) { return begin + frame * static_cast<std::int64_t>(i); }))
+    if (heard.empty() || arrival.index > heard.back().index) heard.push_back(arrival);
   return heard;
 }
 
-Shown show(Chain& chain, const std::vector<Arrival>& heard, MonoTime begin, Duration frame) {
+Shown show(Flow& flow, const std::vector<LineArrival>& heard, MonoTime begin, Duration frame) {
   std::vector<double> ages_ms;
   Duration least = Duration::s(1000);
   std::size_t samples = 0, late = 0, in_a_row = 0, longest = 0;
@@ -69,24 +59,24 @@ Shown show(Chain& chain, const std::vector<Arrival>& heard, MonoTime begin, Dura
   MonoTime next = heard.empty() ? begin : heard.front().at;
   // The stage's ticks fall between the poses as they will.
   const Duration tick = frame + Duration::us(7);
-  for (const Arrival& arrival : heard) {
+  for (const LineArrival& arrival : heard) {
     for (; next < arrival.at; next += tick) {
       Pose out;
-      if (!chain.sample(next, out)) continue;
+      if (!flow.sample(next, out)) continue;
       ++samples;
       ages_ms.push_back((next - out.capture_time).as_ms());
-      const std::uint64_t now = chain.counters().starved;
+      const std::uint64_t now = flow.counters().starved;
       in_a_row = now != starved ? in_a_row + 1 : 0;
       late += now != starved ? 1 : 0;
       starved = now;
       longest = std::max(longest, in_a_row);
     }
     Pose pose;
-    pose.sequence = arrival.sequence;
+    pose.sequence = static_cast<std::uint32_t>(arrival.index);
     pose.clock_id = 1;
-    pose.capture_time = begin + frame * static_cast<std::int64_t>(arrival.sequence);
+    pose.capture_time = begin + frame * static_cast<std::int64_t>(arrival.index);
     least = std::min(least, arrival.at - pose.capture_time);
-    chain.observe(pose, arrival.at);
+    flow.observe(pose, arrival.at);
   }
   Shown shown;
   if (samples == 0) return shown;
@@ -106,7 +96,7 @@ Result<void> measure(const std::string& name, const LossyWay& way, const Options
   const Duration frame = Duration::us(16'667);
   const MonoTime begin = MonoTime::from_us(1'000'000);
   LossyModel line(way, 0);
-  const auto heard = arrivals_of(line, begin, Duration::seconds(options.seconds), frame);
+  const auto heard = heard_over(line, begin, Duration::seconds(options.seconds), frame);
   if (heard.size() < 2) return fail(name + ": nothing arrives over this line");
   if (!options.is_json)
     fmt::print("{}: {} of {} poses arrive\n  {:<16}{:>14}{:>14}{:>10}{:>18}\n", name, heard.size(),
@@ -114,8 +104,8 @@ Result<void> measure(const std::string& name, const LossyWay& way, const Options
                "longest freeze ms");
   nlohmann::ordered_json rows;
   for (const std::string& through : options.through) {
-    DANCE_TRY(Chain chain, Chain::make({through}));
-    const Shown shown = show(chain, heard, begin, frame);
+    DANCE_TRY(Flow flow, Flow::make({through}));
+    const Shown shown = show(flow, heard, begin, frame);
     rows[through] = {{"added_p50_ms", shown.added_p50_ms},
                      {"added_p99_ms", shown.added_p99_ms},
                      {"late_percent", shown.late_percent},

@@ -11,7 +11,7 @@ constexpr Duration kRounding = Duration::us(1);
 }  // namespace
 
 LineMeter::LineMeter(MonoTime begin, std::size_t most_poses)
-    : begin_(begin), captured_(most_poses + 1) {
+    : begin_(begin), captured_(most_poses + 1), stage_(*Flow::make({"hold"})) {
   figures_.ages.reserve(most_poses);
   figures_.stage_ages.reserve(most_poses);
 }
@@ -56,7 +56,7 @@ void LineMeter::delivered(const Pose& pose, Duration back, MonoTime now) {
   ++figures_.delivered;
   if (figures_.ages.size() < captured_.size()) figures_.ages.push_back(now - captured);
 
-  const Transformer::Counters before = stage_.counters();
+  const Flow::Counters before = stage_.counters();
   stage_.observe(pose, now);
   if (stage_.counters().restarts != before.restarts) known_count_ = 0;
   if (stage_.counters().refused == before.refused)

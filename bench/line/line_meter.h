@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "transformers/playout/hold.h"
+#include "transformers/flow.h"
 
 namespace dance {
 
@@ -77,7 +77,7 @@ class LineMeter {
   Duration last_took_;
   bool is_cut_ = false;
   MonoTime back_at_;  // after a cut since the last pose: when the line could have delivered again
-  Hold stage_;
+  Flow stage_;
   std::array<Known, kKnown> known_{};  // what the stage has, a ring
   std::size_t known_count_ = 0;
   MonoTime shown_;        // the moment on the stage,

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/parts/salsa_poses.h"
-#include "transformers/playout/hold.h"
+#include "transformers/flow.h"
 
 namespace dance {
 namespace {
@@ -30,7 +30,7 @@ BENCHMARK(pass_through)->Name("hold: one pose in, one out/baseline");
 
 void hold(benchmark::State& state) {
   const std::vector<Pose> poses = salsa_poses();
-  Hold station(Duration::ms(20));
+  Flow flow = *Flow::make({"hold 20ms"});
   Pose shown;
   std::size_t i = 0;
   for (auto _ : state) {
@@ -39,8 +39,8 @@ void hold(benchmark::State& state) {
     ++i;
     pose.capture_time = pose.capture_time + Duration::s(60 * round);
     const MonoTime now = arrival_of(poses[pose.sequence], round);
-    station.observe(pose, now);
-    station.sample(now + Duration::ms(8), shown);
+    flow.observe(pose, now);
+    flow.sample(now + Duration::ms(8), shown);
     benchmark::DoNotOptimize(shown);
   }
 }

@@ -166,12 +166,12 @@ Result<void> BenchPath::start_bare_hops() {
 }
 
 void BenchPath::listen() {
-  bus_b_->on_pose(Where::kStage, guest_, Delivery::kEvery,
-                  [this](const Channel&, const Pose& pose, MonoTime) {
-                    const MonoTime now = mono_now();
-                    pose_way_.arrived(pose.sequence, now);
-                    if (pose_way_.is_measuring()) steps_.heard(pose, now, this_clock_id());
-                  });
+  bus_b_->subscribe<Pose>({Where::kStage, guest_},
+                          [this](const Channel&, const Pose& pose, MonoTime) {
+                            const MonoTime now = mono_now();
+                            pose_way_.arrived(pose.sequence, now);
+                            if (pose_way_.is_measuring()) steps_.heard(pose, now, this_clock_id());
+                          });
   floor_bus_b_->on_anything(
       [this](std::string_view channel, const void* data, std::size_t size, MonoTime) {
         // Decoded as the other way's is: what hearing a pose costs is on both sides.

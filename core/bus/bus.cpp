@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/bus/channel_filter.h"
-#include "core/bus/encode.h"
 #include "core/bus/multicast_route.h"
 
 namespace dance {
@@ -22,8 +21,6 @@ namespace {
 constexpr int kLcmQueueCapacity = 4096;
 // Messages handled in one turn before the other descriptors get theirs.
 constexpr int kMessagesPerTurn = 8192;
-// Channels a kNewest subscription keeps a slot for; more are counted as unknown.
-constexpr std::size_t kMaxSlots = 256;
 
 std::int64_t max_receive_buffer_bytes() {
   std::ifstream file("/proc/sys/net/core/rmem_max");
@@ -32,183 +29,97 @@ std::int64_t max_receive_buffer_bytes() {
   return std::min<std::int64_t>(bytes, 4 << 20);
 }
 
-std::string channel_pattern(Signal signal, Where where, const GuestId& guest) {
-  return std::string(signal_name(signal)) + "/" + std::string(where_name(where)) + "/" +
-         (guest.is_set() ? std::string(guest.view()) : "[a-z0-9-]+");
+// Of the names of channels, as LCM takes it.
+std::string regex_of(Signal signal, const From& from) {
+  constexpr const char* kAnyName = "[a-z0-9-]+";
+  const std::string name = std::string(signal_name(signal)) + "/";
+  if (from.where == Where::kLocal) return name + "local";
+  if (from.where == Where::kProgram) return name + kAnyName;
+  return name + std::string(where_name(from.where)) + "/" +
+         (from.guest.is_set() ? std::string(from.guest.view()) : kAnyName);
 }
 
 // Two that begin at once would be taken for each other.
 std::mutex one_bus_at_a_time;
 
-class Subscription {
+// Every channel, undecoded.
+class AllChannels final : public Listener {
  public:
-  virtual ~Subscription() = default;
-  virtual void take(const lcm_recv_buf_t* bytes, const char* name) = 0;
-  virtual void deliver(MonoTime now) = 0;
-  MonoTime now;
-};
-
-void on_lcm_message(const lcm_recv_buf_t* bytes, const char* name, void* subscription) {
-  static_cast<Subscription*>(subscription)->take(bytes, name);
-}
-
-// A subscription to one signal whose messages become a T. kWire is the type that decode() fills; it
-// is handed on as is.
-template <class T>
-class TypedSubscription : public Subscription {
- public:
-  TypedSubscription(Delivery delivery, Bus::Handler<T> handler, Bus::Counters& counters)
-      : delivery_(delivery), handler_(std::move(handler)), counters_(counters) {}
-
-  void take(const lcm_recv_buf_t* bytes, const char* name) override {
-    const auto channel = Channel::parse(name);
-    if (!channel) {
-      ++counters_.unknown;
-      return;
-    }
-    if (delivery_ == Delivery::kEvery) {
-      if (is_decoded(bytes, scratch_)) handler_(*channel, scratch_, now);
-      return;
-    }
-    Slot* slot = slot_of(*channel);
-    if (!slot) {
-      ++counters_.unknown;
-      return;
-    }
-    if (!is_decoded(bytes, scratch_)) return;
-    if (slot->fresh) ++counters_.superseded;
-    slot->message = scratch_;
-    slot->fresh = true;
+  explicit AllChannels(Bus::RawHandler handler) : handler_(std::move(handler)) {}
+  void take(const Arrival& arrival, SignalCounters&) override {
+    handler_(arrival.name, arrival.data, arrival.size, arrival.now);
   }
-
-  void deliver(MonoTime turn) override {
-    for (Slot& slot : slots_)
-      if (slot.fresh) {
-        slot.fresh = false;
-        handler_(slot.channel, slot.message, turn);
-      }
-  }
-
- private:
-  struct Slot {
-    Channel channel;
-    T message;
-    bool fresh = false;
-  };
-
-  Slot* slot_of(const Channel& channel) {
-    for (Slot& slot : slots_)
-      if (slot.channel == channel) return &slot;
-    if (slots_.size() == kMaxSlots) return nullptr;
-    slots_.push_back({channel, T(), false});
-    return &slots_.back();
-  }
-
-  bool is_decoded(const lcm_recv_buf_t* bytes, T& message) {
-    switch (decode(bytes->data, bytes->data_size, message)) {
-      case Decoded::kFine:
-        ++counters_.received;
-        return true;
-      case Decoded::kUndecodable:
-        ++counters_.undecodable;
-        return false;
-      case Decoded::kInvalid:
-        ++counters_.invalid;
-        return false;
-    }
-    return false;
-  }
-
-  Delivery delivery_;
-  Bus::Handler<T> handler_;
-  Bus::Counters& counters_;
-  std::vector<Slot> slots_;
-  T scratch_;
-};
-
-class RawSubscription : public Subscription {
- public:
-  explicit RawSubscription(Bus::RawHandler handler) : handler_(std::move(handler)) {}
-  void take(const lcm_recv_buf_t* bytes, const char* name) override {
-    handler_(name, bytes->data, bytes->data_size, now);
-  }
-  void deliver(MonoTime) override {}
 
  private:
   Bus::RawHandler handler_;
 };
 
 // Channels of a pattern, undecoded: the regex may take in more than the pattern.
-class PatternSubscription : public Subscription {
+class PatternSubscription final : public Listener {
  public:
   PatternSubscription(const ChannelPattern& pattern, Delivery delivery, std::size_t max_bytes,
-                      Bus::RawHandler handler, Bus::Counters& counters)
+                      Bus::RawHandler handler)
       : pattern_(pattern),
         delivery_(delivery),
         max_bytes_(max_bytes),
-        handler_(std::move(handler)),
-        counters_(counters) {}
+        handler_(std::move(handler)) {}
 
-  void take(const lcm_recv_buf_t* bytes, const char* name) override {
-    if (!pattern_.matches(name)) return;  // another subscriber's, or what came from another house
-    if (bytes->data_size > max_bytes_) {
-      ++counters_.oversized;
+  void take(const Arrival& arrival, SignalCounters& counters) override {
+    // Another subscriber's, or what came from another house.
+    if (!pattern_.matches(arrival.name)) return;
+    if (arrival.size > max_bytes_) {
+      ++counters.oversized;
       return;
     }
     if (delivery_ == Delivery::kEvery) {
-      ++counters_.received;
-      handler_(name, bytes->data, bytes->data_size, now);
+      ++counters.received;
+      handler_(arrival.name, arrival.data, arrival.size, arrival.now);
       return;
     }
-    Slot* slot = slot_of(name);
+    auto* slot = newest_.find(arrival.name);
+    Name name;
+    if (!slot && name.assign(arrival.name)) slot = newest_.add(name, Bytes(max_bytes_));
     if (!slot) {
-      ++counters_.unknown;
+      ++counters.unknown;
       return;
     }
-    ++counters_.received;
-    if (slot->fresh) ++counters_.superseded;
-    slot->size = bytes->data_size;
-    if (slot->size > 0) std::memcpy(slot->bytes.data(), bytes->data, slot->size);
-    slot->fresh = true;
+    ++counters.received;
+    if (slot->is_fresh) ++counters.superseded;
+    slot->message.size = arrival.size;
+    if (arrival.size > 0) std::memcpy(slot->message.bytes.data(), arrival.data, arrival.size);
+    slot->is_fresh = true;
   }
 
-  void deliver(MonoTime turn) override {
-    for (Slot& slot : slots_)
-      if (slot.fresh) {
-        slot.fresh = false;
-        handler_(slot.name.view(), slot.bytes.data(), slot.size, turn);
-      }
+  void deliver(MonoTime now) override {
+    newest_.deliver([&](const Name& name, const Bytes& message) {
+      handler_(name.view(), message.bytes.data(), message.size, now);
+    });
   }
 
  private:
-  struct Slot {
-    FixedString<kMaxChannelLength> name;
-    std::vector<std::uint8_t> bytes;  // max_bytes_ of them
+  using Name = FixedString<kMaxChannelLength>;
+  struct Bytes {
+    explicit Bytes(std::size_t max_bytes) : bytes(max_bytes) {}
+    std::vector<std::uint8_t> bytes;
     std::size_t size = 0;
-    bool fresh = false;
   };
-
-  Slot* slot_of(std::string_view name) {
-    for (Slot& slot : slots_)
-      if (slot.name == name) return &slot;
-    Slot slot;
-    if (slots_.size() == kMaxSlots || !slot.name.assign(name)) return nullptr;
-    slot.bytes.resize(max_bytes_);
-    slots_.push_back(std::move(slot));
-    return &slots_.back();
-  }
 
   ChannelPattern pattern_;
   Delivery delivery_;
   std::size_t max_bytes_;
   Bus::RawHandler handler_;
-  Bus::Counters& counters_;
-  std::vector<Slot> slots_;
+  NewestSlots<Name, Bytes> newest_;
 };
 
 }  // namespace
 
 struct Bus::Impl {
+  // What LCM calls back.
+  struct Listening {
+    Impl& bus;
+    std::shared_ptr<Listener> listener;
+  };
+
   lcm_t* lcm = nullptr;
   int port = 0;
   bool is_hearing = false;
@@ -216,7 +127,8 @@ struct Bus::Impl {
   ChannelFilter filter;
   std::string url;
   Counters counters;
-  std::vector<std::unique_ptr<Subscription>> subscriptions;
+  std::vector<std::unique_ptr<Listening>> listeners;
+  MonoTime now;  // of the turn that is being drained
 
   ~Impl() {
     if (lcm) lcm_destroy(lcm);
@@ -234,29 +146,20 @@ struct Bus::Impl {
     if (socket >= 0) filter.attach(socket);
     return got;
   }
-  void subscribe(const std::string& pattern, std::unique_ptr<Subscription> subscription) {
-    filter.want(pattern);
-    const auto add = [&] {
-      return lcm_subscribe(lcm, pattern.c_str(), on_lcm_message, subscription.get());
-    };
-    lcm_subscription_t* handle = with_socket(add);
+  static void on_message(const lcm_recv_buf_t* bytes, const char* name, void* listening) {
+    const auto& [bus, listener] = *static_cast<Listening*>(listening);
+    listener->take({name, bytes->data, bytes->data_size, bus.now}, bus.counters);
+  }
+  void listen(const std::string& regex, std::shared_ptr<Listener> listener) {
+    filter.want(regex);
+    listeners.push_back(std::make_unique<Listening>(Listening{*this, std::move(listener)}));
+    lcm_subscription_t* handle = with_socket(
+        [&] { return lcm_subscribe(lcm, regex.c_str(), on_message, listeners.back().get()); });
     if (handle) lcm_subscription_set_queue_capacity(handle, kLcmQueueCapacity);
-    subscriptions.push_back(std::move(subscription));
     if (socket >= 0) filter.attach(socket);
   }
   int fd() {
     return with_socket([&] { return lcm_get_fileno(lcm); });
-  }
-  template <class T>
-  void subscribe_typed(const std::string& pattern, Delivery delivery, Handler<T> handler) {
-    subscribe(pattern,
-              std::make_unique<TypedSubscription<T>>(delivery, std::move(handler), counters));
-  }
-  template <class T>
-  void publish(const Channel& channel, const T& message) {
-    MessageBuffer buffer;
-    const std::size_t size = encode(message, buffer);
-    publish_bytes(channel.c_str(), buffer.data(), size);
   }
   void publish_bytes(const char* channel, const void* data, std::size_t size) {
     if (lcm_publish(lcm, channel, data, static_cast<unsigned>(size)) != 0)
@@ -294,94 +197,38 @@ Result<std::unique_ptr<Bus>> Bus::open(const std::string& given_url) {
 Bus::Bus(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Bus::~Bus() = default;
 
-void Bus::publish(const Channel& channel, const Pose& pose) { impl_->publish(channel, pose); }
-void Bus::publish(const Channel& channel, const Hands& hands) { impl_->publish(channel, hands); }
-void Bus::publish(const Channel& channel, const TimedSkeleton& skeleton) {
-  impl_->publish(channel, skeleton);
+void Bus::send(const Channel& channel, const AnyMessage& message) {
+  MessageBuffer buffer;
+  const std::size_t size = message.encode(buffer);
+  impl_->publish_bytes(channel.c_str(), buffer.data(), size);
 }
-void Bus::publish(const Channel& channel, const GuestStatus& status) {
-  impl_->publish(channel, status);
-}
-void Bus::publish(const Channel& channel, const Stats& stats) { impl_->publish(channel, stats); }
-void Bus::publish(const Channel& channel, const StageTime& stage_time) {
-  impl_->publish(channel, stage_time);
-}
-void Bus::publish(const Channel& channel, const Music& music) { impl_->publish(channel, music); }
-void Bus::publish(const Channel& channel, const Scene& scene) { impl_->publish(channel, scene); }
-void Bus::publish(const Channel& channel, const Avatar& avatar) { impl_->publish(channel, avatar); }
-void Bus::publish(const Channel& channel, const Style& style) { impl_->publish(channel, style); }
-void Bus::publish(const Channel& channel, const Placement& placement) {
-  impl_->publish(channel, placement);
-}
-void Bus::publish(const Channel& channel, const Beat& beat) { impl_->publish(channel, beat); }
+
 void Bus::publish_raw(const char* channel, const void* data, std::size_t size) {
   impl_->publish_bytes(channel, data, size);
 }
 
-void Bus::on_pose(Where where, const GuestId& guest, Delivery delivery, Handler<Pose> handler) {
-  impl_->subscribe_typed<Pose>(channel_pattern(Signal::kPose, where, guest), delivery,
-                               std::move(handler));
+void Bus::add(std::shared_ptr<Subscription> subscription) {
+  const std::string regex = regex_of(subscription->signal(), subscription->from());
+  impl_->listen(regex, std::move(subscription));
 }
-void Bus::on_hands(Where where, const GuestId& guest, Delivery delivery, Handler<Hands> handler) {
-  impl_->subscribe_typed<Hands>(channel_pattern(Signal::kHands, where, guest), delivery,
-                                std::move(handler));
-}
-void Bus::on_skeleton(Where where, const GuestId& guest, Handler<TimedSkeleton> handler) {
-  impl_->subscribe_typed<TimedSkeleton>(channel_pattern(Signal::kSkeleton, where, guest),
-                                        Delivery::kEvery, std::move(handler));
-}
-void Bus::on_guest_status(Handler<GuestStatus> handler) {
-  impl_->subscribe_typed<GuestStatus>("GUEST/stage/[a-z0-9-]+", Delivery::kEvery,
-                                      std::move(handler));
-}
-void Bus::on_stats(Handler<Stats> handler) {
-  impl_->subscribe_typed<Stats>("STATS/[a-z0-9-]+", Delivery::kEvery, std::move(handler));
-}
-void Bus::on_stage_time(Handler<StageTime> handler) {
-  impl_->subscribe_typed<StageTime>("STAGE_TIME/view/[a-z0-9-]+", Delivery::kEvery,
-                                    std::move(handler));
-}
-void Bus::on_music(Where where, const GuestId& guest, Handler<Music> handler) {
-  impl_->subscribe_typed<Music>(channel_pattern(Signal::kMusic, where, guest), Delivery::kEvery,
-                                std::move(handler));
-}
-void Bus::on_scene(Where where, const GuestId& guest, Handler<Scene> handler) {
-  impl_->subscribe_typed<Scene>(channel_pattern(Signal::kScene, where, guest), Delivery::kEvery,
-                                std::move(handler));
-}
-void Bus::on_avatar(Where where, const GuestId& guest, Handler<Avatar> handler) {
-  impl_->subscribe_typed<Avatar>(channel_pattern(Signal::kAvatar, where, guest), Delivery::kEvery,
-                                 std::move(handler));
-}
-void Bus::on_style(Where where, const GuestId& guest, Handler<Style> handler) {
-  impl_->subscribe_typed<Style>(channel_pattern(Signal::kStyle, where, guest), Delivery::kEvery,
-                                std::move(handler));
-}
-void Bus::on_beat(Handler<Beat> handler) {
-  impl_->subscribe_typed<Beat>("BEAT/local", Delivery::kEvery, std::move(handler));
-}
-void Bus::on_placement(Where where, const GuestId& guest, Handler<Placement> handler) {
-  impl_->subscribe_typed<Placement>(channel_pattern(Signal::kPlacement, where, guest),
-                                    Delivery::kEvery, std::move(handler));
-}
+
 void Bus::on_anything(RawHandler handler) {
-  impl_->subscribe(".*", std::make_unique<RawSubscription>(std::move(handler)));
+  impl_->listen(".*", std::make_shared<AllChannels>(std::move(handler)));
 }
 
 void Bus::on_raw(const ChannelPattern& pattern, Delivery delivery, std::size_t max_bytes,
                  RawHandler handler) {
-  impl_->subscribe(pattern.regex(),
-                   std::make_unique<PatternSubscription>(pattern, delivery, max_bytes,
-                                                         std::move(handler), impl_->counters));
+  impl_->listen(pattern.regex(), std::make_shared<PatternSubscription>(pattern, delivery, max_bytes,
+                                                                       std::move(handler)));
 }
 
 int Bus::fd() const { return impl_->fd(); }
 
 void Bus::drain(MonoTime now) {
-  for (auto& subscription : impl_->subscriptions) subscription->now = now;
+  impl_->now = now;
   for (int i = 0; i < kMessagesPerTurn; ++i)
     if (lcm_handle_timeout(impl_->lcm, 0) <= 0) break;
-  for (auto& subscription : impl_->subscriptions) subscription->deliver(now);
+  for (const auto& listening : impl_->listeners) listening->listener->deliver(now);
 }
 
 const Bus::Counters& Bus::counters() const { return impl_->counters; }

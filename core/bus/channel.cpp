@@ -5,44 +5,26 @@
 namespace dance {
 namespace {
 
-struct Word {
-  int value;
-  std::string_view text;
-};
-constexpr std::array<Word, 12> kSignals{{
-    {static_cast<int>(Signal::kPose), "POSE"},
-    {static_cast<int>(Signal::kSkeleton), "SKELETON"},
-    {static_cast<int>(Signal::kHands), "HANDS"},
-    {static_cast<int>(Signal::kGuest), "GUEST"},
-    {static_cast<int>(Signal::kStats), "STATS"},
-    {static_cast<int>(Signal::kStageTime), "STAGE_TIME"},
-    {static_cast<int>(Signal::kMusic), "MUSIC"},
-    {static_cast<int>(Signal::kScene), "SCENE"},
-    {static_cast<int>(Signal::kAvatar), "AVATAR"},
-    {static_cast<int>(Signal::kStyle), "STYLE"},
-    {static_cast<int>(Signal::kPlacement), "PLACEMENT"},
-    {static_cast<int>(Signal::kBeat), "BEAT"},
-}};
+// In the order of Signal, and of Where.
+constexpr std::array<std::string_view, 12> kSignals{"POSE",   "SKELETON",   "HANDS",     "GUEST",
+                                                    "STATS",  "STAGE_TIME", "MUSIC",     "SCENE",
+                                                    "AVATAR", "STYLE",      "PLACEMENT", "BEAT"};
+constexpr std::array<std::string_view, 5> kWheres{"capture", "guest", "stage", "view", "room"};
+static_assert(static_cast<std::size_t>(Signal::kBeat) + 1 == kSignals.size());
+static_assert(static_cast<std::size_t>(Where::kRoom) + 1 == kWheres.size());
 constexpr std::string_view kLocalWord = "local";
-constexpr std::array<Word, 5> kWheres{{
-    {static_cast<int>(Where::kCapture), "capture"},
-    {static_cast<int>(Where::kGuest), "guest"},
-    {static_cast<int>(Where::kStage), "stage"},
-    {static_cast<int>(Where::kView), "view"},
-    {static_cast<int>(Where::kRoom), "room"},
-}};
 
-template <std::size_t kCount>
-std::string_view text_of(const std::array<Word, kCount>& words, int value) {
-  for (const Word& word : words)
-    if (word.value == value) return word.text;
-  return {};
+template <class Value, std::size_t kCount>
+std::string_view text_of(const std::array<std::string_view, kCount>& words, Value value) {
+  const auto place = static_cast<std::size_t>(value);
+  return place < kCount ? words[place] : std::string_view();
 }
 
-template <std::size_t kCount>
-std::optional<int> value_of(const std::array<Word, kCount>& words, std::string_view text) {
-  for (const Word& word : words)
-    if (word.text == text) return word.value;
+template <class Value, std::size_t kCount>
+std::optional<Value> value_of(const std::array<std::string_view, kCount>& words,
+                              std::string_view text) {
+  for (std::size_t place = 0; place < kCount; ++place)
+    if (words[place] == text) return static_cast<Value>(place);
   return std::nullopt;
 }
 
@@ -74,12 +56,9 @@ bool is_in_table(Signal signal, Where where) {
 
 }  // namespace
 
-std::string_view signal_name(Signal signal) { return text_of(kSignals, static_cast<int>(signal)); }
-std::string_view where_name(Where where) { return text_of(kWheres, static_cast<int>(where)); }
-std::optional<Where> find_where(std::string_view name) {
-  const auto value = value_of(kWheres, name);
-  return value ? std::optional(static_cast<Where>(*value)) : std::nullopt;
-}
+std::string_view signal_name(Signal signal) { return text_of(kSignals, signal); }
+std::string_view where_name(Where where) { return text_of(kWheres, where); }
+std::optional<Where> find_where(std::string_view name) { return value_of<Where>(kWheres, name); }
 
 Channel Channel::of(Signal signal, Where where, const GuestId& guest) {
   DANCE_ASSERT(guest.is_set());
@@ -112,21 +91,19 @@ Channel Channel::of_program(Signal signal, std::string_view program) {
 std::optional<Channel> Channel::parse(std::string_view name) {
   const std::size_t first = name.find('/');
   if (first == std::string_view::npos || name.size() > kMaxChannelLength) return std::nullopt;
-  const auto signal = value_of(kSignals, name.substr(0, first));
+  const auto signal = value_of<Signal>(kSignals, name.substr(0, first));
   if (!signal) return std::nullopt;
   const std::string_view rest = name.substr(first + 1);
-  if (static_cast<Signal>(*signal) == Signal::kStats) {
-    if (!GuestId::parse(rest)) return std::nullopt;
-    return of_program(Signal::kStats, rest);
-  }
-  if (static_cast<Signal>(*signal) == Signal::kBeat)
-    return rest == kLocalWord ? std::optional(of_house(Signal::kBeat)) : std::nullopt;
   const std::size_t second = rest.find('/');
-  if (second == std::string_view::npos) return std::nullopt;
+  if (second == std::string_view::npos) {
+    if (rest == kLocalWord && is_in_table(*signal, Where::kLocal)) return of_house(*signal);
+    if (!GuestId::parse(rest) || !is_in_table(*signal, Where::kProgram)) return std::nullopt;
+    return of_program(*signal, rest);
+  }
   const auto where = find_where(rest.substr(0, second));
   const auto guest = GuestId::parse(rest.substr(second + 1));
-  if (!where || !guest || !is_in_table(static_cast<Signal>(*signal), *where)) return std::nullopt;
-  return of(static_cast<Signal>(*signal), *where, *guest);
+  if (!where || !guest || !is_in_table(*signal, *where)) return std::nullopt;
+  return of(*signal, *where, *guest);
 }
 
 }  // namespace dance

@@ -1,7 +1,7 @@
-// ChannelFilter: has the kernel keep back the messages of a bus that nobody in this program
-// subscribed to. On a bus everybody hears everything, and LCM looks at a name only when its thread
-// has been woken and the message copied: in a house that shows thirty dancers that would be 3,600
-// times a second for a program that wants to know the beat.
+// ChannelFilter: a socket filter by which the kernel drops the messages of a bus that this program
+// has not subscribed to. On a multicast bus every program receives every message, and LCM looks at
+// a name only when its thread has been woken and the message copied: in a house that shows thirty
+// dancers that would be 3,600 times a second for a program that only needs the beat.
 //
 // Ownership: keeps the beginnings of the subscribed names; the socket is LCM's.
 // Threads:   none inside; one owner.

@@ -1,5 +1,6 @@
-// This tree's types ⇄ the bytes of LCM messages: the one place that builds and reads generated
-// types. What is decoded is checked here (finite, unit rotations, sizes) and trusted behind.
+// The table of message types, and what is done with a row of it: this tree's types ⇄ the bytes of
+// LCM messages. What is decoded is checked here (finite, unit rotations, sizes, times) and trusted
+// behind.
 //
 // Units/frames: as core/pose and core/bus/messages.h say.
 // Ownership:    encodes into the caller's buffer; allocates nothing.
@@ -9,10 +10,13 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "core/base/beat.h"
+#include "core/bus/channel.h"
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
 #include "core/pose/pose.h"
@@ -23,24 +27,66 @@ namespace dance {
 constexpr std::size_t kMaxMessageBytes = 1024;
 using MessageBuffer = std::array<std::uint8_t, kMaxMessageBytes>;
 
-// Bytes written.
-std::size_t encode(const Pose& pose, MessageBuffer& buffer);
-std::size_t encode(const Hands& hands, MessageBuffer& buffer);
-std::size_t encode(const TimedSkeleton& skeleton, MessageBuffer& buffer);
-std::size_t encode(const GuestStatus& status, MessageBuffer& buffer);
-std::size_t encode(const Stats& stats, MessageBuffer& buffer);
-std::size_t encode(const StageTime& stage_time, MessageBuffer& buffer);
-std::size_t encode(const Music& music, MessageBuffer& buffer);
-std::size_t encode(const Scene& scene, MessageBuffer& buffer);
-std::size_t encode(const Avatar& avatar, MessageBuffer& buffer);
-std::size_t encode(const Style& style, MessageBuffer& buffer);
-std::size_t encode(const Placement& placement, MessageBuffer& buffer);
-std::size_t encode(const Beat& beat, MessageBuffer& buffer);
+enum class Decoded { kFine, kUndecodable, kInvalid };
+
+// Our type, and whose channels it travels on. The generated type and its fields: encode.cpp.
+template <class T, Signal kOfSignal>
+struct MessageRow {
+  static constexpr Signal kSignal = kOfSignal;
+  static std::string_view type_name();  // as in the .lcm file
+  // Bytes written.
+  static std::size_t encode(const T& message, MessageBuffer& buffer);
+  // Leaves `message` as it was unless it is kFine.
+  static Decoded decode(const void* data, std::size_t size, T& message);
+};
+
+// The table.
+template <class T>
+struct MessageTraits;
+template <>
+struct MessageTraits<Pose> : MessageRow<Pose, Signal::kPose> {};
+template <>
+struct MessageTraits<Hands> : MessageRow<Hands, Signal::kHands> {};
+template <>
+struct MessageTraits<TimedSkeleton> : MessageRow<TimedSkeleton, Signal::kSkeleton> {};
+template <>
+struct MessageTraits<GuestStatus> : MessageRow<GuestStatus, Signal::kGuest> {};
+template <>
+struct MessageTraits<Stats> : MessageRow<Stats, Signal::kStats> {};
+template <>
+struct MessageTraits<StageTime> : MessageRow<StageTime, Signal::kStageTime> {};
+template <>
+struct MessageTraits<Music> : MessageRow<Music, Signal::kMusic> {};
+template <>
+struct MessageTraits<Scene> : MessageRow<Scene, Signal::kScene> {};
+template <>
+struct MessageTraits<Avatar> : MessageRow<Avatar, Signal::kAvatar> {};
+template <>
+struct MessageTraits<Style> : MessageRow<Style, Signal::kStyle> {};
+template <>
+struct MessageTraits<Placement> : MessageRow<Placement, Signal::kPlacement> {};
+template <>
+struct MessageTraits<Beat> : MessageRow<Beat, Signal::kBeat> {};
+
+// A type with a row in the table.
+template <class T>
+concept BusMessage = requires {
+  { MessageTraits<T>::kSignal } -> std::convertible_to<Signal>;
+};
+
+template <BusMessage T>
+std::size_t encode(const T& message, MessageBuffer& buffer) {
+  return MessageTraits<T>::encode(message, buffer);
+}
+template <BusMessage T>
+Decoded decode(const void* data, std::size_t size, T& message) {
+  return MessageTraits<T>::decode(data, size, message);
+}
 
 // A pose_t as it stands in a message, every bit of it and checked for nothing: for recordings,
-// which give back what they were given. Whoever looks at poses wants decode().
+// which give back what they were given. For a pose that is to be used there is decode().
 struct RawPose {
-  Pose pose;  // but its times, which may be more than MonoTime holds
+  Pose pose;  // without its times, which may be more than MonoTime holds
   std::int64_t capture_time_us = 0;
   std::array<std::int64_t, kHopCount> hop_time_us{};
 };
@@ -54,20 +100,5 @@ std::size_t encode(const RawHands& raw, MessageBuffer& buffer);
 // False for another type or size.
 bool decode_unchecked(const void* data, std::size_t size, RawPose& raw);
 bool decode_unchecked(const void* data, std::size_t size, RawHands& raw);
-
-enum class Decoded { kFine, kUndecodable, kInvalid };
-
-Decoded decode(const void* data, std::size_t size, Pose& pose);
-Decoded decode(const void* data, std::size_t size, Hands& hands);
-Decoded decode(const void* data, std::size_t size, TimedSkeleton& skeleton);
-Decoded decode(const void* data, std::size_t size, GuestStatus& status);
-Decoded decode(const void* data, std::size_t size, Stats& stats);
-Decoded decode(const void* data, std::size_t size, StageTime& stage_time);
-Decoded decode(const void* data, std::size_t size, Music& music);
-Decoded decode(const void* data, std::size_t size, Scene& scene);
-Decoded decode(const void* data, std::size_t size, Avatar& avatar);
-Decoded decode(const void* data, std::size_t size, Style& style);
-Decoded decode(const void* data, std::size_t size, Placement& placement);
-Decoded decode(const void* data, std::size_t size, Beat& beat);
 
 }  // namespace dance

@@ -5,10 +5,12 @@
 // Units/frames: MonoTime of the clock that clock_id names; rates in Hz; ages in ms.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
-// Failure:      none.
+// Failure:      is_valid() is false for what the .lcm files do not allow; times are checked where
+//               they are read (core/bus/message_fields.h).
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "core/base/time.h"
@@ -70,5 +72,13 @@ struct StageTime {
   MonoTime heard_time;
   MonoTime swap_time;
 };
+
+inline bool is_valid(const TimedSkeleton& timed) { return is_valid(timed.skeleton); }
+inline bool is_valid(const GuestStatus& status) {
+  return std::isfinite(status.arrival_hz) && std::isfinite(status.stage_hz) &&
+         std::isfinite(status.age_p50_ms) && std::isfinite(status.age_p99_ms);
+}
+inline bool is_valid(const Stats&) { return true; }
+inline bool is_valid(const StageTime&) { return true; }
 
 }  // namespace dance

@@ -1,6 +1,6 @@
-// What changes seldom and has to be known by whoever comes later: the room's music and scene; each
-// guest's avatar, style and place. The same fields as the .lcm files of lcmtypes, which say what
-// each means, in this tree's types.
+// State: what changes rarely and has to be known by programs that start later: the room's music and
+// scene; each guest's avatar, style and placement. The same fields as the .lcm files of lcmtypes,
+// which say what each means, in this tree's types.
 //
 // Units/frames: MonoTime of the clock that clock_id names; metres and radians in W; music in beats.
 // Ownership:    plain values, no heap.

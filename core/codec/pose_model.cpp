@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
 #include "core/codec/exact_math.h"
@@ -162,6 +163,14 @@ std::shared_ptr<const PoseModel> generic_model() {
     return model;
   }();
   return kModel;
+}
+
+std::span<const std::uint8_t> body_model_file();  // data/, by dance_embed
+
+std::shared_ptr<const PoseModel> built_in_model() {
+  static const auto kModel = read_model(body_model_file());
+  DANCE_ASSERT(kModel.has_value());  // a test reads it too
+  return *kModel;
 }
 
 }  // namespace dance

@@ -1,7 +1,7 @@
 // Finish: the last step for predicted poses: inertialised corrections, joint limits, turn limits,
-// foot lock, unit rotations.
+// foot lock, unit rotations. A stage has one for each guest (transformers/flow.h).
 //
-// Units/frames: as transformers/transformer.h; times of the stage's clock.
+// Units/frames: as core/pose/pose.h; times of the stage's clock.
 // Ownership:    plain value; never allocates. Costs 1 to 4 us a frame.
 // Threads:      none inside; one owner.
 // Failure:      none. A pose that is not predicted, with no correction in progress, is not changed.
@@ -30,16 +30,13 @@ class Finish {
   }
 
   // The poses that arrived, for foot lock to detect standing feet. Optional.
-  void observe(const Pose& real, MonoTime now) {
-    if (finishes_) feet_.observe(real, now);
-  }
+  void observe(const Pose& real, MonoTime now) { feet_.observe(real, now); }
 
-  // Once a frame. `is_guess`: the pose was not danced so, or not yet.
-  void apply(MonoTime now, Pose& pose, bool is_guess) {
-    finishes_ = true;
+  // Once a frame. `is_predicted`: the pose was not danced so, or not yet.
+  void apply(MonoTime now, Pose& pose, bool is_predicted) {
     corrections_.apply(now, pose);
-    const bool is_free = is_guess || !corrections_.is_at_rest();
-    if (is_guess) limit_joints(pose);
+    const bool is_free = is_predicted || !corrections_.is_at_rest();
+    if (is_predicted) limit_joints(pose);
     bool is_changed = turns_.apply(now, pose, is_free) || is_free;
     is_changed = feet_.apply(now, pose, is_free) || is_changed;
     if (is_changed) normalize(pose);
@@ -59,7 +56,6 @@ class Finish {
   Inertializer corrections_;
   TurnLimit turns_;
   FootLock feet_;
-  bool finishes_ = false;  // has been applied
 };
 
 }  // namespace dance

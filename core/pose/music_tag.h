@@ -1,5 +1,5 @@
 // MusicTag: tags poses with musical time: the position of the music heard in this house when they
-// were captured. Producers use it, and the link for producers in other languages.
+// were captured. core/bus/captures.h uses it, where poses enter.
 //
 // Units/frames: beats as core/base/beat.h counts them; times of the clock that the tag is made
 //               with.
@@ -28,6 +28,8 @@ class MusicTag {
     if (!std::isnan(pose.music_beats) || pose.clock_id != clock_id_) return;
     if (clock_.is_known(pose.capture_time)) pose.music_beats = clock_.position(pose.capture_time);
   }
+  // The music as it is heard here.
+  const BeatClock& clock() const { return clock_; }
 
  private:
   std::uint64_t clock_id_;

@@ -38,7 +38,8 @@ namespace {
 
 Result<ChildProcess> ChildProcess::start(const Options& options) {
   if (access(options.program.c_str(), X_OK) != 0)
-    return fail(options.program + ": cannot be run; was it built? ./dance setup builds all");
+    return fail(options.program +
+                ": cannot be run; was it built, or installed? ./dance setup builds all");
   std::vector<char*> arguments{const_cast<char*>(options.program.c_str())};
   for (const std::string& argument : options.arguments)
     arguments.push_back(const_cast<char*>(argument.c_str()));

@@ -41,6 +41,10 @@ std::string program_folder() {
   return size > 0 ? std::filesystem::path(path.data()).parent_path().string() : ".";
 }
 
+std::string data_folder() {
+  return (std::filesystem::path(program_folder()).parent_path() / "share/dancegraph").string();
+}
+
 std::string display_name() {
   for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) {
     const char* value = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): at start

@@ -18,8 +18,11 @@ namespace dance {
 int run_program(CommandLine& line, int argc, char** argv,
                 const std::function<Result<void>()>& body);
 
-// The folder of this program and the others of the tree.
+// The folder of this program and all others of the build or the installation.
 std::string program_folder();
+
+// share/dancegraph beside that folder: files that programs read, in a build and in an installation.
+std::string data_folder();
 
 // The display for windows, by DISPLAY or WAYLAND_DISPLAY; "" without one.
 std::string display_name();

@@ -1,5 +1,5 @@
-// Writes a file atomically: to a temporary file beside it, then renamed, so that readers see the
-// old one or the new one, also when the writer is stopped.
+// Reads whole files, and writes them atomically: to a temporary file beside it, then renamed, so
+// that readers see the old one or the new one, also when the writer is stopped.
 //
 // Units/frames: none.
 // Ownership:    nothing stays.
@@ -23,5 +23,12 @@ Result<void> try_whole_file(const std::string& path);
 
 Result<void> write_whole_file(const std::string& path, std::string_view content);
 Result<void> write_whole_file(const std::string& path, std::span<const std::uint8_t> content);
+
+// Of a regular file, if it has no more than `most_bytes`.
+Result<std::string> read_whole_file(const std::string& path, std::size_t most_bytes);
+
+bool is_xz(std::string_view bytes);
+// Decompresses an xz file to at most `most_bytes`; other bytes are returned unchanged.
+Result<std::string> unpacked(std::string bytes, std::size_t most_bytes);
 
 }  // namespace dance

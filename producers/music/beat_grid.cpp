@@ -12,8 +12,8 @@ namespace {
 constexpr int kLongestBar_beats = 16;
 constexpr double kLongestMusic_s = 12.0 * 3600.0;
 constexpr std::size_t kTempoReach_beats = 2;
-// A beat this far from the line through its neighbours is another tempo, not the odd millisecond: 6
-// ms of jitter is 2 % of a beat at 180 BPM.
+// A beat this far from a straight fit through its neighbours is a change of tempo, not jitter: 6 ms
+// of jitter is 2 % of a beat at 180 BPM.
 constexpr double kSteady_beats = 0.05;
 
 std::string beat_name(std::size_t index) { return "beat " + std::to_string(index + 1); }
@@ -88,7 +88,7 @@ std::size_t BeatGrid::interval_of_beat(double beat) const {
   return static_cast<std::size_t>(index);
 }
 
-// The slope of the line of least squares through up to five beats.
+// The slope of a least-squares fit through up to five beats.
 double BeatGrid::period_around_s(std::size_t index) const {
   const std::size_t begin = index > kTempoReach_beats ? index - kTempoReach_beats : 0;
   const std::size_t end = std::min(index + kTempoReach_beats + 1, size());

@@ -1,5 +1,4 @@
-// BeatGrid: where each beat of a piece of music is: beat number to seconds and back, and the tempo
-// around.
+// BeatGrid: maps beat numbers of a piece of music to seconds and back, and gives the local tempo.
 //
 // Units/frames: seconds from the begin of the music; beats count as core/base/beat.h says: 0 is the
 //               first beat of the first bar, so that a grid that begins with the third of a bar of
@@ -7,7 +6,7 @@
 // Ownership:    plain value.
 // Threads:      none inside.
 // Failure:      make() says which beat is wrong and why; it counts them from 1. Before the first
-//               beat and behind the last the tempo there goes on.
+//               beat and after the last the tempo there continues.
 #pragma once
 
 #include <span>
@@ -37,8 +36,8 @@ class BeatGrid {
 
   double beat_at(double time_s) const;
   double time_of(double beat) const;  // seconds
-  // Of the beats around this one, so that the odd millisecond of one beat is not a change of tempo.
-  // Where it does change, of the way to this beat, which is what is being heard.
+  // Fitted to the beats around this one, so that jitter is no change of tempo. Where the tempo does
+  // change, that of the interval before this beat, which is being heard.
   double tempo_bpm(double beat) const;
 
  private:

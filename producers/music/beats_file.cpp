@@ -1,15 +1,11 @@
 #include "producers/music/beats_file.h"
 
-#include <sys/stat.h>
-
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
 #include <vector>
 
 #include "core/base/take_line.h"
+#include "core/program/whole_file.h"
 
 namespace dance {
 namespace {
@@ -42,7 +38,8 @@ bool read_whole(std::string_view text, T& value) {
 }  // namespace
 
 Result<BeatGrid> parse_beats(std::string_view text) {
-  if (text.size() > kMostBeatsFile_bytes) return fail("more than 4 MiB; no list of beats is");
+  if (text.size() > kMostBeatsFile_bytes)
+    return fail("more than 4 MiB; a list of beats is smaller");
   std::vector<GridBeat> beats;
   std::vector<std::size_t> lines;  // of each beat, for what is found wrong later
   for (std::size_t number = 1; !text.empty(); ++number) {
@@ -69,18 +66,7 @@ Result<BeatGrid> parse_beats(std::string_view text) {
 }
 
 Result<BeatGrid> read_beats_file(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0)
-    return fail(path + ": " + (errno == ENOENT ? "no such file" : std::strerror(errno)));
-  if (!S_ISREG(status.st_mode)) return fail(path + ": no regular file; name a .beats file");
-  if (static_cast<std::size_t>(status.st_size) > kMostBeatsFile_bytes)
-    return fail(path + ": more than 4 MiB; no list of beats is");
-  std::ifstream file(path, std::ios::binary);
-  if (!file.is_open()) return fail(path + ": " + std::strerror(errno));
-  std::string text(static_cast<std::size_t>(status.st_size), '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) return fail(path + ": cannot be read; copy it again");
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  DANCE_TRY(const std::string text, read_whole_file(path, kMostBeatsFile_bytes));
   auto grid = parse_beats(text);
   if (!grid) return fail(path + ": " + grid.error().what);
   return grid;

@@ -1,5 +1,5 @@
 // Reads .beats files: one beat a line, its seconds, a TAB, its position in the bar from 1. Empty
-// lines and lines that begin with # say nothing; a position may be missing in all of them where the
+// lines and lines that begin with # are skipped; a position may be missing in all of them where the
 // bar is not known.
 //
 // Units/frames: seconds from the begin of the music.

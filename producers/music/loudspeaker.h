@@ -1,11 +1,9 @@
-// Where this machine's sound goes: the loudspeaker that the sound server gives to a program that
-// names none.
+// This machine's default sound output.
 //
-// Units/frames: the latency is what the server knows of, from its hands to the air, while something
-//               plays.
+// Units/frames: the latency is the one that the server reports while sound plays.
 // Ownership:    plain values.
 // Threads:      call from main; takes half a second, in which silence is played.
-// Failure:      says why there is none, as a build without sound does.
+// Failure:      an Error tells why there is none; a build without sound always fails.
 #pragma once
 
 #include <string>

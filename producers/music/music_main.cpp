@@ -1,5 +1,5 @@
-// dance music: plays a file of music, says the beat that is heard in this house, and plays in step
-// with the room.
+// dance music: plays a music file, publishes its beats as they are heard in this house, and plays
+// in step with the room.
 
 #include <sys/stat.h>
 
@@ -10,8 +10,8 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/music/beats_file.h"
-#include "producers/music/microphone_beats.h"
-#include "producers/music/music_house.h"
+#include "producers/music/music_program.h"
+#include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
 #include "producers/music/tracked_song.h"
 
@@ -62,7 +62,7 @@ std::optional<Duration> duration_of(std::string_view text) {
 }
 
 Result<MonoTime> start_of(const ProgramOptions& options, MonoTime now) {
-  // Time for the sound to get ready, and for the room to hear of it.
+  // Time to start the sound, and for the room's houses to learn of the song.
   if (options.start.empty())
     return now + (options.guest.empty() ? Duration::ms(500) : Duration::s(2));
   if (options.start[0] == '+') {
@@ -96,11 +96,10 @@ Result<Loaded> load(const ProgramOptions& options) {
   DANCE_TRY(loaded.audio, AudioFile::open(options.file));
   const std::string beats = options.beats.empty() ? beats_path_beside(options.file) : options.beats;
   if (options.beats.empty() && !is_there(beats)) {
-    talk::info("there is no {}: listens for the beats of {}", beats, options.file);
+    talk::info("there is no {}: finds the beats of {} by listening", beats, options.file);
     auto tracked = track_song(*loaded.audio);
     if (!tracked)
-      return fail(options.file + ": " + tracked.error().what +
-                  "; put a list of its beats beside it as " + beats);
+      return fail(tracked.error().what + "; or put a list of its beats beside it as " + beats);
     loaded.confidence = tracked->confidence;
     talk::info("{} beats, about {:.0f} a minute", tracked->grid.size(),
                tracked->grid.tempo_bpm(tracked->grid.last_beat() / 2.0));
@@ -138,63 +137,64 @@ void stop_after(Poller& poller, double seconds) {
     });
 }
 
-// Nothing is played: what is heard is followed.
-Result<void> listen(const ProgramOptions& options) {
+// Plays nothing: tracks the beat of the recorded sound.
+Result<void> follow_microphone(const ProgramOptions& options) {
   DANCE_TRY(const Duration trim, trim_of(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
-  DANCE_TRY(auto ear, MicrophoneBeats::open(options.source, trim));
+  DANCE_TRY(auto microphone, MicrophoneBeats::open(options.source, trim));
   DANCE_TRY(auto bus, Bus::open(options.bus));
-  BeatTeller teller(*bus, *poller, [&](MonoTime now) { return ear->beat(now); });
+  BeatPublisher publisher(*bus, *poller, [&](MonoTime now) { return microphone->beat(now); });
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   Result<void> worked;
   poller->add_timer(mono_now(), [&](MonoTime now) {
-    worked = ear->work(now);
+    worked = microphone->work(now);
     if (!worked) poller->stop();
     return now + kMicrophoneTurn;
   });
-  bool said_another = false;
+  bool warned_of_another = false;
   poller->add_timer(mono_now(), [&](MonoTime now) {
-    if (teller.hears_another(now) && !said_another) talk::warn("{}", kAnotherSaysTheBeat);
-    said_another = teller.hears_another(now);
+    if (publisher.hears_another_publisher(now) && !warned_of_another)
+      talk::warn("{}", kAnotherPublisher);
+    warned_of_another = publisher.hears_another_publisher(now);
     return now + Duration::s(1);
   });
   stop_after(*poller, options.seconds);
   talk::info("listens; Ctrl-C ends it");
   poller->run();
   poller->unwatch(bus->fd());
-  talk::info("{} beats said", teller.told());
+  talk::info("{} beats published", publisher.published());
   return worked;
 }
 
 Result<void> play(const ProgramOptions& options) {
-  if (options.microphone) return listen(options);
+  if (options.microphone) return follow_microphone(options);
   if (options.file.empty() && !options.follow)
     return fail(
         "nothing to play: name a file, keep the room's time with --follow, or listen with "
         "--microphone");
-  // First: until the song has been listened to, Ctrl-C ends the program by itself.
+  // Before the poller handles signals: Ctrl-C ends the program while the song is analysed.
   DANCE_TRY(Loaded loaded, load(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
-  MusicHouseOptions house_options;
-  house_options.song = loaded.song;
-  house_options.loops = options.loop;
-  house_options.confidence = loaded.confidence;
-  house_options.title = music_title(options.file);
-  if (!options.guest.empty()) house_options.guest = *GuestId::parse(options.guest);
-  house_options.follows = options.follow;
+  MusicProgramOptions program_options;
+  program_options.song = loaded.song;
+  program_options.loops = options.loop;
+  program_options.confidence = loaded.confidence;
+  program_options.title = music_title(options.file);
+  if (!options.guest.empty()) program_options.guest = *GuestId::parse(options.guest);
+  program_options.follows = options.follow;
   DANCE_TRY(auto player, player_of(options, loaded));
   DANCE_TRY(auto bus, Bus::open(options.bus));
-  DANCE_TRY(house_options.begin, start_of(options, mono_now()));
-  MusicHouse house(std::move(house_options), std::move(player), *bus, *poller);
+  DANCE_TRY(program_options.begin, start_of(options, mono_now()));
+  MusicProgram program(std::move(program_options), std::move(player), *bus, *poller);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   stop_after(*poller, options.seconds);
   talk::info("{}; Ctrl-C ends it", options.follow ? "listens for the room's music" : "playing");
   poller->run();
-  house.stop(mono_now());
+  program.stop(mono_now());
   poller->unwatch(bus->fd());
-  talk::info("{} beats said; {}", house.teller().told(), house.summary());
+  talk::info("{} beats published; {}", program.publisher().published(), program.summary());
   return {};
 }
 
@@ -203,9 +203,9 @@ Result<void> play(const ProgramOptions& options) {
 
 int main(int argc, char** argv) {
   dance::ProgramOptions options;
-  dance::CommandLine line("Plays music, and says the beat that is heard in this house.",
+  dance::CommandLine line("Plays music and publishes its beats as they are heard in this house.",
                           "dance music");
-  line.add("FILE", options.file, "the music: .ogg, .flac, .wav, .mp3, .opus");
+  line.add("FILE", options.file, "the music: .ogg, .flac, .wav, .mp3, .opus, .m4a");
   line.add("--beats", options.beats,
            "list of its beats; without it, the .beats file beside FILE, or what is heard");
   line.add("--bus", options.bus, "LCM URL of the house's bus");
@@ -215,10 +215,10 @@ int main(int argc, char** argv) {
            "when it begins: +2s from now, or microseconds of this machine's monotonic clock");
   line.add_flag("--silent", options.silent, "keep the time only, without sound");
   line.add_flag("--microphone", options.microphone,
-                "play nothing, and say the beat of what the microphone hears");
+                "play nothing, and publish the beat of what the microphone records");
   line.add("--source", options.source, "which microphone; `pactl list short sources` names them");
   line.add_flag("--loop", options.loop,
-                "over and over, while it is this house that plays for the room or for itself");
+                "loop, while this house leads the room or plays for itself");
   line.add("--volume", options.volume, "0 to 1").range(0.0, 1.0);
   line.add("--trim", options.trim,
            "latency of the loudspeaker that the sound server does not know of, like 20ms");

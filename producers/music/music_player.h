@@ -4,7 +4,7 @@
 // Units/frames: song seconds as in producers/music/song.h; times of this house's clock.
 // Ownership:    of each implementation.
 // Threads:      none inside; runs in the program's loop.
-// Failure:      work() says what has ended the playing for good.
+// Failure:      work() fails where playing cannot go on.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,14 @@ namespace dance {
 class MusicPlayer {
  public:
   virtual ~MusicPlayer() = default;
-  // Another moment, a little or far from the last, may be given at any time. Over and over, or
-  // silent behind the end.
+  // May be called again at any time with another moment. Loops, or is silent after the end.
   virtual void play_from(MonoTime begin, bool loops) = 0;
   virtual void pause() = 0;
-  // What is heard of the song at t; nothing while that is not known.
+  // The song second that is heard at t; nullopt while that is not known.
   virtual std::optional<double> heard_s(MonoTime t) const = 0;
   // To be called a hundred times a second.
   virtual Result<void> work(MonoTime now) = 0;
-  // How it went, in words, for the end.
+  // One line of statistics for the end.
   virtual std::string summary() const = 0;
 };
 

@@ -6,9 +6,9 @@
 namespace dance {
 namespace {
 
-// More is heard between two houses; what the link takes for the same music is 3 ms.
-constexpr double kLineTolerance_s = 0.005;
-// The room's line is good for as long as it is told.
+// Larger ones are audible between two houses; the link treats 3 ms as the same music.
+constexpr double kTempoTolerance_s = 0.005;
+// The message has to be right until the next one.
 constexpr double kLookAhead_s = 1.5;
 
 double steady_tempo_bpm(const BeatGrid& grid) {
@@ -16,9 +16,9 @@ double steady_tempo_bpm(const BeatGrid& grid) {
   return 60.0 * beats / (grid.time_of(grid.last_beat()) - grid.time_of(grid.first_beat()));
 }
 
-bool is_on_line(const Music& music, const Song& song, MonoTime begin, double song_s) {
+bool fits_tempo(const Music& music, const Song& song, MonoTime begin, double song_s) {
   const double line = music.beats_at(begin + Duration::seconds(song_s));
-  return std::abs(line - song.beat_at(song_s)) * 60.0 / music.tempo_bpm <= kLineTolerance_s;
+  return std::abs(line - song.beat_at(song_s)) * 60.0 / music.tempo_bpm <= kTempoTolerance_s;
 }
 
 }  // namespace
@@ -29,17 +29,17 @@ MusicTitle music_title(const std::string& path) {
   if (const std::size_t dot = name.find_last_of('.'); dot != std::string::npos && dot > 0)
     name.resize(dot);
   MusicTitle title;
-  // A cut in the middle of a letter leaves no text: one byte less, then.
+  // A cut within a UTF-8 character leaves no valid text: one byte less, then.
   for (std::size_t size = std::min<std::size_t>(name.size(), 63); size > 0; --size)
     if (is_plain_text(name.substr(0, size)) && title.assign(name.substr(0, size))) return title;
   [[maybe_unused]] const bool fits = title.assign("music");
   return title;
 }
 
-const Music& RoomMusic::tell(const Song& song, MonoTime begin, MonoTime now) {
+const Music& RoomMusic::update(const Song& song, MonoTime begin, MonoTime now) {
   const double song_s = std::max(0.0, (now - begin).as_seconds());
-  const bool holds = music_.playing && is_on_line(music_, song, begin, song_s) &&
-                     is_on_line(music_, song, begin, song_s + kLookAhead_s);
+  const bool holds = music_.playing && fits_tempo(music_, song, begin, song_s) &&
+                     fits_tempo(music_, song, begin, song_s + kLookAhead_s);
   if (!holds) {
     const double from_s = song.time_of(std::ceil(song.beat_at(song_s)));
     music_.start_beats = song.beat_at(from_s);
@@ -48,10 +48,9 @@ const Music& RoomMusic::tell(const Song& song, MonoTime begin, MonoTime now) {
     music_.playing = true;
     music_.title = title_;
     music_.clock_id = clock_id_;
-    // The mean tempo where the song keeps it, else the way to where it will be when this is told
-    // again.
+    // The mean tempo where the song keeps it, else the tempo up to the next message.
     music_.tempo_bpm = steady_tempo_bpm(song.grid());
-    if (!is_on_line(music_, song, begin, song_s + kLookAhead_s))
+    if (!fits_tempo(music_, song, begin, song_s + kLookAhead_s))
       music_.tempo_bpm =
           60.0 * (song.beat_at(from_s + kLookAhead_s) - music_.start_beats) / kLookAhead_s;
     music_.tempo_bpm = std::clamp(music_.tempo_bpm, kLeastTempo_bpm, kMostTempo_bpm);
@@ -60,7 +59,7 @@ const Music& RoomMusic::tell(const Song& song, MonoTime begin, MonoTime now) {
   return music_;
 }
 
-const Music& RoomMusic::tell_stopped(double beats, MonoTime now) {
+const Music& RoomMusic::update_stopped(double beats, MonoTime now) {
   music_.start_beats = beats;
   music_.start_time = now;
   music_.playing = false;

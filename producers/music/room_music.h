@@ -1,5 +1,5 @@
-// What a song that is played here is to the room, as a music_t, and what the room's music_t means
-// for a song here: both houses that have the same song hear the same of it at the same time.
+// Converts between the position of a song that is played here and the room's music_t: houses that
+// have the same song hear the same part of it at the same time.
 //
 // Units/frames: `begin` is when song second 0 was or will be heard; all times in this house's
 //               clock.
@@ -16,17 +16,17 @@
 
 namespace dance {
 
-// The song's name for the room: the file's, without folders and ending, cut where a title ends.
+// The song's title for the room: the file's name without folders and extension, cut to the bound.
 MusicTitle music_title(const std::string& path);
 
-// The line of one tempo that tells where a song stands, told anew only where the song leaves it:
-// who hears it every second then hears the same, and music that sways is right in every bar.
+// A position and one tempo that describe where a song stands, renewed only where the song departs
+// from them: steady music repeats one message, and music of varying tempo is right in every bar.
 class RoomMusic {
  public:
   RoomMusic(const MusicTitle& title, std::uint64_t clock_id) : title_(title), clock_id_(clock_id) {}
 
-  const Music& tell(const Song& song, MonoTime begin, MonoTime now);
-  const Music& tell_stopped(double beats, MonoTime now);
+  const Music& update(const Song& song, MonoTime begin, MonoTime now);
+  const Music& update_stopped(double beats, MonoTime now);
   const Music& last() const { return music_; }
 
  private:

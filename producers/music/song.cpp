@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-// A round that is longer than its last bar by less is meant to end with it.
+// A round that exceeds its last whole bar by less than this ends with that bar.
 constexpr double kSpare_beats = 0.25;
 
 }  // namespace
@@ -29,7 +29,7 @@ double Song::beat_at(double song_s) const {
 
 double Song::time_of(double beat) const {
   if (!loops_) return grid_.time_of(beat);
-  // What stands in no round, as the music ends before its last bar does, is where the next begins.
+  // Beats after the end of the music, in its last bar, are where the next round begins.
   const double begin = std::min(grid_.beat_at(0.0), 0.0);
   const double round = std::max(0.0, std::floor((beat - begin) / round_beats_));
   const double in_round_s = grid_.time_of(beat - round * round_beats_);
@@ -45,7 +45,7 @@ Song::NextBeat Song::next_beat(double song_s) const {
   double round = round_of(song_s);
   double beat = std::floor(grid_.beat_at(song_s - round * length_s_)) + 1.0;
   double in_round_s = grid_.time_of(beat);
-  // What rounding took for later.
+  // Rounding may have returned the same beat.
   if (in_round_s + round * length_s_ <= song_s) in_round_s = grid_.time_of(beat += 1.0);
   if (loops_ && in_round_s >= length_s_) {
     round += 1.0;

@@ -1,5 +1,4 @@
-// Song: a piece of music that is played, over and over if wanted: which beat stands at which of its
-// seconds.
+// Song: maps beats to seconds in a piece of music that may loop.
 //
 // Units/frames: song seconds count on from round to round; beats too, by as many whole bars as a
 //               round holds, so that the first beat of each round is the first of a bar.

@@ -13,13 +13,14 @@ constexpr std::size_t kFewestTrackedBeats = 8;
 
 Result<TrackedSong> track_song(AudioFile& file) {
   if (file.rate_hz() < BeatTracker::kLeastRate_hz || file.rate_hz() > BeatTracker::kMostRate_hz)
-    return fail("no beats can be heard at " + std::to_string(static_cast<int>(file.rate_hz())) +
+    return fail(file.path() + ": no beats can be heard at " +
+                std::to_string(static_cast<int>(file.rate_hz())) +
                 " samples a second; convert it to 44100");
   BeatTracker tracker(file.rate_hz());
   std::vector<float> hop(tracker.hop_samples());
   std::vector<GridBeat> beats;
   double confidence = 0.0;
-  Beat next;  // as it was said last before it came
+  Beat next;  // as last predicted
   for (;;) {
     DANCE_TRY(const std::size_t read, file.read(hop));
     if (read == 0) break;
@@ -31,11 +32,12 @@ Result<TrackedSong> track_song(AudioFile& file) {
     }
     const bool has_begun = next.playing || beat.playing;
     next = beat;
-    // In a pause the line goes on, and so do the beats.
+    // In a pause the phase lock goes on, and so do the beats.
     next.playing = has_begun;
   }
   if (auto back = file.seek(0); !back) return tl::make_unexpected(back.error());
-  if (beats.size() < kFewestTrackedBeats) return fail("no steady beat is heard in it");
+  if (beats.size() < kFewestTrackedBeats)
+    return fail(file.path() + ": no steady beat is heard in it");
   DANCE_TRY(BeatGrid grid, BeatGrid::make(beats));
   return TrackedSong{std::move(grid),
                      static_cast<float>(confidence / static_cast<double>(beats.size()))};

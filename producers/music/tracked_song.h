@@ -1,6 +1,5 @@
-// The beats of a file of music that comes without a list of them: listened to in advance, by the
-// same tracker that hears a microphone, so that every house that has the file has the same beats,
-// from its first second on.
+// The beats of a music file without a list of them: found in advance, by the same tracker that a
+// microphone uses, so that every house with that file has the same beats from its first second on.
 //
 // Units/frames: as producers/music/beat_grid.h; the bar is not known.
 // Ownership:    plain values; leaves the file at its begin.
@@ -9,8 +8,8 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "producers/music/audio_file.h"
 #include "producers/music/beat_grid.h"
+#include "producers/music/decode/audio_file.h"
 
 namespace dance {
 

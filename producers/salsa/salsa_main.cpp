@@ -1,6 +1,5 @@
 // dance salsa: a synthetic salsa dancer on the bus, for machines with no camera and no data.
 
-#include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/producer_program.h"
@@ -38,12 +37,8 @@ Result<void> run_salsa(SalsaOptions& options) {
   // clock's zero, so that all salsa dancers of a machine are in step.
   if (options.producer.start_us == 0) options.producer.start_us = 1;
   DANCE_TRY(auto program, ProducerProgram::open(options.producer));
-  BeatClock music;
-  program->bus().on_beat([&music](const Channel&, const Beat& beat, MonoTime) {
-    if (beat.clock_id == this_clock_id()) music.hear(beat);
-  });
   auto dancer = std::make_unique<SalsaDancer>(style);
-  dancer->listen_to(music, program->start());
+  dancer->listen_to(program->music(), program->start());
   program->add(std::move(dancer), *guest);
   talk::info("{} dances on POSE/capture/{}; Ctrl-C ends it", options.guest, options.guest);
   program->run([] { return true; });

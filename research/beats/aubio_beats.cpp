@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "research/beats/outside_program.h"
+#include "research/outside_program.h"
 #include "testing/scratch_folder.h"
 
 namespace dance {

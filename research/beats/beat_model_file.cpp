@@ -1,24 +1,18 @@
 #include "research/beats/beat_model_file.h"
 
-#include <fstream>
-
 #include "core/program/whole_file.h"
 
 namespace dance {
 namespace {
 
-constexpr std::streamsize kMostModelFileBytes = 1 << 20;
+constexpr std::size_t kMostModelFileBytes = 1 << 20;
 
 }  // namespace
 
 Result<std::shared_ptr<const BeatModel>> read_beat_model_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<char> bytes(static_cast<std::size_t>(kMostModelFileBytes));
-  file.read(bytes.data(), kMostModelFileBytes);
-  if (!file.is_open() || file.bad())
-    return fail(path + ": cannot be read; make a model with dance music train");
-  auto model = read_beat_model({reinterpret_cast<const std::uint8_t*>(bytes.data()),
-                                static_cast<std::size_t>(file.gcount())});
+  auto file = read_whole_file(path, kMostModelFileBytes);
+  if (!file) return fail(file.error().what + "; make a model with dance music train");
+  auto model = read_beat_model({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()});
   if (!model) return fail(path + ": " + model.error().what);
   return *model;
 }

@@ -8,8 +8,8 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "core/program/whole_file.h"
-#include "research/beats/outside_program.h"
 #include "research/beats/song_maker.h"
+#include "research/outside_program.h"
 #include "testing/scratch_folder.h"
 
 namespace dance {
@@ -72,11 +72,9 @@ Result<void> run(const MusicMakeWishes& wishes) {
   std::error_code error;
   std::filesystem::create_directories(wishes.folder, error);
   if (error) return fail(wishes.folder + ": cannot be made, " + error.message());
-  std::vector<SongStyle> styles = latin_styles();
-  styles.insert(styles.end(), other_styles().begin(), other_styles().end());
   std::uint64_t number = 0;
   for (int turn = 0; turn < wishes.of_each; ++turn)
-    for (const SongStyle& style : styles) {
+    for (const SongStyle& style : song_styles()) {
       const auto seed = static_cast<std::uint64_t>(wishes.seed) * 1'000'000 + number;
       const MadeSong song = make_song(style, wishes.seconds, seed);
       const std::string stem =

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "producers/music/audio_file.h"
+#include "producers/music/decode/audio_file.h"
 #include "producers/music/tracker/beat_tracker.h"
 
 namespace dance {

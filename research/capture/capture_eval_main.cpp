@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
                               {{"xnnpack", EngineKind::kXnnpack}, {"opencv", EngineKind::kOpenCv}},
                               "what it runs on (default: xnnpack where it is built in)");
   line.add("--models", estimator.models_folder,
-           "the folder of the networks (default: DANCE_POSE_MODELS, or models/pose of the source)");
+           "the folder of the networks (default: as dance capture)");
   line.add("--follow", wishes.follow,
            "of several people: surest (as the original does), largest, or the one nearest to a "
            "place in pixels, 640,360")

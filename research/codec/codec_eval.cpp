@@ -7,7 +7,7 @@
 
 #include "core/codec/lattice_codec.h"
 #include "core/codec/lossless_codec.h"
-#include "research/codec/codec_line.h"
+#include "research/codec/codec_loss.h"
 
 namespace dance {
 namespace {

@@ -5,7 +5,6 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
-#include "core/program/whole_file.h"
 #include "formats/bvh/clip_file.h"
 #include "research/codec/codec_eval.h"
 #include "research/codec/codec_plot.h"
@@ -60,7 +59,7 @@ Result<void> run(Wishes wishes) {
       wishes.json ? codec_eval_json(result, wishes.eval) : codec_eval_table(result, wishes.eval);
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (wishes.plot.empty()) return {};
-  return write_whole_file(wishes.plot, rate_plot_svg(measure_rates(takes, wishes.eval, result)));
+  return draw_rate_plot(measure_rates(takes, wishes.eval, result), wishes.plot);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 // Units/frames: errors in millimetres, both axes logarithmic; sizes in bytes of payload a frame.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      none: what is not above 0 has no place on a logarithmic axis and is left out.
+// Failure:      an Error says that gnuplot is missing or failed. What is not above 0 has no place
+//               on a logarithmic axis and is left out.
 #pragma once
 
 #include <array>
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "research/codec/codec_eval.h"
 
 namespace dance {
@@ -46,7 +48,9 @@ constexpr std::array<double, 5> kPlotErrors_mm{0.25, 0.5, 1.0, 2.0, 5.0};
 RatePlot measure_rates(const std::vector<CodecTake>& takes, const CodecEvalOptions& options,
                        const CodecEval& eval);
 
-// One SVG file that needs no other.
-std::string rate_plot_svg(const RatePlot& plot);
+// What gnuplot is told to draw.
+std::string rate_plot_script(const RatePlot& plot);
+// Replaces the file.
+Result<void> draw_rate_plot(const RatePlot& plot, const std::string& svg_file);
 
 }  // namespace dance

@@ -5,6 +5,7 @@
 #include "core/program/program.h"
 #include "research/lapse/lapse_eval_report.h"
 #include "research/predict_model_file.h"
+#include "transformers/settings.h"
 
 namespace dance {
 namespace {
@@ -46,8 +47,8 @@ Result<std::vector<Duration>> parse_lapses(std::string_view text) {
 Result<void> run(const Wishes& wishes) {
   DANCE_TRY(const std::vector<Duration> lapses, parse_lapses(wishes.lapses));
   NamedSubjects subjects{{"newest", newest_subject()}, {"continuation", continuation_subject()}};
-  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
-  if (auto added = add_chain_subjects(wishes.through, subjects, parts); !added)
+  DANCE_TRY(const FlowParts parts, parts_with_model(wishes.model));
+  if (auto added = add_flow_subjects(wishes.through, subjects, parts); !added)
     return tl::make_unexpected(added.error());
   DANCE_TRY(const std::vector<CodecTake> takes, load_codec_takes(wishes.files, 60.0));
   std::vector<LapseRow> rows;
@@ -72,7 +73,7 @@ int main(int argc, char** argv) {
   line.add("--lapses", wishes.lapses, "how long the poses stay away, one after the other")
       .shows_default();
   line.add("--through", wishes.through,
-           "chains to judge too: stations as session files name them, with commas between");
+           "routes to judge too: transformers as session files name them, with commas between");
   line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
   line.add_flag("--json", wishes.is_json, "one JSON array on stdout");
   line.footer(dance::kLapseExamples);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "testing/line/line_arrivals.h"
 #include "testing/motion/motion_measures.h"
 
 namespace dance {
@@ -19,7 +20,15 @@ struct Streamed {
 
 Streamed stream_take(const CodecTake& take, StageSubject& subject, const StreamOptions& options) {
   Streamed streamed;
-  const std::vector<StreamArrival> arrivals = arrivals_over(options.line, take.poses);
+  LossySpec spec;
+  spec.delay = options.delay;
+  spec.tail = options.jitter;
+  spec.loss = 0.01 * options.loss_percent;
+  spec.seed = 0;
+  LossyModel line({.spec = spec}, options.seed);
+  const std::vector<LineArrival> arrivals = arrivals_over(
+      line, take.poses.size(), [&](std::size_t i) { return take.poses[i].capture_time; },
+      options.every);
   std::size_t next = 0;
   const MonoTime begin = take.poses.front().capture_time + options.warm_up;
   for (const Pose& danced : take.poses) {

@@ -12,7 +12,6 @@
 
 #include "research/codec_takes.h"
 #include "research/lapse/stage_subject.h"
-#include "research/lapse/stream_line.h"
 
 namespace dance {
 
@@ -28,7 +27,11 @@ struct StreamFigures {
 };
 
 struct StreamOptions {
-  StreamLine line;
+  Duration delay = Duration::ms(100);
+  Duration jitter;  // mean of what is added to the delay
+  double loss_percent = 0.0;
+  std::size_t every = 1;  // each so many-th pose is sent: a sensor that is slower than the stage
+  std::uint64_t seed = 1;
   Duration warm_up = Duration::s(4);
 };
 

@@ -6,6 +6,7 @@
 #include "core/program/program.h"
 #include "research/lapse/predict_stream.h"
 #include "research/predict_model_file.h"
+#include "transformers/settings.h"
 
 namespace dance {
 namespace {
@@ -34,21 +35,21 @@ struct Wishes {
 
 Result<void> run(const Wishes& wishes) {
   StreamOptions options;
-  DANCE_TRY(options.line.delay, parse_duration(wishes.delay));
-  DANCE_TRY(options.line.jitter, parse_duration(wishes.jitter));
-  if (options.line.delay < Duration() || options.line.delay > Duration::s(1) ||
-      options.line.jitter < Duration() || options.line.jitter > Duration::s(1))
+  DANCE_TRY(options.delay, parse_duration(wishes.delay));
+  DANCE_TRY(options.jitter, parse_duration(wishes.jitter));
+  if (options.delay < Duration() || options.delay > Duration::s(1) || options.jitter < Duration() ||
+      options.jitter > Duration::s(1))
     return fail("a line with --delay " + wishes.delay + " --jitter " + wishes.jitter +
                 " cannot be judged: 0ms to 1s, please");
-  options.line.loss_percent = wishes.loss_percent;
-  options.line.seed = wishes.seed;
-  options.line.every = wishes.every;
+  options.loss_percent = wishes.loss_percent;
+  options.seed = wishes.seed;
+  options.every = wishes.every;
   NamedSubjects subjects{
       {"raw", newest_subject()},
       {"damped velocity", damped_velocity_subject()},
       {"damped velocity, inertialised", damped_velocity_subject(Duration::ms(60))}};
-  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
-  if (auto added = add_chain_subjects(wishes.through, subjects, parts); !added)
+  DANCE_TRY(const FlowParts parts, parts_with_model(wishes.model));
+  if (auto added = add_flow_subjects(wishes.through, subjects, parts); !added)
     return tl::make_unexpected(added.error());
   DANCE_TRY(const std::vector<CodecTake> takes, load_codec_takes(wishes.files, 60.0));
   std::vector<StreamRow> rows;
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--seed", wishes.seed, "another draw of the same line").shows_default();
   line.add("--through", wishes.through,
-           "chains to judge: stations as session files name them, with commas between");
+           "routes to judge: transformers as session files name them, with commas between");
   line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
   line.add_flag("--json", wishes.is_json, "one JSON array on stdout");
   line.footer(dance::kStreamExamples);

@@ -61,27 +61,26 @@ class ContinuationSubject : public StageSubject {
   Finish finish_;
 };
 
-class ChainSubject : public StageSubject {
+class FlowSubject : public StageSubject {
  public:
-  ChainSubject(const std::vector<std::string>& specifications, const ChainParts& parts,
-               const Skeleton& skeleton) {
-    auto chain = Chain::make(specifications, parts);
-    DANCE_ASSERT(chain.has_value());
-    chain_ = std::move(*chain);
-    chain_.set_body(skeleton);
-    learners_ = chain_.learners();
+  FlowSubject(const std::vector<std::string>& through, const FlowParts& parts,
+              const Skeleton& skeleton) {
+    auto flow = Flow::make(through, parts);
+    DANCE_ASSERT(flow.has_value());
+    flow_ = std::move(*flow);
+    flow_.set_body(skeleton);
+    learner_ = flow_.learner();
   }
   void observe(const Pose& pose, MonoTime now) override {
-    chain_.observe(pose, now);
+    flow_.observe(pose, now);
     // As the house's own thread does, a few times a second.
-    if (pose.sequence % 20 == 0)
-      for (auto& learner : learners_) learner->learn();
+    if (learner_ && pose.sequence % 20 == 0) learner_->learn();
   }
-  bool sample(MonoTime now, Pose& out) override { return chain_.sample(now, out); }
+  bool sample(MonoTime now, Pose& out) override { return flow_.sample(now, out); }
 
  private:
-  Chain chain_;
-  std::vector<std::shared_ptr<Learner>> learners_;
+  Flow flow_;
+  std::shared_ptr<Learner> learner_;
 };
 
 // v of each bone and of the hips: the slope of the least squares line through the last frames.
@@ -151,9 +150,9 @@ MakeSubject continuation_subject() {
   return [](const Skeleton& skeleton) { return std::make_unique<ContinuationSubject>(skeleton); };
 }
 
-MakeSubject chain_subject(const std::vector<std::string>& specifications, const ChainParts& parts) {
-  return [specifications, parts](const Skeleton& skeleton) {
-    return std::make_unique<ChainSubject>(specifications, parts, skeleton);
+MakeSubject flow_subject(const std::vector<std::string>& through, const FlowParts& parts) {
+  return [through, parts](const Skeleton& skeleton) {
+    return std::make_unique<FlowSubject>(through, parts, skeleton);
   };
 }
 
@@ -162,24 +161,24 @@ MakeSubject damped_velocity_subject(Duration half_life) {
       [half_life](const Skeleton&) { return std::make_unique<DampedVelocitySubject>(half_life); };
 }
 
-Result<void> add_chain_subjects(const std::vector<std::string>& chains, NamedSubjects& subjects,
-                                const ChainParts& parts) {
-  for (const std::string& words : chains) {
-    const std::vector<std::string> stations = stations_of(words);
-    DANCE_TRY(const Chain chain, Chain::make(stations, parts));
-    if (!chain.is_pass_through()) subjects.emplace_back(words, chain_subject(stations, parts));
+Result<void> add_flow_subjects(const std::vector<std::string>& flows, NamedSubjects& subjects,
+                               const FlowParts& parts) {
+  for (const std::string& text : flows) {
+    const std::vector<std::string> through = words_of(text);
+    DANCE_TRY(const Flow flow, Flow::make(through, parts));
+    if (!flow.is_pass_through()) subjects.emplace_back(text, flow_subject(through, parts));
   }
   return {};
 }
 
-std::vector<std::string> stations_of(std::string_view text) {
-  std::vector<std::string> stations;
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(','), text.size());
-    stations.emplace_back(text.substr(0, end));
+    words.emplace_back(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
-  return stations;
+  return words;
 }
 
 }  // namespace dance

@@ -1,8 +1,8 @@
-// StageSubject: whatever is asked sixty times a second for the pose to show, so that evaluations
-// can hold stations against what is shown without them.
+// StageSubject: what is asked sixty times a second for the pose to show, so that evaluations can
+// compare transformers with what is shown without them.
 //
-// Units/frames: as transformers/transformer.h; capture times and `now` are of one clock.
-// Ownership:    whoever makes one owns it.
+// Units/frames: as transformers/flow.h; capture times and `now` are of one clock.
+// Ownership:    its maker owns it.
 // Threads:      none inside.
 // Failure:      sample() is false while there is nothing to show.
 #pragma once
@@ -17,7 +17,7 @@
 #include "core/base/result.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 
 namespace dance {
 
@@ -38,18 +38,16 @@ MakeSubject damped_velocity_subject(Duration half_life = Duration());
 // Continuation (transformers/conceal/continuation.h) from the first missing pose on, with a Finish:
 // no prediction before it.
 MakeSubject continuation_subject();
-// A chain of stations (transformers/chain.h), whose specifications must be right.
-MakeSubject chain_subject(const std::vector<std::string>& specifications,
-                          const ChainParts& parts = {});
+// A flow (transformers/flow.h), whose words must be right.
+MakeSubject flow_subject(const std::vector<std::string>& through, const FlowParts& parts = {});
 
-// What an evaluation holds beside each other, and adding to it the chains that a command line
-// names; the first that cannot be made is an error. One without stations shows what comes, and is
-// left out.
+// What an evaluation compares, and adding to it the flows that a command line names; the first that
+// cannot be made is an error. One without words shows what comes, and is left out.
 using NamedSubjects = std::vector<std::pair<std::string, MakeSubject>>;
-Result<void> add_chain_subjects(const std::vector<std::string>& chains, NamedSubjects& subjects,
-                                const ChainParts& parts = {});
+Result<void> add_flow_subjects(const std::vector<std::string>& flows, NamedSubjects& subjects,
+                               const FlowParts& parts = {});
 
-// "predict lead=1,bridge": the stations of a chain as one word of a command line.
-std::vector<std::string> stations_of(std::string_view text);
+// "predict lead=1,bridge": the words of a flow as one word of a command line.
+std::vector<std::string> words_of(std::string_view text);
 
 }  // namespace dance

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "research/lapse/stream_line.h"
+#include "testing/line/line_arrivals.h"
 #include "testing/motion/beat_phase.h"
 
 namespace dance {
@@ -44,33 +44,32 @@ struct Shown {
   std::vector<std::size_t> frames;  // of the truth, at the same moment
 };
 
-// Plays the arrivals through the chain, one picture for each moment of the dance.
-Shown play(const BeatDance& dance, const std::vector<StreamArrival>& arrivals, Chain& chain,
+// Plays the arrivals through the flow, one picture for each moment of the dance.
+Shown play(const BeatDance& dance, const std::vector<LineArrival>& arrivals, Flow& flow,
            const HeardMusic& music) {
   Shown shown;
-  const auto learners = chain.learners();
-  chain.set_body(dance.skeleton);
+  const auto learner = flow.learner();
+  flow.set_body(dance.skeleton);
   MonoTime next_beat = kRhythmEvalBegin, next_learn = kRhythmEvalBegin + kLearnEvery;
   const Pose* newest = nullptr;
   std::size_t arrived = 0;
   for (std::size_t i = 0; i < dance.poses.size(); ++i) {
     const MonoTime now = dance.poses[i].capture_time;
-    for (; next_beat <= now; next_beat += kBeatEvery)
-      chain.hear(music.beat_at(next_beat), next_beat);
+    for (; next_beat <= now; next_beat += kBeatEvery) flow.hear(music.beat_at(next_beat));
     for (; arrived < arrivals.size() && arrivals[arrived].at <= now; ++arrived) {
       const Pose& pose = dance.poses[arrivals[arrived].index];
       if (!newest || pose.capture_time > newest->capture_time) newest = &pose;
-      if (!chain.is_pass_through()) chain.observe(pose, arrivals[arrived].at);
+      if (!flow.is_pass_through()) flow.observe(pose, arrivals[arrived].at);
     }
     if (now >= next_learn) {
-      for (const auto& learner : learners) learner->learn();
+      if (learner) learner->learn();
       next_learn += kLearnEvery;
     }
     Pose pose;
-    if (chain.is_pass_through()) {
+    if (flow.is_pass_through()) {
       if (!newest) continue;
       pose = *newest;
-    } else if (!chain.sample(now, pose)) {
+    } else if (!flow.sample(now, pose)) {
       continue;
     }
     shown.poses.push_back(pose);
@@ -205,24 +204,26 @@ RhythmScore mean_of(const std::vector<RhythmScore>& scores) {
 }  // namespace
 
 Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const BeatGrid& music,
-                                  const NamedChain& chain, const RhythmEvalOptions& options) {
+                                  const NamedFlow& flow, const RhythmEvalOptions& options) {
   RhythmRun run;
-  run.name = chain.name;
+  run.name = flow.name;
   const HeardMusic listener{music, 1.0 + options.tempo_offset_percent / 100.0};
   for (const BeatDance& dance : dances) {
-    StreamLine line;
-    line.delay = options.delay;
-    line.jitter = options.jitter;
-    line.loss_percent = options.loss_percent;
-    line.seed = options.seed;
-    line.every = options.every;
+    LossySpec spec;
+    spec.delay = options.delay;
+    spec.tail = options.jitter;
+    spec.loss = 0.01 * options.loss_percent;
+    spec.seed = 0;
+    LossyModel line({.spec = spec}, options.seed);
+    auto arrivals = arrivals_over(
+        line, dance.poses.size(), [&](std::size_t i) { return dance.poses[i].capture_time; },
+        options.every);
     const MonoTime middle = at_second(0.5 * static_cast<double>(dance.poses.size()) / options.hz);
-    if (options.stall > Duration()) line.stalls.push_back({middle, options.stall, false});
-    const auto arrivals = arrivals_over(line, dance.poses);
+    stall(arrivals, middle, options.stall);
     BeatDance sent = dance;
     if (options.untagged)
       for (Pose& pose : sent.poses) pose.music_beats = kNoMusic;
-    DANCE_TRY(Chain made, Chain::make(chain.stations, chain.parts));
+    DANCE_TRY(Flow made, Flow::make(flow.through, flow.parts));
     const Shown shown = play(sent, arrivals, made, listener);
     run.dances.push_back(score_of(dance, shown, listener, options));
     const RhythmScore& score = run.dances.back();

@@ -1,5 +1,5 @@
 // How well the stage keeps a remote dancer on the beat: a take is laid onto the beats of a song, as
-// the sender danced to them, sent over a simulated line, and played by a chain of transformers in a
+// the sender danced to them, sent over a simulated line, and played by a flow of transformers in a
 // house whose own music may run a little faster. Everything that is measured is measured on what
 // was shown.
 //
@@ -7,7 +7,7 @@
 //               beats as core/base/beat.h.
 // Ownership:    plain values.
 // Threads:      none inside; learners are run between poses.
-// Failure:      a chain that cannot be made names the word.
+// Failure:      a flow that cannot be made names the word.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@
 #include "producers/salsa/salsa_style.h"
 #include "research/codec_takes.h"
 #include "testing/motion/motion_measures.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 
 namespace dance {
 
@@ -38,7 +38,7 @@ struct RhythmEvalOptions {
   Duration warm_up = Duration::s(5);
 };
 
-// What one chain showed.
+// What one flow showed.
 struct RhythmScore {
   double phase_mean_ms = 0.0, phase_sd_ms = 0.0, phase_told = 0.0;
   double content_delay_ms = 0.0;
@@ -49,16 +49,16 @@ struct RhythmScore {
 };
 
 struct RhythmRun {
-  std::string name;  // of the chain
+  std::string name;  // of the flow
   std::vector<RhythmScore> dances;
   RhythmScore mean;
   double phase_mean_ms_worst = 0.0, phase_sd_ms_worst = 0.0;
 };
 
-struct NamedChain {
+struct NamedFlow {
   std::string name;
-  std::vector<std::string> stations;  // none: poses as they come
-  ChainParts parts = {};
+  std::vector<std::string> through;  // none: poses as they come
+  FlowParts parts = {};
 };
 
 // A dance to the song, from its first second on.
@@ -76,6 +76,6 @@ BeatDance salsa_to_music(SalsaRole role, std::uint64_t seed, double tempo_bpm, D
                          const BeatGrid& music, double hz);
 
 Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const BeatGrid& music,
-                                  const NamedChain& chain, const RhythmEvalOptions& options);
+                                  const NamedFlow& flow, const RhythmEvalOptions& options);
 
 }  // namespace dance

@@ -7,6 +7,7 @@
 #include "research/predict_model_file.h"
 #include "research/rhythm/rhythm_eval.h"
 #include "research/rhythm/rhythm_eval_report.h"
+#include "transformers/settings.h"
 
 namespace dance {
 namespace {
@@ -48,16 +49,16 @@ Result<void> run(Wishes wishes) {
   if (dances.empty()) return fail("nobody dances: name BVH files, or --salsa 2");
   std::string rhythm = "rhythm beats=" + wishes.beta;
   if (wishes.strength < 1.0) rhythm += " strength=" + std::to_string(wishes.strength);
-  DANCE_TRY(const ChainParts parts, parts_with_model(wishes.model));
-  const std::vector<NamedChain> chains{
+  DANCE_TRY(const FlowParts parts, parts_with_model(wishes.model));
+  const std::vector<NamedFlow> flows{
       {"raw", {}},
       {"hold", {"hold"}},
       {"predict", {"predict"}, parts},
       {"predict, bridge, " + rhythm, {"predict", "bridge", rhythm}, parts},
   };
   std::vector<RhythmRun> runs;
-  for (const NamedChain& chain : chains) {
-    DANCE_TRY(RhythmRun run, evaluate_rhythm(dances, music, chain, wishes.eval));
+  for (const NamedFlow& flow : flows) {
+    DANCE_TRY(RhythmRun run, evaluate_rhythm(dances, music, flow, wishes.eval));
     runs.push_back(std::move(run));
   }
   const std::string text =

@@ -210,14 +210,14 @@ StylizeEval evaluate_stylize(const StyleTake& take, const StylizeEvalOptions& op
   Style style;
   style.gain[index_of(options.zone)] = static_cast<float>(options.gain);
   style.dynamic = static_cast<float>(options.mix);
-  Stylize station(style);
-  station.set_body(take.skeleton);
+  Stylize filter(style);
+  filter.set_body(take.skeleton);
   std::vector<Pose> shown = take.poses;
   const auto begin = std::chrono::steady_clock::now();
   for (Pose& pose : shown) {
     if (options.untagged) pose.music_beats = kNoMusic;
-    station.observe(pose, pose.capture_time);
-    station.sample(pose.capture_time, pose);
+    filter.observe(pose, pose.capture_time);
+    filter.apply(pose.capture_time, pose);
   }
   const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
 

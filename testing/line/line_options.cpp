@@ -12,8 +12,8 @@ std::string wrong_link(const std::string& text) {
 
 void add_link_options(CommandLine& line, LineWords& words) {
   line.add("--link", words.link,
-           "each way: delay=80ms jitter=10ms loss=1% burst=3 dup=0.1% reorder=1% rate=1Mbit "
-           "queue=50ms seed=1")
+           "each way: delay=80ms jitter=10ms tail=5ms loss=1% burst=3 dup=0.1% reorder=1% "
+           "rate=1Mbit queue=50ms seed=1")
       .check(wrong_link);
   line.add("--link-up", words.link_up,
            "the same for the way to the server; counts more than --link")

@@ -1,6 +1,7 @@
 #include "testing/line/lossy_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/net/datagram_sink.h"
@@ -36,13 +37,22 @@ bool LossyModel::loses(MonoTime now) {
     is_bad_ = is_bad_ ? random_.uniform() >= bad_to_good_ : random_.uniform() < good_to_bad_;
     is_lost = is_bad_;
   } else {
-    is_lost = way_.spec.loss > 0.0 && random_.uniform() < way_.spec.loss;
+    is_lost =
+        (way_.spec.loss > 0.0 || way_.spec.tail > Duration()) && random_.uniform() < way_.spec.loss;
   }
   for (const auto& trace : way_.delays) {
     const float loss = trace->at(now - begin_ + way_.offset).loss;
     is_lost = is_lost || (loss > 0.0f && random_.uniform() < static_cast<double>(loss));
   }
   return is_lost;
+}
+
+// The sum of two exponential ones, each half as long.
+Duration LossyModel::draw_tail() {
+  if (way_.spec.tail <= Duration()) return {};
+  const auto exponential = [&] { return -std::log(1.0 - random_.uniform()); };
+  const double first = exponential();
+  return Duration::seconds(way_.spec.tail.as_seconds() * 0.5 * (first + exponential()));
 }
 
 std::optional<MonoTime> LossyModel::leaves(std::size_t bytes, MonoTime now) {
@@ -66,7 +76,11 @@ LossyModel::Fate LossyModel::offer(std::size_t bytes, MonoTime now) {
   const LossySpec& spec = way_.spec;
   ++counters_.offered;
   Fate fate;
-  if (loses(now)) {
+  // With a tail both are drawn for each datagram, so that lines which differ in one of them have
+  // the other in common.
+  const bool is_lost = loses(now);
+  const Duration tail = draw_tail();
+  if (is_lost) {
     ++counters_.lost;
     return fate;
   }
@@ -80,10 +94,13 @@ LossyModel::Fate LossyModel::offer(std::size_t bytes, MonoTime now) {
   if (spec.jitter > Duration())
     delay += Duration::ns(static_cast<std::int64_t>(random_.uniform(-1.0, 1.0) *
                                                     static_cast<double>(spec.jitter.count_ns())));
-  MonoTime arrives = *left + std::max(delay, Duration());
+  MonoTime arrives = *left + std::max(delay, Duration()) + tail;
   if (spec.reorder > 0.0 && random_.uniform() < spec.reorder) {
     ++counters_.reordered;
     arrives += kShortestHold + Duration::seconds(random_.uniform() * kHoldSpread_ms * 1e-3);
+  } else if (spec.tail > Duration()) {
+    counters_.reordered += arrives < newest_arrival_ ? 1 : 0;
+    newest_arrival_ = std::max(arrives, newest_arrival_);
   } else {
     arrives = newest_arrival_ = std::max(arrives, newest_arrival_);
   }

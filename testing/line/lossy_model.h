@@ -1,10 +1,10 @@
 // What becomes of each datagram on an emulated line: lost, late, doubled or overtaken. Pure: says
-// when and how often to deliver; who carries the bytes is somebody else's matter.
+// when and how often to deliver; LossyProxy carries the bytes.
 //
 // Units/frames: one direction of the line; now is the caller's clock and must not go back.
 // Ownership:    shares its traces.
 // Threads:      none inside; one owner.
-// Failure:      none; counters() tells every datagram's end.
+// Failure:      none; each datagram is in counters().
 // Source:       bursts by the two-state model of Gilbert (1960) and Elliott (1963).
 #pragma once
 
@@ -34,7 +34,8 @@ class LossyModel {
   class Fate {
    public:
     std::span<const MonoTime> deliveries() const& { return {times_.data(), count_}; }
-    std::span<const MonoTime> deliveries() const&& = delete;  // would look at what is gone
+    std::span<const MonoTime> deliveries() const&& = delete;  // would dangle
+    bool is_lost() const { return count_ == 0; }
 
    private:
     friend class LossyModel;
@@ -53,6 +54,7 @@ class LossyModel {
 
  private:
   bool loses(MonoTime now);
+  Duration draw_tail();
   // When it has passed rate and capacity; nothing where the queue was too long.
   std::optional<MonoTime> leaves(std::size_t bytes, MonoTime now);
 
@@ -64,7 +66,7 @@ class LossyModel {
   bool is_bad_ = false;
   MonoTime begin_;
   MonoTime line_free_;       // when the last datagram has left the sender's queue
-  MonoTime newest_arrival_;  // order is kept, as lines do, unless reorder= says so
+  MonoTime newest_arrival_;  // order is kept but for reorder= and tail=
   Counters counters_;
 };
 

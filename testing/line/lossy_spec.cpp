@@ -84,6 +84,7 @@ Result<void> apply(std::string_view word, LossySpec& spec) {
       equals == std::string_view::npos ? std::string_view() : word.substr(equals + 1);
   if (key == "delay") return take(word, parse_duration(value), spec.delay, kTime);
   if (key == "jitter") return take(word, parse_duration(value), spec.jitter, kTime);
+  if (key == "tail") return take(word, parse_duration(value), spec.tail, kTime);
   if (key == "queue") return take(word, parse_duration(value), spec.queue, kTime);
   if (key == "loss") return take(word, parse_part(value), spec.loss, kPart);
   if (key == "dup") return take(word, parse_part(value), spec.duplicate, kPart);
@@ -97,8 +98,8 @@ Result<void> apply(std::string_view word, LossySpec& spec) {
   if (key == "seed")
     return take(word, parse_seed(value), spec.seed, "write a whole number, as seed=1");
   return fail("'" + std::string(word) +
-              "' is not known in a link: write delay= jitter= loss= burst= dup= reorder= rate= "
-              "queue= or seed=");
+              "' is not known in a link: write delay= jitter= tail= loss= burst= dup= reorder= "
+              "rate= queue= or seed=");
 }
 
 }  // namespace

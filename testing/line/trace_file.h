@@ -17,7 +17,6 @@ namespace dance {
 
 constexpr std::size_t kMostTraceBytes = 64u << 20;
 
-Result<std::string> unpack_trace(std::string bytes);
 Result<std::string> read_trace_file(const std::string& path);
 
 // "line 3: not a time: 'x'", with what cannot be printed left out.

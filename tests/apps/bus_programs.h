@@ -48,10 +48,9 @@ class BusPrograms : public ::testing::Test {
     auto ear = Bus::open(bus);
     ASSERT_TRUE(ear) << ear.error().what;
     std::set<std::string> heard;
-    (*ear)->on_pose(Where::kStage, GuestId(), Delivery::kEvery,
-                    [&](const Channel& channel, const Pose&, MonoTime) {
-                      heard.emplace(channel.guest().view());
-                    });
+    (*ear)->subscribe<Pose>(Where::kStage, [&](const Channel& channel, const Pose&, MonoTime) {
+      heard.emplace(channel.guest().view());
+    });
     ASSERT_TRUE(wait_for([&] {
       (*ear)->drain(mono_now());
       return heard.size() == 2;

@@ -22,18 +22,17 @@ class CaptureEar {
     auto bus = Bus::open(kBus);
     EXPECT_TRUE(bus) << bus.error().what;
     bus_ = std::move(*bus);
-    bus_->on_pose(where, GuestId(), Delivery::kEvery,
-                  [this](const Channel& channel, const Pose& pose, MonoTime now) {
-                    guests.emplace(channel.guest().view());
-                    if (skeletons == 0) ++before_skeleton;
-                    poses.push_back(pose);
-                    last = now;
-                  });
-    bus_->on_skeleton(where, GuestId(),
-                      [this](const Channel&, const TimedSkeleton& said, MonoTime) {
-                        ++skeletons;
-                        skeleton = said.skeleton;
-                      });
+    bus_->subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime now) {
+      guests.emplace(channel.guest().view());
+      if (skeletons == 0) ++before_skeleton;
+      poses.push_back(pose);
+      last = now;
+    });
+    bus_->subscribe<TimedSkeleton>(where,
+                                   [this](const Channel&, const TimedSkeleton& said, MonoTime) {
+                                     ++skeletons;
+                                     skeleton = said.skeleton;
+                                   });
   }
   void work() { bus_->drain(mono_now()); }
   bool has_more_than(std::size_t n) {

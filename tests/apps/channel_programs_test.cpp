@@ -44,10 +44,10 @@ class Ear {
       const auto* bytes = static_cast<const std::uint8_t*>(data);
       last_[std::string(name)].assign(bytes, bytes + size);
     });
-    bus_->on_music(Where::kRoom, GuestId(),
-                   [this](const Channel& channel, const Music& music, MonoTime) {
-                     music_ = {std::string(channel.guest().view()), music};
-                   });
+    bus_->subscribe<Music>(Where::kRoom,
+                           [this](const Channel& channel, const Music& music, MonoTime) {
+                             music_ = {std::string(channel.guest().view()), music};
+                           });
   }
   Bus& bus() { return *bus_; }
   bool hears(const std::string& channel) {

@@ -191,6 +191,12 @@ dance capture
 expect_code 7
 [ ! -s "$calls" ] || wrong "does anything but start"
 
+begin "the networks alone"
+dance fetch-models
+expect_code 7
+expect_call "libopencv-core-dev"
+expect_call "fetch"
+
 for word in --list --help; do
   begin "capture $word"
   dance capture $word

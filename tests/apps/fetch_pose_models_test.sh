@@ -13,7 +13,7 @@ script=$tree/producers/camera/fetch_pose_models.sh
 mkdir -p "$tree/producers/camera" "$package" "$bin"
 
 # Only what the script may use is there to be used.
-for tool in bash cat chmod dirname grep gzip mkdir mktemp mv rm sha256sum tar timeout; do
+for tool in bash cat chmod dirname grep gzip id mkdir mktemp mv readlink rm sha256sum tar timeout; do
   ln -s "$(command -v "$tool")" "$bin/$tool"
 done
 cat >"$bin/npm" <<END
@@ -168,5 +168,24 @@ models=$DANCE_POSE_MODELS
 fetch
 expect_code 0
 expect_all_there
+
+begin "installed"
+unset DANCE_POSE_MODELS
+mkdir -p "$scratch/usr/bin"
+cp "$script" "$scratch/usr/bin/dance-fetch-models"
+printf '#!/bin/sh\necho 1000\n' >"$scratch/id"
+chmod +x "$scratch/id"
+mv "$scratch/id" "$bin/id"
+script=$scratch/usr/bin/dance-fetch-models
+export XDG_DATA_HOME=$scratch/data
+models=$XDG_DATA_HOME/dancegraph/pose
+fetch
+expect_code 0
+expect_all_there
+fetch --help
+expect_code 0
+expect_said "Usage: dance fetch-models"
+fetch --thre
+expect_code 2
 
 exit $failed

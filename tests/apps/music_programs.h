@@ -41,7 +41,9 @@ class BeatEar {
     auto bus = Bus::open(url);
     EXPECT_TRUE(bus) << bus.error().what;
     bus_ = std::move(*bus);
-    bus_->on_beat([this](const Channel&, const Beat& beat, MonoTime) { said_.push_back(beat); });
+    bus_->subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
+      said_.push_back(beat);
+    });
   }
   void work() { bus_->drain(mono_now()); }
   const std::vector<Beat>& said() const { return said_; }

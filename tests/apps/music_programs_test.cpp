@@ -41,7 +41,7 @@ TEST_F(MusicPrograms, EndWithAWordWhenToldTo) {
   ear.work();
   EXPECT_TRUE(music.ended_well()) << music.exit_text();
   EXPECT_FALSE(ear.said().back().playing);
-  EXPECT_NE(talk().find("beats said"), std::string::npos) << talk();
+  EXPECT_NE(talk().find("beats published"), std::string::npos) << talk();
 }
 
 TEST_F(MusicPrograms, GoOnCountingBarsWhenTheSongBeginsAgain) {
@@ -69,7 +69,7 @@ TEST_F(MusicPrograms, ListenToAFileWithoutAListBeforeItBegins) {
   })) << talk();
   EXPECT_NEAR(ear.said().back().tempo_bpm, 120.0, 3.0);
   EXPECT_EQ(ear.said().back().beats_per_bar, 0) << "the bar is not known";
-  EXPECT_NE(talk().find("listens for the beats of"), std::string::npos) << talk();
+  EXPECT_NE(talk().find("finds the beats of"), std::string::npos) << talk();
 }
 
 TEST_F(MusicPrograms, NoticeASecondOneInTheHouse) {
@@ -78,7 +78,7 @@ TEST_F(MusicPrograms, NoticeASecondOneInTheHouse) {
   start("dance-music", {song, "--silent", "--bus", kBus});
   EXPECT_TRUE(wait_for([&] {
     const std::string said = talk();
-    const std::size_t first = said.find("another program says the beat");
+    const std::size_t first = said.find("another program publishes beats");
     return first != std::string::npos;
   })) << talk();
 }
@@ -209,9 +209,8 @@ TEST_F(MusicRoom, AHouseWithMusicInItsSessionDancesToTheRooms) {
   // The room's own line, which carries dora's poses to bob's house.
   std::vector<double> off_beats;
   std::optional<Beat> heard;
-  (*other)->on_pose(
-      Where::kGuest, *GuestId::parse("dora"), Delivery::kEvery,
-      [&](const Channel&, const Pose& pose, MonoTime) {
+  (*other)->subscribe<Pose>(
+      {Where::kGuest, *GuestId::parse("dora")}, [&](const Channel&, const Pose& pose, MonoTime) {
         if (heard && !std::isnan(pose.music_beats))
           off_beats.push_back(std::abs(pose.music_beats - heard->beats_at(pose.capture_time)));
       });

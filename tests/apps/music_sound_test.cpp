@@ -90,7 +90,7 @@ TEST_F(MusicSound, WithoutItsSoundServerTheTimeGoesOn) {
   const Beat before = ear.said().back();
   sound.reset();
   ASSERT_TRUE(hears(60)) << talk();
-  EXPECT_NE(talk().find("the sound server has gone"), std::string::npos) << talk();
+  EXPECT_NE(talk().find("the connection to the sound server is lost"), std::string::npos) << talk();
   const Beat after = ear.said().back();
   EXPECT_NEAR(after.beats_at(after.time), before.beats_at(after.time), 0.05);
 }

@@ -55,10 +55,9 @@ TEST_F(MusicalTime, OfAPoseThatBearsNoneIsTheSendersBeatAtTheCaptureOverAnyTunne
   const GuestId alice = *GuestId::parse("alice");
   std::map<std::uint32_t, MonoTime> captured;
   std::map<std::uint32_t, double> heard_beats;
-  b->on_pose(Where::kGuest, alice, Delivery::kEvery,
-             [&](const Channel&, const Pose& pose, MonoTime) {
-               heard_beats[pose.sequence] = pose.music_beats;
-             });
+  b->subscribe<Pose>({Where::kGuest, alice}, [&](const Channel&, const Pose& pose, MonoTime) {
+    heard_beats[pose.sequence] = pose.music_beats;
+  });
   // Stands for a producer in another language: it knows nothing of the music.
   std::uint32_t sequence = 0;
   const auto tagged = [&] {
@@ -103,12 +102,11 @@ TEST_F(MusicalTime, IsOnWhatAProducerPublishesAndSurvivesTheStage) {
   const auto bus = bus_of(kBus);
   ASSERT_TRUE(bus);
   int compared = 0;
-  bus->on_pose(Where::kStage, GuestId(), Delivery::kEvery,
-               [&](const Channel&, const Pose& pose, MonoTime) {
-                 if (std::isnan(pose.music_beats)) return;
-                 EXPECT_NEAR(pose.music_beats, beats_since(begin_, pose.capture_time), 1e-5);
-                 ++compared;
-               });
+  bus->subscribe<Pose>(Where::kStage, [&](const Channel&, const Pose& pose, MonoTime) {
+    if (std::isnan(pose.music_beats)) return;
+    EXPECT_NEAR(pose.music_beats, beats_since(begin_, pose.capture_time), 1e-5);
+    ++compared;
+  });
   EXPECT_TRUE(wait_for([&] {
     bus->publish(Channel::of_house(Signal::kBeat), steady_beat(begin_, mono_now()));
     bus->drain(mono_now());
@@ -137,7 +135,8 @@ TEST_F(MusicalTime, IsShownByTopAndKeptByARecordingAtAnySpeed) {
   const auto other = bus_of(kOtherBus);
   ASSERT_TRUE(other);
   std::vector<Beat> heard;
-  other->on_beat([&](const Channel&, const Beat& beat, MonoTime) { heard.push_back(beat); });
+  other->subscribe<Beat>(
+      Where::kLocal, [&](const Channel&, const Beat& beat, MonoTime) { heard.push_back(beat); });
   start("dance-replay", {log, "--bus", kOtherBus, "--speed", "2"});
   ASSERT_TRUE(wait_for([&] {
     other->drain(mono_now());

@@ -69,7 +69,7 @@ class SoundServer {
   }
   void work() {
     server_->iterate();
-    if (ear_ && ++turns_ % 10 == 0) ear_->ask_when();
+    if (ear_ && ++turns_ % 10 == 0) ear_->request_timing();
   }
   std::size_t click_count() const { return clicks_.size(); }
   std::vector<MonoTime> clicks() const {

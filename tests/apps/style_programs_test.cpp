@@ -42,11 +42,10 @@ TEST_F(StylePrograms, SaidInATerminalReachesTheStageOfTheOtherHouseAndTop) {
     }
     before = pose;
   };
-  (*b)->on_pose(Where::kStage, kAlice, Delivery::kEvery,
-                [&](const Channel&, const Pose& pose, MonoTime) {
-                  add(pose, shown_before, shown);
-                  ++poses;
-                });
+  (*b)->subscribe<Pose>({Where::kStage, kAlice}, [&](const Channel&, const Pose& pose, MonoTime) {
+    add(pose, shown_before, shown);
+    ++poses;
+  });
   const MonoTime begin = mono_now();
   std::uint32_t sequence = 0;
   const auto dance = [&] {

@@ -27,8 +27,8 @@ class HousePrograms : public BusPrograms {
     auto ear = Bus::open(kOtherBus);
     if (!ear) return nullptr;
     int heard = 0;
-    (*ear)->on_pose(Where::kGuest, *GuestId::parse(guest), Delivery::kEvery,
-                    [&](const Channel&, const Pose&, MonoTime) { ++heard; });
+    (*ear)->subscribe<Pose>({Where::kGuest, *GuestId::parse(guest)},
+                            [&](const Channel&, const Pose&, MonoTime) { ++heard; });
     arguments.insert(arguments.end(), {"--bus", kOtherBus, "--no-view", "--json"});
     ChildProcess& house = start("dance-join", arguments);
     EXPECT_TRUE(wait_for([&] {
@@ -91,7 +91,8 @@ TEST_F(TwoHouses, OnOneBusBothSaySoOnce) {
   auto ear = Bus::open(kBus);
   ASSERT_TRUE(ear) << ear.error().what;
   int seconds = 0;
-  (*ear)->on_stats([&](const Channel&, const Stats&, MonoTime) { ++seconds; });
+  (*ear)->subscribe<Stats>(Where::kProgram,
+                           [&](const Channel&, const Stats&, MonoTime) { ++seconds; });
   const auto wait_for_seconds = [&](int more) {
     const int until = seconds + more;
     return wait_for([&] {

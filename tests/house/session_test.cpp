@@ -197,6 +197,8 @@ TEST(Session, RefusesWhatCannotBe) {
         route + "from = \"POSE/nowhere/*\"\nto = \"POSE/stage/*\"\n",
         route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"fly\"]\n",
         route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = \"hold 20ms\"\n",
+        route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\n"
+                "through = [\"stylize\", \"rhythm\"]\n",
         route + "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nrate = 60\n",
         route +
             "from = \"POSE/guest/*\"\nto = \"POSE/stage/*\"\nthrough = [\"hold 1ms\"]\nrate = 0\n",

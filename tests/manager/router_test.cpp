@@ -166,7 +166,7 @@ TEST(Router, DoesNotHoldASilentGuestOnTheStageForEver) {
   EXPECT_EQ(stage.count, 2);
 }
 
-TEST(Router, ShowsASilentGuestForAsLongAsTheChainGoesOnWithTheDance) {
+TEST(Router, ShowsASilentGuestForAsLongAsTheFlowGoesOnWithTheDance) {
   Stage stage;
   Route route = held("hold 0ms");
   route.through.push_back("bridge");
@@ -213,15 +213,15 @@ TEST(Router, BoundsItsGuestsAndCountsWhomItTurnsAway) {
   EXPECT_EQ(stage.poses.size(), kMaxGuests);
 }
 
-// A router whose dancers are learned; whose chain has gone, its learner has gone.
+// A router whose dancers are learned; with a flow its learner goes.
 struct LearnedGuests {
   LearnedGuests() {
     router.on_learner(
         [this](const std::shared_ptr<Learner>& learner) { learners.emplace_back(learner); });
   }
   static Route predicted() {
-    Route route = held("predict");
-    route.through.push_back("hold 0ms");
+    Route route = held("hold 0ms");
+    route.through.push_back("predict");
     return route;
   }
   void hear(const std::string& name, double ms) {
@@ -244,11 +244,11 @@ TEST(Router, KeepsWhatWasLearnedOfWhoComesRightBack) {
   house.hear("bob", 299e3);
   for (double s = 299.0; s < 598.0; s += 1.0) house.router.let_go_of_the_gone(at_ms(1e3 * s));
   house.hear("bob", 598e3);
-  EXPECT_EQ(house.learners.size(), 1u) << "one chain all the time";
+  EXPECT_EQ(house.learners.size(), 1u) << "one flow all the time";
   EXPECT_EQ(house.kept(), 1);
 }
 
-TEST(Router, FreesTheChainOfWhoHasGoneForLong) {
+TEST(Router, FreesTheFlowOfWhoHasGoneForLong) {
   LearnedGuests house;
   house.hear("bob", 0.0);
   house.hear("carol", 0.0);
@@ -301,10 +301,10 @@ TEST(Router, ALineThatIsAwayForMinutesCostsNobodyWhatWasLearned) {
     house.hear("g" + std::to_string(i), 280e3 + 10.0 * i);
     house.router.let_go_of_the_gone(at_ms(280e3 + 10.0 * i));
   }
-  EXPECT_EQ(house.learners.size(), 30u) << "no chain was made anew";
+  EXPECT_EQ(house.learners.size(), 30u) << "no flow was made anew";
 }
 
-TEST(Router, WhatAChainHasRefusedIsCountedWhenItHasGone) {
+TEST(Router, WhatAFlowHasRefusedIsCountedWhenItHasGone) {
   Stage stage;
   Router router({held("hold 0ms")}, kClock, stage);
   for (int i = 0; i < 3; ++i)

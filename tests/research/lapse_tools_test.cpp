@@ -50,20 +50,20 @@ TEST(LapseEval, ATakeThatIsTooShortAddsNothing) {
 TEST(PredictStream, TheNewestPoseIsAsLateAsTheLineAndAStandstillWouldBeNoLag) {
   const std::vector<CodecTake> takes{repeating_take()};
   StreamOptions options;
-  options.line.delay = Duration::ms(100);
+  options.delay = Duration::ms(100);
   const StreamFigures raw = evaluate_stream(takes, newest_subject(), options);
   EXPECT_NEAR(raw.lag_s, 0.1, 0.004);
   EXPECT_NEAR(raw.jerk, 1.0, 0.05) << "a line without jitter is smooth";
   EXPECT_NEAR(raw.play_least, 1.0, 1e-3);
-  options.line.delay = Duration();
+  options.delay = Duration();
   EXPECT_NEAR(evaluate_stream(takes, newest_subject(), options).lag_s, 0.0, 1e-3);
 }
 
 TEST(PredictStream, JitterShowsAsJerkAndDeadReckoningTakesLagBack) {
   const std::vector<CodecTake> takes{repeating_take()};
   StreamOptions options;
-  options.line.jitter = Duration::ms(15);
-  options.line.loss_percent = 1.0;
+  options.jitter = Duration::ms(15);
+  options.loss_percent = 1.0;
   const StreamFigures raw = evaluate_stream(takes, newest_subject(), options);
   const StreamFigures damped = evaluate_stream(takes, damped_velocity_subject(), options);
   EXPECT_GT(raw.jerk, 3.0);
@@ -73,9 +73,9 @@ TEST(PredictStream, JitterShowsAsJerkAndDeadReckoningTakesLagBack) {
 }
 
 TEST(StationsOf, ReadsChainsAsPeopleWriteThem) {
-  EXPECT_EQ(stations_of("predict lead=1,bridge"),
+  EXPECT_EQ(words_of("predict lead=1,bridge"),
             (std::vector<std::string>{"predict lead=1", "bridge"}));
-  EXPECT_TRUE(stations_of("").empty());
+  EXPECT_TRUE(words_of("").empty());
 }
 
 }  // namespace

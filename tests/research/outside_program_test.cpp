@@ -1,4 +1,4 @@
-#include "research/beats/outside_program.h"
+#include "research/outside_program.h"
 
 #include <gtest/gtest.h>
 

@@ -114,7 +114,7 @@ TEST(RhythmEval, JudgesAnotherModelOfPrediction) {
   const std::vector<BeatDance> dances{salsa(music)};
   RhythmEvalOptions options;
   options.delay = Duration::ms(120);
-  const auto with = [&](const ChainParts& parts) {
+  const auto with = [&](const FlowParts& parts) {
     return evaluate_rhythm(dances, music, {"predict", {"predict"}, parts}, options)->mean.mpjpe_mm;
   };
   // One that trusts no guess at all repeats the newest pose.

@@ -1,9 +1,9 @@
-// Dances to style, and what a station shows of them.
+// Dances to style, and what the filter makes of them.
 //
 // Units/frames: as transformers/style/stylize.h; takes are seconds long.
 // Ownership:    plain values.
 // Threads:      any.
-// Failure:      a station that shows nothing fails the test.
+// Failure:      none.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,10 +50,10 @@ inline bool is_sound(const Pose& pose) {
   return pose.p_WH_m.allFinite();
 }
 
-inline Pose shown(Stylize& station, const Pose& pose) {
-  station.observe(pose, pose.capture_time);
-  Pose out;
-  EXPECT_TRUE(station.sample(pose.capture_time, out));
+inline Pose shown(Stylize& filter, const Pose& pose) {
+  filter.observe(pose, pose.capture_time);
+  Pose out = pose;
+  filter.apply(pose.capture_time, out);
   return out;
 }
 

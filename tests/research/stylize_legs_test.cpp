@@ -31,12 +31,12 @@ double sway_m(const Skeleton& skeleton, const Pose& pose) {
 
 // By how much the sway of a dance is multiplied.
 double shown_sway(const StyleTake& take, const Style& style) {
-  Stylize station(style);
-  station.set_body(take.skeleton);
+  Stylize filter(style);
+  filter.set_body(take.skeleton);
   double n = 0.0, a = 0.0, b = 0.0, aa = 0.0, ab = 0.0;
   for (std::size_t i = 0; i < take.poses.size(); ++i) {
     const double was = sway_m(take.skeleton, take.poses[i]);
-    const double is = sway_m(take.skeleton, shown(station, take.poses[i]));
+    const double is = sway_m(take.skeleton, shown(filter, take.poses[i]));
     if (i < 600) continue;
     n += 1.0;
     a += was;
@@ -78,16 +78,16 @@ TEST(StylizeLegs, StepsAreLargerAndSmallerAndTheFootThatStandsDoesNotSlide) {
 
 TEST(StylizeLegs, LegsThatAreAskedBackComeHomeStepByStepAndAreThenAsDancedBitForBit) {
   const StyleTake take = salsa_take(60.0, 30.0);
-  Stylize station{Style()};
-  station.set_body(take.skeleton);
-  station.set_style(style_of(BodyZone::kLegs, 1.7, 1.0));
+  Stylize filter{Style()};
+  filter.set_body(take.skeleton);
+  filter.set_style(style_of(BodyZone::kLegs, 1.7, 1.0));
   Pose before_danced, before;
   bool was_moved = false;
   int plain_from = -1;
   for (int i = 0; i < static_cast<int>(take.poses.size()); ++i) {
-    if (i == 900) station.set_style(Style());
+    if (i == 900) filter.set_style(Style());
     const Pose& danced = take.poses[static_cast<std::size_t>(i)];
-    const Pose out = shown(station, danced);
+    const Pose out = shown(filter, danced);
     was_moved = was_moved || (out.p_WH_m - danced.p_WH_m).norm() > 0.03f;
     if (i > 0) {
       const Eigen::Vector3f more =
@@ -106,12 +106,12 @@ TEST(StylizeLegs, LegsThatAreAskedBackComeHomeStepByStepAndAreThenAsDancedBitFor
 TEST(StylizeLegs, KneesNeverBendTheOtherWayAndNoJointSnaps) {
   const StyleTake take = salsa_take(60.0, 30.0);
   for (const double gain : {0.0, 0.5, 1.5, 2.0}) {
-    Stylize station(style_of(BodyZone::kLegs, gain, 1.0));
-    station.set_body(take.skeleton);
+    Stylize filter(style_of(BodyZone::kLegs, gain, 1.0));
+    filter.set_body(take.skeleton);
     Pose before, danced_before;
     for (std::size_t i = 0; i < take.poses.size(); ++i) {
       const Pose& danced = take.poses[i];
-      const Pose out = shown(station, danced);
+      const Pose out = shown(filter, danced);
       for (const Bone shank : {Bone::kLeftLowerLeg, Bone::kRightLowerLeg})
         ASSERT_GT(knee_bend_rad(out, shank), std::min(0.0f, knee_bend_rad(danced, shank)) - 0.03f)
             << gain << " " << i;
@@ -129,8 +129,8 @@ TEST(StylizeLegs, KneesNeverBendTheOtherWayAndNoJointSnaps) {
 TEST(StylizeLegs, AStraightKneeBendsForwardWhenHipsComeDown) {
   const StyleTake take = synthetic_sway(60.0);
   Random random(3);
-  Stylize station(hips_and_legs(3.0, 1.5));
-  station.set_body(take.skeleton);
+  Stylize filter(hips_and_legs(3.0, 1.5));
+  filter.set_body(take.skeleton);
   int bent = 0;
   for (std::size_t i = 0; i < 1800; ++i) {
     Pose pose = take.poses[i];
@@ -138,7 +138,7 @@ TEST(StylizeLegs, AStraightKneeBendsForwardWhenHipsComeDown) {
     for (const Bone shank : {Bone::kLeftLowerLeg, Bone::kRightLowerLeg})
       pose.R_PB[index_of(shank)] =
           exp_rotation(Vector3f(-0.05f + 0.01f * static_cast<float>(random.normal()), 0.0f, 0.0f));
-    const Pose out = shown(station, pose);
+    const Pose out = shown(filter, pose);
     for (const Bone shank : {Bone::kLeftLowerLeg, Bone::kRightLowerLeg}) {
       ASSERT_GT(knee_bend_rad(out, shank), -0.12f) << i;
       bent += knee_bend_rad(out, shank) > 0.1f;
@@ -160,12 +160,12 @@ TEST(StylizeLegs, HipsSwayWithTheLegsAndNeverAgainstTheDance) {
 
 TEST(StylizeLegs, ALegThatIsNotThereIsLeftAsItCame) {
   StyleTake take = salsa_take(60.0, 15.0);
-  Stylize station(hips_and_legs(1.5, 2.0));
-  station.set_body(take.skeleton);
+  Stylize filter(hips_and_legs(1.5, 2.0));
+  filter.set_body(take.skeleton);
   for (Pose& pose : take.poses) {
     for (std::size_t b = index_of(Bone::kLeftUpperLeg); b < index_of(Bone::kRightUpperLeg); ++b)
       pose.presence &= ~(1u << b);
-    const Pose out = shown(station, pose);
+    const Pose out = shown(filter, pose);
     for (std::size_t b = index_of(Bone::kLeftUpperLeg); b < index_of(Bone::kRightUpperLeg); ++b)
       ASSERT_EQ(out.R_PB[b].coeffs(), pose.R_PB[b].coeffs());
     ASSERT_LT((out.p_WH_m - pose.p_WH_m).norm(), 0.25f);  // the hips' own sway
@@ -175,16 +175,16 @@ TEST(StylizeLegs, ALegThatIsNotThereIsLeftAsItCame) {
 TEST(StylizeLegs, AZoneThatIsAskedBackLeavesNothingBehind) {
   const StyleTake take = salsa_take(60.0, 30.0);
   for (const BodyZone zone : {BodyZone::kTorso, BodyZone::kArms, BodyZone::kLegs}) {
-    Stylize station{Style()};
-    station.set_body(take.skeleton);
-    station.set_style(style_of(zone, 2.5, 1.0));
+    Stylize filter{Style()};
+    filter.set_body(take.skeleton);
+    filter.set_style(style_of(zone, 2.5, 1.0));
     Pose before, danced_before;
     bool was_one = true;
     for (int i = 0; i < static_cast<int>(take.poses.size()); ++i) {
-      if (i == 1000) station.set_style(Style());
+      if (i == 1000) filter.set_style(Style());
       const Pose& danced = take.poses[static_cast<std::size_t>(i)];
-      const Pose out = shown(station, danced);
-      const bool is_one = station.gain(zone) == 1.0f;
+      const Pose out = shown(filter, danced);
+      const bool is_one = filter.gain(zone) == 1.0f;
       if (is_one && !was_one && i > 1000)
         for (std::size_t b = 0; b < kBoneCount; ++b) {
           const float step = out.R_PB[b].angularDistance(before.R_PB[b]);
@@ -200,8 +200,8 @@ TEST(StylizeLegs, AZoneThatIsAskedBackLeavesNothingBehind) {
 
 TEST(StylizeLegs, OverAGapFeetStayWhereTheyWereSetDown) {
   StyleTake take = salsa_take(60.0, 40.0);
-  Stylize station(style_of(BodyZone::kLegs, 2.0, 1.0));
-  station.set_body(take.skeleton);
+  Stylize filter(style_of(BodyZone::kLegs, 2.0, 1.0));
+  filter.set_body(take.skeleton);
   Vector3f moved = Vector3f::Zero();
   bool was_moved = false;
   for (std::size_t i = 0; i < take.poses.size(); ++i) {
@@ -209,7 +209,7 @@ TEST(StylizeLegs, OverAGapFeetStayWhereTheyWereSetDown) {
     // The stream stops for two seconds, again and again; the dancer waits.
     pose.capture_time += Duration::s(2 * static_cast<std::int64_t>(i / 300));
     const Vector3f before = moved;
-    moved = shown(station, pose).p_WH_m - pose.p_WH_m;
+    moved = shown(filter, pose).p_WH_m - pose.p_WH_m;
     ASSERT_TRUE(i == 0 || (moved - before).norm() < 0.07f) << i;
     was_moved = was_moved || moved.norm() > 0.05f;
   }

@@ -10,7 +10,7 @@
 #include "research/style/stylize_overview.h"
 #include "tests/allocation_guard.h"
 #include "tests/research/styled_dances.h"
-#include "transformers/chain.h"
+#include "transformers/flow.h"
 #include "transformers/style/style_presets.h"
 
 namespace dance {
@@ -52,14 +52,14 @@ TEST(Stylize, EachZoneIsScaledAloneAndOnlyItself) {
 }
 
 TEST(Stylize, AJointThatIsBeyondItsLimitsAsDancedIsLeftThereByALargerGain) {
-  Stylize station(style_of(BodyZone::kLegs, 2.0, 1.0));
+  Stylize filter(style_of(BodyZone::kLegs, 2.0, 1.0));
   const std::size_t toes = index_of(Bone::kLeftToes);
   Pose pose;
   pose.R_PB[toes] = Eigen::Quaternionf(Eigen::AngleAxisf(1.9f, Eigen::Vector3f::UnitX()));
   pose.p_WH_m.y() = 1.0f;
   for (int i = 1; i < 300; ++i) {
     pose.capture_time = MonoTime::from_us(16'667 * i);
-    const Pose out = shown(station, pose);
+    const Pose out = shown(filter, pose);
     ASSERT_LT(out.R_PB[toes].angularDistance(pose.R_PB[toes]), 1e-3f) << i;
   }
 }
@@ -92,11 +92,11 @@ TEST(Stylize, AllGainsOneLeavesEveryPoseBitForBitWhateverTheWeights) {
   Style style;
   style.periodic = 3.0f;
   style.dynamic = 0.2f;
-  Stylize station(style);
-  station.set_body(take.skeleton);
-  for (const Pose& pose : take.poses) ASSERT_TRUE(is_bit_for_bit(shown(station, pose), pose));
-  const auto chain = Chain::make({"stylize"});
-  ASSERT_TRUE(chain);
+  Stylize filter(style);
+  filter.set_body(take.skeleton);
+  for (const Pose& pose : take.poses) ASSERT_TRUE(is_bit_for_bit(shown(filter, pose), pose));
+  const auto flow = Flow::make({"stylize"});
+  ASSERT_TRUE(flow);
 }
 
 TEST(Stylize, SalsaHipsSwayMoreWithoutMusicTooAndFeetStand) {
@@ -117,14 +117,14 @@ TEST(Stylize, SalsaHipsSwayMoreWithoutMusicTooAndFeetStand) {
 
 TEST(Stylize, AStyleSaidLiveIsComeToGraduallyAndMultipliesTheSessions) {
   const StyleTake take = salsa_take(60.0, 30.0);
-  Stylize station(style_of(BodyZone::kHips, 1.5, 1.0));
-  station.set_body(take.skeleton);
-  EXPECT_EQ(station.gain(BodyZone::kHips), 1.5f);
+  Stylize filter(style_of(BodyZone::kHips, 1.5, 1.0));
+  filter.set_body(take.skeleton);
+  EXPECT_EQ(filter.gain(BodyZone::kHips), 1.5f);
   float before = 1.5f;
   for (std::size_t i = 0; i < take.poses.size(); ++i) {
-    if (i == 600) station.set_style(style_of(BodyZone::kHips, 2.0, 1.0));
-    (void)shown(station, take.poses[i]);
-    const float now = station.gain(BodyZone::kHips);
+    if (i == 600) filter.set_style(style_of(BodyZone::kHips, 2.0, 1.0));
+    (void)shown(filter, take.poses[i]);
+    const float now = filter.gain(BodyZone::kHips);
     EXPECT_LE(std::abs(now - before), 1.0f / 60.0f + 1e-4f);
     before = now;
   }
@@ -132,39 +132,32 @@ TEST(Stylize, AStyleSaidLiveIsComeToGraduallyAndMultipliesTheSessions) {
 }
 
 TEST(Stylize, WhatIsNoStyleIsRefusedAndCounted) {
-  Stylize station(style_of(BodyZone::kArms, 1.2, 1.0));
+  Stylize filter(style_of(BodyZone::kArms, 1.2, 1.0));
   for (const float wrong : {std::nanf(""), -0.1f, 4.1f, INFINITY}) {
     Style style;
     style.gain[2] = wrong;
-    station.set_style(style);
+    filter.set_style(style);
     style = Style();
     style.dynamic = wrong;
-    station.set_style(style);
+    filter.set_style(style);
   }
-  EXPECT_EQ(station.counters().refused, 8u);
+  EXPECT_EQ(filter.refused(), 8u);
   Pose pose;
   pose.capture_time = MonoTime::from_us(1);
-  EXPECT_TRUE(is_sound(shown(station, pose)));
-  EXPECT_EQ(station.gain(BodyZone::kShoulders), 1.0f);
-}
-
-TEST(Stylize, NothingToShowBeforeTheFirstPose) {
-  Stylize station(style_of(BodyZone::kHips, 2.0, 1.0));
-  Pose out;
-  EXPECT_FALSE(station.sample(MonoTime::from_us(5), out));
-  EXPECT_FALSE(station.sample_at(MonoTime::from_us(5), MonoTime::from_us(5), out));
+  EXPECT_TRUE(is_sound(shown(filter, pose)));
+  EXPECT_EQ(filter.gain(BodyZone::kShoulders), 1.0f);
 }
 
 TEST(Stylize, BonesThatAreNotThereAreNotTouched) {
   StyleTake take = salsa_take(60.0, 10.0);
   Style style;
   style.gain.fill(2.0f);
-  Stylize station(style);
-  station.set_body(take.skeleton);
+  Stylize filter(style);
+  filter.set_body(take.skeleton);
   const std::size_t head = index_of(Bone::kHead);
   for (Pose& pose : take.poses) {
     pose.presence &= ~(1u << head);
-    const Pose out = shown(station, pose);
+    const Pose out = shown(filter, pose);
     ASSERT_TRUE(is_sound(out));
     ASSERT_TRUE(out.R_PB[head].coeffs() == pose.R_PB[head].coeffs());
   }
@@ -177,8 +170,8 @@ TEST(Stylize, JumpsInTimeTurnsHalfAroundAndMusicGoneMadLeaveSoundBodiesAndBones)
   style.gain.fill(3.0f);
   style.periodic = 4.0f;
   style.dynamic = 4.0f;
-  Stylize station(style);
-  station.set_body(take.skeleton);
+  Stylize filter(style);
+  filter.set_body(take.skeleton);
   std::int64_t ns = 1'000'000'000;
   for (Pose pose : take.poses) {
     ns +=
@@ -192,23 +185,23 @@ TEST(Stylize, JumpsInTimeTurnsHalfAroundAndMusicGoneMadLeaveSoundBodiesAndBones)
         const auto part = [&] { return static_cast<float>(random.uniform(-1.0, 1.0)); };
         R = Eigen::Quaternionf(part(), part(), part(), part() + 1e-3f).normalized();
       }
-    const Pose out = shown(station, pose);
+    const Pose out = shown(filter, pose);
     ASSERT_TRUE(is_sound(out));
     ASSERT_LT((out.p_WH_m - pose.p_WH_m).norm(), 0.8f);
   }
-  EXPECT_GT(station.counters().restarts, 5u);
+  EXPECT_GT(filter.restarts(), 5u);
 }
 
 TEST(Stylize, AHeldPoseStaysAsItIs) {
   StyleTake take = salsa_take(60.0, 15.0);
-  Stylize station(style_of(BodyZone::kArms, 2.0, 1.0));
-  station.set_body(take.skeleton);
+  Stylize filter(style_of(BodyZone::kArms, 2.0, 1.0));
+  filter.set_body(take.skeleton);
   Pose last;
-  for (const Pose& pose : take.poses) last = shown(station, pose);
+  for (const Pose& pose : take.poses) last = shown(filter, pose);
   const MonoTime now = take.poses.back().capture_time;
   for (int i = 1; i < 60; ++i) {
-    Pose out;
-    ASSERT_TRUE(station.sample(now + Duration::ms(16 * i), out));
+    Pose out = take.poses.back();
+    filter.apply(now + Duration::ms(16 * i), out);
     for (std::size_t b = 0; b < kBoneCount; ++b)
       ASSERT_LT(out.R_PB[b].angularDistance(last.R_PB[b]), 0.02f) << i;
   }
@@ -218,14 +211,15 @@ TEST(Stylize, AllocatesNothingAsPosesCome) {
   const StyleTake take = salsa_take(60.0, 8.0, false);
   Style style;
   style.gain.fill(1.4f);
-  Stylize station(style);
-  station.set_body(take.skeleton);
+  Stylize filter(style);
+  filter.set_body(take.skeleton);
   AllocationGuard guard;
   Pose out;
   for (const Pose& pose : take.poses) {
-    station.observe(pose, pose.capture_time);
-    station.sample(pose.capture_time, out);
-    station.set_style(style);
+    filter.observe(pose, pose.capture_time);
+    out = pose;
+    filter.apply(pose.capture_time, out);
+    filter.set_style(style);
   }
   EXPECT_EQ(guard.allocations(), 0u);
 }
@@ -233,25 +227,25 @@ TEST(Stylize, AllocatesNothingAsPosesCome) {
 TEST(Stylize, IsARowOfRoutesWithPresetsAndRefusesWhatIsNoGain) {
   for (const char* text :
        {"stylize", "stylize hips=1.3 arms=1.2 mix=0.5", "stylize preset=cuban head=1"})
-    EXPECT_TRUE(Chain::make({text})) << text;
+    EXPECT_TRUE(Flow::make({text})) << text;
   for (const char* text :
        {"stylize hips", "stylize hips=-1", "stylize hips=3.5", "stylize hips=nan", "stylize nose=2",
         "stylize mix=2", "stylize preset=loud"})
-    EXPECT_FALSE(Chain::make({text})) << text;
-  const auto unknown = Chain::make({"stylize preset=loud"});
+    EXPECT_FALSE(Flow::make({text})) << text;
+  const auto unknown = Flow::make({"stylize preset=loud"});
   EXPECT_NE(unknown.error().what.find("cuban"), std::string::npos);
 }
 
-TEST(Stylize, BehindAStationItShowsThatOnesPosesWithItsGains) {
-  auto chain = Chain::make({"hold 0ms", "stylize hips=2 arms=2"});
-  ASSERT_TRUE(chain);
+TEST(Stylize, InAFlowItShowsThePosesOfTheMomentWithItsGains) {
+  auto flow = Flow::make({"hold 0ms", "stylize hips=2 arms=2"});
+  ASSERT_TRUE(flow);
   const StyleTake take = salsa_take(60.0, 12.0);
-  chain->set_body(take.skeleton);
+  flow->set_body(take.skeleton);
   float most = 0.0f;
   for (const Pose& pose : take.poses) {
-    chain->observe(pose, pose.capture_time);
+    flow->observe(pose, pose.capture_time);
     Pose out;
-    ASSERT_TRUE(chain->sample(pose.capture_time, out));
+    ASSERT_TRUE(flow->sample(pose.capture_time, out));
     most = std::max(most, (out.p_WH_m - pose.p_WH_m).norm());
   }
   EXPECT_GT(most, 0.01f);

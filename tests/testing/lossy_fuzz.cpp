@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/base/assert.h"
+#include "core/program/whole_file.h"
 #include "testing/line/lossy_model.h"
 #include "testing/line/trace_file.h"
 
@@ -20,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       for (const dance::MonoTime due : fate.deliveries()) DANCE_ASSERT(due >= now);
     }
   } else {
-    const auto text_or_xz = dance::unpack_trace(std::string(text));
+    const auto text_or_xz = dance::unpacked(std::string(text), dance::kMostTraceBytes);
     if (!text_or_xz) return 0;
     const auto trace = dance::parse_trace(*text_or_xz);
     if (!trace) return 0;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -23,9 +24,11 @@ std::vector<MonoTime> offer(LossyModel& line, std::size_t bytes, MonoTime now) {
 
 TEST(LossySpec, ReadsEveryWord) {
   const LossySpec s = spec(
-      "delay=80ms jitter=10ms loss=1% burst=3 dup=0.1% reorder=2% rate=1Mbit queue=50ms seed=9");
+      "delay=80ms jitter=10ms tail=5ms loss=1% burst=3 dup=0.1% reorder=2% rate=1Mbit queue=50ms "
+      "seed=9");
   EXPECT_EQ(s.delay, Duration::ms(80));
   EXPECT_EQ(s.jitter, Duration::ms(10));
+  EXPECT_EQ(s.tail, Duration::ms(5));
   EXPECT_DOUBLE_EQ(s.loss, 0.01);
   EXPECT_DOUBLE_EQ(s.burst, 3.0);
   EXPECT_DOUBLE_EQ(s.duplicate, 0.001);
@@ -106,6 +109,40 @@ TEST(LossyModel, JitterStaysInItsBoundsAndKeepsOrder) {
   EXPECT_LE(longest, Duration::ms(70));
   EXPECT_GT(longest - shortest, Duration::ms(35));
   EXPECT_NEAR((sum / (kCount / 2)).as_ms(), 50.0, 0.5);
+}
+
+TEST(LossyModel, ATailHasItsMeanIsOvertakenAndLeavesTheLossesAsTheyAre) {
+  LossyModel line({.spec = spec("delay=50ms tail=15ms")}, 0);
+  constexpr int kCount = 20'000;
+  double sum_ms = 0.0, squares = 0.0;
+  int overtaken = 0;
+  MonoTime newest;
+  for (int i = 0; i < kCount; ++i) {
+    const MonoTime now = kBegin + Duration::ms(16 * i);
+    const MonoTime due = offer(line, 100, now)[0];
+    const double late_ms = (due - now).as_ms() - 50.0;
+    ASSERT_GE(late_ms, 0.0);
+    sum_ms += late_ms;
+    squares += late_ms * late_ms;
+    overtaken += due < newest;
+    newest = std::max(newest, due);
+  }
+  const double mean_ms = sum_ms / kCount;
+  EXPECT_NEAR(mean_ms, 15.0, 0.4);
+  // Of two exponentials: 1/sqrt(2) of the mean.
+  EXPECT_NEAR(std::sqrt(squares / kCount - mean_ms * mean_ms), 15.0 * std::sqrt(0.5), 0.6);
+  EXPECT_GT(overtaken, kCount / 20);
+  EXPECT_EQ(line.counters().reordered, static_cast<std::uint64_t>(overtaken));
+
+  const auto lost = [](const char* words) {
+    LossyModel lossy({.spec = spec(words)}, 0);
+    std::string text;
+    for (int i = 0; i < 1000; ++i)
+      text += offer(lossy, 1, kBegin + Duration::ms(i)).empty() ? '-' : '+';
+    return text;
+  };
+  EXPECT_EQ(lost("tail=1ms loss=10%"), lost("tail=40ms loss=10%"));
+  EXPECT_EQ(lost("tail=1ms loss=0").find('-'), std::string::npos);
 }
 
 TEST(LossyModel, ReordersAndDoublesAsManyAsAsked) {

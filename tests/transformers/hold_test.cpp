@@ -1,4 +1,3 @@
-#include "transformers/playout/hold.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 
 #include "core/base/random.h"
 #include "tests/allocation_guard.h"
+#include "tests/transformers/flows.h"
 
 namespace dance {
 namespace {
@@ -223,25 +223,30 @@ TEST(Hold, AllocatesNothingOncePosesCome) {
 
 // 30 poses a second over a line that is not waited for: every picture is of what just came.
 TEST(Hold, WhatItHasShownIsNotAnotherWhenTheNextPoseComes) {
-  Hold hold(Duration::ms(20));
-  const auto pose_of = [](int i) {
+  const auto pose_at = [](int i) {
     Pose pose;
     pose.capture_time = MonoTime::from_us(1'000'000 + i * 33'333);
     pose.clock_id = 1;
     pose.p_WH_m.x() = 0.3f * std::sin(0.4f * static_cast<float>(i));
     return pose;
   };
+  DancerTimeline timeline(64);
+  MotionSource::Parts parts;
+  parts.is_final = true;
+  MotionSource source(timeline, std::move(parts));
+  std::vector<Pose> shown;
   for (int i = 0; i < 60; ++i) {
-    hold.observe(pose_of(i), pose_of(i).capture_time);
-    const MonoTime now = pose_of(i).capture_time + Duration::ms(i % 3 * 8);
-    Pose shown, then;
-    ASSERT_TRUE(hold.sample(now, shown));
+    timeline.take(pose_at(i), pose_at(i).capture_time);
+    for (const Pose& before : shown) {
+      Pose then;
+      source.at(before.capture_time, then);
+      EXPECT_EQ(then.p_WH_m.x(), before.p_WH_m.x()) << i;
+    }
+    shown.clear();
     if (i < 4) continue;
-    for (int next = 1; next <= 2; ++next) {
-      Hold later = hold;
-      for (int n = i + 1; n <= i + next; ++n) later.observe(pose_of(n), pose_of(n).capture_time);
-      ASSERT_TRUE(later.sample_at(shown.capture_time, now, then));
-      EXPECT_EQ(then.p_WH_m.x(), shown.p_WH_m.x()) << i << " " << next;
+    for (const int back_ms : {4, 12, 20, 30, 50}) {
+      shown.emplace_back();
+      source.at(pose_at(i).capture_time - Duration::ms(back_ms), shown.back());
     }
   }
 }

@@ -1,21 +1,21 @@
-#include "transformers/predict/predict.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "tests/allocation_guard.h"
+#include "tests/transformers/flows.h"
 #include "tests/transformers/predicted_dances.h"
-#include "transformers/chain.h"
-#include "transformers/playout/hold.h"
+#include "transformers/predict/dance_extrapolator.h"
 
 namespace dance {
 namespace {
 
 constexpr Duration kWay = Duration::ms(100);
 
+Flow predicting(const char* word = "predict") { return *Flow::make({word}); }
+
 TEST(Predict, ShowsTheDancerAsTheyAreNow) {
-  Predict station;
+  Flow station = predicting();
   const auto dance = shaken(salsa(1200), 0.002);
   double ours = 0.0, raw = 0.0;
   Pose out;
@@ -35,9 +35,7 @@ TEST(Predict, ShowsTheDancerAsTheyAreNow) {
 }
 
 TEST(Predict, TakesBackAsMuchAsItIsTold) {
-  PredictOptions options;
-  options.lead = 0.5;
-  Predict station(options);
+  Flow station = predicting("predict lead=0.5");
   const auto dance = salsa(300);
   Pose out;
   for (const Pose& pose : dance) station.observe(pose, pose.capture_time + kWay);
@@ -45,33 +43,26 @@ TEST(Predict, TakesBackAsMuchAsItIsTold) {
   EXPECT_NEAR((out.capture_time - dance.back().capture_time).as_ms(), 50.0, 1.0);
 }
 
-TEST(Predict, WhatHasArrivedIsShownAsItIs) {
-  Predict station;
-  const auto dance = salsa(300);
-  for (const Pose& pose : dance) station.observe(pose, pose.capture_time);
-  Pose out;
-  ASSERT_TRUE(station.sample_at(dance[200].capture_time, dance.back().capture_time, out));
-  EXPECT_EQ(out.R_PB[5].coeffs(), dance[200].R_PB[5].coeffs());
-}
-
 TEST(Predict, AnyMomentMayBeAskedForWithoutAChangeToWhatIsShown) {
-  Predict asked, alone;
-  const auto dance = shaken(salsa(400), 0.004);
-  for (std::size_t i = 0; i < dance.size(); ++i) {
-    const MonoTime now = dance[i].capture_time + kWay;
-    asked.observe(dance[i], now);
-    alone.observe(dance[i], now);
-    Pose out, other;
+  DancerTimeline timeline(512);
+  MotionSource::Parts parts;
+  parts.extrapolator = std::make_unique<DanceExtrapolator>();
+  MotionSource source(timeline, std::move(parts));
+  for (const Pose& pose : shaken(salsa(400), 0.004)) {
+    timeline.take(pose, pose.capture_time + kWay);
+    source.observe();
+    Pose first, other, again;
+    const MonoTime moment = pose.capture_time + kWay;
+    EXPECT_EQ(source.at(moment, first), MotionSource::Kind::kPredicted);
     for (int ahead = -200; ahead < 700; ahead += 150)
-      ASSERT_TRUE(asked.sample_at(now + Duration::ms(ahead), now, out));
-    ASSERT_TRUE(asked.sample(now, out));
-    ASSERT_TRUE(alone.sample(now, other));
-    ASSERT_EQ(out.R_PB[9].coeffs(), other.R_PB[9].coeffs());
+      source.at(moment + Duration::ms(ahead), other);
+    source.at(moment, again);
+    ASSERT_EQ(first.R_PB[9].coeffs(), again.R_PB[9].coeffs());
   }
 }
 
-TEST(Predict, WhoeverMakesGapsAllTheTimeCostsNoMoreThanADancer) {
-  Predict station;
+TEST(Predict, ASourceThatMakesGapsAllTheTimeCostsNoMoreThanADancer) {
+  DanceExtrapolator extrapolator;
   const Pose pose = salsa(1)[0];
   MonoTime capture = pose.capture_time, now = capture;
   // Nine tenths of a second between captures, six hundred of them a second: fifty rows each, if all
@@ -81,16 +72,16 @@ TEST(Predict, WhoeverMakesGapsAllTheTimeCostsNoMoreThanADancer) {
     now += Duration::us(1667);
     Pose next = pose;
     next.capture_time = capture;
-    station.observe(next, now);
+    extrapolator.observe(next, now);
   }
   // Ten seconds of arrivals: each pose is one row, and what a dance has beside.
-  EXPECT_LT(station.rows_taken(), 6000u + 10u * 90u + 200u);
+  EXPECT_LT(extrapolator.rows_taken(), 6000u + 10u * 90u + 200u);
 }
 
 // A pose that comes late corrects what was shown without a pop: no step between two frames is much
 // larger than the dance's own.
 TEST(Predict, CorrectsWithoutAPop) {
-  Predict station;
+  Flow station = predicting();
   const auto dance = shaken(salsa(1800), 0.004);
   Random random(2);
   double most = 0.0, own = 0.0;
@@ -112,8 +103,8 @@ TEST(Predict, CorrectsWithoutAPop) {
 }
 
 TEST(Predict, BehindAHoldShowsItsMomentAndFillsWhatIsLate) {
-  auto chain = Chain::make({"hold 40ms", "predict"});
-  ASSERT_TRUE(chain);
+  auto flow = Flow::make({"hold 40ms", "predict"});
+  ASSERT_TRUE(flow);
   Hold alone(Duration::ms(40));
   const auto dance = salsa(600);
   Pose out, held;
@@ -121,10 +112,10 @@ TEST(Predict, BehindAHoldShowsItsMomentAndFillsWhatIsLate) {
     const MonoTime now = dance[i].capture_time + kWay;
     // A tenth of a second is missing now and then.
     if (i % 100 < 94) {
-      chain->observe(dance[i], now);
+      flow->observe(dance[i], now);
       alone.observe(dance[i], now);
     }
-    ASSERT_TRUE(chain->sample(now, out));
+    ASSERT_TRUE(flow->sample(now, out));
     ASSERT_TRUE(alone.sample(now, held));
     if (i < 200) continue;
     if (i % 100 < 90) {
@@ -138,7 +129,7 @@ TEST(Predict, BehindAHoldShowsItsMomentAndFillsWhatIsLate) {
 }
 
 TEST(Predict, MusicGoesOnWithTheDance) {
-  Predict station;
+  Flow station = predicting();
   auto dance = salsa(300);
   for (std::size_t i = 0; i < dance.size(); ++i) {
     dance[i].music_beats = 3.0 * static_cast<double>(i) / 60.0;
@@ -151,7 +142,7 @@ TEST(Predict, MusicGoesOnWithTheDance) {
 }
 
 TEST(Predict, PosesOfAnotherClockAreShownAsTheyCome) {
-  Predict station;
+  Flow station = predicting();
   const auto dance = salsa(300);
   Pose out;
   for (const Pose& pose : dance) station.observe(pose, pose.capture_time + Duration::s(100000));
@@ -160,7 +151,7 @@ TEST(Predict, PosesOfAnotherClockAreShownAsTheyCome) {
 }
 
 TEST(Predict, CountsWhatItRefusesWhatStartsAnewAndWhatItCannotReach) {
-  Predict station;
+  Flow station = predicting();
   const auto dance = salsa(100);
   for (const Pose& pose : dance) station.observe(pose, pose.capture_time + kWay);
   station.observe(dance[50], dance.back().capture_time + kWay);
@@ -175,7 +166,7 @@ TEST(Predict, CountsWhatItRefusesWhatStartsAnewAndWhatItCannotReach) {
 }
 
 TEST(Predict, AllocatesNothing) {
-  Predict station;
+  Flow station = predicting();
   const auto dance = shaken(salsa(900), 0.004);
   const AllocationGuard guard;
   Pose out;
@@ -189,9 +180,9 @@ TEST(Predict, AllocatesNothing) {
 // 25 rad/s is faster than a guess may be, but it was danced.
 TEST(Predict, WithoutALeadShowsAKickAsItWasDanced) {
   for (const bool is_behind_hold : {false, true}) {
-    auto chain =
-        is_behind_hold ? Chain::make({"hold 0ms", "predict"}) : Chain::make({"predict lead=0"});
-    ASSERT_TRUE(chain);
+    auto flow =
+        is_behind_hold ? Flow::make({"hold 0ms", "predict"}) : Flow::make({"predict lead=0"});
+    ASSERT_TRUE(flow);
     auto dance = salsa(240);
     const std::size_t shank = index_of(Bone::kRightLowerLeg);
     for (std::size_t i = 200; i < 206; ++i)
@@ -199,9 +190,9 @@ TEST(Predict, WithoutALeadShowsAKickAsItWasDanced) {
           Eigen::Vector3f(25.0f / 60.0f * static_cast<float>(std::min(i, 406 - i) - 199), 0, 0));
     for (std::size_t i = 0; i < dance.size(); ++i) {
       const MonoTime now = dance[i].capture_time + kWay;
-      chain->observe(dance[i], now);
+      flow->observe(dance[i], now);
       Pose out;
-      ASSERT_TRUE(chain->sample(now, out));
+      ASSERT_TRUE(flow->sample(now, out));
       if (i < 60) continue;
       ASSERT_EQ(out.capture_time, dance[i].capture_time);
       for (std::size_t b = 0; b < kBoneCount; ++b)
@@ -211,7 +202,7 @@ TEST(Predict, WithoutALeadShowsAKickAsItWasDanced) {
 }
 
 TEST(Predict, ForgetsADancerWhenAnotherBodyComesAndNotWhenTheSameIsMeasuredAgain) {
-  Predict station;
+  Flow station = predicting();
   const auto personal = std::static_pointer_cast<PersonalModel>(station.learner());
   Skeleton body = average_skeleton();
   station.set_body(body);
@@ -230,9 +221,9 @@ TEST(Predict, ForgetsADancerWhenAnotherBodyComesAndNotWhenTheSameIsMeasuredAgain
 }
 
 TEST(Predict, RefusesSettingsThatMakeNoSense) {
-  EXPECT_TRUE(Chain::make({"predict lead=0.8 most=200ms"}));
+  EXPECT_TRUE(Flow::make({"predict lead=0.8 most=200ms"}));
   for (const char* text : {"predict lead=2", "predict most=5s", "predict lead", "predict far=1"})
-    EXPECT_FALSE(Chain::make({text})) << text;
+    EXPECT_FALSE(Flow::make({text})) << text;
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 
 #include "core/base/beat_clock.h"
 #include "core/base/random.h"
+#include "tests/transformers/flows.h"
 #include "transformers/playout/play_head.h"
 #include "transformers/predict/guess_meter.h"
 #include "transformers/rhythm/beat_offset.h"
 #include "transformers/rhythm/dance_line.h"
-#include "transformers/rhythm/rhythm.h"
 
 namespace dance {
 namespace {
@@ -302,31 +302,22 @@ TEST(GuessMeter, LeadsByWhatGuessesLag) {
 // 30 poses a second; pictures between the newest two, whose way is not known before the next one
 // comes.
 TEST(Rhythm, WhatTheNextPoseChangesOfWhatWasShownGoesInWithoutAPop) {
-  // A station that shows the moments of its poses at once.
-  class Now : public Transformer {
+  // Shows the moments of its poses at once.
+  class Now : public PlayoutClock {
    public:
-    void observe(const Pose& pose, MonoTime) override { history_.push(pose); }
-    bool sample(MonoTime, Pose&) override { return false; }
-    MonoTime moment(MonoTime now) override { return now - Duration::ms(1); }
-    bool sample_at(MonoTime moment, MonoTime, Pose& out) override {
-      const auto answer = history_.at(moment);
-      if (answer) out = answer->pose;
-      return answer.has_value();
+    void observe(const DancerTimeline&, MotionSource&) override {}
+    void restart() override {}
+    Choice choose(const DancerTimeline&, MonoTime now, MonoTime) override {
+      return {now - Duration::ms(1), {}, false};
     }
-
-   private:
-    PoseHistory history_{64};
   };
-  Now input;
-  Rhythm rhythm;
-  rhythm.set_input(&input);
+  Rhythm rhythm({}, std::make_unique<Now>());
   // Turns back at every other pose: the curve changes as much as it can.
   const auto observe = [&](int i) {
     Pose pose;
     pose.capture_time = second(i / 30.0);
     pose.clock_id = 1;
     pose.p_WH_m.x() = i / 2 % 2 ? 0.05f : 0.0f;
-    input.observe(pose, pose.capture_time);
     rhythm.observe(pose, pose.capture_time);
   };
   float largest_m = 0.0f;

@@ -1,5 +1,3 @@
-#include "transformers/rhythm/rhythm.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +7,7 @@
 #include "core/pose/interpolate.h"
 #include "producers/salsa/salsa_dancer.h"
 #include "tests/allocation_guard.h"
-#include "transformers/chain.h"
+#include "tests/transformers/flows.h"
 
 namespace dance {
 namespace {
@@ -40,9 +38,9 @@ struct TwoHouses {
   }
 };
 
-// Dances `seconds` through the station and calls look(s, shown pose) for each picture.
+// Dances `seconds` through the flow and calls look(s, shown pose) for each picture.
 template <class Look>
-void dance(Transformer& station, const TwoHouses& houses, double begin_s, double end_s, Look look,
+void dance(Flow& flow, const TwoHouses& houses, double begin_s, double end_s, Look look,
            bool is_silent = false) {
   static SalsaDancer dancer{SalsaStyle()};
   static Random random(3);
@@ -64,14 +62,13 @@ void dance(Transformer& station, const TwoHouses& houses, double begin_s, double
       pose.music_beats = houses.tagged ? houses.sent_beats(s) : kNoMusic;
       line.push_back({s + houses.delay_s + random.uniform(0.0, houses.jitter_s), pose});
     }
-    for (; next_beat <= s; next_beat += 0.1)
-      station.hear(houses.heard(next_beat), stage_time(next_beat));
+    for (; next_beat <= s; next_beat += 0.1) flow.hear(houses.heard(next_beat));
     while (!line.empty() && line.front().at_s <= s) {
-      station.observe(line.front().pose, stage_time(line.front().at_s));
+      flow.observe(line.front().pose, stage_time(line.front().at_s));
       line.pop_front();
     }
     Pose out;
-    if (station.sample(stage_time(s), out)) look(s, out);
+    if (flow.sample(stage_time(s), out)) look(s, out);
   }
 }
 
@@ -86,7 +83,6 @@ TEST(Rhythm, ShowsNothingBeforeTheFirstPose) {
   Rhythm rhythm;
   Pose out;
   EXPECT_FALSE(rhythm.sample(stage_time(0), out));
-  EXPECT_FALSE(rhythm.sample_at(stage_time(0), stage_time(0), out));
 }
 
 TEST(Rhythm, PutsTheDanceOnTheListenersBeat) {
@@ -238,8 +234,8 @@ TEST(Rhythm, KeepsBodiesWholeAndJumpsSoft) {
 TEST(Rhythm, AtStrengthZeroChangesNothing) {
   RhythmOptions options;
   options.strength = 0.0;
-  auto untouched = Chain::make({"hold 40ms", "rhythm strength=0"});
-  auto held = Chain::make({"hold 40ms"});
+  auto untouched = Flow::make({"hold 40ms", "rhythm strength=0"});
+  auto held = Flow::make({"hold 40ms"});
   ASSERT_TRUE(untouched.has_value() && held.has_value());
   SalsaDancer dancer{SalsaStyle()};
   TwoHouses houses;
@@ -250,7 +246,7 @@ TEST(Rhythm, AtStrengthZeroChangesNothing) {
     pose.clock_id = 1;
     pose.music_beats = houses.sent_beats(i / kStageHz);
     const MonoTime now = stage_time(i / kStageHz + 0.05);
-    untouched->hear(houses.heard(i / kStageHz), now);
+    untouched->hear(houses.heard(i / kStageHz));
     untouched->observe(pose, now);
     held->observe(pose, now);
     Pose a, b;
@@ -299,7 +295,7 @@ TEST(Rhythm, SurvivesTimesThatMakeNoSense) {
     beat.tempo_bpm = random.uniform(kLeastTempo_bpm, kMostTempo_bpm);
     beat.confidence = 1.0f;
     beat.playing = random.uniform() < 0.8;
-    if (i % 7 == 0) rhythm.hear(beat, now);
+    if (i % 7 == 0) rhythm.hear(beat);
     Pose out;
     if (rhythm.sample(now, out)) {
       ASSERT_TRUE(is_valid(out));
@@ -343,21 +339,21 @@ TEST(Rhythm, AllocatesNothing) {
     next.capture_time = stage_time(i / kStageHz);
     next.clock_id = 1;
     rhythm.observe(next, stage_time(i / kStageHz + 0.05));
-    rhythm.hear(houses.heard(i / kStageHz), stage_time(i / kStageHz + 0.05));
+    rhythm.hear(houses.heard(i / kStageHz));
     rhythm.sample(stage_time(i / kStageHz + 0.05), out);
   }
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
 TEST(Rhythm, ItsWordsAreChecked) {
-  EXPECT_TRUE(Chain::make({"rhythm"}).has_value());
-  EXPECT_TRUE(Chain::make({"rhythm beats=auto error=40"}).has_value());
-  EXPECT_TRUE(Chain::make({"rhythm beats=2 count=4 strength=0.5"}).has_value());
+  EXPECT_TRUE(Flow::make({"rhythm"}).has_value());
+  EXPECT_TRUE(Flow::make({"rhythm beats=auto error=40"}).has_value());
+  EXPECT_TRUE(Flow::make({"rhythm beats=2 count=4 strength=0.5"}).has_value());
   for (const char* wrong : {"rhythm beats=nine", "rhythm beats=-1", "rhythm beats=9", "rhythm 2",
                             "rhythm strength=2", "rhythm tempo=3", "rhythm count=0"}) {
-    const auto chain = Chain::make({wrong});
-    ASSERT_FALSE(chain.has_value()) << wrong;
-    EXPECT_NE(chain.error().what.find("rhythm"), std::string::npos) << chain.error().what;
+    const auto flow = Flow::make({wrong});
+    ASSERT_FALSE(flow.has_value()) << wrong;
+    EXPECT_NE(flow.error().what.find("rhythm"), std::string::npos) << flow.error().what;
   }
 }
 

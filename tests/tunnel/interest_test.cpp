@@ -1,10 +1,9 @@
 // Links that want less than all: who gets what, that it decodes, and what it costs the others.
-#include "tunnel/session/interest.h"
-
 #include <gtest/gtest.h>
 
 #include "core/pose/skeleton.h"
 #include "tests/tunnel/simulated_tunnel.h"
+#include "tunnel/session/pose_share.h"
 
 namespace dance {
 namespace {

@@ -105,6 +105,25 @@ TEST_F(LogFeedTest, ShowsWhatACameraRecordedWithoutAStage) {
   EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), 2.0, 0.04);
 }
 
+TEST_F(LogFeedTest, BeginsAgainWithTheClockGoingOn) {
+  write_couple(4.0);
+  auto feed = LogFeed::open(path_, false);
+  ASSERT_TRUE(feed);
+  StageRoster roster(feed->board());
+  SceneState scene;
+  feed->go_on_to(feed->end());
+  const MonoTime end = feed->end();
+  feed->begin_again();
+  const MonoTime now = end + Duration::s(1);
+  feed->go_on_to(now);
+  roster.update(now, scene);
+  ASSERT_EQ(scene.guests.size(), 2u);
+  EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), 1.0, 0.04);
+  EXPECT_NEAR((now - scene.guests[0].pose.capture_time).as_seconds(), 0.0, 0.04);
+  EXPECT_NEAR((now - scene.guests[1].pose.capture_time).as_seconds(), 0.1, 0.04);
+  EXPECT_NEAR((feed->end() - end).as_seconds(), 4.0, 0.04);
+}
+
 TEST_F(LogFeedTest, KnowsWhenEachBeatWasHeard) {
   write_couple(4.0);
   auto feed = LogFeed::open(path_, false);

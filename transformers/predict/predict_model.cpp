@@ -142,4 +142,12 @@ Result<std::shared_ptr<const PredictModel>> read_predict_model(std::span<const s
   return std::shared_ptr<const PredictModel>(std::move(model));
 }
 
+std::span<const std::uint8_t> predict_model_file();  // data/, by dance_embed
+
+std::shared_ptr<const PredictModel> built_in_predict_model() {
+  static const auto kModel = read_predict_model(predict_model_file());
+  DANCE_ASSERT(kModel.has_value());  // a test reads it too
+  return *kModel;
+}
+
 }  // namespace dance

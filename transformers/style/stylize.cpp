@@ -61,7 +61,7 @@ void Stylize::aim() {
 
 void Stylize::set_style(const Style& style) {
   if (!is_valid(style)) {
-    ++counters_.refused;
+    ++refused_;
     return;
   }
   live_ = style;
@@ -76,15 +76,13 @@ void Stylize::set_body(const Skeleton& skeleton) {
 }
 
 void Stylize::observe(const Pose& pose, MonoTime now) {
-  // Where the dancer's music is known, nobody has to guess the bar.
+  // Where the dancer's music is known, the bar need not be found in the motion.
   if (!std::isfinite(pose.music_beats)) period_.observe(pose, now);
-  newest_ = pose;
-  has_newest_ = true;
 }
 
 void Stylize::advance_gains(MonoTime now) {
-  const Duration step = std::clamp(now - sampled_, Duration(), kLongestStyleStep);
-  sampled_ = now;
+  const Duration step = std::clamp(now - applied_, Duration(), kLongestStyleStep);
+  applied_ = now;
   const float most = kGainPerSecond * static_cast<float>(step.as_seconds());
   for (std::size_t z = 0; z < kBodyZones; ++z) gain_[z] = towards(gain_[z], wanted_gain_[z], most);
   periodic_ = towards(periodic_, wanted_periodic_, most);
@@ -102,43 +100,28 @@ bool Stylize::is_plain() const {
   return standing_.steps.is_home() && (come_in_ == 0.0f || is_as_danced);
 }
 
-bool Stylize::legs_are_scaled(const Standing& standing) const {
-  return gain_[index_of(BodyZone::kLegs)] != 1.0f || !standing.steps.is_home();
+bool Stylize::legs_are_scaled() const {
+  return gain_[index_of(BodyZone::kLegs)] != 1.0f || !standing_.steps.is_home();
 }
 
-bool Stylize::sample(MonoTime now, Pose& out) {
-  if (input_ ? !input_->sample(now, out) : !has_newest_) return false;
-  if (!input_) out = newest_;
+void Stylize::apply(MonoTime now, Pose& pose) {
   advance_gains(now);
   BodyFrames frames;
-  forward_kinematics(skeleton_, out, frames);
-  const double bars = bars_of(out);
-  const Duration step = out.capture_time - learnt_;
-  const bool begins = !split_.has_begun() || out.clock_id != clock_id_ || step > kAnotherTake ||
+  forward_kinematics(skeleton_, pose, frames);
+  const double bars = bars_of(pose);
+  const Duration step = pose.capture_time - learnt_;
+  const bool begins = !split_.has_begun() || pose.clock_id != clock_id_ || step > kAnotherTake ||
                       step < -kAnotherTake;
   if (begins) {
-    if (split_.has_begun()) ++counters_.restarts;
+    if (split_.has_begun()) ++restarts_;
     split_.forget();
     // Over a gap feet stay where they were set down.
-    if (out.clock_id != clock_id_ || step < Duration()) standing_ = {};
+    if (pose.clock_id != clock_id_ || step < Duration()) standing_ = {};
     come_in_ = 0.0f;
   }
-  split_.split(out, frames, bars, parts_);
-  const double step_s = begins || step > Duration() ? follow(out, frames, bars, begins) : 0.0;
-  if (!is_plain()) show(frames, parts_, static_cast<float>(step_s), standing_, out);
-  return true;
-}
-
-bool Stylize::sample_at(MonoTime moment, MonoTime now, Pose& out) {
-  if (!input_ || !input_->sample_at(moment, now, out)) return false;
-  if (is_plain() || !split_.has_begun()) return true;
-  BodyFrames frames;
-  forward_kinematics(skeleton_, out, frames);
-  MotionSplit::Parts parts;
-  split_.split(out, frames, bars_of(out), parts);
-  Standing standing = standing_;
-  show(frames, parts, 0.0f, standing, out);
-  return true;
+  split_.split(pose, frames, bars, parts_);
+  const double step_s = begins || step > Duration() ? follow(pose, frames, bars, begins) : 0.0;
+  if (!is_plain()) show(frames, parts_, static_cast<float>(step_s), pose);
 }
 
 double Stylize::follow(const Pose& pose, const BodyFrames& frames, double bars, bool begins) {
@@ -268,17 +251,17 @@ void Stylize::come_down(float needed_m, float by_steps_m, bool is_over_steps, fl
 }
 
 void Stylize::show(const BodyFrames& danced, const MotionSplit::Parts& parts, float step_s,
-                   Standing& standing, Pose& pose) const {
+                   Pose& pose) {
   const Pose was = pose;
   turn_bones(parts, pose);
   const bool legs_are_turned = is_turned(kFirstLegBone, was);
   const BodyFrames scaled = legs_are_turned ? scaled_legs(was, pose, parts) : danced;
-  if (legs_are_scaled(standing))
-    standing.steps.follow(feet_, danced, scaled, step_s, gain_[index_of(BodyZone::kLegs)] == 1.0f);
+  if (legs_are_scaled())
+    standing_.steps.follow(feet_, danced, scaled, step_s, gain_[index_of(BodyZone::kLegs)] == 1.0f);
   const bool hips_are_scaled = gain_[index_of(BodyZone::kHips)] != 1.0f;
-  const bool is_over_steps = legs_are_scaled(standing);
+  const bool is_over_steps = legs_are_scaled();
   if (!hips_are_scaled && !is_over_steps) {
-    standing.drop = {};
+    standing_.drop = {};
     return;
   }
   std::array<Vector3f, 2> ankles;
@@ -289,7 +272,7 @@ void Stylize::show(const BodyFrames& danced, const MotionSplit::Parts& parts, fl
     soles[side] = danced.R_WB[ankle_of(side)];
   }
   if (is_over_steps) {
-    const ScaledSteps::Aim aim = standing.steps.aim(feet_, danced, scaled);
+    const ScaledSteps::Aim aim = standing_.steps.aim(feet_, danced, scaled);
     pose.p_WH_m += aim.hips_moved_m;
     ankles = aim.p_WAnkle_m;
     soles = aim.R_WFoot;
@@ -309,8 +292,8 @@ void Stylize::show(const BodyFrames& danced, const MotionSplit::Parts& parts, fl
   for (Vector3f& hip_joint : hip_joints) hip_joint -= sway;
   const float by_steps_m =
       is_over_steps ? needed_drop_m(skeleton_, scaled, hip_joints, ankles, carries) : 0.0f;
-  come_down(needed_m, by_steps_m, is_over_steps, step_s, standing.drop);
-  const float drop_m = standing.drop.all_m;
+  come_down(needed_m, by_steps_m, is_over_steps, step_s, standing_.drop);
+  const float drop_m = standing_.drop.all_m;
   pose.p_WH_m.y() -= drop_m;
   for (std::size_t side = 0; side < kSwingLegs.size(); ++side) {
     const Limb& leg = kSwingLegs[side];

@@ -28,22 +28,23 @@
 #include "core/motion/leg_reach.h"
 #include "transformers/style/kept_mean.h"
 #include "transformers/style/motion_split.h"
+#include "transformers/style/pose_filter.h"
 #include "transformers/style/scaled_steps.h"
 #include "transformers/tempo/period.h"
-#include "transformers/transformer.h"
 
 namespace dance {
 
-class Stylize : public Transformer {
+class Stylize : public PoseFilter {
  public:
   // What the session wants; time and clock of it are not looked at.
   explicit Stylize(const Style& base);
 
   void observe(const Pose& pose, MonoTime now) override;
-  bool sample(MonoTime now, Pose& out) override;
-  bool sample_at(MonoTime moment, MonoTime now, Pose& out) override;
+  void apply(MonoTime now, Pose& pose) override;
   void set_body(const Skeleton& skeleton) override;
   void set_style(const Style& style) override;
+  std::uint64_t refused() const override { return refused_; }
+  std::uint64_t restarts() const override { return restarts_; }
 
   // As they are now: what was asked for is come to gradually.
   float gain(BodyZone zone) const { return gain_[static_cast<std::size_t>(zone)]; }
@@ -93,9 +94,8 @@ class Stylize : public Transformer {
                         Drop& drop);
   // Turns the bones, and puts hips and feet where they sway and step to; `step_s`: since the pose
   // that was shown before.
-  void show(const BodyFrames& danced, const MotionSplit::Parts& parts, float step_s,
-            Standing& standing, Pose& pose) const;
-  bool legs_are_scaled(const Standing& standing) const;
+  void show(const BodyFrames& danced, const MotionSplit::Parts& parts, float step_s, Pose& pose);
+  bool legs_are_scaled() const;
 
   Style base_, live_;
   std::array<float, kBodyZones> wanted_gain_{}, gain_{};
@@ -109,10 +109,10 @@ class Stylize : public Transformer {
   Bias sway_bias_;
   SwingFeet feet_;
   Standing standing_;
-  Pose newest_;
-  MonoTime sampled_, learnt_;
+  MonoTime applied_, learnt_;
   std::uint64_t clock_id_ = 0;
-  bool has_newest_ = false, feet_begin_ = false;
+  bool feet_begin_ = false;
+  std::uint64_t refused_ = 0, restarts_ = 0;
 };
 
 }  // namespace dance

@@ -2,35 +2,38 @@
 
 namespace dance {
 
-template <class Message>
-auto LinkBus::publisher(Signal signal, std::optional<Message> Known::*place) {
-  return [this, signal, place](const GuestId& guest, const Message& message, MonoTime) {
-    known_[guest].*place = message;
-    bus_.publish(Channel::of(signal, Where::kGuest, guest), message);
+// As it comes.
+template <class T>
+auto LinkBus::publisher(Where where) {
+  return [this, where](const GuestId& guest, const T& message, MonoTime) {
+    port_.publish(where, guest, message);
+  };
+}
+
+// And kept, to be said again.
+template <class T>
+auto LinkBus::keeper() {
+  return [this](const GuestId& guest, const T& message, MonoTime) {
+    std::get<std::optional<T>>(known_[guest].states) = message;
+    port_.publish(Where::kGuest, guest, message);
   };
 }
 
 LinkHandlers LinkBus::handlers() {
   LinkHandlers handlers;
-  handlers.on_pose = [this](const GuestId& guest, const Pose& pose, MonoTime) {
-    bus_.publish(Channel::of(Signal::kPose, Where::kGuest, guest), pose);
+  handlers.on_pose = publisher<Pose>(Where::kGuest);
+  handlers.on_hands = publisher<Hands>(Where::kGuest);
+  handlers.on_skeleton = [this, keep = keeper<TimedSkeleton>()](
+                             const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
+    keep(guest, TimedSkeleton{skeleton, now, clock_id_}, now);
   };
-  handlers.on_hands = [this](const GuestId& guest, const Hands& hands, MonoTime) {
-    bus_.publish(Channel::of(Signal::kHands, Where::kGuest, guest), hands);
-  };
-  handlers.on_skeleton = [this](const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
-    known_[guest].skeleton = skeleton;
-    bus_.publish(Channel::of(Signal::kSkeleton, Where::kGuest, guest), {skeleton, now, clock_id_});
-  };
-  handlers.on_avatar = publisher<Avatar>(Signal::kAvatar, &Known::avatar);
-  handlers.on_style = publisher<Style>(Signal::kStyle, &Known::style);
-  handlers.on_placement = publisher<Placement>(Signal::kPlacement, &Known::placement);
-  handlers.on_music = [this](const GuestId& setter, const Music& music, MonoTime) {
-    bus_.publish(Channel::of(Signal::kMusic, Where::kRoom, setter), music);
-  };
+  handlers.on_avatar = keeper<Avatar>();
+  handlers.on_style = keeper<Style>();
+  handlers.on_placement = keeper<Placement>();
+  handlers.on_music = publisher<Music>(Where::kRoom);
   handlers.on_scene = [this](const GuestId& setter, const Scene& scene, MonoTime) {
     scene_.emplace(setter, scene);
-    bus_.publish(Channel::of(Signal::kScene, Where::kRoom, setter), scene);
+    port_.publish(Where::kRoom, setter, scene);
   };
   handlers.on_channel = [this](const GuestId& guest, std::string_view name, ChannelClass kind,
                                wire::Bytes message,
@@ -44,42 +47,31 @@ void LinkBus::on_channel(const GuestId& guest, std::string_view name, ChannelCla
   if (kind == ChannelClass::kState) {
     auto& channels = known_[guest].channels;
     const std::string key(channel.view());
-    // Who changes names all the time fills nobody's memory.
+    // Changing names all the time fills no memory.
     if (channels.contains(key) || channels.size() < kMaxChannelsPerGuest)
       channels[key].assign(message.begin(), message.end());
   }
   bus_.publish_raw(channel.c_str(), message.data(), message.size());
 }
 
-void LinkBus::send_captures_of(const GuestId& guest) {
-  if (!hears_beats_)
-    bus_.on_beat([this](const Channel&, const Beat& beat, MonoTime) { tag_.hear(beat); });
-  hears_beats_ = true;
-  bus_.on_pose(Where::kCapture, guest, Delivery::kEvery,
-               [this](const Channel& channel, const Pose& pose, MonoTime now) {
-                 Pose tagged = pose;
-                 tag_.tag(tagged);
-                 link_->send(channel.guest(), tagged, now);
-               });
-  bus_.on_hands(Where::kCapture, guest, Delivery::kEvery,
-                [this](const Channel& channel, const Hands& hands, MonoTime now) {
-                  link_->send(channel.guest(), hands, now);
-                });
-  bus_.on_skeleton(Where::kCapture, guest,
-                   [this](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
-                     link_->send(channel.guest(), timed.skeleton, now);
-                   });
-}
-
-void LinkBus::send_states_of(const GuestId& guest) {
+template <class... Ts>
+void LinkBus::send_each(const GuestId& guest) {
   const auto send = [this](const Channel& channel, const auto& message, MonoTime now) {
     link_->send(channel.guest(), message, now);
   };
-  bus_.on_music(Where::kCapture, guest, send);
-  bus_.on_scene(Where::kCapture, guest, send);
-  bus_.on_avatar(Where::kCapture, guest, send);
-  bus_.on_style(Where::kCapture, guest, send);
-  bus_.on_placement(Where::kCapture, guest, send);
+  (port_.subscribe<Ts>({Where::kCapture, guest}, send), ...);
+}
+
+void LinkBus::send_signals_of(const GuestId& guest) {
+  captures_.subscribe(guest, [this](const Channel& channel, const Pose& pose, MonoTime now) {
+    link_->send(channel.guest(), pose, now);
+  });
+  port_.subscribe<TimedSkeleton>(
+      {Where::kCapture, guest},
+      [this](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
+        link_->send(channel.guest(), timed.skeleton, now);
+      });
+  send_each<Hands, Music, Scene, Avatar, Style, Placement>(guest);
 }
 
 void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {
@@ -99,34 +91,29 @@ void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {
 
 void LinkBus::forget(const GuestId& guest) { known_.erase(guest); }
 
-template <class Message>
-void LinkBus::publish_known(Signal signal, const GuestId& guest, std::optional<Message>& message,
-                            MonoTime now) {
-  if (!message) return;
-  message->time = now;
-  bus_.publish(Channel::of(signal, Where::kGuest, guest), *message);
-}
-
 void LinkBus::publish_second(MonoTime now) {
   for (auto& [guest, known] : known_) {
-    if (known.skeleton)
-      bus_.publish(Channel::of(Signal::kSkeleton, Where::kGuest, guest),
-                   {*known.skeleton, now, clock_id_});
-    publish_known(Signal::kAvatar, guest, known.avatar, now);
-    publish_known(Signal::kStyle, guest, known.style, now);
-    publish_known(Signal::kPlacement, guest, known.placement, now);
+    const auto publish = [&, &of = guest](auto& state) {
+      if (!state) return;
+      if constexpr (requires { state->time; })
+        state->time = now;
+      else
+        state->capture_time = now;
+      port_.publish(Where::kGuest, of, *state);
+    };
+    std::apply([&](auto&... states) { (publish(states), ...); }, known.states);
     for (const auto& [name, message] : known.channels)
       bus_.publish_raw(name.c_str(), message.data(), message.size());
   }
   if (scene_) {
     scene_->second.time = now;
-    bus_.publish(Channel::of(Signal::kScene, Where::kRoom, scene_->first), scene_->second);
+    port_.publish(Where::kRoom, scene_->first, scene_->second);
   }
   if (link_ == nullptr) return;
   // As the clocks stand now, which is better than when it came.
   if (const auto music = link_->room_music(now))
-    bus_.publish(Channel::of(Signal::kMusic, Where::kRoom, link_->room_music_setter()), *music);
-  bus_.publish(Channel::of_program(Signal::kStats, "link"), link_->stats(now));
+    port_.publish(Where::kRoom, link_->room_music_setter(), *music);
+  port_.publish(Channel::of_program(Signal::kStats, "link"), link_->stats(now));
 }
 
 }  // namespace dance

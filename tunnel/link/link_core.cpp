@@ -7,123 +7,211 @@
 namespace dance {
 namespace {
 
-constexpr std::size_t kMostDeparted = 64;
-
-RemoteGuestStats stats_of(const RemoteGuest& remote) {
-  const StreamGate::Counters& c = remote.poses.counters();
-  return {remote.id,
-          true,
-          c.received,
-          c.lost,
-          c.late,
-          c.duplicate,
-          remote.invalid,
-          remote.reference_missing,
-          remote.skeleton_missing,
-          remote.key_frames_asked};
-}
-
-void add(const RemoteGuestStats& more, RemoteGuestStats& sum) {
-  sum.received += more.received;
-  sum.lost += more.lost;
-  sum.late += more.late;
-  sum.duplicate += more.duplicate;
-  sum.invalid += more.invalid;
-  sum.reference_missing += more.reference_missing;
-  sum.skeleton_missing += more.skeleton_missing;
-  sum.key_frames_asked += more.key_frames_asked;
-}
+constexpr Duration kHeardOfLate = Duration::ms(100);
 
 }  // namespace
 
 LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSink& sink)
-    : options_(options),
-      handlers_(std::move(handlers)),
-      sink_(sink),
-      random_(options.seed),
-      remotes_(wire::kMaxGuestsPerRoom) {
+    : link_(options, std::move(handlers), sink) {
   DANCE_ASSERT(options.token != 0);
   DANCE_ASSERT(options.room.is_set());
   DANCE_ASSERT(!options.listen_only || options.guests.empty());
-  if (options_.codecs.empty())
+  if (options.codecs.empty())
     for (const CodecName& name : known_codecs()) {
-      const bool pushed = options_.codecs.try_push(name);
+      const bool pushed = link_.options.codecs.try_push(name);
       DANCE_ASSERT(pushed);
     }
-  locals_.reserve(wire::kMaxGuestsPerLink);
-  departed_.reserve(kMostDeparted);
-  channels_.reserve(kMaxHouseChannels);
-  announce_streams();
-  for (const GuestId& id : options_.guests) add_local(id);
+  for (const GuestId& id : options.guests)
+    link_.locals.add(id, QualityByRate(options.quality_m, options.pose_bytes_per_second));
 }
 
-LocalGuest& LinkCore::add_local(const GuestId& id) {
-  LocalGuest& guest = locals_.emplace_back();
-  guest.id = id;
-  guest.quality = QualityByRate(options_.quality_m, options_.pose_bytes_per_second);
+MonoTime LinkCore::next_deadline() const {
+  return earlier(session_.next_deadline(), sender_.next_deadline());
+}
+
+MonoTime LinkCore::tick(MonoTime now) {
+  session_.update(now);
+  if (is_connected()) {
+    sender_.flush_acks(now);
+    if (session_.is_ping_due(now)) send_ping(now);
+  }
+  if (!session_.may_send(now)) link_.stream.bundle.clear();
+  sender_.flush_due(now);
+  session_.send_due_hello(now);
+  return next_deadline();
+}
+
+// From this house.
+
+LocalGuest* LinkCore::find_or_add(const GuestId& id, MonoTime now) {
+  LocalGuest* guest = link_.locals.find(id);
+  if (guest == nullptr) {
+    if (link_.options.listen_only || link_.locals.is_full()) {
+      ++(link_.options.listen_only ? link_.counters.unrouted : link_.counters.overflow);
+      return nullptr;
+    }
+    const LinkOptions& options = link_.options;
+    guest = &link_.locals.add(id, QualityByRate(options.quality_m, options.pose_bytes_per_second));
+    guest->came_with_pose = true;
+    session_.schedule_update(now);
+  }
+  guest->last_pose = now;
   return guest;
 }
 
-void LinkCore::send_datagram(wire::Bytes bytes) {
-  DANCE_ASSERT(!bytes.empty());
-  ++counters_.datagrams_out;
-  counters_.bytes_out += bytes.size() + wire::kSealOverhead;
-  sink_.send({}, bytes);
+void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
+  ++link_.counters.poses_offered;
+  LocalGuest* guest = find_or_add(id, now);
+  if (guest == nullptr) return;
+  if (session_.may_send(now) && guest->has_slot)
+    sender_.send(*guest, pose, now);
+  else
+    ++link_.counters.unrouted;
+}
+void LinkCore::send(const GuestId& id, const Hands& hands, MonoTime now) {
+  LocalGuest* guest = find_or_add(id, now);
+  if (guest != nullptr && session_.may_send(now) && guest->has_slot)
+    sender_.send(*guest, hands, now);
+}
+void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
+  if (LocalGuest* guest = find_or_add(id, now)) states_.send(*guest, skeleton, now);
+}
+void LinkCore::send(const GuestId& id, const Avatar& avatar, MonoTime now) {
+  states_.send(id, wire::StateKind::kAvatar, avatar, now);
+}
+void LinkCore::send(const GuestId& id, const Style& style, MonoTime now) {
+  states_.send(id, wire::StateKind::kStyle, style, now);
+}
+void LinkCore::send(const GuestId& id, const Placement& placement, MonoTime now) {
+  states_.send(id, wire::StateKind::kPlacement, placement, now);
+}
+void LinkCore::send(const GuestId& id, const Music& music, MonoTime now) {
+  room_.send(id, music, now);
+}
+void LinkCore::send(const GuestId& id, const Scene& scene, MonoTime now) {
+  room_.send(id, scene, now);
+}
+void LinkCore::send_channel(std::string_view name, wire::Bytes message, MonoTime now) {
+  channels_.send(name, message, now);
 }
 
-void LinkCore::deliver_state(LinkState state, MonoTime now) {
-  if (state_ == state) return;
-  state_ = state;
-  if (handlers_.on_state) handlers_.on_state(state, now);
-}
-
-// By the slot where we have one; by the name only while our own hello for it is under way, as
-// another link may have a guest of the same name, which is then not ours.
-bool LinkCore::is_ours(const wire::RosterEntry& entry) const {
-  return std::any_of(locals_.begin(), locals_.end(), [&](const LocalGuest& guest) {
-    if (guest.has_slot)
-      return guest.slot.slot == entry.slot.slot && guest.slot.generation == entry.slot.generation;
-    return guest.id == entry.guest && !guest.refused_until.is_set();
-  });
-}
-
-LocalGuest* LinkCore::find_or_add(const GuestId& id, MonoTime now) {
-  for (LocalGuest& guest : locals_) {
-    if (guest.id != id) continue;
-    guest.last_pose = now;
-    return &guest;
-  }
-  if (options_.listen_only) {
-    ++counters_.unrouted;
-    return nullptr;
-  }
-  if (locals_.size() == wire::kMaxGuestsPerLink) {
-    ++counters_.overflow;
-    return nullptr;
-  }
-  LocalGuest& guest = add_local(id);
-  guest.came_with_pose = true;
-  guest.last_pose = now;
-  schedule_update(now);
-  return &guest;
-}
+// From the server.
 
 void LinkCore::receive(wire::Bytes datagram, MonoTime received, MonoTime now) {
-  ++counters_.datagrams_in;
-  counters_.bytes_in += datagram.size() + wire::kSealOverhead;
+  ++link_.counters.datagrams_in;
+  link_.counters.bytes_in += datagram.size() + wire::kSealOverhead;
   const auto opening = wire::parse_opening(datagram);
-  if (!opening) {
-    ++counters_.rejected_datagrams;
-    return;
-  }
-  if (opening->type == wire::Type::kWelcome) return on_welcome(opening->body, received, now);
-  if (opening->type == wire::Type::kRefusal) return on_refusal(opening->body, now);
+  bool is_good = false;
+  if (opening && opening->type == wire::Type::kWelcome)
+    is_good = on_welcome(opening->body, received, now);
+  else if (opening && opening->type == wire::Type::kRefusal)
+    is_good = on_refusal(opening->body, now);
   // Anything else that comes before the welcome is of the sealed session before.
-  if (!is_welcome_ || !on_session_datagram(*opening, received, now)) ++counters_.rejected_datagrams;
+  else if (opening && session_.is_welcome())
+    is_good = on_session_datagram(*opening, received, now);
+  if (!is_good) ++link_.counters.rejected_datagrams;
+}
+
+bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime received, MonoTime now) {
+  bool is_good = false;
+  switch (opening.type) {
+    case wire::Type::kPong:
+      is_good = session_.on_pong(opening.body, received);
+      break;
+    case wire::Type::kRecords:
+      is_good = receiver_.on_records(opening.body, received, now);
+      break;
+    case wire::Type::kRoster:
+      is_good = roster_.on_roster(opening.body, now);
+      settle_interest();
+      break;
+    case wire::Type::kState:
+      is_good = states_.on_states(opening.body, now);
+      break;
+    case wire::Type::kStateAck:
+      is_good = states_.on_acks(opening.body);
+      break;
+    case wire::Type::kInterestAck:
+      is_good = on_interest_ack(opening.body);
+      break;
+    case wire::Type::kGoodbye:
+      if (!opening.body.empty()) return false;
+      session_.on_goodbye(now);
+      return true;
+    default:
+      return false;
+  }
+  if (is_good) session_.heard_server(now);
+  return is_good;
+}
+
+bool LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
+  const auto welcome = session_.parse_answer(body);
+  if (!welcome) return false;
+  const bool is_new = session_.is_new(*welcome);
+  link_.codec = welcome->codec;
+  if (is_new) begin_session();
+  session_.settle_guests(*welcome, [this](LocalGuest& guest) { sender_.begin_encoder(guest); });
+  link_.clock.add({MonoTime::from_us(welcome->link_time_us), welcome->server_receive_us,
+                   welcome->server_send_us, received});
+  if (is_new) room_.map_music();
+  session_.begin(*welcome, now);
+  send_ping(now);  // brings what was lost of the roster and the states
+  return true;
+}
+
+void LinkCore::begin_session() {
+  sender_.begin_session();
+  room_.begin_session();
+  interest_.begin(link_.options.interest.others);
+  link_.clock.reset();
+  roster_.begin_session();
+}
+
+bool LinkCore::on_refusal(wire::Bytes body, MonoTime now) {
+  // Who bears the name of a guest that is to be added is somebody else: the roster is read again.
+  const bool is_of_session = is_connected();
+  if (!session_.on_refusal(body, now)) return false;
+  if (is_of_session) roster_.forget();
+  return true;
+}
+
+// Each ping is the occasion to repeat what the server has not acknowledged.
+void LinkCore::send_ping(MonoTime now) {
+  // Where poses say both ways that the path lives, and none is lost, pings come less often.
+  const MonoTime heard = receiver_.heard_records();
+  const bool is_calm = link_.locals.count_dancing(now) > 0 && heard.is_set() &&
+                       now - heard < kHeardOfLate && link_.is_path_clean() && interest_.is_acked();
+  session_.send_ping(roster_.whole_version(), is_calm, now);
+  states_.repeat(now);
+  if (!interest_.is_acked()) tell_interest();
+}
+
+// Whom this house wants to hear.
+
+void LinkCore::set_interest(const Interest& interest, MonoTime) {
+  link_.options.interest = interest;
+  if (session_.is_welcome()) settle_interest();
+}
+
+void LinkCore::settle_interest() {
+  if (interest_.change(link_.remotes.interest_list(link_.options.interest)) && is_connected())
+    tell_interest();
+}
+
+void LinkCore::tell_interest() {
+  std::array<std::uint8_t, wire::kMaxHello> out;
+  link_.send({out.data(), wire::build(interest_.list(), out)});
+}
+
+bool LinkCore::on_interest_ack(wire::Bytes body) {
+  const auto version = wire::parse_interest_ack(body);
+  if (version) interest_.take_ack(*version);
+  return version.has_value();
 }
 
 void LinkCore::fill(Stats& stats) const {
-  const LinkCounters& c = counters_;
+  const LinkCounters& c = link_.counters;
   const auto as_signed = [](std::uint64_t n) { return static_cast<std::int64_t>(n); };
   stats.received = as_signed(c.poses_offered + c.poses_received);
   stats.forwarded = as_signed(c.poses_sent + c.poses_delivered);
@@ -133,12 +221,10 @@ void LinkCore::fill(Stats& stats) const {
   stats.dropped_overflow = as_signed(c.overflow);
   stats.lost = 0;
   stats.guests = 0;
-  for (const RemoteGuest& remote : remotes_) {
-    if (!remote.in_use || remote.is_ours) continue;
-    ++stats.guests;
-    stats.lost += as_signed(remote.poses.counters().lost);
+  for (const RemoteGuestStats& guest : remote_stats()) {
+    if (guest.is_here) ++stats.guests;
+    stats.lost += as_signed(guest.lost);
   }
-  for (const RemoteGuestStats& departed : departed_) stats.lost += as_signed(departed.lost);
   stats.bytes_in = as_signed(c.bytes_in);
   stats.bytes_out = as_signed(c.bytes_out);
   stats.datagrams_in = as_signed(c.datagrams_in);
@@ -146,44 +232,8 @@ void LinkCore::fill(Stats& stats) const {
   stats.rejected_datagrams = as_signed(c.rejected_datagrams);
   stats.sessions = is_connected() ? 1 : 0;
   stats.reconnects = as_signed(c.reconnects);
-  stats.round_trip = clock_.newest_round_trip();
-  stats.clock_offset = clock_.offset();
-}
-
-// Before a guest's counting begins anew: it left, or it came back in another slot or session.
-void LinkCore::keep_counts(const RemoteGuest& remote) {
-  if (!remote.in_use || remote.is_ours) return;
-  RemoteGuestStats counts = stats_of(remote);
-  counts.is_here = false;
-  for (RemoteGuestStats& known : departed_)
-    if (known.guest == counts.guest) return add(counts, known);
-  if (departed_.size() == kMostDeparted) departed_.erase(departed_.begin());
-  departed_.push_back(counts);
-}
-
-std::vector<RemoteGuestStats> LinkCore::remote_stats() const {
-  std::vector<RemoteGuestStats> all = departed_;
-  for (const RemoteGuest& remote : remotes_) {
-    if (!remote.in_use || remote.is_ours) continue;
-    const auto known = std::find_if(all.begin(), all.end(), [&](const RemoteGuestStats& stats) {
-      return stats.guest == remote.id;
-    });
-    if (known == all.end()) {
-      all.push_back(stats_of(remote));
-    } else {
-      add(stats_of(remote), *known);
-      known->is_here = true;
-    }
-  }
-  return all;
-}
-
-std::vector<LocalGuestStats> LinkCore::local_stats() const {
-  std::vector<LocalGuestStats> all;
-  for (const LocalGuest& guest : locals_)
-    all.push_back({guest.id, guest.policy.current(), guest.sent, guest.acked, guest.key_frames_sent,
-                   guest.quality.quality_m()});
-  return all;
+  stats.round_trip = link_.clock.newest_round_trip();
+  stats.clock_offset = link_.clock.offset();
 }
 
 }  // namespace dance

@@ -1,12 +1,37 @@
 #include "tunnel/link/link_guests.h"
 
-#include <string>
+#include <algorithm>
 
 namespace dance {
 namespace {
 
 // A gap this long (100 s at 60 Hz) is a producer with another count, not a loss.
 constexpr std::int32_t kLongestGap = 6000;
+constexpr Duration kStillDancing = Duration::ms(100);
+constexpr Duration kSilentGuestStays = Duration::s(10);
+constexpr std::size_t kMostDeparted = 64;
+
+RemoteGuestStats stats_of(const RemoteGuest& remote) {
+  RemoteGuestStats stats = remote.counts;
+  const StreamGate::Counters& c = remote.heard.poses.counters();
+  stats.guest = remote.id;
+  stats.received = c.received;
+  stats.lost = c.lost;
+  stats.late = c.late;
+  stats.duplicate = c.duplicate;
+  return stats;
+}
+
+void add(const RemoteGuestStats& more, RemoteGuestStats& sum) {
+  sum.received += more.received;
+  sum.lost += more.lost;
+  sum.late += more.late;
+  sum.duplicate += more.duplicate;
+  sum.invalid += more.invalid;
+  sum.reference_missing += more.reference_missing;
+  sum.skeleton_missing += more.skeleton_missing;
+  sum.key_frames_asked += more.key_frames_asked;
+}
 
 }  // namespace
 
@@ -28,6 +53,106 @@ bool StreamTag::advance(std::uint32_t sequence, MonoTime capture, std::uint64_t 
   return true;
 }
 
+LocalGuest& LocalGuests::add(const GuestId& id, const QualityByRate& quality) {
+  LocalGuest& guest = guests_.emplace_back();
+  guest.id = id;
+  guest.quality = quality;
+  return guest;
+}
+
+bool LocalGuests::evict_silent(MonoTime now) {
+  return std::erase_if(guests_, [&](const LocalGuest& guest) {
+           return guest.came_with_pose && now - guest.last_pose > kSilentGuestStays;
+         }) > 0;
+}
+
+LocalGuest* LocalGuests::find(const GuestId& id) {
+  const auto found = std::find_if(begin(), end(), [&](const auto& g) { return g.id == id; });
+  return found == end() ? nullptr : &*found;
+}
+
+LocalGuest* LocalGuests::find_slot(std::uint8_t slot) {
+  const auto found = std::find_if(begin(), end(), [&](const LocalGuest& guest) {
+    return guest.has_slot && guest.slot.slot == slot;
+  });
+  return found == end() ? nullptr : &*found;
+}
+
+std::size_t LocalGuests::count_dancing(MonoTime now) const {
+  return static_cast<std::size_t>(std::count_if(begin(), end(), [&](const LocalGuest& guest) {
+    return guest.has_slot && now - guest.last_pose < kStillDancing;
+  }));
+}
+
+// By the slot where we have one; by the name only while our own hello for it is under way, as
+// another link may have a guest of the same name, which is then not ours.
+bool LocalGuests::is_ours(const wire::RosterEntry& entry) const {
+  return std::any_of(guests_.begin(), guests_.end(), [&](const LocalGuest& guest) {
+    if (guest.has_slot)
+      return guest.slot.slot == entry.slot.slot && guest.slot.generation == entry.slot.generation;
+    return guest.id == entry.guest && !guest.refused_until.is_set();
+  });
+}
+
+std::vector<LocalGuestStats> LocalGuests::stats() const {
+  std::vector<LocalGuestStats> all;
+  for (const LocalGuest& guest : guests_)
+    all.push_back({guest.id, guest.references.references(), guest.references.sent(),
+                   guest.references.acked(), guest.references.intra_asked(),
+                   guest.quality.quality_m()});
+  return all;
+}
+
+RemoteGuests::RemoteGuests() : guests_(wire::kMaxGuestsPerRoom) {
+  departed_.reserve(kMostDeparted);
+}
+
+bool RemoteGuests::is_present(const GuestId& id) const {
+  return std::any_of(begin(), end(), [&](const RemoteGuest& guest) {
+    return guest.in_use && !guest.is_ours && guest.id == id;
+  });
+}
+
+wire::InterestList RemoteGuests::interest_list(const Interest& interest) const {
+  wire::InterestList list;
+  list.default_divider = interest.others;
+  for (const RemoteGuest& guest : guests_) {
+    if (!guest.in_use || guest.is_ours) continue;
+    const std::uint8_t divider = interest.divider_of(guest.id);
+    if (divider == list.default_divider) continue;
+    (void)list.entries.try_push(  // as many as there are slots
+        {{slot_of(guest), guest.generation}, divider});
+  }
+  return list;
+}
+
+void RemoteGuests::keep_counts(const RemoteGuest& remote) {
+  if (!remote.in_use || remote.is_ours) return;
+  RemoteGuestStats counts = stats_of(remote);
+  counts.is_here = false;
+  for (RemoteGuestStats& known : departed_)
+    if (known.guest == counts.guest) return add(counts, known);
+  if (departed_.size() == kMostDeparted) departed_.erase(departed_.begin());
+  departed_.push_back(counts);
+}
+
+std::vector<RemoteGuestStats> RemoteGuests::stats() const {
+  std::vector<RemoteGuestStats> all = departed_;
+  for (const RemoteGuest& remote : guests_) {
+    if (!remote.in_use || remote.is_ours) continue;
+    const auto known = std::find_if(all.begin(), all.end(), [&](const RemoteGuestStats& stats) {
+      return stats.guest == remote.id;
+    });
+    if (known == all.end()) {
+      all.push_back(stats_of(remote));
+    } else {
+      add(stats_of(remote), *known);
+      known->is_here = true;
+    }
+  }
+  return all;
+}
+
 bool RosterAssembly::take(const wire::RosterPart& part) {
   if (version_ != 0 && sequence_ahead(version_, part.version) < 0) return false;
   if (part.version != version_) {
@@ -38,81 +163,6 @@ bool RosterAssembly::take(const wire::RosterPart& part) {
   const std::uint32_t all = part.parts >= 32 ? ~0u : (1u << part.parts) - 1;
   if ((parts_seen_ & all) == all) whole_ = version_;
   return true;
-}
-
-std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomName& room) {
-  const std::string room_name(room.view());
-  const std::string guest(refusal.guest.view());
-  switch (refusal.cause) {
-    case wire::Refusal::kVersion:
-      return "the server speaks version " + std::to_string(refusal.server_version) +
-             " of the wire format, this link version " + std::to_string(wire::kWireVersion) +
-             ": update the older of the two";
-    case wire::Refusal::kBadName:
-      return std::string("the server does not take a name: ") + kGuestIdRule +
-             ", and each may be named once; so is a room";
-    case wire::Refusal::kNameTaken:
-      return "guest '" + guest + "' is in room '" + room_name +
-             "' already through another link: choose another --guest, or end the other link";
-    case wire::Refusal::kRoomFull:
-      return "room '" + room_name +
-             "' is full: wait for somebody to leave, or choose another --room";
-    case wire::Refusal::kListenersFull:
-      return "room '" + room_name +
-             "' has as many listeners as the server allows: wait for one to leave, or ask its "
-             "keeper for more --max-listeners";
-    case wire::Refusal::kOnlyListens:
-      return "this house's key only listens: join without --guest (dance link: with "
-             "--listen-only), or ask the server's keeper for a key that dances";
-    case wire::Refusal::kServerFull:
-      return "the server has no place for another link or room: try later, or start it with more "
-             "--max-sessions or --max-rooms";
-    case wire::Refusal::kCodec:
-      return "room '" + room_name +
-             "' speaks a pose codec that this link does not know: update this link";
-    case wire::Refusal::kNotAllowedRoom:
-      return "this house's key does not open room '" + room_name +
-             "': ask the server's keeper for a key to it, or choose the --room of your key";
-    case wire::Refusal::kNotAllowedName:
-      return "this house's key does not allow a guest '" + guest +
-             "': ask the server's keeper for a key of that name, or choose the --guest of your "
-             "key";
-  }
-  return "the server refused for a cause that this link does not know: update this link";
-}
-
-std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict) {
-  const std::string what = kind == wire::StateKind::kMusic ? "music" : "scene";
-  if (verdict == wire::StateVerdict::kOverruled)
-    return "somebody else has set the room's " + what + "; set another one to change it again";
-  return "this house may not set the room's " + what +
-         ": a host is there, or this house only listens; ask the host";
-}
-
-std::string no_entry_line(SealTrouble trouble, const std::string& server) {
-  switch (trouble) {
-    case SealTrouble::kWrongKey:
-      return "the server " + server +
-             " does not know this house's key: ask its keeper for a line, and paste it into: dance "
-             "key";
-    case SealTrouble::kNotTrusted:
-      return "the server " + server +
-             " and this house cannot agree: one of the certificates is not signed by whom the "
-             "other "
-             "trusts, or the server takes keys only, or speaks another version";
-    case SealTrouble::kInterrupted:
-      return "the server " + server +
-             " answers, and then no more: is there a firewall on the way, or a line that loses "
-             "nearly everything?";
-    case SealTrouble::kNoAnswer:
-      break;
-  }
-  return "the server " + server + " does not answer";
-}
-
-std::string no_answer_line(const Address& server) {
-  return server.to_string() +
-         " does not answer: is `dance server` running there, and its UDP port open? Trying on";
 }
 
 }  // namespace dance

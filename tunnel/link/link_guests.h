@@ -6,23 +6,31 @@
 // Failure:      StreamTag::advance() is false for what is not newer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "core/base/token_bucket.h"
 #include "core/codec/hands_codec.h"
 #include "core/codec/plain_codec.h"
 #include "core/codec/pose_codec.h"
 #include "core/codec/quality_by_rate.h"
 #include "tunnel/link/link_options.h"
-#include "tunnel/link/link_states.h"
-#include "tunnel/session/held_frames.h"
-#include "tunnel/session/reference_policy.h"
+#include "tunnel/session/reference_control.h"
 #include "tunnel/session/repetition.h"
+#include "tunnel/session/state_replicator.h"
 #include "tunnel/session/stream_gate.h"
 
 namespace dance {
+
+// Of two deadlines, of which either may not be set.
+constexpr MonoTime earlier(MonoTime a, MonoTime b) {
+  if (!a.is_set()) return b;
+  return b.is_set() ? std::min(a, b) : a;
+}
 
 // Tells a producer that began anew (its sequence starts over, or leaps, while capture goes on) from
 // a pose that is merely old. Each new start is a new stream.
@@ -41,6 +49,16 @@ class StreamTag {
   std::uint64_t restarts_ = 0;
 };
 
+// One further channel of a guest of another house; without a rule its records go no further.
+struct RemoteChannel {
+  bool is_named = false;
+  ForeignName name;
+  const ChannelRule* rule = nullptr;
+  TokenBucket messages;
+  bool has_any = false;
+  std::uint32_t sequence = 0;
+};
+
 struct LocalGuest {
   GuestId id;
   bool has_slot = false;
@@ -52,34 +70,42 @@ struct LocalGuest {
   StreamTag hands;
   std::unique_ptr<PoseEncoder> encoder;
   QualityByRate quality;
-  ReferencePolicy policy;
-  References references = policy.current();  // as the encoder was told
-  Duration frame = Duration::us(16'667);     // between captures, as it is of late
-  MonoTime last_capture;
-  HeldFrames sent_frames;        // what there is to acknowledge,
-  HeldFrames acked_frames;       // and what the encoder was told of it
-  HeldFrames base_acked_frames;  // the same, of those too who get only base frames
-  // For receivers who want less than all: each 2^n-th pose is a base frame (0: none), or needs no
-  // other.
-  std::uint8_t base_log2 = 0;
-  std::uint8_t still_log2 = kFewestStills_log2;
-  MonoTime still_at;              // the newest that needed no other, whatever for,
-  std::uint32_t since_still = 0;  // and the poses since then
-  std::uint32_t last_sequence = 0;
-  std::uint8_t key_frames_seen = 0;  // the server's count
-  MonoTime key_frame_at;
-  MonoTime acked_at;            // when the encoder was last told of a frame that all have
+  ReferenceControl references;
   std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
   SentPose previous;            // goes once more where the way loses some
-  std::uint64_t sent = 0;
-  std::uint64_t acked = 0;
-  std::uint64_t key_frames_sent = 0;
   // Skeleton, avatar, style and placement, by wire::place_of().
-  std::array<OwnState, wire::kFirstChannelPlace> states;
-  // What this guest wished for the room last: programs say it again each second, which is no new
-  // wish.
-  std::optional<Music> wished_music;  // in our clock
-  std::optional<Scene> wished_scene;
+  std::array<ReplicatedState, wire::kFirstChannelPlace> states;
+  // What this guest requested for the room last: programs say it again each second, which is no new
+  // request.
+  std::optional<Music> requested_music;  // in our clock
+  std::optional<Scene> requested_scene;
+};
+
+// The guests of this house.
+class LocalGuests {
+ public:
+  LocalGuests() { guests_.reserve(wire::kMaxGuestsPerLink); }
+
+  auto begin() { return guests_.begin(); }
+  auto end() { return guests_.end(); }
+  auto begin() const { return guests_.begin(); }
+  auto end() const { return guests_.end(); }
+  LocalGuest& operator[](std::size_t place) { return guests_[place]; }
+  std::size_t size() const { return guests_.size(); }
+  bool is_full() const { return guests_.size() == wire::kMaxGuestsPerLink; }
+
+  LocalGuest& add(const GuestId& id, const QualityByRate& quality);
+  // Those who came with a pose and whose producers have ended give their names back to the room.
+  bool evict_silent(MonoTime now);
+  LocalGuest* find(const GuestId& id);
+  LocalGuest* find_slot(std::uint8_t slot);
+  // Guests of whom something came of late: whose records are worth waiting for.
+  std::size_t count_dancing(MonoTime now) const;
+  bool is_ours(const wire::RosterEntry& entry) const;
+  std::vector<LocalGuestStats> stats() const;
+
+ private:
+  std::vector<LocalGuest> guests_;  // reserved
 };
 
 struct RemoteGuest {
@@ -87,20 +113,47 @@ struct RemoteGuest {
   bool is_ours = false;
   GuestId id;
   std::uint16_t generation = 0;
-  StreamGate poses;
-  StreamGate hands;
-  bool has_decoded = false;  // some pose, since the gates were new
-  MonoTime shown;            // capture of the newest that went on, of this generation
-  std::uint64_t invalid = 0;
-  std::uint64_t reference_missing = 0;
-  std::uint64_t skeleton_missing = 0;
-  std::uint64_t key_frames_asked = 0;
+  // What was heard in this session and slot.
+  struct Heard {
+    StreamGate poses;
+    StreamGate hands;
+    bool has_decoded = false;                                        // some pose
+    std::array<std::uint32_t, wire::kGuestStates> state_versions{};  // 0 = not heard yet
+    std::array<RemoteChannel, kMaxChannelsPerGuest> channels;
+  };
+  Heard heard;
+  MonoTime shown;           // capture of the newest pose that went on, of this generation
+  RemoteGuestStats counts;  // of this generation, but for what the gates count
   MonoTime key_asked_at;
-  std::array<std::uint32_t, wire::kGuestStates> state_versions{};  // 0 = not heard yet
-  std::array<RemoteChannel, kMaxChannelsPerGuest> channels;
   bool has_skeleton = false;  // of this guest, of this session or one before
   Skeleton skeleton;
   std::unique_ptr<PoseDecoder> decoder;
+};
+
+// The guests of the other houses, by slot; and the counts of those who left or got another slot, so
+// that a summary at the end has everybody.
+class RemoteGuests {
+ public:
+  RemoteGuests();
+
+  auto begin() { return guests_.begin(); }
+  auto end() { return guests_.end(); }
+  auto begin() const { return guests_.begin(); }
+  auto end() const { return guests_.end(); }
+  RemoteGuest& operator[](std::size_t slot) { return guests_[slot]; }
+  std::uint8_t slot_of(const RemoteGuest& guest) const {
+    return static_cast<std::uint8_t>(&guest - guests_.data());
+  }
+  bool is_present(const GuestId& id) const;
+  // Whose divider differs from that of those who are not named.
+  wire::InterestList interest_list(const Interest& interest) const;
+  // Before a guest's counting begins anew: it left, or it came back in another slot or session.
+  void keep_counts(const RemoteGuest& guest);
+  std::vector<RemoteGuestStats> stats() const;
+
+ private:
+  std::vector<RemoteGuest> guests_;
+  std::vector<RemoteGuestStats> departed_;  // reserved; the oldest makes room
 };
 
 // Puts the parts of a roster together, newest version first.
@@ -109,7 +162,6 @@ class RosterAssembly {
   // False for a part that is older than what is there.
   bool take(const wire::RosterPart& part);
   std::uint32_t whole_version() const { return whole_; }  // 0 = none
-  void reset() { *this = RosterAssembly(); }
 
  private:
   std::uint32_t version_ = 0;

@@ -110,19 +110,14 @@ Result<void> run_link(const LinkProgramOptions& given) {
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto bus, Bus::open(bus_url_or_default(given.bus)));
-  LinkBus link_bus(*bus, options.clock_id);
+  Captures captures(*bus, options.clock_id);
+  LinkBus link_bus(*bus, captures, options.clock_id);
   LinkHandlers handlers = link_bus.handlers();
   add_talk(handlers, link_bus, given, options.room);
   DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
   link_bus.attach(*link);
-  if (options.guests.empty() && !options.listen_only) {
-    link_bus.send_captures_of(GuestId());
-    link_bus.send_states_of(GuestId());
-  }
-  for (const GuestId& guest : options.guests) {
-    link_bus.send_captures_of(guest);
-    link_bus.send_states_of(guest);
-  }
+  if (options.guests.empty() && !options.listen_only) link_bus.send_signals_of(GuestId());
+  for (const GuestId& guest : options.guests) link_bus.send_signals_of(guest);
   if (!options.listen_only) link_bus.send_channels(options.channels);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();

@@ -21,7 +21,8 @@
 #include "core/pose/skeleton.h"
 #include "tunnel/policy/channel_rule.h"
 #include "tunnel/seal/seal_trouble.h"
-#include "tunnel/session/interest.h"
+#include "tunnel/session/pose_share.h"
+#include "tunnel/session/reference_policy.h"
 #include "tunnel/wire/wire.h"
 #include "tunnel/wire/wire_state.h"
 
@@ -154,13 +155,6 @@ struct LocalGuestStats {
   std::uint64_t acked = 0;  // frames that every receiver has
   std::uint64_t key_frames_sent = 0;
   double quality_m = 0.001;
-};
-// What the server said last about the way to the receivers.
-struct PathStats {
-  bool is_known = false;
-  double loss = 0.0;      // share, to the worst receiver
-  double in_a_row = 0.0;  // the share that is lost together with the datagram before it
-  Duration round_trip;
 };
 
 // One line: what was refused, why, and the cure.

@@ -1,88 +1,44 @@
-// What a link keeps of the states that it tells and hears: its own until the server has them, the
-// room's that it wishes for and that hold, and the further channels of its house and of the others.
+// States of guests, both ways: those of this house are told until the server has them, those of
+// the others are heard and acknowledged. What is the room's, or of a further channel, goes on to
+// its part.
 //
-// Units/frames: as in tunnel/wire/wire_state.h; music in the server's clock.
-// Ownership:    plain values; rules are the link's.
-// Threads:      none inside.
-// Failure:      none.
+// Units/frames: now is MonoTime of this house's clock.
+// Ownership:    refers to the link's context and parts.
+// Threads:      none inside; one owner.
+// Failure:      impossible values are counted and dropped.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-
-#include "core/base/assert.h"
-#include "core/base/token_bucket.h"
-#include "core/bus/state_messages.h"
-#include "tunnel/wire/wire_state.h"
+#include "tunnel/link/link_channels.h"
+#include "tunnel/link/link_room.h"
 
 namespace dance {
 
-// The newest version of one state of ours, repeated until the server has it.
-struct OwnState {
-  std::uint32_t version = 0;  // our own count of changes; 0 = none yet
-  std::uint32_t acked = 0;
-  bool is_refused = false;  // until it changes
-  std::uint16_t size = 0;
-  std::array<std::uint8_t, wire::kMaxStatePayload> payload;
+class LinkStates {
+ public:
+  LinkStates(LinkContext& link, LinkRoom& room, LinkChannels& channels)
+      : link_(link), room_(room), channels_(channels) {}
 
-  wire::Bytes bytes() const { return {payload.data(), size}; }
-  bool is_due() const { return version != 0 && version != acked && !is_refused; }
-  // False where it is what it was.
-  bool set(wire::Bytes bytes) {
-    DANCE_ASSERT(bytes.size() <= payload.size(), bytes.size());
-    if (version != 0 &&
-        std::equal(bytes.begin(), bytes.end(), payload.begin(), payload.begin() + size))
-      return false;
-    std::copy(bytes.begin(), bytes.end(), payload.begin());
-    size = static_cast<std::uint16_t>(bytes.size());
-    if (++version == 0) version = 1;
-    is_refused = false;
-    return true;
-  }
-};
+  void send(LocalGuest& guest, const Skeleton& skeleton, MonoTime now);
+  // Avatar, style, placement.
+  template <class Message>
+  void send(const GuestId& id, wire::StateKind kind, const Message& message, MonoTime now);
+  // What the server has not acknowledged.
+  void repeat(MonoTime now);
 
-// What a guest of this house wants the room's music or scene to be. It stands until somebody else
-// has set it.
-struct RoomWish {
-  GuestId setter;  // not set: no wish
-  bool is_alive = false;
-  // It was wished before the room's was known: its version may have to be raised, once.
-  bool is_blind = false;
-  OwnState state;
-};
+  bool on_states(wire::Bytes body, MonoTime now);
+  bool on_acks(wire::Bytes body);
 
-// What the room's music or scene is.
-struct RoomHeld {
-  GuestId setter;
-  std::uint32_t version = 0;  // of this session; 0 = not heard yet
-};
+ private:
+  void tell(LocalGuest& guest, wire::StateKind kind, const ReplicatedState& state, MonoTime now);
+  bool on_guest_state(const wire::State& state, MonoTime now);
+  bool deliver(RemoteGuest& remote, const wire::State& state, MonoTime now);
+  template <class Message, class Handler>
+  bool deliver_message(const GuestId& id, wire::Bytes payload, const Handler& handler,
+                       MonoTime now);
 
-// Of all guests of a house together.
-constexpr std::size_t kMaxHouseChannels = 32;
-
-// One further channel of this house.
-struct HouseChannel {
-  ForeignName name;
-  const ChannelRule* rule = nullptr;
-  TokenBucket changes;
-  // Whose it is at the server, once that guest has a slot there.
-  bool is_bound = false;
-  wire::Slot slot;
-  std::uint8_t index = 0;
-  OwnState state;  // of class newest: its name
-  std::uint32_t sent_version = 0;
-  std::uint32_t sequence = 0;
-};
-
-// One further channel of a guest of another house; without a rule its records go no further.
-struct RemoteChannel {
-  bool is_named = false;
-  ForeignName name;
-  const ChannelRule* rule = nullptr;
-  TokenBucket messages;
-  bool has_any = false;
-  std::uint32_t sequence = 0;
+  LinkContext& link_;
+  LinkRoom& room_;
+  LinkChannels& channels_;
 };
 
 }  // namespace dance

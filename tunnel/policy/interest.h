@@ -1,6 +1,6 @@
 // Which guests a house wants to hear, and how often: a divider for each, and one for all others.
 // One way to write it, on the command line (--want) and in session files (want);
-// tunnel/session/interest.h says what comes of it.
+// tunnel/session/pose_share.h says what comes of it.
 //
 // Units/frames: a divider: 0 = nothing of this guest, 1 = every pose, n = at most every n-th.
 // Ownership:    plain values of fixed size, no allocation; parse_interest() is not for the pose

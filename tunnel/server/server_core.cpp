@@ -11,119 +11,95 @@ constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below
 constexpr Duration kTick = Duration::ms(100);
 // What a link has not acknowledged; the rest comes with the next pong.
 constexpr std::size_t kStateDatagramsPerPong = 32;
+constexpr std::size_t kStateDatagramsPerWelcome = 64;
 
 }  // namespace
 
-ServerCore::ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& sink)
-    : limits_(limits),
-      random_(std::move(random)),
-      sink_(sink),
-      sessions_(limits.sessions),
-      rooms_(limits.rooms) {
-  DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
-  hellos_.fill(TokenBucket(limits.hellos_per_second, limits.hello_burst));
-  by_peer_.reserve(limits.sessions);
-  newcomers_.reserve(limits.sessions);
-  bundled_.reserve(limits.sessions);
-  reporting_.reserve(limits.sessions);
-  astir_.reserve(limits.rooms);
-  for (ServerRoom& room : rooms_) room.members.reserve(limits.sessions);
-}
-
 std::size_t ServerCore::room_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(rooms_.begin(), rooms_.end(), [](const auto& room) { return room.in_use; }));
+  return static_cast<std::size_t>(std::count_if(server_.rooms.begin(), server_.rooms.end(),
+                                                [](const auto& room) { return room.in_use; }));
 }
 
 std::size_t ServerCore::guest_count() const {
   std::size_t count = 0;
-  for (const ServerSession& session : sessions_)
+  for (const ServerSession& session : server_.sessions)
     if (session.in_use) count += session.slots.size();
   return count;
 }
 
 std::size_t ServerCore::listener_count() const {
   return static_cast<std::size_t>(
-      std::count_if(sessions_.begin(), sessions_.end(),
+      std::count_if(server_.sessions.begin(), server_.sessions.end(),
                     [](const auto& session) { return session.in_use && session.slots.empty(); }));
-}
-
-void ServerCore::send(PeerId to, wire::Bytes bytes) {
-  ++counters_.datagrams_out;
-  const std::size_t size = bytes.size() + wire::kSealOverhead;
-  counters_.bytes_out += size;
-  if (const auto found = by_peer_.find(to); found != by_peer_.end())
-    sessions_[found->second].meter.went_out(size);
-  sink_.send(to, bytes);
 }
 
 void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram, MonoTime received,
                          MonoTime now) {
   DANCE_ASSERT(from != 0);
-  ++counters_.datagrams_in;
-  counters_.bytes_in += datagram.size() + wire::kSealOverhead;
+  ++server_.counters.datagrams_in;
+  server_.counters.bytes_in += datagram.size() + wire::kSealOverhead;
   const auto opening = wire::parse_opening(datagram);
-  if (!opening) return reject(ServerReject::kTooShort);
-  const auto found = by_peer_.find(from);
-  if (found != by_peer_.end()) {
-    ServerSession& session = sessions_[found->second];
+  if (!opening) return server_.reject(ServerReject::kTooShort);
+  const auto found = server_.by_peer.find(from);
+  if (found != server_.by_peer.end()) {
+    ServerSession& session = server_.sessions[found->second];
     if (!session.datagrams.take(1.0, now) ||
         !session.bytes.take(static_cast<double>(datagram.size()), now))
-      return reject(ServerReject::kSessionRate);
+      return server_.reject(ServerReject::kSessionRate);
     session.meter.came_in(datagram.size() + wire::kSealOverhead, now);
   }
   if (opening->type == wire::Type::kHello)
-    return on_hello(from, access, opening->body, received, now);
+    return admission_.on_hello(from, access, opening->body, received, now);
   // Its session fell silent and was dropped. What is still under way to it may hide that.
-  if (found == by_peer_.end()) {
-    if (opening->type == wire::Type::kPing) send_away(from);
-    return reject(ServerReject::kNoSession);
+  if (found == server_.by_peer.end()) {
+    if (opening->type == wire::Type::kPing) send_goodbye(from);
+    return server_.reject(ServerReject::kNoSession);
   }
   on_session_datagram(found->second, *opening, received, now);
 }
 
 void ServerCore::forget(PeerId peer) {
-  const auto found = by_peer_.find(peer);
-  if (found != by_peer_.end()) drop_session(found->second);
+  const auto found = server_.by_peer.find(peer);
+  if (found != server_.by_peer.end()) admission_.drop(found->second);
 }
 
 void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& opening,
                                      MonoTime received, MonoTime now) {
-  ServerSession& session = sessions_[index];
+  ServerSession& session = server_.sessions[index];
   session.last_heard = now;
   ++session.datagrams_received;
   switch (opening.type) {
     case wire::Type::kPing:
       return on_ping(index, opening.body, received, now);
     case wire::Type::kRecords:
-      return on_records(index, opening.body, received, now);
+      return forwarder_.on_records(index, opening.body, received, now);
     case wire::Type::kState:
-      return on_states(index, opening.body, now);
+      return states_.on_states(index, opening.body, now);
     case wire::Type::kStateAck:
-      return on_state_acks(index, opening.body);
+      return states_.on_acks(index, opening.body);
     case wire::Type::kInterest:
-      return on_interest(index, opening.body, now);
+      return interest_.on_interest(index, opening.body, now);
     case wire::Type::kGoodbye:
-      if (!opening.body.empty()) return reject(ServerReject::kMalformed);
-      ++counters_.goodbyes;
-      return drop_session(index);
+      if (!opening.body.empty()) return server_.reject(ServerReject::kMalformed);
+      ++server_.counters.goodbyes;
+      return admission_.drop(index);
     default:
-      return reject(ServerReject::kUnknownType);
+      return server_.reject(ServerReject::kUnknownType);
   }
 }
 
-// It says hello at once, instead of when it has heard nothing for long.
-void ServerCore::send_away(PeerId peer) {
+// The link says hello at once, instead of when it has heard nothing for long.
+void ServerCore::send_goodbye(PeerId peer) {
   std::array<std::uint8_t, wire::kSessionHeader> out;
-  send(peer, {out.data(), wire::build_bare(wire::Type::kGoodbye, out)});
+  server_.send(peer, {out.data(), wire::build_bare(wire::Type::kGoodbye, out)});
 }
 
 void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received, MonoTime now) {
   const auto ping = wire::parse_ping(body);
-  if (!ping) return reject(ServerReject::kMalformed);
-  ServerSession& session = sessions_[index];
+  if (!ping) return server_.reject(ServerReject::kMalformed);
+  ServerSession& session = server_.sessions[index];
   // Its welcome was lost, or is under way still.
-  if (ping->epoch != static_cast<std::uint32_t>(session.epoch)) return send_away(session.peer);
+  if (ping->epoch != static_cast<std::uint32_t>(session.epoch)) return send_goodbye(session.peer);
   session.newest_ping = *ping;
   session.knows_epoch = true;
   wire::Pong pong;
@@ -134,22 +110,17 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   pong.server_send_us = std::max(now, received).since_zero_us();
   pong.datagrams_received = session.datagrams_received;
   std::array<std::uint8_t, 64> out;
-  send(session.peer, {out.data(), wire::build(pong, out)});
+  server_.send(session.peer, {out.data(), wire::build(pong, out)});
 
   // Each ping is the occasion to repeat what the link has not acknowledged.
-  const ServerRoom& room = rooms_[session.room];
+  const ServerRoom& room = server_.rooms[session.room];
   if (ping->roster_version != room.roster_version) send_roster(session);
-  send_states(index, false, kStateDatagramsPerPong);
-  repeat_kept(index, now);
-}
-
-ServerGuest* ServerCore::guest_of(std::size_t session, std::uint8_t slot) {
-  ServerGuest& guest = rooms_[sessions_[session].room].guests[slot];
-  return guest.in_use && guest.owner == session ? &guest : nullptr;
+  states_.send(index, false, kStateDatagramsPerPong);
+  forwarder_.repeat_retained(index, now);
 }
 
 void ServerCore::send_roster(const ServerSession& session) {
-  const ServerRoom& room = rooms_[session.room];
+  const ServerRoom& room = server_.rooms[session.room];
   constexpr std::uint8_t kSpan = wire::kSlotsPerRosterPart;
   constexpr auto kParts = static_cast<std::uint8_t>(wire::kMaxGuestsPerRoom / kSpan);
   for (std::uint8_t part = 0; part < kParts; ++part) {
@@ -169,73 +140,47 @@ void ServerCore::send_roster(const ServerSession& session) {
     std::array<std::uint8_t, wire::kMaxPlain> out;
     const std::size_t size = wire::build(roster, out);
     DANCE_ASSERT(size > 0);
-    send(session.peer, {out.data(), size});
+    server_.send(session.peer, {out.data(), size});
   }
-}
-
-void ServerCore::stir(ServerRoom& room) {
-  if (std::exchange(room.is_astir, true)) return;
-  astir_.push_back(static_cast<std::size_t>(&room - rooms_.data()));
 }
 
 void ServerCore::end_turn(MonoTime now) {
-  for (const std::size_t i : astir_) {
-    ServerRoom& room = rooms_[i];
+  for (const std::size_t i : server_.changed_rooms) {
+    ServerRoom& room = server_.rooms[i];
     if (!room.roster_changed) continue;
     room.roster_changed = false;
     for (const std::size_t member : room.members) {
-      settle_interest(member, now);
-      if (!is_newcomer(member)) send_roster(sessions_[member]);  // else below
+      interest_.settle(member, now);
+      if (!server_.is_newcomer(member)) send_roster(server_.sessions[member]);  // else below
     }
   }
   // Those who dance come first: what a newcomer is told may be much.
-  flush_due(now);
-  if (!newcomers_.empty()) {
-    for (const std::size_t newcomer : newcomers_) greet(newcomer, now);
-    newcomers_.clear();
-    flush_due(now);
+  forwarder_.flush_due(now);
+  if (!server_.newcomers.empty()) {
+    for (const std::size_t newcomer : server_.newcomers) greet(newcomer, now);
+    server_.newcomers.clear();
+    forwarder_.flush_due(now);
   }
   // Last, so that nothing waits for them.
-  for (const std::size_t i : astir_)
-    if (rooms_[i].has_fresh_states && now >= rooms_[i].fresh_states_due)
-      send_fresh_states(rooms_[i], now);
-  std::erase_if(astir_, [this](std::size_t i) {
-    rooms_[i].is_astir = rooms_[i].roster_changed || rooms_[i].has_fresh_states;
-    return !rooms_[i].is_astir;
+  for (const std::size_t i : server_.changed_rooms)
+    if (server_.rooms[i].has_fresh_states && now >= server_.rooms[i].fresh_states_due)
+      states_.send_fresh(server_.rooms[i], now);
+  std::erase_if(server_.changed_rooms, [this](std::size_t i) {
+    server_.rooms[i].is_listed =
+        server_.rooms[i].roster_changed || server_.rooms[i].has_fresh_states;
+    return !server_.rooms[i].is_listed;
   });
 }
 
-bool ServerCore::is_newcomer(std::size_t session) const {
-  return std::find(newcomers_.begin(), newcomers_.end(), session) != newcomers_.end();
-}
-
-// Bundles and feedback; not to who has no roster yet.
-void ServerCore::flush_due(MonoTime now) {
-  // Who has waited longest comes first, and leaves the list.
-  for (std::size_t i = 0; i < bundled_.size();) {
-    if (is_bundle_due(sessions_[bundled_[i]], now) && !is_newcomer(bundled_[i]))
-      flush_bundle(bundled_[i], now);
-    else
-      ++i;
-  }
-  // Backwards, as who is done leaves this one too.
-  for (std::size_t i = reporting_.size(); i-- > 0;) {
-    const ServerSession& session = sessions_[reporting_[i]];
-    // With a bundle under way it goes along.
-    if (session.feedback_alone <= now && session.bundle_size == 0 && !is_newcomer(reporting_[i]))
-      send_records(reporting_[i], now);
-  }
-}
-
 void ServerCore::sweep(MonoTime now) {
-  for (std::size_t i = 0; i < sessions_.size(); ++i) {
-    ServerSession& session = sessions_[i];
+  for (std::size_t i = 0; i < server_.sessions.size(); ++i) {
+    ServerSession& session = server_.sessions[i];
     if (!session.in_use) continue;
     if (now - session.last_heard > kSessionSilence) {
-      ++counters_.sessions_timed_out;
-      drop_session(i);
+      ++server_.counters.sessions_timed_out;
+      admission_.drop(i);
     } else {
-      repeat_feedback(i, now);
+      feedback_.repeat(i, now);
     }
   }
 }
@@ -250,22 +195,35 @@ MonoTime ServerCore::tick(MonoTime now) {
 }
 
 MonoTime ServerCore::next_deadline() const {
-  if (by_peer_.empty()) return MonoTime();
+  if (server_.by_peer.empty()) return MonoTime();
   MonoTime next = next_sweep_.is_set() ? next_sweep_ : MonoTime::from_ns(1);
-  for (const std::size_t i : bundled_) next = std::min(next, sessions_[i].bundle_due);
-  for (const std::size_t i : reporting_)
-    if (sessions_[i].bundle_size == 0) next = std::min(next, sessions_[i].feedback_alone);
-  for (const std::size_t i : astir_)
-    if (const ServerRoom& room = rooms_[i]; room.has_fresh_states)
+  for (const std::size_t i : server_.bundled)
+    next = std::min(next, server_.sessions[i].stream.bundle.due());
+  for (const std::size_t i : server_.reporting)
+    if (server_.sessions[i].stream.bundle.is_empty())
+      next = std::min(next, server_.sessions[i].feedback_alone);
+  for (const std::size_t i : server_.changed_rooms)
+    if (const ServerRoom& room = server_.rooms[i]; room.has_fresh_states)
       next = std::min(next, room.fresh_states_due);
   return next;
 }
 
 void ServerCore::say_goodbye() {
-  for (const ServerSession& session : sessions_) {
+  for (const ServerSession& session : server_.sessions) {
     if (!session.in_use) continue;
-    send_away(session.peer);
+    send_goodbye(session.peer);
   }
+}
+
+// Roster, then states, then poses: each needs the one before it. What does not fit comes with the
+// pongs.
+void ServerCore::greet(std::size_t newcomer, MonoTime now) {
+  const ServerSession& session = server_.sessions[newcomer];
+  const ServerRoom& room = server_.rooms[session.room];
+  send_roster(session);
+  states_.send(newcomer, false, kStateDatagramsPerWelcome);
+  for (std::uint8_t slot = 0; slot < room.guests.size(); ++slot)
+    forwarder_.send_retained(newcomer, slot, now);
 }
 
 }  // namespace dance

@@ -12,24 +12,22 @@
 //               make it stop or grow.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <functional>
-#include <optional>
-#include <unordered_map>
 #include <vector>
 
-#include "tunnel/server/access.h"
-#include "tunnel/server/server_state.h"
-#include "tunnel/session/peer.h"
+#include "tunnel/server/server_admission.h"
+#include "tunnel/server/server_forwarder.h"
 
 namespace dance {
 
 class ServerCore {
  public:
-  using RandomU64 = std::function<std::uint64_t()>;
+  using RandomU64 = ServerAdmission::RandomU64;
 
-  ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& sink);
+  ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& sink)
+      : server_(limits, sink), admission_(server_, feedback_, interest_, std::move(random)) {}
+  ServerCore(const ServerCore&) = delete;
+  ServerCore& operator=(const ServerCore&) = delete;
 
   // One datagram that came in at `received`, and what the sender's key lets it do.
   void receive(PeerId from, const Access& access, wire::Bytes datagram, MonoTime received,
@@ -46,132 +44,36 @@ class ServerCore {
   // Tells everybody that the server ends.
   void say_goodbye();
 
-  // Names of those who have a key of their own: a key for all does not open them.
+  // As ServerAdmission's.
   void set_reserved(std::function<bool(const GuestId&)> is_reserved) {
-    is_reserved_ = std::move(is_reserved);
+    admission_.set_reserved(std::move(is_reserved));
   }
 
-  const ServerCounters& counters() const { return counters_; }
-  std::size_t session_count() const { return by_peer_.size(); }
+  const ServerCounters& counters() const { return server_.counters; }
+  std::size_t session_count() const { return server_.by_peer.size(); }
   std::size_t room_count() const;
   std::size_t guest_count() const;
   std::size_t listener_count() const;
   // For the status line and tests.
-  const std::vector<ServerSession>& sessions() const { return sessions_; }
-  const std::vector<ServerRoom>& rooms() const { return rooms_; }
+  const std::vector<ServerSession>& sessions() const { return server_.sessions; }
+  const std::vector<ServerRoom>& rooms() const { return server_.rooms; }
 
  private:
-  void reject(ServerReject cause) { ++counters_.rejected[static_cast<std::size_t>(cause)]; }
-  void send(PeerId to, wire::Bytes bytes);
-
-  // server_hello.cpp
-  void on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
-                MonoTime now);
-  void welcome(std::size_t session, const wire::Hello& hello, MonoTime received, MonoTime now);
-  void refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest);
-  std::optional<std::size_t> find_token(std::uint64_t token, const GuestId& key) const;
-  std::optional<std::size_t> find_room(const wire::RoomName& name) const;
-  struct Objection {
-    wire::Refusal cause;
-    GuestId guest;
-  };
-  std::optional<Objection> objection_to(const wire::Hello& hello, const Access& access,
-                                        std::optional<std::size_t> existing,
-                                        std::optional<std::size_t> room) const;
-  std::size_t open_room(const wire::Hello& hello);
-  std::size_t open_session(PeerId peer, const Access& access, const wire::Hello& hello,
-                           std::size_t room);
-  std::uint64_t new_epoch();
-  void move_session(std::size_t session, PeerId to);
-  void settle_access(std::size_t session, const Access& access);
-  void settle_guests(std::size_t session, const wire::Hello& hello);
-  void add_guest(std::size_t session, const GuestId& id);
-  void remove_guest(std::size_t room, std::uint8_t slot);
-  void drop_session(std::size_t session);
-
-  // server_core.cpp
-  void stir(ServerRoom& room);
-  void send_away(PeerId peer);
   void on_session_datagram(std::size_t session, const wire::Opening& opening, MonoTime received,
                            MonoTime now);
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void send_roster(const ServerSession& session);
-  ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
-  bool is_newcomer(std::size_t session) const;
-  void flush_due(MonoTime now);
+  void send_goodbye(PeerId peer);
+  void greet(std::size_t newcomer, MonoTime now);
   void sweep(MonoTime now);
 
-  // server_states.cpp
-  void on_states(std::size_t session, wire::Bytes body, MonoTime now);
-  std::optional<wire::StateAck> take_state(std::size_t session, const wire::State& state,
-                                           MonoTime now);
-  std::optional<wire::StateAck> take_room_state(std::size_t session, const wire::State& state,
-                                                MonoTime now);
-  void hold_state(ServerRoom& room, HeldState& held, const wire::State& state);
-  void on_state_acks(std::size_t session, wire::Bytes body);
-  class StateSender;
-  // All that the link has not acknowledged, or of that only what nobody has been told yet.
-  void send_states(std::size_t session, bool only_fresh, std::size_t most_datagrams);
-  void send_fresh_states(ServerRoom& room, MonoTime now);
-
-  // server_kept.cpp
-  void keep(ServerGuest& guest, const wire::Record& record);
-  void greet(std::size_t newcomer, MonoTime now);
-  void send_kept(std::size_t to, std::uint8_t slot, MonoTime now);
-  void repeat_kept(std::size_t to, MonoTime now);
-
-  // server_records.cpp
-  void on_records(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
-  void on_channel_record(std::size_t session, wire::Record record, MonoTime now);
-  void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
-  void forward(std::size_t from, const wire::Record& record, MonoTime now);
-  void add_to_bundle(std::size_t to, const wire::Record& record, MonoTime now);
-  void put_in_bundle(std::size_t session, const wire::Record& record, MonoTime now);
-  void repeat_before(std::size_t member, const ServerGuest& guest, const wire::Record& next,
-                     MonoTime now);
-  Duration share_window(const ServerRoom& room) const;
-  bool is_bundle_due(const ServerSession& session, MonoTime now) const;
-  void flush_bundle(std::size_t session, MonoTime now);
-  void send_records(std::size_t session, MonoTime now);
-
-  // server_interest.cpp
-  void on_interest(std::size_t session, wire::Bytes body, MonoTime now);
-  void settle_interest(std::size_t session, MonoTime now);
-  void set_divider(std::size_t session, std::uint8_t slot, std::uint8_t divider, MonoTime now);
-  bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) const;
-  // Whether a record goes to a receiver; counts those that do not.
-  bool take_share(std::size_t to, const wire::Record& record, MonoTime now);
-  bool is_in_share(const Thinning& thinning, const ServerGuest& guest,
-                   const wire::Record& record) const;
-  void tell_left_out(ServerSession& to, wire::Record& record);
-
-  // server_feedback.cpp
-  void on_acks(std::size_t session, const wire::Acks& acks, MonoTime now);
-  void on_want(std::size_t session, std::uint8_t slot, MonoTime now);
-  void want_key_frames_for(std::size_t newcomer, MonoTime now);
-  void want_key_frame(ServerGuest& guest, MonoTime now);
-  void repeat_feedback(std::size_t session, MonoTime now);
-  void schedule_feedback(std::size_t session, MonoTime now);
-  void schedule_feedback(std::size_t session, MonoTime at, Duration waits, Duration gap);
-  bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
-  wire::GuestFeedback feedback_about(std::size_t session, std::uint8_t slot, MonoTime now) const;
-  // False where there is nothing new to tell.
-  bool fill_feedback(std::size_t session, MonoTime now, wire::Feedback& feedback);
-
-  ServerLimits limits_;
-  RandomU64 random_;
-  std::function<bool(const GuestId&)> is_reserved_;
-  std::array<TokenBucket, 256> hellos_;  // by key: names that fall on one place share it
-  PeerSink& sink_;
-  std::vector<ServerSession> sessions_;
-  std::vector<ServerRoom> rooms_;
-  std::unordered_map<PeerId, std::size_t> by_peer_;
-  std::vector<std::size_t> newcomers_;  // sessions that know nothing of their room yet
-  std::vector<std::size_t> bundled_;    // sessions with a bundle under way
-  std::vector<std::size_t> reporting_;  // sessions with feedback due
-  std::vector<std::size_t> astir_;      // rooms with a roster or states to tell
+  ServerContext server_;
+  ServerFeedback feedback_{server_};
+  ServerInterest interest_{server_, feedback_};
+  ServerStates states_{server_};
+  ServerForwarder forwarder_{server_, feedback_, interest_, states_};
+  ServerAdmission admission_;
   MonoTime next_sweep_;
-  ServerCounters counters_;
 };
 
 }  // namespace dance

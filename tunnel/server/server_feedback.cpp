@@ -1,11 +1,11 @@
-// What receivers have, what they lack, and how senders are told.
+#include "tunnel/server/server_feedback.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/base/assert.h"
-#include "tunnel/server/server_core.h"
-#include "tunnel/session/reference_policy.h"
+#include "tunnel/session/reference_control.h"
 
 namespace dance {
 namespace {
@@ -29,161 +29,126 @@ Duration round_trip_of(const ServerSession& session) {
   return Duration::us(std::min(session.newest_ping.round_trip_us, kLongestRoundTrip_us));
 }
 
+bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) {
+  return std::any_of(sender.slots.begin(), sender.slots.end(),
+                     [&](std::uint8_t slot) { return receiver.filters[slot].wants_any(); });
+}
+
 }  // namespace
 
-bool ServerCore::is_receiver(std::size_t member, std::size_t sender, MonoTime now) const {
-  const ServerSession& session = sessions_[member];
+bool ServerFeedback::is_receiver(std::size_t member, std::size_t sender, MonoTime now) const {
+  const ServerSession& session = server_.sessions[member];
   return member != sender && now - session.last_heard <= kStillHere;
 }
 
-void ServerCore::on_acks(std::size_t index, const wire::Acks& acks, MonoTime now) {
-  ServerSession& session = sessions_[index];
-  const ServerRoom& room = rooms_[session.room];
-  const std::uint64_t before = session.sent.acked();
-  const bool is_good = session.sent.acknowledge(acks, [&](const SentRing::Frame& frame) {
+void ServerFeedback::on_acks(std::size_t index, const wire::Acks& acks, MonoTime now) {
+  ServerSession& session = server_.sessions[index];
+  const ServerRoom& room = server_.rooms[session.room];
+  const std::uint64_t before = session.stream.sent.acked();
+  const bool is_good = session.stream.sent.acknowledge(acks, [&](const SentRing::Frame& frame) {
     const ServerGuest& guest = room.guests[frame.slot];
     if (!guest.in_use || guest.poses.stream() != frame.stream) return;
-    session.held[frame.slot].add(frame.stream, frame.sequence);
-    schedule_feedback(guest.owner, now);
+    session.filters[frame.slot].frames().add(frame.stream, frame.sequence);
+    schedule(guest.owner, now);
   });
-  counters_.datagrams_acked += session.sent.acked() - before;
-  if (limits_.repeats) session.repeats_down.update(session.sent.loss());
-  if (!is_good) reject(ServerReject::kBadAck);
+  server_.counters.datagrams_acked += session.stream.sent.acked() - before;
+  if (server_.limits.repeats) session.repeats_down.update(session.stream.sent.loss());
+  if (!is_good) server_.reject(ServerReject::kBadAck);
 }
 
-void ServerCore::on_want(std::size_t index, std::uint8_t slot, MonoTime now) {
-  ServerSession& session = sessions_[index];
-  ServerGuest& guest = rooms_[session.room].guests[slot];
-  if (!guest.in_use || guest.owner == index) return reject(ServerReject::kForeignSlot);
-  session.held[slot].clear();
-  Thinning& thinning = session.thinning[slot];
+void ServerFeedback::on_want(std::size_t index, std::uint8_t slot, MonoTime now) {
+  ServerSession& session = server_.sessions[index];
+  ServerGuest& guest = server_.rooms[session.room].guests[slot];
+  if (!guest.in_use || guest.owner == index) return server_.reject(ServerReject::kForeignSlot);
+  InterestFilter& filter = session.filters[slot];
+  filter.frames().clear();
   // Who gets frames that need no other has lost the first of them, or its proportions: the next
   // comes.
-  if (share_of(thinning.divider) == Share::kStills) {
-    thinning.awaits_still = true;
+  if (filter.share() == Share::kStills) {
+    filter.await_intra(true);
     return;
   }
   // The one that was asked for last may be under way still.
   const bool is_known = session.newest_ping.round_trip_us != 0;
-  const Duration way =
-      (is_known ? round_trip_of(session) : kNewcomersWay) + round_trip_of(sessions_[guest.owner]);
+  const Duration way = (is_known ? round_trip_of(session) : kNewcomersWay) +
+                       round_trip_of(server_.sessions[guest.owner]);
   if (guest.key_asked_at.is_set() && now - guest.key_asked_at < way) return;
-  thinning.awaits_still = share_of(thinning.divider) == Share::kBase;
+  filter.await_intra(filter.share() == Share::kBase);
   want_key_frame(guest, now);
 }
 
-void ServerCore::want_key_frames_for(std::size_t newcomer, MonoTime now) {
-  const ServerSession& session = sessions_[newcomer];
-  for (std::size_t slot = 0; slot < session.thinning.size(); ++slot) {
-    ServerGuest& guest = rooms_[session.room].guests[slot];
-    if (guest.in_use && guest.owner != newcomer && session.thinning[slot].divider != 0)
+void ServerFeedback::want_key_frames_for(std::size_t newcomer, MonoTime now) {
+  const ServerSession& session = server_.sessions[newcomer];
+  for (std::size_t slot = 0; slot < session.filters.size(); ++slot) {
+    ServerGuest& guest = server_.rooms[session.room].guests[slot];
+    if (guest.in_use && guest.owner != newcomer && session.filters[slot].wants_any())
       want_key_frame(guest, now);
   }
 }
 
-void ServerCore::want_key_frame(ServerGuest& guest, MonoTime now) {
-  ++counters_.key_frames_wanted;
+void ServerFeedback::want_key_frame(ServerGuest& guest, MonoTime now) {
+  ++server_.counters.key_frames_wanted;
   guest.key_wanted = true;
-  ServerSession& owner = sessions_[guest.owner];
+  ServerSession& owner = server_.sessions[guest.owner];
   const bool is_early = guest.key_asked_at.is_set() && now - guest.key_asked_at < kKeyFrameGap;
   const MonoTime at = is_early ? guest.key_asked_at + kKeyFrameGap : now;
-  schedule_feedback(guest.owner, at, Duration(), kFeedbackGap);
+  schedule(guest.owner, at, Duration(), kFeedbackGap);
   if (!is_early && owner.feedback_due.is_set())
     owner.feedback_due = owner.feedback_alone = std::min(owner.feedback_due, now);
 }
 
-// What was said may be lost.
-void ServerCore::repeat_feedback(std::size_t index, MonoTime now) {
-  sessions_[index].feedback_is_repeat = true;
-  if (!sessions_[index].feedback_due.is_set())
-    schedule_feedback(index, now, kWaitsForCompany, kFeedbackGap);
+void ServerFeedback::repeat(std::size_t index, MonoTime now) {
+  server_.sessions[index].feedback_is_repeat = true;
+  if (!server_.sessions[index].feedback_due.is_set())
+    schedule(index, now, kWaitsForCompany, kFeedbackGap);
 }
 
-void ServerCore::schedule_feedback(std::size_t index, MonoTime now) {
-  const bool is_clean = sessions_[index].bears_losses;
-  schedule_feedback(index, now, kWaitsForCompany, is_clean ? kCleanFeedbackGap : kFeedbackGap);
+void ServerFeedback::schedule(std::size_t index, MonoTime now) {
+  const bool is_clean = server_.sessions[index].bears_losses;
+  schedule(index, now, kWaitsForCompany, is_clean ? kCleanFeedbackGap : kFeedbackGap);
 }
 
 // Not before `at`, and not more often than senders can make use of; alone when it has waited so
 // long.
-void ServerCore::schedule_feedback(std::size_t index, MonoTime at, Duration waits, Duration gap) {
-  ServerSession& session = sessions_[index];
+void ServerFeedback::schedule(std::size_t index, MonoTime at, Duration waits, Duration gap) {
+  ServerSession& session = server_.sessions[index];
   if (session.slots.empty()) return;
   // With nobody to receive there is nothing to tell.
-  if (rooms_[session.room].members.size() < 2) return;
+  if (server_.rooms[session.room].members.size() < 2) return;
   if (session.feedback_made.is_set()) at = std::max(at, session.feedback_made + gap);
   if (!session.feedback_due.is_set()) {
     session.feedback_due = at;
     session.feedback_alone = at + waits;
-    reporting_.push_back(index);
+    server_.reporting.push_back(index);
   }
   session.feedback_due = std::min(session.feedback_due, at);
   session.feedback_alone = std::min(session.feedback_alone, at + waits);
 }
 
-// Frames: as far back as a codec may refer.
-constexpr std::uint16_t kLongestHeld = 63;
-
-// What all receivers have of a guest; and what those have too who get only base frames.
-wire::GuestFeedback ServerCore::feedback_about(std::size_t index, std::uint8_t slot,
-                                               MonoTime now) const {
-  const ServerRoom& room = rooms_[sessions_[index].room];
+wire::GuestFeedback ServerFeedback::about(std::size_t index, std::uint8_t slot,
+                                          MonoTime now) const {
+  const ServerRoom& room = server_.rooms[server_.sessions[index].room];
   const ServerGuest& guest = room.guests[slot];
-  wire::GuestFeedback about;
-  about.slot = slot;
-  about.restarts = static_cast<std::uint8_t>(guest.poses.stream());
-  about.key_frames = guest.key_frames;
-  HeldFrames full, base;
-  bool has_full = false, has_base = false;
-  for (const std::size_t member : room.members) {
-    if (!is_receiver(member, index, now)) continue;
-    const std::uint8_t divider = sessions_[member].thinning[slot].divider;
-    const Share share = share_of(divider);
-    if (share == Share::kBase) {
-      const std::uint8_t wanted = spacing_log2(divider);
-      about.base_log2 = about.base_log2 == 0 ? wanted : std::min(about.base_log2, wanted);
+  ReceiverSummary receivers(guest.poses.has_any(), guest.poses.stream(), guest.poses.newest());
+  for (const std::size_t member : room.members)
+    if (is_receiver(member, index, now)) {
+      const InterestFilter& filter = server_.sessions[member].filters[slot];
+      receivers.add(filter.divider(), filter.frames());
     }
-    if (share == Share::kStills)
-      about.still_log2 = std::min(about.still_log2, spacing_log2(divider));
-    if (share != Share::kAll && share != Share::kBase) continue;
-    // Who has nothing of late asks for a key frame; the others need not do without references.
-    const HeldFrames& held = sessions_[member].held[slot];
-    if (!guest.poses.has_any() || !held.is_of(guest.poses.stream()) ||
-        static_cast<std::uint16_t>(guest.poses.newest() - held.newest()) > kLongestHeld)
-      continue;
-    if (share == Share::kAll) {
-      if (std::exchange(has_full, true))
-        full.intersect(held);
-      else
-        full = held;
-    }
-    if (std::exchange(has_base, true))
-      base.intersect(held);
-    else
-      base = held;
-  }
-  // With nobody who gets all, there is nothing that only those have.
-  const HeldFrames& common = has_full ? full : base;
-  about.has_held = guest.poses.has_any() && common.is_of(guest.poses.stream());
-  if (about.has_held) {
-    about.newest_held = common.newest();
-    about.held_before = static_cast<std::uint16_t>(common.bits() >> 1);
-  }
-  about.has_base_held =
-      about.base_log2 != 0 && guest.poses.has_any() && base.is_of(guest.poses.stream());
-  if (about.has_base_held) {
-    about.newest_base_held = base.newest();
-    about.base_held_before = static_cast<std::uint16_t>(base.bits() >> 1);
-  }
-  return about;
+  wire::GuestFeedback told;
+  told.slot = slot;
+  told.restarts = static_cast<std::uint8_t>(guest.poses.stream());
+  told.key_frames = guest.key_frames;
+  receivers.fill(told);
+  return told;
 }
 
-bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& feedback) {
-  ServerSession& session = sessions_[index];
-  ServerRoom& room = rooms_[session.room];
+bool ServerFeedback::fill(std::size_t index, MonoTime now, wire::Feedback& feedback) {
+  ServerSession& session = server_.sessions[index];
+  ServerRoom& room = server_.rooms[session.room];
   session.feedback_due = session.feedback_alone = MonoTime();
   session.feedback_made = now;
-  std::erase(reporting_, index);
+  std::erase(server_.reporting, index);
   bool is_news = std::exchange(session.feedback_is_repeat, false);
 
   session.bears_losses = false;
@@ -191,17 +156,18 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
   Duration round_trip;
   bool has_receiver = false;
   for (const std::size_t member : room.members) {
-    if (!is_receiver(member, index, now) || !wants_any_of(sessions_[member], session)) continue;
+    if (!is_receiver(member, index, now) || !wants_any_of(server_.sessions[member], session))
+      continue;
     has_receiver = true;
-    const LossMeter& down = sessions_[member].sent.loss();
-    loss = std::max(loss, sessions_[member].repeats_down.residual(down));
+    const LossMeter& down = server_.sessions[member].stream.sent.loss();
+    loss = std::max(loss, server_.sessions[member].repeats_down.residual(down));
     in_a_row = std::max(in_a_row, down.in_a_row());
-    round_trip = std::max(round_trip, round_trip_of(sessions_[member]));
+    round_trip = std::max(round_trip, round_trip_of(server_.sessions[member]));
   }
   if (has_receiver) {
     // What is lost on either way does not arrive.
-    const LossMeter& up = session.received.loss();
-    if (limits_.repeats) session.repeats_up.update(up);
+    const LossMeter& up = session.stream.received.loss();
+    if (server_.limits.repeats) session.repeats_up.update(up);
     feedback.wants_repeats = session.repeats_up.is_on();
     const float lost_up = session.repeats_up.residual(up);
     const float arrives = (1.0f - loss) * (1.0f - lost_up);
@@ -222,15 +188,15 @@ bool ServerCore::fill_feedback(std::size_t index, MonoTime now, wire::Feedback& 
       guest.key_wanted = false;
       guest.key_asked_at = now;
       ++guest.key_frames;
-      ++counters_.key_frames_asked;
+      ++server_.counters.key_frames_asked;
       is_news = true;
     }
     const MonoTime again = guest.key_asked_at + kKeyFrameGap;
-    if (guest.key_wanted) schedule_feedback(index, again, Duration(), kFeedbackGap);
-    const wire::GuestFeedback about = feedback_about(index, slot, now);
-    is_news = is_news || about != guest.told;
-    guest.told = about;
-    const bool pushed = feedback.guests.try_push(about);
+    if (guest.key_wanted) schedule(index, again, Duration(), kFeedbackGap);
+    const wire::GuestFeedback news = about(index, slot, now);
+    is_news = is_news || news != guest.told;
+    guest.told = news;
+    const bool pushed = feedback.guests.try_push(news);
     DANCE_ASSERT(pushed);
   }
   return is_news;

@@ -17,14 +17,13 @@
 #include "core/base/fixed_list.h"
 #include "core/base/time.h"
 #include "core/base/token_bucket.h"
-#include "tunnel/link/link_meter.h"
 #include "tunnel/server/access.h"
-#include "tunnel/session/ack_window.h"
+#include "tunnel/server/link_meter.h"
 #include "tunnel/session/arrival_jitter.h"
-#include "tunnel/session/held_frames.h"
+#include "tunnel/session/interest_filter.h"
 #include "tunnel/session/peer.h"
 #include "tunnel/session/repetition.h"
-#include "tunnel/session/sent_ring.h"
+#include "tunnel/session/stream.h"
 #include "tunnel/session/stream_gate.h"
 #include "tunnel/wire/wire_records.h"
 #include "tunnel/wire/wire_state.h"
@@ -127,19 +126,6 @@ struct ServerCounters {
   }
 };
 
-// What of one guest's poses goes to one receiver.
-struct Thinning {
-  std::uint8_t divider = 1;
-  // It has nothing that frames could refer to: the next that needs no other is the first it gets.
-  bool awaits_still = true;
-  std::uint32_t last_sent = 0;  // sequence
-  // Poses of this generation that it was not sent; told with each record until it has one that was
-  // sent after the last of them.
-  bool tells_left_out = false;
-  std::uint16_t left_out = 0;
-  std::uint16_t last_left_out = 0;  // sequence, low half
-};
-
 struct ServerSession {
   bool in_use = false;
   PeerId peer = 0;
@@ -150,29 +136,18 @@ struct ServerSession {
   std::int64_t hello_time_us = 0;  // link's clock; an older hello is a stale copy
   std::size_t room = 0;
   FixedList<std::uint8_t, wire::kMaxGuestsPerLink> slots;
-  // Versions that the link has acknowledged.
-  std::array<std::array<std::uint32_t, wire::kGuestStates>, wire::kMaxGuestsPerRoom> state_acked{};
-  std::array<std::uint32_t, wire::kRoomStates> room_state_acked{};
   std::size_t state_cursor = 0;  // slot to begin with when not all fitted the last time
   TokenBucket datagrams;
   TokenBucket bytes;
   std::uint32_t datagrams_received = 0;
   wire::Ping newest_ping;
   LinkMeter meter;
-  // Records that wait for the end of this turn, or of their window.
-  std::array<std::uint8_t, wire::kMaxRecordsBody> bundle;
-  std::size_t bundle_size = 0;
-  std::size_t bundle_poses = 0;
-  wire::RecordChain chain;
-  MonoTime bundle_due;
+  // Records wait here for the end of this turn, or of their window.
+  Stream stream;
   // What it wants of the others: the list as it said it, and what follows for each slot.
   wire::InterestList interest;
-  std::array<Thinning, wire::kMaxGuestsPerRoom> thinning;
+  std::array<InterestFilter, wire::kMaxGuestsPerRoom> filters;
   std::size_t full_shares = 0;  // others in the room whose every pose it gets
-  // What the link has of the others, as it acknowledges; and what has come from it.
-  SentRing sent;
-  std::array<HeldFrames, wire::kMaxGuestsPerRoom> held;  // by slot
-  AckWindow received;
   // Whether poses go once more, to the link and from it.
   Repetition repeats_down;
   Repetition repeats_up;
@@ -186,13 +161,8 @@ struct ServerSession {
 };
 
 // The newest version of one state, for those who have not got it.
-struct HeldState {
-  std::uint32_t version = 0;  // 0 = none yet
-  bool is_fresh = false;      // not told yet
-  std::uint16_t size = 0;
-  std::array<std::uint8_t, wire::kMaxStatePayload> payload;
-
-  wire::Bytes bytes() const { return {payload.data(), size}; }
+struct RetainedState : ReplicatedState {
+  bool is_fresh = false;  // not told yet
 };
 
 // Of one further channel of a guest: newest wins in each by itself.
@@ -202,7 +172,7 @@ struct ChannelGate {
 };
 
 // The newest pose of a guest that needs no other, for those who come later.
-struct KeptPose {
+struct RetainedPose {
   bool is_set = false;
   wire::Record record;  // but for its payload
   std::size_t size = 0;
@@ -223,11 +193,12 @@ struct ServerGuest {
   std::uint8_t key_frames = 0;  // counts key frames asked for
   MonoTime key_asked_at;
   wire::GuestFeedback told;  // what the link was told last
-  KeptPose kept;
+  RetainedPose retained;
   MonoTime last_pose;            // when the newest came in
   std::uint32_t base_count = 0;  // base frames that came
   std::uint32_t hands_count = 0;
-  std::array<HeldState, wire::kGuestStates> states;
+  InterestFilter::Counts counts() const { return {base_count, hands_count, told.base_log2}; }
+  std::array<RetainedState, wire::kGuestStates> states;
   TokenBucket state_changes;
   std::array<ChannelGate, kMaxChannelsPerGuest> channels{};
   TokenBucket channel_records;
@@ -239,10 +210,10 @@ struct ServerRoom {
   wire::RoomName name;
   CodecName codec;
   std::uint32_t roster_version = 1;
-  bool is_astir = false;  // in the list of those with something to tell
+  bool is_listed = false;  // in the list of those with something to tell
   bool roster_changed = false;
   std::uint16_t next_generation = 0;
-  std::array<HeldState, wire::kRoomStates> states;
+  std::array<RetainedState, wire::kRoomStates> states;
   std::array<GuestId, wire::kRoomStates> setters;
   bool has_fresh_states = false;
   MonoTime fresh_states_due;    // not before then

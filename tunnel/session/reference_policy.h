@@ -18,6 +18,14 @@
 
 namespace dance {
 
+// What the server said last about the path to the receivers.
+struct PathStats {
+  bool is_known = false;
+  double loss = 0.0;      // share, to the worst receiver
+  double in_a_row = 0.0;  // the share that is lost together with the datagram before it
+  Duration round_trip;
+};
+
 class ReferencePolicy {
  public:
   // `in_a_row`: the share that is lost together with the one before it.

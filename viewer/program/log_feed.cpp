@@ -10,6 +10,7 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kMostWholeBeats = 1'000'000;
+constexpr Duration kSeam = Duration::ms(16);  // from the last pose to the first, played again
 
 bool is_pose(const Channel& channel, Where where) {
   return channel.signal() == Signal::kPose && channel.where() == where;
@@ -94,7 +95,7 @@ Result<void> LogFeed::look_through() {
 }
 
 MonoTime LogFeed::time_of(const LogEvent& event) const {
-  return MonoTime::from_us(event.time_us - wall_ahead_us_);
+  return MonoTime::from_us(event.time_us - wall_ahead_us_) + shift_;
 }
 
 std::optional<MonoTime> LogFeed::time_of_beat(double beat) const {
@@ -116,6 +117,12 @@ void LogFeed::go_on_to(MonoTime now) {
   }
 }
 
+void LogFeed::begin_again() {
+  shift_ += end_ - begin_ + kSeam;
+  log_.rewind();
+  next_ = log_.next();
+}
+
 void LogFeed::take(const LogEvent& event, MonoTime now) {
   const auto channel = Channel::parse(event.channel);
   if (!channel) return;
@@ -124,12 +131,19 @@ void LogFeed::take(const LogEvent& event, MonoTime now) {
   };
   const Where where = channel->where();
   if (channel->signal() == Signal::kBeat) {
-    if (Beat beat; read(beat)) board_->on_beat(beat);
+    Beat beat;
+    if (!read(beat)) return;
+    beat.time += shift_;
+    beat.beat_time += shift_;
+    board_->on_beat(beat);
     return;
   }
   if (where != Where::kCapture && where != Where::kStage) return;
   if (channel->signal() == Signal::kPose) {
-    if (Pose pose; read(pose)) board_->on_pose(where, channel->guest(), pose, now);
+    Pose pose;
+    if (!read(pose)) return;
+    pose.capture_time += shift_;
+    board_->on_pose(where, channel->guest(), pose, now);
   } else if (channel->signal() == Signal::kHands) {
     if (Hands hands; read(hands)) board_->on_hands(where, channel->guest(), hands, now);
   } else if (channel->signal() == Signal::kSkeleton) {

@@ -1,11 +1,11 @@
-// LogFeed: a recorded house instead of a live one, for pictures without real-time constraints:
-// fills a GuestBoard from an LCM log up to any moment.
+// LogFeed: a recorded house instead of a live one: fills a GuestBoard from an LCM log up to any
+// moment, at any pace, repeatedly.
 //
-// Units/frames: times of the recorded house's clock; the log's wall clock is mapped onto it by the
-//               poses with the least delay to the log.
+// Units/frames: times of the recorded house's clock, which goes on when the log repeats; the log's
+//               wall clock is mapped onto it by the poses with the least delay to the log.
 // Ownership:    owns the log and the board.
 // Threads:      none inside; one owner.
-// Failure:      open() names a log that cannot be read, or has no dancer.
+// Failure:      open() names a log that cannot be read, or without poses.
 #pragma once
 
 #include <optional>
@@ -23,11 +23,13 @@ class LogFeed {
 
   GuestBoard& board() { return *board_; }
   MonoTime begin() const { return begin_; }
-  MonoTime end() const { return end_; }
+  MonoTime end() const { return end_ + shift_; }
   // When the house's music was at that beat; nullopt where it never was.
   std::optional<MonoTime> time_of_beat(double beat) const;
   // Reads the log up to that moment; moments only advance.
   void go_on_to(MonoTime now);
+  // Repeats the log after its end.
+  void begin_again();
 
  private:
   LogFeed(std::string path, UnpackedLog log) : path_(std::move(path)), log_(std::move(log)) {}
@@ -47,6 +49,7 @@ class LogFeed {
   std::uint64_t clock_id_ = 0;
   std::int64_t wall_ahead_us_ = 0;  // of the house's clock
   MonoTime begin_, end_;
+  Duration shift_;  // of what is taken in now against the recording
   std::vector<WholeBeat> beats_;
 };
 

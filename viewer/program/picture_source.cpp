@@ -25,6 +25,14 @@ class LiveSource final : public PictureSource {
           std::chrono::nanoseconds(std::min(moment - now, kLook).count_ns()));
     return now;
   }
+  void report_shown(std::span<const StageRoster::Fresh> fresh, MonoTime swap_time) override {
+    if (fresh.empty()) return;
+    for (const StageRoster::Fresh& it : fresh)
+      feed_->report_shown({it.guest,
+                           {it.pose.clock_id, it.pose.sequence, it.pose.capture_time, it.pose.hops,
+                            it.heard, swap_time}});
+    feed_->wake();
+  }
   bool is_over() const override { return feed_->is_over(); }
   const std::string& name() const override { return feed_->url(); }
 
@@ -35,12 +43,17 @@ class LiveSource final : public PictureSource {
 
 class RecordedSource final : public PictureSource {
  public:
-  RecordedSource(LogFeed feed, std::string name) : feed_(std::move(feed)), name_(std::move(name)) {}
+  RecordedSource(LogFeed feed, std::string name, bool repeats)
+      : feed_(std::move(feed)), name_(std::move(name)), repeats_(repeats) {}
 
   GuestBoard& board() override { return feed_.board(); }
   MonoTime begin() const override { return feed_.begin(); }
   MonoTime wait_until(MonoTime moment) override {
     feed_.go_on_to(moment);
+    while (repeats_ && moment > feed_.end()) {
+      feed_.begin_again();
+      feed_.go_on_to(moment);
+    }
     is_over_ = moment > feed_.end();
     return moment;
   }
@@ -54,6 +67,7 @@ class RecordedSource final : public PictureSource {
  private:
   LogFeed feed_;
   std::string name_;
+  bool repeats_ = false;
   bool is_over_ = false;
 };
 
@@ -65,7 +79,7 @@ Result<std::unique_ptr<PictureSource>> PictureSource::open(const ViewOptions& op
     return std::make_unique<LiveSource>(std::move(feed));
   }
   DANCE_TRY(LogFeed feed, LogFeed::open(options.log, options.feed.stage_only));
-  return std::make_unique<RecordedSource>(std::move(feed), options.log);
+  return std::make_unique<RecordedSource>(std::move(feed), options.log, !options.headless);
 }
 
 }  // namespace dance

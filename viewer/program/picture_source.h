@@ -1,5 +1,5 @@
-// PictureSource: source of the scenes for pictures in files: a live house, in real time, or a
-// recorded one.
+// PictureSource: the source of scenes to draw: a live house, in real time, or a recorded one, which
+// in a window repeats at its end.
 //
 // Units/frames: moments in the house's clock.
 // Ownership:    owns its feed.
@@ -9,9 +9,11 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "viewer/program/guest_board.h"
+#include "viewer/program/stage_roster.h"
 #include "viewer/program/view_options.h"
 
 namespace dance {
@@ -27,7 +29,9 @@ class PictureSource {
   virtual MonoTime wait_until(MonoTime moment) = 0;
   // The time of a beat of the house's music; nullopt while it is unknown.
   virtual std::optional<MonoTime> time_of_beat(double) const { return std::nullopt; }
-  // Duration of a recorded house; nullopt of a live one.
+  // Reports the poses that the last picture showed first, and when it was on the screen.
+  virtual void report_shown(std::span<const StageRoster::Fresh>, MonoTime) {}
+  // Duration of a recorded house; 0 of a live one.
   virtual Duration recorded() const { return Duration(); }
   virtual bool is_over() const = 0;
   virtual const std::string& name() const = 0;  // for people

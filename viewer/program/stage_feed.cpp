@@ -54,27 +54,29 @@ StageFeed::~StageFeed() {
 }
 
 void StageFeed::subscribe(const FeedOptions& options) {
-  const GuestId everybody;
   for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage}) {
     if (!is_shown(options, where)) continue;
     // Every pose is taken, so that rates and losses are right; the board's slots keep the newest.
-    bus_->on_pose(where, everybody, Delivery::kEvery,
-                  [this](const Channel& channel, const Pose& pose, MonoTime now) {
-                    board_.on_pose(channel.where(), channel.guest(), pose, now);
-                  });
-    bus_->on_hands(where, everybody, Delivery::kNewest,
-                   [this](const Channel& channel, const Hands& hands, MonoTime now) {
-                     board_.on_hands(channel.where(), channel.guest(), hands, now);
-                   });
-    bus_->on_skeleton(where, everybody,
-                      [this](const Channel& channel, const TimedSkeleton& skeleton, MonoTime now) {
-                        board_.on_skeleton(channel.guest(), skeleton.skeleton, now);
-                      });
+    bus_->subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime now) {
+      board_.on_pose(channel.where(), channel.guest(), pose, now);
+    });
+    bus_->subscribe<Hands>(
+        where,
+        [this](const Channel& channel, const Hands& hands, MonoTime now) {
+          board_.on_hands(channel.where(), channel.guest(), hands, now);
+        },
+        Delivery::kNewest);
+    bus_->subscribe<TimedSkeleton>(
+        where, [this](const Channel& channel, const TimedSkeleton& skeleton, MonoTime now) {
+          board_.on_skeleton(channel.guest(), skeleton.skeleton, now);
+        });
   }
-  bus_->on_beat([this](const Channel&, const Beat& beat, MonoTime) { board_.on_beat(beat); });
-  bus_->on_guest_status([this](const Channel& channel, const GuestStatus& status, MonoTime now) {
-    board_.on_status(channel.guest(), status, now);
-  });
+  bus_->subscribe<Beat>(
+      Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) { board_.on_beat(beat); });
+  bus_->subscribe<GuestStatus>(
+      Where::kStage, [this](const Channel& channel, const GuestStatus& status, MonoTime now) {
+        board_.on_status(channel.guest(), status, now);
+      });
 }
 
 void StageFeed::run() {

@@ -20,6 +20,7 @@ Examples:
   dance view --headless --out pictures --seconds 10 --every 0.5 --size 640x360
   dance view --headless --out pictures --seconds 2 --strip 6 --no-hud
   dance view --show capture                          only what this house's cameras see
+  dance view --log logs/couple.lcm                   a recorded dance, over and over
   dance view --headless --log out/demo/demo.lcm --compare --beats 16,17,18,19 --strip 4
                                                      a recorded demo, on the beats of its music
 )";
@@ -71,7 +72,7 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add("--strip", wishes.view.moments.strip,
            "headless: so many moments side by side in stage-strip.png")
       .range(2, 24);
-  line.add("--log", view.log, "headless: pictures of a recorded house, from its LCM log");
+  line.add("--log", view.log, "a recorded house, from its LCM log; in a window over and over");
   line.add("--beats", view.beats, "headless, with --log: pictures on these beats of the music")
       .split_at(',')
       .range(-1'000'000.0, 1'000'000.0);
@@ -89,9 +90,6 @@ Result<void> finish(Wishes& wishes) {
     return tl::make_unexpected(planned.error());
   if (wishes.view.log.empty() && (wishes.view.moments.film || !wishes.view.beats.empty()))
     return fail("--film and --beats need a recorded house: name it with --log");
-  if (!wishes.view.log.empty() && !wishes.view.headless)
-    return fail("--log is for pictures: add --headless, or play it with: dance replay " +
-                wishes.view.log);
   if (!wishes.focus.empty()) wishes.view.focus = GuestId::parse(wishes.focus);
   wishes.view.hud = !wishes.no_hud;
   wishes.view.tags = !wishes.no_tags;

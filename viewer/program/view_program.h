@@ -1,8 +1,8 @@
-// The two modes of `dance view`: a window, and pictures in files. Both receive through a StageFeed
-// and draw through a StagePainter.
+// The two modes of `dance view`: a window, and pictures in files. Both take poses from a
+// PictureSource, live or recorded, and draw through a StagePainter.
 //
 // Ownership: each call owns all it needs while it runs.
-// Threads:   call from main; the feed starts the bus thread.
+// Threads:   call from main; a live source starts the bus thread.
 // Failure:   the Error names what is missing and the cure.
 #pragma once
 

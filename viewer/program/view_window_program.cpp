@@ -6,7 +6,7 @@
 #include "core/program/talk.h"
 #include "viewer/draw/offscreen.h"
 #include "viewer/draw/stage_painter.h"
-#include "viewer/program/stage_roster.h"
+#include "viewer/program/picture_source.h"
 #include "viewer/program/view_program.h"
 #include "viewer/program/view_window.h"
 
@@ -37,18 +37,19 @@ Quality quality_of(QualityWish wish) {
 
 class WindowRun {
  public:
-  WindowRun(const ViewOptions& options, CameraRig& rig, StageFeed& feed, ViewWindow& window,
+  WindowRun(const ViewOptions& options, CameraRig& rig, PictureSource& source, ViewWindow& window,
             StagePainter& painter)
       : options_(options),
         rig_(rig),
-        feed_(feed),
+        source_(source),
         window_(window),
         painter_(painter),
-        roster_(feed.board()) {}
+        begun_(mono_now()),
+        roster_(source.board()) {}
 
   Result<void> run() {
-    MonoTime last = mono_now();
-    while (!window_.is_over() && !feed_.is_over()) {
+    MonoTime last = house_time(begun_);
+    while (!window_.is_over() && !source_.is_over()) {
       window_.poll_events();
       const ViewWindow::Size size = window_.framebuffer_size();
       if (size.width_px <= 0 || size.height_px <= 0) {  // minimised: nothing to draw
@@ -56,14 +57,18 @@ class WindowRun {
         continue;
       }
       const MonoTime now = mono_now();
-      if (auto drawn = draw(now, now - last, size); !drawn) return drawn;
-      last = now;
+      const MonoTime house_now = house_time(now);
+      if (auto drawn = draw(house_now, house_now - last, size); !drawn) return drawn;
+      last = house_now;
       pace(now);
     }
     return {};
   }
 
  private:
+  // A recorded house's clock goes along with ours.
+  MonoTime house_time(MonoTime now) { return source_.wait_until(source_.begin() + (now - begun_)); }
+
   Result<void> draw(MonoTime now, Duration since_last, ViewWindow::Size size) {
     roster_.update(now, scene_);
     has_twins_ = has_twins(scene_);
@@ -86,24 +91,16 @@ class WindowRun {
     if (!drawn) return drawn;
     painter_.present();
     window_.swap();
-    report_shown(mono_now());
-    return {};
-  }
-
-  void report_shown(MonoTime swap_time) {
+    const MonoTime swap_time = mono_now();
     rate_.on_picture(swap_time);
-    if (roster_.fresh().empty()) return;
-    for (const StageRoster::Fresh& fresh : roster_.fresh())
-      feed_.report_shown({fresh.guest,
-                          {fresh.pose.clock_id, fresh.pose.sequence, fresh.pose.capture_time,
-                           fresh.pose.hops, fresh.heard, swap_time}});
-    feed_.wake();
+    source_.report_shown(roster_.fresh(), swap_time);
+    return {};
   }
 
   void write_notes() {
     scene_.notes.clear();
     if (scene_.guests.empty()) {
-      scene_.notes.push_back("nobody is on the stage of " + feed_.url() +
+      scene_.notes.push_back("nobody is on the stage of " + source_.name() +
                              " yet; bring dancers with: dance salsa, or dance replay FILE");
     }
     if (options_.focus && !focus_was_here_) {
@@ -132,9 +129,10 @@ class WindowRun {
 
   const ViewOptions& options_;
   CameraRig& rig_;
-  StageFeed& feed_;
+  PictureSource& source_;
   ViewWindow& window_;
   StagePainter& painter_;
+  MonoTime begun_;
   StageRoster roster_;
   SceneState scene_;
   PictureRate rate_;
@@ -148,17 +146,17 @@ Result<void> run_window(const ViewOptions& options) {
   CameraRig rig(options.camera);
   if (options.focus) rig.focus(*options.focus);
   rig.set_turning(options.camera == CameraPreset::kAuto || options.camera == CameraPreset::kOrbit);
-  DANCE_TRY(auto feed, StageFeed::create(options.feed));
+  DANCE_TRY(auto source, PictureSource::open(options));
   DANCE_TRY(auto window, ViewWindow::create({options.size.width_px, options.size.height_px}, rig));
   DANCE_TRY(auto painter, StagePainter::create(quality_of(options.quality), window->scale()));
   if (!painter->overlay().font_note().empty()) talk::info("{}", painter->overlay().font_note());
   if (options.quality == QualityWish::kAuto && painter->renderer().quality() == Quality::kLow)
     talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
   window->set_comparing(options.compare);
-  auto ended = WindowRun(options, rig, *feed, *window, *painter).run();
-  if (feed->board().no_room() > 0)
+  auto ended = WindowRun(options, rig, *source, *window, *painter).run();
+  if (source->board().no_room() > 0)
     talk::warn("{} messages of guests beyond the {} that fit were left out",
-               feed->board().no_room(), GuestBoard::kMaxGuests);
+               source->board().no_room(), GuestBoard::kMaxGuests);
   return ended;
 }
 

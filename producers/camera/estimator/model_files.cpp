@@ -1,10 +1,28 @@
 #include "producers/camera/estimator/model_files.h"
 
 #include <cstdlib>
+#include <filesystem>
 
+#include "core/program/program.h"
 #include "producers/camera/estimator/tflite_file.h"
 
 namespace dance {
+namespace {
+
+constexpr const char* kDetector = "/pose_detection.tflite";
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): at start
+  return value ? value : "";
+}
+
+std::string users_folder() {
+  if (const std::string data = variable("XDG_DATA_HOME"); !data.empty())
+    return data + "/dancegraph/pose";
+  return variable("HOME") + "/.local/share/dancegraph/pose";
+}
+
+}  // namespace
 
 std::string_view name_of(PoseModel model) {
   switch (model) {
@@ -20,12 +38,15 @@ std::string_view name_of(PoseModel model) {
 
 std::string pose_models_folder(const std::string& wished) {
   if (!wished.empty()) return wished;
-  const char* folder = std::getenv("DANCE_POSE_MODELS");  // NOLINT(concurrency-mt-unsafe): at start
-  return folder && *folder ? folder : DANCE_POSE_MODELS_FOLDER;
+  if (const std::string folder = variable("DANCE_POSE_MODELS"); !folder.empty()) return folder;
+  for (const std::string& folder :
+       {data_folder() + "/pose", users_folder(), std::string("/var/lib/dancegraph/pose")})
+    if (std::filesystem::exists(folder + kDetector)) return folder;
+  return users_folder();
 }
 
 Result<PoseGraph> read_detector(const std::string& folder) {
-  return read_tflite_file(folder + "/pose_detection.tflite");
+  return read_tflite_file(folder + kDetector);
 }
 
 Result<PoseGraph> read_landmark_model(const std::string& folder, PoseModel model) {

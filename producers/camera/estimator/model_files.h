@@ -17,7 +17,11 @@ enum class PoseModel { kLite, kFull, kHeavy };
 std::string_view name_of(PoseModel model);
 
 // The folder that is wished; "" where none is: then the environment's DANCE_POSE_MODELS, and
-// without it models/pose of the source tree that this program was built from.
+// without it the first that has the detector in it of
+//   data_folder()/pose                     the build's: models/pose of the source tree
+//   $XDG_DATA_HOME/dancegraph/pose         where `dance fetch-models` of an installation puts them
+//   /var/lib/dancegraph/pose               where root's puts them, for all users
+// and the user's own where none has.
 std::string pose_models_folder(const std::string& wished);
 
 Result<PoseGraph> read_detector(const std::string& folder);

@@ -1,5 +1,6 @@
 // The operations of a .tflite file, one by one, with everything checked that an engine relies on.
 #include <algorithm>
+#include <type_traits>
 
 #include "producers/camera/estimator/tflite_reader.h"
 
@@ -9,17 +10,19 @@ namespace {
 constexpr int kSame = 0, kValid = 1;
 constexpr int kNoActivation = 0, kRelu = 1, kRelu6 = 3;
 
+constexpr const char* kNoOptions = "it has no options of its kind";
+
 }  // namespace
 
-Result<void> TfliteReader::take(TfliteBuiltin builtin, Operator& op) {
+Result<void> TfliteReader::take(TfliteBuiltin builtin, const Operator& op) {
   switch (builtin) {
     case TfliteBuiltin::kDequantize:
     case TfliteBuiltin::kDensify:
       return take_same(op);
     case TfliteBuiltin::kConv2d:
-      return take_convolution(op, false);
+      return take_convolution<tflite::ConvolutionOptions>(op);
     case TfliteBuiltin::kDepthwiseConv2d:
-      return take_convolution(op, true);
+      return take_convolution<tflite::DepthwiseOptions>(op);
     case TfliteBuiltin::kMaxPool2d:
       return take_pool(op);
     case TfliteBuiltin::kAdd:
@@ -98,7 +101,11 @@ Result<void> TfliteReader::push(GraphNode node, const Operator& op, std::size_t 
   return {};
 }
 
-Result<void> TfliteReader::take_convolution(Operator& op, bool is_depthwise) {
+template <class Options>
+Result<void> TfliteReader::take_convolution(const Operator& op) {
+  constexpr bool is_depthwise = std::is_same_v<Options, tflite::DepthwiseOptions>;
+  const auto* o = op.table->options_as<Options>();
+  if (!o) return fail(kNoOptions);
   if (op.inputs.size() != 3) return fail("a convolution has weights and a bias");
   const int in = op.inputs[0];
   GraphNode node;
@@ -112,21 +119,18 @@ Result<void> TfliteReader::take_convolution(Operator& op, bool is_depthwise) {
   if (from[0] != 1 || kernel[is_depthwise ? 0 : 3] != (is_depthwise ? 1 : from[3]) ||
       (is_depthwise && channels != from[3]))
     return fail("its weights do not fit its input");
-  const FlatTable& o = op.options;
-  // Between the strides and the rest stands, of a depthwise one, the multiplier of channels.
-  const std::size_t shift = is_depthwise ? 1 : 0;
-  if (o.i32(4 + shift, 1) != 1 || o.i32(5 + shift, 1) != 1)
+  if (o->dilation_columns() != 1 || o->dilation_rows() != 1)
     return fail("dilated convolutions are not known here");
   node.kernel_rows = kernel[1];
   node.kernel_columns = kernel[2];
-  node.stride_columns = o.i32(1);
-  node.stride_rows = o.i32(2);
+  node.stride_columns = o->stride_columns();
+  node.stride_rows = o->stride_rows();
   int rows = 0, columns = 0;
-  for (auto done : {place_window(from[1], kernel[1], node.stride_rows, o.u8(0), node.pad_top,
+  for (auto done : {place_window(from[1], kernel[1], node.stride_rows, o->padding(), node.pad_top,
                                  node.pad_bottom, rows),
-                    place_window(from[2], kernel[2], node.stride_columns, o.u8(0), node.pad_left,
-                                 node.pad_right, columns),
-                    set_activation(node, o.u8(3 + shift)), load(node.weights, Shape(kernel)),
+                    place_window(from[2], kernel[2], node.stride_columns, o->padding(),
+                                 node.pad_left, node.pad_right, columns),
+                    set_activation(node, o->activation()), load(node.weights, Shape(kernel)),
                     load(node.bias, {channels})})
     if (!done) return done;
   return push(std::move(node), op, 1, {1, rows, columns, channels});
@@ -135,19 +139,20 @@ Result<void> TfliteReader::take_convolution(Operator& op, bool is_depthwise) {
 Result<void> TfliteReader::take_pool(const Operator& op) {
   const Shape& from = shape(op.inputs[0]);
   if (from.size() != 4 || from[0] != 1) return fail("it pools what is no picture");
-  const FlatTable& o = op.options;
+  const auto* o = op.table->options_as_PoolOptions();
+  if (!o) return fail(kNoOptions);
   GraphNode node;
   node.op = GraphOp::kMaxPool;
-  node.stride_columns = o.i32(1);
-  node.stride_rows = o.i32(2);
-  node.kernel_columns = o.i32(3);
-  node.kernel_rows = o.i32(4);
+  node.stride_columns = o->stride_columns();
+  node.stride_rows = o->stride_rows();
+  node.kernel_columns = o->kernel_columns();
+  node.kernel_rows = o->kernel_rows();
   int rows = 0, columns = 0;
-  for (auto done : {place_window(from[1], node.kernel_rows, node.stride_rows, o.u8(0), node.pad_top,
-                                 node.pad_bottom, rows),
-                    place_window(from[2], node.kernel_columns, node.stride_columns, o.u8(0),
+  for (auto done : {place_window(from[1], node.kernel_rows, node.stride_rows, o->padding(),
+                                 node.pad_top, node.pad_bottom, rows),
+                    place_window(from[2], node.kernel_columns, node.stride_columns, o->padding(),
                                  node.pad_left, node.pad_right, columns),
-                    set_activation(node, o.u8(5))})
+                    set_activation(node, o->activation())})
     if (!done) return done;
   // What stands beyond the border would have to count as the least of all numbers.
   if (node.pad_top + node.pad_bottom + node.pad_left + node.pad_right > 0)
@@ -158,9 +163,11 @@ Result<void> TfliteReader::take_pool(const Operator& op) {
 Result<void> TfliteReader::take_add(const Operator& op) {
   if (op.inputs.size() != 2 || shape(op.inputs[0]) != shape(op.inputs[1]))
     return fail("what it adds is not of one shape");
+  const auto* o = op.table->options_as_AddOptions();
+  if (!o) return fail(kNoOptions);
   GraphNode node;
   node.op = GraphOp::kAdd;
-  if (auto done = set_activation(node, op.options.u8(0)); !done) return done;
+  if (auto done = set_activation(node, o->activation()); !done) return done;
   return push(std::move(node), op, 2, shape(op.inputs[0]));
 }
 
@@ -187,8 +194,8 @@ Result<void> TfliteReader::take_resize(const Operator& op) {
   if (op.inputs.size() != 2 || from.size() != 4) return fail("it resizes what is no picture");
   DANCE_TRY(const std::vector<int> size, tensors_->integers(op.inputs[1]));
   if (size.size() != 2) return fail("it does not say to which size");
-  constexpr std::size_t kAlignCorners = 2, kHalfPixelCenters = 3;
-  if (op.options.u8(kAlignCorners) != 0 || op.options.u8(kHalfPixelCenters) != 1)
+  const auto* o = op.table->options_as_ResizeBilinearOptions();
+  if (!o || o->align_corners() || !o->half_pixel_centers())
     return fail("it does not resize about the centres of pixels");
   GraphNode node;
   node.op = GraphOp::kResizeBilinear;
@@ -196,13 +203,15 @@ Result<void> TfliteReader::take_resize(const Operator& op) {
 }
 
 Result<void> TfliteReader::take_concatenation(const Operator& op) {
+  const auto* o = op.table->options_as_ConcatenationOptions();
+  if (!o) return fail(kNoOptions);
   Shape due = shape(op.inputs[0]);
   const int rank = static_cast<int>(due.size());
   GraphNode node;
   node.op = GraphOp::kConcatenate;
-  node.axis = op.options.i32(0);
+  node.axis = o->axis();
   if (node.axis < 0) node.axis += rank;
-  if (node.axis < 0 || node.axis >= rank || op.options.u8(1) != kNoActivation)
+  if (node.axis < 0 || node.axis >= rank || o->activation() != kNoActivation)
     return fail("it joins along a dimension that is not there");
   const auto axis = static_cast<std::size_t>(node.axis);
   for (std::size_t d = 0; d < axis; ++d)
@@ -219,10 +228,12 @@ Result<void> TfliteReader::take_concatenation(const Operator& op) {
 }
 
 Result<void> TfliteReader::take_depth_to_space(const Operator& op) {
+  const auto* o = op.table->options_as_DepthToSpaceOptions();
+  if (!o) return fail(kNoOptions);
   const Shape& from = shape(op.inputs[0]);
   GraphNode node;
   node.op = GraphOp::kDepthToSpace;
-  node.block = op.options.i32(0);
+  node.block = o->block();
   if (from.size() != 4 || node.block < 2 || node.block > 8 ||
       from[3] % (node.block * node.block) != 0)
     return fail("its channels do not make blocks of " + std::to_string(node.block));

@@ -1,5 +1,5 @@
-// What stands behind parse_tflite(): walks the tables of one file and builds the graph, operation
-// by operation.
+// What stands behind parse_tflite(): walks the tables of one verified file and builds the graph,
+// operation by operation.
 //
 // Units/frames: as producers/camera/estimator/pose_graph.h says.
 // Ownership:    looks at the file's bytes; the graph that it returns owns its numbers.
@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "core/base/result.h"
-#include "producers/camera/estimator/flat_bytes.h"
 #include "producers/camera/estimator/pose_graph.h"
 #include "producers/camera/estimator/tflite_tensors.h"
 
@@ -33,22 +32,22 @@ enum class TfliteBuiltin {
 };
 class TfliteReader {
  public:
-  explicit TfliteReader(std::span<const std::uint8_t> bytes) : file_(bytes) {}
+  explicit TfliteReader(const tflite::Model& verified) : model_(verified) {}
   Result<PoseGraph> read();
 
  private:
   struct Operator {
-    FlatTable options;
+    const tflite::Operator* table = nullptr;
     std::vector<int> inputs;
     int output = -1;
   };
   using Done = Result<void>;
 
-  Done read_operators(const FlatTable& model, const FlatTable& subgraph);
-  Done read_operator(const FlatTable& table, const FlatVector& codes, const FlatTable& model);
-  Done take(TfliteBuiltin builtin, Operator& op);
+  Done read_operator(const tflite::Operator& table);
+  Done take(TfliteBuiltin builtin, const Operator& op);
   Done take_same(const Operator& op);
-  Done take_convolution(Operator& op, bool is_depthwise);
+  template <class Options>
+  Done take_convolution(const Operator& op);
   Done take_pool(const Operator& op);
   Done take_add(const Operator& op);
   Done take_pad(const Operator& op);
@@ -66,7 +65,7 @@ class TfliteReader {
   Done push(GraphNode node, const Operator& op, std::size_t data_inputs, const Shape& shape);
   const Shape& shape(int tensor) const { return tensors_->shape(tensor); }
 
-  FlatBytes file_;
+  const tflite::Model& model_;
   std::optional<TfliteTensors> tensors_;
   std::vector<bool> is_computed_;
   PoseGraph graph_;

@@ -1,7 +1,6 @@
 #include "producers/camera/estimator/tflite_tensors.h"
 
 #include <Eigen/Core>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -13,65 +12,69 @@ constexpr std::size_t kMostDimensions = 4;
 constexpr std::size_t kMostElements = 1u << 22;
 constexpr std::size_t kMostConstants = 1u << 24;
 constexpr int kFloat32 = 0, kFloat16 = 1, kInt32 = 2;
-// Fields of the schema's tables.
-constexpr std::size_t kModelBuffers = 4, kSubgraphTensors = 0, kBufferData = 0;
-constexpr std::size_t kTensorShape = 0, kTensorType = 1, kTensorBuffer = 2, kTensorName = 3,
-                      kTensorSparsity = 6;
-constexpr std::size_t kTraversalOrder = 0, kBlockMap = 1, kDimensions = 2;
-constexpr std::size_t kFormat = 0, kDenseSize = 1, kSegmentsType = 2, kSegments = 3,
-                      kIndicesType = 4, kIndices = 5;
 constexpr int kSparseFormat = 1;
 
 std::size_t width_of(int type) { return type == kFloat16 ? 2 : 4; }
 
-// Whole numbers of a table that says itself how wide they are.
-FlatVector numbers_of(const FlatTable& dimension, std::size_t type_field, std::size_t field) {
-  constexpr std::size_t kWidths[] = {0, 4, 2, 1};
-  const std::size_t type = dimension.u8(type_field);
-  if (type == 0 || type >= std::size(kWidths)) return {};
-  return dimension.table(field).vector(0, kWidths[type]);
+template <class Numbers>
+std::vector<std::size_t> copied(const Numbers* numbers) {
+  if (!numbers || !numbers->values() || numbers->values()->size() > kMostElements + 1) return {};
+  return {numbers->values()->begin(), numbers->values()->end()};
+}
+
+std::vector<std::size_t> numbers_of(const void* numbers, tflite::IndexVector kind) {
+  switch (kind) {
+    case tflite::IndexVector::Int32Vector:
+      return copied(static_cast<const tflite::Int32Vector*>(numbers));
+    case tflite::IndexVector::Uint16Vector:
+      return copied(static_cast<const tflite::Uint16Vector*>(numbers));
+    case tflite::IndexVector::Uint8Vector:
+      return copied(static_cast<const tflite::Uint8Vector*>(numbers));
+    case tflite::IndexVector::NONE:
+      break;
+  }
+  return {};
 }
 
 }  // namespace
 
-Result<TfliteTensors> TfliteTensors::read(FlatBytes& file, FlatTable model, FlatTable subgraph) {
-  TfliteTensors tensors(file);
-  const FlatVector tables = subgraph.vector(kSubgraphTensors, 4);
-  const FlatVector buffers = model.vector(kModelBuffers, 4);
-  if (tables.count == 0 || tables.count > kMostTensors)
-    return fail("it has " + std::to_string(tables.count) + " tensors, where 1 to " +
+Result<TfliteTensors> TfliteTensors::read(const tflite::Model& model,
+                                          const tflite::Subgraph& subgraph) {
+  TfliteTensors tensors;
+  const std::size_t count = subgraph.tensors()->size();
+  if (count == 0 || count > kMostTensors)
+    return fail("it has " + std::to_string(count) + " tensors, where 1 to " +
                 std::to_string(kMostTensors) + " are read");
-  tensors.tensors_.reserve(tables.count);
-  for (std::size_t i = 0; i < tables.count; ++i) {
-    if (auto done = tensors.read_tensor(subgraph.table_of(tables, i), model, buffers); !done)
+  tensors.tensors_.reserve(count);
+  for (const tflite::Tensor* table : *subgraph.tensors()) {
+    if (auto done = tensors.read_tensor(*table, model); !done)
       return tl::make_unexpected(done.error());
   }
   return tensors;
 }
 
-Result<void> TfliteTensors::read_tensor(const FlatTable& table, const FlatTable& model,
-                                        const FlatVector& buffers) {
+Result<void> TfliteTensors::read_tensor(const tflite::Tensor& table, const tflite::Model& model) {
   const std::string which = "tensor " + std::to_string(tensors_.size());
   Tensor tensor;
-  tensor.name = table.text(kTensorName).substr(0, 64);
-  tensor.type = table.u8(kTensorType);
-  tensor.sparsity = table.table(kTensorSparsity);
-  const FlatVector shape = table.vector(kTensorShape, 4);
-  if (shape.count > kMostDimensions)
-    return fail(which + " has " + std::to_string(shape.count) + " dimensions");
+  if (table.name()) tensor.name = table.name()->string_view().substr(0, 64);
+  tensor.type = table.type();
+  tensor.sparsity = table.sparsity();
+  const std::size_t dimensions = table.shape() ? table.shape()->size() : 0;
+  if (dimensions > kMostDimensions)
+    return fail(which + " has " + std::to_string(dimensions) + " dimensions");
   std::size_t elements = 1;
-  for (std::size_t d = 0; d < shape.count; ++d) {
-    const std::int32_t size = shape.i32(d);
+  for (std::uint32_t d = 0; d < dimensions; ++d) {
+    const std::int32_t size = table.shape()->Get(d);
     if (size < 1 || static_cast<std::size_t>(size) > kMostElements / elements)
       return fail(which + " has a dimension of " + std::to_string(size));
     elements *= static_cast<std::size_t>(size);
     tensor.shape.push_back(size);
   }
-  const std::size_t buffer = table.u32(kTensorBuffer);
-  if (buffer >= buffers.count) return fail(which + " lies in a buffer that is not there");
+  const std::uint32_t buffer = table.buffer();
+  if (buffer >= model.buffers()->size()) return fail(which + " lies in a buffer that is not there");
   // Buffer 0 is by definition empty.
-  if (buffer != 0) tensor.data = model.table_of(buffers, buffer).vector(kBufferData, 1);
-  if (!file_->ok()) return fail(which + " points out of the file");
+  const auto* data = buffer == 0 ? nullptr : model.buffers()->Get(buffer)->data();
+  if (data) tensor.data = {data->data(), data->size()};
   tensors_.push_back(std::move(tensor));
   return {};
 }
@@ -86,7 +89,7 @@ const TfliteTensors::Tensor& TfliteTensors::source_of(int tensor) const {
   return at(tensor);
 }
 
-bool TfliteTensors::is_constant(int tensor) const { return source_of(tensor).data.count > 0; }
+bool TfliteTensors::is_constant(int tensor) const { return !source_of(tensor).data.empty(); }
 
 Result<std::vector<float>> TfliteTensors::stored_floats(const Tensor& tensor,
                                                         std::size_t count) const {
@@ -94,23 +97,15 @@ Result<std::vector<float>> TfliteTensors::stored_floats(const Tensor& tensor,
     return fail("'" + tensor.name + "' holds numbers of type " + std::to_string(tensor.type) +
                 ", which is neither single nor half precision");
   const std::size_t width = width_of(tensor.type);
-  if (tensor.data.count != count * width)
-    return fail("'" + tensor.name + "' has " + std::to_string(tensor.data.count) +
+  if (tensor.data.size() != count * width)
+    return fail("'" + tensor.name + "' has " + std::to_string(tensor.data.size()) +
                 " bytes, where " + std::to_string(count * width) + " are due");
-  const auto bytes = tensor.data.bytes();
-  // Nothing more is read once something pointed out of the file.
-  if (bytes.size() != count * width) return fail("'" + tensor.name + "' is not in the file");
   std::vector<float> values(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (width == 2) {
-      const auto bits = static_cast<std::uint16_t>(bytes[2 * i] | bytes[2 * i + 1] << 8);
-      values[i] = Eigen::half_impl::half_to_float(Eigen::half_impl::raw_uint16_to_half(bits));
-    } else {
-      std::uint32_t bits = 0;
-      for (std::size_t b = 0; b < 4; ++b)
-        bits |= static_cast<std::uint32_t>(bytes[4 * i + b]) << (8 * b);
-      values[i] = std::bit_cast<float>(bits);
-    }
+    const std::uint8_t* at = tensor.data.data() + i * width;
+    values[i] = width == 4 ? flatbuffers::ReadScalar<float>(at)
+                           : Eigen::half_impl::half_to_float(Eigen::half_impl::raw_uint16_to_half(
+                                 flatbuffers::ReadScalar<std::uint16_t>(at)));
     if (!(std::abs(values[i]) <= std::numeric_limits<float>::max()))
       return fail("'" + tensor.name + "' holds what is no finite number");
   }
@@ -121,42 +116,40 @@ Result<std::vector<float>> TfliteTensors::stored_floats(const Tensor& tensor,
 // are not 0 are listed.
 Result<std::vector<float>> TfliteTensors::dense(const Tensor& tensor) const {
   const std::size_t rank = tensor.shape.size();
-  const FlatVector order = tensor.sparsity.vector(kTraversalOrder, 4);
-  const FlatVector dimensions = tensor.sparsity.vector(kDimensions, 4);
+  const auto& order = *tensor.sparsity->traversal_order();
+  const auto& dimensions = *tensor.sparsity->dimensions();
+  const auto* blocks = tensor.sparsity->block_map();
   const auto wrong = [&](const char* what) {
     return fail("'" + tensor.name + "' is sparse: " + what);
   };
-  if (rank == 0 || order.count != rank || dimensions.count != rank ||
-      tensor.sparsity.vector(kBlockMap, 4).count != 0)
+  if (rank == 0 || order.size() != rank || dimensions.size() != rank ||
+      (blocks && blocks->size() != 0))
     return wrong("its dimensions are not listed one by one");
   std::size_t rows = 1;
-  for (std::size_t d = 0; d < rank; ++d) {
-    const FlatTable dimension = tensor.sparsity.table_of(dimensions, d);
+  for (std::uint32_t d = 0; d < rank; ++d) {
     const bool is_last = d + 1 == rank;
-    if (order.i32(d) != static_cast<std::int32_t>(d) ||
-        (dimension.u8(kFormat) == kSparseFormat) != is_last)
+    if (order.Get(d) != static_cast<std::int32_t>(d) ||
+        (dimensions.Get(d)->format() == kSparseFormat) != is_last)
       return wrong("only the last dimension may be listed by place");
     if (is_last) break;
-    if (dimension.i32(kDenseSize) != tensor.shape[d])
+    if (dimensions.Get(d)->dense_size() != tensor.shape[d])
       return wrong("a dimension's size is not the shape's");
     rows *= static_cast<std::size_t>(tensor.shape[d]);
   }
-  const FlatTable last = tensor.sparsity.table_of(dimensions, rank - 1);
-  const FlatVector segments = numbers_of(last, kSegmentsType, kSegments);
-  const FlatVector indices = numbers_of(last, kIndicesType, kIndices);
-  if (segments.count != rows + 1 || segments.number(0) != 0 ||
-      segments.number(rows) != indices.count)
+  const tflite::DimensionMetadata& last = *dimensions.Get(static_cast<std::uint32_t>(rank) - 1);
+  const std::vector<std::size_t> segments = numbers_of(last.segments(), last.segments_type());
+  const std::vector<std::size_t> indices = numbers_of(last.indices(), last.indices_type());
+  if (segments.size() != rows + 1 || segments.front() != 0 || segments.back() != indices.size())
     return wrong("its list of places is not as long as it says");
-  DANCE_TRY(const std::vector<float> stored, stored_floats(tensor, indices.count));
+  DANCE_TRY(const std::vector<float> stored, stored_floats(tensor, indices.size()));
   const auto columns = static_cast<std::size_t>(tensor.shape.back());
   std::vector<float> values(rows * columns, 0.0f);
   for (std::size_t row = 0; row < rows; ++row) {
-    const std::size_t from = segments.number(row), to = segments.number(row + 1);
-    if (from > to || to > indices.count) return wrong("its rows go backwards");
+    const std::size_t from = segments[row], to = segments[row + 1];
+    if (from > to || to > indices.size()) return wrong("its rows go backwards");
     for (std::size_t i = from; i < to; ++i) {
-      const std::size_t column = indices.number(i);
-      if (column >= columns) return wrong("a place is beyond its row");
-      values[row * columns + column] = stored[i];
+      if (indices[i] >= columns) return wrong("a place is beyond its row");
+      values[row * columns + indices[i]] = stored[i];
     }
   }
   return values;
@@ -170,16 +163,17 @@ Result<std::vector<float>> TfliteTensors::floats(int tensor) {
   elements_read_ += count;
   if (elements_read_ > kMostConstants)
     return fail("it has more than " + std::to_string(kMostConstants) + " weights");
-  return source.sparsity.is_there() ? dense(source) : stored_floats(source, count);
+  return source.sparsity ? dense(source) : stored_floats(source, count);
 }
 
 Result<std::vector<int>> TfliteTensors::integers(int tensor) {
   const Tensor& source = source_of(tensor);
   const std::size_t count = elements_of(source.shape);
-  if (source.type != kInt32 || count > 64 || source.data.count != 4 * count)
+  if (source.type != kInt32 || count > 64 || source.data.size() != 4 * count)
     return fail("'" + source.name + "' is no short list of whole numbers");
   std::vector<int> values;
-  for (std::size_t i = 0; i < count; ++i) values.push_back(file_->i32(source.data.at + 4 * i));
+  for (std::size_t i = 0; i < count; ++i)
+    values.push_back(flatbuffers::ReadScalar<std::int32_t>(source.data.data() + 4 * i));
   return values;
 }
 

@@ -9,17 +9,20 @@
 // Source:       the schema of TensorFlow Lite, version 3.
 #pragma once
 
+#include <tflite_generated.h>
+
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
-#include "producers/camera/estimator/flat_bytes.h"
 #include "producers/camera/estimator/pose_graph.h"
 
 namespace dance {
 
 class TfliteTensors {
  public:
-  static Result<TfliteTensors> read(FlatBytes& file, FlatTable model, FlatTable subgraph);
+  // Of tables that were verified.
+  static Result<TfliteTensors> read(const tflite::Model& model, const tflite::Subgraph& subgraph);
 
   std::size_t count() const { return tensors_.size(); }
   bool has(int tensor) const {
@@ -39,19 +42,16 @@ class TfliteTensors {
     std::string name;
     Shape shape;
     int type = 0;
-    FlatVector data;
-    FlatTable sparsity;
+    std::span<const std::uint8_t> data;
+    const tflite::Sparsity* sparsity = nullptr;
     int same_as = -1;
   };
-  explicit TfliteTensors(FlatBytes& file) : file_(&file) {}
   const Tensor& at(int tensor) const { return tensors_[static_cast<std::size_t>(tensor)]; }
   const Tensor& source_of(int tensor) const;
-  Result<void> read_tensor(const FlatTable& table, const FlatTable& model,
-                           const FlatVector& buffers);
+  Result<void> read_tensor(const tflite::Tensor& table, const tflite::Model& model);
   Result<std::vector<float>> stored_floats(const Tensor& tensor, std::size_t count) const;
   Result<std::vector<float>> dense(const Tensor& tensor) const;
 
-  FlatBytes* file_;
   std::vector<Tensor> tensors_;
   std::size_t elements_read_ = 0;
 };

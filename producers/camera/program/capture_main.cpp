@@ -64,7 +64,8 @@ int main(int argc, char** argv) {
                                {"xnnpack", EngineKind::kXnnpack},
                                {"opencv", EngineKind::kOpenCv}},
                               "what computes it");
-  line.add("--models", options.models_folder, "folder of the networks, instead of models/pose");
+  line.add("--models", options.models_folder,
+           "folder of the networks, instead of where `dance fetch-models` puts them");
   line.add("--follow", options.follow,
            "of several people: largest, or who is nearest to a place, as shares of the picture: "
            "0.3,0.5");

@@ -47,7 +47,7 @@ Result<void> CaptureProgram::open_chain() {
             follow_options(options_, eyes_->format().width_px, eyes_->format().height_px));
   DANCE_TRY(auto estimator, PoseEstimator::open(seeing));
   DANCE_TRY(bus_, Bus::open(options_.bus));
-  bus_sink_ = std::make_unique<BusCaptureSink>(*bus_);
+  bus_sink_ = std::make_unique<PortCaptureSink>(*bus_);
   CaptureSink* sink = bus_sink_.get();
   if (!options_.record_folder.empty()) {
     DANCE_TRY(recording_,

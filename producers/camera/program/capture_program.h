@@ -11,6 +11,7 @@
 
 #include <memory>
 
+#include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "producers/camera/program/capture_chain.h"
 #include "producers/camera/program/capture_eyes.h"
@@ -43,7 +44,7 @@ class CaptureProgram {
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<CaptureEyes> eyes_;
   std::unique_ptr<Bus> bus_;
-  std::unique_ptr<BusCaptureSink> bus_sink_;
+  std::unique_ptr<PortCaptureSink> bus_sink_;
   std::unique_ptr<CaptureRecording> recording_;
   std::unique_ptr<CaptureChain> chain_;
   std::unique_ptr<Preview> preview_;

@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <opencv2/core.hpp>
 
 #include "core/program/whole_file.h"
@@ -20,20 +16,9 @@ constexpr std::size_t kMostCalibration_bytes = 4u << 20;
 constexpr const char* kMakeOne = "make one with dance capture --calibrate";
 
 Result<std::string> read_small_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    return fail(path + " is a folder; name the calibration file in it");
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    return fail(fmt::format("{} cannot be read: {}; {}", path, std::strerror(errno),
-                            kMakeOne));  // NOLINT(concurrency-mt-unsafe)
-  std::string text(kMostCalibration_bytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMostCalibration_bytes)
-    return fail(fmt::format("{} is larger than {} bytes: no calibration; {}", path,
-                            kMostCalibration_bytes, kMakeOne));
-  if (text.empty()) return fail(fmt::format("{} is empty; {}", path, kMakeOne));
+  auto text = read_whole_file(path, kMostCalibration_bytes);
+  if (!text) return fail(fmt::format("{}; {}", text.error().what, kMakeOne));
+  if (text->empty()) return fail(fmt::format("{} is empty; {}", path, kMakeOne));
   return text;
 }
 

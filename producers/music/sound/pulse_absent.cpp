@@ -1,6 +1,6 @@
 // A build without PulseAudio: says so, and music is played without sound.
 #include "producers/music/loudspeaker.h"
-#include "producers/music/microphone_beats.h"
+#include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
 
 namespace dance {

@@ -19,26 +19,27 @@ Result<std::unique_ptr<PulseInput>> PulseInput::open(PulseServer& server, const 
                               1};
   input->stream_ = pa_stream_new(server.context(), "listening", &format, nullptr);
   if (input->stream_ == nullptr)
-    return fail("the sound server takes no stream: " + server.error_text());
+    return fail("the sound server refuses a stream: " + server.error_text());
   const auto on_data = [](pa_stream*, std::size_t, void* self) {
-    static_cast<PulseInput*>(self)->take_all();
+    static_cast<PulseInput*>(self)->read_all();
   };
   pa_stream_set_read_callback(input->stream_, on_data, input.get());
-  const auto as_usual = static_cast<std::uint32_t>(-1);
+  const auto server_default = static_cast<std::uint32_t>(-1);
   const auto fragment =
       static_cast<std::uint32_t>(kFragment_s * rate_hz) * static_cast<std::uint32_t>(sizeof(float));
-  const pa_buffer_attr buffer{as_usual, as_usual, as_usual, as_usual, fragment};
+  const pa_buffer_attr buffer{server_default, server_default, server_default, server_default,
+                              fragment};
   if (pa_stream_connect_record(input->stream_, source.empty() ? nullptr : source.c_str(), &buffer,
                                PA_STREAM_ADJUST_LATENCY) < 0)
-    return fail("the sound server records nothing: " + server.error_text());
+    return fail("the sound server refuses to record: " + server.error_text());
   pa_stream* stream = input->stream_;
   const bool is_ready = server.iterate_until([stream] {
     return pa_stream_get_state(stream) != PA_STREAM_CREATING;
   }) && pa_stream_get_state(stream) == PA_STREAM_READY;
   if (!is_ready)
     return fail("the sound server has no microphone" +
-                (source.empty() ? std::string() : " '" + source + "'") +
-                " for us: " + server.error_text() + "; `pactl list short sources` names them");
+                (source.empty() ? std::string() : " '" + source + "'") + ": " +
+                server.error_text() + "; `pactl list short sources` names them");
   return input;
 }
 
@@ -51,14 +52,14 @@ PulseInput::~PulseInput() {
 
 bool PulseInput::is_alive() const { return pa_stream_get_state(stream_) == PA_STREAM_READY; }
 
-void PulseInput::take_all() {
+void PulseInput::read_all() {
   while (pa_stream_readable_size(stream_) > 0) {
     const void* data = nullptr;
     std::size_t bytes = 0;
     if (pa_stream_peek(stream_, &data, &bytes) < 0 || bytes == 0) return;
     const std::size_t frames = bytes / sizeof(float);
     std::span<const float> samples(static_cast<const float*>(data), frames);
-    if (data == nullptr) {  // a hole: time goes on in it
+    if (data == nullptr) {  // a gap: filled with silence, so that time goes on
       silence_.assign(frames, 0.0f);
       samples = silence_;
     }
@@ -68,24 +69,24 @@ void PulseInput::take_all() {
   }
 }
 
-void PulseInput::ask_when() {
+void PulseInput::request_timing() {
   const auto on_answer = [](pa_stream*, int is_good, void* self) {
-    if (is_good != 0) static_cast<PulseInput*>(self)->tell_when();
+    if (is_good != 0) static_cast<PulseInput*>(self)->report_timing();
   };
-  pa_operation* asked = pa_stream_update_timing_info(stream_, on_answer, this);
-  if (asked != nullptr) pa_operation_unref(asked);
+  pa_operation* query = pa_stream_update_timing_info(stream_, on_answer, this);
+  if (query != nullptr) pa_operation_unref(query);
 }
 
-void PulseInput::tell_when() {
+void PulseInput::report_timing() {
   const pa_timing_info* info = pa_stream_get_timing_info(stream_);
   if (info == nullptr || info->write_index_corrupt != 0) return;
-  // Frames that the server has for us, and those that sounded but have not reached it; of a
-  // monitor, less those that it has but that nobody has heard yet. pa_usec_t is unsigned: signed
+  // Frames received, plus those recorded but not received yet; of a monitor, less those that are
+  // not heard yet. pa_usec_t is unsigned: signed
   // before anything is subtracted.
   const double taken = static_cast<double>(info->write_index) / sizeof(float);
   const double on_their_way_s =
       (static_cast<double>(info->source_usec) - static_cast<double>(info->sink_usec)) * 1e-6;
-  line_.report(PulseServer::mono_time_of(info->timestamp), taken + on_their_way_s * rate_hz_);
+  clock_.report(PulseServer::mono_time_of(info->timestamp), taken + on_their_way_s * rate_hz_);
 }
 
 }  // namespace dance

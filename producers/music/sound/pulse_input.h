@@ -1,11 +1,12 @@
 // PulseInput: what a microphone hears, or what a sink plays (its monitor), as mono samples, and
 // when each of them sounded, as far as the sound server knows.
 //
-// Units/frames: samples -1 to 1 at the rate asked for; frames count from the stream's begin. `trim`
+// Units/frames: samples -1 to 1 at the requested rate; frames count from the stream's begin. `trim`
 //               is a latency that the server does not know of.
 // Ownership:    refers to the server, which must outlive it.
 // Threads:      none inside: callbacks run in PulseServer::iterate().
-// Failure:      open() names what the server refused; is_alive() is false once the stream has gone.
+// Failure:      open() names what the server refused; is_alive() is false once the stream has
+//               ended.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "producers/music/heard_line.h"
 #include "producers/music/sound/pulse_server.h"
+#include "producers/music/sound/stream_clock.h"
 
 struct pa_stream;
 
@@ -35,21 +36,21 @@ class PulseInput {
 
   bool is_alive() const;
   // Once the server's answers have come; samples before that have no time.
-  bool is_timed() const { return line_.is_known(); }
+  bool is_timed() const { return clock_.is_known(); }
   // When the frame sounded.
-  MonoTime time_of(std::int64_t frame) const { return line_.time_of(static_cast<double>(frame)); }
+  MonoTime time_of(std::int64_t frame) const { return clock_.time_of(static_cast<double>(frame)); }
   std::int64_t read_frames() const { return read_; }
-  void ask_when();
+  void request_timing();
 
  private:
   PulseInput(double rate_hz, OnSamples on_samples)
-      : rate_hz_(rate_hz), on_samples_(std::move(on_samples)), line_(rate_hz) {}
-  void take_all();
-  void tell_when();
+      : rate_hz_(rate_hz), on_samples_(std::move(on_samples)), clock_(rate_hz) {}
+  void read_all();
+  void report_timing();
 
   double rate_hz_;
   OnSamples on_samples_;
-  HeardLine line_;
+  StreamClock clock_;
   pa_stream* stream_ = nullptr;
   std::int64_t read_ = 0;
   std::vector<float> silence_;

@@ -11,42 +11,42 @@ namespace dance {
 namespace {
 
 constexpr double kSilence_hz = 48000.0;
-// Until the latency of a loudspeaker that has slept is what it is while it plays.
+// Until a suspended output reports the latency that it has while it plays.
 constexpr Duration kPlayed = Duration::ms(500);
-// What is written at once of what the server wants.
+// Written at once, at most.
 constexpr std::size_t kMostFrames = 4800;
 
-struct Asked {
+struct Query {
   Loudspeaker found;
   bool is_done = false;
 };
 
 void take_default(pa_context*, const pa_server_info* info, void* data) {
-  auto& asked = *static_cast<Asked*>(data);
+  auto& query = *static_cast<Query*>(data);
   if (info != nullptr && info->default_sink_name != nullptr)
-    asked.found.name = info->default_sink_name;
-  asked.is_done = true;
+    query.found.name = info->default_sink_name;
+  query.is_done = true;
 }
 
 void take_sink(pa_context*, const pa_sink_info* info, int is_last, void* data) {
-  auto& asked = *static_cast<Asked*>(data);
+  auto& query = *static_cast<Query*>(data);
   if (is_last != 0 || info == nullptr) {
-    asked.is_done = true;
+    query.is_done = true;
     return;
   }
   const auto text = [](const char* t) { return std::string(t != nullptr ? t : ""); };
-  asked.found.description = text(info->description);
-  asked.found.is_muted = info->mute != 0;
-  asked.found.latency = Duration::us(static_cast<std::int64_t>(info->latency));
+  query.found.description = text(info->description);
+  query.found.is_muted = info->mute != 0;
+  query.found.latency = Duration::us(static_cast<std::int64_t>(info->latency));
   const std::string factory = text(pa_proplist_gets(info->proplist, "factory.name"));
-  asked.found.leads_nowhere = asked.found.name == "auto_null" ||
+  query.found.leads_nowhere = query.found.name == "auto_null" ||
                               text(info->driver).find("null-sink") != std::string::npos ||
                               factory.find("null-audio-sink") != std::string::npos;
 }
 
-Result<void> wait_for_answer(PulseServer& server, pa_operation* operation, const Asked& asked) {
-  if (operation == nullptr) return fail("the sound server tells nothing: " + server.error_text());
-  const bool has_answered = server.iterate_until([&] { return asked.is_done; });
+Result<void> wait_for_answer(PulseServer& server, pa_operation* operation, const Query& query) {
+  if (operation == nullptr) return fail("the sound server refuses a query: " + server.error_text());
+  const bool has_answered = server.iterate_until([&] { return query.is_done; });
   if (!has_answered) pa_operation_cancel(operation);
   pa_operation_unref(operation);
   if (!has_answered) return fail("the sound server does not answer");
@@ -57,12 +57,12 @@ Result<void> wait_for_answer(PulseServer& server, pa_operation* operation, const
 
 Result<Loudspeaker> default_loudspeaker(const std::string& program) {
   DANCE_TRY(const auto server, PulseServer::connect(program));
-  Asked asked;
+  Query query;
   pa_context* context = server->context();
-  if (auto told = wait_for_answer(*server,
-                                  pa_context_get_server_info(context, take_default, &asked), asked);
-      !told)
-    return tl::make_unexpected(told.error());
+  if (auto answered = wait_for_answer(
+          *server, pa_context_get_server_info(context, take_default, &query), query);
+      !answered)
+    return tl::make_unexpected(answered.error());
   DANCE_TRY(const auto output, PulseOutput::open(*server, kSilence_hz, [](MonoTime, double) {}));
   const std::vector<float> silence(2 * kMostFrames, 0.0f);
   const MonoTime end = mono_now() + kPlayed;
@@ -71,16 +71,16 @@ Result<Loudspeaker> default_loudspeaker(const std::string& program) {
     if (frames > 0) output->write(std::span(silence).first(2 * frames));
     return mono_now() >= end;
   });
-  asked.is_done = false;
-  const char* name = asked.found.name.c_str();
-  if (auto told = wait_for_answer(
-          *server, pa_context_get_sink_info_by_name(context, name, take_sink, &asked), asked);
-      !told)
-    return tl::make_unexpected(told.error());
-  if (asked.found.description.empty())
+  query.is_done = false;
+  const char* name = query.found.name.c_str();
+  if (auto answered = wait_for_answer(
+          *server, pa_context_get_sink_info_by_name(context, name, take_sink, &query), query);
+      !answered)
+    return tl::make_unexpected(answered.error());
+  if (query.found.description.empty())
     return fail("the sound server has no loudspeaker: " + server->error_text() +
                 "; `pactl list short sinks` names what it has");
-  return asked.found;
+  return query.found;
 }
 
 }  // namespace dance

@@ -8,9 +8,8 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kFrame_bytes = 2 * sizeof(float);
-// Ahead of what is heard: a machine that hangs for less is not heard to. The latency is counted, so
-// it costs nothing.
-constexpr double kAhead_s = 0.3;
+// Buffered ahead: shorter stalls of the machine are inaudible. The latency is compensated.
+constexpr double kBuffer_s = 0.3;
 
 }  // namespace
 
@@ -20,25 +19,26 @@ Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server, doub
   output->playing_hz_ = static_cast<std::uint32_t>(std::lround(rate_hz));
   const pa_sample_spec format{PA_SAMPLE_FLOAT32LE, output->playing_hz_, 2};
   if (pa_sample_spec_valid(&format) == 0)
-    return fail("the sound server knows no " + std::to_string(output->playing_hz_) +
+    return fail("the sound server does not play " + std::to_string(output->playing_hz_) +
                 " samples a second; convert the music to 48000");
   output->stream_ = pa_stream_new(server.context(), "music", &format, nullptr);
   if (output->stream_ == nullptr)
-    return fail("the sound server takes no stream: " + server.error_text());
-  const auto ahead = static_cast<std::uint32_t>(kAhead_s * rate_hz) * kFrame_bytes;
-  const auto as_usual = static_cast<std::uint32_t>(-1);
-  // Begins at once and never waits for us: what comes late is left out, and time goes on.
-  const pa_buffer_attr buffer{as_usual, static_cast<std::uint32_t>(ahead), 0, as_usual, as_usual};
+    return fail("the sound server refuses a stream: " + server.error_text());
+  const auto ahead = static_cast<std::uint32_t>(kBuffer_s * rate_hz) * kFrame_bytes;
+  const auto server_default = static_cast<std::uint32_t>(-1);
+  // Starts at once and never waits for data: late frames are dropped, and time goes on.
+  const pa_buffer_attr buffer{server_default, static_cast<std::uint32_t>(ahead), 0, server_default,
+                              server_default};
   const auto flags =
       static_cast<pa_stream_flags_t>(PA_STREAM_VARIABLE_RATE | PA_STREAM_ADJUST_LATENCY);
   if (pa_stream_connect_playback(output->stream_, nullptr, &buffer, flags, nullptr, nullptr) < 0)
-    return fail("the sound server plays nothing: " + server.error_text());
+    return fail("the sound server refuses to play: " + server.error_text());
   pa_stream* stream = output->stream_;
   const bool is_ready = server.iterate_until([stream] {
     return pa_stream_get_state(stream) != PA_STREAM_CREATING;
   }) && pa_stream_get_state(stream) == PA_STREAM_READY;
   if (!is_ready)
-    return fail("the sound server has no loudspeaker for us: " + server.error_text() +
+    return fail("the sound server has no loudspeaker: " + server.error_text() +
                 "; --silent plays without");
   return output;
 }
@@ -65,24 +65,24 @@ void PulseOutput::write(std::span<const float> interleaved) {
 double PulseOutput::set_speed(double speed) {
   const auto wanted = static_cast<std::uint32_t>(std::lround(rate_hz_ * speed));
   if (wanted != playing_hz_) {
-    pa_operation* asked = pa_stream_update_sample_rate(stream_, wanted, nullptr, nullptr);
-    if (asked != nullptr) {
-      pa_operation_unref(asked);
+    pa_operation* query = pa_stream_update_sample_rate(stream_, wanted, nullptr, nullptr);
+    if (query != nullptr) {
+      pa_operation_unref(query);
       playing_hz_ = wanted;
     }
   }
   return playing_hz_ / rate_hz_;
 }
 
-void PulseOutput::ask_what_is_heard() {
+void PulseOutput::request_timing() {
   const auto on_answer = [](pa_stream*, int is_good, void* self) {
-    if (is_good != 0) static_cast<PulseOutput*>(self)->tell_heard();
+    if (is_good != 0) static_cast<PulseOutput*>(self)->report_timing();
   };
-  pa_operation* asked = pa_stream_update_timing_info(stream_, on_answer, this);
-  if (asked != nullptr) pa_operation_unref(asked);
+  pa_operation* query = pa_stream_update_timing_info(stream_, on_answer, this);
+  if (query != nullptr) pa_operation_unref(query);
 }
 
-void PulseOutput::tell_heard() {
+void PulseOutput::report_timing() {
   const pa_timing_info* info = pa_stream_get_timing_info(stream_);
   if (info == nullptr || info->read_index_corrupt != 0 || info->playing == 0) return;
   // Frames that the server has taken out of our stream, less those that are still on their way to

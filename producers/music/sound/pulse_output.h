@@ -4,7 +4,8 @@
 // Units/frames: a frame is two floats, -1 to 1. Frames count from the stream's begin.
 // Ownership:    refers to the server, which must outlive it.
 // Threads:      none inside: callbacks run in PulseServer::iterate().
-// Failure:      open() names what the server refused; is_alive() is false once the stream has gone.
+// Failure:      open() names what the server refused; is_alive() is false once the stream has
+//               ended.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace dance {
 
 class PulseOutput {
  public:
-  // Frame `frame` was heard at `at`: told several times a second.
+  // Frame `frame` was heard at `at`: called several times a second.
   using OnHeard = std::function<void(MonoTime at, double frame)>;
 
   static Result<std::unique_ptr<PulseOutput>> open(PulseServer& server, double rate_hz,
@@ -36,12 +37,12 @@ class PulseOutput {
   // How fast frames are played: the nearest whole number a second, which is what the server can.
   // Returns the speed that it is, 1 = as opened.
   double set_speed(double speed);
-  void ask_what_is_heard();
+  void request_timing();
 
  private:
   PulseOutput(double rate_hz, OnHeard on_heard)
       : rate_hz_(rate_hz), on_heard_(std::move(on_heard)) {}
-  void tell_heard();
+  void report_timing();
 
   double rate_hz_;
   OnHeard on_heard_;

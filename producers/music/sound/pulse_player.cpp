@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kBlock_frames = 1024;
 constexpr std::size_t kMostBlocksPerTurn = 64;
-constexpr Duration kQuestions = Duration::ms(100);
+constexpr Duration kTimingRequests = Duration::ms(100);
 constexpr Duration kCorrections = Duration::s(1);
 
 }  // namespace
@@ -24,8 +24,8 @@ Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile file,
   PulsePlayer* self = player.get();
   DANCE_TRY(player->output_, PulseOutput::open(*player->server_, player->file_.rate_hz(),
                                                [self](MonoTime at, double frame) {
-                                                 self->line_.report(at + self->options_.trim,
-                                                                    frame);
+                                                 self->clock_.report(at + self->options_.trim,
+                                                                     frame);
                                                }));
   return player;
 }
@@ -33,39 +33,39 @@ Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile file,
 PulsePlayer::PulsePlayer(AudioFile file, const PulsePlayerOptions& options)
     : file_(std::move(file)),
       options_(options),
-      line_(file_.rate_hz()),
+      clock_(file_.rate_hz()),
       plan_(file_.rate_hz()),
       block_(2 * kBlock_frames) {}
 
 std::optional<double> PulsePlayer::heard_s(MonoTime t) const {
-  if (!begin_ || !line_.is_known()) return std::nullopt;
-  return plan_.heard_s(line_, t);
+  if (!begin_ || !clock_.is_known()) return std::nullopt;
+  return plan_.heard_s(clock_, t);
 }
 
 Result<void> PulsePlayer::work(MonoTime now) {
   server_->iterate();
   if (!server_->is_alive() || !output_->is_alive())
-    return fail("the sound server has gone (" + server_->error_text() + ")");
-  if (now >= next_question_) {
-    output_->ask_what_is_heard();
-    next_question_ = now + kQuestions;
+    return fail("the connection to the sound server is lost (" + server_->error_text() + ")");
+  if (now >= next_timing_request_) {
+    output_->request_timing();
+    next_timing_request_ = now + kTimingRequests;
   }
-  if (begin_ && line_.is_known()) keep_in_step(now);
+  if (begin_ && clock_.is_known()) keep_in_step(now);
   return fill();
 }
 
 void PulsePlayer::keep_in_step(MonoTime now) {
   const bool is_first = !plan_.is_aligned();
   if (!is_first && now < next_correction_) return;
-  const double error_s = is_first ? 0.0 : plan_.error_s(line_, *begin_, now);
+  const double error_s = is_first ? 0.0 : plan_.error_s(clock_, *begin_, now);
   if (is_first || PlayPlan::wants_jump(error_s)) {
     if (!is_first) ++jumps_;
-    plan_.align(line_, *begin_, output_->written_frames());
+    plan_.align(clock_, *begin_, output_->written_frames());
     return;
   }
   next_correction_ = now + kCorrections;
   errors_.add(Duration::seconds(std::abs(error_s)));
-  line_.set_speed(output_->set_speed(PlayPlan::speed_for(error_s)), now);
+  clock_.set_speed(output_->set_speed(PlayPlan::speed_for(error_s)), now);
 }
 
 Result<void> PulsePlayer::fill() {
@@ -79,13 +79,13 @@ Result<void> PulsePlayer::fill() {
         return read;
     const std::int64_t before = output_->written_frames();
     output_->write(stereo);
-    if (output_->written_frames() == before) break;  // refused: asked again in the next turn
+    if (output_->written_frames() == before) break;  // refused: tried again in the next turn
     wanted -= frames;
   }
   return {};
 }
 
-// Silence before the song and behind it.
+// Silence before the song and after it.
 Result<void> PulsePlayer::read_song(std::int64_t song_frame, std::span<float> stereo) {
   const std::int64_t length = file_.length_frames();
   auto frames = static_cast<std::int64_t>(stereo.size() / 2);
@@ -117,7 +117,7 @@ std::string PulsePlayer::summary() const {
   std::snprintf(text.data(), text.size(),
                 "sound off its time by %.1f ms (median), %.1f ms (worst of 100 s), %llu jumps",
                 errors_.percentile(0.5).as_ms(), errors_.percentile(0.99).as_ms(),
-                static_cast<unsigned long long>(jumps_ + line_.jumps()));
+                static_cast<unsigned long long>(jumps_ + clock_.jumps()));
   return text.data();
 }
 

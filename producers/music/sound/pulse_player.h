@@ -1,20 +1,20 @@
 // PulsePlayer: plays a file through the sound server, heard when it should be: latency counted in,
-// drift taken in.
+// drift corrected.
 //
-// Units/frames: `trim` is the latency behind the server's knowledge (an amplifier, a television).
+// Units/frames: `trim` is latency that the server does not know of (an amplifier, a television).
 // Ownership:    owns the file and its connection with the server.
 // Threads:      none inside.
-// Failure:      open() names what is missing; work() fails where the file is damaged or the server
-//               has gone.
+// Failure:      open() names what is missing; work() fails where the file is damaged or the
+//               connection is lost.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "core/base/histogram.h"
-#include "producers/music/audio_file.h"
+#include "producers/music/decode/audio_file.h"
 #include "producers/music/music_player.h"
-#include "producers/music/play_plan.h"
+#include "producers/music/sound/play_plan.h"
 #include "producers/music/sound/pulse_output.h"
 
 namespace dance {
@@ -47,12 +47,12 @@ class PulsePlayer : public MusicPlayer {
   AudioFile file_;
   PulsePlayerOptions options_;
   std::unique_ptr<PulseServer> server_;
-  HeardLine line_;
+  StreamClock clock_;
   PlayPlan plan_;
   std::unique_ptr<PulseOutput> output_;  // last: its reports go to what stands above
   std::optional<MonoTime> begin_;
   bool loops_ = false;
-  MonoTime next_question_;
+  MonoTime next_timing_request_;
   MonoTime next_correction_;
   std::vector<float> block_;
   Histogram errors_;

@@ -23,10 +23,10 @@ Result<std::unique_ptr<PulseServer>> PulseServer::connect(const std::string& pro
   server->context_ =
       pa_context_new(pa_mainloop_get_api(server->mainloop_), ("dance " + program).c_str());
   if (server->context_ == nullptr) return fail("no memory for the sound server");
-  // A server that nobody has started is not for us to start: it would be nobody's to end.
+  // Does not start a server: nothing would stop it again.
   if (pa_context_connect(server->context_, nullptr, PA_CONTEXT_NOAUTOSPAWN, nullptr) < 0)
     return fail(std::string(kNoServer) + " (" + server->error_text() + ")");
-  for (int i = 0; i < kTurnsOfPatience; ++i) {
+  for (int i = 0; i < kMostWaits; ++i) {
     if (!is_on_its_way(pa_context_get_state(server->context_))) break;
     server->iterate_waiting();
   }
@@ -43,7 +43,7 @@ PulseServer::~PulseServer() {
 }
 
 void PulseServer::iterate() {
-  // Bounded: a server that floods us does not hold the program up.
+  // Bounded, so that a flood of events cannot block the program.
   for (int i = 0; i < 64; ++i)
     if (pa_mainloop_iterate(mainloop_, 0, nullptr) <= 0) return;
 }

@@ -6,8 +6,8 @@
 // Ownership:    owns the connection; streams on it must go before it.
 // Threads:      none: everything happens in iterate(), which is to be called some hundred times a
 //               second.
-// Failure:      connect() says why there is no server and what to do; is_alive() is false once it
-//               has gone.
+// Failure:      connect() says why there is no server and what to do; is_alive() is false once the
+//               connection is lost.
 #pragma once
 
 #include <sys/time.h>
@@ -37,7 +37,7 @@ class PulseServer {
   // The same until `is_done`, for a few seconds at most; false when it did not come to that.
   template <class IsDone>
   bool iterate_until(IsDone is_done) {
-    for (int i = 0; i < kTurnsOfPatience; ++i) {
+    for (int i = 0; i < kMostWaits; ++i) {
       if (is_done()) return true;
       if (!is_alive()) return false;
       iterate_waiting();
@@ -50,7 +50,7 @@ class PulseServer {
   static MonoTime mono_time_of(const timeval& wall);
 
  private:
-  static constexpr int kTurnsOfPatience = 300;  // of 10 ms
+  static constexpr int kMostWaits = 300;  // of 10 ms
 
   PulseServer() = default;
   void iterate_waiting();

@@ -18,7 +18,7 @@ constexpr double kFastest_bpm = 214.0;
 constexpr double kSlowest_bpm = 93.7;
 constexpr double kLikelyTempo_bpm = 140.0;
 constexpr double kTempoSpread = 0.45;     // of its logarithm
-constexpr float kEvidence = 0.1f;         // neighbouring hops tell much the same
+constexpr float kEvidence = 0.1f;         // neighbouring hops are correlated
 constexpr double kFloor = 0.35;           // of a law's mean: strokes that no pattern has
 constexpr double kTempoStiffness = 80.0;  // from beat to beat
 constexpr float kTempoJump = 2e-3f;       // probability a beat
@@ -30,7 +30,7 @@ constexpr float kBeatSlip = 1e-3f;        // that the bar goes on elsewhere, a b
 constexpr float kForget = 1e-8f;
 constexpr float kMeaningEvidence = 0.2f;
 constexpr double kMeaningBlur_s = 0.016;
-// What a meaning tells of was heard so long before what the newest strengths tell of.
+// A stroke's likelihood is known so much later than its strengths.
 constexpr double kMeaningLater_s = StrokeFeatures::kDelay_s - OnsetStrength::kDelay_s;
 
 double tempo_weight(double tempo_bpm) {

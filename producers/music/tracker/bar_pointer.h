@@ -1,13 +1,12 @@
-// BarPointer: where in the bar the music is, and how fast it goes, as probabilities of everything
-// at once: each tempo, each place in a bar, each pattern of strokes. It moves with time and listens
-// to onset strengths and what strokes mean; there is no later correction, so what it says of now
-// never needs what is still to come.
+// BarPointer: a causal Bayesian filter for tempo and position in the bar: the joint probability of
+// each tempo, each position in a bar and each rhythm pattern, updated every hop by onset strengths
+// and the likelihoods of strokes.
 //
 // Units/frames: time in hops of onset strengths; periods are hops a beat.
 // Ownership:    owns its tables, about 2 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      wants strengths that are finite. Where nothing is heard (weight 0) it moves on and
-//               forgets slowly.
+//               the distribution slowly widens.
 // Source:       the state space and its changes of tempo at beats follow Krebs, Böck and Widmer,
 //               "An efficient state-space model for joint tempo and meter tracking", ISMIR 2015;
 //               here with exponential laws of strengths, filtered.
@@ -40,8 +39,8 @@ class BarPointer {
   // At least one pattern; they are not needed afterwards.
   BarPointer(double hop_s, std::span<const MeterPattern> patterns);
 
-  // Strengths of the next hop, and what the stroke of some hops ago was. weight: how much they are
-  // believed, 0 (there is no music) to 1.
+  // Strengths of the next hop, and what the stroke of some hops ago was. weight: their weight, 0
+  // (there is no music) to 1.
   void push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning, float weight);
 
   Place likeliest() const;
@@ -74,8 +73,7 @@ class BarPointer {
   // Logarithm of a strength's law in a state: constant_ - sum of slopes * strengths.
   Eigen::ArrayXf constant_;
   std::array<Eigen::ArrayXf, kOnsetGroups> slope_;
-  // By tempo and place in a bar: how much that was on a beat, or on a half, when what the meaning
-  // tells of was heard.
+  // By tempo and place in a bar: how close the stroke that is judged was to a beat, or to a half.
   std::vector<int> bar_first_;
   Eigen::ArrayXf on_beat_;
   Eigen::ArrayXf on_half_;

@@ -17,7 +17,7 @@ constexpr std::uint16_t kBeatVersion = 1;
 constexpr float kMostWeight = 1e4f;
 constexpr int kLeastPatternTempo_bpm = 40;
 constexpr int kMostPatternTempo_bpm = 400;
-// Each pattern knows some of the tempi that are looked for.
+// Each pattern covers some of the tempi that are searched.
 constexpr int kSlowestOfUse_bpm = 100;
 constexpr int kFastestOfUse_bpm = 200;
 constexpr std::size_t kMostBeatModelBytes = 1 << 16;
@@ -98,6 +98,14 @@ Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::ui
                 " bytes): fetch it again, or train it with dance music train");
   model->name = name_of(file);
   return std::shared_ptr<const BeatModel>(std::move(model));
+}
+
+std::span<const std::uint8_t> beat_model_file();  // data/, by dance_embed
+
+std::shared_ptr<const BeatModel> built_in_beat_model() {
+  static const auto kModel = read_beat_model(beat_model_file());
+  DANCE_ASSERT(kModel.has_value());  // a test reads it too
+  return *kModel;
 }
 
 }  // namespace dance

@@ -1,12 +1,12 @@
-// BeatModel: what a beat tracker has learnt from songs whose beats are known: a network that judges
-// strokes, and patterns of where in a bar kinds of music strike. `dance music train` makes one;
+// BeatModel: a beat tracker's parameters, trained on songs whose beats are known: a network that
+// classifies strokes, and rhythm patterns. `dance music train` makes one;
 // data/music/beats.model is built in.
 //
 // Units/frames: as in stroke_net.h and meter_pattern.h.
 // Ownership:    a value that many trackers may share.
 // Threads:      none inside; const calls may run at the same time.
-// Failure:      read_beat_model says what is wrong with a file; what it takes is finite and within
-//               bounds.
+// Failure:      read_beat_model names what is wrong with a file; what it accepts is finite and
+//               within bounds.
 #pragma once
 
 #include <cstdint>

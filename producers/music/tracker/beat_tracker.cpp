@@ -8,7 +8,7 @@ namespace {
 // A hop with a mean strength above this is a stroke.
 constexpr float kStroke = 1.0f;
 // The slowest beat that is looked for lasts 64 hops. Where no stroke has been for longer the music
-// has a break, which says nothing of where the beat is: belief fades from the first to the second.
+// has a break, without evidence of the beat: weights fade from the first to the second.
 constexpr std::int64_t kBreakBegins_hops = 50;
 constexpr std::int64_t kBreak_hops = 70;
 constexpr std::int64_t kKnownAfter_hops = 200;
@@ -22,7 +22,7 @@ BeatTracker::BeatTracker(double sample_rate_hz, std::shared_ptr<const BeatModel>
       model_(std::move(model)),
       features_(onsets_),
       pointer_(hop_s_, model_->patterns),
-      line_(hop_s_),
+      lock_(hop_s_),
       hop_(onsets_.hop_samples()) {}
 
 int BeatTracker::push(std::span<const float> samples) {
@@ -51,17 +51,17 @@ void BeatTracker::end_hop() {
                                         static_cast<float>(kBreak_hops - kBreakBegins_hops),
                                     0.0f, 1.0f);
   features_.push(onsets_, strengths);
-  features_.read(told_);
-  pointer_.push(strengths, model_->net.judge(told_), believed);
+  features_.read(feature_values_);
+  pointer_.push(strengths, model_->net.judge(feature_values_), believed);
 
   const double now_s = static_cast<double>(hops_) * hop_s_;
-  line_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);
+  lock_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);
   if (since_stroke_hops_ < kBreak_hops) ++sounding_hops_;
   beat_.time = MonoTime{} + Duration::seconds(now_s);
-  beat_.beat_time = MonoTime{} + Duration::seconds(line_.next_s());
-  beat_.beat = static_cast<double>(line_.number());
-  beat_.tempo_bpm = 60.0 / line_.period_s();
-  beat_.confidence = std::clamp(static_cast<float>(line_.certainty()), 0.0f, 1.0f) * believed;
+  beat_.beat_time = MonoTime{} + Duration::seconds(lock_.next_s());
+  beat_.beat = static_cast<double>(lock_.number());
+  beat_.tempo_bpm = 60.0 / lock_.period_s();
+  beat_.confidence = std::clamp(static_cast<float>(lock_.certainty()), 0.0f, 1.0f) * believed;
   beat_.playing = sounding_hops_ >= kKnownAfter_hops && since_stroke_hops_ < kSilentAfter_hops;
 }
 

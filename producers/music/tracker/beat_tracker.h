@@ -1,15 +1,14 @@
-// BeatTracker: hears samples and says where the beat is: a causal, streaming tracker for music that
-// comes without a list of its beats. After each hop of 10 ms it tells when the next beat will be
-// heard, which number it has and how fast the music goes. It looks for 94 to 214 beats a minute,
-// the one octave of tempo that couples dance in.
+// BeatTracker: a causal, streaming beat tracker for music without a list of its beats. After each
+// hop of 10 ms it predicts the time of the next beat, its number and the tempo, between 94 and 214
+// beats a minute, the one octave of tempo that couples dance in.
 //
 // Units/frames: mono samples at a given rate. Times in Beat count from the first sample on a clock
-//               that has zero there; whoever knows when samples are heard adds that. A hop costs
+//               that has zero there; the caller adds the time at which that was heard. A hop costs
 //               about 0.3 ms of one core.
 // Ownership:    owns its tables, about 2.5 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      samples that are not finite count as silence. beat().playing is false before the
-//               first two seconds of sound and in silence of more than four; the line goes on
+//               first two seconds of sound and in silence of more than four; the phase lock goes on
 //               inside.
 #pragma once
 
@@ -21,8 +20,8 @@
 
 #include "core/base/beat.h"
 #include "producers/music/tracker/bar_pointer.h"
-#include "producers/music/tracker/beat_line.h"
 #include "producers/music/tracker/beat_model.h"
+#include "producers/music/tracker/beat_phase_lock.h"
 #include "producers/music/tracker/onset_strength.h"
 #include "producers/music/tracker/stroke_features.h"
 
@@ -52,8 +51,8 @@ class BeatTracker {
   std::shared_ptr<const BeatModel> model_;
   StrokeFeatures features_;
   BarPointer pointer_;
-  BeatLine line_;
-  std::array<float, StrokeFeatures::kCount> told_{};
+  BeatPhaseLock lock_;
+  std::array<float, StrokeFeatures::kCount> feature_values_{};
   std::vector<float> hop_;
   std::size_t filled_ = 0;
   std::int64_t hops_ = 0;

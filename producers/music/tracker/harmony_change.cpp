@@ -10,7 +10,7 @@ namespace dance {
 namespace {
 
 constexpr double kThinnedRate_hz = 5512.5;
-constexpr double kHarmonyWindow_s = 0.186;  // tells semitones apart from 120 Hz on
+constexpr double kHarmonyWindow_s = 0.186;  // separates semitones from 120 Hz on
 constexpr double kLowest_hz = 60.0;
 constexpr double kHighest_hz = 2000.0;
 constexpr std::size_t kNeighbours = 7;  // a tone stands out of so many bins on either side

@@ -2,7 +2,7 @@
 // on beats far more often than between them, also where drums and guitars strike on every half of a
 // beat.
 //
-// Units/frames: mono samples at a given rate; change is in no unit. What a hop tells of happened
+// Units/frames: mono samples at a given rate; change is in no unit. A hop's value belongs to
 //               kDelay_s before its end.
 // Ownership:    own copies of the last 0.2 s; never allocates after construction.
 // Threads:      none inside; one owner.

@@ -1,7 +1,7 @@
 // MeterPattern: where in a bar of four beats a kind of music strikes, in each group of onset
 // strengths: salsa has its bass before the beat and its bells on it, rock the drum on each second
-// beat, swing its thirds. They tell a tracker which of the strokes that come at even distances is
-// the beat.
+// beat, swing its thirds. They decide which of
+// the evenly spaced strokes are beats.
 //
 // Units/frames: weights are relative within a row; tempi in beats a minute.
 // Ownership:    plain values.

@@ -1,9 +1,10 @@
 // OnsetStrength: how much begins to sound, a hundred times a second: the rise of the logarithmic
-// spectrum, summed in a few groups of bands, each in units of its own recent mean. This is what a
-// beat tracker hears instead of samples.
+// spectrum, summed in a few groups of bands, each in units of its own recent mean. A beat tracker's
+// input.
 //
 // Units/frames: mono samples of any scale at a given rate; a hop is 10 ms. Strengths are 1 on
-//               average. What a hop tells of began kDelay_s before the hop's end.
+//               average. A hop's strengths belong to kDelay_s
+//               before its end.
 // Ownership:    own copies of the last 46 ms; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      samples that are not finite count as silence; silence has strength 0.

@@ -22,7 +22,7 @@ constexpr int kRiseLag = 2;
 constexpr int kToneLag = 16;
 constexpr std::array kRiseAt_hops{1, 3, 5};
 static_assert(kRiseAt_hops.size() == StrokeFeatures::kRises);
-constexpr float kMostTold = 15.0f;  // of a strength
+constexpr float kMostStrength = 15.0f;  // of a strength
 
 template <std::size_t N>
 float rise_of(const std::array<float, N>& now, const std::array<float, N>& past, std::size_t i) {
@@ -68,7 +68,7 @@ void StrokeFeatures::push(const OnsetStrength& onsets, const OnsetStrength::Stre
     rows[row_of_tone_[i]] += onsets.harmony().tones()[i];
   std::copy_n(rows.begin(), kTones, hop.tones.begin());
   for (std::size_t g = 0; g < kOnsetGroups; ++g)
-    hop.strengths[g] = std::min(strengths[g], kMostTold);
+    hop.strengths[g] = std::min(strengths[g], kMostStrength);
   ++hops_;
 }
 

@@ -1,7 +1,7 @@
 // StrokeFeatures: what sounds around one moment, as numbers a network can judge it by: which bands
 // rose and which tones are new, how loud each band is against before, and the strokes of the half
-// second that led there. It tells of the moment kAhead_hops ago, since what a stroke was shows only
-// after it.
+// second that led there. They
+// describe the moment kAhead_hops ago, since a stroke can be classified only after it.
 //
 // Units/frames: one call a hop of onset strengths. Features are relative loudness in no unit; where
 //               a band lies above what the sample rate can hold it is silent.

@@ -1,7 +1,6 @@
-// StrokeNet: a small network that judges from what sounds around a moment whether a beat is there,
-// the half between two beats, or neither. Drums may strike on both alike; which drum it is, and
-// what changes with it, tells them apart more often than not, and a bar pointer adds that up over
-// many bars.
+// StrokeNet: a small network that classifies a moment as a beat, the half between two beats, or
+// neither. Drums may strike on both; which drum it is, and what changes with it, separates them
+// more often than not, and a bar pointer accumulates that over many bars.
 //
 // Units/frames: logarithms of likelihood ratios.
 // Ownership:    plain value, some 28 kB; judge() allocates nothing.

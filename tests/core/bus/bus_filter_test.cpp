@@ -26,7 +26,7 @@ TEST(BusFilter, WhoWantsTheBeatIsNotWokenByPoses) {
   constexpr const char* kOwnPort = "udpm://239.255.76.67:17665?ttl=0";
   const auto sender = *Bus::open(kOwnPort), receiver = *Bus::open(kOwnPort);
   int beats = 0, stages = 0;
-  receiver->on_beat([&](const Channel&, const Beat&, MonoTime) { ++beats; });
+  receiver->subscribe<Beat>(Where::kLocal, [&](const Channel&, const Beat&, MonoTime) { ++beats; });
   Beat beat;
   beat.tempo_bpm = 120.0;
   const auto send = [&] {
@@ -42,10 +42,10 @@ TEST(BusFilter, WhoWantsTheBeatIsNotWokenByPoses) {
   // Who wants more later gets it, and a second bus of the same process only its own.
   const auto second = *Bus::open(kOwnPort);
   int captures = 0;
-  second->on_pose(Where::kCapture, GuestId(), Delivery::kEvery,
-                  [&](const Channel&, const Pose&, MonoTime) { ++captures; });
-  receiver->on_pose(Where::kStage, GuestId(), Delivery::kEvery,
-                    [&](const Channel&, const Pose&, MonoTime) { ++stages; });
+  second->subscribe<Pose>(Where::kCapture,
+                          [&](const Channel&, const Pose&, MonoTime) { ++captures; });
+  receiver->subscribe<Pose>(Where::kStage,
+                            [&](const Channel&, const Pose&, MonoTime) { ++stages; });
   const std::uint64_t before = kept_back();
   send();
   drain_until(*receiver, [&] { return beats == 2 && stages == 100; });
@@ -71,7 +71,7 @@ TEST(BusFilter, WhoIsWatchedBeforeItWantsAnythingIsNotWokenEither) {
   for (int i = 0; i < 1000 && kept_back() - before < 101; ++i) poll(nullptr, 0, 10);
   EXPECT_EQ(kept_back() - before, 101u);
   int beats = 0;
-  receiver->on_beat([&](const Channel&, const Beat&, MonoTime) { ++beats; });
+  receiver->subscribe<Beat>(Where::kLocal, [&](const Channel&, const Beat&, MonoTime) { ++beats; });
   send();
   drain_until(*receiver, [&] { return beats == 1; });
   EXPECT_EQ(beats, 1);
@@ -81,7 +81,7 @@ TEST(BusFilter, WhoIsWatchedBeforeItWantsAnythingIsNotWokenEither) {
 TEST(BusFilter, WhoComesToWantEverythingHearsEverything) {
   const auto sender = open_bus(), receiver = open_bus();
   int beats = 0, all = 0;
-  receiver->on_beat([&](const Channel&, const Beat&, MonoTime) { ++beats; });
+  receiver->subscribe<Beat>(Where::kLocal, [&](const Channel&, const Beat&, MonoTime) { ++beats; });
   receiver->on_anything([&](std::string_view, const void*, std::size_t, MonoTime) { ++all; });
   Beat beat;
   beat.tempo_bpm = 120.0;
@@ -134,11 +134,9 @@ TEST(BusFilter, LosesNothingWhereTheKernelHasNoRoomForAFilter) {
   const auto count = [](int& poses) {
     return [&poses](const Channel&, const Pose&, MonoTime) { ++poses; };
   };
-  receiver->on_beat([](const Channel&, const Beat&, MonoTime) {});
-  receiver->on_pose(Where::kStage, guest("a-guest-of-a-long-name"), Delivery::kEvery,
-                    count(stages));
-  receiver->on_pose(Where::kCapture, guest("a-guest-of-a-long-name"), Delivery::kEvery,
-                    count(captures));
+  receiver->subscribe<Beat>(Where::kLocal, [](const Channel&, const Beat&, MonoTime) {});
+  receiver->subscribe<Pose>({Where::kStage, guest("a-guest-of-a-long-name")}, count(stages));
+  receiver->subscribe<Pose>({Where::kCapture, guest("a-guest-of-a-long-name")}, count(captures));
   for (std::uint32_t i = 0; i < 10; ++i) {
     sender->publish(Channel::of(Signal::kPose, Where::kStage, guest("a-guest-of-a-long-name")),
                     numbered(i));

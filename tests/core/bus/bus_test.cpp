@@ -11,6 +11,7 @@
 #include "core/net/mono_clock.h"
 #include "tests/allocation_guard.h"
 #include "tests/core/bus/bus_help.h"
+#include "tests/core/bus/tap.h"
 
 namespace dance {
 namespace {
@@ -18,9 +19,9 @@ namespace {
 TEST(Bus, EveryKeepsAllOfABurstInOrder) {
   const auto sender = open_bus(), receiver = open_bus();
   std::vector<std::uint32_t> heard;
-  receiver->on_pose(
-      Where::kCapture, GuestId(), Delivery::kEvery,
-      [&](const Channel&, const Pose& pose, MonoTime) { heard.push_back(pose.sequence); });
+  receiver->subscribe<Pose>(Where::kCapture, [&](const Channel&, const Pose& pose, MonoTime) {
+    heard.push_back(pose.sequence);
+  });
   for (std::uint32_t i = 0; i < 1000; ++i) sender->publish(capture_of("alice"), numbered(i));
   drain_until(*receiver, [&] { return heard.size() == 1000; });
   ASSERT_EQ(heard.size(), 1000u);
@@ -32,10 +33,12 @@ TEST(Bus, EveryKeepsAllOfABurstInOrder) {
 TEST(Bus, NewestHandsOnTheLastOfEachChannelAndCountsTheOthers) {
   const auto sender = open_bus(), receiver = open_bus();
   std::map<std::string, std::vector<std::uint32_t>> heard;
-  receiver->on_pose(Where::kCapture, GuestId(), Delivery::kNewest,
-                    [&](const Channel& channel, const Pose& pose, MonoTime) {
-                      heard[std::string(channel.guest().view())].push_back(pose.sequence);
-                    });
+  receiver->subscribe<Pose>(
+      Where::kCapture,
+      [&](const Channel& channel, const Pose& pose, MonoTime) {
+        heard[std::string(channel.guest().view())].push_back(pose.sequence);
+      },
+      Delivery::kNewest);
   for (std::uint32_t i = 0; i < 100; ++i) {
     sender->publish(capture_of("alice"), numbered(i));
     sender->publish(capture_of("bob"), numbered(1000 + i));
@@ -56,8 +59,8 @@ TEST(Bus, NewestHandsOnTheLastOfEachChannelAndCountsTheOthers) {
 TEST(Bus, OneGuestsSubscriptionHearsNobodyElse) {
   const auto sender = open_bus(), receiver = open_bus();
   std::vector<std::string> heard;
-  receiver->on_pose(
-      Where::kCapture, guest("bob"), Delivery::kEvery,
+  receiver->subscribe<Pose>(
+      {Where::kCapture, guest("bob")},
       [&](const Channel& channel, const Pose&, MonoTime) { heard.emplace_back(channel.view()); });
   for (const char* name : {"alice", "bobby", "bo", "bob"})
     sender->publish(capture_of(name), Pose());
@@ -70,8 +73,8 @@ TEST(Bus, OneGuestsSubscriptionHearsNobodyElse) {
 TEST(Bus, WhatIsNoPoseIsCountedAndGoesNoFurther) {
   const auto sender = open_bus(), receiver = open_bus();
   int heard = 0;
-  receiver->on_pose(Where::kCapture, GuestId(), Delivery::kEvery,
-                    [&](const Channel&, const Pose&, MonoTime) { ++heard; });
+  receiver->subscribe<Pose>(Where::kCapture,
+                            [&](const Channel&, const Pose&, MonoTime) { ++heard; });
   const char* channel = "POSE/capture/alice";
   sender->publish_raw(channel, "rubbish", 7);
   sender->publish_raw(channel, "", 0);
@@ -101,11 +104,11 @@ TEST(Bus, EachSignalReachesItsHandler) {
     ++heard[std::string(channel.view())];
   };
   int anything = 0;
-  receiver->on_hands(Where::kStage, GuestId(), Delivery::kEvery, count);
-  receiver->on_skeleton(Where::kGuest, GuestId(), count);
-  receiver->on_guest_status(count);
-  receiver->on_stats(count);
-  receiver->on_stage_time(count);
+  receiver->subscribe<Hands>(Where::kStage, count);
+  receiver->subscribe<TimedSkeleton>(Where::kGuest, count);
+  receiver->subscribe<GuestStatus>(Where::kStage, count);
+  receiver->subscribe<Stats>(Where::kProgram, count);
+  receiver->subscribe<StageTime>(Where::kView, count);
   receiver->on_anything([&](std::string_view, const void*, std::size_t, MonoTime) { ++anything; });
   sender->publish(Channel::of(Signal::kHands, Where::kStage, guest("a")), Hands());
   sender->publish(Channel::of(Signal::kSkeleton, Where::kGuest, guest("a")),
@@ -127,12 +130,12 @@ TEST(Bus, StateReachesItsHandlers) {
   const auto count = [&](const Channel& channel, const auto&, MonoTime) {
     ++heard[std::string(channel.view())];
   };
-  receiver->on_music(Where::kRoom, GuestId(), count);
-  receiver->on_scene(Where::kRoom, GuestId(), count);
-  receiver->on_avatar(Where::kGuest, guest("a"), count);
-  receiver->on_style(Where::kCapture, GuestId(), count);
-  receiver->on_placement(Where::kGuest, GuestId(), count);
-  receiver->on_beat(count);
+  receiver->subscribe<Music>(Where::kRoom, count);
+  receiver->subscribe<Scene>(Where::kRoom, count);
+  receiver->subscribe<Avatar>({Where::kGuest, guest("a")}, count);
+  receiver->subscribe<Style>(Where::kCapture, count);
+  receiver->subscribe<Placement>(Where::kGuest, count);
+  receiver->subscribe<Beat>(Where::kLocal, count);
   sender->publish(Channel::of(Signal::kMusic, Where::kCapture, guest("a")), Music());
   sender->publish(Channel::of(Signal::kMusic, Where::kRoom, guest("a")), Music());
   sender->publish(Channel::of(Signal::kScene, Where::kRoom, guest("a")), Scene());
@@ -150,6 +153,40 @@ TEST(Bus, StateReachesItsHandlers) {
                                                {"STYLE/capture/a", 1},
                                                {"PLACEMENT/guest/a", 1},
                                                {"BEAT/local", 1}}));
+}
+
+TEST(Bus, CarriesATypeThatHasARowInTheTable) {
+  const auto sender = open_bus(), receiver = open_bus();
+  std::vector<std::uint32_t> every;
+  std::uint32_t newest = 0;
+  receiver->subscribe<Tap>({Where::kCapture, guest("a")},
+                           [&](const Channel&, const Tap& tap, MonoTime) {
+                             EXPECT_EQ(tap.force_n, some_tap().force_n);
+                             every.push_back(tap.count);
+                           });
+  receiver->subscribe<Tap>(
+      Where::kGuest, [&](const Channel&, const Tap& tap, MonoTime) { newest = tap.count; },
+      Delivery::kNewest);
+  Tap too_hard = some_tap();
+  too_hard.force_n = 1e6;
+  sender->publish(Where::kCapture, guest("a"), too_hard);
+  sender->publish(Where::kCapture, guest("a"), Style());
+  for (std::uint32_t i = 1; i <= 3; ++i) {
+    sender->publish(Where::kCapture, guest("a"), some_tap(i));
+    sender->publish(Where::kCapture, guest("b"), some_tap(i));
+    sender->publish(Where::kGuest, guest("b"), some_tap(i));
+  }
+  drain_until(*receiver, [&] { return every.size() == 3 && newest == 3; });
+  EXPECT_EQ(every, (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_EQ(newest, 3u);
+  EXPECT_EQ(receiver->counters().received, 6u);
+  EXPECT_EQ(receiver->counters().invalid, 1u);
+  EXPECT_EQ(receiver->counters().undecodable, 1u) << "a style is no tap";
+}
+
+TEST(BusDeathTest, DiesOfAMessageOnAnothersChannel) {
+  const auto sender = open_bus();
+  EXPECT_DEATH(sender->publish(capture_of("alice"), Style()), "kSignal");
 }
 
 ChannelPattern pattern(std::string_view text) { return *ChannelPattern::parse(text); }
@@ -197,11 +234,10 @@ TEST(Bus, ThirtyGuestsAtSixtyHertzLoseNothing) {
   const auto sender = open_bus(), receiver = open_bus();
   std::map<std::string, std::uint32_t> next;
   bool is_in_order = true;
-  receiver->on_pose(Where::kCapture, GuestId(), Delivery::kEvery,
-                    [&](const Channel& channel, const Pose& pose, MonoTime) {
-                      is_in_order = is_in_order &&
-                                    next[std::string(channel.guest().view())]++ == pose.sequence;
-                    });
+  receiver->subscribe<Pose>(
+      Where::kCapture, [&](const Channel& channel, const Pose& pose, MonoTime) {
+        is_in_order = is_in_order && next[std::string(channel.guest().view())]++ == pose.sequence;
+      });
   constexpr std::uint32_t kTicks = 120;
   std::vector<Channel> channels;
   for (int i = 0; i < 30; ++i) channels.push_back(capture_of("guest-" + std::to_string(i)));
@@ -224,11 +260,13 @@ TEST(Bus, ASlowListenerStillGetsTheNewestPose) {
   const auto sender = open_bus(), receiver = open_bus();
   std::uint32_t last = 0;
   int calls = 0;
-  receiver->on_pose(Where::kStage, GuestId(), Delivery::kNewest,
-                    [&](const Channel&, const Pose& pose, MonoTime) {
-                      last = pose.sequence;
-                      ++calls;
-                    });
+  receiver->subscribe<Pose>(
+      Where::kStage,
+      [&](const Channel&, const Pose& pose, MonoTime) {
+        last = pose.sequence;
+        ++calls;
+      },
+      Delivery::kNewest);
   const Channel channel = Channel::of(Signal::kPose, Where::kStage, guest("alice"));
   // LCM's own queue of 30 would keep the oldest of these.
   for (std::uint32_t i = 1; i <= 500; ++i) sender->publish(channel, numbered(i));
@@ -265,8 +303,8 @@ std::uint64_t allocations_while_draining(Bus& sender, Bus& receiver, std::uint64
 
 TEST(Bus, DrainingAllocatesNothingOnceAChannelIsKnown) {
   const auto sender = open_bus(), receiver = open_bus();
-  receiver->on_pose(Where::kCapture, GuestId(), Delivery::kNewest,
-                    [](const Channel&, const Pose&, MonoTime) {});
+  receiver->subscribe<Pose>(
+      Where::kCapture, [](const Channel&, const Pose&, MonoTime) {}, Delivery::kNewest);
   allocations_while_draining(*sender, *receiver, 200);
   EXPECT_EQ(allocations_while_draining(*sender, *receiver, 200), 0u);
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "tests/apps/run_program.h"
 
@@ -12,17 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_in(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(WholeFile, IsThereOrAsItWas) {
   const TestFolder folder("whole-file");
   const std::string path = folder.path("a.model");
   for (const char* text : {"first", "second, and longer", ""}) {
     ASSERT_TRUE(write_whole_file(path, text));
-    EXPECT_EQ(text_in(path), text);
+    EXPECT_EQ(text_of(path), text);
   }
   ASSERT_TRUE(write_whole_file(path, "kept"));
   fs::create_directory(folder.path("b.model"));
@@ -48,7 +42,7 @@ TEST(WholeFile, IsTriedWithoutATrace) {
     EXPECT_NE(refused.error().what.find(std::string(bad) + " cannot be written: "),
               std::string::npos);
   }
-  EXPECT_EQ(text_in(folder.path("a.model")), "kept");
+  EXPECT_EQ(text_of(folder.path("a.model")), "kept");
   EXPECT_FALSE(fs::exists(folder.path("new.model")));
 }
 
@@ -58,11 +52,11 @@ TEST(WholeFile, GoesWhereALinkLeads) {
   fs::create_symlink(folder.path("old"), folder.path("link"));
   ASSERT_TRUE(write_whole_file(folder.path("link"), "new"));
   EXPECT_TRUE(fs::is_symlink(folder.path("link")));
-  EXPECT_EQ(text_in(folder.path("old")), "new");
+  EXPECT_EQ(text_of(folder.path("old")), "new");
   fs::create_symlink("not-yet", folder.path("ahead"));
   ASSERT_TRUE(write_whole_file(folder.path("ahead"), "now"));
   EXPECT_TRUE(fs::is_symlink(folder.path("ahead")));
-  EXPECT_EQ(text_in(folder.path("not-yet")), "now");
+  EXPECT_EQ(text_of(folder.path("not-yet")), "now");
 }
 
 TEST(WholeFile, StaysAsPrivateAsItWas) {
@@ -83,6 +77,18 @@ TEST(WholeFile, TakesNoDevicesPlace) {
   const auto refused = write_whole_file(folder.path("full"), "too much");
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("No space left"), std::string::npos) << refused.error().what;
+}
+
+TEST(WholeFile, IsReadUpToABoundAndOnlyWhereItIsAFile) {
+  const TestFolder folder("whole-file-read");
+  const std::string path = folder.path("a");
+  EXPECT_EQ(read_whole_file(path, 10).error().what, path + ": no such file");
+  ASSERT_TRUE(write_whole_file(path, "0123456789"));
+  EXPECT_EQ(read_whole_file(path, 10), "0123456789");
+  EXPECT_EQ(read_whole_file(path, 9).error().what, path + ": larger than 0 MiB");
+  EXPECT_EQ(read_whole_file(folder.path(), 10).error().what,
+            folder.path() + ": a folder; name a file in it");
+  EXPECT_EQ(read_whole_file("/dev/null", 10).error().what, "/dev/null: no regular file");
 }
 
 }  // namespace

@@ -85,8 +85,8 @@ TEST_F(ClipFile, LoadsXzStreamsThatFollowEachOther) {
 
 TEST_F(ClipFile, NamesTheFileAndTheCure) {
   EXPECT_EQ(error_of(path("no.bvh")), path("no.bvh") + ": no such file");
-  EXPECT_EQ(error_of(path("")), path("") + ": a directory; name a .bvh or .bvh.xz file in it");
-  EXPECT_EQ(error_of("/dev/null"), "/dev/null: no regular file; name a .bvh or .bvh.xz file");
+  EXPECT_EQ(error_of(path("")), path("") + ": a folder; name a file in it");
+  EXPECT_EQ(error_of("/dev/null"), "/dev/null: no regular file");
   EXPECT_EQ(error_of(write("empty.bvh", "")), path("empty.bvh") + ": empty; copy it again");
   EXPECT_EQ(error_of(write("page.bvh", "<html>")),
             path("page.bvh") +
@@ -97,8 +97,7 @@ TEST_F(ClipFile, NamesTheFileAndTheCure) {
 
 TEST_F(ClipFile, DoesNotWaitForAPipe) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
-  EXPECT_EQ(error_of(path("pipe")),
-            path("pipe") + ": no regular file; name a .bvh or .bvh.xz file");
+  EXPECT_EQ(error_of(path("pipe")), path("pipe") + ": no regular file");
 }
 
 TEST_F(ClipFile, SaysThatAnXzFileWasCutShortOrDamaged) {
@@ -123,7 +122,7 @@ TEST_F(ClipFile, BoundsWhatAFileUnpacksTo) {
   EXPECT_LT(fs::file_size(file), 10'000u);
   const auto text = read_clip_text(file, std::size_t{1} << 20);
   ASSERT_FALSE(text.has_value());
-  EXPECT_EQ(text.error().what, file + ": unpacks to more than 1 MiB; cut the take into parts");
+  EXPECT_EQ(text.error().what, file + ": unpacks to more than 1 MiB");
   EXPECT_TRUE(read_clip_text(file, std::size_t{8} << 20).has_value());
 }
 
@@ -131,7 +130,7 @@ TEST_F(ClipFile, BoundsWhatItReads) {
   const std::string file = write("large.bvh", std::string((std::size_t{1} << 20) + 1, ' '));
   const auto text = read_clip_text(file, std::size_t{1} << 20);
   ASSERT_FALSE(text.has_value());
-  EXPECT_EQ(text.error().what, file + ": larger than 1 MiB; cut the take into parts");
+  EXPECT_EQ(text.error().what, file + ": larger than 1 MiB");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "producers/music/play_plan.h"
+#include "producers/music/sound/play_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -11,41 +11,41 @@ constexpr double kRate_hz = 48000.0;
 
 MonoTime plan_time(double s) { return MonoTime() + Duration::seconds(s); }
 
-TEST(HeardLine, AveragesWhatTrembles) {
-  HeardLine line(kRate_hz);
+TEST(StreamClock, AveragesWhatTrembles) {
+  StreamClock clock(kRate_hz);
   Random random(3);
-  EXPECT_FALSE(line.is_known());
+  EXPECT_FALSE(clock.is_known());
   for (int i = 0; i < 200; ++i) {
     const double s = 100.0 + 0.1 * i;
-    line.report(plan_time(s), (s - 99.0 + 0.004 * (random.uniform() - 0.5)) * kRate_hz);
+    clock.report(plan_time(s), (s - 99.0 + 0.004 * (random.uniform() - 0.5)) * kRate_hz);
   }
-  ASSERT_TRUE(line.is_known());
-  EXPECT_NEAR(line.frame_at(plan_time(130.0)) / kRate_hz, 31.0, 0.001);
-  EXPECT_NEAR((line.time_of(31.0 * kRate_hz) - plan_time(130.0)).as_seconds(), 0.0, 0.001);
+  ASSERT_TRUE(clock.is_known());
+  EXPECT_NEAR(clock.frame_at(plan_time(130.0)) / kRate_hz, 31.0, 0.001);
+  EXPECT_NEAR((clock.time_of(31.0 * kRate_hz) - plan_time(130.0)).as_seconds(), 0.0, 0.001);
 }
 
-TEST(HeardLine, FollowsACardThatDrifts) {
-  HeardLine line(kRate_hz);
+TEST(StreamClock, FollowsACardThatDrifts) {
+  StreamClock clock(kRate_hz);
   constexpr double kDrift = 200e-6;  // ten times what cards have
   for (int i = 0; i < 600; ++i) {
     const double s = 0.1 * i;
-    line.report(plan_time(s), s * (1.0 + kDrift) * kRate_hz);
+    clock.report(plan_time(s), s * (1.0 + kDrift) * kRate_hz);
   }
-  EXPECT_NEAR(line.frame_at(plan_time(60.0)) / kRate_hz, 60.0 * (1.0 + kDrift), 0.0005);
+  EXPECT_NEAR(clock.frame_at(plan_time(60.0)) / kRate_hz, 60.0 * (1.0 + kDrift), 0.0005);
 }
 
-TEST(HeardLine, BelievesAGapWhenItStays) {
-  HeardLine line(kRate_hz);
-  for (int i = 0; i < 30; ++i) line.report(plan_time(0.1 * i), 0.1 * i * kRate_hz);
-  line.report(plan_time(3.0), 2.0 * kRate_hz);
-  EXPECT_NEAR(line.frame_at(plan_time(3.0)) / kRate_hz, 3.0, 1e-6) << "one is a lie";
-  line.report(plan_time(3.1), 2.1 * kRate_hz);
-  line.report(plan_time(3.2), 2.2 * kRate_hz);
-  EXPECT_EQ(line.jumps(), 1u);
-  line.report(plan_time(3.3), 2.3 * kRate_hz);
-  line.report(plan_time(3.4), 2.4 * kRate_hz);
-  ASSERT_TRUE(line.is_known());
-  EXPECT_NEAR(line.frame_at(plan_time(3.4)) / kRate_hz, 2.4, 1e-6);
+TEST(StreamClock, BelievesAGapWhenItStays) {
+  StreamClock clock(kRate_hz);
+  for (int i = 0; i < 30; ++i) clock.report(plan_time(0.1 * i), 0.1 * i * kRate_hz);
+  clock.report(plan_time(3.0), 2.0 * kRate_hz);
+  EXPECT_NEAR(clock.frame_at(plan_time(3.0)) / kRate_hz, 3.0, 1e-6) << "one is a lie";
+  clock.report(plan_time(3.1), 2.1 * kRate_hz);
+  clock.report(plan_time(3.2), 2.2 * kRate_hz);
+  EXPECT_EQ(clock.jumps(), 1u);
+  clock.report(plan_time(3.3), 2.3 * kRate_hz);
+  clock.report(plan_time(3.4), 2.4 * kRate_hz);
+  ASSERT_TRUE(clock.is_known());
+  EXPECT_NEAR(clock.frame_at(plan_time(3.4)) / kRate_hz, 2.4, 1e-6);
 }
 
 // A sound card: plays frames at its own rate from a moment on, and says so.
@@ -57,31 +57,32 @@ struct Card {
 
 TEST(PlayPlan, PutsTheSongWhereItIsHeardInTime) {
   const Card card{10.0, 0.0};
-  HeardLine line(kRate_hz);
-  for (int i = 0; i < 5; ++i) line.report(plan_time(10.5 + 0.1 * i), card.frame_at(10.5 + 0.1 * i));
+  StreamClock clock(kRate_hz);
+  for (int i = 0; i < 5; ++i)
+    clock.report(plan_time(10.5 + 0.1 * i), card.frame_at(10.5 + 0.1 * i));
   PlayPlan plan(kRate_hz);
-  EXPECT_FALSE(plan.heard_s(line, plan_time(11.0)));
+  EXPECT_FALSE(plan.heard_s(clock, plan_time(11.0)));
   const MonoTime begin = plan_time(12.0);
-  plan.align(line, begin, 57600);
+  plan.align(clock, begin, 57600);
   EXPECT_EQ(plan.song_frame(96000), 0) << "what is heard at 12 s is the song's begin";
-  EXPECT_NEAR(plan.heard_s(line, plan_time(13.5)).value(), 1.5, 1e-4);
-  EXPECT_NEAR(plan.error_s(line, begin, plan_time(13.5)), 0.0, 1e-4);
+  EXPECT_NEAR(plan.heard_s(clock, plan_time(13.5)).value(), 1.5, 1e-4);
+  EXPECT_NEAR(plan.error_s(clock, begin, plan_time(13.5)), 0.0, 1e-4);
 }
 
 TEST(PlayPlan, AJumpIsHeardWhereItWasWritten) {
   const Card card{0.0, 0.0};
-  HeardLine line(kRate_hz);
-  for (int i = 0; i < 5; ++i) line.report(plan_time(0.1 * i), card.frame_at(0.1 * i));
+  StreamClock clock(kRate_hz);
+  for (int i = 0; i < 5; ++i) clock.report(plan_time(0.1 * i), card.frame_at(0.1 * i));
   PlayPlan plan(kRate_hz);
-  plan.align(line, plan_time(0.0), 0);
-  plan.align(line, plan_time(-10.0), 96000);  // another place, from second 2 on
-  EXPECT_NEAR(plan.heard_s(line, plan_time(1.9)).value(), 1.9, 1e-6);
-  EXPECT_NEAR(plan.heard_s(line, plan_time(2.1)).value(), 12.1, 1e-6);
+  plan.align(clock, plan_time(0.0), 0);
+  plan.align(clock, plan_time(-10.0), 96000);  // another place, from second 2 on
+  EXPECT_NEAR(plan.heard_s(clock, plan_time(1.9)).value(), 1.9, 1e-6);
+  EXPECT_NEAR(plan.heard_s(clock, plan_time(2.1)).value(), 12.1, 1e-6);
 }
 
 TEST(PlayPlan, KeepsTheSongOnItsTimeThoughTheCardDrifts) {
   for (const double drift : {300e-6, -300e-6, 20e-6}) {
-    HeardLine line(kRate_hz);
+    StreamClock clock(kRate_hz);
     PlayPlan plan(kRate_hz);
     Random random(5);
     const MonoTime begin = plan_time(1.0);
@@ -91,17 +92,17 @@ TEST(PlayPlan, KeepsTheSongOnItsTimeThoughTheCardDrifts) {
     for (int tick = 1; tick < 3000; ++tick) {
       const MonoTime now = plan_time(0.1 * tick);
       frame += 0.1 * kRate_hz * speed * (1.0 + drift);
-      line.report(now, frame + 0.001 * (random.uniform() - 0.5) * kRate_hz);
-      if (!line.is_known()) continue;
-      if (!plan.is_aligned()) plan.align(line, begin, static_cast<std::int64_t>(frame) + 9600);
-      const double error_s = plan.error_s(line, begin, now);
+      clock.report(now, frame + 0.001 * (random.uniform() - 0.5) * kRate_hz);
+      if (!clock.is_known()) continue;
+      if (!plan.is_aligned()) plan.align(clock, begin, static_cast<std::int64_t>(frame) + 9600);
+      const double error_s = plan.error_s(clock, begin, now);
       ASSERT_FALSE(PlayPlan::wants_jump(error_s));
       if (tick > 600) worst_s = std::max(worst_s, std::abs(error_s));
       if (tick % 10 != 0) continue;
       // The server takes whole frames a second.
       speed = std::round(kRate_hz * PlayPlan::speed_for(error_s)) / kRate_hz;
       EXPECT_NEAR(speed, 1.0, 0.0021);
-      line.set_speed(speed, now);
+      clock.set_speed(speed, now);
     }
     EXPECT_LT(worst_s, 0.004) << drift;
   }

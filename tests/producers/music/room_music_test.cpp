@@ -28,7 +28,7 @@ double worst_error_s(const Song& song, double seconds, std::set<std::int64_t>& l
   RoomMusic room(music_title("a.ogg"), kRoomClock);
   double worst = 0.0;
   for (double s = 0.0; s < seconds; s += 1.0) {
-    const Music music = room.tell(song, kBegin, after(s));
+    const Music music = room.update(song, kBegin, after(s));
     EXPECT_TRUE(is_valid(music));
     EXPECT_TRUE(music.playing);
     lines.insert(music.start_time.since_zero_ns());
@@ -56,7 +56,7 @@ TEST(RoomMusic, TellsAFollowerWhenTheSongBegan) {
     RoomMusic room(music_title("a.ogg"), kRoomClock);
     const double end_s = loops ? 3.0 * song.length_s() : song.length_s();
     for (double s = 0.0; s < end_s; s += 1.3) {
-      const MonoTime begin = begin_of_room_music(room.tell(song, kBegin, after(s)), song);
+      const MonoTime begin = begin_of_room_music(room.update(song, kBegin, after(s)), song);
       ASSERT_NEAR((begin - kBegin).as_seconds(), 0.0, 1e-6) << s;
     }
   }
@@ -65,14 +65,14 @@ TEST(RoomMusic, TellsAFollowerWhenTheSongBegan) {
 TEST(RoomMusic, BeforeItBeginsItsBeginIsTold) {
   const Song song = song_with_sway(0.0);
   RoomMusic room(music_title("a.ogg"), kRoomClock);
-  const Music music = room.tell(song, kBegin, after(-2.0));
+  const Music music = room.update(song, kBegin, after(-2.0));
   EXPECT_NEAR((begin_of_room_music(music, song) - kBegin).as_seconds(), 0.0, 1e-6);
 }
 
 TEST(RoomMusic, GivesABeatToWhoHasNotTheSong) {
   const Song song = song_with_sway(0.0);
   RoomMusic room(music_title("a.ogg"), kRoomClock);
-  const Music music = room.tell(song, kBegin, after(3.0));
+  const Music music = room.update(song, kBegin, after(3.0));
   const Beat beat = beat_of_room_music(music, after(3.7));
   EXPECT_TRUE(is_valid(beat));
   EXPECT_EQ(beat.beat, std::floor(song.beat_at(3.7)) + 1.0);
@@ -83,8 +83,8 @@ TEST(RoomMusic, GivesABeatToWhoHasNotTheSong) {
 TEST(RoomMusic, StoppedStandsWhereItStopped) {
   const Song song = song_with_sway(0.0);
   RoomMusic room(music_title("a.ogg"), kRoomClock);
-  room.tell(song, kBegin, after(3.0));
-  const Music music = room.tell_stopped(9.5, after(4.0));
+  room.update(song, kBegin, after(3.0));
+  const Music music = room.update_stopped(9.5, after(4.0));
   EXPECT_FALSE(music.playing);
   EXPECT_EQ(music.beats_at(after(60.0)), 9.5);
 }

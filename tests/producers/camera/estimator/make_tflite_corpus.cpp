@@ -3,6 +3,7 @@
 //
 // Threads: one.
 // Failure: exit 1 where the folder cannot be written to.
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -21,11 +22,9 @@ bool write(const std::string& path, const std::vector<std::uint8_t>& bytes) {
 // A vector that says it is longer than the file, of a field that is read as a list.
 std::vector<std::uint8_t> endless_vector() {
   std::vector<std::uint8_t> bytes = dance::tiny_convolution_file();
-  for (std::size_t at = 8; at + 4 <= bytes.size(); at += 4) {
-    if (bytes[at] != 4 || bytes[at + 1] || bytes[at + 2] || bytes[at + 3]) continue;
-    bytes[at] = bytes[at + 1] = bytes[at + 2] = bytes[at + 3] = 0xff;
-    break;
-  }
+  const auto* graph = dance::tflite::GetModel(bytes.data())->subgraphs()->Get(0);
+  const auto* length = reinterpret_cast<const std::uint8_t*>(graph->operators());
+  std::fill_n(bytes.begin() + (length - bytes.data()), 4, 0xff);
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 // The operations of a network by their definitions, as slow as it comes.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tests/producers/camera/estimator/tiny_network.h"
 

@@ -247,7 +247,7 @@ TEST(PoseEstimator, MissingNetworksAreNamedWithTheirCure) {
   const auto estimator = PoseEstimator::open(options);
   ASSERT_FALSE(estimator);
   EXPECT_EQ(estimator.error().what,
-            "/nowhere/pose_detection.tflite: cannot be opened; ./dance setup fetches it");
+            "/nowhere/pose_detection.tflite: no such file; `dance fetch-models` fetches it");
 }
 
 TEST(PoseEstimator, DamagedAndMistakenNetworksAreNamed) {

@@ -16,12 +16,6 @@ std::vector<std::uint8_t> bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-Flat plain_options() {
-  Flat options;
-  options.u8(0, 1).i32(1, 1).i32(2, 1);
-  return options;
-}
-
 TEST(TfliteFile, ReadsHalvesSparseWeightsAndPadding) {
   const auto graph = parse_tflite(tiny_network_file());
   ASSERT_TRUE(graph) << graph.error().what;
@@ -48,7 +42,7 @@ TEST(TfliteFile, UnpacksHalfPrecisionExactly) {
   file.add(3,
            {in, file.halves({4, 1, 1, 1}, {0x3c00, 0xc000, 0x0001, 0x7bff}),
             file.floats({4}, {0, 0, 0, 0})},
-           out, plain_options());
+           out, file.convolution(1, 1, 0));
   const auto graph = parse_tflite(file.file(in, {out}));
   ASSERT_TRUE(graph) << graph.error().what;
   EXPECT_EQ(graph->values(graph->nodes[0].weights),
@@ -64,6 +58,15 @@ TEST(TfliteFile, EveryPrefixIsAnErrorThatSaysWhat) {
   }
 }
 
+TEST(TfliteFile, RefusesOptionsOfAnotherKind) {
+  TinyFile file;
+  const int in = file.computed({1, 1, 1, 1}), out = file.computed({1, 1, 1, 1});
+  file.add(0, {in, in}, out, file.convolution(0, 1, 0));
+  const auto graph = parse_tflite(file.file(in, {out}));
+  ASSERT_FALSE(graph);
+  EXPECT_EQ(graph.error().what, "operator 0: it has no options of its kind");
+}
+
 TEST(TfliteFile, SaysWhatItDoesNotKnow) {
   TinyFile file;
   const int in = file.computed({1, 1, 1, 1}), out = file.computed({1, 1, 1, 1});
@@ -77,7 +80,7 @@ TEST(TfliteFile, RefusesWeightsThatDoNotFit) {
   TinyFile file;
   const int in = file.computed({1, 1, 1, 2}), out = file.computed({1, 1, 1, 1});
   file.add(3, {in, file.floats({1, 1, 1, 2}, {1.0f}), file.floats({1}, {0.0f})}, out,
-           plain_options());
+           file.convolution(1, 1, 0));
   const auto graph = parse_tflite(file.file(in, {out}));
   ASSERT_FALSE(graph);
   EXPECT_NE(graph.error().what.find("has 4 bytes, where 8 are due"), std::string::npos)
@@ -88,7 +91,7 @@ TEST(TfliteFile, RefusesWhatIsNoNumber) {
   TinyFile file;
   const int in = file.computed({1, 1, 1, 1}), out = file.computed({1, 1, 1, 1});
   file.add(3, {in, file.halves({1, 1, 1, 1}, {0x7e00}), file.floats({1}, {0.0f})}, out,
-           plain_options());
+           file.convolution(1, 1, 0));
   const auto graph = parse_tflite(file.file(in, {out}));
   ASSERT_FALSE(graph);
   EXPECT_NE(graph.error().what.find("no finite number"), std::string::npos) << graph.error().what;
@@ -107,7 +110,7 @@ TEST(TfliteFile, AMissingFileIsNamedWithItsCure) {
   const auto graph = read_tflite_file("/nowhere/pose_detection.tflite");
   ASSERT_FALSE(graph);
   EXPECT_EQ(graph.error().what,
-            "/nowhere/pose_detection.tflite: cannot be opened; ./dance setup fetches it");
+            "/nowhere/pose_detection.tflite: no such file; `dance fetch-models` fetches it");
 }
 
 TEST(TfliteFile, ReadsTheRealNetworks) {

@@ -1,0 +1,12 @@
+#include "producers/music/decode/audio_decoder.h"
+
+namespace dance {
+
+Result<std::unique_ptr<AudioDecoder>> open_with_ffmpeg(const std::string&) {
+  return fail(
+      "libsndfile cannot read it, and this dance was built without FFmpeg; install "
+      "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev and build again, or "
+      "convert it to .flac");
+}
+
+}  // namespace dance

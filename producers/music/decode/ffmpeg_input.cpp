@@ -1,0 +1,156 @@
+#include "producers/music/decode/ffmpeg_input.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "producers/music/decode/audio_decoder.h"
+
+extern "C" {
+#include <libavutil/dict.h>
+#include <libavutil/error.h>
+#include <libavutil/log.h>
+#include <libavutil/mem.h>
+}
+
+namespace dance {
+namespace {
+
+constexpr int kIoBuffer_bytes = 64 * 1024;
+// Between two packets of sound, pictures of a film among it; and until the first of them.
+constexpr std::int64_t kMostBytesBetweenPackets = std::int64_t{256} * 1024 * 1024;
+constexpr std::size_t kMostBytesAtOnce = std::size_t{256} * 1024 * 1024;
+
+// Without ASF: it does not say where its WMA sound begins.
+constexpr const char* kContainers =
+    "aac,ac3,aiff,amr,ape,au,caf,eac3,flac,matroska,mov,mp3,mpeg,mpegts,ogg,tta,w64,wav,wv";
+constexpr const char* kCodecs =
+    "aac,aac_latm,ac3,alac,amrnb,amrwb,ape,eac3,flac,mp1,mp1float,mp2,mp2float,mp3,mp3float,opus,"
+    "pcm_alaw,pcm_f32be,pcm_f32le,pcm_f64be,pcm_f64le,pcm_mulaw,pcm_s16be,pcm_s16le,pcm_s24be,"
+    "pcm_s24le,pcm_s32be,pcm_s32le,pcm_s8,pcm_u8,tta,vorbis,wavpack";
+constexpr const char* kMostStreams = "64";
+
+// A playlist, or an image sequence: what a file names beside itself stays closed.
+int refuse_other_files(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
+  return AVERROR(EPERM);
+}
+
+// For the process: what goes wrong is told by Errors, not by lines on the terminal.
+void quieten() {
+  av_log_set_level(AV_LOG_QUIET);
+  av_max_alloc(kMostBytesAtOnce);
+}
+
+}  // namespace
+
+void FfmpegFree::operator()(AVIOContext* io) const {
+  if (io) av_freep(&io->buffer);
+  avio_context_free(&io);
+}
+
+std::string ffmpeg_error(int code) {
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  av_strerror(code, text.data(), text.size());
+  return text.data();
+}
+
+int FfmpegInput::read_bytes(void* input, std::uint8_t* bytes, int size) {
+  auto& self = *static_cast<FfmpegInput*>(input);
+  if (self.may_read_bytes_ <= 0) return AVERROR(EFBIG);
+  const ssize_t read = ::read(self.file_, bytes, static_cast<std::size_t>(size));
+  if (read < 0) return AVERROR(errno);
+  self.may_read_bytes_ -= read;
+  return read == 0 ? AVERROR_EOF : static_cast<int>(read);
+}
+
+std::int64_t FfmpegInput::seek_bytes(void* input, std::int64_t offset, int whence) {
+  const auto& self = *static_cast<FfmpegInput*>(input);
+  if (whence == AVSEEK_SIZE) {
+    struct stat status {};
+    return ::fstat(self.file_, &status) == 0 ? status.st_size : AVERROR(errno);
+  }
+  const off_t at = ::lseek(self.file_, offset, whence & ~AVSEEK_FORCE);
+  return at < 0 ? AVERROR(errno) : at;
+}
+
+Result<std::unique_ptr<FfmpegInput>> FfmpegInput::open(const std::string& path) {
+  quieten();
+  std::unique_ptr<FfmpegInput> input(new FfmpegInput);
+  input->file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (input->file_ < 0) return fail(std::strerror(errno));
+  input->may_read_bytes_ = kMostBytesBetweenPackets;
+  auto* buffer = static_cast<std::uint8_t*>(av_malloc(kIoBuffer_bytes));
+  input->io_.reset(avio_alloc_context(buffer, kIoBuffer_bytes, 0, input.get(), &read_bytes, nullptr,
+                                      &seek_bytes));
+  AVFormatContext* format = avformat_alloc_context();
+  if (!input->io_ || !format) return fail("no memory");
+  format->pb = input->io_.get();
+  format->io_open = &refuse_other_files;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "format_whitelist", kContainers, 0);
+  av_dict_set(&options, "codec_whitelist", kCodecs, 0);
+  av_dict_set(&options, "protocol_whitelist", "none", 0);
+  av_dict_set(&options, "max_streams", kMostStreams, 0);
+  int code = avformat_open_input(&format, "", nullptr, &options);
+  av_dict_free(&options);
+  // What could not be opened is freed already.
+  if (code < 0)
+    return fail("no music that can be read (" +
+                (code == AVERROR(EINVAL) ? "no known format of sound" : ffmpeg_error(code)) +
+                "); copy it again, or convert it to " + other_audio_format(path));
+  input->format_.reset(format);
+  code = avformat_find_stream_info(format, nullptr);
+  if (code >= 0) code = av_find_best_stream(format, AVMEDIA_TYPE_AUDIO, -1, -1, &input->codec_, 0);
+  if (code == AVERROR_STREAM_NOT_FOUND) return fail("no sound in it; name a file of music");
+  if (code < 0)
+    return fail("its sound cannot be read (" + ffmpeg_error(code) +
+                "); copy it again, or convert it to " + other_audio_format(path));
+  input->sound_ = format->streams[code];
+  for (unsigned i = 0; i < format->nb_streams; ++i)
+    if (static_cast<int>(i) != code) format->streams[i]->discard = AVDISCARD_ALL;
+  return input;
+}
+
+FfmpegInput::~FfmpegInput() {
+  format_.reset();
+  if (file_ >= 0) ::close(file_);
+}
+
+Result<FfmpegPtr<AVCodecContext>> FfmpegInput::open_decoder() const {
+  FfmpegPtr<AVCodecContext> decoder(avcodec_alloc_context3(codec_));
+  if (!decoder) return fail("no memory");
+  int code = avcodec_parameters_to_context(decoder.get(), sound_->codecpar);
+  if (code < 0) return fail(ffmpeg_error(code));
+  decoder->pkt_timebase = sound_->time_base;
+  decoder->thread_count = 1;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "codec_whitelist", kCodecs, 0);
+  code = avcodec_open2(decoder.get(), codec_, &options);
+  av_dict_free(&options);
+  if (code < 0)
+    return fail("its sound, in " + std::string(codec_->name) + ", cannot be decoded (" +
+                ffmpeg_error(code) + "); convert it to .flac");
+  return decoder;
+}
+
+Result<bool> FfmpegInput::read(AVPacket& packet) {
+  may_read_bytes_ = kMostBytesBetweenPackets;
+  for (;;) {
+    av_packet_unref(&packet);
+    const int code = av_read_frame(format_.get(), &packet);
+    if (code == AVERROR_EOF && may_read_bytes_ > 0) return false;
+    if (code < 0) return fail(ffmpeg_error(code));
+    if (packet.stream_index == sound_->index) return true;
+  }
+}
+
+bool FfmpegInput::seek(std::int64_t time) {
+  may_read_bytes_ = kMostBytesBetweenPackets;
+  return av_seek_frame(format_.get(), sound_->index, time, AVSEEK_FLAG_BACKWARD) >= 0;
+}
+
+}  // namespace dance

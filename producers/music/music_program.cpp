@@ -1,0 +1,201 @@
+#include "producers/music/music_program.h"
+
+#include <cmath>
+
+#include "core/net/mono_clock.h"
+#include "core/program/talk.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kPlayerTurn = Duration::ms(10);
+constexpr Duration kMusicSecond = Duration::s(1);
+// A link publishes the room's music once a second.
+constexpr Duration kRoomTimeout = Duration::ms(3500);
+constexpr Duration kNever = Duration::s(1LL << 32);
+// Music that was not heard of for longer has ended.
+constexpr Duration kRoomMusicTimeout = Duration::s(4);
+
+}  // namespace
+
+MusicProgram::MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPlayer> player,
+                           Bus& bus, Poller& poller)
+    : options_(std::move(options)),
+      player_(std::move(player)),
+      bus_(bus),
+      poller_(poller),
+      room_music_(options_.title, this_clock_id()) {
+  const MonoTime now = mono_now();
+  publisher_ =
+      std::make_unique<BeatPublisher>(bus_, poller_, [this](MonoTime t) { return beat(t); });
+  if (options_.follows || options_.guest.is_set())
+    bus_.subscribe<Music>(Where::kRoom,
+                          [this](const Channel& channel, const Music& music, MonoTime t) {
+                            if (music.clock_id == this_clock_id())
+                              on_room_music(channel.guest(), music, t);
+                          });
+  wait_until_ = now + kRoomTimeout;
+  if (!options_.follows) begin_own(now);
+  poller_.add_timer(now, [this](MonoTime t) { return work(t); });
+  poller_.add_timer(now, [this](MonoTime t) { return each_second(t); });
+}
+
+void MusicProgram::begin_own(MonoTime now) {
+  begin_ = options_.begin.is_set() ? options_.begin : now;
+  is_leader_ = options_.guest.is_set();
+  state_ = State::kPlays;
+  play();
+}
+
+// A song that another house leads ends when that house ends it.
+void MusicProgram::play() {
+  options_.song->set_loops(options_.loops || (state_ == State::kFollows && !is_leader_));
+  player_->play_from(begin_, options_.song->loops());
+}
+
+void MusicProgram::on_room_music(const GuestId& setter, const Music& music, MonoTime now) {
+  room_ = music;
+  room_setter_ = setter;
+  const bool is_ours = setter == options_.guest;
+  if (is_ours && is_leader_) return;
+  if (is_leader_ && state_ == State::kPlays) {
+    is_leader_ = false;
+    talk::info("the music in the room is {}'s now{}", setter.view(),
+               options_.follows ? "" : "; this house plays on for itself (--follow joins theirs)");
+  }
+  if (options_.follows && state_ != State::kStopped) follow(setter, music, now);
+}
+
+void MusicProgram::follow(const GuestId& setter, const Music& music, MonoTime now) {
+  const bool is_this_song = options_.song && music.title == options_.title;
+  if (!music.playing) {
+    if (state_ != State::kWaits) wait_for_room(now);
+    return;
+  }
+  if (!is_this_song) {
+    if (state_ != State::kKeepsRoomTime && options_.song)
+      talk::warn("the room plays '{}' and this file is '{}': keeps the room's time without sound",
+                 music.title.view(), options_.title.view());
+    if (state_ != State::kKeepsRoomTime && !options_.song)
+      talk::info("keeps the time of '{}', which {} plays", music.title.view(), setter.view());
+    state_ = State::kKeepsRoomTime;
+    player_->pause();
+    return;
+  }
+  const bool is_ours = setter == options_.guest;
+  options_.song->set_loops(options_.loops || !is_ours);
+  const MonoTime begin = begin_of_room_music(music, *options_.song);
+  // A song whose leader left without ending it is over.
+  if (options_.song->is_over((now - begin).as_seconds()) && state_ == State::kWaits) return;
+  if (state_ != State::kFollows)
+    talk::info("joins '{}', which {} plays, at {:.1f} s", music.title.view(), setter.view(),
+               std::max(0.0, (now - begin).as_seconds()));
+  state_ = State::kFollows;
+  // This guest's own song, from before a restart of this program: it leads again.
+  is_leader_ = is_ours;
+  begin_ = begin;
+  play();
+}
+
+// Only the house that stopped the music starts it again.
+void MusicProgram::wait_for_room(MonoTime now) {
+  talk::info("the room's music has stopped; Ctrl-C ends this");
+  stop(now);
+  state_ = State::kWaits;
+  wait_until_ = now + kNever;
+}
+
+MonoTime MusicProgram::work(MonoTime now) {
+  if (auto worked = player_->work(now); !worked) {
+    talk::warn("{}; keeps the time without sound", worked.error().what);
+    player_ = std::make_unique<SilentPlayer>();
+    if (state_ == State::kPlays || state_ == State::kFollows) play();
+  }
+  if (state_ == State::kWaits && options_.song && now >= wait_until_) {
+    talk::info("the room has no music: begins '{}'", options_.title.view());
+    options_.begin = now + Duration::ms(500);
+    begin_own(now);
+  }
+  const bool is_song = state_ == State::kPlays || state_ == State::kFollows;
+  if (is_song && options_.song->is_over((now - begin_).as_seconds())) {
+    stop(now);
+    is_over_ = true;
+    poller_.stop();
+  }
+  return now + kPlayerTurn;
+}
+
+MonoTime MusicProgram::each_second(MonoTime now) {
+  if (is_leader_ && (state_ == State::kPlays || state_ == State::kFollows))
+    bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest),
+                 room_music_.update(*options_.song, begin_, now));
+  const bool hears_another_publisher = publisher_->hears_another_publisher(now);
+  if (hears_another_publisher && !warned_of_another_) talk::warn("{}", kAnotherPublisher);
+  warned_of_another_ = hears_another_publisher;
+  return now + kMusicSecond;
+}
+
+std::optional<Beat> MusicProgram::beat(MonoTime now) const {
+  switch (state_) {
+    case State::kWaits:
+      return std::nullopt;
+    case State::kKeepsRoomTime:
+      if (!room_ || now - room_->time > kRoomMusicTimeout) return std::nullopt;
+      return beat_of_room_music(*room_, now);
+    case State::kPlays:
+    case State::kFollows: {
+      const auto heard_s = player_->heard_s(now);
+      if (!heard_s) return std::nullopt;
+      return beat_of_song(*heard_s, now);
+    }
+    case State::kStopped: {
+      Beat stopped;
+      stopped.time = stopped.beat_time = now;
+      stopped.clock_id = this_clock_id();
+      stopped.beat = stopped_at_beats_;
+      stopped.tempo_bpm = options_.song ? options_.song->tempo_bpm(0.0) : 120.0;
+      stopped.beats_per_bar = options_.song ? options_.song->beats_per_bar() : 0;
+      stopped.confidence = options_.confidence;
+      return stopped;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Beat> MusicProgram::beat_of_song(double heard_s, MonoTime now) const {
+  const Song& song = *options_.song;
+  const Song::NextBeat next = song.next_beat(heard_s);
+  Beat coming;
+  coming.time = now;
+  coming.clock_id = this_clock_id();
+  coming.beat_time = now + Duration::seconds(next.song_s - heard_s);
+  coming.beat = next.beat;
+  coming.tempo_bpm = next.tempo_bpm;
+  coming.beats_per_bar = song.beats_per_bar();
+  coming.confidence = options_.confidence;
+  coming.playing = true;
+  // Before the song there is nothing to dance to.
+  if (heard_s < 0.0) {
+    coming.playing = false;
+    coming.beat = song.beat_at(0.0);
+    coming.beat_time = now;
+  }
+  return coming;
+}
+
+void MusicProgram::stop(MonoTime now) {
+  if (state_ == State::kStopped) return;
+  const auto heard_s = player_->heard_s(now);
+  const bool was_song = state_ == State::kPlays || state_ == State::kFollows;
+  if (was_song && heard_s) stopped_at_beats_ = options_.song->beat_at(std::max(0.0, *heard_s));
+  const bool had_published = publisher_->published() > 0;
+  if (is_leader_ && was_song)
+    bus_.publish(Channel::of(Signal::kMusic, Where::kCapture, options_.guest),
+                 room_music_.update_stopped(stopped_at_beats_, now));
+  is_leader_ = false;
+  player_->pause();
+  state_ = State::kStopped;
+  if (had_published) publisher_->publish(now);
+}
+
+}  // namespace dance

@@ -1,0 +1,78 @@
+// MusicProgram: plays a song in a house, alone or in step with its room: starts it or joins the
+// room's, publishes the beats heard here, and the song's position while this house leads.
+//
+// Units/frames: times of this house's clock.
+// Ownership:    owns the player; refers to the bus and the poller, which must outlive it.
+// Threads:      none inside; runs in the poller's thread.
+// Failure:      where the sound fails it warns and goes on silently. What other houses do is
+//               logged.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/guest_id.h"
+#include "core/bus/bus.h"
+#include "core/net/poller.h"
+#include "producers/music/beat_publisher.h"
+#include "producers/music/music_player.h"
+#include "producers/music/room_music.h"
+#include "producers/music/song.h"
+
+namespace dance {
+
+struct MusicProgramOptions {
+  std::optional<Song> song;  // none: keeps the room's time only
+  MusicTitle title;
+  bool loops = false;       // when this house leads; a joined song ends when its leader ends it
+  float confidence = 1.0f;  // of the song's beats
+  GuestId guest;            // plays for the room; not set = for this house alone
+  bool follows = false;     // joins the room's music where there is some
+  MonoTime begin;           // of a song that is not joined
+};
+
+class MusicProgram {
+ public:
+  MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPlayer> player, Bus& bus,
+               Poller& poller);
+  MusicProgram(const MusicProgram&) = delete;
+  MusicProgram& operator=(const MusicProgram&) = delete;
+
+  bool is_over() const { return is_over_; }
+  const BeatPublisher& publisher() const { return *publisher_; }
+  std::string summary() const { return player_->summary(); }
+  // Publishes to the house and the room that the music has stopped.
+  void stop(MonoTime now);
+
+ private:
+  enum class State { kWaits, kPlays, kFollows, kKeepsRoomTime, kStopped };
+
+  void on_room_music(const GuestId& setter, const Music& music, MonoTime now);
+  void follow(const GuestId& setter, const Music& music, MonoTime now);
+  void wait_for_room(MonoTime now);
+  void begin_own(MonoTime now);
+  void play();
+  MonoTime work(MonoTime now);
+  MonoTime each_second(MonoTime now);
+  std::optional<Beat> beat(MonoTime now) const;
+  std::optional<Beat> beat_of_song(double heard_s, MonoTime now) const;
+
+  MusicProgramOptions options_;
+  std::unique_ptr<MusicPlayer> player_;
+  Bus& bus_;
+  Poller& poller_;
+  RoomMusic room_music_;
+  std::unique_ptr<BeatPublisher> publisher_;
+  State state_ = State::kWaits;
+  MonoTime wait_until_;  // for the room's music, before our own begins
+  MonoTime begin_;
+  bool is_leader_ = false;
+  bool is_over_ = false;
+  bool warned_of_another_ = false;
+  std::optional<Music> room_;
+  GuestId room_setter_;
+  double stopped_at_beats_ = 0.0;
+};
+
+}  // namespace dance

@@ -1,0 +1,38 @@
+// PortDouble: a SignalPort without a bus. What is published is noted, encoded, and heard by its
+// subscribers.
+//
+// Ownership: keeps the subscriptions and what was sent.
+// Threads:   none inside.
+// Failure:   none.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/bus/signal_port.h"
+
+namespace dance {
+
+class PortDouble : public SignalPort {
+ public:
+  void send(const Channel& channel, const AnyMessage& message) override {
+    sent.emplace_back(channel.view());
+    size = message.encode(bytes);
+    for (const auto& subscription : subscriptions)
+      if (subscription->signal() == channel.signal() && subscription->from().includes(channel))
+        subscription->take({channel.view(), bytes.data(), size, MonoTime()}, counted);
+  }
+  void add(std::shared_ptr<Subscription> subscription) override {
+    subscriptions.push_back(std::move(subscription));
+  }
+  const Counters& counters() const override { return counted; }
+
+  std::vector<std::string> sent;
+  MessageBuffer bytes;  // of the last
+  std::size_t size = 0;
+  std::vector<std::shared_ptr<Subscription>> subscriptions;
+  Counters counted;
+};
+
+}  // namespace dance

@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# installed_test.sh BUILD: makes packages of what BUILD has built, unpacks them, and uses them as a stranger does, in a
+# network of its own, while source tree and build are hidden behind empty folders: programs, pages, completion, unit, and
+# examples/ built against the CMake package and danced with.
+set -euo pipefail
+
+if [ "${1:-}" != --hidden ]; then
+  source_tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+  build=$(cd "${1:?give the build folder}" && pwd)
+  scratch=$(mktemp -d)
+  trap 'rm -rf "$scratch"' EXIT
+  root=$scratch/root
+  mkdir "$root"
+  if command -v cpack dpkg dpkg-shlibdeps file >/dev/null; then
+    (cd "$scratch" && cpack --config "$build/CPackConfig.cmake" -B "$scratch/packages" \
+      -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >"$scratch/cpack.log" 2>&1) || { cat "$scratch/cpack.log"; exit 1; }
+    for package in "$scratch"/packages/*.deb; do
+      dpkg -x "$package" "$root"
+      dpkg -f "$package" >"$scratch/$(dpkg -f "$package" Package).control"
+      echo "$(basename "$package"): $(stat -c %s "$package") bytes"
+    done
+  else
+    echo "no dpkg here: installed without packages"
+    cmake --install "$build" --prefix "$root/usr" >"$scratch/install.log" || { cat "$scratch/install.log"; exit 1; }
+  fi
+  cp "$source_tree/tests/private_network.sh" "${BASH_SOURCE[0]}" "$scratch"
+  cd "$scratch"
+  ./private_network.sh unshare -m ./installed_test.sh --hidden "$scratch" "$source_tree" "$build"
+  exit
+fi
+
+scratch=$2
+mount -t tmpfs none "$3"
+[ ! -e "$4" ] || mount -t tmpfs none "$4"
+[ ! -e "$3/core" ] && [ ! -e "$4/bin" ] || { echo "source tree and build are not hidden"; exit 1; }
+usr=$scratch/root/usr dance=$scratch/root/usr/bin/dance
+export HOME=$scratch/home XDG_DATA_HOME=$scratch/home/data XDG_CONFIG_HOME=$scratch/home/config
+unset DANCE_POSE_MODELS DANCE_BUS_URL LCM_DEFAULT_URL
+failed=0
+wrong() { echo "FAILED: $*"; failed=1; }
+expect() { # TEXT IN WHAT: the file IN holds TEXT
+  grep -qF -- "$1" "$2" || { wrong "$3: does not say: $1"; tail -n 20 "$2"; }
+}
+
+# What the packages say of themselves.
+if [ -e dancegraph.control ]; then
+  for library in liblcm1 libssl3 libc6; do expect "$library" dancegraph.control "Depends"; done
+  for package in liblcm-dev libeigen3-dev libexpected-dev; do expect "$package" dancegraph-dev.control "Depends"; done
+fi
+
+# Every command that is listed is there, explains itself, and has its page; what needs the source tree is not listed.
+"$dance" help >help
+expect "  demo " help "dance help"
+! grep -q bench help || wrong "dance help lists what is not installed"
+for command in $(sed -n '/^First/q; s/^  \([a-z-]*\) .*/\1/p' help); do
+  "$dance" "$command" --help >"$command.help" 2>&1 || wrong "dance $command --help fails"
+done
+for program in "$usr"/bin/*; do
+  page=$usr/share/man/man1/$(basename "$program").1.gz
+  [ -e "$page" ] || { wrong "no manual page of $program"; continue; }
+  if command -v groff >/dev/null; then
+    gzip -dc "$page" | groff -man -k -Tutf8 -ww >page 2>page.warnings || wrong "$page: groff fails"
+    [ -s page ] && [ ! -s page.warnings ] || { wrong "$page: groff warns"; cat page.warnings; }
+  fi
+done
+gzip -dc "$usr/share/man/man1/dance-salsa.1.gz" >page
+for text in '.SH SYNOPSIS' '.B \-\-tempo FLOAT:60 to 240' '.SH EXAMPLES' 'dance salsa \-\-guest bob'; do
+  expect "$text" page "dance-salsa.1"
+done
+
+# Completion, as bash calls it.
+complete_words() { # WORD…: what the last may become
+  PATH="$usr/bin:$PATH" bash -c 'source "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _dance; echo "${COMPREPLY[*]}"' \
+    "$usr/share/bash-completion/completions/dance" "$@"
+}
+completes() { # WANTED WORD…
+  local wanted=$1 got
+  shift
+  got=$(complete_words "$@")
+  [ "$got" = "$wanted" ] || wrong "'$*' completes to '$got' and not to '$wanted'"
+}
+completes "demo" dance de
+completes "demo doctor" dance d
+completes "doctor" dance help do
+completes "--tempo" dance salsa --te
+completes "lead follow" dance salsa --role ""
+
+# The unit, with the installed program in its place.
+if command -v systemd-analyze >/dev/null; then
+  sed "s|^ExecStart=dance |ExecStart=$dance |" "$usr/lib/systemd/system/dance-server.service" >dance-server.service
+  systemd-analyze verify --man=no ./dance-server.service >verified 2>&1 || wrong "systemd refuses the unit"
+  ! grep dance-server.service: verified || wrong "systemd complains of the unit"
+fi
+
+# The main job.
+"$dance" demo --headless --seconds 3 --out demo >demo.log 2>&1 || { wrong "dance demo fails"; cat demo.log; }
+[ -s demo/stage-0001.png ] || [ ! -e "$usr/bin/dance-view" ] || wrong "dance demo drew nothing"
+
+# A camera says how the networks that it needs come here.
+if [ -e "$usr/bin/dance-capture" ]; then
+  ! "$dance" fetch-models --there || wrong "networks are there that nobody fetched"
+  ! "$dance" capture demo/stage-0001.png >capture.log 2>&1 || wrong "dance capture sees without its networks"
+  expect "$XDG_DATA_HOME/dancegraph/pose/" capture.log "dance capture"
+  expect '`dance fetch-models` fetches it' capture.log "dance capture"
+  mkdir -p "$XDG_DATA_HOME/dancegraph/pose"
+  echo damage >"$XDG_DATA_HOME/dancegraph/pose/pose_detection.tflite"
+  ! "$dance" capture demo/stage-0001.png >capture.log 2>&1 || wrong "dance capture sees with a damaged network"
+  expect '`dance fetch-models` fetches it anew' capture.log "dance capture"
+fi
+
+# The examples, built as their README says.
+examples=$usr/share/doc/dancegraph-dev/examples
+for language in cpp c; do
+  { cmake -S "$examples/$language" -B "$language" -DCMAKE_PREFIX_PATH="$usr" && cmake --build "$language"; } \
+    >"$language.log" 2>&1 || { cat "$language.log"; wrong "the examples in $language cannot be built"; }
+done
+lcm-gen --python --ppath types "$usr"/share/dancegraph/lcmtypes/*.lcm
+[ "$failed" = 0 ] || exit 1
+cpp/height_consumer --where capture --seconds 4 >cpp.heard &
+c/hips_consumer 'POSE/capture/.*' 4 >c.heard &
+PYTHONPATH=types python3 "$examples/python/listen.py" POSE/capture/ 4 >python.heard &
+sleep 1
+cpp/wave_producer --seconds 2 &
+"$dance" salsa --seconds 2 2>/dev/null &
+wait
+for language in cpp c python; do
+  for guest in waver alice; do
+    heard=$(grep -c "$guest" "$language.heard" || true)
+    echo "$language heard $heard poses of $guest"
+    [ "$heard" -ge 60 ] || wrong "the consumer in $language heard too few poses of $guest"
+  done
+done
+# The hand goes up and down above the shoulders; the hips stand still.
+awk '$1 == "waver" { if (!n++ || $3 < low) low = $3; if ($3 > high) high = $3 }
+  END { print "the waving hand is " low " to " high " m high"; exit !(low > 1.4 && high < 2.3 && high - low > 0.1) }' cpp.heard ||
+  wrong "that is no waving hand"
+for language in c python; do
+  awk '/waver/ { ++n; if ($3 != 0 || $4 < 0.9 || $4 > 1.0 || $5 != 0) exit 1 } END { exit !n }' "$language.heard" ||
+    wrong "the consumer in $language says the hips elsewhere than they are"
+done
+exit $failed

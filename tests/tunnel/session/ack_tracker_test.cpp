@@ -1,0 +1,98 @@
+// What has come, and when the other side is told.
+#include "tunnel/session/ack_tracker.h"
+
+#include <gtest/gtest.h>
+
+namespace dance {
+namespace {
+
+constexpr MonoTime kNow = MonoTime::from_us(5'000'000);
+
+AckTracker::Slots slots_of(std::initializer_list<std::uint8_t> slots) {
+  AckTracker::Slots list;
+  for (const std::uint8_t slot : slots) EXPECT_TRUE(list.try_push(slot));
+  return list;
+}
+
+TEST(AckTracker, TellsNothingBeforeSomethingCame) {
+  const AckTracker tracker;
+  wire::RecordsHeader header;
+  tracker.fill(header);
+  EXPECT_FALSE(header.has_acks);
+  EXPECT_FALSE(tracker.is_ripe(kNow, false));
+}
+
+TEST(AckTracker, ExceptsTheGuestsWhosePosesDidNotDecode) {
+  AckTracker tracker;
+  tracker.note(10);
+  EXPECT_TRUE(tracker.note_except(11, slots_of({3, 5})));
+  tracker.note(12);
+  wire::RecordsHeader header;
+  tracker.fill(header);
+  ASSERT_TRUE(header.has_acks);
+  EXPECT_EQ(header.acks.newest, 12);
+  EXPECT_EQ(header.acks.before & 3, 3u) << "10 and 11 came";
+  ASSERT_EQ(header.acks.excepts.size(), 2u);
+  EXPECT_EQ(header.acks.excepts[0].back, 1);
+  EXPECT_EQ(header.acks.excepts[0].slot, 3);
+  EXPECT_EQ(header.acks.excepts[1].slot, 5);
+}
+
+TEST(AckTracker, WhereMoreFailThanCanBeToldTheOthersAreAcknowledgedStill) {
+  AckTracker tracker;
+  for (std::uint16_t number = 0; number < wire::kMaxAckExcepts; ++number)
+    EXPECT_TRUE(tracker.note_except(number, slots_of({1})));
+  EXPECT_TRUE(tracker.note_except(wire::kMaxAckExcepts, slots_of({1})));
+  wire::RecordsHeader header;
+  tracker.fill(header);
+  EXPECT_EQ(header.acks.newest, wire::kMaxAckExcepts);
+  EXPECT_EQ(header.acks.before, 0u) << "what was seen before is not acknowledged without excepts";
+  EXPECT_EQ(header.acks.excepts.size(), 1u);
+}
+
+TEST(AckTracker, IsDueWhenItWasPromisedOrAtOnceAfterSixteenDatagrams) {
+  AckTracker tracker;
+  tracker.owe(kNow + Duration::ms(20), kNow);
+  tracker.owe(kNow + Duration::ms(30), kNow);
+  EXPECT_EQ(tracker.due(), kNow + Duration::ms(20)) << "the first promise counts";
+  for (int i = 2; i < 15; ++i) tracker.owe(kNow + Duration::ms(30), kNow);
+  EXPECT_EQ(tracker.due(), kNow + Duration::ms(20));
+  tracker.owe(kNow + Duration::ms(30), kNow);
+  EXPECT_EQ(tracker.due(), kNow);
+}
+
+TEST(AckTracker, GoesAlongAtOnceOnAPathThatLosesAndWaitsOnACleanOne) {
+  AckTracker tracker;
+  tracker.note(1);
+  wire::RecordsHeader header;
+  tracker.tell(header, kNow);
+  EXPECT_FALSE(tracker.owes());
+  tracker.owe(kNow + Duration::ms(40), kNow);
+  const MonoTime soon = kNow + Duration::ms(10);
+  EXPECT_TRUE(tracker.is_ripe(soon, false));
+  EXPECT_FALSE(tracker.is_ripe(soon, true));
+  EXPECT_TRUE(tracker.is_ripe(kNow + AckTracker::kCleanGap, true));
+}
+
+TEST(AckTracker, AKeyFrameIsAskedForOnceAndAtOnce) {
+  AckTracker tracker;
+  EXPECT_TRUE(tracker.want_key_frame(9, kNow));
+  EXPECT_TRUE(tracker.is_ripe(kNow, true));
+  wire::RecordsHeader header;
+  tracker.tell(header, kNow);
+  ASSERT_EQ(header.wants.size(), 1u);
+  EXPECT_EQ(header.wants[0], 9);
+  wire::RecordsHeader next;
+  tracker.tell(next, kNow);
+  EXPECT_TRUE(next.wants.empty());
+}
+
+TEST(AckTracker, RefusesMoreRequestsThanADatagramHolds) {
+  AckTracker tracker;
+  for (std::uint8_t slot = 0; slot < wire::kMaxWants; ++slot)
+    EXPECT_TRUE(tracker.want_key_frame(slot, kNow));
+  EXPECT_FALSE(tracker.want_key_frame(wire::kMaxWants, kNow));
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,113 @@
+#include "transformers/flow.h"
+
+namespace dance {
+
+Flow::Flow(Slots slots)
+    : timeline_(std::make_unique<DancerTimeline>(slots.poses)),
+      clock_(std::move(slots.clock)),
+      source_(std::make_unique<MotionSource>(*timeline_, std::move(slots.source))),
+      finish_(slots.has_finish ? std::make_unique<Finish>(slots.half_life) : nullptr),
+      filters_(std::move(slots.filters)),
+      corrects_from_now_(slots.corrects_from_now) {}
+
+void Flow::observe(const Pose& pose, MonoTime now) {
+  switch (timeline_->take(pose, now)) {
+    case DancerTimeline::Taken::kRefused:
+      return;
+    case DancerTimeline::Taken::kRestarted:
+      source_->restart();
+      clock_->restart();
+      if (finish_) finish_->clear();
+      has_shown_ = false;
+      break;
+    case DancerTimeline::Taken::kTaken:
+      break;
+  }
+  source_->observe();
+  clock_->observe(*timeline_, *source_);
+  if (finish_ && has_shown_) finish_->observe(pose, now);
+  for (auto& filter : filters_) filter->observe(pose, now);
+  has_news_ = true;
+}
+
+void Flow::hear(const Beat& beat) {
+  if (timeline_ && timeline_->hear(beat)) clock_->on_music_jump();
+}
+
+void Flow::set_body(const Skeleton& skeleton) {
+  if (!timeline_ || !timeline_->set_body(skeleton)) return;
+  source_->set_body();
+  clock_->set_body(skeleton);
+  if (finish_) finish_->set_body(skeleton);
+  for (auto& filter : filters_) filter->set_body(skeleton);
+}
+
+void Flow::set_style(const Style& style) {
+  for (auto& filter : filters_) filter->set_style(style);
+}
+
+void Flow::correct(const PlayoutClock::Choice& choice, MonoTime now, bool continues_from_here) {
+  const auto asked = [&](MonoTime moment) { return clock_->asked_for(moment, *timeline_); };
+  Pose is;
+  // What is known by now has changed what the picture before should have been.
+  if (has_shown_ && (continues_from_here || has_news_)) {
+    const bool is_changed = continues_from_here || is_shown_open_;
+    if (is_changed) source_->at(asked(shown_moment_), is);
+    if (is_changed || (!corrects_from_now_ && !finish_->corrections().is_at_rest()))
+      finish_->correct(corrects_from_now_ ? now : shown_at_, shown_, is_changed ? is : shown_);
+  }
+  if (has_shown_ && choice.instead_of.is_set()) {
+    Pose was;
+    source_->at(asked(choice.instead_of), was);
+    source_->at(asked(choice.moment), is);
+    finish_->correct(now, was, is);
+  }
+}
+
+bool Flow::sample(MonoTime now, Pose& out) {
+  if (!timeline_ || timeline_->is_empty()) return false;
+  const auto choice = clock_->choose(*timeline_, now, has_shown_ ? shown_capture_ : MonoTime());
+  const MonoTime asked = clock_->asked_for(choice.moment, *timeline_);
+  const bool continues_from_here = source_->begin_continuation(asked, now);
+  if (finish_) correct(choice, now, continues_from_here);
+  const MotionSource::Kind kind = source_->at(asked, out);
+  const bool is_repeated = kind == MotionSource::Kind::kRepeated;
+  if (is_repeated || choice.stands ||
+      (kind == MotionSource::Kind::kPredicted &&
+       asked > timeline_->newest().capture_time + source_->reach()))
+    ++starved_;
+  if (finish_) {
+    shown_ = out;
+    is_shown_open_ = source_->is_open(asked, kind);
+    finish_->apply(
+        now, out, kind == MotionSource::Kind::kPredicted || kind == MotionSource::Kind::kContinued);
+  }
+  shown_capture_ = out.capture_time;
+  clock_->tag(choice.moment, out);
+  shown_moment_ = choice.moment;
+  shown_at_ = now;
+  has_shown_ = true;
+  has_news_ = false;
+  for (auto& filter : filters_) filter->apply(now, out);
+  return true;
+}
+
+Duration Flow::patience() const {
+  return source_ && source_->conceals() ? Continuation::kLongest : Duration();
+}
+
+Flow::Counters Flow::counters() const {
+  Counters sum;
+  sum.starved = starved_;
+  if (timeline_) {
+    sum.refused = timeline_->counters().refused;
+    sum.restarts = timeline_->counters().restarts;
+  }
+  for (const auto& filter : filters_) {
+    sum.refused += filter->refused();
+    sum.restarts += filter->restarts();
+  }
+  return sum;
+}
+
+}  // namespace dance

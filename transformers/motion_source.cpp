@@ -1,0 +1,94 @@
+#include "transformers/motion_source.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dance {
+namespace {
+
+constexpr Duration kTempoSpan = Duration::s(1);
+constexpr double kMostBeatsPerSecond = kMostTempo_bpm / 60.0;
+
+// How fast the dancer's music goes, by the poses of the last second; 0 where there is none.
+double beats_per_second(const PoseHistory& history) {
+  const Pose& newest = history.newest();
+  if (std::isnan(newest.music_beats)) return 0.0;
+  const auto before = history.at(newest.capture_time - kTempoSpan);
+  if (!before || std::isnan(before->pose.music_beats)) return 0.0;
+  const double s = (newest.capture_time - before->pose.capture_time).as_seconds();
+  if (s < 0.1) return 0.0;
+  return std::clamp((newest.music_beats - before->pose.music_beats) / s, 0.0, kMostBeatsPerSecond);
+}
+
+}  // namespace
+
+MotionSource::MotionSource(DancerTimeline& timeline, Parts parts)
+    : timeline_(timeline), parts_(std::move(parts)) {}
+
+void MotionSource::observe() {
+  if (parts_.extrapolator) parts_.extrapolator->observe(timeline_.newest(), timeline_.arrived());
+  // The dancer is back.
+  if (parts_.concealment) parts_.concealment->end();
+}
+
+void MotionSource::restart() {
+  if (parts_.concealment) parts_.concealment->end();
+}
+
+void MotionSource::set_body() {
+  if (parts_.extrapolator) parts_.extrapolator->set_body(timeline_.body());
+}
+
+std::shared_ptr<Learner> MotionSource::learner() const {
+  return parts_.extrapolator ? parts_.extrapolator->learner() : nullptr;
+}
+
+bool MotionSource::begin_continuation(MonoTime moment, MonoTime now) {
+  if (!parts_.concealment || parts_.concealment->is_running()) return false;
+  if (!Concealment::is_lapse(timeline_, moment, now, predicts())) return false;
+  if (!predicts()) {
+    parts_.concealment->begin(timeline_, now);
+    return true;
+  }
+  const Duration after = moment - timeline_.newest().capture_time;
+  Pose meets;
+  predict(moment, meets);
+  parts_.concealment->begin_with(timeline_, now, after, meets);
+  return true;
+}
+
+void MotionSource::predict(MonoTime moment, Pose& out) const {
+  const Pose& newest = timeline_.newest();
+  const Duration ahead = moment - newest.capture_time;
+  parts_.extrapolator->predict(newest.capture_time + std::min(ahead, parts_.reach), out);
+  out.capture_time = moment;
+  out.music_beats += beats_per_second(timeline_.poses()) * ahead.as_seconds();
+  for (MonoTime& hop : out.hops)
+    if (hop.is_set()) hop += ahead;
+}
+
+MotionSource::Kind MotionSource::at(MonoTime moment, Pose& out) {
+  const Pose& newest = timeline_.newest();
+  if (moment <= newest.capture_time) {
+    out = (parts_.is_final ? timeline_.at_for_good(moment) : timeline_.poses().at(moment))->pose;
+    return Kind::kDanced;
+  }
+  if (predicts())
+    predict(moment, out);
+  else
+    out = newest;
+  if (is_continuing()) {
+    parts_.concealment->mix_into(moment, out);
+    return Kind::kContinued;
+  }
+  return predicts() ? Kind::kPredicted : Kind::kRepeated;
+}
+
+bool MotionSource::is_open(MonoTime moment, Kind kind) const {
+  if (kind == Kind::kPredicted || kind == Kind::kContinued) return true;
+  // Between the newest two poses the curve is not known before the next one, either.
+  const PoseHistory& poses = timeline_.poses();
+  return !parts_.is_final && poses.size() >= 2 && moment > poses.newest(1).capture_time;
+}
+
+}  // namespace dance

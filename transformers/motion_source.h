@@ -1,0 +1,60 @@
+// MotionSource: the second question of the stage: what is the pose of a moment? What came,
+// interpolated; after the newest pose a prediction, where there is an extrapolator; and where poses
+// stay away for longer than a prediction reaches, the continuation of the dance
+// (transformers/conceal/concealment.h). With neither, the newest pose is repeated.
+//
+// Units/frames: moments are capture times, `now` is this house's clock.
+// Ownership:    refers to the timeline, which must outlive it; owns the rest. Never allocates after
+//               construction.
+// Threads:      none inside; one owner.
+// Failure:      at() needs a timeline with a pose.
+#pragma once
+
+#include <memory>
+
+#include "transformers/conceal/concealment.h"
+#include "transformers/predict/extrapolator.h"
+#include "transformers/timeline.h"
+
+namespace dance {
+
+class MotionSource {
+ public:
+  enum class Kind { kDanced, kRepeated, kPredicted, kContinued };
+  struct Parts {
+    std::unique_ptr<Extrapolator> extrapolator;
+    // The furthest that is predicted; beyond, the prediction stands.
+    Duration reach = Duration::ms(300);
+    std::unique_ptr<Concealment> concealment;
+    // What was said of a moment that was danced is never said otherwise: where nothing corrects it.
+    bool is_final = false;
+  };
+  MotionSource(DancerTimeline& timeline, Parts parts);
+
+  // The timeline has taken its newest pose.
+  void observe();
+  void restart();
+  void set_body();
+  // Once a picture, before at(): whether the dance has to be continued from here on. Returns true
+  // where it begins now: moments after the newest pose look otherwise than before.
+  bool begin_continuation(MonoTime moment, MonoTime now);
+
+  // The pose of a moment, past or to come. Nothing is smoothed from call to call.
+  Kind at(MonoTime moment, Pose& out);
+  // Whether the next pose may change what at() says of a moment.
+  bool is_open(MonoTime moment, Kind kind) const;
+
+  bool predicts() const { return parts_.extrapolator != nullptr; }
+  bool is_continuing() const { return parts_.concealment && parts_.concealment->is_running(); }
+  bool conceals() const { return parts_.concealment != nullptr; }
+  Duration reach() const { return parts_.reach; }
+  std::shared_ptr<Learner> learner() const;
+
+ private:
+  void predict(MonoTime moment, Pose& out) const;
+
+  DancerTimeline& timeline_;
+  Parts parts_;
+};
+
+}  // namespace dance

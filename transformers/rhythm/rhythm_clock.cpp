@@ -1,0 +1,154 @@
+#include "transformers/rhythm/rhythm_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dance {
+namespace {
+
+constexpr std::uint32_t kPosesPerProbe = 4;
+constexpr std::uint32_t kUntaggedPoses = 30;
+constexpr float kLeastConfidence = 0.25f;
+// Before predictions of this dancer have been measured: in the first half minute of one whom no
+// model has seen they are some 50 to 60 mm off at this distance.
+constexpr Duration kUnknownReach = Duration::ms(180);
+// Where the delay is the least that predictions allow, they need not be that good all the time.
+constexpr double kSlack_beats = 0.1;
+// Nobody is asked for further ahead of what they dance now than this; musics that drift apart may
+// add the slack.
+constexpr double kMostAhead_beats = 0.05;
+// Of the lag of predictions so much is taken back: the further one reaches, the less sure it is.
+constexpr double kLeadShare = 0.4;
+constexpr Duration kSpare = Duration::ms(60);
+// What is further off is jumped to; without music there is no hurry, so more of it is walked.
+constexpr Duration kJumpInTime = Duration::ms(300);
+constexpr Duration kJumpFree = Duration::s(1);
+
+}  // namespace
+
+RhythmClock::RhythmClock(const RhythmOptions& options, std::unique_ptr<PlayoutClock> free_running)
+    : options_(options), free_running_(std::move(free_running)) {}
+
+void RhythmClock::restart() {
+  if (free_running_) free_running_->restart();
+  dance_.clear();
+  play_out_.forget();
+  offset_.reset();
+  guesses_.clear();
+  own_beat_.forget();
+  untagged_ = 0;
+  head_.reset();
+}
+
+void RhythmClock::observe(const DancerTimeline& timeline, MotionSource& source) {
+  if (free_running_) free_running_->observe(timeline, source);
+  play_out_.add(timeline.gap(), timeline.transit());
+  take_tag(timeline);
+  guesses_.learn(timeline.poses());
+  if (++observed_ % kPosesPerProbe == 0) measure_predictions(timeline, source);
+}
+
+void RhythmClock::take_tag(const DancerTimeline& timeline) {
+  const Pose& pose = timeline.newest();
+  const MonoTime now = timeline.arrived();
+  double beats = pose.music_beats;
+  // The comparison is false for no tag, too.
+  if (std::abs(beats) <= kMostBeats) {
+    untagged_ = 0;
+  } else {
+    // One pose without a tag is none; a dance without is one whose steps have to tell.
+    if (++untagged_ < kUntaggedPoses || !timeline.music().is_known(now)) return;
+    if (untagged_ == kUntaggedPoses) own_beat_.forget();
+    Pose untagged = pose;
+    untagged.music_beats = kNoMusic;
+    const auto position =
+        own_beat_.observe(untagged, now, 60.0 * timeline.music().beats_per_second());
+    if (!position) {
+      dance_.clear();
+      return;
+    }
+    beats = *position;
+  }
+  if (dance_.add(pose.capture_time, beats)) offset_.reset();
+}
+
+void RhythmClock::measure_predictions(const DancerTimeline& timeline, MotionSource& source) {
+  if (!free_running_) return;
+  const MonoTime moment = timeline.newest().capture_time + guesses_.next_horizon();
+  Pose prediction;
+  source.at(moment, prediction);
+  guesses_.guess(prediction, moment);
+}
+
+void RhythmClock::set_body(const Skeleton& skeleton) {
+  guesses_.set_body(skeleton);
+  own_beat_.set_body(skeleton);
+}
+
+MonoTime RhythmClock::free_moment(const DancerTimeline& timeline, MonoTime now) {
+  return free_running_ ? free_running_->choose(timeline, now, MonoTime()).moment
+                       : now - play_out_.needed();
+}
+
+void RhythmClock::choose_offset(const BeatClock& music, MonoTime now) {
+  const double beats_per_second = dance_.beats_per_second();
+  // Who asks for a beat of delay asks for the truth: it grows as soon as what is shown would have
+  // to be predicted. A stall then finds as much behind the newest pose as can be.
+  Duration reach;
+  if (options_.beats < 0.0)
+    reach = guesses_.is_known() ? guesses_.reach(options_.most_error_m) : kUnknownReach;
+  BeatOffset::Wish wish;
+  wish.slack_beats = options_.beats > 0.0 ? 0.0 : kSlack_beats;
+  wish.beats = options_.beats;
+  wish.count = options_.count;
+  // Who asks for no delay at all gets predictions however far they have to reach.
+  wish.least_beats = wish.easy_beats = -kMostAhead_beats;
+  if (options_.beats != 0.0) {
+    const Duration beyond = play_out_.needed() - reach;
+    wish.least_beats = std::max(wish.least_beats, beyond.as_seconds() * beats_per_second);
+    wish.easy_beats = std::max(wish.easy_beats, (beyond + kSpare).as_seconds() * beats_per_second);
+  }
+  offset_.update(wish, music.position(now) - dance_.position(now), now);
+}
+
+MonoTime RhythmClock::wanted_moment(const DancerTimeline& timeline, MonoTime now, double& pace) {
+  const MonoTime free = free_moment(timeline, now);
+  const BeatClock& music = timeline.music();
+  pace = 1.0;
+  in_time_ = options_.strength > 0.0 && music.is_known(now) &&
+             music.confidence() >= kLeastConfidence && dance_.is_known(now);
+  if (!in_time_) {
+    offset_.reset();
+    return free;
+  }
+  choose_offset(music, now);
+  const MonoTime on_beat = dance_.time_of(music.position(now) - offset_.value());
+  pace = 1.0 + options_.strength * (music.beats_per_second() / dance_.beats_per_second() - 1.0);
+  return free + Duration::seconds(options_.strength * (on_beat - free).as_seconds());
+}
+
+PlayoutClock::Choice RhythmClock::choose(const DancerTimeline& timeline, MonoTime now,
+                                         MonoTime /*shown*/) {
+  double pace = 1.0;
+  const MonoTime wanted = wanted_moment(timeline, now, pace);
+  const MonoTime moment = head_.advance(now, wanted, pace);
+  const Duration off = wanted - moment;
+  const Duration most = in_time_ ? kJumpInTime : kJumpFree;
+  if (off <= most && off >= -most) return {moment, {}, false};
+  head_.jump(wanted);
+  return {wanted, moment, false};
+}
+
+MonoTime RhythmClock::asked_for(MonoTime moment, const DancerTimeline& timeline) const {
+  const Duration ahead = moment - timeline.newest().capture_time;
+  // Only who is to be on the beat is worth the scatter.
+  if (!in_time_ || ahead <= Duration()) return moment;
+  return moment + Duration::seconds(kLeadShare * (guesses_.lead(ahead) - ahead).as_seconds());
+}
+
+void RhythmClock::tag(MonoTime moment, Pose& pose) const {
+  pose.capture_time = moment;
+  pose.music_beats = dance_.is_known(moment) ? dance_.position(moment) : kNoMusic;
+}
+
+}  // namespace dance

@@ -1,0 +1,82 @@
+#include <string>
+
+#include "tunnel/link/link_options.h"
+
+namespace dance {
+
+std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomName& room) {
+  const std::string room_name(room.view());
+  const std::string guest(refusal.guest.view());
+  switch (refusal.cause) {
+    case wire::Refusal::kVersion:
+      return "the server speaks version " + std::to_string(refusal.server_version) +
+             " of the wire format, this link version " + std::to_string(wire::kWireVersion) +
+             ": update the older of the two";
+    case wire::Refusal::kBadName:
+      return std::string("the server does not take a name: ") + kGuestIdRule +
+             ", and each may be named once; so is a room";
+    case wire::Refusal::kNameTaken:
+      return "guest '" + guest + "' is in room '" + room_name +
+             "' already through another link: choose another --guest, or end the other link";
+    case wire::Refusal::kRoomFull:
+      return "room '" + room_name +
+             "' is full: wait for somebody to leave, or choose another --room";
+    case wire::Refusal::kListenersFull:
+      return "room '" + room_name +
+             "' has as many listeners as the server allows: wait for one to leave, or ask its "
+             "keeper for more --max-listeners";
+    case wire::Refusal::kOnlyListens:
+      return "this house's key only listens: join without --guest (dance link: with "
+             "--listen-only), or ask the server's keeper for a key that dances";
+    case wire::Refusal::kServerFull:
+      return "the server has no place for another link or room: try later, or start it with more "
+             "--max-sessions or --max-rooms";
+    case wire::Refusal::kCodec:
+      return "room '" + room_name +
+             "' speaks a pose codec that this link does not know: update this link";
+    case wire::Refusal::kNotAllowedRoom:
+      return "this house's key does not open room '" + room_name +
+             "': ask the server's keeper for a key to it, or choose the --room of your key";
+    case wire::Refusal::kNotAllowedName:
+      return "this house's key does not allow a guest '" + guest +
+             "': ask the server's keeper for a key of that name, or choose the --guest of your "
+             "key";
+  }
+  return "the server refused for a cause that this link does not know: update this link";
+}
+
+std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict) {
+  const std::string what = kind == wire::StateKind::kMusic ? "music" : "scene";
+  if (verdict == wire::StateVerdict::kOverruled)
+    return "somebody else has set the room's " + what + "; set another one to change it again";
+  return "this house may not set the room's " + what +
+         ": a host is there, or this house only listens; ask the host";
+}
+
+std::string no_entry_line(SealTrouble trouble, const std::string& server) {
+  switch (trouble) {
+    case SealTrouble::kWrongKey:
+      return "the server " + server +
+             " does not know this house's key: ask its keeper for a line, and paste it into: dance "
+             "key";
+    case SealTrouble::kNotTrusted:
+      return "the server " + server +
+             " and this house cannot agree: one of the certificates is not signed by whom the "
+             "other "
+             "trusts, or the server takes keys only, or speaks another version";
+    case SealTrouble::kInterrupted:
+      return "the server " + server +
+             " answers, and then no more: is there a firewall on the way, or a line that loses "
+             "nearly everything?";
+    case SealTrouble::kNoAnswer:
+      break;
+  }
+  return "the server " + server + " does not answer";
+}
+
+std::string no_answer_line(const Address& server) {
+  return server.to_string() +
+         " does not answer: is `dance server` running there, and its UDP port open? Trying on";
+}
+
+}  // namespace dance

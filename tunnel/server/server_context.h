@@ -1,0 +1,40 @@
+// What the parts of the server share: sessions and rooms, who has something to be sent, and the way
+// out.
+//
+// Units/frames: MonoTime of the server's clock; sessions and rooms by index.
+// Ownership:    owns all but the sink, which must outlive it; all made at construction.
+// Threads:      none inside; one owner.
+// Failure:      none; what is rejected is counted by cause.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "tunnel/server/server_state.h"
+
+namespace dance {
+
+struct ServerContext {
+  ServerContext(const ServerLimits& of_server, PeerSink& to);
+
+  void reject(ServerReject cause) { ++counters.rejected[static_cast<std::size_t>(cause)]; }
+  void send(PeerId to, wire::Bytes bytes);
+  // Of this session; nullptr where the slot is another's, or nobody's.
+  ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
+  bool is_newcomer(std::size_t session) const;
+  // Its roster or its states are to be told at the end of the turn.
+  void mark_changed(ServerRoom& room);
+
+  ServerLimits limits;
+  PeerSink& sink;
+  std::vector<ServerSession> sessions;
+  std::vector<ServerRoom> rooms;
+  std::unordered_map<PeerId, std::size_t> by_peer;
+  std::vector<std::size_t> newcomers;  // sessions that know nothing of their room yet
+  std::vector<std::size_t> bundled;    // sessions with a bundle under way
+  std::vector<std::size_t> reporting;  // sessions with feedback due
+  std::vector<std::size_t> changed_rooms;
+  ServerCounters counters;
+};
+
+}  // namespace dance

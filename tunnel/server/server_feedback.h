@@ -1,0 +1,36 @@
+// What receivers have of each guest and what they lack: acknowledgements and requests for intra
+// frames come in from receivers, feedback goes out to senders, not more often than they can use it.
+//
+// Units/frames: MonoTime of the server's clock; sessions by index.
+// Ownership:    refers to the server's context.
+// Threads:      none inside; one owner.
+// Failure:      what a datagram does not do right is counted by cause.
+#pragma once
+
+#include "tunnel/server/server_context.h"
+
+namespace dance {
+
+class ServerFeedback {
+ public:
+  explicit ServerFeedback(ServerContext& server) : server_(server) {}
+
+  void on_acks(std::size_t session, const wire::Acks& acks, MonoTime now);
+  void on_want(std::size_t session, std::uint8_t slot, MonoTime now);
+  void want_key_frame(ServerGuest& guest, MonoTime now);
+  void want_key_frames_for(std::size_t newcomer, MonoTime now);
+  void schedule(std::size_t session, MonoTime now);
+  // What was said may be lost.
+  void repeat(std::size_t session, MonoTime now);
+  // False where there is nothing new to tell.
+  bool fill(std::size_t session, MonoTime now, wire::Feedback& feedback);
+
+ private:
+  void schedule(std::size_t session, MonoTime at, Duration waits, Duration gap);
+  bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
+  wire::GuestFeedback about(std::size_t session, std::uint8_t slot, MonoTime now) const;
+
+  ServerContext& server_;
+};
+
+}  // namespace dance

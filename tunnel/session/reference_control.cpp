@@ -1,0 +1,172 @@
+#include "tunnel/session/reference_control.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dance {
+namespace {
+
+constexpr Duration kAckStands = Duration::s(1);
+constexpr Duration kIntraStands = Duration::ms(2500);
+// Captures further apart are a gap, and say nothing about how long a frame is.
+constexpr Duration kLongestFrame = Duration::ms(200);
+// Frames: as far back as a codec may refer.
+constexpr std::uint16_t kLongestReach = 63;
+
+}  // namespace
+
+void ReferenceControl::begin(PoseEncoder& encoder) {
+  told_ = policy_.current();
+  encoder.set_references(told_);
+  sent_frames_.clear();
+  acked_frames_.clear();
+  base_acked_frames_.clear();
+  base_log2_ = 0;
+  intra_log2_ = kFewestStills_log2;
+  requests_seen_ = 0;
+  refreshed_at_ = MonoTime();
+}
+
+void ReferenceControl::restart(PoseEncoder& encoder, std::uint16_t stream) {
+  encoder.restart();
+  stream_ = stream;
+  sent_frames_.clear();
+  acked_frames_.clear();
+  base_acked_frames_.clear();
+}
+
+void ReferenceControl::note_capture(MonoTime capture) {
+  const Duration since = capture - last_capture_;
+  if (last_capture_.is_set() && since > Duration() && since < kLongestFrame)
+    frame_ += (since - frame_) / 16;
+  last_capture_ = capture;
+}
+
+// An intra frame now and then, lest a loss that nobody told of be missed for long. Frames that all
+// have need none.
+void ReferenceControl::refresh(PoseEncoder& encoder, Duration intra_period, MonoTime now) {
+  if (intra_period <= Duration()) return;
+  const bool is_safe = policy_.current() == References::kAcknowledged && acked_at_.is_set() &&
+                       now - acked_at_ < kAckStands;
+  if (!refreshed_at_.is_set() || is_safe) {
+    refreshed_at_ = now;
+  } else if (now - refreshed_at_ >= intra_period) {
+    encoder.key_frame_wanted();
+    refreshed_at_ = now;
+  }
+}
+
+bool ReferenceControl::prepare(PoseEncoder& encoder, MonoTime capture, Duration intra_period,
+                               MonoTime now) {
+  note_capture(capture);
+  refresh(encoder, intra_period, now);
+  const References references =
+      acked_at_.is_set() ? policy_.while_silent_for(now - acked_at_, frame_) : policy_.current();
+  if (references != told_) {
+    told_ = references;
+    encoder.set_references(references);
+  }
+  // For receivers who get only some frames, and for those who come later: the server keeps the
+  // newest intra frame. Counted, as sequences may leave some out.
+  const bool is_base = base_log2_ != 0 && sent_ % (1u << base_log2_) == 0;
+  if (is_base) encoder.base_wanted();
+  const bool is_old = intra_at_.is_set() && now - intra_at_ > kIntraStands;
+  if (is_old || since_intra_ + 1 >= 1u << intra_log2_) encoder.still_wanted();
+  return is_base;
+}
+
+void ReferenceControl::note_sent(std::uint32_t sequence, bool is_intra, MonoTime now) {
+  sent_frames_.add(stream_, static_cast<std::uint16_t>(sequence));
+  last_sequence_ = sequence;
+  ++sent_;
+  ++since_intra_;
+  if (!is_intra) return;
+  since_intra_ = 0;
+  intra_at_ = now;
+  refreshed_at_ = now;
+}
+
+bool ReferenceControl::take(const wire::GuestFeedback& about, const PathStats& path,
+                            PoseEncoder& encoder, MonoTime now) {
+  const bool is_asked = about.key_frames != requests_seen_;
+  if (is_asked) {
+    requests_seen_ = about.key_frames;
+    encoder.key_frame_wanted();
+    refreshed_at_ = now;
+    ++intra_asked_;
+  }
+  // The encoder is told with the next frame.
+  if (path.is_known) policy_.update(path.loss, path.in_a_row, path.round_trip, frame_, now);
+  base_log2_ = about.base_log2;
+  intra_log2_ = about.still_log2;
+  if (about.restarts == static_cast<std::uint8_t>(stream_)) acknowledge(about, encoder, now);
+  return is_asked;
+}
+
+// Only what was sent, and each once.
+template <class Tell>
+void ReferenceControl::each_new(std::uint16_t newest, std::uint16_t before, HeldFrames& told,
+                                Tell tell) const {
+  for (int back = 16; back >= 0; --back) {
+    if (back > 0 && (before >> (back - 1) & 1) == 0) continue;
+    const auto sequence = static_cast<std::uint16_t>(newest - back);
+    if (!sent_frames_.has(sequence) || told.has(sequence)) continue;
+    told.add(stream_, sequence);
+    tell(last_sequence_ - static_cast<std::uint16_t>(last_sequence_ - sequence));
+  }
+}
+
+void ReferenceControl::acknowledge(const wire::GuestFeedback& about, PoseEncoder& encoder,
+                                   MonoTime now) {
+  if (about.has_held)
+    each_new(about.newest_held, about.held_before, acked_frames_, [&](std::uint32_t sequence) {
+      ++acked_;
+      acked_at_ = now;
+      encoder.acknowledged(sequence);
+    });
+  if (about.has_base_held)
+    each_new(about.newest_base_held, about.base_held_before, base_acked_frames_,
+             [&](std::uint32_t sequence) { encoder.base_acknowledged(sequence); });
+}
+
+void ReceiverSummary::intersect(const HeldFrames& frames, bool& has_some, HeldFrames& common) {
+  if (std::exchange(has_some, true))
+    common.intersect(frames);
+  else
+    common = frames;
+}
+
+void ReceiverSummary::add(std::uint8_t divider, const HeldFrames& frames) {
+  const Share share = share_of(divider);
+  if (share == Share::kBase) {
+    const std::uint8_t wanted = spacing_log2(divider);
+    base_log2_ = base_log2_ == 0 ? wanted : std::min(base_log2_, wanted);
+  }
+  if (share == Share::kStills) intra_log2_ = std::min(intra_log2_, spacing_log2(divider));
+  if (share != Share::kAll && share != Share::kBase) return;
+  // Who has nothing of late asks for an intra frame; the others need not do without references.
+  if (!has_any_ || !frames.is_of(stream_) ||
+      static_cast<std::uint16_t>(newest_ - frames.newest()) > kLongestReach)
+    return;
+  if (share == Share::kAll) intersect(frames, has_full_, full_);
+  intersect(frames, has_base_, base_);
+}
+
+void ReceiverSummary::fill(wire::GuestFeedback& about) const {
+  about.base_log2 = base_log2_;
+  about.still_log2 = intra_log2_;
+  // With nobody who gets all, there is nothing that only those have.
+  const HeldFrames& common = has_full_ ? full_ : base_;
+  about.has_held = has_any_ && common.is_of(stream_);
+  if (about.has_held) {
+    about.newest_held = common.newest();
+    about.held_before = static_cast<std::uint16_t>(common.bits() >> 1);
+  }
+  about.has_base_held = base_log2_ != 0 && has_any_ && base_.is_of(stream_);
+  if (about.has_base_held) {
+    about.newest_base_held = base_.newest();
+    about.base_held_before = static_cast<std::uint16_t>(base_.bits() >> 1);
+  }
+}
+
+}  // namespace dance
