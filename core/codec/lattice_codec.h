@@ -26,11 +26,11 @@ class LatticeEncoder final : public PoseEncoder {
   CodecName name() const override { return {CodecId::kLattice, model_->name}; }
   std::size_t encode(const Pose& pose, std::span<std::uint8_t> payload) override;
   void acknowledged(std::uint32_t sequence) override;
-  void key_frame_wanted() override;
-  void still_wanted() override { wants_key_ = true; }
-  void base_wanted() override { is_base_ = true; }
+  void request_intra() override;
+  void request_refresh() override { wants_key_ = true; }
+  void request_base() override { is_base_ = true; }
   void base_acknowledged(std::uint32_t sequence) override;
-  bool needs_no_other() const override { return is_still_; }
+  bool is_intra() const override { return is_still_; }
   void restart() override;
   void set_references(References references) override { policy_ = references; }
   void set_quality(double error_m) override;

@@ -55,7 +55,7 @@ void LatticeEncoder::base_acknowledged(std::uint32_t sequence) {
   if (CodedFrame* frame = ring_.find(sequence)) frame->is_base_acknowledged = true;
 }
 
-void LatticeEncoder::key_frame_wanted() {
+void LatticeEncoder::request_intra() {
   wants_key_ = true;
   ring_.forget_acknowledged();
   has_void_ = has_last_;

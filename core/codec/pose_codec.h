@@ -66,15 +66,15 @@ class PoseEncoder {
   // Every receiver has decoded the frame of this sequence: it may be a reference. In any order.
   virtual void acknowledged(std::uint32_t /*sequence*/) {}
   // A receiver has no reference: the next frame is intra, and earlier acknowledgements are void.
-  virtual void key_frame_wanted() {}
+  virtual void request_intra() {}
   // The next frame is intra; acknowledgements stay valid.
-  virtual void still_wanted() {}
+  virtual void request_refresh() {}
   // The next frame is a base frame: it refers only to frames of base_acknowledged().
-  virtual void base_wanted() {}
+  virtual void request_base() {}
   // Every receiver, also those with a reduced interest, has decoded the frame of this sequence.
   virtual void base_acknowledged(std::uint32_t /*sequence*/) {}
   // Whether the frame encoded last is intra.
-  virtual bool needs_no_other() const { return true; }
+  virtual bool is_intra() const { return true; }
   // A new stream begins: sequences start anew.
   virtual void restart() {}
   virtual void set_references(References) {}

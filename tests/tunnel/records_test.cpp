@@ -92,7 +92,7 @@ TEST(WireRecords, WhatIsForReceiversOfLessLooksAsItIsDocumented) {
   told.is_kept = told.counts_left_out = true;
   told.left_out = 0x0a0b;
   Record sent = example();
-  sent.is_base = sent.needs_no_other = true;
+  sent.is_base = sent.is_intra = true;
   const Written bytes = written(header, {{told, true}, {sent, true}});
   const Written expected{
       0x98, 0,    0,    0,    0,    0,    0,    0,    0,    1,  // feedback and records
@@ -110,7 +110,7 @@ TEST(WireRecords, WhatIsForReceiversOfLessLooksAsItIsDocumented) {
   ASSERT_TRUE(first && second);
   EXPECT_TRUE(first->is_kept && first->counts_left_out);
   EXPECT_EQ(first->left_out, told.left_out);
-  EXPECT_TRUE(second->is_base && second->needs_no_other && !second->counts_left_out);
+  EXPECT_TRUE(second->is_base && second->is_intra && !second->counts_left_out);
   for (const int wrong : {0x4a, 0x3a, 0x8a, 0x5e}) {
     Written changed = bytes;
     changed[17] = static_cast<std::uint8_t>(wrong);
@@ -163,7 +163,7 @@ TEST(WireRecords, ACrowdComesBackWhateverItsOrder) {
       record.capture_us = kNow_us + (static_cast<std::int64_t>(random.below(300)) - 150) * kTick_us;
       if (random.below(8) == 0) record.capture_us -= 3'000'000 * kTick_us;
       if (random.below(8) == 0) record.sent_age_us = 160;
-      if (random.below(8) == 0) record.needs_no_other = true;
+      if (random.below(8) == 0) record.is_intra = true;
       crowd.emplace_back(record, random.below(8) != 0);
     }
     const Written bytes = written(header, crowd);
@@ -184,7 +184,7 @@ TEST(WireRecords, ACrowdComesBackWhateverItsOrder) {
       EXPECT_EQ(read->sequence, sent.sequence);
       EXPECT_EQ(read->capture_us, sent.capture_us);
       EXPECT_EQ(read->sent_age_us, sent.sent_age_us);
-      EXPECT_EQ(read->needs_no_other, sent.needs_no_other);
+      EXPECT_EQ(read->is_intra, sent.is_intra);
     }
     EXPECT_TRUE(in.is_exhausted());
   }
@@ -245,7 +245,7 @@ TEST(WireRecords, AMessageOfAChannelHasNoFlagsOfPoses) {
   plain.kind = RecordKind::kChannel;
   plain.payload = payload;
   Record flagged = plain;
-  flagged.needs_no_other = flagged.is_base = flagged.is_kept = flagged.counts_left_out = true;
+  flagged.is_intra = flagged.is_base = flagged.is_kept = flagged.counts_left_out = true;
   const Written bytes = written(header, {{plain, false}});
   EXPECT_EQ(written(header, {{flagged, false}}), bytes);
   const std::size_t begin = bytes.size() - payload.size() - 8;

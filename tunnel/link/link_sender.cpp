@@ -76,7 +76,7 @@ void LinkSender::send(LocalGuest& guest, const Pose& pose, MonoTime now) {
   record.stream = guest.poses.stream();
   record.sequence = pose.sequence;
   record.capture_us = times.capture_us;
-  record.needs_no_other = guest.encoder->needs_no_other();
+  record.is_intra = guest.encoder->is_intra();
   record.is_base = is_base;
   if (guest.unstamped == 0) {
     record.published_age_us = times.published_age_us;
@@ -84,7 +84,7 @@ void LinkSender::send(LocalGuest& guest, const Pose& pose, MonoTime now) {
   }
   guest.unstamped = (guest.unstamped + 1) % std::max(link_.options.poses_per_stamp, 1u);
   record.payload = {payload.data(), size};
-  guest.references.note_sent(record.sequence, record.needs_no_other, now);
+  guest.references.note_sent(record.sequence, record.is_intra, now);
   ++link_.counters.poses_sent;
   // The pose before goes once more, in front of this one.
   if (wants_repeats_ && guest.previous.is_before(record)) {

@@ -80,7 +80,7 @@ void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTi
   if (record.is_base) ++guest->base_count;
   if (!is_pose) ++guest->hands_count;
   if (is_pose) guest->last_pose = now;
-  if (is_pose && record.needs_no_other) retain(*guest, record);
+  if (is_pose && record.is_intra) retain(*guest, record);
   forward(session, record, now);
   if (is_pose) guest->previous.keep(record);
 }
@@ -141,7 +141,7 @@ void ServerForwarder::put(std::size_t index, const wire::Record& record, MonoTim
   if (!bundle.has_room_for(record)) flush_bundle(index, now);
   if (bundle.is_empty()) server_.bundled.push_back(index);
   wire::Record told = record;
-  told.needs_no_other = told.is_base = false;  // the receiver sees it
+  told.is_intra = told.is_base = false;  // the receiver sees it
   to.filters[record.slot].tell_left_out(told);
   bundle.add(told, is_narrow_for(to.filters[record.slot].frames(), record), now.since_zero_us(),
              now + share_window(server_.rooms[to.room]));

@@ -48,10 +48,9 @@ bool InterestFilter::admits(const wire::Record& record, const Counts& counts) co
   // What a message means is not known: whether the others can do without it neither.
   if (record.kind == wire::RecordKind::kChannel) return true;
   if (record.kind == wire::RecordKind::kHands) return counts.hands % divider_ == 0;
-  if (awaits_intra_) return record.needs_no_other;
+  if (awaits_intra_) return record.is_intra;
   if (share() == Share::kAll) return true;
-  if (share() == Share::kStills)
-    return record.needs_no_other && record.sequence - last_sent_ >= divider_;
+  if (share() == Share::kStills) return record.is_intra && record.sequence - last_sent_ >= divider_;
   // The sender's base frames come as often as the most eager wants them: of those each 2^n-th, the
   // same for all who want so many.
   const std::uint8_t wanted = spacing_log2(divider_);

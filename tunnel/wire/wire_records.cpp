@@ -17,7 +17,7 @@ constexpr std::uint8_t kLengthMask = 0x3f, kLongLength = 0x40, kIsBrief = 0x80;
 // Of a narrow record's sequence.
 constexpr std::uint8_t kSequenceMask = 0x3f, kOddGeneration = 0x40, kOddRestarts = 0x80;
 // Of the byte that follows a long length.
-constexpr std::uint8_t kHighLengthMask = 0x0f, kNeedsNoOther = 0x10, kIsBase = 0x20,
+constexpr std::uint8_t kHighLengthMask = 0x0f, kIsIntra = 0x10, kIsBase = 0x20,
                        kCountsLeftOut = 0x40, kIsKept = 0x80;
 constexpr std::uint16_t kEscape = 0xffff;  // a number that does not fit follows
 constexpr std::uint16_t kNoAgeTicks = 0xfffe;
@@ -270,7 +270,7 @@ void add_record(const Record& record, bool is_narrow, RecordChain& chain, ByteWr
   const auto flags = static_cast<std::uint8_t>(
       is_channel
           ? 0
-          : (record.needs_no_other ? kNeedsNoOther : 0) | (record.is_base ? kIsBase : 0) |
+          : (record.is_intra ? kIsIntra : 0) | (record.is_base ? kIsBase : 0) |
                 (record.counts_left_out ? kCountsLeftOut : 0) | (record.is_kept ? kIsKept : 0));
   const auto more = static_cast<std::uint8_t>(length >> 6 | flags);
   const std::int64_t after = to_ticks(record.capture_us) - chain.capture_ticks;
@@ -348,7 +348,7 @@ std::optional<Record> parse_record(RecordChain& chain, ByteReader& in) {
     if (!in.ok() || length == 0 || length > kMaxPayload || record.channel > 7) return std::nullopt;
     return record;
   }
-  record.needs_no_other = (more & kNeedsNoOther) != 0;
+  record.is_intra = (more & kIsIntra) != 0;
   record.is_base = (more & kIsBase) != 0;
   record.is_kept = (more & kIsKept) != 0;
   record.counts_left_out = (more & kCountsLeftOut) != 0;

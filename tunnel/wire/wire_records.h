@@ -94,7 +94,7 @@ struct Record {
   std::int32_t server_age_us = kNoAge;  // written by the server
   Bytes payload;
   // From a link: what receivers who want less than all can decode.
-  bool needs_no_other = false;
+  bool is_intra = false;
   bool is_base = false;
   // From the server: made before the receiver came, or before it was asked for; and how many poses
   // of this stream the receiver was not sent so far, where some were not.

@@ -66,7 +66,7 @@ class HeadlessRun {
 
   bool is_strip() const { return options_.moments.strip > 0; }
   // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the
-  // next moment would be missed. Many are drawn as they come, for whoever waits for them.
+  // next moment would be missed. Many are drawn as they come, to finish early.
   bool draws_at_once() const { return !is_strip() && moments_s_.size() > kFewMoments; }
 
   Result<std::vector<MonoTime>> moments_to_draw() const {

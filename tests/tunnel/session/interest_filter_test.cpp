@@ -12,7 +12,7 @@ wire::Record pose_of(std::uint32_t sequence, bool is_intra = false, bool is_base
   wire::Record record;
   record.stream = kStream;
   record.sequence = sequence;
-  record.needs_no_other = is_intra;
+  record.is_intra = is_intra;
   record.is_base = is_base;
   return record;
 }
