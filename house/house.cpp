@@ -78,7 +78,7 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   if (auto linked = house->open_link(); !linked) return tl::make_unexpected(linked.error());
   house->manager_ = std::make_unique<Manager>(session.routes, *house->port_, poller);
   // Of more than the manager remembers each would be new again and again.
-  house->manager_->on_other_manager([url = house->bus_->url(), said = Seldom()]() mutable {
+  house->manager_->on_other_manager([url = house->bus_->url(), said = MessageThrottle()]() mutable {
     if (!said.is_due(url, mono_now())) return;
     talk::warn(
         "another house is open on {}: both fill one stage, and dancers jump to and fro; end one of "

@@ -16,7 +16,7 @@
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
-#include "core/program/seldom.h"
+#include "core/program/message_throttle.h"
 #include "house/house_camera.h"
 #include "house/house_music.h"
 #include "house/house_port.h"
@@ -61,7 +61,7 @@ class House {
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
   std::unique_ptr<HouseMusic> music_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;
-  Seldom troubles_;  // of the link
+  MessageThrottle troubles_;  // of the link
 };
 
 }  // namespace dance

@@ -127,7 +127,7 @@ void Manager::end_second(MonoTime now) {
                               });
   port_.publish(Channel::of_program(Signal::kStats, kProgram), stats(now));
   repeat_skeletons(now);
-  router_.let_go_of_the_gone(now);
+  router_.evict_gone(now);
 }
 
 }  // namespace dance

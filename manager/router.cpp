@@ -54,7 +54,7 @@ void Router::erase(Line& line, Instances::iterator instance) {
   line.instances.erase(instance);
 }
 
-void Router::let_go_of_the_gone(MonoTime now) {
+void Router::evict_gone(MonoTime now) {
   for (auto& line : lines_) {
     Instances& instances = line->instances;
     if (instances.empty()) continue;

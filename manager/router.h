@@ -64,7 +64,7 @@ class Router {
   static constexpr std::size_t kMostAway = 8;
   // Call once a second: frees one flow of each route at most, so that no turn of the stage waits
   // for many.
-  void let_go_of_the_gone(MonoTime now);
+  void evict_gone(MonoTime now);
 
   bool wants(Where where) const { return !lines_from_[static_cast<std::size_t>(where)].empty(); }
   Roster& roster() { return roster_; }

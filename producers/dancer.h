@@ -1,6 +1,6 @@
 // Dancer: a producer of poses that is asked for the pose of a moment: a recorded clip, the
-// synthetic salsa dancer. Who paces and publishes it (producers/dancer_program.h as a program, the
-// manager when hosted) is somebody else's matter.
+// synthetic salsa dancer. producers/producer_program.h, or the house that hosts it, paces and
+// publishes it.
 //
 // Units/frames: t counts from the dancer's start; poses in W, metres.
 // Ownership:    the caller owns the dancer.

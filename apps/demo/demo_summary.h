@@ -1,5 +1,4 @@
-// The account of a demo, as a table for people and as JSON for scripts (docs/commands.md lists the
-// keys).
+// The summary of a demo, as a table for people and as JSON for scripts.
 //
 // Units/frames: ages in ms from capture.
 // Threads:      none inside.

@@ -88,7 +88,7 @@ void lattice_encode(benchmark::State& state) {
   for (auto _ : state) {
     const std::size_t k = frames++ % poses.size();
     if (k == 0) encoder.restart();
-    if (kOnlyKeys) encoder.key_frame_wanted();
+    if (kOnlyKeys) encoder.request_intra();
     bytes += encoder.encode(poses[k], payload);
     benchmark::DoNotOptimize(payload);
   }
@@ -105,7 +105,7 @@ void lattice_decode(benchmark::State& state) {
   std::vector<Payload> payloads(poses.size());
   std::vector<std::size_t> sizes(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (kOnlyKeys) encoder.key_frame_wanted();
+    if (kOnlyKeys) encoder.request_intra();
     sizes[i] = encoder.encode(poses[i], payloads[i]);
   }
   Pose pose;

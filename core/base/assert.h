@@ -1,5 +1,5 @@
-// DANCE_ASSERT: the word for our own bugs, armed in release builds too. Prints the condition, the
-// place and up to two values, then aborts. Never used on data that came from outside.
+// DANCE_ASSERT: for our own bugs, active in release builds too. Prints the condition, the place and
+// up to two values, then aborts. Never used on data that came from outside.
 //
 // Threads: any.
 // Failure: does not return.

@@ -1,12 +1,12 @@
-// Beat: where the music stands, as it is heard in this house: what a producer of music says a few
-// times a second, and what musical time is made of (core/base/beat_clock.h).
+// Beat: the position of the music as it is heard in this house. A music producer publishes it a few
+// times a second; core/base/beat_clock.h makes musical time of it.
 //
 // Units/frames: beats count from the first beat of the first bar of the music; a beat is what
 //               dancers count. Times are of the clock that clock_id names, and of what is *heard*:
 //               a loudspeaker's latency is in them.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      is_valid() is false for what is no music: not finite, a tempo outside 20 to 400, a
+// Failure:      is_valid() is false for values that are not finite, a tempo outside 20 to 400, a
 //               bar of more than 16.
 #pragma once
 
@@ -18,16 +18,16 @@
 namespace dance {
 
 struct Beat {
-  MonoTime time;  // when this was said
+  MonoTime time;  // when this was published
   std::uint64_t clock_id = 0;
-  MonoTime beat_time;      // the next beat is heard then
-  double beat = 0.0;       // which one that is; whole, but for music whose beats have no number yet
-  double tempo_bpm = 0.0;  // from there on
-  int beats_per_bar = 0;   // 0: the bar is not known, and `beat` counts from somewhere
-  float confidence = 0.0f;  // 0 = a guess … 1 = certain, as a beat grid is
-  bool playing = false;     // false: the music stands at `beat`
+  MonoTime beat_time;       // the next beat is heard then
+  double beat = 0.0;        // its number; whole unless the beats are not numbered yet
+  double tempo_bpm = 0.0;   // from there on
+  int beats_per_bar = 0;    // 0: the bar is unknown, and `beat` has an arbitrary zero
+  float confidence = 0.0f;  // 0 = uncertain … 1 = certain, as a beat grid is
+  bool playing = false;     // false: the music is paused at `beat`
 
-  // Where the music stands at a time of the same clock.
+  // Position of the music at a time of the same clock.
   double beats_at(MonoTime t) const {
     return playing ? beat + (t - beat_time).as_seconds() * tempo_bpm / 60.0 : beat;
   }

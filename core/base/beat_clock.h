@@ -1,12 +1,11 @@
-// BeatClock: musical time as a clock that one can ask at any moment: fed with beats as they are
-// told, it runs on between them, takes small corrections in without a jump, and says when it no
-// longer knows.
+// BeatClock: musical time as a clock that can be read at any moment. Received beats set it; it
+// extrapolates between them, slews small corrections, and reports when its last beat is too old.
 //
 // Units/frames: positions in beats as core/base/beat.h counts them; times of one clock.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      is_known() is false before the first beat, where the music stands still, and 3 s
-//               after the last word.
+// Failure:      is_known() is false before the first beat, while the music is paused, and 3 s after
+//               the last beat.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace dance {
 
 class BeatClock {
  public:
-  // Returns true where the music jumped: another song, a seek, the first beat.
+  // Returns true when the music jumped: another song, a seek, the first beat.
   bool hear(const Beat& beat) {
     const bool was_known = is_known(beat.time);
     const double before = was_known ? position(beat.time) : 0.0;
@@ -35,9 +34,9 @@ class BeatClock {
 
   bool is_known(MonoTime t) const { return heard_ && beat_.playing && age_is_fine(t - beat_.time); }
   double position(MonoTime t) const { return beat_.beats_at(t) + correction_at(t); }
-  // When the music stands, or stood, at `beats`.
+  // When the music is, or was, at `beats`.
   MonoTime time_of(double beats) const {
-    // The correction changes more slowly than the music goes on: each round leaves less than it.
+    // The correction changes more slowly than the music advances, so this iteration converges.
     MonoTime t = line_time_of(beats);
     for (int i = 0; i < 16; ++i) t = line_time_of(beats - correction_at(t));
     return t;
@@ -50,12 +49,12 @@ class BeatClock {
 
  private:
   static constexpr Duration kPatience = Duration::s(3);
-  // What is larger is another place of the music; smaller, the time goes on forward at 50 BPM too
-  // while it is taken in.
+  // A larger difference is another place of the music. A smaller one is slewed so that time stays
+  // monotonic at 50 BPM too.
   static constexpr double kJump_beats = 0.25;
   static constexpr double kTakenIn_s = 0.3;
 
-  // What was said in the future is no more to be believed than what is old.
+  // A beat published in the future is as invalid as an old one.
   static bool age_is_fine(Duration age) { return age < kPatience && age > -kPatience; }
   MonoTime line_time_of(double beats) const {
     return beat_.beat_time + Duration::seconds((beats - beat_.beat) * 60.0 / beat_.tempo_bpm);

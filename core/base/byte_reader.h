@@ -1,8 +1,8 @@
-// Reads little-endian numbers from bytes that a stranger sent, and never past their end: a read
-// that would, sets the error flag and gives zeros, so a parser may read on and look at ok() once.
+// Reads little-endian numbers from untrusted bytes, never past their end: a read that would sets
+// the error flag and returns zeros, so a parser may read on and check ok() once.
 //
 // Units/frames: little-endian whatever the host.
-// Ownership:    looks at the caller's bytes.
+// Ownership:    a view of the caller's bytes.
 // Threads:      none inside.
 // Failure:      ok() is false once a read went past the end; it stays false.
 #pragma once
@@ -31,7 +31,7 @@ class ByteReader {
   std::int64_t i64() { return static_cast<std::int64_t>(u64()); }
   double f64() { return std::bit_cast<double>(u64()); }
 
-  // The next n bytes where they stand; empty, and the flag set, where there are not as many.
+  // A view of the next n bytes; empty, and the flag set, when there are fewer.
   std::span<const std::uint8_t> bytes(std::size_t n) {
     if (!take(n)) return {};
     return bytes_.subspan(at_ - n, n);
@@ -43,7 +43,7 @@ class ByteReader {
 
   bool ok() const { return ok_; }
   std::size_t remaining() const { return bytes_.size() - at_; }
-  // Everything was read, and nothing that is not there.
+  // All bytes were read, and none beyond the end.
   bool is_exhausted() const { return ok_ && at_ == bytes_.size(); }
 
  private:

@@ -1,4 +1,4 @@
-// Writes little-endian numbers into a buffer of the caller's, and never past its end.
+// Writes little-endian numbers into the caller's buffer, never past its end.
 //
 // Units/frames: little-endian whatever the host.
 // Ownership:    writes into the caller's bytes.

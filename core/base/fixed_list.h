@@ -1,5 +1,4 @@
-// A list of bounded length that lives where it stands: for what a datagram may hold at most so many
-// of.
+// A list of bounded length with inline storage, as for the entries of a datagram.
 //
 // Ownership: holds its values; never allocates.
 // Threads:   none inside; plain value.

@@ -1,5 +1,5 @@
-// A short string of bounded length that lives where it stands: for guest ids and channel names on
-// the pose path, where std::string could allocate.
+// A short string of bounded length with inline storage: for guest ids and channel names on the pose
+// path, where std::string could allocate.
 //
 // Ownership: holds its characters; always NUL-terminated.
 // Threads:   none inside; plain value.

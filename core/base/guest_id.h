@@ -1,5 +1,5 @@
-// The name of a dancer in a room: 1 to 24 characters of a–z, 0–9 and '-'. The one place that says
-// what a guest id is.
+// The name of a dancer in a room: 1 to 24 characters of a–z, 0–9 and '-'. The only definition of a
+// valid guest id.
 //
 // Ownership: plain value, no allocation.
 // Threads:   none inside.
@@ -17,7 +17,7 @@ constexpr std::size_t kMaxGuestIdLength = 24;
 
 class GuestId {
  public:
-  GuestId() = default;  // no guest
+  GuestId() = default;  // not set
 
   static std::optional<GuestId> parse(std::string_view text) {
     if (text.empty() || text.size() > kMaxGuestIdLength) return std::nullopt;
@@ -39,7 +39,7 @@ class GuestId {
   FixedString<kMaxGuestIdLength> text_;
 };
 
-// What to say about a text that parse() refused.
+// The error message for a text that parse() refused.
 constexpr const char* kGuestIdRule = "a guest id is 1 to 24 characters of a-z, 0-9 and '-'";
 
 }  // namespace dance

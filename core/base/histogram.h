@@ -1,8 +1,8 @@
 // Counts durations in fixed buckets (32 per octave, so percentiles are within 2.2 %), without
-// allocation: latencies, lateness and ages, a second or an hour of them alike.
+// allocation: latencies, lateness and ages over a second or over hours.
 //
-// Units/frames: microseconds from 0 to 2^32; what is larger is counted in the last bucket,
-//               negatives in the first.
+// Units/frames: microseconds from 0 to 2^32; larger values are counted in the last bucket, negative
+//               ones in the first.
 // Threads:      none inside; one owner.
 // Failure:      percentiles of an empty histogram are 0.
 #pragma once
@@ -33,7 +33,7 @@ class Histogram {
     if (count_ == 0) return {};
     auto rank = static_cast<std::uint64_t>(fraction * static_cast<double>(count_ - 1));
     for (std::size_t i = 0; i < buckets_.size(); ++i) {
-      if (rank < buckets_[i])  // a bucket's middle may lie above all that was counted
+      if (rank < buckets_[i])  // a bucket's middle may lie above the maximum
         return std::min(max_, Duration::us(static_cast<std::int64_t>(middle_of(i))));
       rank -= buckets_[i];
     }

@@ -1,9 +1,9 @@
 // One slot between two threads, newest wins: the writer never waits and never fails, the reader
-// gets the newest value that is complete, older ones are overwritten unseen and counted.
+// gets the newest complete value; older ones are overwritten unread and counted.
 //
 // Ownership: three copies of T inside (triple buffer); never allocates after construction.
 // Threads:   one writer, one reader; wait-free for both.
-// Failure:   none; overwritten() counts what the reader never saw.
+// Failure:   none; overwritten() counts unread values.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// Absolute deadlines for periodic work: deadline k is start + k·period, so that lateness never adds
-// up. After a long stall the missed deadlines are skipped and counted instead of being made up in a
-// burst.
+// Absolute deadlines for periodic work: deadline k is start + k·period, so lateness does not
+// accumulate. After a long stall missed deadlines are skipped and counted instead of being caught
+// up with in a burst.
 //
 // Units/frames: MonoTime of the caller's clock, which the caller reads.
 // Threads:      none inside; one owner.
@@ -29,7 +29,7 @@ class Pacer {
   Duration period() const { return Duration::seconds(period_s_); }
   bool is_due(MonoTime now) const { return now >= deadline(); }
 
-  // Begins with the first deadline that is not before `now`: for work whose zero lies in the past.
+  // Begins with the first deadline that is not before `now`: for work that started in the past.
   void begin_at(MonoTime now) {
     if (now > start_)
       index_ = static_cast<std::int64_t>(std::ceil((now - start_).as_seconds() / period_s_));

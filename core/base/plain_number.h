@@ -1,8 +1,8 @@
-// A number as people write it: all digits that it needs and no zeros that say nothing; 10000000,
-// not 1e+07.
+// A number in plain decimal notation: the digits it needs, no trailing zeros, no exponent
+// (10000000, not 1e+07).
 //
-// Units/frames: whatever the number has.
-// Ownership:    returns a text of its own.
+// Units/frames: those of the number.
+// Ownership:    returns a new text.
 // Threads:      any.
 // Failure:      none.
 #pragma once

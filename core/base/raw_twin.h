@@ -1,10 +1,10 @@
-// A dancer may stand on a stage twice: NAME as the house's routes show the dance, and NAME-raw as
-// its poses came, for whoever wants to see what the routes do. Displays show one of the two, or
-// both side by side; nobody counts twins as guests.
+// A dancer may be on a stage twice for comparison: NAME as the house's routes show it, and its raw
+// twin NAME-raw as the poses came. Displays show one of the two, or both side by side; raw twins do
+// not count as guests.
 //
 // Ownership: plain values.
 // Threads:   none inside.
-// Failure:   a name that leaves no room for the ending has no twin.
+// Failure:   a name too long for the suffix has no twin.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ inline std::optional<GuestId> raw_twin_of(const GuestId& guest) {
   return GuestId::parse(std::string(guest.view()) + std::string(kRawTwinEnding));
 }
 
-// Whose twin it is; nothing where the name has not the ending.
+// The guest whose twin this is; nullopt without the suffix.
 inline std::optional<GuestId> twin_of_whom(const GuestId& twin) {
   const std::string_view name = twin.view();
   if (!name.ends_with(kRawTwinEnding)) return std::nullopt;

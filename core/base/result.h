@@ -1,5 +1,5 @@
-// Result<T>: a value, or one line that names the thing that failed and the cure. For what the world
-// does to us (a file missing, a port taken); main prints the line and picks the exit code.
+// Result<T>: a value, or one line that names the thing that failed and the cure. For errors of the
+// environment (a file missing, a port taken); main prints the line and picks the exit code.
 //
 // Threads: none inside.
 // Failure: Error is the failure.

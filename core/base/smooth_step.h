@@ -1,4 +1,4 @@
-// smooth_step: from 0 at 0 to 1 at 1, level at both ends and beyond them.
+// smooth_step: from 0 at 0 to 1 at 1, with slope 0 at both ends, constant beyond them.
 //
 // Units/frames: none.
 // Ownership:    plain values.

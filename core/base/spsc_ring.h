@@ -31,7 +31,7 @@ class SpscRing {
     slot.sequence.store(2 * index + 1, std::memory_order_relaxed);  // odd: being written
     Words words{};
     std::memcpy(words.data(), &value, sizeof(T));
-    // Release: whoever sees one of these words also sees the odd sequence.
+    // Release: a reader of one of these words also sees the odd sequence.
     for (std::size_t i = 0; i < kWords; ++i)
       slot.words[i].store(words[i], std::memory_order_release);
     slot.sequence.store(2 * index + 2, std::memory_order_release);
@@ -53,7 +53,7 @@ class SpscRing {
       for (std::size_t i = 0; i < kWords; ++i)
         words[i] = slot.words[i].load(std::memory_order_acquire);
       const std::uint64_t after = slot.sequence.load(std::memory_order_relaxed);
-      if (before != after || before != 2 * read_ + 2) {  // overwritten under our hands
+      if (before != after || before != 2 * read_ + 2) {  // overwritten while being read
         ++overwritten_;
         ++read_;
         continue;

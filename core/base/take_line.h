@@ -1,8 +1,8 @@
-// Reads a text line by line where it stands.
+// Reads a text line by line, without copies.
 //
 // Ownership: views of the caller's text.
 // Threads:   none inside.
-// Failure:   none; what has no end of line is a line too.
+// Failure:   none; the last line need not end in a line break.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace dance {
 
-// Takes the first line off `text`, and its end with it, however that is written.
+// Removes the first line and its line break (LF or CR LF) from `text` and returns it.
 inline std::string_view take_line(std::string_view& text) {
   std::string_view line = text.substr(0, text.find('\n'));
   text.remove_prefix(std::min(text.size(), line.size() + 1));

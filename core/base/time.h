@@ -4,7 +4,7 @@
 // Units/frames: nanoseconds inside; MonoTime counts from its clock's unspecified zero
 //               (CLOCK_MONOTONIC: boot).
 // Threads:      none inside; plain values.
-// Failure:      none; arithmetic is 64 bit and does not reach its ends within 292 years.
+// Failure:      none; 64-bit arithmetic overflows after 292 years.
 #pragma once
 
 #include <compare>

@@ -1,10 +1,10 @@
-// So many a second and no more, with a burst allowed: bounds what one session or one guest can
-// make a server do.
+// Token bucket: limits a rate and its bursts, as of the work that one session or guest may cause a
+// server.
 //
-// Units/frames: tokens are whatever is counted (datagrams, bytes).
+// Units/frames: tokens are datagrams, bytes or the like.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      take() is false when there is nothing left.
+// Failure:      take() is false when no token is left.
 #pragma once
 
 #include <algorithm>

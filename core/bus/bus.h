@@ -1,5 +1,5 @@
-// Bus: the house's LCM bus behind a seam. Messages come out as this tree's types, checked once here
-// (finite, unit rotations, sizes); what is not right is dropped and counted. Everything pending is
+// Bus: the house's LCM bus as a SignalPort. Messages come out as this tree's types, checked once
+// here (finite, unit rotations, sizes); invalid ones are dropped and counted. Everything pending is
 // drained in each turn, as LCM's own queue would keep the oldest messages and drop the new ones.
 // Messages that this program has not subscribed to do not wake it (core/bus/channel_filter.h).
 //

@@ -1,9 +1,8 @@
-// Bits whose likelihood is learnt on the way, over the range coder: BitEncoder and BitDecoder learn
-// the same from the same bits. Both have the same functions, which take the value to write and give
-// the value that was written or read, so that one text describes a format for both ends; a decoder
-// is given anything.
+// Adaptive binary coding over the range coder: BitEncoder and BitDecoder adapt alike from the same
+// bits. Both have the same functions, which take the value to write and return the value written or
+// read, so that one template describes a format for both ends; a decoder ignores the value.
 //
-// Units/frames: likelihoods in 1/2^16.
+// Units/frames: probabilities in 1/2^16.
 // Ownership:    tables belong to the caller; the coders look at the caller's bytes; no heap.
 // Threads:      none inside.
 // Failure:      as core/codec/range_coder.h.
@@ -18,14 +17,14 @@
 
 namespace dance {
 
-// What is known of one bit: quick to learn at first, the last hundred or so in the end.
+// Probability of one bit: adapts quickly at first, then over the last hundred or so.
 class AdaptiveBit {
  public:
   static constexpr int kBits = 16;
   static constexpr std::uint32_t kWhole = 1u << kBits;
 
-  // How likely it is 1; never 0, never certain.
-  std::uint32_t likelihood() const { return likelihood_; }
+  // Probability of 1, never 0 or certain.
+  std::uint32_t probability() const { return likelihood_; }
   void learn(bool bit) {
     constexpr int kSlowest = 7;
     constexpr std::uint32_t kLeast = 1u << kSlowest;
@@ -45,7 +44,8 @@ class AdaptiveBit {
   std::uint8_t seen_ = 0;
 };
 
-// The bits of a number below 1 << kDepth, from the highest down, each by what stands above it.
+// The bits of a number below 1 << kDepth, from the highest down, each in the context of those above
+// it.
 template <int kDepth>
 using AdaptiveTree = std::array<AdaptiveBit, 1u << kDepth>;
 
@@ -53,12 +53,12 @@ class BitEncoder {
  public:
   explicit BitEncoder(std::span<std::uint8_t> out) : range_(out) {}
 
-  bool bit(AdaptiveBit& law, bool value) {
-    likely_bit(law.likelihood(), value);
-    law.learn(value);
+  bool bit(AdaptiveBit& state, bool value) {
+    likely_bit(state.probability(), value);
+    state.learn(value);
     return value;
   }
-  // A bit that is 1 as often as is said, 0 < ones < AdaptiveBit::kWhole.
+  // A bit of fixed probability, 0 < ones < AdaptiveBit::kWhole.
   bool likely_bit(std::uint32_t ones, bool value) {
     if (value)
       range_.encode(0, ones, AdaptiveBit::kBits);
@@ -71,9 +71,9 @@ class BitEncoder {
     return value;
   }
   template <std::size_t kSize>
-  std::uint32_t tree(std::array<AdaptiveBit, kSize>& laws, std::uint32_t value) {
+  std::uint32_t tree(std::array<AdaptiveBit, kSize>& nodes, std::uint32_t value) {
     for (std::size_t half = kSize / 2, node = 1; half > 0; half /= 2)
-      node = 2 * node + (bit(laws[node], (value & half) != 0) ? 1 : 0);
+      node = 2 * node + (bit(nodes[node], (value & half) != 0) ? 1 : 0);
     return value;
   }
 
@@ -88,9 +88,9 @@ class BitDecoder {
  public:
   explicit BitDecoder(std::span<const std::uint8_t> in) : range_(in) {}
 
-  bool bit(AdaptiveBit& law, bool /*value*/) {
-    const bool value = likely_bit(law.likelihood(), false);
-    law.learn(value);
+  bool bit(AdaptiveBit& state, bool /*value*/) {
+    const bool value = likely_bit(state.probability(), false);
+    state.learn(value);
     return value;
   }
   bool likely_bit(std::uint32_t ones, bool /*value*/) {
@@ -103,9 +103,9 @@ class BitDecoder {
   }
   std::uint32_t raw(std::uint32_t /*value*/, int bits) { return range_.decode_bits(bits); }
   template <std::size_t kSize>
-  std::uint32_t tree(std::array<AdaptiveBit, kSize>& laws, std::uint32_t /*value*/) {
+  std::uint32_t tree(std::array<AdaptiveBit, kSize>& nodes, std::uint32_t /*value*/) {
     std::size_t node = 1;
-    while (node < kSize) node = 2 * node + (bit(laws[node], false) ? 1 : 0);
+    while (node < kSize) node = 2 * node + (bit(nodes[node], false) ? 1 : 0);
     return static_cast<std::uint32_t>(node - kSize);
   }
 

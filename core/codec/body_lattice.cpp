@@ -8,7 +8,7 @@ namespace {
 using exact::Quat;
 using exact::Vec;
 
-// No lattice is so coarse that a bone could be seen to turn.
+// Largest step of a rotation: below what is visible.
 constexpr double kLargestAngleStep_rad = 0.0667;
 
 Vec to_vec(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
@@ -29,7 +29,7 @@ Quat from_axes(const Vec& x, const Vec& y, const Vec& z) {
   return exact::normalized(q);
 }
 
-// Axes with z along the bone and x as near the hinge as that lets it.
+// Axes with z along the bone and x as near the hinge as possible.
 Quat axes_along(const Vec& bone, const std::array<float, 3>& hinge) {
   const double long_m = exact::length(bone);
   const Vec z = long_m > 1e-6 ? (1.0 / long_m) * bone : Vec{0.0, 1.0, 0.0};
@@ -75,8 +75,8 @@ void BodyLattice::find_ends() {
   }
 }
 
-// A bone's lever is how far it moves what hangs rigidly on it: its end; shoulders and neck for the
-// bones of the trunk, as shoulders often stand still; the whole foot.
+// A bone's lever is the distance to the points rigidly attached to it: its end; shoulders and neck
+// for the bones of the trunk, as shoulders often do not move; the whole foot.
 void BodyLattice::find_steps() {
   std::array<std::array<Vec, 6>, kBoneCount> reach{};
   std::array<std::size_t, kBoneCount> count{};

@@ -1,13 +1,12 @@
-// The lattice that a body is coded on: each bone's rotation as swing and twist about the way the
-// bone lies at rest, in steps so small that no joint moves further than the error asked for; the
-// hips as a place, a heading and a tilt. The dancer's own proportions give the steps, a trained
-// model where each bone mostly is.
+// The lattice that a body is quantised on: each bone's rotation as swing and twist about its rest,
+// in steps so small that no joint moves further than the error asked for; the hips as a place, a
+// heading and a tilt. The dancer's proportions give the steps, a trained model the rests.
 //
 // Units/frames: coordinates are radians, and metres for the hips' place; coordinate i is whole
 //               steps of step(i, level). Bones as in core/pose/bone.h, hips first.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
-// Failure:      none: a body of no size still has steps.
+// Failure:      none: a body of size 0 has steps, too.
 #pragma once
 
 #include <array>
@@ -21,18 +20,18 @@ namespace dance {
 // Place x y z of the hips, then swing u, swing v, twist w of each bone.
 constexpr std::size_t kCoordinateCount = 3 + 3 * kBoneCount;
 constexpr std::size_t first_coordinate(std::size_t bone) { return 3 + 3 * bone; }
-// Whole fours, for what is done with several at once.
+// Padded to a multiple of four, for SIMD.
 constexpr std::size_t kPaddedCount = (kCoordinateCount + 3) / 4 * 4;
 
-// A lattice is as fine as the largest error that it is made for.
+// Largest errors that lattices are made for.
 constexpr std::array<double, 8> kLevelErrors_m{0.000125, 0.00025, 0.0005, 0.001,
                                                0.002,    0.005,   0.010,  0.020};
 constexpr std::size_t kLevelCount = kLevelErrors_m.size();
 
-// Skin lies about this far from a joint.
+// Distance of skin from a joint.
 constexpr double kShellRadius_m = 0.03;
 
-// What training knows of where bones are.
+// Trained rests of bones.
 struct RestModel {
   struct BoneRest {
     std::array<float, 4> centre_xyzw{0.0f, 0.0f, 0.0f, 1.0f};  // mean rotation in the parent
@@ -41,24 +40,24 @@ struct RestModel {
   std::array<BoneRest, kBoneCount> bones;
 };
 
-// What later frames ask of a decoded body.
+// The part of a decoded body that later frames refer to.
 struct ReferenceBody {
   alignas(16) std::array<double, kPaddedCount> x{};  // coordinates
-  std::array<exact::Four, kBoneCount> spun{};        // seat, swung and twisted, nearly; w first
+  std::array<exact::Four, kBoneCount> spun{};        // seat, swing and twist; w first
   std::array<exact::Vec, kBoneCount> end{};          // of each bone: next joint, or tip
 };
-// A decoded body, by the arithmetic that both ends share.
+// A decoded body, computed exactly alike at both ends.
 struct BodyState : ReferenceBody {
   std::array<exact::Quat, kBoneCount> global{};
   std::array<exact::Quat, kBoneCount> seat{};  // of each bone's swing and twist, in W
   std::array<exact::Vec, kBoneCount> joint{};
 };
 
-// A lattice of one fineness.
+// A lattice of one level.
 struct LatticeSteps {
   alignas(16) std::array<double, kPaddedCount> step{};
-  alignas(16) std::array<double, kPaddedCount> per_step{};  // one by it
-  // Steps in a whole turn; 0 where the coordinate has no turn to come back from.
+  alignas(16) std::array<double, kPaddedCount> per_step{};  // 1 / step
+  // Steps in a whole turn; 0 where the coordinate does not wrap.
   std::array<std::int32_t, kPaddedCount> turn{};
   alignas(16) std::array<float, kPaddedCount> per_step_float{};
   // How many steps of each bone's u, v and w one of its parent's is.
@@ -88,8 +87,8 @@ class BodyLattice {
     const double* x = body.x.data() + first_coordinate(bone);
     return rotation_of(bone, exact::SwingTwist{x[0], x[1], x[2]});
   }
-  // With a seated bone turned to a rotation in W: what turns W's axes to those that its swing and
-  // twist begin in, and the two as one.
+  // Of a seated bone with a rotation in W: the rotation from W's axes to those of its swing and
+  // twist, and the product of the two.
   exact::Quat from_room(std::size_t bone, const BodyState& state, const exact::Quat& R_WB) const {
     return exact::conj(bone == 0 ? R_WB * frames_[0].before : state.seat[bone]);
   }
@@ -99,8 +98,8 @@ class BodyLattice {
     return bone == 0 ? from_room * after : from_room * R_WB * after;
   }
 
-  // Bone after bone, parents first: where its joint is and its rotation begins, then, with its
-  // coordinates known, all of it; gives its swing and twist.
+  // Bone after bone, parents first: joint and seat, then, with its coordinates known, the rest;
+  // returns its swing and twist.
   void seat_bone(std::size_t bone, BodyState& state) const;
   exact::Quat place_bone(std::size_t bone, BodyState& state) const;
   // A bone's rotation in its parent by swing and twist.
@@ -129,7 +128,7 @@ class BodyLattice {
   std::array<LatticeSteps, kLevelCount> steps_{};
 };
 
-// The bone that goes on where this one ends; −1 for an end of the body, whose tip is tip_of().
+// The next bone in line; −1 for an end of the body, whose tip is tip_of().
 constexpr std::array<std::int8_t, kBoneCount> kNextBone{1,  2,  3,  4,  5,  -1, 7,  8,  9,  -1, 11,
                                                         12, 13, -1, 15, 16, 17, -1, 19, 20, 21, -1};
 constexpr std::size_t tip_of(std::size_t bone) {

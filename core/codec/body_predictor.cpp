@@ -9,11 +9,11 @@ using detail::kFloor;
 using detail::size_of;
 using exact::Four;
 
-// An end that moves less than this a frame stands still; more than the other is fast.
+// An end that moves less than this a frame is still; more than the other is fast.
 constexpr double kStill_m = 0.0012;
 constexpr double kFast_m = 0.006;
 constexpr float kPi = static_cast<float>(exact::kPi);
-// No bone's end is so near to its joint that its direction would mean anything.
+// Below this distance a bone's end has no direction.
 constexpr float kNearest_m = 1e-6f;
 
 void store(std::array<float, 12>& to, Four a, Four b, Four c) {
@@ -24,7 +24,7 @@ void store(std::array<float, 12>& to, Four a, Four b, Four c) {
 
 exact::Vec place_of(const ReferenceBody& body) { return {body.x[0], body.x[1], body.x[2]}; }
 
-// Angles that two others are apart, within half a turn.
+// Differences of angles, within half a turn.
 Four short_way(Four apart) {
   apart -= exact::only(apart > kPi, exact::all(2.0f * kPi));
   return apart - exact::only(apart < -kPi, exact::all(-2.0f * kPi));
@@ -48,9 +48,9 @@ BodyPredictor::BodyPredictor(const BodyLattice& lattice, const PoseModel& model,
       model_(model),
       age_(static_cast<float>(age)),
       run_(references.size()),
-      laws_(&model.laws[case_index(slow, age, references.size())]) {
+      coordinates_(&model.coordinates[case_index(slow, age, references.size())]) {
   if (is_intra()) return;
-  // With fewer references the oldest stands for those before it.
+  // With fewer references the oldest is repeated.
   for (std::size_t i = 0; i < was_.size(); ++i) was_[i] = references[std::min(i, run_ - 1)];
   look_back();
 }
@@ -83,15 +83,15 @@ void BodyPredictor::look_back() {
     s[0] = ones, s[1] = size, s[2] = change, s[3] = older;
     exact::transpose(s[0], s[1], s[2], s[3]);
   }
-  // What pads counts as nothing moved.
+  // Padding counts as unmoved.
   constexpr float kPads = static_cast<float>(kPaddedCount - kCoordinateCount);
   const float nothing = exact::rough_log2(kFloor) * kPads;
   body_speed_ = (exact::sum(speed) - nothing) / static_cast<float>(kCoordinateCount);
   body_noise_ = (exact::sum(noise) - nothing) / static_cast<float>(kCoordinateCount);
 }
 
-// Where a bone's end and its roll were in the room in the newest reference, seen from its parent
-// now, from where they were in the parent; and how that went; in steps.
+// Where a bone's end and roll were in the room in the newest reference, relative to its present
+// parent, and the changes of that; in steps.
 struct BodyPredictor::Room {
   Four hold{}, speed{}, turn{};
 };
@@ -125,7 +125,7 @@ struct BodyPredictor::Room {
   const Four w_z = sw * qz - sz * qw - sx * qy + sy * qx;
   const Four t = (w < 0.0f ? -w_z : w_z) /
                  exact::max(exact::sqrt(w * w + w_z * w_z) + exact::abs(w), exact::all(1e-6f));
-  // From here on u, v and w stand side by side, for one reference after the other.
+  // From here on u, v and w side by side, reference by reference.
   Four newest = -k * dy, before = k * dx, oldest = 4.0f * t * exact::atan_of_square(t * t), none{};
   exact::transpose(newest, before, oldest, none);
   const std::size_t c = first_coordinate(bone);
@@ -157,43 +157,44 @@ void BodyPredictor::look_at(std::size_t c, const BodyState& body) {
     room = look_at_room(bone, body);
     const float* parent =
         &residual_[first_coordinate(static_cast<std::size_t>(kBones[bone].parent))];
-    said_[0] = room.hold;
-    said_[1] = room.speed;
-    said_[2] = room.turn;
+    hints_[0] = room.hold;
+    hints_[1] = room.speed;
+    hints_[2] = room.turn;
     Four of_parent = Four{parent[0], parent[1], parent[2], 0.0f} * steps_.of_parent[bone];
-    exact::transpose(said_[0], said_[1], said_[2], of_parent);
+    exact::transpose(hints_[0], hints_[1], hints_[2], of_parent);
     beside_[0] = Four{moved[1], room.hold[1], 0.0f, 0.0f};
     beside_[1] = Four{moved[0], room.hold[0], 0.0f, 0.0f};
     beside_[2] = Four{};
   } else {
     for (std::size_t i = c; i < 6; ++i) residual_[i] = 0.0f;
   }
-  said_sizes_[0] = size_of(room.speed);
-  said_sizes_[1] = size_of(room.turn);
-  said_sizes_[2] = size_of(room.hold + age_ * (room.speed - moved));
+  hint_sizes_[0] = size_of(room.speed);
+  hint_sizes_[1] = size_of(room.turn);
+  hint_sizes_[2] = size_of(room.hold + age_ * (room.speed - moved));
   Four all_over = exact::all(body_speed_);
-  exact::transpose(said_sizes_[0], said_sizes_[1], said_sizes_[2], all_over);
+  exact::transpose(hint_sizes_[0], hint_sizes_[1], hint_sizes_[2], all_over);
 }
 
 // Hips are as high as legs are long: their height counts from there.
 Spread BodyPredictor::intra(std::size_t c, const BodyState& body) {
-  const IntraLaw& law = model_.intra[c];
+  const IntraModel& trained = model_.intra[c];
   const double standing_m = lattice_.offset(0).y;
-  double mean = static_cast<double>(law.base) + (c == 1 ? standing_m : 0.0);
+  double mean = static_cast<double>(trained.base) + (c == 1 ? standing_m : 0.0);
   for (std::size_t i = 0; i < kIntraTerms; ++i) {
-    const std::size_t from = law.from[i];
-    mean += static_cast<double>(law.weight[i]) * (body.x[from] - (from == 1 ? standing_m : 0.0));
+    const std::size_t from = trained.from[i];
+    mean +=
+        static_cast<double>(trained.weight[i]) * (body.x[from] - (from == 1 ? standing_m : 0.0));
   }
   mean_ = mean * steps_.per_step[c];
-  log2_spread_ = law.spread_log2 + exact::rough_log2(static_cast<float>(steps_.per_step[c]));
+  log2_spread_ = trained.spread_log2 + exact::rough_log2(static_cast<float>(steps_.per_step[c]));
   return {detail::to_256(mean_), detail::class_of(detail::clamped(log2_spread_, -8.0f, 15.0f))};
 }
 
 Features BodyPredictor::features() const {
   const std::size_t axis = coordinate_ % 3;
   Features f;
-  store(f.mean, moved_[coordinate_], said_[axis], Four{late_[0], late_[1], late_[2], late_[3]});
-  store(f.spread, sizes_[coordinate_], said_sizes_[axis],
+  store(f.mean, moved_[coordinate_], hints_[axis], Four{late_[0], late_[1], late_[2], late_[3]});
+  store(f.spread, sizes_[coordinate_], hint_sizes_[axis],
         Four{body_noise_, mood_.surprise, mood_.size, mood_.size_before});
   f.speed = speed_;
   f.base = base_;

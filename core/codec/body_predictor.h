@@ -1,12 +1,12 @@
-// Says of each coordinate of a body, one after the other, where it will be and how sure that is:
-// from earlier decoded frames and from what of this frame is decoded already. Encoder and decoder
-// run the same, so what is predicted need not be sent.
+// Predicts the mean and spread of each coordinate of a body in turn, from earlier decoded frames
+// and from the coordinates of this frame decoded so far. Encoder and decoder run the same
+// prediction, so only residuals are sent.
 //
-// A bone goes on as it did in its parent, or its end as it did in the room (a planted foot, a
-// steady head): training weighs both.
+// A bone continues as it moved in its parent, or its end as it moved in the room (a planted foot, a
+// steady head): trained weights combine both.
 //
 // Units/frames: steps of the lattice; W for the room.
-// Ownership:    looks at lattice, model and references, which must outlive it; no heap.
+// Ownership:    refers to lattice, model and references, which must outlive it; no heap.
 // Threads:      none inside.
 // Failure:      none: with no reference it predicts a frame from itself.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace dance {
 
-// What a coordinate's law weighs, for training.
+// Features of a coordinate, for training.
 struct Features {
   alignas(16) std::array<float, kMeanFeatures> mean{};
   alignas(16) std::array<float, kSpreadFeatures> spread{};
@@ -36,14 +36,14 @@ class BodyPredictor {
   // Call for each coordinate in order; `body` holds what is decoded before it, and the coordinate's
   // bone is seated.
   Spread predict(std::size_t coordinate, const BodyState& body);
-  // What the coordinate turned out to be.
+  // The decoded coordinate.
   void decoded(std::size_t coordinate, double steps);
-  // predict() in two: look_at() before the three coordinates of the place or of a bone, then of
-  // each.
+  // predict() in two parts: look_at() before the three coordinates of the place or of a bone, then
+  // for each.
   void look_at(std::size_t first, const BodyState& body);
   Spread predict_axis(std::size_t first, std::size_t axis, const BodyState& body);
 
-  // Of this frame so far: how surprising it is, and the log2 sizes of the last two residuals.
+  // Of this frame so far: the surprise, and the log2 sizes of the last two residuals.
   struct Mood {
     float surprise = 0.0f, size = 0.0f, size_before = 0.0f;
   };
@@ -70,7 +70,7 @@ class BodyPredictor {
   float age_;
   std::size_t run_;
   std::array<const ReferenceBody*, 4> was_{};  // the references, the newest first
-  const std::array<CoordinateLaw, kCoordinateCount>* laws_;
+  const std::array<CoordinateModel, kCoordinateCount>* coordinates_;
 
   // Of each coordinate 1 and the steps from reference to reference, the newest first; and 1 and the
   // sizes of the first, of how it changed and of how that had changed before.
@@ -81,9 +81,9 @@ class BodyPredictor {
   alignas(16) std::array<float, kCoordinateCount> residual_{};
   float residual_before_ = 0.0f, residual_before_that_ = 0.0f;  // of the same bone
   Mood mood_;
-  // Of u, v and w of the bone: what the room and its parent say, how sure that is, and how its
-  // other way of swinging went.
-  std::array<exact::Four, 3> said_, said_sizes_, beside_;
+  // Of u, v and w of the bone: predictions from the room and its parent, their spreads, and the
+  // residual of the other swing.
+  std::array<exact::Four, 3> hints_, hint_sizes_, beside_;
   // Of the coordinate that was predicted last.
   std::size_t coordinate_ = 0;
   std::size_t speed_ = 0;  // of its bone's end
@@ -94,7 +94,7 @@ class BodyPredictor {
 };
 
 namespace detail {
-// Below this part of a step nothing is told from nothing.
+// Smallest spread, in steps.
 constexpr float kFloor = 0.25f;
 inline exact::Four size_of(exact::Four steps) {
   return exact::rough_log2(exact::abs(steps) + kFloor);
@@ -104,7 +104,7 @@ inline std::int64_t to_256(double steps) {
   const double x = near * 256.0 + (0.5 + 0x1p31);
   return static_cast<std::int64_t>(x) - (std::int64_t{1} << 31);  // rounded down
 }
-// Many a spread is as small as it may be, and no branch could foretell which.
+// Branch-free, as the branch would be unpredictable.
 inline float clamped(float log2_spread, float least, float most) {
   return exact::at_most(exact::max(exact::all(log2_spread), exact::all(least))[0], most);
 }
@@ -112,8 +112,8 @@ inline float clamped(float log2_spread, float least, float most) {
 inline int class_of(float log2_spread) {
   return static_cast<int>(log2_spread * 4.0f + (0.5f + 64.0f)) - 64 + 16;
 }
-// w · f, added up as exact::sum() does: of the features eight in two fours, and four one by one, as
-// they are known last.
+// w · f, added up as exact::sum() does: eight features as two vectors of four, and four one by one,
+// as they are known last.
 inline float weigh(const std::array<float, 12>& w, exact::Four a, exact::Four b,
                    const std::array<float, 4>& late) {
   const exact::Four m = exact::load_four(&w[0]) * a + exact::load_four(&w[4]) * b;
@@ -122,24 +122,24 @@ inline float weigh(const std::array<float, 12>& w, exact::Four a, exact::Four b,
 }
 }  // namespace detail
 
-// Inline: what one coordinate leaves to the next should stay in registers.
+// Inline, so that state passed from one coordinate to the next stays in registers.
 [[gnu::always_inline]] inline Spread BodyPredictor::predict_axis(std::size_t first,
                                                                  std::size_t axis,
                                                                  const BodyState& body) {
   const std::size_t c = first + axis;
   if (is_intra()) return intra(c, body);
-  if (first < 6) {  // of the place and the hips what is known of them
-    said_[axis] = exact::Four{residual_[0], residual_[1], residual_[2], residual_[3]};
+  if (first < 6) {  // the place and the hips
+    hints_[axis] = exact::Four{residual_[0], residual_[1], residual_[2], residual_[3]};
     late_ = {residual_[4], 0.0f, 0.0f, 0.0f};
   } else {
     late_ = {residual_before_, residual_before_that_, beside_[axis][0], beside_[axis][1]};
   }
   coordinate_ = c;
   base_ = was_[0]->x[c] * steps_.per_step[c];
-  const CoordinateLaw& law = (*laws_)[c];
-  const float off = detail::weigh(law.mean[speed_], moved_[c], said_[axis], late_);
+  const CoordinateModel& trained = (*coordinates_)[c];
+  const float off = detail::weigh(trained.mean[speed_], moved_[c], hints_[axis], late_);
   const float log2_spread =
-      detail::weigh(law.spread, sizes_[c], said_sizes_[axis],
+      detail::weigh(trained.spread, sizes_[c], hint_sizes_[axis],
                     {body_noise_, mood_.surprise, mood_.size, mood_.size_before});
   mean_ = base_ + static_cast<double>(off);
   log2_spread_ = detail::clamped(log2_spread, -4.0f, 12.0f);
@@ -158,7 +158,7 @@ inline Spread BodyPredictor::predict(std::size_t c, const BodyState& body) {
   residual_[c] = r;
   residual_before_that_ = residual_before_;
   residual_before_ = r;
-  // In fours, whose larger one is found without a branch.
+  // Four at a time; the maximum is branch-free.
   const exact::Four size = detail::size_of(exact::all(r));
   const float surprise = (size - exact::max(exact::all(log2_spread_), exact::all(-2.0f)))[0];
   mood_ = {mood_.surprise + 0.15f * (surprise - mood_.surprise), size[0], mood_.size};

@@ -11,11 +11,11 @@ namespace {
 using exact::Quat;
 using exact::Vec;
 
-// How much of the budget's worth a turn of the shell has beside the joints.
+// Weight of the skin's rotation beside the joints.
 constexpr double kShellWeight = 0.3;
 // A correction is some millimetres at the end of a bone.
 constexpr double kFarthestAim_rad = 0.3;
-// Nothing is saved at the price of an error.
+// No skipping at the price of an error.
 constexpr double kDear = 1e6;
 
 Quat to_quat(const Eigen::Quaternionf& q) {
@@ -77,7 +77,7 @@ BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const Body
   return error;
 }
 
-// The joints and tips that a bone carries, through bones that stand still.
+// The joints and tips that a bone carries, through still bones.
 void BodyQuantiser::gather_points(std::size_t bone) {
   point_count_ = 0;
   const Vec& joint = truth_->joint[bone];
@@ -120,13 +120,13 @@ void BodyQuantiser::gather_beyond(std::size_t bone, std::size_t root, const Vec&
   }
 }
 
-// The cheapest of the whole numbers around the target; `weight` is what one step off costs there.
+// The cheapest of the whole numbers around the target; `weight` is the cost of one step off.
 [[gnu::always_inline]] inline double BodyQuantiser::choose(std::size_t first, std::size_t axis,
                                                            double target_steps, double weight,
                                                            double lambda) {
   const std::size_t c = first + axis;
   const Spread spread = predictor_->predict_axis(first, axis, body_);
-  const SymbolLaw law(*bell_, spread);
+  const SymbolDistribution distribution(*table_, spread);
   const std::int32_t turn = steps_->turn[c];
   // A turn more or less is the same rotation: the one nearest the mean costs least.
   if (axis == 2 && turn != 0) {
@@ -134,20 +134,20 @@ void BodyQuantiser::gather_beyond(std::size_t bone, std::size_t root, const Vec&
     if (std::abs(off) > 0.5 * turn) target_steps += turn * exact::round_to_whole(off / turn);
   }
   const auto nearest = static_cast<std::int32_t>(std::lrint(target_steps));
-  SymbolLaw::Symbol best = law.find(nearest);
-  double best_bits = law.bits(best);
+  SymbolDistribution::Symbol best = distribution.find(nearest);
+  double best_bits = distribution.bits(best);
   const double d0 = nearest - target_steps;
   const double worth = lambda * weight;
   double best_cost = best_bits + worth * d0 * d0;
-  // A number further off can but save the bits that there are.
-  if (const int way = law.cheaper_way(best); way != 0) {
-    SymbolLaw::Symbol symbol = best;
+  // A number further off can save at most these bits.
+  if (const int way = distribution.cheaper_way(best); way != 0) {
+    SymbolDistribution::Symbol symbol = best;
     for (int far = 1; far <= 3; ++far) {
       const double d = d0 + way * far;
       const double penalty = worth * d * d;
       if (penalty >= best_cost) break;
-      symbol = law.beside(symbol, way);
-      const double bits = law.bits(symbol);
+      symbol = distribution.beside(symbol, way);
+      const double bits = distribution.bits(symbol);
       if (bits + penalty < best_cost) {
         best = symbol;
         best_bits = bits;
@@ -157,14 +157,14 @@ void BodyQuantiser::gather_beyond(std::size_t bone, std::size_t root, const Vec&
   }
   bits_ += best_bits;
   DANCE_ASSERT(choice_count_ < choices_.size());
-  choices_[choice_count_++] = {law, best};
+  choices_[choice_count_++] = {distribution, best};
   predictor_->decoded(c, best.n);
   const std::int32_t n = axis == 2 ? wrapped(best.n, turn) : best.n;
   body_.x[c] = steps_->step[c] * n;
   return steps_->step[c] * best.n;
 }
 
-// A bone that came to rest while it was aimed stays where truth has it only when it is aimed again.
+// A bone that comes to rest while aimed reaches its true place only when aimed again.
 bool BodyQuantiser::stands_in(std::size_t bone) const {
   const Quat off = exact::conj(still_local_[bone]) * truth_->local[bone];
   const double half_step = 0.5 * steps_->step[first_coordinate(bone)];
@@ -216,8 +216,8 @@ bool BodyQuantiser::aim_bone(std::size_t bone, double lambda) {
   const Quat& aimed = truth_->global[bone];
   const Quat from_room = lattice_->from_room(bone, body_, aimed);
   const auto [at, axes] = exact::nearly_swing_twist(lattice_->turn_of(bone, from_room, aimed));
-  // Least squares of  off + Σ δᵢ axisᵢ × r  over the points r, with some resistance of the shell:
-  // Hᵢₖ = Σ (axisᵢ × r) · (axisₖ × r), gᵢ = Σ (axisᵢ × r) · off, each product told by dot products.
+  // Least squares of  off + Σ δᵢ axisᵢ × r  over the points r, with some stiffness of the skin: Hᵢₖ
+  // = Σ (axisᵢ × r) · (axisₖ × r), gᵢ = Σ (axisᵢ × r) · off, by dot products.
   double uu = 0.0, uv = 0.0, uw = 0.0, vv = 0.0, vw = 0.0, ww = 0.0;
   double r2 = (lambda > 1e3 ? 0.05 : kShellWeight) * kShellRadius_m * kShellRadius_m;
   const double shell = r2;
@@ -248,8 +248,8 @@ bool BodyQuantiser::aim_bone(std::size_t bone, double lambda) {
   const double du_aim = -(C_u * g_u + C_v * g_v + C_w * g_w) / det;
   const double per_ww = 1.0 / H_ww;
   const double S = det / C_u, T = C_u * per_ww;
-  // Where two of the three turn about the same axis (a swing of half a turn) no aim can be
-  // reckoned: there the truth is rounded as it is.
+  // Where two of the three axes coincide (a swing of half a turn) the system is singular: the true
+  // coordinates are rounded.
   const bool can_aim = std::abs(du_aim) < kFarthestAim_rad && S > 1e-4 * shell && T > 1e-4 * shell;
   const double du = can_aim ? du_aim : 0.0;
 
@@ -269,11 +269,12 @@ bool BodyQuantiser::aim_bone(std::size_t bone, double lambda) {
 }
 
 bool BodyQuantiser::quantise(const BodyLattice& lattice, BodyPredictor& predictor,
-                             const BellShape& bell, const TrueBody& truth, const Still& still,
-                             const ReferenceBody* base, const QuantiseOptions& options) {
+                             const DistributionTable& table, const TrueBody& truth,
+                             const Still& still, const ReferenceBody* base,
+                             const QuantiseOptions& options) {
   lattice_ = &lattice;
   predictor_ = &predictor;
-  bell_ = &bell;
+  table_ = &table;
   truth_ = &truth;
   base_ = base;
   still_ = still;

@@ -1,12 +1,12 @@
-// Finds the lattice point that a body is coded as: bone after bone, each aimed at where its end
-// truly is from where its joint was decoded, so that errors do not add up along a limb; and of the
-// points that are near enough the one that costs least.
+// Chooses the lattice point of a body: closed-loop quantisation bone by bone, each aimed from its
+// decoded joint at the true place of its end, so that errors do not add up along a limb; of the
+// points near enough the one of least rate-distortion cost.
 //
 // Units/frames: metres, radians, W; an error of 1 is the budget.
-// Ownership:    owns room for one frame; looks at nothing after a call.
+// Ownership:    owns memory for one frame; keeps no references after a call.
 // Threads:      none inside.
 // Failure:      quantise() is false where a joint would be further off than the budget: a finer
-//               level, or a lower lambda, brings it nearer.
+//               level, or a lower lambda, helps.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 #include "core/codec/body_lattice.h"
 #include "core/codec/body_predictor.h"
-#include "core/codec/symbol_law.h"
+#include "core/codec/symbol_distribution.h"
 #include "core/pose/pose.h"
 
 namespace dance {
 
-// A body as it truly is.
+// The exact body.
 struct TrueBody {
   std::array<exact::Quat, kBoneCount> local{};
   std::array<exact::Quat, kBoneCount> global{};
@@ -36,7 +36,7 @@ struct BodyError {
 };
 BodyError error_of(const BodyLattice& lattice, const TrueBody& truth, const BodyState& body);
 
-// What a bone may be turned by, seen or not.
+// Largest angular error of a bone.
 constexpr double kAngleCap_rad = 0.0698;
 inline double angle_budget_rad(double error_m) {
   return error_m / kShellRadius_m < kAngleCap_rad ? error_m / kShellRadius_m : kAngleCap_rad;
@@ -45,22 +45,22 @@ inline double angle_budget_rad(double error_m) {
 struct QuantiseOptions {
   std::size_t level = 3;
   double error_m = 0.001;
-  double inner = 0.9;  // what joints may have of the budget, so that the next ones can still be met
-  double lambda = 6.0;  // bits that an error of the whole budget is worth
+  double inner = 0.9;   // the joints' part of the budget, which leaves room for the next ones
+  double lambda = 6.0;  // rate-distortion weight: bits for an error of the whole budget
 };
 
 class BodyQuantiser {
  public:
   struct Choice {
-    SymbolLaw law;
-    SymbolLaw::Symbol symbol;
+    SymbolDistribution distribution;
+    SymbolDistribution::Symbol symbol;
   };
-  // Bones that stand as they did in the frame before, for themselves.
+  // Bones unchanged since the previous frame.
   using Still = std::array<bool, kBoneCount>;
 
-  bool quantise(const BodyLattice& lattice, BodyPredictor& predictor, const BellShape& bell,
-                const TrueBody& truth, const Still& still, const ReferenceBody* base,
-                const QuantiseOptions& options);
+  bool quantise(const BodyLattice& lattice, BodyPredictor& predictor,
+                const DistributionTable& table, const TrueBody& truth, const Still& still,
+                const ReferenceBody* base, const QuantiseOptions& options);
 
   const BodyState& body() const { return body_; }
   std::span<const Choice> choices() const { return {choices_.data(), choice_count_}; }
@@ -69,7 +69,7 @@ class BodyQuantiser {
  private:
   struct Point {
     exact::Vec offset;  // in the bone's frame
-    exact::Vec arm;     // the same in W, if the bone is turned as it truly is
+    exact::Vec arm;     // the same in W, with the bone's true rotation
     exact::Vec truth;   // in W
     bool is_tip;
   };
@@ -79,10 +79,10 @@ class BodyQuantiser {
                      const exact::Quat& turn);
   bool stands_in(std::size_t bone) const;
   bool quantise_place(double lambda);
-  // As it was in the frame before; or so that what hangs on it comes where it truly is.
+  // As in the previous frame; or so that the points attached to it come to their true places.
   bool keep_bone(std::size_t bone);
   bool aim_bone(std::size_t bone, double lambda);
-  // The coordinate that is coded, before it is brought into its turn.
+  // The coded coordinate, before wrapping.
   double choose(std::size_t first, std::size_t axis, double target_steps, double weight,
                 double lambda);
   bool is_good(std::size_t bone) const;
@@ -90,12 +90,12 @@ class BodyQuantiser {
   const BodyLattice* lattice_ = nullptr;
   const LatticeSteps* steps_ = nullptr;
   BodyPredictor* predictor_ = nullptr;
-  const BellShape* bell_ = nullptr;
+  const DistributionTable* table_ = nullptr;
   const TrueBody* truth_ = nullptr;
   const ReferenceBody* base_ = nullptr;
   QuantiseOptions options_;
   Still still_{};
-  std::array<exact::Quat, kBoneCount> still_local_;  // of bones that stand still
+  std::array<exact::Quat, kBoneCount> still_local_;  // of still bones
   BodyState body_;
   std::array<Choice, kCoordinateCount> choices_;
   std::size_t choice_count_ = 0;
@@ -105,7 +105,7 @@ class BodyQuantiser {
   double least_dot_ = 0.0;  // of a bone's rotation with the true one
 };
 
-// A number of steps brought into the turn that has 0 in its middle.
+// A number of steps wrapped to the turn around 0.
 inline std::int32_t wrapped(std::int64_t n, std::int32_t turn) {
   if (turn == 0 || (n >= -(turn / 2) && n < (turn + 1) / 2)) return static_cast<std::int32_t>(n);
   std::int64_t m = n % turn;

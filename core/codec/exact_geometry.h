@@ -1,6 +1,6 @@
-// Vectors and quaternions in doubles with + − × ÷ and √ alone, each operation in the order that is
-// written: what both ends of the codec compute must be the same to the last bit whatever compiler,
-// processor and flags made them. Eigen may reorder sums, so it is not used here.
+// Vectors and quaternions in doubles with + − × ÷ and √ alone, each operation in the order written:
+// both ends of the codec must compute the same to the last bit, whatever the compiler, processor
+// and flags. Eigen may reorder sums, so it is not used here.
 //
 // Units/frames: quaternions are Hamilton's; rotate(q, v) turns v by q.
 // Ownership:    plain values.

@@ -1,6 +1,6 @@
 // Functions that give the same bits on every machine: made of + − × ÷ only, which IEEE 754 rounds
-// exactly, where libm's may differ in the last bit from one to the next. For decoders, whose two
-// ends must agree. Everything that includes this is built with -ffp-contract=off.
+// exactly, while libm's may differ in the last bit. For codecs, whose two ends must agree.
+// Everything that includes this is built with -ffp-contract=off.
 //
 // Units/frames: radians; errors are stated at each function, as seen by tests.
 // Ownership:    none.
@@ -21,7 +21,7 @@ namespace dance::exact {
 constexpr double kPi = 3.141592653589793;
 constexpr double kLargestAngle_rad = 1e6;
 
-// Exact for |x| < 2^51; halves go away from 0.
+// Exact for |x| < 2^51; halves round away from 0.
 inline double round_to_whole(double x) {
   const auto whole = static_cast<std::int64_t>(x);
   const double rest = x - static_cast<double>(whole);
@@ -99,7 +99,7 @@ inline double atan2(double y, double x) {
   return y < 0.0 ? -angle : angle;
 }
 
-// 2^x for −1022 <= x <= 1023: 0 below, infinite above. Relative error below 1e-13.
+// 2^x for −1022 <= x <= 1023: 0 below, infinity above. Relative error below 1e-13.
 inline double exp2(double x) {
   DANCE_ASSERT(x == x, x);
   if (x < -1022.0) return 0.0;

@@ -1,5 +1,5 @@
-// Four floats or two doubles side by side, each operation rounded exactly as for one: the same bits
-// on every machine, and one instruction where there is one.
+// Portable SIMD: four floats or two doubles, each operation rounded as for one, so the same bits on
+// every machine.
 //
 // Units/frames: none.
 // Ownership:    plain values.
@@ -64,7 +64,7 @@ inline Four to_floats(Two a, Two b) {
 inline Four to_floats(double a, double b, double c, double d) {
   return to_floats(Two{a, b}, Two{c, d});
 }
-// Rows become columns.
+// Transpose.
 inline void transpose(Four& a, Four& b, Four& c, Four& d) {
   const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   const Four cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
@@ -77,8 +77,7 @@ inline void transpose(Four& a, Four& b, Four& c, Four& d) {
 }
 inline float sum(Four x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
-// log2 of positive numbers, straight between powers of two: exponent and mantissa read as one
-// number.
+// log2 of positive numbers, linear between powers of two: exponent and mantissa read as one number.
 inline Four rough_log2(Four x) {
   return __builtin_convertvector(reinterpret_cast<FourInts>(x), Four) * 0x1p-23f - 127.0f;
 }

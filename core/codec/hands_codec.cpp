@@ -17,7 +17,7 @@ constexpr std::uint32_t kWholeHand = (1u << kHandBones) - 1;
 constexpr int kHalfTurn_steps = 312;
 constexpr double kStep_rad = exact::kPi / kHalfTurn_steps;
 
-// What the first byte says of each hand, two bits each, left lowest.
+// Form of each hand in the first byte, two bits each, left lowest.
 enum class HandForm : std::uint8_t {
   kNone,   // nothing measured, all at rest
   kWhole,  // every bone measured
@@ -34,13 +34,13 @@ struct HandMasks {
   std::uint32_t carried = 0;
 };
 
-// How far turns of late were from what was expected, which says how far the next may be.
+// Recent mean residual, from which the next one's distribution follows.
 class RecentSize {
  public:
   explicit RecentSize(std::uint32_t mean_steps) : mean_(mean_steps * kOne) {}
 
-  // How likely it is, in 1/2^16, that a difference of at least n steps is larger than n: steady at
-  // first, then ever more, so that nothing is dear.
+  // Probability, in 1/2^16, that a difference of at least n steps is larger than n: constant at
+  // first, then growing, so that outliers stay affordable.
   std::uint32_t goes_on(std::uint32_t n) const {
     const std::uint64_t reach = mean_ + n * n * kOne * (kOne / 4) / (mean_ + kOne);
     return std::clamp(static_cast<std::uint32_t>(reach * kWhole / (reach + kOne)), kWhole / 64,
@@ -68,7 +68,7 @@ int code_difference(Coder& coder, RecentSize& spread, int difference) {
   return coder.raw(difference < 0 ? 1u : 0u, 1) != 0 ? -static_cast<int>(n) : static_cast<int>(n);
 }
 
-// The laws of one message, alike for both hands.
+// The means of one message, shared by both hands.
 struct RecentSizes {
   // thumb or finger; first phalanx or another; curl, spread, twist
   std::array<std::array<std::array<RecentSize, 3>, 2>, 2> of{
@@ -78,9 +78,9 @@ struct RecentSizes {
          {RecentSize(6), RecentSize(1), RecentSize(1)}}}}};
 };
 
-// What is expected of a bone from those that went before: it is curled like the one of the finger
-// beside it, and more so if the bone before it is; it is spread and twisted like its peers so far.
-// Thumbs and first fingers have a peer in the other hand only.
+// Prediction of a bone from those before: its curl from the same bone of the finger beside it and
+// from the bone before it; spread and twist from its peers so far. Thumbs and first fingers have a
+// peer in the other hand only.
 Turn expected_turn(const HandTurns& turns, const HandTurns& other, std::size_t bone) {
   const bool has_neighbour = bone >= 2 * kPhalanges;
   const auto beside = [&](std::size_t b) {
@@ -108,17 +108,17 @@ bool code_hand(Coder& coder, RecentSizes& spreads, std::uint32_t carried, const 
       continue;
     }
     const Turn expected = expected_turn(turns, other, b);
-    auto& laws = spreads.of[b < kPhalanges ? 0 : 1][b % kPhalanges == 0 ? 0 : 1];
+    auto& means = spreads.of[b < kPhalanges ? 0 : 1][b % kPhalanges == 0 ? 0 : 1];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int wanted = turns[b][axis] - expected[axis];
-      turns[b][axis] = expected[axis] + code_difference(coder, laws[axis], wanted);
+      turns[b][axis] = expected[axis] + code_difference(coder, means[axis], wanted);
       if (std::abs(turns[b][axis]) > kHalfTurn_steps) return false;
     }
   }
   return true;
 }
 
-// Mirrors left and right: what is read from a right hand is as of a left one.
+// Mirrors left and right: right hands are coded as left ones.
 Turn to_turn(const Eigen::Quaternionf& rotation, bool is_left) {
   const Eigen::Vector4d q = rotation.coeffs().cast<double>();
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;

@@ -1,14 +1,14 @@
-// The lattice codec: a body in some twenty bytes, no joint further off than was asked for. What it
-// does is said in docs/codec.md.
+// The lattice codec: a body in some twenty bytes with a bounded error of every joint. docs/codec.md
+// describes it.
 //
-// Units/frames: errors in metres, at joints and tips in W; bones turn by at
-//               most what moves skin 3 cm from a joint by as much, and never by more than 4°.
+// Units/frames: errors in metres, at joints and tips in W; bones turn by at most what moves skin 3
+//               cm from a joint as far, and by at most 4°.
 // Ownership:    encoder and decoder keep the last 64 frames, some 100 KB each, and share the model;
 //               made once per guest, they never allocate afterwards.
 // Threads:      none inside; one owner.
-// Failure:      as the seam says. A pose that no lattice brings within the error (none is known) is
-//               refused. What was damaged on its way decodes to another pose or is kMalformed;
-//               every 32nd frame or so carries a sum by which ends that came apart notice.
+// Failure:      as core/codec/pose_codec.h says. A pose that no lattice brings within the error
+//               (none is known) is refused. Damaged bytes decode to another pose or are kMalformed;
+//               every 32nd frame or so carries a checksum by which diverged ends notice.
 #pragma once
 
 #include <memory>
@@ -26,19 +26,19 @@ class LatticeEncoder final : public PoseEncoder {
   CodecName name() const override { return {CodecId::kLattice, model_->name}; }
   std::size_t encode(const Pose& pose, std::span<std::uint8_t> payload) override;
   void acknowledged(std::uint32_t sequence) override;
-  void key_frame_wanted() override;
-  void still_wanted() override { wants_key_ = true; }
-  void base_wanted() override { is_base_ = true; }
+  void request_intra() override;
+  void request_refresh() override { wants_key_ = true; }
+  void request_base() override { is_base_ = true; }
   void base_acknowledged(std::uint32_t sequence) override;
-  bool needs_no_other() const override { return is_still_; }
+  bool is_intra() const override { return is_still_; }
   void restart() override;
   void set_references(References references) override { policy_ = references; }
   void set_quality(double error_m) override;
   void set_skeleton(const Skeleton& skeleton) override;
 
-  // Of the newest frame, for whoever measures.
+  // Of the newest frame, for measurements.
   const CodedFrame* newest() { return has_last_ ? ring_.find(last_sequence_) : nullptr; }
-  // For measuring: refers to the frame this many frames ago, whatever the policy; 0 = by the
+  // For measurements: refers to the frame this many frames ago, whatever the policy; 0 = by the
   // policy.
   void refer_to_age(std::uint32_t age) { fixed_age_ = age; }
 
@@ -54,7 +54,7 @@ class LatticeEncoder final : public PoseEncoder {
   bool is_void(std::uint32_t sequence) const;
   std::size_t encode_frame(const Pose& pose, std::span<std::uint8_t> payload);
   BodyQuantiser::Still still_bones(const TrueBody& truth) const;
-  // Finds the lattice point; false where none is near enough.
+  // Chooses the lattice point; false where none is near enough.
   bool quantise(const TrueBody& truth, const BodyQuantiser::Still& still,
                 const Reference& reference);
   std::size_t write(const Pose& pose, const Reference& reference, std::span<std::uint8_t> out);
@@ -76,7 +76,7 @@ class LatticeEncoder final : public PoseEncoder {
   bool is_still_ = false;  // the newest
   bool has_last_ = false;
   std::uint32_t last_sequence_ = 0;
-  bool has_void_ = false;  // frames up to void_until_ are no references, whoever acknowledges them
+  bool has_void_ = false;  // frames up to void_until_ are no references, even when acknowledged
   std::uint32_t void_until_ = 0;
   MonoTime last_capture_;
   Duration pace_ = Duration::us(16'667);
@@ -97,7 +97,7 @@ class LatticeDecoder final : public PoseDecoder {
   void restart() override { ring_.clear(); }
   void set_skeleton(const Skeleton& skeleton) override;
 
-  // Of a decoded frame, for whoever measures; nullptr where it did not come.
+  // Of a decoded frame, for measurements; nullptr where it did not arrive.
   const CodedFrame* find(std::uint32_t sequence) { return ring_.find(sequence); }
 
  private:

@@ -5,7 +5,7 @@
 namespace dance {
 namespace {
 
-// No encoder goes further: a swing is within half a turn, a stage within a kilometre.
+// Bounds of what encoders produce: a swing is within half a turn, a stage within a kilometre.
 constexpr double kLargestSwing_rad = 3.5;
 constexpr double kFarthest_m = 2.0 * static_cast<double>(kMaxStageDistance_m);
 
@@ -34,12 +34,13 @@ DecodeResult LatticeDecoder::decode_body(RangeDecoder& in, const FrameHead& head
                                          std::span<const ReferenceBody* const> references,
                                          Pose& pose) {
   BodyPredictor predictor(lattice_, *model_, head.level, head.is_slow, head.age, references);
-  const BellShape& bell = references.empty() ? model_->intra_bell : model_->bell;
+  const DistributionTable& table = references.empty() ? model_->intra_table : model_->table;
   const LatticeSteps& steps = lattice_.steps(head.level);
   BodyState& body = fresh_body_;
-  // Inline, so that what one coordinate leaves to the next stays in registers.
+  // Inline, so that state passed from one coordinate to the next stays in registers.
   const auto decode_axis = [&](std::size_t first, std::size_t axis) __attribute__((always_inline)) {
-    const std::int32_t n = SymbolLaw(bell, predictor.predict_axis(first, axis, body)).decode(in);
+    const std::int32_t n =
+        SymbolDistribution(table, predictor.predict_axis(first, axis, body)).decode(in);
     predictor.decoded(first + axis, n);
     return n;
   };
@@ -62,7 +63,7 @@ DecodeResult LatticeDecoder::decode_body(RangeDecoder& in, const FrameHead& head
                  static_cast<float>(body.x[2])};
   if (!references.empty() && has_check(sequence) &&
       in.decode_bits(16) != check_of(lattice_, head.level, skeleton_tag_, body))
-    return DecodeResult::kReferenceMissing;  // what we hold of this sequence is not what they sent
+    return DecodeResult::kReferenceMissing;  // another frame of this sequence
   return in.is_exhausted() ? DecodeResult::kPose : DecodeResult::kMalformed;
 }
 
@@ -88,7 +89,7 @@ DecodeResult LatticeDecoder::decode_frame(std::uint32_t sequence,
     if (!read_level(in, frames[0]->level, head)) return DecodeResult::kMalformed;
   }
   PoseExtras extras;
-  if (!read_extras(in, frames[0], frames[1], head.age, model_->bell, extras))
+  if (!read_extras(in, frames[0], frames[1], head.age, model_->table, extras))
     return DecodeResult::kMalformed;
   const DecodeResult result = decode_body(in, head, sequence, {bodies.data(), head.run}, pose);
   if (result != DecodeResult::kPose) return result;
@@ -116,7 +117,8 @@ DecodeResult LatticeDecoder::decode(std::uint32_t sequence, std::span<const std:
     FrameHead next;
     read_kind(main, next);
     if (next.kind != FrameKind::kDelta || !read_head(main, next)) return DecodeResult::kMalformed;
-    // Only where it was missed; what it refers to may be missing too, which the frame itself tells.
+    // Only where it was lost; its own references may be missing too, which the frame itself
+    // reports.
     if (ring_.find(sequence - next.age) == nullptr &&
         decode_frame(sequence - next.age, before, pose) == DecodeResult::kMalformed)
       return DecodeResult::kMalformed;

@@ -7,14 +7,14 @@
 namespace dance {
 namespace {
 
-// Frames further apart are coded by what was learnt at 30 a second.
+// Frames further apart use the model trained at 30 a second.
 constexpr Duration kSlowPace = Duration::us(22'500);
 // No clock is a century off: differences stay within their type.
 constexpr Duration kOldestCapture = Duration::s(3'000'000'000);
-// A bone whose rotation differs by less from the frame before was not moved.
+// A bone whose rotation differs by less from the previous frame is still.
 constexpr double kUnmoved = 1e-5;
 
-// What a reference with fewer frames behind it costs, in frames of age.
+// Cost of a reference with a shorter run, in frames of age.
 constexpr std::uint32_t kPairPenalty = 1;
 constexpr std::uint32_t kSinglePenalty = 4;
 
@@ -22,9 +22,9 @@ struct Attempt {
   std::size_t finer;  // levels
   double inner;       // of the error for joints within the body
   double lambda;
-  bool keeps_still;  // bones that did not move are not aimed
+  bool keeps_still;  // still bones are not aimed
 };
-// What is tried until every joint is near enough; the first does nearly always.
+// Tried in turn until every joint is near enough; the first nearly always suffices.
 constexpr std::array<Attempt, 7> kAttempts{{{0, 1.0, 6.0, true},
                                             {0, 0.92, 1.5, true},
                                             {1, 0.92, 1.5, true},
@@ -40,7 +40,7 @@ LatticeEncoder::LatticeEncoder(std::shared_ptr<const PoseModel> model)
       lattice_(average_skeleton(), model_->rest),
       skeleton_tag_(tag_of(average_skeleton())) {}
 
-// What left before the last request says nothing of who asked.
+// Acknowledgements of frames from before the last request do not count.
 bool LatticeEncoder::is_void(std::uint32_t sequence) const {
   return has_void_ && static_cast<std::int32_t>(sequence - void_until_) <= 0;
 }
@@ -55,7 +55,7 @@ void LatticeEncoder::base_acknowledged(std::uint32_t sequence) {
   if (CodedFrame* frame = ring_.find(sequence)) frame->is_base_acknowledged = true;
 }
 
-void LatticeEncoder::key_frame_wanted() {
+void LatticeEncoder::request_intra() {
   wants_key_ = true;
   ring_.forget_acknowledged();
   has_void_ = has_last_;
@@ -83,7 +83,7 @@ void LatticeEncoder::set_skeleton(const Skeleton& skeleton) {
   restart();
 }
 
-// Only with the first frame that needs no other: until the next, everybody reckons as it says.
+// Takes effect with the next intra frame, which carries it.
 void LatticeEncoder::watch_pace(MonoTime capture) {
   const auto is_usual = [](MonoTime t) {
     return t.is_set() && t > MonoTime() - kOldestCapture && t < MonoTime() + kOldestCapture;
@@ -122,7 +122,7 @@ LatticeEncoder::Reference LatticeEncoder::choose_reference(std::uint32_t sequenc
   if (newest > FrameRing::kOldest) return {};
   if (fixed_age_ != 0 || (policy_ != References::kAcknowledged && !is_base_))
     return reference_of_age(sequence, newest);
-  // Frames in a row tell how things move: they are worth being some frames older.
+  // A run of frames shows motion: it is worth a somewhat older reference.
   Reference best;
   std::uint32_t best_cost = UINT32_MAX;
   for (std::uint32_t age = newest; age <= FrameRing::kOldest; ++age) {
@@ -156,13 +156,13 @@ bool LatticeEncoder::quantise(const TrueBody& truth, const BodyQuantiser::Still&
   std::array<const ReferenceBody*, 4> bodies{};
   for (std::size_t i = 0; i < reference.run; ++i) bodies[i] = &reference.frames[i]->body;
   const ReferenceBody* base = reference.run > 0 ? bodies[0] : nullptr;
-  const BellShape& bell = reference.run > 0 ? model_->bell : model_->intra_bell;
+  const DistributionTable& table = reference.run > 0 ? model_->table : model_->intra_table;
   for (const Attempt& attempt : kAttempts) {
     used_level_ = level_ - std::min(level_, attempt.finer);
     BodyPredictor predictor(lattice_, *model_, used_level_, is_slow_, reference.age,
                             {bodies.data(), reference.run});
     const QuantiseOptions options{used_level_, error_m_, attempt.inner, attempt.lambda};
-    if (quantiser_.quantise(lattice_, predictor, bell, truth,
+    if (quantiser_.quantise(lattice_, predictor, table, truth,
                             attempt.keeps_still ? still : BodyQuantiser::Still{}, base, options))
       return true;
   }
@@ -182,9 +182,9 @@ std::size_t LatticeEncoder::write(const Pose& pose, const Reference& reference,
   head.is_slow = is_slow_;
   head.skeleton_tag = skeleton_tag_;
   write_head(head, base != nullptr ? base->level : 0, coder);
-  write_extras(extras_of(pose), base, before, reference.age, model_->bell, coder);
+  write_extras(extras_of(pose), base, before, reference.age, model_->table, coder);
   for (const BodyQuantiser::Choice& choice : quantiser_.choices())
-    choice.law.encode(choice.symbol, coder);
+    choice.distribution.encode(choice.symbol, coder);
   if (base != nullptr && has_check(pose.sequence))
     coder.encode_bits(check_of(lattice_, used_level_, skeleton_tag_, quantiser_.body()), 16);
   const std::size_t size = coder.finish();
@@ -214,7 +214,7 @@ std::size_t LatticeEncoder::encode_frame(const Pose& pose, std::span<std::uint8_
   if (reference.run == 0) is_slow_ = is_slow_now;
   if (!quantise(truth, still, reference)) return 0;
 
-  // The frame before goes along where its bytes are at hand and this one refers to it.
+  // The previous frame is included where its bytes are available and this one refers to it.
   const bool is_twice = !is_base_ && policy_ == References::kPreviousTwice && reference.run > 0 &&
                         last_size_ > 0 && reference.frames[0]->sequence == last_sequence_;
   const std::size_t lead = is_twice ? kTwiceHeadBytes + last_size_ : 0;
@@ -237,7 +237,7 @@ std::size_t LatticeEncoder::encode_frame(const Pose& pose, std::span<std::uint8_
   std::copy_n(payload.begin() + static_cast<std::ptrdiff_t>(lead), last_size_,
               last_payload_.begin());
 
-  // A frame that needs no other begins a chain: who has it has what comes after.
+  // An intra frame begins a chain of references.
   is_still_ = reference.run == 0;
   if (is_still_) ring_.break_chain();
   CodedFrame& frame = ring_.make(pose.sequence);

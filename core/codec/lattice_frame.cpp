@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-constexpr int kHeadBits = 6;  // of the laws below, whose frequencies add up to 64
+constexpr int kHeadBits = 6;  // of the distributions below, whose frequencies add up to 64
 
 struct Slice {
   std::uint32_t low, freq;
@@ -19,7 +19,7 @@ constexpr int kAgeBits = 6;
 constexpr unsigned kFarAges = 13;
 
 constexpr double kBeatSteps = 1024.0;
-constexpr double kFarthestBeat = 6.0e10;                        // no evening is longer
+constexpr double kFarthestBeat = 6.0e10;                        // longer than any evening
 constexpr std::int64_t kFarthestMusic = std::int64_t{1} << 47;  // more than that in steps
 
 void write(Slice s, RangeEncoder& out) { out.encode(s.low, s.freq, kHeadBits); }
@@ -31,13 +31,13 @@ bool read_is(RangeDecoder& in, Slice yes, Slice no) {
   return is;
 }
 
-constexpr Slice kYes{0, 62}, kNo{62, 2};  // for what is nearly always so
+constexpr Slice kYes{0, 62}, kNo{62, 2};  // for likely conditions
 
 void write_likely(bool is, RangeEncoder& out) { write(is ? kYes : kNo, out); }
 bool read_likely(RangeDecoder& in) { return read_is(in, kYes, kNo); }
 
-// Where the music should be by now, and how sure that is.
-Spread music_law(const CodedFrame& base, const CodedFrame* before, unsigned age) {
+// Predicted musical time, with its spread.
+Spread music_spread(const CodedFrame& base, const CodedFrame* before, unsigned age) {
   if (before == nullptr || !before->extras.has_music) return {base.extras.music * 256, 16 + 18};
   const std::int64_t speed = base.extras.music - before->extras.music;
   return {(base.extras.music + speed * static_cast<std::int64_t>(age)) * 256, 16 + 4};
@@ -128,7 +128,7 @@ bool read_level(RangeDecoder& in, std::uint8_t base_level, FrameHead& head) {
 }
 
 void write_extras(const PoseExtras& extras, const CodedFrame* base, const CodedFrame* before,
-                  unsigned age, const BellShape& bell, RangeEncoder& out) {
+                  unsigned age, const DistributionTable& table, RangeEncoder& out) {
   const PoseExtras was = base != nullptr ? base->extras : PoseExtras();
   write_likely(extras.presence == was.presence, out);
   if (extras.presence != was.presence) out.encode_bits(extras.presence, kBoneCount);
@@ -137,13 +137,14 @@ void write_extras(const PoseExtras& extras, const CodedFrame* base, const CodedF
   write_likely(extras.has_music == was.has_music, out);
   if (!extras.has_music) return;
   if (was.has_music) {
-    const Spread law = music_law(*base, before, age);
-    // The law codes 32 bits: what is further from where the music should be is told whole.
-    const std::int64_t off = extras.music - law.mean_256 / 256;
+    const Spread expected = music_spread(*base, before, age);
+    // Differences are 32 bits: a larger one is sent as the whole value.
+    const std::int64_t off = extras.music - expected.mean_256 / 256;
     const bool is_near = off > -(1 << 20) && off < (1 << 20);
     write_likely(is_near, out);
     if (is_near) {
-      SymbolLaw(bell, {0, law.spread_class}).encode(static_cast<std::int32_t>(off), out);
+      SymbolDistribution(table, {0, expected.spread_class})
+          .encode(static_cast<std::int32_t>(off), out);
       return;
     }
   }
@@ -153,7 +154,7 @@ void write_extras(const PoseExtras& extras, const CodedFrame* base, const CodedF
 }
 
 bool read_extras(RangeDecoder& in, const CodedFrame* base, const CodedFrame* before, unsigned age,
-                 const BellShape& bell, PoseExtras& extras) {
+                 const DistributionTable& table, PoseExtras& extras) {
   const PoseExtras was = base != nullptr ? base->extras : PoseExtras();
   extras = was;
   if (!read_likely(in)) extras.presence = in.decode_bits(kBoneCount);
@@ -162,8 +163,9 @@ bool read_extras(RangeDecoder& in, const CodedFrame* base, const CodedFrame* bef
   extras.music = 0;
   if (!extras.has_music) return true;
   if (was.has_music && read_likely(in)) {
-    const Spread law = music_law(*base, before, age);
-    extras.music = law.mean_256 / 256 + SymbolLaw(bell, {0, law.spread_class}).decode(in);
+    const Spread expected = music_spread(*base, before, age);
+    extras.music =
+        expected.mean_256 / 256 + SymbolDistribution(table, {0, expected.spread_class}).decode(in);
     return std::abs(extras.music) < kFarthestMusic;
   }
   const std::uint64_t high = in.decode_bits(24);

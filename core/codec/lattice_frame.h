@@ -1,5 +1,5 @@
-// What both ends of the lattice codec keep of a decoded frame, and how a frame's head is written:
-// which frames it refers to, how fine its lattice is, and what a pose is beside a body.
+// What both ends of the lattice codec keep of a decoded frame, and how a frame's header is written:
+// its references, its level, and the parts of a pose beside the body.
 //
 // Units/frames: as docs/codec.md says; musical time in 1/1024 beat, confidence in 1/63.
 // Ownership:    plain values; a ring holds the last 64 frames by sequence, some 100 KB, and never
@@ -19,7 +19,7 @@
 
 namespace dance {
 
-// A pose but for its body.
+// A pose without its body.
 struct PoseExtras {
   std::uint32_t presence = kAllBones;
   std::uint8_t confidence = 63;
@@ -34,7 +34,7 @@ struct CodedFrame {
   bool in_use = false;
   bool is_acknowledged = false;
   bool is_base_acknowledged = false;
-  bool is_chained = false;  // who had the last key frame, and all since, has this one
+  bool is_chained = false;  // decodes with the last intra frame and all since
   std::uint32_t sequence = 0;
   std::uint8_t level = 3;
   bool is_slow = false;
@@ -51,7 +51,7 @@ class FrameRing {
     CodedFrame& frame = frames_[sequence % kFrames];
     return frame.in_use && frame.sequence == sequence ? &frame : nullptr;
   }
-  // The place of a new frame; what was there is gone.
+  // The slot for a new frame; its old content is overwritten.
   CodedFrame& make(std::uint32_t sequence) {
     CodedFrame& frame = frames_[sequence % kFrames];
     frame.in_use = true;
@@ -75,8 +75,8 @@ class FrameRing {
 
 enum class FrameKind : std::uint8_t {
   kDelta,  // refers to earlier frames
-  kIntra,  // needs nothing
-  kTwice,  // brings the frame before as well
+  kIntra,  // refers to none
+  kTwice,  // contains the previous frame as well
 };
 
 struct FrameHead {
@@ -100,17 +100,17 @@ bool read_level(RangeDecoder& in, std::uint8_t base_level, FrameHead& head);
 
 // `base` is the newest reference, `before` the next; nullptr where there is none.
 void write_extras(const PoseExtras& extras, const CodedFrame* base, const CodedFrame* before,
-                  unsigned age, const BellShape& bell, RangeEncoder& out);
+                  unsigned age, const DistributionTable& table, RangeEncoder& out);
 bool read_extras(RangeDecoder& in, const CodedFrame* base, const CodedFrame* before, unsigned age,
-                 const BellShape& bell, PoseExtras& extras);
+                 const DistributionTable& table, PoseExtras& extras);
 
-// One frame in 32 carries this sum of its body, so that ends that have come apart notice: spread
-// evenly (Fibonacci hashing), whatever step sequences count by.
+// One frame in 32 carries this checksum of its body, so that diverged ends notice: spread evenly
+// (Fibonacci hashing), whatever the step of sequences.
 constexpr bool has_check(std::uint32_t sequence) { return sequence * 2654435761u < 1u << 27; }
 std::uint16_t check_of(const BodyLattice& lattice, std::size_t level, std::uint8_t skeleton_tag,
                        const ReferenceBody& body);
 
-// Tells skeletons apart in a key frame.
+// Identifies the skeleton in an intra frame.
 std::uint8_t tag_of(const Skeleton& skeleton);
 
 }  // namespace dance

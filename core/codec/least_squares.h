@@ -1,6 +1,5 @@
-// A linear predictor that learns its weights from what it saw, the recent counting more: least
-// squares, solved anew after each sample. The same bits on every machine: made of + − × ÷ and √
-// only, in a fixed order.
+// Recursive least squares with forgetting: a linear predictor whose weights are solved anew after
+// each sample. The same bits on every machine: made of + − × ÷ and √ only, in a fixed order.
 //
 // Units/frames: those of the samples.
 // Ownership:    plain values, no heap.
@@ -41,7 +40,7 @@ class LeastSquares {
 
  private:
   static constexpr double kForget = 0.997;
-  // Holds back weights of inputs that hardly moved, or moved together.
+  // Regularises weights of inputs that are nearly constant or collinear.
   static constexpr double kRidge = 1e-5;
   static constexpr double kLeastRidge = 1e-16;
 

@@ -1,16 +1,16 @@
 // The lossless codec: every bit of a pose's rotations, hips, presence, confidence and musical time,
-// for recordings and for truth to compare with. Real dance takes about a third of the raw size.
-// Each frame leans on all frames since the last key frame, so a stream is read from a key frame on,
-// in order; it is no codec for a network that loses.
+// for recordings and ground truth. Real dance takes about a third of the raw size. Each frame
+// depends on all frames since the last intra frame, so a stream is read in order from an intra
+// frame on; not for networks with loss.
 //
 // Units/frames: as in core/pose/pose.h; sequence, clock and times travel outside. Layout in
 //               docs/codec.md.
-// Ownership:    both own what they learnt (about 70 KB), made once; encode() and decode() never
+// Ownership:    both own their adaptive state (about 70 KB), made once; encode() and decode() never
 //               allocate.
 // Threads:      none inside; one owner.
-// Failure:      encode() gives 0 bytes where they do not fit, and begins anew. decode() never gives
-//               a pose for a frame whose predecessor it has not seen, or had damaged. What it gives
-//               is what the encoder was given: is_valid() or not.
+// Failure:      encode() gives 0 bytes where they do not fit, and restarts. decode() never gives a
+//               pose for a frame whose predecessor is missing or damaged. Its result equals the
+//               encoder's input, is_valid() or not.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@
 
 namespace dance {
 
-// No frame is longer, whatever bits it holds.
+// Longest frame, whatever bits it holds.
 constexpr std::size_t kMaxLosslessPayload = 2048;
-// What the same content costs as it lies in memory, presence, confidence and music left out.
+// Size of the same content in memory, without presence, confidence and music.
 constexpr std::size_t kRawPose_bytes = kBoneCount * 16 + 12;
 
 class LosslessModel;
@@ -38,7 +38,7 @@ class LosslessEncoder {
   LosslessEncoder& operator=(LosslessEncoder&&) noexcept;
 
   std::size_t encode(const Pose& pose, std::span<std::uint8_t> out);
-  // The next frame is a key frame.
+  // The next frame is an intra frame.
   void restart();
 
  private:
@@ -52,8 +52,8 @@ class LosslessDecoder {
   LosslessDecoder(LosslessDecoder&&) noexcept;
   LosslessDecoder& operator=(LosslessDecoder&&) noexcept;
 
-  // Sequence, clock and times of `pose` stay as they are. Anything but kPose leaves the rest as it
-  // may be. After kMalformed only a key frame is understood.
+  // Sequence, clock and times of `pose` stay as they are. Anything but kPose leaves the rest
+  // unspecified. After kMalformed only an intra frame decodes.
   DecodeResult decode(std::span<const std::uint8_t> payload, Pose& pose);
   void restart();
 

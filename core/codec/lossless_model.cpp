@@ -12,21 +12,21 @@ constexpr std::uint32_t kSign = 0x8000'0000u;
 constexpr std::uint64_t kNoMusicBits = 0x7ff8'0000'0000'0000u;
 constexpr int kMantissaBits = 23;
 constexpr int kExponentBias = 127;
-// Beyond this a number is no movement: it is written, but nothing is predicted from it.
+// Larger numbers are written, but not used for prediction.
 constexpr double kLargestMeant = 1e6;
-constexpr double kFirstMiss = 0.25;      // of a key frame, against the T-pose
-constexpr double kFirstMovement = 0.02;  // of the frame behind it
-constexpr double kNewMiss = 0.2;         // share of the newest in the mean
-constexpr double kLeastMiss = 1e-25;
-constexpr double kSurpriseOfGroup = 0.3;  // how far the misses before tell the next one
+constexpr double kFirstResidual = 0.25;  // of an intra frame, against the T-pose
+constexpr double kFirstMovement = 0.02;  // of the next frame
+constexpr double kNewResidual = 0.2;     // weight of the newest in the mean
+constexpr double kLeastResidual = 1e-25;
+constexpr double kGroupWeight = 0.3;  // weight of earlier residuals in the next one's scale
 constexpr double kSurpriseOfFrame = 0.3;
-constexpr double kUsualSurprise = -0.9;  // mean of log2(|miss| / mean |miss|)
-constexpr int kCellsInMiss_log2 = 2;
+constexpr double kUsualSurprise = -0.9;  // mean of log2(|residual| / mean |residual|)
+constexpr int kCellsInResidual_log2 = 2;
 constexpr int kLeastCell_log2 = -100;
 constexpr double kLargestScale_log2 = 20.0;
 constexpr std::int64_t kFineClasses = 8;
 constexpr std::uint32_t kEscapeClass = 60;  // and all above
-constexpr std::int64_t kLargestMiss = 65535;
+constexpr std::int64_t kLargestResidual = 65535;
 constexpr std::int64_t kEscape = std::numeric_limits<std::int64_t>::min();
 
 double meant(std::uint32_t bits) {
@@ -44,7 +44,7 @@ int spacing_log2(double x) {
   return std::max(exponent - kMantissaBits, kLeastCell_log2);
 }
 
-// Neighbouring floats are neighbouring numbers; −0 comes just before +0.
+// Neighbouring floats map to neighbouring integers; −0 comes just before +0.
 std::int64_t ordered(std::uint32_t bits) {
   const auto size = static_cast<std::int64_t>(bits & ~kSign);
   return (bits & kSign) != 0 ? -1 - size : size;
@@ -90,8 +90,8 @@ void to_pose(const LosslessFrame& frame, Pose& pose) {
   pose.music_beats = std::bit_cast<double>(frame.music);
 }
 
-// Goes on as it went, a little slower: until more is known.
-LosslessModel::Track::Track() : predictor({1.3, -0.3}), mean_miss(kFirstMiss) {}
+// Damped velocity, until weights are learned.
+LosslessModel::Track::Track() : predictor({1.3, -0.3}), mean_residual(kFirstResidual) {}
 
 LosslessModel::LosslessModel() { restart(); }
 
@@ -106,15 +106,15 @@ void LosslessModel::restart() {
   }
   presence_ = kAllBones;
   music_.fill(kNoMusicBits);
-  largest_miss_.fill(1.0);
+  largest_residual_.fill(1.0);
   group_stood_.fill(false);
   is_turned_over_.fill(false);
   presence_stays_ = AdaptiveBit();
   turns_over_ = AdaptiveBit();
   group_stands_.fill(AdaptiveBit());
   float_stands_.fill(AdaptiveBit());
-  miss_classes_.fill(ClassTree());
-  miss_signs_.fill(AdaptiveBit());
+  residual_classes_.fill(ClassTree());
+  residual_signs_.fill(AdaptiveBit());
   largest_classes_.fill(ClassTree());
   largest_signs_.fill(AdaptiveBit());
   octaves_.fill(AdaptiveBit());
@@ -139,7 +139,7 @@ void LosslessModel::code(Coder& coder, LosslessFrame& frame) {
   if (is_key()) {
     for (Track& track : tracks_) {
       track.past.fill(track.past[0]);
-      track.mean_miss = kFirstMovement;
+      track.mean_residual = kFirstMovement;
     }
   }
   const auto add = [this](std::uint64_t bits) { digest_ = (digest_ ^ bits) * 0x100'0000'01b3u; };
@@ -155,7 +155,7 @@ void LosslessModel::code_group(Coder& coder, std::size_t index, LosslessFrame& f
   const Group g = group(index);
   std::uint32_t* const floats = frame.floats.data() + g.first;
   Track* const tracks = tracks_.data() + g.first;
-  // q and −q are one rotation: what is followed is the one nearer to the frame before.
+  // q and −q are one rotation: the one nearer to the previous frame is used.
   std::uint32_t turned = 0;
   if (g.is_rotation) {
     double dot = 0.0;
@@ -171,36 +171,37 @@ void LosslessModel::code_group(Coder& coder, std::size_t index, LosslessFrame& f
   stands = coder.bit(group_stands_[group_stood_[index] ? 1 : 0], stands);
   group_stood_[index] = stands;
   const std::size_t largest = g.is_rotation ? largest_of(g) : g.count;
-  std::array<double, 4> news{};  // of this group's numbers so far, which the next may share
+  std::array<double, 4> innovations{};  // of this group; correlated
   Surprise of_group;
   const auto code_one = [&](std::size_t i) {
     Track& track = tracks[i];
     const double before = track.past[0];
     LeastSquares<kInputs>::Inputs inputs;
     for (std::size_t k = 0; k < kSteps; ++k) inputs[k] = track.past[k] - track.past[k + 1];
-    std::copy(news.begin(), news.end(), inputs.begin() + kSteps);
+    std::copy(innovations.begin(), innovations.end(), inputs.begin() + kSteps);
     double predicted = before + track.predictor.predict(inputs);
     if (!(std::abs(predicted) <= kLargestMeant)) predicted = before;
-    if (coder.bit(float_stands_[track.stood], floats[i] == track.bits)) {
+    if (coder.bit(float_stands_[track.unchanged], floats[i] == track.bits)) {
       floats[i] = track.bits;
-      track.stood = (track.stood << 1 | 1u) & 3u;
+      track.unchanged = (track.unchanged << 1 | 1u) & 3u;
     } else {
-      track.stood = track.stood << 1 & 3u;
-      const double usual = exact::log2(track.mean_miss);
+      track.unchanged = track.unchanged << 1 & 3u;
+      const double usual = exact::log2(track.mean_residual);
       double cell = 0.0;
       const float x = code_predicted(
           coder, std::bit_cast<float>(floats[i]), predicted,
-          usual + kSurpriseOfGroup * of_group.mean() + kSurpriseOfFrame * of_frame.mean(), cell);
+          usual + kGroupWeight * of_group.mean() + kSurpriseOfFrame * of_frame.mean(), cell);
       floats[i] = std::bit_cast<std::uint32_t>(x);
-      const double miss = std::abs(meant(floats[i]) - predicted);
+      const double residual = std::abs(meant(floats[i]) - predicted);
       of_group.sum +=
-          std::clamp(exact::log2(miss + 0.3 * cell) - usual, -4.0, 6.0) - kUsualSurprise;
+          std::clamp(exact::log2(residual + 0.3 * cell) - usual, -4.0, 6.0) - kUsualSurprise;
       of_group.count += 1.0;
-      learn_miss(track, miss, cell);
+      learn_residual(track, residual, cell);
     }
     const double moved = meant(floats[i]) - before;
-    news[i] = moved;
-    for (std::size_t k = 0; k < kSteps; ++k) news[i] -= track.predictor.weights()[k] * inputs[k];
+    innovations[i] = moved;
+    for (std::size_t k = 0; k < kSteps; ++k)
+      innovations[i] -= track.predictor.weights()[k] * inputs[k];
     if (!is_key()) track.predictor.learn(inputs, moved);
   };
   if (!stands) {
@@ -240,23 +241,23 @@ std::size_t LosslessModel::largest_of(const Group& g) const {
   return largest;
 }
 
-// The first misses count more, as there is nothing else.
-void LosslessModel::learn_miss(Track& track, double miss, double cell) {
-  const double share = std::max(kNewMiss, 1.0 / (static_cast<double>(frames_) + 1.0));
-  track.mean_miss += share * (miss + 0.1 * cell - track.mean_miss);
-  track.mean_miss = std::max(track.mean_miss, kLeastMiss);
+// The first residuals weigh more.
+void LosslessModel::learn_residual(Track& track, double residual, double cell) {
+  const double share = std::max(kNewResidual, 1.0 / (static_cast<double>(frames_) + 1.0));
+  track.mean_residual += share * (residual + 0.1 * cell - track.mean_residual);
+  track.mean_residual = std::max(track.mean_residual, kLeastResidual);
 }
 
-// The grid's cell is a quarter of the miss that is expected, or one float where that is more: the
-// law of how many cells it misses by is then nearly the same for all. Which of the cell's floats it
-// is, is anybody's guess.
+// The grid's cell is a quarter of the expected residual, or one float where that is more: the
+// distribution of the residual in cells is then nearly the same for all. The floats of a cell are
+// equally likely.
 template <class Coder>
 float LosslessModel::code_predicted(Coder& coder, float x, double predicted, double log_scale,
                                     double& cell) {
   const double scale = std::clamp(log_scale, -90.0, kLargestScale_log2);
   const int whole = static_cast<int>(scale + 128.0) - 128;
   const int spacing = spacing_log2(predicted);
-  int cell_log2 = whole - kCellsInMiss_log2;
+  int cell_log2 = whole - kCellsInResidual_log2;
   int context = static_cast<int>((scale - whole) * 4.0);
   if (cell_log2 <= spacing) {
     cell_log2 = spacing;
@@ -265,13 +266,13 @@ float LosslessModel::code_predicted(Coder& coder, float x, double predicted, dou
   cell = power_of_two(cell_log2);
   const std::int64_t expected = cell_of(predicted, cell_log2);
   const auto exact_x = static_cast<double>(x);
-  std::int64_t miss = kEscape;
-  if (std::abs(exact_x) < cell * 0x1p40) miss = cell_of(exact_x, cell_log2) - expected;
-  const auto law = static_cast<std::size_t>(context);
-  miss = code_miss(coder, miss_classes_[law], miss_signs_[law], miss);
+  std::int64_t residual = kEscape;
+  if (std::abs(exact_x) < cell * 0x1p40) residual = cell_of(exact_x, cell_log2) - expected;
+  const auto which = static_cast<std::size_t>(context);
+  residual = code_residual(coder, residual_classes_[which], residual_signs_[which], residual);
   const auto x_bits = std::bit_cast<std::uint32_t>(x);
-  if (miss == kEscape) return std::bit_cast<float>(coder.raw(x_bits, 32));
-  const std::int64_t n = expected + miss;
+  if (residual == kEscape) return std::bit_cast<float>(coder.raw(x_bits, 32));
+  const std::int64_t n = expected + residual;
   const std::uint32_t sign = n < 0 ? kSign : 0;
   const std::int64_t size = n < 0 ? -1 - n : n;
   if (size == 0) return code_below_cell(coder, x, cell_log2, n < 0);
@@ -294,34 +295,37 @@ float LosslessModel::code_below_cell(Coder& coder, float x, int cell_log2, bool 
   return std::bit_cast<float>(coded << kMantissaBits | mantissa | (negative ? kSign : 0));
 }
 
-// The unit norm says it all but for rounding, whose law depends on how near to half a step it was.
+// The unit norm determines it but for rounding, whose distribution depends on how near to half a
+// step it was.
 template <class Coder>
 float LosslessModel::code_largest(Coder& coder, std::size_t bone, float x, double predicted) {
   const auto nearest = static_cast<float>(predicted);
   const double spacing = power_of_two(spacing_log2(static_cast<double>(nearest)));
   const double off = (std::abs(predicted) - std::abs(static_cast<double>(nearest))) / spacing + 0.5;
   const auto part = static_cast<std::size_t>(std::clamp(static_cast<int>(off * 6.0), 0, 5));
-  const auto usual = std::min(static_cast<std::size_t>(largest_miss_[bone] * 2.0), std::size_t{5});
-  const std::size_t law = usual * 6 + part;
+  const auto usual =
+      std::min(static_cast<std::size_t>(largest_residual_[bone] * 2.0), std::size_t{5});
+  const std::size_t which = usual * 6 + part;
   const bool negative = std::signbit(nearest);
   const std::int64_t expected = ordered(std::bit_cast<std::uint32_t>(nearest));
-  std::int64_t miss = ordered(std::bit_cast<std::uint32_t>(x)) - expected;
-  if (negative) miss = -miss;
-  miss = code_miss(coder, largest_classes_[law], largest_signs_[law], miss);
+  std::int64_t residual = ordered(std::bit_cast<std::uint32_t>(x)) - expected;
+  if (negative) residual = -residual;
+  residual = code_residual(coder, largest_classes_[which], largest_signs_[which], residual);
   constexpr double kMany = 1000.0;
   const double size =
-      miss == kEscape ? kMany : std::min(kMany, std::abs(static_cast<double>(miss)));
-  largest_miss_[bone] += 0.1 * (size - largest_miss_[bone]);
-  if (miss == kEscape) return std::bit_cast<float>(coder.raw(std::bit_cast<std::uint32_t>(x), 32));
-  return std::bit_cast<float>(from_ordered(expected + (negative ? -miss : miss)));
+      residual == kEscape ? kMany : std::min(kMany, std::abs(static_cast<double>(residual)));
+  largest_residual_[bone] += 0.1 * (size - largest_residual_[bone]);
+  if (residual == kEscape)
+    return std::bit_cast<float>(coder.raw(std::bit_cast<std::uint32_t>(x), 32));
+  return std::bit_cast<float>(from_ordered(expected + (negative ? -residual : residual)));
 }
 
 // Classes: 0 to 7 themselves, then four to the octave; the bits below are raw.
 template <class Coder>
-std::int64_t LosslessModel::code_miss(Coder& coder, ClassTree& classes, AdaptiveBit& sign,
-                                      std::int64_t miss) {
-  const bool fits = miss >= -kLargestMiss && miss <= kLargestMiss;
-  const auto size = static_cast<std::uint32_t>(fits ? std::abs(miss) : 0);
+std::int64_t LosslessModel::code_residual(Coder& coder, ClassTree& classes, AdaptiveBit& sign,
+                                          std::int64_t residual) {
+  const bool fits = residual >= -kLargestResidual && residual <= kLargestResidual;
+  const auto size = static_cast<std::uint32_t>(fits ? std::abs(residual) : 0);
   std::uint32_t kind = fits ? size : kEscapeClass;
   if (fits && size >= kFineClasses) {
     const int octave = std::bit_width(size) - 4;
@@ -330,7 +334,7 @@ std::int64_t LosslessModel::code_miss(Coder& coder, ClassTree& classes, Adaptive
   kind = coder.tree(classes, kind);
   if (kind >= kEscapeClass) return kEscape;
   if (kind == 0) return 0;
-  const bool negative = coder.bit(sign, miss < 0);
+  const bool negative = coder.bit(sign, residual < 0);
   std::int64_t coded = kind;
   if (kind >= kFineClasses) {
     const auto octave = static_cast<int>((kind - 8) / 4);
@@ -340,7 +344,7 @@ std::int64_t LosslessModel::code_miss(Coder& coder, ClassTree& classes, Adaptive
   return negative ? -coded : coded;
 }
 
-// Music goes on evenly, or there is none. Arithmetic of 64 bits that wraps: any bits come back.
+// Linear prediction of musical time. 64-bit arithmetic that wraps, so any bits are restored.
 template <class Coder>
 void LosslessModel::code_music(Coder& coder, std::uint64_t& music) {
   std::uint64_t expected = music_[0];
@@ -349,8 +353,8 @@ void LosslessModel::code_music(Coder& coder, std::uint64_t& music) {
   constexpr double kMostBeats = 1e15;
   if (std::abs(last) <= kMostBeats && std::abs(before) <= kMostBeats)
     expected = std::bit_cast<std::uint64_t>(last + (last - before));
-  const std::uint64_t miss = ordered(music) - ordered(expected);
-  const std::uint64_t zigzag = miss << 1 ^ (0 - (miss >> 63));
+  const std::uint64_t residual = ordered(music) - ordered(expected);
+  const std::uint64_t zigzag = residual << 1 ^ (0 - (residual >> 63));
   const auto length =
       std::min(coder.tree(music_lengths_, static_cast<std::uint32_t>(std::bit_width(zigzag))), 64u);
   std::uint64_t coded = 0;

@@ -1,6 +1,6 @@
-// What both ends of the lossless codec know and learn, and the one text by which a frame is written
-// and read: see core/codec/lossless_codec.h. Each number is predicted from the frames before; the
-// miss is coded by how large misses of late were.
+// The adaptive state of both ends of the lossless codec, and the one template by which a frame is
+// written and read: see core/codec/lossless_codec.h. Each number is predicted from earlier frames;
+// the residual is coded in the context of recent residuals.
 //
 // Units/frames: a frame is 92 floats in groups: 22 rotations of 4, the hips' place, the confidence.
 // Ownership:    plain values of about 70 KB, no heap inside.
@@ -33,11 +33,11 @@ class LosslessModel {
  public:
   LosslessModel();
 
-  // Forgets everything: the frame before is the pose that Pose begins as.
+  // Resets all state: the previous frame is the default Pose.
   void restart();
   bool is_key() const { return frames_ == 0; }
   std::uint8_t counter() const { return static_cast<std::uint8_t>(frames_ & 0x7f); }
-  // Of all frames since the key frame: the ends of one stream have the same.
+  // Digest of all frames since the intra frame, equal at both ends of a stream.
   std::uint8_t digest() const { return static_cast<std::uint8_t>(digest_ >> 32); }
 
   // Writes `frame` (a BitEncoder) or fills it (a BitDecoder), and learns from it.
@@ -45,27 +45,28 @@ class LosslessModel {
   void code(Coder& coder, LosslessFrame& frame);
 
  private:
-  static constexpr std::size_t kSteps = 4;  // earlier movements that a prediction looks at
+  static constexpr std::size_t kSteps = 4;  // earlier steps that a prediction uses
   static constexpr std::size_t kInputs = kSteps + 4;
   static constexpr std::size_t kClassBits = 6;
-  static constexpr std::size_t kMissContexts = 48;
+  static constexpr std::size_t kResidualContexts = 48;
   using ClassTree = AdaptiveTree<kClassBits>;
 
   // One of the 92 numbers.
   struct Track {
     Track();
     LeastSquares<kInputs> predictor;
-    std::array<double, kSteps + 1> past{};  // the newest first; what is no number is 0
-    std::uint32_t bits = 0;                 // the newest as it is
-    double mean_miss = 0.0;
-    std::uint32_t stood = 0;  // the last frames in which it stood still, newest lowest, of two
+    std::array<double, kSteps + 1> past{};  // the newest first; NaN counts as 0
+    std::uint32_t bits = 0;                 // the newest, exactly
+    double mean_residual = 0.0;
+    std::uint32_t unchanged =
+        0;  // the last frames in which it unchanged still, newest lowest, of two
   };
   struct Group {
     std::size_t first = 0;
     std::size_t count = 0;
     bool is_rotation = false;
   };
-  // How much larger than usual the misses of this frame are, in log2.
+  // How much larger than usual the residuals of this frame are, in log2.
   struct Surprise {
     double sum = 0.0;
     double count = 0.0;
@@ -82,16 +83,17 @@ class LosslessModel {
   template <class Coder>
   float code_largest(Coder& coder, std::size_t bone, float x, double predicted);
   template <class Coder>
-  std::int64_t code_miss(Coder& coder, ClassTree& classes, AdaptiveBit& sign, std::int64_t miss);
+  std::int64_t code_residual(Coder& coder, ClassTree& classes, AdaptiveBit& sign,
+                             std::int64_t residual);
   template <class Coder>
   void code_music(Coder& coder, std::uint64_t& music);
   std::size_t largest_of(const Group& g) const;
-  void learn_miss(Track& track, double miss, double cell);
+  void learn_residual(Track& track, double residual, double cell);
 
   std::uint64_t frames_ = 0;
   std::uint64_t digest_ = 0;
   std::array<Track, kLosslessFloats> tracks_;
-  std::array<double, kBoneCount> largest_miss_{};
+  std::array<double, kBoneCount> largest_residual_{};
   std::uint32_t presence_ = kAllBones;
   std::array<std::uint64_t, 2> music_{};
 
@@ -101,8 +103,8 @@ class LosslessModel {
   std::array<AdaptiveBit, 4> float_stands_{};
   AdaptiveBit turns_over_;
   std::array<bool, kBoneCount> is_turned_over_{};
-  std::array<ClassTree, kMissContexts> miss_classes_{};
-  std::array<AdaptiveBit, kMissContexts> miss_signs_{};
+  std::array<ClassTree, kResidualContexts> residual_classes_{};
+  std::array<AdaptiveBit, kResidualContexts> residual_signs_{};
   std::array<ClassTree, 36> largest_classes_{};
   std::array<AdaptiveBit, 36> largest_signs_{};
   AdaptiveTree<8> octaves_{};

@@ -21,7 +21,7 @@ constexpr double kPackedRotationError_deg = 0.0087;
 
 namespace detail {
 constexpr int kRotationSteps = 16383;
-constexpr double kLargestOfSmaller = 0.70710678118654752;  // the second largest is never more
+constexpr double kLargestOfSmaller = 0.70710678118654752;  // bound of the second largest
 }  // namespace detail
 
 // q must be about unit; it is made exactly so first.

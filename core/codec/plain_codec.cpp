@@ -17,7 +17,7 @@ bool is_rest(const Eigen::Quaternionf& q) {
   return q.x() == 0.0f && q.y() == 0.0f && q.z() == 0.0f;
 }
 
-// Which rotations must travel: the measured ones, and those that were filled in with something.
+// The rotations to send: the measured ones, and those filled in with anything but the rest.
 std::uint32_t carried_mask(const BoneRotations& rotations, std::uint32_t presence) {
   std::uint32_t carried = presence;
   for (std::size_t i = 0; i < kBoneCount; ++i)

@@ -1,11 +1,11 @@
-// The plain codec: each bone's rotation in 48 bits, for itself, with nothing to remember or to
-// lose. Its errors are bounded: 0.0087° a bone, 0.05 mm in the hips, 1/510 in confidence; musical
-// time and presence are exact. Bones that were not measured and stand at rest cost nothing.
+// The plain codec: each bone's rotation in 48 bits; every frame is intra. Its errors are bounded:
+// 0.0087° a bone, 0.05 mm in the hips, 1/510 in confidence; musical time and presence are exact.
+// Bones that were not measured and stand at rest cost nothing.
 //
 // Units/frames: layout in docs/wire-format.md.
 // Ownership:    no state.
 // Threads:      none inside.
-// Failure:      as the seam says; encode() refuses what is not is_valid().
+// Failure:      as core/codec/pose_codec.h says; encode() refuses what is not is_valid().
 #pragma once
 
 #include "core/codec/pose_codec.h"
@@ -25,7 +25,7 @@ class PlainDecoder final : public PoseDecoder {
                       Pose& pose) override;
 };
 
-// Skeletons have one form whatever the pose codec; what decode_skeleton() lets through is_valid().
+// Skeletons have one format whatever the pose codec; the result of decode_skeleton() is_valid().
 // Offsets in steps of 0.1 mm; the skeleton's version travels along.
 constexpr std::size_t kSkeletonPayload = 4 + 3 * 2 * (kBoneCount + kTipCount);
 std::size_t encode_skeleton(const Skeleton& skeleton, std::span<std::uint8_t> payload);

@@ -22,19 +22,19 @@ void visit(Model& model, OnHalf half, OnWord word, OnByte byte) {
     for (auto& x : bone.centre_xyzw) half(x);
     for (auto& x : bone.hinge) half(x);
   }
-  for (auto& x : model.bell) word(x);
-  for (auto& x : model.intra_bell) word(x);
-  for (auto& law : model.intra) {
-    for (auto& x : law.from) byte(x);
-    for (auto& x : law.weight) half(x);
-    half(law.base);
-    half(law.spread_log2);
+  for (auto& x : model.table) word(x);
+  for (auto& x : model.intra_table) word(x);
+  for (auto& coordinate : model.intra) {
+    for (auto& x : coordinate.from) byte(x);
+    for (auto& x : coordinate.weight) half(x);
+    half(coordinate.base);
+    half(coordinate.spread_log2);
   }
-  for (auto& laws : model.laws)
-    for (auto& law : laws) {
-      for (auto& speed : law.mean)
+  for (auto& coordinates : model.coordinates)
+    for (auto& coordinate : coordinates) {
+      for (auto& speed : coordinate.mean)
         for (auto& x : speed) half(x);
-      for (auto& x : law.spread) half(x);
+      for (auto& x : coordinate.spread) half(x);
     }
 }
 
@@ -45,10 +45,10 @@ std::uint32_t name_of(std::span<const std::uint8_t> file) {
   return name == 0 ? 1 : name;  // 0 is the generic model
 }
 
-bool is_bell(const BellShape& bell) {
-  if (bell[0] != 0 || bell.back() > kBellTop / 2 * 256) return false;
-  for (std::size_t i = 1; i < bell.size(); ++i)
-    if (bell[i] < bell[i - 1]) return false;
+bool is_distribution(const DistributionTable& table) {
+  if (table[0] != 0 || table.back() > kTableTop / 2 * 256) return false;
+  for (std::size_t i = 1; i < table.size(); ++i)
+    if (table[i] < table[i - 1]) return false;
   return true;
 }
 
@@ -61,7 +61,7 @@ std::uint16_t to_half(float value) {
   if (!(size < 65504.0f)) return static_cast<std::uint16_t>(sign | 0x7bff);
   if (size < 6.1035156e-5f)
     return static_cast<std::uint16_t>(sign | std::lround(size * 16777216.0f));
-  // Halfway cases go up; a mantissa that overflows goes on in the exponent.
+  // Halfway cases round up; a mantissa that overflows carries into the exponent.
   const std::uint32_t rounded = (bits & 0x7fff'ffff) + 0x1000;
   return static_cast<std::uint16_t>(sign | ((rounded >> 13) - (112u << 10)));
 }
@@ -100,10 +100,11 @@ Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t
   visit(
       *model, [&](float& x) { x = from_half(in.u16()); }, [&](std::uint32_t& x) { x = in.u32(); },
       [&](std::uint8_t& x) { x = in.u8(); });
-  bool is_whole = in.is_exhausted() && is_bell(model->bell) && is_bell(model->intra_bell);
+  bool is_whole =
+      in.is_exhausted() && is_distribution(model->table) && is_distribution(model->intra_table);
   for (std::size_t c = 0; c < kCoordinateCount && is_whole; ++c)
     for (std::size_t i = 0; i < kIntraTerms; ++i) {
-      // Only what is decoded before; the first looks at nothing.
+      // Only coordinates decoded before; the first has none.
       const auto [from, weight] = std::pair{model->intra[c].from[i], model->intra[c].weight[i]};
       is_whole = is_whole && (c == 0 ? from == 0 && weight == 0.0f : from < c);
     }
@@ -123,42 +124,41 @@ Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t
   return std::shared_ptr<const PoseModel>(std::move(model));
 }
 
-BellShape logistic_bell(double wide_share) {
+DistributionTable logistic_table(double wide_share) {
   const auto logistic = [](double z) { return 1.0 / (1.0 + exact::exp2(-z * 1.4426950408889634)); };
-  BellShape bell{};
-  for (std::size_t i = 0; i < bell.size(); ++i) {
+  DistributionTable table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
     const double z = static_cast<double>(i) / 16.0;
     const double F = (1.0 - wide_share) * logistic(z) + wide_share * logistic(z / 3.0) - 0.5;
-    bell[i] = static_cast<std::uint32_t>(F * 256.0 * kBellTop);
+    table[i] = static_cast<std::uint32_t>(F * 256.0 * kTableTop);
   }
-  return bell;
+  return table;
 }
 
-// Everything goes on as it went, by 0.8 of its speed, and a third of it as its end went in the
-// room.
+// Damped velocity of 0.8, a third of it from the end's motion in the room.
 std::shared_ptr<const PoseModel> generic_model() {
   static const std::shared_ptr<const PoseModel> kModel = [] {
     auto model = std::make_shared<PoseModel>();
-    model->bell = logistic_bell(0.15);
-    model->intra_bell = logistic_bell(0.0);
+    model->table = logistic_table(0.15);
+    model->intra_table = logistic_table(0.0);
     for (std::size_t c = 0; c < kCoordinateCount; ++c)
       model->intra[c].spread_log2 = c == 0 || c == 2 ? 0.0f : c == 1 ? -4.0f : -2.0f;
     for (std::size_t slow = 0; slow < 2; ++slow)
       for (const std::uint8_t age : kModelAges)
         for (const std::uint8_t run : kModelRuns)
-          for (CoordinateLaw& law : model->laws[case_index(slow != 0, age, run)]) {
+          for (CoordinateModel& coordinate : model->coordinates[case_index(slow != 0, age, run)]) {
             const float ahead = static_cast<float>(age) * 0.6f;
-            for (auto& mean : law.mean) {
+            for (auto& mean : coordinate.mean) {
               mean[1] = 0.65f * ahead;
               mean[4] = 0.35f;
               mean[5] = 0.35f * ahead;
             }
-            law.spread[0] = run > 1 ? 0.3f : 0.8f;
-            law.spread[2] = 0.3f;
-            law.spread[5] = 0.2f;
-            law.spread[6] = 0.25f;
-            law.spread[8] = 0.2f;
-            law.spread[9] = 0.4f;
+            coordinate.spread[0] = run > 1 ? 0.3f : 0.8f;
+            coordinate.spread[2] = 0.3f;
+            coordinate.spread[5] = 0.2f;
+            coordinate.spread[6] = 0.25f;
+            coordinate.spread[8] = 0.2f;
+            coordinate.spread[9] = 0.4f;
           }
     return model;
   }();

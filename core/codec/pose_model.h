@@ -1,6 +1,6 @@
-// What training leaves: where bones are at rest, how each coordinate goes on from earlier frames or
-// hangs together with the others, how sure that is, and the bell that the rest has. A model is a
-// file of numbers with a name; two ends that speak the lattice codec need the same.
+// A trained model: rests of the bones, weights that predict each coordinate from earlier frames and
+// other coordinates, weights of its spread, and the distribution of residuals. A model is a file of
+// numbers with a name; both ends of the lattice codec need the same.
 //
 // Units/frames: features and means in steps of the lattice; spreads as log2 of steps.
 // Ownership:    plain values of about half a megabyte: share them.
@@ -16,7 +16,7 @@
 
 #include "core/base/result.h"
 #include "core/codec/body_lattice.h"
-#include "core/codec/symbol_law.h"
+#include "core/codec/symbol_distribution.h"
 
 namespace dance {
 
@@ -24,13 +24,13 @@ constexpr std::size_t kMeanFeatures = 12;
 constexpr std::size_t kSpreadFeatures = 12;
 constexpr std::size_t kSpeeds = 3;  // still, moving, fast
 
-// One coordinate's law: mean = w · f by how fast the bone's end moves, log2 spread = w · g.
-struct CoordinateLaw {
+// One coordinate: mean = w · f by how fast the bone's end moves, log2 spread = w · g.
+struct CoordinateModel {
   alignas(16) std::array<std::array<float, kMeanFeatures>, kSpeeds> mean{};
   alignas(16) std::array<float, kSpreadFeatures> spread{};
 };
 
-// Frames that refer to others: by how old the newest reference is and how many stand in a row.
+// Cases of delta frames: age of the newest reference and length of the run.
 struct ReferenceCase {
   std::uint8_t slow = 0;  // 0: frames every 11 to 22 ms, 1: longer
   std::uint8_t age = 1;   // frames
@@ -41,9 +41,9 @@ constexpr std::array<std::uint8_t, 7> kModelAges{1, 2, 3, 4, 6, 8, 12};
 constexpr std::array<std::uint8_t, 3> kModelRuns{1, 2, 4};
 constexpr std::size_t kCaseCount = 2 * kModelAges.size() * kModelRuns.size();
 
-// Frames that need no other: each coordinate from those before it.
+// Intra frames: each coordinate from those before it.
 constexpr std::size_t kIntraTerms = 10;
-struct IntraLaw {
+struct IntraModel {
   std::array<std::uint8_t, kIntraTerms> from{};  // coordinate; only those before this one
   std::array<float, kIntraTerms> weight{};       // radians or metres per radian or metre
   float base = 0.0f;                             // radians or metres
@@ -53,17 +53,18 @@ struct IntraLaw {
 struct PoseModel {
   std::uint32_t name = 0;
   RestModel rest;
-  BellShape bell{};
-  BellShape intra_bell{};
-  std::array<IntraLaw, kCoordinateCount> intra;
-  std::array<std::array<CoordinateLaw, kCoordinateCount>, kCaseCount> laws;
+  DistributionTable table{};
+  DistributionTable intra_table{};
+  std::array<IntraModel, kCoordinateCount> intra;
+  std::array<std::array<CoordinateModel, kCoordinateCount>, kCaseCount> coordinates;
 };
 
-// Where the nearest trained case stands in laws. `run` frames stand in a row, the newest `age` old.
+// Index of the nearest trained case in `coordinates`, of a run of `run` frames, the newest `age`
+// old.
 std::size_t case_index(bool slow, std::size_t age, std::size_t run);
 
-// Numbers are kept in half precision, so a model that was written and read again differs a little
-// from what training found: it is what is read that counts. Its name is a hash of the file.
+// Numbers are stored in half precision, so a model differs a little from the result of training
+// once it was written and read. Its name is a hash of the file.
 std::vector<std::uint8_t> write_model(const PoseModel& model);
 Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t> file);
 
@@ -71,8 +72,8 @@ Result<std::shared_ptr<const PoseModel>> read_model(std::span<const std::uint8_t
 std::shared_ptr<const PoseModel> built_in_model();
 std::shared_ptr<const PoseModel> generic_model();
 
-// Of a logistic law, of which a share is three times as wide.
-BellShape logistic_bell(double wide_share);
+// A logistic distribution, of which a share is three times as wide.
+DistributionTable logistic_table(double wide_share);
 
 std::uint16_t to_half(float value);
 float from_half(std::uint16_t half);

@@ -1,14 +1,13 @@
-// How exact a guest's poses may be for what may be spent on them: watches the payloads of the last
-// second and says the error that the encoder is to keep to. Coarser as soon as a second cost more
-// than it may; finer only after some seconds that cost so much less that the finer step fits as
-// well, and if it does not, the next try waits twice as long. No two changes are less than a second
-// apart.
+// Rate control: from the payloads of the last second chooses the error bound of the encoder.
+// Coarser as soon as a second exceeds the rate; finer only after some seconds with room for the
+// finer step, and if that does not fit, the next try waits twice as long. Changes are at least a
+// second apart.
 //
 // Units/frames: errors in metres as PoseEncoder::set_quality() takes them; bytes are those of
 //               payloads; time is the caller's clock, which does not go back.
 // Ownership:    plain value.
 // Threads:      none inside; one owner.
-// Failure:      none. Past the coarsest step, 5 mm, the payloads are what they are.
+// Failure:      none. At the coarsest step, 5 mm, payloads may exceed the rate.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +31,7 @@ class QualityByRate {
     return step_ == 0 ? finest_m_ : kSteps_m[first_coarser() + step_ - 1];
   }
 
-  // A payload of this size went out; true where quality_m() is another now.
+  // A payload of this size was sent; true if quality_m() changed.
   bool add(std::size_t bytes, MonoTime now) {
     if (budget_ <= 0.0) return false;
     if (!newest_.is_set() || now - newest_ > kPause) begin_anew(now);
@@ -40,7 +39,7 @@ class QualityByRate {
     turn_to(now);
     parts_[part_] += static_cast<double>(bytes);
     sum_ += static_cast<double>(bytes);
-    if (now - judged_from_ < kWindow) return false;  // what was sent otherwise still counts
+    if (now - judged_from_ < kWindow) return false;  // payloads of the old step
     if (sum_ > budget_) {
       fits_since_ = now;
       return coarser(now);
@@ -56,7 +55,7 @@ class QualityByRate {
   static constexpr Duration kWindow = Duration::s(1);
   static constexpr std::size_t kParts = 20;
   static constexpr Duration kPart = Duration::ms(50);
-  // Nobody danced: what was measured before says nothing any more.
+  // After a pause earlier measurements are void.
   static constexpr Duration kPause = Duration::ms(500);
   // A step costs 1.2 to 1.6 times the next coarser one.
   static constexpr double kFits = 0.6;
@@ -88,7 +87,7 @@ class QualityByRate {
 
   bool coarser(MonoTime now) {
     if (step_ + first_coarser() >= kSteps_m.size()) return false;
-    // The finer step did not fit after all, or does no longer.
+    // The finer step does not fit.
     if (refined_at_.is_set())
       patience_ =
           now - refined_at_ < patience_ * 2 ? std::min(patience_ * 2, kLongestPatience) : kPatience;
@@ -108,11 +107,11 @@ class QualityByRate {
   double budget_;
   std::size_t step_ = 0;  // 0: finest_m_; then the coarser ones of kSteps_m
   std::array<double, kParts> parts_{};
-  double sum_ = 0.0;  // whole numbers, so that nothing is lost in it
+  double sum_ = 0.0;  // whole numbers, so the sum is exact
   std::size_t part_ = 0;
   MonoTime part_begin_;
   MonoTime newest_;
-  MonoTime judged_from_;  // since when all of it was sent at this step
+  MonoTime judged_from_;  // from when on all was sent at this step
   MonoTime fits_since_;
   MonoTime refined_at_;
   Duration patience_ = kPatience;

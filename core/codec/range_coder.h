@@ -1,11 +1,11 @@
 // Range coder: symbols of known frequencies into nearly as few bytes as information theory allows.
-// RangeEncoder writes a message, RangeDecoder reads it back; both must be given the same laws in
-// the same order. Integers only, so every machine makes the same bytes. A message costs less than
-// one byte beyond its entropy, and its length must be told by what is around it.
+// RangeEncoder writes a message, RangeDecoder reads it back; both must be given the same
+// distributions in the same order. Integers only, so every machine makes the same bytes. A message
+// costs less than one byte beyond its entropy, and its length must be known from its container.
 //
-// Units/frames: a law's frequencies add up to 1 << bits, bits 1 to 16; a symbol is its own
-//               frequency and what the frequencies of the symbols before it add up to.
-// Ownership:    they look at, or write into, the caller's bytes; no heap.
+// Units/frames: a distribution's frequencies add up to 1 << bits, bits 1 to 16; a symbol is its
+//               frequency and the cumulative frequency before it.
+// Ownership:    views of the caller's bytes; no heap.
 // Threads:      none inside.
 // Failure:      the encoder never writes past the end: ok() is false once something did not fit.
 //               The decoder reads zeros beyond the end, and any bytes decode to some symbols.
@@ -21,7 +21,7 @@
 
 namespace dance {
 
-constexpr int kMaxLawBits = 16;
+constexpr int kMaxFrequencyBits = 16;
 constexpr int kMaxRawBits = 32;
 
 namespace detail {
@@ -43,17 +43,17 @@ class RangeEncoder {
     narrow(unit * cum_low, unit * freq);
   }
 
-  // The n lowest bits of value, each as likely as not; n from 0 to 32.
+  // The n lowest bits of value, raw; n from 0 to 32.
   void encode_bits(std::uint32_t value, int n) {
     const std::uint64_t unit = range_ >> n;
     const std::uint64_t mask = (std::uint64_t{1} << n) - 1;
     narrow(unit * (value & mask), unit);
   }
 
-  // Ends the message with as few bytes as tell it from every other, and gives its length; nothing
-  // may be encoded after it. 0 where it did not fit, and also where nothing needs saying: see ok().
+  // Ends the message with as few bytes as possible and returns its length; nothing may be encoded
+  // after it. 0 where it did not fit, and also for an empty message: see ok().
   std::size_t finish() {
-    // The roundest number of [low, low + range): zeros need not be written.
+    // The number of [low, low + range) with the most trailing zeros, which need not be written.
     if (low_ != 0 && low_ + range_ > detail::kRangeWhole) {
       carry();
     } else if (low_ != 0) {
@@ -75,8 +75,7 @@ class RangeEncoder {
       carry();
       low_ -= detail::kRangeWhole;
     }
-    // One byte or none, which no branch could foretell: what is written but not counted is written
-    // again. More are rare.
+    // One byte or none, branch-free: a byte written but not counted is overwritten. More are rare.
     if (at_ < out_.size()) [[likely]] {
       const int shift = range_ < detail::kRangeLeast ? 8 : 0;
       out_[at_] = static_cast<std::uint8_t>(low_ >> (detail::kRangeTop - 8));
@@ -113,20 +112,19 @@ class RangeDecoder {
     for (int i = 0; i < detail::kRangeTop / 8; ++i) code_ = code_ << 8 | next();
   }
 
-  // Where in the law of 1 << bits the next symbol lies: the symbol is the one with
+  // Position of the next symbol in the distribution of 1 << bits: the symbol is the one with
   // cum_low <= target < cum_low + freq. Must be followed by consume() of it.
   std::uint32_t decode_target(int bits) {
     unit_ = range_ >> bits;
     return static_cast<std::uint32_t>(std::min(code_ / unit_, (std::uint64_t{1} << bits) - 1));
   }
-  // The same question without dividing: after begin(), whether the target lies below an edge of the
-  // law, as often as is needed; then consume(). Bytes that no encoder makes may lie above every
-  // edge.
+  // The same without division: after begin(), is_below() edges of the distribution as needed, then
+  // consume(). Malformed bytes may lie above every edge.
   void begin(int bits) { unit_ = range_ >> bits; }
   void consume(std::uint32_t cum_low, std::uint32_t freq) {
     code_ -= unit_ * cum_low;
     range_ = unit_ * freq;
-    // One byte or none, which no branch could foretell; more are rare.
+    // One byte or none, branch-free; more are rare.
     const int shift = range_ < detail::kRangeLeast ? 8 : 0;
     code_ = (code_ << 8 | peek()) >> (8 - shift) & (detail::kRangeWhole - 1);
     range_ <<= shift;
@@ -142,7 +140,7 @@ class RangeDecoder {
     return value;
   }
 
-  // Nothing stands behind the message: no encoder writes more than this.
+  // No trailing bytes: no encoder writes more than this.
   bool is_exhausted() const {
     return in_.size() + detail::kRangeTop / 8 <= at_ + 1 && (in_.empty() || in_.back() != 0);
   }

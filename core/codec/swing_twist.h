@@ -42,8 +42,8 @@ struct CosSinc {
   for (int i = 1; i < 9; ++i) sum = sum * x + kTerms[i];
   return {sum[0], sum[1]};
 }
-// atan t / t from t² ≤ 1, within 2e-8, of two; the terms in pairs, which is quicker than one after
-// the other. Source: Abramowitz and Stegun 4.4.49.
+// atan t / t from t² ≤ 1, within 2e-8, of two; the terms in pairs, for speed. Source: Abramowitz
+// and Stegun 4.4.49.
 inline Two atan_of_square(Two t2) {
   const Two t4 = t2 * t2, t8 = t4 * t4;
   const Two a = 1.0 - 0.3333314528 * t2, b = 0.1999355085 - 0.1420889944 * t2;
@@ -85,12 +85,11 @@ inline SwingTwist to_swing_twist(const Quat& q) {
   return a;
 }
 
-// What a little more of u, v or w turns the rotation about: axes in the frame that swing and twist
-// begin in.
+// Axes about which small changes of u, v and w turn the rotation, in the frame of swing and twist.
 struct SwingTwistAxes {
   Vec u, v, w;
 };
-// As to_swing_twist(), within 1e-6, and the axes there; for what need not be the same everywhere.
+// As to_swing_twist(), within 1e-6, and the axes there; for results that need not be bit-exact.
 struct NearSwingTwist {
   SwingTwist angles;
   SwingTwistAxes axes;

@@ -1,11 +1,10 @@
-// Finish: keeps what is shown a body that moves like one, wherever it is predicted: corrections
-// without a pop, joints within their limits, feet that stand where they stand, rotations of unit
-// length. A stage has one for each guest (transformers/flow.h).
+// Finish: the last step for predicted poses: inertialised corrections, joint limits, turn limits,
+// foot lock, unit rotations. A stage has one for each guest (transformers/flow.h).
 //
 // Units/frames: as core/pose/pose.h; times of the stage's clock.
 // Ownership:    plain value; never allocates. Costs 1 to 4 us a frame.
 // Threads:      none inside; one owner.
-// Failure:      none. A pose that was danced so, with nothing left to correct, is not touched.
+// Failure:      none. A pose that is not predicted, with no correction in progress, is not changed.
 #pragma once
 
 #include "core/motion/foot_lock.h"
@@ -29,7 +28,7 @@ class Finish {
     corrections_.add(now, was_before, was, is_before, is, step);
   }
 
-  // What was really danced, as it becomes known: feet that stand are known by it. Optional.
+  // The poses that arrived, for foot lock to detect standing feet. Optional.
   void observe(const Pose& real, MonoTime now) { feet_.observe(real, now); }
 
   // Once a frame. `is_predicted`: the pose was not danced so, or not yet.

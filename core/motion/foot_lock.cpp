@@ -14,17 +14,16 @@ constexpr std::array<Limb, 2> kLegs{kLeftLeg, kRightLeg};
 constexpr std::array<Bone, 2> kBalls{Bone::kLeftToes, Bone::kRightToes};
 // A longer gap is not a step of the same dance.
 constexpr Duration kLongestStep = Duration::ms(250);
-// Nobody's foot does; where it seems to, the dancer is elsewhere.
+// Faster than any foot: the dancer jumped elsewhere.
 constexpr float kFastestBall_m_s = 25.0f;
-// The floor is found soon and forgotten slowly, so that a dancer who jumps comes down again; a
-// sensor that throws a foot about for a few frames hardly moves it. What is far above it for long
-// was never on it.
+// The estimate falls quickly and rises slowly, so that jumps do not lift it; outliers of a few
+// frames hardly move it. A foot far above it for long was never on it.
 constexpr float kFloorFalls_m_s = 0.3f;
 constexpr float kFloorRises_m_s = 0.02f;
 constexpr float kFloorRises_1_s = 0.3f;
 constexpr float kFarAbove_m = 0.08f;
 constexpr float kElsewhere_m = 0.5f;
-// Speeds are of this much time, so that a trembling sensor does not lift a foot.
+// Speeds are averaged over this time, so that sensor noise does not lift a foot.
 constexpr float kSpeedOver_s = 0.04f;
 constexpr float kGlide_s = 0.04f;
 constexpr float kSeenSpeedOver_s = 0.02f;
@@ -130,7 +129,7 @@ void FootLock::move_leg(const Limb& leg, const Vector3f& offset, Pose& pose, Bod
   const Vector3f hip = frames.p_WB_m[upper], knee = frames.p_WB_m[lower],
                  ankle = frames.p_WB_m[end];
   const Quaternionf R_WU = frames.R_WB[upper], R_WL = frames.R_WB[lower], R_WE = frames.R_WB[end];
-  // What the leg reaches: as far as it was, and from there ever less towards straight.
+  // Reach of the leg: as far as it was, then saturating towards straight.
   const float straight_m =
       kStraight * (skeleton_.offset_m[lower].norm() + skeleton_.offset_m[end].norm());
   const float was_m = (ankle - hip).norm();
@@ -140,13 +139,13 @@ void FootLock::move_leg(const Limb& leg, const Vector3f& offset, Pose& pose, Bod
     const float room_m = std::max(1e-4f, straight_m - was_m), extra_m = wanted_m - was_m;
     target = hip + (target - hip) * ((was_m + extra_m * room_m / (extra_m + room_m)) / wanted_m);
   }
-  // The knee bends where it did; where it hardly bends, forward decides.
+  // The knee keeps its side; a nearly straight one bends forward.
   const Vector3f along = (ankle - hip).normalized();
   const Vector3f bend = (knee - hip) - along * along.dot(knee - hip);
   solve_two_bone(skeleton_, leg, target, bend + 0.005f * (R_WU * Vector3f::UnitZ()), R_WE, pose,
                  frames);
-  // The places are right; the bones are turned to them the short way, so that thigh and shank keep
-  // the twist that the dancer gave them.
+  // Positions are final; bones turn to them the short way, so that thigh and shank keep their
+  // twist.
   const Vector3f new_knee = frames.p_WB_m[lower], new_ankle = frames.p_WB_m[end];
   frames.R_WB[upper] = turned(knee - hip, new_knee - hip, R_WU);
   frames.R_WB[lower] = turned(ankle - knee, new_ankle - new_knee, R_WL);

@@ -1,14 +1,13 @@
-// FootLock: feet that stand stay where they stand. What is guessed or corrected moves the whole
-// body, and feet that should carry it skate; here the ball of a standing foot is held in its place
-// and the leg is solved anew up to the hip. When the foot lifts, what was held dies away as a
-// spring does.
+// FootLock: removes foot skate. Predictions and corrections move the whole body, so standing feet
+// would slide; the ball of a standing foot is held in place and the leg solved by two-bone IK. When
+// the foot lifts, the offset decays as a spring.
 //
-// Units/frames: metres in W, +Y up; times of the stage's clock. Which height the floor has is
-//               learned from the lowest places of the feet.
+// Units/frames: metres in W, +Y up; times of the stage's clock. The floor's height is estimated
+//               from the lowest places of the feet.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
-// Failure:      none. A leg is not stretched beyond its reach: the foot gives way. After a gap in
-//               time, or where the dancer is suddenly elsewhere, nothing is held.
+// Failure:      none. A leg is not stretched beyond its reach: the foot moves instead. After a gap
+//               in time, or a jump of the dancer, nothing is held.
 // Source:       foot skate clean-up as in Kovar, Schreiner, Gleicher, SCA 2002, made causal:
 //               thresholds with hysteresis, and an inertialised release.
 #pragma once
@@ -29,14 +28,14 @@ class FootLock {
   struct Settings {
     float lock_below_m_s = 0.15f;
     float release_above_m_s = 0.35f;
-    // The same while it is known how the feet moved a moment ago: a prediction lets them land late
-    // and slide to their place, so that most of what seems to move stands.
+    // Thresholds while recent foot motion is known: predicted feet land late and slide into place,
+    // so most that seem to move stand.
     float seen_lock_below_m_s = 0.7f;
     float seen_release_above_m_s = 1.2f;
     float lock_below_m = 0.05f;  // of the ball over the floor
     float release_above_m = 0.08f;
-    float furthest_m = 0.12f;  // a foot that ought to be so far away is let go
-    // A foot that was seen to stand a moment ago does so until it is guessed to be so far away.
+    float furthest_m = 0.12f;  // a foot that should be so far away is released
+    // A foot that stood a moment ago is held until its predicted place is this far away.
     float lifts_beyond_m = 0.07f;
     Duration release_half_life = Duration::ms(60);
   };
@@ -45,12 +44,12 @@ class FootLock {
   explicit FootLock(const Settings& settings);
   void set_body(const Skeleton& skeleton);
 
-  // What was really danced, as it becomes known: which feet stand, and where. Guesses alone are
-  // told less well.
+  // The poses that arrived: which feet stand, and where. Detection from predictions alone is less
+  // reliable.
   void observe(const Pose& real, MonoTime now);
 
   // Moves the legs of `pose`, which is to be shown at `now`. With `may_lock` false nothing new is
-  // held and what is held is let go; once that has died away the pose is not touched. Returns
+  // held and feet are released; once the offset has decayed the pose is not changed. Returns
   // whether it was.
   bool apply(MonoTime now, Pose& pose, bool may_lock = true);
 
@@ -58,16 +57,16 @@ class FootLock {
   bool is_locked(std::size_t side) const { return feet_[side].locked; }
 
  private:
-  // What was seen before tells nothing of now.
+  // Forgets what was observed before.
   static constexpr Duration kFresh = Duration::ms(250);
   struct Foot {
     Eigen::Vector3f raw = Eigen::Vector3f::Zero();    // the ball, as it came in the last frame
     Eigen::Vector3f held = Eigen::Vector3f::Zero();   // where it is held
-    Eigen::Vector3f glide = Eigen::Vector3f::Zero();  // m/s: comes to rest instead of stopping dead
+    Eigen::Vector3f glide = Eigen::Vector3f::Zero();  // m/s: decelerates gradually
     Spring shift;                                     // what is added to the ball
     float speed_m_s = 0.0f;
     bool locked = false;
-    // Of what was really danced.
+    // From poses that arrived.
     Eigen::Vector3f seen = Eigen::Vector3f::Zero();
     float seen_speed_m_s = 0.0f;
     bool seen_standing = false;

@@ -11,14 +11,14 @@ using Eigen::Vector3f;
 
 namespace {
 
-// A spring let go at rest is fastest, with offset · y / e, after 1/y. What is far is taken back
-// slower, so that no joint moves faster for a correction than dancers do: the bones of a limb
-// together, and where the hips are.
+// A spring released at rest is fastest, with offset · y / e, after 1/y. Large offsets decay slower,
+// so that corrections move no joint faster than dancers do, summed over the bones of a limb and the
+// hips' place.
 constexpr float kE = 2.7182818f;
 constexpr float kFastestJoint_m_s = 4.5f;
 constexpr float kFastestHips_m_s = 2.0f;
 constexpr float kFastestTurn_rad_s = 9.0f;
-// A correction's own speed at its begin, where the caller tells it.
+// A correction's initial speed, where the caller gives it.
 constexpr float kMostSpeed_m_s = 6.0f;
 constexpr float kMostTurn_rad_s = 20.0f;
 
@@ -60,7 +60,7 @@ void Inertializer::advance_to(MonoTime now) {
   const Duration step = now - time_;
   time_ = now;
   if (at_rest_ || step <= Duration()) return;
-  // After so long nothing is left of anything, and the numbers stay finite.
+  // After so long every offset is 0, and the numbers stay finite.
   if (step > Duration::s(10)) return clear();
   const auto seconds = static_cast<float>(step.as_seconds());
   hips_.advance(decay_, seconds);
@@ -73,7 +73,7 @@ void Inertializer::advance_to(MonoTime now) {
 }
 
 void Inertializer::set_decay() {
-  // One y for all: a body is taken back as a whole.
+  // One y for the whole body.
   float y = decay_for(y_, hips_.offset.norm(), kFastestHips_m_s);
   std::array<float, kBoneCount> moved_m;  // at most, of the bone's end
   for (std::size_t b = 0; b < kBoneCount; ++b) {
@@ -90,7 +90,7 @@ void Inertializer::set_decay() {
 void Inertializer::add(MonoTime now, const Pose& was, const Pose& is) {
   advance_to(now);
   if (is_same(was, is)) {
-    // What has come nearer is taken back faster from here on.
+    // Smaller offsets decay faster from here on.
     if (!at_rest_) set_decay();
     return;
   }

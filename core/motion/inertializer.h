@@ -1,16 +1,13 @@
-// Inertializer: corrections without a pop. Where what is to be shown changes from one frame to the
-// next (a prediction anew, a loop that wraps, a dancer who comes back), the difference is kept as
-// an offset per bone that dies away as a critically damped spring does; nothing is shown later for
-// it, and nothing once the offset is gone.
+// Inertializer: smooth corrections without delay. At a discontinuity (a new prediction, a loop that
+// wraps, poses that resume) the difference is kept as an offset per bone that decays as a
+// critically damped spring.
 //
 // Units/frames: offsets are rotation vectors in each bone's parent (hips: in W) and metres in W;
-//               half-lives are what an offset at rest takes to its half. Times are of the stage's
-//               clock.
+//               half-lives are of an offset at rest. Times are of the stage's clock.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
-// Failure:      none. Time that does not go on leaves the offsets as they are. Hips that jump
-//               further than kFurthest_m are somewhere else: they are shown there at once, and
-//               counted.
+// Failure:      none. Time that does not advance leaves the offsets unchanged. A jump of the hips
+//               beyond kFurthest_m is shown at once, and counted.
 // Source:       Bollo, Inertialization: High-Performance Animation Transitions in Gears of War, GDC
 //               2018; the spring instead of its polynomial after Holden, Spring-It-On, 2021.
 #pragma once
@@ -34,15 +31,14 @@ class Inertializer {
   void set_half_life(Duration half_life);
   Duration half_life() const { return half_life_; }
 
-  // At the moment `now`, `was` was to be shown and `is` is from here on: both of the same moment of
-  // the dance, and both without what apply() adds. What is left of earlier corrections stays. Two
-  // that are the same add nothing.
+  // At `now` the source changes from `was` to `is`: both of the same moment of the dance, both
+  // without what apply() adds. Earlier offsets stay.
   void add(MonoTime now, const Pose& was, const Pose& is);
-  // The same, and the speed goes on too: the poses a Duration `step` before, on either side.
+  // The same, keeping the speed too, from the poses a Duration `step` before on either side.
   void add(MonoTime now, const Pose& was_before, const Pose& was, const Pose& is_before,
            const Pose& is, Duration step);
 
-  // Adds what is left of the offsets at `now`. With nothing left the pose is not touched.
+  // Adds the offsets at `now`. Without any the pose is not changed.
   void apply(MonoTime now, Pose& pose);
 
   bool is_at_rest() const { return at_rest_; }
@@ -56,7 +52,7 @@ class Inertializer {
 
   Duration half_life_;
   float y_ = 0.0f;      // 1/s, of the half-life
-  float decay_ = 0.0f;  // the one that is taken: slower for what is far
+  float decay_ = 0.0f;  // the one in use: slower for large offsets
   std::array<Spring, kBoneCount> rotations_;
   Spring hips_;
   MonoTime time_;

@@ -14,11 +14,11 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kRad = 0.017453293f;
-// Beyond a range a joint gives way by this much at most.
+// Furthest that a joint goes beyond a range.
 constexpr float kGive_rad = 10.0f * kRad;
 constexpr float kTurn_rad = 360.0f * kRad;
 constexpr float kTellsApart_rad = 90.0f * kRad;
-// A joint turned by less than the narrowest range, 5°, is not looked at closer: sin²(2.4°).
+// A joint turned by less than the narrowest range, 5°, is skipped: sin²(2.4°).
 constexpr float kSurelyWithin = 0.00175f;
 
 // Degrees of rotation about x, y, z of the parent, left side and middle; one of the axes is the
@@ -40,10 +40,10 @@ constexpr Range kRanges[]{
     {Bone::kLeftShoulder, 0, {-45, -45, -45}, {45, 45, 45}},
     // An arm of the T-pose reaches forward about -y and up about +z.
     {Bone::kLeftUpperArm, 0, {-140, -155, -130}, {155, 115, 125}},
-    // How the upper arm is rolled is shared out differently by different captures, so that only the
-    // bend that no roll explains is closed: backward.
+    // Captures differ in how they distribute the roll of the arm, so only backward bending is
+    // limited.
     {Bone::kLeftLowerArm, 0, {-110, -165, -120}, {100, 8, 160}},
-    // The forearm's turn arrives in the hand.
+    // The forearm's twist is in the hand.
     {Bone::kLeftHand, 0, {-kFree, -100, -95}, {kFree, 100, 95}},
     // A leg swings forward about -x, outward about +z.
     {Bone::kLeftUpperLeg, 1, {-150, -80, -55}, {65, 80, 110}},
@@ -87,8 +87,7 @@ const std::array<Limit, kBoneCount>& limits_of_joints() {
   return limits;
 }
 
-// Straight within, and from there to a give beyond, smooth at the begin. Says whether it was
-// beyond.
+// Linear within, saturating beyond, with a smooth transition. Returns whether it was beyond.
 bool saturate(float& angle, float low, float high) {
   if (angle > high)
     angle = high - kGive_rad * std::expm1((high - angle) / kGive_rad);

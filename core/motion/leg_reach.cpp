@@ -11,9 +11,9 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-// A leg is not pulled straighter than this: a knee that is nearly straight jumps.
+// A leg is not straightened further than this: the knee angle becomes ill-conditioned.
 constexpr float kStraightest = 0.996f;
-// Where the knee hardly bends, forward decides.
+// A nearly straight knee bends forward.
 constexpr float kForward_m = 0.005f;
 constexpr float kMostDrop_m = 0.4f;
 
@@ -67,7 +67,7 @@ float reach_ankle(const Skeleton& skeleton, const Limb& leg, const BodyFrames& l
   Vector3f bend = knee_was - hip_was + kForward_m * (like.R_WB[upper] * Vector3f::UnitZ());
   bend -= along_was * along_was.dot(bend);
   bend -= along * along.dot(bend);
-  // A knee that was straight, or beyond, bends forward.
+  // A straight or hyperextended knee bends forward.
   Vector3f forward = like.R_WB[upper] * Vector3f::UnitZ();
   forward -= along * along.dot(forward);
   if (const float size = forward.norm(); size > 1e-3f) {

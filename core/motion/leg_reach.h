@@ -1,19 +1,19 @@
-// Puts feet back where they are to stand after the hips, or the legs themselves, were moved: the
-// leg is bent anew between hip and ankle, its knee to the side it was, thigh and shank with the
-// twist that they had.
+// Puts feet back where they shall stand after hips or legs were moved: two-bone IK from hip to
+// ankle that keeps the knee's side and the twist of thigh and shank.
 //
 // Units/frames: metres in W.
 // Ownership:    plain values, no allocation.
 // Threads:      none inside.
-// Failure:      a foot out of reach is reached towards; the distance that is left is returned.
+// Failure:      the leg stretches towards a foot out of reach; the remaining distance is returned.
 #pragma once
 
 #include "core/pose/kinematics.h"
 
 namespace dance {
 
-// By how much hips have to come down so that legs reach their ankles again, 0 where they do: no
-// straighter than in `like`, or than nearly straight. A leg counts as much as it carries, 0 … 1.
+// How far the hips must come down so that the legs reach their ankles, 0 where they do: no
+// straighter than in `like`, or than nearly straight. A leg is weighted by the load it carries, 0 …
+// 1.
 float needed_drop_m(const Skeleton& skeleton, const BodyFrames& like,
                     const std::array<Eigen::Vector3f, 2>& hip_joints_W_m,
                     const std::array<Eigen::Vector3f, 2>& ankles_W_m,

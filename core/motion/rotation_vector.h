@@ -1,5 +1,5 @@
-// Rotations as vectors along their axis, as long as their angle, and back: what offsets, speeds and
-// limits of joints are computed in.
+// Rotation vectors (axis times angle), the exponential map and its logarithm: for offsets, speeds
+// and limits of joints.
 //
 // Units/frames: radians, at most half a turn.
 // Ownership:    plain values.

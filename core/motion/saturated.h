@@ -1,5 +1,5 @@
-// saturated: a vector that keeps below a length, softly. Two thirds of that length are left as they
-// are, within half a hundredth.
+// saturated: limits the length of a vector softly. Up to two thirds of the limit it changes by less
+// than half a per cent.
 //
 // Units/frames: those of `most`.
 // Ownership:    plain values.

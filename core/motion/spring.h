@@ -1,7 +1,7 @@
-// Spring: an offset that dies away, critically damped: x(t) = (x + (v + y x) t) e^(-y t). It
-// neither swings nor stops short, and frames of any length give the same way.
+// Spring: an offset that decays, critically damped: x(t) = (x + (v + y x) t) e^(-y t). It does not
+// overshoot, and does not depend on the frame rate.
 //
-// Units/frames: what the caller puts in; y in 1/s.
+// Units/frames: the caller's; y in 1/s.
 // Ownership:    plain value.
 // Threads:      none inside.
 // Failure:      none.
@@ -18,7 +18,7 @@ struct Spring {
   Eigen::Vector3f offset = Eigen::Vector3f::Zero();
   Eigen::Vector3f velocity = Eigen::Vector3f::Zero();
 
-  // The y with which an offset at rest takes this long to its half: (1 + x) e^-x = 1/2.
+  // The y for this half-life of an offset at rest: (1 + x) e^-x = 1/2.
   static float y_of_half_life(Duration half_life) {
     return static_cast<float>(1.67834699001666 / half_life.as_seconds());
   }
@@ -30,7 +30,7 @@ struct Spring {
     velocity = fade * (velocity - (y * seconds) * pull);
   }
 
-  // Less than any display shows.
+  // Less than is visible.
   bool is_at_rest() const {
     return offset.cwiseAbs().maxCoeff() < 1e-5f && velocity.cwiseAbs().maxCoeff() < 1e-4f;
   }

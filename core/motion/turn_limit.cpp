@@ -16,7 +16,7 @@ bool is_hand(std::size_t bone) {
 bool TurnLimit::apply(MonoTime now, Pose& pose, bool is_guess) {
   const Duration step = now - time_;
   if (time_.is_set() && step == Duration()) {
-    // The same picture once more: a limb is no less behind for it.
+    // The same moment again: a limb lags as before.
     if (is_behind_) pose.R_PB = shown_;
     return is_behind_;
   }

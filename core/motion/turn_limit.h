@@ -1,6 +1,6 @@
-// TurnLimit: no joint turns faster than bodies do, in what is guessed: a prediction that follows a
-// broken sensor, or a joint that is bent beyond where its angles are told apart, must not throw a
-// limb within a frame. What is cut off is caught up with in the next frames.
+// TurnLimit: limits the angular speed of joints in predicted poses, so that an outlier of the
+// sensor or an ambiguous joint angle does not throw a limb within a frame. The remainder follows in
+// the next frames.
 //
 // Units/frames: turns of each bone in its parent; times of the stage's clock.
 // Ownership:    plain value; never allocates. Costs about 0.1 us a frame.
@@ -20,8 +20,8 @@ class TurnLimit {
   static constexpr float kFastest_rad_s = 16.0f;
   static constexpr float kFastestHand_rad_s = 30.0f;
 
-  // Once a frame; the same moment again shows what is behind as before. What is danced is not
-  // touched, unless a limb is still behind. Returns whether the pose was changed.
+  // Once a frame; repeating a moment gives the same result. Poses that arrived are not changed,
+  // unless a limb still lags. Returns whether the pose was changed.
   bool apply(MonoTime now, Pose& pose, bool is_guess);
   void clear() { is_behind_ = false, time_ = MonoTime(); }
 

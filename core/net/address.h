@@ -1,6 +1,6 @@
-// An IPv4 or IPv6 address with its port, as a small value that can be compared: whom a datagram
-// came from or goes to. IPv4 seen through an IPv6 socket (::ffff:a.b.c.d) is kept as IPv4, so that
-// one peer has one address.
+// An IPv4 or IPv6 address with its port, as a small comparable value: source or destination of a
+// datagram. IPv4 through an IPv6 socket (::ffff:a.b.c.d) is kept as IPv4, so that one peer has one
+// address.
 //
 // Units/frames: port in host order.
 // Ownership:    plain value.
@@ -23,7 +23,7 @@ class Address {
  public:
   enum class Family : std::uint8_t { kNone, kIpv4, kIpv6 };
 
-  Address() = default;  // nobody
+  Address() = default;  // not set
   // "host:port", "1.2.3.4:7400", "[::1]:7400"; the port may be left out where default_port is not
   // 0.
   static Result<Address> resolve(std::string_view text, std::uint16_t default_port = 0);
@@ -44,8 +44,7 @@ class Address {
   bool is_loopback() const;
   // As they stand in a datagram's header, an IPv4 address in the first four.
   const std::array<std::uint8_t, 16>& ip() const { return ip_; }
-  // What one household is given by its provider, as a number: an IPv4 address, or the upper half of
-  // an IPv6 address.
+  // The subscriber's prefix as a number: an IPv4 address, or the upper half of an IPv6 address.
   std::uint64_t network() const;
   std::string to_string() const;
   bool operator==(const Address&) const = default;

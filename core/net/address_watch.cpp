@@ -28,8 +28,8 @@ AddressWatch::~AddressWatch() { close(fd_); }
 
 bool AddressWatch::drain() {
   bool has_changed = false;
-  // What has changed is asked of the kernel by whoever makes a socket: that it did is enough. Where
-  // it told more than fits (ENOBUFS), something did.
+  // Only that something changed matters, not what; so it does too where reports overflowed
+  // (ENOBUFS).
   constexpr int kMostAtOnce = 64;
   for (int i = 0; i < kMostAtOnce; ++i) {
     alignas(nlmsghdr) std::array<char, 8192> bytes;

@@ -1,10 +1,10 @@
-// Tells when this machine's addresses or routes change: a house that goes from Wi-Fi to a phone's
-// line notices at once, not when its server has been silent for a while.
+// Reports changes of this machine's addresses or routes, so that a house that changes from Wi-Fi to
+// a mobile network notices at once, not after a timeout.
 //
 // Units/frames: none.
 // Ownership:    owns its descriptor.
 // Threads:      one owner.
-// Failure:      open() gives nullptr where the kernel does not tell; whoever asks goes on without.
+// Failure:      open() gives nullptr where the kernel does not support it.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ class AddressWatch {
 
   // Readable when there is something to drain.
   int fd() const { return fd_; }
-  // Takes all that has been told. True where something has changed.
+  // Reads all pending reports. True if something has changed.
   bool drain();
 
  private:

@@ -11,10 +11,10 @@ namespace {
 constexpr std::int64_t kLongestRoundTrip_ns = 60'000'000'000;
 // Crystals differ by up to 100 ppm; a second-old sample may be off by as much.
 constexpr std::int64_t kDrift_ppm = 100;
-// Until the first short round trips are in, the estimate is taken as it comes.
+// Until the first short round trips are in, the estimate is applied directly.
 constexpr std::int64_t kSettle_ns = 2'000'000'000;
-// Then the applied offset moves by at most this part of elapsed time: 1 ms a second is below what a
-// dance shows and ten times what crystals drift.
+// Then the applied offset moves by at most this part of elapsed time: 1 ms a second is not visible
+// in a dance and ten times the drift of crystals.
 constexpr std::int64_t kSlew_ppm = 1000;
 constexpr int kContradictionsToStep = 3;
 

@@ -1,10 +1,10 @@
-// Where datagrams go: the seam between the tunnel's state machines and what carries their datagrams
-// (a socket, a batch, a simulated network in tests, a sealed session).
+// Interface between the tunnel's state machines and the transport of their datagrams (a socket, a
+// batch, a simulated network in tests, a DTLS session).
 //
 // Units/frames: bytes.
 // Ownership:    send() copies or passes on the bytes before it returns.
 // Threads:      the caller's.
-// Failure:      none here; whoever carries counts what could not be sent.
+// Failure:      none here; the transport counts what could not be sent.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace dance {
 
-// Headers of IPv4 and UDP, which a line carries with each datagram.
+// Headers of IPv4 and UDP of each datagram.
 constexpr std::size_t kIpUdp_bytes = 28;
 
 class DatagramSink {

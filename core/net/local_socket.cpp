@@ -47,7 +47,7 @@ int connect_to(const sockaddr_un& address, int& error) {
   return -1;
 }
 
-// In /tmp anybody may have made it before us: then it is not used.
+// In /tmp another user may have made it: then it is not used.
 Result<void> make_private_folder(const std::string& folder) {
   const bool is_made = ::mkdir(folder.c_str(), 0700) == 0;
   if (!is_made && errno != EEXIST)
@@ -85,7 +85,7 @@ Result<std::unique_ptr<LocalTextServer>> LocalTextServer::open(const std::string
     ::close(other);
     return fail("socket " + path + " is another server's");
   }
-  // Left behind by one that was killed; a file of another kind is not ours to remove.
+  // Left behind by a killed server; a file of another kind is not removed.
   if (error == ECONNREFUSED && is_socket(path)) ::unlink(path.c_str());
   const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0) return fail("no local socket can be had: " + error_text(errno));
@@ -133,7 +133,7 @@ void LocalTextServer::on_readable(MonoTime now) {
       continue;
     } else {
       if (errno == EAGAIN) return;
-      // No descriptor is free: the poller would come back here at once, again and again.
+      // No descriptor is free: the poller would spin here.
       poller_.unwatch(fd_);
       is_watched_ = false;
       poller_.set_deadline(timer_, now + kAcceptAgain);
@@ -204,7 +204,7 @@ tl::expected<std::string, LocalFailure> read_local_text(const std::string& path,
       return failed(LocalTrouble::kNobody, error_text(error));
     if (error == EACCES || error == EPERM)
       return failed(LocalTrouble::kNotYours, error_text(error));
-    // So many ask that the queue is full.
+    // The queue of connections is full.
     if (error == EAGAIN) return failed(LocalTrouble::kSilent, error_text(error));
     return failed(LocalTrouble::kOther, error_text(error));
   }

@@ -1,12 +1,12 @@
-// Telling other programs of this user on this machine: a Unix socket in a folder that only the user
-// may enter. Whoever connects gets one text and the end; it is asked nothing.
+// Publishes a text to other programs of this user on this machine: a Unix socket in a folder
+// private to the user. Each connection receives one text and is closed.
 //
 // Units/frames: texts are bytes.
 // Ownership:    LocalTextServer owns its socket file and at most kMaxClients connections; the
 //               poller must outlive it.
-// Threads:      the poller's; read_local_text() waits, and is for programs that only ask.
-// Failure:      nothing that a client does, or leaves undone, makes the server wait: who does not
-//               read is dropped. open() and read_local_text() say what is wrong.
+// Threads:      the poller's; read_local_text() blocks, for command-line clients.
+// Failure:      no client can make the server wait: one that does not read is dropped. open() and
+//               read_local_text() say what is wrong.
 #pragma once
 
 #include <array>
@@ -19,24 +19,24 @@
 
 namespace dance {
 
-// Where this user's sockets lie: $XDG_RUNTIME_DIR/dance, or /tmp/dance-UID where that is not set.
+// The folder of this user's sockets: $XDG_RUNTIME_DIR/dance, or /tmp/dance-UID where that is not
+// set.
 std::string local_socket_folder();
 
 class LocalTextServer {
  public:
   using MakeText = std::function<std::string(MonoTime now)>;
   static constexpr std::size_t kMaxClients = 8;
-  // However many ask, it is made at most so often.
+  // The text is made at most this often.
   static constexpr Duration kTextStays = Duration::ms(500);
   static constexpr Duration kClientPatience = Duration::s(2);
 
   struct Counters {
     std::uint64_t answered = 0;
-    std::uint64_t dropped = 0;  // did not read, or one too many
+    std::uint64_t dropped = 0;  // did not read, or beyond kMaxClients
   };
 
-  // Makes the folder, closed to others, and takes the place of a socket that nobody serves any
-  // more.
+  // Makes the private folder, and replaces a socket that no process serves.
   static Result<std::unique_ptr<LocalTextServer>> open(const std::string& path, MakeText make_text,
                                                        Poller& poller);
   ~LocalTextServer();
@@ -80,7 +80,7 @@ struct LocalFailure {
   LocalTrouble trouble = LocalTrouble::kOther;
   std::string reason;
 };
-// All that the server at `path` tells.
+// The text of the server at `path`.
 tl::expected<std::string, LocalFailure> read_local_text(const std::string& path, Duration patience);
 
 }  // namespace dance

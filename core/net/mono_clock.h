@@ -2,8 +2,8 @@
 //
 // Units/frames: MonoTime since boot (suspension not counted).
 // Threads:      any.
-// Failure:      none; where the kernel tells no boot id, the clock id is random, so that nothing
-//               compares equal by luck.
+// Failure:      none; without the kernel's boot id the clock id is random, so that clocks do not
+//               compare equal by chance.
 #pragma once
 
 #include <cstdint>

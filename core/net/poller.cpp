@@ -22,8 +22,8 @@ namespace {
 
 constexpr int kEventsPerTurn = 16;
 
-// In which the poller of this process hears of signals, by the kernel's number: that of a thread
-// that has ended names nobody.
+// Kernel id of the thread in which the poller of this process receives signals; that of an ended
+// thread matches none.
 std::atomic<pid_t> signal_thread{0};
 
 std::string reason(const char* call) {
@@ -85,8 +85,8 @@ Result<void> Poller::stop_on_signals() {
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   if (pthread_sigmask(SIG_BLOCK, &signals, nullptr) != 0) return fail(reason("pthread_sigmask"));
-  // Libraries may have started threads before main did anything (OpenBLAS does), which have nothing
-  // blocked: these hand on what they get.
+  // Libraries may have started threads before main (OpenBLAS does), in which no signal is blocked:
+  // these forward signals.
   signal_thread = static_cast<pid_t>(syscall(SYS_gettid));
   struct sigaction handing_on {};
   handing_on.sa_handler = [](int signal) {
@@ -98,7 +98,7 @@ Result<void> Poller::stop_on_signals() {
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction inherited {};
     if (sigaction(signal, nullptr, &inherited) != 0) return fail(reason("sigaction"));
-    // Who starts a program in the background of a script may have it ignore Ctrl-C.
+    // A program started in the background of a script may inherit an ignored SIGINT.
     if (inherited.sa_handler == SIG_IGN) continue;
     if (sigaction(signal, &handing_on, nullptr) != 0) return fail(reason("sigaction"));
   }

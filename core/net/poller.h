@@ -7,7 +7,7 @@
 //               owner's, who must unwatch them before closing. Allocates in watch() and
 //               add_timer(), not while running.
 // Threads:      one; stop() may be called from handlers.
-// Failure:      create() tells what the kernel refused.
+// Failure:      create() names what the kernel refused.
 #pragma once
 
 #include <deque>
@@ -41,8 +41,8 @@ class Poller {
   void at_turn_end(OnReadable work) { turn_end_ = std::move(work); }
 
   // SIGINT and SIGTERM end run() instead of the process. Call before threads are started (LCM
-  // starts some), as these inherit the blocked signals; those that libraries started before main
-  // hand them on.
+  // starts some), as these inherit the blocked signals; threads that libraries started before main
+  // forward them.
   Result<void> stop_on_signals();
   void stop() { stopped_ = true; }
   bool is_stopped() const { return stopped_; }

@@ -1,4 +1,4 @@
-// Numbers that a stranger cannot guess, from the kernel: session ids, link tokens.
+// Unpredictable numbers from the kernel: session ids, link tokens.
 //
 // Threads: any.
 // Failure: none; the kernel's generator is always ready on the systems we run on.

@@ -1,10 +1,10 @@
-// Tells a service manager (systemd, Type=notify) how the program fares: that it is ready, that it
-// ends, that it lives. Without one, all of it does nothing.
+// Notifies a service manager (systemd, Type=notify) that the program is ready, stopping, or alive.
+// Does nothing without one.
 //
 // Units/frames: none.
 // Ownership:    owns its socket.
 // Threads:      one; construct it before threads start, as it reads the environment.
-// Failure:      none: what the manager does not take is not repeated, and nothing waits for it.
+// Failure:      none: lost notifications are not repeated, and nothing waits.
 // Source:       sd_notify(3), the datagrams on $NOTIFY_SOCKET.
 #pragma once
 
@@ -23,7 +23,7 @@ class ServiceManager {
   ServiceManager& operator=(const ServiceManager&) = delete;
 
   bool is_there() const { return fd_ >= 0; }
-  // How often it wants to hear that we live; nothing = not at all. Half of what it waits for.
+  // How often to send watchdog notifications, half of its timeout; nullopt = never.
   Duration alive_period() const { return alive_period_; }
 
   void say_ready() { say("READY=1"); }

@@ -23,7 +23,7 @@ std::string reason(int error) {
   return strerror_r(error, text.data(), text.size());
 }
 
-// SO_RCVBUFFORCE goes past rmem_max where we may; else as much as the system gives.
+// SO_RCVBUFFORCE exceeds rmem_max where permitted; else as much as the system gives.
 void ask_for_big_buffers(int fd) {
   const int bytes = kWantedBuffer_bytes;
   if (setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes) != 0)
@@ -172,7 +172,7 @@ std::span<const UdpSocket::Datagram> UdpSocket::receive() {
     if (errno == ECONNREFUSED) ++counters_.refused;
     return {};
   }
-  // Both clocks at the same moment: between the turn's begin and here, anything may have happened.
+  // Both clocks are read here, as time has passed since the turn began.
   const std::int64_t wall_now_ns = realtime_ns();
   const MonoTime wall_read = mono_now();
   b.used_in = static_cast<std::size_t>(count);
@@ -218,7 +218,7 @@ void UdpSocket::flush() {
   while (at < b.queued) {
     const int sent = sendmmsg(fd_, b.out_headers.data() + at, static_cast<unsigned>(b.queued - at),
                               MSG_DONTWAIT);
-    if (sent <= 0) {  // the first of the rest was refused: it is lost, the others are still tried
+    if (sent <= 0) {  // the first of the rest was refused: it is lost, the others are tried
       count_send_error(errno);
       ++at;
       continue;
@@ -241,7 +241,7 @@ void UdpSocket::send_now(const Address& to, std::span<const std::uint8_t> bytes)
     return;
   }
   ssize_t sent = sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT, name, length);
-  // A pending ICMP error of an earlier datagram is told here instead of sending: once more.
+  // sendmsg() reported a pending ICMP error of an earlier datagram instead of sending: try again.
   if (sent < 0 && errno == ECONNREFUSED) {
     ++counters_.refused;
     sent = sendto(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT, name, length);

@@ -2,7 +2,7 @@
 // IPv4), read and written in batches: one system call for many datagrams.
 //
 // Units/frames: receive times are MonoTime of this process's clock; from the kernel's stamp where
-//               it gives one, so that a late turn does not look like a late datagram.
+//               it gives one, so that a late turn of the loop does not look like a late datagram.
 // Ownership:    owns the descriptor and the batch buffers; never allocates after construction.
 // Threads:      one owner.
 // Failure:      bind() and connect() name the address, the reason and the cure; later errors are
@@ -34,16 +34,16 @@ class UdpSocket final : public DatagramSink {
   struct Counters {
     std::uint64_t received = 0;
     std::uint64_t received_bytes = 0;
-    std::uint64_t truncated = 0;  // longer than any of ours: dropped
+    std::uint64_t truncated = 0;  // longer than any valid one: dropped
     std::uint64_t sent = 0;
     std::uint64_t sent_bytes = 0;
-    std::uint64_t refused = 0;      // nobody listens at the other end (ICMP)
+    std::uint64_t refused = 0;      // port closed at the other end (ICMP)
     std::uint64_t send_failed = 0;  // buffer full, no route
   };
 
-  // Hears and sends from `local`; port 0 lets the system choose.
+  // Receives and sends from `local`; port 0 lets the system choose.
   static Result<UdpSocket> bind(const Address& local);
-  // Only talks with `peer`.
+  // Exchanges datagrams with `peer` only.
   static Result<UdpSocket> connect(const Address& peer);
   UdpSocket(UdpSocket&&) noexcept;
   UdpSocket& operator=(UdpSocket&&) noexcept;
@@ -52,14 +52,14 @@ class UdpSocket final : public DatagramSink {
   int fd() const { return fd_; }
   Address local_address() const;
 
-  // Up to kBatch datagrams that are there; empty when there are none. Valid until the next call.
+  // Up to kBatch pending datagrams; empty when there are none. Valid until the next call.
   std::span<const Datagram> receive();
 
   // Queues a datagram; flush() sends all that is queued, and so does a full batch. On a connected
   // socket `to` is ignored.
   void send(const Address& to, std::span<const std::uint8_t> bytes) override;
   void flush();
-  // At once, past the batch.
+  // At once, bypassing the batch.
   void send_now(const Address& to, std::span<const std::uint8_t> bytes);
 
   const Counters& counters() const { return counters_; }
@@ -78,7 +78,7 @@ class UdpSocket final : public DatagramSink {
   Counters counters_;
 };
 
-// A UDP port of 127.0.0.1 that nobody has at this moment.
+// A UDP port of 127.0.0.1 that is free at this moment.
 Result<std::uint16_t> free_loopback_port();
 
 }  // namespace dance

@@ -17,7 +17,7 @@ void sample_clip(const MotionClip& clip, Duration t, ClipEnd end, Pose& out) {
   else
     position = std::min(position, static_cast<double>(count - 1));
   const auto first = std::min(static_cast<std::size_t>(position), count - 1);
-  // Between the last frame and the first there is a jump, not a movement: hold the last.
+  // The loop is not continuous from the last frame to the first: hold the last.
   const std::size_t second = std::min(first + 1, count - 1);
   const Pose between = interpolate(clip.frames[first], clip.frames[second],
                                    static_cast<float>(position - static_cast<double>(first)));

@@ -1,8 +1,7 @@
 // MotionClip: a recorded dance on the canonical skeleton, every frame of it in memory.
 //
 // Units/frames: frames are 1/frame_hz apart, the first at time 0; poses in W, metres, as
-//               core/pose/pose.h says; their capture times are left unset, as whoever plays them
-//               stamps them.
+//               core/pose/pose.h says; capture times are left unset; the player stamps them.
 // Ownership:    owns its frames.
 // Threads:      none inside; read-only once made.
 // Failure:      sample() of an empty clip is our bug.
@@ -27,11 +26,11 @@ struct MotionClip {
   }
 };
 
-// How a clip goes on when it has ended.
+// What follows the end of a clip.
 enum class ClipEnd { kHold, kLoop };
 
-// The pose at time t from the clip's begin, interpolated between frames. kLoop starts again at the
-// first frame. Leaves sequence, clock, capture time and stamps of `out` alone.
+// The pose at time t from the clip's beginning, interpolated between frames. kLoop starts again at
+// the first frame. Leaves sequence, clock, capture time and stamps of `out` alone.
 void sample_clip(const MotionClip& clip, Duration t, ClipEnd end, Pose& out);
 
 }  // namespace dance

@@ -1,10 +1,9 @@
-// Where somebody faces: of a rotation the turn about the upright, and the rotation that is only
-// that.
+// Heading: the part of a rotation that turns about the vertical, as an angle and as a rotation.
 //
 // Units/frames: radians about +Y, 0 along +Z, positive to the left; −π … π.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      none: who lies upside down faces nowhere in particular, 0 or what noise says.
+// Failure:      none; upside down the heading is arbitrary.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,7 +19,7 @@ inline Eigen::Quaternionf about_up(float heading_rad) {
   return {std::cos(0.5f * heading_rad), 0.0f, std::sin(0.5f * heading_rad), 0.0f};
 }
 
-// Of R = R_heading · R_tilt the first; identity where there is none.
+// R_heading of R = R_heading · R_tilt; identity where it is undefined.
 inline Eigen::Quaternionf heading_turn(const Eigen::Quaternionf& R) {
   const float size = std::hypot(R.w(), R.y());
   return size > 1e-6f ? Eigen::Quaternionf(R.w() / size, 0.0f, R.y() / size, 0.0f)

@@ -1,4 +1,4 @@
-// Past poses of one dancer, asked for by time.
+// Past poses of one dancer, by time.
 //
 // Units/frames: times are capture times of one clock (the caller sees to it); poses are in W.
 // Ownership:    keeps copies in a ring; never allocates after construction.
@@ -30,12 +30,11 @@ class PoseHistory {
   bool push(const Pose& pose);
   void clear() { size_ = 0; }
 
-  // The pose at time t: one that was pushed, or between two, or the nearest end. Between poses that
-  // are no more than kCloseTogether apart it goes smoothly, in straight lines across longer gaps.
+  // The pose at time t: a pushed one, an interpolation, or the nearest end. Interpolation is cubic
+  // between poses no more than kCloseTogether apart, linear across longer gaps.
   std::optional<Answer> at(MonoTime t) const;
-  // The same, and for good: no pose that comes later changes what at() and this answer about this
-  // moment. Between the newest two poses, where the curve is not known before the next one, it ends
-  // as straight as it is seen now.
+  // The same, and final: no later pose changes what at() and this return for this moment. Between
+  // the newest two poses, where the cubic needs the next one, the end is taken as straight.
   std::optional<Answer> at_for_good(MonoTime t);
 
   std::size_t size() const { return size_; }
@@ -47,7 +46,7 @@ class PoseHistory {
   std::size_t slot(std::size_t back) const;
 
   std::vector<Pose> ring_;
-  std::vector<bool> is_reached_straight_;  // the way to the pose in that slot, for good
+  std::vector<bool> is_reached_straight_;  // the segment to the pose in that slot is final
   std::size_t next_ = 0;
   std::size_t size_ = 0;
 };

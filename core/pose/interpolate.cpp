@@ -6,20 +6,20 @@
 namespace dance {
 namespace {
 
-// Half the angle's cosine: beyond it a chord is no longer like its arc.
+// Cosine of half the angle: beyond it chord and arc differ too much.
 constexpr float kLeastDot = 0.92f;
-// A slope that is no steeper than three times either step keeps between its ends.
+// A slope of at most three times either step does not overshoot.
 constexpr float kMostSlope = 3.0f;
-// Where a place turns back it may swing over as a body does: by less than a third of the smaller
+// Where a position reverses it may overshoot as a body does: by less than a third of the smaller
 // step.
 constexpr float kMostTurningSlope = 2.0f;
 
-// Who is nearer than this part of the step says little about how fast it goes.
+// A neighbour nearer than this part of the step says little about the speed.
 constexpr float kLeastGap = 0.3f;
 
-// All but what moves.
+// All but rotations and positions.
 Pose between_stamps(const Pose& a, const Pose& b, float fraction) {
-  Pose out = fraction < 0.5f ? a : b;  // what cannot be between: sequence, presence, stamps
+  Pose out = fraction < 0.5f ? a : b;  // what is not interpolated: sequence, presence, stamps
   out.confidence = std::clamp(a.confidence + fraction * (b.confidence - a.confidence), 0.0f, 1.0f);
   const Duration step = b.capture_time - a.capture_time;
   const MonoTime stamped = out.capture_time;

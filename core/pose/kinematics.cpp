@@ -24,7 +24,7 @@ void forward_kinematics(const Skeleton& skeleton, const Pose& pose, BodyFrames& 
 
 namespace {
 
-// Below this a bone has no direction that could be turned.
+// Below this a bone has no direction.
 constexpr float kShortestBone_m = 1e-3f;
 
 // The rotation whose first column is along x and whose third is normal, which is at right angles to
@@ -79,8 +79,9 @@ float solve_two_bone(const Skeleton& skeleton, const Limb& limb, const Vector3f&
   const Vector3f rest_pole = limb.upper == Bone::kLeftUpperArm || limb.upper == Bone::kRightUpperArm
                                  ? Vector3f(0, 0, -1)
                                  : Vector3f(0, 0, 1);
-  // The plane's normal is the same for both bones, however far the limb is bent; were it taken from
-  // each bone and the pole, a hand close to the shoulder would twist the forearm by half a turn.
+  // The plane's normal is the same for both bones, however far the limb is bent; computed from each
+  // bone and the pole it would twist the forearm by half a turn when the hand is close to the
+  // shoulder.
   const Vector3f normal = along.cross(side);
   const auto aim = [&](const Vector3f& rest, const Vector3f& direction) {
     return frame_along(direction, normal) *

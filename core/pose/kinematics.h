@@ -1,9 +1,9 @@
-// Forward kinematics of the canonical skeleton, and the two-bone inverse for arms and legs.
+// Forward kinematics of the canonical skeleton, and two-bone IK for arms and legs.
 //
 // Units/frames: metres in W; R_WB is a bone's rotation in W.
 // Ownership:    plain values, no allocation.
 // Threads:      none inside.
-// Failure:      solve_two_bone() stretches towards a target out of reach and says so.
+// Failure:      solve_two_bone() stretches towards a target out of reach and returns the distance.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -42,8 +42,8 @@ constexpr Limb kRightLeg{Bone::kRightUpperLeg, Bone::kRightLowerLeg, Bone::kRigh
 // Turns the limb's upper and lower bone so that its end comes to target_W_m, bending towards pole_W
 // (a direction: forward for knees, backward and out for elbows). Local rotations are written to the
 // pose; the end bone's rotation in W is kept as R_WEnd. The parents' frames in `frames` must be
-// current; the limb's own are updated. Returns the distance that the end could not reach, 0 when it
-// could.
+// current; the limb's own are updated. Returns the distance left to the target, 0 when it was
+// reached.
 float solve_two_bone(const Skeleton& skeleton, const Limb& limb, const Eigen::Vector3f& target_W_m,
                      const Eigen::Vector3f& pole_W, const Eigen::Quaternionf& R_WEnd, Pose& pose,
                      BodyFrames& frames);

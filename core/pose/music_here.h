@@ -1,11 +1,10 @@
-// MusicHere: where the music of this house stands, for whoever shows or measures it: as what plays
-// the music says; where nothing plays, as the dancers of this house carry it in their own poses.
+// MusicHere: the position of this house's music, for display and measurement: from its beats, or
+// without any from the musical time of this house's own poses.
 //
 // Units/frames: beats as core/base/beat.h counts them; times of the clock that it is made with.
 // Ownership:    plain value, no heap.
 // Threads:      none inside; one owner.
-// Failure:      words and poses of other clocks say nothing; the clock knows nothing 3 s after the
-//               last word.
+// Failure:      beats and poses of other clocks are ignored; unknown 3 s after the last one.
 #pragma once
 
 #include <cmath>
@@ -24,7 +23,7 @@ class MusicHere {
     clock_.hear(beat);
     said_ = beat.time;
   }
-  // A pose that was captured in this house, while nobody says where the music stands.
+  // A pose captured in this house, while no beats come.
   void see(const Pose& pose) {
     if (pose.clock_id != clock_id_ || !std::isfinite(pose.music_beats)) return;
     if (said_.is_set() && pose.capture_time - said_ < kSaidHolds) return;
@@ -41,7 +40,7 @@ class MusicHere {
     beat.clock_id = clock_id_;
     beat.beat = pose.music_beats;
     beat.tempo_bpm = tempo_bpm;
-    beat.beats_per_bar = 4;  // of all that is danced to here
+    beat.beats_per_bar = 4;  // an assumption
     beat.confidence = 0.5f;
     beat.playing = true;
     clock_.hear(beat);

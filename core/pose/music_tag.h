@@ -1,12 +1,12 @@
-// MusicTag: puts musical time on the poses of this house: where the music stood, as it is heard
-// here, when each was captured. core/bus/captures.h uses it, where poses enter.
+// MusicTag: tags poses with musical time: the position of the music heard in this house when they
+// were captured. core/bus/captures.h uses it, where poses enter.
 //
 // Units/frames: beats as core/base/beat.h counts them; times of the clock that the tag is made
 //               with.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      a pose that has musical time keeps it; one of another clock, or captured while no
-//               music is known, gets none.
+// Failure:      a tagged pose keeps its tag; one of another clock, or captured while no music is
+//               known, gets none.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ class MusicTag {
  public:
   explicit MusicTag(std::uint64_t clock_id) : clock_id_(clock_id) {}
 
-  // Beats of another clock say nothing here.
+  // Beats of another clock are ignored.
   void hear(const Beat& beat) {
     if (beat.clock_id == clock_id_) clock_.hear(beat);
   }

@@ -1,13 +1,12 @@
-// Pose: one dancer at one moment, on the canonical skeleton; Hands: the fingers beside it. What
-// every part of the system hands on.
+// Pose: one dancer at one moment, on the canonical skeleton; Hands: its fingers. The data that all
+// parts exchange.
 //
 // Units/frames: R_PB is each bone's rotation in its parent (hips: in W), identity in T-pose facing
 //               +Z; p_WH_m is the hips in W, metres, +Y up; times are of the clock that clock_id
 //               names.
 // Ownership:    plain values, no heap.
 // Threads:      none inside.
-// Failure:      is_valid() tells whether a pose may go on; check it once where bytes come in, trust
-//               it behind.
+// Failure:      is_valid() says whether a pose may be used; check it once where bytes come in.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,12 +21,12 @@ namespace dance {
 
 // Steps of a pose's journey that leave a stamp; order of hop_time_us in pose_t.
 enum class Hop : std::uint8_t {
-  kPublished,     // producer gave it to its bus
-  kLinkSent,      // sender's link gave it to the network
-  kServer,        // server took it in (in the receiver's clock, through the clock mapper)
-  kLinkReceived,  // receiver's link took it from the network
-  kStageTaken,    // manager took it in
-  kStaged,        // manager put it on the stage
+  kPublished,     // published by the producer
+  kLinkSent,      // sent by the sender's link
+  kServer,        // received by the server (mapped onto the receiver's clock)
+  kLinkReceived,  // received by the receiver's link
+  kStageTaken,    // received by the manager
+  kStaged,        // published on the stage by the manager
 };
 constexpr std::size_t kHopCount = 6;
 
@@ -71,7 +70,7 @@ struct Hands {
   MonoTime capture_time;
 };
 
-// A stage is a dance floor: nobody's hips are further from its middle than this.
+// Bound of a stage: furthest place of hips from its middle.
 constexpr float kMaxStageDistance_m = 1000.0f;
 
 // Finite, unit rotations (within 1 %), hips within the stage, confidence in 0..1, music finite or
@@ -79,8 +78,7 @@ constexpr float kMaxStageDistance_m = 1000.0f;
 bool is_valid(const Pose& pose);
 bool is_valid(const Hands& hands);
 
-// Makes rotations exactly unit. Call on what is_valid() let through, as 1 % is what we forgive
-// others.
+// Normalises rotations. Call after is_valid(), which tolerates 1 %.
 void normalize(Pose& pose);
 void normalize(Hands& hands);
 

@@ -6,7 +6,7 @@
 //               end bone from that bone's origin.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      is_valid() is false for what is not a body (not finite, bones over 2 m).
+// Failure:      is_valid() is false for values that are not finite, or bones over 2 m.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +28,7 @@ struct Skeleton {
   bool operator==(const Skeleton&) const = default;
 };
 
-// An adult of the given height with average proportions: for dancers who have not sent their own
-// yet, and ours.
+// An adult of the given height with average proportions: the default until a dancer's own arrive.
 Skeleton average_skeleton(float height_m = 1.72f);
 
 bool is_valid(const Skeleton& skeleton);

@@ -1,6 +1,6 @@
-// Style: how large a guest's dance is to be shown, zone by zone, and what of it.
+// Style: gains by which a guest's dance is shown larger or smaller, zone by zone.
 //
-// Units/frames: gains: 0 = nothing of it, 1 = as danced, up to 4; as lcmtypes/style_t.lcm says.
+// Units/frames: gains: 0 = no motion, 1 = as danced, up to 4; as lcmtypes/style_t.lcm says.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      is_valid() is false for what is not finite or out of range.

@@ -1,9 +1,8 @@
-// ChildProcess: a program of ours run beside us, for the demo and the house: started, watched,
-// stopped. It ends when we end, however we end.
+// ChildProcess: runs another program of the tree, for the demo and the house. It ends when this
+// process ends, however that ends.
 //
 // Units/frames: none; times as Duration.
-// Ownership:    owns the process: the destructor asks it to stop (SIGTERM) and, if it will not,
-//               ends it.
+// Ownership:    owns the process: the destructor sends SIGTERM and, if needed, SIGKILL.
 // Threads:      one.
 // Failure:      start() names the program and the reason.
 #pragma once
@@ -33,7 +32,7 @@ class ChildProcess {
   ChildProcess& operator=(ChildProcess&& other) noexcept;
 
   pid_t pid() const { return pid_; }
-  // What it has had of the processors so far; 0 once it has ended.
+  // Processor time so far; 0 once it has ended.
   Duration cpu_time() const;
   // True once the process has ended; then exit_text() says how.
   bool has_ended();

@@ -1,11 +1,10 @@
-// The options of a program, over CLI11. Its headers cost ten seconds of every file that includes
-// them (thirty under sanitizers), so that one file does, and the programs name their options
-// through this one.
+// The options of a program, over CLI11. Its headers cost ten seconds in every file that includes
+// them (thirty under sanitizers), so only one file does.
 //
 // Ownership: values are the caller's and must outlive parse(); an Option is a handle on the
 //            CommandLine's own.
 // Threads:   one.
-// Failure:   parse() gives one line that names the option and says what it takes.
+// Failure:   parse() returns one line that names the option and what it takes.
 #pragma once
 
 #include <functional>
@@ -27,14 +26,14 @@ class Option {
  public:
   Option& range(double lowest, double highest);
   Option& one_of(std::vector<std::string> words);
-  // "" where the text is fine, else what is wrong with it.
+  // "" when the text is valid, else the error.
   Option& check(std::function<std::string(const std::string& text)> wrong);
   Option& guest_name();
   Option& required();
-  // --help says the value that it has now.
+  // --help shows the present value as default.
   Option& shows_default();
   Option& split_at(char separator);
-  // Each time it is given it takes one value: what comes behind that is something else.
+  // Takes one value each time it is given; further words are not part of it.
   Option& one_each_time();
   Option& hidden();
 
@@ -44,7 +43,7 @@ class Option {
   CLI::Option* option_;
 };
 
-// A word of an option that takes one of several, and what it means.
+// One word of an option with a choice of words, and its meaning.
 template <class T>
 struct Choice {
   const char* word;
@@ -59,7 +58,7 @@ class CommandLine {
   CommandLine& operator=(const CommandLine&) = delete;
 
   // T: std::string, double, int, std::int64_t, std::uint16_t, std::uint32_t, std::uint64_t, and
-  // vectors of the first two. A name without dashes is an argument by its place.
+  // vectors of the first two. A name without dashes is a positional argument.
   template <class T>
   Option add(const std::string& name, T& value, const std::string& help);
   Option add_flag(const std::string& name, bool& value, const std::string& help);
@@ -72,11 +71,11 @@ class CommandLine {
         name, words, [&value, choices](std::size_t i) { value = choices[i].value; }, help);
   }
   void footer(const std::string& text);
-  // Looks at all of it after it was parsed: an Error is wrong use.
+  // Validates all options after parsing: an Error is wrong use.
   void finally(std::function<Result<void>()> look);
 
   enum class Parsed { kRun, kHelp, kWrong };
-  // kHelp: text() is the help. kWrong: text() is the line that says what is wrong.
+  // kHelp: text() is the help. kWrong: text() is the error.
   Parsed parse(int argc, char** argv);
   const std::string& text() const { return text_; }
   std::string name() const;

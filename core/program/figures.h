@@ -1,10 +1,10 @@
-// Numbers of reports: rounded, and percentiles of what was measured one by one. Histogram
-// (core/base/histogram.h) is for what is too much to keep.
+// Numbers for reports: rounding, and percentiles of stored samples. Histogram
+// (core/base/histogram.h) is for samples too many to store.
 //
 // Units/frames: as given; fractions are 0 to 1.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      a percentile of nothing is 0.
+// Failure:      a percentile of no samples is 0.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace dance {
 
-// JSON has no use for picoseconds.
+// Rounded, to keep JSON short.
 inline double rounded(double value, double per_unit) {
   return std::round(value * per_unit) / per_unit;
 }

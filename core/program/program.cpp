@@ -26,7 +26,7 @@ int run_program(CommandLine& line, int argc, char** argv,
     case CommandLine::Parsed::kRun:
       break;
   }
-  // stdout is data, stderr is talk.
+  // stdout is data, stderr is messages.
   talk::begin(name);
 
   const Result<void> result = body();

@@ -1,5 +1,5 @@
-// What every program of the tree does alike: options, talk on stderr, one line for what went wrong,
-// and the exit code: 0 fine, 1 the world, 2 wrong use.
+// What every program needs: options, messages on stderr, one line for an error, and the exit code:
+// 0 success, 1 the environment, 2 wrong use.
 //
 // Ownership: refers to the command line for the length of the call.
 // Threads:   call from main.
@@ -18,13 +18,13 @@ namespace dance {
 int run_program(CommandLine& line, int argc, char** argv,
                 const std::function<Result<void>()>& body);
 
-// The folder that this program lies in, with all other programs of the build or the installation.
+// The folder of this program and all others of the build or the installation.
 std::string program_folder();
 
 // share/dancegraph beside that folder: files that programs read, in a build and in an installation.
 std::string data_folder();
 
-// Where windows would open, by DISPLAY or WAYLAND_DISPLAY; "" where nowhere.
+// The display for windows, by DISPLAY or WAYLAND_DISPLAY; "" without one.
 std::string display_name();
 
 }  // namespace dance

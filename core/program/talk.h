@@ -1,10 +1,10 @@
-// What a program says to its user while it runs: lines on stderr with the time and the program's
-// name. Stdout is data. Formats are checked when they are compiled and worked out in one place, so
-// that a file that talks costs no more to build than one that does not. Never on the pose path.
+// Messages of a running program to its user: lines on stderr with the time and the program's name.
+// Formats are checked at compile time and formatted in one place, to keep compile times low. Never
+// on the pose path.
 //
-// Ownership: nothing is kept.
+// Ownership: none.
 // Threads:   any.
-// Failure:   what cannot be written is lost.
+// Failure:   lines that cannot be written are lost.
 #pragma once
 
 #include <fmt/core.h>
@@ -27,7 +27,7 @@ void error(fmt::format_string<T...> format, T&&... args) {
   line(Level::kError, format, fmt::make_format_args(args...));
 }
 
-// From here on lines bear this name. run_program() does it.
+// Sets the name on all further lines. run_program() calls it.
 void begin(const std::string& program);
 
 }  // namespace dance::talk

@@ -25,7 +25,7 @@ tl::unexpected<Error> not_written(const std::string& path, const std::error_code
   return fail(fmt::format("{} cannot be written: {}; {}", path, why.message(), then));
 }
 
-// What the system says of it where it went wrong.
+// The system's message for the failed call.
 std::error_code put(const fs::path& file, std::string_view content) {
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
@@ -110,13 +110,13 @@ class XzDecoder {
 struct Place {
   fs::path file, beside;
   fs::file_status was;
-  // Or a pipe, or what else has no place beside it.
+  // Pipes and devices are not renamed onto.
   bool is_device() const { return fs::exists(was) && !fs::is_regular_file(was); }
 };
 
 Place place_of(const std::string& path) {
   std::error_code error;
-  // A link stays a link: what it leads to is written.
+  // A symbolic link stays: its target is written.
   Place place{fs::canonical(path, error), {}, {}};
   if (error) {
     place.file = path;
@@ -160,7 +160,7 @@ Result<void> write_whole_file(const std::string& path, std::string_view content)
   if (fs::exists(place.was)) fs::permissions(place.beside, place.was.permissions(), error);
   std::error_code why;
   fs::rename(place.beside, place.file, why);
-  // What took minutes to make is not thrown away.
+  // The temporary file is kept: it may have taken minutes to make.
   if (why) return not_written(path, why, "what was to be there is in " + place.beside.native());
   return {};
 }

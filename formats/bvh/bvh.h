@@ -1,15 +1,15 @@
-// Bvh: a motion capture file as it was written: its joints, their channels and every frame's
-// numbers. Reads and writes the text; what the joints mean is formats/bvh/rig.h's matter, how they
-// become a dancer on the canonical skeleton formats/bvh/retarget.h's.
+// Bvh: the content of a motion capture file: joints, their channels and every frame's numbers.
+// Reads and writes the text; formats/bvh/rig.h maps joints to bones, formats/bvh/retarget.h makes a
+// dancer of it.
 //
 // Units/frames: the file's own units and axes; angles in degrees. R = R_c1 · R_c2 · R_c3 for
 //               rotation channels in the order in which the file lists them.
-// Ownership:    owns its numbers; read_bvh() keeps nothing of the text.
+// Ownership:    owns its numbers; read_bvh() keeps no reference to the text.
 // Threads:      none inside; plain values.
-// Failure:      read_bvh() of a broken file names the line, the word and the cure. Never throws
-//               over what the text holds, never recurses, and its memory is bounded by BvhLimits.
+// Failure:      read_bvh() of a broken file names the line, the word and the cure. Never throws on
+//               any text, never recurses, and memory is bounded by BvhLimits.
 // Source:       Biovision BVH as described by Lander, Working with Motion Capture File Formats,
-//               Game Developer 1998; what real files do besides is tested one by one.
+//               Game Developer 1998; deviations of real files are tested one by one.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ enum class BvhChannel : std::uint8_t {
   kXRotation,
   kYRotation,
   kZRotation,
-  kScale,  // some tools write it; read over
+  kScale,  // some tools write it; ignored
 };
 constexpr bool is_position(BvhChannel c) { return c <= BvhChannel::kZPosition; }
 constexpr bool is_rotation(BvhChannel c) {
@@ -59,7 +59,7 @@ struct Bvh {
   double frame_hz = 0.0;
   std::size_t frame_count = 0;
   std::vector<float> values;       // frame after frame
-  std::vector<std::string> notes;  // what was odd and how it was read
+  std::vector<std::string> notes;  // oddities and how they were read
 
   const float* frame(std::size_t index) const { return values.data() + index * channel_count; }
 };

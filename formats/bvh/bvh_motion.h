@@ -28,8 +28,8 @@ class BvhMotion {
   explicit BvhMotion(const Bvh& bvh);
 
   void figure_at(std::size_t frame, BvhFigure& figure) const;
-  // The figure with no joint turned: what the OFFSETs alone say. Places of joints that have
-  // position channels are those of the first frame.
+  // The figure with no joint turned: from the OFFSETs alone. Places of joints that have position
+  // channels are those of the first frame.
   void zero_figure(BvhFigure& figure) const;
   // True where position channels of joints other than the root are added to OFFSETs; tools differ.
 

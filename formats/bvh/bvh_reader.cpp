@@ -8,7 +8,7 @@
 namespace dance {
 namespace {
 
-// Numbers beyond this are no place and no angle; float keeps what is below with room to spare.
+// Bound of valid places and angles.
 constexpr double kLargestNumber = 1e7;
 constexpr double kSlowestFrame_s = 10.0;
 constexpr double kFastest_hz = 10'000.0;
@@ -160,7 +160,7 @@ class Reader {
     return *number;
   }
 
-  // What stands behind a label, which may be "Frames:", "Frames :" or "Frames:12".
+  // The value of a label, which may be "Frames:", "Frames :" or "Frames:12".
   Result<std::string_view> read_labelled(std::string_view label) {
     std::string_view word = tokens_.next();
     if (!equals_ignoring_case(word.substr(0, label.size()), label))
@@ -211,7 +211,7 @@ class Reader {
       return fail_at(word, "is no Frame Time; write seconds a frame, 0.0333333 for 30 Hz");
     if (hz > kFastest_hz)
       return fail_at(word, "is too short a Frame Time; write seconds a frame, 0.0333333 for 30 Hz");
-    // Files round 1/120 to .0083333; the camera did not.
+    // Files round 1/120 to .0083333.
     const double whole = std::round(hz);
     if (std::abs(hz - whole) < 5e-5 * hz) hz = whole;
     bvh_.frame_hz = hz;
@@ -259,7 +259,7 @@ class Reader {
   BvhTokens tokens_;
   BvhLimits limits_;
   Bvh bvh_;
-  std::vector<int> open_;  // joints whose } has not come yet
+  std::vector<int> open_;  // joints not closed yet
   bool in_end_site_ = false;
 };
 

@@ -70,7 +70,7 @@ std::optional<double> to_number(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || word.empty()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small is nothing; too large is no number that a body could have.
+    // Underflow is 0; overflow is not a valid number of a body.
     const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
     return tiny ? std::optional(0.0) : std::nullopt;
   }

@@ -2,7 +2,7 @@
 //
 // Ownership: views into the text, which must outlive it.
 // Threads:   none inside.
-// Failure:   an empty word is the end of the text; to_number() returns nullopt for what is none.
+// Failure:   an empty word is the end of the text; to_number() returns nullopt for other words.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ bool equals_ignoring_case(std::string_view a, std::string_view b);
 std::optional<double> to_number(std::string_view word);
 std::optional<long long> to_whole_number(std::string_view word);
 
-// The word as it may stand in an error message: short, printable, in quotes.
+// The word for an error message: short, printable, in quotes.
 std::string quoted(std::string_view word);
 
 }  // namespace dance

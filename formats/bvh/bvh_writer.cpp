@@ -11,7 +11,7 @@ namespace {
 constexpr int kDecimals = 6;
 constexpr int kTimeDecimals = 9;
 
-// std::to_chars, as printf would write a comma in half of Europe.
+// std::to_chars, as printf depends on the locale.
 void append(std::string& out, double value, int decimals = kDecimals) {
   char buffer[64];
   const auto [end, error] =

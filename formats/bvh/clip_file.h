@@ -1,10 +1,10 @@
 // Loads a recorded dance from a BVH file, plain or packed with xz, onto the canonical skeleton.
 //
-// Units/frames: see formats/bvh/retarget.h: guesses come back as notes for the reader to see.
+// Units/frames: see formats/bvh/retarget.h: assumptions are returned as notes.
 // Ownership:    plain values.
 // Threads:      none inside; reads the file on the caller's thread.
-// Failure:      an Error names the file (and the line, where one is broken) and the cure. What is
-//               read and what it unpacks to are both bounded.
+// Failure:      an Error names the file (and the line, where one is broken) and the cure.
+//               Compressed and decompressed size are both bounded.
 #pragma once
 
 #include <string>
@@ -24,8 +24,8 @@ struct LoadedClip {
 
 Result<LoadedClip> load_clip(const std::string& path, const RetargetOptions& options = {});
 
-// The bytes of a file, unpacked where it begins as an xz file does. Refuses more than `most_bytes`,
-// before and after unpacking.
+// The bytes of a file, decompressed if it is an xz file. Refuses more than `most_bytes`, before and
+// after decompression.
 Result<std::string> read_clip_text(const std::string& path,
                                    std::size_t most_bytes = kLargestClipFile_bytes);
 

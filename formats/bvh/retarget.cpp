@@ -17,8 +17,8 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// The floor is where the lower foot is in this part of the frames: more than nobody's jumps, less
-// than the markers' noise.
+// The floor is this quantile of the lower foot's height: robust against jumps and the markers'
+// noise.
 constexpr double kFloorPercentile = 0.10;
 // A finger that turns less than this in the whole take was not captured.
 constexpr double kMovingFinger_rad = 0.035;
@@ -55,7 +55,7 @@ class Retargeter {
   }
 
  private:
-  // What stands to the right of R_WF · R_FJ(t): the reference undone, then the correction.
+  // The factor to the right of R_WF · R_FJ(t): inverse reference, then the correction.
   Quaterniond turn_of(int joint, const Quaterniond& C) const {
     const Quaterniond& R_FJ = reference_.figure.R_FJ[static_cast<std::size_t>(joint)];
     return R_FJ.conjugate() * reference_.R_WF.conjugate() * C;
@@ -112,7 +112,7 @@ class Retargeter {
       has_hands_ = has_hands_ || joint_moves(joint);
       finger_presence_ |= 1u << f;
     }
-    // CMU's lone thumb is no hand.
+    // CMU has a thumb only, which is no hand.
     has_hands_ = has_hands_ && fingers > 2;
   }
 
@@ -189,7 +189,7 @@ class Retargeter {
     }
   }
 
-  // q and −q are one rotation; the one nearer to the frame before keeps the numbers smooth.
+  // q and −q are one rotation; the one nearer to the previous frame keeps the numbers smooth.
   static void set(Eigen::Quaternionf& out, const Quaterniond& q, const Eigen::Quaternionf* before) {
     out = q.normalized().cast<float>();
     if (before ? out.dot(*before) < 0.0f : out.w() < 0.0f) out.coeffs() = -out.coeffs();

@@ -1,10 +1,9 @@
-// The canonical skeleton of a captured dancer: every offset learnt from the reference pose, so that
+// The canonical skeleton of a captured dancer: every offset taken from the reference pose, so that
 // forward kinematics puts the joints where the file has them.
 //
 // Units/frames: metres, T-pose axes.
 // Threads:      none inside.
-// Failure:      bones that the file lacks are laid between those that it has, or get average
-//               lengths.
+// Failure:      missing bones are placed between existing ones, or get average lengths.
 #pragma once
 
 #include "core/pose/skeleton.h"

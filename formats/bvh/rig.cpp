@@ -119,7 +119,7 @@ void place_fingers(const NamedJoints& named, RigSide side, Rig& rig) {
     for (int phalanx = 0; phalanx < 3; ++phalanx, ++slot) {
       if (above == kNoJoint) continue;
       above = named.pick(side, {finger}, above);
-      // The fourth joint that some tools write is the finger's tip, and has nothing to turn.
+      // The fourth joint that some tools write is the finger's tip.
       rig.finger_of[slot] = above;
     }
   }

@@ -1,11 +1,10 @@
-// Rig: which joints of a motion capture file are which bones of the canonical skeleton. Read from
-// the joints' names, in the words of many tools; where those say nothing, from the shape of the
-// figure.
+// Rig: which joints of a motion capture file are which bones of the canonical skeleton. From the
+// joints' names, as many tools write them; else from the shape of the figure.
 //
 // Units/frames: indices into Bvh::joints; kNoJoint where the file has no such bone.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      find_rig() of what is no human names the bones that it could not find.
+// Failure:      find_rig() of a figure that is not human names the bones it could not find.
 #pragma once
 
 #include <array>
@@ -38,7 +37,7 @@ struct Rig {
 // neck and head are all fine; hips, upper and lower arms and legs must be there.
 Result<Rig> find_rig(const Bvh& bvh);
 
-// The bones without which a figure is no human, and which this rig lacks.
+// The required bones that this rig lacks.
 std::vector<std::string> missing_bones(const Rig& rig);
 
 }  // namespace dance

@@ -2,7 +2,7 @@
 // names, which differ most of all between tools.
 //
 // Threads: none inside.
-// Failure: leaves out what is not there; false where legs and arms do not meet in one trunk.
+// Failure: leaves out missing bones; false where legs and arms do not meet in one trunk.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace dance {
 
-// The limbs of `rig` must be set. Where `head` is kNoJoint it is looked for above the arms;
-// `is_neck` tells per joint whether its name says neck (may be empty).
+// The limbs of `rig` must be set. Where `head` is kNoJoint it is searched above the arms; `is_neck`
+// tells per joint whether its name says neck (may be empty).
 bool place_trunk(const RigTree& tree, int head, const std::vector<bool>& is_neck, Rig& rig);
 
 }  // namespace dance

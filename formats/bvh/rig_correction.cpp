@@ -19,7 +19,7 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kSquare_rad = 20.0 * kRadPerDeg;
 // Bent more than this, a limb's plane says how it is twisted.
 constexpr double kBent_rad = 30.0 * kRadPerDeg;
-// A foot that points further out than this is no foot at rest.
+// A foot at rest does not point further out than this.
 constexpr double kWidestToes_rad = 60.0 * kRadPerDeg;
 constexpr double kShortest_m = 0.005;
 

@@ -1,7 +1,6 @@
 // The corrections C_B of a reference pose: each canonical bone's rotation in W when the captured
 // figure is in its reference pose. Arms that hang, legs that slant and feet that point outwards in
-// the reference are turned from the T-pose the shortest way, so that no twist comes in that the
-// file does not have.
+// the reference are turned from the T-pose the shortest way, so that no twist is added.
 //
 // Units/frames: metres in W.
 // Ownership:    plain values.

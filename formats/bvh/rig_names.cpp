@@ -94,7 +94,7 @@ constexpr std::array<RigPart, 5> kNumberedFingers{
 constexpr std::string_view kHelperWords[] = {"twist",      "roll",   "end",   "nub", "tip",
                                              "hair",       "breast", "skirt", "eye", "jaw",
                                              "metacarpal", "carpal", "palm",  "in",  "effector"};
-// Words that stand around the part's name and say nothing.
+// Words around the part's name without meaning.
 constexpr std::string_view kEmptyWords[] = {
     "proximal", "intermediate", "distal", "f",     "finger", "hand", "j",
     "c",        "bip",          "bone",   "joint", "def",    "org",  "jnt",

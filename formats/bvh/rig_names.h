@@ -1,10 +1,10 @@
-// What a joint's name says: which part of which side of a body, in the words of many tools. Two
-// words stay open here (in one tool "shoulder" is the collar bone, in another the upper arm; "hip",
-// "leg" and "arm" alike), because only the other joints of the same figure can tell.
+// Parses a joint's name: which part of which side of a body, as many tools write it. Some words are
+// ambiguous (in one tool "shoulder" is the collar bone, in another the upper arm; "hip", "leg" and
+// "arm" alike), and resolved by the other joints of the figure.
 //
 // Ownership: plain values.
 // Threads:   none inside.
-// Failure:   a name that says nothing is RigPart::kNone.
+// Failure:   an unknown name is RigPart::kNone.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kSampledFrames = 64;
 constexpr double kUpright = 0.85;  // cosine: within 32° of up
 constexpr double kTypicalHeight_m = 1.7;
-// Children and giants are still in the unit that fits best; beyond these nobody is.
+// Bounds of a person's height, within which the unit that fits best is taken.
 constexpr double kSmallest_m = 1.0;
 constexpr double kTallest_m = 2.4;
 

@@ -1,12 +1,12 @@
-// The reference pose of a captured figure: the pose of the file that is laid beside the canonical
-// T-pose, bone by bone. Mostly the one with no joint turned; where that is no standing figure (some
-// tools lay every bone along one axis) a frame in which it stands.
+// The reference pose of a captured figure: the pose of the file that corresponds to the canonical
+// T-pose, bone by bone. Mostly the one with no joint turned; where that is not a standing figure
+// (some tools lay every bone along one axis) a frame in which it stands.
 //
 // Units/frames: F is the file's world with its units, W the stage; C_B is the rotation in W that
 //               the canonical bone B has in the reference pose.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      guesses are told in `notes`; a file without frames is the caller's to refuse.
+// Failure:      assumptions are reported in `notes`; the caller refuses a file without frames.
 #pragma once
 
 #include <Eigen/Geometry>

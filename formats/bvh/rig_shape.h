@@ -1,9 +1,9 @@
-// Finds a human in a tree of joints by its shape alone, for files whose names say nothing: two
-// branches of the same length below, a spine, two branches of the same length above, and feet that
-// point forwards.
+// Finds a human in a tree of joints by its shape alone, for files with unknown names: two branches
+// of the same length below, a spine, two branches of the same length above, and feet that point
+// forwards.
 //
 // Threads: none inside.
-// Failure: nullopt where there is no such shape, or where nothing tells left from right.
+// Failure: nullopt where there is no such shape, or where left and right cannot be told apart.
 #pragma once
 
 #include <optional>

@@ -28,7 +28,7 @@ class RigTree {
   double length(int joint) const { return at(joint).offset.norm(); }
   // Along the bones from a joint to the furthest end below it.
   double reach(int joint) const { return reach_[static_cast<std::size_t>(joint)]; }
-  // Joints that stand in the same place count as one: shorter than this is no bone.
+  // Joints in the same place count as one: the shortest length of a bone.
   double shortest_bone() const { return shortest_bone_; }
 
   // True also where both are the same joint.
@@ -38,7 +38,7 @@ class RigTree {
   std::vector<int> path(int ancestor, int joint) const;
   // The way to the furthest end, from `joint` on; of joints in one place only the last.
   std::vector<int> longest_chain(int joint) const;
-  // Where joints stand with no joint turned.
+  // Places of joints with no joint turned.
   const Eigen::Vector3d& rest(int joint) const { return rest_[static_cast<std::size_t>(joint)]; }
 
  private:

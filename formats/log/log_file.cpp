@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kSync = 0xEDA1DA01;
 constexpr std::size_t kMaxChannelBytes = 63;
-// LCM could carry 256 MiB; a house's log may hold camera pictures beside poses, and nothing larger.
+// LCM allows 256 MiB; camera pictures beside poses are the largest events of a house's log.
 constexpr std::size_t kMaxDataBytes = 32 << 20;
 
 template <class T>
@@ -82,8 +82,8 @@ Result<void> LogReader::ended() const {
 // Makes `wanted` unused bytes available in buffer_; false at the end.
 bool LogReader::fill(std::size_t wanted) {
   if (buffer_.size() - begin_ >= wanted) return true;
-  if (at_end_) return false;  // and nothing is moved: a hostile file may ask this at every byte
-  // Seldom, as what is kept may be long and read on a little at a time.
+  if (at_end_) return false;  // without moving memory: a hostile file may cause this at every byte
+  // Compacts rarely, as the kept bytes may be many and reads short.
   if (begin_ > buffer_.size() / 2) {
     buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin_));
     begin_ = 0;
@@ -112,10 +112,10 @@ bool LogReader::fill(std::size_t wanted) {
   return true;
 }
 
-// An event begins inside this one: its lengths lie, or it was cut off and another recorder went on
-// behind it.
+// An event begins inside this one: its lengths are wrong, or it was truncated and another recorder
+// appended.
 bool LogReader::reaches_into_another(std::size_t whole) {
-  fill(whole + kLogHeader_bytes - 1);  // what is there of a header that begins in the last byte
+  fill(whole + kLogHeader_bytes - 1);  // including a header that begins in the last byte
   const std::uint8_t* event = buffer_.data() + begin_;
   const std::size_t last = std::min(whole, buffer_.size() - begin_ - (kLogHeader_bytes - 1));
   for (std::size_t at = kLogHeader_bytes; at < last; ++at)
@@ -149,11 +149,11 @@ std::optional<LogEvent> LogReader::next() {
     const auto data_bytes = get_big_endian<std::uint32_t>(header + 24);
     const std::size_t whole = kLogHeader_bytes + channel_bytes + data_bytes;
     if (!fill(whole)) {
-      skip(4);  // cut off here, or lengths that lie: look on behind the sync word
+      skip(4);  // truncated, or wrong lengths: search on after the sync word
       continue;
     }
     if (reaches_into_another(whole)) {
-      skip(4);  // cut off by a recorder that was killed, and gone on behind by another
+      skip(4);  // truncated by a killed recorder, and appended to by another
       continue;
     }
     const std::uint8_t* event = buffer_.data() + begin_;

@@ -1,12 +1,11 @@
-// LCM log files, read and written by bounded code of our own, as liblcm's reader believes the
-// lengths in a damaged file. The format is LCM's, so lcm-logger, lcm-logplayer and these are
-// interchangeable.
+// LCM log files, with a bounded reader, as liblcm's trusts the lengths in a damaged file. The
+// format is LCM's, so lcm-logger, lcm-logplayer and these are interchangeable.
 //
 // Units/frames: event times are microseconds of the recorder's wall clock.
 // Ownership:    a reader's events are valid until its next call.
 // Threads:      none inside; one owner.
 // Failure:      open() and append() name the file and the reason; damaged bytes are skipped to the
-//               next event and counted. A disk that cannot be read on is no end: ended() says so.
+//               next event and counted. A read error is not an end: ended() reports it.
 // Source:       LCM documentation, "Log file format": big-endian sync word 0xEDA1DA01, event
 //               number, time, lengths, channel, data.
 #pragma once
@@ -24,34 +23,34 @@
 
 namespace dance {
 
-// What LCM puts before an event's channel and data.
+// The header of an event.
 constexpr std::size_t kLogHeader_bytes = 28;
 
 struct LogEvent {
-  std::int64_t number = 0;  // as its recorder counted
+  std::int64_t number = 0;  // as counted by its recorder
   std::int64_t time_us = 0;
   std::string_view channel;
   std::span<const std::uint8_t> data;
 
-  // What it takes in a file.
+  // Its size in a file.
   std::size_t stored_bytes() const { return kLogHeader_bytes + channel.size() + data.size(); }
 };
 
 class LogReader {
  public:
   static Result<LogReader> open(const std::string& path);
-  // Reads, and closes, what is open already.
+  // Takes over an open file.
   static LogReader of(std::FILE* file, std::string name);
   // Reads bytes in memory, which must outlive the reader.
   static LogReader over(std::span<const std::uint8_t> bytes);
 
-  // The next whole event; nullopt at the end of the file, or where it cannot be read on.
+  // The next complete event; nullopt at the end of the file or a read error.
   std::optional<LogEvent> next();
-  // After the last event: fine at the end of the file, else what kept the rest from being read.
+  // After the last event: success at the end of the file, else the read error.
   Result<void> ended() const;
   void rewind();
 
-  // Bytes that belonged to no whole event: damage, or a log cut off while it was written or read.
+  // Bytes outside complete events: damage, or a truncated log.
   std::uint64_t skipped_bytes() const { return skipped_bytes_; }
 
  private:
@@ -68,8 +67,8 @@ class LogReader {
   std::span<const std::uint8_t> memory_;
   std::size_t memory_at_ = 0;
   std::vector<std::uint8_t> buffer_;
-  std::size_t begin_ = 0;    // of what is not used yet in buffer_
-  std::size_t pending_ = 0;  // bytes of the event handed out last
+  std::size_t begin_ = 0;    // of unread bytes in buffer_
+  std::size_t pending_ = 0;  // bytes of the event returned last
   bool at_end_ = false;
   int read_error_ = 0;  // errno
   std::uint64_t skipped_bytes_ = 0;
@@ -77,16 +76,15 @@ class LogReader {
 
 class LogWriter {
  public:
-  // Refuses to overwrite a file that is there.
-  // A new file: one that is there already is refused.
+  // Creates a file; an existing one is refused.
   static Result<LogWriter> create(const std::string& path);
-  // Behind what is there, or a new file. An event that was cut off there costs no other: readers
-  // look for the next one.
+  // Appends to a file, or creates it. A truncated event before costs no other: readers search for
+  // the next one.
   static Result<LogWriter> append_to(const std::string& path);
-  // Numbered by how many this writer has written.
+  // Numbered by the count of this writer's events.
   Result<void> append(std::int64_t time_us, std::string_view channel,
                       std::span<const std::uint8_t> data);
-  // With the number that it has, for copies of logs.
+  // With its own number, for copies of logs.
   Result<void> append(const LogEvent& event);
   Result<void> flush();
   std::uint64_t events() const { return static_cast<std::uint64_t>(events_); }

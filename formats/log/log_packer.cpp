@@ -31,7 +31,7 @@ LogEvent LogPacker::pack(const LogEvent& event) {
   return stored;
 }
 
-// Somebody plays a packed log onto the bus: unpacking shall give what was on the bus.
+// A packed log is played onto the bus: unpacking shall restore what was on the bus.
 LogEvent LogPacker::keep_as_it_was(const LogEvent& event) {
   constexpr std::size_t kOpening_bytes = 6;
   wrapped_.resize(kOpening_bytes + event.channel.size() + event.data.size());
@@ -49,7 +49,7 @@ LogEvent LogPacker::pack_motion(const LogEvent& event) {
     return event;
   }
   Stream& stream = stream_of(event.channel, motion_.type);
-  // Modulo 2^64, so that a clock that was set back is a key frame too.
+  // Modulo 2^64, so that a clock that was set back gives an intra frame, too.
   const std::uint64_t since_key_us =
       static_cast<std::uint64_t>(event.time_us) - static_cast<std::uint64_t>(stream.key_time_us);
   if (since_key_us >= static_cast<std::uint64_t>(kKeyFramePeriod.count_us()))

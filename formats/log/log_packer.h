@@ -1,14 +1,14 @@
-// LogPacker: the events of a bus as a packed log holds them. A pose becomes about a third of its
-// bytes, hands a fifth, and only where what was packed has been unpacked again and is the very
-// message, bit by bit; everything else stays as it is. LogUnpacker takes it back.
+// LogPacker: converts the events of a bus to those of a packed log. A pose takes about a third of
+// its bytes, hands a fifth; each is verified by unpacking, and kept unchanged where any bit
+// differs. LogUnpacker is the inverse.
 //
 // Units/frames: times are those of the log, microseconds.
-// Ownership:    what pack() gives looks at the event that it was given, or at the packer; valid
-//               until its next call. 140 KB for each channel of poses, 280 KB of hands, at most
-//               kMaxMotionStreams of them; nothing is allocated but for a channel's first message.
+// Ownership:    pack() returns a view of its argument or of the packer; valid until its next call.
+//               140 KB for each channel of poses, 280 KB of hands, at most kMaxMotionStreams of
+//               them; allocates only for a channel's first message.
 // Threads:      none inside; one owner. Well under 0.1 ms a message.
-// Failure:      none: what cannot be packed to the bit, or not in fewer bytes, is kept as it was
-//               and counted.
+// Failure:      none: a message that cannot be packed exactly, or not in fewer bytes, is kept
+//               unchanged and counted.
 #pragma once
 
 #include <array>
@@ -26,18 +26,18 @@ namespace dance {
 
 class LogPacker {
  public:
-  // A damaged or lost event of a channel costs its messages up to the next key frame.
+  // A damaged or lost event of a channel costs its messages up to the next intra frame.
   static constexpr Duration kKeyFramePeriod = Duration::s(5);
 
   struct Counters {
     std::uint64_t packed = 0;       // poses and hands
     std::uint64_t key_frames = 0;   // of them
-    std::uint64_t kept = 0;         // poses and hands that stay as they were
-    std::uint64_t plain_bytes = 0;  // what the events would take as they were, and
-    std::uint64_t bytes = 0;        // take now: headers, channels and data
+    std::uint64_t kept = 0;         // poses and hands kept unchanged
+    std::uint64_t plain_bytes = 0;  // size of the plain events, and
+    std::uint64_t bytes = 0;        // of the packed ones: headers, channels and data
   };
 
-  // What to store instead of this event.
+  // The event to store instead.
   LogEvent pack(const LogEvent& event);
   const Counters& counters() const { return counters_; }
 
@@ -45,7 +45,7 @@ class LogPacker {
   struct Stream {
     explicit Stream(MotionType type) : packer(type), unpacker(type) {}
     MotionPacker packer;
-    MotionUnpacker unpacker;  // as whoever reads the log will have it
+    MotionUnpacker unpacker;  // in the state of a reader of the log
     std::int64_t key_time_us = 0;
     std::uint64_t last_used = 0;
     std::string channel;  // with the prefix

@@ -25,7 +25,7 @@ std::optional<LogEvent> LogUnpacker::unpack(const LogEvent& event) {
       const std::string_view channel = body.text(body.u8());
       const auto data = body.bytes(body.remaining());
       const LogEvent inner{event.number, event.time_us, channel, data};
-      if (body.ok() && is_packed(inner)) return inner;  // nothing else is ever wrapped
+      if (body.ok() && is_packed(inner)) return inner;  // the only use of wrapping
       break;
     }
   }
@@ -62,7 +62,7 @@ std::optional<LogEvent> LogUnpacker::unpack_motion(const LogEvent& event, Motion
   return std::nullopt;
 }
 
-// Only a key frame begins a stream: a damaged name costs no memory.
+// Only an intra frame begins a stream, so a damaged name costs no memory.
 LogUnpacker::Stream* LogUnpacker::stream_of(std::string_view channel, MotionType type,
                                             bool is_key) {
   auto found = streams_.find(channel);

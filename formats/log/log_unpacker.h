@@ -1,14 +1,13 @@
-// LogUnpacker: the events of a packed log as they were before LogPacker, byte for byte; what is not
-// packed goes through. Reads what strangers wrote: nothing in an event is believed that its
-// checksum does not confirm.
+// LogUnpacker: restores the events of a packed log, byte for byte; plain events pass through. Input
+// is untrusted: a result counts only if its checksum matches.
 //
 // Units/frames: events as in formats/log/log_file.h.
-// Ownership:    what unpack() gives looks at the event that it was given, or at the unpacker; valid
-//               until its next call. 70 KB for each channel of packed poses, 140 KB of hands, at
-//               most kMaxMotionStreams of them.
+// Ownership:    unpack() returns a view of its argument or of the unpacker; valid until its next
+//               call. 70 KB for each channel of packed poses, 140 KB of hands, at most
+//               kMaxMotionStreams of them.
 // Threads:      none inside; one owner. Well under 0.1 ms a message.
-// Failure:      an event that cannot be had is nullopt and counted by cause; its channel goes on
-//               with its next key frame, the others as if nothing had been.
+// Failure:      an event that cannot be restored is nullopt and counted by cause; its channel
+//               resumes with its next intra frame, the others are not affected.
 #pragma once
 
 #include <array>
@@ -28,9 +27,9 @@ class LogUnpacker {
  public:
   struct Counters {
     std::uint64_t unpacked = 0;  // poses and hands
-    std::uint64_t damaged = 0;   // malformed, or not what was packed
-    std::uint64_t orphaned = 0;  // go on from one that was damaged or is not there
-    std::uint64_t newer = 0;     // of a version that this program does not know
+    std::uint64_t damaged = 0;   // malformed, or wrong checksum
+    std::uint64_t orphaned = 0;  // refer to a damaged or missing one
+    std::uint64_t newer = 0;     // of an unknown version
     std::uint64_t lost() const { return damaged + orphaned + newer; }
   };
 

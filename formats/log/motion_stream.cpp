@@ -119,7 +119,7 @@ bool decode_unchecked(const void* data, std::size_t size, RawMotion& motion) {
     motion.right_hand.R_PB[i] = raw.hands.R_PB[kHandBones + i];
   }
   left.presence = raw.hands.presence & kHandPresence;
-  motion.right_hand.presence = raw.hands.presence >> kHandBones;  // with bits that mean nothing
+  motion.right_hand.presence = raw.hands.presence >> kHandBones;  // with unused bits
   left.sequence = raw.hands.sequence;
   left.clock_id = raw.hands.clock_id;
   motion.pose.capture_time_us = raw.capture_time_us;
@@ -178,7 +178,7 @@ DecodeResult MotionUnpacker::unpack(bool is_key, std::span<const std::uint8_t> p
   get_head(reader, motion.pose, head);
   const auto left = reader.bytes(right_hand_ ? reader.u16() : reader.remaining());
   const auto right = reader.bytes(reader.remaining());
-  // A frame begins with 0x80 where it is a key frame.
+  // An intra frame begins with 0x80.
   const auto is_frame = [is_key](std::span<const std::uint8_t> frame) {
     return !frame.empty() && ((frame[0] & 0x80) != 0) == is_key;
   };
@@ -186,7 +186,7 @@ DecodeResult MotionUnpacker::unpack(bool is_key, std::span<const std::uint8_t> p
   DecodeResult result = decoder_.decode(left, motion.pose.pose);
   if (result == DecodeResult::kPose && right_hand_) {
     result = right_hand_->decode(right, motion.right_hand);
-    // The left hand has gone on, and the right has not.
+    // The left hand has advanced, the right has not.
     if (result == DecodeResult::kReferenceMissing) result = DecodeResult::kMalformed;
     if (result != DecodeResult::kPose) restart();
   }

@@ -1,16 +1,15 @@
-// The poses or the hands of one channel as a packed log holds them: what the message carries beside
-// the body, as differences in variable-length numbers, then the lossless codec's frame; of hands
-// one frame for each, as if its bones were the first of a body. Every bit comes back, whatever it
-// says: times that no clock shows, numbers that are none.
+// The poses or the hands of one channel in a packed log: the fields beside the body as differences
+// in variable-length numbers, then the lossless codec's frame; of hands one frame for each, as if
+// its bones were the first of a body. Every bit is restored, also of invalid times and NaN.
 //
 // Units/frames: as pose_t and hands_t have them.
-// Ownership:    each owns what its codec learnt (70 KB, of hands twice), made once; nothing is
-//               allocated after.
+// Ownership:    each owns its codec's state (70 KB, of hands twice); never allocates after
+//               construction.
 // Threads:      none inside; one owner.
-// Failure:      pack() gives 0 where a message does not fit `out`, and begins anew. unpack() tells
-//               what refers to a message that it has not seen (kReferenceMissing, which changes
-//               nothing) from damage, after which only a key frame is understood. A damaged frame
-//               may also give a wrong pose: the log's checksum tells, and restart() is due then.
+// Failure:      pack() gives 0 where a message does not fit `out`, and restarts. unpack() of a
+//               frame whose predecessor is missing is kReferenceMissing and changes nothing; after
+//               damage only an intra frame decodes. A damaged frame may also give a wrong pose: the
+//               log's checksum detects it, and restart() is due.
 #pragma once
 
 #include <array>
@@ -28,18 +27,18 @@ enum class MotionType : std::uint8_t { kPose, kHands };
 // A pose_t or a hands_t, every bit of it.
 struct RawMotion {
   MotionType type = MotionType::kPose;
-  RawPose pose;  // of hands: the left one, and what stands beside the bones
+  RawPose pose;  // of hands: the left one, and the fields beside the bones
   Pose right_hand;
 };
 std::size_t encode(const RawMotion& motion, MessageBuffer& buffer);
-// False for what is neither.
+// False for other types.
 bool decode_unchecked(const void* data, std::size_t size, RawMotion& motion);
 
-// The head's byte of marks, its nine numbers and the left hand's length, at the longest.
+// Longest header: the byte of flags, nine numbers and the left hand's length.
 constexpr std::size_t kMaxMotionHead_bytes = 1 + 9 * 10 + 2;
 constexpr std::size_t kMaxPackedMotion_bytes = kMaxMotionHead_bytes + 2 * kMaxLosslessPayload;
 
-// What the next head is told by.
+// The state that headers refer to.
 struct MotionHead {
   std::uint64_t clock_id = 0;
   std::uint64_t capture_time_us = 0;
@@ -53,7 +52,7 @@ class MotionPacker {
   explicit MotionPacker(MotionType type);
 
   MotionType type() const { return type_; }
-  // True as long as nothing was packed, and after restart(): the next frame is a key frame.
+  // True before the first message and after restart(): the next frame is an intra frame.
   bool is_at_key() const { return is_at_key_; }
   void restart();
   // Bytes written. `motion` is of this packer's type.

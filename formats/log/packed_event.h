@@ -1,11 +1,11 @@
-// A packed log is an LCM log in which poses and hands stand as the lossless codec says them: one
-// event for one event, with its number and its time, on a channel that nobody listens to. Here is
-// how such an event is known; docs/codec.md has it byte by byte.
+// A packed log is an LCM log with poses and hands encoded by the lossless codec: one event for one
+// event, with its number and its time, on a channel without subscribers. This is the format of such
+// an event; docs/codec.md#packed-logs has it byte by byte.
 //
 // Units/frames: bytes as in docs/codec.md.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      is_packed() is false for what is none of ours.
+// Failure:      is_packed() is false for other events.
 #pragma once
 
 #include <algorithm>
@@ -24,15 +24,15 @@ constexpr std::array<std::uint8_t, 3> kPackedMagic{'D', 'P', 'K'};
 constexpr std::uint8_t kPackedVersion = 1;
 
 enum class PackedKind : std::uint8_t {
-  kAsItWas = 0,  // an event of the bus that looks packed: its name and its data
-  // A key frame refers to nothing before it, the others go on from the last of their channel.
+  kAsItWas = 0,  // an event of the bus that looks packed: wrapped with its name
+  // The others refer to the previous message of their channel.
   kPoseKeyFrame = 1,
   kPose = 2,
   kHandsKeyFrame = 3,
   kHands = 4,
 };
 
-// Channels that may go on at a time; beyond, the one that was silent for longest begins anew.
+// Most channels with state; beyond, the one that was silent for longest is evicted.
 constexpr std::size_t kMaxMotionStreams = 256;
 
 inline bool is_packed(const LogEvent& event) {
@@ -40,7 +40,7 @@ inline bool is_packed(const LogEvent& event) {
          std::equal(kPackedMagic.begin(), kPackedMagic.end(), event.data.begin());
 }
 
-// Of the message that was packed and the channel that it was on: 32-bit FNV-1a.
+// Of the plain message and its channel: 32-bit FNV-1a.
 inline std::uint32_t checksum_of(std::string_view channel, std::span<const std::uint8_t> message) {
   std::uint32_t hash = 0x811c9dc5;
   for (const char c : channel) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193;

@@ -1,11 +1,11 @@
-// UnpackedLog: a log file's events as they were on the bus, whether the log is packed, plain, or
-// one behind the other. What players and converters read.
+// UnpackedLog: a log file's events as they were on the bus, whether the log is packed, plain or
+// mixed. For players and converters.
 //
 // Units/frames: event times are microseconds of the recorder's wall clock.
 // Ownership:    owns the file; an event is valid until the next call.
 // Threads:      none inside; one owner.
-// Failure:      open() names the file and the reason; damage is skipped and counted. A file that
-//               could not be read on is no end: ended() says so.
+// Failure:      open() names the file and the reason; damage is skipped and counted. A read error
+//               is not an end: ended() reports it.
 #pragma once
 
 #include <optional>
@@ -25,11 +25,11 @@ class UnpackedLog {
   static UnpackedLog over(std::span<const std::uint8_t> bytes);
 
   std::optional<LogEvent> next();
-  // After the last event: fine at the end of the file, else what kept the rest from being read.
+  // After the last event: success at the end of the file, else the read error.
   Result<void> ended() const { return reader_.ended(); }
   void rewind();
 
-  // Bytes of the file that belonged to no whole event, and packed events that could not be had.
+  // Bytes of the file outside complete events, and packed events that could not be restored.
   std::uint64_t skipped_bytes() const { return reader_.skipped_bytes(); }
   const LogUnpacker::Counters& unpacking() const { return unpacker_.counters(); }
 

@@ -57,7 +57,7 @@ AgeResult measure_age(const std::vector<CodecTake>& takes, const CodecEvalOption
     encoder.refer_to_age(age);
     Payload payload{};
     for (const Pose& pose : take.poses) {
-      if (age == 0) encoder.key_frame_wanted();
+      if (age == 0) encoder.request_intra();
       const double begin = now_ns();
       const std::size_t size = encoder.encode(pose, payload);
       const double between = now_ns();

@@ -82,7 +82,7 @@ void fit_means(PoseModel& model, const std::vector<TakeLattice>& takes,
          into.b.noalias() += weight * y * x;
          into.weight += weight;
        });
-  auto& laws = model.laws[case_index(which.slow != 0, which.age, which.run)];
+  auto& coordinates = model.coordinates[case_index(which.slow != 0, which.age, which.run)];
   for (std::size_t c = 0; c < kCoordinateCount; ++c) {
     Sums all;
     for (const Sums& s : sums[c]) all.add(s);
@@ -91,7 +91,7 @@ void fit_means(PoseModel& model, const std::vector<TakeLattice>& takes,
     for (std::size_t speed = 0; speed < kSpeeds; ++speed) {
       const Vector own = solve(sums[c][speed], scale, w, 0.01 * all.weight + 1.0);
       for (int i = 0; i < kF; ++i)
-        laws[c].mean[speed][static_cast<std::size_t>(i)] = static_cast<float>(own[i]);
+        coordinates[c].mean[speed][static_cast<std::size_t>(i)] = static_cast<float>(own[i]);
     }
   }
 }
@@ -104,8 +104,9 @@ void fit_spreads(PoseModel& model, const std::vector<TakeLattice>& takes,
          for (const float x : predictor.features().spread) rows[c].push_back(x);
          rows[c].push_back(static_cast<float>(n - predictor.mean()));
        });
-  auto& laws = model.laws[case_index(which.slow != 0, which.age, which.run)];
-  in_two_threads(kCoordinateCount, [&](std::size_t c) { fit_spread(laws[c].spread, rows[c]); });
+  auto& coordinates = model.coordinates[case_index(which.slow != 0, which.age, which.run)];
+  in_two_threads(kCoordinateCount,
+                 [&](std::size_t c) { fit_spread(coordinates[c].spread, rows[c]); });
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 bool is_whereabouts(std::size_t c) { return c == 0 || c == 2 || c == 5; }
 constexpr double kFloorSpread_m = 0.8;
 constexpr double kHeadingSpread_rad = 1.2;
-// Mean size of what a logistic law of spread 1 gives.
+// Mean absolute value of a logistic distribution of spread 1.
 constexpr double kMeanOfLogistic = 1.386;
 // Other dancers than those trained on are a little further off.
 constexpr double kMargin_log2 = 0.2;
@@ -91,16 +91,17 @@ RestModel find_rest(const std::vector<CodecTake>& takes) {
   return rest;
 }
 
-std::array<IntraLaw, kCoordinateCount> find_intra(const std::vector<TakeLattice>& takes) {
+std::array<IntraModel, kCoordinateCount> find_intra(const std::vector<TakeLattice>& takes) {
   Rows rows = coordinates_of(takes);
   const Eigen::RowVectorXd mean = rows.colwise().mean();
   rows.rowwise() -= mean;
   const Eigen::MatrixXd cov = rows.transpose() * rows / static_cast<double>(rows.rows());
-  std::array<IntraLaw, kCoordinateCount> laws;
+  std::array<IntraModel, kCoordinateCount> coordinates;
   for (std::size_t c = 0; c < kCoordinateCount; ++c) {
-    IntraLaw& law = laws[c];
+    IntraModel& coordinate = coordinates[c];
     if (is_whereabouts(c)) {
-      law.spread_log2 = static_cast<float>(std::log2(c == 5 ? kHeadingSpread_rad : kFloorSpread_m));
+      coordinate.spread_log2 =
+          static_cast<float>(std::log2(c == 5 ? kHeadingSpread_rad : kFloorSpread_m));
       continue;
     }
     const auto column = static_cast<Eigen::Index>(c);
@@ -126,16 +127,16 @@ std::array<IntraLaw, kCoordinateCount> find_intra(const std::vector<TakeLattice>
     Eigen::VectorXd residual = rows.col(column);
     for (std::size_t i = 0; i < from.size(); ++i) {
       const double w = weights[static_cast<Eigen::Index>(i)];
-      law.from[i] = static_cast<std::uint8_t>(from[i]);
-      law.weight[i] = static_cast<float>(w);
+      coordinate.from[i] = static_cast<std::uint8_t>(from[i]);
+      coordinate.weight[i] = static_cast<float>(w);
       base -= w * mean[from[i]];
       residual -= w * rows.col(from[i]);
     }
-    law.base = static_cast<float>(base);
+    coordinate.base = static_cast<float>(base);
     const double size = residual.cwiseAbs().mean() / kMeanOfLogistic;
-    law.spread_log2 = static_cast<float>(std::log2(std::max(size, 1e-5)) + kMargin_log2);
+    coordinate.spread_log2 = static_cast<float>(std::log2(std::max(size, 1e-5)) + kMargin_log2);
   }
-  return laws;
+  return coordinates;
 }
 
 }  // namespace dance

@@ -9,16 +9,16 @@ namespace {
 constexpr std::size_t kRow = kSpreadFeatures + 1;
 constexpr std::size_t kMostRows = 6000;  // in each step of the descent
 constexpr int kSteps = 100;
-// The codec's own bell: a logistic law, 15 % of it three times as wide.
-constexpr std::array<std::pair<double, double>, 2> kBell{{{0.85, 1.0}, {0.15, 3.0}}};
+// The codec's own distribution: logistic, 15 % of it three times as wide.
+constexpr std::array<std::pair<double, double>, 2> kMixture{{{0.85, 1.0}, {0.15, 3.0}}};
 
 double logistic(double z) { return z > 30.0 ? 1.0 : z < -30.0 ? 0.0 : 1.0 / (1.0 + std::exp(-z)); }
 
-// d(−ln P)/d(log2 s) of a residual within ±½ of r, under the bell of spread s.
+// d(−ln P)/d(log2 s) of a residual within ±½ of r, under the distribution of spread s.
 double slope_of(double r, double log2_s) {
   const double s = std::exp2(std::clamp(log2_s, -4.0, 12.0));
   double p = 1e-5, dp = 0.0;
-  for (const auto& [share, wide] : kBell) {
+  for (const auto& [share, wide] : kMixture) {
     const double high = (r + 0.5) / (wide * s), low = (r - 0.5) / (wide * s);
     const double F_high = logistic(high), F_low = logistic(low);
     p += share * (F_high - F_low);
@@ -32,7 +32,7 @@ using Numbers = std::array<double, kSpreadFeatures>;
 }  // namespace
 
 // Adam on standardised features.
-void fit_spread(std::array<float, kSpreadFeatures>& law, const std::vector<float>& rows) {
+void fit_spread(std::array<float, kSpreadFeatures>& weights, const std::vector<float>& rows) {
   const std::size_t count = rows.size() / kRow;
   if (count < 100) return;
   Numbers mean{}, sd{}, u{}, first{}, second{};
@@ -45,9 +45,9 @@ void fit_spread(std::array<float, kSpreadFeatures>& law, const std::vector<float
   for (std::size_t k = 1; k < kSpreadFeatures; ++k)
     sd[k] = std::sqrt(std::max(sd[k] - mean[k] * mean[k], 0.0));
   const auto is_used = [&](std::size_t k) { return k > 0 && sd[k] > 0.02; };
-  u[0] = static_cast<double>(law[0]);
+  u[0] = static_cast<double>(weights[0]);
   for (std::size_t k = 1; k < kSpreadFeatures; ++k) {
-    const double w = static_cast<double>(law[k]);
+    const double w = static_cast<double>(weights[k]);
     u[k] = is_used(k) ? w * sd[k] : 0.0;
     u[0] += w * mean[k];
   }
@@ -79,10 +79,10 @@ void fit_spread(std::array<float, kSpreadFeatures>& law, const std::vector<float
   double base = u[0];
   for (std::size_t k = 1; k < kSpreadFeatures; ++k) {
     const double w = is_used(k) ? u[k] / sd[k] : 0.0;
-    law[k] = static_cast<float>(w);
+    weights[k] = static_cast<float>(w);
     base -= w * mean[k];
   }
-  law[0] = static_cast<float>(base);
+  weights[0] = static_cast<float>(base);
 }
 
 }  // namespace dance

@@ -49,7 +49,7 @@ LossResult send_over_line(const std::vector<CodecTake>& takes, const CodecEvalOp
           encoder.acknowledged(answers.front().sequence);
         } else if (now >= may_ask_from) {
           // One request a round trip.
-          encoder.key_frame_wanted();
+          encoder.request_intra();
           may_ask_from = now + options.round_trip;
           keys += 1.0;
         }

@@ -50,11 +50,11 @@ class WatchedEncoder final : public PoseEncoder {
     acked_ = std::max(acked_, sequence);
     encoder_.acknowledged(sequence);
   }
-  void key_frame_wanted() override { encoder_.key_frame_wanted(); }
-  void still_wanted() override { encoder_.still_wanted(); }
-  void base_wanted() override { encoder_.base_wanted(); }
+  void request_intra() override { encoder_.request_intra(); }
+  void request_refresh() override { encoder_.request_refresh(); }
+  void request_base() override { encoder_.request_base(); }
   void base_acknowledged(std::uint32_t sequence) override { encoder_.base_acknowledged(sequence); }
-  bool needs_no_other() const override { return encoder_.needs_no_other(); }
+  bool is_intra() const override { return encoder_.is_intra(); }
   void restart() override { encoder_.restart(); }
   void set_references(References references) override { encoder_.set_references(references); }
   void set_quality(double error_m) override { encoder_.set_quality(error_m); }

@@ -79,7 +79,7 @@ Result<std::unique_ptr<PoseModel>> train_codec(const CodecTraining& training) {
   auto model = std::make_unique<PoseModel>(*generic_model());
   model->rest = find_rest(training.fast);
   model->intra = find_intra(lattices_of(training.fast, model->rest));
-  model->intra_bell = logistic_bell(0.15);
+  model->intra_table = logistic_table(0.15);
   train_pace(*model, training, false);
   if (!training.slow.empty()) train_pace(*model, training, true);
   return model;

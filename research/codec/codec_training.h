@@ -1,5 +1,5 @@
 // Training of the pose codec's model from recorded dances: where bones rest, how each coordinate
-// goes on from earlier frames (least squares), how sure that is (maximum likelihood), and how the
+// goes on from earlier frames (least squares), how sure that is (maximum probability), and how the
 // coordinates of one frame hang together. Each round encodes the takes with what the round before
 // found, so that the model is learnt from frames as decoders have them.
 //
@@ -37,11 +37,11 @@ struct TakeLattice {
   std::unique_ptr<BodyLattice> lattice;
 };
 RestModel find_rest(const std::vector<CodecTake>& takes);
-std::array<IntraLaw, kCoordinateCount> find_intra(const std::vector<TakeLattice>& takes);
+std::array<IntraModel, kCoordinateCount> find_intra(const std::vector<TakeLattice>& takes);
 void fit_case(PoseModel& model, const std::vector<TakeLattice>& takes,
               const std::vector<DecodedTake>& decoded, const ReferenceCase& which);
-// log2-linear law of the spread of one coordinate's residuals: rows of kSpreadFeatures features and
-// the residual in steps; `law` is where it starts and where the result goes.
-void fit_spread(std::array<float, kSpreadFeatures>& law, const std::vector<float>& rows);
+// Log-linear model of the spread of one coordinate's residuals: rows of kSpreadFeatures features
+// and the residual in steps; `weights` holds the start and receives the result.
+void fit_spread(std::array<float, kSpreadFeatures>& weights, const std::vector<float>& rows);
 
 }  // namespace dance

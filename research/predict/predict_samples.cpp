@@ -5,8 +5,8 @@
 #include "research/predict/predict_training.h"
 #include "transformers/predict/dance_memory.h"
 #include "transformers/predict/moment_guesses.h"
+#include "transformers/predict/motion_bounds.h"
 #include "transformers/predict/steady_rows.h"
-#include "transformers/predict/way_bounds.h"
 
 namespace dance {
 namespace {

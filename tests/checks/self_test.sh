@@ -75,8 +75,21 @@ fault core/base/bad.h '// A thing.\n// Threads: one.\n#pragma once\n'
 expect files.sh 'no line "// Failure:"'
 rm "$tree/core/base/bad.h"
 
-fault docs/tour.md 'See [this](gone.md), [that](../docs/tour.md#x) and [the web](https://example.org).\n'
+fault docs/tour.md '# X\nSee [this](gone.md), [that](../docs/tour.md#x) and [the web](https://example.org).\n'
 expect docs_links.sh 'docs/tour.md: links to gone.md, which does not exist'
+fault docs/tour.md '# A tour\n## `One`, two: *3*\n## One two 3\n[a](#one-two-3), [b](../docs/tour.md#one-two-3-1)\n'
+expect_fine docs_links.sh
+fault docs/tour.md '# A tour\n```sh\n# code\n```\n[a](#code)\n'
+expect docs_links.sh 'docs/tour.md: links to #code, but docs/tour.md has no such heading'
+fault docs/tour.md '# A tour\n[a](../docs/tour.md#one)\n'
+expect docs_links.sh 'docs/tour.md: links to ../docs/tour.md#one, but docs/tour.md has no such heading'
+fault docs/tour.md '# A tour\n'
+fault core/base/refers.cpp '// See docs/tour.md#a-tour and core/base/thing.h.\nint x;  // docs/tour.md#gone, core/base/gone.h\n'
+expect docs_links.sh 'core/base/refers.cpp: names docs/tour.md#gone, but there is no such heading'
+expect docs_links.sh 'core/base/refers.cpp: names core/base/gone.h, which does not exist'
+fault core/base/refers.cpp '// See docs/tour.md#a-tour and core/base/thing.h.\n'
+expect_fine docs_links.sh
+rm "$tree/core/base/refers.cpp"
 fault docs/tour.md 'Look into `core/base/gone.h`, `core/base/<name>.h` and `core/base/thing.h/.cpp`.\n'
 expect docs_links.sh 'docs/tour.md: names core/base/gone.h, which does not exist'
 fault docs/tour.md '```sh\n./dance nothing\n```\n'

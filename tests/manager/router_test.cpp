@@ -240,9 +240,9 @@ struct LearnedGuests {
 TEST(Router, KeepsWhatWasLearnedOfWhoComesRightBack) {
   LearnedGuests house;
   house.hear("bob", 0.0);
-  for (double s = 1.0; s < 299.0; s += 1.0) house.router.let_go_of_the_gone(at_ms(1e3 * s));
+  for (double s = 1.0; s < 299.0; s += 1.0) house.router.evict_gone(at_ms(1e3 * s));
   house.hear("bob", 299e3);
-  for (double s = 299.0; s < 598.0; s += 1.0) house.router.let_go_of_the_gone(at_ms(1e3 * s));
+  for (double s = 299.0; s < 598.0; s += 1.0) house.router.evict_gone(at_ms(1e3 * s));
   house.hear("bob", 598e3);
   EXPECT_EQ(house.learners.size(), 1u) << "one flow all the time";
   EXPECT_EQ(house.kept(), 1);
@@ -253,9 +253,9 @@ TEST(Router, FreesTheFlowOfWhoHasGoneForLong) {
   house.hear("bob", 0.0);
   house.hear("carol", 0.0);
   house.hear("carol", 200e3);
-  house.router.let_go_of_the_gone(at_ms(299e3));
+  house.router.evict_gone(at_ms(299e3));
   EXPECT_EQ(house.kept(), 2);
-  house.router.let_go_of_the_gone(at_ms(301e3));
+  house.router.evict_gone(at_ms(301e3));
   EXPECT_EQ(house.kept(), 1);
   EXPECT_TRUE(house.learners[0].expired());
   house.router.tick(0, at_ms(302e3));
@@ -281,7 +281,7 @@ TEST(Router, OfManyWhoHaveGoneKeepsTheLast) {
   const auto g29_dances_on = [&](double from_s, double to_s) {
     for (double s = from_s; s < to_s; s += 1.0) {
       house.hear("g29", 1e3 * s);
-      house.router.let_go_of_the_gone(at_ms(1e3 * s));
+      house.router.evict_gone(at_ms(1e3 * s));
     }
   };
   g29_dances_on(30.0, 68.5);
@@ -296,10 +296,10 @@ TEST(Router, OfManyWhoHaveGoneKeepsTheLast) {
 TEST(Router, ALineThatIsAwayForMinutesCostsNobodyWhatWasLearned) {
   LearnedGuests house;
   for (int i = 0; i < 30; ++i) house.hear("g" + std::to_string(i), 10.0 * i);
-  for (double s = 1.0; s < 280.0; s += 1.0) house.router.let_go_of_the_gone(at_ms(1e3 * s));
+  for (double s = 1.0; s < 280.0; s += 1.0) house.router.evict_gone(at_ms(1e3 * s));
   for (int i = 0; i < 30; ++i) {
     house.hear("g" + std::to_string(i), 280e3 + 10.0 * i);
-    house.router.let_go_of_the_gone(at_ms(280e3 + 10.0 * i));
+    house.router.evict_gone(at_ms(280e3 + 10.0 * i));
   }
   EXPECT_EQ(house.learners.size(), 30u) << "no flow was made anew";
 }
@@ -310,7 +310,7 @@ TEST(Router, WhatAFlowHasRefusedIsCountedWhenItHasGone) {
   for (int i = 0; i < 3; ++i)
     router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(100)), at_ms(101));
   EXPECT_EQ(router.stats().dropped_late, 2);
-  router.let_go_of_the_gone(at_ms(400e3));
+  router.evict_gone(at_ms(400e3));
   EXPECT_EQ(router.stats().dropped_late, 2);
   router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(100)), at_ms(400e3));
   router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(100)), at_ms(400e3));

@@ -86,10 +86,10 @@ class ReferringEncoder final : public PoseEncoder {
       newest_base_acked_ = sequence;
     has_base_acked_ = true;
   }
-  void still_wanted() override { wants_key_ = true; }
-  void base_wanted() override { is_base_ = true; }
-  bool needs_no_other() const override { return is_still_; }
-  void key_frame_wanted() override {
+  void request_refresh() override { wants_key_ = true; }
+  void request_base() override { is_base_ = true; }
+  bool is_intra() const override { return is_still_; }
+  void request_intra() override {
     ++log_.key_frames_wanted;
     wants_key_ = true;
     has_acked_ = has_base_acked_ = false;

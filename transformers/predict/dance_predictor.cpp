@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/assert.h"
+#include "transformers/predict/motion_bounds.h"
 #include "transformers/predict/row_kernels.h"
-#include "transformers/predict/way_bounds.h"
 
 namespace dance {
 namespace {

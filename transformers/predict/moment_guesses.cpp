@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "transformers/predict/motion_bounds.h"
 #include "transformers/predict/row_kernels.h"
-#include "transformers/predict/way_bounds.h"
 
 namespace dance {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "core/net/mono_clock.h"
+#include "core/program/message_throttle.h"
 #include "core/program/program.h"
-#include "core/program/seldom.h"
 #include "core/program/talk.h"
 #include "tunnel/link/link_bus.h"
 #include "tunnel/link/link_report.h"
@@ -72,7 +72,7 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
 
 void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOptions& options,
               const wire::RoomName& room) {
-  const auto troubles = std::make_shared<Seldom>();
+  const auto troubles = std::make_shared<MessageThrottle>();
   handlers.on_state = [&options, troubles](LinkState state, MonoTime) {
     if (state == LinkState::kConnected) {
       troubles->forget();

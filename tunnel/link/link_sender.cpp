@@ -76,7 +76,7 @@ void LinkSender::send(LocalGuest& guest, const Pose& pose, MonoTime now) {
   record.stream = guest.poses.stream();
   record.sequence = pose.sequence;
   record.capture_us = times.capture_us;
-  record.is_intra = guest.encoder->needs_no_other();
+  record.is_intra = guest.encoder->is_intra();
   record.is_base = is_base;
   if (guest.unstamped == 0) {
     record.published_age_us = times.published_age_us;

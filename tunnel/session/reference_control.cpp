@@ -51,7 +51,7 @@ void ReferenceControl::refresh(PoseEncoder& encoder, Duration intra_period, Mono
   if (!refreshed_at_.is_set() || is_safe) {
     refreshed_at_ = now;
   } else if (now - refreshed_at_ >= intra_period) {
-    encoder.key_frame_wanted();
+    encoder.request_intra();
     refreshed_at_ = now;
   }
 }
@@ -69,9 +69,9 @@ bool ReferenceControl::prepare(PoseEncoder& encoder, MonoTime capture, Duration 
   // For receivers who get only some frames, and for those who come later: the server keeps the
   // newest intra frame. Counted, as sequences may leave some out.
   const bool is_base = base_log2_ != 0 && sent_ % (1u << base_log2_) == 0;
-  if (is_base) encoder.base_wanted();
+  if (is_base) encoder.request_base();
   const bool is_old = intra_at_.is_set() && now - intra_at_ > kIntraStands;
-  if (is_old || since_intra_ + 1 >= 1u << intra_log2_) encoder.still_wanted();
+  if (is_old || since_intra_ + 1 >= 1u << intra_log2_) encoder.request_refresh();
   return is_base;
 }
 
@@ -91,7 +91,7 @@ bool ReferenceControl::take(const wire::GuestFeedback& about, const PathStats& p
   const bool is_asked = about.key_frames != requests_seen_;
   if (is_asked) {
     requests_seen_ = about.key_frames;
-    encoder.key_frame_wanted();
+    encoder.request_intra();
     refreshed_at_ = now;
     ++intra_asked_;
   }

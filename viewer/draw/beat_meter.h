@@ -1,6 +1,6 @@
-// BeatMeter: how well one dancer on this stage is in time with the music of this house: how far
-// behind the beat, how much that wanders, how long after it was danced a moment is shown, and where
-// the dancer's own beats fell.
+// BeatMeter: how well one dancer on this stage is in time with the music of this house: mean offset
+// behind the beat, its spread, the delay from capture to display, and where the dancer's own beats
+// fell.
 //
 // Units/frames: positions in beats of this house's music; ms, positive is behind the beat.
 // Ownership:    plain value, no heap.

@@ -1,4 +1,4 @@
-// What stands under one half of a comparison: a ruler of the beats that this house hears, running
+// The panel under one half of a comparison: a ruler of the beats that this house hears, running
 // with the music, under it a row for each dancer with a dot where each of the dancer's own beats
 // was shown, a ring where it was predicted, and how far off that is.
 //

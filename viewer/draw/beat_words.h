@@ -1,7 +1,7 @@
 // The words for a dancer's timing, the same under a stage and beside a plot.
 //
 // Units/frames: ms; positive is behind the beat, or before now.
-// Ownership:    returns texts of its own.
+// Ownership:    returns new texts.
 // Threads:      any.
 // Failure:      none.
 #pragma once

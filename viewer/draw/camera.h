@@ -1,5 +1,5 @@
 // The camera that looks at the stage, as pure maths: an orbit round a point, where that point must
-// be so that everybody is in the picture, and where a point of W falls on the screen.
+// be so that all dancers are in the picture, and where a point of W falls on the screen.
 //
 // Units/frames: W; yaw 0 looks along -Z (at the face of a dancer in T-pose), yaw grows to the
 //               dancer's left; pitch is positive from above. Pixels count from the top left.

@@ -34,7 +34,7 @@ class CapsuleMesh {
  public:
   CapsuleMesh(int segments, int rings_per_end);
 
-  // Hands the parts to the card; draw() draws them all in one call.
+  // Uploads the parts; draw() draws them all in one call.
   void upload(const void* parts, std::size_t count);
   void draw() const;
 

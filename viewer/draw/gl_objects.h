@@ -3,7 +3,7 @@
 //
 // Ownership: each object owns its OpenGL name; movable, not copyable. The context must outlive it.
 // Threads:   the one whose context is current.
-// Failure:   link_program() returns the driver's first line of complaint; check_gl() is armed in
+// Failure:   link_program() returns the first line of the driver's log; check_gl() is armed in
 //            debug builds and aborts on an OpenGL error, as those are our bugs.
 #pragma once
 

@@ -107,7 +107,7 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
 void Overlay::begin_frame(int width_px, int height_px) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
-  io.DeltaTime = 1.0f / 60.0f;  // nothing of ours moves with ImGui's time
+  io.DeltaTime = 1.0f / 60.0f;  // ImGui's time is not used
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }

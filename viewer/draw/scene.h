@@ -20,7 +20,7 @@
 
 namespace dance {
 
-// What the HUD says about one guest; what is not known is not shown.
+// The HUD's figures of one guest; unknown ones are not shown.
 struct GuestFigures {
   float arrival_hz = 0.0f;
   std::optional<float> age_ms;
@@ -51,7 +51,7 @@ struct SceneGuest {
 struct SceneState {
   std::vector<SceneGuest> guests;
   std::optional<SceneMusic> music;
-  // Free lines at the bottom left: the viewer's own rate, a hint when nobody is here.
+  // Free lines at the bottom left: the viewer's own rate, a hint when no dancer is here.
   std::vector<std::string> notes;
 };
 

@@ -4,7 +4,7 @@
 // Units/frames: W; pixels.
 // Ownership:    owns renderer and overlay; the OpenGL context must outlive it.
 // Threads:      the one whose context is current.
-// Failure:      create() and draw() tell what the driver refuses.
+// Failure:      create() and draw() name what the driver refuses.
 #pragma once
 
 #include <memory>
@@ -45,7 +45,7 @@ class StagePainter {
   GlTexture wide_texture_;  // both halves
   GlFramebuffer wide_;
   int wide_width_px_ = 0, wide_height_px_ = 0;
-  bool is_wide_ = false;  // what draw() has made last
+  bool is_wide_ = false;  // of the last draw()
   std::unique_ptr<StageRenderer> renderer_;
   std::unique_ptr<Overlay> overlay_;
 };

@@ -5,7 +5,7 @@
 namespace dance {
 namespace {
 constexpr Duration kWindow = Duration::s(1);
-// A gap of more is no loss: the sender began anew, or the guest was away.
+// A larger gap is not a loss: the sender restarted, or the guest was away.
 constexpr std::int32_t kLargestGap = 600;
 }  // namespace
 

@@ -1,10 +1,10 @@
-// ArrivalMeter: what one display sees of one guest's poses: how many a second, how old, how many
-// are missing from the sequence. For where the house's manager has not said it.
+// ArrivalMeter: statistics of one guest's poses at a display: rate, age, gaps in the sequence. Used
+// where the house's manager does not publish them.
 //
 // Units/frames: MonoTime of this process; ages only of poses that were stamped by this clock.
 // Ownership:    plain value, no allocation.
 // Threads:      none inside; one owner.
-// Failure:      none: a sequence that jumps far or backwards is a sender that began anew.
+// Failure:      none: a sequence that jumps far or backwards is a restarted sender.
 #pragma once
 
 #include <cstdint>

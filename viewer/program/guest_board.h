@@ -1,12 +1,11 @@
 // GuestBoard: where the bus thread leaves each guest's newest state and the drawing thread finds
-// it. It decides whose poses count: a guest who is captured in this house is shown straight from
-// the capture, everybody else from the stage.
+// it. A guest captured in this house is shown straight from the capture, all others from the stage.
 //
 // Units/frames: MonoTime of this process; poses in W.
 // Ownership:    holds kMaxGuests slots; never allocates after construction.
 // Threads:      on_*() on the bus thread; take() on the drawing thread.
-// Failure:      a guest for whom there is no slot is counted (no_room()), and gets the slot of one
-//               who has been silent for long.
+// Failure:      a guest without a slot evicts one that has been silent for long; without such it is
+//               counted (no_room()).
 #pragma once
 
 #include <array>
@@ -23,7 +22,7 @@
 
 namespace dance {
 
-// What a slot says about its guest.
+// The content of a slot.
 struct GuestNews {
   GuestId id;
   Pose pose;
@@ -38,7 +37,7 @@ class GuestBoard {
  public:
   static constexpr std::size_t kMaxGuests = 64;
 
-  // With `stage_only` nobody is shown from the capture while the stage has them.
+  // With `stage_only` no guest is shown from the capture while on the stage.
   GuestBoard(std::uint64_t clock_id, bool stage_only);
 
   void on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now);

@@ -1,9 +1,8 @@
 // LogFeed: a recorded house instead of a live one: fills a GuestBoard from an LCM log up to any
-// moment, as a bus would have by then, at any pace and over and over.
+// moment, at any pace, repeatedly.
 //
-// Units/frames: times of the recorded house's clock, which goes on when the log begins again; the
-//               wall clock's stamps of the log are laid onto it by the poses that reached the log
-//               soonest.
+// Units/frames: times of the recorded house's clock, which goes on when the log repeats; the log's
+//               wall clock is mapped onto it by the poses with the least delay to the log.
 // Ownership:    owns the log and the board.
 // Threads:      none inside; one owner.
 // Failure:      open() names a log that cannot be read, or without poses.
@@ -25,11 +24,11 @@ class LogFeed {
   GuestBoard& board() { return *board_; }
   MonoTime begin() const { return begin_; }
   MonoTime end() const { return end_ + shift_; }
-  // When the house's music stood there; nothing where it never did.
+  // When the house's music was at that beat; nullopt where it never was.
   std::optional<MonoTime> time_of_beat(double beat) const;
-  // Takes in what had been said by then; moments only go on.
+  // Reads the log up to that moment; moments only advance.
   void go_on_to(MonoTime now);
-  // The log once more, behind its end.
+  // Repeats the log after its end.
   void begin_again();
 
  private:

@@ -1,5 +1,5 @@
-// PictureSource: what pictures are drawn of: a live house, whose moments have to be waited for, or
-// a recorded one, which is at any moment at once, and in a window begins again at its end.
+// PictureSource: the source of scenes to draw: a live house, in real time, or a recorded one, which
+// in a window repeats at its end.
 //
 // Units/frames: moments in the house's clock.
 // Ownership:    owns its feed.
@@ -25,11 +25,11 @@ class PictureSource {
 
   virtual GuestBoard& board() = 0;
   virtual MonoTime begin() const = 0;
-  // Returns when it is that moment, or the program is to end, with the time that it is.
+  // Waits until that moment or a request to end; returns the present time.
   virtual MonoTime wait_until(MonoTime moment) = 0;
   // Of a beat of the house's music; nullopt where it is not known yet.
   virtual std::optional<MonoTime> time_of_beat(double) const { return std::nullopt; }
-  // What the last picture showed first, and when it was on the screen.
+  // Reports the poses that the last picture showed first, and when it was on the screen.
   virtual void report_shown(std::span<const StageRoster::Fresh>, MonoTime) {}
   // Length of a recording; 0 of a live house.
   virtual Duration recorded() const { return Duration(); }

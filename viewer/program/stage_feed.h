@@ -6,7 +6,7 @@
 // Ownership:    owns bus, poll loop and thread; the destructor ends the thread.
 // Threads:      create() before any other thread starts (signals); board().take(), report_shown()
 //               and is_over() on the drawing thread; the rest happens on the bus thread.
-// Failure:      create() names a bus that cannot be had.
+// Failure:      create() names the bus and the reason.
 #pragma once
 
 #include <atomic>

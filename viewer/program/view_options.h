@@ -3,7 +3,7 @@
 // Units/frames: moments in seconds from the start.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      plan_moments() and parse_size() refuse what makes no sense, in one line.
+// Failure:      plan_moments() and parse_size() refuse invalid values, in one line.
 #pragma once
 
 #include <optional>
@@ -41,7 +41,7 @@ struct ViewOptions {
   PictureSize size;
   bool hud = true;
   bool tags = true;
-  bool compare = false;  // two halves, where there are twins (viewer/draw/comparison.h)
+  bool compare = false;  // two halves, where there are raw twins (viewer/draw/comparison.h)
 
   bool headless = false;
   std::string out = ".";

@@ -4,7 +4,7 @@
 // Units/frames: drags as shares of the window's height.
 // Ownership:    owns the window; one per process. Borrows the rig.
 // Threads:      the main thread, as window systems want it.
-// Failure:      create() tells where no display can be had, and what to do instead.
+// Failure:      create() reports a missing display, and the alternative.
 #pragma once
 
 #include <memory>

@@ -153,7 +153,7 @@ TEST(LatticeCodec, AnAcknowledgementFromBeforeAKeyFrameCountsNoMore) {
   ends.encoder.set_references(References::kAcknowledged);
   Random random(14);
   for (std::uint32_t i = 0; i < 5; ++i) ends.expect_crosses(dance_frame(i, random));
-  ends.encoder.key_frame_wanted();
+  ends.encoder.request_intra();
   for (std::uint32_t i = 0; i < 5; ++i) ends.encoder.acknowledged(i);
   // To one who has nothing at all.
   LatticeDecoder late(built_in_model());
@@ -186,7 +186,7 @@ TEST(LatticeCodec, WhoMissesAFrameAsksAndAKeyFrameHeals) {
   const Pose next = dance_frame(11, random);
   ends.encode(next);
   EXPECT_EQ(ends.decode(next), DecodeResult::kReferenceMissing);
-  ends.encoder.key_frame_wanted();
+  ends.encoder.request_intra();
   for (std::uint32_t i = 12; i < 20; ++i) ends.expect_crosses(dance_frame(i, random));
 }
 
@@ -197,7 +197,7 @@ TEST(LatticeCodec, ANewcomerDecodesFromAKeyFrameOnWhatAllOthersDo) {
   Random random(19);
   for (std::uint32_t i = 0; i < 300; ++i) {
     const Pose pose = dance_frame(i, random);
-    if (i == 100) ends.encoder.key_frame_wanted();
+    if (i == 100) ends.encoder.request_intra();
     ends.expect_crosses(pose);
     Pose got;
     const DecodeResult result = late.decode(i, {ends.payload.data(), ends.size}, got);
@@ -305,7 +305,7 @@ TEST(PoseModel, IsReadAsItWasWrittenAndRefusedWhenDamaged) {
   EXPECT_NE(read_model(other).error().what.find("version"), std::string::npos);
   other = file;
   // The first coordinate of a key frame has none before it to look at.
-  const std::size_t intra_begin = 6 + kBoneCount * 14 + 2 * 4 * (kBellSteps + 1);
+  const std::size_t intra_begin = 6 + kBoneCount * 14 + 2 * 4 * (kTableSteps + 1);
   other[intra_begin] = 200;
   EXPECT_FALSE(read_model(other));
   other = file;

@@ -27,7 +27,7 @@ int write_packets(const char* path) {
   Random random(1);
   std::array<std::uint8_t, kMaxPosePayload> payload{};
   for (std::uint32_t i = 0; i < 600; ++i) {
-    if (i % 150 == 0) encoder.key_frame_wanted();
+    if (i % 150 == 0) encoder.request_intra();
     encoder.set_references(i < 200   ? References::kPrevious
                            : i < 400 ? References::kPreviousTwice
                                      : References::kAcknowledged);

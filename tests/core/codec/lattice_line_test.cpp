@@ -40,7 +40,7 @@ void run_lossy_line(References policy, std::uint32_t frames, double least_decode
   for (std::uint32_t i = 0; i < frames; ++i) {
     for (; !acks.empty() && acks.front().first <= i; acks.pop_front())
       ends.encoder.acknowledged(acks.front().second);
-    if (ask_at == i && i > 0) ends.encoder.key_frame_wanted();
+    if (ask_at == i && i > 0) ends.encoder.request_intra();
     const Pose pose = dance_frame(i, random);
     ASSERT_GT(ends.encode(pose), 0u);
     Flight flight{

@@ -11,16 +11,16 @@
 namespace dance {
 namespace {
 
-struct Law {
+struct Distribution {
   int bits = 1;
   std::vector<std::uint32_t> cum;  // one more than symbols
 };
 
-// Some laws are flat, some give nearly everything to one symbol.
-Law random_law(Random& random) {
-  Law law;
-  law.bits = 1 + static_cast<int>(random.below(kMaxLawBits));
-  const std::uint32_t total = 1u << law.bits;
+// Some distributions are flat, some give nearly everything to one symbol.
+Distribution random_distribution(Random& random) {
+  Distribution distribution;
+  distribution.bits = 1 + static_cast<int>(random.below(kMaxFrequencyBits));
+  const std::uint32_t total = 1u << distribution.bits;
   const std::uint32_t symbols = 1 + static_cast<std::uint32_t>(random.below(std::min(total, 40u)));
   std::vector<std::uint32_t> freq(symbols, 1);
   std::uint32_t left = total - symbols;
@@ -30,24 +30,25 @@ Law random_law(Random& random) {
     left -= part;
   }
   freq[random.below(symbols)] += left;
-  law.cum.push_back(0);
-  for (const std::uint32_t f : freq) law.cum.push_back(law.cum.back() + f);
-  return law;
+  distribution.cum.push_back(0);
+  for (const std::uint32_t f : freq) distribution.cum.push_back(distribution.cum.back() + f);
+  return distribution;
 }
 
 struct Item {
-  std::size_t law = 0;  // index; raw bits where it is none
+  std::size_t distribution = 0;  // index; raw bits where it is none
   std::uint32_t value = 0;
   int raw_bits = -1;
 };
 
-std::uint32_t symbol_at(const Law& law, std::uint32_t target) {
+std::uint32_t symbol_at(const Distribution& distribution, std::uint32_t target) {
   std::uint32_t s = 0;
-  while (law.cum[s + 1] <= target) ++s;
+  while (distribution.cum[s + 1] <= target) ++s;
   return s;
 }
 
-std::vector<Item> random_items(Random& random, const std::vector<Law>& laws, std::size_t count) {
+std::vector<Item> random_items(Random& random, const std::vector<Distribution>& distributions,
+                               std::size_t count) {
   std::vector<Item> items(count);
   for (Item& item : items) {
     if (random.uniform() < 0.1) {
@@ -55,17 +56,19 @@ std::vector<Item> random_items(Random& random, const std::vector<Law>& laws, std
       item.value = static_cast<std::uint32_t>(random.below(std::uint64_t{1} << item.raw_bits));
       continue;
     }
-    item.law = random.below(laws.size());
-    const Law& law = laws[item.law];
-    // As the law says, and now and then what it thinks unlikely.
+    item.distribution = random.below(distributions.size());
+    const Distribution& distribution = distributions[item.distribution];
+    // As the distribution says, and now and then what it thinks unlikely.
     item.value = random.uniform() < 0.8
-                     ? symbol_at(law, static_cast<std::uint32_t>(random.below(1u << law.bits)))
-                     : static_cast<std::uint32_t>(random.below(law.cum.size() - 1));
+                     ? symbol_at(distribution,
+                                 static_cast<std::uint32_t>(random.below(1u << distribution.bits)))
+                     : static_cast<std::uint32_t>(random.below(distribution.cum.size() - 1));
   }
   return items;
 }
 
-double put(RangeEncoder& encoder, const std::vector<Law>& laws, const std::vector<Item>& items) {
+double put(RangeEncoder& encoder, const std::vector<Distribution>& distributions,
+           const std::vector<Item>& items) {
   double ideal_bits = 0.0;
   for (const Item& item : items) {
     if (item.raw_bits >= 0) {
@@ -73,10 +76,10 @@ double put(RangeEncoder& encoder, const std::vector<Law>& laws, const std::vecto
       ideal_bits += item.raw_bits;
       continue;
     }
-    const Law& law = laws[item.law];
-    const std::uint32_t freq = law.cum[item.value + 1] - law.cum[item.value];
-    encoder.encode(law.cum[item.value], freq, law.bits);
-    ideal_bits += law.bits - std::log2(freq);
+    const Distribution& distribution = distributions[item.distribution];
+    const std::uint32_t freq = distribution.cum[item.value + 1] - distribution.cum[item.value];
+    encoder.encode(distribution.cum[item.value], freq, distribution.bits);
+    ideal_bits += distribution.bits - std::log2(freq);
   }
   return ideal_bits;
 }
@@ -86,11 +89,11 @@ TEST(RangeCoder, RoundTripsWithinOneByteOfTheEntropy) {
   std::array<std::uint8_t, 4096> bytes;
   double worst_bytes = 0.0;
   for (int round = 0; round < 4000; ++round) {
-    std::vector<Law> laws;
-    for (int i = 0; i < 5; ++i) laws.push_back(random_law(random));
-    const auto items = random_items(random, laws, random.below(200));
+    std::vector<Distribution> distributions;
+    for (int i = 0; i < 5; ++i) distributions.push_back(random_distribution(random));
+    const auto items = random_items(random, distributions, random.below(200));
     RangeEncoder encoder(bytes);
-    const double ideal_bytes = put(encoder, laws, items) / 8.0;
+    const double ideal_bytes = put(encoder, distributions, items) / 8.0;
     const std::size_t size = encoder.finish();
     ASSERT_TRUE(encoder.ok());
     worst_bytes = std::max(worst_bytes, static_cast<double>(size) - ideal_bytes);
@@ -100,9 +103,9 @@ TEST(RangeCoder, RoundTripsWithinOneByteOfTheEntropy) {
         ASSERT_EQ(decoder.decode_bits(item.raw_bits), item.value);
         continue;
       }
-      const Law& law = laws[item.law];
-      const std::uint32_t s = symbol_at(law, decoder.decode_target(law.bits));
-      decoder.consume(law.cum[s], law.cum[s + 1] - law.cum[s]);
+      const Distribution& distribution = distributions[item.distribution];
+      const std::uint32_t s = symbol_at(distribution, decoder.decode_target(distribution.bits));
+      decoder.consume(distribution.cum[s], distribution.cum[s + 1] - distribution.cum[s]);
       ASSERT_EQ(s, item.value);
     }
     ASSERT_TRUE(decoder.is_exhausted());
@@ -142,13 +145,13 @@ TEST(RangeCoder, WhatIsCertainCostsNothing) {
 
 TEST(RangeCoder, NeverWritesPastTheEnd) {
   Random random(2);
-  std::vector<Law> laws;
-  for (int i = 0; i < 5; ++i) laws.push_back(random_law(random));
+  std::vector<Distribution> distributions;
+  for (int i = 0; i < 5; ++i) distributions.push_back(random_distribution(random));
   for (std::size_t room = 0; room < 60; ++room) {
     std::array<std::uint8_t, 64> bytes;
     bytes.fill(0xa5);
     RangeEncoder encoder({bytes.data(), room});
-    put(encoder, laws, random_items(random, laws, 2000));
+    put(encoder, distributions, random_items(random, distributions, 2000));
     EXPECT_EQ(encoder.finish(), 0u);
     EXPECT_FALSE(encoder.ok());
     for (std::size_t i = room; i < bytes.size(); ++i) EXPECT_EQ(bytes[i], 0xa5);
@@ -173,13 +176,13 @@ TEST(RangeCoder, AnyBytesDecodeToSomething) {
   for (int round = 0; round < 2000; ++round) {
     std::vector<std::uint8_t> bytes(random.below(30));
     for (auto& b : bytes) b = static_cast<std::uint8_t>(random.below(4) * 85);
-    const Law law = random_law(random);
+    const Distribution distribution = random_distribution(random);
     RangeDecoder decoder(bytes);
     for (int i = 0; i < 100; ++i) {
-      const std::uint32_t target = decoder.decode_target(law.bits);
-      ASSERT_LT(target, 1u << law.bits);
-      const std::uint32_t s = symbol_at(law, target);
-      decoder.consume(law.cum[s], law.cum[s + 1] - law.cum[s]);
+      const std::uint32_t target = decoder.decode_target(distribution.bits);
+      ASSERT_LT(target, 1u << distribution.bits);
+      const std::uint32_t s = symbol_at(distribution, target);
+      decoder.consume(distribution.cum[s], distribution.cum[s + 1] - distribution.cum[s]);
       decoder.decode_bits(32);
     }
   }

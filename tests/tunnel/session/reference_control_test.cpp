@@ -17,9 +17,9 @@ class RecordingEncoder final : public PoseEncoder {
   std::size_t encode(const Pose&, std::span<std::uint8_t>) override { return 1; }
   void acknowledged(std::uint32_t sequence) override { acked.push_back(sequence); }
   void base_acknowledged(std::uint32_t sequence) override { base_acked.push_back(sequence); }
-  void key_frame_wanted() override { ++key_frames; }
-  void still_wanted() override { ++stills; }
-  void base_wanted() override { ++bases; }
+  void request_intra() override { ++key_frames; }
+  void request_refresh() override { ++stills; }
+  void request_base() override { ++bases; }
   void restart() override { ++restarts; }
   void set_references(References to) override { references = to; }
 

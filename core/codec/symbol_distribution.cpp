@@ -1,4 +1,4 @@
-#include "core/codec/symbol_law.h"
+#include "core/codec/symbol_distribution.h"
 
 #include <cmath>
 
@@ -16,13 +16,13 @@ void encode_distance(std::uint32_t distance, RangeEncoder& out) {
 std::uint32_t decode_distance(RangeDecoder& in) {
   int bits = 0;
   while (in.decode_bits(1) != 0)
-    if (++bits > 31) return UINT32_MAX;  // nobody is that far
+    if (++bits > 31) return UINT32_MAX;  // beyond any valid number
   return static_cast<std::uint32_t>((std::uint64_t{1} << bits) + in.decode_bits(bits) - 1);
 }
 
 }  // namespace
 
-void SymbolLaw::encode_rest(const Symbol& symbol, RangeEncoder& out) const {
+void SymbolDistribution::encode_rest(const Symbol& symbol, RangeEncoder& out) const {
   const std::int64_t value = static_cast<std::int64_t>(symbol.n) >> shift_;
   if (symbol.slot == 0)
     encode_distance(static_cast<std::uint32_t>(first_ - 1 - value), out);
@@ -31,7 +31,7 @@ void SymbolLaw::encode_rest(const Symbol& symbol, RangeEncoder& out) const {
   if (shift_ > 0) out.encode_bits(static_cast<std::uint32_t>(symbol.n), shift_);
 }
 
-std::int32_t SymbolLaw::decode_rest(int slot, RangeDecoder& in) const {
+std::int32_t SymbolDistribution::decode_rest(int slot, RangeDecoder& in) const {
   std::int64_t symbol = first_ + slot - 1;
   if (slot == 0)
     symbol = first_ - 1 - static_cast<std::int64_t>(decode_distance(in));
@@ -42,7 +42,7 @@ std::int32_t SymbolLaw::decode_rest(int slot, RangeDecoder& in) const {
   return to_32(n);
 }
 
-double SymbolLaw::bits_outside(const Symbol& symbol) const {
+double SymbolDistribution::bits_outside(const Symbol& symbol) const {
   const std::int64_t value = static_cast<std::int64_t>(symbol.n) >> shift_;
   const std::int64_t distance =
       symbol.slot == 0 ? first_ - 1 - value : value - first_ - 2 * kWindow - 1;

@@ -1,4 +1,4 @@
-#include "transformers/predict/way_bounds.h"
+#include "transformers/predict/motion_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ float size_of(const BodyRow& row, std::size_t group) {
                    row(group, 2) * row(group, 2));
 }
 
-TEST(WayBounds, LeaveADanceAsItIs) {
+TEST(MotionBounds, LeaveADanceAsItIs) {
   BodyRow way;
   way.v.fill(0.25f);
   const BodyRow was = way;
@@ -28,7 +28,7 @@ TEST(WayBounds, LeaveADanceAsItIs) {
   EXPECT_EQ(slope.v, went.v);
 }
 
-TEST(WayBounds, ShortenWhatNoBodyDoesAndKeepItsDirection) {
+TEST(MotionBounds, ShortenImplausibleMotionAndKeepItsDirection) {
   constexpr std::size_t kLeg = index_of(Bone::kLeftUpperLeg), kHand = index_of(Bone::kRightHand);
   BodyRow way;
   way(kLeg, 0) = 3.0f;
@@ -45,7 +45,7 @@ TEST(WayBounds, ShortenWhatNoBodyDoesAndKeepItsDirection) {
   EXPECT_NEAR(size_of(way, kLeg), 3.0f, 1e-4f) << "at most, however late";
 }
 
-TEST(WayBounds, ASpinGoesOnOverFullTurns) {
+TEST(MotionBounds, ASpinGoesOnOverFullTurns) {
   for (std::size_t h = 0; h < kHorizons; ++h) {
     BodyRow way;
     way(kHeadingGroup, 0) = 15.0f * static_cast<float>(kHorizonFrames[h] / kGridHz);
@@ -55,7 +55,7 @@ TEST(WayBounds, ASpinGoesOnOverFullTurns) {
   }
 }
 
-TEST(WayBounds, ASlopeIsNoFasterThanBodiesGoOn) {
+TEST(MotionBounds, ASlopeIsNoFasterThanBodiesGoOn) {
   BodyRow slope;
   slope.v.fill(5.0f);
   keep_slope_possible(slope);
@@ -68,7 +68,7 @@ TEST(WayBounds, ASlopeIsNoFasterThanBodiesGoOn) {
   EXPECT_EQ(spin.v, was.v) << "two turns and a half a second are danced";
 }
 
-TEST(WayBounds, NumbersThatAreNoneAreNoWay) {
+TEST(MotionBounds, InvalidNumbersAreNoMotion) {
   for (const float none :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     BodyRow way;

@@ -1,10 +1,10 @@
-// Codes one whole number whose mean and spread were predicted: a bell of trained shape around the
-// mean, by integers alone. Numbers far from the mean cost bits, never a clamp.
+// Codes one whole number with predicted mean and spread under a trained distribution, in integer
+// arithmetic. Numbers far from the mean cost more bits; none is clamped.
 //
 // Units/frames: the mean is in 1/256 of a step; a spread class c stands for 2^((c − 16) / 4) steps.
-// Ownership:    looks at the shape, which must outlive it.
+// Ownership:    refers to the table, which must outlive it.
 // Threads:      none inside.
-// Failure:      decode() of damaged bytes gives some number; it ends.
+// Failure:      decode() of damaged bytes gives some number, and terminates.
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,26 @@
 namespace dance {
 
 constexpr int kSpreadClasses = 64;
-// Where a law's bell stands; classes outside are the nearest inside.
+// Mean and spread class of a distribution; classes out of range are clamped.
 struct Spread {
   std::int64_t mean_256 = 0;
   int spread_class = 16;
 };
 
-// A bell's cumulative law for z ≥ 0 in sixteenths of the spread: (F(z) − ½) · kBellTop · 256.
-constexpr int kBellSteps = 256;
-constexpr std::uint32_t kBellTop = (1u << 16) - 64;
-using BellShape = std::array<std::uint32_t, kBellSteps + 1>;
+// The cumulative distribution for z ≥ 0 in sixteenths of the spread: (F(z) − ½) · kTableTop · 256.
+constexpr int kTableSteps = 256;
+constexpr std::uint32_t kTableTop = (1u << 16) - 64;
+using DistributionTable = std::array<std::uint32_t, kTableSteps + 1>;
 
-class SymbolLaw {
+class SymbolDistribution {
  public:
-  SymbolLaw() = default;
-  [[gnu::always_inline]] SymbolLaw(const BellShape& shape, Spread spread) : shape_(&shape) {
+  SymbolDistribution() = default;
+  [[gnu::always_inline]] SymbolDistribution(const DistributionTable& shape, Spread spread)
+      : shape_(&shape) {
     const int c = std::clamp(spread.spread_class, 0, kSpreadClasses - 1);
     const std::int64_t inverse = kInverses[static_cast<std::size_t>(c)];
     first_ = ((spread.mean_256 + 128) >> 8) - kWindow;
-    // A branch, as where symbols stand must not wait for the spread.
+    // A branch, so that the symbol's position does not depend on the spread.
     if (c >= kFirstShifted) [[unlikely]] {
       shift_ = (c >> 2) - 5;
       first_ = ((first_ + kWindow) >> shift_) - kWindow;
@@ -45,7 +46,7 @@ class SymbolLaw {
     width_ = inverse << (shift_ + 8);
   }
 
-  // A number's place in the law.
+  // A number's place in the distribution.
   struct Symbol {
     std::int32_t n = 0;
     int slot = 0;
@@ -68,23 +69,23 @@ class SymbolLaw {
     const std::uint32_t low = symbol.low + symbol.freq;
     return {symbol.n + 1, slot, low, below(slot + 1) - low};
   }
-  // Which way the numbers are cheaper: −1, 1, or 0 in the middle.
+  // Direction in which numbers are cheaper: −1, 1, or 0 in the middle.
   int cheaper_way(const Symbol& symbol) const {
     return symbol.slot < kMiddleSlot ? 1 : symbol.slot > kMiddleSlot ? -1 : 0;
   }
-  // What encode() would write.
+  // Bits that encode() would write.
   [[gnu::always_inline]] double bits(const Symbol& symbol) const {
-    const double bits = kLawBits - nearly_log2(symbol.freq) + shift_;
+    const double bits = kFrequencyBits - nearly_log2(symbol.freq) + shift_;
     return symbol.slot != 0 && symbol.slot != kSlots - 1 ? bits : bits + bits_outside(symbol);
   }
   void encode(const Symbol& symbol, RangeEncoder& out) const {
-    out.encode(symbol.low, symbol.freq, kLawBits);
+    out.encode(symbol.low, symbol.freq, kFrequencyBits);
     if (shift_ > 0 || symbol.slot == 0 || symbol.slot == kSlots - 1) encode_rest(symbol, out);
   }
   void encode(std::int32_t n, RangeEncoder& out) const { encode(find(n), out); }
 
   [[gnu::always_inline]] std::int32_t decode(RangeDecoder& in) const {
-    const std::uint32_t target = in.decode_target(kLawBits);
+    const std::uint32_t target = in.decode_target(kFrequencyBits);
     int slot = kMiddleSlot;
     std::uint32_t low = left_of_mean(slot), high;
     if (target < low) {
@@ -94,7 +95,8 @@ class SymbolLaw {
         low = slot > 0 ? left_of_mean(slot) : 0;
       } while (target < low);
     } else {
-      while (target >= (high = slot + 1 < kSlots ? right_of_mean(slot + 1) : 1u << kLawBits)) {
+      while (target >=
+             (high = slot + 1 < kSlots ? right_of_mean(slot + 1) : 1u << kFrequencyBits)) {
         low = high;
         ++slot;
       }
@@ -105,7 +107,7 @@ class SymbolLaw {
   }
 
  private:
-  static constexpr int kLawBits = 16;
+  static constexpr int kFrequencyBits = 16;
   static constexpr int kWindow = 15;               // symbols either side of the mean
   static constexpr int kMiddleSlot = kWindow + 1;  // the mean lies in it
   static constexpr int kSlots = 2 * kWindow + 3;
@@ -122,29 +124,30 @@ class SymbolLaw {
     return inverses;
   }();
 
-  // What stands below the lower edge of a slot; slots 0 and kSlots − 1 are what is outside.
+  // Cumulative frequency below a slot; slots 0 and kSlots − 1 are escapes.
   [[gnu::always_inline]] std::uint32_t below(int slot) const {
     if (slot <= 0) return 0;
-    if (slot >= kSlots) return 1u << kLawBits;
+    if (slot >= kSlots) return 1u << kFrequencyBits;
     return inside(slot);
   }
-  // Without a branch: on which side of the mean an encoder's number lies, nobody could foretell.
+  // Branch-free, as the side of the mean is unpredictable.
   [[gnu::always_inline]] std::uint32_t inside(int slot) const {
     const std::int64_t z = z_of(slot);
     const auto sign = static_cast<std::uint32_t>(z >> 63);
-    return static_cast<std::uint32_t>(kBellTop / 2 + slot) + ((half(z < 0 ? -z : z) ^ sign) - sign);
+    return static_cast<std::uint32_t>(kTableTop / 2 + slot) +
+           ((half(z < 0 ? -z : z) ^ sign) - sign);
   }
   std::uint32_t left_of_mean(int slot) const {
-    return static_cast<std::uint32_t>(kBellTop / 2 + slot) - half(-z_of(slot));
+    return static_cast<std::uint32_t>(kTableTop / 2 + slot) - half(-z_of(slot));
   }
   std::uint32_t right_of_mean(int slot) const {
-    return static_cast<std::uint32_t>(kBellTop / 2 + slot) + half(z_of(slot));
+    return static_cast<std::uint32_t>(kTableTop / 2 + slot) + half(z_of(slot));
   }
   // The lower edge of a slot, in 1/4096 of the spread from the mean.
   std::int64_t z_of(int slot) const { return (edge_ + (slot - kMiddleSlot) * width_) >> 16; }
-  // What lies between the mean and z ≥ 0.
+  // Probability between the mean and z ≥ 0.
   std::uint32_t half(std::int64_t z) const {
-    const std::int64_t far = std::min<std::int64_t>(z, (kBellSteps << 8) - 1);
+    const std::int64_t far = std::min<std::int64_t>(z, (kTableSteps << 8) - 1);
     const std::uint32_t* at = shape_->data() + (far >> 8);
     const auto a = static_cast<std::int32_t>(at[0]), b = static_cast<std::int32_t>(at[1]);
     return static_cast<std::uint32_t>(
@@ -161,16 +164,16 @@ class SymbolLaw {
   static std::int32_t to_32(std::int64_t n) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(n, INT32_MIN / 2, INT32_MAX / 2));
   }
-  // Beyond the slots, and of wide bells: what is rare.
+  // Escapes, and wide distributions: rare.
   double bits_outside(const Symbol& symbol) const;
   void encode_rest(const Symbol& symbol, RangeEncoder& out) const;
   std::int32_t decode_rest(int slot, RangeDecoder& in) const;
 
-  const BellShape* shape_ = nullptr;
+  const DistributionTable* shape_ = nullptr;
   std::int64_t edge_ = 0;   // the lower edge of the middle slot from the mean, 2^-28 of the spread
   std::int64_t width_ = 0;  // of a slot
   std::int64_t first_ = 0;  // symbol of slot 1
-  int shift_ = 0;           // wide bells are coded coarsely, and the rest in plain bits
+  int shift_ = 0;           // wide distributions are coded coarsely, the rest in raw bits
 };
 
 }  // namespace dance

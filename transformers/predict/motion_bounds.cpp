@@ -1,4 +1,4 @@
-#include "transformers/predict/way_bounds.h"
+#include "transformers/predict/motion_bounds.h"
 
 #include <algorithm>
 #include <cmath>

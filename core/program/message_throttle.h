@@ -1,10 +1,9 @@
-// Seldom: which line of what happens again and again is worth saying: a new one at once, the same
-// one each minute.
+// MessageThrottle: limits repeated messages: a new line is due at once, the same one once a minute.
 //
 // Units/frames: times of the monotonic clock.
-// Ownership:    keeps copies of the last few lines.
+// Ownership:    keeps copies of the last kMost lines.
 // Threads:      none inside; one owner.
-// Failure:      none; of more lines than it keeps, who came first is forgotten, and is new again.
+// Failure:      none; the oldest line is evicted when there are more, and is new again.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@
 
 namespace dance {
 
-class Seldom {
+class MessageThrottle {
  public:
   bool is_due(const std::string& line, MonoTime now) {
     for (Said& said : said_) {
@@ -32,7 +31,7 @@ class Seldom {
   void warn(const std::string& line, MonoTime now) {
     if (is_due(line, now)) talk::warn("{}", line);
   }
-  // All is well again: what comes next is new.
+  // The trouble is over: the next line is new.
   void forget() { said_.clear(); }
 
  private:

@@ -1,0 +1,21 @@
+// Bounds of human motion on displacements and slopes: larger ones are outliers of the sensor, which
+// would outweigh seconds of dance in least squares.
+//
+// Units/frames: rows and displacements as transformers/predict/body_row.h; slopes per row, 60 a
+//               second.
+// Ownership:    changes its argument.
+// Threads:      any.
+// Failure:      keep_possible() is false, and the displacement 0, where numbers are not finite.
+#pragma once
+
+#include <cstddef>
+
+#include "transformers/predict/body_row.h"
+
+namespace dance {
+
+// A displacement from now to kHorizonFrames[horizon].
+bool keep_possible(std::size_t horizon, BodyRow& way);
+void keep_slope_possible(BodyRow& slope);
+
+}  // namespace dance
