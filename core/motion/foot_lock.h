@@ -1,4 +1,4 @@
-// FootLock: feet that stand stay where they stand. What is guessed or corrected moves the whole
+// FootLock: feet that stand stay where they stand. What is predicted or corrected moves the whole
 // body, and feet that should carry it skate; here the ball of a standing foot is held in its place
 // and the leg is solved anew up to the hip. When the foot lifts, what was held dies away as a
 // spring does.
@@ -36,7 +36,7 @@ class FootLock {
     float lock_below_m = 0.05f;  // of the ball over the floor
     float release_above_m = 0.08f;
     float furthest_m = 0.12f;  // a foot that ought to be so far away is let go
-    // A foot that was seen to stand a moment ago does so until it is guessed to be so far away.
+    // A foot that was seen to stand a moment ago does so until it is predicted to be so far away.
     float lifts_beyond_m = 0.07f;
     Duration release_half_life = Duration::ms(60);
   };
@@ -46,7 +46,7 @@ class FootLock {
   void set_body(const Skeleton& skeleton);
   void set_settings(const Settings& settings) { settings_ = settings; }
 
-  // What was really danced, as it becomes known: which feet stand, and where. Guesses alone are
+  // What was really danced, as it becomes known: which feet stand, and where. Predictions alone are
   // told less well.
   void observe(const Pose& real, MonoTime now);
 

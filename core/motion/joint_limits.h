@@ -1,7 +1,7 @@
-// Limits of joints: what is guessed stays a body. Each joint's turn is taken apart into twist about
-// its bone and swing, and what goes beyond a range saturates softly: knees and elbows do not bend
-// backwards, heads do not turn round. The ranges are wide: in the mocap that they were measured on,
-// only frames where the capture itself is broken reach them.
+// Limits of joints: what is predicted stays a body. Each joint's turn is taken apart into twist
+// about its bone and swing, and what goes beyond a range saturates softly: knees and elbows do not
+// bend backwards, heads do not turn round. The ranges are wide: in the mocap that they were
+// measured on, only frames where the capture itself is broken reach them.
 //
 // Units/frames: rotation vectors in each bone's parent as core/pose/pose.h has them.
 // Ownership:    constants only.

@@ -1,5 +1,5 @@
-// TurnLimit: no joint turns faster than bodies do, in what is guessed: a prediction that follows a
-// broken sensor, or a joint that is bent beyond where its angles are told apart, must not throw a
+// TurnLimit: no joint turns faster than bodies do, in what is predicted: a prediction that follows
+// a broken sensor, or a joint that is bent beyond where its angles are told apart, must not throw a
 // limb within a frame. What is cut off is caught up with in the next frames.
 //
 // Units/frames: turns of each bone in its parent; times of the stage's clock.
@@ -22,7 +22,7 @@ class TurnLimit {
 
   // Once a frame; the same moment again shows what is behind as before. What is danced is not
   // touched, unless a limb is still behind. Returns whether the pose was changed.
-  bool apply(MonoTime now, Pose& pose, bool is_guess);
+  bool apply(MonoTime now, Pose& pose, bool is_predicted);
   void clear() { is_behind_ = false, time_ = MonoTime(); }
 
  private:
