@@ -13,7 +13,7 @@ bool is_hand(std::size_t bone) {
 
 }  // namespace
 
-bool TurnLimit::apply(MonoTime now, Pose& pose, bool is_guess) {
+bool TurnLimit::apply(MonoTime now, Pose& pose, bool is_predicted) {
   const Duration step = now - time_;
   if (time_.is_set() && step == Duration()) {
     // The same moment again: a limb lags as before.
@@ -22,7 +22,7 @@ bool TurnLimit::apply(MonoTime now, Pose& pose, bool is_guess) {
   }
   const bool goes_on = time_.is_set() && step > Duration() && step <= kLongestFrame;
   time_ = now;
-  const bool limits = goes_on && (is_guess || is_behind_);
+  const bool limits = goes_on && (is_predicted || is_behind_);
   is_behind_ = false;
   if (limits) {
     const auto seconds = static_cast<float>(step.as_seconds());

@@ -22,7 +22,7 @@ class TurnLimit {
 
   // Once a frame; repeating a moment gives the same result. Poses that arrived are not changed,
   // unless a limb still lags. Returns whether the pose was changed.
-  bool apply(MonoTime now, Pose& pose, bool is_guess);
+  bool apply(MonoTime now, Pose& pose, bool is_predicted);
   void clear() { is_behind_ = false, time_ = MonoTime(); }
 
  private:

@@ -35,22 +35,22 @@ class ContinuationSubject : public StageSubject {
   }
   void observe(const Pose& pose, MonoTime now) override {
     Pose was;
-    const bool was_guessed = continuation_.is_running();
-    if (was_guessed) continuation_.at(now - history_.newest().capture_time, was);
+    const bool was_predicted = continuation_.is_running();
+    if (was_predicted) continuation_.at(now - history_.newest().capture_time, was);
     continuation_.end();
     if (!history_.push(pose)) return;
-    if (was_guessed) finish_.correct(now, was, pose);
+    if (was_predicted) finish_.correct(now, was, pose);
   }
   bool sample(MonoTime now, Pose& out) override {
     if (history_.empty()) return false;
     const Duration since = now - history_.newest().capture_time;
     out = history_.newest();
-    const bool is_guess = since > Duration::ms(1);
-    if (is_guess) {
+    const bool is_predicted = since > Duration::ms(1);
+    if (is_predicted) {
       if (!continuation_.is_running()) continuation_.begin(history_, skeleton_);
       continuation_.at(since, out);
     }
-    finish_.apply(now, out, is_guess);
+    finish_.apply(now, out, is_predicted);
     return true;
   }
 

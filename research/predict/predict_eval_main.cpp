@@ -61,7 +61,7 @@ Result<void> run_predict_eval(const PredictEvalWishes& wishes) {
 
 int main(int argc, char** argv) {
   dance::PredictEvalWishes wishes;
-  dance::CommandLine line("Prediction on recorded dances: errors beside plain guesses, cost.",
+  dance::CommandLine line("Prediction on recorded dances: errors beside plain predictions, cost.",
                           "dance predict eval");
   line.add("FILE", wishes.files, "BVH files, also packed with xz").required();
   line.add("--hz", wishes.hz, "poses a second that are heard").range(10.0, 240.0).shows_default();

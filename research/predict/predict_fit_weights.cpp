@@ -15,8 +15,8 @@ constexpr double kWeightRidge = 1e-3;
 constexpr std::size_t kMetEvery = 300;
 constexpr std::size_t kHasHistory = kNetHistory;
 
-using Gram = Eigen::Matrix<double, kGuesses, kGuesses>;
-using Cross = Eigen::Matrix<double, kGuesses, 1>;
+using Gram = Eigen::Matrix<double, kPredictions, kPredictions>;
+using Cross = Eigen::Matrix<double, kPredictions, 1>;
 
 struct WeightSums {
   Gram gram = Gram::Zero();
@@ -24,15 +24,15 @@ struct WeightSums {
 };
 using AllSums = std::array<std::array<WeightSums, kHorizons>, kWeightKinds>;
 
-void add_moment(const PredictModel& model, const MomentGuesses& guesses, std::size_t h,
+void add_moment(const PredictModel& model, const MomentPredictions& predictions, std::size_t h,
                 const BodyRow& way, double weight, AllSums& sums) {
   for (std::size_t g = 0; g < kRowGroups; ++g)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t i = BodyRow::at(g, axis);
       Cross features;
-      for (std::size_t e = 0; e < kGuesses; ++e)
+      for (std::size_t e = 0; e < kPredictions; ++e)
         features[static_cast<Eigen::Index>(e)] =
-            static_cast<double>(guesses.row(h, e)[i] * model.lever[g]);
+            static_cast<double>(predictions.row(h, e)[i] * model.lever[g]);
       if (features.squaredNorm() == 0.0) continue;
       WeightSums& sum = sums[kKindOfGroup[g]][h];
       sum.gram += weight * features * features.transpose();
@@ -64,7 +64,7 @@ KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_de
       predictor.observe(heard[i]);
       danced.push_back(
           space.row_of(weighed.take->poses[i], danced.empty() ? nullptr : &danced.back()));
-      // The moment of a second ago, as it was guessed then, against the dance as it went.
+      // The moment of a second ago, as it was predicted then, against the dance as it went.
       if ((is_just_met ? i % kMetEvery : i) < first || i % kWeighEvery != 0) continue;
       trembles += static_cast<double>(predictor.tremble_rad());
       ++moments;
@@ -76,8 +76,8 @@ KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_de
         to(kHeadingGroup, 0) +=
             6.28318531f * std::round((from.heading() - to.heading()) / 6.28318531f);
         BodyRow way = way_between(from, to);
-        keep_possible(h, way);
-        add_moment(*weighed.model, predictor.guesses(kLongest), h, way, weighed.weight, *sums);
+        bound_motion(h, way);
+        add_moment(*weighed.model, predictor.predictions(kLongest), h, way, weighed.weight, *sums);
       }
     }
   }
@@ -88,9 +88,9 @@ KindWeights fit_weights(const std::vector<WeighedTake>& takes, double tremble_de
       gram.diagonal() *= 1.0 + kWeightRidge;
       gram.diagonal().array() += 1e-9;
       const Cross solved = gram.llt().solve((*sums)[kind][h].cross);
-      for (std::size_t e = 0; e < kGuesses; ++e)
+      for (std::size_t e = 0; e < kPredictions; ++e)
         weights[kind][h][e] = static_cast<float>(solved[static_cast<Eigen::Index>(e)]);
-      if (!asks_net) weights[kind][h][static_cast<std::size_t>(Guess::kNet)] = 0.0f;
+      if (!asks_net) weights[kind][h][static_cast<std::size_t>(Prediction::kNet)] = 0.0f;
     }
   tremble_rad =
       static_cast<float>(trembles / static_cast<double>(std::max<std::size_t>(moments, 1)));

@@ -4,7 +4,7 @@
 #include "core/pose/kinematics.h"
 #include "research/predict/predict_training.h"
 #include "transformers/predict/dance_memory.h"
-#include "transformers/predict/moment_guesses.h"
+#include "transformers/predict/moment_predictions.h"
 #include "transformers/predict/motion_bounds.h"
 #include "transformers/predict/steady_rows.h"
 
@@ -91,7 +91,7 @@ void add_samples(const PredictModel& model, const PredictTake& take, double trem
     samples.inputs.insert(samples.inputs.end(), inputs.begin(), inputs.end());
     for (std::size_t h = 0; h < kHorizons; ++h) {
       BodyRow way = way_between(heard[t], danced[t + static_cast<std::size_t>(kHorizonFrames[h])]);
-      keep_possible(h, way);
+      bound_motion(h, way);
       for (std::size_t i = 0; i < kRowSize; ++i)
         samples.ways.push_back(way.v[i] * model.lever[i % kRowGroups]);
     }

@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
   line.add("--rounds", training.epochs, "how often the network sees each moment")
       .range(1, 100)
       .shows_default();
-  line.add("--parts", training.folds, "how many parts are kept back in turn to weigh the guesses")
+  line.add("--parts", training.folds,
+           "how many parts are kept back in turn to weigh the predictions")
       .range(2, 10)
       .shows_default();
   line.add("--seed", training.seed, "another number begins elsewhere").shows_default();

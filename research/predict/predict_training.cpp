@@ -104,7 +104,7 @@ Result<PredictModel> train_predict(const PredictTraining& training) {
     return fail("a model knows at most " + std::to_string(kMostKnownDancers) + " dancers");
   if (model.dancers.size() < 2 || training.takes.size() < 2 * folds)
     return fail("at least two dancers and " + std::to_string(2 * folds) +
-                " takes are needed: some are kept back to learn what guesses are worth");
+                " takes are needed: some are kept back to learn what predictions are worth");
   if (std::all_of(origins.begin(), origins.end(), [](const auto& o) { return o.fold == 0; }))
     return fail(
         "two takes of one dancer at least are needed: without one, the other is left to learn "

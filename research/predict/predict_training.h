@@ -1,6 +1,6 @@
 // Training of prediction's model from recorded dances: where bones usually are, the network
-// (stochastic gradient on the dances, mirrored ones and trembling ones), and what each guess is
-// worth (least squares on dances that the network asked was not trained on).
+// (stochastic gradient on the dances, mirrored ones and trembling ones), and what each prediction
+// is worth (least squares on dances that the network asked was not trained on).
 //
 // Units/frames: as transformers/predict/predict_model.h; takes are of 60 frames a second.
 // Ownership:    plain values.

@@ -117,7 +117,7 @@ TEST(RhythmEval, JudgesAnotherModelOfPrediction) {
   const auto with = [&](const FlowParts& parts) {
     return evaluate_rhythm(dances, music, {"predict", {"predict"}, parts}, options)->mean.mpjpe_mm;
   };
-  // One that trusts no guess at all repeats the newest pose.
+  // One that trusts no prediction at all repeats the newest pose.
   auto distrusts = std::make_shared<PredictModel>(*built_in_predict_model());
   distrusts->weights = {};
   EXPECT_LT(with({}), 0.8 * with({distrusts}));

@@ -15,7 +15,7 @@ TEST(RhythmTakes, ABeatOfDelayIsExactThroughLossAndAStall) {
   for (int i = 0; i < 400; ++i) beats.push_back({0.1 + i / 3.0, 1 + i % 4});
   const BeatGrid music = *BeatGrid::make(beats);
   std::vector<BeatDance> dances;
-  // A stall finds the second of them where little but a guess is left of the beat.
+  // A stall finds the second of them where little but a prediction is left of the beat.
   for (const char* name : {"cmu_60_03_salsa", "cmu_61_03_salsa", "cmu_60_12_salsa"}) {
     const std::string path =
         DANCE_SOURCE_DIR "/../shared/data/mocap/" + std::string(name) + ".bvh.xz";

@@ -123,7 +123,7 @@ TEST(DancePredictor, SaysTheSameTwice) {
   EXPECT_TRUE(is_equal(last[0], last[1]));
 }
 
-// Errors of ours and of the plain guesses at a horizon, over each 10 s.
+// Errors of ours and of the plain predictions at a horizon, over each 10 s.
 void expect_never_much_worse(const std::vector<Pose>& danced, const std::vector<Pose>& heard,
                              double most_ratio, const char* what) {
   DancePredictor predictor(built_in_predict_model());
@@ -164,19 +164,19 @@ void expect_never_much_worse(const std::vector<Pose>& danced, const std::vector<
   }
 }
 
-TEST(DancePredictor, IsNeverMuchWorseThanPlainGuessesWhileSomebodyStands) {
+TEST(DancePredictor, IsNeverMuchWorseThanPlainPredictionsWhileSomebodyStands) {
   const auto dance = standing(3000);
   expect_never_much_worse(dance, dance, 1.05, "standing");
   expect_never_much_worse(dance, shaken(dance, kHalfDegree_rad), 1.05, "standing, trembling");
 }
 
-TEST(DancePredictor, IsNeverMuchWorseThanPlainGuessesWhileSomebodyStopsAgainAndAgain) {
+TEST(DancePredictor, IsNeverMuchWorseThanPlainPredictionsWhileSomebodyStopsAgainAndAgain) {
   const auto dance = stopping(3600);
   expect_never_much_worse(dance, dance, 1.05, "stopping");
   expect_never_much_worse(dance, shaken(dance, kHalfDegree_rad), 1.05, "stopping, trembling");
 }
 
-TEST(DancePredictor, IsBetterThanPlainGuessesOnADance) {
+TEST(DancePredictor, IsBetterThanPlainPredictionsOnADance) {
   const auto dance = salsa(3000);
   expect_never_much_worse(dance, shaken(dance, kHalfDegree_rad), 0.95, "salsa, trembling");
 }

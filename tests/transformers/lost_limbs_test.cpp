@@ -84,7 +84,7 @@ TEST(LostLimbs, HoldsABoneNoLongerThanItTakesToBelieveIt) {
   EXPECT_EQ(predictor.held_bones(), 4u);
 }
 
-// Dancers spin: what was guessed of them is judged by how far they really turned.
+// Dancers spin: what was predicted of them is judged by how far they really turned.
 TEST(DancePredictor, FollowsWhoSpins) {
   auto dance = standing(900);
   for (std::size_t i = 0; i < dance.size(); ++i) {

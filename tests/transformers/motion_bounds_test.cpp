@@ -19,12 +19,12 @@ TEST(MotionBounds, LeaveADanceAsItIs) {
   BodyRow way;
   way.v.fill(0.25f);
   const BodyRow was = way;
-  EXPECT_TRUE(keep_possible(0, way));
+  EXPECT_TRUE(bound_motion(0, way));
   EXPECT_EQ(way.v, was.v);
   BodyRow slope;
   slope.v.fill(0.05f);
   const BodyRow went = slope;
-  keep_slope_possible(slope);
+  bound_slope(slope);
   EXPECT_EQ(slope.v, went.v);
 }
 
@@ -35,13 +35,13 @@ TEST(MotionBounds, ShortenImplausibleMotionAndKeepItsDirection) {
   way(kLeg, 2) = -4.0f;
   way(kHand, 1) = 0.1f;
   way(kPlaceGroup, 0) = 40.0f;
-  EXPECT_TRUE(keep_possible(0, way));
+  EXPECT_TRUE(bound_motion(0, way));
   EXPECT_NEAR(size_of(way, kLeg), 1.0f, 1e-4f) << "0.2 and 16 a second for 50 ms";
   EXPECT_NEAR(way(kLeg, 0) / way(kLeg, 2), -0.75f, 1e-5f);
   EXPECT_EQ(way(kHand, 1), 0.1f);
   EXPECT_NEAR(size_of(way, kPlaceGroup), 0.5f, 1e-4f);
   for (float& v : way.v) v *= 100.0f;
-  EXPECT_TRUE(keep_possible(kHorizons - 1, way));
+  EXPECT_TRUE(bound_motion(kHorizons - 1, way));
   EXPECT_NEAR(size_of(way, kLeg), 3.0f, 1e-4f) << "at most, however late";
 }
 
@@ -50,7 +50,7 @@ TEST(MotionBounds, ASpinGoesOnOverFullTurns) {
     BodyRow way;
     way(kHeadingGroup, 0) = 15.0f * static_cast<float>(kHorizonFrames[h] / kGridHz);
     const BodyRow was = way;
-    EXPECT_TRUE(keep_possible(h, way));
+    EXPECT_TRUE(bound_motion(h, way));
     EXPECT_EQ(way.v, was.v) << "two turns and a half a second, " << h;
   }
 }
@@ -58,13 +58,13 @@ TEST(MotionBounds, ASpinGoesOnOverFullTurns) {
 TEST(MotionBounds, ASlopeIsNoFasterThanBodiesGoOn) {
   BodyRow slope;
   slope.v.fill(5.0f);
-  keep_slope_possible(slope);
+  bound_slope(slope);
   EXPECT_NEAR(size_of(slope, index_of(Bone::kHead)) * static_cast<float>(kGridHz), 9.0f, 1e-3f);
   EXPECT_NEAR(size_of(slope, kPlaceGroup) * static_cast<float>(kGridHz), 8.0f, 1e-3f);
   BodyRow spin;
   spin(kHeadingGroup, 0) = 15.0f / static_cast<float>(kGridHz);
   const BodyRow was = spin;
-  keep_slope_possible(spin);
+  bound_slope(spin);
   EXPECT_EQ(spin.v, was.v) << "two turns and a half a second are danced";
 }
 
@@ -74,7 +74,7 @@ TEST(MotionBounds, InvalidNumbersAreNoMotion) {
     BodyRow way;
     way.v.fill(0.1f);
     way(3, 1) = none;
-    EXPECT_FALSE(keep_possible(2, way));
+    EXPECT_FALSE(bound_motion(2, way));
     for (const float v : way.v) EXPECT_EQ(v, 0.0f);
   }
 }

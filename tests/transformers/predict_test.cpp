@@ -177,7 +177,7 @@ TEST(Predict, AllocatesNothing) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-// 25 rad/s is faster than a guess may be, but it was danced.
+// 25 rad/s is faster than a prediction may be, but it was danced.
 TEST(Predict, WithoutALeadShowsAKickAsItWasDanced) {
   for (const bool is_behind_hold : {false, true}) {
     auto flow =

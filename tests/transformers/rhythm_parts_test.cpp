@@ -6,9 +6,9 @@
 #include "core/base/random.h"
 #include "tests/transformers/flows.h"
 #include "transformers/playout/play_head.h"
-#include "transformers/predict/guess_meter.h"
+#include "transformers/predict/prediction_meter.h"
 #include "transformers/rhythm/beat_offset.h"
-#include "transformers/rhythm/dance_line.h"
+#include "transformers/rhythm/dancer_music.h"
 
 namespace dance {
 namespace {
@@ -67,8 +67,8 @@ TEST(BeatClock, DoesNotBelieveWhatIsSaidInTheFuture) {
   EXPECT_TRUE(clock.is_known(second(1e6 + 1.0)));
 }
 
-TEST(DanceLine, FindsMomentsOfBeatsAndBeatsOfMoments) {
-  DanceLine line;
+TEST(DancerMusic, FindsMomentsOfBeatsAndBeatsOfMoments) {
+  DancerMusic line;
   EXPECT_FALSE(line.is_known(second(0)));
   for (int i = 0; i <= 300; ++i) line.add(second(i / 60.0), 7.0 + 2.5 * i / 60.0);
   ASSERT_TRUE(line.is_known(second(5.0)));
@@ -80,8 +80,8 @@ TEST(DanceLine, FindsMomentsOfBeatsAndBeatsOfMoments) {
   EXPECT_FALSE(line.is_known(second(16.0)));
 }
 
-TEST(DanceLine, FollowsATempoThatDrifts) {
-  DanceLine line;
+TEST(DancerMusic, FollowsATempoThatDrifts) {
+  DancerMusic line;
   double beats = 0.0;
   for (int i = 0; i < 1200; ++i) {
     const double s = i / 60.0;
@@ -93,8 +93,8 @@ TEST(DanceLine, FollowsATempoThatDrifts) {
   }
 }
 
-TEST(DanceLine, BeginsAnewWhereTheMusicJumps) {
-  DanceLine line;
+TEST(DancerMusic, BeginsAnewWhereTheMusicJumps) {
+  DancerMusic line;
   for (int i = 0; i < 120; ++i) EXPECT_FALSE(line.add(second(i / 60.0), 2.0 * i / 60.0));
   EXPECT_FALSE(line.add(second(1.0), 99.0)) << "not newer: passed over";
   EXPECT_TRUE(line.add(second(2.0), 99.0));
@@ -253,8 +253,8 @@ TEST(BeatOffset, KeepsTheBarWhereAskedTo) {
   EXPECT_GE(offset.value(), 0.4);
 }
 
-// One arm that swings: guesses that repeat the newest pose lag by their whole distance, those that
-// know are right.
+// One arm that swings: predictions that repeat the newest pose lag by their whole distance, those
+// that know are right.
 Pose swing(double s) {
   Pose pose;
   pose.capture_time = second(s);
@@ -265,9 +265,9 @@ Pose swing(double s) {
   return pose;
 }
 
-// What guesses of a dancer who knows `lag_share` of the way too little are worth.
-GuessMeter measured(double lag_share) {
-  GuessMeter meter;
+// What predictions of a dancer who knows `lag_share` of the way too little are worth.
+PredictionMeter measured(double lag_share) {
+  PredictionMeter meter;
   PoseHistory history(512);
   for (int i = 0; i < 1800; ++i) {
     const double s = i / 60.0;
@@ -275,14 +275,14 @@ GuessMeter measured(double lag_share) {
     meter.learn(history);
     if (i % 4 != 0) continue;
     const double ahead = meter.next_horizon().as_seconds();
-    meter.guess(swing(s + (1.0 - lag_share) * ahead), second(s + ahead));
+    meter.note(swing(s + (1.0 - lag_share) * ahead), second(s + ahead));
   }
   return meter;
 }
 
-TEST(GuessMeter, KnowsHowGoodGuessesAre) {
-  EXPECT_FALSE(GuessMeter().is_known());
-  const GuessMeter good = measured(0.0), bad = measured(1.0);
+TEST(PredictionMeter, KnowsHowGoodPredictionsAre) {
+  EXPECT_FALSE(PredictionMeter().is_known());
+  const PredictionMeter good = measured(0.0), bad = measured(1.0);
   ASSERT_TRUE(good.is_known());
   EXPECT_LT(good.error_m(Duration::ms(300)), 0.001);
   EXPECT_GE(good.reach(0.02), Duration::ms(400));
@@ -291,12 +291,12 @@ TEST(GuessMeter, KnowsHowGoodGuessesAre) {
   EXPECT_NEAR(reach.as_ms(), 150.0, 1.0);
 }
 
-TEST(GuessMeter, LeadsByWhatGuessesLag) {
+TEST(PredictionMeter, LeadsByWhatPredictionsLag) {
   EXPECT_NEAR(measured(0.0).lead(Duration::ms(200)).as_ms(), 200.0, 4.0);
-  // Of what it guesses a third is missing: 300 ms have to be asked for where 200 are to be seen.
+  // Of what it predicts a third is missing: 300 ms have to be asked for where 200 are to be seen.
   EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration::ms(200)).as_ms(), 300.0, 20.0);
   EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration()).as_ms(), 0.0, 1e-6);
-  EXPECT_EQ(GuessMeter().lead(Duration::ms(120)), Duration::ms(120)) << "unknown: as asked";
+  EXPECT_EQ(PredictionMeter().lead(Duration::ms(120)), Duration::ms(120)) << "unknown: as asked";
 }
 
 // 30 poses a second; pictures between the newest two, whose way is not known before the next one

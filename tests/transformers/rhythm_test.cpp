@@ -173,7 +173,7 @@ TEST(Rhythm, LetsGoWithoutAJumpWhenTheMusicStops) {
   EXPECT_LT(last_delay_s, 0.25);
 }
 
-TEST(Rhythm, GuessesNothingWhereABeatOfDelayIsWished) {
+TEST(Rhythm, PredictsNothingWhereABeatOfDelayIsWished) {
   for (const double speed : {0.98, 1.0, 1.02})
     for (const double sender_hz : {2.0, 3.3}) {
       TwoHouses houses;
@@ -183,13 +183,14 @@ TEST(Rhythm, GuessesNothingWhereABeatOfDelayIsWished) {
       RhythmOptions options;
       options.beats = 1.0;
       Rhythm rhythm(options);
-      int guesses = 0;
+      int predictions = 0;
       dance(rhythm, houses, 0.0, 30.0, [&](double s, const Pose& shown) {
         const double newest_s = s - houses.delay_s - houses.jitter_s - 1.0 / kStageHz;
-        guesses += s > 4.0 && shown.capture_time > stage_time(newest_s + 0.5 / kStageHz) ? 1 : 0;
+        predictions +=
+            s > 4.0 && shown.capture_time > stage_time(newest_s + 0.5 / kStageHz) ? 1 : 0;
       });
       // Until it is sure that the delay has to grow.
-      EXPECT_LE(guesses, 45) << speed << " " << sender_hz;
+      EXPECT_LE(predictions, 45) << speed << " " << sender_hz;
     }
 }
 

@@ -267,7 +267,7 @@ bool Continuation::at(Duration since_newest, Pose& out) const {
   bound(out);
   if (since > kCalmingFrom) calm(since, out);
   normalize(out);
-  // Of the newest pose in all but what is guessed.
+  // Of the newest pose in all but what is predicted.
   out.presence = newest_.presence;
   out.confidence = newest_.confidence;
   out.sequence = newest_.sequence;

@@ -82,7 +82,7 @@ void DancePredictor::set_prior() {
     const float known =
         acquaintance_ == Acquaintance::kOthers ? proof_.proved(h, newest_.presence) : 0.0f;
     for (std::size_t kind = 0; kind < kWeightKinds; ++kind)
-      for (std::size_t e = 0; e < kGuesses; ++e)
+      for (std::size_t e = 0; e < kPredictions; ++e)
         prior[kind][h][e] = between(weight(acquaintance_, kind, h, e),
                                     weight(Acquaintance::kDancer, kind, h, e), known);
   }
@@ -124,7 +124,7 @@ SteadyRows::Heard DancePredictor::observe(const Pose& pose) {
   return heard;
 }
 
-const MomentGuesses& DancePredictor::guesses(std::size_t age) const {
+const MomentPredictions& DancePredictor::predictions(std::size_t age) const {
   DANCE_ASSERT(age < kMoments, age);
   return moments_[(turn_ - age) % kMoments];
 }
@@ -137,14 +137,14 @@ void DancePredictor::take(const BodyRow& row) {
   ++turn_;
   ++since_;
   if (turn_ % kPriorRows == 0) set_prior();
-  MomentGuesses& now = moments_[turn_ % kMoments];
-  make_guesses(memory_, mean_, now);
+  MomentPredictions& now = moments_[turn_ % kMoments];
+  make_predictions(memory_, mean_, now);
   ask_models(now);
   learn_from_past();
   make_ways(now);
 }
 
-void DancePredictor::ask_models(MomentGuesses& now) {
+void DancePredictor::ask_models(MomentPredictions& now) {
   for (BodyRow& way : now.impersonal) way.v.fill(0.0f);
   for (BodyRow& way : now.personal) way.v.fill(0.0f);
   if (memory_.size() < kNetHistory) return;
@@ -162,7 +162,8 @@ void DancePredictor::ask_models(MomentGuesses& now) {
   model_->net.answer(inputs_, answers);
   model_->net.ways_of(answers, now.impersonal);
   for (std::size_t h = 0; h < kHorizons; ++h) {
-    BodyRow& way = now.by_horizon[h][static_cast<std::size_t>(Guess::kNet) - kCommonGuesses];
+    BodyRow& way =
+        now.by_horizon[h][static_cast<std::size_t>(Prediction::kNet) - kCommonPredictions];
     way = now.impersonal[h];
     proof_.add_personal(h, now, way);
   }
@@ -173,9 +174,9 @@ void DancePredictor::learn_from_past() {
   for (std::size_t h = turn_ % 2; h < kHorizons; h += 2) {
     const auto age = static_cast<std::size_t>(kHorizonFrames[h]);
     if (since_ < kNetHistory + age) continue;
-    const MomentGuesses& then = moments_[(turn_ - age) % kMoments];
+    const MomentPredictions& then = moments_[(turn_ - age) % kMoments];
     BodyRow way = way_between(memory_(age), memory_(0));
-    if (!keep_possible(h, way)) ++dropped_;
+    if (!bound_motion(h, way)) ++dropped_;
     blend_.learn(h, then, way);
     proof_.learn(h, then, way);
     guard_.learn(h, then, way);
@@ -183,7 +184,7 @@ void DancePredictor::learn_from_past() {
   if (turn_ % kSolveRows == 0) blend_.solve(turn_ / kSolveRows % kHorizons);
 }
 
-void DancePredictor::make_ways(MomentGuesses& now) {
+void DancePredictor::make_ways(MomentPredictions& now) {
   path_[0].v.fill(0.0f);
   for (std::size_t h = 0; h < kHorizons; ++h) {
     blend_.blend(h, now, now.blended[h]);
@@ -191,10 +192,10 @@ void DancePredictor::make_ways(MomentGuesses& now) {
       now.impersonal[h] = now.blended[h];
       proof_.add_personal(h, now, now.blended[h]);
     }
-    if (!keep_possible(h, now.blended[h])) ++dropped_;
+    if (!bound_motion(h, now.blended[h])) ++dropped_;
     BodyRow& way = path_[h + 1];
     guard_.finish(h, now, way);
-    if (!keep_possible(h, way)) ++dropped_;
+    if (!bound_motion(h, way)) ++dropped_;
     for (std::size_t b = 0; b < kBoneCount; ++b)
       if ((newest_.presence >> b & 1u) == 0) way(b, 0) = way(b, 1) = way(b, 2) = 0.0f;
   }
@@ -220,11 +221,11 @@ void DancePredictor::predict(MonoTime moment, Pose& out) const {
   BodyRow row = row_at(rows);
   if (seen_rows > 0.0) {
     // The newest pose lies between two rows: what it shows is not lost.
-    const BodyRow guessed = row_at(seen_rows);
+    const BodyRow predicted = row_at(seen_rows);
     const auto kept =
         static_cast<float>(std::exp(-std::max(0.0, rows - seen_rows) / kSeenKept_rows));
     for (std::size_t i = 0; i < kRowSize; ++i)
-      row.v[i] += kept * (rows_.seen().v[i] - guessed.v[i]);
+      row.v[i] += kept * (rows_.seen().v[i] - predicted.v[i]);
   }
   out = newest_;
   space_.pose_of(row, out);

@@ -1,5 +1,5 @@
 // DancePredictor: where one dancer's body will be. It hears poses as they come and tells the pose
-// of any moment after the newest, up to a second ahead: many guesses
+// of any moment after the newest, up to a second ahead: many predictions
 // (transformers/predict/predict_model.h), weighted by what this dancer has shown.
 //
 // Units/frames: capture times of one clock; poses in W.
@@ -15,11 +15,11 @@
 #include <memory>
 #include <vector>
 
-#include "transformers/predict/guess_blend.h"
-#include "transformers/predict/guess_guard.h"
-#include "transformers/predict/guess_proof.h"
-#include "transformers/predict/moment_guesses.h"
+#include "transformers/predict/moment_predictions.h"
 #include "transformers/predict/personal_model.h"
+#include "transformers/predict/prediction_blend.h"
+#include "transformers/predict/prediction_guard.h"
+#include "transformers/predict/prediction_proof.h"
 #include "transformers/predict/steady_rows.h"
 
 namespace dance {
@@ -52,8 +52,8 @@ class DancePredictor {
   // How often a bone turned as no body does, and was held where it was.
   std::uint64_t held_bones() const { return rows_.held(); }
 
-  // For training: the guesses of `age` rows ago, and the rows.
-  const MomentGuesses& guesses(std::size_t age = 0) const;
+  // For training: the predictions of `age` rows ago, and the rows.
+  const MomentPredictions& predictions(std::size_t age = 0) const;
   const DanceMemory& memory() const { return memory_; }
   float tremble_rad() const { return rows_.tremble_rad(); }
 
@@ -61,9 +61,9 @@ class DancePredictor {
   static constexpr std::size_t kMoments = 64;
 
   void take(const BodyRow& row);
-  void ask_models(MomentGuesses& now);
+  void ask_models(MomentPredictions& now);
   void learn_from_past();
-  void make_ways(MomentGuesses& now);
+  void make_ways(MomentPredictions& now);
   void set_prior();
   BodyRow row_at(double rows_ahead) const;
 
@@ -72,12 +72,12 @@ class DancePredictor {
   SteadyRows rows_;
   DanceMemory memory_;
   RowMean mean_;
-  GuessBlend blend_;
-  GuessProof proof_;
-  GuessGuard guard_;
+  PredictionBlend blend_;
+  PredictionProof proof_;
+  PredictionGuard guard_;
   std::shared_ptr<PersonalModel> personal_;
 
-  std::vector<MomentGuesses> moments_;
+  std::vector<MomentPredictions> moments_;
   std::size_t turn_ = 0;   // rows ever taken
   std::size_t since_ = 0;  // rows since the last restart
   Acquaintance acquaintance_ = Acquaintance::kOthers;

@@ -18,7 +18,7 @@ constexpr float kSuddenTurn_rad = 0.2f;
 constexpr float kSuddenWay_m = 0.1f;
 constexpr float kSwiftestSpin_rad_s = 20.0f;
 // Of a slope, which is gone on along: a hand is flung faster than 9 rad/s, but not for as long as
-// is guessed.
+// is predicted.
 constexpr float kSteadyTurn_rad_s = 9.0f;
 
 void bound_group(std::size_t g, float most, BodyRow& way) {
@@ -30,7 +30,7 @@ void bound_group(std::size_t g, float most, BodyRow& way) {
 
 }  // namespace
 
-bool keep_possible(std::size_t horizon, BodyRow& way) {
+bool bound_motion(std::size_t horizon, BodyRow& way) {
   float sum = 0.0f;
   for (const float x : way.v) sum += x * 0.0f;
   if (sum != 0.0f || std::isnan(sum)) {
@@ -47,7 +47,7 @@ bool keep_possible(std::size_t horizon, BodyRow& way) {
   return true;
 }
 
-void keep_slope_possible(BodyRow& slope) {
+void bound_slope(BodyRow& slope) {
   constexpr auto kHz = static_cast<float>(kGridHz);
   for (std::size_t g = 0; g < kBoneCount; ++g) bound_group(g, kSteadyTurn_rad_s / kHz, slope);
   bound_group(kPlaceGroup, kSwiftestWay_m_s / kHz, slope);

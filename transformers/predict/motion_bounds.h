@@ -5,7 +5,7 @@
 //               second.
 // Ownership:    changes its argument.
 // Threads:      any.
-// Failure:      keep_possible() is false, and the displacement 0, where numbers are not finite.
+// Failure:      bound_motion() is false, and the displacement 0, where numbers are not finite.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace dance {
 
 // A displacement from now to kHorizonFrames[horizon].
-bool keep_possible(std::size_t horizon, BodyRow& way);
-void keep_slope_possible(BodyRow& slope);
+bool bound_motion(std::size_t horizon, BodyRow& way);
+void bound_slope(BodyRow& slope);
 
 }  // namespace dance

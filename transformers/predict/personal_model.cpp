@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "transformers/predict/moment_guesses.h"
+#include "transformers/predict/moment_predictions.h"
 #include "transformers/predict/row_kernels.h"
 
 namespace dance {

@@ -28,8 +28,8 @@ void visit_floats(Model& model, Visit visit) {
     for (auto& by_tremble : by_length)
       for (auto& by_kind : by_tremble)
         for (auto& by_horizon : by_kind)
-          for (auto& guesses : by_horizon)
-            for (auto& x : guesses) visit(x);
+          for (auto& predictions : by_horizon)
+            for (auto& x : predictions) visit(x);
   for (auto& x : model.tremble_rad) visit(x);
 }
 

@@ -1,5 +1,5 @@
 // PredictModel: what training on recorded dances leaves for prediction: where bones usually are,
-// the network that bodies have in common, and how much each way of guessing is worth at each
+// the network that bodies have in common, and how much each way of predicting is worth at each
 // horizon, before a dancer has shown anything.
 //
 // Units/frames: as transformers/predict/body_row.h and transformers/predict/body_net.h; trembles in
@@ -22,8 +22,8 @@
 
 namespace dance {
 
-// Ways of guessing where a body goes, each a row of numbers that are added with a weight.
-enum class Guess : std::uint8_t {
+// Ways of predicting where a body goes, each a row of numbers that are added with a weight.
+enum class Prediction : std::uint8_t {
   kSlope1,  // as it went over the last 1, 3, 6, 12 frames
   kSlope3,
   kSlope6,
@@ -37,15 +37,15 @@ enum class Guess : std::uint8_t {
   kWentLong,
   kNet,  // the network, by horizon
 };
-constexpr std::size_t kGuesses = 12;
-constexpr std::size_t kCommonGuesses = 9;  // the same at all horizons
+constexpr std::size_t kPredictions = 12;
+constexpr std::size_t kCommonPredictions = 9;  // the same at all horizons
 
-using GuessWeights = std::array<std::array<float, kGuesses>, kHorizons>;
+using PredictionWeights = std::array<std::array<float, kPredictions>, kHorizons>;
 // Bones, place, heading: what counts differs.
 constexpr std::size_t kWeightKinds = 4;  // trunk and head, arms, legs, the root
 constexpr std::array<std::uint8_t, kRowGroups> kKindOfGroup{0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1,
                                                             1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3};
-using KindWeights = std::array<GuessWeights, kWeightKinds>;
+using KindWeights = std::array<PredictionWeights, kWeightKinds>;
 
 // What the network is worth for a dancer: nothing (it is not asked), what it is for others than it
 // was trained on, or what it is for those.

@@ -1,6 +1,6 @@
 // BeatOffset: by how many beats the stage plays behind the dancer: the whole number (or multiple of
 // `count`) that keeps the dance on the listener's beat with the delay that is wished, or the least
-// that prediction can bridge. It changes seldom: each change is a jump in the dance.
+// that prediction can bridge. It changes rarely: each change is a jump in the dance.
 //
 // Units/frames: beats of the listener's music. `difference` is where the listener's music stands
 //               minus where the dancer's stands at the same moment; offset - difference is the
@@ -21,7 +21,7 @@ class BeatOffset {
  public:
   struct Wish {
     double beats = -1.0;       // the delay that the room wishes; negative: the least that can be
-    double least_beats = 0.0;  // of delay: what is newer has not come and cannot be guessed well
+    double least_beats = 0.0;  // of delay: what is newer has not come and cannot be predicted well
     double easy_beats = 0.0;   // lowered only where what is left is no less than this
     double slack_beats = 0.0;  // below `least_beats` that is borne before it is raised
     double count = 1.0;        // offsets are multiples of it
@@ -47,8 +47,8 @@ class BeatOffset {
     const Duration patience = wrong == Wrong::kTooLow ? kRaiseAfter : lower_after_;
     if (wrong == Wrong::kNo || now - since_ < patience) return false;
     if (wrong == Wrong::kTooLow) {
-      // On a line that is bad every so often, or with guesses that are, the next lowering would be
-      // as short.
+      // On a line that is bad every so often, or with predictions that are, the next lowering would
+      // be as short.
       const bool was_short = lowered_.is_set() && now - lowered_ < kLongestPatience;
       lower_after_ = was_short ? std::min(lower_after_ * 2, kLongestPatience) : kLowerAfter;
       value_ = best;

@@ -34,7 +34,7 @@ void RhythmClock::restart() {
   dance_.clear();
   play_out_.forget();
   offset_.reset();
-  guesses_.clear();
+  predictions_.clear();
   own_beat_.forget();
   untagged_ = 0;
   head_.reset();
@@ -44,7 +44,7 @@ void RhythmClock::observe(const DancerTimeline& timeline, MotionSource& source) 
   if (free_running_) free_running_->observe(timeline, source);
   play_out_.add(timeline.gap(), timeline.transit());
   take_tag(timeline);
-  guesses_.learn(timeline.poses());
+  predictions_.learn(timeline.poses());
   if (++observed_ % kPosesPerProbe == 0) measure_predictions(timeline, source);
 }
 
@@ -74,14 +74,14 @@ void RhythmClock::take_tag(const DancerTimeline& timeline) {
 
 void RhythmClock::measure_predictions(const DancerTimeline& timeline, MotionSource& source) {
   if (!free_running_) return;
-  const MonoTime moment = timeline.newest().capture_time + guesses_.next_horizon();
+  const MonoTime moment = timeline.newest().capture_time + predictions_.next_horizon();
   Pose prediction;
   source.at(moment, prediction);
-  guesses_.guess(prediction, moment);
+  predictions_.note(prediction, moment);
 }
 
 void RhythmClock::set_body(const Skeleton& skeleton) {
-  guesses_.set_body(skeleton);
+  predictions_.set_body(skeleton);
   own_beat_.set_body(skeleton);
 }
 
@@ -96,7 +96,7 @@ void RhythmClock::choose_offset(const BeatClock& music, MonoTime now) {
   // to be predicted. A stall then finds as much behind the newest pose as can be.
   Duration reach;
   if (options_.beats < 0.0)
-    reach = guesses_.is_known() ? guesses_.reach(options_.most_error_m) : kUnknownReach;
+    reach = predictions_.is_known() ? predictions_.reach(options_.most_error_m) : kUnknownReach;
   BeatOffset::Wish wish;
   wish.slack_beats = options_.beats > 0.0 ? 0.0 : kSlack_beats;
   wish.beats = options_.beats;
@@ -143,7 +143,7 @@ MonoTime RhythmClock::asked_for(MonoTime moment, const DancerTimeline& timeline)
   const Duration ahead = moment - timeline.newest().capture_time;
   // Only who is to be on the beat is worth the scatter.
   if (!in_time_ || ahead <= Duration()) return moment;
-  return moment + Duration::seconds(kLeadShare * (guesses_.lead(ahead) - ahead).as_seconds());
+  return moment + Duration::seconds(kLeadShare * (predictions_.lead(ahead) - ahead).as_seconds());
 }
 
 void RhythmClock::tag(MonoTime moment, Pose& pose) const {

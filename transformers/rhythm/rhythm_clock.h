@@ -21,9 +21,9 @@
 #include "transformers/playout/play_head.h"
 #include "transformers/playout/play_out.h"
 #include "transformers/playout/playout_clock.h"
-#include "transformers/predict/guess_meter.h"
+#include "transformers/predict/prediction_meter.h"
 #include "transformers/rhythm/beat_offset.h"
-#include "transformers/rhythm/dance_line.h"
+#include "transformers/rhythm/dancer_music.h"
 #include "transformers/rhythm/own_beat.h"
 
 namespace dance {
@@ -64,10 +64,10 @@ class RhythmClock : public PlayoutClock {
 
   RhythmOptions options_;
   std::unique_ptr<PlayoutClock> free_running_;
-  DanceLine dance_;
+  DancerMusic dance_;
   PlayOut play_out_;
   BeatOffset offset_;
-  GuessMeter guesses_;
+  PredictionMeter predictions_;
   OwnBeat own_beat_;
   PlayHead head_;
   std::uint32_t observed_ = 0, untagged_ = 0;

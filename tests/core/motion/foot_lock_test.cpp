@@ -150,10 +150,10 @@ TEST(FootLock, AFootSeenToStandStaysWhereItWasSeenWhateverThePredictionDoes) {
     Pose real = crouching(0.0f);
     real.capture_time = frame_at(i);
     lock.observe(real, frame_at(i));
-    // The guess wanders by 4 cm at up to 0.5 m/s, as predictions do.
-    Pose guess = crouching(0.04f * std::sin(0.2f * static_cast<float>(i)));
-    lock.apply(frame_at(i), guess);
-    const Eigen::Vector3f shown = ball(guess);
+    // The prediction wanders by 4 cm at up to 0.5 m/s, as predictions do.
+    Pose prediction = crouching(0.04f * std::sin(0.2f * static_cast<float>(i)));
+    lock.apply(frame_at(i), prediction);
+    const Eigen::Vector3f shown = ball(prediction);
     if (i > 45) {
       EXPECT_LT((shown - before).norm() * 60.0f, 0.02f) << i;
       EXPECT_LT((shown - ball(crouching(0.0f))).norm(), 0.02f) << "where it really stands";

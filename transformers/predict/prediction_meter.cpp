@@ -1,27 +1,27 @@
-#include "transformers/predict/guess_meter.h"
+#include "transformers/predict/prediction_meter.h"
 
 #include <algorithm>
 
 namespace dance {
 namespace {
 
-constexpr double kForget = 0.98;  // per guess of one distance: some twenty seconds
-constexpr double kEnoughGuesses = 8.0;
+constexpr double kForget = 0.98;  // per prediction of one distance: some twenty seconds
+constexpr double kEnoughPredictions = 8.0;
 constexpr Duration kStep = Duration::ms(17);
-// No guess is worth more than this much beyond what is wanted.
+// No prediction is worth more than this much beyond what is wanted.
 constexpr double kMostLead = 2.0;
 
 double between(double a, double b, double fraction) { return a + (b - a) * fraction; }
 
 }  // namespace
 
-void GuessMeter::clear() {
-  for (Guess& guess : guesses_) guess.waits = false;
+void PredictionMeter::clear() {
+  for (Prediction& prediction : predictions_) prediction.waits = false;
   scores_ = {};
 }
 
-void GuessMeter::body_positions(const Pose& pose,
-                                std::array<Eigen::Vector3f, kBoneCount>& p_HB_m) const {
+void PredictionMeter::body_positions(const Pose& pose,
+                                     std::array<Eigen::Vector3f, kBoneCount>& p_HB_m) const {
   Pose still = pose;
   still.R_PB[0] = Eigen::Quaternionf::Identity();
   still.p_WH_m.setZero();
@@ -30,22 +30,23 @@ void GuessMeter::body_positions(const Pose& pose,
   p_HB_m = frames.p_WB_m;
 }
 
-void GuessMeter::guess(const Pose& pose, MonoTime moment) {
-  Guess& guess = guesses_[write_++ % guesses_.size()];
-  guess.moment = moment;
-  guess.horizon = next_;
-  guess.waits = true;
-  body_positions(pose, guess.p_HB_m);
+void PredictionMeter::note(const Pose& pose, MonoTime moment) {
+  Prediction& prediction = predictions_[write_++ % predictions_.size()];
+  prediction.moment = moment;
+  prediction.horizon = next_;
+  prediction.waits = true;
+  body_positions(pose, prediction.p_HB_m);
   next_ = (next_ + 1) % kHorizons.size();
 }
 
-void GuessMeter::learn(const PoseHistory& history) {
+void PredictionMeter::learn(const PoseHistory& history) {
   if (history.size() < 4) return;
-  for (Guess& guess : guesses_) {
-    if (!guess.waits || guess.moment + kStep > history.newest().capture_time) continue;
-    guess.waits = false;
-    const auto truth = history.at(guess.moment);
-    const auto before = history.at(guess.moment - kStep), after = history.at(guess.moment + kStep);
+  for (Prediction& prediction : predictions_) {
+    if (!prediction.waits || prediction.moment + kStep > history.newest().capture_time) continue;
+    prediction.waits = false;
+    const auto truth = history.at(prediction.moment);
+    const auto before = history.at(prediction.moment - kStep),
+               after = history.at(prediction.moment + kStep);
     // What fell into a gap of the line has no truth to be compared with.
     if (truth->how == PoseHistory::How::kHeldFirst || truth->how == PoseHistory::How::kHeldLast)
       continue;
@@ -55,14 +56,14 @@ void GuessMeter::learn(const PoseHistory& history) {
     body_positions(after->pose, will);
     double error_m = 0.0, against = 0.0, speed2 = 0.0;
     for (std::size_t b = 1; b < kBoneCount; ++b) {
-      const Eigen::Vector3f off = guess.p_HB_m[b] - is[b];
+      const Eigen::Vector3f off = prediction.p_HB_m[b] - is[b];
       const Eigen::Vector3f velocity =
           (will[b] - was[b]) / static_cast<float>(2.0 * kStep.as_seconds());
       error_m += static_cast<double>(off.norm());
       against -= static_cast<double>(off.dot(velocity));
       speed2 += static_cast<double>(velocity.squaredNorm());
     }
-    Score& score = scores_[guess.horizon];
+    Score& score = scores_[prediction.horizon];
     score.weight = kForget * score.weight + 1.0;
     score.error_m = kForget * score.error_m + error_m / (kBoneCount - 1);
     score.against = kForget * score.against + against;
@@ -70,12 +71,12 @@ void GuessMeter::learn(const PoseHistory& history) {
   }
 }
 
-bool GuessMeter::is_known() const {
+bool PredictionMeter::is_known() const {
   return std::all_of(scores_.begin(), scores_.end(),
-                     [](const Score& score) { return score.weight >= kEnoughGuesses; });
+                     [](const Score& score) { return score.weight >= kEnoughPredictions; });
 }
 
-double GuessMeter::error_m(Duration horizon) const {
+double PredictionMeter::error_m(Duration horizon) const {
   double before_s = 0.0, before_m = 0.0;
   for (std::size_t i = 0; i < kHorizons.size(); ++i) {
     const double here_s = kHorizons[i].as_seconds();
@@ -88,7 +89,7 @@ double GuessMeter::error_m(Duration horizon) const {
   return before_m;
 }
 
-Duration GuessMeter::reach(double most_error_m) const {
+Duration PredictionMeter::reach(double most_error_m) const {
   Duration reach;
   double before_m = 0.0;
   for (std::size_t i = 0; i < kHorizons.size(); ++i) {
@@ -104,14 +105,14 @@ Duration GuessMeter::reach(double most_error_m) const {
   return reach;
 }
 
-double GuessMeter::lag_s(std::size_t horizon) const {
+double PredictionMeter::lag_s(std::size_t horizon) const {
   const Score& score = scores_[horizon];
-  if (score.weight < kEnoughGuesses || score.speed2 <= 1e-9) return 0.0;
+  if (score.weight < kEnoughPredictions || score.speed2 <= 1e-9) return 0.0;
   return std::clamp(score.against / score.speed2, 0.0, 0.9 * kHorizons[horizon].as_seconds());
 }
 
-Duration GuessMeter::lead(Duration ahead) const {
-  // Guessing h ahead shows h - lag(h): the h that shows `ahead`.
+Duration PredictionMeter::lead(Duration ahead) const {
+  // Predicting h ahead shows h - lag(h): the h that shows `ahead`.
   const double wanted_s = ahead.as_seconds();
   double before_h_s = 0.0, before_shown_s = 0.0;
   for (std::size_t i = 0; i < kHorizons.size(); ++i) {

@@ -1,4 +1,4 @@
-// DanceLine: where the dancer's own music stood at each moment of the dance, from the tags of the
+// DancerMusic: where the dancer's own music stood at each moment of the dance, from the tags of the
 // poses: the sender's half of musical time.
 //
 // Units/frames: times are capture times of one clock; positions in beats of the dancer's music.
@@ -16,7 +16,7 @@
 
 namespace dance {
 
-class DanceLine {
+class DancerMusic {
  public:
   // Returns true where the music jumped. Tags that are not newer than what is there are ignored.
   bool add(MonoTime t, double beats);

@@ -1,12 +1,12 @@
-// MomentGuesses: all ways of guessing how a moment goes on (transformers/predict/predict_model.h),
-// as rows that are weighted and added. Computed once a row; kept, until it is known how the moment
-// went on.
+// MomentPredictions: all ways of predicting how a moment goes on
+// (transformers/predict/predict_model.h), as rows that are weighted and added. Computed once a row;
+// kept, until it is known how the moment went on.
 //
 // Units/frames: differences of rows in the dancer's heading at that moment; slopes a row; horizons
 //               as kHorizonFrames.
 // Ownership:    plain value of 19 kB; allocates nothing.
 // Threads:      none inside.
-// Failure:      none; what cannot be guessed yet is a row of zeros.
+// Failure:      none; what cannot be predicted yet is a row of zeros.
 #pragma once
 
 #include <array>
@@ -17,18 +17,19 @@
 
 namespace dance {
 
-struct MomentGuesses {
-  std::array<BodyRow, kCommonGuesses> common;
-  std::array<std::array<BodyRow, kGuesses - kCommonGuesses>, kHorizons> by_horizon;
+struct MomentPredictions {
+  std::array<BodyRow, kCommonPredictions> common;
+  std::array<std::array<BodyRow, kPredictions - kCommonPredictions>, kHorizons> by_horizon;
   // What was made of them: their weighted sum.
   BodyWays blended;
   // What the personal model corrects, the network's answer where that is asked, and its correction.
   BodyWays impersonal;
   BodyWays personal;
 
-  const float* row(std::size_t horizon, std::size_t guess) const {
-    return guess < kCommonGuesses ? common[guess].v.data()
-                                  : by_horizon[horizon][guess - kCommonGuesses].v.data();
+  const float* row(std::size_t horizon, std::size_t prediction) const {
+    return prediction < kCommonPredictions
+               ? common[prediction].v.data()
+               : by_horizon[horizon][prediction - kCommonPredictions].v.data();
   }
 };
 
@@ -56,6 +57,7 @@ class RowMean {
 };
 
 // Everything but the network's answer, which the caller writes.
-void make_guesses(const DanceMemory& memory, const RowMean& mean, MomentGuesses& guesses);
+void make_predictions(const DanceMemory& memory, const RowMean& mean,
+                      MomentPredictions& predictions);
 
 }  // namespace dance

@@ -1,4 +1,4 @@
-#include "transformers/rhythm/dance_line.h"
+#include "transformers/rhythm/dancer_music.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr double kLeastTempo_hz = 20.0 / 60.0, kMostTempo_hz = 400.0 / 60.0;
 
 }  // namespace
 
-bool DanceLine::add(MonoTime t, double beats) {
+bool DancerMusic::add(MonoTime t, double beats) {
   bool jumped = false;
   if (count_ > 0) {
     if (t <= newest().time) return false;
@@ -34,7 +34,7 @@ bool DanceLine::add(MonoTime t, double beats) {
   return jumped;
 }
 
-void DanceLine::fit() {
+void DancerMusic::fit() {
   // Least squares over two seconds, relative to the newest tag.
   const Tag& last = newest();
   double n = 0.0, st = 0.0, sb = 0.0, stt = 0.0, stb = 0.0;
@@ -54,11 +54,11 @@ void DanceLine::fit() {
   beats_per_second_ = std::clamp(slope, kLeastTempo_hz, kMostTempo_hz);
 }
 
-bool DanceLine::is_known(MonoTime t) const {
+bool DancerMusic::is_known(MonoTime t) const {
   return size() >= 4 && newest().time - tag(0).time >= kEnough && t - newest().time < kPatience;
 }
 
-double DanceLine::position(MonoTime t) const {
+double DancerMusic::position(MonoTime t) const {
   if (count_ == 0) return 0.0;
   const Tag& last = newest();
   if (t >= last.time) return last.beats + (t - last.time).as_seconds() * beats_per_second_;
@@ -72,7 +72,7 @@ double DanceLine::position(MonoTime t) const {
   return a.beats + (b.beats - a.beats) * (t - a.time).as_seconds() / (b.time - a.time).as_seconds();
 }
 
-MonoTime DanceLine::time_of(double beats) const {
+MonoTime DancerMusic::time_of(double beats) const {
   if (count_ == 0 || beats_per_second_ <= 0.0) return MonoTime();
   const Tag& last = newest();
   if (beats >= last.beats)

@@ -1,4 +1,4 @@
-#include "transformers/predict/guess_proof.h"
+#include "transformers/predict/prediction_proof.h"
 
 #include <algorithm>
 
@@ -15,19 +15,20 @@ constexpr float kShareOfAcquainted = 0.33f;
 
 }  // namespace
 
-void GuessProof::clear() { horizons_ = {}; }
+void PredictionProof::clear() { horizons_ = {}; }
 
-void GuessProof::doubt_personal() {
+void PredictionProof::doubt_personal() {
   for (Horizon& horizon : horizons_)
     for (std::size_t g = 0; g < kRowGroups; ++g) horizon.right[g] *= 0.9f, horizon.size[g] *= 0.9f;
 }
 
-void GuessProof::add_personal(std::size_t h, const MomentGuesses& guesses, BodyRow& way) const {
+void PredictionProof::add_personal(std::size_t h, const MomentPredictions& predictions,
+                                   BodyRow& way) const {
   for (std::size_t i = 0; i < kRowSize; ++i)
-    way.v[i] += horizons_[h].share[i % kRowGroups] * guesses.personal[h].v[i];
+    way.v[i] += horizons_[h].share[i % kRowGroups] * predictions.personal[h].v[i];
 }
 
-float GuessProof::proved(std::size_t h, std::uint32_t presence) const {
+float PredictionProof::proved(std::size_t h, std::uint32_t presence) const {
   float sum = 0.0f, seen = 0.0f;
   for (std::size_t bone = 1; bone < kBoneCount; ++bone) {
     if ((presence >> bone & 1u) == 0) continue;
@@ -37,10 +38,11 @@ float GuessProof::proved(std::size_t h, std::uint32_t presence) const {
   return seen > 0.0f ? std::min(1.0f, sum / (kShareOfAcquainted * seen)) : 0.0f;
 }
 
-void GuessProof::learn(std::size_t h, const MomentGuesses& guesses, const BodyRow& way) {
+void PredictionProof::learn(std::size_t h, const MomentPredictions& predictions,
+                            const BodyRow& way) {
   Horizon& horizon = horizons_[h];
-  const BodyRow& p = guesses.impersonal[h];
-  const BodyRow& c = guesses.personal[h];
+  const BodyRow& p = predictions.impersonal[h];
+  const BodyRow& c = predictions.personal[h];
   for (std::size_t g = 0; g < kRowGroups; ++g) {
     float right = 0.0f, size = 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis) {

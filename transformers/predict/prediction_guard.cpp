@@ -1,4 +1,4 @@
-#include "transformers/predict/guess_guard.h"
+#include "transformers/predict/prediction_guard.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ constexpr std::array<std::array<float, 3>, 7> kParts{{{1.0f, 0.0f, 0.0f},
                                                       {0.5f, 0.0f, 0.5f},
                                                       {0.0f, 0.0f, 0.5f}}};
 
-const float* slope_of(const MomentGuesses& guesses, Guess guess) {
-  return guesses.common[static_cast<std::size_t>(guess)].v.data();
+const float* slope_of(const MomentPredictions& predictions, Prediction prediction) {
+  return predictions.common[static_cast<std::size_t>(prediction)].v.data();
 }
 
 // The prediction, and what anyone can do: rows of numbers, and how many times each counts.
@@ -48,11 +48,11 @@ struct Sources {
   std::array<float, 3> times;
 };
 
-Sources sources_of(const MomentGuesses& guesses, std::size_t horizon) {
+Sources sources_of(const MomentPredictions& predictions, std::size_t horizon) {
   const auto rows = static_cast<float>(kHorizonFrames[horizon]);
   const float damped = kDampedRows * (1.0f - std::exp(-rows / kDampedRows));
-  return {{guesses.blended[horizon].v.data(), slope_of(guesses, Guess::kSlope1),
-           slope_of(guesses, Guess::kSlope6)},
+  return {{predictions.blended[horizon].v.data(), slope_of(predictions, Prediction::kSlope1),
+           slope_of(predictions, Prediction::kSlope6)},
           {1.0f, rows, damped}};
 }
 
@@ -62,8 +62,9 @@ float falling(float x) {
   return 1.0f / (y4 * y4);
 }
 
-std::size_t state_of(const MomentGuesses& guesses, const std::array<float, kRowGroups>& lever) {
-  const float* slope = slope_of(guesses, Guess::kSlope12);
+std::size_t state_of(const MomentPredictions& predictions,
+                     const std::array<float, kRowGroups>& lever) {
+  const float* slope = slope_of(predictions, Prediction::kSlope12);
   float squares = 0.0f;
   for (std::size_t g = 0; g < kBoneCount; ++g)
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -76,22 +77,25 @@ std::size_t state_of(const MomentGuesses& guesses, const std::array<float, kRowG
 
 }  // namespace
 
-GuessGuard::GuessGuard(const std::array<float, kRowGroups>& lever) : lever_(lever) { clear(); }
+PredictionGuard::PredictionGuard(const std::array<float, kRowGroups>& lever) : lever_(lever) {
+  clear();
+}
 
-void GuessGuard::clear() {
+void PredictionGuard::clear() {
   horizons_ = {};
   for (std::size_t h = 0; h < kHorizons; ++h)
     for (std::size_t state = 0; state < kStates; ++state) weigh(h, state);
 }
 
-void GuessGuard::forget_lately() {
+void PredictionGuard::forget_lately() {
   for (auto& states : horizons_)
     for (Horizon& horizon : states) horizon.lately = {};
 }
 
-void GuessGuard::learn(std::size_t h, const MomentGuesses& guesses, const BodyRow& way) {
-  const Sources sources = sources_of(guesses, h);
-  const std::size_t state = state_of(guesses, lever_);
+void PredictionGuard::learn(std::size_t h, const MomentPredictions& predictions,
+                            const BodyRow& way) {
+  const Sources sources = sources_of(predictions, h);
+  const std::size_t state = state_of(predictions, lever_);
   Horizon& horizon = horizons_[h][state];
   for (Kept* kept : {&horizon.lately, &horizon.longer}) {
     const float keep = kept == &horizon.lately ? kLatelyKeep : kLongerKeep;
@@ -136,7 +140,7 @@ void GuessGuard::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
   weigh(h, state);
 }
 
-void GuessGuard::weigh(std::size_t h, std::size_t state) {
+void PredictionGuard::weigh(std::size_t h, std::size_t state) {
   Horizon& horizon = horizons_[h][state];
   const auto known = [](const Kept& kept) {
     return kept.heard_moments / (kept.heard_moments + kFewMoments);
@@ -173,9 +177,10 @@ void GuessGuard::weigh(std::size_t h, std::size_t state) {
     for (std::size_t g = 0; g < kRowGroups; ++g) part[g] /= sum[g];
 }
 
-void GuessGuard::finish(std::size_t h, const MomentGuesses& guesses, BodyRow& way) const {
-  const Sources sources = sources_of(guesses, h);
-  const Horizon& horizon = horizons_[h][state_of(guesses, lever_)];
+void PredictionGuard::finish(std::size_t h, const MomentPredictions& predictions,
+                             BodyRow& way) const {
+  const Sources sources = sources_of(predictions, h);
+  const Horizon& horizon = horizons_[h][state_of(predictions, lever_)];
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t g = 0; g < kRowGroups; ++g) {
       const std::size_t i = BodyRow::at(g, axis);

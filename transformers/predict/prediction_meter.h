@@ -1,12 +1,12 @@
-// GuessMeter: how good the predictions of one dancer are: asks for guesses at several distances,
-// waits for the truth, and compares. From it come how far ahead is worth showing, and how much a
-// guess lags behind.
+// PredictionMeter: how good the predictions of one dancer are: asks for predictions at several
+// distances, waits for the truth, and compares. From it come how far ahead is worth showing, and
+// how much a prediction lags behind.
 //
-// Units/frames: distances (horizons) are from the newest pose to the moment that is guessed; errors
-//               in metres, the mean over joints, with the hips' place and rotation removed.
+// Units/frames: distances (horizons) are from the newest pose to the moment that is predicted;
+//               errors in metres, the mean over joints, with the hips' place and rotation removed.
 // Ownership:    plain values; no heap after construction.
 // Threads:      none inside; one owner.
-// Failure:      before enough guesses have met their truth is_known() is false.
+// Failure:      before enough predictions have met their truth is_known() is false.
 #pragma once
 
 #include <array>
@@ -18,34 +18,34 @@
 
 namespace dance {
 
-class GuessMeter {
+class PredictionMeter {
  public:
   static constexpr std::array<Duration, 6> kHorizons{Duration::ms(60),  Duration::ms(120),
                                                      Duration::ms(180), Duration::ms(240),
                                                      Duration::ms(320), Duration::ms(400)};
 
-  GuessMeter() : skeleton_(average_skeleton()) {}
+  PredictionMeter() : skeleton_(average_skeleton()) {}
   void set_body(const Skeleton& skeleton) { skeleton_ = skeleton; }
   void clear();
 
-  // Which distance is to be guessed next; nothing waits to be asked more often than that.
+  // Which distance is to be predicted next; nothing waits to be asked more often than that.
   Duration next_horizon() const { return kHorizons[next_]; }
-  void guess(const Pose& pose, MonoTime moment);
+  void note(const Pose& pose, MonoTime moment);
   // Compares what has become known.
   void learn(const PoseHistory& history);
 
   bool is_known() const;
-  // Mean error of a guess so far ahead.
+  // Mean error of a prediction so far ahead.
   double error_m(Duration horizon) const;
-  // The farthest distance whose guesses are not worse than that; nothing is known beyond the last
-  // horizon.
+  // The farthest distance whose predictions are not worse than that; nothing is known beyond the
+  // last horizon.
   Duration reach(double most_error_m) const;
-  // How far to guess so that what is seen is `ahead` ahead: guesses lag, as they shrink towards the
-  // mean.
+  // How far to predict so that what is seen is `ahead` ahead: predictions lag, as they shrink
+  // towards the mean.
   Duration lead(Duration ahead) const;
 
  private:
-  struct Guess {
+  struct Prediction {
     MonoTime moment;
     std::size_t horizon = 0;
     std::array<Eigen::Vector3f, kBoneCount> p_HB_m;
@@ -60,7 +60,7 @@ class GuessMeter {
   double lag_s(std::size_t horizon) const;
 
   Skeleton skeleton_;
-  std::array<Guess, 16> guesses_{};
+  std::array<Prediction, 16> predictions_{};
   std::size_t write_ = 0, next_ = 0;
   std::array<Score, kHorizons.size()> scores_{};
 };

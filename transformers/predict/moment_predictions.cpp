@@ -1,4 +1,4 @@
-#include "transformers/predict/moment_guesses.h"
+#include "transformers/predict/moment_predictions.h"
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ constexpr std::array<std::size_t, 2> kLeastLags{24, 60};
 constexpr std::size_t kNearHorizons = 6;
 constexpr std::array<std::size_t, 4> kSlopeRows{1, 3, 6, 12};
 
-BodyRow& common(MomentGuesses& guesses, Guess guess) {
-  return guesses.common[static_cast<std::size_t>(guess)];
+BodyRow& common(MomentPredictions& predictions, Prediction prediction) {
+  return predictions.common[static_cast<std::size_t>(prediction)];
 }
 
 // Least squares over the last rows + 1 rows: slope = sum (i - middle) x_i / sum (i - middle)².
@@ -32,7 +32,7 @@ void add_slope(const DanceMemory& memory, std::size_t rows, float cosine, float 
     add_scaled(arm, memory(l).v.data(), kRowSize, slope.v.data());
   }
   for (float& x : slope.v) x /= size;
-  keep_slope_possible(slope);
+  bound_slope(slope);
   turn_place(slope, sine, cosine);
 }
 
@@ -55,14 +55,15 @@ class WaySum {
 };
 
 void add_likeness(const DanceMemory& memory, const DanceMemory::Likeness& likeness,
-                  std::size_t first, std::size_t last, std::size_t window, MomentGuesses& guesses) {
+                  std::size_t first, std::size_t last, std::size_t window,
+                  MomentPredictions& predictions) {
   for (std::size_t k = 0; k < likeness.count; ++k) {
     const std::size_t lag = likeness.lag[k];
     const BodyRow& then = memory(lag);
     const WaySum ways(then.heading(), likeness.weight[k]);
     for (std::size_t h = first; h < last; ++h)
       ways.add(then, memory(lag - static_cast<std::size_t>(kHorizonFrames[h])),
-               guesses.by_horizon[h][window]);
+               predictions.by_horizon[h][window]);
   }
 }
 
@@ -86,25 +87,26 @@ void RowMean::way_to_mean(const BodyRow& now, BodyRow& way) const {
   way(kPlaceGroup, 0) = way(kPlaceGroup, 2) = way(kHeadingGroup, 0) = 0.0f;
 }
 
-void make_guesses(const DanceMemory& memory, const RowMean& mean, MomentGuesses& guesses) {
+void make_predictions(const DanceMemory& memory, const RowMean& mean,
+                      MomentPredictions& predictions) {
   const BodyRow& now = memory(0);
   const float sine = -std::sin(now.heading()), cosine = std::cos(now.heading());
   for (std::size_t s = 0; s < kSlopeRows.size(); ++s)
-    add_slope(memory, kSlopeRows[s], cosine, sine, guesses.common[s]);
-  mean.way_to_mean(now, common(guesses, Guess::kReturn));
-  for (auto& rows : guesses.by_horizon)
+    add_slope(memory, kSlopeRows[s], cosine, sine, predictions.common[s]);
+  mean.way_to_mean(now, common(predictions, Prediction::kReturn));
+  for (auto& rows : predictions.by_horizon)
     for (BodyRow& row : rows) row.v.fill(0.0f);
-  constexpr std::array<Guess, 4> kLike{Guess::kLikeShort, Guess::kLikeShortSlope, Guess::kLikeLong,
-                                       Guess::kLikeLongSlope};
-  for (const Guess guess : kLike) common(guesses, guess).v.fill(0.0f);
+  constexpr std::array<Prediction, 4> kLike{Prediction::kLikeShort, Prediction::kLikeShortSlope,
+                                            Prediction::kLikeLong, Prediction::kLikeLongSlope};
+  for (const Prediction prediction : kLike) common(predictions, prediction).v.fill(0.0f);
   DanceMemory::Likeness likeness;
   for (std::size_t w = 0; w < DanceMemory::kWindows; ++w) {
     memory.find_likeness(w, kLeastLags[1], likeness);
-    add_likeness(memory, likeness, kNearHorizons, kHorizons, w, guesses);
+    add_likeness(memory, likeness, kNearHorizons, kHorizons, w, predictions);
     memory.find_likeness(w, kLeastLags[0], likeness);
-    add_likeness(memory, likeness, 0, kNearHorizons, w, guesses);
-    BodyRow& stood = common(guesses, kLike[2 * w]);
-    BodyRow& went = common(guesses, kLike[2 * w + 1]);
+    add_likeness(memory, likeness, 0, kNearHorizons, w, predictions);
+    BodyRow& stood = common(predictions, kLike[2 * w]);
+    BodyRow& went = common(predictions, kLike[2 * w + 1]);
     for (std::size_t k = 0; k < likeness.count; ++k) {
       const BodyRow& then = memory(likeness.lag[k]);
       add_difference(likeness.weight[k], now.v.data(), then.v.data(), kRowSize, stood.v.data());

@@ -1,4 +1,4 @@
-#include "transformers/predict/guess_blend.h"
+#include "transformers/predict/prediction_blend.h"
 
 #include <cmath>
 
@@ -20,9 +20,10 @@ constexpr float kLeastError = 1e-4f;
 
 }  // namespace
 
-GuessBlend::GuessBlend() : horizons_(std::make_unique<std::array<Horizon, kHorizons>>()) {}
+PredictionBlend::PredictionBlend()
+    : horizons_(std::make_unique<std::array<Horizon, kHorizons>>()) {}
 
-void GuessBlend::clear() {
+void PredictionBlend::clear() {
   for (Horizon& horizon : *horizons_) {
     horizon.pairs.fill(0.0f);
     horizon.targets.fill(0.0f);
@@ -32,26 +33,27 @@ void GuessBlend::clear() {
   }
 }
 
-void GuessBlend::set_prior(const KindWeights& prior) {
+void PredictionBlend::set_prior(const KindWeights& prior) {
   for (std::size_t h = 0; h < kHorizons; ++h) {
     Horizon& horizon = (*horizons_)[h];
-    for (std::size_t e = 0; e < kGuesses; ++e)
+    for (std::size_t e = 0; e < kPredictions; ++e)
       for (std::size_t g = 0; g < kRowGroups; ++g)
         horizon.prior[e * kRowGroups + g] = prior[kKindOfGroup[g]][h][e];
     if (horizon.heard == 0.0f) horizon.weights = horizon.prior;
   }
 }
 
-void GuessBlend::learn(std::size_t h, const MomentGuesses& guesses, const BodyRow& way) {
+void PredictionBlend::learn(std::size_t h, const MomentPredictions& predictions,
+                            const BodyRow& way) {
   Horizon& horizon = (*horizons_)[h];
-  std::array<const float*, kGuesses> rows;
-  for (std::size_t e = 0; e < kGuesses; ++e) rows[e] = guesses.row(h, e);
+  std::array<const float*, kPredictions> rows;
+  for (std::size_t e = 0; e < kPredictions; ++e) rows[e] = predictions.row(h, e);
   // What is to be small is how far off a bone is, not the square of that.
   std::array<float, kRowGroups> counts;
   for (std::size_t g = 0; g < kRowGroups; ++g) {
     float square = 0.0f;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float error = way(g, axis) - guesses.blended[h](g, axis);
+      const float error = way(g, axis) - predictions.blended[h](g, axis);
       square += error * error;
     }
     const float error = std::sqrt(square);
@@ -59,24 +61,25 @@ void GuessBlend::learn(std::size_t h, const MomentGuesses& guesses, const BodyRo
     usual = horizon.heard == 0.0f ? error : usual + kUsualShare * (error - usual);
     counts[g] = 1.0f / (1.0f + error / (usual + kLeastError));
   }
-  follow_gram(rows.data(), kGuesses, way.v.data(), counts.data(), kKeep, horizon.pairs.data(),
+  follow_gram(rows.data(), kPredictions, way.v.data(), counts.data(), kKeep, horizon.pairs.data(),
               horizon.targets.data());
   horizon.heard = kKeep * horizon.heard + 1.0f;
 }
 
-void GuessBlend::solve(std::size_t h) {
+void PredictionBlend::solve(std::size_t h) {
   Horizon& horizon = (*horizons_)[h];
   if (horizon.heard < kFirstMoments) return;
-  solve_groups(horizon.pairs.data(), horizon.targets.data(), kGuesses,
+  solve_groups(horizon.pairs.data(), horizon.targets.data(), kPredictions,
                kRidge[h] * (1.0f + kFirstWeight / horizon.heard), horizon.prior.data(),
                horizon.weights.data());
 }
 
-void GuessBlend::blend(std::size_t h, const MomentGuesses& guesses, BodyRow& way) const {
+void PredictionBlend::blend(std::size_t h, const MomentPredictions& predictions,
+                            BodyRow& way) const {
   const Horizon& horizon = (*horizons_)[h];
-  std::array<const float*, kGuesses> rows;
-  for (std::size_t e = 0; e < kGuesses; ++e) rows[e] = guesses.row(h, e);
-  weigh_rows(rows.data(), kGuesses, horizon.weights.data(), way.v.data());
+  std::array<const float*, kPredictions> rows;
+  for (std::size_t e = 0; e < kPredictions; ++e) rows[e] = predictions.row(h, e);
+  weigh_rows(rows.data(), kPredictions, horizon.weights.data(), way.v.data());
 }
 
 }  // namespace dance

@@ -1,8 +1,8 @@
-// GuessGuard: no worse than what anyone can do. Beside the prediction it follows the errors of
+// PredictionGuard: no worse than what anyone can do. Beside the prediction it follows the errors of
 // standing still, of going on, of going on and slowing down, and of halves between those; bone by
 // bone, and for the hips' place by itself, what is shown leans to what has been right.
 //
-// Units/frames: ways as transformers/predict/moment_guesses.h.
+// Units/frames: ways as transformers/predict/moment_predictions.h.
 // Ownership:    plain value, 37 kB; never allocates.
 // Threads:      none inside; one owner.
 // Failure:      none; before anything is known it leans to the prediction.
@@ -11,22 +11,22 @@
 #include <array>
 #include <cstdint>
 
-#include "transformers/predict/moment_guesses.h"
+#include "transformers/predict/moment_predictions.h"
 #include "transformers/predict/predict_model.h"
 
 namespace dance {
 
-class GuessGuard {
+class PredictionGuard {
  public:
-  explicit GuessGuard(const std::array<float, kRowGroups>& lever);
+  explicit PredictionGuard(const std::array<float, kRowGroups>& lever);
   void clear();
-  // After a gap: how good guesses were lately is not known.
+  // After a gap: how good predictions were lately is not known.
   void forget_lately();
 
   // A moment that is over: it went `way`.
-  void learn(std::size_t horizon, const MomentGuesses& guesses, const BodyRow& way);
-  // guesses.blended, or as far from it to plain guesses as those were better.
-  void finish(std::size_t horizon, const MomentGuesses& guesses, BodyRow& way) const;
+  void learn(std::size_t horizon, const MomentPredictions& predictions, const BodyRow& way);
+  // predictions.blended, or as far from it to plain predictions as those were better.
+  void finish(std::size_t horizon, const MomentPredictions& predictions, BodyRow& way) const;
 
  private:
   static constexpr std::size_t kCandidates = 7;
