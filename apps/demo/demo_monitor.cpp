@@ -8,8 +8,6 @@
 namespace dance {
 namespace {
 
-constexpr auto kFirstOfStage = static_cast<std::size_t>(Hop::kStageTaken);
-
 void add_ages(DancerAccount& account, const Pose& pose, std::size_t from, std::size_t to) {
   for (std::size_t hop = from; hop < to; ++hop)
     if (pose.hops[hop].is_set()) account.age_at_hop[hop].add(pose.hops[hop] - pose.capture_time);

@@ -17,6 +17,9 @@
 
 namespace dance {
 
+// The first hop that is the stage's own: those before it are the way here.
+constexpr auto kFirstOfStage = static_cast<std::size_t>(Hop::kStageTaken);
+
 // Which sequence numbers were seen, over the last 2^16: enough to tell a doubled or late pose from
 // a new one.
 class SequenceSet {

@@ -14,8 +14,6 @@ using nlohmann::ordered_json;
 
 constexpr std::array<const char*, kHopCount> kHopNames{"published",     "link_sent", "server",
                                                        "link_received", "on_stage",  "staged"};
-constexpr auto kFirstOfStage = static_cast<std::size_t>(Hop::kStageTaken);
-
 // The report of the receiving house's link on this dancer, if it was not killed.
 ordered_json link_report(const DemoResult& result, const DancerAccount& account) {
   const std::string& text = result.house_reports[1 - account.house];

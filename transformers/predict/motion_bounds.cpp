@@ -11,10 +11,10 @@ namespace {
 // A joint turns, and the hips get, no further than this at once and this each second. Dancers spin
 // faster than joints turn, and on and on.
 constexpr float kFurthestTurn_rad = 3.0f;
-constexpr float kSwiftestTurn_rad_s = 16.0f;
+constexpr float kMostTurn_rad_s = 16.0f;
 constexpr float kFurthestWay_m = 3.0f;
 constexpr float kSwiftestWay_m_s = 8.0f;
-constexpr float kSuddenTurn_rad = 0.2f;
+constexpr float kFreeTurn_rad = 0.2f;
 constexpr float kSuddenWay_m = 0.1f;
 constexpr float kSwiftestSpin_rad_s = 20.0f;
 // Of a slope, which is gone on along: a hand is flung faster than 9 rad/s, but not for as long as
@@ -39,11 +39,11 @@ bool bound_motion(std::size_t horizon, BodyRow& way) {
   }
   const auto seconds = static_cast<float>(kHorizonFrames[horizon] / kGridHz);
   const float turn_rad =
-      std::min(kFurthestTurn_rad, kSuddenTurn_rad + kSwiftestTurn_rad_s * seconds);
+      std::min(kFurthestTurn_rad, kFreeTurn_rad + kMostTurn_rad_s * seconds);
   const float way_m = std::min(kFurthestWay_m, kSuddenWay_m + kSwiftestWay_m_s * seconds);
   for (std::size_t g = 0; g < kBoneCount; ++g) bound_group(g, turn_rad, way);
   bound_group(kPlaceGroup, way_m, way);
-  bound_group(kHeadingGroup, kSuddenTurn_rad + kSwiftestSpin_rad_s * seconds, way);
+  bound_group(kHeadingGroup, kFreeTurn_rad + kSwiftestSpin_rad_s * seconds, way);
   return true;
 }
 

@@ -15,7 +15,7 @@ constexpr float kGrowth = 1.5f;
 // Just after a loss a person farther away than this is not the target.
 constexpr Duration kShort = Duration::ms(500);
 constexpr float kNear_sides = 0.6f;
-constexpr float kSpeedWeight = 0.3f;
+constexpr float kTargetSpeedWeight = 0.3f;
 
 float dissimilarity(const BodyRegion& was, const BodyRegion& is) {
   return (centre_of(is) - centre_of(was)).norm() / was.side_px +
@@ -64,7 +64,7 @@ void TargetTracker::update(const BodyRegion& region, MonoTime now) {
   if (last_ && now > last_time_) {
     const float passed_s = static_cast<float>((now - last_time_).as_seconds());
     const Eigen::Vector2f speed = (centre_of(region) - centre_of(*last_)) / passed_s;
-    speed_px_s_ += kSpeedWeight * (speed - speed_px_s_);
+    speed_px_s_ += kTargetSpeedWeight * (speed - speed_px_s_);
   }
   last_ = region;
   last_time_ = now;
