@@ -19,11 +19,10 @@ void expect_couple_in_music(const char* url) {
   ASSERT_TRUE(bus) << bus.error().what;
   std::map<std::string, int> poses;
   int beats = 0;
-  (*bus)->on_pose(Where::kCapture, GuestId(), Delivery::kEvery,
-                  [&](const Channel& channel, const Pose& pose, MonoTime) {
-                    if (pose.music_beats > 0.0) ++poses[std::string(channel.guest().view())];
-                  });
-  (*bus)->on_beat([&](const Channel&, const Beat& beat, MonoTime) {
+  (*bus)->subscribe<Pose>(Where::kCapture, [&](const Channel& channel, const Pose& pose, MonoTime) {
+    if (pose.music_beats > 0.0) ++poses[std::string(channel.guest().view())];
+  });
+  (*bus)->subscribe<Beat>(Where::kLocal, [&](const Channel&, const Beat& beat, MonoTime) {
     EXPECT_NEAR(beat.tempo_bpm, 180.0, 0.5);
     ++beats;
   });

@@ -16,6 +16,8 @@
 
 namespace dance {
 
+inline MonoTime at_ms(double ms) { return MonoTime::from_ns(static_cast<std::int64_t>(ms * 1e6)); }
+
 // The play-out buffer alone.
 class Hold : public Flow {
  public:

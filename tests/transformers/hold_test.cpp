@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kHz = 60.0;
 
-MonoTime at_ms(double ms) { return MonoTime::from_ns(static_cast<std::int64_t>(ms * 1e6)); }
-
 // A dancer whose hips move at 1 m/s along x: what is shown tells which moment it is.
 Pose pose_of(MonoTime capture, std::uint64_t clock_id = 1) {
   Pose pose;

@@ -9,10 +9,8 @@ namespace {
 
 using Kind = MotionSource::Kind;
 
-MonoTime at_ms(std::int64_t ms) { return MonoTime::from_us(1000 * ms); }
-
 // Hips at 1 m/s along x.
-Pose pose_at(std::int64_t ms) {
+Pose pose_at(int ms) {
   Pose pose;
   pose.capture_time = at_ms(ms);
   pose.clock_id = 1;
@@ -39,7 +37,7 @@ struct Dance {
       : timeline(Concealment::kPoses), source(timeline, std::move(parts)) {
     for (int i = 0; i < poses; ++i) take(1000 + 20 * i);
   }
-  void take(std::int64_t ms) {
+  void take(int ms) {
     timeline.take(pose_at(ms), at_ms(ms + 50));
     source.observe();
   }

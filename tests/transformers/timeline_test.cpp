@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/transformers/flows.h"
+
 namespace dance {
 namespace {
 
-MonoTime at_ms(std::int64_t ms) { return MonoTime::from_us(1000 * ms); }
-
-Pose pose_at(std::int64_t ms, std::uint64_t clock_id = 1) {
+Pose captured_at(int ms, std::uint64_t clock_id = 1) {
   Pose pose;
   pose.capture_time = at_ms(ms);
   pose.clock_id = clock_id;
@@ -19,9 +19,9 @@ using Taken = DancerTimeline::Taken;
 TEST(DancerTimeline, KnowsWhenItsNewestPoseCameAndHowLongItTook) {
   DancerTimeline timeline(8);
   EXPECT_TRUE(timeline.is_empty());
-  EXPECT_EQ(timeline.take(pose_at(5000), at_ms(5040)), Taken::kTaken);
+  EXPECT_EQ(timeline.take(captured_at(5000), at_ms(5040)), Taken::kTaken);
   EXPECT_EQ(timeline.gap(), Duration());
-  EXPECT_EQ(timeline.take(pose_at(5017), at_ms(5050)), Taken::kTaken);
+  EXPECT_EQ(timeline.take(captured_at(5017), at_ms(5050)), Taken::kTaken);
   EXPECT_EQ(timeline.arrived(), at_ms(5050));
   EXPECT_EQ(timeline.transit(), Duration::ms(33));
   EXPECT_EQ(timeline.gap(), Duration::ms(17));
@@ -30,20 +30,20 @@ TEST(DancerTimeline, KnowsWhenItsNewestPoseCameAndHowLongItTook) {
 
 TEST(DancerTimeline, RefusesWhatIsNotNewerAndKeepsWhatItHas) {
   DancerTimeline timeline(8);
-  timeline.take(pose_at(5000), at_ms(5040));
-  EXPECT_EQ(timeline.take(pose_at(5000), at_ms(5041)), Taken::kRefused);
-  EXPECT_EQ(timeline.take(pose_at(4001), at_ms(5042)), Taken::kRefused);
+  timeline.take(captured_at(5000), at_ms(5040));
+  EXPECT_EQ(timeline.take(captured_at(5000), at_ms(5041)), Taken::kRefused);
+  EXPECT_EQ(timeline.take(captured_at(4001), at_ms(5042)), Taken::kRefused);
   EXPECT_EQ(timeline.counters().refused, 2u);
   EXPECT_EQ(timeline.arrived(), at_ms(5040));
 }
 
 TEST(DancerTimeline, StartsAnewWithAJumpBackOrAnotherClock) {
   DancerTimeline timeline(8);
-  timeline.take(pose_at(5000), at_ms(5040));
-  EXPECT_EQ(timeline.take(pose_at(3999), at_ms(5041)), Taken::kRestarted);
+  timeline.take(captured_at(5000), at_ms(5040));
+  EXPECT_EQ(timeline.take(captured_at(3999), at_ms(5041)), Taken::kRestarted);
   EXPECT_EQ(timeline.poses().size(), 1u);
   EXPECT_EQ(timeline.gap(), Duration());
-  EXPECT_EQ(timeline.take(pose_at(9000, 2), at_ms(5042)), Taken::kRestarted);
+  EXPECT_EQ(timeline.take(captured_at(9000, 2), at_ms(5042)), Taken::kRestarted);
   EXPECT_EQ(timeline.counters().restarts, 2u);
 }
 

@@ -8,14 +8,14 @@
 namespace dance {
 namespace {
 
-constexpr MonoTime kNow = MonoTime::from_us(5'000'000);
+constexpr MonoTime kBundleTime = MonoTime::from_us(5'000'000);
 
 wire::Record record_of(std::uint8_t slot, std::uint32_t sequence, wire::Bytes payload) {
   wire::Record record;
   record.slot = slot;
   record.stream = 7;
   record.sequence = sequence;
-  record.capture_us = wire::to_ticks(kNow.since_zero_us() - 10'000) * wire::kTick_us;
+  record.capture_us = wire::to_ticks(kBundleTime.since_zero_us() - 10'000) * wire::kTick_us;
   record.payload = payload;
   return record;
 }
@@ -23,14 +23,14 @@ wire::Record record_of(std::uint8_t slot, std::uint32_t sequence, wire::Bytes pa
 class RecordBundlerTest : public ::testing::Test {
  protected:
   void add(const wire::Record& record, MonoTime due) {
-    bundle.add(record, false, kNow.since_zero_us(), due);
+    bundle.add(record, false, kBundleTime.since_zero_us(), due);
   }
   std::vector<std::uint32_t> sequences_in(wire::Bytes datagram) {
     ByteReader in(datagram);
     const auto header = wire::parse_records_header(in);
     std::vector<std::uint32_t> sequences;
     if (!header) return sequences;
-    for (wire::RecordChain chain{kNow.since_zero_us()}; in.remaining() > 0;) {
+    for (wire::RecordChain chain{kBundleTime.since_zero_us()}; in.remaining() > 0;) {
       const auto record = wire::parse_record(chain, in);
       if (!record) return {};
       sequences.push_back(record->sequence);
@@ -45,7 +45,7 @@ class RecordBundlerTest : public ::testing::Test {
 
 TEST_F(RecordBundlerTest, WritesWhatItCollectedAndIsEmptyAgain) {
   for (std::uint32_t i = 1; i <= 3; ++i)
-    add(record_of(static_cast<std::uint8_t>(i), i, {payload.data(), 20}), kNow);
+    add(record_of(static_cast<std::uint8_t>(i), i, {payload.data(), 20}), kBundleTime);
   wire::RecordsHeader header;
   header.has_records = true;
   EXPECT_EQ(sequences_in(bundle.write(header, buffer)), (std::vector<std::uint32_t>{1, 2, 3}));
@@ -54,32 +54,32 @@ TEST_F(RecordBundlerTest, WritesWhatItCollectedAndIsEmptyAgain) {
 }
 
 TEST_F(RecordBundlerTest, KeepsItsRecordsWhileAHeaderLeavesWithoutThem) {
-  add(record_of(1, 1, {payload.data(), 20}), kNow);
+  add(record_of(1, 1, {payload.data(), 20}), kBundleTime);
   EXPECT_TRUE(sequences_in(bundle.write({}, buffer)).empty());
   EXPECT_FALSE(bundle.is_empty());
 }
 
 TEST_F(RecordBundlerTest, TheFirstRecordDecidesWhenAllAreDue) {
-  add(record_of(1, 1, {payload.data(), 20}), kNow + Duration::ms(1));
-  add(record_of(2, 1, {payload.data(), 20}), kNow + Duration::ms(9));
-  EXPECT_EQ(bundle.due(), kNow + Duration::ms(1));
-  EXPECT_FALSE(bundle.is_due(kNow, 2));
-  EXPECT_TRUE(bundle.is_due(kNow + Duration::ms(1), 2));
+  add(record_of(1, 1, {payload.data(), 20}), kBundleTime + Duration::ms(1));
+  add(record_of(2, 1, {payload.data(), 20}), kBundleTime + Duration::ms(9));
+  EXPECT_EQ(bundle.due(), kBundleTime + Duration::ms(1));
+  EXPECT_FALSE(bundle.is_due(kBundleTime, 2));
+  EXPECT_TRUE(bundle.is_due(kBundleTime + Duration::ms(1), 2));
 }
 
 TEST_F(RecordBundlerTest, IsDueWithAsManyPosesAsCanComeRepeatsNotCounted) {
-  add(record_of(1, 1, {payload.data(), 20}), kNow + Duration::ms(1));
-  EXPECT_FALSE(bundle.is_due(kNow, 1)) << "one that went before, once more";
-  add(record_of(1, 2, {payload.data(), 20}), kNow + Duration::ms(1));
+  add(record_of(1, 1, {payload.data(), 20}), kBundleTime + Duration::ms(1));
+  EXPECT_FALSE(bundle.is_due(kBundleTime, 1)) << "one that went before, once more";
+  add(record_of(1, 2, {payload.data(), 20}), kBundleTime + Duration::ms(1));
   bundle.count_pose();
-  EXPECT_TRUE(bundle.is_due(kNow, 1));
-  EXPECT_FALSE(bundle.is_due(kNow, 2));
+  EXPECT_TRUE(bundle.is_due(kBundleTime, 1));
+  EXPECT_FALSE(bundle.is_due(kBundleTime, 2));
 }
 
 TEST_F(RecordBundlerTest, HasRoomForWhatFitsBesideTheLongestHeaderOfARecord) {
   std::uint32_t count = 0;
   while (bundle.has_room_for(record_of(1, count, payload)))
-    add(record_of(1, ++count, payload), kNow);
+    add(record_of(1, ++count, payload), kBundleTime);
   EXPECT_GE(count, 4u);
   EXPECT_LT(bundle.room(), wire::kMaxRecordHeader + payload.size());
   wire::RecordsHeader header;

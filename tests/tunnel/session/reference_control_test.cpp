@@ -8,7 +8,7 @@
 namespace dance {
 namespace {
 
-constexpr MonoTime kNow = MonoTime::from_us(5'000'000);
+constexpr MonoTime kControlTime = MonoTime::from_us(5'000'000);
 constexpr Duration kFrame = Duration::us(16'667);
 
 class RecordingEncoder final : public PoseEncoder {
@@ -43,7 +43,7 @@ class ReferenceControlTest : public ::testing::Test {
     return about;
   }
 
-  MonoTime now = kNow;
+  MonoTime now = kControlTime;
   RecordingEncoder encoder;
   ReferenceControl control;
 };
@@ -109,7 +109,7 @@ TEST_F(ReferenceControlTest, MakesAnIntraFrameAsOftenAsReceiversWantOneAndWhenTh
 
 TEST_F(ReferenceControlTest, RefreshesWithAnIntraFrameEachPeriod) {
   int frames = 0;
-  for (; now < kNow + Duration::s(5); now = now + kFrame, ++frames)
+  for (; now < kControlTime + Duration::s(5); now = now + kFrame, ++frames)
     control.prepare(encoder, now, Duration::s(2), now);
   EXPECT_EQ(encoder.key_frames, 2);
 }
