@@ -38,8 +38,7 @@ bool bound_motion(std::size_t horizon, BodyRow& way) {
     return false;
   }
   const auto seconds = static_cast<float>(kHorizonFrames[horizon] / kGridHz);
-  const float turn_rad =
-      std::min(kFurthestTurn_rad, kFreeTurn_rad + kMostTurn_rad_s * seconds);
+  const float turn_rad = std::min(kFurthestTurn_rad, kFreeTurn_rad + kMostTurn_rad_s * seconds);
   const float way_m = std::min(kFurthestWay_m, kSuddenWay_m + kSwiftestWay_m_s * seconds);
   for (std::size_t g = 0; g < kBoneCount; ++g) bound_group(g, turn_rad, way);
   bound_group(kPlaceGroup, way_m, way);
