@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Builds the decoder of the lattice codec with several compilers and flags and compares what it makes of the golden
-# packets, bit by bit.   usage: golden_everywhere.sh SOURCE_DIR WORK_DIR EIGEN_INCLUDE EXPECTED_INCLUDE
+# packets, bit by bit.   usage: golden_everywhere.sh SOURCE_DIR WORK_DIR MODEL_SOURCE EIGEN_INCLUDE EXPECTED_INCLUDE
 set -euo pipefail
-source=$1 work=$2
-shift 2
+source=$1 work=$2 model_source=$3 # the model, embedded by CMake
+shift 3
 cd "$source"
 mkdir -p "$work"
 files="tests/core/codec/lattice_golden_main.cpp core/codec/body_lattice.cpp core/codec/body_predictor.cpp
-  core/codec/built_in_model.cpp core/codec/lattice_decoder.cpp core/codec/lattice_frame.cpp core/codec/pose_model.cpp core/codec/symbol_law.cpp core/pose/pose.cpp core/pose/skeleton.cpp"
+  $model_source core/codec/lattice_decoder.cpp core/codec/lattice_frame.cpp core/codec/pose_model.cpp core/codec/symbol_distribution.cpp core/pose/pose.cpp core/pose/skeleton.cpp"
 includes=()
 for include in "$@"; do includes+=(-isystem "$include"); done
 # All in one file: its headers are read once.
@@ -21,7 +21,7 @@ while read -r name compiler flags; do
     continue
   fi
   # shellcheck disable=SC2086
-  "$compiler" -std=c++20 -ffp-contract=off $flags -DDANCE_DECODE_ONLY -DDANCE_MODEL_FILE='"data/codec/body.model"' -I. \
+  "$compiler" -std=c++20 -ffp-contract=off $flags -DDANCE_DECODE_ONLY -I. \
     "${includes[@]}" "$work/all.cpp" -o "$work/$name"
   got=$("$work/$name" "$golden")
   count=$((count + 1))
