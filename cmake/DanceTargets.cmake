@@ -128,7 +128,7 @@ function(dance_test name)
     set(preload ENVIRONMENT_MODIFICATION "LD_PRELOAD=set:${DANCE_PRELOAD_FIRST}${arg_PRELOAD}")
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
-    # The keys that programs make for this machine are not those of whoever runs the tests.
+    # The keys that programs make for this machine are not those of the user who runs the tests.
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT}
       ENVIRONMENT "XDG_CONFIG_HOME=${PROJECT_BINARY_DIR}/test-config" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${serial} ${preload})
 endfunction()

@@ -54,7 +54,7 @@ Result<void> listen(const ListenOptions& options) {
         consumer->on_skeleton(channel.guest(), timed.skeleton, now);
       });
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
-  // After each turn, so that whoever reads a pipe behind us sees a pose when it comes.
+  // After each turn, so that the reader of a pipe gets a pose when it comes.
   poller->at_turn_end([&](MonoTime) {
     if (!output->flush()) poller->stop();
   });

@@ -21,7 +21,8 @@ bool is_same_moment(MonoTime a, MonoTime b) {
 
 Manager::Manager(const std::vector<Route>& routes, SignalPort& port, Poller& poller)
     : port_(port), router_(routes, this_clock_id(), *this), begin_(mono_now()) {
-  router_.on_learner([this](std::shared_ptr<Learner> learner) { study_.add(std::move(learner)); });
+  router_.on_learner(
+      [this](std::shared_ptr<Learner> learner) { training_.add(std::move(learner)); });
   listen(Where::kCapture);
   listen(Where::kGuest);
   port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime now) {

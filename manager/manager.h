@@ -4,7 +4,8 @@
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port and the poller, which must outlive it.
-// Threads:      runs in the poller's thread; one more learns the dancers (manager/study.h).
+// Threads:      runs in the poller's thread; one more learns the dancers
+//               (manager/training_thread.h).
 // Failure:      what cannot be routed is counted in STATS/manager.
 #pragma once
 
@@ -17,7 +18,7 @@
 #include "core/bus/signal_port.h"
 #include "core/net/poller.h"
 #include "manager/router.h"
-#include "manager/study.h"
+#include "manager/training_thread.h"
 
 namespace dance {
 
@@ -39,7 +40,7 @@ class Manager : private StageSink {
   void end_second(MonoTime now);
   void repeat_skeletons(MonoTime now);
 
-  // A body on the stage, repeated once a second for whoever comes late.
+  // A body on the stage, repeated once a second for late subscribers.
   struct StagedSkeleton {
     GuestId guest;
     TimedSkeleton skeleton;
@@ -47,7 +48,7 @@ class Manager : private StageSink {
   };
 
   SignalPort& port_;
-  Study study_;
+  TrainingThread training_;
   Router router_;
   std::vector<Pacer> pacers_;  // one per route
   Histogram lateness_;

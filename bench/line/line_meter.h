@@ -1,5 +1,5 @@
 // LineMeter: what one direction of a line makes of a dance: which poses come and how old, and what
-// a stage with the default play-out (hold) shows of them. Pure: whoever dances tells it what
+// a stage with the default play-out (hold) shows of them. Pure: the caller tells it what
 // happened.
 //
 // Units/frames: one clock for all times; poses carry their capture as the link mapped it, the meter
@@ -19,7 +19,7 @@
 
 namespace dance {
 
-// A stage that shows nothing new for so long stands still for whoever looks at it.
+// A stage that shows nothing new for so long visibly stands still.
 constexpr Duration kFreeze = Duration::ms(100);
 
 struct LineFigures {

@@ -25,7 +25,7 @@ struct Errors {
   double sum_m = 0.0;
   std::size_t count = 0;
   void add(const BodyLattice& lattice, const Pose& given, const Pose& got) {
-    // As whoever receives it sees it: floats, through the same kinematics.
+    // As a receiver sees it: floats, through the same kinematics.
     BodyState seen;
     const TrueBody body = true_body(lattice, got);
     seen.joint = body.joint;

@@ -23,7 +23,7 @@ BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz
   dance.skeleton = take.skeleton;
   const JointTrack track(take.skeleton, take.poses, take.hz);
   TakeGrid grid = find_take_grid(track);
-  // Whoever hears music of half or double the tempo dances every second beat, or each twice.
+  // To music of half or double the tempo dancers dance every second beat, or each twice.
   const double ratio = music.tempo_bpm(music.first_beat() + 4.0) / grid.tempo_bpm;
   grid.tempo_bpm *= std::exp2(std::round(std::log2(ratio)));
   const double shift = std::ceil(music.beat_at(0.0) - grid.beats_at(0.0));

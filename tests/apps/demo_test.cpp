@@ -168,7 +168,7 @@ TEST(Demo, KeepsThirtyDancersWholeAndInStep) {
   const TestFolder folder("crowd");
   const auto summary = run_demo("--guests 30 --seconds 4", folder.path());
   expect_all_delivered(summary, 30);
-  // In step: whoever dances in one house is staged at the same ticks of the other, so that for each
+  // In step: a dancer of one house is staged at the same ticks of the other, so that for each
   // pose of theirs that came it is about as many; one whose program came up late has fewer of both.
   std::map<std::string, std::vector<double>> ticks_of_house;
   const auto ticks_a_pose = [](const nlohmann::json& guest) {

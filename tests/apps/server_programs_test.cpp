@@ -173,7 +173,7 @@ TEST_F(ServerPrograms, MetricsAreAPageThatPrometheusReads) {
     std::strtod(number.c_str(), &end);
     EXPECT_EQ(*end, '\0') << line;
   }
-  // Whoever ends leaves the page.
+  // A house that ends leaves the page.
   for (ChildProcess& child : children_)
     if (&child != &children_[0]) child.stop(Duration::s(5));
   EXPECT_TRUE(wait_for([&] {
@@ -204,13 +204,12 @@ TEST_F(ServerPrograms, MetricsForEverybodyComeWithAWarning) {
   if (!has_metrics()) GTEST_SKIP() << "built without Prometheus";
   start_server({"--metrics", "0.0.0.0:" + std::to_string(kMetricsPort)});
   EXPECT_TRUE(wait_for([&] { return is_page(http_get(kMetricsPort, "/metrics")); })) << talk();
-  EXPECT_NE(talk().find("whoever reaches 0.0.0.0:9471 sees who dances"), std::string::npos)
-      << talk();
+  EXPECT_NE(talk().find("all who reach 0.0.0.0:9471 see who dances"), std::string::npos) << talk();
   end_all();
   std::filesystem::remove(folder_.path("talk"));
   start_server({"--metrics", "127.0.0.1:" + std::to_string(kMetricsPort)});
   EXPECT_TRUE(wait_for([&] { return is_page(http_get(kMetricsPort, "/metrics")); })) << talk();
-  EXPECT_EQ(talk().find("whoever reaches"), std::string::npos) << talk();
+  EXPECT_EQ(talk().find("all who reach"), std::string::npos) << talk();
 }
 
 TEST_F(ServerPrograms, AnEndingServerTellsItsLinksAtOnce) {

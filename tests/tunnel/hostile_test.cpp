@@ -231,7 +231,7 @@ TEST_F(HostileHello, WhatTheSealForgetsIsGoneAtOnce) {
   expect_the_dance_goes_on();
 }
 
-// Whoever learnt a token must not get the place of the house that it is from.
+// A stolen token must not give the place of the house that it is from.
 TEST_F(HostileHello, ATokenIsWorthNothingWithAnotherKey) {
   const PeerId anna = tunnel.add_peer({.name = guest("anna")});
   const PeerId anton = tunnel.add_peer({.name = guest("anton")});

@@ -95,7 +95,7 @@ TEST_F(LatticeRoom, ANewcomerDecodesEverybodyWithinARoundTripOverTheSenders) {
   EXPECT_LE(newcomer.link->counters().reference_missing, 6u * 3u);
 }
 
-TEST_F(LatticeRoom, WhoeverBeginsToDanceIsSeenFromTheFirstPoseOn) {
+TEST_F(LatticeRoom, ADancerIsSeenFromTheFirstPoseOn) {
   std::vector<House*> houses;
   for (int i = 0; i < 8; ++i)
     houses.push_back(&tunnel.add_house("salsa", {"late-" + std::to_string(i)}));

@@ -25,7 +25,7 @@ TEST(CameraRig, FramesAtOnceWhoComesFirst) {
   EXPECT_GT(height_in_picture(rig, scene.guests[0]), 0.55f);
 }
 
-TEST(CameraRig, ComesToFrameWhoeverJoinsWithoutAJump) {
+TEST(CameraRig, FramesAGuestWhoJoinsWithoutAJump) {
   CameraRig rig(CameraPreset::kFront);
   SceneState scene = couple();
   rig.update(scene, kAspect, kFrame);

@@ -166,7 +166,7 @@ TEST_F(PictureTest, ShowsAllOfThirtyDancers) {
   for (const SceneGuest& guest : scene.guests) append_outline(guest, points);
   camera = frame_points(camera, points, kAspect, 0.9f);
   const Picture all = draw(scene, camera, {false, false}, Quality::kLow);
-  // Whoever is left out leaves a gap where the head was; every third leaves at a time.
+  // A guest who is left out leaves a gap where the head was; every third leaves at a time.
   for (std::size_t first = 0; first < 3; ++first) {
     SceneState others = scene;
     for (std::size_t i = first; i < scene.guests.size(); i += 3) others.guests[i].opacity = 0.0f;

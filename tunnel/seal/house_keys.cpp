@@ -86,7 +86,7 @@ Result<HouseKeys> HouseKeys::parse(std::string_view text, const std::string& nam
 }
 
 std::string HouseKeys::text() const {
-  std::string text = "# Keys to dance servers. Whoever reads this can enter in your name.\n";
+  std::string text = "# Keys to dance servers. Anyone who reads this can enter in your name.\n";
   for (const HouseKey& key : keys_) text += key.line() + "\n";
   return text;
 }

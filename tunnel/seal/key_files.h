@@ -23,7 +23,7 @@ Result<std::string> key_folder();
 Result<std::optional<std::string>> read_secret(const std::string& path);
 Result<void> write_secret(const std::string& path, const std::string& text);
 
-// The key between programs on this machine, made by whoever needs it first.
+// The key between programs on this machine, made by the first that needs it.
 constexpr const char* kLocalKeyName = "local";
 Result<PresharedKey> local_key();
 

@@ -86,7 +86,7 @@ Result<KeyRing> KeyRing::parse(std::string_view text, const std::string& name) {
 
 std::string KeyRing::text() const {
   std::string text =
-      "# Keys of a dance server: NAME KIND ROOM KEY. Whoever reads this can enter.\n";
+      "# Keys of a dance server: NAME KIND ROOM KEY. Anyone who reads this can enter.\n";
   for (const KeyEntry& entry : entries_) {
     text += std::string(entry.name.view()) + " " + std::string(key_kind_name(entry.kind)) + " " +
             (entry.room.is_set() ? std::string(entry.room.view()) : "*") + " " + entry.key.text() +

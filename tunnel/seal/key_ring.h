@@ -2,7 +2,7 @@
 //   alice  guest  *      <key>      alice, and alice-2, alice-phone …, in every room
 //   bob    host   salsa  <key>      may change music and scene of the room salsa
 //   anna   listener *    <key>      hears and sees, and is not seen
-//   salsa  room   salsa  <key>      whoever has this key, under any name that has no key of its own
+//   salsa  room   salsa  <key>      all who have this key, under any name without a key of its own
 //
 // Units/frames: none.
 // Ownership:    plain values.

@@ -202,7 +202,7 @@ bool SealChannel::take_records(seal::Bytes records) {
   in_size_ = 0;
   while (const auto record = seal::take_record(records)) {
     // Of epoch 0 anybody could be the author, and application data has its own form. What is too
-    // short to be sealed is an error of ours to OpenSSL, not of whoever made it.
+    // short to be sealed is an error of ours to OpenSSL, not of its sender.
     if (record->epoch != 1 || record->type == seal::kApplicationData ||
         record->body().size() <= seal::kTag)
       continue;

@@ -188,7 +188,7 @@ class SealServer {
   std::unique_ptr<SealContext> context_;
   std::unordered_map<PeerId, Peer> peers_;
   std::vector<Handshake> handshakes_;
-  std::unique_ptr<SealChannel> listener_;  // for whoever is next
+  std::unique_ptr<SealChannel> listener_;  // for the next client
   SourceLimits strangers_;
   SourceLimits notices_;
   SourceLimits cookies_;

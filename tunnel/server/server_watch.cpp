@@ -28,7 +28,7 @@ Result<std::unique_ptr<ServerWatch>> ServerWatch::open(const ServerCore& core,
     const Address heard = address.with_port(watch->metrics_->port());
     talk::info("metrics at http://{}/metrics", heard.to_string());
     if (!heard.is_loopback())
-      talk::warn("metrics: whoever reaches {} sees who dances in which room", heard.to_string());
+      talk::warn("metrics: all who reach {} see who dances in which room", heard.to_string());
   }
   const std::string path = local_socket_folder() + "/" + status_socket_name(options.address.port());
   auto socket = LocalTextServer::open(

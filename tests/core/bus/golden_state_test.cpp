@@ -1,5 +1,5 @@
-// As golden_test.cpp, for what changes seldom: the room's music and scene, a guest's avatar, style
-// and place; and for the beat.
+// As golden_test.cpp, for states, which change rarely: the room's music and scene, a guest's
+// avatar, style and place; and for the beat.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -59,7 +59,7 @@ TEST(ExactMath, Exp2AndLog2AreNearTheTruth) {
   EXPECT_EQ(exact::exp2(1e9), HUGE_VAL);
 }
 
-// Whoever builds this gets these bits, or two ends do not understand each other.
+// Every build gives these bits; otherwise two ends cannot decode each other.
 TEST(ExactMath, GivesTheSameBitsEverywhere) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   const auto add = [&hash](double v) {

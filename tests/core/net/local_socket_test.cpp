@@ -93,7 +93,7 @@ class LocalSocket : public ::testing::Test {
   std::atomic<bool> poller_is_needed{false};
 };
 
-TEST_F(LocalSocket, TellsWhoeverConnectsAndOnlyThisUser) {
+TEST_F(LocalSocket, AnswersEachClientOfThisUserOnly) {
   open();
   const auto answer = ask();
   ASSERT_TRUE(answer) << answer.error().reason;

@@ -147,7 +147,7 @@ TEST(LossyProxy, CarriesBothWaysAndCountsWhatItLoses) {
   EXPECT_NEAR(static_cast<double>((*proxy)->totals(Direction::kUp).line.lost), 120.0, 40.0);
 }
 
-// Traces are of the line, not of whoever comes to it.
+// Traces belong to the line, not to a client.
 TEST(LossyProxy, BeginsItsTracesWithTheFirstClientAndNotAnewWithOthers) {
   auto poller = Poller::create();
   ASSERT_TRUE(poller);

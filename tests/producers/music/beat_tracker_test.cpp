@@ -95,7 +95,7 @@ TEST(BeatTracker, CountsOnThroughABreak) {
   const Tracked tracked =
       track(DrumMusic(kRate_hz).play(beats, 24.0, from_s, from_s + 8 * period_s));
   EXPECT_GE(score(beats, tracked).f_measure(), 0.97);
-  // Whoever counts along from the fifth second on is right at the end.
+  // A count from the fifth second on is right at the end.
   const auto at = [&](double t) {
     const MonoTime time = MonoTime{} + Duration::seconds(t);
     std::size_t k = 0;

@@ -1,5 +1,5 @@
 // The functions of the C library that dance_video_shim answers in place of the kernel. All that is
-// not about its device goes on to whoever comes next.
+// not about its device goes on to the next library.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/ioctl.h>

@@ -1,4 +1,4 @@
-#include "manager/study.h"
+#include "manager/training_thread.h"
 
 #include <gtest/gtest.h>
 
@@ -23,29 +23,29 @@ bool comes_true(Condition condition) {
   return condition();
 }
 
-TEST(Study, TeachesEachLearnerAgainAndAgain) {
+TEST(TrainingThread, TeachesEachLearnerAgainAndAgain) {
   std::atomic<int> gone{0};
   const auto a = std::make_shared<Counting>(gone), b = std::make_shared<Counting>(gone);
-  Study study;
-  EXPECT_EQ(study.failure(), "");
-  study.add(a);
+  TrainingThread training;
+  EXPECT_EQ(training.failure(), "");
+  training.add(a);
   EXPECT_TRUE(comes_true([&] { return a->lessons > 1; }));
-  study.add(b);
+  training.add(b);
   EXPECT_TRUE(comes_true([&] { return b->lessons > 1; }));
 }
 
-TEST(Study, LetsGoOfALearnerWhoseTransformerHasGone) {
+TEST(TrainingThread, ReleasesALearnerWhoseTransformerHasGone) {
   std::atomic<int> gone{0};
-  Study study;
-  study.add(std::make_shared<Counting>(gone));
+  TrainingThread training;
+  training.add(std::make_shared<Counting>(gone));
   EXPECT_TRUE(comes_true([&] { return gone == 1; }));
 }
 
-TEST(Study, EndsWithoutWaitingForALesson) {
+TEST(TrainingThread, EndsWithoutWaitingForATrainingRun) {
   std::atomic<int> gone{0};
   for (int i = 0; i < 20; ++i) {
-    Study study;
-    study.add(std::make_shared<Counting>(gone));
+    TrainingThread training;
+    training.add(std::make_shared<Counting>(gone));
   }
   EXPECT_EQ(gone, 20);
 }

@@ -1,4 +1,4 @@
-#include "manager/study.h"
+#include "manager/training_thread.h"
 
 #include <sys/resource.h>
 
@@ -15,7 +15,7 @@ constexpr int kNice = 10;
 
 }  // namespace
 
-Study::Study() {
+TrainingThread::TrainingThread() {
   try {
     thread_ = std::thread([this] { run(); });
   } catch (const std::system_error& error) {
@@ -23,7 +23,7 @@ Study::Study() {
   }
 }
 
-Study::~Study() {
+TrainingThread::~TrainingThread() {
   {
     const std::scoped_lock lock(mutex_);
     ends_ = true;
@@ -32,12 +32,12 @@ Study::~Study() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Study::add(std::shared_ptr<Learner> learner) {
+void TrainingThread::add(std::shared_ptr<Learner> learner) {
   const std::scoped_lock lock(mutex_);
   learners_.push_back(std::move(learner));
 }
 
-void Study::run() {
+void TrainingThread::run() {
   // Of this thread only, on Linux; where it is not allowed, the poses still come first by their
   // sleep being short.
   setpriority(PRIO_PROCESS, 0, kNice);

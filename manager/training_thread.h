@@ -1,7 +1,7 @@
-// Study: the thread in which transformers learn of their dancers, beside the pose path and below
-// it: the machine gives it time only when nobody else wants any.
+// TrainingThread: the thread in which predictors train on their dancers, beside the pose path and at
+// idle priority.
 //
-// Ownership:    shares the learners; lets go of one when its transformer has gone.
+// Ownership:    shares the learners; releases one when its transformer is gone.
 // Threads:      starts one. add() may be called from another and waits for nothing longer than the
 //               copy of a pointer.
 // Failure:      where no thread can be had nothing is learned, and failure() says why.
@@ -19,12 +19,12 @@
 
 namespace dance {
 
-class Study {
+class TrainingThread {
  public:
-  Study();
-  ~Study();
-  Study(const Study&) = delete;
-  Study& operator=(const Study&) = delete;
+  TrainingThread();
+  ~TrainingThread();
+  TrainingThread(const TrainingThread&) = delete;
+  TrainingThread& operator=(const TrainingThread&) = delete;
 
   void add(std::shared_ptr<Learner> learner);
   const std::string& failure() const { return failure_; }
