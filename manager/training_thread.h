@@ -1,5 +1,5 @@
-// TrainingThread: the thread in which predictors train on their dancers, beside the pose path and at
-// idle priority.
+// TrainingThread: the thread in which predictors train on their dancers, beside the pose path and
+// at idle priority.
 //
 // Ownership:    shares the learners; releases one when its transformer is gone.
 // Threads:      starts one. add() may be called from another and waits for nothing longer than the

@@ -214,7 +214,7 @@ TEST_F(CapturePrograms, SayWhatIsMissing) {
   const Finished no_models = run(bin("dance-capture") + " " + kVideo + " --models " +
                                  folder_.path("empty") + " --bus " + quoted(kBus));
   EXPECT_EQ(no_models.exit_code, 1);
-  EXPECT_NE(no_models.talk.find("dance setup"), std::string::npos) << no_models.talk;
+  EXPECT_NE(no_models.talk.find("dance fetch-models"), std::string::npos) << no_models.talk;
   std::ofstream(folder_.path("lens.yml")) << "%YAML:1.0\n---\nimage_width: nine\n";
   const Finished no_lens = run(bin("dance-capture") + " " + kVideo + " --calibration " +
                                folder_.path("lens.yml") + " --bus " + quoted(kBus));
