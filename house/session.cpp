@@ -1,7 +1,11 @@
 #include "house/session.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <filesystem>
 
+#include "consumers/consumer_table.h"
 #include "core/program/whole_file.h"
 #include "house/toml_reader.h"
 #include "transformers/flow.h"
@@ -158,8 +162,9 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Sess
 void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   HostedConsumer consumer;
   consumer.to = reader.required_string("to");
-  if (consumer.to != "text" && consumer.to != "csv" && consumer.to != "bvh")
-    reader.complain("to", "is text, csv or bvh");
+  if (const auto names = consumer_names();
+      std::find(names.begin(), names.end(), consumer.to) == names.end())
+    reader.complain("to", fmt::format("is one of: {}", fmt::join(names, ", ")));
   consumer.from = read_end(reader, "from", reader.string_or("from", "POSE/stage/*"));
   const auto file = reader.maybe_string("file");
   if (file) consumer.file = (folder / *file).string();

@@ -46,9 +46,9 @@ struct HostedCamera {
   bool mirror = false;
 };
 
-// A consumer inside the manager's process.
+// A consumer inside the house's process.
 struct HostedConsumer {
-  std::string to = "text";  // text, csv or bvh
+  std::string to = "text";  // a name of consumers/consumer_table.h
   RouteEnd from;
   std::string file;  // "" = standard output
 };

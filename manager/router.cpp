@@ -15,26 +15,26 @@ constexpr std::size_t kMostKnown = 2 * kMaxGuests;
 Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink)
     : our_clock_id_(our_clock_id), sink_(sink) {
   for (const Route& route : routes) {
-    lines_.push_back(std::make_unique<Line>(Line{route, route.rate_hz, {}, {}}));
-    lines_from_[static_cast<std::size_t>(route.from.where)].push_back(lines_.back().get());
+    routes_.push_back(std::make_unique<RouteState>(RouteState{route, route.rate_hz, {}, {}}));
+    routes_from_[static_cast<std::size_t>(route.from.where)].push_back(routes_.back().get());
   }
 }
 
-Router::Instance* Router::instance_of(Line& line, const GuestId& guest, MonoTime now) {
-  for (auto& instance : line.instances)
+Router::Instance* Router::instance_of(RouteState& state, const GuestId& guest, MonoTime now) {
+  for (auto& instance : state.instances)
     if (instance->guest == guest) return instance.get();
-  if (line.instances.size() == kMaxGuests) {
+  if (state.instances.size() == kMaxGuests) {
     // Full: the guest who is silent for longest gives the place to the newcomer.
-    const auto longest = longest_silent(line);
+    const auto longest = longest_silent(state);
     if (now - (*longest)->last_heard <= Roster::kSilence) return nullptr;
-    erase(line, longest);
+    erase(state, longest);
   }
-  auto flow = Flow::make(line.route.through);
+  auto flow = Flow::make(state.route.through);
   DANCE_ASSERT(flow.has_value());
-  line.instances.push_back(std::make_unique<Instance>(
-      Instance{guest, shown_as(line, guest), std::move(*flow), now, 0, {}}));
-  prepare(line, *line.instances.back());
-  return line.instances.back().get();
+  state.instances.push_back(std::make_unique<Instance>(
+      Instance{guest, shown_as(state, guest), std::move(*flow), now, 0, {}}));
+  prepare(state, *state.instances.back());
+  return state.instances.back().get();
 }
 
 bool Router::is_shown(const Instance& instance, MonoTime now) {
@@ -43,35 +43,35 @@ bool Router::is_shown(const Instance& instance, MonoTime now) {
   return now - instance.last_heard <= std::max(Roster::kSilence, instance.flow.patience());
 }
 
-Router::Instances::iterator Router::longest_silent(Line& line) {
+Router::Instances::iterator Router::longest_silent(RouteState& state) {
   return std::min_element(
-      line.instances.begin(), line.instances.end(),
+      state.instances.begin(), state.instances.end(),
       [](const auto& a, const auto& b) { return a->last_heard < b->last_heard; });
 }
 
-void Router::erase(Line& line, Instances::iterator instance) {
+void Router::erase(RouteState& state, Instances::iterator instance) {
   stats_.dropped_late += static_cast<std::int64_t>((*instance)->flow.counters().refused);
-  line.instances.erase(instance);
+  state.instances.erase(instance);
 }
 
 void Router::evict_gone(MonoTime now) {
-  for (auto& line : lines_) {
-    Instances& instances = line->instances;
+  for (auto& state : routes_) {
+    Instances& instances = state->instances;
     if (instances.empty()) continue;
-    const auto longest = longest_silent(*line);
+    const auto longest = longest_silent(*state);
     const auto is_heard = [&](const auto& i) { return is_shown(*i, now); };
-    if (std::none_of(instances.begin(), instances.end(), is_heard)) line->silent = now;
-    const bool is_line_there = !line->silent || now - *line->silent > kHasLeft;
+    if (std::none_of(instances.begin(), instances.end(), is_heard)) state->silent = now;
+    const bool is_network_there = !state->silent || now - *state->silent > kHasLeft;
     const auto left = std::count_if(instances.begin(), instances.end(),
                                     [&](const auto& i) { return now - i->last_heard > kHasLeft; });
-    const bool too_many = is_line_there && left > static_cast<std::ptrdiff_t>(kMostAway);
-    if (now - (*longest)->last_heard > kComesBack || too_many) erase(*line, longest);
+    const bool too_many = is_network_there && left > static_cast<std::ptrdiff_t>(kMostAway);
+    if (now - (*longest)->last_heard > kComesBack || too_many) erase(*state, longest);
   }
 }
 
-void Router::prepare(const Line& line, Instance& instance) {
+void Router::prepare(const RouteState& state, Instance& instance) {
   for (const Known& known : known_) {
-    if (known.where != line.route.from.where || known.guest != instance.guest) continue;
+    if (known.where != state.route.from.where || known.guest != instance.guest) continue;
     if (known.body) instance.flow.set_body(*known.body);
     if (known.style) instance.flow.set_style(*known.style);
   }
@@ -96,9 +96,9 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
     return;
   }
   bool wanted = false;
-  for (Line* line : lines_from_[static_cast<std::size_t>(where)]) {
-    if (!is_for(*line, guest)) continue;
-    Instance* instance = instance_of(*line, guest, now);
+  for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
+    if (!is_for(*state, guest)) continue;
+    Instance* instance = instance_of(*state, guest, now);
     if (!instance) continue;
     wanted = true;
     instance->last_heard = now;
@@ -115,10 +115,10 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
 }
 
 void Router::take(Where where, const GuestId& guest, const Hands& hands) {
-  for (Line* line : lines_from_[static_cast<std::size_t>(where)]) {
-    if (!is_for(*line, guest)) continue;
+  for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
+    if (!is_for(*state, guest)) continue;
     // Fingers come after their body's first pose, which makes the instance.
-    for (auto& instance : line->instances) {
+    for (auto& instance : state->instances) {
       if (instance->guest != guest) continue;
       if (instance->flow.is_pass_through())
         sink_.stage(instance->shown_as, hands);
@@ -130,30 +130,30 @@ void Router::take(Where where, const GuestId& guest, const Hands& hands) {
 
 void Router::take(Where where, const GuestId& guest, const TimedSkeleton& skeleton) {
   known_of(where, guest).body = skeleton.skeleton;
-  for (Line* line : lines_from_[static_cast<std::size_t>(where)]) {
-    if (!is_for(*line, guest)) continue;
-    sink_.stage(shown_as(*line, guest), skeleton);
-    for (auto& instance : line->instances)
+  for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
+    if (!is_for(*state, guest)) continue;
+    sink_.stage(shown_as(*state, guest), skeleton);
+    for (auto& instance : state->instances)
       if (instance->guest == guest) instance->flow.set_body(skeleton.skeleton);
   }
 }
 
 void Router::take(Where where, const GuestId& guest, const Style& style) {
   known_of(where, guest).style = style;
-  for (Line* line : lines_from_[static_cast<std::size_t>(where)])
-    for (auto& instance : line->instances)
+  for (RouteState* state : routes_from_[static_cast<std::size_t>(where)])
+    for (auto& instance : state->instances)
       if (instance->guest == guest) instance->flow.set_style(style);
 }
 
 void Router::hear(const Beat& beat, MonoTime /*now*/) {
   beat_ = beat;
-  for (auto& line : lines_)
-    for (auto& instance : line->instances) instance->flow.hear(beat);
+  for (auto& state : routes_)
+    for (auto& instance : state->instances) instance->flow.hear(beat);
 }
 
 void Router::tick(std::size_t route, MonoTime now) {
-  Line& line = *lines_[route];
-  for (auto& instance : line.instances) {
+  RouteState& state = *routes_[route];
+  for (auto& instance : state.instances) {
     if (!is_shown(*instance, now)) continue;
     Pose pose;
     if (!instance->flow.sample(now, pose)) continue;
@@ -169,8 +169,8 @@ void Router::tick(std::size_t route, MonoTime now) {
 
 Stats Router::stats() const {
   Stats stats = stats_;
-  for (const auto& line : lines_)
-    for (const auto& instance : line->instances)
+  for (const auto& state : routes_)
+    for (const auto& instance : state->instances)
       stats.dropped_late += static_cast<std::int64_t>(instance->flow.counters().refused);
   stats.guests = roster_.alive_count();
   return stats;

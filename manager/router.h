@@ -51,14 +51,14 @@ class Router {
   void on_learner(OnLearner on_learner) { on_learner_ = std::move(on_learner); }
 
   // The routes with a steady rate, and the work of one of their deadlines.
-  std::size_t route_count() const { return lines_.size(); }
-  double rate_hz(std::size_t route) const { return lines_[route]->rate_hz; }
+  std::size_t route_count() const { return routes_.size(); }
+  double rate_hz(std::size_t route) const { return routes_[route]->rate_hz; }
   void tick(std::size_t route, MonoTime now);
 
-  // A flow is megabytes, and what it has learned of its dancer is in it. Who comes back within
-  // kComesBack is danced with as before, unless more than kMostAway have left since; then it is
-  // freed. Who is silent has left after kHasLeft, if others are heard meanwhile: where nobody is,
-  // it is the line.
+  // A flow is megabytes and holds what it has learned of its dancer: it is kept for a guest who
+  // comes back within kComesBack, unless more than kMostAway have left since; then it is freed. A
+  // guest silent for kHasLeft has left, unless all of this route are silent: then the network is at
+  // fault.
   static constexpr Duration kComesBack = Duration::s(300);
   static constexpr Duration kHasLeft = Duration::s(60);
   static constexpr std::size_t kMostAway = 8;
@@ -66,7 +66,7 @@ class Router {
   // for many.
   void evict_gone(MonoTime now);
 
-  bool wants(Where where) const { return !lines_from_[static_cast<std::size_t>(where)].empty(); }
+  bool wants(Where where) const { return !routes_from_[static_cast<std::size_t>(where)].empty(); }
   Roster& roster() { return roster_; }
   // Counters of poses; time, uptime and lateness are the caller's.
   Stats stats() const;
@@ -89,31 +89,31 @@ class Router {
     std::optional<Skeleton> body;
     std::optional<Style> style;
   };
-  struct Line {
+  struct RouteState {
     Route route;
     double rate_hz;
     Instances instances;
     std::optional<MonoTime> silent;  // when nobody of it was heard, last
   };
 
-  Instance* instance_of(Line& line, const GuestId& guest, MonoTime now);
+  Instance* instance_of(RouteState& state, const GuestId& guest, MonoTime now);
   // Still on the stage: heard of lately, or danced on with.
   static bool is_shown(const Instance& instance, MonoTime now);
-  static Instances::iterator longest_silent(Line& line);
-  void erase(Line& line, Instances::iterator instance);
-  bool is_for(const Line& line, const GuestId& guest) const {
-    return !line.route.from.guest.is_set() || line.route.from.guest == guest;
+  static Instances::iterator longest_silent(RouteState& state);
+  void erase(RouteState& state, Instances::iterator instance);
+  bool is_for(const RouteState& state, const GuestId& guest) const {
+    return !state.route.from.guest.is_set() || state.route.from.guest == guest;
   }
-  static GuestId shown_as(const Line& line, const GuestId& guest) {
-    return line.route.to.guest.is_set() ? line.route.to.guest : guest;
+  static GuestId shown_as(const RouteState& state, const GuestId& guest) {
+    return state.route.to.guest.is_set() ? state.route.to.guest : guest;
   }
   Known& known_of(Where where, const GuestId& guest);
-  void prepare(const Line& line, Instance& instance);
+  void prepare(const RouteState& state, Instance& instance);
   std::uint64_t our_clock_id_;
   StageSink& sink_;
-  std::vector<std::unique_ptr<Line>> lines_;
-  std::array<std::vector<Line*>, 5> lines_from_;  // by Where
-  std::vector<Known> known_;                      // at most kMostKnown
+  std::vector<std::unique_ptr<RouteState>> routes_;
+  std::array<std::vector<RouteState*>, 5> routes_from_;  // by Where
+  std::vector<Known> known_;                             // at most kMostKnown
   std::optional<Beat> beat_;
   OnLearner on_learner_;
   Roster roster_;

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "consumers/consumer_table.h"
+
 namespace dance {
 namespace {
 
@@ -56,6 +58,13 @@ TEST(Session, NamesTheCameraOfADancer) {
       << "a file of the session's folder";
   EXPECT_EQ(session->cameras[2].device, "1") << "the camera's number";
   EXPECT_EQ(session->cameras[3].device, "HD Webcam") << "the camera's name";
+}
+
+TEST(Session, ListsTheConsumersThatThereAre) {
+  const std::string error = error_of(std::string(kHouse) + "[[listen]]\nto = \"smoke\"\n");
+  EXPECT_EQ(error.rfind("s.toml:5:", 0), 0u) << error;
+  for (const std::string& name : consumer_names())
+    EXPECT_NE(error.find(name), std::string::npos) << error;
 }
 
 TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {

@@ -5,7 +5,7 @@
 namespace dance {
 namespace {
 
-// Twice what the server lets through: the way from there takes its time too.
+// Twice the server's limit: the network adds delay.
 constexpr std::int64_t kOldestTold_us = 120'000'000;
 constexpr std::int64_t kFarthestTold_us = 2'000'000;
 constexpr Duration kLeastWantGap = Duration::ms(50);
@@ -99,7 +99,7 @@ bool LinkReceiver::on_record(wire::Record record, MonoTime received, MonoTime no
   if (verdict == StreamGate::Verdict::kNewStream) remote.decoder->restart();
   if (!decode(remote, record, now)) return false;
   remote.heard.has_decoded = true;
-  // Through another sealed session the stage has seen more than the server retained.
+  // The stage already showed something newer than this pose, which the server kept.
   if (record.is_retained && remote.shown.is_set() && capture <= remote.shown) return true;
   remote.shown = capture;
   decoded_.sequence = record.sequence;
