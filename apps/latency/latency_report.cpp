@@ -51,7 +51,7 @@ void append_notes(std::string& out, const GuestJourney& guest) {
   if (guest.backwards() > 0)
     fmt::format_to(back,
                    "  {} times a step ended before it began and is left out: the stage shows a "
-                   "guess ahead of what has come (predict), or clocks were off\n",
+                   "prediction ahead of what has come (predict), or clocks were off\n",
                    guest.backwards());
 }
 

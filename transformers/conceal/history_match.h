@@ -56,7 +56,7 @@ class HistoryMatch {
   std::array<float, kMost> low_m_{};       // the lower ball's height
   std::array<float, kMost> distance_{};    // less than 0: not usable
   std::array<bool, kMost> after_a_gap_{};  // between this and the one after it in time
-  std::array<bool, kMost> is_broken_{};    // the same: a jump that no body does
+  std::array<bool, kMost> is_broken_{};    // the same: an impossible jump
   float floor_m_ = 0.0f;
 };
 

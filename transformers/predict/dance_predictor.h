@@ -49,7 +49,7 @@ class DancePredictor {
 
   const std::shared_ptr<PersonalModel>& personal() const { return personal_; }
   std::uint64_t dropped() const { return dropped_; }
-  // How often a bone turned as no body does, and was held where it was.
+  // How often a bone turned impossibly fast, and was held where it was.
   std::uint64_t held_bones() const { return rows_.held(); }
 
   // For training: the predictions of `age` rows ago, and the rows.

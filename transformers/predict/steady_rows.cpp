@@ -49,7 +49,7 @@ SteadyRows::Heard SteadyRows::observe(const Pose& pose) {
   return Heard::kTaken;
 }
 
-// A bone that turns as no body does was mistaken: it stays until it comes back, or has stayed
+// A bone that turns impossibly fast is an outlier: it stays until it comes back, or has stayed
 // there. Soon after that, or after it was not seen at all, it may be anywhere.
 void SteadyRows::hold_lost_bones(Duration step, Pose& pose) {
   const float most_rad =

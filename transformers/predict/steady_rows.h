@@ -3,7 +3,7 @@
 //
 // Units/frames: capture times; rows as transformers/predict/body_row.h. The rows' times follow a
 //               source of about 60 Hz, so that its poses are taken as they are; others are
-//               interpolated. A bone that turns as no body does is held where it was, for 70 ms at
+//               interpolated. A bone that turns impossibly fast is held where it was, for 70 ms at
 //               most; of a sensor of 15 Hz and less hardly any.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
