@@ -67,6 +67,7 @@ step() { # PRESET [TARGET…]: a build that fails is a failed test.
 step ci && jobs=$((jobs + 1)) run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
   export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
+  export LSAN_OPTIONS=suppressions=$PWD/tests/lsan_suppressions.txt:print_suppressions=0
   export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt
   # Drawing in software is ten times slower here, and memory that a graphics driver keeps until it is unloaded counts as
   # lost: the viewer's own tests draw under sanitizers.
