@@ -9,6 +9,7 @@
 #include "transformers/flow.h"
 #include "transformers/playout/hold_clock.h"
 #include "transformers/playout/live_clock.h"
+#include "transformers/playout/newest_clock.h"
 #include "transformers/predict/dance_extrapolator.h"
 #include "transformers/rhythm/rhythm_clock.h"
 #include "transformers/settings.h"
@@ -143,7 +144,8 @@ Flow::Slots assemble(Draft draft) {
   const bool has_clock = clock || predicts || conceals;
   // At strength 0 rhythm changes nothing, unless it alone plays out.
   const bool is_in_rhythm = draft.rhythm && (draft.rhythm->strength > 0.0 || !has_clock);
-  if (!clock && (has_clock || !is_in_rhythm)) clock = std::make_unique<LiveClock>(draft.lead);
+  if (!clock && has_clock) clock = std::make_unique<LiveClock>(draft.lead);
+  if (!clock && !is_in_rhythm) clock = std::make_unique<NewestClock>();
   if (is_in_rhythm) clock = std::make_unique<RhythmClock>(*draft.rhythm, std::move(clock));
   // rhythm measures how far predictions are good.
   if (is_in_rhythm) slots.source.reach = DancePredictor::kFurthest;

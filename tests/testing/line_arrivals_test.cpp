@@ -41,6 +41,22 @@ TEST(LineArrivals, OfASlowSensorAreEachSoManyth) {
   EXPECT_EQ(arrivals[2].index, 8u);
 }
 
+TEST(LineArrivals, AStallHoldsBackWhatWouldHaveComeMeanwhileAndNothingElse) {
+  const auto before = arrivals_over("delay=100ms", 300);
+  auto arrivals = before;
+  const MonoTime begin = MonoTime::from_us(2'000'000), end = begin + Duration::ms(400);
+  stall(arrivals, begin, Duration::ms(400));
+  ASSERT_EQ(arrivals.size(), before.size());
+  std::size_t held = 0;
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    EXPECT_EQ(arrivals[i].index, before[i].index);
+    const bool is_meanwhile = before[i].at >= begin && before[i].at < end;
+    EXPECT_EQ(arrivals[i].at, is_meanwhile ? end : before[i].at) << i;
+    held += is_meanwhile ? 1 : 0;
+  }
+  EXPECT_NEAR(static_cast<double>(held), 24.0, 1.0);
+}
+
 TEST(LineArrivals, AStallHoldsBackWhatWouldHaveComeInTheOrderOfSending) {
   auto arrivals = arrivals_over("delay=100ms tail=30ms", 300);
   const MonoTime begin = MonoTime::from_us(2'000'000), end = begin + Duration::ms(400);

@@ -46,6 +46,26 @@ TEST(Flow, RefusesArgumentsThatMakeNoSense) {
 
 TEST(Flow, AHoldWithoutATimeFindsItsOwn) { EXPECT_EQ(error_of({"hold"}), ""); }
 
+// Of a clock that is a little ahead, and of another house's while the line gets faster.
+TEST(Flow, StylizeAloneShowsTheNewestPoseAsItCame) {
+  for (const int ahead_ms : {50, -90'000}) {
+    auto flow = Flow::make({"stylize hips=1"});
+    ASSERT_TRUE(flow);
+    for (int i = 0; i < 60; ++i) {
+      Pose pose;
+      pose.sequence = static_cast<std::uint32_t>(i);
+      pose.clock_id = 1;
+      const MonoTime now = MonoTime::from_us(100'000'000 + 16'000 * i);
+      pose.capture_time = now + Duration::ms(i < 30 ? ahead_ms : ahead_ms + 300);
+      flow->observe(pose, now);
+      Pose out;
+      ASSERT_TRUE(flow->sample(now, out));
+      EXPECT_EQ(out.capture_time, pose.capture_time) << ahead_ms << ' ' << i;
+    }
+    EXPECT_EQ(flow->counters().starved, 0u);
+  }
+}
+
 TEST(Flow, TakesManyBlanks) { EXPECT_EQ(error_of({"  hold   20ms  "}), ""); }
 
 TEST(Flow, TakesEverySubsetOfTheWordsInTheirOrder) {
