@@ -25,9 +25,9 @@ Manager::Manager(const std::vector<Route>& routes, SignalPort& port, Poller& pol
       [this](std::shared_ptr<Learner> learner) { training_.add(std::move(learner)); });
   listen(Where::kCapture);
   listen(Where::kGuest);
-  port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime now) {
+  port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     // Of another machine's clock it says nothing about the music here.
-    if (beat.clock_id == this_clock_id()) router_.hear(beat, now);
+    if (beat.clock_id == this_clock_id()) router_.hear(beat);
   });
   start_timers(poller);
 }

@@ -145,7 +145,7 @@ void Router::take(Where where, const GuestId& guest, const Style& style) {
       if (instance->guest == guest) instance->flow.set_style(style);
 }
 
-void Router::hear(const Beat& beat, MonoTime /*now*/) {
+void Router::hear(const Beat& beat) {
   beat_ = beat;
   for (auto& state : routes_)
     for (auto& instance : state->instances) instance->flow.hear(beat);

@@ -44,7 +44,7 @@ class Router {
   void take(Where where, const GuestId& guest, const TimedSkeleton& skeleton);
   // How a guest's dance is to be shown, and the music that this house hears.
   void take(Where where, const GuestId& guest, const Style& style);
-  void hear(const Beat& beat, MonoTime now);
+  void hear(const Beat& beat);
 
   // What learns of the guests beside the pose path: called with each new one.
   using OnLearner = std::function<void(std::shared_ptr<Learner>)>;

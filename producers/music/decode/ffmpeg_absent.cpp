@@ -2,11 +2,12 @@
 
 namespace dance {
 
-Result<std::unique_ptr<AudioDecoder>> open_with_ffmpeg(const std::string&) {
+Result<std::unique_ptr<AudioDecoder>> open_with_ffmpeg(const std::string& path) {
   return fail(
       "libsndfile cannot read it, and this dance was built without FFmpeg; install "
       "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev and build again, or "
-      "convert it to .flac");
+      "convert it to " +
+      other_audio_format(path));
 }
 
 }  // namespace dance

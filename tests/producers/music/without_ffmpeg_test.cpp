@@ -34,6 +34,15 @@ TEST_F(WithoutFfmpeg, NamesTheFileAndThePackages) {
                 "again, or convert it to .flac");
 }
 
+TEST_F(WithoutFfmpeg, DoesNotAdviseToConvertAFileToWhatItIs) {
+  const std::string damaged = path_ + ".flac";
+  std::ofstream(damaged) << "fLaC and nothing else";
+  const auto audio = AudioFile::open(damaged);
+  std::filesystem::remove(damaged);
+  ASSERT_FALSE(audio);
+  EXPECT_TRUE(audio.error().what.ends_with("or convert it to .wav")) << audio.error().what;
+}
+
 TEST_F(WithoutFfmpeg, ReadsWhatLibsndfileReads) {
   write_wav(path_, std::vector<float>(100, 0.25f), 1, 44100);
   const auto audio = AudioFile::open(path_);
