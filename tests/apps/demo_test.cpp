@@ -152,7 +152,7 @@ TEST(Demo, ShowsRemoteDancersByTheRouteOfAnyHouse) {
   // 40 ms on the way, and shown as of now.
   ASSERT_EQ(summary["guests"].size(), 2u);
   for (const auto& guest : summary["guests"]) {
-#ifndef DANCE_SANITIZED  // too slow there to predict each picture in time
+#ifndef __SANITIZE_THREAD__  // too slow there to predict each picture in time
     EXPECT_LT(guest["age_p50_ms"].get<double>(), 20.0) << guest;
 #endif
     for (const auto& step : guest["steps"]) {
