@@ -1,6 +1,7 @@
 #include "consumers/consumer_table.h"
 
-#include <array>
+#include <algorithm>
+#include <utility>
 
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
@@ -11,46 +12,100 @@ namespace {
 
 constexpr double kBvhFrames_hz = 60.0;
 
-using Make = std::unique_ptr<PoseConsumer> (*)(OutputFile&, const ConsumerOptions&);
+using Made = Result<std::unique_ptr<PoseConsumer>>;
 
 struct Row {
-  const char* name;
-  Make make;
+  ConsumerKind kind;
+  Made (*make)(const ConsumerOptions&);
 };
 
-const std::array<Row, 3> kConsumers{{
-    {"text",
-     [](OutputFile& output, const ConsumerOptions& options) -> std::unique_ptr<PoseConsumer> {
-       return std::make_unique<TextConsumer>(output, options.hz, options.own_clock_id);
-     }},
-    {"csv",
-     [](OutputFile& output, const ConsumerOptions& options) -> std::unique_ptr<PoseConsumer> {
-       return std::make_unique<CsvConsumer>(output, options.hz);
-     }},
-    {"bvh",
-     [](OutputFile& output, const ConsumerOptions& options) -> std::unique_ptr<PoseConsumer> {
-       return std::make_unique<BvhConsumer>(output, options.hz > 0.0 ? options.hz : kBvhFrames_hz,
-                                            options.guest);
-     }},
-}};
+// A row for a consumer that is made of its file and the options.
+template <class Consumer, class... Arguments>
+Made on_file(const ConsumerOptions& options, Arguments&&... arguments) {
+  DANCE_TRY(auto output, OutputFile::open(options.file));
+  return std::make_unique<Consumer>(std::shared_ptr<OutputFile>(std::move(output)),
+                                    std::forward<Arguments>(arguments)...);
+}
+
+const std::vector<Row>& rows() {
+  static const std::vector<Row> kRows{
+      {{"text", OutputKind::kFile, "", {}},
+       [](const ConsumerOptions& options) {
+         return on_file<TextConsumer>(options, options.hz, options.own_clock_id);
+       }},
+      {{"csv", OutputKind::kFile, "", {}},
+       [](const ConsumerOptions& options) { return on_file<CsvConsumer>(options, options.hz); }},
+      {{"bvh", OutputKind::kFile, "", {}},
+       [](const ConsumerOptions& options) {
+         return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kBvhFrames_hz,
+                                     options.guest);
+       }},
+  };
+  return kRows;
+}
+
+const Row* find_row(const std::string& name) {
+  const auto row = std::find_if(rows().begin(), rows().end(),
+                                [&](const Row& each) { return each.kind.name == name; });
+  return row == rows().end() ? nullptr : &*row;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += list.empty() ? word : ", " + word;
+  return list;
+}
+
+const char* what_it_takes(OutputKind kind) {
+  switch (kind) {
+    case OutputKind::kFile:
+      return "a file";
+    case OutputKind::kAddress:
+      return "an address, as 127.0.0.1:39539";
+    case OutputKind::kMemory:
+      return "a name for its memory";
+  }
+  return "";
+}
 
 }  // namespace
 
 std::vector<std::string> consumer_names() {
   std::vector<std::string> names;
-  names.reserve(kConsumers.size());
-  for (const Row& row : kConsumers) names.emplace_back(row.name);
+  for (const Row& row : rows()) names.push_back(row.kind.name);
   return names;
 }
 
-Result<std::unique_ptr<PoseConsumer>> make_consumer(const std::string& name, OutputFile& output,
+const ConsumerKind* find_consumer_kind(const std::string& name) {
+  const Row* row = find_row(name);
+  return row ? &row->kind : nullptr;
+}
+
+Result<void> check_consumer_options(const ConsumerKind& kind, const ConsumerOptions& options) {
+  const auto misplaced = [&](const std::string& value, OutputKind wanted, const char* what) {
+    return !value.empty() && kind.output != wanted ? std::string(what) : std::string();
+  };
+  for (const std::string& given : {misplaced(options.file, OutputKind::kFile, "a file"),
+                                   misplaced(options.address, OutputKind::kAddress, "an address"),
+                                   misplaced(options.name, OutputKind::kMemory, "a name")})
+    if (!given.empty())
+      return fail("'" + kind.name + "' takes " + what_it_takes(kind.output) + ", not " + given);
+  if (options.dialect.empty() ||
+      std::find(kind.dialects.begin(), kind.dialects.end(), options.dialect) != kind.dialects.end())
+    return {};
+  if (kind.dialects.empty()) return fail("'" + kind.name + "' has no dialects");
+  return fail("'" + kind.name + "' has no dialect '" + options.dialect + "'; it has " +
+              listed(kind.dialects));
+}
+
+Result<std::unique_ptr<PoseConsumer>> make_consumer(const std::string& name,
                                                     const ConsumerOptions& options) {
-  std::string known;
-  for (const Row& row : kConsumers) {
-    if (name == row.name) return row.make(output, options);
-    known += known.empty() ? row.name : std::string(", ") + row.name;
-  }
-  return fail("there is no consumer '" + name + "'; known are " + known);
+  const Row* row = find_row(name);
+  if (!row)
+    return fail("there is no consumer '" + name + "'; known are " + listed(consumer_names()));
+  if (auto checked = check_consumer_options(row->kind, options); !checked)
+    return tl::make_unexpected(checked.error());
+  return row->make(options);
 }
 
 }  // namespace dance

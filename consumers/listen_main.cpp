@@ -1,6 +1,7 @@
-// dance listen: hears the dancers of a bus and writes them down: as text, as a table, as a BVH
-// file.
+// dance listen: hears the dancers of a bus and passes them on: as text, as a file, to the programs
+// of others.
 
+#include "consumers/consumer_feed.h"
 #include "consumers/consumer_table.h"
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
@@ -18,18 +19,29 @@ constexpr const char* kExamples = R"(Examples:
   dance listen --to bvh -o alice.bvh --guest alice      alice's dance as BVH, until ctrl-C
 )";
 
+constexpr Duration kSecond = Duration::s(1);
+
 struct ListenOptions {
   std::string bus;
   std::string where = "stage";
   std::string guest;
   std::string to = "text";
   std::string output;
+  std::string address;
+  std::string name;
+  std::string dialect;
   double hz = 0.0;
   double seconds = 0.0;
 };
 
 Result<void> listen(const ListenOptions& options) {
-  ConsumerOptions consumer_options{options.hz, {}, this_clock_id()};
+  ConsumerOptions consumer_options;
+  consumer_options.hz = options.hz;
+  consumer_options.own_clock_id = this_clock_id();
+  consumer_options.file = options.output;
+  consumer_options.address = options.address;
+  consumer_options.name = options.name;
+  consumer_options.dialect = options.dialect;
   if (!options.guest.empty()) {
     const auto guest = GuestId::parse(options.guest);
     if (!guest) return fail("--guest '" + options.guest + "': " + kGuestIdRule);
@@ -38,25 +50,21 @@ Result<void> listen(const ListenOptions& options) {
   const Where where = find_where(options.where).value_or(Where::kStage);
   DANCE_TRY(const auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return tl::make_unexpected(stops.error());
-  DANCE_TRY(const auto output, OutputFile::open(options.output));
-  DANCE_TRY(const auto consumer, make_consumer(options.to, *output, consumer_options));
+  DANCE_TRY(const auto consumer, make_consumer(options.to, consumer_options));
   DANCE_TRY(const auto bus, Bus::open(options.bus));
 
+  const From from(where, consumer_options.guest);
   std::uint64_t heard = 0;
-  bus->subscribe<Pose>({where, consumer_options.guest},
-                       [&](const Channel& channel, const Pose& pose, MonoTime now) {
-                         ++heard;
-                         consumer->on_pose(channel.guest(), pose, now);
-                       });
-  bus->subscribe<TimedSkeleton>(
-      {where, consumer_options.guest},
-      [&](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
-        consumer->on_skeleton(channel.guest(), timed.skeleton, now);
-      });
+  bus->subscribe<Pose>(from, [&](const Channel&, const Pose&, MonoTime) { ++heard; });
+  feed_consumer(*bus, from, *consumer);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   // After each turn, so that the reader of a pipe gets a pose when it comes.
   poller->at_turn_end([&](MonoTime) {
-    if (!output->flush()) poller->stop();
+    if (!consumer->flush()) poller->stop();
+  });
+  poller->add_timer(mono_now() + kSecond, [&](MonoTime now) {
+    consumer->on_second(now);
+    return now + kSecond;
   });
   if (options.seconds > 0.0) {
     poller->add_timer(mono_now() + Duration::seconds(options.seconds), [&](MonoTime) {
@@ -81,11 +89,17 @@ Result<void> listen(const ListenOptions& options) {
 
 int main(int argc, char** argv) {
   dance::ListenOptions options;
-  dance::CommandLine line("Hears the dancers of a bus and writes them down.", "dance listen");
+  dance::CommandLine line(
+      "Hears the dancers of a bus and passes them on: as text, as a file, to other programs.",
+      "dance listen");
   line.add("--to", options.to, "what to make of them")
       .one_of(dance::consumer_names())
       .shows_default();
   line.add("-o,--output", options.output, "file to write; without it, standard output");
+  line.add("--address", options.address,
+           "host:port that datagrams go to; without it, the protocol's port on this machine");
+  line.add("--name", options.name, "name of the shared memory; without it, its usual one");
+  line.add("--dialect", options.dialect, "which form of a protocol that has several");
   line.add("--where", options.where, "which poses: made here, come from other houses, shown")
       .one_of({"capture", "guest", "stage"})
       .shows_default();

@@ -1,14 +1,17 @@
-// PoseConsumer: the interface of what is made of poses: lines of text, a table, a BVH file. A new
-// consumer is one class that implements this, and one row in the table of consumer_table.cpp.
+// PoseConsumer: the interface of what is made of the dancers of a house: lines of text, a file,
+// another program's protocol, the memory that an engine reads. A new consumer is one class that
+// implements this, and one row in the table of consumer_table.cpp.
 //
 // Units/frames: poses as in core/pose/pose.h; now is this process's clock.
 // Ownership:    keeps what it needs of a pose; memory is bounded however long it listens.
 // Threads:      none inside; one owner.
-// Failure:      finish() tells what could not be written; calling it is part of using a consumer.
+// Failure:      flush() and finish() tell what could not be written; calling finish() is part of
+//               using a consumer.
 #pragma once
 
 #include <string>
 
+#include "core/base/beat.h"
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
@@ -22,6 +25,14 @@ class PoseConsumer {
   virtual ~PoseConsumer() = default;
   virtual void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) = 0;
   virtual void on_skeleton(const GuestId&, const Skeleton&, MonoTime) {}
+  virtual void on_hands(const GuestId&, const Hands&, MonoTime) {}
+  // Of the music that is heard in this house.
+  virtual void on_beat(const Beat&, MonoTime) {}
+  // For what is repeated, and to notice guests that fell silent.
+  virtual void on_second(MonoTime) {}
+  // Writes what is buffered, so that readers of a pipe have it. What goes to another program as
+  // datagrams or through memory does not wait for this.
+  virtual Result<void> flush() { return {}; }
   // Writes what is still held back.
   virtual Result<void> finish() = 0;
   // One line: what was written, and what was left out and why.

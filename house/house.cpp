@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "consumers/consumer_feed.h"
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
 #include "formats/bvh/clip_file.h"
+#include "producers/receive/receiver_table.h"
 #include "producers/replay/clip_dancer.h"
 #include "producers/salsa/salsa_dancer.h"
 #include "tunnel/link/link_report.h"
@@ -59,6 +61,7 @@ std::string free_name(const std::string& wanted) {
 std::vector<GuestId> hosted_guests(const Session& session) {
   std::vector<GuestId> guests;
   for (const HostedProducer& producer : session.producers) guests.push_back(producer.guest);
+  for (const HostedReceiver& receiver : session.receivers) guests.push_back(receiver.options.guest);
   return guests;
 }
 
@@ -96,6 +99,7 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
     self->link_bus_->publish_second(now);
+    for (auto& consumer : self->consumers_) consumer->on_second(now);
     return now + kSecond;
   });
   return house;
@@ -174,35 +178,28 @@ Result<void> House::open_producers() {
                                                   producer.rate_hz, *captures_, poller_,
                                                   start_of(producer, mono_now())));
   }
+  for (const HostedReceiver& receiver : session_.receivers) {
+    DANCE_TRY(auto opened, open_receiver(receiver.from, receiver.options, *captures_, poller_));
+    talk::info("takes {} from {}", receiver.options.guest.view(), receiver.from);
+    receivers_.push_back(std::move(opened));
+  }
   return {};
 }
 
 Result<void> House::open_consumers() {
   for (const HostedConsumer& wanted : session_.consumers) {
-    // A terminal that is stopped, or a pipe that is not read, would stop the house's dancers.
-    if (wanted.file.empty() || wanted.file == "-")
-      return fail("[[listen]] needs a file; to see poses in a terminal run dance listen");
-    DANCE_TRY(auto output, OutputFile::open(free_name(wanted.file)));
-    talk::info("writes the stage as {} to {}", wanted.to, output->name());
-    outputs_.push_back(std::move(output));
-    ConsumerOptions options;
-    options.guest = wanted.from.guest;
+    ConsumerOptions options = wanted.options;
     options.own_clock_id = this_clock_id();
-    DANCE_TRY(auto consumer, make_consumer(wanted.to, *outputs_.back(), options));
-    PoseConsumer* listener = consumer.get();
+    const bool is_file = find_consumer_kind(wanted.to)->output == OutputKind::kFile;
+    // A terminal that is stopped, or a pipe that is not read, would stop the house's dancers.
+    if (is_file && (options.file.empty() || options.file == "-"))
+      return fail("[[listen]] needs a file; to see poses in a terminal run dance listen");
+    if (is_file) options.file = free_name(options.file);
+    DANCE_TRY(auto consumer, make_consumer(wanted.to, options));
+    talk::info("passes {} on as {}", wanted.from.where == Where::kStage ? "the stage" : "captures",
+               is_file ? wanted.to + " to " + options.file : wanted.to);
+    feed_consumer(*port_, From(wanted.from.where, wanted.from.guest), *consumer);
     consumers_.push_back(std::move(consumer));
-    if (wanted.from.where != Where::kStage)
-      return fail(
-          "[[listen]] from: a hosted consumer hears POSE/stage; for others run dance listen");
-    const From stage(Where::kStage, wanted.from.guest);
-    port_->subscribe<Pose>(stage,
-                           [listener](const Channel& channel, const Pose& pose, MonoTime now) {
-                             listener->on_pose(channel.guest(), pose, now);
-                           });
-    port_->subscribe<TimedSkeleton>(
-        stage, [listener](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
-          listener->on_skeleton(channel.guest(), timed.skeleton, now);
-        });
   }
   return {};
 }

@@ -24,6 +24,7 @@
 #include "manager/manager.h"
 #include "producers/capture_sink.h"
 #include "producers/dancer_feed.h"
+#include "producers/receive/pose_receiver.h"
 #include "tunnel/link/link.h"
 #include "tunnel/link/link_bus.h"
 
@@ -57,7 +58,7 @@ class House {
   std::unique_ptr<Link> link_;
   std::unique_ptr<Manager> manager_;
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
-  std::vector<std::unique_ptr<OutputFile>> outputs_;
+  std::vector<std::unique_ptr<PoseReceiver>> receivers_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
   std::unique_ptr<HouseMusic> music_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "consumers/consumer_table.h"
 #include "core/program/whole_file.h"
 #include "house/toml_reader.h"
 #include "transformers/flow.h"
@@ -135,10 +134,25 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder, Sessio
   session.cameras.push_back(camera);
 }
 
+void read_receiver(TomlReader& reader, const std::string& kind, Session& session) {
+  HostedReceiver receiver;
+  receiver.from = kind;
+  ReceiverOptions& options = receiver.options;
+  options.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  options.listen = reader.string_or("listen", "");
+  options.name = reader.string_or("name", "");
+  options.actor = reader.string_or("actor", "");
+  if (const auto checked = check_receiver_options(*find_receiver_kind(kind), options); !checked)
+    reader.complain("kind", checked.error().what);
+  reader.finish();
+  session.receivers.push_back(receiver);
+}
+
 void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   HostedProducer producer;
   const std::string kind = reader.required_string("kind");
   if (kind == "camera") return read_camera(reader, folder, session);
+  if (find_receiver_kind(kind)) return read_receiver(reader, kind, session);
   producer.guest = read_guest(reader, "guest", reader.required_string("guest"));
   producer.rate_hz = reader.number_or("rate", 60.0, 1.0, 1000.0);
   if (kind == "salsa") {
@@ -153,7 +167,8 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Sess
     producer.file = (folder / reader.required_string("file")).string();
     producer.speed = reader.number_or("speed", 1.0, 0.05, 20.0);
   } else {
-    reader.complain("kind", "is camera, salsa or replay");
+    reader.complain("kind",
+                    fmt::format("is camera, salsa, replay, {}", fmt::join(receiver_names(), ", ")));
   }
   reader.finish();
   session.producers.push_back(producer);
@@ -162,17 +177,25 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Sess
 void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   HostedConsumer consumer;
   consumer.to = reader.required_string("to");
-  if (const auto names = consumer_names();
-      std::find(names.begin(), names.end(), consumer.to) == names.end())
-    reader.complain("to", fmt::format("is one of: {}", fmt::join(names, ", ")));
   consumer.from = read_end(reader, "from", reader.string_or("from", "POSE/stage/*"));
-  const auto file = reader.maybe_string("file");
-  if (file) consumer.file = (folder / *file).string();
+  if (consumer.from.where == Where::kGuest)
+    reader.complain("from", "a hosted consumer hears POSE/stage or POSE/capture");
+  ConsumerOptions& options = consumer.options;
+  options.guest = consumer.from.guest;
+  options.file = read_file_name(reader, "file", folder);
+  options.address = reader.string_or("address", "");
+  options.name = reader.string_or("name", "");
+  options.dialect = reader.string_or("dialect", "");
+  options.hz = reader.number_or("rate", 0.0, 0.0, 1000.0);
+  const ConsumerKind* kind = find_consumer_kind(consumer.to);
+  if (!kind)
+    reader.complain("to", fmt::format("is one of: {}", fmt::join(consumer_names(), ", ")));
+  else if (const auto checked = check_consumer_options(*kind, options); !checked)
+    reader.complain("to", checked.error().what);
   reader.finish();
   session.consumers.push_back(consumer);
 }
 
-// In a room, the house plays along with it unless told otherwise.
 void read_music(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   HostedMusic music;
   const bool has_room = !session.server.empty();

@@ -13,9 +13,11 @@
 #include <string_view>
 #include <vector>
 
+#include "consumers/consumer_table.h"
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "manager/route.h"
+#include "producers/receive/receiver_table.h"
 #include "tunnel/policy/channel_rule.h"
 #include "tunnel/policy/interest.h"
 
@@ -46,11 +48,17 @@ struct HostedCamera {
   bool mirror = false;
 };
 
+// A dancer who comes from another program or a device, inside the house's process.
+struct HostedReceiver {
+  std::string from;  // a name of producers/receive/receiver_table.h
+  ReceiverOptions options;
+};
+
 // A consumer inside the house's process.
 struct HostedConsumer {
   std::string to = "text";  // a name of consumers/consumer_table.h
   RouteEnd from;
-  std::string file;  // "" = standard output
+  ConsumerOptions options;
 };
 
 // The music of the house, played beside it.
@@ -83,6 +91,7 @@ struct Session {
   bool view = true;                    // open the viewer (dance join)
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;
+  std::vector<HostedReceiver> receivers;
   std::vector<HostedCamera> cameras;
   std::vector<HostedConsumer> consumers;
   std::optional<HostedMusic> music;

@@ -6,9 +6,9 @@
 
 namespace dance {
 
-BvhConsumer::BvhConsumer(OutputFile& output, double hz, const GuestId& guest,
+BvhConsumer::BvhConsumer(std::shared_ptr<OutputFile> output, double hz, const GuestId& guest,
                          std::size_t most_frames)
-    : output_(output), guest_(guest), most_frames_(most_frames) {
+    : output_(std::move(output)), guest_(guest), most_frames_(most_frames) {
   DANCE_ASSERT(hz > 0.0, hz);
   clip_.frame_hz = hz;
   clip_.skeleton = average_skeleton();
@@ -65,19 +65,19 @@ void BvhConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime) {
 }
 
 Result<void> BvhConsumer::finish() {
-  if (is_finished_) return output_.flush();
+  if (is_finished_) return output_->flush();
   is_finished_ = true;
   if (clip_.frames.empty())
-    return fail(output_.name() + ": no BVH written, as no pose was heard" +
+    return fail(output_->name() + ": no BVH written, as no pose was heard" +
                 (guest_.is_set() ? " of " + std::string(guest_.view()) : std::string()) +
                 "; dance top lists who is on the bus");
-  output_.write(write_bvh(clip_));
-  return output_.flush();
+  output_->write(write_bvh(clip_));
+  return output_->flush();
 }
 
 std::string BvhConsumer::summary() const {
   std::string text = std::to_string(clip_.frames.size()) + " frames of " +
-                     std::string(guest_.view()) + " to " + output_.name();
+                     std::string(guest_.view()) + " to " + output_->name();
   const auto add = [&text](std::uint64_t count, const char* what) {
     if (count > 0) text += "; " + std::to_string(count) + what;
   };

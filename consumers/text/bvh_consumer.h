@@ -3,7 +3,7 @@
 // kept in memory and written at the end.
 //
 // Units/frames: frames lie 1/hz apart on the capture clock; metres.
-// Ownership:    keeps at most kMostFrames frames (about 100 MB); the output must outlive it.
+// Ownership:    keeps at most kMostFrames frames (about 100 MB); keeps its output.
 // Threads:      none inside; one owner.
 // Failure:      finish() says when no pose was heard or writing failed. What is left out is
 //               counted: other guests, poses that are not newer, frames beyond the bound; a silence
@@ -25,7 +25,7 @@ class BvhConsumer : public PoseConsumer {
   static constexpr Duration kLongestGap = Duration::s(2);
 
   // The guest that is written; where it is not set, the first that is heard.
-  BvhConsumer(OutputFile& output, double hz, const GuestId& guest,
+  BvhConsumer(std::shared_ptr<OutputFile> output, double hz, const GuestId& guest,
               std::size_t most_frames = kMostFrames);
 
   void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) override;
@@ -39,7 +39,7 @@ class BvhConsumer : public PoseConsumer {
   void begin_grid(const Pose& pose);
   void add_frame(const Pose& pose);
 
-  OutputFile& output_;
+  std::shared_ptr<OutputFile> output_;
   GuestId guest_;
   std::size_t most_frames_;
   MotionClip clip_;

@@ -2,7 +2,8 @@
 
 namespace dance {
 
-CsvConsumer::CsvConsumer(OutputFile& output, double hz) : output_(output), limit_(hz) {
+CsvConsumer::CsvConsumer(std::shared_ptr<OutputFile> output, double hz)
+    : output_(std::move(output)), limit_(hz) {
   line_.text(
       "heard_us,capture_us,clock_id,guest,sequence,presence,confidence,music_beats,hips_x_m,"
       "hips_y_m,hips_z_m");
@@ -14,7 +15,7 @@ CsvConsumer::CsvConsumer(OutputFile& output, double hz) : output_(output), limit
     }
   }
   line_.text("\n");
-  output_.write(line_.view());
+  output_->write(line_.view());
 }
 
 void CsvConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime now) {
@@ -44,13 +45,13 @@ void CsvConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime now) 
   for (const auto& rotation : pose.R_PB)
     for (const float value : {rotation.x(), rotation.y(), rotation.z(), rotation.w()}) next(value);
   line_.text("\n");
-  output_.write(line_.view());
+  output_->write(line_.view());
   ++written_;
 }
 
 std::string CsvConsumer::summary() const {
   return std::to_string(written_) + " rows of " + std::to_string(heard_) + " poses to " +
-         output_.name();
+         output_->name();
 }
 
 }  // namespace dance

@@ -4,7 +4,7 @@
 // Units/frames: capture_us and heard_us in microseconds, the former of the clock clock_id; hips in
 //               metres in W; each bone's rotation in its parent as unit quaternion x, y, z, w. An
 //               empty music_beats is no music.
-// Ownership:    the output must outlive it.
+// Ownership:    keeps its output.
 // Threads:      none inside; one owner.
 // Failure:      finish() tells what could not be written.
 #pragma once
@@ -19,14 +19,15 @@ namespace dance {
 class CsvConsumer : public PoseConsumer {
  public:
   // At most hz rows a second for each guest; 0 = all.
-  CsvConsumer(OutputFile& output, double hz);
+  CsvConsumer(std::shared_ptr<OutputFile> output, double hz);
 
   void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) override;
-  Result<void> finish() override { return output_.flush(); }
+  Result<void> flush() override { return output_->flush(); }
+  Result<void> finish() override { return output_->flush(); }
   std::string summary() const override;
 
  private:
-  OutputFile& output_;
+  std::shared_ptr<OutputFile> output_;
   RateLimit limit_;
   LineBuilder line_;
   std::uint64_t heard_ = 0;

@@ -33,13 +33,13 @@ void TextConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime now)
     line_.fixed(std::clamp(pose.music_beats, -1e15, 1e15), 2);
   }
   line_.text("\n");
-  output_.write(line_.view());
+  output_->write(line_.view());
   ++written_;
 }
 
 std::string TextConsumer::summary() const {
   return std::to_string(written_) + " lines of " + std::to_string(heard_) + " poses to " +
-         output_.name();
+         output_->name();
 }
 
 }  // namespace dance

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -58,11 +59,11 @@ class Consumers : public testing::Test {
   }
 
   std::string path_;
-  std::unique_ptr<OutputFile> output_;
+  std::shared_ptr<OutputFile> output_;
 };
 
 TEST_F(Consumers, WriteALineForEachPoseAsText) {
-  TextConsumer consumer(*output_, 0.0, kOurClock);
+  TextConsumer consumer(output_, 0.0, kOurClock);
   Pose pose = pose_at(0.0, 41);
   consumer.on_pose(kAlice, pose, at_ms(2.5));
   pose = pose_at(16.0, 42);
@@ -77,7 +78,7 @@ TEST_F(Consumers, WriteALineForEachPoseAsText) {
 }
 
 TEST_F(Consumers, TellNoAgeOfAnotherClock) {
-  TextConsumer consumer(*output_, 0.0, kOurClock);
+  TextConsumer consumer(output_, 0.0, kOurClock);
   Pose pose = pose_at(0.0);
   pose.clock_id = 78;
   consumer.on_pose(kAlice, pose, at_ms(2.5));
@@ -85,7 +86,7 @@ TEST_F(Consumers, TellNoAgeOfAnotherClock) {
 }
 
 TEST_F(Consumers, WriteNumbersThatReadBackExactlyAsCsv) {
-  CsvConsumer consumer(*output_, 0.0);
+  CsvConsumer consumer(output_, 0.0);
   Random random(61);
   std::vector<Pose> poses;
   for (int i = 0; i < 50; ++i) {
@@ -122,8 +123,8 @@ TEST_F(Consumers, WriteNumbersThatReadBackExactlyAsCsv) {
 }
 
 TEST_F(Consumers, FillTheLongestPossibleLine) {
-  CsvConsumer csv(*output_, 0.0);
-  TextConsumer text(*output_, 0.0, kOurClock);
+  CsvConsumer csv(output_, 0.0);
+  TextConsumer text(output_, 0.0, kOurClock);
   Pose pose = pose_at(0.0, 0xffffffffu);
   pose.clock_id = ~std::uint64_t{0};
   pose.capture_time = MonoTime::from_us(-3'000'000'000'000'000);
@@ -137,7 +138,7 @@ TEST_F(Consumers, FillTheLongestPossibleLine) {
 }
 
 TEST_F(Consumers, ThinEachGuestByItself) {
-  TextConsumer consumer(*output_, 10.0, kOurClock);
+  TextConsumer consumer(output_, 10.0, kOurClock);
   for (int i = 0; i < 600; ++i) {  // ten seconds of 60 Hz, with two milliseconds of jitter
     const double ms = i * 1000.0 / 60.0 + (i % 3);
     consumer.on_pose(kAlice, pose_at(ms), at_ms(ms));
@@ -168,7 +169,7 @@ TEST(RateLimit, HoldsABoundedNumberOfGuests) {
 }
 
 TEST_F(Consumers, PutPosesOnASteadyGridForBvh) {
-  BvhConsumer consumer(*output_, 50.0, GuestId());
+  BvhConsumer consumer(output_, 50.0, GuestId());
   // 60 Hz with jitter in; the hips' x is the time, so that each frame tells when it is.
   for (int i = 0; i < 120; ++i) {
     const double ms = i * 1000.0 / 60.0 + (i % 4);
@@ -181,7 +182,7 @@ TEST_F(Consumers, PutPosesOnASteadyGridForBvh) {
 }
 
 TEST_F(Consumers, WriteABvhThatReadsBack) {
-  BvhConsumer consumer(*output_, 60.0, GuestId());
+  BvhConsumer consumer(output_, 60.0, GuestId());
   const Skeleton skeleton = average_skeleton(1.6f);
   consumer.on_skeleton(kAlice, skeleton, at_ms(0.0));
   for (int i = 0; i < 60; ++i) {
@@ -200,7 +201,7 @@ TEST_F(Consumers, WriteABvhThatReadsBack) {
 }
 
 TEST_F(Consumers, CutSilencesOutAndRefuseOldPosesForBvh) {
-  BvhConsumer consumer(*output_, 100.0, kAlice);
+  BvhConsumer consumer(output_, 100.0, kAlice);
   for (int i = 0; i <= 10; ++i) consumer.on_pose(kAlice, pose_at(i * 10.0), at_ms(0.0));
   consumer.on_pose(kAlice, pose_at(50.0), at_ms(0.0));  // older: left out
   for (int i = 0; i <= 10; ++i) consumer.on_pose(kAlice, pose_at(1e9 + i * 10.0), at_ms(0.0));
@@ -213,7 +214,7 @@ TEST_F(Consumers, CutSilencesOutAndRefuseOldPosesForBvh) {
 }
 
 TEST_F(Consumers, KeepABoundedNumberOfFramesForBvh) {
-  BvhConsumer consumer(*output_, 100.0, kAlice, 50);
+  BvhConsumer consumer(output_, 100.0, kAlice, 50);
   for (int i = 0; i < 200; ++i) consumer.on_pose(kAlice, pose_at(i * 10.0), at_ms(0.0));
   EXPECT_EQ(consumer.clip().frames.size(), 50u);
   EXPECT_NE(consumer.summary().find("150 frames left out"), std::string::npos)
@@ -221,15 +222,15 @@ TEST_F(Consumers, KeepABoundedNumberOfFramesForBvh) {
 }
 
 TEST_F(Consumers, SayThatNobodyWasHeardInsteadOfAnEmptyBvh) {
-  BvhConsumer consumer(*output_, 60.0, kBob);
+  BvhConsumer consumer(output_, 60.0, kBob);
   const auto finished = consumer.finish();
   ASSERT_FALSE(finished.has_value());
   EXPECT_NE(finished.error().what.find("no pose was heard of bob"), std::string::npos);
 }
 
 TEST_F(Consumers, AllocateNothingPerPoseInTextAndTable) {
-  TextConsumer text(*output_, 0.0, kOurClock);
-  CsvConsumer csv(*output_, 0.0);
+  TextConsumer text(output_, 0.0, kOurClock);
+  CsvConsumer csv(output_, 0.0);
   output_->write("the first write makes the C library's buffer");
   const Pose pose = pose_at(0.0);
   const AllocationGuard guard;
@@ -241,14 +242,35 @@ TEST_F(Consumers, AllocateNothingPerPoseInTextAndTable) {
 }
 
 TEST(ConsumerTable, MakesEachConsumerItNames) {
-  auto output = OutputFile::open("/dev/null");
-  ASSERT_TRUE(output.has_value());
-  EXPECT_EQ(consumer_names(), (std::vector<std::string>{"text", "csv", "bvh"}));
-  for (const std::string& name : consumer_names())
-    EXPECT_TRUE(make_consumer(name, **output, {}).has_value()) << name;
-  const auto unknown = make_consumer("midi", **output, {});
+  const std::vector<std::string> names = consumer_names();
+  for (const char* name : {"text", "csv", "bvh"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  for (const std::string& name : names) {
+    ConsumerOptions options;
+    if (find_consumer_kind(name)->output == OutputKind::kFile) options.file = "/dev/null";
+    if (find_consumer_kind(name)->output == OutputKind::kMemory) options.name = "table-test";
+    const auto made = make_consumer(name, options);
+    EXPECT_TRUE(made.has_value()) << name << ": " << made.error().what;
+  }
+  const auto unknown = make_consumer("midi", {});
   ASSERT_FALSE(unknown.has_value());
-  EXPECT_EQ(unknown.error().what, "there is no consumer 'midi'; known are text, csv, bvh");
+  EXPECT_EQ(unknown.error().what.find("there is no consumer 'midi'; known are text, csv, bvh"), 0u)
+      << unknown.error().what;
+}
+
+TEST(ConsumerTable, RefusesOptionsThatAConsumerDoesNotTake) {
+  const ConsumerKind kind{"osc", OutputKind::kAddress, "127.0.0.1:1", {"old", "new"}};
+  ConsumerOptions options;
+  EXPECT_TRUE(check_consumer_options(kind, options).has_value());
+  options.dialect = "new";
+  EXPECT_TRUE(check_consumer_options(kind, options).has_value());
+  options.dialect = "odd";
+  EXPECT_EQ(check_consumer_options(kind, options).error().what,
+            "'osc' has no dialect 'odd'; it has old, new");
+  options.dialect.clear();
+  options.file = "x.csv";
+  EXPECT_EQ(check_consumer_options(kind, options).error().what,
+            "'osc' takes an address, as 127.0.0.1:39539, not a file");
 }
 
 TEST(OutputFile, NamesAFolderThatIsNotThere) {

@@ -33,7 +33,7 @@ TEST(Session, ReadsAWholeHouse) {
   EXPECT_EQ(session->routes[0].from.where, Where::kGuest);
   EXPECT_FALSE(session->routes[0].from.guest.is_set());
   EXPECT_EQ(session->producers[0].file, "/home/alice/b.bvh") << "taken from the session's folder";
-  EXPECT_EQ(session->consumers[0].file, "/home/alice/out.csv");
+  EXPECT_EQ(session->consumers[0].options.file, "/home/alice/out.csv");
 }
 
 TEST(Session, NamesTheCameraOfADancer) {

@@ -1,0 +1,54 @@
+// ReceivedDancer: what every receiver does with a dancer that it has decoded: checks the pose,
+// numbers and stamps it, puts it into the house's captures, and repeats the proportions.
+//
+// Units/frames: poses and skeletons as core/pose has them; capture times in this house's clock.
+// Ownership:    refers to the sink, which must outlive it; never allocates after construction.
+// Threads:      none inside; one owner.
+// Failure:      a pose, hands or a skeleton that are not valid, and a pose that is not newer than
+//               the last, are dropped and counted.
+#pragma once
+
+#include <cstdint>
+
+#include "core/pose/pose.h"
+#include "core/pose/skeleton.h"
+#include "producers/capture_sink.h"
+
+namespace dance {
+
+class ReceivedDancer {
+ public:
+  struct Counters {
+    std::uint64_t poses = 0;
+    std::uint64_t invalid = 0;
+    std::uint64_t not_newer = 0;
+  };
+
+  ReceivedDancer(const GuestId& guest, CaptureSink& sink) : guest_(guest), sink_(sink) {}
+
+  // Published with the next pose, and once a second. The same again costs nothing.
+  void set_skeleton(const Skeleton& skeleton);
+  // Rotations, hips, presence and confidence are the caller's; the rest is filled in here. Returns
+  // whether it was published.
+  bool capture(Pose& pose, MonoTime captured, MonoTime now);
+  // The fingers of the pose captured last.
+  bool capture(Hands& hands);
+
+  const GuestId& guest() const { return guest_; }
+  bool has_skeleton() const { return has_skeleton_; }
+  const Skeleton& skeleton() const { return skeleton_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  GuestId guest_;
+  CaptureSink& sink_;
+  Skeleton skeleton_ = average_skeleton();
+  bool has_skeleton_ = false;
+  MonoTime next_skeleton_;
+  MonoTime newest_;
+  std::uint32_t sequence_ = 0;
+  bool has_begun_ = false;
+  Counters counters_;
+};
+
+}  // namespace dance
