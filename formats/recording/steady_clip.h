@@ -1,7 +1,7 @@
 // SteadyClip: one guest's dance on a steady grid of frames, whatever the rate and jitter of what
 // was heard: for clip formats, whose frames have no times of their own.
 //
-// Units/frames: frames lie 1/hz apart on the capture clock; between two poses they are interpolated.
+// Units/frames: frames lie 1/hz apart on the capture clock, interpolated between two poses.
 // Ownership:    keeps at most most_frames frames and as many hands (200 MB at the default).
 // Threads:      none inside; one owner.
 // Failure:      counted: poses and hands that are not newer, frames beyond the bound; a silence
