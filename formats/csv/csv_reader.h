@@ -5,8 +5,8 @@
 // Ownership:    owns the file.
 // Threads:      none inside; one owner.
 // Failure:      open() names the file, and the column that is missing; read_into() a file that
-//               cannot be read to its end or holds no pose. Rows that are not valid are left out and
-//               counted by cause.
+//               cannot be read to its end or holds no pose. Rows that are not valid are left out
+//               and counted by cause.
 // Source:       offset_B = R_WP⁻¹ · (p_WB − p_WP).
 #pragma once
 

@@ -1,4 +1,5 @@
-// Reads the JSON of our MCAP channels: what each schema of formats/mcap/dance_schemas.h says, checked.
+// Reads the JSON of our MCAP channels: what each schema of formats/mcap/dance_schemas.h says,
+// checked.
 //
 // Units/frames: as the schemas have them.
 // Ownership:    fills the caller's values.
