@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "consumers/files/glb_consumer.h"
 #include "consumers/mcap/mcap_consumer.h"
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
@@ -13,7 +14,7 @@
 namespace dance {
 namespace {
 
-constexpr double kBvhFrames_hz = 60.0;
+constexpr double kClipFrames_hz = 60.0;
 
 using Made = Result<std::unique_ptr<PoseConsumer>>;
 
@@ -46,7 +47,12 @@ const std::vector<Row>& rows() {
        [](const ConsumerOptions& options) { return on_file<CsvConsumer>(options, options.hz); }},
       {{"bvh", OutputKind::kFile, "", {}},
        [](const ConsumerOptions& options) {
-         return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kBvhFrames_hz,
+         return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
+                                     options.guest);
+       }},
+      {{"glb", OutputKind::kFile, "", {}},
+       [](const ConsumerOptions& options) {
+         return on_file<GlbConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
                                      options.guest);
        }},
       {{"mcap", OutputKind::kFile, "", {}},
