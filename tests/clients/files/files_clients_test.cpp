@@ -2,6 +2,7 @@
 // our own kinematics have it, and skinned bodies that go with them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -116,6 +117,17 @@ void expect_bodies(const json& seen, std::size_t dancers) {
   }
 }
 
+// In a BVH the ends are no joints: Blender makes them the tails of their bones.
+void name_tails_ends(json& seen) {
+  for (json& frame : seen["frames"])
+    for (json& joints : frame["joints"]) {
+      const json as_seen = joints;
+      for (const auto& [name, place] : as_seen.items())
+        if (const auto tail = name.find("/tail"); tail != name.npos)
+          joints[name.substr(0, tail) + "End"] = place;
+    }
+}
+
 bool has_blender() {
   return run("blender -b --factory-startup --python-exit-code 3 --python-expr 'import numpy'")
              .exit_code == 0;
@@ -150,14 +162,7 @@ TEST(FilesClients, BlenderOpensTheShippedCouplesBvhWithEveryJointInItsPlace) {
     const std::string text = write_bvh(named.clip);
     write_file(file, text.data(), text.size());
     json seen = seen_by_blender(folder, file, Sampling(named.clip.frames.size()), 60.0);
-    // Blender has the ends as tails of their bones.
-    for (json& frame : seen["frames"])
-      for (json& joints : frame["joints"]) {
-        const json as_seen = joints;
-        for (const auto& [name, place] : as_seen.items())
-          if (const auto tail = name.find("/tail"); tail != name.npos)
-            joints[name.substr(0, tail) + "End"] = place;
-      }
+    name_tails_ends(seen);
     expect_dance(seen, {named});
   }
 }
@@ -174,9 +179,13 @@ TEST(FilesClients, BlenderOpensRealCapturesWrittenAsGlbAndAsBvh) {
     if (!loaded->clip.hands.empty()) loaded->clip.hands.resize(loaded->clip.frames.size());
     const std::vector<NamedClip> clips{{"dancer", std::move(loaded->clip), {}}};
     const double rate_hz = clips[0].clip.frame_hz;
-    expect_dance(seen_by_blender(folder, write_glb_file(folder, clips),
-                                 Sampling(clips[0].clip.frames.size()), rate_hz),
-                 clips);
+    const Sampling sampling(clips[0].clip.frames.size());
+    expect_dance(seen_by_blender(folder, write_glb_file(folder, clips), sampling, rate_hz), clips);
+    const std::string text = write_bvh(clips[0].clip);
+    write_file(folder.path("dancer.bvh"), text.data(), text.size());
+    json seen = seen_by_blender(folder, folder.path("dancer.bvh"), sampling, rate_hz);
+    name_tails_ends(seen);
+    expect_dance(seen, clips);
   }
 }
 
@@ -208,6 +217,23 @@ TEST(FilesClients, TheValidatorOfKhronosFindsNothing) {
     EXPECT_EQ(report["errors"], 0) << finished.output;
     EXPECT_EQ(report["warnings"], 0) << finished.output;
   }
+}
+
+TEST(FilesClients, AvatarAppsFindTheBonesOfASingleDancersVrmAnimation) {
+  if (!has_module("@pixiv/three-vrm-animation") || !has_module("three")) GTEST_SKIP() << kNoModules;
+  const TestFolder folder("vrm-animation");
+  std::vector<NamedClip> clips = shipped_couple();
+  clips.resize(1);
+  const Finished finished = run(std::string("node ") + kScripts + "vrm_animation.mjs " + kModules +
+                                " " + write_glb_file(folder, clips));
+  const json seen = json::parse(finished.output, nullptr, false);
+  ASSERT_TRUE(seen.is_object()) << finished.output << finished.talk;
+  EXPECT_EQ(seen["animations"], 1);
+  expect_near(seen["rest_hips"], clips[0].clip.skeleton.offset_m[0], "the hips at rest");
+  expect_near(seen["hips"], clips[0].clip.frames[0].p_WH_m, "the hips in the first frame");
+  const auto rotated = seen["rotated"].get<std::vector<std::string>>();
+  for (const char* bone : {"hips", "spine", "leftUpperArm", "rightLowerLeg", "leftIndexProximal"})
+    EXPECT_NE(std::find(rotated.begin(), rotated.end(), bone), rotated.end()) << bone;
 }
 
 }  // namespace
