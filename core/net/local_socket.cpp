@@ -154,7 +154,7 @@ void LocalTextServer::accept_one(int fd, MonoTime now) {
     text_ = std::make_shared<const std::string>(make_text_(now));
     text_made_ = now;
   }
-  *free = {fd, text_, 0, now + kClientPatience};
+  *free = {fd, text_, 0, now + kClientTimeout};
   send_on(*free, now);
   if (free->fd >= 0 && is_watched_) poller_.set_deadline(timer_, now + kSendAgain);
 }
@@ -190,8 +190,7 @@ MonoTime LocalTextServer::on_timer(MonoTime now) {
   return client_count() > 0 ? now + kSendAgain : MonoTime();
 }
 
-tl::expected<std::string, LocalFailure> read_local_text(const std::string& path,
-                                                        Duration patience) {
+tl::expected<std::string, LocalFailure> read_local_text(const std::string& path, Duration timeout) {
   const auto failed = [](LocalTrouble trouble, std::string reason) {
     return tl::make_unexpected(LocalFailure{trouble, std::move(reason)});
   };
@@ -208,7 +207,7 @@ tl::expected<std::string, LocalFailure> read_local_text(const std::string& path,
     if (error == EAGAIN) return failed(LocalTrouble::kSilent, error_text(error));
     return failed(LocalTrouble::kOther, error_text(error));
   }
-  const MonoTime give_up = mono_now() + patience;
+  const MonoTime give_up = mono_now() + timeout;
   std::string text;
   std::array<char, 65536> chunk;
   LocalFailure failure;

@@ -29,7 +29,7 @@ class LocalTextServer {
   static constexpr std::size_t kMaxClients = 8;
   // The text is made at most this often.
   static constexpr Duration kTextStays = Duration::ms(500);
-  static constexpr Duration kClientPatience = Duration::s(2);
+  static constexpr Duration kClientTimeout = Duration::s(2);
 
   struct Counters {
     std::uint64_t answered = 0;
@@ -81,6 +81,6 @@ struct LocalFailure {
   std::string reason;
 };
 // The text of the server at `path`.
-tl::expected<std::string, LocalFailure> read_local_text(const std::string& path, Duration patience);
+tl::expected<std::string, LocalFailure> read_local_text(const std::string& path, Duration timeout);
 
 }  // namespace dance
