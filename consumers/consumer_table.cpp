@@ -1,11 +1,14 @@
 #include "consumers/consumer_table.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
+#include "consumers/mcap/mcap_consumer.h"
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
 #include "consumers/text/text_consumer.h"
+#include "core/net/mono_clock.h"
 
 namespace dance {
 namespace {
@@ -27,6 +30,12 @@ Made on_file(const ConsumerOptions& options, Arguments&&... arguments) {
                                     std::forward<Arguments>(arguments)...);
 }
 
+// Of this process's clock.
+Duration wall_ahead() {
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  return Duration::ns(std::chrono::nanoseconds(wall).count()) - (mono_now() - MonoTime());
+}
+
 const std::vector<Row>& rows() {
   static const std::vector<Row> kRows{
       {{"text", OutputKind::kFile, "", {}},
@@ -39,6 +48,10 @@ const std::vector<Row>& rows() {
        [](const ConsumerOptions& options) {
          return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kBvhFrames_hz,
                                      options.guest);
+       }},
+      {{"mcap", OutputKind::kFile, "", {}},
+       [](const ConsumerOptions& options) {
+         return on_file<McapConsumer>(options, options.hz, wall_ahead());
        }},
   };
   return kRows;

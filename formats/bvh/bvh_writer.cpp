@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <numbers>
 
 #include "formats/bvh/bvh.h"
+#include "formats/bvh/euler_zxy.h"
 
 namespace dance {
 namespace {
@@ -26,23 +24,10 @@ void append(std::string& out, const Eigen::Vector3f& v) {
   }
 }
 
-// R = Rz(z) · Rx(x) · Ry(y):
-//   R21 = sin x,  R01 = −sin z cos x,  R11 = cos z cos x,  R20 = −cos x sin y,  R22 = cos x cos y.
 void append_zxy(std::string& out, const Eigen::Quaternionf& rotation) {
-  const Eigen::Matrix3d R = rotation.cast<double>().normalized().toRotationMatrix();
-  const double x = std::asin(std::clamp(R(2, 1), -1.0, 1.0));
-  double z = 0.0;
-  double y = 0.0;
-  if (std::abs(R(2, 1)) < 1.0 - 1e-9) {
-    z = std::atan2(-R(0, 1), R(1, 1));
-    y = std::atan2(-R(2, 0), R(2, 2));
-  } else {
-    // At the pole only z ± y is known: give it all to z.
-    z = std::atan2(R(1, 0), R(0, 0));
-  }
-  for (const double angle_rad : {z, x, y}) {
+  for (const double angle_deg : euler_zxy_deg(rotation.cast<double>())) {
     out += ' ';
-    append(out, angle_rad * 180.0 / std::numbers::pi);
+    append(out, angle_deg);
   }
 }
 

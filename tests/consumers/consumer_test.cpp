@@ -101,10 +101,13 @@ TEST_F(Consumers, WriteNumbersThatReadBackExactlyAsCsv) {
   const std::vector<std::string> lines = split(written(), '\n');
   ASSERT_EQ(lines.size(), 51u);
   const std::vector<std::string> header = split(lines[0], ',');
-  ASSERT_EQ(header.size(), 11u + 4u * kBoneCount);
+  ASSERT_EQ(header.size(), 11u + 4u * kBoneCount + 3u * (kBoneCount - 1 + kTipCount) + 1u);
   EXPECT_EQ(header[8], "hips_x_m");
   EXPECT_EQ(header[11], "hips_x");
-  EXPECT_EQ(header.back(), "rightToes_w");
+  EXPECT_EQ(header[98], "rightToes_w");
+  EXPECT_EQ(header[99], "spine_x_m");
+  EXPECT_EQ(header[162], "headTip_x_m");
+  EXPECT_EQ(header.back(), "hips_height_m");
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::vector<std::string> cells = split(lines[i + 1], ',');
     ASSERT_EQ(cells.size(), header.size());
@@ -243,7 +246,7 @@ TEST_F(Consumers, AllocateNothingPerPoseInTextAndTable) {
 
 TEST(ConsumerTable, MakesEachConsumerItNames) {
   const std::vector<std::string> names = consumer_names();
-  for (const char* name : {"text", "csv", "bvh"})
+  for (const char* name : {"text", "csv", "bvh", "mcap"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   for (const std::string& name : names) {
     ConsumerOptions options;

@@ -1,0 +1,66 @@
+#include <algorithm>
+
+#include "formats/gltf/glb.h"
+#include "formats/gltf/glb_container.h"
+#include "formats/gltf/glb_figure.h"
+#include "formats/gltf/glb_scene.h"
+
+namespace dance {
+namespace {
+
+// Packing that changes where the numbers of animations are found. What packs only meshes and
+// pictures does not matter here.
+constexpr std::string_view kPacked[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+Result<void> check_extensions(const tinygltf::Model& model) {
+  for (const std::string_view packed : kPacked)
+    if (std::find(model.extensionsUsed.begin(), model.extensionsUsed.end(), packed) !=
+        model.extensionsUsed.end())
+      return fail("packed with " + std::string(packed) + "; export it without compression");
+  return {};
+}
+
+std::string name_of(const GlbFigure& figure, std::size_t figures, const GlbAnimation& animation,
+                    std::size_t animations) {
+  if (animations < 2 || animation.name.empty())
+    return !figure.name.empty() ? figure.name : animation.name;
+  return figures < 2 ? animation.name : figure.name + " " + animation.name;
+}
+
+}  // namespace
+
+Result<std::vector<NamedClip>> read_glb(std::span<const std::uint8_t> bytes,
+                                        const GlbLimits& limits, const RetargetOptions& options) {
+  DANCE_TRY(const tinygltf::Model model, unpacked_model(bytes, limits));
+  if (auto checked = check_extensions(model); !checked) return tl::make_unexpected(checked.error());
+  DANCE_TRY(const GlbScene scene, checked_scene(model, limits));
+  if (model.animations.empty()) return fail("no animation; the file holds figures without motion");
+  const std::vector<GlbFigure> figures = find_figures(model, scene);
+  std::vector<NamedClip> clips;
+  std::string why;  // the first figure that could not be read
+  std::size_t values_left = limits.values;
+  for (std::size_t a = 0; a < model.animations.size(); ++a) {
+    std::size_t keys_left = values_left;
+    DANCE_TRY(const GlbAnimation animation, read_animation(model, a, scene, keys_left));
+    for (const GlbFigure& figure : figures) {
+      if (tracks_of(figure, animation, scene).empty()) continue;
+      auto bvh = bvh_of(figure, scene, animation, limits);
+      auto retargeted = bvh ? retarget(*bvh, options) : tl::make_unexpected(bvh.error());
+      if (!retargeted) {
+        if (why.empty()) why = retargeted.error().what;
+        continue;
+      }
+      const std::size_t values = bvh->values.size();
+      if (clips.size() == limits.clips || values > values_left)
+        return fail("more dances than fit in memory; export fewer of its animations");
+      values_left -= values;
+      clips.push_back({name_of(figure, figures.size(), animation, model.animations.size()),
+                       std::move(retargeted->clip), std::move(retargeted->notes)});
+    }
+  }
+  if (clips.empty())
+    return fail(why.empty() ? "its animations move no figure; export the skeleton with them" : why);
+  return clips;
+}
+
+}  // namespace dance

@@ -1,0 +1,188 @@
+#include "formats/gltf/glb_values.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/base/assert.h"
+
+namespace dance {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian, and copied");
+
+constexpr std::size_t kAlignment_bytes = 4;
+
+int type_of(std::size_t components) {
+  switch (components) {
+    case 1:
+      return TINYGLTF_TYPE_SCALAR;
+    case 2:
+      return TINYGLTF_TYPE_VEC2;
+    case 3:
+      return TINYGLTF_TYPE_VEC3;
+    case 4:
+      return TINYGLTF_TYPE_VEC4;
+    default:
+      return TINYGLTF_TYPE_MAT4;
+  }
+}
+
+// glTF's rule for normalised integers: c / (2^bits − 1), or max(c / (2^(bits−1) − 1), −1).
+template <class Integer>
+float normalised(const unsigned char* at) {
+  Integer value;
+  std::memcpy(&value, at, sizeof value);
+  const float unit = static_cast<float>(std::numeric_limits<Integer>::max());
+  return std::max(static_cast<float>(value) / unit, -1.0f);
+}
+
+float component_at(const unsigned char* at, int type) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return normalised<std::int8_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return normalised<std::uint8_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return normalised<std::int16_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return normalised<std::uint16_t>(at);
+    default: {
+      float value;
+      std::memcpy(&value, at, sizeof value);
+      return value;
+    }
+  }
+}
+
+std::size_t size_of_component(int type) {
+  switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+GlbStore::GlbStore(tinygltf::Model& model) : model_(model) {
+  if (model_.buffers.empty()) model_.buffers.emplace_back();
+}
+
+std::vector<unsigned char>& GlbStore::data() const { return model_.buffers.front().data; }
+
+int GlbStore::add_view(const void* values, std::size_t bytes, GlbUse use) {
+  auto& out = data();
+  out.resize((out.size() + kAlignment_bytes - 1) / kAlignment_bytes * kAlignment_bytes, 0);
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = out.size();
+  view.byteLength = bytes;
+  if (use == GlbUse::kVertices) view.target = TINYGLTF_TARGET_ARRAY_BUFFER;
+  if (use == GlbUse::kIndices) view.target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+  const auto* begin = static_cast<const unsigned char*>(values);
+  out.insert(out.end(), begin, begin + bytes);
+  model_.bufferViews.push_back(std::move(view));
+  return static_cast<int>(model_.bufferViews.size()) - 1;
+}
+
+int GlbStore::add_accessor(int view, int component_type, int type, std::size_t count) {
+  tinygltf::Accessor accessor;
+  accessor.bufferView = view;
+  accessor.byteOffset = 0;
+  accessor.componentType = component_type;
+  accessor.type = type;
+  accessor.count = count;
+  model_.accessors.push_back(std::move(accessor));
+  return static_cast<int>(model_.accessors.size()) - 1;
+}
+
+int GlbStore::add_floats(std::span<const float> values, std::size_t components, GlbUse use,
+                         bool has_bounds) {
+  DANCE_ASSERT(!values.empty() && values.size() % components == 0, values.size(), components);
+  const int view = add_view(values.data(), values.size_bytes(), use);
+  const int index = add_accessor(view, TINYGLTF_COMPONENT_TYPE_FLOAT, type_of(components),
+                                 values.size() / components);
+  if (!has_bounds) return index;
+  tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
+  for (std::size_t c = 0; c < components; ++c) {
+    float least = values[c];
+    float most = values[c];
+    for (std::size_t i = c; i < values.size(); i += components) {
+      least = std::min(least, values[i]);
+      most = std::max(most, values[i]);
+    }
+    accessor.minValues.push_back(static_cast<double>(least));
+    accessor.maxValues.push_back(static_cast<double>(most));
+  }
+  return index;
+}
+
+int GlbStore::add_bytes(std::span<const std::uint8_t> values, bool is_normalized) {
+  const int view = add_view(values.data(), values.size(), GlbUse::kVertices);
+  const int index = add_accessor(view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4,
+                                 values.size() / 4);
+  model_.accessors[static_cast<std::size_t>(index)].normalized = is_normalized;
+  return index;
+}
+
+int GlbStore::add_indices(std::span<const std::uint32_t> values) {
+  const std::uint32_t most = *std::max_element(values.begin(), values.end());
+  // 65535 restarts a strip on some machines, and is forbidden.
+  if (most < std::numeric_limits<std::uint16_t>::max()) {
+    const std::vector<std::uint16_t> small(values.begin(), values.end());
+    return add_accessor(add_view(small.data(), small.size() * 2, GlbUse::kIndices),
+                        TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_SCALAR, small.size());
+  }
+  return add_accessor(add_view(values.data(), values.size_bytes(), GlbUse::kIndices),
+                      TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, values.size());
+}
+
+Result<std::vector<float>> read_floats(const tinygltf::Model& model, int index,
+                                       std::size_t components, std::size_t most_values) {
+  const std::string what = "accessor " + std::to_string(index);
+  if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
+    return fail(what + " is not in the file");
+  const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
+  if (accessor.sparse.isSparse) return fail(what + " is sparse; export the animation without");
+  if (accessor.type != type_of(components)) return fail(what + " has another type than its use");
+  const std::size_t size = size_of_component(accessor.componentType);
+  if (size == 0) return fail(what + " has a component type that animations cannot have");
+  if (accessor.count == 0) return fail(what + " is empty");
+  if (accessor.count > most_values / components) return fail(what + " holds too many numbers");
+  if (accessor.bufferView < 0 ||
+      static_cast<std::size_t>(accessor.bufferView) >= model.bufferViews.size())
+    return fail(what + " has no buffer view");
+  const auto& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
+    return fail(what + ": its buffer view has no buffer");
+  const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  const std::size_t element = size * components;
+  const std::size_t stride = view.byteStride != 0 ? view.byteStride : element;
+  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+    return fail(what + ": its buffer view reaches beyond its buffer");
+  if (stride < element || stride > 252 || accessor.byteOffset > view.byteLength ||
+      view.byteLength - accessor.byteOffset < element ||
+      (view.byteLength - accessor.byteOffset - element) / stride < accessor.count - 1)
+    return fail(what + " reaches beyond its buffer view");
+  std::vector<float> values;
+  values.reserve(accessor.count * components);
+  const unsigned char* begin = bytes.data() + view.byteOffset + accessor.byteOffset;
+  for (std::size_t i = 0; i < accessor.count; ++i)
+    for (std::size_t c = 0; c < components; ++c) {
+      values.push_back(component_at(begin + i * stride + c * size, accessor.componentType));
+      if (!std::isfinite(values.back())) return fail(what + " holds a number that is not finite");
+    }
+  return values;
+}
+
+}  // namespace dance
