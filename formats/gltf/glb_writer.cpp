@@ -2,9 +2,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <span>
 
 #include "core/base/assert.h"
+#include "formats/body/body_mesh.h"
 #include "formats/gltf/glb.h"
 #include "formats/gltf/glb_container.h"
 #include "formats/gltf/glb_skeleton.h"
@@ -22,7 +23,19 @@ constexpr float kSameRotation = 5e-5f;
 // JSON and container beside the numbers stay below this.
 constexpr std::size_t kMostData_bytes = std::size_t{3} << 30;
 
-Vector3f inverse_place(const GlbJoint& joint) { return -joint.place_m; }
+static_assert(sizeof(Vector3f) == 3 * sizeof(float), "vectors are written as they lie");
+
+// The dancer looks as in the viewer, which knows it by its id; a name that is none gets the look
+// of the id nearest to it.
+GuestId guest_named(const std::string& name) {
+  std::string id;
+  for (const char c : name.substr(0, kMaxGuestIdLength)) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    const bool fits = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+    id += upper ? static_cast<char>(c + 32) : fits ? c : '-';
+  }
+  return GuestId::parse(id).value_or(GuestId());
+}
 
 class DanceWriter {
  public:
@@ -41,7 +54,7 @@ class DanceWriter {
     const std::vector<GlbJoint> joints = glb_joints(clip.skeleton, !clip.hands.empty());
     const int first = add_nodes(named.name, joints);
     const int skin = add_skin(named.name, joints, first);
-    if (options.has_bodies) add_body(named, joints, skin);
+    if (options.has_bodies) add_body(named, skin);
     add_motion(clip, first);
   }
 
@@ -79,7 +92,7 @@ class DanceWriter {
     for (std::size_t j = 0; j < joints.size(); ++j) {
       skin.joints.push_back(first + static_cast<int>(j));
       Eigen::Matrix4f inverse = Eigen::Matrix4f::Identity();
-      inverse.topRightCorner<3, 1>() = inverse_place(joints[j]);
+      inverse.topRightCorner<3, 1>() = -joints[j].place_m;
       inverse_binds.insert(inverse_binds.end(), inverse.data(), inverse.data() + 16);
     }
     skin.inverseBindMatrices = store_.add_floats(inverse_binds, 16, GlbUse::kData);
@@ -87,7 +100,57 @@ class DanceWriter {
     return static_cast<int>(model_.skins.size()) - 1;
   }
 
-  void add_body(const NamedClip&, const std::vector<GlbJoint>&, int) {}
+  // The node of a skinned mesh stands beside the dancer's: its place is that of the joints.
+  void add_body(const NamedClip& named, int skin) {
+    const GuestLook look = look_of(guest_named(named.name));
+    tinygltf::Mesh mesh;
+    mesh.name = named.name + " body";
+    for (const BodyMeshPart& part : body_mesh(named.clip.skeleton, look, !named.clip.hands.empty()))
+      mesh.primitives.push_back(primitive_of(part, look));
+    tinygltf::Node node;
+    node.name = mesh.name;
+    node.mesh = static_cast<int>(model_.meshes.size());
+    node.skin = skin;
+    model_.meshes.push_back(std::move(mesh));
+    model_.scenes.front().nodes.push_back(static_cast<int>(model_.nodes.size()));
+    model_.nodes.push_back(std::move(node));
+  }
+
+  tinygltf::Primitive primitive_of(const BodyMeshPart& part, const GuestLook& look) {
+    std::vector<std::uint8_t> joints;
+    std::vector<std::uint8_t> weights;
+    for (const SkinWeights& skin : part.skin) {
+      joints.insert(joints.end(), skin.joints.begin(), skin.joints.end());
+      weights.insert(weights.end(), skin.weights.begin(), skin.weights.end());
+    }
+    const auto floats_of = [](const std::vector<Vector3f>& vectors) {
+      return std::span<const float>(vectors.front().data(), 3 * vectors.size());
+    };
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] =
+        store_.add_floats(floats_of(part.places_m), 3, GlbUse::kVertices, true);
+    primitive.attributes["NORMAL"] =
+        store_.add_floats(floats_of(part.normals), 3, GlbUse::kVertices);
+    primitive.attributes["JOINTS_0"] = store_.add_bytes(joints, false);
+    primitive.attributes["WEIGHTS_0"] = store_.add_bytes(weights, true);
+    primitive.indices = store_.add_indices(part.triangles);
+    primitive.material = add_material(look_of(part.material, look));
+    return primitive;
+  }
+
+  int add_material(const MaterialLook& look) {
+    tinygltf::Material material;
+    material.name = std::string(look.name);
+    auto& surface = material.pbrMetallicRoughness;
+    surface.baseColorFactor = {static_cast<double>(look.colour.x()),
+                               static_cast<double>(look.colour.y()),
+                               static_cast<double>(look.colour.z()), 1.0};
+    surface.metallicFactor = 0.0;
+    surface.roughnessFactor = static_cast<double>(look.roughness);
+    model_.materials.push_back(std::move(material));
+    return static_cast<int>(model_.materials.size()) - 1;
+  }
 
   void add_motion(const MotionClip& clip, int first) {
     times_ = -1;

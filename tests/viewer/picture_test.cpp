@@ -7,7 +7,7 @@
 
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
-#include "viewer/draw/guest_look.h"
+#include "formats/body/guest_look.h"
 #include "viewer/draw/offscreen.h"
 #include "viewer/draw/stage_painter.h"
 

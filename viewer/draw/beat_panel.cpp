@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "viewer/draw/beat_words.h"
-#include "viewer/draw/guest_look.h"
+#include "formats/body/guest_look.h"
 
 namespace dance {
 namespace {

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "viewer/draw/body_part.h"
-#include "viewer/draw/guest_look.h"
+#include "formats/body/guest_look.h"
 #include "viewer/draw/scene.h"
 
 namespace dance {

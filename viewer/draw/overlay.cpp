@@ -11,7 +11,7 @@
 
 #include "viewer/draw/beat_panel.h"
 #include "viewer/draw/gl_objects.h"
-#include "viewer/draw/guest_look.h"
+#include "formats/body/guest_look.h"
 #include "viewer/draw/overlay_fonts.h"
 
 namespace dance {

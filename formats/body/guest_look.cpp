@@ -1,4 +1,4 @@
-#include "viewer/draw/guest_look.h"
+#include "formats/body/guest_look.h"
 
 #include <array>
 #include <cmath>

@@ -1,0 +1,71 @@
+// FigureBuilder: the layers of a dancer's figure: skin, clothes, shoes, hair and face round the
+// canonical bones, in the dancer's own proportions and in the clothes that the viewer draws it in.
+//
+// Units/frames: local places are metres of a body 1.72 m tall, from the bone's origin; what comes
+//               out is in T-pose, W, scaled to the dancer.
+// Ownership:    owns the layers until take().
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "core/pose/skeleton.h"
+#include "formats/body/figure_part.h"
+#include "formats/body/guest_look.h"
+
+namespace dance {
+
+// Every bone's place in T-pose, and the five ends of the body.
+struct TposePlaces {
+  explicit TposePlaces(const Skeleton& skeleton);
+  const Eigen::Vector3f& at(Bone bone) const { return bones_m[index_of(bone)]; }
+  const Eigen::Vector3f& at(Tip tip) const { return tips_m[static_cast<std::size_t>(tip)]; }
+
+  std::array<Eigen::Vector3f, kBoneCount> bones_m;
+  std::array<Eigen::Vector3f, kTipCount> tips_m;
+  float scale = 1.0f;  // to a body 1.72 m tall
+};
+
+class FigureBuilder {
+ public:
+  FigureBuilder(const Skeleton& skeleton, const GuestLook& look, bool has_fingers);
+
+  std::vector<FigureLayer> take();
+
+ private:
+  enum class Side : std::uint8_t { kLeft, kRight };
+  static float sign_of(Side side) { return side == Side::kLeft ? 1.0f : -1.0f; }
+
+  Eigen::Vector3f at(Bone bone, const Eigen::Vector3f& local_m) const {
+    return places_.at(bone) + places_.scale * local_m;
+  }
+  FigurePart part(const Eigen::Vector3f& a_m, float radius_a_m, const Eigen::Vector3f& b_m,
+                  float radius_b_m, float width = 1.0f, float depth = 1.0f) const;
+  // Across the body: width along X; of an arm: along Z.
+  FigureLayer& layer(Material material, float cell_m, float blend_m,
+                     FigureSkinning skinning = FigureSkinning::kBody);
+
+  void add_torso(FigureLayer& top) const;
+  void add_sleeve(Side side, FigureLayer& top) const;
+  void add_arm(Side side);
+  void add_hand(Side side, FigureLayer& skin) const;
+  void add_finger(std::size_t finger);
+  void add_hips(FigureLayer& legs) const;
+  void add_trouser_leg(Side side, FigureLayer& legs) const;
+  void add_bare_leg(Side side, FigureLayer& skin) const;
+  void add_skirt();
+  void add_shoe(Side side);
+  void add_head();
+  void add_face();
+  void add_hair();
+
+  const Skeleton& skeleton_;
+  const GuestLook& look_;
+  const bool has_fingers_;
+  const TposePlaces places_;
+  std::vector<FigureLayer> layers_;
+};
+
+}  // namespace dance
