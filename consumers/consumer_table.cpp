@@ -6,6 +6,8 @@
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
 #include "consumers/text/text_consumer.h"
+#include "consumers/vmc/vmc_consumer.h"
+#include "consumers/vrchat/vrchat_consumer.h"
 
 namespace dance {
 namespace {
@@ -40,6 +42,9 @@ const std::vector<Row>& rows() {
          return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kBvhFrames_hz,
                                      options.guest);
        }},
+      {{"vmc", OutputKind::kAddress, VmcConsumer::kUsualAddress, {"vrm0", "vrm1"}},
+       VmcConsumer::open},
+      {{"vrchat", OutputKind::kAddress, VrchatConsumer::kUsualAddress, {}}, VrchatConsumer::open},
   };
   return kRows;
 }
