@@ -9,6 +9,8 @@
 #include "consumers/text/csv_consumer.h"
 #include "consumers/text/text_consumer.h"
 #include "core/net/mono_clock.h"
+#include "consumers/vmc/vmc_consumer.h"
+#include "consumers/vrchat/vrchat_consumer.h"
 
 namespace dance {
 namespace {
@@ -53,6 +55,9 @@ const std::vector<Row>& rows() {
        [](const ConsumerOptions& options) {
          return on_file<McapConsumer>(options, options.hz, wall_ahead());
        }},
+      {{"vmc", OutputKind::kAddress, VmcConsumer::kUsualAddress, {"vrm0", "vrm1"}},
+       VmcConsumer::open},
+      {{"vrchat", OutputKind::kAddress, VrchatConsumer::kUsualAddress, {}}, VrchatConsumer::open},
   };
   return kRows;
 }

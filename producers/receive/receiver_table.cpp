@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "producers/vmc/vmc_receiver.h"
+
 namespace dance {
 namespace {
 
@@ -13,7 +15,9 @@ struct Row {
 };
 
 const std::vector<Row>& rows() {
-  static const std::vector<Row> kRows{};
+  static const std::vector<Row> kRows{
+      {{"vmc", InputKind::kAddress, VmcReceiver::kUsualAddress, false}, VmcReceiver::open},
+  };
   return kRows;
 }
 
