@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "consumers/engine/engine_consumer.h"
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
 #include "consumers/text/text_consumer.h"
+#include "core/net/mono_clock.h"
 
 namespace dance {
 namespace {
@@ -39,6 +41,10 @@ const std::vector<Row>& rows() {
        [](const ConsumerOptions& options) {
          return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kBvhFrames_hz,
                                      options.guest);
+       }},
+      {{"engine", OutputKind::kMemory, EngineConsumer::kUsualName, {}},
+       [](const ConsumerOptions& options) -> Made {
+         return EngineConsumer::open(options.name, options.own_clock_id, mono_now());
        }},
   };
   return kRows;
