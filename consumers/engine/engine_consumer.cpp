@@ -118,7 +118,7 @@ void EngineConsumer::on_hands(const GuestId& guest, const Hands& hands, MonoTime
   const Dancer& dancer = dancers_[slot];
   engine::StoredHands stored{};
   for (std::size_t b = 0; b < kFingerBoneCount; ++b) store(hands.R_PB[b], stored.rotation_xyzw[b]);
-  stored.presence = hands.presence & ((1u << kFingerBoneCount) - 1);
+  stored.presence = hands.presence & engine::kAllFingers;
   const bool is_ours = hands.clock_id == own_clock_id_;
   stored.capture_ns = hands.capture_time.since_zero_ns() + (is_ours ? 0 : dancer.lag_ns);
   if (!engine::is_valid(stored)) {

@@ -2,7 +2,8 @@
 // of this machine read them through libdance_adapter.so: poses, hands, proportions, the beat.
 //
 // Units/frames: capture times in this house's clock: those of another clock (a recording that is
-//               played) are mapped so that a pose of the least delay was captured when it was shown.
+//               played) are mapped so that a pose of the least delay was captured when it was
+//               shown.
 // Ownership:    owns the memory, which is gone when it ends; 64 dancers at most. Never allocates
 //               after construction.
 // Threads:      none inside; one owner. Readers look at the memory at any time, and nothing waits

@@ -1,6 +1,6 @@
-// StageLag: how much later than its capture a dancer's dance is shown: by that much a display's time
-// and the moment of the dance differ. Delays only ever add to it, so the least of the last ones
-// tells it best; it follows slowly, so that nobody is seen to hurry.
+// StageLag: how much later than its capture a dancer's dance is shown: by that much a display's
+// time and the moment of the dance differ. Delays only ever add to it, so the least of the last
+// ones tells it best; it follows slowly, so that nobody is seen to hurry.
 //
 // Units/frames: lag = shown − captured; negative where a prediction is shown.
 // Ownership:    plain value, no heap.

@@ -12,7 +12,6 @@ namespace {
 // The writer stores unit rotations, so that readers need not normalise: what is further off than
 // rounding is not the writer's.
 constexpr float kUnitError = 1e-3f;
-constexpr std::uint32_t kAllFingers = (1u << kFingerBoneCount) - 1;
 
 template <std::size_t kCount>
 bool are_unit(const float (&rotations_xyzw)[kCount][4]) {

@@ -62,6 +62,7 @@ struct StoredBeat {
 };
 static_assert(sizeof(StoredBeat) == 48);
 
+constexpr std::uint32_t kAllFingers = (1u << kFingerBoneCount) - 1;
 constexpr std::size_t kIdBytes = 32;  // with a zero at the end
 
 struct alignas(64) GuestSlot {

@@ -4,7 +4,7 @@
 // Units/frames: "stage" is /dev/shm/dance-engine-UID-stage on Linux.
 // Ownership:    OwnedSegment holds the lock and removes the name in the end; a house that was
 //               killed leaves its memory behind, which the next one uses again, so that readers
-//               need not look elsewhere. SeenSegment owns its mapping, which cannot be written to.
+//               need not look elsewhere. SeenSegment owns its mapping, which is read-only.
 // Threads:      one owner each.
 // Failure:      a name that another living house has, memory that is not this user's, and none that
 //               is left are errors with the cure. Sizes are checked before anything is mapped. A

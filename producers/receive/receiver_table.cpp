@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "producers/engine/engine_receiver.h"
+
 namespace dance {
 namespace {
 
@@ -13,7 +15,12 @@ struct Row {
 };
 
 const std::vector<Row>& rows() {
-  static const std::vector<Row> kRows{};
+  static const std::vector<Row> kRows{
+      {{"engine", InputKind::kMemory, EngineReceiver::kUsualName, false},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return EngineReceiver::open(options.name, options.guest, sink, poller);
+       }},
+  };
   return kRows;
 }
 
