@@ -30,7 +30,7 @@ namespace DanceGraph
         private DanceAdapter adapter;
         private readonly DanceGuest[] guests = new DanceGuest[DanceNative.MaxGuests];
         private readonly List<DanceFigure> figures = new List<DanceFigure>(DanceNative.MaxGuests);
-        private readonly bool[] isHere = new bool[DanceNative.MaxGuests];
+        private readonly bool[] isHere = new bool[2 * DanceNative.MaxGuests];  // who leaves and who comes
         private string refused = "";
 
         public IList<DanceFigure> Figures { get { return figures; } }
@@ -92,20 +92,15 @@ namespace DanceGraph
             string id = guest.Name;
             GameObject prefab = avatars[AvatarOf(id) % avatars.Length];
             if (prefab == null) return Refuse("an entry of DanceStage's Avatars is empty");
+            Animator rig = prefab.GetComponentInChildren<Animator>();
+            if (rig == null || !rig.isHuman) return Refuse(prefab.name + " has no Animator whose Rig is Humanoid");
             GameObject made = Instantiate(prefab, transform);
             made.name = "dancer " + id;
             made.transform.localPosition = Vector3.zero;
             made.transform.localRotation = Quaternion.identity;
-            try
-            {
-                made.AddComponent<DanceFigure>().Begin(id, guest.Slot, made.GetComponentInChildren<Animator>());
-            }
-            catch (ArgumentException problem)
-            {
-                Destroy(made);
-                return Refuse(prefab.name + ": " + problem.Message);
-            }
-            figures.Add(made.GetComponent<DanceFigure>());
+            var figure = made.AddComponent<DanceFigure>();
+            figure.Begin(id, guest.Slot, made.GetComponentInChildren<Animator>());
+            figures.Add(figure);
             return figures.Count - 1;
         }
 
