@@ -32,6 +32,8 @@ namespace DanceGraph
         public long NewestNs;
         public uint HasSkeleton;
         public uint HasHands;
+        public uint Generation;
+        public uint Reserved;
 
         // Makes a string: for when a guest is new, not for every frame.
         public string Name
@@ -73,6 +75,8 @@ namespace DanceGraph
         public long StagedNs;
         public long TimeNs;
         public double MusicBeats;
+        public uint Generation;
+        public uint Reserved;
 
         public static DancePose Make()
         {

@@ -28,8 +28,7 @@ namespace DanceGraph
         private readonly int[] turnOf = new int[DanceBones.Count];
         private readonly float avatarHips;
         private float dancerHips;
-        private uint skeletonVersion;
-        private bool hasSkeleton;
+        private DanceSkeleton dancer;  // as known last
 
         // The rig as it stands now, T-pose or nearly (an A-pose is corrected): which of the 52 bones
         // it has, where they are and how they are turned in the root's space.
@@ -67,11 +66,13 @@ namespace DanceGraph
         // The dancer's own proportions: how high its hips are, and which way its limbs lie in T-pose.
         public void SetSkeleton(ref DanceSkeleton skeleton)
         {
-            if (hasSkeleton && skeleton.Version == skeletonVersion) return;
-            hasSkeleton = true;
-            skeletonVersion = skeleton.Version;
-            fixed (float* offset = skeleton.Offset)
+            // By what is in it: a house that was started again counts its versions from 1 again.
+            fixed (float* offset = skeleton.Offset, known = dancer.Offset)
             {
+                bool isKnown = true;
+                for (int i = 0; i < 3 * DanceNative.Bones; ++i) isKnown &= offset[i] == known[i];
+                if (isKnown) return;
+                dancer = skeleton;
                 dancerHips = offset[1] > 0.05f ? offset[1] : avatarHips;
                 for (int bone = 0; bone < DanceNative.Bones; ++bone)
                 {

@@ -38,6 +38,7 @@ class Pose:
 
 class Proportions:
 	var version = 0
+	var numbers = PoolRealArray()  # all below, to compare
 	var offsets = []  # a Vector3 for each of BONES, from its parent in T-pose
 	var tips = []
 
@@ -81,13 +82,14 @@ func status_text():
 	return _call("dance_text", [status])
 
 
-# {id: {slot, has_skeleton, has_hands}}
+# {id: {slot, has_skeleton, has_hands, generation}}
 func guests():
 	var list = _call("dance_guests", [_handle])
 	var found = {}
-	for i in range(0, list.size(), 4):
+	for i in range(0, list.size(), 5):
 		found[list[i]] = {
 			"slot": list[i + 1], "has_skeleton": list[i + 2] != 0, "has_hands": list[i + 3] != 0,
+			"generation": list[i + 4],
 		}
 	return found
 
@@ -117,6 +119,7 @@ func skeleton(slot):
 		return null
 	var made = Proportions.new()
 	made.version = read[1]
+	made.numbers = read[2]
 	made.offsets = _vectors(read[2], 0, BONES.size())
 	made.tips = _vectors(read[2], 3 * BONES.size(), TIP_BONES.size())
 	return made

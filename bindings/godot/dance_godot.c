@@ -89,7 +89,7 @@ FUNCTION(dance_state) {
   return result_of_int(adapter ? dance_adapter_state(adapter) : DANCE_BAD_ARGUMENT);
 }
 
-// (handle) -> [id, slot, has_skeleton, has_hands, id, …]
+// (handle) -> [id, slot, has_skeleton, has_hands, generation, id, …]
 FUNCTION(dance_guests) {
   static dance_guest guests[DANCE_MAX_GUESTS];
   dance_adapter* adapter = adapter_of(arguments);
@@ -102,6 +102,7 @@ FUNCTION(dance_guests) {
     append_int(&list, guests[i].slot);
     append_int(&list, guests[i].has_skeleton);
     append_int(&list, guests[i].has_hands);
+    append_int(&list, guests[i].generation);
   }
   return result_of_list(&list);
 }

@@ -89,7 +89,7 @@ func _show(figure, seen_at):
 	var skeleton = adapter.skeleton(figure.slot)
 	if pose == null or skeleton == null:
 		return
-	if figure.skeleton == null or figure.skeleton.version != skeleton.version:
+	if figure.skeleton == null or figure.skeleton.numbers != skeleton.numbers:
 		figure.skeleton = skeleton
 		if figure.rig != null:
 			figure.rig.set_dancer(skeleton)

@@ -93,6 +93,8 @@ class Guest(_Sized):
         ("newest_ns", ctypes.c_int64),
         ("has_skeleton", ctypes.c_uint32),
         ("has_hands", ctypes.c_uint32),
+        ("generation", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
     ]
 
     @property
@@ -113,6 +115,8 @@ class Pose(_Sized):
         ("staged_ns", ctypes.c_int64),
         ("time_ns", ctypes.c_int64),
         ("music_beats", ctypes.c_double),
+        ("generation", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
     ]
 
 
