@@ -4,13 +4,14 @@
 #include <chrono>
 #include <utility>
 
+#include "consumers/engine/engine_consumer.h"
 #include "consumers/mcap/mcap_consumer.h"
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
 #include "consumers/text/text_consumer.h"
-#include "core/net/mono_clock.h"
 #include "consumers/vmc/vmc_consumer.h"
 #include "consumers/vrchat/vrchat_consumer.h"
+#include "core/net/mono_clock.h"
 
 namespace dance {
 namespace {
@@ -58,6 +59,10 @@ const std::vector<Row>& rows() {
       {{"vmc", OutputKind::kAddress, VmcConsumer::kUsualAddress, {"vrm0", "vrm1"}},
        VmcConsumer::open},
       {{"vrchat", OutputKind::kAddress, VrchatConsumer::kUsualAddress, {}}, VrchatConsumer::open},
+      {{"engine", OutputKind::kMemory, EngineConsumer::kUsualName, {}},
+       [](const ConsumerOptions& options) -> Made {
+         return EngineConsumer::open(options.name, options.own_clock_id, mono_now());
+       }},
   };
   return kRows;
 }

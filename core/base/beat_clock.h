@@ -17,6 +17,8 @@ namespace dance {
 
 class BeatClock {
  public:
+  static constexpr Duration kTimeout = Duration::s(3);
+
   // Returns true when the music jumped: another song, a seek, the first beat.
   bool hear(const Beat& beat) {
     const bool was_known = is_known(beat.time);
@@ -48,7 +50,6 @@ class BeatClock {
   const Beat& newest() const { return beat_; }
 
  private:
-  static constexpr Duration kTimeout = Duration::s(3);
   // A larger difference is another place of the music. A smaller one is slewed so that time stays
   // monotonic at 50 BPM too.
   static constexpr double kJump_beats = 0.25;

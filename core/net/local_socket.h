@@ -15,13 +15,10 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/net/local_address.h"
 #include "core/net/poller.h"
 
 namespace dance {
-
-// The folder of this user's sockets: $XDG_RUNTIME_DIR/dance, or /tmp/dance-UID where that is not
-// set.
-std::string local_socket_folder();
 
 class LocalTextServer {
  public:

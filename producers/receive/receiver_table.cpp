@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "producers/engine/engine_receiver.h"
 #include "producers/vmc/vmc_receiver.h"
 
 namespace dance {
@@ -17,6 +18,10 @@ struct Row {
 const std::vector<Row>& rows() {
   static const std::vector<Row> kRows{
       {{"vmc", InputKind::kAddress, VmcReceiver::kUsualAddress, false}, VmcReceiver::open},
+      {{"engine", InputKind::kMemory, EngineReceiver::kUsualName, false},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return EngineReceiver::open(options.name, options.guest, sink, poller);
+       }},
   };
   return kRows;
 }
