@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "consumers/rokoko/rokoko_consumer.h"
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
 #include "consumers/text/text_consumer.h"
@@ -39,6 +40,14 @@ const std::vector<Row>& rows() {
        [](const ConsumerOptions& options) {
          return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kBvhFrames_hz,
                                      options.guest);
+       }},
+      {{"rokoko", OutputKind::kAddress, RokokoConsumer::kUsualAddress, {"lz4", "json"}},
+       [](const ConsumerOptions& options) -> Made {
+         const bool plain = options.dialect == "json";
+         return RokokoConsumer::open(
+             {options.address,
+              plain ? RokokoConsumer::Dialect::kJson : RokokoConsumer::Dialect::kLz4, options.hz,
+              options.own_clock_id});
        }},
   };
   return kRows;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "producers/natnet/natnet_receiver.h"
+#include "producers/rokoko/rokoko_receiver.h"
+
 namespace dance {
 namespace {
 
@@ -13,7 +16,16 @@ struct Row {
 };
 
 const std::vector<Row>& rows() {
-  static const std::vector<Row> kRows{};
+  static const std::vector<Row> kRows{
+      {{"natnet", InputKind::kAddress, kUsualNatNetPlace, true},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return NatNetReceiver::open({options.guest, options.listen, options.actor}, sink, poller);
+       }},
+      {{"rokoko", InputKind::kAddress, RokokoReceiver::kUsualAddress, true},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return RokokoReceiver::open({options.guest, options.listen, options.actor}, sink, poller);
+       }},
+  };
   return kRows;
 }
 
