@@ -4,6 +4,8 @@
 
 #include "producers/engine/engine_receiver.h"
 #include "producers/vmc/vmc_receiver.h"
+#include "producers/natnet/natnet_receiver.h"
+#include "producers/rokoko/rokoko_receiver.h"
 
 namespace dance {
 namespace {
@@ -21,6 +23,13 @@ const std::vector<Row>& rows() {
       {{"engine", InputKind::kMemory, EngineReceiver::kUsualName, false},
        [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
          return EngineReceiver::open(options.name, options.guest, sink, poller);
+      {{"natnet", InputKind::kAddress, kUsualNatNetPlace, true},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return NatNetReceiver::open({options.guest, options.listen, options.actor}, sink, poller);
+       }},
+      {{"rokoko", InputKind::kAddress, RokokoReceiver::kUsualAddress, true},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return RokokoReceiver::open({options.guest, options.listen, options.actor}, sink, poller);
        }},
   };
   return kRows;
