@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "consumers/engine/engine_consumer.h"
+#include "consumers/files/glb_consumer.h"
 #include "consumers/mcap/mcap_consumer.h"
 #include "consumers/rokoko/rokoko_consumer.h"
 #include "consumers/text/bvh_consumer.h"
@@ -51,12 +52,17 @@ Made make_bvh(const ConsumerOptions& options) {
                               options.guest);
 }
 
+Made make_glb(const ConsumerOptions& options) {
+  return on_file<GlbConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
+                              options.guest);
+}
+
 Made make_mcap(const ConsumerOptions& options) {
   return on_file<McapConsumer>(options, options.hz, wall_ahead());
 }
 
 Made make_engine(const ConsumerOptions& options) {
-  return EngineConsumer::open(options.name, options.hz, options.own_clock_id, mono_now());
+  return EngineConsumer::open(options.name, options.own_clock_id, mono_now());
 }
 
 Made make_rokoko(const ConsumerOptions& options) {
@@ -72,6 +78,7 @@ const std::vector<Row>& rows() {
       {{"text", kFile, "", {}}, make_text},
       {{"csv", kFile, "", {}}, make_csv},
       {{"bvh", kFile, "", {}}, make_bvh},
+      {{"glb", kFile, "", {}}, make_glb},
       {{"mcap", kFile, "", {}}, make_mcap},
       {{"engine", kMemory, EngineConsumer::kUsualName, {}}, make_engine},
       {{"vmc", kAddress, VmcConsumer::kUsualAddress, {"vrm0", "vrm1"}}, VmcConsumer::open},

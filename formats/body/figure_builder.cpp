@@ -10,6 +10,7 @@ using Eigen::Vector3f;
 
 namespace {
 constexpr float kReferenceHeight_m = 1.72f;
+constexpr float kReferenceShoulders_m = 0.35f;
 }  // namespace
 
 TposePlaces::TposePlaces(const Skeleton& skeleton) {
@@ -19,6 +20,8 @@ TposePlaces::TposePlaces(const Skeleton& skeleton) {
   }
   for (std::size_t t = 0; t < kTipCount; ++t) tips_m[t] = at(kTipBones[t]) + skeleton.tip_m[t];
   scale = std::clamp(standing_height_m(skeleton) / kReferenceHeight_m, 0.3f, 3.0f);
+  const float shoulders_m = (at(Bone::kLeftUpperArm) - at(Bone::kRightUpperArm)).norm();
+  breadth = std::clamp(shoulders_m / scale / kReferenceShoulders_m, 0.75f, 1.2f);
 }
 
 FigureBuilder::FigureBuilder(const Skeleton& skeleton, const GuestLook& look, bool has_fingers)
@@ -48,16 +51,16 @@ FigureLayer& FigureBuilder::layer(Material material, float cell_m, float blend_m
 }
 
 void FigureBuilder::add_torso(FigureLayer& top) const {
-  constexpr float kWaistWidth = 1.34f;
+  // Ribs that reach beyond the shoulders would swallow a hanging arm.
+  const float waist = 1.34f * (0.5f + 0.5f * places_.breadth);
+  const float ribs = 1.34f * places_.breadth;
   const Vector3f middle = at(Bone::kChest, {0, 0.01f, 0.003f});
   top.parts.push_back(part(at(Bone::kHips, {0, 0.085f, 0}), 0.096f,
-                           at(Bone::kSpine, {0, -0.005f, 0.002f}), 0.098f, 1.35f));
-  top.parts.push_back(
-      part(at(Bone::kSpine, {0, -0.01f, 0.002f}), 0.097f, middle, 0.1f, kWaistWidth));
-  top.parts.push_back(
-      part(middle, 0.1f, at(Bone::kUpperChest, {0, 0.03f, 0.006f}), 0.118f, kWaistWidth));
+                           at(Bone::kSpine, {0, -0.005f, 0.002f}), 0.098f, waist));
+  top.parts.push_back(part(at(Bone::kSpine, {0, -0.01f, 0.002f}), 0.097f, middle, 0.1f, waist));
+  top.parts.push_back(part(middle, 0.1f, at(Bone::kUpperChest, {0, 0.03f, 0.006f}), 0.114f, ribs));
   const Vector3f breastbone = at(Bone::kUpperChest, {0, -0.005f, 0.026f});
-  top.parts.push_back(part(breastbone, 0.1f, breastbone, 0.1f, 1.32f));
+  top.parts.push_back(part(breastbone, 0.1f, breastbone, 0.1f, ribs));
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const float s = sign_of(side);
     const Vector3f shoulder =

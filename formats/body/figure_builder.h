@@ -25,7 +25,8 @@ struct TposePlaces {
 
   std::array<Eigen::Vector3f, kBoneCount> bones_m;
   std::array<Eigen::Vector3f, kTipCount> tips_m;
-  float scale = 1.0f;  // to a body 1.72 m tall
+  float scale = 1.0f;    // to a body 1.72 m tall
+  float breadth = 1.0f;  // of the shoulders, beside an average body of this height
 };
 
 class FigureBuilder {

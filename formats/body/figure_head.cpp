@@ -17,6 +17,7 @@ void FigureBuilder::add_head() {
                             at(Bone::kHead, {0, 0.022f, 0.046f}), 0.04f, 1.04f));
   skin.parts.push_back(part(at(Bone::kHead, {0, 0.09f, 0.09f}), 0.008f,
                             at(Bone::kHead, {0, 0.062f, 0.1f}), 0.0125f));
+  if (look_.hair_style == Hair::kBob) return;  // which covers the ears
   for (const float s : {1.0f, -1.0f})
     skin.parts.push_back(part(at(Bone::kHead, {0.075f * s, 0.092f, -0.006f}), 0.02f,
                               at(Bone::kHead, {0.072f * s, 0.068f, 0.0f}), 0.013f, 0.5f));

@@ -20,7 +20,6 @@ constexpr FingerShape kShapes[kFingerCount / 2] = {{0.14f, 0.105f, 0.50f, 0.066f
                                                    {0.49f, -0.096f, 0.46f, 0.053f},
                                                    {0.46f, -0.184f, 0.39f, 0.047f}};
 constexpr float kBoneShares[kBonesOfAFinger] = {0.44f, 0.31f, 0.25f};
-constexpr float kThumb[3] = {0.84f, -0.16f, 0.52f};  // along, up, towards the front
 constexpr float kShortestHand_m = 0.02f;
 
 Vector3f hand_vector(const Skeleton& skeleton, bool left) {
@@ -38,14 +37,12 @@ HandLayout hand_layout(const Skeleton& skeleton) {
     const Vector3f hand = hand_vector(skeleton, left);
     const float length_m = hand.norm();
     const Vector3f along = hand / length_m;
-    // The palm faces down and the thumb is in front.
+    // The palm faces down, the thumb is in front: at rest it points half way there, as VRM has it.
     Vector3f front = Vector3f::UnitZ() - along.z() * along;
     front = front.norm() > 0.1f ? front.normalized() : Vector3f(along.unitOrthogonal());
-    const Vector3f up = left ? front.cross(along) : along.cross(front);
     const FingerShape& shape = kShapes[finger % (kFingerCount / 2)];
     const bool thumb = finger % (kFingerCount / 2) == 0;
-    const Vector3f direction =
-        thumb ? (kThumb[0] * along + kThumb[1] * up + kThumb[2] * front).normalized() : along;
+    const Vector3f direction = thumb ? Vector3f((along + front).normalized()) : along;
     const std::size_t first = finger * kBonesOfAFinger;
     layout.offset_m[first] = length_m * (shape.along * along + shape.across * front);
     for (std::size_t bone = 0; bone < kBonesOfAFinger; ++bone) {

@@ -81,9 +81,12 @@ float SkinWeighting::share_arm(const Vector3f& place_m, bool left, Shares& share
   const Bone hand = left ? Bone::kLeftHand : Bone::kRightHand;
   const Vector3f out = left ? Vector3f(Vector3f::UnitX()) : Vector3f(-Vector3f::UnitX());
   const Vector3f from_joint = (place_m - places_.at(upper)) / places_.scale;
+  // Arms of a captured figure may hang a little in its T-pose.
+  const Vector3f arm_m = places_.at(hand) - places_.at(upper);
+  const float slope = arm_m.dot(out) > 0.1f ? arm_m.y() / arm_m.dot(out) : 0.0f;
+  const float fall = slope * std::max(0.0f, from_joint.dot(out));
   // Below the armpit a point beside the joint is of the ribs.
-  const float height = std::max(smooth_step(-0.13f, -0.06f, from_joint.y()),
-                                smooth_step(0.02f, 0.08f, from_joint.dot(out)));
+  const float height = smooth_step(-0.13f, -0.06f, from_joint.y() - fall);
   const float collar = height * beyond(shoulder, out, place_m, 0.045f, 0.04f);
   const float arm = height * beyond(upper, out, place_m, 0.055f);
   const float fore = beyond(lower, out, place_m, 0.045f);

@@ -64,6 +64,26 @@ TEST(BvhWriter, IsReadAgainToATenthOfAMillimetre) {
   }
 }
 
+TEST(BvhWriter, WritesFingersThatAreReadAgain) {
+  Random random(11);
+  MotionClip clip = random_clip(3);
+  clip.hands.resize(clip.frames.size());
+  for (std::size_t f = 1; f < clip.frames.size(); ++f)
+    for (auto& rotation : clip.hands[f].R_PB) rotation = random_rotation(random, 0.6f);
+  const auto bvh = read_bvh(write_bvh(clip));
+  ASSERT_TRUE(bvh.has_value()) << bvh.error().what;
+  EXPECT_EQ(bvh->joints.size(), kBoneCount + kFingerBoneCount);
+  const auto again = retarget(*bvh, as_written());
+  ASSERT_TRUE(again.has_value()) << again.error().what;
+  expect_same_places(clip, again->clip);
+  ASSERT_EQ(again->clip.hands.size(), clip.hands.size());
+  for (std::size_t f = 0; f < clip.hands.size(); ++f)
+    for (std::size_t bone = 0; bone < kFingerBoneCount; ++bone)
+      ASSERT_TRUE(
+          is_same_rotation(clip.hands[f].R_PB[bone], again->clip.hands[f].R_PB[bone], 2e-3f))
+          << kFingerBones[bone].name << " in frame " << f;
+}
+
 TEST(BvhWriter, IsReadAgainWithTheSameRotations) {
   const RetargetOptions options = as_written();
   const MotionClip clip = random_clip(7);
