@@ -61,7 +61,7 @@ const std::vector<Row>& rows() {
       {{"vrchat", OutputKind::kAddress, VrchatConsumer::kUsualAddress, {}}, VrchatConsumer::open},
       {{"engine", OutputKind::kMemory, EngineConsumer::kUsualName, {}},
        [](const ConsumerOptions& options) -> Made {
-         return EngineConsumer::open(options.name, options.own_clock_id, mono_now());
+         return EngineConsumer::open(options.name, options.hz, options.own_clock_id, mono_now());
        }},
   };
   return kRows;
