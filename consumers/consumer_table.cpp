@@ -62,7 +62,7 @@ Made make_mcap(const ConsumerOptions& options) {
 }
 
 Made make_engine(const ConsumerOptions& options) {
-  return EngineConsumer::open(options.name, options.own_clock_id, mono_now());
+  return EngineConsumer::open(options.name, options.hz, options.own_clock_id, mono_now());
 }
 
 Made make_rokoko(const ConsumerOptions& options) {

@@ -167,8 +167,8 @@ DANCE_API dance_status dance_adapter_find(dance_adapter* adapter, const char* id
 DANCE_API dance_status dance_adapter_newest(dance_adapter* adapter, uint32_t slot,
                                             dance_pose* pose);
 // The pose to show at a time, such as that of the frame's display: interpolated, or predicted
-// beyond the newest, for at most DANCE_LONGEST_PREDICTION_NS, at whose end the motion comes to rest.
-// Times are the stage's: a dancer captured at c and shown since s is asked for with s.
+// beyond the newest, for at most DANCE_LONGEST_PREDICTION_NS, at whose end the motion comes to
+// rest. Times are the stage's: a dancer captured at c and shown since s is asked for with s.
 DANCE_API dance_status dance_adapter_at(dance_adapter* adapter, uint32_t slot, int64_t time_ns,
                                         dance_pose* pose);
 DANCE_API dance_status dance_adapter_skeleton(dance_adapter* adapter, uint32_t slot,

@@ -19,21 +19,23 @@ void store(const Eigen::Quaternionf& q, float* xyzw) {
 
 }  // namespace
 
-Result<std::unique_ptr<EngineConsumer>> EngineConsumer::open(const std::string& name,
+Result<std::unique_ptr<EngineConsumer>> EngineConsumer::open(const std::string& name, double hz,
                                                              std::uint64_t own_clock_id,
                                                              MonoTime now) {
   const auto id = GuestId::parse(name.empty() ? kUsualName : name);
   if (!id)
     return fail("the name '" + name + "' for engines: 1 to 24 characters of a-z, 0-9 and '-'");
   DANCE_TRY(auto memory, engine::OwnedSegment::open(*id));
-  return std::unique_ptr<EngineConsumer>(new EngineConsumer(std::move(memory), own_clock_id, now));
+  return std::unique_ptr<EngineConsumer>(
+      new EngineConsumer(std::move(memory), hz, own_clock_id, now));
 }
 
-EngineConsumer::EngineConsumer(std::unique_ptr<engine::OwnedSegment> memory,
+EngineConsumer::EngineConsumer(std::unique_ptr<engine::OwnedSegment> memory, double hz,
                                std::uint64_t own_clock_id, MonoTime now)
     : memory_(std::move(memory)),
       name_(memory_->name().view()),
       writer_(memory_->segment(), now),
+      limit_(hz),
       own_clock_id_(own_clock_id) {}
 
 std::size_t EngineConsumer::slot_of(const GuestId& guest, MonoTime now) {
@@ -49,7 +51,7 @@ std::size_t EngineConsumer::slot_of(const GuestId& guest, MonoTime now) {
 }
 
 void EngineConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime now) {
-  if (!memory_) return;
+  if (!memory_ || !limit_.lets_through(guest, pose.capture_time)) return;
   const std::size_t slot = slot_of(guest, now);
   if (slot == kGuestSlots) {
     ++counters_.too_many;

@@ -18,6 +18,7 @@
 
 #include "consumers/engine/stage_lag.h"
 #include "consumers/pose_consumer.h"
+#include "consumers/rate_limit.h"
 #include "formats/engine/segment_writer.h"
 #include "formats/engine/shared_memory.h"
 
@@ -36,7 +37,7 @@ class EngineConsumer final : public PoseConsumer {
     std::uint64_t invalid = 0;   // out of the format's bounds
   };
 
-  static Result<std::unique_ptr<EngineConsumer>> open(const std::string& name,
+  static Result<std::unique_ptr<EngineConsumer>> open(const std::string& name, double hz,
                                                       std::uint64_t own_clock_id, MonoTime now);
 
   void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) override;
@@ -60,14 +61,15 @@ class EngineConsumer final : public PoseConsumer {
     Skeleton skeleton;
   };
 
-  EngineConsumer(std::unique_ptr<engine::OwnedSegment> memory, std::uint64_t own_clock_id,
-                 MonoTime now);
+  EngineConsumer(std::unique_ptr<engine::OwnedSegment> memory, double hz,
+                 std::uint64_t own_clock_id, MonoTime now);
   // The slot of a guest; kGuestSlots: none is free.
   std::size_t slot_of(const GuestId& guest, MonoTime now);
 
   std::unique_ptr<engine::OwnedSegment> memory_;
   std::string name_;
   engine::SegmentWriter writer_;
+  RateLimit limit_;
   std::uint64_t own_clock_id_;
   std::array<Dancer, engine::kGuestSlots> dancers_;
   Counters counters_;

@@ -57,17 +57,18 @@ struct NumberRing {
     first.store(next, std::memory_order_release);
   }
 
-  // Reader: whether `value` is the one with that number. False: overwritten meanwhile.
+  // Reader: whether `value` is the one with that number. False: overwritten meanwhile, and then it
+  // is of no use.
   bool read(std::uint64_t number, T& value) const {
     const Entry& entry = entries[number % kCount];
     const std::uint64_t version = 2 * number + 2;
     if (entry.version.load(std::memory_order_acquire) != version) return false;
-    std::uint64_t copy[kWords];
-    for (std::size_t i = 0; i < kWords; ++i)
-      copy[i] = entry.words[i].load(std::memory_order_acquire);
-    if (entry.version.load(std::memory_order_relaxed) != version) return false;
-    std::memcpy(&value, copy, sizeof value);
-    return true;
+    auto* bytes = reinterpret_cast<unsigned char*>(&value);
+    for (std::size_t i = 0; i < kWords; ++i) {
+      const std::uint64_t word = entry.words[i].load(std::memory_order_acquire);
+      std::memcpy(bytes + i * sizeof word, &word, sizeof word);
+    }
+    return entry.version.load(std::memory_order_relaxed) == version;
   }
 };
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 
 namespace dance::engine {
 
@@ -28,20 +29,29 @@ struct Axes {
 
   void point_out(const float* ours, float* theirs) const { point(out, scale, ours, theirs); }
   void point_in(const float* theirs, float* ours) const { point(in, 1.0f / scale, theirs, ours); }
-  void rotation_out(const float* ours_xyzw, float* theirs_xyzw) const {
-    rotation(out, ours_xyzw, theirs_xyzw);
+  // `count` rotations, one after the other.
+  void rotations_out(const float* ours_xyzw, float* theirs_xyzw, std::size_t count) const {
+    rotations(out, ours_xyzw, theirs_xyzw, count);
   }
-  void rotation_in(const float* theirs_xyzw, float* ours_xyzw) const {
-    rotation(in, theirs_xyzw, ours_xyzw);
+  void rotations_in(const float* theirs_xyzw, float* ours_xyzw, std::size_t count) const {
+    rotations(in, theirs_xyzw, ours_xyzw, count);
   }
 
  private:
   static void point(const Turned& m, float scale, const float* p, float* turned) {
     for (std::size_t i = 0; i < 3; ++i) turned[i] = scale * m.sign[i] * p[m.from[i]];
   }
-  void rotation(const Turned& m, const float* q, float* turned) const {
-    for (std::size_t i = 0; i < 3; ++i) turned[i] = determinant * m.sign[i] * q[m.from[i]];
-    turned[3] = q[3];
+  void rotations(const Turned& m, const float* q, float* turned, std::size_t count) const {
+    if (m.from[0] == 0 && m.from[1] == 1 && determinant * m.sign[0] > 0.0f && m.sign[1] > 0.0f) {
+      std::memcpy(turned, q, count * 4 * sizeof *q);  // as it is
+      return;
+    }
+    const float sign[3] = {determinant * m.sign[0], determinant * m.sign[1],
+                           determinant * m.sign[2]};
+    for (std::size_t r = 0; r < count; ++r, q += 4, turned += 4) {
+      for (std::size_t i = 0; i < 3; ++i) turned[i] = sign[i] * q[m.from[i]];
+      turned[3] = q[3];
+    }
   }
 };
 

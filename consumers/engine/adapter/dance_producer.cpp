@@ -98,8 +98,7 @@ dance_status dance_producer_pose(dance_producer* producer, const dance_pose* pos
   if (!producer || !fits(pose)) return DANCE_BAD_ARGUMENT;
   const MonoTime now = dance::mono_now();
   dance::Pose ours;
-  for (std::size_t b = 0; b < dance::kBoneCount; ++b)
-    producer->axes.rotation_in(pose->rotation[b], ours.R_PB[b].coeffs().data());
+  producer->axes.rotations_in(pose->rotation[0], ours.R_PB[0].coeffs().data(), dance::kBoneCount);
   producer->axes.point_in(pose->hips_position, ours.p_WH_m.data());
   ours.presence = pose->presence & dance::kAllBones;
   ours.confidence = pose->confidence;
@@ -117,8 +116,8 @@ dance_status dance_producer_hands(dance_producer* producer, const dance_hands* h
   if (!producer || !fits(hands)) return DANCE_BAD_ARGUMENT;
   const MonoTime now = dance::mono_now();
   dance::Hands ours;
-  for (std::size_t b = 0; b < dance::kFingerBoneCount; ++b)
-    producer->axes.rotation_in(hands->rotation[b], ours.R_PB[b].coeffs().data());
+  producer->axes.rotations_in(hands->rotation[0], ours.R_PB[0].coeffs().data(),
+                              dance::kFingerBoneCount);
   ours.presence = hands->presence & dance::engine::kAllFingers;
   ours.capture_time = capture_time(hands->capture_ns, now);
   if (!is_valid(ours) || !ours.capture_time.is_set()) return DANCE_INVALID;

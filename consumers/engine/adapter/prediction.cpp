@@ -1,6 +1,8 @@
 #include "consumers/engine/adapter/prediction.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace dance::engine {
 namespace {
@@ -27,6 +29,24 @@ double moved_s(Duration since_newest) {
   return most * s * (1.0 - s * s + 0.5 * s * s * s);
 }
 
+// Along the tangent at `to`, away from `from`, and back onto the sphere: with c = to · from and the
+// tangent c · to − from, of length √(1 − c²). A bone nears a quarter turn of its quaternion and
+// never gets there. In three loops, of which the compiler makes vectors.
+void turn_on(const BoneRotations& to, const BoneRotations& from, float part,
+             BoneRotations& turned) {
+  std::array<float, kBoneCount> dot, of_to, of_from;
+  for (std::size_t b = 0; b < kBoneCount; ++b) dot[b] = to[b].coeffs().dot(from[b].coeffs());
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    const float c = std::abs(dot[b]);
+    const float length = std::sqrt(1.0f + part * part * std::max(0.0f, 1.0f - c * c));
+    const bool is_told = c >= kLeastDot;
+    of_to[b] = is_told ? (1.0f + part * c) / length : 1.0f;
+    of_from[b] = is_told ? std::copysign(part / length, -dot[b]) : 0.0f;
+  }
+  for (std::size_t b = 0; b < kBoneCount; ++b)
+    turned[b].coeffs() = of_to[b] * to[b].coeffs() + of_from[b] * from[b].coeffs();
+}
+
 }  // namespace
 
 Pose predict(const PoseHistory& history, MonoTime t) {
@@ -44,19 +64,7 @@ Pose predict(const PoseHistory& history, MonoTime t) {
   Eigen::Vector3f way = part * (pose.p_WH_m - before->p_WH_m);
   if (const float length = way.norm(); length > kMostPredicted_m) way *= kMostPredicted_m / length;
   pose.p_WH_m += way;
-  for (std::size_t b = 0; b < kBoneCount; ++b) {
-    // Along the tangent, back onto the sphere: a bone nears a quarter turn of its quaternion and
-    // never gets there.
-    const Eigen::Vector4f& to = history.newest().R_PB[b].coeffs();
-    Eigen::Vector4f from = before->R_PB[b].coeffs();
-    float dot = from.dot(to);
-    if (dot < 0.0f) {
-      from = -from;
-      dot = -dot;
-    }
-    if (dot < kLeastDot) continue;
-    pose.R_PB[b].coeffs() = (to + part * (dot * to - from)).normalized();
-  }
+  turn_on(history.newest().R_PB, before->R_PB, part, pose.R_PB);
   // The music does not slow down.
   pose.music_beats += (pose.music_beats - before->music_beats) * ahead.as_seconds() / step_s;
   return pose;

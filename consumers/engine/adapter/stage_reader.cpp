@@ -13,6 +13,7 @@ static_assert(kLongestPrediction.count_ns() == DANCE_LONGEST_PREDICTION_NS);
 static_assert(kGuestSlots == DANCE_MAX_GUESTS && kBoneCount == DANCE_BONES &&
               kFingerBoneCount == DANCE_FINGER_BONES && kTipCount == DANCE_TIPS);
 static_assert(kIdBytes == sizeof(dance_guest::id));
+static_assert(sizeof(BoneRotations) == sizeof(StoredPose::rotation_xyzw));  // one after the other
 
 // A capture time that goes back further is another recording, not a pose that was overtaken.
 constexpr Duration kAnotherDance = Duration::ms(500);
@@ -49,7 +50,6 @@ dance_status status_of(SegmentCheck check) {
 
 Pose pose_of(const StoredPose& stored) {
   Pose pose;
-  static_assert(sizeof pose.R_PB == sizeof stored.rotation_xyzw);
   for (std::size_t b = 0; b < kBoneCount; ++b)
     pose.R_PB[b].coeffs() = Eigen::Vector4f(stored.rotation_xyzw[b]);
   pose.p_WH_m = Eigen::Vector3f(stored.hips_m);
@@ -135,8 +135,7 @@ dance_status StageReader::newest(std::size_t slot, dance_pose& out) {
   out.presence = stored.presence;
   out.confidence = stored.confidence;
   axes_.point_out(stored.hips_m, out.hips_position);
-  for (std::size_t b = 0; b < kBoneCount; ++b)
-    axes_.rotation_out(stored.rotation_xyzw[b], out.rotation[b]);
+  axes_.rotations_out(stored.rotation_xyzw[0], out.rotation[0], kBoneCount);
   out.capture_ns = stored.capture_ns;
   out.staged_ns = out.time_ns = stored.staged_ns;
   out.music_beats = stored.music_beats;
@@ -203,8 +202,7 @@ void StageReader::give(const Pose& pose, dance_pose& out) const {
   out.presence = pose.presence;
   out.confidence = pose.confidence;
   axes_.point_out(pose.p_WH_m.data(), out.hips_position);
-  for (std::size_t b = 0; b < kBoneCount; ++b)
-    axes_.rotation_out(pose.R_PB[b].coeffs().data(), out.rotation[b]);
+  axes_.rotations_out(pose.R_PB[0].coeffs().data(), out.rotation[0], kBoneCount);
   out.capture_ns = pose.capture_time.since_zero_ns();
   out.staged_ns = pose.stamped(Hop::kStaged).since_zero_ns();
   out.music_beats = pose.music_beats;
@@ -241,8 +239,7 @@ dance_status StageReader::hands(std::size_t slot, dance_hands& out) {
   const Outcome outcome = reader().newest(slot, generation, stored, number);
   if (outcome != Outcome::kFine) return status_of(outcome);
   out.presence = stored.presence;
-  for (std::size_t b = 0; b < kFingerBoneCount; ++b)
-    axes_.rotation_out(stored.rotation_xyzw[b], out.rotation[b]);
+  axes_.rotations_out(stored.rotation_xyzw[0], out.rotation[0], kFingerBoneCount);
   out.capture_ns = stored.capture_ns;
   return DANCE_OK;
 }
