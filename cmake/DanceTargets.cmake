@@ -6,12 +6,12 @@ add_library(dance_settings INTERFACE)
 target_compile_features(dance_settings INTERFACE cxx_std_20)
 target_include_directories(dance_settings INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(dance_settings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>
   -ffp-contract=off $<$<BOOL:${DANCE_WERROR}>:-Werror>
   # g++ 12 sees overlapping copies in "text" + std::string that are not there (GCC bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # In a unity build the sources are included files, of which g++ takes anonymous namespaces amiss.
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
+  $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>)
 if(DANCE_SANITIZE)
   # Of the undefined behaviour all but what costs Eigen a third of its building time and the address sanitizer or Eigen's
   # own assertions see as well.

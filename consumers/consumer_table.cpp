@@ -4,11 +4,15 @@
 #include <chrono>
 #include <utility>
 
+#include "consumers/engine/engine_consumer.h"
 #include "consumers/files/glb_consumer.h"
 #include "consumers/mcap/mcap_consumer.h"
+#include "consumers/rokoko/rokoko_consumer.h"
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
 #include "consumers/text/text_consumer.h"
+#include "consumers/vmc/vmc_consumer.h"
+#include "consumers/vrchat/vrchat_consumer.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
@@ -37,28 +41,49 @@ Duration wall_ahead() {
   return Duration::ns(std::chrono::nanoseconds(wall).count()) - (mono_now() - MonoTime());
 }
 
+Made make_text(const ConsumerOptions& options) {
+  return on_file<TextConsumer>(options, options.hz, options.own_clock_id);
+}
+
+Made make_csv(const ConsumerOptions& options) { return on_file<CsvConsumer>(options, options.hz); }
+
+Made make_bvh(const ConsumerOptions& options) {
+  return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
+                              options.guest);
+}
+
+Made make_glb(const ConsumerOptions& options) {
+  return on_file<GlbConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
+                              options.guest);
+}
+
+Made make_mcap(const ConsumerOptions& options) {
+  return on_file<McapConsumer>(options, options.hz, wall_ahead());
+}
+
+Made make_engine(const ConsumerOptions& options) {
+  return EngineConsumer::open(options.name, options.hz, options.own_clock_id, mono_now());
+}
+
+Made make_rokoko(const ConsumerOptions& options) {
+  const bool is_plain = options.dialect == "json";
+  return RokokoConsumer::open(
+      {options.address, is_plain ? RokokoConsumer::Dialect::kJson : RokokoConsumer::Dialect::kLz4,
+       options.hz, options.own_clock_id});
+}
+
 const std::vector<Row>& rows() {
+  using enum OutputKind;
   static const std::vector<Row> kRows{
-      {{"text", OutputKind::kFile, "", {}},
-       [](const ConsumerOptions& options) {
-         return on_file<TextConsumer>(options, options.hz, options.own_clock_id);
-       }},
-      {{"csv", OutputKind::kFile, "", {}},
-       [](const ConsumerOptions& options) { return on_file<CsvConsumer>(options, options.hz); }},
-      {{"bvh", OutputKind::kFile, "", {}},
-       [](const ConsumerOptions& options) {
-         return on_file<BvhConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
-                                     options.guest);
-       }},
-      {{"glb", OutputKind::kFile, "", {}},
-       [](const ConsumerOptions& options) {
-         return on_file<GlbConsumer>(options, options.hz > 0.0 ? options.hz : kClipFrames_hz,
-                                     options.guest);
-       }},
-      {{"mcap", OutputKind::kFile, "", {}},
-       [](const ConsumerOptions& options) {
-         return on_file<McapConsumer>(options, options.hz, wall_ahead());
-       }},
+      {{"text", kFile, "", {}}, make_text},
+      {{"csv", kFile, "", {}}, make_csv},
+      {{"bvh", kFile, "", {}}, make_bvh},
+      {{"glb", kFile, "", {}}, make_glb},
+      {{"mcap", kFile, "", {}}, make_mcap},
+      {{"engine", kMemory, EngineConsumer::kUsualName, {}}, make_engine},
+      {{"vmc", kAddress, VmcConsumer::kUsualAddress, {"vrm0", "vrm1"}}, VmcConsumer::open},
+      {{"vrchat", kAddress, VrchatConsumer::kUsualAddress, {}}, VrchatConsumer::open},
+      {{"rokoko", kAddress, RokokoConsumer::kUsualAddress, {"lz4", "json"}}, make_rokoko},
   };
   return kRows;
 }

@@ -17,6 +17,7 @@ constexpr const char* kExamples = R"(Examples:
   dance listen --hz 1 --where capture                   a line a second for each dancer here
   dance listen --to csv -o dance.csv --seconds 60       a minute as a table
   dance listen --to bvh -o alice.bvh --guest alice      alice's dance as BVH, until ctrl-C
+  dance listen --to engine                              the stage for the engines of this machine
   dance listen --to glb -o couple.glb --seconds 60      all dancers as figures for Blender and the web
 )";
 

@@ -39,8 +39,8 @@ Router::Instance* Router::instance_of(RouteState& state, const GuestId& guest, M
 
 bool Router::is_shown(const Instance& instance, MonoTime now) {
   // A guest who is silent is not held on the stage for ever; a flow that goes on with the dance
-  // has its own patience.
-  return now - instance.last_heard <= std::max(Roster::kSilence, instance.flow.patience());
+  // says for how long.
+  return now - instance.last_heard <= std::max(Roster::kSilence, instance.flow.longest_silence());
 }
 
 Router::Instances::iterator Router::longest_silent(RouteState& state) {

@@ -23,7 +23,7 @@ std::string find_program(const std::string& name) {
 }
 
 // An hour of music takes aubio half a minute.
-constexpr Duration kPatience = Duration::s(300);
+constexpr Duration kTimeout = Duration::s(300);
 
 std::uintmax_t size_of(const std::string& file) {
   std::error_code missing;
@@ -54,7 +54,7 @@ Result<void> run_outside_program(const OutsideProgram& wanted) {
                                                      .arguments = wanted.arguments,
                                                      .output_file = wanted.output_file,
                                                      .talk_file = wanted.talk_file}));
-  if (!child.wait(kPatience)) return fail(wanted.name + " did not come to an end");
+  if (!child.wait(kTimeout)) return fail(wanted.name + " did not come to an end");
   if (!child.ended_well())
     return fail(wanted.name + ": " + child.exit_text() + last_words(wanted.talk_file, said_before));
   return {};

@@ -93,7 +93,7 @@ bool Flow::sample(MonoTime now, Pose& out) {
   return true;
 }
 
-Duration Flow::patience() const {
+Duration Flow::longest_silence() const {
   return source_ && source_->conceals() ? Continuation::kLongest : Duration();
 }
 

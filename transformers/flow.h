@@ -78,7 +78,7 @@ class Flow {
   std::shared_ptr<Learner> learner() const { return source_ ? source_->learner() : nullptr; }
   // How long after the last pose of a dancer there is something of them to show. 0: no longer than
   // any silence.
-  Duration patience() const;
+  Duration longest_silence() const;
   Counters counters() const;
 
   const PlayoutClock* clock() const { return clock_.get(); }

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPlot_beats = 16.0;
-constexpr Duration kPatienceForFilm =
+constexpr Duration kFilmTimeout =
     Duration::s(3600);  // a film takes some seconds for each of the dance
 
 Result<void> run_viewer(const DemoOptions& options, const DemoPlan& plan, const std::string& name,
@@ -29,7 +29,7 @@ Result<void> run_viewer(const DemoOptions& options, const DemoPlan& plan, const 
   how.output_file = programs_folder(options) + "/" + name + ".json";
   how.talk_file = programs_folder(options) + "/" + name + ".txt";
   DANCE_TRY(ChildProcess viewer, ChildProcess::start(how));
-  if (viewer.wait(kPatienceForFilm) && viewer.ended_well()) return {};
+  if (viewer.wait(kFilmTimeout) && viewer.ended_well()) return {};
   std::ostringstream talk;
   talk << std::ifstream(how.talk_file).rdbuf();
   return fail("the " + name + " was not drawn: " + talk.str());

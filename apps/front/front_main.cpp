@@ -40,6 +40,7 @@ constexpr std::array kCommands{
     Command{"record", "records the bus to an LCM log, packed or plain"},
     Command{"pack", "makes an LCM log smaller, and loses nothing"},
     Command{"unpack", "makes a plain LCM log of a packed one"},
+    Command{"convert", "between recordings: .lcm, .bvh, .glb, .mcap (Foxglove), .csv"},
     Command{"style", "says how large a guest's dance is shown: hips=1.5, preset=cuban"},
     Command{"latency", "the table of a pose's journey, with numbers"},
     Command{"top", "channels and programs of the bus, in a terminal"},
@@ -70,6 +71,7 @@ constexpr std::array kCommands{
     Command{"bench flood", "a couple through a server that is flooded with hostile datagrams"},
     Command{"bench line", "two dancers over recorded lines: ages, freezes, recovery"},
     Command{"bench hold", "play-out buffers over recorded lines: delay against freezes"},
+    Command{"bench adapter", "what an engine pays to read a stage, and how old the dancers are"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 

@@ -4,36 +4,11 @@
 
 #include <filesystem>
 
+#include "core/program/part_file.h"
 #include "formats/log/unpacked_log.h"
 
 namespace dance {
-
 namespace {
-
-namespace fs = std::filesystem;
-
-// The name that a file has until all of it is written; gone with the object unless it was kept.
-class PartFile {
- public:
-  explicit PartFile(std::string path) : path_(std::move(path)) {}
-  ~PartFile() {
-    std::error_code ignored;
-    if (!is_kept_) fs::remove(path_, ignored);
-  }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-  Result<void> keep_as(const std::string& to) {
-    std::error_code error;
-    fs::rename(path_, to, error);
-    if (error) return fail(to + ": " + error.message());
-    is_kept_ = true;
-    return {};
-  }
-
- private:
-  std::string path_;
-  bool is_kept_ = false;
-};
 
 std::string reason_for_no_events(const LogConversion& conversion) {
   const LogUnpacker::Counters& lost = conversion.unpacking;
@@ -47,12 +22,11 @@ std::string reason_for_no_events(const LogConversion& conversion) {
 
 Result<LogConversion> convert_log(const std::string& from, const std::string& to, LogForm form) {
   DANCE_TRY(UnpackedLog log, UnpackedLog::open(from));
-  std::error_code unknown;
-  if (fs::exists(fs::symlink_status(to, unknown)))
-    return fail(to + ": is there already; remove it or choose another name");
+  if (auto free = PartFile::free_name(to); !free) return tl::make_unexpected(free.error());
+  // An existing part is refused, and stays.
   const std::string part_path = to + ".part";
   DANCE_TRY(LogWriter writer, LogWriter::create(part_path));
-  PartFile part(part_path);
+  PartFile part(to);
   LogConversion conversion{from, to, form, 0, 0, 0, 0, {}, {}};
   LogPacker packer;
   while (const auto event = log.next()) {
@@ -65,8 +39,9 @@ Result<LogConversion> convert_log(const std::string& from, const std::string& to
   conversion.unpacking = log.unpacking();
   if (conversion.events == 0) return fail(from + ": " + reason_for_no_events(conversion));
   if (auto flushed = writer.flush(); !flushed) return tl::make_unexpected(flushed.error());
-  if (auto kept = part.keep_as(to); !kept) return tl::make_unexpected(kept.error());
-  const auto size = fs::file_size(from, unknown);
+  if (auto kept = part.keep(); !kept) return tl::make_unexpected(kept.error());
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(from, unknown);
   conversion.bytes_in = unknown ? 0 : size;
   conversion.bytes_out = writer.bytes();
   conversion.packing = packer.counters();

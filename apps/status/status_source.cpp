@@ -15,7 +15,7 @@
 namespace dance {
 namespace {
 
-constexpr Duration kAnswerPatience = Duration::s(2);
+constexpr Duration kAnswerTimeout = Duration::s(2);
 
 std::string file_text(const char* path) {
   std::ifstream file(path);
@@ -71,7 +71,7 @@ Result<nlohmann::ordered_json> ask_server(std::uint16_t port) {
   bool is_others = owner && *owner != ::geteuid();
   for (const std::string& folder : folders_to_ask(owner)) {
     const std::string path = folder + "/" + status_socket_name(port);
-    const auto text = read_local_text(path, kAnswerPatience);
+    const auto text = read_local_text(path, kAnswerTimeout);
     if (text) {
       auto status = nlohmann::ordered_json::parse(*text, nullptr, false);
       if (status.is_object()) return status;

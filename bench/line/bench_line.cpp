@@ -13,7 +13,7 @@ namespace {
 // For what is still under way when the dance ends,
 constexpr Duration kUnderWay = Duration::s(2);
 // and for state, which is repeated until it is there.
-constexpr Duration kPatience = Duration::s(15);
+constexpr Duration kTimeout = Duration::s(15);
 constexpr double kBusy_percent = 80.0;
 
 struct PlannedLine {
@@ -105,7 +105,7 @@ class Batch {
         std::max(result.cpu_percent, 100.0 * (cpu_of_this_process() - cpu).as_seconds() /
                                          (mono_now() - begin).as_seconds());
     turn_until(mono_now() + kUnderWay);
-    const MonoTime give_up = mono_now() + kPatience;
+    const MonoTime give_up = mono_now() + kTimeout;
     while (!all_have_converged() && mono_now() < give_up && !poller_.is_stopped())
       turn_until(mono_now() + Duration::ms(20));
     if (poller_.is_stopped()) return fail("stopped by a signal before the end");

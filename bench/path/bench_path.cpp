@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Duration kPatience = Duration::s(15);
+constexpr Duration kTimeout = Duration::s(15);
 constexpr Duration kWarmUp = Duration::s(1);
 // Longer than any pose on one machine should be under way.
 constexpr Duration kStragglers = Duration::ms(500);
@@ -214,7 +214,7 @@ void BenchPath::send_floor(MonoTime) {
 }
 
 Result<void> BenchPath::wait_until_open() {
-  const MonoTime give_up = mono_now() + kPatience;
+  const MonoTime give_up = mono_now() + kTimeout;
   while (!(pose_way_.is_open() && floor_way_.is_open()) && !poller_->is_stopped()) {
     for (auto& [name, child] : children_)
       if (child.has_ended()) {

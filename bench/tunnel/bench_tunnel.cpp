@@ -15,7 +15,7 @@
 namespace dance {
 namespace {
 
-constexpr Duration kPatience = Duration::s(15);
+constexpr Duration kTimeout = Duration::s(15);
 // Each way dances for so long before the next one does.
 constexpr Duration kTurn = Duration::ms(500);
 // Before it is measured: until links trust a line, they send more than it needs.
@@ -132,7 +132,7 @@ Result<void> BenchTunnel::add(const std::string& name, const std::string& title,
 }
 
 Result<void> BenchTunnel::wait_until_open(Way& way) {
-  const MonoTime give_up = mono_now() + kPatience;
+  const MonoTime give_up = mono_now() + kTimeout;
   while (!way.crowd->is_open()) {
     if (way.relay->has_ended())
       return fail(way.result.title + ": its server " + way.relay->exit_text());

@@ -68,6 +68,8 @@ typedef struct dance_guest {
   int64_t newest_ns;      // when its newest pose came onto the stage
   uint32_t has_skeleton;  // its own proportions have come; else those of an average adult
   uint32_t has_hands;
+  uint32_t generation;  // of the slot: another number is another dancer
+  uint32_t reserved;
 } dance_guest;
 
 // How a pose was made.
@@ -75,7 +77,8 @@ typedef enum dance_pose_kind {
   DANCE_POSE_NEWEST = 0,        // as it came
   DANCE_POSE_INTERPOLATED = 1,  // between two that came
   DANCE_POSE_PREDICTED = 2,     // after the newest, at most DANCE_LONGEST_PREDICTION_NS
-  DANCE_POSE_HELD = 3           // the oldest or newest there is, as the time is too far from it
+  DANCE_POSE_HELD = 3  // the time is too far from all there is: the oldest, or where the prediction
+                       // came to rest
 } dance_pose_kind;
 
 #define DANCE_LONGEST_PREDICTION_NS 100000000  // 100 ms
@@ -83,15 +86,17 @@ typedef enum dance_pose_kind {
 typedef struct dance_pose {
   uint32_t struct_size;
   uint32_t kind;      // dance_pose_kind
-  uint32_t sequence;  // of the newest pose in it
+  uint32_t sequence;  // of the captured pose that is nearest
   uint32_t presence;  // bit b: bone b was seen, else it is at its last or rest rotation
   float confidence;   // 0..1
   float hips_position[3];
   float rotation[DANCE_BONES][4];  // x, y, z, w in the parent
   int64_t capture_ns;              // when the motion was captured, in this machine's clock
   int64_t staged_ns;               // when the pose came onto this house's stage
-  int64_t time_ns;                 // the moment it shows
-  double music_beats;              // where the dancer's music stood; NaN without
+  int64_t time_ns;      // the stage's time that it shows: staged_ns, or the one asked for
+  double music_beats;   // where the dancer's music stood; NaN without
+  uint32_t generation;  // of the slot: another number is another dancer
+  uint32_t reserved;
 } dance_pose;
 
 typedef struct dance_hands {
@@ -162,7 +167,8 @@ DANCE_API dance_status dance_adapter_find(dance_adapter* adapter, const char* id
 DANCE_API dance_status dance_adapter_newest(dance_adapter* adapter, uint32_t slot,
                                             dance_pose* pose);
 // The pose to show at a time, such as that of the frame's display: interpolated, or predicted
-// beyond the newest.
+// beyond the newest, for at most DANCE_LONGEST_PREDICTION_NS, at whose end the motion comes to
+// rest. Times are the stage's: a dancer captured at c and shown since s is asked for with s.
 DANCE_API dance_status dance_adapter_at(dance_adapter* adapter, uint32_t slot, int64_t time_ns,
                                         dance_pose* pose);
 DANCE_API dance_status dance_adapter_skeleton(dance_adapter* adapter, uint32_t slot,

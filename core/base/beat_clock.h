@@ -17,6 +17,8 @@ namespace dance {
 
 class BeatClock {
  public:
+  static constexpr Duration kTimeout = Duration::s(3);
+
   // Returns true when the music jumped: another song, a seek, the first beat.
   bool hear(const Beat& beat) {
     const bool was_known = is_known(beat.time);
@@ -48,14 +50,13 @@ class BeatClock {
   const Beat& newest() const { return beat_; }
 
  private:
-  static constexpr Duration kPatience = Duration::s(3);
   // A larger difference is another place of the music. A smaller one is slewed so that time stays
   // monotonic at 50 BPM too.
   static constexpr double kJump_beats = 0.25;
   static constexpr double kTakenIn_s = 0.3;
 
   // A beat published in the future is as invalid as an old one.
-  static bool age_is_fine(Duration age) { return age < kPatience && age > -kPatience; }
+  static bool age_is_fine(Duration age) { return age < kTimeout && age > -kTimeout; }
   MonoTime line_time_of(double beats) const {
     return beat_.beat_time + Duration::seconds((beats - beat_.beat) * 60.0 / beat_.tempo_bpm);
   }

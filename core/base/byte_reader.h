@@ -7,6 +7,7 @@
 // Failure:      ok() is false once a read went past the end; it stays false.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +30,7 @@ class ByteReader {
   std::int16_t i16() { return static_cast<std::int16_t>(u16()); }
   std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
   std::int64_t i64() { return static_cast<std::int64_t>(u64()); }
+  float f32() { return std::bit_cast<float>(u32()); }
   double f64() { return std::bit_cast<double>(u64()); }
 
   // A view of the next n bytes; empty, and the flag set, when there are fewer.
@@ -39,6 +41,16 @@ class ByteReader {
   std::string_view text(std::size_t n) {
     const auto b = bytes(n);
     return {reinterpret_cast<const char*>(b.data()), b.size()};
+  }
+  // A text that ends with a zero byte, which is read too; an error where none is within `longest`
+  // characters.
+  std::string_view text_to_zero(std::size_t longest) {
+    const auto rest = bytes_.subspan(at_, std::min(remaining(), longest + 1));
+    const auto end = std::find(rest.begin(), rest.end(), std::uint8_t{0});
+    if (end == rest.end()) ok_ = false;
+    const std::string_view read = text(static_cast<std::size_t>(end - rest.begin()));
+    u8();
+    return ok_ ? read : std::string_view();
   }
 
   bool ok() const { return ok_; }

@@ -48,7 +48,7 @@ class QualityByRate {
       fits_since_ = now;
       return false;
     }
-    return now - fits_since_ >= patience_ && finer(now);
+    return now - fits_since_ >= refine_delay_ && finer(now);
   }
 
  private:
@@ -59,8 +59,8 @@ class QualityByRate {
   static constexpr Duration kPause = Duration::ms(500);
   // A step costs 1.2 to 1.6 times the next coarser one.
   static constexpr double kFits = 0.6;
-  static constexpr Duration kPatience = Duration::s(3);
-  static constexpr Duration kLongestPatience = Duration::s(60);
+  static constexpr Duration kRefineDelay = Duration::s(3);
+  static constexpr Duration kLongestRefineDelay = Duration::s(60);
 
   std::size_t first_coarser() const {
     std::size_t i = 0;
@@ -89,8 +89,9 @@ class QualityByRate {
     if (step_ + first_coarser() >= kSteps_m.size()) return false;
     // The finer step does not fit.
     if (refined_at_.is_set())
-      patience_ =
-          now - refined_at_ < patience_ * 2 ? std::min(patience_ * 2, kLongestPatience) : kPatience;
+      refine_delay_ = now - refined_at_ < refine_delay_ * 2
+                          ? std::min(refine_delay_ * 2, kLongestRefineDelay)
+                          : kRefineDelay;
     ++step_;
     refined_at_ = MonoTime();
     judged_from_ = fits_since_ = now;
@@ -114,7 +115,7 @@ class QualityByRate {
   MonoTime judged_from_;  // from when on all was sent at this step
   MonoTime fits_since_;
   MonoTime refined_at_;
-  Duration patience_ = kPatience;
+  Duration refine_delay_ = kRefineDelay;
 };
 
 }  // namespace dance

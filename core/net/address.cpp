@@ -107,6 +107,13 @@ Address Address::from_sockaddr(const sockaddr_storage& raw) {
   return address;
 }
 
+Address Address::any_ipv4(std::uint16_t port) {
+  Address address;
+  address.family_ = Family::kIpv4;
+  address.port_ = port;
+  return address;
+}
+
 Address Address::loopback(std::uint16_t port) {
   Address address;
   address.family_ = Family::kIpv4;
@@ -152,6 +159,11 @@ bool Address::is_loopback() const {
   std::array<std::uint8_t, 16> one{};
   one[15] = 1;
   return family_ == Family::kIpv6 && ip_ == one;
+}
+
+bool Address::is_multicast() const {
+  return (family_ == Family::kIpv4 && (ip_[0] & 0xf0) == 0xe0) ||
+         (family_ == Family::kIpv6 && ip_[0] == 0xff);
 }
 
 std::uint64_t Address::network() const {

@@ -32,6 +32,7 @@ class Address {
                                                   std::uint16_t default_port = 0);
   static Address from_sockaddr(const sockaddr_storage& raw);
   static Address loopback(std::uint16_t port);
+  static Address any_ipv4(std::uint16_t port);  // 0.0.0.0
 
   // Fills `raw` for a socket of the given family and returns its length. An IPv4 address is mapped
   // for an IPv6 socket; an IPv6 address has none on an IPv4 socket: 0.
@@ -42,6 +43,7 @@ class Address {
   Address with_port(std::uint16_t port) const;
   bool is_set() const { return family_ != Family::kNone; }
   bool is_loopback() const;
+  bool is_multicast() const;
   // As they stand in a datagram's header, an IPv4 address in the first four.
   const std::array<std::uint8_t, 16>& ip() const { return ip_; }
   // The subscriber's prefix as a number: an IPv4 address, or the upper half of an IPv6 address.

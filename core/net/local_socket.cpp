@@ -3,13 +3,10 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <utility>
 
 #include "core/net/mono_clock.h"
@@ -22,22 +19,6 @@ constexpr Duration kSendAgain = Duration::ms(5);
 constexpr Duration kAcceptAgain = Duration::s(1);
 constexpr std::size_t kLongestText_bytes = 64 << 20;
 
-std::string error_text(int error) {
-  std::array<char, 128> text{};
-  return strerror_r(error, text.data(), text.size());
-}
-
-Result<sockaddr_un> unix_address(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof address.sun_path)
-    return fail("'" + path +
-                "' is too long for a socket's path: set XDG_RUNTIME_DIR to a shorter "
-                "folder");
-  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-  return address;
-}
-
 int connect_to(const sockaddr_un& address, int& error) {
   const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd >= 0 && ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
@@ -47,38 +28,12 @@ int connect_to(const sockaddr_un& address, int& error) {
   return -1;
 }
 
-// In /tmp another user may have made it: then it is not used.
-Result<void> make_private_folder(const std::string& folder) {
-  const bool is_made = ::mkdir(folder.c_str(), 0700) == 0;
-  if (!is_made && errno != EEXIST)
-    return fail("folder " + folder + " cannot be made: " + error_text(errno));
-  struct stat found {};
-  if (::lstat(folder.c_str(), &found) != 0)
-    return fail("folder " + folder + ": " + error_text(errno));
-  if (!S_ISDIR(found.st_mode) || found.st_uid != ::geteuid())
-    return fail(folder + " is not this user's folder: remove it, or set XDG_RUNTIME_DIR");
-  if ((found.st_mode & 0077) != 0 && ::chmod(folder.c_str(), 0700) != 0)
-    return fail("folder " + folder + " cannot be closed to others: " + error_text(errno));
-  return {};
-}
-
-bool is_socket(const std::string& path) {
-  struct stat found {};
-  return ::lstat(path.c_str(), &found) == 0 && S_ISSOCK(found.st_mode);
-}
-
 }  // namespace
-
-std::string local_socket_folder() {
-  const char* runtime = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe)
-  if (runtime != nullptr && *runtime == '/') return std::string(runtime) + "/dance";
-  return "/tmp/dance-" + std::to_string(::geteuid());
-}
 
 Result<std::unique_ptr<LocalTextServer>> LocalTextServer::open(const std::string& path,
                                                                MakeText make_text, Poller& poller) {
   DANCE_TRY(const sockaddr_un address, unix_address(path));
-  if (auto made = make_private_folder(path.substr(0, path.rfind('/'))); !made)
+  if (auto made = make_private_folder(folder_of(path)); !made)
     return tl::make_unexpected(made.error());
   int error = 0;
   if (const int other = connect_to(address, error); other >= 0) {
@@ -88,10 +43,10 @@ Result<std::unique_ptr<LocalTextServer>> LocalTextServer::open(const std::string
   // Left behind by a killed server; a file of another kind is not removed.
   if (error == ECONNREFUSED && is_socket(path)) ::unlink(path.c_str());
   const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0) return fail("no local socket can be had: " + error_text(errno));
+  if (fd < 0) return fail("no local socket can be had: " + errno_text(errno));
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::chmod(path.c_str(), 0600) != 0 || ::listen(fd, kAcceptsPerTurn) != 0) {
-    auto failure = fail("socket " + path + " cannot be had: " + error_text(errno));
+    auto failure = fail("socket " + path + " cannot be had: " + errno_text(errno));
     ::close(fd);
     return failure;
   }
@@ -154,7 +109,7 @@ void LocalTextServer::accept_one(int fd, MonoTime now) {
     text_ = std::make_shared<const std::string>(make_text_(now));
     text_made_ = now;
   }
-  *free = {fd, text_, 0, now + kClientPatience};
+  *free = {fd, text_, 0, now + kClientTimeout};
   send_on(*free, now);
   if (free->fd >= 0 && is_watched_) poller_.set_deadline(timer_, now + kSendAgain);
 }
@@ -190,8 +145,7 @@ MonoTime LocalTextServer::on_timer(MonoTime now) {
   return client_count() > 0 ? now + kSendAgain : MonoTime();
 }
 
-tl::expected<std::string, LocalFailure> read_local_text(const std::string& path,
-                                                        Duration patience) {
+tl::expected<std::string, LocalFailure> read_local_text(const std::string& path, Duration timeout) {
   const auto failed = [](LocalTrouble trouble, std::string reason) {
     return tl::make_unexpected(LocalFailure{trouble, std::move(reason)});
   };
@@ -201,14 +155,14 @@ tl::expected<std::string, LocalFailure> read_local_text(const std::string& path,
   const int fd = connect_to(*address, error);
   if (fd < 0) {
     if (error == ENOENT || error == ENOTDIR || error == ECONNREFUSED)
-      return failed(LocalTrouble::kNobody, error_text(error));
+      return failed(LocalTrouble::kNobody, errno_text(error));
     if (error == EACCES || error == EPERM)
-      return failed(LocalTrouble::kNotYours, error_text(error));
+      return failed(LocalTrouble::kNotYours, errno_text(error));
     // The queue of connections is full.
-    if (error == EAGAIN) return failed(LocalTrouble::kSilent, error_text(error));
-    return failed(LocalTrouble::kOther, error_text(error));
+    if (error == EAGAIN) return failed(LocalTrouble::kSilent, errno_text(error));
+    return failed(LocalTrouble::kOther, errno_text(error));
   }
-  const MonoTime give_up = mono_now() + patience;
+  const MonoTime give_up = mono_now() + timeout;
   std::string text;
   std::array<char, 65536> chunk;
   LocalFailure failure;
@@ -226,7 +180,7 @@ tl::expected<std::string, LocalFailure> read_local_text(const std::string& path,
     }
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) continue;
     if (n < 0 || text.size() > kLongestText_bytes) {
-      failure = {LocalTrouble::kOther, n < 0 ? error_text(errno) : "an endless answer"};
+      failure = {LocalTrouble::kOther, n < 0 ? errno_text(errno) : "an endless answer"};
       break;
     }
     text.append(chunk.data(), static_cast<std::size_t>(n));

@@ -15,13 +15,10 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/net/local_address.h"
 #include "core/net/poller.h"
 
 namespace dance {
-
-// The folder of this user's sockets: $XDG_RUNTIME_DIR/dance, or /tmp/dance-UID where that is not
-// set.
-std::string local_socket_folder();
 
 class LocalTextServer {
  public:
@@ -29,7 +26,7 @@ class LocalTextServer {
   static constexpr std::size_t kMaxClients = 8;
   // The text is made at most this often.
   static constexpr Duration kTextStays = Duration::ms(500);
-  static constexpr Duration kClientPatience = Duration::s(2);
+  static constexpr Duration kClientTimeout = Duration::s(2);
 
   struct Counters {
     std::uint64_t answered = 0;
@@ -81,6 +78,6 @@ struct LocalFailure {
   std::string reason;
 };
 // The text of the server at `path`.
-tl::expected<std::string, LocalFailure> read_local_text(const std::string& path, Duration patience);
+tl::expected<std::string, LocalFailure> read_local_text(const std::string& path, Duration timeout);
 
 }  // namespace dance

@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/base/assert.h"
 #include "core/net/mono_clock.h"
@@ -56,18 +58,33 @@ MonoTime receive_time(msghdr& header, std::int64_t wall_now_ns, MonoTime wall_re
 
 struct UdpSocket::Batches {
   struct Slot {
-    std::array<std::uint8_t, kMaxDatagramBytes> bytes;
+    std::span<std::uint8_t> bytes;
     sockaddr_storage address{};
     iovec vector{};
     alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control;
   };
-  std::array<Slot, kBatch> in;
-  std::array<mmsghdr, kBatch> in_headers{};
-  std::array<Datagram, kBatch> received;
-  std::array<Slot, kBatch> out;
-  std::array<mmsghdr, kBatch> out_headers{};
+  std::vector<std::uint8_t> memory;
+  std::vector<Slot> in;
+  std::vector<mmsghdr> in_headers;
+  std::vector<Datagram> received;
+  std::vector<Slot> out;
+  std::vector<mmsghdr> out_headers;
   std::size_t queued = 0;
-  std::size_t used_in = kBatch;  // of the last receive(): the kernel wrote into these headers
+  std::size_t used_in;  // of the last receive(): the kernel wrote into these headers
+
+  explicit Batches(const UdpRoom& room)
+      : memory(2 * room.datagrams * room.bytes),
+        in(room.datagrams),
+        in_headers(room.datagrams),
+        received(room.datagrams),
+        out(room.datagrams),
+        out_headers(room.datagrams),
+        used_in(room.datagrams) {
+    for (std::size_t i = 0; i < room.datagrams; ++i) {
+      in[i].bytes = std::span(memory).subspan(2 * i * room.bytes, room.bytes);
+      out[i].bytes = std::span(memory).subspan((2 * i + 1) * room.bytes, room.bytes);
+    }
+  }
 
   void make_ready() {
     for (std::size_t i = 0; i < used_in; ++i) {
@@ -86,8 +103,8 @@ struct UdpSocket::Batches {
   }
 };
 
-UdpSocket::UdpSocket(int fd, Address::Family family, bool connected)
-    : fd_(fd), family_(family), connected_(connected), batches_(std::make_unique<Batches>()) {}
+UdpSocket::UdpSocket(int fd, Address::Family family, bool connected, const UdpRoom& room)
+    : fd_(fd), family_(family), connected_(connected), batches_(std::make_unique<Batches>(room)) {}
 
 UdpSocket::UdpSocket(UdpSocket&& other) noexcept
     : fd_(std::exchange(other.fd_, -1)),
@@ -114,11 +131,11 @@ void UdpSocket::close_now() {
   fd_ = -1;
 }
 
-Result<UdpSocket> UdpSocket::open(Address::Family family, bool connected) {
+Result<UdpSocket> UdpSocket::open(Address::Family family, bool connected, const UdpRoom& room) {
   const int domain = family == Address::Family::kIpv6 ? AF_INET6 : AF_INET;
   const int fd = ::socket(domain, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0) return fail("no UDP socket can be had: " + reason(errno));
-  UdpSocket socket(fd, family, connected);
+  UdpSocket socket(fd, family, connected, room);
   const int off = 0;
   const int on = 1;
   if (domain == AF_INET6) setsockopt(fd, IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
@@ -127,13 +144,18 @@ Result<UdpSocket> UdpSocket::open(Address::Family family, bool connected) {
   return socket;
 }
 
-Result<UdpSocket> UdpSocket::bind(const Address& local) {
+Result<UdpSocket> UdpSocket::bind(const Address& local, const UdpRoom& room) {
   DANCE_ASSERT(local.is_set());
-  auto socket = open(local.family(), false);
+  auto socket = open(local.family(), false, room);
   if (!socket) return socket;
+  if (auto bound = socket->bind_to(local); !bound) return tl::make_unexpected(bound.error());
+  return socket;
+}
+
+Result<void> UdpSocket::bind_to(const Address& local) {
   sockaddr_storage raw{};
   const socklen_t length = local.to_sockaddr(local.family(), raw);
-  if (::bind(socket->fd_, reinterpret_cast<const sockaddr*>(&raw), length) == 0) return socket;
+  if (::bind(fd_, reinterpret_cast<const sockaddr*>(&raw), length) == 0) return {};
   if (errno == EADDRINUSE)
     return fail("port " + std::to_string(local.port()) + " is taken (" + local.to_string() +
                 "): stop the program that has it, or choose another port");
@@ -146,9 +168,32 @@ Result<UdpSocket> UdpSocket::bind(const Address& local) {
   return fail("address " + local.to_string() + " cannot be bound: " + reason(errno));
 }
 
-Result<UdpSocket> UdpSocket::connect(const Address& peer) {
+Result<UdpSocket> UdpSocket::join(const Address& group, const Address& interface,
+                                  const UdpRoom& room) {
+  DANCE_ASSERT(group.is_multicast());
+  if (group.family() != Address::Family::kIpv4)
+    return fail("group " + group.to_string() + " is of IPv6: choose a multicast group of IPv4");
+  auto socket = open(group.family(), false, room);
+  if (!socket) return socket;
+  const int on = 1;
+  setsockopt(socket->fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  // Bound to the group, it does not hear what is sent to the same port of this machine.
+  if (auto bound = socket->bind_to(group); !bound) return tl::make_unexpected(bound.error());
+  ip_mreq request{};
+  std::memcpy(&request.imr_multiaddr, group.ip().data(), sizeof request.imr_multiaddr);
+  if (interface.is_set())
+    std::memcpy(&request.imr_interface, interface.ip().data(), sizeof request.imr_interface);
+  if (setsockopt(socket->fd_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) == 0)
+    return socket;
+  const std::string cause = reason(errno);
+  return fail("group " + group.to_string() + " cannot be joined" +
+              (interface.is_set() ? " on the interface of " + interface.to_string() : "") + ": " +
+              cause + "; name the address of an interface that `ip address` lists");
+}
+
+Result<UdpSocket> UdpSocket::connect(const Address& peer, const UdpRoom& room) {
   DANCE_ASSERT(peer.is_set());
-  auto socket = open(peer.family(), true);
+  auto socket = open(peer.family(), true, room);
   if (!socket) return socket;
   sockaddr_storage raw{};
   const socklen_t length = peer.to_sockaddr(peer.family(), raw);
@@ -167,7 +212,8 @@ Address UdpSocket::local_address() const {
 std::span<const UdpSocket::Datagram> UdpSocket::receive() {
   Batches& b = *batches_;
   b.make_ready();
-  const int count = recvmmsg(fd_, b.in_headers.data(), kBatch, MSG_DONTWAIT, nullptr);
+  const int count =
+      recvmmsg(fd_, b.in_headers.data(), static_cast<unsigned>(b.in.size()), MSG_DONTWAIT, nullptr);
   if (count < 0) {
     if (errno == ECONNREFUSED) ++counters_.refused;
     return {};
@@ -193,9 +239,9 @@ std::span<const UdpSocket::Datagram> UdpSocket::receive() {
 }
 
 void UdpSocket::send(const Address& to, std::span<const std::uint8_t> bytes) {
-  DANCE_ASSERT(bytes.size() <= kMaxDatagramBytes, bytes.size());
   Batches& b = *batches_;
   Batches::Slot& slot = b.out[b.queued];
+  DANCE_ASSERT(bytes.size() <= slot.bytes.size(), bytes.size());
   const socklen_t length = connected_ ? 0 : to.to_sockaddr(family_, slot.address);
   if (!connected_ && length == 0) {
     ++counters_.send_failed;
@@ -209,7 +255,7 @@ void UdpSocket::send(const Address& to, std::span<const std::uint8_t> bytes) {
   header.msg_namelen = length;
   header.msg_iov = &slot.vector;
   header.msg_iovlen = 1;
-  if (++b.queued == kBatch) flush();
+  if (++b.queued == b.out.size()) flush();
 }
 
 void UdpSocket::flush() {

@@ -1,5 +1,6 @@
 // A UDP socket that never blocks, over IPv4 or IPv6 (a socket bound to an IPv6 address also hears
-// IPv4), read and written in batches: one system call for many datagrams.
+// IPv4), read and written in batches: one system call for many datagrams. It may hear a multicast
+// group.
 //
 // Units/frames: receive times are MonoTime of this process's clock; from the kernel's stamp where
 //               it gives one, so that a late turn of the loop does not look like a late datagram.
@@ -21,10 +22,18 @@
 
 namespace dance {
 
+// How many datagrams of what size a socket takes in one call.
+struct UdpRoom {
+  std::size_t datagrams = 64;
+  std::size_t bytes = 2048;  // of each; longer ones are cut and counted
+};
+// For protocols of others, whose datagrams may be as long as UDP allows.
+constexpr UdpRoom kLongDatagrams{8, 65'507};
+
 class UdpSocket final : public DatagramSink {
  public:
-  static constexpr std::size_t kBatch = 64;
-  static constexpr std::size_t kMaxDatagramBytes = 2048;  // longer ones are cut and counted
+  static constexpr std::size_t kBatch = UdpRoom{}.datagrams;
+  static constexpr std::size_t kMaxDatagramBytes = UdpRoom{}.bytes;
 
   struct Datagram {
     Address from;
@@ -42,9 +51,13 @@ class UdpSocket final : public DatagramSink {
   };
 
   // Receives and sends from `local`; port 0 lets the system choose.
-  static Result<UdpSocket> bind(const Address& local);
+  static Result<UdpSocket> bind(const Address& local, const UdpRoom& room = {});
+  // Hears a multicast group of IPv4, as other programs of this machine may at the same time; on the
+  // interface that has the address `interface`, or on the one of the system's choice.
+  static Result<UdpSocket> join(const Address& group, const Address& interface,
+                                const UdpRoom& room = {});
   // Exchanges datagrams with `peer` only.
-  static Result<UdpSocket> connect(const Address& peer);
+  static Result<UdpSocket> connect(const Address& peer, const UdpRoom& room = {});
   UdpSocket(UdpSocket&&) noexcept;
   UdpSocket& operator=(UdpSocket&&) noexcept;
   ~UdpSocket() override;
@@ -52,7 +65,7 @@ class UdpSocket final : public DatagramSink {
   int fd() const { return fd_; }
   Address local_address() const;
 
-  // Up to kBatch pending datagrams; empty when there are none. Valid until the next call.
+  // Pending datagrams, as many as a batch holds; empty when there are none. Valid until the next call.
   std::span<const Datagram> receive();
 
   // Queues a datagram; flush() sends all that is queued, and so does a full batch. On a connected
@@ -66,8 +79,9 @@ class UdpSocket final : public DatagramSink {
 
  private:
   struct Batches;
-  UdpSocket(int fd, Address::Family family, bool connected);
-  static Result<UdpSocket> open(Address::Family family, bool connected);
+  UdpSocket(int fd, Address::Family family, bool connected, const UdpRoom& room);
+  static Result<UdpSocket> open(Address::Family family, bool connected, const UdpRoom& room);
+  Result<void> bind_to(const Address& local);
   void count_send_error(int error);
   void close_now();
 

@@ -86,8 +86,8 @@ Duration ChildProcess::cpu_time() const {
   return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
 }
 
-bool ChildProcess::wait(Duration patience) {
-  for (Duration waited; !has_ended() && waited < patience; waited += Duration::ms(5)) usleep(5000);
+bool ChildProcess::wait(Duration timeout) {
+  for (Duration waited; !has_ended() && waited < timeout; waited += Duration::ms(5)) usleep(5000);
   return has_ended();
 }
 
@@ -95,9 +95,9 @@ void ChildProcess::ask_to_stop() {
   if (!has_ended()) kill(pid_, SIGTERM);
 }
 
-void ChildProcess::stop(Duration patience) {
+void ChildProcess::stop(Duration timeout) {
   ask_to_stop();
-  if (wait(patience)) return;
+  if (wait(timeout)) return;
   kill(pid_, SIGKILL);
   int status = 0;
   if (waitpid(pid_, &status, 0) == pid_) note_end(status);

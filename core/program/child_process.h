@@ -41,11 +41,11 @@ class ChildProcess {
   // Of one that has ended by itself; -1 while it runs, and for one that a signal ended.
   int exit_code() const { return exit_code_; }
 
-  // Waits up to `patience` for it to end by itself; true where it has.
-  bool wait(Duration patience);
+  // Waits up to `timeout` for it to end by itself; true where it has.
+  bool wait(Duration timeout);
   void ask_to_stop();
-  // Waits up to `patience` for it to end, then kills it.
-  void stop(Duration patience);
+  // Waits up to `timeout` for it to end, then kills it.
+  void stop(Duration timeout);
 
  private:
   explicit ChildProcess(pid_t pid) : pid_(pid) {}

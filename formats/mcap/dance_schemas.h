@@ -1,7 +1,6 @@
 // The JSON schemas of our MCAP files: two of Foxglove's, as its 3D panel wants them, and our own
 // for what transforms cannot hold.
 //
-//
 // Units/frames: as each schema's descriptions say.
 // Ownership:    constants.
 // Threads:      constants only.

@@ -9,6 +9,7 @@ namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
+  dance receive --from engine --guest alice             what an engine here tracks, as alice
 )";
 
 struct ReceiveOptions {

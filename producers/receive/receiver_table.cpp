@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "producers/engine/engine_receiver.h"
+#include "producers/vmc/vmc_receiver.h"
+#include "producers/natnet/natnet_receiver.h"
+#include "producers/rokoko/rokoko_receiver.h"
+
 namespace dance {
 namespace {
 
@@ -13,7 +18,20 @@ struct Row {
 };
 
 const std::vector<Row>& rows() {
-  static const std::vector<Row> kRows{};
+  static const std::vector<Row> kRows{
+      {{"vmc", InputKind::kAddress, VmcReceiver::kUsualAddress, false}, VmcReceiver::open},
+      {{"engine", InputKind::kMemory, EngineReceiver::kUsualName, false},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return EngineReceiver::open(options.name, options.guest, sink, poller);
+      {{"natnet", InputKind::kAddress, kUsualNatNetPlace, true},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return NatNetReceiver::open({options.guest, options.listen, options.actor}, sink, poller);
+       }},
+      {{"rokoko", InputKind::kAddress, RokokoReceiver::kUsualAddress, true},
+       [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
+         return RokokoReceiver::open({options.guest, options.listen, options.actor}, sink, poller);
+       }},
+  };
   return kRows;
 }
 

@@ -1,5 +1,5 @@
 // Programs of the build, run by tests as a user runs them, and waits for what they do: up to a
-// patience that no machine should need, and no longer than it takes.
+// timeout that no machine should need, and no longer than it takes.
 //
 // Ownership: values.
 // Threads:   any; each run() has its own folder only where one runs at a time in a process.
@@ -40,12 +40,12 @@ inline Finished run(const std::string& command) {
   return finished;
 }
 
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kTimeout{60};
 
 // Whether the condition came to hold.
 template <class Condition>
 bool wait_for(const Condition& condition) {
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + kTimeout;
   while (!condition()) {
     if (std::chrono::steady_clock::now() >= give_up) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

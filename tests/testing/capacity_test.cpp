@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kWhole = CapacityTrace::kOpportunity_bytes;
 const MonoTime kStart = MonoTime::from_us(1'000'000);
-constexpr Duration kPatient = Duration::s(10);
+constexpr Duration kTimeout = Duration::s(10);
 
 std::shared_ptr<const CapacityTrace> capacity(const char* text) {
   auto trace = CapacityTrace::parse(text);
@@ -22,7 +22,7 @@ std::shared_ptr<const CapacityTrace> capacity(const char* text) {
 
 // When it leaves, in ms; -1 = never.
 double leaves_ms(CapacityQueue& queue, std::size_t bytes, double now_ms,
-                 Duration longest = kPatient) {
+                 Duration longest = kTimeout) {
   const auto left = queue.take(bytes, Duration::seconds(now_ms * 1e-3), longest);
   return left ? left->as_ms() : -1.0;
 }

@@ -219,8 +219,8 @@ TEST(Bridge, TakesItsBlendAndRefusesNonsense) {
   EXPECT_TRUE(Flow::make({"hold", "bridge blend=80ms"}));
   EXPECT_FALSE(Flow::make({"bridge blend=80"}));
   EXPECT_FALSE(Flow::make({"bridge blind=80ms"}));
-  EXPECT_EQ(Flow::make({"hold", "bridge"})->patience(), Continuation::kLongest);
-  EXPECT_EQ(Flow::make({"hold"})->patience(), Duration());
+  EXPECT_EQ(Flow::make({"hold", "bridge"})->longest_silence(), Continuation::kLongest);
+  EXPECT_EQ(Flow::make({"hold"})->longest_silence(), Duration());
 }
 
 }  // namespace

@@ -44,13 +44,13 @@ class BeatOffset {
     const Wrong wrong = best == value_ ? Wrong::kNo : wrong_of(wish, difference);
     if (wrong != wrong_) since_ = now;
     wrong_ = wrong;
-    const Duration patience = wrong == Wrong::kTooLow ? kRaiseAfter : lower_after_;
-    if (wrong == Wrong::kNo || now - since_ < patience) return false;
+    const Duration hold = wrong == Wrong::kTooLow ? kRaiseAfter : lower_after_;
+    if (wrong == Wrong::kNo || now - since_ < hold) return false;
     if (wrong == Wrong::kTooLow) {
       // On a line that is bad every so often, or with predictions that are, the next lowering would
       // be as short.
-      const bool was_short = lowered_.is_set() && now - lowered_ < kLongestPatience;
-      lower_after_ = was_short ? std::min(lower_after_ * 2, kLongestPatience) : kLowerAfter;
+      const bool was_short = lowered_.is_set() && now - lowered_ < kLongestHold;
+      lower_after_ = was_short ? std::min(lower_after_ * 2, kLongestHold) : kLowerAfter;
       value_ = best;
     } else {
       lowered_ = now;
@@ -64,7 +64,7 @@ class BeatOffset {
   enum class Wrong { kNo, kTooLow, kTooHigh };
   static constexpr Duration kRaiseAfter = Duration::ms(150);
   static constexpr Duration kLowerAfter = Duration::s(4);
-  static constexpr Duration kLongestPatience = Duration::s(60);
+  static constexpr Duration kLongestHold = Duration::s(60);
   // A wished delay is kept as long as what is shown is no further from it than this many counts:
   // half of one would flutter, and each change is a jump in the dance. With one whole the delay
   // would not come back after a bad minute.

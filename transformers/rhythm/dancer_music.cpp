@@ -7,7 +7,7 @@ namespace dance {
 namespace {
 
 constexpr Duration kEnough = Duration::ms(500);
-constexpr Duration kPatience = Duration::s(10);
+constexpr Duration kTimeout = Duration::s(10);
 constexpr Duration kFitted = Duration::s(2);
 constexpr double kJump_beats = 0.5;
 constexpr double kLeastTempo_hz = 20.0 / 60.0, kMostTempo_hz = 400.0 / 60.0;
@@ -55,7 +55,7 @@ void DancerMusic::fit() {
 }
 
 bool DancerMusic::is_known(MonoTime t) const {
-  return size() >= 4 && newest().time - tag(0).time >= kEnough && t - newest().time < kPatience;
+  return size() >= 4 && newest().time - tag(0).time >= kEnough && t - newest().time < kTimeout;
 }
 
 double DancerMusic::position(MonoTime t) const {

@@ -18,7 +18,7 @@ class AckWindow {
  public:
   void note(std::uint16_t number) {
     const auto ahead = static_cast<std::int16_t>(number - newest_);
-    if (span_ == 0 || (ahead <= -kSpan && ++far_behind_ >= kPatience)) {
+    if (span_ == 0 || (ahead <= -kSpan && ++far_behind_ >= kRestartAfter)) {
       seen_ = 1;
       span_ = 1;
       newest_ = number;
@@ -61,7 +61,7 @@ class AckWindow {
 
  private:
   static constexpr int kSpan = 33;
-  static constexpr int kPatience = 8;
+  static constexpr int kRestartAfter = 8;
 
   std::uint16_t newest_ = 0;
   std::uint64_t seen_ = 0;  // bit i: newest − i came; only the low 33 are looked at

@@ -18,7 +18,7 @@ constexpr double kSpeedOver_s = 0.05;
 // followed imperceptibly slowly.
 constexpr double kSettles_s = 0.12, kSettleOver_s = 0.06, kFollowSole_s = 1.5,
                  kMostFollow_m_s = 0.01;
-constexpr double kPatience_s = 0.3;
+constexpr double kHiddenTimeout_s = 0.3;
 
 struct Share {
   Landmark left;
@@ -60,7 +60,7 @@ void SoleContacts::follow(const BodyModel& body, const Observation& seen,
       for (const Share& share : kOfBall) look(share);
     if (weight < 0.15) {
       sole.hidden_s += seconds;
-      if (sole.hidden_s > kPatience_s) sole.touch.stands = false;
+      if (sole.hidden_s > kHiddenTimeout_s) sole.touch.stands = false;
       continue;
     }
     sole.hidden_s = 0.0;

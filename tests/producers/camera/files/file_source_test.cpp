@@ -129,7 +129,7 @@ TEST_F(FileSource, InRealTimeASlowReaderGetsTheNewest) {
   EXPECT_GT(source->counters().outrun, 0u);
 }
 
-TEST_F(FileSource, InRealTimeAPictureIsNotEarlyAndPatienceEnds) {
+TEST_F(FileSource, InRealTimeAPictureIsNotEarlyAndWaitingEnds) {
   const auto source = opened(video("a.avi", 0.01, 2), {});
   ASSERT_NE(source, nullptr);
   Frame frame;

@@ -1,0 +1,61 @@
+// dance-bench-adapter: what an engine pays to read a stage, and how old the dancers are.
+
+#include <cstdio>
+
+#include "bench/adapter/bench_adapter.h"
+#include "core/bus/bus.h"
+#include "core/bus/multicast_route.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "testing/private_network.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance bench adapter                         30 dancers at 90 Hz, as a table
+  dance bench adapter --guests 30 --hz 90 --seconds 5 --json
+A house with [[listen]] to = "engine" runs beside it; engines at 60, 72 and 90 Hz read it through
+libdance_adapter.so. On a machine without a multicast route over lo all runs in a private network.
+)";
+
+struct Options {
+  BenchAdapterOptions bench;
+  bool is_json = false;
+  std::string dancers;  // only given by this program to itself: the bus
+};
+
+Result<void> run(const Options& options) {
+  if (!options.dancers.empty())
+    return run_dancers(options.dancers, options.bench.guests, options.bench.hz);
+  DANCE_TRY(const BusAddress bus, parse_udpm_url(kDefaultBusUrl));
+  if (multicast_device(bus.group) != "lo") {
+    if (auto entered = enter_private_network(); !entered)
+      return fail(entered.error().what + "; or give lo a multicast route: " + kMulticastCure);
+    talk::info("lo has no multicast route here: measuring in a private network");
+  }
+  DANCE_TRY(BenchAdapterResult result,
+            run_bench_adapter(options.bench, program_folder() + "/dance-bench-adapter"));
+  const std::string text = options.is_json ? bench_adapter_json(options.bench, result)
+                                           : bench_adapter_table(options.bench, result);
+  std::fputs(text.c_str(), stdout);
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::Options options;
+  dance::CommandLine line("What an engine pays to read a stage, and how old the dancers are.",
+                          "dance bench adapter");
+  line.add("--guests", options.bench.guests, "dancers").range(1.0, 64.0).shows_default();
+  line.add("--hz", options.bench.hz, "poses a second of each").range(1.0, 240.0).shows_default();
+  line.add("--seconds", options.bench.seconds, "how long to measure each of its parts")
+      .range(0.2, 3600.0)
+      .shows_default();
+  line.add_flag("--json", options.is_json, "one JSON object instead of the table");
+  line.add("--dancers", options.dancers, "").hidden();
+  line.footer(dance::kExamples);
+  return dance::run_program(line, argc, argv, [&] { return dance::run(options); });
+}

@@ -1,0 +1,65 @@
+// Maps the stamps of a sender that cannot be asked for its time, from when its datagrams arrive:
+// delay only ever adds, so the datagram that took least tells the offset best. What arrives later
+// than that was captured earlier.
+//
+// Units/frames: theirs are plain microseconds of the sender's clock; ours is MonoTime. What is left
+//               is the shortest delay itself, which no one-way stream can tell.
+// Ownership:    plain value; never allocates.
+// Threads:      none inside; one owner.
+// Failure:      a stamp that jumps by more than a second begins anew, and steps() counts it.
+// Source:       minimum filter as in RFC 5905 (NTP), clock filter algorithm, over one direction.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+class OneWayClock {
+ public:
+  // When the sender stamped what arrived at `received`; never later than that.
+  MonoTime to_ours(std::int64_t their_us, MonoTime received) {
+    constexpr std::int64_t kFarthest_us = INT64_MAX / 4000;  // keeps the sums within 64 bits
+    if (their_us > kFarthest_us || their_us < -kFarthest_us) return received;
+    const std::int64_t now_ns = received.since_zero_ns();
+    const std::int64_t offset_ns = now_ns - their_us * 1000;
+    const std::int64_t apart_ns = offset_ns - applied_ns_;
+    if (!has_begun_ || apart_ns > kStep_ns || apart_ns < -kStep_ns) {
+      if (has_begun_) ++steps_;
+      has_begun_ = true;
+      applied_ns_ = least_ns_ = earlier_ns_ = offset_ns;
+      window_began_ns_ = followed_ns_ = now_ns;
+      return received;
+    }
+    if (now_ns - window_began_ns_ > kWindow_ns) {
+      earlier_ns_ = least_ns_;
+      least_ns_ = offset_ns;
+      window_began_ns_ = now_ns;
+    }
+    least_ns_ = std::min(least_ns_, offset_ns);
+    // Up slowly, so that captures keep their distances; down at once, as nothing arrives before it
+    // was sent.
+    const std::int64_t most_ns = std::max<std::int64_t>(now_ns - followed_ns_, 0) / kSlowest;
+    followed_ns_ = now_ns;
+    applied_ns_ = std::min(std::min(least_ns_, earlier_ns_), applied_ns_ + most_ns);
+    return MonoTime::from_ns(their_us * 1000 + applied_ns_);
+  }
+  std::uint64_t steps() const { return steps_; }
+
+ private:
+  static constexpr std::int64_t kStep_ns = 1'000'000'000;
+  static constexpr std::int64_t kWindow_ns = 10'000'000'000;
+  static constexpr std::int64_t kSlowest = 1000;  // 1 ms a second: ten times the drift of crystals
+
+  bool has_begun_ = false;
+  std::int64_t applied_ns_ = 0;
+  std::int64_t least_ns_ = 0;    // of this window
+  std::int64_t earlier_ns_ = 0;  // of the one before
+  std::int64_t window_began_ns_ = 0;
+  std::int64_t followed_ns_ = 0;
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,228 @@
+#include "producers/natnet/natnet_receiver.h"
+
+#include "core/net/mono_clock.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kAskAgain = Duration::s(1);
+// A server that is silent for so long may be another next time.
+constexpr Duration kGone = Duration::s(3);
+
+}  // namespace
+
+Result<std::unique_ptr<NatNetReceiver>> NatNetReceiver::open(const Options& options,
+                                                             CaptureSink& sink, Poller& poller) {
+  DANCE_TRY(const NatNetPlace place, parse_natnet_place(options.listen));
+  std::optional<UdpSocket> commands;
+  if (!place.listen.is_multicast()) {
+    DANCE_TRY(auto data, UdpSocket::bind(place.listen, kLongDatagrams));
+    return std::unique_ptr<NatNetReceiver>(
+        new NatNetReceiver(options, place, std::move(data), std::move(commands), sink, poller));
+  }
+  DANCE_TRY(auto data, UdpSocket::join(place.listen, place.interface, kLongDatagrams));
+  // Answers come to where the question came from, not to the group.
+  const Address own =
+      place.interface.is_set() ? place.interface.with_port(0) : Address::any_ipv4(0);
+  DANCE_TRY(commands, UdpSocket::bind(own, kLongDatagrams));
+  return std::unique_ptr<NatNetReceiver>(
+      new NatNetReceiver(options, place, std::move(data), std::move(commands), sink, poller));
+}
+
+NatNetReceiver::NatNetReceiver(const Options& options, const NatNetPlace& place, UdpSocket data,
+                               std::optional<UdpSocket> commands, CaptureSink& sink, Poller& poller)
+    : place_(place),
+      data_(std::move(data)),
+      commands_(std::move(commands)),
+      poller_(poller),
+      wanted_(options.actor),
+      dancer_(options.guest, sink),
+      server_(place.server),
+      version_(place.version),
+      models_(std::make_unique<NatNetModels>()),
+      frame_(std::make_unique<NatNetFrame>()),
+      body_(std::make_unique<NatNetBody>()) {
+  poller_.watch(data_.fd(), [this](MonoTime now) { drain(data_, now); });
+  if (commands_) poller_.watch(commands_->fd(), [this](MonoTime now) { drain(*commands_, now); });
+  timer_ = poller_.add_timer(mono_now(), [this](MonoTime now) {
+    ask(now);
+    return now + kAskAgain;
+  });
+}
+
+NatNetReceiver::~NatNetReceiver() {
+  poller_.set_deadline(timer_, MonoTime());
+  poller_.unwatch(data_.fd());
+  if (commands_) poller_.unwatch(commands_->fd());
+}
+
+void NatNetReceiver::drain(UdpSocket& socket, MonoTime now) {
+  for (auto batch = socket.receive(); !batch.empty(); batch = socket.receive())
+    for (const auto& datagram : batch) take(datagram.from, datagram.bytes, datagram.received, now);
+}
+
+// Commands go to the server that was named, else to where the stream comes from.
+void NatNetReceiver::ask(MonoTime now) {
+  if (!place_.server.is_set() && server_.is_set() && now - server_heard_ > kGone) {
+    server_ = Address();
+    has_models_ = false;
+    skeleton_id_.reset();
+    version_ = place_.version;
+  }
+  if (!server_.is_set()) return;
+  if (!version_ || ticks_per_second_ == 0) request(NatNetMessage::kConnect, "Ping");
+  if (!has_models_) request(NatNetMessage::kRequestModels, "");
+  // Without it a unicast stream ends.
+  if (!commands_) request(NatNetMessage::kKeepAlive, "");
+}
+
+void NatNetReceiver::request(NatNetMessage message, std::string_view text) {
+  const auto bytes = natnet_request(message, text);
+  (commands_ ? *commands_ : data_).send_now(server_, std::span(bytes.begin(), bytes.size()));
+}
+
+bool NatNetReceiver::is_server(const Address& from, MonoTime now) {
+  if (!server_.is_set()) {
+    server_ = from.with_port(kNatNetCommandPort);
+    server_heard_ = now;
+    ask(now);
+  }
+  if (server_.ip() != from.ip()) return false;
+  server_heard_ = now;
+  return true;
+}
+
+NatNetFault NatNetReceiver::note(NatNetFault fault) {
+  ++counters_.faults[static_cast<std::size_t>(fault)];
+  return fault;
+}
+
+void NatNetReceiver::take(const Address& from, std::span<const std::uint8_t> packet,
+                          MonoTime received, MonoTime now) {
+  ++counters_.packets;
+  const auto message = message_of(packet);
+  if (!message) {
+    note(NatNetFault::kTooShort);
+    return;
+  }
+  if (!is_server(from, now)) {
+    ++counters_.of_others;
+    return;
+  }
+  switch (*message) {
+    case NatNetMessage::kServerInfo:
+      return take_server(packet);
+    case NatNetMessage::kModels:
+      return take_models(packet);
+    case NatNetMessage::kFrame:
+      return take_frame(packet, received, now);
+    default:
+      note(NatNetFault::kOtherMessage);
+  }
+}
+
+void NatNetReceiver::take_server(std::span<const std::uint8_t> packet) {
+  NatNetServer server;
+  if (note(read_natnet_server(packet, server)) != NatNetFault::kNone) return;
+  const bool is_other = version_ != server.version;
+  version_ = server.version;
+  ticks_per_second_ = server.ticks_per_second;
+  if (is_other && !has_models_) request(NatNetMessage::kRequestModels, "");
+}
+
+void NatNetReceiver::take_models(std::span<const std::uint8_t> packet) {
+  if (!version_) return;  // asked for again once it is known
+  if (note(read_natnet_models(packet, *version_, *models_)) != NatNetFault::kNone) {
+    has_models_ = false;
+    return;
+  }
+  has_models_ = true;
+  skeleton_id_.reset();
+  choose_model();
+}
+
+bool NatNetReceiver::choose_model() {
+  for (const NatNetModel& model : models_->skeletons) {
+    if (!wanted_.empty() && !(model.name == std::string_view(wanted_))) continue;
+    skeleton_id_ = model.id;
+    body_->set_rig(find_natnet_rig(model));
+    figure_ = JointFigure();
+    return true;
+  }
+  return false;
+}
+
+// The middle of the cameras' exposure where the server counts in ticks that it has told.
+MonoTime NatNetReceiver::capture_time(MonoTime received) {
+  constexpr std::uint64_t kMostTicks = std::uint64_t{1} << 62;
+  if (ticks_per_second_ > 0 && frame_->exposed_ticks > 0 && frame_->exposed_ticks < kMostTicks)
+    return clock_.to_ours(static_cast<std::int64_t>(static_cast<double>(frame_->exposed_ticks) *
+                                                    1e6 / static_cast<double>(ticks_per_second_)),
+                          received);
+  return clock_.to_ours(static_cast<std::int64_t>(frame_->timestamp_s * 1e6), received);
+}
+
+void NatNetReceiver::take_frame(std::span<const std::uint8_t> packet, MonoTime received,
+                                MonoTime now) {
+  if (!version_) {
+    ++counters_.before_version;
+    return;
+  }
+  if (note(read_natnet_frame(packet, *version_, *frame_)) != NatNetFault::kNone) return;
+  if (frame_->models_changed && has_models_) {
+    has_models_ = false;
+    request(NatNetMessage::kRequestModels, "");
+  }
+  if (frame_->skeletons.empty()) {
+    if (frame_->rigid_bodies > 0) ++counters_.rigid_bodies_only;
+    return;
+  }
+  if (!skeleton_id_) {
+    ++(has_models_ ? counters_.without_actor : counters_.before_models);
+    return;
+  }
+  const MonoTime captured = capture_time(received);
+  for (const NatNetSkeleton& skeleton : frame_->skeletons) {
+    if (skeleton.id != *skeleton_id_) continue;
+    body_->take(skeleton, place_.z_is_up);
+    Pose pose;
+    if (!figure_.fit(body_->figure(), pose)) {
+      ++counters_.incomplete;
+      return;
+    }
+    dancer_.set_skeleton(figure_.skeleton());
+    if (!dancer_.capture(pose, captured, now)) return;
+    Hands hands;
+    if (body_->hands(hands)) dancer_.capture(hands);
+    return;
+  }
+  ++counters_.without_actor;
+}
+
+std::string NatNetReceiver::summary() const {
+  const auto& poses = dancer_.counters();
+  std::string line = std::to_string(poses.poses) + " poses of " +
+                     std::to_string(counters_.packets) + " packets from Motive";
+  const auto tell = [&line](std::uint64_t count, const char* what) {
+    if (count > 0) line += ", " + std::to_string(count) + " " + what;
+  };
+  for (std::size_t fault = 1; fault < counters_.faults.size(); ++fault)
+    tell(counters_.faults[fault], text_of(static_cast<NatNetFault>(fault)));
+  tell(counters_.rigid_bodies_only,
+       "frames with rigid bodies but no skeleton: switch Skeletons on in Motive's streaming pane");
+  tell(counters_.before_version,
+       "frames of unknown version, as the server's port 1510 does not answer: give version=4.1");
+  tell(counters_.before_models,
+       "frames before the skeletons' names, which the server's port 1510 tells");
+  tell(counters_.without_actor, wanted_.empty() ? "frames without a skeleton that is described"
+                                                : "frames without the actor that was asked for");
+  tell(counters_.incomplete, "frames with bones missing");
+  tell(counters_.of_others, "packets of other machines");
+  tell(poses.invalid, "not valid");
+  tell(poses.not_newer, "not newer");
+  tell(data_.counters().truncated, "too long");
+  tell(clock_.steps(), "jumps of the sender's clock");
+  return line;
+}
+
+}  // namespace dance
