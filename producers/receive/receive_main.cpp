@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance receive --from engine --guest alice             what an engine here tracks, as alice
+  dance receive --from vmc --guest carol                what an avatar app here sends, as carol
 )";
 
 struct ReceiveOptions {
