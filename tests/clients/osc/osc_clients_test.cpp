@@ -128,9 +128,10 @@ struct Compared {
 TEST_F(OscClients, OfNodeReadEveryFrameOfACoupleAndSeeTheSameDance) {
   if (!has_node()) GTEST_SKIP() << "no node, or no npm packages: ./dance test fetches them";
   open_couple();
-  const std::string output = run_client(
-      "node", {kScripts + "read_osc.mjs", kModules, seconds_to_run(), std::to_string(kAlicesPort),
-               std::to_string(kBobsPort), std::to_string(kVrchatPort)});
+  const std::string output =
+      run_client("/usr/bin/env", {"node", kScripts + "read_osc.mjs", kModules, seconds_to_run(),
+                                  std::to_string(kAlicesPort), std::to_string(kBobsPort),
+                                  std::to_string(kVrchatPort)});
   std::map<int, Compared> compared;
   std::map<int, nlohmann::json> counts;
   std::istringstream lines(output);
@@ -173,6 +174,7 @@ TEST_F(OscClients, OfNodeReadEveryFrameOfACoupleAndSeeTheSameDance) {
   for (const int port : {kAlicesPort, kBobsPort, kVrchatPort}) {
     const Compared& mine = compared[port];
     const nlohmann::json& count = counts[port];
+    ASSERT_TRUE(count.is_object()) << output;
     std::printf("port %d: %s\n  %d frames, %d compared, farthest %.1e m\n", port,
                 count.dump().c_str(), mine.frames, mine.known,
                 static_cast<double>(mine.farthest_m));
@@ -242,7 +244,8 @@ TEST_F(OscClients, APerformerWrittenWithNodeComesInAsADancer) {
       start("dance-receive", {"--from", "vmc", "--guest", "carol", "--bus", kBus});
   ASSERT_TRUE(wait_for(
       [&] { return text_of(folder_.path("talk")).find("takes carol") != std::string::npos; }));
-  run_client("node", {kScripts + "vmc_performer.mjs", kModules, "39539", seconds_to_run()});
+  run_client("/usr/bin/env",
+             {"node", kScripts + "vmc_performer.mjs", kModules, "39539", seconds_to_run()});
   receiver.ask_to_stop();
   EXPECT_TRUE(wait_for([&] { return receiver.has_ended(); }));
   EXPECT_TRUE(receiver.ended_well());

@@ -5,11 +5,11 @@
 //   node read_osc.mjs NODE_MODULES SECONDS PORT...
 import { createRequire } from "node:module";
 import dgram from "node:dgram";
+import { pathToFileURL } from "node:url";
 
 const [modules, seconds, ...ports] = process.argv.slice(2);
-const load = createRequire(modules + "/");
-const osc = load("osc");
-const oscMin = load("osc-min");
+const osc = createRequire(modules + "/")("osc");
+const oscMin = await import(pathToFileURL(modules + "/osc-min/dist/index.js").href);
 
 const parents = { Spine: "Hips", Chest: "Spine", UpperChest: "Chest", Neck: "UpperChest", Head: "Neck" };
 for (const side of ["Left", "Right"]) {
