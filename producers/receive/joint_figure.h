@@ -54,6 +54,7 @@ class JointFigure {
   void complete_spine(FigureFrame& frame);
   void complete_others(FigureFrame& frame) const;
   void place_chest(FigureFrame& frame);
+  bool is_placed(std::size_t bone) const;
   void learn(const FigureFrame& frame);
   void learn_offset(std::size_t bone, const Eigen::Vector3f& offset_m);
   void learn_tips(const FigureFrame& frame);
