@@ -5,7 +5,9 @@
 // Ownership:    plain values; never allocates.
 // Threads:      none inside.
 // Failure:      a bone of another name is nobody's; a bone that is missing is absent.
-// Source:       the conventions as OptiTrack's documentation of Motive lists them.
+// Source:       the conventions as OptiTrack's plugin for Unity maps them
+//               (OptitrackSkeletonAnimator.cs), which also takes the bones to have no rotation in
+//               T-pose.
 #pragma once
 
 #include <array>

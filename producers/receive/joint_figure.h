@@ -1,5 +1,6 @@
-// JointFigure: makes a dancer of a figure whose joints come with places and rotations in W, as motion
-// capture systems send them: learns the skeleton from the places, and gives the pose of each frame.
+// JointFigure: makes a dancer of a figure whose joints come with places and rotations in W, as
+// motion capture systems send them: learns the skeleton from the places, and gives each frame's
+// pose.
 //
 // Units/frames: metres in W; a joint's rotation is the identity in T-pose facing +Z.
 // Ownership:    plain values; never allocates.

@@ -1,5 +1,5 @@
-// Joints that a client wrote down, one line of JSON for each dancer and frame, and where they should
-// be.
+// Joints that a client wrote down, one line of JSON for each dancer and frame, and where they
+// should be.
 //
 // Units/frames: metres in W.
 // Ownership:    plain values.
