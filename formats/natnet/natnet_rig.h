@@ -1,5 +1,5 @@
-// Which bones of a skeleton that Motive describes are which of ours, by their names: in Motive's own
-// convention (Hip, Ab, Chest, LUArm, …), that of FBX (Hips, Spine, LeftArm, …) and that of BVH.
+// Which bones of a skeleton that Motive describes are which of ours, by their names: in Motive's
+// own convention (Hip, Ab, Chest, LUArm, …), that of FBX (Hips, Spine, LeftArm, …) and that of BVH.
 //
 // Units/frames: ids of bones as frames carry them.
 // Ownership:    plain values; never allocates.
