@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "producers/engine/engine_receiver.h"
-#include "producers/vmc/vmc_receiver.h"
 #include "producers/natnet/natnet_receiver.h"
 #include "producers/rokoko/rokoko_receiver.h"
+#include "producers/vmc/vmc_receiver.h"
 
 namespace dance {
 namespace {
