@@ -7,7 +7,7 @@
 #include "consumers/consumer_feed.h"
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
-#include "formats/bvh/clip_file.h"
+#include "formats/clip/dancers_file.h"
 #include "producers/receive/receiver_table.h"
 #include "producers/replay/clip_dancer.h"
 #include "producers/salsa/salsa_dancer.h"
@@ -29,7 +29,7 @@ MonoTime start_of(const HostedProducer& producer, MonoTime now) {
 Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer,
                                             const BeatClock& music) {
   if (producer.kind == HostedProducer::Kind::kReplay) {
-    DANCE_TRY(LoadedClip loaded, load_clip(producer.file));
+    DANCE_TRY(NamedClip loaded, load_dancer(producer.file, producer.guest.view()));
     for (const std::string& note : loaded.notes) talk::info("{}: {}", producer.file, note);
     ClipDancerOptions options;
     options.speed = producer.speed;

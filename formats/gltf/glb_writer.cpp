@@ -10,6 +10,7 @@
 #include "formats/gltf/glb_container.h"
 #include "formats/gltf/glb_skeleton.h"
 #include "formats/gltf/glb_values.h"
+#include "formats/gltf/glb_vrm.h"
 
 namespace dance {
 namespace {
@@ -56,9 +57,11 @@ class DanceWriter {
     const int skin = add_skin(named.name, joints, first);
     if (options.has_bodies) add_body(named, skin);
     add_motion(clip, first);
+    first_node_ = first;
   }
 
-  std::size_t bytes() const { return store_.bytes(); }
+  // Of a single dancer, so that players of VRM animations find its bones too.
+  void mark_vrm(bool has_hands) { mark_vrm_animation(model_, first_node_, has_hands); }
 
  private:
   // The dancer's node and below it the joints; gives the index of the hips.
@@ -228,7 +231,8 @@ class DanceWriter {
 
   tinygltf::Model& model_;
   GlbStore store_;
-  int times_ = -1;  // accessors of the clip at hand
+  int first_node_ = 0;  // of the last dancer's joints
+  int times_ = -1;      // accessors of the clip at hand
   int ends_ = -1;
   std::vector<float> places_;
   std::vector<float> rotations_;
@@ -255,6 +259,7 @@ Result<std::vector<std::uint8_t>> write_glb(const std::vector<NamedClip>& clips,
   tinygltf::Model model;
   DanceWriter writer(model);
   for (const NamedClip& named : clips) writer.add(named, options);
+  if (clips.size() == 1) writer.mark_vrm(!clips.front().clip.hands.empty());
   return packed_glb(model);
 }
 

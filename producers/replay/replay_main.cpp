@@ -1,4 +1,4 @@
-// dance replay: BVH files and LCM logs as dancers on the bus.
+// dance replay: BVH and GLB files and LCM logs as dancers on the bus.
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/program/program.h"
 #include "core/program/talk.h"
-#include "formats/bvh/clip_file.h"
+#include "formats/clip/dancers_file.h"
 #include "producers/producer_program.h"
 #include "producers/replay/clip_dancer.h"
 #include "producers/replay/log_player.h"
@@ -19,6 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   dance replay take.bvh                              as alice, over and over
   dance replay lead.bvh.xz follow.bvh.xz             a couple: alice and bob
   dance replay take.bvh --guest carol --speed 0.5 --once
+  dance replay couple.glb                            all who dance in a glTF file, by their names
   dance replay logs/evening.lcm                      a recorded session, packed or not
   dance replay logs/evening.lcm --only capture       only what the cameras saw
   dance replay lead.bvh follow.bvh --copies 15       30 dancers
@@ -58,12 +59,15 @@ bool is_lcm_log(const std::string& path) {
   return file.read(head.data(), 4) && head == std::array<char, 4>{'\xED', '\xA1', '\xDA', '\x01'};
 }
 
-// alice, bob, then guest-3 …, unless --guest says otherwise; copies are numbered.
-Result<GuestId> name_of(const ReplayOptions& options, std::size_t file, int copy) {
+// As --guest says; else as the file does where that is a guest's name; else alice, bob, then
+// guest-3 …; copies are numbered.
+Result<GuestId> name_of(const ReplayOptions& options, const std::string& in_file,
+                        std::size_t dancer, int copy) {
   static constexpr std::array<const char*, 2> kNames{"alice", "bob"};
-  std::string name = file < options.guests.size() ? options.guests[file]
-                     : file < kNames.size()       ? kNames[file]
-                                                  : "guest-" + std::to_string(file + 1);
+  std::string name = dancer < options.guests.size() ? options.guests[dancer]
+                     : GuestId::parse(in_file)      ? in_file
+                     : dancer < kNames.size()       ? kNames[dancer]
+                                                    : "guest-" + std::to_string(dancer + 1);
   if (copy > 0) name += "-" + std::to_string(copy + 1);
   const auto guest = GuestId::parse(name);
   if (!guest) return fail("--guest '" + name + "': " + kGuestIdRule);
@@ -78,24 +82,35 @@ StagePlace place_of_copy(const StagePlace& place, int copy, int copies) {
           place.heading_deg};
 }
 
-Result<void> add_clip(const ReplayOptions& options, std::size_t file, ProducerProgram& program) {
+// `dancers` counts those of all files.
+Result<void> add_dancer(const ReplayOptions& options, NamedClip loaded, std::size_t& dancers,
+                        ProducerProgram& program) {
   StagePlace place;
   if (!options.place.empty()) {
     DANCE_TRY(place, parse_place(options.place));
   }
-  RetargetOptions retarget = options.retarget;
-  if (options.frame_hz > 0.0) retarget.frame_hz = options.frame_hz;
-  DANCE_TRY(LoadedClip loaded, load_clip(options.files[file], retarget));
-  for (const std::string& note : loaded.notes) talk::info("{}: {}", options.files[file], note);
+  const std::size_t dancer = dancers++;
   const auto clip = std::make_shared<const MotionClip>(std::move(loaded.clip));
   for (int copy = 0; copy < options.copies; ++copy) {
-    DANCE_TRY(const GuestId guest, name_of(options, file, copy));
+    DANCE_TRY(const GuestId guest, name_of(options, loaded.name, dancer, copy));
     const StagePlace at = place_of_copy(place, copy, options.copies);
     ClipDancerOptions how;
     how.end = options.once ? ClipEnd::kHold : ClipEnd::kLoop;
     how.speed = options.speed;
     how.placement = {at.x_m, at.z_m, at.heading_deg};
     program.add(std::make_unique<ClipDancer>(clip, how), guest);
+  }
+  return {};
+}
+
+Result<void> add_file(const ReplayOptions& options, const std::string& file, std::size_t& dancers,
+                      ProducerProgram& program) {
+  RetargetOptions retarget = options.retarget;
+  if (options.frame_hz > 0.0) retarget.frame_hz = options.frame_hz;
+  DANCE_TRY(std::vector<NamedClip> loaded, load_dancers(file, retarget));
+  for (NamedClip& each : loaded) {
+    for (const std::string& note : each.notes) talk::info("{}: {}", file, note);
+    if (auto added = add_dancer(options, std::move(each), dancers, program); !added) return added;
   }
   return {};
 }
@@ -116,6 +131,7 @@ Result<void> run_replay(const ReplayOptions& options) {
 
   DANCE_TRY(auto program, ProducerProgram::open(options.producer));
   std::vector<std::unique_ptr<LogPlayer>> players;
+  std::size_t dancers = 0;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
     if (is_lcm_log(options.files[i])) {
       DANCE_TRY(UnpackedLog log, UnpackedLog::open(options.files[i]));
@@ -124,7 +140,7 @@ Result<void> run_replay(const ReplayOptions& options) {
       if (auto ended = players.back()->ended(); !ended) return ended;
       if (players.back()->is_over())
         return fail(options.files[i] + nothing_to_play(*players.back(), !options.only.empty()));
-    } else if (auto added = add_clip(options, i, *program); !added) {
+    } else if (auto added = add_file(options, options.files[i], dancers, *program); !added) {
       return added;
     }
   }
@@ -152,10 +168,11 @@ Result<void> run_replay(const ReplayOptions& options) {
 
 int main(int argc, char** argv) {
   dance::ReplayOptions options;
-  dance::CommandLine line("Plays BVH files (.bvh, .bvh.xz) and LCM logs as dancers on the bus.",
-                          "dance replay");
-  line.add("FILE", options.files, "BVH files, one dancer each, or LCM logs").required();
-  line.add("--guest", options.guests, "who the dancers of the BVH files are, in turn").guest_name();
+  dance::CommandLine line(
+      "Plays BVH files (.bvh, .bvh.xz), glTF files (.glb) and LCM logs as dancers on the bus.",
+      "dance replay");
+  line.add("FILE", options.files, "BVH files, one dancer each, GLBs, or LCM logs").required();
+  line.add("--guest", options.guests, "who the dancers of the files are, in turn").guest_name();
   line.add("--speed", options.speed, "1 = as recorded").range(0.05, 20.0).shows_default();
   line.add_flag("--once", options.once, "stop at the end instead of beginning again");
   line.add("--place", options.place,

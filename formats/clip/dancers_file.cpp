@@ -1,0 +1,58 @@
+#include "formats/clip/dancers_file.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "core/program/whole_file.h"
+#include "formats/bvh/clip_file.h"
+
+namespace dance {
+namespace {
+
+bool is_gltf(const std::string& path) {
+  return path.ends_with(".glb") || path.ends_with(".gltf") || path.ends_with(".vrma") ||
+         path.ends_with(".vrm");
+}
+
+// What the caller says is taken, the rest is as glTF has it.
+RetargetOptions as_gltf(const RetargetOptions& options) {
+  RetargetOptions as = gltf_retarget_options();
+  if (options.metres_per_unit) as.metres_per_unit = options.metres_per_unit;
+  if (options.up != UpAxis::kGuess) as.up = options.up;
+  as.frame_hz = options.frame_hz;
+  return as;
+}
+
+}  // namespace
+
+Result<std::vector<NamedClip>> load_dancers(const std::string& path,
+                                            const RetargetOptions& options) {
+  std::vector<NamedClip> dancers;
+  if (!is_gltf(path)) {
+    DANCE_TRY(LoadedClip loaded, load_clip(path, options));
+    dancers.push_back({"", std::move(loaded.clip), std::move(loaded.notes)});
+    return dancers;
+  }
+  const GlbLimits limits;
+  DANCE_TRY(const std::string bytes, read_whole_file(path, limits.file_bytes));
+  auto clips = read_glb({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, limits,
+                        as_gltf(options));
+  if (!clips) return fail(path + ": " + clips.error().what);
+  return clips;
+}
+
+Result<NamedClip> load_dancer(const std::string& path, std::string_view name,
+                              const RetargetOptions& options) {
+  DANCE_TRY(std::vector<NamedClip> dancers, load_dancers(path, options));
+  if (dancers.size() == 1) return std::move(dancers.front());
+  const auto found = std::find_if(dancers.begin(), dancers.end(),
+                                  [&](const NamedClip& dancer) { return dancer.name == name; });
+  if (found != dancers.end()) return std::move(*found);
+  std::string names;
+  for (const NamedClip& dancer : dancers) names += (names.empty() ? "" : ", ") + dancer.name;
+  return fail(path + ": several dance in it, and none is called " + std::string(name) +
+              "; there are " + names);
+}
+
+}  // namespace dance
