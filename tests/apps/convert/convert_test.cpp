@@ -124,14 +124,15 @@ TEST_F(Convert, ForeignBvhGoesThroughEveryFormat) {
     const bool is_clip = std::string(end) == ".glb" || std::string(end) == ".bvh";
     ASSERT_EQ(convert(kForeignBvh, there, is_clip ? "--hz 120" : "").exit_code, 0);
     ASSERT_EQ(convert(there, back, "--guest 01-01").exit_code, 0);
+    const Recording read = log_at(back);
     if (is_clip)
-      expect_clip_in_log(steady.body(), log_at(back), guest);
+      expect_clip_in_log(steady.body(), read, guest);
     else
       for (std::size_t i = 0; i < night.find(guest)->poses.size(); ++i)
         ASSERT_LT(
             largest_distance_m(night.find(guest)->skeleton(), night.find(guest)->poses[i].value,
-                               log_at(back).find(guest)->skeleton(),
-                               log_at(back).find(guest)->poses[i].value),
+                               read.find(guest)->skeleton(),
+                               read.find(guest)->poses[i].value),
             kTenthOfAMillimetre_m);
   }
 }
