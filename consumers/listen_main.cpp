@@ -19,6 +19,8 @@ constexpr const char* kExamples = R"(Examples:
   dance listen --to bvh -o alice.bvh --guest alice      alice's dance as BVH, until ctrl-C
   dance listen --to engine                              the stage for the engines of this machine
   dance listen --to glb -o couple.glb --seconds 60      all dancers as figures for Blender and the web
+  dance listen --to vmc --guest alice                   alice to an avatar app on this machine
+  dance listen --to rokoko                              to the plugins of Blender, Unity and Unreal
 )";
 
 constexpr Duration kSecond = Duration::s(1);

@@ -13,8 +13,8 @@ VmcConsumer::VmcConsumer(const ConsumerOptions& options, OscOutput output)
       output_(std::move(output)),
       writer_(output_, options.dialect == "vrm1" ? VmcDialect::kVrm1 : VmcDialect::kVrm0) {}
 
-// Poses of another clock (the dancer comes over another way), or of a clock that was set back, go on
-// where the last ones ended.
+// Poses of another clock (the dancer comes over another way), or of a clock that was set back, go
+// on where the last ones ended.
 float VmcConsumer::time_of(const Pose& pose, MonoTime now) {
   const bool is_first = !heard_.is_set();
   const bool is_set_back = captured_ - pose.capture_time > kSilence;

@@ -65,7 +65,8 @@ class UdpSocket final : public DatagramSink {
   int fd() const { return fd_; }
   Address local_address() const;
 
-  // Pending datagrams, as many as a batch holds; empty when there are none. Valid until the next call.
+  // Pending datagrams, as many as a batch holds; empty when there are none. Valid until the next
+  // call.
   std::span<const Datagram> receive();
 
   // Queues a datagram; flush() sends all that is queued, and so does a full batch. On a connected

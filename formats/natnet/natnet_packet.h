@@ -9,8 +9,9 @@
 // Failure:      read_…() of a damaged or foreign packet is a NatNetFault. No count is trusted
 //               beyond the bytes that are there; skeletons and bones beyond the bounds are a fault.
 //               Bones that are not finite are not tracked.
-// Source:       the layout as public clients read it: libmotioncapture (IMRCLab, src/optitrack.cpp),
-//               python_natnet (mje-nz), python-natnet-client (TimSchneider42), natnet_py (jeguzzi).
+// Source:       the layout as public clients read it: libmotioncapture (IMRCLab,
+//               src/optitrack.cpp), python_natnet (mje-nz), python-natnet-client (TimSchneider42),
+//               natnet_py (jeguzzi).
 #pragma once
 
 #include <Eigen/Geometry>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <string_view>
 
 namespace dance {
@@ -17,17 +18,22 @@ constexpr Name kMiddle[] = {
     {"Hip", Bone::kHips}, {"Hips", Bone::kHips}, {"Neck", Bone::kNeck}, {"Head", Bone::kHead}};
 constexpr std::string_view kTrunk[] = {"Ab",     "Spine", "Spine1", "Spine2",
                                        "Spine3", "Chest", "Chest1", "Chest2"};
-// Of a side, without what says which.
+// Of a side, without what says which; in the conventions of Motive and FBX, then in that of BVH, in
+// which a shoulder is where the upper arm begins.
 constexpr Name kSide[] = {
-    {"Shoulder", Bone::kLeftShoulder}, {"Collar", Bone::kLeftShoulder},
-    {"UArm", Bone::kLeftUpperArm},     {"Arm", Bone::kLeftUpperArm},
-    {"UpArm", Bone::kLeftUpperArm},    {"FArm", Bone::kLeftLowerArm},
-    {"ForeArm", Bone::kLeftLowerArm},  {"LowArm", Bone::kLeftLowerArm},
-    {"Hand", Bone::kLeftHand},         {"Thigh", Bone::kLeftUpperLeg},
-    {"UpLeg", Bone::kLeftUpperLeg},    {"Shin", Bone::kLeftLowerLeg},
-    {"Leg", Bone::kLeftLowerLeg},      {"LowLeg", Bone::kLeftLowerLeg},
+    {"Shoulder", Bone::kLeftShoulder}, {"UArm", Bone::kLeftUpperArm},
+    {"Arm", Bone::kLeftUpperArm},      {"FArm", Bone::kLeftLowerArm},
+    {"ForeArm", Bone::kLeftLowerArm},  {"Hand", Bone::kLeftHand},
+    {"Thigh", Bone::kLeftUpperLeg},    {"UpLeg", Bone::kLeftUpperLeg},
+    {"Shin", Bone::kLeftLowerLeg},     {"Leg", Bone::kLeftLowerLeg},
     {"Foot", Bone::kLeftFoot},         {"Toe", Bone::kLeftToes},
     {"ToeBase", Bone::kLeftToes},
+};
+constexpr Name kBvhSide[] = {
+    {"Collar", Bone::kLeftShoulder}, {"Shoulder", Bone::kLeftUpperArm},
+    {"Elbow", Bone::kLeftLowerArm},  {"Wrist", Bone::kLeftHand},
+    {"Hip", Bone::kLeftUpperLeg},    {"Knee", Bone::kLeftLowerLeg},
+    {"Ankle", Bone::kLeftFoot},      {"Toe", Bone::kLeftToes},
 };
 constexpr std::string_view kFingers[] = {"Thumb", "Index", "Middle", "Ring", "Pinky"};
 
@@ -36,26 +42,39 @@ Bone on_side(Bone left, bool is_left) {
   return is_left ? left : static_cast<Bone>(index_of(left) + 4);
 }
 
+// Joint 0 to 2 of finger 0 to 4.
+std::int16_t finger_bone(std::size_t finger, std::size_t joint, bool is_left) {
+  return static_cast<std::int16_t>((is_left ? 0 : kFingerBoneCount / 2) + 3 * finger + joint);
+}
+
+// "Thumb1", "HandThumb1"; in BVH "Finger0", "Finger01", "Finger02".
 std::int16_t finger_of(std::string_view name, bool is_left) {
+  if (name.starts_with("Finger") && name.size() <= 8) {
+    name.remove_prefix(6);
+    if (name.empty() || name[0] < '0' || name[0] > '4') return NatNetRig::kNone;
+    const auto finger = static_cast<std::size_t>(name[0] - '0');
+    if (name.size() == 1) return finger_bone(finger, 0, is_left);
+    if (name[1] != '1' && name[1] != '2') return NatNetRig::kNone;
+    return finger_bone(finger, static_cast<std::size_t>(name[1] - '0'), is_left);
+  }
   if (name.starts_with("Hand")) name.remove_prefix(4);
   for (std::size_t f = 0; f < std::size(kFingers); ++f) {
     if (!name.starts_with(kFingers[f]) || name.size() != kFingers[f].size() + 1) continue;
     const char digit = name.back();
-    if (digit < '1' || digit > '3') continue;
-    const std::size_t side = is_left ? 0 : kFingerBoneCount / 2;
-    return static_cast<std::int16_t>(side + 3 * f + static_cast<std::size_t>(digit - '1'));
+    if (digit >= '1' && digit <= '3')
+      return finger_bone(f, static_cast<std::size_t>(digit - '1'), is_left);
   }
   return NatNetRig::kNone;
 }
 
-void name_part(std::string_view name, NatNetRig::Part& part) {
+void name_part(std::string_view name, std::span<const Name> side_names, NatNetRig::Part& part) {
   for (const Name& middle : kMiddle)
     if (name == middle.name) part.bone = static_cast<std::int16_t>(index_of(middle.bone));
   for (const std::string_view prefix : {"Left", "Right", "L", "R"}) {
     if (!name.starts_with(prefix)) continue;
     const bool is_left = prefix[0] == 'L';
     const std::string_view rest = name.substr(prefix.size());
-    for (const Name& side : kSide)
+    for (const Name& side : side_names)
       if (rest == side.name)
         part.bone = static_cast<std::int16_t>(index_of(on_side(side.bone, is_left)));
     if (part.finger_bone == NatNetRig::kNone) part.finger_bone = finger_of(rest, is_left);
@@ -80,6 +99,10 @@ std::int16_t NatNetRig::part_of(std::int32_t id) const {
 
 NatNetRig find_natnet_rig(const NatNetModel& model) {
   NatNetRig rig;
+  const bool is_bvh = std::any_of(
+      model.bones.begin(), model.bones.end(),
+      [](const NatNetModelBone& bone) { return bone.name.view().ends_with("LeftCollar"); });
+  const std::span<const Name> side_names = is_bvh ? std::span<const Name>(kBvhSide) : kSide;
   FixedList<std::size_t, std::size(kTrunk)> trunk;
   for (const NatNetModelBone& bone : model.bones) {
     NatNetRig::Part part;
@@ -88,7 +111,7 @@ NatNetRig find_natnet_rig(const NatNetModel& model) {
     // Motive lists parents first; what it does not is nobody's child.
     if (bone.parent_id != 0) part.parent = rig.part_of(bone.parent_id);
     const std::string_view name = without_subject(bone.name.view(), model.name.view());
-    name_part(name, part);
+    name_part(name, side_names, part);
     const std::size_t place = rig.parts.size();
     if (std::find(std::begin(kTrunk), std::end(kTrunk), name) != std::end(kTrunk) &&
         !trunk.try_push(place))

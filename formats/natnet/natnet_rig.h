@@ -1,11 +1,13 @@
-// Which bones of a skeleton that Motive describes are which of ours, by their names: in Motive's own
-// convention (Hip, Ab, Chest, LUArm, …), that of FBX (Hips, Spine, LeftArm, …) and that of BVH.
+// Which bones of a skeleton that Motive describes are which of ours, by their names: in Motive's
+// own convention (Hip, Ab, Chest, LUArm, …), that of FBX (Hips, Spine, LeftArm, …) and that of BVH.
 //
 // Units/frames: ids of bones as frames carry them.
 // Ownership:    plain values; never allocates.
 // Threads:      none inside.
 // Failure:      a bone of another name is nobody's; a bone that is missing is absent.
-// Source:       the conventions as OptiTrack's documentation of Motive lists them.
+// Source:       the conventions as OptiTrack's plugin for Unity maps them
+//               (OptitrackSkeletonAnimator.cs), which also takes the bones to have no rotation in
+//               T-pose.
 #pragma once
 
 #include <array>

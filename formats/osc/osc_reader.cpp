@@ -6,18 +6,18 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kLargestPacket_bytes = 65'536;
+constexpr std::size_t kBundleBegin_bytes = 16;
 
 // One packet's messages, counted down so that a packet of very many costs a bounded time.
 class Walk {
  public:
   Walk(OscMessageSink& sink, std::uint64_t& messages) : sink_(sink), messages_(messages) {}
 
-  bool bundle(const osc::ReceivedBundle& bundle, int depth) {
-    if (depth > OscReader::kMostDepth) return false;
+  // No deeper than was looked at.
+  bool bundle(const osc::ReceivedBundle& bundle) {
     for (auto element = bundle.ElementsBegin(); element != bundle.ElementsEnd(); ++element) {
-      const bool is_read = element->IsBundle()
-                               ? this->bundle(osc::ReceivedBundle(*element), depth + 1)
-                               : message(osc::ReceivedMessage(*element));
+      const bool is_read = element->IsBundle() ? this->bundle(osc::ReceivedBundle(*element))
+                                               : message(osc::ReceivedMessage(*element));
       if (!is_read) return false;
     }
     return true;
@@ -56,9 +56,30 @@ class Walk {
   int seen_ = 0;
 };
 
+std::size_t big_endian_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+  return std::size_t{bytes[at]} << 24 | std::size_t{bytes[at + 1]} << 16 |
+         std::size_t{bytes[at + 2]} << 8 | std::size_t{bytes[at + 3]};
+}
+
+// Whether the elements of bundles lie within each other. oscpack 1.1.0 adds an element's size in 32
+// bits: one of -4 bytes ends where it begins, and reading never ends. So sizes are looked at first.
+bool has_sound_elements(std::span<const std::uint8_t> element, int depth) {
+  if (element.empty() || element.size() % 4 != 0) return false;
+  if (element[0] == '/') return true;
+  if (element[0] != '#' || element.size() < kBundleBegin_bytes || depth > OscReader::kMostDepth)
+    return false;
+  for (std::size_t at = kBundleBegin_bytes; at < element.size();) {
+    const std::size_t bytes = big_endian_at(element, at);
+    at += 4;
+    if (bytes > element.size() - at || !has_sound_elements(element.subspan(at, bytes), depth + 1))
+      return false;
+    at += bytes;
+  }
+  return true;
+}
+
 bool can_be_osc(std::span<const std::uint8_t> packet) {
-  return !packet.empty() && packet.size() % 4 == 0 && packet.size() <= kLargestPacket_bytes &&
-         (packet[0] == '/' || packet[0] == '#');
+  return packet.size() <= kLargestPacket_bytes && has_sound_elements(packet, 1);
 }
 
 }  // namespace
@@ -72,7 +93,7 @@ bool OscReader::read(std::span<const std::uint8_t> packet, OscMessageSink& sink)
     try {
       const osc::ReceivedPacket received(reinterpret_cast<const char*>(packet.data()),
                                          packet.size());
-      is_read = received.IsBundle() ? walk.bundle(osc::ReceivedBundle(received), 1)
+      is_read = received.IsBundle() ? walk.bundle(osc::ReceivedBundle(received))
                                     : walk.message(osc::ReceivedMessage(received));
     } catch (const osc::Exception&) {
       is_read = false;

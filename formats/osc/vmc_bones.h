@@ -2,8 +2,8 @@
 // that Unity has them, and which of ours they are.
 //
 // Unity, and VRM 0 with it, call the thumb's bones Proximal, Intermediate and Distal; VRM 1 and we
-// call the same three Metacarpal, Proximal and Distal. "LeftThumbProximal" alone does not tell which
-// it is: VmcThumbs does.
+// call the same three Metacarpal, Proximal and Distal. "LeftThumbProximal" alone does not tell
+// which it is: VmcThumbs does.
 //
 // Units/frames: none.
 // Ownership:    constants.

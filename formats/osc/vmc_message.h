@@ -5,8 +5,8 @@
 // Units/frames: metres and quaternions in our axes, mirrored from Unity's; time_s is the sender's.
 // Ownership:    name is a view of the packet.
 // Threads:      none inside.
-// Failure:      kMalformed: too few arguments, of another type, not finite, a rotation that is none,
-//               a place outside the stage.
+// Failure:      kMalformed: too few arguments, of another type, not finite, a rotation that is
+//               none, a place outside the stage.
 // Source:       VMC protocol specification 3.1, Marionette.
 #pragma once
 

@@ -3,8 +3,8 @@
 //
 // Where the dancer is: Root is the stage's origin, without a turn, and the hips carry place and
 // turn. VirtualMotionCapture, the protocol's own performer, does the same. Receivers that put Root
-// and hips together (EVMC4U, the protocol's own receiver) show the right place, and so do those that
-// look at the hips alone; were the place in Root, the latter would dance on the spot.
+// and hips together (EVMC4U, the protocol's own receiver) show the right place, and so do those
+// that look at the hips alone; were the place in Root, the latter would dance on the spot.
 //
 // Bones carry the dancer's real proportions, as some receivers take them over; most leave them.
 //

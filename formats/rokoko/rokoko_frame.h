@@ -3,7 +3,7 @@
 //
 // Units/frames: Studio's space: left-handed, Y up, Z forward, metres; a joint's rotation is global.
 //               In T-pose a joint has the rotation rokoko_t_pose(), in which -Y points along the
-//               bone. rokoko_to_W() and rokoko_from_W() lead to and from W, which is its mirror image.
+//               bone. rokoko_to_W() and rokoko_from_W() lead to and from W, its mirror image.
 // Ownership:    plain values without heap; about 30 kB.
 // Threads:      constants and plain values.
 // Failure:      none.

@@ -1,5 +1,5 @@
-// NatNetReceiver: takes a dancer out of the stream of OptiTrack's Motive: the skeleton of a name, or
-// the first. Asks the server for its version and its skeletons, once a second until it has them.
+// NatNetReceiver: takes a dancer out of the stream of OptiTrack's Motive: the skeleton of a name,
+// or the first. Asks the server for its version and its skeletons, once a second until it has them.
 //
 // Units/frames: captures in W; capture times from the stream's stamps in this house's clock.
 // Ownership:    owns its sockets; refers to sink and poller.

@@ -87,7 +87,7 @@ void JointFigure::place_chest(FigureFrame& frame) {
     return;
   }
   const auto apart_m = static_cast<float>(apart);
-  if (apart_m > spine_length_m_ + kWorthTelling_m || apart_m < 0.5f * spine_length_m_)
+  if (apart_m > spine_length_m_ + kWorthTelling_m || apart_m < 0.7f * spine_length_m_)
     spine_length_m_ = apart_m;
   const Vector3d chord = (upper - spine) / apart;
   const double length = std::max(apart, static_cast<double>(spine_length_m_));
@@ -129,6 +129,11 @@ void JointFigure::complete_others(FigureFrame& frame) const {
   }
 }
 
+bool JointFigure::is_placed(std::size_t bone) const {
+  return chest_is_placed_ &&
+         (bone == index_of(Bone::kChest) || bone == index_of(Bone::kUpperChest));
+}
+
 void JointFigure::learn_offset(std::size_t bone, const Vector3f& offset_m) {
   Vector3f& mean = mean_m_[bone];
   int& samples = samples_[bone];
@@ -147,10 +152,14 @@ void JointFigure::learn_offset(std::size_t bone, const Vector3f& offset_m) {
 
 // offset_B = R_WPᵀ (p_WB − p_WP)
 void JointFigure::learn(const FigureFrame& frame) {
+  std::array<Vector3f, kBoneCount> offsets_m;
   for (std::size_t b = 1; b < kBoneCount; ++b) {
     const std::size_t p = parent_of(b);
-    learn_offset(b, frame.R_WB[p].conjugate() * (frame.p_WB_m[b] - frame.p_WB_m[p]));
+    offsets_m[b] = frame.R_WB[p].conjugate() * (frame.p_WB_m[b] - frame.p_WB_m[p]);
+    if (samples_[b] > 0 && !is_placed(b) && (offsets_m[b] - mean_m_[b]).norm() > kOtherBody_m)
+      samples_.fill(0);
   }
+  for (std::size_t b = 1; b < kBoneCount; ++b) learn_offset(b, offsets_m[b]);
   learn_tips(frame);
   // In T-pose the soles are on the floor.
   float hips_m = hips_m_;

@@ -1,5 +1,6 @@
-// JointFigure: makes a dancer of a figure whose joints come with places and rotations in W, as motion
-// capture systems send them: learns the skeleton from the places, and gives the pose of each frame.
+// JointFigure: makes a dancer of a figure whose joints come with places and rotations in W, as
+// motion capture systems send them: learns the skeleton from the places, and gives each frame's
+// pose.
 //
 // Units/frames: metres in W; a joint's rotation is the identity in T-pose facing +Z.
 // Ownership:    plain values; never allocates.
@@ -54,6 +55,7 @@ class JointFigure {
   void complete_spine(FigureFrame& frame);
   void complete_others(FigureFrame& frame) const;
   void place_chest(FigureFrame& frame);
+  bool is_placed(std::size_t bone) const;
   void learn(const FigureFrame& frame);
   void learn_offset(std::size_t bone, const Eigen::Vector3f& offset_m);
   void learn_tips(const FigureFrame& frame);

@@ -10,6 +10,9 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance receive --from engine --guest alice             what an engine here tracks, as alice
+  dance receive --from vmc --guest carol                what an avatar app here sends, as carol
+  dance receive --from rokoko --guest bob --listen 0.0.0.0:14043   an actor of Rokoko Studio
+  dance receive --from natnet --guest ann --actor Ann              Ann's skeleton in Motive
 )";
 
 struct ReceiveOptions {
@@ -56,7 +59,8 @@ int main(int argc, char** argv) {
       .guest_name()
       .shows_default();
   line.add("--listen", options.receiver.listen,
-           "address:port to hear it at; without it, the protocol's port, from this machine only");
+           "address:port to hear it at; without it, the protocol's port, from this machine only "
+           "(natnet: Motive's usual group)");
   line.add("--name", options.receiver.name, "name of the engine; without it, its usual one");
   line.add(
       "--actor", options.receiver.actor,

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "producers/engine/engine_receiver.h"
-#include "producers/vmc/vmc_receiver.h"
 #include "producers/natnet/natnet_receiver.h"
 #include "producers/rokoko/rokoko_receiver.h"
+#include "producers/vmc/vmc_receiver.h"
 
 namespace dance {
 namespace {
@@ -23,6 +23,7 @@ const std::vector<Row>& rows() {
       {{"engine", InputKind::kMemory, EngineReceiver::kUsualName, false},
        [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
          return EngineReceiver::open(options.name, options.guest, sink, poller);
+       }},
       {{"natnet", InputKind::kAddress, kUsualNatNetPlace, true},
        [](const ReceiverOptions& options, CaptureSink& sink, Poller& poller) -> Opened {
          return NatNetReceiver::open({options.guest, options.listen, options.actor}, sink, poller);

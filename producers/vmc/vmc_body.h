@@ -1,8 +1,8 @@
 // VmcBody: a dancer's pose, fingers and proportions from the frames of a VMC performer.
 //
-// Proportions are those that the bones' positions tell, where they are real; performers that know no
-// body send zeros, and their dancer is an average one whose height the hips tell, which a standing
-// dancer has highest. Where even the hips have no place, the feet stand on the floor.
+// Proportions are those that the bones' positions tell, where they are real; performers that know
+// no body send zeros, and their dancer is an average one whose height the hips tell, which a
+// standing dancer has highest. Where even the hips have no place, the feet stand on the floor.
 //
 // Units/frames: as core/pose has them; Root and hips together are the place in W.
 // Ownership:    remembers proportions; never allocates.

@@ -52,7 +52,7 @@ class VmcIntake final : private OscMessageSink, private VmcFrameSink {
 class VmcReceiver final : public PoseReceiver {
  public:
   static constexpr const char* kUsualAddress = "127.0.0.1:39539";
-  // One sender at a time: the first whose packets make poses. Another one has its turn when that one
+  // One sender at a time: the first whose packets make poses. Another has its turn when that one
   // was silent for so long.
   static constexpr Duration kSenderKept = Duration::s(2);
 

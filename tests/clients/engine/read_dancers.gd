@@ -27,11 +27,12 @@ func _init():
 func _idle(_delta):
 	for id in stage.figures:
 		_read(id, stage.figures[id])
-	if OS.get_ticks_msec() < end:
-		return false
+	if OS.get_ticks_msec() < end or end == 0:
+		return
+	end = 0
 	var counted = stage.adapter.counters()
 	print("counters %d %d %d %d %d" % [counted.reads, counted.retries, counted.busy, counted.damaged, counted.attached])
-	return true
+	quit()
 
 
 func _read(id, figure):

@@ -1,10 +1,12 @@
 // What the Rokoko consumer sends, heard over the loopback device.
+#include "consumers/rokoko/rokoko_consumer.h"
+
 #include <gtest/gtest.h>
 
-#include "consumers/rokoko/rokoko_consumer.h"
 #include "core/net/mono_clock.h"
 #include "formats/rokoko/rokoko_reader.h"
 #include "tests/allocation_guard.h"
+#include "tests/core/pose/random_pose.h"
 
 namespace dance {
 namespace {
@@ -21,13 +23,12 @@ class RokokoStream : public testing::Test {
     open(RokokoConsumer::Dialect::kLz4, 1000.0);
   }
   void open(RokokoConsumer::Dialect dialect, double hz) {
-    auto consumer =
-        RokokoConsumer::open({socket_->local_address().to_string(), dialect, hz, 7});
+    auto consumer = RokokoConsumer::open({socket_->local_address().to_string(), dialect, hz, 7});
     ASSERT_TRUE(consumer.has_value());
     consumer_ = std::move(*consumer);
   }
   void pose(const GuestId& guest, double ms, float x_m = 0.0f) {
-    Pose pose;
+    Pose pose = random_pose(random_);
     pose.clock_id = 7;
     pose.p_WH_m.x() = x_m;
     pose.capture_time = began_ + Duration::seconds(ms * 1e-3);
@@ -48,6 +49,7 @@ class RokokoStream : public testing::Test {
 
   std::unique_ptr<UdpSocket> socket_;
   std::unique_ptr<RokokoConsumer> consumer_;
+  Random random_{8};
   RokokoReader reader_;
   std::size_t longest_ = 0;
   MonoTime began_ = mono_now();
@@ -150,6 +152,7 @@ TEST_F(RokokoStream, ActorsWithoutRoomAreLeftOutAndCounted) {
     open(dialect, 1000.0);
     Hands hands;
     hands.presence = 1;
+    for (auto& rotation : hands.R_PB) rotation = random_rotation(random_);
     std::vector<GuestId> guests;
     for (std::size_t i = 0; i < RokokoFrame::kMostActors; ++i)
       guests.push_back(*GuestId::parse("guest-" + std::to_string(i)));
@@ -162,8 +165,7 @@ TEST_F(RokokoStream, ActorsWithoutRoomAreLeftOutAndCounted) {
     longest_ = 0;
     EXPECT_GT(read(), 0u);
     const bool packs = dialect == RokokoConsumer::Dialect::kLz4;
-    EXPECT_LE(longest_,
-              packs ? RokokoConsumer::kMostLz4Bytes : RokokoConsumer::kMostJsonBytes);
+    EXPECT_LE(longest_, packs ? RokokoConsumer::kMostLz4Bytes : RokokoConsumer::kMostJsonBytes);
     EXPECT_GE(reader_.frame().actors.size(), 6u);
     EXPECT_LT(reader_.frame().actors.size(), RokokoFrame::kMostActors);
     EXPECT_NE(consumer_->summary().find("actors left out"), std::string::npos);

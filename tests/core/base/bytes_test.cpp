@@ -133,5 +133,28 @@ TEST(FixedListDeathTest, DiesOnAnIndexBehindItsEnd) {
   EXPECT_DEATH(list[1] = 2, "i < size_");
 }
 
+TEST(ByteReader, ReadsATextUpToItsZero) {
+  const std::uint8_t bytes[] = {'a', 'b', 0, 0, 'c', 'd'};
+  ByteReader reader(bytes);
+  EXPECT_EQ(reader.text_to_zero(10), "ab");
+  EXPECT_EQ(reader.text_to_zero(10), "");
+  EXPECT_TRUE(reader.ok());
+  EXPECT_EQ(reader.text_to_zero(10), "");  // no zero before the end
+  EXPECT_FALSE(reader.ok());
+  ByteReader again(bytes);
+  EXPECT_EQ(again.text_to_zero(1), "");  // too long
+  EXPECT_FALSE(again.ok());
+  ByteReader just(bytes);
+  EXPECT_EQ(just.text_to_zero(2), "ab");
+}
+
+TEST(ByteReader, ReadsASingle) {
+  const std::uint8_t bytes[] = {0, 0, 0x20, 0xc0};
+  ByteReader reader(bytes);
+  EXPECT_EQ(reader.f32(), -2.5f);
+  EXPECT_EQ(reader.f32(), 0.0f);
+  EXPECT_FALSE(reader.ok());
+}
+
 }  // namespace
 }  // namespace dance

@@ -48,5 +48,14 @@ TEST(Address, AMappedIpv4AddressIsThatIpv4Address) {
   EXPECT_EQ(Address::resolve("[::1]:1")->to_sockaddr(Address::Family::kIpv4, raw), 0u);
 }
 
+TEST(Address, KnowsTheGroupsOfMulticast) {
+  EXPECT_TRUE(Address::resolve("224.0.0.1:1")->is_multicast());
+  EXPECT_TRUE(Address::resolve("239.255.42.99:1")->is_multicast());
+  EXPECT_FALSE(Address::resolve("240.0.0.1:1")->is_multicast());
+  EXPECT_FALSE(Address::loopback(1).is_multicast());
+  EXPECT_TRUE(Address::resolve("[ff02::1]:1")->is_multicast());
+  EXPECT_EQ(Address::any_ipv4(5).to_string(), "0.0.0.0:5");
+}
+
 }  // namespace
 }  // namespace dance

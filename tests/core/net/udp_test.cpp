@@ -46,6 +46,31 @@ TEST(UdpSocket, CarriesBatchesBothWaysOverIpv4) {
   EXPECT_EQ(client->counters().sent, 150u);
 }
 
+TEST(UdpSocket, WithRoomForThemTakesTheLongestDatagrams) {
+  auto roomy = UdpSocket::bind(Address::loopback(0), kLongDatagrams);
+  auto usual = UdpSocket::bind(Address::loopback(0));
+  auto sender = UdpSocket::bind(Address::loopback(0), kLongDatagrams);
+  ASSERT_TRUE(roomy && usual && sender);
+  const auto longest = bytes(kLongDatagrams.bytes, 9);
+  for (int i = 0; i < 3; ++i) sender->send(roomy->local_address(), longest);
+  sender->send(usual->local_address(), longest);
+  sender->flush();
+  const Echo heard = receive_all(*roomy, 3);
+  ASSERT_EQ(heard.got.size(), 3u);
+  EXPECT_EQ(heard.got[2], longest);
+  EXPECT_TRUE(receive_all(*usual, 1).got.empty());
+  EXPECT_EQ(usual->counters().truncated, 1u);
+}
+
+TEST(UdpSocket, AGroupOnAnInterfaceThatIsNotHereIsNamedWithTheCure) {
+  const auto socket =
+      UdpSocket::join(*Address::resolve("239.255.42.99:15110"), *Address::resolve("203.0.113.9:1"));
+  ASSERT_FALSE(socket.has_value());
+  EXPECT_NE(socket.error().what.find("239.255.42.99"), std::string::npos);
+  EXPECT_NE(socket.error().what.find("ip address"), std::string::npos);
+  EXPECT_FALSE(UdpSocket::join(*Address::resolve("[ff02::1]:15110"), Address()).has_value());
+}
+
 TEST(UdpSocket, AnIpv6SocketHearsIpv4Too) {
   auto server = UdpSocket::bind(Address::resolve("[::]:1")->with_port(0));
   if (!server) GTEST_SKIP() << "no IPv6 here: " << server.error().what;

@@ -16,36 +16,37 @@
 
 namespace dance {
 
-enum class NatNetNames { kMotive, kFbx };
+enum class NatNetNames { kMotive, kFbx, kBvh };
 
 struct NatNetJoint {
   std::string_view motive;
   std::string_view fbx;
+  std::string_view bvh;
   Bone bone;
   int parent;  // index; -1 for the hips
 };
 constexpr std::array<NatNetJoint, 21> kNatNetJoints{{
-    {"Hip", "Hips", Bone::kHips, -1},
-    {"Ab", "Spine", Bone::kSpine, 0},
-    {"Chest", "Spine1", Bone::kUpperChest, 1},
-    {"Neck", "Neck", Bone::kNeck, 2},
-    {"Head", "Head", Bone::kHead, 3},
-    {"LShoulder", "LeftShoulder", Bone::kLeftShoulder, 2},
-    {"LUArm", "LeftArm", Bone::kLeftUpperArm, 5},
-    {"LFArm", "LeftForeArm", Bone::kLeftLowerArm, 6},
-    {"LHand", "LeftHand", Bone::kLeftHand, 7},
-    {"RShoulder", "RightShoulder", Bone::kRightShoulder, 2},
-    {"RUArm", "RightArm", Bone::kRightUpperArm, 9},
-    {"RFArm", "RightForeArm", Bone::kRightLowerArm, 10},
-    {"RHand", "RightHand", Bone::kRightHand, 11},
-    {"LThigh", "LeftUpLeg", Bone::kLeftUpperLeg, 0},
-    {"LShin", "LeftLeg", Bone::kLeftLowerLeg, 13},
-    {"LFoot", "LeftFoot", Bone::kLeftFoot, 14},
-    {"LToe", "LeftToeBase", Bone::kLeftToes, 15},
-    {"RThigh", "RightUpLeg", Bone::kRightUpperLeg, 0},
-    {"RShin", "RightLeg", Bone::kRightLowerLeg, 17},
-    {"RFoot", "RightFoot", Bone::kRightFoot, 18},
-    {"RToe", "RightToeBase", Bone::kRightToes, 19},
+    {"Hip", "Hips", "Hips", Bone::kHips, -1},
+    {"Ab", "Spine", "Chest", Bone::kSpine, 0},
+    {"Chest", "Spine1", "Chest2", Bone::kUpperChest, 1},
+    {"Neck", "Neck", "Neck", Bone::kNeck, 2},
+    {"Head", "Head", "Head", Bone::kHead, 3},
+    {"LShoulder", "LeftShoulder", "LeftCollar", Bone::kLeftShoulder, 2},
+    {"LUArm", "LeftArm", "LeftShoulder", Bone::kLeftUpperArm, 5},
+    {"LFArm", "LeftForeArm", "LeftElbow", Bone::kLeftLowerArm, 6},
+    {"LHand", "LeftHand", "LeftWrist", Bone::kLeftHand, 7},
+    {"RShoulder", "RightShoulder", "RightCollar", Bone::kRightShoulder, 2},
+    {"RUArm", "RightArm", "RightShoulder", Bone::kRightUpperArm, 9},
+    {"RFArm", "RightForeArm", "RightElbow", Bone::kRightLowerArm, 10},
+    {"RHand", "RightHand", "RightWrist", Bone::kRightHand, 11},
+    {"LThigh", "LeftUpLeg", "LeftHip", Bone::kLeftUpperLeg, 0},
+    {"LShin", "LeftLeg", "LeftKnee", Bone::kLeftLowerLeg, 13},
+    {"LFoot", "LeftFoot", "LeftAnkle", Bone::kLeftFoot, 14},
+    {"LToe", "LeftToeBase", "LeftToe", Bone::kLeftToes, 15},
+    {"RThigh", "RightUpLeg", "RightHip", Bone::kRightUpperLeg, 0},
+    {"RShin", "RightLeg", "RightKnee", Bone::kRightLowerLeg, 17},
+    {"RFoot", "RightFoot", "RightAnkle", Bone::kRightFoot, 18},
+    {"RToe", "RightToeBase", "RightToe", Bone::kRightToes, 19},
 }};
 
 // The offsets are those of the figure as it stands there.
@@ -57,7 +58,9 @@ inline NatNetModel natnet_model(const FigureFrame& figure, std::string_view name
   for (std::size_t j = 0; j < kNatNetJoints.size(); ++j) {
     const NatNetJoint& joint = kNatNetJoints[j];
     NatNetModelBone bone;
-    (void)bone.name.assign(names == NatNetNames::kMotive ? joint.motive : joint.fbx);
+    (void)bone.name.assign(names == NatNetNames::kMotive ? joint.motive
+                           : names == NatNetNames::kFbx  ? joint.fbx
+                                                         : joint.bvh);
     bone.id = static_cast<std::int32_t>(j + 1);
     bone.parent_id = joint.parent + 1;
     if (joint.parent >= 0) {
@@ -70,8 +73,7 @@ inline NatNetModel natnet_model(const FigureFrame& figure, std::string_view name
   return model;
 }
 
-inline NatNetSkeleton natnet_skeleton(const FigureFrame& figure, std::int32_t id,
-                                      bool in_parents) {
+inline NatNetSkeleton natnet_skeleton(const FigureFrame& figure, std::int32_t id, bool in_parents) {
   NatNetSkeleton skeleton;
   skeleton.id = id;
   for (std::size_t j = 0; j < kNatNetJoints.size(); ++j) {

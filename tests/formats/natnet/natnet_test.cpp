@@ -92,8 +92,8 @@ TEST(NatNet, AServerSaysItsVersionAndItsTicks) {
               NatNetFault::kOtherVersion);
 }
 
-TEST(NatNet, TheNamesOfBothConventionsAreFound) {
-  for (const NatNetNames names : {NatNetNames::kMotive, NatNetNames::kFbx}) {
+TEST(NatNet, TheNamesOfEachConventionAreFound) {
+  for (const NatNetNames names : {NatNetNames::kMotive, NatNetNames::kFbx, NatNetNames::kBvh}) {
     const NatNetRig rig = find_natnet_rig(natnet_model(standing(), "Ana", 1, names));
     ASSERT_EQ(rig.parts.size(), kNatNetJoints.size());
     EXPECT_EQ(rig.bones_found, kNatNetJoints.size());
@@ -109,9 +109,10 @@ TEST(NatNet, NamesWithTheSkeletonsNameAndFingersAreFound) {
   NatNetModel model;
   ASSERT_TRUE(model.name.assign("Ana"));
   std::int32_t id = 0;
-  const std::pair<const char*, int> kNames[] = {{"Ana_LHand", -1},      {"Ana:LThumb1", 0},
-                                                {"RPinky3", 29},        {"RightHandIndex2", 19},
-                                                {"LeftHandMiddle1", 6}, {"LIndex4", -1}};
+  const std::pair<const char*, int> kNames[] = {
+      {"Ana_LHand", -1},       {"Ana:LThumb1", 0},     {"RPinky3", 29},
+      {"RightHandIndex2", 19}, {"LeftHandMiddle1", 6}, {"LIndex4", -1},
+      {"RightFinger02", 17},   {"LeftFinger4", 12},    {"LeftFinger13", -1}};
   for (const auto& [name, finger] : kNames) {
     NatNetModelBone bone;
     ASSERT_TRUE(bone.name.assign(name));

@@ -1,9 +1,10 @@
+#include "formats/rokoko/lz4_frame.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "core/base/random.h"
-#include "formats/rokoko/lz4_frame.h"
 #include "tests/allocation_guard.h"
 
 namespace dance {

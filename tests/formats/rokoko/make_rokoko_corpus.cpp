@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
   save("version_2.json",
        R"({"version":2,"timestamp":1,"props":[],"trackers":[],"faces":[],"actors":[]})");
   save("numbers.json",
-       R"({"version":3,"fps":-1e999,"scene":{"timestamp":1e400,"actors":[{"name":"a","color":[300,-1],)"
-       R"("body":{"hip":{"position":{"x":1e39,"y":0,"z":0},"rotation":{"x":0,"y":0,"z":0,"w":0}}}}]}})");
+       R"({"version":3,"fps":-1e999,"scene":{"timestamp":1e400,"actors":[{"name":"a",)"
+       R"("color":[300,-1],"body":{"hip":{"position":{"x":1e39,"y":0,"z":0},)"
+       R"("rotation":{"x":0,"y":0,"z":0,"w":0}}}}]}})");
   return 0;
 }

@@ -28,8 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto written =
       writer.write(frame, frame.actors.size(), dance::RokokoWriter::kMostTextBytes);
   DANCE_ASSERT(written.actors == frame.actors.size());
-  const auto fault = again.read({reinterpret_cast<const std::uint8_t*>(written.text.data()),
-                                 written.text.size()});
+  const auto fault =
+      again.read({reinterpret_cast<const std::uint8_t*>(written.text.data()), written.text.size()});
   // A name of nothing but quotation marks is not written.
   DANCE_ASSERT(fault == dance::RokokoFault::kNone || fault == dance::RokokoFault::kBadName);
   return 0;

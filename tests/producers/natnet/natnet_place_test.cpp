@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "producers/natnet/natnet_place.h"
+
+#include <gtest/gtest.h>
 
 namespace dance {
 namespace {

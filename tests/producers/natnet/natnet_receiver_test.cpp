@@ -1,9 +1,10 @@
 // A receiver of NatNet with packets of a server over the loopback device.
+#include "producers/natnet/natnet_receiver.h"
+
 #include <gtest/gtest.h>
 
 #include "core/net/mono_clock.h"
 #include "core/pose/kinematics.h"
-#include "producers/natnet/natnet_receiver.h"
 #include "producers/rokoko/rokoko_body.h"
 #include "tests/formats/natnet/natnet_figure.h"
 #include "tests/formats/natnet/natnet_packets.h"
@@ -42,7 +43,8 @@ class NatNetStream : public testing::Test {
   void open(const std::string& more = "", const std::string& actor = "") {
     sink_ = RecordingSink();
     receiver_.reset();
-    auto opened = NatNetReceiver::open({kAna, "127.0.0.1:0" + more, actor}, sink_, *poller_);
+    const std::string address = "127.0.0.1:" + std::to_string(*free_loopback_port());
+    auto opened = NatNetReceiver::open({kAna, address + more, actor}, sink_, *poller_);
     ASSERT_TRUE(opened.has_value()) << opened.error().what;
     receiver_ = std::move(*opened);
   }

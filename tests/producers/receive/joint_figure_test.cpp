@@ -1,7 +1,8 @@
+#include "producers/receive/joint_figure.h"
+
 #include <gtest/gtest.h>
 
 #include "core/pose/kinematics.h"
-#include "producers/receive/joint_figure.h"
 #include "tests/allocation_guard.h"
 #include "tests/core/pose/random_pose.h"
 #include "tests/formats/rokoko/rokoko_couple.h"

@@ -1,4 +1,6 @@
 // The consumer and the receiver of Rokoko's protocol, over the loopback device.
+#include "producers/rokoko/rokoko_receiver.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,7 +10,6 @@
 #include "core/pose/kinematics.h"
 #include "formats/bvh/clip_file.h"
 #include "formats/rokoko/rokoko_writer.h"
-#include "producers/rokoko/rokoko_receiver.h"
 #include "tests/formats/rokoko/rokoko_couple.h"
 #include "tests/producers/rokoko/recording_sink.h"
 
@@ -37,8 +38,7 @@ class RokokoPair : public testing::Test {
   }
   // Until the receiver has so many datagrams; a second at most.
   void wait_for_poses(std::size_t poses) {
-    for (int i = 0; i < 100 && sink_.poses.size() < poses; ++i)
-      poller_->run_once(Duration::ms(10));
+    for (int i = 0; i < 100 && sink_.poses.size() < poses; ++i) poller_->run_once(Duration::ms(10));
   }
   // All joints but the chest, which Studio's bodies do not have. Millimetres.
   struct Errors {

@@ -1,0 +1,66 @@
+#include "core/net/one_way_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace dance {
+namespace {
+
+MonoTime at_ms(double ms) { return MonoTime::from_us(7'000'000) + Duration::seconds(ms * 1e-3); }
+
+double ms_of(MonoTime time) { return (time - at_ms(0.0)).as_seconds() * 1e3; }
+
+TEST(OneWayClock, WhatComesLateWasCapturedOnTime) {
+  OneWayClock clock;
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const double sent_ms = 10.0 * i;
+    const double delay_ms = i == 0 ? 0.0 : random.uniform(0.0, 30.0);
+    const MonoTime ours = clock.to_ours(500'000 + 10'000 * i, at_ms(sent_ms + delay_ms));
+    EXPECT_NEAR(ms_of(ours), sent_ms, 0.01) << i;
+  }
+  EXPECT_EQ(clock.steps(), 0u);
+}
+
+TEST(OneWayClock, NothingIsCapturedAfterItArrived) {
+  OneWayClock clock;
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const MonoTime received = at_ms(10.0 * i + random.uniform(0.0, 50.0));
+    EXPECT_LE(clock.to_ours(10'000 * i, received), received);
+  }
+}
+
+// 100 ppm apart for ten minutes: 60 ms.
+TEST(OneWayClock, FollowsAClockThatRunsSlower) {
+  OneWayClock clock;
+  double worst_ms = 0.0;
+  for (int i = 0; i < 60'000; ++i) {
+    const double sent_ms = 10.0 * i;
+    const auto theirs_us = static_cast<std::int64_t>(sent_ms * 1000.0 * (1.0 - 100e-6));
+    worst_ms =
+        std::max(worst_ms, std::abs(ms_of(clock.to_ours(theirs_us, at_ms(sent_ms))) - sent_ms));
+  }
+  EXPECT_LT(worst_ms, 3.0);
+}
+
+TEST(OneWayClock, AClockThatIsSetBeginsAnew) {
+  OneWayClock clock;
+  clock.to_ours(0, at_ms(0.0));
+  EXPECT_NEAR(ms_of(clock.to_ours(5'000'000, at_ms(10.0))), 10.0, 1e-6);
+  EXPECT_NEAR(ms_of(clock.to_ours(5'010'000, at_ms(25.0))), 20.0, 0.1);
+  EXPECT_EQ(clock.steps(), 1u);
+}
+
+TEST(OneWayClock, StampsBeyondAllTimesDoNoHarm) {
+  OneWayClock clock;
+  for (const std::int64_t theirs_us : {INT64_MAX, INT64_MIN, INT64_MAX / 4000, INT64_MIN / 4000})
+    EXPECT_LE(clock.to_ours(theirs_us, at_ms(1.0)), at_ms(1.0));
+}
+
+}  // namespace
+}  // namespace dance
