@@ -18,7 +18,7 @@ constexpr const char* kExamples = R"(Examples:
   dance listen --to csv -o dance.csv --seconds 60       a minute as a table
   dance listen --to bvh -o alice.bvh --guest alice      alice's dance as BVH, until ctrl-C
   dance listen --to engine                              the stage for the engines of this machine
-  dance listen --to glb -o couple.glb --seconds 60      all dancers as figures for Blender and the web
+  dance listen --to glb -o couple.glb --seconds 60      all as figures, for Blender and the web
   dance listen --to vmc --guest alice                   alice to an avatar app on this machine
   dance listen --to rokoko                              to the plugins of Blender, Unity and Unreal
 )";

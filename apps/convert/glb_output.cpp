@@ -8,7 +8,7 @@
 namespace dance {
 namespace {
 
-constexpr double kUsualFrames_hz = 60.0;
+constexpr double kUsualKeys_hz = 60.0;
 
 // All dancers of a recording in one file: on one time line, so that a couple stays together.
 class GlbOutput : public ConvertSink {
@@ -28,7 +28,7 @@ class GlbOutput : public ConvertSink {
 
   Result<void> finish() override {
     ClipsTogether together =
-        clips_together(recording_, options_.hz > 0.0 ? options_.hz : kUsualFrames_hz);
+        clips_together(recording_, options_.hz > 0.0 ? options_.hz : kUsualKeys_hz);
     counters_ = together.counters;
     std::vector<NamedClip> clips;
     for (auto& [guest, clip] : together.clips) {

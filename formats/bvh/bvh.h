@@ -73,8 +73,9 @@ struct BvhLimits {
 
 Result<Bvh> read_bvh(std::string_view text, const BvhLimits& limits = {});
 
-// A clip as BVH text: canonical names, metres, channels Zrotation Xrotation Yrotation, six decimals.
-// Fingers are written where the clip has hands, with the lengths of an average hand of that size.
+// A clip as BVH text: canonical names, metres, channels Zrotation Xrotation Yrotation, six
+// decimals. Fingers are written where the clip has hands, as long as those of an average hand of
+// that size.
 std::string write_bvh(const MotionClip& clip);
 
 }  // namespace dance

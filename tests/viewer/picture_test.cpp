@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "formats/body/guest_look.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
-#include "formats/body/guest_look.h"
 #include "viewer/draw/offscreen.h"
 #include "viewer/draw/stage_painter.h"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "viewer/draw/beat_words.h"
 #include "formats/body/guest_look.h"
+#include "viewer/draw/beat_words.h"
 
 namespace dance {
 namespace {

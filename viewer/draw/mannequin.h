@@ -7,8 +7,8 @@
 // Failure:      none.
 #pragma once
 
-#include "viewer/draw/body_part.h"
 #include "formats/body/guest_look.h"
+#include "viewer/draw/body_part.h"
 #include "viewer/draw/scene.h"
 
 namespace dance {

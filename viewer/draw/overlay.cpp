@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <vector>
 
+#include "formats/body/guest_look.h"
 #include "viewer/draw/beat_panel.h"
 #include "viewer/draw/gl_objects.h"
-#include "formats/body/guest_look.h"
 #include "viewer/draw/overlay_fonts.h"
 
 namespace dance {
