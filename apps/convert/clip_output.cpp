@@ -5,7 +5,6 @@
 
 #include "core/program/whole_file.h"
 #include "formats/bvh/bvh.h"
-#include "formats/gltf/glb.h"
 #include "formats/recording/steady_clip.h"
 
 namespace dance {
@@ -104,29 +103,10 @@ class BvhOutput : public ClipOutput {
   }
 };
 
-class GlbOutput : public ClipOutput {
- public:
-  explicit GlbOutput(const SinkOptions& options) : ClipOutput(options, kMostGuests) {}
-
-  Result<void> finish() override {
-    std::vector<NamedClip> clips;
-    for (const Guest& guest : guests_)
-      if (!guest.clip->body().frames.empty())
-        clips.push_back({std::string(guest.id.view()), guest.clip->with_hands(), {}});
-    const auto bytes = write_glb(clips);
-    if (!bytes) return fail(options_.name + ": " + bytes.error().what);
-    return write_whole_file(options_.path, *bytes);
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<ConvertSink> make_bvh_output(const SinkOptions& options) {
   return std::make_unique<BvhOutput>(options);
-}
-
-std::unique_ptr<ConvertSink> make_glb_output(const SinkOptions& options) {
-  return std::make_unique<GlbOutput>(options);
 }
 
 }  // namespace dance

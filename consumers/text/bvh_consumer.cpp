@@ -21,6 +21,10 @@ void BvhConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime) {
     ++of_others_;
 }
 
+void BvhConsumer::on_hands(const GuestId& guest, const Hands& hands, MonoTime) {
+  if (guest == guest_) clip_.add(hands);
+}
+
 Result<void> BvhConsumer::finish() {
   if (is_finished_) return output_->flush();
   is_finished_ = true;
@@ -28,7 +32,7 @@ Result<void> BvhConsumer::finish() {
     return fail(output_->name() + ": no BVH written, as no pose was heard" +
                 (guest_.is_set() ? " of " + std::string(guest_.view()) : std::string()) +
                 "; dance top lists who is on the bus");
-  output_->write(write_bvh(clip()));
+  output_->write(write_bvh(clip_.with_hands()));
   return output_->flush();
 }
 

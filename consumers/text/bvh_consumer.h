@@ -25,6 +25,7 @@ class BvhConsumer : public PoseConsumer {
 
   void on_pose(const GuestId& guest, const Pose& pose, MonoTime now) override;
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) override;
+  void on_hands(const GuestId& guest, const Hands& hands, MonoTime now) override;
   Result<void> finish() override;
   std::string summary() const override;
 

@@ -13,6 +13,7 @@ using Eigen::Vector3f;
 using Eigen::Vector3i;
 
 constexpr float kFar_m = 1e3f;
+constexpr float kHem_m = 0.025f;
 constexpr float kGradientStep_m = 5e-4f;
 constexpr int kNewtonSteps = 3;
 
@@ -95,7 +96,8 @@ class Shape {
     for (std::size_t limb = 1; limb < kLimbs; ++limb)
       if (nearest[limb] < kFar_m)
         least = std::min(least, smooth_min(nearest[0], nearest[limb], blend_m_));
-    return std::max(least, hem_y_m_ - place.y());
+    // The larger of the two, rounded as well: an edge has no normal.
+    return -smooth_min(-least, place.y() - hem_y_m_, kHem_m);
   }
 
   Vector3f gradient(const Vector3f& place) const {

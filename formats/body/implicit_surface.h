@@ -23,7 +23,7 @@ struct Surface {
   std::vector<std::uint32_t> triangles;  // three vertices each
 };
 
-constexpr std::size_t kMostSamples = 2'000'000;
+constexpr std::size_t kMostSamples = 400'000;
 
 Surface surface_of(const FigureLayer& layer);
 

@@ -189,6 +189,36 @@ TEST(FilesClients, BlenderOpensRealCapturesWrittenAsGlbAndAsBvh) {
   }
 }
 
+TEST(FilesClients, AGlbThatBlenderExportsIsReadWithEveryBoneInItsPlace) {
+  if (!has_blender()) GTEST_SKIP() << kNoBlender;
+  const TestFolder folder("blender-export");
+  NamedClip alice = shipped_couple().front();
+  alice.clip.frames.resize(90);
+  alice.clip.hands.resize(90);
+  const std::string text = write_bvh(alice.clip);
+  write_file(folder.path("alice.bvh"), text.data(), text.size());
+  const Finished finished = run("HOME=" + folder.path() + " blender -b --factory-startup -P " +
+                                kScripts + "blender_export.py -- " + folder.path("alice.bvh") +
+                                " " + folder.path("alice.glb") + " 90 60");
+  const auto bytes = bytes_in(folder.path("alice.glb"));
+  const auto again = read_glb(bytes);
+  ASSERT_TRUE(again.has_value()) << again.error().what << finished.output << finished.talk;
+  ASSERT_EQ(again->size(), 1u);
+  const MotionClip& clip = again->front().clip;
+  EXPECT_DOUBLE_EQ(clip.frame_hz, 60.0);
+  ASSERT_EQ(clip.frames.size(), alice.clip.frames.size());
+  EXPECT_EQ(clip.hands.size(), alice.clip.hands.size());
+  BodyFrames known;
+  BodyFrames read;
+  for (std::size_t f = 0; f < clip.frames.size(); ++f) {
+    forward_kinematics(alice.clip.skeleton, alice.clip.frames[f], known);
+    forward_kinematics(clip.skeleton, clip.frames[f], read);
+    for (std::size_t b = 0; b < kBoneCount; ++b)
+      ASSERT_LT((known.p_WB_m[b] - read.p_WB_m[b]).norm(), 1e-4f)
+          << kBones[b].name << " in frame " << f;
+  }
+}
+
 TEST(FilesClients, ThreeJsPlaysTheShippedCouplesGlbWithEveryJointInItsPlace) {
   if (!has_module("three")) GTEST_SKIP() << kNoModules;
   const TestFolder folder("three");
