@@ -66,13 +66,18 @@ function(dance_use_pch target)
   target_precompile_headers(${target} REUSE_FROM ${pch})
 endfunction()
 
-# dance_library(NAME SOURCES a.cpp … PUBLIC targets … PRIVATE targets …): static library dance_NAME, alias dance::NAME.
+# dance_library(NAME SOURCES a.cpp … PUBLIC targets … PRIVATE targets … [PIC]): static library dance_NAME, alias
+# dance::NAME; PIC where it becomes part of a shared library. (A precompiled header is not made so.)
 function(dance_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "PIC" "" "SOURCES;PUBLIC;PRIVATE")
   add_library(dance_${name} STATIC ${arg_SOURCES})
   add_library(dance::${name} ALIAS dance_${name})
   target_link_libraries(dance_${name} PUBLIC $<BUILD_INTERFACE:dance_settings> ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  dance_use_pch(dance_${name})
+  if(arg_PIC)
+    set_target_properties(dance_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  else()
+    dance_use_pch(dance_${name})
+  endif()
 endfunction()
 
 # dance_embed(TARGET NAME FILE): the file's bytes are part of the target, std::span<const std::uint8_t> dance::NAME().

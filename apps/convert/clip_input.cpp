@@ -60,14 +60,17 @@ std::vector<GuestId> names_of(const std::vector<NamedClip>& clips) {
   return names;
 }
 
-// Written by write_bvh(): its bones by name and order, in metres on their floor.
+// Written by write_bvh(): bones of ours by name, and no others, in metres on their floor.
 bool is_ours(const Bvh& bvh) {
-  if (bvh.joints.size() != kBoneCount) return false;
-  for (std::size_t bone = 0; bone < kBoneCount; ++bone)
-    if (bvh.joints[bone].name != kBones[bone].name ||
-        bvh.joints[bone].parent != kBones[bone].parent)
-      return false;
-  return true;
+  std::size_t bones = 0;
+  for (const BvhJoint& joint : bvh.joints) {
+    const bool is_finger =
+        std::any_of(kFingerBones.begin(), kFingerBones.end(),
+                    [&](const BoneInfo& bone) { return bone.name == joint.name; });
+    if (!is_finger && !find_bone(joint.name)) return false;
+    bones += !is_finger;
+  }
+  return bones == kBoneCount;
 }
 
 }  // namespace

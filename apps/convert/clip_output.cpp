@@ -25,7 +25,6 @@ class ClipOutput : public ConvertSink {
     if (SteadyClip* clip = clip_of(guest)) clip->add(pose);
   }
   void on_hands(const GuestId& guest, const Hands& hands, std::int64_t) override {
-    has_hands_ = true;
     if (SteadyClip* clip = clip_of(guest)) clip->add(hands);
   }
   void on_beat(const Beat&, std::int64_t) override {}
@@ -79,7 +78,6 @@ class ClipOutput : public ConvertSink {
   SinkOptions options_;
   std::size_t most_clips_;
   std::vector<Guest> guests_;
-  bool has_hands_ = false;
   std::uint64_t beyond_guests_ = 0;
 };
 
@@ -96,10 +94,7 @@ class BvhOutput : public ClipOutput {
       return fail(options_.name + ": a BVH holds one dancer, and here are " + names +
                   "; choose with --guest, or write a .glb");
     }
-    return write_whole_file(options_.path, write_bvh(guests_[0].clip->body()));
-  }
-  std::string note() const override {
-    return has_hands_ ? "a BVH has no fingers; a .glb, .mcap or .lcm has" : "";
+    return write_whole_file(options_.path, write_bvh(guests_[0].clip->with_hands()));
   }
 };
 

@@ -19,7 +19,8 @@ constexpr const char* kExamples = R"(Examples:
   dance convert logs/couple-packed.lcm couple.csv --hz 10      for a spreadsheet
   dance convert dance.bvh.xz dance.lcm --guest carla           for dance replay, as carla
   dance convert night.mcap night.lcm                           and back
-Read: .lcm (packed or plain) .bvh .bvh.xz .glb .vrma .gltf .mcap .csv; written: .lcm .bvh .glb .mcap .csv.
+It reads .lcm (packed or plain) .bvh .bvh.xz .glb .vrma .gltf .mcap .csv and writes .lcm .bvh .glb
+.mcap .csv.
 )";
 
 struct Options {

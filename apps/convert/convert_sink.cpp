@@ -79,7 +79,7 @@ class CsvOutput : public ConvertSink {
   Result<void> finish() override { return table_.finish(); }
   std::uint64_t frames() const override { return frames_; }
   std::string note() const override {
-    return has_more_ ? "a table has no fingers; a .glb, .mcap or .lcm has" : "";
+    return has_more_ ? "a table has no fingers; all other formats have" : "";
   }
 
  private:

@@ -23,7 +23,7 @@ class ConvertSink : public RecordingSink {
   virtual std::uint64_t frames() const = 0;
   // What the bounds of this program left out; "" where that is nothing.
   virtual std::string left_out() const { return ""; }
-  // What the file says less than its input, as hands in a BVH; "" where that is nothing.
+  // What the file says less than its input, as hands in a table; "" where that is nothing.
   virtual std::string note() const { return ""; }
 };
 

@@ -1,6 +1,6 @@
-// BenchAdapter: what it costs an engine to read a stage through libdance_adapter.so, and how old the
-// dancers are that it shows. The house is a real one, `dance join`, in its own process: it hears
-// captures from a third process over the bus, stages them and shows them to engines.
+// BenchAdapter: what it costs an engine to read a stage through libdance_adapter.so, and how old
+// the dancers are that it shows. The house is a real one, `dance join`, in its own process: it
+// hears captures from a third process over the bus, stages them and shows them to engines.
 //
 //   dancers ─ LCM ─► dance-join: manager ─► engine consumer ─ shared memory ─► this process
 //

@@ -52,11 +52,14 @@ OTHER_NAMES = {
 # Limbs of a rig in A-pose are straightened: upper bone and the one at its end.
 LIMBS = {7: 8, 8: 9, 11: 12, 12: 13, 14: 15, 15: 16, 18: 19, 19: 20}
 FEET = (16, 17, 20, 21)
-# Half the thickness of the limb that begins at each bone, in metres, for the simple body.
+# Of the simple body, for each bone: half its thickness where it begins and where it ends, in metres.
+ARM = ((0.05, 0.055), (0.055, 0.042), (0.042, 0.032), (0.036, 0.026))
+LEG = ((0.088, 0.06), (0.06, 0.042), (0.044, 0.042), (0.038, 0.03))
 THICKNESS = (
-    0.125, 0.12, 0.12, 0.12, 0.055, 0.1, 0.06, 0.05, 0.042, 0.035, 0.06, 0.05, 0.042, 0.035,
-    0.085, 0.06, 0.045, 0.04, 0.085, 0.06, 0.045, 0.04,
+    (0.125, 0.115), (0.115, 0.115), (0.118, 0.125), (0.13, 0.075), (0.05, 0.048), (0.088, 0.098),
+    *ARM, *ARM, *LEG, *LEG,
 )  # fmt: skip
+HEAD = BONES.index("head")
 COLOURS = ((0.78, 0.17, 0.06, 1), (0.05, 0.28, 0.5, 1), (0.85, 0.42, 0.05, 1), (0.15, 0.4, 0.1, 1))
 
 
@@ -114,18 +117,18 @@ def make_body(armature, colour):
     rings, around = 7, 14
     for index, bone in enumerate(armature.data.bones):
         first = len(corners)
-        radius = min(THICKNESS[index], 0.6 * bone.length) if index != 5 else THICKNESS[index]
-        length = bone.length
-        # A capsule along the bone's Y, its ends half a thickness beyond the joints.
+        begin, end = THICKNESS[index]
+        # Rounded ends go beyond the joints; a head begins above its neck.
+        start, stop = (0.4 * bone.length, 0.66 * bone.length) if index == HEAD else (0.0, bone.length)
         for ring in range(2 * rings):
             at_end = ring >= rings
             angle = (ring if not at_end else ring - 1) / (2 * rings - 2) * pi
-            y = -cos(angle) * radius * 0.8 + (length if at_end else 0.0)
+            radius = end if at_end else begin
+            y = -cos(angle) * radius * 0.85 + (stop if at_end else start)
             for corner in range(around):
                 turn = 2 * pi * corner / around
-                corners.append(
-                    bone.matrix_local @ Vector((sin(angle) * radius * cos(turn), y, sin(angle) * radius * sin(turn)))
-                )
+                out = sin(angle) * radius
+                corners.append(bone.matrix_local @ Vector((out * cos(turn), y, out * sin(turn))))
         for ring in range(2 * rings - 1):
             for corner in range(around):
                 a, b = first + ring * around + corner, first + ring * around + (corner + 1) % around

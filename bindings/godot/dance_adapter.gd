@@ -59,9 +59,14 @@ func open(house_name = ""):
 
 
 func close():
-	if _native != null and _handle >= 0:
+	if _native == null:
+		return
+	if _handle >= 0:
 		_call("dance_close", [_handle])
 	_handle = -1
+	# Godot keeps what is not terminated, and fails over it at exit.
+	_native.terminate()
+	_native = null
 
 
 func _notification(what):

@@ -5,11 +5,11 @@ const Adapter = preload("dance_adapter.gd")
 
 # Half the thickness of the limb that ends at each bone (from its parent), in metres; 0 = none.
 const RADII = [
-	0.0, 0.105, 0.105, 0.11, 0.05, 0.05,
-	0.06, 0.06, 0.045, 0.037, 0.06, 0.06, 0.045, 0.037,
-	0.1, 0.072, 0.052, 0.042, 0.1, 0.072, 0.052, 0.042,
+	0.0, 0.11, 0.115, 0.12, 0.06, 0.05,
+	0.07, 0.065, 0.046, 0.036, 0.07, 0.065, 0.046, 0.036,
+	0.085, 0.07, 0.048, 0.042, 0.085, 0.07, 0.048, 0.042,
 ]
-const TIP_RADII = [0.1, 0.035, 0.035, 0.035, 0.035]
+const TIP_RADII = [0.095, 0.035, 0.035, 0.035, 0.035]
 
 var _limbs = []
 var _tips = []

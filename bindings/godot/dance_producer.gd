@@ -20,9 +20,14 @@ func open(receiver_name = ""):
 
 
 func close():
-	if _native != null and _handle >= 0:
+	if _native == null:
+		return
+	if _handle >= 0:
 		_call("dance_send_close", [_handle])
 	_handle = -1
+	# Godot keeps what is not terminated, and fails over it at exit.
+	_native.terminate()
+	_native = null
 
 
 func _notification(what):

@@ -8,8 +8,8 @@
 // Threads:      one owner each.
 // Failure:      a name that another living house has, memory that is not this user's, and none that
 //               is left are errors with the cure. Sizes are checked before anything is mapped. A
-//               program of this user that made the memory shorter would end its readers, as it could
-//               by other means: no house does, and other users cannot.
+//               program of this user that made the memory shorter would end its readers, as it
+//               could by other means: no house does, and other users cannot.
 #pragma once
 
 #include <sys/types.h>

@@ -7,6 +7,9 @@
 namespace dance {
 namespace {
 
+constexpr float kTipRadius_m = 0.03f;
+constexpr float kShortestLimb_m = 0.005f;
+
 struct Colour {
   float r, g, b;
 };
@@ -30,13 +33,13 @@ float radius_m(std::size_t bone) {
     case Bone::kChest:
     case Bone::kUpperChest:
       return 0.085f;
-    case Bone::kHead:
     case Bone::kLeftUpperLeg:
     case Bone::kRightUpperLeg:
       return 0.07f;
     case Bone::kLeftLowerLeg:
     case Bone::kRightLowerLeg:
     case Bone::kNeck:
+    case Bone::kHead:
       return 0.05f;
     default:
       return 0.038f;
@@ -72,17 +75,33 @@ void append_limb(JsonText& json, const Eigen::Vector3f& to_m, float from_radius_
   json.raw("}");
 }
 
-void append_ball(JsonText& json, const Eigen::Vector3f& at_m, float radius_m,
-                 const Colour& colour) {
+void append_ellipsoid(JsonText& json, const Eigen::Vector3f& at_m, const Eigen::Vector3f& size_m,
+                      const Eigen::Quaternionf& turned, const Colour& colour) {
   json.raw("{");
-  append_pose(json, at_m, Eigen::Quaternionf::Identity());
-  json.raw(",\"size\":").xyz(2.0f * radius_m, 2.0f * radius_m, 2.0f * radius_m).raw(",");
+  append_pose(json, at_m, turned);
+  json.raw(",\"size\":").xyz(size_m.x(), size_m.y(), size_m.z()).raw(",");
   append_colour(json, colour, 1.0f);
   json.raw("}");
 }
 
-constexpr float kTipRadius_m = 0.03f;
-constexpr float kShortestLimb_m = 0.005f;
+void append_ball(JsonText& json, const Eigen::Vector3f& at_m, float radius_m,
+                 const Colour& colour) {
+  append_ellipsoid(json, at_m, Eigen::Vector3f::Constant(2.0f * radius_m),
+                   Eigen::Quaternionf::Identity(), colour);
+}
+
+// From the chin to the crown, with a nose that shows where the dancer looks.
+void append_head(JsonText& json, const Eigen::Vector3f& tip_m, const Colour& colour) {
+  constexpr float kWide = 0.68f, kDeep = 0.86f;  // of its height
+  const float height_m = tip_m.norm();
+  if (height_m < kShortestLimb_m) return;
+  const auto up = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitY(), tip_m);
+  append_ellipsoid(json.raw(","), 0.52f * tip_m, {kWide * height_m, height_m, kDeep * height_m}, up,
+                   colour);
+  const Eigen::Vector3f nose_m =
+      0.45f * tip_m + up * Eigen::Vector3f(0.0f, 0.0f, 0.44f * kDeep * height_m);
+  append_ball(json.raw(","), nose_m, 0.07f * height_m, colour);
+}
 
 // What a bone carries: its ball, a limb to each child and to its tip.
 struct Parts {
@@ -106,7 +125,7 @@ Parts parts_of(const Skeleton& skeleton, std::size_t bone) {
   for (std::size_t tip = 0; tip < kTipCount; ++tip) {
     if (index_of(kTipBones[tip]) != bone) continue;
     parts.tip = static_cast<int>(tip);
-    add(skeleton.tip_m[tip], kTipBones[tip] == Bone::kHead ? radius_m(bone) : kTipRadius_m);
+    if (kTipBones[tip] != Bone::kHead) add(skeleton.tip_m[tip], kTipRadius_m);
   }
   return parts;
 }
@@ -129,7 +148,9 @@ void append_bone(JsonText& json, const GuestId& guest, const Skeleton& skeleton,
   json.raw(
       "\",\"arrows\":[],\"cubes\":[],\"lines\":[],\"triangles\":[],\"models\":[],\"spheres\":[");
   append_ball(json, Eigen::Vector3f::Zero(), radius_m(bone), colour);
-  if (parts.tip >= 0 && parts.count > 0) {
+  if (static_cast<Bone>(bone) == Bone::kHead) {
+    append_head(json, skeleton.tip(Tip::kHead), colour);
+  } else if (parts.tip >= 0 && parts.count > 0) {
     const Parts::Limb& tip = parts.limbs[parts.count - 1];
     append_ball(json.raw(","), tip.to_m, tip.radius_m, colour);
   }

@@ -117,13 +117,15 @@ done
 lcm-gen --python --ppath types "$usr"/share/dancegraph/lcmtypes/*.lcm
 [ "$failed" = 0 ] || exit 1
 cpp/height_consumer --where capture --seconds 4 >cpp.heard &
+"$dance" listen --to engine --where capture --seconds 5 2>/dev/null &
+c/adapter_reader stage 4 >engine.heard &
 c/hips_consumer 'POSE/capture/.*' 4 >c.heard &
 PYTHONPATH=types python3 "$examples/python/listen.py" POSE/capture/ 4 >python.heard &
 sleep 1
 cpp/wave_producer --seconds 2 &
 "$dance" salsa --seconds 2 2>/dev/null &
 wait
-for language in cpp c python; do
+for language in cpp c python engine; do
   for guest in waver alice; do
     heard=$(grep -c "$guest" "$language.heard" || true)
     echo "$language heard $heard poses of $guest"
@@ -134,6 +136,15 @@ done
 awk '$1 == "waver" { if (!n++ || $3 < low) low = $3; if ($3 > high) high = $3 }
   END { print "the waving hand is " low " to " high " m high"; exit !(low > 1.4 && high < 2.3 && high - low > 0.1) }' cpp.heard ||
   wrong "that is no waving hand"
+# The same library through pkg-config, and without a house.
+PKG_CONFIG_PATH=$(dirname "$(find "$usr" -name dance-adapter.pc)")
+export PKG_CONFIG_PATH
+cc "$examples/c/adapter_reader.c" $(pkg-config --cflags --libs dance-adapter) -o adapter_reader
+LD_LIBRARY_PATH=$(pkg-config --variable=libdir dance-adapter) ./adapter_reader nobody 0.2 2>engine.alone ||
+  wrong "adapter_reader fails without a house"
+expect "no house of that name" engine.alone "adapter_reader"
+awk '$1 == "waver" { ++n; if ($4 < 0.9 || $4 > 1.0 || $6 < 1.3 || $6 > 1.8) exit 1 } END { exit !n }' engine.heard ||
+  wrong "an engine sees the dancer elsewhere than she is"
 for language in c python; do
   awk '/waver/ { ++n; if ($3 != 0 || $4 < 0.9 || $4 > 1.0 || $5 != 0) exit 1 } END { exit !n }' "$language.heard" ||
     wrong "the consumer in $language says the hips elsewhere than they are"

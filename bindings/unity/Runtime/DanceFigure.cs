@@ -12,6 +12,7 @@ namespace DanceGraph
     [DisallowMultipleComponent]
     public sealed class DanceFigure : MonoBehaviour
     {
+        public const long Newest = 0;  // instead of a time
         private HumanoidRig rig;
         private DanceSkeleton skeleton;
         private DanceHands hands;
@@ -36,7 +37,7 @@ namespace DanceGraph
 
         public void Show(DanceAdapter adapter, Transform stage, long timeNs)
         {
-            Status = adapter.At(Slot, timeNs, ref Shown);
+            Status = timeNs == Newest ? adapter.Newest(Slot, ref Shown) : adapter.At(Slot, timeNs, ref Shown);
             if (Status != DanceStatus.Ok) return;
             if (adapter.Skeleton(Slot, ref skeleton) == DanceStatus.Ok) rig.Retarget.SetSkeleton(ref skeleton);
             DanceStatus fingers = adapter.Hands(Slot, ref hands);

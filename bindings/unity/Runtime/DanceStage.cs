@@ -23,8 +23,9 @@ namespace DanceGraph
         public GameObject[] avatars = new GameObject[0];
         [Tooltip("This guest is not shown: the dancer whose own body is in the scene already.")]
         public string exceptGuest = "";
-        [Tooltip("How long after LateUpdate a frame is seen, in milliseconds: about one and a half frames.")]
-        [Range(0f, 100f)]
+        [Tooltip("How long after LateUpdate a frame is seen, in milliseconds: about one and a half frames. " +
+                 "Below 0 the newest poses are shown as they came.")]
+        [Range(-1f, 100f)]
         public float displayLeadMs = 25f;
 
         private DanceAdapter adapter;
@@ -61,7 +62,7 @@ namespace DanceGraph
         {
             if (adapter == null) return;
             MeetGuests(adapter.Guests(guests));
-            long seenAt = DanceAdapter.NowNs + (long)(displayLeadMs * 1e6f);
+            long seenAt = displayLeadMs < 0 ? DanceFigure.Newest : DanceAdapter.NowNs + (long)(displayLeadMs * 1e6f);
             for (int i = 0; i < figures.Count; ++i) figures[i].Show(adapter, transform, seenAt);
         }
 

@@ -42,12 +42,14 @@ struct Axes {
     for (std::size_t i = 0; i < 3; ++i) turned[i] = scale * m.sign[i] * p[m.from[i]];
   }
   void rotations(const Turned& m, const float* q, float* turned, std::size_t count) const {
-    if (m.from[0] == 0 && m.from[1] == 1 && determinant * m.sign[0] > 0.0f && m.sign[1] > 0.0f) {
-      std::memcpy(turned, q, count * 4 * sizeof *q);  // as it is
-      return;
-    }
     const float sign[3] = {determinant * m.sign[0], determinant * m.sign[1],
                            determinant * m.sign[2]};
+    const bool is_same = m.from[0] == 0 && m.from[1] == 1 && m.from[2] == 2 && sign[0] > 0.0f &&
+                         sign[1] > 0.0f && sign[2] > 0.0f;
+    if (is_same) {
+      std::memcpy(turned, q, count * 4 * sizeof *q);
+      return;
+    }
     for (std::size_t r = 0; r < count; ++r, q += 4, turned += 4) {
       for (std::size_t i = 0; i < 3; ++i) turned[i] = sign[i] * q[m.from[i]];
       turned[3] = q[3];

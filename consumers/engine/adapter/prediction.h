@@ -1,6 +1,7 @@
 // What a dancer does in the moments after the newest pose: the motion goes on as it was, slows down
-// and stands still after kLongestPrediction, so that a stalled stream comes to rest and nobody flies
-// off. For the few milliseconds between a pose and a display; a house's `predict` looks further.
+// and stands still after kLongestPrediction, so that a stalled stream comes to rest and nobody
+// flies off. For the few milliseconds between a pose and a display; a house's `predict` looks
+// further.
 //
 // Units/frames: poses as in core/pose; with τ the time since the newest pose, s = τ / T:
 //               moved(τ) = T · (s − s³ + s⁴/2), whose speed 1 − 3s² + 2s³ falls from 1 to 0 without

@@ -131,8 +131,7 @@ TEST_F(Convert, ForeignBvhGoesThroughEveryFormat) {
       for (std::size_t i = 0; i < night.find(guest)->poses.size(); ++i)
         ASSERT_LT(
             largest_distance_m(night.find(guest)->skeleton(), night.find(guest)->poses[i].value,
-                               read.find(guest)->skeleton(),
-                               read.find(guest)->poses[i].value),
+                               read.find(guest)->skeleton(), read.find(guest)->poses[i].value),
             kTenthOfAMillimetre_m);
   }
 }

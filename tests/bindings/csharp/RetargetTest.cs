@@ -384,7 +384,7 @@ public static unsafe class RetargetTest
         int collections = GC.CollectionCount(0);
         for (int i = 0; i < 30000; ++i)
         {
-            skeleton.Version = (uint)i;
+            skeleton.Offset[3] = 0.001f * (i % 7);
             retarget.SetSkeleton(ref skeleton);
             retarget.Show(ref pose, ref hands);
             retarget.Capture(retarget.World, retarget.HipsPosition, ref pose, ref hands);

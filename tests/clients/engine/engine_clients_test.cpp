@@ -159,6 +159,18 @@ TEST_F(EngineClients, CSharpHasTheDancersOnARigOfItsOwnAndMakesNoGarbage) {
   EXPECT_EQ(read.collections, 0);
 }
 
+TEST_F(EngineClients, UnitysComponentsHaveTheDancersOnHumanoidAvatars) {
+  if (!has_program("mcs") || !has_program("mono"))
+    GTEST_SKIP() << "mono is not here: apt-get install mono-mcs mono-runtime";
+  const Finished compiled =
+      run("cd " DANCE_SOURCE_DIR " && mcs -unsafe -nowarn:0649 -out:" +
+          folder_.path("UnityScene.exe") +
+          " tests/clients/engine/UnityScene.cs tests/bindings/unity/UnityEngineStub.cs "
+          "bindings/unity/Runtime/*.cs bindings/csharp/*.cs 2>&1");
+  ASSERT_EQ(compiled.exit_code, 0) << compiled.output;
+  expect_alike(read_by("mono " + folder_.path("UnityScene.exe"), DANCE_AXES_UNITY));
+}
+
 TEST_F(EngineClients, GodotHasTheDancersOnSkeletonsOfItsOwn) {
   if (!has_program("godot3-server"))
     GTEST_SKIP() << "godot3-server is not here: apt-get install godot3-server";

@@ -23,6 +23,7 @@ using JointPlaces = std::map<std::string, Eigen::Vector3d>;
 
 struct JointLine {
   std::string name;
+  double total_height_m = 0.0;
   JointPlaces joints;
 };
 
@@ -42,6 +43,7 @@ inline std::vector<JointLine> read_joint_lines(const std::string& path) {
     }
     JointLine line;
     line.name = json.value("name", "");
+    line.total_height_m = json.value("totalHeight", 0.0);
     for (const auto& [joint, p] : json["joints"].items())
       line.joints[joint] = Eigen::Vector3d(p[0], p[1], p[2]);
     lines.push_back(std::move(line));

@@ -46,7 +46,6 @@ function joint(body, name) {
   return { p: numbers.slice(0, 3), q: numbers.slice(3) }
 }
 
-// In a frame whose axes are Studio's in T-pose, so that lengths learnt there look as people expect.
 function check(actor, timestamp) {
   for (const key of ['hasGloves', 'hasLeftGlove', 'hasRightGlove', 'hasBody', 'hasFace'])
     if (typeof actor.meta[key] !== 'boolean') throw new Error(`meta.${key}`)
@@ -59,7 +58,8 @@ function check(actor, timestamp) {
     at[name] = p
     turn[name] = times(q, inverse(rest))
     if (!parent) { built[name] = p; continue }
-    const key = `${actor.name}/${name}`
+    // A dancer's own proportions may come after the first poses.
+    const key = `${actor.name}/${actor.dimensions.totalHeight}/${name}`
     // Between spine and chest there is a bone more at home: the direction is the rotation's, the distance is sent.
     const learnt = minus(p, at[parent])
     lengths[key] ??= turned(inverse(turn[parent]), learnt)
@@ -78,7 +78,8 @@ function check(actor, timestamp) {
   }
   // Ours is the mirror image: the left hand at +X.
   const joints = Object.fromEntries(Object.entries(built).map(([name, [x, y, z]]) => [name, [-x, y, z]]))
-  lines.write(JSON.stringify({ name: actor.name, timestamp, joints }) + '\n')
+  const { totalHeight } = actor.dimensions
+  lines.write(JSON.stringify({ name: actor.name, timestamp, totalHeight, joints }) + '\n')
 }
 
 const socket = createSocket('udp4')
