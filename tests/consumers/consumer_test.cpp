@@ -203,6 +203,23 @@ TEST_F(Consumers, WriteABvhThatReadsBack) {
   EXPECT_EQ(consumer.summary().find("average"), std::string::npos) << consumer.summary();
 }
 
+TEST_F(Consumers, WriteTheFingersOfABvhWhereHandsAreHeard) {
+  BvhConsumer consumer(output_, 60.0, GuestId());
+  for (int i = 0; i < 10; ++i) {
+    const double ms = i * 1000.0 / 60.0;
+    consumer.on_pose(kAlice, pose_at(ms), at_ms(ms));
+    Hands hands;
+    hands.capture_time = at_ms(ms);
+    hands.clock_id = kOurClock;
+    consumer.on_hands(kAlice, hands, at_ms(ms));
+    consumer.on_hands(kBob, hands, at_ms(ms));
+  }
+  ASSERT_TRUE(consumer.finish().has_value());
+  const auto bvh = read_bvh(written());
+  ASSERT_TRUE(bvh.has_value()) << bvh.error().what;
+  EXPECT_EQ(bvh->joints.size(), kBoneCount + kFingerBoneCount);
+}
+
 TEST_F(Consumers, CutSilencesOutAndRefuseOldPosesForBvh) {
   BvhConsumer consumer(output_, 100.0, kAlice);
   for (int i = 0; i <= 10; ++i) consumer.on_pose(kAlice, pose_at(i * 10.0), at_ms(0.0));
