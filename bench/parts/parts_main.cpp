@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance bench parts                     everything, about half a minute
-  dance bench parts --only codec        one of body, bus, camera, codec, osc, predict, stage, style
+  dance bench parts --only codec        one of body, bus, camera, codec, files, osc,
+                                        predict, stage, style
   dance bench parts --json
 )";
 
