@@ -69,7 +69,7 @@ class UnrealBinding : public testing::Test {
  protected:
   void SetUp() override {
     name_ = "unreal-" + std::to_string(getpid());
-    auto house = EngineConsumer::open(name_, 7, mono_now());
+    auto house = EngineConsumer::open(name_, 0.0, 7, mono_now());
     ASSERT_TRUE(house) << house.error().what;
     house_ = std::move(*house);
   }
