@@ -70,8 +70,10 @@ func close():
 
 
 func _notification(what):
-	if what == NOTIFICATION_PREDELETE:
-		close()
+	# As close(): what is being deleted cannot call functions of its own.
+	if what == NOTIFICATION_PREDELETE and _native != null:
+		_native.call_native("standard_varcall", "dance_close", [_handle])
+		_native.terminate()
 
 
 func now_ns():

@@ -31,8 +31,10 @@ func close():
 
 
 func _notification(what):
-	if what == NOTIFICATION_PREDELETE:
-		close()
+	# As close(): what is being deleted cannot call functions of its own.
+	if what == NOTIFICATION_PREDELETE and _native != null:
+		_native.call_native("standard_varcall", "dance_send_close", [_handle])
+		_native.terminate()
 
 
 # hips: Vector3; rotations: a Quat for each of dance_adapter.gd's BONES; presence: bit b for bone b.

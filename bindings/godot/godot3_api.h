@@ -6,8 +6,8 @@
 // Ownership:    a value that a function returns or makes is destroyed by its destroy function.
 // Threads:      Godot's main thread.
 // Failure:      none checks its arguments.
-// Source:       Godot 3 documentation, "GDNative C example"; order of gdnative_api.json, the same in
-//               3.1, 3.2.3 and 3.5.3.
+// Source:       Godot 3 documentation, "GDNative C example"; the order is that of
+//               gdnative_api.json, the same in 3.1, 3.2.3 and 3.5.3.
 #pragma once
 
 #include <stdbool.h>

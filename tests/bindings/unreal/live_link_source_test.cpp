@@ -69,7 +69,7 @@ class UnrealBinding : public testing::Test {
  protected:
   void SetUp() override {
     name_ = "unreal-" + std::to_string(getpid());
-    auto house = EngineConsumer::open(name_, 7, mono_now());
+    auto house = EngineConsumer::open(name_, 0.0, 7, mono_now());
     ASSERT_TRUE(house) << house.error().what;
     house_ = std::move(*house);
   }
@@ -82,8 +82,7 @@ class UnrealBinding : public testing::Test {
     pose.stamp(Hop::kStaged, pose.capture_time);
     pose.p_WH_m = Eigen::Vector3f(0.5f, 0.9f, 2.0f);
     // The left arm lowered.
-    pose.R_PB[index_of(Bone::kLeftUpperArm)] =
-        Eigen::AngleAxisf(-1.2f, Eigen::Vector3f::UnitZ());
+    pose.R_PB[index_of(Bone::kLeftUpperArm)] = Eigen::AngleAxisf(-1.2f, Eigen::Vector3f::UnitZ());
     house_->on_skeleton(*GuestId::parse(guest), average_skeleton(1.6f), pose.capture_time);
     house_->on_pose(*GuestId::parse(guest), pose, pose.capture_time);
   }

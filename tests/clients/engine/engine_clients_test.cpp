@@ -65,7 +65,7 @@ class EngineClients : public BusPrograms {
   }
 
   void listen_until(const std::function<bool()>& is_over, double seconds) {
-    const MonoTime end = mono_now() + Duration::s(seconds);
+    const MonoTime end = mono_now() + Duration::ms(static_cast<std::int64_t>(1000.0 * seconds));
     while (!is_over() && mono_now() < end) {
       bus_->drain(mono_now());
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -136,8 +136,7 @@ class EngineClients : public BusPrograms {
 };
 
 TEST_F(EngineClients, ACPlusPlusProgramHasTheDancersWhereTheStageHasThem) {
-  expect_alike(
-      read_by(DANCE_BINARY_DIR "/tests/read_dancers", DANCE_AXES_UNREAL));
+  expect_alike(read_by(DANCE_BINARY_DIR "/tests/read_dancers", DANCE_AXES_UNREAL));
 }
 
 TEST_F(EngineClients, PythonHasTheDancersWhereTheStageHasThem) {
@@ -162,11 +161,10 @@ TEST_F(EngineClients, CSharpHasTheDancersOnARigOfItsOwnAndMakesNoGarbage) {
 TEST_F(EngineClients, UnitysComponentsHaveTheDancersOnHumanoidAvatars) {
   if (!has_program("mcs") || !has_program("mono"))
     GTEST_SKIP() << "mono is not here: apt-get install mono-mcs mono-runtime";
-  const Finished compiled =
-      run("cd " DANCE_SOURCE_DIR " && mcs -unsafe -nowarn:0649 -out:" +
-          folder_.path("UnityScene.exe") +
-          " tests/clients/engine/UnityScene.cs tests/bindings/unity/UnityEngineStub.cs "
-          "bindings/unity/Runtime/*.cs bindings/csharp/*.cs 2>&1");
+  const Finished compiled = run(
+      "cd " DANCE_SOURCE_DIR " && mcs -unsafe -nowarn:0649 -out:" + folder_.path("UnityScene.exe") +
+      " tests/clients/engine/UnityScene.cs tests/bindings/unity/UnityEngineStub.cs "
+      "bindings/unity/Runtime/*.cs bindings/csharp/*.cs 2>&1");
   ASSERT_EQ(compiled.exit_code, 0) << compiled.output;
   expect_alike(read_by("mono " + folder_.path("UnityScene.exe"), DANCE_AXES_UNITY));
 }
@@ -179,16 +177,17 @@ TEST_F(EngineClients, GodotHasTheDancersOnSkeletonsOfItsOwn) {
           " && cp " DANCE_SOURCE_DIR "/tests/clients/engine/read_dancers.gd " +
           folder_.path("project") + " 2>&1");
   ASSERT_EQ(copied.exit_code, 0) << copied.output;
-  expect_alike(read_by(
-      "godot3-server --path " + folder_.path("project") + " -s read_dancers.gd", DANCE_AXES_GLTF));
+  expect_alike(read_by("godot3-server --path " + folder_.path("project") + " -s read_dancers.gd",
+                       DANCE_AXES_GLTF));
 }
 
 TEST_F(EngineClients, BlenderHasTheDancersOnArmaturesThatItMade) {
   if (!has_program("blender")) GTEST_SKIP() << "Blender is not here: apt-get install blender";
-  expect_alike(read_by("blender -b --factory-startup -noaudio --python-use-system-env "
-                       "--python-exit-code 3 --python " DANCE_SOURCE_DIR
-                       "/tests/clients/engine/read_dancers_blender.py --",
-                       DANCE_AXES_BLENDER));
+  expect_alike(
+      read_by("blender -b --factory-startup -noaudio --python-use-system-env "
+              "--python-exit-code 3 --python " DANCE_SOURCE_DIR
+              "/tests/clients/engine/read_dancers_blender.py --",
+              DANCE_AXES_BLENDER));
 }
 
 }  // namespace

@@ -24,10 +24,10 @@ Eigen::Vector3d in_stage(const Eigen::Vector3d& at, dance_axes axes) {
 }  // namespace
 
 StagedPoses::StagedPoses(Bus& bus) {
-  bus.subscribe<TimedSkeleton>(Where::kStage, [this](const Channel& channel,
-                                                     const TimedSkeleton& timed, MonoTime) {
-    skeletons_[std::string(channel.guest().view())] = timed.skeleton;
-  });
+  bus.subscribe<TimedSkeleton>(
+      Where::kStage, [this](const Channel& channel, const TimedSkeleton& timed, MonoTime) {
+        skeletons_[std::string(channel.guest().view())] = timed.skeleton;
+      });
   bus.subscribe<Pose>(Where::kStage, [this](const Channel& channel, const Pose& pose, MonoTime) {
     const std::string guest(channel.guest().view());
     const auto skeleton = skeletons_.find(guest);
