@@ -14,9 +14,9 @@
 static const char* const kinds[] = {"newest", "interpolated", "predicted", "held"};
 
 static void show(dance_adapter* stage, const dance_guest* guest, int64_t seen_ns) {
-  dance_pose pose = {sizeof pose};
-  dance_skeleton skeleton = {sizeof skeleton};
-  dance_world world = {sizeof world};
+  dance_pose pose = {.struct_size = sizeof pose};
+  dance_skeleton skeleton = {.struct_size = sizeof skeleton};
+  dance_world world = {.struct_size = sizeof world};
   if (dance_adapter_at(stage, guest->slot, seen_ns, &pose) != DANCE_OK) return;
   if (dance_adapter_skeleton(stage, guest->slot, &skeleton) != DANCE_OK) return;
   if (dance_world_of(&skeleton, &pose, &world) != DANCE_OK) return;
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     const uint32_t count = dance_adapter_guests(stage, guests, DANCE_MAX_GUESTS);
     for (uint32_t i = 0; i < count && i < DANCE_MAX_GUESTS; ++i) show(stage, &guests[i], frame + FRAME_NS);
   }
-  dance_counters counters = {sizeof counters};
+  dance_counters counters = {.struct_size = sizeof counters};
   dance_adapter_counters(stage, &counters);
   fprintf(stderr, "adapter_reader: %llu reads, %llu damaged\n", (unsigned long long)counters.reads,
           (unsigned long long)counters.damaged);
