@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
       "What each part of the pose path costs, against a baseline in the same run.",
       "dance bench parts");
   line.add("--only", only, "one part")
-      .one_of({"body", "bus", "camera", "codec", "osc", "predict", "stage", "style"});
+      .one_of({"body", "bus", "camera", "codec", "files", "osc", "predict", "stage", "style"});
   line.add_flag("--json", json, "as JSON");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_parts(only, json); });

@@ -3,7 +3,7 @@
 //
 // Units/frames: messages have the wall clock's time at which they were heard.
 // Ownership:    keeps its output; else as formats/mcap/dance_mcap_writer.h.
-// Threads:      none inside; one owner. Some 40 µs a pose, hands included (bench/parts).
+// Threads:      none inside; one owner. 24 µs a pose without hands (dance bench parts).
 // Failure:      finish() tells what could not be written. A second that was heard can be read even
 //               when this program is killed.
 #pragma once
