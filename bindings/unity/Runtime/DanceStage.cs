@@ -82,7 +82,7 @@ namespace DanceGraph
         private int FigureOf(ref DanceGuest guest)
         {
             for (int i = 0; i < figures.Count; ++i)
-                if (figures[i].Slot == guest.Slot && guest.IsNamed(figures[i].Guest)) return i;
+                if (figures[i] != null && figures[i].Slot == guest.Slot && guest.IsNamed(figures[i].Guest)) return i;
             return -1;
         }
 
