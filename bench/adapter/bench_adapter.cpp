@@ -144,8 +144,9 @@ void BenchAdapter::read_once(StageEye& eye, MonoTime display, FrameLoop& loop) {
   const MonoTime read = mono_now();
   loop.read_at.push_back(read - begin);
   const MonoTime again = mono_now();
+  eye.read_at(display);
+  loop.read_again.push_back(mono_now() - again);
   eye.read_newest();
-  loop.read_newest.push_back(mono_now() - again);
   eye.check();
   const MonoTime copying = mono_now();
   std::memcpy(copy.data(), eye.bytes(), eye.byte_count());
@@ -166,6 +167,7 @@ void BenchAdapter::run_frames(StageEye& eye, double hz) {
     const MonoTime used = frames.deadline() + Duration::seconds(kUsedAt / hz);
     // Early: what it has when the frame begins.
     eye.read_newest();
+    loop.read_newest.push_back(mono_now() - begin);
     for (std::size_t i = 0; i < eye.count(); ++i)
       early[i] = MonoTime::from_ns(eye.pose(i).capture_ns);
     const MonoTime draining = mono_now();

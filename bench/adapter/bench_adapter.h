@@ -32,6 +32,7 @@ using Durations = std::vector<Duration>;
 struct FrameLoop {
   double hz = 0.0;
   Durations read_at;          // all dancers for the time of display
+  Durations read_again;       // the same at once again, when all is in the processor's caches
   Durations read_newest;      // all dancers as they came
   Durations copied;           // as many bytes, copied
   Durations drained;          // the same dancers heard over a hop of LCM

@@ -42,6 +42,7 @@ std::string bench_adapter_table(const BenchAdapterOptions& options, BenchAdapter
     fmt::format_to(back, "  {:<52}{:>9}{:>9}{:>9}\n",
                    fmt::format("an engine at {:g} Hz (µs)", loop.hz), "p50", "p99", "max");
     row("reads all dancers for the time of display", loop.read_at);
+    row("… and at once again", loop.read_again);
     row("reads all dancers as they came", loop.read_newest);
     row("copies as many bytes", loop.copied);
     row("drains a hop of LCM instead", loop.drained);
@@ -71,6 +72,7 @@ std::string bench_adapter_json(const BenchAdapterOptions& options, BenchAdapterR
   us("capture_to_read", result.capture_to_read);
   us("capture_to_lcm", result.capture_to_lcm);
   report["reference_to_engine_ms"] = kReferenceToEngine_ms;
+  us("read_again", fastest.read_again);
   us("read_newest", fastest.read_newest);
   us("baseline_copy", fastest.copied);
   us("baseline_lcm_drain", fastest.drained);

@@ -17,13 +17,21 @@
 
 #include "core/base/time.h"
 #include "core/pose/history.h"
+#include "formats/engine/segment.h"
 
 namespace dance::engine {
 
 constexpr Duration kLongestPrediction = Duration::ms(100);
 constexpr float kMostPredicted_m = 0.5f;
 
+// Where a pose before the newest tells the speed: not nearer, as that is mostly noise, and not
+// further, as that is another motion.
+constexpr Duration kLeastBaseline = Duration::ms(10);
+constexpr Duration kMostBaseline = PoseHistory::kCloseTogether;
+
 // Of the history's newest pose, at a time after it; beyond kLongestPrediction as at its end.
 Pose predict(const PoseHistory& history, MonoTime t);
+// The same in place, as the memory holds poses. `before` is as far from it as said above.
+void predict(StoredPose& newest, const StoredPose& before, MonoTime t);
 
 }  // namespace dance::engine

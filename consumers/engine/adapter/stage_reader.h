@@ -45,13 +45,17 @@ class StageReader {
     std::uint32_t generation = 0;
     std::uint64_t number = 0;  // of the newest
     std::int64_t lag_ns = 0;
+    std::uint64_t seen = 0;  // the newest number in the memory when it was read last
   };
 
   dance_status look();
   void forget_dancers();
   SegmentReader reader() { return SegmentReader(*seen_.segment(), counters_); }
+  bool is_ahead(std::size_t slot, std::uint32_t generation, std::int64_t time_ns, dance_pose& out);
   Outcome catch_up(std::size_t slot, std::uint32_t generation);
   void remember(Dancer& dancer, const StoredPose& stored);
+  void prefetch(std::size_t slot) const;
+  void give(const StoredPose& stored, dance_pose& out) const;
   void give(const Pose& pose, dance_pose& out) const;
 
   SeenSegment seen_;

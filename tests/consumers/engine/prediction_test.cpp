@@ -109,6 +109,28 @@ TEST(EnginePrediction, KeepsRotationsUnitAndBonesLongWhateverTheMotion) {
   }
 }
 
+TEST(EnginePrediction, OfThePosesOfTheMemoryIsTheSame) {
+  const auto stored = [](const Pose& pose) {
+    StoredPose out{};
+    for (std::size_t b = 0; b < kBoneCount; ++b)
+      Eigen::Vector4f::Map(out.rotation_xyzw[b]) = pose.R_PB[b].coeffs();
+    Eigen::Vector3f::Map(out.hips_m) = pose.p_WH_m;
+    out.capture_ns = pose.capture_time.since_zero_ns();
+    out.music_beats = pose.music_beats;
+    return out;
+  };
+  const PoseHistory history = moved(60.0);
+  for (const double ms : {0.0, 3.0, 40.0, 100.0, 500.0}) {
+    StoredPose newest = stored(history.newest());
+    predict(newest, stored(history.newest(1)), after(history, ms));
+    const Pose wanted = predict(history, after(history, ms));
+    for (std::size_t b = 0; b < kBoneCount; ++b)
+      EXPECT_EQ(Eigen::Vector4f(newest.rotation_xyzw[b]), wanted.R_PB[b].coeffs());
+    EXPECT_EQ(Eigen::Vector3f(newest.hips_m), wanted.p_WH_m);
+    EXPECT_EQ(newest.music_beats, wanted.music_beats);
+  }
+}
+
 TEST(EnginePrediction, WithoutASpeedTheNewestStays) {
   PoseHistory history(32);
   history.push(moving(0.0));
