@@ -4,7 +4,8 @@
 // Units/frames: Unity's, in the space of the stage's Transform.
 // Ownership:    the rig of its own GameObject.
 // Threads:      Unity's main thread.
-// Failure:      without a new pose the avatar stays as it was.
+// Failure:      without a new pose the avatar stays as it was. Begin throws where the rig cannot be
+//               posed; IsWhole is false once a script has destroyed the avatar's hips.
 using UnityEngine;
 
 namespace DanceGraph
@@ -24,8 +25,12 @@ namespace DanceGraph
         // Of the last read; the avatar is shown from the first Ok on.
         public DanceStatus Status { get; private set; }
 
+        internal GameObject Avatar { get; private set; }
+        internal bool IsWhole { get { return rig != null && rig.HasHips; } }
+
         public void Begin(string guest, uint slot, Animator animator)
         {
+            Avatar = gameObject;
             Guest = guest;
             Slot = slot;
             Status = DanceStatus.NoData;

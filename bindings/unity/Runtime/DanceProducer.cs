@@ -72,6 +72,12 @@ namespace DanceGraph
         private void LateUpdate()
         {
             if (sender == null) return;
+            if (!rig.HasHips)
+            {
+                Debug.LogError("DanceGraph: the avatar's hips were destroyed", this);
+                enabled = false;
+                return;
+            }
             rig.Capture(stage != null ? stage : origin, ref pose, ref hands);
             pose.Confidence = confidence;
             pose.CaptureNs = 0;  // now

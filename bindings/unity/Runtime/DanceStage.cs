@@ -6,7 +6,9 @@
 // Ownership:    the avatars that it made.
 // Threads:      Unity's main thread. Reading never waits for the house.
 // Failure:      no library or an unfit name: one error in the console, and the component is disabled.
-//               No house: no avatars, until one comes.
+//               No house: no avatars, until one comes. A prefab that cannot be posed is named once
+//               in the console and not tried again until the component is enabled again; its guests
+//               are not shown, the others are. An avatar that another script destroys is made anew.
 using System;
 using System.Collections.Generic;
 using UnityEngine;
@@ -33,12 +35,15 @@ namespace DanceGraph
         private readonly List<DanceFigure> figures = new List<DanceFigure>(DanceNative.MaxGuests);
         private readonly bool[] isHere = new bool[2 * DanceNative.MaxGuests];  // who leaves and who comes
         private string refused = "";
+        private readonly List<GameObject> unfit = new List<GameObject>();  // prefabs that cannot be posed
 
         public IList<DanceFigure> Figures { get { return figures; } }
         public DanceAdapter Adapter { get { return adapter; } }
 
         private void OnEnable()
         {
+            unfit.Clear();
+            refused = "";
             try
             {
                 adapter = new DanceAdapter(houseName, DanceAxes.Unity);
@@ -82,7 +87,9 @@ namespace DanceGraph
         private int FigureOf(ref DanceGuest guest)
         {
             for (int i = 0; i < figures.Count; ++i)
-                if (figures[i] != null && figures[i].Slot == guest.Slot && guest.IsNamed(figures[i].Guest)) return i;
+                if (figures[i] != null && figures[i].IsWhole && figures[i].Slot == guest.Slot &&
+                    guest.IsNamed(figures[i].Guest))
+                    return i;
             return -1;
         }
 
@@ -93,6 +100,7 @@ namespace DanceGraph
             string id = guest.Name;
             GameObject prefab = avatars[AvatarOf(id) % avatars.Length];
             if (prefab == null) return Refuse("an entry of DanceStage's Avatars is empty");
+            if (unfit.Contains(prefab)) return -1;
             Animator rig = prefab.GetComponentInChildren<Animator>();
             if (rig == null || !rig.isHuman) return Refuse(prefab.name + " has no Animator whose Rig is Humanoid");
             GameObject made = Instantiate(prefab, transform);
@@ -100,14 +108,24 @@ namespace DanceGraph
             made.transform.localPosition = Vector3.zero;
             made.transform.localRotation = Quaternion.identity;
             var figure = made.AddComponent<DanceFigure>();
-            figure.Begin(id, guest.Slot, made.GetComponentInChildren<Animator>());
+            try
+            {
+                figure.Begin(id, guest.Slot, made.GetComponentInChildren<Animator>());
+            }
+            catch (Exception problem)
+            {
+                Destroy(made);
+                unfit.Add(prefab);
+                return Refuse(prefab.name + ": " + problem.Message);
+            }
             figures.Add(figure);
             return figures.Count - 1;
         }
 
         private void Remove(int figure)
         {
-            if (figures[figure] != null) Destroy(figures[figure].gameObject);
+            GameObject made = figures[figure].Avatar;
+            if (made != null) Destroy(made);  // also where only its DanceFigure was destroyed
             figures.RemoveAt(figure);
         }
 

@@ -3,7 +3,8 @@
 // Units/frames: Unity's; what is given and taken is in the space of a stage's Transform.
 // Ownership:    refers to the Animator's Transforms; nothing is allocated after construction.
 // Threads:      Unity's main thread.
-// Failure:      the constructor throws where the Animator is not Humanoid.
+// Failure:      the constructor throws where the Animator is not Humanoid, or its bones are not in the scene.
+//               Apply and Capture may be called while HasHips.
 using System;
 using System.Collections.Generic;
 using UnityEngine;
@@ -27,6 +28,9 @@ namespace DanceGraph
         {
             if (animator == null || animator.avatar == null || !animator.isHuman)
                 throw new ArgumentException("an avatar needs an Animator whose Rig is Humanoid");
+            if (animator.GetBoneTransform(HumanBodyBones.Hips) == null)
+                throw new ArgumentException(
+                    "the avatar's bones are no objects of the scene: switch Optimize Game Objects off in its import settings");
             var has = new bool[DanceBones.Count];
             var position = new DanceVector[DanceBones.Count];
             var rotation = new DanceRotation[DanceBones.Count];
@@ -44,6 +48,9 @@ namespace DanceGraph
             }
             Retarget = new DanceRetarget(has, position, rotation);
         }
+
+        // False once another script has destroyed them.
+        public bool HasHips { get { return bones[DanceBones.Hips] != null; } }
 
         // Turns the avatar's bones to what Retarget says, and puts its hips there.
         public void Apply(Transform stage)

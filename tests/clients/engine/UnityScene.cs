@@ -1,7 +1,8 @@
 // A scene of Unity's components without Unity: NAME SECONDS. DanceStage shows the dancers of a real
 // house on Humanoid avatars of their proportions, which stand in A-pose in the scene and whose bones
 // lie any way, in a scene graph that does what Unity's is said to (UnityEngineStub.cs). Prints where
-// the avatars' Transforms are after each LateUpdate, as `pose GUEST SEQUENCE` and 22 places.
+// the avatars' Transforms are after each LateUpdate, as `pose GUEST SEQUENCE` and 22 places. A third stage
+// has a prefab that cannot be posed, and its avatars are destroyed by others.
 using System;
 using System.Collections.Generic;
 using System.Globalization;
@@ -90,6 +91,38 @@ public static unsafe class UnityScene
         }
     }
 
+    // Both guests; alice gets a prefab that is Humanoid, but whose bones are no objects of the scene.
+    private static DanceStage StageWithAnUnfitPrefab(string house, GameObject fit)
+    {
+        var unfit = new GameObject("optimized");
+        unfit.AddComponent<Animator>().avatar = fit.GetComponent<Animator>().avatar;
+        DanceStage stage = new GameObject("stage of both").AddComponent<DanceStage>();
+        stage.houseName = house;
+        int entries = 2;
+        while (AvatarOf("alice") % entries == AvatarOf("bob") % entries) ++entries;
+        stage.avatars = new GameObject[entries];
+        for (int i = 0; i < entries; ++i) stage.avatars[i] = i == AvatarOf("alice") % entries ? unfit : fit;
+        Call(stage, "OnEnable");
+        return stage;
+    }
+
+    private static int AvatarOf(string id)
+    {
+        MethodInfo method = typeof(DanceStage).GetMethod("AvatarOf", BindingFlags.Static | BindingFlags.NonPublic);
+        return (int)method.Invoke(null, new object[] { id });
+    }
+
+    // Other scripts destroy what they did not make, each time something else; false where it was not made anew.
+    private static bool IsMadeAgain(DanceStage stage, int turn)
+    {
+        DanceFigure figure = stage.Figures[0];
+        Transform hips = figure.gameObject.GetComponentInChildren<Animator>().GetBoneTransform(HumanBodyBones.Hips);
+        UnityEngine.Object.Destroy(turn == 0 ? hips.gameObject : turn == 1 ? (UnityEngine.Object)figure : figure.gameObject);
+        Call(stage, "LateUpdate");
+        return stage.Figures.Count == 1 && stage.transform.children.Count == 1 && stage.Figures[0] != null &&
+               !ReferenceEquals(stage.Figures[0], figure);
+    }
+
     private static void Print(DanceFigure figure, Dictionary<string, uint> last)
     {
         uint before;
@@ -113,6 +146,9 @@ public static unsafe class UnityScene
         {
             StageOf(arguments[0], "alice", "bob"), StageOf(arguments[0], "bob", "alice"),
         };
+        DanceStage mixed = StageWithAnUnfitPrefab(arguments[0], stages[0].avatars[0]);
+        int destroyed = 0;
+        bool bobWasShown = false;
         var last = new Dictionary<string, uint>();
         long end = DanceAdapter.NowNs + (long)(seconds * 1e9), turn = DanceAdapter.NowNs;
         int most = 0;
@@ -125,6 +161,13 @@ public static unsafe class UnityScene
                 // Without its own proportions yet, a dancer that came back is an average adult.
                 foreach (DanceFigure figure in stage.Figures)
                     if (HasSkeleton(stage, figure)) Print(figure, last);
+            }
+            Call(mixed, "LateUpdate");
+            if (mixed.Figures.Count > 1 || mixed.transform.children.Count != mixed.Figures.Count) return 5;
+            if (mixed.Figures.Count == 1)
+            {
+                bobWasShown |= mixed.Figures[0].Guest == "bob" && mixed.Figures[0].Status == DanceStatus.Ok;
+                if (destroyed < 3 && !IsMadeAgain(mixed, destroyed++)) return 6;
             }
             turn += 1000000000 / 60;
             long wait = turn - DanceAdapter.NowNs;
@@ -139,7 +182,8 @@ public static unsafe class UnityScene
             Call(stage, "OnDisable");
             if (stage.Figures.Count != 0 || stage.transform.children.Count != 0) return 3;
         }
-        return most == 1 && Debug.Errors == 0 && Debug.Warnings == 0 ? 0 : 4;
+        // The unfit prefab was named once.
+        return most == 1 && bobWasShown && destroyed == 3 && Debug.Errors == 0 && Debug.Warnings == 1 ? 0 : 4;
     }
 
     private static readonly DanceGuest[] known = new DanceGuest[DanceNative.MaxGuests];
