@@ -160,7 +160,8 @@ namespace DanceGraph
         }
     }
 
-    // dance_adapter.h as it is. Library names are completed by the runtime: libdance_adapter.so.
+    // dance_adapter.h as it is. Unity completes a plug-in's name itself and knows no versions in it:
+    // libdance_adapter.so in the package. Elsewhere the system finds the file of the package dancegraph.
     public static unsafe class DanceNative
     {
         public const uint Abi = 1;
@@ -169,7 +170,14 @@ namespace DanceGraph
         public const int FingerBones = 30;
         public const int Tips = 5;
         public const long LongestPredictionNs = 100000000;
+#if UNITY_5_3_OR_NEWER
         private const string Library = "dance_adapter";
+        private const string Cure = "libdance_adapter.so cannot be loaded: put it into the package's Runtime/Plugins/x86_64";
+#else
+        private const string Library = "libdance_adapter.so.1";
+        private const string Cure =
+            "libdance_adapter.so.1 cannot be loaded: install dancegraph, or put its folder into LD_LIBRARY_PATH";
+#endif
         private const CallingConvention C = CallingConvention.Cdecl;
 
         [DllImport(Library, CallingConvention = C)] public static extern uint dance_adapter_abi();
@@ -225,8 +233,7 @@ namespace DanceGraph
             }
             catch (DllNotFoundException)
             {
-                throw new InvalidOperationException(
-                    "libdance_adapter.so cannot be loaded: install dancegraph, or put it beside the program's plug-ins");
+                throw new InvalidOperationException(Cure);
             }
             if (abi != Abi)
                 throw new InvalidOperationException(

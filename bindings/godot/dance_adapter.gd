@@ -1,4 +1,4 @@
-# The dancers of a house for GDScript, through libdance_godot.so and libdance_adapter.so.
+# The dancers of a house for GDScript, through libdance_godot.so and libdance_adapter.so.1.
 # Metres, +Y up, a dancer in T-pose faces +Z: Godot's own axes. Rotations are of each bone in its
 # parent, identity in T-pose. Without house, dancer or data a call returns null; `status` says why.
 extends Reference
@@ -50,7 +50,7 @@ func open(house_name = ""):
 	_native.library = load(get_script().resource_path.get_base_dir().plus_file("dance_adapter.gdnlib"))
 	if not _native.initialize():
 		_native = null
-		push_error("DanceGraph: libdance_godot.so or libdance_adapter.so is not in this project's folder")
+		push_error("DanceGraph: libdance_godot.so and libdance_adapter.so.1 must be in the folder of this script")
 		return false
 	_handle = _call("dance_open", [house_name])
 	if _handle < 0:

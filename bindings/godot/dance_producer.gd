@@ -13,7 +13,7 @@ func open(receiver_name = ""):
 	_native.library = load(get_script().resource_path.get_base_dir().plus_file("dance_adapter.gdnlib"))
 	if not _native.initialize():
 		_native = null
-		push_error("DanceGraph: libdance_godot.so or libdance_adapter.so is not in this project's folder")
+		push_error("DanceGraph: libdance_godot.so and libdance_adapter.so.1 must be in the folder of this script")
 		return false
 	_handle = _call("dance_send_open", [receiver_name])
 	return _handle >= 0

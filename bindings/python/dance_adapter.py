@@ -171,7 +171,8 @@ class Counters(_Sized):
     ]
 
 
-LIBRARY_NAME = "libdance_adapter.so"
+# Of the package dancegraph, and of a build or of dancegraph-dev.
+LIBRARY_NAMES = ("libdance_adapter.so.1", "libdance_adapter.so")
 _HANDLE = ctypes.c_void_p
 _U32 = ctypes.c_uint32
 _I64 = ctypes.c_int64
@@ -209,15 +210,26 @@ def _prototypes():
 _library = None
 
 
+def _of_the_system():
+    try:
+        return ctypes.CDLL(LIBRARY_NAMES[0])
+    except OSError as problem:
+        try:
+            return ctypes.CDLL(LIBRARY_NAMES[1])
+        except OSError:
+            raise problem from None
+
+
 def load(path=None):
     """Loads the library: `path`, else DANCE_ADAPTER_LIBRARY of the environment, else what the
     system finds. All later calls use it."""
     global _library
     if _library is not None and path is None:
         return _library
-    name = str(path or os.environ.get("DANCE_ADAPTER_LIBRARY") or LIBRARY_NAME)
+    given = path or os.environ.get("DANCE_ADAPTER_LIBRARY")
+    name = str(given or LIBRARY_NAMES[0])
     try:
-        library = ctypes.CDLL(name)
+        library = ctypes.CDLL(name) if given else _of_the_system()
         for function, (result, arguments) in _prototypes().items():
             getattr(library, function).restype = result
             getattr(library, function).argtypes = arguments

@@ -1,5 +1,5 @@
 // DanceAdapter.hpp: the dancers of a house for C++17, as a wrapper of dance_adapter.h that owns its
-// handles. It finds libdance_adapter.so when the program runs, so that a program starts without it
+// handles. It finds libdance_adapter.so.1 when the program runs, so that a program starts without it
 // too; with DANCE_ADAPTER_LINKED defined it calls the library that the program is linked with.
 //
 // Units/frames: as dance_adapter.h says, in the axes that an Adapter or a Producer was opened with.
@@ -33,15 +33,19 @@ namespace dancegraph {
 // The library's functions as members, and why they are not there.
 class Library {
  public:
-  // Where no path is given, the dynamic linker looks: LD_LIBRARY_PATH, the system's folders.
+  // Where no path is given, or an empty one, the dynamic linker looks: LD_LIBRARY_PATH, the system's
+  // folders. The name with a version is that of the package dancegraph, the other one of a build.
   explicit Library(const char* path = nullptr) {
 #ifdef DANCE_ADAPTER_LINKED
     (void)path;
 #define DANCE_ADAPTER_FIND(name) name = &dance_##name;
 #else
-    image_ = dlopen(path ? path : "libdance_adapter.so", RTLD_NOW | RTLD_LOCAL);
+    constexpr int kMode = RTLD_NOW | RTLD_LOCAL;
+    const bool is_given = path && *path;
+    image_ = dlopen(is_given ? path : "libdance_adapter.so.1", kMode);
+    if (!image_ && !is_given) image_ = dlopen("libdance_adapter.so", kMode);
     if (!image_) {
-      problem_ = "libdance_adapter.so cannot be loaded: install dancegraph, or give its path";
+      problem_ = "libdance_adapter.so.1 cannot be loaded: install dancegraph, or give its path";
       return;
     }
 #define DANCE_ADAPTER_FIND(name) find(name, "dance_" #name);

@@ -69,6 +69,14 @@ if subprocess.run(["sh", "-c", "command -v cc"], stdout=subprocess.DEVNULL).retu
             mine = ctypes.sizeof(getattr(da, one.capitalize()))
             expect(mine == int(size), f"dance_{one} has {size} bytes and {mine} in Python")
 
+# The system's library is found by the name that its package gives it, which is not that of a build.
+with tempfile.TemporaryDirectory() as folder:
+    os.symlink(os.path.abspath(sys.argv[1]), os.path.join(folder, da.LIBRARY_NAMES[0]))
+    environment = {**os.environ, "LD_LIBRARY_PATH": folder, "PYTHONPATH": sys.path[0], "PYTHONDONTWRITEBYTECODE": "1"}
+    environment.pop("DANCE_ADAPTER_LIBRARY", None)
+    found = subprocess.run([sys.executable, "-c", "import dance_adapter; dance_adapter.load()"], env=environment)
+    expect(found.returncode == 0, "the library of the package is found")
+
 # Without a house, and wrong use.
 with da.Adapter("no-house-here") as adapter:
     expect(adapter.state() == da.Status.NO_HOUSE, "a house that is not there")

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <mutex>
+#include <set>
 
 #include "bindings/unreal/DanceAdapter.hpp"
 #include "bindings/unreal/DanceGraph/Source/DanceGraph/DanceLiveLinkSource.h"
@@ -12,6 +16,7 @@
 #include "core/net/mono_clock.h"
 #include "tests/apps/run_program.h"
 #include "tests/bindings/unreal/unreal_stub.h"
+#include "tests/test_folder.h"
 
 std::unique_ptr<IModuleInterface> make_module_DanceGraph();
 
@@ -25,6 +30,7 @@ class KeepingClient : public ILiveLinkClient {
     FLiveLinkAnimationFrameData frame;
     int skeletons = 0;
     int frames = 0;
+    std::set<int> upper_arms_mm;  // how far they were from the shoulder, in all frames
   };
 
   FGuid AddSource(TSharedPtr<ILiveLinkSource> source) override {
@@ -41,17 +47,25 @@ class KeepingClient : public ILiveLinkClient {
   void PushSubjectFrameData_AnyThread(const FLiveLinkSubjectKey& key,
                                       FLiveLinkFrameDataStruct&& data) override {
     const std::lock_guard lock(mutex_);
-    subjects_[key.SubjectName].frame = data.data;
-    ++subjects_[key.SubjectName].frames;
+    Subject& subject = subjects_[key.SubjectName];
+    subject.frame = data.data;
+    ++subject.frames;
+    const FTransform& arm = data.data.Transforms[int32(index_of(Bone::kLeftUpperArm))];
+    subject.upper_arms_mm.insert(static_cast<int>(std::lround(arm.Place.Y * 10.0)));
   }
   void RemoveSubject_AnyThread(const FLiveLinkSubjectKey& key) override {
     const std::lock_guard lock(mutex_);
     subjects_.erase(key.SubjectName);
+    ++removals_;
   }
   Subject subject(const char* name) {
     const std::lock_guard lock(mutex_);
     const auto found = subjects_.find(FName(name));
     return found == subjects_.end() ? Subject() : found->second;
+  }
+  int removals() {
+    const std::lock_guard lock(mutex_);
+    return removals_;
   }
   std::size_t size() {
     const std::lock_guard lock(mutex_);
@@ -63,6 +77,7 @@ class KeepingClient : public ILiveLinkClient {
  private:
   std::mutex mutex_;
   std::map<FName, Subject> subjects_;
+  int removals_ = 0;
 };
 
 class UnrealBinding : public testing::Test {
@@ -72,9 +87,21 @@ class UnrealBinding : public testing::Test {
     auto house = EngineConsumer::open(name_, 0.0, 7, mono_now());
     ASSERT_TRUE(house) << house.error().what;
     house_ = std::move(*house);
+    put_into_plugin(DANCE_ADAPTER_FILE);
+  }
+  void TearDown() override { IPluginManager::Get().plugin = nullptr; }
+
+  // The plug-in's folder, with this library.
+  void put_into_plugin(const char* library) {
+    const std::filesystem::path folder = folder_.path("DanceGraph/Source/DanceGraph/ThirdParty");
+    std::filesystem::create_directories(folder);
+    std::filesystem::remove(folder / "libdance_adapter.so.1");
+    std::filesystem::create_symlink(library, folder / "libdance_adapter.so.1");
+    IPluginManager::Get().plugin =
+        std::make_shared<IPlugin>(FString(folder_.path("DanceGraph").c_str()));
   }
 
-  void stage(const char* guest, std::uint32_t sequence) {
+  void stage(const char* guest, std::uint32_t sequence, float height_m = 1.6f) {
     Pose pose;
     pose.clock_id = 7;
     pose.sequence = sequence;
@@ -83,10 +110,11 @@ class UnrealBinding : public testing::Test {
     pose.p_WH_m = Eigen::Vector3f(0.5f, 0.9f, 2.0f);
     // The left arm lowered.
     pose.R_PB[index_of(Bone::kLeftUpperArm)] = Eigen::AngleAxisf(-1.2f, Eigen::Vector3f::UnitZ());
-    house_->on_skeleton(*GuestId::parse(guest), average_skeleton(1.6f), pose.capture_time);
+    house_->on_skeleton(*GuestId::parse(guest), average_skeleton(height_m), pose.capture_time);
     house_->on_pose(*GuestId::parse(guest), pose, pose.capture_time);
   }
 
+  TestFolder folder_{"unreal"};
   std::string name_;
   std::unique_ptr<EngineConsumer> house_;
 };
@@ -198,6 +226,69 @@ TEST_F(UnrealBinding, LiveLinkHasASubjectOfEachDancerWhileItIsThere) {
   client.added->RequestSourceShutdown();
   module->ShutdownModule();
   IModularFeatures::Get().client = nullptr;
+}
+
+TEST_F(UnrealBinding, TheLibraryOfThePluginsFolderIsTakenAndElseTheSystems) {
+  const auto is_there = [&] {
+    return FDanceLiveLinkSource(FString(name_.c_str())).IsSourceStillValid();
+  };
+  EXPECT_TRUE(is_there()) << "in the plug-in's folder";
+  const std::string file =
+      folder_.path("DanceGraph/Source/DanceGraph/ThirdParty/libdance_adapter.so.1");
+  std::filesystem::remove(file);
+  std::ofstream(file) << "no library";
+  EXPECT_FALSE(is_there()) << "the plug-in's is taken, not the system's";
+  std::filesystem::remove(file);
+  // What this process has loaded is found by its name with a version: as of the package, which has
+  // no other.
+  const dancegraph::Library loaded(DANCE_ADAPTER_FILE);
+  EXPECT_TRUE(is_there()) << "the plug-in has none";
+  IPluginManager::Get().plugin = nullptr;
+  EXPECT_TRUE(is_there()) << "no plug-in of that name";
+}
+
+TEST_F(UnrealBinding, ADancerThatStartsAgainIsRemovedOnceAndIsThereAtOnce) {
+  KeepingClient client;
+  FDanceLiveLinkSource source(FString(name_.c_str()));
+  source.ReceiveClient(&client, FGuid());
+  std::uint32_t sequence = 0;
+  constexpr int kRestarts = 20;
+  for (int restart = 0; restart <= kRestarts; ++restart) {
+    MonoTime now = mono_now();
+    // Between two reads of the source, mostly.
+    if (restart > 0) house_->on_second(now + EngineConsumer::kSilence + Duration::s(1));
+    const float height_m = restart % 2 == 0 ? 1.6f : 1.9f;
+    const int arm_mm = static_cast<int>(
+        std::lround(-1000.0f * average_skeleton(height_m).offset(Bone::kLeftUpperArm).x()));
+    stage("alice", ++sequence, height_m);
+    ASSERT_TRUE(wait_for([&] {
+      stage("alice", ++sequence, height_m);
+      const auto seen = client.subject("alice");
+      return client.removals() >= restart && seen.frames > 2 && seen.upper_arms_mm.count(arm_mm);
+    })) << restart;
+    EXPECT_EQ(client.removals(), restart);
+  }
+  source.RequestSourceShutdown();
+}
+
+TEST_F(UnrealBinding, TwoDancersKeepTheirOwnProportionsWhenTheWriterIsFaster) {
+  put_into_plugin(BUSY_ADAPTER_FILE);
+  KeepingClient client;
+  FDanceLiveLinkSource source(FString(name_.c_str()));
+  source.ReceiveClient(&client, FGuid());
+  std::uint32_t sequence = 0;
+  ASSERT_TRUE(wait_for([&] {
+    stage("alice", ++sequence, 1.5f);
+    stage("bob", sequence, 1.9f);
+    return client.subject("alice").frames > 30 && client.subject("bob").frames > 30;
+  }));
+  source.RequestSourceShutdown();
+  for (const auto& [guest, height_m] : {std::pair("alice", 1.5f), std::pair("bob", 1.9f)}) {
+    const float x_m = average_skeleton(height_m).offset(Bone::kLeftUpperArm).x();
+    EXPECT_EQ(client.subject(guest).upper_arms_mm,
+              std::set<int>{static_cast<int>(std::lround(-1000.0f * x_m))})
+        << guest;
+  }
 }
 
 }  // namespace

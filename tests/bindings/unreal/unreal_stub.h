@@ -12,6 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -195,6 +196,36 @@ class ILiveLinkClient {
   virtual void PushSubjectFrameData_AnyThread(const FLiveLinkSubjectKey& subject,
                                               FLiveLinkFrameDataStruct&& data) = 0;
   virtual void RemoveSubject_AnyThread(const FLiveLinkSubjectKey& subject) = 0;
+};
+
+// Plug-ins and files.
+struct FPaths {
+  static FString Combine(const FString& folder, const TCHAR* file) {
+    return FString((std::filesystem::path(*folder) / file).c_str());
+  }
+  static FString ConvertRelativePathToFull(const FString& path) {
+    return FString(std::filesystem::absolute(*path).c_str());
+  }
+  static bool FileExists(const FString& path) { return std::filesystem::exists(*path); }
+};
+class IPlugin {
+ public:
+  explicit IPlugin(FString base) : base_(std::move(base)) {}
+  const FString& GetBaseDir() const { return base_; }
+
+ private:
+  FString base_;
+};
+class IPluginManager {
+ public:
+  static IPluginManager& Get() {
+    static IPluginManager all;
+    return all;
+  }
+  TSharedPtr<IPlugin> FindPlugin(const TCHAR* name) const {
+    return std::string(name) == "DanceGraph" ? plugin : nullptr;
+  }
+  TSharedPtr<IPlugin> plugin;
 };
 
 // Modules and console commands: what the module's code is compiled against.

@@ -1,12 +1,10 @@
 #include <DanceLiveLinkSource.h>
 #include <HAL/PlatformProcess.h>
 #include <ILiveLinkClient.h>
+#include <Interfaces/IPluginManager.h>
+#include <Misc/Paths.h>
 #include <Roles/LiveLinkAnimationRole.h>
 #include <Roles/LiveLinkAnimationTypes.h>
-
-#ifndef DANCE_ADAPTER_PATH
-#define DANCE_ADAPTER_PATH nullptr
-#endif
 
 #define LOCTEXT_NAMESPACE "DanceGraph"
 
@@ -15,13 +13,22 @@ namespace {
 // Often enough that no pose of a house at 120 Hz waits long; reading costs microseconds.
 constexpr float kSecondsBetweenReads = 0.002f;
 
+// The library in the plug-in's folder, wherever project or game were put; "" where it is not there
+// and the system's is to be taken.
+FString LibraryOfPlugin() {
+  const TSharedPtr<IPlugin> Plugin = IPluginManager::Get().FindPlugin(TEXT("DanceGraph"));
+  if (!Plugin) return FString();
+  const FString Path = FPaths::ConvertRelativePathToFull(FPaths::Combine(
+      Plugin->GetBaseDir(), TEXT("Source/DanceGraph/ThirdParty/libdance_adapter.so.1")));
+  return FPaths::FileExists(Path) ? Path : FString();
+}
+
 }  // namespace
 
 FDanceLiveLinkSource::FDanceLiveLinkSource(const FString& InHouseName)
     : HouseName(InHouseName),
-      Library(DANCE_ADAPTER_PATH),
+      Library(TCHAR_TO_UTF8(*LibraryOfPlugin())),
       Adapter(Library, TCHAR_TO_UTF8(*InHouseName), DANCE_AXES_UNREAL),
-      Skeleton(dancegraph::make<dance_skeleton>()),
       Pose(dancegraph::make<dance_pose>()),
       bIsStopping(false) {}
 
@@ -82,15 +89,18 @@ void FDanceLiveLinkSource::PushDancers() {
 
 // Names, parents and proportions; again whenever they are new.
 bool FDanceLiveLinkSource::PushSkeleton(FDancer& Dancer, const dance_guest& Guest) {
+  if (Dancer.bIsKnown && Dancer.Generation != Guest.generation) {
+    RemoveSubject(Dancer);
+    Dancer.bIsHere = true;
+  }
+  // Where the writer was faster, the dancer keeps what it had.
+  dance_skeleton Skeleton = dancegraph::make<dance_skeleton>();
   if (Adapter.skeleton(Guest.slot, Skeleton) != DANCE_OK) return Dancer.bIsKnown;
-  const bool bIsSame = Dancer.bIsKnown && Dancer.Generation == Guest.generation &&
-                       Dancer.SkeletonVersion == Skeleton.version;
-  if (bIsSame) return true;
-  if (Dancer.bIsKnown && Dancer.Generation != Guest.generation) RemoveSubject(Dancer);
+  if (Dancer.bIsKnown && Dancer.Skeleton.version == Skeleton.version) return true;
   Dancer.Id = FString(UTF8_TO_TCHAR(Guest.id));
   Dancer.Subject = FName(*Dancer.Id);
   Dancer.Generation = Guest.generation;
-  Dancer.SkeletonVersion = Skeleton.version;
+  Dancer.Skeleton = Skeleton;
   FLiveLinkStaticDataStruct Static(FLiveLinkSkeletonStaticData::StaticStruct());
   FLiveLinkSkeletonStaticData& Data = *Static.Cast<FLiveLinkSkeletonStaticData>();
   for (uint32 Bone = 0; Bone < DANCE_BONES; ++Bone) {
@@ -111,7 +121,7 @@ void FDanceLiveLinkSource::PushPose(FDancer& Dancer, const dance_guest& Guest) {
   FLiveLinkAnimationFrameData& Data = *Frame.Cast<FLiveLinkAnimationFrameData>();
   for (uint32 Bone = 0; Bone < DANCE_BONES; ++Bone) {
     const float* Q = Pose.rotation[Bone];
-    const float* At = Bone == 0 ? Pose.hips_position : Skeleton.offset[Bone];
+    const float* At = Bone == 0 ? Pose.hips_position : Dancer.Skeleton.offset[Bone];
     Data.Transforms.Add(FTransform(FQuat(Q[0], Q[1], Q[2], Q[3]), FVector(At[0], At[1], At[2])));
   }
   // Live Link evaluates by the engine's clock: how old the pose is now, taken from it.

@@ -5,7 +5,7 @@
 //               are local: of each bone in its parent, of the hips on the stage.
 // Ownership:    its thread and its handle; the Live Link client outlives it.
 // Threads:      made and ended in the game thread; a thread of its own reads and pushes frames.
-// Failure:      without library or house there are no subjects; the status in the Live Link window
+// Failure:      without library (in the plug-in's folder, else the system's) or house no subjects; the status in the Live Link window
 //               says why.
 #pragma once
 
@@ -35,12 +35,12 @@ class FDanceLiveLinkSource : public ILiveLinkSource, public FRunnable {
   virtual void Stop() override;
 
  private:
-  // A subject that Live Link knows: which skeleton it has been given, and its newest pose.
+  // A subject that Live Link knows: the skeleton it has been given, and its newest pose.
   struct FDancer {
     FName Subject;
     FString Id;
     uint32 Generation = 0;
-    uint32 SkeletonVersion = 0;
+    dance_skeleton Skeleton{};
     uint32 Sequence = 0;
     bool bIsKnown = false;
     bool bIsHere = false;
@@ -55,7 +55,6 @@ class FDanceLiveLinkSource : public ILiveLinkSource, public FRunnable {
   dancegraph::Library Library;
   dancegraph::Adapter Adapter;
   dancegraph::GuestList Guests;
-  dance_skeleton Skeleton;
   dance_pose Pose;
   FDancer Dancers[DANCE_MAX_GUESTS];  // by slot
   ILiveLinkClient* Client = nullptr;
