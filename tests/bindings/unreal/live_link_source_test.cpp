@@ -266,6 +266,7 @@ TEST_F(UnrealBinding, ADancerThatStartsAgainIsRemovedOnceAndIsThereAtOnce) {
       const auto seen = client.subject("alice");
       return client.removals() >= restart && seen.frames > 2 && seen.upper_arms_mm.count(arm_mm);
     })) << restart;
+    EXPECT_GT(client.subject("alice").skeletons, 0) << "frames of a removed subject";
     EXPECT_EQ(client.removals(), restart);
   }
   source.RequestSourceShutdown();

@@ -6,6 +6,8 @@
 #include <Roles/LiveLinkAnimationRole.h>
 #include <Roles/LiveLinkAnimationTypes.h>
 
+#include <cstring>
+
 #define LOCTEXT_NAMESPACE "DanceGraph"
 
 namespace {
@@ -80,25 +82,24 @@ void FDanceLiveLinkSource::PushDancers() {
   Adapter.guests(Guests);
   for (const dance_guest& Guest : Guests) {
     FDancer& Dancer = Dancers[Guest.slot];
-    Dancer.bIsHere = true;
-    if (PushSkeleton(Dancer, Guest)) PushPose(Dancer, Guest);
+    Dancer.bIsHere =
+        Dancer.Generation == Guest.generation && std::strcmp(Dancer.Id, Guest.id) == 0;
   }
+  // Before others are pushed: who came back has another slot, but the same subject.
   for (FDancer& Dancer : Dancers)
     if (Dancer.bIsKnown && !Dancer.bIsHere) RemoveSubject(Dancer);
+  for (const dance_guest& Guest : Guests)
+    if (PushSkeleton(Dancers[Guest.slot], Guest)) PushPose(Dancers[Guest.slot], Guest);
 }
 
 // Names, parents and proportions; again whenever they are new.
 bool FDanceLiveLinkSource::PushSkeleton(FDancer& Dancer, const dance_guest& Guest) {
-  if (Dancer.bIsKnown && Dancer.Generation != Guest.generation) {
-    RemoveSubject(Dancer);
-    Dancer.bIsHere = true;
-  }
   // Where the writer was faster, the dancer keeps what it had.
   dance_skeleton Skeleton = dancegraph::make<dance_skeleton>();
   if (Adapter.skeleton(Guest.slot, Skeleton) != DANCE_OK) return Dancer.bIsKnown;
   if (Dancer.bIsKnown && Dancer.Skeleton.version == Skeleton.version) return true;
-  Dancer.Id = FString(UTF8_TO_TCHAR(Guest.id));
-  Dancer.Subject = FName(*Dancer.Id);
+  std::memcpy(Dancer.Id, Guest.id, sizeof(Dancer.Id));
+  Dancer.Subject = FName(UTF8_TO_TCHAR(Guest.id));
   Dancer.Generation = Guest.generation;
   Dancer.Skeleton = Skeleton;
   FLiveLinkStaticDataStruct Static(FLiveLinkSkeletonStaticData::StaticStruct());

@@ -38,7 +38,7 @@ class FDanceLiveLinkSource : public ILiveLinkSource, public FRunnable {
   // A subject that Live Link knows: the skeleton it has been given, and its newest pose.
   struct FDancer {
     FName Subject;
-    FString Id;
+    char Id[sizeof(dance_guest::id)] = "";
     uint32 Generation = 0;
     dance_skeleton Skeleton{};
     uint32 Sequence = 0;
