@@ -8,7 +8,7 @@ an armature of its own proportions, with a simple body. Meant for Blender 3.3 an
 Units/frames: Blender's: right-handed, +Z up, metres; a dancer in T-pose faces -Y.
 Ownership:    armatures that were made here are removed when their dancer leaves or live ends.
 Threads:      Blender's main thread, in a timer; reading never waits for the house.
-Failure:      no library: the panel says so. No house: nobody is there, until one comes.
+Failure:      no library, or an error while live: the panel says so. No house: nobody is there, until one comes.
 """
 
 import os
@@ -173,6 +173,8 @@ class Rig:
                 self.turn_of[bone] = 3
                 break
         self.order = self._parents_first()
+        # The user's, for release().
+        self.modes = {one.name: one.rotation_mode for one in self.order}
         for one in self.order:
             one.rotation_mode = "QUATERNION"
         self.rest = {one.name: one.bone.matrix_local.to_quaternion() for one in self.order}
@@ -182,6 +184,11 @@ class Rig:
         self.scale = 1.0
         self.t_pose = {}
         self.set_dancer(None)
+
+    def release(self):
+        """Gives the armature back: as it stands, with its bones' rotation modes as they were."""
+        for one in self.order:
+            one.rotation_mode = self.modes[one.name]
 
     def _parents_first(self):
         order = []
@@ -262,6 +269,7 @@ class Live:
             self.slot = slot
             self.rig = None
             self.is_made = False
+            self.has_own = False  # proportions; else those of an average adult
             self.proportions = None
             self.pose = da.Pose()
             self.is_shown = False
@@ -275,9 +283,10 @@ class Live:
         for name, guest in here.items():
             dancer = self.dancers.setdefault(name, self.Dancer(guest.slot))
             dancer.slot = guest.slot
+            dancer.has_own = bool(guest.has_skeleton)
             skeleton = self.adapter.skeleton(guest.slot, self.skeleton)
             proportions = bytes(skeleton.offset) + bytes(skeleton.tip) if skeleton else None
-            if proportions and proportions != dancer.proportions and guest.has_skeleton:
+            if proportions and proportions != dancer.proportions:
                 dancer.proportions = proportions
                 self._fit(name, dancer, skeleton)
             pose = (
@@ -286,19 +295,30 @@ class Live:
                 else self.adapter.at(guest.slot, seen_at, dancer.pose)
             )
             dancer.is_shown = bool(pose and dancer.rig)
-            if dancer.is_shown:
-                dancer.rig.show(pose)
+            try:
+                if dancer.is_shown:
+                    dancer.rig.show(pose)
+            except (ReferenceError, KeyError):
+                # The armature was deleted, or its bones were: the dancer gets another.
+                self._remove(dancer)
+                dancer.proportions = None
+                dancer.is_shown = False
         return len(here)
 
     def close(self):
-        for dancer in self.dancers.values():
-            self._remove(dancer)
-        self.dancers.clear()
-        self.adapter.close()
+        try:
+            for dancer in self.dancers.values():
+                self._remove(dancer)
+        finally:
+            self.dancers.clear()
+            self.adapter.close()
 
     def _fit(self, name, dancer, skeleton):
-        if dancer.rig is None and self.waiting:
-            dancer.rig = Rig(self.waiting.pop(0))
+        while dancer.rig is None and self.waiting:
+            try:
+                dancer.rig = Rig(self.waiting.pop(0))
+            except ReferenceError:
+                continue  # deleted since it was selected
         if dancer.rig is None or dancer.is_made:
             self._remove(dancer)
             armature = make_armature(f"dancer {name}", skeleton, bpy.context.scene.collection)
@@ -309,23 +329,37 @@ class Live:
         dancer.rig.set_dancer(skeleton)
 
     def _remove(self, dancer):
-        if dancer.rig is not None and dancer.is_made:
-            for child in dancer.rig.armature.children:
-                bpy.data.objects.remove(child)
-            bpy.data.objects.remove(dancer.rig.armature)
-        elif dancer.rig is not None:
-            self.waiting.append(dancer.rig.armature)
-        dancer.rig = None
+        rig, dancer.rig = dancer.rig, None
+        try:
+            if rig is not None and dancer.is_made:
+                for child in rig.armature.children:
+                    bpy.data.objects.remove(child)
+                bpy.data.objects.remove(rig.armature)
+            elif rig is not None:
+                rig.release()
+                self.waiting.append(rig.armature)
+        except (ReferenceError, KeyError):
+            pass  # somebody deleted it
+        dancer.is_made = False
 
 
 _live = None
+_problem = ""  # why live ended by itself; shown in the panel
 _PERIOD_S = 1 / 60
 
 
 def _tick():
+    global _live, _problem
     if _live is None:
         return None
-    _live.update()
+    try:
+        _live.update()
+    except Exception as error:  # an error that leaves a timer ends it, and nobody would say so
+        _problem = str(error) or type(error).__name__
+        print(f"DanceGraph: live ended: {_problem}", file=sys.stderr)
+        ended, _live = _live, None
+        ended.close()
+        return None
     return _PERIOD_S
 
 
@@ -335,10 +369,11 @@ class DANCE_OT_live(bpy.types.Operator):
     bl_description = "Shows the dancers of the house; a selected armature is driven by the first of them"
 
     def execute(self, context):
-        global _live
+        global _live, _problem
+        _problem = ""
         if _live is not None:
-            _live.close()
-            _live = None
+            ended, _live = _live, None
+            ended.close()
             return {"FINISHED"}
         try:
             chosen = [one for one in context.selected_objects if one.type == "ARMATURE"]
@@ -363,6 +398,8 @@ class DANCE_PT_panel(bpy.types.Panel):
         if _live is not None:
             count = len(_live.dancers)
             column.label(text=f"{count} dance" if count else _live.adapter.status_text())
+        elif _problem:
+            column.label(text=_problem, icon="ERROR")
 
 
 _CLASSES = (DANCE_OT_live, DANCE_PT_panel)

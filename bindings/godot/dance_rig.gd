@@ -20,6 +20,7 @@ const MIXAMO = [
 var skeleton = null
 var _bone_of = []  # index in the Skeleton of each of BONES, or -1
 var _dancer_bone_of = {}  # and back
+var _order = []  # indices of the Skeleton's bones, parents first
 var _rest = []  # global rests
 var _t_pose = []
 var _turn_of = []
@@ -33,10 +34,15 @@ func setup(of_skeleton, names = {}):
 	_bone_of.clear()
 	_dancer_bone_of.clear()
 	_rest.clear()
-	for i in range(skeleton.get_bone_count()):
+	_turn_of.clear()
+	_order = _parents_first()
+	_rest.resize(skeleton.get_bone_count())
+	if _order.size() != skeleton.get_bone_count():
+		return false
+	for i in _order:
 		var parent = skeleton.get_bone_parent(i)
 		var rest = skeleton.get_bone_rest(i)
-		_rest.append(rest if parent < 0 else _rest[parent] * rest)
+		_rest[i] = rest if parent < 0 else _rest[parent] * rest
 	for bone in range(Adapter.BONES.size()):
 		var found = _find(bone, names)
 		_bone_of.append(found)
@@ -66,18 +72,18 @@ func show(pose):
 	for bone in range(Adapter.BONES.size()):
 		var parent = Adapter.PARENTS[bone]
 		turns.append(pose.rotations[bone] if parent < 0 else turns[parent] * pose.rotations[bone])
-	# Parents come before their children in a Skeleton.
 	var world = []
-	for i in range(skeleton.get_bone_count()):
+	world.resize(_order.size())
+	for i in _order:
 		var parent = skeleton.get_bone_parent(i)
 		var above = Quat() if parent < 0 else world[parent]
 		var rest = skeleton.get_bone_rest(i)
 		var lies = above * rest.basis.get_rotation_quat()
 		if not _dancer_bone_of.has(i):
-			world.append(lies)
+			world[i] = lies
 			continue
 		var bone = _dancer_bone_of[i]
-		world.append((turns[_turn_of[bone]] * _t_pose[i]).normalized())
+		world[i] = (turns[_turn_of[bone]] * _t_pose[i]).normalized()
 		var local = (lies.inverse() * world[i]).normalized()
 		var moved = Vector3()
 		if bone == 0:
@@ -90,9 +96,10 @@ func show(pose):
 
 # How each bone lies when the rig stands in the dancer's T-pose.
 func _straighten(dancer_skeleton):
-	_t_pose.clear()
+	_t_pose.resize(_order.size())
 	var carries = []
-	for i in range(skeleton.get_bone_count()):
+	carries.resize(_order.size())
+	for i in _order:
 		var parent = skeleton.get_bone_parent(i)
 		var bone = _dancer_bone_of.get(i, -1)
 		var carry = Quat() if parent < 0 or bone in FEET else carries[parent]
@@ -100,8 +107,8 @@ func _straighten(dancer_skeleton):
 			if limb[0] == bone and _bone_of[limb[1]] >= 0:
 				var lies = carry.xform(_rest[_bone_of[limb[1]]].origin - _rest[i].origin)
 				carry = _between(lies, _direction(limb, dancer_skeleton)) * carry
-		carries.append(carry)
-		_t_pose.append((carry * _rest[i].basis.get_rotation_quat()).normalized())
+		carries[i] = carry
+		_t_pose[i] = (carry * _rest[i].basis.get_rotation_quat()).normalized()
 
 
 static func _direction(limb, dancer_skeleton):
@@ -120,6 +127,21 @@ static func _between(from, to):
 		return Quat()
 	var axis = a.cross(b)
 	return Quat(axis.x, axis.y, axis.z, 1.0 + cosine).normalized()
+
+
+# A Skeleton's bones may come in any order.
+func _parents_first():
+	var order = []
+	var is_in = {-1: true}
+	while order.size() < skeleton.get_bone_count():
+		var before = order.size()
+		for i in range(skeleton.get_bone_count()):
+			if not is_in.has(i) and is_in.has(skeleton.get_bone_parent(i)):
+				is_in[i] = true
+				order.append(i)
+		if order.size() == before:
+			break  # a bone is above itself
+	return order
 
 
 func _find(bone, names):

@@ -34,24 +34,26 @@ class Figure:
 	var pose = null
 
 
-func _ready():
+# Also when it is put into the tree again, which _ready() does not hear of.
+func _enter_tree():
 	# After whatever else moves in this frame.
 	process_priority = 1000
-	if not adapter.open(house_name):
-		set_process(false)
+	set_process(adapter.open(house_name))
 
 
 func _exit_tree():
+	set_process(false)
+	for id in figures.keys():
+		_remove(id)
 	adapter.close()
 
 
 func _process(_delta):
 	var here = adapter.guests()
 	for id in figures.keys():
-		if not here.has(id) or here[id].slot != figures[id].slot:
-			figures[id].node.queue_free()
-			figures.erase(id)
-			emit_signal("guest_left", id)
+		var figure = figures[id]
+		if not here.has(id) or here[id].slot != figure.slot or not is_instance_valid(figure.node):
+			_remove(id)
 	var seen_at = 0
 	if display_lead_ms >= 0.0:
 		seen_at = adapter.now_ns() + int(display_lead_ms * 1000000.0)
@@ -63,6 +65,13 @@ func _process(_delta):
 			figures[id] = made
 			emit_signal("guest_came", id, made.node)
 		_show(figures[id], seen_at)
+
+
+func _remove(id):
+	if is_instance_valid(figures[id].node):
+		figures[id].node.queue_free()
+	figures.erase(id)
+	emit_signal("guest_left", id)
 
 
 func _make(id, slot):

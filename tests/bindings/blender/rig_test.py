@@ -82,4 +82,66 @@ for lowered, missing in ((0.0, ()), (0.8, ()), (0.8, ("upperChest",)), (0.6, ("l
     furthest = furthest_of(lowered, missing)
     print(f"arms lowered by {lowered}, without {list(missing)}: furthest {1000 * furthest:.4f} mm")
     failures += not furthest < 1e-4 or math.isnan(furthest)
+
+
+class Guest:
+    """As the adapter lists one whose own proportions have not come."""
+
+    name, slot, has_skeleton = "alice", 0, 0
+
+
+class House:
+    """The reads of an adapter, answered without a house."""
+
+    problem = None
+
+    def guests(self):
+        if self.problem:
+            raise self.problem
+        return [Guest]
+
+    def skeleton(self, _slot, _into):
+        return skeleton_of(0.0)
+
+    def at(self, _slot, _time_ns, _into):
+        return random_pose()
+
+    def close(self):
+        pass
+
+
+def expect(holds, what):
+    global failures
+    failures += not holds
+    print("passed:" if holds else "FAILED:", what)
+
+
+def live_of(armatures):
+    live = dance_live.Live("no-house-here", armatures)
+    live.adapter.close()
+    live.adapter = House()
+    return live
+
+
+bpy.ops.wm.read_factory_settings(use_empty=True)
+live = live_of(())
+live.update()
+dancer = live.dancers["alice"]
+expect(dancer.is_shown, "a dancer without proportions of its own gets an armature of average ones")
+bpy.data.objects.remove(dancer.rig.armature)
+dance_live._live = live
+dance_live._tick()
+expect(dance_live._tick() is not None and dancer.is_shown, "an armature that was deleted is made again")
+House.problem = RuntimeError("the house burns")
+expect(dance_live._tick() is None and dance_live._live is None, "an error ends live")
+expect(dance_live._problem == "the house burns", "and the panel says which")
+House.problem = None
+mine = dance_live.make_armature("mine", skeleton_of(0.5), bpy.context.scene.collection)
+for one in mine.pose.bones:
+    one.rotation_mode = "XYZ"
+live = live_of([mine])
+live.update()
+expect(mine.pose.bones[0].rotation_mode == "QUATERNION", "a selected armature is driven")
+live.close()
+expect(all(one.rotation_mode == "XYZ" for one in mine.pose.bones), "and has its rotation modes again at the end")
 print("passed" if failures == 0 else "FAILED")

@@ -17,6 +17,7 @@ func expect(holds, what):
 func _init():
 	misuse()
 	rigs()
+	stage()
 	print("passed" if failures == 0 else "FAILED")
 	quit()
 
@@ -66,8 +67,20 @@ func misuse():
 	adapter.close()
 
 
+# A stage that is taken out of the tree and put in again reads again.
+func stage():
+	var made = load("res://dance_stage.gd").new()
+	made.house_name = "no-house-here"
+	for _i in range(2):
+		root.add_child(made)
+		expect(made.adapter.state() == Adapter.NO_HOUSE and made.is_processing(), "in the tree it reads")
+		root.remove_child(made)
+		expect(made.adapter._native == null and not made.is_processing(), "out of it not")
+	made.free()
+
+
 # The rig of a dancer's size with names as Mixamo writes them, arms lowered, bones lying any way.
-func rig_of(offsets, missing):
+func rig_of(offsets, missing, children_first):
 	var skeleton = Skeleton.new()
 	root.add_child(skeleton)
 	var stances = []
@@ -90,7 +103,25 @@ func rig_of(offsets, missing):
 		if parent >= 0:
 			skeleton.set_bone_parent(index_of[bone], index_of[parent])
 		skeleton.set_bone_rest(index_of[bone], rests[bone] if parent < 0 else rests[parent].affine_inverse() * rests[bone])
-	return [skeleton, index_of]
+	return reversed(skeleton, index_of) if children_first else [skeleton, index_of]
+
+
+# The same rig with each bone before its parent.
+func reversed(skeleton, index_of):
+	var count = skeleton.get_bone_count()
+	var made = Skeleton.new()
+	root.add_child(made)
+	for i in range(count):
+		made.add_bone(skeleton.get_bone_name(count - 1 - i))
+		made.set_bone_rest(i, skeleton.get_bone_rest(count - 1 - i))
+	for i in range(count):
+		var parent = skeleton.get_bone_parent(count - 1 - i)
+		if parent >= 0:
+			made.set_bone_parent(i, count - 1 - parent)
+	var index = []
+	for i in index_of:
+		index.append(count - 1 - i)
+	return [made, index]
 
 
 func rigs():
@@ -105,9 +136,11 @@ func rigs():
 			"upperleg": Vector3(0.09 * left, -0.05, 0), "lowerleg": Vector3(0, -0.42, 0), "foot": Vector3(0, -0.4, 0),
 			"toes": Vector3(0, -0.06, 0.14),
 		}.get(part, Vector3(0, 0.12, 0)))
-	for missing in [[], [3], [2, 3], [2, 3, 4, 6, 10, 17, 21]]:
-		var made = rig_of(dancer.offsets, missing)
+	for kind in [[[], false], [[3], false], [[2, 3], false], [[2, 3, 4, 6, 10, 17, 21], false], [[3], true]]:
+		var missing = kind[0]
+		var made = rig_of(dancer.offsets, missing, kind[1])
 		var rig = Rig.new()
+		rig.setup(rig_of(dancer.offsets, [2, 3], false)[0])  # another one before
 		expect(rig.setup(made[0]), "the names of Mixamo are known")
 		rig.set_dancer(dancer)
 		for _i in range(20):

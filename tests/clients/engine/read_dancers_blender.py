@@ -19,7 +19,7 @@ while turn < end:
     live.update()
     bpy.context.view_layer.update()
     for guest, dancer in live.dancers.items():
-        if not dancer.is_shown or last.get(guest) == dancer.pose.sequence:
+        if not dancer.is_shown or not dancer.has_own or last.get(guest) == dancer.pose.sequence:
             continue
         last[guest] = dancer.pose.sequence
         armature = dancer.rig.armature.evaluated_get(bpy.context.evaluated_depsgraph_get())

@@ -82,8 +82,7 @@ void FDanceLiveLinkSource::PushDancers() {
   Adapter.guests(Guests);
   for (const dance_guest& Guest : Guests) {
     FDancer& Dancer = Dancers[Guest.slot];
-    Dancer.bIsHere =
-        Dancer.Generation == Guest.generation && std::strcmp(Dancer.Id, Guest.id) == 0;
+    Dancer.bIsHere = Dancer.Generation == Guest.generation && std::strcmp(Dancer.Id, Guest.id) == 0;
   }
   // Before others are pushed: who came back has another slot, but the same subject.
   for (FDancer& Dancer : Dancers)

@@ -5,8 +5,8 @@
 //               are local: of each bone in its parent, of the hips on the stage.
 // Ownership:    its thread and its handle; the Live Link client outlives it.
 // Threads:      made and ended in the game thread; a thread of its own reads and pushes frames.
-// Failure:      without library (in the plug-in's folder, else the system's) or house no subjects; the status in the Live Link window
-//               says why.
+// Failure:      without library (in the plug-in's folder, else the system's) or house there are no
+//               subjects; the status in the Live Link window says why.
 #pragma once
 
 #include <CoreMinimal.h>
