@@ -139,9 +139,11 @@ TEST_F(EngineHouse, ACallThatIsOvertakenEveryTimeSaysSoAndIsCounted) {
   void* memory = mmap(nullptr, sizeof(engine::Segment), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
   close(fd);
   ASSERT_NE(memory, MAP_FAILED);
-  for (auto& entry : static_cast<engine::Segment*>(memory)->guests[slot].poses.entries)
-    entry.version |= 1;
-  munmap(memory, sizeof(engine::Segment));
+  const auto stand_still = [&](std::uint32_t writing) {
+    for (auto& entry : static_cast<engine::Segment*>(memory)->guests[writing].poses.entries)
+      entry.version |= 1;
+  };
+  stand_still(slot);
   auto pose = of_size<dance_pose>();
   EXPECT_EQ(dance_adapter_at(adapter_, slot, now.since_zero_ns(), &pose), DANCE_BUSY);
   EXPECT_EQ(dance_adapter_at(adapter_, slot, (now - Duration::ms(15)).since_zero_ns(), &pose),
@@ -150,6 +152,17 @@ TEST_F(EngineHouse, ACallThatIsOvertakenEveryTimeSaysSoAndIsCounted) {
   auto counters = of_size<dance_counters>();
   ASSERT_EQ(dance_adapter_counters(adapter_, &counters), DANCE_OK);
   EXPECT_EQ(counters.busy, 3u);
+  // One that is answered from what the reader had read before is not counted.
+  show(kBob, Pose(), now - Duration::ms(20), now - Duration::ms(20));
+  show(kBob, Pose(), now - Duration::ms(10), now - Duration::ms(10));
+  const std::uint32_t other = slot_of("bob");
+  const std::int64_t between_ns = (now - Duration::ms(15)).since_zero_ns();
+  EXPECT_EQ(dance_adapter_at(adapter_, other, between_ns, &pose), DANCE_OK);
+  stand_still(other);
+  EXPECT_EQ(dance_adapter_at(adapter_, other, between_ns, &pose), DANCE_OK);
+  ASSERT_EQ(dance_adapter_counters(adapter_, &counters), DANCE_OK);
+  EXPECT_EQ(counters.busy, 3u);
+  munmap(memory, sizeof(engine::Segment));
 }
 
 TEST_F(EngineHouse, AnEngineGetsProportionsHandsAndWhoIsThere) {
