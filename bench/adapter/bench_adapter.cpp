@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "bench/adapter/stage_eye.h"
 #include "consumers/engine/engine_consumer.h"
@@ -31,6 +32,9 @@ constexpr Duration kWarmUp = Duration::s(1);
 constexpr double kUsedAt = 0.6;
 // Between that and the display, as OpenXR's predicted display time has it.
 constexpr Duration kToDisplay = Duration::ms(11);
+
+// A reader that did not run for so long, and was put aside for other work meanwhile.
+constexpr Duration kPutAside = Duration::us(200);
 
 void sleep_until(MonoTime t) {
   timespec at{};
@@ -134,20 +138,21 @@ Result<void> BenchAdapter::wait_until_seen(StageEye& eye) {
 void BenchAdapter::spin(StageEye& eye, Duration span, Spin& spun) {
   std::array<std::int64_t, DANCE_MAX_GUESTS> staged{};
   long put_aside = times_put_aside();
-  MonoTime resumed;
+  MonoTime looked = mono_now(), resumed;
   for (const MonoTime end = mono_now() + span; mono_now() < end;)
     for (std::size_t i = 0; i < eye.count(); ++i) {
-      if (eye.newest(i) != DANCE_OK || eye.pose(i).staged_ns == staged[i]) continue;
-      const std::int64_t now_ns = mono_now().since_zero_ns();
+      const bool is_read = eye.newest(i) == DANCE_OK;
+      const MonoTime now = mono_now();
+      if (now - std::exchange(looked, now) > kPutAside)
+        if (const long times = times_put_aside(); times != std::exchange(put_aside, times))
+          resumed = now;
+      if (!is_read || eye.pose(i).staged_ns == staged[i]) continue;
+      const std::int64_t now_ns = now.since_zero_ns();
       const bool is_first = staged[i] == 0;
       staged[i] = eye.pose(i).staged_ns;
       if (is_first) continue;
       spun.staged.push_back(Duration::ns(now_ns - staged[i]));
       spun.captured.push_back(Duration::ns(now_ns - eye.pose(i).capture_ns));
-      if (const long times = times_put_aside(); times != put_aside) {
-        put_aside = times;
-        resumed = MonoTime::from_ns(now_ns);
-      }
       if (staged[i] > resumed.since_zero_ns()) spun.on_processor.push_back(spun.staged.back());
     }
 }
