@@ -1,5 +1,6 @@
 #include "bench/adapter/bench_adapter.h"
 
+#include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "bench/adapter/stage_eye.h"
 #include "consumers/engine/engine_consumer.h"
@@ -31,6 +33,9 @@ constexpr double kUsedAt = 0.6;
 // Between that and the display, as OpenXR's predicted display time has it.
 constexpr Duration kToDisplay = Duration::ms(11);
 
+// A reader that did not run for so long, and was put aside for other work meanwhile.
+constexpr Duration kPutAside = Duration::us(200);
+
 void sleep_until(MonoTime t) {
   timespec at{};
   at.tv_sec = t.since_zero_ns() / 1'000'000'000;
@@ -40,6 +45,13 @@ void sleep_until(MonoTime t) {
 }
 
 GuestId guest_name(std::size_t i) { return *GuestId::parse("guest-" + std::to_string(i)); }
+
+// How often this thread was put aside for other work.
+long times_put_aside() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nivcsw;
+}
 
 class BenchAdapter {
  public:
@@ -53,7 +65,7 @@ class BenchAdapter {
   Result<void> start(const std::string& name, const std::string& program,
                      const std::vector<std::string>& arguments);
   Result<void> wait_until_seen(StageEye& eye);
-  void spin(StageEye& eye, Duration span);
+  void spin(StageEye& eye, Duration span, Spin& spun);
   void run_frames(StageEye& eye, double hz);
   void read_once(StageEye& eye, MonoTime display, FrameLoop& loop);
   void spin_on_memory();
@@ -123,29 +135,36 @@ Result<void> BenchAdapter::wait_until_seen(StageEye& eye) {
 }
 
 // A reader that does nothing but wait for the next pose of each dancer.
-void BenchAdapter::spin(StageEye& eye, Duration span) {
+void BenchAdapter::spin(StageEye& eye, Duration span, Spin& spun) {
   std::array<std::int64_t, DANCE_MAX_GUESTS> staged{};
+  long put_aside = times_put_aside();
+  MonoTime looked = mono_now(), resumed;
   for (const MonoTime end = mono_now() + span; mono_now() < end;)
     for (std::size_t i = 0; i < eye.count(); ++i) {
-      if (eye.newest(i) != DANCE_OK || eye.pose(i).staged_ns == staged[i]) continue;
-      const std::int64_t now_ns = mono_now().since_zero_ns();
+      const bool is_read = eye.newest(i) == DANCE_OK;
+      const MonoTime now = mono_now();
+      if (now - std::exchange(looked, now) > kPutAside)
+        if (const long times = times_put_aside(); times != std::exchange(put_aside, times))
+          resumed = now;
+      if (!is_read || eye.pose(i).staged_ns == staged[i]) continue;
+      const std::int64_t now_ns = now.since_zero_ns();
       const bool is_first = staged[i] == 0;
       staged[i] = eye.pose(i).staged_ns;
       if (is_first) continue;
-      result_.staged_to_read.push_back(Duration::ns(now_ns - staged[i]));
-      result_.capture_to_read.push_back(Duration::ns(now_ns - eye.pose(i).capture_ns));
+      spun.staged.push_back(Duration::ns(now_ns - staged[i]));
+      spun.captured.push_back(Duration::ns(now_ns - eye.pose(i).capture_ns));
+      if (staged[i] > resumed.since_zero_ns()) spun.on_processor.push_back(spun.staged.back());
     }
 }
 
 void BenchAdapter::read_once(StageEye& eye, MonoTime display, FrameLoop& loop) {
   static std::array<unsigned char, DANCE_MAX_GUESTS * sizeof(dance_pose)> copy;
-  const MonoTime begin = mono_now();
-  eye.read_at(display);
-  const MonoTime read = mono_now();
-  loop.read_at.push_back(read - begin);
-  const MonoTime again = mono_now();
-  eye.read_at(display);
-  loop.read_again.push_back(mono_now() - again);
+  for (Durations* taken : {&loop.read_at, &loop.read_again})
+    result_.watch([&] {
+      const MonoTime begin = mono_now();
+      eye.read_at(display);
+      taken->push_back(mono_now() - begin);
+    });
   eye.read_newest();
   eye.check();
   const MonoTime copying = mono_now();
@@ -166,8 +185,11 @@ void BenchAdapter::run_frames(StageEye& eye, double hz) {
     const MonoTime begin = mono_now();
     const MonoTime used = frames.deadline() + Duration::seconds(kUsedAt / hz);
     // Early: what it has when the frame begins.
-    eye.read_newest();
-    loop.read_newest.push_back(mono_now() - begin);
+    result_.watch([&] {
+      const MonoTime reading = mono_now();
+      eye.read_newest();
+      loop.read_newest.push_back(mono_now() - reading);
+    });
     for (std::size_t i = 0; i < eye.count(); ++i)
       early[i] = MonoTime::from_ns(eye.pose(i).capture_ns);
     const MonoTime draining = mono_now();
@@ -187,7 +209,8 @@ void BenchAdapter::run_frames(StageEye& eye, double hz) {
   }
 }
 
-// From the writer's call to a reader that spins: the memory alone, without a bus.
+// From the writer's call to a reader that spins: the memory alone, without a bus or any other
+// program of this benchmark, so that each has a processor where there are two.
 void BenchAdapter::spin_on_memory() {
   const std::string name = name_ + "m";
   auto consumer = EngineConsumer::open(name, 0.0, this_clock_id(), mono_now());
@@ -207,23 +230,16 @@ void BenchAdapter::spin_on_memory() {
     }
   });
   StageEye eye(name);
-  Durations kept_staged = std::move(result_.staged_to_read);
-  Durations kept_capture = std::move(result_.capture_to_read);
-  result_.staged_to_read.clear();
-  result_.capture_to_read.clear();
-  if (wait_until_seen(eye)) spin(eye, Duration::seconds(options_.seconds));
+  if (wait_until_seen(eye)) spin(eye, Duration::seconds(options_.seconds), result_.memory);
   is_over = true;
   writer.join();
-  result_.memory_to_read = std::move(result_.staged_to_read);
-  result_.staged_to_read = std::move(kept_staged);
-  result_.capture_to_read = std::move(kept_capture);
   count(eye);
 }
 
 void BenchAdapter::count(const StageEye& eye) {
   const dance_counters counters = eye.counters();
   result_.reads += counters.reads;
-  result_.blocked += counters.busy;
+  result_.gave_up += counters.busy;
   result_.torn += eye.torn() + counters.damaged;
 }
 
@@ -232,7 +248,7 @@ Result<BenchAdapterResult> BenchAdapter::run() {
   if (auto seen = wait_until_seen(eye); !seen) return tl::make_unexpected(seen.error());
   sleep_until(mono_now() + kWarmUp);
   for (const double hz : {60.0, 72.0, 90.0}) run_frames(eye, hz);
-  spin(eye, Duration::seconds(options_.seconds));
+  spin(eye, Duration::seconds(options_.seconds), result_.house);
   count(eye);
   // The same dancers, as another program hears them over the bus.
   DANCE_TRY(const auto poller, Poller::create());
@@ -244,6 +260,7 @@ Result<BenchAdapterResult> BenchAdapter::run() {
   poller->unwatch(bus_->fd());
   for (auto& [name, child] : children_) child.stop(Duration::s(2));
   children_.clear();
+  bus_.reset();  // and its thread
   spin_on_memory();
   return std::move(result_);
 }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/adapter/read_watch.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
 
@@ -41,15 +42,22 @@ struct FrameLoop {
   Durations age_other_early;  // the same from the hop of LCM
 };
 
+// Of a reader that spins: how old a pose is when it is seen.
+struct Spin {
+  Durations staged;
+  Durations captured;
+  Durations on_processor;  // of `staged`: those during which the reader was not put aside
+};
+
 struct BenchAdapterResult {
-  Durations memory_to_read;  // from the write to a reader that spins
-  Durations staged_to_read;  // from the stage of the house
-  Durations capture_to_read;
+  Spin memory;               // from the write, with nothing else running
+  Spin house;                // from the stage of the house, another process, with all running
   Durations capture_to_lcm;  // heard by another program over a further hop of LCM
   std::vector<FrameLoop> loops;
   std::uint64_t reads = 0;
   std::uint64_t torn = 0;
-  std::uint64_t blocked = 0;  // calls that gave up
+  std::uint64_t gave_up = 0;  // calls that were answered with DANCE_BUSY
+  ReadWatch watch;            // of the frame loops' reads, each of all dancers
 };
 
 // `own_program` is this program's path: it serves as the dancers too.

@@ -17,6 +17,13 @@ constexpr const char* kExamples = R"(Examples:
   dance bench adapter --guests 30 --hz 90 --seconds 5 --json
 A house with [[listen]] to = "engine" runs beside it; engines at 60, 72 and 90 Hz read it through
 libdance_adapter.so. On a machine without a multicast route over lo all runs in a private network.
+publish_to_read is measured by itself: one thread writes poses, another waits for them, and nothing
+else of this runs. house_to_read is the same from the house's stage, while everything runs.
+Both …_on_processor leave out what was written while the machine had put the reader aside for more
+than 0.2 ms.
+blocked counts an engine's reads of all dancers that waited for anything (the kernel's count of
+voluntary context switches of the thread) or used a processor for more than 50 ms; gave_up counts
+calls that were answered with DANCE_BUSY.
 )";
 
 struct Options {

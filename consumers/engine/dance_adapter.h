@@ -91,8 +91,11 @@ typedef struct dance_pose {
   float confidence;   // 0..1
   float hips_position[3];
   float rotation[DANCE_BONES][4];  // x, y, z, w in the parent
-  int64_t capture_ns;              // when the motion was captured, in this machine's clock
-  int64_t staged_ns;               // when the pose came onto this house's stage
+  // When the motion was captured, in this machine's clock; the stage's time where the pose has the
+  // times of another clock. Predicted: as far after the newest as staged_ns.
+  int64_t capture_ns;
+  // When the pose came onto this house's stage; of a predicted one mostly in the future.
+  int64_t staged_ns;
   int64_t time_ns;      // the stage's time that it shows: staged_ns, or the one asked for
   double music_beats;   // where the dancer's music stood; NaN without
   uint32_t generation;  // of the slot: another number is another dancer

@@ -63,6 +63,14 @@ void EngineConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime no
   const MonoTime shown =
       is_ours && pose.stamped(Hop::kStaged).is_set() ? pose.stamped(Hop::kStaged) : now;
   const Duration behind = shown - pose.capture_time;
+  if (!engine::is_time(shown.since_zero_ns()) ||
+      (is_ours && std::abs(behind.count_ns()) > engine::kLongestLag_ns)) {
+    ++counters_.invalid;
+    return;
+  }
+  // Captured well before the last one: another dance, or the recording from its begin.
+  if (dancer.captured - pose.capture_time > kAnotherDance) dancer.lag = StageLag();
+  dancer.captured = pose.capture_time;
   const std::int64_t lag_ns = dancer.lag.add(behind, shown).count_ns();
   engine::StoredPose stored{};
   for (std::size_t b = 0; b < kBoneCount; ++b) store(pose.R_PB[b], stored.rotation_xyzw[b]);

@@ -29,6 +29,8 @@ class EngineConsumer final : public PoseConsumer {
   static constexpr const char* kUsualName = "stage";
   // A dancer without a pose for so long has left.
   static constexpr Duration kSilence = Duration::s(5);
+  // A capture time that goes back further is not that of a pose which was overtaken.
+  static constexpr Duration kAnotherDance = Duration::ms(500);
 
   struct Counters {
     std::uint64_t poses = 0;
@@ -55,6 +57,7 @@ class EngineConsumer final : public PoseConsumer {
     GuestId guest;  // not set: the slot is free
     MonoTime heard;
     bool is_shown = false;
+    MonoTime captured;  // the last
     StageLag lag;
     std::int64_t lag_ns = 0;
     std::uint32_t skeleton_version = 0;

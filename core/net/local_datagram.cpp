@@ -35,17 +35,20 @@ Result<std::unique_ptr<LocalDatagramSocket>> LocalDatagramSocket::bind(const std
   }
   // Left behind by a killed program; a file of another kind is not removed.
   if (error == ECONNREFUSED && is_socket(path)) ::unlink(path.c_str());
+  struct stat made {};
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::chmod(path.c_str(), 0600) != 0) {
+      ::chmod(path.c_str(), 0600) != 0 || ::lstat(path.c_str(), &made) != 0) {
     auto failure = fail("socket " + path + " cannot be had: " + errno_text(errno));
     ::close(fd);
     return failure;
   }
-  return std::unique_ptr<LocalDatagramSocket>(new LocalDatagramSocket(fd, path));
+  return std::unique_ptr<LocalDatagramSocket>(new LocalDatagramSocket(fd, path, made));
 }
 
 LocalDatagramSocket::~LocalDatagramSocket() {
-  ::unlink(path_.c_str());
+  struct stat found {};
+  if (::lstat(path_.c_str(), &found) == 0 && found.st_ino == inode_ && found.st_dev == device_)
+    ::unlink(path_.c_str());
   ::close(fd_);
 }
 

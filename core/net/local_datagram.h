@@ -9,6 +9,7 @@
 //               times a second.
 #pragma once
 
+#include <sys/stat.h>
 #include <sys/un.h>
 
 #include <cstddef>
@@ -36,9 +37,13 @@ class LocalDatagramSocket {
   std::ptrdiff_t receive(std::span<std::uint8_t> buffer);
 
  private:
-  LocalDatagramSocket(int fd, std::string path) : fd_(fd), path_(std::move(path)) {}
+  LocalDatagramSocket(int fd, std::string path, const struct stat& made)
+      : fd_(fd), path_(std::move(path)), device_(made.st_dev), inode_(made.st_ino) {}
   int fd_;
   std::string path_;
+  // Of the socket file: another program may have removed it and made its own.
+  dev_t device_;
+  ino_t inode_;
 };
 
 class LocalDatagramSender {

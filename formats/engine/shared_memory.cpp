@@ -49,9 +49,27 @@ bool is_ours(const struct stat& found) {
   return S_ISREG(found.st_mode) && found.st_uid == ::geteuid();
 }
 
+// /dev/shm is everybody's: what another user put there under our name may be a FIFO, whose opening
+// would wait for its other end.
+Descriptor open_memory(const MemoryName& name, int flags) {
+  return Descriptor(::shm_open(name.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0600));
+}
+
+// 0, or why not.
+int lock_at_once(int fd) {
+  while (::flock(fd, LOCK_EX | LOCK_NB) != 0)
+    if (errno != EINTR) return errno;
+  return 0;
+}
+
+int reserve(int fd) {
+  for (;;)
+    if (const int error = ::posix_fallocate(fd, 0, kBytes); error != EINTR) return error;
+}
+
 // Whether the name still leads to what was opened: another house may have ended and removed it.
 bool is_still_named(const MemoryName& name, const struct stat& opened) {
-  const Descriptor again(::shm_open(name.c_str(), O_RDONLY | O_CLOEXEC, 0));
+  const Descriptor again = open_memory(name, O_RDONLY);
   struct stat found {};
   return again.get() >= 0 && ::fstat(again.get(), &found) == 0 && found.st_ino == opened.st_ino &&
          found.st_dev == opened.st_dev;
@@ -59,7 +77,7 @@ bool is_still_named(const MemoryName& name, const struct stat& opened) {
 
 Result<Segment*> map_to_write(const MemoryName& name, int fd) {
   // Before anything is written: what is not there would end this process later.
-  if (const int error = ::posix_fallocate(fd, 0, kBytes); error != 0)
+  if (const int error = reserve(fd); error != 0)
     return fail(shown(name) + " needs " + std::to_string(kBytes / 1024) +
                 " kB: " + error_text(error) + "; make room in /dev/shm");
   void* memory = ::mmap(nullptr, sizeof(Segment), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
@@ -80,17 +98,21 @@ MemoryName memory_name(const GuestId& name) {
 Result<std::unique_ptr<OwnedSegment>> OwnedSegment::open(const GuestId& name) {
   const MemoryName path = memory_name(name);
   for (int i = 0; i < kOpenTries; ++i) {
-    Descriptor fd(::shm_open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+    Descriptor fd = open_memory(path, O_RDWR | O_CREAT);
     if (fd.get() < 0)
       return fail(shown(path) + " cannot be had: " + error_text(errno) +
                   "; choose another name, or remove it from /dev/shm");
     struct stat found {};
     if (::fstat(fd.get(), &found) != 0 || !is_ours(found))
       return fail(shown(path) + " is not this user's: choose another name");
-    if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0)
+    const int locked = lock_at_once(fd.get());
+    if (locked != 0 && locked != EWOULDBLOCK)
+      return fail(shown(path) + " cannot be locked: " + error_text(locked));
+    // Also where the lock is that of a house which is ending, and has removed the name already.
+    if (!is_still_named(path, found)) continue;
+    if (locked != 0)
       return fail("another house shows its stage to engines as '" + std::string(name.view()) +
                   "': end it, or give one of the two another name");
-    if (!is_still_named(path, found)) continue;
     // Never cut off: a reader would fall out of what it has mapped.
     if (found.st_size != 0 && found.st_size != kBytes) {
       ::shm_unlink(path.c_str());
@@ -112,7 +134,7 @@ OwnedSegment::~OwnedSegment() {
 }
 
 SeenSegment::Look SeenSegment::look() {
-  const Descriptor fd(::shm_open(name_.c_str(), O_RDONLY | O_CLOEXEC, 0));
+  const Descriptor fd = open_memory(name_, O_RDONLY);
   if (fd.get() < 0) return Look::kNothing;
   struct stat found {};
   if (::fstat(fd.get(), &found) != 0 || !is_ours(found)) return Look::kDamaged;

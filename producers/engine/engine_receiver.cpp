@@ -50,6 +50,12 @@ void EngineReceiver::drain(MonoTime now) {
 
 void EngineReceiver::take(engine::Received& received, MonoTime now) {
   if (const auto* fault = std::get_if<engine::Fault>(&received.what)) return count(*fault);
+  auto* pose = std::get_if<Pose>(&received.what);
+  // Before it is asked whose it is: an engine with a wrong clock does not keep a good one out.
+  if (pose && (pose->capture_time - now > kMostAhead || now - pose->capture_time > kMostBehind)) {
+    ++counters_.time;
+    return;
+  }
   if (received.session != session_) {
     if (heard_.is_set() && now - heard_ < kOtherMayFollow) {
       ++counters_.other_engine;
@@ -57,13 +63,10 @@ void EngineReceiver::take(engine::Received& received, MonoTime now) {
     }
     session_ = received.session;
   }
-  heard_ = now;
-  if (auto* pose = std::get_if<Pose>(&received.what)) {
-    const MonoTime captured = pose->capture_time;
-    if (captured - now > kMostAhead || now - captured > kMostBehind)
-      ++counters_.time;
-    else
-      dancer_.capture(*pose, captured, now);
+  if (pose) {
+    // Only poses: proportions come before the first, and alone keep no other engine out.
+    heard_ = now;
+    dancer_.capture(*pose, pose->capture_time, now);
   } else if (auto* hands = std::get_if<Hands>(&received.what)) {
     if (dancer_.counters().poses > 0) dancer_.capture(*hands);
   } else if (const auto* skeleton = std::get_if<Skeleton>(&received.what)) {

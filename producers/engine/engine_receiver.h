@@ -8,8 +8,8 @@
 //               after construction.
 // Threads:      the poller's.
 // Failure:      open() names a name that another house has. What cannot be used is dropped and
-//               counted by cause. Of several engines the first is heard, until it is silent for
-//               kOtherMayFollow.
+//               counted by cause. Of several engines the first is heard whose poses are of now,
+//               until it has sent none for kOtherMayFollow.
 #pragma once
 
 #include <memory>
@@ -59,7 +59,7 @@ class EngineReceiver final : public PoseReceiver {
   Poller& poller_;
   ReceivedDancer dancer_;
   std::uint64_t session_ = 0;
-  MonoTime heard_;
+  MonoTime heard_;  // a pose of that session
   Counters counters_;
 };
 

@@ -33,6 +33,7 @@ dance_status read_slot(dance_adapter* adapter, std::uint32_t slot, T* out, Read&
   if (const dance_status status = refresh(adapter); status != DANCE_OK) return status;
   const dance_status status = read(adapter->reader);
   if (status == DANCE_OK) clear_unknown(out);
+  if (status == DANCE_BUSY) adapter->reader.count_busy();
   return status;
 }
 

@@ -15,9 +15,11 @@ static_assert(kGuestSlots == DANCE_MAX_GUESTS && kBoneCount == DANCE_BONES &&
 static_assert(kIdBytes == sizeof(dance_guest::id));
 static_assert(sizeof(BoneRotations) == sizeof(StoredPose::rotation_xyzw));  // one after the other
 
-// A capture time that goes back further is another recording, not a pose that was overtaken.
 constexpr std::size_t kPrefetched = 1;
+// A capture time that goes back further is another recording, not a pose that was overtaken; so are
+// several in turn that went back less.
 constexpr Duration kAnotherDance = Duration::ms(500);
+constexpr int kMostOvertaken = 2;
 
 dance_status status_of(Outcome outcome) {
   switch (outcome) {
@@ -143,6 +145,7 @@ Outcome StageReader::catch_up(std::size_t slot, std::uint32_t generation) {
   if (dancer.generation != generation) {
     dancer.poses.clear();
     dancer.number = 0;
+    dancer.overtaken = 0;
     dancer.generation = generation;
   }
   const SegmentReader::Numbers numbers = reader().poses_after(slot, dancer.number);
@@ -163,9 +166,10 @@ void StageReader::remember(Dancer& dancer, const StoredPose& stored) {
   const Pose pose = pose_of(stored);
   dancer.lag_ns = stored.lag_ns;
   if (!dancer.poses.empty() &&
-      dancer.poses.newest().capture_time - pose.capture_time > kAnotherDance)
+      (dancer.poses.newest().capture_time - pose.capture_time > kAnotherDance ||
+       dancer.overtaken >= kMostOvertaken))
     dancer.poses.clear();
-  dancer.poses.push(pose);
+  dancer.overtaken = dancer.poses.push(pose) ? 0 : dancer.overtaken + 1;
 }
 
 // Engines read one dancer after the other, and most of the time of a read is that of memory which
@@ -336,7 +340,7 @@ dance_counters StageReader::counters() const {
   dance_counters out{};
   out.reads = counters_.reads;
   out.retries = counters_.retries;
-  out.busy = counters_.busy;
+  out.busy = busy_;
   out.damaged = counters_.damaged;
   out.attached = attached_;
   return out;

@@ -36,6 +36,8 @@ class StageReader {
   dance_status skeleton(std::size_t slot, dance_skeleton& out);
   dance_status hands(std::size_t slot, dance_hands& out);
   dance_status beat(std::int64_t time_ns, dance_beat& out);
+  // A call was answered with DANCE_BUSY.
+  void count_busy() { ++busy_; }
   dance_counters counters() const;
 
  private:
@@ -45,6 +47,7 @@ class StageReader {
     std::uint32_t generation = 0;
     std::uint64_t number = 0;  // of the newest
     std::int64_t lag_ns = 0;
+    int overtaken = 0;       // poses in turn that were captured before the newest
     std::uint64_t seen = 0;  // the newest number in the memory when it was read last
   };
 
@@ -64,6 +67,7 @@ class StageReader {
   dance_status status_ = DANCE_NO_HOUSE;
   std::uint64_t epoch_ = 0;
   std::uint64_t attached_ = 0;
+  std::uint64_t busy_ = 0;
   ReadCounters counters_;
   std::vector<Dancer> dancers_;
   BeatClock beat_;

@@ -1,6 +1,7 @@
 #include "consumers/engine/engine_consumer.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstring>
 #include <limits>

@@ -153,20 +153,87 @@ TEST(StageLag, IsTheLeastDelayOfTheLastSecond) {
   EXPECT_NEAR(smooth.as_ms(), 40.0, 3.0);
 }
 
-TEST(StageLag, FollowsAChangeWithoutHurryAndAJumpAtOnce) {
+TEST(StageLag, FollowsAChangeWithoutHurry) {
   StageLag lag;
   MonoTime t = kBegin;
   Duration last = lag.add(Duration::ms(50), t);
   EXPECT_EQ(last, Duration::ms(50));
+  for (const Duration wanted : {Duration::ms(130), Duration::ms(50)}) {
+    for (int i = 0; i < 600; ++i) {
+      t += Duration::us(16'667);
+      const Duration now = lag.add(wanted, t);
+      EXPECT_LE(std::max(now - last, last - now), Duration::us(16'667) / StageLag::kSlowness);
+      last = now;
+    }
+    EXPECT_EQ(last, wanted);
+  }
+}
+
+TEST(StageLag, AJumpUpIsFollowedWhenItHasStayedAndOneDownAtOnce) {
+  for (const double hz : {10.0, 60.0, 240.0}) {
+    StageLag lag;
+    MonoTime t = kBegin;
+    lag.add(Duration::ms(50), t);
+    const auto add = [&](Duration delay, Duration span) {
+      Duration now;
+      for (const MonoTime end = t + span; t < end;)
+        now = lag.add(delay, t += Duration::period_of_hz(hz));
+      return now;
+    };
+    EXPECT_EQ(add(Duration::ms(50), Duration::s(2)), Duration::ms(50));
+    EXPECT_EQ(add(Duration::ms(900), StageLag::kStays - Duration::ms(110)), Duration::ms(50)) << hz;
+    EXPECT_EQ(add(Duration::ms(900), Duration::ms(320)), Duration::ms(900)) << hz;
+    EXPECT_EQ(lag.add(-Duration::ms(80), t + Duration::ms(2)), -Duration::ms(80)) << hz;
+  }
+}
+
+// Poses are captured on and on; none comes for a while, then all at once.
+TEST(StageLag, AfterAStallAndItsBurstItIsWhatItWasWithinAFewPoses) {
+  constexpr Duration kDelay = Duration::ms(20), kFrame = Duration::us(11'111);
+  for (const Duration stall : {Duration::ms(300), Duration::ms(900), Duration::ms(1800)}) {
+    StageLag lag;
+    MonoTime captured = kBegin;
+    for (int i = 0; i < 200; ++i) lag.add(kDelay, (captured += kFrame) + kDelay);
+    const MonoTime burst = captured + stall + kDelay;
+    int pose = 0;
+    for (MonoTime shown = burst; captured + kFrame + kDelay <= shown; shown += Duration::us(50)) {
+      captured += kFrame;
+      EXPECT_LE(lag.add(shown - captured, shown), kDelay + Duration::ms(2)) << "pose " << pose;
+      ++pose;
+    }
+    EXPECT_GT(pose, 20);
+    for (int i = 0; i < 200; ++i)
+      EXPECT_NEAR(lag.add(kDelay, (captured += kFrame) + kDelay).as_ms(), 20.0, 2.0) << i;
+  }
+}
+
+TEST(StageLag, ASinglePoseThatIsLateChangesNothing) {
+  StageLag lag;
+  MonoTime t = kBegin;
+  for (int i = 0; i < 300; ++i) {
+    const Duration delay = Duration::ms(i == 150 ? 320 : 20);
+    EXPECT_EQ(lag.add(delay, t += Duration::us(16'667)), Duration::ms(20)) << i;
+  }
+}
+
+TEST(StageLag, TimesThatGoBackAreNoHarm) {
+  StageLag lag;
+  Random random(7);
+  MonoTime t = kBegin;
+  Duration now;
   for (int i = 0; i < 600; ++i) {
     t += Duration::us(16'667);
-    const Duration now = lag.add(Duration::ms(150), t);
-    EXPECT_LE(now - last, Duration::us(16'667) / StageLag::kSlowness);
-    last = now;
+    now = lag.add(Duration::ms(40),
+                  t - Duration::us(static_cast<std::int64_t>(random.below(40'000))));
+    EXPECT_EQ(now, Duration::ms(40));
   }
-  EXPECT_EQ(last, Duration::ms(150));
-  EXPECT_EQ(lag.add(Duration::ms(900), t + Duration::ms(1)), Duration::ms(900));
-  EXPECT_EQ(lag.add(-Duration::ms(80), t + Duration::ms(2)), -Duration::ms(80));
+  EXPECT_EQ(lag.add(Duration::ms(70), t - Duration::s(60)), Duration::ms(70)) << "another clock";
+}
+
+TEST(StageLag, ARecordingThatWasPausedIsFollowedAtOnce) {
+  StageLag lag;
+  lag.add(Duration::ms(40), kBegin);
+  EXPECT_EQ(lag.add(Duration::s(10), kBegin + Duration::s(10)), Duration::s(10));
 }
 
 }  // namespace

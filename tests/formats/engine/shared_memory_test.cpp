@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <string>
@@ -104,6 +105,29 @@ TEST_F(SharedMemory, AReaderMapsOnlyWhatIsAHousesAndWhole) {
   EXPECT_EQ(seen.look(), Look::kSame);
   ASSERT_NE(seen.segment(), nullptr);
   EXPECT_EQ(seen.segment()->header.magic.load(), kMagic);
+}
+
+// In a child with an alarm: whoever waits for the FIFO's other end is ended by it.
+template <class Opens>
+bool comes_back(Opens&& opens) {
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(10);
+    _exit(opens() ? 0 : 1);
+  }
+  int status = 0;
+  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+         WEXITSTATUS(status) == 0;
+}
+
+TEST_F(SharedMemory, NobodyWaitsForAFifoThatLiesInItsPlace) {
+  const std::string path = "/dev/shm" + std::string(memory_name(name_).view());
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_TRUE(comes_back([&] {
+    SeenSegment seen(name_);
+    return seen.look() == SeenSegment::Look::kDamaged && !seen.segment();
+  }));
+  EXPECT_TRUE(comes_back([&] { return !OwnedSegment::open(name_); }));
 }
 
 }  // namespace

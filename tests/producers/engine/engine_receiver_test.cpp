@@ -1,6 +1,7 @@
 #include "producers/engine/engine_receiver.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <limits>
@@ -178,6 +179,38 @@ TEST_F(EngineReceiverTest, ASecondEngineDoesNotPullTheDancerToAndFro) {
   EXPECT_EQ(captured_.poses, 1);
   EXPECT_EQ(receiver_->counters().other_engine, 5u);
   dance_producer_close(other);
+}
+
+TEST_F(EngineReceiverTest, AnEngineWithAWrongClockKeepsNoGoodOneOut) {
+  dance_producer* wrong = dance_producer_open(nullptr, DANCE_AXES_GLTF);
+  dance_skeleton body{};
+  body.struct_size = sizeof body;
+  const Skeleton small = average_skeleton(1.3f);
+  for (std::size_t b = 0; b < kBoneCount; ++b)
+    Eigen::Vector3f::Map(body.offset[b]) = small.offset_m[b];
+  for (std::size_t t = 0; t < kTipCount; ++t) Eigen::Vector3f::Map(body.tip[t]) = small.tip_m[t];
+  for (int i = 0; i < 5; ++i) {
+    pose_.capture_ns = dance_adapter_now_ns() - 60'000'000'000;
+    ASSERT_EQ(dance_producer_skeleton(wrong, &body), DANCE_OK);
+    ASSERT_EQ(dance_producer_pose(wrong, &pose_), DANCE_OK);
+    turn();
+    ASSERT_EQ(send(), DANCE_OK);
+    EXPECT_EQ(captured_.poses, i + 1);
+  }
+  EXPECT_EQ(receiver_->counters().time, 5u);
+  EXPECT_EQ(receiver_->counters().other_engine, 4u) << "proportions of the wrong one";
+  dance_producer_close(wrong);
+}
+
+TEST_F(EngineReceiverTest, OneThatEndsLeavesTheSocketOfTheNextOne) {
+  const std::string path = local_socket_folder() + "/engine-stage";
+  ASSERT_EQ(unlink(path.c_str()), 0);
+  auto next = EngineReceiver::open("", *GuestId::parse("bob"), captured_, *poller_);
+  ASSERT_TRUE(next) << next.error().what;
+  receiver_.reset();
+  EXPECT_EQ(access(path.c_str(), F_OK), 0);
+  next->reset();
+  EXPECT_NE(access(path.c_str(), F_OK), 0);
 }
 
 TEST_F(EngineReceiverTest, AnEngineFindsTheHouseWhenItComesAndWhenItComesBack) {
