@@ -7,8 +7,8 @@
 // Failure:      open() names the address and the cure; what cannot be used is dropped and counted
 //               by cause. Packets of another machine than the server are not read. A machine
 //               becomes the server by a packet that can be read whole, and is kept for good once a
-//               frame of it made a pose. All that was learnt of a server that falls silent, or comes
-//               back as another, is forgotten.
+//               frame of it made a pose. All that was learnt of a server that falls silent, or
+//               comes back as another, is forgotten.
 #pragma once
 
 #include <array>

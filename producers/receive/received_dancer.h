@@ -28,7 +28,8 @@ class ReceivedDancer {
   ReceivedDancer(const GuestId& guest, CaptureSink& sink) : guest_(guest), sink_(sink) {}
 
   // Published with the next pose, and once a second. A changed one begins the coding of differences
-  // anew wherever it arrives: there is at most one a second, the last. The same again costs nothing.
+  // anew at all who hear it, so there is at most one a second, the last. The same again costs
+  // nothing.
   void set_skeleton(const Skeleton& skeleton);
   // Rotations, hips, presence and confidence are the caller's; the rest is filled in here. Returns
   // whether it was published.
