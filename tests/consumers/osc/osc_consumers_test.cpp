@@ -54,6 +54,7 @@ TEST_F(OscConsumers, SendAVmcFrameInTheCallThatBringsThePose) {
   open("vmc");
   consumer_->on_skeleton(kAlice, average_skeleton(1.5f), at_ms(0));
   Hands hands;
+  hands.presence = 1;
   hands.R_PB[0] = Eigen::Quaternionf(0.8f, 0.6f, 0.0f, 0.0f);
   consumer_->on_hands(kAlice, hands, at_ms(0));
   dance(kAlice, 0);
@@ -74,6 +75,7 @@ TEST_F(OscConsumers, SendAVmcFrameInTheCallThatBringsThePose) {
 TEST_F(OscConsumers, FingersThatNoLongerComeAreNotSentOn) {
   open("vmc");
   Hands hands;
+  hands.presence = 1;
   hands.R_PB[0] = Eigen::Quaternionf(0.8f, 0.6f, 0.0f, 0.0f);
   const auto thumb_x = [&] {
     for (const DecodedOsc& bone : only(heard(), "/VMC/Ext/Bone/Pos"))
