@@ -39,6 +39,7 @@ void VmcConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime now) 
   }
   if (is_first) writer_.write_model(guest.c_str());
   is_silent_ = false;
+  if (now - hands_heard_ > kHandsKept) has_hands_ = false;
   writer_.write_pose(pose, has_hands_ ? &hands_ : nullptr, time_s_);
   ++frames_;
 }
@@ -49,10 +50,11 @@ void VmcConsumer::on_skeleton(const GuestId& guest, const Skeleton& skeleton, Mo
   writer_.set_skeleton(skeleton);
 }
 
-void VmcConsumer::on_hands(const GuestId& guest, const Hands& hands, MonoTime) {
+void VmcConsumer::on_hands(const GuestId& guest, const Hands& hands, MonoTime now) {
   if (!guest_.takes(guest)) return;
   hands_ = hands;
-  has_hands_ = true;
+  has_hands_ = hands.presence != 0;
+  hands_heard_ = now;
 }
 
 void VmcConsumer::on_second(MonoTime now) {

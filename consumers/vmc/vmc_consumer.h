@@ -27,6 +27,8 @@ class VmcConsumer final : public PoseConsumer {
   static constexpr const char* kUsualAddress = "127.0.0.1:39539";
   // With no pose for so long the dancer counts as silent.
   static constexpr Duration kSilence = Duration::s(1);
+  // Fingers that do not come for so long are no longer known.
+  static constexpr Duration kHandsKept = Duration::s(2);
 
   static Result<std::unique_ptr<PoseConsumer>> open(const ConsumerOptions& options);
 
@@ -48,6 +50,7 @@ class VmcConsumer final : public PoseConsumer {
   Skeleton skeleton_ = average_skeleton();
   Hands hands_;
   bool has_hands_ = false;
+  MonoTime hands_heard_;
   bool is_silent_ = true;
   MonoTime heard_;     // the newest pose, on this host's clock
   MonoTime captured_;  // the same, and the zero of T, on the clock that poses are stamped by

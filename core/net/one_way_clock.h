@@ -1,12 +1,14 @@
 // Maps the stamps of a sender that cannot be asked for its time, from when its datagrams arrive:
 // delay only ever adds, so the datagram that took least tells the offset best. What arrives later
-// than that was captured earlier.
+// than that was captured earlier. Where everything comes later for a whole second, it is no delay:
+// the sender's clock fell back, as that of a game engine does that caps the length of a frame.
 //
 // Units/frames: theirs are plain microseconds of the sender's clock; ours is MonoTime. What is left
 //               is the shortest delay itself, which no one-way stream can tell.
 // Ownership:    plain value; never allocates.
 // Threads:      none inside; one owner.
-// Failure:      a stamp that jumps by more than a second begins anew, and steps() counts it.
+// Failure:      a stamp that jumps by more than a second begins anew; one that falls back by less
+//               is followed after a second. steps() counts both.
 // Source:       minimum filter as in RFC 5905 (NTP), clock filter algorithm, over one direction.
 #pragma once
 
@@ -29,9 +31,13 @@ class OneWayClock {
     if (!has_begun_ || apart_ns > kStep_ns || apart_ns < -kStep_ns) {
       if (has_begun_) ++steps_;
       has_begun_ = true;
-      applied_ns_ = least_ns_ = earlier_ns_ = offset_ns;
-      window_began_ns_ = followed_ns_ = now_ns;
+      begin(offset_ns, now_ns);
       return received;
+    }
+    if (fell_back(offset_ns, now_ns)) {
+      ++steps_;
+      begin(late_least_ns_, now_ns);
+      return MonoTime::from_ns(their_us * 1000 + applied_ns_);
     }
     if (now_ns - window_began_ns_ > kWindow_ns) {
       earlier_ns_ = least_ns_;
@@ -46,12 +52,37 @@ class OneWayClock {
     applied_ns_ = std::min(std::min(least_ns_, earlier_ns_), applied_ns_ + most_ns);
     return MonoTime::from_ns(their_us * 1000 + applied_ns_);
   }
+  // For another sender.
+  void begin_anew() { has_begun_ = false; }
   std::uint64_t steps() const { return steps_; }
 
  private:
   static constexpr std::int64_t kStep_ns = 1'000'000'000;
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;
   static constexpr std::int64_t kSlowest = 1000;  // 1 ms a second: ten times the drift of crystals
+  static constexpr std::int64_t kLate_ns = 30'000'000;
+  static constexpr std::int64_t kLateFor_ns = 1'000'000'000;
+  static constexpr int kLateDatagrams = 16;  // of a slow sender a few may all have been delayed
+
+  void begin(std::int64_t offset_ns, std::int64_t now_ns) {
+    applied_ns_ = least_ns_ = earlier_ns_ = offset_ns;
+    window_began_ns_ = followed_ns_ = now_ns;
+    late_datagrams_ = 0;
+  }
+  // Whether all that came for so long came late, by late_least_ns_ - applied_ns_ or more.
+  bool fell_back(std::int64_t offset_ns, std::int64_t now_ns) {
+    if (offset_ns - applied_ns_ <= kLate_ns) {
+      late_datagrams_ = 0;
+      return false;
+    }
+    if (late_datagrams_ == 0) {
+      late_began_ns_ = now_ns;
+      late_least_ns_ = offset_ns;
+    }
+    late_datagrams_ = std::min(late_datagrams_ + 1, kLateDatagrams);
+    late_least_ns_ = std::min(late_least_ns_, offset_ns);
+    return late_datagrams_ == kLateDatagrams && now_ns - late_began_ns_ >= kLateFor_ns;
+  }
 
   bool has_begun_ = false;
   std::int64_t applied_ns_ = 0;
@@ -59,6 +90,9 @@ class OneWayClock {
   std::int64_t earlier_ns_ = 0;  // of the one before
   std::int64_t window_began_ns_ = 0;
   std::int64_t followed_ns_ = 0;
+  int late_datagrams_ = 0;  // one after the other
+  std::int64_t late_began_ns_ = 0;
+  std::int64_t late_least_ns_ = 0;
   std::uint64_t steps_ = 0;
 };
 

@@ -10,7 +10,9 @@ namespace {
 constexpr std::size_t kHeader_bytes = 4;
 constexpr std::size_t kLongestText = 255;
 
-constexpr NatNetVersion kWithSizes{4, 1};  // of sections, from here on
+// From these versions on.
+constexpr NatNetVersion kWithSizes{4, 1};  // of sections
+constexpr NatNetVersion kWithPreciseTime{4, 1};
 
 class Packet {
  public:
@@ -19,6 +21,7 @@ class Packet {
 
   ByteReader& reader() { return reader_; }
   bool has_sizes() const { return version_ >= kWithSizes; }
+  bool has_precise_time() const { return version_ >= kWithPreciseTime; }
   Eigen::Vector3f vector() {
     const float x = reader_.f32(), y = reader_.f32(), z = reader_.f32();
     return {x, y, z};
@@ -128,6 +131,10 @@ NatNetFault read_end(Packet& packet, NatNetFrame& frame) {
   frame.exposed_ticks = reader.u64();
   reader.u64();  // received by the server
   reader.u64();  // sent by it
+  if (packet.has_precise_time()) {
+    reader.u32();  // seconds
+    reader.u32();  // fraction
+  }
   frame.models_changed = (reader.u16() & 2u) != 0;
   if (!reader.ok()) return NatNetFault::kTooShort;
   if (!std::isfinite(frame.timestamp_s) || std::abs(frame.timestamp_s) > 1e12)

@@ -11,7 +11,8 @@
 //               Bones that are not finite are not tracked.
 // Source:       the layout as public clients read it: libmotioncapture (IMRCLab,
 //               src/optitrack.cpp), python_natnet (mje-nz), python-natnet-client (TimSchneider42),
-//               natnet_py (jeguzzi).
+//               natnet_py (jeguzzi), and as OptiTrack's own PacketClient does, which has the
+//               precision timestamp of 4.1.
 #pragma once
 
 #include <Eigen/Geometry>

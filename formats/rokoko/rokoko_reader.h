@@ -2,7 +2,7 @@
 //
 // Units/frames: as formats/rokoko/rokoko_frame.h.
 // Ownership:    keeps its buffers and the frame, which is valid until the next read(). The JSON
-//               reader allocates some hundred bytes for each datagram.
+//               reader allocates for each datagram: its token, keys and numbers as they come.
 // Threads:      none inside; one owner.
 // Failure:      read() says by a RokokoFault why a datagram is refused; never throws, never
 //               recurses, and takes no more than kMostTextBytes of text out of a frame. A joint
@@ -17,6 +17,7 @@
 
 #include "formats/rokoko/lz4_frame.h"
 #include "formats/rokoko/rokoko_frame.h"
+#include "formats/rokoko/rokoko_writer.h"
 
 namespace dance {
 
@@ -34,7 +35,8 @@ const char* text_of(RokokoFault fault);
 
 class RokokoReader {
  public:
-  static constexpr std::size_t kMostTextBytes = 1 << 20;
+  // What as many actors as are read need, both hands of each.
+  static constexpr std::size_t kMostTextBytes = RokokoWriter::kMostTextBytes;
 
   RokokoReader() : unpacker_(kMostTextBytes), frame_(std::make_unique<RokokoFrame>()) {}
 

@@ -8,6 +8,7 @@ namespace {
 constexpr Duration kAskAgain = Duration::s(1);
 // A server that is silent for so long may be another next time.
 constexpr Duration kGone = Duration::s(3);
+constexpr std::uint32_t kReordered = 100;  // frames
 
 }  // namespace
 
@@ -57,39 +58,94 @@ NatNetReceiver::~NatNetReceiver() {
 }
 
 void NatNetReceiver::drain(UdpSocket& socket, MonoTime now) {
-  for (auto batch = socket.receive(); !batch.empty(); batch = socket.receive())
-    for (const auto& datagram : batch) take(datagram.from, datagram.bytes, datagram.received, now);
+  // One batch a turn: what is left wakes the poller again, and others have their turn before.
+  for (const auto& datagram : socket.receive())
+    take(datagram.from, datagram.bytes, datagram.received, now);
+}
+
+void NatNetReceiver::forget_server() {
+  sender_.release();
+  server_ = place_.server;
+  server_heard_ = server_since_ = MonoTime();
+  others_stream_ = is_in_doubt_ = false;
+  version_ = place_.version;
+  ticks_per_second_ = 0;
+  models_->skeletons.clear();
+  has_models_ = false;
+  skeleton_id_.reset();
+  figure_ = JointFigure();
+  clock_.begin_anew();
+  newest_frame_ = 0;
 }
 
 // Commands go to the server that was named, else to where the stream comes from.
 void NatNetReceiver::ask(MonoTime now) {
-  if (!place_.server.is_set() && server_.is_set() && now - server_heard_ > kGone) {
-    server_ = Address();
-    has_models_ = false;
-    skeleton_id_.reset();
-    version_ = place_.version;
-  }
+  const bool is_silent = server_heard_.is_set() && now - server_heard_ > kGone;
+  // One that answers, but makes no pose, is not to keep out another that does.
+  const bool is_useless = !place_.server.is_set() && !sender_.is_kept() && others_stream_ &&
+                          now - server_since_ > kGone;
+  if (is_silent || is_useless) forget_server();
   if (!server_.is_set()) return;
-  if (!version_ || ticks_per_second_ == 0) request(NatNetMessage::kConnect, "Ping");
-  if (!has_models_) request(NatNetMessage::kRequestModels, "");
+  if (!version_ || ticks_per_second_ == 0 || is_in_doubt_) request(NatNetMessage::kConnect, "Ping");
+  if (!has_models_ || is_in_doubt_) request(NatNetMessage::kRequestModels, "");
+  is_in_doubt_ = false;
   // Without it a unicast stream ends.
   if (!commands_) request(NatNetMessage::kKeepAlive, "");
 }
 
-void NatNetReceiver::request(NatNetMessage message, std::string_view text) {
+void NatNetReceiver::request(const Address& to, NatNetMessage message, std::string_view text) {
   const auto bytes = natnet_request(message, text);
-  (commands_ ? *commands_ : data_).send_now(server_, std::span(bytes.begin(), bytes.size()));
+  (commands_ ? *commands_ : data_).send_now(to, std::span(bytes.begin(), bytes.size()));
 }
 
-bool NatNetReceiver::is_server(const Address& from, MonoTime now) {
+bool NatNetReceiver::is_server(const Address& from, std::span<const std::uint8_t> packet,
+                               MonoTime now) {
   if (!server_.is_set()) {
-    server_ = from.with_port(kNatNetCommandPort);
-    server_heard_ = now;
-    ask(now);
+    look_for_server(from, packet, now);
+    if (!server_.is_set()) return false;
   }
-  if (server_.ip() != from.ip()) return false;
+  if (server_.ip() != from.ip()) {
+    ++counters_.of_others;
+    others_stream_ = true;
+    return false;
+  }
   server_heard_ = now;
   return true;
+}
+
+// Who says so, or streams what can be read. A frame of unknown version only makes its machine one
+// to be asked.
+void NatNetReceiver::look_for_server(const Address& from, std::span<const std::uint8_t> packet,
+                                     MonoTime now) {
+  const auto reads = [&](NatNetVersion version) {
+    return read_natnet_frame(packet, version, *frame_);
+  };
+  const Address server = from.with_port(kNatNetCommandPort);
+  NatNetServer told;
+  NatNetFault fault = NatNetFault::kOtherMessage;
+  bool is_found = false;
+  if (message_of(packet) == NatNetMessage::kServerInfo) {
+    fault = read_natnet_server(packet, told);
+    is_found = fault == NatNetFault::kNone;
+  } else if (message_of(packet) == NatNetMessage::kFrame) {
+    fault = reads(version_.value_or(kNewestNatNet));
+    is_found = version_ && fault == NatNetFault::kNone;
+    for (const NatNetVersion version : {NatNetVersion{4, 0}, kOldestNatNet})
+      if (!version_ && fault != NatNetFault::kNone) fault = reads(version);
+    if (!version_ && fault == NatNetFault::kNone) {
+      ++counters_.before_version;
+      if (now >= next_question_) request(server, NatNetMessage::kConnect, "Ping");
+      if (now >= next_question_) next_question_ = now + kAskAgain;
+      return;
+    }
+  }
+  if (!is_found) {
+    note(fault);
+    return;
+  }
+  server_ = server;
+  server_since_ = server_heard_ = now;
+  ask(now);
 }
 
 NatNetFault NatNetReceiver::note(NatNetFault fault) {
@@ -105,17 +161,22 @@ void NatNetReceiver::take(const Address& from, std::span<const std::uint8_t> pac
     note(NatNetFault::kTooShort);
     return;
   }
-  if (!is_server(from, now)) {
+  const Address machine = from.with_port(0);
+  const OneSender::Verdict verdict = sender_.admit(machine, received);
+  if (verdict == OneSender::Verdict::kOther) {
     ++counters_.of_others;
     return;
   }
+  if (verdict == OneSender::Verdict::kReadAnew) forget_server();
+  if (!is_server(from, packet, now)) return;
   switch (*message) {
     case NatNetMessage::kServerInfo:
       return take_server(packet);
     case NatNetMessage::kModels:
       return take_models(packet);
     case NatNetMessage::kFrame:
-      return take_frame(packet, received, now);
+      if (take_frame(packet, received, now)) sender_.keep(machine, received);
+      return;
     default:
       note(NatNetFault::kOtherMessage);
   }
@@ -124,7 +185,15 @@ void NatNetReceiver::take(const Address& from, std::span<const std::uint8_t> pac
 void NatNetReceiver::take_server(std::span<const std::uint8_t> packet) {
   NatNetServer server;
   if (note(read_natnet_server(packet, server)) != NatNetFault::kNone) return;
+  const bool was_told = ticks_per_second_ != 0;
   const bool is_other = version_ != server.version;
+  if (was_told && (is_other || ticks_per_second_ != server.ticks_per_second)) {
+    const Address same = server_;
+    const MonoTime heard = server_heard_;
+    forget_server();
+    server_ = same;
+    server_heard_ = server_since_ = heard;
+  }
   version_ = server.version;
   ticks_per_second_ = server.ticks_per_second;
   if (is_other && !has_models_) request(NatNetMessage::kRequestModels, "");
@@ -162,41 +231,50 @@ MonoTime NatNetReceiver::capture_time(MonoTime received) {
   return clock_.to_ours(static_cast<std::int64_t>(frame_->timestamp_s * 1e6), received);
 }
 
-void NatNetReceiver::take_frame(std::span<const std::uint8_t> packet, MonoTime received,
+bool NatNetReceiver::take_frame(std::span<const std::uint8_t> packet, MonoTime received,
                                 MonoTime now) {
   if (!version_) {
     ++counters_.before_version;
-    return;
+    return false;
   }
-  if (note(read_natnet_frame(packet, *version_, *frame_)) != NatNetFault::kNone) return;
+  if (note(read_natnet_frame(packet, *version_, *frame_)) != NatNetFault::kNone) {
+    is_in_doubt_ = true;
+    return false;
+  }
+  // Motive was started again, or plays a take again.
+  if (frame_->number < newest_frame_ && newest_frame_ - frame_->number > kReordered)
+    is_in_doubt_ = true;
+  newest_frame_ = frame_->number;
   if (frame_->models_changed && has_models_) {
     has_models_ = false;
     request(NatNetMessage::kRequestModels, "");
   }
   if (frame_->skeletons.empty()) {
     if (frame_->rigid_bodies > 0) ++counters_.rigid_bodies_only;
-    return;
+    return false;
   }
   if (!skeleton_id_) {
     ++(has_models_ ? counters_.without_actor : counters_.before_models);
-    return;
+    return false;
   }
-  const MonoTime captured = capture_time(received);
-  for (const NatNetSkeleton& skeleton : frame_->skeletons) {
-    if (skeleton.id != *skeleton_id_) continue;
-    body_->take(skeleton, place_.z_is_up);
-    Pose pose;
-    if (!figure_.fit(body_->figure(), pose)) {
-      ++counters_.incomplete;
-      return;
-    }
-    dancer_.set_skeleton(figure_.skeleton());
-    if (!dancer_.capture(pose, captured, now)) return;
-    Hands hands;
-    if (body_->hands(hands)) dancer_.capture(hands);
-    return;
-  }
+  for (const NatNetSkeleton& skeleton : frame_->skeletons)
+    if (skeleton.id == *skeleton_id_) return dance(skeleton, received, now);
   ++counters_.without_actor;
+  return false;
+}
+
+bool NatNetReceiver::dance(const NatNetSkeleton& skeleton, MonoTime received, MonoTime now) {
+  body_->take(skeleton, place_.z_is_up);
+  Pose pose;
+  if (!figure_.fit(body_->figure(), pose)) {
+    ++counters_.incomplete;
+    return false;
+  }
+  dancer_.set_skeleton(figure_.skeleton());
+  if (!dancer_.capture(pose, capture_time(received), now)) return false;
+  Hands hands;
+  if (body_->hands(hands)) dancer_.capture(hands);
+  return true;
 }
 
 std::string NatNetReceiver::summary() const {
@@ -220,6 +298,7 @@ std::string NatNetReceiver::summary() const {
   tell(counters_.of_others, "packets of other machines");
   tell(poses.invalid, "not valid");
   tell(poses.not_newer, "not newer");
+  tell(poses.skeletons_left_out, "skeletons that changed again within a second");
   tell(data_.counters().truncated, "too long");
   tell(clock_.steps(), "jumps of the sender's clock");
   return line;

@@ -5,7 +5,10 @@
 // Ownership:    owns its sockets; refers to sink and poller.
 // Threads:      none inside; runs in the poller's thread.
 // Failure:      open() names the address and the cure; what cannot be used is dropped and counted
-//               by cause. Packets of another machine than the server are not read.
+//               by cause. Packets of another machine than the server are not read. A machine
+//               becomes the server by a packet that can be read whole, and is kept for good once a
+//               frame of it made a pose. All that was learnt of a server that falls silent, or
+//               comes back as another, is forgotten.
 #pragma once
 
 #include <array>
@@ -17,6 +20,7 @@
 #include "core/net/udp_socket.h"
 #include "producers/natnet/natnet_body.h"
 #include "producers/natnet/natnet_place.h"
+#include "producers/receive/one_sender.h"
 #include "producers/receive/pose_receiver.h"
 #include "producers/receive/received_dancer.h"
 
@@ -57,12 +61,17 @@ class NatNetReceiver final : public PoseReceiver {
   NatNetReceiver(const Options& options, const NatNetPlace& place, UdpSocket data,
                  std::optional<UdpSocket> commands, CaptureSink& sink, Poller& poller);
   void drain(UdpSocket& socket, MonoTime now);
-  bool is_server(const Address& from, MonoTime now);
+  bool is_server(const Address& from, std::span<const std::uint8_t> packet, MonoTime now);
+  void look_for_server(const Address& from, std::span<const std::uint8_t> packet, MonoTime now);
+  void forget_server();
   void ask(MonoTime now);
-  void request(NatNetMessage message, std::string_view text);
+  void request(NatNetMessage message, std::string_view text) { request(server_, message, text); }
+  void request(const Address& to, NatNetMessage message, std::string_view text);
   void take_server(std::span<const std::uint8_t> packet);
   void take_models(std::span<const std::uint8_t> packet);
-  void take_frame(std::span<const std::uint8_t> packet, MonoTime received, MonoTime now);
+  // Whether it made a pose.
+  bool take_frame(std::span<const std::uint8_t> packet, MonoTime received, MonoTime now);
+  bool dance(const NatNetSkeleton& skeleton, MonoTime received, MonoTime now);
   bool choose_model();
   MonoTime capture_time(MonoTime received);
   NatNetFault note(NatNetFault fault);
@@ -74,8 +83,14 @@ class NatNetReceiver final : public PoseReceiver {
   Poller::TimerId timer_ = 0;
   std::string wanted_;
   ReceivedDancer dancer_;
+  OneSender sender_;  // by its machine, as answers come from another port than the stream
   Address server_;
   MonoTime server_heard_;
+  MonoTime server_since_;
+  MonoTime next_question_;      // to a machine that may be the server
+  bool others_stream_ = false;  // since there is this server
+  bool is_in_doubt_ = false;    // whether it is still the server that told its version and models
+  std::uint32_t newest_frame_ = 0;
   std::optional<NatNetVersion> version_;
   std::uint64_t ticks_per_second_ = 0;
   std::unique_ptr<NatNetModels> models_;

@@ -15,8 +15,11 @@ using Eigen::Vector3f;
 
 // Beyond this a body's measures have changed, or it is another's: learnt anew.
 constexpr float kOtherBody_m = 0.05f;
-// The skeleton is told again when it has moved by more.
-constexpr float kWorthTelling_m = 0.00002f;
+// A joint of the skeleton is told again when its mean has moved by more. Mocap's noise of a
+// millimetre moves means of few samples by as much.
+constexpr float kWorthTelling_m = 0.003f;
+// Of bones that are placed here and have no noise of their own.
+constexpr float kWorthPlacing_m = 0.00002f;
 constexpr int kMostSamples = 240;
 // Of the way from spine to upper chest that lies below the chest; as average_skeleton().
 constexpr float kBelowChest = 0.479f;
@@ -87,7 +90,7 @@ void JointFigure::place_chest(FigureFrame& frame) {
     return;
   }
   const auto apart_m = static_cast<float>(apart);
-  if (apart_m > spine_length_m_ + kWorthTelling_m || apart_m < 0.7f * spine_length_m_)
+  if (apart_m > spine_length_m_ + kWorthPlacing_m || apart_m < 0.7f * spine_length_m_)
     spine_length_m_ = apart_m;
   const Vector3d chord = (upper - spine) / apart;
   const double length = std::max(apart, static_cast<double>(spine_length_m_));
@@ -102,8 +105,14 @@ void JointFigure::place_chest(FigureFrame& frame) {
       (below * below + apart * apart - above * above) / (2.0 * below * apart), -1.0, 1.0);
   const Eigen::AngleAxisd back(-std::acos(cosine), axis);
   const Vector3d chest = spine + below * (back * chord);
-  const Quaterniond lower = shortest_turn(chord, chest - spine) * R_spine;
-  const Quaterniond higher = shortest_turn(chord, upper - chest) * R_spine;
+  // Turned so that both bones lie in their parents as an average body's do: whatever rotation
+  // came, the skeleton remains the same.
+  const auto along = [&](Bone bone, const Vector3d& to) {
+    const Vector3d in_parent = average_.offset(bone).cast<double>().normalized();
+    return shortest_turn(R_spine * in_parent, to.normalized()) * R_spine;
+  };
+  const Quaterniond lower = along(Bone::kChest, chest - spine);
+  const Quaterniond higher = along(Bone::kUpperChest, upper - chest);
   frame.R_WB[index_of(Bone::kSpine)] = lower.cast<float>();
   frame.put(Bone::kChest, chest.cast<float>(), higher.cast<float>());
 }
@@ -137,16 +146,15 @@ bool JointFigure::is_placed(std::size_t bone) const {
 void JointFigure::learn_offset(std::size_t bone, const Vector3f& offset_m) {
   Vector3f& mean = mean_m_[bone];
   int& samples = samples_[bone];
-  const bool is_placed =
-      chest_is_placed_ && (bone == index_of(Bone::kChest) || bone == index_of(Bone::kUpperChest));
-  if (samples == 0 || is_placed || (offset_m - mean).norm() > kOtherBody_m) {
+  if (samples == 0 || is_placed(bone) || (offset_m - mean).norm() > kOtherBody_m) {
     mean = offset_m;
     samples = 1;
   } else {
     samples = std::min(samples + 1, kMostSamples);
     mean += (offset_m - mean) / static_cast<float>(samples);
   }
-  if (!has_begun_ || (mean - skeleton_.offset_m[bone]).norm() > kWorthTelling_m)
+  const float worth_telling_m = is_placed(bone) ? kWorthPlacing_m : kWorthTelling_m;
+  if (!has_begun_ || (mean - skeleton_.offset_m[bone]).norm() > worth_telling_m)
     skeleton_.offset_m[bone] = mean;
 }
 
@@ -161,6 +169,20 @@ void JointFigure::learn(const FigureFrame& frame) {
   }
   for (std::size_t b = 1; b < kBoneCount; ++b) learn_offset(b, offsets_m[b]);
   learn_tips(frame);
+}
+
+// And the hips' height, which hangs on the toes, and what stands on that.
+void JointFigure::learn_tips(const FigureFrame& frame) {
+  const float scale = std::clamp(
+      skeleton_.offset(Bone::kLeftLowerLeg).norm() / average_.offset(Bone::kLeftLowerLeg).norm(),
+      0.3f, 3.0f);
+  for (std::size_t t = 1; t < kTipCount; ++t) {
+    const std::size_t b = index_of(kTipBones[t]);
+    Vector3f tip = scale * average_.tip_m[t];
+    if ((frame.tip_presence >> t & 1u) != 0)
+      tip = frame.R_WB[b].conjugate() * (frame.p_WT_m[t] - frame.p_WB_m[b]);
+    learn_tip(t, tip);
+  }
   // In T-pose the soles are on the floor.
   float hips_m = hips_m_;
   if (hips_m <= 0.0f) {
@@ -169,25 +191,23 @@ void JointFigure::learn(const FigureFrame& frame) {
     hips_m -=
         std::min(skeleton_.offset(Bone::kLeftToes).y() + skeleton_.tip(Tip::kLeftToes).y(), -0.04f);
   }
-  const Vector3f standing(0.0f, hips_m, 0.0f);
-  if ((standing - skeleton_.offset_m[0]).norm() > kWorthTelling_m) skeleton_.offset_m[0] = standing;
+  if (!has_begun_ || std::abs(hips_m - skeleton_.offset_m[0].y()) > kWorthTelling_m)
+    skeleton_.offset_m[0] = {0.0f, hips_m, 0.0f};
+  // And the top of the head is as high as the body.
+  Vector3f top = scale * average_.tip_m[0];
+  if ((frame.tip_presence & 1u) != 0)
+    top = frame.R_WB[index_of(Bone::kHead)].conjugate() *
+          (frame.p_WT_m[0] - frame.p_WB_m[index_of(Bone::kHead)]);
+  if (total_m_ > 0.0f) {
+    const float head_m = standing_height_m(skeleton_) - skeleton_.tip_m[0].y();
+    top = {0.0f, std::clamp(total_m_ - head_m, 0.05f, 0.5f), 0.0f};
+  }
+  learn_tip(0, top);
 }
 
-void JointFigure::learn_tips(const FigureFrame& frame) {
-  const float scale = std::clamp(
-      skeleton_.offset(Bone::kLeftLowerLeg).norm() / average_.offset(Bone::kLeftLowerLeg).norm(),
-      0.3f, 3.0f);
-  for (std::size_t t = 0; t < kTipCount; ++t) {
-    const std::size_t b = index_of(kTipBones[t]);
-    Vector3f tip = scale * average_.tip_m[t];
-    if ((frame.tip_presence >> t & 1u) != 0)
-      tip = frame.R_WB[b].conjugate() * (frame.p_WT_m[t] - frame.p_WB_m[b]);
-    if (t == 0 && total_m_ > 0.0f) {
-      const float neck_m = standing_height_m(skeleton_) - skeleton_.tip_m[0].y();
-      tip = {0.0f, std::clamp(total_m_ - neck_m, 0.05f, 0.5f), 0.0f};
-    }
-    if ((tip - skeleton_.tip_m[t]).norm() > 20.0f * kWorthTelling_m) skeleton_.tip_m[t] = tip;
-  }
+void JointFigure::learn_tip(std::size_t tip, const Vector3f& p_m) {
+  if (!has_begun_ || (p_m - skeleton_.tip_m[tip]).norm() > kWorthTelling_m)
+    skeleton_.tip_m[tip] = p_m;
 }
 
 }  // namespace dance

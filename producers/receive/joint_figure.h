@@ -59,6 +59,7 @@ class JointFigure {
   void learn(const FigureFrame& frame);
   void learn_offset(std::size_t bone, const Eigen::Vector3f& offset_m);
   void learn_tips(const FigureFrame& frame);
+  void learn_tip(std::size_t tip, const Eigen::Vector3f& p_m);
 
   Skeleton average_ = average_skeleton();
   Skeleton skeleton_ = average_;

@@ -10,12 +10,12 @@ void ReceivedDancer::set_skeleton(const Skeleton& skeleton) {
     return;
   }
   Skeleton numbered = skeleton;
-  numbered.version = skeleton_.version;
-  if (has_skeleton_ && numbered == skeleton_) return;
-  numbered.version = skeleton_.version + 1;
-  skeleton_ = numbered;
+  numbered.version = wanted_.version;
+  if (has_skeleton_ && numbered == wanted_) return;
+  if (is_changed_) ++counters_.skeletons_left_out;
+  wanted_ = numbered;
   has_skeleton_ = true;
-  next_skeleton_ = MonoTime();
+  is_changed_ = true;
 }
 
 bool ReceivedDancer::capture(Pose& pose, MonoTime captured, MonoTime now) {
@@ -34,6 +34,14 @@ bool ReceivedDancer::capture(Pose& pose, MonoTime captured, MonoTime now) {
   pose.sequence = sequence_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = captured;
+  if (is_changed_ && now >= next_change_) {
+    const std::uint32_t version = skeleton_.version + 1;
+    skeleton_ = wanted_;
+    skeleton_.version = version;
+    is_changed_ = false;
+    next_change_ = now + Duration::s(1);
+    next_skeleton_ = MonoTime();
+  }
   // Nobody can decode a dancer of unknown proportions: they go first.
   if (now >= next_skeleton_) {
     sink_.capture(guest_, TimedSkeleton{skeleton_, now, this_clock_id()});

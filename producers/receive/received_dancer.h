@@ -22,11 +22,14 @@ class ReceivedDancer {
     std::uint64_t poses = 0;
     std::uint64_t invalid = 0;
     std::uint64_t not_newer = 0;
+    std::uint64_t skeletons_left_out = 0;  // as others came before they were due
   };
 
   ReceivedDancer(const GuestId& guest, CaptureSink& sink) : guest_(guest), sink_(sink) {}
 
-  // Published with the next pose, and once a second. The same again costs nothing.
+  // Published with the next pose, and once a second. A changed one begins the coding of differences
+  // anew at all who hear it, so there is at most one a second, the last. The same again costs
+  // nothing.
   void set_skeleton(const Skeleton& skeleton);
   // Rotations, hips, presence and confidence are the caller's; the rest is filled in here. Returns
   // whether it was published.
@@ -43,7 +46,10 @@ class ReceivedDancer {
   GuestId guest_;
   CaptureSink& sink_;
   Skeleton skeleton_ = average_skeleton();
+  Skeleton wanted_ = skeleton_;  // is the next to be published
   bool has_skeleton_ = false;
+  bool is_changed_ = false;  // wanted_ is not yet published
+  MonoTime next_change_;
   MonoTime next_skeleton_;
   MonoTime newest_;
   std::uint32_t sequence_ = 0;

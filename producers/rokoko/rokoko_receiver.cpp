@@ -27,27 +27,32 @@ RokokoReceiver::RokokoReceiver(const Options& options, UdpSocket socket, Capture
       wanted_(options.actor),
       dancer_(options.guest, sink) {
   poller_.watch(socket_.fd(), [this](MonoTime now) {
-    for (auto batch = socket_.receive(); !batch.empty(); batch = socket_.receive())
-      for (const auto& datagram : batch) take(datagram.bytes, datagram.received, now);
+    // One batch a turn: what is left wakes the poller again, and others have their turn before.
+    for (const auto& datagram : socket_.receive())
+      take(datagram.from, datagram.bytes, datagram.received, now);
   });
 }
 
 RokokoReceiver::~RokokoReceiver() { poller_.unwatch(socket_.fd()); }
 
-void RokokoReceiver::take(std::span<const std::uint8_t> datagram, MonoTime received, MonoTime now) {
+void RokokoReceiver::take(const Address& from, std::span<const std::uint8_t> datagram,
+                          MonoTime received, MonoTime now) {
   ++datagrams_;
+  const OneSender::Verdict verdict = sender_.admit(from, received);
+  if (verdict == OneSender::Verdict::kOther) return;
+  if (verdict == OneSender::Verdict::kReadAnew) {
+    followed_ = {};
+    figure_ = JointFigure();
+  }
   const RokokoFault fault = reader_.read(datagram);
   ++faults_[static_cast<std::size_t>(fault)];
   if (fault != RokokoFault::kNone) return;
-  const RokokoFrame& frame = reader_.frame();
-  const MonoTime captured =
-      clock_.to_ours(static_cast<std::int64_t>(frame.timestamp_s * 1e6), received);
-  const RokokoActor* actor = find_actor(frame, now);
+  const RokokoActor* actor = find_actor(reader_.frame(), now);
   if (!actor) {
     ++without_actor_;
     return;
   }
-  dance(*actor, captured, now);
+  if (dance(*actor, received, now)) sender_.keep(from, received);
 }
 
 const RokokoActor* RokokoReceiver::find_actor(const RokokoFrame& frame, MonoTime now) {
@@ -71,18 +76,23 @@ const RokokoActor* RokokoReceiver::find_actor(const RokokoFrame& frame, MonoTime
   return first;
 }
 
-void RokokoReceiver::dance(const RokokoActor& actor, MonoTime captured, MonoTime now) {
+bool RokokoReceiver::dance(const RokokoActor& actor, MonoTime received, MonoTime now) {
   figure_.set_heights(actor.total_height_m, actor.hip_height_m);
   const FigureFrame figure = figure_of(actor);
   Pose pose;
   if (!figure_.fit(figure, pose)) {
     ++incomplete_;
-    return;
+    return false;
   }
+  // Only the stamps of the sender that is kept tell its clock.
+  if (!sender_.is_kept()) clock_.begin_anew();
+  const MonoTime captured =
+      clock_.to_ours(static_cast<std::int64_t>(reader_.frame().timestamp_s * 1e6), received);
   dancer_.set_skeleton(figure_.skeleton());
-  if (!dancer_.capture(pose, captured, now)) return;
+  if (!dancer_.capture(pose, captured, now)) return false;
   Hands hands;
   if (hands_of(actor, figure, hands)) dancer_.capture(hands);
+  return true;
 }
 
 std::string RokokoReceiver::summary() const {
@@ -99,6 +109,8 @@ std::string RokokoReceiver::summary() const {
   tell(incomplete_, "with joints missing");
   tell(counters.invalid, "not valid");
   tell(counters.not_newer, "not newer");
+  tell(counters.skeletons_left_out, "skeletons that changed again within a second");
+  tell(sender_.others(), "of a second sender, who has to use another port");
   tell(socket_.counters().truncated, "too long");
   tell(clock_.steps(), "jumps of the sender's clock");
   return line;

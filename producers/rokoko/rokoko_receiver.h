@@ -16,6 +16,7 @@
 #include "core/net/udp_socket.h"
 #include "formats/rokoko/rokoko_reader.h"
 #include "producers/receive/joint_figure.h"
+#include "producers/receive/one_sender.h"
 #include "producers/receive/pose_receiver.h"
 #include "producers/receive/received_dancer.h"
 
@@ -37,7 +38,8 @@ class RokokoReceiver final : public PoseReceiver {
   RokokoReceiver& operator=(const RokokoReceiver&) = delete;
 
   // A datagram as it comes from the socket.
-  void take(std::span<const std::uint8_t> datagram, MonoTime received, MonoTime now);
+  void take(const Address& from, std::span<const std::uint8_t> datagram, MonoTime received,
+            MonoTime now);
 
   std::string summary() const override;
   const ReceivedDancer& dancer() const { return dancer_; }
@@ -48,12 +50,14 @@ class RokokoReceiver final : public PoseReceiver {
  private:
   RokokoReceiver(const Options& options, UdpSocket socket, CaptureSink& sink, Poller& poller);
   const RokokoActor* find_actor(const RokokoFrame& frame, MonoTime now);
-  void dance(const RokokoActor& actor, MonoTime captured, MonoTime now);
+  // Whether it was published.
+  bool dance(const RokokoActor& actor, MonoTime received, MonoTime now);
 
   UdpSocket socket_;
   Poller& poller_;
   std::string wanted_;
   ReceivedDancer dancer_;
+  OneSender sender_;
   RokokoReader reader_;
   OneWayClock clock_;
   JointFigure figure_;

@@ -7,9 +7,16 @@ constexpr std::uint64_t kBody = (std::uint64_t{1} << kBoneCount) - 1;
 
 }  // namespace
 
-VmcAssembler::VmcAssembler(VmcFrameSink& sink) : sink_(sink) {
+VmcAssembler::VmcAssembler(VmcFrameSink& sink) : sink_(sink) { forget(); }
+
+void VmcAssembler::forget() {
+  frame_ = ReceivedVmcFrame();
   frame_.p_m.fill(Eigen::Vector3f::Zero());
   frame_.R.fill(Eigen::Quaternionf::Identity());
+  is_marked_ = false;
+  next_time_s_.reset();
+  since_mark_ = expected_ = lacking_ = 0;
+  thumbs_ = VmcThumbs::kUnity;
 }
 
 void VmcAssembler::take(const VmcMessage& message) {
@@ -43,7 +50,7 @@ void VmcAssembler::take_bone(const VmcMessage& message) {
   const std::uint64_t bit = std::uint64_t{1} << *bone;
   if (is_marked_ || (frame_.bones & bit) != 0) complete();
   if ((since_mark_ & bit) != 0) {
-    expect(since_mark_);
+    note_all_of(since_mark_);
     since_mark_ = 0;
   }
   if (frame_.bones == 0) {
@@ -75,15 +82,15 @@ void VmcAssembler::take_time(float time_s) {
 
 void VmcAssembler::mark() {
   if (frame_.bones != 0) is_marked_ = true;
-  if (since_mark_ != 0) expect(since_mark_);
+  if (since_mark_ != 0) note_all_of(since_mark_);
   since_mark_ = 0;
 }
 
 // A frame that lacks bones lost a packet: only when the same lack again, the sender sends fewer.
-void VmcAssembler::expect(std::uint64_t bones) {
+void VmcAssembler::note_all_of(std::uint64_t bones) {
   const bool has_all = (bones & expected_) == expected_;
-  if (has_all || bones == fewer_) expected_ = bones;
-  fewer_ = has_all ? 0 : bones;
+  if (has_all || bones == lacking_) expected_ = bones;
+  lacking_ = has_all ? 0 : bones;
 }
 
 void VmcAssembler::end_packet() {

@@ -51,6 +51,8 @@ class VmcAssembler {
   void begin_packet(MonoTime received) { now_ = received; }
   void take(const VmcMessage& message);
   void end_packet();
+  // For another sender.
+  void forget();
   std::uint64_t unknown_bones() const { return unknown_bones_; }
 
  private:
@@ -60,7 +62,7 @@ class VmcAssembler {
   void take_bone(const VmcMessage& message);
   void take_time(float time_s);
   void mark();
-  void expect(std::uint64_t bones);
+  void note_all_of(std::uint64_t bones);
   void complete();
 
   VmcFrameSink& sink_;
@@ -72,7 +74,7 @@ class VmcAssembler {
   MonoTime next_time_received_;
   std::uint64_t since_mark_ = 0;  // bones
   std::uint64_t expected_ = 0;    // the bones that this sender sends
-  std::uint64_t fewer_ = 0;       // what came instead, once
+  std::uint64_t lacking_ = 0;     // what came instead, once
   VmcThumbs thumbs_ = VmcThumbs::kUnity;
   std::uint64_t unknown_bones_ = 0;
 };

@@ -21,6 +21,12 @@ void VmcIntake::take(std::span<const std::uint8_t> packet, MonoTime received, Mo
   assembler_.end_packet();
 }
 
+void VmcIntake::begin_anew() {
+  assembler_.forget();
+  body_ = VmcBody();
+  clock_.begin_anew();
+}
+
 void VmcIntake::on_message(const OscMessage& message) {
   const VmcMessage parsed = parse_vmc(message);
   if (parsed.kind == VmcMessage::Kind::kMalformed)
@@ -54,6 +60,8 @@ std::string VmcIntake::summary() const {
   add_count(line, assembler_.unknown_bones(), " bones of unknown names");
   add_count(line, dancer_.counters().invalid, " poses that cannot be");
   add_count(line, dancer_.counters().not_newer, " poses not newer than the last");
+  add_count(line, dancer_.counters().skeletons_left_out,
+            " skeletons that changed again within a second");
   return line;
 }
 
@@ -76,20 +84,18 @@ VmcReceiver::~VmcReceiver() { poller_.unwatch(socket_.fd()); }
 void VmcReceiver::drain(MonoTime now) {
   // One batch a turn: what is left wakes the poller again, and others have their turn before.
   for (const UdpSocket::Datagram& datagram : socket_.receive()) {
-    if (is_of_another(datagram)) {
-      ++of_others_;
-      continue;
-    }
+    const OneSender::Verdict verdict = sender_.admit(datagram.from, datagram.received);
+    if (verdict == OneSender::Verdict::kOther) continue;
+    if (verdict == OneSender::Verdict::kReadAnew) intake_.begin_anew();
     const std::uint64_t poses = intake_.dancer().counters().poses;
     intake_.take(datagram.bytes, datagram.received, now);
-    if (intake_.dancer().counters().poses > poses) sender_ = datagram.from;
-    if (datagram.from == sender_) sender_heard_ = datagram.received;
+    if (intake_.dancer().counters().poses > poses) sender_.keep(datagram.from, datagram.received);
   }
 }
 
 std::string VmcReceiver::summary() const {
   std::string line = intake_.summary();
-  add_count(line, of_others_, " packets of a second sender, who has to use another port");
+  add_count(line, sender_.others(), " packets of a second sender, who has to use another port");
   add_count(line, socket_.counters().truncated, " packets that were cut");
   return line;
 }

@@ -18,6 +18,7 @@
 #include "core/net/one_way_clock.h"
 #include "core/net/udp_socket.h"
 #include "formats/osc/osc_reader.h"
+#include "producers/receive/one_sender.h"
 #include "producers/receive/received_dancer.h"
 #include "producers/receive/receiver_table.h"
 #include "producers/vmc/vmc_assembler.h"
@@ -31,6 +32,8 @@ class VmcIntake final : private OscMessageSink, private VmcFrameSink {
   VmcIntake(const GuestId& guest, CaptureSink& sink) : dancer_(guest, sink), assembler_(*this) {}
 
   void take(std::span<const std::uint8_t> packet, MonoTime received, MonoTime now);
+  // For another sender.
+  void begin_anew();
   std::string summary() const;
   const ReceivedDancer& dancer() const { return dancer_; }
   std::uint64_t malformed() const { return malformed_; }
@@ -52,9 +55,6 @@ class VmcIntake final : private OscMessageSink, private VmcFrameSink {
 class VmcReceiver final : public PoseReceiver {
  public:
   static constexpr const char* kUsualAddress = "127.0.0.1:39539";
-  // One sender at a time: the first whose packets make poses. Another has its turn when that one
-  // was silent for so long.
-  static constexpr Duration kSenderKept = Duration::s(2);
 
   static Result<std::unique_ptr<PoseReceiver>> open(const ReceiverOptions& options,
                                                     CaptureSink& sink, Poller& poller);
@@ -64,17 +64,11 @@ class VmcReceiver final : public PoseReceiver {
  private:
   VmcReceiver(const GuestId& guest, CaptureSink& sink, Poller& poller, UdpSocket socket);
   void drain(MonoTime now);
-  bool is_of_another(const UdpSocket::Datagram& datagram) const {
-    return sender_heard_.is_set() && datagram.received - sender_heard_ < kSenderKept &&
-           !(datagram.from == sender_);
-  }
 
   Poller& poller_;
   UdpSocket socket_;
   VmcIntake intake_;
-  Address sender_;
-  MonoTime sender_heard_;
-  std::uint64_t of_others_ = 0;
+  OneSender sender_;
 };
 
 }  // namespace dance

@@ -120,7 +120,10 @@ def frame_of_data(frame, bones):
         content += section(0, b'')
     content += section(1, struct.pack('<I3ffHf', 5, 1, 2, 3, 0.014, 2, 0.1))
     content += section(0, b'') + section(0, b'')
-    content += struct.pack('<IIdQQQH', 0, 0, frame / HZ, exposed, exposed + 100, exposed + 200, 0)
+    content += struct.pack('<IIdQQQ', 0, 0, frame / HZ, exposed, exposed + 100, exposed + 200)
+    if VERSION >= (4, 1):
+        content += struct.pack('<II', 1_700_000_000 + int(frame / HZ), 0x40000000)
+    content += struct.pack('<H', 0)
     return message(7, content + struct.pack('<I', 0))
 
 

@@ -54,6 +54,7 @@ TEST_F(OscConsumers, SendAVmcFrameInTheCallThatBringsThePose) {
   open("vmc");
   consumer_->on_skeleton(kAlice, average_skeleton(1.5f), at_ms(0));
   Hands hands;
+  hands.presence = 1;
   hands.R_PB[0] = Eigen::Quaternionf(0.8f, 0.6f, 0.0f, 0.0f);
   consumer_->on_hands(kAlice, hands, at_ms(0));
   dance(kAlice, 0);
@@ -69,6 +70,32 @@ TEST_F(OscConsumers, SendAVmcFrameInTheCallThatBringsThePose) {
       EXPECT_FLOAT_EQ(bone.floats[3], 0.6f);
     }
   }
+}
+
+TEST_F(OscConsumers, FingersThatNoLongerComeAreNotSentOn) {
+  open("vmc");
+  Hands hands;
+  hands.presence = 1;
+  hands.R_PB[0] = Eigen::Quaternionf(0.8f, 0.6f, 0.0f, 0.0f);
+  const auto thumb_x = [&] {
+    for (const DecodedOsc& bone : only(heard(), "/VMC/Ext/Bone/Pos"))
+      if (bone.texts[0] == "LeftThumbProximal") return bone.floats[3];
+    return 0.0f;
+  };
+  consumer_->on_hands(kAlice, hands, at_ms(0));
+  dance(kAlice, 0);
+  EXPECT_FLOAT_EQ(thumb_x(), 0.6f);
+  dance(kAlice, 1900);
+  EXPECT_FLOAT_EQ(thumb_x(), 0.6f);
+  dance(kAlice, 2100);
+  EXPECT_FLOAT_EQ(thumb_x(), 0.0f);
+  consumer_->on_hands(kAlice, hands, at_ms(2200));
+  dance(kAlice, 2200);
+  EXPECT_FLOAT_EQ(thumb_x(), 0.6f);
+  hands.presence = 0;
+  consumer_->on_hands(kAlice, hands, at_ms(2210));
+  dance(kAlice, 2220);
+  EXPECT_FLOAT_EQ(thumb_x(), 0.0f);
 }
 
 TEST_F(OscConsumers, TellThatTheDancerIsSilentAndThatTheyAreBack) {

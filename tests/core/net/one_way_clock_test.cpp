@@ -56,6 +56,52 @@ TEST(OneWayClock, AClockThatIsSetBeginsAnew) {
   EXPECT_EQ(clock.steps(), 1u);
 }
 
+// A game engine that hangs for a second lets its clock go on by a third of one only.
+TEST(OneWayClock, AClockThatFallsBackByLessThanASecondIsFollowedWithinTwo) {
+  for (const double back_ms : {300.0, 667.0, 900.0}) {
+    OneWayClock clock;
+    Random random(6);
+    for (int i = 0; i < 2000; ++i) {
+      const double sent_ms = 10.0 * i;
+      const double back = i < 500 ? 0.0 : back_ms;
+      const auto theirs_us = static_cast<std::int64_t>((sent_ms - back) * 1000.0);
+      const MonoTime received = at_ms(sent_ms + random.uniform(0.0, 8.0));
+      const MonoTime ours = clock.to_ours(theirs_us, received);
+      EXPECT_LE(ours, received);
+      if (i >= 620) {
+        EXPECT_NEAR(ms_of(ours), sent_ms, 3.0) << back_ms << " ms, " << i;
+      }
+    }
+    EXPECT_EQ(clock.steps(), 1u) << back_ms;
+  }
+}
+
+// Half a second in which most is late, again and again, is the network.
+TEST(OneWayClock, DelaysThatPassAreNoStep) {
+  OneWayClock clock;
+  Random random(7);
+  for (int i = 0; i < 20'000; ++i) {
+    const double sent_ms = 10.0 * i;
+    const bool is_late = i % 100 >= 40 || random.uniform(0.0, 1.0) < 0.5;
+    const double delay_ms = is_late && i % 100 != 70 ? random.uniform(20.0, 100.0) : 1.0;
+    const MonoTime ours = clock.to_ours(10'000 * i, at_ms(sent_ms + delay_ms));
+    if (i > 100) {
+      EXPECT_NEAR(ms_of(ours), sent_ms + 1.0, 0.5) << i;
+    }
+  }
+  EXPECT_EQ(clock.steps(), 0u);
+}
+
+TEST(OneWayClock, AFewLateStampsOfASlowSenderAreNoStep) {
+  OneWayClock clock;
+  for (int i = 0; i < 100; ++i) {
+    const double sent_ms = 500.0 * i;
+    const double delay_ms = i % 10 >= 6 ? 80.0 : 1.0;
+    clock.to_ours(500'000 * i, at_ms(sent_ms + delay_ms));
+  }
+  EXPECT_EQ(clock.steps(), 0u);
+}
+
 TEST(OneWayClock, StampsBeyondAllTimesDoNoHarm) {
   OneWayClock clock;
   for (const std::int64_t theirs_us : {INT64_MAX, INT64_MIN, INT64_MAX / 4000, INT64_MIN / 4000})

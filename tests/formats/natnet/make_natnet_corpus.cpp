@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   auto frame = std::make_unique<NatNetFrame>();
   (void)frame->skeletons.try_push(natnet_skeleton(figure, 1, false));
   frame->rigid_bodies = 1;
+  frame->models_changed = true;
   const auto save = [&](const std::string& name, char version, std::vector<std::uint8_t> bytes) {
     std::ofstream file(folder + "/" + name, std::ios::binary);
     file << version << std::string(bytes.begin(), bytes.end());

@@ -143,6 +143,7 @@ inline std::vector<std::uint8_t> natnet_frame_packet(NatNetVersion version,
   body.section(version, 0, NatNetPacketWriter());
   body.u32(0).u32(0).f64(frame.timestamp_s);
   body.u64(frame.exposed_ticks).u64(frame.exposed_ticks + 10).u64(frame.exposed_ticks + 20);
+  if (version >= NatNetVersion{4, 1}) body.u32(1'700'000'001).u32(0x80000000);
   body.u16(frame.models_changed ? 2 : 0).u32(0);
   return body.packet(NatNetMessage::kFrame);
 }

@@ -161,6 +161,77 @@ TEST_F(NatNetStream, PacketsOfAnotherMachineAndDamagedOnesChangeNothing) {
   EXPECT_EQ(sink_.poses.size(), 1u);
 }
 
+const Address kOtherMachine = *Address::resolve("127.0.0.2:1510");
+
+TEST_F(NatNetStream, AMachineIsNoServerByAHeaderAlone) {
+  open();
+  SalsaDancer dancer = salsa_dancer(SalsaRole::kLead);
+  const FigureFrame figure = figure_at(dancer, 1.0);
+  for (int i = 0; i < 10; ++i) {
+    take(NatNetPacketWriter().u32(1).packet(NatNetMessage::kFrame), 0.0, kOtherMachine);
+    take(NatNetPacketWriter().u32(1).packet(NatNetMessage::kServerInfo), 0.0, kOtherMachine);
+  }
+  describe({3, 1}, figure);
+  take(frame_packet({3, 1}, figure, 0.1, false), 0.1);
+  EXPECT_EQ(sink_.poses.size(), 1u);
+}
+
+TEST_F(NatNetStream, AllThatWasLearntOfASilentServerIsForgotten) {
+  open();
+  SalsaDancer dancer = salsa_dancer(SalsaRole::kLead);
+  const FigureFrame figure = figure_at(dancer, 1.0);
+  describe({4, 1}, figure);
+  for (int i = 0; i < 50; ++i) take(frame_packet({4, 1}, figure, 0.1 * i, false), 0.1 * i);
+  ASSERT_EQ(sink_.poses.size(), 50u);
+  take(frame_packet({3, 1}, figure, 6.0, false), 6.0, kOtherMachine);
+  EXPECT_EQ(receiver_->counters().of_others, 1u);
+  // Another machine, of another version, with another skeleton and other ticks.
+  auto models = std::make_unique<NatNetModels>();
+  (void)models->skeletons.try_push(natnet_model(figure, "Cleo", 8));
+  take(frame_packet({3, 1}, figure, 7.5, false, 8), 7.5, kOtherMachine);
+  EXPECT_EQ(receiver_->counters().before_version, 1u);
+  take(natnet_server_packet({3, 1}, 2'000'000), 7.5, kOtherMachine);
+  take(frame_packet({3, 1}, figure, 7.6, false, 3), 7.6, kOtherMachine);
+  EXPECT_EQ(receiver_->counters().before_models, 1u);
+  take(natnet_models_packet({3, 1}, *models), 7.6, kOtherMachine);
+  take(frame_packet({3, 1}, figure, 7.7, false, 8), 7.7, kOtherMachine);
+  ASSERT_EQ(sink_.poses.size(), 51u);
+  EXPECT_EQ(sink_.poses.back().capture_time, began_ + Duration::seconds(7.7));
+  EXPECT_EQ(receiver_->summary().find("jumps"), std::string::npos) << receiver_->summary();
+}
+
+TEST_F(NatNetStream, AServerThatComesBackAsAnotherIsLearntAnew) {
+  open("?server=127.0.0.1");
+  SalsaDancer dancer = salsa_dancer(SalsaRole::kLead);
+  const FigureFrame figure = figure_at(dancer, 1.0);
+  describe({4, 1}, figure);
+  take(frame_packet({4, 1}, figure, 0.0, false), 0.0);
+  ASSERT_EQ(sink_.poses.size(), 1u);
+  take(natnet_server_packet({3, 1}, 10'000'000), 0.5);
+  take(frame_packet({3, 1}, figure, 0.6, false), 0.6);
+  EXPECT_EQ(receiver_->counters().before_models, 1u);
+  EXPECT_EQ(sink_.poses.size(), 1u);
+  auto models = std::make_unique<NatNetModels>();
+  (void)models->skeletons.try_push(natnet_model(figure, "Ana", 3));
+  take(natnet_models_packet({3, 1}, *models), 0.7);
+  take(frame_packet({3, 1}, figure, 0.8, false), 0.8);
+  EXPECT_EQ(sink_.poses.size(), 2u);
+}
+
+TEST_F(NatNetStream, AFloodIsReadABatchATurn) {
+  const std::uint16_t port = *free_loopback_port();
+  auto opened =
+      NatNetReceiver::open({kAna, "127.0.0.1:" + std::to_string(port), ""}, sink_, *poller_);
+  ASSERT_TRUE(opened.has_value()) << opened.error().what;
+  auto sender = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(sender.has_value());
+  const std::uint8_t junk[] = {7, 0, 9, 9};
+  for (int i = 0; i < 20; ++i) sender->send_now(Address::loopback(port), junk);
+  for (int i = 0; i < 20 && (*opened)->counters().packets == 0; ++i)
+    poller_->run_once(Duration::ms(10));
+  EXPECT_EQ((*opened)->counters().packets, 8u);
+}
+
 TEST_F(NatNetStream, AServerThatIsNamedIsAskedAndKeptAlive) {
   auto server = UdpSocket::bind(Address::loopback(0));
   ASSERT_TRUE(server.has_value());

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "core/net/one_way_clock.h"
 #include "tests/allocation_guard.h"
 #include "tests/producers/receive/kept_captures.h"
 
@@ -47,6 +49,40 @@ TEST(ReceivedDancer, PublishesProportionsBeforeTheFirstPoseEachSecondAndWhenThey
   EXPECT_EQ(kept.skeletons[2].skeleton.version, 1u);
   EXPECT_EQ(kept.skeletons[3].skeleton.version, 2u);
   EXPECT_TRUE(dancer.has_skeleton());
+}
+
+TEST(ReceivedDancer, PublishesAtMostOneChangedSkeletonASecondAndTheLast) {
+  KeptCaptures kept;
+  ReceivedDancer dancer(kAlice, kept);
+  for (int i = 0; i < 400; ++i) {
+    dancer.set_skeleton(average_skeleton(1.6f + 0.0005f * static_cast<float>(std::min(i, 250))));
+    Pose pose;
+    dancer.capture(pose, at_ms(10 * i), at_ms(10 * i));
+  }
+  ASSERT_EQ(kept.skeletons.size(), 4u);
+  EXPECT_EQ(kept.poses_before_skeleton, (std::vector<std::size_t>{0, 100, 200, 300}));
+  Skeleton last = average_skeleton(1.6f + 0.0005f * 250.0f);
+  last.version = 4;
+  EXPECT_TRUE(kept.skeletons[3].skeleton == last);
+  EXPECT_EQ(dancer.counters().skeletons_left_out, 251u - 4u);
+}
+
+// The stamps of a game engine fall back as its clock does: what is dropped lasts no longer.
+TEST(ReceivedDancer, AfterAClockFellBackPosesAreMissingNoLongerThanThat) {
+  for (const int back_ms : {300, 667, 900, 1500}) {
+    KeptCaptures kept;
+    ReceivedDancer dancer(kAlice, kept);
+    OneWayClock clock;
+    for (int i = 0; i < 1000; ++i) {
+      const std::int64_t sent_ms = 10 * i;
+      Pose pose;
+      dancer.capture(pose,
+                     clock.to_ours((sent_ms - (i < 500 ? 0 : back_ms)) * 1000, at_ms(sent_ms)),
+                     at_ms(sent_ms));
+    }
+    EXPECT_LE(dancer.counters().not_newer, static_cast<std::uint64_t>(back_ms / 10));
+    EXPECT_EQ(kept.poses.back().capture_time, at_ms(9990)) << back_ms;
+  }
 }
 
 TEST(ReceivedDancer, DropsAndCountsWhatIsNotValidOrNotNewer) {

@@ -183,7 +183,7 @@ TEST_F(VmcIntakeTest, StandsDancersOfSendersWithoutPositionsOnTheFloor) {
 
 TEST_F(VmcIntakeTest, ScalesAnAverageBodyToTheHipsWhereOnlyTheseHaveAPlace) {
   for (int i = 0; i < 20; ++i) {
-    performer.now = at_ms(20.0 * i);
+    performer.now = at_ms(100.0 * i);
     performer.bone("Hips", 0, i < 5 ? 0.6f : 0.8f, 0);  // rises from a crouch
     performer.bone("Spine", 0, 0, 0);
     performer.apply();
