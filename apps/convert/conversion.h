@@ -3,8 +3,8 @@
 // Units/frames: seconds from the first pose to the last.
 // Ownership:    plain values.
 // Threads:      none inside; reads and writes files on the caller's thread.
-// Failure:      an Error names the file and the cure, and leaves no file behind. What is damaged, or
-//               beyond a bound, is left out and said, so that the user keeps the only good copy.
+// Failure:      an Error names the file and the cure, and leaves no file behind. What is damaged or
+//               beyond a bound is left out and said, so that the user keeps the only good copy.
 #pragma once
 
 #include <cstdint>

@@ -20,8 +20,8 @@ constexpr const char* kExamples = R"(Examples:
   dance convert logs/couple-packed.lcm couple.csv --hz 10      for a spreadsheet
   dance convert dance.bvh.xz dance.lcm --guest carla           for dance replay, as carla
   dance convert night.mcap night.lcm                           and back
-It reads .lcm (packed or plain) .bvh .bvh.xz .glb .vrma .vrm .gltf .mcap .csv and writes .lcm .bvh .glb
-.mcap .csv.
+It reads .lcm (packed or plain) .bvh .bvh.xz .glb .vrma .vrm .gltf .mcap .csv and
+writes .lcm .bvh .glb .mcap .csv.
 )";
 
 struct Options {
