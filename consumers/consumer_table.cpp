@@ -7,6 +7,7 @@
 #include "consumers/engine/engine_consumer.h"
 #include "consumers/files/glb_consumer.h"
 #include "consumers/mcap/mcap_consumer.h"
+#include "consumers/rate_limit.h"
 #include "consumers/rokoko/rokoko_consumer.h"
 #include "consumers/text/bvh_consumer.h"
 #include "consumers/text/csv_consumer.h"
@@ -134,6 +135,7 @@ Result<void> check_consumer_options(const ConsumerKind& kind, const ConsumerOpti
                                    misplaced(options.name, OutputKind::kMemory, "a name")})
     if (!given.empty())
       return fail("'" + kind.name + "' takes " + what_it_takes(kind.output) + ", not " + given);
+  if (auto rate = check_rate(options.hz); !rate) return rate;
   if (options.dialect.empty() ||
       std::find(kind.dialects.begin(), kind.dialects.end(), options.dialect) != kind.dialects.end())
     return {};

@@ -44,7 +44,8 @@ struct ConsumerKind {
 std::vector<std::string> consumer_names();
 // nullptr for an unknown name.
 const ConsumerKind* find_consumer_kind(const std::string& name);
-// What is wrong with the options for this kind: a file for a consumer with an address, …
+// What is wrong with the options for this kind: a file for a consumer with an address, a rate that
+// none can be, …
 Result<void> check_consumer_options(const ConsumerKind& kind, const ConsumerOptions& options);
 Result<std::unique_ptr<PoseConsumer>> make_consumer(const std::string& name,
                                                     const ConsumerOptions& options);

@@ -3,6 +3,7 @@
 
 #include "consumers/consumer_feed.h"
 #include "consumers/consumer_table.h"
+#include "consumers/rate_limit.h"
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
@@ -111,13 +112,10 @@ int main(int argc, char** argv) {
   line.add("--hz", options.hz,
            "at most so many lines or rows a second of each dancer (0: all); frames a second "
            "of a BVH (0: 60)")
-      .range(0.0, 1000.0);
+      .range(0.0, dance::kFastestRate_hz);
   line.add("--seconds", options.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
   line.add("--bus", options.bus, "LCM URL of the bus");
-  line.finally([&]() -> dance::Result<void> {
-    if (options.hz == 0.0 || options.hz >= 0.001) return {};
-    return dance::fail("--hz: 0, or from 0.001 up");
-  });
+  line.finally([&] { return dance::check_rate(options.hz); });
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::listen(options); });
 }

@@ -1,7 +1,7 @@
 // RateLimit: a throttle: at most so many poses a second of each guest, evenly by the poses'
 // capture times.
 //
-// Units/frames: hz; 0 lets everything through.
+// Units/frames: hz, as check_rate() wants it; 0 lets everything through.
 // Ownership:    remembers kMostGuests guests; never allocates.
 // Threads:      none inside; one owner.
 // Failure:      guests beyond kMostGuests are not let through; a clock that went back begins anew.
@@ -9,9 +9,19 @@
 
 #include "core/base/fixed_list.h"
 #include "core/base/guest_id.h"
+#include "core/base/result.h"
 #include "core/base/time.h"
 
 namespace dance {
+
+constexpr double kSlowestRate_hz = 0.001;  // its period still fits a Duration
+constexpr double kFastestRate_hz = 1000.0;
+
+// Of options, those of a program's line and of a session: a slower rate than this has no period.
+inline Result<void> check_rate(double hz) {
+  if (hz == 0.0 || (hz >= kSlowestRate_hz && hz <= kFastestRate_hz)) return {};
+  return fail("the rate is 0, or from 0.001 to 1000 a second");
+}
 
 class RateLimit {
  public:

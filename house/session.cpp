@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "consumers/rate_limit.h"
 #include "core/program/whole_file.h"
 #include "house/toml_reader.h"
 #include "transformers/flow.h"
@@ -186,7 +187,8 @@ void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Sess
   options.address = reader.string_or("address", "");
   options.name = reader.string_or("name", "");
   options.dialect = reader.string_or("dialect", "");
-  options.hz = reader.number_or("rate", 0.0, 0.0, 1000.0);
+  options.hz = reader.number_or("rate", 0.0, 0.0, kFastestRate_hz);
+  if (const auto rate = check_rate(options.hz); !rate) reader.complain("rate", rate.error().what);
   const ConsumerKind* kind = find_consumer_kind(consumer.to);
   if (!kind)
     reader.complain("to", fmt::format("is one of: {}", fmt::join(consumer_names(), ", ")));

@@ -4,9 +4,8 @@
 #include <chrono>
 #include <filesystem>
 
-#include "core/program/whole_file.h"
 #include "formats/bvh/clip_file.h"
-#include "formats/gltf/glb.h"
+#include "formats/clip/dancers_file.h"
 #include "formats/recording/clip_source.h"
 
 namespace dance {
@@ -97,15 +96,10 @@ Result<std::unique_ptr<ConvertSource>> open_bvh_input(const std::string& path,
 
 Result<std::unique_ptr<ConvertSource>> open_glb_input(const std::string& path,
                                                       const GuestId& guest) {
-  const GlbLimits limits;
-  DANCE_TRY(const std::string bytes, read_whole_file(path, limits.file_bytes));
-  auto clips =
-      read_glb({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, limits);
-  if (!clips) return fail(path + ": " + clips.error().what);
-  if (clips->empty()) return fail(path + ": nobody moves in it; export it with its animation");
-  std::vector<GuestId> names = names_of(*clips);
+  DANCE_TRY(std::vector<NamedClip> clips, load_dancers(path));
+  std::vector<GuestId> names = names_of(clips);
   if (guest.is_set() && names.size() == 1) names[0] = guest;
-  return std::make_unique<ClipInput>(std::move(*clips), std::move(names), changed_us(path));
+  return std::make_unique<ClipInput>(std::move(clips), std::move(names), changed_us(path));
 }
 
 }  // namespace dance

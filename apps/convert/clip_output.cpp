@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/program/whole_file.h"
+#include "apps/convert/counted.h"
+#include "consumers/output_file.h"
 #include "formats/bvh/bvh.h"
 #include "formats/recording/steady_clip.h"
 
@@ -36,6 +37,16 @@ class ClipOutput : public ConvertSink {
     return count;
   }
   std::string left_out() const override {
+    return listed({{all_counters().beyond_bound, "frames beyond an hour at 60 Hz"},
+                   {beyond_guests_, "messages of too many guests"}});
+  }
+  std::string note() const override {
+    return listed({{all_counters().gaps, "silences cut out"},
+                   {all_counters().not_newer, "poses and hands that were not newer"}});
+  }
+
+ protected:
+  SteadyClip::Counters all_counters() const {
     SteadyClip::Counters all;
     for (const Guest& guest : guests_) {
       if (!guest.clip) continue;
@@ -43,18 +54,9 @@ class ClipOutput : public ConvertSink {
       all.gaps += guest.clip->counters().gaps;
       all.beyond_bound += guest.clip->counters().beyond_bound;
     }
-    std::string text;
-    const auto add = [&text](std::uint64_t count, const char* what) {
-      if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + what;
-    };
-    add(all.gaps, " silences cut out");
-    add(all.not_newer, " poses and hands that were not newer");
-    add(all.beyond_bound, " frames beyond an hour at 60 Hz");
-    add(beyond_guests_, " messages of too many guests");
-    return text;
+    return all;
   }
 
- protected:
   struct Guest {
     GuestId id;
     std::unique_ptr<SteadyClip> clip;  // none of guests beyond most_clips_
@@ -94,7 +96,9 @@ class BvhOutput : public ClipOutput {
       return fail(options_.name + ": a BVH holds one dancer, and here are " + names +
                   "; choose with --guest, or write a .glb");
     }
-    return write_whole_file(options_.path, write_bvh(guests_[0].clip->with_hands()));
+    DANCE_TRY(const auto file, OutputFile::open(options_.path));
+    file->write(write_bvh(guests_[0].clip->with_hands()));
+    return file->flush();
   }
 };
 

@@ -61,11 +61,9 @@ class Chosen : public RecordingSink {
 Result<Conversion> convert_recording(const ConversionOptions& options) {
   DANCE_TRY(const FileKind kind, output_kind(options.to));
   DANCE_TRY(const auto source, open_source(options.from, options.guest, options.where));
-  if (auto free = PartFile::free_name(options.to); !free) return tl::make_unexpected(free.error());
-  const std::string part_path = options.to + ".part";
-  if (auto free = PartFile::free_name(part_path); !free) return tl::make_unexpected(free.error());
-  PartFile part(options.to);
-  DANCE_TRY(const auto sink, make_sink(kind, {part_path, options.to, options.hz, source->where()}));
+  DANCE_TRY(const auto part, PartFile::create(options.to));
+  DANCE_TRY(const auto sink,
+            make_sink(kind, {part->path(), options.to, options.hz, source->where()}));
   // Clips are resampled, all else is thinned.
   const bool is_clip = kind == FileKind::kBvh || kind == FileKind::kGlb;
   Chosen chosen(*sink, options.guest, is_clip ? 0.0 : options.hz);
@@ -74,7 +72,7 @@ Result<Conversion> convert_recording(const ConversionOptions& options) {
     return fail(options.from + ": nobody called " + std::string(options.guest.view()) +
                 " dances in it; there are " + chosen.names());
   if (auto finished = sink->finish(); !finished) return tl::make_unexpected(finished.error());
-  if (auto kept = part.keep(); !kept) return tl::make_unexpected(kept.error());
+  if (auto kept = part->keep(); !kept) return tl::make_unexpected(kept.error());
   Conversion conversion{sink->frames(),  chosen.guests(), chosen.seconds(),
                         source->notes(), source->lost(),  sink->left_out()};
   if (const std::string note = sink->note(); !note.empty()) conversion.notes.push_back(note);

@@ -3,8 +3,8 @@
 // Units/frames: seconds from the first pose to the last.
 // Ownership:    plain values.
 // Threads:      none inside; reads and writes files on the caller's thread.
-// Failure:      an Error names the file and the cure, and leaves no file behind. What is damaged is
-//               left out and said in `lost`, so that the user keeps the only good copy.
+// Failure:      an Error names the file and the cure, and leaves no file behind. What is damaged or
+//               beyond a bound is left out and said, so that the user keeps the only good copy.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ struct Conversion {
   std::uint64_t guests = 0;
   double seconds = 0.0;
   std::vector<std::string> notes;
-  std::string lost;      // of the input
-  std::string left_out;  // of the output
+  std::string lost;      // of the input, damaged
+  std::string left_out;  // of the output, beyond a bound
 };
 
 // `to` must not be there yet. It is written as `to`.part, which becomes `to` when all is in it.

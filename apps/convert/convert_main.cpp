@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/convert/conversion.h"
+#include "consumers/rate_limit.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 
@@ -19,8 +20,8 @@ constexpr const char* kExamples = R"(Examples:
   dance convert logs/couple-packed.lcm couple.csv --hz 10      for a spreadsheet
   dance convert dance.bvh.xz dance.lcm --guest carla           for dance replay, as carla
   dance convert night.mcap night.lcm                           and back
-It reads .lcm (packed or plain) .bvh .bvh.xz .glb .vrma .gltf .mcap .csv and writes .lcm .bvh .glb
-.mcap .csv.
+It reads .lcm (packed or plain) .bvh .bvh.xz .glb .vrma .vrm .gltf .mcap .csv and
+writes .lcm .bvh .glb .mcap .csv.
 )";
 
 struct Options {
@@ -36,7 +37,6 @@ Result<void> convert(Options& options) {
   DANCE_TRY(const Conversion conversion, convert_recording(options.conversion));
   const std::string& to = options.conversion.to;
   for (const std::string& note : conversion.notes) talk::info("{}", note);
-  if (!conversion.left_out.empty()) talk::warn("{}: left out: {}", to, conversion.left_out);
   if (options.json) {
     const nlohmann::ordered_json report{{"frames", conversion.frames},
                                         {"guests", conversion.guests},
@@ -47,9 +47,11 @@ Result<void> convert(Options& options) {
     fmt::print("{}: {} frames of {} {}, {:.1f} s\n", to, conversion.frames, conversion.guests,
                conversion.guests == 1 ? "guest" : "guests", conversion.seconds);
   }
-  if (conversion.lost.empty()) return {};
-  return fail(options.conversion.from + ": damaged: " + conversion.lost + "; " + to +
-              " holds all the rest");
+  if (conversion.lost.empty() && conversion.left_out.empty()) return {};
+  std::string what = options.conversion.from + ": ";
+  if (!conversion.lost.empty()) what += "damaged: " + conversion.lost + "; ";
+  if (!conversion.left_out.empty()) what += "left out: " + conversion.left_out + "; ";
+  return fail(what + to + " holds all the rest");
 }
 
 }  // namespace
@@ -70,16 +72,12 @@ int main(int argc, char** argv) {
   line.add("--hz", options.conversion.hz,
            "frames a second of a BVH or GLB (0: 60); else at most so many poses of each dancer "
            "(0: all)")
-      .range(0.0, 1000.0);
+      .range(0.0, dance::kFastestRate_hz);
   line.add("--where", options.where,
            "which poses of an LCM log; without it those of the stage, where it has some")
       .one_of({"stage", "capture", "guest"});
   line.add_flag("--json", options.json, "report as JSON on stdout");
-  line.finally([&]() -> dance::Result<void> {
-    const double hz = options.conversion.hz;
-    if (hz == 0.0 || hz >= 0.001) return {};
-    return dance::fail("--hz: 0, or from 0.001 up");
-  });
+  line.finally([&] { return dance::check_rate(options.conversion.hz); });
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::convert(options); });
 }

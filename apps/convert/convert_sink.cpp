@@ -97,7 +97,7 @@ Result<std::unique_ptr<ConvertSink>> make_sink(FileKind kind, const SinkOptions&
     case FileKind::kGlb:
       return make_glb_output(options);
     case FileKind::kLcm: {
-      DANCE_TRY(LogWriter writer, LogWriter::create(options.path));
+      DANCE_TRY(LogWriter writer, LogWriter::append_to(options.path));
       return std::make_unique<LogOutput>(std::move(writer), options.where);
     }
     case FileKind::kMcap: {

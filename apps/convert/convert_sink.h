@@ -10,8 +10,8 @@
 #include <memory>
 #include <string>
 
-#include "apps/convert/file_kind.h"
 #include "core/bus/channel.h"
+#include "formats/clip/file_kind.h"
 #include "formats/recording/recording_sink.h"
 
 namespace dance {
@@ -21,14 +21,15 @@ class ConvertSink : public RecordingSink {
   virtual Result<void> finish() = 0;
   // Of all guests; after finish().
   virtual std::uint64_t frames() const = 0;
-  // What the bounds of this program left out; "" where that is nothing.
+  // What bounds left out: a loss, as damage is; "" where that is nothing.
   virtual std::string left_out() const { return ""; }
-  // What the file says less than its input, as hands in a table; "" where that is nothing.
+  // What the file says otherwise than its input by its nature, as a table without hands; "" where
+  // that is nothing.
   virtual std::string note() const { return ""; }
 };
 
 struct SinkOptions {
-  std::string path;               // to write, and
+  std::string path;               // an empty file that is to be written, and
   std::string name;               // what it is called to the user
   double hz = 0.0;                // of clips; 0 = 60
   Where where = Where::kCapture;  // the channels of an LCM log

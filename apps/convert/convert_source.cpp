@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/convert/clip_input.h"
+#include "apps/convert/counted.h"
 #include "formats/csv/csv_reader.h"
 #include "formats/mcap/dance_mcap_reader.h"
 #include "formats/recording/log_source.h"
@@ -10,32 +11,20 @@
 namespace dance {
 namespace {
 
-// "3 rows, 2 lines", of those that are not 0.
-class Losses {
- public:
-  void add(std::uint64_t count, const char* what) {
-    if (count > 0) text_ += fmt::format("{}{} {}", text_.empty() ? "" : ", ", count, what);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
 class LogInput : public ConvertSource {
  public:
   explicit LogInput(LogSource log) : log_(std::move(log)) {}
   Result<void> read_into(RecordingSink& sink) override { return log_.read_into(sink); }
   Where where() const override { return log_.where(); }
   std::string lost() const override {
-    Losses losses;
-    losses.add(log_.skipped_bytes(), "bytes that are no event");
-    losses.add(log_.unpacking().damaged, "damaged packed events");
-    losses.add(log_.unpacking().orphaned, "packed events that go on from lost ones");
-    losses.add(log_.unpacking().newer, "events packed by a newer version of dance");
-    losses.add(log_.counters().undecodable, "messages that are not valid");
-    losses.add(log_.counters().beyond_guests, "messages of too many guests");
-    return losses.text();
+    return listed({
+        {log_.skipped_bytes(), "bytes that are no event"},
+        {log_.unpacking().damaged, "damaged packed events"},
+        {log_.unpacking().orphaned, "packed events that go on from lost ones"},
+        {log_.unpacking().newer, "events packed by a newer version of dance"},
+        {log_.counters().undecodable, "messages that are not valid"},
+        {log_.counters().beyond_guests, "messages of too many guests"},
+    });
   }
 
  private:
@@ -47,22 +36,28 @@ class McapInput : public ConvertSource {
   explicit McapInput(DanceMcapReader file) : file_(std::move(file)) {}
   Result<void> read_into(RecordingSink& sink) override { return file_.read_into(sink); }
   std::vector<std::string> notes() const override {
-    if (file_.file().was_finished()) return {};
-    return {"its writer was stopped before the end; what it had written is all there"};
+    std::vector<std::string> all;
+    if (!file_.file().was_finished())
+      all.emplace_back("its writer was stopped before the end; what it had written is all there");
+    if (const std::uint64_t bare = file_.counters().bare; bare > 0)
+      all.push_back(
+          fmt::format("{} poses are transforms alone: without music, sequence and clock", bare));
+    return all;
   }
   std::string lost() const override {
     const McapReader::Counters& file = file_.file().counters();
-    Losses losses;
-    losses.add(file.damaged_chunks, "damaged chunks");
-    losses.add(file.other_compression, "chunks that are not compressed with zstd");
-    losses.add(file.oversized, "records that are too large");
-    losses.add(file.malformed, "malformed records");
-    losses.add(file.without_channel, "messages without a channel");
-    losses.add(file.beyond_channels, "channels too many");
-    losses.add(file_.counters().unreadable, "messages that are not as their schema says");
-    losses.add(file_.counters().invalid, "messages that are not valid");
-    losses.add(file_.counters().beyond_guests, "messages of too many guests");
-    return losses.text();
+    return listed({
+        {file.damaged_chunks, "damaged chunks"},
+        {file.other_compression, "chunks that are not compressed with zstd"},
+        {file.oversized, "records that are too large"},
+        {file.malformed, "malformed records"},
+        {file.without_channel, "messages without a channel"},
+        {file.beyond_channels, "channels too many"},
+        {file_.counters().unreadable, "messages that are not as their schema says"},
+        {file_.counters().invalid, "messages that are not valid"},
+        {file_.counters().without_transforms, "poses without their transforms"},
+        {file_.counters().beyond_guests, "messages of too many guests"},
+    });
   }
 
  private:
@@ -74,12 +69,12 @@ class CsvInput : public ConvertSource {
   explicit CsvInput(CsvReader table) : table_(std::move(table)) {}
   Result<void> read_into(RecordingSink& sink) override { return table_.read_into(sink); }
   std::string lost() const override {
-    Losses losses;
-    losses.add(table_.counters().malformed, "rows with cells that are missing or no numbers");
-    losses.add(table_.counters().invalid, "rows that are no pose of a body");
-    losses.add(table_.counters().beyond_guests, "rows of too many guests");
-    losses.add(table_.too_long_lines(), "lines that are too long");
-    return losses.text();
+    return listed({
+        {table_.counters().malformed, "rows with cells that are missing or no numbers"},
+        {table_.counters().invalid, "rows that are no pose of a body"},
+        {table_.counters().beyond_guests, "rows of too many guests"},
+        {table_.too_long_lines(), "lines that are too long"},
+    });
   }
 
  private:

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/convert/file_kind.h"
 #include "core/bus/channel.h"
+#include "formats/clip/file_kind.h"
 #include "formats/recording/recording_sink.h"
 
 namespace dance {

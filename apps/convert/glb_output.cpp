@@ -1,7 +1,8 @@
 #include <vector>
 
 #include "apps/convert/clip_output.h"
-#include "core/program/whole_file.h"
+#include "apps/convert/counted.h"
+#include "consumers/output_file.h"
 #include "formats/gltf/glb.h"
 #include "formats/recording/clips_together.h"
 
@@ -37,24 +38,19 @@ class GlbOutput : public ConvertSink {
     }
     const auto bytes = write_glb(clips);
     if (!bytes) return fail(options_.name + ": " + bytes.error().what);
-    return write_whole_file(options_.path, *bytes);
+    DANCE_TRY(const auto file, OutputFile::open(options_.path));
+    file->write({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    return file->flush();
   }
 
   std::uint64_t frames() const override { return frames_; }
   std::string left_out() const override {
-    std::string text;
-    const auto add = [&text](std::uint64_t count, const char* what) {
-      if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + what;
-    };
-    add(counters_.not_newer, " poses and hands that were not newer");
-    add(counters_.beyond_bound, " frames beyond four hours of one dancer at 60 Hz");
-    add(recording_.overflow().total(), " messages, as they were too many");
-    return text;
+    return listed({{counters_.beyond_bound, "frames beyond four hours of one dancer at 60 Hz"},
+                   {recording_.overflow().total(), "messages, as they were too many"}});
   }
   std::string note() const override {
-    return counters_.silences == 0
-               ? ""
-               : std::to_string(counters_.silences) + " silences, in which the dancer stands still";
+    return listed({{counters_.silences, "silences, in which the dancer stands still"},
+                   {counters_.not_newer, "poses and hands that were not newer"}});
   }
 
  private:

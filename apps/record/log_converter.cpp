@@ -22,11 +22,8 @@ std::string reason_for_no_events(const LogConversion& conversion) {
 
 Result<LogConversion> convert_log(const std::string& from, const std::string& to, LogForm form) {
   DANCE_TRY(UnpackedLog log, UnpackedLog::open(from));
-  if (auto free = PartFile::free_name(to); !free) return tl::make_unexpected(free.error());
-  // An existing part is refused, and stays.
-  const std::string part_path = to + ".part";
-  DANCE_TRY(LogWriter writer, LogWriter::create(part_path));
-  PartFile part(to);
+  DANCE_TRY(const auto part, PartFile::create(to));
+  DANCE_TRY(LogWriter writer, LogWriter::append_to(part->path()));
   LogConversion conversion{from, to, form, 0, 0, 0, 0, {}, {}};
   LogPacker packer;
   while (const auto event = log.next()) {
@@ -39,7 +36,7 @@ Result<LogConversion> convert_log(const std::string& from, const std::string& to
   conversion.unpacking = log.unpacking();
   if (conversion.events == 0) return fail(from + ": " + reason_for_no_events(conversion));
   if (auto flushed = writer.flush(); !flushed) return tl::make_unexpected(flushed.error());
-  if (auto kept = part.keep(); !kept) return tl::make_unexpected(kept.error());
+  if (auto kept = part->keep(); !kept) return tl::make_unexpected(kept.error());
   std::error_code unknown;
   const auto size = std::filesystem::file_size(from, unknown);
   conversion.bytes_in = unknown ? 0 : size;

@@ -103,6 +103,13 @@ Pose interpolate(const Pose& a, const Pose& b, float fraction) {
   return out;
 }
 
+Hands interpolate(const Hands& a, const Hands& b, float fraction) {
+  Hands out = fraction < 0.5f ? a : b;
+  for (std::size_t i = 0; i < kFingerBoneCount; ++i)
+    out.R_PB[i] = a.R_PB[i].slerp(fraction, b.R_PB[i]).normalized();
+  return out;
+}
+
 Pose interpolate_smoothly(const Pose* before, const Pose& a, const Pose& b, const Pose* after,
                           float fraction) {
   if (!before && !after) return interpolate(a, b, fraction);

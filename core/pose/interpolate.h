@@ -17,6 +17,8 @@
 namespace dance {
 
 Pose interpolate(const Pose& a, const Pose& b, float fraction);
+// Rotations, the short way; all else is that of the nearer one.
+Hands interpolate(const Hands& a, const Hands& b, float fraction);
 
 // The same on a cubic. `before` comes before a and `after` after b, in time too; either may be
 // null, and is ignored when nearer than 0.3 of the step. Fraction within 0..1.

@@ -2,14 +2,14 @@
 // gone with this object unless it was kept.
 //
 // Units/frames: none.
-// Ownership:    the file of that name, until it is kept.
-// Threads:      none inside; one owner.
-// Failure:      free_name() and keep() name the file and the cure.
+// Ownership:    the file of that name, which it created, until it is kept.
+// Threads:      none inside; one owner. Of a process's part files the first one is also removed
+//               when SIGINT, SIGTERM or SIGHUP end it, where nobody else handles them.
+// Failure:      create() and keep() name the file and the cure; neither touches a file of others.
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
-#include <system_error>
 
 #include "core/base/result.h"
 
@@ -17,32 +17,20 @@ namespace dance {
 
 class PartFile {
  public:
-  // An error where there is a file of that name.
-  static Result<void> free_name(const std::string& to) {
-    std::error_code unknown;
-    if (std::filesystem::exists(std::filesystem::symlink_status(to, unknown)))
-      return fail(to + ": is there already; remove it or choose another name");
-    return {};
-  }
-
-  explicit PartFile(std::string to) : to_(std::move(to)), path_(to_ + ".part") {}
-  ~PartFile() {
-    std::error_code ignored;
-    if (!is_kept_) std::filesystem::remove(path_, ignored);
-  }
+  // Creates `to`.part, empty; an error where there is a file of either name.
+  static Result<std::unique_ptr<PartFile>> create(const std::string& to);
+  ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
   const std::string& path() const { return path_; }
-  Result<void> keep() {
-    std::error_code error;
-    std::filesystem::rename(path_, to_, error);
-    if (error) return fail(to_ + ": " + error.message() + "; choose another name");
-    is_kept_ = true;
-    return {};
-  }
+  // An error where there is a file of that name by now.
+  Result<void> keep();
 
  private:
+  explicit PartFile(std::string to) : to_(std::move(to)), path_(to_ + ".part") {}
+  void forget();
+
   std::string to_;
   std::string path_;
   bool is_kept_ = false;

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "core/base/printable.h"
+
 namespace dance {
 namespace {
 
@@ -87,11 +89,7 @@ std::optional<long long> to_whole_number(std::string_view word) {
 }
 
 std::string quoted(std::string_view word) {
-  std::string out = "'";
-  for (const char c : word.substr(0, kLongestQuote)) {
-    const auto byte = static_cast<unsigned char>(c);
-    out += byte < 0x20 || byte == 0x7f || byte >= 0x80 ? '?' : c;
-  }
+  std::string out = "'" + printable(word.substr(0, kLongestQuote));
   if (word.size() > kLongestQuote) out += "...";
   return out + "'";
 }

@@ -6,14 +6,10 @@
 
 #include "core/program/whole_file.h"
 #include "formats/bvh/clip_file.h"
+#include "formats/clip/file_kind.h"
 
 namespace dance {
 namespace {
-
-bool is_gltf(const std::string& path) {
-  return path.ends_with(".glb") || path.ends_with(".gltf") || path.ends_with(".vrma") ||
-         path.ends_with(".vrm");
-}
 
 // What the caller says is taken, the rest is as glTF has it.
 RetargetOptions as_gltf(const RetargetOptions& options) {
@@ -29,7 +25,8 @@ RetargetOptions as_gltf(const RetargetOptions& options) {
 Result<std::vector<NamedClip>> load_dancers(const std::string& path,
                                             const RetargetOptions& options) {
   std::vector<NamedClip> dancers;
-  if (!is_gltf(path)) {
+  const auto kind = input_kind(path);
+  if (!kind || *kind != FileKind::kGlb) {
     DANCE_TRY(LoadedClip loaded, load_clip(path, options));
     dancers.push_back({"", std::move(loaded.clip), std::move(loaded.notes)});
     return dancers;

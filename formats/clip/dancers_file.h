@@ -1,5 +1,5 @@
 // Loads the dancers of a file, whatever its kind: a BVH (plain or packed with xz) holds one, a
-// .glb, .vrma or .gltf as many as dance in it.
+// .glb, .vrma, .vrm or .gltf as many as dance in it.
 //
 // Units/frames: see formats/bvh/retarget.h and formats/gltf/glb.h; a glTF is not moved to the
 //               floor, and is taken as metres with +Y up unless the options say otherwise.

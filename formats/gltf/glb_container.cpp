@@ -42,11 +42,8 @@ Result<void> check_json(std::string_view json, const GlbLimits& limits) {
   return {};
 }
 
-struct Chunks {
-  std::string_view json;
-};
-
-Result<Chunks> split(std::span<const std::uint8_t> bytes) {
+// The JSON of a GLB whose chunks are whole.
+Result<std::string_view> json_of(std::span<const std::uint8_t> bytes) {
   ByteReader reader(bytes);
   reader.u32();  // the magic, seen by the caller
   const std::uint32_t version = reader.u32();
@@ -60,15 +57,14 @@ Result<Chunks> split(std::span<const std::uint8_t> bytes) {
   const std::uint32_t json_bytes = reader.u32();
   if (reader.u32() != kJsonChunk || json_bytes > length - kHeader_bytes - kChunkHeader_bytes)
     return fail("no JSON at its beginning; copy it again");
-  Chunks chunks;
-  chunks.json = reader.text(json_bytes);
+  const std::string_view json = reader.text(json_bytes);
   const std::size_t behind = kHeader_bytes + kChunkHeader_bytes + json_bytes;
-  if (length - behind == 0) return chunks;
+  if (length - behind == 0) return json;
   const std::uint32_t bin_bytes = reader.u32();
   const std::uint32_t type = reader.u32();
   if (!reader.ok() || type != kBinChunk || bin_bytes > length - behind - kChunkHeader_bytes)
     return fail("its binary part is cut off; copy it again");
-  return chunks;
+  return json;
 }
 
 bool decode_no_picture(tinygltf::Image*, const int, std::string*, std::string*, int, int,
@@ -102,8 +98,7 @@ Result<tinygltf::Model> unpacked_model(std::span<const std::uint8_t> bytes,
   const char* text = reinterpret_cast<const char*>(bytes.data());
   std::string_view json(text, bytes.size());
   if (is_binary) {
-    DANCE_TRY(const Chunks chunks, split(bytes));
-    json = chunks.json;
+    DANCE_TRY(json, json_of(bytes));
   } else if (json[json.find_first_not_of(" \t\r\n") % json.size()] != '{') {
     return fail("no glTF file: it begins neither with glTF nor with JSON");
   }

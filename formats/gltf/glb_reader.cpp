@@ -36,11 +36,12 @@ Result<std::vector<NamedClip>> read_glb(std::span<const std::uint8_t> bytes,
   DANCE_TRY(const GlbScene scene, checked_scene(model, limits));
   if (model.animations.empty()) return fail("no animation; the file holds figures without motion");
   const std::vector<GlbFigure> figures = find_figures(model, scene);
+  if (figures.empty()) return fail("no human figure; export the skeleton with its animation");
   std::vector<NamedClip> clips;
-  std::string why;  // the first figure that could not be read
-  std::size_t values_left = limits.values;
+  std::string why;                          // the first figure that could not be read
+  std::size_t values_left = limits.values;  // of the clips that are kept
+  std::size_t keys_left = values_left;      // of the whole file: animations may share accessors
   for (std::size_t a = 0; a < model.animations.size(); ++a) {
-    std::size_t keys_left = values_left;
     DANCE_TRY(const GlbAnimation animation, read_animation(model, a, scene, keys_left));
     for (const GlbFigure& figure : figures) {
       if (tracks_of(figure, animation, scene).empty()) continue;

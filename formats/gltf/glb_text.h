@@ -7,11 +7,12 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/printable.h"
+
 namespace dance {
 
 inline std::string plain_line(std::string_view text, std::size_t most) {
-  std::string line;
-  for (const char c : text.substr(0, most)) line += c < 0x20 || c == 0x7f ? '?' : c;
+  std::string line = printable(text.substr(0, most));
   while (!line.empty() && (line.back() == '?' || line.back() == ' ')) line.pop_back();
   return text.size() > most ? line + "..." : line;
 }

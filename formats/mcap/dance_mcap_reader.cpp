@@ -123,15 +123,25 @@ void DanceMcapReader::take_transforms(Guest& guest, const nlohmann::json& json,
 
 void DanceMcapReader::take_pose(Guest& guest, const nlohmann::json& json, std::int64_t time_us,
                                 RecordingSink& sink) {
-  if (!guest.is_pending || guest.time_us != time_us) return;  // its transforms were left out
+  if (!guest.is_pending || guest.time_us != time_us) {
+    ++counters_.without_transforms;
+    return;
+  }
   Pose pose = guest.pose;
+  Skeleton skeleton = guest.skeleton;
   float hips_height_m = 0.0f;
   if (!read_pose_json(json, pose, hips_height_m)) {
     ++counters_.unreadable;
     return;
   }
+  skeleton.offset_m[0] = {0.0f, hips_height_m, 0.0f};
+  if (!is_valid(skeleton)) {
+    guest.is_pending = false;
+    ++counters_.invalid;
+    return;
+  }
   guest.pose = pose;
-  guest.skeleton.offset_m[0] = {0.0f, hips_height_m, 0.0f};
+  guest.skeleton = skeleton;
   tell(guest, sink);
 }
 
@@ -143,7 +153,7 @@ void DanceMcapReader::tell_pending(Guest& guest, RecordingSink& sink) {
 
 void DanceMcapReader::tell(Guest& guest, RecordingSink& sink) {
   guest.is_pending = false;
-  if (!is_valid(guest.pose) || !is_valid(guest.skeleton)) {
+  if (!is_valid(guest.pose)) {
     ++counters_.invalid;
     return;
   }

@@ -26,7 +26,8 @@ class DanceMcapReader {
     std::uint64_t unreadable = 0;  // messages of our channels that are not as their schema says
     std::uint64_t invalid = 0;     // poses, skeletons, hands and beats that none can be
     std::uint64_t beyond_guests = 0;
-    std::uint64_t bare = 0;  // transforms without the pose that belongs to them
+    std::uint64_t without_transforms = 0;  // poses whose transforms did not come, or are invalid
+    std::uint64_t bare = 0;                // read from transforms alone, as their pose did not come
   };
 
   static Result<DanceMcapReader> open(const std::string& path);
@@ -44,7 +45,7 @@ class DanceMcapReader {
     bool is_pending = false;
     std::int64_t time_us = 0;
     Pose pose;
-    Skeleton skeleton;
+    Skeleton skeleton;  // always a valid one
     bool has_skeleton = false;
     Skeleton told;
     std::uint32_t next_sequence = 1;

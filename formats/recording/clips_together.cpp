@@ -58,16 +58,9 @@ Track<T> track_of(const std::vector<Recorded<T>>& list, const ClockOffsets& offs
   return track;
 }
 
-Hands interpolate_hands(const Hands& a, const Hands& b, float fraction) {
-  Hands out = fraction < 0.5f ? a : b;
-  for (std::size_t i = 0; i < kFingerBoneCount; ++i)
-    out.R_PB[i] = a.R_PB[i].slerp(fraction, b.R_PB[i]);
-  return out;
-}
-
-// The value at each of `count` frames; `between` interpolates.
-template <class T, class Between>
-std::vector<T> frames_of(const Track<T>& track, double hz, std::size_t count, Between between) {
+// The value at each of `count` frames.
+template <class T>
+std::vector<T> frames_of(const Track<T>& track, double hz, std::size_t count) {
   std::vector<T> frames;
   frames.reserve(count);
   std::size_t next = 0;
@@ -83,8 +76,8 @@ std::vector<T> frames_of(const Track<T>& track, double hz, std::size_t count, Be
     if (step_s > kLongestGap_s)
       frames.push_back(*track.values[next - 1]);
     else
-      frames.push_back(between(*track.values[next - 1], *track.values[next],
-                               static_cast<float>((t - before_s) / step_s)));
+      frames.push_back(interpolate(*track.values[next - 1], *track.values[next],
+                                   static_cast<float>((t - before_s) / step_s)));
   }
   return frames;
 }
@@ -131,11 +124,10 @@ ClipsTogether clips_together(const Recording& recording, double hz, std::size_t 
     MotionClip clip;
     clip.skeleton = guest.skeleton();
     clip.frame_hz = hz;
-    clip.frames = frames_of(poses, hz, count, &interpolate);
+    clip.frames = frames_of(poses, hz, count);
     if (!guest.hands.empty())
-      clip.hands =
-          frames_of(track_of(guest.hands, offsets, span.start_us, together.counters.not_newer), hz,
-                    count, &interpolate_hands);
+      clip.hands = frames_of(
+          track_of(guest.hands, offsets, span.start_us, together.counters.not_newer), hz, count);
     together.clips.push_back({guest.guest, std::move(clip)});
   }
   return together;

@@ -13,10 +13,7 @@ Hands between(const Hands& a, const Hands& b, MonoTime t) {
   if (step <= Duration()) return b;  // of two clocks
   const auto fraction = static_cast<float>(
       std::clamp((t - a.capture_time).as_seconds() / step.as_seconds(), 0.0, 1.0));
-  Hands out = fraction < 0.5f ? a : b;
-  for (std::size_t i = 0; i < kFingerBoneCount; ++i)
-    out.R_PB[i] = a.R_PB[i].slerp(fraction, b.R_PB[i]);
-  return out;
+  return interpolate(a, b, fraction);
 }
 
 }  // namespace

@@ -9,15 +9,6 @@
 #include "core/pose/interpolate.h"
 
 namespace dance {
-namespace {
-
-void interpolate_hands(const Hands& a, const Hands& b, float fraction, Hands& out) {
-  for (std::size_t f = 0; f < kFingerBoneCount; ++f)
-    out.R_PB[f] = a.R_PB[f].slerp(fraction, b.R_PB[f]).normalized();
-  out.presence = fraction < 0.5f ? a.presence : b.presence;
-}
-
-}  // namespace
 
 ClipDancer::ClipDancer(std::shared_ptr<const MotionClip> clip, const ClipDancerOptions& options)
     : clip_(std::move(clip)), options_(options) {
@@ -83,21 +74,16 @@ void ClipDancer::dance_at(Duration t, Pose& out) {
 
 bool ClipDancer::hands_at(Duration t, Hands& out) {
   if (clip_->hands.empty()) return false;
-  const auto sample_hands = [this](Duration at, Hands& hands) {
+  const auto hands_then = [this](Duration at) {
     const double position = std::max(0.0, at.as_seconds() * clip_->frame_hz);
     const std::size_t first = std::min(static_cast<std::size_t>(position), clip_->hands.size() - 1);
     const std::size_t second = std::min(first + 1, clip_->hands.size() - 1);
-    interpolate_hands(clip_->hands[first], clip_->hands[second],
-                      static_cast<float>(position - static_cast<double>(first)), hands);
+    return interpolate(clip_->hands[first], clip_->hands[second],
+                       static_cast<float>(position - static_cast<double>(first)));
   };
   const Moment moment = moment_of(t);
-  sample_hands(moment.at, out);
-  if (moment.crossed < 1.0f) {
-    Hands ending;
-    sample_hands(moment.ending, ending);
-    const Hands beginning = out;
-    interpolate_hands(ending, beginning, moment.crossed, out);
-  }
+  out = hands_then(moment.at);
+  if (moment.crossed < 1.0f) out = interpolate(hands_then(moment.ending), out, moment.crossed);
   return true;
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -291,6 +292,21 @@ TEST(ConsumerTable, RefusesOptionsThatAConsumerDoesNotTake) {
   options.file = "x.csv";
   EXPECT_EQ(check_consumer_options(kind, options).error().what,
             "'osc' takes an address, as 127.0.0.1:39539, not a file");
+}
+
+TEST(ConsumerTable, RefusesRatesThatHaveNoPeriod) {
+  ConsumerOptions options;
+  options.file = "/dev/null";
+  for (const double hz : {0.0, 0.001, 1000.0}) {
+    options.hz = hz;
+    EXPECT_TRUE(make_consumer("csv", options).has_value()) << hz;
+  }
+  for (const double hz : {1e-12, 0.0009, -1.0, 1000.1, std::nan("")}) {
+    options.hz = hz;
+    const auto made = make_consumer("csv", options);
+    ASSERT_FALSE(made.has_value()) << hz;
+    EXPECT_NE(made.error().what.find("from 0.001"), std::string::npos) << made.error().what;
+  }
 }
 
 TEST(OutputFile, NamesAFolderThatIsNotThere) {

@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/convert/file_kind.h"
+#include "formats/clip/file_kind.h"
+#include "formats/recording/log_sink.h"
 #include "formats/recording/log_source.h"
 #include "formats/recording/steady_clip.h"
 #include "tests/apps/run_program.h"
@@ -158,6 +159,39 @@ TEST_F(Convert, OverwritesNothing) {
   EXPECT_EQ(finished.exit_code, 1);
   EXPECT_NE(finished.talk.find("is there already"), std::string::npos);
   EXPECT_EQ(text_of(out), "a year of dancing");
+}
+
+TEST_F(Convert, LeavesThePartFilesOfOthersAlone) {
+  for (const char* end : {".lcm", ".mcap", ".csv", ".glb", ".bvh"}) {
+    const std::string out = folder_.path("couple" + std::string(end));
+    std::ofstream(out + ".part") << "being written";
+    const Finished finished = convert(kCouple, out, "--guest alice");
+    EXPECT_EQ(finished.exit_code, 1);
+    EXPECT_NE(finished.talk.find(".part: is there already"), std::string::npos) << finished.talk;
+    EXPECT_EQ(text_of(out + ".part"), "being written");
+    EXPECT_FALSE(std::filesystem::exists(out));
+  }
+}
+
+TEST_F(Convert, GuestsBeyondABoundAreSaidAndExitWithOneAsDamageDoes) {
+  // A log of 64 guests, and one of two more behind it: an MCAP file has places for 64.
+  const std::string many = folder_.path("many.lcm");
+  std::string all;
+  for (const int first : {0, 64}) {
+    const std::string part = folder_.path("part" + std::to_string(first) + ".lcm");
+    LogSink log(LogWriter::create(part).value(), Where::kStage);
+    for (int i = first; i < std::min(first + 64, 66); ++i)
+      log.on_pose(GuestId::parse("g" + std::to_string(i)).value(), Pose(), kNight_us);
+    ASSERT_TRUE(log.finish().has_value());
+    all += text_of(part);
+  }
+  std::ofstream(many, std::ios::binary) << all;
+  const Finished finished = convert(many, folder_.path("many.mcap"), "--json");
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.talk.find("left out: 2 messages of too many guests"), std::string::npos)
+      << finished.talk;
+  EXPECT_EQ(nlohmann::json::parse(finished.output)["frames"], 64);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("many.mcap")));
 }
 
 TEST_F(Convert, SaysWhatIsWrongAndTheCure) {

@@ -30,6 +30,27 @@ TEST(Interpolate, GivesItsEnds) {
   }
 }
 
+TEST(Interpolate, OfHandsTurnsTheShortWayAndTakesTheRestFromTheNearerOne) {
+  Random random(45);
+  Hands a, b;
+  for (std::size_t i = 0; i < kFingerBoneCount; ++i) {
+    a.R_PB[i] = random_rotation(random, 1.0f);
+    b.R_PB[i] = random_rotation(random, 1.0f);
+    if (i % 2 == 0) b.R_PB[i].coeffs() = -b.R_PB[i].coeffs();
+  }
+  a.presence = 1;
+  b.presence = 2;
+  for (const float fraction : {0.0f, 0.25f, 0.75f, 1.0f}) {
+    const Hands between = interpolate(a, b, fraction);
+    EXPECT_EQ(between.presence, fraction < 0.5f ? 1u : 2u);
+    for (std::size_t i = 0; i < kFingerBoneCount; ++i) {
+      const float whole_rad = a.R_PB[i].angularDistance(b.R_PB[i]);
+      EXPECT_NEAR(a.R_PB[i].angularDistance(between.R_PB[i]), fraction * whole_rad, 3e-3f);
+      EXPECT_NEAR(between.R_PB[i].norm(), 1.0f, 1e-5f);
+    }
+  }
+}
+
 TEST(Interpolate, TurnsEvenlyAndTheShortWay) {
   Random random(42);
   for (int i = 0; i < 500; ++i) {

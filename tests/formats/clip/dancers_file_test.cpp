@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "formats/clip/file_kind.h"
 #include "tests/formats/gltf/glb_clips.h"
 #include "tests/test_folder.h"
 
@@ -42,6 +43,17 @@ TEST_F(DancersFile, AGlbHoldsAllWhoDanceInItByTheirNames) {
   ASSERT_EQ(dancers->size(), 2u);
   EXPECT_EQ(dancers->at(0).name, "alice");
   EXPECT_EQ(dancers->at(1).name, "bob");
+}
+
+TEST_F(DancersFile, TheEndOfAGlbsNameIsTakenInAnyCaseAndAsAnAvatar) {
+  const std::string file = couple();
+  for (const char* name : {"COUPLE.GLB", "Couple.vrm", "couple.Vrma"}) {
+    std::filesystem::copy_file(file, folder_.path(name));
+    const auto dancers = load_dancers(folder_.path(name));
+    ASSERT_TRUE(dancers.has_value()) << dancers.error().what;
+    EXPECT_EQ(dancers->size(), 2u) << name;
+    EXPECT_EQ(input_kind(folder_.path(name)).value(), FileKind::kGlb) << name;
+  }
 }
 
 TEST_F(DancersFile, OfSeveralTheNamedOneIsTakenAndOthersAreListed) {

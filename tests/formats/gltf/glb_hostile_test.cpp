@@ -142,6 +142,25 @@ TEST(GlbHostile, RefusesNumbersOutsideTheirBuffers) {
       "one value for each key");
 }
 
+TEST(GlbHostile, ManyAnimationsOverOneAccessorHaveOneBudgetOfNumbers) {
+  const auto with_animations = [](int count) {
+    std::string animations;
+    for (int a = 0; a < count; ++a)
+      animations += std::string(a > 0 ? "," : "") +
+                    R"({"samplers":[{"input":0,"output":1}],)"
+                    R"("channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]})";
+    return glb_of(R"({"asset":{"version":"2.0"},"nodes":[{"name":"hips"}],)"
+                  R"("buffers":[{"byteLength":64}],"bufferViews":[)" +
+                      std::string(kView) + R"(],"accessors":[)" + kTimes + "," + kValues +
+                      R"(],"animations":[)" + animations + "]}",
+                  floats(16));
+  };
+  GlbLimits few;
+  few.values = 8 * 60;  // two times and two places for each animation
+  expect_error(with_animations(60), "no human figure", few);
+  expect_error(with_animations(61), "too many numbers", few);
+}
+
 TEST(GlbHostile, RefusesNumbersThatAreNoMotion) {
   Bytes bin = floats(16);
   const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "formats/mcap/dance_schemas.h"
@@ -142,6 +144,68 @@ TEST(DanceMcap, IgnoresChannelsThatAreNotOurs) {
   ASSERT_FALSE(result.has_value());
   EXPECT_NE(result.error().what.find("nobody dances in it"), std::string::npos);
   EXPECT_EQ(nobody->counters().unreadable, 0u);
+}
+
+// The same messages but for those that `change` leaves out with false, or writes anew.
+McapBytes changed(const McapBytes& from,
+                  const std::function<bool(const McapMessage&, std::string& data)>& change) {
+  McapBytes bytes;
+  McapWriter writer(put_into(bytes));
+  McapReader reader = McapReader::over(from).value();
+  std::map<std::string, std::uint16_t, std::less<>> channels;
+  while (const auto message = reader.next()) {
+    std::string data(message->data);
+    if (!change(*message, data)) continue;
+    auto channel = channels.find(message->topic);
+    if (channel == channels.end()) {
+      const std::string topic(message->topic);
+      const auto schema = writer.add_schema(std::string(message->schema), "{}");
+      channel = channels.emplace(topic, writer.add_channel(schema, topic)).first;
+    }
+    writer.write(channel->second, message->sequence, message->log_ns, message->publish_ns, data);
+  }
+  writer.finish();
+  return bytes;
+}
+
+std::size_t poses_of(const Recording& night, const GuestId& guest) {
+  const RecordedGuest* found = night.find(guest);
+  return found ? found->poses.size() : 0;
+}
+
+TEST(DanceMcap, OneBadPoseCostsItselfAndNoneOfThoseThatFollow) {
+  const Recording night = recorded_night(20);
+  int seen = 0;
+  const McapBytes bytes = changed(mcap_of(night), [&](const McapMessage& message, std::string& to) {
+    if (message.topic != "/guest/alice/pose" || ++seen != 5) return true;
+    auto json = nlohmann::json::parse(to);
+    json["hips_height_m"] = 3.0;  // nobody is so tall
+    to = json.dump();
+    return true;
+  });
+  auto reader = DanceMcapReader::over(bytes).value();
+  Recording again;
+  ASSERT_TRUE(reader.read_into(again).has_value());
+  EXPECT_EQ(reader.counters().invalid, 1u);
+  EXPECT_EQ(poses_of(again, kAlice), 19u);
+  EXPECT_EQ(poses_of(again, kBob), 20u);
+  EXPECT_EQ(again.find(kAlice)->skeleton(), night.find(kAlice)->skeleton());
+}
+
+TEST(DanceMcap, CountsPosesWithoutTransformsAndTransformsWithoutPoses) {
+  const McapBytes whole = mcap_of(recorded_night(20));
+  int seen = 0;
+  const McapBytes bytes = changed(whole, [&](const McapMessage& message, std::string&) {
+    if (message.topic == "/guest/alice/transforms") return ++seen > 3;
+    return message.topic != "/guest/bob/pose";
+  });
+  auto reader = DanceMcapReader::over(bytes).value();
+  Recording again;
+  ASSERT_TRUE(reader.read_into(again).has_value());
+  EXPECT_EQ(reader.counters().without_transforms, 3u);
+  EXPECT_EQ(reader.counters().bare, 20u);
+  EXPECT_EQ(poses_of(again, kAlice), 17u);
+  EXPECT_EQ(poses_of(again, kBob), 20u);
 }
 
 TEST(McapWriter, LeavesOutWhatIsTooLongAndCountsIt) {

@@ -1,4 +1,4 @@
-#include "apps/convert/file_kind.h"
+#include "formats/clip/file_kind.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@ constexpr std::array kEnds{
     End{".glb", FileKind::kGlb, true},   End{".mcap", FileKind::kMcap, true},
     End{".csv", FileKind::kCsv, true},   End{".bvh.xz", FileKind::kBvh, false},
     End{".vrma", FileKind::kGlb, false}, End{".gltf", FileKind::kGlb, false},
+    End{".vrm", FileKind::kGlb, false},
 };
 
 std::string lower(std::string text) {

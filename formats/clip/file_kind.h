@@ -1,4 +1,4 @@
-// The kinds of files that `dance convert` reads and writes, by the ends of their names.
+// The kinds of files that hold dances, by the ends of their names, in any case.
 //
 // Units/frames: none.
 // Ownership:    returns new texts.
