@@ -32,7 +32,7 @@ bool ReceivedDancer::capture(Pose& pose, MonoTime captured, MonoTime now) {
   newest_ = captured;
   normalize(pose);
   pose.sequence = sequence_++;
-  pose.clock_id = this_clock_id();
+  pose.clock_id = clock_id_;
   pose.capture_time = captured;
   if (is_changed_ && now >= next_change_) {
     const std::uint32_t version = skeleton_.version + 1;
@@ -44,7 +44,7 @@ bool ReceivedDancer::capture(Pose& pose, MonoTime captured, MonoTime now) {
   }
   // Nobody can decode a dancer of unknown proportions: they go first.
   if (now >= next_skeleton_) {
-    sink_.capture(guest_, TimedSkeleton{skeleton_, now, this_clock_id()});
+    sink_.capture(guest_, TimedSkeleton{skeleton_, now, clock_id_});
     next_skeleton_ = now + Duration::s(1);
   }
   sink_.capture(guest_, pose, now);
@@ -59,7 +59,7 @@ bool ReceivedDancer::capture(Hands& hands) {
   }
   normalize(hands);
   hands.sequence = sequence_ - 1;
-  hands.clock_id = this_clock_id();
+  hands.clock_id = clock_id_;
   hands.capture_time = newest_;
   sink_.capture(guest_, hands);
   return true;

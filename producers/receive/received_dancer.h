@@ -25,7 +25,8 @@ class ReceivedDancer {
     std::uint64_t skeletons_left_out = 0;  // as others came before they were due
   };
 
-  ReceivedDancer(const GuestId& guest, CaptureSink& sink) : guest_(guest), sink_(sink) {}
+  ReceivedDancer(const GuestId& guest, CaptureSink& sink)
+      : guest_(guest), sink_(sink), clock_id_(this_clock_id()) {}
 
   // Published with the next pose, and once a second. A changed one begins the coding of differences
   // anew at all who hear it, so there is at most one a second, the last. The same again costs
@@ -45,6 +46,7 @@ class ReceivedDancer {
  private:
   GuestId guest_;
   CaptureSink& sink_;
+  std::uint64_t clock_id_;  // the first to ask for it reads a file
   Skeleton skeleton_ = average_skeleton();
   Skeleton wanted_ = skeleton_;  // is the next to be published
   bool has_skeleton_ = false;
