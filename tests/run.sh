@@ -71,7 +71,7 @@ if [ "$sanitizers" = yes ]; then
   export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt
   # Drawing in software is ten times slower here, and memory that a graphics driver keeps until it is unloaded counts as
   # lost: the viewer's own tests draw under sanitizers.
-  draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)'
+  draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)|Convert\.WritesALogThatTheViewerShows'
   # One build of clang's for the sanitizers and the fuzz targets; libFuzzer has the corpora.
   if step asan; then
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.

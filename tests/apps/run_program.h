@@ -44,8 +44,8 @@ constexpr std::chrono::seconds kTimeout{60};
 
 // Whether the condition came to hold.
 template <class Condition>
-bool wait_for(const Condition& condition) {
-  const auto give_up = std::chrono::steady_clock::now() + kTimeout;
+bool wait_for(const Condition& condition, std::chrono::seconds timeout = kTimeout) {
+  const auto give_up = std::chrono::steady_clock::now() + timeout;
   while (!condition()) {
     if (std::chrono::steady_clock::now() >= give_up) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

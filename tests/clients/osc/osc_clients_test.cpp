@@ -94,10 +94,11 @@ class OscClients : public BusPrograms {
       ADD_FAILURE() << client.error().what;
       return "";
     }
-    EXPECT_TRUE(wait_for([&] {
+    const auto is_over = [&] {
       if (bus_) bus_->drain(mono_now());
       return client->has_ended();
-    }));
+    };
+    EXPECT_TRUE(wait_for(is_over, kTimeout + std::chrono::seconds(std::stoi(seconds_to_run()))));
     EXPECT_TRUE(client->ended_well()) << text_of(folder_.path("client-talk"));
     return text_of(output);
   }
