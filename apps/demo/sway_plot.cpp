@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/draw/beat_words.h"
-#include "viewer/draw/plot_canvas.h"
+#include "viewer/overlay/plot_canvas.h"
+#include "viewer/scene/beat_words.h"
 
 namespace dance {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #if DANCE_HAVE_VIEWER
-#include "viewer/draw/offscreen.h"
+#include "viewer/gl/offscreen.h"
 #endif
 
 namespace dance {

@@ -1,4 +1,4 @@
-#include "viewer/draw/beat_meter.h"
+#include "viewer/scene/beat_meter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/program/camera_rig.h"
+#include "viewer/window/camera_rig.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/draw/camera.h"
+#include "viewer/scene/camera.h"
 
 #include <gtest/gtest.h>
 

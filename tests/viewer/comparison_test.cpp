@@ -1,4 +1,4 @@
-#include "viewer/draw/comparison.h"
+#include "viewer/scene/comparison.h"
 
 #include <gtest/gtest.h>
 

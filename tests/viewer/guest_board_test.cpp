@@ -1,11 +1,11 @@
-#include "viewer/program/guest_board.h"
+#include "viewer/feed/guest_board.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "tests/allocation_guard.h"
-#include "viewer/program/stage_roster.h"
+#include "viewer/feed/stage_roster.h"
 
 namespace dance {
 namespace {

@@ -1,11 +1,11 @@
 // A recorded house, looked at as late as one likes.
-#include "viewer/program/log_feed.h"
+#include "viewer/feed/log_feed.h"
 
 #include <gtest/gtest.h>
 
 #include "core/bus/encode.h"
 #include "tests/test_folder.h"
-#include "viewer/program/stage_roster.h"
+#include "viewer/feed/stage_roster.h"
 
 namespace dance {
 namespace {

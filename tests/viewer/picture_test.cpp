@@ -8,8 +8,8 @@
 #include "formats/body/guest_look.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
-#include "viewer/draw/offscreen.h"
-#include "viewer/draw/stage_painter.h"
+#include "viewer/gl/offscreen.h"
+#include "viewer/stage/stage_painter.h"
 
 namespace dance {
 namespace {

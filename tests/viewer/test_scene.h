@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/pose/kinematics.h"
-#include "viewer/draw/scene.h"
+#include "viewer/scene/scene.h"
 
 namespace dance {
 

@@ -9,9 +9,9 @@
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
 #include "tests/virtual_display.h"
-#include "viewer/draw/offscreen.h"
-#include "viewer/draw/stage_painter.h"
-#include "viewer/program/view_window.h"
+#include "viewer/gl/offscreen.h"
+#include "viewer/stage/stage_painter.h"
+#include "viewer/window/view_window.h"
 
 namespace dance {
 namespace {

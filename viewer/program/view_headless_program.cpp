@@ -6,11 +6,11 @@
 #include <filesystem>
 
 #include "core/program/talk.h"
-#include "viewer/draw/offscreen.h"
-#include "viewer/draw/stage_painter.h"
-#include "viewer/program/picture_source.h"
-#include "viewer/program/stage_roster.h"
+#include "viewer/feed/picture_source.h"
+#include "viewer/feed/stage_roster.h"
+#include "viewer/gl/offscreen.h"
 #include "viewer/program/view_program.h"
+#include "viewer/stage/stage_painter.h"
 
 namespace dance {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "viewer/program/camera_rig.h"
-#include "viewer/program/stage_feed.h"
+#include "viewer/feed/stage_feed.h"
+#include "viewer/window/camera_rig.h"
 
 namespace dance {
 
@@ -41,7 +41,7 @@ struct ViewOptions {
   PictureSize size;
   bool hud = true;
   bool tags = true;
-  bool compare = false;  // two halves, where there are raw twins (viewer/draw/comparison.h)
+  bool compare = false;  // two halves, where there are raw twins (viewer/scene/comparison.h)
 
   bool headless = false;
   std::string out = ".";

@@ -1,0 +1,108 @@
+#include "viewer/feed/guest_board.h"
+
+namespace dance {
+namespace {
+// How long one source of a guest's poses takes precedence after its last pose.
+constexpr Duration kSourceHolds = Duration::s(1);
+constexpr Duration kStatusHolds = Duration::s(3);
+// Eviction: after so much silence a slot may go to another guest; by then this one has faded out.
+constexpr Duration kSlotHolds = Duration::s(10);
+}  // namespace
+
+GuestBoard::GuestBoard(std::uint64_t clock_id, bool stage_only)
+    : clock_id_(clock_id),
+      stage_only_(stage_only),
+      slots_(std::make_unique<Slot[]>(kMaxGuests)),
+      music_(clock_id) {}
+
+GuestBoard::Slot* GuestBoard::slot_of(const GuestId& guest, MonoTime now) {
+  Slot* spare = nullptr;
+  for (std::size_t i = 0; i < kMaxGuests; ++i) {
+    Slot& slot = slots_[i];
+    if (slot.news.id == guest) {
+      slot.last_heard = now;
+      return &slot;
+    }
+    if (!slot.last_heard.is_set() || now - slot.last_heard > kSlotHolds)
+      if (spare == nullptr || slot.last_heard < spare->last_heard) spare = &slot;
+  }
+  if (spare == nullptr) {
+    no_room_.fetch_add(1, std::memory_order_relaxed);
+    return nullptr;
+  }
+  spare->news = GuestNews();
+  spare->news.id = guest;
+  spare->meter = ArrivalMeter();
+  spare->beat_meter = BeatMeter();
+  spare->capture_heard = spare->status_heard = MonoTime();
+  spare->last_heard = now;
+  return spare;
+}
+
+bool GuestBoard::is_superseded(const Slot& slot, Where where, MonoTime now) const {
+  if (stage_only_ || where == Where::kCapture) return false;
+  return slot.capture_heard.is_set() && now - slot.capture_heard < kSourceHolds;
+}
+
+void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr) return;
+  poses_.fetch_add(1, std::memory_order_relaxed);
+  if (where == Where::kCapture) {
+    slot->capture_heard = now;
+    music_.see(pose);
+    music_latest_.put(music_.clock());
+  }
+  if (is_superseded(*slot, where, now)) return;
+
+  // Ages compare stamps of one clock only.
+  std::optional<Duration> age;
+  if (pose.clock_id == clock_id_ && pose.capture_time.is_set()) age = now - pose.capture_time;
+  slot->meter.on_pose(pose.sequence, now, age);
+  const bool status_is_fresh =
+      slot->status_heard.is_set() && now - slot->status_heard < kStatusHolds;
+  if (!status_is_fresh) slot->news.figures = slot->meter.figures();
+  const BeatClock& music = music_.clock();
+  if (music.is_known(now))
+    slot->beat_meter.add(pose.music_beats, music.position(now), music.beats_per_second(), age);
+  slot->news.figures.beat = slot->beat_meter.figures();
+  slot->news.pose = pose;
+  slot->news.heard = now;
+  slot->latest.put(slot->news);
+}
+
+void GuestBoard::on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now) {
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr || is_superseded(*slot, where, now)) return;
+  // Published with the next pose: hands alone show nothing new.
+  slot->news.hands = hands;
+  slot->news.hands_heard = now;
+}
+
+void GuestBoard::on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
+  if (Slot* slot = slot_of(guest, now)) slot->news.skeleton = skeleton;
+}
+
+void GuestBoard::on_beat(const Beat& beat) {
+  music_.hear(beat);
+  music_latest_.put(music_.clock());
+}
+
+void GuestBoard::on_status(const GuestId& guest, const GuestStatus& status, MonoTime now) {
+  // Only of guests who dance: the roster also names those who have not come yet.
+  if (!status.alive) return;
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr) return;
+  slot->status_heard = now;
+  GuestFigures& figures = slot->news.figures;
+  figures.arrival_hz = status.arrival_hz;
+  figures.age_ms.reset();
+  if (status.age_p50_ms > 0.0f) figures.age_ms = status.age_p50_ms;
+  figures.loss_percent.reset();
+  const std::int64_t sent = status.received + status.lost;
+  if (sent > 0)
+    figures.loss_percent =
+        static_cast<float>(100.0 * static_cast<double>(status.lost) / static_cast<double>(sent));
+}
+
+}  // namespace dance

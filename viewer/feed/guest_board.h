@@ -1,0 +1,82 @@
+// GuestBoard: where the bus thread leaves each guest's newest state and the drawing thread finds
+// it. A guest captured in this house is shown straight from the capture, all others from the stage.
+//
+// Units/frames: MonoTime of this process; poses in W.
+// Ownership:    holds kMaxGuests slots; never allocates after construction.
+// Threads:      on_*() on the bus thread; take() on the drawing thread.
+// Failure:      a guest without a slot evicts one that has been silent for long; without such it is
+//               counted (no_room()).
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "core/base/latest.h"
+#include "core/bus/channel.h"
+#include "core/bus/messages.h"
+#include "core/pose/music_here.h"
+#include "viewer/feed/arrival_meter.h"
+#include "viewer/scene/scene.h"
+
+namespace dance {
+
+// The content of a slot.
+struct GuestNews {
+  GuestId id;
+  Pose pose;
+  MonoTime heard;
+  Skeleton skeleton = average_skeleton();
+  Hands hands;
+  MonoTime hands_heard;  // not set: none
+  GuestFigures figures;
+};
+
+class GuestBoard {
+ public:
+  static constexpr std::size_t kMaxGuests = 64;
+
+  // With `stage_only` no guest is shown from the capture while on the stage.
+  GuestBoard(std::uint64_t clock_id, bool stage_only);
+
+  void on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
+  void on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now);
+  void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+  void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now);
+  void on_beat(const Beat& beat);
+
+  // The newest of a slot if it is new since the last call, else nullptr. Valid until the next call.
+  const GuestNews* take(std::size_t slot) { return slots_[slot].latest.take(); }
+
+  // As take(), of this house's music.
+  const BeatClock* take_music() { return music_latest_.take(); }
+
+  std::uint64_t poses() const { return poses_.load(std::memory_order_relaxed); }
+  std::uint64_t no_room() const { return no_room_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Slot {
+    // Of the bus thread; `latest` passes it to the drawing thread.
+    GuestNews news;
+    ArrivalMeter meter;
+    BeatMeter beat_meter;
+    MonoTime last_heard;  // anything of this guest
+    MonoTime capture_heard;
+    MonoTime status_heard;
+    Latest<GuestNews> latest;
+  };
+
+  Slot* slot_of(const GuestId& guest, MonoTime now);
+  bool is_superseded(const Slot& slot, Where where, MonoTime now) const;
+
+  std::uint64_t clock_id_;
+  bool stage_only_;
+  std::unique_ptr<Slot[]> slots_;
+  MusicHere music_;  // the bus thread's
+  Latest<BeatClock> music_latest_;
+  std::atomic<std::uint64_t> poses_{0};
+  std::atomic<std::uint64_t> no_room_{0};
+};
+
+}  // namespace dance

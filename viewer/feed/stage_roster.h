@@ -1,0 +1,40 @@
+// StageRoster: turns a GuestBoard's updates into the scene to draw: guests who are present, those
+// who fade out after silence or have come back, and those whose pose is new in this picture.
+//
+// Units/frames: MonoTime of this process.
+// Ownership:    borrows the board.
+// Threads:      none inside; the drawing thread owns it.
+// Failure:      none.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "viewer/feed/guest_board.h"
+#include "viewer/scene/scene.h"
+
+namespace dance {
+
+class StageRoster {
+ public:
+  explicit StageRoster(GuestBoard& board);
+
+  // Takes what is new and fills scene.guests, sorted by name, and scene.music.
+  void update(MonoTime now, SceneState& scene);
+
+  // The guests whose pose was new in the last update().
+  struct Fresh {
+    GuestId guest;
+    Pose pose;
+    MonoTime heard;
+  };
+  std::span<const Fresh> fresh() const { return fresh_; }
+
+ private:
+  GuestBoard& board_;
+  BeatClock music_;
+  std::vector<GuestNews> guests_;
+  std::vector<Fresh> fresh_;
+};
+
+}  // namespace dance

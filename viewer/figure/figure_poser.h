@@ -1,0 +1,53 @@
+// FigurePoser: how the figures on the stage stand at one moment: each guest's pose put onto the
+// bones of that guest's avatar, whatever its proportions and names, with feet on the floor and with
+// hands that meet where the dancers' hands do. All guests together, as couples touch.
+//
+// Units/frames: metres in W. A joint's matrix takes vertices of the model to W.
+// Ownership:    keeps a rig for each guest from picture to picture, and what it returns until the
+//               next call. Shares the models.
+// Threads:      none inside; one owner.
+// Failure:      none: a guest whose avatar is null is left out.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "core/pose/kinematics.h"
+#include "formats/avatar/avatar_model.h"
+#include "viewer/scene/scene.h"
+
+namespace dance {
+
+// Three rows of a matrix, as a shader takes them.
+using JointMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+
+struct PosedFigure {
+  GuestId id;
+  std::shared_ptr<const AvatarModel> model;
+  std::vector<JointMatrix> W_from_joint;  // of each AvatarJoint
+  std::vector<float> morph_weights;       // of each AvatarMorph, 0..1
+  BodyFrames frames;                      // where the bones of the figure came to be
+  float opacity = 1.0f;
+};
+
+class FigurePoser {
+ public:
+  FigurePoser();
+  ~FigurePoser();
+  FigurePoser(const FigurePoser&) = delete;
+  FigurePoser& operator=(const FigurePoser&) = delete;
+
+  // Figures in the order of scene.guests. Hair and cloth swing with scene.time; a scene of an
+  // earlier moment, or of much later, finds them at rest.
+  std::span<const PosedFigure> pose(const SceneState& scene);
+
+ private:
+  struct Rig;
+  std::vector<std::unique_ptr<Rig>> rigs_;
+  std::vector<PosedFigure> figures_;
+};
+
+}  // namespace dance

@@ -1,0 +1,22 @@
+#include "viewer/panel/panel_stack.h"
+
+namespace dance {
+
+bool PanelStack::on_key(const KeyPress& press) {
+  for (const auto& panel : panels_)
+    if (panel->on_key(press)) return true;
+  return false;
+}
+
+void PanelStack::draw(const PanelFrame& frame) {
+  for (const auto& panel : panels_) panel->draw(frame);
+}
+
+std::vector<KeyHelp> PanelStack::keys() const {
+  std::vector<KeyHelp> all;
+  for (const auto& panel : panels_)
+    all.insert(all.end(), panel->keys().begin(), panel->keys().end());
+  return all;
+}
+
+}  // namespace dance

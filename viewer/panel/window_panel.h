@@ -1,0 +1,52 @@
+// WindowPanel: a part of the window over the stage that a person works with: a timeline,
+// instruments, sliders, the list of keys. It declares its keys, hears them, and draws itself with Dear ImGui in
+// the frame that the overlay has begun, so that it appears alike in a window and in a file.
+//
+// Units/frames: pixels from the top left; `scale` is the monitor's (1 = 96 dpi).
+// Ownership:    PanelStack owns the panels.
+// Threads:      the drawing thread.
+// Failure:      none of its own.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "viewer/scene/scene.h"
+
+struct ImFont;
+
+namespace dance {
+
+// A key as GLFW numbers it (GLFW_KEY_…), going down or repeating.
+struct KeyPress {
+  int key = 0;
+  bool is_repeat = false;
+  bool has_shift = false;
+  bool has_control = false;
+};
+
+// For the list of keys: "I", "instruments: latency of every guest".
+struct KeyHelp {
+  std::string_view key;
+  std::string_view what;
+};
+
+struct PanelFrame {
+  const SceneState& scene;
+  float width_px = 0.0f;
+  float height_px = 0.0f;
+  float scale = 1.0f;
+  ImFont* large_font = nullptr;
+  ImFont* small_font = nullptr;
+};
+
+class WindowPanel {
+ public:
+  virtual ~WindowPanel() = default;
+  virtual std::span<const KeyHelp> keys() const = 0;
+  // True when the key was this panel's.
+  virtual bool on_key(const KeyPress& press) = 0;
+  virtual void draw(const PanelFrame& frame) = 0;
+};
+
+}  // namespace dance

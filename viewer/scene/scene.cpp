@@ -1,0 +1,35 @@
+#include "viewer/scene/scene.h"
+
+#include "core/pose/kinematics.h"
+
+namespace dance {
+
+using Eigen::Vector3f;
+
+namespace {
+constexpr float kTagAboveHead_m = 0.14f;
+constexpr float kRoomForTag_m = 0.10f;
+}  // namespace
+
+void append_outline(const SceneGuest& guest, std::vector<Vector3f>& points_W_m) {
+  BodyFrames frames;
+  forward_kinematics(guest.skeleton, guest.pose, frames);
+  points_W_m.insert(points_W_m.end(), frames.p_WB_m.begin(), frames.p_WB_m.end());
+  points_W_m.insert(points_W_m.end(), frames.p_WT_m.begin(), frames.p_WT_m.end());
+  points_W_m.push_back(frames.tip(Tip::kHead) +
+                       Vector3f(0.0f, kTagAboveHead_m + kRoomForTag_m, 0.0f));
+}
+
+Vector3f tag_anchor_W_m(const SceneGuest& guest) {
+  BodyFrames frames;
+  forward_kinematics(guest.skeleton, guest.pose, frames);
+  return frames.tip(Tip::kHead) + Vector3f(0.0f, kTagAboveHead_m, 0.0f);
+}
+
+Vector3f facing_W(const SceneGuest& guest) {
+  Vector3f facing = guest.pose.R_PB[index_of(Bone::kHips)] * Vector3f::UnitZ();
+  facing.y() = 0.0f;
+  return facing.squaredNorm() > 1e-6f ? Vector3f(facing.normalized()) : Vector3f::UnitZ();
+}
+
+}  // namespace dance

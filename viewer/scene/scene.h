@@ -1,0 +1,73 @@
+// SceneState: everything that a picture of the stage shows, as plain values. It depends on no bus
+// and no window, so that the viewer, tests and pictures for the documents draw the same way.
+//
+// Units/frames: poses in W, metres; rates in Hz, ages in ms; music in beats as core/base/beat.h
+//               counts them.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "core/base/time.h"
+#include "core/pose/pose.h"
+#include "core/pose/skeleton.h"
+#include "formats/avatar/avatar_model.h"
+#include "viewer/scene/beat_meter.h"
+
+namespace dance {
+
+// The HUD's figures of one guest; unknown ones are not shown.
+struct GuestFigures {
+  float arrival_hz = 0.0f;
+  std::optional<float> age_ms;
+  std::optional<float> loss_percent = {};
+  std::optional<BeatFigures> beat = {};
+};
+
+// The music of this house at the moment of the picture.
+struct SceneMusic {
+  double beats = 0.0;
+  double beats_per_second = 2.0;
+  int beats_per_bar = 0;  // 0: not known
+};
+
+struct SceneGuest {
+  GuestId id;
+  Skeleton skeleton = average_skeleton();
+  Pose pose;
+  std::optional<Hands> hands;
+  std::shared_ptr<const AvatarModel> avatar;  // null: none is ready yet
+  float opacity = 1.0f;                       // 0 = faded out
+  GuestFigures figures;
+  // Of a Comparison: that the figures of this dancer stand under both halves, and that this half
+  // shows a prediction of the dance.
+  bool is_compared = false;
+  bool is_predicted = false;
+};
+
+struct SceneState {
+  MonoTime time;  // of the picture, in the house's clock
+  std::vector<SceneGuest> guests;
+  std::optional<SceneMusic> music;
+  // Free lines at the bottom left: the viewer's own rate, a hint when no dancer is here.
+  std::vector<std::string> notes;
+};
+
+// The points of a guest that must be in the picture: all joints and ends, and room for the name
+// tag.
+void append_outline(const SceneGuest& guest, std::vector<Eigen::Vector3f>& points_W_m);
+
+// Where the tag hangs: above the head.
+Eigen::Vector3f tag_anchor_W_m(const SceneGuest& guest);
+
+// The direction in which the guest's hips look, on the floor.
+Eigen::Vector3f facing_W(const SceneGuest& guest);
+
+}  // namespace dance

@@ -1,0 +1,53 @@
+// StagePainter: the stage and what is written over it, as one picture. A window shows that picture
+// and a headless run writes it to a file.
+//
+// Units/frames: W; pixels.
+// Ownership:    owns renderer and overlay; the OpenGL context must outlive it.
+// Threads:      the one whose context is current.
+// Failure:      create() and draw() name what the driver refuses.
+#pragma once
+
+#include <memory>
+
+#include "viewer/gl/picture.h"
+#include "viewer/overlay/overlay.h"
+#include "viewer/stage/stage_renderer.h"
+
+namespace dance {
+
+class StagePainter {
+ public:
+  static Result<std::unique_ptr<StagePainter>> create(Quality quality, float scale);
+
+  Result<void> draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
+                    const OverlayChoice& choice);
+  // Two halves from one camera, the beats under each.
+  Result<void> draw(const Comparison& comparison, const OrbitCamera& camera, int width_px,
+                    int height_px, const OverlayChoice& choice);
+  // Of each half's stage, for the camera.
+  float aspect_of_half(int width_px, int height_px) const;
+  // The picture that draw() has made.
+  Picture read() const;
+  // Copies it to the window's own framebuffer.
+  void present() const;
+
+  StageRenderer& renderer() { return *renderer_; }
+  Overlay& overlay() { return *overlay_; }
+
+ private:
+  StagePainter() = default;
+  void resize_wide(int width_px, int height_px);
+  void copy_half(int left_px, int bottom_px) const;
+  GLuint finished() const {
+    return is_wide_ ? wide_.name() : renderer_->target().finished().name();
+  }
+
+  GlTexture wide_texture_;  // both halves
+  GlFramebuffer wide_;
+  int wide_width_px_ = 0, wide_height_px_ = 0;
+  bool is_wide_ = false;  // of the last draw()
+  std::unique_ptr<StageRenderer> renderer_;
+  std::unique_ptr<Overlay> overlay_;
+};
+
+}  // namespace dance
