@@ -1,6 +1,7 @@
 // WindowPanel: a part of the window over the stage that a person works with: a timeline,
-// instruments, sliders, the list of keys. It declares its keys, hears them, and draws itself with Dear ImGui in
-// the frame that the overlay has begun, so that it appears alike in a window and in a file.
+// instruments, sliders, the list of keys. It declares its keys, hears them, and draws itself with
+// Dear ImGui in the frame that the overlay has begun, so that it appears alike in a window and in a
+// file.
 //
 // Units/frames: pixels from the top left; `scale` is the monitor's (1 = 96 dpi).
 // Ownership:    PanelStack owns the panels.
