@@ -27,9 +27,9 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kSeed = 20'240'229;
 // Work per file and kind of damage: small inputs are damaged everywhere, large ones at evenly
-// spaced places.
-constexpr std::size_t kWork_bytes = 8u << 20;
-constexpr std::size_t kMostRuns = 1024;
+// spaced places. libFuzzer goes further under the sanitizers.
+constexpr std::size_t kWork_bytes = 2u << 20;
+constexpr std::size_t kMostRuns = 256;
 constexpr std::size_t kFewestRuns = 16;
 constexpr std::uint8_t kExtremes[] = {0x00, 0xff, 0x7f, 0x80};
 
