@@ -38,13 +38,21 @@ struct SceneMusic {
   int beats_per_bar = 0;  // 0: not known
 };
 
+// How large an avatar is drawn. By default its legs are as long as the dancer's, so that steps fit,
+// feet do not slide and couples stay at arm's length; its own size keeps the height of its file.
+enum class FigureSize : std::uint8_t { kDancers, kOwn };
+constexpr float kLeastHeightScale = 0.25f;
+constexpr float kMostHeightScale = 4.0f;
+
 struct SceneGuest {
   GuestId id;
   Skeleton skeleton = average_skeleton();
   Pose pose;
   std::optional<Hands> hands;
   std::shared_ptr<const AvatarModel> avatar;  // null: none is ready yet
-  float opacity = 1.0f;                       // 0 = faded out
+  FigureSize figure_size = FigureSize::kDancers;
+  float height_scale = 1.0f;  // times that size; kept within the two bounds above
+  float opacity = 1.0f;       // 0 = faded out
   GuestFigures figures;
   // Of a Comparison: that the figures of this dancer stand under both halves, and that this half
   // shows a prediction of the dance.
