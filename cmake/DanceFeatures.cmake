@@ -62,6 +62,11 @@ pkg_check_modules(ZSTD QUIET IMPORTED_TARGET libzstd)
 dance_require("zstd" ZSTD_FOUND "libzstd-dev")
 dance_plain_library(tinygltf tiny_gltf.h tinygltf_found)
 dance_require("tinygltf" tinygltf_found "libtinygltf-dev")
+# Avatars that the project makes: their pictures, and meshes with fewer triangles.
+pkg_check_modules(LIBPNG QUIET IMPORTED_TARGET libpng)
+dance_require("libpng" LIBPNG_FOUND "libpng-dev")
+dance_plain_library(meshoptimizer meshoptimizer.h meshoptimizer_found)
+dance_require("meshoptimizer" meshoptimizer_found "libmeshoptimizer-dev")
 
 # Third-party headers are not ours to warn about.
 foreach(target Eigen3::Eigen tl::expected tomlplusplus::tomlplusplus CLI11::CLI11 nlohmann_json::nlohmann_json)

@@ -135,6 +135,50 @@ int GlbStore::add_bytes(std::span<const std::uint8_t> values, bool is_normalized
   return index;
 }
 
+int GlbStore::add_shorts(std::span<const std::uint16_t> values) {
+  const int view = add_view(values.data(), values.size_bytes(), GlbUse::kVertices);
+  return add_accessor(view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                      values.size() / 4);
+}
+
+int GlbStore::add_sparse(std::size_t count, std::span<const std::uint32_t> vertices,
+                         std::span<const Eigen::Vector3f> values) {
+  DANCE_ASSERT(!vertices.empty() && vertices.size() == values.size() && vertices.back() < count,
+               vertices.size(), count);
+  const bool is_small = count <= std::numeric_limits<std::uint16_t>::max();
+  const std::vector<std::uint16_t> small(vertices.begin(), vertices.end());
+  const int index = add_accessor(-1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, count);
+  const int index_view = is_small
+                             ? add_view(small.data(), 2 * small.size(), GlbUse::kData)
+                             : add_view(vertices.data(), vertices.size_bytes(), GlbUse::kData);
+  const int value_view = add_view(values.data(), values.size_bytes(), GlbUse::kData);
+  tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
+  accessor.sparse.isSparse = true;
+  accessor.sparse.count = static_cast<int>(vertices.size());
+  accessor.sparse.indices.bufferView = index_view;
+  accessor.sparse.indices.byteOffset = 0;
+  accessor.sparse.indices.componentType =
+      is_small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  accessor.sparse.values.bufferView = value_view;
+  accessor.sparse.values.byteOffset = 0;
+  Eigen::Vector3f least = vertices.size() < count ? Eigen::Vector3f(Eigen::Vector3f::Zero())
+                                                  : values.front();
+  Eigen::Vector3f most = least;
+  for (const Eigen::Vector3f& value : values) {
+    least = least.cwiseMin(value);
+    most = most.cwiseMax(value);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    accessor.minValues.push_back(static_cast<double>(least[axis]));
+    accessor.maxValues.push_back(static_cast<double>(most[axis]));
+  }
+  return index;
+}
+
+int GlbStore::add_file(std::span<const std::uint8_t> file) {
+  return add_view(file.data(), file.size(), GlbUse::kData);
+}
+
 int GlbStore::add_indices(std::span<const std::uint32_t> values) {
   const std::uint32_t most = *std::max_element(values.begin(), values.end());
   // 65535 restarts a strip on some machines, and is forbidden.

@@ -32,7 +32,14 @@ class GlbStore {
   int add_floats(std::span<const float> values, std::size_t components, GlbUse use,
                  bool has_bounds = false);
   int add_bytes(std::span<const std::uint8_t> values, bool is_normalized);  // of four each
+  int add_shorts(std::span<const std::uint16_t> values);                    // of four each
+  // Vectors of `count` vertices that are zero but for some: vertices[i], ascending, has values[i].
+  int add_sparse(std::size_t count, std::span<const std::uint32_t> vertices,
+                 std::span<const Eigen::Vector3f> values);
   int add_indices(std::span<const std::uint32_t> values);
+
+  // The index of a new buffer view that holds a file as it is, such as a picture.
+  int add_file(std::span<const std::uint8_t> file);
 
   std::size_t bytes() const { return data().size(); }
 
