@@ -44,7 +44,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
     Fingerprint fingerprint;
     std::string_view type;
   };
-  static const std::array<Known, 12> kKnown{{
+  static const std::array<Known, 15> kKnown{{
       {fingerprint_of(Pose()), "pose_t"},
       {fingerprint_of(Hands()), "hands_t"},
       {fingerprint_of(any_skeleton()), "skeleton_t"},
@@ -57,6 +57,9 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
       {fingerprint_of(Style()), "style_t"},
       {fingerprint_of(Placement()), "placement_t"},
       {fingerprint_of(Beat()), "beat_t"},
+      {fingerprint_of(GuestStats()), "guest_stats_t"},
+      {fingerprint_of(GuestTraffic()), "guest_traffic_t"},
+      {fingerprint_of(FlowSetting()), "flow_t"},
   }};
   if (message.size() < sizeof(Fingerprint)) return "";
   for (const Known& known : kKnown)

@@ -29,6 +29,9 @@ enum class Signal : std::uint8_t {
   kStyle,
   kPlacement,
   kBeat,
+  kGuestStats,
+  kGuestTraffic,
+  kFlow,
 };
 
 // Where on its journey the signal is.
@@ -82,7 +85,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 23> kChannelTable{{
+constexpr std::array<ChannelRow, 27> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -106,6 +109,10 @@ constexpr std::array<ChannelRow, 23> kChannelTable{{
     {Signal::kPlacement, Where::kGuest, "PLACEMENT/guest/<guest>", "placement_t"},
     {Signal::kBeat, Where::kLocal, "BEAT/local", "beat_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
+    {Signal::kGuestStats, Where::kView, "GUEST_STATS/view/<guest>", "guest_stats_t"},
+    {Signal::kGuestTraffic, Where::kGuest, "GUEST_TRAFFIC/guest/<guest>", "guest_traffic_t"},
+    {Signal::kFlow, Where::kCapture, "FLOW/capture/<guest>", "flow_t"},
+    {Signal::kFlow, Where::kStage, "FLOW/stage/<guest>", "flow_t"},
 }};
 
 }  // namespace dance

@@ -2,7 +2,10 @@
 
 #include <dancelcm/avatar_t.hpp>
 #include <dancelcm/beat_t.hpp>
+#include <dancelcm/flow_t.hpp>
+#include <dancelcm/guest_stats_t.hpp>
 #include <dancelcm/guest_t.hpp>
+#include <dancelcm/guest_traffic_t.hpp>
 #include <dancelcm/hands_t.hpp>
 #include <dancelcm/music_t.hpp>
 #include <dancelcm/placement_t.hpp>
@@ -165,6 +168,51 @@ struct MessageFields<Beat> {
   }
 };
 
+template <>
+struct MessageFields<GuestStats> {
+  using Generated = dancelcm::guest_stats_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.gap_p50_ms, v.gap_p50_ms) &&
+           io(m.gap_p99_ms, v.gap_p99_ms) && io(m.newest_p50_ms, v.newest_p50_ms) &&
+           io(m.newest_p99_ms, v.newest_p99_ms) && io(m.age_p50_ms, v.age_p50_ms) &&
+           io(m.age_p99_ms, v.age_p99_ms) && io(m.arrival_hz, v.arrival_hz) &&
+           io(m.stage_hz, v.stage_hz) && io(m.shown_hz, v.shown_hz) &&
+           io(m.jitter_ms, v.jitter_ms) && io(m.loss_percent, v.loss_percent) &&
+           io(m.horizon_p50_ms, v.horizon_p50_ms) && io(m.horizon_p99_ms, v.horizon_p99_ms) &&
+           io(m.error_mean_mm, v.error_mean_mm) && io(m.error_p95_mm, v.error_p95_mm) &&
+           io(m.hips_error_mm, v.hips_error_mm) && io(m.beat_ms, v.beat_ms) &&
+           io(m.beat_share, v.beat_share) && io(m.bytes_per_second, v.bytes_per_second) &&
+           io(m.bytes_per_pose, v.bytes_per_pose) && io(m.received, v.received) &&
+           io(m.lost, v.lost) && io(m.late, v.late) && io(m.superseded, v.superseded);
+  }
+};
+
+template <>
+struct MessageFields<GuestTraffic> {
+  using Generated = dancelcm::guest_traffic_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.bytes, v.bytes) && io(m.received, v.received) &&
+           io(m.lost, v.lost) && io(m.late, v.late) && io(m.duplicate, v.duplicate) &&
+           io(m.invalid, v.invalid) && io(m.reference_missing, v.reference_missing) &&
+           io(m.key_frames_asked, v.key_frames_asked);
+  }
+};
+
+template <>
+struct MessageFields<FlowSetting> {
+  using Generated = dancelcm::flow_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.has, v.has) && io(m.on, v.on) && io(m.own, v.own) &&
+           io(m.route, v.route) && io(m.hold_ms, v.hold_ms) && io(m.lead, v.lead) &&
+           io(m.reach_ms, v.reach_ms) && io(m.rhythm_beats, v.rhythm_beats) &&
+           io(m.rhythm_count, v.rhythm_count) && io(m.rhythm_strength, v.rhythm_strength) &&
+           io(m.rhythm_error_mm, v.rhythm_error_mm) && io(m.gain, v.gain) &&
+           io(m.periodic, v.periodic) && io(m.dynamic, v.dynamic) &&
+           io(m.guest_gain, v.guest_gain) && io(m.guest_periodic, v.guest_periodic) &&
+           io(m.guest_dynamic, v.guest_dynamic);
+  }
+};
+
 template struct MessageRow<Pose, Signal::kPose>;
 template struct MessageRow<Hands, Signal::kHands>;
 template struct MessageRow<TimedSkeleton, Signal::kSkeleton>;
@@ -177,6 +225,9 @@ template struct MessageRow<Avatar, Signal::kAvatar>;
 template struct MessageRow<Style, Signal::kStyle>;
 template struct MessageRow<Placement, Signal::kPlacement>;
 template struct MessageRow<Beat, Signal::kBeat>;
+template struct MessageRow<GuestStats, Signal::kGuestStats>;
+template struct MessageRow<GuestTraffic, Signal::kGuestTraffic>;
+template struct MessageRow<FlowSetting, Signal::kFlow>;
 
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
   dancelcm::pose_t m{};

@@ -19,6 +19,7 @@
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
+#include "core/pose/flow_setting.h"
 #include "core/pose/pose.h"
 
 namespace dance {
@@ -67,6 +68,12 @@ template <>
 struct MessageTraits<Placement> : MessageRow<Placement, Signal::kPlacement> {};
 template <>
 struct MessageTraits<Beat> : MessageRow<Beat, Signal::kBeat> {};
+template <>
+struct MessageTraits<GuestStats> : MessageRow<GuestStats, Signal::kGuestStats> {};
+template <>
+struct MessageTraits<GuestTraffic> : MessageRow<GuestTraffic, Signal::kGuestTraffic> {};
+template <>
+struct MessageTraits<FlowSetting> : MessageRow<FlowSetting, Signal::kFlow> {};
 
 // A type with a row in the table.
 template <class T>

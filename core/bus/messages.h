@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "core/base/time.h"
 #include "core/pose/pose.h"
@@ -73,6 +74,62 @@ struct StageTime {
   MonoTime swap_time;
 };
 
+constexpr float kNotKnown = std::numeric_limits<float>::quiet_NaN();
+
+// The gaps of guest_stats_t: one for each Hop of a pose, and two of the display.
+constexpr std::size_t kHeardGap = kHopCount;
+constexpr std::size_t kShownGap = kHopCount + 1;
+constexpr std::size_t kGapCount = kHopCount + 2;
+using GapFigures = std::array<float, kGapCount>;
+
+constexpr GapFigures no_gaps() {
+  GapFigures gaps{};
+  for (float& gap : gaps) gap = kNotKnown;
+  return gaps;
+}
+
+struct GuestStats {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  GapFigures gap_p50_ms = no_gaps();
+  GapFigures gap_p99_ms = no_gaps();
+  float newest_p50_ms = kNotKnown;
+  float newest_p99_ms = kNotKnown;
+  float age_p50_ms = kNotKnown;
+  float age_p99_ms = kNotKnown;
+  float arrival_hz = 0.0f;
+  float stage_hz = 0.0f;
+  float shown_hz = 0.0f;
+  float jitter_ms = kNotKnown;
+  float loss_percent = kNotKnown;
+  float horizon_p50_ms = kNotKnown;
+  float horizon_p99_ms = kNotKnown;
+  float error_mean_mm = kNotKnown;
+  float error_p95_mm = kNotKnown;
+  float hips_error_mm = kNotKnown;
+  float beat_ms = kNotKnown;
+  float beat_share = kNotKnown;
+  float bytes_per_second = kNotKnown;
+  float bytes_per_pose = kNotKnown;
+  std::int64_t received = 0;
+  std::int64_t lost = 0;
+  std::int64_t late = 0;
+  std::int64_t superseded = 0;
+};
+
+struct GuestTraffic {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  std::int64_t bytes = 0;
+  std::int64_t received = 0;
+  std::int64_t lost = 0;
+  std::int64_t late = 0;
+  std::int64_t duplicate = 0;
+  std::int64_t invalid = 0;
+  std::int64_t reference_missing = 0;
+  std::int64_t key_frames_asked = 0;
+};
+
 inline bool is_valid(const TimedSkeleton& timed) { return is_valid(timed.skeleton); }
 inline bool is_valid(const GuestStatus& status) {
   return std::isfinite(status.arrival_hz) && std::isfinite(status.stage_hz) &&
@@ -80,5 +137,8 @@ inline bool is_valid(const GuestStatus& status) {
 }
 inline bool is_valid(const Stats&) { return true; }
 inline bool is_valid(const StageTime&) { return true; }
+// Not known, or a number.
+bool is_valid(const GuestStats& stats);
+inline bool is_valid(const GuestTraffic& traffic) { return traffic.bytes >= 0; }
 
 }  // namespace dance

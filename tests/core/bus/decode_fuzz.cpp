@@ -34,6 +34,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try_decode<dance::Style>(data, size);
   try_decode<dance::Placement>(data, size);
   try_decode<dance::Beat>(data, size);
+  try_decode<dance::GuestStats>(data, size);
+  try_decode<dance::GuestTraffic>(data, size);
+  try_decode<dance::FlowSetting>(data, size);
   const std::string_view name(reinterpret_cast<const char*>(data), size);
   if (const auto channel = dance::Channel::parse(name)) DANCE_ASSERT(channel->view() == name);
   return 0;

@@ -78,6 +78,27 @@ Beat golden_beat() {
   return beat;
 }
 
+FlowSetting golden_flow() {
+  auto flow = stamped<FlowSetting>();
+  flow.has = {false, true, true, true, true};
+  flow.on = {true, true, false, true, false};
+  flow.own = true;
+  flow.route = 3;
+  flow.hold_ms = 20.5f;
+  flow.lead = 0.75f;
+  flow.reach_ms = 250.5f;
+  flow.rhythm_beats = 1.0f;
+  flow.rhythm_count = 4.0f;
+  flow.rhythm_strength = 0.5f;
+  flow.rhythm_error_mm = 80.25f;
+  flow.gain = {1.25f, 0.5f, 0.75f, 2.0f, 3.0f, 1.0f, 0.25f};
+  flow.periodic = 0.5f;
+  flow.dynamic = 0.25f;
+  flow.guest_gain = {1.5f, 1.0f, 1.0f, 1.25f, 1.0f, 0.5f, 0.75f};
+  flow.guest_dynamic = 0.75f;
+  return flow;
+}
+
 TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("music_t", golden_music());
   expect_golden("scene_t", golden_scene());
@@ -85,6 +106,7 @@ TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("style_t", golden_style());
   expect_golden("placement_t", golden_placement());
   expect_golden("beat_t", golden_beat());
+  expect_golden("flow_t", golden_flow());
 }
 
 TEST(GoldenState, SurvivesEverySingleBitFlip) {
@@ -94,6 +116,7 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Style>("style_t");
   expect_survives_bit_flips<Placement>("placement_t");
   expect_survives_bit_flips<Beat>("beat_t");
+  expect_survives_bit_flips<FlowSetting>("flow_t");
 }
 
 TEST(GoldenState, IsSmallEnoughForTheTunnel) {
@@ -153,6 +176,23 @@ TEST(DecodeState, CallsImpossibleValuesInvalid) {
   EXPECT_EQ(outcome_of(golden_style(), [](Style& s) { s.dynamic = 5.0f; }), invalid);
   EXPECT_EQ(outcome_of(golden_placement(), [](Placement& p) { p.x_m = 1e6f; }), invalid);
   EXPECT_EQ(outcome_of(golden_placement(), [](Placement& p) { p.heading_rad = 4.0f; }), invalid);
+}
+
+TEST(DecodeState, CallsImpossibleFlowsInvalid) {
+  const auto fine = Decoded::kFine, invalid = Decoded::kInvalid;
+  using F = FlowSetting;
+  EXPECT_EQ(outcome_of(golden_flow(), [](F&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.lead = 1.51f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.lead = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.reach_ms = -1.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.hold_ms = 2001.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.rhythm_beats = 9.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.rhythm_count = 0.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.rhythm_strength = 1.1f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.rhythm_error_mm = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.gain[6] = 4.1f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.guest_gain[0] = -0.1f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.route = 100'000; }), invalid);
 }
 
 TEST(DecodeState, CallsImpossibleBeatsInvalid) {

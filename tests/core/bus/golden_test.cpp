@@ -120,6 +120,69 @@ Stats golden_stats() {
   return s;
 }
 
+GuestStats golden_guest_stats() {
+  GuestStats s;
+  s.time = kCaptured;
+  s.clock_id = kClock;
+  s.gap_p50_ms = {0.25f, 1.5f, 20.5f, 30.25f, kNotKnown, 0.125f, 0.5f, 8.25f};
+  s.gap_p99_ms = {0.5f, 2.5f, 40.5f, 60.25f, kNotKnown, 0.25f, 1.5f, 16.5f};
+  s.newest_p50_ms = 61.375f;
+  s.newest_p99_ms = 122.0f;
+  s.age_p50_ms = -3.25f;
+  s.age_p99_ms = 12.5f;
+  s.arrival_hz = 59.5f;
+  s.stage_hz = 60.0f;
+  s.shown_hz = 58.25f;
+  s.jitter_ms = 2.75f;
+  s.loss_percent = 1.25f;
+  s.horizon_p50_ms = 64.625f;
+  s.horizon_p99_ms = 90.5f;
+  s.error_mean_mm = 18.5f;
+  s.error_p95_mm = 44.25f;
+  s.hips_error_mm = 9.75f;
+  s.beat_ms = -12.5f;
+  s.beat_share = -0.03125f;
+  s.bytes_per_second = 4096.0f;
+  s.bytes_per_pose = 68.25f;
+  s.received = 123'456;
+  s.lost = 12;
+  s.late = 3;
+  s.superseded = 45;
+  return s;
+}
+
+GuestTraffic golden_guest_traffic() {
+  GuestTraffic t;
+  t.time = kCaptured;
+  t.clock_id = kClock;
+  t.bytes = 987'654'321;
+  t.received = 123'456;
+  t.lost = 12;
+  t.late = 3;
+  t.duplicate = 7;
+  t.invalid = 2;
+  t.reference_missing = 5;
+  t.key_frames_asked = 4;
+  return t;
+}
+
+TEST(GoldenMessages, KeepFiguresThatAreNotKnownAndRefuseInfiniteOnes) {
+  GuestStats stats = golden_guest_stats(), decoded;
+  stats.jitter_ms = kNotKnown;
+  Bytes bytes = encoded(stats);
+  ASSERT_EQ(decode(bytes.data(), bytes.size(), decoded), Decoded::kFine);
+  EXPECT_TRUE(std::isnan(decoded.jitter_ms));
+  EXPECT_TRUE(std::isnan(decoded.gap_p50_ms[4]));
+  EXPECT_EQ(decoded.gap_p99_ms[7], 16.5f);
+  stats.gap_p99_ms[2] = std::numeric_limits<float>::infinity();
+  bytes = encoded(stats);
+  EXPECT_EQ(decode(bytes.data(), bytes.size(), decoded), Decoded::kInvalid);
+  GuestTraffic traffic = golden_guest_traffic(), read;
+  traffic.bytes = -1;
+  bytes = encoded(traffic);
+  EXPECT_EQ(decode(bytes.data(), bytes.size(), read), Decoded::kInvalid);
+}
+
 TEST(GoldenMessages, AreWrittenAndReadByteForByte) {
   expect_golden("pose_t", golden_pose());
   expect_golden("hands_t", golden_hands());
@@ -127,6 +190,8 @@ TEST(GoldenMessages, AreWrittenAndReadByteForByte) {
   expect_golden("guest_t", golden_guest());
   expect_golden("stage_time_t", golden_stage_time());
   expect_golden("stats_t", golden_stats());
+  expect_golden("guest_stats_t", golden_guest_stats());
+  expect_golden("guest_traffic_t", golden_guest_traffic());
 }
 
 TEST(GoldenMessages, HoldThePoseThatWasDanced) {
@@ -150,7 +215,8 @@ TEST(GoldenMessages, HaveTheFingerprintsAndSizesOfTheReadme) {
   std::ifstream readme(std::string(DANCE_SOURCE_DIR) + "/lcmtypes/README.md");
   const std::string text{std::istreambuf_iterator<char>(readme), std::istreambuf_iterator<char>()};
   for (const char* type : {"pose_t", "hands_t", "skeleton_t", "guest_t", "stage_time_t", "stats_t",
-                           "music_t", "scene_t", "avatar_t", "style_t", "placement_t", "beat_t"}) {
+                           "music_t", "scene_t", "avatar_t", "style_t", "placement_t", "beat_t",
+                           "guest_stats_t", "guest_traffic_t", "flow_t"}) {
     const Bytes golden = read_golden(type);
     ASSERT_GE(golden.size(), 8u);
     std::string fingerprint;

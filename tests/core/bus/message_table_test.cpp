@@ -26,7 +26,8 @@ TEST(MessageTable, HasTheTypeOfEverySignalInTheTableOfChannels) {
   }
   // A new message type is named here.
   EXPECT_EQ((types_of_rows<Pose, Hands, TimedSkeleton, GuestStatus, Stats, StageTime, Music, Scene,
-                           Avatar, Style, Placement, Beat>()),
+                           Avatar, Style, Placement, Beat, GuestStats, GuestTraffic,
+                           FlowSetting>()),
             of_channels);
 }
 
