@@ -67,6 +67,11 @@ pkg_check_modules(LIBPNG QUIET IMPORTED_TARGET libpng)
 dance_require("libpng" LIBPNG_FOUND "libpng-dev")
 dance_plain_library(meshoptimizer meshoptimizer.h meshoptimizer_found)
 dance_require("meshoptimizer" meshoptimizer_found "libmeshoptimizer-dev")
+# The pictures in avatars; the camera's too.
+dance_plain_library(turbojpeg turbojpeg.h turbojpeg_found)
+dance_require("libjpeg-turbo" turbojpeg_found "libturbojpeg0-dev")
+dance_plain_library(webp webp/decode.h webp_found)
+dance_require("libwebp" webp_found "libwebp-dev")
 
 # Third-party headers are not ours to warn about.
 foreach(target Eigen3::Eigen tl::expected tomlplusplus::tomlplusplus CLI11::CLI11 nlohmann_json::nlohmann_json)
@@ -127,21 +132,15 @@ foreach(module calib3d dnn videoio imgcodecs imgproc core)
     set(opencv_found FALSE)
   endif()
 endforeach()
-find_library(TURBOJPEG_LIBRARY turbojpeg)
-find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h)
 find_path(FLATBUFFERS_INCLUDE_DIR flatbuffers/flatbuffers.h)
 find_program(FLATC flatc)
 set(camera_found FALSE)
-if(opencv_found AND TURBOJPEG_LIBRARY AND TURBOJPEG_INCLUDE_DIR AND FLATBUFFERS_INCLUDE_DIR AND FLATC)
+if(opencv_found AND FLATBUFFERS_INCLUDE_DIR AND FLATC)
   set(camera_found TRUE)
   target_include_directories(dance_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
-  add_library(dance_turbojpeg INTERFACE)
-  add_library(turbojpeg::turbojpeg ALIAS dance_turbojpeg)
-  target_include_directories(dance_turbojpeg SYSTEM INTERFACE ${TURBOJPEG_INCLUDE_DIR})
-  target_link_libraries(dance_turbojpeg INTERFACE ${TURBOJPEG_LIBRARY})
 endif()
 dance_optional(DANCE_CAMERA "Camera" DANCE_HAVE_CAMERA ${camera_found}
-  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev libturbojpeg0-dev flatbuffers-compiler \
+  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev flatbuffers-compiler \
 libflatbuffers-dev")
 
 # Without it OpenCV runs the pose network: the same numbers, four times slower.

@@ -225,4 +225,22 @@ RigName read_rig_name(std::string_view name) {
   return whole.part != RigPart::kNone ? whole : look_up(side, telling);
 }
 
+RigSide eye_side(std::string_view name) {
+  constexpr std::string_view kEmptyEyeWords[] = {"cc",  "base", "adj", "j",    "face", "def",
+                                                 "org", "mch",  "bip", "bone", "joint"};
+  if (const auto colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
+  RigSide side = RigSide::kMiddle;
+  bool is_eye = false;
+  for (const std::string& word : words_of(name)) {
+    if (const auto found = side_of(word)) {
+      side = *found;
+    } else if (word == "eye" || word == "eyeball") {
+      is_eye = true;
+    } else if (!is_digit(word[0]) && !contains(kEmptyEyeWords, word)) {
+      return RigSide::kMiddle;
+    }
+  }
+  return is_eye ? side : RigSide::kMiddle;
+}
+
 }  // namespace dance

@@ -54,4 +54,7 @@ std::string_view common_prefix(const std::vector<std::string_view>& names);
 
 RigName read_rig_name(std::string_view name);
 
+// The side of a joint that turns an eye, by its name; kMiddle for all else, as eyelids and brows.
+RigSide eye_side(std::string_view name);
+
 }  // namespace dance

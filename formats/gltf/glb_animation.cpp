@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "formats/gltf/glb_accessor.h"
 #include "formats/gltf/glb_text.h"
-#include "formats/gltf/glb_values.h"
 
 namespace dance {
 namespace {

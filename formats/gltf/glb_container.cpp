@@ -67,8 +67,12 @@ Result<std::string_view> json_of(std::span<const std::uint8_t> bytes) {
   return json;
 }
 
-bool decode_no_picture(tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                       const unsigned char*, int, void*) {
+// Pictures stay packed as they are: in the file's buffer, or, where the JSON itself holds them, as
+// a copy. Decoding them, with bounds, is up to the caller.
+bool decode_no_picture(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                       const unsigned char* bytes, int size, void*) {
+  image->as_is = true;
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 

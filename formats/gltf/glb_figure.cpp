@@ -187,6 +187,16 @@ std::vector<const GlbTrack*> tracks_of(const GlbFigure& figure, const GlbAnimati
   return tracks;
 }
 
+Bvh rest_of(const GlbFigure& figure, const GlbScene& scene) {
+  Bvh bvh;
+  FigureMotion(figure, scene).begin_joints(bvh);
+  return bvh;
+}
+
+GlbFigure figure_below(const GlbScene& scene, int root) {
+  return figure_from(scene, root, scene.at(root).name);
+}
+
 Result<Bvh> bvh_of(const GlbFigure& figure, const GlbScene& scene, const GlbAnimation& animation,
                    const GlbLimits& limits) {
   if (figure.joints.size() > limits.joints)

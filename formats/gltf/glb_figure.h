@@ -30,6 +30,11 @@ std::vector<GlbFigure> find_figures(const tinygltf::Model& model, const GlbScene
 std::vector<const GlbTrack*> tracks_of(const GlbFigure& figure, const GlbAnimation& animation,
                                        const GlbScene& scene);
 
+// The joints alone, at rest.
+Bvh rest_of(const GlbFigure& figure, const GlbScene& scene);
+// The figure of a node and all below it.
+GlbFigure figure_below(const GlbScene& scene, int root);
+
 Result<Bvh> bvh_of(const GlbFigure& figure, const GlbScene& scene, const GlbAnimation& animation,
                    const GlbLimits& limits);
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/base/assert.h"
+#include "formats/gltf/glb_accessor.h"
 
 namespace dance {
 namespace {
@@ -14,63 +13,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian, and copied");
 
 constexpr std::size_t kAlignment_bytes = 4;
-
-int type_of(std::size_t components) {
-  switch (components) {
-    case 1:
-      return TINYGLTF_TYPE_SCALAR;
-    case 2:
-      return TINYGLTF_TYPE_VEC2;
-    case 3:
-      return TINYGLTF_TYPE_VEC3;
-    case 4:
-      return TINYGLTF_TYPE_VEC4;
-    default:
-      return TINYGLTF_TYPE_MAT4;
-  }
-}
-
-// glTF's rule for normalised integers: c / (2^bits − 1), or max(c / (2^(bits−1) − 1), −1).
-template <class Integer>
-float normalised(const unsigned char* at) {
-  Integer value;
-  std::memcpy(&value, at, sizeof value);
-  const float unit = static_cast<float>(std::numeric_limits<Integer>::max());
-  return std::max(static_cast<float>(value) / unit, -1.0f);
-}
-
-float component_at(const unsigned char* at, int type) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return normalised<std::int8_t>(at);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return normalised<std::uint8_t>(at);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return normalised<std::int16_t>(at);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return normalised<std::uint16_t>(at);
-    default: {
-      float value;
-      std::memcpy(&value, at, sizeof value);
-      return value;
-    }
-  }
-}
-
-std::size_t size_of_component(int type) {
-  switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return 2;
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-      return 4;
-    default:
-      return 0;
-  }
-}
 
 }  // namespace
 
@@ -110,7 +52,7 @@ int GlbStore::add_floats(std::span<const float> values, std::size_t components, 
                          bool has_bounds) {
   DANCE_ASSERT(!values.empty() && values.size() % components == 0, values.size(), components);
   const int view = add_view(values.data(), values.size_bytes(), use);
-  const int index = add_accessor(view, TINYGLTF_COMPONENT_TYPE_FLOAT, type_of(components),
+  const int index = add_accessor(view, TINYGLTF_COMPONENT_TYPE_FLOAT, glb_type_of(components),
                                  values.size() / components);
   if (!has_bounds) return index;
   tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
@@ -189,44 +131,6 @@ int GlbStore::add_indices(std::span<const std::uint32_t> values) {
   }
   return add_accessor(add_view(values.data(), values.size_bytes(), GlbUse::kIndices),
                       TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, values.size());
-}
-
-Result<std::vector<float>> read_floats(const tinygltf::Model& model, int index,
-                                       std::size_t components, std::size_t most_values) {
-  const std::string what = "accessor " + std::to_string(index);
-  if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
-    return fail(what + " is not in the file");
-  const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(index)];
-  if (accessor.sparse.isSparse) return fail(what + " is sparse; export the animation without");
-  if (accessor.type != type_of(components)) return fail(what + " has another type than its use");
-  const std::size_t size = size_of_component(accessor.componentType);
-  if (size == 0) return fail(what + " has a component type that animations cannot have");
-  if (accessor.count == 0) return fail(what + " is empty");
-  if (accessor.count > most_values / components) return fail(what + " holds too many numbers");
-  if (accessor.bufferView < 0 ||
-      static_cast<std::size_t>(accessor.bufferView) >= model.bufferViews.size())
-    return fail(what + " has no buffer view");
-  const auto& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
-  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
-    return fail(what + ": its buffer view has no buffer");
-  const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-  const std::size_t element = size * components;
-  const std::size_t stride = view.byteStride != 0 ? view.byteStride : element;
-  if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
-    return fail(what + ": its buffer view reaches beyond its buffer");
-  if (stride < element || stride > 252 || accessor.byteOffset > view.byteLength ||
-      view.byteLength - accessor.byteOffset < element ||
-      (view.byteLength - accessor.byteOffset - element) / stride < accessor.count - 1)
-    return fail(what + " reaches beyond its buffer view");
-  std::vector<float> values;
-  values.reserve(accessor.count * components);
-  const unsigned char* begin = bytes.data() + view.byteOffset + accessor.byteOffset;
-  for (std::size_t i = 0; i < accessor.count; ++i)
-    for (std::size_t c = 0; c < components; ++c) {
-      values.push_back(component_at(begin + i * stride + c * size, accessor.componentType));
-      if (!std::isfinite(values.back())) return fail(what + " holds a number that is not finite");
-    }
-  return values;
 }
 
 }  // namespace dance

@@ -1,11 +1,11 @@
-// The numbers of a glTF file, behind its accessors: GlbStore packs those that are written,
-// read_floats() reads a stranger's with every index, offset and count checked.
+// The numbers of a glTF file that is written, behind its accessors. Those of files of others are
+// read by formats/gltf/glb_accessor.h.
 //
 // Units/frames: little-endian, as glTF has them.
-// Ownership:    GlbStore refers to the model that it fills; read_floats() copies.
+// Ownership:    refers to the model that it fills.
 // Threads:      none inside.
-// Failure:      read_floats() names the accessor and what is wrong with it.
-// Source:       glTF 2.0, 3.6 Binary Data Storage and 3.11 Animations (integers for -1..1).
+// Failure:      none.
+// Source:       glTF 2.0, 3.6 Binary Data Storage.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -15,8 +15,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-#include "core/base/result.h"
 
 namespace dance {
 
@@ -50,10 +48,5 @@ class GlbStore {
 
   tinygltf::Model& model_;
 };
-
-// The floats of one accessor, `components` for each element (integers are normalised to -1..1).
-// At most `most_values` of them; all are finite.
-Result<std::vector<float>> read_floats(const tinygltf::Model& model, int accessor,
-                                       std::size_t components, std::size_t most_values);
 
 }  // namespace dance

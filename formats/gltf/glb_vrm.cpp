@@ -1,6 +1,7 @@
 #include "formats/gltf/glb_vrm.h"
 
 #include "core/pose/bone.h"
+#include "formats/gltf/glb_json.h"
 
 namespace dance {
 namespace {
@@ -17,28 +18,20 @@ std::string renamed_thumb(const std::string& bone) {
 }
 
 bool is_bone(const std::string& name) {
-  if (find_bone(name)) return true;
+  if (find_bone(name) || name == "leftEye" || name == "rightEye") return true;
   for (const BoneInfo& finger : kFingerBones)
     if (finger.name == name) return true;
   return false;
 }
 
-const Value* member(const Value& value, const char* name) {
-  return value.IsObject() && value.Has(name) ? &value.Get(name) : nullptr;
-}
-
 const Value* human_bones(const tinygltf::Model& model, const char* extension) {
-  const auto found = model.extensions.find(extension);
-  if (found == model.extensions.end()) return nullptr;
-  const Value* humanoid = member(found->second, "humanoid");
-  return humanoid ? member(*humanoid, "humanBones") : nullptr;
+  return member(member(extension_of(model.extensions, extension), "humanoid"), "humanBones");
 }
 
 void add(const Value* node, const std::string& bone, const tinygltf::Model& model,
          std::map<int, std::string>& bones) {
-  if (!node || !node->IsInt() || !is_bone(bone)) return;
-  const int index = node->Get<int>();
-  if (index >= 0 && static_cast<std::size_t>(index) < model.nodes.size()) bones[index] = bone;
+  const auto index = index_in(node, model.nodes.size());
+  if (index && is_bone(bone)) bones[*index] = bone;
 }
 
 }  // namespace
@@ -49,15 +42,12 @@ std::map<int, std::string> vrm_bones(const tinygltf::Model& model) {
     const Value* listed = human_bones(model, extension);
     if (!listed || !listed->IsObject()) continue;
     for (const std::string& bone : listed->Keys())
-      add(member(listed->Get(bone), "node"), bone, model, bones);
+      add(member(member(listed, bone.c_str()), "node"), bone, model, bones);
   }
   const Value* listed = human_bones(model, "VRM");
-  if (!listed || !listed->IsArray()) return bones;
-  for (int i = 0; i < static_cast<int>(listed->ArrayLen()); ++i) {
-    const Value& entry = listed->Get(i);
-    const Value* bone = member(entry, "bone");
-    if (bone && bone->IsString())
-      add(member(entry, "node"), renamed_thumb(bone->Get<std::string>()), model, bones);
+  for (std::size_t i = 0; i < length_of(listed); ++i) {
+    const Value* entry = item(listed, i);
+    add(member(entry, "node"), renamed_thumb(text_of(member(entry, "bone"))), model, bones);
   }
   return bones;
 }

@@ -14,7 +14,7 @@
 
 namespace dance {
 
-// VRM 1.0's bone of each node; empty where the file has no such extension.
+// VRM 1.0's bone of each node, eyes too; empty where the file has no such extension.
 std::map<int, std::string> vrm_bones(const tinygltf::Model& model);
 
 // Marks the one dancer of a file, whose joints' nodes begin at `first_node`, as a VRM animation.

@@ -1,0 +1,56 @@
+#include <turbojpeg.h>
+
+#include <memory>
+#include <string>
+
+#include "core/base/printable.h"
+#include "formats/picture/picture_codecs.h"
+
+namespace dance {
+namespace {
+
+struct Destroy {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
+using Handle = std::unique_ptr<void, Destroy>;
+
+class JpegDecoder final : public PictureDecoder {
+ public:
+  Result<PictureSize> size(std::span<const std::uint8_t> bytes) const override {
+    const Handle handle(tjInitDecompress());
+    if (!handle) return fail("no memory for a JPEG");
+    PictureSize size;
+    int subsampling = 0;
+    int colour_space = 0;
+    if (tjDecompressHeader3(handle.get(), bytes.data(), static_cast<unsigned long>(bytes.size()),
+                            &size.width_px, &size.height_px, &subsampling, &colour_space) != 0)
+      return tl::make_unexpected(error_of(handle));
+    return size;
+  }
+
+  Result<void> decode(std::span<const std::uint8_t> bytes, PictureSize size,
+                      std::span<std::uint8_t> rgba) const override {
+    const Handle handle(tjInitDecompress());
+    if (!handle) return fail("no memory for a JPEG");
+    // A progressive JPEG of a few kilobytes may have thousands of scans over all its pixels.
+    if (tjDecompress2(handle.get(), bytes.data(), static_cast<unsigned long>(bytes.size()),
+                      rgba.data(), size.width_px, size.width_px * 4, size.height_px, TJPF_RGBA,
+                      TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) != 0)
+      return tl::make_unexpected(error_of(handle));
+    return {};
+  }
+
+ private:
+  static Error error_of(const Handle& handle) {
+    return {"a JPEG that cannot be read: " + printable(tjGetErrorStr2(handle.get()))};
+  }
+};
+
+}  // namespace
+
+const PictureDecoder& jpeg_decoder() {
+  static const JpegDecoder decoder;
+  return decoder;
+}
+
+}  // namespace dance
