@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/program/talk.h"
+#include "viewer/avatar/avatar_library.h"
 #include "viewer/feed/picture_source.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
@@ -91,6 +92,7 @@ class HeadlessRun {
     for (const SceneGuest& guest : scene.guests)
       focus_was_here_ = focus_was_here_ || guest.id == options_.focus;
     if (!options_.compare) leave_out_twins(scene);
+    avatars_.wait_and_dress(scene);
     if (scene.guests.empty()) scene.notes.push_back("nobody is on the stage of " + source_.name());
     return scene;
   }
@@ -212,6 +214,7 @@ class HeadlessRun {
   PictureSource& source_;
   StagePainter& painter_;
   StageRoster roster_;
+  AvatarLibrary avatars_;
   CameraRig rig_;
   std::vector<SceneState> scenes_;
   int pictures_ = 0;

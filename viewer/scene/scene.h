@@ -19,6 +19,7 @@
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
 #include "formats/avatar/avatar_model.h"
+#include "viewer/scene/avatar_wish.h"
 #include "viewer/scene/beat_meter.h"
 
 namespace dance {
@@ -49,6 +50,7 @@ struct SceneGuest {
   Skeleton skeleton = average_skeleton();
   Pose pose;
   std::optional<Hands> hands;
+  AvatarWish wish;
   std::shared_ptr<const AvatarModel> avatar;  // null: none is ready yet
   FigureSize figure_size = FigureSize::kDancers;
   float height_scale = 1.0f;  // times that size; kept within the two bounds above

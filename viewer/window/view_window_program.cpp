@@ -4,6 +4,7 @@
 
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
+#include "viewer/avatar/avatar_library.h"
 #include "viewer/feed/picture_source.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/program/view_program.h"
@@ -85,6 +86,7 @@ class WindowRun {
     painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
     painter_.overlay().set_scale(window_.scale());
     write_notes();
+    avatars_.dress(scene_);
     window_.pass_input_to_panels();
     OverlayChoice choice{options_.tags, options_.hud && window_.shows_hud()};
     choice.panels = &panels_;
@@ -138,6 +140,7 @@ class WindowRun {
   StagePainter& painter_;
   MonoTime begun_;
   StageRoster roster_;
+  AvatarLibrary avatars_;
   SceneState scene_;
   PanelStack panels_;
   PictureRate rate_;
