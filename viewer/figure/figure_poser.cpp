@@ -1,62 +1,172 @@
 #include "viewer/figure/figure_poser.h"
 
+#include <algorithm>
+
+#include "viewer/figure/blink.h"
+#include "viewer/figure/driver_pose.h"
+#include "viewer/figure/foot_fit.h"
+#include "viewer/figure/spring_chain.h"
+
 namespace dance {
 
-using Eigen::Affine3f;
-using Eigen::Quaternionf;
+using Eigen::Matrix3f;
+using Eigen::Vector3f;
+
+namespace {
+
+constexpr Duration kLongestPicture = Duration::seconds(1.0);  // beyond it a picture stands alone
+
+void append_tips(const AvatarRig& rig, BodyFrames& frames) {
+  for (std::size_t t = 0; t < kTipCount; ++t) {
+    const std::size_t b = index_of(kTipBones[t]);
+    frames.p_WT_m[t] = frames.p_WB_m[b] + frames.R_WB[b] * rig.body.tip_m[t];
+  }
+}
+
+// A longer arm is longer along its bones only.
+Matrix3f stretched(const AvatarShape& shape, Bone bone, Bone next, float stretch) {
+  const Vector3f along = (shape.at(next) - shape.at(bone)).normalized();
+  return Matrix3f::Identity() + (stretch - 1.0f) * along * along.transpose();
+}
+
+}  // namespace
 
 // What one guest's avatar keeps from picture to picture.
 struct FigurePoser::Rig {
+  Rig(const SceneGuest& guest, std::shared_ptr<const AvatarShape> shape)
+      : id(guest.id),
+        model(guest.avatar),
+        skeleton(guest.skeleton),
+        size(guest.figure_size),
+        height_scale(guest.height_scale),
+        rig(std::move(shape), guest.skeleton, guest.figure_size, guest.height_scale),
+        drivers(rig.shape->drivers_M_m.size()),
+        linears(drivers.size()) {
+    springs.start(rig);
+  }
+
+  bool fits(const SceneGuest& guest) const {
+    return model == guest.avatar && size == guest.figure_size &&
+           height_scale == guest.height_scale && skeleton == guest.skeleton;
+  }
+
+  GuestId id;
   std::shared_ptr<const AvatarModel> model;
-  std::vector<Quaternionf> rest_W;  // of each node
-  std::vector<Affine3f> W_from_node;
+  Skeleton skeleton;
+  FigureSize size;
+  float height_scale;
+  AvatarRig rig;
+  std::vector<DriverPose> drivers;
+  std::vector<Matrix3f> linears;
+  ForearmTwists twists;
+  SpringChains springs;
+  MonoTime time;
 };
 
-FigurePoser::FigurePoser() = default;
+// A model is measured once for all who wear it.
+struct FigurePoser::Shape {
+  std::weak_ptr<const AvatarModel> model;
+  std::shared_ptr<const AvatarShape> shape;
+};
+
+FigurePoser::FigurePoser(FigureOptions options) : options_(options) {}
 FigurePoser::~FigurePoser() = default;
 
-std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
-  figures_.clear();
-  for (const SceneGuest& guest : scene.guests) {
-    if (guest.avatar == nullptr || guest.opacity <= 0.0f) continue;
-    const AvatarModel& model = *guest.avatar;
-    PosedFigure figure;
-    figure.id = guest.id;
-    figure.model = guest.avatar;
-    figure.opacity = guest.opacity;
-    figure.morph_weights.assign(model.morphs.size(), 0.0f);
-    forward_kinematics(guest.skeleton, guest.pose, figure.frames);
-    std::vector<int> bone_of(model.nodes.size(), -1);
-    for (std::size_t b = 0; b < kBoneCount; ++b)
-      if (model.bones[b] >= 0)
-        bone_of[static_cast<std::size_t>(model.bones[b])] = static_cast<int>(b);
-    std::vector<Affine3f> W_from_node(model.nodes.size());
-    std::vector<Quaternionf> rest_W(model.nodes.size());
-    for (std::size_t n = 0; n < model.nodes.size(); ++n) {
-      const AvatarNode& node = model.nodes[n];
-      const auto parent = static_cast<std::size_t>(std::max(node.parent, 0));
-      const Quaternionf parent_W = node.parent < 0 ? Quaternionf::Identity() : rest_W[parent];
-      rest_W[n] = parent_W * node.rotation;
-      Affine3f local =
-          Eigen::Translation3f(node.translation_m) * node.rotation * Eigen::Scaling(node.scale);
-      if (bone_of[n] >= 0) {
-        const auto bone = static_cast<std::size_t>(bone_of[n]);
-        local = Eigen::Translation3f(node.translation_m) *
-                (parent_W.conjugate() * guest.pose.R_PB[bone] * rest_W[n]) *
-                Eigen::Scaling(node.scale);
-      }
-      W_from_node[n] = node.parent < 0 ? local : W_from_node[parent] * local;
-      if (bone_of[n] == static_cast<int>(index_of(Bone::kHips)))
-        W_from_node[n].translation() = guest.pose.p_WH_m;
+std::shared_ptr<const AvatarShape> FigurePoser::shape_of_model(
+    const std::shared_ptr<const AvatarModel>& model) {
+  std::erase_if(shapes_, [](const Shape& it) { return it.model.expired(); });
+  for (const Shape& it : shapes_)
+    if (it.model.lock() == model) return it.shape;
+  shapes_.push_back({model, std::make_shared<const AvatarShape>(shape_of(*model))});
+  return shapes_.back().shape;
+}
+
+// The rig of the guest that is at `place` among those shown. Guests keep their order, but for those
+// who come and go; the same guest may be shown twice, before and after its transformers.
+FigurePoser::Rig& FigurePoser::rig_of(const SceneGuest& guest, std::size_t place) {
+  for (std::size_t i = place; i < rigs_.size(); ++i)
+    if (rigs_[i]->id == guest.id) {
+      std::rotate(rigs_.begin() + static_cast<std::ptrdiff_t>(place),
+                  rigs_.begin() + static_cast<std::ptrdiff_t>(i),
+                  rigs_.begin() + static_cast<std::ptrdiff_t>(i + 1));
+      if (!rigs_[place]->fits(guest)) *rigs_[place] = Rig(guest, shape_of_model(guest.avatar));
+      return *rigs_[place];
     }
-    for (const AvatarJoint& joint : model.joints)
-      figure.W_from_joint.push_back(
-          (W_from_node[static_cast<std::size_t>(joint.node)] * joint.node_from_mesh)
-              .matrix()
-              .topRows<3>());
-    figures_.push_back(std::move(figure));
+  rigs_.insert(rigs_.begin() + static_cast<std::ptrdiff_t>(place),
+               std::make_unique<Rig>(guest, shape_of_model(guest.avatar)));
+  return *rigs_[place];
+}
+
+std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
+  fits_.clear();
+  std::size_t count = 0;
+  const auto is_shown = [](const SceneGuest& guest) {
+    return guest.avatar != nullptr && guest.opacity > 0.0f;
+  };
+  for (const SceneGuest& guest : scene.guests) count += is_shown(guest);
+  fits_.reserve(count);
+  contacts_.reserve(count);
+  if (figures_.size() < count) figures_.resize(count);
+  for (const SceneGuest& guest : scene.guests) {
+    if (!is_shown(guest)) continue;
+    fits_.emplace_back().rig = &rig_of(guest, fits_.size() - 1).rig;
+    place_on_bones(guest.skeleton, guest.pose, fits_.back());
+    if (options_.fits_feet) fit_feet(fits_.back());
   }
-  return figures_;
+  rigs_.resize(count);  // who is absent is forgotten
+  for (FigureFit& fit : fits_) append_tips(*fit.rig, fit.frames);
+  if (options_.fits_hands) contacts_.fit(fits_);
+  std::size_t place = 0;
+  for (const SceneGuest& guest : scene.guests)
+    if (is_shown(guest)) {
+      show(guest, scene, *rigs_[place], fits_[place], figures_[place]);
+      ++place;
+    }
+  return {figures_.data(), count};
+}
+
+void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& rig, FigureFit& fit,
+                       PosedFigure& figure) {
+  const AvatarShape& shape = *rig.rig.shape;
+  const Duration passed = scene.time - rig.time;
+  const bool goes_on = rig.time.is_set() && passed >= Duration() && passed <= kLongestPicture;
+  if (!goes_on) rig.twists.is_known = false;
+  drive_bones(fit, rig.twists, options_.shares_twist, rig.drivers);
+  drive_fingers(rig.rig, guest.hands ? &*guest.hands : nullptr, fit.frames, rig.drivers);
+  drive_twists(rig.rig, rig.drivers);
+  rig.springs.swing(rig.rig, scene.time, rig.drivers);
+  append_tips(rig.rig, fit.frames);
+
+  for (std::size_t d = 0; d < rig.drivers.size(); ++d)
+    rig.linears[d] = rig.rig.scale * rig.drivers[d].D.toRotationMatrix();
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (fit.arm_stretch[side] == 1.0f) continue;
+    const Limb& arm = kArms[side];
+    rig.linears[index_of(arm.upper)] *=
+        stretched(shape, arm.upper, arm.lower, fit.arm_stretch[side]);
+    rig.linears[index_of(arm.lower)] *= stretched(shape, arm.lower, arm.end, fit.arm_stretch[side]);
+  }
+  figure.id = guest.id;
+  figure.model = guest.avatar;
+  figure.opacity = guest.opacity;
+  figure.frames = fit.frames;
+  figure.arm_stretch = fit.arm_stretch;
+  figure.W_from_joint.resize(shape.followers.size());
+  for (std::size_t j = 0; j < shape.followers.size(); ++j) {
+    const AvatarShape::Follower& follower = shape.followers[j];
+    const Matrix3f& linear = rig.linears[follower.driver];
+    figure.W_from_joint[j].leftCols<3>().noalias() = linear * follower.linear;
+    figure.W_from_joint[j].col(3) =
+        rig.drivers[follower.driver].place_W_m + linear * follower.place_m;
+  }
+  figure.morph_weights.assign(rig.model->morphs.size(), 0.0f);
+  // Eyes are open in a picture that stands alone.
+  const float blink = shape.blink >= 0 && goes_on ? blink_at(guest.id, scene.time) : 0.0f;
+  if (blink > 0.0f)
+    for (const auto& bind : rig.model->expressions[static_cast<std::size_t>(shape.blink)].binds)
+      figure.morph_weights[bind.morph] =
+          std::clamp(figure.morph_weights[bind.morph] + blink * bind.weight, 0.0f, 1.0f);
+  rig.time = scene.time;
 }
 
 }  // namespace dance

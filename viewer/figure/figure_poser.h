@@ -17,6 +17,7 @@
 #include "core/base/guest_id.h"
 #include "core/pose/kinematics.h"
 #include "formats/avatar/avatar_model.h"
+#include "viewer/figure/hand_contact.h"
 #include "viewer/scene/scene.h"
 
 namespace dance {
@@ -27,27 +28,47 @@ using JointMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 struct PosedFigure {
   GuestId id;
   std::shared_ptr<const AvatarModel> model;
-  std::vector<JointMatrix> W_from_joint;  // of each AvatarJoint
-  std::vector<float> morph_weights;       // of each AvatarMorph, 0..1
-  BodyFrames frames;                      // where the bones of the figure came to be
+  std::vector<JointMatrix> W_from_joint;         // of each AvatarJoint
+  std::vector<float> morph_weights;              // of each AvatarMorph, 0..1
+  BodyFrames frames;                             // where the bones of the figure came to be
+  std::array<float, 2> arm_stretch{1.0f, 1.0f};  // left, right: so much longer than they are
   float opacity = 1.0f;
+};
+
+// What an evaluation leaves out, to see what it brings.
+struct FigureOptions {
+  bool fits_feet = true;
+  bool fits_hands = true;
+  bool shares_twist = true;
 };
 
 class FigurePoser {
  public:
-  FigurePoser();
+  explicit FigurePoser(FigureOptions options = {});
   ~FigurePoser();
   FigurePoser(const FigurePoser&) = delete;
   FigurePoser& operator=(const FigurePoser&) = delete;
 
   // Figures in the order of scene.guests. Hair and cloth swing with scene.time; a scene of an
-  // earlier moment, or of much later, finds them at rest.
+  // earlier moment, or of much later, finds them at rest. Allocates only for guests, avatars and
+  // proportions that are new.
   std::span<const PosedFigure> pose(const SceneState& scene);
 
  private:
   struct Rig;
-  std::vector<std::unique_ptr<Rig>> rigs_;
-  std::vector<PosedFigure> figures_;
+  struct Shape;
+  Rig& rig_of(const SceneGuest& guest, std::size_t place);
+  std::shared_ptr<const AvatarShape> shape_of_model(
+      const std::shared_ptr<const AvatarModel>& model);
+  void show(const SceneGuest& guest, const SceneState& scene, Rig& rig, FigureFit& fit,
+            PosedFigure& figure);
+
+  const FigureOptions options_;
+  std::vector<std::unique_ptr<Rig>> rigs_;  // in the order of the last picture's guests
+  std::vector<Shape> shapes_;
+  std::vector<FigureFit> fits_;
+  std::vector<PosedFigure> figures_;  // more than are shown, when there were more
+  HandContacts contacts_;
 };
 
 }  // namespace dance

@@ -1,0 +1,148 @@
+#include "viewer/figure/driver_pose.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dance {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kFreeTwist_rad = 2.1f;  // up to here as danced
+// So far the twist may go on past half a turn before it is taken as coming from the other side.
+constexpr float kFurthestTwist_rad = 1.7f * kPi;
+
+float wrapped(float angle) { return std::remainder(angle, 2.0f * kPi); }
+
+float saturated_twist(float twist) {
+  const float size = std::abs(twist), room = kMostForearmTwist_rad - kFreeTwist_rad;
+  if (size <= kFreeTwist_rad) return twist;
+  return std::copysign(kFreeTwist_rad + room * (1.0f - std::exp((kFreeTwist_rad - size) / room)),
+                       twist);
+}
+
+Quaternionf about(const Vector3f& axis, float angle) {
+  return Quaternionf(Eigen::AngleAxisf(angle, axis));
+}
+
+Vector3f direction(const AvatarShape& shape, Bone from, Bone to) {
+  const Vector3f along = shape.at(to) - shape.at(from);
+  const float length = along.norm();
+  return length > 1e-5f ? Vector3f(along / length) : Vector3f(Vector3f::UnitX());
+}
+
+int helpers_of(const AvatarShape& shape, Bone bone) {
+  int count = 0;
+  for (const TwistNode& twist : shape.twists) count += twist.bone == bone;
+  return count;
+}
+
+void share_forearm_twist(std::size_t side, FigureFit& fit, ForearmTwists& twists,
+                         std::span<DriverPose> drivers) {
+  const Limb& arm = kArms[side];
+  const AvatarShape& shape = *fit.rig->shape;
+  const Quaternionf& upper = drivers[index_of(arm.upper)].D;
+  Quaternionf& lower = drivers[index_of(arm.lower)].D;
+  Quaternionf& hand = drivers[index_of(arm.end)].D;
+  const Vector3f axis = direction(shape, arm.lower, arm.end);
+  const float at_elbow = twist_rad(upper.conjugate() * lower, axis);
+  const float at_wrist = twist_rad(lower.conjugate() * hand, axis);
+  float twist = wrapped(at_elbow + at_wrist);
+  if (twists.is_known) {
+    twist = twists.rad[side] + wrapped(twist - twists.rad[side]);
+    if (std::abs(twist) > kFurthestTwist_rad) twist = wrapped(twist);
+  }
+  twists.rad[side] = twist;
+  const float shown = saturated_twist(twist);
+  const float step = shown / static_cast<float>(helpers_of(shape, arm.lower) + 2);
+  const Quaternionf was = lower;
+  lower = (lower * about(axis, step - at_elbow)).normalized();
+  if (shown != twist) hand = (about(was * axis, shown - twist) * hand).normalized();
+  fit.frames.R_WB[index_of(arm.lower)] = lower * fit.rig->C[index_of(arm.lower)].conjugate();
+  fit.frames.R_WB[index_of(arm.end)] = hand * fit.rig->C[index_of(arm.end)].conjugate();
+}
+
+// Of a hand at rest, for each bone of a finger, and of a thumb.
+constexpr std::array<float, 3> kRestingCurl_rad{0.3f, 0.38f, 0.25f};
+constexpr std::array<float, 3> kRestingThumb_rad{0.12f, 0.15f, 0.1f};
+
+std::array<Quaternionf, kFingerBoneCount> resting_fingers() {
+  std::array<Quaternionf, kFingerBoneCount> fingers;
+  for (std::size_t f = 0; f < kFingerBoneCount; ++f) {
+    const bool left = f < kFingerBoneCount / 2;
+    const bool thumb = f % (kFingerBoneCount / 2) < 3;
+    const float curl = (thumb ? kRestingThumb_rad : kRestingCurl_rad)[f % 3];
+    // Palms face down in T-pose: fingers curl from ±X to -Y, thumbs from +Z towards the fingers.
+    const float side = left ? 1.0f : -1.0f;
+    const Vector3f axis = thumb ? Vector3f(0.0f, side, 0.0f) : Vector3f(0.0f, 0.0f, -side);
+    fingers[f] = about(axis, curl);
+  }
+  return fingers;
+}
+
+}  // namespace
+
+float twist_rad(const Quaternionf& q, const Vector3f& axis) {
+  return wrapped(2.0f * std::atan2(q.vec().dot(axis), q.w()));
+}
+
+DriverPose following(const AvatarRig& rig, std::size_t driver, std::size_t leader,
+                     const DriverPose& leader_pose) {
+  const Vector3f apart = rig.shape->drivers_M_m[driver] - rig.shape->drivers_M_m[leader];
+  return {leader_pose.D, leader_pose.place_W_m + rig.scale * (leader_pose.D * apart)};
+}
+
+void drive_bones(FigureFit& fit, ForearmTwists& twists, bool shares_twist,
+                 std::span<DriverPose> drivers) {
+  for (std::size_t b = 0; b < kBoneCount; ++b)
+    drivers[b] = {(fit.frames.R_WB[b] * fit.rig->C[b]).normalized(), fit.frames.p_WB_m[b]};
+  if (!shares_twist) return;
+  for (std::size_t side = 0; side < 2; ++side) share_forearm_twist(side, fit, twists, drivers);
+  twists.is_known = true;
+}
+
+void drive_fingers(const AvatarRig& rig, const Hands* hands, const BodyFrames& frames,
+                   std::span<DriverPose> drivers) {
+  static const std::array<Quaternionf, kFingerBoneCount> kResting = resting_fingers();
+  std::array<Quaternionf, kFingerBoneCount> R_W;
+  for (std::size_t f = 0; f < kFingerBoneCount; ++f) {
+    const bool is_danced = hands != nullptr && (hands->presence >> f & 1u) != 0;
+    const int above = kFingerBones[f].parent;
+    const std::size_t hand =
+        f < kFingerBoneCount / 2 ? index_of(Bone::kLeftHand) : index_of(Bone::kRightHand);
+    const Quaternionf& parent =
+        above < 0 ? frames.R_WB[hand] : R_W[static_cast<std::size_t>(above)];
+    R_W[f] = parent * (is_danced ? hands->R_PB[f] : kResting[f]);
+    const std::size_t driver = kFirstFingerDriver + f, leader = rig.finger_leaders[f];
+    drivers[driver] = following(rig, driver, leader, drivers[leader]);
+    drivers[driver].D = (R_W[f] * rig.C_finger[f]).normalized();
+  }
+}
+
+void drive_twists(const AvatarRig& rig, std::span<DriverPose> drivers) {
+  const AvatarShape& shape = *rig.shape;
+  for (const TwistNode& node : shape.twists) {
+    const std::size_t bone = index_of(node.bone);
+    const bool is_upper = node.bone == Bone::kLeftUpperArm || node.bone == Bone::kRightUpperArm ||
+                          node.bone == Bone::kLeftUpperLeg || node.bone == Bone::kRightUpperLeg;
+    const auto next = static_cast<Bone>(bone + 1);
+    const Vector3f axis = direction(shape, node.bone, next);
+    const float share = static_cast<float>(node.step) / static_cast<float>(node.steps);
+    float twist = 0.0f;
+    if (is_upper) {  // near the trunk less twisted than the bone
+      int above = kBones[bone].parent;
+      while (above > 0 && !shape.has_bone[static_cast<std::size_t>(above)])
+        above = kBones[static_cast<std::size_t>(above)].parent;
+      const Quaternionf& trunk = drivers[static_cast<std::size_t>(above)].D;
+      twist = (share - 1.0f) * twist_rad(trunk.conjugate() * drivers[bone].D, axis);
+    } else {  // near the end as twisted as what follows
+      twist = share * twist_rad(drivers[bone].D.conjugate() * drivers[bone + 1].D, axis);
+    }
+    drivers[node.driver] = following(rig, node.driver, bone, drivers[bone]);
+    drivers[node.driver].D = (drivers[bone].D * about(axis, twist)).normalized();
+  }
+}
+
+}  // namespace dance

@@ -1,0 +1,44 @@
+// FigureFit: one figure while it is being put onto the stage: where the dancer's bones are, and
+// where the avatar's have come to be so far.
+//
+// Units/frames: metres in W.
+// Ownership:    plain values; refers to the rig.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <array>
+
+#include "viewer/figure/rig/avatar_rig.h"
+
+namespace dance {
+
+constexpr std::array<Limb, 2> kArms{kLeftArm, kRightArm};
+constexpr std::array<Limb, 2> kLegs{kLeftLeg, kRightLeg};
+
+struct FigureFit {
+  const AvatarRig* rig = nullptr;
+  BodyFrames danced;
+  BodyFrames frames;
+  std::array<float, 2> arm_stretch{1.0f, 1.0f};
+
+  const Eigen::Quaternionf& R_W(Bone bone) const { return frames.R_WB[index_of(bone)]; }
+  Eigen::Vector3f palm_W_m(std::size_t side) const {
+    return frames.position(kArms[side].end) + R_W(kArms[side].end) * rig->palms_m[side];
+  }
+  Eigen::Vector3f danced_palm_W_m(std::size_t side) const {
+    return danced.position(kArms[side].end) +
+           danced.R_WB[index_of(kArms[side].end)] * rig->dancer_palms_m[side];
+  }
+};
+
+// From `low` to `high` a smooth way from 0 to 1; the other way round where high < low.
+inline float smooth_between(float low, float high, float value) {
+  const float t = std::min(1.0f, std::max(0.0f, (value - low) / (high - low)));
+  return t * t * (3.0f - 2.0f * t);
+}
+
+// The dancer's pose on the avatar's bones, hips over the same place.
+void place_on_bones(const Skeleton& dancer, const Pose& pose, FigureFit& fit);
+
+}  // namespace dance

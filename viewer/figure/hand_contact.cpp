@@ -1,0 +1,209 @@
+#include "viewer/figure/hand_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/figure/arm_fit.h"
+
+namespace dance {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr float kTogether_m = 0.08f;  // palms closer than this are held together …
+constexpr float kApart_m = 0.24f;     // … and beyond this let go
+constexpr float kOnBody_m = 0.06f;    // likewise of palms and a partner's skin
+constexpr float kOffBody_m = 0.2f;
+constexpr float kOff_m = 1e-5f;
+constexpr int kSweeps = 10;          // with arms alone, and again with help
+constexpr float kArmsLength = 1.4f;  // of the height of the hips, from there to the finger tips
+
+// A sweep's share, so that kSweeps of them leave 1 - weight.
+float share_of(float weight) {
+  return 1.0f - std::pow(1.0f - std::min(weight, 1.0f), 1.0f / static_cast<float>(kSweeps));
+}
+
+// A body's parts that hands come to lie on, as capsules between joints that every figure has.
+struct BodyEnds {
+  Vector3f a;
+  Vector3f b;
+};
+struct BodyPiece {
+  float radius;  // of a dancer's hips' height
+  bool is_trunk;
+};
+constexpr std::array<BodyPiece, 8> kPieces{{{0.13f, true},
+                                            {0.085f, true},
+                                            {0.07f, true},
+                                            {0.11f, true},
+                                            {0.05f, false},
+                                            {0.05f, false},
+                                            {0.04f, false},
+                                            {0.04f, false}}};
+
+std::array<BodyEnds, kPieces.size()> ends_of(const BodyFrames& at) {
+  const Vector3f hips =
+      0.5f * (at.position(Bone::kLeftUpperLeg) + at.position(Bone::kRightUpperLeg));
+  const Vector3f &left = at.position(Bone::kLeftUpperArm),
+                 &right = at.position(Bone::kRightUpperArm);
+  const Vector3f neck = 0.5f * (left + right);
+  return {{{hips, neck},
+           {left, right},
+           {neck, at.position(Bone::kHead)},
+           {at.position(Bone::kHead), at.tip(Tip::kHead)},
+           {left, at.position(Bone::kLeftLowerArm)},
+           {right, at.position(Bone::kRightLowerArm)},
+           {at.position(Bone::kLeftLowerArm), at.position(Bone::kLeftHand)},
+           {at.position(Bone::kRightLowerArm), at.position(Bone::kRightHand)}}};
+}
+
+}  // namespace
+
+void HandContacts::reserve(std::size_t figures) {
+  hands_.reserve(2 * figures);
+  contacts_.reserve(std::min(kMostContacts, figures + 4 * figures * figures));
+}
+
+void HandContacts::list_hands(std::span<const FigureFit> figures) {
+  hands_.clear();
+  for (const FigureFit& fit : figures)
+    for (std::size_t side = 0; side < 2; ++side) {
+      Hand hand;
+      hand.danced_W_m = fit.danced_palm_W_m(side);
+      hand.natural_W_m = hand.wanted_W_m = fit.palm_W_m(side);
+      hand.from_palm_m = fit.frames.position(kArms[side].end) - hand.natural_W_m;
+      hand.shoulder_W_m = fit.frames.position(kArms[side].upper);
+      hand.reach_m = std::max(arm_reach_m(fit, side),
+                              (fit.frames.position(kArms[side].end) - hand.shoulder_W_m).norm());
+      hand.help_m = arm_help_m(fit, side);
+      hands_.push_back(hand);
+    }
+}
+
+void HandContacts::add_pair(std::size_t a, std::size_t b) {
+  const Vector3f danced_m = hands_[b].danced_W_m - hands_[a].danced_W_m;
+  const float distance2 = danced_m.squaredNorm();
+  if (distance2 >= kApart_m * kApart_m || contacts_.size() >= kMostContacts) return;
+  Contact contact;
+  contact.a = static_cast<std::uint32_t>(a);
+  contact.b = static_cast<std::int32_t>(b);
+  contact.wanted_m = danced_m;
+  contact.weight = share_of(smooth_between(kApart_m, kTogether_m, std::sqrt(distance2)));
+  contacts_.push_back(contact);
+}
+
+// The palm's place seen from the nearest points of a body's pieces, the nearer the more it counts:
+// so a hand that slides from the back to the shoulder does not jump.
+void HandContacts::add_body(std::size_t index, const FigureFit& body) {
+  const Hand& hand = hands_[index];
+  const float size_m =
+      body.rig->leg_ratio > 0.0f ? body.rig->body.hips_height_m() / body.rig->leg_ratio : 0.0f;
+  const auto danced = ends_of(body.danced), shown = ends_of(body.frames);
+  Vector3f sum = Vector3f::Zero();
+  float weights = 0.0f, most = 0.0f;
+  for (std::size_t i = 0; i < kPieces.size(); ++i) {
+    const Vector3f along = danced[i].b - danced[i].a;
+    const float length2 = std::max(along.squaredNorm(), 1e-6f);
+    const float t = std::clamp(along.dot(hand.danced_W_m - danced[i].a) / length2, 0.0f, 1.0f);
+    const Vector3f off = hand.danced_W_m - danced[i].a - t * along;
+    const float radius = kPieces[i].radius * size_m;
+    const float distance = off.norm();
+    const float weight = smooth_between(kOffBody_m, kOnBody_m, distance - radius);
+    if (weight <= 0.0f) continue;
+    // As far from the skin as danced; the trunk is as much broader as its shoulders are.
+    const float girth = kPieces[i].is_trunk ? body.rig->girth_ratio : 1.0f;
+    const float from_axis = std::min(distance, radius) * girth + std::max(distance - radius, 0.0f);
+    const float longer = distance > 1e-4f ? from_axis / distance : 1.0f;
+    const float counts = weight * weight;
+    sum += counts * (shown[i].a + t * (shown[i].b - shown[i].a) + longer * off);
+    weights += counts;
+    most = std::max(most, weight);
+  }
+  if (weights <= 0.0f || contacts_.size() >= kMostContacts) return;
+  Contact contact;
+  contact.a = static_cast<std::uint32_t>(index);
+  contact.wanted_m = sum / weights;
+  contact.weight = share_of(most);
+  contacts_.push_back(contact);
+}
+
+void HandContacts::find(std::span<const FigureFit> figures) {
+  contacts_.clear();
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const FigureFit& one = figures[i];
+    add_pair(2 * i, 2 * i + 1);
+    for (std::size_t j = i + 1; j < figures.size(); ++j) {
+      const FigureFit& other = figures[j];
+      const float reach = kArmsLength * (one.danced.p_WB_m[0].y() + other.danced.p_WB_m[0].y());
+      const float nearest = std::max(reach, 2.0f);
+      if ((one.danced.p_WB_m[0] - other.danced.p_WB_m[0]).squaredNorm() > nearest * nearest)
+        continue;
+      for (std::size_t k = 0; k < 4; ++k) add_pair(2 * i + k / 2, 2 * j + k % 2);
+      for (std::size_t side = 0; side < 2; ++side) {
+        add_body(2 * i + side, other);
+        add_body(2 * j + side, one);
+      }
+    }
+  }
+}
+
+// Whether any contact is not as it is danced.
+bool HandContacts::is_off() const {
+  return std::ranges::any_of(contacts_, [&](const Contact& contact) {
+    const Hand& a = hands_[contact.a];
+    const Vector3f is =
+        contact.b < 0
+            ? a.natural_W_m
+            : Vector3f(hands_[static_cast<std::size_t>(contact.b)].natural_W_m - a.natural_W_m);
+    return (is - contact.wanted_m).cwiseAbs().maxCoeff() > kOff_m;
+  });
+}
+
+void HandContacts::relax(bool with_help) {
+  for (Hand& hand : hands_) {
+    hand.pull.setZero();
+    hand.pull_weight = 0.0f;
+  }
+  for (const Contact& contact : contacts_) {
+    Hand& a = hands_[contact.a];
+    a.pull_weight += contact.weight;
+    if (contact.b < 0) {
+      a.pull += contact.weight * (contact.wanted_m - a.wanted_W_m);
+      continue;
+    }
+    Hand& b = hands_[static_cast<std::size_t>(contact.b)];
+    const Vector3f half =
+        (0.5f * contact.weight) * (b.wanted_W_m - a.wanted_W_m - contact.wanted_m);
+    a.pull += half;
+    b.pull -= half;
+    b.pull_weight += contact.weight;
+  }
+  for (Hand& hand : hands_) {
+    if (hand.pull_weight <= 0.0f) continue;
+    hand.wanted_W_m += hand.pull / std::max(hand.pull_weight, 1.0f);
+    // Onto what the arm reaches.
+    const Vector3f wrist = hand.wanted_W_m + hand.from_palm_m - hand.shoulder_W_m;
+    const float reach = hand.reach_m + (with_help ? hand.help_m : 0.0f);
+    const float distance = wrist.norm();
+    if (distance > reach) hand.wanted_W_m -= wrist * (1.0f - reach / distance);
+  }
+}
+
+void HandContacts::fit(std::span<FigureFit> figures) {
+  list_hands(figures);
+  find(figures);
+  if (!is_off()) return;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) relax(false);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) relax(true);
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    std::array<std::optional<Vector3f>, 2> palms;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Hand& hand = hands_[2 * i + side];
+      if ((hand.wanted_W_m - hand.natural_W_m).cwiseAbs().maxCoeff() > kOff_m)
+        palms[side] = hand.wanted_W_m;
+    }
+    fit_arms(palms, figures[i]);
+  }
+}
+
+}  // namespace dance
