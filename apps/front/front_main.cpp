@@ -73,6 +73,7 @@ constexpr std::array kCommands{
     Command{"bench line", "two dancers over recorded lines: ages, freezes, recovery"},
     Command{"bench hold", "play-out buffers over recorded lines: delay against freezes"},
     Command{"bench adapter", "what an engine pays to read a stage, and how old the dancers are"},
+    Command{"bench view", "what a picture of a full stage costs, beside the empty one"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 

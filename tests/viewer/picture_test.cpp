@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "formats/body/guest_look.h"
+#include "tests/viewer/dressed_scene.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
 #include "viewer/gl/offscreen.h"
@@ -52,13 +53,13 @@ class PictureTest : public testing::Test {
                       Quality quality = Quality::kHigh) {
     // Made once for each quality: compiling shaders takes longer than drawing.
     if (!painter_ || painter_->renderer().quality() != quality) make_painter(quality);
-    const auto drawn = painter_->draw(scene, camera, kWidth_px, kHeight_px, choice);
+    const auto drawn = painter_->draw(dressed(scene), camera, kWidth_px, kHeight_px, choice);
     EXPECT_TRUE(drawn) << drawn.error().what;
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return painter_->read();
   }
   static Picture draw_comparison(const SceneState& scene, const OrbitCamera& camera) {
-    const auto drawn = painter_->draw(compare(scene), camera, kWidth_px, kHeight_px, {true, true});
+    const auto drawn = painter_->draw(compare(dressed(scene)), camera, kWidth_px, kHeight_px, {true, true});
     EXPECT_TRUE(drawn) << drawn.error().what;
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return painter_->read();

@@ -98,7 +98,7 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
   const auto width = static_cast<float>(width_px);
   const auto height = static_cast<float>(height_px);
   begin_frame(width_px, height_px);
-  if (choice.tags) draw_tags(scene, camera, width, height);
+  if (choice.tags) draw_tags(scene, camera, choice.tag_anchors_W_m, width, height);
   if (choice.hud) draw_hud(scene);
   draw_words(choice, width, height);
   draw_notes(scene, height);
@@ -162,12 +162,15 @@ void Overlay::draw_words(const OverlayChoice& choice, float width_px, float heig
   if (!choice.caption.empty()) put(choice.caption, 0.5f * width_px, height_px - 1.7f * size);
 }
 
-void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera, float width_px,
-                        float height_px) {
+void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera,
+                        std::span<const Vector3f> anchors_W_m, float width_px, float height_px) {
   std::vector<Tag> tags;
-  for (const SceneGuest& guest : scene.guests)
-    if (const auto at = project(camera, tag_anchor_W_m(guest), width_px, height_px))
+  for (std::size_t i = 0; i < scene.guests.size(); ++i) {
+    const SceneGuest& guest = scene.guests[i];
+    const Vector3f anchor_W_m = i < anchors_W_m.size() ? anchors_W_m[i] : tag_anchor_W_m(guest);
+    if (const auto at = project(camera, anchor_W_m, width_px, height_px))
       tags.push_back({&guest, *at});
+  }
   // Near over far.
   std::sort(tags.begin(), tags.end(),
             [](const Tag& a, const Tag& b) { return a.at.depth_m > b.at.depth_m; });

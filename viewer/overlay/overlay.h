@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/base/result.h"
@@ -30,6 +31,8 @@ struct OverlayChoice {
   std::string title = {};        // at the top left, where there are no figures
   std::string caption = {};      // in the middle of the bottom
   PanelStack* panels = nullptr;  // over the whole picture
+  // Where the tag of each guest hangs; empty: over the dancers' own heads.
+  std::span<const Eigen::Vector3f> tag_anchors_W_m = {};
 };
 
 class Overlay {
@@ -53,8 +56,8 @@ class Overlay {
  private:
   explicit Overlay(float scale) : scale_(scale) {}
   void make_fonts();
-  void draw_tags(const SceneState& scene, const OrbitCamera& camera, float width_px,
-                 float height_px);
+  void draw_tags(const SceneState& scene, const OrbitCamera& camera,
+                 std::span<const Eigen::Vector3f> anchors_W_m, float width_px, float height_px);
   void draw_hud(const SceneState& scene);
   void begin_frame(int width_px, int height_px);
   void end_frame();

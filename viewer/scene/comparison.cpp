@@ -43,6 +43,7 @@ Comparison compare(const SceneState& scene) {
     const SceneGuest* twin = twin_id ? find_guest(scene, *twin_id) : nullptr;
     SceneGuest& raw = comparison.raw.guests.emplace_back(twin != nullptr ? *twin : shown);
     raw.id = shown.id;
+    raw.avatar = shown.avatar;
     if (twin == nullptr || !delay_of(raw)) continue;
     shown.is_predicted = delay_of(shown) && is_predicted(*delay_of(shown), *delay_of(raw));
     if (!latest || *delay_of(raw) > *delay_of(comparison.raw.guests[*latest]))

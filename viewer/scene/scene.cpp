@@ -1,7 +1,5 @@
 #include "viewer/scene/scene.h"
 
-#include "core/pose/kinematics.h"
-
 namespace dance {
 
 using Eigen::Vector3f;
@@ -23,7 +21,11 @@ void append_outline(const SceneGuest& guest, std::vector<Vector3f>& points_W_m) 
 Vector3f tag_anchor_W_m(const SceneGuest& guest) {
   BodyFrames frames;
   forward_kinematics(guest.skeleton, guest.pose, frames);
-  return frames.tip(Tip::kHead) + Vector3f(0.0f, kTagAboveHead_m, 0.0f);
+  return tag_anchor_W_m(frames);
+}
+
+Vector3f tag_anchor_W_m(const BodyFrames& figure) {
+  return figure.tip(Tip::kHead) + Vector3f(0.0f, kTagAboveHead_m, 0.0f);
 }
 
 Vector3f facing_W(const SceneGuest& guest) {

@@ -16,6 +16,7 @@
 
 #include "core/base/guest_id.h"
 #include "core/base/time.h"
+#include "core/pose/kinematics.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
 #include "formats/avatar/avatar_model.h"
@@ -76,6 +77,7 @@ void append_outline(const SceneGuest& guest, std::vector<Eigen::Vector3f>& point
 
 // Where the tag hangs: above the head.
 Eigen::Vector3f tag_anchor_W_m(const SceneGuest& guest);
+Eigen::Vector3f tag_anchor_W_m(const BodyFrames& figure);
 
 // The direction in which the guest's hips look, on the floor.
 Eigen::Vector3f facing_W(const SceneGuest& guest);

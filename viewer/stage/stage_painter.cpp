@@ -11,10 +11,32 @@ Result<std::unique_ptr<StagePainter>> StagePainter::create(Quality quality, floa
 
 Result<void> StagePainter::draw(const SceneState& scene, const OrbitCamera& camera, int width_px,
                                 int height_px, const OverlayChoice& choice) {
+  return draw_stage(scene, camera, width_px, height_px, choice, look_);
+}
+
+Result<void> StagePainter::draw_stage(const SceneState& scene, const OrbitCamera& camera,
+                                      int width_px, int height_px, const OverlayChoice& choice,
+                                      const StageLook& look) {
   is_wide_ = false;
+  renderer_->set_look(look);
   if (auto drawn = renderer_->draw(scene, camera, width_px, height_px); !drawn) return drawn;
-  overlay_->draw(scene, camera, width_px, height_px, choice);
+  find_tag_anchors(scene);
+  OverlayChoice with_anchors = choice;
+  with_anchors.tag_anchors_W_m = tag_anchors_W_m_;
+  overlay_->draw(scene, camera, width_px, height_px, with_anchors);
   return {};
+}
+
+// Over the head of the figure; of a guest without one, over the dancer's.
+void StagePainter::find_tag_anchors(const SceneState& scene) {
+  tag_anchors_W_m_.clear();
+  auto figure = renderer_->figures().begin();
+  const auto end = renderer_->figures().end();
+  for (const SceneGuest& guest : scene.guests) {
+    const bool has_figure = figure != end && figure->id == guest.id;
+    tag_anchors_W_m_.push_back(has_figure ? tag_anchor_W_m(figure->frames) : tag_anchor_W_m(guest));
+    if (has_figure) ++figure;
+  }
 }
 
 float StagePainter::aspect_of_half(int width_px, int height_px) const {
@@ -31,7 +53,9 @@ Result<void> StagePainter::draw(const Comparison& comparison, const OrbitCamera&
   words.hud = false;       // the beat panels have the figures
   words.panels = nullptr;  // drawn once, over both halves
   for (const SceneState* scene : {&comparison.raw, &comparison.shown}) {
-    if (auto drawn = draw(*scene, camera, half_px, height_px - panel_px, words); !drawn)
+    StageLook look = look_;
+    if (scene == &comparison.raw) look.stage = -1 - look_.stage;
+    if (auto drawn = draw_stage(*scene, camera, half_px, height_px - panel_px, words, look); !drawn)
       return drawn;
     copy_half(scene == &comparison.raw ? 0 : width_px - half_px, panel_px);
   }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "viewer/gl/picture.h"
 #include "viewer/overlay/overlay.h"
@@ -18,6 +19,9 @@ namespace dance {
 class StagePainter {
  public:
   static Result<std::unique_ptr<StagePainter>> create(Quality quality, float scale);
+
+  // Of the pictures that follow. The halves of a comparison are two stages.
+  void set_look(const StageLook& look) { look_ = look; }
 
   Result<void> draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
                     const OverlayChoice& choice);
@@ -36,6 +40,9 @@ class StagePainter {
 
  private:
   StagePainter() = default;
+  Result<void> draw_stage(const SceneState& scene, const OrbitCamera& camera, int width_px,
+                          int height_px, const OverlayChoice& choice, const StageLook& look);
+  void find_tag_anchors(const SceneState& scene);
   void resize_wide(int width_px, int height_px);
   void copy_half(int left_px, int bottom_px) const;
   GLuint finished() const {
@@ -46,6 +53,8 @@ class StagePainter {
   GlFramebuffer wide_;
   int wide_width_px_ = 0, wide_height_px_ = 0;
   bool is_wide_ = false;  // of the last draw()
+  StageLook look_;
+  std::vector<Eigen::Vector3f> tag_anchors_W_m_;
   std::unique_ptr<StageRenderer> renderer_;
   std::unique_ptr<Overlay> overlay_;
 };

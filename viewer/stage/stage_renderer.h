@@ -1,81 +1,91 @@
-// StageRenderer: draws the stage — backdrop, floor, bodies, their shadows and mirror images — from
-// a SceneState and a camera. Each kind of part is one instanced draw call for all guests together.
+// StageRenderer: draws the stage — backdrop, floor, figures, their shadows and mirror images, the
+// beat and the trails of hands — from a SceneState and a camera.
 //
 // Units/frames: metres in W; the finished picture is 8-bit sRGB.
-// Ownership:    owns its OpenGL objects; the context must outlive it.
+// Ownership:    owns its OpenGL objects; the context must outlive it. All of them come from the
+//               scenes it is given: one destroyed and made anew draws the same.
 // Threads:      the one whose context is current.
 // Failure:      create() and draw() tell what the driver refuses; OpenGL errors are our bugs
 //               (check_gl()).
 #pragma once
 
+#include <map>
 #include <memory>
+#include <span>
 
+#include "viewer/figure/figure_poser.h"
 #include "viewer/gl/gl_objects.h"
 #include "viewer/gl/picture_target.h"
 #include "viewer/scene/camera.h"
 #include "viewer/scene/scene.h"
-#include "viewer/stage/body_part.h"
-#include "viewer/stage/capsule_mesh.h"
+#include "viewer/stage/figure_drawer.h"
+#include "viewer/stage/floor_painter.h"
+#include "viewer/stage/ribbon_painter.h"
+#include "viewer/stage/stage_light.h"
+#include "viewer/stage/stage_look.h"
 
 namespace dance {
-
-// kLow leaves out antialiasing, mirror images and fingers, for graphics without a card.
-enum class Quality { kLow, kHigh };
 
 class StageRenderer {
  public:
   static Result<std::unique_ptr<StageRenderer>> create(Quality quality);
 
   // The direction the key light comes from, about the vertical, as the camera's yaw.
-  void set_light_yaw(float yaw_rad);
-  // Leaves the finished picture in target().finished(), bound.
+  void set_light_yaw(float yaw_rad) { light_.set_yaw(yaw_rad); }
+  void set_look(const StageLook& look) { look_ = look; }
+  // A dancer who comes then does not stop the picture; until the figure is ready a ring of light
+  // shows the place. Without this the first picture waits for it.
+  void build_meshes_beside() { figures_.store().maker().set_when(MeshMaker::When::kBeside); }
+
+  // Leaves the finished picture in target().finished(), bound: prepare(), then paint().
   Result<void> draw(const SceneState& scene, const OrbitCamera& camera, int width_px,
                     int height_px);
+  // Poses the figures and uploads their joints.
+  Result<void> prepare(const SceneState& scene, const OrbitCamera& camera, int width_px,
+                       int height_px);
+  void paint();
+
+  // Of the last prepare(), until the next.
+  std::span<const PosedFigure> figures() const { return posed_; }
+  const DrawnFigures& drawn() const { return figures_.drawn(); }
+  FigureStore& store() { return figures_.store(); }
   const PictureTarget& target() const { return target_; }
   Quality quality() const { return quality_; }
 
  private:
-  struct Stage {  // where the guests are
-    Eigen::Vector3f centre_W_m;
-    float radius_m;
+  // What each of several stages keeps from picture to picture.
+  struct Memory {
+    FigurePoser poser;
+    HandTrails trails;
   };
 
-  explicit StageRenderer(Quality quality);
+  StageRenderer(Quality quality, FloorPainter floor, RibbonPainter ribbons);
   Result<void> link_programs();
-  void make_shadow_map();
-  void make_spots();
-  CapsuleMesh& bodies() { return is_crowded_ ? large_for_many_ : large_; }
-  Stage gather(const SceneState& scene);
-  void draw_shadow_map();
-  void draw_backdrop(const Eigen::Matrix4f& clip_from_world);
-  void draw_bodies(const Eigen::Matrix4f& clip_from_world, float mirror);
-  void draw_floor(const Eigen::Matrix4f& clip_from_world, const Stage& stage);
-  void draw_spots(const Eigen::Matrix4f& clip_from_world);
+  void gather(const SceneState& scene);
+  void draw_backdrop();
   void finish_picture();
-  void use_lit(const GlProgram& program, const Eigen::Vector3f& eye_W_m);
 
   Quality quality_;
-  bool is_crowded_ = false;
-  BodyParts parts_;
-  CapsuleMesh large_;
-  CapsuleMesh large_for_many_;
-  CapsuleMesh small_;
+  StageLook look_;
   PictureTarget target_;
-  GlProgram body_;
-  GlProgram shadow_;
-  GlProgram floor_;
-  GlProgram spot_;
+  StageLight light_;
+  FigureDrawer figures_;
+  FloorPainter floor_;
+  RibbonPainter ribbons_;
   GlProgram backdrop_;
   GlProgram finish_;
   GlVertexArray no_vertices_;
-  GlVertexArray spot_array_;
-  GlBuffer spot_buffer_;
-  GlTexture shadow_map_;
-  GlFramebuffer shadow_target_;
-  Eigen::Vector3f to_light_W_;
+  std::map<int, Memory> memories_;  // by StageLook::stage
+
+  // Of the picture that prepare() has begun.
+  std::span<const PosedFigure> posed_;
+  std::vector<ContactSpot> spots_;
+  std::vector<WaitingGuest> waiting_;
+  std::vector<RibbonVertex> trail_triangles_;
+  StageArea area_;
+  BeatPulse pulse_;
   Eigen::Vector3f eye_W_m_ = Eigen::Vector3f::Zero();
-  Eigen::Matrix4f light_from_world_ = Eigen::Matrix4f::Identity();
-  float light_radius_m_ = 1.0f;
+  Eigen::Matrix4f clip_from_world_ = Eigen::Matrix4f::Identity();
 };
 
 }  // namespace dance

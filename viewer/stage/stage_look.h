@@ -1,0 +1,28 @@
+// What a picture of the stage shows beside its dancers, and how finely it is drawn.
+//
+// Units/frames: none.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      none.
+#pragma once
+
+#include <optional>
+
+#include "core/base/guest_id.h"
+
+namespace dance {
+
+// kLow leaves out antialiasing and mirror images and draws figures with few triangles, for
+// computers without a graphics card.
+enum class Quality { kLow, kHigh };
+
+struct StageLook {
+  bool trails = false;  // of the hands
+  bool pulse = true;    // the floor shows the beat
+  // Which of several stages in one picture: each keeps hair, skirts and trails of its own.
+  int stage = 0;
+  // Drawn as that guest sees it: without the guest's own head.
+  std::optional<GuestId> through_eyes_of = {};
+};
+
+}  // namespace dance
