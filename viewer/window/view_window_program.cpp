@@ -6,6 +6,7 @@
 #include "core/program/talk.h"
 #include "viewer/feed/picture_source.h"
 #include "viewer/gl/offscreen.h"
+#include "viewer/instruments/instrument_panel.h"
 #include "viewer/program/view_program.h"
 #include "viewer/stage/stage_painter.h"
 #include "viewer/window/view_window.h"
@@ -47,6 +48,7 @@ class WindowRun {
         begun_(mono_now()),
         roster_(source.board()) {
     window_.set_panels(&panels_);
+    panels_.add(std::make_unique<InstrumentPanel>(records_));
   }
 
   Result<void> run() {
@@ -73,6 +75,7 @@ class WindowRun {
 
   Result<void> draw(MonoTime now, Duration since_last, ViewWindow::Size size) {
     roster_.update(now, scene_);
+    records_.take(source_.instruments());
     has_twins_ = has_twins(scene_);
     const bool is_split = has_twins_ && window_.compares();
     if (!is_split) leave_out_twins(scene_);
@@ -139,6 +142,7 @@ class WindowRun {
   MonoTime begun_;
   StageRoster roster_;
   SceneState scene_;
+  InstrumentRecords records_;
   PanelStack panels_;
   PictureRate rate_;
   bool has_twins_ = false;
