@@ -108,11 +108,11 @@ constexpr std::array<ChannelRow, 27> kChannelTable{{
     {Signal::kPlacement, Where::kCapture, "PLACEMENT/capture/<guest>", "placement_t"},
     {Signal::kPlacement, Where::kGuest, "PLACEMENT/guest/<guest>", "placement_t"},
     {Signal::kBeat, Where::kLocal, "BEAT/local", "beat_t"},
-    {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
     {Signal::kGuestStats, Where::kView, "GUEST_STATS/view/<guest>", "guest_stats_t"},
     {Signal::kGuestTraffic, Where::kGuest, "GUEST_TRAFFIC/guest/<guest>", "guest_traffic_t"},
     {Signal::kFlow, Where::kCapture, "FLOW/capture/<guest>", "flow_t"},
     {Signal::kFlow, Where::kStage, "FLOW/stage/<guest>", "flow_t"},
+    {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 
 }  // namespace dance

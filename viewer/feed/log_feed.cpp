@@ -23,6 +23,7 @@ Result<LogFeed> LogFeed::open(const std::string& path, bool stage_only) {
   LogFeed feed(path, std::move(log));
   if (auto looked = feed.look_through(); !looked) return tl::make_unexpected(looked.error());
   feed.board_ = std::make_unique<GuestBoard>(feed.clock_id_, stage_only);
+  feed.instruments_ = std::make_unique<InstrumentBoard>(feed.clock_id_);
   feed.log_.rewind();
   feed.next_ = feed.log_.next();
   return feed;
@@ -126,6 +127,8 @@ void LogFeed::begin_again() {
 void LogFeed::take(const LogEvent& event, MonoTime now) {
   const auto channel = Channel::parse(event.channel);
   if (!channel) return;
+  // As it was recorded: its stamps are not shifted.
+  instruments_->on_message(*channel, event.data.data(), event.data.size(), now - shift_);
   const auto read = [&](auto& message) {
     return decode(event.data.data(), event.data.size(), message) == Decoded::kFine;
   };

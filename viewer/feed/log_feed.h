@@ -14,6 +14,7 @@
 
 #include "formats/log/unpacked_log.h"
 #include "viewer/feed/guest_board.h"
+#include "viewer/instruments/instrument_board.h"
 
 namespace dance {
 
@@ -22,6 +23,7 @@ class LogFeed {
   static Result<LogFeed> open(const std::string& path, bool stage_only);
 
   GuestBoard& board() { return *board_; }
+  InstrumentBoard& instruments() { return *instruments_; }
   MonoTime begin() const { return begin_; }
   MonoTime end() const { return end_ + shift_; }
   // When the house's music was at that beat; nullopt where it never was.
@@ -45,6 +47,7 @@ class LogFeed {
   std::string path_;
   UnpackedLog log_;
   std::unique_ptr<GuestBoard> board_;
+  std::unique_ptr<InstrumentBoard> instruments_;
   std::optional<LogEvent> next_;
   std::uint64_t clock_id_ = 0;
   std::int64_t wall_ahead_us_ = 0;  // of the house's clock

@@ -16,6 +16,7 @@ class LiveSource final : public PictureSource {
       : feed_(std::move(feed)), begin_(mono_now()) {}
 
   GuestBoard& board() override { return feed_->board(); }
+  InstrumentBoard& instruments() override { return feed_->instruments(); }
   MonoTime begin() const override { return begin_; }
   MonoTime wait_until(MonoTime moment) override {
     constexpr Duration kLook = Duration::ms(20);
@@ -47,6 +48,7 @@ class RecordedSource final : public PictureSource {
       : feed_(std::move(feed)), name_(std::move(name)), repeats_(repeats) {}
 
   GuestBoard& board() override { return feed_.board(); }
+  InstrumentBoard& instruments() override { return feed_.instruments(); }
   MonoTime begin() const override { return feed_.begin(); }
   MonoTime wait_until(MonoTime moment) override {
     feed_.go_on_to(moment);

@@ -14,6 +14,7 @@
 
 #include "viewer/feed/guest_board.h"
 #include "viewer/feed/stage_roster.h"
+#include "viewer/instruments/instrument_board.h"
 #include "viewer/program/view_options.h"
 
 namespace dance {
@@ -24,6 +25,7 @@ class PictureSource {
   virtual ~PictureSource() = default;
 
   virtual GuestBoard& board() = 0;
+  virtual InstrumentBoard& instruments() = 0;
   virtual MonoTime begin() const = 0;
   // Waits until that moment or a request to end; returns the present time.
   virtual MonoTime wait_until(MonoTime moment) = 0;

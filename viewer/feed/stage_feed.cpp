@@ -4,6 +4,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -30,7 +31,9 @@ bool is_shown(const FeedOptions& options, Where where) {
 }  // namespace
 
 StageFeed::StageFeed(const FeedOptions& options)
-    : board_(this_clock_id(), options.stage_only || options.shown == Shown::kStage) {}
+    : board_(this_clock_id(), options.stage_only || options.shown == Shown::kStage),
+      instruments_(this_clock_id()),
+      begin_(mono_now()) {}
 
 Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options) {
   std::unique_ptr<StageFeed> feed(new StageFeed(options));
@@ -40,6 +43,7 @@ Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options)
   feed->wake_fd_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   if (feed->wake_fd_ < 0) return fail(std::string("no eventfd: ") + std::strerror(errno));
   feed->subscribe(options);
+  feed->measure(options);
   feed->thread_ = std::thread([raw = feed.get()] { raw->run(); });
   return feed;
 }
@@ -59,6 +63,7 @@ void StageFeed::subscribe(const FeedOptions& options) {
     // Every pose is taken, so that rates and losses are right; the board's slots keep the newest.
     bus_->subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime now) {
       board_.on_pose(channel.where(), channel.guest(), pose, now);
+      instruments_.on_pose(channel.where(), channel.guest(), pose, now);
     });
     bus_->subscribe<Hands>(
         where,
@@ -69,14 +74,63 @@ void StageFeed::subscribe(const FeedOptions& options) {
     bus_->subscribe<TimedSkeleton>(
         where, [this](const Channel& channel, const TimedSkeleton& skeleton, MonoTime now) {
           board_.on_skeleton(channel.guest(), skeleton.skeleton, now);
+          instruments_.on_skeleton(channel.guest(), skeleton.skeleton);
         });
   }
-  bus_->subscribe<Beat>(
-      Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) { board_.on_beat(beat); });
+  bus_->subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
+    board_.on_beat(beat);
+    instruments_.on_beat(beat);
+  });
   bus_->subscribe<GuestStatus>(
       Where::kStage, [this](const Channel& channel, const GuestStatus& status, MonoTime now) {
         board_.on_status(channel.guest(), status, now);
       });
+}
+
+// What is heard for the instruments alone.
+void StageFeed::measure(const FeedOptions& options) {
+  for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage}) {
+    if (is_shown(options, where)) continue;
+    bus_->subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime now) {
+      instruments_.on_pose(channel.where(), channel.guest(), pose, now);
+    });
+  }
+  bus_->subscribe<GuestTraffic>(
+      Where::kGuest, [this](const Channel& channel, const GuestTraffic& traffic, MonoTime) {
+        instruments_.on_traffic(channel.guest(), traffic);
+      });
+  bus_->subscribe<FlowSetting>(
+      Where::kStage, [this](const Channel& channel, const FlowSetting& setting, MonoTime) {
+        instruments_.on_flow(channel.guest(), setting);
+      });
+  constexpr Duration kLook = Duration::ms(100);
+  poller_->add_timer(mono_now() + kLook, [this](MonoTime now) {
+    publish_figures(now);
+    return now + kLook;
+  });
+}
+
+void StageFeed::publish_figures(MonoTime now) {
+  instruments_.end_seconds(now, [this](const GuestId& guest, const GuestStats& stats) {
+    bus_->publish(Where::kView, guest, stats);
+  });
+  if (now - counted_ >= Duration::s(1)) publish_counters(now);
+}
+
+void StageFeed::publish_counters(MonoTime now) {
+  counted_ = now;
+  Stats stats;
+  stats.time = now;
+  stats.clock_id = this_clock_id();
+  stats.uptime = now - begin_;
+  stats.dropped_invalid = static_cast<std::int64_t>(bus_->counters().invalid);
+  stats.dropped_overflow = static_cast<std::int64_t>(board_.no_room());
+  stats.received =
+      static_cast<std::int64_t>(board_.poses()) + stats.dropped_invalid + stats.dropped_overflow;
+  stats.forwarded = shown_count_;
+  stats.superseded =
+      std::max<std::int64_t>(0, static_cast<std::int64_t>(board_.poses()) - shown_count_);
+  bus_->publish(Channel::of_program(Signal::kStats, "view"), stats);
 }
 
 void StageFeed::run() {
@@ -96,8 +150,15 @@ void StageFeed::wake() {
 void StageFeed::on_wake() {
   std::uint64_t times = 0;
   [[maybe_unused]] const auto taken = read(wake_fd_, &times, sizeof(times));
-  while (const auto shown = shown_.pop())
+  while (const auto shown = shown_.pop()) {
     bus_->publish(Channel::of(Signal::kStageTime, Where::kView, shown->guest), shown->time);
+    instruments_.on_shown(shown->guest, shown->time);
+    ++shown_count_;
+  }
+  while (const auto asked = instruments_.take_asked_flow())
+    bus_->publish(Where::kCapture, asked->guest, asked->what);
+  while (const auto asked = instruments_.take_asked_style())
+    bus_->publish(Where::kCapture, asked->guest, asked->what);
   if (asked_to_end_.load(std::memory_order_acquire)) poller_->stop();
 }
 

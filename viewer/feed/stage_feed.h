@@ -18,6 +18,7 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "viewer/feed/guest_board.h"
+#include "viewer/instruments/instrument_board.h"
 
 namespace dance {
 
@@ -44,6 +45,7 @@ class StageFeed {
   StageFeed& operator=(const StageFeed&) = delete;
 
   GuestBoard& board() { return board_; }
+  InstrumentBoard& instruments() { return instruments_; }
   const std::string& url() const { return bus_->url(); }
   void report_shown(const ShownPose& shown) { shown_.push(shown); }
   // After the last report_shown() of a picture.
@@ -54,12 +56,18 @@ class StageFeed {
  private:
   explicit StageFeed(const FeedOptions& options);
   void subscribe(const FeedOptions& options);
+  void measure(const FeedOptions& options);
+  void publish_figures(MonoTime now);
+  void publish_counters(MonoTime now);
   void run();
   void on_wake();
 
   std::unique_ptr<Poller> poller_;
   std::unique_ptr<Bus> bus_;
   GuestBoard board_;
+  InstrumentBoard instruments_;
+  MonoTime begin_, counted_;
+  std::int64_t shown_count_ = 0;
   SpscRing<ShownPose, 512> shown_;
   int wake_fd_ = -1;
   std::atomic<bool> asked_to_end_{false};

@@ -10,6 +10,8 @@
 #include "viewer/feed/picture_source.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
+#include "viewer/instruments/instrument_panel.h"
+#include "viewer/panel/panel_stack.h"
 #include "viewer/program/view_program.h"
 #include "viewer/stage/stage_painter.h"
 
@@ -38,6 +40,7 @@ class HeadlessRun {
   }
 
   Result<void> run() {
+    open_panel();
     DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
     auto drawn = options_.moments.film ? film() : pictures(moments);
     if (drawn && options_.focus && !focus_was_here_)
@@ -47,6 +50,13 @@ class HeadlessRun {
   }
 
  private:
+  void open_panel() {
+    auto instruments = std::make_unique<InstrumentPanel>(records_);
+    instruments->open(options_.panel == "instruments");
+    if (options_.focus) instruments->choose(*options_.focus);
+    panels_.add(std::move(instruments));
+  }
+
   Result<void> pictures(const std::vector<MonoTime>& moments) {
     for (const MonoTime moment : moments) {
       scenes_.push_back(scene_at(moment));
@@ -68,7 +78,10 @@ class HeadlessRun {
   bool is_strip() const { return options_.moments.strip > 0; }
   // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the
   // next moment would be missed. Many are drawn as they come, so that each file is there soon.
-  bool draws_at_once() const { return !is_strip() && moments_s_.size() > kFewMoments; }
+  bool draws_at_once() const {
+    const bool changes_meanwhile = !options_.panel.empty();
+    return !is_strip() && (moments_s_.size() > kFewMoments || changes_meanwhile);
+  }
 
   Result<std::vector<MonoTime>> moments_to_draw() const {
     std::vector<MonoTime> moments;
@@ -89,6 +102,7 @@ class HeadlessRun {
   SceneState scene_at(MonoTime moment) {
     SceneState scene;
     roster_.update(source_.wait_until(moment), scene);
+    records_.take(source_.instruments());
     for (const SceneGuest& guest : scene.guests)
       focus_was_here_ = focus_was_here_ || guest.id == options_.focus;
     if (!options_.compare) leave_out_twins(scene);
@@ -109,7 +123,8 @@ class HeadlessRun {
 
   // One picture of the stage, or of both halves where there is something to compare.
   Result<Picture> paint(const SceneState& scene) {
-    const OverlayChoice choice{options_.tags, options_.hud};
+    OverlayChoice choice{options_.tags, options_.hud};
+    choice.panels = &panels_;
     if (!has_twins(scene)) {
       if (auto drawn = draw(scene, options_.size.width_px, choice); !drawn)
         return tl::make_unexpected(drawn.error());
@@ -215,6 +230,8 @@ class HeadlessRun {
   StagePainter& painter_;
   StageRoster roster_;
   AvatarLibrary avatars_;
+  InstrumentRecords records_;
+  PanelStack panels_;
   CameraRig rig_;
   std::vector<SceneState> scenes_;
   int pictures_ = 0;

@@ -60,6 +60,9 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_flag("--no-hud", wishes.no_hud, "without the figures");
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
   line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
+  line.add_choice<std::string>("--panel", view.panel,
+                               {{"instruments", "instruments"}, {"style", "style"}},
+                               "open this panel: instruments or style");
   line.add("--out", view.out, "directory of the pictures").shows_default();
   line.add("--seconds", wishes.view.moments.seconds,
            "headless: how long to listen, 3 unless said; of a log all, unless said")

@@ -44,6 +44,7 @@ struct ViewOptions {
   bool compare = false;  // two halves, where there are raw twins (viewer/scene/comparison.h)
 
   bool headless = false;
+  std::string panel;  // open from the begin: instruments, style; "" = none
   std::string out = ".";
   MomentWish moments;
   std::string log;            // a recorded house; "" = a live one

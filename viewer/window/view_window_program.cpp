@@ -7,6 +7,7 @@
 #include "viewer/avatar/avatar_library.h"
 #include "viewer/feed/picture_source.h"
 #include "viewer/gl/offscreen.h"
+#include "viewer/instruments/instrument_panel.h"
 #include "viewer/program/view_program.h"
 #include "viewer/stage/stage_painter.h"
 #include "viewer/window/view_window.h"
@@ -48,6 +49,7 @@ class WindowRun {
         begun_(mono_now()),
         roster_(source.board()) {
     window_.set_panels(&panels_);
+    panels_.add(std::make_unique<InstrumentPanel>(records_));
   }
 
   Result<void> run() {
@@ -74,6 +76,7 @@ class WindowRun {
 
   Result<void> draw(MonoTime now, Duration since_last, ViewWindow::Size size) {
     roster_.update(now, scene_);
+    records_.take(source_.instruments());
     has_twins_ = has_twins(scene_);
     const bool is_split = has_twins_ && window_.compares();
     if (!is_split) leave_out_twins(scene_);
@@ -142,6 +145,7 @@ class WindowRun {
   StageRoster roster_;
   AvatarLibrary avatars_;
   SceneState scene_;
+  InstrumentRecords records_;
   PanelStack panels_;
   PictureRate rate_;
   bool has_twins_ = false;
