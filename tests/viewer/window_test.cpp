@@ -19,6 +19,12 @@ namespace {
 constexpr int kWidth_px = 480;
 constexpr int kHeight_px = 300;
 
+class NoEvents final : public WindowEvents {
+  void on_key(const KeyPress&) override {}
+  void on_drag(WindowDrag, float, float) override {}
+  void on_wheel(float) override {}
+};
+
 OrbitCamera camera_for(const SceneState& scene) {
   std::vector<Eigen::Vector3f> points;
   for (const SceneGuest& guest : scene.guests) append_outline(guest, points);
@@ -34,8 +40,8 @@ double mean_difference(const Picture& a, const Picture& b) {
 TEST(ViewWindow, NamesTheCureWhereThereIsNoDisplay) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  CameraRig rig(CameraPreset::kAuto);
-  const auto window = ViewWindow::create({kWidth_px, kHeight_px}, rig);
+  NoEvents events;
+  const auto window = ViewWindow::create({kWidth_px, kHeight_px}, events);
   ASSERT_FALSE(window);
   EXPECT_NE(window.error().what.find("--headless"), std::string::npos);
 }
@@ -56,8 +62,8 @@ TEST(ViewWindow, ShowsThePixelsThatAFileWouldHold) {
   const VirtualDisplay display;
   if (display.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
   setenv("DISPLAY", display.display().c_str(), 1);
-  CameraRig rig(CameraPreset::kAuto);
-  auto window = ViewWindow::create({kWidth_px, kHeight_px}, rig);
+  NoEvents events;
+  auto window = ViewWindow::create({kWidth_px, kHeight_px}, events);
   if (!window) GTEST_SKIP() << window.error().what;
   keep_drivers_loaded();
   ASSERT_EQ((*window)->framebuffer_size().width_px, kWidth_px);

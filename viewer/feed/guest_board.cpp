@@ -34,26 +34,56 @@ GuestBoard::Slot* GuestBoard::slot_of(const GuestId& guest, MonoTime now) {
   spare->news.id = guest;
   spare->meter = ArrivalMeter();
   spare->beat_meter = BeatMeter();
+  spare->arriving_beat_meter = BeatMeter();
   spare->capture_heard = spare->status_heard = MonoTime();
   spare->last_heard = now;
   return spare;
 }
 
 bool GuestBoard::is_superseded(const Slot& slot, Where where, MonoTime now) const {
+  if (where == Where::kGuest && !shows_guest_channel_) return true;
   if (stage_only_ || where == Where::kCapture) return false;
   return slot.capture_heard.is_set() && now - slot.capture_heard < kSourceHolds;
+}
+
+MonoTime GuestBoard::moment_of(Where where, const Pose& pose) const {
+  if (pose.clock_id != clock_id_) return {};
+  return where == Where::kStage ? pose.stamped(Hop::kStaged) : pose.capture_time;
+}
+
+void GuestBoard::note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now) {
+  if (where == Where::kStage) {
+    slot.news.staged = pose;
+    slot.news.staged_heard = now;
+    return;
+  }
+  // The house's own dancer comes by both: the capture is the earlier.
+  if (where == Where::kGuest && slot.capture_heard.is_set() &&
+      now - slot.capture_heard < kSourceHolds)
+    return;
+  slot.news.arriving = pose;
+  slot.news.arriving_heard = now;
+  const BeatClock& music = music_.clock();
+  if (!music.is_known(now)) return;
+  std::optional<Duration> age;
+  if (pose.clock_id == clock_id_ && pose.capture_time.is_set()) age = now - pose.capture_time;
+  slot.arriving_beat_meter.add(pose.music_beats, music.position(now), music.beats_per_second(),
+                               age);
+  slot.news.arriving_beat = slot.arriving_beat_meter.figures();
 }
 
 void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
   Slot* slot = slot_of(guest, now);
   if (slot == nullptr) return;
-  poses_.fetch_add(1, std::memory_order_relaxed);
+  if (where != Where::kGuest || shows_guest_channel_)
+    poses_.fetch_add(1, std::memory_order_relaxed);
   if (where == Where::kCapture) {
     slot->capture_heard = now;
     music_.see(pose);
     music_latest_.put(music_.clock());
   }
-  if (is_superseded(*slot, where, now)) return;
+  note_for_comparison(*slot, where, pose, now);
+  if (is_superseded(*slot, where, now)) return slot->latest.put(slot->news);
 
   // Ages compare stamps of one clock only.
   std::optional<Duration> age;
@@ -68,6 +98,7 @@ void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, Mo
   slot->news.figures.beat = slot->beat_meter.figures();
   slot->news.pose = pose;
   slot->news.heard = now;
+  slot->news.moment = moment_of(where, pose);
   slot->latest.put(slot->news);
 }
 

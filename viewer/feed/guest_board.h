@@ -1,5 +1,6 @@
 // GuestBoard: where the bus thread leaves each guest's newest state and the drawing thread finds
-// it. A guest captured in this house is shown straight from the capture, all others from the stage.
+// it. A guest captured in this house is shown straight from the capture, all others from the stage;
+// the pose that came and the staged one are both kept beside it.
 //
 // Units/frames: MonoTime of this process; poses in W.
 // Ownership:    holds kMaxGuests slots; never allocates after construction.
@@ -25,8 +26,17 @@ namespace dance {
 // The content of a slot.
 struct GuestNews {
   GuestId id;
-  Pose pose;
+  Pose pose;  // to be shown
   MonoTime heard;
+  // The moment that the pose stands for, in this house's clock: of a capture when it was taken, of
+  // a stage when it was staged. Not set: not known.
+  MonoTime moment;
+  // For views that compare: what came into this house, and what its routes made of it.
+  Pose arriving;
+  MonoTime arriving_heard;  // not set: nothing came
+  std::optional<BeatFigures> arriving_beat;
+  Pose staged;
+  MonoTime staged_heard;
   Skeleton skeleton = average_skeleton();
   Hands hands;
   MonoTime hands_heard;  // not set: none
@@ -39,6 +49,9 @@ class GuestBoard {
 
   // With `stage_only` no guest is shown from the capture while on the stage.
   GuestBoard(std::uint64_t clock_id, bool stage_only);
+  // Poses of POSE/guest are for comparison only, unless they are what is to be shown. Before the
+  // first pose.
+  void show_guest_channel() { shows_guest_channel_ = true; }
 
   void on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
   void on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now);
@@ -61,6 +74,7 @@ class GuestBoard {
     GuestNews news;
     ArrivalMeter meter;
     BeatMeter beat_meter;
+    BeatMeter arriving_beat_meter;
     MonoTime last_heard;  // anything of this guest
     MonoTime capture_heard;
     MonoTime status_heard;
@@ -69,9 +83,12 @@ class GuestBoard {
 
   Slot* slot_of(const GuestId& guest, MonoTime now);
   bool is_superseded(const Slot& slot, Where where, MonoTime now) const;
+  void note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now);
+  MonoTime moment_of(Where where, const Pose& pose) const;
 
   std::uint64_t clock_id_;
   bool stage_only_;
+  bool shows_guest_channel_ = false;
   std::unique_ptr<Slot[]> slots_;
   MusicHere music_;  // the bus thread's
   Latest<BeatClock> music_latest_;

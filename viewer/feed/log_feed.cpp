@@ -141,7 +141,7 @@ void LogFeed::take(const LogEvent& event, MonoTime now) {
     board_->on_beat(beat);
     return;
   }
-  if (where != Where::kCapture && where != Where::kStage) return;
+  if (where != Where::kCapture && where != Where::kGuest && where != Where::kStage) return;
   if (channel->signal() == Signal::kPose) {
     Pose pose;
     if (!read(pose)) return;

@@ -42,6 +42,7 @@ Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options)
   DANCE_TRY(feed->bus_, Bus::open(options.bus_url));
   feed->wake_fd_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   if (feed->wake_fd_ < 0) return fail(std::string("no eventfd: ") + std::strerror(errno));
+  if (options.shown == Shown::kGuest) feed->board_.show_guest_channel();
   feed->subscribe(options);
   feed->measure(options);
   feed->thread_ = std::thread([raw = feed.get()] { raw->run(); });
@@ -59,12 +60,14 @@ StageFeed::~StageFeed() {
 
 void StageFeed::subscribe(const FeedOptions& options) {
   for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage}) {
-    if (!is_shown(options, where)) continue;
+    const bool is_compared = options.shown == Shown::kBest && where == Where::kGuest;
+    if (!is_shown(options, where) && !is_compared) continue;
     // Every pose is taken, so that rates and losses are right; the board's slots keep the newest.
     bus_->subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime now) {
       board_.on_pose(channel.where(), channel.guest(), pose, now);
       instruments_.on_pose(channel.where(), channel.guest(), pose, now);
     });
+    if (is_compared) continue;
     bus_->subscribe<Hands>(
         where,
         [this](const Channel& channel, const Hands& hands, MonoTime now) {

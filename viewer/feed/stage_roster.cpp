@@ -13,6 +13,17 @@ float opacity_after(Duration silence) {
   const double gone = (silence - kSilenceBeforeFading).as_seconds() / kFade.as_seconds();
   return gone >= 1.0 ? 0.0f : 1.0f - static_cast<float>(gone);
 }
+void compare_in(const GuestNews& known, MonoTime now, SceneGuest& guest) {
+  const auto holds = [&](MonoTime heard) {
+    return heard.is_set() && now - heard < kSilenceBeforeFading;
+  };
+  if (holds(known.arriving_heard)) {
+    guest.arriving = known.arriving;
+    guest.arriving_beat = known.arriving_beat;
+  }
+  if (holds(known.staged_heard)) guest.staged = known.staged;
+}
+
 }  // namespace
 
 StageRoster::StageRoster(GuestBoard& board) : board_(board), guests_(GuestBoard::kMaxGuests) {
@@ -26,8 +37,11 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
   for (std::size_t i = 0; i < guests_.size(); ++i) {
     GuestNews& known = guests_[i];
     if (const GuestNews* news = board_.take(i)) {
+      const bool is_fresh =
+          news->heard.is_set() && (news->id != known.id || news->heard != known.heard ||
+                                   news->pose.sequence != known.pose.sequence);
       known = *news;
-      fresh_.push_back({news->id, news->pose, news->heard});
+      if (is_fresh) fresh_.push_back({news->id, news->pose, news->heard, news->moment});
     }
     const float opacity = known.heard.is_set() ? opacity_after(now - known.heard) : 0.0f;
     if (opacity <= 0.0f) continue;
@@ -39,6 +53,7 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
       guest.hands = known.hands;
     guest.opacity = opacity;
     guest.figures = known.figures;
+    compare_in(known, now, guest);
     scene.guests.push_back(guest);
   }
   if (const BeatClock* music = board_.take_music()) music_ = *music;

@@ -27,6 +27,7 @@ class StageRoster {
     GuestId guest;
     Pose pose;
     MonoTime heard;
+    MonoTime moment;  // as GuestNews
   };
   std::span<const Fresh> fresh() const { return fresh_; }
 

@@ -134,9 +134,33 @@ void Overlay::draw_beats(const Comparison& comparison, int width_px, int height_
   const PanelFonts fonts{tag_font_, hud_font_};
   draw_beat_panel(list, fonts, comparison.raw, {0.0f, top, middle, bottom}, "as it comes");
   draw_beat_panel(list, fonts, comparison.shown,
-                  {middle, top, static_cast<float>(width_px), bottom}, "in rhythm");
+                  {middle, top, static_cast<float>(width_px), bottom},
+                  comparison.is_of_twins ? "in rhythm" : "as it is staged");
   list.AddRectFilled({middle - 1.0f, 0.0f}, {middle + 1.0f, bottom}, shade(1.0f));
   draw_panels(panels, comparison.shown, static_cast<float>(width_px), bottom);
+  end_frame();
+}
+
+void Overlay::draw_frames(std::span<const StageCell> cells, int width_px, int height_px,
+                          const OverlayChoice& choice) {
+  begin_frame(width_px, height_px);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const float line = std::max(1.0f, std::round(2.0f * scale_));
+  for (const StageCell& cell : cells) {
+    if (!cell.is_chosen) continue;
+    const auto left = static_cast<float>(cell.box.left_px);
+    const auto top = static_cast<float>(cell.box.top_px);
+    list.AddRect({left + 0.5f * line, top + 0.5f * line},
+                 {left + static_cast<float>(cell.box.width_px) - 0.5f * line,
+                  top + static_cast<float>(cell.box.height_px) - 0.5f * line},
+                 white(0.85f), 0.0f, 0, line);
+  }
+  const auto width = static_cast<float>(width_px);
+  const auto height = static_cast<float>(height_px);
+  if (choice.whole != nullptr) {
+    draw_notes(*choice.whole, height);
+    draw_panels(choice.panels, *choice.whole, width, height);
+  }
   end_frame();
 }
 
@@ -168,6 +192,7 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera,
   for (std::size_t i = 0; i < scene.guests.size(); ++i) {
     const SceneGuest& guest = scene.guests[i];
     const Vector3f anchor_W_m = i < anchors_W_m.size() ? anchors_W_m[i] : tag_anchor_W_m(guest);
+    if (guest.hides_head) continue;  // over one's own eyes there is none
     if (const auto at = project(camera, anchor_W_m, width_px, height_px))
       tags.push_back({&guest, *at});
   }

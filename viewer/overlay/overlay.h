@@ -17,6 +17,7 @@
 #include "viewer/scene/camera.h"
 #include "viewer/scene/comparison.h"
 #include "viewer/scene/scene.h"
+#include "viewer/scene/stage_picture.h"
 
 struct ImDrawList;
 struct ImFont;
@@ -33,6 +34,8 @@ struct OverlayChoice {
   PanelStack* panels = nullptr;  // over the whole picture
   // Where the tag of each guest hangs; empty: over the dancers' own heads.
   std::span<const Eigen::Vector3f> tag_anchors_W_m = {};
+  // Of a picture with several stages: who is meant by panels, and the lines at the bottom left.
+  const SceneState* whole = nullptr;
 };
 
 class Overlay {
@@ -47,6 +50,9 @@ class Overlay {
   // Draws onto the bound framebuffer.
   void draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
             const OverlayChoice& choice);
+  // Round the stages of a picture with several; notes and panels over all.
+  void draw_frames(std::span<const StageCell> cells, int width_px, int height_px,
+                   const OverlayChoice& choice);
   // The beats under the two halves of a comparison, in the lowest panel_height_px() of the bound
   // framebuffer.
   void draw_beats(const Comparison& comparison, int width_px, int height_px, PanelStack* panels);

@@ -19,4 +19,11 @@ std::vector<KeyHelp> PanelStack::keys() const {
   return all;
 }
 
+std::vector<PanelStack::Group> PanelStack::key_groups() const {
+  std::vector<Group> groups;
+  for (const auto& panel : panels_)
+    if (!panel->keys().empty()) groups.push_back({panel->title(), panel->keys()});
+  return groups;
+}
+
 }  // namespace dance

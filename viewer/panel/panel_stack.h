@@ -6,6 +6,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,12 @@ class PanelStack {
   bool on_key(const KeyPress& press);
   void draw(const PanelFrame& frame);
   std::vector<KeyHelp> keys() const;
+  // As keys(), under the heading of each panel.
+  struct Group {
+    std::string_view title;
+    std::span<const KeyHelp> keys;
+  };
+  std::vector<Group> key_groups() const;
 
  private:
   std::vector<std::unique_ptr<WindowPanel>> panels_;

@@ -44,6 +44,8 @@ struct PanelFrame {
 class WindowPanel {
  public:
   virtual ~WindowPanel() = default;
+  // The heading of its keys in the list of keys: "Timeline".
+  virtual std::string_view title() const { return {}; }
   virtual std::span<const KeyHelp> keys() const = 0;
   // True when the key was this panel's.
   virtual bool on_key(const KeyPress& press) = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include "core/program/talk.h"
 #include "viewer/avatar/avatar_library.h"
@@ -14,6 +15,9 @@
 #include "viewer/panel/panel_stack.h"
 #include "viewer/program/view_program.h"
 #include "viewer/stage/stage_painter.h"
+#include "viewer/view/view_director.h"
+#include "viewer/window/help_panel.h"
+#include "viewer/window/window_keys.h"
 
 namespace dance {
 namespace {
@@ -24,7 +28,8 @@ constexpr int kDrawingNiceness = 10;
 
 constexpr std::size_t kFewMoments = 16;
 constexpr const char* kTitleOfRaw = "as it comes";
-constexpr const char* kTitleOfShown = "in rhythm";
+constexpr const char* kTitleOfRhythm = "in rhythm";
+constexpr const char* kTitleOfShown = "as it is staged";
 
 class HeadlessRun {
  public:
@@ -35,8 +40,12 @@ class HeadlessRun {
         source_(source),
         painter_(painter),
         roster_(source.board()),
-        rig_(options.camera) {
-    if (options.focus) rig_.focus(*options.focus);
+        director_(options.camera, options.view) {
+    if (options.focus) director_.choose(*options.focus);
+    if (!options.help_panel) return;
+    auto help = std::make_unique<HelpPanel>(panels_, window_key_groups());
+    help->open();
+    panels_.add(std::move(help));
   }
 
   Result<void> run() {
@@ -67,7 +76,7 @@ class HeadlessRun {
     if (is_strip()) {
       if (auto written = write_strip(); !written) return written;
     } else if (!draws_at_once()) {
-      for (const SceneState& scene : scenes_)
+      for (SceneState& scene : scenes_)
         if (auto written = write_picture(scene); !written) return written;
     }
     if (source_.board().poses() > 0) return {};
@@ -99,55 +108,53 @@ class HeadlessRun {
     return moments;
   }
 
+  ViewDirector::Size size_of(int width_px) const {
+    const int height_px = options_.size.height_px;
+    return {width_px, height_px, painter_.overlay().panel_height_px(height_px)};
+  }
+
   SceneState scene_at(MonoTime moment) {
     SceneState scene;
     roster_.update(source_.wait_until(moment), scene);
     records_.take(source_.instruments());
     for (const SceneGuest& guest : scene.guests)
       focus_was_here_ = focus_was_here_ || guest.id == options_.focus;
-    if (!options_.compare) leave_out_twins(scene);
+    if (options_.view != ViewMode::kCompare) leave_out_twins(scene);
     avatars_.wait_and_dress(scene);
     if (scene.guests.empty()) scene.notes.push_back("nobody is on the stage of " + source_.name());
     return scene;
   }
 
   Result<void> draw(const SceneState& scene, int width_px, const OverlayChoice& choice) {
-    painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
-    return painter_.draw(scene, rig_.camera(), width_px, options_.size.height_px, choice);
+    painter_.renderer().set_light_yaw(director_.light_yaw_rad());
+    return painter_.draw(scene, rig().camera(), width_px, options_.size.height_px, choice);
   }
 
-  float aspect() const {
-    const PictureSize& size = options_.size;
-    return static_cast<float>(size.width_px) / static_cast<float>(size.height_px);
-  }
+  CameraRig& rig() { return director_.rig(); }
 
-  // One picture of the stage, or of both halves where there is something to compare.
-  Result<Picture> paint(const SceneState& scene) {
-    OverlayChoice choice{options_.tags, options_.hud};
+  // What the director has composed.
+  Result<Picture> paint(const SceneState& scene, const OverlayChoice& wished, int width_px) {
+    OverlayChoice choice = wished;
     choice.panels = &panels_;
-    if (!has_twins(scene)) {
-      if (auto drawn = draw(scene, options_.size.width_px, choice); !drawn)
-        return tl::make_unexpected(drawn.error());
-      return painter_.read();
+    choice.whole = &scene;
+    if (options_.view == ViewMode::kCompare && !director_.comparison() && !has_warned_) {
+      has_warned_ = true;
+      talk::warn("--view compare: {}", director_.words());
     }
-    painter_.renderer().set_light_yaw(rig_.stage_yaw_rad());
-    const PictureSize& size = options_.size;
-    if (auto drawn =
-            painter_.draw(compare(scene), rig_.camera(), size.width_px, size.height_px, choice);
-        !drawn)
-      return tl::make_unexpected(drawn.error());
+    painter_.renderer().set_light_yaw(director_.light_yaw_rad());
+    const int height_px = options_.size.height_px;
+    auto drawn = director_.comparison()
+                     ? painter_.draw(*director_.comparison(), director_.camera(), width_px,
+                                     height_px, choice)
+                     : painter_.draw(director_.cells(), width_px, height_px, choice);
+    if (!drawn) return tl::make_unexpected(drawn.error());
     return painter_.read();
   }
 
-  float aspect_of(const SceneState& scene) const {
-    return has_twins(scene)
-               ? painter_.aspect_of_half(options_.size.width_px, options_.size.height_px)
-               : aspect();
-  }
-
-  Result<void> write_picture(const SceneState& scene) {
-    rig_.jump({&scene}, aspect_of(scene));
-    DANCE_TRY(const Picture picture, paint(scene));
+  Result<void> write_picture(SceneState& scene) {
+    director_.jump(scene, size_of(options_.size.width_px));
+    DANCE_TRY(const Picture picture,
+              paint(scene, {options_.tags, options_.hud}, options_.size.width_px));
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "stage-%04d.png", ++pictures_);
     return write(name.data(), picture);
@@ -158,13 +165,14 @@ class HeadlessRun {
     const Duration period = Duration::period_of_hz(kFilm_hz);
     const double most_s = moments_s_.back();
     for (int k = 0; static_cast<double>(k) / kFilm_hz < most_s; ++k) {
-      const SceneState scene = scene_at(source_.begin() + period * k);
+      SceneState scene = scene_at(source_.begin() + period * k);
       if (source_.is_over()) break;
+      const ViewDirector::Size size = size_of(options_.size.width_px);
       if (k == 0)
-        rig_.jump({&scene}, aspect_of(scene));
+        director_.jump(scene, size);
       else
-        rig_.update(scene, aspect_of(scene), period);
-      DANCE_TRY(const Picture picture, paint(scene));
+        director_.update(scene, size, period);
+      DANCE_TRY(const Picture picture, paint(scene, {options_.tags, options_.hud}, size.width_px));
       std::array<char, 32> name{};
       std::snprintf(name.data(), name.size(), "%04d.png", ++pictures_);
       if (auto written = write(name.data(), picture); !written) return written;
@@ -176,10 +184,15 @@ class HeadlessRun {
   // The moments share one camera, so that what changes between them is the dance.
   Result<void> write_strip() {
     const int width_px = std::max(1, options_.size.width_px / static_cast<int>(scenes_.size()));
+    if (is_of_one(options_.view) || options_.view == ViewMode::kGrid) {
+      DANCE_TRY(const Picture row, paint_views(width_px));
+      return write("stage-strip.png", row);
+    }
     std::vector<const SceneState*> all;
     for (const SceneState& scene : scenes_) all.push_back(&scene);
-    rig_.jump(all, static_cast<float>(width_px) / static_cast<float>(options_.size.height_px));
-    if (!has_twins(scenes_.front())) {
+    rig().jump(all, static_cast<float>(width_px) / static_cast<float>(options_.size.height_px));
+    const bool compares = options_.view == ViewMode::kCompare && can_compare(scenes_.front());
+    if (!compares) {
       DANCE_TRY(const Picture row, paint_row(scenes_, width_px, ""));
       return write("stage-strip.png", row);
     }
@@ -190,8 +203,23 @@ class HeadlessRun {
       shown.push_back(std::move(both.shown));
     }
     DANCE_TRY(const Picture above, paint_row(raw, width_px, kTitleOfRaw));
-    DANCE_TRY(const Picture below, paint_row(shown, width_px, kTitleOfShown));
+    const bool has_rhythm = has_twins(scenes_.front());
+    DANCE_TRY(const Picture below,
+              paint_row(shown, width_px, has_rhythm ? kTitleOfRhythm : kTitleOfShown));
     return write("stage-strip.png", one_above_the_other(std::array{above, below}));
+  }
+
+  // Each moment by its own camera, which goes with the dancer.
+  Result<Picture> paint_views(int width_px) {
+    std::vector<Picture> moments;
+    for (SceneState& scene : scenes_) {
+      director_.jump(scene, size_of(width_px));
+      const OverlayChoice choice{options_.tags, false, "",
+                                 options_.beats.empty() ? "" : caption_of(scene)};
+      DANCE_TRY(Picture picture, paint(scene, choice, width_px));
+      moments.push_back(std::move(picture));
+    }
+    return side_by_side(moments);
   }
 
   Result<Picture> paint_row(const std::vector<SceneState>& scenes, int width_px,
@@ -232,10 +260,11 @@ class HeadlessRun {
   AvatarLibrary avatars_;
   InstrumentRecords records_;
   PanelStack panels_;
-  CameraRig rig_;
+  ViewDirector director_;
   std::vector<SceneState> scenes_;
   int pictures_ = 0;
   bool focus_was_here_ = false;
+  bool has_warned_ = false;
 };
 
 }  // namespace

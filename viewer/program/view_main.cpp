@@ -10,12 +10,14 @@ namespace dance {
 namespace {
 
 constexpr const char* kExamples =
-    R"(In the window: drag turns the camera, the wheel comes nearer, right or shift drag moves it;
-  F frames everybody, 1 to 9 one guest, space starts and stops the slow turn, H shows or hides the
-  figures, C compares where there is something to compare, Q quits.
+    R"(In the window: ? lists all keys. Drag turns the camera, the wheel comes nearer, right or shift
+  drag moves it; F frames everybody, 1 to 9 and arrows choose a dancer, V goes through the views,
+  R rotates slowly, Q closes.
 Examples:
   dance view                                         the stage of this house
   dance view --focus alice --camera front
+  dance view --view mirror --focus teacher           left is left, for those who learn
+  dance view --view grid                             a class, each couple in a place of its own
   dance view --headless --out pictures --at 2,5,8    three pictures, no display needed
   dance view --headless --out pictures --seconds 10 --every 0.5 --size 640x360
   dance view --headless --out pictures --seconds 2 --strip 6 --no-hud
@@ -29,6 +31,10 @@ struct Wishes {
   ViewOptions view;
   std::string size = "1280x720";
   std::string focus;
+  double display_latency_ms = -1.0;
+  bool compare = false;
+  bool no_extrapolation = false;
+  bool early = false;
   bool no_hud = false;
   bool no_tags = false;
 };
@@ -51,7 +57,16 @@ void add_options(CommandLine& line, Wishes& wishes) {
                                  {"top", CameraPreset::kTop},
                                  {"orbit", CameraPreset::kOrbit}},
                                 "auto (across the line of dancers), front, side, top or orbit");
-  line.add("--focus", wishes.focus, "frame this guest").guest_name();
+  line.add_choice<ViewMode>("--view", view.view,
+                            {{"orbit", ViewMode::kOrbit},
+                             {"follow", ViewMode::kFollow},
+                             {"mirror", ViewMode::kMirror},
+                             {"first-person", ViewMode::kFirstPerson},
+                             {"compare", ViewMode::kCompare},
+                             {"grid", ViewMode::kGrid}},
+                            "orbit (the whole stage), follow or mirror a dancer, first-person, "
+                            "compare (as it comes, as it is staged) or grid");
+  line.add("--focus", wishes.focus, "the guest that the view is of").guest_name();
   line.add_choice<QualityWish>(
       "--quality", view.quality,
       {{"auto", QualityWish::kAuto}, {"low", QualityWish::kLow}, {"high", QualityWish::kHigh}},
@@ -81,8 +96,19 @@ void add_options(CommandLine& line, Wishes& wishes) {
       .range(-1'000'000.0, 1'000'000.0);
   line.add_flag("--film", wishes.view.moments.film,
                 "headless, with --log: every picture of a film, 25 a second, as 0001.png …");
-  line.add_flag("--compare", view.compare,
-                "two halves: left as poses come (guests NAME-raw), right as routes show them");
+  line.add_flag("--compare", wishes.compare, "the same as --view compare");
+  line.add_flag("--help-panel", view.help_panel, "headless: the list of keys over the pictures");
+  line.add_choice<DisplayMode>(
+      "--display", view.display,
+      {{"tear-free", DisplayMode::kTearFree}, {"low-latency", DisplayMode::kLowLatency}},
+      "tear-free, or low-latency (a late picture is shown at once, torn)");
+  line.add("--display-latency-ms", wishes.display_latency_ms,
+           "from the display's turn to the light of its middle; else half a period")
+      .range(0.0, 100.0);
+  line.add_flag("--no-extrapolation", wishes.no_extrapolation,
+                "poses as they came, not brought to the moment of their light");
+  line.add_flag("--early", wishes.early,
+                "take poses when the last picture is shown, not as late as drawing allows");
   line.footer(kExamples);
 }
 
@@ -93,6 +119,14 @@ Result<void> finish(Wishes& wishes) {
     return tl::make_unexpected(planned.error());
   if (wishes.view.log.empty() && (wishes.view.moments.film || !wishes.view.beats.empty()))
     return fail("--film and --beats need a recorded house: name it with --log");
+  if (wishes.compare && wishes.view.view != ViewMode::kOrbit &&
+      wishes.view.view != ViewMode::kCompare)
+    return fail("--compare is --view compare; give one view");
+  if (wishes.compare) wishes.view.view = ViewMode::kCompare;
+  if (wishes.display_latency_ms >= 0.0)
+    wishes.view.display_latency = Duration::seconds(1e-3 * wishes.display_latency_ms);
+  wishes.view.extrapolates = !wishes.no_extrapolation;
+  wishes.view.late_latching = !wishes.early;
   if (!wishes.focus.empty()) wishes.view.focus = GuestId::parse(wishes.focus);
   wishes.view.hud = !wishes.no_hud;
   wishes.view.tags = !wishes.no_tags;

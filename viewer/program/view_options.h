@@ -12,7 +12,9 @@
 
 #include "core/base/result.h"
 #include "viewer/feed/stage_feed.h"
-#include "viewer/window/camera_rig.h"
+#include "viewer/view/camera_rig.h"
+#include "viewer/view/view_mode.h"
+#include "viewer/window/window_state.h"
 
 namespace dance {
 
@@ -36,12 +38,18 @@ struct MomentWish {
 struct ViewOptions {
   FeedOptions feed;
   CameraPreset camera = CameraPreset::kAuto;
+  ViewMode view = ViewMode::kOrbit;
   std::optional<GuestId> focus;
   QualityWish quality = QualityWish::kAuto;
   PictureSize size;
   bool hud = true;
   bool tags = true;
-  bool compare = false;  // two halves, where there are raw twins (viewer/scene/comparison.h)
+
+  DisplayMode display = DisplayMode::kTearFree;
+  std::optional<Duration> display_latency;  // from a turn of the display to its light
+  bool extrapolates = true;
+  bool late_latching = true;
+  bool help_panel = false;  // headless: with the list of keys over the pictures
 
   bool headless = false;
   std::string panel;  // open from the begin: instruments, style; "" = none

@@ -61,7 +61,8 @@ std::optional<ScreenPoint> project(const OrbitCamera& camera, const Vector3f& p_
   const Eigen::Vector4f clip =
       camera.clip_from_world(width_px / height_px) * p_W_m.homogeneous().eval();
   if (clip.w() < kNear_m) return std::nullopt;
-  return ScreenPoint{(0.5f + 0.5f * clip.x() / clip.w()) * width_px,
+  const float side = camera.is_mirrored ? -0.5f : 0.5f;
+  return ScreenPoint{(0.5f + side * clip.x() / clip.w()) * width_px,
                      (0.5f - 0.5f * clip.y() / clip.w()) * height_px, clip.w()};
 }
 

@@ -20,6 +20,9 @@ struct OrbitCamera {
   float pitch_rad = 0.16f;
   float distance_m = 4.5f;
   float fov_y_rad = 0.62f;  // narrow, so that people at the sides keep their proportions
+  // The finished picture is turned round, left for right, before anything is written on it; the
+  // matrices below do not know of it, project() does.
+  bool is_mirrored = false;
 
   Eigen::Vector3f eye_W_m() const;
   // Columns: right, up and backward of the camera in W.

@@ -24,6 +24,11 @@ bool is_twin(const SceneState& scene, const GuestId& id) {
   return whose && find_guest(scene, *whose) != nullptr;
 }
 
+// Whether the two halves show different poses of this dancer.
+bool is_pair(const SceneGuest* twin, const SceneGuest& guest) {
+  return twin != nullptr || (guest.arriving && guest.staged);
+}
+
 }  // namespace
 
 bool has_twins(const SceneState& scene) {
@@ -31,11 +36,18 @@ bool has_twins(const SceneState& scene) {
                      [&](const SceneGuest& guest) { return is_twin(scene, guest.id); });
 }
 
+bool can_compare(const SceneState& scene) {
+  return has_twins(scene) ||
+         std::any_of(scene.guests.begin(), scene.guests.end(),
+                     [](const SceneGuest& guest) { return guest.arriving && guest.staged; });
+}
+
 Comparison compare(const SceneState& scene) {
-  Comparison comparison{scene, scene};
+  Comparison comparison{scene, scene, has_twins(scene)};
   leave_out_twins(comparison.shown);
   comparison.shown.notes.clear();  // once is enough
   comparison.raw.guests.clear();
+  comparison.raw.stage = -1 - scene.stage;
   // Both halves have the same guests, in one order.
   std::optional<std::size_t> latest;
   for (SceneGuest& shown : comparison.shown.guests) {
@@ -44,7 +56,12 @@ Comparison compare(const SceneState& scene) {
     SceneGuest& raw = comparison.raw.guests.emplace_back(twin != nullptr ? *twin : shown);
     raw.id = shown.id;
     raw.avatar = shown.avatar;
-    if (twin == nullptr || !delay_of(raw)) continue;
+    if (twin == nullptr && is_pair(twin, shown)) {
+      raw.pose = *shown.arriving;
+      raw.figures.beat = shown.arriving_beat;
+      shown.pose = *shown.staged;
+    }
+    if (!is_pair(twin, shown) || !delay_of(raw)) continue;
     shown.is_predicted = delay_of(shown) && is_predicted(*delay_of(shown), *delay_of(raw));
     if (!latest || *delay_of(raw) > *delay_of(comparison.raw.guests[*latest]))
       latest = comparison.raw.guests.size() - 1;

@@ -57,6 +57,13 @@ struct SceneGuest {
   float height_scale = 1.0f;  // times that size; kept within the two bounds above
   float opacity = 1.0f;       // 0 = faded out
   GuestFigures figures;
+  // For the picture from this guest's own eyes: the head would hide everything.
+  bool hides_head = false;
+  // What a view that compares shows on its left and right: the pose as it came into this house, and
+  // as its routes put it on the stage. Not set: nothing was heard there.
+  std::optional<Pose> arriving = {};
+  std::optional<BeatFigures> arriving_beat = {};
+  std::optional<Pose> staged = {};
   // Of a Comparison: that the figures of this dancer stand under both halves, and that this half
   // shows a prediction of the dance.
   bool is_compared = false;
@@ -65,6 +72,10 @@ struct SceneGuest {
 
 struct SceneState {
   MonoTime time;  // of the picture, in the house's clock
+  // One picture may show several stages: halves of a comparison, cells of a grid. What is kept of a
+  // guest from picture to picture (hair, feet) is kept for each stage by itself.
+  int stage = 0;
+  bool shows_trails = false;  // of hands, over the last moments
   std::vector<SceneGuest> guests;
   std::optional<SceneMusic> music;
   // Free lines at the bottom left: the viewer's own rate, a hint when no dancer is here.

@@ -9,22 +9,70 @@ Result<std::unique_ptr<StagePainter>> StagePainter::create(Quality quality, floa
   return painter;
 }
 
-Result<void> StagePainter::draw(const SceneState& scene, const OrbitCamera& camera, int width_px,
-                                int height_px, const OverlayChoice& choice) {
-  return draw_stage(scene, camera, width_px, height_px, choice, look_);
+StageLook StagePainter::look_of(const SceneState& scene) const {
+  StageLook look = look_;
+  look.trails = look.trails || scene.shows_trails;
+  if (scene.stage != 0) look.stage = scene.stage;
+  for (const SceneGuest& guest : scene.guests)
+    if (guest.hides_head) look.through_eyes_of = guest.id;
+  return look;
 }
 
-Result<void> StagePainter::draw_stage(const SceneState& scene, const OrbitCamera& camera,
-                                      int width_px, int height_px, const OverlayChoice& choice,
-                                      const StageLook& look) {
+Result<void> StagePainter::draw(const SceneState& scene, const OrbitCamera& camera, int width_px,
+                                int height_px, const OverlayChoice& choice) {
   is_wide_ = false;
-  renderer_->set_look(look);
+  renderer_->set_look(look_of(scene));
   if (auto drawn = renderer_->draw(scene, camera, width_px, height_px); !drawn) return drawn;
+  if (camera.is_mirrored) mirror_into_wide(width_px, height_px);
   find_tag_anchors(scene);
   OverlayChoice with_anchors = choice;
   with_anchors.tag_anchors_W_m = tag_anchors_W_m_;
   overlay_->draw(scene, camera, width_px, height_px, with_anchors);
   return {};
+}
+
+Result<void> StagePainter::draw(std::span<const StageCell> cells, int width_px, int height_px,
+                                const OverlayChoice& choice) {
+  if (cells.size() == 1) {
+    renderer_->set_light_yaw(cells.front().light_yaw_rad);
+    return draw(*cells.front().scene, cells.front().camera, width_px, height_px, choice);
+  }
+  resize_wide(width_px, height_px);
+  clear_wide();
+  OverlayChoice words;
+  words.tags = choice.tags;
+  words.hud = false;  // no room in a cell
+  for (const StageCell& cell : cells) {
+    renderer_->set_light_yaw(cell.light_yaw_rad);
+    if (auto drawn = draw(*cell.scene, cell.camera, cell.box.width_px, cell.box.height_px, words);
+        !drawn)
+      return drawn;
+    copy_half(cell.box.left_px, height_px - cell.box.top_px - cell.box.height_px);
+  }
+  is_wide_ = true;
+  glBindFramebuffer(GL_FRAMEBUFFER, wide_.name());
+  glViewport(0, 0, width_px, height_px);
+  overlay_->draw_frames(cells, width_px, height_px, choice);
+  return {};
+}
+
+void StagePainter::clear_wide() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, wide_.name());
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(0.02f, 0.022f, 0.03f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void StagePainter::mirror_into_wide(int width_px, int height_px) {
+  resize_wide(width_px, height_px);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_->target().finished().name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, wide_.name());
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, width_px, height_px, width_px, 0, 0, height_px, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+  is_wide_ = true;
+  glBindFramebuffer(GL_FRAMEBUFFER, wide_.name());
+  glViewport(0, 0, width_px, height_px);
 }
 
 // Over the head of the figure; of a guest without one, over the dancer's.
@@ -53,9 +101,7 @@ Result<void> StagePainter::draw(const Comparison& comparison, const OrbitCamera&
   words.hud = false;       // the beat panels have the figures
   words.panels = nullptr;  // drawn once, over both halves
   for (const SceneState* scene : {&comparison.raw, &comparison.shown}) {
-    StageLook look = look_;
-    if (scene == &comparison.raw) look.stage = -1 - look_.stage;
-    if (auto drawn = draw_stage(*scene, camera, half_px, height_px - panel_px, words, look); !drawn)
+    if (auto drawn = draw(*scene, camera, half_px, height_px - panel_px, words); !drawn)
       return drawn;
     copy_half(scene == &comparison.raw ? 0 : width_px - half_px, panel_px);
   }

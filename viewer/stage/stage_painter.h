@@ -8,10 +8,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "viewer/gl/picture.h"
 #include "viewer/overlay/overlay.h"
+#include "viewer/scene/stage_picture.h"
 #include "viewer/stage/stage_renderer.h"
 
 namespace dance {
@@ -20,10 +22,15 @@ class StagePainter {
  public:
   static Result<std::unique_ptr<StagePainter>> create(Quality quality, float scale);
 
-  // Of the pictures that follow. The halves of a comparison are two stages.
+  // Of the pictures that follow. Which stage it is, whose eyes are looked through and whether hands
+  // have trails is told by the scene too.
   void set_look(const StageLook& look) { look_ = look; }
 
+  // A mirrored camera's picture is turned round before names are written on it.
   Result<void> draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
+                    const OverlayChoice& choice);
+  // Several stages, each in its place; panels over all of it.
+  Result<void> draw(std::span<const StageCell> cells, int width_px, int height_px,
                     const OverlayChoice& choice);
   // Two halves from one camera, the beats under each.
   Result<void> draw(const Comparison& comparison, const OrbitCamera& camera, int width_px,
@@ -40,11 +47,12 @@ class StagePainter {
 
  private:
   StagePainter() = default;
-  Result<void> draw_stage(const SceneState& scene, const OrbitCamera& camera, int width_px,
-                          int height_px, const OverlayChoice& choice, const StageLook& look);
+  StageLook look_of(const SceneState& scene) const;
   void find_tag_anchors(const SceneState& scene);
   void resize_wide(int width_px, int height_px);
   void copy_half(int left_px, int bottom_px) const;
+  void clear_wide() const;
+  void mirror_into_wide(int width_px, int height_px);
   GLuint finished() const {
     return is_wide_ ? wide_.name() : renderer_->target().finished().name();
   }

@@ -1,17 +1,16 @@
 #include "viewer/window/view_window.h"
 
-// epoxy first: GLFW then leaves OpenGL's own headers out.
-#include <epoxy/gl.h>
-// clang-format off
+#ifndef GLFW_INCLUDE_NONE
+#define GLFW_INCLUDE_NONE  // OpenGL comes from epoxy
+#endif
 #include <GLFW/glfw3.h>
-// clang-format on
-
+#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
+#include "core/base/printable.h"
 #include "core/program/program.h"
 
 namespace dance {
@@ -20,51 +19,125 @@ namespace {
 constexpr const char* kCure =
     "; make pictures instead with: dance view --headless --out DIR, or start it from a desktop";
 
+// A driver's or display server's words may hold anything.
 std::string last_glfw_error() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text != nullptr ? text : "no reason given";
+  return text != nullptr ? printable(text) : "no reason given";
 }
 
 ViewWindow& self_of(GLFWwindow* window) {
   return *static_cast<ViewWindow*>(glfwGetWindowUserPointer(window));
 }
 
+// Where panels are drawn they may want the mouse.
+bool panels_have_mouse() {
+  return ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse;
+}
+
+// The key that bears this letter on the person's own keyboard; GLFW numbers keys by their places on
+// an American one. Keys of digits stay: on some keyboards those print other things.
+int printed_key(int key, int scancode) {
+  if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key;
+  const char* name = key == GLFW_KEY_UNKNOWN || key < 128 ? glfwGetKeyName(key, scancode) : nullptr;
+  if (name == nullptr || name[0] <= ' ' || name[0] > '~' || name[1] != '\0') return key;
+  return name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + GLFW_KEY_A : name[0];
+}
+
+// The monitor that most of the window lies on; null without monitors.
+GLFWmonitor* monitor_of(GLFWwindow* window) {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  int left = 0, top = 0, width = 0, height = 0;
+  glfwGetWindowPos(window, &left, &top);
+  glfwGetWindowSize(window, &width, &height);
+  GLFWmonitor* best = glfwGetPrimaryMonitor();
+  int most = 0;
+  for (int i = 0; i < count; ++i) {
+    int x = 0, y = 0;
+    glfwGetMonitorPos(monitors[i], &x, &y);
+    const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+    if (mode == nullptr) continue;
+    const int across = std::min(left + width, x + mode->width) - std::max(left, x);
+    const int down = std::min(top + height, y + mode->height) - std::max(top, y);
+    if (across <= 0 || down <= 0 || across * down <= most) continue;
+    most = across * down;
+    best = monitors[i];
+  }
+  return best;
+}
+
 }  // namespace
 
-Result<std::unique_ptr<ViewWindow>> ViewWindow::create(Size size, CameraRig& rig) {
+Result<std::unique_ptr<ViewWindow>> ViewWindow::create(Size size, WindowEvents& events) {
   if (display_name().empty())
     return fail(std::string("no display here (DISPLAY is not set)") + kCure);
-  std::unique_ptr<ViewWindow> self(new ViewWindow(rig));
+  std::unique_ptr<ViewWindow> self(new ViewWindow(events));
   if (glfwInit() != GLFW_TRUE)
     return fail("the display cannot be opened (" + last_glfw_error() + ")" + kCure);
+  if (auto opened = self->open(size); !opened) return tl::make_unexpected(opened.error());
+  return self;
+}
+
+bool ViewWindow::make_window(Size size, bool is_robust) {
+  glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  if (is_robust) glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  self->window_ = glfwCreateWindow(size.width_px, size.height_px, "DanceGraph", nullptr, nullptr);
-  if (self->window_ == nullptr)
-    return fail("no window with OpenGL 3.3 can be had (" + last_glfw_error() + ")" + kCure);
-  glfwMakeContextCurrent(self->window_);
-  glfwSwapInterval(1);
-  glfwSetWindowSizeLimits(self->window_, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  window_ = glfwCreateWindow(size.width_px, size.height_px, "DanceGraph", nullptr, nullptr);
+  return window_ != nullptr;
+}
 
-  glfwSetWindowUserPointer(self->window_, self.get());
-  glfwSetKeyCallback(self->window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-    self_of(w).on_key(key, action, modifiers);
+Result<void> ViewWindow::open(Size size) {
+  // Some drivers know no contexts that tell their loss.
+  if (!make_window(size, true) && !make_window(size, false))
+    return fail("no window with OpenGL 3.3 can be had (" + last_glfw_error() + ")" + kCure);
+  glfwMakeContextCurrent(window_);
+  tells_loss_ = glfwGetWindowAttrib(window_, GLFW_CONTEXT_ROBUSTNESS) != GLFW_NO_ROBUSTNESS &&
+                (epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_robustness"));
+  is_made_lost_ = false;
+  set_tear_free(is_tear_free_);
+  glfwSetWindowSizeLimits(window_, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  hear_events();
+  return {};
+}
+
+void ViewWindow::hear_events() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    self_of(w).on_key(key, scancode, action, modifiers);
   });
-  glfwSetCursorPosCallback(self->window_,
+  glfwSetCharCallback(window_,
+                      [](GLFWwindow* w, unsigned int letter) { self_of(w).on_letter(letter); });
+  glfwSetCursorPosCallback(window_,
                            [](GLFWwindow* w, double x, double y) { self_of(w).on_cursor(x, y); });
-  glfwSetMouseButtonCallback(self->window_, [](GLFWwindow* w, int button, int action, int mods) {
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
     self_of(w).on_button(button, action, mods);
   });
-  glfwSetScrollCallback(self->window_, [](GLFWwindow* w, double, double notches) {
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double notches) {
     self_of(w).on_wheel(static_cast<float>(notches));
   });
-  return self;
+}
+
+Result<void> ViewWindow::renew() {
+  int left = 0, top = 0, width = 0, height = 0;
+  glfwGetWindowPos(window_, &left, &top);
+  glfwGetWindowSize(window_, &width, &height);
+  float scale_x = 1.0f, scale_y = 1.0f;
+  glfwGetWindowContentScale(window_, &scale_x, &scale_y);
+  glfwDestroyWindow(window_);
+  window_ = nullptr;
+  drag_ = WindowDrag::kNone;
+  if (auto opened = open({width, height}); !opened) return opened;
+  // Sizes are scaled to the monitor when a window is made; these were already.
+  glfwSetWindowSize(window_, width, height);
+  glfwSetWindowPos(window_, left, top);
+  return {};
 }
 
 ViewWindow::~ViewWindow() {
@@ -78,6 +151,23 @@ void ViewWindow::wait_for_events(Duration longest) {
 }
 void ViewWindow::swap() { glfwSwapBuffers(window_); }
 bool ViewWindow::is_over() const { return glfwWindowShouldClose(window_) != 0; }
+
+bool ViewWindow::set_tear_free(bool is_tear_free) {
+  is_tear_free_ = is_tear_free;
+  const bool can_tear_when_late = glfwExtensionSupported("GLX_EXT_swap_control_tear") != 0 ||
+                                  glfwExtensionSupported("EGL_EXT_swap_control_tear") != 0 ||
+                                  glfwExtensionSupported("WGL_EXT_swap_control_tear") != 0;
+  glfwSwapInterval(is_tear_free ? 1 : can_tear_when_late ? -1 : 0);
+  return can_tear_when_late;
+}
+
+bool ViewWindow::is_context_lost() const {
+  if (is_made_lost_) return true;
+  if (!tells_loss_) return false;
+  const GLenum status =
+      epoxy_gl_version() >= 45 ? glGetGraphicsResetStatus() : glGetGraphicsResetStatusARB();
+  return status != GL_NO_ERROR;
+}
 
 ViewWindow::Size ViewWindow::framebuffer_size() const {
   Size size{0, 0};
@@ -95,25 +185,10 @@ float ViewWindow::scale() const {
 
 double ViewWindow::refresh_hz() const {
   constexpr double kUnknown_hz = 60.0;
-  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  GLFWmonitor* monitor = monitor_of(window_);
   const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
   if (mode == nullptr || mode->refreshRate < 20) return kUnknown_hz;
   return std::min(mode->refreshRate, 480);
-}
-
-std::optional<std::size_t> ViewWindow::take_focus_key() {
-  return std::exchange(focus_key_, std::nullopt);
-}
-
-void ViewWindow::on_wheel(float notches) {
-  if (panels_have_mouse())
-    wheel_ += notches;
-  else
-    rig_.zoom(notches);
-}
-
-bool ViewWindow::panels_have_mouse() const {
-  return panels_ != nullptr && ImGui::GetIO().WantCaptureMouse;
 }
 
 void ViewWindow::pass_input_to_panels() {
@@ -131,28 +206,31 @@ void ViewWindow::pass_input_to_panels() {
   io.MouseWheel = std::exchange(wheel_, 0.0f);
 }
 
-void ViewWindow::on_key(int key, int action, int modifiers) {
+void ViewWindow::on_key(int key, int scancode, int action, int modifiers) {
   if (action == GLFW_RELEASE) return;
-  const KeyPress press{key, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0,
-                       (modifiers & GLFW_MOD_CONTROL) != 0};
-  if (panels_ != nullptr && panels_->on_key(press)) return;
-  if (action != GLFW_PRESS) return;
-  if (key == GLFW_KEY_Q || key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
-  if (key == GLFW_KEY_F) rig_.frame_all();
-  if (key == GLFW_KEY_SPACE) rig_.toggle_turning();
-  if (key == GLFW_KEY_H) shows_hud_ = !shows_hud_;
-  if (key == GLFW_KEY_C) compares_ = !compares_;
-  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9)
-    focus_key_ = static_cast<std::size_t>(key - GLFW_KEY_1);
+  events_.on_key({printed_key(key, scancode), action == GLFW_REPEAT,
+                  (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
+}
+
+// The question mark lies on another key in each country: it is known by what it prints.
+void ViewWindow::on_letter(unsigned int letter) {
+  if (letter == '?') events_.on_key({GLFW_KEY_F1});
+}
+
+void ViewWindow::on_wheel(float notches) {
+  if (panels_have_mouse())
+    wheel_ += notches;
+  else
+    events_.on_wheel(notches);
 }
 
 void ViewWindow::on_button(int button, int action, int modifiers) {
   if (action != GLFW_PRESS || panels_have_mouse()) {
-    drag_ = Drag::kNone;
+    drag_ = WindowDrag::kNone;
     return;
   }
   const bool pans = button != GLFW_MOUSE_BUTTON_LEFT || (modifiers & GLFW_MOD_SHIFT) != 0;
-  drag_ = pans ? Drag::kPan : Drag::kOrbit;
+  drag_ = pans ? WindowDrag::kPan : WindowDrag::kOrbit;
   glfwGetCursorPos(window_, &last_x_, &last_y_);
 }
 
@@ -165,8 +243,7 @@ void ViewWindow::on_cursor(double x, double y) {
   const auto up = static_cast<float>((last_y_ - y) * scale);
   last_x_ = x;
   last_y_ = y;
-  if (drag_ == Drag::kOrbit) rig_.drag_orbit(right, up);
-  if (drag_ == Drag::kPan) rig_.drag_pan(right, up);
+  if (drag_ != WindowDrag::kNone) events_.on_drag(drag_, right, up);
 }
 
 }  // namespace dance

@@ -1,24 +1,32 @@
-// ViewWindow: a GLFW window with an OpenGL 3.3 core context, and what its mouse and keys do to the
-// camera.
+// ViewWindow: a GLFW window with an OpenGL 3.3 core context. Mouse and keys go to WindowEvents.
 //
 // Units/frames: drags as shares of the window's height.
-// Ownership:    owns the window; one per process. Borrows the rig.
+// Ownership:    owns the window; one per process. Borrows who hears its events.
 // Threads:      the main thread, as window systems want it.
-// Failure:      create() reports a missing display, and the alternative.
+// Failure:      create() and renew() report a missing display or OpenGL, and the alternative. A
+//               context that the driver has given up is told by is_context_lost().
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "core/base/result.h"
 #include "core/base/time.h"
-#include "viewer/panel/panel_stack.h"
-#include "viewer/window/camera_rig.h"
+#include "viewer/panel/window_panel.h"
 
 struct GLFWwindow;
 
 namespace dance {
+
+enum class WindowDrag { kNone, kOrbit, kPan };
+
+class WindowEvents {
+ public:
+  virtual ~WindowEvents() = default;
+  virtual void on_key(const KeyPress& press) = 0;
+  virtual void on_drag(WindowDrag drag, float right, float up) = 0;
+  virtual void on_wheel(float notches) = 0;
+};
 
 class ViewWindow {
  public:
@@ -27,7 +35,7 @@ class ViewWindow {
     int height_px;
   };
 
-  static Result<std::unique_ptr<ViewWindow>> create(Size size, CameraRig& rig);
+  static Result<std::unique_ptr<ViewWindow>> create(Size size, WindowEvents& events);
   ~ViewWindow();
   ViewWindow(const ViewWindow&) = delete;
   ViewWindow& operator=(const ViewWindow&) = delete;
@@ -37,38 +45,43 @@ class ViewWindow {
   void wait_for_events(Duration longest);
   // Shows what was drawn; waits for the display's turn where the driver can.
   void swap();
+  // Whether swap() waits. Otherwise a late picture is shown at once: with the driver's help only
+  // that one (true is returned), else any.
+  bool set_tear_free(bool is_tear_free);
+
+  // The graphics card was reset, or the driver has lost what it knew. Everything of OpenGL must be
+  // let go; renew() then gives a window at the same place with another context.
+  bool is_context_lost() const;
+  Result<void> renew();
+  // As if the driver had said so: for tests.
+  void lose_context() { is_made_lost_ = true; }
 
   Size framebuffer_size() const;  // 0 when minimised
   float scale() const;            // of the monitor that the window is on
-  double refresh_hz() const;
+  double refresh_hz() const;      // of that monitor; 60 where it is not known
   bool is_over() const;
-  bool shows_hud() const { return shows_hud_; }
-  bool compares() const { return compares_; }
-  void set_comparing(bool compares) { compares_ = compares; }
-  // Keys go to these first.
-  void set_panels(PanelStack* panels) { panels_ = panels; }
-  // Tells Dear ImGui where the mouse is and what was typed: before each picture.
+  GLFWwindow* handle() const { return window_; }
+  // Tells Dear ImGui where the mouse is: before each picture.
   void pass_input_to_panels();
-  // The guest of the number key that was pressed last, from 0; once.
-  std::optional<std::size_t> take_focus_key();
 
  private:
-  explicit ViewWindow(CameraRig& rig) : rig_(rig) {}
-  void on_key(int key, int action, int modifiers);
+  explicit ViewWindow(WindowEvents& events) : events_(events) {}
+  Result<void> open(Size size);
+  bool make_window(Size size, bool is_robust);
+  void hear_events();
+  void on_key(int key, int scancode, int action, int modifiers);
+  void on_letter(unsigned int letter);
   void on_wheel(float notches);
-  bool panels_have_mouse() const;
   void on_cursor(double x, double y);
   void on_button(int button, int action, int modifiers);
 
-  CameraRig& rig_;
-  PanelStack* panels_ = nullptr;
-  float wheel_ = 0.0f;  // notches that panels have not seen
+  WindowEvents& events_;
   GLFWwindow* window_ = nullptr;
-  bool shows_hud_ = true;
-  bool compares_ = false;
-  std::optional<std::size_t> focus_key_;
-  enum class Drag { kNone, kOrbit, kPan };
-  Drag drag_ = Drag::kNone;
+  bool tells_loss_ = false;  // glGetGraphicsResetStatus can be asked
+  bool is_made_lost_ = false;
+  bool is_tear_free_ = true;
+  float wheel_ = 0.0f;  // notches that panels have not seen
+  WindowDrag drag_ = WindowDrag::kNone;
   double last_x_ = 0.0;
   double last_y_ = 0.0;
 };

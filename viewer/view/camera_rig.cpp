@@ -1,4 +1,4 @@
-#include "viewer/window/camera_rig.h"
+#include "viewer/view/camera_rig.h"
 
 #include <algorithm>
 #include <cmath>

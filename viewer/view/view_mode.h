@@ -1,0 +1,38 @@
+// ViewMode: how a stage is looked at, with the names that options and pictures use.
+//
+// Threads: constants only.
+// Failure: none.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace dance {
+
+enum class ViewMode { kOrbit, kFollow, kMirror, kFirstPerson, kCompare, kGrid };
+
+struct ViewName {
+  ViewMode mode;
+  std::string_view option;  // of --view
+  std::string_view words;   // in the window
+};
+
+constexpr std::array<ViewName, 6> kViewNames{{
+    {ViewMode::kOrbit, "orbit", "the whole stage"},
+    {ViewMode::kFollow, "follow", "following"},
+    {ViewMode::kMirror, "mirror", "in the mirror:"},
+    {ViewMode::kFirstPerson, "first-person", "through the eyes of"},
+    {ViewMode::kCompare, "compare", "as it comes | as it is staged"},
+    {ViewMode::kGrid, "grid", "each in a place of their own"},
+}};
+
+constexpr const ViewName& name_of(ViewMode mode) {
+  return kViewNames[static_cast<std::size_t>(mode)];
+}
+
+// Views of one dancer.
+constexpr bool is_of_one(ViewMode mode) {
+  return mode == ViewMode::kFollow || mode == ViewMode::kMirror || mode == ViewMode::kFirstPerson;
+}
+
+}  // namespace dance

@@ -1,0 +1,59 @@
+#include "viewer/window/window_input.h"
+
+namespace dance {
+
+void WindowInput::on_key(const KeyPress& press) {
+  if (panels_.on_key(press)) return;
+  if (const auto command = window_command(press)) obey(*command);
+}
+
+void WindowInput::on_drag(WindowDrag drag, float right, float up) {
+  if (drag == WindowDrag::kOrbit)
+    director_.drag_orbit(right, up);
+  else
+    director_.drag_pan(right, up);
+}
+
+void WindowInput::obey(const WindowCommand& command) {
+  switch (command.action) {
+    case WindowAction::kNone:
+      return;
+    case WindowAction::kNextView:
+      return director_.show_next(command.step);
+    case WindowAction::kShowView:
+      return director_.show(command.view == director_.mode() ? ViewMode::kOrbit : command.view);
+    case WindowAction::kChooseNumber:
+      state_.chosen_number = command.step;
+      return;
+    case WindowAction::kNextGuest:
+      state_.chosen_step += command.step;
+      return;
+    case WindowAction::kZoom:
+      return director_.zoom(static_cast<float>(command.step));
+    case WindowAction::kStartOver:
+      return director_.start_over();
+    case WindowAction::kRotate:
+      return director_.toggle_turning();
+    case WindowAction::kTrails:
+      state_.shows_trails = !state_.shows_trails;
+      return;
+    case WindowAction::kTags:
+      state_.shows_tags = !state_.shows_tags;
+      return;
+    case WindowAction::kHud:
+      state_.shows_hud = !state_.shows_hud;
+      return;
+    case WindowAction::kDisplayMode:
+      state_.display = state_.display == DisplayMode::kTearFree ? DisplayMode::kLowLatency
+                                                                : DisplayMode::kTearFree;
+      return;
+    case WindowAction::kExtrapolate:
+      state_.extrapolates = !state_.extrapolates;
+      return;
+    case WindowAction::kClose:
+      state_.is_over = true;
+      return;
+  }
+}
+
+}  // namespace dance

@@ -1,0 +1,24 @@
+// The panels of the window: the one place that names them.
+//
+// Ownership: the stack owns what is added.
+// Threads:   the drawing thread.
+// Failure:   none.
+#pragma once
+
+#include "viewer/feed/picture_source.h"
+#include "viewer/instruments/instrument_panel.h"
+#include "viewer/panel/panel_stack.h"
+
+namespace dance {
+
+// What panels may work with; it outlives them.
+struct PanelNeeds {
+  const ViewOptions& options;
+  PictureSource& source;
+  InstrumentRecords& records;
+};
+
+// The first hears keys first; the last is drawn in front.
+void add_panels(const PanelNeeds& needs, PanelStack& panels);
+
+}  // namespace dance

@@ -1,0 +1,227 @@
+#include "viewer/window/window_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "core/net/mono_clock.h"
+#include "core/program/talk.h"
+#include "viewer/gl/offscreen.h"
+#include "viewer/window/window_panels.h"
+
+namespace dance {
+namespace {
+
+// Events are waited for up to so short before poses are taken; the rest is slept exactly.
+constexpr Duration kFineWait = Duration::us(1'200);
+constexpr Duration kMinimised = Duration::ms(100);
+constexpr Duration kFiguresHold = Duration::ms(500);  // else they cannot be read
+constexpr int kMostContextsLost = 20;
+
+Quality quality_of(QualityWish wish) {
+  if (wish == QualityWish::kAuto) return is_software_rendering() ? Quality::kLow : Quality::kHigh;
+  return wish == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
+}
+
+DisplayPath::Options path_options(const ViewOptions& options, DisplayMode mode) {
+  DisplayPath::Options path;
+  path.is_late_latching = options.late_latching;
+  path.latency = options.display_latency;
+  // In low-latency mode swap calls wait only where the driver can tear late pictures alone; what it
+  // does is found out by looking.
+  path.waits_for_display = true;
+  static_cast<void>(mode);
+  return path;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
+                                                     PictureSource& source) {
+  std::unique_ptr<WindowRun> run(new WindowRun(options, source));
+  DANCE_TRY(run->window_,
+            ViewWindow::create({options.size.width_px, options.size.height_px}, run->input_));
+  if (auto made = run->make_painter(); !made) return tl::make_unexpected(made.error());
+  if (!run->painter_->overlay().font_note().empty())
+    talk::info("{}", run->painter_->overlay().font_note());
+  if (options.quality == QualityWish::kAuto && run->painter_->renderer().quality() == Quality::kLow)
+    talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
+  add_panels({options, source, run->records_}, run->panels_);
+  run->apply_display_mode();
+  return run;
+}
+
+WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
+    : options_(options),
+      source_(source),
+      director_(options.camera, options.view),
+      path_(Duration::period_of_hz(60.0), path_options(options, options.display)),
+      display_(options.display),
+      begun_(mono_now()),
+      roster_(source.board()) {
+  state_.display = options.display;
+  state_.extrapolates = options.extrapolates;
+  state_.shows_hud = options.hud;
+  state_.shows_tags = options.tags;
+  if (options.focus) director_.choose(*options.focus);
+  director_.rig().set_turning(options.camera == CameraPreset::kAuto ||
+                              options.camera == CameraPreset::kOrbit);
+}
+
+WindowRun::~WindowRun() = default;
+
+Result<void> WindowRun::make_painter() {
+  DANCE_TRY(painter_, StagePainter::create(quality_of(options_.quality), window_->scale()));
+  painter_->renderer().build_meshes_beside();
+  return {};
+}
+
+void WindowRun::apply_display_mode() {
+  display_ = state_.display;
+  window_->set_tear_free(display_ == DisplayMode::kTearFree);
+  path_.start_over(Duration::period_of_hz(window_->refresh_hz()), path_options(options_, display_));
+}
+
+bool WindowRun::is_over() const {
+  return state_.is_over || window_->is_over() || source_.is_over();
+}
+
+Result<void> WindowRun::run() {
+  while (!is_over())
+    if (auto turned = turn(); !turned) return turned;
+  return {};
+}
+
+Result<void> WindowRun::turn() {
+  window_->poll_events();
+  if (window_->is_context_lost()) return renew_after_loss();
+  if (state_.display != display_) apply_display_mode();
+  wait_to_take();
+  // Asked late: a size from before the wait would be drawn once too small or too large.
+  const ViewWindow::Size size = window_->framebuffer_size();
+  if (size.width_px <= 0 || size.height_px <= 0) {  // minimised: nothing to draw
+    window_->wait_for_events(kMinimised);
+    return {};
+  }
+  return show(size);
+}
+
+// What was on the graphics card is gone, and so is the context; all of it is made anew.
+Result<void> WindowRun::renew_after_loss() {
+  if (++contexts_lost_ > kMostContextsLost)
+    return fail(
+        "the graphics driver keeps losing what was drawn; start again, or make pictures "
+        "with: dance view --headless --out DIR");
+  talk::warn("the graphics driver has lost everything: making it anew");
+  painter_.reset();
+  if (auto renewed = window_->renew(); !renewed) return renewed;
+  if (auto made = make_painter(); !made) return made;
+  apply_display_mode();
+  return {};
+}
+
+void WindowRun::wait_to_take() {
+  const MonoTime at = path_.when_to_take(mono_now());
+  for (MonoTime now = mono_now(); now < at && !is_over(); now = mono_now()) {
+    const Duration left = at - now;
+    if (left > kFineWait)
+      window_->wait_for_events(left - kFineWait);
+    else
+      std::this_thread::sleep_for(std::chrono::nanoseconds(left.count_ns()));
+  }
+}
+
+// A recorded house's clock goes along with ours.
+MonoTime WindowRun::house_time(MonoTime now) {
+  return source_.wait_until(source_.begin() + (now - begun_));
+}
+
+void WindowRun::take_poses(MonoTime now) {
+  const MonoTime house_now = house_time(now);
+  roster_.update(house_now, scene_);
+  avatars_.dress(scene_);
+  records_.take(source_.instruments());
+  scene_.shows_trails = state_.shows_trails;
+  predictor_.observe(roster_.fresh());
+  // A recorded stage is shown as it was; so are the halves of a comparison.
+  const bool is_live = source_.recorded() == Duration();
+  if (is_live && state_.extrapolates && director_.mode() != ViewMode::kCompare)
+    predictor_.predict(path_.photon_time(now), scene_);
+}
+
+void WindowRun::choose_guest() {
+  if (state_.chosen_step != 0) director_.choose_next(scene_, state_.chosen_step);
+  if (state_.chosen_number && *state_.chosen_number < static_cast<int>(scene_.guests.size()))
+    director_.choose(scene_.guests[static_cast<std::size_t>(*state_.chosen_number)].id);
+  state_.chosen_step = 0;
+  state_.chosen_number.reset();
+}
+
+void WindowRun::write_notes(MonoTime now) {
+  scene_.notes.clear();
+  focus_was_here_ =
+      focus_was_here_ || std::any_of(scene_.guests.begin(), scene_.guests.end(),
+                                     [&](const SceneGuest& it) { return it.id == options_.focus; });
+  write_stage_notes(options_, source_.name(), director_.words(), focus_was_here_, scene_);
+  if (!state_.shows_hud) return;
+  if (now - figures_since_ > kFiguresHold) {
+    swap_figures_ = meter_.figures(now);
+    figures_since_ = now;
+  }
+  write_figure_notes({rate_.hz(), path_.phase(), path_.period(), path_.missed(), display_,
+                      options_.late_latching, swap_figures_},
+                     scene_);
+}
+
+Result<void> WindowRun::draw(ViewWindow::Size size, Duration since_last) {
+  director_.update(
+      scene_, {size.width_px, size.height_px, painter_->overlay().panel_height_px(size.height_px)},
+      since_last);
+  write_notes(mono_now());
+  painter_->overlay().set_scale(window_->scale());
+  window_->pass_input_to_panels();
+  OverlayChoice choice{state_.shows_tags, state_.shows_hud};
+  choice.panels = &panels_;
+  choice.whole = &scene_;
+  if (director_.comparison()) {
+    painter_->renderer().set_light_yaw(director_.light_yaw_rad());
+    return painter_->draw(*director_.comparison(), director_.camera(), size.width_px,
+                          size.height_px, choice);
+  }
+  return painter_->draw(director_.cells(), size.width_px, size.height_px, choice);
+}
+
+Result<void> WindowRun::show(ViewWindow::Size size) {
+  PictureTimes times;
+  times.taken = mono_now();
+  take_poses(times.taken);
+  choose_guest();
+  const Duration since_last =
+      last_house_time_.is_set() ? scene_.time - last_house_time_ : Duration();
+  last_house_time_ = scene_.time;
+  if (auto drawn = draw(size, since_last); !drawn) {
+    // A driver that has lost its context refuses everything.
+    if (window_->is_context_lost()) return renew_after_loss();
+    return drawn;
+  }
+  painter_->present();
+  glFinish();  // so that drawing is measured, and swap() waits for the display alone
+  times.drawn = mono_now();
+  window_->swap();
+  times.swapped = mono_now();
+  ++pictures_;
+  report(times);
+  return {};
+}
+
+void WindowRun::report(const PictureTimes& times) {
+  path_.on_picture(times);
+  rate_.on_picture(times.swapped);
+  for (const StageRoster::Fresh& fresh : roster_.fresh())
+    if (fresh.pose.clock_id == this_clock_id() && fresh.pose.capture_time.is_set() &&
+        source_.recorded() == Duration())
+      meter_.add(fresh.pose.capture_time, fresh.heard, times);
+  source_.report_shown(roster_.fresh(), times.swapped);
+}
+
+}  // namespace dance

@@ -1,0 +1,105 @@
+// WindowRun: the window's loop: events, the moment at which poses are taken (DisplayPath), the
+// picture, the swap, and what was measured on the way. It outlives a lost OpenGL context.
+//
+// Units/frames: MonoTime of this process; the scene in the house's clock.
+// Ownership:    owns window, painter and panels; borrows the source and the options.
+// Threads:      the main thread. The bus has its own: a swap that waits holds up nothing else.
+// Failure:      create() and run() name what display or driver refuse, and the cure.
+#pragma once
+
+#include <memory>
+
+#include "viewer/avatar/avatar_library.h"
+#include "viewer/display/display_path.h"
+#include "viewer/display/swap_meter.h"
+#include "viewer/feed/photon_predictor.h"
+#include "viewer/feed/picture_source.h"
+#include "viewer/instruments/instrument_panel.h"
+#include "viewer/stage/stage_painter.h"
+#include "viewer/view/view_director.h"
+#include "viewer/window/view_window.h"
+#include "viewer/window/window_input.h"
+#include "viewer/window/window_notes.h"
+#include "viewer/window/window_state.h"
+
+namespace dance {
+
+// How often pictures come, averaged over about a second.
+class PictureRate {
+ public:
+  void on_picture(MonoTime now) {
+    if (last_.is_set()) {
+      const double period_s = (now - last_).as_seconds();
+      mean_period_s_ += std::min(1.0, period_s) * (period_s - mean_period_s_);
+    }
+    last_ = now;
+  }
+  double hz() const { return 1.0 / mean_period_s_; }
+
+ private:
+  MonoTime last_;
+  double mean_period_s_ = 1.0 / 60.0;
+};
+
+class WindowRun {
+ public:
+  static Result<std::unique_ptr<WindowRun>> create(const ViewOptions& options,
+                                                   PictureSource& source);
+  ~WindowRun();
+
+  // Until the window is closed or the source ends.
+  Result<void> run();
+  // One turn of it.
+  Result<void> turn();
+  bool is_over() const;
+
+  // For tests.
+  ViewWindow& window() { return *window_; }
+  WindowInput& input() { return input_; }
+  const WindowState& state() const { return state_; }
+  const ViewDirector& director() const { return director_; }
+  const SceneState& scene() const { return scene_; }
+  int contexts_lost() const { return contexts_lost_; }
+  int pictures() const { return pictures_; }
+
+ private:
+  WindowRun(const ViewOptions& options, PictureSource& source);
+  Result<void> make_painter();
+  Result<void> renew_after_loss();
+  void apply_display_mode();
+  void wait_to_take();
+  void take_poses(MonoTime now);
+  void choose_guest();
+  void write_notes(MonoTime now);
+  Result<void> draw(ViewWindow::Size size, Duration since_last);
+  Result<void> show(ViewWindow::Size size);
+  void report(const PictureTimes& times);
+  MonoTime house_time(MonoTime now);
+
+  const ViewOptions& options_;
+  PictureSource& source_;
+  WindowState state_;
+  ViewDirector director_;
+  AvatarLibrary avatars_;
+  InstrumentRecords records_;
+  PanelStack panels_;
+  WindowInput input_{state_, director_, panels_};
+  std::unique_ptr<ViewWindow> window_;
+  std::unique_ptr<StagePainter> painter_;
+  DisplayPath path_;
+  DisplayMode display_;  // that the window has been told
+  SwapMeter meter_;
+  std::optional<SwapFigures> swap_figures_;
+  MonoTime figures_since_;
+  PictureRate rate_;
+  MonoTime begun_;
+  MonoTime last_house_time_;
+  StageRoster roster_;
+  PhotonPredictor predictor_;
+  SceneState scene_;
+  bool focus_was_here_ = false;
+  int contexts_lost_ = 0;
+  int pictures_ = 0;
+};
+
+}  // namespace dance

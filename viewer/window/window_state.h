@@ -1,0 +1,27 @@
+// WindowState: what a person has chosen in the window, beside the view.
+//
+// Ownership: plain value.
+// Threads:   none inside; the drawing thread owns it.
+// Failure:   none.
+#pragma once
+
+#include <optional>
+
+namespace dance {
+
+// Tear-free waits for the display; low latency does so only while drawing keeps up, and shows a
+// late picture at once, torn.
+enum class DisplayMode { kTearFree, kLowLatency };
+
+struct WindowState {
+  bool shows_hud = true;
+  bool shows_tags = true;
+  bool shows_trails = false;
+  bool extrapolates = true;
+  DisplayMode display = DisplayMode::kTearFree;
+  bool is_over = false;
+  std::optional<int> chosen_number;  // of the number key that was pressed last; once
+  int chosen_step = 0;               // guests forwards or backwards; once
+};
+
+}  // namespace dance
