@@ -61,6 +61,7 @@ constexpr std::array kCommands{
             "remote dancers on the beat that the listener hears, on recorded dances"},
     Command{"predict eval",
             "prediction on recorded dances: errors beside simple extrapolators, cost"},
+    Command{"display eval", "extrapolation to the photon on recorded dances, beside holding"},
     Command{"predict train", "trains a model of prediction"},
     Command{"capture stereo eval",
             "depth from two cameras, on drawn dancers whose distance is known"},
@@ -74,6 +75,7 @@ constexpr std::array kCommands{
     Command{"bench hold", "play-out buffers over recorded lines: delay against freezes"},
     Command{"bench adapter", "what an engine pays to read a stage, and how old the dancers are"},
     Command{"bench view", "what a picture of a full stage costs, beside the empty one"},
+    Command{"bench display", "capture to swap: poses taken late, or at frame start"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 

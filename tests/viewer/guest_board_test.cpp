@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/allocation_guard.h"
+#include "viewer/feed/photon_predictor.h"
 #include "viewer/feed/stage_roster.h"
 
 namespace dance {
@@ -131,6 +132,88 @@ TEST(GuestBoard, BelievesTheManagersFiguresWhileTheyAreFresh) {
   EXPECT_EQ(figures.arrival_hz, 33.0f);
   EXPECT_EQ(figures.age_ms, 21.0f);
   EXPECT_EQ(figures.loss_percent, 25.0f);
+}
+
+TEST(GuestBoard, KeepsWhatCameBesideWhatIsStagedInAnyHouse) {
+  GuestBoard board(kOurClock, false);
+  StageRoster roster(board);
+  board.on_pose(Where::kGuest, guest("bob"), pose_at(1.0f, 1), kStart);
+  EXPECT_TRUE(scene_of(roster, kStart).guests.empty()) << "not on the stage, not shown";
+  EXPECT_EQ(board.poses(), 0u);
+  board.on_pose(Where::kStage, guest("bob"), pose_at(2.0f, 1), kStart + Duration::ms(1));
+  board.on_pose(Where::kGuest, guest("bob"), pose_at(3.0f, 2), kStart + Duration::ms(2));
+  // This house's own dancer comes by capture, and by the link too when it hears itself.
+  board.on_pose(Where::kCapture, guest("alice"), pose_at(4.0f, 1), kStart + Duration::ms(1));
+  board.on_pose(Where::kGuest, guest("alice"), pose_at(5.0f, 1), kStart + Duration::ms(1));
+  board.on_pose(Where::kStage, guest("alice"), pose_at(6.0f, 1), kStart + Duration::ms(2));
+  const SceneState scene = scene_of(roster, kStart + Duration::ms(3));
+  ASSERT_EQ(scene.guests.size(), 2u);
+  const SceneGuest& alice = scene.guests[0];
+  const SceneGuest& bob = scene.guests[1];
+  EXPECT_EQ(alice.pose.p_WH_m.x(), 4.0f) << "shown straight from the capture, as ever";
+  ASSERT_TRUE(alice.arriving && alice.staged && bob.arriving && bob.staged);
+  EXPECT_EQ(alice.arriving->p_WH_m.x(), 4.0f);
+  EXPECT_EQ(alice.staged->p_WH_m.x(), 6.0f);
+  EXPECT_EQ(bob.pose.p_WH_m.x(), 2.0f);
+  EXPECT_EQ(bob.arriving->p_WH_m.x(), 3.0f);
+  EXPECT_EQ(bob.staged->p_WH_m.x(), 2.0f);
+}
+
+TEST(StageRoster, TellsAPoseOnceThoughTheOtherHalfOfAComparisonGoesOn) {
+  GuestBoard board(kOurClock, false);
+  StageRoster roster(board);
+  board.on_pose(Where::kStage, guest("bob"), pose_at(1.0f, 1), kStart);
+  scene_of(roster, kStart);
+  EXPECT_EQ(roster.fresh().size(), 1u);
+  board.on_pose(Where::kGuest, guest("bob"), pose_at(2.0f, 2), kStart + Duration::ms(5));
+  scene_of(roster, kStart + Duration::ms(6));
+  EXPECT_TRUE(roster.fresh().empty()) << "what is shown has not changed";
+}
+
+TEST(PhotonPredictor, BringsPosesOfKnownMomentsToTheLightAndLeavesOthers) {
+  GuestBoard board(kOurClock, false);
+  StageRoster roster(board);
+  PhotonPredictor predictor;
+  SceneState scene;
+  MonoTime now = kStart;
+  for (std::uint32_t i = 0; i < 10; ++i, now += Duration::ms(16)) {
+    Pose pose = pose_at(0.016f * static_cast<float>(i), i);  // a metre a second
+    pose.clock_id = kOurClock;
+    pose.capture_time = now - Duration::ms(2);
+    board.on_pose(Where::kCapture, guest("alice"), pose, now);
+    pose.stamp(Hop::kStaged, now - Duration::ms(1));
+    pose.capture_time = now - Duration::ms(80);
+    board.on_pose(Where::kStage, guest("bob"), pose, now);
+    pose.clock_id = kOurClock + 1;
+    board.on_pose(Where::kStage, guest("carl"), pose, now);
+    roster.update(now, scene);
+    predictor.observe(roster.fresh());
+  }
+  const MonoTime last = now - Duration::ms(16);
+  predictor.predict(last + Duration::ms(14), scene);
+  ASSERT_EQ(scene.guests.size(), 3u);
+  EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), 0.144f + 0.0145f, 1e-3f) << "since its capture";
+  EXPECT_NEAR(scene.guests[1].pose.p_WH_m.x(), 0.144f + 0.0137f, 1e-3f) << "since it was staged";
+  EXPECT_EQ(scene.guests[2].pose.p_WH_m.x(), 0.144f) << "another clock";
+}
+
+TEST(PhotonPredictor, AllocatesNothing) {
+  GuestBoard board(kOurClock, false);
+  StageRoster roster(board);
+  PhotonPredictor predictor;
+  SceneState scene;
+  MonoTime now = kStart;
+  for (std::uint32_t i = 0; i < 10; ++i, now += Duration::ms(16)) {
+    Pose pose = pose_at(0.0f, i);
+    pose.clock_id = kOurClock;
+    pose.capture_time = now;
+    board.on_pose(Where::kCapture, guest("alice"), pose, now);
+    roster.update(now, scene);
+    const AllocationGuard guard;
+    predictor.observe(roster.fresh());
+    predictor.predict(now + Duration::ms(16), scene);
+    EXPECT_EQ(guard.allocations(), 0u);
+  }
 }
 
 TEST(GuestBoard, AllocatesNothingPerPose) {

@@ -1,17 +1,22 @@
 // The window's way to pixels, under a virtual display of its own: what is on the screen is what a
 // headless run writes.
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <memory>
 #include <string>
+#include <utility>
 
+#include "core/net/mono_clock.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
 #include "tests/virtual_display.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/stage/stage_painter.h"
-#include "viewer/window/view_window.h"
+#include "viewer/window/window_run.h"
 
 namespace dance {
 namespace {
@@ -78,6 +83,205 @@ TEST(ViewWindow, ShowsThePixelsThatAFileWouldHold) {
   ASSERT_EQ(shown.rgb.size(), headless.rgb.size());
   EXPECT_LT(mean_difference(shown, headless), 0.5);
   EXPECT_FALSE((*window)->is_over());
+}
+
+// A house whose guests are put on its board by the test.
+class BoardSource final : public PictureSource {
+ public:
+  GuestBoard& board() override { return board_; }
+  MonoTime begin() const override { return begin_; }
+  MonoTime wait_until(MonoTime) override { return mono_now(); }
+  bool is_over() const override { return false; }
+  const std::string& name() const override { return name_; }
+  void put(const SceneState& scene) {
+    for (const SceneGuest& guest : scene.guests) {
+      Pose pose = guest.pose;
+      pose.sequence = ++sequence_;
+      board_.on_skeleton(guest.id, guest.skeleton, mono_now());
+      board_.on_pose(Where::kStage, guest.id, pose, mono_now());
+    }
+  }
+
+ private:
+  GuestBoard board_{this_clock_id(), false};
+  MonoTime begin_ = mono_now();
+  std::string name_ = "a test";
+  std::uint32_t sequence_ = 0;
+};
+
+// The loop of the window, turn by turn.
+class WindowRunTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (display_.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
+    setenv("DISPLAY", display_.display().c_str(), 1);
+    options_.size = {kWidth_px, kHeight_px};
+    options_.camera = CameraPreset::kFront;
+    options_.quality = QualityWish::kLow;
+    options_.hud = false;
+    source_.put(couple());
+    auto run = WindowRun::create(options_, source_);
+    if (!run) GTEST_SKIP() << run.error().what;
+    run_ = std::move(*run);
+    keep_drivers_loaded();
+  }
+  void turn(int times) {
+    for (int i = 0; i < times; ++i) {
+      source_.put(couple());
+      const auto turned = run_->turn();
+      ASSERT_TRUE(turned) << turned.error().what;
+    }
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  }
+  void press(int key, bool has_shift = false) {
+    run_->input().on_key({key, false, has_shift, false});
+  }
+  // What the last picture was, before the swap made it undefined: drawn and presented once more.
+  Picture shown() {
+    const ViewWindow::Size size = run_->window().framebuffer_size();
+    run_->painter().present();
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    return read_bound_framebuffer(size.width_px, size.height_px);
+  }
+
+  VirtualDisplay display_;
+  ViewOptions options_;
+  BoardSource source_;
+  std::unique_ptr<WindowRun> run_;
+};
+
+TEST_F(WindowRunTest, DrawsInAnotherSizeAsSoonAsTheWindowHasIt) {
+  turn(2);
+  for (const auto& [width, height] : {std::pair{600, 200}, std::pair{200, 500}}) {
+    glfwSetWindowSize(run_->window().handle(), width, height);
+    turn(8);  // the display server answers in its own time
+    const ViewWindow::Size size = run_->window().framebuffer_size();
+    EXPECT_EQ(size.width_px, width);
+    EXPECT_EQ(size.height_px, height);
+    const Picture picture = shown();
+    // Drawn up to the corners: the backdrop is nowhere black.
+    for (const auto& [x, y] : {std::pair{0, 0}, std::pair{width - 1, height - 1}}) {
+      const auto at = static_cast<std::size_t>(3 * (y * width + x));
+      EXPECT_GT(picture.rgb[at] + picture.rgb[at + 1] + picture.rgb[at + 2], 30);
+    }
+  }
+}
+
+TEST_F(WindowRunTest, MakesEverythingAnewWhenTheContextIsLost) {
+  press(GLFW_KEY_H);
+  press(GLFW_KEY_H);
+  turn(4);
+  const Picture before = shown();
+  glfwSetWindowPos(run_->window().handle(), 60, 40);
+  turn(2);
+  for (int times = 1; times <= 3; ++times) {
+    run_->window().lose_context();
+    turn(4);
+    EXPECT_EQ(run_->contexts_lost(), times);
+  }
+  EXPECT_FALSE(run_->window().is_context_lost());
+  EXPECT_FALSE(run_->is_over()) << "the window stays";
+  const ViewWindow::Size size = run_->window().framebuffer_size();
+  EXPECT_EQ(size.width_px, kWidth_px);
+  EXPECT_EQ(size.height_px, kHeight_px);
+  const Picture after = shown();
+  ASSERT_EQ(after.rgb.size(), before.rgb.size());
+  EXPECT_LT(mean_difference(before, after), 1.0);
+}
+
+TEST_F(WindowRunTest, EndsWithWordsWhenTheDriverLosesEveryContext) {
+  turn(1);
+  bool has_ended = false;
+  for (int i = 0; i < 40 && !has_ended; ++i) {
+    run_->window().lose_context();
+    const auto turned = run_->turn();
+    has_ended = !turned;
+    if (has_ended) {
+      EXPECT_NE(turned.error().what.find("--headless"), std::string::npos);
+    }
+  }
+  EXPECT_TRUE(has_ended);
+}
+
+TEST_F(WindowRunTest, KeysChooseViewsAndDancers) {
+  turn(2);
+  EXPECT_EQ(run_->director().mode(), ViewMode::kOrbit);
+  press(GLFW_KEY_V);
+  EXPECT_EQ(run_->director().mode(), ViewMode::kFollow);
+  press(GLFW_KEY_V, true);
+  EXPECT_EQ(run_->director().mode(), ViewMode::kOrbit);
+  for (const auto& [key, mode] :
+       {std::pair{GLFW_KEY_W, ViewMode::kFollow}, std::pair{GLFW_KEY_M, ViewMode::kMirror},
+        std::pair{GLFW_KEY_P, ViewMode::kFirstPerson}, std::pair{GLFW_KEY_C, ViewMode::kCompare},
+        std::pair{GLFW_KEY_G, ViewMode::kGrid}}) {
+    press(key);
+    EXPECT_EQ(run_->director().mode(), mode);
+    turn(2);
+  }
+  press(GLFW_KEY_G);
+  EXPECT_EQ(run_->director().mode(), ViewMode::kOrbit) << "the same key goes back";
+  press(GLFW_KEY_2);
+  turn(1);
+  EXPECT_EQ(run_->director().chosen(), GuestId::parse("bob"));
+  press(GLFW_KEY_RIGHT);
+  turn(1);
+  EXPECT_EQ(run_->director().chosen(), GuestId::parse("alice"));
+  press(GLFW_KEY_9);  // there is no ninth
+  turn(1);
+  EXPECT_EQ(run_->director().chosen(), GuestId::parse("alice"));
+  press(GLFW_KEY_F);
+  EXPECT_FALSE(run_->director().chosen());
+}
+
+TEST_F(WindowRunTest, KeysChangeThePictureAndTheDisplay) {
+  turn(1);
+  press(GLFW_KEY_T);
+  press(GLFW_KEY_X);
+  press(GLFW_KEY_N);
+  press(GLFW_KEY_D);
+  turn(3);
+  EXPECT_TRUE(run_->scene().shows_trails);
+  EXPECT_FALSE(run_->state().extrapolates);
+  EXPECT_FALSE(run_->state().shows_tags);
+  EXPECT_EQ(run_->state().display, DisplayMode::kLowLatency);
+  press(GLFW_KEY_D);
+  turn(3);
+  EXPECT_EQ(run_->state().display, DisplayMode::kTearFree);
+  EXPECT_FALSE(run_->is_over());
+  press(GLFW_KEY_Q);
+  EXPECT_TRUE(run_->is_over());
+}
+
+TEST_F(WindowRunTest, TheListOfKeysIsShownAndClosedAndEscClosesItFirst) {
+  turn(2);
+  const Picture without = shown();
+  press(GLFW_KEY_F1);
+  turn(2);
+  const Picture with = shown();
+  EXPECT_GT(mean_difference(without, with), 5.0);
+  press(GLFW_KEY_ESCAPE);
+  turn(2);
+  EXPECT_FALSE(run_->is_over());
+  EXPECT_LT(mean_difference(without, shown()), 1.0);
+  press(GLFW_KEY_ESCAPE);
+  EXPECT_TRUE(run_->is_over());
+}
+
+TEST(HelpPanel, TellsEveryKeyThatDoesSomething) {
+  const auto groups = window_key_groups();
+  std::string all;
+  for (const PanelStack::Group& group : groups) {
+    EXPECT_FALSE(group.title.empty());
+    for (const KeyHelp& help : group.keys) {
+      EXPECT_FALSE(help.what.empty()) << help.key;
+      all += " " + std::string(help.key) + " ";
+    }
+  }
+  for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; ++key) {
+    const bool does = window_command({key}).has_value();
+    const std::string letter = std::string(" ") + static_cast<char>(key) + " ";
+    EXPECT_EQ(does, all.find(letter) != std::string::npos) << letter;
+  }
 }
 
 }  // namespace

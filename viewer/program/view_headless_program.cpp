@@ -42,10 +42,6 @@ class HeadlessRun {
         roster_(source.board()),
         director_(options.camera, options.view) {
     if (options.focus) director_.choose(*options.focus);
-    if (!options.help_panel) return;
-    auto help = std::make_unique<HelpPanel>(panels_, window_key_groups());
-    help->open();
-    panels_.add(std::move(help));
   }
 
   Result<void> run() {
@@ -64,6 +60,9 @@ class HeadlessRun {
     instruments->open(options_.panel == "instruments");
     if (options_.focus) instruments->choose(*options_.focus);
     panels_.add(std::move(instruments));
+    auto help = std::make_unique<HelpPanel>(panels_, window_key_groups());
+    if (options_.panel == "keys") help->open();
+    panels_.add(std::move(help));
   }
 
   Result<void> pictures(const std::vector<MonoTime>& moments) {

@@ -75,9 +75,9 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_flag("--no-hud", wishes.no_hud, "without the figures");
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
   line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
-  line.add_choice<std::string>("--panel", view.panel,
-                               {{"instruments", "instruments"}, {"style", "style"}},
-                               "open this panel: instruments or style");
+  line.add_choice<std::string>(
+      "--panel", view.panel, {{"instruments", "instruments"}, {"style", "style"}, {"keys", "keys"}},
+      "open this panel: instruments, style or keys");
   line.add("--out", view.out, "directory of the pictures").shows_default();
   line.add("--seconds", wishes.view.moments.seconds,
            "headless: how long to listen, 3 unless said; of a log all, unless said")
@@ -97,7 +97,6 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_flag("--film", wishes.view.moments.film,
                 "headless, with --log: every picture of a film, 25 a second, as 0001.png …");
   line.add_flag("--compare", wishes.compare, "the same as --view compare");
-  line.add_flag("--help-panel", view.help_panel, "headless: the list of keys over the pictures");
   line.add_choice<DisplayMode>(
       "--display", view.display,
       {{"tear-free", DisplayMode::kTearFree}, {"low-latency", DisplayMode::kLowLatency}},

@@ -49,10 +49,9 @@ struct ViewOptions {
   std::optional<Duration> display_latency;  // from a turn of the display to its light
   bool extrapolates = true;
   bool late_latching = true;
-  bool help_panel = false;  // headless: with the list of keys over the pictures
 
   bool headless = false;
-  std::string panel;  // open from the begin: instruments, style; "" = none
+  std::string panel;  // open from the begin: instruments, style, keys; "" = none
   std::string out = ".";
   MomentWish moments;
   std::string log;            // a recorded house; "" = a live one
