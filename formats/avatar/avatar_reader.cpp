@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "formats/avatar/read/avatar_bones.h"
-#include "formats/avatar/read/avatar_materials.h"
-#include "formats/avatar/read/avatar_meshes.h"
+#include "formats/avatar/read/avatar_expressions.h"
+#include "formats/avatar/read/avatar_licence.h"
 #include "formats/avatar/read/avatar_nodes.h"
 #include "formats/avatar/read/avatar_source.h"
+#include "formats/avatar/read/avatar_springs.h"
+#include "formats/avatar/read/look/avatar_materials.h"
+#include "formats/avatar/read/mesh/avatar_meshes.h"
 #include "formats/gltf/glb_container.h"
-#include "formats/gltf/glb_text.h"
 
 namespace dance {
 namespace {
@@ -30,6 +32,7 @@ Result<void> check_extensions(const tinygltf::Model& file) {
 GlbLimits container_limits(const AvatarLimits& limits) {
   GlbLimits out;
   out.file_bytes = limits.file_bytes;
+  out.json_bytes = limits.file_bytes;  // a .gltf holds its data as text
   out.json_objects = limits.json_objects;
   out.nodes = limits.nodes;
   out.joints = limits.joints;
@@ -57,7 +60,10 @@ Result<void> read_figure(AvatarSource& source) {
   if (auto done = turn_to_front(source); !done) return done;
   DANCE_TRY(const auto uvs, read_materials(source));
   DANCE_TRY(const ReadMeshes meshes, read_meshes(source, uvs));
-  return check_vertices(source.model);
+  if (auto done = check_vertices(source.model); !done) return done;
+  read_expressions(source, meshes.morphs);
+  read_springs(source);
+  return {};
 }
 
 }  // namespace
@@ -69,10 +75,18 @@ Result<ReadAvatar> read_avatar(std::span<const std::uint8_t> bytes, const Avatar
   if (auto checked = check_extensions(file); !checked) return tl::make_unexpected(checked.error());
   DANCE_TRY(const GlbScene scene, checked_scene(file, of_container));
   ReadAvatar out;
-  AvatarSource source{file, scene,          limits,       out.model,         out.notes,
-                      {},   limits.numbers, limits.bytes, limits.morph_moves};
+  AvatarSource source{file,
+                      scene,
+                      limits,
+                      out.model,
+                      out.notes,
+                      {},
+                      Eigen::Quaterniond::Identity(),
+                      limits.numbers,
+                      limits.bytes,
+                      limits.morph_moves};
   if (auto done = read_figure(source); !done) return tl::make_unexpected(done.error());
-  out.model.name = plain_name(name);
+  read_licence(source, name);
   if (out.model.parts.empty()) return fail("no mesh that hangs from the figure");
   if (!is_sound(out.model)) return fail("an avatar with broken numbers; export it again");
   return out;

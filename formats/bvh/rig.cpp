@@ -125,6 +125,25 @@ void place_fingers(const NamedJoints& named, RigSide side, Rig& rig) {
   }
 }
 
+// Rigify numbers the spine up to the head: of its joints above the arms the last.
+int end_of_spine(const RigTree& tree, const NamedJoints& named, const Rig& rig) {
+  const int left = rig.joint(Bone::kLeftUpperArm);
+  const int right = rig.joint(Bone::kRightUpperArm);
+  if (left == kNoJoint || right == kNoJoint) return kNoJoint;
+  const int arms = tree.common_ancestor(left, right);
+  const std::vector<bool> is_spine = named.says(RigPart::kSpine);
+  int last = kNoJoint;
+  int count = 0;
+  for (int j = 0; j < static_cast<int>(is_spine.size()); ++j) {
+    if (!is_spine[static_cast<std::size_t>(j)] || arms == kNoJoint || j == arms ||
+        !tree.is_above(arms, j) || tree.is_above(j, left) || tree.is_above(j, right))
+      continue;
+    ++count;
+    if (last == kNoJoint || tree.depth(j) > tree.depth(last)) last = j;
+  }
+  return count >= 2 ? last : kNoJoint;
+}
+
 Rig find_rig_by_names(const RigTree& tree) {
   const NamedJoints named(tree);
   Rig rig;
@@ -136,7 +155,7 @@ Rig find_rig_by_names(const RigTree& tree) {
   int head = named.pick(RigSide::kMiddle, {RigPart::kHead});
   if (head == kNoJoint) {
     const int neck = named.pick(RigSide::kMiddle, {RigPart::kNeck});
-    if (neck != kNoJoint) head = next_along(tree, named, neck);
+    head = neck != kNoJoint ? next_along(tree, named, neck) : end_of_spine(tree, named, rig);
   }
   place_trunk(tree, head, named.says(RigPart::kNeck), rig);
   return rig;

@@ -222,7 +222,11 @@ RigName read_rig_name(std::string_view name) {
     if (!contains(kEmptyWords, word) && word != "metacarpal") telling += word;
   }
   const RigName whole = look_up(side, all);
-  return whole.part != RigPart::kNone ? whole : look_up(side, telling);
+  if (whole.part != RigPart::kNone) return whole;
+  // "CC_Base_L_Hand": beside a finger the hand tells nothing, alone it is the part.
+  if (telling.empty() && side != RigSide::kMiddle && contains(words, "hand"))
+    return {side, RigPart::kHand};
+  return look_up(side, telling);
 }
 
 RigSide eye_side(std::string_view name) {

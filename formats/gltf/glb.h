@@ -39,6 +39,7 @@ struct GlbLimits {
   std::size_t file_bytes = std::size_t{1} << 28;
   std::size_t json_bytes = std::size_t{1} << 24;
   std::size_t json_objects = 1u << 16;
+  std::size_t json_values = 1u << 20;  // numbers and texts, of which each takes far more memory
   std::size_t json_depth = 64;
   std::size_t nodes = 8192;
   std::size_t joints = 512;  // of one figure

@@ -24,6 +24,7 @@ Result<void> check_json(std::string_view json, const GlbLimits& limits) {
     return fail("its JSON is larger than " + std::to_string(limits.json_bytes >> 20) + " MiB");
   std::size_t depth = 0;
   std::size_t objects = 0;
+  std::size_t values = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < json.size(); ++i) {
     const char c = json[i];
@@ -37,6 +38,8 @@ Result<void> check_json(std::string_view json, const GlbLimits& limits) {
       if (++objects > limits.json_objects) return fail("its JSON holds too many objects");
     } else if (c == '}' || c == ']') {
       if (depth > 0) --depth;
+    } else if (c == ',') {
+      if (++values > limits.json_values) return fail("its JSON holds too many values");
     }
   }
   return {};

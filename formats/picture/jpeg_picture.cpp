@@ -14,6 +14,18 @@ struct Destroy {
 };
 using Handle = std::unique_ptr<void, Destroy>;
 
+// A progressive JPEG of a few kilobytes may have hundreds of scans over all its pixels. Common ones
+// have ten, which this allows for the largest picture.
+constexpr std::size_t kMostScannedPixels = std::size_t{16} << 24;
+
+// The beginnings of scans: within the packed pixels these two bytes cannot stand.
+std::size_t scans(std::span<const std::uint8_t> bytes) {
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < bytes.size(); ++i)
+    if (bytes[i - 1] == 0xff && bytes[i] == 0xda) ++count;
+  return count;
+}
+
 class JpegDecoder final : public PictureDecoder {
  public:
   Result<PictureSize> size(std::span<const std::uint8_t> bytes) const override {
@@ -32,7 +44,7 @@ class JpegDecoder final : public PictureDecoder {
                       std::span<std::uint8_t> rgba) const override {
     const Handle handle(tjInitDecompress());
     if (!handle) return fail("no memory for a JPEG");
-    // A progressive JPEG of a few kilobytes may have thousands of scans over all its pixels.
+    if (scans(bytes) * (rgba.size() / 4) > kMostScannedPixels) return fail("a JPEG of many scans");
     if (tjDecompress2(handle.get(), bytes.data(), static_cast<unsigned long>(bytes.size()),
                       rgba.data(), size.width_px, size.width_px * 4, size.height_px, TJPF_RGBA,
                       TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) != 0)

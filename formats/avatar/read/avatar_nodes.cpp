@@ -32,8 +32,9 @@ Vector3d place_of(const AvatarModel& model, const std::vector<Affine3d>& places,
   return places[static_cast<std::size_t>(model.node_of(bone))].translation();
 }
 
-void turn(AvatarModel& model, const Quaterniond& by) {
-  for (AvatarNode& node : model.nodes) {
+void turn(AvatarSource& source, const Quaterniond& by) {
+  source.turned = (by * source.turned).normalized();
+  for (AvatarNode& node : source.model.nodes) {
     if (node.parent >= 0) continue;
     node.translation_m = (by * node.translation_m.cast<double>()).cast<float>();
     node.rotation = (by * node.rotation.cast<double>()).normalized().cast<float>();
@@ -108,12 +109,12 @@ bool is_above(const AvatarModel& model, int ancestor, int node) {
 Result<void> turn_to_front(AvatarSource& source) {
   const Quaterniond up = upright(source.model);
   if (up.angularDistance(Quaterniond::Identity()) > 1e-3) {
-    turn(source.model, up);
+    turn(source, up);
     source.note("its head was not above its hips; the figure was set upright");
   }
   const double angle = angle_to_front(source.model);
   if (std::abs(angle) > 1e-6) {
-    turn(source.model, Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY())));
+    turn(source, Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY())));
     if (std::abs(std::abs(angle) - std::numbers::pi) > 1e-3)
       source.note("it faced sideways, and was turned by " +
                   std::to_string(std::lround(angle * 180.0 / std::numbers::pi)) + " degrees");

@@ -22,7 +22,8 @@ struct AvatarSource {
   const AvatarLimits& limits;
   AvatarModel& model;
   std::vector<std::string>& notes;
-  std::vector<int> node_of;  // the model's node of each of the file's
+  std::vector<int> node_of;   // the model's node of each of the file's
+  Eigen::Quaterniond turned;  // by which the file's figure was turned to face +Z
   std::size_t numbers_left;
   std::size_t bytes_left;
   std::size_t morph_moves_left;

@@ -9,8 +9,8 @@
 //               and sharpness are brought to those of 1.0.
 #pragma once
 
-#include "formats/avatar/read/avatar_materials.h"
-#include "formats/avatar/read/avatar_pictures.h"
+#include "formats/avatar/read/look/avatar_materials.h"
+#include "formats/avatar/read/look/avatar_pictures.h"
 
 namespace dance {
 

@@ -1,4 +1,4 @@
-#include "formats/avatar/read/avatar_joints.h"
+#include "formats/avatar/read/mesh/avatar_joints.h"
 
 #include <algorithm>
 

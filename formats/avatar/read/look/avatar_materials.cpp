@@ -1,9 +1,9 @@
-#include "formats/avatar/read/avatar_materials.h"
+#include "formats/avatar/read/look/avatar_materials.h"
 
 #include <cmath>
 
-#include "formats/avatar/read/avatar_pictures.h"
-#include "formats/avatar/read/avatar_toon.h"
+#include "formats/avatar/read/look/avatar_pictures.h"
+#include "formats/avatar/read/look/avatar_toon.h"
 #include "formats/gltf/glb_json.h"
 #include "formats/gltf/glb_text.h"
 

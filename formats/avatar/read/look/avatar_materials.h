@@ -20,8 +20,6 @@ struct MaterialUv {
   int set = 0;
   Eigen::Matrix2f turn = Eigen::Matrix2f::Identity();
   Eigen::Vector2f offset = Eigen::Vector2f::Zero();
-
-  bool operator==(const MaterialUv&) const = default;
 };
 
 // One for each material of the model.

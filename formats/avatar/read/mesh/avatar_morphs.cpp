@@ -1,4 +1,4 @@
-#include "formats/avatar/read/avatar_morphs.h"
+#include "formats/avatar/read/mesh/avatar_morphs.h"
 
 #include <algorithm>
 
@@ -16,8 +16,9 @@ constexpr std::size_t kMoveBytes = sizeof(std::uint32_t) + 2 * sizeof(Eigen::Vec
 std::string name_of(const tinygltf::Mesh& mesh, std::size_t target) {
   const std::string named = text_of(item(member(&mesh.extras, "targetNames"), target));
   if (!named.empty()) return plain_name(named);
-  for (const tinygltf::Primitive& primitive : mesh.primitives) {
-    const std::string told = text_of(item(member(&primitive.extras, "targetNames"), target));
+  if (!mesh.primitives.empty()) {
+    const tinygltf::Value& extras = mesh.primitives.front().extras;
+    const std::string told = text_of(item(member(&extras, "targetNames"), target));
     if (!told.empty()) return plain_name(told);
   }
   return plain_name(mesh.name) + "." + std::to_string(target);

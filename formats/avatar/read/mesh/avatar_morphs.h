@@ -8,8 +8,8 @@
 //               (extras.targetNames).
 #pragma once
 
-#include "formats/avatar/read/avatar_meshes.h"
 #include "formats/avatar/read/avatar_source.h"
+#include "formats/avatar/read/mesh/avatar_meshes.h"
 
 namespace dance {
 

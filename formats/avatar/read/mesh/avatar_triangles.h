@@ -11,8 +11,9 @@
 
 namespace dance {
 
+// `left` is how many triangles may be read yet, those without an area too, and is counted down.
 Result<std::vector<std::uint32_t>> read_triangles(AvatarSource& source,
                                                   const tinygltf::Primitive& primitive,
-                                                  std::size_t vertices, std::size_t most);
+                                                  std::size_t vertices, std::size_t& left);
 
 }  // namespace dance

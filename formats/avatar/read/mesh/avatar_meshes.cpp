@@ -1,16 +1,16 @@
-#include "formats/avatar/read/avatar_meshes.h"
+#include "formats/avatar/read/mesh/avatar_meshes.h"
 
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <map>
-#include <optional>
 
 #include "formats/avatar/read/avatar_first_person.h"
-#include "formats/avatar/read/avatar_joints.h"
-#include "formats/avatar/read/avatar_morphs.h"
 #include "formats/avatar/read/avatar_nodes.h"
-#include "formats/avatar/read/avatar_triangles.h"
-#include "formats/avatar/read/avatar_vertices.h"
-#include "formats/gltf/glb_text.h"
+#include "formats/avatar/read/mesh/avatar_joints.h"
+#include "formats/avatar/read/mesh/avatar_morphs.h"
+#include "formats/avatar/read/mesh/avatar_triangles.h"
+#include "formats/avatar/read/mesh/avatar_vertices.h"
 
 namespace dance {
 namespace {
@@ -20,13 +20,13 @@ struct BlockKey {
   int node = -1;
   std::map<std::string, int> attributes;
   std::vector<std::map<std::string, int>> targets;
-  MaterialUv uv;
+  int uv_set = 0;
+  std::array<float, 6> uv_placed{};
 
-  bool operator==(const BlockKey&) const = default;
+  auto operator<=>(const BlockKey&) const = default;
 };
 
 struct Block {
-  BlockKey key;
   std::uint32_t first = 0;
   std::uint32_t count = 0;
   bool has_normals = false;
@@ -106,7 +106,6 @@ class MeshReader {
       DANCE_TRY(const std::uint32_t material, material_of(primitive));
       DANCE_TRY(const Block block, block_of(node, from, primitive, material, morphs));
       DANCE_TRY(auto triangles, read_triangles(source_, primitive, block.count, triangles_left_));
-      triangles_left_ -= std::min(triangles_left_, triangles.size() / 3);
       if (from.skin < 0 && is_mirrored(node)) turn_over(triangles);
       if (triangles.empty()) continue;
       DANCE_TRY(PartTriangles * part, part_of(material, first_person_.of(node, from.mesh)));
@@ -130,9 +129,14 @@ class MeshReader {
   Result<Block> block_of(int node, const tinygltf::Node& from, const tinygltf::Primitive& primitive,
                          std::uint32_t material, const MeshMorphs& morphs) {
     Block block;
-    block.key = {node, primitive.attributes, primitive.targets, uvs_[material]};
-    for (const Block& known : blocks_)
-      if (known.key == block.key) return known;
+    const MaterialUv& uv = uvs_[material];
+    const BlockKey key{
+        node,
+        primitive.attributes,
+        primitive.targets,
+        uv.set,
+        {uv.turn(0, 0), uv.turn(0, 1), uv.turn(1, 0), uv.turn(1, 1), uv.offset.x(), uv.offset.y()}};
+    if (const auto known = blocks_.find(key); known != blocks_.end()) return known->second;
     const bool is_skinned = from.skin >= 0 && primitive.attributes.contains("JOINTS_0");
     std::vector<std::uint16_t> of_node;
     const std::vector<std::uint16_t>* joints = &of_node;
@@ -143,16 +147,15 @@ class MeshReader {
       of_node.push_back(joint);
     }
     auto& vertices = source_.model.vertices;
-    DANCE_TRY(const VertexBlock read,
-              read_vertices(source_, primitive, uvs_[material], *joints, is_skinned,
-                            source_.limits.vertices - vertices.size()));
+    DANCE_TRY(const VertexBlock read, read_vertices(source_, primitive, uv, *joints, is_skinned,
+                                                    source_.limits.vertices - vertices.size()));
     block.first = static_cast<std::uint32_t>(vertices.size());
     block.count = static_cast<std::uint32_t>(read.vertices.size());
     block.has_normals = read.has_normals;
     vertices.insert(vertices.end(), read.vertices.begin(), read.vertices.end());
     if (auto done = read_targets(source_, primitive, block.first, block.count, morphs); !done)
       return tl::make_unexpected(done.error());
-    blocks_.push_back(block);
+    blocks_.emplace(key, block);
     return block;
   }
 
@@ -178,7 +181,7 @@ class MeshReader {
   void make_normals() {
     auto& vertices = source_.model.vertices;
     std::vector<bool> lacks(vertices.size(), false);
-    for (const Block& block : blocks_)
+    for (const auto& [key, block] : blocks_)
       if (!block.has_normals) std::fill_n(lacks.begin() + block.first, block.count, true);
     for (const PartTriangles& part : parts_)
       for (std::size_t i = 2; i < part.triangles.size(); i += 3) {
@@ -219,7 +222,7 @@ class MeshReader {
   const AvatarFirstPerson first_person_;
   std::size_t triangles_left_;
   const std::vector<Eigen::Affine3d> rest_;
-  std::vector<Block> blocks_;
+  std::map<BlockKey, Block> blocks_;
   std::vector<PartTriangles> parts_;
   ReadMeshes out_;
 };

@@ -6,8 +6,8 @@
 // Failure:      names what is wrong; meshes that do not follow the figure are left out with a note.
 #pragma once
 
-#include "formats/avatar/read/avatar_materials.h"
 #include "formats/avatar/read/avatar_source.h"
+#include "formats/avatar/read/look/avatar_materials.h"
 
 namespace dance {
 

@@ -1,4 +1,4 @@
-#include "formats/avatar/read/avatar_pictures.h"
+#include "formats/avatar/read/look/avatar_pictures.h"
 
 #include <string>
 
@@ -55,8 +55,9 @@ Result<int> AvatarPictures::decode(int image) {
   limits.side_px = source_.limits.picture_side_px;
   limits.reduced_side_px = source_.limits.reduced_side_px;
   limits.decoded_bytes = decoded_left_;
-  DANCE_TRY(Picture picture, read_picture(bytes, limits));
+  // Also where it fails: that may be at its end.
   decoded_left_ -= needed;
+  DANCE_TRY(Picture picture, read_picture(bytes, limits));
   if (auto taken = source_.take_bytes(picture.rgba.size()); !taken)
     return tl::make_unexpected(taken.error());
   source_.model.pictures.push_back({picture.width_px, picture.height_px, std::move(picture.rgba)});

@@ -1,4 +1,4 @@
-#include "formats/avatar/read/avatar_triangles.h"
+#include "formats/avatar/read/mesh/avatar_triangles.h"
 
 #include <algorithm>
 #include <numeric>
@@ -32,13 +32,13 @@ std::vector<std::uint32_t> listed(const std::vector<std::uint32_t>& corners, int
 
 Result<std::vector<std::uint32_t>> read_triangles(AvatarSource& source,
                                                   const tinygltf::Primitive& primitive,
-                                                  std::size_t vertices, std::size_t most) {
+                                                  std::size_t vertices, std::size_t& left) {
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
     source.note("points and lines are not drawn");
     return std::vector<std::uint32_t>{};
   }
   const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
-  const std::size_t most_corners = is_list ? 3 * most + 2 : most + 2;
+  const std::size_t most_corners = is_list ? 3 * left + 2 : left + 2;
   std::vector<std::uint32_t> corners;
   if (primitive.indices >= 0) {
     if (element_count(source.file, primitive.indices) > most_corners)
@@ -51,6 +51,7 @@ Result<std::vector<std::uint32_t>> read_triangles(AvatarSource& source,
     corners.resize(std::min(vertices, most_corners));
     std::iota(corners.begin(), corners.end(), 0u);
   }
+  left -= std::min(left, is_list ? corners.size() / 3 + 1 : corners.size());
   return listed(corners, primitive.mode);
 }
 

@@ -1,4 +1,4 @@
-#include "formats/avatar/read/avatar_vertices.h"
+#include "formats/avatar/read/mesh/avatar_vertices.h"
 
 #include <algorithm>
 #include <array>

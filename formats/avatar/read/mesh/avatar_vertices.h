@@ -8,8 +8,8 @@
 // Source:       glTF 2.0, 3.7.2 Meshes and 3.7.3.3 Skinned Mesh Attributes; KHR_mesh_quantization.
 #pragma once
 
-#include "formats/avatar/read/avatar_materials.h"
 #include "formats/avatar/read/avatar_source.h"
+#include "formats/avatar/read/look/avatar_materials.h"
 
 namespace dance {
 

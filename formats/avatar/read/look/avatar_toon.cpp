@@ -1,4 +1,4 @@
-#include "formats/avatar/read/avatar_toon.h"
+#include "formats/avatar/read/look/avatar_toon.h"
 
 #include <cmath>
 
