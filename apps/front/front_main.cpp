@@ -41,6 +41,7 @@ constexpr std::array kCommands{
     Command{"pack", "makes an LCM log smaller, and loses nothing"},
     Command{"unpack", "makes a plain LCM log of a packed one"},
     Command{"convert", "between recordings: .lcm, .bvh, .glb, .mcap (Foxglove), .csv"},
+    Command{"avatar", "makes avatars, and says what is in an avatar's file"},
     Command{"style", "says how large a guest's dance is shown: hips=1.5, preset=cuban"},
     Command{"latency", "the table of a pose's journey, with numbers"},
     Command{"top", "channels and programs of the bus, in a terminal"},

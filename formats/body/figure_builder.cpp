@@ -84,7 +84,7 @@ void FigureBuilder::add_hips(FigureLayer& legs) const {
   }
 }
 
-std::vector<FigureLayer> FigureBuilder::take() {
+void FigureBuilder::add_top_and_ends() {
   FigureLayer top;
   top.material = Material::kTop;
   top.cell_m = places_.scale * 0.014f;
@@ -97,22 +97,51 @@ std::vector<FigureLayer> FigureBuilder::take() {
     add_shoe(side);
   }
   layers_.push_back(std::move(top));
-  if (look_.legwear == Legwear::kSkirt) {
-    FigureLayer& skin = layer(Material::kSkin, 0.013f, 0.02f);
-    add_bare_leg(Side::kLeft, skin);
-    add_bare_leg(Side::kRight, skin);
-    add_skirt();
-  } else {
-    FigureLayer& legs = layer(Material::kLegs, 0.014f, 0.03f);
-    add_hips(legs);
-    add_trouser_leg(Side::kLeft, legs);
-    add_trouser_leg(Side::kRight, legs);
-  }
+}
+
+void FigureBuilder::add_trousers() {
+  FigureLayer& legs = layer(Material::kLegs, 0.014f, 0.03f);
+  add_hips(legs);
+  add_trouser_leg(Side::kLeft, legs);
+  add_trouser_leg(Side::kRight, legs);
+}
+
+void FigureBuilder::add_fingers() {
   if (has_fingers_)
     for (std::size_t finger = 0; finger < kFingerCount; ++finger) add_finger(finger);
+}
+
+std::vector<FigureLayer> FigureBuilder::take() {
+  add_top_and_ends();
+  if (look_.legwear == Legwear::kSkirt) {
+    // They begin below the hip, so that the cloth covers that end however far the leg is lifted.
+    constexpr float kBelowCloth = 0.55f;
+    FigureLayer& skin = layer(Material::kSkin, 0.013f, 0.02f);
+    add_bare_leg(Side::kLeft, kBelowCloth, skin);
+    add_bare_leg(Side::kRight, kBelowCloth, skin);
+    add_skirt();
+  } else {
+    add_trousers();
+  }
+  add_fingers();
   add_head();
   add_face();
   add_hair();
+  return std::move(layers_);
+}
+
+std::vector<FigureLayer> FigureBuilder::take_body() {
+  add_top_and_ends();
+  if (look_.legwear == Legwear::kSkirt) {
+    constexpr float kBelowShorts = 0.16f;
+    FigureLayer& skin = layer(Material::kSkin, 0.013f, 0.02f);
+    add_bare_leg(Side::kLeft, kBelowShorts, skin);
+    add_bare_leg(Side::kRight, kBelowShorts, skin);
+    add_shorts();
+  } else {
+    add_trousers();
+  }
+  add_fingers();
   return std::move(layers_);
 }
 

@@ -34,6 +34,9 @@ class FigureBuilder {
   FigureBuilder(const Skeleton& skeleton, const GuestLook& look, bool has_fingers);
 
   std::vector<FigureLayer> take();
+  // Without head, hair and skirt, for figures that bring their own; below a skirt of their own they
+  // wear short trousers.
+  std::vector<FigureLayer> take_body();
 
  private:
   enum class Side : std::uint8_t { kLeft, kRight };
@@ -49,13 +52,18 @@ class FigureBuilder {
                      FigureSkinning skinning = FigureSkinning::kBody);
 
   void add_torso(FigureLayer& top) const;
+  void add_top_and_ends();
+  void add_trousers();
+  void add_fingers();
   void add_sleeve(Side side, FigureLayer& top) const;
   void add_arm(Side side);
   void add_hand(Side side, FigureLayer& skin) const;
   void add_finger(std::size_t finger);
   void add_hips(FigureLayer& legs) const;
   void add_trouser_leg(Side side, FigureLayer& legs) const;
-  void add_bare_leg(Side side, FigureLayer& skin) const;
+  // `begin` is a share of the thigh.
+  void add_bare_leg(Side side, float begin, FigureLayer& skin) const;
+  void add_shorts();
   void add_skirt();
   void add_shoe(Side side);
   void add_head();

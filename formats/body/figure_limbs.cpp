@@ -45,6 +45,8 @@ void FigureBuilder::add_arm(Side side) {
   } else {
     skin.parts.push_back(part(between(elbow, wrist, 0.85f), 0.028f, wrist, 0.026f));
   }
+  for (FigurePart& each : skin.parts)
+    each.limb = left ? FigureLimb::kLeftArm : FigureLimb::kRightArm;
   add_hand(side, skin);
 }
 
@@ -117,7 +119,7 @@ void FigureBuilder::add_trouser_leg(Side side, FigureLayer& legs) const {
   add(part(calf, 0.06f, between(knee, ankle, 0.9f), flared ? 0.084f : 0.056f));
 }
 
-void FigureBuilder::add_bare_leg(Side side, FigureLayer& skin) const {
+void FigureBuilder::add_bare_leg(Side side, float begin, FigureLayer& skin) const {
   const bool left = side == Side::kLeft;
   const Vector3f hip = places_.at(left ? Bone::kLeftUpperLeg : Bone::kRightUpperLeg);
   const Vector3f knee = places_.at(left ? Bone::kLeftLowerLeg : Bone::kRightLowerLeg);
@@ -126,11 +128,26 @@ void FigureBuilder::add_bare_leg(Side side, FigureLayer& skin) const {
     skin.parts.push_back(leg);
     skin.parts.back().limb = left ? FigureLimb::kLeftLeg : FigureLimb::kRightLeg;
   };
-  // It begins below the hip, so that the cloth covers it however far the leg is lifted.
-  add(part(between(hip, knee, 0.55f), 0.062f, knee, 0.054f));
+  const float top_m = 0.076f - 0.026f * begin;
+  add(part(between(hip, knee, begin), top_m, between(hip, knee, 0.6f), 0.062f));
+  add(part(between(hip, knee, 0.6f), 0.062f, knee, 0.05f));
   const Vector3f calf = between(knee, ankle, 0.33f) - places_.scale * 0.016f * Vector3f::UnitZ();
-  add(part(knee, 0.053f, calf, 0.055f));
-  add(part(calf, 0.055f, ankle, 0.034f));
+  add(part(knee, 0.05f, calf, 0.054f));
+  add(part(calf, 0.054f, between(knee, ankle, 0.72f), 0.038f));
+  add(part(between(knee, ankle, 0.72f), 0.038f, ankle, 0.034f));
+}
+
+void FigureBuilder::add_shorts() {
+  FigureLayer& shorts = layer(Material::kLegs, 0.014f, 0.03f);
+  add_hips(shorts);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const bool left = side == Side::kLeft;
+    const Bone upper = left ? Bone::kLeftUpperLeg : Bone::kRightUpperLeg;
+    const Vector3f knee = places_.at(left ? Bone::kLeftLowerLeg : Bone::kRightLowerLeg);
+    const Vector3f hip = at(upper, {0, -0.02f, 0});
+    shorts.parts.push_back(part(hip, 0.086f, between(hip, knee, 0.3f), 0.08f));
+    shorts.parts.back().limb = left ? FigureLimb::kLeftLeg : FigureLimb::kRightLeg;
+  }
 }
 
 void FigureBuilder::add_skirt() {

@@ -15,6 +15,9 @@ using Eigen::Vector3i;
 constexpr float kFar_m = 1e3f;
 constexpr float kHem_m = 0.025f;
 constexpr float kGradientStep_m = 5e-4f;
+// Parts that grow together bulge where they meet. Those of a limb follow each other with equal
+// radii, so that little growing rounds their edge and shows no ring at knee and elbow.
+constexpr float kAlongLimb = 0.25f;
 constexpr int kNewtonSteps = 3;
 
 // A part with what its distance needs. In the plane of the axis and the place: u along the axis, v
@@ -91,7 +94,8 @@ class Shape {
     std::array<float, kLimbs> nearest;
     nearest.fill(kFar_m);
     for (const TaperedPart& part : parts_)
-      nearest[part.limb()] = smooth_min(nearest[part.limb()], part.distance_to(place), blend_m_);
+      nearest[part.limb()] = smooth_min(nearest[part.limb()], part.distance_to(place),
+                                        part.limb() == 0 ? blend_m_ : kAlongLimb * blend_m_);
     float least = nearest[0];
     for (std::size_t limb = 1; limb < kLimbs; ++limb)
       if (nearest[limb] < kFar_m)

@@ -104,7 +104,7 @@ async function draw(scene) {
       }
     });
     report.push({ meta: vrm.meta, bones: Object.keys(vrm.humanoid.humanBones).length, triangles, finite, box,
-      expressions: Object.keys(vrm.expressionManager.expressionMap),
+      expressions: Object.keys(vrm.expressionManager?.expressionMap ?? {}),
       spring_joints: vrm.springBoneManager?.joints.size ?? 0,
       colliders: vrm.springBoneManager?.colliders.length ?? 0, materials: [...materials].sort() });
   }
