@@ -71,13 +71,11 @@ AvatarDesign design_of(const MakeOptions& options) {
                 {"bob", Hair::kBob},
                 {"bun", Hair::kBun},
                 {"ponytail", Hair::kPonytail}});
-  choose<Legwear>(look.legwear, options.clothes,
-                  {{"trousers", Legwear::kTrousers},
-                   {"flared", Legwear::kFlared},
-                   {"skirt", Legwear::kSkirt}});
-  choose<Sleeves>(
-      look.sleeves, options.sleeves,
-      {{"none", Sleeves::kNone}, {"short", Sleeves::kShort}, {"long", Sleeves::kLong}});
+  choose<Legwear>(
+      look.legwear, options.clothes,
+      {{"trousers", Legwear::kTrousers}, {"flared", Legwear::kFlared}, {"skirt", Legwear::kSkirt}});
+  choose<Sleeves>(look.sleeves, options.sleeves,
+                  {{"none", Sleeves::kNone}, {"short", Sleeves::kShort}, {"long", Sleeves::kLong}});
   choose<ClothPattern>(design.pattern, options.pattern,
                        {{"plain", ClothPattern::kPlain},
                         {"dots", ClothPattern::kDots},
@@ -85,8 +83,8 @@ AvatarDesign design_of(const MakeOptions& options) {
                         {"petals", ClothPattern::kPetals}});
   paint(look.skin, options.skin);
   paint(look.top, options.top);
-  paint(look.legs, options.legs.empty() && look.legwear == Legwear::kSkirt ? options.top
-                                                                           : options.legs);
+  paint(look.legs,
+        options.legs.empty() && look.legwear == Legwear::kSkirt ? options.top : options.legs);
   paint(look.shoes, options.shoes);
   paint(look.hair, options.hair_colour);
   paint(design.eyes, options.eyes);

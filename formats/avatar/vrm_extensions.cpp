@@ -18,7 +18,9 @@ Value text(std::string_view words) { return Value(std::string(words)); }
 Value number(float value) {
   return Value(static_cast<double>(std::round(static_cast<double>(value) * 1e6)) / 1e6);
 }
-Value vector(const Vector3f& v) { return Value(Array{number(v.x()), number(v.y()), number(v.z())}); }
+Value vector(const Vector3f& v) {
+  return Value(Array{number(v.x()), number(v.y()), number(v.z())});
+}
 
 Value meta_value(const AvatarModel& model, const VrmMeta& meta) {
   Object out;
@@ -97,9 +99,9 @@ Value look_at_value(const AvatarModel& model) {
 }
 
 constexpr std::array<std::string_view, 18> kPresets{
-    "happy", "angry", "sad",       "relaxed",    "surprised", "aa",       "ih",       "ou",      "ee",
-    "oh",    "blink", "blinkLeft", "blinkRight", "lookUp",    "lookDown", "lookLeft", "lookRight",
-    "neutral"};
+    "happy",      "angry",  "sad",      "relaxed",  "surprised", "aa",
+    "ih",         "ou",     "ee",       "oh",       "blink",     "blinkLeft",
+    "blinkRight", "lookUp", "lookDown", "lookLeft", "lookRight", "neutral"};
 
 Value expressions_value(const AvatarModel& model, const std::vector<VrmMesh>& meshes) {
   Object preset;
@@ -110,10 +112,9 @@ Value expressions_value(const AvatarModel& model, const std::vector<VrmMesh>& me
       for (const VrmMesh& mesh : meshes) {
         const auto at = std::ranges::find(mesh.morphs, bind.morph);
         if (at == mesh.morphs.end()) continue;
-        binds.push_back(
-            Value(Object{{"node", Value(mesh.node)},
-                         {"index", Value(static_cast<int>(at - mesh.morphs.begin()))},
-                         {"weight", number(std::clamp(bind.weight, 0.0f, 1.0f))}}));
+        binds.push_back(Value(Object{{"node", Value(mesh.node)},
+                                     {"index", Value(static_cast<int>(at - mesh.morphs.begin()))},
+                                     {"weight", number(std::clamp(bind.weight, 0.0f, 1.0f))}}));
       }
     Object out;
     out["isBinary"] = Value(false);
@@ -138,8 +139,7 @@ Value collider_value(const AvatarCollider& collider) {
   if (!is_ball) shape["tail"] = vector(collider.tail_m);
   Object kind;
   kind[is_ball ? "sphere" : "capsule"] = Value(std::move(shape));
-  return Value(
-      Object{{"node", Value(collider.node)}, {"shape", Value(std::move(kind))}});
+  return Value(Object{{"node", Value(collider.node)}, {"shape", Value(std::move(kind))}});
 }
 
 Value spring_joint_value(const AvatarSpring::Joint& joint) {

@@ -256,7 +256,8 @@ class VrmFile {
     }
     primitive.attributes["POSITION"] = store_.add_floats(places, 3, GlbUse::kVertices, true);
     primitive.attributes["NORMAL"] = store_.add_floats(normals, 3, GlbUse::kVertices);
-    if (has_picture) primitive.attributes["TEXCOORD_0"] = store_.add_floats(uvs, 2, GlbUse::kVertices);
+    if (has_picture)
+      primitive.attributes["TEXCOORD_0"] = store_.add_floats(uvs, 2, GlbUse::kVertices);
     if (out_.skins.empty()) return;
     if (out_.skins.front().joints.size() <= 256) {
       const std::vector<std::uint8_t> small(joints.begin(), joints.end());
@@ -287,8 +288,7 @@ class VrmFile {
   }
 
   std::map<std::string, int> target_of(const AvatarMorph& morph,
-                                       const std::vector<std::uint32_t>& local,
-                                       std::size_t count) {
+                                       const std::vector<std::uint32_t>& local, std::size_t count) {
     struct Move {
       Vector3f place;
       Vector3f normal;
@@ -298,9 +298,9 @@ class VrmFile {
       const std::uint32_t vertex = morph.vertices[i];
       if (local[vertex] == kNone) continue;
       const Eigen::Matrix3f turn = to_skin(source_.vertices[vertex]).linear();
-      moves[local[vertex]] = {turn * morph.places_m[i],
-                              morph.normals.empty() ? Vector3f(Vector3f::Zero())
-                                                    : Vector3f(turn * morph.normals[i])};
+      moves[local[vertex]] = {turn * morph.places_m[i], morph.normals.empty()
+                                                            ? Vector3f(Vector3f::Zero())
+                                                            : Vector3f(turn * morph.normals[i])};
     }
     // A target that moves nothing here still has to be there.
     if (moves.empty()) moves[0] = {Vector3f::Zero(), Vector3f::Zero()};

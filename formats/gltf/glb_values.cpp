@@ -90,9 +90,8 @@ int GlbStore::add_sparse(std::size_t count, std::span<const std::uint32_t> verti
   const bool is_small = count <= std::numeric_limits<std::uint16_t>::max();
   const std::vector<std::uint16_t> small(vertices.begin(), vertices.end());
   const int index = add_accessor(-1, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, count);
-  const int index_view = is_small
-                             ? add_view(small.data(), 2 * small.size(), GlbUse::kData)
-                             : add_view(vertices.data(), vertices.size_bytes(), GlbUse::kData);
+  const int index_view = is_small ? add_view(small.data(), 2 * small.size(), GlbUse::kData)
+                                  : add_view(vertices.data(), vertices.size_bytes(), GlbUse::kData);
   const int value_view = add_view(values.data(), values.size_bytes(), GlbUse::kData);
   tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
   accessor.sparse.isSparse = true;
@@ -103,8 +102,8 @@ int GlbStore::add_sparse(std::size_t count, std::span<const std::uint32_t> verti
       is_small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
   accessor.sparse.values.bufferView = value_view;
   accessor.sparse.values.byteOffset = 0;
-  Eigen::Vector3f least = vertices.size() < count ? Eigen::Vector3f(Eigen::Vector3f::Zero())
-                                                  : values.front();
+  Eigen::Vector3f least =
+      vertices.size() < count ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : values.front();
   Eigen::Vector3f most = least;
   for (const Eigen::Vector3f& value : values) {
     least = least.cwiseMin(value);

@@ -5,6 +5,7 @@
 #include "formats/avatar/make/bent_figure.h"
 #include "formats/avatar/make/cloth_map.h"
 #include "formats/avatar/make/cloth_picture.h"
+#include "formats/avatar/make/edging.h"
 #include "formats/avatar/make/face/face_maker.h"
 #include "formats/avatar/make/face/hair_maker.h"
 #include "formats/avatar/make/model_builder.h"
@@ -20,13 +21,13 @@ namespace {
 bool has_skirt(const AvatarDesign& design) { return design.look.legwear == Legwear::kSkirt; }
 
 // How many triangles a layer may have, chosen by eye: the most that 30 dancers on a floor need.
-std::size_t budget_of(const FigureLayer& layer) {
+std::size_t budget_of(const FigureLayer& layer, bool below_skirt) {
   if (layer.skinning == FigureSkinning::kFinger) return 88;
   switch (layer.material) {
     case Material::kTop:
-      return 1100;
+      return below_skirt ? 900 : 1100;
     case Material::kLegs:
-      return 1250;
+      return below_skirt ? 420 : 1250;
     case Material::kShoes:
       return 260;
     case Material::kSoles:
@@ -48,8 +49,7 @@ class AvatarMaker {
   AvatarModel make() {
     add_materials();
     add_colliders();
-    std::vector<FigureLayer> layers =
-        FigureBuilder(skeleton_, design_.look, true).take_body();
+    std::vector<FigureLayer> layers = FigureBuilder(skeleton_, design_.look, true).take_body();
     shape(layers);
     add_body(layers);
     add_head();
@@ -74,9 +74,8 @@ class AvatarMaker {
 
   void add_materials() {
     const GuestLook& look = design_.look;
-    const int cloth =
-        builder_.add_picture(cloth_picture(design_.pattern, has_skirt(design_) ? look.legs : look.top,
-                                           design_.pattern_colour));
+    const int cloth = builder_.add_picture(cloth_picture(
+        design_.pattern, has_skirt(design_) ? look.legs : look.top, design_.pattern_colour));
     skin_ = toon("skin", look.skin, 0.62f);
     cloth_ = toon("cloth", Vector3f::Ones(), 0.5f, cloth);
     top_ = has_skirt(design_) ? toon("bodice", look.top, 0.5f) : cloth_;
@@ -86,6 +85,7 @@ class AvatarMaker {
     soles_ = toon("soles", 0.25f * look.shoes + Vector3f::Constant(0.01f), 0.6f);
     hair_ = toon("hair", look.hair, 0.4f);
     sash_ = toon("sash", design_.sash, 0.5f);
+    edging_ = toon("edging", has_skirt(design_) ? design_.sash : Vector3f(0.75f * look.top), 0.5f);
     lips_ = toon("lips", design_.lips, 0.7f);
     teeth_ = toon("teeth", Vector3f(0.85f, 0.83f, 0.78f), 0.8f);
     mouth_ = toon("mouth", Vector3f(0.09f, 0.012f, 0.015f), 0.8f);
@@ -109,42 +109,58 @@ class AvatarMaker {
     for (const Bone leg : {Bone::kLeftUpperLeg, Bone::kRightUpperLeg}) {
       const Bone knee = leg == Bone::kLeftUpperLeg ? Bone::kLeftLowerLeg : Bone::kRightLowerLeg;
       for_cloth_.push_back(builder_.add_collider(leg, at(leg, {0, 0.0f, 0.005f}),
-                                                 at(knee, {0, 0.02f, 0.006f}), scale * 0.082f));
-      for_cloth_.push_back(builder_.add_collider(
-          knee, at(knee, {0, 0, 0}), at(knee, {0, -0.2f, -0.012f}), scale * 0.06f));
+                                                 at(knee, {0, 0.02f, 0.006f}), scale * 0.09f));
+      for_cloth_.push_back(builder_.add_collider(knee, at(knee, {0, 0, 0}),
+                                                 at(knee, {0, -0.2f, -0.012f}), scale * 0.06f));
     }
     for_hair_.push_back(builder_.add_collider(Bone::kHead, at(Bone::kHead, {0, 0.11f, -0.012f}),
                                               at(Bone::kHead, {0, 0.09f, 0.0f}), scale * 0.082f));
-    for_hair_.push_back(builder_.add_collider(
-        Bone::kUpperChest, at(Bone::kUpperChest, {-0.09f, 0.05f, -0.015f}),
-        at(Bone::kUpperChest, {0.09f, 0.05f, -0.015f}), scale * 0.085f));
-    for_hair_.push_back(builder_.add_collider(Bone::kUpperChest,
-                                              at(Bone::kUpperChest, {0, -0.03f, -0.02f}),
-                                              at(Bone::kUpperChest, {0, 0.08f, -0.02f}),
-                                              scale * 0.1f));
+    for_hair_.push_back(
+        builder_.add_collider(Bone::kUpperChest, at(Bone::kUpperChest, {-0.09f, 0.05f, -0.015f}),
+                              at(Bone::kUpperChest, {0.09f, 0.05f, -0.015f}), scale * 0.085f));
+    for_hair_.push_back(
+        builder_.add_collider(Bone::kUpperChest, at(Bone::kUpperChest, {0, -0.03f, -0.02f}),
+                              at(Bone::kUpperChest, {0, 0.08f, -0.02f}), scale * 0.1f));
   }
 
-  // A waist, a chest and shoulders beside the figure that all have.
+  // What makes the two figures out of the one that all dancers have.
   void shape(std::vector<FigureLayer>& layers) const {
-    if (design_.face == FaceShape::kStrong) return;
-    const float scale = places_.scale;
     for (FigureLayer& layer : layers) {
-      if (layer.skinning != FigureSkinning::kTop) continue;
-      for (FigurePart& part : layer.parts) {
-        const float waist_y_m = places_.at(Bone::kSpine).y();
-        const bool is_waist = std::abs(0.5f * (part.a_m.y() + part.b_m.y()) - waist_y_m) <
-                              scale * 0.12f;
-        if (part.limb == FigureLimb::kTrunk && part.width > 1.0f)
-          part.width *= is_waist ? 0.86f : 0.92f;
-      }
-      for (const float s : {1.0f, -1.0f}) {
-        FigurePart breast;
-        breast.a_m = places_.at(Bone::kUpperChest) + scale * Vector3f(0.062f * s, -0.035f, 0.068f);
-        breast.b_m = breast.a_m + scale * Vector3f(0.006f * s, -0.008f, 0.006f);
-        breast.radius_a_m = scale * 0.056f;
-        breast.radius_b_m = scale * 0.054f;
-        layer.parts.push_back(breast);
-      }
+      // A shirt ends below the band, and does not come out from under it when its dancer bends.
+      if (layer.skinning == FigureSkinning::kTop)
+        layer.hem_y_m = places_.at(Bone::kHips).y() + places_.scale * 0.066f;
+      if (design_.face == FaceShape::kSoft) make_slender(layer);
+    }
+  }
+
+  void make_slender(FigureLayer& layer) const {
+    const float scale = places_.scale;
+    const auto thin = [](FigurePart& part, float share) {
+      part.radius_a_m *= share;
+      part.radius_b_m *= share;
+    };
+    const bool is_top = layer.skinning == FigureSkinning::kTop;
+    const float waist_y_m = places_.at(Bone::kSpine).y();
+    for (FigurePart& part : layer.parts) {
+      const float middle_y_m = 0.5f * (part.a_m.y() + part.b_m.y());
+      const bool is_arm = part.limb == FigureLimb::kLeftArm || part.limb == FigureLimb::kRightArm;
+      if (is_arm) thin(part, 0.86f);
+      if (layer.material == Material::kSkin && !is_arm && layer.skinning != FigureSkinning::kFinger)
+        thin(part, 0.92f);
+      if (is_top && part.limb == FigureLimb::kTrunk && part.width > 1.0f)
+        part.width *= std::abs(middle_y_m - waist_y_m) < scale * 0.12f ? 0.86f : 0.92f;
+      // Below the bodice nothing is wider than it.
+      if (layer.material == Material::kLegs && part.limb == FigureLimb::kTrunk)
+        part.b_m.y() -= scale * 0.055f;
+    }
+    if (!is_top) return;
+    for (const float s : {1.0f, -1.0f}) {
+      FigurePart breast;
+      breast.a_m = places_.at(Bone::kUpperChest) + scale * Vector3f(0.06f * s, -0.035f, 0.066f);
+      breast.b_m = breast.a_m + scale * Vector3f(0.006f * s, -0.008f, 0.006f);
+      breast.radius_a_m = scale * 0.056f;
+      breast.radius_b_m = scale * 0.054f;
+      layer.parts.push_back(breast);
     }
   }
 
@@ -166,7 +182,7 @@ class AvatarMaker {
   void add_body(const std::vector<FigureLayer>& layers) {
     std::map<int, Sheet> by_material;
     for (const FigureLayer& layer : layers) {
-      Sheet sheet = bent_.sheet_of(layer, budget_of(layer));
+      Sheet sheet = bent_.sheet_of(layer, budget_of(layer, has_skirt(design_)));
       if (layer.material == Material::kTop && top_ == cloth_) map_shirt(sheet, places_);
       add_to(by_material[material_of(layer.material)], sheet);
     }
@@ -178,10 +194,10 @@ class AvatarMaker {
     const FaceMaker features(face, design_);
     std::array<int, 2> eyes{};
     for (std::size_t eye = 0; eye < 2; ++eye)
-      eyes[eye] = builder_.add_node(eye == 0 ? "leftEye" : "rightEye",
-                                    kHeadJoint, features.eye_m(eye));
+      eyes[eye] =
+          builder_.add_node(eye == 0 ? "leftEye" : "rightEye", kHeadJoint, features.eye_m(eye));
     builder_.set_eyes(eyes[0], eyes[1]);
-    Sheet head = bent_.sheet_of(face.layer(), 1500);
+    Sheet head = bent_.sheet_of(face.layer(), 1250);
     features.add_jaw(head);
     add_to(head, features.lids());
     constexpr FirstPerson kSeenByOthers = FirstPerson::kThirdPersonOnly;
@@ -192,7 +208,7 @@ class AvatarMaker {
     builder_.add_sheet(features.mouth_inside(), mouth_, kSeenByOthers);
     builder_.add_sheet(features.teeth(), teeth_, kSeenByOthers);
     builder_.add_sheet(features.lips(), lips_, kSeenByOthers);
-    Sheet hair = bent_.sheet_of(hair_layer(face, design_.look.hair_style), 950);
+    Sheet hair = bent_.sheet_of(hair_layer(face, design_.look.hair_style), 850);
     add_to(hair, swinging_hair(face, design_.look.hair_style, builder_, for_hair_));
     builder_.add_sheet(hair, hair_, kSeenByOthers);
   }
@@ -202,6 +218,7 @@ class AvatarMaker {
     for (const FigureLayer& layer : layers)
       if (layer.material == Material::kTop || layer.material == Material::kLegs)
         clothes.push_back(layer);
+    add_edgings(layers);
     const SkirtMaker maker(skeleton_, clothes);
     builder_.add_sheet(maker.band(), sash_);
     if (has_skirt(design_)) {
@@ -210,6 +227,30 @@ class AvatarMaker {
     }
     builder_.add_sheet(maker.sash_ends(builder_, for_cloth_), both_sides(sash_));
     builder_.add_sheet(maker.collar(), both_sides(cloth_));
+  }
+
+  void add_edgings(const std::vector<FigureLayer>& layers) {
+    const SkinWeighting weighting(skeleton_);
+    const float tube_m = places_.scale * 0.0035f;
+    const FigureLayer* top = nullptr;
+    for (const FigureLayer& layer : layers)
+      if (layer.skinning == FigureSkinning::kTop) top = &layer;
+    const FaceSurface face(places_, design_);
+    const Vector3f neck = places_.at(Bone::kNeck);
+    Sheet sheet = edging({*top, face.layer(), neck - places_.scale * 0.03f * Vector3f::UnitY(),
+                          neck + places_.scale * 0.09f * Vector3f::UnitY()},
+                         tube_m, weighting);
+    for (const FigureLayer& layer : layers) {
+      if (layer.material != Material::kSkin || layer.skinning != FigureSkinning::kBody) continue;
+      const FigureLimb limb = layer.parts.front().limb;
+      if (limb != FigureLimb::kLeftArm && limb != FigureLimb::kRightArm) continue;
+      const bool left = limb == FigureLimb::kLeftArm;
+      const Vector3f shoulder = places_.at(left ? Bone::kLeftUpperArm : Bone::kRightUpperArm);
+      const Vector3f wrist = places_.at(left ? Bone::kLeftHand : Bone::kRightHand);
+      const Vector3f begin = shoulder - 0.06f * (wrist - shoulder);
+      add_to(sheet, edging({*top, layer, begin, wrist}, tube_m, weighting));
+    }
+    builder_.add_sheet(sheet, edging_);
   }
 
   // The same material, seen from inside as well.
@@ -230,6 +271,7 @@ class AvatarMaker {
   int soles_ = 0;
   int hair_ = 0;
   int sash_ = 0;
+  int edging_ = 0;
   int lips_ = 0;
   int teeth_ = 0;
   int mouth_ = 0;

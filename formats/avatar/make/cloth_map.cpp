@@ -12,7 +12,8 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kPicture_m = 0.22f;  // along the body
-constexpr float kAround = 5.0f;      // pictures, a whole number
+constexpr float kHalfBreadth_m = 0.2f;
+constexpr float kAcross = 2.4f;  // pictures, from one side of the trunk to the other
 constexpr float kAroundSleeve = 2.0f;
 
 }  // namespace
@@ -25,7 +26,10 @@ void map_shirt(Sheet& sheet, const TposePlaces& places) {
     if (is_sleeve)
       return {kAroundSleeve * (std::atan2(p.z() - arm.z(), p.y() - arm.y()) / kTwoPi + 0.5f),
               std::abs(p.x()) / size_m};
-    return {kAround * (std::atan2(p.x(), p.z()) / kTwoPi + 0.5f), -p.y() / size_m};
+    // As on a cylinder as broad as the chest, front and back alike, so that stripes run straight up
+    // to a narrow neck.
+    const float x = std::clamp(p.x() / (places.scale * kHalfBreadth_m), -1.0f, 1.0f);
+    return {kAcross * (0.5f + std::asin(x) / (0.5f * kTwoPi)), -p.y() / size_m};
   };
   using Key = std::tuple<std::uint32_t, bool, bool>;  // vertex, on a sleeve, beyond the seam
   std::map<Key, std::uint32_t> made;
@@ -36,7 +40,6 @@ void map_shirt(Sheet& sheet, const TposePlaces& places) {
     };
     const float aside_m = std::abs(place(0).x() + place(1).x() + place(2).x()) / 3.0f;
     const bool is_sleeve = aside_m > shoulder_m;
-    const float around = is_sleeve ? kAroundSleeve : kAround;
     std::array<Vector2f, 3> uv;
     float most = -1e9f;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -44,13 +47,13 @@ void map_shirt(Sheet& sheet, const TposePlaces& places) {
       most = std::max(most, uv[k].x());
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      const bool is_beyond = most - uv[k].x() > 0.5f * around;
+      const bool is_beyond = is_sleeve && most - uv[k].x() > 0.5f * kAroundSleeve;
       const std::uint32_t from = sheet.triangles[t + k];
       const auto [at, is_new] = made.try_emplace(
           Key(from, is_sleeve, is_beyond), static_cast<std::uint32_t>(mapped.vertices.size()));
       if (is_new) {
         mapped.vertices.push_back(sheet.vertices[from]);
-        mapped.vertices.back().uv = uv[k] + Vector2f(is_beyond ? around : 0.0f, 0.0f);
+        mapped.vertices.back().uv = uv[k] + Vector2f(is_beyond ? kAroundSleeve : 0.0f, 0.0f);
       }
       mapped.triangles.push_back(at->second);
     }

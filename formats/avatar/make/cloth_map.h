@@ -1,5 +1,5 @@
-// Lays the picture of a shirt's cloth round trunk and sleeves, with a seam at the back, below each
-// sleeve and where a sleeve begins, as shirts have them.
+// Lays the picture of a shirt's cloth round trunk and sleeves, with a seam below each sleeve and
+// where a sleeve begins, as shirts have them.
 //
 // Units/frames: as Sheet.
 // Ownership:    plain values.

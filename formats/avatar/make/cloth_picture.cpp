@@ -33,8 +33,8 @@ AvatarPicture drawn_picture(int size_px, ColourAt colour_at) {
 // To the nearest of the points of a grid that repeats, two in each picture: middle and corners.
 Vector2f from_nearest_middle(const Vector2f& uv, Vector2f& middle) {
   Vector2f best(9.0f, 9.0f);
-  for (const Vector2f& at : {Vector2f(0.5f, 0.5f), Vector2f(0, 0), Vector2f(1, 0), Vector2f(0, 1),
-                             Vector2f(1, 1)})
+  for (const Vector2f& at :
+       {Vector2f(0.5f, 0.5f), Vector2f(0, 0), Vector2f(1, 0), Vector2f(0, 1), Vector2f(1, 1)})
     if ((uv - at).norm() < best.norm()) {
       best = uv - at;
       middle = at;

@@ -72,8 +72,7 @@ void add_to(Sheet& sheet, const Sheet& more) {
     for (const AvatarVertex& vertex : of.vertices) places.push_back(vertex.place_m);
     return places;
   };
-  for (const auto& [name, places] : more.shapes)
-    sheet.shapes.try_emplace(name, at_rest(sheet));
+  for (const auto& [name, places] : more.shapes) sheet.shapes.try_emplace(name, at_rest(sheet));
   for (auto& [name, places] : sheet.shapes) {
     const auto found = more.shapes.find(name);
     const std::vector<Vector3f> added = found != more.shapes.end() ? found->second : at_rest(more);

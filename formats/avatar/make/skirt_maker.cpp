@@ -10,7 +10,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr float kBandHalf_m = 0.02f;
+constexpr float kBandHalf_m = 0.025f;
 
 Vector3f direction(float turn) { return {std::sin(turn), 0.0f, std::cos(turn)}; }
 
@@ -70,10 +70,11 @@ Sheet SkirtMaker::band() const {
 
 Sheet SkirtMaker::skirt(ModelBuilder& builder, const std::vector<std::uint32_t>& colliders) const {
   constexpr int kChains = 12;
-  constexpr int kJoints = 4;  // of a chain; the last is its end
+  constexpr int kJoints = 5;  // of a chain; the last is its end
   constexpr int kColumnsOfChain = 4;
-  constexpr int kRows = 10;
+  constexpr int kRows = 9;
   constexpr int kColumns = kChains * kColumnsOfChain;
+  constexpr float kFolds = 8.0f;
   const float scale = places_.scale;
   const float hem_y_m = places_.at(Bone::kLeftLowerLeg).y() + scale * 0.02f;
   // From waist to hem: close to the hips, then out.
@@ -83,7 +84,7 @@ Sheet SkirtMaker::skirt(ModelBuilder& builder, const std::vector<std::uint32_t>&
     const float close_m = radius_m(turn, std::max(y_m, places_.at(Bone::kHips).y())) +
                           scale * (0.004f + 0.03f * smooth_step(0.0f, 0.3f, down));
     const float flare_m = scale * 0.19f * std::pow(down, 1.25f);
-    const float folds = 1.0f + fold * 0.075f * smooth_step(0.1f, 1.0f, down);
+    const float folds = 1.0f + fold * 0.06f * smooth_step(0.1f, 1.0f, down);
     return Vector3f(0.0f, y_m, places_.at(Bone::kHips).z()) +
            (close_m + flare_m) * folds * direction(turn);
   };
@@ -93,11 +94,11 @@ Sheet SkirtMaker::skirt(ModelBuilder& builder, const std::vector<std::uint32_t>&
     std::vector<int> chain;
     for (int j = 0; j < kJoints; ++j) {
       const float down = 0.1f + 0.9f * static_cast<float>(j) / (kJoints - 1);
-      chain.push_back(builder.add_node(
-          "skirt" + std::to_string(c + 1) + "-" + std::to_string(j + 1),
-          chain.empty() ? kHipsJoint : chain.back(), place_at(turn, down, 0.0f)));
+      chain.push_back(
+          builder.add_node("skirt" + std::to_string(c + 1) + "-" + std::to_string(j + 1),
+                           chain.empty() ? kHipsJoint : chain.back(), place_at(turn, down, 0.0f)));
     }
-    builder.add_spring(chain, {0.55f, 0.35f, 0.3f, scale * 0.015f}, colliders);
+    builder.add_spring(chain, {0.5f, 0.4f, 0.3f, scale * 0.035f}, colliders);
     chains.push_back(std::move(chain));
   }
   Sheet sheet;
@@ -105,9 +106,9 @@ Sheet SkirtMaker::skirt(ModelBuilder& builder, const std::vector<std::uint32_t>&
     for (int column = 0; column <= kColumns; ++column) {  // the last lies on the first
       const float turn = kTwoPi * static_cast<float>(column % kColumns) / kColumns;
       const float down = static_cast<float>(row) / (kRows - 1);
-      const float fold = std::cos(kChains * turn);
-      AvatarVertex vertex = vertex_at(
-          place_at(turn, down, fold), {8.0f * static_cast<float>(column) / kColumns, 3.2f * down});
+      const float fold = std::cos(kFolds * turn);
+      AvatarVertex vertex = vertex_at(place_at(turn, down, fold),
+                                      {8.0f * static_cast<float>(column) / kColumns, 3.2f * down});
       const int chain = column % kColumns / kColumnsOfChain;
       const float aside = static_cast<float>(column % kColumnsOfChain) / kColumnsOfChain;
       const auto& left = chains[static_cast<std::size_t>(chain)];
@@ -152,7 +153,7 @@ Sheet SkirtMaker::sash_ends(ModelBuilder& builder,
   const float scale = places_.scale;
   Sheet sheet;
   int number = 0;
-  for (const float side_turn : {0.95f, 1.3f}) {
+  for (const float side_turn : {0.62f, 0.86f}) {
     ++number;
     const float length_m = scale * (number == 1 ? 0.34f : 0.28f);
     const float half_m = scale * 0.032f;
@@ -171,9 +172,10 @@ Sheet SkirtMaker::sash_ends(ModelBuilder& builder,
     };
     std::vector<int> chain;
     for (int j = 0; j < kJoints; ++j)
-      chain.push_back(builder.add_node("sash" + std::to_string(number) + "-" + std::to_string(j + 1),
-                                       chain.empty() ? kHipsJoint : chain.back(),
-                                       middle_at(static_cast<float>(j) / (kJoints - 1))));
+      chain.push_back(
+          builder.add_node("sash" + std::to_string(number) + "-" + std::to_string(j + 1),
+                           chain.empty() ? kHipsJoint : chain.back(),
+                           middle_at(static_cast<float>(j) / (kJoints - 1))));
     builder.add_spring(chain, {0.25f, 0.5f, 0.3f, scale * 0.012f}, colliders);
     Sheet end;
     const Vector3f aside = direction(side_turn + 1.5707963f);
@@ -182,7 +184,7 @@ Sheet SkirtMaker::sash_ends(ModelBuilder& builder,
         const float down = static_cast<float>(row) / (kRows - 1);
         const float across = 2.0f * static_cast<float>(column) / (kColumns - 1) - 1.0f;
         const float width = 0.45f + 0.55f * smooth_step(0.0f, 0.35f, down);
-        const float wave_m = scale * 0.006f * std::sin(4.0f * across + 5.0f * down);
+        const float wave_m = scale * 0.004f * std::sin(3.0f * across + 6.0f * down);
         // Cut at a slant.
         const float slant_m = down > 0.95f ? scale * 0.02f * across : 0.0f;
         const Vector3f place = middle_at(down) + across * half_m * width * aside +
@@ -209,8 +211,8 @@ Sheet SkirtMaker::collar() const {
   FigureLayer as_top;
   as_top.skinning = FigureSkinning::kBody;
   // Up from the shirt, and folded down outside; open in front.
-  constexpr std::array<float, 4> kHeights_m{-0.012f, 0.006f, 0.03f, -0.012f};
-  constexpr std::array<float, 4> kRadii_m{0.086f, 0.081f, 0.068f, 0.062f};
+  constexpr std::array<float, 4> kHeights_m{0.026f, 0.046f, 0.07f, 0.03f};
+  constexpr std::array<float, 4> kRadii_m{0.082f, 0.076f, 0.064f, 0.058f};
   Sheet sheet;
   for (std::size_t row = 0; row < 4; ++row)
     for (int column = 0; column < kColumns; ++column) {

@@ -1,7 +1,8 @@
 // Run by Node: avatars in Chromium, loaded and drawn by three-vrm, as web apps for avatars do. Writes what was loaded as
 // one line of JSON and, where the scene names a picture, a PNG of it.
 //   node three_vrm.mjs MODULES_FOLDER SCENE.json
-// The scene: {"avatars": [{"file": …, "animation": …, "time_s": …, "x_m": …, "turn_deg": …, "expressions": {"aa": 1}}],
+// The scene: {"avatars": [{"file": …, "animation": …, "time_s": …, "x_m": …, "turn_deg": …,
+//   "pose": {"leftLowerLeg": [x, y, z in degrees]}, "expressions": {"aa": 1}}],
 //   "picture": …, "size": [w, h], "eye_m": […], "look_m": […], "fov_deg": …, "background": …}; only "avatars" is needed.
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
@@ -69,9 +70,13 @@ async function draw(scene) {
       const animation = (await load(avatar.animationBytes)).userData.vrmAnimations[0];
       mixer.clipAction(createVRMAnimationClip(animation, vrm)).play();
     }
-    for (const [bone, euler] of Object.entries(avatar.pose ?? {})) {
-      vrm.humanoid.getNormalizedBoneNode(bone).rotation.set(...euler.map((d) => (d * Math.PI) / 180), 'XYZ');
-    }
+    // A pose is taken within half a second.
+    const bend = (share) => {
+      for (const [bone, euler] of Object.entries(avatar.pose ?? {})) {
+        const angles = euler.map((d) => (share * d * Math.PI) / 180);
+        vrm.humanoid.getNormalizedBoneNode(bone).rotation.set(...angles, 'XYZ');
+      }
+    };
     for (const [name, weight] of Object.entries(avatar.expressions ?? {})) vrm.expressionManager.setValue(name, weight);
     // A second of dance before the picture, so that what swings swings.
     const step = 1 / 60;
@@ -81,6 +86,7 @@ async function draw(scene) {
     vrm.springBoneManager?.reset();
     for (let i = 0; i < 60; ++i) {
       mixer.setTime(Math.max(0, end - 1 + (i + 1) * step));
+      bend(Math.min(1, (i + 1) / 30));
       vrm.update(step);
     }
     stage.updateMatrixWorld(true);

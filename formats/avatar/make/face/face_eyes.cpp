@@ -15,7 +15,7 @@ constexpr float kEyeHeight_m = 0.088f;
 constexpr int kLidColumns = 11;
 constexpr int kLidRows = 5;
 constexpr float kCorner_deg = 72.0f;
-constexpr std::array<const char*, 7> kLidMorphs{"blinkLeft", "blinkRight", "happy", "angry",
+constexpr std::array<const char*, 7> kLidMorphs{"blinkLeft", "blinkRight", "happy",    "angry",
                                                 "sad",       "relaxed",    "surprised"};
 
 float sign_of(std::size_t side) { return side == 0 ? 1.0f : -1.0f; }
@@ -84,7 +84,7 @@ Sheet FaceMaker::eyeballs(const std::array<int, 2>& joints) const {
 }
 
 FaceMaker::LidShape FaceMaker::lids_at_rest() const {
-  return is_strong_ ? LidShape{24.0f, -22.0f, 1.0f} : LidShape{30.0f, -24.0f, 5.0f};
+  return is_strong_ ? LidShape{26.0f, -22.0f, 1.0f} : LidShape{34.0f, -26.0f, 5.0f};
 }
 
 FaceMaker::LidShape FaceMaker::lids_of(const std::string& morph, std::size_t eye) const {
@@ -117,14 +117,16 @@ std::vector<Vector3f> FaceMaker::lid_places(std::size_t eye, const LidShape& sha
   // From the edge at the eyeball out to the rim, and back into the head.
   for (int row = 0; row < kLidRows; ++row)
     for (int column = 0; column < kLidColumns; ++column) {
-      const float yaw_deg = kCorner_deg * (2.0f * static_cast<float>(column) /
-                                               static_cast<float>(kLidColumns - 1) -
-                                           1.0f);
+      const float yaw_deg =
+          kCorner_deg *
+          (2.0f * static_cast<float>(column) / static_cast<float>(kLidColumns - 1) - 1.0f);
       const float rim = rim_deg(shape, upper, yaw_deg, eye);
       const float back = upper ? kBack_deg : -kBack_deg;
-      const float share = row < 2 ? 0.0f
-                                  : static_cast<float>(row - 1) / static_cast<float>(kLidRows - 2);
-      const float radii = row == 0 ? 1.0f : 1.12f - 0.02f * share;
+      const float share =
+          row < 2 ? 0.0f : static_cast<float>(row - 1) / static_cast<float>(kLidRows - 2);
+      // The lower lid is thin, and no bag.
+      const float rim_radii = upper ? 1.12f : 1.06f;
+      const float radii = row == 0 ? 1.0f : rim_radii - (upper ? 0.02f : 0.05f) * share;
       places.push_back(on_eye(eye, yaw_deg, rim + share * (back - rim), radii));
     }
   if (!upper) {  // rows go up
@@ -141,7 +143,8 @@ std::vector<Vector3f> FaceMaker::lash_places(std::size_t eye, const LidShape& sh
   std::vector<Vector3f> places;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < kLidColumns; ++column) {
-      const float t = 2.0f * static_cast<float>(column) / static_cast<float>(kLidColumns - 1) - 1.0f;
+      const float t =
+          2.0f * static_cast<float>(column) / static_cast<float>(kLidColumns - 1) - 1.0f;
       const float outwards = t * sign_of(eye);
       const float rim = rim_deg(shape, true, kCorner_deg * t, eye);
       // Longer towards the outer corner.
@@ -194,7 +197,8 @@ std::vector<Vector3f> FaceMaker::brow_places(std::size_t side, const BrowShape& 
       const float x_m = (0.013f + 0.037f * outwards) * sign_of(side);
       const float arch_m = (is_strong_ ? 0.0035f : 0.0065f) * std::sin(2.6f * outwards);
       const float moved_m = shape.inner_m + outwards * (shape.outer_m - shape.inner_m);
-      const float half_m = thick_m * (1.0f - 0.75f * outwards * outwards);
+      const float half_m = thick_m * (1.0f - 0.8f * outwards * outwards) *
+                           (0.55f + 0.45f * smooth_step(0.0f, 0.25f, outwards));
       const float y_m = 0.1145f + arch_m - 0.002f * outwards + moved_m;
       places.push_back(surface_.on(x_m, y_m + half_m * static_cast<float>(row - 1),
                                    row == 1 ? 0.0035f : 0.0004f));

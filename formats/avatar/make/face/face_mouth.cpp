@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kMouthHeight_m = 0.0375f;
 constexpr int kMouthColumns = 15;
-constexpr std::array<const char*, 10> kMouthMorphs{"aa",    "ih",  "ou",      "ee",       "oh",
+constexpr std::array<const char*, 10> kMouthMorphs{"aa",    "ih",  "ou",      "ee",        "oh",
                                                    "happy", "sad", "relaxed", "surprised", "angry"};
 
 float column_at(int column) {
@@ -116,7 +116,7 @@ Sheet FaceMaker::teeth() const {
   for (const char* morph : kMouthMorphs) {
     const std::string name = morph;
     // A smile shows them, a rounded mouth hides them.
-    const float share = name == "happy"              ? 0.62f
+    const float share = name == "happy"                ? 0.62f
                         : name == "ee" || name == "ih" ? 0.7f
                         : name == "angry"              ? 0.9f
                         : name == "aa"                 ? 0.25f

@@ -29,38 +29,38 @@ FigurePart FaceSurface::part(const Vector3f& a_m, float radius_a_m, const Vector
 
 void FaceSurface::add_skull(FaceShape shape) {
   const bool strong = shape == FaceShape::kStrong;
-  FigurePart neck = part({0, 0, 0}, strong ? 0.058f : 0.047f, {0, 0.03f, -0.004f},
-                         strong ? 0.054f : 0.045f);
+  FigurePart neck =
+      part({0, 0, 0}, strong ? 0.058f : 0.047f, {0, 0.03f, -0.004f}, strong ? 0.054f : 0.045f);
   neck.a_m = neck_m_ + scale_ * Vector3f(0, -0.035f, 0.0f);
   layer_.parts.push_back(neck);
-  layer_.parts.push_back(part({0, 0.108f, -0.008f}, 0.084f, {0, 0.114f, -0.008f}, 0.084f, 0.88f,
-                              1.08f));
+  layer_.parts.push_back(
+      part({0, 0.108f, -0.008f}, 0.084f, {0, 0.114f, -0.008f}, 0.084f, 0.88f, 1.08f));
   // From brow to chin; two more at the corners of the jaw.
-  layer_.parts.push_back(part({0, 0.095f, 0.02f}, 0.066f, {0, 0.03f, 0.04f},
-                              strong ? 0.042f : 0.036f, 1.03f));
-  layer_.parts.push_back(part({0, 0.012f, 0.056f}, strong ? 0.024f : 0.019f,
-                              {0, 0.012f, 0.056f}, 0.019f, strong ? 1.25f : 1.0f));
+  layer_.parts.push_back(
+      part({0, 0.095f, 0.02f}, 0.066f, {0, 0.03f, 0.04f}, strong ? 0.042f : 0.036f, 1.03f));
+  layer_.parts.push_back(part({0, 0.012f, 0.056f}, strong ? 0.024f : 0.019f, {0, 0.012f, 0.056f},
+                              0.019f, strong ? 1.25f : 1.0f));
   for (const float s : {1.0f, -1.0f})
-    layer_.parts.push_back(part({0.044f * s, strong ? 0.03f : 0.045f, 0.012f},
-                                strong ? 0.025f : 0.02f, {0.012f * s, 0.014f, 0.05f},
+    layer_.parts.push_back(part({0.044f * s, strong ? 0.038f : 0.045f, 0.012f},
+                                strong ? 0.0225f : 0.02f, {0.012f * s, 0.014f, 0.05f},
                                 strong ? 0.02f : 0.016f));
 }
 
 void FaceSurface::add_features(FaceShape shape) {
   const bool strong = shape == FaceShape::kStrong;
   // Bridge and tip of the nose, and its wings.
-  layer_.parts.push_back(part({0, 0.098f, 0.079f}, 0.0075f, {0, 0.066f, 0.098f},
-                              strong ? 0.0115f : 0.0095f));
+  layer_.parts.push_back(
+      part({0, 0.098f, 0.079f}, 0.0075f, {0, 0.066f, 0.098f}, strong ? 0.0115f : 0.0095f));
   for (const float s : {1.0f, -1.0f}) {
     layer_.parts.push_back(part({0.008f * s, 0.062f, 0.089f}, strong ? 0.0085f : 0.007f,
                                 {0.008f * s, 0.062f, 0.089f}, 0.007f));
     // Cheekbones, brow ridges, ears.
-    layer_.parts.push_back(part({0.036f * s, 0.066f, 0.05f}, 0.021f, {0.05f * s, 0.074f, 0.03f},
-                                0.018f));
+    layer_.parts.push_back(
+        part({0.036f * s, 0.066f, 0.05f}, 0.021f, {0.05f * s, 0.074f, 0.03f}, 0.018f));
     layer_.parts.push_back(part({0.014f * s, 0.116f, 0.073f}, strong ? 0.012f : 0.009f,
                                 {0.046f * s, 0.113f, 0.053f}, 0.01f));
-    layer_.parts.push_back(part({0.077f * s, 0.098f, -0.008f}, 0.019f, {0.073f * s, 0.072f, 0.0f},
-                                0.012f, 0.45f));
+    layer_.parts.push_back(
+        part({0.077f * s, 0.098f, -0.008f}, 0.019f, {0.073f * s, 0.072f, 0.0f}, 0.012f, 0.45f));
   }
 }
 

@@ -56,8 +56,7 @@ Sheet strand_sheet(const FaceSurface& face, const Strand& strand, const std::vec
       const float turn = kTwoPi * static_cast<float>(s) / kSides;
       // Grooves, as of single locks.
       const float r = here.radius_m * (1.0f + 0.1f * std::cos(5.0f * turn));
-      const Vector3f out =
-          std::sin(turn) * side + strand.flat * std::cos(turn) * -front;
+      const Vector3f out = std::sin(turn) * side + strand.flat * std::cos(turn) * -front;
       AvatarVertex vertex = vertex_at(face.at(here.place_m + r * out));
       const auto joint = static_cast<std::size_t>(at);
       const std::size_t first = std::min(joint, chain.size() - 1);
@@ -81,12 +80,9 @@ std::vector<Strand> strands_of(Hair style) {
   std::vector<Strand> strands;
   if (style == Hair::kPonytail) {
     Strand tail{"ponytail", {}, 0.85f, {0.9f, 0.25f, 0.35f, 0.03f}};
-    tail.points = {{{0, 0.152f, -0.108f}, 0.02f},
-                   {{0, 0.135f, -0.155f}, 0.036f},
-                   {{0, 0.07f, -0.18f}, 0.044f},
-                   {{0, -0.01f, -0.178f}, 0.038f},
-                   {{0, -0.085f, -0.168f}, 0.024f},
-                   {{0.004f, -0.14f, -0.172f}, 0.004f}};
+    tail.points = {{{0, 0.152f, -0.108f}, 0.02f},   {{0, 0.135f, -0.155f}, 0.036f},
+                   {{0, 0.07f, -0.18f}, 0.044f},    {{0, -0.01f, -0.178f}, 0.038f},
+                   {{0, -0.085f, -0.168f}, 0.024f}, {{0.004f, -0.14f, -0.172f}, 0.004f}};
     strands.push_back(std::move(tail));
   }
   if (style == Hair::kPonytail || style == Hair::kBun)
@@ -173,8 +169,7 @@ Sheet swinging_hair(const FaceSurface& face, Hair style, ModelBuilder& builder,
     std::vector<int> chain;
     for (std::size_t p = 0; p < strand.points.size(); ++p)
       chain.push_back(builder.add_node(strand.name + std::to_string(p + 1),
-                                       chain.empty() ? kHeadJoint
-                                                     : chain.back(),
+                                       chain.empty() ? kHeadJoint : chain.back(),
                                        face.at(strand.points[p].place_m)));
     builder.add_spring(chain, strand.swing, colliders);
     add_to(sheet, strand_sheet(face, strand, chain));
