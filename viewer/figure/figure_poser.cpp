@@ -109,7 +109,8 @@ std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
   if (figures_.size() < count) figures_.resize(count);
   for (const SceneGuest& guest : scene.guests) {
     if (!is_shown(guest)) continue;
-    fits_.emplace_back().rig = &rig_of(guest, fits_.size() - 1).rig;
+    const Rig& rig = rig_of(guest, fits_.size());
+    fits_.emplace_back().rig = &rig.rig;
     place_on_bones(guest.skeleton, guest.pose, fits_.back());
     if (options_.fits_feet) fit_feet(fits_.back());
   }
@@ -141,7 +142,7 @@ void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& ri
     rig.linears[d] = rig.rig.scale * rig.drivers[d].D.toRotationMatrix();
   for (std::size_t side = 0; side < 2; ++side) {
     if (fit.arm_stretch[side] == 1.0f) continue;
-    const Limb& arm = kArms[side];
+    const Limb& arm = kArmLimbs[side];
     rig.linears[index_of(arm.upper)] *=
         stretched(shape, arm.upper, arm.lower, fit.arm_stretch[side]);
     rig.linears[index_of(arm.lower)] *= stretched(shape, arm.lower, arm.end, fit.arm_stretch[side]);

@@ -30,7 +30,7 @@ float settled_m(float height_m) {
 // Toes that would point into the floor lie on it, where the ball of the foot is down.
 void bend_toes(const FootPoints& points, std::size_t side, float ball_height_m,
                BodyFrames& frames) {
-  const std::size_t toes = toes_of(side), foot = index_of(kLegs[side].end);
+  const std::size_t toes = toes_of(side), foot = index_of(kLegLimbs[side].end);
   const Vector3f joint = frames.p_WB_m[toes];
   const Vector3f ball = frames.p_WB_m[foot] + frames.R_WB[foot] * points.ball_middle_m();
   const Vector3f tip = joint + frames.R_WB[toes] * points.tip_m;
@@ -53,7 +53,7 @@ struct FootGoal {
 
 FootGoal goal_of(FigureFit& fit, std::size_t side) {
   const AvatarRig& rig = *fit.rig;
-  const std::size_t foot = index_of(kLegs[side].end), toes = toes_of(side);
+  const std::size_t foot = index_of(kLegLimbs[side].end), toes = toes_of(side);
   const Vector3f ball_was =
       fit.danced.p_WB_m[foot] + fit.danced.R_WB[foot] * rig.dancer_feet[side].ball_middle_m();
   const float danced_m = lowest_m(rig.dancer_feet[side], fit.danced, side);
@@ -75,7 +75,7 @@ FootGoal goal_of(FigureFit& fit, std::size_t side) {
 float needed_drop_m(const FigureFit& fit, const std::array<FootGoal, 2>& goals) {
   float drop = 0.0f;
   for (std::size_t side = 0; side < 2; ++side) {
-    const Limb& leg = kLegs[side];
+    const Limb& leg = kLegLimbs[side];
     const float length =
         fit.rig->body.offset(leg.lower).norm() + fit.rig->body.offset(leg.end).norm();
     const Vector3f up = fit.frames.position(leg.upper) - goals[side].ankle_W_m;
@@ -91,7 +91,7 @@ float needed_drop_m(const FigureFit& fit, const std::array<FootGoal, 2>& goals) 
 }  // namespace
 
 float lowest_m(const FootPoints& points, const BodyFrames& frames, std::size_t side) {
-  const std::size_t foot = index_of(kLegs[side].end), toes = toes_of(side);
+  const std::size_t foot = index_of(kLegLimbs[side].end), toes = toes_of(side);
   // Only the height: the second row of the rotation.
   const Vector3f up_foot = frames.R_WB[foot].conjugate() * Vector3f::UnitY();
   const Vector3f up_toes = frames.R_WB[toes].conjugate() * Vector3f::UnitY();
@@ -111,7 +111,7 @@ void fit_feet(FigureFit& fit) {
   if (drop > 0.0f)
     for (Vector3f& place : fit.frames.p_WB_m) place.y() -= drop;
   for (std::size_t side = 0; side < 2; ++side) {
-    const Limb& leg = kLegs[side];
+    const Limb& leg = kLegLimbs[side];
     const std::size_t foot = index_of(leg.end), toes = toes_of(side);
     if ((goals[side].ankle_W_m - fit.frames.p_WB_m[foot]).norm() > kUnchanged_m)
       fit_limb(leg, goals[side].ankle_W_m, fit.R_W(leg.upper) * hinge_of(leg), 1.0f, fit.frames);

@@ -71,10 +71,11 @@ void HandContacts::list_hands(std::span<const FigureFit> figures) {
       Hand hand;
       hand.danced_W_m = fit.danced_palm_W_m(side);
       hand.natural_W_m = hand.wanted_W_m = fit.palm_W_m(side);
-      hand.from_palm_m = fit.frames.position(kArms[side].end) - hand.natural_W_m;
-      hand.shoulder_W_m = fit.frames.position(kArms[side].upper);
-      hand.reach_m = std::max(arm_reach_m(fit, side),
-                              (fit.frames.position(kArms[side].end) - hand.shoulder_W_m).norm());
+      hand.from_palm_m = fit.frames.position(kArmLimbs[side].end) - hand.natural_W_m;
+      hand.shoulder_W_m = fit.frames.position(kArmLimbs[side].upper);
+      hand.reach_m =
+          std::max(arm_reach_m(fit, side),
+                   (fit.frames.position(kArmLimbs[side].end) - hand.shoulder_W_m).norm());
       hand.help_m = arm_help_m(fit, side);
       hands_.push_back(hand);
     }
