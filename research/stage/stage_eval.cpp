@@ -1,5 +1,7 @@
 #include "research/stage/stage_eval.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -75,8 +77,8 @@ class StageMeter {
     }
   }
 
-  void add(const SceneState& scene, std::span<const PosedFigure> figures, const Moment& before,
-           const Moment& now, bool is_first) {
+  void add(std::span<const PosedFigure> figures, const Moment& before, const Moment& now,
+           bool is_first) {
     add_hands(figures, now);
     for (std::size_t d = 0; d < figures.size(); ++d) {
       for (std::size_t side = 0; side < 2; ++side) {
@@ -92,7 +94,7 @@ class StageMeter {
       }
       if (!is_first) add_steps(d, before, now);
     }
-    static_cast<void>(scene);
+    ++frame_;
   }
 
   StageMeasures take_measures() {
@@ -163,7 +165,11 @@ class StageMeter {
       const Vector3f shown = now.shown[d].p_WB_m[b] - before.shown[d].p_WB_m[b];
       const double step_mm = 1e3 * static_cast<double>((shown - danced).norm());
       steps_.push_back(step_mm);
-      out_.joint_step_mm_max = std::max(out_.joint_step_mm_max, step_mm);
+      if (step_mm > out_.joint_step_mm_max) {
+        out_.joint_step_mm_max = step_mm;
+        out_.joint_step_where = fmt::format("{} {} {:.2f} s", d + 1, kBones[b].name,
+                                            static_cast<double>(frame_) / take_.hz);
+      }
       out_.joint_step_danced_mm_max =
           std::max(out_.joint_step_danced_mm_max, 1e3 * static_cast<double>(danced.norm()));
     }
@@ -175,7 +181,7 @@ class StageMeter {
   StageMeasures out_;
   std::vector<double> gaps_, danced_gaps_, hold_offs_, own_offs_, floors_, danced_floors_, slides_,
       danced_slides_, steps_;
-  std::size_t stretched_ = 0, arms_ = 0;
+  std::size_t stretched_ = 0, arms_ = 0, frame_ = 0;
 };
 
 }  // namespace
@@ -199,7 +205,7 @@ StageMeasures measure_stage(const StageTake& take, const StageWear& wear, Figure
       now.feet.push_back({danced_foot(guest.skeleton, now.danced[d], 0),
                           danced_foot(guest.skeleton, now.danced[d], 1)});
     }
-    meter.add(scene, figures, before, now, f == 0);
+    meter.add(figures, before, now, f == 0);
     std::swap(before, now);
   }
   StageMeasures measures = meter.take_measures();

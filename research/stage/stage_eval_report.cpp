@@ -28,6 +28,7 @@ Json json_of(const StageMeasures& of) {
           {"wrist_twist_deg_max", of.wrist_twist_deg_max},
           {"elbow_twist_deg_max", of.elbow_twist_deg_max},
           {"joint_step_mm_max", of.joint_step_mm_max},
+          {"joint_step_where", of.joint_step_where},
           {"joint_step_mm_p999", of.joint_step_mm_p999},
           {"joint_step_danced_mm_max", of.joint_step_danced_mm_max},
           {"stretch_percent_max", of.stretch_percent_max},
@@ -37,6 +38,7 @@ Json json_of(const StageMeasures& of) {
 
 std::string text_of(const Json& value) {
   if (value.is_null()) return "-";
+  if (value.is_string()) return value.get<std::string>();
   return value.is_number_float() ? fmt::format("{:.1f}", value.get<double>()) : value.dump();
 }
 
@@ -53,11 +55,11 @@ std::string stage_eval_table(const StageEval& eval) {
   std::string out;
   for (std::size_t d = 0; d < eval.dancers.size(); ++d)
     fmt::format_to(std::back_inserter(out), "{} as {}\n", eval.dancers[d], eval.avatars[d]);
-  fmt::format_to(std::back_inserter(out), "{} frames\n\n{:<28}{:>10}{:>10}\n", eval.frames, "",
+  fmt::format_to(std::back_inserter(out), "{} frames\n\n{:<28}{:>24}{:>24}\n", eval.frames, "",
                  "fitted", "plain");
   const Json fitted = json_of(eval.fitted), plain = json_of(eval.plain);
   for (const auto& [key, value] : fitted.items())
-    fmt::format_to(std::back_inserter(out), "{:<28}{:>10}{:>10}\n", key, text_of(value),
+    fmt::format_to(std::back_inserter(out), "{:<28}{:>24}{:>24}\n", key, text_of(value),
                    text_of(plain[key]));
   return out;
 }

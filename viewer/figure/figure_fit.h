@@ -16,11 +16,19 @@ namespace dance {
 constexpr std::array<Limb, 2> kArmLimbs{kLeftArm, kRightArm};
 constexpr std::array<Limb, 2> kLegLimbs{kLeftLeg, kRightLeg};
 
+// What contacts keep of a figure from picture to picture.
+struct ContactPast {
+  std::array<Eigen::Vector3f, 2> corrections_W_m{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  float passed_s = 0.0f;
+  bool is_known = false;
+};
+
 struct FigureFit {
   const AvatarRig* rig = nullptr;
   BodyFrames danced;
   BodyFrames frames;
   std::array<float, 2> arm_stretch{1.0f, 1.0f};
+  ContactPast* past = nullptr;  // null: none is kept
 
   const Eigen::Quaternionf& R_W(Bone bone) const { return frames.R_WB[index_of(bone)]; }
   Eigen::Vector3f palm_W_m(std::size_t side) const {
