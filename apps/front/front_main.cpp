@@ -57,6 +57,8 @@ constexpr std::array kCommands{
     Command{"codec eval", "the pose codec on recorded dances: bytes, errors, times, losses"},
     Command{"codec train", "trains a model of the pose codec"},
     Command{"stylize eval", "what styles do to recorded dances: gain, mean pose, bones, feet"},
+    Command{"stage eval",
+            "a recorded couple on avatars: do hands meet, do feet stand, at what cost"},
     Command{"rhythm eval",
             "remote dancers on the beat that the listener hears, on recorded dances"},
     Command{"predict eval",

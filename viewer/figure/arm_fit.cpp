@@ -22,8 +22,8 @@ Bone shoulder_of(std::size_t side) {
 }
 
 float arm_length_m(const FigureFit& fit, std::size_t side) {
-  return fit.rig->body.offset(kArms[side].lower).norm() +
-         fit.rig->body.offset(kArms[side].end).norm();
+  return fit.rig->body.offset(kArmLimbs[side].lower).norm() +
+         fit.rig->body.offset(kArmLimbs[side].end).norm();
 }
 
 // The lowest bone of the back, about which it leans.
@@ -56,7 +56,7 @@ struct Reach {
 
   // What is missing, and the direction in which.
   float need_m(const FigureFit& fit, std::size_t side, Vector3f& towards) const {
-    towards = wrist_W_m - fit.frames.position(kArms[side].upper);
+    towards = wrist_W_m - fit.frames.position(kArmLimbs[side].upper);
     const float distance = towards.norm();
     if (distance < 1e-4f) return 0.0f;
     towards /= distance;
@@ -74,10 +74,10 @@ void lean(const std::array<Reach, 2>& reaches, FigureFit& fit) {
     Vector3f towards;
     float need = reaches[side].need_m(fit, side, towards);
     if (fit.rig->shape->has(shoulder_of(side)))  // what the shoulder will do
-      need -= kMostShoulder_rad * kCounted * fit.rig->body.offset(kArms[side].upper).norm();
+      need -= kMostShoulder_rad * kCounted * fit.rig->body.offset(kArmLimbs[side].upper).norm();
     if (need <= 0.0f) continue;
-    turn +=
-        turn_towards(pivot, fit.frames.position(kArms[side].upper), towards, need, kMostLean_rad);
+    turn += turn_towards(pivot, fit.frames.position(kArmLimbs[side].upper), towards, need,
+                         kMostLean_rad);
   }
   if (turn.norm() < 1e-7f) return;
   if (turn.norm() > kMostLean_rad) turn *= kMostLean_rad / turn.norm();
@@ -96,12 +96,12 @@ void raise_shoulder(const Reach& reach, std::size_t side, FigureFit& fit) {
   if (need <= 0.0f) return;
   const Vector3f pivot = fit.frames.position(shoulder);
   const Quaternionf rotation = rotation_of(turn_towards(
-      pivot, fit.frames.position(kArms[side].upper), towards, need, kMostShoulder_rad));
+      pivot, fit.frames.position(kArmLimbs[side].upper), towards, need, kMostShoulder_rad));
   auto& R_W = fit.frames.R_WB[index_of(shoulder)];
   R_W = (rotation * R_W).normalized();
-  const Vector3f was = fit.frames.position(kArms[side].upper);
+  const Vector3f was = fit.frames.position(kArmLimbs[side].upper);
   const Vector3f moved = pivot + rotation * (was - pivot) - was;
-  for (const Bone bone : {kArms[side].upper, kArms[side].lower, kArms[side].end})
+  for (const Bone bone : {kArmLimbs[side].upper, kArmLimbs[side].lower, kArmLimbs[side].end})
     fit.frames.p_WB_m[index_of(bone)] += moved;
 }
 
@@ -115,10 +115,10 @@ float arm_help_m(const FigureFit& fit, std::size_t side) {
   const Skeleton& body = fit.rig->body;
   float help = (kMostStretch - 1.0f) * arm_length_m(fit, side);
   if (fit.rig->shape->has(shoulder_of(side)))
-    help += kCounted * kMostShoulder_rad * body.offset(kArms[side].upper).norm();
+    help += kCounted * kMostShoulder_rad * body.offset(kArmLimbs[side].upper).norm();
   if (const auto lumbar = lumbar_of(*fit.rig->shape))
     help += kCounted * kMostLean_rad *
-            (fit.frames.position(kArms[side].upper) - fit.frames.position(*lumbar)).norm();
+            (fit.frames.position(kArmLimbs[side].upper) - fit.frames.position(*lumbar)).norm();
   return help;
 }
 
@@ -127,7 +127,7 @@ void fit_arms(const std::array<std::optional<Vector3f>, 2>& palms_W_m, FigureFit
   std::array<Reach, 2> reaches;
   std::array<Quaternionf, 2> R_WHand;
   for (std::size_t side = 0; side < 2; ++side) {
-    R_WHand[side] = fit.R_W(kArms[side].end);
+    R_WHand[side] = fit.R_W(kArmLimbs[side].end);
     if (!palms_W_m[side]) continue;
     reaches[side].is_wanted = true;
     reaches[side].wrist_W_m = *palms_W_m[side] - R_WHand[side] * fit.rig->palms_m[side];
@@ -136,7 +136,7 @@ void fit_arms(const std::array<std::optional<Vector3f>, 2>& palms_W_m, FigureFit
   for (std::size_t side = 0; side < 2; ++side) {
     if (!reaches[side].is_wanted) continue;
     raise_shoulder(reaches[side], side, fit);
-    const Limb& arm = kArms[side];
+    const Limb& arm = kArmLimbs[side];
     const float distance = (reaches[side].wrist_W_m - fit.frames.position(arm.upper)).norm();
     const float stretch = std::clamp(distance / arm_reach_m(fit, side), 1.0f, kMostStretch);
     fit_limb(arm, reaches[side].wrist_W_m, fit.R_W(arm.upper) * hinge_of(arm), stretch, fit.frames);

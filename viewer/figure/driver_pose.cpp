@@ -41,7 +41,7 @@ int helpers_of(const AvatarShape& shape, Bone bone) {
 
 void share_forearm_twist(std::size_t side, FigureFit& fit, ForearmTwists& twists,
                          std::span<DriverPose> drivers) {
-  const Limb& arm = kArms[side];
+  const Limb& arm = kArmLimbs[side];
   const AvatarShape& shape = *fit.rig->shape;
   const Quaternionf& upper = drivers[index_of(arm.upper)].D;
   Quaternionf& lower = drivers[index_of(arm.lower)].D;

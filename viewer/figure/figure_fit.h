@@ -13,22 +13,30 @@
 
 namespace dance {
 
-constexpr std::array<Limb, 2> kArms{kLeftArm, kRightArm};
-constexpr std::array<Limb, 2> kLegs{kLeftLeg, kRightLeg};
+constexpr std::array<Limb, 2> kArmLimbs{kLeftArm, kRightArm};
+constexpr std::array<Limb, 2> kLegLimbs{kLeftLeg, kRightLeg};
+
+// What contacts keep of a figure from picture to picture.
+struct ContactPast {
+  std::array<Eigen::Vector3f, 2> corrections_W_m{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  float passed_s = 0.0f;
+  bool is_known = false;
+};
 
 struct FigureFit {
   const AvatarRig* rig = nullptr;
   BodyFrames danced;
   BodyFrames frames;
   std::array<float, 2> arm_stretch{1.0f, 1.0f};
+  ContactPast* past = nullptr;  // null: none is kept
 
   const Eigen::Quaternionf& R_W(Bone bone) const { return frames.R_WB[index_of(bone)]; }
   Eigen::Vector3f palm_W_m(std::size_t side) const {
-    return frames.position(kArms[side].end) + R_W(kArms[side].end) * rig->palms_m[side];
+    return frames.position(kArmLimbs[side].end) + R_W(kArmLimbs[side].end) * rig->palms_m[side];
   }
   Eigen::Vector3f danced_palm_W_m(std::size_t side) const {
-    return danced.position(kArms[side].end) +
-           danced.R_WB[index_of(kArms[side].end)] * rig->dancer_palms_m[side];
+    return danced.position(kArmLimbs[side].end) +
+           danced.R_WB[index_of(kArmLimbs[side].end)] * rig->dancer_palms_m[side];
   }
 };
 

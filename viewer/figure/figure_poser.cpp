@@ -14,7 +14,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr Duration kLongestPicture = Duration::seconds(1.0);  // beyond it a picture stands alone
+constexpr Duration kLongestPicture = Duration::ms(250);  // beyond it a picture stands alone
 
 void append_tips(const AvatarRig& rig, BodyFrames& frames) {
   for (std::size_t t = 0; t < kTipCount; ++t) {
@@ -50,6 +50,16 @@ struct FigurePoser::Rig {
            height_scale == guest.height_scale && skeleton == guest.skeleton;
   }
 
+  // To the picture of `now`: what is kept counts only if that is not long ago.
+  void go_on(MonoTime now) {
+    const Duration passed = now - time;
+    goes_on = time.is_set() && passed >= Duration() && passed <= kLongestPicture;
+    if (!goes_on) twists.is_known = false;
+    contacts.is_known = goes_on;
+    contacts.passed_s = static_cast<float>(passed.as_seconds());
+    time = now;
+  }
+
   GuestId id;
   std::shared_ptr<const AvatarModel> model;
   Skeleton skeleton;
@@ -59,8 +69,10 @@ struct FigurePoser::Rig {
   std::vector<DriverPose> drivers;
   std::vector<Matrix3f> linears;
   ForearmTwists twists;
+  ContactPast contacts;
   SpringChains springs;
   MonoTime time;
+  bool goes_on = false;
 };
 
 // A model is measured once for all who wear it.
@@ -109,9 +121,13 @@ std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
   if (figures_.size() < count) figures_.resize(count);
   for (const SceneGuest& guest : scene.guests) {
     if (!is_shown(guest)) continue;
-    fits_.emplace_back().rig = &rig_of(guest, fits_.size() - 1).rig;
-    place_on_bones(guest.skeleton, guest.pose, fits_.back());
-    if (options_.fits_feet) fit_feet(fits_.back());
+    Rig& rig = rig_of(guest, fits_.size());
+    rig.go_on(scene.time);
+    FigureFit& fit = fits_.emplace_back();
+    fit.rig = &rig.rig;
+    fit.past = &rig.contacts;
+    place_on_bones(guest.skeleton, guest.pose, fit);
+    if (options_.fits_feet) fit_feet(fit);
   }
   rigs_.resize(count);  // who is absent is forgotten
   for (FigureFit& fit : fits_) append_tips(*fit.rig, fit.frames);
@@ -128,9 +144,6 @@ std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
 void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& rig, FigureFit& fit,
                        PosedFigure& figure) {
   const AvatarShape& shape = *rig.rig.shape;
-  const Duration passed = scene.time - rig.time;
-  const bool goes_on = rig.time.is_set() && passed >= Duration() && passed <= kLongestPicture;
-  if (!goes_on) rig.twists.is_known = false;
   drive_bones(fit, rig.twists, options_.shares_twist, rig.drivers);
   drive_fingers(rig.rig, guest.hands ? &*guest.hands : nullptr, fit.frames, rig.drivers);
   drive_twists(rig.rig, rig.drivers);
@@ -141,7 +154,7 @@ void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& ri
     rig.linears[d] = rig.rig.scale * rig.drivers[d].D.toRotationMatrix();
   for (std::size_t side = 0; side < 2; ++side) {
     if (fit.arm_stretch[side] == 1.0f) continue;
-    const Limb& arm = kArms[side];
+    const Limb& arm = kArmLimbs[side];
     rig.linears[index_of(arm.upper)] *=
         stretched(shape, arm.upper, arm.lower, fit.arm_stretch[side]);
     rig.linears[index_of(arm.lower)] *= stretched(shape, arm.lower, arm.end, fit.arm_stretch[side]);
@@ -161,12 +174,11 @@ void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& ri
   }
   figure.morph_weights.assign(rig.model->morphs.size(), 0.0f);
   // Eyes are open in a picture that stands alone.
-  const float blink = shape.blink >= 0 && goes_on ? blink_at(guest.id, scene.time) : 0.0f;
+  const float blink = shape.blink >= 0 && rig.goes_on ? blink_at(guest.id, scene.time) : 0.0f;
   if (blink > 0.0f)
     for (const auto& bind : rig.model->expressions[static_cast<std::size_t>(shape.blink)].binds)
       figure.morph_weights[bind.morph] =
           std::clamp(figure.morph_weights[bind.morph] + blink * bind.weight, 0.0f, 1.0f);
-  rig.time = scene.time;
 }
 
 }  // namespace dance

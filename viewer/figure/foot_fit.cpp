@@ -30,9 +30,9 @@ float settled_m(float height_m) {
 // Toes that would point into the floor lie on it, where the ball of the foot is down.
 void bend_toes(const FootPoints& points, std::size_t side, float ball_height_m,
                BodyFrames& frames) {
-  const std::size_t toes = toes_of(side), foot = index_of(kLegs[side].end);
+  const std::size_t toes = toes_of(side), foot = index_of(kLegLimbs[side].end);
   const Vector3f joint = frames.p_WB_m[toes];
-  const Vector3f ball = frames.p_WB_m[foot] + frames.R_WB[foot] * points.ball_middle_m();
+  const Vector3f ball = frames.p_WB_m[foot] + frames.R_WB[foot] * points.ball_m;
   const Vector3f tip = joint + frames.R_WB[toes] * points.tip_m;
   const Vector3f along = tip - joint;
   const float length = along.norm();
@@ -53,14 +53,14 @@ struct FootGoal {
 
 FootGoal goal_of(FigureFit& fit, std::size_t side) {
   const AvatarRig& rig = *fit.rig;
-  const std::size_t foot = index_of(kLegs[side].end), toes = toes_of(side);
+  const std::size_t foot = index_of(kLegLimbs[side].end), toes = toes_of(side);
   const Vector3f ball_was =
-      fit.danced.p_WB_m[foot] + fit.danced.R_WB[foot] * rig.dancer_feet[side].ball_middle_m();
+      fit.danced.p_WB_m[foot] + fit.danced.R_WB[foot] * rig.dancer_feet[side].ball_m;
   const float danced_m = lowest_m(rig.dancer_feet[side], fit.danced, side);
-  bend_toes(rig.feet[side], side, ball_was.y(), fit.frames);
+  if (!rig.is_own_body) bend_toes(rig.feet[side], side, ball_was.y(), fit.frames);
   // Where the foot would be with its ball there; then up or down until its lowest point fits.
   FootGoal goal;
-  goal.ankle_W_m = ball_was - fit.frames.R_WB[foot] * rig.feet[side].ball_middle_m();
+  goal.ankle_W_m = ball_was - fit.frames.R_WB[foot] * rig.feet[side].ball_m;
   const Vector3f shift = goal.ankle_W_m - fit.frames.p_WB_m[foot];
   fit.frames.p_WB_m[foot] += shift;
   fit.frames.p_WB_m[toes] += shift;
@@ -75,7 +75,7 @@ FootGoal goal_of(FigureFit& fit, std::size_t side) {
 float needed_drop_m(const FigureFit& fit, const std::array<FootGoal, 2>& goals) {
   float drop = 0.0f;
   for (std::size_t side = 0; side < 2; ++side) {
-    const Limb& leg = kLegs[side];
+    const Limb& leg = kLegLimbs[side];
     const float length =
         fit.rig->body.offset(leg.lower).norm() + fit.rig->body.offset(leg.end).norm();
     const Vector3f up = fit.frames.position(leg.upper) - goals[side].ankle_W_m;
@@ -91,27 +91,25 @@ float needed_drop_m(const FigureFit& fit, const std::array<FootGoal, 2>& goals) 
 }  // namespace
 
 float lowest_m(const FootPoints& points, const BodyFrames& frames, std::size_t side) {
-  const std::size_t foot = index_of(kLegs[side].end), toes = toes_of(side);
+  const std::size_t foot = index_of(kLegLimbs[side].end), toes = toes_of(side);
   // Only the height: the second row of the rotation.
   const Vector3f up_foot = frames.R_WB[foot].conjugate() * Vector3f::UnitY();
   const Vector3f up_toes = frames.R_WB[toes].conjugate() * Vector3f::UnitY();
-  float low = frames.p_WB_m[toes].y() + up_toes.dot(points.tip_m);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const float ankle = frames.p_WB_m[foot].y();
-    low = std::min(
-        {low, ankle + up_foot.dot(points.heel_m[i]), ankle + up_foot.dot(points.ball_m[i])});
-  }
+  float low = 1e9f;
+  for (std::size_t i = 0; i < points.lowest.foot_count; ++i)
+    low = std::min(low, frames.p_WB_m[foot].y() + up_foot.dot(points.lowest.foot_m[i]));
+  for (std::size_t i = 0; i < points.lowest.toes_count; ++i)
+    low = std::min(low, frames.p_WB_m[toes].y() + up_toes.dot(points.lowest.toes_m[i]));
   return low;
 }
 
 void fit_feet(FigureFit& fit) {
-  if (fit.rig->is_own_body) return;
   std::array<FootGoal, 2> goals{goal_of(fit, 0), goal_of(fit, 1)};
   const float drop = needed_drop_m(fit, goals);
   if (drop > 0.0f)
     for (Vector3f& place : fit.frames.p_WB_m) place.y() -= drop;
   for (std::size_t side = 0; side < 2; ++side) {
-    const Limb& leg = kLegs[side];
+    const Limb& leg = kLegLimbs[side];
     const std::size_t foot = index_of(leg.end), toes = toes_of(side);
     if ((goals[side].ankle_W_m - fit.frames.p_WB_m[foot]).norm() > kUnchanged_m)
       fit_limb(leg, goals[side].ankle_W_m, fit.R_W(leg.upper) * hinge_of(leg), 1.0f, fit.frames);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/saturated.h"
 #include "viewer/figure/arm_fit.h"
 
 namespace dance {
@@ -11,16 +12,18 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kTogether_m = 0.08f;  // palms closer than this are held together …
-constexpr float kApart_m = 0.24f;     // … and beyond this let go
-constexpr float kOnBody_m = 0.06f;    // likewise of palms and a partner's skin
-constexpr float kOffBody_m = 0.2f;
+constexpr float kApart_m = 0.32f;     // … and beyond this let go
+constexpr float kOnBody_m = 0.03f;    // likewise of palms and a partner's skin
+constexpr float kOffBody_m = 0.16f;
+constexpr float kMostBodyPull_m = 0.25f;
+constexpr float kFastest_m_s = 1.5f;  // at which what is added to a palm's place changes
 constexpr float kOff_m = 1e-5f;
 constexpr int kSweeps = 10;          // with arms alone, and again with help
 constexpr float kArmsLength = 1.4f;  // of the height of the hips, from there to the finger tips
 
-// A sweep's share, so that kSweeps of them leave 1 - weight.
+// A sweep's share, so that all of them leave 1 - weight.
 float share_of(float weight) {
-  return 1.0f - std::pow(1.0f - std::min(weight, 1.0f), 1.0f / static_cast<float>(kSweeps));
+  return 1.0f - std::pow(1.0f - std::min(weight, 1.0f), 0.5f / static_cast<float>(kSweeps));
 }
 
 // A body's parts that hands come to lie on, as capsules between joints that every figure has.
@@ -32,10 +35,8 @@ struct BodyPiece {
   float radius;  // of a dancer's hips' height
   bool is_trunk;
 };
-constexpr std::array<BodyPiece, 8> kPieces{{{0.13f, true},
+constexpr std::array<BodyPiece, 6> kPieces{{{0.13f, true},
                                             {0.085f, true},
-                                            {0.07f, true},
-                                            {0.11f, true},
                                             {0.05f, false},
                                             {0.05f, false},
                                             {0.04f, false},
@@ -49,8 +50,6 @@ std::array<BodyEnds, kPieces.size()> ends_of(const BodyFrames& at) {
   const Vector3f neck = 0.5f * (left + right);
   return {{{hips, neck},
            {left, right},
-           {neck, at.position(Bone::kHead)},
-           {at.position(Bone::kHead), at.tip(Tip::kHead)},
            {left, at.position(Bone::kLeftLowerArm)},
            {right, at.position(Bone::kRightLowerArm)},
            {at.position(Bone::kLeftLowerArm), at.position(Bone::kLeftHand)},
@@ -71,10 +70,11 @@ void HandContacts::list_hands(std::span<const FigureFit> figures) {
       Hand hand;
       hand.danced_W_m = fit.danced_palm_W_m(side);
       hand.natural_W_m = hand.wanted_W_m = fit.palm_W_m(side);
-      hand.from_palm_m = fit.frames.position(kArms[side].end) - hand.natural_W_m;
-      hand.shoulder_W_m = fit.frames.position(kArms[side].upper);
-      hand.reach_m = std::max(arm_reach_m(fit, side),
-                              (fit.frames.position(kArms[side].end) - hand.shoulder_W_m).norm());
+      hand.from_palm_m = fit.frames.position(kArmLimbs[side].end) - hand.natural_W_m;
+      hand.shoulder_W_m = fit.frames.position(kArmLimbs[side].upper);
+      hand.reach_m =
+          std::max(arm_reach_m(fit, side),
+                   (fit.frames.position(kArmLimbs[side].end) - hand.shoulder_W_m).norm());
       hand.help_m = arm_help_m(fit, side);
       hands_.push_back(hand);
     }
@@ -122,7 +122,8 @@ void HandContacts::add_body(std::size_t index, const FigureFit& body) {
   if (weights <= 0.0f || contacts_.size() >= kMostContacts) return;
   Contact contact;
   contact.a = static_cast<std::uint32_t>(index);
-  contact.wanted_m = sum / weights;
+  contact.wanted_m =
+      hand.natural_W_m + saturated(sum / weights - hand.natural_W_m, kMostBodyPull_m);
   contact.weight = share_of(most);
   contacts_.push_back(contact);
 }
@@ -192,18 +193,32 @@ void HandContacts::relax(bool with_help) {
 void HandContacts::fit(std::span<FigureFit> figures) {
   list_hands(figures);
   find(figures);
-  if (!is_off()) return;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) relax(false);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) relax(true);
+  if (is_off()) {
+    for (int sweep = 0; sweep < kSweeps; ++sweep) relax(false);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) relax(true);
+  }
   for (std::size_t i = 0; i < figures.size(); ++i) {
     std::array<std::optional<Vector3f>, 2> palms;
     for (std::size_t side = 0; side < 2; ++side) {
       const Hand& hand = hands_[2 * i + side];
-      if ((hand.wanted_W_m - hand.natural_W_m).cwiseAbs().maxCoeff() > kOff_m)
-        palms[side] = hand.wanted_W_m;
+      const Vector3f correction = shown_correction(hand, figures[i], side);
+      if (figures[i].past) figures[i].past->corrections_W_m[side] = correction;
+      if (correction.cwiseAbs().maxCoeff() > kOff_m) palms[side] = hand.natural_W_m + correction;
     }
     fit_arms(palms, figures[i]);
   }
+}
+
+// A palm's correction changes no faster than an arm may: contacts that begin or end abruptly do not
+// show as a jump.
+Vector3f HandContacts::shown_correction(const Hand& hand, const FigureFit& figure,
+                                        std::size_t side) const {
+  const Vector3f wanted = hand.wanted_W_m - hand.natural_W_m;
+  if (!figure.past || !figure.past->is_known) return wanted;
+  const Vector3f change = wanted - figure.past->corrections_W_m[side];
+  const float size = change.norm(), most = kFastest_m_s * figure.past->passed_s;
+  return size <= most ? wanted
+                      : Vector3f(figure.past->corrections_W_m[side] + change * (most / size));
 }
 
 }  // namespace dance

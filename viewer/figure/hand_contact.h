@@ -54,6 +54,8 @@ class HandContacts {
   void add_pair(std::size_t a, std::size_t b);
   void add_body(std::size_t hand, const FigureFit& body);
   bool is_off() const;
+  Eigen::Vector3f shown_correction(const Hand& hand, const FigureFit& figure,
+                                   std::size_t side) const;
   void relax(bool with_help);
 
   std::vector<Hand> hands_;  // two of each figure

@@ -10,6 +10,12 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 constexpr float kShortest_m = 1e-4f;
+// A limb is not folded further than to this share of its length, unless it was: nearer to its root
+// the direction of its end changes ever faster.
+constexpr float kFoldedLimb = 0.3f;
+// What a nearly straight limb bends about is mostly its hinge; sines of the bend.
+constexpr float kHingeCounts = 0.05f;
+constexpr float kMostOverstretch = 0.3f;
 
 // The angle between sides a and b of a triangle whose third side is c.
 float corner_rad(float a, float b, float c) {
@@ -51,15 +57,20 @@ float fit_limb(const Limb& limb, const Vector3f& target_W_m, const Vector3f& hin
     return (target_W_m - frames.p_WB_m[end]).norm();
 
   const float most = std::max(kStraightLimb * (a + b), std::min(was, a + b));
-  const float least = std::min(most, std::max(1.05f * std::abs(a - b), 0.05f * (a + b)));
+  const float least =
+      std::min({most, was, std::max(1.05f * std::abs(a - b), kFoldedLimb * (a + b))});
   const float distance = std::clamp(wanted, least, most);
   // The normal of the plane the limb lies in; where it is nearly straight the hinge's.
   const Vector3f cross = first.cross(second) / (a * b);
   Vector3f hinge = hinge_W - reach_was * (reach_was.dot(hinge_W) / (was * was));
-  const float bent = cross.norm();
-  const float trust = std::clamp((bent - 0.02f) / 0.1f, 0.0f, 1.0f);
-  Vector3f normal = (1.0f - trust) * hinge;
-  if (bent > 1e-6f) normal += trust / bent * cross;
+  // Overstretched ones bend back through straight, not by a turn about themselves.
+  const float size = hinge.norm();
+  Vector3f normal = cross;
+  if (size > 1e-3f) {
+    hinge /= size;
+    const float over = std::clamp(-hinge.dot(cross), 0.0f, kMostOverstretch);
+    normal += (kHingeCounts + over) * hinge;
+  }
   normal -= reach_was * (reach_was.dot(normal) / (was * was));
   if (normal.squaredNorm() < 1e-8f) normal = reach_was.unitOrthogonal();
 

@@ -100,13 +100,15 @@ FootPoints dancer_foot(const Skeleton& dancer, std::size_t side) {
   for (std::size_t b = index_of(upper); b < index_of(toes); ++b) ankle_m += dancer.offset_m[b].y();
   ankle_m = std::max(ankle_m, 0.0f);
   const float length = std::hypot(to_toes.x(), to_toes.z()) + std::hypot(to_tip.x(), to_tip.z());
-  const Vector3f half(0.15f * length, 0.0f, 0.0f);
-  const Vector3f heel(0.0f, -ankle_m, -0.25f * length);
-  const Vector3f ball(to_toes.x(), -ankle_m, to_toes.z());
+  const float half = 0.15f * length;
   FootPoints points;
-  points.heel_m = {heel - half, heel + half};
-  points.ball_m = {ball - half, ball + half};
+  points.ball_m = Vector3f(to_toes.x(), -ankle_m, to_toes.z());
   points.tip_m = Vector3f(to_tip.x(), -ankle_m - to_toes.y(), to_tip.z());
+  for (const float side_m : {-half, half}) {
+    points.lowest.foot_m[points.lowest.foot_count++] = Vector3f(side_m, -ankle_m, -0.25f * length);
+    points.lowest.foot_m[points.lowest.foot_count++] = points.ball_m + side_m * Vector3f::UnitX();
+  }
+  points.lowest.toes_m[points.lowest.toes_count++] = points.tip_m;
   return points;
 }
 
@@ -116,17 +118,29 @@ FootPoints avatar_foot(const AvatarShape& shape, const Quaternionf& C, float sca
   const Bone toes = side == 0 ? Bone::kLeftToes : Bone::kRightToes;
   const SoleShape& sole = shape.soles[side];
   const Vector3f& ankle = shape.at(foot);
+  const bool has_toes = shape.has(toes);
   const float ball_z =
-      shape.has(toes) ? shape.at(toes).z() : ankle.z() + kBallShare * (sole.tip_m - ankle.z());
-  const auto point = [&](float x, float z) {
-    return Vector3f(scale * (C * (Vector3f(x, sole.floor_m, z) - ankle)));
-  };
-  FootPoints points;
-  points.heel_m = {point(sole.inner_m, sole.heel_m), point(sole.outer_m, sole.heel_m)};
-  points.ball_m = {point(sole.inner_m, ball_z), point(sole.outer_m, ball_z)};
+      has_toes ? shape.at(toes).z() : ankle.z() + kBallShare * (sole.tip_m - ankle.z());
   const float middle = 0.5f * (sole.inner_m + sole.outer_m);
-  points.tip_m = point(middle, sole.tip_m);
-  if (shape.has(toes)) points.tip_m -= scale * (C * (shape.at(toes) - ankle));
+  const auto from = [&](const Vector3f& origin, const Vector3f& place) {
+    return Vector3f(scale * (C * (place - origin)));
+  };
+  const Vector3f& toes_origin = has_toes ? shape.at(toes) : ankle;
+  FootPoints points;
+  points.ball_m = from(ankle, Vector3f(middle, sole.floor_m, ball_z));
+  points.tip_m = from(toes_origin, Vector3f(middle, sole.floor_m, sole.tip_m));
+  const SoleHull& hull = shape.hulls[side];
+  points.lowest.foot_count = hull.foot_count;
+  points.lowest.toes_count = hull.toes_count;
+  for (std::size_t i = 0; i < hull.foot_count; ++i)
+    points.lowest.foot_m[i] = from(ankle, hull.foot_m[i]);
+  for (std::size_t i = 0; i < hull.toes_count; ++i)
+    points.lowest.toes_m[i] = from(toes_origin, hull.toes_m[i]);
+  if (hull.foot_count + hull.toes_count > 0) return points;
+  for (const float x : {sole.inner_m, sole.outer_m})
+    for (const float z : {sole.heel_m, ball_z})
+      points.lowest.foot_m[points.lowest.foot_count++] = from(ankle, Vector3f(x, sole.floor_m, z));
+  points.lowest.toes_m[points.lowest.toes_count++] = points.tip_m;
   return points;
 }
 
@@ -229,14 +243,14 @@ AvatarRig::AvatarRig(std::shared_ptr<const AvatarShape> shape_of_model, const Sk
   body = skeleton_of(*shape, C, scale, feet);
   girth_ratio = std::clamp(shoulder_width_m(body) / shoulder_width_m(dancer), 0.5f, 2.0f);
   correct_fingers(*shape, layout, *this);
-  // A dancer in the own mannequin's body is shown as danced, to the last place.
+  // A dancer in the own mannequin's body is shown as danced, but for soles near the floor.
   if (std::abs(height_scale - 1.0f) < 1e-6f &&
       is_alike(skeleton_of(*shape, C, 1.0f, feet), dancer)) {
     is_own_body = true;
     scale = leg_ratio = girth_ratio = 1.0f;
     body = dancer;
     palms_m = dancer_palms_m;
-    feet = dancer_feet;
+    dancer_feet = feet;
   }
 }
 

@@ -23,14 +23,12 @@
 
 namespace dance {
 
-// The points that a foot stands on: four of the foot, from the ankle in the foot's axes, and the
-// tip of the toes, from the toes' joint in theirs.
+// What a foot stands on: points of the foot, from the ankle in the foot's axes, and of the toes,
+// from the toes' joint in theirs.
 struct FootPoints {
-  std::array<Eigen::Vector3f, 2> heel_m;
-  std::array<Eigen::Vector3f, 2> ball_m;
-  Eigen::Vector3f tip_m;
-
-  Eigen::Vector3f ball_middle_m() const { return 0.5f * (ball_m[0] + ball_m[1]); }
+  SoleHull lowest;
+  Eigen::Vector3f ball_m;  // of the foot
+  Eigen::Vector3f tip_m;   // of the toes
 };
 
 struct AvatarRig {
@@ -45,7 +43,7 @@ struct AvatarRig {
   float scale = 1.0f;        // from the model to what is shown
   float leg_ratio = 1.0f;    // the avatar's legs to the dancer's
   float girth_ratio = 1.0f;  // of the trunk
-  bool is_own_body = false;  // the avatar is the dancer's own mannequin: shown as danced
+  bool is_own_body = false;  // the avatar is the dancer's own mannequin
   BoneRotations C = identity_rotations();
   std::array<Eigen::Quaternionf, kFingerBoneCount> C_finger;
   std::array<FootPoints, 2> dancer_feet, feet;

@@ -200,6 +200,7 @@ class ShapeMaker {
     shape_.height_m = mesh.height_m();
     for (std::size_t side = 0; side < 2; ++side) {
       shape_.soles[side] = mesh.sole(side);
+      shape_.hulls[side] = mesh.hull(side);
       shape_.hand_ends_M_m[side] = mesh.hand_end(side);
     }
     for (std::size_t e = 0; e < model_.expressions.size(); ++e)

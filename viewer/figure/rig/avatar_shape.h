@@ -61,6 +61,15 @@ struct SoleShape {
   float outer_m = 0.0f;
 };
 
+// The vertices of a foot, and of its toes, that can be the lowest when it is pitched and rolled.
+struct SoleHull {
+  static constexpr std::size_t kMost = 32;
+  std::array<Eigen::Vector3f, kMost> foot_m;
+  std::array<Eigen::Vector3f, kMost> toes_m;
+  std::size_t foot_count = 0;
+  std::size_t toes_count = 0;
+};
+
 struct AvatarShape {
   // What a joint's matrix is made of: its driver, and the mesh at rest seen from the driver.
   struct Follower {
@@ -77,6 +86,7 @@ struct AvatarShape {
   std::vector<SwingNode> swings;  // parents first
   std::vector<SwingCollider> colliders;
   std::array<SoleShape, 2> soles;
+  std::array<SoleHull, 2> hulls;                 // in M
   std::array<Eigen::Vector3f, 2> hand_ends_M_m;  // where the middle finger begins, or would
   float height_m = 1.7f;
   int blink = -1;  // AvatarExpression

@@ -1,6 +1,7 @@
 #include "viewer/figure/rig/mesh_measure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace dance {
@@ -81,6 +82,35 @@ SoleShape MeshMeasure::sole(std::size_t side) const {
     sole.outer_m = std::max(sole.outer_m, place.x());
   }
   return sole;
+}
+
+SoleHull MeshMeasure::hull(std::size_t side) const {
+  const std::size_t foot = index_of(side == 0 ? Bone::kLeftFoot : Bone::kRightFoot);
+  std::vector<const Vector3f*> of_foot, of_toes;
+  for (std::size_t v = 0; v < places_M_m_.size(); ++v) {
+    if (!belongs(model_.vertices[v], foot, foot + 1)) continue;
+    const bool is_toes =
+        shape_.has_bone[foot + 1] && belongs(model_.vertices[v], foot + 1, foot + 1);
+    (is_toes ? of_toes : of_foot).push_back(&places_M_m_[v]);
+  }
+  const auto add_lowest = [](const std::vector<const Vector3f*>& from, const Vector3f& down,
+                             auto& points, std::size_t& count) {
+    if (from.empty() || count == SoleHull::kMost) return;
+    const Vector3f lowest = **std::ranges::max_element(
+        from, {}, [&](const Vector3f* place) { return down.dot(*place); });
+    const auto end = points.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::find(points.begin(), end, lowest) == end) points[count++] = lowest;
+  };
+  SoleHull hull;
+  // Flat first: in the order in which they matter, should there be too many.
+  for (const float roll : {0.0f, 0.4f, -0.4f, 0.8f, -0.8f})
+    for (const float pitch : {0.0f, 0.3f, -0.3f, 0.6f, -0.6f, 0.9f, -0.9f, 1.2f, -1.2f, 1.5f}) {
+      const Vector3f down(std::sin(roll), -std::cos(roll) * std::cos(pitch),
+                          std::cos(roll) * std::sin(pitch));
+      add_lowest(of_foot, down, hull.foot_m, hull.foot_count);
+      add_lowest(of_toes, down, hull.toes_m, hull.toes_count);
+    }
+  return hull;
 }
 
 Vector3f MeshMeasure::hand_end(std::size_t side) const {

@@ -21,6 +21,7 @@ class MeshMeasure {
 
   float height_m() const { return height_m_; }
   SoleShape sole(std::size_t side) const;
+  SoleHull hull(std::size_t side) const;  // empty without a mesh
   // Where the middle finger begins; without fingers half way from the wrist to the mesh's end.
   Eigen::Vector3f hand_end(std::size_t side) const;
 
