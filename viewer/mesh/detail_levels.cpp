@@ -13,7 +13,7 @@ using Eigen::Vector3f;
 
 // Triangles of a whole figure; a level is worth it where it has a good deal fewer than the finer
 // one.
-constexpr std::array<double, 4> kTargets{12000.0, 4000.0, 1500.0, 600.0};
+constexpr std::array<double, 5> kTargets{16000.0, 6000.0, 2500.0, 1100.0, 600.0};
 constexpr double kWorthIt = 0.75;
 // How far, as a share of the figure, a surface may come off its place; a coarser level than this
 // allows is made by meshopt_simplifySloppy(), which does not keep holes and seams.
@@ -43,8 +43,8 @@ class Simplifier {
     const auto whole = static_cast<double>(triangle_count(finer));
     BatchTriangles coarser;
     for (std::size_t b = 0; b < finer.size(); ++b) {
-      const double share = static_cast<double>(finer[b].size()) / whole;
-      const auto wanted = static_cast<std::size_t>(std::max(4.0, target * share) * 3.0);
+      const double share = static_cast<double>(finer[b].size() / 3) / whole;
+      const auto wanted = 3 * static_cast<std::size_t>(std::max(4.0, target * share));
       coarser.push_back(simplify_batch(finer[b], wanted, options_[b]));
     }
     return coarser;
