@@ -44,7 +44,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
     Fingerprint fingerprint;
     std::string_view type;
   };
-  static const std::array<Known, 15> kKnown{{
+  static const std::array<Known, 16> kKnown{{
       {fingerprint_of(Pose()), "pose_t"},
       {fingerprint_of(Hands()), "hands_t"},
       {fingerprint_of(any_skeleton()), "skeleton_t"},
@@ -54,6 +54,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
       {fingerprint_of(Music()), "music_t"},
       {fingerprint_of(Scene()), "scene_t"},
       {fingerprint_of(Avatar()), "avatar_t"},
+      {fingerprint_of(AvatarFile()), "avatar_file_t"},
       {fingerprint_of(Style()), "style_t"},
       {fingerprint_of(Placement()), "placement_t"},
       {fingerprint_of(Beat()), "beat_t"},

@@ -26,6 +26,7 @@ enum class Signal : std::uint8_t {
   kMusic,
   kScene,
   kAvatar,
+  kAvatarFile,
   kStyle,
   kPlacement,
   kBeat,
@@ -85,7 +86,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 27> kChannelTable{{
+constexpr std::array<ChannelRow, 29> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -103,6 +104,8 @@ constexpr std::array<ChannelRow, 27> kChannelTable{{
     {Signal::kScene, Where::kRoom, "SCENE/room/<guest>", "scene_t"},
     {Signal::kAvatar, Where::kCapture, "AVATAR/capture/<guest>", "avatar_t"},
     {Signal::kAvatar, Where::kGuest, "AVATAR/guest/<guest>", "avatar_t"},
+    {Signal::kAvatarFile, Where::kCapture, "AVATAR_FILE/capture/<guest>", "avatar_file_t"},
+    {Signal::kAvatarFile, Where::kGuest, "AVATAR_FILE/guest/<guest>", "avatar_file_t"},
     {Signal::kStyle, Where::kCapture, "STYLE/capture/<guest>", "style_t"},
     {Signal::kStyle, Where::kGuest, "STYLE/guest/<guest>", "style_t"},
     {Signal::kPlacement, Where::kCapture, "PLACEMENT/capture/<guest>", "placement_t"},

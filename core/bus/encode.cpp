@@ -1,5 +1,6 @@
 #include "core/bus/encode.h"
 
+#include <dancelcm/avatar_file_t.hpp>
 #include <dancelcm/avatar_t.hpp>
 #include <dancelcm/beat_t.hpp>
 #include <dancelcm/flow_t.hpp>
@@ -138,6 +139,15 @@ struct MessageFields<Avatar> {
 };
 
 template <>
+struct MessageFields<AvatarFile> {
+  using Generated = dancelcm::avatar_file_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.sha256, v.hash.bytes) && io(m.size_bytes, v.size_bytes) &&
+           io(m.name, v.name);
+  }
+};
+
+template <>
 struct MessageFields<Style> {
   using Generated = dancelcm::style_t;
   static bool map(auto io, auto& m, auto& v) {
@@ -222,6 +232,7 @@ template struct MessageRow<StageTime, Signal::kStageTime>;
 template struct MessageRow<Music, Signal::kMusic>;
 template struct MessageRow<Scene, Signal::kScene>;
 template struct MessageRow<Avatar, Signal::kAvatar>;
+template struct MessageRow<AvatarFile, Signal::kAvatarFile>;
 template struct MessageRow<Style, Signal::kStyle>;
 template struct MessageRow<Placement, Signal::kPlacement>;
 template struct MessageRow<Beat, Signal::kBeat>;

@@ -63,6 +63,8 @@ struct MessageTraits<Scene> : MessageRow<Scene, Signal::kScene> {};
 template <>
 struct MessageTraits<Avatar> : MessageRow<Avatar, Signal::kAvatar> {};
 template <>
+struct MessageTraits<AvatarFile> : MessageRow<AvatarFile, Signal::kAvatarFile> {};
+template <>
 struct MessageTraits<Style> : MessageRow<Style, Signal::kStyle> {};
 template <>
 struct MessageTraits<Placement> : MessageRow<Placement, Signal::kPlacement> {};

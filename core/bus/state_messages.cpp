@@ -62,6 +62,12 @@ bool is_valid(const Avatar& avatar) {
   return are_within(avatar.colour_rgb, 0.0f, 1.0f) && is_within(avatar.height_scale, 0.25f, 4.0f);
 }
 
+bool is_valid(const AvatarFile& file) {
+  return is_within(file.size_bytes, file.hash.is_set() ? 1 : 0,
+                   file.hash.is_set() ? kMaxAvatarFileBytes : 0) &&
+         is_plain_text(file.name.view());
+}
+
 bool is_valid(const Placement& placement) {
   // A float next to pi may be above it.
   constexpr float kHalfTurn_rad = std::numbers::pi_v<float> + 1e-6f;

@@ -1,6 +1,6 @@
 // State: what changes rarely and has to be known by programs that start later: the room's music and
-// scene; each guest's avatar, style and placement. The same fields as the .lcm files of lcmtypes,
-// which say what each means, in this tree's types.
+// scene; each guest's avatar, its file, style and placement. The same fields as the .lcm files of
+// lcmtypes, which say what each means, in this tree's types.
 //
 // Units/frames: MonoTime of the clock that clock_id names; metres and radians in W; music in beats.
 // Ownership:    plain values, no heap.
@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/base/file_hash.h"
 #include "core/base/fixed_string.h"
 #include "core/base/guest_id.h"
 #include "core/base/time.h"
@@ -60,6 +61,18 @@ struct Avatar {
   float height_scale = 1.0f;
 };
 
+// Avatars for games and VR have 1 to 15 MB. At the usual rate this takes two minutes to travel, and
+// a room of thirty usual ones fits into a server's memory.
+constexpr std::int32_t kMaxAvatarFileBytes = 16 << 20;
+
+struct AvatarFile {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  FileHash hash;  // not set: none
+  std::int32_t size_bytes = 0;
+  FixedString<63> name;
+};
+
 struct Placement {
   MonoTime time;
   std::uint64_t clock_id = 0;
@@ -74,6 +87,7 @@ bool is_plain_text(std::string_view text);
 bool is_valid(const Music& music);
 bool is_valid(const Scene& scene);
 bool is_valid(const Avatar& avatar);
+bool is_valid(const AvatarFile& file);
 bool is_valid(const Placement& placement);
 
 }  // namespace dance

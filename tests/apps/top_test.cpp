@@ -36,6 +36,7 @@ TEST(TopTable, TellsEachTypeByItsFingerprint) {
   EXPECT_EQ(type_of(Music()), "music_t");
   EXPECT_EQ(type_of(Scene()), "scene_t");
   EXPECT_EQ(type_of(Avatar()), "avatar_t");
+  EXPECT_EQ(type_of(AvatarFile()), "avatar_file_t");
   EXPECT_EQ(type_of(Style()), "style_t");
   EXPECT_EQ(type_of(Placement()), "placement_t");
   EXPECT_EQ(type_of(Beat()), "beat_t");

@@ -62,6 +62,12 @@ class SimulatedTunnel {
     std::vector<std::pair<GuestId, Skeleton>> skeletons;
     // The last of each guest; of the room who set it, and what.
     std::map<GuestId, Avatar> avatars;
+    std::map<GuestId, AvatarFile> avatar_files;
+    // Whole files, as they came; their hash is said to be right while files_are_right.
+    std::map<GuestId, std::vector<std::uint8_t>> files;
+    std::vector<std::pair<GuestId, wire::FileRefusalCause>> file_refusals;
+    std::size_t file_blocks = 0;
+    bool files_are_right = true;
     std::map<GuestId, Style> styles;
     std::map<GuestId, Placement> placements;
     std::optional<std::pair<GuestId, Music>> music;
@@ -290,6 +296,23 @@ class SimulatedTunnel {
   static void add_state_handlers(House& house, LinkHandlers& handlers) {
     handlers.on_avatar = [&](const GuestId& id, const Avatar& avatar, MonoTime) {
       house.avatars.insert_or_assign(id, avatar);
+    };
+    handlers.on_avatar_file = [&](const GuestId& id, const AvatarFile& file, MonoTime) {
+      house.avatar_files.insert_or_assign(id, file);
+    };
+    handlers.on_file = [&](const GuestId& id, const FileHash& hash, ChunkedFile&& file) {
+      auto& bytes = house.files[id];
+      bytes.clear();
+      for (std::size_t i = 0; i < file.blocks(); ++i)
+        bytes.insert(bytes.end(), file.block(i).begin(), file.block(i).end());
+      house.link->files().settle(id, hash, house.files_are_right);
+    };
+    handlers.on_file_block = [&](const FileHash&, const ChunkedFile&, std::size_t) {
+      ++house.file_blocks;
+    };
+    handlers.on_file_refused = [&](const GuestId& id, const FileHash&,
+                                   wire::FileRefusalCause cause) {
+      house.file_refusals.emplace_back(id, cause);
     };
     handlers.on_style = [&](const GuestId& id, const Style& style, MonoTime) {
       house.styles.insert_or_assign(id, style);

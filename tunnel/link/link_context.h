@@ -38,6 +38,7 @@ struct LinkContext {
   // Ours, and the server is not known to have it.
   bool is_due(const ReplicatedState& own, const wire::StateName& name,
               const wire::Slot& slot) const {
+    if (name.kind == wire::StateKind::kAvatarFile && !server_knows_files) return false;
     return own.version != 0 && !stream.states.has(name, slot.slot, own.version);
   }
 
@@ -51,6 +52,7 @@ struct LinkContext {
   LinkState state = LinkState::kConnecting;
   CodecName codec;
   Stream stream;
+  bool server_knows_files = false;  // it has said file terms in this session
   PathStats path;
   TokenBucket state_changes{10.0, 20.0};  // told at once; more goes with the pings
 };

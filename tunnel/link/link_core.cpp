@@ -26,7 +26,8 @@ LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSi
 }
 
 MonoTime LinkCore::next_deadline() const {
-  return earlier(session_.next_deadline(), sender_.next_deadline());
+  return earlier(earlier(session_.next_deadline(), sender_.next_deadline()),
+                 files_.next_deadline());
 }
 
 MonoTime LinkCore::tick(MonoTime now) {
@@ -37,6 +38,7 @@ MonoTime LinkCore::tick(MonoTime now) {
   }
   if (!session_.may_send(now)) link_.stream.bundle.clear();
   sender_.flush_due(now);
+  files_.send_due(now);  // after whatever dances
   session_.send_due_hello(now);
   return next_deadline();
 }
@@ -79,6 +81,9 @@ void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
 void LinkCore::send(const GuestId& id, const Avatar& avatar, MonoTime now) {
   states_.send(id, wire::StateKind::kAvatar, avatar, now);
 }
+void LinkCore::send(const GuestId& id, const AvatarFile& file, MonoTime now) {
+  states_.send(id, wire::StateKind::kAvatarFile, file, now);
+}
 void LinkCore::send(const GuestId& id, const Style& style, MonoTime now) {
   states_.send(id, wire::StateKind::kStyle, style, now);
 }
@@ -117,6 +122,7 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
   switch (opening.type) {
     case wire::Type::kPong:
       is_good = session_.on_pong(opening.body, received);
+      if (is_good) files_.see_round_trip(link_.clock.newest_round_trip(), now);
       break;
     case wire::Type::kRecords:
       is_good = receiver_.on_records(opening.body, received, now);
@@ -133,6 +139,12 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
       break;
     case wire::Type::kInterestAck:
       is_good = on_interest_ack(opening.body);
+      break;
+    case wire::Type::kFileTerms:
+    case wire::Type::kFileWant:
+    case wire::Type::kFileChunk:
+    case wire::Type::kFileRefusal:
+      is_good = files_.receive(opening, now);
       break;
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return false;
@@ -162,6 +174,7 @@ bool LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
 
 void LinkCore::begin_session() {
   sender_.begin_session();
+  files_.begin_session();
   room_.begin_session();
   interest_.begin(link_.options.interest.others);
   link_.clock.reset();
@@ -183,6 +196,7 @@ void LinkCore::send_ping(MonoTime now) {
   const bool is_calm = link_.locals.count_dancing(now) > 0 && heard.is_set() &&
                        now - heard < kHeardOfLate && link_.is_path_clean() && interest_.is_acked();
   session_.send_ping(roster_.whole_version(), is_calm, now);
+  files_.say_terms();
   states_.repeat(now);
   if (!interest_.is_acked()) tell_interest();
 }

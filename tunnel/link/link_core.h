@@ -17,6 +17,7 @@
 
 #include "core/bus/messages.h"
 #include "tunnel/link/link_context.h"
+#include "tunnel/link/link_files.h"
 #include "tunnel/link/link_receiver.h"
 #include "tunnel/link/link_roster.h"
 #include "tunnel/link/link_session.h"
@@ -48,6 +49,7 @@ class LinkCore {
   void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
   // States of a guest of this house: told until the server has them.
   void send(const GuestId& guest, const Avatar& avatar, MonoTime now);
+  void send(const GuestId& guest, const AvatarFile& file, MonoTime now);
   void send(const GuestId& guest, const Style& style, MonoTime now);
   void send(const GuestId& guest, const Placement& placement, MonoTime now);
   // What a guest of this house wants for the room: what holds comes through the handlers.
@@ -58,6 +60,9 @@ class LinkCore {
   // Whom the server is to send, and how often: told until it is acknowledged. For guests who are
   // not here, it counts when they come.
   void set_interest(const Interest& interest, MonoTime now);
+  // Files of avatars: tunnel/link/link_files.h.
+  LinkFiles& files() { return files_; }
+  const LinkFiles& files() const { return files_; }
   void say_goodbye() { session_.say_goodbye(); }
 
   LinkState state() const { return link_.state; }
@@ -95,6 +100,7 @@ class LinkCore {
   LinkReceiver receiver_{link_, sender_, channels_};
   LinkRoom room_{link_};
   LinkStates states_{link_, room_, channels_};
+  LinkFiles files_{link_};
   InterestRequest interest_;
 };
 

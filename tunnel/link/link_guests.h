@@ -73,7 +73,7 @@ struct LocalGuest {
   ReferenceControl references;
   std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
   SentPose previous;            // goes once more where the way loses some
-  // Skeleton, avatar, style and placement, by wire::place_of().
+  // Skeleton, avatar, style, placement and avatar file, by wire::place_of().
   std::array<ReplicatedState, wire::kFirstChannelPlace> states;
   // What this guest requested for the room last: programs say it again each second, which is no new
   // request.

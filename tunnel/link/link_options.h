@@ -19,6 +19,7 @@
 #include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
+#include "tunnel/files/chunked_file.h"
 #include "tunnel/policy/channel_rule.h"
 #include "tunnel/seal/seal_trouble.h"
 #include "tunnel/session/pose_share.h"
@@ -52,6 +53,8 @@ struct LinkOptions {
   // and what the payloads of each of them may cost: where they cost more, the error grows up to 5
   // mm, core/codec/quality_by_rate.h. 0 = whatever it costs.
   double pose_bytes_per_second = 0.0;
+  // Of avatars' files, that it sends and takes at most; 0 = neither.
+  double file_bytes_per_second = 131'072.0;
   // Further channels that ride along; at most kMaxChannelRules.
   std::vector<ChannelRule> channels;
 };
@@ -67,6 +70,7 @@ struct LinkHandlers {
   std::function<void(const GuestId&, const Hands&, MonoTime now)> on_hands;
   std::function<void(const GuestId&, const Skeleton&, MonoTime now)> on_skeleton;
   std::function<void(const GuestId&, const Avatar&, MonoTime now)> on_avatar;
+  std::function<void(const GuestId&, const AvatarFile&, MonoTime now)> on_avatar_file;
   std::function<void(const GuestId&, const Style&, MonoTime now)> on_style;
   std::function<void(const GuestId&, const Placement&, MonoTime now)> on_placement;
   // What holds in the room, and who set it: also a guest of this house.
@@ -79,6 +83,11 @@ struct LinkHandlers {
   std::function<void(const GuestId&, std::string_view name, ChannelClass, wire::Bytes message,
                      MonoTime now)>
       on_channel;
+  // A file that was asked for with LinkCore::fetch_file() is here whole: who hears it checks its
+  // hash, and says so with settle_file(). Blocks are told in order, to be kept for a restart.
+  std::function<void(const GuestId&, const FileHash&, ChunkedFile&&)> on_file;
+  std::function<void(const FileHash&, const ChunkedFile&, std::size_t block)> on_file_block;
+  std::function<void(const GuestId&, const FileHash&, wire::FileRefusalCause)> on_file_refused;
   std::function<void(const GuestId&, MonoTime now)> on_guest_joined;
   std::function<void(const GuestId&, MonoTime now)> on_guest_left;
   std::function<void(LinkState, MonoTime now)> on_state;

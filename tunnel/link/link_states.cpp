@@ -8,6 +8,7 @@ namespace dance {
 // A state of a guest that has changed: at once, if there have not been too many.
 void LinkStates::tell(LocalGuest& guest, wire::StateKind kind, const ReplicatedState& state,
                       MonoTime now) {
+  if (kind == wire::StateKind::kAvatarFile && !link_.server_knows_files) return;
   if (link_.is_connected() && guest.has_slot && link_.state_changes.take(1.0, now))
     link_.send_state({{kind, 0}, guest.slot, {}, state.version, state.bytes()});
 }
@@ -30,6 +31,7 @@ void LinkStates::send(const GuestId& id, wire::StateKind kind, const Message& me
   if (state.change({buffer.data(), size})) tell(*guest, kind, state, now);
 }
 template void LinkStates::send(const GuestId&, wire::StateKind, const Avatar&, MonoTime);
+template void LinkStates::send(const GuestId&, wire::StateKind, const AvatarFile&, MonoTime);
 template void LinkStates::send(const GuestId&, wire::StateKind, const Style&, MonoTime);
 template void LinkStates::send(const GuestId&, wire::StateKind, const Placement&, MonoTime);
 
@@ -132,6 +134,9 @@ bool LinkStates::deliver(RemoteGuest& remote, const wire::State& state, MonoTime
     }
     case wire::StateKind::kAvatar:
       return deliver_message<Avatar>(remote.id, state.payload, link_.handlers.on_avatar, now);
+    case wire::StateKind::kAvatarFile:
+      return deliver_message<AvatarFile>(remote.id, state.payload, link_.handlers.on_avatar_file,
+                                         now);
     case wire::StateKind::kStyle:
       return deliver_message<Style>(remote.id, state.payload, link_.handlers.on_style, now);
     case wire::StateKind::kPlacement:

@@ -79,6 +79,15 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
       return states_.on_acks(index, opening.body);
     case wire::Type::kInterest:
       return interest_.on_interest(index, opening.body, now);
+    case wire::Type::kFileTerms:
+      if (files_.on_terms(index, opening.body)) states_.send(index, false, kStateDatagramsPerPong);
+      return;
+    case wire::Type::kFileWant:
+      return files_.on_want(index, opening.body, now);
+    case wire::Type::kFileChunk:
+      return files_.on_chunk(index, opening.body, now);
+    case wire::Type::kFileRefusal:
+      return files_.on_refusal(index, opening.body, now);
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return server_.reject(ServerReject::kMalformed);
       ++server_.counters.goodbyes;
@@ -165,6 +174,7 @@ void ServerCore::end_turn(MonoTime now) {
   for (const std::size_t i : server_.changed_rooms)
     if (server_.rooms[i].has_fresh_states && now >= server_.rooms[i].fresh_states_due)
       states_.send_fresh(server_.rooms[i], now);
+  files_.send_due(now);
   std::erase_if(server_.changed_rooms, [this](std::size_t i) {
     server_.rooms[i].is_listed =
         server_.rooms[i].roster_changed || server_.rooms[i].has_fresh_states;
@@ -173,6 +183,7 @@ void ServerCore::end_turn(MonoTime now) {
 }
 
 void ServerCore::sweep(MonoTime now) {
+  files_.forget_absent();
   for (std::size_t i = 0; i < server_.sessions.size(); ++i) {
     ServerSession& session = server_.sessions[i];
     if (!session.in_use) continue;
@@ -205,6 +216,7 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : server_.changed_rooms)
     if (const ServerRoom& room = server_.rooms[i]; room.has_fresh_states)
       next = std::min(next, room.fresh_states_due);
+  if (const MonoTime files = files_.next_deadline(); files.is_set()) next = std::min(next, files);
   return next;
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tunnel/server/server_admission.h"
+#include "tunnel/server/server_files.h"
 #include "tunnel/server/server_forwarder.h"
 
 namespace dance {
@@ -51,6 +52,7 @@ class ServerCore {
 
   const ServerCounters& counters() const { return server_.counters; }
   std::size_t session_count() const { return server_.by_peer.size(); }
+  const ServerFiles& files() const { return files_; }
   std::size_t room_count() const;
   std::size_t guest_count() const;
   std::size_t listener_count() const;
@@ -73,6 +75,7 @@ class ServerCore {
   ServerStates states_{server_};
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerAdmission admission_;
+  ServerFiles files_{server_};
   MonoTime next_sweep_;
 };
 

@@ -54,6 +54,13 @@ struct ServerLimits {
   // Per guest: changes of its states and of those of the room that it sets.
   double state_changes_per_second = 60.0;
   double state_change_burst = 60.0;
+  // Files of avatars, kept while their room lives: in all (0 = none, as a server of before), and of
+  // the guests of one session.
+  std::size_t file_bytes = std::size_t{256} << 20;
+  std::size_t file_bytes_per_session = std::size_t{32} << 20;
+  // That go out: to all together, and to one session.
+  double file_bytes_per_second = 8e6;
+  double file_bytes_per_second_of_session = 1e6;
   // Records to one receiver wait this long for others to share a datagram with, unless all who
   // dance have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's
   // guests.
@@ -90,14 +97,16 @@ enum class ServerReject : std::uint8_t {
   kOverruled,
   kStateRate,
   kChannelRate,
+  kFileNotAsked,
   kCount,
 };
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
 // As the log and the summary say it.
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
-    "too_short",    "malformed",  "unknown_type", "version",   "old_hello",  "no_session",
-    "session_rate", "guest_rate", "foreign_slot", "bad_time",  "bad_ack",    "late",
-    "duplicate",    "refused",    "not_allowed",  "overruled", "state_rate", "channel_rate"};
+    "too_short",  "malformed",    "unknown_type", "version",       "old_hello",
+    "no_session", "session_rate", "guest_rate",   "foreign_slot",  "bad_time",
+    "bad_ack",    "late",         "duplicate",    "refused",       "not_allowed",
+    "overruled",  "state_rate",   "channel_rate", "file_not_asked"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
@@ -112,6 +121,9 @@ struct ServerCounters {
   std::uint64_t datagrams_acked = 0;    // of records, by their receivers
   std::uint64_t key_frames_wanted = 0;  // by newcomers, and by who could not decode
   std::uint64_t key_frames_asked = 0;   // of the senders: several wants in one
+  std::uint64_t file_chunks_in = 0;
+  std::uint64_t file_chunks_out = 0;
+  std::uint64_t file_refusals = 0;  // a file that is not offered, or has no room
   std::uint64_t sessions_begun = 0;
   std::uint64_t sessions_resumed = 0;
   std::uint64_t sessions_timed_out = 0;
@@ -152,6 +164,8 @@ struct ServerSession {
   Repetition repeats_down;
   Repetition repeats_up;
   // When the link is next told what its receivers have; not set = nothing new.
+  std::uint64_t files_epoch = 0;  // in which the link has said file terms
+  bool knows_files() const { return files_epoch == epoch && epoch != 0; }
   bool knows_epoch = false;  // what comes is of this session, not of the link's last one
   MonoTime feedback_due;     // goes along with a bundle from then on,
   MonoTime feedback_alone;   // and alone from then on

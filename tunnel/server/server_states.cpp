@@ -101,6 +101,7 @@ void ServerStates::send(std::size_t index, bool only_fresh, std::size_t most_dat
   const auto add = [&](const wire::StateName& name, const wire::Slot& slot, const GuestId& setter,
                        const RetainedState& state) {
     if (state.version == 0 || (only_fresh && !state.is_fresh) ||
+        (name.kind == wire::StateKind::kAvatarFile && !session.knows_files()) ||
         session.stream.states.has(name, slot.slot, state.version))
       return true;
     if (!writer.add({name, slot, setter, state.version, state.bytes()})) return false;

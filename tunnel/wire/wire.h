@@ -55,6 +55,11 @@ enum class Type : std::uint8_t {
   kGoodbye = 22,
   kInterest = 23,
   kInterestAck = 24,
+  // tunnel/wire/wire_files.h.
+  kFileTerms = 25,
+  kFileWant = 26,
+  kFileChunk = 27,
+  kFileRefusal = 28,
 };
 
 enum class Refusal : std::uint16_t {

@@ -6,7 +6,8 @@ namespace dance::wire {
 namespace {
 
 constexpr std::array<StateKind, kFirstChannelPlace> kGuestKinds{
-    StateKind::kSkeleton, StateKind::kAvatar, StateKind::kStyle, StateKind::kPlacement};
+    StateKind::kSkeleton, StateKind::kAvatar, StateKind::kStyle, StateKind::kPlacement,
+    StateKind::kAvatarFile};
 constexpr std::array<StateKind, kRoomStates> kRoomKinds{StateKind::kMusic, StateKind::kScene};
 constexpr int kIndexShift = 4;
 
@@ -18,7 +19,7 @@ void write_state_name(const StateName& name, ByteWriter& out) {
 std::optional<StateName> read_state_name(ByteReader& in) {
   const std::uint8_t byte = in.u8();
   StateName name{static_cast<StateKind>(byte & 15), static_cast<std::uint8_t>(byte >> kIndexShift)};
-  const bool is_known = name.kind >= StateKind::kSkeleton && name.kind <= StateKind::kChannel;
+  const bool is_known = name.kind >= StateKind::kSkeleton && name.kind <= StateKind::kAvatarFile;
   const std::size_t most = name.kind == StateKind::kChannel ? kMaxChannelsPerGuest : 1;
   if (!in.ok() || !is_known || name.index >= most) return std::nullopt;
   return name;

@@ -21,7 +21,8 @@ enum class StateKind : std::uint8_t {
   kAvatar = 4,
   kStyle = 5,
   kPlacement = 6,
-  kChannel = 7,  // a further channel: its class and name, then its last message
+  kChannel = 7,     // a further channel: its class and name, then its last message
+  kAvatarFile = 8,  // of a guest; only to who has said file terms (tunnel/wire/wire_files.h)
 };
 constexpr bool is_of_room(StateKind kind) {
   return kind == StateKind::kMusic || kind == StateKind::kScene;
@@ -33,9 +34,9 @@ struct StateName {
   std::uint8_t index = 0;  // of a channel, 0 to 7
   bool operator==(const StateName&) const = default;
 };
-// States have their places in tables: of a guest the skeleton, avatar, style, placement and then
-// the channels; of the room music and scene.
-constexpr std::size_t kFirstChannelPlace = 4;
+// States have their places in tables: of a guest the skeleton, avatar, style, placement, avatar
+// file and then the channels; of the room music and scene.
+constexpr std::size_t kFirstChannelPlace = 5;
 constexpr std::size_t kGuestStates = kFirstChannelPlace + kMaxChannelsPerGuest;
 constexpr std::size_t kRoomStates = 2;
 std::size_t place_of(const StateName& name);

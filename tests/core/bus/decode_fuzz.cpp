@@ -31,6 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try_decode<dance::Music>(data, size);
   try_decode<dance::Scene>(data, size);
   try_decode<dance::Avatar>(data, size);
+  try_decode<dance::AvatarFile>(data, size);
   try_decode<dance::Style>(data, size);
   try_decode<dance::Placement>(data, size);
   try_decode<dance::Beat>(data, size);

@@ -51,6 +51,15 @@ Avatar golden_avatar() {
   return avatar;
 }
 
+AvatarFile golden_avatar_file() {
+  auto file = stamped<AvatarFile>();
+  for (std::size_t i = 0; i < file.hash.bytes.size(); ++i)
+    file.hash.bytes[i] = static_cast<std::uint8_t>(7 * i + 1);
+  file.size_bytes = 1'234'567;
+  EXPECT_TRUE(file.name.assign("M\xc3\xa4rchen.vrm"));
+  return file;
+}
+
 Style golden_style() {
   auto style = stamped<Style>();
   style.gain = {1.25f, 0.5f, 0.75f, 2.0f, 3.0f, 1.0f, 0.25f};
@@ -103,6 +112,7 @@ TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("music_t", golden_music());
   expect_golden("scene_t", golden_scene());
   expect_golden("avatar_t", golden_avatar());
+  expect_golden("avatar_file_t", golden_avatar_file());
   expect_golden("style_t", golden_style());
   expect_golden("placement_t", golden_placement());
   expect_golden("beat_t", golden_beat());
@@ -113,6 +123,7 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Music>("music_t");
   expect_survives_bit_flips<Scene>("scene_t");
   expect_survives_bit_flips<Avatar>("avatar_t");
+  expect_survives_bit_flips<AvatarFile>("avatar_file_t");
   expect_survives_bit_flips<Style>("style_t");
   expect_survives_bit_flips<Placement>("placement_t");
   expect_survives_bit_flips<Beat>("beat_t");
@@ -120,7 +131,8 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
 }
 
 TEST(GoldenState, IsSmallEnoughForTheTunnel) {
-  for (const char* type : {"music_t", "scene_t", "avatar_t", "style_t", "placement_t"})
+  for (const char* type :
+       {"music_t", "scene_t", "avatar_t", "avatar_file_t", "style_t", "placement_t"})
     EXPECT_LE(read_golden(type).size(), 400u) << type;
 }
 
@@ -172,6 +184,16 @@ TEST(DecodeState, CallsImpossibleValuesInvalid) {
   EXPECT_EQ(outcome_of(golden_scene(), [](Scene& s) { s.name = SceneName(); }), fine);
   EXPECT_EQ(outcome_of(golden_avatar(), [](Avatar& a) { a.height_scale = 0.0f; }), invalid);
   EXPECT_EQ(outcome_of(golden_avatar(), [](Avatar& a) { a.colour_rgb[0] = -1.0f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_avatar_file(), [](AvatarFile&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_avatar_file(), [](AvatarFile& f) { f = AvatarFile(); }), fine);
+  for (const int size : {0, -1, (16 << 20) + 1})
+    EXPECT_EQ(outcome_of(golden_avatar_file(), [&](AvatarFile& f) { f.size_bytes = size; }),
+              invalid)
+        << size;
+  EXPECT_EQ(outcome_of(golden_avatar_file(), [](AvatarFile& f) { f.hash = FileHash(); }), invalid);
+  EXPECT_EQ(outcome_of(golden_avatar_file(),
+                       [](AvatarFile& f) { EXPECT_TRUE(f.name.assign("\x1b[2J")); }),
+            invalid);
   EXPECT_EQ(outcome_of(golden_style(), [](Style& s) { s.gain[6] = kNan; }), invalid);
   EXPECT_EQ(outcome_of(golden_style(), [](Style& s) { s.dynamic = 5.0f; }), invalid);
   EXPECT_EQ(outcome_of(golden_placement(), [](Placement& p) { p.x_m = 1e6f; }), invalid);

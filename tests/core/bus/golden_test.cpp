@@ -215,8 +215,8 @@ TEST(GoldenMessages, HaveTheFingerprintsAndSizesOfTheReadme) {
   std::ifstream readme(std::string(DANCE_SOURCE_DIR) + "/lcmtypes/README.md");
   const std::string text{std::istreambuf_iterator<char>(readme), std::istreambuf_iterator<char>()};
   for (const char* type : {"pose_t", "hands_t", "skeleton_t", "guest_t", "stage_time_t", "stats_t",
-                           "music_t", "scene_t", "avatar_t", "style_t", "placement_t", "beat_t",
-                           "guest_stats_t", "guest_traffic_t", "flow_t"}) {
+                           "music_t", "scene_t", "avatar_t", "avatar_file_t", "style_t",
+                           "placement_t", "beat_t", "guest_stats_t", "guest_traffic_t", "flow_t"}) {
     const Bytes golden = read_golden(type);
     ASSERT_GE(golden.size(), 8u);
     std::string fingerprint;

@@ -25,10 +25,10 @@ TEST(MessageTable, HasTheTypeOfEverySignalInTheTableOfChannels) {
     EXPECT_EQ(known->second, row.type) << row.pattern;
   }
   // A new message type is named here.
-  EXPECT_EQ(
-      (types_of_rows<Pose, Hands, TimedSkeleton, GuestStatus, Stats, StageTime, Music, Scene,
-                     Avatar, Style, Placement, Beat, GuestStats, GuestTraffic, FlowSetting>()),
-      of_channels);
+  EXPECT_EQ((types_of_rows<Pose, Hands, TimedSkeleton, GuestStatus, Stats, StageTime, Music, Scene,
+                           Avatar, AvatarFile, Style, Placement, Beat, GuestStats, GuestTraffic,
+                           FlowSetting>()),
+            of_channels);
 }
 
 TEST(MessageTable, TakesANewTypeByItsRow) {

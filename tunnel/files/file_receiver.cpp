@@ -1,0 +1,240 @@
+#include "tunnel/files/file_receiver.h"
+
+#include <algorithm>
+
+namespace dance {
+namespace {
+
+// Asked for together, where there are so many: a want costs a datagram.
+constexpr std::size_t kChunksTogether = 8;
+constexpr double kBurst = 2.0 * kChunksTogether * wire::kFileChunkCost;
+// One that does not get on, or takes long, lets another have its turn.
+constexpr Duration kPatienceWithFile = Duration::s(4);
+constexpr Duration kLongestTurn = Duration::s(60);
+constexpr Duration kRestAfterRefusal = Duration::s(20);
+constexpr Duration kShortestPatience = Duration::ms(300);
+constexpr Duration kLongestPatience = Duration::s(3);
+constexpr Duration kLooksAgain = Duration::ms(50);
+constexpr Duration kBetweenLooks = Duration::ms(2);
+constexpr std::size_t kMostDownloads = wire::kMaxGuestsPerRoom;
+constexpr std::size_t kMostBudgets = 256;
+
+}  // namespace
+
+FileReceiver::FileReceiver(double bytes_per_second) : pace_(bytes_per_second, kBurst) {
+  downloads_.reserve(kMostDownloads);
+}
+
+bool FileReceiver::is_bad(const GuestId& guest, const FileHash& hash) const {
+  return std::ranges::find(bad_, std::pair(guest, hash)) != bad_.end();
+}
+
+FileReceiver::Download* FileReceiver::find(const GuestId& guest) {
+  const auto found = std::ranges::find(downloads_, guest, &Download::guest);
+  return found == downloads_.end() ? nullptr : &*found;
+}
+
+bool FileReceiver::wants(const GuestId& guest, const FileHash& hash) const {
+  return std::ranges::any_of(downloads_,
+                             [&](const auto& it) { return it.guest == guest && it.hash == hash; });
+}
+
+void FileReceiver::want(const GuestId& guest, const FileHash& hash, ChunkedFile begin,
+                        MonoTime now) {
+  if (is_bad(guest, hash) || wants(guest, hash) || begin.chunks() == 0) return;
+  drop(guest);
+  if (downloads_.size() == kMostDownloads) return;
+  Download download;
+  download.guest = guest;
+  download.hash = hash;
+  download.file = std::move(begin);
+  download.last_chunk = now;
+  while (download.blocks_told < download.file.blocks() &&
+         download.file.has_block(download.blocks_told))
+    ++download.blocks_told;
+  downloads_.push_back(std::move(download));
+  Download& added = downloads_.back();
+  if (!added.file.is_whole()) return;
+  added.is_whole = true;
+  if (on_whole) on_whole(guest, hash, std::move(added.file));
+}
+
+void FileReceiver::drop(const GuestId& guest) {
+  std::erase_if(downloads_, [&](const Download& it) { return it.guest == guest; });
+}
+
+void FileReceiver::settle(const GuestId& guest, const FileHash& hash, bool is_right) {
+  if (!is_right) {
+    ++counters_.files_wrong;
+    if (bad_.size() == kMostBad) bad_.erase(bad_.begin());
+    bad_.emplace_back(guest, hash);
+  }
+  std::erase_if(downloads_,
+                [&](const Download& it) { return it.guest == guest && it.hash == hash; });
+}
+
+void FileReceiver::begin_session() {
+  for (Download& download : downloads_) {
+    download.asked.clear();
+    download.cursor = 0;
+    download.rests_until = MonoTime();
+  }
+}
+
+// Four times what a chunk takes usually: the server may have to fetch it first.
+Duration FileReceiver::patience() const {
+  return std::clamp(mean_wait_ * 4, kShortestPatience, kLongestPatience);
+}
+
+void FileReceiver::expire(Download& download, MonoTime now) {
+  const std::size_t late = download.asked.expire(now - patience());
+  if (late == 0) return;
+  counters_.chunks_again += late;
+  download.cursor = 0;
+  for (std::size_t i = 0; i < late; ++i) pace_.see_loss(now);
+  mean_wait_ = std::min(mean_wait_ * 2, kLongestPatience / 4);
+}
+
+// Whose turn it is.
+FileReceiver::Download* FileReceiver::active(const SlotOf& slot_of, MonoTime now) {
+  const auto can = [&](const Download& it) {
+    return !it.is_whole && now >= it.rests_until && slot_of(it.guest).has_value();
+  };
+  auto first = std::ranges::find_if(downloads_, can);
+  if (first == downloads_.end()) return nullptr;
+  if (!first->begun.is_set()) {
+    first->begun = first->last_chunk = now;
+    make_room(*first);
+  }
+  const bool is_stuck =
+      now - first->last_chunk > kPatienceWithFile || now - first->begun > kLongestTurn;
+  const bool others_wait = std::find_if(first + 1, downloads_.end(), can) != downloads_.end();
+  if (is_stuck && others_wait) {
+    first->begun = MonoTime();
+    std::rotate(first, first + 1, downloads_.end());
+    first = std::ranges::find_if(downloads_, can);
+    first->begun = first->last_chunk = now;
+    make_room(*first);
+  }
+  return &*first;
+}
+
+// What waits for its next turn loses what it has, where it is too much in all.
+void FileReceiver::make_room(const Download& keep) {
+  std::size_t held = keep.file.size_bytes();
+  for (Download& it : downloads_) {
+    if (&it == &keep || it.file.missing() == it.file.chunks()) continue;
+    held += it.file.size_bytes();
+    if (held <= kMostBytes) continue;
+    held -= it.file.size_bytes();
+    it.file = ChunkedFile(it.file.size_bytes());
+    it.cursor = it.blocks_told = 0;
+    it.asked.clear();
+  }
+}
+
+bool FileReceiver::pay(const GuestId& guest, double bytes, MonoTime now) {
+  if (budgets_.size() > kMostBudgets)
+    std::erase_if(budgets_, [&](const auto& it) { return now - it.second.used > Duration::s(60); });
+  Budget& budget = budgets_[guest];
+  budget.used = now;
+  return budget.bytes.take(bytes, now);
+}
+
+// Of several at once, as a want costs a datagram.
+bool FileReceiver::may_ask(const Download& download, MonoTime now) const {
+  const MonoTime ready = pace_.ready_at(kChunksTogether * wire::kFileChunkCost);
+  return ready.is_set() && ready <= now && download.asked.free() >= kChunksTogether &&
+         now >= download.rests_until;
+}
+
+std::optional<wire::FileWant> FileReceiver::next(const SlotOf& slot_of, MonoTime now) {
+  looked_ = now;
+  Download* download = active(slot_of, now);
+  if (download == nullptr) return std::nullopt;
+  expire(*download, now);
+  if (!may_ask(*download, now)) return std::nullopt;
+  const ChunkedFile& file = download->file;
+  std::optional<wire::FileWant> want;
+  std::size_t index = file.next_missing(download->cursor);
+  for (; index < file.chunks(); index = file.next_missing(index + 1)) {
+    if (want && index - want->first >= wire::kChunksPerWant) break;
+    if (download->asked.has(index)) continue;
+    if (download->asked.is_full() || !pace_.take(wire::kFileChunkCost, now)) break;
+    if (!pay(download->guest, wire::kFileChunk, now)) {
+      download->rests_until = now + Duration::s(5);
+      break;
+    }
+    if (!want) want = wire::FileWant{{*slot_of(download->guest), download->hash}, 0, 0};
+    if (want->chunks == 0) want->first = static_cast<std::uint16_t>(index);
+    want->chunks |= 1u << (index - want->first);
+    download->asked.add(index, now);
+    ++counters_.chunks_asked;
+  }
+  download->cursor = index;
+  return want;
+}
+
+MonoTime FileReceiver::next_deadline() const {
+  MonoTime next;
+  const auto at = [&](MonoTime when) {
+    if (when.is_set() && (!next.is_set() || when < next)) next = when;
+  };
+  for (const Download& it : downloads_) {
+    if (it.is_whole) continue;
+    if (!looked_.is_set()) return MonoTime::from_ns(1);
+    // Those that wait for their turn, a guest or a rest to end look again now and then.
+    at(looked_ + kLooksAgain);
+    if (!it.begun.is_set()) continue;
+    if (!it.asked.is_empty()) at(it.asked.oldest() + patience() + Duration::us(10));
+    const bool has_more = it.file.next_missing(it.cursor) < it.file.chunks();
+    if (has_more && it.asked.free() >= kChunksTogether && it.rests_until <= looked_)
+      at(pace_.ready_at(kChunksTogether * wire::kFileChunkCost));
+  }
+  // Of one that is not there just now nothing changes: not again at once.
+  return next.is_set() ? std::max(next, looked_ + kBetweenLooks) : next;
+}
+
+bool FileReceiver::take(const GuestId& from, const wire::FileChunk& chunk, MonoTime now) {
+  Download* download = find(from);
+  if (download == nullptr || download->is_whole || download->hash != chunk.file.hash ||
+      download->file.size_bytes() != chunk.size_bytes) {
+    ++counters_.chunks_foreign;
+    return false;
+  }
+  const MonoTime asked = download->asked.take(chunk.index);
+  // One that was given up, and asked for again, may come twice.
+  if (!download->file.put(chunk.index, chunk.data)) return true;
+  ++counters_.chunks_taken;
+  download->last_chunk = now;
+  pace_.see_arrival();
+  if (asked.is_set()) mean_wait_ += (now - asked - mean_wait_) / 8;
+  tell_blocks(*download);
+  if (!download->file.is_whole()) return true;
+  ++counters_.files_whole;
+  download->is_whole = true;
+  if (on_whole) on_whole(from, download->hash, std::move(download->file));
+  return true;
+}
+
+void FileReceiver::tell_blocks(Download& download) {
+  while (download.blocks_told < download.file.blocks() &&
+         download.file.has_block(download.blocks_told)) {
+    if (on_block) on_block(download.hash, download.file, download.blocks_told);
+    ++download.blocks_told;
+  }
+}
+
+bool FileReceiver::refuse(const GuestId& from, const wire::FileRefusal& refusal, MonoTime now) {
+  Download* download = find(from);
+  if (download == nullptr || download->hash != refusal.file.hash || download->is_whole)
+    return false;
+  ++counters_.files_refused;
+  download->asked.clear();
+  download->cursor = 0;
+  download->rests_until = now + kRestAfterRefusal;
+  if (on_refused) on_refused(from, refusal.file.hash, refusal.cause);
+  return true;
+}
+
+}  // namespace dance

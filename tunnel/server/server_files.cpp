@@ -1,0 +1,304 @@
+#include "tunnel/server/server_files.h"
+
+#include <algorithm>
+
+namespace dance {
+namespace {
+
+constexpr std::size_t kMostFiles = 512;
+constexpr std::size_t kMostFilesOfGuest = 2;  // the chosen one, and the one before
+// While chunks wait for their pace, and while they wait for their owner.
+constexpr Duration kSendingPeriod = Duration::ms(2);
+constexpr Duration kWaitingPeriod = Duration::ms(50);
+constexpr Duration kShortestPatience = Duration::s(1);
+// A file in use is not evicted for another.
+constexpr Duration kInUse = Duration::s(10);
+// To one session never two at once; to all together a few.
+constexpr double kBurstOfSession = wire::kFileChunkCost;
+constexpr double kBurstOfAll = 16.0 * wire::kFileChunkCost;
+
+template <class Message>
+void send(ServerContext& server, std::size_t session, const Message& message) {
+  std::array<std::uint8_t, wire::kMaxPlain> out;
+  server.send(server.sessions[session].peer, {out.data(), wire::build(message, out)});
+}
+
+}  // namespace
+
+ServerFiles::ServerFiles(ServerContext& server)
+    : server_(server),
+      receivers_(server.limits.sessions),
+      pace_(server.limits.file_bytes_per_second, kBurstOfAll) {
+  waiting_.reserve(server.limits.sessions);
+}
+
+void ServerFiles::wake(MonoTime now) {
+  if (!due_.is_set() || now < due_) due_ = now;
+}
+
+// What is known of a session; of one before it nothing counts.
+ServerFiles::Receiver& ServerFiles::receiver(std::size_t session) {
+  Receiver& known = receivers_[session];
+  if (known.epoch == server_.sessions[session].epoch) return known;
+  known = Receiver();
+  known.epoch = server_.sessions[session].epoch;
+  return known;
+}
+
+bool ServerFiles::on_terms(std::size_t session, wire::Bytes body) {
+  if (server_.limits.file_bytes == 0) {
+    server_.reject(ServerReject::kUnknownType);
+    return false;
+  }
+  const auto terms = wire::parse_file_terms(body);
+  if (!terms) {
+    server_.reject(ServerReject::kMalformed);
+    return false;
+  }
+  ServerSession& from = server_.sessions[session];
+  const bool is_new = !from.knows_files();
+  from.files_epoch = from.epoch;
+  Receiver& to = receiver(session);
+  to.bytes_per_second = terms->bytes_per_second;
+  if (is_new)
+    to.pace = FilePace(
+        std::min(to.bytes_per_second * 1.1, server_.limits.file_bytes_per_second_of_session),
+        kBurstOfSession);
+  const double most = server_.limits.file_bytes_per_second_of_session;
+  send(server_, session, wire::FileTerms{static_cast<std::uint32_t>(most)});
+  return is_new;
+}
+
+ServerGuest* ServerFiles::guest_in(std::size_t room, const wire::Slot& slot) {
+  ServerGuest& guest = server_.rooms[room].guests[slot.slot];
+  return server_.rooms[room].in_use && guest.in_use && guest.generation == slot.generation
+             ? &guest
+             : nullptr;
+}
+
+ServerFiles::File* ServerFiles::find(std::size_t room, const wire::FileName& name) {
+  for (File& file : files_)
+    if (file.room == room && file.name == name) return &file;
+  return nullptr;
+}
+
+ServerFiles::File* ServerFiles::find_or_add(std::size_t room, const wire::FileName& name,
+                                            MonoTime now) {
+  if (File* known = find(room, name)) return known;
+  // A guest that changes its mind makes room for its own.
+  std::size_t of_guest = 0;
+  auto oldest = files_.end();
+  for (auto it = files_.begin(); it != files_.end(); ++it) {
+    if (it->room != room || it->name.slot != name.slot) continue;
+    ++of_guest;
+    if (oldest == files_.end() || it->used < oldest->used) oldest = it;
+  }
+  if (of_guest >= kMostFilesOfGuest) forget(oldest);
+  if (files_.size() >= kMostFiles) return nullptr;
+  files_.push_back({room, name, {}, {}, now});
+  return &files_.back();
+}
+
+void ServerFiles::forget(std::list<File>::iterator file) {
+  size_bytes_ -= file->chunks.size_bytes();
+  files_.erase(file);
+}
+
+std::size_t ServerFiles::bytes_of_owner(std::size_t session) const {
+  std::size_t sum = 0;
+  for (const File& file : files_) {
+    const ServerGuest& guest = server_.rooms[file.room].guests[file.name.slot.slot];
+    if (guest.in_use && guest.owner == session) sum += file.chunks.size_bytes();
+  }
+  return sum;
+}
+
+bool ServerFiles::make_room(std::size_t owner, std::uint32_t size_bytes, MonoTime now) {
+  if (bytes_of_owner(owner) + size_bytes > server_.limits.file_bytes_per_session) return false;
+  while (size_bytes_ + size_bytes > server_.limits.file_bytes) {
+    auto oldest = files_.end();
+    for (auto it = files_.begin(); it != files_.end(); ++it)
+      if (it->chunks.size_bytes() > 0 && now - it->used > kInUse &&
+          (oldest == files_.end() || it->used < oldest->used))
+        oldest = it;
+    if (oldest == files_.end()) return false;
+    forget(oldest);
+  }
+  return true;
+}
+
+void ServerFiles::refuse(std::size_t session, const wire::FileName& name,
+                         wire::FileRefusalCause cause) {
+  ++server_.counters.file_refusals;
+  send(server_, session, wire::FileRefusal{name, cause});
+}
+
+void ServerFiles::refuse_all(std::size_t room, const wire::FileName& name,
+                             wire::FileRefusalCause cause) {
+  for (const std::size_t session : waiting_) {
+    if (server_.sessions[session].room != room) continue;
+    auto& queue = receiver(session).queue;
+    const std::size_t before = queue.size();
+    for (std::size_t i = queue.size(); i-- > 0;)
+      if (queue[i].name == name) queue.erase_at(i);
+    if (queue.size() < before) refuse(session, name, cause);
+  }
+}
+
+void ServerFiles::on_want(std::size_t session, wire::Bytes body, MonoTime now) {
+  const auto want = wire::parse_file_want(body);
+  if (!want) return server_.reject(ServerReject::kMalformed);
+  const ServerSession& from = server_.sessions[session];
+  const ServerGuest* guest = guest_in(from.room, want->file.slot);
+  if (!from.knows_files() || guest == nullptr || guest->owner == session)
+    return server_.reject(ServerReject::kForeignSlot);
+  if (!server_.sessions[guest->owner].knows_files() ||
+      receiver(guest->owner).bytes_per_second <= 0.0)
+    return refuse(session, want->file, wire::FileRefusalCause::kNoFiles);
+  File* file = find_or_add(from.room, want->file, now);
+  if (file == nullptr) return refuse(session, want->file, wire::FileRefusalCause::kFull);
+  file->used = now;
+  Receiver& to = receiver(session);
+  for (std::size_t i = 0; i < wire::kChunksPerWant; ++i) {
+    const Queued queued{want->file, static_cast<std::uint16_t>(want->first + i)};
+    const std::size_t chunks = file->chunks.chunks();
+    if (!want->has(queued.index) || (chunks > 0 && queued.index >= chunks)) continue;
+    // What does not fit is asked for again.
+    if (!to.queue.contains(queued) && !to.queue.try_push(queued)) break;
+  }
+  if (!to.queue.empty() && std::ranges::find(waiting_, session) == waiting_.end())
+    waiting_.push_back(session);
+  wake(now);
+}
+
+void ServerFiles::on_chunk(std::size_t session, wire::Bytes body, MonoTime now) {
+  const auto chunk = wire::parse_file_chunk(body);
+  if (!chunk) return server_.reject(ServerReject::kMalformed);
+  const ServerGuest* guest = server_.guest_of(session, chunk->file.slot.slot);
+  if (guest == nullptr || guest->generation != chunk->file.slot.generation)
+    return server_.reject(ServerReject::kForeignSlot);
+  const std::size_t room = server_.sessions[session].room;
+  File* file = find(room, chunk->file);
+  const bool has_size = file != nullptr && file->chunks.size_bytes() > 0;
+  if (file == nullptr || !file->asked.take(chunk->index).is_set() ||
+      (has_size && file->chunks.size_bytes() != chunk->size_bytes))
+    return server_.reject(ServerReject::kFileNotAsked);
+  if (!has_size) {
+    if (!make_room(session, chunk->size_bytes, now)) {
+      refuse_all(room, chunk->file, wire::FileRefusalCause::kFull);
+      return forget(std::ranges::find_if(files_, [&](const File& it) { return &it == file; }));
+    }
+    file->chunks = ChunkedFile(chunk->size_bytes);
+    size_bytes_ += chunk->size_bytes;
+  }
+  if (file->chunks.put(chunk->index, chunk->data)) ++server_.counters.file_chunks_in;
+  file->used = now;
+  wake(now);
+}
+
+void ServerFiles::on_refusal(std::size_t session, wire::Bytes body, MonoTime now) {
+  const auto refusal = wire::parse_file_refusal(body);
+  if (!refusal) return server_.reject(ServerReject::kMalformed);
+  const ServerGuest* guest = server_.guest_of(session, refusal->file.slot.slot);
+  const std::size_t room = server_.sessions[session].room;
+  File* file = find(room, refusal->file);
+  if (guest == nullptr || guest->generation != refusal->file.slot.generation || file == nullptr)
+    return server_.reject(ServerReject::kForeignSlot);
+  file->asked.clear();
+  refuse_all(room, refusal->file, refusal->cause);
+  wake(now);
+}
+
+// One chunk to that session, if one is here and the pace allows. True when something went.
+bool ServerFiles::serve(std::size_t session, MonoTime now) {
+  ServerSession& to = server_.sessions[session];
+  Receiver& waits = receiver(session);
+  // While records wait for this receiver, chunks do.
+  if (!to.stream.bundle.is_empty()) return false;
+  for (std::size_t i = 0; i < waits.queue.size(); ++i) {
+    const Queued queued = waits.queue[i];
+    File* file = find(to.room, queued.name);
+    const bool is_beyond =
+        file != nullptr && file->chunks.size_bytes() > 0 && queued.index >= file->chunks.chunks();
+    if (file == nullptr || is_beyond) {
+      waits.queue.erase_at(i--);
+      continue;
+    }
+    if (file->chunks.size_bytes() == 0 || !file->chunks.has(queued.index)) continue;
+    if (!waits.pace.take(wire::kFileChunkCost, now)) return false;
+    if (!pace_.take(wire::kFileChunkCost, now)) return false;
+    waits.queue.erase_at(i);
+    file->used = now;
+    ++server_.counters.file_chunks_out;
+    send(server_, session,
+         wire::FileChunk{file->name, file->chunks.size_bytes(), queued.index,
+                         file->chunks.chunk(queued.index)});
+    return true;
+  }
+  return false;
+}
+
+double ServerFiles::owner_rate(const File& file) {
+  const ServerGuest* guest = guest_in(file.room, file.name.slot);
+  return guest != nullptr ? receiver(guest->owner).bytes_per_second : 0.0;
+}
+
+// Each chunk that somebody waits for and that is not here, once.
+void ServerFiles::ask_owners(MonoTime now) {
+  for (File& file : files_) {
+    const double rate = owner_rate(file);
+    if (file.chunks.size_bytes() > 0 && file.chunks.is_whole()) continue;
+    if (rate <= 0.0) continue;
+    const Duration patience =
+        kShortestPatience + Duration::seconds(2.0 * ChunkRequests::kMost * wire::kFileChunk / rate);
+    file.asked.expire(now - patience);
+    const std::size_t owner = guest_in(file.room, file.name.slot)->owner;
+    wire::FileWant want{file.name, 0, 0};
+    const auto flush = [&] {
+      if (want.chunks != 0) send(server_, owner, want);
+      want.chunks = 0;
+    };
+    for (const std::size_t session : waiting_) {
+      if (server_.sessions[session].room != file.room) continue;
+      for (const Queued& queued : receiver(session).queue) {
+        const bool is_here = file.chunks.size_bytes() > 0 && file.chunks.has(queued.index);
+        if (queued.name != file.name || is_here || file.asked.has(queued.index)) continue;
+        if (!file.asked.add(queued.index, now)) break;
+        const bool fits = want.chunks != 0 && queued.index >= want.first &&
+                          queued.index - want.first < static_cast<int>(wire::kChunksPerWant);
+        if (!fits) {
+          flush();
+          want.first = queued.index;
+        }
+        want.chunks |= 1u << (queued.index - want.first);
+      }
+    }
+    flush();
+  }
+}
+
+void ServerFiles::send_due(MonoTime now) {
+  if (!due_.is_set() || now < due_) return;
+  std::erase_if(waiting_, [&](std::size_t session) {
+    return !server_.sessions[session].in_use || receiver(session).queue.empty();
+  });
+  ask_owners(now);
+  bool has_sent = false;
+  for (const std::size_t session : waiting_) has_sent = serve(session, now) || has_sent;
+  // Who was first is last the next time: all have their share.
+  if (!waiting_.empty()) std::rotate(waiting_.begin(), waiting_.begin() + 1, waiting_.end());
+  due_ = waiting_.empty() ? MonoTime() : now + (has_sent ? kSendingPeriod : kWaitingPeriod);
+  for (const std::size_t session : waiting_) {
+    const MonoTime ready = receiver(session).pace.ready_at(wire::kFileChunkCost);
+    if (ready.is_set() && ready > now && ready < due_) due_ = ready;
+  }
+}
+
+void ServerFiles::forget_absent() {
+  for (auto it = files_.begin(); it != files_.end();) {
+    const auto file = it++;
+    if (guest_in(file->room, file->name.slot) == nullptr) forget(file);
+  }
+}
+
+}  // namespace dance
