@@ -4,8 +4,8 @@
 // Ownership:    fills the model's expressions.
 // Threads:      none inside.
 // Failure:      what names no morph of the figure is left out; too many are cut with a note.
-// Source:       VRM 1.0 expressions; VRM 0.x blendShapeMaster (Joy, Sorrow, A, Blink_L, …); for files
-//               without either the eyelids of ARKit's names, so that figures blink.
+// Source:       VRM 1.0 expressions; VRM 0.x blendShapeMaster (Joy, Sorrow, A, Blink_L, …); for
+//               files without either the eyelids by ARKit's names, so that figures blink.
 #pragma once
 
 #include "formats/avatar/read/avatar_source.h"

@@ -3,23 +3,15 @@
 
 #include <cmath>
 
-#include "formats/avatar/avatar_reader.h"
 #include "formats/avatar/read/avatar_nodes.h"
-#include "tests/formats/avatar/tiny_avatar.h"
+#include "tests/formats/avatar/read_well.h"
 
 namespace dance {
 namespace {
 
+using test::name_of_node;
 using test::TinyAvatar;
 using test::ToolNames;
-
-AvatarModel read_well(const test::Bytes& bytes) {
-  const auto read = read_avatar(bytes);
-  EXPECT_TRUE(read) << (read ? "" : read.error().what);
-  if (!read) return {};
-  EXPECT_TRUE(is_sound(read->model));
-  return read->model;
-}
 
 std::string error_of(const test::Bytes& bytes) {
   const auto read = read_avatar(bytes);
@@ -29,14 +21,11 @@ std::string error_of(const test::Bytes& bytes) {
 AvatarModel read_named(const ToolNames& names) {
   TinyAvatar avatar(names);
   avatar.add_mesh(avatar.square());
-  return read_well(avatar.glb());
+  return test::model_of(avatar);
 }
 
-std::string name_of(const AvatarModel& model, int node) {
-  return node < 0 ? "" : model.nodes[static_cast<std::size_t>(node)].name;
-}
 std::string name_of(const AvatarModel& model, Bone bone) {
-  return name_of(model, model.node_of(bone));
+  return name_of_node(model, model.node_of(bone));
 }
 
 std::string sided(std::string pattern, const std::string& side) {
@@ -208,10 +197,10 @@ TEST(AvatarBones, NamesOfManyToolsAreUnderstood) {
     for (std::size_t f = 0; f < kFingerBoneCount; ++f) {
       std::string pattern = sided(names.fingers[f % 15 / 3], f < 15 ? names.left : names.right);
       pattern.replace(pattern.find('#'), 1, std::to_string(f % 3 + 1));
-      EXPECT_EQ(name_of(model, model.fingers[f]), pattern);
+      EXPECT_EQ(name_of_node(model, model.fingers[f]), pattern);
     }
-    EXPECT_EQ(name_of(model, model.eyes[0]), names.of_head[0]);
-    EXPECT_EQ(name_of(model, model.eyes[1]), names.of_head[1]);
+    EXPECT_EQ(name_of_node(model, model.eyes[0]), names.of_head[0]);
+    EXPECT_EQ(name_of_node(model, model.eyes[1]), names.of_head[1]);
   }
 }
 
@@ -252,7 +241,7 @@ TEST(AvatarBones, VrmTellsTheBonesWhateverTheNodesAreCalled) {
       bones[std::string(bone.name)]["node"] = avatar.node(std::string(bone.name));
   for (auto& node : avatar.json["nodes"]) node["name"] = "x";
   avatar.add_mesh(avatar.square());
-  const AvatarModel model = read_well(avatar.glb());
+  const AvatarModel model = test::model_of(avatar);
   ASSERT_FALSE(model.nodes.empty());
   EXPECT_GE(model.node_of(Bone::kLeftToes), 0);
   EXPECT_EQ(model.node_of(Bone::kUpperChest), -1);
@@ -294,7 +283,7 @@ TEST(AvatarBones, TheFigureIsTurnedToFaceForwardWithItsHeadUp) {
     const int root = avatar.add_node("Armature", -1, {0, 0, 0});
     avatar.json["nodes"][static_cast<std::size_t>(root)]["rotation"] = turned.rotation;
     avatar.json["nodes"][static_cast<std::size_t>(root)]["children"] = {avatar.node("hips")};
-    const AvatarModel model = read_well(avatar.glb());
+    const AvatarModel model = test::model_of(avatar);
     ASSERT_FALSE(model.nodes.empty());
     const auto rest = rest_transforms(model);
     const auto place = [&](Bone bone) {

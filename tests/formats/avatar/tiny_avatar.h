@@ -1,5 +1,5 @@
-// Avatars small enough to be written down: a figure by the names of some tool, and meshes, materials
-// and extensions on it, as JSON and bytes, made without the reader's own code.
+// Avatars small enough to be written down: a figure by the names of some tool, and meshes,
+// materials and extensions on it, as JSON and bytes, made without the reader's own code.
 //
 // Units/frames: metres, as glTF; the figure stands in T-pose and faces +Z, or -Z.
 // Ownership:    plain values.
