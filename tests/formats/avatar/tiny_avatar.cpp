@@ -1,5 +1,7 @@
 #include "tests/formats/avatar/tiny_avatar.h"
 
+#include <algorithm>
+
 namespace dance::test {
 namespace {
 
@@ -183,10 +185,11 @@ int TinyAvatar::add_picture(std::span<const std::uint8_t> bytes, const std::stri
   return static_cast<int>(json["textures"].size()) - 1;
 }
 
-Bytes TinyAvatar::glb() const {
+Bytes TinyAvatar::glb(std::size_t kept_bytes) const {
   nlohmann::json out = json;
-  if (!bin_.empty()) out["buffers"] = {{{"byteLength", bin_.size()}}};
-  return glb_of(out.dump(), bin_);
+  const std::size_t kept = std::min(kept_bytes, bin_.size());
+  if (kept > 0) out["buffers"] = {{{"byteLength", kept}}};
+  return glb_of(out.dump(), Bytes(bin_.begin(), bin_.begin() + static_cast<std::ptrdiff_t>(kept)));
 }
 
 Bytes TinyAvatar::gltf() const {

@@ -68,8 +68,9 @@ class TinyAvatar {
   int add_mesh(nlohmann::json primitives, bool is_skinned = true, int parent = -1);
   int add_picture(std::span<const std::uint8_t> bytes, const std::string& mime);
 
-  // A GLB, or a .gltf with the buffer as a data URI.
-  Bytes glb() const;
+  // A GLB, with no more than these bytes of its buffer, or a .gltf with the buffer as a data URI.
+  Bytes glb(std::size_t kept_bytes = std::size_t{1} << 30) const;
+  std::size_t bin_bytes() const { return bin_.size(); }
   Bytes gltf() const;
 
   nlohmann::json json;

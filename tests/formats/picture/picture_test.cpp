@@ -1,0 +1,116 @@
+#include "formats/picture/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "tests/formats/picture/packed_pictures.h"
+
+namespace dance {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+void expect_ramp(const Picture& picture, int width_px, int height_px, int within) {
+  ASSERT_EQ(picture.width_px, width_px);
+  ASSERT_EQ(picture.height_px, height_px);
+  const Bytes want = test::ramp(width_px, height_px);
+  ASSERT_EQ(picture.rgba.size(), want.size());
+  for (std::size_t i = 0; i < want.size(); ++i)
+    ASSERT_LE(std::abs(int{picture.rgba[i]} - int{want[i]}), within) << i;
+}
+
+TEST(Picture, PngAndWebpComeBackExactlyJpegNearly) {
+  auto picture = read_picture(test::png(20, 12));
+  ASSERT_TRUE(picture) << picture.error().what;
+  expect_ramp(*picture, 20, 12, 0);
+  picture = read_picture(test::webp(20, 12));
+  ASSERT_TRUE(picture) << picture.error().what;
+  expect_ramp(*picture, 20, 12, 0);
+  for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
+    picture = read_picture(test::jpeg(20, 12, flags));
+    ASSERT_TRUE(picture) << picture.error().what;
+    expect_ramp(*picture, 20, 12, 6);
+  }
+}
+
+TEST(Picture, TheKindIsToldByTheFirstBytes) {
+  EXPECT_EQ(picture_kind(test::png(1, 1)), PictureKind::kPng);
+  EXPECT_EQ(picture_kind(test::jpeg(1, 1)), PictureKind::kJpeg);
+  EXPECT_EQ(picture_kind(test::webp(1, 1)), PictureKind::kWebp);
+  EXPECT_EQ(picture_kind({}), PictureKind::kNone);
+  EXPECT_EQ(picture_kind(Bytes{'G', 'I', 'F', '8'}), PictureKind::kNone);
+}
+
+TEST(Picture, TheSizeIsCheckedBeforeAPixelIsDecoded) {
+  PictureLimits limits;
+  limits.side_px = 19;
+  for (const Bytes& bytes : {test::png(20, 12), test::jpeg(20, 12), test::webp(20, 12)}) {
+    const auto picture = read_picture(bytes, limits);
+    ASSERT_FALSE(picture);
+    EXPECT_NE(picture.error().what.find("20 x 12"), std::string::npos) << picture.error().what;
+    EXPECT_EQ(decoded_bytes(bytes), 20u * 12 * 4);
+  }
+  limits = {};
+  limits.decoded_bytes = 20 * 12 * 4 - 1;
+  EXPECT_FALSE(read_picture(test::png(20, 12), limits));
+}
+
+TEST(Picture, AReducedPictureIsTheMeanOfSquares) {
+  Picture picture{4, 2, {}};
+  for (int i = 0; i < 8; ++i)
+    picture.rgba.insert(picture.rgba.end(), {static_cast<std::uint8_t>(10 * i), 0, 200, 255});
+  const Picture half = reduced(picture, 2);
+  ASSERT_EQ(half.width_px, 2);
+  ASSERT_EQ(half.height_px, 1);
+  EXPECT_EQ(half.rgba, (Bytes{25, 0, 200, 255, 45, 0, 200, 255}));
+  EXPECT_EQ(reduced(picture, 4).rgba, picture.rgba);
+  // Sides that do not divide evenly: the last square is smaller.
+  const Picture third = reduced({5, 5, Bytes(100, 77)}, 2);
+  EXPECT_EQ(third.width_px, 2);
+  EXPECT_EQ(third.rgba, Bytes(16, 77));
+}
+
+TEST(Picture, TransparentPixelsDoNotDarkenWhatIsBesideThem) {
+  const Picture picture{2, 1, {200, 100, 50, 255, 0, 0, 0, 0}};
+  EXPECT_EQ(reduced(picture, 1).rgba, (Bytes{200, 100, 50, 128}));
+  EXPECT_EQ(reduced({2, 1, {10, 10, 10, 0, 30, 30, 30, 0}}, 1).rgba, (Bytes{20, 20, 20, 0}));
+}
+
+TEST(Picture, DamageIsAnErrorAndNeverMore) {
+  for (const Bytes& whole : {test::png(9, 7), test::jpeg(16, 16),
+                             test::jpeg(16, 16, TJFLAG_PROGRESSIVE), test::webp(9, 7)}) {
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      const auto picture =
+          read_picture(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)));
+      EXPECT_TRUE(picture || !picture.error().what.empty());
+    }
+    Bytes bytes = whole;
+    for (std::size_t i = 0; i < bytes.size() * 8; ++i) {
+      bytes[i / 8] ^= static_cast<std::uint8_t>(1u << i % 8);
+      const auto picture = read_picture(bytes, {64, 1u << 16, 16});
+      if (picture) {
+        EXPECT_LE(picture->width_px, 16);
+        EXPECT_EQ(picture->rgba.size(), std::size_t{4} *
+                                            static_cast<std::size_t>(picture->width_px) *
+                                            static_cast<std::size_t>(picture->height_px));
+      } else {
+        for (const char c : picture.error().what) EXPECT_TRUE(c >= 0x20 && c < 0x7f);
+      }
+      bytes[i / 8] ^= static_cast<std::uint8_t>(1u << i % 8);
+    }
+  }
+}
+
+TEST(Picture, AJpegOfVeryManyScansIsRefusedBeforeItIsDecoded) {
+  Bytes bytes = test::jpeg(2048, 2048, TJFLAG_PROGRESSIVE);
+  ASSERT_TRUE(read_picture(bytes));
+  for (int scan = 0; scan < 100; ++scan) bytes.insert(bytes.end() - 2, {0xff, 0xda});
+  const auto picture = read_picture(bytes);
+  ASSERT_FALSE(picture);
+  EXPECT_NE(picture.error().what.find("scans"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dance
