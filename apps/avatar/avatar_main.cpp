@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/avatar/avatar_info.h"
 #include "apps/avatar/avatar_make.h"
 
 namespace {
@@ -17,6 +18,7 @@ struct Action {
 
 constexpr std::array kActions{
     Action{"make", dance::avatar_make_main, "an avatar of the project's own design, as a VRM file"},
+    Action{"info", dance::avatar_info_main, "what is in a file, and whether it can dance here"},
 };
 
 // As CLI11 prints it, of which the manual page is made.

@@ -12,7 +12,7 @@
 namespace dance {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kMakeExamples = R"(Examples:
   dance avatar make --out marisol.vrm --look marisol      a follower; comes with the project
   dance avatar make --out teo.vrm --look teo              a leader, likewise
   dance avatar make --out alice.vrm --guest alice         alice's clothes on the stage
@@ -138,7 +138,7 @@ int avatar_make_main(int argc, char** argv) {
       return fail("--look and --guest: an avatar begins with one of them");
     return {};
   });
-  line.footer(kExamples);
+  line.footer(kMakeExamples);
   return run_program(line, argc, argv, [&] { return make(options); });
 }
 

@@ -78,8 +78,8 @@ class VrmFile {
     }
   }
 
-  // A skin names each node once. Where the model has two joints of one node, the vertices of all are
-  // brought into W, in which every node has one matrix.
+  // A skin names each node once. Where the model has two joints of one node, the vertices of all
+  // are brought into W, in which every node has one matrix.
   void add_skin() {
     tinygltf::Skin skin;
     std::map<int, std::uint16_t> joint_of_node;
@@ -318,8 +318,8 @@ class VrmFile {
     return target;
   }
 
-  // The last joint of a chain in VRM is an end that does not swing itself: a node of the model where
-  // it has one there, else a new one.
+  // The last joint of a chain in VRM is an end that does not swing itself: a node of the model
+  // where it has one there, else a new one.
   std::vector<int> add_spring_ends() {
     std::vector<int> ends;
     for (const AvatarSpring& spring : source_.springs) {

@@ -78,6 +78,7 @@ class AvatarMaker {
         design_.pattern, has_skirt(design_) ? look.legs : look.top, design_.pattern_colour));
     skin_ = toon("skin", look.skin, 0.62f);
     cloth_ = toon("cloth", Vector3f::Ones(), 0.5f, cloth);
+    if (has_skirt(design_)) builder_.make_double_sided(cloth_);
     top_ = has_skirt(design_) ? toon("bodice", look.top, 0.5f) : cloth_;
     legs_ = has_skirt(design_) ? toon("shorts", 0.45f * look.legs, 0.5f)
                                : toon("trousers", look.legs, 0.5f);
@@ -222,11 +223,11 @@ class AvatarMaker {
     const SkirtMaker maker(skeleton_, clothes);
     builder_.add_sheet(maker.band(), sash_);
     if (has_skirt(design_)) {
-      builder_.add_sheet(maker.skirt(builder_, for_cloth_), both_sides(cloth_));
+      builder_.add_sheet(maker.skirt(builder_, for_cloth_), cloth_);
       return;
     }
-    builder_.add_sheet(maker.sash_ends(builder_, for_cloth_), both_sides(sash_));
-    builder_.add_sheet(maker.collar(), both_sides(cloth_));
+    builder_.add_sheet(maker.sash_ends(builder_, for_cloth_), builder_.add_double_sided(sash_));
+    builder_.add_sheet(maker.collar(), builder_.add_double_sided(cloth_));
   }
 
   void add_edgings(const std::vector<FigureLayer>& layers) {
@@ -252,9 +253,6 @@ class AvatarMaker {
     }
     builder_.add_sheet(sheet, edging_);
   }
-
-  // The same material, seen from inside as well.
-  int both_sides(int material) { return builder_.add_double_sided(material); }
 
   const AvatarDesign& design_;
   const Skeleton skeleton_;

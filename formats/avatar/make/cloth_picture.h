@@ -1,5 +1,5 @@
-// The pictures of an avatar, drawn by formulas: a pattern of cloth that repeats without an edge, and
-// an eye with its iris.
+// The pictures of an avatar, drawn by formulas: a pattern of cloth that repeats without an edge,
+// and an eye with its iris.
 //
 // Units/frames: colours are linear RGB; pictures 8-bit sRGB.
 // Ownership:    plain values.

@@ -49,6 +49,10 @@ int ModelBuilder::add_double_sided(int material) {
   return add_material(std::move(copy));
 }
 
+void ModelBuilder::make_double_sided(int material) {
+  model_.materials[static_cast<std::size_t>(material)].is_double_sided = true;
+}
+
 int ModelBuilder::add_picture(AvatarPicture picture) {
   model_.pictures.push_back(std::move(picture));
   return static_cast<int>(model_.pictures.size()) - 1;

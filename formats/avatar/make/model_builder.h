@@ -28,6 +28,7 @@ class ModelBuilder {
   int add_material(AvatarMaterial material);
   // The same, seen from inside as well.
   int add_double_sided(int material);
+  void make_double_sided(int material);
   int add_picture(AvatarPicture picture);
   void add_sheet(const Sheet& sheet, int material, FirstPerson first_person = FirstPerson::kAuto);
   std::uint32_t add_collider(Bone bone, const Eigen::Vector3f& a_m, const Eigen::Vector3f& b_m,

@@ -26,6 +26,14 @@ class SkirtMaker {
   Sheet collar() const;
 
  private:
+  struct SashEnd {
+    float turn;
+    float length_m;
+    float lift_m;  // off the clothes
+  };
+  Eigen::Vector3f skirt_place_m(float turn, float down, float fold) const;
+  Eigen::Vector3f sash_middle_m(const SashEnd& end, float down) const;
+  Sheet sash_end(const SashEnd& end, const std::vector<int>& chain) const;
   // How far from the spine's axis all clothes are inside, `turn` from the front to the left.
   float radius_m(float turn, float y_m) const;
   Eigen::Vector3f around(float turn, float y_m, float lift_m) const;
