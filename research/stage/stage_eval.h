@@ -34,7 +34,7 @@ struct StageMeasures {
   double wrist_twist_deg_max = 0.0;  // of the mesh, between forearm and hand
   double elbow_twist_deg_max = 0.0;
   double joint_step_mm_max = 0.0;         // by which a joint's place moves from frame to
-  std::string joint_step_where;  // the bone, and when
+  std::string joint_step_where;           // the bone, and when
   double joint_step_mm_p999 = 0.0;        // frame more than the dancer's
   double joint_step_danced_mm_max = 0.0;  // what the dancer's own moves
   double stretch_percent_max = 0.0;       // of arms

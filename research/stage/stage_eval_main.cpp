@@ -13,6 +13,7 @@ constexpr const char* kExamples = R"(Examples:
   dance stage eval lead.bvh.xz follow.bvh.xz --avatar robot.vrm --avatar woman.glb --json
   dance stage eval night.lcm --avatar robot.vrm
   dance stage eval lead.bvh.xz follow.bvh.xz --avatar child.glb --own-size
+  dance stage eval lead.bvh.xz follow.bvh.xz --avatar robot.vrm --join 0.3
 The first avatar is for the first dancer and so on; the last one is for those who remain. Measured
 on what is drawn, beside a plain retargeting without feet, hands and twist ("plain"). Meetings:
 moments at which palms of two dancers are within 3 cm; hand_gap is the avatars' then. hold_off: by
@@ -24,12 +25,13 @@ what the dancer's does.
 
 struct Wishes {
   std::vector<std::string> files, avatars;
-  double hz = 60.0, height_scale = 1.0;
+  double hz = 60.0, height_scale = 1.0, join_m = 0.0;
   bool own_size = false, json = false;
 };
 
 Result<void> run(const Wishes& wishes) {
-  DANCE_TRY(const StageTake take, load_stage_take(wishes.files, wishes.hz));
+  DANCE_TRY(StageTake take, load_stage_take(wishes.files, wishes.hz));
+  join_hands(take, static_cast<float>(wishes.join_m));
   StageWear wear;
   wear.size = wishes.own_size ? FigureSize::kOwn : FigureSize::kDancers;
   wear.height_scale = static_cast<float>(wishes.height_scale);
@@ -60,6 +62,10 @@ int main(int argc, char** argv) {
   line.add("--height-scale", wishes.height_scale, "times the size that avatars have otherwise")
       .range(dance::kLeastHeightScale, dance::kMostHeightScale)
       .shows_default();
+  line.add("--join", wishes.join_m,
+           "metres: palms of two dancers nearer than this are first brought together in the "
+           "recording, as many a motion capture does not")
+      .range(0.0, 0.6);
   line.add_flag("--own-size", wishes.own_size,
                 "avatars keep their size; else their legs are as long as the dancers'");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");

@@ -39,29 +39,35 @@ int helpers_of(const AvatarShape& shape, Bone bone) {
   return count;
 }
 
-void share_forearm_twist(std::size_t side, FigureFit& fit, ForearmTwists& twists,
+struct ForearmTurns {
+  Quaternionf upper, lower, hand;  // D
+  Vector3f axis;                   // of the forearm, in M
+  float at_elbow, at_wrist;
+};
+
+ForearmTurns turns_of(const FigureFit& fit, std::size_t side) {
+  const Limb& arm = kArmLimbs[side];
+  const auto D = [&](Bone bone) { return Quaternionf(fit.R_W(bone) * fit.rig->C[index_of(bone)]); };
+  ForearmTurns turns;
+  turns.upper = D(arm.upper);
+  turns.lower = D(arm.lower);
+  turns.hand = D(arm.end);
+  turns.axis = direction(*fit.rig->shape, arm.lower, arm.end);
+  turns.at_elbow = twist_rad(turns.upper.conjugate() * turns.lower, turns.axis);
+  turns.at_wrist = twist_rad(turns.lower.conjugate() * turns.hand, turns.axis);
+  return turns;
+}
+
+// In equal steps; the twist may lie some whole turns away from what the two joints say.
+void share_forearm_twist(std::size_t side, float twist, FigureFit& fit,
                          std::span<DriverPose> drivers) {
   const Limb& arm = kArmLimbs[side];
-  const AvatarShape& shape = *fit.rig->shape;
-  const Quaternionf& upper = drivers[index_of(arm.upper)].D;
-  Quaternionf& lower = drivers[index_of(arm.lower)].D;
-  Quaternionf& hand = drivers[index_of(arm.end)].D;
-  const Vector3f axis = direction(shape, arm.lower, arm.end);
-  const float at_elbow = twist_rad(upper.conjugate() * lower, axis);
-  const float at_wrist = twist_rad(lower.conjugate() * hand, axis);
-  float twist = wrapped(at_elbow + at_wrist);
-  if (twists.is_known) {
-    twist = twists.rad[side] + wrapped(twist - twists.rad[side]);
-    if (std::abs(twist) > kFurthestTwist_rad) twist = wrapped(twist);
-  }
-  twists.rad[side] = twist;
-  const float shown = saturated_twist(twist);
-  const float step = shown / static_cast<float>(helpers_of(shape, arm.lower) + 2);
-  const Quaternionf was = lower;
-  lower = (lower * about(axis, step - at_elbow)).normalized();
-  if (shown != twist) hand = (about(was * axis, shown - twist) * hand).normalized();
-  fit.frames.R_WB[index_of(arm.lower)] = lower * fit.rig->C[index_of(arm.lower)].conjugate();
-  fit.frames.R_WB[index_of(arm.end)] = hand * fit.rig->C[index_of(arm.end)].conjugate();
+  const ForearmTurns turns = turns_of(fit, side);
+  twist += wrapped(turns.at_elbow + turns.at_wrist - twist);
+  const float step = twist / static_cast<float>(helpers_of(*fit.rig->shape, arm.lower) + 2);
+  const std::size_t lower = index_of(arm.lower);
+  drivers[lower].D = (turns.lower * about(turns.axis, step - turns.at_elbow)).normalized();
+  fit.frames.R_WB[lower] = (drivers[lower].D * fit.rig->C[lower].conjugate()).normalized();
 }
 
 // Of a hand at rest, for each bone of a finger, and of a thumb.
@@ -94,13 +100,31 @@ DriverPose following(const AvatarRig& rig, std::size_t driver, std::size_t leade
   return {leader_pose.D, leader_pose.place_W_m + rig.scale * (leader_pose.D * apart)};
 }
 
-void drive_bones(FigureFit& fit, ForearmTwists& twists, bool shares_twist,
+void limit_hand_twist(FigureFit& fit, ForearmTwists& twists) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const ForearmTurns turns = turns_of(fit, side);
+    float twist = wrapped(turns.at_elbow + turns.at_wrist);
+    if (twists.is_known) {
+      twist = twists.danced_rad[side] + wrapped(twist - twists.danced_rad[side]);
+      if (std::abs(twist) > kFurthestTwist_rad) twist = wrapped(twist);
+    }
+    twists.danced_rad[side] = twist;
+    twists.shown_rad[side] = saturated_twist(twist);
+    if (twists.shown_rad[side] == twist) continue;
+    auto& R_W = fit.frames.R_WB[index_of(kArmLimbs[side].end)];
+    const Quaternionf back = about(turns.lower * turns.axis, twists.shown_rad[side] - twist);
+    R_W = (back * R_W).normalized();
+  }
+  twists.is_known = true;
+}
+
+void drive_bones(FigureFit& fit, const ForearmTwists& twists, bool shares_twist,
                  std::span<DriverPose> drivers) {
   for (std::size_t b = 0; b < kBoneCount; ++b)
     drivers[b] = {(fit.frames.R_WB[b] * fit.rig->C[b]).normalized(), fit.frames.p_WB_m[b]};
   if (!shares_twist) return;
-  for (std::size_t side = 0; side < 2; ++side) share_forearm_twist(side, fit, twists, drivers);
-  twists.is_known = true;
+  for (std::size_t side = 0; side < 2; ++side)
+    share_forearm_twist(side, twists.shown_rad[side], fit, drivers);
 }
 
 void drive_fingers(const AvatarRig& rig, const Hands* hands, const BodyFrames& frames,

@@ -26,12 +26,16 @@ constexpr float kMostForearmTwist_rad = 2.6f;
 
 // The twist of both forearms, kept from picture to picture so that it may pass half a turn.
 struct ForearmTwists {
-  std::array<float, 2> rad{};
+  std::array<float, 2> danced_rad{};
+  std::array<float, 2> shown_rad{};
   bool is_known = false;
 };
 
-// Bones, with forearm and hand of `fit.frames` brought to what is shown.
-void drive_bones(FigureFit& fit, ForearmTwists& twists, bool shares_twist,
+// Turns hands back that are twisted further than kMostForearmTwist_rad: before contacts, as palms
+// move with it.
+void limit_hand_twist(FigureFit& fit, ForearmTwists& twists);
+// Bones, with the forearms of `fit.frames` brought to what is shown.
+void drive_bones(FigureFit& fit, const ForearmTwists& twists, bool shares_twist,
                  std::span<DriverPose> drivers);
 // Fingers as danced; those of which nothing is known are slightly curled, as hands at rest.
 void drive_fingers(const AvatarRig& rig, const Hands* hands, const BodyFrames& frames,

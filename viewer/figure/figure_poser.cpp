@@ -127,6 +127,7 @@ std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
     fit.rig = &rig.rig;
     fit.past = &rig.contacts;
     place_on_bones(guest.skeleton, guest.pose, fit);
+    if (options_.shares_twist) limit_hand_twist(fit, rig.twists);
     if (options_.fits_feet) fit_feet(fit);
   }
   rigs_.resize(count);  // who is absent is forgotten

@@ -5,6 +5,7 @@
 
 #include "core/motion/saturated.h"
 #include "viewer/figure/arm_fit.h"
+#include "viewer/figure/limb_fit.h"
 
 namespace dance {
 namespace {
@@ -16,7 +17,7 @@ constexpr float kApart_m = 0.32f;     // … and beyond this let go
 constexpr float kOnBody_m = 0.03f;    // likewise of palms and a partner's skin
 constexpr float kOffBody_m = 0.16f;
 constexpr float kMostBodyPull_m = 0.25f;
-constexpr float kFastest_m_s = 1.5f;  // at which what is added to a palm's place changes
+constexpr float kFastest_m_s = 2.5f;  // at which what is added to a palm's place changes
 constexpr float kOff_m = 1e-5f;
 constexpr int kSweeps = 10;          // with arms alone, and again with help
 constexpr float kArmsLength = 1.4f;  // of the height of the hips, from there to the finger tips
@@ -61,6 +62,7 @@ std::array<BodyEnds, kPieces.size()> ends_of(const BodyFrames& at) {
 void HandContacts::reserve(std::size_t figures) {
   hands_.reserve(2 * figures);
   contacts_.reserve(std::min(kMostContacts, figures + 4 * figures * figures));
+  near_.reserve(std::min(kMostContacts, figures * figures / 2));
 }
 
 void HandContacts::list_hands(std::span<const FigureFit> figures) {
@@ -76,6 +78,11 @@ void HandContacts::list_hands(std::span<const FigureFit> figures) {
           std::max(arm_reach_m(fit, side),
                    (fit.frames.position(kArmLimbs[side].end) - hand.shoulder_W_m).norm());
       hand.help_m = arm_help_m(fit, side);
+      hand.folded_m =
+          std::min(kFoldedLimb / kStraightLimb * arm_reach_m(fit, side),
+                   (fit.frames.position(kArmLimbs[side].end) - hand.shoulder_W_m).norm());
+      hand.danced_arm_m =
+          fit.danced.position(kArmLimbs[side].end) - fit.danced.position(kArmLimbs[side].upper);
       hands_.push_back(hand);
     }
 }
@@ -88,7 +95,9 @@ void HandContacts::add_pair(std::size_t a, std::size_t b) {
   contact.a = static_cast<std::uint32_t>(a);
   contact.b = static_cast<std::int32_t>(b);
   contact.wanted_m = danced_m;
-  contact.weight = share_of(smooth_between(kApart_m, kTogether_m, std::sqrt(distance2)));
+  contact.weight = smooth_between(kApart_m, kTogether_m, std::sqrt(distance2));
+  for (const std::size_t hand : {a, b})
+    hands_[hand].held = std::max(hands_[hand].held, contact.weight);
   contacts_.push_back(contact);
 }
 
@@ -96,6 +105,7 @@ void HandContacts::add_pair(std::size_t a, std::size_t b) {
 // so a hand that slides from the back to the shoulder does not jump.
 void HandContacts::add_body(std::size_t index, const FigureFit& body) {
   const Hand& hand = hands_[index];
+  if (hand.held >= 1.0f) return;  // it holds a hand
   const float size_m =
       body.rig->leg_ratio > 0.0f ? body.rig->body.hips_height_m() / body.rig->leg_ratio : 0.0f;
   const auto danced = ends_of(body.danced), shown = ends_of(body.frames);
@@ -124,12 +134,13 @@ void HandContacts::add_body(std::size_t index, const FigureFit& body) {
   contact.a = static_cast<std::uint32_t>(index);
   contact.wanted_m =
       hand.natural_W_m + saturated(sum / weights - hand.natural_W_m, kMostBodyPull_m);
-  contact.weight = share_of(most);
+  contact.weight = most * (1.0f - hand.held);
   contacts_.push_back(contact);
 }
 
 void HandContacts::find(std::span<const FigureFit> figures) {
   contacts_.clear();
+  near_.clear();
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const FigureFit& one = figures[i];
     add_pair(2 * i, 2 * i + 1);
@@ -140,11 +151,33 @@ void HandContacts::find(std::span<const FigureFit> figures) {
       if ((one.danced.p_WB_m[0] - other.danced.p_WB_m[0]).squaredNorm() > nearest * nearest)
         continue;
       for (std::size_t k = 0; k < 4; ++k) add_pair(2 * i + k / 2, 2 * j + k % 2);
-      for (std::size_t side = 0; side < 2; ++side) {
-        add_body(2 * i + side, other);
-        add_body(2 * j + side, one);
-      }
+      if (near_.size() < kMostContacts)
+        near_.emplace_back(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
     }
+  }
+  for (const auto& [i, j] : near_)
+    for (std::size_t side = 0; side < 2; ++side) {
+      add_body(2 * i + side, figures[j]);
+      add_body(2 * j + side, figures[i]);
+    }
+  settle_shares();
+}
+
+// A hand that is near two others follows the one that it is nearer to.
+void HandContacts::settle_shares() {
+  for (Contact& contact : contacts_) {
+    float held = hands_[contact.a].held;
+    if (contact.b >= 0) {
+      // Two arms' own directions add up to where neither body is.
+      Hand &a = hands_[contact.a], &b = hands_[static_cast<std::size_t>(contact.b)];
+      const Vector3f outward = contact.weight * (a.danced_arm_m + b.danced_arm_m);
+      a.outward += outward;
+      b.outward += outward;
+      held = std::max(held, hands_[static_cast<std::size_t>(contact.b)].held);
+      const float rank = contact.weight / std::max(held, 1e-6f);
+      contact.weight *= rank * rank;
+    }
+    contact.weight = share_of(contact.weight);
   }
 }
 
@@ -186,7 +219,15 @@ void HandContacts::relax(bool with_help) {
     const Vector3f wrist = hand.wanted_W_m + hand.from_palm_m - hand.shoulder_W_m;
     const float reach = hand.reach_m + (with_help ? hand.help_m : 0.0f);
     const float distance = wrist.norm();
-    if (distance > reach) hand.wanted_W_m -= wrist * (1.0f - reach / distance);
+    if (distance > reach) {
+      hand.wanted_W_m -= wrist * (1.0f - reach / distance);
+    } else if (distance < hand.folded_m) {
+      const float size = hand.outward.norm();
+      Vector3f towards = wrist;
+      if (size > 1e-3f) towards += (0.3f * hand.folded_m / size) * hand.outward;
+      if (const float length = towards.norm(); length > 1e-4f)
+        hand.wanted_W_m += towards * (hand.folded_m / length) - wrist;
+    }
   }
 }
 

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "viewer/figure/figure_fit.h"
@@ -38,8 +39,12 @@ class HandContacts {
     Eigen::Vector3f from_palm_m;  // to the wrist
     Eigen::Vector3f pull = Eigen::Vector3f::Zero();
     float pull_weight = 0.0f;
+    float held = 0.0f;                                  // the weight of the pair that counts most
+    Eigen::Vector3f danced_arm_m;                       // from the shoulder to the wrist
+    Eigen::Vector3f outward = Eigen::Vector3f::Zero();  // to where hands go that are too near
     float reach_m = 0.0f;
-    float help_m = 0.0f;  // by which shoulder, back and stretch may add to it
+    float folded_m = 0.0f;  // the wrist gets no nearer to the shoulder
+    float help_m = 0.0f;    // by which shoulder, back and stretch may add to it
   };
   struct Contact {
     std::uint32_t a = 0;  // hands
@@ -51,6 +56,7 @@ class HandContacts {
 
   void list_hands(std::span<const FigureFit> figures);
   void find(std::span<const FigureFit> figures);
+  void settle_shares();
   void add_pair(std::size_t a, std::size_t b);
   void add_body(std::size_t hand, const FigureFit& body);
   bool is_off() const;
@@ -60,6 +66,7 @@ class HandContacts {
 
   std::vector<Hand> hands_;  // two of each figure
   std::vector<Contact> contacts_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> near_;  // figures
 };
 
 }  // namespace dance

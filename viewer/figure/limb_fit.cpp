@@ -10,9 +10,6 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 constexpr float kShortest_m = 1e-4f;
-// A limb is not folded further than to this share of its length, unless it was: nearer to its root
-// the direction of its end changes ever faster.
-constexpr float kFoldedLimb = 0.3f;
 // What a nearly straight limb bends about is mostly its hinge; sines of the bend.
 constexpr float kHingeCounts = 0.05f;
 constexpr float kMostOverstretch = 0.3f;

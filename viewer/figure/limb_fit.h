@@ -15,6 +15,9 @@ namespace dance {
 // A limb is not straightened further than this share of its length, unless it was: the angle of a
 // straight joint changes ever faster.
 constexpr float kStraightLimb = 0.998f;
+// Nor folded further than to this share, unless it was: nearer to its root the direction of its end
+// changes ever faster.
+constexpr float kFoldedLimb = 0.27f;
 
 // `hinge_W`: the axis about which the limb bends where it is straight. `stretch` lengthens both
 // bones.
