@@ -194,7 +194,7 @@ TEST(PhotonPredictor, BringsPosesOfKnownMomentsToTheLightAndLeavesOthers) {
   ASSERT_EQ(scene.guests.size(), 3u);
   EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), 0.144f + 0.0145f, 1e-3f) << "since its capture";
   EXPECT_NEAR(scene.guests[1].pose.p_WH_m.x(), 0.144f + 0.0137f, 1e-3f) << "since it was staged";
-  EXPECT_EQ(scene.guests[2].pose.p_WH_m.x(), 0.144f) << "another clock";
+  EXPECT_FLOAT_EQ(scene.guests[2].pose.p_WH_m.x(), 0.144f) << "another clock";
 }
 
 TEST(PhotonPredictor, AllocatesNothing) {

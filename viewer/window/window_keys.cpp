@@ -44,7 +44,10 @@ constexpr std::array kRows{
         {GLFW_KEY_G, view(ViewMode::kGrid)}},
 
     Row{"Dancers",
-        {"Left  Right", "the one before, the next"},
+        {"Tab", "the next; with shift the one before"},
+        {GLFW_KEY_TAB, step(WindowAction::kNextGuest, 1), true}},
+    Row{"Dancers",
+        {"Left  Right", "the same, while no log is open"},
         {GLFW_KEY_RIGHT, step(WindowAction::kNextGuest, 1), true},
         {GLFW_KEY_LEFT, step(WindowAction::kNextGuest, -1), true}},
     Row{"Dancers", {"1 to 9", "the first to the ninth, by name"}},
