@@ -237,7 +237,7 @@ void StylePanel::draw(const PanelFrame& frame) {
       ImGui::TextWrapped("the house has not told how this guest is shown: no manager runs here");
     }
     // The mouse is the panel's as high as its content, from the next picture on.
-    last_height_px_ = std::min(most, ImGui::GetCursorPosY() + ImGui::GetScrollY() + 0.5f * em);
+    last_height_px_ = std::min(most, ImGui::GetCursorPosY() + 0.5f * em);
     list.ChannelsSetCurrent(0);
     const ImVec2 low = ImGui::GetWindowPos();
     list.AddRectFilled(low, {low.x + width, low.y + last_height_px_}, IM_COL32(13, 16, 24, 244),

@@ -1,6 +1,6 @@
 // StylePanel: key S: how the stage shows the chosen guest: which transformers are used and with
-// what settings, and how large each zone of the body dances. Changes are live; Save writes them into
-// the session file.
+// what settings, and how large each zone of the body dances. Changes are live; Save writes them
+// into the session file.
 //
 // Units/frames: as lcmtypes/flow_t.lcm and style_t.lcm say.
 // Ownership:    owns the session file; borrows records and board, which must outlive it.
