@@ -93,6 +93,11 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   if (session.music) {
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
   }
+  for (HostedStyle hosted : session.styles) {
+    hosted.style.time = mono_now();
+    hosted.style.clock_id = this_clock_id();
+    house->port_->publish(Where::kCapture, hosted.guest, hosted.style);
+  }
   for (const HostedCamera& camera : session.cameras)
     house->cameras_.push_back(HouseCamera::open(camera, house->bus_->url(), poller));
   House* self = house.get();

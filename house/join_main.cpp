@@ -43,11 +43,13 @@ Result<GuestId> guest_of(const std::string& name) {
   return *guest;
 }
 
+bool is_session_file(const std::string& host_or_session) {
+  return host_or_session.ends_with(".toml") || std::filesystem::exists(host_or_session);
+}
+
 Result<Session> session_of(const JoinOptions& options) {
   Session session;
-  const bool is_file = options.host_or_session.ends_with(".toml") ||
-                       std::filesystem::exists(options.host_or_session);
-  if (is_file) {
+  if (is_session_file(options.host_or_session)) {
     DANCE_TRY(session, load_session(options.host_or_session));
   } else {
     session.server = options.host_or_session;
@@ -87,6 +89,14 @@ Result<Session> session_of(const JoinOptions& options) {
   return session;
 }
 
+// The viewer's panels save into the session file, where there is one.
+std::vector<std::string> viewer_arguments(const JoinOptions& options, const std::string& bus_url) {
+  std::vector<std::string> arguments{"--bus", bus_url};
+  if (is_session_file(options.host_or_session))
+    arguments.insert(arguments.end(), {"--session", options.host_or_session});
+  return arguments;
+}
+
 Result<void> run_join(const JoinOptions& options) {
   DANCE_TRY(const Session session, session_of(options));
   DANCE_TRY(auto poller, Poller::create());
@@ -95,8 +105,8 @@ Result<void> run_join(const JoinOptions& options) {
   std::unique_ptr<ChildProcess> viewer;
   if (session.view) {
     DANCE_TRY(ChildProcess started,
-              ChildProcess::start(
-                  {program_folder() + "/dance-view", {"--bus", house->bus().url()}, "", ""}));
+              ChildProcess::start({program_folder() + "/dance-view",
+                                   viewer_arguments(options, house->bus().url()), "", ""}));
     viewer = std::make_unique<ChildProcess>(std::move(started));
     poller->add_timer(mono_now() + Duration::ms(200), [&](MonoTime now) {
       if (!viewer->has_ended()) return now + Duration::ms(200);

@@ -7,8 +7,10 @@
 
 #include "consumers/rate_limit.h"
 #include "core/program/whole_file.h"
+#include "house/session_file/session_edit.h"
 #include "house/toml_reader.h"
 #include "transformers/flow.h"
+#include "transformers/style/style_presets.h"
 
 namespace dance {
 namespace {
@@ -241,6 +243,25 @@ void read_channel(TomlReader& reader, Session& session) {
   if (rule) session.channels.push_back(*rule);
 }
 
+void read_style_of(TomlReader& reader, Session& session) {
+  HostedStyle style;
+  style.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  const std::string text = reader.required_string("words");
+  std::vector<std::string_view> words;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    if (end > 0) words.push_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  // All of the motion, as `dance style` has it.
+  if (const auto read = read_style("style", words, 1.0))
+    style.style = *read;
+  else
+    reader.complain("words", read.error().what);
+  reader.finish();
+  session.styles.push_back(style);
+}
+
 // Calls `read` for each table of an array of tables; the first problem ends it.
 template <class Read>
 std::optional<Error> read_each(const toml::table& document, std::string_view key,
@@ -268,11 +289,11 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
     if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "channel" &&
-        k != "music")
+        k != "music" && k != "style")
       return Error{name + ":" + std::to_string(key.source().begin.line) + ":" +
                    std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
                    "' in a session; there are [house], [[route]], [[produce]], "
-                   "[[listen]], [[channel]] and [music]"};
+                   "[[listen]], [[channel]], [[style]] and [music]"};
   }
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
@@ -286,6 +307,8 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   if (!problem)
     problem = read_each(document, "listen", name,
                         [&](TomlReader& r) { read_consumer(r, folder, session); });
+  if (!problem)
+    problem = read_each(document, "style", name, [&](TomlReader& r) { read_style_of(r, session); });
   if (!problem)
     problem =
         read_each(document, "channel", name, [&](TomlReader& r) { read_channel(r, session); });
@@ -325,15 +348,10 @@ Result<Session> load_session(const std::string& path) {
 }
 
 std::vector<Route> default_routes() {
-  Route own;
-  own.from.where = Where::kCapture;
-  own.to.where = Where::kStage;
-  Route others;
-  others.from.where = Where::kGuest;
-  others.to.where = Where::kStage;
-  others.through = {"predict", "bridge", "rhythm", "stylize"};
-  others.rate_hz = 60.0;
-  return {own, others};
+  std::vector<Route> routes;
+  for (const RouteText& text : usual_routes())
+    routes.push_back({*parse_end(text.from), *parse_end(text.to), text.through, text.rate_hz});
+  return routes;
 }
 
 }  // namespace dance

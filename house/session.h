@@ -16,6 +16,7 @@
 #include "consumers/consumer_table.h"
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
+#include "core/pose/style.h"
 #include "manager/route.h"
 #include "producers/receive/receiver_table.h"
 #include "tunnel/policy/channel_rule.h"
@@ -74,6 +75,12 @@ struct HostedMusic {
   double trim_ms = 0.0;
 };
 
+// How a guest of this house wants to be shown, from the begin on; said on STYLE/capture.
+struct HostedStyle {
+  GuestId guest;
+  Style style;
+};
+
 struct Session {
   std::vector<GuestId>
       guests;  // who dances in this house; may be empty (a house that only watches)
@@ -95,6 +102,7 @@ struct Session {
   std::vector<HostedCamera> cameras;
   std::vector<HostedConsumer> consumers;
   std::optional<HostedMusic> music;
+  std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in
 };
 

@@ -29,6 +29,11 @@ Manager::Manager(const std::vector<Route>& routes, SignalPort& port, Poller& pol
     // Of another machine's clock it says nothing about the music here.
     if (beat.clock_id == this_clock_id()) router_.hear(beat);
   });
+  port_.subscribe<FlowSetting>(
+      Where::kCapture, [this](const Channel& channel, const FlowSetting& setting, MonoTime now) {
+        router_.set(channel.guest(), setting);
+        tell_settings(now, channel.guest());
+      });
   start_timers(poller);
 }
 
@@ -109,6 +114,16 @@ void Manager::repeat_skeletons(MonoTime now) {
   }
 }
 
+// Of all guests where `only` is not set.
+void Manager::tell_settings(MonoTime now, const GuestId& only) {
+  router_.tell_settings(now, [&](const GuestId& guest, FlowSetting setting) {
+    if (only.is_set() && guest != only) return;
+    setting.time = now;
+    setting.clock_id = this_clock_id();
+    port_.publish(Where::kStage, guest, setting);
+  });
+}
+
 Stats Manager::stats(MonoTime now) {
   Stats stats = router_.stats();
   stats.time = now;
@@ -127,6 +142,7 @@ void Manager::end_second(MonoTime now) {
                                 port_.publish(Where::kStage, entry.guest, status);
                               });
   port_.publish(Channel::of_program(Signal::kStats, kProgram), stats(now));
+  tell_settings(now, GuestId());
   repeat_skeletons(now);
   router_.evict_gone(now);
 }

@@ -39,6 +39,7 @@ class Manager : private StageSink {
   void start_timers(Poller& poller);
   void end_second(MonoTime now);
   void repeat_skeletons(MonoTime now);
+  void tell_settings(MonoTime now, const GuestId& only);
 
   // A body on the stage, repeated once a second for late subscribers.
   struct StagedSkeleton {

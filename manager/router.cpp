@@ -15,7 +15,8 @@ constexpr std::size_t kMostKnown = 2 * kMaxGuests;
 Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink)
     : our_clock_id_(our_clock_id), sink_(sink) {
   for (const Route& route : routes) {
-    routes_.push_back(std::make_unique<RouteState>(RouteState{route, route.rate_hz, {}, {}}));
+    routes_.push_back(std::make_unique<RouteState>(
+        RouteState{route, static_cast<std::int32_t>(routes_.size()), route.rate_hz, {}, {}}));
     routes_from_[static_cast<std::size_t>(route.from.where)].push_back(routes_.back().get());
   }
 }
@@ -75,6 +76,9 @@ void Router::prepare(const RouteState& state, Instance& instance) {
     if (known.body) instance.flow.set_body(*known.body);
     if (known.style) instance.flow.set_style(*known.style);
   }
+  instance.flow.place(state.place, state.route.from.where == Where::kCapture);
+  for (const auto& [guest, setting] : settings_)
+    if (guest == instance.shown_as) instance.flow.set(setting);
   if (beat_) instance.flow.hear(*beat_);
   if (auto learner = instance.flow.learner(); learner && on_learner_)
     on_learner_(std::move(learner));
@@ -143,6 +147,16 @@ void Router::take(Where where, const GuestId& guest, const Style& style) {
   for (RouteState* state : routes_from_[static_cast<std::size_t>(where)])
     for (auto& instance : state->instances)
       if (instance->guest == guest) instance->flow.set_style(style);
+}
+
+void Router::set(const GuestId& shown_as, const FlowSetting& setting) {
+  if (!is_valid(setting)) return;
+  std::erase_if(settings_, [&](const auto& known) { return known.first == shown_as; });
+  if (settings_.size() == kMostKnown) settings_.erase(settings_.begin());  // who came first
+  settings_.emplace_back(shown_as, setting);
+  for (auto& state : routes_)
+    for (auto& instance : state->instances)
+      if (instance->shown_as == shown_as) instance->flow.set(setting);
 }
 
 void Router::hear(const Beat& beat) {

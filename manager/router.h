@@ -45,6 +45,15 @@ class Router {
   // How a guest's dance is to be shown, and the music that this house hears.
   void take(Where where, const GuestId& guest, const Style& style);
   void hear(const Beat& beat);
+  // How the stage is to show a guest, by the name that it has there.
+  void set(const GuestId& shown_as, const FlowSetting& setting);
+  // say(guest, setting): what is in force for each guest who is on the stage.
+  template <class Say>
+  void tell_settings(MonoTime now, Say say) const {
+    for (const auto& state : routes_)
+      for (const auto& instance : state->instances)
+        if (is_shown(*instance, now)) say(instance->shown_as, instance->flow.setting());
+  }
 
   // What learns of the guests beside the pose path: called with each new one.
   using OnLearner = std::function<void(std::shared_ptr<Learner>)>;
@@ -91,6 +100,7 @@ class Router {
   };
   struct RouteState {
     Route route;
+    std::int32_t place;
     double rate_hz;
     Instances instances;
     std::optional<MonoTime> silent;  // when nobody of it was heard, last
@@ -112,8 +122,9 @@ class Router {
   std::uint64_t our_clock_id_;
   StageSink& sink_;
   std::vector<std::unique_ptr<RouteState>> routes_;
-  std::array<std::vector<RouteState*>, 5> routes_from_;  // by Where
-  std::vector<Known> known_;                             // at most kMostKnown
+  std::array<std::vector<RouteState*>, 5> routes_from_;    // by Where
+  std::vector<Known> known_;                               // at most kMostKnown
+  std::vector<std::pair<GuestId, FlowSetting>> settings_;  // at most kMostKnown
   std::optional<Beat> beat_;
   OnLearner on_learner_;
   Roster roster_;

@@ -1,5 +1,9 @@
 #include "transformers/flow.h"
 
+#include <algorithm>
+
+#include "transformers/predict/dance_predictor.h"
+
 namespace dance {
 
 Flow::Flow(Slots slots)
@@ -8,7 +12,36 @@ Flow::Flow(Slots slots)
       source_(std::make_unique<MotionSource>(*timeline_, std::move(slots.source))),
       finish_(slots.has_finish ? std::make_unique<Finish>(slots.half_life) : nullptr),
       filters_(std::move(slots.filters)),
-      corrects_from_now_(slots.corrects_from_now) {}
+      corrects_from_now_(slots.corrects_from_now),
+      setting_(slots.setting) {
+  const auto& on = setting_.on;
+  if (!std::all_of(on.begin(), on.end(), [](bool is_on) { return is_on; })) set(setting_);
+}
+
+void Flow::set(const FlowSetting& setting) {
+  if (is_pass_through() || !is_valid(setting)) return;
+  FlowSetting wanted = setting;
+  wanted.time = setting_.time;
+  wanted.clock_id = setting_.clock_id;
+  wanted.has = setting_.has;
+  wanted.own = setting_.own;
+  wanted.route = setting_.route;
+  wanted.guest_gain = setting_.guest_gain;
+  wanted.guest_periodic = setting_.guest_periodic;
+  wanted.guest_dynamic = setting_.guest_dynamic;
+  setting_ = wanted;
+  clock_->set(wanted);
+  // rhythm measures how far predictions are good.
+  Duration reach = Duration::seconds(1e-3 * static_cast<double>(wanted.reach_ms));
+  if (wanted.is_on(FlowWord::kRhythm)) reach = DancePredictor::kFurthest;
+  if (wanted.has_word(FlowWord::kPredict) && !wanted.is_on(FlowWord::kPredict)) reach = Duration();
+  source_->set(reach, wanted.is_on(FlowWord::kBridge));
+  Style style;
+  style.gain = wanted.gain;
+  style.periodic = wanted.periodic;
+  style.dynamic = wanted.dynamic;
+  for (auto& filter : filters_) filter->set_base(style, wanted.is_on(FlowWord::kStylize));
+}
 
 void Flow::observe(const Pose& pose, MonoTime now) {
   switch (timeline_->take(pose, now)) {
@@ -43,6 +76,11 @@ void Flow::set_body(const Skeleton& skeleton) {
 }
 
 void Flow::set_style(const Style& style) {
+  if (is_valid(style)) {
+    setting_.guest_gain = style.gain;
+    setting_.guest_periodic = style.periodic;
+    setting_.guest_dynamic = style.dynamic;
+  }
   for (auto& filter : filters_) filter->set_style(style);
 }
 

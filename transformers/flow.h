@@ -24,6 +24,7 @@
 
 #include "core/base/result.h"
 #include "core/motion/finish.h"
+#include "core/pose/flow_setting.h"
 #include "transformers/motion_source.h"
 #include "transformers/playout/playout_clock.h"
 #include "transformers/style/pose_filter.h"
@@ -56,6 +57,7 @@ class Flow {
     // was wrong, which is nearer to the dance.
     bool corrects_from_now = false;
     std::vector<std::unique_ptr<PoseFilter>> filters;
+    FlowSetting setting;  // that these were made with
   };
 
   // Hands poses through as they come.
@@ -71,6 +73,16 @@ class Flow {
   // The dancer's proportions, and how the dance is to be shown.
   void set_body(const Skeleton& skeleton);
   void set_style(const Style& style);
+  // What a person at this stage wants: come to gradually, while dancing. Words that do not stand in
+  // the route stay away.
+  void set(const FlowSetting& setting);
+  // Where the words stand: which route of the session, and whether it is of own dancers.
+  void place(std::int32_t route, bool is_own) {
+    setting_.route = route;
+    setting_.own = is_own;
+  }
+  // What is in force, or is being come to.
+  const FlowSetting& setting() const { return setting_; }
   // The pose to show at `now`.
   bool sample(MonoTime now, Pose& out);
 
@@ -100,6 +112,7 @@ class Flow {
   bool corrects_from_now_ = false;
   bool has_shown_ = false, is_shown_open_ = false, is_shown_repeated_ = false, has_news_ = false;
   std::uint64_t starved_ = 0;
+  FlowSetting setting_;
 };
 
 }  // namespace dance

@@ -43,6 +43,7 @@ Result<void> take_hold(const Arguments& arguments, const FlowParts&, Draft& draf
     if (*window < Duration() || *window > Duration::s(2))
       return fail("hold takes 0ms to 2s, not '" + std::string(arguments[0]) + "'");
   }
+  if (window) draft.slots.setting.hold_ms = static_cast<float>(window->as_ms());
   draft.hold = std::make_unique<HoldClock>(window);
   return {};
 }
@@ -51,6 +52,8 @@ Result<void> take_predict(const Arguments& arguments, const FlowParts& parts, Dr
   Settings settings("predict", arguments);
   settings.number("lead", draft.lead, 0.0, 1.5)
       .duration("most", draft.slots.source.reach, Duration(), DancePredictor::kFurthest);
+  draft.slots.setting.lead = static_cast<float>(draft.lead);
+  draft.slots.setting.reach_ms = static_cast<float>(draft.slots.source.reach.as_ms());
   draft.slots.source.extrapolator = std::make_unique<DanceExtrapolator>(parts.predict_model);
   return settings.done();
 }
@@ -71,12 +74,21 @@ Result<void> take_rhythm(const Arguments& arguments, const FlowParts&, Draft& dr
       .number("strength", options.strength, 0.0, 1.0)
       .number("error", most_error_mm, 1.0, 1000.0);
   options.most_error_m = most_error_mm * 1e-3;
+  FlowSetting& setting = draft.slots.setting;
+  setting.rhythm_beats = static_cast<float>(options.beats);
+  setting.rhythm_count = static_cast<float>(options.count);
+  setting.rhythm_strength = static_cast<float>(options.strength);
+  setting.rhythm_error_mm = static_cast<float>(most_error_mm);
   draft.rhythm = options;
   return settings.done();
 }
 
 Result<void> take_stylize(const Arguments& arguments, const FlowParts&, Draft& draft) {
   DANCE_TRY(const Style style, read_style("stylize", arguments, kUsualMix));
+  FlowSetting& setting = draft.slots.setting;
+  setting.gain = style.gain;
+  setting.periodic = style.periodic;
+  setting.dynamic = style.dynamic;
   draft.slots.filters.push_back(std::make_unique<Stylize>(style));
   return {};
 }
@@ -94,6 +106,7 @@ constexpr std::array<Word, 5> kWords{{
     {"rhythm", take_rhythm},    // which moment, by the music
     {"stylize", take_stylize},  // how it looks
 }};
+static_assert(kWords.size() == kFlowWords);
 
 Arguments split(std::string_view text) {
   Arguments words;
@@ -106,6 +119,19 @@ Arguments split(std::string_view text) {
     text.remove_prefix(end);
   }
   return words;
+}
+
+// on=0: the word stands in the route, to be switched on while dancing.
+Result<bool> take_switch(std::string_view word, Arguments& arguments) {
+  bool is_on = true;
+  for (const std::string_view argument : arguments) {
+    if (!argument.starts_with("on=")) continue;
+    if (argument != "on=0" && argument != "on=1")
+      return fail(fmt::format("{} takes on=0 or on=1, not '{}'", word, argument));
+    is_on = argument == "on=1";
+  }
+  std::erase_if(arguments, [](std::string_view argument) { return argument.starts_with("on="); });
+  return is_on;
 }
 
 // The place of a transformer in the table.
@@ -150,6 +176,8 @@ Flow::Slots assemble(Draft draft) {
   // rhythm measures how far predictions are good.
   if (is_in_rhythm) slots.source.reach = DancePredictor::kFurthest;
   slots.source.is_final = !is_in_rhythm && !predicts;
+  // A rhythm that was left out, as it changes nothing, cannot be set.
+  slots.setting.has[index_of(FlowWord::kRhythm)] = is_in_rhythm;
   slots.clock = std::move(clock);
   slots.corrects_from_now = is_in_rhythm;
   slots.has_finish = is_in_rhythm || predicts || conceals;
@@ -174,6 +202,9 @@ Result<Flow> Flow::make(const std::vector<std::string>& through, const FlowParts
   for (std::size_t i = 0; i < through.size(); ++i) {
     Arguments arguments = split(through[i]);
     arguments.erase(arguments.begin());
+    FlowSetting& setting = draft.slots.setting;
+    setting.has[places[i]] = true;
+    DANCE_TRY(setting.on[places[i]], take_switch(kWords[places[i]].name, arguments));
     if (auto taken = kWords[places[i]].take(arguments, parts, draft); !taken)
       return tl::make_unexpected(taken.error());
   }

@@ -7,6 +7,8 @@ namespace dance {
 namespace {
 
 constexpr Duration kTempoSpan = Duration::s(1);
+// Of a reach that is changed while dancing, in seconds.
+constexpr double kReachPerSecond = 0.25;
 constexpr double kMostBeatsPerSecond = kMostTempo_bpm / 60.0;
 
 // How fast the dancer's music goes, by the poses of the last second; 0 where there is none.
@@ -23,7 +25,12 @@ double beats_per_second(const PoseHistory& history) {
 }  // namespace
 
 MotionSource::MotionSource(DancerTimeline& timeline, Parts parts)
-    : timeline_(timeline), parts_(std::move(parts)) {}
+    : timeline_(timeline), parts_(std::move(parts)), reach_s_(parts_.reach.as_seconds()) {}
+
+void MotionSource::set(Duration reach, bool conceals) {
+  reach_s_.want(reach.as_seconds());
+  may_conceal_ = conceals;
+}
 
 void MotionSource::observe() {
   if (parts_.extrapolator) parts_.extrapolator->observe(timeline_.newest(), timeline_.arrived());
@@ -44,6 +51,11 @@ std::shared_ptr<Learner> MotionSource::learner() const {
 }
 
 bool MotionSource::begin_continuation(MonoTime moment, MonoTime now) {
+  if (!reach_s_.is_settled())
+    parts_.reach = Duration::seconds(reach_s_.advance(now, kReachPerSecond));
+  else
+    reach_s_.advance(now, 0.0);
+  if (!may_conceal_ && !is_continuing()) return false;
   if (!parts_.concealment || parts_.concealment->is_running()) return false;
   if (!Concealment::is_lapse(timeline_, moment, now, predicts())) return false;
   if (!predicts()) {

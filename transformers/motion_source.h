@@ -14,6 +14,7 @@
 
 #include "transformers/conceal/concealment.h"
 #include "transformers/predict/extrapolator.h"
+#include "transformers/setting_slew.h"
 #include "transformers/timeline.h"
 
 namespace dance {
@@ -48,6 +49,9 @@ class MotionSource {
   bool is_continuing() const { return parts_.concealment && parts_.concealment->is_running(); }
   bool conceals() const { return parts_.concealment != nullptr; }
   Duration reach() const { return parts_.reach; }
+  // While dancing: how far is predicted from now on, come to gradually; and whether a longer gap is
+  // carried over, from the next one on.
+  void set(Duration reach, bool conceals);
   std::shared_ptr<Learner> learner() const;
 
  private:
@@ -55,6 +59,8 @@ class MotionSource {
 
   DancerTimeline& timeline_;
   Parts parts_;
+  SettingSlew reach_s_;
+  bool may_conceal_ = true;
 };
 
 }  // namespace dance

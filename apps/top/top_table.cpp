@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 
@@ -28,6 +29,26 @@ Fingerprint fingerprint_of(const Message& message) {
 }
 
 TimedSkeleton any_skeleton() { return {average_skeleton(), MonoTime(), 0}; }
+
+template <class Message>
+bool read(std::span<const std::uint8_t> bytes, Message& message) {
+  return decode(bytes.data(), bytes.size(), message) == Decoded::kFine;
+}
+
+// The newest of each name, of at most so many.
+template <class Rows, class Row>
+void keep(Rows& rows, std::string_view name, const Row& row, std::size_t most) {
+  const auto known = rows.find(name);
+  if (known != rows.end())
+    known->second = row;
+  else if (rows.size() < most)
+    rows.emplace(name, row);
+}
+
+// A figure, or a dash where it is not known.
+std::string figure(float value, const char* format = "{:.0f}") {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
+}
 
 // Names are untrusted: control characters do not reach the terminal.
 std::string printable(std::string_view name) {
@@ -88,6 +109,14 @@ void TopTable::take(std::string_view name, std::span<const std::uint8_t> message
 
   const auto parsed = Channel::parse(name);
   if (parsed && parsed->signal() == Signal::kStyle) take_style(name, message, now);
+  if (parsed && parsed->signal() == Signal::kGuestStats) {
+    if (FiguresRow it{{}, now}; read(message, it.stats))
+      keep(figures_, parsed->guest().view(), it, kMaxPrograms);
+  }
+  if (parsed && parsed->signal() == Signal::kFlow && parsed->where() == Where::kStage) {
+    if (FlowRow it{{}, now}; read(message, it.setting))
+      keep(flows_, parsed->guest().view(), it, kMaxPrograms);
+  }
   ProgramRow program{Stats(), now};
   if (!parsed || parsed->signal() != Signal::kStats) return;
   if (decode(message.data(), message.size(), program.stats) != Decoded::kFine) return;
@@ -124,11 +153,52 @@ void TopTable::append_styles(std::string& out) const {
   }
 }
 
+void TopTable::append_figures(std::string& out) const {
+  const auto back = std::back_inserter(out);
+  constexpr const char* kRow =
+      "{:<25}{:>9}{:>6}{:>6}{:>6}{:>7}{:>7}{:>7}{:>7}{:>6}{:>7}{:>7}{:>7}\n";
+  if (!figures_.empty())
+    fmt::format_to(back, fmt::runtime("\n" + std::string(kRow)), "shown", "capture", "way", "shown",
+                   "age", "jitter", "loss %", "B/s", "ahead", "mm", "p95 mm", "hips", "beat");
+  for (const auto& [name, row] : figures_) {
+    const GuestStats& s = row.stats;
+    fmt::format_to(back, fmt::runtime(kRow), printable(name), figure(s.gap_p50_ms[0]),
+                   figure(s.newest_p50_ms), figure(s.gap_p50_ms[kShownGap]), figure(s.age_p50_ms),
+                   figure(s.jitter_ms, "{:.1f}"), figure(s.loss_percent, "{:.1f}"),
+                   figure(s.bytes_per_second), figure(s.horizon_p50_ms), figure(s.error_mean_mm),
+                   figure(s.error_p95_mm), figure(s.hips_error_mm), figure(s.beat_ms, "{:+.0f}"));
+  }
+}
+
+void TopTable::append_flows(std::string& out) const {
+  const auto back = std::back_inserter(out);
+  constexpr const char* kRow = "{:<25}{:>7}{:>9}{:>6}{:>9}{:>8}{:>8}{:>7}{:>10}\n";
+  if (!flows_.empty())
+    fmt::format_to(back, fmt::runtime("\n" + std::string(kRow)), "flow", "hold", "predict", "lead",
+                   "bridge", "rhythm", "beats", "", "stylize");
+  for (const auto& [name, row] : flows_) {
+    const FlowSetting& s = row.setting;
+    const auto word = [&](FlowWord it) {
+      return s.has_word(it) ? s.is_on(it) ? "on" : "off" : "-";
+    };
+    const std::string beats = !s.has_word(FlowWord::kRhythm) ? "-"
+                              : s.rhythm_beats < 0.0f        ? "auto"
+                                                             : figure(s.rhythm_beats);
+    const std::string strength =
+        s.has_word(FlowWord::kRhythm) ? figure(s.rhythm_strength, "{:.2f}") : "-";
+    fmt::format_to(back, fmt::runtime(kRow), printable(name), word(FlowWord::kHold),
+                   word(FlowWord::kPredict), figure(s.lead, "{:.2f}"), word(FlowWord::kBridge),
+                   word(FlowWord::kRhythm), beats, strength, word(FlowWord::kStylize));
+  }
+}
+
 std::string TopTable::text(MonoTime now) {
   const double seconds = begin_.is_set() ? std::max((now - begin_).as_seconds(), 1e-3) : 1.0;
   std::string out;
   append_channels(out, now, seconds);
   append_styles(out);
+  append_flows(out);
+  append_figures(out);
   append_programs(out, now);
   if (beyond_bounds_ > 0)
     fmt::format_to(std::back_inserter(out), "{} messages on more channels than the table holds\n",
@@ -136,6 +206,8 @@ std::string TopTable::text(MonoTime now) {
   for (auto& [name, row] : channels_) row.messages = row.bytes = 0;
   std::erase_if(channels_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(styles_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  std::erase_if(figures_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  std::erase_if(flows_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(programs_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   begin_ = now;
   return out;

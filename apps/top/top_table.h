@@ -16,6 +16,7 @@
 
 #include "core/base/time.h"
 #include "core/bus/messages.h"
+#include "core/pose/flow_setting.h"
 #include "core/pose/style.h"
 
 namespace dance {
@@ -47,6 +48,14 @@ class TopTable {
     Style style;
     MonoTime last;
   };
+  struct FiguresRow {
+    GuestStats stats;
+    MonoTime last;
+  };
+  struct FlowRow {
+    FlowSetting setting;
+    MonoTime last;
+  };
   struct ProgramRow {
     Stats stats;
     MonoTime last;
@@ -55,11 +64,15 @@ class TopTable {
   void append_channels(std::string& out, MonoTime now, double seconds);
   void take_style(std::string_view name, std::span<const std::uint8_t> message, MonoTime now);
   void append_styles(std::string& out) const;
+  void append_figures(std::string& out) const;
+  void append_flows(std::string& out) const;
   void append_programs(std::string& out, MonoTime now) const;
 
   std::map<std::string, ChannelRow, std::less<>> channels_;
   std::map<std::string, ProgramRow, std::less<>> programs_;
-  std::map<std::string, StyleRow, std::less<>> styles_;  // by channel, at most kMaxPrograms
+  std::map<std::string, StyleRow, std::less<>> styles_;     // by channel, at most kMaxPrograms
+  std::map<std::string, FiguresRow, std::less<>> figures_;  // by guest, likewise
+  std::map<std::string, FlowRow, std::less<>> flows_;       // by guest, likewise
   std::uint64_t beyond_bounds_ = 0;
   MonoTime begin_;
 };

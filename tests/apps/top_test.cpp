@@ -61,6 +61,35 @@ TEST(TopTable, RatesAreOfTheTimeSinceTheLastTable) {
   EXPECT_NE(second.find(" 60"), std::string::npos) << second;
 }
 
+TEST(TopTable, ShowsWhatADisplayMeasuredAndDashesForWhatItDidNot) {
+  TopTable table;
+  GuestStats stats;
+  stats.newest_p50_ms = 61.4f;
+  stats.jitter_ms = 2.75f;
+  take(table, "GUEST_STATS/view/alice", stats, kBegin);
+  const std::string text = table.text(kBegin + Duration::s(1));
+  const std::string row = row_of(text.substr(text.find("shown")), "alice");
+  EXPECT_NE(row.find(" 61 "), std::string::npos) << text;
+  EXPECT_NE(row.find(" 2.8 "), std::string::npos) << row;
+  EXPECT_NE(row.find(" - "), std::string::npos) << row;
+}
+
+TEST(TopTable, ShowsWhichTransformersAreUsed) {
+  TopTable table;
+  FlowSetting setting;
+  setting.has = {false, true, true, true, false};
+  setting.on[index_of(FlowWord::kBridge)] = false;
+  setting.lead = 0.75f;
+  take(table, "FLOW/capture/bob", setting, kBegin);  // only what is in force counts
+  EXPECT_EQ(table.text(kBegin).find("predict"), std::string::npos);
+  take(table, "FLOW/stage/bob", setting, kBegin);
+  const std::string text = table.text(kBegin + Duration::s(1));
+  const std::string row = row_of(text.substr(text.find("predict")), "bob");
+  EXPECT_NE(row.find("on  0.75"), std::string::npos) << text;
+  EXPECT_NE(row.find("off"), std::string::npos) << row;
+  EXPECT_NE(row.find("auto"), std::string::npos) << row;
+}
+
 TEST(TopTable, ProgramsAreShownFromTheirStatistics) {
   TopTable table;
   Stats stats;

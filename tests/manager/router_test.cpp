@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -94,6 +95,46 @@ TEST(Router, ShowsFingersWithTheBodyOfTheirMoment) {
     EXPECT_LE(apart, Duration::ms(16)) << i;
   }
   EXPECT_GT(stage.fingers.size(), 100u);
+}
+
+TEST(Router, SetsTheFlowOfAGuestAndOfThoseWhoComeLater) {
+  Stage stage;
+  Router router({pass_through(Where::kCapture), held("hold 100ms")}, kClock, stage);
+  router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(1000)), at_ms(1030));
+  FlowSetting wanted;
+  wanted.hold_ms = 20.0f;
+  wanted.on[index_of(FlowWord::kHold)] = false;
+  router.set(guest("bob"), wanted);
+  router.set(guest("cara"), wanted);
+  FlowSetting wrong = wanted;
+  wrong.lead = 9.0f;
+  router.set(guest("bob"), wrong);
+  router.take(Where::kGuest, guest("cara"), pose_of(0, at_ms(1000)), at_ms(1031));
+  router.take(Where::kGuest, guest("dora"), pose_of(0, at_ms(1000)), at_ms(1031));
+  router.take(Where::kCapture, guest("alice"), pose_of(0, at_ms(1000)), at_ms(1031));
+  Style style;
+  style.gain[0] = 1.5f;
+  router.take(Where::kCapture, guest("alice"), style);
+  std::map<std::string, FlowSetting> told;
+  const auto tell = [&](const GuestId& id, const FlowSetting& setting) {
+    told[std::string(id.view())] = setting;
+  };
+  router.tell_settings(at_ms(1040), tell);
+  ASSERT_EQ(told.size(), 4u);
+  for (const char* name : {"bob", "cara"}) {
+    EXPECT_EQ(told[name].hold_ms, 20.0f) << name;
+    EXPECT_FALSE(told[name].is_on(FlowWord::kHold)) << name;
+    EXPECT_EQ(told[name].route, 1) << name;
+    EXPECT_FALSE(told[name].own) << name;
+  }
+  EXPECT_EQ(told["dora"].hold_ms, 100.0f);
+  EXPECT_TRUE(told["dora"].is_on(FlowWord::kHold));
+  EXPECT_TRUE(told["alice"].own);
+  EXPECT_EQ(told["alice"].guest_gain[0], 1.5f);
+  EXPECT_FALSE(told["alice"].has_word(FlowWord::kHold)) << "a route without transformers";
+  told.clear();
+  router.tell_settings(at_ms(90'000), tell);
+  EXPECT_TRUE(told.empty()) << "nobody is on the stage any more";
 }
 
 TEST(HandsQueue, IsBoundedAndBeginsAnewWithTheSource) {

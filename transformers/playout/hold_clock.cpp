@@ -24,9 +24,20 @@ void HoldClock::restart() {
   play_out_.forget();
 }
 
+void HoldClock::set(const FlowSetting& setting) {
+  std::optional<Duration> window;
+  if (!setting.is_on(FlowWord::kHold))
+    window = Duration();
+  else if (setting.hold_ms >= 0.0f)
+    window = Duration::seconds(1e-3 * static_cast<double>(setting.hold_ms));
+  if (window == window_) return;
+  window_ = window;
+  is_set_live_ = has_delay_;
+}
+
 void HoldClock::observe(const DancerTimeline& timeline, MotionSource& /*source*/) {
   transit_.add(timeline.transit(), timeline.arrived());
-  if (!window_) play_out_.add(timeline.gap(), timeline.transit());
+  play_out_.add(timeline.gap(), timeline.transit());
 }
 
 Duration HoldClock::target() const {
@@ -36,7 +47,9 @@ Duration HoldClock::target() const {
 
 void HoldClock::follow_target(MonoTime now) {
   const Duration error = target() - delay_;
-  if (!has_delay_ || error > kJump || error < -kJump) {
+  // What a person changed is come to at the usual pace, however far it is.
+  if (error <= kJump && error >= -kJump) is_set_live_ = false;
+  if (!has_delay_ || (!is_set_live_ && (error > kJump || error < -kJump))) {
     delay_ = target();
     if (!has_delay_) begin_ = now;
     has_delay_ = true;

@@ -30,6 +30,8 @@ class HoldClock : public PlayoutClock {
   void restart() override;
   Choice choose(const DancerTimeline& timeline, MonoTime now, MonoTime shown) override;
 
+  void set(const FlowSetting& setting) override;
+
   // From capture to display, as it is now; of another clock it includes the clocks' offset.
   Duration delay() const { return delay_; }
 
@@ -42,7 +44,7 @@ class HoldClock : public PlayoutClock {
   LeastTransit transit_;
   Duration delay_;
   MonoTime begin_, delay_set_;
-  bool has_delay_ = false;
+  bool has_delay_ = false, is_set_live_ = false;
 };
 
 }  // namespace dance

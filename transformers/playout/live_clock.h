@@ -10,6 +10,7 @@
 
 #include "transformers/playout/least_transit.h"
 #include "transformers/playout/playout_clock.h"
+#include "transformers/setting_slew.h"
 
 namespace dance {
 
@@ -20,9 +21,10 @@ class LiveClock : public PlayoutClock {
   void observe(const DancerTimeline& timeline, MotionSource& source) override;
   void restart() override { least_transit_.forget(); }
   Choice choose(const DancerTimeline& timeline, MonoTime now, MonoTime shown) override;
+  void set(const FlowSetting& setting) override;
 
  private:
-  double lead_;
+  SettingSlew lead_;
   LeastTransit least_transit_;
   Duration transit_;  // followed slowly
 };

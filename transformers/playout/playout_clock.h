@@ -8,6 +8,7 @@
 #pragma once
 
 #include "core/base/time.h"
+#include "core/pose/flow_setting.h"
 #include "transformers/motion_source.h"
 #include "transformers/timeline.h"
 
@@ -29,6 +30,8 @@ class PlayoutClock {
   // The music that this house hears is elsewhere than it was said to be.
   virtual void on_music_jump() {}
   virtual void set_body(const Skeleton& /*skeleton*/) {}
+  // What is asked for of it: come to gradually, so that no moment is left out.
+  virtual void set(const FlowSetting& /*setting*/) {}
 
   // Once a picture. `shown`: the moment of the picture before; not set where there is none, or none
   // that this moment is bound to.

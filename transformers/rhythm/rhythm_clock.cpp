@@ -20,6 +20,9 @@ constexpr double kMostAhead_beats = 0.05;
 // Of the lag of predictions so much is taken back: the further one reaches, the less sure it is.
 constexpr double kLeadShare = 0.4;
 constexpr Duration kSpare = Duration::ms(60);
+// Of a strength that is changed while dancing.
+constexpr double kStrengthPerSecond = 0.5;
+constexpr double kMostPaceChange = 0.1;
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
 constexpr Duration kJumpInTime = Duration::ms(300);
 constexpr Duration kJumpFree = Duration::s(1);
@@ -27,7 +30,16 @@ constexpr Duration kJumpFree = Duration::s(1);
 }  // namespace
 
 RhythmClock::RhythmClock(const RhythmOptions& options, std::unique_ptr<PlayoutClock> free_running)
-    : options_(options), free_running_(std::move(free_running)) {}
+    : options_(options), strength_(options.strength), free_running_(std::move(free_running)) {}
+
+void RhythmClock::set(const FlowSetting& setting) {
+  if (free_running_) free_running_->set(setting);
+  options_.beats = static_cast<double>(setting.rhythm_beats);
+  options_.count = static_cast<double>(setting.rhythm_count);
+  options_.most_error_m = 1e-3 * static_cast<double>(setting.rhythm_error_mm);
+  strength_.want(setting.is_on(FlowWord::kRhythm) ? static_cast<double>(setting.rhythm_strength)
+                                                  : 0.0);
+}
 
 void RhythmClock::restart() {
   if (free_running_) free_running_->restart();
@@ -115,7 +127,7 @@ MonoTime RhythmClock::wanted_moment(const DancerTimeline& timeline, MonoTime now
   const MonoTime free = free_moment(timeline, now);
   const BeatClock& music = timeline.music();
   pace = 1.0;
-  in_time_ = options_.strength > 0.0 && music.is_known(now) &&
+  in_time_ = (strength_.value() > 0.0 || strength_.wanted() > 0.0) && music.is_known(now) &&
              music.confidence() >= kLeastConfidence && dance_.is_known(now);
   if (!in_time_) {
     offset_.reset();
@@ -123,8 +135,12 @@ MonoTime RhythmClock::wanted_moment(const DancerTimeline& timeline, MonoTime now
   }
   choose_offset(music, now);
   const MonoTime on_beat = dance_.time_of(music.position(now) - offset_.value());
-  pace = 1.0 + options_.strength * (music.beats_per_second() / dance_.beats_per_second() - 1.0);
-  return free + Duration::seconds(options_.strength * (on_beat - free).as_seconds());
+  // What has changed is walked to, at a pace that the play head follows.
+  const double off_s = (on_beat - free).as_seconds();
+  const double strength = strength_.advance(
+      now, std::min(kStrengthPerSecond, kMostPaceChange / std::max(1e-3, std::abs(off_s))));
+  pace = 1.0 + strength * (music.beats_per_second() / dance_.beats_per_second() - 1.0);
+  return free + Duration::seconds(strength * off_s);
 }
 
 PlayoutClock::Choice RhythmClock::choose(const DancerTimeline& timeline, MonoTime now,
@@ -143,7 +159,8 @@ MonoTime RhythmClock::asked_for(MonoTime moment, const DancerTimeline& timeline)
   const Duration ahead = moment - timeline.newest().capture_time;
   // Only who is to be on the beat is worth the scatter.
   if (!in_time_ || ahead <= Duration()) return moment;
-  return moment + Duration::seconds(kLeadShare * (predictions_.lead(ahead) - ahead).as_seconds());
+  return moment + Duration::seconds(kLeadShare * strength_.value() *
+                                    (predictions_.lead(ahead) - ahead).as_seconds());
 }
 
 void RhythmClock::tag(MonoTime moment, Pose& pose) const {

@@ -25,6 +25,7 @@
 #include "transformers/rhythm/beat_offset.h"
 #include "transformers/rhythm/dancer_music.h"
 #include "transformers/rhythm/own_beat.h"
+#include "transformers/setting_slew.h"
 
 namespace dance {
 
@@ -46,6 +47,7 @@ class RhythmClock : public PlayoutClock {
   void restart() override;
   void on_music_jump() override { offset_.reset(); }
   void set_body(const Skeleton& skeleton) override;
+  void set(const FlowSetting& setting) override;
   Choice choose(const DancerTimeline& timeline, MonoTime now, MonoTime shown) override;
   MonoTime asked_for(MonoTime moment, const DancerTimeline& timeline) const override;
   void tag(MonoTime moment, Pose& pose) const override;
@@ -63,6 +65,7 @@ class RhythmClock : public PlayoutClock {
   void choose_offset(const BeatClock& music, MonoTime now);
 
   RhythmOptions options_;
+  SettingSlew strength_;
   std::unique_ptr<PlayoutClock> free_running_;
   DancerMusic dance_;
   PlayOut play_out_;

@@ -27,6 +27,8 @@ class PoseFilter {
   virtual void set_body(const Skeleton& /*skeleton*/) {}
   // How the dancer wants to be shown.
   virtual void set_style(const Style& /*style*/) {}
+  // How the session, or a person at this stage, wants it; where it is off, nothing is changed.
+  virtual void set_base(const Style& /*style*/, bool /*is_on*/) {}
   virtual std::uint64_t refused() const { return 0; }
   virtual std::uint64_t restarts() const { return 0; }
 };

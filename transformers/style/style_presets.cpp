@@ -32,6 +32,15 @@ std::optional<Style> find_style_preset(std::string_view name) {
   return std::nullopt;
 }
 
+std::span<const std::string_view> style_preset_list() {
+  static constexpr auto kNames = [] {
+    std::array<std::string_view, kPresets.size()> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = kPresets[i].name;
+    return names;
+  }();
+  return kNames;
+}
+
 std::string style_preset_names() {
   std::string names;
   for (const Preset& preset : kPresets)
@@ -55,7 +64,9 @@ Result<Style> read_style(std::string_view who, std::span<const std::string_view>
     style.gain[z] = static_cast<float>(gain);
   }
   double mix = usual_mix;
-  settings.number("mix", mix, 0.0, 1.0);
+  double periodic = 1.0;
+  settings.number("mix", mix, 0.0, 1.0).number("bar", periodic, 0.0, 1.0);
+  style.periodic = static_cast<float>(periodic);
   style.dynamic = static_cast<float>(mix);
   if (auto done = settings.done(); !done) return tl::make_unexpected(done.error());
   return style;

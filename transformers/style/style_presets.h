@@ -24,6 +24,7 @@ constexpr double kUsualMix = 0.5;
 constexpr double kMostSpokenGain = 3.0;
 
 std::optional<Style> find_style_preset(std::string_view name);
+std::span<const std::string_view> style_preset_list();
 // "calm, subtle, …"
 std::string style_preset_names();
 

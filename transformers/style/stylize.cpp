@@ -54,9 +54,19 @@ Stylize::Stylize(const Style& base) : base_(base), skeleton_(average_skeleton())
 
 void Stylize::aim() {
   for (std::size_t z = 0; z < kBodyZones; ++z)
-    wanted_gain_[z] = std::min(base_.gain[z] * live_.gain[z], kMostStyleGain);
+    wanted_gain_[z] = is_on_ ? std::min(base_.gain[z] * live_.gain[z], kMostStyleGain) : 1.0f;
   wanted_periodic_ = std::min(base_.periodic * live_.periodic, kMostStyleGain);
   wanted_dynamic_ = std::min(base_.dynamic * live_.dynamic, kMostStyleGain);
+}
+
+void Stylize::set_base(const Style& style, bool is_on) {
+  if (!is_valid(style)) {
+    ++refused_;
+    return;
+  }
+  base_ = style;
+  is_on_ = is_on;
+  aim();
 }
 
 void Stylize::set_style(const Style& style) {

@@ -43,6 +43,7 @@ class Stylize : public PoseFilter {
   void apply(MonoTime now, Pose& pose) override;
   void set_body(const Skeleton& skeleton) override;
   void set_style(const Style& style) override;
+  void set_base(const Style& style, bool is_on) override;
   std::uint64_t refused() const override { return refused_; }
   std::uint64_t restarts() const override { return restarts_; }
 
@@ -98,6 +99,7 @@ class Stylize : public PoseFilter {
   bool legs_are_scaled() const;
 
   Style base_, live_;
+  bool is_on_ = true;
   std::array<float, kBodyZones> wanted_gain_{}, gain_{};
   float wanted_periodic_ = 1.0f, wanted_dynamic_ = 1.0f, periodic_ = 1.0f, dynamic_ = 1.0f;
   float come_in_ = 0.0f;  // 0 at the begin, 1 once the mean is known

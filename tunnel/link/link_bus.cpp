@@ -91,6 +91,25 @@ void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {
 
 void LinkBus::forget(const GuestId& guest) { known_.erase(guest); }
 
+void LinkBus::publish_traffic(MonoTime now) {
+  for (const RemoteGuestStats& guest : link_->remote_stats()) {
+    if (!guest.is_here) continue;
+    const auto count = [](std::uint64_t n) { return static_cast<std::int64_t>(n); };
+    GuestTraffic traffic;
+    traffic.time = now;
+    traffic.clock_id = clock_id_;
+    traffic.bytes = count(guest.bytes);
+    traffic.received = count(guest.received);
+    traffic.lost = count(guest.lost);
+    traffic.late = count(guest.late);
+    traffic.duplicate = count(guest.duplicate);
+    traffic.invalid = count(guest.invalid);
+    traffic.reference_missing = count(guest.reference_missing);
+    traffic.key_frames_asked = count(guest.key_frames_asked);
+    port_.publish(Where::kGuest, guest.guest, traffic);
+  }
+}
+
 void LinkBus::publish_second(MonoTime now) {
   for (auto& [guest, known] : known_) {
     const auto publish = [&, &of = guest](auto& state) {
@@ -110,6 +129,7 @@ void LinkBus::publish_second(MonoTime now) {
     port_.publish(Where::kRoom, scene_->first, scene_->second);
   }
   if (link_ == nullptr) return;
+  publish_traffic(now);
   // As the clocks stand now, which is better than when it came.
   if (const auto music = link_->room_music(now))
     port_.publish(Where::kRoom, link_->room_music_setter(), *music);

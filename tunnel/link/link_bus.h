@@ -56,6 +56,7 @@ class LinkBus {
   auto keeper();
   template <class... Ts>
   void send_each(const GuestId& guest);
+  void publish_traffic(MonoTime now);
   void on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
                   wire::Bytes message);
 

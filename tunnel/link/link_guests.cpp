@@ -23,6 +23,7 @@ RemoteGuestStats stats_of(const RemoteGuest& remote) {
 }
 
 void add(const RemoteGuestStats& more, RemoteGuestStats& sum) {
+  sum.bytes += more.bytes;
   sum.received += more.received;
   sum.lost += more.lost;
   sum.late += more.late;

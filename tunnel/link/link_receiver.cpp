@@ -32,7 +32,10 @@ bool LinkReceiver::on_records(wire::Bytes body, MonoTime received, MonoTime now)
   AckTracker::Slots failed;
   bool has_decoded = false;
   for (wire::RecordChain chain = begin; in.remaining() > 0;) {
+    const std::size_t before = in.remaining();
     const wire::Record record = *wire::parse_record(chain, in);
+    if (record.kind != wire::RecordKind::kChannel)
+      link_.remotes[record.slot].counts.bytes += before - in.remaining();
     if (on_record(record, received, now))
       has_decoded = true;
     else if (!failed.contains(record.slot))

@@ -11,6 +11,7 @@ std::string link_report_json(const Link& link) {
   for (const RemoteGuestStats& guest : link.remote_stats())
     guests.push_back({{"id", std::string(guest.guest.view())},
                       {"here", guest.is_here},
+                      {"bytes", guest.bytes},
                       {"received", guest.received},
                       {"lost", guest.lost},
                       {"late", guest.late},

@@ -113,7 +113,16 @@ void StageFeed::measure(const FeedOptions& options) {
   });
 }
 
+// What a panel asks for.
+void StageFeed::publish_asked() {
+  while (const auto asked = instruments_.take_asked_flow())
+    bus_->publish(Where::kCapture, asked->guest, asked->what);
+  while (const auto asked = instruments_.take_asked_style())
+    bus_->publish(Where::kCapture, asked->guest, asked->what);
+}
+
 void StageFeed::publish_figures(MonoTime now) {
+  publish_asked();  // where no picture shows anything new
   instruments_.end_seconds(now, [this](const GuestId& guest, const GuestStats& stats) {
     bus_->publish(Where::kView, guest, stats);
   });
@@ -158,10 +167,7 @@ void StageFeed::on_wake() {
     instruments_.on_shown(shown->guest, shown->time);
     ++shown_count_;
   }
-  while (const auto asked = instruments_.take_asked_flow())
-    bus_->publish(Where::kCapture, asked->guest, asked->what);
-  while (const auto asked = instruments_.take_asked_style())
-    bus_->publish(Where::kCapture, asked->guest, asked->what);
+  publish_asked();
   if (asked_to_end_.load(std::memory_order_acquire)) poller_->stop();
 }
 

@@ -57,6 +57,7 @@ class StageFeed {
   explicit StageFeed(const FeedOptions& options);
   void subscribe(const FeedOptions& options);
   void measure(const FeedOptions& options);
+  void publish_asked();
   void publish_figures(MonoTime now);
   void publish_counters(MonoTime now);
   void run();

@@ -82,7 +82,7 @@ struct InstrumentPanel::Layout {
     const float head_rows = 2.0f;
     const float room_y = frame.height_px - 2.0f * top - head_rows * row - 3.4f * em;
     rows = std::min(guests, static_cast<std::size_t>(std::max(1.0f, room_y / row)));
-    plots_height = has_plots ? std::min(frame.height_px - 4.0f * margin, 26.0f * em) : 0.0f;
+    plots_height = has_plots ? std::min(frame.height_px - 4.0f * margin, 33.0f * em) : 0.0f;
   }
   float row, margin, name, bar, left, top, bar_left, numbers_left, table_right, plots_left, right;
   float legend, heads = 0.0f, table = 0.0f, bottom = 0.0f, plots_height;
@@ -182,7 +182,11 @@ void InstrumentPanel::draw_plots(const PanelInk& ink, const Layout& layout) cons
   ink.left(layout.plots_left, layout.top, kBright, std::string(record.guest().view()).c_str());
   ink.right(layout.right, layout.top, kDim, "last minute");
   constexpr std::size_t kAcross = 2, kDown = kPlots.size() / kAcross;
-  const float top = layout.top + 1.7f * em, gap = 0.9f * em;
+  const float table_height = 1.3f * em * static_cast<float>(kGapCount / 2 + 1) + 0.7f * em;
+  if (record.size() > 0)
+    draw_gap_table(ink, record.newest(),
+                   {layout.plots_left, layout.top + 1.7f * em, layout.right, layout.bottom});
+  const float top = layout.top + 1.7f * em + table_height, gap = 0.9f * em;
   const float width = (layout.right - layout.plots_left - gap) / kAcross;
   const float height =
       (layout.top + layout.plots_height - top - gap * (kDown - 1)) / static_cast<float>(kDown);

@@ -74,6 +74,26 @@ void draw_bar_ticks(const PanelInk& ink, const BarBox& box, float scale_ms) {
   }
 }
 
+void draw_gap_table(const PanelInk& ink, const GuestStats& stats, const BarBox& box) {
+  constexpr std::size_t kAcross = 2, kDown = kGapCount / kAcross;
+  const float em = ink.em(), gap = 0.9f * em;
+  const float width = (box.right - box.left - gap) / kAcross;
+  for (std::size_t column = 0; column < kAcross; ++column) {
+    const float left = box.left + static_cast<float>(column) * (width + gap), right = left + width;
+    ink.right(right - 2.6f * em, box.top, kDim, "p50 ms");
+    ink.right(right, box.top, kDim, "p99");
+    for (std::size_t row = 0; row < kDown; ++row) {
+      const std::size_t stage = column * kDown + row;
+      const float y = box.top + static_cast<float>(row + 1) * 1.3f * em;
+      ink.list().AddRectFilled({left, y + 0.2f * em}, {left + 0.75f * em, y + 0.95f * em},
+                               ink_of(kStages[stage].rgb));
+      ink.left(left + 1.0f * em, y, kBright, kStages[stage].words);
+      ink.number(right - 2.6f * em, y, kBright, "%.1f", stats.gap_p50_ms[stage]);
+      ink.number(right, y, kDim, "%.1f", stats.gap_p99_ms[stage]);
+    }
+  }
+}
+
 float draw_bar_legend(const PanelInk& ink, float left, float top, float right) {
   const float em = ink.em();
   float x = left, y = top;

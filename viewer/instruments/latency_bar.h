@@ -22,6 +22,8 @@ void draw_latency_bar(const PanelInk& ink, const GuestStats& stats, const BarBox
                       float scale_ms);
 // Ticks with their ms, over the bars.
 void draw_bar_ticks(const PanelInk& ink, const BarBox& box, float scale_ms);
+// Each stage of one guest with its p50 and p99, in two columns.
+void draw_gap_table(const PanelInk& ink, const GuestStats& stats, const BarBox& box);
 // What colour means what. Returns the height that it took.
 float draw_bar_legend(const PanelInk& ink, float left, float top, float right);
 

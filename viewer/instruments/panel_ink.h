@@ -21,7 +21,7 @@ constexpr ImU32 ink_of(unsigned rgb, unsigned alpha = 255) {
 constexpr ImU32 kBright = ink_of(0xf4f5f9);
 constexpr ImU32 kDim = ink_of(0xa7adbd);
 constexpr ImU32 kFaint = ink_of(0xffffff, 34);
-constexpr ImU32 kPaper = ink_of(0x0d1018, 236);
+constexpr ImU32 kPaper = ink_of(0x0d1018, 244);
 constexpr ImU32 kChosen = ink_of(0x3d6fb5, 120);
 constexpr ImU32 kWarning = ink_of(0xffb454);
 
@@ -45,7 +45,7 @@ class PanelInk {
   void number(float x, float y, ImU32 colour, const char* format, float value) const {
     char words[32];
     std::snprintf(words, sizeof words, format, static_cast<double>(value));
-    right(x, y, std::isfinite(value) ? colour : kDim, std::isfinite(value) ? words : "–");
+    right(x, y, std::isfinite(value) ? colour : kDim, std::isfinite(value) ? words : "-");
   }
 
  private:

@@ -11,13 +11,10 @@
 #include "viewer/feed/picture_source.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
-#include "viewer/instruments/instrument_panel.h"
-#include "viewer/panel/panel_stack.h"
 #include "viewer/program/view_program.h"
 #include "viewer/stage/stage_painter.h"
 #include "viewer/view/view_director.h"
-#include "viewer/window/help_panel.h"
-#include "viewer/window/window_keys.h"
+#include "viewer/window/window_panels.h"
 
 namespace dance {
 namespace {
@@ -45,7 +42,7 @@ class HeadlessRun {
   }
 
   Result<void> run() {
-    open_panel();
+    if (auto added = add_panels({options_, source_, records_}, panels_); !added) return added;
     DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
     auto drawn = options_.moments.film ? film() : pictures(moments);
     if (drawn && options_.focus && !focus_was_here_)
@@ -55,16 +52,6 @@ class HeadlessRun {
   }
 
  private:
-  void open_panel() {
-    auto instruments = std::make_unique<InstrumentPanel>(records_);
-    instruments->open(options_.panel == "instruments");
-    if (options_.focus) instruments->choose(*options_.focus);
-    panels_.add(std::move(instruments));
-    auto help = std::make_unique<HelpPanel>(panels_, window_key_groups());
-    if (options_.panel == "keys") help->open();
-    panels_.add(std::move(help));
-  }
-
   Result<void> pictures(const std::vector<MonoTime>& moments) {
     for (const MonoTime moment : moments) {
       scenes_.push_back(scene_at(moment));

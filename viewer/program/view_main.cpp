@@ -78,6 +78,7 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_choice<std::string>(
       "--panel", view.panel, {{"instruments", "instruments"}, {"style", "style"}, {"keys", "keys"}},
       "open this panel: instruments, style or keys");
+  line.add("--session", view.session, "the session file of this house, for what panels save");
   line.add("--out", view.out, "directory of the pictures").shows_default();
   line.add("--seconds", wishes.view.moments.seconds,
            "headless: how long to listen, 3 unless said; of a log all, unless said")

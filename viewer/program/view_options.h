@@ -51,7 +51,8 @@ struct ViewOptions {
   bool late_latching = true;
 
   bool headless = false;
-  std::string panel;  // open from the begin: instruments, style, keys; "" = none
+  std::string session;  // the file that panels save into; "" = none
+  std::string panel;    // open from the begin: instruments, style, keys; "" = none
   std::string out = ".";
   MomentWish moments;
   std::string log;            // a recorded house; "" = a live one

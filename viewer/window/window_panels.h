@@ -2,7 +2,7 @@
 //
 // Ownership: the stack owns what is added.
 // Threads:   the drawing thread.
-// Failure:   none.
+// Failure:   add_panels() names the session file that cannot be read.
 #pragma once
 
 #include "viewer/feed/picture_source.h"
@@ -19,6 +19,6 @@ struct PanelNeeds {
 };
 
 // The first hears keys first; the last is drawn in front.
-void add_panels(const PanelNeeds& needs, PanelStack& panels);
+Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels);
 
 }  // namespace dance
