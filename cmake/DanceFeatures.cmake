@@ -116,6 +116,10 @@ dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfi
 pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample)
 dance_optional(DANCE_FFMPEG "Music with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
   "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev")
+# Videos of a recording.
+pkg_check_modules(VIDEO QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswscale)
+dance_optional(DANCE_VIDEO "Video export" DANCE_HAVE_VIDEO "${VIDEO_FOUND}"
+  "libavformat-dev libavcodec-dev libavutil-dev libswscale-dev")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 

@@ -49,6 +49,15 @@ class BeatClock {
   float confidence() const { return beat_.confidence; }
   const Beat& newest() const { return beat_; }
 
+  // Shows an archive all that the clock remembers, to be kept and set again.
+  template <class Archive>
+  void carry(Archive& archive) {
+    archive(beat_.time), archive(beat_.clock_id), archive(beat_.beat_time), archive(beat_.beat);
+    archive(beat_.tempo_bpm), archive(beat_.beats_per_bar), archive(beat_.confidence);
+    archive(beat_.playing), archive(heard_), archive(correction_), archive(correction_time_);
+    if (heard_ && !is_valid(beat_)) archive.refuse();
+  }
+
  private:
   // A larger difference is another place of the music. A smaller one is slewed so that time stays
   // monotonic at 50 BPM too.

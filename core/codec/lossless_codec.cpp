@@ -1,5 +1,7 @@
 #include "core/codec/lossless_codec.h"
 
+#include <bit>
+
 #include "core/codec/adaptive_bits.h"
 #include "core/codec/lossless_model.h"
 
@@ -58,5 +60,27 @@ DecodeResult LosslessDecoder::decode(std::span<const std::uint8_t> payload, Pose
 }
 
 void LosslessDecoder::restart() { model_->restart(); }
+
+LosslessGlance::LosslessGlance() : opening_(std::make_unique<LosslessOpening>()) {}
+LosslessGlance::~LosslessGlance() = default;
+LosslessGlance::LosslessGlance(LosslessGlance&&) noexcept = default;
+LosslessGlance& LosslessGlance::operator=(LosslessGlance&&) noexcept = default;
+
+DecodeResult LosslessGlance::look(std::span<const std::uint8_t> payload, Pose& pose) {
+  if (payload.size() < kHeader_bytes || payload.size() > kMaxLosslessPayload)
+    return DecodeResult::kMalformed;
+  if (payload[0] == kKeyFrame) {
+    opening_->restart();
+    frames_ = 0;
+  } else if (frames_ == 0 || payload[0] != (frames_ & 0x7f)) {
+    return DecodeResult::kReferenceMissing;
+  }
+  BitDecoder coder(payload.subspan(kHeader_bytes));
+  std::uint64_t music = 0;
+  opening_->code(coder, pose.presence, music);
+  pose.music_beats = std::bit_cast<double>(music);
+  ++frames_;
+  return DecodeResult::kPose;
+}
 
 }  // namespace dance

@@ -104,12 +104,10 @@ void LosslessModel::restart() {
     tracks_[i].bits = first.floats[i];
     tracks_[i].past.fill(meant(first.floats[i]));
   }
-  presence_ = kAllBones;
-  music_.fill(kNoMusicBits);
+  opening_.restart();
   largest_residual_.fill(1.0);
   group_stood_.fill(false);
   is_turned_over_.fill(false);
-  presence_stays_ = AdaptiveBit();
   turns_over_ = AdaptiveBit();
   group_stands_.fill(AdaptiveBit());
   float_stands_.fill(AdaptiveBit());
@@ -118,7 +116,6 @@ void LosslessModel::restart() {
   largest_classes_.fill(ClassTree());
   largest_signs_.fill(AdaptiveBit());
   octaves_.fill(AdaptiveBit());
-  music_lengths_.fill(AdaptiveBit());
 }
 
 LosslessModel::Group LosslessModel::group(std::size_t index) {
@@ -129,11 +126,7 @@ LosslessModel::Group LosslessModel::group(std::size_t index) {
 
 template <class Coder>
 void LosslessModel::code(Coder& coder, LosslessFrame& frame) {
-  if (coder.bit(presence_stays_, frame.presence == presence_))
-    frame.presence = presence_;
-  else
-    frame.presence = presence_ = coder.raw(frame.presence, 32);
-  code_music(coder, frame.music);
+  opening_.code(coder, frame.presence, frame.music);
   Surprise of_frame;
   for (std::size_t i = 0; i < kBoneCount + 2; ++i) code_group(coder, i, frame, of_frame);
   if (is_key()) {
@@ -344,9 +337,25 @@ std::int64_t LosslessModel::code_residual(Coder& coder, ClassTree& classes, Adap
   return negative ? -coded : coded;
 }
 
+void LosslessOpening::restart() {
+  presence_ = kAllBones;
+  music_.fill(kNoMusicBits);
+  presence_stays_ = AdaptiveBit();
+  music_lengths_.fill(AdaptiveBit());
+}
+
+template <class Coder>
+void LosslessOpening::code(Coder& coder, std::uint32_t& presence, std::uint64_t& music) {
+  if (coder.bit(presence_stays_, presence == presence_))
+    presence = presence_;
+  else
+    presence = presence_ = coder.raw(presence, 32);
+  code_music(coder, music);
+}
+
 // Linear prediction of musical time. 64-bit arithmetic that wraps, so any bits are restored.
 template <class Coder>
-void LosslessModel::code_music(Coder& coder, std::uint64_t& music) {
+void LosslessOpening::code_music(Coder& coder, std::uint64_t& music) {
   std::uint64_t expected = music_[0];
   const auto last = std::bit_cast<double>(music_[0]);
   const auto before = std::bit_cast<double>(music_[1]);
@@ -376,5 +385,6 @@ void LosslessModel::code_music(Coder& coder, std::uint64_t& music) {
 
 template void LosslessModel::code(BitEncoder&, LosslessFrame&);
 template void LosslessModel::code(BitDecoder&, LosslessFrame&);
+template void LosslessOpening::code(BitDecoder&, std::uint32_t&, std::uint64_t&);
 
 }  // namespace dance

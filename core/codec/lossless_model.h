@@ -29,6 +29,25 @@ struct LosslessFrame {
 LosslessFrame lossless_frame(const Pose& pose);
 void to_pose(const LosslessFrame& frame, Pose& pose);
 
+// What a frame begins with: which bones were measured, and the music. It depends on nothing else of
+// the frames before.
+class LosslessOpening {
+ public:
+  LosslessOpening() { restart(); }
+  void restart();
+  template <class Coder>
+  void code(Coder& coder, std::uint32_t& presence, std::uint64_t& music);
+
+ private:
+  template <class Coder>
+  void code_music(Coder& coder, std::uint64_t& music);
+
+  std::uint32_t presence_ = kAllBones;
+  std::array<std::uint64_t, 2> music_{};
+  AdaptiveBit presence_stays_;
+  AdaptiveTree<7> music_lengths_{};
+};
+
 class LosslessModel {
  public:
   LosslessModel();
@@ -85,8 +104,6 @@ class LosslessModel {
   template <class Coder>
   std::int64_t code_residual(Coder& coder, ClassTree& classes, AdaptiveBit& sign,
                              std::int64_t residual);
-  template <class Coder>
-  void code_music(Coder& coder, std::uint64_t& music);
   std::size_t largest_of(const Group& g) const;
   void learn_residual(Track& track, double residual, double cell);
 
@@ -94,10 +111,8 @@ class LosslessModel {
   std::uint64_t digest_ = 0;
   std::array<Track, kLosslessFloats> tracks_;
   std::array<double, kBoneCount> largest_residual_{};
-  std::uint32_t presence_ = kAllBones;
-  std::array<std::uint64_t, 2> music_{};
+  LosslessOpening opening_;
 
-  AdaptiveBit presence_stays_;
   std::array<AdaptiveBit, 2> group_stands_{};
   std::array<bool, kBoneCount + 2> group_stood_{};
   std::array<AdaptiveBit, 4> float_stands_{};
@@ -108,7 +123,6 @@ class LosslessModel {
   std::array<ClassTree, 36> largest_classes_{};
   std::array<AdaptiveBit, 36> largest_signs_{};
   AdaptiveTree<8> octaves_{};
-  AdaptiveTree<7> music_lengths_{};
 };
 
 }  // namespace dance

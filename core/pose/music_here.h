@@ -48,6 +48,13 @@ class MusicHere {
 
   const BeatClock& clock() const { return clock_; }
 
+  // As BeatClock::carry().
+  template <class Archive>
+  void carry(Archive& archive) {
+    clock_.carry(archive);
+    archive(said_), archive(seen_), archive(seen_beats_);
+  }
+
  private:
   static constexpr Duration kSaidHolds = Duration::s(3);
   static constexpr Duration kMeasured = Duration::ms(250);

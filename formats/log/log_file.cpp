@@ -65,12 +65,19 @@ LogReader LogReader::over(std::span<const std::uint8_t> bytes) {
   return reader;
 }
 
-void LogReader::rewind() {
+void LogReader::seek(std::uint64_t at_bytes) {
   buffer_.clear();
-  begin_ = pending_ = memory_at_ = 0;
+  buffer_at_ = at_bytes;
+  begin_ = pending_ = 0;
+  memory_at_ = std::min<std::uint64_t>(at_bytes, memory_.size());
   at_end_ = false;
   read_error_ = 0;
-  if (file_) std::rewind(file_.get());
+  if (!file_) return;
+  std::clearerr(file_.get());
+  if (fseeko(file_.get(), static_cast<off_t>(at_bytes), SEEK_SET) != 0) {
+    read_error_ = errno;
+    at_end_ = true;
+  }
 }
 
 Result<void> LogReader::ended() const {
@@ -86,6 +93,7 @@ bool LogReader::fill(std::size_t wanted) {
   // Compacts rarely, as the kept bytes may be many and reads short.
   if (begin_ > buffer_.size() / 2) {
     buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin_));
+    buffer_at_ += begin_;
     begin_ = 0;
   }
   constexpr std::size_t kChunk = 64 << 10;

@@ -48,7 +48,14 @@ class LogReader {
   std::optional<LogEvent> next();
   // After the last event: success at the end of the file, else the read error.
   Result<void> ended() const;
-  void rewind();
+  void rewind() { seek(0); }
+  // Goes on with the first event at or after that place.
+  void seek(std::uint64_t at_bytes);
+  // next() gives the last event once more.
+  void again() { pending_ = 0; }
+  // Where in the file the last event is, and where its next is looked for.
+  std::uint64_t event_at_bytes() const { return buffer_at_ + begin_; }
+  std::uint64_t next_at_bytes() const { return buffer_at_ + begin_ + pending_; }
 
   // Bytes outside complete events: damage, or a truncated log.
   std::uint64_t skipped_bytes() const { return skipped_bytes_; }
@@ -67,8 +74,9 @@ class LogReader {
   std::span<const std::uint8_t> memory_;
   std::size_t memory_at_ = 0;
   std::vector<std::uint8_t> buffer_;
-  std::size_t begin_ = 0;    // of unread bytes in buffer_
-  std::size_t pending_ = 0;  // bytes of the event returned last
+  std::uint64_t buffer_at_ = 0;  // in the file
+  std::size_t begin_ = 0;        // of unread bytes in buffer_
+  std::size_t pending_ = 0;      // bytes of the event returned last
   bool at_end_ = false;
   int read_error_ = 0;  // errno
   std::uint64_t skipped_bytes_ = 0;

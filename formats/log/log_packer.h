@@ -27,7 +27,7 @@ namespace dance {
 class LogPacker {
  public:
   // A damaged or lost event of a channel costs its messages up to the next intra frame.
-  static constexpr Duration kKeyFramePeriod = Duration::s(5);
+  static constexpr Duration kKeyFramePeriod = Duration::ms(500);
 
   struct Counters {
     std::uint64_t packed = 0;       // poses and hands

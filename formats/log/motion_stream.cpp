@@ -194,4 +194,15 @@ DecodeResult MotionUnpacker::unpack(bool is_key, std::span<const std::uint8_t> p
   return result;
 }
 
+DecodeResult MotionGlance::look(bool is_key, std::span<const std::uint8_t> packed, RawPose& raw) {
+  MotionHead head = is_key ? MotionHead() : head_;
+  ByteReader reader(packed);
+  get_head(reader, raw, head);
+  const auto frame = reader.bytes(reader.remaining());
+  if (frame.empty() || ((frame[0] & 0x80) != 0) != is_key) return DecodeResult::kMalformed;
+  const DecodeResult result = body_.look(frame, raw.pose);
+  if (result == DecodeResult::kPose) head_ = head;
+  return result;
+}
+
 }  // namespace dance

@@ -47,6 +47,18 @@ struct MotionHead {
   std::array<std::uint64_t, kHopCount> gap_us{};  // of each hop to the step before it
 };
 
+// Reads of a packed pose what is said beside the body: sequence, clock, times, presence and music.
+// For those who look through a log, or pass over a part of it. A frame whose predecessor is missing
+// is kReferenceMissing and changes nothing; damage within a frame does not show.
+class MotionGlance {
+ public:
+  DecodeResult look(bool is_key, std::span<const std::uint8_t> packed, RawPose& raw);
+
+ private:
+  LosslessGlance body_;
+  MotionHead head_;
+};
+
 class MotionPacker {
  public:
   explicit MotionPacker(MotionType type);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -46,6 +47,34 @@ inline std::uint32_t checksum_of(std::string_view channel, std::span<const std::
   for (const char c : channel) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193;
   for (const std::uint8_t byte : message) hash = (hash ^ byte) * 0x01000193;
   return hash;
+}
+
+// A packed pose or packed hands, still packed.
+struct PackedMotion {
+  bool is_pose = true;  // else hands
+  bool is_key = false;
+  std::string_view channel;  // its own
+  std::uint32_t checksum = 0;
+  std::span<const std::uint8_t> packed;
+};
+
+// nullopt of other events, of versions that are not known and of damage that shows here.
+inline std::optional<PackedMotion> packed_motion_of(const LogEvent& event) {
+  constexpr std::size_t kOpening_bytes = kPackedMagic.size() + 2 + 4;
+  if (!is_packed(event) || event.data.size() < kOpening_bytes ||
+      event.channel.size() == kPackedPrefix.size() ||
+      event.data[kPackedMagic.size()] != kPackedVersion)
+    return std::nullopt;
+  const auto kind = static_cast<PackedKind>(event.data[kPackedMagic.size() + 1]);
+  if (kind < PackedKind::kPoseKeyFrame || kind > PackedKind::kHands) return std::nullopt;
+  PackedMotion motion;
+  motion.is_pose = kind == PackedKind::kPoseKeyFrame || kind == PackedKind::kPose;
+  motion.is_key = kind == PackedKind::kPoseKeyFrame || kind == PackedKind::kHandsKeyFrame;
+  motion.channel = event.channel.substr(kPackedPrefix.size());
+  for (std::size_t i = 4; i-- > 0;)
+    motion.checksum = motion.checksum << 8 | event.data[kOpening_bytes - 4 + i];
+  motion.packed = event.data.subspan(kOpening_bytes);
+  return motion;
 }
 
 }  // namespace dance

@@ -21,6 +21,14 @@ class ArrivalMeter {
   // The rate of the last whole second, the mean age in it, and losses since the guest came.
   GuestFigures figures() const { return figures_; }
 
+  // As BeatClock::carry().
+  template <class Archive>
+  void carry(Archive& archive) {
+    archive(window_start_), archive(in_window_), archive(aged_in_window_), archive(age_sum_);
+    archive(has_sequence_), archive(newest_sequence_), archive(received_), archive(lost_);
+    archive(figures_.arrival_hz), archive(figures_.age_ms), archive(figures_.loss_percent);
+  }
+
  private:
   void end_window(MonoTime now);
 

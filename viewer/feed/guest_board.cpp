@@ -51,39 +51,40 @@ MonoTime GuestBoard::moment_of(Where where, const Pose& pose) const {
   return where == Where::kStage ? pose.stamped(Hop::kStaged) : pose.capture_time;
 }
 
-void GuestBoard::note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now) {
+bool GuestBoard::note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now) {
   if (where == Where::kStage) {
     slot.news.staged = pose;
     slot.news.staged_heard = now;
-    return;
+    return false;
   }
   // The house's own dancer comes by both: the capture is the earlier.
   if (where == Where::kGuest && slot.capture_heard.is_set() &&
       now - slot.capture_heard < kSourceHolds)
-    return;
+    return false;
   slot.news.arriving = pose;
   slot.news.arriving_heard = now;
   const BeatClock& music = music_.clock();
-  if (!music.is_known(now)) return;
+  if (!music.is_known(now)) return false;
   std::optional<Duration> age;
   if (pose.clock_id == clock_id_ && pose.capture_time.is_set()) age = now - pose.capture_time;
   slot.arriving_beat_meter.add(pose.music_beats, music.position(now), music.beats_per_second(),
                                age);
-  slot.news.arriving_beat = slot.arriving_beat_meter.figures();
+  return true;
 }
 
-void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
+GuestBoard::Measured GuestBoard::measure(Where where, const GuestId& guest, const Pose& pose,
+                                         MonoTime now) {
   Slot* slot = slot_of(guest, now);
-  if (slot == nullptr) return;
+  if (slot == nullptr) return {};
   if (where != Where::kGuest || shows_guest_channel_)
     poses_.fetch_add(1, std::memory_order_relaxed);
   if (where == Where::kCapture) {
     slot->capture_heard = now;
     music_.see(pose);
-    music_latest_.put(music_.clock());
   }
-  note_for_comparison(*slot, where, pose, now);
-  if (is_superseded(*slot, where, now)) return slot->latest.put(slot->news);
+  Measured measured{slot, note_for_comparison(*slot, where, pose, now),
+                    !is_superseded(*slot, where, now)};
+  if (!measured.is_shown) return measured;
 
   // Ages compare stamps of one clock only.
   std::optional<Duration> age;
@@ -95,11 +96,49 @@ void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, Mo
   const BeatClock& music = music_.clock();
   if (music.is_known(now))
     slot->beat_meter.add(pose.music_beats, music.position(now), music.beats_per_second(), age);
-  slot->news.figures.beat = slot->beat_meter.figures();
-  slot->news.pose = pose;
   slot->news.heard = now;
-  slot->news.moment = moment_of(where, pose);
+  return measured;
+}
+
+void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
+  const auto [slot, is_arriving, is_shown] = measure(where, guest, pose, now);
+  if (slot == nullptr) return;
+  if (where == Where::kCapture) music_latest_.put(music_.clock());
+  if (is_arriving) slot->news.arriving_beat = slot->arriving_beat_meter.figures();
+  if (is_shown) {
+    slot->news.figures.beat = slot->beat_meter.figures();
+    slot->news.pose = pose;
+    slot->news.moment = moment_of(where, pose);
+  }
   slot->latest.put(slot->news);
+}
+
+void GuestBoard::pass_over(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
+  measure(where, guest, pose, now);
+}
+
+void GuestBoard::clear(std::uint64_t clock_id) {
+  clock_id_ = clock_id;
+  ++epoch_;
+  for (std::size_t i = 0; i < kMaxGuests; ++i) {
+    Slot& slot = slots_[i];
+    slot.latest.take();
+    slot.news = GuestNews();
+    slot.meter = ArrivalMeter();
+    slot.beat_meter = slot.arriving_beat_meter = BeatMeter();
+    slot.last_heard = slot.capture_heard = slot.status_heard = MonoTime();
+  }
+  music_ = MusicHere(clock_id);
+  music_latest_.put(music_.clock());
+}
+
+std::size_t GuestBoard::beat_samples_of(const GuestId& guest, bool of_arriving) const {
+  for (std::size_t i = 0; i < kMaxGuests; ++i) {
+    const Slot& slot = slots_[i];
+    if (slot.news.id != guest) continue;
+    return of_arriving ? slot.arriving_beat_meter.count() : slot.beat_meter.count();
+  }
+  return 0;
 }
 
 void GuestBoard::on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now) {

@@ -59,6 +59,19 @@ class GuestBoard {
   void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now);
   void on_beat(const Beat& beat);
 
+  // Of a recording, with one thread for all. Forgets everything: what follows is of another moment.
+  void clear(std::uint64_t clock_id);
+  // Changes with each clear().
+  std::uint32_t epoch() const { return epoch_; }
+  // As on_pose(), of a pose that is not shown, as others follow: its body does not matter.
+  void pass_over(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
+  // Shows an archive all that outlives a guest's next pose and hands, to be kept and set again.
+  // has_samples(guest, of_arriving) says whose beat meter's samples are among it.
+  template <class Archive, class HasSamples>
+  void carry(Archive& archive, HasSamples has_samples);
+  // Of a guest who is here; 0 of others.
+  std::size_t beat_samples_of(const GuestId& guest, bool of_arriving) const;
+
   // The newest of a slot if it is new since the last call, else nullptr. Valid until the next call.
   const GuestNews* take(std::size_t slot) { return slots_[slot].latest.take(); }
 
@@ -70,6 +83,9 @@ class GuestBoard {
 
  private:
   struct Slot {
+    template <class Archive>
+    void carry(Archive& archive, bool has_samples, bool has_arriving_samples);
+
     // Of the bus thread; `latest` passes it to the drawing thread.
     GuestNews news;
     ArrivalMeter meter;
@@ -83,8 +99,16 @@ class GuestBoard {
 
   Slot* slot_of(const GuestId& guest, MonoTime now);
   bool is_superseded(const Slot& slot, Where where, MonoTime now) const;
-  void note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now);
+  // Whether it came into this house just now.
+  bool note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now);
   MonoTime moment_of(Where where, const Pose& pose) const;
+  // The slot of a pose, after all that is measured of it; nullptr where there is no room.
+  struct Measured {
+    Slot* slot = nullptr;
+    bool is_arriving = false;
+    bool is_shown = false;
+  };
+  Measured measure(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
 
   std::uint64_t clock_id_;
   bool stage_only_;
@@ -94,6 +118,34 @@ class GuestBoard {
   Latest<BeatClock> music_latest_;
   std::atomic<std::uint64_t> poses_{0};
   std::atomic<std::uint64_t> no_room_{0};
+  std::uint32_t epoch_ = 0;
 };
+
+template <class Archive>
+void GuestBoard::Slot::carry(Archive& archive, bool has_samples, bool has_arriving_samples) {
+  archive(last_heard), archive(capture_heard), archive(status_heard);
+  archive(news.heard), archive(news.hands_heard);
+  archive(news.figures.arrival_hz), archive(news.figures.age_ms);
+  archive(news.figures.loss_percent), archive(news.skeleton);
+  meter.carry(archive);
+  archive(news.arriving_heard), archive(news.staged_heard);
+  beat_meter.carry(archive, has_samples);
+  arriving_beat_meter.carry(archive, has_arriving_samples);
+}
+
+template <class Archive, class HasSamples>
+void GuestBoard::carry(Archive& archive, HasSamples has_samples) {
+  music_.carry(archive);
+  for (std::size_t i = 0; i < kMaxGuests; ++i) {
+    Slot& slot = slots_[i];
+    archive(slot.news.id);
+    if (!slot.news.id.is_set()) continue;
+    bool with_samples = has_samples(slot.news.id, false);
+    bool with_arriving_samples = has_samples(slot.news.id, true);
+    archive(with_samples), archive(with_arriving_samples);
+    slot.carry(archive, with_samples, with_arriving_samples);
+  }
+  music_latest_.put(music_.clock());
+}
 
 }  // namespace dance

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/net/mono_clock.h"
-#include "viewer/feed/log_feed.h"
+#include "viewer/replay/replay_source.h"
 
 namespace dance {
 namespace {
@@ -42,37 +42,6 @@ class LiveSource final : public PictureSource {
   MonoTime begin_;
 };
 
-class RecordedSource final : public PictureSource {
- public:
-  RecordedSource(LogFeed feed, std::string name, bool repeats)
-      : feed_(std::move(feed)), name_(std::move(name)), repeats_(repeats) {}
-
-  GuestBoard& board() override { return feed_.board(); }
-  InstrumentBoard& instruments() override { return feed_.instruments(); }
-  MonoTime begin() const override { return feed_.begin(); }
-  MonoTime wait_until(MonoTime moment) override {
-    feed_.go_on_to(moment);
-    while (repeats_ && moment > feed_.end()) {
-      feed_.begin_again();
-      feed_.go_on_to(moment);
-    }
-    is_over_ = moment > feed_.end();
-    return moment;
-  }
-  std::optional<MonoTime> time_of_beat(double beat) const override {
-    return feed_.time_of_beat(beat);
-  }
-  Duration recorded() const override { return feed_.end() - feed_.begin(); }
-  bool is_over() const override { return is_over_; }
-  const std::string& name() const override { return name_; }
-
- private:
-  LogFeed feed_;
-  std::string name_;
-  bool repeats_ = false;
-  bool is_over_ = false;
-};
-
 }  // namespace
 
 Result<std::unique_ptr<PictureSource>> PictureSource::open(const ViewOptions& options) {
@@ -80,8 +49,8 @@ Result<std::unique_ptr<PictureSource>> PictureSource::open(const ViewOptions& op
     DANCE_TRY(auto feed, StageFeed::create(options.feed));
     return std::make_unique<LiveSource>(std::move(feed));
   }
-  DANCE_TRY(LogFeed feed, LogFeed::open(options.log, options.feed.stage_only));
-  return std::make_unique<RecordedSource>(std::move(feed), options.log, !options.headless);
+  DANCE_TRY(auto replay, ReplaySource::open(options));
+  return replay;
 }
 
 }  // namespace dance

@@ -1,5 +1,5 @@
-// PictureSource: the source of scenes to draw: a live house, in real time, or a recorded one, which
-// in a window repeats at its end.
+// PictureSource: the source of scenes to draw: a live house, in real time, or a recorded one
+// (viewer/replay/replay_source.h).
 //
 // Units/frames: moments in the house's clock.
 // Ownership:    owns its feed.
@@ -19,6 +19,8 @@
 
 namespace dance {
 
+class ReplaySource;
+
 class PictureSource {
  public:
   static Result<std::unique_ptr<PictureSource>> open(const ViewOptions& options);
@@ -33,6 +35,8 @@ class PictureSource {
   virtual std::optional<MonoTime> time_of_beat(double) const { return std::nullopt; }
   // Reports the poses that the last picture showed first, and when it was on the screen.
   virtual void report_shown(std::span<const StageRoster::Fresh>, MonoTime) {}
+  // This source where it is a recording; else nullptr.
+  virtual ReplaySource* replay() { return nullptr; }
   // Length of a recording; 0 of a live house.
   virtual Duration recorded() const { return Duration(); }
   virtual bool is_over() const = 0;

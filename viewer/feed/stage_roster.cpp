@@ -32,6 +32,11 @@ StageRoster::StageRoster(GuestBoard& board) : board_(board), guests_(GuestBoard:
 
 void StageRoster::update(MonoTime now, SceneState& scene) {
   fresh_.clear();
+  if (epoch_ != board_.epoch()) {
+    epoch_ = board_.epoch();
+    std::fill(guests_.begin(), guests_.end(), GuestNews());
+    music_ = BeatClock();
+  }
   scene.time = now;
   scene.guests.clear();
   for (std::size_t i = 0; i < guests_.size(); ++i) {

@@ -36,6 +36,7 @@ class StageRoster {
   BeatClock music_;
   std::vector<GuestNews> guests_;
   std::vector<Fresh> fresh_;
+  std::uint32_t epoch_ = 0;  // of the board
 };
 
 }  // namespace dance

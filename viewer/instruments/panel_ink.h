@@ -30,6 +30,7 @@ class PanelInk {
   PanelInk(ImDrawList& list, ImFont& font) : list_(list), font_(font), size_(font.FontSize) {}
 
   ImDrawList& list() const { return list_; }
+  ImFont& font() const { return font_; }
   float em() const { return size_; }
   float width_of(const char* words) const {
     return font_.CalcTextSizeA(size_, 1e5f, 0.0f, words).x;

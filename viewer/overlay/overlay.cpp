@@ -101,7 +101,8 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
   if (choice.tags) draw_tags(scene, camera, choice.tag_anchors_W_m, width, height);
   if (choice.hud) draw_hud(scene);
   draw_words(choice, width, height);
-  draw_notes(scene, height);
+  const PanelFrame frame{scene, width, height, scale_, tag_font_, hud_font_};
+  draw_notes(scene, height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
   draw_panels(choice.panels, scene, width, height);
   end_frame();
 }
@@ -137,7 +138,7 @@ void Overlay::draw_beats(const Comparison& comparison, int width_px, int height_
                   {middle, top, static_cast<float>(width_px), bottom},
                   comparison.is_of_twins ? "in rhythm" : "as it is staged");
   list.AddRectFilled({middle - 1.0f, 0.0f}, {middle + 1.0f, bottom}, shade(1.0f));
-  draw_panels(panels, comparison.shown, static_cast<float>(width_px), bottom);
+  draw_panels(panels, comparison.shown, static_cast<float>(width_px), top);  // above the beats
   end_frame();
 }
 

@@ -1,5 +1,7 @@
 #include "viewer/panel/panel_stack.h"
 
+#include <algorithm>
+
 namespace dance {
 
 bool PanelStack::on_key(const KeyPress& press) {
@@ -10,6 +12,12 @@ bool PanelStack::on_key(const KeyPress& press) {
 
 void PanelStack::draw(const PanelFrame& frame) {
   for (const auto& panel : panels_) panel->draw(frame);
+}
+
+float PanelStack::bottom_px(const PanelFrame& frame) const {
+  float most = 0.0f;
+  for (const auto& panel : panels_) most = std::max(most, panel->bottom_px(frame));
+  return most;
 }
 
 std::vector<KeyHelp> PanelStack::keys() const {

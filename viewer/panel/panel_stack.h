@@ -20,6 +20,7 @@ class PanelStack {
   void add(std::unique_ptr<WindowPanel> panel) { panels_.push_back(std::move(panel)); }
   bool on_key(const KeyPress& press);
   void draw(const PanelFrame& frame);
+  float bottom_px(const PanelFrame& frame) const;
   std::vector<KeyHelp> keys() const;
   // As keys(), under the heading of each panel.
   struct Group {

@@ -50,6 +50,8 @@ class WindowPanel {
   // True when the key was this panel's.
   virtual bool on_key(const KeyPress& press) = 0;
   virtual void draw(const PanelFrame& frame) = 0;
+  // What it takes of the picture's bottom, over its whole width; notes stand above.
+  virtual float bottom_px(const PanelFrame&) const { return 0.0f; }
 };
 
 }  // namespace dance

@@ -34,8 +34,21 @@ class BeatMeter {
   void add(double own, double heard, double beats_per_second, std::optional<Duration> delay);
   std::optional<BeatFigures> figures() const;
 
- private:
+  // So many poses back figures() looks.
   static constexpr std::size_t kSamples = 240;  // 4 s at 60 Hz
+  std::size_t count() const { return count_; }
+  // As BeatClock::carry(); the samples may be left out where kSamples others will follow.
+  template <class Archive>
+  void carry(Archive& archive, bool has_samples) {
+    archive(count_), archive(own_beat_count_), archive(beats_per_second_);
+    archive(last_own_), archive(last_heard_);
+    for (double& beat : own_beats_) archive(beat);
+    if (!has_samples) return;
+    for (Sample& sample : samples_)
+      archive(sample.cosine), archive(sample.sine), archive(sample.delay_ms);
+  }
+
+ private:
   static constexpr std::size_t kFewest = 8;
   struct Sample {
     float cosine = 1.0f, sine = 0.0f;  // of the part of a beat behind, as an angle

@@ -1,11 +1,12 @@
 // A recorded house, looked at as late as one likes.
-#include "viewer/feed/log_feed.h"
+#include "viewer/replay/replay_feed.h"
 
 #include <gtest/gtest.h>
 
 #include "core/bus/encode.h"
 #include "tests/test_folder.h"
 #include "viewer/feed/stage_roster.h"
+#include "viewer/replay/index_builder.h"
 
 namespace dance {
 namespace {
@@ -15,9 +16,9 @@ constexpr std::int64_t kWallAhead_us = 1'700'000'000'000'000;
 
 MonoTime logged_second(double s) { return MonoTime() + Duration::seconds(50.0 + s); }
 
-class LogFeedTest : public ::testing::Test {
+class ReplayFeedTest : public ::testing::Test {
  protected:
-  LogFeedTest() {
+  ReplayFeedTest() {
     auto log = LogWriter::create(path_);
     EXPECT_TRUE(log);
     writer_ = std::make_unique<LogWriter>(std::move(*log));
@@ -51,21 +52,40 @@ class LogFeedTest : public ::testing::Test {
     ASSERT_TRUE(writer_->flush());
   }
 
-  TestFolder folder_{"log-feed"};
+  // The log's feed, on a board of its own.
+  struct Opened {
+    explicit Opened(const std::string& path) {
+      auto built = build_index(path, false, {});
+      if (!built) {
+        failure = built.error().what;
+        return;
+      }
+      index = std::make_shared<const ReplayIndex>(std::move(*built));
+      board.clear(index->clock_id);
+      auto opened = ReplayFeed::open(path, index, board);
+      if (opened) feed.emplace(std::move(*opened));
+    }
+    GuestBoard board{0, false};
+    std::shared_ptr<const ReplayIndex> index;
+    std::optional<ReplayFeed> feed;
+    std::string failure;
+  };
+
+  TestFolder folder_{"replay-feed"};
   std::string path_ = folder_.path("log.lcm");
   std::unique_ptr<LogWriter> writer_;
 };
 
-TEST_F(LogFeedTest, ShowsTheStageOfAnyMomentInTheHousesOwnTime) {
+TEST_F(ReplayFeedTest, ShowsTheStageOfAnyMomentInTheHousesOwnTime) {
   write_couple(4.0);
-  auto feed = LogFeed::open(path_, false);
-  ASSERT_TRUE(feed) << feed.error().what;
-  EXPECT_NEAR((feed->begin() - logged_second(0.0)).as_seconds(), 0.0, 1e-5);
-  EXPECT_NEAR((feed->end() - logged_second(4.0)).as_seconds(), 0.0, 0.02);
-  StageRoster roster(feed->board());
+  Opened log(path_);
+  ASSERT_TRUE(log.feed) << log.failure;
+  EXPECT_NEAR((log.index->begin - logged_second(0.0)).as_seconds(), 0.0, 1e-5);
+  EXPECT_NEAR((log.index->end - logged_second(4.0)).as_seconds(), 0.0, 0.02);
+  StageRoster roster(log.board);
   SceneState scene;
   for (const double s : {1.0, 3.0}) {
-    feed->go_on_to(logged_second(s));
+    log.feed->show(logged_second(s));
     roster.update(logged_second(s), scene);
     ASSERT_EQ(scene.guests.size(), 2u);
     EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), s, 0.02);
@@ -78,81 +98,74 @@ TEST_F(LogFeedTest, ShowsTheStageOfAnyMomentInTheHousesOwnTime) {
   EXPECT_NEAR(scene.guests[0].figures.beat->behind_ms, 0.0f, 1.0f);
 }
 
-TEST_F(LogFeedTest, ShowsWhatACameraRecordedWithoutAStage) {
+TEST_F(ReplayFeedTest, ShowsWhatACameraRecordedWithoutAStage) {
   for (int i = 0; i < 120; ++i) {
     Pose pose = pose_of(i / 30.0, kNoMusic);
     pose.stamp(Hop::kPublished, logged_second(i / 30.0));
     write(i / 30.0, Channel::of(Signal::kPose, Where::kCapture, *GuestId::parse("alice")), pose);
   }
   ASSERT_TRUE(writer_->flush());
-  auto feed = LogFeed::open(path_, false);
-  ASSERT_TRUE(feed) << feed.error().what;
-  EXPECT_NEAR((feed->begin() - logged_second(0.0)).as_seconds(), 0.0, 1e-5);
-  feed->go_on_to(logged_second(2.0));
-  StageRoster roster(feed->board());
+  Opened log(path_);
+  ASSERT_TRUE(log.feed) << log.failure;
+  EXPECT_NEAR((log.index->begin - logged_second(0.0)).as_seconds(), 0.0, 1e-5);
+  log.feed->show(logged_second(2.0));
+  StageRoster roster(log.board);
   SceneState scene;
   roster.update(logged_second(2.0), scene);
   ASSERT_EQ(scene.guests.size(), 1u);
   EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), 2.0, 0.04);
 }
 
-TEST_F(LogFeedTest, BeginsAgainWithTheClockGoingOn) {
+TEST_F(ReplayFeedTest, AtTheBeginningAgainNobodyIsLeftOfTheEnd) {
   write_couple(4.0);
-  auto feed = LogFeed::open(path_, false);
-  ASSERT_TRUE(feed);
-  StageRoster roster(feed->board());
+  Opened log(path_);
+  ASSERT_TRUE(log.feed) << log.failure;
+  StageRoster roster(log.board);
   SceneState scene;
-  feed->go_on_to(feed->end());
-  const MonoTime end = feed->end();
-  feed->begin_again();
-  const MonoTime now = end + Duration::s(1);
-  feed->go_on_to(now);
-  roster.update(now, scene);
+  log.feed->show(log.index->end);
+  roster.update(log.index->end, scene);
   ASSERT_EQ(scene.guests.size(), 2u);
-  EXPECT_NEAR(scene.guests[0].pose.p_WH_m.x(), 1.0, 0.04);
-  EXPECT_NEAR((now - scene.guests[0].pose.capture_time).as_seconds(), 0.0, 0.04);
-  EXPECT_NEAR((now - scene.guests[1].pose.capture_time).as_seconds(), 0.1, 0.04);
-  EXPECT_NEAR((feed->end() - end).as_seconds(), 4.0, 0.04);
+  log.feed->show(log.index->begin - Duration::ms(1));
+  roster.update(log.index->begin - Duration::ms(1), scene);
+  EXPECT_TRUE(scene.guests.empty());
+  EXPECT_FALSE(scene.music);
 }
 
-TEST_F(LogFeedTest, KnowsWhenEachBeatWasHeard) {
+TEST_F(ReplayFeedTest, KnowsWhenEachBeatWasHeard) {
   write_couple(4.0);
-  auto feed = LogFeed::open(path_, false);
-  ASSERT_TRUE(feed);
+  Opened log(path_);
+  ASSERT_TRUE(log.feed) << log.failure;
   for (const double beat : {2.0, 5.0, 5.5}) {
-    const auto time = feed->time_of_beat(beat);
+    const auto time = log.index->time_of_beat(beat);
     ASSERT_TRUE(time) << beat;
     EXPECT_NEAR((*time - logged_second(0.5 * beat)).as_seconds(), 0.0, 1e-3) << beat;
   }
-  EXPECT_FALSE(feed->time_of_beat(100.0));
+  EXPECT_FALSE(log.index->time_of_beat(100.0));
 }
 
-TEST_F(LogFeedTest, NamesWhatCannotBeShown) {
-  EXPECT_FALSE(LogFeed::open("/no/such.lcm", false));
+TEST_F(ReplayFeedTest, NamesWhatCannotBeShown) {
+  EXPECT_FALSE(Opened("/no/such.lcm").failure.empty());
   ASSERT_TRUE(writer_->flush());
-  const auto empty = LogFeed::open(path_, false);
-  ASSERT_FALSE(empty);
-  EXPECT_NE(empty.error().what.find(path_), std::string::npos);
+  EXPECT_NE(Opened(path_).failure.find(path_), std::string::npos);
 }
 
-TEST_F(LogFeedTest, ALogThatCannotBeReadIsNotOneWithoutDancers) {
-  const auto feed = LogFeed::open("/proc/self/mem", false);  // which the kernel does not read at 0
-  ASSERT_FALSE(feed);
-  EXPECT_NE(feed.error().what.find("cannot be read to its end"), std::string::npos)
-      << feed.error().what;
+TEST_F(ReplayFeedTest, ALogThatCannotBeReadIsNotOneWithoutDancers) {
+  // Which the kernel does not read at 0.
+  const Opened log("/proc/self/mem");
+  EXPECT_NE(log.failure.find("cannot be read to its end"), std::string::npos) << log.failure;
 }
 
-TEST_F(LogFeedTest, DamageIsPassedOver) {
+TEST_F(ReplayFeedTest, DamageIsPassedOver) {
   write_couple(2.0);
   const std::string garbage = "\xED\xA1\xDA\x01 no event";
   ASSERT_TRUE(
       writer_->append(kWallAhead_us, "POSE/stage/bob",
                       {reinterpret_cast<const std::uint8_t*>(garbage.data()), garbage.size()}));
   ASSERT_TRUE(writer_->flush());
-  auto feed = LogFeed::open(path_, false);
-  ASSERT_TRUE(feed);
-  feed->go_on_to(feed->end());
-  EXPECT_GT(feed->board().poses(), 200u);
+  Opened log(path_);
+  ASSERT_TRUE(log.feed) << log.failure;
+  log.feed->show(log.index->end);
+  EXPECT_GT(log.board.poses(), 200u);
 }
 
 }  // namespace

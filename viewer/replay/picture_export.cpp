@@ -1,0 +1,112 @@
+// A range as pictures of the stage, each in a file or all in a video.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "viewer/replay/export_source.h"
+#include "viewer/replay/video_file.h"
+
+namespace dance {
+namespace {
+
+constexpr double kUsual_hz = 30.0;
+constexpr std::int64_t kMostPictures = 1'000'000;
+
+class PictureExport : public ReplayExport {
+ public:
+  PictureExport(const ExportWish& wish, std::unique_ptr<ExportSource> source, Paint paint)
+      : ReplayExport(wish.path),
+        wish_(wish),
+        source_(std::move(source)),
+        paint_(std::move(paint)),
+        hz_(wish.hz > 0.0 ? wish.hz : kUsual_hz) {
+    // The moment of the end is not shown any more, as the next range may begin with it.
+    const double frames = (wish.to - wish.from).as_seconds() * hz_ - 1e-6;
+    count_ =
+        std::clamp<std::int64_t>(static_cast<std::int64_t>(std::ceil(frames)), 1, kMostPictures);
+  }
+  ~PictureExport() override {
+    if (is_kept_) return;
+    std::error_code ignored;
+    for (std::int64_t i = 0; i < at_ && !is_video(); ++i)
+      std::filesystem::remove(file_of(i), ignored);
+    if (made_folder_) std::filesystem::remove(wish_.path, ignored);  // if nothing else is in it
+  }
+
+  Result<void> make_folder() {
+    if (is_video()) return {};
+    std::error_code error;
+    made_folder_ = std::filesystem::create_directories(wish_.path, error);
+    if (error)
+      return fail("--export " + wish_.path + " cannot be made: " + error.message() +
+                  "; choose another folder");
+    if (std::filesystem::exists(file_of(0), error))
+      return fail(file_of(0) + ": is there already; remove it or choose another folder");
+    return {};
+  }
+
+  Result<bool> step() override {
+    const MonoTime moment = wish_.from + Duration::seconds(static_cast<double>(at_) / hz_);
+    SceneState scene;
+    source_->show(moment, scene);
+    const Duration passed = at_ == 0 ? Duration() : Duration::period_of_hz(hz_);
+    DANCE_TRY(const Picture picture, paint_(scene, passed));
+    if (auto written = is_video() ? add(picture) : write_png(file_of(at_), picture); !written)
+      return tl::make_unexpected(written.error());
+    ++at_;
+    progress_ = static_cast<double>(at_) / static_cast<double>(count_);
+    if (at_ < count_) return false;
+    if (video_)
+      if (auto finished = video_->finish(); !finished) return tl::make_unexpected(finished.error());
+    is_kept_ = true;
+    std::array<char, 64> rate{};
+    std::snprintf(rate.data(), rate.size(), "%lld pictures, %g a second",
+                  static_cast<long long>(count_), hz_);
+    outcome_ = rate.data();
+    if (video_) outcome_ += ", " + video_->encoder();
+    return true;
+  }
+
+ private:
+  bool is_video() const { return wish_.kind == ExportKind::kVideo; }
+  std::string file_of(std::int64_t i) const {
+    std::array<char, 24> name{};
+    std::snprintf(name.data(), name.size(), "%06lld.png", static_cast<long long>(i + 1));
+    return (std::filesystem::path(wish_.path) / name.data()).string();
+  }
+  // The first picture says how large it is.
+  Result<void> add(const Picture& picture) {
+    if (!video_) {
+      auto video = VideoFile::create(wish_.path, picture.width_px, picture.height_px, hz_);
+      if (!video) return tl::make_unexpected(video.error());
+      video_ = std::move(*video);
+    }
+    return video_->add(picture);
+  }
+
+  ExportWish wish_;
+  std::unique_ptr<ExportSource> source_;
+  Paint paint_;
+  double hz_;
+  std::int64_t at_ = 0, count_ = 1;
+  std::unique_ptr<VideoFile> video_;
+  bool made_folder_ = false;
+  bool is_kept_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<ReplayExport>> begin_picture_export(const ExportWish& wish,
+                                                           ReplayExport::Paint paint) {
+  std::error_code error;
+  if (wish.kind == ExportKind::kVideo && std::filesystem::exists(wish.path, error))
+    return fail(wish.path + ": is there already; remove it or choose another name");
+  DANCE_TRY(auto source, ExportSource::open(wish));
+  auto pictures = std::make_unique<PictureExport>(wish, std::move(source), std::move(paint));
+  if (auto made = pictures->make_folder(); !made) return tl::make_unexpected(made.error());
+  return pictures;
+}
+
+}  // namespace dance
