@@ -141,6 +141,14 @@ void LogFeed::take(const LogEvent& event, MonoTime now) {
     board_->on_beat(beat);
     return;
   }
+  if (channel->signal() == Signal::kAvatar) {
+    if (Avatar avatar; read(avatar)) board_->on_avatar(channel->guest(), avatar, now);
+    return;
+  }
+  if (channel->signal() == Signal::kAvatarFile) {
+    if (AvatarFile file; read(file)) board_->on_avatar(channel->guest(), file, now);
+    return;
+  }
   if (where != Where::kCapture && where != Where::kGuest && where != Where::kStage) return;
   if (channel->signal() == Signal::kPose) {
     Pose pose;
