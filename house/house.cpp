@@ -6,6 +6,7 @@
 
 #include "consumers/consumer_feed.h"
 #include "core/net/mono_clock.h"
+#include "core/program/program.h"
 #include "core/program/talk.h"
 #include "formats/clip/dancers_file.h"
 #include "producers/receive/receiver_table.h"
@@ -77,6 +78,9 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   house->captures_ = std::make_unique<PortCaptureSink>(*house->port_);
   house->link_bus_ =
       std::make_unique<LinkBus>(*house->bus_, house->captures_->captures(), this_clock_id());
+  house->link_avatars_ = std::make_unique<LinkAvatars>(
+      AvatarStore::of_user(), poller, [](const std::string& line) { talk::info("{}", line); });
+  house->link_bus_->use_avatars(*house->link_avatars_);
   // The link first: a capture goes to the network before this house's own stage.
   if (auto linked = house->open_link(); !linked) return tl::make_unexpected(linked.error());
   house->manager_ = std::make_unique<Manager>(session.routes, *house->port_, poller);
@@ -88,6 +92,7 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
         "them, or give one another --bus",
         url);
   });
+  if (auto opened = house->open_avatars(); !opened) return tl::make_unexpected(opened.error());
   if (auto opened = house->open_consumers(); !opened) return tl::make_unexpected(opened.error());
   if (auto opened = house->open_producers(); !opened) return tl::make_unexpected(opened.error());
   if (session.music) {
@@ -103,6 +108,7 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   House* self = house.get();
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {
+    self->avatars_->publish_second(now);
     self->link_bus_->publish_second(now);
     for (auto& consumer : self->consumers_) consumer->on_second(now);
     return now + kSecond;
@@ -127,6 +133,7 @@ Result<void> House::open_link() {
   options.channels = session_.channels;
   options.clock_id = this_clock_id();
   options.quality_m = session_.quality_mm * 1e-3;
+  options.file_bytes_per_second = session_.avatar_bytes_per_second;
   options.pose_bytes_per_second = session_.pose_bytes_per_second;
   for (const GuestId& guest : session_.guests)
     if (!options.guests.contains(guest) && !options.guests.try_push(guest))
@@ -174,6 +181,18 @@ void House::add_talk(LinkHandlers& handlers) {
   handlers.on_refused = [this](const wire::RefusalNotice& refusal, MonoTime now) {
     troubles_.warn(refusal_line(refusal, *wire::RoomName::parse(session_.room)), now);
   };
+}
+
+Result<void> House::open_avatars() {
+  avatars_ = std::make_unique<HouseAvatars>(*port_, this_clock_id());
+  const AvatarStore store = AvatarStore::of_user();
+  for (const HostedAvatar& avatar : session_.avatars) {
+    auto chosen = choose_avatar(avatar.choice, store, data_folder() + "/avatars");
+    if (!chosen) return fail(std::string(avatar.guest.view()) + ": " + chosen.error().what);
+    for (const std::string& note : chosen->notes) talk::info("{}: {}", avatar.choice.what, note);
+    avatars_->choose(avatar.guest, *chosen, mono_now());
+  }
+  return {};
 }
 
 Result<void> House::open_producers() {

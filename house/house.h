@@ -17,6 +17,7 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "core/program/message_throttle.h"
+#include "house/house_avatars.h"
 #include "house/house_camera.h"
 #include "house/house_music.h"
 #include "house/house_port.h"
@@ -45,6 +46,7 @@ class House {
  private:
   House(const Session& session, Poller& poller);
   Result<void> open_link();
+  Result<void> open_avatars();
   Result<void> open_producers();
   Result<void> open_consumers();
   void add_talk(LinkHandlers& handlers);
@@ -54,12 +56,14 @@ class House {
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<HousePort> port_;
   std::unique_ptr<PortCaptureSink> captures_;  // of hosted producers
+  std::unique_ptr<LinkAvatars> link_avatars_;
   std::unique_ptr<LinkBus> link_bus_;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Manager> manager_;
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   std::vector<std::unique_ptr<PoseReceiver>> receivers_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
+  std::unique_ptr<HouseAvatars> avatars_;
   std::unique_ptr<HouseMusic> music_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;
   MessageThrottle troubles_;  // of the link

@@ -23,6 +23,8 @@ constexpr const char* kExamples = R"(Examples:
                                                      bob in full, of the others each fourth pose
   dance join dance.example.org --guest alice --camera auto
                                                      alice dances before the first camera
+  dance join dance.example.org --guest alice --avatar me.vrm
+                                                     alice is drawn so, at the others' too
   dance join sessions/alice.toml --no-view           without a window
 )";
 
@@ -33,6 +35,7 @@ struct JoinOptions {
   std::vector<std::string> want;
   std::string bus;
   std::string camera;
+  std::vector<std::string> avatars;
   bool no_view = false;
   bool json = false;
 };
@@ -83,6 +86,14 @@ Result<Session> session_of(const JoinOptions& options) {
       session.cameras.push_back(camera);
     else
       has->device = camera.device;
+  }
+  for (const std::string& text : options.avatars) {
+    AvatarOfGuest wish = parse_avatar_of_guest(text);
+    if (!wish.guest.is_set() && session.guests.empty())
+      return fail("--avatar: who dances? name the guest with --guest");
+    if (!wish.guest.is_set()) wish.guest = session.guests.front();
+    std::erase_if(session.avatars, [&](const auto& it) { return it.guest == wish.guest; });
+    session.avatars.push_back({wish.guest, {wish.what, "", "", 1.0}});
   }
   if (!options.bus.empty()) session.bus = options.bus;
   if (options.no_view) session.view = false;
@@ -148,6 +159,9 @@ int main(int argc, char** argv) {
   line.add("--camera", options.camera,
            "a camera sees the first guest: auto, /dev/videoN, a number or a video; instead of what "
            "the session says");
+  line.add("--avatar", options.avatars,
+           "how the first guest is drawn, instead of what the session says: a file (.vrm, .glb), a "
+           "name that dance avatar list shows, or words of a look; NAME=AVATAR for another guest");
   line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");

@@ -76,12 +76,31 @@ void read_house(TomlReader& reader, const std::filesystem::path& folder, Session
   session.view = reader.bool_or("view", true);
   session.quality_mm = reader.number_or("quality_mm", session.quality_mm, 0.125, 20.0);
   session.pose_bytes_per_second = reader.number_or("pose_bytes_per_second", 0.0, 0.0, 1e6);
+  session.avatar_bytes_per_second =
+      reader.number_or("avatar_bytes_per_second", session.avatar_bytes_per_second, 0.0, 1e7);
   const auto interest = parse_interest(reader.strings("want", "[\"default=4\", \"bob=1\"]"));
   if (interest)
     session.interest = *interest;
   else
     reader.complain("want", interest.error().what);
   reader.finish();
+}
+
+// A file's name is taken from the folder of the session; whether it can be read is told when the
+// house opens.
+void read_avatar_choice(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+  HostedAvatar avatar;
+  avatar.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  const std::string file = read_file_name(reader, "file", folder);
+  avatar.choice.what = reader.string_or("name", "");
+  if (!file.empty() && !avatar.choice.what.empty())
+    reader.complain("name", "an avatar has a file or a name, not both");
+  if (!file.empty()) avatar.choice.what = file.find('/') == std::string::npos ? "./" + file : file;
+  avatar.choice.look = reader.string_or("look", "");
+  avatar.choice.colour = reader.string_or("colour", "");
+  avatar.choice.height = reader.number_or("height", 1.0, 0.25, 4.0);
+  reader.finish();
+  session.avatars.push_back(avatar);
 }
 
 void read_route(TomlReader& reader, Session& session) {
@@ -289,11 +308,11 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
     if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "channel" &&
-        k != "music" && k != "style")
+        k != "music" && k != "style" && k != "avatar")
       return Error{name + ":" + std::to_string(key.source().begin.line) + ":" +
                    std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
                    "' in a session; there are [house], [[route]], [[produce]], "
-                   "[[listen]], [[channel]], [[style]] and [music]"};
+                   "[[listen]], [[channel]], [[avatar]], [[style]] and [music]"};
   }
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
@@ -312,6 +331,9 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   if (!problem)
     problem =
         read_each(document, "channel", name, [&](TomlReader& r) { read_channel(r, session); });
+  if (!problem)
+    problem = read_each(document, "avatar", name,
+                        [&](TomlReader& r) { read_avatar_choice(r, folder, session); });
   const toml::node* music = document.get("music");
   if (problem || !music) return problem;
   if (!music->is_table()) {

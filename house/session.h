@@ -17,6 +17,7 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/pose/style.h"
+#include "house/avatar_choice.h"
 #include "manager/route.h"
 #include "producers/receive/receiver_table.h"
 #include "tunnel/policy/channel_rule.h"
@@ -81,6 +82,12 @@ struct HostedStyle {
   Style style;
 };
 
+// How a guest of this house is drawn.
+struct HostedAvatar {
+  GuestId guest;
+  AvatarChoice choice;
+};
+
 struct Session {
   std::vector<GuestId>
       guests;  // who dances in this house; may be empty (a house that only watches)
@@ -94,13 +101,15 @@ struct Session {
   std::string bus;                     // LCM URL; "" = default
   double quality_mm = 1.0;             // the largest error in a joint at the others'
   double pose_bytes_per_second = 0.0;  // of each guest, at most; 0 = whatever quality_mm takes
-  Interest interest;                   // whom it wants to hear, and how often
-  bool view = true;                    // open the viewer (dance join)
+  double avatar_bytes_per_second = 131'072.0;  // of files of avatars, each way; 0 = none
+  Interest interest;                           // whom it wants to hear, and how often
+  bool view = true;                            // open the viewer (dance join)
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;
   std::vector<HostedReceiver> receivers;
   std::vector<HostedCamera> cameras;
   std::vector<HostedConsumer> consumers;
+  std::vector<HostedAvatar> avatars;
   std::optional<HostedMusic> music;
   std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in

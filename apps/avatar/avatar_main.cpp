@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/avatar/avatar_choose.h"
 #include "apps/avatar/avatar_info.h"
+#include "apps/avatar/avatar_list.h"
 #include "apps/avatar/avatar_make.h"
 
 namespace {
@@ -17,6 +19,9 @@ struct Action {
 };
 
 constexpr std::array kActions{
+    Action{"choose", dance::avatar_choose_main, "says how a guest of this house is drawn"},
+    Action{"list", dance::avatar_list_main,
+           "the avatars on this machine, and who dances with them"},
     Action{"make", dance::avatar_make_main, "an avatar of the project's own design, as a VRM file"},
     Action{"info", dance::avatar_info_main, "what is in a file, and whether it can dance here"},
 };
@@ -33,6 +38,7 @@ void print_help(std::FILE* out) {
                  action.summary.data());
   std::fputs(
       "\ndance avatar ACTION --help tells more.\n\nExamples:\n"
+      "  dance avatar choose alice me.vrm\n"
       "  dance avatar make --out me.vrm --look teo --height 1.9\n"
       "  dance avatar info me.vrm\n",
       out);

@@ -45,6 +45,13 @@ class Link {
   }
   void send_channel(std::string_view name, wire::Bytes message, MonoTime now);
 
+  // Files of avatars: what the link offers and fetches. fetch_file() as LinkFiles::fetch().
+  LinkCore& core() { return core_; }
+  void fetch_file(const GuestId& guest, const FileHash& hash, ChunkedFile begin, MonoTime now) {
+    core_.files().fetch(guest, hash, std::move(begin), now);
+    rearm();
+  }
+
   // As LinkCore does.
   void set_interest(const Interest& interest, MonoTime now);
 

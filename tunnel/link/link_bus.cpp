@@ -28,6 +28,12 @@ LinkHandlers LinkBus::handlers() {
     keep(guest, TimedSkeleton{skeleton, now, clock_id_}, now);
   };
   handlers.on_avatar = keeper<Avatar>();
+  handlers.on_avatar_file = [this, keep = keeper<AvatarFile>()](
+                                const GuestId& guest, const AvatarFile& file, MonoTime now) {
+    keep(guest, file, now);
+    if (avatars_ != nullptr) avatars_->hear(guest, file);
+  };
+  if (avatars_ != nullptr) avatars_->add_to(handlers);
   handlers.on_style = keeper<Style>();
   handlers.on_placement = keeper<Placement>();
   handlers.on_music = publisher<Music>(Where::kRoom);
@@ -71,6 +77,12 @@ void LinkBus::send_signals_of(const GuestId& guest) {
       [this](const Channel& channel, const TimedSkeleton& timed, MonoTime now) {
         link_->send(channel.guest(), timed.skeleton, now);
       });
+  if (avatars_ != nullptr)
+    port_.subscribe<AvatarFile>(
+        {Where::kCapture, guest},
+        [this](const Channel& channel, const AvatarFile& file, MonoTime now) {
+          avatars_->choose(channel.guest(), file, now);
+        });
   send_each<Hands, Music, Scene, Avatar, Style, Placement>(guest);
 }
 
@@ -89,7 +101,10 @@ void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {
   }
 }
 
-void LinkBus::forget(const GuestId& guest) { known_.erase(guest); }
+void LinkBus::forget(const GuestId& guest) {
+  known_.erase(guest);
+  if (avatars_ != nullptr) avatars_->forget(guest);
+}
 
 void LinkBus::publish_traffic(MonoTime now) {
   for (const RemoteGuestStats& guest : link_->remote_stats()) {

@@ -19,6 +19,7 @@
 #include "core/bus/bus.h"
 #include "core/bus/captures.h"
 #include "tunnel/link/link.h"
+#include "tunnel/link/link_avatars.h"
 
 namespace dance {
 
@@ -31,7 +32,12 @@ class LinkBus {
   // What the link is to be opened with; on_state, on_refused and the guests' coming and going are
   // the caller's to add.
   LinkHandlers handlers();
-  void attach(Link& link) { link_ = &link; }
+  void attach(Link& link) {
+    link_ = &link;
+    if (avatars_ != nullptr) avatars_->attach(link);
+  }
+  // Before handlers(): avatars' files are offered and fetched; it must outlive this.
+  void use_avatars(LinkAvatars& avatars) { avatars_ = &avatars; }
   // From now on what is captured and chosen by this guest goes to the link; by everybody where the
   // guest is not set.
   void send_signals_of(const GuestId& guest);
@@ -45,8 +51,8 @@ class LinkBus {
  private:
   // What is known of one guest of another house.
   struct Known {
-    std::tuple<std::optional<TimedSkeleton>, std::optional<Avatar>, std::optional<Style>,
-               std::optional<Placement>>
+    std::tuple<std::optional<TimedSkeleton>, std::optional<Avatar>, std::optional<AvatarFile>,
+               std::optional<Style>, std::optional<Placement>>
         states;
     std::map<std::string, std::vector<std::uint8_t>> channels;  // of class state, by full name
   };
@@ -65,6 +71,7 @@ class LinkBus {
   SignalPort& port_;
   std::uint64_t clock_id_;
   Link* link_ = nullptr;
+  LinkAvatars* avatars_ = nullptr;
   std::map<GuestId, Known> known_;
   std::optional<std::pair<GuestId, Scene>> scene_;
   std::vector<ChannelRule> rules_;

@@ -37,6 +37,7 @@ struct LinkProgramOptions {
   LinkKeySource key;
   double quality_mm = LinkOptions().quality_m * 1e3;
   double pose_bytes_per_second = 0.0;
+  double avatar_bytes_per_second = LinkOptions().file_bytes_per_second;
   std::vector<std::string> want;
   std::vector<std::string> channels;
   bool listen_only = false;
@@ -67,6 +68,7 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
   options.clock_id = this_clock_id();
   options.quality_m = given.quality_mm * 1e-3;
   options.pose_bytes_per_second = given.pose_bytes_per_second;
+  options.file_bytes_per_second = given.avatar_bytes_per_second;
   return options;
 }
 
@@ -112,6 +114,9 @@ Result<void> run_link(const LinkProgramOptions& given) {
   DANCE_TRY(auto bus, Bus::open(bus_url_or_default(given.bus)));
   Captures captures(*bus, options.clock_id);
   LinkBus link_bus(*bus, captures, options.clock_id);
+  LinkAvatars avatars(AvatarStore::of_user(), *poller,
+                      [](const std::string& line) { talk::info("{}", line); });
+  link_bus.use_avatars(avatars);
   LinkHandlers handlers = link_bus.handlers();
   add_talk(handlers, link_bus, given, options.room);
   DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
@@ -165,6 +170,12 @@ int main(int argc, char** argv) {
            "more, joints are off "
            "by up to 5 mm; 0 = whatever --quality takes")
       .range(0.0, 1e6)
+      .shows_default();
+  line.add(
+          "--avatar-rate", options.avatar_bytes_per_second,
+          "bytes a second that files of avatars may take, each way, beside the poses; 0 = none are "
+          "sent or fetched")
+      .range(0.0, 1e7)
       .shows_default();
   line.add("--key-file", options.key.key_file,
            "file of keys to servers (else where dance key keeps them)");

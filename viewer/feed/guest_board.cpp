@@ -153,6 +153,20 @@ void GuestBoard::on_skeleton(const GuestId& guest, const Skeleton& skeleton, Mon
   if (Slot* slot = slot_of(guest, now)) slot->news.skeleton = skeleton;
 }
 
+// Shown with the next pose, as proportions are.
+void GuestBoard::on_avatar(const GuestId& guest, const Avatar& avatar, MonoTime now) {
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr) return;
+  AvatarWish& wish = slot->news.wish;
+  wish.name = avatar.name;
+  wish.colour_rgb = avatar.colour_rgb;
+  wish.height_scale = avatar.height_scale;
+}
+
+void GuestBoard::on_avatar(const GuestId& guest, const AvatarFile& file, MonoTime now) {
+  if (Slot* slot = slot_of(guest, now)) slot->news.wish.file = file.hash;
+}
+
 void GuestBoard::on_beat(const Beat& beat) {
   music_.hear(beat);
   music_latest_.put(music_.clock());

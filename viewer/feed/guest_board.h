@@ -17,6 +17,7 @@
 #include "core/base/latest.h"
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
+#include "core/bus/state_messages.h"
 #include "core/pose/music_here.h"
 #include "viewer/feed/arrival_meter.h"
 #include "viewer/scene/scene.h"
@@ -40,6 +41,7 @@ struct GuestNews {
   Skeleton skeleton = average_skeleton();
   Hands hands;
   MonoTime hands_heard;  // not set: none
+  AvatarWish wish;
   GuestFigures figures;
 };
 
@@ -56,6 +58,8 @@ class GuestBoard {
   void on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
   void on_hands(Where where, const GuestId& guest, const Hands& hands, MonoTime now);
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+  void on_avatar(const GuestId& guest, const Avatar& avatar, MonoTime now);
+  void on_avatar(const GuestId& guest, const AvatarFile& file, MonoTime now);
   void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now);
   void on_beat(const Beat& beat);
 

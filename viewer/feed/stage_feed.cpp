@@ -80,6 +80,17 @@ void StageFeed::subscribe(const FeedOptions& options) {
           instruments_.on_skeleton(channel.guest(), skeleton.skeleton);
         });
   }
+  // Guests of this house choose at the capture; those of others come through the tunnel.
+  for (const Where where : {Where::kCapture, Where::kGuest}) {
+    bus_->subscribe<Avatar>(where,
+                            [this](const Channel& channel, const Avatar& avatar, MonoTime now) {
+                              board_.on_avatar(channel.guest(), avatar, now);
+                            });
+    bus_->subscribe<AvatarFile>(
+        where, [this](const Channel& channel, const AvatarFile& file, MonoTime now) {
+          board_.on_avatar(channel.guest(), file, now);
+        });
+  }
   bus_->subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     board_.on_beat(beat);
     instruments_.on_beat(beat);

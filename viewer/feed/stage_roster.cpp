@@ -56,6 +56,7 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
     guest.pose = known.pose;
     if (known.hands_heard.is_set() && known.heard - known.hands_heard < kHandsHold)
       guest.hands = known.hands;
+    guest.wish = known.wish;
     guest.opacity = opacity;
     guest.figures = known.figures;
     compare_in(known, now, guest);

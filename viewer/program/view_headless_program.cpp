@@ -6,8 +6,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/program/program.h"
 #include "core/program/talk.h"
-#include "viewer/avatar/avatar_library.h"
+#include "viewer/avatar/user_avatars.h"
 #include "viewer/feed/picture_source.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
@@ -243,7 +244,8 @@ class HeadlessRun {
   PictureSource& source_;
   StagePainter& painter_;
   StageRoster roster_;
-  AvatarLibrary avatars_;
+  AvatarLibrary avatars_{
+      avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options_.avatars)};
   InstrumentRecords records_;
   PanelStack panels_;
   ViewDirector director_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/program/program.h"
+#include "viewer/avatar/user_avatars.h"
 #include "viewer/program/view_program.h"
 
 namespace dance {
@@ -22,6 +23,7 @@ Examples:
   dance view --headless --out pictures --seconds 10 --every 0.5 --size 640x360
   dance view --headless --out pictures --seconds 2 --strip 6 --no-hud
   dance view --show capture                          only what this house's cameras see
+  dance view --avatar me.vrm --avatar bob=bob.glb    bob so, all others so
   dance view --log logs/couple.lcm                   a recorded dance, over and over
   dance view --headless --log out/demo/demo.lcm --compare --beats 16,17,18,19 --strip 4
                                                      a recorded demo, on the beats of its music
@@ -35,6 +37,7 @@ struct Wishes {
   bool compare = false;
   bool no_extrapolation = false;
   bool early = false;
+  std::vector<std::string> avatars;
   bool no_hud = false;
   bool no_tags = false;
 };
@@ -91,6 +94,9 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add("--strip", wishes.view.moments.strip,
            "headless: so many moments side by side in stage-strip.png")
       .range(2, 24);
+  line.add("--avatar", wishes.avatars,
+           "a file (.vrm, .glb) that everybody is drawn as, or NAME=FILE for one guest; may be "
+           "repeated");
   line.add("--log", view.log, "a recorded house, from its LCM log; in a window over and over");
   line.add("--beats", view.beats, "headless, with --log: pictures on these beats of the music")
       .split_at(',')
@@ -128,6 +134,10 @@ Result<void> finish(Wishes& wishes) {
   wishes.view.extrapolates = !wishes.no_extrapolation;
   wishes.view.late_latching = !wishes.early;
   if (!wishes.focus.empty()) wishes.view.focus = GuestId::parse(wishes.focus);
+  for (const std::string& text : wishes.avatars) {
+    DANCE_TRY(AvatarOverride avatar, parse_avatar_override(text, data_folder() + "/avatars"));
+    wishes.view.avatars.push_back(std::move(avatar));
+  }
   wishes.view.hud = !wishes.no_hud;
   wishes.view.tags = !wishes.no_tags;
   return {};

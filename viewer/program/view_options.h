@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "viewer/avatar/avatar_library.h"
 #include "viewer/feed/stage_feed.h"
 #include "viewer/view/camera_rig.h"
 #include "viewer/view/view_mode.h"
@@ -55,8 +56,9 @@ struct ViewOptions {
   std::string panel;    // open from the begin: instruments, style, keys; "" = none
   std::string out = ".";
   MomentWish moments;
-  std::string log;            // a recorded house; "" = a live one
-  std::vector<double> beats;  // of its music: they stand for the moments
+  std::vector<AvatarOverride> avatars;  // --avatar
+  std::string log;                      // a recorded house; "" = a live one
+  std::vector<double> beats;            // of its music: they stand for the moments
 };
 
 // The moments of --at, or every so often up to `seconds`, or `strip` moments spread over them, or

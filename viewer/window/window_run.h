@@ -9,7 +9,8 @@
 
 #include <memory>
 
-#include "viewer/avatar/avatar_library.h"
+#include "core/program/program.h"
+#include "viewer/avatar/user_avatars.h"
 #include "viewer/display/display_path.h"
 #include "viewer/display/swap_meter.h"
 #include "viewer/feed/photon_predictor.h"
@@ -81,7 +82,8 @@ class WindowRun {
   PictureSource& source_;
   WindowState state_;
   ViewDirector director_;
-  AvatarLibrary avatars_;
+  AvatarLibrary avatars_{
+      avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options_.avatars)};
   InstrumentRecords records_;
   PanelStack panels_;
   WindowInput input_{state_, director_, panels_};

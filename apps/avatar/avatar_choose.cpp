@@ -1,0 +1,80 @@
+#include "apps/avatar/avatar_choose.h"
+
+#include "apps/bus_program.h"
+#include "core/net/mono_clock.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "house/avatar_choice.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  dance avatar choose alice me.vrm                   from now on, for everybody in the room
+  dance avatar choose alice mannequin --look dress-bun --colour '#e04080'
+  dance avatar choose alice mannequin                as her name makes it
+  dance avatar choose alice me.vrm --stay            said again each second, until Ctrl-C
+A house of dance join keeps the choice until it ends; to keep it longer, write [[avatar]] into the
+session file. Where link and manager run by themselves, --stay tells displays that start later.
+)";
+
+// Each message goes out a few times, as multicast may lose one.
+constexpr int kTimes = 3;
+constexpr Duration kBetween = Duration::ms(40);
+
+struct Options {
+  std::string bus_url;
+  std::string guest;
+  AvatarChoice choice;
+  bool stays = false;
+};
+
+Result<void> choose(const Options& options) {
+  const auto guest = GuestId::parse(options.guest);
+  const AvatarStore store = AvatarStore::of_user();
+  DANCE_TRY(ChosenAvatar chosen, choose_avatar(options.choice, store, data_folder() + "/avatars"));
+  for (const std::string& note : chosen.notes) talk::info("{}: {}", options.choice.what, note);
+  DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
+  chosen.avatar.clock_id = chosen.file.clock_id = this_clock_id();
+  const auto publish = [&] {
+    chosen.avatar.time = chosen.file.time = mono_now();
+    program.bus().publish(Channel::of(Signal::kAvatar, Where::kCapture, *guest), chosen.avatar);
+    program.bus().publish(Channel::of(Signal::kAvatarFile, Where::kCapture, *guest), chosen.file);
+  };
+  publish();
+  if (chosen.file.hash.is_set())
+    talk::info("{} is {}, {:.1f} MB, {}", options.guest, chosen.file.name.view(),
+               chosen.file.size_bytes / 1e6, hex_of(chosen.file.hash).substr(0, 12));
+  else
+    talk::info("{} is {}", options.guest, chosen.avatar.name.view());
+  program.every(options.stays ? Duration::s(1) : kBetween, [&](MonoTime) { publish(); });
+  if (!options.stays) program.stop_after((kBetween * kTimes).as_seconds());
+  program.run();
+  return {};
+}
+
+}  // namespace
+
+int avatar_choose_main(int argc, char** argv) {
+  Options options;
+  CommandLine line("Says how a guest of this house is drawn, here and at the others'.",
+                   "dance avatar choose");
+  line.add("GUEST", options.guest, "whose avatar").required().guest_name();
+  line.add(
+          "AVATAR", options.choice.what,
+          "a file (.vrm or .glb, at most 16 MB), a name that dance avatar list shows, or mannequin")
+      .required();
+  line.add(
+      "--look", options.choice.look,
+      "of the mannequin: words joined by '-', as flared-tail-long; dance avatar list shows them");
+  line.add("--colour", options.choice.colour, "of the mannequin's top, as '#e04080'");
+  line.add("--height", options.choice.height, "how tall, times the dancer's own height")
+      .range(0.25, 4.0)
+      .shows_default();
+  line.add("--bus", options.bus_url, "LCM URL of the house's bus");
+  line.add_flag("--stay", options.stays, "say it again each second, until Ctrl-C");
+  line.footer(kExamples);
+  return run_program(line, argc, argv, [&] { return choose(options); });
+}
+
+}  // namespace dance
