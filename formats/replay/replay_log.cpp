@@ -43,6 +43,8 @@ bool is_shown(const Channel& channel) {
       return channel.where() == Where::kCapture || channel.where() == Where::kStage;
     case Signal::kGuest:
     case Signal::kBeat:
+    case Signal::kAvatar:
+    case Signal::kAvatarFile:
       return true;
     default:
       return false;

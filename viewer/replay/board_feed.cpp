@@ -37,6 +37,12 @@ void BoardFeed::on_message(const Channel& channel, std::span<const std::uint8_t>
     case Signal::kBeat:
       if (Beat beat; read(beat)) board_.on_beat(beat);
       return;
+    case Signal::kAvatar:
+      if (Avatar avatar; read(avatar)) board_.on_avatar(channel.guest(), avatar, now);
+      return;
+    case Signal::kAvatarFile:
+      if (AvatarFile file; read(file)) board_.on_avatar(channel.guest(), file, now);
+      return;
     default:
       return;
   }
