@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/apps/run_program.h"
 
@@ -28,6 +29,12 @@ TEST(AvatarProgram, MakesAFileAndSaysWhatIsInIt) {
   EXPECT_EQ(facts["finger_bones"], 30);
   EXPECT_EQ(facts["has_eyes"], true);
   EXPECT_EQ(facts["pictures"].size(), 2u);
+  const auto expressions = facts["expressions"].get<std::set<std::string>>();
+  for (const char* name : {"blink", "aa", "happy"}) EXPECT_TRUE(expressions.contains(name)) << name;
+  // The two ends of the sash, and the two locks beside the face that come with a bun.
+  EXPECT_EQ(facts["springs"], 4);
+  EXPECT_EQ(facts["colliders"], 7);
+  EXPECT_NE(facts["licence"].get<std::string>().find("publicdomain/zero"), std::string::npos);
   EXPECT_NEAR(facts["height_m"].get<double>(), 1.92, 0.06);
   EXPECT_EQ(facts["bytes"].get<std::size_t>(), std::filesystem::file_size(file));
   const Finished text = run(avatar("info " + file));

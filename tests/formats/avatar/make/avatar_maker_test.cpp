@@ -166,6 +166,51 @@ TEST(AvatarMaker, JointsKeepTheirVolumeAtARightAngle) {
   }
 }
 
+// Round elbows and knees nothing comes much nearer to the limb's axis than it was.
+TEST(AvatarMaker, ElbowsAndKneesStayRoundWhenTheyBend) {
+  const struct {
+    Bone parent, bone, child;
+    AngleAxisf turn;
+  } bends[] = {
+      {Bone::kLeftUpperArm, Bone::kLeftLowerArm, Bone::kLeftHand,
+       AngleAxisf(-1.5708f, Vector3f::UnitY())},
+      {Bone::kRightUpperLeg, Bone::kRightLowerLeg, Bone::kRightFoot,
+       AngleAxisf(1.5708f, Vector3f::UnitX())},
+  };
+  const auto from_segment = [](const Vector3f& p, const Vector3f& a, const Vector3f& b) {
+    const float t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0f, 1.0f);
+    return (p - a - t * (b - a)).norm();
+  };
+  for (const std::string_view name : design_names()) {
+    const AvatarModel& model = made(name);
+    const auto rest_m = [&](Bone bone) -> Vector3f {
+      return -model.joints[static_cast<std::size_t>(model.node_of(bone))]
+                  .node_from_mesh.translation();
+    };
+    for (const auto& [parent, bone, child, turn] : bends) {
+      const std::vector<Vector3f> places = bent(model, bone, turn);
+      const Vector3f above = rest_m(parent);
+      const Vector3f middle = rest_m(bone);
+      const Vector3f below = middle + turn * (rest_m(child) - middle);
+      float least = 1.0f;
+      std::size_t near = 0;
+      for (std::size_t v = 0; v < places.size(); ++v) {
+        const AvatarVertex& vertex = model.vertices[v];
+        const bool is_of_joint = vertex.joints[0] == index_of(bone) ||
+                                 (vertex.weights[1] > 25 && vertex.joints[1] == index_of(bone));
+        if (!is_of_joint || (vertex.place_m - middle).norm() > 0.09f) continue;
+        const float was = from_segment(vertex.place_m, above, rest_m(child));
+        const float is = std::min(from_segment(places[v], above, middle),
+                                  from_segment(places[v], middle, below));
+        least = std::min(least, is / was);
+        ++near;
+      }
+      EXPECT_GT(near, 15u) << name;
+      EXPECT_GT(least, 0.45f) << name << " " << kBones[index_of(bone)].name;
+    }
+  }
+}
+
 const AvatarMorph* morph_of(const AvatarModel& model, const std::string& name) {
   for (const AvatarMorph& morph : model.morphs)
     if (morph.name == name) return &morph;
