@@ -131,8 +131,7 @@ Result<std::vector<Lane>> lanes_of(const BenchViewOptions& options) {
 Result<BenchViewResult> run_bench_view(const BenchViewOptions& options) {
   DANCE_TRY(std::vector<Lane> lanes, lanes_of(options));
   DANCE_TRY(const auto context, OffscreenContext::create());
-  DANCE_TRY(const auto renderer,
-            StageRenderer::create(options.quality));
+  DANCE_TRY(const auto renderer, StageRenderer::create(options.quality));
   const OrbitCamera camera = lanes[1].crowd.camera(static_cast<float>(options.width_px) /
                                                    static_cast<float>(options.height_px));
   MonoTime begun;
