@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "bench/parts/salsa_poses.h"
+#include "bench/view/bench_avatar.h"
 #include "core/net/mono_clock.h"
 #include "formats/avatar/mannequin_model.h"
 #include "formats/body/guest_look.h"
@@ -118,6 +119,10 @@ Result<std::vector<Lane>> lanes_of(const BenchViewOptions& options) {
   lanes.back().crowd.leave();
   lanes.emplace_back("mannequins", crowd);
   lanes.back().crowd.wear_mannequins();
+  if (options.avatar.empty()) return lanes;
+  DANCE_TRY(const auto avatar, read_bench_avatar(options.avatar));
+  lanes.emplace_back("avatars", crowd);
+  lanes.back().crowd.wear(avatar);
   return lanes;
 }
 
@@ -126,8 +131,7 @@ Result<std::vector<Lane>> lanes_of(const BenchViewOptions& options) {
 Result<BenchViewResult> run_bench_view(const BenchViewOptions& options) {
   DANCE_TRY(std::vector<Lane> lanes, lanes_of(options));
   DANCE_TRY(const auto context, OffscreenContext::create());
-  DANCE_TRY(const auto renderer,
-            StageRenderer::create(options.quality));
+  DANCE_TRY(const auto renderer, StageRenderer::create(options.quality));
   const OrbitCamera camera = lanes[1].crowd.camera(static_cast<float>(options.width_px) /
                                                    static_cast<float>(options.height_px));
   MonoTime begun;

@@ -48,12 +48,10 @@ int main(int argc, char** argv) {
   line.add("--guests", bench.guests, "dancers on the stage").range(1, 200).shows_default();
   line.add("--avatar", bench.avatar, "a .glb or .vrm that all of them wear, in a row of its own");
   line.add("--size", wishes.size, "of the pictures").shows_default();
-  line.add_choice<dance::Quality>(
-      "--quality", bench.quality,
-      {{"low", dance::Quality::kLow}, {"high", dance::Quality::kHigh}}, "low or high");
-  line.add("--seconds", bench.seconds, "how long to measure")
-      .range(0.1, 3600.0)
-      .shows_default();
+  line.add_choice<dance::Quality>("--quality", bench.quality,
+                                  {{"low", dance::Quality::kLow}, {"high", dance::Quality::kHigh}},
+                                  "low or high");
+  line.add("--seconds", bench.seconds, "how long to measure").range(0.1, 3600.0).shows_default();
   line.add("--picture", bench.picture, "also writes the last picture, as this PNG file");
   line.add_flag("--json", wishes.is_json, "one JSON object instead of the table");
   line.footer(dance::kExamples);

@@ -30,9 +30,10 @@ nlohmann::ordered_json json_of(const BenchViewRow& row) {
 std::string bench_view_table(const BenchViewOptions& options, const BenchViewResult& result) {
   std::string out;
   const auto back = std::back_inserter(out);
-  fmt::format_to(back, "{} guests, {}x{}, quality {}, on {}\n(ms a picture, with all that the card does)\n\n",
-                 options.guests, options.width_px, options.height_px,
-                 options.quality == Quality::kLow ? "low" : "high", result.renderer);
+  fmt::format_to(
+      back, "{} guests, {}x{}, quality {}, on {}\n(ms a picture, with all that the card does)\n\n",
+      options.guests, options.width_px, options.height_px,
+      options.quality == Quality::kLow ? "low" : "high", result.renderer);
   fmt::format_to(back, "  {:<14}{:>9}{:>9}{:>9}{:>9}{:>11}{:>12}{:>8}{:>9}\n", "", "p50", "p99",
                  "best", "cpu", "pose, load", "triangles", "calls", "frames");
   for (const BenchViewRow& row : result.rows)

@@ -20,6 +20,8 @@ constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 360;
 constexpr float kAspect = 640.0f / 360.0f;
 
+enum class Dress { kMannequins, kNone };
+
 // The OpenGL context is made once for all tests of this program.
 class PictureTest : public testing::Test {
  protected:
@@ -50,16 +52,20 @@ class PictureTest : public testing::Test {
 
   static Picture draw(const SceneState& scene, const OrbitCamera& camera,
                       const OverlayChoice& choice = {false, false},
-                      Quality quality = Quality::kHigh) {
+                      Quality quality = Quality::kHigh, Dress dress = Dress::kMannequins,
+                      const StageLook& look = {}) {
     // Made once for each quality: compiling shaders takes longer than drawing.
     if (!painter_ || painter_->renderer().quality() != quality) make_painter(quality);
-    const auto drawn = painter_->draw(dressed(scene), camera, kWidth_px, kHeight_px, choice);
+    painter_->set_look(look);
+    const auto drawn = painter_->draw(dress == Dress::kNone ? scene : dressed(scene), camera,
+                                      kWidth_px, kHeight_px, choice);
     EXPECT_TRUE(drawn) << drawn.error().what;
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return painter_->read();
   }
   static Picture draw_comparison(const SceneState& scene, const OrbitCamera& camera) {
-    const auto drawn = painter_->draw(compare(dressed(scene)), camera, kWidth_px, kHeight_px, {true, true});
+    const auto drawn =
+        painter_->draw(compare(dressed(scene)), camera, kWidth_px, kHeight_px, {true, true});
     EXPECT_TRUE(drawn) << drawn.error().what;
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return painter_->read();
@@ -303,6 +309,72 @@ TEST_F(PictureTest, KeepsThePlainDrawingCloseToTheFine) {
   double sum = 0.0;
   for (std::size_t i = 0; i < fine.rgb.size(); ++i) sum += std::abs(fine.rgb[i] - plain.rgb[i]);
   EXPECT_LT(sum / static_cast<double>(fine.rgb.size()), 6.0);
+}
+
+// Bends of knees, hips and elbows: the figure's own joints lie on its pixels, and no farther from
+// its outline than a limb is thick.
+TEST_F(PictureTest, HasTheJointsOfADancingCoupleOnItsFigures) {
+  const SceneState scene = dressed(couple());
+  FigurePoser poser;
+  for (const Quality quality : {Quality::kHigh, Quality::kLow}) {
+    const OrbitCamera camera = camera_for(scene, 0.3f);
+    const Picture with = draw(scene, camera, {false, false}, quality);
+    const Picture without = draw(SceneState(), camera, {false, false}, quality);
+    for (const PosedFigure& figure : poser.pose(scene))
+      for (std::size_t b = 0; b < kBoneCount; ++b)
+        EXPECT_GT(change_at(with, without, camera, figure.frames.p_WB_m[b]), 20)
+            << figure.id.view() << "'s " << kBones[b].name;
+  }
+}
+
+TEST_F(PictureTest, ShowsWhereAGuestIsWhoseFigureIsNotReady) {
+  const SceneGuest guest = guest_in_t_pose("alice");
+  const OrbitCamera camera = camera_for(scene_of(guest));
+  const Picture with = draw(scene_of(guest), camera, {false, false}, Quality::kHigh, Dress::kNone);
+  const Picture without = draw(SceneState(), camera);
+  EXPECT_GT(change_at(with, without, camera, Vector3f(0.36f, 0, 0)), 30) << "a ring on the floor";
+  EXPECT_LT(change_at(with, without, camera, Vector3f(0, 1.2f, 0)), 12) << "and nobody in it";
+}
+
+TEST_F(PictureTest, PulsesOnTheBeatWhereMusicPlays) {
+  SceneState scene;
+  const OrbitCamera camera = camera_for(scene_of(guest_in_t_pose("alice")));
+  const Picture silent = draw(scene, camera);
+  const auto brighter_by = [&](double beats) {
+    scene.music = SceneMusic{beats, 2.0, 4};
+    const Picture picture = draw(scene, camera);
+    const auto at = project(camera, Vector3f(0.2f, 0, 0.2f), kWidth_px, kHeight_px);
+    const int x = static_cast<int>(at->x_px), y = static_cast<int>(at->y_px);
+    return brightness(picture.at(x, y)) - brightness(silent.at(x, y));
+  };
+  EXPECT_GT(brighter_by(4.0), brighter_by(5.0));
+  EXPECT_GT(brighter_by(5.0), brighter_by(5.6) + 5);
+  EXPECT_LT(brighter_by(4.0), 150) << "seen beside the dance, and not instead of it";
+}
+
+TEST_F(PictureTest, DrawsTrailsOfHandsOnDemandOnly) {
+  SceneState scene = scene_of(guest_at_ease("alice", Vector3f::Zero(), 0.0f));
+  const OrbitCamera camera = camera_for(scene_of(guest_in_t_pose("alice")));
+  const auto trail_pixels = [&](bool has_trails) {
+    StageLook look;
+    look.trails = has_trails;
+    look.pulse = false;
+    const Vector3f home = scene.guests[0].pose.p_WH_m;
+    Picture with;
+    for (int i = 0; i <= 20; ++i) {
+      scene.time = MonoTime::from_us(1'000'000 + 20'000 * i);
+      scene.guests[0].pose.p_WH_m = home + Vector3f(-0.03f * static_cast<float>(20 - i), 0, 0);
+      with = draw(scene, camera, {false, false}, Quality::kHigh, Dress::kMannequins, look);
+    }
+    scene.guests[0].pose.p_WH_m = home;
+    const Picture plain = draw(scene, camera);
+    int changed = 0;
+    for (int y = 0; y < kHeight_px; ++y)
+      for (int x = 0; x < kWidth_px; ++x) changed += difference(with.at(x, y), plain.at(x, y)) > 25;
+    return changed;
+  };
+  EXPECT_GT(trail_pixels(true), 400);
+  EXPECT_LT(trail_pixels(false), 40);
 }
 
 TEST_F(PictureTest, ChangesSizeWithoutARestart) {

@@ -37,21 +37,9 @@ bool is_complete(const GlFramebuffer& framebuffer) {
 Result<void> PictureTarget::resize(int width_px, int height_px) {
   DANCE_ASSERT(width_px > 0 && height_px > 0, width_px, height_px);
   if (width_px == width_px_ && height_px == height_px_) return {};
-  light_samples_ = GlRenderbuffer::make();
-  glBindRenderbuffer(GL_RENDERBUFFER, light_samples_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA16F, width_px, height_px);
-  depth_samples_ = GlRenderbuffer::make();
-  glBindRenderbuffer(GL_RENDERBUFFER, depth_samples_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, width_px,
-                                   height_px);
-  light_ = GlFramebuffer::make();
-  glBindFramebuffer(GL_FRAMEBUFFER, light_.name());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                            light_samples_.name());
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-                            depth_samples_.name());
   light_texture_ = make_texture(GL_RGBA16F, width_px, height_px);
   resolved_ = framebuffer_of(light_texture_);
+  make_light(width_px, height_px);
   finished_texture_ = make_texture(GL_RGBA8, width_px, height_px);
   finished_ = framebuffer_of(finished_texture_);
   if (!is_complete(light_) || !is_complete(resolved_) || !is_complete(finished_))
@@ -63,12 +51,34 @@ Result<void> PictureTarget::resize(int width_px, int height_px) {
   return {};
 }
 
+void PictureTarget::make_light(int width_px, int height_px) {
+  light_ = GlFramebuffer::make();
+  depth_ = GlRenderbuffer::make();
+  glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, width_px,
+                                   height_px);
+  if (samples_ > 0) {
+    light_samples_ = GlRenderbuffer::make();
+    glBindRenderbuffer(GL_RENDERBUFFER, light_samples_.name());
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA16F, width_px, height_px);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, light_.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+  if (samples_ > 0)
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                              light_samples_.name());
+  else
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           light_texture_.name(), 0);
+}
+
 void PictureTarget::bind_light() const {
   glBindFramebuffer(GL_FRAMEBUFFER, light_.name());
   glViewport(0, 0, width_px_, height_px_);
 }
 
 void PictureTarget::resolve_light() const {
+  if (samples_ == 0) return;  // it was drawn there
   glBindFramebuffer(GL_READ_FRAMEBUFFER, light_.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
   glBlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px_, height_px_, GL_COLOR_BUFFER_BIT,

@@ -27,11 +27,13 @@ class PictureTarget {
   const GlFramebuffer& finished() const { return finished_; }
 
  private:
+  void make_light(int width_px, int height_px);
+
   int samples_;
   int width_px_ = 0;
   int height_px_ = 0;
   GlRenderbuffer light_samples_;
-  GlRenderbuffer depth_samples_;
+  GlRenderbuffer depth_;
   GlFramebuffer light_;
   GlTexture light_texture_;
   GlFramebuffer resolved_;

@@ -13,7 +13,7 @@ using Eigen::Vector3f;
 
 // Triangles of a whole figure; a level is worth it where it has a good deal fewer than the finer
 // one.
-constexpr std::array<double, 5> kTargets{16000.0, 6000.0, 2500.0, 1100.0, 600.0};
+constexpr std::array<double, 5> kTargets{16000.0, 6000.0, 2500.0, 1200.0, 750.0};
 constexpr double kWorthIt = 0.75;
 // How far, as a share of the figure, a surface may come off its place; a coarser level than this
 // allows is made by meshopt_simplifySloppy(), which does not keep holes and seams.

@@ -18,7 +18,7 @@ constexpr std::size_t kMostBytesLow = std::size_t{256} << 20;
 
 // Triangles for a figure so many pixels tall: about one for every so many pixels of its box.
 constexpr double kTrianglesOfPixelHigh = 0.1;
-constexpr double kTrianglesOfPixelLow = 0.012;
+constexpr double kTrianglesOfPixelLow = 0.03;
 constexpr double kTrianglesOfShadowHigh = 1500.0;
 constexpr float kFigureHeight_m = 1.75f;
 constexpr float kNearest_m = 0.2f;
@@ -48,7 +48,7 @@ Result<void> FigureDrawer::take(std::span<const PosedFigure> figures, const Orbi
   group(figures);
   for (const Group& group : shadows_)
     for (const FigureBatch& batch : group.gpu->shape().batches)
-      if (auto linked = programs_.link(batch); !linked) return linked;
+      if (auto linked = programs_.link(batch, group.is_fading); !linked) return linked;
   upload();
   return {};
 }
@@ -74,12 +74,13 @@ void FigureDrawer::choose(std::span<const PosedFigure> figures, const OrbitCamer
     const double of_pixel =
         quality_ == Quality::kHigh ? kTrianglesOfPixelHigh : kTrianglesOfPixelLow;
     figure.level = level_for(figure.gpu->shape(), of_pixel * height * height);
+    figure.is_fading = figures[i].opacity < 1.0f;
     figure.is_eye = look.through_eyes_of == figures[i].id;
     figures_.push_back(figure);
   }
   std::sort(figures_.begin(), figures_.end(), [](const Figure& a, const Figure& b) {
-    return std::tuple(a.gpu, a.is_eye, a.level, a.index) <
-           std::tuple(b.gpu, b.is_eye, b.level, b.index);
+    return std::tuple(a.gpu, a.is_fading, a.is_eye, a.level, a.index) <
+           std::tuple(b.gpu, b.is_fading, b.is_eye, b.level, b.index);
   });
 }
 
@@ -113,7 +114,8 @@ void FigureDrawer::group(std::span<const PosedFigure> figures) {
     if (static_cast<std::size_t>(first + layout.stride) > most_texels_) continue;
     write(figure, layout);
     ++drawn_.figures;
-    Group one{chosen.gpu, chosen.level, chosen.is_eye, false, layout, first, 1, chosen.depth_m};
+    Group one{chosen.gpu, chosen.level,  chosen.is_eye, false, chosen.is_fading, layout, first,
+              1,          chosen.depth_m};
     one.has_morphs = chosen.gpu->has_morphs() &&
                      std::any_of(figure.morph_weights.begin(), figure.morph_weights.end(),
                                  [](float weight) { return weight != 0.0f; });
@@ -122,13 +124,16 @@ void FigureDrawer::group(std::span<const PosedFigure> figures) {
       ++groups.back().count;
       groups.back().has_morphs = groups.back().has_morphs || one.has_morphs;
     };
-    join(shadows_, !shadows_.empty() && shadows_.back().gpu == one.gpu);
-    join(groups_, !groups_.empty() && groups_.back().gpu == one.gpu &&
-                      groups_.back().level == one.level && groups_.back().is_eye == one.is_eye);
+    const auto goes_with = [&](const std::vector<Group>& groups) {
+      return !groups.empty() && groups.back().gpu == one.gpu &&
+             groups.back().is_fading == one.is_fading;
+    };
+    join(shadows_, goes_with(shadows_));
+    join(groups_, goes_with(groups_) && groups_.back().level == one.level &&
+                      groups_.back().is_eye == one.is_eye);
     const auto& batches = one.gpu->shape().batches;
-    if (std::any_of(batches.begin(), batches.end(), [](const FigureBatch& batch) {
-          return batch.alpha_mode == AlphaMode::kBlend;
-        }))
+    if (std::any_of(batches.begin(), batches.end(),
+                    [](const FigureBatch& batch) { return batch.alpha_mode == AlphaMode::kBlend; }))
       blended_.push_back(one);
   }
   std::sort(blended_.begin(), blended_.end(),
@@ -180,7 +185,8 @@ void FigureDrawer::draw_shadows(const Eigen::Matrix4f& light_from_world) {
     const auto& batches = group.gpu->shape().batches;
     for (std::size_t b = 0; b < batches.size(); ++b) {
       if (!is_shown(batches[b], group, false)) continue;
-      const FigureProgram& program = programs_.shadow(FigurePrograms::shadow_index_of(batches[b]));
+      const FigureProgram& program =
+          programs_.shadow(FigurePrograms::shadow_index_of(batches[b], group.is_fading));
       if (&program != current) {
         begin(program);
         set_uniform(program.program, "u_light_from_world", light_from_world);
@@ -208,8 +214,9 @@ void FigureDrawer::draw_solid(const StageLight& light, const Eigen::Matrix4f& cl
       const std::size_t level =
           is_mirror ? std::min(group.level + 1, group.gpu->coarsest()) : group.level;
       for (std::size_t b = 0; b < batches.size(); ++b) {
-        if (batches[b].alpha_mode == AlphaMode::kBlend || !is_shown(batches[b], group, !is_mirror) ||
-            FigurePrograms::index_of(batches[b]) != p)
+        if (batches[b].alpha_mode == AlphaMode::kBlend ||
+            !is_shown(batches[b], group, !is_mirror) ||
+            FigurePrograms::index_of(batches[b], group.is_fading) != p)
           continue;
         if (!is_begun) {
           begin(program);
@@ -241,8 +248,10 @@ void FigureDrawer::draw_blended(const StageLight& light, const Eigen::Matrix4f& 
   for (const Group& group : blended_) {
     const auto& batches = group.gpu->shape().batches;
     for (std::size_t b = 0; b < batches.size(); ++b) {
-      if (batches[b].alpha_mode != AlphaMode::kBlend || !is_shown(batches[b], group, true)) continue;
-      const FigureProgram& program = programs_.lit(FigurePrograms::index_of(batches[b]));
+      if (batches[b].alpha_mode != AlphaMode::kBlend || !is_shown(batches[b], group, true))
+        continue;
+      const FigureProgram& program =
+          programs_.lit(FigurePrograms::index_of(batches[b], group.is_fading));
       begin(program);
       light.use(program.program, eye_W_m);
       set_uniform(program.program, "u_clip_from_world", clip_from_world);

@@ -52,6 +52,7 @@ class FigureDrawer {
     std::size_t index = 0;
     const FigureGpu* gpu = nullptr;
     std::size_t level = 0;
+    bool is_fading = false;
     bool is_eye = false;
     float depth_m = 0.0f;
   };
@@ -64,6 +65,7 @@ class FigureDrawer {
     std::size_t level = 0;
     bool is_eye = false;
     bool has_morphs = false;
+    bool is_fading = false;
     Layout layout;
     int first_texel = 0;
     int count = 0;
@@ -89,9 +91,9 @@ class FigureDrawer {
   std::size_t most_texels_;
   std::vector<Figure> figures_;
   std::vector<std::size_t> waiting_;
-  std::vector<Group> groups_;    // by model and level
-  std::vector<Group> shadows_;   // by model
-  std::vector<Group> blended_;   // of one figure each, from far to near
+  std::vector<Group> groups_;   // by model and level
+  std::vector<Group> shadows_;  // by model
+  std::vector<Group> blended_;  // of one figure each, from far to near
   std::vector<float> texels_;
   DrawnFigures drawn_;
 };

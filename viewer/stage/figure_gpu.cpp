@@ -137,7 +137,8 @@ void FigureGpu::upload_morphs(const FigureMesh& mesh) {
   GLint most_texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_texels);
   // Two texels for each. A card with less room shows a face that does not move.
-  if (mesh.morph_steps.empty() || 2 * mesh.morph_steps.size() > static_cast<std::size_t>(most_texels))
+  if (mesh.morph_steps.empty() ||
+      2 * mesh.morph_steps.size() > static_cast<std::size_t>(most_texels))
     return;
   morph_buffer_ = GlBuffer::make();
   upload(GL_TEXTURE_BUFFER, morph_buffer_, mesh.morph_steps);

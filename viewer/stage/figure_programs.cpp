@@ -7,7 +7,7 @@
 namespace dance {
 namespace {
 
-std::string definitions(const FigureBatch& batch, Quality quality) {
+std::string definitions(const FigureBatch& batch, bool is_fading, Quality quality) {
   const auto define = [](const char* name, int value) {
     return "#define " + std::string(name) + " " + std::to_string(value) + "\n";
   };
@@ -15,7 +15,7 @@ std::string definitions(const FigureBatch& batch, Quality quality) {
   return define("HAS_PICTURE", batch.picture >= 0) +
          define("ALPHA", static_cast<int>(batch.alpha_mode)) +
          define("SHADING", static_cast<int>(batch.shading)) + define("HAS_SAMPLES", is_high) +
-         define("JOINTS_OF_A_VERTEX", is_high ? 4 : 2);
+         define("IS_FADING", is_fading) + define("JOINTS_OF_A_VERTEX", is_high ? 4 : 2);
 }
 
 void find_places(FigureProgram& made) {
@@ -34,26 +34,27 @@ void find_places(FigureProgram& made) {
 
 }  // namespace
 
-std::size_t FigurePrograms::index_of(const FigureBatch& batch) {
-  return 9u * (batch.picture >= 0 ? 1u : 0u) + 3u * static_cast<std::size_t>(batch.alpha_mode) +
-         static_cast<std::size_t>(batch.shading);
+std::size_t FigurePrograms::index_of(const FigureBatch& batch, bool is_fading) {
+  return (is_fading ? 18u : 0u) + 9u * (batch.picture >= 0 ? 1u : 0u) +
+         3u * static_cast<std::size_t>(batch.alpha_mode) + static_cast<std::size_t>(batch.shading);
 }
-std::size_t FigurePrograms::shadow_index_of(const FigureBatch& batch) {
-  if (batch.alpha_mode == AlphaMode::kOpaque) return 0;
-  return 3u * (batch.picture >= 0 ? 1u : 0u) + static_cast<std::size_t>(batch.alpha_mode);
+std::size_t FigurePrograms::shadow_index_of(const FigureBatch& batch, bool is_fading) {
+  const std::size_t first = is_fading ? 6 : 0;
+  if (batch.alpha_mode == AlphaMode::kOpaque) return first;
+  return first + 3u * (batch.picture >= 0 ? 1u : 0u) + static_cast<std::size_t>(batch.alpha_mode);
 }
 
-Result<void> FigurePrograms::link(const FigureBatch& batch) {
+Result<void> FigurePrograms::link(const FigureBatch& batch, bool is_fading) {
   using namespace shaders;
-  const std::string defined = definitions(batch, quality_);
-  FigureProgram& lit = lit_[index_of(batch)];
+  const std::string defined = definitions(batch, is_fading, quality_);
+  FigureProgram& lit = lit_[index_of(batch, is_fading)];
   if (!lit.program) {
     const std::string_view taps = quality_ == Quality::kHigh ? kManyTaps : kFewTaps;
     DANCE_TRY(lit.program, link_program("figure", {defined, kFigureSkin, kFigureVertex},
                                         {defined, taps, kLight, kFigureFragment}));
     find_places(lit);
   }
-  FigureProgram& shadow = shadow_[shadow_index_of(batch)];
+  FigureProgram& shadow = shadow_[shadow_index_of(batch, is_fading)];
   if (!shadow.program) {
     DANCE_TRY(shadow.program,
               link_program("figure's shadow", {defined, kFigureSkin, kFigureShadowVertex},

@@ -29,13 +29,14 @@ class FigurePrograms {
   static constexpr int kPictureUnit = 1;
   static constexpr int kFiguresUnit = 2;
   static constexpr int kMorphsUnit = 3;
-  static constexpr std::size_t kCount = 2 * 3 * 3;
+  static constexpr std::size_t kCount = 2 * 2 * 3 * 3;
 
   explicit FigurePrograms(Quality quality) : quality_(quality) {}
 
-  static std::size_t index_of(const FigureBatch& batch);
-  static std::size_t shadow_index_of(const FigureBatch& batch);
-  Result<void> link(const FigureBatch& batch);
+  // A figure that fades out needs a program of its own: one that leaves out pixels is slower.
+  static std::size_t index_of(const FigureBatch& batch, bool is_fading);
+  static std::size_t shadow_index_of(const FigureBatch& batch, bool is_fading);
+  Result<void> link(const FigureBatch& batch, bool is_fading);
 
   // Linked before.
   const FigureProgram& lit(std::size_t index) const { return lit_[index]; }
@@ -45,7 +46,7 @@ class FigurePrograms {
  private:
   Quality quality_;
   std::array<FigureProgram, kCount> lit_;
-  std::array<FigureProgram, 6> shadow_;
+  std::array<FigureProgram, 2 * 6> shadow_;
 };
 
 }  // namespace dance

@@ -118,7 +118,9 @@ vec3 toon(vec3 base, vec3 shade_, float shift, float toony, vec3 p, vec3 n) {
 }
 
 void main() {
+#if IS_FADING
   if (v_opacity < 1.0 && v_opacity <= threshold(gl_FragCoord.xy)) discard;
+#endif
   Material m = u_materials[v_material];
   vec4 base = m.base;
   vec3 shade_colour = m.shade.rgb;
@@ -184,8 +186,10 @@ in vec2 v_uv;
 flat in int v_material;
 flat in float v_opacity;
 void main() {
+#if IS_FADING || ALPHA == 2
   float t = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
   float solid = v_opacity;
+#endif
 #if ALPHA != 0
   float alpha = u_materials[v_material].base.a;
 #if HAS_PICTURE
@@ -197,7 +201,9 @@ void main() {
   solid *= alpha;
 #endif
 #endif
+#if IS_FADING || ALPHA == 2
   if (solid < 1.0 && solid <= t) discard;
+#endif
 }
 )";
 

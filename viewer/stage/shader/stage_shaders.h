@@ -11,7 +11,7 @@
 namespace dance::shaders {
 
 // Number of shadow taps: paste one of them before kLight.
-inline constexpr std::string_view kFewTaps = "#define SHADOW_TAPS 4\n";
+inline constexpr std::string_view kFewTaps = "#define SHADOW_TAPS 2\n";
 inline constexpr std::string_view kManyTaps = "#define SHADOW_TAPS 16\n";
 
 extern const std::string_view kLight;  // shade(), lit_by_key(), backdrop()
@@ -19,10 +19,10 @@ extern const std::string_view kLight;  // shade(), lit_by_key(), backdrop()
 extern const std::string_view kFigureSkin;
 extern const std::string_view kFigureVertex;  // after kFigureSkin
 // After kLight. Wants HAS_PICTURE (0, 1), ALPHA (0 opaque, 1 mask, 2 blend), SHADING (0 lit,
-// 1 toon, 2 unlit) and HAS_SAMPLES (0, 1).
+// 1 toon, 2 unlit), HAS_SAMPLES and IS_FADING (0, 1).
 extern const std::string_view kFigureFragment;
 extern const std::string_view kFigureShadowVertex;    // after kFigureSkin
-extern const std::string_view kFigureShadowFragment;  // depth only; wants HAS_PICTURE, ALPHA
+extern const std::string_view kFigureShadowFragment;  // wants HAS_PICTURE, ALPHA, IS_FADING
 extern const std::string_view kFloorVertex;
 extern const std::string_view kFloorFragment;  // after kLight; wants IS_PLAIN (0, 1)
 extern const std::string_view kSpotVertex;
