@@ -23,8 +23,8 @@ Quality quality_of(QualityWish wish) {
   return wish == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
 }
 
-// In low-latency mode too swap calls wait where the driver can tear late pictures alone: what they do
-// is found out by looking.
+// In low-latency mode too swap calls wait where the driver can tear late pictures alone: what they
+// do is found out by looking.
 DisplayPath::Options path_options(const ViewOptions& options) {
   DisplayPath::Options path;
   path.is_late_latching = options.late_latching;
