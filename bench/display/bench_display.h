@@ -1,5 +1,5 @@
-// dance bench display: from capture to the display's turn, with poses taken at the beginning of each
-// frame, as the window once did, and taken as late as drawing allows, in one run and by turns.
+// dance bench display: from capture to the display's turn, with poses taken at the beginning of
+// each frame, as the window once did, and taken as late as drawing allows, in one run and by turns.
 //
 // Poses come from another thread at their own rate, through the same board as in the window; they
 // are drawn for real, off screen. The display is a clock: a swap returns at its next turn, as with

@@ -1,5 +1,5 @@
-// dance display eval: what extrapolation to the photon is worth on recorded dances: the error of the
-// pose that is shown some milliseconds after it was captured, against showing it as it came.
+// dance display eval: what extrapolation to the photon is worth on recorded dances: the error of
+// the pose that is shown some milliseconds after it was captured, against showing it as it came.
 //
 // Units/frames: mm, joints and ends of the body in W (root motion counts too).
 // Ownership:    plain values.

@@ -36,7 +36,7 @@ void DisplayPath::begin_learning() {
 }
 
 MonoTime DisplayPath::when_to_take(MonoTime now) {
-  if (!options_.waits_for_display || phase_ == Phase::kOwnPace) {
+  if (phase_ == Phase::kOwnPace) {
     if (!last_taken_.is_set()) return now;
     return std::max(now, last_taken_ + nominal_);
   }
@@ -50,7 +50,7 @@ MonoTime DisplayPath::when_to_take(MonoTime now) {
 MonoTime DisplayPath::photon_time(MonoTime taken) const {
   const Duration latency = options_.latency.value_or(clock_.period() / 2);
   if (phase_ == Phase::kLatched && turn_ > taken) return turn_ + latency;
-  if (!clock_.is_locked() || !options_.waits_for_display) return taken + drawing_ + latency;
+  if (!clock_.is_locked()) return taken + drawing_ + latency;
   return clock_.next_after(taken + drawing_) + latency;
 }
 
@@ -68,7 +68,6 @@ void DisplayPath::on_picture(const PictureTimes& times) {
   note_drawing(times.drawn - times.taken);
   last_taken_ = times.taken;
   if (!phase_since_.is_set()) phase_since_ = times.swapped;
-  if (!options_.waits_for_display) return;
   if (phase_ == Phase::kLatched) judge(times);
   const bool has_waited = times.swapped - times.drawn >= kWaiting;
   if (has_waited) clock_.add(times.swapped);

@@ -30,7 +30,6 @@ class DisplayPath {
  public:
   struct Options {
     bool is_late_latching = true;
-    bool waits_for_display = true;    // what swap calls are asked to do
     std::optional<Duration> latency;  // from the display's turn to light; default half a period
   };
   enum class Phase { kLearning, kLatched, kOwnPace };

@@ -1,5 +1,5 @@
-// SwapMeter: from the capture of a pose to its picture on the screen, over the last seconds, and the
-// share of each stage of the way.
+// SwapMeter: from the capture of a pose to its picture on the screen, over the last seconds, and
+// the share of each stage of the way.
 //
 // Units/frames: MonoTime of this process; poses of other clocks are not given to it.
 // Ownership:    plain value; allocates nothing after construction.

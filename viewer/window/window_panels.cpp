@@ -1,5 +1,6 @@
 #include "viewer/window/window_panels.h"
 
+#include "viewer/instruments/instrument_panel.h"
 #include "viewer/style_panel/style_panel.h"
 #include "viewer/window/help_panel.h"
 #include "viewer/window/window_keys.h"

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "viewer/feed/picture_source.h"
-#include "viewer/instruments/instrument_panel.h"
+#include "viewer/instruments/instrument_records.h"
 #include "viewer/panel/panel_stack.h"
 
 namespace dance {

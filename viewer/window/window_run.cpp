@@ -23,14 +23,12 @@ Quality quality_of(QualityWish wish) {
   return wish == QualityWish::kLow ? Quality::kLow : Quality::kHigh;
 }
 
-DisplayPath::Options path_options(const ViewOptions& options, DisplayMode mode) {
+// In low-latency mode too swap calls wait where the driver can tear late pictures alone: what they
+// do is found out by looking.
+DisplayPath::Options path_options(const ViewOptions& options) {
   DisplayPath::Options path;
   path.is_late_latching = options.late_latching;
   path.latency = options.display_latency;
-  // In low-latency mode swap calls wait only where the driver can tear late pictures alone; what it
-  // does is found out by looking.
-  path.waits_for_display = true;
-  static_cast<void>(mode);
   return path;
 }
 
@@ -56,7 +54,7 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
     : options_(options),
       source_(source),
       director_(options.camera, options.view),
-      path_(Duration::period_of_hz(60.0), path_options(options, options.display)),
+      path_(Duration::period_of_hz(60.0), path_options(options)),
       display_(options.display),
       begun_(mono_now()),
       roster_(source.board()) {
@@ -80,7 +78,7 @@ Result<void> WindowRun::make_painter() {
 void WindowRun::apply_display_mode() {
   display_ = state_.display;
   window_->set_tear_free(display_ == DisplayMode::kTearFree);
-  path_.start_over(Duration::period_of_hz(window_->refresh_hz()), path_options(options_, display_));
+  path_.start_over(Duration::period_of_hz(window_->refresh_hz()), path_options(options_));
 }
 
 bool WindowRun::is_over() const {

@@ -15,7 +15,7 @@
 #include "viewer/display/swap_meter.h"
 #include "viewer/feed/photon_predictor.h"
 #include "viewer/feed/picture_source.h"
-#include "viewer/instruments/instrument_panel.h"
+#include "viewer/instruments/instrument_records.h"
 #include "viewer/stage/stage_painter.h"
 #include "viewer/view/view_director.h"
 #include "viewer/window/view_window.h"

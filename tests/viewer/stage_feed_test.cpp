@@ -1,0 +1,52 @@
+// The viewer's bus thread while the drawing thread waits in a driver, over real LCM.
+
+#include "viewer/feed/stage_feed.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/bus/bus_help.h"
+
+namespace dance {
+namespace {
+
+TEST(StageFeed, HearsEveryPoseWhileTheDrawingThreadIsHeldUpInASwap) {
+  FeedOptions options;
+  options.bus_url = kUrl;
+  auto feed = StageFeed::create(options);
+  ASSERT_TRUE(feed) << feed.error().what;
+  const auto sender = open_bus();
+  const auto listener = open_bus();
+  std::uint32_t shown = 0;
+  listener->subscribe<StageTime>(Where::kView,
+                                 [&](const Channel&, const StageTime&, MonoTime) { ++shown; });
+  // This thread is the drawing one, and takes nothing: a driver has not come back from its swap.
+  constexpr std::uint32_t kPoses = 500;
+  for (std::uint32_t i = 0; i < kPoses; ++i) sender->publish(capture_of("alice"), numbered(i));
+  // The feed's own thread is looked at through what it counts, until nothing more comes.
+  std::uint64_t before = 0;
+  for (int still = 0; still < 40 && (*feed)->board().poses() < kPoses; ++still) {
+    poll(nullptr, 0, 50);
+    if ((*feed)->board().poses() != before) still = 0;
+    before = (*feed)->board().poses();
+  }
+  EXPECT_EQ((*feed)->board().poses(), kPoses);
+  // The swap has come back: of what was reported meanwhile the newest are kept, and nothing waits.
+  for (std::uint32_t i = 0; i < 2000; ++i) (*feed)->report_shown({guest("alice"), StageTime()});
+  (*feed)->wake();
+  drain_until(*listener, [&] { return shown >= 512; });
+  EXPECT_GE(shown, 500u);
+  EXPECT_LE(shown, 2000u);
+  // And the newest pose is there, once.
+  int news = 0;
+  std::uint32_t newest = 0;
+  for (std::size_t i = 0; i < GuestBoard::kMaxGuests; ++i)
+    if (const GuestNews* it = (*feed)->board().take(i)) {
+      ++news;
+      newest = it->pose.sequence;
+    }
+  EXPECT_EQ(news, 1);
+  EXPECT_EQ(newest, kPoses - 1);
+}
+
+}  // namespace
+}  // namespace dance
