@@ -1,5 +1,6 @@
 #include "viewer/instruments/guest_meter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/sequence.h"
@@ -81,7 +82,7 @@ void GuestMeter::on_staged(const Pose& pose, MonoTime heard, const BeatClock& mu
   ++staged_now_;
   last_staged_ = heard;
   Arrival behind{pose.sequence, pose.capture_time, pose.hops};
-  if (has_arrived_) {
+  if (has_arrived_ && !is_pass_through_) {
     behind.capture = newest_.capture;
     for (std::size_t hop = 0; hop <= static_cast<std::size_t>(Hop::kLinkReceived); ++hop)
       behind.hops[hop] = newest_.hops[hop];
@@ -137,6 +138,10 @@ void GuestMeter::on_shown(const StageTime& shown) {
     break;
   }
   newest_ms_.add(ms(shown.swap_time - arrived));
+}
+
+void GuestMeter::on_flow(const FlowSetting& setting) {
+  is_pass_through_ = std::none_of(setting.has.begin(), setting.has.end(), [](bool b) { return b; });
 }
 
 void GuestMeter::on_traffic(const GuestTraffic& traffic) {

@@ -15,6 +15,7 @@
 
 #include "core/base/beat_clock.h"
 #include "core/bus/messages.h"
+#include "core/pose/flow_setting.h"
 #include "core/pose/pose.h"
 #include "viewer/instruments/prediction_check.h"
 #include "viewer/instruments/sample_window.h"
@@ -32,6 +33,8 @@ class GuestMeter {
   // A display showed it.
   void on_shown(const StageTime& shown);
   void on_traffic(const GuestTraffic& traffic);
+  // A route without transformers stages what comes; its poses may be heard before the captures.
+  void on_flow(const FlowSetting& setting);
   void set_body(const Skeleton& skeleton) { predictions_.set_body(skeleton); }
 
   bool is_due(MonoTime now) const;
@@ -66,6 +69,7 @@ class GuestMeter {
   bool has_beats_ = false;
 
   Arrival newest_;
+  bool is_pass_through_ = false;
   bool has_arrived_ = false, has_staged_ = false, has_shown_ = false, is_shown_staged_ = false;
   std::array<Arrival, kStagedKept> staged_;
   std::size_t staged_count_ = 0;

@@ -37,7 +37,10 @@ class InstrumentBoard {
   void on_traffic(const GuestId& guest, const GuestTraffic& traffic) {
     meter_.on_traffic(guest, traffic);
   }
-  void on_flow(const GuestId& guest, const FlowSetting& setting) { flows_.push({guest, setting}); }
+  void on_flow(const GuestId& guest, const FlowSetting& setting) {
+    meter_.on_flow(guest, setting);
+    flows_.push({guest, setting});
+  }
   // Of a recording: any message, as it was; `now` is of the recorded house's clock.
   void on_message(const Channel& channel, const void* data, std::size_t size, MonoTime now);
 

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <array>
 
+#include "viewer/instruments/latency_bar.h"
 #include "viewer/instruments/minute_plot.h"
 
 namespace dance {
 namespace {
 
-constexpr std::array<KeyHelp, 2> kKeys{{{"I", "instruments: where each guest's milliseconds go"},
-                                        {"Tab", "instruments: the next guest's plots"}}};
+constexpr std::array<KeyHelp, 2> kKeys{
+    {{"I", "where each guest's milliseconds go"}, {"Tab", "the next guest's plots"}}};
 
 // The numbers beside the bar; widths in letters' heights.
 struct Column {

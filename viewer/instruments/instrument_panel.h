@@ -9,10 +9,11 @@
 #pragma once
 
 #include "viewer/instruments/instrument_records.h"
-#include "viewer/instruments/latency_bar.h"
 #include "viewer/panel/window_panel.h"
 
 namespace dance {
+
+class PanelInk;
 
 class InstrumentPanel : public WindowPanel {
  public:
@@ -21,6 +22,7 @@ class InstrumentPanel : public WindowPanel {
   void open(bool is_open) { is_open_ = is_open; }
   void choose(const GuestId& guest) { chosen_ = guest; }
 
+  std::string_view title() const override { return "instruments"; }
   std::span<const KeyHelp> keys() const override;
   bool on_key(const KeyPress& press) override;
   void draw(const PanelFrame& frame) override;

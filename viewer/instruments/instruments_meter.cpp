@@ -60,6 +60,10 @@ void InstrumentsMeter::on_shown(const GuestId& guest, const StageTime& shown) {
   if (Slot* slot = find(guest)) slot->meter.on_shown(shown);
 }
 
+void InstrumentsMeter::on_flow(const GuestId& guest, const FlowSetting& setting) {
+  if (Slot* slot = find(guest)) slot->meter.on_flow(setting);
+}
+
 void InstrumentsMeter::on_traffic(const GuestId& guest, const GuestTraffic& traffic) {
   if (Slot* slot = find(guest)) slot->meter.on_traffic(traffic);
 }

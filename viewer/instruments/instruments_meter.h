@@ -26,6 +26,7 @@ class InstrumentsMeter {
   void on_skeleton(const GuestId& guest, const Skeleton& skeleton);
   void on_beat(const Beat& beat) { music_.hear(beat); }
   void on_shown(const GuestId& guest, const StageTime& shown);
+  void on_flow(const GuestId& guest, const FlowSetting& setting);
   void on_traffic(const GuestId& guest, const GuestTraffic& traffic);
 
   // Ten times a second or so: say(guest, stats) for each guest whose second has ended.

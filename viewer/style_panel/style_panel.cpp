@@ -14,8 +14,7 @@ namespace dance {
 namespace {
 
 constexpr std::array<KeyHelp, 2> kKeys{
-    {{"S", "style: how large a guest dances, prediction and rhythm"},
-     {"Tab", "style: the next guest"}}};
+    {{"S", "how large a guest dances, prediction and rhythm"}, {"Tab", "the next guest"}}};
 constexpr float kWidth_em = 25.0f;
 constexpr double kOwnMix = 1.0;  // as `dance style` has it
 

@@ -40,6 +40,7 @@ class StylePanel : public WindowPanel {
   const FlowSetting& setting() const { return flow_.setting(); }
   const std::string& note() const { return note_; }
 
+  std::string_view title() const override { return "style"; }
   std::span<const KeyHelp> keys() const override;
   bool on_key(const KeyPress& press) override;
   void draw(const PanelFrame& frame) override;

@@ -191,6 +191,27 @@ TEST(GuestMeter, TellsAnOwnDancerThatIsShownFromTheCapture) {
   EXPECT_NEAR(stats.newest_p50_ms, 21.0f, 0.01f);
 }
 
+// A house stages own captures before it publishes them: they are heard in that order.
+TEST(GuestMeter, TakesNoPoseOfARouteWithoutTransformersForAPrediction) {
+  GuestMeter meter(kHouseClock);
+  meter.on_flow(FlowSetting());
+  MonoTime now;
+  for (std::uint32_t i = 0; i < 150; ++i) {
+    Pose pose = dance_at(at_ms(5000.0 + kPeriod_ms * i), i);
+    pose.stamp(Hop::kPublished, pose.capture_time + Duration::ms(2));
+    Pose staged = pose;
+    staged.stamp(Hop::kStageTaken, pose.capture_time + Duration::ms(3));
+    staged.stamp(Hop::kStaged, pose.capture_time + Duration::ms(3));
+    now = pose.capture_time + Duration::ms(4);
+    meter.on_staged(staged, now, kNoBeats);
+    meter.on_arrived(pose, now, kNoBeats);
+  }
+  const GuestStats stats = meter.end_second(now);
+  EXPECT_NEAR(stats.gap_p50_ms[static_cast<std::size_t>(Hop::kStageTaken)], 1.0f, 0.01f);
+  EXPECT_TRUE(std::isnan(stats.error_mean_mm));
+  EXPECT_TRUE(std::isnan(stats.horizon_p50_ms));
+}
+
 TEST(GuestMeter, CountsPosesThatNoPictureShowed) {
   GuestMeter meter(kHouseClock);
   MonoTime now = at_ms(5000.0);
