@@ -13,6 +13,7 @@ using Eigen::Vector3f;
 
 constexpr float kMostShoulder_rad = 0.3f;
 constexpr float kMostLean_rad = 0.17f;
+constexpr float kFastestElbow_rad_s = 6.0f;
 // Of what shoulder and back could add if they pointed at their best: contacts are planned with this
 // share.
 constexpr float kCounted = 0.6f;
@@ -123,6 +124,12 @@ float arm_help_m(const FigureFit& fit, std::size_t side) {
 }
 
 void fit_arms(const std::array<std::optional<Vector3f>, 2>& palms_W_m, FigureFit& fit) {
+  if (fit.past)
+    for (std::size_t side = 0; side < 2; ++side) {
+      LimbSide& elbow = fit.past->elbows[side];
+      elbow.is_known = elbow.is_known && fit.past->is_known && palms_W_m[side];
+      elbow.most_turn_rad = kFastestElbow_rad_s * fit.past->passed_s;
+    }
   if (!palms_W_m[0] && !palms_W_m[1]) return;
   std::array<Reach, 2> reaches;
   std::array<Quaternionf, 2> R_WHand;
@@ -139,7 +146,8 @@ void fit_arms(const std::array<std::optional<Vector3f>, 2>& palms_W_m, FigureFit
     const Limb& arm = kArmLimbs[side];
     const float distance = (reaches[side].wrist_W_m - fit.frames.position(arm.upper)).norm();
     const float stretch = std::clamp(distance / arm_reach_m(fit, side), 1.0f, kMostStretch);
-    fit_limb(arm, reaches[side].wrist_W_m, fit.R_W(arm.upper) * hinge_of(arm), stretch, fit.frames);
+    fit_limb(arm, reaches[side].wrist_W_m, fit.R_W(arm.upper) * hinge_of(arm), stretch, fit.frames,
+             fit.past ? &fit.past->elbows[side] : nullptr);
     fit.arm_stretch[side] = stretch;
     fit.frames.R_WB[index_of(arm.end)] = R_WHand[side];
   }

@@ -9,6 +9,7 @@
 
 #include <array>
 
+#include "viewer/figure/limb_fit.h"
 #include "viewer/figure/rig/avatar_rig.h"
 
 namespace dance {
@@ -19,6 +20,7 @@ constexpr std::array<Limb, 2> kLegLimbs{kLeftLeg, kRightLeg};
 // What contacts keep of a figure from picture to picture.
 struct ContactPast {
   std::array<Eigen::Vector3f, 2> corrections_W_m{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+  std::array<LimbSide, 2> elbows;
   float passed_s = 0.0f;
   bool is_known = false;
 };

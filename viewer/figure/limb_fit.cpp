@@ -13,6 +13,7 @@ constexpr float kShortest_m = 1e-4f;
 // What a nearly straight limb bends about is mostly its hinge; sines of the bend.
 constexpr float kHingeCounts = 0.05f;
 constexpr float kMostOverstretch = 0.3f;
+constexpr float kTurnsAlong = 0.5f;
 
 // The angle between sides a and b of a triangle whose third side is c.
 float corner_rad(float a, float b, float c) {
@@ -30,6 +31,33 @@ Quaternionf short_turn(const Vector3f& from, const Vector3f& to) {
   return Quaternionf(w, axis.x(), axis.y(), axis.z()).normalized();
 }
 
+// A bone's direction, and the hinge as near to the normal as it is at right angles to it.
+Eigen::Matrix3f frame_of(const Vector3f& bone, const Vector3f& normal) {
+  Eigen::Matrix3f frame;
+  frame.col(0) = bone.normalized();
+  frame.col(2) = (normal - frame.col(0) * frame.col(0).dot(normal)).normalized();
+  frame.col(1) = frame.col(2).cross(frame.col(0));
+  return frame;
+}
+
+// `side` as far as it may have turned since the last picture.
+Vector3f limited(const Vector3f& side, const Vector3f& danced, const Vector3f& along,
+                 LimbSide& past) {
+  Vector3f shown = side;
+  const Vector3f before = past.shown_W - along * along.dot(past.shown_W);
+  if (past.is_known && before.norm() > 1e-3f) {
+    const Vector3f from = before.normalized();
+    const float angle = std::atan2(along.dot(from.cross(side)), from.dot(side));
+    const float most =
+        past.most_turn_rad + std::acos(std::clamp(danced.dot(past.danced_W), -1.0f, 1.0f));
+    if (std::abs(angle) > most) shown = Eigen::AngleAxisf(std::copysign(most, angle), along) * from;
+  }
+  past.shown_W = shown;
+  past.danced_W = danced;
+  past.is_known = true;
+  return shown;
+}
+
 }  // namespace
 
 Vector3f hinge_of(const Limb& limb) {
@@ -39,7 +67,7 @@ Vector3f hinge_of(const Limb& limb) {
 }
 
 float fit_limb(const Limb& limb, const Vector3f& target_W_m, const Vector3f& hinge_W, float stretch,
-               BodyFrames& frames) {
+               BodyFrames& frames, LimbSide* past) {
   const std::size_t upper = index_of(limb.upper), lower = index_of(limb.lower),
                     end = index_of(limb.end);
   const Vector3f root = frames.p_WB_m[upper];
@@ -71,19 +99,28 @@ float fit_limb(const Limb& limb, const Vector3f& target_W_m, const Vector3f& hin
   normal -= reach_was * (reach_was.dot(normal) / (was * was));
   if (normal.squaredNorm() < 1e-8f) normal = reach_was.unitOrthogonal();
 
-  // Along the line to where the end was, the first bone leaves it by the corner at the root.
-  const Vector3f line = reach_was / was;
+  // The side on which the middle joint lies: mostly as it is in W (elbows that point down go on to),
+  // and as far as the line to the end is turned along with it, as one of the two always has a
+  // direction.
+  const Vector3f line = reach_was / was, along = to_target / wanted;
   normal.normalize();
+  const Vector3f side_was = line.cross(normal);
+  Vector3f side = side_was + kTurnsAlong * (short_turn(line, along) * side_was);
+  side -= along * along.dot(side);
+  if (side.squaredNorm() < 1e-8f) side = along.unitOrthogonal();
+  side.normalize();
+  if (past != nullptr) side = limited(side, side_was, along, *past);
+  const Vector3f normal_now = side.cross(along);
   const float corner = corner_rad(a, distance, b);
-  const Vector3f bent_first = a * (std::cos(corner) * line - std::sin(corner) * normal.cross(line));
-  const Vector3f bent_second = distance * line - bent_first;
-  const Quaternionf bend_first = short_turn(first / a, bent_first / a);
-  const Quaternionf bend_second = short_turn(second / b, bent_second.normalized());
-  const Quaternionf swing = short_turn(line, to_target / wanted);
-  frames.R_WB[upper] = (swing * bend_first * frames.R_WB[upper]).normalized();
-  frames.R_WB[lower] = (swing * bend_second * frames.R_WB[lower]).normalized();
-  frames.p_WB_m[lower] = root + swing * bent_first;
-  frames.p_WB_m[end] = frames.p_WB_m[lower] + swing * bent_second;
+  const Vector3f first_now = a * (std::cos(corner) * along + std::sin(corner) * side);
+  const Vector3f second_now = distance * along - first_now;
+  const auto turn = [&](const Vector3f& from, const Vector3f& to) {
+    return Quaternionf(frame_of(to, normal_now) * frame_of(from, normal).transpose());
+  };
+  frames.R_WB[upper] = (turn(first, first_now) * frames.R_WB[upper]).normalized();
+  frames.R_WB[lower] = (turn(second, second_now) * frames.R_WB[lower]).normalized();
+  frames.p_WB_m[lower] = root + first_now;
+  frames.p_WB_m[end] = frames.p_WB_m[lower] + second_now;
   return (target_W_m - frames.p_WB_m[end]).norm();
 }
 

@@ -1,6 +1,5 @@
-// Brings the end of an arm or a leg to a place: the elbow or knee bends about the axis it bends
-// about already, then the limb as a whole turns the shortest way. So it keeps its side and its
-// twist as danced, and a small change of the place is a small change of the limb.
+// Brings the end of an arm or a leg to a place: elbow or knee stay on the side on which they are as
+// danced, and both bones keep their roll about themselves seen from the plane the limb lies in.
 //
 // Units/frames: metres in W.
 // Ownership:    changes the limb's two bones and the place of its end in `frames`; no allocation.
@@ -19,10 +18,19 @@ constexpr float kStraightLimb = 0.998f;
 // changes ever faster.
 constexpr float kFoldedLimb = 0.27f;
 
+// On which side the middle joint was in the last picture: it turns to another no faster than
+// most_turn_rad a picture, besides what the dance turns it.
+struct LimbSide {
+  Eigen::Vector3f shown_W = Eigen::Vector3f::Zero();
+  Eigen::Vector3f danced_W = Eigen::Vector3f::Zero();
+  float most_turn_rad = 0.0f;
+  bool is_known = false;
+};
+
 // `hinge_W`: the axis about which the limb bends where it is straight. `stretch` lengthens both
 // bones.
 float fit_limb(const Limb& limb, const Eigen::Vector3f& target_W_m, const Eigen::Vector3f& hinge_W,
-               float stretch, BodyFrames& frames);
+               float stretch, BodyFrames& frames, LimbSide* past = nullptr);
 
 // The hinge as it is in T-pose: elbows bend forward, knees backward.
 Eigen::Vector3f hinge_of(const Limb& limb);
