@@ -14,8 +14,8 @@ namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
-  dance avatar list                                  those that ship, those kept, and the guests here
-  dance avatar list --seconds 0                      without listening to the bus
+  dance avatar list                          those that ship, those kept, and who dances here
+  dance avatar list --seconds 0              without listening to the bus
 )";
 
 struct Options {

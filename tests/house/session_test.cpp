@@ -36,6 +36,31 @@ TEST(Session, ReadsAWholeHouse) {
   EXPECT_EQ(session->consumers[0].options.file, "/home/alice/out.csv");
 }
 
+TEST(Session, SaysHowGuestsAreDrawn) {
+  const auto session =
+      parse_session(std::string(kHouse) +
+                        "avatar_bytes_per_second = 0\n"
+                        "[[avatar]]\nguest = \"alice\"\nfile = \"me.vrm\"\nheight = 1.1\n"
+                        "[[avatar]]\nguest = \"ann\"\nlook = \"dress-bun\"\ncolour = \"#e04080\"\n"
+                        "[[avatar]]\nguest = \"bob\"\nname = \"marisol\"\n",
+                    "/home/alice/s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  EXPECT_EQ(session->avatar_bytes_per_second, 0.0);
+  ASSERT_EQ(session->avatars.size(), 3u);
+  EXPECT_EQ(session->avatars[0].guest.view(), "alice");
+  EXPECT_EQ(session->avatars[0].choice.what, "/home/alice/me.vrm");
+  EXPECT_EQ(session->avatars[0].choice.height, 1.1);
+  EXPECT_EQ(session->avatars[1].choice.look, "dress-bun");
+  EXPECT_EQ(session->avatars[2].choice.what, "marisol");
+  const std::string avatar = std::string(kHouse) + "[[avatar]]\nguest = \"alice\"\n";
+  EXPECT_NE(error_of(avatar + "file = \"a.vrm\"\nname = \"b\"\n").find("not both"),
+            std::string::npos);
+  EXPECT_NE(error_of(avatar + "height = 9.0\n").find("height"), std::string::npos);
+  EXPECT_NE(error_of(avatar + "hieght = 1.0\n").find("hieght"), std::string::npos);
+  EXPECT_NE(error_of(std::string(kHouse) + "[[avatar]]\nfile = \"a.vrm\"\n").find("guest"),
+            std::string::npos);
+}
+
 TEST(Session, NamesTheCameraOfADancer) {
   const auto session = parse_session(
       std::string(kHouse) +

@@ -84,6 +84,18 @@ void write_tunnel(const std::filesystem::path& root) {
   scene.b->link->send(guest("bob"), Avatar(), tunnel.time_in(*scene.b));
   scene.b->link->send(guest("bob"), Style(), tunnel.time_in(*scene.b));
   scene.b->link->send(guest("bob"), Placement(), tunnel.time_in(*scene.b));
+  AvatarFile file;
+  file.hash.bytes.fill(7);
+  file.size_bytes = 3000;
+  scene.b->link->files().offer(guest("bob"), file.hash,
+                               std::make_shared<const std::vector<std::uint8_t>>(3000, 9));
+  scene.b->link->send(guest("bob"), file, tunnel.time_in(*scene.b));
+  for (auto* house : {scene.a, scene.b}) {
+    FileHash other = file.hash;
+    if (house == scene.b) other.bytes[0] = 1;  // refused
+    house->link->files().fetch(guest(house == scene.a ? "bob" : "alice"), other, ChunkedFile(3000),
+                               tunnel.time_in(*house));
+  }
   for (int i = 0; i < 3; ++i) {
     for (auto* house : {scene.a, scene.b}) {
       house->link->send_channel("LIGHT/desk", light_message(), tunnel.time_in(*house));

@@ -47,6 +47,7 @@ class Link {
 
   // Files of avatars: what the link offers and fetches. fetch_file() as LinkFiles::fetch().
   LinkCore& core() { return core_; }
+  const LinkCore& core() const { return core_; }
   void fetch_file(const GuestId& guest, const FileHash& hash, ChunkedFile begin, MonoTime now) {
     core_.files().fetch(guest, hash, std::move(begin), now);
     rearm();

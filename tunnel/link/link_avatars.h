@@ -50,6 +50,12 @@ class LinkAvatars {
 
  private:
   using Work = std::function<void()>;
+  struct Own {
+    AvatarFile file;
+    bool is_loading = false;
+    bool is_offered = false;
+    bool is_told = false;  // that it is not here
+  };
 
   void run();
   void in_thread(Work work);
@@ -66,12 +72,6 @@ class LinkAvatars {
   Poller& poller_;
   Tell tell_;
   Link* link_ = nullptr;
-  struct Own {
-    AvatarFile file;
-    bool is_loading = false;
-    bool is_offered = false;
-    bool is_told = false;  // that it is not here
-  };
   std::map<GuestId, Own> own_;
   std::map<GuestId, AvatarFile> heard_;
   int wake_fd_ = -1;

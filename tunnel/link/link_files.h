@@ -1,6 +1,6 @@
 // Files of avatars, both ways: chunks of this house's to who asks for them, and those of the
-// others' that this house wants. What goes out waits while records do, and goes only with a server that has
-// said that it knows files: others never see these datagrams but for a few tries.
+// others' that this house wants. What goes out waits while records do, and goes only with a server
+// that has said that it knows files: others never see these datagrams but for a few tries.
 //
 // Units/frames: now is MonoTime of this house's clock.
 // Ownership:    refers to the link's context; shares the bytes of what it offers.

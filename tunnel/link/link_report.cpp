@@ -32,6 +32,16 @@ std::string link_report_json(const Link& link) {
   const auto per_second = [&](std::uint64_t n) { return static_cast<double>(n) / seconds; };
   const LinkCounters& c = link.counters();
   const SealClientCounters& seal = link.seal_counters();
+  const FileReceiverCounters& taken = link.core().files().received();
+  const FileSenderCounters& given = link.core().files().sent();
+  const ordered_json files{{"chunks_sent", given.chunks_sent},
+                           {"chunks_sent_again", given.chunks_again},
+                           {"chunks_taken", taken.chunks_taken},
+                           {"chunks_asked_again", taken.chunks_again},
+                           {"chunks_foreign", taken.chunks_foreign},
+                           {"whole", taken.files_whole},
+                           {"wrong", taken.files_wrong},
+                           {"refused", taken.files_refused}};
   const ordered_json report{{"offered", c.poses_offered},
                             {"sent", c.poses_sent},
                             {"repeated", c.poses_repeated},
@@ -79,6 +89,7 @@ std::string link_report_json(const Link& link) {
                             {"reconnects", c.reconnects},
                             {"round_trip_us", link.clock().newest_round_trip().count_us()},
                             {"clock_offset_us", link.clock().offset().count_us()},
+                            {"files", files},
                             {"guests", guests},
                             {"own", own}};
   return report.dump();

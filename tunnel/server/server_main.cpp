@@ -32,6 +32,7 @@ struct ServerProgramOptions {
   std::string bind = "127.0.0.1";
   std::uint16_t port = kDefaultServerPort;
   ServerLimits limits;
+  std::size_t avatar_memory_mb = ServerLimits().file_bytes >> 20;
   std::string key_file;
   KeyCommand keys;
   SealCertificates certificates;
@@ -60,6 +61,9 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
           {"records_repeated", c.records_repeated},
           {"states_in", c.states_in},
           {"states_out", c.states_out},
+          {"file_chunks_in", c.file_chunks_in},
+          {"file_chunks_out", c.file_chunks_out},
+          {"file_refusals", c.file_refusals},
           {"datagrams_acked", c.datagrams_acked},
           {"key_frames_wanted", c.key_frames_wanted},
           {"key_frames_asked", c.key_frames_asked},
@@ -144,6 +148,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
   DANCE_TRY(Address local, Address::resolve(options.bind, options.port));
   ServerOptions of;
   of.limits = options.limits;
+  of.limits.file_bytes = options.avatar_memory_mb << 20;
   if (options.share_ms >= 0.0) of.limits.share_window = Duration::seconds(options.share_ms * 1e-3);
   of.keys = keys.ring();
   DANCE_TRY(of.certificates, certificates_of(options));
@@ -209,6 +214,10 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--max-sessions", options.limits.sessions, "links at a time")
       .range(1, 10'000)
+      .shows_default();
+  line.add("--avatar-memory", options.avatar_memory_mb,
+           "megabytes of memory for files of avatars, while their guests are here; 0 = none pass")
+      .range(0, 4096)
       .shows_default();
   line.add("--max-rooms", options.limits.rooms, "rooms at a time").range(1, 10'000).shows_default();
   line.add("--max-guests", options.limits.guests_per_room, "guests in a room")

@@ -56,7 +56,7 @@ struct ServerLimits {
   double state_change_burst = 60.0;
   // Files of avatars, kept while their room lives: in all (0 = none, as a server of before), and of
   // the guests of one session.
-  std::size_t file_bytes = std::size_t{256} << 20;
+  std::size_t file_bytes = std::size_t{128} << 20;
   std::size_t file_bytes_per_session = std::size_t{32} << 20;
   // That go out: to all together, and to one session.
   double file_bytes_per_second = 8e6;
