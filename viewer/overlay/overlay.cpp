@@ -159,7 +159,9 @@ void Overlay::draw_frames(std::span<const StageCell> cells, int width_px, int he
   const auto width = static_cast<float>(width_px);
   const auto height = static_cast<float>(height_px);
   if (choice.whole != nullptr) {
-    draw_notes(*choice.whole, height);
+    const PanelFrame frame{*choice.whole, width, height, scale_, tag_font_, hud_font_};
+    draw_notes(*choice.whole,
+               height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
     draw_panels(choice.panels, *choice.whole, width, height);
   }
   end_frame();

@@ -6,6 +6,7 @@
 #include "core/program/program.h"
 #include "viewer/avatar/user_avatars.h"
 #include "viewer/program/view_program.h"
+#include "viewer/replay/replay_export.h"
 
 namespace dance {
 namespace {
@@ -24,8 +25,9 @@ Examples:
   dance view --headless --out pictures --seconds 2 --strip 6 --no-hud
   dance view --show capture                          only what this house's cameras see
   dance view --avatar me.vrm --avatar bob=bob.glb    bob so, all others so
-  dance view --log logs/couple.lcm                   a recorded dance, over and over
-  dance view --headless --log out/demo/demo.lcm --compare --beats 16,17,18,19 --strip 4
+  dance view logs/couple.lcm                         a recorded dance, with a timeline
+  dance view logs/couple.lcm --export couple.mp4 --from 0.5 --to 2.5
+  dance view --headless out/demo/demo.lcm --compare --beats 16,17,18,19 --strip 4
                                                      a recorded demo, on the beats of its music
 )";
 
@@ -42,8 +44,24 @@ struct Wishes {
   bool no_tags = false;
 };
 
+void add_replay_options(CommandLine& line, Wishes& wishes) {
+  ViewOptions& view = wishes.view;
+  line.add("log,--log", view.log, "a recorded house, from its LCM log; else this house, live");
+  line.add("--export", view.export_to,
+           "write this range of the log, without a window: FILE.bvh, FILE.glb, FOLDER/ of "
+           "pictures, FILE.mp4, .webm or .mkv");
+  line.add("--from", view.export_from_s, "where the export begins, in seconds from the start")
+      .range(0.0, 864000.0);
+  line.add("--to", view.export_until_s, "where it ends; the end of the log unless said")
+      .range(0.001, 864000.0);
+  line.add("--hz", view.export_hz,
+           "its frames a second: 60 of motion and 30 of pictures unless said")
+      .range(1.0, 480.0);
+}
+
 void add_options(CommandLine& line, Wishes& wishes) {
   ViewOptions& view = wishes.view;
+  add_replay_options(line, wishes);
   line.add("--bus", view.feed.bus_url, "LCM URL of the house's bus");
   line.add_choice<Shown>("--show", view.feed.shown,
                          {{"best", Shown::kBest},
@@ -79,8 +97,12 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");
   line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
   line.add_choice<std::string>(
-      "--panel", view.panel, {{"instruments", "instruments"}, {"style", "style"}, {"keys", "keys"}},
-      "open this panel: instruments, style or keys");
+      "--panel", view.panel,
+      {{"instruments", "instruments"},
+       {"style", "style"},
+       {"keys", "keys"},
+       {"timeline", "timeline"}},
+      "open this panel: instruments, style or keys; headless, with a log: timeline");
   line.add("--session", view.session, "the session file of this house, for what panels save");
   line.add("--out", view.out, "directory of the pictures").shows_default();
   line.add("--seconds", wishes.view.moments.seconds,
@@ -97,12 +119,11 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add("--avatar", wishes.avatars,
            "a file (.vrm, .glb) that everybody is drawn as, or NAME=FILE for one guest; may be "
            "repeated");
-  line.add("--log", view.log, "a recorded house, from its LCM log; in a window over and over");
-  line.add("--beats", view.beats, "headless, with --log: pictures on these beats of the music")
+  line.add("--beats", view.beats, "headless, of a log: pictures on these beats of the music")
       .split_at(',')
       .range(-1'000'000.0, 1'000'000.0);
   line.add_flag("--film", wishes.view.moments.film,
-                "headless, with --log: every picture of a film, 25 a second, as 0001.png …");
+                "headless, of a log: every picture of a film, 25 a second, as 0001.png …");
   line.add_flag("--compare", wishes.compare, "the same as --view compare");
   line.add_choice<DisplayMode>(
       "--display", view.display,
@@ -123,8 +144,18 @@ Result<void> finish(Wishes& wishes) {
   DANCE_TRY(wishes.view.size, parse_size(wishes.size));
   if (auto planned = plan_moments(wishes.view.moments); !planned)
     return tl::make_unexpected(planned.error());
+  if (!wishes.view.export_to.empty()) {
+    if (wishes.view.log.empty()) return fail("--export needs a log: dance view LOG --export FILE");
+    if (auto kind = export_kind(wishes.view.export_to); !kind)
+      return tl::make_unexpected(kind.error());
+    if (wishes.view.export_until_s > 0.0 && wishes.view.export_until_s <= wishes.view.export_from_s)
+      return fail("--to is not after --from; let the range end after it begins");
+    wishes.view.headless = true;
+  }
+  if (wishes.view.panel == "timeline" && wishes.view.log.empty())
+    return fail("--panel timeline needs a log: dance view LOG");
   if (wishes.view.log.empty() && (wishes.view.moments.film || !wishes.view.beats.empty()))
-    return fail("--film and --beats need a recorded house: name it with --log");
+    return fail("--film and --beats need a recorded house: dance view LOG");
   if (wishes.compare && wishes.view.view != ViewMode::kOrbit &&
       wishes.view.view != ViewMode::kCompare)
     return fail("--compare is --view compare; give one view");
@@ -153,6 +184,7 @@ int main(int argc, char** argv) {
   dance::add_options(line, wishes);
   line.finally([&] { return dance::finish(wishes); });
   return dance::run_program(line, argc, argv, [&] {
+    if (!wishes.view.export_to.empty()) return dance::run_export(wishes.view);
     return wishes.view.headless ? dance::run_headless(wishes.view) : dance::run_window(wishes.view);
   });
 }

@@ -58,7 +58,11 @@ struct ViewOptions {
   MomentWish moments;
   std::vector<AvatarOverride> avatars;  // --avatar
   std::string log;                      // a recorded house; "" = a live one
-  std::vector<double> beats;            // of its music: they stand for the moments
+  std::string export_to;                // a file or folder; "" = none
+  double export_from_s = 0.0;
+  double export_until_s = 0.0;  // 0 = the end
+  double export_hz = 0.0;       // 0 = as usual for its kind
+  std::vector<double> beats;    // of its music: they stand for the moments
 };
 
 // The moments of --at, or every so often up to `seconds`, or `strip` moments spread over them, or

@@ -12,6 +12,8 @@ namespace dance {
 
 // Until the window is closed or a signal comes.
 Result<void> run_window(const ViewOptions& options);
+// Writes the range of a recording that the options name, and says what.
+Result<void> run_export(const ViewOptions& options);
 // Prints the name of each picture on stdout. An Error when no pose was received.
 Result<void> run_headless(const ViewOptions& options);
 

@@ -202,7 +202,8 @@ class Checkpoints {
       if (reached_us_ - kept.reached_us < ReplayIndex::kLeadIn.count_us()) return;
       const bool is_enough =
           std::all_of(first.left_out.begin(), first.left_out.end(), [&](const auto& each) {
-            return board_.beat_samples_of(each.first.first, each.first.second) >= each.second + BeatMeter::kSamples;
+            return board_.beat_samples_of(each.first.first, each.first.second) >=
+                   each.second + BeatMeter::kSamples;
           });
       kept.state = std::move(is_enough ? first.bare : first.full);
       pending_.pop_front();

@@ -11,7 +11,7 @@
 namespace dance {
 namespace {
 
-constexpr double kUsual_hz = 60.0;
+constexpr double kUsualMotion_hz = 60.0;
 // Poses that come closer together are one.
 constexpr Duration kLook = Duration::ms(4);
 constexpr int kLooksInStep = 100;
@@ -54,7 +54,8 @@ class MotionExport : public ReplayExport {
   }
 
   Result<void> write() {
-    ClipsTogether together = clips_together(recording_, wish_.hz > 0.0 ? wish_.hz : kUsual_hz);
+    ClipsTogether together =
+        clips_together(recording_, wish_.hz > 0.0 ? wish_.hz : kUsualMotion_hz);
     if (together.clips.empty())
       return fail(wish_.path + ": nobody dances in this range; choose another");
     std::size_t frames = 0;

@@ -11,7 +11,7 @@
 namespace dance {
 namespace {
 
-constexpr double kUsual_hz = 30.0;
+constexpr double kUsualPictures_hz = 30.0;
 constexpr std::int64_t kMostPictures = 1'000'000;
 
 class PictureExport : public ReplayExport {
@@ -21,7 +21,7 @@ class PictureExport : public ReplayExport {
         wish_(wish),
         source_(std::move(source)),
         paint_(std::move(paint)),
-        hz_(wish.hz > 0.0 ? wish.hz : kUsual_hz) {
+        hz_(wish.hz > 0.0 ? wish.hz : kUsualPictures_hz) {
     // The moment of the end is not shown any more, as the next range may begin with it.
     const double frames = (wish.to - wish.from).as_seconds() * hz_ - 1e-6;
     count_ =
@@ -72,7 +72,7 @@ class PictureExport : public ReplayExport {
  private:
   bool is_video() const { return wish_.kind == ExportKind::kVideo; }
   std::string file_of(std::int64_t i) const {
-    std::array<char, 24> name{};
+    std::array<char, 40> name{};
     std::snprintf(name.data(), name.size(), "%06lld.png", static_cast<long long>(i + 1));
     return (std::filesystem::path(wish_.path) / name.data()).string();
   }

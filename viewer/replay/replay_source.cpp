@@ -83,7 +83,7 @@ Result<void> ReplaySource::take(Result<IndexedLog> indexed) {
   if (!indexed->note.empty()) talk::warn("{}", indexed->note);
   index_ = std::make_shared<const ReplayIndex>(std::move(indexed->index));
   board_.clear(index_->clock_id);
-  instruments_ = std::make_unique<InstrumentBoard>(index_->clock_id);
+  instruments_.emplace(index_->clock_id);
   auto feed = ReplayFeed::open(path_, index_, board_);
   if (!feed) return tl::make_unexpected(feed.error());
   feed_.emplace(std::move(*feed));
@@ -94,8 +94,8 @@ Result<void> ReplaySource::take(Result<IndexedLog> indexed) {
 // What is measured over time is measured anew after a jump.
 void ReplaySource::show(MonoTime moment) {
   const std::uint32_t epoch = board_.epoch();
-  feed_->show(moment, instruments_.get());
-  if (board_.epoch() != epoch) instruments_ = std::make_unique<InstrumentBoard>(index_->clock_id);
+  feed_->show(moment, &*instruments_);
+  if (board_.epoch() != epoch) instruments_.emplace(index_->clock_id);
 }
 
 MonoTime ReplaySource::begin() const { return is_window_ ? kPersonBegin : index_->begin; }
@@ -103,6 +103,8 @@ MonoTime ReplaySource::begin() const { return is_window_ ? kPersonBegin : index_
 MonoTime ReplaySource::wait_until(MonoTime moment) {
   if (!is_window_) {
     show(moment);
+    player_->set_playing(false);
+    player_->go_to(moment);
     is_over_ = moment > index_->end;
     return moment;
   }

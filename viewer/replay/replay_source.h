@@ -55,7 +55,8 @@ class ReplaySource final : public PictureSource {
   bool stage_only_;
   bool is_window_;
   GuestBoard board_;
-  std::unique_ptr<InstrumentBoard> instruments_ = std::make_unique<InstrumentBoard>(0);
+  // Made anew in its place, as panels refer to it.
+  std::optional<InstrumentBoard> instruments_{std::in_place, 0};
   std::shared_ptr<const ReplayIndex> index_;
   std::optional<ReplayFeed> feed_;
   std::unique_ptr<ReplayPlayer> player_;

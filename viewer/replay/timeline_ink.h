@@ -7,6 +7,8 @@
 // Failure:      none.
 #pragma once
 
+#include <algorithm>
+
 #include "viewer/instruments/panel_ink.h"
 #include "viewer/replay/timeline_panel.h"
 
@@ -38,9 +40,38 @@ enum class Icon {
   kExport,
 };
 
-inline float ImGuiEm(const PanelFrame& frame) {
+inline float letter_height(const PanelFrame& frame) {
   return frame.small_font != nullptr ? frame.small_font->FontSize : 14.0f * frame.scale;
 }
+
+constexpr std::size_t kMostRows = 6;  // of guests
+
+// Where things are, from the top: what can be done, the bar, a row for each guest, times.
+struct TimelinePanel::Box {
+  Box(const PanelFrame& frame, float em, std::size_t guests) {
+    const float margin = 0.8f * em;
+    rows = std::min(guests, kMostRows);
+    has_more = guests > kMostRows;
+    row = 1.15f * em;
+    const float rows_height = row * static_cast<float>(rows + (has_more ? 1 : 0));
+    const float height = 0.6f * em + 2.0f * em + 2.6f * em + rows_height + 1.6f * em + 0.3f * em;
+    left = margin;
+    right = frame.width_px - margin;
+    bottom = frame.height_px - margin;
+    top = bottom - height;
+    bar_left = left + std::min(9.0f * em, 0.2f * (right - left));
+    bar_right = right - 1.2f * em;
+    controls = top + 0.6f * em;
+    bar = controls + 2.2f * em;
+    bar_bottom = bar + 2.2f * em;
+    guest_rows = bar_bottom + 0.25f * em;
+    times = guest_rows + rows_height + 0.2f * em;
+  }
+  float left, right, top, bottom, bar_left, bar_right, controls, bar, bar_bottom, guest_rows, row,
+      times;
+  std::size_t rows = 0;
+  bool has_more = false;
+};
 
 struct TimelinePanel::Ink : PanelInk {
   void panel(ImVec2 low, ImVec2 high) const {

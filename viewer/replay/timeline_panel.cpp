@@ -28,42 +28,14 @@ constexpr std::array<KeyHelp, 11> kKeys{{
     {"wheel", "over the timeline: a shorter or longer part of it"},
 }};
 constexpr Duration kJump = Duration::s(5);
-constexpr std::size_t kMostRows = 6;
 
 }  // namespace
-
-// Where things are, from the top: what can be done, the bar, a row for each guest, times.
-struct TimelinePanel::Box {
-  Box(const PanelFrame& frame, float em, std::size_t guests) {
-    const float margin = 0.8f * em;
-    rows = std::min(guests, kMostRows);
-    has_more = guests > kMostRows;
-    row = 1.15f * em;
-    const float rows_height = row * static_cast<float>(rows + (has_more ? 1 : 0));
-    const float height = 0.6f * em + 2.0f * em + 2.6f * em + rows_height + 1.6f * em + 0.3f * em;
-    left = margin;
-    right = frame.width_px - margin;
-    bottom = frame.height_px - margin;
-    top = bottom - height;
-    bar_left = left + std::min(9.0f * em, 0.2f * (right - left));
-    bar_right = right - 1.2f * em;
-    controls = top + 0.6f * em;
-    bar = controls + 2.2f * em;
-    bar_bottom = bar + 2.2f * em;
-    guest_rows = bar_bottom + 0.25f * em;
-    times = guest_rows + rows_height + 0.2f * em;
-  }
-  float left, right, top, bottom, bar_left, bar_right, controls, bar, bar_bottom, guest_rows, row,
-      times;
-  std::size_t rows = 0;
-  bool has_more = false;
-};
 
 std::span<const KeyHelp> TimelinePanel::keys() const { return kKeys; }
 
 float TimelinePanel::bottom_px(const PanelFrame& frame) const {
   const std::size_t guests = source_.index() ? source_.index()->guests.size() : 0;
-  return frame.height_px - Box(frame, ImGuiEm(frame), guests).top;
+  return frame.height_px - Box(frame, letter_height(frame), guests).top;
 }
 
 bool TimelinePanel::on_key(const KeyPress& press) {
@@ -138,7 +110,7 @@ bool TimelinePanel::on_export_key(int key) {
 
 void TimelinePanel::draw(const PanelFrame& frame) {
   const std::size_t guests = source_.index() ? source_.index()->guests.size() : 0;
-  const float em = ImGuiEm(frame);
+  const float em = letter_height(frame);
   const Box box(frame, em, guests);
   // A window of Dear ImGui's, so that it has the mouse where it is, and the camera elsewhere.
   ImGui::SetNextWindowPos({box.left, box.top});

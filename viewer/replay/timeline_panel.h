@@ -34,6 +34,7 @@ class TimelinePanel : public WindowPanel {
   explicit TimelinePanel(ReplaySource& source, Exporting exporting = {})
       : source_(source), exporting_(std::move(exporting)) {}
 
+  std::string_view title() const override { return "Recording"; }
   std::span<const KeyHelp> keys() const override;
   bool on_key(const KeyPress& press) override;
   void draw(const PanelFrame& frame) override;

@@ -23,6 +23,12 @@ std::vector<PixelBox> grid_boxes(std::size_t n, int width_px, int height_px);
 
 class GridView {
  public:
+  GridView() = default;
+  // A copy looks from where this one does, and makes cells of its own with its next update().
+  GridView(const GridView& o)
+      : couples_(o.couples_), turned_(o.turned_), raised_(o.raised_), zoomed_(o.zoomed_) {}
+  GridView& operator=(const GridView&) = delete;
+
   // All cameras turn and zoom together.
   void drag_orbit(float right, float up);
   void zoom(float notches);

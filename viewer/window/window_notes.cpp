@@ -26,7 +26,9 @@ std::string display_words(const DisplayNews& news) {
 
 void write_stage_notes(const ViewOptions& options, const std::string& house,
                        const std::string& view_words, bool focus_was_here, SceneState& scene) {
-  if (scene.guests.empty())
+  if (scene.guests.empty() && !options.log.empty())
+    scene.notes.push_back("nobody is on the stage at this moment of " + house);
+  else if (scene.guests.empty())
     scene.notes.push_back("nobody is on the stage of " + house +
                           " yet; bring dancers with: dance salsa, or dance replay FILE");
   else if (options.focus && !focus_was_here)

@@ -23,6 +23,9 @@ Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
   style->open(options.panel == "style");
   if (options.focus) style->choose(*options.focus);
   panels.add(std::move(style));
+  ReplaySource* replay = needs.source.replay();
+  if (replay != nullptr && (!options.headless || options.panel == "timeline"))
+    panels.add(std::make_unique<TimelinePanel>(*replay, needs.exporting));
   auto help = std::make_unique<HelpPanel>(panels, window_key_groups());
   if (options.panel == "keys") help->open();
   panels.add(std::move(help));

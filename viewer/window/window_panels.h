@@ -8,6 +8,7 @@
 #include "viewer/feed/picture_source.h"
 #include "viewer/instruments/instrument_records.h"
 #include "viewer/panel/panel_stack.h"
+#include "viewer/replay/timeline_panel.h"
 
 namespace dance {
 
@@ -16,6 +17,7 @@ struct PanelNeeds {
   const ViewOptions& options;
   PictureSource& source;
   InstrumentRecords& records;
+  TimelinePanel::Exporting exporting;  // of a recording
 };
 
 // The first hears keys first; the last is drawn in front.

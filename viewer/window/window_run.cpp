@@ -44,7 +44,9 @@ Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
     talk::info("{}", run->painter_->overlay().font_note());
   if (options.quality == QualityWish::kAuto && run->painter_->renderer().quality() == Quality::kLow)
     talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
-  if (auto added = add_panels({options, source, run->records_}, run->panels_); !added)
+  if (auto added =
+          add_panels({options, source, run->records_, run->export_.for_timeline()}, run->panels_);
+      !added)
     return tl::make_unexpected(added.error());
   run->apply_display_mode();
   return run;
@@ -143,7 +145,7 @@ void WindowRun::take_poses(MonoTime now) {
   scene_.shows_trails = state_.shows_trails;
   predictor_.observe(roster_.fresh());
   // A recorded stage is shown as it was; so are the halves of a comparison.
-  const bool is_live = source_.recorded() == Duration();
+  const bool is_live = source_.replay() == nullptr;
   if (is_live && state_.extrapolates && director_.mode() != ViewMode::kCompare)
     predictor_.predict(path_.photon_time(now), scene_);
 }
@@ -195,9 +197,10 @@ Result<void> WindowRun::show(ViewWindow::Size size) {
   times.taken = mono_now();
   take_poses(times.taken);
   choose_guest();
-  const Duration since_last =
-      last_house_time_.is_set() ? scene_.time - last_house_time_ : Duration();
-  last_house_time_ = scene_.time;
+  // Cameras go on while a recording is paused, or jumps.
+  const Duration since_last = last_picture_.is_set() ? times.taken - last_picture_ : Duration();
+  last_picture_ = times.taken;
+  export_.step({size.width_px, size.height_px}, *painter_);
   if (auto drawn = draw(size, since_last); !drawn) {
     // A driver that has lost its context refuses everything.
     if (window_->is_context_lost()) return renew_after_loss();
@@ -218,7 +221,7 @@ void WindowRun::report(const PictureTimes& times) {
   rate_.on_picture(times.swapped);
   for (const StageRoster::Fresh& fresh : roster_.fresh())
     if (fresh.pose.clock_id == this_clock_id() && fresh.pose.capture_time.is_set() &&
-        source_.recorded() == Duration())
+        source_.replay() == nullptr)
       meter_.add(fresh.pose.capture_time, fresh.heard, times);
   source_.report_shown(roster_.fresh(), times.swapped);
 }

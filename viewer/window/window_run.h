@@ -19,6 +19,7 @@
 #include "viewer/stage/stage_painter.h"
 #include "viewer/view/view_director.h"
 #include "viewer/window/view_window.h"
+#include "viewer/window/window_export.h"
 #include "viewer/window/window_input.h"
 #include "viewer/window/window_notes.h"
 #include "viewer/window/window_state.h"
@@ -96,9 +97,10 @@ class WindowRun {
   MonoTime figures_since_;
   PictureRate rate_;
   MonoTime begun_;
-  MonoTime last_house_time_;
   StageRoster roster_;
   PhotonPredictor predictor_;
+  WindowExport export_{options_, source_, director_, avatars_};
+  MonoTime last_picture_;
   SceneState scene_;
   bool focus_was_here_ = false;
   int contexts_lost_ = 0;
