@@ -16,7 +16,7 @@ TinyAvatar with_material(const json& material) {
   TinyAvatar avatar;
   json primitive = avatar.square();
   primitive["material"] = 0;
-  avatar.json["materials"] = {material};
+  avatar.json["materials"] = json::array({material});
   avatar.add_mesh(primitive);
   return avatar;
 }
