@@ -10,14 +10,14 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr int kHalvings = 13;
-constexpr float kFurthest_m = 0.2f;
+constexpr int kEdgeHalvings = 13;
+constexpr float kFurthestEdge_m = 0.2f;
 
 float radius_m(const FigureLayer& layer, const Vector3f& axis_m, const Vector3f& direction) {
   if (signed_distance_m(layer, axis_m) > 0.0f) return 0.0f;
   float inside_m = 0.0f;
-  float outside_m = kFurthest_m;
-  for (int i = 0; i < kHalvings; ++i) {
+  float outside_m = kFurthestEdge_m;
+  for (int i = 0; i < kEdgeHalvings; ++i) {
     const float r = 0.5f * (inside_m + outside_m);
     (signed_distance_m(layer, axis_m + r * direction) < 0.0f ? inside_m : outside_m) = r;
   }
@@ -31,7 +31,7 @@ Vector3f edge_m(const Opening& opening, const Vector3f& direction) {
   const auto axis_m = [&](float share) -> Vector3f {
     return opening.begin_m + share * (opening.end_m - opening.begin_m);
   };
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kEdgeHalvings; ++i) {
     const float share = 0.5f * (covered + bare);
     const bool is_covered = radius_m(opening.cloth, axis_m(share), direction) >
                             radius_m(opening.skin, axis_m(share), direction);
