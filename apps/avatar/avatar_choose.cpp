@@ -9,7 +9,7 @@
 namespace dance {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kChooseExamples = R"(Examples:
   dance avatar choose alice me.vrm                   from now on, for everybody in the room
   dance avatar choose alice mannequin --look dress-bun --colour '#e04080'
   dance avatar choose alice mannequin                as her name makes it
@@ -19,17 +19,17 @@ session file. Where link and manager run by themselves, --stay tells displays th
 )";
 
 // Each message goes out a few times, as multicast may lose one.
-constexpr int kTimes = 3;
+constexpr int kTimesSaid = 3;
 constexpr Duration kBetween = Duration::ms(40);
 
-struct Options {
+struct ChooseOptions {
   std::string bus_url;
   std::string guest;
   AvatarChoice choice;
   bool stays = false;
 };
 
-Result<void> choose(const Options& options) {
+Result<void> choose_for_guest(const ChooseOptions& options) {
   const auto guest = GuestId::parse(options.guest);
   const AvatarStore store = AvatarStore::of_user();
   DANCE_TRY(ChosenAvatar chosen, choose_avatar(options.choice, store, data_folder() + "/avatars"));
@@ -48,7 +48,7 @@ Result<void> choose(const Options& options) {
   else
     talk::info("{} is {}", options.guest, chosen.avatar.name.view());
   program.every(options.stays ? Duration::s(1) : kBetween, [&](MonoTime) { publish(); });
-  if (!options.stays) program.stop_after((kBetween * kTimes).as_seconds());
+  if (!options.stays) program.stop_after((kBetween * kTimesSaid).as_seconds());
   program.run();
   return {};
 }
@@ -56,7 +56,7 @@ Result<void> choose(const Options& options) {
 }  // namespace
 
 int avatar_choose_main(int argc, char** argv) {
-  Options options;
+  ChooseOptions options;
   CommandLine line("Says how a guest of this house is drawn, here and at the others'.",
                    "dance avatar choose");
   line.add("GUEST", options.guest, "whose avatar").required().guest_name();
@@ -73,8 +73,8 @@ int avatar_choose_main(int argc, char** argv) {
       .shows_default();
   line.add("--bus", options.bus_url, "LCM URL of the house's bus");
   line.add_flag("--stay", options.stays, "say it again each second, until Ctrl-C");
-  line.footer(kExamples);
-  return run_program(line, argc, argv, [&] { return choose(options); });
+  line.footer(kChooseExamples);
+  return run_program(line, argc, argv, [&] { return choose_for_guest(options); });
 }
 
 }  // namespace dance

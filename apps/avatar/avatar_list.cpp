@@ -13,12 +13,12 @@
 namespace dance {
 namespace {
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kListExamples = R"(Examples:
   dance avatar list                          those that ship, those kept, and who dances here
   dance avatar list --seconds 0              without listening to the bus
 )";
 
-struct Options {
+struct ListOptions {
   std::string bus_url;
   double seconds = 1.5;
   bool json = false;
@@ -29,7 +29,7 @@ struct Guests {
   std::map<GuestId, AvatarFile> files;
 };
 
-Result<Guests> listen(const Options& options) {
+Result<Guests> listen_to_guests(const ListOptions& options) {
   Guests guests;
   if (options.seconds <= 0.0) return guests;
   DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
@@ -72,7 +72,7 @@ std::string called(const Guests& guests, const FileHash& hash) {
 }
 
 // One row: kind, what it is called, size, who.
-nlohmann::ordered_json rows(const Guests& guests, const std::string& shipped_folder) {
+nlohmann::ordered_json avatar_rows(const Guests& guests, const std::string& shipped_folder) {
   auto all = nlohmann::ordered_json::array();
   std::error_code error;
   for (const std::string& name : shipped_avatars(shipped_folder)) {
@@ -101,7 +101,7 @@ nlohmann::ordered_json rows(const Guests& guests, const std::string& shipped_fol
   return all;
 }
 
-void print(const nlohmann::ordered_json& all) {
+void print_rows(const nlohmann::ordered_json& all) {
   std::printf("%-10s %-24s %9s  %-12s  %s\n", "kind", "name", "MB", "sha256", "guests");
   for (const auto& row : all) {
     std::string guests;
@@ -116,20 +116,20 @@ void print(const nlohmann::ordered_json& all) {
   std::printf("mannequin, with words of a look joined by '-': %s\n", look_names().c_str());
 }
 
-Result<void> list(const Options& options) {
-  DANCE_TRY(const Guests guests, listen(options));
-  const auto all = rows(guests, data_folder() + "/avatars");
+Result<void> list_avatars(const ListOptions& options) {
+  DANCE_TRY(const Guests guests, listen_to_guests(options));
+  const auto all = avatar_rows(guests, data_folder() + "/avatars");
   if (options.json)
     std::printf("%s\n", all.dump(2).c_str());
   else
-    print(all);
+    print_rows(all);
   return {};
 }
 
 }  // namespace
 
 int avatar_list_main(int argc, char** argv) {
-  Options options;
+  ListOptions options;
   CommandLine line("Lists the avatars on this machine and who dances with them.",
                    "dance avatar list");
   line.add("--bus", options.bus_url, "LCM URL of the house's bus");
@@ -137,8 +137,8 @@ int avatar_list_main(int argc, char** argv) {
       .range(0.0, 3600.0)
       .shows_default();
   line.add_flag("--json", options.json, "as JSON");
-  line.footer(kExamples);
-  return run_program(line, argc, argv, [&] { return list(options); });
+  line.footer(kListExamples);
+  return run_program(line, argc, argv, [&] { return list_avatars(options); });
 }
 
 }  // namespace dance
