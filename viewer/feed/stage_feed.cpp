@@ -113,6 +113,11 @@ void StageFeed::measure(const FeedOptions& options) {
       Where::kGuest, [this](const Channel& channel, const GuestTraffic& traffic, MonoTime) {
         instruments_.on_traffic(channel.guest(), traffic);
       });
+  // Where nothing is swapped here, as in pictures for files, what another display of the house did.
+  bus_->subscribe<StageTime>(Where::kView,
+                             [this](const Channel& channel, const StageTime& shown, MonoTime) {
+                               if (shown_count_ == 0) instruments_.on_shown(channel.guest(), shown);
+                             });
   bus_->subscribe<FlowSetting>(
       Where::kStage, [this](const Channel& channel, const FlowSetting& setting, MonoTime) {
         instruments_.on_flow(channel.guest(), setting);

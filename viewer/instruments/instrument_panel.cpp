@@ -41,7 +41,7 @@ constexpr std::array<Column, 11> kColumns{{
 constexpr std::array<MinutePlot, 8> kPlots{{
     {"way to the screen", "%.0f ms", [](const S& s) { return s.newest_p50_ms; },
      [](const S& s) { return s.newest_p99_ms; }, "p99", 50.0f},
-    {"age of what is shown", "%.0f ms", [](const S& s) { return s.age_p50_ms; },
+    {"age as shown", "%.0f ms", [](const S& s) { return s.age_p50_ms; },
      [](const S& s) { return s.age_p99_ms; }, "p99", 20.0f, true},
     {"jitter", "%.1f ms", [](const S& s) { return s.jitter_ms; }, nullptr, "", 5.0f},
     {"loss", "%.1f %%", [](const S& s) { return s.loss_percent; }, nullptr, "", 2.0f},
@@ -58,14 +58,16 @@ constexpr float kMost_px = 1e5f;
 }  // namespace
 
 struct InstrumentPanel::Layout {
-  Layout(const PanelFrame& frame, const PanelInk& ink, std::size_t guests) {
+  Layout(const PanelFrame& frame, const PanelInk& ink, std::span<const GuestRecord> records) {
+    const std::size_t guests = records.size();
     const float em = ink.em();
     row = 1.3f * em;
     margin = 0.7f * em;
     float numbers = 0.0f;
     for (const Column& column : kColumns) numbers += column.width_em * em;
-    // Twenty-four letters, as wide as most are.
-    name = 13.2f * em;
+    name = 6.0f * em;
+    for (const GuestRecord& record : records)
+      name = std::max(name, ink.width_of(record.guest().c_str()) + 0.7f * em);
     const float room = frame.width_px - 4.0f * margin;
     const float plots_least = 17.0f * em;
     const float bar_usual = 14.0f * em;
@@ -204,7 +206,7 @@ void InstrumentPanel::draw(const PanelFrame& frame) {
                                       ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav;
   PanelInk measure(*ImGui::GetBackgroundDrawList(), *frame.small_font);
-  Layout layout(frame, measure, records_.guests().size());
+  Layout layout(frame, measure, records_.guests());
   const float em = measure.em();
   // Once to know its height, outside of all pictures.
   measure.list().PushClipRect({-kMost_px, -kMost_px}, {-kMost_px + 1.0f, -kMost_px + 1.0f});

@@ -61,15 +61,15 @@ void draw_latency_bar(const PanelInk& ink, const GuestStats& stats, const BarBox
 }
 
 void draw_bar_ticks(const PanelInk& ink, const BarBox& box, float scale_ms) {
-  constexpr int kTicks = 2;
-  for (int i = 0; i <= kTicks; ++i) {
-    const float share = static_cast<float>(i) / kTicks;
+  const int ticks = box.right - box.left > 9.0f * ink.em() ? 2 : 1;
+  for (int i = 0; i <= ticks; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(ticks);
     char words[24];
-    std::snprintf(words, sizeof words, i == kTicks ? "%.0f ms" : "%.0f",
+    std::snprintf(words, sizeof words, i == ticks ? "%.0f ms" : "%.0f",
                   static_cast<double>(share * scale_ms));
     const float x = box.left + share * (box.right - box.left);
     const float width = ink.width_of(words);
-    const float begin = i == 0 ? x : i == kTicks ? x - width : x - 0.5f * width;
+    const float begin = i == 0 ? x : i == ticks ? x - width : x - 0.5f * width;
     ink.left(begin, box.top, kDim, words);
   }
 }

@@ -21,7 +21,7 @@ constexpr ImU32 ink_of(unsigned rgb, unsigned alpha = 255) {
 constexpr ImU32 kBright = ink_of(0xf4f5f9);
 constexpr ImU32 kDim = ink_of(0xa7adbd);
 constexpr ImU32 kFaint = ink_of(0xffffff, 34);
-constexpr ImU32 kPaper = ink_of(0x0d1018, 244);
+constexpr ImU32 kPaper = ink_of(0x0d1018, 251);
 constexpr ImU32 kChosen = ink_of(0x3d6fb5, 120);
 constexpr ImU32 kWarning = ink_of(0xffb454);
 

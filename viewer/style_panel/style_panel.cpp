@@ -239,8 +239,10 @@ void StylePanel::draw(const PanelFrame& frame) {
     last_height_px_ = std::min(most, ImGui::GetCursorPosY() + 0.5f * em);
     list.ChannelsSetCurrent(0);
     const ImVec2 low = ImGui::GetWindowPos();
-    list.AddRectFilled(low, {low.x + width, low.y + last_height_px_}, IM_COL32(13, 16, 24, 244),
+    list.PushClipRectFullScreen();
+    list.AddRectFilled(low, {low.x + width, low.y + last_height_px_}, IM_COL32(13, 16, 24, 251),
                        0.5f * em);
+    list.PopClipRect();
     list.ChannelsMerge();
   }
   ImGui::End();
