@@ -1,5 +1,5 @@
-// The file in which a log's index is kept: beside the log, or where its folder cannot be written, in
-// the user's cache.
+// The file in which a log's index is kept: beside the log, or where its folder cannot be written,
+// in the user's cache.
 //
 // Units/frames: none.
 // Ownership:    nothing stays.

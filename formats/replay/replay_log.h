@@ -60,7 +60,8 @@ class ReplayLog {
   std::uint64_t next_at_bytes() const { return reader_.next_at_bytes(); }
   std::uint64_t needed_from_bytes(std::int64_t now_us) const;
 
-  // Tells the next event of any channel of ours, unpacked, if it is not later than until_us; false when there is none.
+  // Tells the next event of any channel of ours, unpacked, if it is not later than until_us; false
+  // when there is none.
   bool step(std::int64_t until_us, ReplaySink& sink);
   // Tells what came from at_bytes up to until_us, the first later one excepted, so that each
   // guest's last pose and its hands are whole; step() goes on from there.

@@ -44,7 +44,7 @@ class HeadlessRun {
   }
 
   Result<void> run() {
-    if (auto added = add_panels({options_, source_, records_}, panels_); !added) return added;
+    if (auto added = add_panels({options_, source_, records_, {}}, panels_); !added) return added;
     DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
     auto drawn = options_.moments.film ? film() : pictures(moments);
     if (drawn && options_.focus && !focus_was_here_)
