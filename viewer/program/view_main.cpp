@@ -91,7 +91,7 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_choice<QualityWish>(
       "--quality", view.quality,
       {{"auto", QualityWish::kAuto}, {"low", QualityWish::kLow}, {"high", QualityWish::kHigh}},
-      "auto, low (no antialiasing, mirror image or fingers) or high");
+      "auto, low (no antialiasing or mirror images, coarser figures) or high");
   line.add("--size", wishes.size, "of window or pictures").shows_default();
   line.add_flag("--no-hud", wishes.no_hud, "without the figures");
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");

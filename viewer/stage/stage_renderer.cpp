@@ -15,6 +15,8 @@ namespace {
 constexpr int kSamples = 4;
 // Around the guests there is always this much lit floor.
 constexpr float kSmallestStage_m = 2.2f;
+// A stage that is no longer drawn lets go of its guests' models.
+constexpr std::uint64_t kPicturesKept = 240;
 
 bool is_high(Quality quality) { return quality == Quality::kHigh; }
 int shadow_map_px(Quality quality) { return is_high(quality) ? 2048 : 1024; }
@@ -60,7 +62,7 @@ Result<void> StageRenderer::draw(const SceneState& scene, const OrbitCamera& cam
 Result<void> StageRenderer::prepare(const SceneState& scene, const OrbitCamera& camera,
                                     int width_px, int height_px) {
   if (auto sized = target_.resize(width_px, height_px); !sized) return sized;
-  Memory& memory = memories_[look_.stage];
+  Memory& memory = memory_of(look_.stage);
   posed_ = memory.poser.pose(scene);
   if (auto taken = figures_.take(posed_, camera, height_px, look_); !taken) return taken;
   gather(scene);
@@ -76,6 +78,14 @@ Result<void> StageRenderer::prepare(const SceneState& scene, const OrbitCamera& 
     memory.trails.clear();
   }
   return {};
+}
+
+StageRenderer::Memory& StageRenderer::memory_of(int stage) {
+  Memory& memory = memories_[stage];
+  memory.last_used = ++picture_;
+  std::erase_if(memories_,
+                [this](const auto& it) { return it.second.last_used + kPicturesKept < picture_; });
+  return memory;
 }
 
 void StageRenderer::gather(const SceneState& scene) {

@@ -9,6 +9,7 @@
 //               (check_gl()).
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
@@ -57,7 +58,9 @@ class StageRenderer {
   struct Memory {
     FigurePoser poser;
     HandTrails trails;
+    std::uint64_t last_used = 0;
   };
+  Memory& memory_of(int stage);
 
   StageRenderer(Quality quality, FloorPainter floor, RibbonPainter ribbons);
   Result<void> link_programs();
@@ -76,6 +79,7 @@ class StageRenderer {
   GlProgram finish_;
   GlVertexArray no_vertices_;
   std::map<int, Memory> memories_;  // by StageLook::stage
+  std::uint64_t picture_ = 0;
 
   // Of the picture that prepare() has begun.
   std::span<const PosedFigure> posed_;
