@@ -64,6 +64,13 @@ void share_forearm_twist(std::size_t side, float twist, FigureFit& fit,
   const Limb& arm = kArmLimbs[side];
   const ForearmTurns turns = turns_of(fit, side);
   twist += wrapped(turns.at_elbow + turns.at_wrist - twist);
+  if (const float most = kMostForearmTwist_rad; std::abs(twist) > most) {  // after contacts
+    const std::size_t hand = index_of(arm.end);
+    const Quaternionf back = about(turns.lower * turns.axis, std::copysign(most, twist) - twist);
+    drivers[hand].D = (back * drivers[hand].D).normalized();
+    fit.frames.R_WB[hand] = (back * fit.frames.R_WB[hand]).normalized();
+    twist = std::copysign(most, twist);
+  }
   const float step = twist / static_cast<float>(helpers_of(*fit.rig->shape, arm.lower) + 2);
   const std::size_t lower = index_of(arm.lower);
   drivers[lower].D = (turns.lower * about(turns.axis, step - turns.at_elbow)).normalized();

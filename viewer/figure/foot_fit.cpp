@@ -19,10 +19,6 @@ constexpr float kCarries_m = 0.03f;
 constexpr float kSwings_m = 0.15f;
 constexpr float kMostDrop = 0.35f;  // of the leg
 
-std::size_t toes_of(std::size_t side) {
-  return index_of(side == 0 ? Bone::kLeftToes : Bone::kRightToes);
-}
-
 float settled_m(float height_m) {
   return height_m <= 0.0f ? 0.0f : height_m * smooth_between(0.0f, kHover_m, height_m);
 }
@@ -79,7 +75,8 @@ float needed_drop_m(const FigureFit& fit, const std::array<FootGoal, 2>& goals) 
     const float length =
         fit.rig->body.offset(leg.lower).norm() + fit.rig->body.offset(leg.end).norm();
     const Vector3f up = fit.frames.position(leg.upper) - goals[side].ankle_W_m;
-    const float reach = kStraightLimb * length;
+    const float was = (fit.frames.position(leg.upper) - fit.frames.position(leg.end)).norm();
+    const float reach = std::max(kStraightLimb * length, std::min(was, length));
     const float aside2 = up.x() * up.x() + up.z() * up.z();
     const float highest = std::sqrt(std::max(0.0f, reach * reach - aside2));
     const float wanted = std::min(up.y() - highest, kMostDrop * length);

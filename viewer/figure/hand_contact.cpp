@@ -17,6 +17,7 @@ constexpr float kApart_m = 0.32f;     // … and beyond this let go
 constexpr float kOnBody_m = 0.03f;    // likewise of palms and a partner's skin
 constexpr float kOffBody_m = 0.16f;
 constexpr float kMostBodyPull_m = 0.25f;
+constexpr float kOutward = 1.5f;      // of hands that come too near to their own shoulder
 constexpr float kFastest_m_s = 2.5f;  // at which what is added to a palm's place changes
 constexpr float kOff_m = 1e-5f;
 constexpr int kSweeps = 10;          // with arms alone, and again with help
@@ -215,20 +216,23 @@ void HandContacts::relax(bool with_help) {
   for (Hand& hand : hands_) {
     if (hand.pull_weight <= 0.0f) continue;
     hand.wanted_W_m += hand.pull / std::max(hand.pull_weight, 1.0f);
-    // Onto what the arm reaches.
-    const Vector3f wrist = hand.wanted_W_m + hand.from_palm_m - hand.shoulder_W_m;
-    const float reach = hand.reach_m + (with_help ? hand.help_m : 0.0f);
-    const float distance = wrist.norm();
-    if (distance > reach) {
-      hand.wanted_W_m -= wrist * (1.0f - reach / distance);
-    } else if (distance < hand.folded_m) {
-      const float size = hand.outward.norm();
-      Vector3f towards = wrist;
-      if (size > 1e-3f) towards += (0.3f * hand.folded_m / size) * hand.outward;
-      if (const float length = towards.norm(); length > 1e-4f)
-        hand.wanted_W_m += towards * (hand.folded_m / length) - wrist;
-    }
+    hand.wanted_W_m = reachable(hand, hand.wanted_W_m, with_help ? hand.help_m : 0.0f);
   }
+}
+
+// The nearest place for the palm that the arm reaches, and that is not in its own shoulder.
+Vector3f HandContacts::reachable(const Hand& hand, const Vector3f& palm_W_m, float help_m) {
+  const Vector3f wrist = palm_W_m + hand.from_palm_m - hand.shoulder_W_m;
+  const float reach = hand.reach_m + help_m;
+  const float distance = wrist.norm();
+  if (distance > reach) return palm_W_m - wrist * (1.0f - reach / distance);
+  if (distance >= hand.folded_m) return palm_W_m;
+  const float size = hand.outward.norm();
+  Vector3f towards = wrist;
+  if (size > 1e-3f) towards += (kOutward * (hand.folded_m - distance) / size) * hand.outward;
+  const float length = towards.norm();
+  if (length < 1e-4f) return palm_W_m;
+  return palm_W_m + towards * (hand.folded_m / length) - wrist;
 }
 
 void HandContacts::fit(std::span<FigureFit> figures) {
@@ -242,7 +246,10 @@ void HandContacts::fit(std::span<FigureFit> figures) {
     std::array<std::optional<Vector3f>, 2> palms;
     for (std::size_t side = 0; side < 2; ++side) {
       const Hand& hand = hands_[2 * i + side];
-      const Vector3f correction = shown_correction(hand, figures[i], side);
+      const Vector3f correction =
+          reachable(hand, hand.natural_W_m + shown_correction(hand, figures[i], side),
+                    hand.help_m) -
+          hand.natural_W_m;
       if (figures[i].past) figures[i].past->corrections_W_m[side] = correction;
       if (correction.cwiseAbs().maxCoeff() > kOff_m) palms[side] = hand.natural_W_m + correction;
     }

@@ -63,6 +63,7 @@ class HandContacts {
   Eigen::Vector3f shown_correction(const Hand& hand, const FigureFit& figure,
                                    std::size_t side) const;
   void relax(bool with_help);
+  static Eigen::Vector3f reachable(const Hand& hand, const Eigen::Vector3f& palm_W_m, float help_m);
 
   std::vector<Hand> hands_;  // two of each figure
   std::vector<Contact> contacts_;

@@ -11,9 +11,11 @@ using Eigen::Vector3f;
 
 constexpr float kShortest_m = 1e-4f;
 // What a nearly straight limb bends about is mostly its hinge; sines of the bend.
-constexpr float kHingeCounts = 0.05f;
+constexpr float kHingeCounts = 0.15f;
 constexpr float kMostOverstretch = 0.3f;
 constexpr float kTurnsAlong = 0.5f;
+// The side of an arm that is straight as danced turns as it likes, which does not count.
+constexpr float kMostDanced_rad = 0.25f;
 
 // The angle between sides a and b of a triangle whose third side is c.
 float corner_rad(float a, float b, float c) {
@@ -49,7 +51,8 @@ Vector3f limited(const Vector3f& side, const Vector3f& danced, const Vector3f& a
     const Vector3f from = before.normalized();
     const float angle = std::atan2(along.dot(from.cross(side)), from.dot(side));
     const float most =
-        past.most_turn_rad + std::acos(std::clamp(danced.dot(past.danced_W), -1.0f, 1.0f));
+        past.most_turn_rad +
+        std::min(kMostDanced_rad, std::acos(std::clamp(danced.dot(past.danced_W), -1.0f, 1.0f)));
     if (std::abs(angle) > most) shown = Eigen::AngleAxisf(std::copysign(most, angle), along) * from;
   }
   past.shown_W = shown;

@@ -31,14 +31,16 @@ SceneState couple_with_palms(const Vector3f& meeting, float apart_m) {
   for (const float side : {1.0f, -1.0f}) {
     SceneGuest guest = guest_at_ease(side > 0 ? "alice" : "bob", Vector3f(0.42f * side, 0, 0),
                                      -side * 1.5707963f, side > 0 ? 1.66f : 1.8f);
-    const Limb& arm = side > 0 ? kRightArm : kLeftArm;
+    const Limb& arm = side > 0 ? kLeftArm : kRightArm;
     BodyFrames frames;
     forward_kinematics(guest.skeleton, guest.pose, frames);
     const Eigen::Quaternionf R_WHand = guest.pose.R_PB[0];
-    const Tip tip = side > 0 ? Tip::kRightHand : Tip::kLeftHand;
+    const Tip tip = side > 0 ? Tip::kLeftHand : Tip::kRightHand;
     const Vector3f palm = meeting + Vector3f(0.5f * side * apart_m, 0, 0);
-    solve_two_bone(guest.skeleton, arm, palm - R_WHand * (0.4f * guest.skeleton.tip(tip)),
-                   Vector3f(side, -1.0f, 0.3f), R_WHand, guest.pose, frames);
+    const float missed_m =
+        solve_two_bone(guest.skeleton, arm, palm - R_WHand * (0.4f * guest.skeleton.tip(tip)),
+                       Vector3f(side, -1.0f, 0.3f), R_WHand, guest.pose, frames);
+    EXPECT_LT(missed_m, 1e-3f);
     scene.guests.push_back(guest);
   }
   scene.time = MonoTime::from_us(1'000'000);
@@ -72,25 +74,25 @@ std::vector<Bodies> all_bodies() {
 }
 
 TEST(FigureContact, PalmsThatMeetInTheDanceMeetOnAvatarsOfAnyProportions) {
+  float plain_worst = 0.0f;
   for (const Bodies& bodies : all_bodies()) {
     FigurePoser poser, plain({false, false, false});
-    float plain_worst = 0.0f;
-    for (float height = 0.9f; height < 1.7f; height += 0.1f) {
-      SceneState scene = couple_with_palms(Vector3f(0.02f, height, 0.35f), 0.02f);
+    for (float height = 1.15f; height < 1.6f; height += 0.1f) {
+      SceneState scene = couple_with_palms(Vector3f(0.02f, height, 0.3f), 0.02f);
       scene.time += Duration::s(static_cast<std::int64_t>(height * 100.0f));
       scene.guests[0].avatar = bodies.first;
       scene.guests[1].avatar = bodies.second;
       const auto gap = [&](FigurePoser& by) {
         const auto figures = by.pose(scene);
-        return (palm_of(figures[0].frames, *bodies.first, figures[0], 1) -
-                palm_of(figures[1].frames, *bodies.second, figures[1], 0))
+        return (palm_of(figures[0].frames, *bodies.first, figures[0], 0) -
+                palm_of(figures[1].frames, *bodies.second, figures[1], 1))
             .norm();
       };
       EXPECT_LT(gap(poser), 0.03f) << bodies.name << " at " << height;
       plain_worst = std::max(plain_worst, gap(plain));
     }
-    EXPECT_GT(plain_worst, 0.03f) << bodies.name << ": nothing to fit";
   }
+  EXPECT_GT(plain_worst, 0.1f) << "nothing to fit";
 }
 
 TEST(FigureContact, PalmsComeTogetherAndPartWithoutAJump) {

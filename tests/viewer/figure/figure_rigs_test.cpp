@@ -27,8 +27,9 @@ TEST(FigureRigs, TheOwnMannequinHasEachJointWhereTheDancerHasIt) {
   Random random(3);
   const Skeleton skeleton = average_skeleton(1.64f);
   FigurePoser poser;
+  const auto mannequin = shared(mannequin_of(skeleton));
   for (int i = 0; i < 40; ++i) {
-    SceneGuest guest = guest_in(shared(mannequin_of(skeleton)));
+    SceneGuest guest = guest_in(mannequin);
     guest.skeleton = skeleton;
     guest.pose =
         random_pose(random, i == 0 ? 0.0f : 1.5f, i == 0 ? skeleton.hips_height_m() : 3.0f);

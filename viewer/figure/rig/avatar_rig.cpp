@@ -15,6 +15,7 @@ using Eigen::Vector3f;
 
 constexpr float kShortestBone_m = 1e-3f;
 constexpr float kOwnBody_m = 1e-4f;
+constexpr float kShoesOff_m = 4e-3f;
 constexpr float kPalmShare = 0.8f;  // of the way from the wrist to where the middle finger begins
 // Where toes bend, for feet without: a share of the way from the ankle to the tip.
 constexpr float kBallShare = 0.7f;
@@ -250,6 +251,21 @@ AvatarRig::AvatarRig(std::shared_ptr<const AvatarShape> shape_of_model, const Sk
     scale = leg_ratio = girth_ratio = 1.0f;
     body = dancer;
     palms_m = dancer_palms_m;
+    for (std::size_t side = 0; side < 2; ++side) {
+      // The dancer's floor is the skeleton's; shoes of the mesh are a millimetre or two off.
+      const FootPoints& own = dancer_feet[side];
+      SoleHull& hull = feet[side].lowest;
+      float low = 1e9f;
+      for (std::size_t i = 0; i < hull.foot_count; ++i) low = std::min(low, hull.foot_m[i].y());
+      for (std::size_t i = 0; i < hull.toes_count; ++i)
+        low = std::min(low, hull.toes_m[i].y() + dancer.offset_m[toes_of(side)].y());
+      const float up = own.ball_m.y() - low;
+      feet[side].ball_m = own.ball_m;
+      feet[side].tip_m = own.tip_m;
+      if (std::abs(up) > kShoesOff_m) continue;
+      for (Vector3f& point : hull.foot_m) point.y() += up;
+      for (Vector3f& point : hull.toes_m) point.y() += up;
+    }
     dancer_feet = feet;
   }
 }

@@ -31,6 +31,10 @@ struct FootPoints {
   Eigen::Vector3f tip_m;   // of the toes
 };
 
+inline std::size_t toes_of(std::size_t side) {
+  return index_of(side == 0 ? Bone::kLeftToes : Bone::kRightToes);
+}
+
 struct AvatarRig {
   AvatarRig(std::shared_ptr<const AvatarShape> shape_of_model, const Skeleton& dancer,
             FigureSize size, float height_scale);
