@@ -145,7 +145,7 @@ struct LinkCounters {
 // One guest of another house, as this link hears it.
 struct RemoteGuestStats {
   GuestId guest;
-  bool is_here = true;  // false: counts of one who has left
+  bool is_here = true;      // false: counts of one who has left
   std::uint64_t bytes = 0;  // of records of poses and hands
   std::uint64_t received = 0;
   std::uint64_t lost = 0;  // gaps, less what arrived late

@@ -18,8 +18,8 @@ namespace dance {
 AvatarLibraryOptions avatars_of(const AvatarStore& store, const std::string& shipped_folder,
                                 std::vector<AvatarOverride> overrides);
 
-// "me.vrm", "alice=me.vrm", or a shipped avatar's name instead of a file. Says why such a file could
-// not be shown.
+// "me.vrm", "alice=me.vrm", or a shipped avatar's name instead of a file. Says why such a file
+// could not be shown.
 Result<AvatarOverride> parse_avatar_override(const std::string& text,
                                              const std::string& shipped_folder);
 

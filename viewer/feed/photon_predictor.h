@@ -1,5 +1,5 @@
-// PhotonPredictor: brings the poses of a scene to the moment at which its picture will be seen: each
-// guest of whom it is known for what moment the pose stands, by a ShortExtrapolator.
+// PhotonPredictor: brings the poses of a scene to the moment at which its picture will be seen:
+// each guest of whom it is known for what moment the pose stands, by a ShortExtrapolator.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    room for kMaxGuests; allocates nothing after construction.

@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* kExamples =
     R"(In the window: ? lists all keys. Drag turns the camera, the wheel comes nearer, right or
-  shift drag moves it; F frames everybody, 1 to 9 and arrows choose a dancer, V goes through the views,
-  R rotates slowly, Q closes.
+  shift drag moves it; F frames everybody, 1 to 9 and Tab choose a dancer, V goes through the
+  views, R rotates slowly, Q closes.
 Examples:
   dance view                                         the stage of this house
   dance view --focus alice --camera front

@@ -28,9 +28,9 @@ std::vector<Affine3f> rest_places(const AvatarModel& model) {
 }
 
 bool has_word(std::string_view name, std::string_view word) {
-  const auto it = std::ranges::search(
-      name, word, [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
-  return !it.empty();
+  return std::search(name.begin(), name.end(), word.begin(), word.end(), [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) == b;
+         }) != name.end();
 }
 
 // Works out a shape in steps; keeps what only they need.
