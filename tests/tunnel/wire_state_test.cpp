@@ -78,7 +78,7 @@ TEST(WireState, RefusesWhatNobodyBuilds) {
   };
   const auto guests = written({{StateKind::kAvatar, 0}, {3, 4}, {}, 1, payload});
   EXPECT_TRUE(is_refused(guests, 0, 0));     // no kind
-  EXPECT_TRUE(is_refused(guests, 0, 8));     // an unknown one
+  EXPECT_TRUE(is_refused(guests, 0, 9));     // an unknown one
   EXPECT_TRUE(is_refused(guests, 0, 0x14));  // an avatar has no index
   EXPECT_TRUE(is_refused(guests, 0, 0x87));  // a ninth channel
   EXPECT_TRUE(is_refused(guests, 1, 64));    // no slot
