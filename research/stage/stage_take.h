@@ -31,9 +31,9 @@ struct StageTake {
 // Each file holds one dancer or several: BVH (also packed with xz), glTF, or a log.
 Result<StageTake> load_stage_take(std::span<const std::string> files, double hz);
 
-// Recordings whose hands meet: palms of two dancers that come within join_m of each other are brought
-// together, nearer the nearer they are, by the dancers' own arms. Motion capture that was put onto
-// other bodies than the dancers' holds hands at 20 cm.
+// Recordings whose hands meet: palms of two dancers that come within join_m of each other are
+// brought together, nearer the nearer they are, by the dancers' own arms. Motion capture that was
+// put onto other bodies than the dancers' holds hands at 20 cm.
 void join_hands(StageTake& take, float join_m);
 
 // "mannequin": the dancer's own; "mannequin:1.1": one of an average body 1.1 m tall; else a file.

@@ -1,5 +1,5 @@
-// From a fitted figure to how each driver of its model (viewer/figure/rig/avatar_shape.h) stands: the
-// bones, the fingers, and the nodes that share a limb's twist.
+// From a fitted figure to how each driver of its model (viewer/figure/rig/avatar_shape.h) stands:
+// the bones, the fingers, and the nodes that share a limb's twist.
 //
 // The twist between the upper arm and the hand is shared in equal steps by elbow, helper nodes and
 // wrist, and is 150° at most in all, so that no joint is wrung: 75° where a model has no helpers.

@@ -102,8 +102,8 @@ float fit_limb(const Limb& limb, const Vector3f& target_W_m, const Vector3f& hin
   normal -= reach_was * (reach_was.dot(normal) / (was * was));
   if (normal.squaredNorm() < 1e-8f) normal = reach_was.unitOrthogonal();
 
-  // The side on which the middle joint lies: mostly as it is in W (elbows that point down go on to),
-  // and as far as the line to the end is turned along with it, as one of the two always has a
+  // The side on which the middle joint lies: mostly as it is in W (elbows that point down go on
+  // to), and as far as the line to the end is turned along with it, as one of the two always has a
   // direction.
   const Vector3f line = reach_was / was, along = to_target / wanted;
   normal.normalize();

@@ -1,5 +1,5 @@
-// Rigs for the tests of retargeting, made of the mannequin: with axes of any kind, an A-pose, scaled
-// nodes, nodes between bones, bones without a name.
+// Rigs for the tests of retargeting, made of the mannequin: with axes of any kind, an A-pose,
+// scaled nodes, nodes between bones, bones without a name.
 //
 // Units/frames: as formats/avatar/avatar_model.h.
 // Ownership:    plain values.
