@@ -11,7 +11,7 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
-constexpr float kHover_m = 0.05f;      // below it soles are brought nearer to the floor
+constexpr float kHover_m = 0.06f;      // below it soles are brought nearer to the floor
 constexpr float kUnchanged_m = 1e-5f;  // a foot that is there already
 constexpr float kMostToeBend_rad = 1.0f;
 // Hips come down for feet near the floor, not for kicks.
@@ -20,7 +20,9 @@ constexpr float kSwings_m = 0.15f;
 constexpr float kMostDrop = 0.35f;  // of the leg
 
 float settled_m(float height_m) {
-  return height_m <= 0.0f ? 0.0f : height_m * smooth_between(0.0f, kHover_m, height_m);
+  if (height_m <= 0.0f) return 0.0f;
+  const float kept = smooth_between(0.0f, kHover_m, height_m);
+  return height_m * kept * kept;
 }
 
 // Toes that would point into the floor lie on it, where the ball of the foot is down.
