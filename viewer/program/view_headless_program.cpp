@@ -101,8 +101,22 @@ class HeadlessRun {
     return {width_px, height_px, painter_.overlay().panel_height_px(height_px)};
   }
 
+  // Instruments show the last minute: a recording is gone through, not jumped into.
+  void measure_up_to(MonoTime moment) {
+    constexpr Duration kStep = Duration::ms(50);
+    constexpr Duration kLookBack = Duration::s(60);
+    MonoTime at = std::max(source_.begin(), moment - kLookBack);
+    if (measured_.is_set()) at = std::max(at, measured_);
+    for (SceneState scene; at < moment; at += kStep) {
+      roster_.update(source_.wait_until(at), scene);
+      records_.take(source_.instruments());
+    }
+    measured_ = moment;
+  }
+
   SceneState scene_at(MonoTime moment) {
     SceneState scene;
+    if (options_.panel == "instruments" && source_.replay() != nullptr) measure_up_to(moment);
     roster_.update(source_.wait_until(moment), scene);
     records_.take(source_.instruments());
     for (const SceneGuest& guest : scene.guests)
@@ -248,6 +262,7 @@ class HeadlessRun {
   AvatarLibrary avatars_{
       avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options_.avatars)};
   InstrumentRecords records_;
+  MonoTime measured_;  // by them, of a recording
   PanelStack panels_;
   ViewDirector director_;
   std::vector<SceneState> scenes_;
