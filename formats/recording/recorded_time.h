@@ -12,8 +12,8 @@ namespace dance {
 
 // Within 100 years of its zero, as messages have it: sums and differences do not overflow.
 inline bool is_recorded_time(std::int64_t us) {
-  constexpr std::int64_t kCentury_us = 100LL * 366 * 24 * 3600 * 1'000'000;
-  return us > -kCentury_us && us < kCentury_us;
+  constexpr std::int64_t kMostSpan_us = 100LL * 366 * 24 * 3600 * 1'000'000;
+  return us > -kMostSpan_us && us < kMostSpan_us;
 }
 
 }  // namespace dance

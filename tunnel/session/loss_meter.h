@@ -28,8 +28,8 @@ class LossMeter {
   }
   float loss() const {
     // One lost datagram alone makes the quick one 1/64.
-    constexpr float kBurst = 0.03f;
-    return quick_ > slow_ + kBurst ? quick_ : slow_;
+    constexpr float kSuddenLoss = 0.03f;
+    return quick_ > slow_ + kSuddenLoss ? quick_ : slow_;
   }
   // Never less than chance makes of the losses.
   float in_a_row() const { return std::max(pairs_, loss() * loss()); }

@@ -10,7 +10,7 @@ namespace dance {
 namespace {
 
 // As the pictures' own: the programs that send and route go first.
-constexpr int kLoadingNiceness = 15;
+constexpr int kLoadingNiceness = 5;
 
 template <class T>
 std::size_t bytes_in(const std::vector<T>& items) {

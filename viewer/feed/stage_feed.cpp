@@ -122,7 +122,7 @@ void StageFeed::measure(const FeedOptions& options) {
       Where::kStage, [this](const Channel& channel, const FlowSetting& setting, MonoTime) {
         instruments_.on_flow(channel.guest(), setting);
       });
-  constexpr Duration kLook = Duration::ms(100);
+  static constexpr Duration kLook = Duration::ms(100);
   poller_->add_timer(mono_now() + kLook, [this](MonoTime now) {
     publish_figures(now);
     return now + kLook;
