@@ -26,9 +26,9 @@ class HouseAvatarPrograms : public BusPrograms {
                            << "\"\nview = false\navatar_bytes_per_second = 4000000\n"
                            << "[[produce]]\nkind = \"salsa\"\nguest = \"" << guest << "\"\n"
                            << more;
-    start("env", {"XDG_DATA_HOME=" + folder_.path(std::string(guest) + "-data"),
-                  "XDG_CACHE_HOME=" + folder_.path(std::string(guest) + "-cache"),
-                  bin("dance-join"), session});
+    start("/usr/bin/env", {"XDG_DATA_HOME=" + folder_.path(std::string(guest) + "-data"),
+                           "XDG_CACHE_HOME=" + folder_.path(std::string(guest) + "-cache"),
+                           bin("dance-join"), session});
   }
   // The files in a guest's cache that are whole.
   std::vector<std::string> cached(const char* guest) const {
