@@ -33,6 +33,7 @@ class ChunkedFile {
   std::size_t missing() const { return missing_; }
   bool is_whole() const { return missing_ == 0; }
   bool has(std::size_t index) const {
+    DANCE_ASSERT(index < chunks() && !here_.empty(), index, chunks());
     return (here_[index / kChunksPerBlock] >> (index % kChunksPerBlock) & 1) != 0;
   }
   // The first chunk from `index` on that is not here; chunks() = none.

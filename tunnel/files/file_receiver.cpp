@@ -12,6 +12,8 @@ constexpr double kBurst = 2.0 * kChunksTogether * wire::kFileChunkCost;
 constexpr Duration kPatienceWithFile = Duration::s(4);
 constexpr Duration kLongestTurn = Duration::s(60);
 constexpr Duration kRestAfterRefusal = Duration::s(20);
+// A server that has just begun may not know yet what the guest has chosen.
+constexpr Duration kRestNotOffered = Duration::s(1);
 constexpr Duration kShortestPatience = Duration::ms(300);
 constexpr Duration kLongestPatience = Duration::s(3);
 constexpr Duration kLooksAgain = Duration::ms(50);
@@ -232,7 +234,9 @@ bool FileReceiver::refuse(const GuestId& from, const wire::FileRefusal& refusal,
   ++counters_.files_refused;
   download->asked.clear();
   download->cursor = 0;
-  download->rests_until = now + kRestAfterRefusal;
+  download->rests_until =
+      now +
+      (refusal.cause == wire::FileRefusalCause::kNotOffered ? kRestNotOffered : kRestAfterRefusal);
   if (on_refused) on_refused(from, refusal.file.hash, refusal.cause);
   return true;
 }
