@@ -6,8 +6,8 @@
 // Units/frames: MonoTime of one clock.
 // Ownership:    owns what has come of each file, within kMostBytes; whole files are handed on.
 // Threads:      none inside; one owner.
-// Failure:      what was not asked for is false and takes no memory; a file of another size than its
-//               guest said is wrong; no guest gets more than kBytesPerGuest at once and a minute.
+// Failure:      what was not asked for is false and takes no memory; a file of another size than
+//               was said is wrong; no guest gets more than kBytesPerGuest at once and a minute.
 #pragma once
 
 #include <functional>
