@@ -75,7 +75,7 @@ class BenchAvatar {
     hears.on_pose = [this](const GuestId&, const Pose& pose, MonoTime) { arrived(pose.sequence); };
     hears.on_file = [this](const GuestId& who, const FileHash& hash, ChunkedFile&&) {
       is_here_ = true;
-      receiver_->core().files().settle(who, hash, true);
+      receiver_->core().files().settle(who, hash, FileVerdict::kRight);
     };
     DANCE_TRY(sender_, link("alice", port, {}));
     DANCE_TRY(receiver_, link("bob", port, std::move(hears)));

@@ -117,6 +117,10 @@ std::string found_in(const std::string& folder, const FileHash& hash) {
   return "";
 }
 
+std::string part_in(const std::string& folder, const GuestId& guest, const FileHash& hash) {
+  return path_in(folder, hash, "." + std::string(guest.view()) + std::string(kPartEnding));
+}
+
 void mark_used(const std::string& path) { utimensat(AT_FDCWD, path.c_str(), nullptr, 0); }
 
 }  // namespace
@@ -140,14 +144,22 @@ std::string AvatarStore::find(const FileHash& hash) const {
   return path;
 }
 
+// Removed only if all of it was read, is wrong, and can come again: never what a disk would not
+// read just now, and never in the user's own folder.
 std::optional<std::vector<std::uint8_t>> AvatarStore::read(const FileHash& hash) const {
-  const std::string path = find(hash);
-  if (path.empty()) return std::nullopt;
-  const File file(path, O_RDONLY);
-  if (!file.is_open()) return std::nullopt;
-  auto bytes = file.read(kMostFileBytes);
-  if (bytes && sha256_of(*bytes) == hash) return bytes;
-  unlink(path.c_str());
+  for (const std::string* folder : {&own_, &foreign_}) {
+    const std::string path = found_in(*folder, hash);
+    if (path.empty()) continue;
+    const File file(path, O_RDONLY);
+    if (!file.is_open()) continue;
+    auto bytes = file.read(kMostFileBytes);
+    if (!bytes) continue;
+    if (sha256_of(*bytes) == hash) {
+      if (folder == &foreign_) mark_used(path);
+      return bytes;
+    }
+    if (folder == &foreign_) unlink(path.c_str());
+  }
   return std::nullopt;
 }
 
@@ -172,9 +184,16 @@ Result<AvatarStore::Kept> AvatarStore::read_file(const std::string& path) {
 }
 
 Result<void> AvatarStore::keep_own(const Kept& kept, bool is_vrm) const {
-  if (!found_in(own_, kept.hash).empty()) return {};
+  std::string path = found_in(own_, kept.hash);
+  if (!path.empty()) {
+    const File file(path, O_RDONLY);
+    const auto there = file.is_open() ? file.read(kMostFileBytes) : std::nullopt;
+    if (there == kept.bytes) return {};
+  } else {
+    path = path_in(own_, kept.hash, kEndings[is_vrm ? 0 : 1]);
+  }
   if (auto made = make_folder(own_); !made) return made;
-  return write_whole(path_in(own_, kept.hash, kEndings[is_vrm ? 0 : 1]), {kept.bytes});
+  return write_whole(path, {kept.bytes});
 }
 
 Result<bool> AvatarStore::keep_foreign(const FileHash& hash, const Pieces& pieces,
@@ -218,11 +237,11 @@ Result<void> AvatarStore::make_room(std::size_t bytes) const {
   return {};
 }
 
-Result<void> AvatarStore::add_part(const FileHash& hash, std::size_t offset,
+Result<void> AvatarStore::add_part(const GuestId& guest, const FileHash& hash, std::size_t offset,
                                    std::span<const std::uint8_t> bytes) const {
   if (offset + bytes.size() > kMostFileBytes) return fail("an avatar's part is too large");
   if (auto made = make_room(bytes.size()); !made) return made;
-  const std::string path = path_in(foreign_, hash, kPartEnding);
+  const std::string path = part_in(foreign_, guest, hash);
   const File file(path, O_WRONLY | O_CREAT, 0600);
   struct stat status {};
   if (!file.is_open() || fstat(file.fd(), &status) != 0)
@@ -234,14 +253,14 @@ Result<void> AvatarStore::add_part(const FileHash& hash, std::size_t offset,
   return {};
 }
 
-std::vector<std::uint8_t> AvatarStore::part(const FileHash& hash) const {
-  const File file(path_in(foreign_, hash, kPartEnding), O_RDONLY);
+std::vector<std::uint8_t> AvatarStore::part(const GuestId& guest, const FileHash& hash) const {
+  const File file(part_in(foreign_, guest, hash), O_RDONLY);
   if (!file.is_open()) return {};
   return file.read(kMostFileBytes).value_or(std::vector<std::uint8_t>());
 }
 
-void AvatarStore::forget_part(const FileHash& hash) const {
-  unlink(path_in(foreign_, hash, kPartEnding).c_str());
+void AvatarStore::forget_part(const GuestId& guest, const FileHash& hash) const {
+  unlink(part_in(foreign_, guest, hash).c_str());
 }
 
 std::vector<StoredAvatar> AvatarStore::list() const {

@@ -4,12 +4,13 @@
 //
 //   $XDG_DATA_HOME/dancegraph/avatars/<sha256>.vrm    own; ~/.local/share without the variable
 //   $XDG_CACHE_HOME/dancegraph/avatars/<sha256>.vrm   of others; ~/.cache
-//   …                                 /<sha256>.part  of others, what has come so far
+//   …                                 /<sha256>.<guest>.part  of others, what has come so far
 //
 // Units/frames: bytes.
 // Ownership:    folders of mode 0700, files of mode 0600, written beside, checked and then renamed.
 // Threads:      any; of two processes that write one file, one wins, with the same bytes.
-// Failure:      names the file and the reason. Damaged files are removed, and count as absent.
+// Failure:      names the file and the reason. Damaged files count as absent; those of others are
+//               removed, those of this user stay where they are.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "core/base/file_hash.h"
+#include "core/base/guest_id.h"
 #include "core/base/result.h"
 
 namespace dance {
@@ -58,11 +60,12 @@ class AvatarStore {
   using Pieces = std::vector<std::span<const std::uint8_t>>;
   Result<bool> keep_foreign(const FileHash& hash, const Pieces& pieces, bool is_vrm) const;
 
-  // What has come of one so far, from its begin: for after a restart.
-  Result<void> add_part(const FileHash& hash, std::size_t offset,
+  // What has come of one so far, from its begin: for after a restart. By guest too: what one has
+  // sent under that hash, with whatever bytes, is no part of another's.
+  Result<void> add_part(const GuestId& guest, const FileHash& hash, std::size_t offset,
                         std::span<const std::uint8_t> bytes) const;
-  std::vector<std::uint8_t> part(const FileHash& hash) const;
-  void forget_part(const FileHash& hash) const;
+  std::vector<std::uint8_t> part(const GuestId& guest, const FileHash& hash) const;
+  void forget_part(const GuestId& guest, const FileHash& hash) const;
 
   std::vector<StoredAvatar> list() const;
   const std::string& own_folder() const { return own_; }

@@ -53,6 +53,8 @@ void write_tunnel(const std::filesystem::path& root) {
   FuzzScene scene;
   std::map<std::string, Bytes> seeds;  // by file name
   std::map<bool, Bytes> all;
+  constexpr int kFileSteps = 12;
+  int file_steps = 0;
   scene.tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {
     const std::uint8_t how = peer == scene.a->peer ? 0 : peer == scene.b->peer ? 1 : 2;
     const Bytes datagram(bytes.begin(), bytes.end());
@@ -65,6 +67,10 @@ void write_tunnel(const std::filesystem::path& root) {
     const std::string name = std::string(to_server ? "server_datagram/" : "link_datagram/") +
                              "type_" + std::to_string(static_cast<int>(type)) +
                              (is_bare ? "_bare" : "") + more_of(bytes) + kind;
+    // Two files that are under way in one room, from their choices on.
+    const bool is_of_files = type >= wire::Type::kFileTerms && type <= wire::Type::kFileRefusal;
+    if (to_server && (is_of_files || kind == "_kind_8") && ++file_steps <= kFileSteps)
+      append_step(seeds["server_datagram/two_files"], how, datagram);
     if (!seeds.contains(name)) {
       append_step(seeds[name], how, datagram);
       append_step(all[to_server], how, datagram);
@@ -90,10 +96,18 @@ void write_tunnel(const std::filesystem::path& root) {
   scene.b->link->files().offer(guest("bob"), file.hash,
                                std::make_shared<const std::vector<std::uint8_t>>(3000, 9));
   scene.b->link->send(guest("bob"), file, tunnel.time_in(*scene.b));
+  // A second one, of another size, so that two are under way at once.
+  AvatarFile large = file;
+  large.hash.bytes.fill(9);
+  large.size_bytes = 300'000;
+  scene.a->link->files().offer(guest("alice"), large.hash,
+                               std::make_shared<const std::vector<std::uint8_t>>(300'000, 9));
+  scene.a->link->send(guest("alice"), large, tunnel.time_in(*scene.a));
+  tunnel.run(Duration::ms(50));
   for (auto* house : {scene.a, scene.b}) {
-    FileHash other = file.hash;
-    if (house == scene.b) other.bytes[0] = 1;  // refused
-    house->link->files().fetch(guest(house == scene.a ? "bob" : "alice"), other, ChunkedFile(3000),
+    const AvatarFile& of_other = house == scene.a ? file : large;
+    house->link->files().fetch(guest(house == scene.a ? "bob" : "alice"), of_other.hash,
+                               ChunkedFile(static_cast<std::uint32_t>(of_other.size_bytes)),
                                tunnel.time_in(*house));
   }
   for (int i = 0; i < 3; ++i) {
@@ -103,6 +117,14 @@ void write_tunnel(const std::filesystem::path& root) {
     }
     tunnel.run(Duration::ms(100));
   }
+  // Refusals: of the house, which has lost it, and of the server.
+  scene.a->link->files().offer(guest("alice"), large.hash, nullptr);
+  tunnel.run(Duration::ms(100));
+  FileHash unknown = large.hash;
+  unknown.bytes[0] = 1;
+  scene.b->link->files().fetch(guest("alice"), unknown, ChunkedFile(3000),
+                               tunnel.time_in(*scene.b));
+  tunnel.run(Duration::ms(100));
   Interest interest;
   if (interest.guests.try_push({guest("bob"), 2}))
     scene.a->link->set_interest(interest, tunnel.time_in(*scene.a));

@@ -305,9 +305,10 @@ class SimulatedTunnel {
       bytes.clear();
       for (std::size_t i = 0; i < file.blocks(); ++i)
         bytes.insert(bytes.end(), file.block(i).begin(), file.block(i).end());
-      house.link->files().settle(id, hash, house.files_are_right);
+      house.link->files().settle(id, hash,
+                                 house.files_are_right ? FileVerdict::kRight : FileVerdict::kWrong);
     };
-    handlers.on_file_block = [&](const FileHash&, const ChunkedFile&, std::size_t) {
+    handlers.on_file_block = [&](const GuestId&, const FileHash&, const ChunkedFile&, std::size_t) {
       ++house.file_blocks;
     };
     handlers.on_file_refused = [&](const GuestId& id, const FileHash&,

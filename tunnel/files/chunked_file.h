@@ -31,8 +31,13 @@ class ChunkedFile {
   std::uint32_t size_bytes() const { return size_bytes_; }
   std::size_t chunks() const { return wire::chunks_of(size_bytes_); }
   std::size_t missing() const { return missing_; }
+  // Of memory that is taken so far.
+  std::size_t held_bytes() const { return held_bytes_; }
+  // Whether put() of that chunk takes more.
+  bool needs_block(std::size_t index) const { return !blocks_[index / kChunksPerBlock]; }
   bool is_whole() const { return missing_ == 0; }
   bool has(std::size_t index) const {
+    DANCE_ASSERT(index < chunks() && !here_.empty(), index, chunks());
     return (here_[index / kChunksPerBlock] >> (index % kChunksPerBlock) & 1) != 0;
   }
   // The first chunk from `index` on that is not here; chunks() = none.
@@ -49,7 +54,10 @@ class ChunkedFile {
     DANCE_ASSERT(data.size() == wire::chunk_bytes(size_bytes_, index), data.size());
     if (has(index)) return false;
     auto& block = blocks_[index / kChunksPerBlock];
-    if (!block) block = std::make_unique<Block>();
+    if (!block) {
+      block = std::make_unique<Block>();
+      held_bytes_ += kBlock;
+    }
     std::copy(data.begin(), data.end(),
               block->begin() + (index % kChunksPerBlock) * wire::kFileChunk);
     here_[index / kChunksPerBlock] |= std::uint64_t{1} << (index % kChunksPerBlock);
@@ -80,6 +88,7 @@ class ChunkedFile {
   std::vector<std::unique_ptr<Block>> blocks_;
   std::vector<std::uint64_t> here_;  // a bit for each chunk
   std::size_t missing_ = 0;
+  std::size_t held_bytes_ = 0;
 };
 
 }  // namespace dance

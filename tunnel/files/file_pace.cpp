@@ -28,9 +28,13 @@ void FilePace::fill(MonoTime now) {
   if (!filled_at_.is_set() || now > filled_at_) filled_at_ = now;
 }
 
-bool FilePace::take(double bytes, MonoTime now) {
+bool FilePace::has(double bytes, MonoTime now) {
   fill(now);
-  if (rate_ <= 0.0 || level_ < bytes) return false;
+  return rate_ > 0.0 && level_ >= bytes;
+}
+
+bool FilePace::take(double bytes, MonoTime now) {
+  if (!has(bytes, now)) return false;
   level_ -= bytes;
   return true;
 }

@@ -17,6 +17,8 @@ class FilePace {
   FilePace(double bytes_per_second, double burst_bytes);
 
   bool take(double bytes, MonoTime now);
+  // Whether take() would be true.
+  bool has(double bytes, MonoTime now);
   // When take() will be true of so many, which may have been long ago; MonoTime() = never.
   MonoTime ready_at(double bytes) const;
 

@@ -12,6 +12,8 @@ constexpr double kBurst = 2.0 * kChunksTogether * wire::kFileChunkCost;
 constexpr Duration kPatienceWithFile = Duration::s(4);
 constexpr Duration kLongestTurn = Duration::s(60);
 constexpr Duration kRestAfterRefusal = Duration::s(20);
+// A server that has just begun may not know yet what the guest has chosen.
+constexpr Duration kRestNotOffered = Duration::s(1);
 constexpr Duration kShortestPatience = Duration::ms(300);
 constexpr Duration kLongestPatience = Duration::s(3);
 constexpr Duration kLooksAgain = Duration::ms(50);
@@ -41,12 +43,19 @@ bool FileReceiver::wants(const GuestId& guest, const FileHash& hash) const {
 
 void FileReceiver::want(const GuestId& guest, const FileHash& hash, ChunkedFile begin,
                         MonoTime now) {
-  if (is_bad(guest, hash) || wants(guest, hash) || begin.chunks() == 0) return;
+  if (is_bad(guest, hash) || begin.chunks() == 0) return;
+  const Download* known = find(guest);
+  if (known != nullptr && known->hash == hash && known->file.size_bytes() == begin.size_bytes())
+    return;
   drop(guest);
   if (downloads_.size() == kMostDownloads) return;
+  // Without memory for what was brought along it is fetched again.
+  if (held_bytes() + begin.held_bytes() > kMostBytes) begin = ChunkedFile(begin.size_bytes());
   Download download;
   download.guest = guest;
   download.hash = hash;
+  download.was_asked.assign(begin.chunks(), false);
+  download.is_resumed = begin.missing() < begin.chunks();
   download.file = std::move(begin);
   download.last_chunk = now;
   while (download.blocks_told < download.file.blocks() &&
@@ -63,14 +72,33 @@ void FileReceiver::drop(const GuestId& guest) {
   std::erase_if(downloads_, [&](const Download& it) { return it.guest == guest; });
 }
 
-void FileReceiver::settle(const GuestId& guest, const FileHash& hash, bool is_right) {
-  if (!is_right) {
-    ++counters_.files_wrong;
-    if (bad_.size() == kMostBad) bad_.erase(bad_.begin());
-    bad_.emplace_back(guest, hash);
+void FileReceiver::settle(const GuestId& guest, const FileHash& hash, FileVerdict verdict) {
+  Download* download = find(guest);
+  // Of one that was dropped meanwhile, and begun again, only that it is here is news.
+  if (download == nullptr || download->hash != hash ||
+      (!download->is_whole && verdict != FileVerdict::kRight))
+    return;
+  if (verdict == FileVerdict::kWrong && download->is_resumed) {
+    ++counters_.files_anew;
+    begin_anew(*download);
+    return;
   }
-  std::erase_if(downloads_,
-                [&](const Download& it) { return it.guest == guest && it.hash == hash; });
+  if (verdict == FileVerdict::kWrong) remember_bad(guest, hash);
+  drop(guest);
+}
+
+void FileReceiver::remember_bad(const GuestId& guest, const FileHash& hash) {
+  ++counters_.files_wrong;
+  if (bad_.size() == kMostBad) bad_.erase(bad_.begin());
+  bad_.emplace_back(guest, hash);
+}
+
+void FileReceiver::begin_anew(Download& download) {
+  download.file = ChunkedFile(download.file.size_bytes());
+  download.was_asked.assign(download.file.chunks(), false);
+  download.asked.clear();
+  download.cursor = download.blocks_told = 0;
+  download.is_whole = download.is_resumed = false;
 }
 
 void FileReceiver::begin_session() {
@@ -119,17 +147,20 @@ FileReceiver::Download* FileReceiver::active(const SlotOf& slot_of, MonoTime now
   return &*first;
 }
 
+std::size_t FileReceiver::held_bytes() const {
+  std::size_t held = 0;
+  for (const Download& it : downloads_)
+    if (!it.is_whole) held += it.file.held_bytes();
+  return held;
+}
+
 // What waits for its next turn loses what it has, where it is too much in all.
 void FileReceiver::make_room(const Download& keep) {
-  std::size_t held = keep.file.size_bytes();
+  std::size_t held = keep.file.blocks() * ChunkedFile::kBlock;
   for (Download& it : downloads_) {
-    if (&it == &keep || it.file.missing() == it.file.chunks()) continue;
-    held += it.file.size_bytes();
-    if (held <= kMostBytes) continue;
-    held -= it.file.size_bytes();
-    it.file = ChunkedFile(it.file.size_bytes());
-    it.cursor = it.blocks_told = 0;
-    it.asked.clear();
+    if (&it == &keep || it.is_whole) continue;
+    if (held + it.file.held_bytes() > kMostBytes) begin_anew(it);
+    held += it.file.held_bytes();
   }
 }
 
@@ -169,6 +200,7 @@ std::optional<wire::FileWant> FileReceiver::next(const SlotOf& slot_of, MonoTime
     if (want->chunks == 0) want->first = static_cast<std::uint16_t>(index);
     want->chunks |= 1u << (index - want->first);
     download->asked.add(index, now);
+    download->was_asked[index] = true;
     ++counters_.chunks_asked;
   }
   download->cursor = index;
@@ -198,9 +230,21 @@ MonoTime FileReceiver::next_deadline() const {
 bool FileReceiver::take(const GuestId& from, const wire::FileChunk& chunk, MonoTime now) {
   Download* download = find(from);
   if (download == nullptr || download->is_whole || download->hash != chunk.file.hash ||
-      download->file.size_bytes() != chunk.size_bytes) {
+      chunk.index >= download->was_asked.size() || !download->was_asked[chunk.index]) {
     ++counters_.chunks_foreign;
     return false;
+  }
+  if (download->file.size_bytes() != chunk.size_bytes) {
+    // Of the file that was asked for, and not as long as its guest said: never whole.
+    remember_bad(from, download->hash);
+    drop(from);
+    return false;
+  }
+  // While another has its turn a late one finds no memory: it is asked for again in this one's.
+  const bool takes_memory = download->file.needs_block(chunk.index);
+  if (takes_memory && held_bytes() + ChunkedFile::kBlock > kMostBytes) {
+    if (!download->begun.is_set()) return true;
+    make_room(*download);
   }
   const MonoTime asked = download->asked.take(chunk.index);
   // One that was given up, and asked for again, may come twice.
@@ -213,14 +257,14 @@ bool FileReceiver::take(const GuestId& from, const wire::FileChunk& chunk, MonoT
   if (!download->file.is_whole()) return true;
   ++counters_.files_whole;
   download->is_whole = true;
-  if (on_whole) on_whole(from, download->hash, std::move(download->file));
+  if (on_whole) on_whole(from, chunk.file.hash, std::move(download->file));
   return true;
 }
 
 void FileReceiver::tell_blocks(Download& download) {
   while (download.blocks_told < download.file.blocks() &&
          download.file.has_block(download.blocks_told)) {
-    if (on_block) on_block(download.hash, download.file, download.blocks_told);
+    if (on_block) on_block(download.guest, download.hash, download.file, download.blocks_told);
     ++download.blocks_told;
   }
 }
@@ -232,7 +276,9 @@ bool FileReceiver::refuse(const GuestId& from, const wire::FileRefusal& refusal,
   ++counters_.files_refused;
   download->asked.clear();
   download->cursor = 0;
-  download->rests_until = now + kRestAfterRefusal;
+  download->rests_until =
+      now +
+      (refusal.cause == wire::FileRefusalCause::kNotOffered ? kRestNotOffered : kRestAfterRefusal);
   if (on_refused) on_refused(from, refusal.file.hash, refusal.cause);
   return true;
 }

@@ -1,12 +1,13 @@
 // FileReceiver: the avatars' files that this house wants of the others: asks for their chunks, one
 // file after the other, as fast as the pace and the path allow, again where one does not come, and
-// puts them together. A file whose hash is wrong is not asked for again.
+// puts them together. A file whose hash is wrong is not asked for again, unless it began with bytes
+// that were brought along: these may be another's, so that it is fetched once from nothing.
 //
 // Units/frames: MonoTime of one clock.
 // Ownership:    owns what has come of each file, within kMostBytes; whole files are handed on.
 // Threads:      none inside; one owner.
-// Failure:      what was not asked for is false; no guest gets more than kBytesPerGuest at once and
-//               a minute.
+// Failure:      what was not asked for is false and takes no memory; a file of another size than
+//               was said is wrong; no guest gets more than kBytesPerGuest at once and a minute.
 #pragma once
 
 #include <functional>
@@ -29,8 +30,16 @@ struct FileReceiverCounters {
   std::uint64_t chunks_again = 0;    // asked for once more, as they did not come in time
   std::uint64_t chunks_foreign = 0;  // not asked for
   std::uint64_t files_whole = 0;
-  std::uint64_t files_wrong = 0;  // of another hash
+  std::uint64_t files_wrong = 0;  // of another hash or size
+  std::uint64_t files_anew = 0;   // wrong with what was brought along: once more without
   std::uint64_t files_refused = 0;
+};
+
+// What became of a file that was handed on.
+enum class FileVerdict : std::uint8_t {
+  kRight,
+  kWrong,    // of another hash
+  kNotKept,  // right or not, the disk did not take it: nothing is known against it
 };
 
 class FileReceiver {
@@ -45,8 +54,8 @@ class FileReceiver {
   void want(const GuestId& guest, const FileHash& hash, ChunkedFile begin, MonoTime now);
   void drop(const GuestId& guest);
   bool wants(const GuestId& guest, const FileHash& hash) const;
-  // The file that was handed on had that hash, or had not.
-  void settle(const GuestId& guest, const FileHash& hash, bool is_right);
+  // Of the file that was handed on. One that is fetched from nothing now is still wanted.
+  void settle(const GuestId& guest, const FileHash& hash, FileVerdict verdict);
 
   // What to ask for now. `slot_of` is where a guest is; nullopt = not here.
   using SlotOf = std::function<std::optional<wire::Slot>(const GuestId&)>;
@@ -62,11 +71,14 @@ class FileReceiver {
 
   std::function<void(const GuestId&, const FileHash&, ChunkedFile&&)> on_whole;
   // So many blocks from the begin are here now: to be kept for after a restart.
-  std::function<void(const FileHash&, const ChunkedFile&, std::size_t block)> on_block;
+  std::function<void(const GuestId&, const FileHash&, const ChunkedFile&, std::size_t block)>
+      on_block;
   std::function<void(const GuestId&, const FileHash&, wire::FileRefusalCause)> on_refused;
 
   const FileReceiverCounters& counters() const { return counters_; }
   const FilePace& pace() const { return pace_; }
+  // Of what has come and is not whole.
+  std::size_t held_bytes() const;
 
  private:
   struct Download {
@@ -74,6 +86,8 @@ class FileReceiver {
     FileHash hash;
     ChunkedFile file;
     ChunkRequests asked;
+    std::vector<bool> was_asked;  // ever: a late one is taken, what was never asked for is not
+    bool is_resumed = false;      // began with bytes of before
     std::size_t cursor = 0;
     std::size_t blocks_told = 0;
     bool is_whole = false;  // being checked
@@ -93,8 +107,10 @@ class FileReceiver {
   bool may_ask(const Download& download, MonoTime now) const;
   bool pay(const GuestId& guest, double bytes, MonoTime now);
   void tell_blocks(Download& download);
+  static void begin_anew(Download& download);
   void make_room(const Download& keep);
   bool is_bad(const GuestId& guest, const FileHash& hash) const;
+  void remember_bad(const GuestId& guest, const FileHash& hash);
 
   FilePace pace_;
   std::vector<Download> downloads_;  // the first that can has its turn

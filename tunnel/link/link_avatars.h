@@ -7,7 +7,8 @@
 // Ownership:    refers to the poller and the link, which must outlive it; owns thread and store.
 // Threads:      the poller's, and one that it starts.
 // Failure:      an own avatar that is not in the store is told, with the cure; what comes of others
-//               and is wrong is counted by the link and told once.
+//               and is wrong is counted by the link and told once. However often a guest chooses,
+//               it costs one look into the store a second.
 #pragma once
 
 #include <atomic>
@@ -18,6 +19,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <tuple>
 
 #include "core/net/poller.h"
 #include "core/store/avatar_store.h"
@@ -47,6 +49,8 @@ class LinkAvatars {
 
   // Until everything that was begun is done, of the thread and of its answers; for tests.
   void wait();
+  // Into the store, for files of others, so far.
+  std::uint64_t looks() const;
 
  private:
   using Work = std::function<void()>;
@@ -56,14 +60,28 @@ class LinkAvatars {
     bool is_offered = false;
     bool is_told = false;  // that it is not here
   };
+  // For a guest's newest choice; not before then.
+  struct Look {
+    AvatarFile file;
+    MonoTime due;
+  };
+  // What is said once of a guest's file.
+  enum class Said : std::uint8_t { kResumed, kArrived, kAgain, kDamaged, kNotKept, kNoFiles };
+  using Told = std::tuple<GuestId, FileHash, Said>;
 
   void run();
+  Work next_work(std::unique_lock<std::mutex>& lock);
   void in_thread(Work work);
+  void look_soon(const GuestId& guest, const AvatarFile& file);
+  void look_no_more(const GuestId& guest);
+  void drop(const GuestId& guest);
   void in_poller(Work work);
   void take_answers();
   void load_own(const GuestId& guest, Own& own);
   void look_for(const GuestId& guest, const AvatarFile& file);
   void keep(const GuestId& guest, const FileHash& hash, ChunkedFile&& file);
+  void settle(const GuestId& guest, const FileHash& hash, const Result<bool>& kept);
+  void say_once(const Told& what, const std::string& line);
   void say(const std::string& line) const {
     if (tell_) tell_(line);
   }
@@ -74,13 +92,17 @@ class LinkAvatars {
   Link* link_ = nullptr;
   std::map<GuestId, Own> own_;
   std::map<GuestId, AvatarFile> heard_;
+  std::deque<Told> told_;  // the newest
   int wake_fd_ = -1;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable wakes_, is_idle_;
-  std::deque<Work> work_, answers_;  // guarded
-  bool is_busy_ = false;             // guarded
-  bool ends_ = false;                // guarded
+  std::deque<Work> work_, answers_;     // guarded
+  std::map<GuestId, Look> looks_;       // guarded; one for each guest
+  std::map<GuestId, MonoTime> looked_;  // guarded; when last, a second or less ago
+  std::uint64_t looks_done_ = 0;        // guarded
+  bool is_busy_ = false;                // guarded
+  bool ends_ = false;                   // guarded
   std::thread thread_;
 };
 

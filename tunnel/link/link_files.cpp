@@ -16,8 +16,9 @@ LinkFiles::LinkFiles(LinkContext& link)
   receiver_.on_whole = [this](const GuestId& guest, const FileHash& hash, ChunkedFile&& file) {
     if (link_.handlers.on_file) link_.handlers.on_file(guest, hash, std::move(file));
   };
-  receiver_.on_block = [this](const FileHash& hash, const ChunkedFile& file, std::size_t block) {
-    if (link_.handlers.on_file_block) link_.handlers.on_file_block(hash, file, block);
+  receiver_.on_block = [this](const GuestId& guest, const FileHash& hash, const ChunkedFile& file,
+                              std::size_t block) {
+    if (link_.handlers.on_file_block) link_.handlers.on_file_block(guest, hash, file, block);
   };
   receiver_.on_refused = [this](const GuestId& guest, const FileHash& hash,
                                 wire::FileRefusalCause cause) {

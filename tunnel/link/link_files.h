@@ -26,8 +26,8 @@ class LinkFiles {
   bool fetches(const GuestId& guest, const FileHash& hash) const {
     return receiver_.wants(guest, hash);
   }
-  void settle(const GuestId& guest, const FileHash& hash, bool is_right) {
-    receiver_.settle(guest, hash, is_right);
+  void settle(const GuestId& guest, const FileHash& hash, FileVerdict verdict) {
+    receiver_.settle(guest, hash, verdict);
   }
 
   void begin_session();

@@ -86,7 +86,8 @@ struct LinkHandlers {
   // A file that was asked for with LinkCore::fetch_file() is here whole: who hears it checks its
   // hash, and says so with settle_file(). Blocks are told in order, to be kept for a restart.
   std::function<void(const GuestId&, const FileHash&, ChunkedFile&&)> on_file;
-  std::function<void(const FileHash&, const ChunkedFile&, std::size_t block)> on_file_block;
+  std::function<void(const GuestId&, const FileHash&, const ChunkedFile&, std::size_t block)>
+      on_file_block;
   std::function<void(const GuestId&, const FileHash&, wire::FileRefusalCause)> on_file_refused;
   std::function<void(const GuestId&, MonoTime now)> on_guest_joined;
   std::function<void(const GuestId&, MonoTime now)> on_guest_left;

@@ -2,17 +2,23 @@
 
 #include <algorithm>
 
+#include "tunnel/wire/state_bytes.h"
+
 namespace dance {
 namespace {
 
 constexpr std::size_t kMostFiles = 512;
-constexpr std::size_t kMostFilesOfGuest = 2;  // the chosen one, and the one before
+constexpr std::ptrdiff_t kMostFilesOfGuest = 2;  // the chosen one, and the one before
 // While chunks wait for their pace, and while they wait for their owner.
 constexpr Duration kSendingPeriod = Duration::ms(2);
 constexpr Duration kWaitingPeriod = Duration::ms(50);
 constexpr Duration kShortestPatience = Duration::s(1);
 // A file in use is not evicted for another.
 constexpr Duration kInUse = Duration::s(10);
+// What one session gets of a file: twice its size, and as much as it has each ten minutes, so that
+// a path that loses much goes on slowly, and none makes the server send for ever.
+constexpr double kShareOfFile = 2.0;
+constexpr double kSecondsForAnother = 600.0;
 // To one session never two at once; to all together a few.
 constexpr double kBurstOfSession = wire::kFileChunkCost;
 constexpr double kBurstOfAll = 16.0 * wire::kFileChunkCost;
@@ -21,6 +27,15 @@ template <class Message>
 void send(ServerContext& server, std::size_t session, const Message& message) {
   std::array<std::uint8_t, wire::kMaxPlain> out;
   server.send(server.sessions[session].peer, {out.data(), wire::build(message, out)});
+}
+
+// What that guest has chosen, as its house has said it; nullopt = nothing.
+std::optional<AvatarFile> chosen_by(const ServerGuest& guest) {
+  const RetainedState& state = guest.states[wire::place_of({wire::StateKind::kAvatarFile, 0})];
+  AvatarFile file;
+  if (state.version == 0 || !decode_from_tunnel(state.bytes(), file) || !file.hash.is_set())
+    return std::nullopt;
+  return file;
 }
 
 }  // namespace
@@ -82,20 +97,44 @@ ServerFiles::File* ServerFiles::find(std::size_t room, const wire::FileName& nam
   return nullptr;
 }
 
-ServerFiles::File* ServerFiles::find_or_add(std::size_t room, const wire::FileName& name,
-                                            MonoTime now) {
-  if (File* known = find(room, name)) return known;
-  // A guest that changes its mind makes room for its own.
-  std::size_t of_guest = 0;
+// Chunks come or go, of what the guest has chosen.
+bool ServerFiles::is_in_use(const File& file, MonoTime now) {
+  const ServerGuest* guest = guest_in(file.room, file.name.slot);
+  if (guest == nullptr || now - file.used > kInUse) return false;
+  const auto chosen = chosen_by(*guest);
+  return chosen && chosen->hash == file.name.hash;
+}
+
+// The longest unused of those that match; false where all of them are in use.
+template <class Matches>
+bool ServerFiles::evict(const Matches& matches, MonoTime now) {
   auto oldest = files_.end();
+  for (auto it = files_.begin(); it != files_.end(); ++it)
+    if (matches(*it) && (oldest == files_.end() || it->used < oldest->used) && !is_in_use(*it, now))
+      oldest = it;
+  if (oldest == files_.end()) return false;
+  forget(oldest);
+  return true;
+}
+
+// `name` is what the guest has chosen: its other files are not in use.
+ServerFiles::File* ServerFiles::find_or_add(std::size_t room, const wire::FileName& name,
+                                            std::uint32_t size_bytes, MonoTime now) {
   for (auto it = files_.begin(); it != files_.end(); ++it) {
-    if (it->room != room || it->name.slot != name.slot) continue;
-    ++of_guest;
-    if (oldest == files_.end() || it->used < oldest->used) oldest = it;
+    if (it->room != room || it->name != name) continue;
+    if (it->chunks.size_bytes() == size_bytes) return &*it;
+    forget(it);  // chosen again, with another size
+    break;
   }
-  if (of_guest >= kMostFilesOfGuest) forget(oldest);
-  if (files_.size() >= kMostFiles) return nullptr;
-  files_.push_back({room, name, {}, {}, now});
+  const auto of_guest = [&](const File& it) {
+    return it.room == room && it.name.slot == name.slot;
+  };
+  while (std::ranges::count_if(files_, of_guest) >= kMostFilesOfGuest)
+    if (!evict(of_guest, now)) return nullptr;
+  if (files_.size() >= kMostFiles && !evict([](const File&) { return true; }, now)) return nullptr;
+  if (!make_room(guest_in(room, name.slot)->owner, size_bytes, now)) return nullptr;
+  files_.push_back({room, name, ChunkedFile(size_bytes), {}, now});
+  size_bytes_ += size_bytes;
   return &files_.back();
 }
 
@@ -114,16 +153,16 @@ std::size_t ServerFiles::bytes_of_owner(std::size_t session) const {
 }
 
 bool ServerFiles::make_room(std::size_t owner, std::uint32_t size_bytes, MonoTime now) {
-  if (bytes_of_owner(owner) + size_bytes > server_.limits.file_bytes_per_session) return false;
-  while (size_bytes_ + size_bytes > server_.limits.file_bytes) {
-    auto oldest = files_.end();
-    for (auto it = files_.begin(); it != files_.end(); ++it)
-      if (it->chunks.size_bytes() > 0 && now - it->used > kInUse &&
-          (oldest == files_.end() || it->used < oldest->used))
-        oldest = it;
-    if (oldest == files_.end()) return false;
-    forget(oldest);
-  }
+  const auto& limits = server_.limits;
+  if (size_bytes > limits.file_bytes_per_session || size_bytes > limits.file_bytes) return false;
+  const auto of_owner = [&](const File& it) {
+    const ServerGuest* guest = guest_in(it.room, it.name.slot);
+    return guest != nullptr && guest->owner == owner;
+  };
+  while (bytes_of_owner(owner) + size_bytes > limits.file_bytes_per_session)
+    if (!evict(of_owner, now)) return false;
+  while (size_bytes_ + size_bytes > limits.file_bytes)
+    if (!evict([](const File&) { return true; }, now)) return false;
   return true;
 }
 
@@ -155,14 +194,16 @@ void ServerFiles::on_want(std::size_t session, wire::Bytes body, MonoTime now) {
   if (!server_.sessions[guest->owner].knows_files() ||
       receiver(guest->owner).bytes_per_second <= 0.0)
     return refuse(session, want->file, wire::FileRefusalCause::kNoFiles);
-  File* file = find_or_add(from.room, want->file, now);
+  const auto chosen = chosen_by(*guest);
+  if (!chosen || chosen->hash != want->file.hash)
+    return refuse(session, want->file, wire::FileRefusalCause::kNotOffered);
+  const File* file =
+      find_or_add(from.room, want->file, static_cast<std::uint32_t>(chosen->size_bytes), now);
   if (file == nullptr) return refuse(session, want->file, wire::FileRefusalCause::kFull);
-  file->used = now;
   Receiver& to = receiver(session);
   for (std::size_t i = 0; i < wire::kChunksPerWant; ++i) {
     const Queued queued{want->file, static_cast<std::uint16_t>(want->first + i)};
-    const std::size_t chunks = file->chunks.chunks();
-    if (!want->has(queued.index) || (chunks > 0 && queued.index >= chunks)) continue;
+    if (!want->has(queued.index) || queued.index >= file->chunks.chunks()) continue;
     // What does not fit is asked for again.
     if (!to.queue.contains(queued) && !to.queue.try_push(queued)) break;
   }
@@ -179,17 +220,13 @@ void ServerFiles::on_chunk(std::size_t session, wire::Bytes body, MonoTime now) 
     return server_.reject(ServerReject::kForeignSlot);
   const std::size_t room = server_.sessions[session].room;
   File* file = find(room, chunk->file);
-  const bool has_size = file != nullptr && file->chunks.size_bytes() > 0;
-  if (file == nullptr || !file->asked.take(chunk->index).is_set() ||
-      (has_size && file->chunks.size_bytes() != chunk->size_bytes))
+  if (file == nullptr || !file->asked.take(chunk->index).is_set())
     return server_.reject(ServerReject::kFileNotAsked);
-  if (!has_size) {
-    if (!make_room(session, chunk->size_bytes, now)) {
-      refuse_all(room, chunk->file, wire::FileRefusalCause::kFull);
-      return forget(std::ranges::find_if(files_, [&](const File& it) { return &it == file; }));
-    }
-    file->chunks = ChunkedFile(chunk->size_bytes);
-    size_bytes_ += chunk->size_bytes;
+  if (file->chunks.size_bytes() != chunk->size_bytes) {
+    // Not the file that the guest has said: it will never be whole.
+    file->asked.clear();
+    refuse_all(room, chunk->file, wire::FileRefusalCause::kNotOffered);
+    return server_.reject(ServerReject::kFileNotAsked);
   }
   if (file->chunks.put(chunk->index, chunk->data)) ++server_.counters.file_chunks_in;
   file->used = now;
@@ -209,6 +246,17 @@ void ServerFiles::on_refusal(std::size_t session, wire::Bytes body, MonoTime now
   wake(now);
 }
 
+bool ServerFiles::may_have(Receiver& to, const File& file, MonoTime now) const {
+  const auto of_slot = [&](const Served& it) { return it.name.slot.slot == file.name.slot.slot; };
+  auto served = std::ranges::find_if(to.served, of_slot);
+  if (served == to.served.end()) served = to.served.insert(served, Served());
+  if (served->name != file.name) {
+    const double size = std::max<double>(file.chunks.size_bytes(), wire::kFileChunk);
+    *served = {file.name, TokenBucket(size / kSecondsForAnother, kShareOfFile * size)};
+  }
+  return served->bytes.take(wire::kFileChunk, now);
+}
+
 // One chunk to that session, if one is here and the pace allows. True when something went.
 bool ServerFiles::serve(std::size_t session, MonoTime now) {
   ServerSession& to = server_.sessions[session];
@@ -218,15 +266,22 @@ bool ServerFiles::serve(std::size_t session, MonoTime now) {
   for (std::size_t i = 0; i < waits.queue.size(); ++i) {
     const Queued queued = waits.queue[i];
     File* file = find(to.room, queued.name);
-    const bool is_beyond =
-        file != nullptr && file->chunks.size_bytes() > 0 && queued.index >= file->chunks.chunks();
-    if (file == nullptr || is_beyond) {
+    if (file == nullptr || queued.index >= file->chunks.chunks()) {
       waits.queue.erase_at(i--);
       continue;
     }
-    if (file->chunks.size_bytes() == 0 || !file->chunks.has(queued.index)) continue;
-    if (!waits.pace.take(wire::kFileChunkCost, now)) return false;
-    if (!pace_.take(wire::kFileChunkCost, now)) return false;
+    if (!file->chunks.has(queued.index)) continue;
+    // Both first: what one of them gives must not be lost where the other has nothing.
+    if (!waits.pace.has(wire::kFileChunkCost, now) || !pace_.has(wire::kFileChunkCost, now))
+      return false;
+    if (!may_have(waits, *file, now)) {
+      for (std::size_t j = waits.queue.size(); j-- > 0;)
+        if (waits.queue[j].name == queued.name) waits.queue.erase_at(j);
+      refuse(session, queued.name, wire::FileRefusalCause::kFull);
+      return false;
+    }
+    waits.pace.take(wire::kFileChunkCost, now);
+    pace_.take(wire::kFileChunkCost, now);
     waits.queue.erase_at(i);
     file->used = now;
     ++server_.counters.file_chunks_out;
@@ -247,34 +302,38 @@ double ServerFiles::owner_rate(const File& file) {
 void ServerFiles::ask_owners(MonoTime now) {
   for (File& file : files_) {
     const double rate = owner_rate(file);
-    if (file.chunks.size_bytes() > 0 && file.chunks.is_whole()) continue;
-    if (rate <= 0.0) continue;
+    if (file.chunks.is_whole() || rate <= 0.0) continue;
     const Duration patience =
         kShortestPatience + Duration::seconds(2.0 * ChunkRequests::kMost * wire::kFileChunk / rate);
     file.asked.expire(now - patience);
-    const std::size_t owner = guest_in(file.room, file.name.slot)->owner;
-    wire::FileWant want{file.name, 0, 0};
-    const auto flush = [&] {
-      if (want.chunks != 0) send(server_, owner, want);
-      want.chunks = 0;
-    };
-    for (const std::size_t session : waiting_) {
-      if (server_.sessions[session].room != file.room) continue;
-      for (const Queued& queued : receiver(session).queue) {
-        const bool is_here = file.chunks.size_bytes() > 0 && file.chunks.has(queued.index);
-        if (queued.name != file.name || is_here || file.asked.has(queued.index)) continue;
-        if (!file.asked.add(queued.index, now)) break;
-        const bool fits = want.chunks != 0 && queued.index >= want.first &&
-                          queued.index - want.first < static_cast<int>(wire::kChunksPerWant);
-        if (!fits) {
-          flush();
-          want.first = queued.index;
-        }
-        want.chunks |= 1u << (queued.index - want.first);
-      }
-    }
-    flush();
+    ask_owner(file, guest_in(file.room, file.name.slot)->owner, now);
   }
+}
+
+void ServerFiles::ask_owner(File& file, std::size_t owner, MonoTime now) {
+  wire::FileWant want{file.name, 0, 0};
+  const auto flush = [&] {
+    if (want.chunks != 0) send(server_, owner, want);
+    want.chunks = 0;
+  };
+  for (const std::size_t session : waiting_) {
+    if (server_.sessions[session].room != file.room) continue;
+    for (const Queued& queued : receiver(session).queue) {
+      // The name first: an index of another file may be beyond this one's end, and so may one that
+      // was queued before the guest said another size.
+      if (queued.name != file.name || queued.index >= file.chunks.chunks()) continue;
+      if (file.chunks.has(queued.index) || file.asked.has(queued.index)) continue;
+      if (!file.asked.add(queued.index, now)) break;
+      const bool fits = want.chunks != 0 && queued.index >= want.first &&
+                        queued.index - want.first < static_cast<int>(wire::kChunksPerWant);
+      if (!fits) {
+        flush();
+        want.first = queued.index;
+      }
+      want.chunks |= 1u << (queued.index - want.first);
+    }
+  }
+  flush();
 }
 
 void ServerFiles::send_due(MonoTime now) {

@@ -1,6 +1,7 @@
 // The files of avatars at the server: a bounded cache of what guests of its rooms have chosen, so
-// that one upload serves all who want it. Chunks are fetched from the guest's house as they are
-// asked for, each once, and go out when no record waits for the same receiver. It does not look
+// that one upload serves all who want it. Only the file that a guest's retained AvatarFile names is
+// fetched and kept, with the size that it says. Chunks are fetched from the guest's house as they
+// are asked for, each once, and go out when no record waits for the same receiver. It does not look
 // into them: receivers check the hash of the whole.
 //
 // Units/frames: MonoTime of the server's clock; sessions by index.
@@ -44,14 +45,19 @@ class ServerFiles {
   struct File {
     std::size_t room = 0;
     wire::FileName name;
-    ChunkedFile chunks;  // of size 0 until the first chunk has come
+    ChunkedFile chunks;
     ChunkRequests asked;
-    MonoTime used;
+    MonoTime used;  // a chunk came, or went out
   };
   struct Queued {
     wire::FileName name;
     std::uint16_t index = 0;
     bool operator==(const Queued&) const = default;
+  };
+  // How much of a file a session may still have.
+  struct Served {
+    wire::FileName name;
+    TokenBucket bytes;
   };
   // What one session waits for.
   struct Receiver {
@@ -59,20 +65,26 @@ class ServerFiles {
     double bytes_per_second = 0.0;  // as its link says
     FilePace pace;
     FixedList<Queued, 64> queue;
+    std::vector<Served> served;  // one for each slot at most
   };
 
   ServerGuest* guest_in(std::size_t room, const wire::Slot& slot);
   File* find(std::size_t room, const wire::FileName& name);
-  File* find_or_add(std::size_t room, const wire::FileName& name, MonoTime now);
+  File* find_or_add(std::size_t room, const wire::FileName& name, std::uint32_t size_bytes,
+                    MonoTime now);
+  bool is_in_use(const File& file, MonoTime now);
+  template <class Matches>
+  bool evict(const Matches& matches, MonoTime now);
   std::size_t bytes_of_owner(std::size_t session) const;
   bool make_room(std::size_t owner, std::uint32_t size_bytes, MonoTime now);
   void forget(std::list<File>::iterator file);
   void refuse(std::size_t session, const wire::FileName& name, wire::FileRefusalCause cause);
   void refuse_all(std::size_t room, const wire::FileName& name, wire::FileRefusalCause cause);
   Receiver& receiver(std::size_t session);
+  bool may_have(Receiver& receiver, const File& file, MonoTime now) const;
   bool serve(std::size_t session, MonoTime now);
   void ask_owners(MonoTime now);
-  bool is_queued(const File& file) const;
+  void ask_owner(File& file, std::size_t owner, MonoTime now);
   double owner_rate(const File& file);
   void wake(MonoTime now);
 

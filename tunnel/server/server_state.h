@@ -58,9 +58,10 @@ struct ServerLimits {
   // the guests of one session.
   std::size_t file_bytes = std::size_t{128} << 20;
   std::size_t file_bytes_per_session = std::size_t{32} << 20;
-  // That go out: to all together, and to one session.
-  double file_bytes_per_second = 8e6;
-  double file_bytes_per_second_of_session = 1e6;
+  // That go out: to all together, which an uplink at home of 20 Mbit/s bears, and to one session,
+  // of which links ask half unless told otherwise.
+  double file_bytes_per_second = 2e6;
+  double file_bytes_per_second_of_session = 256e3;
   // Records to one receiver wait this long for others to share a datagram with, unless all who
   // dance have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's
   // guests.

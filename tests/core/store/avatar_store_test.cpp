@@ -18,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::uint8_t>;
 
+const GuestId kAlice = *GuestId::parse("alice"), kMallory = *GuestId::parse("mallory");
+
 Bytes some_bytes(std::size_t size, std::uint8_t seed) {
   Bytes bytes(size);
   for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i * 7 + seed);
@@ -133,7 +135,7 @@ TEST_F(Store, MakesRoomByWhatIsLongestUnused) {
   EXPECT_NE(bounded.find(sha256_of(own)), "") << "own ones stay and do not count";
 }
 
-TEST_F(Store, RemovesAFileThatIsDamaged) {
+TEST_F(Store, RemovesAForeignFileThatIsDamaged) {
   const Bytes bytes = some_bytes(3000, 2);
   ASSERT_TRUE(store().keep_foreign(sha256_of(bytes), {bytes}, false));
   const std::string path = store().find(sha256_of(bytes));
@@ -142,17 +144,42 @@ TEST_F(Store, RemovesAFileThatIsDamaged) {
   EXPECT_EQ(store().find(sha256_of(bytes)), "");
 }
 
+TEST_F(Store, LeavesAnOwnFileThatIsDamagedUntilItIsKeptAgain) {
+  const Bytes bytes = some_bytes(3000, 2);
+  const FileHash hash = sha256_of(bytes);
+  ASSERT_TRUE(store().keep_own({hash, bytes}, true));
+  const std::string path = store().find(hash);
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).put('!');
+  EXPECT_FALSE(store().read(hash));
+  EXPECT_TRUE(fs::exists(path)) << "it is the user's";
+  ASSERT_TRUE(store().keep_foreign(hash, {bytes}, true));
+  EXPECT_EQ(store().read(hash), bytes) << "another's copy serves meanwhile";
+  ASSERT_TRUE(store().keep_own({hash, bytes}, false));
+  fs::remove_all(root / "cache");
+  EXPECT_EQ(store().find(hash), path);
+  EXPECT_EQ(store().read(hash), bytes);
+}
+
+TEST_F(Store, LeavesWhatCannotBeReadWhole) {
+  const Bytes bytes = some_bytes(3000, 2);
+  ASSERT_TRUE(store().keep_foreign(sha256_of(bytes), {bytes}, false));
+  const std::string path = store().find(sha256_of(bytes));
+  fs::resize_file(path, AvatarStore::kMostFileBytes + 1);  // more than is read
+  EXPECT_FALSE(store().read(sha256_of(bytes)));
+  EXPECT_TRUE(fs::exists(path));
+}
+
 TEST_F(Store, FollowsNoLinkInTheFoldersOfTheStore) {
   const Bytes bytes = some_bytes(3000, 2);
   const FileHash hash = sha256_of(bytes);
   fs::create_directories(root / "cache/avatars");
   std::ofstream(root / "victim").put('v');
   fs::create_symlink(root / "victim", root / "cache/avatars" / (hex_of(hash) + ".vrm"));
-  fs::create_symlink(root / "victim", root / "cache/avatars" / (hex_of(hash) + ".part"));
+  fs::create_symlink(root / "victim", root / "cache/avatars" / (hex_of(hash) + ".alice.part"));
   EXPECT_EQ(store().find(hash), "");
   EXPECT_FALSE(store().read(hash));
-  EXPECT_FALSE(store().add_part(hash, 0, bytes));
-  EXPECT_TRUE(store().part(hash).empty());
+  EXPECT_FALSE(store().add_part(kAlice, hash, 0, bytes));
+  EXPECT_TRUE(store().part(kAlice, hash).empty());
   EXPECT_TRUE(store().list().empty());
   EXPECT_EQ(fs::file_size(root / "victim"), 1u);
 }
@@ -160,15 +187,26 @@ TEST_F(Store, FollowsNoLinkInTheFoldersOfTheStore) {
 TEST_F(Store, TakesUpAPartAfterARestart) {
   const Bytes bytes = some_bytes(3000, 2);
   const FileHash hash = sha256_of(bytes);
-  EXPECT_TRUE(store().part(hash).empty());
-  ASSERT_TRUE(store().add_part(hash, 0, std::span(bytes).first(1000)));
-  ASSERT_TRUE(store().add_part(hash, 2000, std::span(bytes).subspan(2000)));  // a gap: left out
-  EXPECT_EQ(store().part(hash).size(), 1000u);
-  ASSERT_TRUE(store().add_part(hash, 1000, std::span(bytes).subspan(1000, 1000)));
-  EXPECT_EQ(store().part(hash), Bytes(bytes.begin(), bytes.begin() + 2000));
+  EXPECT_TRUE(store().part(kAlice, hash).empty());
+  ASSERT_TRUE(store().add_part(kAlice, hash, 0, std::span(bytes).first(1000)));
+  ASSERT_TRUE(
+      store().add_part(kAlice, hash, 2000, std::span(bytes).subspan(2000)));  // a gap: left out
+  EXPECT_EQ(store().part(kAlice, hash).size(), 1000u);
+  ASSERT_TRUE(store().add_part(kAlice, hash, 1000, std::span(bytes).subspan(1000, 1000)));
+  EXPECT_EQ(store().part(kAlice, hash), Bytes(bytes.begin(), bytes.begin() + 2000));
   EXPECT_TRUE(store().list().empty()) << "it is no avatar yet";
-  store().forget_part(hash);
-  EXPECT_TRUE(store().part(hash).empty());
+  store().forget_part(kAlice, hash);
+  EXPECT_TRUE(store().part(kAlice, hash).empty());
+}
+
+TEST_F(Store, KeepsTheGuestsPartsOfOneHashApart) {
+  const Bytes bytes = some_bytes(2000, 2), garbage = some_bytes(1000, 77);
+  const FileHash hash = sha256_of(bytes);
+  ASSERT_TRUE(store().add_part(kMallory, hash, 0, garbage));
+  EXPECT_TRUE(store().part(kAlice, hash).empty());
+  ASSERT_TRUE(store().add_part(kAlice, hash, 0, std::span(bytes).first(1000)));
+  store().forget_part(kMallory, hash);
+  EXPECT_EQ(store().part(kAlice, hash), Bytes(bytes.begin(), bytes.begin() + 1000));
 }
 
 TEST_F(Store, IsWhereTheEnvironmentSays) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/net/mono_clock.h"
 #include "core/store/sha256.h"
@@ -166,8 +167,9 @@ TEST_F(FileFlow, AHouseThatBeginsAnewGoesOnWhereItWas) {
   const AvatarFile said = keep(alice, file);
   alice.avatars->choose(alice.who, said, mono_now());
   ASSERT_TRUE(turn_until(
-      [&] { return bob.store.part(said.hash).size() >= 2 * ChunkedFile::kBlock; }, true));
-  const std::size_t kept = bob.store.part(said.hash).size() / ChunkedFile::kBlock;
+      [&] { return bob.store.part(alice.who, said.hash).size() >= 2 * ChunkedFile::kBlock; },
+      true));
+  const std::size_t kept = bob.store.part(alice.who, said.hash).size() / ChunkedFile::kBlock;
   bob.link.reset();
   bob.avatars.reset();
   open(bob);
@@ -175,7 +177,7 @@ TEST_F(FileFlow, AHouseThatBeginsAnewGoesOnWhereItWas) {
   EXPECT_EQ(bob.store.read(said.hash), file.bytes);
   EXPECT_LE(bob.link->core().files().received().chunks_taken,
             wire::chunks_of(file.size()) - kept * ChunkedFile::kChunksPerBlock);
-  EXPECT_TRUE(bob.store.part(said.hash).empty());
+  EXPECT_TRUE(bob.store.part(alice.who, said.hash).empty());
 }
 
 TEST_F(FileFlow, AFileOfAnotherHashIsNotKept) {
@@ -190,6 +192,62 @@ TEST_F(FileFlow, AFileOfAnotherHashIsNotKept) {
   EXPECT_FALSE(has(bob, said));
   EXPECT_TRUE(bob.store.list().empty());
   EXPECT_EQ(bob.told, std::vector<std::string>{"alice's avatar came damaged; it is not shown"});
+}
+
+// As another who called himself alice in another room may have left them here.
+TEST_F(FileFlow, WrongBytesThatWereKeptOfBeforeCostOneMoreTransfer) {
+  open(alice);
+  open(bob);
+  const TestFile file = test_file(200'000);
+  const AvatarFile said = keep(alice, file);
+  const std::vector<std::uint8_t> garbage(ChunkedFile::kBlock, 7);
+  ASSERT_TRUE(bob.store.add_part(alice.who, said.hash, 0, garbage));
+  alice.avatars->choose(alice.who, said, mono_now());
+  ASSERT_TRUE(turn_until([&] { return has(bob, said); }, true));
+  EXPECT_EQ(bob.store.read(said.hash), file.bytes);
+  ASSERT_TRUE(turn_until([&] { return bob.told.size() == 3; }));
+  EXPECT_NE(bob.told[1].find("fetched from the begin"), std::string::npos) << bob.told[1];
+  EXPECT_EQ(bob.told[2], "alice's avatar has arrived");
+  EXPECT_EQ(bob.link->core().files().received().files_wrong, 0u);
+}
+
+TEST_F(FileFlow, WhatTheDiskDoesNotTakeIsNotCalledWrong) {
+  std::ofstream(bob.store.foreign_folder()).put('x');  // no folder
+  open(alice);
+  open(bob);
+  const TestFile file = test_file(100'000);
+  const AvatarFile said = keep(alice, file);
+  alice.avatars->choose(alice.who, said, mono_now());
+  ASSERT_TRUE(turn_until([&] { return !bob.told.empty(); }, true));
+  EXPECT_NE(bob.told[0].find("cannot be kept"), std::string::npos) << bob.told[0];
+  EXPECT_EQ(bob.link->core().files().received().files_wrong, 0u);
+  std::filesystem::remove(bob.store.foreign_folder());
+  bob.avatars->hear(alice.who, said);
+  ASSERT_TRUE(turn_until([&] { return has(bob, said); }, true));
+}
+
+TEST_F(FileFlow, AGuestThatChoosesWithoutEndCostsALookASecond) {
+  open(bob);
+  const MonoTime begin = mono_now();
+  AvatarFile said;
+  for (int i = 0; i < 500; ++i) {
+    said = test_file(100'000, static_cast<std::uint8_t>(i)).state();
+    said.hash.bytes[1] = static_cast<std::uint8_t>(i >> 8);
+    bob.avatars->hear(alice.who, said);
+  }
+  bob.avatars->wait();
+  EXPECT_GE(bob.avatars->looks(), 1u);
+  EXPECT_LE(static_cast<double>(bob.avatars->looks()), 1.0 + (mono_now() - begin).as_seconds());
+  EXPECT_TRUE(bob.link->core().files().fetches(alice.who, said.hash)) << "the newest";
+}
+
+TEST_F(FileFlow, AHouseWithoutFilesIsToldOnce) {
+  open(bob);
+  LinkHandlers handlers;
+  bob.avatars->add_to(handlers);
+  for (std::uint8_t i = 1; i < 4; ++i)
+    handlers.on_file_refused(alice.who, test_file(1, i).hash, wire::FileRefusalCause::kNoFiles);
+  EXPECT_EQ(bob.told.size(), 1u);
 }
 
 TEST_F(FileFlow, AnOwnFileThatIsNotKeptHereIsToldOnceWithTheCure) {

@@ -77,5 +77,15 @@ TEST(FilePace, BearsAFewLossesAndYieldsToMany) {
   EXPECT_GT(many.bytes_per_second(), 3'000.0) << "it never stops";
 }
 
+TEST(FilePace, IsAskedWithoutTaking) {
+  FilePace pace(1000.0, 1000.0);
+  const MonoTime now = MonoTime::from_us(1'000'000);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(pace.has(1000.0, now));
+  EXPECT_TRUE(pace.take(1000.0, now));
+  EXPECT_FALSE(pace.has(1.0, now));
+  EXPECT_TRUE(pace.has(500.0, now + Duration::ms(501)));
+  EXPECT_FALSE(FilePace().has(1.0, now));
+}
+
 }  // namespace
 }  // namespace dance

@@ -21,6 +21,7 @@ struct Transfer {
   std::vector<std::pair<GuestId, std::vector<std::uint8_t>>> whole;
   std::vector<std::size_t> blocks;
   bool is_right = true;
+  bool checks_bytes = false;  // instead
   std::size_t asked = 0;
   std::map<GuestId, std::size_t> asked_of;
 
@@ -30,11 +31,11 @@ struct Transfer {
       for (std::size_t i = 0; i < file.blocks(); ++i)
         bytes.insert(bytes.end(), file.block(i).begin(), file.block(i).end());
       whole.emplace_back(id, std::move(bytes));
-      receiver.settle(id, hash, is_right);
+      const bool right = checks_bytes ? whole.back().second == files.at(id).bytes : is_right;
+      receiver.settle(id, hash, right ? FileVerdict::kRight : FileVerdict::kWrong);
     };
-    receiver.on_block = [this](const FileHash&, const ChunkedFile&, std::size_t block) {
-      blocks.push_back(block);
-    };
+    receiver.on_block = [this](const GuestId&, const FileHash&, const ChunkedFile&,
+                               std::size_t block) { blocks.push_back(block); };
   }
   void want(const char* who, const TestFile& file) {
     files.insert_or_assign(guest(who), file);
@@ -141,6 +142,109 @@ TEST(FileReceiver, TakesUpWhatHadComeBefore) {
   EXPECT_EQ(transfer.whole[0].second, file.bytes);
   EXPECT_EQ(transfer.asked, wire::chunks_of(file.size()) - 128);
   EXPECT_EQ(transfer.blocks.front(), 2u);
+}
+
+TEST(FileReceiver, FetchesAFileFromNothingWhereWhatWasBroughtAlongWasWrong) {
+  Transfer transfer;
+  transfer.checks_bytes = true;
+  const TestFile file = test_file(300'000), garbage = test_file(300'000, 9);
+  ChunkedFile begun(file.size());
+  for (std::size_t i = 0; i < 64; ++i) begun.put(i, garbage.chunk(i));
+  transfer.files.insert_or_assign(guest("alice"), file);
+  transfer.receiver.want(guest("alice"), file.hash, std::move(begun), transfer.now);
+  transfer.run(Duration::s(5));
+  ASSERT_EQ(transfer.whole.size(), 2u);
+  EXPECT_NE(transfer.whole[0].second, file.bytes);
+  EXPECT_EQ(transfer.whole[1].second, file.bytes);
+  EXPECT_EQ(transfer.receiver.counters().files_anew, 1u);
+  EXPECT_EQ(transfer.receiver.counters().files_wrong, 0u);
+  EXPECT_EQ(transfer.asked, 2 * wire::chunks_of(file.size()) - 64);
+}
+
+TEST(FileReceiver, FetchesFromNothingOnlyOnce) {
+  Transfer transfer;
+  transfer.is_right = false;
+  const TestFile file = test_file(100'000);
+  ChunkedFile begun(file.size());
+  for (std::size_t i = 0; i < 64; ++i) begun.put(i, file.chunk(i));
+  transfer.files.insert_or_assign(guest("alice"), file);
+  transfer.receiver.want(guest("alice"), file.hash, std::move(begun), transfer.now);
+  transfer.run(Duration::s(5));
+  EXPECT_EQ(transfer.whole.size(), 2u);
+  EXPECT_EQ(transfer.receiver.counters().files_wrong, 1u);
+  EXPECT_FALSE(transfer.receiver.wants(guest("alice"), file.hash));
+}
+
+TEST(FileReceiver, HoldsNothingAgainstAFileThatTheDiskDidNotTake) {
+  Transfer transfer;
+  const TestFile file = test_file(50'000);
+  transfer.receiver.on_whole = [&](const GuestId& id, const FileHash& hash, ChunkedFile&&) {
+    ++transfer.asked_of[guest("whole")];
+    transfer.receiver.settle(id, hash, FileVerdict::kNotKept);
+  };
+  for (std::size_t i = 1; i <= 2; ++i) {
+    transfer.want("alice", file);
+    transfer.run(Duration::s(2));
+    EXPECT_EQ(transfer.asked_of[guest("whole")], i);
+    EXPECT_FALSE(transfer.receiver.wants(guest("alice"), file.hash));
+  }
+  EXPECT_EQ(transfer.receiver.counters().files_wrong, 0u);
+}
+
+TEST(FileReceiver, TakesAFileOfAnotherSizeThanSaidForWrong) {
+  Transfer transfer;
+  const TestFile file = test_file(50'000);
+  transfer.files.insert_or_assign(guest("alice"), file);
+  transfer.receiver.want(guest("alice"), file.hash, ChunkedFile(60'000), transfer.now);
+  transfer.run(Duration::s(1));
+  EXPECT_EQ(transfer.receiver.counters().files_wrong, 1u);
+  EXPECT_FALSE(transfer.receiver.wants(guest("alice"), file.hash));
+  const std::size_t asked = transfer.asked;
+  transfer.receiver.want(guest("alice"), file.hash, ChunkedFile(60'000), transfer.now);
+  transfer.run(Duration::s(5));
+  EXPECT_EQ(transfer.asked, asked);
+}
+
+TEST(FileReceiver, StoresNothingThatItHasNotAskedFor) {
+  Transfer transfer;
+  const TestFile file = test_file(1'000'000);
+  transfer.silent.insert(guest("alice"));
+  transfer.want("alice", file);
+  const wire::FileName name{{0, 1}, file.hash};
+  const auto give = [&](std::uint16_t index) {
+    return transfer.receiver.take(guest("alice"), {name, file.size(), index, file.chunk(index)},
+                                  transfer.now);
+  };
+  for (std::uint16_t i = 0; i < 100; ++i) EXPECT_FALSE(give(i));
+  EXPECT_EQ(transfer.receiver.counters().chunks_foreign, 100u);
+  transfer.run(Duration::ms(100));
+  EXPECT_TRUE(give(0));
+  EXPECT_FALSE(give(900)) << "beyond the window";
+  transfer.run(Duration::s(5));
+  EXPECT_GT(transfer.receiver.counters().chunks_again, 0u);
+  EXPECT_TRUE(give(1)) << "late, and given up meanwhile";
+  EXPECT_EQ(transfer.receiver.counters().chunks_taken, 2u);
+}
+
+TEST(FileReceiver, BoundsWhatIsBroughtAlong) {
+  Transfer transfer;
+  const TestFile file = test_file(10'000'000);
+  for (int i = 0; i < 10; ++i) {
+    ChunkedFile begun(file.size());
+    for (std::size_t at = 0; at < begun.chunks(); at += 2) begun.put(at, file.chunk(at));
+    const GuestId who = guest("guest-" + std::to_string(i));
+    transfer.files.insert_or_assign(who, file);
+    transfer.silent.insert(who);
+    transfer.receiver.want(who, file.hash, std::move(begun), transfer.now);
+    EXPECT_LE(transfer.receiver.held_bytes(), FileReceiver::kMostBytes);
+    EXPECT_TRUE(transfer.receiver.wants(who, file.hash));
+  }
+  EXPECT_GT(transfer.receiver.held_bytes(), FileReceiver::kMostBytes - 2 * file.size());
+  // A turn of each; each turn's file has room to become whole.
+  for (int i = 0; i < 60; ++i) {
+    transfer.run(Duration::s(1));
+    EXPECT_LE(transfer.receiver.held_bytes(), FileReceiver::kMostBytes);
+  }
 }
 
 TEST(FileReceiver, DoesNotAskAgainForAWrongFile) {
