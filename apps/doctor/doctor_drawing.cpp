@@ -53,7 +53,7 @@ Finding check_drawing() {
 #else
 Finding check_drawing() {
   return {"drawing", Grade::kNote, "built without the viewer: this house shows nothing",
-          "apt-get install libglfw3-dev libepoxy-dev libimgui-dev libstb-dev libegl-dev"};
+          "apt-get install libglfw3-dev libepoxy-dev libimgui-dev libegl-dev"};
 }
 #endif
 

@@ -123,6 +123,12 @@ struct AvatarSpring {
   int centre = -1;  // the node in whose axes it swings; -1 = W
 };
 
+// So much of a figure swings, as that costs time in every picture: nodes, and pairs of a node and a
+// collider that it stays out of. What is beyond stays at rest.
+constexpr std::size_t kMostSwingingNodes = 256;
+constexpr std::size_t kMostSpringContacts = 4096;
+constexpr std::size_t kMostSpringColliders = 32;  // of one spring
+
 struct AvatarModel {
   std::string name;     // of its file; printable
   std::string licence;  // as the file tells it; printable, may be empty

@@ -55,12 +55,14 @@ Result<void> check_vertices(const AvatarModel& model) {
 }
 
 Result<void> read_figure(AvatarSource& source) {
+  if (auto done = source.go_on(); !done) return done;
   if (auto done = read_nodes(source); !done) return done;
   if (auto done = read_bones(source); !done) return done;
   if (auto done = turn_to_front(source); !done) return done;
   DANCE_TRY(const auto uvs, read_materials(source));
   DANCE_TRY(const ReadMeshes meshes, read_meshes(source, uvs));
   if (auto done = check_vertices(source.model); !done) return done;
+  if (auto done = source.go_on(); !done) return done;
   read_expressions(source, meshes.morphs);
   read_springs(source);
   return {};
@@ -69,7 +71,7 @@ Result<void> read_figure(AvatarSource& source) {
 }  // namespace
 
 Result<ReadAvatar> read_avatar(std::span<const std::uint8_t> bytes, const AvatarLimits& limits,
-                               std::string_view name) {
+                               std::string_view name, const AvatarStop& stop) {
   const GlbLimits of_container = container_limits(limits);
   DANCE_TRY(const tinygltf::Model file, unpacked_model(bytes, of_container));
   if (auto checked = check_extensions(file); !checked) return tl::make_unexpected(checked.error());
@@ -84,7 +86,9 @@ Result<ReadAvatar> read_avatar(std::span<const std::uint8_t> bytes, const Avatar
                       Eigen::Quaterniond::Identity(),
                       limits.numbers,
                       limits.bytes,
-                      limits.morph_moves};
+                      limits.morph_moves,
+                      limits.looks,
+                      stop};
   if (auto done = read_figure(source); !done) return tl::make_unexpected(done.error());
   read_licence(source, name);
   if (out.model.parts.empty()) return fail("no mesh that hangs from the figure");

@@ -8,7 +8,8 @@
 //               drawing.
 // Failure:      says what is wrong, printable, with the cure; no other file is opened, nothing is
 //               thrown on any bytes, time and memory are bounded by AvatarLimits. A picture that
-//               cannot be decoded costs the picture, not the avatar, and a note.
+//               cannot be decoded costs the picture, not the avatar, and a note. Reading that is
+//               told to stop fails soon after.
 // Source:       Khronos glTF 2.0 with KHR_mesh_quantization, KHR_texture_transform,
 //               KHR_materials_unlit, KHR_materials_emissive_strength, EXT_texture_webp; VRM 1.0
 //               (VRMC_vrm, VRMC_springBone, VRMC_materials_mtoon); VRM 0.x.
@@ -16,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,8 +49,14 @@ struct AvatarLimits {
   std::size_t spring_joints = 4096;
   std::size_t colliders = 512;
   std::size_t numbers = std::size_t{1} << 26;  // read from accessors, over all: what costs time
-  std::size_t bytes = std::size_t{1} << 28;    // of vertices, morphs and pictures in the result
+  // Looked at: primitives, once for each node that has their mesh, with their attributes and morph
+  // targets, and joints of skins. Of the file's own size, but for meshes that many nodes share.
+  std::size_t looks = std::size_t{1} << 20;
+  std::size_t bytes = std::size_t{1} << 27;  // of vertices, morphs and pictures in the result
 };
+
+// Asked often while an avatar is read; true when nobody wants it any more. May be empty.
+using AvatarStop = std::function<bool()>;
 
 struct ReadAvatar {
   AvatarModel model;
@@ -57,6 +65,6 @@ struct ReadAvatar {
 
 // `name` is what the file is called, for a model that tells no name of its own.
 Result<ReadAvatar> read_avatar(std::span<const std::uint8_t> bytes, const AvatarLimits& limits = {},
-                               std::string_view name = {});
+                               std::string_view name = {}, const AvatarStop& stop = {});
 
 }  // namespace dance

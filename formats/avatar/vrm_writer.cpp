@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "formats/avatar/png_writer.h"
 #include "formats/avatar/vrm_extensions.h"
 #include "formats/gltf/glb_container.h"
+#include "formats/picture/png_writer.h"
 
 namespace dance {
 namespace {
@@ -106,7 +106,8 @@ class VrmFile {
 
   Result<void> add_pictures() {
     for (const AvatarPicture& picture : source_.pictures) {
-      DANCE_TRY(const std::vector<std::uint8_t> png, png_of(picture));
+      DANCE_TRY(const std::vector<std::uint8_t> png,
+                png_of_rgba(picture.width_px, picture.height_px, picture.rgba));
       tinygltf::Image image;
       image.mimeType = "image/png";
       image.bufferView = store_.add_file(png);

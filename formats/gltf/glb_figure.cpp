@@ -50,11 +50,27 @@ int root_of_skin(const tinygltf::Skin& skin, const GlbScene& scene) {
   return -1;
 }
 
-// Nodes that no joint separates from the root of all: a skin may have several topmost joints.
-bool is_above(const GlbScene& scene, int ancestor, int node) {
-  for (; node >= 0; node = scene.at(node).parent)
-    if (node == ancestor) return true;
-  return false;
+// The topmost joints of all skins, with the name of the first skin that begins there, but for those
+// below another. In time that grows with the file alone: there may be very many skins.
+std::vector<std::pair<int, std::string>> roots_of_skins(const tinygltf::Model& model,
+                                                        const GlbScene& scene) {
+  std::vector<bool> is_root(scene.nodes.size(), false);
+  std::vector<std::pair<int, std::string>> roots;
+  for (const tinygltf::Skin& skin : model.skins) {
+    const int root = root_of_skin(skin, scene);
+    if (root < 0 || is_root[static_cast<std::size_t>(root)]) continue;
+    is_root[static_cast<std::size_t>(root)] = true;
+    roots.emplace_back(root, plain_name(skin.name));
+  }
+  std::vector<bool> is_below(scene.nodes.size(), false);
+  for (const int node : scene.parents_first) {
+    if (scene.at(node).parent < 0) continue;
+    const auto parent = static_cast<std::size_t>(scene.at(node).parent);
+    is_below[static_cast<std::size_t>(node)] = is_below[parent] || is_root[parent];
+  }
+  std::erase_if(roots,
+                [&](const auto& it) { return is_below[static_cast<std::size_t>(it.first)]; });
+  return roots;
 }
 
 GlbFigure figure_from(const GlbScene& scene, int root, std::string name) {
@@ -155,15 +171,7 @@ void add_channels(const std::vector<bool>& moves, Bvh& bvh) {
 }  // namespace
 
 std::vector<GlbFigure> find_figures(const tinygltf::Model& model, const GlbScene& scene) {
-  std::vector<std::pair<int, std::string>> roots;
-  for (const tinygltf::Skin& skin : model.skins) {
-    const int root = root_of_skin(skin, scene);
-    if (root < 0) continue;
-    const auto is_known = [&](const auto& known) { return is_above(scene, known.first, root); };
-    if (std::any_of(roots.begin(), roots.end(), is_known)) continue;
-    std::erase_if(roots, [&](const auto& known) { return is_above(scene, root, known.first); });
-    roots.emplace_back(root, plain_name(skin.name));
-  }
+  std::vector<std::pair<int, std::string>> roots = roots_of_skins(model, scene);
   if (roots.empty())
     for (std::size_t n = 0; n < scene.nodes.size(); ++n)
       if (scene.nodes[n].parent < 0) roots.emplace_back(static_cast<int>(n), scene.nodes[n].name);
@@ -171,7 +179,9 @@ std::vector<GlbFigure> find_figures(const tinygltf::Model& model, const GlbScene
   const std::map<int, std::string> bones = vrm_bones(model);
   for (auto& [root, name] : roots) {
     figures.push_back(figure_from(scene, root, std::move(name)));
-    figures.back().bones = bones;
+    for (const int joint : figures.back().joints)
+      if (const auto bone = bones.find(joint); bone != bones.end())
+        figures.back().bones.insert(*bone);
   }
   return figures;
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace dance {
 
@@ -56,6 +57,12 @@ inline std::optional<int> index_in(const tinygltf::Value* value, std::size_t cou
 
 inline std::string text_of(const tinygltf::Value* value) {
   return value && value->IsString() ? value->Get<std::string>() : std::string();
+}
+
+// The same without a copy, of what may be long and is asked for often.
+inline std::string_view text_in(const tinygltf::Value* value) {
+  return value && value->IsString() ? std::string_view(value->Get<std::string>())
+                                    : std::string_view();
 }
 
 inline bool is_true(const tinygltf::Value* value) {

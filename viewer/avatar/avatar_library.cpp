@@ -12,6 +12,7 @@ namespace {
 
 constexpr Duration kNoteStays = Duration::s(12);
 constexpr Duration kLooksAgain = Duration::s(1);  // for a file that is on its way
+constexpr Duration kTriesAgain = Duration::s(5);  // where there was no room
 constexpr std::size_t kMostFigures = 256;         // guests, also those who have left
 
 // What stands there until a dancer's own figure is ready: of no colour, so that it is not taken for
@@ -91,8 +92,8 @@ void AvatarLibrary::dress(SceneGuest& guest, MonoTime now) {
   }
   const Entry& entry = look_up(figure.key, now);
   if (entry.job->is_done()) {
-    figure.shown = entry.is_refused ? nullptr : entry.job->model();
-    if (figure.shown && entry.make_again) figure.note.clear();  // it has arrived
+    figure.shown = entry.job->model();
+    if (figure.shown && entry.may_come) figure.note.clear();  // it has arrived
     if (!figure.shown) {
       tell(figure, guest.id, entry, now);
       figure.shown = plain_figure(figure, guest.id, now);
@@ -115,8 +116,10 @@ void AvatarLibrary::tell(Figure& figure, const GuestId& guest, const Entry& entr
   std::string note;
   if (entry.job->is_missing())
     note = whose + "is on its way; until then a mannequin";
-  else if (entry.is_refused)
+  else if (entry.refusal == Entry::Refusal::kNoRoom)
     note = whose + "has no room beside the others here; shown as a mannequin";
+  else if (entry.refusal == Entry::Refusal::kTooLarge)
+    note = whose + "is too large; make its meshes or pictures smaller; shown as a mannequin";
   else
     note = whose + "cannot be read: " + entry.job->error() + "; shown as a mannequin";
   if (note == figure.note) return;
@@ -165,33 +168,38 @@ std::string AvatarLibrary::ask_mannequin(const Figure& figure, const GuestId& gu
   std::string key = "m";
   figure.shape.append_to(key);
   append_look(key, look);
-  return ask(std::move(key), [shape = figure.shape, look] {
+  return ask(std::move(key), [shape = figure.shape, look](const AvatarStop&) {
     return Result<AvatarModel>(mannequin_model(shape.skeleton(), look, shape.has_fingers()));
   });
 }
 
 std::string AvatarLibrary::ask_file(const std::string& path) {
-  return ask("f" + path, [read = options_.sources.read_file, path]() -> AvatarJob::Made {
-    if (!read) return Result<AvatarModel>(fail("this program reads no files"));
-    return read(path);
-  });
+  return ask("f" + path,
+             [read = options_.sources.read_file, path](const AvatarStop& stop) -> AvatarJob::Made {
+               if (!read) return Result<AvatarModel>(fail("this program reads no files"));
+               return read(path, stop);
+             });
 }
 
 std::string AvatarLibrary::ask_hash(const FileHash& hash, MonoTime now) {
   std::string key = "h" + hex_of(hash);
-  const auto known = cache_.find(key);
-  const auto make = [read = options_.sources.read_hash, hash] { return read(hash); };
-  key = ask(std::move(key), make);
+  const bool is_new = !cache_.contains(key);
+  key = ask(std::move(key), [read = options_.sources.read_hash, hash](const AvatarStop& stop) {
+    return read(hash, stop);
+  });
   Entry& entry = cache_.at(key);
-  if (known == cache_.end()) entry.asked = now;
-  entry.make_again = make;
+  if (is_new) entry.asked = now;
+  entry.may_come = true;
   return key;
 }
 
 std::string AvatarLibrary::ask(std::string key, AvatarJob::Make make) {
   Entry& entry = cache_[key];
   entry.last_used = picture_;
-  if (!entry.job) entry.job = loader_.start(std::move(make));
+  if (!entry.job) {
+    entry.make = std::move(make);
+    entry.job = loader_.start(entry.make);
+  }
   return key;
 }
 
@@ -199,25 +207,46 @@ AvatarLibrary::Entry& AvatarLibrary::look_up(const std::string& key, MonoTime no
   Entry& entry = cache_.at(key);
   entry.last_used = picture_;
   if (!entry.job->is_done()) return entry;
-  if (entry.job->is_missing() && now - entry.asked >= kLooksAgain) {
+  // The job that found nothing is not asked any more; its successor's answer comes in time.
+  if (!entry.next && is_to_make_again(entry, now)) {
     entry.asked = now;
-    // The job that found nothing is not asked any more; its successor's answer comes in time.
-    if (!entry.next) entry.next = loader_.start(entry.make_again);
+    entry.next = loader_.start(entry.make);
   }
-  if (entry.next && entry.next->is_done()) entry.job = std::move(entry.next);
-  count(entry);
+  if (entry.next && entry.next->is_done()) {
+    entry.job = std::move(entry.next);
+    entry.refusal = Entry::Refusal::kNone;
+    entry.is_counted = false;
+  }
+  count(entry, now);
   return entry;
 }
 
+// What is missing may have arrived; what had no room may have it now that others are not shown.
+bool AvatarLibrary::is_to_make_again(const Entry& entry, MonoTime now) const {
+  if (entry.job->is_missing()) return now - entry.asked >= kLooksAgain;
+  if (entry.refusal != Entry::Refusal::kNoRoom || now - entry.asked < kTriesAgain) return false;
+  std::size_t kept = 0;  // what evict() cannot take
+  for (const auto& [key, other] : cache_)
+    if (other.is_counted && other.last_used + 1 >= picture_) kept += other.job->size_bytes();
+  return kept + entry.refused_bytes <= options_.most_bytes;
+}
+
 // Once for each model: what it takes, or that there is no room for it.
-void AvatarLibrary::count(Entry& entry) {
+void AvatarLibrary::count(Entry& entry, MonoTime now) {
   if (entry.is_counted || !entry.job->model()) return;
   entry.is_counted = true;
-  size_bytes_ += entry.job->size_bytes();
-  evict();
-  if (size_bytes_ <= options_.most_bytes) return;
-  size_bytes_ -= entry.job->size_bytes();
-  entry.is_refused = true;
+  const std::size_t bytes = entry.job->size_bytes();
+  const bool is_too_large = bytes > options_.most_model_bytes;
+  if (!is_too_large) {
+    size_bytes_ += bytes;
+    evict();
+    if (size_bytes_ <= options_.most_bytes) return;
+    size_bytes_ -= bytes;
+  }
+  entry.refusal = is_too_large ? Entry::Refusal::kTooLarge : Entry::Refusal::kNoRoom;
+  entry.refused_bytes = bytes;
+  entry.may_come = true;
+  entry.asked = now;
   entry.job = AvatarJob::empty();
 }
 
@@ -231,7 +260,7 @@ void AvatarLibrary::evict() {
           (oldest == cache_.end() || it->second.last_used < oldest->second.last_used))
         oldest = it;
     if (oldest == cache_.end()) return;
-    if (oldest->second.is_counted && !oldest->second.is_refused)
+    if (oldest->second.is_counted)  // one that is refused has none
       size_bytes_ -= oldest->second.job->size_bytes();
     for (auto& [guest, figure] : figures_) {
       if (figure.key == oldest->first) figure.key.clear(), figure.shown.reset();

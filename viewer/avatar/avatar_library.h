@@ -24,9 +24,11 @@ namespace dance {
 
 // Where avatars' files are found and how they are read.
 struct AvatarSources {
-  // Both in the loading thread. The file of that hash: nullopt while it is not here yet.
-  std::function<std::optional<Result<AvatarModel>>(const FileHash&)> read_hash;
-  std::function<Result<AvatarModel>(const std::string& path)> read_file;
+  // Both in the loading thread, which they leave soon after `stop` is true. The file of that hash:
+  // nullopt while it is not here yet.
+  std::function<std::optional<Result<AvatarModel>>(const FileHash&, const AvatarStop& stop)>
+      read_hash;
+  std::function<Result<AvatarModel>(const std::string& path, const AvatarStop& stop)> read_file;
   // In the drawing thread: the file of a shipped avatar; "" for a name that is none.
   std::function<std::string(std::string_view name)> shipped_file;
 };
@@ -42,6 +44,8 @@ struct AvatarLibraryOptions {
   std::vector<AvatarOverride> overrides;
   std::size_t most_models = 192;
   std::size_t most_bytes = std::size_t{768} << 20;
+  // Of one: so that no few strangers fill the cache. AvatarLimits::bytes, and what holds them.
+  std::size_t most_model_bytes = std::size_t{144} << 20;
 };
 
 class AvatarLibrary {
@@ -60,11 +64,13 @@ class AvatarLibrary {
   struct Entry {
     std::shared_ptr<AvatarJob> job;
     std::uint64_t last_used = 0;  // in pictures
-    bool is_counted = false;      // in size_bytes_
-    bool is_refused = false;      // there is no room for it
-    // Of a file that may come later: looked for again.
-    MonoTime asked;
-    AvatarJob::Make make_again = {};
+    bool is_counted = false;      // in size_bytes_, unless it is refused
+    enum class Refusal : std::uint8_t { kNone, kNoRoom, kTooLarge };
+    Refusal refusal = Refusal::kNone;
+    std::size_t refused_bytes = 0;
+    MonoTime asked;  // of a file that may come later, or find room: looked for again
+    bool may_come = false;
+    AvatarJob::Make make = {};
     std::shared_ptr<AvatarJob> next = {};
   };
   struct Figure {
@@ -89,7 +95,8 @@ class AvatarLibrary {
                                                   MonoTime now);
   static void tell(Figure& figure, const GuestId& guest, const Entry& entry, MonoTime now);
   const std::string* override_of(const GuestId& guest) const;
-  void count(Entry& entry);
+  bool is_to_make_again(const Entry& entry, MonoTime now) const;
+  void count(Entry& entry, MonoTime now);
   void evict();
   void forget_absent();
 

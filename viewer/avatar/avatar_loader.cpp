@@ -29,9 +29,9 @@ std::size_t size_bytes(const AvatarModel& model) {
   return sum;
 }
 
-void AvatarJob::run() {
+void AvatarJob::run(const AvatarStop& stop) {
   try {
-    auto made = make_();
+    auto made = make_(stop);
     if (made && !*made) return give_up(made->error().what);
     is_missing_ = !made;
     if (made) {
@@ -96,6 +96,7 @@ void AvatarLoader::wait() {
 void AvatarLoader::run() {
   pthread_setname_np(pthread_self(), "view-avatars");
   setpriority(PRIO_PROCESS, 0, kLoadingNiceness);  // of this thread alone
+  const AvatarStop stop = [this] { return ends_.load(std::memory_order_relaxed); };
   std::unique_lock lock(mutex_);
   while (true) {
     wakes_.wait(lock, [this] { return ends_ || !queue_.empty(); });
@@ -104,7 +105,7 @@ void AvatarLoader::run() {
     queue_.pop_front();
     is_busy_ = true;
     lock.unlock();
-    if (job.use_count() > 1) job->run();
+    if (job.use_count() > 1) job->run(stop);
     job.reset();
     lock.lock();
     is_busy_ = false;

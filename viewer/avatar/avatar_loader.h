@@ -1,7 +1,8 @@
 // AvatarLoader: the thread in which avatars are made and read, beside the drawing and at low
 // priority, as one takes a tenth of a second and more.
 //
-// Ownership: shares its jobs; drops one that nobody else holds any more.
+// Ownership: shares its jobs; drops one that nobody else holds any more. Its end stops the one that
+//            runs and forgets those that wait.
 // Threads:   starts one. start() and done() may be called from the drawing thread and wait for
 //            nothing longer than the copy of a pointer; wait() waits.
 // Failure:   of a job: its error(). Without a thread every job fails, and says so.
@@ -17,7 +18,7 @@
 #include <thread>
 
 #include "core/base/result.h"
-#include "formats/avatar/avatar_model.h"
+#include "formats/avatar/avatar_reader.h"
 
 namespace dance {
 
@@ -25,7 +26,8 @@ class AvatarJob {
  public:
   // nullopt: what it is made of is not here yet.
   using Made = std::optional<Result<AvatarModel>>;
-  using Make = std::function<Made()>;
+  // Asks `stop` often where it takes long: true when nobody waits for the model any more.
+  using Make = std::function<Made(const AvatarStop& stop)>;
 
   explicit AvatarJob(Make make) : make_(std::move(make)) {}
   bool is_done() const { return is_done_.load(std::memory_order_acquire); }
@@ -40,7 +42,7 @@ class AvatarJob {
 
  private:
   friend class AvatarLoader;
-  void run();
+  void run(const AvatarStop& stop);
   void give_up(std::string why);
 
   Make make_;
@@ -70,7 +72,7 @@ class AvatarLoader {
   std::condition_variable is_idle_;
   std::deque<std::shared_ptr<AvatarJob>> queue_;  // guarded
   bool is_busy_ = false;                          // guarded
-  bool ends_ = false;                             // guarded
+  std::atomic<bool> ends_{false};                 // set guarded; what is being made looks at it
   std::thread thread_;
 };
 

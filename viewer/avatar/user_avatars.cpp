@@ -9,8 +9,9 @@
 namespace dance {
 namespace {
 
-Result<AvatarModel> model_of(std::span<const std::uint8_t> bytes, std::string_view name) {
-  auto read = read_avatar(bytes, {}, name);
+Result<AvatarModel> model_of(std::span<const std::uint8_t> bytes, std::string_view name,
+                             const AvatarStop& stop) {
+  auto read = read_avatar(bytes, {}, name, stop);
   if (!read) return tl::make_unexpected(std::move(read.error()));
   return std::move(read->model);
 }
@@ -27,14 +28,16 @@ AvatarLibraryOptions avatars_of(const AvatarStore& store, const std::string& shi
                                 std::vector<AvatarOverride> overrides) {
   AvatarLibraryOptions options;
   options.overrides = std::move(overrides);
-  options.sources.read_hash = [store](const FileHash& hash) -> std::optional<Result<AvatarModel>> {
+  options.sources.read_hash =
+      [store](const FileHash& hash, const AvatarStop& stop) -> std::optional<Result<AvatarModel>> {
     const auto bytes = store.read(hash);
     if (!bytes) return std::nullopt;
-    return model_of(*bytes, hex_of(hash).substr(0, 12));
+    return model_of(*bytes, hex_of(hash).substr(0, 12), stop);
   };
-  options.sources.read_file = [](const std::string& path) -> Result<AvatarModel> {
+  options.sources.read_file = [](const std::string& path,
+                                 const AvatarStop& stop) -> Result<AvatarModel> {
     DANCE_TRY(const AvatarStore::Kept kept, AvatarStore::read_file(path));
-    return model_of(kept.bytes, path.substr(path.rfind('/') + 1));
+    return model_of(kept.bytes, path.substr(path.rfind('/') + 1), stop);
   };
   options.sources.shipped_file = [shipped_folder](std::string_view name) {
     return shipped_file(shipped_folder, name);

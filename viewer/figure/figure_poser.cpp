@@ -133,6 +133,7 @@ std::span<const PosedFigure> FigurePoser::pose(const SceneState& scene) {
   rigs_.resize(count);  // who is absent is forgotten
   for (FigureFit& fit : fits_) append_tips(*fit.rig, fit.frames);
   if (options_.fits_hands) contacts_.fit(fits_);
+  spring_work_left_ = options_.most_spring_work;
   std::size_t place = 0;
   for (const SceneGuest& guest : scene.guests)
     if (is_shown(guest)) {
@@ -148,7 +149,12 @@ void FigurePoser::show(const SceneGuest& guest, const SceneState& scene, Rig& ri
   drive_bones(fit, rig.twists, options_.shares_twist, rig.drivers);
   drive_fingers(rig.rig, guest.hands ? &*guest.hands : nullptr, fit.frames, rig.drivers);
   drive_twists(rig.rig, rig.drivers);
-  rig.springs.swing(rig.rig, scene.time, rig.drivers);
+  if (rig.springs.work() <= spring_work_left_) {
+    spring_work_left_ -= rig.springs.work();
+    rig.springs.swing(rig.rig, scene.time, rig.drivers);
+  } else {
+    rig.springs.stay(rig.rig, scene.time, rig.drivers);
+  }
   append_tips(rig.rig, fit.frames);
 
   for (std::size_t d = 0; d < rig.drivers.size(); ++d)

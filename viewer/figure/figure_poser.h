@@ -40,6 +40,9 @@ struct FigureOptions {
   bool fits_feet = true;
   bool fits_hands = true;
   bool shares_twist = true;
+  // Of all figures' springs together, in SpringChains::work(): the first guests' swing, those
+  // beyond are at rest, so that no crowd of strangers' avatars slows the drawing.
+  std::size_t most_spring_work = std::size_t{1} << 15;
 };
 
 class FigurePoser {
@@ -69,6 +72,7 @@ class FigurePoser {
   std::vector<FigureFit> fits_;
   std::vector<PosedFigure> figures_;  // more than are shown, when there were more
   HandContacts contacts_;
+  std::size_t spring_work_left_ = 0;  // in this picture
 };
 
 }  // namespace dance

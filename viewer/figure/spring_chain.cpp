@@ -53,8 +53,11 @@ void SpringChains::start(const AvatarRig& rig) {
   states_.resize(shape.swings.size());
   before_.resize(shape.drivers_M_m.size());
   state_of_.assign(shape.drivers_M_m.size(), -1);
-  for (std::size_t i = 0; i < shape.swings.size(); ++i)
+  work_ = 0;
+  for (std::size_t i = 0; i < shape.swings.size(); ++i) {
     state_of_[shape.swings[i].driver] = static_cast<int>(i);
+    work_ += 1 + shape.swings[i].collider_count;
+  }
   is_moving_ = false;
 }
 
@@ -145,6 +148,11 @@ void SpringChains::show(const AvatarRig& rig, float share, std::span<DriverPose>
     drivers[node.driver] = {(parent.D * turn).normalized(),
                             place_of(rig, node.driver, node, parent)};
   }
+}
+
+void SpringChains::stay(const AvatarRig& rig, MonoTime now, std::span<DriverPose> drivers) {
+  is_moving_ = false;
+  swing(rig, now, drivers);
 }
 
 void SpringChains::swing(const AvatarRig& rig, MonoTime now, std::span<DriverPose> drivers) {

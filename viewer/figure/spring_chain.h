@@ -32,6 +32,11 @@ class SpringChains {
 
   // Bones and twist nodes of `drivers` are as they are at `now`; sets those that swing.
   void swing(const AvatarRig& rig, MonoTime now, std::span<DriverPose> drivers);
+  // The same at rest: for a figure that there is no time for.
+  void stay(const AvatarRig& rig, MonoTime now, std::span<DriverPose> drivers);
+
+  // What a step costs: nodes, and their pairs with colliders.
+  std::size_t work() const { return work_; }
 
  private:
   struct State {
@@ -53,6 +58,7 @@ class SpringChains {
   std::vector<DriverPose> before_;  // the drivers of the last picture
   MonoTime time_;
   std::int64_t steps_ = 0;
+  std::size_t work_ = 0;
   bool is_moving_ = false;
 };
 

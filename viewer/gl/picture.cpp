@@ -1,12 +1,13 @@
 #include "viewer/gl/picture.h"
 
 #include <epoxy/gl.h>
-#include <stb/stb_image_write.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+
+#include "formats/picture/png_writer.h"
 
 namespace dance {
 
@@ -53,14 +54,10 @@ Picture one_above_the_other(std::span<const Picture> pictures) {
 }
 
 Result<void> write_png(const std::string& file, const Picture& picture) {
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::ofstream*>(context)->write(static_cast<const char*>(data), size);
-  };
+  DANCE_TRY(const auto png, png_of_rgb(picture.width_px, picture.height_px, picture.rgb));
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (out)
-    stbi_write_png_to_func(append, &out, picture.width_px, picture.height_px, 3, picture.rgb.data(),
-                           3 * picture.width_px);
+  out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
   out.close();
   if (out) return {};
   return fail("cannot write " + file + ": " + std::strerror(errno) +

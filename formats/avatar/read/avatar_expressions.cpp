@@ -122,13 +122,15 @@ class ExpressionReader {
  private:
   template <class IsIt>
   void add_bind(const Value* bind, float unit, const IsIt& is_it, AvatarExpression& expression) {
+    // Read once: many nodes may share a mesh.
+    const auto index = index_in(member(bind, "index"), source_.limits.morphs);
+    if (!index) return;
+    const float weight =
+        std::clamp(unit * float_of(member(bind, "weight"), 1.0f / unit, -1e3f, 1e3f), 0.0f, 1.0f);
     for (const MeshMorphs& of_mesh : morphs_) {
-      if (!is_it(of_mesh)) continue;
-      const auto index = index_in(member(bind, "index"), of_mesh.count);
-      if (!index || expression.binds.size() >= kMostBinds) continue;
-      const float weight =
-          std::clamp(unit * float_of(member(bind, "weight"), 1.0f / unit, -1e3f, 1e3f), 0.0f, 1.0f);
-      expression.binds.push_back({of_mesh.first + static_cast<std::uint32_t>(*index), weight});
+      if (expression.binds.size() >= kMostBinds) return;
+      if (is_it(of_mesh) && static_cast<std::uint32_t>(*index) < of_mesh.count)
+        expression.binds.push_back({of_mesh.first + static_cast<std::uint32_t>(*index), weight});
     }
   }
 

@@ -3,7 +3,8 @@
 // Units/frames: indices of nodes are the file's, unless they are in the AvatarModel.
 // Ownership:    refers to the file's model, its scene, the limits and the model that is made.
 // Threads:      none inside.
-// Failure:      take() says what there is too much of.
+// Failure:      take_bytes() and look_at() say what there is too much of, go_on() that the reading
+//               was stopped.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -27,8 +28,23 @@ struct AvatarSource {
   std::size_t numbers_left;
   std::size_t bytes_left;
   std::size_t morph_moves_left;
+  std::size_t looks_left;
+  const AvatarStop& stop;
 
   int model_node(int file_node) const { return node_of[static_cast<std::size_t>(file_node)]; }
+
+  Result<void> go_on() const {
+    if (stop && stop()) return fail("its reading was stopped");
+    return {};
+  }
+
+  Result<void> look_at(std::size_t things) {
+    if (things > looks_left)
+      return fail("its nodes have more than " + std::to_string(limits.looks) +
+                  " primitives, attributes and joints to look at; join its meshes");
+    looks_left -= things;
+    return go_on();
+  }
 
   Result<void> take_bytes(std::size_t bytes) {
     if (bytes > bytes_left)

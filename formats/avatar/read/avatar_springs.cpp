@@ -271,6 +271,21 @@ void read_springs(AvatarSource& source) {
   SpringReader reader(source);
   reader.read_vrm1();
   if (source.model.springs.empty()) reader.read_vrm0();
+  std::size_t nodes = 0;
+  std::size_t contacts = 0;
+  for (const AvatarSpring& spring : source.model.springs) {
+    nodes += spring.joints.size();
+    contacts += spring.joints.size() * std::min(spring.colliders.size(), kMostSpringColliders);
+    if (spring.colliders.size() > kMostSpringColliders)
+      source.note("a spring has more than " + std::to_string(kMostSpringColliders) +
+                  " colliders; it passes through the rest");
+  }
+  if (nodes > kMostSwingingNodes)
+    source.note(std::to_string(nodes) + " nodes swing, more than " +
+                std::to_string(kMostSwingingNodes) + "; the rest stays at rest");
+  if (contacts > kMostSpringContacts)
+    source.note("its springs have more than " + std::to_string(kMostSpringContacts) +
+                " pairs of a node and a collider; the nodes beyond stay at rest");
 }
 
 }  // namespace dance

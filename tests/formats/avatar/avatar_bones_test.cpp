@@ -1,6 +1,7 @@
 // Bones by the names that many tools give them, and which way figures face.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "formats/avatar/read/avatar_nodes.h"
@@ -196,7 +197,7 @@ TEST(AvatarBones, NamesOfManyToolsAreUnderstood) {
     expect(Bone::kLeftToes, Bone::kRightToes, names.toes);
     for (std::size_t f = 0; f < kFingerBoneCount; ++f) {
       std::string pattern = sided(names.fingers[f % 15 / 3], f < 15 ? names.left : names.right);
-      pattern.replace(pattern.find('#'), 1, std::to_string(f % 3 + 1));
+      std::ranges::replace(pattern, '#', static_cast<char>('1' + f % 3));
       EXPECT_EQ(name_of_node(model, model.fingers[f]), pattern);
     }
     EXPECT_EQ(name_of_node(model, model.eyes[0]), names.of_head[0]);

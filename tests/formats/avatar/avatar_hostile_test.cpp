@@ -166,6 +166,7 @@ TEST(AvatarHostile, TooMuchOfAnythingIsRefusedByName) {
   expect_error(avatar, "MiB", with(&AvatarLimits::file_bytes, std::size_t{1000}));
   expect_error(avatar, "objects", with(&AvatarLimits::json_objects, std::size_t{20}));
   expect_error(avatar, "nodes", with(&AvatarLimits::nodes, std::size_t{20}));
+  expect_error(avatar, "to look at", with(&AvatarLimits::looks, std::size_t{20}));
   expect_error(avatar, "joints", with(&AvatarLimits::joints, std::size_t{20}));
   expect_error(avatar, "vertices", with(&AvatarLimits::vertices, std::size_t{7}));
   expect_error(avatar, "triangles", with(&AvatarLimits::triangles, std::size_t{3}));
@@ -214,6 +215,94 @@ TEST(AvatarHostile, PicturesThatUnpackToMuchAreCounted) {
   ASSERT_TRUE(read) << read.error().what;
   EXPECT_EQ(read->model.pictures.size(), 2u);
   EXPECT_EQ(read->model.pictures[0].width_px, 600);
+}
+
+// How often a reader with these limits asked whether it is to stop: a measure of its work.
+std::size_t asked_in(const TinyAvatar& avatar, const AvatarLimits& limits, std::string& error) {
+  std::size_t asked = 0;
+  const auto read = read_avatar(avatar.glb(), limits, {}, [&] {
+    ++asked;
+    return false;
+  });
+  error = read ? "" : read.error().what;
+  return asked;
+}
+
+// A small file in which all of many nodes have one mesh and one skin.
+TinyAvatar with_many_nodes(std::size_t nodes, std::size_t joints, std::size_t primitives) {
+  TinyAvatar avatar;
+  json square = avatar.square();
+  avatar.add_mesh(json(primitives, square));
+  // Its bones are told, so that it needs no skin to be found.
+  json& bones = avatar.json["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"];
+  for (const Bone bone : kNeededBones) {
+    const std::string name(kBones[index_of(bone)].name);
+    bones[name]["node"] = avatar.node(name);
+  }
+  int deep = avatar.node("mesh");
+  for (int i = 0; i < 100; ++i) deep = avatar.add_node("deep", deep, {0, 0, 0});
+  if (joints > 0) avatar.json["skins"][0] = {{"joints", json(joints, deep)}};
+  for (std::size_t n = 0; n < nodes; ++n)
+    avatar.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  return avatar;
+}
+
+TEST(AvatarHostile, ASkinOfTooManyJointsIsRefusedBeforeTheyAreLookedAt) {
+  std::string error;
+  const std::size_t asked = asked_in(with_many_nodes(3900, 10'000, 1), {}, error);
+  EXPECT_NE(error.find("skin 0 has 10000 joints"), error.npos) << error;
+  EXPECT_LT(asked, 10u);
+}
+
+TEST(AvatarHostile, ASkinIsLookedAtOnceHoweverManyNodesHaveIt) {
+  // 1000 joints beside the figure, so that no node's mesh is read.
+  AvatarLimits limits;
+  limits.looks = 1000;
+  const auto read = read_avatar(with_many_nodes(3800, 1000, 1).glb(), limits);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().what, "no mesh that hangs from the figure");
+  limits.looks = 999;
+  expect_error(with_many_nodes(3800, 1000, 1), "more than 999 primitives", limits);
+}
+
+TEST(AvatarHostile, AMeshOfManyPrimitivesCannotBeSharedByManyNodes) {
+  std::string error;
+  const TinyAvatar avatar = with_many_nodes(3900, 0, 5'000);
+  const std::size_t asked = asked_in(avatar, {}, error);
+  EXPECT_NE(error.find("join its meshes"), error.npos) << error;
+  EXPECT_LT(asked, 400'000u);
+  EXPECT_EQ(error_of(with_many_nodes(8, 0, 300)), "was read");
+}
+
+// Each skin compared with each other would be hours of work.
+TEST(AvatarHostile, TheFigureIsFoundAmongVeryManySkins) {
+  TinyAvatar avatar;
+  avatar.add_mesh(avatar.square());
+  int deep = avatar.add_node("other", -1, {0, 0, 0});
+  for (int i = 0; i < 100; ++i) deep = avatar.add_node("deep", deep, {0, 0, 0});
+  const std::size_t first = avatar.json["nodes"].size();
+  for (std::size_t n = first; n < 4000; ++n) {
+    avatar.json["nodes"].push_back(json::object());
+    avatar.json["skins"].push_back({{"joints", json::array({n})}});
+  }
+  for (int i = 0; i < 30'000; ++i)
+    avatar.json["skins"].push_back({{"joints", json::array({deep - i % 50})}});
+  EXPECT_EQ(error_of(avatar), "was read");
+}
+
+TEST(AvatarHostile, ReadingStopsSoonAfterItIsTold) {
+  const TinyAvatar avatar = test::rich_vrm1();
+  std::string error;
+  const std::size_t all = asked_in(avatar, {}, error);
+  EXPECT_EQ(error, "");
+  ASSERT_GT(all, 8u);  // between the parts of the file, meshes, primitives and pictures
+  for (std::size_t last = 1; last <= all; ++last) {
+    std::size_t asked = 0;
+    const auto read = read_avatar(avatar.glb(), {}, {}, [&] { return ++asked >= last; });
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().what.find("stopped"), std::string::npos) << read.error().what;
+    EXPECT_LE(asked, last + 3);  // a picture less costs a note, and the next thing asks again
+  }
 }
 
 TEST(AvatarHostile, PackedMeshesAreRefusedWithTheCure) {

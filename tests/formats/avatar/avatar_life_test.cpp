@@ -168,6 +168,36 @@ TEST(AvatarLife, SpringsOfVrm0AreAllThatIsBelowTheirRoots) {
   EXPECT_EQ(model.colliders[0].centre_m, Eigen::Vector3f(0.1f, 0.2f, -0.3f));
 }
 
+TEST(AvatarLife, MoreThanMaySwingIsNoted) {
+  TinyAvatar avatar;
+  int above = avatar.node("head");
+  json strands = json::array();
+  for (int s = 0; s < 6; ++s) {
+    json joints = json::array();
+    int node = above;
+    for (int n = 0; n < 51; ++n) {
+      node = avatar.add_node("hair", node, {0, 1.6f - 0.01f * static_cast<float>(n), -0.1f});
+      joints.push_back({{"node", node}});
+    }
+    strands.push_back({{"joints", joints}, {"colliderGroups", {0}}});
+  }
+  avatar.add_mesh(avatar.square());
+  auto& springs = avatar.json["extensions"]["VRMC_springBone"];
+  springs["springs"] = strands;
+  std::vector<std::string> notes;
+  EXPECT_EQ(model_of(avatar, &notes).springs.size(), 6u);
+  EXPECT_EQ(notes,
+            std::vector<std::string>{"300 nodes swing, more than 256; the rest stays at rest"});
+  const json ball = {{"node", above}, {"shape", {{"sphere", {{"radius", 0.1}}}}}};
+  springs["colliders"] = json(std::size_t{20}, ball);
+  json all = json::array();
+  for (int c = 0; c < 20; ++c) all.push_back(c);
+  springs["colliderGroups"] = {{{"colliders", all}}};
+  model_of(avatar, &notes);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[1].find("more than 4096 pairs"), std::string::npos) << notes[1];
+}
+
 TEST(AvatarLife, BonesOfTheBodyDoNotSwing) {
   TinyAvatar avatar;
   avatar.add_mesh(avatar.square());

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "formats/avatar/avatar_reader.h"
 #include "formats/avatar/mannequin_model.h"
 #include "tests/formats/avatar/glb_json.h"
@@ -140,6 +143,92 @@ TEST(VrmWriter, OurReaderGivesTheFigureBack) {
     EXPECT_EQ(is.is_double_sided, was.is_double_sided);
     EXPECT_EQ(is.picture, was.picture);
   }
+}
+
+std::string node_name(const AvatarModel& model, int node) {
+  return node < 0 ? "none" : model.nodes.at(static_cast<std::size_t>(node)).name;
+}
+
+// Where the vertices of a morph are at rest in their mesh's axes, and by how much they move.
+std::vector<std::array<float, 6>> moves_of(const AvatarModel& model, const AvatarMorph& morph) {
+  std::vector<std::array<float, 6>> moves;
+  for (std::size_t i = 0; i < morph.vertices.size(); ++i) {
+    const AvatarVertex& vertex = model.vertices[morph.vertices[i]];
+    const AvatarJoint& joint = model.joints[vertex.joints[0]];
+    const Affine3f M_from_mesh =
+        rest_of(model)[static_cast<std::size_t>(joint.node)] * joint.node_from_mesh;
+    const Vector3f place = M_from_mesh * vertex.place_m;
+    const Vector3f move = M_from_mesh.linear() * morph.places_m[i];
+    moves.push_back({place.x(), place.y(), place.z(), move.x(), move.y(), move.z()});
+  }
+  std::ranges::sort(moves);
+  return moves;
+}
+
+void expect_same_spring(const AvatarModel& known, const AvatarModel& read) {
+  ASSERT_EQ(read.springs.size(), 1u);
+  const AvatarSpring& was = known.springs[0];
+  const AvatarSpring& is = read.springs[0];
+  EXPECT_EQ(node_name(read, is.centre), node_name(known, was.centre));
+  ASSERT_EQ(is.joints.size(), was.joints.size());
+  for (std::size_t j = 0; j < was.joints.size(); ++j) {
+    EXPECT_EQ(node_name(read, is.joints[j].node), node_name(known, was.joints[j].node));
+    EXPECT_LT((is.joints[j].tail_m - was.joints[j].tail_m).norm(), 1e-5f);
+    EXPECT_NEAR(is.joints[j].radius_m, was.joints[j].radius_m, 1e-6f);
+    EXPECT_NEAR(is.joints[j].stiffness, was.joints[j].stiffness, 1e-6f);
+    EXPECT_NEAR(is.joints[j].gravity, was.joints[j].gravity, 1e-6f);
+    EXPECT_TRUE(is.joints[j].gravity_direction.isApprox(was.joints[j].gravity_direction, 1e-5f));
+    EXPECT_NEAR(is.joints[j].drag, was.joints[j].drag, 1e-6f);
+  }
+  ASSERT_EQ(is.colliders.size(), was.colliders.size());
+  for (std::size_t c = 0; c < was.colliders.size(); ++c) {
+    const AvatarCollider& a = known.colliders[was.colliders[c]];
+    const AvatarCollider& b = read.colliders[is.colliders[c]];
+    EXPECT_EQ(node_name(read, b.node), node_name(known, a.node));
+    EXPECT_LT((b.centre_m - a.centre_m).norm(), 1e-5f);
+    EXPECT_LT((b.tail_m - a.tail_m).norm(), 1e-5f);
+    EXPECT_NEAR(b.radius_m, a.radius_m, 1e-6f);
+  }
+}
+
+TEST(VrmWriter, OurReaderGivesMorphsExpressionsAndSpringsBack) {
+  AvatarModel model = dressed();
+  model.springs[0].centre = model.node_of(Bone::kHips);
+  const auto file = write_vrm(model, meta());
+  ASSERT_TRUE(file) << file.error().what;
+  const auto found = read_avatar(*file);
+  ASSERT_TRUE(found) << found.error().what;
+  EXPECT_TRUE(found->notes.empty()) << found->notes.front();
+  const AvatarModel& read = found->model;
+  EXPECT_EQ(read.name, model.name);
+  ASSERT_EQ(read.morphs.size(), 1u);
+  EXPECT_EQ(read.morphs[0].name, "grin");
+  const auto was = moves_of(model, model.morphs[0]);
+  const auto is = moves_of(read, read.morphs[0]);
+  ASSERT_EQ(is.size(), was.size());
+  for (std::size_t i = 0; i < was.size(); ++i)
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(is[i][k], was[i][k], 1e-5f);
+  ASSERT_EQ(read.expressions.size(), model.expressions.size());
+  for (std::size_t e = 0; e < model.expressions.size(); ++e) {
+    EXPECT_EQ(read.expressions[e].name, model.expressions[e].name);
+    ASSERT_EQ(read.expressions[e].binds.size(), 1u);
+    EXPECT_EQ(read.expressions[e].binds[0].morph, model.expressions[e].binds[0].morph);
+    EXPECT_NEAR(read.expressions[e].binds[0].weight, model.expressions[e].binds[0].weight, 1e-6f);
+  }
+  expect_same_spring(model, read);
+}
+
+// What was read once is written and read without any change.
+TEST(VrmWriter, ASecondRoundChangesNothing) {
+  const auto first = read_avatar(*write_vrm(dressed(), meta()));
+  ASSERT_TRUE(first) << first.error().what;
+  const auto second = read_avatar(*write_vrm(first->model, meta()));
+  ASSERT_TRUE(second) << second.error().what;
+  expect_same_surface(first->model, second->model);
+  expect_same_spring(first->model, second->model);
+  EXPECT_EQ(second->model.vertices.size(), first->model.vertices.size());
+  EXPECT_EQ(second->model.pictures[0].rgba, first->model.pictures[0].rgba);
+  EXPECT_EQ(second->model.morphs[0].vertices.size(), first->model.morphs[0].vertices.size());
 }
 
 TEST(VrmWriter, SaysWhoMadeItAndWhoMayUseIt) {

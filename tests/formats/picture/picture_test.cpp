@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "formats/picture/png_writer.h"
 #include "tests/formats/picture/packed_pictures.h"
 
 namespace dance {
@@ -33,6 +34,39 @@ TEST(Picture, PngAndWebpComeBackExactlyJpegNearly) {
     ASSERT_TRUE(picture) << picture.error().what;
     expect_ramp(*picture, 20, 12, 6);
   }
+}
+
+TEST(PngWriter, PixelsComeBackRowByRow) {
+  constexpr int kWidth_px = 5, kHeight_px = 3;
+  Bytes rgb, rgba;
+  for (std::uint8_t i = 0; i < kWidth_px * kHeight_px; ++i)
+    for (const int value : {10 * i, 255 - i, 7 * i, 100 + i}) {
+      rgba.push_back(static_cast<std::uint8_t>(value));
+      if (rgba.size() % 4 != 0) rgb.push_back(rgba.back());
+    }
+  Bytes opaque = rgba;
+  for (std::size_t i = 3; i < opaque.size(); i += 4) opaque[i] = 255;
+  constexpr std::size_t kColourType = 25;  // in the file's first chunk
+  const auto expect_file = [&](const Result<Bytes>& file, const Bytes& pixels, int colour_type) {
+    ASSERT_TRUE(file) << file.error().what;
+    EXPECT_EQ((*file)[kColourType], colour_type);
+    const auto picture = read_picture(*file);
+    ASSERT_TRUE(picture) << picture.error().what;
+    EXPECT_EQ(picture->width_px, kWidth_px);
+    EXPECT_EQ(picture->height_px, kHeight_px);
+    EXPECT_EQ(picture->rgba, pixels);
+  };
+  expect_file(png_of_rgb(kWidth_px, kHeight_px, rgb), opaque, 2);
+  expect_file(png_of_rgba(kWidth_px, kHeight_px, opaque), opaque, 2);
+  expect_file(png_of_rgba(kWidth_px, kHeight_px, rgba), rgba, 6);
+}
+
+TEST(PngWriter, PixelsThatDoNotFitTheSizeAreRefused) {
+  const Bytes pixels(4 * 5 * 3);
+  EXPECT_FALSE(png_of_rgba(5, 4, pixels));
+  EXPECT_FALSE(png_of_rgb(5, 3, pixels));
+  EXPECT_FALSE(png_of_rgb(0, 0, {}));
+  EXPECT_FALSE(png_of_rgba(-5, -3, pixels));
 }
 
 TEST(Picture, TheKindIsToldByTheFirstBytes) {

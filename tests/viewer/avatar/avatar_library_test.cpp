@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <future>
+#include <thread>
 
 #include "formats/avatar/mannequin_model.h"
 #include "tests/allocation_guard.h"
@@ -48,7 +49,8 @@ TEST(AvatarLibrary, GivesEveryGuestAFigureInTheFirstPicture) {
   std::promise<void> may_go_on;
   AvatarLibraryOptions options;
   options.overrides = {{GuestId(), "slow.vrm"}};
-  options.sources.read_file = [wait = may_go_on.get_future().share()](const std::string& path) {
+  options.sources.read_file = [wait = may_go_on.get_future().share()](const std::string& path,
+                                                                      const AvatarStop&) {
     wait.wait();
     return Result<AvatarModel>(model_called(path));
   };
@@ -131,7 +133,7 @@ TEST(AvatarLibrary, GivesARawTwinTheFigureOfItsDancer) {
 TEST(AvatarLibrary, SharesOneModelAmongAllWhoChoseAFile) {
   std::atomic<int> reads{0};
   AvatarLibraryOptions options;
-  options.sources.read_hash = [&](const FileHash&) {
+  options.sources.read_hash = [&](const FileHash&, const AvatarStop&) {
     ++reads;
     return std::optional<Result<AvatarModel>>(model_called("shared"));
   };
@@ -147,7 +149,8 @@ TEST(AvatarLibrary, SharesOneModelAmongAllWhoChoseAFile) {
 TEST(AvatarLibrary, ShowsAFileWhenItHasArrivedAndAMannequinUntilThen) {
   std::atomic<bool> is_here{false};
   AvatarLibraryOptions options;
-  options.sources.read_hash = [&](const FileHash&) -> std::optional<Result<AvatarModel>> {
+  options.sources.read_hash = [&](const FileHash&,
+                                  const AvatarStop&) -> std::optional<Result<AvatarModel>> {
     if (!is_here) return std::nullopt;
     return model_called("arrived");
   };
@@ -173,7 +176,7 @@ TEST(AvatarLibrary, ShowsAFileWhenItHasArrivedAndAMannequinUntilThen) {
 TEST(AvatarLibrary, TellsForAWhileWhatCannotBeRead) {
   AvatarLibraryOptions options;
   options.overrides = {{*GuestId::parse("bob"), "broken.glb"}};
-  options.sources.read_file = [](const std::string& path) {
+  options.sources.read_file = [](const std::string& path, const AvatarStop&) {
     return Result<AvatarModel>(fail(path + " has no bones"));
   };
   AvatarLibrary library(std::move(options));
@@ -194,7 +197,7 @@ TEST(AvatarLibrary, TellsOfANameThatIsNotAmongTheAvatarsHere) {
   options.sources.shipped_file = [](std::string_view name) {
     return name == "mara" ? std::string("mara.vrm") : std::string();
   };
-  options.sources.read_file = [](const std::string& path) {
+  options.sources.read_file = [](const std::string& path, const AvatarStop&) {
     return Result<AvatarModel>(model_called(path));
   };
   AvatarLibrary library(std::move(options));
@@ -211,7 +214,8 @@ TEST(AvatarLibrary, TellsOfANameThatIsNotAmongTheAvatarsHere) {
 TEST(AvatarLibrary, IsBoundedInNumberAndBytes) {
   AvatarLibraryOptions options;
   options.most_models = 4;
-  options.sources.read_hash = [](const FileHash& hash) -> std::optional<Result<AvatarModel>> {
+  options.sources.read_hash = [](const FileHash& hash,
+                                 const AvatarStop&) -> std::optional<Result<AvatarModel>> {
     AvatarModel model = model_called("large");
     // Number 99 alone is more than all that may be kept.
     model.pictures.push_back({1, 1, std::vector<std::uint8_t>(4)});
@@ -238,6 +242,96 @@ TEST(AvatarLibrary, IsBoundedInNumberAndBytes) {
   ASSERT_EQ(scene.notes.size(), 1u);
   EXPECT_NE(scene.notes[0].find("no room"), std::string::npos);
   EXPECT_LE(library.size_bytes(), std::size_t{32} << 20);
+}
+
+// Two files of 20 MiB where there is room for one.
+AvatarLibraryOptions with_room_for_one(std::atomic<int>& reads) {
+  AvatarLibraryOptions options;
+  options.most_bytes = std::size_t{32} << 20;
+  options.sources.read_hash = [&reads](const FileHash& hash,
+                                       const AvatarStop&) -> std::optional<Result<AvatarModel>> {
+    ++reads;
+    AvatarModel model = model_called(hash == hash_of(1) ? "first" : "second");
+    model.pictures.push_back({1, 1, std::vector<std::uint8_t>(std::size_t{20} << 20)});
+    return model;
+  };
+  return options;
+}
+
+TEST(AvatarLibrary, WhatHadNoRoomIsReadAgainWhenThereIsSome) {
+  std::atomic<int> reads{0};
+  AvatarLibrary library(with_room_for_one(reads));
+  SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+  scene.guests[0].wish.file = hash_of(1);
+  scene.guests[1].wish.file = hash_of(2);
+  library.wait_and_dress(scene);
+  EXPECT_EQ(scene.guests[0].avatar->name, "first");
+  EXPECT_EQ(scene.guests[1].avatar->name, "mannequin");
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_NE(scene.notes[0].find("bob's avatar has no room"), std::string::npos);
+  // While there is none it is not read in vain.
+  for (int i = 0; i < 4; ++i) {
+    scene.time += Duration::s(6);
+    undress(scene);
+    library.wait_and_dress(scene);
+    EXPECT_EQ(scene.guests[1].avatar->name, "mannequin");
+  }
+  EXPECT_EQ(reads, 2);
+  scene.guests[0].wish.file = {};  // alice takes her mannequin
+  for (int i = 0; i < 2; ++i) {
+    scene.time += Duration::s(3);
+    undress(scene);
+    library.wait_and_dress(scene);
+  }
+  EXPECT_EQ(scene.guests[1].avatar->name, "second");
+  EXPECT_TRUE(scene.notes.empty());
+  EXPECT_EQ(reads, 3);
+  EXPECT_LE(library.size_bytes(), std::size_t{32} << 20);
+}
+
+TEST(AvatarLibrary, OneModelTakesNoLargePartOfTheCache) {
+  std::atomic<int> reads{0};
+  AvatarLibraryOptions options = with_room_for_one(reads);
+  options.most_model_bytes = std::size_t{8} << 20;
+  AvatarLibrary library(std::move(options));
+  SceneState scene = scene_of({guest_called("alice")});
+  scene.guests[0].wish.file = hash_of(1);
+  for (int i = 0; i < 3; ++i) {
+    library.wait_and_dress(scene);
+    EXPECT_EQ(scene.guests[0].avatar->name, "mannequin");
+    scene.time += Duration::s(6);
+  }
+  ASSERT_FALSE(scene.notes.empty());
+  EXPECT_NE(scene.notes[0].find("too large"), std::string::npos);
+  EXPECT_EQ(reads, 1);
+  EXPECT_LT(library.size_bytes(), std::size_t{8} << 20);
+  const AvatarLibraryOptions usual;
+  EXPECT_LT(3 * usual.most_model_bytes, usual.most_bytes);
+  EXPECT_LE(AvatarLimits().bytes, usual.most_model_bytes);
+}
+
+// The reading thread is told, so that a window closes at once, and what waits is not begun.
+TEST(AvatarLibrary, ItsEndStopsWhatIsBeingRead) {
+  std::promise<void> has_begun;
+  std::atomic<int> begun{0};
+  std::atomic<bool> was_stopped{false};
+  {
+    AvatarLibraryOptions options;
+    options.sources.read_file = [&](const std::string&, const AvatarStop& stop) {
+      if (++begun == 1) has_begun.set_value();
+      while (!stop()) std::this_thread::yield();  // without the stop this test never ends
+      was_stopped = true;
+      return Result<AvatarModel>(fail("stopped"));
+    };
+    options.overrides = {{*GuestId::parse("alice"), "slow.vrm"},
+                         {*GuestId::parse("bob"), "other.vrm"}};
+    AvatarLibrary library(std::move(options));
+    SceneState scene = scene_of({guest_called("alice"), guest_called("bob")});
+    library.dress(scene);
+    has_begun.get_future().wait();
+  }
+  EXPECT_TRUE(was_stopped);
+  EXPECT_EQ(begun, 1);
 }
 
 TEST(AvatarLibrary, AllocatesNothingWhileNothingChanges) {

@@ -122,6 +122,85 @@ TEST(FigureSprings, CollidersAreNotEntered) {
   }
 }
 
+// As a stranger's file may have it: hair of thousands of nodes, each with many colliders.
+AvatarModel with_hair_of(std::size_t strands, std::size_t nodes, std::size_t colliders) {
+  AvatarModel model = mannequin_of(average_skeleton());
+  for (std::size_t c = 0; c < colliders; ++c)
+    model.colliders.push_back(
+        {model.node_of(Bone::kHead), Vector3f(0, 0.1f, 0), Vector3f(0, 0.1f, 0), 0.01f});
+  for (std::size_t s = 0; s < strands; ++s) {
+    AvatarSpring spring;
+    int parent = model.node_of(Bone::kHead);
+    for (std::size_t n = 0; n < nodes; ++n) {
+      AvatarNode node;
+      node.parent = parent;
+      node.translation_m = Vector3f(0, -0.01f, -0.01f);
+      parent = static_cast<int>(model.nodes.size());
+      model.nodes.push_back(node);
+      spring.joints.push_back(
+          {parent, Vector3f(0, -0.01f, 0), 0.0f, 0.4f, 0.2f, -Vector3f::UnitY(), 0.3f});
+    }
+    for (std::size_t c = 0; c < colliders; ++c)
+      spring.colliders.push_back(static_cast<std::uint32_t>(c));
+    model.springs.push_back(spring);
+  }
+  return model;
+}
+
+std::size_t contacts_of(const AvatarShape& shape) {
+  std::size_t contacts = 0;
+  for (const SwingNode& node : shape.swings) contacts += node.collider_count;
+  return contacts;
+}
+
+TEST(FigureSprings, WhatSwingsOfOneFigureIsBoundedHoweverMuchItsFileAsksFor) {
+  const AvatarModel model = with_hair_of(100, 40, 200);
+  ASSERT_TRUE(is_sound(model));
+  const AvatarShape shape = shape_of(model);
+  EXPECT_EQ(shape.swings.size(), kMostSpringContacts / kMostSpringColliders);
+  EXPECT_EQ(contacts_of(shape), kMostSpringContacts);
+  EXPECT_LE(shape.colliders.size(), kMostSpringContacts);
+  const AvatarShape free = shape_of(with_hair_of(100, 40, 0));
+  EXPECT_EQ(free.swings.size(), kMostSwingingNodes);
+  // What an avatar has that is made with care all swings.
+  const AvatarShape usual = shape_of(with_hair_of(40, 5, 16));
+  EXPECT_EQ(usual.swings.size(), 200u);
+  EXPECT_EQ(contacts_of(usual), 3200u);
+}
+
+// Where the last link of each of three guests' braids ends after they have turned.
+std::array<Vector3f, 3> three_ends(FigureOptions options) {
+  const auto avatar = shared(with_a_braid(false));
+  FigurePoser poser(options);
+  std::array<Vector3f, 3> ends;
+  for (int i = 0; i <= 60; ++i) {
+    SceneState scene;
+    scene.time = MonoTime::from_us(10'000'000 + 16'667 * i);
+    for (const char* name : {"alice", "bob", "clara"}) {
+      scene.guests.push_back(guest_in(avatar, name));
+      scene.guests.back().pose.R_PB[0] =
+          exp_rotation(Vector3f(0, 2.0f * std::sin(0.1f * static_cast<float>(i)), 0));
+    }
+    const auto figures = poser.pose(scene);
+    for (std::size_t g = 0; g < 3; ++g)
+      ends[g] = figures[g].W_from_joint.back() * Vector3f(0, -kLink_m, 0).homogeneous();
+  }
+  return ends;
+}
+
+TEST(FigureSprings, FiguresBeyondThePicturesBudgetAreAtRestAndTheOthersSwingOn) {
+  FigureOptions options;
+  const auto all = three_ends(options);
+  options.most_spring_work = 0;
+  const auto none = three_ends(options);
+  options.most_spring_work = 11;  // a braid is four
+  const auto some = three_ends(options);
+  ASSERT_GT((all[0] - none[0]).norm(), 0.02f);
+  EXPECT_EQ(some[0], all[0]);
+  EXPECT_EQ(some[1], all[1]);
+  EXPECT_EQ(some[2], none[2]);
+}
+
 TEST(FigureFace, EyesBlinkEveryFewSecondsAndAreOpenInASinglePicture) {
   const auto avatar = shared(with_a_braid(false));
   FigurePoser poser;

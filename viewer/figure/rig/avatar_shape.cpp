@@ -136,7 +136,12 @@ class ShapeMaker {
         found.push_back({node, s, j});
       }
     std::ranges::sort(found, {}, &Found::node);  // parents have smaller indices
+    std::size_t contacts_left = kMostSpringContacts;
     for (const Found& it : found) {
+      if (shape_.swings.size() == kMostSwingingNodes) break;
+      const std::size_t contacts =
+          std::min(model_.springs[it.spring].colliders.size(), kMostSpringColliders);
+      if (contacts > contacts_left) continue;
       const AvatarSpring::Joint& joint = model_.springs[it.spring].joints[it.joint];
       SwingNode swing;
       swing.tail_M_m = M_from_node_[it.node].linear() * joint.tail_m;
@@ -149,6 +154,7 @@ class ShapeMaker {
       const float strength = std::clamp(joint.gravity, -100.0f, 100.0f);
       const float length = joint.gravity_direction.norm();
       if (length > 1e-6f) swing.gravity = joint.gravity_direction * (strength / length);
+      contacts_left -= contacts;
       springs_.push_back(it.spring);
       shape_.swings.push_back(swing);
     }
@@ -171,7 +177,6 @@ class ShapeMaker {
   }
 
   void add_colliders() {
-    constexpr std::size_t kMostOfASpring = 32;
     for (std::size_t i = 0; i < shape_.swings.size(); ++i) {
       const AvatarSpring& spring = model_.springs[springs_[i]];
       SwingNode& swing = shape_.swings[i];
@@ -183,7 +188,7 @@ class ShapeMaker {
       }
       swing.first_collider = static_cast<std::uint32_t>(shape_.colliders.size());
       for (const std::uint32_t c : spring.colliders) {
-        if (swing.collider_count == kMostOfASpring) break;
+        if (swing.collider_count == kMostSpringColliders) break;
         const AvatarCollider& collider = model_.colliders[c];
         const auto node = static_cast<std::size_t>(collider.node);
         shape_.colliders.push_back({driver_from(collider.node),

@@ -83,7 +83,8 @@ struct AvatarShape {
   std::vector<std::size_t> leaders;          // of each driver from kFirstFreeDriver on
   std::vector<Follower> followers;           // of each AvatarJoint
   std::vector<TwistNode> twists;
-  std::vector<SwingNode> swings;  // parents first
+  std::vector<SwingNode>
+      swings;  // parents first; bounded, with their contacts, as AvatarModel says
   std::vector<SwingCollider> colliders;
   std::array<SoleShape, 2> soles;
   std::array<SoleHull, 2> hulls;                 // in M

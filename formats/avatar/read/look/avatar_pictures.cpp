@@ -46,6 +46,7 @@ Result<std::span<const std::uint8_t>> AvatarPictures::bytes_of(int index) const 
 }
 
 Result<int> AvatarPictures::decode(int image) {
+  if (auto done = source_.go_on(); !done) return tl::make_unexpected(done.error());
   DANCE_TRY(const auto bytes, bytes_of(image));
   if (source_.model.pictures.size() >= source_.limits.pictures)
     return fail("more than " + std::to_string(source_.limits.pictures) + " pictures");

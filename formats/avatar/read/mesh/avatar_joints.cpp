@@ -31,13 +31,22 @@ Result<const std::vector<std::uint16_t>*> AvatarJoints::of_skin(int skin) {
   return &(skins_[skin] = std::move(joints));
 }
 
-Result<std::vector<std::uint16_t>> AvatarJoints::read_skin(int index) {
+Result<void> AvatarJoints::check_count(int index) const {
   const std::string what = "skin " + std::to_string(index);
   if (index < 0 || static_cast<std::size_t>(index) >= source_.file.skins.size())
     return fail(what + " is not in the file");
+  const std::size_t count = source_.file.skins[static_cast<std::size_t>(index)].joints.size();
+  if (count == 0) return fail(what + " has no joints; bind its meshes to bones again");
+  if (count > source_.limits.joints)
+    return fail(what + " has " + std::to_string(count) + " joints, more than " +
+                std::to_string(source_.limits.joints) + "; export fewer bones");
+  return {};
+}
+
+Result<std::vector<std::uint16_t>> AvatarJoints::read_skin(int index) {
+  const std::string what = "skin " + std::to_string(index);
+  if (auto fits = check_count(index); !fits) return tl::make_unexpected(fits.error());
   const tinygltf::Skin& skin = source_.file.skins[static_cast<std::size_t>(index)];
-  if (skin.joints.empty() || skin.joints.size() > source_.limits.joints)
-    return fail(what + " has " + std::to_string(skin.joints.size()) + " joints");
   std::vector<float> matrices;
   if (skin.inverseBindMatrices >= 0) {
     DANCE_TRY(matrices, read_attribute(source_.file, skin.inverseBindMatrices, 16,

@@ -19,6 +19,8 @@ class AvatarJoints {
  public:
   explicit AvatarJoints(AvatarSource& source) : source_(source) {}
 
+  // Costs nothing, however many there are.
+  Result<void> check_count(int skin) const;
   // The model's joint of a node without a skin.
   Result<std::uint16_t> of_node(int file_node);
   // The model's joints in the order of the skin's.

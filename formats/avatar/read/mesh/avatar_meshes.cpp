@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <map>
+#include <optional>
 
 #include "formats/avatar/read/avatar_first_person.h"
 #include "formats/avatar/read/avatar_nodes.h"
@@ -46,7 +47,9 @@ class MeshReader {
         joints_(source),
         first_person_(source.file),
         triangles_left_(source.limits.triangles),
-        rest_(rest_transforms(source.model)) {}
+        rest_(rest_transforms(source.model)),
+        is_of_figure_(nodes_of_figure()),
+        skin_follows_(source.file.skins.size()) {}
 
   Result<ReadMeshes> read() {
     const std::vector<bool> is_shown = shown_nodes();
@@ -55,7 +58,8 @@ class MeshReader {
       if (from.mesh < 0 || !is_shown[static_cast<std::size_t>(node)]) continue;
       if (static_cast<std::size_t>(from.mesh) >= source_.file.meshes.size())
         return fail("node " + std::to_string(node) + " has a mesh that is not in the file");
-      if (!follows_figure(node, from)) {
+      DANCE_TRY(const bool follows, follows_figure(node, from));
+      if (!follows) {
         source_.note("meshes that do not hang from the figure are left out");
         continue;
       }
@@ -85,24 +89,51 @@ class MeshReader {
     return is_shown;
   }
 
-  bool is_of_figure(int file_node) const {
-    return file_node >= 0 && static_cast<std::size_t>(file_node) < source_.scene.nodes.size() &&
-           is_above(source_.model, source_.model.node_of(Bone::kHips),
-                    source_.model_node(file_node));
+  // Of the model's nodes, those at and below the hips.
+  std::vector<bool> nodes_of_figure() const {
+    const AvatarModel& model = source_.model;
+    std::vector<bool> is_of_figure(model.nodes.size(), false);
+    for (std::size_t n = 0; n < model.nodes.size(); ++n) {  // parents first
+      const int parent = model.nodes[n].parent;
+      is_of_figure[n] = static_cast<int>(n) == model.node_of(Bone::kHips) ||
+                        (parent >= 0 && is_of_figure[static_cast<std::size_t>(parent)]);
+    }
+    return is_of_figure;
   }
 
-  bool follows_figure(int node, const tinygltf::Node& from) const {
+  bool is_of_figure(int file_node) const {
+    return file_node >= 0 && static_cast<std::size_t>(file_node) < source_.scene.nodes.size() &&
+           is_of_figure_[static_cast<std::size_t>(source_.model_node(file_node))];
+  }
+
+  Result<bool> follows_figure(int node, const tinygltf::Node& from) {
     if (from.skin < 0 || static_cast<std::size_t>(from.skin) >= source_.file.skins.size())
       return is_of_figure(node);
-    const auto& joints = source_.file.skins[static_cast<std::size_t>(from.skin)].joints;
-    return std::any_of(joints.begin(), joints.end(), [&](int j) { return is_of_figure(j); });
+    const auto skin = static_cast<std::size_t>(from.skin);
+    // Many nodes may share a skin.
+    if (skin_follows_[skin]) return *skin_follows_[skin];
+    const auto& joints = source_.file.skins[skin].joints;
+    if (auto fits = joints_.check_count(from.skin); !fits) return tl::make_unexpected(fits.error());
+    if (auto done = source_.look_at(joints.size()); !done) return tl::make_unexpected(done.error());
+    skin_follows_[skin] =
+        std::any_of(joints.begin(), joints.end(), [&](int j) { return is_of_figure(j); });
+    return *skin_follows_[skin];
+  }
+
+  // What a primitive costs even where its vertices and triangles are known.
+  static std::size_t things_in(const tinygltf::Primitive& primitive) {
+    std::size_t things = 1 + primitive.attributes.size() + primitive.targets.size();
+    for (const auto& target : primitive.targets) things += target.size();
+    return things;
   }
 
   Result<void> read_mesh(int node, const tinygltf::Node& from) {
     const tinygltf::Mesh& mesh = source_.file.meshes[static_cast<std::size_t>(from.mesh)];
+    if (auto done = source_.look_at(1 + mesh.primitives.size()); !done) return done;
     DANCE_TRY(const MeshMorphs morphs, begin_morphs(source_, node, from.mesh));
     if (morphs.count > 0) out_.morphs.push_back(morphs);
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      if (auto done = source_.look_at(things_in(primitive)); !done) return done;
       DANCE_TRY(const std::uint32_t material, material_of(primitive));
       DANCE_TRY(const Block block, block_of(node, from, primitive, material, morphs));
       DANCE_TRY(auto triangles, read_triangles(source_, primitive, block.count, triangles_left_));
@@ -222,6 +253,8 @@ class MeshReader {
   const AvatarFirstPerson first_person_;
   std::size_t triangles_left_;
   const std::vector<Eigen::Affine3d> rest_;
+  const std::vector<bool> is_of_figure_;
+  std::vector<std::optional<bool>> skin_follows_;  // once it has been looked at
   std::map<BlockKey, Block> blocks_;
   std::vector<PartTriangles> parts_;
   ReadMeshes out_;

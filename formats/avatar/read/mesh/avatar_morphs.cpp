@@ -14,11 +14,11 @@ constexpr float kMoves_m = 1e-6f;
 constexpr std::size_t kMoveBytes = sizeof(std::uint32_t) + 2 * sizeof(Eigen::Vector3f);
 
 std::string name_of(const tinygltf::Mesh& mesh, std::size_t target) {
-  const std::string named = text_of(item(member(&mesh.extras, "targetNames"), target));
+  const std::string_view named = text_in(item(member(&mesh.extras, "targetNames"), target));
   if (!named.empty()) return plain_name(named);
   if (!mesh.primitives.empty()) {
     const tinygltf::Value& extras = mesh.primitives.front().extras;
-    const std::string told = text_of(item(member(&extras, "targetNames"), target));
+    const std::string_view told = text_in(item(member(&extras, "targetNames"), target));
     if (!told.empty()) return plain_name(told);
   }
   return plain_name(mesh.name) + "." + std::to_string(target);
