@@ -25,12 +25,6 @@ std::string names_in(const SceneState& scene) {
   return names;
 }
 
-Comparison compare(const SceneState& scene) {
-  Comparison comparison;
-  compare(scene, comparison);
-  return comparison;
-}
-
 TEST(Comparison, HasTheTwinOnOneSideAndItsDancerOnTheOther) {
   const SceneState scene = scene_of_names({"alice", "bob", "bob-raw"});
   ASSERT_TRUE(has_twins(scene));

@@ -43,6 +43,12 @@ bool can_compare(const SceneState& scene) {
                      [](const SceneGuest& guest) { return guest.arriving && guest.staged; });
 }
 
+Comparison compare(const SceneState& scene) {
+  Comparison comparison;
+  compare(scene, comparison);
+  return comparison;
+}
+
 void compare(const SceneState& scene, Comparison& comparison) {
   comparison.is_of_twins = has_twins(scene);
   comparison.shown = scene;
