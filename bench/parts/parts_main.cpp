@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   dance bench parts                     everything, about half a minute
   dance bench parts --only codec        one of avatar, body, bus, camera, codec, files,
-                                        osc, predict, stage, style
+                                        instruments, osc, predict, stage, style
   DANCE_AVATARS=data/avatars dance bench parts --only avatar
   dance bench parts --json
 )";
@@ -46,8 +46,8 @@ int main(int argc, char** argv) {
       "What each part of the pose path costs, against a baseline in the same run.",
       "dance bench parts");
   line.add("--only", only, "one part")
-      .one_of({"avatar", "body", "bus", "camera", "codec", "files", "osc", "predict", "stage",
-               "style"});
+      .one_of({"avatar", "body", "bus", "camera", "codec", "files", "instruments", "osc", "predict",
+               "stage", "style"});
   line.add_flag("--json", json, "as JSON");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_parts(only, json); });

@@ -124,23 +124,29 @@ void append_routes(const SessionEdit& edit, std::string& text) {
   }
 }
 
+// nullptr where there is no such table.
+const toml::table* style_of(const toml::table& document, std::string_view whose) {
+  for (std::size_t i = 0;; ++i) {
+    const toml::table* table = table_of(document, "style", i);
+    if (!table) return nullptr;
+    const toml::node* guest = table->get("guest");
+    if (guest && guest->value_or(std::string()) == whose) return table;
+  }
+}
+
 // The values of [[style]] of that guest; false where there is no such table.
 Result<bool> edit_style(std::string_view text, const toml::table& document, const StyleEdit& style,
                         const std::string& name, std::vector<Replacement>& replacements) {
-  for (std::size_t i = 0;; ++i) {
-    const toml::table* table = table_of(document, "style", i);
-    if (!table) return false;
-    const toml::node* guest = table->get("guest");
-    if (!guest || guest->value_or(std::string()) != style.guest) continue;
-    const toml::node* words = table->get("words");
-    auto replacement =
-        words ? string_at(text, *words, quoted(style.words)) : std::optional<Replacement>();
-    if (!replacement)
-      return tl::make_unexpected(
-          error_at(name, table->source(), "this [[style]] has no words = \"…\"; write it there"));
-    replacements.push_back(std::move(*replacement));
-    return true;
-  }
+  const toml::table* table = style_of(document, style.guest);
+  if (!table) return false;
+  const toml::node* words = table->get("words");
+  auto replacement =
+      words ? string_at(text, *words, quoted(style.words)) : std::optional<Replacement>();
+  if (!replacement)
+    return tl::make_unexpected(
+        error_at(name, table->source(), "this [[style]] has no words = \"…\"; write it there"));
+  replacements.push_back(std::move(*replacement));
+  return true;
 }
 
 Result<std::string> edited(std::string_view text, const toml::table& document,
@@ -202,6 +208,17 @@ Result<std::vector<std::string>> route_words(std::string_view text, std::size_t 
                                              const std::string& name) {
   return with_document(text, name,
                        [&](const toml::table& document) { return words_of(document, route); });
+}
+
+Result<std::optional<std::string>> style_words(std::string_view text, std::string_view guest,
+                                               const std::string& name) {
+  using Words = Result<std::optional<std::string>>;
+  return with_document(text, name, [&](const toml::table& document) -> Words {
+    const toml::table* table = style_of(document, guest);
+    const toml::node* words = table ? table->get("words") : nullptr;
+    if (!words) return std::nullopt;
+    return words->value<std::string>();
+  });
 }
 
 Result<std::string> edit_session(std::string_view text, const SessionEdit& edit,

@@ -52,5 +52,8 @@ Result<std::string> edit_session(std::string_view text, const SessionEdit& edit,
 // The words of a route as they stand; empty where there are none.
 Result<std::vector<std::string>> route_words(std::string_view text, std::size_t route,
                                              const std::string& name);
+// The words of [[style]] of that guest; none where there are none.
+Result<std::optional<std::string>> style_words(std::string_view text, std::string_view guest,
+                                               const std::string& name);
 
 }  // namespace dance

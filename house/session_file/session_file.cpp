@@ -26,6 +26,10 @@ std::vector<std::string> SessionFile::words(std::size_t route) const {
   return route_words(text_, route, path_).value_or(std::vector<std::string>());
 }
 
+std::optional<std::string> SessionFile::style(std::string_view guest) const {
+  return style_words(text_, guest, path_).value_or(std::nullopt);
+}
+
 Result<void> SessionFile::save(const SessionEdit& edit) {
   // A folder that is ours would let us replace a file that is not to be written.
   if (access(path_.c_str(), W_OK) != 0)

@@ -23,6 +23,8 @@ class SessionFile {
   Result<void> save(const SessionEdit& edit);
   // The words of a route as they stand in the file.
   std::vector<std::string> words(std::size_t route) const;
+  // Likewise those of a guest's [[style]].
+  std::optional<std::string> style(std::string_view guest) const;
 
  private:
   SessionFile(std::string path, std::string text)

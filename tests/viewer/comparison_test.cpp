@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/raw_twin.h"
+#include "tests/allocation_guard.h"
 
 namespace dance {
 namespace {
@@ -61,6 +62,31 @@ TEST(Comparison, APlainPictureShowsNobodyTwice) {
   SceneState scene = scene_of_names({"alice", "bob", "bob-raw"});
   leave_out_twins(scene);
   EXPECT_EQ(names_in(scene), "alice bob ");
+}
+
+TEST(Comparison, LeavesTwinsOutInAnyOrder) {
+  SceneState scene = scene_of_names({"bob-raw-raw", "bob-raw", "alice", "bob", "carol"});
+  leave_out_twins(scene);
+  EXPECT_EQ(names_in(scene), "alice bob carol ");
+}
+
+TEST(Comparison, APictureWithoutTwinsAllocatesNothing) {
+  SceneState scene = scene_of_names({"alice", "bob", "carol"});
+  const AllocationGuard guard;
+  for (int picture = 0; picture < 10; ++picture) leave_out_twins(scene);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(scene.guests.size(), 3u);
+}
+
+TEST(Comparison, AllocatesNothingForTheGuestsOfThePictureBefore) {
+  SceneState scene = scene_of_names({"alice", "bob", "carol"});
+  scene.guests[1].arriving = scene.guests[1].staged = scene.guests[1].pose;
+  Comparison both;
+  compare(scene, both);
+  const AllocationGuard guard;
+  for (int picture = 0; picture < 10; ++picture) compare(scene, both);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(names_in(both.raw), "alice bob carol ");
 }
 
 TEST(Comparison, WhoIsMerelyCalledSoIsAGuestLikeOthers) {

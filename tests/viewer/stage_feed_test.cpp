@@ -48,5 +48,40 @@ TEST(StageFeed, HearsEveryPoseWhileTheDrawingThreadIsHeldUpInASwap) {
   EXPECT_EQ(newest, kPoses - 1);
 }
 
+// What came through the tunnel is heard for the board and for the instruments.
+TEST(StageFeed, CountsEachPoseOfTheTunnelOnceWhicheverPosesAreShown) {
+  for (const Shown shown : {Shown::kBest, Shown::kCapture, Shown::kGuest, Shown::kStage}) {
+    FeedOptions options;
+    options.bus_url = kUrl;
+    options.shown = shown;
+    auto feed = StageFeed::create(options);
+    ASSERT_TRUE(feed) << feed.error().what;
+    const auto sender = open_bus();
+    const auto listener = open_bus();
+    GuestStats stats;
+    int seconds = 0;
+    listener->subscribe<GuestStats>(Where::kView,
+                                    [&](const Channel&, const GuestStats& told, MonoTime) {
+                                      stats = told;
+                                      ++seconds;
+                                    });
+    // One is lost, and one overtakes another: a meter tells by that one whether it hears twice.
+    constexpr std::uint32_t kPoses = 50, kLost = 25, kOvertaken = 30;
+    const Channel from = Channel::of(Signal::kPose, Where::kGuest, guest("bob"));
+    for (std::uint32_t i = 0; i < kPoses; ++i) {
+      const std::uint32_t sequence = i == kOvertaken       ? kOvertaken + 1
+                                     : i == kOvertaken + 1 ? kOvertaken
+                                                           : i;
+      Pose pose = numbered(sequence);
+      pose.capture_time = MonoTime::from_us(1'000'000 + 16'667 * std::int64_t{sequence});
+      if (i != kLost) sender->publish(from, pose);
+    }
+    drain_until(*listener, [&] { return stats.received >= kPoses - 1 || seconds > 3; });
+    EXPECT_EQ(stats.received, kPoses - 1) << static_cast<int>(shown);
+    EXPECT_EQ(stats.lost, 1) << static_cast<int>(shown);
+    EXPECT_EQ(stats.late, 1) << static_cast<int>(shown);
+  }
+}
+
 }  // namespace
 }  // namespace dance

@@ -52,6 +52,20 @@ TEST(PlanMoments, AFilmGoesOnToItsEndAndTakesNoOtherPlan) {
   EXPECT_FALSE(plan_moments(wish));
 }
 
+TEST(CheckShown, RefusesToChooseThePosesOfALogAndNamesTheCure) {
+  for (const Shown shown : {Shown::kBest, Shown::kCapture, Shown::kGuest, Shown::kStage}) {
+    ViewOptions options;
+    options.feed.shown = shown;
+    EXPECT_TRUE(check_shown(options)) << "a live house";
+    options.log = "night.lcm";
+    const auto checked = check_shown(options);
+    EXPECT_EQ(checked.has_value(), shown == Shown::kBest);
+    if (!checked) {
+      EXPECT_NE(checked.error().what.find("--stage-only"), std::string::npos);
+    }
+  }
+}
+
 TEST(ParseSize, TakesWidthByHeight) {
   const auto size = parse_size("640x360");
   ASSERT_TRUE(size);

@@ -28,6 +28,17 @@ bool is_shown(const FeedOptions& options, Where where) {
   return false;
 }
 
+// For views that compare, and not to be shown by itself.
+bool is_compared(const FeedOptions& options, Where where) {
+  return options.shown == Shown::kBest && where == Where::kGuest;
+}
+
+// The board hears poses of these places, and the instruments with it; of the others the instruments
+// alone. Each pose is counted once.
+bool is_for_board(const FeedOptions& options, Where where) {
+  return is_shown(options, where) || is_compared(options, where);
+}
+
 }  // namespace
 
 StageFeed::StageFeed(const FeedOptions& options)
@@ -60,14 +71,13 @@ StageFeed::~StageFeed() {
 
 void StageFeed::subscribe(const FeedOptions& options) {
   for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage}) {
-    const bool is_compared = options.shown == Shown::kBest && where == Where::kGuest;
-    if (!is_shown(options, where) && !is_compared) continue;
+    if (!is_for_board(options, where)) continue;
     // Every pose is taken, so that rates and losses are right; the board's slots keep the newest.
     bus_->subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime now) {
       board_.on_pose(channel.where(), channel.guest(), pose, now);
       instruments_.on_pose(channel.where(), channel.guest(), pose, now);
     });
-    if (is_compared) continue;
+    if (!is_shown(options, where)) continue;
     bus_->subscribe<Hands>(
         where,
         [this](const Channel& channel, const Hands& hands, MonoTime now) {
@@ -104,7 +114,7 @@ void StageFeed::subscribe(const FeedOptions& options) {
 // What is heard for the instruments alone.
 void StageFeed::measure(const FeedOptions& options) {
   for (const Where where : {Where::kCapture, Where::kGuest, Where::kStage}) {
-    if (is_shown(options, where)) continue;
+    if (is_for_board(options, where)) continue;
     bus_->subscribe<Pose>(where, [this](const Channel& channel, const Pose& pose, MonoTime now) {
       instruments_.on_pose(channel.where(), channel.guest(), pose, now);
     });

@@ -49,7 +49,7 @@ void GuestMeter::count(std::uint32_t sequence) {
       lost_now_ += ahead - 1;
     }
     arrived_sequence_ = sequence;
-  } else {
+  } else if (ahead != 0) {  // a sender that does not count tells nothing about loss
     ++late_;
     if (lost_ > 0) --lost_;  // out of order, not lost
     if (lost_now_ > 0) --lost_now_;
@@ -58,6 +58,9 @@ void GuestMeter::count(std::uint32_t sequence) {
 
 void GuestMeter::on_arrived(const Pose& pose, MonoTime heard, const BeatClock& music) {
   begin_at(heard);
+  if (has_arrived_ && pose.sequence == arrived_sequence_ && pose.capture_time == newest_.capture &&
+      newest_.sequence == pose.sequence)
+    return;  // the network has doubled it
   count(pose.sequence);
   const bool is_live = pose.clock_id == clock_id_ && heard - pose.capture_time < kOldestLive;
   const MonoTime received = pose.stamped(Hop::kLinkReceived);

@@ -63,13 +63,14 @@ void add_options(CommandLine& line, Wishes& wishes) {
   ViewOptions& view = wishes.view;
   add_replay_options(line, wishes);
   line.add("--bus", view.feed.bus_url, "LCM URL of the house's bus");
-  line.add_choice<Shown>("--show", view.feed.shown,
-                         {{"best", Shown::kBest},
-                          {"capture", Shown::kCapture},
-                          {"guest", Shown::kGuest},
-                          {"stage", Shown::kStage}},
-                         "best (own guests straight from the capture, the others from the stage), "
-                         "capture, guest or stage");
+  line.add_choice<Shown>(
+      "--show", view.feed.shown,
+      {{"best", Shown::kBest},
+       {"capture", Shown::kCapture},
+       {"guest", Shown::kGuest},
+       {"stage", Shown::kStage}},
+      "of a live house: best (own guests straight from the capture, the others from the stage), "
+      "capture, guest or stage");
   line.add_flag("--stage-only", view.feed.stage_only, "own guests from the stage too");
   line.add_choice<CameraPreset>("--camera", view.camera,
                                 {{"auto", CameraPreset::kAuto},
@@ -144,6 +145,7 @@ Result<void> finish(Wishes& wishes) {
   DANCE_TRY(wishes.view.size, parse_size(wishes.size));
   if (auto planned = plan_moments(wishes.view.moments); !planned)
     return tl::make_unexpected(planned.error());
+  if (auto shown = check_shown(wishes.view); !shown) return shown;
   if (!wishes.view.export_to.empty()) {
     if (wishes.view.log.empty()) return fail("--export needs a log: dance view LOG --export FILE");
     if (auto kind = export_kind(wishes.view.export_to); !kind)

@@ -47,6 +47,13 @@ Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded
   return moments;
 }
 
+Result<void> check_shown(const ViewOptions& options) {
+  if (options.log.empty() || options.feed.shown == Shown::kBest) return {};
+  return fail(
+      "--show is for a live house; of a log leave it out, or say --stage-only (own guests from the "
+      "stage too) or --view compare (as it came beside as it was staged)");
+}
+
 Result<PictureSize> parse_size(const std::string& text) {
   PictureSize size;
   const char* end = text.data() + text.size();

@@ -3,7 +3,7 @@
 // Units/frames: moments in seconds from the start.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      plan_moments() and parse_size() refuse invalid values, in one line.
+// Failure:      plan_moments(), check_shown() and parse_size() refuse invalid values, in one line.
 #pragma once
 
 #include <optional>
@@ -69,6 +69,9 @@ struct ViewOptions {
 // one at the end. Of a recorded house, recorded_s long, all of it unless `seconds` says otherwise;
 // where one picture is to do, not later than of a live one. 0 = a live house.
 Result<std::vector<double>> plan_moments(const MomentWish& wish, double recorded_s = 0.0);
+
+// A log is shown as its house showed it: --show is for a live one.
+Result<void> check_shown(const ViewOptions& options);
 
 // "1280x720", each side 64 to 8192.
 Result<PictureSize> parse_size(const std::string& text);

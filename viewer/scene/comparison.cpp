@@ -1,6 +1,7 @@
 #include "viewer/scene/comparison.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/raw_twin.h"
 #include "viewer/scene/beat_words.h"
@@ -43,40 +44,50 @@ bool can_compare(const SceneState& scene) {
 }
 
 Comparison compare(const SceneState& scene) {
-  Comparison comparison{scene, scene, has_twins(scene)};
-  leave_out_twins(comparison.shown);
+  Comparison comparison;
+  compare(scene, comparison);
+  return comparison;
+}
+
+void compare(const SceneState& scene, Comparison& comparison) {
+  comparison.is_of_twins = has_twins(scene);
+  comparison.shown = scene;
+  if (comparison.is_of_twins) leave_out_twins(comparison.shown);
+  comparison.raw = comparison.shown;
   comparison.shown.notes.clear();  // once is enough
-  comparison.raw.guests.clear();
   comparison.raw.stage = -1 - scene.stage;
   // Both halves have the same guests, in one order.
   std::optional<std::size_t> latest;
-  for (SceneGuest& shown : comparison.shown.guests) {
-    const auto twin_id = raw_twin_of(shown.id);
+  for (std::size_t i = 0; i < comparison.shown.guests.size(); ++i) {
+    SceneGuest& shown = comparison.shown.guests[i];
+    SceneGuest& raw = comparison.raw.guests[i];
+    const auto twin_id = comparison.is_of_twins ? raw_twin_of(shown.id) : std::nullopt;
     const SceneGuest* twin = twin_id ? find_guest(scene, *twin_id) : nullptr;
-    SceneGuest& raw = comparison.raw.guests.emplace_back(twin != nullptr ? *twin : shown);
-    raw.id = shown.id;
-    raw.avatar = shown.avatar;
-    if (twin == nullptr && is_pair(twin, shown)) {
+    if (twin != nullptr) {
+      raw = *twin;
+      raw.id = shown.id;
+      raw.avatar = shown.avatar;
+    } else if (is_pair(twin, shown)) {
       raw.pose = *shown.arriving;
       raw.figures.beat = shown.arriving_beat;
       shown.pose = *shown.staged;
     }
     if (!is_pair(twin, shown) || !delay_of(raw)) continue;
     shown.is_predicted = delay_of(shown) && is_predicted(*delay_of(shown), *delay_of(raw));
-    if (!latest || *delay_of(raw) > *delay_of(comparison.raw.guests[*latest]))
-      latest = comparison.raw.guests.size() - 1;
+    if (!latest || *delay_of(raw) > *delay_of(comparison.raw.guests[*latest])) latest = i;
   }
   if (latest)
     for (SceneState* half : {&comparison.raw, &comparison.shown})
       half->guests[*latest].is_compared = true;
-  return comparison;
 }
 
 void leave_out_twins(SceneState& scene) {
-  std::vector<SceneGuest> kept;
-  for (const SceneGuest& guest : scene.guests)
-    if (!is_twin(scene, guest.id)) kept.push_back(guest);
-  scene.guests = std::move(kept);
+  if (!has_twins(scene)) return;
+  // By swaps, as each question looks for the dancer among all that were there.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < scene.guests.size(); ++i)
+    if (!is_twin(scene, scene.guests[i].id)) std::swap(scene.guests[kept++], scene.guests[i]);
+  scene.guests.erase(scene.guests.begin() + static_cast<std::ptrdiff_t>(kept), scene.guests.end());
 }
 
 }  // namespace dance

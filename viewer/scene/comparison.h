@@ -22,6 +22,8 @@ bool has_twins(const SceneState& scene);
 // Twins, or a guest of whom both poses are known.
 bool can_compare(const SceneState& scene);
 Comparison compare(const SceneState& scene);
+// Into what an earlier picture has left, so that nothing is allocated for the same guests.
+void compare(const SceneState& scene, Comparison& comparison);
 // For a picture without halves: dancers as the routes show them, once each.
 void leave_out_twins(SceneState& scene);
 

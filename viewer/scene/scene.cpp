@@ -1,5 +1,7 @@
 #include "viewer/scene/scene.h"
 
+#include "viewer/scene/figure_stature.h"
+
 namespace dance {
 
 using Eigen::Vector3f;
@@ -11,7 +13,7 @@ constexpr float kRoomForTag_m = 0.10f;
 
 void append_outline(const SceneGuest& guest, std::vector<Vector3f>& points_W_m) {
   BodyFrames frames;
-  forward_kinematics(guest.skeleton, guest.pose, frames);
+  figure_frames(guest, frames);
   points_W_m.insert(points_W_m.end(), frames.p_WB_m.begin(), frames.p_WB_m.end());
   points_W_m.insert(points_W_m.end(), frames.p_WT_m.begin(), frames.p_WT_m.end());
   points_W_m.push_back(frames.tip(Tip::kHead) +
@@ -20,7 +22,7 @@ void append_outline(const SceneGuest& guest, std::vector<Vector3f>& points_W_m) 
 
 Vector3f tag_anchor_W_m(const SceneGuest& guest) {
   BodyFrames frames;
-  forward_kinematics(guest.skeleton, guest.pose, frames);
+  figure_frames(guest, frames);
   return tag_anchor_W_m(frames);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "transformers/flow_text.h"
+#include "transformers/style/style_presets.h"
 #include "viewer/style_panel/style_sliders.h"
 
 namespace dance {
@@ -37,6 +38,24 @@ Style guest_style_of(const FlowSetting& setting) {
 bool is_as_danced(const Style& style) {
   return std::all_of(style.gain.begin(), style.gain.end(),
                      [](float gain) { return std::abs(gain - 1.0f) < 0.005f; });
+}
+
+// Of words that cannot be read: as danced.
+Style style_in_words(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    if (end > at) words.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return read_style("style", words, kOwnMix).value_or(Style());
+}
+
+// Two decimals are written.
+bool is_alike(const Style& a, const Style& b) {
+  const auto is_near = [](float x, float y) { return std::abs(x - y) < 0.005f; };
+  return std::equal(a.gain.begin(), a.gain.end(), b.gain.begin(), is_near) &&
+         is_near(a.periodic, b.periodic) && is_near(a.dynamic, b.dynamic);
 }
 
 void set_colours(float em) {
@@ -87,18 +106,12 @@ bool StylePanel::on_key(const KeyPress& press) {
   return true;
 }
 
-void StylePanel::change(const Style& style, MonoTime now) {
-  own_.change(style, now);
-  has_own_change_ = true;
-}
-
 void StylePanel::follow(MonoTime now) {
   const GuestRecord* record = chosen();
   if (record == nullptr) return;
   if (record->guest() != followed_) {
     flow_.reset();
     own_.reset();
-    has_own_change_ = false;
     note_.clear();
     followed_ = record->guest();
   }
@@ -136,9 +149,12 @@ void StylePanel::save() {
     edit.words.push_back(
         {std::string(kFlowWordNames[word]), word_text(static_cast<FlowWord>(word), in_force, was)});
   }
-  if (in_force.own && has_own_change_)
-    edit.style = StyleEdit{std::string(record->guest().view()),
-                           style_text(guest_style_of(in_force), kOwnMix)};
+  // The file keeps its own words where they say what is in force, and says nothing of a guest who
+  // dances as they do without it.
+  const std::string guest(record->guest().view());
+  const Style own = guest_style_of(in_force);
+  if (in_force.own && !is_alike(own, style_in_words(file_->style(guest).value_or(""))))
+    edit.style = StyleEdit{guest, style_text(own, kOwnMix)};
   const auto saved = file_->save(edit);
   is_note_error_ = !saved;
   note_ = saved ? "saved in " + file_->path() +

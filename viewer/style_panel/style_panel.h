@@ -33,7 +33,7 @@ class StylePanel : public WindowPanel {
   void choose(const GuestId& guest) { chosen_ = guest; }
   // What a person would do with sliders and buttons.
   void change(const FlowSetting& setting, MonoTime now) { flow_.change(setting, now); }
-  void change(const Style& style, MonoTime now);
+  void change(const Style& style, MonoTime now) { own_.change(style, now); }
   // What is in force, unless something is being changed.
   void follow(MonoTime now);
   void save();
@@ -60,7 +60,6 @@ class StylePanel : public WindowPanel {
   GuestId chosen_, followed_;
   SettingDesk<FlowSetting, is_same_setting> flow_;
   SettingDesk<Style, is_same_style> own_;
-  bool has_own_change_ = false;
   std::string note_;
   bool is_note_error_ = false;
   float last_height_px_ = 0.0f;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/pose/kinematics.h"
+#include "viewer/scene/figure_stature.h"
 
 namespace dance {
 
@@ -17,21 +18,9 @@ constexpr float kNarrowest_rad = 0.4f;
 constexpr float kWidest_rad = 1.9f;
 constexpr float kSteepest_rad = 1.35f;
 constexpr float kSoftness_s = 0.06f;
-// From the joint at the base of the skull to the crown: eyes are nearly half way up, and in front.
-constexpr float kEyesUp = 0.45f;
-constexpr float kEyesForward = 0.5f;
 // Heads are carried a little forward; eyes look at the partner all the same.
 constexpr float kLooksUp_rad = 0.08f;
 }  // namespace
-
-Vector3f eyes_W_m(const SceneGuest& guest) {
-  BodyFrames frames;
-  forward_kinematics(guest.skeleton, guest.pose, frames);
-  const Vector3f base = frames.position(Bone::kHead);
-  const Vector3f up = frames.tip(Tip::kHead) - base;
-  const Vector3f forward = frames.R_WB[index_of(Bone::kHead)] * Vector3f::UnitZ();
-  return base + kEyesUp * up + kEyesForward * up.norm() * forward;
-}
 
 void EyeCamera::drag_orbit(float right, float up) {
   aside_rad_ = std::clamp(aside_rad_ - right * 1.6f, -kStraight_rad, kStraight_rad);
@@ -71,7 +60,7 @@ void EyeCamera::update(const SceneGuest& guest, Duration dt) {
   head_pitch_rad_ += share * (pitch - head_pitch_rad_);
   camera_.yaw_rad = head_yaw_rad_ + aside_rad_;
   camera_.pitch_rad = std::clamp(head_pitch_rad_ + down_rad_, -kSteepest_rad, kSteepest_rad);
-  camera_.target_W_m = eyes_W_m(guest) - camera_.distance_m * camera_.axes_W().col(2);
+  camera_.target_W_m = figure_eyes_W_m(guest) - camera_.distance_m * camera_.axes_W().col(2);
 }
 
 }  // namespace dance

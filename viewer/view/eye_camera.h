@@ -13,9 +13,6 @@
 
 namespace dance {
 
-// Between the eyes.
-Eigen::Vector3f eyes_W_m(const SceneGuest& guest);
-
 class EyeCamera {
  public:
   EyeCamera() { reset(); }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "viewer/scene/figure_stature.h"
+
 namespace dance {
 
 using Eigen::Vector3f;
@@ -57,8 +59,7 @@ void FollowCamera::zoom(float notches) {
 }
 
 float FollowCamera::wanted_distance_m(const SceneGuest& guest, float aspect) const {
-  const float height_m = standing_height_m(guest.skeleton);
-  const float half_m = 0.5f * height_m * std::max(kTall, kWide / aspect);
+  const float half_m = 0.5f * figure_height_m(guest) * std::max(kTall, kWide / aspect);
   return zoom_ * half_m / std::tan(0.5f * camera_.fov_y_rad);
 }
 
@@ -67,8 +68,8 @@ void FollowCamera::jump(const SceneGuest& guest, float aspect) {
   guest_ = guest.id;
   facing_W_ = facing_W(guest);
   camera_.yaw_rad = yaw_of(facing_W_) + side_rad_;
-  camera_.target_W_m = Vector3f(guest.pose.p_WH_m.x(), kMiddle * standing_height_m(guest.skeleton),
-                                guest.pose.p_WH_m.z());
+  camera_.target_W_m =
+      Vector3f(guest.pose.p_WH_m.x(), kMiddle * figure_height_m(guest), guest.pose.p_WH_m.z());
   camera_.distance_m = wanted_distance_m(guest, aspect);
 }
 
@@ -81,8 +82,8 @@ void FollowCamera::update(const SceneGuest& guest, float aspect, Duration dt) {
   target.x() += share * (hips.x() - target.x());
   target.z() += share * (hips.z() - target.z());
   // A floor above zero, a jump, a sitting dancer.
-  const float rise_m = hips.y() - guest.skeleton.hips_height_m();
-  const float middle_m = kMiddle * standing_height_m(guest.skeleton) + rise_m;
+  const float rise_m = stature_of(guest).legs * (hips.y() - guest.skeleton.hips_height_m());
+  const float middle_m = kMiddle * figure_height_m(guest) + rise_m;
   target.y() += share_of(dt_s, kHeight_s) * (middle_m - target.y());
   camera_.distance_m += share * (wanted_distance_m(guest, aspect) - camera_.distance_m);
   facing_W_ += share_of(dt_s, kFacing_s) * (facing_W(guest) - facing_W_);

@@ -107,7 +107,7 @@ void ViewDirector::jump(SceneState& scene, const Size& size) {
 void ViewDirector::compose(SceneState& scene, const Size& size, Duration dt, bool jumps) {
   const bool compares = mode_ == ViewMode::kCompare && can_compare(scene);
   if (!compares) leave_out_twins(scene);
-  comparison_.reset();
+  is_comparing_ = compares;
   words_.clear();
   const PixelBox all{0, 0, size.width_px, size.height_px};
   only_ = {&scene, camera_, all};
@@ -115,7 +115,7 @@ void ViewDirector::compose(SceneState& scene, const Size& size, Duration dt, boo
     const PixelBox half{0, 0, std::max(1, size.width_px / 2),
                         std::max(1, size.height_px - size.beats_px)};
     compose_all(scene, half.aspect(), dt, jumps);
-    comparison_ = compare(scene);
+    compare(scene, comparison_);
   } else if (mode_ == ViewMode::kGrid && !scene.guests.empty()) {
     grid_.update(scene, chosen_, size.width_px, size.height_px, dt);
     cells_ = grid_.cells();

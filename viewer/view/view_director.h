@@ -56,8 +56,8 @@ class ViewDirector {
   // Without a transition, for single pictures.
   void jump(SceneState& scene, const Size& size);
 
-  // What to draw: either two halves from one camera, or cells.
-  const std::optional<Comparison>& comparison() const { return comparison_; }
+  // What to draw: either two halves from one camera, or, where comparison() is null, cells.
+  const Comparison* comparison() const { return is_comparing_ ? &comparison_ : nullptr; }
   std::span<const StageCell> cells() const { return cells_; }
   const OrbitCamera& camera() const { return camera_; }  // of the halves, or of the only cell
   float light_yaw_rad() const { return rig_.stage_yaw_rad(); }
@@ -78,7 +78,8 @@ class ViewDirector {
   EyeCamera eyes_;
   GridView grid_;
   OrbitCamera camera_;
-  std::optional<Comparison> comparison_;
+  Comparison comparison_;  // kept from picture to picture
+  bool is_comparing_ = false;
   std::span<const StageCell> cells_;
   StageCell only_{};
   std::string words_;

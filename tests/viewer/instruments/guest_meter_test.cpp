@@ -100,6 +100,33 @@ TEST(GuestMeter, CountsLossAndWhatComesLate) {
   EXPECT_EQ(meter.end_second(at_ms(8600.0)).late, 1);
 }
 
+TEST(GuestMeter, APoseThatComesTwiceIsNeitherLateNorFindsOneThatIsLost) {
+  GuestMeter meter(kHouseClock);
+  for (int i = 0; i < 100; ++i) {
+    if (i % 10 == 5) continue;
+    const MonoTime captured = at_ms(5000.0 + kPeriod_ms * i);
+    const Pose pose = arrived_at_house(captured, static_cast<std::uint32_t>(i), 0.0);
+    for (int time = 0; time < 2; ++time)
+      meter.on_arrived(pose, captured + Duration::ms(60), kNoBeats);
+  }
+  const GuestStats stats = meter.end_second(at_ms(6060.0));
+  EXPECT_EQ(stats.received, 90);
+  EXPECT_EQ(stats.lost, 10);
+  EXPECT_EQ(stats.late, 0);
+  EXPECT_NEAR(stats.loss_percent, 10.0f, 0.01f);
+}
+
+TEST(GuestMeter, CountsPosesOfASenderThatDoesNotNumberThem) {
+  GuestMeter meter(kHouseClock);
+  for (int i = 0; i < 100; ++i) {
+    const MonoTime captured = at_ms(5000.0 + kPeriod_ms * i);
+    meter.on_arrived(arrived_at_house(captured, 0, 0.0), captured + Duration::ms(60), kNoBeats);
+  }
+  const GuestStats stats = meter.end_second(at_ms(6060.0));
+  EXPECT_EQ(stats.received, 100);
+  EXPECT_EQ(stats.late, 0);
+}
+
 TEST(GuestMeter, EstimatesJitterAsRfc3550Does) {
   GuestMeter meter(kHouseClock);
   // Alternately on time and 6 ms later: every difference of transits is 6 ms.

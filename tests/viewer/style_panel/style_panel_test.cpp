@@ -119,5 +119,89 @@ TEST(StylePanel, SavesWhatIsInForceAndKeepsComments) {
   std::filesystem::remove(path);
 }
 
+// A house with two dancers of its own, and what stands in its session file.
+struct OwnHouse : House {
+  OwnHouse() : House(true, session("# mine\n[[route]]\nthrough = []\n")) {
+    in_force.own = true;
+    in_force.has = {};
+  }
+  ~OwnHouse() { std::filesystem::remove(path()); }
+  static std::string path() { return testing::TempDir() + "style-panel-own.toml"; }
+  static std::unique_ptr<SessionFile> session(const std::string& text) {
+    std::ofstream(path()) << text;
+    return std::make_unique<SessionFile>(*SessionFile::open(path()));
+  }
+  void tell_of(const char* name, const Style& style) {
+    FlowSetting setting = in_force;
+    setting.guest_gain = style.gain;
+    setting.guest_periodic = style.periodic;
+    setting.guest_dynamic = style.dynamic;
+    board.on_flow(guest_called(name), setting);
+    records.take(board);
+  }
+  std::string saved() {
+    panel.save();
+    std::ostringstream text;
+    text << std::ifstream(path()).rdbuf();
+    return text.str();
+  }
+};
+
+TEST(StylePanel, SavesAnOwnStyleAfterOtherGuestsWereLookedAt) {
+  OwnHouse house;
+  Style hips;
+  hips.gain[0] = 1.5f;
+  house.tell_of("alice", Style());
+  house.tell_of("bob", Style());
+  house.panel.open(true);
+  house.panel.choose(guest_called("alice"));
+  house.panel.follow(at_ms(1000));
+  house.panel.change(hips, at_ms(1010));
+  house.tell_of("alice", hips);
+  house.panel.follow(at_ms(1100));
+  for (const double ms : {1200.0, 1300.0}) {  // to bob and back
+    house.panel.on_key({.key = 258});
+    house.panel.follow(at_ms(ms));
+  }
+  EXPECT_NE(house.saved().find("[[style]]\nguest = \"alice\"\nwords = \"hips=1.5\""),
+            std::string::npos)
+      << house.saved();
+}
+
+TEST(StylePanel, SavesAnOwnStyleThatWasNotSetInThePanelAndThatItIsGone) {
+  OwnHouse house;
+  Style arms;
+  arms.gain[static_cast<std::size_t>(BodyZone::kArms)] = 0.5f;
+  house.panel.choose(guest_called("alice"));
+  house.tell_of("alice", arms);  // dance style
+  house.panel.follow(at_ms(1000));
+  EXPECT_NE(house.saved().find("words = \"arms=0.5\""), std::string::npos);
+  house.tell_of("alice", Style());
+  house.panel.follow(at_ms(2000));
+  EXPECT_NE(house.saved().find("words = \"preset=as-danced\""), std::string::npos);
+}
+
+TEST(StylePanel, LeavesTheFileAsItIsWhereItSaysWhatIsInForce) {
+  const std::string text = "[[style]]\nguest = \"alice\"\nwords = \"hips=1.50  mix=1\" # so\n";
+  House house(true, OwnHouse::session(text));
+  house.in_force.own = true;
+  house.in_force.has = {};
+  house.in_force.guest_gain[0] = 1.5f;
+  for (const char* name : {"alice", "bob"}) {
+    FlowSetting setting = house.in_force;
+    if (*name == 'b') setting.guest_gain[0] = 1.0f;
+    house.board.on_flow(guest_called(name), setting);
+    house.records.take(house.board);
+    house.panel.choose(guest_called(name));
+    house.panel.follow(at_ms(1000));
+    house.panel.save();
+    EXPECT_NE(house.panel.note().find("saved in"), std::string::npos) << house.panel.note();
+    std::ostringstream now;
+    now << std::ifstream(OwnHouse::path()).rdbuf();
+    EXPECT_EQ(now.str(), text);
+  }
+  std::filesystem::remove(OwnHouse::path());
+}
+
 }  // namespace
 }  // namespace dance
