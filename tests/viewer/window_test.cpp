@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -302,6 +303,34 @@ TEST_F(WindowRunTest, TheListOfKeysIsShownAndClosedAndEscClosesItFirst) {
   EXPECT_LT(mean_difference(without, shown()), 1.0);
   press(GLFW_KEY_ESCAPE);
   EXPECT_TRUE(run_->is_over());
+}
+
+// The path is told of a monitor's rate once, when the window is made: afterwards it looks.
+TEST_F(WindowRunTest, LearnsTheDisplayAnewOnAMonitorOfAnotherRate) {
+  turn(2);
+  const Duration before = run_->path().nominal_period();
+  run_->window().set_refresh_hz(144.0);
+  for (int i = 0; i < 2000 && run_->path().nominal_period() == before; ++i) turn(1);
+  EXPECT_EQ(run_->path().nominal_period(), Duration::period_of_hz(144.0));
+}
+
+bool has_note(const SceneState& scene, const std::string& words) {
+  return std::any_of(scene.notes.begin(), scene.notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+TEST_F(WindowRunTest, SaysWhoseAvatarIsMissing) {
+  for (const char* name : {"alice", "bob"}) {
+    Avatar avatar;
+    avatar.name = *GuestId::parse("no-such-avatar");
+    source_.board().on_avatar(*GuestId::parse(name), avatar, mono_now());
+  }
+  turn(2);
+  EXPECT_TRUE(has_note(run_->scene(), "alice's avatar no-such-avatar is not among those here"));
+  const std::size_t notes = run_->scene().notes.size();
+  turn(3);
+  EXPECT_EQ(run_->scene().notes.size(), notes) << "told once in each picture";
 }
 
 TEST(HelpPanel, TellsEveryKeyThatDoesSomething) {

@@ -177,6 +177,7 @@ ViewWindow::Size ViewWindow::framebuffer_size() const {
 }
 
 float ViewWindow::scale() const {
+  if (told_refresh_hz_) return *told_refresh_hz_;
   float x = 1.0f;
   float y = 1.0f;
   glfwGetWindowContentScale(window_, &x, &y);
