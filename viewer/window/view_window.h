@@ -84,7 +84,8 @@ class ViewWindow {
   bool is_made_lost_ = false;
   std::optional<double> told_refresh_hz_;
   bool is_tear_free_ = true;
-  float wheel_ = 0.0f;  // notches that panels have not seen
+  bool is_repeat_ = false;  // of the last key
+  float wheel_ = 0.0f;      // notches that panels have not seen
   WindowDrag drag_ = WindowDrag::kNone;
   double last_x_ = 0.0;
   double last_y_ = 0.0;
