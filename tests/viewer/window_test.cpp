@@ -333,21 +333,16 @@ TEST_F(WindowRunTest, SaysWhoseAvatarIsMissing) {
   EXPECT_EQ(run_->scene().notes.size(), notes) << "told once in each picture";
 }
 
-TEST(HelpPanel, TellsEveryKeyThatDoesSomething) {
-  const auto groups = window_key_groups();
-  std::string all;
-  for (const PanelStack::Group& group : groups) {
-    EXPECT_FALSE(group.title.empty());
-    for (const KeyHelp& help : group.keys) {
-      EXPECT_FALSE(help.what.empty()) << help.key;
-      all += " " + std::string(help.key) + " ";
-    }
-  }
-  for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; ++key) {
-    const bool does = window_command({key}).has_value();
-    const std::string letter = std::string(" ") + static_cast<char>(key) + " ";
-    EXPECT_EQ(does, all.find(letter) != std::string::npos) << letter;
-  }
+TEST_F(WindowRunTest, EscClosesAPanelBeforeTheWindow) {
+  turn(1);
+  press(GLFW_KEY_I);
+  press(GLFW_KEY_S);
+  turn(2);
+  press(GLFW_KEY_ESCAPE);
+  press(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(run_->is_over());
+  press(GLFW_KEY_ESCAPE);
+  EXPECT_TRUE(run_->is_over());
 }
 
 }  // namespace

@@ -99,6 +99,8 @@ bool WindowRun::is_over() const {
 Result<void> WindowRun::run() {
   while (!is_over())
     if (auto turned = turn(); !turned) return turned;
+  // Keys ask before; a click on the window's frame does not.
+  if (export_.is_running()) talk::warn("the window was closed: {}", export_.cancel());
   return {};
 }
 
@@ -106,9 +108,9 @@ Result<void> WindowRun::turn() {
   window_->poll_events();
   if (window_->is_context_lost()) return renew_after_loss();
   if (state_.display != display_) apply_display_mode();
+  look_at_monitor(mono_now());
   wait_to_take();
   // Asked late: a size from before the wait would be drawn once too small or too large.
-  look_at_monitor(mono_now());
   const ViewWindow::Size size = window_->framebuffer_size();
   if (size.width_px <= 0 || size.height_px <= 0) {  // minimised: nothing to draw
     window_->wait_for_events(kMinimised);
@@ -150,9 +152,9 @@ MonoTime WindowRun::house_time(MonoTime now) {
 void WindowRun::take_poses(MonoTime now) {
   const MonoTime house_now = house_time(now);
   roster_.update(house_now, scene_);
+  scene_.notes.clear();  // the avatars' come first
   avatars_.dress(scene_);
   records_.take(source_.instruments());
-  scene_.notes.clear();  // the avatars' come first
   scene_.shows_trails = state_.shows_trails;
   predictor_.observe(roster_.fresh());
   // A recorded stage is shown as it was; so are the halves of a comparison.
