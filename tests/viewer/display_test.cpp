@@ -106,6 +106,23 @@ TEST(DisplayPath, TakesPosesAtOnceWhereLateLatchingIsOff) {
   EXPECT_EQ(run.path.when_to_take(run.now), run.now);
 }
 
+// Pictures that nobody wanted late cannot be late: the clock is learnt once.
+TEST(DisplayPath, KnowsTheTurnsAllTheTimeWhereLateLatchingIsOff) {
+  DisplayPath::Options options;
+  options.is_late_latching = false;
+  options.latency = Duration::ms(5);
+  EmulatedRun run(options);
+  for (int i = 0; i < 100; ++i) run.picture(true, run.usual_drawing());
+  for (int i = 0; i < 500; ++i) {
+    const PictureTimes times = run.picture(true, run.usual_drawing());
+    ASSERT_TRUE(run.path.knows_turns()) << "picture " << i;
+    ASSERT_EQ(run.path.phase(), DisplayPath::Phase::kAtOnce) << "picture " << i;
+    const MonoTime turn = times.swapped - Duration::us(60);
+    ASSERT_NEAR((run.photon - turn).as_ms(), 5.0, 0.3) << "picture " << i;
+  }
+  EXPECT_EQ(run.path.missed(), 0u);
+}
+
 TEST(DisplayPath, KeepsTheMonitorsPaceWhereSwapCallsDoNotWait) {
   EmulatedRun run({});
   for (int i = 0; i < 100; ++i) run.picture(false, Duration::ms(2));

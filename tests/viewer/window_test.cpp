@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -304,21 +305,44 @@ TEST_F(WindowRunTest, TheListOfKeysIsShownAndClosedAndEscClosesItFirst) {
   EXPECT_TRUE(run_->is_over());
 }
 
-TEST(HelpPanel, TellsEveryKeyThatDoesSomething) {
-  const auto groups = window_key_groups();
-  std::string all;
-  for (const PanelStack::Group& group : groups) {
-    EXPECT_FALSE(group.title.empty());
-    for (const KeyHelp& help : group.keys) {
-      EXPECT_FALSE(help.what.empty()) << help.key;
-      all += " " + std::string(help.key) + " ";
-    }
+// The path is told of a monitor's rate once, when the window is made: afterwards it looks.
+TEST_F(WindowRunTest, LearnsTheDisplayAnewOnAMonitorOfAnotherRate) {
+  turn(2);
+  const Duration before = run_->path().nominal_period();
+  run_->window().set_refresh_hz(144.0);
+  for (int i = 0; i < 2000 && run_->path().nominal_period() == before; ++i) turn(1);
+  EXPECT_EQ(run_->path().nominal_period(), Duration::period_of_hz(144.0));
+}
+
+bool has_note(const SceneState& scene, const std::string& words) {
+  return std::any_of(scene.notes.begin(), scene.notes.end(), [&](const std::string& note) {
+    return note.find(words) != std::string::npos;
+  });
+}
+
+TEST_F(WindowRunTest, SaysWhoseAvatarIsMissing) {
+  for (const char* name : {"alice", "bob"}) {
+    Avatar avatar;
+    avatar.name = *GuestId::parse("no-such-avatar");
+    source_.board().on_avatar(*GuestId::parse(name), avatar, mono_now());
   }
-  for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; ++key) {
-    const bool does = window_command({key}).has_value();
-    const std::string letter = std::string(" ") + static_cast<char>(key) + " ";
-    EXPECT_EQ(does, all.find(letter) != std::string::npos) << letter;
-  }
+  turn(2);
+  EXPECT_TRUE(has_note(run_->scene(), "alice's avatar no-such-avatar is not among those here"));
+  const std::size_t notes = run_->scene().notes.size();
+  turn(3);
+  EXPECT_EQ(run_->scene().notes.size(), notes) << "told once in each picture";
+}
+
+TEST_F(WindowRunTest, EscClosesAPanelBeforeTheWindow) {
+  turn(1);
+  press(GLFW_KEY_I);
+  press(GLFW_KEY_S);
+  turn(2);
+  press(GLFW_KEY_ESCAPE);
+  press(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(run_->is_over());
+  press(GLFW_KEY_ESCAPE);
+  EXPECT_TRUE(run_->is_over());
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ MonoTime DisplayPath::when_to_take(MonoTime now) {
     if (!last_taken_.is_set()) return now;
     return std::max(now, last_taken_ + nominal_);
   }
-  if (!options_.is_late_latching || phase_ == Phase::kLearning) return now;
+  if (phase_ != Phase::kLatched) return now;
   turn_ = clock_.next_after(now + set_aside());
   // One picture for each turn.
   if (last_turn_.is_set() && turn_ - last_turn_ < clock_.period() / 2) turn_ += clock_.period();
@@ -87,7 +87,7 @@ void DisplayPath::on_picture(const PictureTimes& times) {
 
 void DisplayPath::learn(const PictureTimes& times) {
   if (clock_.is_locked() && waited_ >= kLearnAtLeast / 2) {
-    phase_ = Phase::kLatched;
+    phase_ = options_.is_late_latching ? Phase::kLatched : Phase::kAtOnce;
   } else if (learnt_ >= kLearnAtLeast && waited_ * 8 < learnt_) {
     phase_ = Phase::kOwnPace;  // nothing to go by
   } else if (learnt_ >= kLearnAtMost) {

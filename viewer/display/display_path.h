@@ -4,7 +4,8 @@
 // It first draws without delay, so that swap calls wait and show the display's turns
 // (DisplayClock); then each picture's poses are taken just so long before a turn as drawing takes.
 // Where swap calls never wait (no display to wait for, or a driver that queues), pictures come at
-// the monitor's rate, and poses are taken right before drawing.
+// the monitor's rate, and poses are taken right before drawing. Without late latching poses are
+// always taken at once, and the clock only tells when the light is seen.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    plain value; allocates nothing.
@@ -32,7 +33,8 @@ class DisplayPath {
     bool is_late_latching = true;
     std::optional<Duration> latency;  // from the display's turn to light; default half a period
   };
-  enum class Phase { kLearning, kLatched, kOwnPace };
+  // kAtOnce: the display's turns are known, and late latching is off.
+  enum class Phase { kLearning, kLatched, kAtOnce, kOwnPace };
 
   DisplayPath(Duration nominal_period, const Options& options);
 
@@ -46,6 +48,9 @@ class DisplayPath {
 
   Phase phase() const { return phase_; }
   Duration period() const { return clock_.period(); }
+  // What the monitor says of itself.
+  Duration nominal_period() const { return nominal_; }
+  bool knows_turns() const { return clock_.is_locked(); }
   // What is set aside for drawing, without the margin.
   Duration drawing_time() const { return drawing_; }
   Duration margin() const { return margin_; }

@@ -13,7 +13,7 @@ namespace dance {
 namespace {
 
 constexpr std::array<KeyHelp, 2> kKeys{
-    {{"I", "where each guest's milliseconds go"}, {"Tab", "the next guest's plots"}}};
+    {{"I", "where each guest's milliseconds go"}, {"Tab", "while they are open: the next guest"}}};
 
 // The numbers beside the bar; widths in letters' heights.
 struct Column {
@@ -103,7 +103,8 @@ std::size_t InstrumentPanel::chosen_place() const {
 }
 
 bool InstrumentPanel::on_key(const KeyPress& press) {
-  if (press.key == GLFW_KEY_I && !press.has_control && !press.is_repeat) {
+  const bool closes = is_open_ && press.key == GLFW_KEY_ESCAPE;
+  if (closes || (press.key == GLFW_KEY_I && !press.has_control && !press.is_repeat)) {
     is_open_ = !is_open_;
     return true;
   }

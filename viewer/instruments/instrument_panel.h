@@ -21,9 +21,12 @@ class InstrumentPanel : public WindowPanel {
 
   void open(bool is_open) { is_open_ = is_open; }
   void choose(const GuestId& guest) { chosen_ = guest; }
+  // Not set: the first by name.
+  const GuestId& chosen() const { return chosen_; }
 
   std::string_view title() const override { return "instruments"; }
   std::span<const KeyHelp> keys() const override;
+  bool is_open() const override { return is_open_; }
   bool on_key(const KeyPress& press) override;
   void draw(const PanelFrame& frame) override;
 

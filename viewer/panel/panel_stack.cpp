@@ -4,13 +4,30 @@
 
 namespace dance {
 
-bool PanelStack::on_key(const KeyPress& press) {
+// Panels open by a key, by a click or from the beginning; each is looked at before keys and
+// pictures.
+void PanelStack::note_open() {
+  std::erase_if(open_, [](const WindowPanel* panel) { return !panel->is_open(); });
   for (const auto& panel : panels_)
-    if (panel->on_key(press)) return true;
-  return false;
+    if (panel->is_open() && std::ranges::find(open_, panel.get()) == open_.end())
+      open_.push_back(panel.get());
+}
+
+bool PanelStack::on_key(const KeyPress& press) {
+  note_open();
+  const std::vector<WindowPanel*> open = open_;
+  bool is_taken = std::any_of(open.rbegin(), open.rend(),
+                              [&](WindowPanel* panel) { return panel->on_key(press); });
+  for (const auto& panel : panels_) {
+    if (is_taken) break;
+    if (std::ranges::find(open, panel.get()) == open.end()) is_taken = panel->on_key(press);
+  }
+  note_open();
+  return is_taken;
 }
 
 void PanelStack::draw(const PanelFrame& frame) {
+  note_open();
   for (const auto& panel : panels_) panel->draw(frame);
 }
 

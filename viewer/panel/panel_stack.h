@@ -1,4 +1,5 @@
-// PanelStack: all panels of a window. Keys go to the first that takes them; the last is in front.
+// PanelStack: all panels of a window. Keys go to the panel opened last, then to those opened
+// before, then to the others in order, until one takes them. The last added is drawn in front.
 //
 // Ownership: owns the panels.
 // Threads:   the drawing thread.
@@ -30,7 +31,10 @@ class PanelStack {
   std::vector<Group> key_groups() const;
 
  private:
+  void note_open();
+
   std::vector<std::unique_ptr<WindowPanel>> panels_;
+  std::vector<WindowPanel*> open_;  // the one opened last at the end
 };
 
 }  // namespace dance

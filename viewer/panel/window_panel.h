@@ -47,7 +47,9 @@ class WindowPanel {
   // The heading of its keys in the list of keys: "Timeline".
   virtual std::string_view title() const { return {}; }
   virtual std::span<const KeyHelp> keys() const = 0;
-  // True when the key was this panel's.
+  // A person has opened it and can close it: it hears keys before those opened earlier.
+  virtual bool is_open() const { return false; }
+  // True when the key was this panel's. Esc closes what is open.
   virtual bool on_key(const KeyPress& press) = 0;
   virtual void draw(const PanelFrame& frame) = 0;
   // What it takes of the picture's bottom, over its whole width; notes stand above.

@@ -92,7 +92,8 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_choice<QualityWish>(
       "--quality", view.quality,
       {{"auto", QualityWish::kAuto}, {"low", QualityWish::kLow}, {"high", QualityWish::kHigh}},
-      "auto, low (no antialiasing or mirror images, coarser figures) or high");
+      "auto, low (no antialiasing or mirror images, coarser figures) or high; auto is low in a "
+      "window without a graphics card, else high: pictures in files always, unless low is said");
   line.add("--size", wishes.size, "of window or pictures").shows_default();
   line.add_flag("--no-hud", wishes.no_hud, "without the figures");
   line.add_flag("--no-tags", wishes.no_tags, "without names over heads");

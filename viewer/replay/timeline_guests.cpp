@@ -116,11 +116,12 @@ void TimelinePanel::draw_hover(const Ink& ink, const Box& box) const {
 }
 
 void TimelinePanel::draw_export(const Ink& ink, const Box& box) {
+  const bool runs = exports();
+  if (asks_of_running_ && !runs) ask_about_export(false);  // it has ended meanwhile
   if (!asks_what_to_export_) return;
   const float em = ink.em();
-  const bool runs = exporting_.is_running && exporting_.is_running();
   const float width = 14.0f * em;
-  const float height = (runs ? 1.0f : static_cast<float>(kKinds.size())) * 1.7f * em + 2.4f * em;
+  const float height = (runs ? 2.0f : static_cast<float>(kKinds.size())) * 1.7f * em + 2.4f * em;
   const float left = std::min(box.left + 20.0f * em, std::max(box.left, box.right - width));
   const ImVec2 low{left, box.top - height - 0.4f * em};
   ImGui::SetNextWindowPos(low);
@@ -144,12 +145,13 @@ void TimelinePanel::draw_export(const Ink& ink, const Box& box) {
     return is_pressed;
   };
   if (runs) {
-    if (choice("Esc  cancel it")) exporting_.cancel(), asks_what_to_export_ = false;
+    if (choice("Esc  cancel it")) exporting_.cancel(), ask_about_export(false);
+    if (choice("E  let it go on")) ask_about_export(false);
   } else {
     for (std::size_t i = 0; i < kKinds.size(); ++i)
       if (choice(kKinds[i])) {
         exporting_.start(static_cast<ExportKind>(i));
-        asks_what_to_export_ = false;
+        ask_about_export(false);
       }
   }
   ImGui::End();

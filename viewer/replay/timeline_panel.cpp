@@ -24,7 +24,7 @@ constexpr std::array<KeyHelp, 11> kKeys{{
     {"↓ ↑", "slower, faster: 0.1 to 4 times"},
     {"[ ]", "the loop begins here, ends here"},
     {"L", "loop on or off; with shift: forget it"},
-    {"E", "export the loop, or all"},
+    {"E", "export the loop, or all; while it is written: cancel it"},
     {"wheel", "over the timeline: a shorter or longer part of it"},
 }};
 constexpr Duration kJump = Duration::s(5);
@@ -39,7 +39,7 @@ float TimelinePanel::bottom_px(const PanelFrame& frame) const {
 }
 
 bool TimelinePanel::on_key(const KeyPress& press) {
-  if (asks_what_to_export_ && on_export_key(press.key)) return true;
+  if (on_export_key(press)) return true;
   ReplayPlayer* player = source_.player();
   return player != nullptr && on_player_key(press, *player);
 }
@@ -87,24 +87,38 @@ bool TimelinePanel::on_player_key(const KeyPress& press, ReplayPlayer& player) {
       return true;
     case GLFW_KEY_E:
       if (!exporting_.start) return false;
-      asks_what_to_export_ = !asks_what_to_export_;
+      ask_about_export(true);
       return true;
     default:
       return false;
   }
 }
 
-// While it is asked what to export.
-bool TimelinePanel::on_export_key(int key) {
-  const bool runs = exporting_.is_running && exporting_.is_running();
-  if (key == GLFW_KEY_ESCAPE || key == GLFW_KEY_E) {
-    if (runs && exporting_.cancel && key == GLFW_KEY_ESCAPE) exporting_.cancel();
-    asks_what_to_export_ = false;
+void TimelinePanel::ask_about_export(bool asks) {
+  asks_what_to_export_ = asks;
+  asks_of_running_ = asks && exports();
+}
+
+// While it is asked what to export, and keys that would close the window over one that is written.
+bool TimelinePanel::on_export_key(const KeyPress& press) {
+  const bool closes = press.key == GLFW_KEY_ESCAPE || press.key == GLFW_KEY_Q;
+  const bool runs = exports();
+  if (asks_of_running_ && !runs) ask_about_export(false);  // it has ended meanwhile
+  if (runs && closes && press.is_repeat) return true;
+  if (!asks_what_to_export_) {
+    if (!runs || !closes) return false;
+    ask_about_export(true);
     return true;
   }
-  if (key < GLFW_KEY_1 || key > GLFW_KEY_4) return false;
-  if (!runs) exporting_.start(static_cast<ExportKind>(key - GLFW_KEY_1));
-  asks_what_to_export_ = false;
+  if (press.key == GLFW_KEY_Q) return runs;
+  if (press.key == GLFW_KEY_ESCAPE || press.key == GLFW_KEY_E) {
+    if (runs && exporting_.cancel && press.key == GLFW_KEY_ESCAPE) exporting_.cancel();
+    ask_about_export(false);
+    return true;
+  }
+  if (press.key < GLFW_KEY_1 || press.key > GLFW_KEY_4) return false;
+  if (!runs) exporting_.start(static_cast<ExportKind>(press.key - GLFW_KEY_1));
+  ask_about_export(false);
   return true;
 }
 
@@ -201,7 +215,7 @@ void TimelinePanel::draw_controls(const Ink& ink, const Box& box, ReplayPlayer& 
   x += 2.3f * em;
   if (button("faster", Icon::kPlus)) player.change_speed(1);
   if (exporting_.start && button("export", Icon::kExport, asks_what_to_export_))
-    asks_what_to_export_ = !asks_what_to_export_;
+    ask_about_export(!asks_what_to_export_);
   draw_words(ink, box, player, x + 0.6f * em);
 }
 

@@ -36,6 +36,8 @@ class TimelinePanel : public WindowPanel {
 
   std::string_view title() const override { return "Recording"; }
   std::span<const KeyHelp> keys() const override;
+  // While it asks about exports.
+  bool is_open() const override { return asks_what_to_export_; }
   bool on_key(const KeyPress& press) override;
   void draw(const PanelFrame& frame) override;
   float bottom_px(const PanelFrame& frame) const override;
@@ -45,7 +47,9 @@ class TimelinePanel : public WindowPanel {
   struct Box;
 
   bool on_player_key(const KeyPress& press, ReplayPlayer& player);
-  bool on_export_key(int key);
+  bool on_export_key(const KeyPress& press);
+  bool exports() const { return exporting_.is_running && exporting_.is_running(); }
+  void ask_about_export(bool asks);
   void draw_waiting(const Ink& ink, const Box& box) const;
   void draw_controls(const Ink& ink, const Box& box, ReplayPlayer& player);
   void draw_words(const Ink& ink, const Box& box, const ReplayPlayer& player, float left) const;
@@ -62,6 +66,7 @@ class TimelinePanel : public WindowPanel {
   Exporting exporting_;
   std::optional<TimelineScale> scale_;
   bool asks_what_to_export_ = false;
+  bool asks_of_running_ = false;  // what to do with it
   bool is_scrubbing_ = false;
   bool was_playing_ = false;
   std::optional<float> hover_px_, hover_y_px_;

@@ -14,8 +14,8 @@
 namespace dance {
 namespace {
 
-constexpr std::array<KeyHelp, 2> kKeys{
-    {{"S", "how large a guest dances, prediction and rhythm"}, {"Tab", "the next guest"}}};
+constexpr std::array<KeyHelp, 2> kKeys{{{"S", "how large a guest dances, prediction and rhythm"},
+                                        {"Tab", "while it is open: the next guest"}}};
 constexpr float kWidth_em = 25.0f;
 constexpr double kOwnMix = 1.0;  // as `dance style` has it
 
@@ -97,7 +97,8 @@ void StylePanel::choose_next(std::size_t step) {
 }
 
 bool StylePanel::on_key(const KeyPress& press) {
-  if (press.key == GLFW_KEY_S && !press.has_control && !press.is_repeat) {
+  const bool closes = is_open_ && press.key == GLFW_KEY_ESCAPE;
+  if (closes || (press.key == GLFW_KEY_S && !press.has_control && !press.is_repeat)) {
     is_open_ = !is_open_;
     return true;
   }

@@ -31,6 +31,7 @@ class StylePanel : public WindowPanel {
 
   void open(bool is_open) { is_open_ = is_open; }
   void choose(const GuestId& guest) { chosen_ = guest; }
+  const GuestRecord* chosen() const;  // else the first by name; null where nobody is
   // What a person would do with sliders and buttons.
   void change(const FlowSetting& setting, MonoTime now) { flow_.change(setting, now); }
   void change(const Style& style, MonoTime now) { own_.change(style, now); }
@@ -42,11 +43,11 @@ class StylePanel : public WindowPanel {
 
   std::string_view title() const override { return "style"; }
   std::span<const KeyHelp> keys() const override;
+  bool is_open() const override { return is_open_; }
   bool on_key(const KeyPress& press) override;
   void draw(const PanelFrame& frame) override;
 
  private:
-  const GuestRecord* chosen() const;
   void choose_next(std::size_t step);
   void draw_guest(const PanelFrame& frame);
   void draw_content(const PanelFrame& frame, const GuestRecord& record);

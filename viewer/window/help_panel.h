@@ -22,10 +22,10 @@ class HelpPanel final : public WindowPanel {
       : panels_(panels), own_(std::move(own)) {}
 
   std::span<const KeyHelp> keys() const override { return {}; }
+  bool is_open() const override { return page_ >= 0; }
   bool on_key(const KeyPress& press) override;
   void draw(const PanelFrame& frame) override;
 
-  bool is_open() const { return page_ >= 0; }
   void open() { page_ = 0; }
 
  private:

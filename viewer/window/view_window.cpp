@@ -12,6 +12,7 @@
 
 #include "core/base/printable.h"
 #include "core/program/program.h"
+#include "viewer/window/printed_keys.h"
 
 namespace dance {
 namespace {
@@ -33,15 +34,6 @@ ViewWindow& self_of(GLFWwindow* window) {
 // Where panels are drawn they may want the mouse.
 bool panels_have_mouse() {
   return ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse;
-}
-
-// The key that bears this letter on the person's own keyboard; GLFW numbers keys by their places on
-// an American one. Keys of digits stay: on some keyboards those print other things.
-int printed_key(int key, int scancode) {
-  if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key;
-  const char* name = key == GLFW_KEY_UNKNOWN || key < 128 ? glfwGetKeyName(key, scancode) : nullptr;
-  if (name == nullptr || name[0] <= ' ' || name[0] > '~' || name[1] != '\0') return key;
-  return name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + GLFW_KEY_A : name[0];
 }
 
 // The monitor that most of the window lies on; null without monitors.
@@ -185,6 +177,7 @@ float ViewWindow::scale() const {
 
 double ViewWindow::refresh_hz() const {
   constexpr double kUnknown_hz = 60.0;
+  if (told_refresh_hz_) return *told_refresh_hz_;
   GLFWmonitor* monitor = monitor_of(window_);
   const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
   if (mode == nullptr || mode->refreshRate < 20) return kUnknown_hz;
@@ -208,13 +201,16 @@ void ViewWindow::pass_input_to_panels() {
 
 void ViewWindow::on_key(int key, int scancode, int action, int modifiers) {
   if (action == GLFW_RELEASE) return;
-  events_.on_key({printed_key(key, scancode), action == GLFW_REPEAT,
-                  (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
+  RawKey raw{key, nullptr, action == GLFW_REPEAT, modifiers};
+  // Keys beyond 127 print nothing, and GLFW does not take them.
+  if (key == GLFW_KEY_UNKNOWN || key < 128) raw.printed = glfwGetKeyName(key, scancode);
+  raw.has_alt_gr = glfwGetKey(window_, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
+  is_repeat_ = raw.is_repeat;  // its characters come next
+  if (const auto press = press_of_key(raw)) events_.on_key(*press);
 }
 
-// The question mark lies on another key in each country: it is known by what it prints.
 void ViewWindow::on_letter(unsigned int letter) {
-  if (letter == '?') events_.on_key({GLFW_KEY_F1});
+  if (const auto press = press_of_letter(letter, is_repeat_)) events_.on_key(*press);
 }
 
 void ViewWindow::on_wheel(float notches) {

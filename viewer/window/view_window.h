@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/base/result.h"
@@ -55,6 +56,8 @@ class ViewWindow {
   Result<void> renew();
   // As if the driver had said so: for tests.
   void lose_context() { is_made_lost_ = true; }
+  // As if it had been moved to a monitor of that rate: for tests.
+  void set_refresh_hz(double refresh_hz) { told_refresh_hz_ = refresh_hz; }
 
   Size framebuffer_size() const;  // 0 when minimised
   float scale() const;            // of the monitor that the window is on
@@ -79,8 +82,10 @@ class ViewWindow {
   GLFWwindow* window_ = nullptr;
   bool tells_loss_ = false;  // glGetGraphicsResetStatus can be asked
   bool is_made_lost_ = false;
+  std::optional<double> told_refresh_hz_;
   bool is_tear_free_ = true;
-  float wheel_ = 0.0f;  // notches that panels have not seen
+  bool is_repeat_ = false;  // of the last key
+  float wheel_ = 0.0f;      // notches that panels have not seen
   WindowDrag drag_ = WindowDrag::kNone;
   double last_x_ = 0.0;
   double last_y_ = 0.0;

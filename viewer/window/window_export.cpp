@@ -32,12 +32,14 @@ std::string free_name(const std::string& log, ExportKind kind, double from_s, do
 }  // namespace
 
 TimelinePanel::Exporting WindowExport::for_timeline() {
-  return {[this](ExportKind kind) { start(kind); },
-          [this] {
-            if (work_) said_ = work_->path() + ": cancelled, and removed";
-            work_.reset();
-          },
-          [this] { return note(); }, [this] { return is_running(); }};
+  return {[this](ExportKind kind) { start(kind); }, [this] { cancel(); }, [this] { return note(); },
+          [this] { return is_running(); }};
+}
+
+std::string WindowExport::cancel() {
+  if (work_) said_ = work_->path() + ": cancelled, and removed";
+  work_.reset();
+  return said_;
 }
 
 void WindowExport::start(ExportKind kind) {

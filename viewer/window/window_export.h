@@ -25,6 +25,8 @@ class WindowExport {
   // For the timeline; nothing of a live house.
   TimelinePanel::Exporting for_timeline();
   bool is_running() const { return work_ != nullptr; }
+  // What became of it.
+  std::string cancel();
   // The present picture's size, and a part of the work, drawn by that painter.
   void step(PictureSize size, StagePainter& painter);
 

@@ -21,6 +21,8 @@ struct Row {
   KeyHelp help;
   Key key = {};
   Key other = {};
+  // The keys that are left while a log is open, whose timeline has the arrows.
+  std::optional<std::string_view> with_log = {};
 };
 
 constexpr WindowCommand view(ViewMode mode) { return {WindowAction::kShowView, 1, mode}; }
@@ -47,9 +49,10 @@ constexpr std::array kRows{
         {"Tab", "the next; with shift the one before"},
         {GLFW_KEY_TAB, step(WindowAction::kNextGuest, 1), true}},
     Row{"Dancers",
-        {"Left  Right", "the same, while no log is open"},
+        {"Left  Right", "the one before, the next"},
         {GLFW_KEY_RIGHT, step(WindowAction::kNextGuest, 1), true},
-        {GLFW_KEY_LEFT, step(WindowAction::kNextGuest, -1), true}},
+        {GLFW_KEY_LEFT, step(WindowAction::kNextGuest, -1), true},
+        ""},
     Row{"Dancers", {"1 to 9", "the first to the ninth, by name"}},
     Row{"Dancers",
         {"F", "everybody, the camera as at first"},
@@ -60,7 +63,8 @@ constexpr std::array kRows{
     Row{"Camera",
         {"Wheel  Up  Down", "nearer, farther"},
         {GLFW_KEY_UP, step(WindowAction::kZoom, 1), true},
-        {GLFW_KEY_DOWN, step(WindowAction::kZoom, -1), true}},
+        {GLFW_KEY_DOWN, step(WindowAction::kZoom, -1), true},
+        "Wheel"},
     Row{"Camera", {"R", "rotate slowly, or stop"}, {GLFW_KEY_R, {WindowAction::kRotate}}},
 
     Row{"Picture", {"T", "trails of hands"}, {GLFW_KEY_T, {WindowAction::kTrails}}},
@@ -79,11 +83,25 @@ constexpr std::array kRows{
         {GLFW_KEY_ESCAPE, {WindowAction::kClose}}},
 };
 
-constexpr auto kHelps = [] {
-  std::array<KeyHelp, kRows.size()> helps{};
-  for (std::size_t i = 0; i < kRows.size(); ++i) helps[i] = kRows[i].help;
-  return helps;
-}();
+struct Helps {
+  std::array<KeyHelp, kRows.size()> rows{};
+  std::array<std::string_view, kRows.size()> groups{};
+  std::size_t count = 0;
+};
+
+constexpr Helps helps(bool has_log) {
+  Helps all;
+  for (const Row& row : kRows) {
+    KeyHelp help = row.help;
+    if (has_log && row.with_log) help.key = *row.with_log;
+    if (help.key.empty()) continue;
+    all.groups[all.count] = row.group;
+    all.rows[all.count++] = help;
+  }
+  return all;
+}
+constexpr Helps kLive = helps(false);
+constexpr Helps kOfLog = helps(true);
 
 }  // namespace
 
@@ -101,11 +119,12 @@ std::optional<WindowCommand> window_command(const KeyPress& press) {
   return std::nullopt;
 }
 
-std::vector<PanelStack::Group> window_key_groups() {
+std::vector<PanelStack::Group> window_key_groups(bool has_log) {
+  const Helps& helps = has_log ? kOfLog : kLive;
   std::vector<PanelStack::Group> groups;
-  for (std::size_t begin = 0, end = 0; begin < kRows.size(); begin = end) {
-    while (end < kRows.size() && kRows[end].group == kRows[begin].group) ++end;
-    groups.push_back({kRows[begin].group, std::span(kHelps).subspan(begin, end - begin)});
+  for (std::size_t begin = 0, end = 0; begin < helps.count; begin = end) {
+    while (end < helps.count && helps.groups[end] == helps.groups[begin]) ++end;
+    groups.push_back({helps.groups[begin], std::span(helps.rows).subspan(begin, end - begin)});
   }
   return groups;
 }

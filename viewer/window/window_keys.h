@@ -40,7 +40,7 @@ struct WindowCommand {
 // What a key means to the window.
 std::optional<WindowCommand> window_command(const KeyPress& press);
 
-// For the list of keys.
-std::vector<PanelStack::Group> window_key_groups();
+// For the list of keys. With a log open some keys are its timeline's.
+std::vector<PanelStack::Group> window_key_groups(bool has_log);
 
 }  // namespace dance

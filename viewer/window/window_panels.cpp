@@ -26,7 +26,7 @@ Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
   ReplaySource* replay = needs.source.replay();
   if (replay != nullptr && (!options.headless || options.panel == "timeline"))
     panels.add(std::make_unique<TimelinePanel>(*replay, needs.exporting));
-  auto help = std::make_unique<HelpPanel>(panels, window_key_groups());
+  auto help = std::make_unique<HelpPanel>(panels, window_key_groups(replay != nullptr));
   if (options.panel == "keys") help->open();
   panels.add(std::move(help));
   return {};

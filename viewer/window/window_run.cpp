@@ -17,6 +17,7 @@ constexpr Duration kFineWait = Duration::us(1'200);
 constexpr Duration kMinimised = Duration::ms(100);
 constexpr Duration kFiguresHold = Duration::ms(500);  // else they cannot be read
 constexpr int kMostContextsLost = 20;
+constexpr Duration kLookAtMonitorAfter = Duration::s(1);
 
 Quality quality_of(QualityWish wish) {
   if (wish == QualityWish::kAuto) return is_software_rendering() ? Quality::kLow : Quality::kHigh;
@@ -80,7 +81,15 @@ Result<void> WindowRun::make_painter() {
 void WindowRun::apply_display_mode() {
   display_ = state_.display;
   window_->set_tear_free(display_ == DisplayMode::kTearFree);
-  path_.start_over(Duration::period_of_hz(window_->refresh_hz()), path_options(options_));
+  refresh_hz_ = window_->refresh_hz();
+  path_.start_over(Duration::period_of_hz(refresh_hz_), path_options(options_));
+}
+
+// A window is moved to another monitor, or its monitor set to another rate, and nothing tells so.
+void WindowRun::look_at_monitor(MonoTime now) {
+  if (now - monitor_looked_at_ < kLookAtMonitorAfter) return;
+  monitor_looked_at_ = now;
+  if (window_->refresh_hz() != refresh_hz_) apply_display_mode();
 }
 
 bool WindowRun::is_over() const {
@@ -90,6 +99,8 @@ bool WindowRun::is_over() const {
 Result<void> WindowRun::run() {
   while (!is_over())
     if (auto turned = turn(); !turned) return turned;
+  // Keys ask before; a click on the window's frame does not.
+  if (export_.is_running()) talk::warn("the window was closed: {}", export_.cancel());
   return {};
 }
 
@@ -97,6 +108,7 @@ Result<void> WindowRun::turn() {
   window_->poll_events();
   if (window_->is_context_lost()) return renew_after_loss();
   if (state_.display != display_) apply_display_mode();
+  look_at_monitor(mono_now());
   wait_to_take();
   // Asked late: a size from before the wait would be drawn once too small or too large.
   const ViewWindow::Size size = window_->framebuffer_size();
@@ -140,6 +152,7 @@ MonoTime WindowRun::house_time(MonoTime now) {
 void WindowRun::take_poses(MonoTime now) {
   const MonoTime house_now = house_time(now);
   roster_.update(house_now, scene_);
+  scene_.notes.clear();  // the avatars' come first
   avatars_.dress(scene_);
   records_.take(source_.instruments());
   scene_.shows_trails = state_.shows_trails;
@@ -159,7 +172,6 @@ void WindowRun::choose_guest() {
 }
 
 void WindowRun::write_notes(MonoTime now) {
-  scene_.notes.clear();
   focus_was_here_ =
       focus_was_here_ || std::any_of(scene_.guests.begin(), scene_.guests.end(),
                                      [&](const SceneGuest& it) { return it.id == options_.focus; });

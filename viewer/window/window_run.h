@@ -64,12 +64,14 @@ class WindowRun {
   const SceneState& scene() const { return scene_; }
   int contexts_lost() const { return contexts_lost_; }
   int pictures() const { return pictures_; }
+  const DisplayPath& path() const { return path_; }
 
  private:
   WindowRun(const ViewOptions& options, PictureSource& source);
   Result<void> make_painter();
   Result<void> renew_after_loss();
   void apply_display_mode();
+  void look_at_monitor(MonoTime now);
   void wait_to_take();
   void take_poses(MonoTime now);
   void choose_guest();
@@ -91,7 +93,9 @@ class WindowRun {
   std::unique_ptr<ViewWindow> window_;
   std::unique_ptr<StagePainter> painter_;
   DisplayPath path_;
-  DisplayMode display_;  // that the window has been told
+  DisplayMode display_;       // that the window has been told
+  double refresh_hz_ = 60.0;  // that the path goes by
+  MonoTime monitor_looked_at_;
   SwapMeter meter_;
   std::optional<SwapFigures> swap_figures_;
   MonoTime figures_since_;
