@@ -27,7 +27,8 @@ Result<ExportWish> wish_of(const ViewOptions& options, const ReplaySource& sourc
   DANCE_TRY(wish.kind, export_kind(options.export_to));
   const double length_s = source.recorded().as_seconds();
   if (options.export_from_s > length_s || options.export_until_s > length_s + 0.5)
-    return fail("--from and --to: the recording is " + std::to_string(length_s) + " s long");
+    return fail("--from and --to: choose within the recording, which is " +
+                std::to_string(length_s) + " s long");
   wish.from = wish.index->begin + Duration::seconds(options.export_from_s);
   wish.to = options.export_until_s > 0.0
                 ? wish.index->begin + Duration::seconds(options.export_until_s)

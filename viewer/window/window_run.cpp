@@ -175,8 +175,12 @@ void WindowRun::write_notes(MonoTime now) {
 }
 
 Result<void> WindowRun::draw(ViewWindow::Size size, Duration since_last) {
+  const PanelFrame frame{scene_, static_cast<float>(size.width_px),
+                         static_cast<float>(size.height_px), window_->scale()};
   director_.update(
-      scene_, {size.width_px, size.height_px, painter_->overlay().panel_height_px(size.height_px)},
+      scene_,
+      {size.width_px, size.height_px, painter_->overlay().panel_height_px(size.height_px),
+       static_cast<int>(panels_.bottom_px(frame))},
       since_last);
   write_notes(mono_now());
   painter_->overlay().set_scale(window_->scale());
