@@ -10,7 +10,7 @@
 #include "viewer/gl/offscreen.h"
 #include "viewer/program/export_painter.h"
 #include "viewer/program/view_program.h"
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 #include "viewer/replay/replay_source.h"
 
 namespace dance {
@@ -58,7 +58,7 @@ Result<void> run_export(const ViewOptions& options) {
       avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options.avatars));
   ViewDirector view(options.camera, options.view);
   if (options.focus) view.choose(*options.focus);
-  ExportPainter pictures(view, options.size, options.tags);
+  ExportPainter pictures(view, options.size, options.tags, false);
   bool is_first = true;
   const auto paint = [&](SceneState& scene, Duration passed) {
     return pictures.paint(scene, passed, std::exchange(is_first, false), avatars, *painter);

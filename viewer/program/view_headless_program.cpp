@@ -13,7 +13,7 @@
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/program/view_program.h"
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 #include "viewer/stage/stage_painter.h"
 #include "viewer/view/view_director.h"
 #include "viewer/window/window_panels.h"

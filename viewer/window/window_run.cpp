@@ -204,7 +204,7 @@ Result<void> WindowRun::show(ViewWindow::Size size) {
   // Cameras go on while a recording is paused, or jumps.
   const Duration since_last = last_picture_.is_set() ? times.taken - last_picture_ : Duration();
   last_picture_ = times.taken;
-  export_.step({size.width_px, size.height_px}, *painter_);
+  export_.step({size.width_px, size.height_px}, state_.shows_trails, *painter_);
   if (auto drawn = draw(size, since_last); !drawn) {
     // A driver that has lost its context refuses everything.
     if (window_->is_context_lost()) return renew_after_loss();

@@ -1,5 +1,5 @@
 // What is exported is read again by the readers of its format.
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 
 #include <gtest/gtest.h>
 
@@ -154,6 +154,29 @@ TEST_F(ReplayExportTest, NothingIsOverwritten) {
   ExportWish pictures = wish("pictures/", 1.0, 1.2);
   ASSERT_TRUE(finish(pictures));
   EXPECT_FALSE(finish(pictures));
+  // Nor where only a later picture of another export is left.
+  for (int i = 1; i <= 5; ++i)
+    std::filesystem::remove(pictures.path + "00000" + std::to_string(i) + ".png");
+  ASSERT_EQ(files_in(pictures.path), 1u);
+  EXPECT_FALSE(finish(pictures));
+  EXPECT_EQ(files_in(pictures.path), 1u);
+}
+
+TEST_F(ReplayExportTest, APictureThatCameMeanwhileIsNeitherOverwrittenNorRemoved) {
+  const ExportWish pictures = wish("pictures/", 1.0, 2.0);
+  const std::string foreign = pictures.path + "000002.png";
+  {
+    auto work = ReplayExport::begin(pictures, paint);
+    ASSERT_TRUE(work);
+    ASSERT_TRUE((*work)->step());
+    std::FILE* file = std::fopen(foreign.c_str(), "w");
+    ASSERT_NE(file, nullptr);
+    std::fputs("mine", file);
+    std::fclose(file);
+    EXPECT_FALSE((*work)->step());
+  }
+  EXPECT_EQ(text_of(foreign), "mine");
+  EXPECT_EQ(files_in(pictures.path), 1u);
 }
 
 TEST_F(ReplayExportTest, WhatIsNotFinishedIsRemoved) {

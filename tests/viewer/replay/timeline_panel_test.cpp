@@ -1,5 +1,5 @@
 // The keys of the timeline, on a recording that is open.
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -1,5 +1,5 @@
 // Which part of a recording the timeline shows, and which marks it has room for.
-#include "viewer/replay/timeline_scale.h"
+#include "viewer/replay/timeline/timeline_scale.h"
 
 #include <gtest/gtest.h>
 

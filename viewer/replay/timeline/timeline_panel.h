@@ -13,9 +13,9 @@
 #include <string>
 
 #include "viewer/panel/window_panel.h"
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 #include "viewer/replay/replay_source.h"
-#include "viewer/replay/timeline_scale.h"
+#include "viewer/replay/timeline/timeline_scale.h"
 
 namespace dance {
 

@@ -1,4 +1,4 @@
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "viewer/replay/timeline_ink.h"
+#include "viewer/replay/timeline/timeline_ink.h"
 
 namespace dance {
 namespace {
