@@ -48,7 +48,7 @@ class TimelinePanelTest : public ::testing::Test {
   bool is_running_ = false;
 };
 
-TEST_F(TimelinePanelTest, SpacePlaysAndPausesAlsoWhenItIsHeld) {
+TEST_F(TimelinePanelTest, SpaceTogglesOnceHoweverLongItIsHeld) {
   const bool was_playing = player().is_playing();
   EXPECT_TRUE(press(GLFW_KEY_SPACE));
   EXPECT_NE(player().is_playing(), was_playing);

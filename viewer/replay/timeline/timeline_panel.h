@@ -61,6 +61,7 @@ class TimelinePanel : public WindowPanel {
   ReplaySource& source_;
   Exporting exporting_;
   std::optional<TimelineScale> scale_;
+  MonoTime followed_;
   bool asks_what_to_export_ = false;
   bool is_scrubbing_ = false;
   bool was_playing_ = false;
