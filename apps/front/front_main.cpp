@@ -79,6 +79,7 @@ constexpr std::array kCommands{
     Command{"bench adapter", "what an engine pays to read a stage, and how old the dancers are"},
     Command{"bench view", "what a picture of a full stage costs, beside the empty one"},
     Command{"bench display", "capture to swap: poses taken late, or at frame start"},
+    Command{"bench replay", "opening and jumping in a long recorded night"},
     Command{"bench parts", "what each part of the pose path costs, against a baseline"},
 };
 

@@ -52,7 +52,7 @@ LogEvent LogPacker::pack_motion(const LogEvent& event) {
   // Modulo 2^64, so that a clock that was set back gives an intra frame, too.
   const std::uint64_t since_key_us =
       static_cast<std::uint64_t>(event.time_us) - static_cast<std::uint64_t>(stream.key_time_us);
-  if (since_key_us >= static_cast<std::uint64_t>(kKeyFramePeriod.count_us()))
+  if (since_key_us >= static_cast<std::uint64_t>(key_frame_period_.count_us()))
     stream.packer.restart();
   const bool is_key = stream.packer.is_at_key();
   if (is_key) stream.key_time_us = event.time_us;

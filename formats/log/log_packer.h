@@ -37,6 +37,9 @@ class LogPacker {
     std::uint64_t bytes = 0;        // of the packed ones: headers, channels and data
   };
 
+  explicit LogPacker(Duration key_frame_period = kKeyFramePeriod)
+      : key_frame_period_(key_frame_period) {}
+
   // The event to store instead.
   LogEvent pack(const LogEvent& event);
   const Counters& counters() const { return counters_; }
@@ -57,6 +60,7 @@ class LogPacker {
   bool comes_back(Stream& stream, bool is_key, std::span<const std::uint8_t> packed,
                   const LogEvent& event);
 
+  Duration key_frame_period_;
   std::map<std::string, std::unique_ptr<Stream>, std::less<>> streams_;
   std::uint64_t uses_ = 0;
   Counters counters_;

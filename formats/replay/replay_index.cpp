@@ -138,7 +138,10 @@ void read_checkpoints(Reader& r, ReplayIndex& index) {
     each.reached_us = r.in().i64();
     const auto state = r.in().bytes(r.count(Limits::kState_bytes, 1, "a state is too long"));
     each.state.assign(state.begin(), state.end());
-    const bool is_in_order = i == 0 || each.at_bytes >= index.checkpoints.back().at_bytes;
+    // The first is the beginning, before anything was reached.
+    const bool is_in_order =
+        i == 0 || (each.at_bytes >= index.checkpoints.back().at_bytes &&
+                   (i == 1 || each.reached_us >= index.checkpoints.back().reached_us));
     if (each.at_bytes > index.log.bytes || each.from_bytes > each.at_bytes || !is_in_order)
       return r.wrong("a checkpoint is not in the log");
     index.checkpoints.push_back(std::move(each));

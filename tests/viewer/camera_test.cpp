@@ -67,6 +67,26 @@ TEST(FramePoints, HasEveryPointInsideAndOneOnTheEdge) {
   }
 }
 
+TEST(FramePoints, LeavesWhatIsCoveredAtTheBottomFree) {
+  OrbitCamera camera;
+  camera.pitch_rad = 0.13f;
+  const std::vector<Vector3f> couple{
+      {-0.4f, 0, 0}, {0.4f, 0, 0.2f}, {-0.4f, 1.7f, 0}, {0.4f, 1.8f, 0}};
+  const float covered = 0.2f;
+  const OrbitCamera framed = frame_points(camera, couple, kWidth_px / kHeight_px, 0.86f, covered);
+  float highest = kHeight_px, lowest = 0.0f;
+  for (const Vector3f& p : couple) {
+    const auto at = project(framed, p, kWidth_px, kHeight_px);
+    ASSERT_TRUE(at);
+    highest = std::min(highest, at->y_px);
+    lowest = std::max(lowest, at->y_px);
+  }
+  // The same margin above and below, of what is seen.
+  const float seen_px = (1.0f - covered) * kHeight_px;
+  EXPECT_NEAR(highest, 0.07f * seen_px, 1.0f);
+  EXPECT_NEAR(lowest, seen_px - 0.07f * seen_px, 1.0f);
+}
+
 TEST(FramePoints, KeepsTheDirection) {
   OrbitCamera camera;
   camera.yaw_rad = 1.1f;

@@ -10,7 +10,7 @@
 
 #include "tests/test_folder.h"
 #include "tests/viewer/driver_memory.h"
-#include "tests/viewer/recorded_night.h"
+#include "tests/viewer/replay/recorded_night.h"
 #include "tests/virtual_display.h"
 #include "viewer/replay/replay_source.h"
 #include "viewer/window/printed_keys.h"

@@ -29,6 +29,7 @@ class MeshMaker {
   MeshMaker& operator=(const MeshMaker&) = delete;
 
   void set_when(When when) { when_ = when; }
+  When when() const { return when_; }
   // The mesh once it is built, given once; before, null: ask again with the next picture.
   std::shared_ptr<const FigureMesh> take(const std::shared_ptr<const AvatarModel>& model);
 

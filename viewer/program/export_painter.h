@@ -17,8 +17,8 @@ namespace dance {
 
 class ExportPainter {
  public:
-  ExportPainter(const ViewDirector& view, PictureSize size, bool tags)
-      : view_(view), size_(size), tags_(tags) {}
+  ExportPainter(const ViewDirector& view, PictureSize size, bool tags, bool trails)
+      : view_(view), size_(size), tags_(tags), trails_(trails) {}
 
   // The first picture's camera jumps to its place where no window was there before.
   Result<Picture> paint(SceneState& scene, Duration passed, bool jumps, AvatarLibrary& avatars,
@@ -28,6 +28,7 @@ class ExportPainter {
   ViewDirector view_;
   PictureSize size_;
   bool tags_;
+  bool trails_;
 };
 
 }  // namespace dance

@@ -10,7 +10,7 @@
 #include "viewer/gl/offscreen.h"
 #include "viewer/program/export_painter.h"
 #include "viewer/program/view_program.h"
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 #include "viewer/replay/replay_source.h"
 
 namespace dance {
@@ -27,7 +27,8 @@ Result<ExportWish> wish_of(const ViewOptions& options, const ReplaySource& sourc
   DANCE_TRY(wish.kind, export_kind(options.export_to));
   const double length_s = source.recorded().as_seconds();
   if (options.export_from_s > length_s || options.export_until_s > length_s + 0.5)
-    return fail("--from and --to: the recording is " + std::to_string(length_s) + " s long");
+    return fail("--from and --to: choose within the recording, which is " +
+                std::to_string(length_s) + " s long");
   wish.from = wish.index->begin + Duration::seconds(options.export_from_s);
   wish.to = options.export_until_s > 0.0
                 ? wish.index->begin + Duration::seconds(options.export_until_s)
@@ -57,7 +58,7 @@ Result<void> run_export(const ViewOptions& options) {
       avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options.avatars));
   ViewDirector view(options.camera, options.view);
   if (options.focus) view.choose(*options.focus);
-  ExportPainter pictures(view, options.size, options.tags);
+  ExportPainter pictures(view, options.size, options.tags, false);
   bool is_first = true;
   const auto paint = [&](SceneState& scene, Duration passed) {
     return pictures.paint(scene, passed, std::exchange(is_first, false), avatars, *painter);

@@ -13,7 +13,7 @@
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/program/view_program.h"
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 #include "viewer/stage/stage_painter.h"
 #include "viewer/view/view_director.h"
 #include "viewer/window/window_panels.h"
@@ -98,7 +98,10 @@ class HeadlessRun {
 
   ViewDirector::Size size_of(int width_px) const {
     const int height_px = options_.size.height_px;
-    return {width_px, height_px, painter_.overlay().panel_height_px(height_px)};
+    const SceneState none;
+    const PanelFrame frame{none, static_cast<float>(width_px), static_cast<float>(height_px)};
+    return {width_px, height_px, painter_.overlay().panel_height_px(height_px),
+            static_cast<int>(panels_.bottom_px(frame))};
   }
 
   // Instruments show the last minute: a recording is gone through, not jumped into.

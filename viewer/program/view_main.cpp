@@ -6,7 +6,7 @@
 #include "core/program/program.h"
 #include "viewer/avatar/user_avatars.h"
 #include "viewer/program/view_program.h"
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 
 namespace dance {
 namespace {

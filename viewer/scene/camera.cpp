@@ -71,12 +71,18 @@ std::optional<ScreenPoint> project(const OrbitCamera& camera, const Vector3f& p_
 // the c.x (c.y) that puts both at their tightest, and a least c.z; the larger of the two c.z holds
 // all four.
 OrbitCamera frame_points(const OrbitCamera& camera, std::span<const Vector3f> points_W_m,
-                         float aspect, float fill) {
+                         float aspect, float fill, float covered_below) {
   DANCE_ASSERT(fill > 0.0f && fill <= 1.0f && aspect > 0.0f, fill, aspect);
+  DANCE_ASSERT(covered_below >= 0.0f && covered_below <= 0.4f, covered_below);
   if (points_W_m.empty()) return camera;
   const Matrix3f axes = camera.axes_W();
-  const float slope_y = std::tan(0.5f * camera.fov_y_rad) * fill;
-  const Vector2f slope(slope_y * aspect, slope_y);
+  // Margins are shares of what is not covered.
+  const float slope_y = std::tan(0.5f * camera.fov_y_rad);
+  const float margin = (1.0f - fill) * (1.0f - covered_below);
+  const float above_y = slope_y * (1.0f - margin);
+  const float below_y = slope_y * (1.0f - margin - 2.0f * covered_below);
+  const Vector2f above(slope_y * fill * aspect, above_y);
+  const Vector2f below(slope_y * fill * aspect, std::max(below_y, 0.05f * slope_y));
 
   Vector2f high = Vector2f::Constant(std::numeric_limits<float>::lowest());
   Vector2f low = high;
@@ -85,15 +91,22 @@ OrbitCamera frame_points(const OrbitCamera& camera, std::span<const Vector3f> po
   for (const Vector3f& p_W : points_W_m) {
     const Vector3f p = axes.transpose() * p_W;
     for (int axis = 0; axis < 2; ++axis) {
-      high[axis] = std::max(high[axis], p[axis] / slope[axis] + p.z());
-      low[axis] = std::max(low[axis], -p[axis] / slope[axis] + p.z());
+      high[axis] = std::max(high[axis], p[axis] / above[axis] + p.z());
+      low[axis] = std::max(low[axis], -p[axis] / below[axis] + p.z());
     }
     nearest = std::max(nearest, p.z());
     depth_sum += p.z();
   }
   Vector3f eye;
-  for (int axis = 0; axis < 2; ++axis) eye[axis] = 0.5f * slope[axis] * (high[axis] - low[axis]);
-  eye.z() = std::max(0.5f * (high + low).maxCoeff(), nearest + kClosest_m);
+  eye.z() = nearest + kClosest_m;
+  for (int axis = 0; axis < 2; ++axis) {
+    const float tightest =
+        (above[axis] * high[axis] + below[axis] * low[axis]) / (above[axis] + below[axis]);
+    eye.z() = std::max(eye.z(), tightest);
+  }
+  // The middle of what is left at that distance.
+  for (int axis = 0; axis < 2; ++axis)
+    eye[axis] = 0.5f * (above[axis] * (high[axis] - eye.z()) + below[axis] * (eye.z() - low[axis]));
 
   OrbitCamera framed = camera;
   const float middle = depth_sum / static_cast<float>(points_W_m.size());

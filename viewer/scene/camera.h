@@ -45,9 +45,10 @@ std::optional<ScreenPoint> project(const OrbitCamera& camera, const Eigen::Vecto
                                    float width_px, float height_px);
 
 // The camera of the same direction and field of view from the nearest place that has all points
-// within the middle `fill` of the picture (0..1, both axes).
+// within the middle `fill` of the picture (0..1, both axes); of its height `covered_below` (0..0.4)
+// does not count, as something covers it at the bottom.
 OrbitCamera frame_points(const OrbitCamera& camera, std::span<const Eigen::Vector3f> points_W_m,
-                         float aspect, float fill);
+                         float aspect, float fill, float covered_below = 0.0f);
 
 // The yaw from which a group is seen best: across the line on which they stand, on the side that
 // most of them face; a single dancer from the front, a little to the side.

@@ -19,7 +19,8 @@ enum class Quality { kLow, kHigh };
 struct StageLook {
   bool trails = false;  // of the hands
   bool pulse = true;    // the floor shows the beat
-  // Which of several stages in one picture: each keeps hair, skirts and trails of its own.
+  // Which of several stages in one picture: each keeps hair, skirts and trails of its own. The
+  // scene's own number is added, so that pictures for others have all stages apart from these.
   int stage = 0;
   // Drawn as that guest sees it: without the guest's own head.
   std::optional<GuestId> through_eyes_of = {};

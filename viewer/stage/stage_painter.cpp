@@ -12,7 +12,7 @@ Result<std::unique_ptr<StagePainter>> StagePainter::create(Quality quality, floa
 StageLook StagePainter::look_of(const SceneState& scene) const {
   StageLook look = look_;
   look.trails = look.trails || scene.shows_trails;
-  if (scene.stage != 0) look.stage = scene.stage;
+  look.stage += scene.stage;
   for (const SceneGuest& guest : scene.guests)
     if (guest.hides_head) look.through_eyes_of = guest.id;
   return look;

@@ -36,7 +36,9 @@ class StageRenderer {
   void set_look(const StageLook& look) { look_ = look; }
   // A dancer who comes then does not stop the picture; until the figure is ready a ring of light
   // shows the place. Without this the first picture waits for it.
-  void build_meshes_beside() { figures_.store().maker().set_when(MeshMaker::When::kBeside); }
+  void build_meshes_beside() { build_meshes(MeshMaker::When::kBeside); }
+  void build_meshes(MeshMaker::When when) { figures_.store().maker().set_when(when); }
+  MeshMaker::When meshes_when() { return figures_.store().maker().when(); }
 
   // Leaves the finished picture in target().finished(), bound: prepare(), then paint().
   Result<void> draw(const SceneState& scene, const OrbitCamera& camera, int width_px,

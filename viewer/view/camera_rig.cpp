@@ -116,7 +116,7 @@ void CameraRig::update(const SceneState& scene, float aspect, Duration dt) {
   }
   const std::vector<Vector3f> points = points_of(scene);
   if (is_free_ || points.empty()) return;
-  const OrbitCamera framed = frame_points(camera_, points, aspect, kFill);
+  const OrbitCamera framed = frame_points(camera_, points, aspect, kFill, covered_below_);
   const float distance_m = std::clamp(framed.distance_m * zoom_, kClosest_m, kFurthest_m);
   if (!has_framed_) {
     has_framed_ = true;
@@ -137,7 +137,7 @@ void CameraRig::jump(const std::vector<const SceneState*>& scenes, float aspect)
     const std::vector<Vector3f> more = points_of(*scene);
     points.insert(points.end(), more.begin(), more.end());
   }
-  camera_ = frame_points(camera_, points, aspect, kFill);
+  camera_ = frame_points(camera_, points, aspect, kFill, covered_below_);
   camera_.distance_m *= zoom_;
   has_framed_ = !points.empty();
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,8 @@ class CameraRig {
   void focus(const GuestId& guest);
   void toggle_turning() { is_turning_ = !is_turning_; }
   void set_turning(bool turning) { is_turning_ = turning; }
+  // The share of the picture's height that a panel covers at its bottom: nobody's feet are there.
+  void set_covered_below(float share) { covered_below_ = std::clamp(share, 0.0f, 0.4f); }
 
   // Moves on by dt towards the frame of the scene, smoothly.
   void update(const SceneState& scene, float aspect, Duration dt);
@@ -55,6 +58,7 @@ class CameraRig {
   std::size_t yaw_chosen_for_ = 0;
   bool has_framed_ = false;
   float zoom_ = 1.0f;
+  float covered_below_ = 0.0f;
   float stage_yaw_rad_ = 0.0f;
   float swing_s_ = 0.0f;
 };

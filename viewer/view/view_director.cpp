@@ -110,6 +110,8 @@ void ViewDirector::compose(SceneState& scene, const Size& size, Duration dt, boo
   is_comparing_ = compares;
   words_.clear();
   const PixelBox all{0, 0, size.width_px, size.height_px};
+  rig_.set_covered_below(static_cast<float>(size.covered_px) /
+                         static_cast<float>(std::max(1, size.height_px)));
   only_ = {&scene, camera_, all};
   if (compares) {
     const PixelBox half{0, 0, std::max(1, size.width_px / 2),

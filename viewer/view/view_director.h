@@ -28,7 +28,8 @@ class ViewDirector {
   struct Size {
     int width_px;
     int height_px;
-    int beats_px;  // under the halves of a comparison
+    int beats_px;        // under the halves of a comparison
+    int covered_px = 0;  // by a panel at the bottom
   };
 
   explicit ViewDirector(CameraPreset preset, ViewMode mode = ViewMode::kOrbit);

@@ -58,7 +58,7 @@ void WindowExport::start(ExportKind kind) {
   const MonoTime begin = wish.index->begin;
   wish.path = free_name(options_.log, kind, (wish.from - begin).as_seconds(),
                         (wish.to - begin).as_seconds());
-  pictures_ = std::make_unique<ExportPainter>(view_, size_, options_.tags);
+  pictures_ = std::make_unique<ExportPainter>(view_, size_, options_.tags, trails_);
   auto begun = ReplayExport::begin(wish, [this](SceneState& scene, Duration passed) {
     return pictures_->paint(scene, passed, false, avatars_, *painter_);
   });
@@ -68,9 +68,10 @@ void WindowExport::start(ExportKind kind) {
     said_ = begun.error().what;
 }
 
-void WindowExport::step(PictureSize size, StagePainter& painter) {
+void WindowExport::step(PictureSize size, bool trails, StagePainter& painter) {
   if (!is_running()) {
     size_ = size;
+    trails_ = trails;
     return;
   }
   painter_ = &painter;

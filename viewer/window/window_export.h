@@ -1,7 +1,7 @@
 // WindowExport: an export that a window writes while it goes on showing: a part of it with each
 // picture.
 //
-// Units/frames: as viewer/replay/replay_export.h.
+// Units/frames: as viewer/replay/export/replay_export.h.
 // Ownership:    owns the export that runs; borrows source, view and avatars.
 // Threads:      the drawing thread.
 // Failure:      note() says what went wrong, and the cure.
@@ -11,8 +11,8 @@
 #include <string>
 
 #include "viewer/program/export_painter.h"
-#include "viewer/replay/replay_export.h"
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/export/replay_export.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 
 namespace dance {
 
@@ -27,8 +27,9 @@ class WindowExport {
   bool is_running() const { return work_ != nullptr; }
   // What became of it.
   std::string cancel();
-  // The present picture's size, and a part of the work, drawn by that painter.
-  void step(PictureSize size, StagePainter& painter);
+  // The present picture's size and whether hands leave trails in it, and a part of the work, drawn
+  // by that painter.
+  void step(PictureSize size, bool trails, StagePainter& painter);
 
  private:
   void start(ExportKind kind);
@@ -42,6 +43,7 @@ class WindowExport {
   std::unique_ptr<ExportPainter> pictures_;
   StagePainter* painter_ = nullptr;  // during step()
   PictureSize size_;
+  bool trails_ = false;
   std::string said_;
 };
 

@@ -8,7 +8,7 @@
 #include "viewer/feed/picture_source.h"
 #include "viewer/instruments/instrument_records.h"
 #include "viewer/panel/panel_stack.h"
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 
 namespace dance {
 

@@ -187,8 +187,12 @@ void WindowRun::write_notes(MonoTime now) {
 }
 
 Result<void> WindowRun::draw(ViewWindow::Size size, Duration since_last) {
+  const PanelFrame frame{scene_, static_cast<float>(size.width_px),
+                         static_cast<float>(size.height_px), window_->scale()};
   director_.update(
-      scene_, {size.width_px, size.height_px, painter_->overlay().panel_height_px(size.height_px)},
+      scene_,
+      {size.width_px, size.height_px, painter_->overlay().panel_height_px(size.height_px),
+       static_cast<int>(panels_.bottom_px(frame))},
       since_last);
   write_notes(mono_now());
   painter_->overlay().set_scale(window_->scale());
@@ -212,7 +216,7 @@ Result<void> WindowRun::show(ViewWindow::Size size) {
   // Cameras go on while a recording is paused, or jumps.
   const Duration since_last = last_picture_.is_set() ? times.taken - last_picture_ : Duration();
   last_picture_ = times.taken;
-  export_.step({size.width_px, size.height_px}, *painter_);
+  export_.step({size.width_px, size.height_px}, state_.shows_trails, *painter_);
   if (auto drawn = draw(size, since_last); !drawn) {
     // A driver that has lost its context refuses everything.
     if (window_->is_context_lost()) return renew_after_loss();

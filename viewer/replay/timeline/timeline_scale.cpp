@@ -1,4 +1,4 @@
-#include "viewer/replay/timeline_scale.h"
+#include "viewer/replay/timeline/timeline_scale.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 
 #include "formats/replay/index_file.h"
 #include "tests/test_folder.h"
-#include "tests/viewer/recorded_night.h"
+#include "tests/viewer/replay/recorded_night.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/replay/index_builder.h"
 #include "viewer/replay/replay_feed.h"

@@ -13,9 +13,9 @@
 #include <string>
 
 #include "viewer/panel/window_panel.h"
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 #include "viewer/replay/replay_source.h"
-#include "viewer/replay/timeline_scale.h"
+#include "viewer/replay/timeline/timeline_scale.h"
 
 namespace dance {
 
@@ -65,6 +65,7 @@ class TimelinePanel : public WindowPanel {
   ReplaySource& source_;
   Exporting exporting_;
   std::optional<TimelineScale> scale_;
+  MonoTime followed_;
   bool asks_what_to_export_ = false;
   bool asks_of_running_ = false;  // what to do with it
   bool is_scrubbing_ = false;

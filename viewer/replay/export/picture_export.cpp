@@ -5,14 +5,20 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "viewer/replay/export_source.h"
-#include "viewer/replay/video_file.h"
+#include "viewer/replay/export/export_source.h"
+#include "viewer/replay/export/video_file.h"
 
 namespace dance {
 namespace {
 
 constexpr double kUsualPictures_hz = 30.0;
 constexpr std::int64_t kMostPictures = 1'000'000;
+
+// "000017.png", as this export names its files.
+bool is_numbered(const std::string& name) {
+  return name.size() >= 10 && name.ends_with(".png") &&
+         name.find_first_not_of("0123456789") == name.size() - 4;
+}
 
 class PictureExport : public ReplayExport {
  public:
@@ -42,8 +48,11 @@ class PictureExport : public ReplayExport {
     if (error)
       return fail("--export " + wish_.path + " cannot be made: " + error.message() +
                   "; choose another folder");
-    if (std::filesystem::exists(file_of(0), error))
-      return fail(file_of(0) + ": is there already; remove it or choose another folder");
+    for (const auto& file : std::filesystem::directory_iterator(wish_.path, error))
+      if (is_numbered(file.path().filename().string()))
+        return fail(file.path().string() +
+                    ": is there already, of another export; remove it or choose another folder");
+    if (error) return fail("--export " + wish_.path + " cannot be read: " + error.message());
     return {};
   }
 
@@ -53,7 +62,7 @@ class PictureExport : public ReplayExport {
     source_->show(moment, scene);
     const Duration passed = at_ == 0 ? Duration() : Duration::period_of_hz(hz_);
     DANCE_TRY(const Picture picture, paint_(scene, passed));
-    if (auto written = is_video() ? add(picture) : write_png(file_of(at_), picture); !written)
+    if (auto written = is_video() ? add(picture) : write_picture(picture); !written)
       return tl::make_unexpected(written.error());
     ++at_;
     progress_ = static_cast<double>(at_) / static_cast<double>(count_);
@@ -75,6 +84,13 @@ class PictureExport : public ReplayExport {
     std::array<char, 40> name{};
     std::snprintf(name.data(), name.size(), "%06lld.png", static_cast<long long>(i + 1));
     return (std::filesystem::path(wish_.path) / name.data()).string();
+  }
+  // One that has come meanwhile is somebody's: neither overwritten nor removed.
+  Result<void> write_picture(const Picture& picture) const {
+    std::error_code error;
+    if (std::filesystem::exists(file_of(at_), error))
+      return fail(file_of(at_) + ": has come meanwhile; choose another folder");
+    return write_png(file_of(at_), picture);
   }
   // The first picture says how large it is.
   Result<void> add(const Picture& picture) {

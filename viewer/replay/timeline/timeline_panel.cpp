@@ -1,4 +1,4 @@
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "viewer/replay/timeline_ink.h"
+#include "viewer/replay/timeline/timeline_ink.h"
 
 namespace dance {
 namespace {
@@ -140,7 +140,9 @@ void TimelinePanel::draw(const PanelFrame& frame) {
   if (ReplayPlayer* player = source_.player()) {
     if (!scale_) scale_.emplace(player->index().begin, player->index().end);
     scale_->set_width(box.bar_left, box.bar_right);
-    if (!is_scrubbing_ && player->is_playing()) scale_->follow(player->position());
+    // Also where a key has gone while it is paused; else a person may look elsewhere.
+    if (!is_scrubbing_ && player->position() != followed_) scale_->follow(player->position());
+    followed_ = player->position();
     use_mouse(box, *player);
     draw_controls(ink, box, *player);
     draw_bar(ink, box, *player);

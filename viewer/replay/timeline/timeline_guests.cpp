@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "formats/body/guest_look.h"
-#include "viewer/replay/timeline_ink.h"
+#include "viewer/replay/timeline/timeline_ink.h"
 #include "viewer/scene/scene.h"
 
 namespace dance {

@@ -1,4 +1,4 @@
-#include "tests/viewer/recorded_night.h"
+#include "tests/viewer/replay/recorded_night.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "viewer/replay/timeline_ink.h"
+#include "viewer/replay/timeline/timeline_ink.h"
 
 #include <numbers>
 

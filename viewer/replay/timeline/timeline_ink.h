@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "viewer/instruments/panel_ink.h"
-#include "viewer/replay/timeline_panel.h"
+#include "viewer/replay/timeline/timeline_panel.h"
 
 namespace dance {
 

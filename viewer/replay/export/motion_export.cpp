@@ -6,7 +6,7 @@
 #include "formats/bvh/bvh.h"
 #include "formats/gltf/glb.h"
 #include "formats/recording/clips_together.h"
-#include "viewer/replay/export_source.h"
+#include "viewer/replay/export/export_source.h"
 
 namespace dance {
 namespace {

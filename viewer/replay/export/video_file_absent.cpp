@@ -1,4 +1,4 @@
-#include "viewer/replay/video_file.h"
+#include "viewer/replay/export/video_file.h"
 
 namespace dance {
 

@@ -1,9 +1,9 @@
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 
 #include <filesystem>
 
-#include "viewer/replay/export_source.h"
-#include "viewer/replay/video_file.h"
+#include "viewer/replay/export/export_source.h"
+#include "viewer/replay/export/video_file.h"
 
 namespace dance {
 

@@ -1,13 +1,13 @@
 // ExportSource: the scenes of a recording's range, one after the other, on a feed of its own.
 //
-// Units/frames: as viewer/replay/replay_export.h.
+// Units/frames: as viewer/replay/export/replay_export.h.
 // Ownership:    owns board and feed.
 // Threads:      none inside.
 // Failure:      open() names the log.
 #pragma once
 
 #include "viewer/feed/stage_roster.h"
-#include "viewer/replay/replay_export.h"
+#include "viewer/replay/export/replay_export.h"
 #include "viewer/replay/replay_feed.h"
 
 namespace dance {
