@@ -234,7 +234,7 @@ TEST(FilesOfOldPeers, DoNotReachThemAndDoNotDisturb) {
   tunnel.on_datagram = [&](bool, PeerId, wire::Bytes bytes) {
     const auto type = wire::parse_opening(bytes)->type;
     if (type == wire::Type::kFileTerms) ++terms;
-    if (type > wire::Type::kFileTerms && type < wire::Type::kRecords) ++others;
+    if (type > wire::Type::kFileTerms && type <= wire::Type::kFileRefusal) ++others;
     if (type == wire::Type::kState && (bytes[1] & 15) == 8) ++states;
     return true;
   };
