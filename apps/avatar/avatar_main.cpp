@@ -33,9 +33,8 @@ void print_help(std::FILE* out) {
       "Usage: dance avatar ACTION [OPTIONS]\n\nActions:\n",
       out);
   for (const Action& action : kActions)
-    std::fprintf(out, "  dance avatar %-8.*s  %.*s\n", static_cast<int>(action.word.size()),
-                 action.word.data(), static_cast<int>(action.summary.size()),
-                 action.summary.data());
+    std::fprintf(out, "  %-8.*s  %.*s\n", static_cast<int>(action.word.size()), action.word.data(),
+                 static_cast<int>(action.summary.size()), action.summary.data());
   std::fputs(
       "\ndance avatar ACTION --help tells more.\n\nExamples:\n"
       "  dance avatar choose alice me.vrm\n"

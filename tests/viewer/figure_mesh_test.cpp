@@ -70,7 +70,8 @@ TEST(FigureMesh, KeepsVerticesWhereLegsBend) {
 }
 
 TEST(FigureMesh, KeepsWeightsAndOrdersThem) {
-  for (const FigureVertex& vertex : figure_mesh(mannequin())->vertices) {
+  const auto mesh = figure_mesh(mannequin());
+  for (const FigureVertex& vertex : mesh->vertices) {
     int sum = 0;
     for (const std::uint8_t weight : vertex.weights) sum += weight;
     ASSERT_EQ(sum, 255);

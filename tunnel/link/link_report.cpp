@@ -11,9 +11,9 @@ std::string link_report_json(const Link& link) {
   for (const RemoteGuestStats& guest : link.remote_stats())
     guests.push_back({{"id", std::string(guest.guest.view())},
                       {"here", guest.is_here},
-                      {"bytes", guest.bytes},
                       {"received", guest.received},
                       {"lost", guest.lost},
+                      {"bytes", guest.bytes},
                       {"late", guest.late},
                       {"duplicate", guest.duplicate},
                       {"invalid", guest.invalid},

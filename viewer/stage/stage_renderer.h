@@ -37,6 +37,8 @@ class StageRenderer {
   // A dancer who comes then does not stop the picture; until the figure is ready a ring of light
   // shows the place. Without this the first picture waits for it.
   void build_meshes_beside() { build_meshes(MeshMaker::When::kBeside); }
+  // The last picture showed a ring of light where a figure is not ready.
+  bool is_waiting() const { return !waiting_.empty(); }
   void build_meshes(MeshMaker::When when) { figures_.store().maker().set_when(when); }
   MeshMaker::When meshes_when() { return figures_.store().maker().when(); }
 

@@ -58,6 +58,7 @@ class WindowRun {
   // For tests.
   ViewWindow& window() { return *window_; }
   StagePainter& painter() { return *painter_; }
+  AvatarLibrary& avatars() { return avatars_; }
   WindowInput& input() { return input_; }
   const WindowState& state() const { return state_; }
   const ViewDirector& director() const { return director_; }
