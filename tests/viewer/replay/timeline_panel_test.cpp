@@ -129,6 +129,7 @@ TEST_F(TimelinePanelTest, EscapeInTheMenuCancelsTheExportThatRuns) {
   EXPECT_TRUE(press(GLFW_KEY_E));
   EXPECT_TRUE(press(GLFW_KEY_ESCAPE));
   EXPECT_EQ(cancelled_, 1);
+  is_running_ = false;
   EXPECT_FALSE(press(GLFW_KEY_ESCAPE));  // the window's again
 }
 
