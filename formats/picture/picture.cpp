@@ -37,7 +37,7 @@ std::size_t bytes_of(PictureSize size) {
 }
 
 // The mean of a square that may reach beyond the right and lower edge.
-std::array<std::uint8_t, kChannels> mean(const Picture& picture, int left, int top, int side) {
+std::array<std::uint8_t, kChannels> mean(const RgbaPicture& picture, int left, int top, int side) {
   std::array<std::uint64_t, 3> colour{};
   std::array<std::uint64_t, 3> weighted{};
   std::uint64_t alpha = 0;
@@ -72,7 +72,7 @@ PictureKind picture_kind(std::span<const std::uint8_t> bytes) {
   return PictureKind::kNone;
 }
 
-Result<Picture> read_picture(std::span<const std::uint8_t> bytes, const PictureLimits& limits) {
+Result<RgbaPicture> read_picture(std::span<const std::uint8_t> bytes, const PictureLimits& limits) {
   const PictureDecoder* decoder = decoder_of(picture_kind(bytes));
   if (!decoder) return fail("a picture that is neither PNG nor JPEG nor WebP");
   DANCE_TRY(const PictureSize size, decoder->size(bytes));
@@ -82,7 +82,7 @@ Result<Picture> read_picture(std::span<const std::uint8_t> bytes, const PictureL
     return fail("a picture of " + std::to_string(size.width_px) + " x " +
                 std::to_string(size.height_px) + " pixels; make it smaller than " +
                 std::to_string(limits.side_px) + " a side");
-  Picture picture{size.width_px, size.height_px, {}};
+  RgbaPicture picture{size.width_px, size.height_px, {}};
   picture.rgba.resize(bytes_of(size));
   if (auto decoded = decoder->decode(bytes, size, picture.rgba); !decoded)
     return tl::make_unexpected(decoded.error());
@@ -97,11 +97,11 @@ std::size_t decoded_bytes(std::span<const std::uint8_t> bytes) {
   return bytes_of(*size);
 }
 
-Picture reduced(Picture picture, int side_px) {
+RgbaPicture reduced(RgbaPicture picture, int side_px) {
   const int longest = std::max(picture.width_px, picture.height_px);
   if (side_px < 1 || longest <= side_px) return picture;
   const int square = (longest + side_px - 1) / side_px;
-  Picture out{
+  RgbaPicture out{
       (picture.width_px + square - 1) / square, (picture.height_px + square - 1) / square, {}};
   out.rgba.reserve(bytes_of({out.width_px, out.height_px}));
   for (int y = 0; y < out.height_px; ++y)

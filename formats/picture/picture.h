@@ -18,7 +18,7 @@
 
 namespace dance {
 
-struct Picture {
+struct RgbaPicture {
   int width_px = 0;
   int height_px = 0;
   std::vector<std::uint8_t> rgba;
@@ -33,13 +33,14 @@ struct PictureLimits {
 enum class PictureKind : std::uint8_t { kNone, kPng, kJpeg, kWebp };
 PictureKind picture_kind(std::span<const std::uint8_t> bytes);
 
-Result<Picture> read_picture(std::span<const std::uint8_t> bytes, const PictureLimits& limits = {});
+Result<RgbaPicture> read_picture(std::span<const std::uint8_t> bytes,
+                                 const PictureLimits& limits = {});
 
 // How many bytes it takes to decode the picture, by its header; 0 where that cannot be read.
 std::size_t decoded_bytes(std::span<const std::uint8_t> bytes);
 
 // The picture with its sides divided by a whole number, so that none is longer than `side_px`: each
 // pixel the mean of a square, in which transparent pixels count less.
-Picture reduced(Picture picture, int side_px);
+RgbaPicture reduced(RgbaPicture picture, int side_px);
 
 }  // namespace dance

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/viewer/driver_memory.h"
 #include "tests/virtual_display.h"
 #include "viewer/instruments/instrument_panel.h"
 #include "viewer/style_panel/style_panel.h"
@@ -86,6 +87,7 @@ TEST(PrintedKeys, AWindowHearsABracketOnceWhereverItLies) {
   HeardKeys heard;
   const auto window = ViewWindow::create({200, 150}, heard);
   if (!window) GTEST_SKIP() << window.error().what;
+  keep_drivers_loaded();
   GLFWwindow* handle = (*window)->handle();
   const GLFWkeyfun on_key = glfwSetKeyCallback(handle, nullptr);
   const GLFWcharfun on_letter = glfwSetCharCallback(handle, nullptr);

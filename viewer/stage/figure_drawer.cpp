@@ -99,7 +99,7 @@ void FigureDrawer::write(const PosedFigure& figure, const Layout& layout) {
   at += kFloatsOfTexel;
   std::memcpy(at, figure.W_from_joint.data(), figure.W_from_joint.size() * sizeof(JointMatrix));
   at += figure.W_from_joint.size() * kTexelsOfJoint * kFloatsOfTexel;
-  std::memcpy(at, figure.morph_weights.data(), figure.morph_weights.size() * sizeof(float));
+  std::copy(figure.morph_weights.begin(), figure.morph_weights.end(), at);
 }
 
 void FigureDrawer::group(std::span<const PosedFigure> figures) {

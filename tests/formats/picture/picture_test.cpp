@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-void expect_ramp(const Picture& picture, int width_px, int height_px, int within) {
+void expect_ramp(const RgbaPicture& picture, int width_px, int height_px, int within) {
   ASSERT_EQ(picture.width_px, width_px);
   ASSERT_EQ(picture.height_px, height_px);
   const Bytes want = test::ramp(width_px, height_px);
@@ -22,7 +22,7 @@ void expect_ramp(const Picture& picture, int width_px, int height_px, int within
     ASSERT_LE(std::abs(int{picture.rgba[i]} - int{want[i]}), within) << i;
 }
 
-TEST(Picture, PngAndWebpComeBackExactlyJpegNearly) {
+TEST(RgbaPicture, PngAndWebpComeBackExactlyJpegNearly) {
   auto picture = read_picture(test::png(20, 12));
   ASSERT_TRUE(picture) << picture.error().what;
   expect_ramp(*picture, 20, 12, 0);
@@ -69,7 +69,7 @@ TEST(PngWriter, PixelsThatDoNotFitTheSizeAreRefused) {
   EXPECT_FALSE(png_of_rgba(-5, -3, pixels));
 }
 
-TEST(Picture, TheKindIsToldByTheFirstBytes) {
+TEST(RgbaPicture, TheKindIsToldByTheFirstBytes) {
   EXPECT_EQ(picture_kind(test::png(1, 1)), PictureKind::kPng);
   EXPECT_EQ(picture_kind(test::jpeg(1, 1)), PictureKind::kJpeg);
   EXPECT_EQ(picture_kind(test::webp(1, 1)), PictureKind::kWebp);
@@ -77,7 +77,7 @@ TEST(Picture, TheKindIsToldByTheFirstBytes) {
   EXPECT_EQ(picture_kind(Bytes{'G', 'I', 'F', '8'}), PictureKind::kNone);
 }
 
-TEST(Picture, TheSizeIsCheckedBeforeAPixelIsDecoded) {
+TEST(RgbaPicture, TheSizeIsCheckedBeforeAPixelIsDecoded) {
   PictureLimits limits;
   limits.side_px = 19;
   for (const Bytes& bytes : {test::png(20, 12), test::jpeg(20, 12), test::webp(20, 12)}) {
@@ -91,28 +91,28 @@ TEST(Picture, TheSizeIsCheckedBeforeAPixelIsDecoded) {
   EXPECT_FALSE(read_picture(test::png(20, 12), limits));
 }
 
-TEST(Picture, AReducedPictureIsTheMeanOfSquares) {
-  Picture picture{4, 2, {}};
+TEST(RgbaPicture, AReducedPictureIsTheMeanOfSquares) {
+  RgbaPicture picture{4, 2, {}};
   for (int i = 0; i < 8; ++i)
     picture.rgba.insert(picture.rgba.end(), {static_cast<std::uint8_t>(10 * i), 0, 200, 255});
-  const Picture half = reduced(picture, 2);
+  const RgbaPicture half = reduced(picture, 2);
   ASSERT_EQ(half.width_px, 2);
   ASSERT_EQ(half.height_px, 1);
   EXPECT_EQ(half.rgba, (Bytes{25, 0, 200, 255, 45, 0, 200, 255}));
   EXPECT_EQ(reduced(picture, 4).rgba, picture.rgba);
   // Sides that do not divide evenly: the last square is smaller.
-  const Picture third = reduced({5, 5, Bytes(100, 77)}, 2);
+  const RgbaPicture third = reduced({5, 5, Bytes(100, 77)}, 2);
   EXPECT_EQ(third.width_px, 2);
   EXPECT_EQ(third.rgba, Bytes(16, 77));
 }
 
-TEST(Picture, TransparentPixelsDoNotDarkenWhatIsBesideThem) {
-  const Picture picture{2, 1, {200, 100, 50, 255, 0, 0, 0, 0}};
+TEST(RgbaPicture, TransparentPixelsDoNotDarkenWhatIsBesideThem) {
+  const RgbaPicture picture{2, 1, {200, 100, 50, 255, 0, 0, 0, 0}};
   EXPECT_EQ(reduced(picture, 1).rgba, (Bytes{200, 100, 50, 128}));
   EXPECT_EQ(reduced({2, 1, {10, 10, 10, 0, 30, 30, 30, 0}}, 1).rgba, (Bytes{20, 20, 20, 0}));
 }
 
-TEST(Picture, DamageIsAnErrorAndNeverMore) {
+TEST(RgbaPicture, DamageIsAnErrorAndNeverMore) {
   for (const Bytes& whole : {test::png(9, 7), test::jpeg(16, 16),
                              test::jpeg(16, 16, TJFLAG_PROGRESSIVE), test::webp(9, 7)}) {
     for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -137,7 +137,7 @@ TEST(Picture, DamageIsAnErrorAndNeverMore) {
   }
 }
 
-TEST(Picture, AJpegOfVeryManyScansIsRefusedBeforeItIsDecoded) {
+TEST(RgbaPicture, AJpegOfVeryManyScansIsRefusedBeforeItIsDecoded) {
   Bytes bytes = test::jpeg(2048, 2048, TJFLAG_PROGRESSIVE);
   ASSERT_TRUE(read_picture(bytes));
   for (int scan = 0; scan < 100; ++scan) bytes.insert(bytes.end() - 2, {0xff, 0xda});

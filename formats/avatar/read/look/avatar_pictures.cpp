@@ -58,7 +58,7 @@ Result<int> AvatarPictures::decode(int image) {
   limits.decoded_bytes = decoded_left_;
   // Also where it fails: that may be at its end.
   decoded_left_ -= needed;
-  DANCE_TRY(Picture picture, read_picture(bytes, limits));
+  DANCE_TRY(RgbaPicture picture, read_picture(bytes, limits));
   if (auto taken = source_.take_bytes(picture.rgba.size()); !taken)
     return tl::make_unexpected(taken.error());
   source_.model.pictures.push_back({picture.width_px, picture.height_px, std::move(picture.rgba)});
