@@ -2,11 +2,12 @@
 
 #include <oscpack/osc/OscReceivedElements.h>
 
+#include "formats/osc/osc_bounds.h"
+
 namespace dance {
 namespace {
 
 constexpr std::size_t kLargestPacket_bytes = 65'536;
-constexpr std::size_t kBundleBegin_bytes = 16;
 
 // One packet's messages, counted down so that a packet of very many costs a bounded time.
 class Walk {
@@ -56,30 +57,8 @@ class Walk {
   int seen_ = 0;
 };
 
-std::size_t big_endian_at(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return std::size_t{bytes[at]} << 24 | std::size_t{bytes[at + 1]} << 16 |
-         std::size_t{bytes[at + 2]} << 8 | std::size_t{bytes[at + 3]};
-}
-
-// Whether the elements of bundles lie within each other. oscpack 1.1.0 adds an element's size in 32
-// bits: one of -4 bytes ends where it begins, and reading never ends. So sizes are looked at first.
-bool has_sound_elements(std::span<const std::uint8_t> element, int depth) {
-  if (element.empty() || element.size() % 4 != 0) return false;
-  if (element[0] == '/') return true;
-  if (element[0] != '#' || element.size() < kBundleBegin_bytes || depth > OscReader::kMostDepth)
-    return false;
-  for (std::size_t at = kBundleBegin_bytes; at < element.size();) {
-    const std::size_t bytes = big_endian_at(element, at);
-    at += 4;
-    if (bytes > element.size() - at || !has_sound_elements(element.subspan(at, bytes), depth + 1))
-      return false;
-    at += bytes;
-  }
-  return true;
-}
-
 bool can_be_osc(std::span<const std::uint8_t> packet) {
-  return packet.size() <= kLargestPacket_bytes && has_sound_elements(packet, 1);
+  return packet.size() <= kLargestPacket_bytes && has_sound_bounds(packet, OscReader::kMostDepth);
 }
 
 }  // namespace

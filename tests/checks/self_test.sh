@@ -5,7 +5,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 mkdir -p "$tree/tests/checks" "$tree/core/base" "$tree/core/pose" "$tree/transformers" "$tree/producers" "$tree/consumers" \
-  "$tree/docs" "$tree/bin"
+  "$tree/docs" "$tree/logs" "$tree/bin"
 cp "$here"/*.sh "$here"/layers.txt "$tree/tests/checks"
 cp "$here/../private_network.sh" "$tree/tests"
 failed=0

@@ -108,10 +108,24 @@ TEST(OscReader, KnowsWhatIsNoOpenSoundControl) {
   };
   for (const std::string& packet : hostile) reader.read(bytes_of(packet), heard);
   EXPECT_EQ(reader.counters().damaged, hostile.size()) << heard.lines.size();
-  // A blob that says it has 4 GiB is none of ours: it is passed over, and nothing of it is read.
+}
+
+TEST(OscReader, PassesOverABlobAndRefusesOneThatReachesPastItsMessage) {
+  OscReader reader;
+  Heard heard;
+  const std::string inside("/a\0\0,bi\0\0\0\0\5hello\0\0\0\0\0\0\7", 24);
+  EXPECT_TRUE(reader.read(bytes_of(inside), heard));
+  EXPECT_EQ(heard.lines, std::vector<std::string>{"/a ? i7"});
   heard.lines.clear();
-  reader.read(bytes_of(std::string("/a\0\0,b\0\0\xff\xff\xff\xff", 12)), heard);
-  EXPECT_EQ(heard.lines, std::vector<std::string>{"/a ?"});
+  // -1 rounded up is none, and -189,992,197 bytes on is before the datagram.
+  for (const std::string& size : {std::string("\xff\xff\xff\xff"), std::string("\xf4\xac\xf6\xfb"),
+                                  std::string("\x7f\xff\xff\xff"), std::string("\0\0\0\11", 4)}) {
+    const std::string beyond = std::string("/a\0\0,bi\0", 8) + size + std::string("\0\0\0\7", 4);
+    EXPECT_FALSE(reader.read(bytes_of(beyond), heard));
+    EXPECT_FALSE(reader.read(bytes_of(bundle_of({beyond})), heard));
+  }
+  EXPECT_TRUE(heard.lines.empty());
+  EXPECT_EQ(reader.counters().damaged, 8u);
 }
 
 TEST(OscReader, SurvivesEveryPrefixAndEveryFlippedBit) {
