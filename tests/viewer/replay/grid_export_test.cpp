@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/program/program.h"
+#include "tests/viewer/driver_memory.h"
 #include "viewer/avatar/user_avatars.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
@@ -64,6 +65,7 @@ class GridExport : public ::testing::TestWithParam<ViewMode> {
 TEST_P(GridExport, LeavesTheWindowsPicturesAsTheyWere) {
   const auto context = OffscreenContext::create();
   if (!context) GTEST_SKIP() << context.error().what;
+  keep_drivers_loaded();
   auto painter = StagePainter::create(Quality::kLow, 1.0f);
   ASSERT_TRUE(painter) << painter.error().what;
   painter_ = std::move(*painter);
@@ -83,7 +85,10 @@ TEST_P(GridExport, LeavesTheWindowsPicturesAsTheyWere) {
   painter_.reset();
 }
 
-INSTANTIATE_TEST_SUITE_P(Views, GridExport, ::testing::Values(ViewMode::kOrbit, ViewMode::kGrid));
+INSTANTIATE_TEST_SUITE_P(Views, GridExport, ::testing::Values(ViewMode::kOrbit, ViewMode::kGrid),
+                         [](const auto& info) {
+                           return info.param == ViewMode::kGrid ? "Grid" : "Orbit";
+                         });
 
 }  // namespace
 }  // namespace dance

@@ -12,6 +12,7 @@
 #include "formats/bvh/bvh.h"
 #include "formats/gltf/glb.h"
 #include "tests/test_folder.h"
+#include "tests/viewer/driver_memory.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/program/view_program.h"
@@ -240,6 +241,8 @@ TEST_F(ReplayExportTest, AVideoHasItsPicturesAsFfprobeCountsThem) {
 TEST_F(ReplayExportTest, TheProgramDrawsTheStageOfEachMoment) {
   if (const auto context = OffscreenContext::create(); !context)
     GTEST_SKIP() << context.error().what;
+  else
+    keep_drivers_loaded();
   ViewOptions options;
   options.log = log_;
   options.headless = true;
