@@ -17,7 +17,7 @@ if(DANCE_SANITIZE)
   # own assertions see as well.
   target_compile_options(dance_settings INTERFACE
     -fsanitize=${DANCE_SANITIZE} -fno-sanitize=null,alignment,object-size -fno-sanitize-recover=all
-    -fno-omit-frame-pointer -g1 -O1
+    -fno-omit-frame-pointer
     # The sanitizers' own code makes g++ 12 see uninitialised values and overruns in the standard library that are not
     # there; the ci build looks for the real ones.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>)
@@ -58,6 +58,7 @@ function(dance_use_pch target)
     add_library(${pch} OBJECT ${PROJECT_BINARY_DIR}/pch.cpp)
     target_link_libraries(${pch} PRIVATE dance_settings Eigen3::Eigen tl::expected)
     if(more)
+      target_compile_options(${pch} PRIVATE ${DANCE_TEST_OPTIONS})
       target_link_libraries(${pch} PRIVATE GTest::gtest_main)
     endif()
     target_precompile_headers(${pch} PRIVATE <Eigen/Geometry> <algorithm> <array> <functional> <memory> <optional>
@@ -108,6 +109,7 @@ add_custom_target(flow_targets)
 function(dance_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "BESIDE_OTHERS" "LABEL;TIMEOUT;PRELOAD" "SOURCES;LIBS")
   add_executable(${name} ${arg_SOURCES})
+  target_compile_options(${name} PRIVATE ${DANCE_TEST_OPTIONS})
   target_link_libraries(${name} PRIVATE dance_settings ${arg_LIBS} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     DANCE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" DANCE_BINARY_DIR="${PROJECT_BINARY_DIR}")

@@ -86,8 +86,8 @@ TEST_P(GridExport, LeavesTheWindowsPicturesAsTheyWere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, GridExport, ::testing::Values(ViewMode::kOrbit, ViewMode::kGrid),
-                         [](const auto& info) {
-                           return info.param == ViewMode::kGrid ? "Grid" : "Orbit";
+                         [](const auto& of) {
+                           return of.param == ViewMode::kGrid ? "Grid" : "Orbit";
                          });
 
 }  // namespace
