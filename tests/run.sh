@@ -63,8 +63,8 @@ step() { # PRESET [TARGET…]: a build that fails is a failed test.
   build "$@" || { failed=$((failed + 1)); return 1; }
 }
 
-# One more at a time than there are processors: programs that dance for seconds wait for most of them.
-step ci && jobs=$((jobs + 1)) run ci "${only[@]}"
+# More at a time than there are processors: programs that dance for seconds wait for most of them.
+step ci && jobs=$((jobs + 2)) run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
   export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
   export LSAN_OPTIONS=suppressions=$PWD/tests/lsan_suppressions.txt:print_suppressions=0
@@ -75,7 +75,7 @@ if [ "$sanitizers" = yes ]; then
   # One build of clang's for the sanitizers and the fuzz targets; libFuzzer has the corpora.
   if step asan; then
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
-    run asan -LE 'check|soak|docs|fuzz' -E "^BeatSongs|Takes\.|$draws" "${only[@]}"
+    jobs=$((jobs + 1)) run asan -LE 'check|soak|docs|fuzz' -E "^BeatSongs|Takes\.|$draws" "${only[@]}"
     # As many at a time as there are processors; each writes its own log.
     fuzz_one() { # TARGET
       "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 -artifact_prefix=build/ \

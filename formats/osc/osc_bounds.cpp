@@ -18,14 +18,17 @@ std::size_t size_of(ByteReader& in) {
   return size;
 }
 
-// A text ends with one to four zeros.
-std::string_view padded_text(ByteReader& in) {
-  const std::string_view text = in.text_to_zero(in.remaining());
-  in.bytes(rounded_up_to_4(text.size() + 1) - (text.size() + 1));
-  return text;
+// A text ends with one to four zeros. The library looks at every fourth byte alone: where one that
+// should be zero is not, it reads on.
+bool pass_text(ByteReader& in, std::string_view& text) {
+  text = in.text_to_zero(in.remaining());
+  for (std::size_t n = text.size() + 1; n % 4 != 0; ++n)
+    if (in.u8() != 0) return false;
+  return in.ok();
 }
 
-void pass_argument(char type, ByteReader& in) {
+bool pass_argument(char type, ByteReader& in) {
+  std::string_view text;
   switch (type) {
     case 'i':
     case 'f':
@@ -41,23 +44,25 @@ void pass_argument(char type, ByteReader& in) {
       break;
     case 's':
     case 'S':
-      padded_text(in);
-      break;
+      return pass_text(in, text);
     case 'b':
       in.bytes(rounded_up_to_4(size_of(in)));
       break;
     default:
       break;  // without bytes, or unknown: the library refuses what it does not know
   }
+  return in.ok();
 }
 
 bool has_sound_arguments(std::span<const std::uint8_t> message) {
   ByteReader in(message);
-  padded_text(in);
-  if (!in.ok() || in.remaining() == 0) return in.ok();
-  const std::string_view types = padded_text(in);
-  for (const char type : types) pass_argument(type, in);
-  return in.ok();
+  std::string_view address, types;
+  if (!pass_text(in, address)) return false;
+  if (in.remaining() == 0) return true;
+  if (!pass_text(in, types)) return false;
+  for (const char type : types)
+    if (!pass_argument(type, in)) return false;
+  return true;
 }
 
 bool has_sound_elements(std::span<const std::uint8_t> element, int depth_left) {

@@ -124,8 +124,14 @@ TEST(OscReader, PassesOverABlobAndRefusesOneThatReachesPastItsMessage) {
     EXPECT_FALSE(reader.read(bytes_of(beyond), heard));
     EXPECT_FALSE(reader.read(bytes_of(bundle_of({beyond})), heard));
   }
+  // A text that ends before its fourth byte, which is not zero: the library reads on, and takes what
+  // follows for the blob's size.
+  const std::string padded("/a\0x/b\0\0,b\0\0\0\0\0\0", 16);
+  EXPECT_FALSE(reader.read(bytes_of(padded), heard));
+  const std::string tags("/a\0\0,i\0bbbb\0\0\0\0\0\xf4\xac\xf6\xfb", 20);
+  EXPECT_FALSE(reader.read(bytes_of(tags), heard));
   EXPECT_TRUE(heard.lines.empty());
-  EXPECT_EQ(reader.counters().damaged, 8u);
+  EXPECT_EQ(reader.counters().damaged, 10u);
 }
 
 TEST(OscReader, SurvivesEveryPrefixAndEveryFlippedBit) {

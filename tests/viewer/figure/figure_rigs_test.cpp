@@ -151,5 +151,25 @@ TEST(FigureRigs, AnAvatarIsAsLargeAsItsDancersLegsOrItsOwnSize) {
   EXPECT_NEAR(height(FigureSize::kDancers, 1000.0f), 4.0f * 1.72f, 0.3f);  // bounded
 }
 
+TEST(FigureRigs, TheTipOfTheHeadIsTheTopOfItHoweverLargeTheHeadIs) {
+  AvatarModel big_head = mannequin_of(average_skeleton(1.7f));
+  const Vector3f head =
+      big_head.joints[index_of(Bone::kHead)].node_from_mesh.inverse().translation();
+  for (AvatarVertex& vertex : big_head.vertices)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (vertex.joints[k] == index_of(Bone::kHead) && vertex.weights[k] > 127) {
+        vertex.place_m = head + 3.0f * (vertex.place_m - head);
+        break;
+      }
+  for (const AvatarModel& model : {big_head, mannequin_of(average_skeleton(1.7f))}) {
+    FigurePoser poser;
+    const auto figures = poser.pose(scene_of({guest_in(shared(model))}));
+    float top_m = 0.0f;
+    for (std::size_t v = 0; v < model.vertices.size(); ++v)
+      top_m = std::max(top_m, place_of(figures[0], v).y());
+    EXPECT_NEAR(figures[0].frames.tip(Tip::kHead).y(), top_m, 0.01f);
+  }
+}
+
 }  // namespace
 }  // namespace dance

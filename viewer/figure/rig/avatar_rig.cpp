@@ -179,7 +179,7 @@ Skeleton skeleton_of(const AvatarShape& shape, const BoneRotations& C, float sca
     const std::size_t parent = parent_of(shape, b);
     body.offset_m[b] = scale * (C[parent] * (shape.drivers_M_m[b] - shape.drivers_M_m[parent]));
   }
-  body.tip_m[0] = Vector3f(0.0f, 0.12f * shape.height_m * scale, 0.0f);
+  body.tip_m[0] = Vector3f(0.0f, shape.crown_m * scale, 0.0f);
   for (std::size_t side = 0; side < 2; ++side) {
     const Bone hand = side == 0 ? Bone::kLeftHand : Bone::kRightHand;
     body.tip_m[1 + side] =

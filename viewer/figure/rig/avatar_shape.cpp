@@ -203,6 +203,7 @@ class ShapeMaker {
   void measure() {
     const MeshMeasure mesh(model_, M_from_node_, shape_);
     shape_.height_m = mesh.height_m();
+    shape_.crown_m = mesh.crown_m();
     for (std::size_t side = 0; side < 2; ++side) {
       shape_.soles[side] = mesh.sole(side);
       shape_.hulls[side] = mesh.hull(side);

@@ -90,7 +90,8 @@ struct AvatarShape {
   std::array<SoleHull, 2> hulls;                 // in M
   std::array<Eigen::Vector3f, 2> hand_ends_M_m;  // where the middle finger begins, or would
   float height_m = 1.7f;
-  int blink = -1;  // AvatarExpression
+  float crown_m = 0.2f;  // from the head's joint up to the highest of its mesh, at rest
+  int blink = -1;        // AvatarExpression
 
   const Eigen::Vector3f& at(Bone bone) const { return drivers_M_m[index_of(bone)]; }
   bool has(Bone bone) const { return has_bone[index_of(bone)]; }

@@ -12,7 +12,8 @@ using Eigen::Vector3f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kLeastHeight_m = 0.1f;
 constexpr float kMostHeight_m = 100.0f;
-constexpr int kMostlyTied = 128;  // of 255: weights of a vertex that is a foot's
+constexpr float kAverageCrown = 0.12f;  // of the height
+constexpr int kMostlyTied = 128;        // of 255: weights of a vertex that is a foot's
 
 }  // namespace
 
@@ -50,6 +51,15 @@ bool MeshMeasure::belongs(const AvatarVertex& vertex, std::size_t first, std::si
     if (driver >= first && driver <= last) tied += vertex.weights[k];
   }
   return tied >= kMostlyTied;
+}
+
+float MeshMeasure::crown_m() const {
+  const std::size_t head = index_of(Bone::kHead);
+  float high = -kInfinity;
+  for (std::size_t v = 0; v < places_M_m_.size(); ++v)
+    if (belongs(model_.vertices[v], head, head)) high = std::max(high, places_M_m_[v].y());
+  const float crown_m = high - shape_.at(Bone::kHead).y();
+  return crown_m > 0.0f ? std::min(crown_m, height_m_) : kAverageCrown * height_m_;
 }
 
 SoleShape MeshMeasure::sole(std::size_t side) const {

@@ -1,5 +1,5 @@
-// MeshMeasure: measures a model's mesh at rest: how high it is, where the soles of its feet are,
-// how long its hands are.
+// MeshMeasure: measures a model's mesh at rest: how high it is, and its head above the neck, where
+// the soles of its feet are, how long its hands are.
 //
 // Units/frames: metres in M, the model at rest.
 // Ownership:    refers to the model and the shape for as long as it lives.
@@ -20,6 +20,8 @@ class MeshMeasure {
               const AvatarShape& shape);
 
   float height_m() const { return height_m_; }
+  // From the head's joint up to the highest of what moves with it.
+  float crown_m() const;
   SoleShape sole(std::size_t side) const;
   SoleHull hull(std::size_t side) const;  // empty without a mesh
   // Where the middle finger begins; without fingers half way from the wrist to the mesh's end.
