@@ -118,8 +118,9 @@ TEST(OscReader, PassesOverABlobAndRefusesOneThatReachesPastItsMessage) {
   EXPECT_EQ(heard.lines, std::vector<std::string>{"/a ? i7"});
   heard.lines.clear();
   // -1 rounded up is none, and -189,992,197 bytes on is before the datagram.
-  for (const std::string& size : {std::string("\xff\xff\xff\xff"), std::string("\xf4\xac\xf6\xfb"),
-                                  std::string("\x7f\xff\xff\xff"), std::string("\0\0\0\11", 4)}) {
+  const std::string sizes[] = {"\xff\xff\xff\xff", "\xf4\xac\xf6\xfb", "\x7f\xff\xff\xff",
+                               std::string("\0\0\0\11", 4)};
+  for (const std::string& size : sizes) {
     const std::string beyond = std::string("/a\0\0,bi\0", 8) + size + std::string("\0\0\0\7", 4);
     EXPECT_FALSE(reader.read(bytes_of(beyond), heard));
     EXPECT_FALSE(reader.read(bytes_of(bundle_of({beyond})), heard));
