@@ -125,8 +125,8 @@ TEST(OscReader, PassesOverABlobAndRefusesOneThatReachesPastItsMessage) {
     EXPECT_FALSE(reader.read(bytes_of(beyond), heard));
     EXPECT_FALSE(reader.read(bytes_of(bundle_of({beyond})), heard));
   }
-  // A text that ends before its fourth byte, which is not zero: the library reads on, and takes what
-  // follows for the blob's size.
+  // A text that ends before its fourth byte, which is not zero: the library reads on, and takes
+  // what follows for the blob's size.
   const std::string padded("/a\0x/b\0\0,b\0\0\0\0\0\0", 16);
   EXPECT_FALSE(reader.read(bytes_of(padded), heard));
   const std::string tags("/a\0\0,i\0bbbb\0\0\0\0\0\xf4\xac\xf6\xfb", 20);
