@@ -36,7 +36,7 @@ if(DANCE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(DANCE_PRELOAD_FIRST "${runtime}:")
 endif()
 # Fuzz targets find their way by the coverage of what reads bytes of others; counting it costs other code two fifths of its
-# speed. A folder that no fuzz target leads to says set(DANCE_COVERAGE OFF).
+# speed. A folder that no fuzz target leads to says set(DANCE_COVERAGE OFF), and dance_cover(source …) for what one does.
 set(DANCE_COVERAGE ${DANCE_FUZZ})
 if(DANCE_FUZZ)
   target_link_options(dance_settings INTERFACE -fsanitize=fuzzer-no-link)
@@ -45,6 +45,13 @@ endif()
 function(dance_use_coverage target)
   if(DANCE_COVERAGE)
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
+endfunction()
+
+function(dance_cover)
+  if(DANCE_FUZZ)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -fsanitize=fuzzer-no-link
+      SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
   endif()
 endfunction()
 
