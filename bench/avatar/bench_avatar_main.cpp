@@ -47,10 +47,14 @@ class BenchAvatar {
     if (auto opened = open(); !opened) return opened;
     dance_until([&, end = mono_now() + Duration::s(3)] { return mono_now() >= end; }, nullptr);
     for (int round = 0; round < options_.rounds; ++round) {
-      const MonoTime begin = mono_now();
+      if (auto chosen = choose_file(static_cast<std::uint8_t>(round + 1)); !chosen) return chosen;
+      const MonoTime begin = mono_now(), give_up = begin + longest_transfer();
       is_here_ = false;
-      begin_file(static_cast<std::uint8_t>(round + 1));
-      dance_until([&] { return is_here_; }, &with_);
+      receiver_->fetch_file(named("alice"), hash_, ChunkedFile(size_bytes()), begin);
+      dance_until([&] { return is_here_ || mono_now() >= give_up; }, &with_);
+      if (!is_here_ && !poller_->is_stopped())
+        return fail("the file was not there after " +
+                    std::to_string(static_cast<int>(longest_transfer().as_seconds())) + " s");
       const Duration took = mono_now() - begin;
       transfers_.push_back(took);
       dance_until([&, end = mono_now() + took] { return mono_now() >= end; }, &without_);
@@ -77,6 +81,9 @@ class BenchAvatar {
       is_here_ = true;
       receiver_->core().files().settle(who, hash, FileVerdict::kRight);
     };
+    hears.on_avatar_file = [this](const GuestId&, const AvatarFile& file, MonoTime) {
+      heard_ = file.hash;
+    };
     DANCE_TRY(sender_, link("alice", port, {}));
     DANCE_TRY(receiver_, link("bob", port, std::move(hears)));
     const MonoTime give_up = mono_now() + Duration::s(15);
@@ -98,14 +105,29 @@ class BenchAvatar {
     return Link::open({Address::loopback(port)}, key, of, std::move(handlers), *poller_);
   }
 
-  void begin_file(std::uint8_t number) {
-    const auto size = static_cast<std::uint32_t>(options_.mb * 1e6);
-    auto bytes = std::make_shared<std::vector<std::uint8_t>>(size);
-    for (std::size_t i = 0; i < size; ++i) (*bytes)[i] = static_cast<std::uint8_t>(i * number);
-    FileHash hash;
-    hash.bytes.fill(number);
-    sender_->core().files().offer(named("alice"), hash, std::move(bytes));
-    receiver_->fetch_file(named("alice"), hash, ChunkedFile(size), mono_now());
+  std::uint32_t size_bytes() const { return static_cast<std::uint32_t>(options_.mb * 1e6); }
+  Duration longest_transfer() const {
+    return Duration::seconds(30.0 + 5.0 * size_bytes() / options_.rate);
+  }
+
+  // A server passes on files that their guest has chosen, once it has heard so.
+  Result<void> choose_file(std::uint8_t number) {
+    auto bytes = std::make_shared<std::vector<std::uint8_t>>(size_bytes());
+    for (std::size_t i = 0; i < bytes->size(); ++i)
+      (*bytes)[i] = static_cast<std::uint8_t>(i * number);
+    hash_.bytes.fill(number);
+    sender_->core().files().offer(named("alice"), hash_, std::move(bytes));
+    AvatarFile file;
+    file.time = mono_now();
+    file.clock_id = this_clock_id();
+    file.hash = hash_;
+    file.size_bytes = static_cast<std::int32_t>(size_bytes());
+    sender_->core().send(named("alice"), file, file.time);
+    const MonoTime give_up = mono_now() + Duration::s(15);
+    dance_until([&] { return heard_ == hash_ || mono_now() >= give_up; }, nullptr);
+    if (!(heard_ == hash_) && !poller_->is_stopped())
+      return fail("the choice of an avatar was not heard within 15 s");
+    return {};
   }
 
   void arrived(std::uint32_t sequence) {
@@ -183,6 +205,7 @@ class BenchAvatar {
   Measure* counts_ = nullptr;
   Measure with_, without_;
   std::vector<Duration> transfers_;
+  FileHash hash_, heard_;  // of the file that is chosen, and of that which is known to be
   bool is_here_ = false;
 };
 

@@ -45,5 +45,17 @@ TEST(BenchTunnel, RefusesACrowdOfOne) {
   EXPECT_NE(done.talk.find("--guests"), std::string::npos) << done.talk;
 }
 
+TEST(BenchAvatar, BringsFilesThroughTheTunnelBesideThePoses) {
+  const Finished done =
+      run(bin("dance-bench-avatar") + " --mb 0.05 --rate 200000 --rounds 2 --json");
+  ASSERT_EQ(done.exit_code, 0) << done.talk;
+  const auto report = nlohmann::json::parse(done.output);
+  EXPECT_GT(report["seconds"].get<double>(), 0.0);
+  for (const char* way : {"with", "without"}) {
+    EXPECT_GT(report[way]["sent"].get<int>(), 0) << way;
+    EXPECT_GT(report[way]["delivered"].get<int>(), 0) << way;
+  }
+}
+
 }  // namespace
 }  // namespace dance
