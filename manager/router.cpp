@@ -12,6 +12,14 @@ constexpr std::size_t kMostKnown = 2 * kMaxGuests;
 
 }  // namespace
 
+bool Router::wants(Where where) const {
+  const auto is_for_others = [](const auto& state) {
+    return state->route.from.where == Where::kGuest && !state->route.through.empty();
+  };
+  return !routes_from_[static_cast<std::size_t>(where)].empty() ||
+         (where == Where::kCapture && std::any_of(routes_.begin(), routes_.end(), is_for_others));
+}
+
 Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink)
     : our_clock_id_(our_clock_id), sink_(sink) {
   for (const Route& route : routes) {
@@ -79,6 +87,7 @@ void Router::prepare(const RouteState& state, Instance& instance) {
   instance.flow.place(state.place, state.route.from.where == Where::kCapture);
   for (const auto& [guest, setting] : settings_)
     if (guest == instance.shown_as) instance.flow.set(setting);
+  if (state.route.from.where == Where::kGuest) instance.flow.set_dancers(&partners_);
   if (beat_) instance.flow.hear(*beat_);
   if (auto learner = instance.flow.learner(); learner && on_learner_)
     on_learner_(std::move(learner));
@@ -100,6 +109,10 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
     return;
   }
   bool wanted = false;
+  if (where == Where::kCapture) {
+    partners_.take(guest, pose);
+    wanted = wants(Where::kCapture);
+  }
   for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
     if (!is_for(*state, guest)) continue;
     Instance* instance = instance_of(*state, guest, now);
@@ -134,6 +147,7 @@ void Router::take(Where where, const GuestId& guest, const Hands& hands) {
 
 void Router::take(Where where, const GuestId& guest, const TimedSkeleton& skeleton) {
   known_of(where, guest).body = skeleton.skeleton;
+  if (where == Where::kCapture) partners_.set_body(guest, skeleton.skeleton);
   for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
     if (!is_for(*state, guest)) continue;
     sink_.stage(shown_as(*state, guest), skeleton);

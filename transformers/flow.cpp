@@ -84,6 +84,10 @@ void Flow::set_style(const Style& style) {
   for (auto& filter : filters_) filter->set_style(style);
 }
 
+void Flow::set_dancers(const PartnerTracks* dancers) {
+  if (source_) source_->set_dancers(dancers);
+}
+
 void Flow::correct(const PlayoutClock::Choice& choice, MonoTime now, bool continues_from_here) {
   const auto asked = [&](MonoTime moment) { return clock_->asked_for(moment, *timeline_); };
   Pose is;
@@ -106,6 +110,7 @@ bool Flow::sample(MonoTime now, Pose& out) {
   if (!timeline_ || timeline_->is_empty()) return false;
   const auto choice = clock_->choose(*timeline_, now, has_shown_ ? shown_capture_ : MonoTime());
   const MonoTime asked = clock_->asked_for(choice.moment, *timeline_);
+  source_->set_lag(now - choice.moment);
   const bool continues_from_here = source_->begin_continuation(asked, now);
   if (finish_) correct(choice, now, continues_from_here);
   const MotionSource::Kind kind = source_->at(asked, out);

@@ -73,6 +73,9 @@ class Flow {
   // The dancer's proportions, and how the dance is to be shown.
   void set_body(const Skeleton& skeleton);
   void set_style(const Style& style);
+  // The dancers of this house, of whom one may be the partner; they must outlive the flow.
+  void set_dancers(const PartnerTracks* dancers);
+  const PartnerGuide* partner() const { return source_ ? source_->partner() : nullptr; }
   // What a person at this stage wants: come to gradually, while dancing. Words that do not stand in
   // the route stay away.
   void set(const FlowSetting& setting);

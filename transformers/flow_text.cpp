@@ -87,6 +87,7 @@ std::string word_text(FlowWord word, const FlowSetting& setting, std::string_vie
     case FlowWord::kPredict:
       append(text, "lead", setting.lead, 1.0f);
       append(text, "most", setting.reach_ms, 300.0f, "ms");
+      text += kept_argument(old, "partner");
       break;
     case FlowWord::kBridge:
       text += kept_argument(old, "blend");

@@ -50,11 +50,14 @@ Result<void> take_hold(const Arguments& arguments, const FlowParts&, Draft& draf
 
 Result<void> take_predict(const Arguments& arguments, const FlowParts& parts, Draft& draft) {
   Settings settings("predict", arguments);
+  bool has_partner = true;
   settings.number("lead", draft.lead, 0.0, 1.5)
+      .flag("partner", has_partner)
       .duration("most", draft.slots.source.reach, Duration(), DancePredictor::kFurthest);
   draft.slots.setting.lead = static_cast<float>(draft.lead);
   draft.slots.setting.reach_ms = static_cast<float>(draft.slots.source.reach.as_ms());
   draft.slots.source.extrapolator = std::make_unique<DanceExtrapolator>(parts.predict_model);
+  if (has_partner) draft.slots.source.partner = std::make_unique<PartnerGuide>();
   return settings.done();
 }
 

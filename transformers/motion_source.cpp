@@ -33,17 +33,22 @@ void MotionSource::set(Duration reach, bool conceals) {
 }
 
 void MotionSource::observe() {
-  if (parts_.extrapolator) parts_.extrapolator->observe(timeline_.newest(), timeline_.arrived());
+  if (parts_.extrapolator) {
+    parts_.extrapolator->observe(timeline_.newest(), timeline_.arrived());
+    if (parts_.partner) parts_.partner->observe(timeline_.newest(), *parts_.extrapolator);
+  }
   // The dancer is back.
   if (parts_.concealment) parts_.concealment->end();
 }
 
 void MotionSource::restart() {
+  if (parts_.partner) parts_.partner->restart();
   if (parts_.concealment) parts_.concealment->end();
 }
 
 void MotionSource::set_body() {
   if (parts_.extrapolator) parts_.extrapolator->set_body(timeline_.body());
+  if (parts_.partner) parts_.partner->set_body(timeline_.body());
 }
 
 std::shared_ptr<Learner> MotionSource::learner() const {
@@ -69,10 +74,20 @@ bool MotionSource::begin_continuation(MonoTime moment, MonoTime now) {
   return true;
 }
 
-void MotionSource::predict(MonoTime moment, Pose& out) const {
+void MotionSource::set_dancers(const PartnerTracks* dancers) {
+  if (parts_.partner) parts_.partner->set_dancers(dancers);
+}
+
+void MotionSource::set_lag(Duration lag) {
+  if (parts_.partner) parts_.partner->set_lag(lag);
+}
+
+void MotionSource::predict(MonoTime moment, Pose& out) {
   const Pose& newest = timeline_.newest();
   const Duration ahead = moment - newest.capture_time;
-  parts_.extrapolator->predict(newest.capture_time + std::min(ahead, parts_.reach), out);
+  const MonoTime asked = newest.capture_time + std::min(ahead, parts_.reach);
+  parts_.extrapolator->predict(asked, out);
+  if (parts_.partner) parts_.partner->guide(asked, out);
   out.capture_time = moment;
   out.music_beats += beats_per_second(timeline_.poses()) * ahead.as_seconds();
   for (MonoTime& hop : out.hops)

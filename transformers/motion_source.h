@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "transformers/conceal/concealment.h"
+#include "transformers/partner/partner_guide.h"
 #include "transformers/predict/extrapolator.h"
 #include "transformers/setting_slew.h"
 #include "transformers/timeline.h"
@@ -27,6 +28,8 @@ class MotionSource {
     // The furthest that is predicted; beyond, the prediction stands.
     Duration reach = Duration::ms(300);
     std::unique_ptr<Concealment> concealment;
+    // What dancers of this house tell of the prediction.
+    std::unique_ptr<PartnerGuide> partner;
     // What was said of a moment that was danced is never said otherwise: where nothing corrects it.
     bool is_final = false;
   };
@@ -36,6 +39,10 @@ class MotionSource {
   void observe();
   void restart();
   void set_body();
+  // Who dances here, and by how much this house's time is beyond the moments that are shown.
+  void set_dancers(const PartnerTracks* dancers);
+  void set_lag(Duration lag);
+  const PartnerGuide* partner() const { return parts_.partner.get(); }
   // Once a picture, before at(): whether the dance has to be continued from here on. Returns true
   // where it begins now: moments after the newest pose look otherwise than before.
   bool begin_continuation(MonoTime moment, MonoTime now);
@@ -55,7 +62,7 @@ class MotionSource {
   std::shared_ptr<Learner> learner() const;
 
  private:
-  void predict(MonoTime moment, Pose& out) const;
+  void predict(MonoTime moment, Pose& out);
 
   DancerTimeline& timeline_;
   Parts parts_;

@@ -94,6 +94,16 @@ Settings& Settings::duration(std::string_view name, Duration& value, Duration le
   return *this;
 }
 
+Settings& Settings::flag(std::string_view name, bool& value) {
+  const std::string_view* text = find(name, "0 or 1");
+  if (!text) return *this;
+  if (*text != "0" && *text != "1")
+    refuse(name, *text, "0 or 1");
+  else
+    value = *text == "1";
+  return *this;
+}
+
 Settings& Settings::text(std::string_view name, std::string& value) {
   if (const std::string_view* text = find(name, "TEXT")) value = *text;
   return *this;

@@ -29,6 +29,8 @@ class Settings {
   Settings& number_or(std::string_view name, std::string_view word, double word_value,
                       double& value, double least, double most);
   Settings& duration(std::string_view name, Duration& value, Duration least, Duration most);
+  // 0 or 1.
+  Settings& flag(std::string_view name, bool& value);
   Settings& text(std::string_view name, std::string& value);
   // Whether the names were all asked for, and their values right.
   Result<void> done() const;

@@ -5,6 +5,7 @@
 
 #include "core/program/command_line.h"
 #include "core/program/program.h"
+#include "research/predict/couple_eval.h"
 #include "research/predict/predict_eval.h"
 #include "research/predict_model_file.h"
 
@@ -15,10 +16,12 @@ constexpr const char* kPredictEvalExamples = R"(Examples:
   dance predict eval salsa.bvh
   dance predict eval *.bvh.xz --hz 60 --noise 0.5
   dance predict eval *.bvh.xz --noise 0.5 --fresh --json
+  dance predict eval lead.bvh follow.bvh --partner --horizons 60,120,200
 
 Files are danced in the order given; what was learned of a dancer (told by the lengths of the bones)
 is kept for the next file. --fresh begins anew with each, as with a dancer never met, and does not
-use a network that was trained on this dancer.
+use a network that was trained on this dancer. --partner takes the two dancers of a dance behind each
+other, and predicts each alone, beside the other, and beside a dancer of the next dance.
 )";
 
 struct PredictEvalWishes {
@@ -27,7 +30,8 @@ struct PredictEvalWishes {
   std::vector<double> horizons_ms{50, 100, 150, 200, 300, 400, 600, 1000};
   double noise_deg = 0.0;
   bool fresh = false;
-  bool json = false;
+  bool json = false, partner = false;
+  double join_m = 0.0;
   std::string model;
 };
 
@@ -48,6 +52,16 @@ Result<void> run_predict_eval(const PredictEvalWishes& wishes) {
   for (const std::string& file : wishes.files) {
     DANCE_TRY(PredictTake take, load_predict_take(file, wishes.hz));
     takes.push_back(std::move(take));
+  }
+  if (wishes.partner) {
+    DANCE_TRY(const auto couples, couples_of(std::move(takes)));
+    const CoupleEvalOptions couple{options.horizons, options.noise_deg, wishes.join_m,
+                                   options.model};
+    const CoupleEval eval = evaluate_couples(couples, couple);
+    const std::string text =
+        wishes.json ? couple_eval_json(eval, couple) : couple_eval_table(eval, couple);
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return {};
   }
   const PredictEval eval = evaluate_prediction(takes, options);
   const std::string text =
@@ -71,6 +85,11 @@ int main(int argc, char** argv) {
            "shakes the hips by 3 mm")
       .range(0.0, 10.0);
   line.add_flag("--fresh", wishes.fresh, "each file as the first of a dancer never met");
+  line.add_flag("--partner", wishes.partner, "files are couples: predict each beside the other");
+  line.add("--join", wishes.join_m,
+           "with --partner: metres within which palms are brought together, as captures that were "
+           "put onto other bodies hold hands at 20 cm")
+      .range(0.0, 1.0);
   line.add("--model", wishes.model, "a model of dance predict train instead of the built-in one");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kPredictEvalExamples);

@@ -1,0 +1,149 @@
+#include "transformers/partner/partner_guide.h"
+
+#include <algorithm>
+
+namespace dance {
+namespace {
+
+constexpr std::uint32_t kPosesPerProbe = 2;
+constexpr Duration kLeastAhead = Duration::ms(50), kMostAhead = Duration::ms(500);
+constexpr double kStrengthPerSecond = 2.0;
+constexpr double kLetGo_s = 0.3;
+constexpr Duration kLongestStep = Duration::ms(250);
+// Poses further apart say nothing certain of a moment between them.
+constexpr Duration kCloseTogether = Duration::ms(100);
+
+}  // namespace
+
+PartnerGuide::PartnerGuide() : skeleton_(average_skeleton()) {}
+
+void PartnerGuide::set_dancers(const PartnerTracks* dancers) {
+  dancers_ = dancers;
+  restart();
+}
+
+void PartnerGuide::set_body(const Skeleton& skeleton) {
+  if (is_valid(skeleton)) skeleton_ = skeleton;
+}
+
+void PartnerGuide::restart() {
+  finder_.clear();
+  partner_ = std::nullopt;
+  holds_.clear();
+  strength_ = 0.0f;
+  has_newest_ = false;
+  met_ = std::nullopt;
+  probe_count_ = 0;
+  learnt_at_ = MonoTime();
+}
+
+PartnerGuide::Shape PartnerGuide::shape_of(const Pose& pose) const {
+  BodyFrames frames;
+  forward_kinematics(skeleton_, pose, frames);
+  return {pose.capture_time,
+          {palm_of(skeleton_, frames, 0), palm_of(skeleton_, frames, 1)},
+          frames.p_WB_m[0]};
+}
+
+const PartnerTrack* PartnerGuide::track() const {
+  if (!dancers_ || !partner_) return nullptr;
+  const PartnerTrack& track = (*dancers_)[*partner_];
+  return track.is_empty() || track.clock_id() != clock_id_ ? nullptr : &track;
+}
+
+std::optional<GuestId> PartnerGuide::partner() const {
+  if (!track() || strength_ <= 0.0f) return std::nullopt;
+  return dancers_->guest(*partner_);
+}
+
+void PartnerGuide::follow_strength(bool is_couple, double step_s) {
+  const double step = kStrengthPerSecond * std::clamp(step_s, 0.0, 1.0);
+  strength_ = static_cast<float>(
+      std::clamp(static_cast<double>(strength_) + (is_couple ? step : -step), 0.0, 1.0));
+}
+
+void PartnerGuide::observe(const Pose& pose, const Extrapolator& extrapolator) {
+  if (!dancers_ || dancers_->size() == 0) return;
+  clock_id_ = pose.clock_id;
+  const Shape now = shape_of(pose);
+  const Duration step = has_newest_ ? now.time - newest_.time : Duration();
+  if (step > kLongestStep) {
+    probe_count_ = 0;
+    has_newest_ = false;
+  }
+  const double step_s = std::min(step, kLongestStep).as_seconds();
+  Eigen::Vector3f facing = pose.R_PB[0] * Eigen::Vector3f::UnitZ();
+  facing.y() = 0.0f;
+  facing.normalize();
+  const auto found = finder_.update(*dancers_, now.palms, now.hips, facing, now.time + lag_, step_s);
+  follow_strength(found && found == partner_, step_s);
+  if (found != partner_ && strength_ <= 0.0f) {
+    partner_ = found;
+    holds_.clear();
+    probe_count_ = 0;
+  }
+  if (has_newest_) learn(now);
+  newest_ = now;
+  has_newest_ = true;
+  met_ = std::nullopt;
+  const PartnerTrack* beside = track();
+  if (const auto partner = beside ? beside->at(now.time + lag_) : std::nullopt)
+    met_ = Meeting::of(now.palms, now.hips, *partner);
+  if (++observed_ % kPosesPerProbe == 0) probe(extrapolator);
+}
+
+void PartnerGuide::learn(const Shape& now) {
+  const PartnerTrack* beside = track();
+  while (probe_count_ > 0 && probes_[first_probe_].moment <= now.time) {
+    const Probe& probe = probes_[first_probe_];
+    first_probe_ = (first_probe_ + 1) % kProbes;
+    --probe_count_;
+    const Duration span = now.time - newest_.time;
+    if (!beside || span > kCloseTogether || probe.moment < newest_.time) continue;
+    const auto partner = beside->at(probe.moment + lag_);
+    if (!partner) continue;
+    const auto t = static_cast<float>((probe.moment - newest_.time).as_seconds() /
+                                      std::max(span.as_seconds(), 1e-6));
+    Palms came;
+    for (std::size_t side = 0; side < 2; ++side)
+      came[side] = newest_.palms[side] + t * (now.palms[side] - newest_.palms[side]);
+    const double step_s =
+        learnt_at_.is_set() ? std::clamp((probe.moment - learnt_at_).as_seconds(), 0.0, 1.0) : 0.0;
+    learnt_at_ = probe.moment;
+    holds_.learn(probe.met, probe.predicted, probe.predicted_hips, came, *partner, step_s);
+  }
+}
+
+void PartnerGuide::probe(const Extrapolator& extrapolator) {
+  if (!met_ || probe_count_ == kProbes) return;
+  const MonoTime moment = newest_.time + ahead_;
+  Pose pose;
+  extrapolator.predict(moment, pose);
+  const Shape predicted = shape_of(pose);
+  // What is asked for nearer than what waits already comes when that has come.
+  if (probe_count_ > 0 && moment <= probes_[(first_probe_ + probe_count_ - 1) % kProbes].moment)
+    return;
+  probes_[(first_probe_ + probe_count_) % kProbes] = {moment, *met_, predicted.palms,
+                                                      predicted.hips};
+  ++probe_count_;
+}
+
+void PartnerGuide::guide(MonoTime moment, Pose& pose) {
+  const Duration ahead = moment - newest_.time;
+  ahead_ = std::clamp(ahead_ + (ahead - ahead_) / 16, kLeastAhead, kMostAhead);
+  if (!met_ || strength_ <= 0.0f) return;
+  const PartnerTrack* beside = track();
+  if (!beside) return;
+  const auto partner = beside->at(moment + lag_);
+  if (!partner) return;
+  // A partner who is not seen any more is let go.
+  const double unseen_s =
+      (moment + lag_ - beside->newest().time - PartnerTrack::kAhead).as_seconds();
+  const auto seen = static_cast<float>(std::clamp(1.0 - unseen_s / kLetGo_s, 0.0, 1.0));
+  const Shape predicted = shape_of(pose);
+  auto pulls = holds_.pulls(*met_, predicted.palms, predicted.hips, *partner);
+  for (PalmPull& pull : pulls) pull.share *= strength_ * seen;
+  pull_palms(skeleton_, pulls, pose);
+}
+
+}  // namespace dance

@@ -1,0 +1,65 @@
+#include "transformers/partner/partner_track.h"
+
+#include <algorithm>
+
+#include "core/motion/palm_pull.h"
+#include "core/pose/kinematics.h"
+
+namespace dance {
+namespace {
+
+PartnerMoment between(const PartnerMoment& a, const PartnerMoment& b, MonoTime time) {
+  const double span = (b.time - a.time).as_seconds();
+  const auto t = static_cast<float>((time - a.time).as_seconds() / std::max(span, 1e-6));
+  const auto mix = [t](const Eigen::Vector3f& x, const Eigen::Vector3f& y) {
+    return Eigen::Vector3f(x + t * (y - x));
+  };
+  PartnerMoment out;
+  out.time = time;
+  for (std::size_t side = 0; side < 2; ++side)
+    out.p_WPalm_m[side] = mix(a.p_WPalm_m[side], b.p_WPalm_m[side]);
+  out.p_WHips_m = mix(a.p_WHips_m, b.p_WHips_m);
+  out.facing_W = b.facing_W;
+  return out;
+}
+
+}  // namespace
+
+PartnerTrack::PartnerTrack() : skeleton_(average_skeleton()) {}
+
+void PartnerTrack::set_body(const Skeleton& skeleton) {
+  if (is_valid(skeleton)) skeleton_ = skeleton;
+}
+
+void PartnerTrack::take(const Pose& pose) {
+  if (size_ > 0) {
+    const Duration step = pose.capture_time - newest().time;
+    if (pose.clock_id == clock_id_ && step <= Duration() && step > -kGap) return;
+    if (pose.clock_id != clock_id_ || step <= Duration() || step > kGap) size_ = 0;
+  }
+  clock_id_ = pose.clock_id;
+  BodyFrames frames;
+  forward_kinematics(skeleton_, pose, frames);
+  PartnerMoment& now = moments_[next_];
+  now.time = pose.capture_time;
+  for (std::size_t side = 0; side < 2; ++side)
+    now.p_WPalm_m[side] = palm_of(skeleton_, frames, side);
+  now.p_WHips_m = frames.p_WB_m[0];
+  now.facing_W = frames.R_WB[0] * Eigen::Vector3f::UnitZ();
+  now.facing_W.y() = 0.0f;
+  const float size = now.facing_W.norm();
+  now.facing_W = size > 1e-3f ? Eigen::Vector3f(now.facing_W / size) : Eigen::Vector3f::UnitZ();
+  next_ = (next_ + 1) % kKept;
+  size_ = std::min(size_ + 1, kKept);
+}
+
+std::optional<PartnerMoment> PartnerTrack::at(MonoTime time) const {
+  if (size_ < 2) return std::nullopt;
+  time = std::min(time, newest().time + kAhead);
+  std::size_t age = 1;
+  while (age < size_ && back(age).time > time) ++age;
+  if (age == size_) return std::nullopt;
+  return between(back(age), back(age - 1), time);
+}
+
+}  // namespace dance
