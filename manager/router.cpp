@@ -12,20 +12,13 @@ constexpr std::size_t kMostKnown = 2 * kMaxGuests;
 
 }  // namespace
 
-bool Router::wants(Where where) const {
-  const auto is_for_others = [](const auto& state) {
-    return state->route.from.where == Where::kGuest && !state->route.through.empty();
-  };
-  return !routes_from_[static_cast<std::size_t>(where)].empty() ||
-         (where == Where::kCapture && std::any_of(routes_.begin(), routes_.end(), is_for_others));
-}
-
 Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink)
     : our_clock_id_(our_clock_id), sink_(sink) {
   for (const Route& route : routes) {
     routes_.push_back(std::make_unique<RouteState>(
         RouteState{route, static_cast<std::int32_t>(routes_.size()), route.rate_hz, {}, {}}));
     routes_from_[static_cast<std::size_t>(route.from.where)].push_back(routes_.back().get());
+    are_guests_transformed_ |= route.from.where == Where::kGuest && !route.through.empty();
   }
 }
 
@@ -111,7 +104,7 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
   bool wanted = false;
   if (where == Where::kCapture) {
     partners_.take(guest, pose);
-    wanted = wants(Where::kCapture);
+    wanted = are_guests_transformed_;
   }
   for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
     if (!is_for(*state, guest)) continue;

@@ -75,8 +75,11 @@ class Router {
   // for many.
   void evict_gone(MonoTime now);
 
-  // Dancers of this house are wanted, too, where others are predicted beside them.
-  bool wants(Where where) const;
+  // Dancers of this house are wanted, too, where others may be predicted beside them.
+  bool wants(Where where) const {
+    return !routes_from_[static_cast<std::size_t>(where)].empty() ||
+           (where == Where::kCapture && are_guests_transformed_);
+  }
   Roster& roster() { return roster_; }
   // Counters of poses; time, uptime and lateness are the caller's.
   Stats stats() const;
@@ -126,7 +129,8 @@ class Router {
   std::array<std::vector<RouteState*>, 5> routes_from_;    // by Where
   std::vector<Known> known_;                               // at most kMostKnown
   std::vector<std::pair<GuestId, FlowSetting>> settings_;  // at most kMostKnown
-  PartnerTracks partners_;  // the dancers of this house
+  PartnerTracks partners_;                                 // the dancers of this house
+  bool are_guests_transformed_ = false;
   std::optional<Beat> beat_;
   OnLearner on_learner_;
   Roster roster_;

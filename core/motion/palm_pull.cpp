@@ -24,15 +24,14 @@ struct Link {
 };
 constexpr std::array<Link, 3> kTrunk{
     {{Bone::kSpine, 0.07f}, {Bone::kChest, 0.035f}, {Bone::kUpperChest, 0.008f}}};
-constexpr std::array<std::array<Link, 4>, 2> kArms{
-    {{{{Bone::kLeftShoulder, 0.11f},
-       {Bone::kLeftUpperArm, 0.16f},
-       {Bone::kLeftLowerArm, 0.155f},
-       {Bone::kLeftHand, 0.1f}}},
-     {{{Bone::kRightShoulder, 0.11f},
-       {Bone::kRightUpperArm, 0.16f},
-       {Bone::kRightLowerArm, 0.155f},
-       {Bone::kRightHand, 0.1f}}}}};
+constexpr std::array<std::array<Link, 4>, 2> kArms{{{{{Bone::kLeftShoulder, 0.11f},
+                                                      {Bone::kLeftUpperArm, 0.16f},
+                                                      {Bone::kLeftLowerArm, 0.155f},
+                                                      {Bone::kLeftHand, 0.1f}}},
+                                                    {{{Bone::kRightShoulder, 0.11f},
+                                                      {Bone::kRightUpperArm, 0.16f},
+                                                      {Bone::kRightLowerArm, 0.155f},
+                                                      {Bone::kRightHand, 0.1f}}}}};
 constexpr std::size_t kElbow = 2;  // in an arm
 constexpr float kLeastShare = 1e-3f, kMostShare = 0.995f;
 constexpr float kMostShift_m = 0.5f;
@@ -158,6 +157,7 @@ bool pull_palms(const Skeleton& skeleton, const std::array<PalmPull, 2>& pulls, 
     for (std::size_t i = 0; i < kShared; ++i) shared[i].setZero();
     Vector3f place = Vector3f::Zero();
     for (std::size_t side = 0; side < 2; ++side) {
+      if (share[side] == 0.0f) continue;
       const Vector3f f = force.segment<3>(static_cast<Eigen::Index>(3 * side));
       place += kPlace_m * kPlace_m * (along_floor * f);
       for (std::size_t i = 0; i < kLevers; ++i) {
@@ -173,11 +173,11 @@ bool pull_palms(const Skeleton& skeleton, const std::array<PalmPull, 2>& pulls, 
     pose.p_WH_m += place;
     forward_kinematics(skeleton, pose, frames);
     for (std::size_t side = 0; side < 2; ++side)
-      left[side] = share[side] > 0.0f
-                       ? Vector3f(palms[side] +
-                                  expected.segment<3>(static_cast<Eigen::Index>(3 * side)) -
-                                  palm_of(skeleton, frames, side))
-                       : Vector3f(Vector3f::Zero());
+      left[side] =
+          share[side] > 0.0f
+              ? Vector3f(palms[side] + expected.segment<3>(static_cast<Eigen::Index>(3 * side)) -
+                         palm_of(skeleton, frames, side))
+              : Vector3f(Vector3f::Zero());
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "producers/salsa/salsa_dancer.h"
 #include "tests/allocation_guard.h"
 #include "tests/manager/poses.h"
 
@@ -373,6 +374,50 @@ TEST(Router, AllocatesNothingPerPoseOnceAGuestIsKnown) {
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_GT(stage.count, 1900);
+}
+
+// A remote follow, and the lead who dances here or is not seen.
+std::vector<Pose> shown_beside(bool is_seen, const char* words) {
+  Stage stage;
+  Router router({held(words)}, kClock, stage);
+  EXPECT_TRUE(router.wants(Where::kCapture));
+  SalsaStyle style;
+  SalsaDancer lead{style};
+  style.role = SalsaRole::kFollow;
+  SalsaDancer follow{style};
+  router.take(Where::kGuest, guest("bob"),
+              TimedSkeleton{salsa_skeleton(SalsaRole::kFollow, 1), at_ms(1), kClock});
+  for (int i = 0; i < 600; ++i) {
+    const MonoTime now = at_ms(1000 + 16 * i);
+    Pose pose;
+    lead.dance_at(Duration::ms(16 * i), pose);
+    pose.capture_time = now;
+    pose.clock_id = kClock;
+    if (is_seen) router.take(Where::kCapture, guest("alice"), pose, now);
+    if (i >= 12) {
+      follow.dance_at(Duration::ms(16 * (i - 12)), pose);
+      pose.capture_time = at_ms(1000 + 16 * (i - 12));
+      router.take(Where::kGuest, guest("bob"), pose, now);
+    }
+    router.tick(0, now);
+  }
+  EXPECT_EQ(router.stats().dropped_unrouted, 0);
+  std::vector<Pose> poses;
+  for (const auto& [name, pose] : stage.poses) poses.push_back(pose);
+  return poses;
+}
+
+TEST(Router, PredictsGuestsBesideTheDancersOfThisHouse) {
+  const auto alone = shown_beside(false, "predict"), beside = shown_beside(true, "predict");
+  ASSERT_EQ(alone.size(), beside.size());
+  const auto arm = [](const Pose& pose) { return pose.R_PB[index_of(Bone::kLeftUpperArm)]; };
+  double apart = 0.0;
+  for (std::size_t i = 300; i < alone.size(); ++i)
+    apart = std::max(apart, static_cast<double>(arm(alone[i]).angularDistance(arm(beside[i]))));
+  EXPECT_GT(apart, 0.02);
+  const auto off = shown_beside(true, "predict partner=0");
+  for (std::size_t i = 0; i < off.size(); ++i)
+    EXPECT_TRUE(arm(alone[i]).coeffs() == arm(off[i]).coeffs());
 }
 
 }  // namespace
