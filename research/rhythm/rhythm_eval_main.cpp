@@ -79,13 +79,13 @@ Result<void> run(Wishes wishes) {
       dances.push_back(lay_onto_beats(take, music, wishes.eval.hz));
     }
   }
-  if (wishes.learn_steps) {
-    std::fputs(pattern_text(learn_from_all(takes)).c_str(), stdout);
-    return {};
-  }
   for (std::uint32_t i = 0; i < wishes.salsa; ++i)
     dances.push_back(salsa_to_music(i % 2 == 0 ? SalsaRole::kLead : SalsaRole::kFollow, 1 + i / 2,
                                     wishes.salsa_bpm, kSalsaLength, music, wishes.eval.hz));
+  if (wishes.learn_steps) {
+    std::fputs(pattern_text(learn_from_all(takes, dances, music)).c_str(), stdout);
+    return {};
+  }
   if (dances.empty()) return fail("nobody dances: name BVH files, or --salsa 2");
   std::string rhythm = "rhythm beats=" + wishes.beta;
   if (wishes.strength < 1.0) rhythm += " strength=" + std::to_string(wishes.strength);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "research/rhythm/steps_eval.h"
+
 namespace dance {
 namespace {
 
@@ -48,8 +50,19 @@ Result<std::vector<UntaggedTake>> load_untagged_takes(const std::vector<std::str
   return takes;
 }
 
-StepPattern learn_from_all(const std::vector<UntaggedTake>& takes) {
-  return learn_without(takes, takes.size());
+StepPattern learn_from_all(const std::vector<UntaggedTake>& takes,
+                           const std::vector<BeatDance>& dances, const BeatGrid& music) {
+  StepPattern pattern = learn_without(takes, takes.size());
+  const double music_bpm = music.tempo_bpm(music.first_beat() + 4.0);
+  double late_ms = 0.0, known = 1e-9;
+  for (std::size_t i = takes.size(); i < dances.size(); ++i) {
+    const StepsScore score =
+        steps_score(dances[i], told_by_steps(dances[i], music_bpm, pattern), music_bpm);
+    late_ms += score.known * score.mean_ms;
+    known += score.known;
+  }
+  pattern.bring_forward(late_ms / known * music_bpm / 60e3);
+  return pattern;
 }
 
 std::string partners_table(const std::vector<UntaggedTake>& takes) {
@@ -83,18 +96,24 @@ std::string partners_table(const std::vector<UntaggedTake>& takes) {
 
 std::string pattern_text(const StepPattern& pattern) {
   std::string text;
-  for (const StepPattern::Sign sign : {StepPattern::kLeftFoot, StepPattern::kSway,
-                                       StepPattern::kHigherFoot, StepPattern::kBounce}) {
-    text += "{{";
-    for (const auto& w : pattern.wave[sign])
-      text += fmt::format("{{{:.3f}f, {:.3f}f}}, ", w.real(), w.imag());
-    text += "}},\n";
+  const auto put = [&](const char* name, std::span<const float> values) {
+    text += fmt::format("{}:", name);
+    for (const float value : values) text += fmt::format(" {:.3f}f,", value);
+    text += "\n";
+  };
+  constexpr std::array<const char*, StepPattern::kSigns> kNames{"foot", "", "sway", "higher foot",
+                                                                "bounce"};
+  for (std::size_t s = 0; s < StepPattern::kSigns; ++s) {
+    if (s == StepPattern::kRightFoot) continue;
+    std::vector<float> values;
+    for (const std::complex<float>& w : pattern.wave[s]) {
+      values.push_back(w.real());
+      values.push_back(w.imag());
+    }
+    put(kNames[s], values);
   }
-  for (const auto& row : {pattern.spread, pattern.power}) {
-    text += "{";
-    for (const float value : row) text += fmt::format("{:.3f}f, ", value);
-    text += "},\n";
-  }
+  put("spread", pattern.spread);
+  put("power", pattern.power);
   return text;
 }
 

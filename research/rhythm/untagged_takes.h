@@ -27,7 +27,10 @@ struct UntaggedTake {
 // couples: the second half of the files are the partners of the first, in the same order.
 Result<std::vector<UntaggedTake>> load_untagged_takes(const std::vector<std::string>& files,
                                                       bool couples, double hz);
-StepPattern learn_from_all(const std::vector<UntaggedTake>& takes);
+// Takes tell what steps look like, not where the beat lies in them, as their music is lost: that is
+// told by dances whose beats are known, those behind the takes.
+StepPattern learn_from_all(const std::vector<UntaggedTake>& takes,
+                           const std::vector<BeatDance>& dances, const BeatGrid& music);
 
 // How far the beats agree that partners' steps tell without each other.
 std::string partners_table(const std::vector<UntaggedTake>& takes);

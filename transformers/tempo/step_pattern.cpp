@@ -8,70 +8,37 @@ namespace {
 
 using Wave = StepPattern::Wave;
 
-// As `dance rhythm eval --learn-steps` prints it.
-constexpr StepPattern made_of(const Wave& foot, const Wave& sway, const Wave& higher,
-                              const Wave& bounce,
-                              const std::array<float, StepPattern::kSigns>& spread,
-                              const std::array<float, StepPattern::kSigns>& power) {
-  StepPattern pattern;
-  pattern.wave = {foot, foot, sway, higher, bounce};
-  pattern.spread = spread;
-  pattern.power = power;
-  for (std::size_t h = 0; h < StepPattern::kHarmonics; h += 2)
-    pattern.wave[StepPattern::kRightFoot][h] = -pattern.wave[StepPattern::kRightFoot][h];
-  return pattern;
+// Real and imaginary parts by turns, as `dance rhythm eval --learn-steps` prints them; the right
+// foot's is the left one's, half of the eight counts on.
+using Parts = std::array<float, 2 * StepPattern::kHarmonics>;
+constexpr Parts kFoot{-0.397f, 0.140f,  -0.123f, -0.029f, 0.293f, -0.874f, 0.009f,  0.257f,
+                      -0.112f, -0.072f, -0.060f, -0.111f, 0.017f, -0.010f, -0.016f, 0.011f,
+                      0.012f,  0.001f,  -0.014f, 0.006f,  0.003f, -0.008f, -0.001f, -0.002f};
+constexpr Parts kSway{0.032f,  0.171f,  0.0f, 0.0f, -1.044f, -0.040f, 0.0f, 0.0f,
+                      -0.011f, 0.120f,  0.0f, 0.0f, -0.118f, 0.033f,  0.0f, 0.0f,
+                      -0.049f, -0.040f, 0.0f, 0.0f, -0.024f, 0.019f,  0.0f, 0.0f};
+constexpr Parts kHigherFoot{-0.642f, 0.080f,  0.0f, 0.0f, 0.314f,  -0.828f, 0.0f, 0.0f,
+                            -0.080f, -0.143f, 0.0f, 0.0f, -0.005f, 0.027f,  0.0f, 0.0f,
+                            -0.002f, -0.011f, 0.0f, 0.0f, -0.010f, -0.001f, 0.0f, 0.0f};
+constexpr Parts kBounce{0.0f, 0.0f, -0.292f, -0.360f, 0.0f, 0.0f, 0.254f,  0.396f,
+                        0.0f, 0.0f, -0.032f, 0.277f,  0.0f, 0.0f, 0.033f,  0.110f,
+                        0.0f, 0.0f, -0.030f, -0.043f, 0.0f, 0.0f, -0.015f, 0.029f};
+constexpr std::array<float, StepPattern::kSigns> kSpread{0.529f, 0.529f, 0.672f, 0.616f, 0.904f};
+constexpr std::array<float, StepPattern::kSigns> kPower{1.101f, 1.101f, 1.249f, 1.231f, 1.170f};
+
+constexpr Wave wave_of(const Parts& parts, float odd = 1.0f) {
+  Wave wave;
+  for (std::size_t h = 0; h < StepPattern::kHarmonics; ++h) {
+    const float sign = h % 2 == 0 ? odd : 1.0f;
+    wave[h] = {sign * parts[2 * h], sign * parts[2 * h + 1]};
+  }
+  return wave;
 }
 
-const StepPattern kSalsa =
-    made_of({{{-0.373f, 0.164f},
-              {-0.115f, -0.014f},
-              {0.156f, -0.964f},
-              {0.073f, 0.241f},
-              {-0.142f, -0.040f},
-              {-0.104f, -0.086f},
-              {0.015f, -0.014f},
-              {-0.006f, 0.018f},
-              {0.015f, -0.005f},
-              {-0.008f, 0.019f},
-              {-0.010f, -0.015f},
-              {-0.010f, -0.004f}}},
-            {{{0.047f, 0.128f},
-              {0.0f, 0.0f},
-              {-1.056f, 0.120f},
-              {0.0f, 0.0f},
-              {0.020f, 0.130f},
-              {0.0f, 0.0f},
-              {-0.068f, 0.078f},
-              {0.0f, 0.0f},
-              {-0.078f, -0.013f},
-              {0.0f, 0.0f},
-              {-0.008f, 0.046f},
-              {0.0f, 0.0f}}},
-            {{{-0.614f, 0.110f},
-              {0.0f, 0.0f},
-              {0.239f, -0.880f},
-              {0.0f, 0.0f},
-              {-0.106f, -0.124f},
-              {0.0f, 0.0f},
-              {0.0f, 0.022f},
-              {0.0f, 0.0f},
-              {0.001f, -0.015f},
-              {0.0f, 0.0f},
-              {-0.010f, 0.006f},
-              {0.0f, 0.0f}}},
-            {{{0.0f, 0.0f},
-              {-0.346f, -0.370f},
-              {0.0f, 0.0f},
-              {0.304f, 0.358f},
-              {0.0f, 0.0f},
-              {0.062f, 0.276f},
-              {0.0f, 0.0f},
-              {0.088f, 0.077f},
-              {0.0f, 0.0f},
-              {-0.034f, -0.021f},
-              {0.0f, 0.0f},
-              {0.014f, 0.022f}}},
-            {0.449f, 0.449f, 0.644f, 0.535f, 0.829f}, {1.068f, 1.068f, 1.236f, 1.159f, 1.116f});
+constexpr StepPattern kSalsa{.wave = {wave_of(kFoot), wave_of(kFoot, -1.0f), wave_of(kSway),
+                                      wave_of(kHigherFoot), wave_of(kBounce)},
+                             .spread = kSpread,
+                             .power = kPower};
 
 }  // namespace
 
@@ -98,6 +65,13 @@ void StepPattern::mirror() {
     else
       wave[kBounce][h] = 0.0f;
   }
+}
+
+void StepPattern::bring_forward(double counts) {
+  for (Wave& of_sign : wave)
+    for (std::size_t h = 0; h < kHarmonics; ++h)
+      of_sign[h] *= std::complex<float>(
+          std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(h + 1) * counts / kCounts));
 }
 
 const StepPattern& salsa_steps() { return kSalsa; }

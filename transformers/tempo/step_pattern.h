@@ -32,6 +32,8 @@ struct StepPattern {
   float value(std::size_t sign, double phase) const;
   // Makes left and right mirror each other: half of the sum of each sign and its mirror image.
   void mirror();
+  // The same steps, so many counts earlier.
+  void bring_forward(double counts);
 };
 
 // Of salsa, learnt from fourteen dances of seven couples.
