@@ -13,6 +13,10 @@ constexpr float kMostEvidence = 20.0f;
 // Of a tempo against the music's: how far apart two rows are, and how far off it usually is.
 constexpr double kTempoStep = 0.01, kTempoSpread = 0.01;
 constexpr float kTempoChange = 0.02f;  // per slot, to each side
+// Dancers' tempo against the music's is learnt in so many seconds of being sure: two houses' musics,
+// or a band's, differ steadily by a percent or two, and a filter that does not expect it lags.
+constexpr double kUsualTaken_s = 10.0;
+constexpr double kMostUsual = 0.03;
 // By how much dancers wander about their own count, squared, counts² a second.
 constexpr double kWander = 0.05 * 0.05;
 constexpr float kNothingAtFirst = 0.8f;
@@ -81,6 +85,7 @@ void StepPointer::choose_rates(double music_bpm) {
   rate_ = rate;
   rates_ = rates;
   sureness_ = 0.0f;
+  usual_ = 1.0;
   nothing_ = kNothingAtFirst;
   float sum = 0.0f;
   for (std::size_t r = 0; r < rates_; ++r) {
@@ -103,7 +108,7 @@ void StepPointer::move(double music_bpm) {
   constexpr double kPlacesPerCount = kPlaces / StepPattern::kCounts;
   for (std::size_t r = 0; r < rates_; ++r)
     for (std::size_t k = 0; k < kTempi; ++k) {
-      const double faster = 1.0 + (static_cast<double>(k) - 0.5 * (kTempi - 1)) * kTempoStep;
+      const double faster = usual_ + (static_cast<double>(k) - 0.5 * (kTempi - 1)) * kTempoStep;
       Row& row = rows_[r * kTempi + k];
       row.at = folded(
           row.at + rate_[r] * music_bpm / 60.0 * faster * StepSigns::kSlot_s * kPlacesPerCount,
@@ -196,7 +201,7 @@ void StepPointer::say() {
     float of_row = 0.0f;
     for (const float p : row.belief) of_row += p;
     tempo += static_cast<double>(of_row) *
-             (1.0 + (static_cast<double>(k) - 0.5 * (kTempi - 1)) * kTempoStep);
+             (usual_ + (static_cast<double>(k) - 0.5 * (kTempi - 1)) * kTempoStep);
     weight += static_cast<double>(of_row);
   }
   std::array<float, kFold> fold;
@@ -222,6 +227,9 @@ void StepPointer::say() {
       folded((best + moment / mass) * StepPattern::kCounts / kPlaces, StepPattern::kCounts / 2.0);
   counts_per_beat_ = rate_[rate];
   tempo_bpm_ = rate_[rate] * music_bpm_ * (tempo / weight);
+  const double taken = static_cast<double>(sureness_) * StepSigns::kSlot_s / kUsualTaken_s;
+  usual_ =
+      std::clamp(usual_ + taken * (tempo / weight - usual_), 1.0 - kMostUsual, 1.0 + kMostUsual);
 }
 
 }  // namespace dance

@@ -62,7 +62,8 @@ class StepPointer {
   std::array<double, kRates> rate_{};
   std::size_t rates_ = 0;
   std::array<Row, kRates * kTempi> rows_{}, moved_{};
-  float nothing_ = 1.0f;
+  float nothing_ = 1.0f;  // probability of no pattern
+  double usual_ = 1.0;    // the dance's tempo against the music's, as it has been so far
   MonoTime middle_;
   double counts_ = 0.0, tempo_bpm_ = 0.0, counts_per_beat_ = 1.0, music_bpm_ = 0.0;
   float sureness_ = 0.0f;
