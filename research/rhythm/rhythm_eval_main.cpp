@@ -41,7 +41,8 @@ Result<std::string> steps_told(const Wishes& wishes, const std::vector<UntaggedT
       music.tempo_bpm(music.first_beat() + 4.0) * (1.0 + wishes.eval.tempo_offset_percent / 100.0);
   const auto row_of = [&](const BeatDance& dance, const StepPattern& others) {
     const auto score = [&](const ToldBeats& told) { return steps_score(dance, told, music_bpm); };
-    return StepsRow{dance.name, score(told_by_period(dance, music_bpm)),
+    return StepsRow{dance.name, feet_stand_ms(dance, music_bpm),
+                    score(told_by_period(dance, music_bpm)),
                     score(told_by_steps(dance, music_bpm, salsa_steps())),
                     score(told_by_steps(dance, music_bpm, others))};
   };

@@ -9,6 +9,7 @@
 
 #include "core/base/random.h"
 #include "transformers/rhythm/own_beat.h"
+#include "transformers/tempo/motion_beats.h"
 
 namespace dance {
 namespace {
@@ -48,8 +49,8 @@ StepsScore mean_of(const std::vector<StepsRow>& rows, StepsScore StepsRow::*whic
 }
 
 std::string line(const StepsRow& row) {
-  return fmt::format("{:<26} {} | {} | {}\n", row.name, score_text(row.period),
-                     score_text(row.ours), score_text(row.others_steps));
+  return fmt::format("{:<26} {:>+6.0f} {} | {} | {}\n", row.name, row.stands_ms,
+                     score_text(row.period), score_text(row.ours), score_text(row.others_steps));
 }
 
 }  // namespace
@@ -103,6 +104,25 @@ StepsScore steps_score(const BeatDance& dance, const ToldBeats& told, double mus
   return score;
 }
 
+double feet_stand_ms(const BeatDance& dance, double music_bpm) {
+  constexpr float kSwung_m_s = 0.8f;
+  MotionChannels channels;
+  channels.set_body(dance.skeleton);
+  MotionBeats beats;
+  std::complex<double> circle;
+  for (std::size_t i = 0; i < dance.poses.size(); ++i) {
+    const MonoTime now = dance.poses[i].capture_time;
+    const std::size_t count = beats.add(channels.take(untagged(dance.poses[i])));
+    for (std::size_t k = 0; k < count; ++k) {
+      const MotionBeat& beat = beats.newest(k);
+      if (!beat.is_foot_fall() || beat.strength < kSwung_m_s) continue;
+      const double at = dance.beats[i] - (now - beat.time).as_seconds() * music_bpm / 60.0;
+      circle += std::polar(1.0, 2.0 * std::numbers::pi * at);
+    }
+  }
+  return std::arg(circle) / (2.0 * std::numbers::pi) * 60e3 / music_bpm;
+}
+
 BeatDance shuffled(const BeatDance& dance, std::uint64_t seed) {
   constexpr std::size_t kPart = 60;
   std::vector<std::size_t> parts(dance.poses.size() / kPart);
@@ -141,22 +161,26 @@ BeatDance standing(const BeatDance& dance, std::uint64_t seed) {
 
 std::string steps_table(const std::vector<StepsRow>& rows, const std::vector<StepsRow>& none) {
   const std::string columns = fmt::format("{:>7} {:>6} {:>5} {:>8}", "known", "late", "sd", "of 4");
-  std::string text = "\nmusical time from steps alone\n" +
-                     fmt::format("{:<26} {:^29} | {:^29} | {:^29}\n", "", "the period alone",
-                                 "as it is", "steps learnt from others") +
-                     fmt::format("{:<26} {} | {} | {}\n", "", columns, columns, columns);
+  std::string text =
+      "\nmusical time from steps alone\n" +
+      fmt::format("{:<26} {:>6} {:^29} | {:^29} | {:^29}\n", "", "feet", "the period alone",
+                  "as it is", "steps learnt from others") +
+      fmt::format("{:<26} {:>6} {} | {} | {}\n", "", "stand", columns, columns, columns);
   for (const StepsRow& row : rows) text += line(row);
   const auto mean = [](const char* name, const std::vector<StepsRow>& of) {
-    return StepsRow{name, mean_of(of, &StepsRow::period), mean_of(of, &StepsRow::ours),
+    double stands_ms = 0.0;
+    for (const StepsRow& row : of) stands_ms += row.stands_ms / static_cast<double>(of.size());
+    return StepsRow{name, stands_ms, mean_of(of, &StepsRow::period), mean_of(of, &StepsRow::ours),
                     mean_of(of, &StepsRow::others_steps)};
   };
   if (!rows.empty()) text += line(mean("all", rows));
   for (const StepsRow& row : none)
-    text += fmt::format("{:<26} {:>6.0f}%{:>22} | {:>6.0f}%{:>22} | {:>6.0f}%\n", row.name,
+    text += fmt::format("{:<26}        {:>6.0f}%{:>22} | {:>6.0f}%{:>22} | {:>6.0f}%\n", row.name,
                         100.0 * row.period.known, "", 100.0 * row.ours.known, "",
                         100.0 * row.others_steps.known);
   text +=
-      "known: share of the dance, from its first pose on; late, sd: ms, folded to a beat; of 4: "
+      "feet stand: ms after the beat; known: share of the dance, from its first pose on; late, sd: "
+      "ms, folded to a beat; of 4: "
       "on\n"
       "the right one of four beats. The last rows do not dance to it: known is wrong there.\n";
   return text;

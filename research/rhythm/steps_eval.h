@@ -24,6 +24,7 @@ struct StepsScore {
 
 struct StepsRow {
   std::string name;
+  double stands_ms = 0.0;                 // when feet come to stand, after their beat
   StepsScore period, ours, others_steps;  // the last: our filter, with steps learnt from others
 };
 
@@ -33,6 +34,9 @@ ToldBeats told_by_steps(const BeatDance& dance, double music_bpm, const StepPatt
 ToldBeats told_by_period(const BeatDance& dance, double music_bpm);
 // Against the beats that the dance was danced to.
 StepsScore steps_score(const BeatDance& dance, const ToldBeats& told, double music_bpm);
+
+// When feet that swung come to stand, after the beat they are nearest to, on average.
+double feet_stand_ms(const BeatDance& dance, double music_bpm);
 
 // The same dance with its seconds in another order, and somebody who stands as its first pose does.
 BeatDance shuffled(const BeatDance& dance, std::uint64_t seed);
