@@ -29,18 +29,26 @@ constexpr int kNear = 4;    // within these the likeliest is looked for
 
 double folded(double value, double period) { return value - period * std::floor(value / period); }
 
+// The values twice over, so that a walk around them from anywhere is straight.
+template <std::size_t kSize>
+std::array<float, 2 * kSize + 1> twice(const std::array<float, kSize>& values) {
+  std::array<float, 2 * kSize + 1> out;
+  for (std::size_t i = 0; i < kSize; ++i) out[i] = out[i + kSize] = values[i];
+  out[2 * kSize] = values[0];
+  return out;
+}
+
 // Adds share * row, moved on by `by` places, to sum.
-template <typename Row, typename Sum>
-void add_moved(const Row& row, double by, float share, Sum& sum) {
-  constexpr std::size_t kSize = std::tuple_size_v<Row>;
-  const double whole = std::floor(by);
-  const auto part = static_cast<float>(by - whole);
+template <std::size_t kSize>
+void add_moved(const std::array<float, kSize>& row, double by, float share,
+               std::array<float, kSize>& sum) {
+  const double whole = std::floor(-by);
+  const auto part = static_cast<float>(-by - whole);
   const auto first = static_cast<std::size_t>(folded(whole, static_cast<double>(kSize)));
-  const float near = share * (1.0f - part), far = share * part;
-  for (std::size_t i = 0; i < kSize; ++i) {
-    sum[(i + first) % kSize] += near * row[i];
-    sum[(i + first + 1) % kSize] += far * row[i];
-  }
+  const float here = share * (1.0f - part), next = share * part;
+  const auto from = twice(row);
+  for (std::size_t i = 0; i < kSize; ++i)
+    sum[i] += here * from[first + i] + next * from[first + i + 1];
 }
 
 }  // namespace
@@ -120,14 +128,12 @@ void StepPointer::move(double music_bpm) {
       static_cast<float>(0.5 * kWander * kPlacesPerCount * kPlacesPerCount * StepSigns::kSlot_s);
   const float begun = kBegins * nothing_ / static_cast<float>(kPlaces);
   for (std::size_t k = 0; k < rates_ * kTempi; ++k) {
-    const Places was = rows_[k].belief;
+    const auto was = twice(rows_[k].belief);
     for (std::size_t i = 0; i < kPlaces; ++i) {
       all += was[i];
-      rows_[k].belief[i] =
-          (1.0f - kEnds) *
-              ((1.0f - 2.0f * kSpreads) * was[i] +
-               kSpreads * (was[(i + 1) % kPlaces] + was[(i + kPlaces - 1) % kPlaces])) +
-          begun * rows_[k].start;
+      rows_[k].belief[i] = (1.0f - kEnds) * ((1.0f - 2.0f * kSpreads) * was[i] +
+                                             kSpreads * (was[i + 1] + was[i + kPlaces - 1])) +
+                           begun * rows_[k].start;
     }
   }
   nothing_ += kEnds * all - kBegins * nothing_;
@@ -169,14 +175,14 @@ void StepPointer::judge(const StepSigns::Slot& slot) {
     likelihood[i] = std::exp(std::clamp(kIndependent * evidence, -kMostEvidence, kMostEvidence));
   }
   float all = nothing_;
+  const auto likely = twice(likelihood);
   for (std::size_t k = 0; k < rates_ * kTempi; ++k) {
     Row& row = rows_[k];
     const double whole = std::floor(row.at);
     const auto part = static_cast<float>(row.at - whole);
     const auto first = static_cast<std::size_t>(whole);
     for (std::size_t i = 0; i < kPlaces; ++i) {
-      const float here = likelihood[(i + first) % kPlaces];
-      const float next = likelihood[(i + first + 1) % kPlaces];
+      const float here = likely[first + i], next = likely[first + i + 1];
       row.belief[i] *= here + part * (next - here);
       all += row.belief[i];
     }
