@@ -75,23 +75,28 @@ TEST(OwnBeat, StaysInTimeThroughASecondThatDidNotArrive) {
   EXPECT_LT(std::abs(off - 4.0 * std::round(off / 4.0)), 0.15);
 }
 
-TEST(OwnBeat, HearsStepsAtAPaceOfTheirOwnByThePeriodAlone) {
-  // A tenth from the music: not what the filter looks for, but steady.
+TEST(OwnBeat, FindsTheBarOfStepsThatKeepAPaceOfTheirOwn) {
+  // A tenth from the music: the period hears them first, then the filter looks for them there.
   Dancing salsa(164.0);
   OwnBeat own;
   own.set_body(salsa.dancer->skeleton());
-  int known = 0, near = 0;
-  for (int i = 0; i < 60 * 60; ++i) {
+  int known = 0, on_beat = 0, in_bar = 0;
+  for (int i = 0; i < 60 * 80; ++i) {
     const double s = i / 60.0;
     const Pose pose = salsa.at(s);
     const auto told = own.observe(pose, pose.capture_time, 148.0);
-    if (s < 20.0 || !told) continue;
+    if (s < 40.0 || !told) continue;
     ++known;
     const double off = *told - salsa.beats(s);
-    near += std::abs(off - std::round(off)) < 0.2 ? 1 : 0;
+    on_beat += std::abs(off - std::round(off)) < 0.12 ? 1 : 0;
+    in_bar += std::abs(off - 4.0 * std::round(off / 4.0)) < 0.5 ? 1 : 0;
   }
-  EXPECT_GT(known, 60 * 20);
-  EXPECT_GT(near, known * 9 / 10);
+  EXPECT_GT(known, 60 * 36);
+  EXPECT_GT(on_beat, known * 9 / 10);
+  EXPECT_GT(in_bar, known * 9 / 10);
+  // Whom the music has left too far behind is left as they are.
+  const Pose pose = salsa.at(80.0);
+  EXPECT_FALSE(own.observe(pose, pose.capture_time, 120.0));
 }
 
 TEST(OwnBeat, TellsNothingOfWhoStandsOrOfADanceInPieces) {

@@ -14,6 +14,10 @@ constexpr Duration kGoesOn = Duration::s(1);
 // What it says a little differently is walked to; what is another place is jumped to.
 constexpr double kWalk_s = 0.5;
 constexpr double kJump_counts = 0.5;
+// Steps are looked for at the music's tempo. Where the period hears them steady at another one, and
+// the filter has not been sure for a while, it looks for them there, as long as it finds them.
+constexpr double kOtherTempo = 0.04;
+constexpr Duration kLooksElsewhere = Duration::s(6);
 
 // Steady is what has been like itself for a few seconds; it may waver a little before it no longer
 // is.
@@ -23,6 +27,11 @@ constexpr double kPlaceTaken = 0.004;
 // What the stage's play rate can make of it.
 constexpr double kMostStretch = 1.15;
 
+bool can_be_danced(double music_bpm, double steps_bpm) {
+  const double stretch = music_bpm / steps_bpm;
+  return stretch < kMostStretch && stretch > 1.0 / kMostStretch;
+}
+
 }  // namespace
 
 void OwnBeat::forget() {
@@ -30,7 +39,8 @@ void OwnBeat::forget() {
   signs_.forget();
   pointer_.forget();
   is_sure_ = false;
-  seen_ = MonoTime();
+  own_bpm_ = 0.0;
+  seen_ = sure_ = looked_ = MonoTime();
   place_ = 0.0;
   steadiness_ = 0.0;
   is_steady_ = false;
@@ -45,18 +55,36 @@ std::optional<double> OwnBeat::observe(const Pose& pose, MonoTime now, double mu
   return (told_counts_ + pointer_.tempo_bpm() / 60.0 * since_s) / pointer_.counts_per_beat();
 }
 
+double OwnBeat::steps_bpm(double music_bpm, MonoTime t) {
+  if (is_sure_) looked_ = t;
+  if (t - looked_ > kLooksElsewhere) {
+    looked_ = t;
+    const double steady_bpm = is_steady_ ? period_.tempo_bpm() * beats_per_step_ : music_bpm;
+    const bool is_other = std::abs(steady_bpm / music_bpm - 1.0) > kOtherTempo;
+    if (is_other || own_bpm_ > 0.0) pointer_.forget();
+    own_bpm_ = is_other ? steady_bpm : 0.0;
+  }
+  return own_bpm_ > 0.0 ? own_bpm_ : music_bpm;
+}
+
 void OwnBeat::follow_steps(double music_bpm) {
   seen_ = period_.newest();
   const std::size_t slots = signs_.add(period_.frame());
   if (signs_.has_begun_anew()) {
     pointer_.forget();
     is_sure_ = false;
+    looked_ = seen_;
   }
   if (!(music_bpm > 0.0)) return;
+  if (own_bpm_ > 0.0 && !can_be_danced(music_bpm, own_bpm_)) {
+    pointer_.forget();
+    is_sure_ = false;
+    own_bpm_ = 0.0;
+  }
   for (std::size_t i = 0; i < slots; ++i) {
     const double counts_per_beat = pointer_.counts_per_beat();
-    pointer_.add(signs_.slot(i), music_bpm);
     const MonoTime t = signs_.slot(i).middle;
+    pointer_.add(signs_.slot(i), steps_bpm(music_bpm, t));
     if (pointer_.sureness() > (is_sure_ ? kNoLongerSure : kSure)) sure_ = t;
     const bool was_sure = is_sure_ && counts_per_beat == pointer_.counts_per_beat();
     is_sure_ = sure_ == t || (was_sure && t - sure_ < kGoesOn);
@@ -87,8 +115,7 @@ std::optional<double> OwnBeat::by_period(MonoTime t, double music_bpm) {
     const double ratio = music_bpm / period_.tempo_bpm();
     beats_per_step_ = std::exp2(std::round(std::log2(ratio)));
   }
-  const double stretch = music_bpm / (period_.tempo_bpm() * beats_per_step_);
-  const bool can_be = stretch < kMostStretch && stretch > 1.0 / kMostStretch;
+  const bool can_be = can_be_danced(music_bpm, period_.tempo_bpm() * beats_per_step_);
   is_steady_ = can_be && steadiness_ > (is_steady_ ? kNoLonger : kSteady);
   if (!is_steady_) return std::nullopt;
   return beats_per_step_ * (steps + std::arg(place_) / (2.0 * std::numbers::pi));

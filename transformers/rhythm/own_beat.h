@@ -26,11 +26,10 @@ class OwnBeat {
   void forget();
   // Takes the pose in; its musical time when the dance has one.
   std::optional<double> observe(const Pose& pose, MonoTime now, double music_bpm);
-  // How likely the steps are where the filter believes them.
-  float sureness() const { return pointer_.sureness(); }
 
  private:
   void follow_steps(double music_bpm);
+  double steps_bpm(double music_bpm, MonoTime t);
   std::optional<double> by_period(MonoTime t, double music_bpm);
 
   Period period_;
@@ -38,8 +37,9 @@ class OwnBeat {
   StepSigns signs_;
   StepPointer pointer_;
   double told_counts_ = 0.0;
-  MonoTime told_, seen_, sure_;
+  MonoTime told_, seen_, sure_, looked_;
   bool is_sure_ = false;
+  double own_bpm_ = 0.0;  // steps that keep a pace of their own; 0: the music's
   // By the period alone.
   std::complex<double> place_;  // of the steps between the period's whole beats, as a direction
   double steadiness_ = 0.0;
