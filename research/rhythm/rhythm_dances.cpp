@@ -15,18 +15,20 @@ void tag(Pose& pose, std::uint32_t sequence, double t_s, double beats) {
   pose.music_beats = beats;
 }
 
-}  // namespace
+// To music of half or double the tempo dancers dance every second beat, or each twice.
+double rate_to(const BeatGrid& music, double tempo_bpm) {
+  return std::exp2(std::round(std::log2(music.tempo_bpm(music.first_beat() + 4.0) / tempo_bpm)));
+}
 
-BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz) {
+// Grid: beats_at() and time_of() of the take's own time.
+template <typename Grid>
+BeatDance lay(const CodecTake& take, const Grid& grid, double whole_beats, const BeatGrid& music,
+              double hz) {
   BeatDance dance;
   dance.name = take.name;
   dance.skeleton = take.skeleton;
-  const JointTrack track(take.skeleton, take.poses, take.hz);
-  TakeGrid grid = find_take_grid(track);
-  // To music of half or double the tempo dancers dance every second beat, or each twice.
-  const double ratio = music.tempo_bpm(music.first_beat() + 4.0) / grid.tempo_bpm;
-  grid.tempo_bpm *= std::exp2(std::round(std::log2(ratio)));
-  const double shift = std::ceil(music.beat_at(0.0) - grid.beats_at(0.0));
+  const double shift =
+      whole_beats * std::ceil((music.beat_at(0.0) - grid.beats_at(0.0)) / whole_beats);
   const double last_s = static_cast<double>(take.poses.size() - 1) / take.hz;
   for (std::uint32_t i = 0;; ++i) {
     const double t_s = i / hz;
@@ -46,6 +48,27 @@ BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz
     dance.beats.push_back(beats);
   }
   return dance;
+}
+
+}  // namespace
+
+BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz) {
+  const JointTrack track(take.skeleton, take.poses, take.hz);
+  TakeGrid grid = find_take_grid(track);
+  grid.tempo_bpm *= rate_to(music, grid.tempo_bpm);
+  return lay(take, grid, 1.0, music, hz);
+}
+
+BeatDance lay_onto_beats(const CodecTake& take, const DanceBeats& beats, const BeatGrid& music,
+                         double hz) {
+  struct Faster {
+    const DanceBeats& beats;
+    double rate;
+    double beats_at(double t_s) const { return rate * beats.beats_at(t_s); }
+    double time_of(double b) const { return beats.time_of(b / rate); }
+  };
+  // Whole bars, so that the first of a bar is danced on the first of a bar.
+  return lay(take, Faster{beats, rate_to(music, beats.tempo_bpm)}, 4.0, music, hz);
 }
 
 BeatDance salsa_to_music(SalsaRole role, std::uint64_t seed, double tempo_bpm, Duration length,

@@ -17,6 +17,7 @@
 #include "producers/music/beat_grid.h"
 #include "producers/salsa/salsa_style.h"
 #include "research/codec_takes.h"
+#include "research/rhythm/dance_beats.h"
 #include "testing/motion/motion_measures.h"
 #include "transformers/flow.h"
 
@@ -70,6 +71,9 @@ struct BeatDance {
 };
 // A take, stretched so that its own beats fall on those of the song.
 BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz);
+// The same by beats that are known already, which wander as the dancers did.
+BeatDance lay_onto_beats(const CodecTake& take, const DanceBeats& beats, const BeatGrid& music,
+                         double hz);
 // A synthetic salsa dancer, for as long as told; at a tempo of 0 to the song, else at a pace of its
 // own.
 BeatDance salsa_to_music(SalsaRole role, std::uint64_t seed, double tempo_bpm, Duration length,

@@ -7,6 +7,8 @@
 #include "research/predict_model_file.h"
 #include "research/rhythm/rhythm_eval.h"
 #include "research/rhythm/rhythm_eval_report.h"
+#include "research/rhythm/steps_eval.h"
+#include "research/rhythm/untagged_takes.h"
 #include "transformers/settings.h"
 
 namespace dance {
@@ -28,8 +30,36 @@ struct Wishes {
   std::string beats, delay = "150ms", jitter = "0ms", stall = "0ms", beta = "auto", model;
   double strength = 1.0, salsa_bpm = 0.0;
   std::uint32_t salsa = 0;
-  bool json = false, each = false;
+  bool json = false, each = false, couples = false, learn_steps = false;
+  std::vector<std::string> others;
 };
+
+// What steps alone tell, of the takes, of synthetic dancers, and of what does not dance.
+Result<std::string> steps_told(const Wishes& wishes, const std::vector<UntaggedTake>& takes,
+                               const std::vector<BeatDance>& dances, const BeatGrid& music) {
+  const double music_bpm =
+      music.tempo_bpm(music.first_beat() + 4.0) * (1.0 + wishes.eval.tempo_offset_percent / 100.0);
+  const auto row_of = [&](const BeatDance& dance, const StepPattern& others) {
+    const auto score = [&](const ToldBeats& told) { return steps_score(dance, told, music_bpm); };
+    return StepsRow{dance.name, feet_stand_ms(dance, music_bpm),
+                    score(told_by_period(dance, music_bpm)),
+                    score(told_by_steps(dance, music_bpm, salsa_steps())),
+                    score(told_by_steps(dance, music_bpm, others))};
+  };
+  std::vector<StepsRow> rows, none;
+  for (std::size_t i = 0; i < dances.size(); ++i)
+    rows.push_back(row_of(dances[i], i < takes.size() ? takes[i].others : salsa_steps()));
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    none.push_back(row_of(shuffled(dances[i], 1 + i), takes[i].others));
+    none.back().name = "shuffled " + takes[i].take.name;
+  }
+  if (!dances.empty()) none.push_back(row_of(standing(dances[0], 1), salsa_steps()));
+  for (const std::string& file : wishes.others) {
+    DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.eval.hz));
+    none.push_back(row_of(lay_onto_beats(take, music, wishes.eval.hz), salsa_steps()));
+  }
+  return partners_table(takes) + steps_table(rows, none);
+}
 
 Result<void> run(Wishes wishes) {
   // Steps have to be seen for a while before they tell a beat.
@@ -39,13 +69,24 @@ Result<void> run(Wishes wishes) {
   DANCE_TRY(wishes.eval.stall, parse_duration(wishes.stall));
   DANCE_TRY(const BeatGrid music, read_beats_file(wishes.beats));
   std::vector<BeatDance> dances;
-  for (const std::string& file : wishes.files) {
-    DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.eval.hz));
-    dances.push_back(lay_onto_beats(take, music, wishes.eval.hz));
+  std::vector<UntaggedTake> takes;
+  if (wishes.eval.untagged || wishes.learn_steps) {
+    DANCE_TRY(takes, load_untagged_takes(wishes.files, wishes.couples, wishes.eval.hz));
+    for (const UntaggedTake& take : takes)
+      dances.push_back(lay_onto_beats(take.take, take.beats, music, wishes.eval.hz));
+  } else {
+    for (const std::string& file : wishes.files) {
+      DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.eval.hz));
+      dances.push_back(lay_onto_beats(take, music, wishes.eval.hz));
+    }
   }
   for (std::uint32_t i = 0; i < wishes.salsa; ++i)
     dances.push_back(salsa_to_music(i % 2 == 0 ? SalsaRole::kLead : SalsaRole::kFollow, 1 + i / 2,
                                     wishes.salsa_bpm, kSalsaLength, music, wishes.eval.hz));
+  if (wishes.learn_steps) {
+    std::fputs(pattern_text(learn_from_all(takes, dances, music)).c_str(), stdout);
+    return {};
+  }
   if (dances.empty()) return fail("nobody dances: name BVH files, or --salsa 2");
   std::string rhythm = "rhythm beats=" + wishes.beta;
   if (wishes.strength < 1.0) rhythm += " strength=" + std::to_string(wishes.strength);
@@ -61,8 +102,12 @@ Result<void> run(Wishes wishes) {
     DANCE_TRY(RhythmRun run, evaluate_rhythm(dances, music, flow, wishes.eval));
     runs.push_back(std::move(run));
   }
-  const std::string text =
+  std::string text =
       wishes.json ? rhythm_eval_json(dances, runs) : rhythm_eval_table(dances, runs, wishes.each);
+  if (wishes.eval.untagged && !wishes.json) {
+    DANCE_TRY(const std::string told, steps_told(wishes, takes, dances, music));
+    text += told;
+  }
   std::fwrite(text.data(), 1, text.size(), stdout);
   return {};
 }
@@ -100,6 +145,11 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--seed", wishes.eval.seed, "of the line").shows_default();
   line.add_flag("--untagged", wishes.eval.untagged, "poses come without musical time");
+  line.add_flag("--couples", wishes.couples,
+                "without tags: the second half of the files are the partners of the first half");
+  line.add("--others", wishes.others, "without tags: takes that do not dance to the song");
+  line.add_flag("--learn-steps", wishes.learn_steps,
+                "print the steps that the takes have in common, and do nothing else");
   line.add_flag("--each", wishes.each, "a line for each take, too");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kExamples);

@@ -57,6 +57,8 @@ class Period {
 
   const MotionBeats& motion_beats() const { return motion_beats_; }
   MonoTime newest() const { return frame_.time; }
+  // What the newest pose shows.
+  const MotionFrame& frame() const { return frame_; }
 
  private:
   // Of the bar: two bars, one, and between.

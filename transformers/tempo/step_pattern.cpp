@@ -1,0 +1,79 @@
+#include "transformers/tempo/step_pattern.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dance {
+namespace {
+
+using Wave = StepPattern::Wave;
+
+// Real and imaginary parts by turns, as `dance rhythm eval --learn-steps` prints them; the right
+// foot's is the left one's, half of the eight counts on.
+using Parts = std::array<float, 2 * StepPattern::kHarmonics>;
+constexpr Parts kFoot{-0.397f, 0.140f,  -0.123f, -0.029f, 0.293f, -0.874f, 0.009f,  0.257f,
+                      -0.112f, -0.072f, -0.060f, -0.111f, 0.017f, -0.010f, -0.016f, 0.011f,
+                      0.012f,  0.001f,  -0.014f, 0.006f,  0.003f, -0.008f, -0.001f, -0.002f};
+constexpr Parts kSway{0.032f,  0.171f,  0.0f, 0.0f, -1.044f, -0.040f, 0.0f, 0.0f,
+                      -0.011f, 0.120f,  0.0f, 0.0f, -0.118f, 0.033f,  0.0f, 0.0f,
+                      -0.049f, -0.040f, 0.0f, 0.0f, -0.024f, 0.019f,  0.0f, 0.0f};
+constexpr Parts kHigherFoot{-0.642f, 0.080f,  0.0f, 0.0f, 0.314f,  -0.828f, 0.0f, 0.0f,
+                            -0.080f, -0.143f, 0.0f, 0.0f, -0.005f, 0.027f,  0.0f, 0.0f,
+                            -0.002f, -0.011f, 0.0f, 0.0f, -0.010f, -0.001f, 0.0f, 0.0f};
+constexpr Parts kBounce{0.0f, 0.0f, -0.292f, -0.360f, 0.0f, 0.0f, 0.254f,  0.396f,
+                        0.0f, 0.0f, -0.032f, 0.277f,  0.0f, 0.0f, 0.033f,  0.110f,
+                        0.0f, 0.0f, -0.030f, -0.043f, 0.0f, 0.0f, -0.015f, 0.029f};
+constexpr std::array<float, StepPattern::kSigns> kSpread{0.529f, 0.529f, 0.672f, 0.616f, 0.904f};
+constexpr std::array<float, StepPattern::kSigns> kPower{1.101f, 1.101f, 1.249f, 1.231f, 1.170f};
+
+constexpr Wave wave_of(const Parts& parts, float odd = 1.0f) {
+  Wave wave;
+  for (std::size_t h = 0; h < StepPattern::kHarmonics; ++h) {
+    const float sign = h % 2 == 0 ? odd : 1.0f;
+    wave[h] = {sign * parts[2 * h], sign * parts[2 * h + 1]};
+  }
+  return wave;
+}
+
+constexpr StepPattern kSalsa{.wave = {wave_of(kFoot), wave_of(kFoot, -1.0f), wave_of(kSway),
+                                      wave_of(kHigherFoot), wave_of(kBounce)},
+                             .spread = kSpread,
+                             .power = kPower};
+
+}  // namespace
+
+float StepPattern::value(std::size_t sign, double phase) const {
+  double sum = 0.0;
+  for (std::size_t h = 0; h < kHarmonics; ++h) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(h + 1) * phase;
+    sum += static_cast<double>(wave[sign][h].real()) * std::cos(angle) -
+           static_cast<double>(wave[sign][h].imag()) * std::sin(angle);
+  }
+  return static_cast<float>(sum);
+}
+
+void StepPattern::mirror() {
+  for (std::size_t h = 0; h < kHarmonics; ++h) {
+    // Half a turn of the eight counts turns odd harmonics by half a turn.
+    const float half = h % 2 == 0 ? -1.0f : 1.0f;
+    const std::complex<float> left = wave[kLeftFoot][h], right = wave[kRightFoot][h];
+    wave[kLeftFoot][h] = 0.5f * (left + half * right);
+    wave[kRightFoot][h] = half * wave[kLeftFoot][h];
+    // The hips go to the other side, the other foot is the higher one; the bounce is the same.
+    if (half > 0.0f)
+      wave[kSway][h] = wave[kHigherFoot][h] = 0.0f;
+    else
+      wave[kBounce][h] = 0.0f;
+  }
+}
+
+void StepPattern::bring_forward(double counts) {
+  for (Wave& of_sign : wave)
+    for (std::size_t h = 0; h < kHarmonics; ++h)
+      of_sign[h] *= std::complex<float>(
+          std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(h + 1) * counts / kCounts));
+}
+
+const StepPattern& salsa_steps() { return kSalsa; }
+
+}  // namespace dance
