@@ -61,6 +61,7 @@ constexpr std::array kCommands{
             "a recorded couple on avatars: do hands meet, do feet stand, at what cost"},
     Command{"rhythm eval",
             "remote dancers on the beat that the listener hears, on recorded dances"},
+    Command{"rhythm film", "a recorded couple over a line, shown in several ways side by side"},
     Command{"predict eval",
             "prediction on recorded dances: errors beside simple extrapolators, cost"},
     Command{"display eval", "extrapolation to the photon on recorded dances, beside holding"},
