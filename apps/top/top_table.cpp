@@ -65,7 +65,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
     Fingerprint fingerprint;
     std::string_view type;
   };
-  static const std::array<Known, 16> kKnown{{
+  static const std::array<Known, 17> kKnown{{
       {fingerprint_of(Pose()), "pose_t"},
       {fingerprint_of(Hands()), "hands_t"},
       {fingerprint_of(any_skeleton()), "skeleton_t"},
@@ -82,6 +82,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
       {fingerprint_of(GuestStats()), "guest_stats_t"},
       {fingerprint_of(GuestTraffic()), "guest_traffic_t"},
       {fingerprint_of(FlowSetting()), "flow_t"},
+      {fingerprint_of(Playout()), "playout_t"},
   }};
   if (message.size() < sizeof(Fingerprint)) return "";
   for (const Known& known : kKnown)
@@ -112,6 +113,10 @@ void TopTable::take(std::string_view name, std::span<const std::uint8_t> message
   if (parsed && parsed->signal() == Signal::kGuestStats) {
     if (FiguresRow it{{}, now}; read(message, it.stats))
       keep(figures_, parsed->guest().view(), it, kMaxPrograms);
+  }
+  if (parsed && parsed->signal() == Signal::kPlayout) {
+    if (PlayoutRow it{{}, now}; read(message, it.playout))
+      keep(playouts_, parsed->guest().view(), it, kMaxPrograms);
   }
   if (parsed && parsed->signal() == Signal::kFlow && parsed->where() == Where::kStage) {
     if (FlowRow it{{}, now}; read(message, it.setting))
@@ -192,12 +197,20 @@ void TopTable::append_flows(std::string& out) const {
   }
 }
 
+void TopTable::append_playouts(std::string& out) const {
+  const auto back = std::back_inserter(out);
+  if (!playouts_.empty()) out += "\nshown, and why\n";
+  for (const auto& [name, row] : playouts_)
+    fmt::format_to(back, "{:<25}{}\n", printable(name), playout_text(row.playout));
+}
+
 std::string TopTable::text(MonoTime now) {
   const double seconds = begin_.is_set() ? std::max((now - begin_).as_seconds(), 1e-3) : 1.0;
   std::string out;
   append_channels(out, now, seconds);
   append_styles(out);
   append_flows(out);
+  append_playouts(out);
   append_figures(out);
   append_programs(out, now);
   if (beyond_bounds_ > 0)
@@ -208,6 +221,7 @@ std::string TopTable::text(MonoTime now) {
   std::erase_if(styles_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(figures_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(flows_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  std::erase_if(playouts_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(programs_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   begin_ = now;
   return out;

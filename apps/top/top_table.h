@@ -56,6 +56,10 @@ class TopTable {
     FlowSetting setting;
     MonoTime last;
   };
+  struct PlayoutRow {
+    Playout playout;
+    MonoTime last;
+  };
   struct ProgramRow {
     Stats stats;
     MonoTime last;
@@ -66,13 +70,15 @@ class TopTable {
   void append_styles(std::string& out) const;
   void append_figures(std::string& out) const;
   void append_flows(std::string& out) const;
+  void append_playouts(std::string& out) const;
   void append_programs(std::string& out, MonoTime now) const;
 
   std::map<std::string, ChannelRow, std::less<>> channels_;
   std::map<std::string, ProgramRow, std::less<>> programs_;
-  std::map<std::string, StyleRow, std::less<>> styles_;     // by channel, at most kMaxPrograms
-  std::map<std::string, FiguresRow, std::less<>> figures_;  // by guest, likewise
-  std::map<std::string, FlowRow, std::less<>> flows_;       // by guest, likewise
+  std::map<std::string, StyleRow, std::less<>> styles_;      // by channel, at most kMaxPrograms
+  std::map<std::string, FiguresRow, std::less<>> figures_;   // by guest, likewise
+  std::map<std::string, FlowRow, std::less<>> flows_;        // by guest, likewise
+  std::map<std::string, PlayoutRow, std::less<>> playouts_;  // by guest, likewise
   std::uint64_t beyond_bounds_ = 0;
   MonoTime begin_;
 };

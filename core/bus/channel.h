@@ -33,6 +33,7 @@ enum class Signal : std::uint8_t {
   kGuestStats,
   kGuestTraffic,
   kFlow,
+  kPlayout,
 };
 
 // Where on its journey the signal is.
@@ -86,7 +87,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 29> kChannelTable{{
+constexpr std::array<ChannelRow, 30> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -115,6 +116,7 @@ constexpr std::array<ChannelRow, 29> kChannelTable{{
     {Signal::kGuestTraffic, Where::kGuest, "GUEST_TRAFFIC/guest/<guest>", "guest_traffic_t"},
     {Signal::kFlow, Where::kCapture, "FLOW/capture/<guest>", "flow_t"},
     {Signal::kFlow, Where::kStage, "FLOW/stage/<guest>", "flow_t"},
+    {Signal::kPlayout, Where::kStage, "PLAYOUT/stage/<guest>", "playout_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 

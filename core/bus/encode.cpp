@@ -10,6 +10,7 @@
 #include <dancelcm/hands_t.hpp>
 #include <dancelcm/music_t.hpp>
 #include <dancelcm/placement_t.hpp>
+#include <dancelcm/playout_t.hpp>
 #include <dancelcm/pose_t.hpp>
 #include <dancelcm/scene_t.hpp>
 #include <dancelcm/skeleton_t.hpp>
@@ -223,6 +224,17 @@ struct MessageFields<FlowSetting> {
   }
 };
 
+template <>
+struct MessageFields<Playout> {
+  using Generated = dancelcm::playout_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.reason, v.reason) && io(m.beats, v.beats) &&
+           io(m.delay_ms, v.delay_ms) && io(m.ahead_ms, v.ahead_ms) && io(m.error_mm, v.error_mm) &&
+           io(m.limit_mm, v.limit_mm) && io(m.partner_share, v.partner_share) &&
+           io(m.partner, v.partner);
+  }
+};
+
 template struct MessageRow<Pose, Signal::kPose>;
 template struct MessageRow<Hands, Signal::kHands>;
 template struct MessageRow<TimedSkeleton, Signal::kSkeleton>;
@@ -239,6 +251,7 @@ template struct MessageRow<Beat, Signal::kBeat>;
 template struct MessageRow<GuestStats, Signal::kGuestStats>;
 template struct MessageRow<GuestTraffic, Signal::kGuestTraffic>;
 template struct MessageRow<FlowSetting, Signal::kFlow>;
+template struct MessageRow<Playout, Signal::kPlayout>;
 
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
   dancelcm::pose_t m{};

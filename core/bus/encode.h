@@ -20,6 +20,7 @@
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
 #include "core/pose/flow_setting.h"
+#include "core/pose/playout.h"
 #include "core/pose/pose.h"
 
 namespace dance {
@@ -76,6 +77,8 @@ template <>
 struct MessageTraits<GuestTraffic> : MessageRow<GuestTraffic, Signal::kGuestTraffic> {};
 template <>
 struct MessageTraits<FlowSetting> : MessageRow<FlowSetting, Signal::kFlow> {};
+template <>
+struct MessageTraits<Playout> : MessageRow<Playout, Signal::kPlayout> {};
 
 // A type with a row in the table.
 template <class T>

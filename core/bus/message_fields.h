@@ -52,6 +52,12 @@ struct PutFields {
     field = static_cast<Field>(value);
     return true;
   }
+  template <class Field, class Value>
+  requires std::is_enum_v<Value>
+  bool operator()(Field& field, Value value) const {
+    field = static_cast<Field>(value);
+    return true;
+  }
   bool operator()(float (&xyzw)[4], const Eigen::Quaternionf& q) const {
     for (int i = 0; i < 4; ++i) xyzw[i] = q.coeffs()[i];
     return true;
@@ -93,6 +99,12 @@ struct GetFields {
       value = field != 0;
     else
       value = static_cast<Value>(field);
+    return true;
+  }
+  template <class Field, class Value>
+  requires std::is_enum_v<Value>
+  bool operator()(Field field, Value& value) const {
+    value = static_cast<Value>(field);
     return true;
   }
   bool operator()(const float (&xyzw)[4], Eigen::Quaternionf& q) const {

@@ -108,6 +108,19 @@ FlowSetting golden_flow() {
   return flow;
 }
 
+Playout golden_playout() {
+  auto playout = stamped<Playout>();
+  playout.reason = PlayoutReason::kGoodEnough;
+  playout.beats = 1.0f;
+  playout.delay_ms = 187.25f;
+  playout.ahead_ms = -12.5f;
+  playout.error_mm = 58.5f;
+  playout.limit_mm = 60.0f;
+  playout.partner_share = 0.75f;
+  playout.partner = *GuestId::parse("alice");
+  return playout;
+}
+
 TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("music_t", golden_music());
   expect_golden("scene_t", golden_scene());
@@ -117,6 +130,7 @@ TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("placement_t", golden_placement());
   expect_golden("beat_t", golden_beat());
   expect_golden("flow_t", golden_flow());
+  expect_golden("playout_t", golden_playout());
 }
 
 TEST(GoldenState, SurvivesEverySingleBitFlip) {
@@ -128,6 +142,7 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Placement>("placement_t");
   expect_survives_bit_flips<Beat>("beat_t");
   expect_survives_bit_flips<FlowSetting>("flow_t");
+  expect_survives_bit_flips<Playout>("playout_t");
 }
 
 TEST(GoldenState, IsSmallEnoughForTheTunnel) {
@@ -215,6 +230,21 @@ TEST(DecodeState, CallsImpossibleFlowsInvalid) {
   EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.gain[6] = 4.1f; }), invalid);
   EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.guest_gain[0] = -0.1f; }), invalid);
   EXPECT_EQ(outcome_of(golden_flow(), [](F& f) { f.route = 100'000; }), invalid);
+}
+
+TEST(DecodeState, CallsImpossiblePlayoutsInvalid) {
+  const auto fine = Decoded::kFine, invalid = Decoded::kInvalid;
+  using P = Playout;
+  EXPECT_EQ(outcome_of(golden_playout(), [](P&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p = P(); }), fine);  // nothing is known
+  EXPECT_EQ(outcome_of(golden_playout(),
+                       [](P& p) { p.reason = static_cast<PlayoutReason>(kPlayoutReasons); }),
+            invalid);
+  EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p.reason = static_cast<PlayoutReason>(200); }),
+            invalid);
+  EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p.beats = 1e9f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p.partner_share = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p.partner_share = 1.5f; }), invalid);
 }
 
 TEST(DecodeState, CallsImpossibleBeatsInvalid) {
