@@ -98,6 +98,7 @@ class Flow {
 
  private:
   void correct(const PlayoutClock::Choice& choice, MonoTime now, bool continues_from_here);
+  void foresee_feet(MonoTime moment);
 
   std::unique_ptr<DancerTimeline> timeline_;
   std::unique_ptr<PlayoutClock> clock_;

@@ -50,7 +50,7 @@ std::shared_ptr<Learner> MotionSource::learner() const {
   return parts_.extrapolator ? parts_.extrapolator->learner() : nullptr;
 }
 
-bool MotionSource::begin_continuation(MonoTime moment, MonoTime now) {
+bool MotionSource::begin_continuation(MonoTime moment, MonoTime now, const PredictionLead& lead) {
   if (!reach_s_.is_settled())
     parts_.reach = Duration::seconds(reach_s_.advance(now, kReachPerSecond));
   else
@@ -64,29 +64,37 @@ bool MotionSource::begin_continuation(MonoTime moment, MonoTime now) {
   }
   const Duration after = moment - timeline_.newest().capture_time;
   Pose meets;
-  predict(moment, meets);
+  predict(moment, lead, meets);
   parts_.concealment->begin_with(timeline_, now, after, meets);
   return true;
 }
 
-void MotionSource::predict(MonoTime moment, Pose& out) const {
+void MotionSource::predict(MonoTime moment, const PredictionLead& lead, Pose& out) const {
   const Pose& newest = timeline_.newest();
   const Duration ahead = moment - newest.capture_time;
-  parts_.extrapolator->predict(newest.capture_time + std::min(ahead, parts_.reach), out);
+  const Duration reached = std::min(ahead, parts_.reach);
+  parts_.extrapolator->predict(newest.capture_time + reached, out);
+  if (!lead.is_none()) {
+    // Begun where the extrapolator saw the newest pose, which may be without an outlier of it.
+    Pose from, half;
+    parts_.extrapolator->predict(newest.capture_time, from);
+    parts_.extrapolator->predict(newest.capture_time + reached / 2, half);
+    add_lead(from, half, lead.at(reached), out);
+  }
   out.capture_time = moment;
   out.music_beats += beats_per_second(timeline_.poses()) * ahead.as_seconds();
   for (MonoTime& hop : out.hops)
     if (hop.is_set()) hop += ahead;
 }
 
-MotionSource::Kind MotionSource::at(MonoTime moment, Pose& out) {
+MotionSource::Kind MotionSource::at(MonoTime moment, Pose& out, const PredictionLead& lead) {
   const Pose& newest = timeline_.newest();
   if (moment <= newest.capture_time) {
     out = (parts_.is_final ? timeline_.at_for_good(moment) : timeline_.poses().at(moment))->pose;
     return Kind::kDanced;
   }
   if (predicts())
-    predict(moment, out);
+    predict(moment, lead, out);
   else
     out = newest;
   if (is_continuing()) {

@@ -14,6 +14,7 @@
 
 #include "transformers/conceal/concealment.h"
 #include "transformers/predict/extrapolator.h"
+#include "transformers/prediction_lead.h"
 #include "transformers/setting_slew.h"
 #include "transformers/timeline.h"
 
@@ -38,10 +39,11 @@ class MotionSource {
   void set_body();
   // Once a picture, before at(): whether the dance has to be continued from here on. Returns true
   // where it begins now: moments after the newest pose look otherwise than before.
-  bool begin_continuation(MonoTime moment, MonoTime now);
+  bool begin_continuation(MonoTime moment, MonoTime now, const PredictionLead& lead = {});
 
-  // The pose of a moment, past or to come. Nothing is smoothed from call to call.
-  Kind at(MonoTime moment, Pose& out);
+  // The pose of a moment, past or to come; predicted with that lead. Nothing is smoothed from call
+  // to call.
+  Kind at(MonoTime moment, Pose& out, const PredictionLead& lead = {});
   // Whether the next pose may change what at() says of a moment.
   bool is_open(MonoTime moment, Kind kind) const;
 
@@ -55,7 +57,7 @@ class MotionSource {
   std::shared_ptr<Learner> learner() const;
 
  private:
-  void predict(MonoTime moment, Pose& out) const;
+  void predict(MonoTime moment, const PredictionLead& lead, Pose& out) const;
 
   DancerTimeline& timeline_;
   Parts parts_;
