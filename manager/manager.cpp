@@ -143,6 +143,11 @@ void Manager::end_second(MonoTime now) {
                               });
   port_.publish(Channel::of_program(Signal::kStats, kProgram), stats(now));
   tell_settings(now, GuestId());
+  router_.tell_playouts(now, [&](const GuestId& guest, Playout playout) {
+    playout.time = now;
+    playout.clock_id = this_clock_id();
+    port_.publish(Where::kStage, guest, playout);
+  });
   repeat_skeletons(now);
   router_.evict_gone(now);
 }

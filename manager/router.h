@@ -55,6 +55,15 @@ class Router {
         if (is_shown(*instance, now)) say(instance->shown_as, instance->flow.setting());
   }
 
+  // tell(guest, playout): what is shown of each guest whose poses go through transformers.
+  template <class Tell>
+  void tell_playouts(MonoTime now, Tell tell) const {
+    for (const auto& state : routes_)
+      for (const auto& instance : state->instances)
+        if (!instance->flow.is_pass_through() && is_shown(*instance, now))
+          tell(instance->shown_as, instance->flow.playout(now));
+  }
+
   // What learns of the guests beside the pose path: called with each new one.
   using OnLearner = std::function<void(std::shared_ptr<Learner>)>;
   void on_learner(OnLearner on_learner) { on_learner_ = std::move(on_learner); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/motion/standing_odds.h"
 #include "transformers/predict/dance_predictor.h"
 
 namespace dance {
@@ -89,40 +90,54 @@ void Flow::set_dancers(const PartnerTracks* dancers) {
 }
 
 void Flow::correct(const PlayoutClock::Choice& choice, MonoTime now, bool continues_from_here) {
-  const auto asked = [&](MonoTime moment) { return clock_->asked_for(moment, *timeline_); };
+  const PredictionLead lead = clock_->lead();
   Pose is;
   // What is known by now has changed what the picture before should have been.
   if (has_shown_ && (continues_from_here || has_news_)) {
     const bool is_changed = is_shown_open_ || (continues_from_here && is_shown_repeated_);
-    if (is_changed) source_->at(asked(shown_moment_), is);
+    if (is_changed) source_->at(shown_moment_, is, lead);
     if (is_changed || (!corrects_from_now_ && !finish_->corrections().is_at_rest()))
       finish_->correct(corrects_from_now_ ? now : shown_at_, shown_, is_changed ? is : shown_);
   }
   if (has_shown_ && choice.instead_of.is_set()) {
     Pose was;
-    source_->at(asked(choice.instead_of), was);
-    source_->at(asked(choice.moment), is);
+    source_->at(choice.instead_of, was, lead);
+    source_->at(choice.moment, is, lead);
     finish_->correct(now, was, is);
   }
+}
+
+void Flow::foresee_feet(MonoTime moment) {
+  // As the odds were learned.
+  Pose before, there, after;
+  source_->at_alone(moment - kStandingOddsStep, before);
+  source_->at_alone(moment, there);
+  source_->at_alone(moment + kStandingOddsStep, after);
+  finish_->foresee(before, there, after, moment - timeline_->newest().capture_time);
 }
 
 bool Flow::sample(MonoTime now, Pose& out) {
   if (!timeline_ || timeline_->is_empty()) return false;
   const auto choice = clock_->choose(*timeline_, now, has_shown_ ? shown_capture_ : MonoTime());
-  const MonoTime asked = clock_->asked_for(choice.moment, *timeline_);
+  const PredictionLead lead = clock_->lead();
   source_->set_lag(now - choice.moment);
-  const bool continues_from_here = source_->begin_continuation(asked, now);
+  const bool continues_from_here = source_->begin_continuation(choice.moment, now, lead);
   if (finish_) correct(choice, now, continues_from_here);
-  const MotionSource::Kind kind = source_->at(asked, out);
+  const MotionSource::Kind kind = source_->at(choice.moment, out, lead);
   const bool is_repeated = kind == MotionSource::Kind::kRepeated;
   if (is_repeated || choice.stands ||
       (kind == MotionSource::Kind::kPredicted &&
-       asked > timeline_->newest().capture_time + source_->reach()))
+       choice.moment > timeline_->newest().capture_time + source_->reach()))
     ++starved_;
   if (finish_) {
-    is_shown_open_ = source_->is_open(asked, kind);
+    is_shown_open_ = source_->is_open(choice.moment, kind);
     is_shown_repeated_ = is_repeated;
     if (is_shown_open_ || is_shown_repeated_) shown_ = out;
+    // While corrections of what was predicted die away feet are held yet.
+    const bool goes_over =
+        kind == MotionSource::Kind::kDanced && !finish_->corrections().is_at_rest();
+    if (source_->predicts() && (kind == MotionSource::Kind::kPredicted || goes_over))
+      foresee_feet(choice.moment);
     finish_->apply(
         now, out, kind == MotionSource::Kind::kPredicted || kind == MotionSource::Kind::kContinued);
   }
@@ -138,6 +153,20 @@ bool Flow::sample(MonoTime now, Pose& out) {
 
 Duration Flow::longest_silence() const {
   return source_ && source_->conceals() ? Continuation::kLongest : Duration();
+}
+
+Playout Flow::playout(MonoTime now) const {
+  Playout playout;
+  if (!has_shown_) return playout;
+  const auto ms = [](Duration d) { return static_cast<float>(d.as_ms()); };
+  playout.delay_ms = ms(shown_at_ - shown_moment_);
+  playout.ahead_ms = ms(shown_moment_ - timeline_->newest().capture_time);
+  clock_->explain(*timeline_, now, playout);
+  if (const PartnerGuide* guide = source_->partner()) {
+    playout.partner = guide->partner().value_or(GuestId());
+    if (playout.partner.is_set()) playout.partner_share = guide->holds().trust();
+  }
+  return playout;
 }
 
 Flow::Counters Flow::counters() const {

@@ -25,6 +25,7 @@
 #include "core/base/result.h"
 #include "core/motion/finish.h"
 #include "core/pose/flow_setting.h"
+#include "core/pose/playout.h"
 #include "transformers/motion_source.h"
 #include "transformers/playout/playout_clock.h"
 #include "transformers/style/pose_filter.h"
@@ -95,12 +96,15 @@ class Flow {
   // any silence.
   Duration longest_silence() const;
   Counters counters() const;
+  // What was shown last, and why; its stamps are the caller's.
+  Playout playout(MonoTime now) const;
 
   const PlayoutClock* clock() const { return clock_.get(); }
   bool is_continuing() const { return source_ && source_->is_continuing(); }
 
  private:
   void correct(const PlayoutClock::Choice& choice, MonoTime now, bool continues_from_here);
+  void foresee_feet(MonoTime moment);
 
   std::unique_ptr<DancerTimeline> timeline_;
   std::unique_ptr<PlayoutClock> clock_;

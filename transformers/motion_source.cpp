@@ -55,7 +55,7 @@ std::shared_ptr<Learner> MotionSource::learner() const {
   return parts_.extrapolator ? parts_.extrapolator->learner() : nullptr;
 }
 
-bool MotionSource::begin_continuation(MonoTime moment, MonoTime now) {
+bool MotionSource::begin_continuation(MonoTime moment, MonoTime now, const PredictionLead& lead) {
   if (!reach_s_.is_settled())
     parts_.reach = Duration::seconds(reach_s_.advance(now, kReachPerSecond));
   else
@@ -69,7 +69,7 @@ bool MotionSource::begin_continuation(MonoTime moment, MonoTime now) {
   }
   const Duration after = moment - timeline_.newest().capture_time;
   Pose meets;
-  predict(moment, meets);
+  predict(moment, lead, true, meets);
   parts_.concealment->begin_with(timeline_, now, after, meets);
   return true;
 }
@@ -82,26 +82,42 @@ void MotionSource::set_lag(Duration lag) {
   if (parts_.partner) parts_.partner->set_lag(lag);
 }
 
-void MotionSource::predict(MonoTime moment, Pose& out) {
+void MotionSource::predict(MonoTime moment, const PredictionLead& lead, bool is_guided, Pose& out) {
   const Pose& newest = timeline_.newest();
   const Duration ahead = moment - newest.capture_time;
-  const MonoTime asked = newest.capture_time + std::min(ahead, parts_.reach);
-  parts_.extrapolator->predict(asked, out);
-  if (parts_.partner) parts_.partner->guide(asked, out);
+  const Duration reached = std::min(ahead, parts_.reach);
+  parts_.extrapolator->predict(newest.capture_time + reached, out);
+  if (!lead.is_none()) {
+    // Begun where the extrapolator saw the newest pose, which may be without an outlier of it.
+    Pose from, half;
+    parts_.extrapolator->predict(newest.capture_time, from);
+    parts_.extrapolator->predict(newest.capture_time + reached / 2, half);
+    add_lead(from, half, lead.at(reached), out);
+  }
+  if (is_guided && parts_.partner) parts_.partner->guide(newest.capture_time + reached, out);
   out.capture_time = moment;
   out.music_beats += beats_per_second(timeline_.poses()) * ahead.as_seconds();
   for (MonoTime& hop : out.hops)
     if (hop.is_set()) hop += ahead;
 }
 
-MotionSource::Kind MotionSource::at(MonoTime moment, Pose& out) {
+MotionSource::Kind MotionSource::at(MonoTime moment, Pose& out, const PredictionLead& lead) {
+  return at(moment, lead, true, out);
+}
+
+MotionSource::Kind MotionSource::at_alone(MonoTime moment, Pose& out) {
+  return at(moment, {}, false, out);
+}
+
+MotionSource::Kind MotionSource::at(MonoTime moment, const PredictionLead& lead, bool is_guided,
+                                    Pose& out) {
   const Pose& newest = timeline_.newest();
   if (moment <= newest.capture_time) {
     out = (parts_.is_final ? timeline_.at_for_good(moment) : timeline_.poses().at(moment))->pose;
     return Kind::kDanced;
   }
   if (predicts())
-    predict(moment, out);
+    predict(moment, lead, is_guided, out);
   else
     out = newest;
   if (is_continuing()) {

@@ -15,6 +15,7 @@
 #include "transformers/conceal/concealment.h"
 #include "transformers/partner/partner_guide.h"
 #include "transformers/predict/extrapolator.h"
+#include "transformers/prediction_lead.h"
 #include "transformers/setting_slew.h"
 #include "transformers/timeline.h"
 
@@ -45,10 +46,13 @@ class MotionSource {
   const PartnerGuide* partner() const { return parts_.partner.get(); }
   // Once a picture, before at(): whether the dance has to be continued from here on. Returns true
   // where it begins now: moments after the newest pose look otherwise than before.
-  bool begin_continuation(MonoTime moment, MonoTime now);
+  bool begin_continuation(MonoTime moment, MonoTime now, const PredictionLead& lead = {});
 
-  // The pose of a moment, past or to come. Nothing is smoothed from call to call.
-  Kind at(MonoTime moment, Pose& out);
+  // The pose of a moment, past or to come; predicted with that lead. Nothing is smoothed from call
+  // to call.
+  Kind at(MonoTime moment, Pose& out, const PredictionLead& lead = {});
+  // The same with neither lead nor partner, for what was learned of plain predictions.
+  Kind at_alone(MonoTime moment, Pose& out);
   // Whether the next pose may change what at() says of a moment.
   bool is_open(MonoTime moment, Kind kind) const;
 
@@ -62,7 +66,8 @@ class MotionSource {
   std::shared_ptr<Learner> learner() const;
 
  private:
-  void predict(MonoTime moment, Pose& out);
+  Kind at(MonoTime moment, const PredictionLead& lead, bool is_guided, Pose& out);
+  void predict(MonoTime moment, const PredictionLead& lead, bool is_guided, Pose& out);
 
   DancerTimeline& timeline_;
   Parts parts_;

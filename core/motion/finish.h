@@ -31,6 +31,11 @@ class Finish {
   // The poses that arrived, for foot lock to detect standing feet. Optional.
   void observe(const Pose& real, MonoTime now) { feet_.observe(real, now); }
 
+  // See FootLock::foresee(): before the apply() of that pose. Optional.
+  void foresee(const Pose& before, const Pose& there, const Pose& after, Duration ahead) {
+    feet_.foresee(before, there, after, ahead);
+  }
+
   // Once a frame. `is_predicted`: the pose was not danced so, or not yet.
   void apply(MonoTime now, Pose& pose, bool is_predicted) {
     corrections_.apply(now, pose);

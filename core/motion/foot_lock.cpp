@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/standing_odds.h"
+
 namespace dance {
 
 using Eigen::Quaternionf;
@@ -49,6 +51,7 @@ void FootLock::set_body(const Skeleton& skeleton) {
 void FootLock::clear() {
   feet_ = {};
   began_ = false;
+  is_foreseen_ = false;
   seen_at_ = MonoTime();
 }
 
@@ -63,8 +66,17 @@ void FootLock::observe(const Pose& real, MonoTime now) {
   forward_kinematics(skeleton_, real, frames);
   const Duration step = real.capture_time - seen_capture_;
   const auto seconds = static_cast<float>(step.as_seconds());
+  const bool is_first = !seen_at_.is_set();
   seen_capture_ = real.capture_time;
   seen_at_ = now;
+  // What arrived tells the floor; predicted feet may dip below it.
+  const float low_m = std::min(frames.position(kBalls[0]).y(), frames.position(kBalls[1]).y());
+  if (std::isfinite(low_m)) {
+    if (is_first || std::abs(low_m - floor_m_) > kElsewhere_m)
+      floor_m_ = low_m;
+    else if (step > Duration() && step <= kLongestStep)
+      follow_floor(low_m, seconds);
+  }
   for (std::size_t side = 0; side < 2; ++side) {
     Foot& foot = feet_[side];
     const Vector3f ball = frames.position(kBalls[side]);
@@ -81,7 +93,32 @@ void FootLock::observe(const Pose& real, MonoTime now) {
   }
 }
 
+void FootLock::foresee(const Pose& before, const Pose& there, const Pose& after, Duration ahead) {
+  std::array<BodyFrames, 3> frames;
+  forward_kinematics(skeleton_, before, frames[0]);
+  forward_kinematics(skeleton_, there, frames[1]);
+  forward_kinematics(skeleton_, after, frames[2]);
+  is_foreseen_ = began_;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Bone ball = kBalls[side];
+    feet_[side].odds = standing_log_odds(frames[0].position(ball), frames[1].position(ball),
+                                         frames[2].position(ball), floor_m_);
+    if (!std::isfinite(feet_[side].odds)) is_foreseen_ = false;
+  }
+  unsure_ = std::clamp(static_cast<float>(ahead.as_seconds() / settings_.unsure_from.as_seconds()),
+                       0.0f, 1.0f);
+}
+
+bool FootLock::should_hold_foreseen(const Foot& foot) const {
+  const Vector3f from = foot.locked ? foot.held : Vector3f(foot.raw + foot.shift.offset);
+  const float furthest_m = settings_.sure_furthest_m +
+                           unsure_ * (settings_.unsure_furthest_m - settings_.sure_furthest_m);
+  return foot.odds > (foot.locked ? settings_.release_odds : settings_.hold_odds) &&
+         (from - foot.raw).norm() < furthest_m;
+}
+
 bool FootLock::should_hold(const Foot& foot) const {
+  if (is_foreseen_) return should_hold_foreseen(foot);
   const bool is_seen = is_fresh();
   if (is_seen && foot.seen_standing)
     return (foot.seen - foot.raw).norm() <
@@ -113,7 +150,7 @@ void FootLock::follow(Foot& foot, const Vector3f& raw, float seconds, bool may_l
     foot.held += foot.glide * (kGlide_s * (1.0f - fade));
     foot.glide *= fade;
     // Where it really stands, slowly.
-    if (is_fresh() && foot.seen_standing)
+    if (!is_foreseen_ && is_fresh() && foot.seen_standing)
       foot.held += (foot.seen - foot.held) * (1.0f - std::exp(-seconds / kToSeen_s));
     foot.shift.offset = foot.held - raw;
     foot.shift.velocity = (foot.shift.offset - offset_before) / seconds;
@@ -170,7 +207,8 @@ bool FootLock::apply(MonoTime now, Pose& pose, bool may_lock) {
   time_ = now;
   const float low_m = std::min(balls[0].y(), balls[1].y());
   if (!goes_on) {
-    if (!began_ || std::abs(low_m - floor_m_) > kElsewhere_m) floor_m_ = low_m;
+    if (!seen_at_.is_set() && (!began_ || std::abs(low_m - floor_m_) > kElsewhere_m))
+      floor_m_ = low_m;
     for (std::size_t side = 0; side < 2; ++side) {
       Foot& foot = feet_[side];
       foot.raw = balls[side];
@@ -179,9 +217,10 @@ bool FootLock::apply(MonoTime now, Pose& pose, bool may_lock) {
       foot.locked = false;
     }
     began_ = true;
+    is_foreseen_ = false;
     return false;
   }
-  follow_floor(low_m, seconds);
+  if (!seen_at_.is_set()) follow_floor(low_m, seconds);
   bool is_moved = false;
   for (std::size_t side = 0; side < 2; ++side) {
     follow(feet_[side], balls[side], seconds, may_lock);
@@ -190,6 +229,7 @@ bool FootLock::apply(MonoTime now, Pose& pose, bool may_lock) {
     move_leg(kLegs[side], offset, pose, frames);
     is_moved = true;
   }
+  is_foreseen_ = false;
   return is_moved;
 }
 

@@ -37,6 +37,14 @@ class FootLock {
     float furthest_m = 0.12f;  // a foot that should be so far away is released
     // A foot that stood a moment ago is held until its predicted place is this far away.
     float lifts_beyond_m = 0.07f;
+    // Where it is foreseen which feet stand: a foot that stands more often than it slides is worth
+    // one that steps late, so that low odds do; and it may be further off what is predicted, the
+    // less sure that is.
+    float hold_odds = -1.7f;
+    float release_odds = -2.5f;
+    float sure_furthest_m = 0.2f;
+    float unsure_furthest_m = 0.35f;
+    Duration unsure_from = Duration::ms(200);
     Duration release_half_life = Duration::ms(60);
   };
 
@@ -47,6 +55,11 @@ class FootLock {
   // The poses that arrived: which feet stand, and where. Detection from predictions alone is less
   // reliable.
   void observe(const Pose& real, MonoTime now);
+
+  // Of the pose that is next to be shown, as far ahead of the newest that came: how it was and will
+  // be predicted kStandingOddsStep before, then, and after. With it feet stand where they will: they
+  // are held as long as it is likely enough that they stand, and take their step where it is not.
+  void foresee(const Pose& before, const Pose& there, const Pose& after, Duration ahead);
 
   // Moves the legs of `pose`, which is to be shown at `now`. With `may_lock` false nothing new is
   // held and feet are released; once the offset has decayed the pose is not changed. Returns
@@ -70,11 +83,13 @@ class FootLock {
     Eigen::Vector3f seen = Eigen::Vector3f::Zero();
     float seen_speed_m_s = 0.0f;
     bool seen_standing = false;
+    float odds = 0.0f;  // that it stands in the next pose
   };
 
   void follow_floor(float low_m, float seconds);
   void follow(Foot& foot, const Eigen::Vector3f& raw, float seconds, bool may_lock);
   bool should_hold(const Foot& foot) const;
+  bool should_hold_foreseen(const Foot& foot) const;
   bool is_fresh() const { return seen_at_.is_set() && time_ - seen_at_ < kFresh; }
   void move_leg(const Limb& leg, const Eigen::Vector3f& offset, Pose& pose, BodyFrames& frames);
 
@@ -84,6 +99,8 @@ class FootLock {
   float floor_m_ = 0.0f;  // of the balls
   MonoTime time_, seen_at_, seen_capture_;
   bool began_ = false;
+  bool is_foreseen_ = false;  // of the next pose
+  float unsure_ = 0.0f;       // and how far ahead it is: 0 … 1
 };
 
 }  // namespace dance

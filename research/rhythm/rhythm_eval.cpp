@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "research/predict/predict_takes.h"
 #include "testing/line/line_arrivals.h"
 #include "testing/motion/beat_phase.h"
 
@@ -208,6 +209,7 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const Be
   RhythmRun run;
   run.name = flow.name;
   const HeardMusic listener{music, 1.0 + options.tempo_offset_percent / 100.0};
+  Random random(options.seed);
   for (const BeatDance& dance : dances) {
     LossySpec spec;
     spec.delay = options.delay;
@@ -220,7 +222,9 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const Be
         options.every);
     const MonoTime middle = at_second(0.5 * static_cast<double>(dance.poses.size()) / options.hz);
     stall(arrivals, middle, options.stall);
+    // What is sent trembles; what is shown is judged against the dance without.
     BeatDance sent = dance;
+    if (options.noise_deg > 0.0) sent.poses = trembling(dance.poses, options.noise_deg, random);
     if (options.untagged)
       for (Pose& pose : sent.poses) pose.music_beats = kNoMusic;
     DANCE_TRY(Flow made, Flow::make(flow.through, flow.parts));

@@ -31,6 +31,7 @@ struct RhythmEvalOptions {
   Duration delay = Duration::ms(150);
   Duration jitter;
   double loss_percent = 0.0;
+  double noise_deg = 0.0;             // of the sensor, about each axis of each bone
   std::size_t every = 1;              // so many-th pose alone is sent
   Duration stall;                     // one, in the middle
   double tempo_offset_percent = 0.0;  // the listener's music against the sender's

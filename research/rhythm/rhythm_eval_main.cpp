@@ -130,6 +130,9 @@ int main(int argc, char** argv) {
   line.add("--loss", wishes.eval.loss_percent, "percent of poses that are lost").range(0.0, 90.0);
   line.add("--stall", wishes.stall, "once, in the middle, nothing comes for so long")
       .shows_default();
+  line.add("--noise", wishes.eval.noise_deg,
+           "degrees about each axis by which each bone trembles in each frame that is sent")
+      .range(0.0, 10.0);
   line.add("--tempo-offset", wishes.eval.tempo_offset_percent,
            "percent by which the listener's music is faster")
       .range(-20.0, 20.0);

@@ -91,6 +91,17 @@ TEST(TopTable, ShowsWhichTransformersAreUsed) {
   EXPECT_NE(row.find("auto"), std::string::npos) << row;
 }
 
+TEST(TopTable, SaysOfEachGuestWhatIsShownAndWhy) {
+  TopTable table;
+  Playout playout;
+  playout.reason = PlayoutReason::kAsked;
+  playout.beats = 1.0f;
+  playout.partner = *GuestId::parse("alice");
+  take(table, "PLAYOUT/stage/bob", playout, kBegin);
+  const std::string text = table.text(kBegin + Duration::s(1));
+  EXPECT_NE(text.find("1 beat behind, as asked; beside alice"), std::string::npos) << text;
+}
+
 TEST(TopTable, ProgramsAreShownFromTheirStatistics) {
   TopTable table;
   Stats stats;

@@ -407,6 +407,26 @@ std::vector<Pose> shown_beside(bool is_seen, const char* words) {
   return poses;
 }
 
+TEST(Router, TellsWhatIsShownOfGuestsAndWhy) {
+  Stage stage;
+  Router router({held("predict"), pass_through(Where::kCapture)}, kClock, stage);
+  router.take(Where::kCapture, guest("alice"), pose_of(0, at_ms(1)), at_ms(1));
+  for (std::uint32_t i = 0; i < 90; ++i) {
+    router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(10.0 * i)), at_ms(10.0 * i + 80.0));
+    router.tick(0, at_ms(10.0 * i + 80.0));
+  }
+  std::vector<std::pair<GuestId, Playout>> told;
+  router.tell_playouts(at_ms(980), [&](const GuestId& name, const Playout& playout) {
+    told.emplace_back(name, playout);
+  });
+  ASSERT_EQ(told.size(), 1u);  // of those whose poses go as they come there is nothing to tell
+  EXPECT_EQ(told[0].first, guest("bob"));
+  EXPECT_TRUE(is_valid(told[0].second));
+  EXPECT_EQ(told[0].second.reason, PlayoutReason::kNoRhythm);
+  EXPECT_NEAR(told[0].second.delay_ms, 0.0f, 1.0f);
+  EXPECT_NEAR(told[0].second.ahead_ms, 80.0f, 1.0f);
+}
+
 TEST(Router, PredictsGuestsBesideTheDancersOfThisHouse) {
   const auto alone = shown_beside(false, "predict"), beside = shown_beside(true, "predict");
   ASSERT_EQ(alone.size(), beside.size());

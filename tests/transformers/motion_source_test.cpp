@@ -71,6 +71,21 @@ TEST(MotionSource, PredictsUpToItsReachAndCarriesMusicAndStampsOn) {
   EXPECT_NEAR(out.p_WH_m.x(), 2.480f, 1e-4f) << "no further than its reach";
 }
 
+TEST(MotionSource, LeadsWhatIsPredictedAndNothingElse) {
+  PredictionLead lead;
+  lead.set_strength(1.0f);
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h) lead.set_gain(h, 1.5f);
+  MotionSource::Parts parts;
+  parts.extrapolator = std::make_unique<OnwardsInX>();
+  Dance dance(std::move(parts));
+  Pose out;
+  EXPECT_EQ(dance.source.at(at_ms(2170), out, lead), Kind::kDanced);
+  EXPECT_NEAR(out.p_WH_m.x(), 2.170f, 1e-4f);
+  EXPECT_EQ(dance.source.at(at_ms(2280), out, lead), Kind::kPredicted);
+  EXPECT_EQ(out.capture_time, at_ms(2280));
+  EXPECT_NEAR(out.p_WH_m.x(), 2.280f + 0.025f, 1e-3f) << "half of the lead is of the place";
+}
+
 TEST(MotionSource, SaysOfWhichMomentsTheNextPoseMayTellOtherwise) {
   Dance dance({});
   EXPECT_TRUE(dance.source.is_open(at_ms(2200), Kind::kPredicted));

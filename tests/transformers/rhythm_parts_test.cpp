@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/base/beat_clock.h"
 #include "core/base/random.h"
@@ -253,50 +254,121 @@ TEST(BeatOffset, KeepsTheBarWhereAskedTo) {
   EXPECT_GE(offset.value(), 0.4);
 }
 
-// One arm that swings: predictions that repeat the newest pose lag by their whole distance, those
-// that know are right.
-Pose swing(double s) {
+// One arm that swings once in four beats of 0.8 s.
+constexpr double kSwing_rad_s = 2.0 * std::numbers::pi / 3.2;
+constexpr Duration kSwingBeat = Duration::ms(800);
+
+double swing_rad(double s) { return 0.8 * std::sin(kSwing_rad_s * s); }
+
+Pose swing(double s, double angle_rad) {
   Pose pose;
   pose.capture_time = second(s);
   pose.clock_id = 1;
-  const auto angle = static_cast<float>(0.8 * std::sin(2.0 * s));
-  pose.R_PB[index_of(Bone::kLeftUpperArm)] =
-      Eigen::Quaternionf(Eigen::AngleAxisf(angle, Eigen::Vector3f::UnitZ()));
+  pose.R_PB[index_of(Bone::kLeftUpperArm)] = Eigen::Quaternionf(
+      Eigen::AngleAxisf(static_cast<float>(angle_rad), Eigen::Vector3f::UnitZ()));
   return pose;
 }
 
-// What predictions of a dancer who knows `lag_share` of the way too little are worth.
-PredictionMeter measured(double lag_share) {
+// What predictions are worth that go `share` of the way: those of none repeat the newest pose,
+// those of all know the dance.
+PredictionMeter measured(double share, Duration beat = kSwingBeat) {
   PredictionMeter meter;
   PoseHistory history(512);
-  for (int i = 0; i < 1800; ++i) {
+  for (int i = 0; i < 3600; ++i) {
     const double s = i / 60.0;
-    history.push(swing(s));
-    meter.learn(history);
-    if (i % 4 != 0) continue;
-    const double ahead = meter.next_horizon().as_seconds();
-    meter.note(swing(s + (1.0 - lag_share) * ahead), second(s + ahead));
+    history.push(swing(s, swing_rad(s)));
+    meter.learn(history, beat);
+    if (i % 2 != 0) continue;
+    const double then = s + meter.next_horizon().as_seconds();
+    const double angle = swing_rad(s) + share * (swing_rad(then) - swing_rad(s));
+    meter.note(swing(s, swing_rad(s)), swing(then, angle), second(then));
   }
   return meter;
 }
 
 TEST(PredictionMeter, KnowsHowGoodPredictionsAre) {
   EXPECT_FALSE(PredictionMeter().is_known());
-  const PredictionMeter good = measured(0.0), bad = measured(1.0);
+  const PredictionMeter good = measured(1.0), bad = measured(0.0);
   ASSERT_TRUE(good.is_known());
-  EXPECT_LT(good.error_m(Duration::ms(300)), 0.001);
+  EXPECT_LT(good.error_m(Duration::ms(300)), 0.1 * bad.error_m(Duration::ms(300)));
   EXPECT_GE(good.reach(0.02), Duration::ms(400));
   EXPECT_GT(bad.error_m(Duration::ms(300)), 2.0 * bad.error_m(Duration::ms(100)));
   const Duration reach = bad.reach(bad.error_m(Duration::ms(150)));
   EXPECT_NEAR(reach.as_ms(), 150.0, 1.0);
 }
 
-TEST(PredictionMeter, LeadsByWhatPredictionsLag) {
-  EXPECT_NEAR(measured(0.0).lead(Duration::ms(200)).as_ms(), 200.0, 4.0);
-  // Of what it predicts a third is missing: 300 ms have to be asked for where 200 are to be seen.
-  EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration::ms(200)).as_ms(), 300.0, 20.0);
-  EXPECT_NEAR(measured(1.0 / 3.0).lead(Duration()).as_ms(), 0.0, 1e-6);
-  EXPECT_EQ(PredictionMeter().lead(Duration::ms(120)), Duration::ms(120)) << "unknown: as asked";
+TEST(PredictionMeter, LengthensWaysByWhatIsMissingOfThem) {
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h) {
+    EXPECT_NEAR(measured(1.0).gain(h), 1.0f, 0.05f) << h;
+    EXPECT_NEAR(measured(0.8).gain(h), 1.25f, 0.05f) << h;
+    EXPECT_EQ(PredictionMeter().gain(h), PredictionLead::usual_gain(h)) << "nothing is known";
+    EXPECT_EQ(measured(0.8, Duration()).gain(h), PredictionLead::usual_gain(h)) << "no music";
+    EXPECT_LE(measured(0.2).gain(h), 1.7f) << "bounded";
+  }
+}
+
+Pose with_arm(float rad, float x_m) {
+  Pose pose;
+  pose.R_PB[index_of(Bone::kLeftUpperArm)] =
+      Eigen::Quaternionf(Eigen::AngleAxisf(rad, Eigen::Vector3f::UnitZ()));
+  pose.R_PB[index_of(Bone::kLeftUpperLeg)] = pose.R_PB[index_of(Bone::kLeftUpperArm)];
+  pose.p_WH_m.x() = x_m;
+  return pose;
+}
+
+float turn_rad(const Pose& pose, Bone bone) {
+  return Eigen::AngleAxisf(pose.R_PB[index_of(bone)]).angle();
+}
+
+TEST(PredictionLead, LeavesSteadyMotionAsItIsWhereWaysAreRight) {
+  PredictionLead lead;
+  EXPECT_TRUE(lead.is_none());
+  lead.set_strength(1.0f);
+  EXPECT_FALSE(lead.is_none());
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h) lead.set_gain(h, 1.0f);
+  for (const int ms : {0, 50, 200, 300, 500, 900}) {
+    Pose whole = with_arm(0.4f, 0.2f);
+    add_lead(with_arm(0.0f, 0.0f), with_arm(0.2f, 0.1f), lead.at(Duration::ms(ms)), whole);
+    EXPECT_NEAR(turn_rad(whole, Bone::kLeftUpperArm), 0.4f, 1e-3f) << ms;
+    EXPECT_NEAR(whole.p_WH_m.x(), 0.2f, 1e-4f) << ms;
+  }
+}
+
+TEST(PredictionLead, LengthensWaysOfLegsAndPlaceByHalfAndNoneBeyondItsBound) {
+  PredictionLead lead;
+  lead.set_strength(1.0f);
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h) lead.set_gain(h, 1.5f);
+  Pose whole = with_arm(0.4f, 0.1f);
+  add_lead(with_arm(0.0f, 0.0f), with_arm(0.2f, 0.05f), lead.at(Duration::ms(200)), whole);
+  EXPECT_NEAR(turn_rad(whole, Bone::kLeftUpperArm), 0.6f, 1e-3f);
+  EXPECT_NEAR(turn_rad(whole, Bone::kLeftUpperLeg), 0.5f, 1e-3f);
+  EXPECT_NEAR(whole.p_WH_m.x(), 0.125f, 1e-3f);
+  // What shrank on its second half is shown as the first half went.
+  whole = with_arm(0.3f, 0.1f);
+  add_lead(with_arm(0.0f, 0.0f), with_arm(0.2f, 0.1f), lead.at(Duration::ms(200)), whole);
+  EXPECT_GT(turn_rad(whole, Bone::kLeftUpperArm), 1.5f * 0.3f + 0.05f);
+  whole = with_arm(2.5f, 3.0f);
+  add_lead(with_arm(0.0f, 0.0f), with_arm(-1.5f, -3.0f), lead.at(Duration::ms(200)), whole);
+  EXPECT_LT(std::abs(turn_rad(whole, Bone::kLeftUpperArm) - 2.5f), 0.41f);
+  EXPECT_LT(std::abs(whole.p_WH_m.x() - 3.0f), 0.08f);
+}
+
+TEST(PredictionLead, GrowsFromNothingWithTheDistance) {
+  PredictionLead lead;
+  lead.set_strength(1.0f);
+  float before = 1.0f;
+  for (int ms = 0; ms <= 200; ms += 10) {
+    const auto shares = lead.at(Duration::ms(ms));
+    const float sum = shares.of_half + shares.of_whole;
+    EXPECT_GE(sum, before - 1e-6f) << ms;
+    EXPECT_LT(sum, before + 0.05f) << ms;
+    before = sum;
+  }
+  EXPECT_EQ(lead.at(Duration()).of_half + lead.at(Duration()).of_whole, 1.0f);
+  EXPECT_EQ(lead.at(Duration::ms(600)).of_half, 0.0f);
+  lead.set_strength(0.0f);
+  EXPECT_EQ(lead.at(Duration::ms(200)).of_half, 0.0f);
+  EXPECT_EQ(lead.at(Duration::ms(200)).of_whole, 1.0f);
 }
 
 // 30 poses a second; pictures between the newest two, whose way is not known before the next one

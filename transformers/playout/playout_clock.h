@@ -9,6 +9,7 @@
 
 #include "core/base/time.h"
 #include "core/pose/flow_setting.h"
+#include "core/pose/playout.h"
 #include "transformers/motion_source.h"
 #include "transformers/timeline.h"
 
@@ -36,10 +37,11 @@ class PlayoutClock {
   // Once a picture. `shown`: the moment of the picture before; not set where there is none, or none
   // that this moment is bound to.
   virtual Choice choose(const DancerTimeline& timeline, MonoTime now, MonoTime shown) = 0;
-  // For which moment to ask the source, so that what it answers looks like `moment`.
-  virtual MonoTime asked_for(MonoTime moment, const DancerTimeline& /*timeline*/) const {
-    return moment;
-  }
+  // With which lead to ask the source for it.
+  virtual PredictionLead lead() const { return {}; }
+  // Why this moment; out of rhythm there is nothing to say.
+  virtual void explain(const DancerTimeline& /*timeline*/, MonoTime /*now*/,
+                       Playout& /*playout*/) const {}
   // Musical time and the like of the pose that is shown.
   virtual void tag(MonoTime /*moment*/, Pose& /*pose*/) const {}
 };

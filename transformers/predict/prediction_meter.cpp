@@ -5,11 +5,13 @@
 namespace dance {
 namespace {
 
-constexpr double kForget = 0.98;  // per prediction of one distance: some twenty seconds
+constexpr double kForget = 0.99;  // per prediction of one distance: some twenty seconds
 constexpr double kEnoughPredictions = 8.0;
-constexpr Duration kStep = Duration::ms(17);
-// No prediction is worth more than this much beyond what is wanted.
-constexpr double kMostLead = 2.0;
+// Predictions of one distance that the usual gain counts for.
+constexpr double kBeforehand = 15.0;
+constexpr double kLeastGain = 0.9, kMostGain = 1.7;
+// A wave of four beats turns by pi / 2 a beat.
+constexpr double kTurn = 1.5707963;
 
 double between(double a, double b, double fraction) { return a + (b - a) * fraction; }
 
@@ -30,45 +32,79 @@ void PredictionMeter::body_positions(const Pose& pose,
   p_HB_m = frames.p_WB_m;
 }
 
-void PredictionMeter::note(const Pose& pose, MonoTime moment) {
+PredictionLead PredictionMeter::measured_lead() {
+  PredictionLead lead;
+  lead.set_strength(1.0f);
+  for (std::size_t h = 0; h < kHorizons.size(); ++h) lead.set_gain(h, 1.0f);
+  return lead;
+}
+
+void PredictionMeter::note(const Pose& newest, const Pose& pose, MonoTime moment) {
   Prediction& prediction = predictions_[write_++ % predictions_.size()];
   prediction.moment = moment;
   prediction.horizon = next_;
   prediction.waits = true;
-  body_positions(pose, prediction.p_HB_m);
+  body_positions(newest, prediction.from);
+  body_positions(pose, prediction.to);
   next_ = (next_ + 1) % kHorizons.size();
 }
 
-void PredictionMeter::learn(const PoseHistory& history) {
+void PredictionMeter::learn(const PoseHistory& history, Duration beat) {
   if (history.size() < 4) return;
   for (Prediction& prediction : predictions_) {
-    if (!prediction.waits || prediction.moment + kStep > history.newest().capture_time) continue;
+    if (!prediction.waits || prediction.moment + beat > history.newest().capture_time) continue;
     prediction.waits = false;
     const auto truth = history.at(prediction.moment);
-    const auto before = history.at(prediction.moment - kStep),
-               after = history.at(prediction.moment + kStep);
     // What fell into a gap of the line has no truth to be compared with.
     if (truth->how == PoseHistory::How::kHeldFirst || truth->how == PoseHistory::How::kHeldLast)
       continue;
-    std::array<Eigen::Vector3f, kBoneCount> is, was, will;
-    body_positions(truth->pose, is);
-    body_positions(before->pose, was);
-    body_positions(after->pose, will);
-    double error_m = 0.0, against = 0.0, speed2 = 0.0;
-    for (std::size_t b = 1; b < kBoneCount; ++b) {
-      const Eigen::Vector3f off = prediction.p_HB_m[b] - is[b];
-      const Eigen::Vector3f velocity =
-          (will[b] - was[b]) / static_cast<float>(2.0 * kStep.as_seconds());
-      error_m += static_cast<double>(off.norm());
-      against -= static_cast<double>(off.dot(velocity));
-      speed2 += static_cast<double>(velocity.squaredNorm());
-    }
     Score& score = scores_[prediction.horizon];
+    const float longer = gain(prediction.horizon);
+    Places is;
+    body_positions(truth->pose, is);
+    double error_m = 0.0;
+    for (std::size_t b = 1; b < kBoneCount; ++b) {
+      const Eigen::Vector3f way = prediction.to[b] - prediction.from[b];
+      error_m += static_cast<double>((prediction.from[b] + longer * way - is[b]).norm());
+    }
     score.weight = kForget * score.weight + 1.0;
     score.error_m = kForget * score.error_m + error_m / (kBoneCount - 1);
-    score.against = kForget * score.against + against;
-    score.speed2 = kForget * score.speed2 + speed2;
+    if (beat > Duration()) learn_wave(history, prediction, is, beat);
   }
+}
+
+void PredictionMeter::learn_wave(const PoseHistory& history, const Prediction& prediction,
+                                 const Places& is, Duration beat) {
+  // From a beat before to a beat after, half the four-count, is where its wave goes; of waves twice
+  // as fast nothing is left. What is predicted and what was danced should go along with it alike.
+  Places was, will;
+  body_positions(history.at(prediction.moment - beat)->pose, was);
+  body_positions(history.at(prediction.moment + beat)->pose, will);
+  double danced = 0.0, predicted = 0.0, wave2 = 0.0;
+  for (std::size_t b = 1; b < kBoneCount; ++b) {
+    const Eigen::Vector3f wave = 0.5f * (will[b] - was[b]);
+    danced += static_cast<double>((is[b] - prediction.from[b]).dot(wave));
+    predicted += static_cast<double>((prediction.to[b] - prediction.from[b]).dot(wave));
+    wave2 += static_cast<double>(wave.squaredNorm());
+  }
+  const double ahead_beats = kHorizons[prediction.horizon].as_seconds() / beat.as_seconds();
+  Score& score = scores_[prediction.horizon];
+  score.danced = kForget * score.danced + danced;
+  score.predicted = kForget * score.predicted + predicted;
+  score.wave2 = kForget * score.wave2 + wave2 * std::min(1.0, kTurn * ahead_beats);
+  score.waves = kForget * score.waves + 1.0;
+}
+
+float PredictionMeter::gain(std::size_t horizon) const {
+  const Score& score = scores_[horizon];
+  const auto usual = static_cast<double>(PredictionLead::usual_gain(horizon));
+  if (score.waves <= 0.0) return PredictionLead::usual_gain(horizon);
+  // What is expected beforehand counts like some predictions that turned out so.
+  const double beforehand = kBeforehand * score.wave2 / score.waves;
+  const double predicted = score.predicted + beforehand;
+  if (predicted <= 0.1 * beforehand) return static_cast<float>(usual);
+  return static_cast<float>(
+      std::clamp((score.danced + usual * beforehand) / predicted, kLeastGain, kMostGain));
 }
 
 bool PredictionMeter::is_known() const {
@@ -103,29 +139,6 @@ Duration PredictionMeter::reach(double most_error_m) const {
     before_m = here_m;
   }
   return reach;
-}
-
-double PredictionMeter::lag_s(std::size_t horizon) const {
-  const Score& score = scores_[horizon];
-  if (score.weight < kEnoughPredictions || score.speed2 <= 1e-9) return 0.0;
-  return std::clamp(score.against / score.speed2, 0.0, 0.9 * kHorizons[horizon].as_seconds());
-}
-
-Duration PredictionMeter::lead(Duration ahead) const {
-  // Predicting h ahead shows h - lag(h): the h that shows `ahead`.
-  const double wanted_s = ahead.as_seconds();
-  double before_h_s = 0.0, before_shown_s = 0.0;
-  for (std::size_t i = 0; i < kHorizons.size(); ++i) {
-    const double h_s = kHorizons[i].as_seconds();
-    const double shown_s = std::max(before_shown_s + 1e-3, h_s - lag_s(i));
-    if (wanted_s <= shown_s) {
-      const double fraction = (wanted_s - before_shown_s) / (shown_s - before_shown_s);
-      return Duration::seconds(std::min(kMostLead * wanted_s, between(before_h_s, h_s, fraction)));
-    }
-    before_h_s = h_s;
-    before_shown_s = shown_s;
-  }
-  return Duration::seconds(std::min(kMostLead * wanted_s, wanted_s + before_h_s - before_shown_s));
 }
 
 }  // namespace dance

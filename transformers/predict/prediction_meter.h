@@ -15,14 +15,13 @@
 #include "core/base/time.h"
 #include "core/pose/history.h"
 #include "core/pose/kinematics.h"
+#include "transformers/prediction_lead.h"
 
 namespace dance {
 
 class PredictionMeter {
  public:
-  static constexpr std::array<Duration, 6> kHorizons{Duration::ms(60),  Duration::ms(120),
-                                                     Duration::ms(180), Duration::ms(240),
-                                                     Duration::ms(320), Duration::ms(400)};
+  static constexpr auto& kHorizons = PredictionLead::kHorizons;
 
   PredictionMeter() : skeleton_(average_skeleton()) {}
   void set_body(const Skeleton& skeleton) { skeleton_ = skeleton; }
@@ -30,9 +29,11 @@ class PredictionMeter {
 
   // Which distance is to be predicted next; nothing waits to be asked more often than that.
   Duration next_horizon() const { return kHorizons[next_]; }
-  void note(const Pose& pose, MonoTime moment);
-  // Compares what has become known.
-  void learn(const PoseHistory& history);
+  // It was predicted from `newest`, with measured_lead().
+  void note(const Pose& newest, const Pose& prediction, MonoTime moment);
+  static PredictionLead measured_lead();
+  // Compares what has become known. `beat`: of the music that is danced to; 0 where there is none.
+  void learn(const PoseHistory& history, Duration beat);
 
   bool is_known() const;
   // Mean error of a prediction so far ahead.
@@ -40,27 +41,30 @@ class PredictionMeter {
   // The farthest distance whose predictions are not worse than that; nothing is known beyond the
   // last horizon.
   Duration reach(double most_error_m) const;
-  // How far to predict so that what is seen is `ahead` ahead: predictions lag, as they shrink
-  // towards the mean.
-  Duration lead(Duration ahead) const;
+  // By how much ways of that horizon are to be lengthened, so that the wave of the four-count in
+  // them is neither late nor early.
+  float gain(std::size_t horizon) const;
 
  private:
+  using Places = std::array<Eigen::Vector3f, kBoneCount>;  // p_HB_m, the hips not turned
   struct Prediction {
     MonoTime moment;
     std::size_t horizon = 0;
-    std::array<Eigen::Vector3f, kBoneCount> p_HB_m;
+    Places from, to;  // the newest pose then, and the prediction
     bool waits = false;
   };
   struct Score {
     double weight = 0.0, error_m = 0.0;  // decayed sums
-    double against = 0.0, speed2 = 0.0;  // error along the motion, and the motion's own square
+    // Along the wave of the four-count: the way that was danced, the one predicted, and the wave.
+    double danced = 0.0, predicted = 0.0, wave2 = 0.0, waves = 0.0;
   };
 
-  void body_positions(const Pose& pose, std::array<Eigen::Vector3f, kBoneCount>& p_HB_m) const;
-  double lag_s(std::size_t horizon) const;
+  void learn_wave(const PoseHistory& history, const Prediction& prediction, const Places& is,
+                  Duration beat);
+  void body_positions(const Pose& pose, Places& p_HB_m) const;
 
   Skeleton skeleton_;
-  std::array<Prediction, 16> predictions_{};
+  std::array<Prediction, 64> predictions_{};
   std::size_t write_ = 0, next_ = 0;
   std::array<Score, kHorizons.size()> scores_{};
 };

@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kPosesPerProbe = 4;
+constexpr std::uint32_t kPosesPerProbe = 2;
 constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
 // Before predictions of this dancer have been measured: in the first half minute of one whom no
@@ -17,12 +17,12 @@ constexpr double kSlack_beats = 0.1;
 // Nobody is asked for further ahead of what they dance now than this; musics that drift apart may
 // add the slack.
 constexpr double kMostAhead_beats = 0.05;
-// Of the lag of predictions so much is taken back: the further one reaches, the less sure it is.
-constexpr double kLeadShare = 0.4;
 constexpr Duration kSpare = Duration::ms(60);
 // Of a strength that is changed while dancing.
 constexpr double kStrengthPerSecond = 0.5;
 constexpr double kMostPaceChange = 0.1;
+// Of the lead, where the dance comes to be in time, or is no longer.
+constexpr double kLeadPerSecond = 1.0;
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
 constexpr Duration kJumpInTime = Duration::ms(300);
 constexpr Duration kJumpFree = Duration::s(1);
@@ -56,7 +56,12 @@ void RhythmClock::observe(const DancerTimeline& timeline, MotionSource& source) 
   if (free_running_) free_running_->observe(timeline, source);
   play_out_.add(timeline.gap(), timeline.transit());
   take_tag(timeline);
-  predictions_.learn(timeline.poses());
+  const double beats_per_second = in_time_ ? dance_.beats_per_second() : 0.0;
+  predictions_.learn(timeline.poses(), beats_per_second > 0.0
+                                           ? Duration::seconds(1.0 / beats_per_second)
+                                           : Duration());
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h)
+    lead_.set_gain(h, predictions_.gain(h));
   if (++observed_ % kPosesPerProbe == 0) measure_predictions(timeline, source);
 }
 
@@ -88,8 +93,8 @@ void RhythmClock::measure_predictions(const DancerTimeline& timeline, MotionSour
   if (!free_running_) return;
   const MonoTime moment = timeline.newest().capture_time + predictions_.next_horizon();
   Pose prediction;
-  source.at(moment, prediction);
-  predictions_.note(prediction, moment);
+  source.at(moment, prediction, PredictionMeter::measured_lead());
+  predictions_.note(timeline.newest(), prediction, moment);
 }
 
 void RhythmClock::set_body(const Skeleton& skeleton) {
@@ -110,7 +115,7 @@ void RhythmClock::choose_offset(const BeatClock& music, MonoTime now) {
   if (options_.beats < 0.0)
     reach = predictions_.is_known() ? predictions_.reach(options_.most_error_m) : kUnknownReach;
   BeatOffset::Wish wish;
-  wish.slack_beats = options_.beats > 0.0 ? 0.0 : kSlack_beats;
+  wish.slack_beats = options_.beats < 0.0 ? kSlack_beats : 0.0;
   wish.beats = options_.beats;
   wish.count = options_.count;
   // Who asks for no delay at all gets predictions however far they have to reach.
@@ -147,6 +152,8 @@ PlayoutClock::Choice RhythmClock::choose(const DancerTimeline& timeline, MonoTim
                                          MonoTime /*shown*/) {
   double pace = 1.0;
   const MonoTime wanted = wanted_moment(timeline, now, pace);
+  lead_strength_.want(in_time_ ? strength_.value() : 0.0);
+  lead_.set_strength(static_cast<float>(lead_strength_.advance(now, kLeadPerSecond)));
   const MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
   const Duration most = in_time_ ? kJumpInTime : kJumpFree;
@@ -155,12 +162,27 @@ PlayoutClock::Choice RhythmClock::choose(const DancerTimeline& timeline, MonoTim
   return {wanted, moment, false};
 }
 
-MonoTime RhythmClock::asked_for(MonoTime moment, const DancerTimeline& timeline) const {
-  const Duration ahead = moment - timeline.newest().capture_time;
-  // Only who is to be on the beat is worth the scatter.
-  if (!in_time_ || ahead <= Duration()) return moment;
-  return moment + Duration::seconds(kLeadShare * strength_.value() *
-                                    (predictions_.lead(ahead) - ahead).as_seconds());
+void RhythmClock::explain(const DancerTimeline& timeline, MonoTime now, Playout& playout) const {
+  if (strength_.wanted() <= 0.0) return;
+  const BeatClock& music = timeline.music();
+  if (!in_time_) {
+    const bool has_music = music.is_known(now) && music.confidence() >= kLeastConfidence;
+    playout.reason = has_music ? PlayoutReason::kNoBeat : PlayoutReason::kNoMusic;
+    return;
+  }
+  playout.beats =
+      static_cast<float>(offset_.value() - (music.position(now) - dance_.position(now)));
+  const Duration late = play_out_.needed();
+  playout.limit_mm = static_cast<float>(1e3 * options_.most_error_m);
+  if (predictions_.is_known())
+    playout.error_mm = static_cast<float>(1e3 * predictions_.error_m(late));
+  if (options_.beats >= 0.0)
+    playout.reason = PlayoutReason::kAsked;
+  else if (!predictions_.is_known())
+    playout.reason = PlayoutReason::kNotMeasured;
+  else
+    playout.reason = predictions_.reach(options_.most_error_m) >= late ? PlayoutReason::kGoodEnough
+                                                                       : PlayoutReason::kTooFar;
 }
 
 void RhythmClock::tag(MonoTime moment, Pose& pose) const {

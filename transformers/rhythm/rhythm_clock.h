@@ -49,7 +49,8 @@ class RhythmClock : public PlayoutClock {
   void set_body(const Skeleton& skeleton) override;
   void set(const FlowSetting& setting) override;
   Choice choose(const DancerTimeline& timeline, MonoTime now, MonoTime shown) override;
-  MonoTime asked_for(MonoTime moment, const DancerTimeline& timeline) const override;
+  PredictionLead lead() const override { return lead_; }
+  void explain(const DancerTimeline& timeline, MonoTime now, Playout& playout) const override;
   void tag(MonoTime moment, Pose& pose) const override;
 
   // On the beat at present; and by how many beats behind the dancer.
@@ -73,6 +74,8 @@ class RhythmClock : public PlayoutClock {
   PredictionMeter predictions_;
   OwnBeat own_beat_;
   PlayHead head_;
+  PredictionLead lead_;
+  SettingSlew lead_strength_{0.0};
   std::uint32_t observed_ = 0, untagged_ = 0;
   bool in_time_ = false;
 };

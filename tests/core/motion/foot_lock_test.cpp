@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/motion/standing_odds.h"
 #include "testing/motion/motion_measures.h"
 #include "tests/allocation_guard.h"
 #include "tests/core/pose/random_pose.h"
@@ -121,6 +122,89 @@ TEST(FootLock, LeavesFeetThatMoveAndFeetInTheAirAlone) {
   }
   EXPECT_FALSE(lock.is_locked(0));
   EXPECT_TRUE(lock.is_locked(1));
+}
+
+TEST(StandingOdds, AreHighOfAFootThatRestsOnTheFloorAndLowOfOneThatStepsOrFloats) {
+  const Eigen::Vector3f at(0.1f, 0.02f, 0.3f);
+  const auto odds = [&](float came_m, float goes_m, float above_m) {
+    const Eigen::Vector3f there = at + Eigen::Vector3f(0.0f, above_m, 0.0f);
+    return standing_log_odds(there - Eigen::Vector3f(came_m, 0.0f, 0.0f), there,
+                             there + Eigen::Vector3f(0.0f, 0.0f, goes_m), at.y());
+  };
+  EXPECT_GT(odds(0.0f, 0.0f, 0.0f), 2.0f);
+  // At 1.5 m/s; one that lands is not as far from standing.
+  EXPECT_LT(odds(0.1f, 0.1f, 0.03f), -2.5f);
+  EXPECT_GT(odds(0.1f, 0.0f, 0.0f), odds(0.1f, 0.1f, 0.0f));
+  EXPECT_LT(odds(0.0f, 0.0f, 0.15f), -2.0f);
+}
+
+// The prediction skates at a speed at which no foot is taken to stand.
+TEST(FootLock, HoldsFeetAsLongAsTheyAreForeseenToStand) {
+  for (const bool foresees : {false, true}) {
+    FootLock lock;
+    Eigen::Vector3f held = Eigen::Vector3f::Zero();
+    float furthest_m = 0.0f;
+    for (int i = 0; i < 90; ++i) {
+      Pose pose = crouching(0.3f * static_cast<float>(i) / 60.0f);
+      // From frame 50 on it is foreseen to step.
+      const float step_m = i < 50 ? 0.0f : 0.2f;
+      if (foresees)
+        lock.foresee(crouching(-step_m), crouching(0.0f), crouching(step_m), Duration::ms(200));
+      const Pose raw = pose;
+      lock.apply(frame_at(i), pose);
+      if (i == 20) held = ball(pose);
+      if (i > 20 && i < 40) furthest_m = std::max(furthest_m, (ball(pose) - held).norm());
+      if (i == 89) {
+        EXPECT_LT((ball(pose) - ball(raw)).norm(), 0.01f) << "goes back to the dance";
+      }
+    }
+    if (foresees) {
+      EXPECT_LT(furthest_m, 0.01f);
+    } else {
+      EXPECT_GT(furthest_m, 0.05f);
+    }
+  }
+}
+
+TEST(FootLock, WhatIsForeseenIsOfOnePictureAlone) {
+  FootLock lock;
+  const Pose stands = crouching(0.0f);
+  for (int i = 0; i < 10; ++i) {
+    lock.foresee(stands, stands, stands, Duration::ms(200));
+    Pose pose = crouching(0.6f * static_cast<float>(i) / 60.0f);
+    lock.apply(frame_at(i), pose);
+  }
+  EXPECT_TRUE(lock.is_locked(0));
+  Pose pose = crouching(0.1f);
+  lock.apply(frame_at(10), pose);
+  EXPECT_FALSE(lock.is_locked(0));
+}
+
+TEST(FootLock, LeavesNoFootBehindHoweverLikelyItStands) {
+  FootLock lock;
+  const Pose stands = crouching(0.0f);
+  for (int i = 0; i < 120; ++i) {
+    lock.foresee(stands, stands, stands, Duration::ms(i % 2 ? 20 : 200));
+    Pose pose = crouching(2.0f * static_cast<float>(i) / 60.0f);
+    const Pose raw = pose;
+    lock.apply(frame_at(i), pose);
+    EXPECT_LT((ball(pose) - ball(raw)).norm(), 0.4f) << i;
+  }
+}
+
+TEST(FootLock, TheFloorIsThatOfPosesThatCame) {
+  FootLock lock;
+  for (int i = 0; i < 120; ++i) {
+    Pose real = crouching(0.0f);
+    real.capture_time = frame_at(i);
+    lock.observe(real, frame_at(i));
+    // Predictions that sink into it, and come back.
+    Pose pose = crouching(0.0f, i < 60 ? -0.2f : 0.0f);
+    const Pose there = pose;
+    lock.foresee(there, there, there, Duration::ms(100));
+    lock.apply(frame_at(i), pose);
+  }
+  EXPECT_TRUE(lock.is_locked(0) && lock.is_locked(1));
 }
 
 TEST(FootLock, NeverStretchesALegBeyondItsReach) {
