@@ -44,10 +44,10 @@ std::string playout_text(const Playout& playout) {
   switch (playout.reason) {
     case PlayoutReason::kNoRhythm:
       break;
-    case PlayoutReason::kNoMusic:
+    case PlayoutReason::kMusicMissing:
       text += ": no music is heard here";
       break;
-    case PlayoutReason::kNoBeat:
+    case PlayoutReason::kBeatUnknown:
       text += ": the dancer's beat is not known";
       break;
     case PlayoutReason::kAsked:

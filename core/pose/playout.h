@@ -17,8 +17,8 @@ namespace dance {
 
 enum class PlayoutReason : std::uint8_t {
   kNoRhythm,
-  kNoMusic,
-  kNoBeat,  // of the dancer
+  kMusicMissing,
+  kBeatUnknown,  // of the dancer
   kAsked,
   kGoodEnough,  // predictions, for what has not arrived
   kTooFar,      // for predictions

@@ -177,6 +177,18 @@ RhythmScore score_of(const BeatDance& dance, const Shown& shown, const HeardMusi
   score.least_rate = rates.least;
   score.most_rate = rates.most;
   score.jumps = static_cast<double>(rates.jumps.size());
+  for (const std::size_t jump : rates.jumps) {
+    const auto joints_at = [&](MonoTime moment) {
+      const double frame = std::round(second_of(moment) * options.hz);
+      return all.world[static_cast<std::size_t>(
+          std::clamp(frame, 0.0, static_cast<double>(all.size() - 1)))];
+    };
+    const auto before = joints_at(shown.poses[jump - 1].capture_time);
+    const auto after = joints_at(shown.poses[jump].capture_time);
+    for (std::size_t b = 0; b < kBoneCount; ++b)
+      score.jump_mm += static_cast<double>((after[b] - before[b]).norm()) * 1e3 /
+                       static_cast<double>(kBoneCount * rates.jumps.size());
+  }
   return score;
 }
 
@@ -197,8 +209,10 @@ RhythmScore mean_of(const std::vector<RhythmScore>& scores) {
     mean.least_rate = std::min(mean.least_rate, s.least_rate);
     mean.most_rate = std::max(mean.most_rate, s.most_rate);
     mean.jumps += share * s.jumps;
+    mean.jump_mm += share * s.jumps * s.jump_mm;
   }
   mean.phase_sd_ms = std::sqrt(phase_square);
+  if (mean.jumps > 0.0) mean.jump_mm /= mean.jumps;
   return mean;
 }
 

@@ -47,7 +47,8 @@ struct RhythmScore {
   double mpjpe_mm = 0.0;  // against the dance as it is danced at that moment
   double jerk_ratio = 0.0, foot_slide_ratio = 0.0, bone_length_error_mm = 0.0;
   double least_rate = 0.0, most_rate = 0.0;
-  double jumps = 0.0;  // changes of the moment by more than a rate can explain
+  double jumps = 0.0;    // changes of the moment by more than a rate can explain
+  double jump_mm = 0.0;  // mean distance of the joints in W across them, in the dance
 };
 
 struct RhythmRun {

@@ -15,9 +15,9 @@ std::string score_line(const std::string& name, const RhythmScore& s) {
   return fmt::format(
       "{:<34} {:>+8.1f} {:>7.1f} {:>6.0f}% {:>8.0f} {:>7.1f} {:>6.2f} {:>6.2f} {:>5.2f} to "
       "{:<5.2f} "
-      "{:>5.1f}\n",
+      "{:>5.1f} {:>7.0f}\n",
       name, s.phase_mean_ms, s.phase_sd_ms, 100.0 * s.phase_told, s.content_delay_ms, s.mpjpe_mm,
-      s.jerk_ratio, s.foot_slide_ratio, s.least_rate, s.most_rate, s.jumps);
+      s.jerk_ratio, s.foot_slide_ratio, s.least_rate, s.most_rate, s.jumps, s.jump_mm);
 }
 
 Json score_json(const RhythmScore& s) {
@@ -31,16 +31,17 @@ Json score_json(const RhythmScore& s) {
           {"bone_length_error_mm", rounded(s.bone_length_error_mm, 1e4)},
           {"least_play_rate", rounded(s.least_rate, 1000.0)},
           {"most_play_rate", rounded(s.most_rate, 1000.0)},
-          {"jumps", rounded(s.jumps, 100.0)}};
+          {"jumps", rounded(s.jumps, 100.0)},
+          {"jump_mm", rounded(s.jump_mm, 10.0)}};
 }
 
 }  // namespace
 
 std::string rhythm_eval_table(const std::vector<BeatDance>& dances,
                               const std::vector<RhythmRun>& runs, bool each) {
-  std::string text =
-      fmt::format("{:<34} {:>8} {:>7} {:>7} {:>8} {:>7} {:>6} {:>6} {:>14} {:>5}\n", "", "off beat",
-                  "sd ms", "told", "delay ms", "mm", "jerk", "feet", "play rate", "jumps");
+  std::string text = fmt::format(
+      "{:<34} {:>8} {:>7} {:>7} {:>8} {:>7} {:>6} {:>6} {:>14} {:>5} {:>7}\n", "", "off beat",
+      "sd ms", "told", "delay ms", "mm", "jerk", "feet", "play rate", "jumps", "jump mm");
   for (const RhythmRun& run : runs) {
     text += score_line(run.name, run.mean);
     if (!each) continue;

@@ -181,6 +181,35 @@ TEST(BeatOffset, TakesMoreDelayWhereTheLineNeedsItAndGivesItBackLater) {
   EXPECT_DOUBLE_EQ(offset.value(), 1.0);
 }
 
+TEST(BeatOffset, WaitsForAMomentWhenTheJumpIsSmall) {
+  BeatOffset offset;
+  offset.update(wish(-1.0, 0.2), 0.0, second(0));
+  // The dance is like itself a beat later for a moment only.
+  const auto jump_at = [](double s) {
+    return [s](double) { return s > 6.0 && s < 6.1 ? 0.04 : 0.6; };
+  };
+  double s = 0.0;
+  for (; s < 6.0; s += 0.02)
+    EXPECT_FALSE(offset.update(wish(-1.0, -0.4), 0.0, second(s), jump_at(s))) << s;
+  for (; s < 6.1; s += 0.02) offset.update(wish(-1.0, -0.4), 0.0, second(s), jump_at(s));
+  EXPECT_DOUBLE_EQ(offset.value(), 0.0);
+}
+
+TEST(BeatOffset, WaitsForASmallJumpNoLongerThanItMust) {
+  const auto far = [](double) { return 10.0; };
+  BeatOffset offset;
+  offset.update(wish(-1.0, 0.2), 0.0, second(0));
+  double s = 0.0;
+  for (; offset.value() > 0.5 && s < 60.0; s += 0.02)
+    offset.update(wish(-1.0, -0.4), 0.0, second(s), far);
+  EXPECT_NEAR(s, 12.0, 0.1);
+  // More delay is needed sooner.
+  const double since = s;
+  for (; offset.value() < 0.5 && s < 60.0; s += 0.02)
+    offset.update(wish(-1.0, 0.5), 0.0, second(s), far);
+  EXPECT_NEAR(s - since, 1.15, 0.1);
+}
+
 TEST(BeatOffset, BearsALittleMoreThanItBeganWith) {
   BeatOffset offset;
   BeatOffset::Wish line = wish(-1.0, -0.01);

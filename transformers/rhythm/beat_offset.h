@@ -1,6 +1,7 @@
 // BeatOffset: by how many beats the stage plays behind the dancer: the whole number (or multiple of
 // `count`) that keeps the dance on the listener's beat with the delay that is wished, or the least
-// that prediction can bridge. It changes rarely: each change is a jump in the dance.
+// that prediction can bridge. It changes rarely, as each change is a jump in the dance, and then
+// where the dance is most like itself so many beats later.
 //
 // Units/frames: beats of the listener's music. `difference` is where the listener's music stands
 //               minus where the dancer's stands at the same moment; offset - difference is the
@@ -31,8 +32,10 @@ class BeatOffset {
   double value() const { return value_; }
   void reset() { is_set_ = false; }
 
-  // Returns true where the offset has changed.
-  bool update(const Wish& wish, double difference, MonoTime now) {
+  // Returns true where the offset has changed. `jump_m(value)`: how far joints would jump from here
+  // to that offset: while the change can wait, it waits for a small jump.
+  template <class Jump>
+  bool update(const Wish& wish, double difference, MonoTime now, Jump jump_m) {
     const double best = best_of(wish, difference);
     if (!is_set_) {
       is_set_ = true;
@@ -46,18 +49,29 @@ class BeatOffset {
     wrong_ = wrong;
     const Duration hold = wrong == Wrong::kTooLow ? kRaiseAfter : lower_after_;
     if (wrong == Wrong::kNo || now - since_ < hold) return false;
+    const double target = wrong == Wrong::kTooHigh && wish.beats < 0.0
+                              ? above(wish, difference, wish.easy_beats)
+                              : best;
+    const Duration longest = wrong == Wrong::kTooLow ? kRaiseWithin : kLowerWithin;
+    const Duration waited = now - since_ - hold;
+    if (waited < longest) {
+      const double part = waited.as_seconds() / longest.as_seconds();
+      if (jump_m(target) > kUnseen_m + part * part * (kSeen_m - kUnseen_m)) return false;
+    }
     if (wrong == Wrong::kTooLow) {
       // On a line that is bad every so often, or with predictions that are, the next lowering would
       // be as short.
       const bool was_short = lowered_.is_set() && now - lowered_ < kLongestHold;
       lower_after_ = was_short ? std::min(lower_after_ * 2, kLongestHold) : kLowerAfter;
-      value_ = best;
     } else {
       lowered_ = now;
-      value_ = wish.beats < 0.0 ? above(wish, difference, wish.easy_beats) : best;
     }
+    value_ = target;
     wrong_ = Wrong::kNo;
     return true;
+  }
+  bool update(const Wish& wish, double difference, MonoTime now) {
+    return update(wish, difference, now, [](double) { return 0.0; });
   }
 
  private:
@@ -65,6 +79,12 @@ class BeatOffset {
   static constexpr Duration kRaiseAfter = Duration::ms(150);
   static constexpr Duration kLowerAfter = Duration::s(4);
   static constexpr Duration kLongestHold = Duration::s(60);
+  // A change that is due waits so long at most for a moment when joints jump by little, and takes
+  // ever larger jumps: what is shown meanwhile is predicted further than it should be, or later than
+  // it need be.
+  static constexpr Duration kRaiseWithin = Duration::s(1);
+  static constexpr Duration kLowerWithin = Duration::s(8);
+  static constexpr double kUnseen_m = 0.05, kSeen_m = 0.35;
   // A wished delay is kept as long as what is shown is no further from it than this many counts:
   // half of one would flutter, and each change is a jump in the dance. With one whole the delay
   // would not come back after a bad minute.

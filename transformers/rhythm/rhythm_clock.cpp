@@ -27,6 +27,18 @@ constexpr double kLeadPerSecond = 1.0;
 constexpr Duration kJumpInTime = Duration::ms(300);
 constexpr Duration kJumpFree = Duration::s(1);
 
+// Mean distance of the joints in W between two moments; of one that has not come, as at the newest.
+double joints_apart_m(const DancerTimeline& timeline, MonoTime a, MonoTime b) {
+  const PoseHistory& poses = timeline.poses();
+  BodyFrames at_a, at_b;
+  forward_kinematics(timeline.body(), poses.at(a)->pose, at_a);
+  forward_kinematics(timeline.body(), poses.at(b)->pose, at_b);
+  double sum_m = 0.0;
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone)
+    sum_m += static_cast<double>((at_a.p_WB_m[bone] - at_b.p_WB_m[bone]).norm());
+  return sum_m / static_cast<double>(kBoneCount);
+}
+
 }  // namespace
 
 RhythmClock::RhythmClock(const RhythmOptions& options, std::unique_ptr<PlayoutClock> free_running)
@@ -107,7 +119,8 @@ MonoTime RhythmClock::free_moment(const DancerTimeline& timeline, MonoTime now) 
                        : now - play_out_.needed();
 }
 
-void RhythmClock::choose_offset(const BeatClock& music, MonoTime now) {
+void RhythmClock::choose_offset(const DancerTimeline& timeline, MonoTime now) {
+  const BeatClock& music = timeline.music();
   const double beats_per_second = dance_.beats_per_second();
   // Who asks for a beat of delay asks for the truth: it grows as soon as what is shown would have
   // to be predicted. A stall then finds as much behind the newest pose as can be.
@@ -125,7 +138,11 @@ void RhythmClock::choose_offset(const BeatClock& music, MonoTime now) {
     wish.least_beats = std::max(wish.least_beats, beyond.as_seconds() * beats_per_second);
     wish.easy_beats = std::max(wish.easy_beats, (beyond + kSpare).as_seconds() * beats_per_second);
   }
-  offset_.update(wish, music.position(now) - dance_.position(now), now);
+  const double heard = music.position(now);
+  const MonoTime here = dance_.time_of(heard - offset_.value());
+  offset_.update(wish, heard - dance_.position(now), now, [&](double value) {
+    return joints_apart_m(timeline, here, dance_.time_of(heard - value));
+  });
 }
 
 MonoTime RhythmClock::wanted_moment(const DancerTimeline& timeline, MonoTime now, double& pace) {
@@ -138,7 +155,7 @@ MonoTime RhythmClock::wanted_moment(const DancerTimeline& timeline, MonoTime now
     offset_.reset();
     return free;
   }
-  choose_offset(music, now);
+  choose_offset(timeline, now);
   const MonoTime on_beat = dance_.time_of(music.position(now) - offset_.value());
   // What has changed is walked to, at a pace that the play head follows.
   const double off_s = (on_beat - free).as_seconds();
@@ -167,7 +184,7 @@ void RhythmClock::explain(const DancerTimeline& timeline, MonoTime now, Playout&
   const BeatClock& music = timeline.music();
   if (!in_time_) {
     const bool has_music = music.is_known(now) && music.confidence() >= kLeastConfidence;
-    playout.reason = has_music ? PlayoutReason::kNoBeat : PlayoutReason::kNoMusic;
+    playout.reason = has_music ? PlayoutReason::kBeatUnknown : PlayoutReason::kMusicMissing;
     return;
   }
   playout.beats =

@@ -63,7 +63,7 @@ class RhythmClock : public PlayoutClock {
   // The moment to show without music, and with it; the pace at which the latter goes on.
   MonoTime free_moment(const DancerTimeline& timeline, MonoTime now);
   MonoTime wanted_moment(const DancerTimeline& timeline, MonoTime now, double& pace);
-  void choose_offset(const BeatClock& music, MonoTime now);
+  void choose_offset(const DancerTimeline& timeline, MonoTime now);
 
   RhythmOptions options_;
   SettingSlew strength_;

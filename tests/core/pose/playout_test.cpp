@@ -23,7 +23,7 @@ TEST(Playout, SaysInOneLineWhatIsShownAndWhy) {
             "now: predictions as far ahead as poses are late are 74 mm off, 60 are allowed");
   EXPECT_EQ(playout_text(known(PlayoutReason::kAsked, 2.0f)), "2 beats behind, as asked");
   EXPECT_EQ(playout_text(known(PlayoutReason::kAsked, 1.44f)), "1.4 beats behind, as asked");
-  EXPECT_EQ(playout_text(known(PlayoutReason::kNoMusic, Playout::kNotKnown)),
+  EXPECT_EQ(playout_text(known(PlayoutReason::kMusicMissing, Playout::kNotKnown)),
             "187 ms late: no music is heard here");
   EXPECT_EQ(playout_text(known(PlayoutReason::kNoRhythm, Playout::kNotKnown)), "187 ms late");
   EXPECT_EQ(playout_text(Playout()), "? ms late");
