@@ -132,6 +132,10 @@ void StageFeed::measure(const FeedOptions& options) {
       Where::kStage, [this](const Channel& channel, const FlowSetting& setting, MonoTime) {
         instruments_.on_flow(channel.guest(), setting);
       });
+  bus_->subscribe<Playout>(Where::kStage,
+                           [this](const Channel& channel, const Playout& playout, MonoTime) {
+                             instruments_.on_playout(channel.guest(), playout);
+                           });
   static constexpr Duration kLook = Duration::ms(100);
   poller_->add_timer(mono_now() + kLook, [this](MonoTime now) {
     publish_figures(now);

@@ -35,6 +35,9 @@ void InstrumentBoard::on_message(const Channel& channel, const void* data, std::
       if (channel.where() == Where::kStage)
         read<FlowSetting>(data, size, [&](auto& setting) { on_flow(guest, setting); });
       break;
+    case Signal::kPlayout:
+      read<Playout>(data, size, [&](auto& playout) { on_playout(guest, playout); });
+      break;
     default:
       break;
   }

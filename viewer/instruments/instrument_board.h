@@ -41,6 +41,9 @@ class InstrumentBoard {
     meter_.on_flow(guest, setting);
     flows_.push({guest, setting});
   }
+  void on_playout(const GuestId& guest, const Playout& playout) {
+    playouts_.push({guest, playout});
+  }
   // Of a recording: any message, as it was; `now` is of the recorded house's clock.
   void on_message(const Channel& channel, const void* data, std::size_t size, MonoTime now);
 
@@ -56,6 +59,7 @@ class InstrumentBoard {
 
   std::optional<OfGuest<GuestStats>> take_figures() { return figures_.pop(); }
   std::optional<OfGuest<FlowSetting>> take_flow() { return flows_.pop(); }
+  std::optional<OfGuest<Playout>> take_playout() { return playouts_.pop(); }
   void ask(const GuestId& guest, const FlowSetting& setting) {
     asked_flows_.push({guest, setting});
   }
@@ -66,6 +70,7 @@ class InstrumentBoard {
   MonoTime looked_;  // of a recording
   SpscRing<OfGuest<GuestStats>, 256> figures_;
   SpscRing<OfGuest<FlowSetting>, 256> flows_;
+  SpscRing<OfGuest<Playout>, 256> playouts_;
   SpscRing<OfGuest<FlowSetting>, 128> asked_flows_;
   SpscRing<OfGuest<Style>, 128> asked_styles_;
 };

@@ -82,7 +82,7 @@ struct InstrumentPanel::Layout {
     plots_left = table_right + 1.6f * em;
     right = has_plots ? frame.width_px - 2.0f * margin : table_right;
     legend = top;
-    const float head_rows = 2.0f;
+    const float head_rows = 3.0f;  // and the line of what is shown
     const float room_y = frame.height_px - 2.0f * top - head_rows * row - 3.4f * em;
     rows = std::min(guests, static_cast<std::size_t>(std::max(1.0f, room_y / row)));
     plots_height = has_plots ? std::min(frame.height_px - 4.0f * margin, 33.0f * em) : 0.0f;
@@ -173,11 +173,20 @@ void InstrumentPanel::draw_table(const PanelInk& ink, const Layout& layout) {
     draw_row(ink, layout, record, y);
     if (record.size() > 0) draw_latency_bar(ink, record.newest(), bar_box(y), scale_ms);
   }
+  const float below = layout.table + static_cast<float>(layout.rows) * layout.row;
+  if (const auto& playout = guests[chosen].playout) {
+    const std::string words =
+        std::string(guests[chosen].guest().view()) + " is shown " + playout_text(*playout);
+    const float y = below + (layout.rows == guests.size() ? 0.0f : layout.row);
+    ink.list().PushClipRect({layout.left, y}, {layout.table_right, y + layout.row}, true);
+    ink.left(layout.left, y, kBright, words.c_str());
+    ink.list().PopClipRect();
+  }
   if (layout.rows == guests.size()) return;
   char words[64];
   std::snprintf(words, sizeof words, "guests %zu to %zu of %zu; Tab goes on", first + 1,
                 first + layout.rows, guests.size());
-  ink.left(layout.left, layout.table + static_cast<float>(layout.rows) * layout.row, kDim, words);
+  ink.left(layout.left, below, kDim, words);
 }
 
 void InstrumentPanel::draw_plots(const PanelInk& ink, const Layout& layout) const {
@@ -219,7 +228,7 @@ void InstrumentPanel::draw(const PanelFrame& frame) {
   const bool is_cut = layout.rows < records_.guests().size();
   const float table_end =
       layout.table +
-      (static_cast<float>(std::max<std::size_t>(layout.rows, 1)) + (is_cut ? 1.0f : 0.0f)) *
+      (static_cast<float>(std::max<std::size_t>(layout.rows, 1)) + (is_cut ? 2.0f : 1.0f)) *
           layout.row;
   layout.bottom = std::max(table_end, layout.top + layout.plots_height) + layout.margin;
   ImGui::SetNextWindowPos({layout.margin, layout.margin});

@@ -31,6 +31,8 @@ void InstrumentRecords::take(InstrumentBoard& board) {
   }
   while (const auto news = board.take_flow())
     if (GuestRecord* record = record_of(news->guest)) record->flow = news->what;
+  while (const auto news = board.take_playout())
+    if (GuestRecord* record = record_of(news->guest)) record->playout = news->what;
   if (!newest.is_set()) return;
   std::erase_if(guests_, [&](const GuestRecord& record) {
     return record.size() > 0 && newest - record.newest().time > kForgotten;

@@ -30,6 +30,7 @@ class GuestRecord {
   void clear() { added_ = 0; }
 
   std::optional<FlowSetting> flow;
+  std::optional<Playout> playout;
 
  private:
   GuestId guest_;

@@ -128,6 +128,12 @@ TEST(InstrumentBoard, PassesWhatIsAskedForToTheBusThread) {
   ASSERT_TRUE(flow);
   EXPECT_EQ(flow->guest, guest_called("bob"));
   EXPECT_EQ(flow->what.lead, 0.25f);
+  Playout playout;
+  playout.reason = PlayoutReason::kAsked;
+  board.on_playout(guest_called("bob"), playout);
+  const auto told = board.take_playout();
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->what.reason, PlayoutReason::kAsked);
   EXPECT_FALSE(board.take_asked_flow());
   ASSERT_TRUE(board.take_asked_style());
 }
