@@ -28,9 +28,17 @@ void pass_through(benchmark::State& state) {
 }
 BENCHMARK(pass_through)->Name("stage: one pose in, one picture out/baseline");
 
-void stage(benchmark::State& state, const std::vector<std::string>& through) {
+void stage(benchmark::State& state, const std::vector<std::string>& through,
+           bool has_partner = false) {
   const std::vector<Pose> poses = salsa_poses();
   Flow flow = *Flow::make(through);
+  // The partner stands opposite, hands near the dancer's, and dances the same.
+  const GuestId here = *GuestId::parse("here");
+  PartnerTracks dancers;
+  if (has_partner) {
+    dancers.take(here, poses[0]);
+    flow.set_dancers(&dancers);
+  }
   Beat beat;
   beat.tempo_bpm = SalsaStyle().tempo_bpm;
   beat.confidence = 1.0f;
@@ -50,6 +58,13 @@ void stage(benchmark::State& state, const std::vector<std::string>& through) {
       beat.beat = pose.music_beats;
       flow.hear(beat);
     }
+    if (has_partner) {
+      Pose partner = pose;
+      const Eigen::Quaternionf about(0.0f, 0.0f, 1.0f, 0.0f);  // half a turn about the vertical
+      partner.R_PB[0] = about * pose.R_PB[0];
+      partner.p_WH_m = about * pose.p_WH_m + Eigen::Vector3f(0.0f, 0.0f, 0.7f);
+      dancers.take(here, partner);
+    }
     flow.observe(pose, now);
     flow.sample(now + Duration::ms(8), shown);
     benchmark::DoNotOptimize(shown);
@@ -66,6 +81,8 @@ BENCHMARK_CAPTURE(stage, predict_bridge, Words{"predict", "bridge"})
     ->Name("stage: one pose in, one picture out/predict, bridge");
 BENCHMARK_CAPTURE(stage, usual, Words{"predict", "bridge", "rhythm", "stylize"})
     ->Name("stage: one pose in, one picture out/predict, bridge, rhythm, stylize");
+BENCHMARK_CAPTURE(stage, beside_partner, Words{"predict", "bridge", "rhythm", "stylize"}, true)
+    ->Name("stage: one pose in, one picture out/the same beside a partner");
 
 }  // namespace
 }  // namespace dance
