@@ -56,6 +56,28 @@ TEST(OwnBeat, TellsTheMusicsBeatToWithinThirtyMillisecondsAndGoesOnEvenly) {
   EXPECT_GT(known, asked * 95 / 100);
 }
 
+TEST(OwnBeat, HearsStepsThroughASensorsNoise) {
+  Dancing salsa(160.0);
+  Random random(11);
+  OwnBeat own;
+  own.set_body(salsa.dancer->skeleton());
+  int known = 0, near = 0;
+  for (int i = 0; i < 30 * 60; ++i) {
+    Pose pose = salsa.at(i / 30.0);
+    for (auto& R : pose.R_PB) {
+      const auto noise = [&] { return static_cast<float>(random.uniform(-0.03, 0.03)); };
+      R = R * Eigen::Quaternionf(1.0f, noise(), noise(), noise()).normalized();
+    }
+    const auto told = own.observe(pose, pose.capture_time, 160.0);
+    if (i < 30 * 20 || !told) continue;
+    ++known;
+    const double off = *told - salsa.beats(i / 30.0);
+    near += std::abs(off - 4.0 * std::round(off / 4.0)) * 375.0 < 50.0 ? 1 : 0;
+  }
+  EXPECT_GT(known, 30 * 36);
+  EXPECT_GT(near, known * 9 / 10);
+}
+
 TEST(OwnBeat, StaysInTimeThroughASecondThatDidNotArrive) {
   Dancing salsa(176.0);
   OwnBeat own;
