@@ -13,6 +13,7 @@
 #include <complex>
 #include <optional>
 
+#include "transformers/rhythm/steady_count.h"
 #include "transformers/tempo/period.h"
 #include "transformers/tempo/step_pointer.h"
 
@@ -33,11 +34,11 @@ class OwnBeat {
   std::optional<double> by_period(MonoTime t, double music_bpm);
 
   Period period_;
-  // By the filter: what is told goes on evenly while the filter's word shifts.
+  // By the filter, evenly.
   StepSigns signs_;
   StepPointer pointer_;
-  double told_counts_ = 0.0;
-  MonoTime told_, seen_, sure_, looked_;
+  SteadyCount told_;
+  MonoTime told_at_, seen_, sure_, looked_;
   bool is_sure_ = false;
   double own_bpm_ = 0.0;  // steps that keep a pace of their own; 0: the music's
   // By the period alone.
