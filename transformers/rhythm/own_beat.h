@@ -2,8 +2,9 @@
 // salsa, a filter with a memory of some ten seconds tells the place in the bar through turns and
 // figures; other steps tell the beat where they are steady for seconds and can be music's at all.
 //
-// Units/frames: beats of the music that is danced to here; whole numbers are steps. Times of the
-//               poses' clock.
+// Units/frames: beats of the music that is danced to here; whole numbers are steps. Salsa's bars
+//               begin at multiples of four counts; of other steps it is not known where. Times of
+//               the poses' clock.
 // Ownership:    fixed arrays; never allocates.
 // Threads:      none inside; one owner.
 // Failure:      nothing where neither is sure, or the tempo is no simple ratio of the music's: such
