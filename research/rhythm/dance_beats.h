@@ -1,6 +1,6 @@
-// The beats that dancers danced to, found from their steps over a whole take: for evaluations, which
-// need a truth for takes that came without their music. A couple hears one music: both partners'
-// steps tell more than one's, and one partner's tell what the other's are judged by.
+// The beats that dancers danced to, found from their steps over a whole take: for evaluations,
+// which need a truth for takes that came without their music. A couple hears one music: both
+// partners' steps tell more than one's, and one's tell what the other's are judged by.
 //
 // Units/frames: seconds from the take's begin; beats from somewhere, whole bars of four are bars of
 //               the dance.

@@ -31,6 +31,26 @@ struct Dancing {
   std::optional<SalsaDancer> dancer;
 };
 
+TEST(SteadyCount, TakesTheEvenCountFromWordsThatWander) {
+  SteadyCount count;
+  Random random(4);
+  const double counts_per_s = 2.6;
+  // A percent off at first, and a fifth of a count.
+  count.begin(0.2, counts_per_s * 1.01);
+  double wander = 0.0, words = 0.0, told = 0.0;
+  for (int i = 1; i <= 600; ++i) {
+    wander += -0.03 * wander + random.uniform(-0.045, 0.045);
+    const double truth = 0.1 * i * counts_per_s;
+    count.go_on(0.1);
+    count.hear(truth + wander - count.counts());
+    if (i <= 200) continue;
+    words += wander * wander / 400.0;
+    told += (count.counts() - truth) * (count.counts() - truth) / 400.0;
+  }
+  EXPECT_NEAR(count.counts_per_s(), counts_per_s, 0.01 * counts_per_s);
+  EXPECT_LT(std::sqrt(told), 0.8 * std::sqrt(words));
+}
+
 TEST(OwnBeat, TellsTheMusicsBeatToWithinThirtyMillisecondsAndGoesOnEvenly) {
   Dancing salsa(160.0);
   OwnBeat own;
@@ -54,6 +74,28 @@ TEST(OwnBeat, TellsTheMusicsBeatToWithinThirtyMillisecondsAndGoesOnEvenly) {
     before = told;
   }
   EXPECT_GT(known, asked * 95 / 100);
+}
+
+TEST(OwnBeat, HearsStepsThroughASensorsNoise) {
+  Dancing salsa(160.0);
+  Random random(11);
+  OwnBeat own;
+  own.set_body(salsa.dancer->skeleton());
+  int known = 0, near = 0;
+  for (int i = 0; i < 30 * 60; ++i) {
+    Pose pose = salsa.at(i / 30.0);
+    for (auto& R : pose.R_PB) {
+      const auto noise = [&] { return static_cast<float>(random.uniform(-0.03, 0.03)); };
+      R = R * Eigen::Quaternionf(1.0f, noise(), noise(), noise()).normalized();
+    }
+    const auto told = own.observe(pose, pose.capture_time, 160.0);
+    if (i < 30 * 20 || !told) continue;
+    ++known;
+    const double off = *told - salsa.beats(i / 30.0);
+    near += std::abs(off - 4.0 * std::round(off / 4.0)) * 375.0 < 50.0 ? 1 : 0;
+  }
+  EXPECT_GT(known, 30 * 36);
+  EXPECT_GT(near, known * 9 / 10);
 }
 
 TEST(OwnBeat, StaysInTimeThroughASecondThatDidNotArrive) {

@@ -11,8 +11,7 @@ namespace {
 // longer: a figure hides the steps, the dancer goes on.
 constexpr float kSure = 0.9f, kNoLongerSure = 0.6f;
 constexpr Duration kGoesOn = Duration::s(1);
-// What it says a little differently is walked to; what is another place is jumped to.
-constexpr double kWalk_s = 0.5;
+// What it says a little differently is weighed; what is another place is jumped to.
 constexpr double kJump_counts = 0.5;
 // Steps are looked for at the music's tempo. Where the period hears them steady at another one, and
 // the filter has not been sure for a while, it looks for them there, as long as it finds them.
@@ -51,8 +50,8 @@ std::optional<double> OwnBeat::observe(const Pose& pose, MonoTime now, double mu
   if (period_.newest() != seen_) follow_steps(music_bpm);
   const std::optional<double> steady = by_period(pose.capture_time, music_bpm);
   if (!is_sure_) return steady;
-  const double since_s = (pose.capture_time - told_).as_seconds();
-  return (told_counts_ + pointer_.tempo_bpm() / 60.0 * since_s) / pointer_.counts_per_beat();
+  const double since_s = (pose.capture_time - told_at_).as_seconds();
+  return (told_.counts() + told_.counts_per_s() * since_s) / pointer_.counts_per_beat();
 }
 
 double OwnBeat::steps_bpm(double music_bpm, MonoTime t) {
@@ -89,14 +88,16 @@ void OwnBeat::follow_steps(double music_bpm) {
     const bool was_sure = is_sure_ && counts_per_beat == pointer_.counts_per_beat();
     is_sure_ = sure_ == t || (was_sure && t - sure_ < kGoesOn);
     if (!is_sure_) continue;
-    if (was_sure) told_counts_ += pointer_.tempo_bpm() / 60.0 * (t - told_).as_seconds();
-    told_ = t;
+    if (was_sure) told_.go_on((t - told_at_).as_seconds());
+    told_at_ = t;
     // A doubtful word is not listened to.
     if (was_sure && sure_ != t) continue;
-    double off = pointer_.counts(t) - told_counts_;
-    off -= 4.0 * std::round(off / 4.0);
-    const bool jumps = !was_sure || std::abs(off) > kJump_counts;
-    told_counts_ += jumps ? off : off * StepSigns::kSlot_s / kWalk_s;
+    double ahead = pointer_.counts(t) - told_.counts();
+    ahead -= 4.0 * std::round(ahead / 4.0);
+    if (!was_sure || std::abs(ahead) > kJump_counts)
+      told_.begin(told_.counts() + ahead, pointer_.tempo_bpm() / 60.0);
+    else
+      told_.hear(ahead);
   }
 }
 

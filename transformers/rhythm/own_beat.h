@@ -2,8 +2,9 @@
 // salsa, a filter with a memory of some ten seconds tells the place in the bar through turns and
 // figures; other steps tell the beat where they are steady for seconds and can be music's at all.
 //
-// Units/frames: beats of the music that is danced to here; whole numbers are steps. Times of the
-//               poses' clock.
+// Units/frames: beats of the music that is danced to here; whole numbers are steps. Salsa's bars
+//               begin at multiples of four counts; of other steps it is not known where. Times of
+//               the poses' clock.
 // Ownership:    fixed arrays; never allocates.
 // Threads:      none inside; one owner.
 // Failure:      nothing where neither is sure, or the tempo is no simple ratio of the music's: such
@@ -13,6 +14,7 @@
 #include <complex>
 #include <optional>
 
+#include "transformers/rhythm/steady_count.h"
 #include "transformers/tempo/period.h"
 #include "transformers/tempo/step_pointer.h"
 
@@ -33,11 +35,11 @@ class OwnBeat {
   std::optional<double> by_period(MonoTime t, double music_bpm);
 
   Period period_;
-  // By the filter: what is told goes on evenly while the filter's word shifts.
+  // By the filter, evenly.
   StepSigns signs_;
   StepPointer pointer_;
-  double told_counts_ = 0.0;
-  MonoTime told_, seen_, sure_, looked_;
+  SteadyCount told_;
+  MonoTime told_at_, seen_, sure_, looked_;
   bool is_sure_ = false;
   double own_bpm_ = 0.0;  // steps that keep a pace of their own; 0: the music's
   // By the period alone.

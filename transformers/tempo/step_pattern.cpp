@@ -11,20 +11,20 @@ using Wave = StepPattern::Wave;
 // Real and imaginary parts by turns, as `dance rhythm eval --learn-steps` prints them; the right
 // foot's is the left one's, half of the eight counts on.
 using Parts = std::array<float, 2 * StepPattern::kHarmonics>;
-constexpr Parts kFoot{-0.397f, 0.140f,  -0.123f, -0.029f, 0.293f, -0.874f, 0.009f,  0.257f,
-                      -0.112f, -0.072f, -0.060f, -0.111f, 0.017f, -0.010f, -0.016f, 0.011f,
-                      0.012f,  0.001f,  -0.014f, 0.006f,  0.003f, -0.008f, -0.001f, -0.002f};
-constexpr Parts kSway{0.032f,  0.171f,  0.0f, 0.0f, -1.044f, -0.040f, 0.0f, 0.0f,
-                      -0.011f, 0.120f,  0.0f, 0.0f, -0.118f, 0.033f,  0.0f, 0.0f,
-                      -0.049f, -0.040f, 0.0f, 0.0f, -0.024f, 0.019f,  0.0f, 0.0f};
-constexpr Parts kHigherFoot{-0.642f, 0.080f,  0.0f, 0.0f, 0.314f,  -0.828f, 0.0f, 0.0f,
-                            -0.080f, -0.143f, 0.0f, 0.0f, -0.005f, 0.027f,  0.0f, 0.0f,
-                            -0.002f, -0.011f, 0.0f, 0.0f, -0.010f, -0.001f, 0.0f, 0.0f};
-constexpr Parts kBounce{0.0f, 0.0f, -0.292f, -0.360f, 0.0f, 0.0f, 0.254f,  0.396f,
-                        0.0f, 0.0f, -0.032f, 0.277f,  0.0f, 0.0f, 0.033f,  0.110f,
-                        0.0f, 0.0f, -0.030f, -0.043f, 0.0f, 0.0f, -0.015f, 0.029f};
-constexpr std::array<float, StepPattern::kSigns> kSpread{0.529f, 0.529f, 0.672f, 0.616f, 0.904f};
-constexpr std::array<float, StepPattern::kSigns> kPower{1.101f, 1.101f, 1.249f, 1.231f, 1.170f};
+constexpr Parts kFoot{-0.423f, 0.128f,  -0.108f, -0.035f, 0.305f,  -0.885f, 0.018f,  0.238f,
+                      -0.107f, -0.078f, -0.042f, -0.078f, -0.002f, -0.013f, -0.003f, 0.011f,
+                      0.008f,  0.001f,  -0.012f, -0.001f, 0.007f,  -0.005f, 0.006f,  -0.005f};
+constexpr Parts kSway{0.030f,  0.195f,  0.0f, 0.0f, -1.061f, -0.029f, 0.0f, 0.0f,
+                      -0.018f, 0.122f,  0.0f, 0.0f, -0.100f, 0.033f,  0.0f, 0.0f,
+                      -0.037f, -0.028f, 0.0f, 0.0f, -0.015f, 0.015f,  0.0f, 0.0f};
+constexpr Parts kHigherFoot{-0.665f, 0.067f,  0.0f, 0.0f, 0.299f,  -0.799f, 0.0f, 0.0f,
+                            -0.071f, -0.124f, 0.0f, 0.0f, -0.007f, 0.020f,  0.0f, 0.0f,
+                            -0.002f, -0.012f, 0.0f, 0.0f, 0.0f,    0.0f,    0.0f, 0.0f};
+constexpr Parts kBounce{0.0f, 0.0f, -0.308f, -0.369f, 0.0f, 0.0f, 0.267f,  0.392f,
+                        0.0f, 0.0f, -0.020f, 0.272f,  0.0f, 0.0f, 0.044f,  0.095f,
+                        0.0f, 0.0f, -0.024f, -0.033f, 0.0f, 0.0f, -0.004f, 0.027f};
+constexpr std::array<float, StepPattern::kSigns> kSpread{0.538f, 0.538f, 0.676f, 0.650f, 0.902f};
+constexpr std::array<float, StepPattern::kSigns> kPower{1.121f, 1.121f, 1.273f, 1.248f, 1.174f};
 
 constexpr Wave wave_of(const Parts& parts, float odd = 1.0f) {
   Wave wave;

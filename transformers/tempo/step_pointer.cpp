@@ -13,8 +13,9 @@ constexpr float kMostEvidence = 20.0f;
 // Of a tempo against the music's: how far apart two rows are, and how far off it usually is.
 constexpr double kTempoStep = 0.01, kTempoSpread = 0.01;
 constexpr float kTempoChange = 0.02f;  // per slot, to each side
-// Dancers' tempo against the music's is learnt in so many seconds of being sure: two houses' musics,
-// or a band's, differ steadily by a percent or two, and a filter that does not expect it lags.
+// Dancers' tempo against the music's is learnt in so many seconds of being sure: two houses'
+// musics, or a band's, differ steadily by a percent or two, and a filter that does not expect it
+// lags.
 constexpr double kUsualTaken_s = 10.0;
 constexpr double kMostUsual = 0.03;
 // By how much dancers wander about their own count, squared, counts² a second.

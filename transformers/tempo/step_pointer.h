@@ -3,14 +3,14 @@
 // close to the music's (or half or double of it), and of no pattern at all. Its memory is what the
 // signs of some ten seconds have in common.
 //
-// Units/frames: counts, eight to the pattern, of what is stepped; tempos in BPM; times of the poses'
-//               clock.
+// Units/frames: counts, eight to the pattern, of what is stepped; tempos in BPM; times of the
+//               poses' clock.
 // Ownership:    fixed arrays (about 30 kB); never allocates.
 // Threads:      none inside; one owner.
 // Failure:      sureness() is low while nobody dances, or dances something else; counts() then
 //               means nothing.
-// Source:       the bar pointer model of beat tracking (Whiteley, Cemgil, Godsill, ISMIR 2006), with
-//               motion in place of onsets.
+// Source:       the bar pointer model of beat tracking (Whiteley, Cemgil, Godsill, ISMIR 2006),
+//               with motion in place of onsets.
 #pragma once
 
 #include <array>

@@ -17,48 +17,57 @@ constexpr double kLeastSeen_s = 0.05;
 // speed, the heights in metres, the bounce's speed.
 constexpr std::array<float, StepPattern::kSigns> kLeastVariance{1e-3f, 1e-3f, 1e-3f, 1e-5f, 1e-4f};
 
-float hips_m(const MotionFrame& frame) {
-  return frame.channel[1] + 0.5f * (frame.p_WFoot_m[0].y() + frame.p_WFoot_m[1].y());
+}  // namespace
+
+StepSigns::Places StepSigns::places_of(const MotionFrame& frame) {
+  Places places;
+  places.p_WFoot_m = frame.p_WFoot_m;
+  places.sway_m = frame.sway_m;
+  places.hips_m = frame.channel[1] + 0.5f * (frame.p_WFoot_m[0].y() + frame.p_WFoot_m[1].y());
+  return places;
 }
 
-}  // namespace
+void StepSigns::Places::add(const Places& other, float share) {
+  for (std::size_t side = 0; side < 2; ++side) p_WFoot_m[side] += share * other.p_WFoot_m[side];
+  sway_m += share * other.sway_m;
+  hips_m += share * other.hips_m;
+}
+
+void StepSigns::clear_sum() {
+  seen_s_ = 0.0;
+  sum_ = Places();
+}
 
 std::size_t StepSigns::add(const MotionFrame& frame) {
   count_ = 0;
-  const Duration since = frame.time - last_.time;
+  const Places places = places_of(frame);
+  const Duration since = frame.time - last_time_;
   has_begun_anew_ = !has_last_ || since <= Duration() || since > kLongestPause;
   if (has_begun_anew_) {
     forget();
     has_begun_anew_ = has_last_ = true;
-    last_ = frame;
+    last_ = places;
+    last_time_ = frame.time;
     slot_end_ = frame.time + kSlot;
     return 0;
   }
-  const double dt_s = since.as_seconds();
-  const auto dt = static_cast<float>(dt_s);
-  // Between two frames each sign is one value: a speed, or the mean of two places.
-  std::array<float, StepPattern::kSigns> now{};
-  for (std::size_t side = 0; side < 2; ++side)
-    now[StepPattern::kLeftFoot + side] = std::sqrt(
-        std::min(kFastestFoot_m_s, (frame.p_WFoot_m[side] - last_.p_WFoot_m[side]).norm() / dt));
-  now[StepPattern::kSway] = (frame.sway_m - last_.sway_m) / dt;
-  const auto higher_m = [](const MotionFrame& f) {
-    return f.p_WFoot_m[0].y() - f.p_WFoot_m[1].y();
-  };
-  now[StepPattern::kHigherFoot] = 0.5f * (higher_m(frame) + higher_m(last_));
-  now[StepPattern::kBounce] = (hips_m(frame) - hips_m(last_)) / dt;
-  for (MonoTime from = last_.time; from < frame.time;) {
+  const double since_s = since.as_seconds();
+  for (MonoTime from = last_time_; from < frame.time;) {
     const MonoTime to = std::min(frame.time, slot_end_);
-    if (dt_s <= kSeen_s) {
+    if (since_s <= kSeen_s) {
+      // Straight between two frames: the middle of the part that lies in this slot.
       const double part_s = (to - from).as_seconds();
+      const auto way =
+          static_cast<float>(((from - last_time_).as_seconds() + 0.5 * part_s) / since_s);
       seen_s_ += part_s;
-      for (std::size_t i = 0; i < StepPattern::kSigns; ++i)
-        sum_[i] += part_s * static_cast<double>(now[i]);
+      sum_.add(last_, static_cast<float>(part_s) * (1.0f - way));
+      sum_.add(places, static_cast<float>(part_s) * way);
     }
     if (to == slot_end_) finish_slot();
     from = to;
   }
-  last_ = frame;
+  last_ = places;
+  last_time_ = frame.time;
   return count_;
 }
 
@@ -66,44 +75,49 @@ void StepSigns::finish_slot() {
   Slot& slot = slots_[count_];
   if (count_ + 1 < kMostSlots) ++count_;
   slot = Slot();
-  slot.middle = slot_end_ - kSlot / 2;
-  slot.is_seen = seen_s_ >= kLeastSeen_s;
+  slot.middle = slot_end_ - kSlot;
   slot_end_ += kSlot;
-  if (slot.is_seen) {
-    ++finished_;
-    // The first slots are averaged, the later ones forget.
-    const double first = 1.0 / finished_;
-    const auto mean_share = static_cast<float>(std::max(kSlot_s / kMean_s, first));
-    const auto spread_share = static_cast<float>(std::max(kSlot_s / kSpread_s, first));
-    std::array<float, StepPattern::kSigns> value{};
-    for (std::size_t i = 0; i < StepPattern::kSigns; ++i)
-      value[i] = static_cast<float>(sum_[i] / seen_s_);
-    const auto take = [&](Spread& spread, float mean) {
-      spread.mean += mean_share * (mean - spread.mean);
-    };
-    for (std::size_t i = 0; i < StepPattern::kSigns; ++i) {
-      if (i == StepPattern::kRightFoot) continue;
-      Spread& spread = spread_[i];
-      float square = 0.0f;
-      if (i == StepPattern::kLeftFoot) {
-        // Both feet have one scale: which of them goes is what tells.
-        take(spread, 0.5f * (value[0] + value[1]));
-        const float left = value[0] - spread.mean, right = value[1] - spread.mean;
-        square = 0.5f * (left * left + right * right);
-      } else {
-        take(spread, value[i]);
-        square = (value[i] - spread.mean) * (value[i] - spread.mean);
-      }
-      spread.variance += spread_share * (square - spread.variance);
-    }
-    spread_[StepPattern::kRightFoot] = spread_[StepPattern::kLeftFoot];
-    for (std::size_t i = 0; i < StepPattern::kSigns; ++i)
-      slot.sign[i] = std::clamp(
-          (value[i] - spread_[i].mean) / std::sqrt(spread_[i].variance + kLeastVariance[i]),
-          -kMostSign, kMostSign);
+  const bool is_seen = seen_s_ >= kLeastSeen_s;
+  Places now;
+  if (is_seen) now.add(sum_, static_cast<float>(1.0 / seen_s_));
+  if (is_seen && has_before_) judge(now, slot);
+  has_before_ = is_seen;
+  before_ = now;
+  clear_sum();
+}
+
+void StepSigns::judge(const Places& now, Slot& slot) {
+  slot.is_seen = true;
+  ++judged_;
+  // The first slots are averaged, the later ones forget.
+  const double first = 1.0 / judged_;
+  const auto mean_share = static_cast<float>(std::max(kSlot_s / kMean_s, first));
+  const auto spread_share = static_cast<float>(std::max(kSlot_s / kSpread_s, first));
+  constexpr auto kSlot_hz = static_cast<float>(1.0 / kSlot_s);
+  std::array<float, StepPattern::kSigns> value{};
+  for (std::size_t side = 0; side < 2; ++side)
+    value[StepPattern::kLeftFoot + side] = std::sqrt(std::min(
+        kFastestFoot_m_s, kSlot_hz * (now.p_WFoot_m[side] - before_.p_WFoot_m[side]).norm()));
+  const auto higher_m = [](const Places& p) { return p.p_WFoot_m[0].y() - p.p_WFoot_m[1].y(); };
+  value[StepPattern::kSway] = kSlot_hz * (now.sway_m - before_.sway_m);
+  value[StepPattern::kHigherFoot] = 0.5f * (higher_m(now) + higher_m(before_));
+  value[StepPattern::kBounce] = kSlot_hz * (now.hips_m - before_.hips_m);
+
+  for (std::size_t i = 0; i < StepPattern::kSigns; ++i) {
+    if (i == StepPattern::kRightFoot) continue;
+    Spread& spread = spread_[i];
+    // Both feet have one scale: which of them goes is what tells.
+    const bool is_foot = i == StepPattern::kLeftFoot;
+    const float other = value[is_foot ? StepPattern::kRightFoot : i];
+    spread.mean += mean_share * (0.5f * (value[i] + other) - spread.mean);
+    const float one = value[i] - spread.mean, two = other - spread.mean;
+    spread.variance += spread_share * (0.5f * (one * one + two * two) - spread.variance);
   }
-  seen_s_ = 0.0;
-  sum_ = {};
+  spread_[StepPattern::kRightFoot] = spread_[StepPattern::kLeftFoot];
+  for (std::size_t i = 0; i < StepPattern::kSigns; ++i)
+    slot.sign[i] = std::clamp(
+        (value[i] - spread_[i].mean) / std::sqrt(spread_[i].variance + kLeastVariance[i]),
+        -kMostSign, kMostSign);
 }
 
 }  // namespace dance

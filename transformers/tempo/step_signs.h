@@ -24,7 +24,7 @@ class StepSigns {
   static constexpr Duration kLongestPause = Duration::s(2);
 
   struct Slot {
-    MonoTime middle;
+    MonoTime middle;  // of what it was seen in: two slots, as speeds are differences
     bool is_seen = false;
     std::array<float, StepPattern::kSigns> sign{};
   };
@@ -43,17 +43,26 @@ class StepSigns {
     float mean = 0.0f, variance = 0.0f;
   };
 
+  // Where things are, on average over a slot: sensors' noise falls out before there are speeds.
+  struct Places {
+    std::array<Eigen::Vector3f, 2> p_WFoot_m{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
+    float sway_m = 0.0f, hips_m = 0.0f;
+    void add(const Places& other, float share);
+  };
+
+  static Places places_of(const MotionFrame& frame);
   void finish_slot();
+  void clear_sum();
+  void judge(const Places& now, Slot& slot);
 
   std::array<Slot, kMostSlots> slots_{};
   std::size_t count_ = 0;
-  MotionFrame last_;
-  bool has_last_ = false, has_begun_anew_ = false;
-  MonoTime slot_end_;
+  MonoTime last_time_, slot_end_;
+  Places last_, sum_, before_;  // of the last frame, of this slot so far, of the slot before
+  bool has_last_ = false, has_before_ = false, has_begun_anew_ = false;
   double seen_s_ = 0.0;
-  std::array<double, StepPattern::kSigns> sum_{};
   std::array<Spread, StepPattern::kSigns> spread_{};  // the right foot has the left one's
-  int finished_ = 0;
+  int judged_ = 0;
 };
 
 }  // namespace dance
