@@ -117,10 +117,11 @@ TEST(RhythmEval, JudgesAnotherModelOfPrediction) {
   const auto with = [&](const FlowParts& parts) {
     return evaluate_rhythm(dances, music, {"predict", {"predict"}, parts}, options)->mean.mpjpe_mm;
   };
-  // One that trusts no prediction at all repeats the newest pose.
+  // One that trusts no prediction at all repeats the newest pose. Legs that wait for a step are
+  // behind either way.
   auto distrusts = std::make_shared<PredictModel>(*built_in_predict_model());
   distrusts->weights = {};
-  EXPECT_LT(with({}), 0.8 * with({distrusts}));
+  EXPECT_LT(with({}), 0.9 * with({distrusts}));
   EXPECT_DOUBLE_EQ(with({}), with({built_in_predict_model()}));
 }
 

@@ -169,7 +169,9 @@ PlayoutClock::Choice RhythmClock::choose(const DancerTimeline& timeline, MonoTim
                                          MonoTime /*shown*/) {
   double pace = 1.0;
   const MonoTime wanted = wanted_moment(timeline, now, pace);
-  lead_strength_.want(in_time_ ? strength_.value() : 0.0);
+  // Where the truth was asked for, predictions fill a stall alone: a lead would scatter it.
+  const bool leads = in_time_ && options_.beats <= 0.0;
+  lead_strength_.want(leads ? strength_.value() : 0.0);
   lead_.set_strength(static_cast<float>(lead_strength_.advance(now, kLeadPerSecond)));
   const MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
