@@ -6,6 +6,7 @@
 #include "research/predict/predict_takes.h"
 #include "testing/line/line_arrivals.h"
 #include "testing/motion/beat_phase.h"
+#include "transformers/partner/partner_tracks.h"
 
 namespace dance {
 namespace {
@@ -45,18 +46,34 @@ struct Shown {
   std::vector<std::size_t> frames;  // of the truth, at the same moment
 };
 
+// The partner dances to the music that is heard here.
+Pose partner_at(const BeatDance& partner, MonoTime now, double speed, double hz) {
+  const auto last = static_cast<double>(partner.poses.size() - 1);
+  const double frame = std::round(second_of(now) * speed * hz);
+  Pose pose = partner.poses[static_cast<std::size_t>(std::clamp(frame, 0.0, last))];
+  pose.capture_time = now;
+  return pose;
+}
+
 // Plays the arrivals through the flow, one picture for each moment of the dance.
 Shown play(const BeatDance& dance, const std::vector<LineArrival>& arrivals, Flow& flow,
-           const HeardMusic& music) {
+           const HeardMusic& music, double hz) {
   Shown shown;
   const auto learner = flow.learner();
   flow.set_body(dance.skeleton);
+  PartnerTracks dancers;
+  const GuestId here = *GuestId::parse("here");
+  if (dance.partner) {
+    dancers.set_body(here, dance.partner->skeleton);
+    flow.set_dancers(&dancers);
+  }
   MonoTime next_beat = kRhythmEvalBegin, next_learn = kRhythmEvalBegin + kLearnEvery;
   const Pose* newest = nullptr;
   std::size_t arrived = 0;
   for (std::size_t i = 0; i < dance.poses.size(); ++i) {
     const MonoTime now = dance.poses[i].capture_time;
     for (; next_beat <= now; next_beat += kBeatEvery) flow.hear(music.beat_at(next_beat));
+    if (dance.partner) dancers.take(here, partner_at(*dance.partner, now, music.speed, hz));
     for (; arrived < arrivals.size() && arrivals[arrived].at <= now; ++arrived) {
       const Pose& pose = dance.poses[arrivals[arrived].index];
       if (!newest || pose.capture_time > newest->capture_time) newest = &pose;
@@ -242,7 +259,7 @@ Result<RhythmRun> evaluate_rhythm(const std::vector<BeatDance>& dances, const Be
     if (options.untagged)
       for (Pose& pose : sent.poses) pose.music_beats = kNoMusic;
     DANCE_TRY(Flow made, Flow::make(flow.through, flow.parts));
-    const Shown shown = play(sent, arrivals, made, listener);
+    const Shown shown = play(sent, arrivals, made, listener, options.hz);
     run.dances.push_back(score_of(dance, shown, listener, options));
     const RhythmScore& score = run.dances.back();
     run.phase_mean_ms_worst = std::max(run.phase_mean_ms_worst, std::abs(score.phase_mean_ms));

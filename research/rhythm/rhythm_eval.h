@@ -10,6 +10,7 @@
 // Failure:      a flow that cannot be made names the word.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,7 @@ struct BeatDance {
   Skeleton skeleton;
   std::vector<Pose> poses;    // tagged with the beats of the music that the dancer hears
   std::vector<double> beats;  // that each pose was danced to: the music's, or the dancer's own
+  std::shared_ptr<const BeatDance> partner;  // who dances in the listener's house; null: nobody
 };
 // A take, stretched so that its own beats fall on those of the song.
 BeatDance lay_onto_beats(const CodecTake& take, const BeatGrid& music, double hz);

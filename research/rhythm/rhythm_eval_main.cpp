@@ -61,6 +61,20 @@ Result<std::string> steps_told(const Wishes& wishes, const std::vector<UntaggedT
   return partners_table(takes) + steps_table(rows, none);
 }
 
+// Both dancers of a couple hear one music, and each has the other beside.
+std::vector<BeatDance> couples_on_beats(const std::vector<UntaggedTake>& takes,
+                                        const BeatGrid& music, double hz) {
+  std::vector<std::shared_ptr<BeatDance>> laid;
+  for (const UntaggedTake& take : takes)
+    laid.push_back(std::make_shared<BeatDance>(lay_onto_beats(take.take, take.beats, music, hz)));
+  std::vector<BeatDance> dances;
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    dances.push_back(*laid[i]);
+    dances.back().partner = laid[takes[i].partner];
+  }
+  return dances;
+}
+
 Result<void> run(Wishes wishes) {
   // Steps have to be seen for a while before they tell a beat.
   if (wishes.eval.untagged) wishes.eval.warm_up = Duration::s(12);
@@ -74,6 +88,10 @@ Result<void> run(Wishes wishes) {
     DANCE_TRY(takes, load_untagged_takes(wishes.files, wishes.couples, wishes.eval.hz));
     for (const UntaggedTake& take : takes)
       dances.push_back(lay_onto_beats(take.take, take.beats, music, wishes.eval.hz));
+  } else if (wishes.couples) {
+    DANCE_TRY(takes, load_untagged_takes(wishes.files, true, wishes.eval.hz));
+    dances = couples_on_beats(takes, music, wishes.eval.hz);
+    takes.clear();
   } else {
     for (const std::string& file : wishes.files) {
       DANCE_TRY(const CodecTake take, load_codec_take(file, wishes.eval.hz));
@@ -91,12 +109,15 @@ Result<void> run(Wishes wishes) {
   std::string rhythm = "rhythm beats=" + wishes.beta;
   if (wishes.strength < 1.0) rhythm += " strength=" + std::to_string(wishes.strength);
   DANCE_TRY(const FlowParts parts, parts_with_model(wishes.model));
-  const std::vector<NamedFlow> flows{
+  std::vector<NamedFlow> flows{
       {"raw", {}},
       {"hold", {"hold"}},
       {"predict", {"predict"}, parts},
       {"predict, bridge, " + rhythm, {"predict", "bridge", rhythm}, parts},
   };
+  if (wishes.couples && !wishes.eval.untagged)
+    flows.insert(flows.end() - 1,
+                 {"the last without the partner", {"predict partner=0", "bridge", rhythm}, parts});
   std::vector<RhythmRun> runs;
   for (const NamedFlow& flow : flows) {
     DANCE_TRY(RhythmRun run, evaluate_rhythm(dances, music, flow, wishes.eval));
@@ -149,7 +170,8 @@ int main(int argc, char** argv) {
   line.add("--seed", wishes.eval.seed, "of the line").shows_default();
   line.add_flag("--untagged", wishes.eval.untagged, "poses come without musical time");
   line.add_flag("--couples", wishes.couples,
-                "without tags: the second half of the files are the partners of the first half");
+                "the second half of the files are the partners of the first half, who dance where "
+                "the first are shown, and the other way round");
   line.add("--others", wishes.others, "without tags: takes that do not dance to the song");
   line.add_flag("--learn-steps", wishes.learn_steps,
                 "print the steps that the takes have in common, and do nothing else");

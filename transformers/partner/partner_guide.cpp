@@ -5,13 +5,13 @@
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kPosesPerProbe = 2;
-constexpr Duration kLeastAhead = Duration::ms(50), kMostAhead = Duration::ms(500);
-constexpr double kStrengthPerSecond = 2.0;
-constexpr double kLetGo_s = 0.3;
-constexpr Duration kLongestStep = Duration::ms(250);
+constexpr std::uint32_t kPosesPerPalmProbe = 2;
+constexpr Duration kLeastPalmsAhead = Duration::ms(50), kMostPalmsAhead = Duration::ms(500);
+constexpr double kPartnerStrengthPerSecond = 2.0;
+constexpr double kPartnerLetGo_s = 0.3;
+constexpr Duration kLongestPartnerStep = Duration::ms(250);
 // Poses further apart say nothing certain of a moment between them.
-constexpr Duration kCloseTogether = Duration::ms(100);
+constexpr Duration kPalmsCloseTogether = Duration::ms(100);
 
 }  // namespace
 
@@ -57,7 +57,7 @@ std::optional<GuestId> PartnerGuide::partner() const {
 }
 
 void PartnerGuide::follow_strength(bool is_couple, double step_s) {
-  const double step = kStrengthPerSecond * std::clamp(step_s, 0.0, 1.0);
+  const double step = kPartnerStrengthPerSecond * std::clamp(step_s, 0.0, 1.0);
   strength_ = static_cast<float>(
       std::clamp(static_cast<double>(strength_) + (is_couple ? step : -step), 0.0, 1.0));
 }
@@ -67,15 +67,16 @@ void PartnerGuide::observe(const Pose& pose, const Extrapolator& extrapolator) {
   clock_id_ = pose.clock_id;
   const Shape now = shape_of(pose);
   const Duration step = has_newest_ ? now.time - newest_.time : Duration();
-  if (step > kLongestStep) {
+  if (step > kLongestPartnerStep) {
     probe_count_ = 0;
     has_newest_ = false;
   }
-  const double step_s = std::min(step, kLongestStep).as_seconds();
+  const double step_s = std::min(step, kLongestPartnerStep).as_seconds();
   Eigen::Vector3f facing = pose.R_PB[0] * Eigen::Vector3f::UnitZ();
   facing.y() = 0.0f;
   facing.normalize();
-  const auto found = finder_.update(*dancers_, now.palms, now.hips, facing, now.time + lag_, step_s);
+  const auto found =
+      finder_.update(*dancers_, now.palms, now.hips, facing, now.time + lag_, step_s);
   follow_strength(found && found == partner_, step_s);
   if (found != partner_ && strength_ <= 0.0f) {
     partner_ = found;
@@ -89,7 +90,7 @@ void PartnerGuide::observe(const Pose& pose, const Extrapolator& extrapolator) {
   const PartnerTrack* beside = track();
   if (const auto partner = beside ? beside->at(now.time + lag_) : std::nullopt)
     met_ = Meeting::of(now.palms, now.hips, *partner);
-  if (++observed_ % kPosesPerProbe == 0) probe(extrapolator);
+  if (++observed_ % kPosesPerPalmProbe == 0) probe(extrapolator);
 }
 
 void PartnerGuide::learn(const Shape& now) {
@@ -99,7 +100,7 @@ void PartnerGuide::learn(const Shape& now) {
     first_probe_ = (first_probe_ + 1) % kProbes;
     --probe_count_;
     const Duration span = now.time - newest_.time;
-    if (!beside || span > kCloseTogether || probe.moment < newest_.time) continue;
+    if (!beside || span > kPalmsCloseTogether || probe.moment < newest_.time) continue;
     const auto partner = beside->at(probe.moment + lag_);
     if (!partner) continue;
     const auto t = static_cast<float>((probe.moment - newest_.time).as_seconds() /
@@ -130,7 +131,7 @@ void PartnerGuide::probe(const Extrapolator& extrapolator) {
 
 void PartnerGuide::guide(MonoTime moment, Pose& pose) {
   const Duration ahead = moment - newest_.time;
-  ahead_ = std::clamp(ahead_ + (ahead - ahead_) / 16, kLeastAhead, kMostAhead);
+  ahead_ = std::clamp(ahead_ + (ahead - ahead_) / 16, kLeastPalmsAhead, kMostPalmsAhead);
   if (!met_ || strength_ <= 0.0f) return;
   const PartnerTrack* beside = track();
   if (!beside) return;
@@ -139,7 +140,7 @@ void PartnerGuide::guide(MonoTime moment, Pose& pose) {
   // A partner who is not seen any more is let go.
   const double unseen_s =
       (moment + lag_ - beside->newest().time - PartnerTrack::kAhead).as_seconds();
-  const auto seen = static_cast<float>(std::clamp(1.0 - unseen_s / kLetGo_s, 0.0, 1.0));
+  const auto seen = static_cast<float>(std::clamp(1.0 - unseen_s / kPartnerLetGo_s, 0.0, 1.0));
   const Shape predicted = shape_of(pose);
   auto pulls = holds_.pulls(*met_, predicted.palms, predicted.hips, *partner);
   for (PalmPull& pull : pulls) pull.share *= strength_ * seen;

@@ -8,10 +8,10 @@ namespace {
 constexpr double kForget = 0.99;  // per prediction of one distance: some twenty seconds
 constexpr double kEnoughPredictions = 8.0;
 // Predictions of one distance that the usual gain counts for.
-constexpr double kBeforehand = 15.0;
+constexpr double kUsualGainCounts = 15.0;
 constexpr double kLeastGain = 0.9, kMostGain = 1.7;
 // A wave of four beats turns by pi / 2 a beat.
-constexpr double kTurn = 1.5707963;
+constexpr double kWaveTurn_per_beat = 1.5707963;
 
 double between(double a, double b, double fraction) { return a + (b - a) * fraction; }
 
@@ -91,7 +91,7 @@ void PredictionMeter::learn_wave(const PoseHistory& history, const Prediction& p
   Score& score = scores_[prediction.horizon];
   score.danced = kForget * score.danced + danced;
   score.predicted = kForget * score.predicted + predicted;
-  score.wave2 = kForget * score.wave2 + wave2 * std::min(1.0, kTurn * ahead_beats);
+  score.wave2 = kForget * score.wave2 + wave2 * std::min(1.0, kWaveTurn_per_beat * ahead_beats);
   score.waves = kForget * score.waves + 1.0;
 }
 
@@ -100,7 +100,7 @@ float PredictionMeter::gain(std::size_t horizon) const {
   const auto usual = static_cast<double>(PredictionLead::usual_gain(horizon));
   if (score.waves <= 0.0) return PredictionLead::usual_gain(horizon);
   // What is expected beforehand counts like some predictions that turned out so.
-  const double beforehand = kBeforehand * score.wave2 / score.waves;
+  const double beforehand = kUsualGainCounts * score.wave2 / score.waves;
   const double predicted = score.predicted + beforehand;
   if (predicted <= 0.1 * beforehand) return static_cast<float>(usual);
   return static_cast<float>(

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transformers/tempo/tempo_scan.h"
+
 namespace dance {
 namespace {
 
@@ -24,7 +26,6 @@ constexpr float kNothingAtFirst = 0.8f;
 constexpr float kBegins = 0.005f, kEnds = 0.005f;  // dancing the pattern, per slot
 // What is stepped, in counts a minute, and where most of it lies: tells half and double apart.
 constexpr double kSlowest_bpm = 85.0, kFastest_bpm = 230.0;
-constexpr double kUsual_bpm = 155.0, kUsualWidth_octaves = 0.6;
 constexpr int kReach = 10;  // places about the likeliest that count as the same
 constexpr int kNear = 4;    // within these the likeliest is looked for
 

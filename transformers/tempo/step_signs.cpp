@@ -6,16 +6,17 @@
 namespace dance {
 namespace {
 
-constexpr double kMean_s = 4.0, kSpread_s = 8.0;
+constexpr double kSignMean_s = 4.0, kSignSpread_s = 8.0;
 constexpr float kMostSign = 3.0f;
-constexpr float kFastestFoot_m_s = 3.0f;
+constexpr float kFastestStep_m_s = 3.0f;
 // Between frames that are further apart nobody has seen the steps.
 constexpr double kSeen_s = 0.3;
 // A slot of which less was seen tells nothing.
 constexpr double kLeastSeen_s = 0.05;
 // What moves less than this counts as little as it moves: of the root of a foot's speed, the sway's
 // speed, the heights in metres, the bounce's speed.
-constexpr std::array<float, StepPattern::kSigns> kLeastVariance{1e-3f, 1e-3f, 1e-3f, 1e-5f, 1e-4f};
+constexpr std::array<float, StepPattern::kSigns> kLeastSignVariance{1e-3f, 1e-3f, 1e-3f, 1e-5f,
+                                                                    1e-4f};
 
 }  // namespace
 
@@ -91,13 +92,13 @@ void StepSigns::judge(const Places& now, Slot& slot) {
   ++judged_;
   // The first slots are averaged, the later ones forget.
   const double first = 1.0 / judged_;
-  const auto mean_share = static_cast<float>(std::max(kSlot_s / kMean_s, first));
-  const auto spread_share = static_cast<float>(std::max(kSlot_s / kSpread_s, first));
+  const auto mean_share = static_cast<float>(std::max(kSlot_s / kSignMean_s, first));
+  const auto spread_share = static_cast<float>(std::max(kSlot_s / kSignSpread_s, first));
   constexpr auto kSlot_hz = static_cast<float>(1.0 / kSlot_s);
   std::array<float, StepPattern::kSigns> value{};
   for (std::size_t side = 0; side < 2; ++side)
     value[StepPattern::kLeftFoot + side] = std::sqrt(std::min(
-        kFastestFoot_m_s, kSlot_hz * (now.p_WFoot_m[side] - before_.p_WFoot_m[side]).norm()));
+        kFastestStep_m_s, kSlot_hz * (now.p_WFoot_m[side] - before_.p_WFoot_m[side]).norm()));
   const auto higher_m = [](const Places& p) { return p.p_WFoot_m[0].y() - p.p_WFoot_m[1].y(); };
   value[StepPattern::kSway] = kSlot_hz * (now.sway_m - before_.sway_m);
   value[StepPattern::kHigherFoot] = 0.5f * (higher_m(now) + higher_m(before_));
@@ -116,7 +117,7 @@ void StepSigns::judge(const Places& now, Slot& slot) {
   spread_[StepPattern::kRightFoot] = spread_[StepPattern::kLeftFoot];
   for (std::size_t i = 0; i < StepPattern::kSigns; ++i)
     slot.sign[i] = std::clamp(
-        (value[i] - spread_[i].mean) / std::sqrt(spread_[i].variance + kLeastVariance[i]),
+        (value[i] - spread_[i].mean) / std::sqrt(spread_[i].variance + kLeastSignVariance[i]),
         -kMostSign, kMostSign);
 }
 

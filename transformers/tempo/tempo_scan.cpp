@@ -12,10 +12,6 @@ constexpr double kLowest_hz = 0.125;  // two bars at 60 BPM
 // Each of the two poles: together they look back about eight seconds.
 constexpr double kPole_s = 4.0;
 constexpr float kPole = static_cast<float>(1.0 / (kPole_s * kScan_hz));
-// What people dance to: most of it between 90 and 230, and half of what steps on each beat is as
-// periodic.
-constexpr double kUsual_bpm = 155.0;
-constexpr double kUsualWidth_octaves = 0.6;
 constexpr int kLowestBeatBin = 144;  // 60 BPM
 // Another tempo must be this much better before it is believed: the dance has not changed, the
 // figure has.

@@ -17,6 +17,10 @@
 
 namespace dance {
 
+// What people dance to: most of it between 90 and 230, and half of what steps on each beat is as
+// periodic.
+constexpr double kUsual_bpm = 155.0, kUsualWidth_octaves = 0.6;
+
 class TempoScan {
  public:
   static constexpr std::size_t kPlaces = 19;
