@@ -11,8 +11,10 @@ namespace {
 // longer: a figure hides the steps, the dancer goes on.
 constexpr float kSure = 0.9f, kNoLongerSure = 0.6f;
 constexpr Duration kGoesOn = Duration::s(1);
-// What it says a little differently is weighed; what is another place is jumped to.
+// What it says a little differently is weighed; what is another place is jumped to
+// when it has said so for a while.
 constexpr double kJump_counts = 0.5;
+constexpr Duration kBelievesJump = Duration::ms(1500);
 // Steps are looked for at the music's tempo. Where the period hears them steady at another one, and
 // the filter has not been sure for a while, it looks for them there, as long as it finds them.
 constexpr double kOtherTempo = 0.04;
@@ -94,10 +96,14 @@ void OwnBeat::follow_steps(double music_bpm) {
     if (was_sure && sure_ != t) continue;
     double ahead = pointer_.counts(t) - told_.counts();
     ahead -= 4.0 * std::round(ahead / 4.0);
-    if (!was_sure || std::abs(ahead) > kJump_counts)
+    const bool is_elsewhere = std::abs(ahead) > kJump_counts;
+    if (!is_elsewhere) near_ = t;
+    if (!was_sure || t - near_ > kBelievesJump) {
       told_.begin(told_.counts() + ahead, pointer_.tempo_bpm() / 60.0);
-    else
+      near_ = t;
+    } else if (!is_elsewhere) {
       told_.hear(ahead);
+    }
   }
 }
 

@@ -39,7 +39,7 @@ class OwnBeat {
   StepSigns signs_;
   StepPointer pointer_;
   SteadyCount told_;
-  MonoTime told_at_, seen_, sure_, looked_;
+  MonoTime told_at_, seen_, sure_, near_, looked_;
   bool is_sure_ = false;
   double own_bpm_ = 0.0;  // steps that keep a pace of their own; 0: the music's
   // By the period alone.

@@ -11,18 +11,18 @@ using Wave = StepPattern::Wave;
 // Real and imaginary parts by turns, as `dance rhythm eval --learn-steps` prints them; the right
 // foot's is the left one's, half of the eight counts on.
 using Parts = std::array<float, 2 * StepPattern::kHarmonics>;
-constexpr Parts kFoot{-0.423f, 0.128f,  -0.108f, -0.035f, 0.305f,  -0.885f, 0.018f,  0.238f,
-                      -0.107f, -0.078f, -0.042f, -0.078f, -0.002f, -0.013f, -0.003f, 0.011f,
-                      0.008f,  0.001f,  -0.012f, -0.001f, 0.007f,  -0.005f, 0.006f,  -0.005f};
-constexpr Parts kSway{0.030f,  0.195f,  0.0f, 0.0f, -1.061f, -0.029f, 0.0f, 0.0f,
-                      -0.018f, 0.122f,  0.0f, 0.0f, -0.100f, 0.033f,  0.0f, 0.0f,
-                      -0.037f, -0.028f, 0.0f, 0.0f, -0.015f, 0.015f,  0.0f, 0.0f};
-constexpr Parts kHigherFoot{-0.665f, 0.067f,  0.0f, 0.0f, 0.299f,  -0.799f, 0.0f, 0.0f,
-                            -0.071f, -0.124f, 0.0f, 0.0f, -0.007f, 0.020f,  0.0f, 0.0f,
+constexpr Parts kFoot{-0.423f, 0.130f,  -0.109f, -0.034f, 0.296f,  -0.888f, 0.021f,  0.238f,
+                      -0.109f, -0.076f, -0.044f, -0.077f, -0.003f, -0.013f, -0.003f, 0.011f,
+                      0.008f,  0.001f,  -0.012f, 0.0f,    0.007f,  -0.005f, 0.006f,  -0.005f};
+constexpr Parts kSway{0.031f,  0.195f,  0.0f, 0.0f, -1.061f, -0.017f, 0.0f, 0.0f,
+                      -0.016f, 0.122f,  0.0f, 0.0f, -0.099f, 0.036f,  0.0f, 0.0f,
+                      -0.038f, -0.026f, 0.0f, 0.0f, -0.015f, 0.015f,  0.0f, 0.0f};
+constexpr Parts kHigherFoot{-0.665f, 0.069f,  0.0f, 0.0f, 0.290f,  -0.802f, 0.0f, 0.0f,
+                            -0.074f, -0.123f, 0.0f, 0.0f, -0.006f, 0.020f,  0.0f, 0.0f,
                             -0.002f, -0.012f, 0.0f, 0.0f, 0.0f,    0.0f,    0.0f, 0.0f};
-constexpr Parts kBounce{0.0f, 0.0f, -0.308f, -0.369f, 0.0f, 0.0f, 0.267f,  0.392f,
-                        0.0f, 0.0f, -0.020f, 0.272f,  0.0f, 0.0f, 0.044f,  0.095f,
-                        0.0f, 0.0f, -0.024f, -0.033f, 0.0f, 0.0f, -0.004f, 0.027f};
+constexpr Parts kBounce{0.0f, 0.0f, -0.310f, -0.367f, 0.0f, 0.0f, 0.273f,  0.388f,
+                        0.0f, 0.0f, -0.014f, 0.272f,  0.0f, 0.0f, 0.047f,  0.093f,
+                        0.0f, 0.0f, -0.025f, -0.032f, 0.0f, 0.0f, -0.003f, 0.027f};
 constexpr std::array<float, StepPattern::kSigns> kSpread{0.538f, 0.538f, 0.676f, 0.650f, 0.902f};
 constexpr std::array<float, StepPattern::kSigns> kPower{1.121f, 1.121f, 1.273f, 1.248f, 1.174f};
 
