@@ -56,6 +56,13 @@ void LogSink::on_hands(const GuestId& guest, const Hands& hands, std::int64_t ti
   write(Channel::of(Signal::kHands, where_, guest), stamped, time_us);
 }
 
+void LogSink::on_avatar(const GuestId& guest, const Avatar& avatar, std::int64_t time_us) {
+  Avatar stamped = avatar;
+  if (stamped.clock_id == 0) stamped.clock_id = kFileClockId;
+  write(Channel::of(Signal::kAvatar, where_ == Where::kCapture ? where_ : Where::kGuest, guest),
+        stamped, time_us);
+}
+
 void LogSink::on_beat(const Beat& beat, std::int64_t time_us) {
   write(Channel::of_house(Signal::kBeat), beat, time_us);
 }

@@ -32,6 +32,8 @@ class LogSink : public RecordingSink {
   void on_pose(const GuestId& guest, const Pose& pose, std::int64_t time_us) override;
   void on_hands(const GuestId& guest, const Hands& hands, std::int64_t time_us) override;
   void on_beat(const Beat& beat, std::int64_t time_us) override;
+  // What a guest looks like, as the guest's house says it.
+  void on_avatar(const GuestId& guest, const Avatar& avatar, std::int64_t time_us);
   Result<void> finish();
 
   std::uint64_t events() const { return writer_.events(); }

@@ -48,6 +48,9 @@ std::vector<FilmedWay> usual_ways(bool has_music) {
   return ways;
 }
 
+GuestId remote_of(const FilmedWay& way) { return *GuestId::parse(way.name); }
+GuestId here_of(const FilmedWay& way) { return *GuestId::parse("here-" + way.name); }
+
 BeatDance as_danced(const CodecTake& take, double hz) {
   BeatDance dance;
   dance.name = take.name;
@@ -91,9 +94,7 @@ Result<void> film_couple(const BeatDance& here, const BeatDance& remote, const B
   std::vector<Shown> shown;
   for (const FilmedWay& way : ways) {
     DANCE_TRY(Flow flow, Flow::make(way.through, parts));
-    const auto name = GuestId::parse(way.name), beside = GuestId::parse("here-" + way.name);
-    if (!name || !beside) return fail("'" + way.name + "' is no name of a guest");
-    shown.push_back({way, std::move(flow), *name, *beside,
+    shown.push_back({way, std::move(flow), remote_of(way), here_of(way),
                      kBetween_m * static_cast<float>(shown.size()) -
                          0.5f * kBetween_m * static_cast<float>(ways.size() - 1)});
     shown.back().flow.set_body(remote.skeleton);

@@ -37,6 +37,10 @@ constexpr float kBetween_m = 2.4f;
 // The ways that docs/prediction.md shows; with music, the one of rhythm too.
 std::vector<FilmedWay> usual_ways(bool has_music);
 
+// The names of the two dancers of a way; its name must be a guest's of at most 19 letters.
+GuestId remote_of(const FilmedWay& way);
+GuestId here_of(const FilmedWay& way);
+
 // A take without music.
 BeatDance as_danced(const CodecTake& take, double hz);
 

@@ -28,6 +28,19 @@ struct Wishes {
   FilmOptions film;
 };
 
+// All who dance here look alike, and all remote dancers.
+void dress(const std::vector<FilmedWay>& ways, LogSink& sink) {
+  Avatar here, remote;
+  here.name = *AvatarName::parse("trousers-crop-tee");
+  here.colour_rgb = {0.25f, 0.45f, 0.85f};
+  remote.name = *AvatarName::parse("dress-bun-bare");
+  remote.colour_rgb = {0.9f, 0.3f, 0.3f};
+  for (const FilmedWay& way : ways) {
+    sink.on_avatar(here_of(way), here, 0);
+    sink.on_avatar(remote_of(way), remote, 0);
+  }
+}
+
 Result<void> run(Wishes wishes) {
   DANCE_TRY(wishes.film.delay, parse_duration(wishes.delay));
   DANCE_TRY(wishes.film.jitter, parse_duration(wishes.jitter));
@@ -53,6 +66,7 @@ Result<void> run(Wishes wishes) {
   DANCE_TRY(LogWriter log, LogWriter::create(wishes.out));
   LogSink sink(std::move(log), Where::kStage);
   const auto ways = usual_ways(music.has_value());
+  dress(ways, sink);
   if (auto filmed = film_couple(dances[0], dances[1], music ? &*music : nullptr, ways, wishes.film,
                                 parts, sink);
       !filmed)
