@@ -16,6 +16,7 @@
 #include <array>
 
 #include "core/base/time.h"
+#include "core/motion/hold_odds.h"
 #include "core/motion/spring.h"
 #include "core/pose/kinematics.h"
 #include "core/pose/pose.h"
@@ -38,10 +39,9 @@ class FootLock {
     // A foot that stood a moment ago is held until its predicted place is this far away.
     float lifts_beyond_m = 0.07f;
     // Where it is foreseen which feet stand: a foot that stands more often than it slides is worth
-    // one that steps late, so that low odds do; and it may be further off what is predicted, the
+    // one that steps late, so that low odds do (HoldOdds); and it may be further off what is predicted, the
     // less sure that is.
-    float hold_odds = -1.7f;
-    float release_odds = -2.5f;
+    float release_odds_below = 0.8f;
     float sure_furthest_m = 0.2f;
     float unsure_furthest_m = 0.35f;
     Duration unsure_from = Duration::ms(200);
@@ -100,7 +100,8 @@ class FootLock {
   MonoTime time_, seen_at_, seen_capture_;
   bool began_ = false;
   bool is_foreseen_ = false;  // of the next pose
-  float unsure_ = 0.0f;       // and how far ahead it is: 0 … 1
+  HoldOdds hold_odds_;
+  float unsure_ = 0.0f;  // and how far ahead it is: 0 … 1
 };
 
 }  // namespace dance
