@@ -45,8 +45,8 @@ class PredictionLead {
   std::array<float, kHorizons.size()> gains_ = kUsualGains;
 };
 
-// `whole` is led: the ways from `from` to `half` and to `whole` in these shares, bone by bone and of
-// the hips' place, saturating where that is far from what was predicted.
+// `whole` is led: the ways from `from` to `half` and to `whole` in these shares, bone by bone and
+// of the hips' place, saturating where that is far from what was predicted.
 void add_lead(const Pose& from, const Pose& half, const PredictionLead::Shares& shares,
               Pose& whole);
 

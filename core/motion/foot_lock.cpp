@@ -52,6 +52,7 @@ void FootLock::clear() {
   feet_ = {};
   began_ = false;
   is_foreseen_ = false;
+  hold_odds_.clear();
   seen_at_ = MonoTime();
 }
 
@@ -91,6 +92,7 @@ void FootLock::observe(const Pose& real, MonoTime now) {
     foot.seen_standing =
         foot.seen_speed_m_s < kStandsBelow_m_s && ball.y() - floor_m_ < settings_.release_above_m;
   }
+  hold_odds_.see(real.capture_time, {feet_[0].seen_standing, feet_[1].seen_standing});
 }
 
 void FootLock::foresee(const Pose& before, const Pose& there, const Pose& after, Duration ahead) {
@@ -105,6 +107,7 @@ void FootLock::foresee(const Pose& before, const Pose& there, const Pose& after,
                                          frames[2].position(ball), floor_m_);
     if (!std::isfinite(feet_[side].odds)) is_foreseen_ = false;
   }
+  if (is_foreseen_) hold_odds_.foresee(there.capture_time, {feet_[0].odds, feet_[1].odds});
   unsure_ = std::clamp(static_cast<float>(ahead.as_seconds() / settings_.unsure_from.as_seconds()),
                        0.0f, 1.0f);
 }
@@ -113,8 +116,8 @@ bool FootLock::should_hold_foreseen(const Foot& foot) const {
   const Vector3f from = foot.locked ? foot.held : Vector3f(foot.raw + foot.shift.offset);
   const float furthest_m = settings_.sure_furthest_m +
                            unsure_ * (settings_.unsure_furthest_m - settings_.sure_furthest_m);
-  return foot.odds > (foot.locked ? settings_.release_odds : settings_.hold_odds) &&
-         (from - foot.raw).norm() < furthest_m;
+  const float least = hold_odds_.value() - (foot.locked ? settings_.release_odds_below : 0.0f);
+  return foot.odds > least && (from - foot.raw).norm() < furthest_m;
 }
 
 bool FootLock::should_hold(const Foot& foot) const {

@@ -16,6 +16,7 @@
 #include <array>
 
 #include "core/base/time.h"
+#include "core/motion/hold_odds.h"
 #include "core/motion/spring.h"
 #include "core/pose/kinematics.h"
 #include "core/pose/pose.h"
@@ -38,10 +39,9 @@ class FootLock {
     // A foot that stood a moment ago is held until its predicted place is this far away.
     float lifts_beyond_m = 0.07f;
     // Where it is foreseen which feet stand: a foot that stands more often than it slides is worth
-    // one that steps late, so that low odds do; and it may be further off what is predicted, the
-    // less sure that is.
-    float hold_odds = -1.7f;
-    float release_odds = -2.5f;
+    // one that steps late, so that low odds do (HoldOdds); and it may be further off what is
+    // predicted, the less sure that is.
+    float release_odds_below = 0.8f;
     float sure_furthest_m = 0.2f;
     float unsure_furthest_m = 0.35f;
     Duration unsure_from = Duration::ms(200);
@@ -56,9 +56,9 @@ class FootLock {
   // reliable.
   void observe(const Pose& real, MonoTime now);
 
-  // Of the pose that is next to be shown, as far ahead of the newest that came: how it was and will
-  // be predicted kStandingOddsStep before, then, and after. With it feet stand where they will: they
-  // are held as long as it is likely enough that they stand, and take their step where it is not.
+  // Of the pose that is next to be shown, so far ahead of the newest that came: what is predicted
+  // kStandingOddsStep before it, then, and after. With it feet are held as long as it is likely
+  // enough that they stand, and take their step where it is not.
   void foresee(const Pose& before, const Pose& there, const Pose& after, Duration ahead);
 
   // Moves the legs of `pose`, which is to be shown at `now`. With `may_lock` false nothing new is
@@ -100,7 +100,8 @@ class FootLock {
   MonoTime time_, seen_at_, seen_capture_;
   bool began_ = false;
   bool is_foreseen_ = false;  // of the next pose
-  float unsure_ = 0.0f;       // and how far ahead it is: 0 … 1
+  HoldOdds hold_odds_;
+  float unsure_ = 0.0f;  // and how far ahead it is: 0 … 1
 };
 
 }  // namespace dance

@@ -113,6 +113,70 @@ TEST(MotionSource, ContinuesTheDanceUntilPosesComeBack) {
   EXPECT_EQ(dance.source.at(at_ms(newest + 2000), out), Kind::kDanced);
 }
 
+Pose with_arm(float rad, float x_m) {
+  Pose pose;
+  pose.R_PB[index_of(Bone::kLeftUpperArm)] =
+      Eigen::Quaternionf(Eigen::AngleAxisf(rad, Eigen::Vector3f::UnitZ()));
+  pose.R_PB[index_of(Bone::kLeftUpperLeg)] = pose.R_PB[index_of(Bone::kLeftUpperArm)];
+  pose.p_WH_m.x() = x_m;
+  return pose;
+}
+
+float turn_rad(const Pose& pose, Bone bone) {
+  return Eigen::AngleAxisf(pose.R_PB[index_of(bone)]).angle();
+}
+
+TEST(PredictionLead, LeavesSteadyMotionAsItIsWhereWaysAreRight) {
+  PredictionLead lead;
+  EXPECT_TRUE(lead.is_none());
+  lead.set_strength(1.0f);
+  EXPECT_FALSE(lead.is_none());
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h) lead.set_gain(h, 1.0f);
+  for (const int ms : {0, 50, 200, 300, 500, 900}) {
+    Pose whole = with_arm(0.4f, 0.2f);
+    add_lead(with_arm(0.0f, 0.0f), with_arm(0.2f, 0.1f), lead.at(Duration::ms(ms)), whole);
+    EXPECT_NEAR(turn_rad(whole, Bone::kLeftUpperArm), 0.4f, 1e-3f) << ms;
+    EXPECT_NEAR(whole.p_WH_m.x(), 0.2f, 1e-4f) << ms;
+  }
+}
+
+TEST(PredictionLead, LengthensWaysOfLegsAndPlaceByHalfAndNoneBeyondItsBound) {
+  PredictionLead lead;
+  lead.set_strength(1.0f);
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h) lead.set_gain(h, 1.5f);
+  Pose whole = with_arm(0.4f, 0.1f);
+  add_lead(with_arm(0.0f, 0.0f), with_arm(0.2f, 0.05f), lead.at(Duration::ms(200)), whole);
+  EXPECT_NEAR(turn_rad(whole, Bone::kLeftUpperArm), 0.6f, 1e-3f);
+  EXPECT_NEAR(turn_rad(whole, Bone::kLeftUpperLeg), 0.5f, 1e-3f);
+  EXPECT_NEAR(whole.p_WH_m.x(), 0.125f, 1e-3f);
+  // What shrank on its second half is shown as the first half went.
+  whole = with_arm(0.3f, 0.1f);
+  add_lead(with_arm(0.0f, 0.0f), with_arm(0.2f, 0.1f), lead.at(Duration::ms(200)), whole);
+  EXPECT_GT(turn_rad(whole, Bone::kLeftUpperArm), 1.5f * 0.3f + 0.05f);
+  whole = with_arm(2.5f, 3.0f);
+  add_lead(with_arm(0.0f, 0.0f), with_arm(-1.5f, -3.0f), lead.at(Duration::ms(200)), whole);
+  EXPECT_LT(std::abs(turn_rad(whole, Bone::kLeftUpperArm) - 2.5f), 0.41f);
+  EXPECT_LT(std::abs(whole.p_WH_m.x() - 3.0f), 0.08f);
+}
+
+TEST(PredictionLead, GrowsFromNothingWithTheDistance) {
+  PredictionLead lead;
+  lead.set_strength(1.0f);
+  float before = 1.0f;
+  for (int ms = 0; ms <= 200; ms += 10) {
+    const auto shares = lead.at(Duration::ms(ms));
+    const float sum = shares.of_half + shares.of_whole;
+    EXPECT_GE(sum, before - 1e-6f) << ms;
+    EXPECT_LT(sum, before + 0.05f) << ms;
+    before = sum;
+  }
+  EXPECT_EQ(lead.at(Duration()).of_half + lead.at(Duration()).of_whole, 1.0f);
+  EXPECT_EQ(lead.at(Duration::ms(600)).of_half, 0.0f);
+  lead.set_strength(0.0f);
+  EXPECT_EQ(lead.at(Duration::ms(200)).of_half, 0.0f);
+  EXPECT_EQ(lead.at(Duration::ms(200)).of_whole, 1.0f);
+}
+
 TEST(LiveClock, TakesBackAsMuchOfTheDelayAsItIsToldAndNeverGoesBack) {
   for (const double lead : {0.0, 0.5, 1.0}) {
     Dance dance({}, 0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/motion/hold_odds.h"
 #include "core/motion/standing_odds.h"
 #include "testing/motion/motion_measures.h"
 #include "tests/allocation_guard.h"
@@ -190,6 +191,49 @@ TEST(FootLock, LeavesNoFootBehindHoweverLikelyItStands) {
     lock.apply(frame_at(i), pose);
     EXPECT_LT((ball(pose) - ball(raw)).norm(), 0.4f) << i;
   }
+}
+
+// Feet that stand are foreseen with odds from -1 to 1, in steps.
+TEST(HoldOdds, FindTheOddsThatNearlyAllFeetHadThatThenStood) {
+  for (const float shift : {0.0f, -1.0f}) {
+    HoldOdds odds;
+    EXPECT_EQ(odds.value(), HoldOdds::kUsual);
+    double missed = 0.0, seen = 0.0;
+    for (int i = 0; i < 6000; ++i) {
+      const float foreseen = shift + 0.02f * static_cast<float>(i * 37 % 101) - 1.0f;
+      odds.foresee(frame_at(i), {foreseen, 5.0f});
+      if (i > 3000) {
+        seen += 1.0;
+        missed += foreseen < odds.value() ? 1.0 : 0.0;
+      }
+      odds.see(frame_at(i), {true, false});
+    }
+    EXPECT_NEAR(odds.value(), shift - 0.9f, 0.2f);
+    EXPECT_LT(missed / seen, 0.1);
+    EXPECT_GT(missed / seen, 0.02);
+  }
+}
+
+TEST(HoldOdds, LearnOfNothingButFeetThatStoodAndWereForeseenAndStayBounded) {
+  HoldOdds odds;
+  for (int i = 0; i < 100; ++i) {
+    odds.foresee(frame_at(i), {-9.0f, -9.0f});
+    odds.see(frame_at(i), {false, false});
+    odds.see(frame_at(i) + Duration::s(5), {true, true});
+  }
+  EXPECT_EQ(odds.value(), HoldOdds::kUsual);
+  for (int i = 0; i < 1000; ++i) {
+    odds.foresee(frame_at(i), {-9.0f, -9.0f});
+    odds.see(frame_at(i), {true, true});
+  }
+  EXPECT_EQ(odds.value(), HoldOdds::kLeast);
+  for (int i = 0; i < 1000; ++i) {
+    odds.foresee(frame_at(i), {9.0f, 9.0f});
+    odds.see(frame_at(i), {true, true});
+  }
+  EXPECT_EQ(odds.value(), HoldOdds::kMost);
+  odds.clear();
+  EXPECT_EQ(odds.value(), HoldOdds::kUsual);
 }
 
 TEST(FootLock, TheFloorIsThatOfPosesThatCame) {
