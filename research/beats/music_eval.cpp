@@ -102,7 +102,9 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
   if (end_s <= options.left_out_s)
     return fail(audio_path + ": is no longer than the " +
                 std::to_string(static_cast<int>(options.left_out_s)) + " s that are left out");
+  result.genre = genre_of_beats_file(beats_path);
   result.score = score_beats(truth_s, heard.beats_s, options.left_out_s, end_s);
+  result.level = level_of_beats(truth_s, heard.beats_s, options.left_out_s, end_s);
   std::vector<double> tempi;
   std::vector<double> errors;
   for (const Beat& word : heard.words) {
@@ -130,10 +132,12 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
     return result;
   }
   const auto aubio = aubio_beats(audio_path);
-  if (aubio)
+  if (aubio) {
     result.aubio = score_beats(truth_s, *aubio, options.left_out_s, end_s);
-  else
+    result.aubio_level = level_of_beats(truth_s, *aubio, options.left_out_s, end_s);
+  } else {
     result.aubio_missing = aubio.error().what;
+  }
   return result;
 }
 

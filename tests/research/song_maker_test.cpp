@@ -1,4 +1,4 @@
-#include "research/beats/song_maker.h"
+#include "research/beats/make/song_maker.h"
 
 #include <gtest/gtest.h>
 

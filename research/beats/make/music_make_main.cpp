@@ -9,7 +9,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "core/program/whole_file.h"
-#include "research/beats/song_maker.h"
+#include "research/beats/make/song_maker.h"
 #include "research/outside_program.h"
 #include "testing/scratch_folder.h"
 

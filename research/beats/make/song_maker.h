@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "research/beats/song_style.h"
+#include "research/beats/make/song_style.h"
 
 namespace dance {
 

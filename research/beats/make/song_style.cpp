@@ -1,4 +1,4 @@
-#include "research/beats/song_style.h"
+#include "research/beats/make/song_style.h"
 
 #include <toml++/toml.h>
 
