@@ -26,6 +26,8 @@ struct MusicEvalOptions {
   double speed = 1.0;        // as a record that turns faster
   double start_s = 0.0;
   double left_out_s = 5.0;  // at the begin
+  // Of a tempo hint as dancers who step on each beat give it; 0: nobody is seen.
+  double hint_weight = 0.0;
   std::shared_ptr<const BeatModel> model = built_in_beat_model();
   bool with_aubio = true;
   bool check_causal = true;  // takes as long again

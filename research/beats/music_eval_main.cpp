@@ -64,6 +64,9 @@ int main(int argc, char** argv) {
       .range(-200.0, 0.0);
   line.add("--start", wishes.options.start_s, "begins so many seconds into the file")
       .range(0.0, 3600.0);
+  line.add("--steps", wishes.options.hint_weight,
+           "weight of a tempo hint as dancers who step on each beat give it")
+      .range(0.0, 1.0);
   line.add("--model", wishes.model, "a model of dance music train, instead of the built in one");
   line.add_flag("--tracker-only", wishes.tracker_only,
                 "without aubio and the look at causality: takes a third of the time");

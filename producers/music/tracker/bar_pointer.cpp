@@ -15,7 +15,7 @@ namespace {
 //   as large moved the mean F
 // by at most 0.04, and evidence of meanings from 0.2 to 0.3 by 0.015.
 constexpr double kFastest_bpm = 214.0;
-constexpr double kSlowest_bpm = 93.7;
+constexpr double kSlowest_bpm = 72.0;
 constexpr double kLikelyTempo_bpm = 140.0;
 constexpr double kTempoSpread = 0.45;     // of its logarithm
 constexpr float kEvidence = 0.1f;         // neighbouring hops are correlated
@@ -180,7 +180,8 @@ void BarPointer::gather_beat_ends() {
 
 // Block by block, so that a block's numbers are still near when they are needed again.
 void BarPointer::push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning,
-                      float weight) {
+                      float weight, std::span<const float> of_periods) {
+  DANCE_ASSERT(of_periods.size() == static_cast<std::size_t>(tempi_));
   gather_beat_ends();
   std::array<float, kOnsetGroups> y{};
   for (std::size_t g = 0; g < kOnsetGroups; ++g) y[g] = std::min(strengths[g], kMostStrength);
@@ -198,7 +199,9 @@ void BarPointer::push(const OnsetStrength::Strengths& strengths, const StrokeMea
           entering_(block.tempo, static_cast<Eigen::Index>(block.pattern) * kBeats + beat);
     const auto part = [&](const Eigen::ArrayXf& of) { return of.segment(block.first, all); };
     auto state = state_.segment(block.first, all);
-    state *= (weight * (part(constant_) - y[0] * part(slope_[0]) - y[1] * part(slope_[1]) -
+    const float of_period = of_periods[static_cast<std::size_t>(block.tempo)];
+    state *= (of_period +
+              weight * (part(constant_) - y[0] * part(slope_[0]) - y[1] * part(slope_[1]) -
                         y[2] * part(slope_[2]) - y[3] * part(slope_[3]) - y[4] * part(slope_[4]) +
                         meant_.segment(bar_first_[static_cast<std::size_t>(block.tempo)], all)))
                  .exp();

@@ -39,9 +39,15 @@ class BarPointer {
   // At least one pattern; they are not needed afterwards.
   BarPointer(double hop_s, std::span<const MeterPattern> patterns);
 
+  // The beats that are searched, in hops: from the least each longer one.
+  int least_period_hops() const { return least_period_; }
+  int periods() const { return tempi_; }
+
   // Strengths of the next hop, and what the stroke of some hops ago was. weight: their weight, 0
-  // (there is no music) to 1.
-  void push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning, float weight);
+  // (there is no music) to 1. of_periods: what else speaks for or against each period, as a
+  // logarithm of likelihood.
+  void push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning, float weight,
+            std::span<const float> of_periods);
 
   Place likeliest() const;
   // The mean of what is close to a place: another tempo by a few percent, another phase by less

@@ -1,0 +1,79 @@
+#include "producers/music/tracker/tempo/tempo_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/base/assert.h"
+#include "core/base/beat.h"
+
+namespace dance {
+namespace {
+
+// Of a likelihood ratio, a hop: the rhythm of the last five seconds stays nearly the same from hop
+// to hop.
+static const float kRhythmEvidence =
+    std::getenv("KRE") ? static_cast<float>(std::atof(std::getenv("KRE"))) : 0.03f;
+// A hint of weight 1 turns the level in some seconds, against rhythms that say the other.
+constexpr float kHintEvidence = 0.12f;
+constexpr double kNearLevel_octaves = 0.12;
+constexpr int kSettled_hops = 150;
+// Periods within one of so many parts are one level: the rhythm chooses between levels, and where
+// exactly the beat lies is heard better in its strokes.
+constexpr int kSameLevel_parts = 16;
+// All periods are judged anew in so many hops.
+constexpr std::size_t kTurn_hops = 10;
+
+}  // namespace
+
+TempoEvidence::TempoEvidence(const TempoNet& net, double hop_s, int least_period_hops, int periods)
+    : net_(&net),
+      hop_s_(hop_s),
+      least_period_(least_period_hops),
+      judged_(static_cast<std::size_t>(periods), 0.0f),
+      hinted_(judged_),
+      evidence_(judged_) {
+  DANCE_ASSERT(periods > 0 && least_period_hops + periods - 1 <= RhythmPeriods::kMostPeriod_hops);
+}
+
+void TempoEvidence::set_hint(const TempoHint& hint) {
+  const bool is_one =
+      hint.tempo_bpm >= kLeastTempo_bpm && hint.tempo_bpm <= kMostTempo_bpm && hint.weight > 0.0;
+  hint_ = is_one ? TempoHint{hint.tempo_bpm, std::min(hint.weight, 1.0)} : TempoHint{};
+}
+
+// Speaks against half and double of the hinted tempo.
+float TempoEvidence::hinted(double period_hops) const {
+  if (hint_.weight <= 0.0) return 0.0f;
+  const double octaves = std::log2(60.0 / (period_hops * hop_s_) / hint_.tempo_bpm);
+  const double away = (std::abs(octaves) - 1.0) / kNearLevel_octaves;
+  return -kHintEvidence * static_cast<float>(hint_.weight * std::exp(-0.5 * away * away));
+}
+
+void TempoEvidence::judge_some() {
+  const std::size_t now = (judged_.size() + kTurn_hops - 1) / kTurn_hops;
+  for (std::size_t k = 0; k < now; ++k, next_ = (next_ + 1) % judged_.size()) {
+    const double period_hops = least_period_ + static_cast<double>(next_);
+    rhythm_.read(period_hops, values_);
+    judged_[next_] = net_->judge(values_);
+    hinted_[next_] = hinted(period_hops);
+  }
+}
+
+void TempoEvidence::push(const OnsetStrength::Strengths& strengths, float weight) {
+  rhythm_.push(strengths);
+  judge_some();
+  heard_hops_ = std::min(heard_hops_ + 1, kSettled_hops);
+  const float settled = static_cast<float>(heard_hops_) / static_cast<float>(kSettled_hops);
+  const auto periods = static_cast<int>(evidence_.size());
+  for (int i = 0; i < periods; ++i) {
+    const int reach = (least_period_ + i) / kSameLevel_parts;
+    const auto first = judged_.begin() + std::max(0, i - reach);
+    const auto end = judged_.begin() + std::min(periods, i + reach + 1);
+    const auto at = static_cast<std::size_t>(i);
+    evidence_[at] =
+        weight * (settled * kRhythmEvidence * *std::max_element(first, end) + hinted_[at]);
+  }
+}
+
+}  // namespace dance
