@@ -48,7 +48,7 @@ struct TrainingSong {
 
 struct MusicTraining {
   int rounds = 12;
-  int patterns = 14;
+  int patterns = 16;
   std::uint64_t seed = 1;
   std::function<void(const std::string&)> tell = [](const std::string&) {
   };  // progress, a line each

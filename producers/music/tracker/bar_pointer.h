@@ -39,13 +39,13 @@ class BarPointer {
   // At least one pattern; they are not needed afterwards.
   BarPointer(double hop_s, std::span<const MeterPattern> patterns);
 
-  // The beats that are searched, in hops: from the least each longer one.
-  int least_period_hops() const { return least_period_; }
-  int periods() const { return tempi_; }
+  // The shortest and the longest beat that are searched.
+  int least_period_hops() const { return period_hops_.front(); }
+  int most_period_hops() const { return period_hops_.back(); }
 
   // Strengths of the next hop, and what the stroke of some hops ago was. weight: their weight, 0
-  // (there is no music) to 1. of_periods: what else speaks for or against each period, as a
-  // logarithm of likelihood.
+  // (there is no music) to 1. of_periods: what else speaks for or against a beat of each number of
+  // hops, from the shortest to the longest, as a logarithm of likelihood.
   void push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning, float weight,
             std::span<const float> of_periods);
 
@@ -63,7 +63,9 @@ class BarPointer {
     float start;  // probability of each before anything is heard
   };
 
-  int period(int tempo) const { return least_period_ + tempo; }
+  int period(int tempo) const { return period_hops_[static_cast<std::size_t>(tempo)]; }
+  void choose_tempi();
+  double start_weight(int tempo) const;
   void make_states(std::span<const MeterPattern> patterns);
   void describe(const MeterPattern& pattern, const Block& block);
   void make_places();
@@ -71,8 +73,8 @@ class BarPointer {
   void gather_beat_ends();
 
   double hop_s_;
-  int least_period_;
-  int tempi_;
+  std::vector<int> period_hops_;  // of each tempo
+  int tempi_ = 0;
   std::size_t patterns_;
   std::vector<Block> blocks_;
   Eigen::ArrayXf state_;

@@ -22,7 +22,8 @@ BeatTracker::BeatTracker(double sample_rate_hz, std::shared_ptr<const BeatModel>
       model_(std::move(model)),
       features_(onsets_),
       pointer_(hop_s_, model_->patterns),
-      tempo_(model_->tempo_net, hop_s_, pointer_.least_period_hops(), pointer_.periods()),
+      tempo_(model_->tempo_net, hop_s_, pointer_.least_period_hops(),
+             pointer_.most_period_hops() - pointer_.least_period_hops() + 1),
       lock_(hop_s_),
       hop_(onsets_.hop_samples()) {}
 

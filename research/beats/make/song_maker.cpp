@@ -14,6 +14,9 @@ constexpr std::size_t kBarBeats = 4;
 constexpr std::size_t kRowSteps = 16;
 constexpr std::size_t kSectionBars = 8;
 constexpr double kFirstBeat_s = 0.5;
+// Of a row's places, in the most varied song.
+constexpr double kAdded = 0.07;
+constexpr double kLeftOut = 0.15;
 
 using Chord = std::array<int, 3>;  // semitones
 constexpr Chord kMajor{0, 4, 7};
@@ -52,7 +55,7 @@ const Instrument& instrument_of(SongVoice voice) {
 // A layer as one song plays it.
 struct PlayedLayer {
   const SongLayer* layer;
-  std::string_view row;
+  std::string row;
   std::array<int, 3> drums;
   double loudness;
   bool sounds = true;  // in this section
@@ -70,6 +73,7 @@ class SongMaker {
     key_ = static_cast<int>(random_.below(12));
     is_minor_ = random_.below(2) == 0;
     bars_a_chord_ = random_.below(3) == 0 ? 2 : 1;
+    if (!is_kept_back_) variety_ = random_.uniform();
     choose_layers();
   }
 
@@ -126,10 +130,29 @@ class SongMaker {
     has_fills_ = random_.uniform() < 0.7 && has_drums_;
   }
 
-  std::string_view a_row_of(const SongLayer& layer) {
+  std::string a_row_of(const SongLayer& layer) {
     const bool keeps_back = is_kept_back_ && !layer.kept_rows.empty();
     const std::vector<std::string>& rows = keeps_back ? layer.kept_rows : layer.rows;
-    return rows[random_.below(rows.size())];
+    const std::string& row = rows[random_.below(rows.size())];
+    return is_kept_back_ ? row : varied(row, layer);
+  }
+
+  // As a band varies what it knows: strokes are left out and soft ones come in between, in some
+  // songs more than in others. Who learns from these songs knows more than the rows.
+  std::string varied(std::string row, const SongLayer& layer) {
+    if (layer.voice == SongVoice::kPad && row.find_first_not_of("c.") == std::string::npos)
+      return row;
+    const bool has_chords = row.find('c') != std::string::npos;
+    const char added = layer.voice == SongVoice::kDrums ? 'o' : has_chords ? 'c' : 'r';
+    for (char& letter : row) {
+      if (letter == '|') continue;
+      if (letter == '.') {
+        if (random_.uniform() < variety_ * kAdded) letter = added;
+      } else if (random_.uniform() < variety_ * kLeftOut) {
+        letter = '.';
+      }
+    }
+    return row;
   }
 
   void begin_section() {
@@ -177,7 +200,8 @@ class SongMaker {
 
   void play(const PlayedLayer& played, std::size_t bar) {
     const std::size_t row_bars = played.row.size() > kRowSteps ? 2 : 1;
-    const std::string_view row = played.row.substr(bar % row_bars * (kRowSteps + 1), kRowSteps);
+    const std::string_view row =
+        std::string_view(played.row).substr(bar % row_bars * (kRowSteps + 1), kRowSteps);
     for (std::size_t step = 0; step < row.size(); ++step)
       if (row[step] != '.') {
         if (played.layer->voice == SongVoice::kDrums)
@@ -226,6 +250,7 @@ class SongMaker {
   MadeSong song_;
   double swing_ = 0.5;
   double jitter_s_ = 0.0;
+  double variety_ = 0.0;
   std::array<int, 4> progression_{};
   int key_ = 0;
   bool is_minor_ = false;

@@ -23,7 +23,7 @@ RhythmPeriods::RhythmPeriods() { alike_.fill(Eigen::ArrayXf::Zero(kLags)); }
 
 void RhythmPeriods::push(const OnsetStrength::Strengths& strengths) {
   if (begin_ == 0) {
-    for (Group& group : groups_) group.past.tail(kLags) = group.past.head(kLags).eval();
+    for (Group& group : groups_) group.past.tail(kLags) = group.past.head(kLags);
     begin_ = kRoom - kLags;
   }
   --begin_;

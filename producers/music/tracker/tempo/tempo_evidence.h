@@ -45,7 +45,7 @@ class TempoEvidence {
   TempoHint hint_;
   RhythmPeriods rhythm_;
   std::array<float, RhythmPeriods::kCount> values_{};
-  std::vector<float> judged_, hinted_, evidence_;  // of each period
+  std::vector<float> judged_, hinted_, of_level_, evidence_;  // of each period
   std::size_t next_ = 0;
   int heard_hops_ = 0;
 };
