@@ -29,9 +29,8 @@ TEST(MusicMake, RefusesWhatIsNoSoundfont) {
 TEST(MusicMake, NamesTheStylesWhereOneIsNotKnown) {
   const TestFolder folder("music-make");
   std::ofstream(folder.path("none.sf2")) << "RIFF0000sfbk";
-  const Finished finished =
-      run(bin("dance-music-make") + " --style polka --soundfont " + folder.path("none.sf2") + " " +
-          folder.path("songs"));
+  const Finished finished = run(bin("dance-music-make") + " --style polka --soundfont " +
+                                folder.path("none.sf2") + " " + folder.path("songs"));
   EXPECT_EQ(finished.exit_code, 1);
   EXPECT_NE(finished.talk.find("polka"), std::string::npos) << finished.talk;
   EXPECT_NE(finished.talk.find("kizomba"), std::string::npos) << finished.talk;
@@ -42,9 +41,9 @@ TEST(MusicMake, MakesSongsThatCanBeLearntFrom) {
   if (!std::filesystem::exists(soundfont) || !std::filesystem::exists("/usr/bin/fluidsynth"))
     GTEST_SKIP() << "no instruments here: apt-get install fluidsynth timgm6mb-soundfont";
   const TestFolder folder("music-make");
-  const Finished made = run(bin("dance-music-make") + " " + folder.path("songs") +
-                            " --of-each 1 --seconds 20 --style salsa --style tango --soundfont " +
-                            soundfont);
+  const Finished made =
+      run(bin("dance-music-make") + " " + folder.path("songs") +
+          " --of-each 1 --seconds 20 --style salsa --style tango --soundfont " + soundfont);
   ASSERT_EQ(made.exit_code, 0) << made.talk;
   EXPECT_NE(made.talk.find("2 songs"), std::string::npos) << made.talk;
   std::string songs;

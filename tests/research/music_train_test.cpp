@@ -38,7 +38,7 @@ TEST(MusicTraining, FindsWhereInABarAGroupStrikes) {
 
 TEST(MusicTraining, SaysThatSongsAreTooSlowToLearnFrom) {
   const SongOnDisk disk;
-  disk.add("slow", 40.0, 60.0);
+  disk.add("slow", 40.0, 50.0);
   const Finished refused = run(bin("dance-music-train") + " " + disk.folder.path("slow.wav") +
                                " -o " + disk.folder.path("own.model") + " --rounds 1");
   EXPECT_EQ(refused.exit_code, 1) << refused.talk;
@@ -87,8 +87,8 @@ TEST(MusicTraining, ANetworkTellsTheTempoFromItsHalfAndDoubleInASongItNeverHeard
   const LabelledMoments& moments = songs[2].tempi;
   std::array<double, 2> sum{}, count{};
   for (std::size_t i = 0; i < moments.classes.size(); ++i) {
-    sum[moments.classes[i]] += static_cast<double>(
-        net.judge(std::span<const float, RhythmPeriods::kCount>(
+    sum[moments.classes[i]] +=
+        static_cast<double>(net.judge(std::span<const float, RhythmPeriods::kCount>(
             moments.features.data() + i * RhythmPeriods::kCount, RhythmPeriods::kCount)));
     count[moments.classes[i]] += 1.0;
   }

@@ -16,8 +16,8 @@ constexpr float kRhythmEvidence = 0.1f;
 constexpr float kHintRatio = 16.0f;
 constexpr double kNearLevel_octaves = 0.12;
 constexpr int kSettled_hops = 150;
-// What a turn brings to the mean: three seconds of the music, or all there was so far. A level changes
-// rarely.
+// What a turn brings to the mean: three seconds of the music, or all there was so far. A level
+// changes rarely.
 constexpr float kFollowed = 0.03f;
 constexpr int kMostHops = 1 << 20;
 // Periods within one of so many parts are one level.
@@ -78,6 +78,8 @@ void TempoEvidence::push(const OnsetStrength::Strengths& strengths, float weight
     const auto at = static_cast<std::size_t>(i);
     of_level_[at] = *std::max_element(first, end) + hinted_[at];
   }
+  // A period loses against its half or its double, if one of them is likelier, and against no other:
+  // the strokes themselves say better which of other tempi it is, and where the beat lies.
   const auto level_at = [&](int period_hops, float otherwise) {
     const int i = period_hops - least_period_;
     return i >= 0 && i < periods ? of_level_[static_cast<std::size_t>(i)] : otherwise;
