@@ -1,6 +1,6 @@
 // BeatModel: a beat tracker's parameters, trained on songs whose beats are known: a network that
-// classifies strokes, one that chooses the tempo, and rhythm patterns. `dance music train` makes one;
-// data/music/beats.model is built in.
+// classifies strokes, one that chooses the level of the tempo, and rhythm patterns.
+// `dance music train` makes one; data/music/beats.model is built in.
 //
 // Units/frames: as in stroke_net.h and meter_pattern.h.
 // Ownership:    a value that many trackers may share.

@@ -78,8 +78,8 @@ void TempoEvidence::push(const OnsetStrength::Strengths& strengths, float weight
     const auto at = static_cast<std::size_t>(i);
     of_level_[at] = *std::max_element(first, end) + hinted_[at];
   }
-  // A period loses against its half or its double, if one of them is likelier, and against no other:
-  // the strokes themselves say better which of other tempi it is, and where the beat lies.
+  // A period loses against its half or its double, if one of them is likelier, and against no
+  // other: the strokes themselves say better which of other tempi it is, and where the beat lies.
   const auto level_at = [&](int period_hops, float otherwise) {
     const int i = period_hops - least_period_;
     return i >= 0 && i < periods ? of_level_[static_cast<std::size_t>(i)] : otherwise;
