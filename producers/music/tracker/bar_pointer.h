@@ -3,7 +3,7 @@
 // and the likelihoods of strokes.
 //
 // Units/frames: time in hops of onset strengths; periods are hops a beat.
-// Ownership:    owns its tables, about 2 MB; never allocates after construction.
+// Ownership:    owns its tables, about 3 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      wants strengths that are finite. Where nothing is heard (weight 0) it moves on and
 //               the distribution slowly widens.

@@ -4,8 +4,8 @@
 //
 // Units/frames: mono samples at a given rate. Times in Beat count from the first sample on a clock
 //               that has zero there; the caller adds the time at which that was heard. A hop costs
-//               about 0.3 ms of one core.
-// Ownership:    owns its tables, about 2.5 MB; never allocates after construction.
+//               about 0.4 ms of one core.
+// Ownership:    owns its tables, about 3.5 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      samples that are not finite count as silence. beat().playing is false before the
 //               first two seconds of sound and in silence of more than four; the phase lock goes on
