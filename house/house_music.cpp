@@ -26,6 +26,7 @@ std::vector<std::string> music_arguments(const HostedMusic& music, const std::st
   if (!music.beats.empty()) add("--beats", music.beats);
   if (music.volume != 1.0) add("--volume", std::to_string(music.volume));
   if (music.trim_ms != 0.0) add("--trim", std::to_string(music.trim_ms) + "ms");
+  if (music.steps_bpm != 0.0) add("--steps", std::to_string(music.steps_bpm));
   // Behind a mark, as a file's name may begin with a dash.
   words.emplace_back("--");
   if (!music.file.empty()) words.push_back(music.file);

@@ -233,6 +233,7 @@ void read_music(TomlReader& reader, const std::filesystem::path& folder, Session
   music.loop = reader.bool_or("loop", false);
   music.silent = reader.bool_or("silent", false);
   music.volume = reader.number_or("volume", 1.0, 0.0, 1.0);
+  music.steps_bpm = reader.number_or("steps_bpm", 0.0, 0.0, 400.0);
   music.trim_ms = reader.number_or("trim_ms", 0.0, -5000.0, 5000.0);
   reader.finish();  // first, so that a misspelt key is told from a missing one
   if (music.file.empty() && !music.follow && !music.microphone)

@@ -74,6 +74,7 @@ struct HostedMusic {
   bool microphone = false;
   double volume = 1.0;
   double trim_ms = 0.0;
+  double steps_bpm = 0.0;  // about how fast dancers step; 0 = as is heard
 };
 
 // How a guest of this house wants to be shown, from the begin on; said on STYLE/capture.

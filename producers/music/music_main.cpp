@@ -28,6 +28,7 @@ constexpr const char* kExamples = R"(Examples:
   dance music song.ogg --silent              keeps the time only, on a machine without sound
   dance music song.ogg --trim 120ms          through a loudspeaker that is late by so much
   dance music --microphone                   plays nothing: publishes the beat that it hears
+  dance music --microphone --steps 96        where it could be heard as 192
 A song without a list of beats is analysed before it starts, within a few per cent of its length.
 A .beats file is text: seconds, TAB, position in the bar.
 )";
@@ -46,6 +47,7 @@ struct ProgramOptions {
   bool loop = false;
   bool microphone = false;
   std::string source;
+  double steps_bpm = 0.0;
   double volume = 1.0;
   double seconds = 0.0;
 };
@@ -90,6 +92,9 @@ struct Loaded {
   float confidence = 1.0f;
 };
 
+// Who says it means it.
+TempoHint hint_of(const ProgramOptions& options) { return {options.steps_bpm, 1.0}; }
+
 Result<Loaded> load(const ProgramOptions& options) {
   Loaded loaded;
   if (options.file.empty()) return loaded;
@@ -97,7 +102,7 @@ Result<Loaded> load(const ProgramOptions& options) {
   const std::string beats = options.beats.empty() ? beats_path_beside(options.file) : options.beats;
   if (options.beats.empty() && !is_there(beats)) {
     talk::info("there is no {}: finds the beats of {} by listening", beats, options.file);
-    auto tracked = track_song(*loaded.audio);
+    auto tracked = track_song(*loaded.audio, hint_of(options));
     if (!tracked)
       return fail(tracked.error().what + "; or put a list of its beats beside it as " + beats);
     loaded.confidence = tracked->confidence;
@@ -142,7 +147,7 @@ Result<void> follow_microphone(const ProgramOptions& options) {
   DANCE_TRY(const Duration trim, trim_of(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
-  DANCE_TRY(auto microphone, MicrophoneBeats::open(options.source, trim));
+  DANCE_TRY(auto microphone, MicrophoneBeats::open(options.source, trim, hint_of(options)));
   DANCE_TRY(auto bus, Bus::open(options.bus));
   BeatPublisher publisher(*bus, *poller, [&](MonoTime now) { return microphone->beat(now); });
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
@@ -217,6 +222,10 @@ int main(int argc, char** argv) {
   line.add_flag("--microphone", options.microphone,
                 "play nothing, and publish the beat of what the microphone records");
   line.add("--source", options.source, "which microphone; `pactl list short sources` names them");
+  line.add("--steps", options.steps_bpm,
+           "about how many steps a minute are danced to it, where its beats are heard at half or "
+           "double of that; 0 = what is heard")
+      .range(0.0, 400.0);
   line.add_flag("--loop", options.loop,
                 "loop, while this house leads the room or plays for itself");
   line.add("--volume", options.volume, "0 to 1").range(0.0, 1.0);

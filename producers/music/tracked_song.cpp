@@ -11,12 +11,13 @@ constexpr std::size_t kFewestTrackedBeats = 8;
 
 }  // namespace
 
-Result<TrackedSong> track_song(AudioFile& file) {
+Result<TrackedSong> track_song(AudioFile& file, const TempoHint& hint) {
   if (file.rate_hz() < BeatTracker::kLeastRate_hz || file.rate_hz() > BeatTracker::kMostRate_hz)
     return fail(file.path() + ": no beats can be heard at " +
                 std::to_string(static_cast<int>(file.rate_hz())) +
                 " samples a second; convert it to 44100");
   BeatTracker tracker(file.rate_hz());
+  tracker.set_tempo_hint(hint);
   std::vector<float> hop(tracker.hop_samples());
   std::vector<GridBeat> beats;
   double confidence = 0.0;

@@ -1,5 +1,6 @@
 // The beats of a music file without a list of them: found in advance, by the same tracker that a
-// microphone uses, so that every house with that file has the same beats from its first second on.
+// microphone uses, so that every house with that file (and the same hint, if any) has the same
+// beats from its first second on.
 //
 // Units/frames: as producers/music/beat_grid.h; the bar is not known.
 // Ownership:    plain values; leaves the file at its begin.
@@ -10,6 +11,7 @@
 #include "core/base/result.h"
 #include "producers/music/beat_grid.h"
 #include "producers/music/decode/audio_file.h"
+#include "producers/music/tracker/tempo/tempo_evidence.h"
 
 namespace dance {
 
@@ -18,6 +20,7 @@ struct TrackedSong {
   float confidence = 0.0f;  // mean, as core/base/beat.h
 };
 
-Result<TrackedSong> track_song(AudioFile& file);
+// The hint is of the whole song.
+Result<TrackedSong> track_song(AudioFile& file, const TempoHint& hint = {});
 
 }  // namespace dance

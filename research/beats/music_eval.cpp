@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 
 #include "core/base/random.h"
 #include "producers/music/beats_file.h"
@@ -37,8 +38,11 @@ double core_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+// What dancers say at a second of the music.
+using HintAt = std::function<TempoHint(double)>;
+
 Heard hear(std::span<const float> samples, double rate_hz,
-           const std::shared_ptr<const BeatModel>& model) {
+           const std::shared_ptr<const BeatModel>& model, const HintAt& hint_at) {
   BeatTracker tracker(rate_hz, model);
   PredictedBeats beats(static_cast<double>(tracker.hop_samples()) / rate_hz);
   Heard heard;
@@ -46,6 +50,7 @@ Heard hear(std::span<const float> samples, double rate_hz,
   const double begin_s = core_seconds();
   for (; samples.size() >= tracker.hop_samples();
        samples = samples.subspan(tracker.hop_samples())) {
+    tracker.set_tempo_hint(hint_at((tracker.beat().time - MonoTime{}).as_seconds()));
     tracker.push(samples.first(tracker.hop_samples()));
     beats.hear(tracker.beat());
     heard.words.push_back(tracker.beat());
@@ -58,12 +63,13 @@ Heard hear(std::span<const float> samples, double rate_hz,
 // A strict look: bitwise, with the future replaced by loud noise.
 bool says_the_same_without_future(const std::vector<float>& song, double rate_hz,
                                   const std::vector<Beat>& words,
-                                  const std::shared_ptr<const BeatModel>& model) {
+                                  const std::shared_ptr<const BeatModel>& model,
+                                  const HintAt& hint_at) {
   std::vector<float> poisoned(song);
   Random random(2);
   for (std::size_t i = poisoned.size() / 2; i < poisoned.size(); ++i)
     poisoned[i] = static_cast<float>(random.uniform(-1.0, 1.0));
-  const std::vector<Beat> others = hear(poisoned, rate_hz, model).words;
+  const std::vector<Beat> others = hear(poisoned, rate_hz, model, hint_at).words;
   const double half_s = static_cast<double>(poisoned.size() / 2) / rate_hz;
   for (std::size_t k = 0; k < words.size(); ++k) {
     if ((words[k].time - MonoTime{}).as_seconds() > half_s) return true;
@@ -95,14 +101,20 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
 
   SongEval result;
   result.name = std::filesystem::path(audio_path).filename().string();
-  const Heard heard = hear(song, rate_hz, options.model);
+  const auto hint_at = [&](double t) {
+    const double beat = grid.beat_at(t * options.speed + options.start_s);
+    return TempoHint{grid.tempo_bpm(beat) * options.speed, options.hint_weight};
+  };
+  const Heard heard = hear(song, rate_hz, options.model, hint_at);
   // Behind the last beat of the list nothing is known.
   const double end_s =
       std::min(static_cast<double>(song.size()) / rate_hz, truth_s.back() + kBeatTolerance_s);
   if (end_s <= options.left_out_s)
     return fail(audio_path + ": is no longer than the " +
                 std::to_string(static_cast<int>(options.left_out_s)) + " s that are left out");
+  result.genre = genre_of_beats_file(beats_path);
   result.score = score_beats(truth_s, heard.beats_s, options.left_out_s, end_s);
+  result.level = level_of_beats(truth_s, heard.beats_s, options.left_out_s, end_s);
   std::vector<double> tempi;
   std::vector<double> errors;
   for (const Beat& word : heard.words) {
@@ -116,7 +128,8 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
   result.tempo_bpm = median_of(tempi);
   result.tempo_error_percent = median_of(errors);
   if (options.check_causal)
-    result.causal = says_the_same_without_future(song, rate_hz, heard.words, options.model);
+    result.causal =
+        says_the_same_without_future(song, rate_hz, heard.words, options.model, hint_at);
   result.us_per_hop =
       heard.words.empty() ? 0.0 : heard.seconds * 1e6 / static_cast<double>(heard.words.size());
 
@@ -130,10 +143,12 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
     return result;
   }
   const auto aubio = aubio_beats(audio_path);
-  if (aubio)
+  if (aubio) {
     result.aubio = score_beats(truth_s, *aubio, options.left_out_s, end_s);
-  else
+    result.aubio_level = level_of_beats(truth_s, *aubio, options.left_out_s, end_s);
+  } else {
     result.aubio_missing = aubio.error().what;
+  }
   return result;
 }
 

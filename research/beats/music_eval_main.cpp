@@ -23,6 +23,7 @@ struct MusicEvalWishes {
   std::vector<std::string> beats;
   std::string model;
   MusicEvalOptions options;
+  bool tracker_only = false;
   bool json = false;
 };
 
@@ -30,6 +31,8 @@ Result<void> run(MusicEvalWishes wishes) {
   if (!wishes.model.empty()) {
     DANCE_TRY(wishes.options.model, read_beat_model_file(wishes.model));
   }
+  wishes.options.with_aubio = !wishes.tracker_only;
+  wishes.options.check_causal = !wishes.tracker_only;
   std::vector<SongEval> songs;
   for (std::size_t i = 0; i < wishes.files.size(); ++i) {
     const std::string beats =
@@ -61,7 +64,12 @@ int main(int argc, char** argv) {
       .range(-200.0, 0.0);
   line.add("--start", wishes.options.start_s, "begins so many seconds into the file")
       .range(0.0, 3600.0);
+  line.add("--steps", wishes.options.hint_weight,
+           "weight of a tempo hint as dancers who step on each beat give it")
+      .range(0.0, 1.0);
   line.add("--model", wishes.model, "a model of dance music train, instead of the built in one");
+  line.add_flag("--tracker-only", wishes.tracker_only,
+                "without aubio and the look at causality: takes a third of the time");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kMusicEvalExamples);
   line.finally([&]() -> dance::Result<void> {

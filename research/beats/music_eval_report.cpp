@@ -38,19 +38,29 @@ nlohmann::ordered_json score_json(const BeatScore& score) {
           {"sd_error_ms", rounded(score.sd_error_s * 1e3, 1e2)}};
 }
 
+nlohmann::ordered_json level_json(const BeatLevel& level) {
+  return {{"half", rounded(level.half, 1e4)},
+          {"double", rounded(level.twice, 1e4)},
+          {"off_beat", rounded(level.off_beat, 1e4)}};
+}
+
 nlohmann::ordered_json song_json(const SongEval& song) {
   nlohmann::ordered_json out{{"file", song.name}};
+  if (!song.genre.empty()) out["genre"] = song.genre;
   out["f_measure"] = rounded(song.score.f_measure(), 1e4);
+  out["level_errors"] = level_json(song.level);
   out["tempo_bpm"] = rounded(song.tempo_bpm, 1e2);
   out["tempo_error_percent"] = rounded(song.tempo_error_percent, 1e2);
   out["mean_error_ms"] = rounded(song.score.mean_error_s * 1e3, 1e2);
   out["sd_error_ms"] = rounded(song.score.sd_error_s * 1e3, 1e2);
   out["causal"] = causal_json(song.causal);
   out["us_per_hop"] = rounded(song.us_per_hop, 10.0);
-  if (song.aubio)
+  if (song.aubio) {
     out["baseline_aubio"] = score_json(*song.aubio);
-  else
+    out["baseline_aubio"]["level_errors"] = level_json(song.aubio_level);
+  } else {
     out["baseline_aubio"] = nullptr;
+  }
   return out;
 }
 
@@ -83,6 +93,7 @@ std::string music_eval_table(const std::vector<SongEval>& songs) {
   out += fmt::format(
       "\n  beats within 70 ms, first 5 s left out; {:.0f} us of one core a hop of 10 ms\n",
       mean_over(songs, [](const SongEval& s) { return s.us_per_hop; }));
+  out += music_eval_genres(songs);
   for (const SongEval& song : songs)
     if (!song.aubio) {
       out += "  " + song.aubio_missing + "\n";

@@ -18,7 +18,7 @@ constexpr int kTurns = 40;
 // little more.
 constexpr double kShare = 0.15;
 constexpr double kWider = 1.2;
-constexpr int kLeastOfUse_bpm = 100;
+constexpr int kLeastOfUse_bpm = 75;
 constexpr int kMostOfUse_bpm = 200;
 constexpr int kLeastKnown_bpm = 60;
 constexpr int kMostKnown_bpm = 240;

@@ -34,23 +34,23 @@ struct MusicTrainWishes {
 };
 
 // A made song teaches less than a recorded one: it is one of many, and simpler.
-constexpr float kMadeWeight = 0.25f;
+constexpr float kMadeWeight = 0.2f;
 // A recorded song teaches at these speeds: there are few, and a style is danced to at more tempi
 // than one.
 constexpr std::array kSpeeds{1.0, 0.88, 1.13};
 // Beside the song as it is, so many others of how it may have been mastered.
 constexpr std::size_t kStudios = 2;
+constexpr std::size_t kMadeStudios = 1;  // of a made song, of which there are many
 
 struct Songs {
   std::vector<TrainingSong> recorded;  // each in all its ways, one after another
   std::vector<TrainingSong> made;
 };
 
-std::size_t ways_of(std::span<const double> speeds) { return speeds.size() * (1 + kStudios); }
-
 Result<std::vector<TrainingSong>> load_songs(const std::vector<std::string>& files, float weight,
-                                             std::span<const double> speeds, std::uint64_t seed) {
-  const std::size_t ways = ways_of(speeds);
+                                             std::span<const double> speeds, std::size_t studios,
+                                             std::uint64_t seed) {
+  const std::size_t ways = speeds.size() * (1 + studios);
   std::vector<Result<TrainingSong>> loaded(files.size() * ways, fail("was not loaded"));
   in_two_threads(loaded.size(), [&](std::size_t i) {
     const std::string& file = files[i / ways];
@@ -66,7 +66,7 @@ Result<std::vector<TrainingSong>> load_songs(const std::vector<std::string>& fil
   for (Result<TrainingSong>& song : loaded) {
     if (!song) return tl::make_unexpected(song.error());
     // A song's ways weigh as much together as one at each speed would.
-    song->weight = weight / static_cast<float>(1 + kStudios);
+    song->weight = weight / static_cast<float>(1 + studios);
     songs.push_back(std::move(*song));
   }
   return songs;
@@ -78,7 +78,7 @@ Result<BeatModel> train_without(const Songs& songs, const MusicTrainWishes& wish
   std::vector<const TrainingSong*> chosen;
   const auto parts = static_cast<std::size_t>(std::max(1, wishes.hold_out));
   for (std::size_t i = 0; i < songs.recorded.size(); ++i)
-    if (i / ways_of(kSpeeds) % parts != without || wishes.hold_out == 0)
+    if (i / (kSpeeds.size() * (1 + kStudios)) % parts != without || wishes.hold_out == 0)
       chosen.push_back(&songs.recorded[i]);
   for (const TrainingSong& song : songs.made) chosen.push_back(&song);
   return train_beats(chosen, wishes.training);
@@ -114,9 +114,10 @@ Result<void> run(MusicTrainWishes wishes) {
   if (wishes.hold_out == 0)
     if (auto possible = try_whole_file(wishes.out); !possible) return possible;
   Songs songs;
-  DANCE_TRY(songs.recorded, load_songs(wishes.files, 1.0f, kSpeeds, wishes.training.seed));
-  DANCE_TRY(songs.made,
-            load_songs(wishes.made, kMadeWeight, std::array{1.0}, wishes.training.seed));
+  DANCE_TRY(songs.recorded,
+            load_songs(wishes.files, 1.0f, kSpeeds, kStudios, wishes.training.seed));
+  DANCE_TRY(songs.made, load_songs(wishes.made, kMadeWeight, std::array{1.0}, kMadeStudios,
+                                   wishes.training.seed));
   if (wishes.hold_out > 0) {
     DANCE_TRY(const std::vector<SongEval> evals, hold_out(songs, wishes));
     const std::string text = music_eval_table(evals);

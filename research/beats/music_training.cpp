@@ -48,6 +48,51 @@ void find_tempi(TrainingSong& song, std::span<const double> beats_s) {
   song.most_tempo_bpm = tempi[tempi.size() - 1 - tempi.size() / 50];
 }
 
+template <std::size_t N>
+void put(LabelledMoments& moments, const std::array<float, N>& row, std::size_t kind,
+         float weight) {
+  moments.features.insert(moments.features.end(), row.begin(), row.end());
+  moments.classes.push_back(static_cast<std::uint8_t>(kind));
+  moments.weights.push_back(weight);
+}
+
+// The song's own tempo against those that a tracker might take for it.
+void find_tempo_moments(LabelledMoments& moments,
+                        std::span<const OnsetStrength::Strengths> strengths, double hop_s,
+                        std::span<const double> beats_s) {
+  constexpr std::size_t kFirst_hops = 300, kEvery_hops = 40;
+  constexpr double kLeast_hops = 27.0, kMost_hops = RhythmPeriods::kMostPeriod_hops;
+  constexpr std::array kLevels{0.5, 2.0};
+  constexpr std::array kOthers{0.667, 0.75, 0.8, 0.9, 1.12, 1.25, 1.333, 1.5};
+  constexpr std::array kNearby{0.985, 1.0, 1.015};
+  // Levels are what is to be learnt; other tempi are seldom in doubt.
+  constexpr float kLevelWeight = 3.0f;
+  RhythmPeriods rhythm;
+  std::array<float, RhythmPeriods::kCount> row;
+  std::array<float, 2> sums{};
+  std::size_t beat = 0;
+  for (std::size_t k = 0; k < strengths.size(); ++k) {
+    rhythm.push(strengths[k]);
+    const double t = static_cast<double>(k + 1) * hop_s;
+    while (beat + 1 < beats_s.size() && beats_s[beat + 1] <= t) ++beat;
+    if (k < kFirst_hops || k % kEvery_hops != 0) continue;
+    if (t < beats_s[beat] || beat + 1 >= beats_s.size()) continue;
+    const double period_hops = (beats_s[beat + 1] - beats_s[beat]) / hop_s;
+    const auto suppose = [&](double factor, std::size_t kind, float weight) {
+      const double supposed = factor * period_hops;
+      if (supposed < kLeast_hops || supposed > kMost_hops) return;
+      rhythm.read(supposed, row);
+      put(moments, row, kind, weight);
+      sums[kind] += weight;
+    };
+    for (const double factor : kNearby) suppose(factor, 0, 1.0f);
+    for (const double factor : kLevels) suppose(factor, 1, kLevelWeight);
+    for (const double factor : kOthers) suppose(factor, 1, 1.0f);
+  }
+  for (std::size_t i = 0; i < moments.weights.size(); ++i)
+    moments.weights[i] /= std::max(sums[moments.classes[i]], 1.0f);
+}
+
 void find_bars(TrainingSong& song, std::span<const OnsetStrength::Strengths> strengths,
                std::span<const double> times_s, std::span<const double> beats_s) {
   for (std::size_t k = kFirstChunk_beat; k + kChunk_beats < beats_s.size(); k += kChunk_beats) {
@@ -111,15 +156,14 @@ Result<TrainingSong> load_training_song(const std::string& audio_path,
     if (moment.kind == 2 && strengths.size() % kEveryOther_hops != 0) continue;
     if (strengths.size() < kFirstMoment_hops + StrokeFeatures::kAhead_hops) continue;
     features.read(row);
-    song.features.insert(song.features.end(), row.begin(), row.end());
-    song.classes.push_back(static_cast<std::uint8_t>(moment.kind));
-    song.weights.push_back(moment.weight);
+    put(song.strokes, row, moment.kind, moment.weight);
     sums[moment.kind] += moment.weight;
   }
-  for (std::size_t i = 0; i < song.weights.size(); ++i)
-    song.weights[i] /= std::max(sums[song.classes[i]], 1.0f);
+  for (std::size_t i = 0; i < song.strokes.weights.size(); ++i)
+    song.strokes.weights[i] /= std::max(sums[song.strokes.classes[i]], 1.0f);
+  find_tempo_moments(song.tempi, strengths, hop_s, beats_s);
   find_bars(song, strengths, times_s, beats_s);
-  if (song.bars.empty() || song.classes.empty())
+  if (song.bars.empty() || song.strokes.classes.empty())
     return fail(audio_path + ": ends before its beats do: nothing can be learnt from it");
   return song;
 }
@@ -132,10 +176,11 @@ Result<BeatModel> train_beats(const std::vector<const TrainingSong*>& songs,
   if (model.patterns.empty())
     return fail(
         "no kind of bar is left to learn: the songs' beats are slower or faster than what is "
-        "looked for, 94 to 214 a "
+        "looked for, 72 to 214 a "
         "minute (give a slow song's at their double), or --patterns asks for more kinds than the "
         "songs have");
   model.net = fit_stroke_net(songs, training);
+  model.tempo_net = fit_tempo_net(songs, training);
   return model;
 }
 

@@ -176,13 +176,14 @@ TEST(Session, ReadsTheMusicWhichFollowsItsRoomUnlessToldOtherwise) {
 
   const auto in_room = parse_session(
       "[house]\nguest = \"ann\"\nserver = \"h:1\"\n[music]\nfile = \"a.ogg\"\nloop = true\n"
-      "trim_ms = 20\nvolume = 0.5\n",
+      "trim_ms = 20\nvolume = 0.5\nsteps_bpm = 96\n",
       "s.toml");
   ASSERT_TRUE(in_room) << in_room.error().what;
   EXPECT_TRUE(in_room->music->follow);
   EXPECT_EQ(in_room->music->guest.view(), "ann");
   EXPECT_TRUE(in_room->music->loop);
   EXPECT_EQ(in_room->music->trim_ms, 20.0);
+  EXPECT_EQ(in_room->music->steps_bpm, 96.0);
 
   const auto error_of = [](const std::string& music) {
     const auto session = parse_session("[house]\n" + music, "s.toml");

@@ -40,6 +40,42 @@ TEST(MusicEval, TakesSeveralSongsAndMeansThem) {
   EXPECT_NEAR(report["tempo_bpm"].get<double>(), 148.0 * 1.05, 3.0);
 }
 
+TEST(MusicEval, SaysByGenreHowOftenTheLevelIsWrong) {
+  const SongOnDisk song;
+  const std::string audio = song.folder.path("song.wav");
+  const auto with_genre = [&](const std::string& name, const std::string& genre, int every) {
+    std::ofstream file(song.folder.path(name));
+    file << "# made: for a test\n# genre: " << genre << "\n";
+    const auto beats = DrumMusic::steady(14.0, 148.0);
+    for (std::size_t i = 0; i < beats.size(); i += static_cast<std::size_t>(every))
+      file << beats[i] << "\n";
+    return song.folder.path(name);
+  };
+  // The second list claims that each other beat is one.
+  const std::string lists = audio + " --beats " + with_genre("right.beats", "cumbia", 1) + " " +
+                            audio + " --beats " + with_genre("wrong.beats", "kizomba", 2);
+  const Finished table = run(bin("dance-music-eval") + " " + lists + " --tracker-only");
+  ASSERT_EQ(table.exit_code, 0) << table.talk;
+  EXPECT_NE(table.output.find("\n  cumbia "), std::string::npos) << table.output;
+  EXPECT_NE(table.output.find("\n  kizomba "), std::string::npos) << table.output;
+  const Finished finished = run(bin("dance-music-eval") + " " + lists + " --tracker-only --json");
+  ASSERT_EQ(finished.exit_code, 0) << finished.talk;
+  const auto report = nlohmann::json::parse(finished.output);
+  EXPECT_EQ(report["files"][0]["genre"], "cumbia");
+  EXPECT_EQ(report["files"][0]["level_errors"]["double"].get<double>(), 0.0);
+  EXPECT_GT(report["files"][1]["level_errors"]["double"].get<double>(), 0.9);
+  EXPECT_TRUE(report["files"][0]["causal"].is_null()) << "not asked for";
+}
+
+TEST(MusicEval, TakesTheTempoOfDancersAsAHint) {
+  const SongOnDisk song;
+  const std::string audio = song.folder.path("song.wav");
+  const Finished finished = run(bin("dance-music-eval") + " " + audio + " --beats " +
+                                song.folder.path("song.beats") + " --tracker-only --steps 1");
+  EXPECT_EQ(finished.exit_code, 0) << finished.talk;
+  EXPECT_EQ(run(bin("dance-music-eval") + " " + audio + " --steps 2").exit_code, 2);
+}
+
 TEST(MusicEval, NamesWhatIsMissing) {
   const SongOnDisk song;
   const std::string audio = song.folder.path("song.wav");

@@ -38,7 +38,7 @@ TEST(MusicTraining, FindsWhereInABarAGroupStrikes) {
 
 TEST(MusicTraining, SaysThatSongsAreTooSlowToLearnFrom) {
   const SongOnDisk disk;
-  disk.add("slow", 40.0, 60.0);
+  disk.add("slow", 40.0, 50.0);
   const Finished refused = run(bin("dance-music-train") + " " + disk.folder.path("slow.wav") +
                                " -o " + disk.folder.path("own.model") + " --rounds 1");
   EXPECT_EQ(refused.exit_code, 1) << refused.talk;
@@ -61,15 +61,41 @@ TEST(MusicTraining, ANetworkTellsBeatsFromHalvesInASongItNeverHeard) {
   ASSERT_TRUE(model);
   int right = 0, moments = 0;
   const TrainingSong& other = songs[1];
-  for (std::size_t i = 0; i < other.classes.size(); ++i) {
-    if (other.classes[i] == 2) continue;
+  for (std::size_t i = 0; i < other.strokes.classes.size(); ++i) {
+    if (other.strokes.classes[i] == 2) continue;
     const StrokeMeaning meaning = model->net.judge(std::span<const float, StrokeFeatures::kCount>(
-        other.features.data() + i * StrokeFeatures::kCount, StrokeFeatures::kCount));
-    right += (meaning.beat > meaning.half) == (other.classes[i] == 0);
+        other.strokes.features.data() + i * StrokeFeatures::kCount, StrokeFeatures::kCount));
+    right += (meaning.beat > meaning.half) == (other.strokes.classes[i] == 0);
     ++moments;
   }
   ASSERT_GT(moments, 100);
   EXPECT_GT(right, moments * 8 / 10);
+}
+
+TEST(MusicTraining, ANetworkTellsTheTempoFromItsHalfAndDoubleInASongItNeverHeard) {
+  const SongOnDisk disk;
+  std::vector<TrainingSong> songs;
+  for (const double bpm : {92.0, 100.0, 97.0}) {
+    const std::string name = "song" + std::to_string(static_cast<int>(bpm));
+    disk.add(name, 24.0, bpm);
+    auto song =
+        load_training_song(disk.folder.path(name + ".wav"), disk.folder.path(name + ".beats"));
+    ASSERT_TRUE(song) << song.error().what;
+    songs.push_back(std::move(*song));
+  }
+  const TempoNet net = fit_tempo_net({&songs[0], &songs[1]}, {.rounds = 8});
+  const LabelledMoments& moments = songs[2].tempi;
+  std::array<double, 2> sum{}, count{};
+  for (std::size_t i = 0; i < moments.classes.size(); ++i) {
+    sum[moments.classes[i]] +=
+        static_cast<double>(net.judge(std::span<const float, RhythmPeriods::kCount>(
+            moments.features.data() + i * RhythmPeriods::kCount, RhythmPeriods::kCount)));
+    count[moments.classes[i]] += 1.0;
+  }
+  ASSERT_GT(count[0], 20.0);
+  ASSERT_GT(count[1], 20.0);
+  EXPECT_GT(sum[0] / count[0], 1.0);
+  EXPECT_LT(sum[1] / count[1], -1.0);
 }
 
 TEST(MusicTraining, TheSameSongsGiveTheSameModel) {
@@ -93,10 +119,10 @@ TEST(MusicTraining, AnotherStudioTellsOfTheSameBeatsWithOtherStrokes) {
     return std::move(*song);
   };
   const TrainingSong plain = heard(0), other = heard(7), again = heard(7);
-  EXPECT_EQ(other.classes, plain.classes);
+  EXPECT_EQ(other.strokes.classes, plain.strokes.classes);
   EXPECT_EQ(other.least_tempo_bpm, plain.least_tempo_bpm);
-  EXPECT_NE(other.features, plain.features);
-  EXPECT_EQ(other.features, again.features);
+  EXPECT_NE(other.strokes.features, plain.strokes.features);
+  EXPECT_EQ(other.strokes.features, again.strokes.features);
 }
 
 TEST(MusicTraining, StudiosHangOnNameWayAndSeed) {

@@ -1,7 +1,8 @@
-#include "research/beats/song_maker.h"
+#include "research/beats/make/song_maker.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -17,7 +18,10 @@ TEST(SongStyle, RowsAreBarsOfLettersThatMeanSomething) {
       const bool is_drum = layer.voice == SongVoice::kDrums;
       EXPECT_EQ(is_drum, !layer.drums.empty()) << style.name;
       ASSERT_FALSE(layer.rows.empty()) << style.name;
-      for (const std::string_view row : layer.rows) {
+      for (const int program : layer.programs) EXPECT_TRUE(program >= 0 && program < 128);
+      std::vector<std::string> rows = layer.rows;
+      rows.insert(rows.end(), layer.kept_rows.begin(), layer.kept_rows.end());
+      for (const std::string_view row : rows) {
         ASSERT_TRUE(row.size() == 16 || (row.size() == 33 && row[16] == '|'))
             << style.name << " " << row;
         EXPECT_EQ(row.find_first_not_of(is_drum ? ".xyzXYZop|" : ".1358ncr|"),
@@ -29,6 +33,30 @@ TEST(SongStyle, RowsAreBarsOfLettersThatMeanSomething) {
         }
       }
     }
+  }
+}
+
+TEST(SongStyle, RowsThatAreKeptBackAreNeverTaught) {
+  std::size_t kept = 0;
+  for (const SongStyle& style : song_styles())
+    for (const SongLayer& layer : style.layers)
+      for (const std::string& row : layer.kept_rows) {
+        ++kept;
+        EXPECT_EQ(std::count(layer.rows.begin(), layer.rows.end(), row), 0)
+            << style.name << " " << row;
+      }
+  EXPECT_GT(kept, 80u);
+}
+
+TEST(SongMaker, ASongThatIsKeptBackHasOtherInstrumentsAndStrokes) {
+  for (const SongStyle& style : song_styles()) {
+    if (style.name != "cumbia" && style.name != "salsa") continue;
+    const MadeSong taught = make_song(style, 30.0, 7);
+    const MadeSong kept = make_song(style, 30.0, 7, SongUse::kKeptBack);
+    constexpr std::size_t kBassChannel = 1;
+    EXPECT_NE(taught.programs[kBassChannel], kept.programs[kBassChannel]) << style.name;
+    EXPECT_NE(write_midi(taught), write_midi(kept)) << style.name;
+    EXPECT_EQ(taught.tempo_bpm, kept.tempo_bpm) << style.name;
   }
 }
 

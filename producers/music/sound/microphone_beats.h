@@ -20,7 +20,8 @@ namespace dance {
 class MicrophoneBeats {
  public:
   // `source` as PulseInput takes it.
-  static Result<std::unique_ptr<MicrophoneBeats>> open(const std::string& source, Duration trim);
+  static Result<std::unique_ptr<MicrophoneBeats>> open(const std::string& source, Duration trim,
+                                                       const TempoHint& hint = {});
   MicrophoneBeats(const MicrophoneBeats&) = delete;
   MicrophoneBeats& operator=(const MicrophoneBeats&) = delete;
 

@@ -15,7 +15,9 @@ namespace {
 //   as large moved the mean F
 // by at most 0.04, and evidence of meanings from 0.2 to 0.3 by 0.015.
 constexpr double kFastest_bpm = 214.0;
-constexpr double kSlowest_bpm = 93.7;
+constexpr double kSlowest_bpm = 72.0;
+// Of longer beats only each second number of hops is searched: it is as near, in parts of a beat.
+constexpr int kCoarseFrom_hops = 56;
 constexpr double kLikelyTempo_bpm = 140.0;
 constexpr double kTempoSpread = 0.45;     // of its logarithm
 constexpr float kEvidence = 0.1f;         // neighbouring hops are correlated
@@ -42,12 +44,24 @@ double tempo_weight(double tempo_bpm) {
 
 BarPointer::BarPointer(double hop_s, std::span<const MeterPattern> patterns) : hop_s_(hop_s) {
   DANCE_ASSERT(hop_s > 0.005 && hop_s < 0.02);
-  least_period_ = static_cast<int>(std::lround(60.0 / kFastest_bpm / hop_s));
-  tempi_ = static_cast<int>(std::lround(60.0 / kSlowest_bpm / hop_s)) - least_period_ + 1;
+  choose_tempi();
   DANCE_ASSERT(!patterns.empty());
   make_states(patterns);
   make_places();
   make_tempo_changes();
+}
+
+void BarPointer::choose_tempi() {
+  const auto hops = [&](double bpm) { return static_cast<int>(std::lround(60.0 / bpm / hop_s_)); };
+  for (int n = hops(kFastest_bpm); n <= hops(kSlowest_bpm); n += n < kCoarseFrom_hops ? 1 : 2)
+    period_hops_.push_back(n);
+  tempi_ = static_cast<int>(period_hops_.size());
+}
+
+// Before anything is heard; a tempo stands for all up to the next.
+double BarPointer::start_weight(int tempo) const {
+  const double step = period(tempo) < kCoarseFrom_hops ? 1.0 : 2.0;
+  return step * tempo_weight(60.0 / (period(tempo) * hop_s_));
 }
 
 void BarPointer::make_states(std::span<const MeterPattern> patterns) {
@@ -67,7 +81,7 @@ void BarPointer::make_states(std::span<const MeterPattern> patterns) {
   for (Block& block : blocks_) {
     describe(patterns[block.pattern], block);
     const int n = static_cast<int>(kPatternBeats) * period(block.tempo);
-    block.start = static_cast<float>(tempo_weight(60.0 / (period(block.tempo) * hop_s_)));
+    block.start = static_cast<float>(start_weight(block.tempo));
     sum += block.start * static_cast<float>(n);
   }
   for (Block& block : blocks_) {
@@ -132,8 +146,7 @@ void BarPointer::describe(const MeterPattern& pattern, const Block& block) {
 
 void BarPointer::make_tempo_changes() {
   Eigen::VectorXf anywhere(tempi_);
-  for (int i = 0; i < tempi_; ++i)
-    anywhere[i] = static_cast<float>(tempo_weight(60.0 / (period(i) * hop_s_)));
+  for (int i = 0; i < tempi_; ++i) anywhere[i] = static_cast<float>(start_weight(i));
   anywhere /= anywhere.sum();
   tempo_change_.resize(tempi_, tempi_);
   for (int from = 0; from < tempi_; ++from) {
@@ -180,7 +193,8 @@ void BarPointer::gather_beat_ends() {
 
 // Block by block, so that a block's numbers are still near when they are needed again.
 void BarPointer::push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning,
-                      float weight) {
+                      float weight, std::span<const float> of_periods) {
+  DANCE_ASSERT(static_cast<int>(of_periods.size()) == most_period_hops() - least_period_hops() + 1);
   gather_beat_ends();
   std::array<float, kOnsetGroups> y{};
   for (std::size_t g = 0; g < kOnsetGroups; ++g) y[g] = std::min(strengths[g], kMostStrength);
@@ -198,7 +212,9 @@ void BarPointer::push(const OnsetStrength::Strengths& strengths, const StrokeMea
           entering_(block.tempo, static_cast<Eigen::Index>(block.pattern) * kBeats + beat);
     const auto part = [&](const Eigen::ArrayXf& of) { return of.segment(block.first, all); };
     auto state = state_.segment(block.first, all);
-    state *= (weight * (part(constant_) - y[0] * part(slope_[0]) - y[1] * part(slope_[1]) -
+    const float of_period = of_periods[static_cast<std::size_t>(n - least_period_hops())];
+    state *= (of_period +
+              weight * (part(constant_) - y[0] * part(slope_[0]) - y[1] * part(slope_[1]) -
                         y[2] * part(slope_[2]) - y[3] * part(slope_[3]) - y[4] * part(slope_[4]) +
                         meant_.segment(bar_first_[static_cast<std::size_t>(block.tempo)], all)))
                  .exp();

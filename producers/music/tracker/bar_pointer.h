@@ -3,7 +3,7 @@
 // and the likelihoods of strokes.
 //
 // Units/frames: time in hops of onset strengths; periods are hops a beat.
-// Ownership:    owns its tables, about 2 MB; never allocates after construction.
+// Ownership:    owns its tables, about 3 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      wants strengths that are finite. Where nothing is heard (weight 0) it moves on and
 //               the distribution slowly widens.
@@ -39,9 +39,15 @@ class BarPointer {
   // At least one pattern; they are not needed afterwards.
   BarPointer(double hop_s, std::span<const MeterPattern> patterns);
 
+  // The shortest and the longest beat that are searched.
+  int least_period_hops() const { return period_hops_.front(); }
+  int most_period_hops() const { return period_hops_.back(); }
+
   // Strengths of the next hop, and what the stroke of some hops ago was. weight: their weight, 0
-  // (there is no music) to 1.
-  void push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning, float weight);
+  // (there is no music) to 1. of_periods: what else speaks for or against a beat of each number of
+  // hops, from the shortest to the longest, as a logarithm of likelihood.
+  void push(const OnsetStrength::Strengths& strengths, const StrokeMeaning& meaning, float weight,
+            std::span<const float> of_periods);
 
   Place likeliest() const;
   // The mean of what is close to a place: another tempo by a few percent, another phase by less
@@ -57,7 +63,9 @@ class BarPointer {
     float start;  // probability of each before anything is heard
   };
 
-  int period(int tempo) const { return least_period_ + tempo; }
+  int period(int tempo) const { return period_hops_[static_cast<std::size_t>(tempo)]; }
+  void choose_tempi();
+  double start_weight(int tempo) const;
   void make_states(std::span<const MeterPattern> patterns);
   void describe(const MeterPattern& pattern, const Block& block);
   void make_places();
@@ -65,8 +73,8 @@ class BarPointer {
   void gather_beat_ends();
 
   double hop_s_;
-  int least_period_;
-  int tempi_;
+  std::vector<int> period_hops_;  // of each tempo
+  int tempi_ = 0;
   std::size_t patterns_;
   std::vector<Block> blocks_;
   Eigen::ArrayXf state_;

@@ -13,12 +13,12 @@ namespace dance {
 namespace {
 
 constexpr std::uint32_t kBeatMagic = 0x54424744;  // "DGBT" as bytes
-constexpr std::uint16_t kBeatVersion = 1;
+constexpr std::uint16_t kBeatVersion = 2;
 constexpr float kMostWeight = 1e4f;
 constexpr int kLeastPatternTempo_bpm = 40;
 constexpr int kMostPatternTempo_bpm = 400;
 // Each pattern covers some of the tempi that are searched.
-constexpr int kSlowestOfUse_bpm = 100;
+constexpr int kSlowestOfUse_bpm = 75;
 constexpr int kFastestOfUse_bpm = 200;
 constexpr std::size_t kMostBeatModelBytes = 1 << 16;
 
@@ -49,7 +49,9 @@ std::vector<std::uint8_t> write_beat_model(const BeatModel& model) {
   out.u32(kBeatMagic);
   out.u16(kBeatVersion);
   out.u16(static_cast<std::uint16_t>(model.patterns.size()));
-  visit_net(model.net, [&](const float& x) { out.u32(std::bit_cast<std::uint32_t>(x)); });
+  const auto put = [&](const float& x) { out.u32(std::bit_cast<std::uint32_t>(x)); };
+  visit_net(model.net, put);
+  visit_net(model.tempo_net, put);
   for (const MeterPattern& pattern : model.patterns) {
     out.u16(static_cast<std::uint16_t>(pattern.least_tempo_bpm));
     out.u16(static_cast<std::uint16_t>(pattern.most_tempo_bpm));
@@ -74,10 +76,12 @@ Result<std::shared_ptr<const BeatModel>> read_beat_model(std::span<const std::ui
   const std::size_t patterns = in.u16();
   bool is_whole = patterns > 0 && patterns <= BeatModel::kMostPatterns;
   if (is_whole) {
-    visit_net(model->net, [&](float& x) {
+    const auto take = [&](float& x) {
       x = std::bit_cast<float>(in.u32());
       is_whole = is_whole && std::abs(x) <= kMostWeight;  // refuses NaN too
-    });
+    };
+    visit_net(model->net, take);
+    visit_net(model->tempo_net, take);
     model->patterns.resize(patterns);
     for (MeterPattern& pattern : model->patterns) {
       pattern.least_tempo_bpm = in.u16();

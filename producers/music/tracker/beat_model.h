@@ -1,6 +1,6 @@
 // BeatModel: a beat tracker's parameters, trained on songs whose beats are known: a network that
-// classifies strokes, and rhythm patterns. `dance music train` makes one;
-// data/music/beats.model is built in.
+// classifies strokes, one that chooses the level of the tempo, and rhythm patterns.
+// `dance music train` makes one; data/music/beats.model is built in.
 //
 // Units/frames: as in stroke_net.h and meter_pattern.h.
 // Ownership:    a value that many trackers may share.
@@ -17,6 +17,7 @@
 #include "core/base/result.h"
 #include "producers/music/tracker/meter_pattern.h"
 #include "producers/music/tracker/stroke_net.h"
+#include "producers/music/tracker/tempo/tempo_net.h"
 
 namespace dance {
 
@@ -24,6 +25,7 @@ struct BeatModel {
   static constexpr std::size_t kMostPatterns = 32;
 
   StrokeNet net;
+  TempoNet tempo_net;
   std::vector<MeterPattern> patterns;  // at least one
   std::uint32_t name = 0;              // of the file it was read from
 };

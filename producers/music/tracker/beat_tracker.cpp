@@ -7,10 +7,10 @@ namespace {
 
 // A hop with a mean strength above this is a stroke.
 constexpr float kStroke = 1.0f;
-// The slowest beat that is looked for lasts 64 hops. Where no stroke has been for longer the music
+// The slowest beat that is looked for lasts 83 hops. Where no stroke has been for longer the music
 // has a break, without evidence of the beat: weights fade from the first to the second.
-constexpr std::int64_t kBreakBegins_hops = 50;
-constexpr std::int64_t kBreak_hops = 70;
+constexpr std::int64_t kBreakBegins_hops = 65;
+constexpr std::int64_t kBreak_hops = 90;
 constexpr std::int64_t kKnownAfter_hops = 200;
 constexpr std::int64_t kSilentAfter_hops = 400;
 
@@ -22,6 +22,8 @@ BeatTracker::BeatTracker(double sample_rate_hz, std::shared_ptr<const BeatModel>
       model_(std::move(model)),
       features_(onsets_),
       pointer_(hop_s_, model_->patterns),
+      tempo_(model_->tempo_net, hop_s_, pointer_.least_period_hops(),
+             pointer_.most_period_hops() - pointer_.least_period_hops() + 1),
       lock_(hop_s_),
       hop_(onsets_.hop_samples()) {}
 
@@ -52,7 +54,8 @@ void BeatTracker::end_hop() {
                                   0.0f, 1.0f);
   features_.push(onsets_, strengths);
   features_.read(feature_values_);
-  pointer_.push(strengths, model_->net.judge(feature_values_), weight);
+  tempo_.push(strengths, weight);
+  pointer_.push(strengths, model_->net.judge(feature_values_), weight, tempo_.of_periods());
 
   const double now_s = static_cast<double>(hops_) * hop_s_;
   lock_.follow(pointer_, now_s - OnsetStrength::kDelay_s, now_s);

@@ -1,11 +1,11 @@
 // BeatTracker: a causal, streaming beat tracker for music without a list of its beats. After each
-// hop of 10 ms it predicts the time of the next beat, its number and the tempo, between 94 and 214
-// beats a minute, the one octave of tempo that couples dance in.
+// hop of 10 ms it predicts the time of the next beat, its number and the tempo, between 72 and 214
+// beats a minute, of the beats that dancers step on.
 //
 // Units/frames: mono samples at a given rate. Times in Beat count from the first sample on a clock
 //               that has zero there; the caller adds the time at which that was heard. A hop costs
-//               about 0.3 ms of one core.
-// Ownership:    owns its tables, about 2.5 MB; never allocates after construction.
+//               about 0.4 ms of one core.
+// Ownership:    owns its tables, about 3.5 MB; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      samples that are not finite count as silence. beat().playing is false before the
 //               first two seconds of sound and in silence of more than four; the phase lock goes on
@@ -24,6 +24,7 @@
 #include "producers/music/tracker/beat_phase_lock.h"
 #include "producers/music/tracker/onset_strength.h"
 #include "producers/music/tracker/stroke_features.h"
+#include "producers/music/tracker/tempo/tempo_evidence.h"
 
 namespace dance {
 
@@ -40,6 +41,10 @@ class BeatTracker {
   int push(std::span<const float> samples);
   std::size_t hop_samples() const { return onsets_.hop_samples(); }
 
+  // What the dancers' steps say, until another is given. Before a song of which nothing is known,
+  // give TempoHint{}.
+  void set_tempo_hint(const TempoHint& hint) { tempo_.set_hint(hint); }
+
   // What is known at the end of the newest hop.
   const Beat& beat() const { return beat_; }
 
@@ -51,6 +56,7 @@ class BeatTracker {
   std::shared_ptr<const BeatModel> model_;
   StrokeFeatures features_;
   BarPointer pointer_;
+  TempoEvidence tempo_;
   BeatPhaseLock lock_;
   std::array<float, StrokeFeatures::kCount> feature_values_{};
   std::vector<float> hop_;

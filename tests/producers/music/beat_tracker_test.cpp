@@ -18,8 +18,10 @@ struct Tracked {
   std::vector<double> beats_s;
 };
 
-Tracked track(std::span<const float> samples, double rate_hz = kRate_hz) {
+Tracked track(std::span<const float> samples, double rate_hz = kRate_hz,
+              const TempoHint& hint = {}) {
   BeatTracker tracker(rate_hz);
+  tracker.set_tempo_hint(hint);
   PredictedBeats beats(static_cast<double>(tracker.hop_samples()) / rate_hz);
   Tracked tracked;
   for (; samples.size() >= tracker.hop_samples();
@@ -68,6 +70,28 @@ TEST(BeatTracker, TracksSalsaAtItsOwnTempoAndOnTheBeat) {
     const Tracked tracked = track(DrumMusic(kRate_hz).play_salsa(beats, 14.0));
     EXPECT_NEAR(tracked.words.back().tempo_bpm, bpm, 0.02 * bpm);
     EXPECT_GE(score(beats, tracked, 6.0).f_measure(), 0.95) << bpm;
+  }
+}
+
+TEST(BeatTracker, TakesTheLevelAtWhichItsDancersStep) {
+  // Clicks alone do not say which of them are beats.
+  const auto clicks = DrumMusic::steady(20.0, 184.0);
+  const std::vector<float> music = DrumMusic(kRate_hz).clicks(clicks, 20.0);
+  for (const double bpm : {92.0, 184.0}) {
+    const Tracked tracked = track(music, kRate_hz, {bpm, 1.0});
+    EXPECT_NEAR(tracked.words.back().tempo_bpm, bpm, 0.03 * bpm);
+  }
+}
+
+TEST(BeatTracker, TurnsToTheLevelOfDancersWhoBeginLater) {
+  const auto clicks = DrumMusic::steady(40.0, 184.0);
+  const std::vector<float> music = DrumMusic(kRate_hz).clicks(clicks, 40.0);
+  BeatTracker tracker(kRate_hz);
+  const std::size_t middle = music.size() / 2;
+  for (const double bpm : {184.0, 92.0}) {
+    tracker.set_tempo_hint({bpm, 1.0});
+    tracker.push(bpm == 184.0 ? std::span(music).first(middle) : std::span(music).subspan(middle));
+    EXPECT_NEAR(tracker.beat().tempo_bpm, bpm, 0.03 * bpm);
   }
 }
 
@@ -253,6 +277,7 @@ TEST(BeatTracker, AllocatesNothing) {
   const std::vector<float> music = DrumMusic(kRate_hz).play(beats, 4.0);
   BeatTracker tracker(kRate_hz);
   const AllocationGuard guard;
+  tracker.set_tempo_hint({140.0, 0.5});
   tracker.push(music);
   EXPECT_EQ(guard.allocations(), 0u);
 }

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "research/beats/song_maker.h"
+#include "research/beats/make/song_maker.h"
 
 namespace dance {
 namespace {

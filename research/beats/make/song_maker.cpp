@@ -1,4 +1,4 @@
-#include "research/beats/song_maker.h"
+#include "research/beats/make/song_maker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,9 @@ constexpr std::size_t kBarBeats = 4;
 constexpr std::size_t kRowSteps = 16;
 constexpr std::size_t kSectionBars = 8;
 constexpr double kFirstBeat_s = 0.5;
+// Of a row's places, in the most varied song.
+constexpr double kAdded = 0.07;
+constexpr double kLeftOut = 0.15;
 
 using Chord = std::array<int, 3>;  // semitones
 constexpr Chord kMajor{0, 4, 7};
@@ -27,23 +30,24 @@ constexpr std::array<std::array<int, 4>, 8> kProgressions{{{0, 5, 7, 0},
                                                            {0, 3, 5, 7},
                                                            {0, 0, 7, 7}}};
 
-// Voices: channel, lowest root, programs.
+// Voices: channel, lowest root, programs, and those of songs that are kept back.
 struct Instrument {
   int channel;
   int lowest;
   std::vector<int> programs;
+  std::vector<int> kept_programs;
 };
 
 const Instrument& instrument_of(SongVoice voice) {
   static const std::vector<Instrument> kInstruments{
-      {MadeSong::kDrumChannel, 0, {0}},
-      {1, 28, {32, 33, 34, 35, 38}},
-      {0, 57, {0, 1, 2, 4, 16}},
-      {2, 52, {24, 25, 26, 27}},
-      {5, 40, {29, 30}},
-      {3, 60, {56, 57, 61, 65}},
-      {4, 67, {11, 56, 65, 66, 71, 73, 80}},
-      {6, 55, {48, 50, 52, 89}},
+      {MadeSong::kDrumChannel, 0, {0}, {0}},
+      {1, 28, {32, 33, 34, 35, 38}, {36, 39}},
+      {0, 57, {0, 1, 2, 4, 16}, {3, 5, 17}},
+      {2, 52, {24, 25, 26, 27}, {28, 105}},
+      {5, 40, {29, 30}, {29, 30}},
+      {3, 60, {56, 57, 61, 65}, {59, 62}},
+      {4, 67, {11, 56, 65, 66, 71, 73, 80}, {12, 22, 40, 68, 75}},
+      {6, 55, {48, 50, 52, 89}, {49, 51, 91}},
   };
   return kInstruments[static_cast<std::size_t>(voice)];
 }
@@ -51,7 +55,7 @@ const Instrument& instrument_of(SongVoice voice) {
 // A layer as one song plays it.
 struct PlayedLayer {
   const SongLayer* layer;
-  std::string_view row;
+  std::string row;
   std::array<int, 3> drums;
   double loudness;
   bool sounds = true;  // in this section
@@ -59,8 +63,8 @@ struct PlayedLayer {
 
 class SongMaker {
  public:
-  SongMaker(const SongStyle& style, double seconds, std::uint64_t seed)
-      : style_(style), random_(seed) {
+  SongMaker(const SongStyle& style, double seconds, std::uint64_t seed, SongUse use)
+      : style_(style), is_kept_back_(use == SongUse::kKeptBack), random_(seed) {
     song_.tempo_bpm = random_.uniform(style.least_tempo_bpm, style.most_tempo_bpm);
     lay_beats(seconds);
     swing_ = random_.uniform(style.least_swing, style.most_swing);
@@ -69,6 +73,7 @@ class SongMaker {
     key_ = static_cast<int>(random_.below(12));
     is_minor_ = random_.below(2) == 0;
     bars_a_chord_ = random_.below(3) == 0 ? 2 : 1;
+    if (!is_kept_back_) variety_ = random_.uniform();
     choose_layers();
   }
 
@@ -82,7 +87,8 @@ class SongMaker {
         if (played.sounds && !(is_break && played.layer->voice == SongVoice::kDrums))
           play(played, bar);
       if (is_fill && has_fills_) play_fill(bar);
-      if (bar % kSectionBars == 0 && random_.uniform() < 0.5) strike(bar, 0.0, 49, 96);
+      if (has_drums_ && bar % kSectionBars == 0 && random_.uniform() < 0.5)
+        strike(bar, 0.0, 49, 96);
     }
     return std::move(song_);
   }
@@ -107,22 +113,52 @@ class SongMaker {
   void choose_layers() {
     for (const SongLayer& layer : style_.layers) {
       const Instrument& instrument = instrument_of(layer.voice);
+      const std::vector<int>& programs = !layer.programs.empty() ? layer.programs
+                                         : is_kept_back_         ? instrument.kept_programs
+                                                                 : instrument.programs;
       song_.programs[static_cast<std::size_t>(instrument.channel)] =
-          instrument.programs[random_.below(instrument.programs.size())];
+          programs[random_.below(programs.size())];
       if (random_.uniform() >= layer.chance) continue;
-      PlayedLayer played{&layer, layer.rows[random_.below(layer.rows.size())], {}, 0.0};
+      PlayedLayer played{&layer, a_row_of(layer), {}, 0.0};
       if (!layer.drums.empty()) played.drums = layer.drums[random_.below(layer.drums.size())];
       played.loudness = layer.loudness * random_.uniform(0.65, 1.15);
       layers_.push_back(played);
     }
-    has_fills_ = random_.uniform() < 0.7;
+    has_drums_ = std::any_of(layers_.begin(), layers_.end(), [](const PlayedLayer& played) {
+      return played.layer->voice == SongVoice::kDrums;
+    });
+    has_fills_ = random_.uniform() < 0.7 && has_drums_;
+  }
+
+  std::string a_row_of(const SongLayer& layer) {
+    const bool keeps_back = is_kept_back_ && !layer.kept_rows.empty();
+    const std::vector<std::string>& rows = keeps_back ? layer.kept_rows : layer.rows;
+    const std::string& row = rows[random_.below(rows.size())];
+    return is_kept_back_ ? row : varied(row, layer);
+  }
+
+  // As a band varies what it knows: strokes are left out and soft ones come in between, in some
+  // songs more than in others. Who learns from these songs knows more than the rows.
+  std::string varied(std::string row, const SongLayer& layer) {
+    if (layer.voice == SongVoice::kPad && row.find_first_not_of("c.") == std::string::npos)
+      return row;
+    const bool has_chords = row.find('c') != std::string::npos;
+    const char added = layer.voice == SongVoice::kDrums ? 'o' : has_chords ? 'c' : 'r';
+    for (char& letter : row) {
+      if (letter == '|') continue;
+      if (letter == '.') {
+        if (random_.uniform() < variety_ * kAdded) letter = added;
+      } else if (random_.uniform() < variety_ * kLeftOut) {
+        letter = '.';
+      }
+    }
+    return row;
   }
 
   void begin_section() {
     for (PlayedLayer& played : layers_) {
       played.sounds = played.layer->chance >= 1.0 || random_.uniform() < 0.85;
-      if (random_.uniform() < 0.25)
-        played.row = played.layer->rows[random_.below(played.layer->rows.size())];
+      if (random_.uniform() < 0.25) played.row = a_row_of(*played.layer);
     }
     breaks_ = random_.uniform() < 0.08;
   }
@@ -164,7 +200,8 @@ class SongMaker {
 
   void play(const PlayedLayer& played, std::size_t bar) {
     const std::size_t row_bars = played.row.size() > kRowSteps ? 2 : 1;
-    const std::string_view row = played.row.substr(bar % row_bars * (kRowSteps + 1), kRowSteps);
+    const std::string_view row =
+        std::string_view(played.row).substr(bar % row_bars * (kRowSteps + 1), kRowSteps);
     for (std::size_t step = 0; step < row.size(); ++step)
       if (row[step] != '.') {
         if (played.layer->voice == SongVoice::kDrums)
@@ -208,23 +245,26 @@ class SongMaker {
   }
 
   const SongStyle& style_;
+  bool is_kept_back_;
   Random random_;
   MadeSong song_;
   double swing_ = 0.5;
   double jitter_s_ = 0.0;
+  double variety_ = 0.0;
   std::array<int, 4> progression_{};
   int key_ = 0;
   bool is_minor_ = false;
   std::size_t bars_a_chord_ = 1;
   std::vector<PlayedLayer> layers_;
+  bool has_drums_ = false;
   bool has_fills_ = false;
   bool breaks_ = false;
 };
 
 }  // namespace
 
-MadeSong make_song(const SongStyle& style, double seconds, std::uint64_t seed) {
-  return SongMaker(style, seconds, seed).make();
+MadeSong make_song(const SongStyle& style, double seconds, std::uint64_t seed, SongUse use) {
+  return SongMaker(style, seconds, seed, use).make();
 }
 
 }  // namespace dance

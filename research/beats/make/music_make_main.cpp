@@ -1,6 +1,7 @@
 // dance music make: makes songs whose beats are known, for the beat tracker to learn from.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -8,7 +9,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "core/program/whole_file.h"
-#include "research/beats/song_maker.h"
+#include "research/beats/make/song_maker.h"
 #include "research/outside_program.h"
 #include "testing/scratch_folder.h"
 
@@ -18,12 +19,15 @@ namespace {
 constexpr const char* kMusicMakeExamples = R"(Examples:
   dance music make songs
   dance music make songs --of-each 2 --seed 7 --soundfont /usr/share/sounds/sf2/TimGM6mb.sf2
+  dance music make kept --kept-back --style salsa --style cumbia
 )";
 
 struct MusicMakeWishes {
   std::string folder;
   std::vector<std::string> soundfonts{"/usr/share/sounds/sf2/FluidR3_GM.sf2",
                                       "/usr/share/sounds/sf2/TimGM6mb.sf2"};
+  std::vector<std::string> styles;  // none: all
+  bool is_kept_back = false;
   int of_each = 5;
   int seed = 1;
   double seconds = 60.0;
@@ -37,7 +41,8 @@ bool is_soundfont(const std::string& path) {
   return head.substr(0, 4) == "RIFF" && head.substr(8) == "sfbk";
 }
 
-Result<void> render(const MadeSong& song, const std::string& stem, const std::string& soundfont) {
+Result<void> render(const MadeSong& song, const SongStyle& style, const std::string& stem,
+                    const std::string& soundfont) {
   DANCE_TRY(const auto scratch, ScratchFolder::make());
   const std::string midi = scratch->file("song.mid");
   if (auto ok = write_whole_file(midi, write_midi(song)); !ok) return ok;
@@ -54,10 +59,28 @@ Result<void> render(const MadeSong& song, const std::string& stem, const std::st
     return ok;
   if (const auto size = std::filesystem::file_size(ogg, error); error || size == 0)
     return fail(ogg + ": fluidsynth wrote nothing; is there room, and may one write there?");
-  std::string beats = "# made: the beats are exact\n";
+  std::string beats = "# made: the beats are exact\n# genre: " + style.name + "\n";
   for (std::size_t i = 0; i < song.beats_s.size(); ++i)
     beats += fmt::format("{:.4f}\t{}\n", song.beats_s[i], i % 4 + 1);
   return write_whole_file(stem + ".beats", beats);
+}
+
+Result<std::vector<const SongStyle*>> styles_of(const MusicMakeWishes& wishes) {
+  std::vector<const SongStyle*> styles;
+  const std::vector<SongStyle>& all = song_styles();
+  for (const SongStyle& style : all)
+    if (wishes.styles.empty()) styles.push_back(&style);
+  for (const std::string& name : wishes.styles) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const SongStyle& style) { return style.name == name; });
+    if (found == all.end()) {
+      std::string names;
+      for (const SongStyle& style : all) names += " " + style.name;
+      return fail("there is no style " + name + "; there are" + names);
+    }
+    styles.push_back(&*found);
+  }
+  return styles;
 }
 
 Result<void> run(const MusicMakeWishes& wishes) {
@@ -69,18 +92,22 @@ Result<void> run(const MusicMakeWishes& wishes) {
     if (!is_soundfont(soundfont))
       return fail(soundfont + ": is no SoundFont; name an .sf2 file with --soundfont");
   }
+  DANCE_TRY(const std::vector<const SongStyle*> styles, styles_of(wishes));
   std::error_code error;
   std::filesystem::create_directories(wishes.folder, error);
   if (error) return fail(wishes.folder + ": cannot be made, " + error.message());
   std::uint64_t number = 0;
   for (int turn = 0; turn < wishes.of_each; ++turn)
-    for (const SongStyle& style : song_styles()) {
+    for (std::size_t i = 0; i < styles.size(); ++i) {
+      const SongStyle& style = *styles[i];
       const auto seed = static_cast<std::uint64_t>(wishes.seed) * 1'000'000 + number;
-      const MadeSong song = make_song(style, wishes.seconds, seed);
+      const MadeSong song = make_song(style, wishes.seconds, seed,
+                                      wishes.is_kept_back ? SongUse::kKeptBack : SongUse::kTaught);
       const std::string stem =
           fmt::format("{}/{}_{}_{:.0f}", wishes.folder, style.name, turn + 1, song.tempo_bpm);
-      if (auto ok = render(song, stem, wishes.soundfonts[number % wishes.soundfonts.size()]); !ok)
-        return ok;
+      // Each style is played on each of them in turn.
+      const std::size_t font = (i + static_cast<std::size_t>(turn)) % wishes.soundfonts.size();
+      if (auto ok = render(song, style, stem, wishes.soundfonts[font]); !ok) return ok;
       ++number;
     }
   talk::info("{}: {} songs", wishes.folder, number);
@@ -95,6 +122,9 @@ int main(int argc, char** argv) {
   dance::CommandLine line("makes songs whose beats are known, for the beat tracker to learn from",
                           "dance music make");
   line.add("FOLDER", wishes.folder, "where the songs go, each with its .beats file").required();
+  line.add("--style", wishes.styles, "songs of this style only, once for each").one_each_time();
+  line.add_flag("--kept-back", wishes.is_kept_back,
+                "rows and instruments that other songs never have, to judge a tracker by");
   line.add("--of-each", wishes.of_each, "songs of each style").range(1, 100).shows_default();
   line.add("--seconds", wishes.seconds, "how long each is").range(20.0, 600.0).shows_default();
   line.add("--seed", wishes.seed, "another number makes other songs")

@@ -21,7 +21,9 @@ struct SongLayer {
   int loudness;                           // of 127
   double length_beats;                    // of a tone
   std::vector<std::array<int, 3>> drums;  // one of these; keys of General MIDI
+  std::vector<int> programs;              // one of these; none: one of the voice's
   std::vector<std::string> rows;          // one of these
+  std::vector<std::string> kept_rows;     // of songs that are kept back; none: the same ones
 };
 
 struct SongStyle {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "research/beats/song_style.h"
+#include "research/beats/make/song_style.h"
 
 namespace dance {
 
@@ -33,7 +33,12 @@ struct MadeSong {
   std::vector<double> beats_s;  // bars of four
 };
 
-MadeSong make_song(const SongStyle& style, double seconds, std::uint64_t seed);
+// Songs that are kept back have rows and instruments that the others never have: a tracker that
+// learnt from the others has not heard them.
+enum class SongUse { kTaught, kKeptBack };
+
+MadeSong make_song(const SongStyle& style, double seconds, std::uint64_t seed,
+                   SongUse use = SongUse::kTaught);
 // A file of type 0.
 std::vector<std::uint8_t> write_midi(const MadeSong& song);
 

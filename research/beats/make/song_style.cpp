@@ -1,4 +1,4 @@
-#include "research/beats/song_style.h"
+#include "research/beats/make/song_style.h"
 
 #include <toml++/toml.h>
 
@@ -36,6 +36,8 @@ SongLayer layer_of(const toml::table& table) {
                   value_of<int>(table["loudness"]),
                   table["length_beats"].value_or(0.1),
                   {},
+                  {},
+                  {},
                   {}};
   if (const toml::array* sets = table["drums"].as_array())
     for (const toml::node& set : *sets) {
@@ -44,8 +46,12 @@ SongLayer layer_of(const toml::table& table) {
       DANCE_ASSERT(keys.size() <= drums.size());
       for (std::size_t i = 0; i < keys.size(); ++i) drums[i] = keys[i].value_or(0);
     }
+  if (const toml::array* programs = table["programs"].as_array())
+    for (const toml::node& program : *programs) layer.programs.push_back(program.value_or(0));
   for (const toml::node& row : *table["rows"].as_array())
     layer.rows.push_back(row.value_or(std::string()));
+  if (const toml::array* rows = table["kept_rows"].as_array())
+    for (const toml::node& row : *rows) layer.kept_rows.push_back(row.value_or(std::string()));
   return layer;
 }
 
