@@ -6,7 +6,7 @@
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      not finite where a place is not: then nothing is known.
-// Source:       logistic regression over predictions 50 to 230 ms ahead of the salsa of CMU subjects
+// Source:       logistic regression over predictions 50 to 230 ms ahead of salsa of CMU subjects
 //               60 and 61 together, each predicted by a model that was trained on the other; a foot
 //               stands that is slower than 0.15 m/s and lower than 5 cm. Fitted to one dancer alone
 //               such weights order the feet of the other with an area under the curve of 0.89 to
