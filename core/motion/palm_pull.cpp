@@ -37,6 +37,7 @@ constexpr float kLeastShare = 1e-3f, kMostShare = 0.995f;
 constexpr float kMostShift_m = 0.5f;
 constexpr float kMostTurn_rad = 0.8f;  // of one joint, by one step
 constexpr int kSteps = 2;
+constexpr float kStraight_m = 0.03f;
 
 Matrix3f crossed(const Vector3f& r) {
   Matrix3f m;
@@ -120,7 +121,12 @@ bool pull_palms(const Skeleton& skeleton, const std::array<PalmPull, 2>& pulls, 
   if (share[0] == 0.0f && share[1] == 0.0f) return false;
   BodyFrames frames;
   forward_kinematics(skeleton, pose, frames);
-  for (int step = 0; step < kSteps; ++step) {
+  float furthest = 0.0f;
+  for (std::size_t side = 0; side < 2; ++side)
+    furthest = std::max(furthest, share[side] * left[side].norm());
+  // Small shifts are straight lines.
+  const int steps = furthest > kStraight_m ? kSteps : 1;
+  for (int step = 0; step < steps; ++step) {
     std::array<Chain, 2> chains;
     std::array<Vector3f, 2> palms;
     for (std::size_t side = 0; side < 2; ++side) {
@@ -171,6 +177,7 @@ bool pull_palms(const Skeleton& skeleton, const std::array<PalmPull, 2>& pulls, 
     for (std::size_t i = 0; i < kShared; ++i)
       turn_joint(chains[0][i].bone, shared[i], frames, pose);
     pose.p_WH_m += place;
+    if (step + 1 == steps) return true;
     forward_kinematics(skeleton, pose, frames);
     for (std::size_t side = 0; side < 2; ++side)
       left[side] =

@@ -15,11 +15,11 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kWarmUp_s = 4.0;
-constexpr std::size_t kEvery = 4;
-constexpr double kLearnEvery_s = 0.25;
-constexpr std::array<Bone, 4> kArmJoints{Bone::kLeftLowerArm, Bone::kLeftHand,
-                                         Bone::kRightLowerArm, Bone::kRightHand};
+constexpr double kCoupleWarmUp_s = 4.0;
+constexpr std::size_t kJudgedEvery = 4;
+constexpr double kCoupleLearnEvery_s = 0.25;
+constexpr std::array<Bone, 4> kArmJoints{Bone::kLeftLowerArm, Bone::kLeftHand, Bone::kRightLowerArm,
+                                         Bone::kRightHand};
 const GuestId kHere = *GuestId::parse("here");
 
 struct Sums {
@@ -82,10 +82,10 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
     const double at_s = static_cast<double>(i) / take.hz;
     extrapolator.observe(heard[i], heard[i].capture_time);
     if (at_s >= next_learning_s) {
-      next_learning_s += kLearnEvery_s;
+      next_learning_s += kCoupleLearnEvery_s;
       extrapolator.learner()->learn();
     }
-    const bool is_judged = at_s >= kWarmUp_s && i % kEvery == 0;
+    const bool is_judged = at_s >= kCoupleWarmUp_s && i % kJudgedEvery == 0;
     eval.moments += is_judged;
     for (std::size_t h = 0; h < horizons; ++h) {
       const auto ahead =
@@ -142,11 +142,10 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
       }
       if (!is_judged) continue;
       for (std::size_t f = 1; f < kForecasts; ++f)
-        plain[h][f] += body_error_m(
-            take.skeleton,
-            plain_forecast(static_cast<Forecast>(f), &heard[i], take.hz,
-                           static_cast<double>(ahead) / take.hz),
-            truth);
+        plain[h][f] += body_error_m(take.skeleton,
+                                    plain_forecast(static_cast<Forecast>(f), &heard[i], take.hz,
+                                                   static_cast<double>(ahead) / take.hz),
+                                    truth);
     }
   }
 }

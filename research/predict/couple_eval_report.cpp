@@ -12,7 +12,7 @@ namespace {
 struct Measure {
   const char* name;
   const char* key;
-  double CoupleErrors::* value;
+  double CoupleErrors::*value;
 };
 constexpr std::array<Measure, 6> kMeasures{{
     {"body, mm", "mpjpe_mm", &CoupleErrors::body_m},
@@ -30,7 +30,7 @@ std::string row(const std::string& name, std::size_t count, int digits, Value va
   return line + "\n";
 }
 
-double ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
+double share_of(double a, double b) { return b > 0.0 ? a / b : 0.0; }
 
 }  // namespace
 
@@ -47,9 +47,9 @@ std::string couple_eval_table(const CoupleEval& eval, const CoupleEvalOptions& o
     for (std::size_t b = 0; b < kBesides; ++b)
       out += row(fmt::format("{:<25} {}", b == 0 ? measure.name : "", kBesideNames[b]), count, 1,
                  [&](std::size_t h) { return 1e3 * eval.errors[h][b].*measure.value; });
-  const auto of_alone = [&](const char* name, double CoupleErrors::* value, std::size_t b) {
+  const auto of_alone = [&](const char* name, double CoupleErrors::*value, std::size_t b) {
     return row(name, count, 3, [&](std::size_t h) {
-      return ratio(eval.errors[h][b].*value, eval.errors[h][0].*value);
+      return share_of(eval.errors[h][b].*value, eval.errors[h][0].*value);
     });
   };
   out += "\n";
@@ -60,7 +60,7 @@ std::string couple_eval_table(const CoupleEval& eval, const CoupleEvalOptions& o
   out += of_alone("stranger of alone: body", &CoupleErrors::body_m, 2);
   out += of_alone("  palms in the room", &CoupleErrors::world_m, 2);
   out += row("partner of the best dead reckoning", count, 3, [&](std::size_t h) {
-    return ratio(eval.errors[h][1].body_m, eval.best_dead_reckoning_m[h]);
+    return share_of(eval.errors[h][1].body_m, eval.best_dead_reckoning_m[h]);
   });
   out += row("part of the palms in a hold", count, 2, [&](std::size_t h) { return eval.held[h]; });
   out += fmt::format("\n  {:.1f} us a frame for the partner\n", eval.ns_per_frame / 1e3);

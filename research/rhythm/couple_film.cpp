@@ -11,8 +11,8 @@
 namespace dance {
 namespace {
 
-constexpr Duration kLearnEvery = Duration::ms(250);
-constexpr Duration kBeatEvery = Duration::ms(100);
+constexpr Duration kFilmLearnEvery = Duration::ms(250);
+constexpr Duration kFilmBeatEvery = Duration::ms(100);
 
 std::int64_t us_of(MonoTime t) { return (t - MonoTime()).count_ns() / 1000; }
 
@@ -31,7 +31,7 @@ Beat beat_at(const BeatGrid& music, MonoTime t) {
 }
 
 // One way of showing the remote dancer.
-struct Shown {
+struct FilmedFlow {
   FilmedWay way;
   Flow flow;
   GuestId remote, here;
@@ -91,7 +91,7 @@ Result<void> film_couple(const BeatDance& here, const BeatDance& remote, const B
   PartnerTracks dancers;
   const GuestId partner = *GuestId::parse("here");
   dancers.set_body(partner, here.skeleton);
-  std::vector<Shown> shown;
+  std::vector<FilmedFlow> shown;
   for (const FilmedWay& way : ways) {
     DANCE_TRY(Flow flow, Flow::make(way.through, parts));
     shown.push_back({way, std::move(flow), remote_of(way), here_of(way),
@@ -103,30 +103,30 @@ Result<void> film_couple(const BeatDance& here, const BeatDance& remote, const B
     sink.on_skeleton(shown.back().remote, remote.skeleton, begin_us);
     sink.on_skeleton(shown.back().here, here.skeleton, begin_us);
   }
-  MonoTime next_beat = kRhythmEvalBegin, next_learn = kRhythmEvalBegin + kLearnEvery;
+  MonoTime next_beat = kRhythmEvalBegin, next_learn = kRhythmEvalBegin + kFilmLearnEvery;
   std::size_t arrived = 0;
   const Pose* newest = nullptr;
   for (std::size_t i = 0; i < frames; ++i) {
     const MonoTime now = here.poses[i].capture_time;
     const std::int64_t now_us = us_of(now);
-    for (; music && next_beat <= now; next_beat += kBeatEvery) {
+    for (; music && next_beat <= now; next_beat += kFilmBeatEvery) {
       const Beat beat = beat_at(*music, next_beat);
-      for (Shown& s : shown) s.flow.hear(beat);
+      for (FilmedFlow& s : shown) s.flow.hear(beat);
       sink.on_beat(beat, now_us);
     }
     dancers.take(partner, seen_here[i]);
     for (; arrived < arrivals.size() && arrivals[arrived].at <= now; ++arrived) {
       const Pose& pose = sent[arrivals[arrived].index];
       if (!newest || pose.capture_time > newest->capture_time) newest = &pose;
-      for (Shown& s : shown)
+      for (FilmedFlow& s : shown)
         if (!s.flow.is_pass_through()) s.flow.observe(pose, arrivals[arrived].at);
     }
     if (now >= next_learn) {
-      for (Shown& s : shown)
+      for (FilmedFlow& s : shown)
         if (const auto learner = s.flow.learner()) learner->learn();
-      next_learn += kLearnEvery;
+      next_learn += kFilmLearnEvery;
     }
-    for (Shown& s : shown) {
+    for (FilmedFlow& s : shown) {
       Pose pose;
       if (s.way.is_truth)
         pose = remote.poses[i];
