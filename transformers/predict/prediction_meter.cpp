@@ -5,10 +5,10 @@
 namespace dance {
 namespace {
 
-constexpr double kForget = 0.98;  // per prediction of one distance: some twenty seconds
+constexpr double kForget = 0.99;  // per prediction of one distance: some twenty seconds
 constexpr double kEnoughPredictions = 8.0;
 // Predictions of one distance that the usual gain counts for.
-constexpr double kUsualGainCounts = 8.0;
+constexpr double kUsualGainCounts = 15.0;
 constexpr double kLeastGain = 0.9, kMostGain = 1.7;
 // A wave of four beats turns by pi / 2 a beat.
 constexpr double kWaveTurn_per_beat = 1.5707963;

@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kPosesPerProbe = 4;
+constexpr std::uint32_t kPosesPerProbe = 2;
 constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
 // Before predictions of this dancer have been measured: in the first half minute of one whom no
