@@ -3,7 +3,7 @@
 // Units/frames: as lcmtypes/playout_t.lcm says; NaN where a figure is not known.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
-// Failure:      is_valid() is false for an unknown reason, and for what is infinite or out of range.
+// Failure:      is_valid() is false for an unknown reason, and what is infinite or out of range.
 #pragma once
 
 #include <cstdint>

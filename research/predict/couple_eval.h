@@ -35,7 +35,7 @@ struct CoupleErrors {
   double world_m = 0.0;  // palms in W
   double hold_m = 0.0;   // palms in a hold, from where they met the partner's
   double hold_p95_m = 0.0;
-  double step_m = 0.0;   // of palms in W against the dance, from picture to picture
+  double step_m = 0.0;  // of palms in W against the dance, from picture to picture
 };
 
 struct CoupleEval {

@@ -20,8 +20,8 @@ constexpr const char* kPredictEvalExamples = R"(Examples:
 
 Files are danced in the order given; what was learned of a dancer (told by the lengths of the bones)
 is kept for the next file. --fresh begins anew with each, as with a dancer never met, and does not
-use a network that was trained on this dancer. --partner takes the two dancers of a dance behind each
-other, and predicts each alone, beside the other, and beside a dancer of the next dance.
+use a network that was trained on this dancer. --partner takes the two dancers of a dance behind
+each other, and predicts each alone, beside the other, and beside a dancer of the next dance.
 )";
 
 struct PredictEvalWishes {

@@ -18,9 +18,9 @@ constexpr const char* kExamples = R"(Examples:
   dance rhythm film lead.bvh follow.bvh --beats song.beats --delay 120ms -o couple.lcm
   dance view --log couple.lcm
 
-The first dances here, the second comes over the line. The log holds the couple several times, from left
-to right: poses as they come (raw), predicted alone, predicted beside the partner, with --beats on the
-beat by rhythm beats=auto, and as they really danced.
+The first dances here, the second comes over the line. The log holds the couple several times, from
+left to right: poses as they come (raw), predicted alone, predicted beside the partner, with --beats
+on the beat by rhythm beats=auto, and as they really danced.
 )";
 
 struct Wishes {

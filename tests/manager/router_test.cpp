@@ -8,47 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "producers/salsa/salsa_dancer.h"
 #include "tests/allocation_guard.h"
-#include "tests/manager/poses.h"
+#include "tests/manager/router_stage.h"
 
 namespace dance {
 namespace {
-
-struct Stage : StageSink {
-  void stage(const GuestId& g, Pose& pose, MonoTime) override {
-    if (keep) poses.push_back({g, pose});
-    ++count;
-  }
-  void stage(const GuestId& g, const Hands& h) override {
-    hands.push_back(g);
-    fingers.push_back(h);
-  }
-  void stage(const GuestId& g, const TimedSkeleton&) override { skeletons.push_back(g); }
-
-  std::vector<std::pair<GuestId, Pose>> poses;
-  std::vector<GuestId> hands;
-  std::vector<Hands> fingers;
-  std::vector<GuestId> skeletons;
-  int count = 0;
-  bool keep = true;
-};
-
-Route pass_through(Where from, const char* from_guest = nullptr, const char* to_guest = nullptr) {
-  Route route;
-  route.from.where = from;
-  route.to.where = Where::kStage;
-  if (from_guest) route.from.guest = guest(from_guest);
-  if (to_guest) route.to.guest = guest(to_guest);
-  return route;
-}
-
-Route held(const char* specification) {
-  Route route = pass_through(Where::kGuest);
-  route.through = {specification};
-  route.rate_hz = 60.0;
-  return route;
-}
 
 TEST(Router, PassesACaptureToTheStageAtOnceAndUnchanged) {
   Stage stage;
@@ -374,70 +338,6 @@ TEST(Router, AllocatesNothingPerPoseOnceAGuestIsKnown) {
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_GT(stage.count, 1900);
-}
-
-// A remote follow, and the lead who dances here or is not seen.
-std::vector<Pose> shown_beside(bool is_seen, const char* words) {
-  Stage stage;
-  Router router({held(words)}, kClock, stage);
-  EXPECT_TRUE(router.wants(Where::kCapture));
-  SalsaStyle style;
-  SalsaDancer lead{style};
-  style.role = SalsaRole::kFollow;
-  SalsaDancer follow{style};
-  router.take(Where::kGuest, guest("bob"),
-              TimedSkeleton{salsa_skeleton(SalsaRole::kFollow, 1), at_ms(1), kClock});
-  for (int i = 0; i < 600; ++i) {
-    const MonoTime now = at_ms(1000 + 16 * i);
-    Pose pose;
-    lead.dance_at(Duration::ms(16 * i), pose);
-    pose.capture_time = now;
-    pose.clock_id = kClock;
-    if (is_seen) router.take(Where::kCapture, guest("alice"), pose, now);
-    if (i >= 12) {
-      follow.dance_at(Duration::ms(16 * (i - 12)), pose);
-      pose.capture_time = at_ms(1000 + 16 * (i - 12));
-      router.take(Where::kGuest, guest("bob"), pose, now);
-    }
-    router.tick(0, now);
-  }
-  EXPECT_EQ(router.stats().dropped_unrouted, 0);
-  std::vector<Pose> poses;
-  for (const auto& [name, pose] : stage.poses) poses.push_back(pose);
-  return poses;
-}
-
-TEST(Router, TellsWhatIsShownOfGuestsAndWhy) {
-  Stage stage;
-  Router router({held("predict"), pass_through(Where::kCapture)}, kClock, stage);
-  router.take(Where::kCapture, guest("alice"), pose_of(0, at_ms(1)), at_ms(1));
-  for (std::uint32_t i = 0; i < 90; ++i) {
-    router.take(Where::kGuest, guest("bob"), pose_of(0, at_ms(10.0 * i)), at_ms(10.0 * i + 80.0));
-    router.tick(0, at_ms(10.0 * i + 80.0));
-  }
-  std::vector<std::pair<GuestId, Playout>> told;
-  router.tell_playouts(at_ms(980), [&](const GuestId& name, const Playout& playout) {
-    told.emplace_back(name, playout);
-  });
-  ASSERT_EQ(told.size(), 1u);  // of those whose poses go as they come there is nothing to tell
-  EXPECT_EQ(told[0].first, guest("bob"));
-  EXPECT_TRUE(is_valid(told[0].second));
-  EXPECT_EQ(told[0].second.reason, PlayoutReason::kNoRhythm);
-  EXPECT_NEAR(told[0].second.delay_ms, 0.0f, 1.0f);
-  EXPECT_NEAR(told[0].second.ahead_ms, 80.0f, 1.0f);
-}
-
-TEST(Router, PredictsGuestsBesideTheDancersOfThisHouse) {
-  const auto alone = shown_beside(false, "predict"), beside = shown_beside(true, "predict");
-  ASSERT_EQ(alone.size(), beside.size());
-  const auto arm = [](const Pose& pose) { return pose.R_PB[index_of(Bone::kLeftUpperArm)]; };
-  double apart = 0.0;
-  for (std::size_t i = 300; i < alone.size(); ++i)
-    apart = std::max(apart, static_cast<double>(arm(alone[i]).angularDistance(arm(beside[i]))));
-  EXPECT_GT(apart, 0.02);
-  const auto off = shown_beside(true, "predict partner=0");
-  for (std::size_t i = 0; i < off.size(); ++i)
-    EXPECT_TRUE(arm(alone[i]).coeffs() == arm(off[i]).coeffs());
 }
 
 }  // namespace

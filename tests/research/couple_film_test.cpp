@@ -47,8 +47,8 @@ TEST(CoupleFilm, ShowsTheCoupleInEachWaySideBySide) {
   Counted film;
   const auto ways = usual_ways(true);
   ASSERT_EQ(ways.size(), 5u);
-  ASSERT_TRUE(film_couple(salsa(SalsaRole::kLead), salsa(SalsaRole::kFollow), &grid, ways, {}, {},
-                          film));
+  ASSERT_TRUE(
+      film_couple(salsa(SalsaRole::kLead), salsa(SalsaRole::kFollow), &grid, ways, {}, {}, film));
   EXPECT_EQ(film.poses.size(), 10u);
   EXPECT_GT(film.beats, 100);
   for (const auto& [name, poses] : film.poses) {

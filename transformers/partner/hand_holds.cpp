@@ -12,8 +12,8 @@ namespace {
 // What the palms of couples in salsa were worth 200 ms ahead, by how far apart they were: 0.55 side
 // by side, 0.3 at 25 cm.
 constexpr float kUsualShare = 0.56f, kUsualApart_m = 0.3f;
-// Evidence is square metres of difference, a moment each; halved in this time. Holds last for a beat
-// or two: longer memories of a pair of palms left more errors, shorter ones followed noise.
+// Evidence is square metres of difference, a moment each; halved in this time. Holds last for a
+// beat or two: longer memories of a pair of palms left more errors, shorter ones followed noise.
 constexpr double kPairHalfLife_s = 0.5, kTrustHalfLife_s = 20.0;
 // As much as half a second of prediction errors of 8 cm: before that the usual share counts.
 constexpr double kPairPrior_m2 = 15.0 * 0.08 * 0.08;

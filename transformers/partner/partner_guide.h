@@ -1,7 +1,7 @@
 // PartnerGuide: what the dancers of this house, who are known without any delay, tell of a remote
 // dancer who is predicted: finds the partner, and draws predicted palms to where the partner's are,
-// as far as that has proved right (transformers/partner/hand_holds.h). Where there is no partner, or
-// one whose hands say nothing, predictions stay as they are.
+// as far as that has proved right (transformers/partner/hand_holds.h). Where there is no partner,
+// or one whose hands say nothing, predictions stay as they are.
 //
 // Units/frames: moments are capture times of the remote dancer, mapped to this house's clock; what
 //               is shown of a moment is shown beside what this house dances `lag` after it.

@@ -80,8 +80,8 @@ class BeatOffset {
   static constexpr Duration kLowerAfter = Duration::s(4);
   static constexpr Duration kLongestHold = Duration::s(60);
   // A change that is due waits so long at most for a moment when joints jump by little, and takes
-  // ever larger jumps: what is shown meanwhile is predicted further than it should be, or later than
-  // it need be.
+  // ever larger jumps: what is shown meanwhile is predicted further than it should be, or later
+  // than it need be.
   static constexpr Duration kRaiseWithin = Duration::s(1);
   static constexpr Duration kLowerWithin = Duration::s(8);
   static constexpr double kUnseen_m = 0.05, kSeen_m = 0.35;
