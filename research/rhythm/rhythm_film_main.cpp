@@ -28,18 +28,43 @@ struct Wishes {
   FilmOptions film;
 };
 
-// All who dance here look alike, and all remote dancers.
-void dress(const std::vector<FilmedWay>& ways, LogSink& sink) {
-  Avatar here, remote;
-  here.name = *AvatarName::parse("trousers-crop-tee");
-  here.colour_rgb = {0.25f, 0.45f, 0.85f};
-  remote.name = *AvatarName::parse("dress-bun-bare");
-  remote.colour_rgb = {0.9f, 0.3f, 0.3f};
-  for (const FilmedWay& way : ways) {
-    sink.on_avatar(here_of(way), here, 0);
-    sink.on_avatar(remote_of(way), remote, 0);
+// All who dance here look alike, and all remote dancers; said once a second, as houses do.
+class DressedSink : public RecordingSink {
+ public:
+  DressedSink(LogSink& log, const std::vector<FilmedWay>& ways) : log_(log), ways_(ways) {
+    here_.name = *AvatarName::parse("trousers-crop-tee");
+    here_.colour_rgb = {0.25f, 0.45f, 0.85f};
+    remote_.name = *AvatarName::parse("dress-bun-bare");
+    remote_.colour_rgb = {0.9f, 0.3f, 0.3f};
   }
-}
+  void on_skeleton(const GuestId& guest, const Skeleton& skeleton, std::int64_t us) override {
+    log_.on_skeleton(guest, skeleton, us);
+  }
+  void on_pose(const GuestId& guest, const Pose& pose, std::int64_t us) override {
+    dress(us);
+    log_.on_pose(guest, pose, us);
+  }
+  void on_hands(const GuestId& guest, const Hands& hands, std::int64_t us) override {
+    log_.on_hands(guest, hands, us);
+  }
+  void on_beat(const Beat& beat, std::int64_t us) override { log_.on_beat(beat, us); }
+
+ private:
+  void dress(std::int64_t us) {
+    constexpr std::int64_t kAgain_us = 1'000'000;
+    if (us < next_us_) return;
+    next_us_ = us + kAgain_us;
+    for (const FilmedWay& way : ways_) {
+      log_.on_avatar(here_of(way), here_, us);
+      log_.on_avatar(remote_of(way), remote_, us);
+    }
+  }
+
+  LogSink& log_;
+  const std::vector<FilmedWay>& ways_;
+  Avatar here_, remote_;
+  std::int64_t next_us_ = 0;
+};
 
 Result<void> run(Wishes wishes) {
   DANCE_TRY(wishes.film.delay, parse_duration(wishes.delay));
@@ -66,9 +91,9 @@ Result<void> run(Wishes wishes) {
   DANCE_TRY(LogWriter log, LogWriter::create(wishes.out));
   LogSink sink(std::move(log), Where::kStage);
   const auto ways = usual_ways(music.has_value());
-  dress(ways, sink);
+  DressedSink dressed(sink, ways);
   if (auto filmed = film_couple(dances[0], dances[1], music ? &*music : nullptr, ways, wishes.film,
-                                parts, sink);
+                                parts, dressed);
       !filmed)
     return filmed;
   if (auto finished = sink.finish(); !finished) return finished;

@@ -11,7 +11,7 @@
 namespace dance {
 namespace {
 
-std::vector<PredictTake> real_takes(const std::vector<std::string>& names) {
+std::vector<PredictTake> real_couple(const std::vector<std::string>& names) {
   std::vector<PredictTake> takes;
   for (const std::string& name : names) {
     const std::string path = DANCE_SOURCE_DIR "/../shared/data/mocap/" + name + ".bvh.xz";
@@ -28,7 +28,7 @@ const std::vector<std::string> kCouples{"cmu_60_05_salsa", "cmu_61_05_salsa", "c
                                         "cmu_61_12_salsa"};
 
 TEST(CoupleTakes, ThePartnersHandsTellWhereHandsAre) {
-  auto takes = real_takes(kCouples);
+  auto takes = real_couple(kCouples);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   const auto couples = couples_of(std::move(takes));
   ASSERT_TRUE(couples.has_value());
@@ -49,7 +49,7 @@ TEST(CoupleTakes, ThePartnersHandsTellWhereHandsAre) {
 }
 
 TEST(CoupleTakes, PalmsNearEachOtherAreBroughtTogether) {
-  auto takes = real_takes({kCouples[0], kCouples[1]});
+  auto takes = real_couple({kCouples[0], kCouples[1]});
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   auto couples = couples_of(std::move(takes));
   ASSERT_TRUE(couples.has_value());
