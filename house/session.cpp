@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "consumers/rate_limit.h"
+#include "core/base/beat.h"
 #include "core/program/whole_file.h"
 #include "house/session_file/session_edit.h"
 #include "house/toml_reader.h"
@@ -234,6 +235,8 @@ void read_music(TomlReader& reader, const std::filesystem::path& folder, Session
   music.silent = reader.bool_or("silent", false);
   music.volume = reader.number_or("volume", 1.0, 0.0, 1.0);
   music.steps_bpm = reader.number_or("steps_bpm", 0.0, 0.0, 400.0);
+  if (music.steps_bpm > 0.0 && music.steps_bpm < kLeastTempo_bpm)
+    reader.complain("steps_bpm", "is slower than anybody steps: 0, or 20 to 400");
   music.trim_ms = reader.number_or("trim_ms", 0.0, -5000.0, 5000.0);
   reader.finish();  // first, so that a misspelt key is told from a missing one
   if (music.file.empty() && !music.follow && !music.microphone)

@@ -18,7 +18,8 @@ Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, Sta
     routes_.push_back(std::make_unique<RouteState>(
         RouteState{route, static_cast<std::int32_t>(routes_.size()), route.rate_hz, {}, {}}));
     routes_from_[static_cast<std::size_t>(route.from.where)].push_back(routes_.back().get());
-    are_guests_transformed_ |= route.from.where == Where::kGuest && !route.through.empty();
+    const auto flow = Flow::make(route.through);
+    has_partner_routes_ |= route.from.where == Where::kGuest && flow && flow->partner();
   }
 }
 
@@ -94,7 +95,18 @@ Router::Known& Router::known_of(Where where, const GuestId& guest) {
   return known_.back();
 }
 
+const Skeleton* Router::known_body(Where where, const GuestId& guest) const {
+  for (const Known& known : known_)
+    if (known.where == where && known.guest == guest && known.body) return &*known.body;
+  return nullptr;
+}
+
 void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
+  if (where == Where::kCapture && has_partner_routes_) {
+    partners_.take(guest, pose, known_body(where, guest));
+    // Who is not on the stage only dances beside it.
+    if (routes_from_[static_cast<std::size_t>(where)].empty()) return;
+  }
   ++stats_.received;
   RosterEntry* entry = roster_.heard(guest, where == Where::kGuest, pose, now);
   if (!entry) {
@@ -102,10 +114,6 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
     return;
   }
   bool wanted = false;
-  if (where == Where::kCapture) {
-    partners_.take(guest, pose);
-    wanted = are_guests_transformed_;
-  }
   for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
     if (!is_for(*state, guest)) continue;
     Instance* instance = instance_of(*state, guest, now);

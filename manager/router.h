@@ -87,7 +87,7 @@ class Router {
   // Dancers of this house are wanted, too, where others may be predicted beside them.
   bool wants(Where where) const {
     return !routes_from_[static_cast<std::size_t>(where)].empty() ||
-           (where == Where::kCapture && are_guests_transformed_);
+           (where == Where::kCapture && has_partner_routes_);
   }
   Roster& roster() { return roster_; }
   // Counters of poses; time, uptime and lateness are the caller's.
@@ -131,15 +131,16 @@ class Router {
     return state.route.to.guest.is_set() ? state.route.to.guest : guest;
   }
   Known& known_of(Where where, const GuestId& guest);
+  const Skeleton* known_body(Where where, const GuestId& guest) const;
   void prepare(const RouteState& state, Instance& instance);
   std::uint64_t our_clock_id_;
   StageSink& sink_;
+  PartnerTracks partners_;  // the dancers of this house; flows refer to it
   std::vector<std::unique_ptr<RouteState>> routes_;
   std::array<std::vector<RouteState*>, 5> routes_from_;    // by Where
   std::vector<Known> known_;                               // at most kMostKnown
   std::vector<std::pair<GuestId, FlowSetting>> settings_;  // at most kMostKnown
-  PartnerTracks partners_;                                 // the dancers of this house
-  bool are_guests_transformed_ = false;
+  bool has_partner_routes_ = false;  // some guests are predicted beside who dances here
   std::optional<Beat> beat_;
   OnLearner on_learner_;
   Roster roster_;

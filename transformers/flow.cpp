@@ -93,7 +93,7 @@ void Flow::correct(const PlayoutClock::Choice& choice, MonoTime now, bool contin
   const PredictionLead lead = clock_->lead();
   Pose is;
   // What is known by now has changed what the picture before should have been.
-  if (has_shown_ && (continues_from_here || has_news_)) {
+  if (has_shown_ && (continues_from_here || has_news_ || source_->has_partner_news())) {
     const bool is_changed = is_shown_open_ || (continues_from_here && is_shown_repeated_);
     if (is_changed) source_->at(shown_moment_, is, lead);
     if (is_changed || (!corrects_from_now_ && !finish_->corrections().is_at_rest()))
@@ -120,7 +120,7 @@ bool Flow::sample(MonoTime now, Pose& out) {
   if (!timeline_ || timeline_->is_empty()) return false;
   const auto choice = clock_->choose(*timeline_, now, has_shown_ ? shown_capture_ : MonoTime());
   const PredictionLead lead = clock_->lead();
-  source_->set_lag(now - choice.moment);
+  source_->set_shown(choice.moment, now);
   const bool continues_from_here = source_->begin_continuation(choice.moment, now, lead);
   if (finish_) correct(choice, now, continues_from_here);
   const MotionSource::Kind kind = source_->at(choice.moment, out, lead);

@@ -35,7 +35,8 @@ void MotionSource::set(Duration reach, bool conceals) {
 void MotionSource::observe() {
   if (parts_.extrapolator) {
     parts_.extrapolator->observe(timeline_.newest(), timeline_.arrived());
-    if (parts_.partner) parts_.partner->observe(timeline_.newest(), *parts_.extrapolator);
+    if (parts_.partner)
+      parts_.partner->observe(timeline_.newest(), timeline_.arrived(), *parts_.extrapolator);
   }
   // The dancer is back.
   if (parts_.concealment) parts_.concealment->end();
@@ -78,8 +79,8 @@ void MotionSource::set_dancers(const PartnerTracks* dancers) {
   if (parts_.partner) parts_.partner->set_dancers(dancers);
 }
 
-void MotionSource::set_lag(Duration lag) {
-  if (parts_.partner) parts_.partner->set_lag(lag);
+void MotionSource::set_shown(MonoTime moment, MonoTime now) {
+  if (parts_.partner) parts_.partner->set_shown(moment, now);
 }
 
 void MotionSource::predict(MonoTime moment, const PredictionLead& lead, bool is_guided, Pose& out) {
@@ -105,8 +106,8 @@ MotionSource::Kind MotionSource::at(MonoTime moment, Pose& out, const Prediction
   return at(moment, lead, true, out);
 }
 
-MotionSource::Kind MotionSource::at_alone(MonoTime moment, Pose& out) {
-  return at(moment, {}, false, out);
+MotionSource::Kind MotionSource::at_alone(MonoTime moment, Pose& out, const PredictionLead& lead) {
+  return at(moment, lead, false, out);
 }
 
 MotionSource::Kind MotionSource::at(MonoTime moment, const PredictionLead& lead, bool is_guided,

@@ -40,9 +40,12 @@ class MotionSource {
   void observe();
   void restart();
   void set_body();
-  // Who dances here, and by how much this house's time is beyond the moments that are shown.
+  // Who dances here.
   void set_dancers(const PartnerTracks* dancers);
-  void set_lag(Duration lag);
+  // Once a picture, before at(): the moment that is shown at `now`.
+  void set_shown(MonoTime moment, MonoTime now);
+  // Whether what is predicted looks otherwise than in the picture before, as a partner danced on.
+  bool has_partner_news() const { return parts_.partner && parts_.partner->has_news(); }
   const PartnerGuide* partner() const { return parts_.partner.get(); }
   // Once a picture, before at(): whether the dance has to be continued from here on. Returns true
   // where it begins now: moments after the newest pose look otherwise than before.
@@ -51,8 +54,8 @@ class MotionSource {
   // The pose of a moment, past or to come; predicted with that lead. Nothing is smoothed from call
   // to call.
   Kind at(MonoTime moment, Pose& out, const PredictionLead& lead = {});
-  // The same with neither lead nor partner, for what was learned of plain predictions.
-  Kind at_alone(MonoTime moment, Pose& out);
+  // The same without the partner, for what is learned of predictions alone.
+  Kind at_alone(MonoTime moment, Pose& out, const PredictionLead& lead = {});
   // Whether the next pose may change what at() says of a moment.
   bool is_open(MonoTime moment, Kind kind) const;
 

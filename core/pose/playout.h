@@ -43,8 +43,8 @@ struct Playout {
 
 bool is_valid(const Playout& playout);
 
-// One line for a person: "1 beat behind: predictions 190 ms ahead are 74 mm off, 60 are asked for;
-// beside alice".
+// One line for a person: "1 beat behind: predictions as far ahead as poses are late are 74 mm off,
+// 60 are allowed; beside alice".
 std::string playout_text(const Playout& playout);
 
 }  // namespace dance

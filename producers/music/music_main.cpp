@@ -93,6 +93,12 @@ struct Loaded {
 };
 
 // Who says it means it.
+Result<void> check_hint(const ProgramOptions& options) {
+  if (options.steps_bpm > 0.0 && options.steps_bpm < kLeastTempo_bpm)
+    return fail("--steps takes 20 to 400 steps a minute, or 0 for what is heard");
+  return {};
+}
+
 TempoHint hint_of(const ProgramOptions& options) { return {options.steps_bpm, 1.0}; }
 
 Result<Loaded> load(const ProgramOptions& options) {
@@ -144,6 +150,7 @@ void stop_after(Poller& poller, double seconds) {
 
 // Plays nothing: tracks the beat of the recorded sound.
 Result<void> follow_microphone(const ProgramOptions& options) {
+  if (auto hint = check_hint(options); !hint) return hint;
   DANCE_TRY(const Duration trim, trim_of(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
@@ -173,6 +180,7 @@ Result<void> follow_microphone(const ProgramOptions& options) {
 }
 
 Result<void> play(const ProgramOptions& options) {
+  if (auto hint = check_hint(options); !hint) return hint;
   if (options.microphone) return follow_microphone(options);
   if (options.file.empty() && !options.follow)
     return fail(

@@ -14,7 +14,6 @@ namespace {
 std::vector<Pose> shown_beside(bool is_seen, const char* words) {
   Stage stage;
   Router router({held(words)}, kClock, stage);
-  EXPECT_TRUE(router.wants(Where::kCapture));
   SalsaStyle style;
   SalsaDancer lead{style};
   style.role = SalsaRole::kFollow;
@@ -35,7 +34,6 @@ std::vector<Pose> shown_beside(bool is_seen, const char* words) {
     }
     router.tick(0, now);
   }
-  EXPECT_EQ(router.stats().dropped_unrouted, 0);
   std::vector<Pose> poses;
   for (const auto& [name, pose] : stage.poses) poses.push_back(pose);
   return poses;
@@ -72,6 +70,20 @@ TEST(Router, PredictsGuestsBesideTheDancersOfThisHouse) {
   const auto off = shown_beside(true, "predict partner=0");
   for (std::size_t i = 0; i < off.size(); ++i)
     EXPECT_TRUE(arm(alone[i]).coeffs() == arm(off[i]).coeffs());
+}
+
+TEST(Router, WhoDancesBesideTheStageIsNotOnIt) {
+  Stage stage;
+  Router router({held("predict")}, kClock, stage);
+  EXPECT_TRUE(router.wants(Where::kCapture));
+  for (int i = 0; i < 30; ++i)
+    router.take(Where::kCapture, guest("alice"), pose_of(0, at_ms(10 * i)), at_ms(10 * i));
+  EXPECT_EQ(router.stats().guests, 0);
+  EXPECT_EQ(router.stats().received, 0);
+  EXPECT_EQ(router.roster().find(guest("alice")), nullptr);
+  // Where nobody is predicted, nobody here is listened to.
+  EXPECT_FALSE(Router({held("hold")}, kClock, stage).wants(Where::kCapture));
+  EXPECT_FALSE(Router({held("predict partner=0")}, kClock, stage).wants(Where::kCapture));
 }
 
 }  // namespace

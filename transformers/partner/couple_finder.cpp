@@ -42,15 +42,22 @@ float CoupleFinder::likeness(const Palms& own, const Vector3f& hips, const Vecto
          std::max(hands, 0.7f * std::clamp(faces, 0.0f, 1.0f));
 }
 
-std::optional<std::size_t> CoupleFinder::update(const PartnerTracks& dancers, const Palms& own,
-                                                const Vector3f& hips, const Vector3f& facing,
-                                                MonoTime then, double step_s) {
+std::optional<std::size_t> CoupleFinder::update(const PartnerTracks& dancers, const Stance& stance,
+                                                double step_s) {
   const auto share =
       static_cast<float>(1.0 - std::exp(-std::clamp(step_s, 0.0, 1.0) / kCoupleOver_s));
   std::size_t best = 0;
   for (std::size_t place = 0; place < dancers.size(); ++place) {
-    const auto other = dancers[place].at(then);
-    const float is = other ? likeness(own, hips, facing, *other) : 0.0f;
+    const PartnerTrack& track = dancers[place];
+    if (generations_[place] != dancers.generation(place)) {
+      generations_[place] = dancers.generation(place);
+      scores_[place] = 0.0f;
+      if (partner_ == place) partner_ = std::nullopt;
+    }
+    const bool is_here = !track.is_empty() && track.clock_id() == stance.clock_id &&
+                         stance.now - track.newest().time < kUnseen;
+    const auto other = is_here ? track.at_latest(stance.then) : std::nullopt;
+    const float is = other ? likeness(stance.palms, stance.hips, stance.facing, *other) : 0.0f;
     scores_[place] += share * (is - scores_[place]);
     if (scores_[place] > scores_[best]) best = place;
   }

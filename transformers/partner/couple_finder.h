@@ -18,11 +18,20 @@ namespace dance {
 class CoupleFinder {
  public:
   void clear() { *this = CoupleFinder(); }
-  // `then`: the moment of this house at which the pose is compared. Returns the place of the
-  // partner.
-  std::optional<std::size_t> update(const PartnerTracks& dancers, const Palms& own,
-                                    const Eigen::Vector3f& hips, const Eigen::Vector3f& facing,
-                                    MonoTime then, double step_s);
+  // A dancer of this house who was not seen for so long is nobody's partner.
+  static constexpr Duration kUnseen = Duration::ms(500);
+
+  // Where the remote dancer is, and when it is now in this house.
+  struct Stance {
+    Palms palms;
+    Eigen::Vector3f hips, facing;
+    std::uint64_t clock_id = 0;
+    MonoTime then;  // the moment of this house at which the dancers are compared
+    MonoTime now;
+  };
+  // Returns the place of the partner.
+  std::optional<std::size_t> update(const PartnerTracks& dancers, const Stance& stance,
+                                    double step_s);
   // How much of a couple two dancers have been, 0 to 1.
   float score(std::size_t place) const { return scores_[place]; }
   // How much two dancers are one at a moment, 0 to 1.
@@ -31,6 +40,7 @@ class CoupleFinder {
 
  private:
   std::array<float, PartnerTracks::kMost> scores_{};
+  std::array<std::uint32_t, PartnerTracks::kMost> generations_{};
   std::optional<std::size_t> partner_;
 };
 

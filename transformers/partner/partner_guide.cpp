@@ -5,7 +5,9 @@
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kPosesPerPalmProbe = 2;
+constexpr Duration kPalmProbeEvery = Duration::ms(33);
+// Where what is shown jumps by more, what waits was asked of another time of the partner's.
+constexpr Duration kSameLag = Duration::ms(50);
 constexpr Duration kLeastPalmsAhead = Duration::ms(50), kMostPalmsAhead = Duration::ms(500);
 constexpr double kPartnerStrengthPerSecond = 2.0;
 constexpr double kPartnerLetGo_s = 0.3;
@@ -32,9 +34,9 @@ void PartnerGuide::restart() {
   holds_.clear();
   strength_ = 0.0f;
   has_newest_ = false;
-  met_ = std::nullopt;
+  was_met_ = has_news_ = false;
   probe_count_ = 0;
-  learnt_at_ = MonoTime();
+  probed_at_ = learnt_at_ = MonoTime();
 }
 
 PartnerGuide::Shape PartnerGuide::shape_of(const Pose& pose) const {
@@ -46,7 +48,8 @@ PartnerGuide::Shape PartnerGuide::shape_of(const Pose& pose) const {
 }
 
 const PartnerTrack* PartnerGuide::track() const {
-  if (!dancers_ || !partner_) return nullptr;
+  if (!dancers_ || !partner_ || dancers_->generation(*partner_) != partner_generation_)
+    return nullptr;
   const PartnerTrack& track = (*dancers_)[*partner_];
   return track.is_empty() || track.clock_id() != clock_id_ ? nullptr : &track;
 }
@@ -62,35 +65,63 @@ void PartnerGuide::follow_strength(bool is_couple, double step_s) {
       std::clamp(static_cast<double>(strength_) + (is_couple ? step : -step), 0.0, 1.0));
 }
 
-void PartnerGuide::observe(const Pose& pose, const Extrapolator& extrapolator) {
+void PartnerGuide::set_shown(MonoTime moment, MonoTime now) {
+  const Duration lag = now - moment;
+  if (lag - lag_ > kSameLag || lag_ - lag > kSameLag) probe_count_ = 0;
+  lag_ = lag;
+  const Duration ahead = moment - newest_.time;
+  if (has_newest_ && ahead > Duration())
+    ahead_ = std::clamp(ahead_ + (ahead - ahead_) / 16, kLeastPalmsAhead, kMostPalmsAhead);
+  const PartnerTrack* beside = track();
+  const MonoTime seen = beside ? beside->newest().time : MonoTime();
+  has_news_ = seen != partner_seen_;
+  partner_seen_ = seen;
+}
+
+// How the two stood to each other at the newest pose; nothing while that is not known of both.
+std::optional<Meeting> PartnerGuide::meeting() const {
+  const PartnerTrack* beside = track();
+  const auto partner = beside && has_newest_ ? beside->at(newest_.time + lag_) : std::nullopt;
+  if (!partner) return std::nullopt;
+  return Meeting::of(newest_.palms, newest_.hips, *partner);
+}
+
+void PartnerGuide::observe(const Pose& pose, MonoTime now, const Extrapolator& extrapolator) {
   if (!dancers_ || dancers_->size() == 0) return;
   clock_id_ = pose.clock_id;
-  const Shape now = shape_of(pose);
-  const Duration step = has_newest_ ? now.time - newest_.time : Duration();
+  const Shape shape = shape_of(pose);
+  const Duration step = has_newest_ ? shape.time - newest_.time : Duration();
   if (step > kLongestPartnerStep) {
     probe_count_ = 0;
     has_newest_ = false;
   }
   const double step_s = std::min(step, kLongestPartnerStep).as_seconds();
-  Eigen::Vector3f facing = pose.R_PB[0] * Eigen::Vector3f::UnitZ();
-  facing.y() = 0.0f;
-  facing.normalize();
-  const auto found =
-      finder_.update(*dancers_, now.palms, now.hips, facing, now.time + lag_, step_s);
-  follow_strength(found && found == partner_, step_s);
-  if (found != partner_ && strength_ <= 0.0f) {
+  CoupleFinder::Stance stance{
+      shape.palms, shape.hips,        pose.R_PB[0] * Eigen::Vector3f::UnitZ(),
+      clock_id_,   shape.time + lag_, now};
+  stance.facing.y() = 0.0f;
+  stance.facing.normalize();
+  const auto found = finder_.update(*dancers_, stance, step_s);
+  const bool is_same =
+      found && found == partner_ && partner_generation_ == dancers_->generation(*partner_);
+  if (has_newest_) learn(shape);
+  newest_ = shape;
+  has_newest_ = true;
+  // Where hands have nothing to say, what they say next is come to gradually.
+  const bool is_met = is_same && meeting().has_value();
+  if (is_met && !was_met_) strength_ = 0.0f;
+  was_met_ = is_met;
+  follow_strength(is_met, step_s);
+  if (!is_same && strength_ <= 0.0f) {
     partner_ = found;
+    partner_generation_ = found ? dancers_->generation(*found) : 0;
     holds_.clear();
     probe_count_ = 0;
   }
-  if (has_newest_) learn(now);
-  newest_ = now;
-  has_newest_ = true;
-  met_ = std::nullopt;
-  const PartnerTrack* beside = track();
-  if (const auto partner = beside ? beside->at(now.time + lag_) : std::nullopt)
-    met_ = Meeting::of(now.palms, now.hips, *partner);
-  if (++observed_ % kPosesPerPalmProbe == 0) probe(extrapolator);
+  if (!probed_at_.is_set() || shape.time - probed_at_ >= kPalmProbeEvery) {
+    probed_at_ = shape.time;
+    probe(extrapolator);
+  }
 }
 
 void PartnerGuide::learn(const Shape& now) {
@@ -116,33 +147,34 @@ void PartnerGuide::learn(const Shape& now) {
 }
 
 void PartnerGuide::probe(const Extrapolator& extrapolator) {
-  if (!met_ || probe_count_ == kProbes) return;
+  const auto met = meeting();
+  if (!met || probe_count_ == kProbes) return;
   const MonoTime moment = newest_.time + ahead_;
-  Pose pose;
-  extrapolator.predict(moment, pose);
-  const Shape predicted = shape_of(pose);
   // What is asked for nearer than what waits already comes when that has come.
   if (probe_count_ > 0 && moment <= probes_[(first_probe_ + probe_count_ - 1) % kProbes].moment)
     return;
-  probes_[(first_probe_ + probe_count_) % kProbes] = {moment, *met_, predicted.palms,
+  Pose pose;
+  extrapolator.predict(moment, pose);
+  const Shape predicted = shape_of(pose);
+  probes_[(first_probe_ + probe_count_) % kProbes] = {moment, *met, predicted.palms,
                                                       predicted.hips};
   ++probe_count_;
 }
 
-void PartnerGuide::guide(MonoTime moment, Pose& pose) {
-  const Duration ahead = moment - newest_.time;
-  ahead_ = std::clamp(ahead_ + (ahead - ahead_) / 16, kLeastPalmsAhead, kMostPalmsAhead);
-  if (!met_ || strength_ <= 0.0f) return;
+void PartnerGuide::guide(MonoTime moment, Pose& pose) const {
+  if (strength_ <= 0.0f) return;
+  const auto met = meeting();
+  if (!met) return;
   const PartnerTrack* beside = track();
-  if (!beside) return;
-  const auto partner = beside->at(moment + lag_);
+  const auto partner = beside->at_latest(moment + lag_);
   if (!partner) return;
   // A partner who is not seen any more is let go.
   const double unseen_s =
       (moment + lag_ - beside->newest().time - PartnerTrack::kAhead).as_seconds();
   const auto seen = static_cast<float>(std::clamp(1.0 - unseen_s / kPartnerLetGo_s, 0.0, 1.0));
+  if (seen <= 0.0f) return;
   const Shape predicted = shape_of(pose);
-  auto pulls = holds_.pulls(*met_, predicted.palms, predicted.hips, *partner);
+  auto pulls = holds_.pulls(*met, predicted.palms, predicted.hips, *partner);
   for (PalmPull& pull : pulls) pull.share *= strength_ * seen;
   pull_palms(skeleton_, pulls, pose);
 }

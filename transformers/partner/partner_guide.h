@@ -27,11 +27,14 @@ class PartnerGuide {
   void set_body(const Skeleton& skeleton);
   // The remote dancer began anew.
   void restart();
-  void set_lag(Duration lag) { lag_ = lag; }
-  // A pose of the remote dancer has come; the extrapolator has it already.
-  void observe(const Pose& pose, const Extrapolator& extrapolator);
+  // Once a picture, before what is shown is asked for: the moment that is shown at `now`.
+  void set_shown(MonoTime moment, MonoTime now);
+  // A pose of the remote dancer has come at `now`; the extrapolator has it already.
+  void observe(const Pose& pose, MonoTime now, const Extrapolator& extrapolator);
+  // Whether the partner has danced on since the last picture but one: predictions look otherwise.
+  bool has_news() const { return has_news_; }
   // Corrects the prediction of a moment behind the newest pose.
-  void guide(MonoTime moment, Pose& pose);
+  void guide(MonoTime moment, Pose& pose) const;
 
   // Nobody while there is no couple.
   std::optional<GuestId> partner() const;
@@ -54,6 +57,7 @@ class PartnerGuide {
 
   Shape shape_of(const Pose& pose) const;
   const PartnerTrack* track() const;
+  std::optional<Meeting> meeting() const;
   void learn(const Shape& now);
   void probe(const Extrapolator& extrapolator);
   void follow_strength(bool is_couple, double step_s);
@@ -62,16 +66,18 @@ class PartnerGuide {
   Skeleton skeleton_;
   CoupleFinder finder_;
   std::optional<std::size_t> partner_;  // whose hands are learnt of
+  std::uint32_t partner_generation_ = 0;
   HandHolds holds_;
   float strength_ = 0.0f;
   Duration lag_;
   Shape newest_{};
   bool has_newest_ = false;
-  std::optional<Meeting> met_;
+  bool was_met_ = false;
+  bool has_news_ = false;
+  MonoTime partner_seen_;
   std::array<Probe, kProbes> probes_;
   std::size_t first_probe_ = 0, probe_count_ = 0;
-  std::uint32_t observed_ = 0;
-  MonoTime learnt_at_;
+  MonoTime probed_at_, learnt_at_;
   std::uint64_t clock_id_ = 0;
   // How far ahead predictions are asked for.
   Duration ahead_ = Duration::ms(150);

@@ -54,12 +54,19 @@ void PartnerTrack::take(const Pose& pose) {
 }
 
 std::optional<PartnerMoment> PartnerTrack::at(MonoTime time) const {
-  if (size_ < 2) return std::nullopt;
-  time = std::min(time, newest().time + kAhead);
+  if (size_ < 2 || time > newest().time + kAhead) return std::nullopt;
   std::size_t age = 1;
+  if (time > newest().time) {
+    while (age + 1 < size_ && newest().time - back(age).time < kSlope) ++age;
+    return between(back(age), newest(), time);
+  }
   while (age < size_ && back(age).time > time) ++age;
   if (age == size_) return std::nullopt;
   return between(back(age), back(age - 1), time);
+}
+
+std::optional<PartnerMoment> PartnerTrack::at_latest(MonoTime time) const {
+  return size_ == 0 ? std::nullopt : at(std::min(time, newest().time + kAhead));
 }
 
 }  // namespace dance

@@ -4,9 +4,8 @@
 // Units/frames: metres in W; capture times of this house's clock.
 // Ownership:    a ring of kKept moments; never allocates after construction.
 // Threads:      none inside; one owner.
-// Failure:      at() is nothing for a moment before those that are kept; of one that lies further
-//               beyond the newest than kAhead it says what would be there. Poses that are not newer
-//               are refused.
+// Failure:      at() is nothing for a moment before those that are kept, or further beyond the
+//               newest than kAhead. Poses that are not newer are refused.
 #pragma once
 
 #include <array>
@@ -29,6 +28,8 @@ class PartnerTrack {
  public:
   static constexpr std::size_t kKept = 256;  // two seconds at 120 Hz
   static constexpr Duration kAhead = Duration::ms(60);
+  // Shorter, a sensor's noise would be thrown far.
+  static constexpr Duration kSlope = Duration::ms(40);
   // A pose that came after a longer gap does not go on from the one before.
   static constexpr Duration kGap = Duration::ms(250);
 
@@ -40,8 +41,10 @@ class PartnerTrack {
   bool is_empty() const { return size_ == 0; }
   const PartnerMoment& newest() const { return moments_[(next_ + kKept - 1) % kKept]; }
   std::uint64_t clock_id() const { return clock_id_; }
-  // Between two moments as a straight line; beyond the newest as it went.
+  // Between two moments as a straight line; beyond the newest as it went over the last kSlope.
   std::optional<PartnerMoment> at(MonoTime time) const;
+  // The same; further beyond the newest what would be there at kAhead.
+  std::optional<PartnerMoment> at_latest(MonoTime time) const;
 
  private:
   const PartnerMoment& back(std::size_t age) const {

@@ -6,7 +6,7 @@
 namespace dance {
 namespace {
 
-constexpr std::uint32_t kPosesPerProbe = 2;
+constexpr Duration kProbeEvery = Duration::ms(33);
 constexpr std::uint32_t kUntaggedPoses = 30;
 constexpr float kLeastConfidence = 0.25f;
 // Before predictions of this dancer have been measured: in the first half minute of one whom no
@@ -61,6 +61,7 @@ void RhythmClock::restart() {
   predictions_.clear();
   own_beat_.forget();
   untagged_ = 0;
+  probed_at_ = MonoTime();
   head_.reset();
 }
 
@@ -74,7 +75,10 @@ void RhythmClock::observe(const DancerTimeline& timeline, MotionSource& source) 
                                            : Duration());
   for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h)
     lead_.set_gain(h, predictions_.gain(h));
-  if (++observed_ % kPosesPerProbe == 0) measure_predictions(timeline, source);
+  const MonoTime newest = timeline.newest().capture_time;
+  if (probed_at_.is_set() && newest - probed_at_ < kProbeEvery) return;
+  probed_at_ = newest;
+  measure_predictions(timeline, source);
 }
 
 void RhythmClock::take_tag(const DancerTimeline& timeline) {
@@ -84,10 +88,12 @@ void RhythmClock::take_tag(const DancerTimeline& timeline) {
   // The comparison is false for no tag, too.
   if (std::abs(beats) <= kMostBeats) {
     untagged_ = 0;
+    has_own_beat_ = false;
   } else {
     // One pose without a tag is none; a dance without is one whose steps have to tell.
     if (++untagged_ < kUntaggedPoses || !timeline.music().is_known(now)) return;
-    if (untagged_ == kUntaggedPoses) own_beat_.forget();
+    if (!has_own_beat_) own_beat_.forget();
+    has_own_beat_ = true;
     Pose untagged = pose;
     untagged.music_beats = kNoMusic;
     const auto position =
@@ -105,7 +111,7 @@ void RhythmClock::measure_predictions(const DancerTimeline& timeline, MotionSour
   if (!free_running_) return;
   const MonoTime moment = timeline.newest().capture_time + predictions_.next_horizon();
   Pose prediction;
-  source.at(moment, prediction, PredictionMeter::measured_lead());
+  source.at_alone(moment, prediction, PredictionMeter::measured_lead());
   predictions_.note(timeline.newest(), prediction, moment);
 }
 

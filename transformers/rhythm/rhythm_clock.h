@@ -76,8 +76,9 @@ class RhythmClock : public PlayoutClock {
   PlayHead head_;
   PredictionLead lead_;
   SettingSlew lead_strength_{0.0};
-  std::uint32_t observed_ = 0, untagged_ = 0;
-  bool in_time_ = false;
+  MonoTime probed_at_;
+  std::uint32_t untagged_ = 0;
+  bool in_time_ = false, has_own_beat_ = false;
 };
 
 }  // namespace dance

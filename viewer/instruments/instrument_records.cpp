@@ -28,6 +28,9 @@ void InstrumentRecords::take(InstrumentBoard& board) {
     // A recording that was sought in, or repeats.
     if (record->size() > 0 && news->what.time < record->newest().time) record->clear();
     record->add(news->what);
+    // A manager that has ended says nothing any more.
+    if (record->playout && news->what.time - record->playout->time > kPlayoutForgotten)
+      record->playout.reset();
   }
   while (const auto news = board.take_flow())
     if (GuestRecord* record = record_of(news->guest)) record->flow = news->what;

@@ -42,6 +42,7 @@ class InstrumentRecords {
  public:
   static constexpr std::size_t kMost = InstrumentsMeter::kMaxGuests;
   static constexpr Duration kForgotten = Duration::s(5);
+  static constexpr Duration kPlayoutForgotten = Duration::s(3);
 
   // Once a picture.
   void take(InstrumentBoard& board);

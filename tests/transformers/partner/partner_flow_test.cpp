@@ -26,6 +26,7 @@ struct Stage {
   std::size_t comes = 0;         // and when the partner is
   bool is_with_dancers = true;
   std::uint64_t partner_clock = 1;
+  std::size_t hole_from = kFrames, hole_to = kFrames;  // poses of the partner that are missing
 };
 
 // The follow comes over a line of 200 ms; `here` dances in the house.
@@ -43,7 +44,8 @@ Shown show(const std::vector<Pose>& remote, const std::vector<Pose>& here, const
     const MonoTime now = couple_time(i);
     if (i == 0 && stage.comes == 0) dancers.take(kHere, here[0]);  // allocates
     const AllocationGuard guard;
-    if (i > 0 && i >= stage.comes && i < stage.leaves) {
+    if (i > 0 && i >= stage.comes && i < stage.leaves &&
+        (i < stage.hole_from || i >= stage.hole_to)) {
       Pose pose = here[i];
       pose.clock_id = stage.partner_clock;
       dancers.take(kHere, pose);
@@ -111,7 +113,8 @@ TEST_F(PartnerFlow, ADancerOfAnotherClockIsNoPartner) {
 
 TEST_F(PartnerFlow, APartnerWhoComesOrIsLostMakesNoJump) {
   const Shown alone = show(follow_, lead_, {.is_with_dancers = false});
-  for (const Stage& stage : {Stage{.leaves = 900}, Stage{.comes = 800}}) {
+  for (const Stage& stage :
+       {Stage{.leaves = 900}, Stage{.comes = 800}, Stage{.hole_from = 900, .hole_to = 918}}) {
     const Shown shown = show(follow_, lead_, stage);
     EXPECT_LT(shown.furthest_step_m, 1.25 * alone.furthest_step_m) << stage.leaves;
     EXPECT_LT(shown.palms_m, 1.02 * alone.palms_m);

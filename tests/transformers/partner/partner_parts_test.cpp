@@ -38,7 +38,8 @@ TEST(PartnerTrack, SaysWherePalmsWereBetweenPosesAndALittleBeyond) {
   ASSERT_TRUE(beyond.has_value());
   EXPECT_NEAR(beyond->p_WHips_m.x(), 0.11f, 1e-4f);
   // No further than kAhead.
-  EXPECT_LT(track.at(couple_time(100))->p_WHips_m.x(), 0.13f);
+  EXPECT_FALSE(track.at(couple_time(100)).has_value());
+  EXPECT_NEAR(track.at_latest(couple_time(100))->p_WHips_m.x(), 0.126f, 0.002f);
   EXPECT_FALSE(track.at(couple_time(0) - Duration::ms(1)).has_value());
 }
 
@@ -58,6 +59,33 @@ TEST(PartnerTrack, BeginsAnewAfterAGapAndWithAnotherClock) {
   track.take(other);
   EXPECT_EQ(track.clock_id(), 2u);
   EXPECT_NEAR(track.newest().p_WHips_m.x(), 2.0f, 1e-6f);
+}
+
+TEST(PartnerTrack, NoiseIsNotThrownFarBeyondTheNewest) {
+  // Poses 2 ms apart, each off by 2 mm the other way.
+  PartnerTrack track;
+  for (int i = 0; i < 60; ++i)
+    track.take(standing_at({i % 2 == 0 ? 0.002f : -0.002f, 0.95f, 0.0f}, 0.0f,
+                           couple_time(0) + Duration::ms(2 * i)));
+  const auto beyond = track.at(track.newest().time + PartnerTrack::kAhead);
+  ASSERT_TRUE(beyond.has_value());
+  EXPECT_LT(std::abs(beyond->p_WHips_m.x()), 0.01f);
+}
+
+TEST(PartnerTracks, AFullHouseGivesTheSilentOnesPlaceToANewcomer) {
+  PartnerTracks tracks;
+  const auto pose_at = [](float x, std::size_t frame) {
+    return standing_at({x, 0.95f, 0.0f}, 0.0f, couple_time(frame));
+  };
+  for (std::size_t g = 0; g < PartnerTracks::kMost; ++g)
+    tracks.take(*GuestId::parse("g" + std::to_string(g)), pose_at(0.0f, g == 2 ? 0 : 5000));
+  const std::uint32_t generation = tracks.generation(2);
+  tracks.take(*GuestId::parse("new"), pose_at(7.0f, 5001));
+  EXPECT_EQ(tracks.guest(2), *GuestId::parse("new"));
+  EXPECT_NE(tracks.generation(2), generation);
+  EXPECT_EQ(tracks.refused(), 0u);
+  tracks.take(*GuestId::parse("another"), pose_at(7.0f, 5002));
+  EXPECT_EQ(tracks.refused(), 1u);
 }
 
 TEST(PartnerTracks, KeepsEachDancerAndNoMoreThanItsBound) {
@@ -154,8 +182,9 @@ std::optional<std::size_t> found_at(CoupleFinder& finder, const PartnerTracks& d
   const Palms own{Vector3f(hips + Vector3f(0.3f, 0.1f, 0.0f)),
                   Vector3f(hips + Vector3f(-0.3f, 0.1f, 0.0f))};
   std::optional<std::size_t> found;
+  const MonoTime then = couple_time(1);
   for (int i = 0; i < static_cast<int>(seconds * kCoupleHz); ++i)
-    found = finder.update(dancers, own, hips, facing, couple_time(1), 1.0 / kCoupleHz);
+    found = finder.update(dancers, {own, hips, facing, 1, then, then}, 1.0 / kCoupleHz);
   return found;
 }
 
@@ -177,6 +206,31 @@ TEST(CoupleFinder, FindsWhoIsNearAndFacesThem) {
   // A turn of a beat ends no couple; walking away does.
   EXPECT_EQ(found_at(finder, dancers, before, Vector3f::UnitZ(), 0.4), 1u);
   EXPECT_FALSE(found_at(finder, dancers, {0.0f, 0.95f, 3.0f}, -Vector3f::UnitZ(), 3.0).has_value());
+}
+
+TEST(CoupleFinder, WhoHasLeftIsNobodysPartnerAndWhoTakesThePlaceIs) {
+  PartnerTracks dancers = dancers_at({{0.0f, 0.95f, 0.0f}, {0.0f, 0.95f, 0.1f}});
+  const Vector3f hips(0.0f, 0.95f, 0.8f), facing = -Vector3f::UnitZ();
+  const Palms own{Vector3f(hips + Vector3f(0.3f, 0.1f, 0.0f)),
+                  Vector3f(hips + Vector3f(-0.3f, 0.1f, 0.0f))};
+  CoupleFinder finder;
+  const auto found = found_at(finder, dancers, hips, facing, 3.0);
+  ASSERT_TRUE(found.has_value());
+  // Only the other dances on.
+  const std::size_t other = 1 - *found;
+  std::optional<std::size_t> partner = found;
+  for (std::size_t i = 3; i < 300; ++i) {
+    dancers.take(dancers.guest(other), standing_at({0.0f, 0.95f, 0.0f}, 0.0f, couple_time(i)));
+    partner = finder.update(dancers, {own, hips, facing, 1, couple_time(i), couple_time(i)},
+                            1.0 / kCoupleHz);
+  }
+  EXPECT_EQ(partner, other);
+  // Nor is one of another clock.
+  CoupleFinder elsewhere;
+  for (std::size_t i = 0; i < 300; ++i)
+    partner = elsewhere.update(dancers, {own, hips, facing, 9, couple_time(299), couple_time(299)},
+                               1.0 / kCoupleHz);
+  EXPECT_FALSE(partner.has_value());
 }
 
 TEST(CoupleFinder, NobodyIsAPartnerFromAfarOrFromBehind) {
