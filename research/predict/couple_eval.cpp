@@ -111,7 +111,8 @@ void judge_dancer(const PredictTake& take, const std::vector<Pose>& heard,
             course.dancers.take(kHere, other[course.fed]);
         }
         Pose pose = alone;
-        course.guide.observe(heard[i], extrapolator);
+        course.guide.observe(heard[i], moment, extrapolator);
+        course.guide.set_shown(moment, moment);
         course.guide.guide(moment, pose);
         if (b == 1) {
           guiding += mono_now() - begin;
