@@ -54,6 +54,7 @@ constexpr std::array<MinutePlot, 8> kPlots{{
 }};
 
 constexpr float kMost_px = 1e5f;
+constexpr std::size_t kMostPlayouts = 6;  // lines below the table
 
 }  // namespace
 
@@ -82,14 +83,19 @@ struct InstrumentPanel::Layout {
     plots_left = table_right + 1.6f * em;
     right = has_plots ? frame.width_px - 2.0f * margin : table_right;
     legend = top;
-    const float head_rows = 3.0f;  // and the line of what is shown
-    const float room_y = frame.height_px - 2.0f * top - head_rows * row - 3.4f * em;
+    const float head_rows = 2.0f;
+    lines = std::min(kMostPlayouts, static_cast<std::size_t>(std::count_if(
+                                        records.begin(), records.end(), [](const auto& record) {
+                                          return record.playout.has_value();
+                                        })));
+    const float line_rows = static_cast<float>(lines) + 0.3f;
+    const float room_y = frame.height_px - 2.0f * top - (head_rows + line_rows) * row - 3.4f * em;
     rows = std::min(guests, static_cast<std::size_t>(std::max(1.0f, room_y / row)));
     plots_height = has_plots ? std::min(frame.height_px - 4.0f * margin, 33.0f * em) : 0.0f;
   }
   float row, margin, name, bar, left, top, bar_left, numbers_left, table_right, plots_left, right;
   float legend, heads = 0.0f, table = 0.0f, bottom = 0.0f, plots_height;
-  std::size_t rows = 0;
+  std::size_t rows = 0, lines = 0;
   bool has_plots = false;
 };
 
@@ -174,13 +180,18 @@ void InstrumentPanel::draw_table(const PanelInk& ink, const Layout& layout) {
     if (record.size() > 0) draw_latency_bar(ink, record.newest(), bar_box(y), scale_ms);
   }
   const float below = layout.table + static_cast<float>(layout.rows) * layout.row;
-  if (const auto& playout = guests[chosen].playout) {
+  float y = below + (layout.rows == guests.size() ? 0.3f : 1.3f) * layout.row;
+  std::size_t lines = 0;
+  for (std::size_t i = 0; i < layout.rows && lines < layout.lines; ++i) {
+    const GuestRecord& record = guests[first + i];
+    if (!record.playout) continue;
+    ++lines;
     const std::string words =
-        std::string(guests[chosen].guest().view()) + " is shown " + playout_text(*playout);
-    const float y = below + (layout.rows == guests.size() ? 0.0f : layout.row);
+        std::string(record.guest().view()) + " is shown " + playout_text(*record.playout);
     ink.list().PushClipRect({layout.left, y}, {layout.table_right, y + layout.row}, true);
-    ink.left(layout.left, y, kBright, words.c_str());
+    ink.left(layout.left, y, first + i == chosen ? kBright : kDim, words.c_str());
     ink.list().PopClipRect();
+    y += layout.row;
   }
   if (layout.rows == guests.size()) return;
   char words[64];
@@ -227,9 +238,9 @@ void InstrumentPanel::draw(const PanelFrame& frame) {
   layout.table = layout.heads + 2.3f * em;
   const bool is_cut = layout.rows < records_.guests().size();
   const float table_end =
-      layout.table +
-      (static_cast<float>(std::max<std::size_t>(layout.rows, 1)) + (is_cut ? 2.0f : 1.0f)) *
-          layout.row;
+      layout.table + (static_cast<float>(std::max<std::size_t>(layout.rows, 1)) +
+                      (is_cut ? 1.3f : 0.3f) + static_cast<float>(layout.lines)) *
+                         layout.row;
   layout.bottom = std::max(table_end, layout.top + layout.plots_height) + layout.margin;
   ImGui::SetNextWindowPos({layout.margin, layout.margin});
   ImGui::SetNextWindowSize(
