@@ -23,6 +23,8 @@ constexpr double kStrengthPerSecond = 0.5;
 constexpr double kMostPaceChange = 0.1;
 // Of the lead, where the dance comes to be in time, or is no longer.
 constexpr double kLeadPerSecond = 1.0;
+// The last fifth costs more error than it brings onto the beat.
+constexpr double kMostLead = 0.8;
 // What is further off is jumped to; without music there is no hurry, so more of it is walked.
 constexpr Duration kJumpInTime = Duration::ms(300);
 constexpr Duration kJumpFree = Duration::s(1);
@@ -177,7 +179,7 @@ PlayoutClock::Choice RhythmClock::choose(const DancerTimeline& timeline, MonoTim
   const MonoTime wanted = wanted_moment(timeline, now, pace);
   // Where the truth was asked for, predictions fill a stall alone: a lead would scatter it.
   const bool leads = in_time_ && options_.beats <= 0.0;
-  lead_strength_.want(leads ? strength_.value() : 0.0);
+  lead_strength_.want(leads ? kMostLead * strength_.value() : 0.0);
   lead_.set_strength(static_cast<float>(lead_strength_.advance(now, kLeadPerSecond)));
   const MonoTime moment = head_.advance(now, wanted, pace);
   const Duration off = wanted - moment;
