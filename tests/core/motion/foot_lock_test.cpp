@@ -208,7 +208,7 @@ TEST(HoldOdds, FindTheOddsThatNearlyAllFeetHadThatThenStood) {
       }
       odds.see(frame_at(i), {true, false});
     }
-    EXPECT_NEAR(odds.value(), shift - 0.9f, 0.2f);
+    EXPECT_NEAR(odds.value(), shift - 0.7f, 0.2f);
     EXPECT_LT(missed / seen, 0.2);
     EXPECT_GT(missed / seen, 0.02);
   }
