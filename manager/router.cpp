@@ -18,8 +18,10 @@ Router::Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, Sta
     routes_.push_back(std::make_unique<RouteState>(
         RouteState{route, static_cast<std::int32_t>(routes_.size()), route.rate_hz, {}, {}}));
     routes_from_[static_cast<std::size_t>(route.from.where)].push_back(routes_.back().get());
+    // A flow is megabytes: one is made only of routes of guests, until one has a partner.
+    if (has_partner_routes_ || route.from.where != Where::kGuest) continue;
     const auto flow = Flow::make(route.through);
-    has_partner_routes_ |= route.from.where == Where::kGuest && flow && flow->partner();
+    has_partner_routes_ = flow && flow->partner();
   }
 }
 

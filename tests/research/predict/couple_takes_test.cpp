@@ -3,32 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "core/motion/palm_pull.h"
 #include "research/predict/couple_eval.h"
+#include "tests/research/predict/real_takes.h"
 
 namespace dance {
 namespace {
 
-std::vector<PredictTake> real_couple(const std::vector<std::string>& names) {
-  std::vector<PredictTake> takes;
-  for (const std::string& name : names) {
-    const std::string path = DANCE_SOURCE_DIR "/../shared/data/mocap/" + name + ".bvh.xz";
-    if (!std::filesystem::exists(path)) return {};
-    auto take = load_predict_take(path, 60.0);
-    if (!take) return {};
-    take->poses.resize(std::min<std::size_t>(take->poses.size(), 1000));
-    takes.push_back(std::move(*take));
-  }
-  return takes;
-}
-
+constexpr std::size_t kCoupleFrames = 1000;
 const std::vector<std::string> kCouples{"cmu_60_05_salsa", "cmu_61_05_salsa", "cmu_60_12_salsa",
                                         "cmu_61_12_salsa"};
 
 TEST(CoupleTakes, ThePartnersHandsTellWhereHandsAre) {
-  auto takes = real_couple(kCouples);
+  auto takes = real_takes(kCouples, kCoupleFrames);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   const auto couples = couples_of(std::move(takes));
   ASSERT_TRUE(couples.has_value());
@@ -49,7 +37,7 @@ TEST(CoupleTakes, ThePartnersHandsTellWhereHandsAre) {
 }
 
 TEST(CoupleTakes, PalmsNearEachOtherAreBroughtTogether) {
-  auto takes = real_couple({kCouples[0], kCouples[1]});
+  auto takes = real_takes({kCouples[0], kCouples[1]}, kCoupleFrames);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   auto couples = couples_of(std::move(takes));
   ASSERT_TRUE(couples.has_value());

@@ -4,28 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "research/predict/predict_eval.h"
+#include "tests/research/predict/real_takes.h"
 
 namespace dance {
 namespace {
 
-std::vector<PredictTake> real_takes(const std::vector<std::string>& names) {
-  std::vector<PredictTake> takes;
-  for (const std::string& name : names) {
-    const std::string path = DANCE_SOURCE_DIR "/../shared/data/mocap/" + name + ".bvh.xz";
-    if (!std::filesystem::exists(path)) return {};
-    auto take = load_predict_take(path, 60.0);
-    if (!take) return {};
-    take->poses.resize(std::min<std::size_t>(take->poses.size(), 1200));
-    takes.push_back(std::move(*take));
-  }
-  return takes;
-}
+constexpr std::size_t kFrames = 1200;
 
 TEST(PredictTakes, SalsaIsPredictedBetterThanAnyoneCould) {
-  const auto takes = real_takes({"cmu_60_05_salsa", "cmu_61_12_salsa"});
+  const auto takes = real_takes({"cmu_60_05_salsa", "cmu_61_12_salsa"}, kFrames);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   PredictEvalOptions options;
   options.model = built_in_predict_model();
@@ -44,7 +33,7 @@ TEST(PredictTakes, SalsaIsPredictedBetterThanAnyoneCould) {
 }
 
 TEST(PredictTakes, TakesAreMirroredAsTheyShould) {
-  const auto takes = real_takes({"cmu_60_05_salsa"});
+  const auto takes = real_takes({"cmu_60_05_salsa"}, kFrames);
   if (takes.empty()) GTEST_SKIP() << "no real takes beside this tree";
   const PredictTake twice = mirrored(mirrored(takes[0]));
   for (std::size_t i = 0; i < twice.poses.size(); i += 100)
