@@ -6,17 +6,13 @@
 #include <cmath>
 
 #include "core/motion/palm_pull.h"
+#include "research/joined_palms.h"
 
 namespace dance {
 namespace {
 
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
-
-float smooth_ramp(float x) {
-  const float t = std::clamp(x, 0.0f, 1.0f);
-  return t * t * (3.0f - 2.0f * t);
-}
 
 Quaternionf turned(const Vector3f& from, const Vector3f& to, const Quaternionf& R) {
   return (Quaternionf::FromTwoVectors(from, to) * R).normalized();
@@ -66,25 +62,13 @@ void join_palms(CoupleTake& couple, float join_m) {
   if (join_m <= 0.0f) return;
   for (std::size_t i = 0; i < couple[0].poses.size(); ++i) {
     std::array<BodyFrames, 2> frames;
-    std::array<std::array<Vector3f, 2>, 2> palms, shift;
+    std::array<PalmPlaces, 2> palms;
     for (std::size_t d = 0; d < 2; ++d) {
       forward_kinematics(couple[d].skeleton, couple[d].poses[i], frames[d]);
-      for (std::size_t side = 0; side < 2; ++side) {
+      for (std::size_t side = 0; side < 2; ++side)
         palms[d][side] = palm_of(couple[d].skeleton, frames[d], side);
-        shift[d][side].setZero();
-      }
     }
-    for (std::size_t a = 0; a < 2; ++a)
-      for (std::size_t b = 0; b < 2; ++b) {
-        const Vector3f apart = palms[1][b] - palms[0][a];
-        const float distance = apart.norm();
-        const float nearest = std::min((palms[1][1 - b] - palms[0][a]).norm(),
-                                       (palms[1][b] - palms[0][1 - a]).norm());
-        const float weight = smooth_ramp(2.0f * (1.0f - distance / join_m)) *
-                             smooth_ramp((nearest - distance) / (0.2f * join_m));
-        shift[0][a] += 0.5f * weight * apart;
-        shift[1][b] -= 0.5f * weight * apart;
-      }
+    const auto shift = joined_palm_shifts(palms, join_m);
     for (std::size_t d = 0; d < 2; ++d)
       for (std::size_t side = 0; side < 2; ++side)
         if (shift[d][side].norm() > 1e-6f)

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cmath>
 
 #include "core/pose/kinematics.h"
 #include "formats/body/hand_layout.h"
+#include "research/joined_palms.h"
 #include "research/stage/stage_take.h"
 #include "viewer/figure/limb_fit.h"
 
@@ -54,25 +54,14 @@ void join_hands(StageTake& take, float join_m) {
       for (std::size_t side = 0; side < 2; ++side)
         palms[d].at_W_m[side] = palm_of(clip.skeleton, at[d], side);
     }
-    // The nearest pair of each two dancers; together where half as far as join_m.
     for (std::size_t a = 0; a < palms.size(); ++a)
-      for (std::size_t b = a + 1; b < palms.size(); ++b)
-        for (std::size_t k = 0; k < 4; ++k) {
-          const Vector3f apart = palms[b].at_W_m[k % 2] - palms[a].at_W_m[k / 2];
-          float nearest = 1e9f;  // of the other pairs of these two hands
-          for (std::size_t o = 0; o < 4; ++o)
-            if (o != k && (o / 2 == k / 2 || o % 2 == k % 2))
-              nearest = std::min(nearest, (palms[b].at_W_m[o % 2] - palms[a].at_W_m[o / 2]).norm());
-          const float distance = apart.norm();
-          const auto ramp = [](float x) {
-            const float t = std::clamp(x, 0.0f, 1.0f);
-            return t * t * (3.0f - 2.0f * t);
-          };
-          const float weight = ramp(2.0f * (1.0f - distance / join_m)) *
-                               ramp((nearest - distance) / (0.2f * join_m));
-          palms[a].moved_m[k / 2] += 0.5f * weight * apart;
-          palms[b].moved_m[k % 2] -= 0.5f * weight * apart;
+      for (std::size_t b = a + 1; b < palms.size(); ++b) {
+        const auto shifts = joined_palm_shifts({palms[a].at_W_m, palms[b].at_W_m}, join_m);
+        for (std::size_t side = 0; side < 2; ++side) {
+          palms[a].moved_m[side] += shifts[0][side];
+          palms[b].moved_m[side] += shifts[1][side];
         }
+      }
     for (std::size_t d = 0; d < take.dancers.size(); ++d)
       move_palms(palms[d], at[d], take.dancers[d].clip.frames[f]);
   }
