@@ -31,7 +31,7 @@ class PartnerGuide {
   void set_shown(MonoTime moment, MonoTime now);
   // A pose of the remote dancer has come at `now`; the extrapolator has it already.
   void observe(const Pose& pose, MonoTime now, const Extrapolator& extrapolator);
-  // Whether the partner has danced on since the last picture but one: predictions look otherwise.
+  // Whether the partner was seen to dance on between the last two pictures: predictions change.
   bool has_news() const { return has_news_; }
   // Corrects the prediction of a moment behind the newest pose.
   void guide(MonoTime moment, Pose& pose) const;
