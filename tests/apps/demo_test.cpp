@@ -54,8 +54,11 @@ void expect_all_delivered(const nlohmann::json& summary, std::size_t guests) {
   }
 }
 
+// Empty where the process has ended; getline, as a stream's iterators throw then.
 std::string command_line_of(pid_t pid) {
-  std::string line = dance::text_of("/proc/" + std::to_string(pid) + "/cmdline");
+  std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
+  std::string line;
+  std::getline(file, line);
   std::replace(line.begin(), line.end(), '\0', ' ');
   return line;
 }

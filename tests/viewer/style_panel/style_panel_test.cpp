@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "tests/test_folder.h"
 #include "tests/viewer/instruments/synthetic_line.h"
 
 namespace dance {
@@ -101,7 +100,8 @@ TEST(StylePanel, ChangesNothingOfARecording) {
 }
 
 TEST(StylePanel, SavesWhatIsInForceAndKeepsComments) {
-  const std::string path = testing::TempDir() + "style-panel-test.toml";
+  const TestFolder folder("style-panel");
+  const std::string path = folder.path("session.toml");
   std::ofstream(path) << "# mine\n[[route]]\nthrough = [\"predict\", \"bridge\", \"rhythm\", "
                          "\"stylize\"] # all\n";
   House house(true, std::make_unique<SessionFile>(*SessionFile::open(path)));
@@ -110,26 +110,29 @@ TEST(StylePanel, SavesWhatIsInForceAndKeepsComments) {
   house.in_force.gain[0] = 1.5f;
   house.tell(at_ms(1000));
   house.panel.save();
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  EXPECT_EQ(text.str(),
+  EXPECT_EQ(text_of(path),
             "# mine\n[[route]]\nthrough = [\"predict lead=0.8\", \"bridge on=0\", \"rhythm\", "
             "\"stylize hips=1.5\"] # all\n");
   EXPECT_NE(house.panel.note().find("saved in"), std::string::npos) << house.panel.note();
-  std::filesystem::remove(path);
 }
 
+// A session file of this test's own.
+struct OwnSession {
+  explicit OwnSession(const std::string& text) { std::ofstream(path()) << text; }
+  std::string path() const { return folder.path("session.toml"); }
+  std::unique_ptr<SessionFile> open() const {
+    return std::make_unique<SessionFile>(*SessionFile::open(path()));
+  }
+
+  TestFolder folder{"style-panel-own"};
+};
+
 // A house with two dancers of its own, and what stands in its session file.
-struct OwnHouse : House {
-  OwnHouse() : House(true, session("# mine\n[[route]]\nthrough = []\n")) {
+struct OwnHouse : OwnSession, House {
+  explicit OwnHouse(const std::string& text = "# mine\n[[route]]\nthrough = []\n")
+      : OwnSession(text), House(true, open()) {
     in_force.own = true;
     in_force.has = {};
-  }
-  ~OwnHouse() { std::filesystem::remove(path()); }
-  static std::string path() { return testing::TempDir() + "style-panel-own.toml"; }
-  static std::unique_ptr<SessionFile> session(const std::string& text) {
-    std::ofstream(path()) << text;
-    return std::make_unique<SessionFile>(*SessionFile::open(path()));
   }
   void tell_of(const char* name, const Style& style) {
     FlowSetting setting = in_force;
@@ -141,9 +144,7 @@ struct OwnHouse : House {
   }
   std::string saved() {
     panel.save();
-    std::ostringstream text;
-    text << std::ifstream(path()).rdbuf();
-    return text.str();
+    return text_of(path());
   }
 };
 
@@ -183,9 +184,7 @@ TEST(StylePanel, SavesAnOwnStyleThatWasNotSetInThePanelAndThatItIsGone) {
 
 TEST(StylePanel, LeavesTheFileAsItIsWhereItSaysWhatIsInForce) {
   const std::string text = "[[style]]\nguest = \"alice\"\nwords = \"hips=1.50  mix=1\" # so\n";
-  House house(true, OwnHouse::session(text));
-  house.in_force.own = true;
-  house.in_force.has = {};
+  OwnHouse house(text);
   house.in_force.guest_gain[0] = 1.5f;
   for (const char* name : {"alice", "bob"}) {
     FlowSetting setting = house.in_force;
@@ -194,13 +193,9 @@ TEST(StylePanel, LeavesTheFileAsItIsWhereItSaysWhatIsInForce) {
     house.records.take(house.board);
     house.panel.choose(guest_called(name));
     house.panel.follow(at_ms(1000));
-    house.panel.save();
+    EXPECT_EQ(house.saved(), text);
     EXPECT_NE(house.panel.note().find("saved in"), std::string::npos) << house.panel.note();
-    std::ostringstream now;
-    now << std::ifstream(OwnHouse::path()).rdbuf();
-    EXPECT_EQ(now.str(), text);
   }
-  std::filesystem::remove(OwnHouse::path());
 }
 
 }  // namespace
