@@ -26,6 +26,11 @@ class FixedList {
     std::move(begin() + i + 1, end(), begin() + i);
     --size_;
   }
+  // The first of this value, where there is one.
+  void erase(const T& value) {
+    const auto found = std::find(begin(), end(), value);
+    if (found != end()) erase_at(static_cast<std::size_t>(found - begin()));
+  }
   void clear() { size_ = 0; }
   bool contains(const T& value) const { return std::find(begin(), end(), value) != end(); }
 

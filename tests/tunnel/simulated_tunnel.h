@@ -93,7 +93,10 @@ class SimulatedTunnel {
     }
   };
 
-  explicit SimulatedTunnel(const ServerLimits& limits = {}) : limits_(limits) { start_server(); }
+  explicit SimulatedTunnel(const ServerLimits& limits = {}, std::uint64_t seed = 20'260'101)
+      : limits_(limits), random_(seed) {
+    start_server();
+  }
 
   void start_server() {
     server_ = std::make_unique<ServerCore>(
@@ -136,6 +139,23 @@ class SimulatedTunnel {
   void seal_anew(House& house) {
     house.peer = 0;
     house.seal_due = now_;
+  }
+
+  // The house goes over to this tunnel's server, as after that server's end.
+  void adopt(SimulatedTunnel& from, House& house) {
+    const auto at = std::find_if(from.houses_.begin(), from.houses_.end(),
+                                 [&](const auto& it) { return it.get() == &house; });
+    houses_.push_back(std::move(*at));
+    from.houses_.erase(at);
+    static_cast<LinkSink&>(*house.sink).tunnel = this;
+    house.peer = 0;
+    house.link->on_unsealed(time_in(house));
+    house.seal_due = now_ + house.down;
+  }
+
+  bool has(const House& house) const {
+    return std::any_of(houses_.begin(), houses_.end(),
+                       [&](const auto& it) { return it.get() == &house; });
   }
 
   MonoTime now() const { return now_; }
@@ -201,13 +221,13 @@ class SimulatedTunnel {
   };
   class LinkSink final : public DatagramSink {
    public:
-    LinkSink(SimulatedTunnel& tunnel, House& house) : tunnel_(tunnel), house_(house) {}
+    LinkSink(SimulatedTunnel& of, House& house) : tunnel(&of), house_(house) {}
     void send(const Address&, std::span<const std::uint8_t> bytes) override {
-      tunnel_.post(true, house_.peer, bytes);
+      tunnel->post(true, house_.peer, bytes);
     }
+    SimulatedTunnel* tunnel;
 
    private:
-    SimulatedTunnel& tunnel_;
     House& house_;
   };
 
@@ -339,7 +359,7 @@ class SimulatedTunnel {
   }
 
   ServerLimits limits_;
-  Random random_{20'260'101};
+  Random random_;
   MonoTime now_ = MonoTime::from_us(5'000'000'000);
   ServerSink server_sink_{*this};
   std::unique_ptr<ServerCore> server_;

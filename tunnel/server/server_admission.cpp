@@ -8,6 +8,8 @@ namespace dance {
 namespace {
 
 constexpr std::uint64_t kLongestOvertaking_us = 60'000'000;
+// Servers of a cluster tell that they live several times as often.
+constexpr Duration kRemoteSilence = Duration::ms(1000);
 
 }  // namespace
 
@@ -21,7 +23,8 @@ ServerAdmission::ServerAdmission(ServerContext& server, ServerFeedback& feedback
 std::optional<std::size_t> ServerAdmission::find_token(std::uint64_t token,
                                                        const GuestId& key) const {
   for (std::size_t i = 0; i < server_.sessions.size(); ++i)
-    if (server_.sessions[i].in_use && server_.sessions[i].token == token &&
+    if (server_.sessions[i].in_use && !server_.sessions[i].is_remote() &&
+        server_.sessions[i].token == token &&
         server_.sessions[i].access.name == key)
       return i;
   return std::nullopt;
@@ -76,7 +79,7 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
     existing.reset();
   }
   auto room = find_room(hello->room);
-  if (const auto objection = objection_to(*hello, access, existing, room))
+  if (const auto objection = objection_to(*hello, access, existing, room, now))
     return refuse(from, hello->nonce, objection->cause, objection->guest);
 
   if (!room) room = open_room(*hello);
@@ -123,7 +126,7 @@ void ServerAdmission::welcome(std::size_t index, const wire::Hello& hello, MonoT
 
 std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
     const wire::Hello& hello, const Access& access, std::optional<std::size_t> existing,
-    std::optional<std::size_t> room) const {
+    std::optional<std::size_t> room, MonoTime now) const {
   if (!access.may_enter(hello.room)) return Objection{wire::Refusal::kNotAllowedRoom, {}};
   if (!hello.guests.empty() && !may_have_guests(access))
     return Objection{wire::Refusal::kOnlyListens, {}};
@@ -140,13 +143,14 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
   } else if (!hello.codecs.contains(server_.rooms[*room].codec)) {
     return Objection{wire::Refusal::kCodec, {}};
   }
-  if (!existing && server_.by_peer.size() == server_.sessions.size())
+  if (!existing && server_.by_peer.size() == server_.limits.sessions)
     return Objection{wire::Refusal::kServerFull, {}};
   std::size_t others = 0;
   if (room && hello.guests.empty()) {
     const auto& members = server_.rooms[*room].members;
     const auto listeners = std::count_if(members.begin(), members.end(), [&](std::size_t member) {
-      return member != existing && server_.sessions[member].slots.empty();
+      return member != existing && !server_.sessions[member].is_remote() &&
+             server_.sessions[member].slots.empty();
     });
     if (static_cast<std::size_t>(listeners) >= server_.limits.listeners_per_room)
       return Objection{wire::Refusal::kListenersFull, {}};
@@ -154,6 +158,7 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
   if (room) {
     for (const ServerGuest& guest : server_.rooms[*room].guests) {
       if (!guest.in_use || (existing && guest.owner == *existing)) continue;
+      if (hello.guests.contains(guest.id) && may_take_over(guest, hello.token, now)) continue;
       ++others;
       if (hello.guests.contains(guest.id)) return Objection{wire::Refusal::kNameTaken, guest.id};
     }
@@ -161,6 +166,14 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
   if (others + hello.guests.size() > server_.limits.guests_per_room)
     return Objection{wire::Refusal::kRoomFull, {}};
   return std::nullopt;
+}
+
+// Of a cluster: its link has come here from another server, or that server is no more.
+bool ServerAdmission::may_take_over(const ServerGuest& guest, std::uint64_t link_token,
+                                    MonoTime now) const {
+  const ServerSession& owner = server_.sessions[guest.owner];
+  return owner.is_remote() &&
+         (guest.link_token == link_token || now - owner.last_heard > kRemoteSilence);
 }
 
 std::size_t ServerAdmission::open_room(const wire::Hello& hello) {
@@ -175,11 +188,12 @@ std::size_t ServerAdmission::open_room(const wire::Hello& hello) {
   // From a random begin, so that a slot's generation after a server's restart is not one of before.
   free->next_generation = static_cast<std::uint16_t>(random_());
   free->members.clear();
-  free->guest_count = 0;
+  free->guest_count = free->remote_count = 0;
   for (RetainedState& state : free->states) state.version = 0;
   free->has_fresh_states = free->has_first_body = false;
   free->fresh_states_due = MonoTime();
   free->host_count = 0;
+  if (server_.cluster != nullptr) server_.cluster->on_room_opened(*free);
   return static_cast<std::size_t>(free - server_.rooms.begin());
 }
 
@@ -249,7 +263,7 @@ void ServerAdmission::settle_guests(std::size_t index, const wire::Hello& hello)
       return room.guests[slot].in_use && room.guests[slot].id == id;
     });
     if (same == before.end()) {
-      add_guest(index, id);
+      bring_guest(index, id, hello.token);
     } else {
       const bool pushed = session.slots.try_push(*same);
       DANCE_ASSERT(pushed);
@@ -257,16 +271,71 @@ void ServerAdmission::settle_guests(std::size_t index, const wire::Hello& hello)
   }
 }
 
-void ServerAdmission::add_guest(std::size_t index, const GuestId& id) {
+void ServerAdmission::bring_guest(std::size_t index, const GuestId& id, std::uint64_t link_token) {
+  const std::size_t room_index = server_.sessions[index].room;
+  ServerRoom& room = server_.rooms[room_index];
+  const auto there = std::find_if(room.guests.begin(), room.guests.end(),
+                                  [&](auto& guest) { return guest.in_use && guest.id == id; });
+  const auto slot = static_cast<std::uint8_t>(there - room.guests.begin());
+  if (there != room.guests.end() && there->link_token == link_token) {
+    move_guest(room, slot, index);
+  } else {
+    if (there != room.guests.end()) {
+      server_.sessions[there->owner].slots.erase(slot);
+      remove_guest(room_index, slot);
+    }
+    const bool added = add_guest(index, id, link_token).has_value();
+    DANCE_ASSERT(added);
+  }
+  if (server_.cluster != nullptr) {
+    const auto here = std::find_if(room.guests.begin(), room.guests.end(),
+                                   [&](auto& guest) { return guest.in_use && guest.id == id; });
+    server_.cluster->on_guest_came(room, *here);
+  }
+}
+
+void ServerAdmission::move_guest(ServerRoom& room, std::uint8_t slot, std::size_t to) {
+  ServerGuest& guest = room.guests[slot];
+  server_.sessions[guest.owner].slots.erase(slot);
+  guest.owner = to;
+  guest.told = {};
+  const bool pushed = server_.sessions[to].slots.try_push(slot);
+  DANCE_ASSERT(pushed);
+}
+
+std::optional<std::size_t> ServerAdmission::open_remote(std::size_t room_index, ServerId server,
+                                                        MonoTime now) {
+  const auto place = std::find_if(server_.remotes.begin(), server_.remotes.end(),
+                                  [](const auto& remote) { return remote.server == 0; });
+  const auto free = std::find_if(server_.sessions.begin(), server_.sessions.end(),
+                                 [](auto& s) { return !s.in_use; });
+  if (place == server_.remotes.end() || free == server_.sessions.end()) return std::nullopt;
+  ServerRoom& room = server_.rooms[room_index];
+  *place = RemoteReceivers();
+  place->server = server;
+  *free = ServerSession();
+  free->in_use = true;
+  free->room = room_index;
+  free->remote = static_cast<std::size_t>(place - server_.remotes.begin());
+  free->last_heard = now;
+  const auto index = static_cast<std::size_t>(free - server_.sessions.begin());
+  room.members.push_back(index);
+  ++room.remote_count;
+  return index;
+}
+
+std::optional<std::uint8_t> ServerAdmission::add_guest(std::size_t index, const GuestId& id,
+                                                       std::uint64_t link_token) {
   ServerSession& session = server_.sessions[index];
   ServerRoom& room = server_.rooms[session.room];
   const auto free =
       std::find_if(room.guests.begin(), room.guests.end(), [](auto& g) { return !g.in_use; });
-  DANCE_ASSERT(free != room.guests.end());
+  if (free == room.guests.end()) return std::nullopt;
   const auto slot = static_cast<std::uint8_t>(free - room.guests.begin());
   *free = ServerGuest();
   free->in_use = true;
   free->id = id;
+  free->link_token = link_token;
   free->generation = room.next_generation++;
   free->records = TokenBucket(server_.limits.records_per_second, server_.limits.record_burst);
   free->state_changes =
@@ -278,17 +347,24 @@ void ServerAdmission::add_guest(std::size_t index, const GuestId& id) {
   free->owner = index;
   const bool pushed = session.slots.try_push(slot);
   DANCE_ASSERT(pushed);
-  for (const std::size_t member : room.members)
-    server_.sessions[member].filters[slot] =
-        InterestFilter(server_.sessions[member].interest.default_divider);
+  for (const std::size_t member : room.members) {
+    ServerSession& receiver = server_.sessions[member];
+    receiver.filters[slot] = InterestFilter(receiver.interest.default_divider);
+    if (!receiver.is_remote()) continue;
+    server_.remotes[receiver.remote].frames[slot] = {};
+    server_.remotes[receiver.remote].key_frames[slot] = 0;
+  }
   ++room.guest_count;
   ++room.roster_version;
   room.roster_changed = true;
   server_.mark_changed(room);
+  return slot;
 }
 
 void ServerAdmission::remove_guest(std::size_t room_index, std::uint8_t slot) {
   ServerRoom& room = server_.rooms[room_index];
+  if (server_.cluster != nullptr && server_.is_local(room.guests[slot]))
+    server_.cluster->on_guest_left(room, room.guests[slot]);
   room.guests[slot].in_use = false;
   --room.guest_count;
   for (const std::size_t member : room.members) server_.sessions[member].stream.states.forget(slot);
@@ -302,18 +378,25 @@ void ServerAdmission::drop(std::size_t index) {
   ServerRoom& room = server_.rooms[session.room];
   for (const std::uint8_t slot : session.slots) remove_guest(session.room, slot);
   if (session.access.role == Role::kHost) --room.host_count;
+  if (session.is_remote()) --room.remote_count;
   std::erase(room.members, index);
   std::erase(server_.newcomers, index);
   std::erase(server_.bundled, index);
   std::erase(server_.reporting, index);
   server_.by_peer.erase(session.peer);
+  if (session.is_remote()) server_.remotes[session.remote] = RemoteReceivers();
   session.in_use = false;
   session.slots.clear();
   session.stream.bundle.clear();
-  if (room.members.empty()) {
-    room.in_use = false;
-    room.roster_changed = false;
-  }
+  if (room.in_use && room.link_count() == 0) close_room(session.room);
+}
+
+void ServerAdmission::close_room(std::size_t index) {
+  ServerRoom& room = server_.rooms[index];
+  room.in_use = false;  // before its other servers go, the last of which would close it again
+  while (!room.members.empty()) drop(room.members.back());
+  room.roster_changed = false;
+  if (server_.cluster != nullptr) server_.cluster->on_room_closed(room);
 }
 
 }  // namespace dance

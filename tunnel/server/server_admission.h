@@ -23,6 +23,17 @@ class ServerAdmission {
   void on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
                 MonoTime now);
   void drop(std::size_t session);
+
+  // For ServerRemotes: another server of the cluster in a room, as a session; nothing where there
+  // is no place for it. Its guests, nothing where the room is full.
+  std::optional<std::size_t> open_remote(std::size_t room, ServerId server, MonoTime now);
+  std::optional<std::uint8_t> add_guest(std::size_t session, const GuestId& id,
+                                        std::uint64_t link_token);
+  void remove_guest(std::size_t room, std::uint8_t slot);
+  // The guest comes through another session now, and keeps its slot, generation and states.
+  void move_guest(ServerRoom& room, std::uint8_t slot, std::size_t to);
+  std::optional<std::size_t> find_room(const wire::RoomName& name) const;
+
   // Names of those who have a key of their own: a key for all does not open them.
   void set_reserved(std::function<bool(const GuestId&)> is_reserved) {
     is_reserved_ = std::move(is_reserved);
@@ -35,11 +46,11 @@ class ServerAdmission {
   };
   std::optional<Objection> objection_to(const wire::Hello& hello, const Access& access,
                                         std::optional<std::size_t> existing,
-                                        std::optional<std::size_t> room) const;
+                                        std::optional<std::size_t> room, MonoTime now) const;
+  bool may_take_over(const ServerGuest& guest, std::uint64_t link_token, MonoTime now) const;
   void welcome(std::size_t session, const wire::Hello& hello, MonoTime received, MonoTime now);
   void refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest);
   std::optional<std::size_t> find_token(std::uint64_t token, const GuestId& key) const;
-  std::optional<std::size_t> find_room(const wire::RoomName& name) const;
   std::size_t open_room(const wire::Hello& hello);
   std::size_t open_session(PeerId peer, const Access& access, const wire::Hello& hello,
                            std::size_t room);
@@ -47,8 +58,8 @@ class ServerAdmission {
   void move_session(std::size_t session, PeerId to);
   void settle_access(std::size_t session, const Access& access);
   void settle_guests(std::size_t session, const wire::Hello& hello);
-  void add_guest(std::size_t session, const GuestId& id);
-  void remove_guest(std::size_t room, std::uint8_t slot);
+  void bring_guest(std::size_t session, const GuestId& id, std::uint64_t link_token);
+  void close_room(std::size_t room);
 
   ServerContext& server_;
   ServerFeedback& feedback_;

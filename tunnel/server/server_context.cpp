@@ -8,14 +8,16 @@
 namespace dance {
 
 ServerContext::ServerContext(const ServerLimits& of_server, PeerSink& to)
-    : limits(of_server), sink(to), sessions(of_server.sessions), rooms(of_server.rooms) {
+    : limits(of_server), sink(to),
+      sessions(of_server.sessions + of_server.remote_servers), rooms(of_server.rooms),
+      remotes(of_server.remote_servers) {
   DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
   by_peer.reserve(limits.sessions);
   newcomers.reserve(limits.sessions);
   bundled.reserve(limits.sessions);
-  reporting.reserve(limits.sessions);
+  reporting.reserve(sessions.size());
   changed_rooms.reserve(limits.rooms);
-  for (ServerRoom& room : rooms) room.members.reserve(limits.sessions);
+  for (ServerRoom& room : rooms) room.members.reserve(sessions.size());
 }
 
 void ServerContext::send(PeerId to, wire::Bytes bytes) {

@@ -22,13 +22,17 @@ struct ServerContext {
   // Of this session; nullptr where the slot is another's, or nobody's.
   ServerGuest* guest_of(std::size_t session, std::uint8_t slot);
   bool is_newcomer(std::size_t session) const;
+  // Of a guest that came through a link of this server's.
+  bool is_local(const ServerGuest& guest) const { return !sessions[guest.owner].is_remote(); }
   // Its roster or its states are to be told at the end of the turn.
   void mark_changed(ServerRoom& room);
 
   ServerLimits limits;
   PeerSink& sink;
+  ClusterPort* cluster = nullptr;  // must outlive it
   std::vector<ServerSession> sessions;
   std::vector<ServerRoom> rooms;
+  std::vector<RemoteReceivers> remotes;  // as many as there may be
   std::unordered_map<PeerId, std::size_t> by_peer;
   std::vector<std::size_t> newcomers;  // sessions that know nothing of their room yet
   std::vector<std::size_t> bundled;    // sessions with a bundle under way

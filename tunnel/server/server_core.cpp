@@ -9,6 +9,8 @@ namespace {
 
 constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below: gone within 2 s
 constexpr Duration kTick = Duration::ms(100);
+// Other servers are told again what may have been lost.
+constexpr std::uint64_t kSweepsPerRepeat = 5;
 // What a link has not acknowledged; the rest comes with the next pong.
 constexpr std::size_t kStateDatagramsPerPong = 32;
 constexpr std::size_t kStateDatagramsPerWelcome = 64;
@@ -23,14 +25,16 @@ std::size_t ServerCore::room_count() const {
 std::size_t ServerCore::guest_count() const {
   std::size_t count = 0;
   for (const ServerSession& session : server_.sessions)
-    if (session.in_use) count += session.slots.size();
+    if (session.in_use && !session.is_remote()) count += session.slots.size();
   return count;
 }
 
 std::size_t ServerCore::listener_count() const {
   return static_cast<std::size_t>(
       std::count_if(server_.sessions.begin(), server_.sessions.end(),
-                    [](const auto& session) { return session.in_use && session.slots.empty(); }));
+                    [](const ServerSession& session) {
+                      return session.in_use && !session.is_remote() && session.slots.empty();
+                    }));
 }
 
 void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram, MonoTime received,
@@ -159,6 +163,7 @@ void ServerCore::end_turn(MonoTime now) {
     if (!room.roster_changed) continue;
     room.roster_changed = false;
     for (const std::size_t member : room.members) {
+      if (server_.sessions[member].is_remote()) continue;
       interest_.settle(member, now);
       if (!server_.is_newcomer(member)) send_roster(server_.sessions[member]);  // else below
     }
@@ -183,10 +188,11 @@ void ServerCore::end_turn(MonoTime now) {
 }
 
 void ServerCore::sweep(MonoTime now) {
+  if (++sweeps_ % kSweepsPerRepeat == 0) remotes_.repeat_feedback(now);
   files_.forget_absent();
   for (std::size_t i = 0; i < server_.sessions.size(); ++i) {
     ServerSession& session = server_.sessions[i];
-    if (!session.in_use) continue;
+    if (!session.in_use || session.is_remote()) continue;
     if (now - session.last_heard > kSessionSilence) {
       ++server_.counters.sessions_timed_out;
       admission_.drop(i);
@@ -211,7 +217,9 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : server_.bundled)
     next = std::min(next, server_.sessions[i].stream.bundle.due());
   for (const std::size_t i : server_.reporting)
-    if (server_.sessions[i].stream.bundle.is_empty())
+    if (server_.sessions[i].is_remote())
+      next = std::min(next, server_.sessions[i].feedback_due);
+    else if (server_.sessions[i].stream.bundle.is_empty())
       next = std::min(next, server_.sessions[i].feedback_alone);
   for (const std::size_t i : server_.changed_rooms)
     if (const ServerRoom& room = server_.rooms[i]; room.has_fresh_states)
@@ -222,8 +230,7 @@ MonoTime ServerCore::next_deadline() const {
 
 void ServerCore::say_goodbye() {
   for (const ServerSession& session : server_.sessions) {
-    if (!session.in_use) continue;
-    send_goodbye(session.peer);
+    if (session.in_use && !session.is_remote()) send_goodbye(session.peer);
   }
 }
 

@@ -18,6 +18,7 @@
 #include "tunnel/server/server_admission.h"
 #include "tunnel/server/server_files.h"
 #include "tunnel/server/server_forwarder.h"
+#include "tunnel/server/server_remotes.h"
 
 namespace dance {
 
@@ -50,6 +51,12 @@ class ServerCore {
     admission_.set_reserved(std::move(is_reserved));
   }
 
+  // Of a cluster, before the first datagram: who tells the other servers, and what they tell.
+  // The port must outlive this.
+  void join(ClusterPort& cluster) { server_.cluster = &cluster; }
+  ServerRemotes& remotes() { return remotes_; }
+  const ServerRemotes& remotes() const { return remotes_; }
+
   const ServerCounters& counters() const { return server_.counters; }
   std::size_t session_count() const { return server_.by_peer.size(); }
   const ServerFiles& files() const { return files_; }
@@ -76,7 +83,9 @@ class ServerCore {
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerAdmission admission_;
   ServerFiles files_{server_};
+  ServerRemotes remotes_{server_, admission_, forwarder_, feedback_, states_};
   MonoTime next_sweep_;
+  std::uint64_t sweeps_ = 0;
 };
 
 }  // namespace dance

@@ -11,6 +11,8 @@ namespace dance {
 namespace {
 
 constexpr Duration kFeedbackGap = Duration::ms(4);
+// To another server, about all of its guests at once.
+constexpr Duration kRemoteFeedbackGap = Duration::ms(10);
 // To who may refer to what is lost as well: just so often that silence tells of a cut.
 constexpr Duration kCleanFeedbackGap = Duration::ms(50);
 // Poses of others come by to go along with; not worth a datagram of its own before.
@@ -28,6 +30,17 @@ constexpr std::uint32_t kLongestRoundTrip_us = 1'000'000;
 Duration round_trip_of(const ServerSession& session) {
   return Duration::us(std::min(session.newest_ping.round_trip_us, kLongestRoundTrip_us));
 }
+
+constexpr Duration kRoundTripUnit = Duration::us(100);
+
+std::uint16_t in_units(Duration round_trip) {
+  return static_cast<std::uint16_t>(
+      std::clamp<std::int64_t>(round_trip.count_us() / kRoundTripUnit.count_us(), 0, UINT16_MAX));
+}
+std::uint16_t in_65536ths(float ratio) {
+  return static_cast<std::uint16_t>(std::lround(ratio * 65535.0f));
+}
+float ratio_of(std::uint16_t in_65536ths) { return static_cast<float>(in_65536ths) / 65535.0f; }
 
 bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) {
   return std::any_of(sender.slots.begin(), sender.slots.end(),
@@ -104,8 +117,11 @@ void ServerFeedback::repeat(std::size_t index, MonoTime now) {
 }
 
 void ServerFeedback::schedule(std::size_t index, MonoTime now) {
-  const bool is_clean = server_.sessions[index].bears_losses;
-  schedule(index, now, kWaitsForCompany, is_clean ? kCleanFeedbackGap : kFeedbackGap);
+  const ServerSession& session = server_.sessions[index];
+  const Duration gap = session.bears_losses  ? kCleanFeedbackGap
+                       : session.is_remote() ? kRemoteFeedbackGap
+                                             : kFeedbackGap;
+  schedule(index, now, kWaitsForCompany, gap);
 }
 
 // Not before `at`, and not more often than senders can make use of; alone when it has waited so
@@ -125,22 +141,80 @@ void ServerFeedback::schedule(std::size_t index, MonoTime at, Duration waits, Du
   session.feedback_alone = std::min(session.feedback_alone, at + waits);
 }
 
-wire::GuestFeedback ServerFeedback::about(std::size_t index, std::uint8_t slot,
-                                          MonoTime now) const {
+ReceiverSummary ServerFeedback::receivers_of(std::size_t index, std::uint8_t slot,
+                                             MonoTime now) const {
   const ServerRoom& room = server_.rooms[server_.sessions[index].room];
   const ServerGuest& guest = room.guests[slot];
   ReceiverSummary receivers(guest.poses.has_any(), guest.poses.stream(), guest.poses.newest());
-  for (const std::size_t member : room.members)
-    if (is_receiver(member, index, now)) {
-      const InterestFilter& filter = server_.sessions[member].filters[slot];
-      receivers.add(filter.divider(), filter.frames());
-    }
+  for (const std::size_t member : room.members) {
+    if (!is_receiver(member, index, now)) continue;
+    const ServerSession& session = server_.sessions[member];
+    // A server tells another of its own links only.
+    if (session.is_remote() && server_.sessions[index].is_remote()) continue;
+    if (session.is_remote())
+      receivers.add(server_.remotes[session.remote].frames[slot]);
+    else
+      receivers.add(session.filters[slot].divider(), session.filters[slot].frames());
+  }
+  return receivers;
+}
+
+wire::GuestFeedback ServerFeedback::about(std::size_t index, std::uint8_t slot,
+                                          MonoTime now) const {
+  const ServerGuest& guest = server_.rooms[server_.sessions[index].room].guests[slot];
   wire::GuestFeedback told;
   told.slot = slot;
   told.restarts = static_cast<std::uint8_t>(guest.poses.stream());
   told.key_frames = guest.key_frames;
-  receivers.fill(told);
+  receivers_of(index, slot, now).fill(told);
   return told;
+}
+
+// From here to the worst receiver of what comes from this session.
+PathFeedback ServerFeedback::path_of(std::size_t index, MonoTime now) const {
+  const ServerSession& from = server_.sessions[index];
+  float loss = 0.0f, in_a_row = 0.0f;
+  Duration round_trip;
+  PathFeedback path;
+  for (const std::size_t member : server_.rooms[from.room].members) {
+    const ServerSession& session = server_.sessions[member];
+    if (!is_receiver(member, index, now) || (from.is_remote() && session.is_remote())) continue;
+    if (session.is_remote()) {
+      const PathFeedback& there = server_.remotes[session.remote].path;
+      if (!there.has_receiver) continue;
+      path.has_receiver = true;
+      loss = std::max(loss, ratio_of(there.loss));
+      in_a_row = std::max(in_a_row, ratio_of(there.in_a_row));
+      round_trip = std::max(round_trip, round_trip_of(session) + kRoundTripUnit * there.round_trip);
+      continue;
+    }
+    if (!wants_any_of(session, from)) continue;
+    path.has_receiver = true;
+    const LossMeter& down = session.stream.sent.loss();
+    loss = std::max(loss, session.repeats_down.residual(down));
+    in_a_row = std::max(in_a_row, down.in_a_row());
+    round_trip = std::max(round_trip, round_trip_of(session));
+  }
+  path.loss = in_65536ths(loss);
+  path.in_a_row = in_65536ths(in_a_row);
+  path.round_trip = in_units(round_trip);
+  return path;
+}
+
+// True where one is asked for now; however many want it, and however often.
+bool ServerFeedback::count_key_frame(std::size_t index, ServerGuest& guest, MonoTime now) {
+  bool is_asked = false;
+  if (guest.key_wanted &&
+      (!guest.key_asked_at.is_set() || now - guest.key_asked_at >= kKeyFrameGap)) {
+    guest.key_wanted = false;
+    guest.key_asked_at = now;
+    ++guest.key_frames;
+    ++server_.counters.key_frames_asked;
+    is_asked = true;
+  }
+  const MonoTime again = guest.key_asked_at + kKeyFrameGap;
+  if (guest.key_wanted) schedule(index, again, Duration(), kFeedbackGap);
+  return is_asked;
 }
 
 bool ServerFeedback::fill(std::size_t index, MonoTime now, wire::Feedback& feedback) {
@@ -152,47 +226,25 @@ bool ServerFeedback::fill(std::size_t index, MonoTime now, wire::Feedback& feedb
   bool is_news = std::exchange(session.feedback_is_repeat, false);
 
   session.bears_losses = false;
-  float loss = 0.0f, in_a_row = 0.0f;
-  Duration round_trip;
-  bool has_receiver = false;
-  for (const std::size_t member : room.members) {
-    if (!is_receiver(member, index, now) || !wants_any_of(server_.sessions[member], session))
-      continue;
-    has_receiver = true;
-    const LossMeter& down = server_.sessions[member].stream.sent.loss();
-    loss = std::max(loss, server_.sessions[member].repeats_down.residual(down));
-    in_a_row = std::max(in_a_row, down.in_a_row());
-    round_trip = std::max(round_trip, round_trip_of(server_.sessions[member]));
-  }
-  if (has_receiver) {
+  if (const PathFeedback down = path_of(index, now); down.has_receiver) {
     // What is lost on either way does not arrive.
     const LossMeter& up = session.stream.received.loss();
     if (server_.limits.repeats) session.repeats_up.update(up);
     feedback.wants_repeats = session.repeats_up.is_on();
     const float lost_up = session.repeats_up.residual(up);
+    const float loss = ratio_of(down.loss);
     const float arrives = (1.0f - loss) * (1.0f - lost_up);
     // Two in a row may be one lost on the one way and one on the other.
-    in_a_row = std::min(1.0f, in_a_row + up.in_a_row() + 2.0f * loss * lost_up);
-    feedback.in_a_row = static_cast<std::uint16_t>(std::lround(in_a_row * 65535.0f));
-    feedback.loss = static_cast<std::uint16_t>(std::lround((1.0f - arrives) * 65535.0f));
-    const std::int64_t way_us = (round_trip + round_trip_of(session)).count_us();
-    session.bears_losses =
-        ReferencePolicy::bears_losses(1.0 - arrives, round_trip + round_trip_of(session), kFrame);
-    feedback.round_trip =
-        static_cast<std::uint16_t>(std::clamp<std::int64_t>(way_us / 100, 1, UINT16_MAX));
+    feedback.in_a_row = in_65536ths(
+        std::min(1.0f, ratio_of(down.in_a_row) + up.in_a_row() + 2.0f * loss * lost_up));
+    feedback.loss = in_65536ths(1.0f - arrives);
+    const Duration way = kRoundTripUnit * down.round_trip + round_trip_of(session);
+    session.bears_losses = ReferencePolicy::bears_losses(1.0 - arrives, way, kFrame);
+    feedback.round_trip = std::max<std::uint16_t>(1, in_units(way));
   }
   for (const std::uint8_t slot : session.slots) {
     ServerGuest& guest = room.guests[slot];
-    if (guest.key_wanted &&
-        (!guest.key_asked_at.is_set() || now - guest.key_asked_at >= kKeyFrameGap)) {
-      guest.key_wanted = false;
-      guest.key_asked_at = now;
-      ++guest.key_frames;
-      ++server_.counters.key_frames_asked;
-      is_news = true;
-    }
-    const MonoTime again = guest.key_asked_at + kKeyFrameGap;
-    if (guest.key_wanted) schedule(index, again, Duration(), kFeedbackGap);
+    is_news = count_key_frame(index, guest, now) || is_news;
     const wire::GuestFeedback news = about(index, slot, now);
     is_news = is_news || news != guest.told;
     guest.told = news;
@@ -200,6 +252,47 @@ bool ServerFeedback::fill(std::size_t index, MonoTime now, wire::Feedback& feedb
     DANCE_ASSERT(pushed);
   }
   return is_news;
+}
+
+void ServerFeedback::tell_remote(std::size_t index, MonoTime now) {
+  ServerSession& session = server_.sessions[index];
+  ServerRoom& room = server_.rooms[session.room];
+  session.feedback_due = session.feedback_alone = MonoTime();
+  session.feedback_made = now;
+  std::erase(server_.reporting, index);
+  const bool is_repeat = std::exchange(session.feedback_is_repeat, false);
+  RemoteFeedback feedback;
+  feedback.path = path_of(index, now);
+  for (const std::uint8_t slot : session.slots) {
+    ServerGuest& guest = room.guests[slot];
+    const bool is_asked = count_key_frame(index, guest, now);
+    const wire::GuestFeedback news = about(index, slot, now);
+    if (!is_repeat && !is_asked && news == guest.told) continue;
+    guest.told = news;
+    feedback.key_frames = guest.key_frames;
+    feedback.frames = receivers_of(index, slot, now).common();
+    server_.cluster->on_feedback(server_.remotes[session.remote].server, room, guest, feedback);
+  }
+}
+
+void ServerFeedback::on_remote_feedback(std::size_t index, std::uint8_t slot,
+                                        const RemoteFeedback& feedback, MonoTime now) {
+  ServerSession& session = server_.sessions[index];
+  ServerGuest& guest = server_.rooms[session.room].guests[slot];
+  RemoteReceivers& there = server_.remotes[session.remote];
+  there.path = feedback.path;
+  const auto here = [&](const FrameWindow& frames) {
+    const std::uint32_t stream =
+        std::uint32_t{guest.generation} << 16 | (frames.stream() & 0xffff);
+    return FrameWindow(stream, frames.newest(), frames.bits());
+  };
+  CommonFrames& frames = there.frames[slot];
+  frames = feedback.frames;
+  frames.full = here(frames.full);
+  frames.base = here(frames.base);
+  if (std::exchange(there.key_frames[slot], feedback.key_frames) != feedback.key_frames)
+    want_key_frame(guest, now);
+  schedule(guest.owner, now);
 }
 
 }  // namespace dance

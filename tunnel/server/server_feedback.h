@@ -24,11 +24,19 @@ class ServerFeedback {
   void repeat(std::size_t session, MonoTime now);
   // False where there is nothing new to tell.
   bool fill(std::size_t session, MonoTime now, wire::Feedback& feedback);
+  // To another server, about its guests.
+  void tell_remote(std::size_t session, MonoTime now);
+  // From another server, about a guest of this one.
+  void on_remote_feedback(std::size_t session, std::uint8_t slot, const RemoteFeedback& feedback,
+                          MonoTime now);
 
  private:
   void schedule(std::size_t session, MonoTime at, Duration waits, Duration gap);
   bool is_receiver(std::size_t member, std::size_t sender, MonoTime now) const;
+  ReceiverSummary receivers_of(std::size_t session, std::uint8_t slot, MonoTime now) const;
+  PathFeedback path_of(std::size_t session, MonoTime now) const;
   wire::GuestFeedback about(std::size_t session, std::uint8_t slot, MonoTime now) const;
+  bool count_key_frame(std::size_t session, ServerGuest& guest, MonoTime now);
 
   ServerContext& server_;
 };

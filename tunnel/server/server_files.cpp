@@ -42,7 +42,7 @@ std::optional<AvatarFile> chosen_by(const ServerGuest& guest) {
 
 ServerFiles::ServerFiles(ServerContext& server)
     : server_(server),
-      receivers_(server.limits.sessions),
+      receivers_(server.sessions.size()),
       pace_(server.limits.file_bytes_per_second, kBurstOfAll) {
   waiting_.reserve(server.limits.sessions);
 }

@@ -43,27 +43,52 @@ void ServerForwarder::on_records(std::size_t index, wire::Bytes body, MonoTime r
     on_record(index, *wire::parse_record(chain, in), received, now);
 }
 
+bool ServerForwarder::is_timely(const wire::Record& record, MonoTime received) {
+  const std::int64_t received_us = received.since_zero_us();
+  if (record.capture_us >= received_us - kLongestAge_us &&
+      record.capture_us <= received_us + kFarthestAhead_us)
+    return true;
+  server_.reject(ServerReject::kBadTime);
+  return false;
+}
+
 void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTime received,
                                 MonoTime now) {
   if (record.kind == wire::RecordKind::kChannel)
     return on_channel_record(session, std::move(record), now);
   ServerGuest* guest = server_.guest_of(session, record.slot);
   if (guest == nullptr) return server_.reject(ServerReject::kForeignSlot);
-  const std::int64_t received_us = received.since_zero_us();
-  if (record.capture_us < received_us - kLongestAge_us ||
-      record.capture_us > received_us + kFarthestAhead_us)
-    return server_.reject(ServerReject::kBadTime);
+  if (!is_timely(record, received)) return;
   if (!guest->records.take(1.0, now)) return server_.reject(ServerReject::kGuestRate);
-  const bool is_pose = record.kind == wire::RecordKind::kPose;
-  StreamGate& gate = is_pose ? guest->poses : guest->hands;
+  const StreamGate& gate =
+      record.kind == wire::RecordKind::kPose ? guest->poses : guest->hands;
   // The link need not know the generation.
   record.stream &= 0xffff;
   const bool is_narrow = record.is_narrow;
   if (!wire::widen(0, gate.has_any(), gate.stream(), gate.newest(), record) ||
       (is_narrow && gate.contradicts(record.sequence, record.capture_us)))
     return server_.reject(ServerReject::kLate);
-  record.stream |= std::uint32_t{guest->generation} << 16;
-  switch (gate.judge(record.stream, record.sequence, record.capture_us)) {
+  if (record.sent_age_us != wire::kNoAge)
+    record.server_age_us = static_cast<std::int32_t>(received.since_zero_us() - record.capture_us);
+  take(session, *guest, record, received, now);
+}
+
+void ServerForwarder::on_remote_record(std::size_t session, wire::Record record, MonoTime now) {
+  ServerGuest* guest = server_.guest_of(session, record.slot);
+  if (guest == nullptr) return server_.reject(ServerReject::kForeignSlot);
+  if (record.kind == wire::RecordKind::kChannel)
+    return take_channel(session, *guest, std::move(record), now);
+  if (is_timely(record, now)) take(session, *guest, record, now, now);
+}
+
+// The newest wins; its stream is that of the link here, its guest's generation comes to it.
+void ServerForwarder::take(std::size_t session, ServerGuest& guest, const wire::Record& told,
+                           MonoTime received, MonoTime now) {
+  wire::Record record = told;
+  const bool is_pose = record.kind == wire::RecordKind::kPose;
+  record.stream = std::uint32_t{guest.generation} << 16 | (record.stream & 0xffff);
+  switch ((is_pose ? guest.poses : guest.hands)
+              .judge(record.stream, record.sequence, record.capture_us)) {
     case StreamGate::Verdict::kNewest:
     case StreamGate::Verdict::kNewStream:
       break;
@@ -73,16 +98,14 @@ void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTi
     case StreamGate::Verdict::kOldStream:
       return server_.reject(ServerReject::kLate);
   }
-  if (record.sent_age_us != wire::kNoAge)
-    record.server_age_us = static_cast<std::int32_t>(received_us - record.capture_us);
   ++server_.counters.records_in;
-  if (is_pose) guest->jitter.add(record.capture_us, received_us);
-  if (record.is_base) ++guest->base_count;
-  if (!is_pose) ++guest->hands_count;
-  if (is_pose) guest->last_pose = now;
-  if (is_pose && record.is_intra) retain(*guest, record);
+  if (is_pose) guest.jitter.add(record.capture_us, received.since_zero_us());
+  if (record.is_base) ++guest.base_count;
+  if (!is_pose) ++guest.hands_count;
+  if (is_pose) guest.last_pose = now;
+  if (is_pose && record.is_intra) retain(guest, record);
   forward(session, record, now);
-  if (is_pose) guest->previous.keep(record);
+  if (is_pose) guest.previous.keep(record);
 }
 
 // Limited by itself, so that channels take nothing from poses, and none delays or drops another's.
@@ -92,11 +115,16 @@ void ServerForwarder::on_channel_record(std::size_t session, wire::Record record
   if (!guest->channel_records.take(1.0, now) ||
       !guest->channel_bytes.take(static_cast<double>(record.payload.size()), now))
     return server_.reject(ServerReject::kChannelRate);
-  ChannelGate& gate = guest->channels[record.channel];
+  take_channel(session, *guest, std::move(record), now);
+}
+
+void ServerForwarder::take_channel(std::size_t session, ServerGuest& guest, wire::Record record,
+                                   MonoTime now) {
+  ChannelGate& gate = guest.channels[record.channel];
   if (gate.has_any && !is_newer_sequence(record.sequence, gate.sequence))
     return server_.reject(ServerReject::kLate);
   gate = {true, record.sequence};
-  record.stream = std::uint32_t{guest->generation} << 16;
+  record.stream = std::uint32_t{guest.generation} << 16;
   ++server_.counters.records_in;
   forward(session, record, now);
 }
@@ -105,8 +133,12 @@ void ServerForwarder::forward(std::size_t from, const wire::Record& record, Mono
   ServerRoom& room = server_.rooms[server_.sessions[from].room];
   // Once for each guest: without the proportions nobody could decode the pose.
   if (room.has_first_body) states_.send_fresh(room, now);
+  if (room.remote_count > 0 && !server_.sessions[from].is_remote())
+    server_.cluster->on_record(room, room.guests[record.slot], record);
   for (const std::size_t member : room.members) {
-    if (member == from || !interest_.take(member, record, now)) continue;
+    if (member == from || server_.sessions[member].is_remote() ||
+        !interest_.take(member, record, now))
+      continue;
     if (record.kind == wire::RecordKind::kPose)
       repeat_before(member, room.guests[record.slot], record, now);
     add(member, record, now);
@@ -191,6 +223,10 @@ void ServerForwarder::flush_due(MonoTime now) {
   // Backwards, as who is done leaves this one too.
   for (std::size_t i = server_.reporting.size(); i-- > 0;) {
     const ServerSession& session = server_.sessions[server_.reporting[i]];
+    if (session.is_remote()) {
+      if (session.feedback_due <= now) feedback_.tell_remote(server_.reporting[i], now);
+      continue;
+    }
     // With a bundle under way it goes along.
     if (session.feedback_alone <= now && session.stream.bundle.is_empty() &&
         !server_.is_newcomer(server_.reporting[i]))

@@ -20,6 +20,8 @@ class ServerForwarder {
       : server_(server), feedback_(feedback), interest_(interest), states_(states) {}
 
   void on_records(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
+  // From another server of the cluster, with whole numbers and the slot that its guest has here.
+  void on_remote_record(std::size_t session, wire::Record record, MonoTime now);
   // Bundles and feedback; not to who has no roster yet.
   void flush_due(MonoTime now);
   void send_retained(std::size_t to, std::uint8_t slot, MonoTime now);
@@ -28,7 +30,11 @@ class ServerForwarder {
 
  private:
   void on_record(std::size_t session, wire::Record record, MonoTime received, MonoTime now);
+  bool is_timely(const wire::Record& record, MonoTime received);
+  void take(std::size_t session, ServerGuest& guest, const wire::Record& record, MonoTime received,
+            MonoTime now);
   void on_channel_record(std::size_t session, wire::Record record, MonoTime now);
+  void take_channel(std::size_t session, ServerGuest& guest, wire::Record record, MonoTime now);
   void retain(ServerGuest& guest, const wire::Record& record);
   void forward(std::size_t from, const wire::Record& record, MonoTime now);
   void add(std::size_t to, const wire::Record& record, MonoTime now);

@@ -18,6 +18,7 @@
 #include "core/base/time.h"
 #include "core/base/token_bucket.h"
 #include "tunnel/server/access.h"
+#include "tunnel/server/cluster_port.h"
 #include "tunnel/server/link_meter.h"
 #include "tunnel/session/arrival_jitter.h"
 #include "tunnel/session/interest_filter.h"
@@ -35,6 +36,8 @@ struct ServerLimits {
   std::size_t rooms = 64;
   std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
   std::size_t listeners_per_room = 64;  // links without guests
+  // Of a cluster: in each room that has links here, each other server whose guests are in it.
+  std::size_t remote_servers = 0;
   // Per session: 16 guests with hands at 60 Hz need 2,000 datagrams a second.
   double datagrams_per_second = 4000.0;
   double datagram_burst = 1000.0;
@@ -139,6 +142,15 @@ struct ServerCounters {
   }
 };
 
+// The receivers of another server, in one room: as it told last.
+struct RemoteReceivers {
+  ServerId server = 0;
+  PathFeedback path;
+  std::array<CommonFrames, wire::kMaxGuestsPerRoom> frames;        // by slot of a guest here
+  std::array<std::uint8_t, wire::kMaxGuestsPerRoom> key_frames{};  // asked for, counted there
+};
+constexpr std::size_t kNoRemote = SIZE_MAX;
+
 struct ServerSession {
   bool in_use = false;
   PeerId peer = 0;
@@ -148,7 +160,10 @@ struct ServerSession {
   MonoTime last_heard;
   std::int64_t hello_time_us = 0;  // link's clock; an older hello is a stale copy
   std::size_t room = 0;
-  FixedList<std::uint8_t, wire::kMaxGuestsPerLink> slots;
+  // Of a link kMaxGuestsPerLink at most; of another server all of its guests in the room.
+  FixedList<std::uint8_t, wire::kMaxGuestsPerRoom> slots;
+  std::size_t remote = kNoRemote;  // another server of the cluster, not a link: in remotes
+  bool is_remote() const { return remote != kNoRemote; }
   std::size_t state_cursor = 0;  // slot to begin with when not all fitted the last time
   TokenBucket datagrams;
   TokenBucket bytes;
@@ -198,7 +213,8 @@ struct ServerGuest {
   bool in_use = false;
   GuestId id;
   std::uint16_t generation = 0;
-  std::size_t owner = 0;  // session
+  std::size_t owner = 0;         // session
+  std::uint64_t link_token = 0;  // of the link that brought it, whichever server that speaks to
   StreamGate poses;
   StreamGate hands;
   ArrivalJitter jitter;  // of poses
@@ -235,9 +251,11 @@ struct ServerRoom {
   bool has_first_body = false;  // fresh: a guest's first proportions, without which no pose decodes
   std::vector<std::size_t> members;  // sessions
   std::size_t guest_count = 0;
-  std::size_t host_count = 0;  // links of it with a host's key
+  std::size_t remote_count = 0;  // members that are other servers
+  std::size_t host_count = 0;    // links of it with a host's key
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
 
+  std::size_t link_count() const { return members.size() - remote_count; }
   bool has_host() const { return host_count > 0; }
 };
 

@@ -35,6 +35,21 @@ void ServerStates::retain(ServerRoom& room, RetainedState& retained, const wire:
   ++server_.counters.states_in;
 }
 
+// Of a room's state two servers may each have taken one of the same version; which of them holds is
+// settled for all servers alike by who stands between them, and who was told the other hears again.
+void ServerStates::on_remote_state(ServerRoom& room, ServerGuest* guest, const wire::State& state) {
+  const std::size_t place = wire::place_of(state.name);
+  RetainedState& retained = guest != nullptr ? guest->states[place] : room.states[place];
+  const bool is_other =
+      guest == nullptr && retained.version == state.version && room.setters[place] != state.setter;
+  if (!retained.is_newer(state.version) && !is_other) return;
+  if (is_other)
+    for (const std::size_t member : room.members)
+      server_.sessions[member].stream.states.forget(state.name, 0);
+  if (guest == nullptr) room.setters[place] = state.setter;
+  retain(room, retained, state);
+}
+
 // What is too much now is not acknowledged: the link says its newest again with its next ping.
 std::optional<wire::StateAck> ServerStates::take(std::size_t session, const wire::State& state,
                                                  MonoTime now) {
@@ -49,7 +64,9 @@ std::optional<wire::StateAck> ServerStates::take(std::size_t session, const wire
       server_.reject(ServerReject::kStateRate);
       return std::nullopt;
     }
+    const ServerRoom& room = server_.rooms[server_.sessions[session].room];
     retain(server_.rooms[server_.sessions[session].room], retained, state);
+    if (server_.cluster != nullptr) server_.cluster->on_state(room, guest, state);
   }
   return wire::StateAck{state.name, {state.slot.slot, guest->generation}, retained.version, {}};
 }
@@ -74,6 +91,7 @@ std::optional<wire::StateAck> ServerStates::take_of_room(std::size_t session,
     }
     retain(room, retained, state);
     room.setters[place] = state.setter;
+    if (server_.cluster != nullptr) server_.cluster->on_state(room, nullptr, state);
   } else if (retained.version != state.version || room.setters[place] != state.setter) {
     server_.reject(ServerReject::kOverruled);
     return wire::StateAck{state.name, {}, retained.version, wire::StateVerdict::kOverruled};
@@ -126,8 +144,9 @@ void ServerStates::send(std::size_t index, bool only_fresh, std::size_t most_dat
 
 void ServerStates::send_fresh(ServerRoom& room, MonoTime now) {
   const std::size_t most = std::clamp<std::size_t>(
-      kFreshDatagramsOfRoom / std::max<std::size_t>(room.members.size(), 1), 1, kFreshDatagrams);
-  for (const std::size_t member : room.members) send(member, true, most);
+      kFreshDatagramsOfRoom / std::max<std::size_t>(room.link_count(), 1), 1, kFreshDatagrams);
+  for (const std::size_t member : room.members)
+    if (!server_.sessions[member].is_remote()) send(member, true, most);
   for (RetainedState& retained : room.states) retained.is_fresh = false;
   for (ServerGuest& guest : room.guests)
     for (RetainedState& retained : guest.states) retained.is_fresh = false;

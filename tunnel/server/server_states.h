@@ -16,6 +16,8 @@ class ServerStates {
   explicit ServerStates(ServerContext& server) : server_(server) {}
 
   void on_states(std::size_t session, wire::Bytes body, MonoTime now);
+  // From another server of the cluster: of a guest of its, or of the room (guest = nullptr).
+  void on_remote_state(ServerRoom& room, ServerGuest* guest, const wire::State& state);
   void on_acks(std::size_t session, wire::Bytes body);
   // All that the link has not acknowledged, or of that only what nobody has been told yet.
   void send(std::size_t session, bool only_fresh, std::size_t most_datagrams);

@@ -13,6 +13,11 @@ namespace dance {
 
 class FrameWindow {
  public:
+  FrameWindow() = default;
+  // `bits` as bits() gives them.
+  FrameWindow(std::uint32_t stream, std::uint16_t newest, std::uint64_t bits)
+      : stream_(stream), newest_(newest), bits_((bits & 1) != 0 ? bits : 0) {}
+
   void add(std::uint32_t stream, std::uint16_t sequence) {
     const auto ahead = static_cast<std::int16_t>(sequence - newest_);
     if (bits_ == 0 || stream != stream_ || ahead >= kSpan) {
@@ -55,6 +60,7 @@ class FrameWindow {
     const auto behind = static_cast<std::int16_t>(newest_ - sequence);
     return behind >= 0 && behind < kSpan && (bits_ >> behind & 1) != 0;
   }
+  std::uint32_t stream() const { return stream_; }
   std::uint16_t newest() const { return newest_; }
   std::uint64_t bits() const { return bits_; }  // bit i: newest − i; bit 0 is set, or none is
 

@@ -136,36 +136,52 @@ void ReceiverSummary::intersect(const FrameWindow& frames, bool& has_some, Frame
     common = frames;
 }
 
+// Who has nothing of late asks for an intra frame; the others need not do without references.
+bool ReceiverSummary::is_of_late(const FrameWindow& frames) const {
+  return has_any_ && frames.is_of(stream_) &&
+         static_cast<std::uint16_t>(newest_ - frames.newest()) <= kLongestReach;
+}
+
 void ReceiverSummary::add(std::uint8_t divider, const FrameWindow& frames) {
   const Share share = share_of(divider);
-  if (share == Share::kBase) {
-    const std::uint8_t wanted = spacing_log2(divider);
-    base_log2_ = base_log2_ == 0 ? wanted : std::min(base_log2_, wanted);
-  }
-  if (share == Share::kIntra) intra_log2_ = std::min(intra_log2_, spacing_log2(divider));
-  if (share != Share::kAll && share != Share::kBase) return;
-  // Who has nothing of late asks for an intra frame; the others need not do without references.
-  if (!has_any_ || !frames.is_of(stream_) ||
-      static_cast<std::uint16_t>(newest_ - frames.newest()) > kLongestReach)
-    return;
-  if (share == Share::kAll) intersect(frames, has_full_, full_);
-  intersect(frames, has_base_, base_);
+  CommonFrames one;
+  if (share == Share::kBase) one.base_log2 = spacing_log2(divider);
+  if (share == Share::kIntra) one.intra_log2 = spacing_log2(divider);
+  one.has_full = share == Share::kAll && is_of_late(frames);
+  one.has_base = one.has_full || (share == Share::kBase && is_of_late(frames));
+  one.full = one.base = frames;
+  add(one);
+}
+
+void ReceiverSummary::add(const CommonFrames& others) {
+  if (others.base_log2 != 0)
+    common_.base_log2 = common_.base_log2 == 0 ? others.base_log2
+                                               : std::min(common_.base_log2, others.base_log2);
+  common_.intra_log2 = std::min(common_.intra_log2, others.intra_log2);
+  // Receivers who all have something may have nothing in common.
+  const auto counts = [this](const FrameWindow& frames) {
+    return frames.bits() == 0 || is_of_late(frames);
+  };
+  if (others.has_full && counts(others.full))
+    intersect(others.full, common_.has_full, common_.full);
+  if (others.has_base && counts(others.base))
+    intersect(others.base, common_.has_base, common_.base);
 }
 
 void ReceiverSummary::fill(wire::GuestFeedback& about) const {
-  about.base_log2 = base_log2_;
-  about.intra_log2 = intra_log2_;
+  about.base_log2 = common_.base_log2;
+  about.intra_log2 = common_.intra_log2;
   // With nobody who gets all, there is nothing that only those have.
-  const FrameWindow& common = has_full_ ? full_ : base_;
-  about.has_acked = has_any_ && common.is_of(stream_);
+  const FrameWindow& newest = common_.has_full ? common_.full : common_.base;
+  about.has_acked = has_any_ && newest.is_of(stream_);
   if (about.has_acked) {
-    about.newest_acked = common.newest();
-    about.acked_before = static_cast<std::uint16_t>(common.bits() >> 1);
+    about.newest_acked = newest.newest();
+    about.acked_before = static_cast<std::uint16_t>(newest.bits() >> 1);
   }
-  about.has_base_acked = base_log2_ != 0 && has_any_ && base_.is_of(stream_);
+  about.has_base_acked = common_.base_log2 != 0 && has_any_ && common_.base.is_of(stream_);
   if (about.has_base_acked) {
-    about.newest_base_acked = base_.newest();
-    about.base_acked_before = static_cast<std::uint16_t>(base_.bits() >> 1);
+    about.newest_base_acked = common_.base.newest();
+    about.base_acked_before = static_cast<std::uint16_t>(common_.base.bits() >> 1);
   }
 }
 

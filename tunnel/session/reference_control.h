@@ -72,6 +72,18 @@ class ReferenceControl {
   std::uint64_t intra_asked_ = 0;
 };
 
+// What receivers of one guest have in common, and how often those want it who want less than all.
+struct CommonFrames {
+  bool has_full = false;  // somebody gets all, and has something of late
+  bool has_base = false;  // somebody gets all or base frames, and has something of late
+  FrameWindow full;       // of those who get all
+  FrameWindow base;       // and of those too who get only base frames
+  std::uint8_t base_log2 = 0;
+  std::uint8_t intra_log2 = kFewestIntra_log2;
+
+  bool operator==(const CommonFrames&) const = default;
+};
+
 // What the receivers of one guest have in common, added up one by one.
 class ReceiverSummary {
  public:
@@ -81,20 +93,19 @@ class ReceiverSummary {
 
   // One receiver: how often it wants the guest, and which of the guest's frames it has.
   void add(std::uint8_t divider, const FrameWindow& frames);
+  // Those of another server, summed up there.
+  void add(const CommonFrames& others);
+  const CommonFrames& common() const { return common_; }
   void fill(wire::GuestFeedback& about) const;
 
  private:
   static void intersect(const FrameWindow& frames, bool& has_some, FrameWindow& common);
+  bool is_of_late(const FrameWindow& frames) const;
 
   bool has_any_;
   std::uint32_t stream_;
   std::uint32_t newest_;
-  FrameWindow full_;  // of those who get all
-  FrameWindow base_;  // and of those too who get only base frames
-  bool has_full_ = false;
-  bool has_base_ = false;
-  std::uint8_t base_log2_ = 0;
-  std::uint8_t intra_log2_ = kFewestIntra_log2;
+  CommonFrames common_;
 };
 
 }  // namespace dance

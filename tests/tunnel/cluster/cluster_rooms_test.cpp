@@ -1,0 +1,191 @@
+// A room whose guests come through several servers is one room.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/tunnel/cluster/simulated_cluster.h"
+#include "tests/tunnel/referring_codec.h"
+#include "tests/tunnel/states_scene.h"
+
+namespace dance {
+namespace {
+
+using House = SimulatedTunnel::House;
+
+TEST(ClusterRooms, GuestsOfAllServersDanceTogether) {
+  SimulatedCluster cluster(3);
+  House& a = cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  House& c = cluster[2].add("carla");
+  House& elsewhere = cluster[1].add("dora", "tango");
+  cluster.run(Duration::ms(300));
+  cluster.dance(Duration::s(2), {{&a, "alice"}, {&b, "bob"}, {&c, "carla"}});
+  cluster.run(Duration::ms(100));
+  for (const House* house : {&a, &b, &c})
+    for (const char* name : {"alice", "bob", "carla"}) {
+      if (house->heard_of(guest(name)) == 0) continue;
+      EXPECT_GE(house->heard_of(guest(name)), 123u) << name;
+      EXPECT_TRUE(house->saw("+" + std::string(name)));
+    }
+  EXPECT_EQ(a.heard_of(guest("alice")), 0u);
+  EXPECT_GT(a.heard_of(guest("bob")), 0u);
+  EXPECT_GT(a.heard_of(guest("carla")), 0u);
+  EXPECT_GT(b.heard_of(guest("alice")), 0u);
+  EXPECT_GT(c.heard_of(guest("bob")), 0u);
+  EXPECT_TRUE(elsewhere.poses.empty());
+  EXPECT_FALSE(elsewhere.saw("+alice"));
+  // The last pose came as it was, with its time in the receiver's own clock.
+  EXPECT_EQ(b.poses.back().pose.sequence, std::max(a.next_sequence, c.next_sequence) - 1);
+}
+
+TEST(ClusterRooms, APoseIsPublishedOnceHoweverManyServersWantIt) {
+  SimulatedCluster cluster(3);
+  House& a = cluster[0].add("alice");
+  House& alone = cluster[0].add("zoe", "waltz");
+  cluster.run(Duration::ms(300));
+  cluster.dance(Duration::s(1), {{&a, "alice"}, {&alone, "zoe"}});
+  EXPECT_EQ(cluster[0].published["dance.1.pose"], 0) << "nobody elsewhere is in these rooms";
+  cluster[1].add("bob");
+  cluster[1].add("bert");
+  cluster[2].add("carla");
+  cluster.run(Duration::ms(300));
+  const std::uint32_t before = a.next_sequence;
+  cluster[0].published.clear();
+  cluster.dance(Duration::s(1), {{&a, "alice"}, {&alone, "zoe"}});
+  cluster.run(Duration::ms(100));
+  EXPECT_EQ(cluster[0].published["dance.1.pose"], static_cast<int>(a.next_sequence - before));
+  EXPECT_TRUE(cluster[1].listens_to("dance.1.pose.salsa.alice"));
+  EXPECT_FALSE(cluster[1].listens_to("dance.1.pose.waltz.zoe"));
+}
+
+TEST(ClusterRooms, StatesReachAllServersAndWhoComesLater) {
+  SimulatedCluster cluster(3);
+  House& a = cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  const auto say = [&](const auto& message) {
+    a.link->send(guest("alice"), message, cluster[0].tunnel.time_in(a));
+  };
+  say(average_skeleton(1.7f));
+  say(avatar_named("fox"));
+  say(style_of(1.5f));
+  say(placed_at(2.0f));
+  say(scene_named("terrace"));
+  cluster.run(Duration::ms(300));
+  House& late = cluster[2].add("carla");
+  cluster.run(Duration::ms(300));
+  for (const House* house : {&b, &late}) {
+    ASSERT_TRUE(house->avatars.contains(guest("alice")));
+    EXPECT_EQ(house->avatars.at(guest("alice")).name, avatar_named("fox").name);
+    ASSERT_TRUE(house->placements.contains(guest("alice")));
+    EXPECT_EQ(house->placements.at(guest("alice")).x_m, 2.0f);
+    ASSERT_TRUE(house->styles.contains(guest("alice")));
+    EXPECT_FALSE(house->skeletons.empty());
+    ASSERT_TRUE(house->scene);
+    EXPECT_EQ(house->scene->second.name, scene_named("terrace").name);
+    EXPECT_EQ(house->scene->first, guest("alice"));
+  }
+  // The newest holds, whoever sets it, at whichever server.
+  b.link->send(guest("bob"), scene_named("cellar"), cluster[1].tunnel.time_in(b));
+  cluster.run(Duration::ms(300));
+  for (const House* house : {&a, &b, &late})
+    EXPECT_EQ(house->scene->second.name, scene_named("cellar").name);
+}
+
+TEST(ClusterRooms, AGuestWhoLeavesLeavesEverywhere) {
+  SimulatedCluster cluster(2);
+  House& a = cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  ASSERT_TRUE(b.saw("+alice"));
+  a.link->say_goodbye();
+  a.is_running = false;
+  cluster.run(Duration::ms(200));
+  EXPECT_TRUE(b.saw("-alice"));
+  for (const auto& [key, value] : cluster.values)
+    EXPECT_EQ(key.find("alice"), std::string::npos) << key;
+}
+
+TEST(ClusterRooms, ARoomThatEmptiesLeavesNothingBehind) {
+  SimulatedCluster cluster(2);
+  House& a = cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  a.link->send(guest("alice"), scene_named("terrace"), cluster[0].tunnel.time_in(a));
+  cluster.run(Duration::ms(200));
+  EXPECT_FALSE(cluster.values.empty());
+  for (House* house : {&a, &b}) {
+    house->link->say_goodbye();
+    house->is_running = false;
+    cluster.run(Duration::ms(200));
+  }
+  EXPECT_TRUE(cluster.values.empty()) << cluster.values.begin()->first;
+  EXPECT_EQ(cluster[0].subjects.size(), 2u) << "beats, and what is for it";
+}
+
+TEST(ClusterRooms, ANameIsTakenAtAllServers) {
+  SimulatedCluster cluster(2);
+  cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  House& other = cluster[1].add("alice");
+  cluster.run(Duration::ms(300));
+  EXPECT_TRUE(other.saw("refused 3 alice"));
+  EXPECT_FALSE(b.saw("-alice"));
+}
+
+class ClusterReferences : public ::testing::Test {
+ protected:
+  House& add(SimulatedCluster::Site& site, const std::string& name) {
+    logs.push_back(std::make_unique<ReferringLog>());
+    use_referring_codec(site.tunnel.link_options, *logs.back());
+    return site.add(name);
+  }
+  std::vector<std::unique_ptr<ReferringLog>> logs;
+  SimulatedCluster cluster{3};
+};
+
+TEST_F(ClusterReferences, FramesThatReceiversOfAllServersHaveAreReferredTo) {
+  House& a = add(cluster[0], "alice");
+  House& near = add(cluster[0], "ann");
+  House& b = add(cluster[1], "bob");
+  House& c = add(cluster[2], "carla");
+  cluster.run(Duration::ms(300));
+  Random random{5};
+  cluster[2].tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes) {
+    return to_server || peer != c.peer || random.uniform() >= 0.2;
+  };
+  cluster.dance(Duration::s(5), {{&a, "alice"}});
+  cluster.run(Duration::ms(200));
+  const auto heard = [](const House& house) {
+    std::set<std::uint32_t> sequences;
+    for (const auto& one : house.poses) sequences.insert(one.pose.sequence);
+    return sequences;
+  };
+  const auto at_near = heard(near), at_b = heard(b), at_c = heard(c);
+  ASSERT_GT(logs[0]->acknowledged.size(), 80u);
+  for (const std::uint32_t sequence : logs[0]->acknowledged) {
+    EXPECT_TRUE(at_near.contains(sequence)) << sequence;
+    EXPECT_TRUE(at_b.contains(sequence)) << sequence;
+    EXPECT_TRUE(at_c.contains(sequence)) << sequence;
+  }
+  EXPECT_GE(at_b.size(), 305u);
+  EXPECT_GT(at_c.size(), 200u);
+  // Few intra frames do: who comes later, or has lost what is referred to, asks.
+  EXPECT_LT(logs[0]->key_frames_encoded, 40);
+}
+
+TEST_F(ClusterReferences, WhoComesLaterAtAnotherServerNeedsOneIntraFrame) {
+  House& a = add(cluster[0], "alice");
+  add(cluster[1], "bob");
+  cluster.run(Duration::ms(300));
+  cluster.dance(Duration::s(2), {{&a, "alice"}});
+  const int before = logs[0]->key_frames_encoded;
+  House& late = add(cluster[2], "carla");
+  cluster.dance(Duration::s(1), {{&a, "alice"}});
+  EXPECT_GT(late.heard_of(guest("alice")), 50u);
+  EXPECT_LE(logs[0]->key_frames_encoded - before, 3);
+}
+
+}  // namespace
+}  // namespace dance

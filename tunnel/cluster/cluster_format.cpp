@@ -1,0 +1,456 @@
+#include "tunnel/cluster/cluster_format.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <type_traits>
+
+#include "core/base/assert.h"
+
+namespace dance::cluster {
+namespace {
+
+enum class Type : std::uint8_t {
+  kBeat = 1,
+  kClockQuestion = 2,
+  kClockAnswer = 3,
+  kRecord = 4,
+  kFeedback = 5,
+  kPresence = 16,
+  kGuest = 17,
+  kState = 18,
+};
+
+constexpr std::string_view kPrefix = "dance.1.";
+constexpr std::string_view kPosePrefix = "dance.1.pose.";
+// Of a record, and of a guest's common frames.
+constexpr std::uint8_t kIsIntra = 1, kIsBase = 2, kKnownRecordFlags = 3;
+constexpr std::uint8_t kHasFull = 1, kHasBase = 2, kKnownFrameFlags = 3;
+// Captures lie within these, as in the wire format: nothing that is computed with them overflows.
+constexpr std::int64_t kFarthest_us = std::int64_t{1} << 60;
+
+void begin(Type type, ByteWriter& out) {
+  out.u8(kClusterVersion);
+  out.u8(static_cast<std::uint8_t>(type));
+}
+
+template <class Name>
+void write_name(const Name& name, ByteWriter& out) {
+  out.short_text(name.view());
+}
+// Not set where empty.
+bool read_name(ByteReader& in, GuestId& name) {
+  const std::string_view text = in.text(in.u8());
+  if (!in.ok() || text.empty()) return in.ok();
+  const auto parsed = GuestId::parse(text);
+  if (parsed) name = *parsed;
+  return parsed.has_value();
+}
+bool read_set_name(ByteReader& in, GuestId& name) { return read_name(in, name) && name.is_set(); }
+bool read_server(ByteReader& in, ServerId& server) {
+  server = in.u64();
+  return server != 0;
+}
+bool is_near(std::int64_t us) { return us > -kFarthest_us && us < kFarthest_us; }
+
+void write(const Beat& beat, ByteWriter& out) {
+  begin(Type::kBeat, out);
+  out.u64(beat.server);
+  out.i64(beat.born_us);
+  out.u32(beat.links);
+  out.u32(beat.guests);
+  out.u8(beat.is_leaving ? 1 : 0);
+  out.short_text(beat.address.view());
+}
+std::optional<Message> read_beat(ByteReader& in) {
+  Beat beat;
+  const bool is_good = read_server(in, beat.server);
+  beat.born_us = in.i64();
+  beat.links = in.u32();
+  beat.guests = in.u32();
+  const std::uint8_t is_leaving = in.u8();
+  beat.is_leaving = is_leaving == 1;
+  if (!is_good || is_leaving > 1 || !beat.address.assign(in.text(in.u8()))) return std::nullopt;
+  return beat;
+}
+
+void write(const ClockQuestion& question, ByteWriter& out) {
+  begin(Type::kClockQuestion, out);
+  out.u64(question.server);
+  out.i64(question.asked_us);
+}
+std::optional<Message> read_question(ByteReader& in) {
+  ClockQuestion question;
+  const bool is_good = read_server(in, question.server);
+  question.asked_us = in.i64();
+  if (!is_good || !is_near(question.asked_us)) return std::nullopt;
+  return question;
+}
+
+void write(const ClockAnswer& answer, ByteWriter& out) {
+  begin(Type::kClockAnswer, out);
+  out.u64(answer.server);
+  out.i64(answer.asked_us);
+  out.i64(answer.received_us);
+  out.i64(answer.sent_us);
+}
+std::optional<Message> read_answer(ByteReader& in) {
+  ClockAnswer answer;
+  const bool is_good = read_server(in, answer.server);
+  answer.asked_us = in.i64();
+  answer.received_us = in.i64();
+  answer.sent_us = in.i64();
+  if (!is_good || !is_near(answer.asked_us) || !is_near(answer.received_us) ||
+      !is_near(answer.sent_us))
+    return std::nullopt;
+  return answer;
+}
+
+void write(const RecordMessage& message, ByteWriter& out) {
+  const wire::Record& record = message.record;
+  begin(Type::kRecord, out);
+  out.u64(message.server);
+  out.u64(message.link_token);
+  out.u8(static_cast<std::uint8_t>(record.kind));
+  out.u8(static_cast<std::uint8_t>((record.is_intra ? kIsIntra : 0) |
+                                   (record.is_base ? kIsBase : 0)));
+  out.u16(static_cast<std::uint16_t>(record.stream));
+  out.u32(record.sequence);
+  out.u8(record.channel);
+  out.i64(record.capture_us);
+  out.i32(record.published_age_us);
+  out.i32(record.sent_age_us);
+  out.i32(record.server_age_us);
+  out.bytes(record.payload);
+}
+std::optional<Message> read_record(ByteReader& in) {
+  RecordMessage message;
+  wire::Record& record = message.record;
+  const bool is_good = read_server(in, message.server);
+  message.link_token = in.u64();
+  const std::uint8_t kind = in.u8();
+  const std::uint8_t flags = in.u8();
+  record.stream = in.u16();
+  record.sequence = in.u32();
+  record.channel = in.u8();
+  record.capture_us = in.i64();
+  record.published_age_us = in.i32();
+  record.sent_age_us = in.i32();
+  record.server_age_us = in.i32();
+  record.payload = in.bytes(in.remaining());
+  record.kind = static_cast<wire::RecordKind>(kind);
+  record.is_intra = (flags & kIsIntra) != 0;
+  record.is_base = (flags & kIsBase) != 0;
+  const bool is_channel = record.kind == wire::RecordKind::kChannel;
+  if (!is_good || kind < 1 || kind > 3 || (flags & ~kKnownRecordFlags) != 0 ||
+      !is_near(record.capture_us) || record.payload.size() > wire::kMaxPayload ||
+      (record.payload.empty() && !is_channel) ||
+      record.channel >= (is_channel ? kMaxChannelsPerGuest : 1))
+    return std::nullopt;
+  return message;
+}
+
+void write(const FrameWindow& frames, ByteWriter& out) {
+  out.u16(static_cast<std::uint16_t>(frames.stream()));
+  out.u16(frames.newest());
+  out.u64(frames.bits());
+}
+FrameWindow read_frames(ByteReader& in) {
+  const std::uint16_t stream = in.u16();
+  const std::uint16_t newest = in.u16();
+  return {stream, newest, in.u64()};
+}
+
+void write(const FeedbackMessage& message, ByteWriter& out) {
+  begin(Type::kFeedback, out);
+  out.u64(message.server);
+  write_name(message.room, out);
+  out.u8(message.path.has_receiver ? 1 : 0);
+  out.u16(message.path.loss);
+  out.u16(message.path.in_a_row);
+  out.u16(message.path.round_trip);
+  out.u8(static_cast<std::uint8_t>(message.entries.size()));
+  for (const FeedbackEntry& entry : message.entries) {
+    const CommonFrames& frames = entry.feedback.frames;
+    write_name(entry.guest, out);
+    out.u8(entry.feedback.key_frames);
+    out.u8(static_cast<std::uint8_t>((frames.has_full ? kHasFull : 0) |
+                                     (frames.has_base ? kHasBase : 0)));
+    out.u8(frames.base_log2);
+    out.u8(frames.intra_log2);
+    if (frames.has_full) write(frames.full, out);
+    if (frames.has_base) write(frames.base, out);
+  }
+}
+bool read_entry(ByteReader& in, FeedbackEntry& entry) {
+  CommonFrames& frames = entry.feedback.frames;
+  if (!read_set_name(in, entry.guest)) return false;
+  entry.feedback.key_frames = in.u8();
+  const std::uint8_t flags = in.u8();
+  frames.base_log2 = in.u8();
+  frames.intra_log2 = in.u8();
+  frames.has_full = (flags & kHasFull) != 0;
+  frames.has_base = (flags & kHasBase) != 0;
+  if (frames.has_full) frames.full = read_frames(in);
+  if (frames.has_base) frames.base = read_frames(in);
+  return in.ok() && (flags & ~kKnownFrameFlags) == 0 && frames.base_log2 <= kFewestIntra_log2 &&
+         frames.intra_log2 <= kFewestIntra_log2;
+}
+std::optional<Message> read_feedback(ByteReader& in) {
+  FeedbackMessage message;
+  if (!read_server(in, message.server) || !read_set_name(in, message.room)) return std::nullopt;
+  const std::uint8_t has_receiver = in.u8();
+  message.path.has_receiver = has_receiver == 1;
+  message.path.loss = in.u16();
+  message.path.in_a_row = in.u16();
+  message.path.round_trip = in.u16();
+  const std::size_t count = in.u8();
+  if (!in.ok() || has_receiver > 1 || count > kMaxFeedbackEntries) return std::nullopt;
+  for (std::size_t i = 0; i < count; ++i) {
+    FeedbackEntry entry;
+    if (!read_entry(in, entry)) return std::nullopt;
+    entry.feedback.path = message.path;
+    if (!message.entries.try_push(entry)) return std::nullopt;
+  }
+  return message;
+}
+
+void write(const PresenceValue& value, ByteWriter& out) {
+  begin(Type::kPresence, out);
+  out.u64(value.server);
+}
+std::optional<Value> read_presence(ByteReader& in) {
+  PresenceValue value;
+  if (!read_server(in, value.server)) return std::nullopt;
+  return value;
+}
+
+void write(const GuestValue& value, ByteWriter& out) {
+  begin(Type::kGuest, out);
+  out.u64(value.server);
+  out.u64(value.link_token);
+  out.i64(value.since_us);
+  out.u8(static_cast<std::uint8_t>(value.codec.id));
+  out.u32(value.codec.model);
+}
+std::optional<Value> read_guest(ByteReader& in) {
+  GuestValue value;
+  const bool is_good = read_server(in, value.server);
+  value.link_token = in.u64();
+  value.since_us = in.i64();
+  value.codec.id = static_cast<CodecId>(in.u8());
+  value.codec.model = in.u32();
+  if (!is_good || !is_near(value.since_us)) return std::nullopt;
+  return value;
+}
+
+void write(const StateValue& value, ByteWriter& out) {
+  begin(Type::kState, out);
+  out.u64(value.link_token);
+  write_name(value.setter, out);
+  out.u32(value.version);
+  out.bytes(value.payload);
+}
+std::optional<Value> read_state(ByteReader& in) {
+  StateValue value;
+  value.link_token = in.u64();
+  if (!read_name(in, value.setter)) return std::nullopt;
+  value.version = in.u32();
+  value.payload = in.bytes(in.remaining());
+  if (!in.ok() || value.version == 0 || value.payload.size() > wire::kMaxStatePayload)
+    return std::nullopt;
+  return value;
+}
+
+template <class Any>
+std::size_t build_any(const Any& any, std::span<std::uint8_t> buffer) {
+  ByteWriter out(buffer);
+  std::visit([&](const auto& one) { write(one, out); }, any);
+  return out.ok() ? out.size() : 0;
+}
+
+// The type, of the version that this is.
+std::optional<Type> opening(ByteReader& in) {
+  const std::uint8_t version = in.u8();
+  const auto type = static_cast<Type>(in.u8());
+  if (!in.ok() || version != kClusterVersion) return std::nullopt;
+  return type;
+}
+
+// Bounded texts of known parts, which always fit.
+class TextMaker {
+ public:
+  TextMaker& operator<<(std::string_view part) {
+    DANCE_ASSERT(size_ + part.size() <= chars_.size(), size_);
+    for (const char c : part) chars_[size_++] = c;
+    return *this;
+  }
+  TextMaker& operator<<(ServerId server) {
+    std::array<char, 16> digits;
+    digits.fill('0');
+    std::array<char, 16> some;
+    const auto end = std::to_chars(some.data(), some.data() + some.size(), server, 16).ptr;
+    const auto count = static_cast<std::size_t>(end - some.data());
+    std::copy(some.data(), end, digits.end() - static_cast<std::ptrdiff_t>(count));
+    return *this << std::string_view(digits.data(), digits.size());
+  }
+  Text text() const {
+    Text made;
+    const bool fits = made.assign({chars_.data(), size_});
+    DANCE_ASSERT(fits, size_);
+    return made;
+  }
+
+ private:
+  std::array<char, 96> chars_{};
+  std::size_t size_ = 0;
+};
+
+// The part up to the next '.', which is taken off; all of it where there is none.
+std::string_view take_part(std::string_view& text) {
+  const std::size_t end = text.find('.');
+  const std::string_view part = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return part;
+}
+
+template <class Number>
+std::optional<Number> number_in(std::string_view text, int base) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+std::size_t build(const Message& message, std::span<std::uint8_t> out) {
+  return build_any(message, out);
+}
+std::size_t build(const Value& value, std::span<std::uint8_t> out) {
+  return build_any(value, out);
+}
+
+std::optional<Message> parse_message(Bytes bytes) {
+  ByteReader in(bytes);
+  const auto type = opening(in);
+  if (!type) return std::nullopt;
+  std::optional<Message> message;
+  switch (*type) {
+    case Type::kBeat:
+      message = read_beat(in);
+      break;
+    case Type::kClockQuestion:
+      message = read_question(in);
+      break;
+    case Type::kClockAnswer:
+      message = read_answer(in);
+      break;
+    case Type::kRecord:
+      message = read_record(in);
+      break;
+    case Type::kFeedback:
+      message = read_feedback(in);
+      break;
+    default:
+      return std::nullopt;
+  }
+  return in.is_exhausted() ? message : std::nullopt;
+}
+
+std::optional<Value> parse_value(Bytes bytes) {
+  ByteReader in(bytes);
+  const auto type = opening(in);
+  if (!type) return std::nullopt;
+  std::optional<Value> value;
+  switch (*type) {
+    case Type::kPresence:
+      value = read_presence(in);
+      break;
+    case Type::kGuest:
+      value = read_guest(in);
+      break;
+    case Type::kState:
+      value = read_state(in);
+      break;
+    default:
+      return std::nullopt;
+  }
+  return in.is_exhausted() ? value : std::nullopt;
+}
+
+Text beat_subject() { return (TextMaker() << kPrefix << "beat").text(); }
+Text server_subject(ServerId server) {
+  return (TextMaker() << kPrefix << "to." << server).text();
+}
+Text pose_subject(const wire::RoomName& room, const GuestId& guest) {
+  return (TextMaker() << kPosePrefix << room.view() << "." << guest.view()).text();
+}
+Text all_poses_subject(const wire::RoomName& room) {
+  return (TextMaker() << kPosePrefix << room.view() << ".*").text();
+}
+
+std::optional<PoseSubject> parse_pose_subject(std::string_view subject) {
+  if (!subject.starts_with(kPosePrefix)) return std::nullopt;
+  subject.remove_prefix(kPosePrefix.size());
+  const auto room = GuestId::parse(take_part(subject));
+  const auto guest = GuestId::parse(take_part(subject));
+  if (!room || !guest || !subject.empty()) return std::nullopt;
+  return PoseSubject{*room, *guest};
+}
+
+Text keys_of(const wire::RoomName& room) { return (TextMaker() << room.view() << ".>").text(); }
+
+Text text_of(const Key& key) {
+  TextMaker text;
+  text << key.room.view();
+  std::array<char, 4> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), key.place).ptr;
+  const std::string_view place(digits.data(), static_cast<std::size_t>(end - digits.data()));
+  switch (key.kind) {
+    case KeyKind::kPresence:
+      return (text << ".at." << key.server).text();
+    case KeyKind::kGuest:
+      return (text << ".guest." << key.guest.view()).text();
+    case KeyKind::kGuestState:
+      return (text << ".state." << key.guest.view() << "." << place).text();
+    case KeyKind::kRoomState:
+      return (text << ".room." << place).text();
+  }
+  return text.text();
+}
+
+std::optional<Key> parse_key(std::string_view text) {
+  Key key;
+  const auto room = GuestId::parse(take_part(text));
+  const std::string_view kind = take_part(text);
+  const std::string_view of = take_part(text);
+  if (!room) return std::nullopt;
+  key.room = *room;
+  if (kind == "at") {
+    const auto server = number_in<ServerId>(of, 16);
+    if (!server || *server == 0 || of.size() != 16 || !text.empty()) return std::nullopt;
+    key.server = *server;
+    return key;
+  }
+  if (kind == "room") {
+    const auto place = number_in<std::size_t>(of, 10);
+    if (!place || *place >= wire::kRoomStates || !text.empty()) return std::nullopt;
+    key.kind = KeyKind::kRoomState;
+    key.place = *place;
+    return key;
+  }
+  const auto guest = GuestId::parse(of);
+  if (!guest) return std::nullopt;
+  key.guest = *guest;
+  key.kind = KeyKind::kGuest;
+  if (kind == "guest" && text.empty()) return key;
+  const auto place = number_in<std::size_t>(take_part(text), 10);
+  if (kind != "state" || !place || *place >= wire::kGuestStates || !text.empty())
+    return std::nullopt;
+  key.kind = KeyKind::kGuestState;
+  key.place = *place;
+  return key;
+}
+
+}  // namespace dance::cluster

@@ -1,0 +1,122 @@
+// What servers of a cluster tell each other, built and parsed: messages by subject, and values that
+// last by key. docs/wire-format.md says them byte by byte, and this is the only place that knows
+// them.
+//
+// Units/frames: little-endian; times are microseconds of the clock that the field's name says.
+// Ownership:    payloads are views of the caller's bytes.
+// Threads:      none inside.
+// Failure:      parse functions give nullopt for anything that build functions never make; build
+//               functions give 0 bytes where the buffer is too small. Nothing here allocates.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "core/base/fixed_string.h"
+#include "tunnel/server/cluster_port.h"
+
+namespace dance::cluster {
+
+constexpr std::uint8_t kClusterVersion = 1;
+// No message and no value is longer.
+constexpr std::size_t kMaxBytes = 4096;
+using Bytes = wire::Bytes;
+
+// A server lives; several times a second, to all.
+struct Beat {
+  ServerId server = 0;
+  // Of the session clock's begin, by the server's wall clock: the oldest one's clock is the
+  // cluster's.
+  std::int64_t born_us = 0;
+  std::uint32_t links = 0;
+  std::uint32_t guests = 0;
+  bool is_leaving = false;  // it ends, and its links go elsewhere
+  FixedString<64> address;  // as guests reach it; may be empty
+};
+
+// What time is it? The answer goes to who asked.
+struct ClockQuestion {
+  ServerId server = 0;  // who asks
+  std::int64_t asked_us = 0;  // its own clock
+};
+struct ClockAnswer {
+  ServerId server = 0;  // who answers
+  std::int64_t asked_us = 0;
+  std::int64_t received_us = 0;  // session clock
+  std::int64_t sent_us = 0;
+};
+
+// A record of one guest, whose name and room stand in the subject. Its stream is that of its link.
+struct RecordMessage {
+  ServerId server = 0;
+  std::uint64_t link_token = 0;
+  wire::Record record;
+};
+
+struct FeedbackEntry {
+  GuestId guest;
+  RemoteFeedback feedback;  // its path is that of the message
+};
+constexpr std::size_t kMaxFeedbackEntries = 32;
+struct FeedbackMessage {
+  ServerId server = 0;
+  wire::RoomName room;
+  PathFeedback path;
+  FixedList<FeedbackEntry, kMaxFeedbackEntries> entries;
+};
+
+using Message = std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage>;
+std::size_t build(const Message& message, std::span<std::uint8_t> out);
+std::optional<Message> parse_message(Bytes bytes);
+
+// Values, by key: a server has links in a room,
+struct PresenceValue {
+  ServerId server = 0;
+};
+// a guest is in it through a server,
+struct GuestValue {
+  ServerId server = 0;
+  std::uint64_t link_token = 0;
+  std::int64_t since_us = 0;  // session clock, when its link came to that server
+  CodecName codec;            // of the room
+};
+// and states of a guest, or of the room.
+struct StateValue {
+  std::uint64_t link_token = 0;  // of a guest's
+  GuestId setter;                // of the room's
+  std::uint32_t version = 0;
+  Bytes payload;
+};
+using Value = std::variant<PresenceValue, GuestValue, StateValue>;
+std::size_t build(const Value& value, std::span<std::uint8_t> out);
+std::optional<Value> parse_value(Bytes bytes);
+
+// Subjects: all servers hear beats; each hears what is for it, and the poses of the rooms in which
+// it has links.
+using Text = FixedString<96>;
+Text beat_subject();
+Text server_subject(ServerId server);
+Text pose_subject(const wire::RoomName& room, const GuestId& guest);
+Text all_poses_subject(const wire::RoomName& room);
+struct PoseSubject {
+  wire::RoomName room;
+  GuestId guest;
+};
+std::optional<PoseSubject> parse_pose_subject(std::string_view subject);
+
+// Keys, all of which begin with the room.
+enum class KeyKind : std::uint8_t { kPresence, kGuest, kGuestState, kRoomState };
+struct Key {
+  KeyKind kind = KeyKind::kPresence;
+  wire::RoomName room;
+  ServerId server = 0;    // kPresence
+  GuestId guest;          // kGuest, kGuestState
+  std::size_t place = 0;  // of a state: wire::place_of()
+};
+Text text_of(const Key& key);
+// Of all keys of a room.
+Text keys_of(const wire::RoomName& room);
+std::optional<Key> parse_key(std::string_view text);
+
+}  // namespace dance::cluster

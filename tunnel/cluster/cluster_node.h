@@ -1,0 +1,138 @@
+// One server's part in a cluster: tells the others what its links bring, and takes from them what
+// theirs bring. A room lives wherever one of its links is. Poses and feedback go by messages;
+// which servers a room is on, who is in it, and its states are values that last, so that a server
+// that dies loses none of them.
+//
+// Units/frames: now is this process's MonoTime; the server's state machine gets session time.
+// Ownership:    bus and server must outlive it.
+// Threads:      the owner's; no call waits.
+// Failure:      what other servers say wrongly is counted; a server that falls silent is taken for
+//               dead, and its guests leave when they come back nowhere.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "tunnel/cluster/cluster_bus.h"
+#include "tunnel/cluster/cluster_format.h"
+#include "tunnel/cluster/session_clock.h"
+#include "tunnel/server/server_core.h"
+
+namespace dance {
+
+class ClusterNode final : public ClusterPort {
+ public:
+  struct Options {
+    ServerId id = 0;  // random
+    std::int64_t born_us = 0;  // wall clock at the process's start
+    FixedString<64> address;   // as guests reach this server
+  };
+  struct Peer {
+    cluster::Beat beat;
+    MonoTime heard;
+    Duration round_trip;
+    bool is_alive = true;
+  };
+  struct Counters {
+    std::uint64_t messages_in = 0;
+    std::uint64_t messages_out = 0;
+    std::uint64_t values_in = 0;
+    std::uint64_t malformed = 0;
+    std::uint64_t other_codecs = 0;  // guests whose room speaks another codec here
+    std::uint64_t deaths = 0;
+  };
+
+  ClusterNode(const Options& options, ClusterBus& bus);
+
+  // Before the server has links; it joins this node.
+  void attach(ServerCore& server);
+  // Whether it is known whose clock is the cluster's, and what that shows. Links may come then.
+  bool is_settled(MonoTime now) const;
+  const SessionClock& clock() const { return clock_; }
+
+  // What has gathered for other servers. Call after each turn of the server.
+  void end_turn(MonoTime now);
+  // Beats, clocks, deaths; returns when to call again.
+  MonoTime tick(MonoTime now);
+  // The server ends: its guests may come back through another at once.
+  void leave();
+
+  const std::map<ServerId, Peer>& peers() const { return peers_; }
+  const Counters& counters() const { return counters_; }
+  ServerId id() const { return options_.id; }
+
+  // ClusterPort, called by the server.
+  void on_room_opened(const ServerRoom& room) override;
+  void on_room_closed(const ServerRoom& room) override;
+  void on_guest_came(const ServerRoom& room, const ServerGuest& guest) override;
+  void on_guest_left(const ServerRoom& room, const ServerGuest& guest) override;
+  void on_record(const ServerRoom& room, const ServerGuest& guest,
+                 const wire::Record& record) override;
+  void on_state(const ServerRoom& room, const ServerGuest* guest,
+                const wire::State& state) override;
+  void on_feedback(ServerId to, const ServerRoom& room, const ServerGuest& guest,
+                   const RemoteFeedback& feedback) override;
+
+ private:
+  // What the lasting values say of a room with links here.
+  struct Room {
+    CodecName codec;
+    std::map<ServerId, MonoTime> present;  // since when it is known; other servers
+    std::map<GuestId, cluster::GuestValue> guests;
+    std::map<std::pair<GuestId, std::size_t>, std::vector<std::uint8_t>> states;  // guest not set:
+                                                                                  // the room's
+  };
+  struct Pending {
+    ServerId to = 0;
+    cluster::FeedbackMessage message;
+  };
+
+  void on_message(std::string_view subject, cluster::Bytes bytes, MonoTime now);
+  void on_value(std::string_view key, std::optional<cluster::Bytes> bytes, MonoTime now);
+  void on_back(MonoTime now);
+  void take(const cluster::Beat& beat, MonoTime now);
+  void take(const cluster::ClockQuestion& question, MonoTime now);
+  void take(const cluster::ClockAnswer& answer, MonoTime now);
+  void take(const cluster::FeedbackMessage& message, MonoTime now);
+  void take_presence(Room& room, const cluster::Key& key, bool is_there, MonoTime now);
+  void take_guest(Room& room, const cluster::Key& key, const cluster::GuestValue* value,
+                  MonoTime now);
+  void take_state(Room& room, const cluster::Key& key, std::optional<cluster::Bytes> bytes);
+  void apply_states(const Room& room, const wire::RoomName& name, const GuestId& guest);
+  void apply_state(const Room& room, const wire::RoomName& name, const GuestId& guest,
+                   std::size_t place, cluster::Bytes bytes);
+  bool is_better(const cluster::GuestValue& fresh, const cluster::GuestValue& known,
+                 MonoTime now) const;
+  bool is_dead(ServerId server) const;
+  bool is_silent(ServerId server, MonoTime now) const;
+  void beat(bool is_leaving);
+  ServerId leader() const;
+  void follow_leader(MonoTime now);
+  void ask_clocks(MonoTime now);
+  void note_deaths(MonoTime now);
+  void bury(ServerId server);
+  bool is_first_alive(const Room& room) const;
+  void put(const cluster::Key& key, const cluster::Value& value);
+  void put_guest(const wire::RoomName& room, const GuestId& guest);
+  void send(std::string_view subject, const cluster::Message& message);
+  void flush(Pending& pending);
+
+  Options options_;
+  ClusterBus& bus_;
+  ServerCore* server_ = nullptr;
+  SessionClock clock_;
+  ServerId followed_ = 0;
+  std::map<ServerId, Peer> peers_;
+  std::map<wire::RoomName, Room> rooms_;
+  FixedList<ServerId, 64> buried_;  // the newest of them
+  std::vector<Pending> pending_;
+  MonoTime now_;  // of the newest call that said so
+  MonoTime begun_;
+  MonoTime next_beat_;
+  MonoTime next_question_;
+  Counters counters_;
+  std::array<std::uint8_t, cluster::kMaxBytes> buffer_;
+};
+
+}  // namespace dance

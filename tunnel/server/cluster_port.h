@@ -1,0 +1,61 @@
+// What a server tells the other servers of its cluster about its own guests, and about what its
+// links have of theirs: the seam between the server's state machine and what joins servers. The
+// other way goes through ServerRemotes.
+//
+// Units/frames: times are of the session clock, which all servers of a cluster share.
+// Ownership:    what is passed is valid during the call.
+// Threads:      the caller's.
+// Failure:      none here; what does not reach another server is its link's loss.
+#pragma once
+
+#include <cstdint>
+
+#include "tunnel/session/reference_control.h"
+#include "tunnel/wire/wire_state.h"
+
+namespace dance {
+
+struct ServerGuest;
+struct ServerRoom;
+
+// One server process, from its start to its end; random, never 0.
+using ServerId = std::uint64_t;
+
+// From one server to another, about the way to its links in one room.
+struct PathFeedback {
+  bool has_receiver = false;
+  std::uint16_t loss = 0;        // to the worst receiver, in 1/65,536
+  std::uint16_t in_a_row = 0;    // of that what is lost together with the datagram before
+  std::uint16_t round_trip = 0;  // to the worst receiver and back, in 0.1 ms
+  bool operator==(const PathFeedback&) const = default;
+};
+
+// From one server to another, about one guest of the other's.
+struct RemoteFeedback {
+  std::uint8_t key_frames = 0;  // counts key frames asked for; a change asks for one
+  PathFeedback path;
+  CommonFrames frames;  // their streams without the guest's generation
+};
+
+class ClusterPort {
+ public:
+  virtual ~ClusterPort() = default;
+
+  // A room has its first link here, or has lost its last.
+  virtual void on_room_opened(const ServerRoom& room) = 0;
+  virtual void on_room_closed(const ServerRoom& room) = 0;
+  // A guest came through a link of this server's, or has left it.
+  virtual void on_guest_came(const ServerRoom& room, const ServerGuest& guest) = 0;
+  virtual void on_guest_left(const ServerRoom& room, const ServerGuest& guest) = 0;
+  // Of a guest of this server's, in a room where others have links.
+  virtual void on_record(const ServerRoom& room, const ServerGuest& guest,
+                         const wire::Record& record) = 0;
+  // A state of a guest of this server's, or of the room, set here.
+  virtual void on_state(const ServerRoom& room, const ServerGuest* guest,
+                        const wire::State& state) = 0;
+  // For the server `to`, about its guest.
+  virtual void on_feedback(ServerId to, const ServerRoom& room, const ServerGuest& guest,
+                           const RemoteFeedback& feedback) = 0;
+};
+
+}  // namespace dance

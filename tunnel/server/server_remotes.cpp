@@ -1,0 +1,127 @@
+#include "tunnel/server/server_remotes.h"
+
+#include <algorithm>
+
+namespace dance {
+
+ServerRoom* ServerRemotes::find(const wire::RoomName& name) {
+  const auto index = admission_.find_room(name);
+  return index ? &server_.rooms[*index] : nullptr;
+}
+
+std::optional<std::size_t> ServerRemotes::session_of(const ServerRoom& room,
+                                                     ServerId server) const {
+  for (const std::size_t member : room.members) {
+    const ServerSession& session = server_.sessions[member];
+    if (session.is_remote() && server_.remotes[session.remote].server == server) return member;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint8_t> ServerRemotes::slot_of(const ServerRoom& room, const GuestId& guest) {
+  for (std::size_t slot = 0; slot < room.guests.size(); ++slot)
+    if (room.guests[slot].in_use && room.guests[slot].id == guest)
+      return static_cast<std::uint8_t>(slot);
+  return std::nullopt;
+}
+
+void ServerRemotes::open(const wire::RoomName& name, ServerId server, MonoTime now) {
+  const auto room = admission_.find_room(name);
+  if (!room || session_of(server_.rooms[*room], server)) return;
+  if (!admission_.open_remote(*room, server, now)) ++counters_.servers_without_place;
+}
+
+void ServerRemotes::close(const wire::RoomName& name, ServerId server) {
+  const ServerRoom* room = find(name);
+  if (room == nullptr) return;
+  if (const auto session = session_of(*room, server)) admission_.drop(*session);
+}
+
+void ServerRemotes::note_alive(ServerId server, Duration round_trip, MonoTime now) {
+  for (ServerSession& session : server_.sessions) {
+    if (!session.in_use || !session.is_remote() ||
+        server_.remotes[session.remote].server != server)
+      continue;
+    session.last_heard = now;
+    session.newest_ping.round_trip_us = static_cast<std::uint32_t>(round_trip.count_us());
+  }
+}
+
+void ServerRemotes::set_guest(const wire::RoomName& name, ServerId server, const GuestId& id,
+                              std::uint64_t link_token, MonoTime now) {
+  const auto index = admission_.find_room(name);
+  if (!index) return;
+  open(name, server, now);
+  ServerRoom& room = server_.rooms[*index];
+  const auto session = session_of(room, server);
+  if (!session) return;
+  if (const auto slot = slot_of(room, id)) {
+    ServerGuest& guest = room.guests[*slot];
+    const std::size_t owner = guest.owner;
+    const bool is_same_link = guest.link_token == link_token;
+    if (owner == *session && is_same_link) return;
+    if (is_same_link)
+      admission_.move_guest(room, *slot, *session);
+    else
+      admission_.remove_guest(*index, *slot);
+    // A link that has gone to another server with all of its guests.
+    ServerSession& before = server_.sessions[owner];
+    if (!is_same_link) before.slots.erase(*slot);
+    if (owner != *session && !before.is_remote() && before.slots.empty()) admission_.drop(owner);
+    if (is_same_link) return;
+  }
+  if (!admission_.add_guest(*session, id, link_token)) ++counters_.guests_without_place;
+}
+
+void ServerRemotes::remove_guest(const wire::RoomName& name, ServerId server, const GuestId& id) {
+  const auto index = admission_.find_room(name);
+  if (!index) return;
+  ServerRoom& room = server_.rooms[*index];
+  const auto slot = slot_of(room, id);
+  const auto session = session_of(room, server);
+  if (!slot || !session || room.guests[*slot].owner != *session) return;
+  admission_.remove_guest(*index, *slot);
+  server_.sessions[*session].slots.erase(*slot);
+}
+
+void ServerRemotes::on_record(const wire::RoomName& name, ServerId server, const GuestId& id,
+                              std::uint64_t link_token, wire::Record record, MonoTime now) {
+  const ServerRoom* room = find(name);
+  const auto slot = room != nullptr ? slot_of(*room, id) : std::nullopt;
+  const auto session = slot ? session_of(*room, server) : std::nullopt;
+  if (!session || room->guests[*slot].link_token != link_token) {
+    ++counters_.unknown;
+    return;
+  }
+  record.slot = *slot;
+  forwarder_.on_remote_record(*session, record, now);
+}
+
+void ServerRemotes::on_feedback(const wire::RoomName& name, ServerId server, const GuestId& id,
+                                const RemoteFeedback& feedback, MonoTime now) {
+  const ServerRoom* room = find(name);
+  const auto slot = room != nullptr ? slot_of(*room, id) : std::nullopt;
+  const auto session = slot ? session_of(*room, server) : std::nullopt;
+  if (!session || !server_.is_local(room->guests[*slot])) {
+    ++counters_.unknown;
+    return;
+  }
+  feedback_.on_remote_feedback(*session, *slot, feedback, now);
+}
+
+void ServerRemotes::on_state(const wire::RoomName& name, const GuestId& id,
+                             const wire::State& state) {
+  ServerRoom* room = find(name);
+  if (room == nullptr) return;
+  if (!id.is_set()) return states_.on_remote_state(*room, nullptr, state);
+  const auto slot = slot_of(*room, id);
+  if (slot && !server_.is_local(room->guests[*slot]))
+    states_.on_remote_state(*room, &room->guests[*slot], state);
+}
+
+void ServerRemotes::repeat_feedback(MonoTime now) {
+  for (std::size_t i = 0; i < server_.sessions.size(); ++i)
+    if (server_.sessions[i].in_use && server_.sessions[i].is_remote()) feedback_.repeat(i, now);
+}
+
+}  // namespace dance
