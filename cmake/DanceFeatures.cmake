@@ -184,6 +184,9 @@ pkg_check_modules(PROMETHEUS QUIET IMPORTED_TARGET prometheus-cpp-pull)
 dance_optional(DANCE_PROMETHEUS "Server metrics" DANCE_HAVE_PROMETHEUS "${PROMETHEUS_FOUND}"
   "prometheus-cpp-dev")
 
+pkg_check_modules(NATS QUIET IMPORTED_TARGET libnats)
+dance_optional(DANCE_NATS "Servers in clusters" DANCE_HAVE_NATS "${NATS_FOUND}" "libnats-dev")
+
 find_program(JAVAC javac)
 find_program(JAR jar)
 find_file(LCM_JAR lcm.jar PATHS /usr/share/java /usr/local/share/java)

@@ -20,7 +20,7 @@ namespace dance::cluster {
 
 constexpr std::uint8_t kClusterVersion = 1;
 // No message and no value is longer.
-constexpr std::size_t kMaxBytes = 4096;
+constexpr std::size_t kMaxBytes = 2048;
 using Bytes = wire::Bytes;
 
 // A server lives; several times a second, to all.

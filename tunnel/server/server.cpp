@@ -26,12 +26,13 @@ Access access_of(const KeyEntry& key) {
 Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerOptions& options,
                                              Poller& poller) {
   DANCE_TRY(UdpSocket socket, UdpSocket::bind(local));
-  auto server = std::unique_ptr<Server>(new Server(std::move(socket), options.limits, poller));
+  auto server = std::unique_ptr<Server>(
+      new Server(std::move(socket), options.limits, options.cluster, poller));
   SealServer::Handlers handlers;
-  handlers.on_datagram = [core = &server->core_](PeerId from, const KeyEntry& key,
-                                                 wire::Bytes plain, MonoTime received,
-                                                 MonoTime now) {
-    core->receive(from, access_of(key), plain, received, now);
+  handlers.on_datagram = [self = server.get()](PeerId from, const KeyEntry& key, wire::Bytes plain,
+                                               MonoTime received, MonoTime now) {
+    self->core_.receive(from, access_of(key), plain, self->to_session(received),
+                        self->to_session(now));
   };
   handlers.on_end = [core = &server->core_](PeerId peer) { core->forget(peer); };
   SealLimits seal = options.seal;
@@ -47,24 +48,48 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerO
   return server;
 }
 
-Server::Server(UdpSocket socket, const ServerLimits& limits, Poller& poller)
-    : poller_(poller), socket_(std::move(socket)), core_(limits, secure_random_u64, sealed_) {
+Server::Server(UdpSocket socket, const ServerLimits& limits, ClusterNode* cluster, Poller& poller)
+    : poller_(poller),
+      socket_(std::move(socket)),
+      core_(limits, secure_random_u64, sealed_),
+      cluster_(cluster) {
+  if (cluster_ != nullptr) cluster_->attach(core_);
   poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
-  timer_ = poller_.add_timer(MonoTime(), [this](MonoTime now) { return tick(now); });
+  // A cluster hears of it at once.
+  timer_ = poller_.add_timer(cluster_ != nullptr ? MonoTime::from_ns(1) : MonoTime(),
+                             [this](MonoTime now) { return tick(now); });
+}
+
+void Server::end_turn(MonoTime now) {
+  core_.end_turn(to_session(now));
+  if (cluster_ != nullptr) cluster_->end_turn(now);
+}
+
+void Server::end_cluster_turn(MonoTime now) {
+  end_turn(now);
+  socket_.flush();
+  poller_.set_deadline(timer_, next_deadline());
 }
 
 MonoTime Server::tick(MonoTime now) {
-  core_.tick(now);
+  if (cluster_ != nullptr) cluster_due_ = cluster_->tick(now);
+  core_.tick(to_session(now));
+  if (cluster_ != nullptr) cluster_->end_turn(now);
   door_->tick(now);
   socket_.flush();
   return next_deadline();
 }
 
 MonoTime Server::next_deadline() const {
+  MonoTime next;
+  const auto or_earlier = [&](MonoTime due) {
+    if (due.is_set()) next = next.is_set() ? std::min(next, due) : due;
+  };
   const MonoTime core = core_.next_deadline();
-  const MonoTime door = door_->next_deadline();
-  if (!core.is_set() || !door.is_set()) return core.is_set() ? core : door;
-  return std::min(core, door);
+  if (core.is_set()) or_earlier(cluster_ != nullptr ? cluster_->clock().to_ours(core) : core);
+  or_earlier(door_->next_deadline());
+  or_earlier(cluster_due_);
+  return next;
 }
 
 void Server::set_keys(std::shared_ptr<const KeyRing> keys) {
@@ -82,7 +107,7 @@ void Server::on_readable(MonoTime now) {
     const auto batch = socket_.receive();
     for (const UdpSocket::Datagram& datagram : batch)
       door_->receive(datagram.from, datagram.bytes, datagram.received, now);
-    core_.end_turn(now);
+    end_turn(now);
     socket_.flush();
     if (batch.size() < UdpSocket::kBatch) break;
   }
@@ -90,6 +115,8 @@ void Server::on_readable(MonoTime now) {
 }
 
 void Server::say_goodbye() {
+  // First: links may ask the others at once.
+  if (cluster_ != nullptr) cluster_->leave();
   core_.say_goodbye();
   socket_.flush();
 }

@@ -14,6 +14,7 @@
 #include "core/net/poller.h"
 #include "core/net/udp_socket.h"
 #include "tunnel/seal/seal_server.h"
+#include "tunnel/cluster/cluster_node.h"
 #include "tunnel/server/server_core.h"
 
 namespace dance {
@@ -25,6 +26,7 @@ struct ServerOptions {
   SealLimits seal;
   std::shared_ptr<const KeyRing> keys;  // not nullptr
   std::optional<SealCertificates> certificates;
+  ClusterNode* cluster = nullptr;  // settled; must outlive the server. nullptr: it stands alone
 };
 
 // What a key lets its holder do.
@@ -40,8 +42,14 @@ class Server {
 
   // From now on these keys count.
   void set_keys(std::shared_ptr<const KeyRing> keys);
-  // Tells every link, so that none has to notice the silence.
+  // Tells every link, and the cluster, so that none has to notice the silence.
   void say_goodbye();
+  // What came from the cluster goes out. Call after each batch of it.
+  void end_cluster_turn(MonoTime now);
+  // The clock that links see: this process's, or the cluster's.
+  MonoTime to_session(MonoTime now) const {
+    return cluster_ != nullptr ? cluster_->clock().to_session(now) : now;
+  }
 
   Address local_address() const { return socket_.local_address(); }
   const ServerCore& core() const { return core_; }
@@ -56,16 +64,19 @@ class Server {
     SealServer* door = nullptr;
   };
 
-  Server(UdpSocket socket, const ServerLimits& limits, Poller& poller);
+  Server(UdpSocket socket, const ServerLimits& limits, ClusterNode* cluster, Poller& poller);
   void on_readable(MonoTime now);
   MonoTime tick(MonoTime now);
   MonoTime next_deadline() const;
+  void end_turn(MonoTime now);
 
   Poller& poller_;
   UdpSocket socket_;
   Sealed sealed_;
   ServerCore core_;
   std::unique_ptr<SealServer> door_;
+  ClusterNode* cluster_;
+  MonoTime cluster_due_;
   Poller::TimerId timer_;
 };
 

@@ -45,10 +45,12 @@ Result<std::unique_ptr<ServerWatch>> ServerWatch::open(const ServerCore& core,
 ServerWatch::ServerWatch(const ServerCore& core, const Options& options, Poller& poller)
     : poller_(poller),
       handshakes_(options.handshakes),
-      maker_(core, options.limits, options.address.to_string(), options.peer_text, mono_now()) {
+      to_session_(options.to_session),
+      maker_(core, options.limits, options.address.to_string(), options.peer_text,
+             session_time(mono_now())) {
   const MonoTime begin = mono_now();
   second_ = poller_.add_timer(begin + kWatchPeriod, [this](MonoTime now) {
-    maker_.sample(now);
+    maker_.sample(session_time(now));
     if (metrics_) metrics_->show(status(now));
     return now + kWatchPeriod;
   });
@@ -68,7 +70,7 @@ ServerWatch::~ServerWatch() {
 ServerStatus ServerWatch::status(MonoTime now) const {
   const std::vector<NamedCount> handshakes =
       handshakes_ ? handshakes_() : std::vector<NamedCount>();
-  return maker_.make(now, handshakes);
+  return maker_.make(session_time(now), handshakes);
 }
 
 }  // namespace dance

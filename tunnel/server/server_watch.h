@@ -1,7 +1,7 @@
 // What shows a running server to people and programs: the socket of `dance status`, the page of
 // metrics, and the service manager that started it.
 //
-// Units/frames: MonoTime of the poller's clock.
+// Units/frames: MonoTime of the poller's clock; of the core its own.
 // Ownership:    refers to the core and the poller, which must outlive it.
 // Threads:      the poller's; the metrics' exposer has threads of its own, which see snapshots
 //               only.
@@ -35,6 +35,8 @@ class ServerWatch {
     ServerStatusMaker::PeerText peer_text;
     // By cause; not set = nobody seals.
     std::function<std::vector<NamedCount>()> handshakes;
+    // The clock of the core; not set = the poller's.
+    std::function<MonoTime(MonoTime)> to_session;
   };
 
   static Result<std::unique_ptr<ServerWatch>> open(const ServerCore& core, const Options& options,
@@ -48,9 +50,11 @@ class ServerWatch {
  private:
   ServerWatch(const ServerCore& core, const Options& options, Poller& poller);
   ServerStatus status(MonoTime now) const;
+  MonoTime session_time(MonoTime now) const { return to_session_ ? to_session_(now) : now; }
 
   Poller& poller_;
   std::function<std::vector<NamedCount>()> handshakes_;
+  std::function<MonoTime(MonoTime)> to_session_;
   ServerStatusMaker maker_;
   ServiceManager service_;
   std::unique_ptr<ServerMetrics> metrics_;

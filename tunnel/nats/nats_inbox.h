@@ -1,0 +1,48 @@
+// What came from NATS, from the library's threads to the poller's.
+//
+// Units/frames: none.
+// Ownership:    owns what waits, and the descriptor that is readable while something does.
+// Threads:      push() from any, the rest from the poller's. The lock is held for one push, or one
+//               exchange of two lists.
+// Failure:      beyond kMost messages new ones are dropped and counted.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "tunnel/nats/nats_handles.h"
+
+namespace dance {
+
+class NatsInbox {
+ public:
+  enum class Kind : std::uint8_t { kMessage, kValue, kBack };
+  struct Item {
+    Kind kind = Kind::kMessage;
+    NatsHandle<natsMsg> message;  // nullptr for kBack
+  };
+
+  NatsInbox();
+  ~NatsInbox();
+  NatsInbox(const NatsInbox&) = delete;
+  NatsInbox& operator=(const NatsInbox&) = delete;
+
+  void push(Kind kind, NatsHandle<natsMsg> message);
+  int fd() const { return fd_; }
+  // All that wait; valid until the next call.
+  std::vector<Item>& take();
+  std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
+ private:
+  static constexpr std::size_t kMost = 16'384;
+
+  int fd_;
+  std::mutex mutex_;
+  std::vector<Item> waiting_;
+  std::vector<Item> taken_;
+  std::atomic<std::uint64_t> dropped_{0};
+};
+
+}  // namespace dance

@@ -1,0 +1,31 @@
+#include "tunnel/nats/nats_options.h"
+
+#include <sstream>
+
+#include "core/base/printable.h"
+
+namespace dance {
+
+std::vector<std::string> nats_urls(const std::string& list) {
+  std::vector<std::string> urls;
+  std::istringstream in(list);
+  for (std::string url; std::getline(in, url, ',');) {
+    if (url.empty()) continue;
+    urls.push_back(url.find("://") == std::string::npos ? "nats://" + url : url);
+  }
+  return urls;
+}
+
+std::string shown_urls(const NatsOptions& options) {
+  std::string text;
+  for (const std::string& url : options.urls) {
+    const std::size_t scheme = url.find("://");
+    const std::size_t begin = scheme == std::string::npos ? 0 : scheme + 3;
+    const std::size_t at = url.rfind('@');
+    const std::string host = at == std::string::npos ? url.substr(begin) : url.substr(at + 1);
+    text += (text.empty() ? "" : ", ") + url.substr(0, begin) + host;
+  }
+  return printable(text);
+}
+
+}  // namespace dance

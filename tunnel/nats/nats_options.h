@@ -1,0 +1,28 @@
+// Where the NATS servers of a cluster are, and how they know us.
+//
+// Ownership: plain values.
+// Threads:   none inside.
+// Failure:   none.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dance {
+
+struct NatsOptions {
+  std::vector<std::string> urls;  // nats://host:port, or tls://host:port
+  std::string name;               // of this client, in what NATS shows
+  std::string credentials;        // file of a user's JWT and seed; "" = none
+  std::string authorities;        // PEM file of those whose signature a server's certificate bears
+  std::string certificate;        // PEM files of our own certificate, for servers that ask for one,
+  std::string private_key;        // and of its key
+  int replicas = 0;               // of each value; 0 = 3 where three servers are named, else 1
+};
+
+// "nats://a:4222,nats://b:4222" → its parts; a part without a scheme gets one.
+std::vector<std::string> nats_urls(const std::string& list);
+// The URLs as they may be shown: without user and password, printable.
+std::string shown_urls(const NatsOptions& options);
+
+}  // namespace dance

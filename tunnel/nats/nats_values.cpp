@@ -1,0 +1,202 @@
+#include "tunnel/nats/nats_values.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "core/base/printable.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kBucket = "dance-1";
+constexpr const char* kStreamName = "KV_dance-1";
+constexpr std::string_view kSubjectPrefix = "$KV.dance-1.";
+constexpr std::int64_t kAnswer_ms = 1000;
+constexpr auto kRetry = std::chrono::milliseconds(100);
+// NATS servers that have just started must find each other first.
+constexpr auto kStart = std::chrono::seconds(10);
+
+Error without_store(natsStatus status, const NatsOptions& options) {
+  const char* detail = nats_GetLastError(nullptr);
+  return Error{"the NATS server at " + shown_urls(options) +
+               " keeps no values (" + natsStatus_GetText(status) +
+               (detail != nullptr ? std::string(": ") + printable(detail) : std::string()) +
+               "): start nats-server with -js, and let this user use JetStream"};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<NatsValues>> NatsValues::open(natsConnection* connection, NatsInbox& inbox,
+                                                     const NatsOptions& options) {
+  jsOptions wait;
+  jsOptions_Init(&wait);
+  wait.Wait = kAnswer_ms;
+  jsCtx* stream = nullptr;
+  if (const natsStatus status = natsConnection_JetStream(&stream, connection, &wait);
+      status != NATS_OK)
+    return tl::make_unexpected(without_store(status, options));
+  NatsHandle<jsCtx> owned(stream);
+  kvConfig config;
+  kvConfig_Init(&config);
+  config.Bucket = kBucket;
+  config.History = 1;
+  config.StorageType = js_FileStorage;
+  config.Replicas = options.replicas > 0 ? options.replicas : options.urls.size() >= 3 ? 3 : 1;
+  const auto begin = std::chrono::steady_clock::now();
+  for (;;) {
+    kvStore* store = nullptr;
+    natsStatus status = js_KeyValue(&store, stream, kBucket);
+    if (status != NATS_OK) status = js_CreateKeyValue(&store, stream, &config);
+    if (status == NATS_OK)
+      return std::unique_ptr<NatsValues>(
+          new NatsValues(std::move(owned), NatsHandle<kvStore>(store), inbox));
+    if (status == NATS_NOT_PERMITTED || std::chrono::steady_clock::now() - begin > kStart)
+      return tl::make_unexpected(without_store(status, options));
+    std::this_thread::sleep_for(kRetry);
+  }
+}
+
+NatsValues::NatsValues(NatsHandle<jsCtx> stream, NatsHandle<kvStore> store, NatsInbox& inbox)
+    : stream_(std::move(stream)),
+      store_(std::move(store)),
+      inbox_(inbox),
+      thread_([this] { run(); }) {}
+
+NatsValues::~NatsValues() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void NatsValues::put(std::string_view key, std::span<const std::uint8_t> value) {
+  const std::lock_guard lock(mutex_);
+  unwritten_[std::string(key)] = std::vector<std::uint8_t>(value.begin(), value.end());
+  changed_.notify_all();
+}
+
+void NatsValues::erase(std::string_view key) {
+  const std::lock_guard lock(mutex_);
+  unwritten_[std::string(key)] = std::nullopt;
+  changed_.notify_all();
+}
+
+void NatsValues::watch(std::string_view keys) {
+  const std::lock_guard lock(mutex_);
+  watched_.insert(std::string(keys));
+  to_watch_.insert(std::string(keys));
+  changed_.notify_all();
+}
+
+void NatsValues::end_watch(std::string_view keys) {
+  const std::lock_guard lock(mutex_);
+  watched_.erase(std::string(keys));
+  to_watch_.insert(std::string(keys));
+  changed_.notify_all();
+}
+
+void NatsValues::renew() {
+  const std::lock_guard lock(mutex_);
+  renews_ = true;
+  changed_.notify_all();
+}
+
+std::size_t NatsValues::unwritten() const {
+  const std::lock_guard lock(mutex_);
+  return unwritten_.size();
+}
+
+void NatsValues::flush(std::chrono::milliseconds longest) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, longest, [this] { return unwritten_.empty(); });
+}
+
+std::string_view NatsValues::key_of(natsMsg* message) {
+  std::string_view subject = natsMsg_GetSubject(message);
+  if (!subject.starts_with(kSubjectPrefix)) return {};
+  subject.remove_prefix(kSubjectPrefix.size());
+  return subject;
+}
+
+bool NatsValues::is_erased(natsMsg* message) {
+  const char* operation = nullptr;
+  return natsMsgHeader_Get(message, "KV-Operation", &operation) == NATS_OK &&
+         (std::strcmp(operation, "DEL") == 0 || std::strcmp(operation, "PURGE") == 0);
+}
+
+void NatsValues::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] {
+      return ends_ || renews_ || !to_watch_.empty() || !unwritten_.empty();
+    });
+    if (ends_) return;
+    if (std::exchange(renews_, false)) to_watch_.insert(watched_.begin(), watched_.end());
+    if (!to_watch_.empty())
+      watch_one(lock);
+    else if (!unwritten_.empty())
+      write_one(lock);
+  }
+}
+
+void NatsValues::write_one(std::unique_lock<std::mutex>& lock) {
+  auto next = unwritten_.upper_bound(last_tried_);
+  if (next == unwritten_.end()) next = unwritten_.begin();
+  const std::string key = last_tried_ = next->first;
+  const Value value = std::move(next->second);
+  unwritten_.erase(next);
+  lock.unlock();
+  std::uint64_t revision = 0;
+  const natsStatus status =
+      value ? kvStore_Put(&revision, store_.get(), key.c_str(), value->data(),
+                          static_cast<int>(value->size()))
+            : kvStore_Delete(store_.get(), key.c_str());
+  lock.lock();
+  if (status == NATS_OK) {
+    if (unwritten_.empty()) changed_.notify_all();
+    return;
+  }
+  failed_.fetch_add(1, std::memory_order_relaxed);
+  unwritten_.emplace(key, value);  // unless there is a newer one
+  changed_.wait_for(lock, kRetry, [this] { return ends_; });
+}
+
+void NatsValues::watch_one(std::unique_lock<std::mutex>& lock) {
+  const std::string keys = *to_watch_.begin();
+  to_watch_.erase(to_watch_.begin());
+  const bool is_wanted = watched_.contains(keys);
+  lock.unlock();
+  subscriptions_.erase(keys);
+  NatsHandle<natsSubscription> subscription;
+  if (is_wanted) subscription = subscribe(keys);
+  lock.lock();
+  if (subscription) {
+    subscriptions_[keys] = std::move(subscription);
+  } else if (is_wanted) {
+    failed_.fetch_add(1, std::memory_order_relaxed);
+    to_watch_.insert(keys);
+    changed_.wait_for(lock, kRetry, [this] { return ends_; });
+  }
+}
+
+NatsHandle<natsSubscription> NatsValues::subscribe(const std::string& keys) {
+  jsSubOptions options;
+  jsSubOptions_Init(&options);
+  options.Ordered = true;
+  options.Stream = kStreamName;
+  options.Config.DeliverPolicy = js_DeliverLastPerSubject;
+  const auto on_value = [](natsConnection*, natsSubscription*, natsMsg* message, void* inbox) {
+    static_cast<NatsInbox*>(inbox)->push(NatsInbox::Kind::kValue, NatsHandle<natsMsg>(message));
+  };
+  natsSubscription* subscription = nullptr;
+  const std::string subject = std::string(kSubjectPrefix) + keys;
+  if (js_Subscribe(&subscription, stream_.get(), subject.c_str(), on_value, &inbox_, nullptr,
+                   &options, nullptr) != NATS_OK)
+    return nullptr;
+  return NatsHandle<natsSubscription>(subscription);
+}
+
+}  // namespace dance
