@@ -60,7 +60,7 @@ void write(const Beat& beat, ByteWriter& out) {
   out.u32(beat.links);
   out.u32(beat.guests);
   out.u8(beat.is_leaving ? 1 : 0);
-  out.short_text(beat.address.view());
+  wire::write_address(beat.address, out);
 }
 std::optional<Message> read_beat(ByteReader& in) {
   Beat beat;
@@ -70,7 +70,7 @@ std::optional<Message> read_beat(ByteReader& in) {
   beat.guests = in.u32();
   const std::uint8_t is_leaving = in.u8();
   beat.is_leaving = is_leaving == 1;
-  if (!is_good || is_leaving > 1 || !beat.address.assign(in.text(in.u8()))) return std::nullopt;
+  if (!is_good || is_leaving > 1 || !wire::read_address(in, beat.address)) return std::nullopt;
   return beat;
 }
 

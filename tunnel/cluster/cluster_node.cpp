@@ -496,6 +496,13 @@ MonoTime ClusterNode::tick(MonoTime now) {
   return std::min(next_beat_, next_question_);
 }
 
+wire::ServerList ClusterNode::other_servers() const {
+  wire::ServerList servers;
+  for (const auto& [id, peer] : peers_)
+    if (peer.is_alive && peer.beat.address.is_set() && !servers.try_push(peer.beat.address)) break;
+  return servers;
+}
+
 void ClusterNode::beat(bool is_leaving) {
   cluster::Beat beat;
   beat.server = options_.id;

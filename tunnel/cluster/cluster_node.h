@@ -26,7 +26,7 @@ class ClusterNode final : public ClusterPort {
   struct Options {
     ServerId id = 0;  // random
     std::int64_t born_us = 0;  // wall clock at the process's start
-    FixedString<64> address;   // as guests reach this server
+    Address address;           // as guests reach this server
   };
   struct Peer {
     cluster::Beat beat;
@@ -55,6 +55,8 @@ class ClusterNode final : public ClusterPort {
   void end_turn(MonoTime now);
   // Beats, clocks, deaths; returns when to call again.
   MonoTime tick(MonoTime now);
+  // That live, and say how guests reach them.
+  wire::ServerList other_servers() const;
   // The server ends: its guests may come back through another at once.
   void leave();
 

@@ -92,6 +92,7 @@ void LinkSession::on_moved(MonoTime now) {
 
 // The server ends: ask at once, then more and more slowly.
 void LinkSession::on_goodbye(MonoTime now) {
+  has_goodbye_ = true;
   if (link_.is_connected()) begin_lapse(now);
 }
 
@@ -189,6 +190,7 @@ void LinkSession::begin(const wire::Welcome& welcome, MonoTime now) {
   hello_nonce_ = 0;
   unanswered_hellos_ = 0;
   last_heard_ = now;
+  has_goodbye_ = false;
   if (link_.state == LinkState::kLapsed) ++link_.counters.reconnects;
   set_state(LinkState::kConnected, now);
 }

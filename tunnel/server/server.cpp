@@ -72,7 +72,10 @@ void Server::end_cluster_turn(MonoTime now) {
 }
 
 MonoTime Server::tick(MonoTime now) {
-  if (cluster_ != nullptr) cluster_due_ = cluster_->tick(now);
+  if (cluster_ != nullptr) {
+    cluster_due_ = cluster_->tick(now);
+    core_.set_other_servers(cluster_->other_servers());
+  }
   core_.tick(to_session(now));
   if (cluster_ != nullptr) cluster_->end_turn(now);
   door_->tick(now);

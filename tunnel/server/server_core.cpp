@@ -11,6 +11,8 @@ constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below
 constexpr Duration kTick = Duration::ms(100);
 // Other servers are told again what may have been lost.
 constexpr std::uint64_t kSweepsPerRepeat = 5;
+// So often the other servers of a cluster are told again.
+constexpr std::uint32_t kPingsPerServers = 8;
 // What a link has not acknowledged; the rest comes with the next pong.
 constexpr std::size_t kStateDatagramsPerPong = 32;
 constexpr std::size_t kStateDatagramsPerWelcome = 64;
@@ -125,6 +127,9 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   std::array<std::uint8_t, 64> out;
   server_.send(session.peer, {out.data(), wire::build(pong, out)});
 
+  // The list may have been lost; of a server that stands alone there is none.
+  if (!server_.other_servers.empty() && ping->sequence % kPingsPerServers == 1)
+    send_servers(session);
   // Each ping is the occasion to repeat what the link has not acknowledged.
   const ServerRoom& room = server_.rooms[session.room];
   if (ping->roster_version != room.roster_version) send_roster(session);
@@ -232,6 +237,18 @@ void ServerCore::say_goodbye() {
   for (const ServerSession& session : server_.sessions) {
     if (session.in_use && !session.is_remote()) send_goodbye(session.peer);
   }
+}
+
+void ServerCore::set_other_servers(const wire::ServerList& servers) {
+  if (std::ranges::equal(servers, server_.other_servers)) return;
+  server_.other_servers = servers;
+  for (const ServerSession& session : server_.sessions)
+    if (session.in_use && !session.is_remote() && session.knows_epoch) send_servers(session);
+}
+
+void ServerCore::send_servers(const ServerSession& session) {
+  std::array<std::uint8_t, wire::kMaxPlain> out;
+  server_.send(session.peer, {out.data(), wire::build(server_.other_servers, out)});
 }
 
 // Roster, then states, then poses: each needs the one before it. What does not fit comes with the

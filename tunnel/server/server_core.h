@@ -54,6 +54,8 @@ class ServerCore {
   // Of a cluster, before the first datagram: who tells the other servers, and what they tell.
   // The port must outlive this.
   void join(ClusterPort& cluster) { server_.cluster = &cluster; }
+  // Where its links can go when it ends: they are told.
+  void set_other_servers(const wire::ServerList& servers);
   ServerRemotes& remotes() { return remotes_; }
   const ServerRemotes& remotes() const { return remotes_; }
 
@@ -73,6 +75,7 @@ class ServerCore {
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void send_roster(const ServerSession& session);
   void send_goodbye(PeerId peer);
+  void send_servers(const ServerSession& session);
   void greet(std::size_t newcomer, MonoTime now);
   void sweep(MonoTime now);
 

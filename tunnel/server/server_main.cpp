@@ -174,8 +174,9 @@ Result<Cluster> join_cluster(const ServerProgramOptions& options, Poller& poller
   of.born_us = std::chrono::duration_cast<std::chrono::microseconds>(
                    std::chrono::system_clock::now().time_since_epoch())
                    .count();
-  if (!of.address.assign(options.cluster_address))
-    return fail("--cluster-address is longer than 64 characters");
+  if (!options.cluster_address.empty()) {
+    DANCE_TRY(of.address, Address::resolve(options.cluster_address, options.port));
+  }
   DANCE_TRY(cluster.bus, NatsBus::connect(nats, poller));
   cluster.node = std::make_unique<ClusterNode>(of, *cluster.bus);
   const MonoTime begin = mono_now();

@@ -60,6 +60,8 @@ enum class Type : std::uint8_t {
   kFileWant = 26,
   kFileChunk = 27,
   kFileRefusal = 28,
+  // tunnel/wire/wire_servers.h.
+  kServers = 29,
 };
 
 enum class Refusal : std::uint16_t {
