@@ -38,7 +38,7 @@ struct Beat {
 
 // What time is it? The answer goes to who asked.
 struct ClockQuestion {
-  ServerId server = 0;  // who asks
+  ServerId server = 0;        // who asks
   std::int64_t asked_us = 0;  // its own clock
 };
 struct ClockAnswer {

@@ -24,7 +24,7 @@ namespace dance {
 class ClusterNode final : public ClusterPort {
  public:
   struct Options {
-    ServerId id = 0;  // random
+    ServerId id = 0;           // random
     std::int64_t born_us = 0;  // wall clock at the process's start
     Address address;           // as guests reach this server
   };

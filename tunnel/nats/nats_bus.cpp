@@ -113,8 +113,7 @@ class ConnectedNatsBus final : public NatsBus {
     counters.failed_values = values_->failed();
     counters.unwritten_values = values_->unwritten();
     counters.reconnects = shared_.reconnects.load(std::memory_order_relaxed);
-    counters.is_connected =
-        natsConnection_Status(connection_.get()) == NATS_CONN_STATUS_CONNECTED;
+    counters.is_connected = natsConnection_Status(connection_.get()) == NATS_CONN_STATUS_CONNECTED;
     return counters;
   }
 

@@ -19,8 +19,8 @@ constexpr auto kStart = std::chrono::seconds(10);
 
 Error without_store(natsStatus status, const NatsOptions& options) {
   const char* detail = nats_GetLastError(nullptr);
-  return Error{"the NATS server at " + shown_urls(options) +
-               " keeps no values (" + natsStatus_GetText(status) +
+  return Error{"the NATS server at " + shown_urls(options) + " keeps no values (" +
+               natsStatus_GetText(status) +
                (detail != nullptr ? std::string(": ") + printable(detail) : std::string()) +
                "): start nats-server with -js, and let this user use JetStream"};
 }
@@ -130,9 +130,8 @@ bool NatsValues::is_erased(natsMsg* message) {
 void NatsValues::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] {
-      return ends_ || renews_ || !to_watch_.empty() || !unwritten_.empty();
-    });
+    changed_.wait(lock,
+                  [this] { return ends_ || renews_ || !to_watch_.empty() || !unwritten_.empty(); });
     if (ends_) return;
     if (std::exchange(renews_, false)) to_watch_.insert(watched_.begin(), watched_.end());
     if (!to_watch_.empty())
@@ -150,10 +149,9 @@ void NatsValues::write_one(std::unique_lock<std::mutex>& lock) {
   unwritten_.erase(next);
   lock.unlock();
   std::uint64_t revision = 0;
-  const natsStatus status =
-      value ? kvStore_Put(&revision, store_.get(), key.c_str(), value->data(),
-                          static_cast<int>(value->size()))
-            : kvStore_Delete(store_.get(), key.c_str());
+  const natsStatus status = value ? kvStore_Put(&revision, store_.get(), key.c_str(), value->data(),
+                                                static_cast<int>(value->size()))
+                                  : kvStore_Delete(store_.get(), key.c_str());
   lock.lock();
   if (status == NATS_OK) {
     if (unwritten_.empty()) changed_.notify_all();

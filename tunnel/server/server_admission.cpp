@@ -24,8 +24,7 @@ std::optional<std::size_t> ServerAdmission::find_token(std::uint64_t token,
                                                        const GuestId& key) const {
   for (std::size_t i = 0; i < server_.sessions.size(); ++i)
     if (server_.sessions[i].in_use && !server_.sessions[i].is_remote() &&
-        server_.sessions[i].token == token &&
-        server_.sessions[i].access.name == key)
+        server_.sessions[i].token == token && server_.sessions[i].access.name == key)
       return i;
   return std::nullopt;
 }

@@ -32,11 +32,10 @@ std::size_t ServerCore::guest_count() const {
 }
 
 std::size_t ServerCore::listener_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(server_.sessions.begin(), server_.sessions.end(),
-                    [](const ServerSession& session) {
-                      return session.in_use && !session.is_remote() && session.slots.empty();
-                    }));
+  return static_cast<std::size_t>(std::count_if(
+      server_.sessions.begin(), server_.sessions.end(), [](const ServerSession& session) {
+        return session.in_use && !session.is_remote() && session.slots.empty();
+      }));
 }
 
 void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram, MonoTime received,

@@ -282,8 +282,7 @@ void ServerFeedback::on_remote_feedback(std::size_t index, std::uint8_t slot,
   RemoteReceivers& there = server_.remotes[session.remote];
   there.path = feedback.path;
   const auto here = [&](const FrameWindow& frames) {
-    const std::uint32_t stream =
-        std::uint32_t{guest.generation} << 16 | (frames.stream() & 0xffff);
+    const std::uint32_t stream = std::uint32_t{guest.generation} << 16 | (frames.stream() & 0xffff);
     return FrameWindow(stream, frames.newest(), frames.bits());
   };
   CommonFrames& frames = there.frames[slot];

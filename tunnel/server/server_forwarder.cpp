@@ -60,8 +60,7 @@ void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTi
   if (guest == nullptr) return server_.reject(ServerReject::kForeignSlot);
   if (!is_timely(record, received)) return;
   if (!guest->records.take(1.0, now)) return server_.reject(ServerReject::kGuestRate);
-  const StreamGate& gate =
-      record.kind == wire::RecordKind::kPose ? guest->poses : guest->hands;
+  const StreamGate& gate = record.kind == wire::RecordKind::kPose ? guest->poses : guest->hands;
   // The link need not know the generation.
   record.stream &= 0xffff;
   const bool is_narrow = record.is_narrow;

@@ -39,8 +39,7 @@ void ServerRemotes::close(const wire::RoomName& name, ServerId server) {
 
 void ServerRemotes::note_alive(ServerId server, Duration round_trip, MonoTime now) {
   for (ServerSession& session : server_.sessions) {
-    if (!session.in_use || !session.is_remote() ||
-        server_.remotes[session.remote].server != server)
+    if (!session.in_use || !session.is_remote() || server_.remotes[session.remote].server != server)
       continue;
     session.last_heard = now;
     session.newest_ping.round_trip_us = static_cast<std::uint32_t>(round_trip.count_us());

@@ -155,8 +155,8 @@ void ReceiverSummary::add(std::uint8_t divider, const FrameWindow& frames) {
 
 void ReceiverSummary::add(const CommonFrames& others) {
   if (others.base_log2 != 0)
-    common_.base_log2 = common_.base_log2 == 0 ? others.base_log2
-                                               : std::min(common_.base_log2, others.base_log2);
+    common_.base_log2 =
+        common_.base_log2 == 0 ? others.base_log2 : std::min(common_.base_log2, others.base_log2);
   common_.intra_log2 = std::min(common_.intra_log2, others.intra_log2);
   // Receivers who all have something may have nothing in common.
   const auto counts = [this](const FrameWindow& frames) {

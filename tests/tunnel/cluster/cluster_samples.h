@@ -61,8 +61,9 @@ inline std::vector<cluster::Message> messages() {
   cluster::RecordMessage channel = record();
   channel.record.kind = wire::RecordKind::kChannel;
   channel.record.channel = 3;
-  return {beat,     cluster::ClockQuestion{6, 7}, cluster::ClockAnswer{8, 9, 10, 11},
-          record(), channel,                      feedback};
+  return {
+      beat,    cluster::ClockQuestion{6, 7}, cluster::ClockAnswer{8, 9, 10, 11}, record(), channel,
+      feedback};
 }
 
 inline std::vector<cluster::Value> values() {

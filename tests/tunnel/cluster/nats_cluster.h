@@ -61,25 +61,26 @@ class NatsCluster : public ::testing::Test {
     const auto number = [](int port, std::size_t i) {
       return std::to_string(port + static_cast<int>(i));
     };
-    std::vector<std::string> arguments{"-a",  "127.0.0.1",
-                                       "-p",  number(kClientPort, which),
-                                       "-js", "-sd",
+    std::vector<std::string> arguments{"-a",
+                                       "127.0.0.1",
+                                       "-p",
+                                       number(kClientPort, which),
+                                       "-js",
+                                       "-sd",
                                        folder_.path("nats-" + std::to_string(which)),
-                                       "-l",  folder_.path("nats-log-" + std::to_string(which))};
+                                       "-l",
+                                       folder_.path("nats-log-" + std::to_string(which))};
     if (of > 1) {
       std::string routes;
       for (std::size_t i = 0; i < of; ++i)
         if (i != which)
           routes += (routes.empty() ? "" : ",") + std::string("nats://127.0.0.1:") +
                     number(kRoutePort, i);
-      const std::vector<std::string> more{"--server_name",
-                                          "n" + std::to_string(which),
-                                          "--cluster_name",
-                                          "dance",
-                                          "--cluster",
-                                          "nats://127.0.0.1:" + number(kRoutePort, which),
-                                          "--routes",
-                                          routes};
+      const std::vector<std::string> more{
+          "--server_name",  "n" + std::to_string(which),
+          "--cluster_name", "dance",
+          "--cluster",      "nats://127.0.0.1:" + number(kRoutePort, which),
+          "--routes",       routes};
       arguments.insert(arguments.end(), more.begin(), more.end());
     }
     nats_.resize(std::max(nats_.size(), which + 1));

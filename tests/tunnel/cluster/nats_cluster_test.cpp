@@ -57,7 +57,8 @@ TEST_F(NatsCluster, AnyProgramMayBeKilled) {
         return std::all_of(guests.begin(), guests.end(), [&](const auto& one) {
           return one->link->is_connected() && one->link->server() != address_of(victim);
         });
-      })) << "kill " << kill << talk();
+      })) << "kill "
+          << kill << talk();
       back_s.push_back((mono_now() - begin).as_seconds());
     }
     ASSERT_TRUE(all_hear_all(15)) << "kill " << kill << talk();

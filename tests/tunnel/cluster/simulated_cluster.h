@@ -54,8 +54,8 @@ class SimulatedCluster {
       start();
     }
     SimulatedTunnel::House& add(const std::string& name, const std::string& room = "salsa") {
-      return tunnel.add_house(room, name.empty() ? std::vector<std::string>{}
-                                                 : std::vector<std::string>{name});
+      return tunnel.add_house(
+          room, name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name});
     }
 
     void set_handlers(Handlers handlers) override { handlers_ = std::move(handlers); }
@@ -66,7 +66,8 @@ class SimulatedCluster {
     void listen(std::string_view subject) override { subjects.insert(std::string(subject)); }
     void end_listen(std::string_view subject) override { subjects.erase(std::string(subject)); }
     void put(std::string_view key, Bytes value) override {
-      cluster_.write(*this, std::string(key), std::vector<std::uint8_t>(value.begin(), value.end()));
+      cluster_.write(*this, std::string(key),
+                     std::vector<std::uint8_t>(value.begin(), value.end()));
     }
     void erase(std::string_view key) override { cluster_.write(*this, std::string(key), {}); }
     void watch(std::string_view keys) override {

@@ -29,10 +29,10 @@ bool ServerChoice::set_others(const wire::ServerList& others) {
   for (const Address& server : others)
     if (server != current_ && std::ranges::find(fresh, server) == fresh.end())
       fresh.push_back(server);
-  const bool is_same = fresh.size() == others_.size() &&
-                       std::ranges::all_of(fresh, [this](const Address& server) {
-                         return std::ranges::find(others_, server) != others_.end();
-                       });
+  const bool is_same =
+      fresh.size() == others_.size() && std::ranges::all_of(fresh, [this](const Address& server) {
+        return std::ranges::find(others_, server) != others_.end();
+      });
   if (is_same) return false;
   others_ = std::move(fresh);
   return true;
@@ -45,9 +45,8 @@ std::vector<Address> ServerChoice::all() const {
 }
 
 std::optional<Address> ServerChoice::choose(const std::vector<Distance>& distances) {
-  std::ranges::stable_sort(others_, std::less<>(), [&](const Address& server) {
-    return distance_of(distances, server);
-  });
+  std::ranges::stable_sort(others_, std::less<>(),
+                           [&](const Address& server) { return distance_of(distances, server); });
   if (others_.empty() || std::exchange(has_chosen_, true)) return std::nullopt;
   const Duration here = distance_of(distances, current_);
   const Duration there = distance_of(distances, others_.front());
