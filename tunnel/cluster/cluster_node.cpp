@@ -147,6 +147,8 @@ void ClusterNode::on_value(std::string_view text, std::optional<cluster::Bytes> 
 
 void ClusterNode::take_presence(Room& room, const cluster::Key& key, bool is_there, MonoTime now) {
   if (key.server == options_.id) {
+    // It is the newest of what was there: all the rest has come before it.
+    if (is_there) server_->remotes().settle(key.room);
     // Somebody took this one for dead.
     if (!is_there)
       put({cluster::KeyKind::kPresence, key.room, options_.id, {}, 0},

@@ -10,6 +10,8 @@ namespace {
 constexpr std::uint64_t kLongestOvertaking_us = 60'000'000;
 // Servers of a cluster tell that they live several times as often.
 constexpr Duration kRemoteSilence = Duration::ms(1000);
+// Reading what lasts takes milliseconds, and as long as this where it must find a leader first.
+constexpr Duration kSettlesWithin = Duration::ms(1500);
 
 }  // namespace
 
@@ -81,7 +83,7 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
   if (const auto objection = objection_to(*hello, access, existing, room, now))
     return refuse(from, hello->nonce, objection->cause, objection->guest);
 
-  if (!room) room = open_room(*hello);
+  if (!room) room = open_room(*hello, now);
   const std::size_t index = existing ? *existing : open_session(from, access, *hello, *room);
   ServerSession& session = server_.sessions[index];
   const bool is_moved = session.peer != from;
@@ -175,7 +177,7 @@ bool ServerAdmission::may_take_over(const ServerGuest& guest, std::uint64_t link
          (guest.link_token == link_token || now - owner.last_heard > kRemoteSilence);
 }
 
-std::size_t ServerAdmission::open_room(const wire::Hello& hello) {
+std::size_t ServerAdmission::open_room(const wire::Hello& hello, MonoTime now) {
   const auto free =
       std::find_if(server_.rooms.begin(), server_.rooms.end(), [](auto& r) { return !r.in_use; });
   DANCE_ASSERT(free != server_.rooms.end());
@@ -192,6 +194,7 @@ std::size_t ServerAdmission::open_room(const wire::Hello& hello) {
   free->has_fresh_states = free->has_first_body = false;
   free->fresh_states_due = MonoTime();
   free->host_count = 0;
+  free->settled_at = server_.cluster != nullptr ? now + kSettlesWithin : MonoTime();
   if (server_.cluster != nullptr) server_.cluster->on_room_opened(*free);
   return static_cast<std::size_t>(free - server_.rooms.begin());
 }

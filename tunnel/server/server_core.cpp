@@ -174,11 +174,14 @@ void ServerCore::end_turn(MonoTime now) {
   }
   // Those who dance come first: what a newcomer is told may be much.
   forwarder_.flush_due(now);
-  if (!server_.newcomers.empty()) {
-    for (const std::size_t newcomer : server_.newcomers) greet(newcomer, now);
-    server_.newcomers.clear();
-    forwarder_.flush_due(now);
-  }
+  const auto is_greeted = [&](std::size_t newcomer) {
+    ServerRoom& room = server_.rooms[server_.sessions[newcomer].room];
+    if (room.settled_at.is_set() && now < room.settled_at) return false;
+    room.settled_at = MonoTime();
+    greet(newcomer, now);
+    return true;
+  };
+  if (std::erase_if(server_.newcomers, is_greeted) > 0) forwarder_.flush_due(now);
   // Last, so that nothing waits for them.
   for (const std::size_t i : server_.changed_rooms)
     if (server_.rooms[i].has_fresh_states && now >= server_.rooms[i].fresh_states_due)
@@ -228,6 +231,8 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : server_.changed_rooms)
     if (const ServerRoom& room = server_.rooms[i]; room.has_fresh_states)
       next = std::min(next, room.fresh_states_due);
+  for (const std::size_t i : server_.newcomers)
+    next = std::min(next, server_.rooms[server_.sessions[i].room].settled_at);
   if (const MonoTime files = files_.next_deadline(); files.is_set()) next = std::min(next, files);
   return next;
 }

@@ -25,6 +25,10 @@ std::optional<std::uint8_t> ServerRemotes::slot_of(const ServerRoom& room, const
   return std::nullopt;
 }
 
+void ServerRemotes::settle(const wire::RoomName& name) {
+  if (ServerRoom* room = find(name)) room->settled_at = MonoTime();
+}
+
 void ServerRemotes::open(const wire::RoomName& name, ServerId server, MonoTime now) {
   const auto room = admission_.find_room(name);
   if (!room || session_of(server_.rooms[*room], server)) return;

@@ -250,6 +250,9 @@ struct ServerRoom {
   MonoTime fresh_states_due;    // not before then
   bool has_first_body = false;  // fresh: a guest's first proportions, without which no pose decodes
   std::vector<std::size_t> members;  // sessions
+  // Of a cluster: it is not known yet who is in it at other servers. Newcomers are told nothing
+  // until then, or they would see all leave who dance on. Not set: known.
+  MonoTime settled_at;
   std::size_t guest_count = 0;
   std::size_t remote_count = 0;  // members that are other servers
   std::size_t host_count = 0;    // links of it with a host's key

@@ -184,20 +184,27 @@ class SimulatedCluster {
       waiting_.emplace_back(&from, key, std::move(bytes));
       return;
     }
-    if (bytes)
+    values.erase(key);
+    written_.erase(key);
+    if (bytes) {
       values[key] = *bytes;
-    else
-      values.erase(key);
+      written_[key] = ++writes_;
+    }
     for (auto& site : sites_)
       if (site->node && site->watches(key))
         site->arrivals.push_back({now_ + delay, true, key, bytes});
   }
   void read_all(Site& to, const std::string& prefix) {
-    for (const auto& [key, bytes] : values)
-      if (key.starts_with(prefix)) to.arrivals.push_back({now_ + delay, true, key, bytes});
+    std::map<std::uint64_t, std::string> in_order;
+    for (const auto& [key, number] : written_)
+      if (key.starts_with(prefix)) in_order[number] = key;
+    for (const auto& [number, key] : in_order)
+      to.arrivals.push_back({now_ + delay, true, key, values.at(key)});
   }
 
   MonoTime now_ = MonoTime::from_us(5'000'000'000);
+  std::map<std::string, std::uint64_t> written_;  // when, by key
+  std::uint64_t writes_ = 0;
   std::vector<std::unique_ptr<Site>> sites_;
   std::vector<std::tuple<Site*, std::string, std::optional<std::vector<std::uint8_t>>>> waiting_;
 };
