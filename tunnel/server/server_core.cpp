@@ -126,6 +126,8 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   std::array<std::uint8_t, 64> out;
   server_.send(session.peer, {out.data(), wire::build(pong, out)});
 
+  // It is told all in one, when the room is known.
+  if (server_.is_newcomer(index)) return;
   // The list may have been lost; of a server that stands alone there is none.
   if (!server_.other_servers.empty() && ping->sequence % kPingsPerServers == 1)
     send_servers(session);
