@@ -197,7 +197,7 @@ TEST(WireRecords, ABriefRecordMeansNothingWithoutOneBefore) {
     auto bytes = brief;
     bytes[0] = first;
     ByteReader in(bytes);
-    RecordChain chain{kNow_us, has_any, 3, kNowTicks};
+    RecordChain chain{kNow_us, has_any, 3, kNowTicks, 0};
     return parse_record(chain, in).has_value();
   };
   EXPECT_TRUE(parsed_behind(true, 0x83));

@@ -21,7 +21,7 @@
 namespace dance {
 
 // As many as a room may have.
-constexpr std::size_t kMaxInterestGuests = 64;
+constexpr std::size_t kMaxInterestGuests = 128;
 
 // By name, as a house says it.
 struct Interest {

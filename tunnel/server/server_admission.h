@@ -60,6 +60,9 @@ class ServerAdmission {
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void bring_guest(std::size_t session, const GuestId& id, std::uint64_t link_token);
   void close_room(std::size_t room);
+  std::uint8_t relocate(ServerRoom& room, std::uint8_t slot);
+  static std::optional<std::uint8_t> free_slot(const ServerRoom& room, bool is_remote);
+  void begin_slot(ServerRoom& room, std::uint8_t slot);
 
   ServerContext& server_;
   ServerFeedback& feedback_;

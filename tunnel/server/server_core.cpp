@@ -141,12 +141,14 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
 void ServerCore::send_roster(const ServerSession& session) {
   const ServerRoom& room = server_.rooms[session.room];
   constexpr std::uint8_t kSpan = wire::kSlotsPerRosterPart;
-  constexpr auto kParts = static_cast<std::uint8_t>(wire::kMaxGuestsPerRoom / kSpan);
-  for (std::uint8_t part = 0; part < kParts; ++part) {
+  constexpr auto kPage = static_cast<std::uint8_t>(wire::kSlotsPerPage / kSpan);
+  constexpr auto kAll = static_cast<std::uint8_t>(wire::kMaxGuestsPerRoom / kSpan);
+  const std::uint8_t parts = session.can_name(wire::kSlotsPerPage) ? kAll : kPage;
+  for (std::uint8_t part = 0; part < parts; ++part) {
     wire::RosterPart roster;
     roster.version = room.roster_version;
     roster.part = part;
-    roster.parts = kParts;
+    roster.parts = parts;
     roster.first_slot = static_cast<std::uint8_t>(part * kSpan);
     roster.slot_span = kSpan;
     for (std::uint8_t i = 0; i < kSpan; ++i) {

@@ -136,7 +136,7 @@ void ServerForwarder::forward(std::size_t from, const wire::Record& record, Mono
     server_.cluster->on_record(room, room.guests[record.slot], record);
   for (const std::size_t member : room.members) {
     if (member == from || server_.sessions[member].is_remote() ||
-        !interest_.take(member, record, now))
+        !server_.sessions[member].can_name(record.slot) || !interest_.take(member, record, now))
       continue;
     if (record.kind == wire::RecordKind::kPose)
       repeat_before(member, room.guests[record.slot], record, now);
@@ -245,7 +245,7 @@ void ServerForwarder::retain(ServerGuest& guest, const wire::Record& record) {
 void ServerForwarder::send_retained(std::size_t to, std::uint8_t slot, MonoTime now) {
   const ServerGuest& guest = server_.rooms[server_.sessions[to].room].guests[slot];
   if (!guest.in_use || guest.owner == to || !guest.retained.is_set ||
-      !server_.sessions[to].filters[slot].wants_any())
+      !server_.sessions[to].filters[slot].wants_any() || !server_.sessions[to].can_name(slot))
     return;
   wire::Record record = guest.retained.record;
   record.payload = {guest.retained.payload.data(), guest.retained.size};

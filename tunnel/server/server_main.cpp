@@ -281,7 +281,7 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--max-rooms", options.limits.rooms, "rooms at a time").range(1, 10'000).shows_default();
   line.add("--max-guests", options.limits.guests_per_room, "guests in a room")
-      .range(1, static_cast<int>(dance::wire::kMaxGuestsPerRoom))
+      .range(1, static_cast<int>(dance::wire::kSlotsPerPage))
       .shows_default();
   line.add("--max-listeners", options.limits.listeners_per_room,
            "links in a room that bring no guests")

@@ -34,7 +34,8 @@ namespace dance {
 struct ServerLimits {
   std::size_t sessions = 256;
   std::size_t rooms = 64;
-  std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
+  // Through links of this server; those of others come to them, up to kMaxGuestsPerRoom together.
+  std::size_t guests_per_room = wire::kSlotsPerPage;
   std::size_t listeners_per_room = 64;  // links without guests
   // Of a cluster: in each room that has links here, each other server whose guests are in it.
   std::size_t remote_servers = 0;
@@ -163,6 +164,10 @@ struct ServerSession {
   // Of a link kMaxGuestsPerLink at most; of another server all of its guests in the room.
   FixedList<std::uint8_t, wire::kMaxGuestsPerRoom> slots;
   std::size_t remote = kNoRemote;  // another server of the cluster, not a link: in remotes
+  std::uint8_t version = wire::kWireVersion;  // of its hello
+  bool can_name(std::uint8_t slot) const {
+    return version >= wire::kWireVersion || slot < wire::kSlotsPerPage;
+  }
   bool is_remote() const { return remote != kNoRemote; }
   std::size_t state_cursor = 0;  // slot to begin with when not all fitted the last time
   TokenBucket datagrams;

@@ -134,7 +134,8 @@ void ServerStates::send(std::size_t index, bool only_fresh, std::size_t most_dat
   for (std::size_t i = 0; i < room.guests.size() && has_room; ++i) {
     const std::size_t slot = (begin + i) % room.guests.size();
     const ServerGuest& guest = room.guests[slot];
-    if (!guest.in_use || guest.owner == index) continue;
+    if (!guest.in_use || guest.owner == index || !session.can_name(static_cast<std::uint8_t>(slot)))
+      continue;
     const wire::Slot where{static_cast<std::uint8_t>(slot), guest.generation};
     for (std::size_t place = 0; place < wire::kGuestStates && has_room; ++place)
       has_room = add(wire::guest_state_at(place), where, {}, guest.states[place]);
