@@ -18,8 +18,8 @@
 #include "core/net/local_socket.h"
 #include "core/net/poller.h"
 #include "core/net/service_manager.h"
-#include "tunnel/server/server_metrics.h"
-#include "tunnel/server/server_status.h"
+#include "tunnel/server/program/server_metrics.h"
+#include "tunnel/server/program/server_status.h"
 
 namespace dance {
 

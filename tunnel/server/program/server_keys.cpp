@@ -1,4 +1,4 @@
-#include "tunnel/server/server_keys.h"
+#include "tunnel/server/program/server_keys.h"
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include "tunnel/server/server_watch.h"
+#include "tunnel/server/program/server_watch.h"
 
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "tunnel/server/server_status.h"
+#include "tunnel/server/program/server_status.h"
 
 namespace dance {
 namespace {

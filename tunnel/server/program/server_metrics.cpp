@@ -1,4 +1,4 @@
-#include "tunnel/server/server_metrics.h"
+#include "tunnel/server/program/server_metrics.h"
 
 #include <prometheus/collectable.h>
 #include <prometheus/exposer.h>

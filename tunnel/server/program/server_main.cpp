@@ -12,8 +12,8 @@
 #include "core/program/talk.h"
 #include "tunnel/nats/nats_bus.h"
 #include "tunnel/server/server.h"
-#include "tunnel/server/server_keys.h"
-#include "tunnel/server/server_watch.h"
+#include "tunnel/server/program/server_keys.h"
+#include "tunnel/server/program/server_watch.h"
 
 namespace dance {
 namespace {
