@@ -21,8 +21,8 @@ namespace dance {
 class NatsBus : public ClusterBus {
  public:
   struct Counters {
-    std::uint64_t dropped_in = 0;   // more than the poller's thread took
-    std::uint64_t dropped_out = 0;  // no connection, or NATS did not read
+    std::uint64_t dropped_in = 0;     // more than the poller's thread took
+    std::uint64_t dropped_out = 0;    // no connection, or NATS did not read
     std::uint64_t failed_values = 0;  // tries that failed; each is tried again
     std::size_t unwritten_values = 0;
     std::uint64_t reconnects = 0;
