@@ -60,8 +60,7 @@ void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTi
   if (guest == nullptr) return server_.reject(ServerReject::kForeignSlot);
   if (!is_timely(record, received)) return;
   if (!guest->records.take(1.0, now)) return server_.reject(ServerReject::kGuestRate);
-  const StreamGate& gate =
-      record.kind == wire::RecordKind::kPose ? guest->poses : guest->hands;
+  const StreamGate& gate = record.kind == wire::RecordKind::kPose ? guest->poses : guest->hands;
   // The link need not know the generation.
   record.stream &= 0xffff;
   const bool is_narrow = record.is_narrow;
@@ -76,6 +75,7 @@ void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTi
 void ServerForwarder::on_remote_record(std::size_t session, wire::Record record, MonoTime now) {
   ServerGuest* guest = server_.guest_of(session, record.slot);
   if (guest == nullptr) return server_.reject(ServerReject::kForeignSlot);
+  ++server_.remotes[server_.sessions[session].remote].meter.records_in;
   if (record.kind == wire::RecordKind::kChannel)
     return take_channel(session, *guest, std::move(record), now);
   if (is_timely(record, now)) take(session, *guest, record, now, now);
@@ -133,12 +133,15 @@ void ServerForwarder::forward(std::size_t from, const wire::Record& record, Mono
   ServerRoom& room = server_.rooms[server_.sessions[from].room];
   // Once for each guest: without the proportions nobody could decode the pose.
   if (room.has_first_body) states_.send_fresh(room, now);
-  if (room.remote_count > 0 && !server_.sessions[from].is_remote())
+  const bool is_remote = server_.sessions[from].is_remote();
+  if (room.remote_count > 0 && !is_remote)
     server_.cluster->on_record(room, room.guests[record.slot], record);
   for (const std::size_t member : room.members) {
-    if (member == from || server_.sessions[member].is_remote() ||
-        !interest_.take(member, record, now))
+    if (server_.sessions[member].is_remote()) {
+      if (!is_remote) ++server_.remotes[server_.sessions[member].remote].meter.records_out;
       continue;
+    }
+    if (member == from || !interest_.take(member, record, now)) continue;
     if (record.kind == wire::RecordKind::kPose)
       repeat_before(member, room.guests[record.slot], record, now);
     add(member, record, now);

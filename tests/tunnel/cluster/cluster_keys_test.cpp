@@ -1,6 +1,6 @@
 // Keys that a cluster shares: what is taken of the bucket, and whose counts where the file has one
 // too.
-#include "tunnel/server/program/cluster_keys.h"
+#include "tunnel/server/program/cluster/cluster_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "core/program/talk.h"
 #include "tunnel/nats/nats_store.h"
 #include "tunnel/seal/key_files.h"
-#include "tunnel/server/program/cluster_keys.h"
+#include "tunnel/server/program/cluster/cluster_keys.h"
 
 namespace dance {
 namespace {

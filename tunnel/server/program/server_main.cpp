@@ -8,7 +8,7 @@
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
-#include "tunnel/server/program/cluster_membership.h"
+#include "tunnel/server/program/cluster/cluster_membership.h"
 #include "tunnel/server/program/key_command.h"
 #include "tunnel/server/program/server_keys.h"
 #include "tunnel/server/program/server_watch.h"
@@ -207,6 +207,14 @@ Result<void> run_server(const ServerProgramOptions& options) {
   };
   shown.to_session = [&](MonoTime now) { return server->to_session(now); };
   shown.handshakes = [&] { return handshakes_of(server->door().counters()); };
+  if (cluster)
+    shown.cluster = [&](MonoTime now) {
+      ClusterStatus status = cluster_status_of(cluster->node(), server->core(), now);
+      status.nats = cluster->bus_counters();
+      status.nats_keys = cluster->key_bus_counters();
+      status.keys = cluster->keys().entries().size();
+      return status;
+    };
   DANCE_TRY(auto watch, ServerWatch::open(server->core(), shown, *poller));
   talk::info("hears on {}; Ctrl-C ends it", local.to_string());
   if (cluster)

@@ -16,7 +16,7 @@
 #include "core/net/poller.h"
 #include "tunnel/cluster/cluster_node.h"
 #include "tunnel/nats/nats_bus.h"
-#include "tunnel/server/program/cluster_keys.h"
+#include "tunnel/server/program/cluster/cluster_keys.h"
 
 namespace dance {
 

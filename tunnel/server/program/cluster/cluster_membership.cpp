@@ -1,4 +1,4 @@
-#include "tunnel/server/program/cluster_membership.h"
+#include "tunnel/server/program/cluster/cluster_membership.h"
 
 #include <chrono>
 

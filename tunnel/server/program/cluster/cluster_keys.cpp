@@ -1,4 +1,4 @@
-#include "tunnel/server/program/cluster_keys.h"
+#include "tunnel/server/program/cluster/cluster_keys.h"
 
 #include "core/base/printable.h"
 #include "tunnel/seal/key_files.h"
