@@ -1,4 +1,5 @@
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "core/base/printable.h"
@@ -19,6 +20,14 @@ Error without_store(natsStatus status, const NatsOptions& options) {
                natsStatus_GetText(status) +
                (detail != nullptr ? std::string(": ") + printable(detail) : std::string()) +
                "): start nats-server with -js, and let this user use JetStream"};
+}
+
+// The server said so beside the call, which was left without an answer.
+std::optional<Error> refusal(natsConnection* connection, const NatsOptions& options) {
+  const char* said = nullptr;
+  if (natsConnection_GetLastError(connection, &said) != NATS_NOT_PERMITTED) return std::nullopt;
+  return Error{"the NATS server at " + shown_urls(options) + " does not let this user use '" +
+               options.bucket + "': " + (said != nullptr ? printable(said) : "not permitted")};
 }
 
 }  // namespace
@@ -45,6 +54,7 @@ Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOption
     natsStatus status = js_KeyValue(&store, stream, options.bucket.c_str());
     if (status != NATS_OK) status = js_CreateKeyValue(&store, stream, &config);
     if (status == NATS_OK) return NatsBucket{std::move(owned), NatsHandle<kvStore>(store)};
+    if (const auto refused = refusal(connection, options)) return tl::make_unexpected(*refused);
     if (status == NATS_NOT_PERMITTED || std::chrono::steady_clock::now() - begin > kStart)
       return tl::make_unexpected(without_store(status, options));
     std::this_thread::sleep_for(kBucketRetry);

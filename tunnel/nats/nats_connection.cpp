@@ -12,17 +12,34 @@ constexpr std::int64_t kPing_ms = 500;
 constexpr int kUnansweredPings = 2;
 constexpr std::int64_t kReconnect_ms = 100;
 
+// Which of the options says who we are, and what may be wrong with it.
+std::string cure_of_refusal(const NatsOptions& options) {
+  if (!options.credentials.empty())
+    return printable(options.credentials) + " is no credentials file of a user of it";
+  if (!options.certificate.empty())
+    return printable(options.certificate) + " is the certificate of none of its users";
+  return "give --cluster-certificate and --cluster-private-key, or --cluster-credentials";
+}
+
 Error not_connected(natsStatus status, const NatsOptions& options) {
   const std::string at = shown_urls(options);
   const char* said = nats_GetLastError(nullptr);
   const std::string detail = said != nullptr ? printable(said) : natsStatus_GetText(status);
   if (status == NATS_CONNECTION_AUTH_FAILED || status == NATS_NOT_PERMITTED)
-    return Error{"the NATS server at " + at + " does not let us in: " +
-                 (options.credentials.empty() ? "give --cluster-credentials FILE"
-                                              : printable(options.credentials) +
-                                                    " is no credentials file of a user of it")};
+    return Error{"the NATS server at " + at + " does not let us in: " + cure_of_refusal(options)};
   if (status == NATS_NO_SERVER)
     return Error{"no NATS server answers at " + at + ": is nats-server running there?"};
+  if (status == NATS_SSL_ERROR)
+    return Error{"NATS at " + at +
+                 ": no TLS: is --cluster-authorities the file of those who signed "
+                 "its certificate, and does that bear the name in the URL? (" +
+                 detail + ")"};
+  if (options.certificate.empty() && (status == NATS_PROTOCOL_ERROR || status == NATS_IO_ERROR ||
+                                      status == NATS_CONNECTION_CLOSED || status == NATS_ERR))
+    return Error{"the NATS server at " + at +
+                 " ends the connection: it may ask for a certificate: "
+                 "--cluster-certificate and --cluster-private-key (" +
+                 detail + ")"};
   return Error{"NATS at " + at + ": " + detail};
 }
 

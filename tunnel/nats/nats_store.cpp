@@ -68,11 +68,15 @@ class ConnectedNatsStore final : public NatsStore {
 
  private:
   Error failure(const char* what, natsStatus status) const {
-    const char* said = status == NATS_TIMEOUT ? nullptr : nats_GetLastError(nullptr);
-    return Error{"the bucket '" + options_.bucket + "' at " + shown_urls(options_) + " " + what +
-                 " (" + natsStatus_GetText(status) +
+    const std::string of = "the bucket '" + options_.bucket + "' at " + shown_urls(options_);
+    const char* said = nullptr;
+    if (natsConnection_GetLastError(connection_.get(), &said) == NATS_NOT_PERMITTED)
+      return Error{of + " " + what +
+                   " by this user: " + (said != nullptr ? printable(said) : "not permitted")};
+    said = status == NATS_TIMEOUT ? nullptr : nats_GetLastError(nullptr);
+    return Error{of + " " + what + " (" + natsStatus_GetText(status) +
                  (said != nullptr ? std::string(": ") + printable(said) : std::string()) +
-                 "): may this user, and are most of the NATS servers up?"};
+                 "): are most of the NATS servers up?"};
   }
 
   NatsOptions options_;
