@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "apps/status/cluster_table.h"
 #include "apps/status/status_source.h"
 #include "apps/status/status_table.h"
 #include "core/net/mono_clock.h"
@@ -18,6 +19,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  dance status                         the server on port 7400, until ctrl-C\n"
     "  dance status --once                  one table, then end\n"
+    "  dance status --cluster               the other servers of its cluster too\n"
     "  dance status --port 7500 --once --json | jq '.rooms[].guests'\n";
 constexpr const char* kClearScreen = "\033[H\033[2J";
 
@@ -25,6 +27,7 @@ struct StatusOptions {
   std::uint16_t port = kDefaultServerPort;
   bool is_once = false;
   bool is_json = false;
+  bool with_cluster = false;
 };
 
 Result<void> show(const StatusOptions& options) {
@@ -39,12 +42,19 @@ Result<void> show(const StatusOptions& options) {
       poller->stop();
       return MonoTime();
     }
+    if (options.with_cluster && !status->contains("cluster")) {
+      ended = fail("the server on port " + std::to_string(options.port) +
+                   " is in no cluster: it was started without --cluster");
+      poller->stop();
+      return MonoTime();
+    }
     if (options.is_json)
       std::printf(
           "%s\n",
           status->dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
     else
-      std::printf("%s%s%s", is_screen ? kClearScreen : "", status_text(*status).c_str(),
+      std::printf("%s%s%s%s", is_screen ? kClearScreen : "", status_text(*status).c_str(),
+                  options.with_cluster ? cluster_text(*status).c_str() : "",
                   options.is_once ? "" : "\n");
     const bool is_written = std::fflush(stdout) == 0;
     // The reader of a pipe (head, less) may have ended.
@@ -66,6 +76,8 @@ int main(int argc, char** argv) {
       "dance status");
   line.add("--port", options.port, "UDP port of the server").range(1, 65535).shows_default();
   line.add_flag("--once", options.is_once, "once, then end");
+  line.add_flag("--cluster", options.with_cluster,
+                "the cluster too: NATS, its servers, and what passes between them");
   line.add_flag("--json", options.is_json, "as JSON, one object a line");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::show(options); });

@@ -10,7 +10,7 @@
 
 #include "core/base/take_line.h"
 #include "core/net/local_socket.h"
-#include "tunnel/server/server_watch.h"
+#include "tunnel/server/program/server_watch.h"
 
 namespace dance {
 namespace {

@@ -1,6 +1,6 @@
 // Reads a server's status on this machine, through the socket that it opens for its user.
 //
-// Units/frames: the answer is the JSON of tunnel/server/server_status.h.
+// Units/frames: the answer is the JSON of tunnel/server/program/server_status.h.
 // Ownership:    plain values.
 // Threads:      any; waits up to two seconds.
 // Failure:      one line that tells no server, another user's server and a silent one apart, each

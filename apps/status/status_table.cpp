@@ -3,44 +3,13 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <optional>
+
+#include "apps/status/status_json.h"
 
 namespace dance {
 namespace {
 
-using json = nlohmann::ordered_json;
-
-const json& member(const json& object, const char* key) {
-  static const json kNothing;
-  if (!object.is_object()) return kNothing;
-  const auto found = object.find(key);
-  return found == object.end() ? kNothing : *found;
-}
-
-std::optional<double> number(const json& object, const char* key) {
-  const json& value = member(object, key);
-  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
-}
-
-// Names are untrusted: control characters do not reach the terminal.
-std::string text(const json& object, const char* key) {
-  const json& value = member(object, key);
-  std::string out = value.is_string() ? value.get<std::string>().substr(0, 48) : "-";
-  for (char& c : out)
-    if (c < ' ' || c > '~') c = '?';
-  return out;
-}
-
-std::string cell(std::optional<double> value, double scale, int digits, const char* unit) {
-  return value ? fmt::format("{:.{}f}{}", *value * scale, digits, unit) : std::string("-");
-}
-
-// The objects of a list; none where there is no list.
-template <class Do>
-void each(const json& list, Do act) {
-  if (!list.is_array()) return;
-  for (const json& entry : list) act(entry);
-}
+using namespace status_json;
 
 void add_rooms(const json& rooms, std::string& out) {
   const auto back = std::back_inserter(out);
@@ -80,17 +49,6 @@ void add_guests(const json& rooms, std::string& out) {
       });
     });
   });
-}
-
-// Only what has happened.
-void add_causes(const char* title, const json& causes, std::string& out) {
-  if (!causes.is_object()) return;
-  std::string line;
-  for (const auto& [name, count] : causes.items()) {
-    if (!count.is_number() || count.get<double>() == 0.0) continue;
-    line += fmt::format("  {} {:.0f}", text(json{{"name", name}}, "name"), count.get<double>());
-  }
-  if (!line.empty()) out += std::string("\n") + title + ":" + line + "\n";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // A server's status as two tables for a terminal: rooms, and who is in them. Below them what was
 // refused, where anything was.
 //
-// Units/frames: the JSON of tunnel/server/server_status.h; what it does not say is a dash.
+// Units/frames: the JSON of tunnel/server/program/server_status.h; what it does not say is a dash.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      what is missing or of another kind is shown as a dash, odd characters as '?'.

@@ -6,7 +6,9 @@
 
 #include "core/codec/hands_codec.h"
 #include "core/codec/lossless_codec.h"
+#include "tests/tunnel/cluster/cluster_samples.h"
 #include "tests/tunnel/datagram_script.h"
+#include "tunnel/seal/preshared_key.h"
 
 namespace dance {
 namespace {
@@ -144,6 +146,39 @@ void write_tunnel(const std::filesystem::path& root) {
   write(root / "tunnel/corpus/link_datagram/conversation", all[false]);
 }
 
+// As cluster_fuzz.cpp reads them: the kind, the length of a subject or key, that, and bytes.
+void write_cluster(const std::filesystem::path& folder) {
+  const auto write_seed = [&](const std::string& name, std::uint8_t kind, std::string_view subject,
+                              const Bytes& bytes) {
+    Bytes seed{kind, static_cast<std::uint8_t>(subject.size())};
+    seed.insert(seed.end(), subject.begin(), subject.end());
+    seed.insert(seed.end(), bytes.begin(), bytes.end());
+    write(folder / name, seed);
+  };
+  const auto salsa = *GuestId::parse("salsa"), alice = *GuestId::parse("alice");
+  const cluster::Text pose = cluster::pose_subject(salsa, alice);
+  int number = 0;
+  for (const cluster::Message& message : cluster_samples::messages()) {
+    write_seed("message_" + std::to_string(number), 0, pose.view(),
+               cluster_samples::bytes_of(message));
+    write_seed("message_at_server_" + std::to_string(number++), 3, pose.view(),
+               cluster_samples::bytes_of(message));
+  }
+  using cluster::KeyKind;
+  const std::array<cluster::Key, 4> keys{cluster::Key{KeyKind::kPresence, salsa, 2, {}, 0},
+                                         cluster::Key{KeyKind::kGuest, salsa, 0, alice, 0},
+                                         cluster::Key{KeyKind::kGuestState, salsa, 0, alice, 1},
+                                         cluster::Key{KeyKind::kRoomState, salsa, 0, {}, 1}};
+  const auto values = cluster_samples::values();
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Bytes bytes = cluster_samples::bytes_of(values[std::min(i, values.size() - 1)]);
+    write_seed("value_" + std::to_string(i), 1, cluster::text_of(keys[i]).view(), bytes);
+    write_seed("value_at_server_" + std::to_string(i), 7, cluster::text_of(keys[i]).view(), bytes);
+  }
+  const std::string line = "alice guest * " + PresharedKey().text();
+  write_seed("key", 2, "alice", Bytes(line.begin(), line.end()));
+}
+
 void write_codec(const std::filesystem::path& root) {
   const auto folder = root / "core_codec/corpus/plain_codec";
   const auto seed = [](std::uint8_t kind, std::span<const std::uint8_t> payload) {
@@ -202,6 +237,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   dance::write_tunnel(argv[1]);
+  dance::write_cluster(std::filesystem::path(argv[1]) / "tunnel/cluster/corpus");
   dance::write_codec(argv[1]);
   const std::filesystem::path corpus = std::filesystem::path(argv[1]) / "core_codec/corpus";
   dance::write_hands(corpus / "hands_codec");

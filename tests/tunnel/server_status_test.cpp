@@ -1,5 +1,5 @@
 // What the server tells of itself, against what really passes through a simulated tunnel.
-#include "tunnel/server/server_status.h"
+#include "tunnel/server/program/server_status.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/allocation_guard.h"
 #include "tests/tunnel/simulated_tunnel.h"
-#include "tunnel/server/server_metrics.h"
+#include "tunnel/server/program/server_metrics.h"
 #include "tunnel/session/arrival_jitter.h"
 
 namespace dance {

@@ -155,10 +155,13 @@ void write(const FrameWindow& frames, ByteWriter& out) {
   out.u16(frames.newest());
   out.u64(frames.bits());
 }
-FrameWindow read_frames(ByteReader& in) {
+// The newest is among the frames, or there are none.
+bool read_frames(ByteReader& in, FrameWindow& frames) {
   const std::uint16_t stream = in.u16();
   const std::uint16_t newest = in.u16();
-  return {stream, newest, in.u64()};
+  const std::uint64_t bits = in.u64();
+  frames = {stream, newest, bits};
+  return in.ok() && frames.bits() == bits;
 }
 
 void write(const FeedbackMessage& message, ByteWriter& out) {
@@ -191,8 +194,8 @@ bool read_entry(ByteReader& in, FeedbackEntry& entry) {
   frames.intra_log2 = in.u8();
   frames.has_full = (flags & kHasFull) != 0;
   frames.has_base = (flags & kHasBase) != 0;
-  if (frames.has_full) frames.full = read_frames(in);
-  if (frames.has_base) frames.base = read_frames(in);
+  if (frames.has_full && !read_frames(in, frames.full)) return false;
+  if (frames.has_base && !read_frames(in, frames.base)) return false;
   return in.ok() && (flags & ~kKnownFrameFlags) == 0 && frames.base_log2 <= kFewestIntra_log2 &&
          frames.intra_log2 <= kFewestIntra_log2;
 }
@@ -387,7 +390,8 @@ Text all_poses_subject(const wire::RoomName& room) {
 }
 
 std::optional<PoseSubject> parse_pose_subject(std::string_view subject) {
-  if (!subject.starts_with(kPosePrefix)) return std::nullopt;
+  // An empty last part would go unnoticed.
+  if (!subject.starts_with(kPosePrefix) || subject.ends_with('.')) return std::nullopt;
   subject.remove_prefix(kPosePrefix.size());
   const auto room = GuestId::parse(take_part(subject));
   const auto guest = GuestId::parse(take_part(subject));
@@ -418,6 +422,7 @@ Text text_of(const Key& key) {
 
 std::optional<Key> parse_key(std::string_view text) {
   Key key;
+  if (text.ends_with('.')) return std::nullopt;
   const auto room = GuestId::parse(take_part(text));
   const std::string_view kind = take_part(text);
   const std::string_view of = take_part(text);

@@ -51,12 +51,14 @@ bool ClusterNode::is_settled(MonoTime now) const {
 void ClusterNode::on_message(std::string_view subject, cluster::Bytes bytes, MonoTime now) {
   now_ = now;
   ++counters_.messages_in;
+  counters_.bytes_in += bytes.size();
   const auto message = cluster::parse_message(bytes);
   if (!message) {
     ++counters_.malformed;
     return;
   }
   if (const auto* record = std::get_if<cluster::RecordMessage>(&*message)) {
+    ++counters_.records_in;
     const auto of = cluster::parse_pose_subject(subject);
     if (!of) {
       ++counters_.malformed;
@@ -304,6 +306,7 @@ void ClusterNode::on_guest_left(const ServerRoom& room, const ServerGuest& guest
 
 void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
                             const wire::Record& record) {
+  ++counters_.records_out;
   send(cluster::pose_subject(room.name, guest.id).view(),
        cluster::RecordMessage{options_.id, guest.link_token, record});
 }
@@ -360,6 +363,7 @@ void ClusterNode::send(std::string_view subject, const cluster::Message& message
   const std::size_t size = cluster::build(message, buffer_);
   DANCE_ASSERT(size > 0);
   ++counters_.messages_out;
+  counters_.bytes_out += size;
   bus_.publish(subject, {buffer_.data(), size});
 }
 

@@ -37,6 +37,10 @@ class ClusterNode final : public ClusterPort {
   struct Counters {
     std::uint64_t messages_in = 0;
     std::uint64_t messages_out = 0;
+    std::uint64_t bytes_in = 0;  // of messages, without NATS's own
+    std::uint64_t bytes_out = 0;
+    std::uint64_t records_in = 0;
+    std::uint64_t records_out = 0;  // once each, however many servers take it
     std::uint64_t values_in = 0;
     std::uint64_t malformed = 0;
     std::uint64_t other_codecs = 0;  // guests whose room speaks another codec here
@@ -63,6 +67,9 @@ class ClusterNode final : public ClusterPort {
   const std::map<ServerId, Peer>& peers() const { return peers_; }
   const Counters& counters() const { return counters_; }
   ServerId id() const { return options_.id; }
+  const Address& address() const { return options_.address; }
+  // Whose clock is the cluster's.
+  ServerId clock_server() const { return followed_ != 0 ? followed_ : leader(); }
 
   // ClusterPort, called by the server.
   void on_room_opened(const ServerRoom& room) override;

@@ -10,14 +10,19 @@
 
 namespace dance {
 
+// What lasts of rooms and guests, and the keys of all servers.
+constexpr const char* kClusterBucket = "dance-1";
+constexpr const char* kKeysBucket = "dance-keys-1";
+
 struct NatsOptions {
   std::vector<std::string> urls;  // nats://host:port, or tls://host:port
-  std::string name;               // of this client, in what NATS shows
+  std::string name = "dance";     // of this client, in what NATS shows
   std::string credentials;        // file of a user's JWT and seed; "" = none
   std::string authorities;        // PEM file of those whose signature a server's certificate bears
   std::string certificate;        // PEM files of our own certificate, for servers that ask for one,
   std::string private_key;        // and of its key
-  int replicas = 0;               // of each value; 0 = 3 where three servers are named, else 1
+  std::string bucket = kClusterBucket;  // of values
+  int replicas = 0;  // of each value; 0 = 3 where three servers are named, else 1
 };
 
 // "nats://a:4222,nats://b:4222" → its parts; a part without a scheme gets one.

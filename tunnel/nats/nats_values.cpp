@@ -4,62 +4,23 @@
 #include <chrono>
 #include <cstring>
 
-#include "core/base/printable.h"
-
 namespace dance {
 namespace {
 
-constexpr const char* kBucket = "dance-1";
-constexpr const char* kStreamName = "KV_dance-1";
-constexpr std::string_view kSubjectPrefix = "$KV.dance-1.";
-constexpr std::int64_t kAnswer_ms = 1000;
 constexpr auto kRetry = std::chrono::milliseconds(100);
-// NATS servers that have just started must find each other first.
-constexpr auto kStart = std::chrono::seconds(10);
-
-Error without_store(natsStatus status, const NatsOptions& options) {
-  const char* detail = nats_GetLastError(nullptr);
-  return Error{"the NATS server at " + shown_urls(options) + " keeps no values (" +
-               natsStatus_GetText(status) +
-               (detail != nullptr ? std::string(": ") + printable(detail) : std::string()) +
-               "): start nats-server with -js, and let this user use JetStream"};
-}
 
 }  // namespace
 
 Result<std::unique_ptr<NatsValues>> NatsValues::open(natsConnection* connection, NatsInbox& inbox,
                                                      const NatsOptions& options) {
-  jsOptions wait;
-  jsOptions_Init(&wait);
-  wait.Wait = kAnswer_ms;
-  jsCtx* stream = nullptr;
-  if (const natsStatus status = natsConnection_JetStream(&stream, connection, &wait);
-      status != NATS_OK)
-    return tl::make_unexpected(without_store(status, options));
-  NatsHandle<jsCtx> owned(stream);
-  kvConfig config;
-  kvConfig_Init(&config);
-  config.Bucket = kBucket;
-  config.History = 1;
-  config.StorageType = js_FileStorage;
-  config.Replicas = options.replicas > 0 ? options.replicas : options.urls.size() >= 3 ? 3 : 1;
-  const auto begin = std::chrono::steady_clock::now();
-  for (;;) {
-    kvStore* store = nullptr;
-    natsStatus status = js_KeyValue(&store, stream, kBucket);
-    if (status != NATS_OK) status = js_CreateKeyValue(&store, stream, &config);
-    if (status == NATS_OK)
-      return std::unique_ptr<NatsValues>(
-          new NatsValues(std::move(owned), NatsHandle<kvStore>(store), inbox));
-    if (status == NATS_NOT_PERMITTED || std::chrono::steady_clock::now() - begin > kStart)
-      return tl::make_unexpected(without_store(status, options));
-    std::this_thread::sleep_for(kRetry);
-  }
+  DANCE_TRY(NatsBucket bucket, open_nats_bucket(connection, options));
+  return std::unique_ptr<NatsValues>(new NatsValues(std::move(bucket), options.bucket, inbox));
 }
 
-NatsValues::NatsValues(NatsHandle<jsCtx> stream, NatsHandle<kvStore> store, NatsInbox& inbox)
-    : stream_(std::move(stream)),
-      store_(std::move(store)),
+NatsValues::NatsValues(NatsBucket bucket, const std::string& name, NatsInbox& inbox)
+    : bucket_(std::move(bucket)),
+      stream_name_("KV_" + name),
+      subject_prefix_("$KV." + name + "."),
       inbox_(inbox),
       thread_([this] { run(); }) {}
 
@@ -114,10 +75,10 @@ void NatsValues::flush(std::chrono::milliseconds longest) {
   changed_.wait_for(lock, longest, [this] { return unwritten_.empty(); });
 }
 
-std::string_view NatsValues::key_of(natsMsg* message) {
+std::string_view NatsValues::key_of(natsMsg* message) const {
   std::string_view subject = natsMsg_GetSubject(message);
-  if (!subject.starts_with(kSubjectPrefix)) return {};
-  subject.remove_prefix(kSubjectPrefix.size());
+  if (!subject.starts_with(subject_prefix_)) return {};
+  subject.remove_prefix(subject_prefix_.size());
   return subject;
 }
 
@@ -149,9 +110,9 @@ void NatsValues::write_one(std::unique_lock<std::mutex>& lock) {
   unwritten_.erase(next);
   lock.unlock();
   std::uint64_t revision = 0;
-  const natsStatus status = value ? kvStore_Put(&revision, store_.get(), key.c_str(), value->data(),
-                                                static_cast<int>(value->size()))
-                                  : kvStore_Delete(store_.get(), key.c_str());
+  const natsStatus status = value ? kvStore_Put(&revision, bucket_.store.get(), key.c_str(),
+                                                value->data(), static_cast<int>(value->size()))
+                                  : kvStore_Delete(bucket_.store.get(), key.c_str());
   lock.lock();
   if (status == NATS_OK) {
     if (unwritten_.empty()) changed_.notify_all();
@@ -184,14 +145,14 @@ NatsHandle<natsSubscription> NatsValues::subscribe(const std::string& keys) {
   jsSubOptions options;
   jsSubOptions_Init(&options);
   options.Ordered = true;
-  options.Stream = kStreamName;
+  options.Stream = stream_name_.c_str();
   options.Config.DeliverPolicy = js_DeliverLastPerSubject;
   const auto on_value = [](natsConnection*, natsSubscription*, natsMsg* message, void* inbox) {
     static_cast<NatsInbox*>(inbox)->push(NatsInbox::Kind::kValue, NatsHandle<natsMsg>(message));
   };
   natsSubscription* subscription = nullptr;
-  const std::string subject = std::string(kSubjectPrefix) + keys;
-  if (js_Subscribe(&subscription, stream_.get(), subject.c_str(), on_value, &inbox_, nullptr,
+  const std::string subject = subject_prefix_ + keys;
+  if (js_Subscribe(&subscription, bucket_.stream.get(), subject.c_str(), on_value, &inbox_, nullptr,
                    &options, nullptr) != NATS_OK)
     return nullptr;
   return NatsHandle<natsSubscription>(subscription);

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "tunnel/nats/nats_connection.h"
 #include "tunnel/nats/nats_inbox.h"
-#include "tunnel/nats/nats_options.h"
 
 namespace dance {
 
@@ -41,7 +41,7 @@ class NatsValues {
   // The connection is another, or values were missed: all that is watched comes anew.
   void renew();
   // The key in a message of the inbox, and whether it was erased.
-  static std::string_view key_of(natsMsg* message);
+  std::string_view key_of(natsMsg* message) const;
   static bool is_erased(natsMsg* message);
 
   // Waits until all is written, or so long: at the end of a program.
@@ -52,14 +52,15 @@ class NatsValues {
  private:
   using Value = std::optional<std::vector<std::uint8_t>>;  // none: erase
 
-  NatsValues(NatsHandle<jsCtx> stream, NatsHandle<kvStore> store, NatsInbox& inbox);
+  NatsValues(NatsBucket bucket, const std::string& name, NatsInbox& inbox);
   void run();
   void write_one(std::unique_lock<std::mutex>& lock);
   void watch_one(std::unique_lock<std::mutex>& lock);
   NatsHandle<natsSubscription> subscribe(const std::string& keys);
 
-  NatsHandle<jsCtx> stream_;
-  NatsHandle<kvStore> store_;
+  NatsBucket bucket_;
+  std::string stream_name_;
+  std::string subject_prefix_;
   NatsInbox& inbox_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -65,6 +65,11 @@ std::optional<KeyKind> find_key_kind(std::string_view name) {
   return static_cast<KeyKind>(found - kKindNames.begin());
 }
 
+std::string line_of(const KeyEntry& entry) {
+  return std::string(entry.name.view()) + " " + std::string(key_kind_name(entry.kind)) + " " +
+         (entry.room.is_set() ? std::string(entry.room.view()) : "*") + " " + entry.key.text();
+}
+
 Result<KeyRing> KeyRing::parse(std::string_view text, const std::string& name) {
   KeyRing ring;
   std::size_t number = 0;
@@ -87,11 +92,7 @@ Result<KeyRing> KeyRing::parse(std::string_view text, const std::string& name) {
 std::string KeyRing::text() const {
   std::string text =
       "# Keys of a dance server: NAME KIND ROOM KEY. Anyone who reads this can enter.\n";
-  for (const KeyEntry& entry : entries_) {
-    text += std::string(entry.name.view()) + " " + std::string(key_kind_name(entry.kind)) + " " +
-            (entry.room.is_set() ? std::string(entry.room.view()) : "*") + " " + entry.key.text() +
-            "\n";
-  }
+  for (const KeyEntry& entry : entries_) text += line_of(entry) + "\n";
   return text;
 }
 

@@ -34,6 +34,9 @@ struct KeyEntry {
   bool operator==(const KeyEntry&) const = default;
 };
 
+// As it stands in the file, without an end of line.
+std::string line_of(const KeyEntry& entry);
+
 class KeyRing {
  public:
   static constexpr std::size_t kMost = 10'000;

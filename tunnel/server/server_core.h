@@ -68,6 +68,7 @@ class ServerCore {
   // For the status line and tests.
   const std::vector<ServerSession>& sessions() const { return server_.sessions; }
   const std::vector<ServerRoom>& rooms() const { return server_.rooms; }
+  const std::vector<RemoteReceivers>& remote_receivers() const { return server_.remotes; }
 
  private:
   void on_session_datagram(std::size_t session, const wire::Opening& opening, MonoTime received,

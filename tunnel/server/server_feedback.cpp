@@ -271,6 +271,7 @@ void ServerFeedback::tell_remote(std::size_t index, MonoTime now) {
     guest.told = news;
     feedback.key_frames = guest.key_frames;
     feedback.frames = receivers_of(index, slot, now).common();
+    ++server_.remotes[session.remote].meter.feedback_out;
     server_.cluster->on_feedback(server_.remotes[session.remote].server, room, guest, feedback);
   }
 }
@@ -281,6 +282,7 @@ void ServerFeedback::on_remote_feedback(std::size_t index, std::uint8_t slot,
   ServerGuest& guest = server_.rooms[session.room].guests[slot];
   RemoteReceivers& there = server_.remotes[session.remote];
   there.path = feedback.path;
+  ++there.meter.feedback_in;
   const auto here = [&](const FrameWindow& frames) {
     const std::uint32_t stream = std::uint32_t{guest.generation} << 16 | (frames.stream() & 0xffff);
     return FrameWindow(stream, frames.newest(), frames.bits());

@@ -75,6 +75,7 @@ void ServerForwarder::on_record(std::size_t session, wire::Record record, MonoTi
 void ServerForwarder::on_remote_record(std::size_t session, wire::Record record, MonoTime now) {
   ServerGuest* guest = server_.guest_of(session, record.slot);
   if (guest == nullptr) return server_.reject(ServerReject::kForeignSlot);
+  ++server_.remotes[server_.sessions[session].remote].meter.records_in;
   if (record.kind == wire::RecordKind::kChannel)
     return take_channel(session, *guest, std::move(record), now);
   if (is_timely(record, now)) take(session, *guest, record, now, now);
@@ -132,11 +133,16 @@ void ServerForwarder::forward(std::size_t from, const wire::Record& record, Mono
   ServerRoom& room = server_.rooms[server_.sessions[from].room];
   // Once for each guest: without the proportions nobody could decode the pose.
   if (room.has_first_body) states_.send_fresh(room, now);
-  if (room.remote_count > 0 && !server_.sessions[from].is_remote())
+  const bool is_remote = server_.sessions[from].is_remote();
+  if (room.remote_count > 0 && !is_remote)
     server_.cluster->on_record(room, room.guests[record.slot], record);
   for (const std::size_t member : room.members) {
-    if (member == from || server_.sessions[member].is_remote() ||
-        !server_.sessions[member].can_name(record.slot) || !interest_.take(member, record, now))
+    if (server_.sessions[member].is_remote()) {
+      if (!is_remote) ++server_.remotes[server_.sessions[member].remote].meter.records_out;
+      continue;
+    }
+    if (member == from || !server_.sessions[member].can_name(record.slot) ||
+        !interest_.take(member, record, now))
       continue;
     if (record.kind == wire::RecordKind::kPose)
       repeat_before(member, room.guests[record.slot], record, now);

@@ -143,9 +143,18 @@ struct ServerCounters {
   }
 };
 
+// What passed between this server and another, of one room, since that one came into it.
+struct RemoteMeter {
+  std::uint64_t records_in = 0;
+  std::uint64_t records_out = 0;  // published once for all servers that are in the room
+  std::uint64_t feedback_in = 0;  // guests that were spoken of
+  std::uint64_t feedback_out = 0;
+};
+
 // The receivers of another server, in one room: as it told last.
 struct RemoteReceivers {
   ServerId server = 0;
+  RemoteMeter meter;
   PathFeedback path;
   std::array<CommonFrames, wire::kMaxGuestsPerRoom> frames;        // by slot of a guest here
   std::array<std::uint8_t, wire::kMaxGuestsPerRoom> key_frames{};  // asked for, counted there

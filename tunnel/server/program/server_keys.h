@@ -1,5 +1,5 @@
-// The keys of `dance server`: the file that it reads and reads again when it changes, and the
-// commands that change it.
+// The keys that `dance server` lets in: those of its file, which it reads again when it changes,
+// and those of its cluster.
 //
 // Units/frames: none.
 // Ownership:    plain values; rings are shared and never changed.
@@ -8,6 +8,7 @@
 //               keys as they were.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -16,40 +17,35 @@
 
 namespace dance {
 
-// Changes to the file that end at once, without a server.
-struct KeyCommand {
-  std::string new_guest;
-  std::string new_room_key;
-  std::string remove;
-  bool list = false;
-  KeyKind kind = KeyKind::kGuest;
-  std::string room;     // the only one that the key opens; "" = every room
-  std::string address;  // HOST[:PORT] as guests reach this server, for the line that they paste
-  bool is_given() const {
-    return !new_guest.empty() || !new_room_key.empty() || !remove.empty() || list;
-  }
-};
-
 class ServerKeys {
  public:
   // `path` "" = server-keys in the folder of keys.
   static Result<ServerKeys> open(const std::string& path);
 
-  // What it has to say goes to stdout: the line to paste, the list.
-  Result<void> run(const KeyCommand& command);
   // With the key of this machine.
   std::shared_ptr<const KeyRing> ring() const { return ring_; }
   const std::string& path() const { return path_; }
   std::size_t guest_count() const { return ring_->entries().size() - 1; }
   // True where the file had changed and was read again; its error, once, where it is bad.
   Result<bool> read_again();
+  // From now on those of the cluster are these.
+  void set_cluster(std::map<GuestId, KeyEntry> keys);
+  // Names that have a key in both: the cluster's counts.
+  std::size_t in_both() const { return in_both_; }
+  // Keys beyond what a ring takes.
+  std::size_t left_out() const { return left_out_; }
 
  private:
   Result<void> read();
+  void unite();
 
   std::string path_;
   std::string read_text_;
   bool was_bad_ = false;
+  KeyRing of_file_;  // and the key of this machine
+  std::map<GuestId, KeyEntry> of_cluster_;
+  std::size_t in_both_ = 0;
+  std::size_t left_out_ = 0;
   std::shared_ptr<const KeyRing> ring_;
 };
 

@@ -1,4 +1,4 @@
-#include "tunnel/server/server_status.h"
+#include "tunnel/server/program/server_status.h"
 
 #include <algorithm>
 

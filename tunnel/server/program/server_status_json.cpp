@@ -1,75 +1,11 @@
 // The snapshot as JSON, written in one go: a full server has four thousand guests, and poses wait
 // meanwhile.
-#include <fmt/format.h>
-
-#include <iterator>
-
-#include "tunnel/server/server_status.h"
+#include "tunnel/server/program/cluster/cluster_status_json.h"
+#include "tunnel/server/program/json_text.h"
+#include "tunnel/server/program/server_status.h"
 
 namespace dance {
 namespace {
-
-// {"a":1,"b":[…]}: members and elements in the order in which they are written.
-class JsonText {
- public:
-  void open(char bracket) {
-    out_ += bracket;
-    is_first_ = true;
-  }
-  void close(char bracket) {
-    out_ += bracket;
-    is_first_ = false;
-  }
-  // Before each element of a list.
-  void next() {
-    if (!is_first_) out_ += ',';
-    is_first_ = false;
-  }
-  void key(std::string_view name) {
-    next();
-    text(name);
-    out_ += ':';
-  }
-  // Names and addresses: what would need to be escaped does not belong there.
-  void text(std::string_view value) {
-    out_ += '"';
-    for (const char c : value) out_ += c < ' ' || c > '~' || c == '"' || c == '\\' ? '?' : c;
-    out_ += '"';
-  }
-  void member(std::string_view name, std::string_view value) {
-    key(name);
-    text(value);
-  }
-  void member(std::string_view name, std::uint64_t value) {
-    key(name);
-    fmt::format_to(std::back_inserter(out_), "{}", value);
-  }
-  // To a thousandth.
-  void member(std::string_view name, double value) {
-    key(name);
-    fmt::format_to(std::back_inserter(out_), "{:.3f}", value);
-  }
-  void member(std::string_view name, const std::optional<double>& value) {
-    if (value) return member(name, *value);
-    key(name);
-    out_ += "null";
-  }
-  void member(std::string_view name, const std::vector<NamedCount>& counts) {
-    key(name);
-    open('{');
-    for (const NamedCount& count : counts) member(count.name, count.count);
-    close('}');
-  }
-  std::string take() { return std::move(out_); }
-
- private:
-  std::string out_;
-  bool is_first_ = true;
-};
-
-std::optional<double> ms_of(const std::optional<Duration>& duration) {
-  return duration ? std::optional(duration->as_ms()) : std::nullopt;
-}
 
 void add_json(const ServerLinkStatus& link, JsonText& json) {
   json.next();
@@ -167,6 +103,7 @@ std::string to_json(const ServerStatus& status) {
   add_counters(status.totals, json);
   json.member("rejects", status.rejects);
   json.member("handshakes", status.handshakes);
+  if (status.cluster) add_json(*status.cluster, json);
   json.close('}');
   return json.take();
 }

@@ -1,4 +1,4 @@
-#include "tunnel/server/server_keys.h"
+#include "tunnel/server/program/key_command.h"
 
 #include <cstdio>
 
@@ -41,54 +41,17 @@ void print_list(const KeyRing& ring) {
 
 }  // namespace
 
-Result<ServerKeys> ServerKeys::open(const std::string& path) {
-  ServerKeys keys;
-  keys.path_ = path;
-  if (path.empty()) {
-    DANCE_TRY(const std::string folder, key_folder());
-    keys.path_ = folder + "/server-keys";
-  }
-  if (auto done = keys.read(); !done) return tl::make_unexpected(done.error());
-  return keys;
-}
-
-Result<void> ServerKeys::read() {
-  DANCE_TRY(const auto text, read_secret(path_));
-  const std::string now = text.value_or("");
-  DANCE_TRY(KeyRing ring, KeyRing::parse(now, path_));
-  DANCE_TRY(ring, with_local_key(std::move(ring)));
-  ring_ = std::make_shared<const KeyRing>(std::move(ring));
-  read_text_ = now;
-  return {};
-}
-
-Result<bool> ServerKeys::read_again() {
-  const auto text = read_secret(path_);
-  const bool is_same = text && text->value_or("") == read_text_;
-  if (is_same) {
-    was_bad_ = false;
-    return false;
-  }
-  if (auto done = read(); !done) {
-    if (was_bad_) return false;
-    was_bad_ = true;
-    return tl::make_unexpected(done.error());
-  }
-  was_bad_ = false;
-  return true;
-}
-
-Result<void> ServerKeys::run(const KeyCommand& command) {
-  DANCE_TRY(KeyRing ring, load_server_keys(path_));
+Result<void> run_key_command(const KeyCommand& command, KeyStore& store) {
   if (command.list) {
+    DANCE_TRY(const KeyRing ring, store.read());
     print_list(ring);
     return {};
   }
   if (!command.remove.empty()) {
-    if (!ring.remove(command.remove))
-      return fail("there is no key of '" + command.remove + "' in " + path_ +
+    DANCE_TRY(const bool was_there, store.remove(command.remove));
+    if (!was_there)
+      return fail("there is no key of '" + command.remove + "' in " + store.name() +
                   "; --list-keys says whose there are");
-    if (auto written = write_secret(path_, ring.text()); !written) return written;
     talk::info("{}'s key is gone; a server that runs lets nobody in with it from now on",
                command.remove);
     return {};
@@ -102,10 +65,10 @@ Result<void> ServerKeys::run(const KeyCommand& command) {
   // The line must be one that the other side can read.
   if (const auto back = HouseKey::parse(line.line()); !back || back->title() != line.title())
     return fail("--address '" + command.address + "' is no HOST or HOST:PORT");
-  if (!ring.add(entry))
-    return fail("'" + std::string(entry.name.view()) + "' has a key already in " + path_ +
+  DANCE_TRY(const bool is_new, store.add(entry));
+  if (!is_new)
+    return fail("'" + std::string(entry.name.view()) + "' has a key already in " + store.name() +
                 "; --remove-key takes it away");
-  if (auto written = write_secret(path_, ring.text()); !written) return written;
   std::printf("%s\n", line.line().c_str());
   return {};
 }

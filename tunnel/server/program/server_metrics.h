@@ -12,7 +12,7 @@
 
 #include "core/base/result.h"
 #include "core/net/address.h"
-#include "tunnel/server/server_status.h"
+#include "tunnel/server/program/server_status.h"
 
 namespace dance {
 

@@ -1,4 +1,4 @@
-#include "tunnel/server/server_watch.h"
+#include "tunnel/server/program/server_watch.h"
 
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
@@ -45,6 +45,7 @@ Result<std::unique_ptr<ServerWatch>> ServerWatch::open(const ServerCore& core,
 ServerWatch::ServerWatch(const ServerCore& core, const Options& options, Poller& poller)
     : poller_(poller),
       handshakes_(options.handshakes),
+      cluster_(options.cluster),
       to_session_(options.to_session),
       maker_(core, options.limits, options.address.to_string(), options.peer_text,
              session_time(mono_now())) {
@@ -70,7 +71,9 @@ ServerWatch::~ServerWatch() {
 ServerStatus ServerWatch::status(MonoTime now) const {
   const std::vector<NamedCount> handshakes =
       handshakes_ ? handshakes_() : std::vector<NamedCount>();
-  return maker_.make(session_time(now), handshakes);
+  ServerStatus status = maker_.make(session_time(now), handshakes);
+  if (cluster_) status.cluster = cluster_(now);
+  return status;
 }
 
 }  // namespace dance

@@ -1,4 +1,4 @@
-#include "tunnel/server/server_metrics.h"
+#include "tunnel/server/program/server_metrics.h"
 
 #include <prometheus/collectable.h>
 #include <prometheus/exposer.h>
@@ -161,10 +161,97 @@ void add_parts(const ServerStatus& status, Page& page) {
              [](const OfGuest& guest) { return Number(static_cast<double>(guest.lost)); });
 }
 
+template <class Value>
+void add_peers(const ClusterStatus& cluster, Page& page, Value value) {
+  for (const ClusterPeerStatus& peer : cluster.peers)
+    if (const std::optional<double> number = value(peer))
+      page.add(*number, {{"server", server_id_text(peer.id)}, {"address", peer.address}});
+}
+
+template <class Value>
+void add_between(const ClusterStatus& cluster, Page& page, Value value) {
+  for (const ClusterLinkStatus& link : cluster.between)
+    if (const std::optional<double> number = value(link))
+      page.add(*number,
+               {{"room", std::string(link.room.view())}, {"server", server_id_text(link.peer)}});
+}
+
+void add_cluster_totals(const ClusterStatus& cluster, Page& page) {
+  const ClusterNode::Counters& node = cluster.node;
+  page.gauge("cluster_nats_connected", "1 where NATS answers, else 0.",
+             cluster.nats.is_connected ? 1.0 : 0.0);
+  page.counter("cluster_nats_reconnects_total", "Times that NATS came back.",
+               cluster.nats.reconnects);
+  page.counter("cluster_nats_dropped_received_total",
+               "Messages from NATS that this server was too slow for.", cluster.nats.dropped_in);
+  page.counter("cluster_nats_dropped_sent_total",
+               "Messages that NATS did not take, or that found no connection.",
+               cluster.nats.dropped_out);
+  page.counter("cluster_nats_failed_values_total", "Values that had to be written once more.",
+               cluster.nats.failed_values);
+  page.gauge("cluster_nats_unwritten_values", "Values that wait to be written.",
+             static_cast<double>(cluster.nats.unwritten_values));
+  page.gauge("cluster_keys", "Keys of the cluster's bucket.", static_cast<double>(cluster.keys));
+  page.gauge("cluster_clock_offset_seconds", "The cluster's clock less this process's.",
+             cluster.clock_offset.as_seconds());
+  page.counter("cluster_clock_steps_total", "Jumps of the cluster's clock here.",
+               cluster.clock_steps);
+  page.counter("cluster_messages_received_total", "Messages of other servers.", node.messages_in);
+  page.counter("cluster_messages_sent_total", "Messages to other servers.", node.messages_out);
+  page.counter("cluster_received_bytes_total", "Bytes of these messages, without NATS's own.",
+               node.bytes_in);
+  page.counter("cluster_sent_bytes_total", "Bytes of these messages, without NATS's own.",
+               node.bytes_out);
+  page.counter("cluster_records_received_total", "Poses and hands from other servers.",
+               node.records_in);
+  page.counter("cluster_records_sent_total",
+               "Poses and hands published, once for all servers that take them.", node.records_out);
+  page.counter("cluster_malformed_total", "Messages and values that were none.", node.malformed);
+  page.counter("cluster_deaths_total", "Times that another server fell silent.", node.deaths);
+}
+
+void add_cluster(const ClusterStatus& cluster, Page& page) {
+  using Peer = ClusterPeerStatus;
+  using Between = ClusterLinkStatus;
+  constexpr MetricType kGauge = MetricType::Gauge;
+  constexpr MetricType kCounter = MetricType::Counter;
+  using Number = std::optional<double>;
+  add_cluster_totals(cluster, page);
+  page.begin("cluster_server_alive", kGauge, "1 where that server beats, else 0.");
+  add_peers(cluster, page, [](const Peer& peer) { return Number(peer.is_alive ? 1.0 : 0.0); });
+  page.begin("cluster_server_last_heard_seconds", kGauge, "Since that server's newest beat.");
+  add_peers(cluster, page, [](const Peer& peer) { return Number(peer.last_heard.as_seconds()); });
+  page.begin("cluster_server_round_trip_seconds", kGauge, "To that server and back, through NATS.");
+  add_peers(cluster, page, [](const Peer& peer) { return seconds_of(peer.round_trip); });
+  page.begin("cluster_server_links", kGauge, "Links of that server.");
+  add_peers(cluster, page, [](const Peer& peer) { return Number(peer.links); });
+  page.begin("cluster_server_guests", kGauge, "Guests that came through that server.");
+  add_peers(cluster, page, [](const Peer& peer) { return Number(peer.guests); });
+  const auto counter = [&](const char* name, const char* help, auto value) {
+    page.begin(name, kCounter, help);
+    add_between(cluster, page,
+                [&](const Between& link) { return Number(static_cast<double>(value(link))); });
+  };
+  counter("cluster_room_records_received_total", "Poses and hands of the room from that server.",
+          [](const Between& link) { return link.meter.records_in; });
+  counter("cluster_room_records_sent_total",
+          "Poses and hands of the room published while that server takes them.",
+          [](const Between& link) { return link.meter.records_out; });
+  counter("cluster_room_feedback_received_total", "Guests that its feedback spoke of.",
+          [](const Between& link) { return link.meter.feedback_in; });
+  counter("cluster_room_feedback_sent_total", "Guests that feedback to it spoke of.",
+          [](const Between& link) { return link.meter.feedback_out; });
+  page.begin("cluster_room_poses_lost", kGauge,
+             "Poses of its guests there that did not come here until now.");
+  add_between(cluster, page,
+              [](const Between& link) { return Number(static_cast<double>(link.poses_lost)); });
+}
+
 std::vector<MetricFamily> families_of(const ServerStatus& status) {
   Page page;
   add_totals(status, page);
   add_parts(status, page);
+  if (status.cluster) add_cluster(*status.cluster, page);
   return page.take();
 }
 

@@ -1,5 +1,5 @@
 // For builds without prometheus-cpp.
-#include "tunnel/server/server_metrics.h"
+#include "tunnel/server/program/server_metrics.h"
 
 namespace dance {
 

@@ -18,8 +18,8 @@
 #include "core/net/local_socket.h"
 #include "core/net/poller.h"
 #include "core/net/service_manager.h"
-#include "tunnel/server/server_metrics.h"
-#include "tunnel/server/server_status.h"
+#include "tunnel/server/program/server_metrics.h"
+#include "tunnel/server/program/server_status.h"
 
 namespace dance {
 
@@ -35,6 +35,8 @@ class ServerWatch {
     ServerStatusMaker::PeerText peer_text;
     // By cause; not set = nobody seals.
     std::function<std::vector<NamedCount>()> handshakes;
+    // Not set = there is none.
+    std::function<ClusterStatus(MonoTime now)> cluster;
     // The clock of the core; not set = the poller's.
     std::function<MonoTime(MonoTime)> to_session;
   };
@@ -54,6 +56,7 @@ class ServerWatch {
 
   Poller& poller_;
   std::function<std::vector<NamedCount>()> handshakes_;
+  std::function<ClusterStatus(MonoTime)> cluster_;
   std::function<MonoTime(MonoTime)> to_session_;
   ServerStatusMaker maker_;
   ServiceManager service_;

@@ -1,19 +1,18 @@
 // dance server: where the houses' links meet.
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "core/net/mono_clock.h"
-#include "core/net/secure_random.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
-#include "tunnel/nats/nats_bus.h"
+#include "tunnel/server/program/cluster/cluster_membership.h"
+#include "tunnel/server/program/key_command.h"
+#include "tunnel/server/program/server_keys.h"
+#include "tunnel/server/program/server_watch.h"
 #include "tunnel/server/server.h"
-#include "tunnel/server/server_keys.h"
-#include "tunnel/server/server_watch.h"
 
 namespace dance {
 namespace {
@@ -24,14 +23,14 @@ constexpr const char* kExamples = R"(Examples:
                                                 prints Alice's key, for her to paste into dance key
   dance server --bind 0.0.0.0                   for houses elsewhere: those who have a key
   dance server --metrics 127.0.0.1:9464         a page for Prometheus at /metrics
+  dance server --cluster nats://a:4222,nats://b:4222,nats://c:4222
+                                                shares its rooms with other servers
   dance server --json > summary.json            what it did, when it is ended with Ctrl-C
 While it runs, `dance status` on the same machine shows its rooms and guests.
 )";
 
 constexpr Duration kSecond = Duration::s(1);
 constexpr int kSecondsPerStatus = 10;
-constexpr Duration kJoinsWithin = Duration::s(10);
-constexpr Duration kJoinTurn = Duration::ms(5);
 // Other servers whose guests share rooms with links of this one, counted once for each room.
 constexpr std::size_t kRemoteServers = 256;
 
@@ -45,16 +44,8 @@ struct ServerProgramOptions {
   SealCertificates certificates;
   double share_ms = -1.0;  // < 0: by the room
   std::string metrics;
-  std::string cluster;
-  NatsOptions nats;
-  std::string cluster_address;
+  ClusterOptions cluster;
   bool json = false;
-};
-
-// NATS between servers, and this server's part in it.
-struct Cluster {
-  std::unique_ptr<NatsBus> bus;
-  std::unique_ptr<ClusterNode> node;
 };
 
 nlohmann::ordered_json summary(const Server& server, Duration uptime) {
@@ -156,43 +147,28 @@ std::vector<NamedCount> handshakes_of(const SealCounters& door) {
   return counts;
 }
 
-NatsOptions nats_of(const ServerProgramOptions& options) {
-  NatsOptions nats = options.nats;
-  nats.urls = nats_urls(options.cluster);
-  nats.name = "dance server " + std::to_string(options.port);
-  return nats;
+// In the cluster's bucket where a cluster is named, or else in this server's file.
+Result<void> change_keys(const ServerProgramOptions& options, const ServerKeys& keys) {
+  if (options.cluster.urls.empty())
+    return run_key_command(options.keys, *file_key_store(keys.path()));
+  DANCE_TRY(const NatsOptions nats, nats_options_of(options.cluster));
+  DANCE_TRY(const auto store, cluster_key_store(nats));
+  return run_key_command(options.keys, *store);
 }
 
-// Connected, and with the clock of the cluster; nothing where none is asked for.
-Result<Cluster> join_cluster(const ServerProgramOptions& options, Poller& poller) {
-  Cluster cluster;
-  if (options.cluster.empty()) return cluster;
-  NatsOptions nats = nats_of(options);
-  if (nats.urls.empty()) return fail("--cluster names no NATS server: nats://HOST:4222");
-  ClusterNode::Options of;
-  while (of.id == 0) of.id = secure_random_u64();
-  of.born_us = std::chrono::duration_cast<std::chrono::microseconds>(
-                   std::chrono::system_clock::now().time_since_epoch())
-                   .count();
-  if (!options.cluster_address.empty()) {
-    DANCE_TRY(of.address, Address::resolve(options.cluster_address, options.port));
-  }
-  DANCE_TRY(cluster.bus, NatsBus::connect(nats, poller));
-  cluster.node = std::make_unique<ClusterNode>(of, *cluster.bus);
-  const MonoTime begin = mono_now();
-  while (!cluster.node->is_settled(mono_now())) {
-    if (poller.is_stopped()) return fail("ended before the cluster was joined");
-    if (mono_now() - begin > kJoinsWithin)
-      return fail("no server of the cluster at " + shown_urls(nats) + " tells the time");
-    cluster.node->tick(mono_now());
-    poller.run_once(kJoinTurn);
-  }
-  return cluster;
+// The keys of the file and of the cluster.
+void unite_keys(ServerKeys& keys, const ClusterKeys& cluster) {
+  keys.set_cluster(cluster.entries());
+  if (keys.in_both() > 0)
+    talk::warn("{} names have a key in {} and another in the cluster: the cluster's counts",
+               keys.in_both(), keys.path());
+  if (keys.left_out() > 0)
+    talk::warn("{} keys are more than a server takes, and open nothing", keys.left_out());
 }
 
 Result<void> run_server(const ServerProgramOptions& options) {
   DANCE_TRY(ServerKeys keys, ServerKeys::open(options.key_file));
-  if (options.keys.is_given()) return keys.run(options.keys);
+  if (options.keys.is_given()) return change_keys(options, keys);
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(Address local, Address::resolve(options.bind, options.port));
@@ -200,14 +176,27 @@ Result<void> run_server(const ServerProgramOptions& options) {
   of.limits = options.limits;
   of.limits.file_bytes = options.avatar_memory_mb << 20;
   if (options.share_ms >= 0.0) of.limits.share_window = Duration::seconds(options.share_ms * 1e-3);
-  of.keys = keys.ring();
   DANCE_TRY(of.certificates, certificates_of(options));
-  DANCE_TRY(const Cluster cluster, join_cluster(options, *poller));
-  of.cluster = cluster.node.get();
-  if (of.cluster != nullptr) of.limits.remote_servers = kRemoteServers;
+  std::unique_ptr<ClusterMembership> cluster;
+  if (!options.cluster.urls.empty()) {
+    ClusterOptions joins = options.cluster;
+    joins.port = options.port;
+    joins.nats.name = "dance server " + std::to_string(options.port);
+    DANCE_TRY(cluster, ClusterMembership::join(joins, *poller));
+    of.cluster = &cluster->node();
+    of.limits.remote_servers = kRemoteServers;
+    unite_keys(keys, cluster->keys());
+  }
+  of.keys = keys.ring();
   DANCE_TRY(auto server, Server::open(local, of, *poller));
-  if (cluster.bus)
-    cluster.bus->set_after_batch([&](MonoTime now) { server->end_cluster_turn(now); });
+  if (cluster) {
+    cluster->set_after_batch([&](MonoTime now) { server->end_cluster_turn(now); });
+    cluster->set_on_keys([&] {
+      unite_keys(keys, cluster->keys());
+      server->set_keys(keys.ring());
+      talk::info("{} keys now", keys.guest_count());
+    });
+  }
   local = server->local_address();
   ServerWatch::Options shown;
   shown.address = local;
@@ -219,11 +208,19 @@ Result<void> run_server(const ServerProgramOptions& options) {
   };
   shown.to_session = [&](MonoTime now) { return server->to_session(now); };
   shown.handshakes = [&] { return handshakes_of(server->door().counters()); };
+  if (cluster)
+    shown.cluster = [&](MonoTime now) {
+      ClusterStatus status = cluster_status_of(cluster->node(), server->core(), now);
+      status.nats = cluster->bus_counters();
+      status.nats_keys = cluster->key_bus_counters();
+      status.keys = cluster->keys().entries().size();
+      return status;
+    };
   DANCE_TRY(auto watch, ServerWatch::open(server->core(), shown, *poller));
   talk::info("hears on {}; Ctrl-C ends it", local.to_string());
-  if (cluster.node)
-    talk::info("in a cluster with {} other servers, through {}", cluster.node->peers().size(),
-               shown_urls(nats_of(options)));
+  if (cluster)
+    talk::info("in a cluster with {} other servers, through {}", cluster->node().peers().size(),
+               shown_urls(*nats_options_of(options.cluster)));
   if (!local.is_loopback() && keys.guest_count() == 0 && !of.certificates)
     talk::warn("nobody elsewhere has a key yet: dance server --new-guest NAME makes one");
 
@@ -234,6 +231,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
   int seconds = 0;
   poller->add_timer(begin + kSecond, [&](MonoTime now) {
     read_keys_again(keys, *server);
+    if (cluster) cluster->tell();
     last_second = server->core().counters();
     auto rejected = last_second.rejected;
     // What comes twice is meant to, where a way loses some.
@@ -250,7 +248,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
 
   watch->say_stopping();
   server->say_goodbye();
-  if (cluster.bus) cluster.bus->flush();
+  if (cluster) cluster->flush();
   const auto report = summary(*server, mono_now() - begin);
   if (options.json)
     std::printf("%s\n", report.dump().c_str());
@@ -292,20 +290,21 @@ int main(int argc, char** argv) {
           "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
           "all (else 0 for up to 8 guests, then more, to 5 for 28)")
       .range(0, 20);
-  line.add("--cluster", options.cluster,
+  line.add("--cluster", options.cluster.urls,
            "NATS servers that join this server with others, as nats://A:4222,nats://B:4222: a room "
            "is wherever one of its guests is");
-  line.add("--cluster-credentials", options.nats.credentials,
+  line.add("--cluster-credentials", options.cluster.nats.credentials,
            "file of the NATS user that this server is");
-  line.add("--cluster-authorities", options.nats.authorities,
+  line.add("--cluster-authorities", options.cluster.nats.authorities,
            "PEM file of those whose signature the NATS servers' certificates bear (tls://)");
-  line.add("--cluster-certificate", options.nats.certificate,
+  line.add("--cluster-certificate", options.cluster.nats.certificate,
            "PEM file of this server's certificate, where NATS asks for one");
-  line.add("--cluster-private-key", options.nats.private_key, "PEM file of its private key");
-  line.add("--cluster-replicas", options.nats.replicas,
+  line.add("--cluster-private-key", options.cluster.nats.private_key,
+           "PEM file of its private key");
+  line.add("--cluster-replicas", options.cluster.nats.replicas,
            "how many NATS servers keep each value (else 3 where three are named, or 1)")
       .range(1, 5);
-  line.add("--cluster-address", options.cluster_address,
+  line.add("--cluster-address", options.cluster.address,
            "HOST:PORT as guests reach this server, told to those of the others");
   line.add("--metrics", options.metrics,
            "HOST:PORT of a page of metrics for Prometheus; none unless asked for");

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/base/time.h"
+#include "tunnel/server/program/cluster/cluster_status.h"
 #include "tunnel/server/server_core.h"
 
 namespace dance {
@@ -74,6 +75,7 @@ struct ServerStatus {
   ServerCounters totals;
   std::vector<NamedCount> rejects;
   std::vector<NamedCount> handshakes;
+  std::optional<ClusterStatus> cluster;
 };
 
 std::string server_version();

@@ -1,0 +1,107 @@
+#include "tunnel/nats/nats_connection.h"
+
+#include <optional>
+
+#include "core/base/printable.h"
+
+namespace dance {
+namespace {
+
+constexpr std::int64_t kConnect_ms = 2000;
+constexpr std::int64_t kPing_ms = 500;
+constexpr int kUnansweredPings = 2;
+constexpr std::int64_t kReconnect_ms = 100;
+
+// Which of the options says who we are, and what may be wrong with it.
+std::string cure_of_refusal(const NatsOptions& options) {
+  if (!options.credentials.empty())
+    return printable(options.credentials) + " is no credentials file of a user of it";
+  if (!options.certificate.empty())
+    return printable(options.certificate) + " is the certificate of none of its users";
+  return "give --cluster-certificate and --cluster-private-key, or --cluster-credentials";
+}
+
+Error not_connected(natsStatus status, const NatsOptions& options) {
+  const std::string at = shown_urls(options);
+  const char* said = nats_GetLastError(nullptr);
+  const std::string detail = said != nullptr ? printable(said) : natsStatus_GetText(status);
+  if (status == NATS_CONNECTION_AUTH_FAILED || status == NATS_NOT_PERMITTED)
+    return Error{"the NATS server at " + at + " does not let us in: " + cure_of_refusal(options)};
+  if (status == NATS_NO_SERVER)
+    return Error{"no NATS server answers at " + at + ": is nats-server running there?"};
+  if (status == NATS_SSL_ERROR)
+    return Error{"NATS at " + at +
+                 ": no TLS: is --cluster-authorities the file of those who signed "
+                 "its certificate, and does that bear the name in the URL? (" +
+                 detail + ")"};
+  if (options.certificate.empty() && (status == NATS_PROTOCOL_ERROR || status == NATS_IO_ERROR ||
+                                      status == NATS_CONNECTION_CLOSED || status == NATS_ERR))
+    return Error{"the NATS server at " + at +
+                 " ends the connection: it may ask for a certificate: "
+                 "--cluster-certificate and --cluster-private-key (" +
+                 detail + ")"};
+  return Error{"NATS at " + at + ": " + detail};
+}
+
+// The step of the options that failed first.
+class Setting {
+ public:
+  void operator()(natsStatus status, std::string what) {
+    if (failed_ || status == NATS_OK) return;
+    const char* said = nats_GetLastError(nullptr);
+    failed_ = Error{std::move(what) + ": " +
+                    (said != nullptr ? printable(said) : natsStatus_GetText(status))};
+  }
+  const std::optional<Error>& failed() const { return failed_; }
+
+ private:
+  std::optional<Error> failed_;
+};
+
+std::optional<Error> set(natsOptions* made, const NatsOptions& options, const NatsCalls& on) {
+  Setting check;
+  std::vector<const char*> urls;
+  for (const std::string& url : options.urls) urls.push_back(url.c_str());
+  check(natsOptions_SetServers(made, urls.data(), static_cast<int>(urls.size())),
+        "--cluster " + shown_urls(options));
+  check(natsOptions_SetName(made, options.name.c_str()), "NATS client's name");
+  // Its own messages would come back, and what is old would be sent after a break.
+  check(natsOptions_SetNoEcho(made, true), "NATS");
+  check(natsOptions_SetSendAsap(made, true), "NATS");
+  check(natsOptions_SetTimeout(made, kConnect_ms), "NATS");
+  check(natsOptions_SetPingInterval(made, kPing_ms), "NATS");
+  check(natsOptions_SetMaxPingsOut(made, kUnansweredPings), "NATS");
+  check(natsOptions_SetMaxReconnect(made, -1), "NATS");
+  check(natsOptions_SetReconnectWait(made, kReconnect_ms), "NATS");
+  check(natsOptions_SetReconnectJitter(made, kReconnect_ms, kReconnect_ms), "NATS");
+  check(natsOptions_UseGlobalMessageDelivery(made, true), "NATS");
+  if (!options.credentials.empty())
+    check(natsOptions_SetUserCredentialsFromFiles(made, options.credentials.c_str(), nullptr),
+          "--cluster-credentials " + printable(options.credentials));
+  if (!options.authorities.empty())
+    check(natsOptions_LoadCATrustedCertificates(made, options.authorities.c_str()),
+          "--cluster-authorities " + printable(options.authorities));
+  if (!options.certificate.empty())
+    check(natsOptions_LoadCertificatesChain(made, options.certificate.c_str(),
+                                            options.private_key.c_str()),
+          "--cluster-certificate " + printable(options.certificate));
+  if (on.reconnected != nullptr)
+    check(natsOptions_SetReconnectedCB(made, on.reconnected, on.closure), "NATS");
+  if (on.error != nullptr) check(natsOptions_SetErrorHandler(made, on.error, on.closure), "NATS");
+  return check.failed();
+}
+
+}  // namespace
+
+Result<NatsHandle<natsConnection>> connect_nats(const NatsOptions& options, const NatsCalls& on) {
+  natsOptions* made = nullptr;
+  if (natsOptions_Create(&made) != NATS_OK) return fail("NATS: no memory");
+  const NatsHandle<natsOptions> of(made);
+  if (const auto failed = set(made, options, on)) return tl::make_unexpected(*failed);
+  natsConnection* connection = nullptr;
+  const natsStatus status = natsConnection_Connect(&connection, made);
+  if (status != NATS_OK) return tl::make_unexpected(not_connected(status, options));
+  return NatsHandle<natsConnection>(connection);
+}
+
+}  // namespace dance

@@ -1,0 +1,64 @@
+#include "tunnel/server/program/cluster/cluster_keys.h"
+
+#include "core/base/printable.h"
+#include "tunnel/seal/key_files.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kWrongCure = "; --remove-key takes it away";
+
+Result<KeyEntry> entry_in(const GuestId& name, std::string_view line) {
+  const std::string where = "the cluster's key of '" + std::string(name.view()) + "'";
+  DANCE_TRY(const KeyRing ring, KeyRing::parse(line, where));
+  if (ring.entries().size() != 1 || ring.entries()[0].name != name)
+    return fail(where + " is another's, or none");
+  return ring.entries()[0];
+}
+
+}  // namespace
+
+void ClusterKeys::take(std::string_view name, std::optional<std::string_view> line) {
+  const auto id = GuestId::parse(name);
+  if (!id || name == kLocalKeyName)
+    return line ? note_wrong("a key of the cluster has a name that none can have: '" +
+                             printable(name.substr(0, kMaxGuestIdLength)) + "'")
+                : void();
+  const auto known = entries_.find(*id);
+  std::optional<KeyEntry> entry;
+  if (line && line->size() > kLongest) {
+    note_wrong("the cluster's key of '" + std::string(name) + "' is longer than any");
+  } else if (line) {
+    auto parsed = entry_in(*id, *line);
+    if (!parsed)
+      note_wrong(printable(parsed.error().what));
+    else if (known == entries_.end() && entries_.size() >= KeyRing::kMost)
+      note_wrong("the cluster has more keys than a server takes: '" + std::string(name) + "'");
+    else
+      entry = *parsed;
+  }
+  if (!entry) {
+    if (known == entries_.end()) return;
+    entries_.erase(known);
+  } else {
+    if (known != entries_.end() && known->second == *entry) return;
+    entries_.insert_or_assign(*id, *entry);
+  }
+  has_changed_ = true;
+}
+
+bool ClusterKeys::take_changed() { return std::exchange(has_changed_, false); }
+
+void ClusterKeys::note_wrong(std::string what) {
+  ++wrong_count_;
+  wrong_ = std::move(what);
+}
+
+std::optional<std::string> ClusterKeys::take_wrong() {
+  const std::size_t count = std::exchange(wrong_count_, 0);
+  if (count == 0) return std::nullopt;
+  return std::move(wrong_) + (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : "") +
+         "; it opens nothing" + kWrongCure;
+}
+
+}  // namespace dance

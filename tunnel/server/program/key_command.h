@@ -1,0 +1,33 @@
+// The commands of `dance server` that make, list and take away keys, and end: in its file, or in a
+// cluster's bucket.
+//
+// Units/frames: none.
+// Ownership:    plain values.
+// Threads:      one.
+// Failure:      each says which name or store, and the cure. Nothing shows a key but the line of a
+//               new one, once, on stdout.
+#pragma once
+
+#include <string>
+
+#include "tunnel/server/program/key_store.h"
+
+namespace dance {
+
+struct KeyCommand {
+  std::string new_guest;
+  std::string new_room_key;
+  std::string remove;
+  bool list = false;
+  KeyKind kind = KeyKind::kGuest;
+  std::string room;     // the only one that the key opens; "" = every room
+  std::string address;  // HOST[:PORT] as guests reach this server, for the line that they paste
+  bool is_given() const {
+    return !new_guest.empty() || !new_room_key.empty() || !remove.empty() || list;
+  }
+};
+
+// What it has to say goes to stdout: the line to paste, the list.
+Result<void> run_key_command(const KeyCommand& command, KeyStore& store);
+
+}  // namespace dance

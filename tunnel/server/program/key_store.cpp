@@ -1,0 +1,87 @@
+#include "tunnel/server/program/key_store.h"
+
+#include "core/program/talk.h"
+#include "tunnel/nats/nats_store.h"
+#include "tunnel/seal/key_files.h"
+#include "tunnel/server/program/cluster/cluster_keys.h"
+
+namespace dance {
+namespace {
+
+class FileKeyStore final : public KeyStore {
+ public:
+  explicit FileKeyStore(std::string path) : path_(std::move(path)) {}
+
+  std::string name() const override { return path_; }
+  Result<KeyRing> read() override { return load_server_keys(path_); }
+  Result<bool> add(const KeyEntry& entry) override {
+    DANCE_TRY(KeyRing ring, read());
+    if (!ring.add(entry)) return false;
+    return write(ring);
+  }
+  Result<bool> remove(const std::string& name) override {
+    DANCE_TRY(KeyRing ring, read());
+    if (!ring.remove(name)) return false;
+    return write(ring);
+  }
+
+ private:
+  Result<bool> write(const KeyRing& ring) {
+    if (auto written = write_secret(path_, ring.text()); !written)
+      return tl::make_unexpected(written.error());
+    return true;
+  }
+
+  std::string path_;
+};
+
+class ClusterKeyStore final : public KeyStore {
+ public:
+  ClusterKeyStore(const NatsOptions& options, std::unique_ptr<NatsStore> store)
+      : name_("the cluster at " + shown_urls(options)), store_(std::move(store)) {}
+
+  std::string name() const override { return name_; }
+  Result<KeyRing> read() override {
+    DANCE_TRY(const auto values, store_->read_all());
+    ClusterKeys keys;
+    for (const auto& [name, value] : values) {
+      keys.take(name, value);
+      if (const auto wrong = keys.take_wrong()) talk::warn("{}", *wrong);
+    }
+    KeyRing ring;
+    for (const auto& [name, entry] : keys.entries()) ring.add(entry);
+    return ring;
+  }
+  Result<bool> add(const KeyEntry& entry) override {
+    DANCE_TRY(const auto values, store_->read_all());
+    if (values.size() >= KeyRing::kMost)
+      return fail(name_ + " has " + std::to_string(values.size()) + " keys, and takes no more");
+    return store_->add(entry.name.view(), line_of(entry));
+  }
+  Result<bool> remove(const std::string& name) override {
+    DANCE_TRY(const auto values, store_->read_all());
+    // Of a wrong entry too: that is its cure.
+    if (!values.contains(name)) return false;
+    if (auto erased = store_->erase(name); !erased) return tl::make_unexpected(erased.error());
+    return true;
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<NatsStore> store_;
+};
+
+}  // namespace
+
+std::unique_ptr<KeyStore> file_key_store(const std::string& path) {
+  return std::make_unique<FileKeyStore>(path);
+}
+
+Result<std::unique_ptr<KeyStore>> cluster_key_store(const NatsOptions& options) {
+  NatsOptions of = options;
+  of.bucket = kKeysBucket;
+  DANCE_TRY(auto store, NatsStore::connect(of));
+  return std::make_unique<ClusterKeyStore>(options, std::move(store));
+}
+
+}  // namespace dance

@@ -1,0 +1,36 @@
+// Where the keys of `dance server` lie: its own file, or the bucket that all servers of a cluster
+// share.
+//
+// Units/frames: none.
+// Ownership:    a store owns its connection.
+// Threads:      one; a bucket's calls wait for NATS.
+// Failure:      each says which file or bucket, and the cure.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/result.h"
+#include "tunnel/nats/nats_options.h"
+#include "tunnel/seal/key_ring.h"
+
+namespace dance {
+
+class KeyStore {
+ public:
+  virtual ~KeyStore() = default;
+  // As errors call it.
+  virtual std::string name() const = 0;
+  // Entries that are wrong are said on stderr, one line each, and left out.
+  virtual Result<KeyRing> read() = 0;
+  // False where the name has a key already.
+  virtual Result<bool> add(const KeyEntry& entry) = 0;
+  // False where there is none of that name.
+  virtual Result<bool> remove(const std::string& name) = 0;
+};
+
+std::unique_ptr<KeyStore> file_key_store(const std::string& path);
+// The options' bucket does not count.
+Result<std::unique_ptr<KeyStore>> cluster_key_store(const NatsOptions& options);
+
+}  // namespace dance
