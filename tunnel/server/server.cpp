@@ -53,11 +53,12 @@ Server::Server(UdpSocket socket, const ServerLimits& limits, ClusterNode* cluste
       socket_(std::move(socket)),
       core_(limits, secure_random_u64, sealed_),
       cluster_(cluster) {
-  if (cluster_ != nullptr) cluster_->attach(core_);
+  if (cluster_ != nullptr) {
+    cluster_->attach(core_);
+    cluster_due_ = MonoTime::from_ns(1);  // at once, whatever else comes first
+  }
   poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
-  // A cluster hears of it at once.
-  timer_ = poller_.add_timer(cluster_ != nullptr ? MonoTime::from_ns(1) : MonoTime(),
-                             [this](MonoTime now) { return tick(now); });
+  timer_ = poller_.add_timer(cluster_due_, [this](MonoTime now) { return tick(now); });
 }
 
 void Server::end_turn(MonoTime now) {

@@ -167,6 +167,18 @@ class NatsCluster : public ::testing::Test {
   }
 
   std::string talk() const { return text_of(folder_.path("talk")); }
+  // And what each server knows of the others, and the NATS servers' own words.
+  std::string all_talk() const {
+    std::string all = talk();
+    for (std::size_t i = 0; i < servers_.size(); ++i)
+      if (servers_[i])
+        all += run(bin("dance-status") + " --cluster --once --port " +
+                   std::to_string(address_of(i).port()))
+                   .output;
+    for (std::size_t i = 0; i < nats_.size(); ++i)
+      all += text_of(folder_.path("nats-log-" + std::to_string(i)));
+    return all;
+  }
 
   TestFolder folder_{"nats-cluster"};
   std::unique_ptr<Poller> poller;

@@ -58,17 +58,17 @@ TEST_F(NatsCluster, AnyProgramMayBeKilled) {
           return one->link->is_connected() && one->link->server() != address_of(victim);
         });
       })) << "kill "
-          << kill << talk();
+          << kill << all_talk();
       back_s.push_back((mono_now() - begin).as_seconds());
     }
-    ASSERT_TRUE(all_hear_all(15)) << "kill " << kill << talk();
+    ASSERT_TRUE(all_hear_all(15)) << "kill " << kill << all_talk();
     EXPECT_EQ(guests[0]->left, left_before) << "nobody left in between, kill " << kill;
     if (is_server)
       start_server(victim);
     else
       start_nats(victim, 3);
     dance(Duration::ms(2500));
-    ASSERT_TRUE(all_hear_all(15)) << "after kill " << kill << talk();
+    ASSERT_TRUE(all_hear_all(15)) << "after kill " << kill << all_talk();
   }
   std::sort(back_s.begin(), back_s.end());
   if (!back_s.empty())
