@@ -19,15 +19,6 @@ std::string_view text_in(ClusterBus::Bytes bytes) {
 
 }  // namespace
 
-Result<NatsOptions> nats_options_of(const ClusterOptions& options) {
-  NatsOptions nats = options.nats;
-  nats.urls = nats_urls(options.urls);
-  if (nats.urls.empty()) return fail("--cluster names no NATS server: nats://HOST:4222");
-  if (nats.certificate.empty() != nats.private_key.empty())
-    return fail("--cluster-certificate and --cluster-private-key belong together");
-  return nats;
-}
-
 Result<std::unique_ptr<ClusterMembership>> ClusterMembership::join(const ClusterOptions& options,
                                                                    Poller& poller) {
   DANCE_TRY(const NatsOptions nats, nats_options_of(options));

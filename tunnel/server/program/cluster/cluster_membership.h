@@ -17,16 +17,9 @@
 #include "tunnel/cluster/cluster_node.h"
 #include "tunnel/nats/nats_bus.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
+#include "tunnel/server/program/cluster/cluster_options.h"
 
 namespace dance {
-
-struct ClusterOptions {
-  std::string urls;  // as nats_urls(); "" = no cluster
-  NatsOptions nats;
-  std::string address;  // HOST:PORT as guests reach this server
-};
-// With the URLs in them.
-Result<NatsOptions> nats_options_of(const ClusterOptions& options);
 
 class ClusterMembership {
  public:
