@@ -55,9 +55,9 @@ Server::Server(UdpSocket socket, const ServerLimits& limits, ClusterNode* cluste
       cluster_(cluster) {
   if (cluster_ != nullptr) cluster_->attach(core_);
   poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
-  // A cluster hears of it at once.
-  timer_ = poller_.add_timer(cluster_ != nullptr ? MonoTime::from_ns(1) : MonoTime(),
-                             [this](MonoTime now) { return tick(now); });
+  // A cluster hears of it at once; also where something of the cluster comes before the first tick.
+  if (cluster_ != nullptr) cluster_due_ = MonoTime::from_ns(1);
+  timer_ = poller_.add_timer(cluster_due_, [this](MonoTime now) { return tick(now); });
 }
 
 void Server::end_turn(MonoTime now) {

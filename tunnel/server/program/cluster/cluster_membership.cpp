@@ -78,14 +78,16 @@ Result<void> ClusterMembership::settle(const NatsOptions& nats, Poller& poller) 
 
 void ClusterMembership::tell() {
   if (const auto wrong = keys_.take_wrong()) talk::warn("{}", *wrong);
-  const bool is_connected = bus_->counters().is_connected;
-  if (std::exchange(was_connected_, is_connected) == is_connected) return;
-  if (is_connected)
+  const NatsBus::Counters now = bus_->counters();
+  const bool has_come_back = std::exchange(reconnects_, now.reconnects) != now.reconnects;
+  const bool was_connected = std::exchange(was_connected_, now.is_connected);
+  if (now.is_connected && (has_come_back || !was_connected)) {
     talk::info("NATS answers again");
-  else
+  } else if (was_connected && !now.is_connected) {
     talk::warn(
         "NATS does not answer: links of this server dance on with each other, and its keys stay as "
         "they are, until it comes back by itself");
+  }
 }
 
 }  // namespace dance
