@@ -1,5 +1,6 @@
 // Where the NATS client library was not there to build with.
 #include "tunnel/nats/nats_bus.h"
+#include "tunnel/nats/nats_examination.h"
 #include "tunnel/nats/nats_store.h"
 
 namespace dance {
@@ -18,5 +19,11 @@ Result<std::unique_ptr<NatsBus>> NatsBus::connect(const NatsOptions&, Poller&) {
 }
 
 Result<std::unique_ptr<NatsStore>> NatsStore::connect(const NatsOptions&) { return fail(kAbsent); }
+
+NatsExamination examine_nats(const NatsOptions&, const std::vector<std::string>&) {
+  NatsExamination found;
+  found.no_connection = Error{kAbsent};
+  return found;
+}
 
 }  // namespace dance

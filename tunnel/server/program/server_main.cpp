@@ -290,17 +290,10 @@ int main(int argc, char** argv) {
           "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
           "all (else 0 for up to 8 guests, then more, to 5 for 28)")
       .range(0, 20);
-  line.add("--cluster", options.cluster.urls,
-           "NATS servers that join this server with others, as nats://A:4222,nats://B:4222: a room "
-           "is wherever one of its guests is");
-  line.add("--cluster-credentials", options.cluster.nats.credentials,
-           "file of the NATS user that this server is");
-  line.add("--cluster-authorities", options.cluster.nats.authorities,
-           "PEM file of those whose signature the NATS servers' certificates bear (tls://)");
-  line.add("--cluster-certificate", options.cluster.nats.certificate,
-           "PEM file of this server's certificate, where NATS asks for one");
-  line.add("--cluster-private-key", options.cluster.nats.private_key,
-           "PEM file of its private key");
+  dance::add_cluster_options(
+      line, options.cluster,
+      "NATS servers that join this server with others, as nats://A:4222,nats://B:4222: a room is "
+      "wherever one of its guests is");
   line.add("--cluster-replicas", options.cluster.nats.replicas,
            "how many NATS servers keep each value (else 3 where three are named, or 1)")
       .range(1, 5);

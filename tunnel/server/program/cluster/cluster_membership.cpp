@@ -20,15 +20,6 @@ std::string_view text_in(ClusterBus::Bytes bytes) {
 
 }  // namespace
 
-Result<NatsOptions> nats_options_of(const ClusterOptions& options) {
-  NatsOptions nats = options.nats;
-  nats.urls = nats_urls(options.urls);
-  if (nats.urls.empty()) return fail("--cluster names no NATS server: nats://HOST:4222");
-  if (nats.certificate.empty() != nats.private_key.empty())
-    return fail("--cluster-certificate and --cluster-private-key belong together");
-  return nats;
-}
-
 Result<std::unique_ptr<ClusterMembership>> ClusterMembership::join(const ClusterOptions& options,
                                                                    Poller& poller) {
   DANCE_TRY(const NatsOptions nats, nats_options_of(options));
@@ -93,14 +84,16 @@ void ClusterMembership::tell() {
   if (others != told_others_)
     talk::info("{} other servers are in the cluster now", told_others_ = others);
   if (const auto wrong = keys_.take_wrong()) talk::warn("{}", *wrong);
-  const bool is_connected = bus_->counters().is_connected;
-  if (std::exchange(was_connected_, is_connected) == is_connected) return;
-  if (is_connected)
+  const NatsBus::Counters now = bus_->counters();
+  const bool has_come_back = std::exchange(reconnects_, now.reconnects) != now.reconnects;
+  const bool was_connected = std::exchange(was_connected_, now.is_connected);
+  if (now.is_connected && (has_come_back || !was_connected)) {
     talk::info("NATS answers again");
-  else
+  } else if (was_connected && !now.is_connected) {
     talk::warn(
         "NATS does not answer: links of this server dance on with each other, and its keys stay as "
         "they are, until it comes back by itself");
+  }
 }
 
 }  // namespace dance

@@ -17,17 +17,9 @@
 #include "tunnel/cluster/cluster_node.h"
 #include "tunnel/nats/nats_bus.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
+#include "tunnel/server/program/cluster/cluster_options.h"
 
 namespace dance {
-
-struct ClusterOptions {
-  std::string urls;  // as nats_urls(); "" = no cluster
-  NatsOptions nats;
-  std::string address;     // HOST[:PORT] as guests reach this server
-  std::uint16_t port = 0;  // of this server
-};
-// With the URLs in them.
-Result<NatsOptions> nats_options_of(const ClusterOptions& options);
 
 class ClusterMembership {
  public:
@@ -63,6 +55,7 @@ class ClusterMembership {
   std::function<void()> on_keys_;
   bool was_connected_ = true;
   std::size_t told_others_ = SIZE_MAX;
+  std::uint64_t reconnects_ = 0;
 };
 
 }  // namespace dance
