@@ -111,6 +111,7 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   if (ping->epoch != static_cast<std::uint32_t>(session.epoch)) return send_goodbye(session.peer);
   session.newest_ping = *ping;
   session.knows_epoch = true;
+  pace_.on_ping(index, now);
   wire::Pong pong;
   pong.sequence = ping->sequence;
   pong.link_time_us = ping->link_time_us;
@@ -184,6 +185,7 @@ void ServerCore::end_turn(MonoTime now) {
 
 void ServerCore::sweep(MonoTime now) {
   files_.forget_absent();
+  pace_.sample(now);
   for (std::size_t i = 0; i < server_.sessions.size(); ++i) {
     ServerSession& session = server_.sessions[i];
     if (!session.in_use) continue;

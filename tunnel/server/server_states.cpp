@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tunnel/wire/state_bytes.h"
+
 namespace dance {
 namespace {
 
@@ -50,6 +52,11 @@ std::optional<wire::StateAck> ServerStates::take(std::size_t session, const wire
       return std::nullopt;
     }
     retain(server_.rooms[server_.sessions[session].room], retained, state);
+    // The only one that is read here: who is near whom (tunnel/server/pace/server_pace.h).
+    Placement placement;
+    if (state.name.kind == wire::StateKind::kPlacement &&
+        decode_from_tunnel(state.payload, placement))
+      guest->place = {placement.x_m, placement.z_m};
   }
   return wire::StateAck{state.name, {state.slot.slot, guest->generation}, retained.version, {}};
 }
