@@ -1,7 +1,7 @@
 // What a crowd did in a span of time: counts that add up over guests, threads and seconds.
 //
-// Units/frames: a delivery is one pose heard by one other guest. Bytes have the seal in them and the
-//               headers of IP and UDP.
+// Units/frames: a delivery is one pose heard by one other guest. Bytes have the seal in them, and
+//               the headers of IP and UDP.
 // Ownership:    plain value of fixed size.
 // Threads:      none inside; one owner.
 // Failure:      none.
