@@ -1,6 +1,9 @@
 #include "apps/crowd/crowd_guest.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/base/assert.h"
 #include "core/net/datagram_sink.h"
@@ -19,7 +22,21 @@ CrowdGuest::CrowdGuest(std::size_t number, const Setting& setting, std::unique_p
       name_(setting.plan.guest_name(setting.plan.place_of(number))),
       phase_(CrowdDances::phase_of(number)),
       made_(mono_now()),
-      heard_(setting.plan.guests_per_room()) {}
+      heard_(setting.plan.guests_per_room()) {
+  find_near();
+}
+
+void CrowdGuest::find_near() {
+  std::vector<std::pair<double, std::size_t>> others;
+  for (std::size_t place = 0; place < heard_.size(); ++place) {
+    if (place == setting_.plan.place_of(number_)) continue;
+    const CrowdDances::Place at = CrowdDances::place_of(place, heard_.size());
+    others.emplace_back(std::hypot(at.x_m - place_.x_m, at.z_m - place_.z_m), place);
+  }
+  std::sort(others.begin(), others.end());
+  for (std::size_t i = 0; i < std::min(kNearGuests, others.size()); ++i)
+    heard_[others[i].second].is_near = true;
+}
 
 LinkOptions CrowdGuest::options() const {
   const CrowdPlan& plan = setting_.plan;
@@ -61,7 +78,7 @@ Result<void> CrowdGuest::join(Poller& poller) {
   DANCE_ASSERT(!link_);
   counted_ = LinkCounters();
   counted_lost_ = 0;
-  for (Heard& heard : heard_) heard = Heard();
+  for (Heard& heard : heard_) heard.is_here = false;
   DANCE_TRY(link_,
             Link::open(setting_.door.addresses, setting_.door.key, options(), handlers(), poller));
   const MonoTime now = mono_now();
@@ -111,7 +128,7 @@ void CrowdGuest::on_joined(const GuestId& guest) {
   Heard* heard = heard_of(guest, number);
   if (heard == nullptr) return;
   heard->is_here = true;
-  heard->first = heard->last = setting_.board.newest(number);
+  heard->last = setting_.board.newest(number);
 }
 
 void CrowdGuest::on_pose(const GuestId& from, const Pose& pose) {
@@ -122,10 +139,16 @@ void CrowdGuest::on_pose(const GuestId& from, const Pose& pose) {
   if (ahead <= 0) return;  // told as missed, or sent before she was here
   const MonoTime sent_at = setting_.board.sent_at(number, pose.sequence);
   if (!sent_at.is_set()) return;
-  tally_.missed += static_cast<std::uint64_t>(ahead - 1);
+  miss(*heard, ahead - 1);
   heard->last = pose.sequence;
   ++tally_.delivered;
+  if (heard->is_near) ++tally_.near_delivered;
   tally_.latency.add(mono_now() - sent_at);
+}
+
+void CrowdGuest::miss(const Heard& heard, std::int32_t poses) {
+  tally_.missed += static_cast<std::uint64_t>(poses);
+  if (heard.is_near) tally_.near_missed += static_cast<std::uint64_t>(poses);
 }
 
 void CrowdGuest::settle(const std::vector<std::uint32_t>& before, MonoTime now) {
@@ -136,7 +159,7 @@ void CrowdGuest::settle(const std::vector<std::uint32_t>& before, MonoTime now) 
     const std::size_t number = setting_.plan.guest_at(room, place);
     const std::int32_t behind = sequence_ahead(heard_[place].last, before[number]);
     if (behind <= 0) continue;
-    tally_.missed += static_cast<std::uint64_t>(behind);
+    miss(heard_[place], behind);
     heard_[place].last = before[number];
   }
   bring_counts(now);

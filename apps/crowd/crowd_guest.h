@@ -31,6 +31,8 @@ struct CrowdDoor {
   LinkKey key;
 };
 
+constexpr std::size_t kNearGuests = 4;
+
 class CrowdGuest {
  public:
   struct Setting {
@@ -60,7 +62,8 @@ class CrowdGuest {
   // What she has heard of another.
   struct Heard {
     bool is_here = false;
-    std::uint32_t first = 0, last = 0;
+    bool is_near = false;    // of the kNearGuests who stand nearest
+    std::uint32_t last = 0;  // sequence
   };
 
   LinkOptions options() const;
@@ -68,6 +71,8 @@ class CrowdGuest {
   void on_pose(const GuestId& from, const Pose& pose);
   void on_joined(const GuestId& guest);
   void bring_counts(MonoTime now);
+  void find_near();
+  void miss(const Heard& heard, std::int32_t poses);
   Heard* heard_of(const GuestId& guest, std::size_t& number);
 
   std::size_t number_;

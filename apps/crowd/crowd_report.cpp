@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "apps/crowd/crowd_guest.h"
 #include "core/program/figures.h"
 
 namespace dance {
@@ -33,6 +34,8 @@ nlohmann::ordered_json json_of(const CrowdTally& tally, std::uint64_t present) {
           {"lost", tally.lost},
           {"undecodable", tally.undecodable},
           {"delivered_share", rounded(tally.share(), kMillionths)},
+          {"near_share", rounded(tally.near_share(), kMillionths)},
+          {"far_share", rounded(tally.far_share(), kMillionths)},
           {"p50_us", rounded(latency.percentile(0.50).as_us(), kTenths)},
           {"p90_us", rounded(latency.percentile(0.90).as_us(), kTenths)},
           {"p99_us", rounded(latency.percentile(0.99).as_us(), kTenths)},
@@ -86,6 +89,9 @@ std::string crowd_summary_text(const CrowdPlan& plan, const CrowdSummary& summar
                  "undecodable): {:.4f} %\n",
                  tally.sent, tally.delivered, tally.missed, tally.lost, tally.undecodable,
                  100.0 * tally.share());
+  fmt::format_to(
+      back, "  near and far        {:.4f} % of the {} nearest guests, {:.4f} % of the others\n",
+      100.0 * tally.near_share(), kNearGuests, 100.0 * tally.far_share());
   fmt::format_to(back, "  guest to guest, µs  p50 {:.0f}, p90 {:.0f}, p99 {:.0f}, worst {:.0f}\n",
                  us(0.50), us(0.90), us(0.99), tally.latency.max().as_us());
   fmt::format_to(back,

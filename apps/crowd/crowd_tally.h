@@ -18,6 +18,7 @@ struct CrowdTally {
   std::uint64_t unsent = 0;   // due while a guest had no session
   std::uint64_t skipped = 0;  // due, and this machine had no time for them
   std::uint64_t delivered = 0;
+  std::uint64_t near_delivered = 0, near_missed = 0;  // of them, of the nearest guests
   std::uint64_t missed = 0;  // sent to somebody who was there, and not heard within 1 to 2 s
   std::uint64_t lost = 0;    // of missed, by the links' own count: without what nobody asked for
   std::uint64_t undecodable = 0;
@@ -35,6 +36,8 @@ struct CrowdTally {
     skipped += more.skipped;
     delivered += more.delivered;
     missed += more.missed;
+    near_delivered += more.near_delivered;
+    near_missed += more.near_missed;
     lost += more.lost;
     undecodable += more.undecodable;
     bytes_up += more.bytes_up;
@@ -47,10 +50,15 @@ struct CrowdTally {
     present += more.present;
     latency.add(more.latency);
   }
+  double share() const { return share_of(delivered, missed); }
+  double near_share() const { return share_of(near_delivered, near_missed); }
+  double far_share() const { return share_of(delivered - near_delivered, missed - near_missed); }
+
+ private:
   // 1 where nothing was due.
-  double share() const {
-    const std::uint64_t due = delivered + missed;
-    return due == 0 ? 1.0 : static_cast<double>(delivered) / static_cast<double>(due);
+  static double share_of(std::uint64_t came, std::uint64_t did_not) {
+    const std::uint64_t due = came + did_not;
+    return due == 0 ? 1.0 : static_cast<double>(came) / static_cast<double>(due);
   }
 };
 

@@ -61,6 +61,8 @@ TEST_F(CrowdPrograms, MeasuresWhatEachGuestHearsOfTheOthers) {
   // Each pose is for the four others of its room; at most a second's are under way at an end.
   EXPECT_GT(sum["delivered"].get<int>(), 0);
   EXPECT_LE(sum["delivered"].get<int>(), 4 * sum["sent"].get<int>() + 2 * 4 * 10 * 30);
+  EXPECT_LE(sum["near_share"].get<double>(), 1.0);
+  EXPECT_EQ(sum["far_share"], 1.0) << "in a room of five all others are near";
   EXPECT_GT(sum["p50_us"].get<double>(), 0.0);
   EXPECT_LE(sum["p50_us"].get<double>(), sum["p90_us"].get<double>());
   EXPECT_LE(sum["p90_us"].get<double>(), sum["p99_us"].get<double>());
