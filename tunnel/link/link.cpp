@@ -152,7 +152,7 @@ MonoTime Link::next_deadline() const {
 Link::~Link() {
   core_.say_goodbye();
   seal_.close();
-  poller_.set_deadline(timer_, MonoTime());
+  poller_.remove_timer(timer_);
   poller_.unwatch(socket_.fd());
   if (addresses_) poller_.unwatch(addresses_->fd());
 }

@@ -38,6 +38,8 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerO
   SealLimits seal = options.seal;
   // A link that begins anew has two for a while.
   seal.peers = std::max(seal.peers, 2 * options.limits.sessions);
+  // One key may be a whole room's, or all of a crowd's.
+  seal.peers_per_key = std::max(seal.peers_per_key, options.limits.sessions);
   DANCE_TRY(server->door_,
             SealServer::make(seal, options.keys, options.certificates, secure_random_u64,
                              std::move(handlers), server->socket_));

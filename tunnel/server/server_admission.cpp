@@ -221,6 +221,7 @@ void ServerAdmission::move_session(std::size_t index, PeerId to) {
   session.epoch = new_epoch();
   session.stream = Stream();
   session.interest = {};
+  session.pace = SessionPace();
   session.filters.fill(InterestFilter());
   session.knows_epoch = false;
   session.feedback_due = session.feedback_alone = MonoTime();

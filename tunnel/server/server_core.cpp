@@ -116,6 +116,7 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   if (ping->epoch != static_cast<std::uint32_t>(session.epoch)) return send_goodbye(session.peer);
   session.newest_ping = *ping;
   session.knows_epoch = true;
+  pace_.on_ping(index, now);
   wire::Pong pong;
   pong.sequence = ping->sequence;
   pong.link_time_us = ping->link_time_us;
@@ -201,6 +202,7 @@ void ServerCore::end_turn(MonoTime now) {
 void ServerCore::sweep(MonoTime now) {
   if (++sweeps_ % kSweepsPerRepeat == 0) remotes_.repeat_feedback(now);
   files_.forget_absent();
+  pace_.sample(now);
   for (std::size_t i = 0; i < server_.sessions.size(); ++i) {
     ServerSession& session = server_.sessions[i];
     if (!session.in_use || session.is_remote()) continue;

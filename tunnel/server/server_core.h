@@ -15,6 +15,7 @@
 #include <functional>
 #include <vector>
 
+#include "tunnel/server/pace/server_pace.h"
 #include "tunnel/server/server_admission.h"
 #include "tunnel/server/server_files.h"
 #include "tunnel/server/server_forwarder.h"
@@ -83,6 +84,7 @@ class ServerCore {
   ServerContext server_;
   ServerFeedback feedback_{server_};
   ServerInterest interest_{server_, feedback_};
+  ServerPace pace_{server_, interest_};
   ServerStates states_{server_};
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerAdmission admission_;

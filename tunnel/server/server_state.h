@@ -20,6 +20,8 @@
 #include "tunnel/server/access.h"
 #include "tunnel/server/cluster_port.h"
 #include "tunnel/server/link_meter.h"
+#include "tunnel/server/pace/pose_flow.h"
+#include "tunnel/server/pace/session_pace.h"
 #include "tunnel/session/arrival_jitter.h"
 #include "tunnel/session/interest_filter.h"
 #include "tunnel/session/peer.h"
@@ -67,20 +69,15 @@ struct ServerLimits {
   double file_bytes_per_second = 2e6;
   double file_bytes_per_second_of_session = 256e3;
   // Records to one receiver wait this long for others to share a datagram with, unless all who
-  // dance have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's
-  // guests.
+  // dance have one in it already; 0 = not beyond the turn. Nothing: as long as the receiver's line
+  // and the server's work ask for, tunnel/server/pace/server_pace.h.
   std::optional<Duration> share_window{};
+  // Up to here each record may have a datagram of its own. A datagram takes about six microseconds
+  // of a core (dance crowd): half of one.
+  double eager_records_per_second = 80e3;
   // Poses go once more with the next where a way loses some.
   bool repeats = true;
 };
-
-// A few never wait: they rarely dance within the same millisecond. In a crowd headers would cost
-// more than poses.
-constexpr Duration share_window_of(std::size_t guests) {
-  constexpr std::size_t kFew = 8, kCrowd = 24;
-  if (guests <= kFew) return Duration();
-  return Duration::us(250) * static_cast<std::int64_t>(std::min(guests, kCrowd) - kFew);
-}
 
 // Why a datagram, or a record of it, went no further.
 enum class ServerReject : std::uint8_t {
@@ -186,6 +183,7 @@ struct ServerSession {
   LinkMeter meter;
   // Records wait here for the end of this turn, or of their window.
   Stream stream;
+  SessionPace pace;
   // What it wants of the others: the list as it said it, and what follows for each slot.
   wire::InterestList interest;
   std::array<InterestFilter, wire::kMaxGuestsPerRoom> filters;
@@ -215,6 +213,11 @@ struct ChannelGate {
   std::uint32_t sequence = 0;
 };
 
+// Where a guest's dance is put on the stage, from the guest's state; the middle before it.
+struct GuestPlace {
+  float x_m = 0.0f, z_m = 0.0f;
+};
+
 // The newest intra frame of a guest, for those who come later.
 struct RetainedPose {
   bool is_set = false;
@@ -232,6 +235,8 @@ struct ServerGuest {
   StreamGate poses;
   StreamGate hands;
   ArrivalJitter jitter;  // of poses
+  PoseFlow flow;
+  GuestPlace place;
   TokenBucket records;
   SentPose previous;  // goes once more to whom it may be lost
   bool key_wanted = false;

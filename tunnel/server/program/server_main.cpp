@@ -288,7 +288,7 @@ int main(int argc, char** argv) {
   line.add(
           "--share-ms", options.share_ms,
           "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
-          "all (else 0 for up to 8 guests, then more, to 5 for 28)")
+          "all (else only where a line or this server cannot do without, to 4)")
       .range(0, 20);
   dance::add_cluster_options(
       line, options.cluster,
