@@ -252,14 +252,14 @@ void ClusterNode::on_room_opened(const ServerRoom& room) {
   rooms_[room.name].codec = room.codec;
   put({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0},
       cluster::PresenceValue{options_.id});
-  bus_.listen(cluster::all_poses_subject(room.name).view());
   bus_.watch(cluster::keys_of(room.name).view());
 }
 
 void ClusterNode::on_room_closed(const ServerRoom& room) {
   const auto of = rooms_.find(room.name);
   if (of == rooms_.end()) return;
-  bus_.end_listen(cluster::all_poses_subject(room.name).view());
+  for (const GuestId& guest : of->second.heard)
+    bus_.end_listen(cluster::pose_subject(room.name, guest).view());
   bus_.end_watch(cluster::keys_of(room.name).view());
   bus_.erase(cluster::text_of({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0}).view());
   // The last to leave takes along what the room had.
@@ -302,6 +302,17 @@ void ClusterNode::on_guest_left(const ServerRoom& room, const ServerGuest& guest
     bus_.erase(
         cluster::text_of({cluster::KeyKind::kGuestState, room.name, 0, guest.id, place}).view());
   }
+}
+
+// A server hears what its own links want, and no more.
+void ClusterNode::on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) {
+  const auto of = rooms_.find(room.name);
+  if (of == rooms_.end()) return;
+  const auto subject = cluster::pose_subject(room.name, guest.id);
+  if (is_wanted && of->second.heard.insert(guest.id).second)
+    bus_.listen(subject.view());
+  else if (!is_wanted && of->second.heard.erase(guest.id) > 0)
+    bus_.end_listen(subject.view());
 }
 
 void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "tunnel/cluster/cluster_bus.h"
@@ -76,6 +77,7 @@ class ClusterNode final : public ClusterPort {
   void on_room_closed(const ServerRoom& room) override;
   void on_guest_came(const ServerRoom& room, const ServerGuest& guest) override;
   void on_guest_left(const ServerRoom& room, const ServerGuest& guest) override;
+  void on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) override;
   void on_record(const ServerRoom& room, const ServerGuest& guest,
                  const wire::Record& record) override;
   void on_state(const ServerRoom& room, const ServerGuest* guest,
@@ -89,6 +91,7 @@ class ClusterNode final : public ClusterPort {
     CodecName codec;
     std::map<ServerId, MonoTime> present;  // since when it is known; other servers
     std::map<GuestId, cluster::GuestValue> guests;
+    std::set<GuestId> heard;  // whose poses are subscribed to
     std::map<std::pair<GuestId, std::size_t>, std::vector<std::uint8_t>> states;  // guest not set:
                                                                                   // the room's
   };

@@ -99,10 +99,7 @@ class SimulatedCluster {
           handlers_.on_value(arrival.name, std::nullopt, now);
       }
     }
-    bool listens_to(const std::string& subject) const {
-      if (subjects.contains(subject)) return true;
-      return subjects.contains(subject.substr(0, subject.rfind('.') + 1) + "*");
-    }
+    bool listens_to(const std::string& subject) const { return subjects.contains(subject); }
     bool watches(const std::string& key) const {
       return std::any_of(watched.begin(), watched.end(),
                          [&](const std::string& prefix) { return key.starts_with(prefix); });
