@@ -30,6 +30,7 @@ ClusterNode::ClusterNode(const Options& options, ClusterBus& bus) : options_(opt
                      },
                      [this](std::string_view key, std::optional<cluster::Bytes> value,
                             MonoTime now) { on_value(key, value, now); },
+                     [this](std::string_view key, MonoTime) { on_all_read(key); },
                      [this](MonoTime now) { on_back(now); }});
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(options_.id).view());
@@ -147,10 +148,18 @@ void ClusterNode::on_value(std::string_view text, std::optional<cluster::Bytes> 
   ++counters_.malformed;
 }
 
+// What was written before this server came to the room comes before its own presence; what was
+// written again meanwhile comes behind it.
+void ClusterNode::on_all_read(std::string_view text) {
+  const auto key = cluster::parse_key(text);
+  const auto room = key ? rooms_.find(key->room) : rooms_.end();
+  if (room != rooms_.end() && room->second.has_presence && server_ != nullptr)
+    server_->remotes().settle(key->room);
+}
+
 void ClusterNode::take_presence(Room& room, const cluster::Key& key, bool is_there, MonoTime now) {
   if (key.server == options_.id) {
-    // It is the newest of what was there: all the rest has come before it.
-    if (is_there) server_->remotes().settle(key.room);
+    room.has_presence = is_there;
     // Somebody took this one for dead.
     if (!is_there)
       put({cluster::KeyKind::kPresence, key.room, options_.id, {}, 0},

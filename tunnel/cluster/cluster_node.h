@@ -89,6 +89,7 @@ class ClusterNode final : public ClusterPort {
   // What the lasting values say of a room with links here.
   struct Room {
     CodecName codec;
+    bool has_presence = false;             // this server's own has been read
     std::map<ServerId, MonoTime> present;  // since when it is known; other servers
     std::map<GuestId, cluster::GuestValue> guests;
     std::set<GuestId> heard;  // whose poses are subscribed to
@@ -102,6 +103,7 @@ class ClusterNode final : public ClusterPort {
 
   void on_message(std::string_view subject, cluster::Bytes bytes, MonoTime now);
   void on_value(std::string_view key, std::optional<cluster::Bytes> bytes, MonoTime now);
+  void on_all_read(std::string_view key);
   void on_back(MonoTime now);
   void take(const cluster::Beat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);
