@@ -15,7 +15,8 @@ constexpr Duration kOldestAnswer = Duration::s(1);
 ClusterProbe::ClusterProbe(ServerId id, ClusterBus& bus) : id_(id), bus_(bus) {
   bus_.set_handlers(
       {[this](std::string_view, cluster::Bytes bytes, MonoTime now) { on_message(bytes, now); },
-       [](std::string_view, std::optional<cluster::Bytes>, MonoTime) {}, [](MonoTime) {}});
+       [](std::string_view, std::optional<cluster::Bytes>, MonoTime) {},
+       [](std::string_view, MonoTime) {}, [](MonoTime) {}});
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(id_).view());
 }
