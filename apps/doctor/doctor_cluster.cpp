@@ -101,7 +101,8 @@ std::vector<Finding> check_servers(const std::map<ServerId, ClusterProbe::Seen>&
   const ClusterProbe::Seen* last = nullptr;
   for (const auto& [id, server] : seen) {
     Finding finding{fmt::format("server {:08x}", id >> 32), Grade::kOk, "", ""};
-    const std::string address = printable(server.beat.address.view());
+    const std::string address =
+        server.beat.address.is_set() ? server.beat.address.to_string() : std::string();
     finding.what = fmt::format("{}{} links, {} guests", address.empty() ? "" : address + ", ",
                                server.beat.links, server.beat.guests);
     if (server.answers == 0) {
