@@ -70,8 +70,7 @@ TEST(ClusterKeys, AWrongEntryOpensNothingAndIsOneWarning) {
 TEST(ClusterKeys, NamesThatNoneCanHaveOpenNothing) {
   ClusterKeys keys;
   const std::string line = line_of(key_entry("alice"));
-  for (const char* name : {"", "Alice", "a.b", kLocalKeyName, "\033[2J"})
-    keys.take(name, line);
+  for (const char* name : {"", "Alice", "a.b", kLocalKeyName, "\033[2J"}) keys.take(name, line);
   EXPECT_TRUE(keys.entries().empty());
   EXPECT_FALSE(keys.take_changed());
   const auto said = keys.take_wrong();
