@@ -47,6 +47,7 @@ constexpr std::array kCommands{
     Command{"top", "channels and programs of the bus, in a terminal"},
     Command{"spy", "lcm-spy with our types"},
     Command{"doctor", "checks this machine, and names what mends it"},
+    Command{"crowd", "simulated guests in rooms of a server: a load generator"},
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
     Command{"capture solve eval",
             "the camera's solver on recorded dances: errors, feet, bones, lag"},

@@ -6,7 +6,6 @@
 
 #include "bench/tunnel/bench_tunnel.h"
 #include "core/program/figures.h"
-#include "tunnel/server/server_state.h"
 
 namespace dance {
 namespace {
@@ -77,12 +76,10 @@ std::string bench_tunnel_table(const BenchTunnelOptions& options, const TunnelWa
       options.guests, options.hz, options.seconds);
   add_rows(ways, &TunnelWay::together, out);
   out += "\nspread evenly over the frame";
-  const double window_ms =
-      options.share_ms >= 0.0 ? options.share_ms : share_window_of(options.guests).as_ms();
-  if (window_ms > 0.0)
+  if (options.share_ms > 0.0)
     fmt::format_to(back,
                    "; the server lets poses wait up to {:g} ms to share a datagram (--share-ms)",
-                   window_ms);
+                   options.share_ms);
   out += '\n';
   add_rows(ways, &TunnelWay::spread, out);
   return out;

@@ -4,6 +4,7 @@
 #include "bench/tunnel/crowd.h"
 #include "core/base/assert.h"
 #include "core/net/mono_clock.h"
+#include "testing/undecoded_poses.h"
 #include "tunnel/link/link.h"
 #include "tunnel/seal/key_files.h"
 
@@ -12,31 +13,25 @@ namespace {
 
 GuestId guest_name(std::size_t number) { return *GuestId::parse("g" + std::to_string(number)); }
 
-// Counts what comes. Guests who only make the crowd do not look at it: what the others of a real
-// crowd decode, they decode on machines of their own.
+// Counts what comes.
 class CountingDecoder final : public PoseDecoder {
  public:
   CountingDecoder(CodecName name, bool is_deaf, Traffic& traffic)
-      : name_(name), real_(is_deaf ? nullptr : make_pose_decoder(name)), traffic_(traffic) {}
-  CodecName name() const override { return name_; }
+      : real_(is_deaf ? std::make_unique<UndecodedPoses>(name) : make_pose_decoder(name)),
+        traffic_(traffic) {}
+  CodecName name() const override { return real_->name(); }
   DecodeResult decode(std::uint32_t sequence, std::span<const std::uint8_t> payload,
                       Pose& pose) override {
-    const DecodeResult result =
-        real_ ? real_->decode(sequence, payload, pose) : DecodeResult::kPose;
+    const DecodeResult result = real_->decode(sequence, payload, pose);
     if (result != DecodeResult::kPose) return result;
     ++traffic_.poses_down;
     traffic_.payload_down += payload.size();
     return result;
   }
-  void restart() override {
-    if (real_) real_->restart();
-  }
-  void set_skeleton(const Skeleton& skeleton) override {
-    if (real_) real_->set_skeleton(skeleton);
-  }
+  void restart() override { real_->restart(); }
+  void set_skeleton(const Skeleton& skeleton) override { real_->set_skeleton(skeleton); }
 
  private:
-  CodecName name_;
   std::unique_ptr<PoseDecoder> real_;
   Traffic& traffic_;
 };

@@ -24,6 +24,11 @@ class Histogram {
     ++count_;
     if (d > max_) max_ = d;
   }
+  void add(const Histogram& more) {
+    for (std::size_t i = 0; i < buckets_.size(); ++i) buckets_[i] += more.buckets_[i];
+    count_ += more.count_;
+    max_ = std::max(max_, more.max_);
+  }
   void clear() { *this = Histogram(); }
   std::uint64_t count() const { return count_; }
   Duration max() const { return max_; }

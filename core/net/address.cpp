@@ -114,6 +114,15 @@ Address Address::any_ipv4(std::uint16_t port) {
   return address;
 }
 
+Address Address::of(std::span<const std::uint8_t> ip, std::uint16_t port) {
+  Address address;
+  if (ip.size() != 4 && ip.size() != 16) return address;
+  std::copy(ip.begin(), ip.end(), address.ip_.begin());
+  address.family_ = ip.size() == 4 ? Family::kIpv4 : Family::kIpv6;
+  address.port_ = port;
+  return address;
+}
+
 Address Address::loopback(std::uint16_t port) {
   Address address;
   address.family_ = Family::kIpv4;

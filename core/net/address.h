@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,8 @@ class Address {
   static Result<std::vector<Address>> resolve_all(std::string_view text,
                                                   std::uint16_t default_port = 0);
   static Address from_sockaddr(const sockaddr_storage& raw);
+  // 4 or 16 bytes as they stand in a datagram's header; not set for any other number of them.
+  static Address of(std::span<const std::uint8_t> ip, std::uint16_t port);
   static Address loopback(std::uint16_t port);
   static Address any_ipv4(std::uint16_t port);  // 0.0.0.0
 

@@ -70,8 +70,20 @@ void Poller::unwatch(int fd) {
 }
 
 Poller::TimerId Poller::add_timer(MonoTime first, OnDue on_due) {
-  timers_.push_back({first, std::move(on_due)});
-  return timers_.size() - 1;
+  if (free_timers_.empty()) {
+    timers_.push_back({first, std::move(on_due)});
+    return timers_.size() - 1;
+  }
+  const TimerId timer = free_timers_.back();
+  free_timers_.pop_back();
+  timers_[timer] = {first, std::move(on_due)};
+  return timer;
+}
+
+void Poller::remove_timer(TimerId timer) {
+  DANCE_ASSERT(timer < timers_.size(), timer, timers_.size());
+  timers_[timer].deadline = MonoTime();
+  removed_timers_.push_back(timer);
 }
 
 void Poller::set_deadline(TimerId timer, MonoTime deadline) {
@@ -132,12 +144,16 @@ void Poller::fire_due_timers(MonoTime now) {
     timers_[i].deadline = MonoTime();
     const OnDue& on_due = timers_[i].on_due;
     const MonoTime next = on_due(now);
-    if (!timers_[i].deadline.is_set()) timers_[i].deadline = next;
+    const bool is_removed =
+        std::find(removed_timers_.begin(), removed_timers_.end(), i) != removed_timers_.end();
+    if (!timers_[i].deadline.is_set() && !is_removed) timers_[i].deadline = next;
   }
 }
 
 void Poller::run_once(Duration longest) {
   std::erase_if(watches_, [](const auto& watch) { return watch->fd < 0; });
+  free_timers_.insert(free_timers_.end(), removed_timers_.begin(), removed_timers_.end());
+  removed_timers_.clear();
   arm(earliest_deadline());
   std::array<epoll_event, kEventsPerTurn> events{};
   const auto timeout_ms = static_cast<int>(std::min<std::int64_t>(longest.count_ms(), 60'000));

@@ -37,6 +37,8 @@ class Poller {
   TimerId add_timer(MonoTime first, OnDue on_due);
   // Moves a timer's next deadline; MonoTime() stops it.
   void set_deadline(TimerId timer, MonoTime deadline);
+  // Its number may be another timer's from the next turn on.
+  void remove_timer(TimerId timer);
   // Runs after the handlers of every turn that did something.
   void at_turn_end(OnReadable work) { turn_end_ = std::move(work); }
 
@@ -73,7 +75,9 @@ class Poller {
   MonoTime armed_;
   bool stopped_ = false;
   std::vector<std::unique_ptr<Watch>> watches_;
-  std::deque<Timer> timers_;  // grows while handlers run: references must hold
+  std::deque<Timer> timers_;             // grows while handlers run: references must hold
+  std::vector<TimerId> removed_timers_;  // in this turn: one may be running
+  std::vector<TimerId> free_timers_;
   OnReadable turn_end_;
 };
 

@@ -79,12 +79,15 @@ bool ChildProcess::has_ended() {
   return ended_;
 }
 
-Duration ChildProcess::cpu_time() const {
+std::optional<Duration> cpu_time_of(pid_t process) {
   clockid_t clock{};
   timespec time{};
-  if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &time) != 0) return Duration();
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0)
+    return std::nullopt;
   return Duration::s(time.tv_sec) + Duration::ns(time.tv_nsec);
 }
+
+Duration ChildProcess::cpu_time() const { return cpu_time_of(pid_).value_or(Duration()); }
 
 bool ChildProcess::wait(Duration timeout) {
   for (Duration waited; !has_ended() && waited < timeout; waited += Duration::ms(5)) usleep(5000);

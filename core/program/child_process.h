@@ -9,6 +9,7 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@
 #include "core/base/time.h"
 
 namespace dance {
+
+// Processor time of a process so far, also of another user's; nothing where there is none.
+std::optional<Duration> cpu_time_of(pid_t process);
 
 class ChildProcess {
  public:

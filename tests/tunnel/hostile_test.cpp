@@ -358,7 +358,7 @@ TEST_F(HostileHello, AnotherVersionIsToldSo) {
   EXPECT_EQ(refusal->cause, wire::Refusal::kVersion);
   EXPECT_EQ(refusal->nonce, hello.nonce);
   EXPECT_EQ(refusal->server_version, wire::kWireVersion);
-  EXPECT_NE(refusal_line(*refusal, guest("salsa")).find("version 4"), std::string::npos);
+  EXPECT_NE(refusal_line(*refusal, guest("salsa")).find("version 5"), std::string::npos);
 }
 
 TEST_F(Hostile, AFloodOfOneSessionIsCutToItsRate) {

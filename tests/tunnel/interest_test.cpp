@@ -239,5 +239,35 @@ TEST_F(InterestRoom, HandsComeAsOftenAsPoses) {
   EXPECT_EQ(none.hands.size(), 0u);
 }
 
+TEST_F(InterestRoom, ADancerWhomAllSeeFromAfarIsSentCoarserUntilSomebodyComesNear) {
+  House& alice = add("alice");
+  House& bob = add("bob", {"default=4"});
+  House& carol = add("carol", {"default=2"});
+  const auto quality_m = [&] { return alice.link->local_stats().at(0).quality_m; };
+  Dance dance{tunnel, {{&alice, guest("alice")}}};
+  dance.run(Duration::s(8));
+  EXPECT_DOUBLE_EQ(quality_m(), 0.002);
+  set(carol, {"default=1"});
+  dance.run(Duration::s(1));
+  EXPECT_DOUBLE_EQ(quality_m(), 0.001);
+  dance.run(Duration::s(8));
+  EXPECT_DOUBLE_EQ(quality_m(), 0.001) << "for the one who is near it stays so";
+  set(carol, {"default=0"});
+  dance.run(Duration::s(8));
+  EXPECT_DOUBLE_EQ(quality_m(), 0.002);
+  EXPECT_GT(bob.heard_of(guest("alice")), 100u);
+}
+
+TEST_F(InterestRoom, ADancerWhoIsSeenFromNearIsSentInFull) {
+  House& alice = add("alice");
+  add("bob");
+  add("carol");
+  Dance dance{tunnel, {{&alice, guest("alice")}}};
+  for (int i = 0; i < 20; ++i) {
+    dance.run(Duration::ms(500));
+    ASSERT_DOUBLE_EQ(alice.link->local_stats().at(0).quality_m, 0.001) << i;
+  }
+}
+
 }  // namespace
 }  // namespace dance

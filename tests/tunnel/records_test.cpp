@@ -139,10 +139,31 @@ TEST(WireRecords, HeadersAreAsSmallAsTheySay) {
   const std::array<std::uint8_t, kMaxPayload> payload{};
   Record longest = example();
   longest.payload = payload;
+  longest.slot = kSlotsPerPage;
   longest.capture_us = 0;
   longest.counts_left_out = true;
   longest.published_age_us = longest.sent_age_us = longest.server_age_us = INT32_MAX;
   EXPECT_EQ(written(header, {{longest, false}}).size() - empty, kMaxRecordHeader + kMaxPayload);
+}
+
+// Two bytes lead to another page of slots, once for all that follow of it; the first page costs
+// none, as in version 4.
+TEST(WireRecords, AnotherPageOfSlotsCostsTwoBytes) {
+  RecordsHeader header;
+  header.has_records = true;
+  Record low = example(), high = example(), next = example();
+  low.slot = 9;
+  high.slot = kSlotsPerPage + 20;
+  next.slot = kSlotsPerPage + 21;
+  const auto with = [&](const std::vector<std::pair<Record, bool>>& records) {
+    return written(header, records).size();
+  };
+  const std::size_t payload = low.payload.size();
+  const std::size_t one = with({{low, true}});
+  EXPECT_EQ(with({{high, true}}), one + 2);
+  EXPECT_EQ(with({{high, true}, {next, true}}), one + 2 + kBriefRecordHeader + payload);
+  EXPECT_EQ(with({{low, true}, {high, true}, {low, true}}),
+            one + 2 * (2 + kNarrowRecordHeader + payload));
 }
 
 // What is brief says the same as what is not.
@@ -153,10 +174,11 @@ TEST(WireRecords, ACrowdComesBackWhateverItsOrder) {
     RecordsHeader header;
     header.has_records = true;
     std::vector<std::pair<Record, bool>> crowd;
-    auto slot = static_cast<std::uint8_t>(random.below(64));
+    constexpr int kSlots = kMaxGuestsPerRoom;
+    auto slot = static_cast<std::uint8_t>(random.below(kSlots));
     for (int k = 0; k < 20; ++k) {
       Record record = example();
-      slot = static_cast<std::uint8_t>((slot + (random.below(4) == 0 ? 5 : 1)) % 64);
+      slot = static_cast<std::uint8_t>((slot + (random.below(4) == 0 ? 5 : 1)) % kSlots);
       record.slot = slot;
       record.stream ^= static_cast<std::uint32_t>(random.below(2) << 16 | random.below(2));
       record.sequence += static_cast<std::uint32_t>(random.below(30));
@@ -197,7 +219,7 @@ TEST(WireRecords, ABriefRecordMeansNothingWithoutOneBefore) {
     auto bytes = brief;
     bytes[0] = first;
     ByteReader in(bytes);
-    RecordChain chain{kNow_us, has_any, 3, kNowTicks};
+    RecordChain chain{kNow_us, has_any, 3, kNowTicks, 0};
     return parse_record(chain, in).has_value();
   };
   EXPECT_TRUE(parsed_behind(true, 0x83));
@@ -361,7 +383,7 @@ TEST(WireRecords, EveryPrefixAndEveryContradictionIsRefused) {
   EXPECT_FALSE(is_good(with(0, 0x40 | bytes[0]))) << "a flag that nobody knows";
   EXPECT_FALSE(is_good(with(9, 0))) << "no exceptions, though it says so";
   EXPECT_FALSE(is_good(with(10, 33))) << "an exception out of the window";
-  EXPECT_FALSE(is_good(with(11, 64))) << "no such slot";
+  EXPECT_FALSE(is_good(with(11, kMaxGuestsPerRoom))) << "no such slot";
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(WireState, RefusesWhatNobodyBuilds) {
   EXPECT_TRUE(is_refused(guests, 0, 9));     // an unknown one
   EXPECT_TRUE(is_refused(guests, 0, 0x14));  // an avatar has no index
   EXPECT_TRUE(is_refused(guests, 0, 0x87));  // a ninth channel
-  EXPECT_TRUE(is_refused(guests, 1, 64));    // no slot
+  EXPECT_TRUE(is_refused(guests, 1, 128));   // no slot
   EXPECT_TRUE(is_refused(guests, 4, 0));     // version 0
   EXPECT_TRUE(is_refused(guests, 8, 0));     // nothing in it
   EXPECT_TRUE(is_refused(guests, 9, 2));     // too long

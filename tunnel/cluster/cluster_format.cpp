@@ -60,7 +60,7 @@ void write(const Beat& beat, ByteWriter& out) {
   out.u32(beat.links);
   out.u32(beat.guests);
   out.u8(beat.is_leaving ? 1 : 0);
-  out.short_text(beat.address.view());
+  wire::write_address(beat.address, out);
 }
 std::optional<Message> read_beat(ByteReader& in) {
   Beat beat;
@@ -70,7 +70,7 @@ std::optional<Message> read_beat(ByteReader& in) {
   beat.guests = in.u32();
   const std::uint8_t is_leaving = in.u8();
   beat.is_leaving = is_leaving == 1;
-  if (!is_good || is_leaving > 1 || !beat.address.assign(in.text(in.u8()))) return std::nullopt;
+  if (!is_good || is_leaving > 1 || !wire::read_address(in, beat.address)) return std::nullopt;
   return beat;
 }
 
@@ -112,8 +112,8 @@ void write(const RecordMessage& message, ByteWriter& out) {
   out.u64(message.server);
   out.u64(message.link_token);
   out.u8(static_cast<std::uint8_t>(record.kind));
-  out.u8(static_cast<std::uint8_t>((record.is_intra ? kIsIntra : 0) |
-                                   (record.is_base ? kIsBase : 0)));
+  out.u8(
+      static_cast<std::uint8_t>((record.is_intra ? kIsIntra : 0) | (record.is_base ? kIsBase : 0)));
   out.u16(static_cast<std::uint16_t>(record.stream));
   out.u32(record.sequence);
   out.u8(record.channel);
@@ -330,9 +330,7 @@ std::optional<Number> number_in(std::string_view text, int base) {
 std::size_t build(const Message& message, std::span<std::uint8_t> out) {
   return build_any(message, out);
 }
-std::size_t build(const Value& value, std::span<std::uint8_t> out) {
-  return build_any(value, out);
-}
+std::size_t build(const Value& value, std::span<std::uint8_t> out) { return build_any(value, out); }
 
 std::optional<Message> parse_message(Bytes bytes) {
   ByteReader in(bytes);
@@ -383,9 +381,7 @@ std::optional<Value> parse_value(Bytes bytes) {
 }
 
 Text beat_subject() { return (TextMaker() << kPrefix << "beat").text(); }
-Text server_subject(ServerId server) {
-  return (TextMaker() << kPrefix << "to." << server).text();
-}
+Text server_subject(ServerId server) { return (TextMaker() << kPrefix << "to." << server).text(); }
 Text pose_subject(const wire::RoomName& room, const GuestId& guest) {
   return (TextMaker() << kPosePrefix << room.view() << "." << guest.view()).text();
 }

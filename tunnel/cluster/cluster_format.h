@@ -15,6 +15,7 @@
 
 #include "core/base/fixed_string.h"
 #include "tunnel/server/cluster_port.h"
+#include "tunnel/wire/wire_servers.h"
 
 namespace dance::cluster {
 
@@ -32,12 +33,12 @@ struct Beat {
   std::uint32_t links = 0;
   std::uint32_t guests = 0;
   bool is_leaving = false;  // it ends, and its links go elsewhere
-  FixedString<64> address;  // as guests reach it; may be empty
+  Address address;          // as guests reach it; may be not set
 };
 
 // What time is it? The answer goes to who asked.
 struct ClockQuestion {
-  ServerId server = 0;  // who asks
+  ServerId server = 0;        // who asks
   std::int64_t asked_us = 0;  // its own clock
 };
 struct ClockAnswer {

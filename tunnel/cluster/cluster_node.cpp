@@ -106,8 +106,7 @@ void ClusterNode::take(const cluster::ClockAnswer& answer, MonoTime now) {
   const MonoTime asked = MonoTime::from_us(answer.asked_us);
   if (peer == peers_.end() || asked > now || now - asked > Duration::s(2)) return;
   peer->second.round_trip = now - asked;
-  if (answer.server == followed_)
-    clock_.add({asked, answer.received_us, answer.sent_us, now});
+  if (answer.server == followed_) clock_.add({asked, answer.received_us, answer.sent_us, now});
 }
 
 void ClusterNode::take(const cluster::FeedbackMessage& message, MonoTime now) {
@@ -150,9 +149,12 @@ void ClusterNode::on_value(std::string_view text, std::optional<cluster::Bytes> 
 
 void ClusterNode::take_presence(Room& room, const cluster::Key& key, bool is_there, MonoTime now) {
   if (key.server == options_.id) {
+    // It is the newest of what was there: all the rest has come before it.
+    if (is_there) server_->remotes().settle(key.room);
     // Somebody took this one for dead.
-    if (!is_there) put({cluster::KeyKind::kPresence, key.room, options_.id, {}, 0},
-                       cluster::PresenceValue{options_.id});
+    if (!is_there)
+      put({cluster::KeyKind::kPresence, key.room, options_.id, {}, 0},
+          cluster::PresenceValue{options_.id});
     return;
   }
   if (is_there) {
@@ -221,8 +223,7 @@ void ClusterNode::take_state(Room& room, const cluster::Key& key,
   apply_state(room, key.room, key.guest, key.place, *bytes);
 }
 
-void ClusterNode::apply_states(const Room& room, const wire::RoomName& name,
-                               const GuestId& guest) {
+void ClusterNode::apply_states(const Room& room, const wire::RoomName& name, const GuestId& guest) {
   for (auto it = room.states.lower_bound({guest, 0});
        it != room.states.end() && it->first.first == guest; ++it)
     apply_state(room, name, guest, it->first.second, it->second);
@@ -267,8 +268,8 @@ void ClusterNode::on_room_closed(const ServerRoom& room) {
   if (is_last)
     for (const auto& [at, bytes] : of->second.states)
       if (!at.first.is_set())
-        bus_.erase(cluster::text_of({cluster::KeyKind::kRoomState, room.name, 0, {}, at.second})
-                       .view());
+        bus_.erase(
+            cluster::text_of({cluster::KeyKind::kRoomState, room.name, 0, {}, at.second}).view());
   rooms_.erase(of);
 }
 
@@ -498,6 +499,13 @@ MonoTime ClusterNode::tick(MonoTime now) {
   follow_leader(now);
   ask_clocks(now);
   return std::min(next_beat_, next_question_);
+}
+
+wire::ServerList ClusterNode::other_servers() const {
+  wire::ServerList servers;
+  for (const auto& [id, peer] : peers_)
+    if (peer.is_alive && peer.beat.address.is_set() && !servers.try_push(peer.beat.address)) break;
+  return servers;
 }
 
 void ClusterNode::beat(bool is_leaving) {

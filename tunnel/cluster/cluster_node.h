@@ -24,9 +24,9 @@ namespace dance {
 class ClusterNode final : public ClusterPort {
  public:
   struct Options {
-    ServerId id = 0;  // random
+    ServerId id = 0;           // random
     std::int64_t born_us = 0;  // wall clock at the process's start
-    FixedString<64> address;   // as guests reach this server
+    Address address;           // as guests reach this server
   };
   struct Peer {
     cluster::Beat beat;
@@ -59,13 +59,15 @@ class ClusterNode final : public ClusterPort {
   void end_turn(MonoTime now);
   // Beats, clocks, deaths; returns when to call again.
   MonoTime tick(MonoTime now);
+  // That live, and say how guests reach them.
+  wire::ServerList other_servers() const;
   // The server ends: its guests may come back through another at once.
   void leave();
 
   const std::map<ServerId, Peer>& peers() const { return peers_; }
   const Counters& counters() const { return counters_; }
   ServerId id() const { return options_.id; }
-  std::string_view address() const { return options_.address.view(); }
+  const Address& address() const { return options_.address; }
   // Whose clock is the cluster's.
   ServerId clock_server() const { return followed_ != 0 ? followed_ : leader(); }
 

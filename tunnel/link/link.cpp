@@ -40,6 +40,9 @@ Link::Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealCo
            const LinkOptions& options, LinkHandlers handlers, Poller& poller)
     : poller_(poller),
       server_(std::move(server)),
+      probe_(poller),
+      on_servers_(handlers.on_servers),
+      on_other_server_(handlers.on_other_server),
       on_no_answer_(handlers.on_no_answer),
       on_no_entry_(handlers.on_no_entry),
       clock_id_(options.clock_id),
@@ -47,7 +50,7 @@ Link::Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealCo
       socket_(std::move(socket)),
       sink_(socket_),
       seal_(std::move(context), secure_random_u64, seal_handlers(), sink_),
-      core_(options, std::move(handlers), seal_) {
+      core_(options, with_servers(std::move(handlers), *this), seal_) {
   watch_socket();
   addresses_ = AddressWatch::open();
   if (addresses_)
@@ -55,6 +58,51 @@ Link::Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealCo
       if (addresses_->drain()) on_addresses_changed(now);
     });
   timer_ = poller_.add_timer(begin_, [this](MonoTime now) { return tick(now); });
+}
+
+LinkHandlers Link::with_servers(LinkHandlers handlers, Link& link) {
+  handlers.on_servers = [&link](const wire::ServerList& servers, MonoTime now) {
+    link.on_servers(servers, now);
+  };
+  return handlers;
+}
+
+void Link::on_servers(const wire::ServerList& servers, MonoTime now) {
+  choice_.set_current(server_[tried_]);
+  if (choice_.set_others(servers)) probe_.begin(choice_.all(), now);
+  if (on_servers_) on_servers_(servers, now);
+}
+
+// The nearest when the link comes, and the next when its server is silent or ends.
+void Link::choose_server(MonoTime now) {
+  const bool was_done = probe_.is_done();
+  probe_.tick(now);
+  std::optional<Address> other;
+  if (core_.state() == LinkState::kLapsed) {
+    other = choice_.next(core_.has_goodbye(), now);
+  } else {
+    if (core_.is_connected() && choice_.end_lapse()) probe_.begin(choice_.all(), now);
+    if (!was_done && probe_.is_done()) {
+      std::vector<ServerChoice::Distance> distances;
+      for (const Address& server : choice_.all())
+        distances.push_back({server, probe_.round_trip(server)});
+      other = choice_.choose(distances);
+    }
+  }
+  if (other) move_to(*other, now);
+}
+
+void Link::move_to(const Address& server, MonoTime now) {
+  auto socket = UdpSocket::connect(server);
+  if (!socket) return;
+  server_ = {server};
+  tried_ = 0;
+  choice_.set_current(server);
+  poller_.unwatch(socket_.fd());
+  socket_ = std::move(*socket);
+  watch_socket();
+  seal_.begin_anew(now);
+  if (on_other_server_) on_other_server_(server);
 }
 
 SealClient::Handlers Link::seal_handlers() {
@@ -79,6 +127,7 @@ void Link::on_trouble(SealTrouble trouble, MonoTime now) {
 }
 
 MonoTime Link::tick(MonoTime now) {
+  choose_server(now);
   // Before the next hello, so that the one before had all its time.
   if (core_.unanswered_hellos() == 0) hellos_on_socket_ = 0;
   if (core_.unanswered_hellos() - hellos_on_socket_ >= kHellosPerSocket) {
@@ -94,13 +143,16 @@ MonoTime Link::next_deadline() const {
   const MonoTime core = core_.next_deadline();
   // Before its first turn the seal has no deadline: that is now, not never.
   const MonoTime seal = std::max(seal_.next_deadline(), MonoTime::from_ns(1));
-  return core.is_set() ? std::min(core, seal) : seal;
+  MonoTime next = core.is_set() ? std::min(core, seal) : seal;
+  for (const MonoTime due : {probe_.next_deadline(), choice_.next_deadline()})
+    if (due.is_set()) next = std::min(next, due);
+  return next;
 }
 
 Link::~Link() {
   core_.say_goodbye();
   seal_.close();
-  poller_.set_deadline(timer_, MonoTime());
+  poller_.remove_timer(timer_);
   poller_.unwatch(socket_.fd());
   if (addresses_) poller_.unwatch(addresses_->fd());
 }

@@ -17,6 +17,8 @@
 #include "core/net/address_watch.h"
 #include "core/net/poller.h"
 #include "core/net/udp_socket.h"
+#include "tunnel/link/failover/server_choice.h"
+#include "tunnel/link/failover/server_probe.h"
 #include "tunnel/link/link_core.h"
 #include "tunnel/link/link_key.h"
 #include "tunnel/seal/seal_client.h"
@@ -26,7 +28,8 @@ namespace dance {
 class Link {
  public:
   // Token, clock and seed of the options are filled in where they are 0.
-  // Addresses of one server: until one has answered they are tried in turn.
+  // Addresses of one server: until one has answered they are tried in turn. Where it is one of a
+  // cluster the link goes to the nearest, and to another when that one ends.
   static Result<std::unique_ptr<Link>> open(std::vector<Address> server, const LinkKey& key,
                                             LinkOptions options, LinkHandlers handlers,
                                             Poller& poller);
@@ -56,6 +59,8 @@ class Link {
   // As LinkCore does.
   void set_interest(const Interest& interest, MonoTime now);
 
+  // The server that is spoken to.
+  const Address& server() const { return server_[tried_]; }
   bool is_connected() const { return core_.is_connected(); }
   LinkState state() const { return core_.state(); }
   const LinkCounters& counters() const { return core_.counters(); }
@@ -96,10 +101,18 @@ class Link {
   void try_another_socket();
   void on_addresses_changed(MonoTime now);
   bool use_socket_to(std::size_t which);
+  void on_servers(const wire::ServerList& servers, MonoTime now);
+  void choose_server(MonoTime now);
+  void move_to(const Address& server, MonoTime now);
+  static LinkHandlers with_servers(LinkHandlers handlers, Link& link);
 
   Poller& poller_;
   std::vector<Address> server_;
   std::size_t tried_ = 0;  // which of them the socket speaks to
+  ServerChoice choice_;
+  ServerProbe probe_;
+  std::function<void(const wire::ServerList&, MonoTime)> on_servers_;
+  std::function<void(const Address&)> on_other_server_;
   std::function<void(const Address&)> on_no_answer_;
   std::function<void(SealTrouble)> on_no_entry_;
   SealTrouble told_trouble_ = SealTrouble::kNoAnswer;

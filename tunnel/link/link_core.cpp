@@ -146,6 +146,9 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
     case wire::Type::kFileRefusal:
       is_good = files_.receive(opening, now);
       break;
+    case wire::Type::kServers:
+      is_good = on_servers(opening.body, now);
+      break;
     case wire::Type::kGoodbye:
       if (!opening.body.empty()) return false;
       session_.on_goodbye(now);
@@ -179,6 +182,12 @@ void LinkCore::begin_session() {
   interest_.begin(link_.options.interest.others);
   link_.clock.reset();
   roster_.begin_session();
+}
+
+bool LinkCore::on_servers(wire::Bytes body, MonoTime now) {
+  const auto servers = wire::parse_servers(body);
+  if (servers && link_.handlers.on_servers) link_.handlers.on_servers(*servers, now);
+  return servers.has_value();
 }
 
 bool LinkCore::on_refusal(wire::Bytes body, MonoTime now) {

@@ -70,6 +70,7 @@ class LinkCore {
   // Hellos since the last sign of the server, those that come quickly not counted: many, and
   // another socket may be worth a try.
   int unanswered_hellos() const { return session_.unanswered_hellos(); }
+  bool has_goodbye() const { return session_.has_goodbye(); }
   const LinkCounters& counters() const { return link_.counters; }
   const ClockMapper& clock() const { return link_.clock; }
   // The room's music in this house's clock, as it is mapped now.
@@ -85,6 +86,7 @@ class LinkCore {
   LocalGuest* find_or_add(const GuestId& id, MonoTime now);
   bool on_welcome(wire::Bytes body, MonoTime received, MonoTime now);
   bool on_refusal(wire::Bytes body, MonoTime now);
+  bool on_servers(wire::Bytes body, MonoTime now);
   void begin_session();
   bool on_session_datagram(const wire::Opening& opening, MonoTime received, MonoTime now);
   bool on_interest_ack(wire::Bytes body);

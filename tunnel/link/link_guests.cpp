@@ -98,9 +98,10 @@ bool LocalGuests::is_ours(const wire::RosterEntry& entry) const {
 std::vector<LocalGuestStats> LocalGuests::stats() const {
   std::vector<LocalGuestStats> all;
   for (const LocalGuest& guest : guests_)
-    all.push_back({guest.id, guest.references.references(), guest.references.sent(),
-                   guest.references.acked(), guest.references.intra_asked(),
-                   guest.quality.quality_m()});
+    all.push_back(
+        {guest.id, guest.references.references(), guest.references.sent(), guest.references.acked(),
+         guest.references.intra_asked(),
+         guest.encoded_quality_m > 0.0 ? guest.encoded_quality_m : guest.quality.quality_m()});
   return all;
 }
 
@@ -119,10 +120,9 @@ wire::InterestList RemoteGuests::interest_list(const Interest& interest) const {
   list.default_divider = interest.others;
   for (const RemoteGuest& guest : guests_) {
     if (!guest.in_use || guest.is_ours) continue;
-    const std::uint8_t divider = interest.divider_of(guest.id);
-    if (divider == list.default_divider) continue;
+    if (!interest.names(guest.id)) continue;
     (void)list.entries.try_push(  // as many as there are slots
-        {{slot_of(guest), guest.generation}, divider});
+        {{slot_of(guest), guest.generation}, interest.divider_of(guest.id)});
   }
   return list;
 }

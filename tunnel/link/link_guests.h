@@ -70,6 +70,7 @@ struct LocalGuest {
   StreamTag hands;
   std::unique_ptr<PoseEncoder> encoder;
   QualityByRate quality;
+  double encoded_quality_m = 0.0;  // as the encoder was told; 0 = not yet
   ReferenceControl references;
   std::uint32_t unstamped = 0;  // poses since one brought its hops; 0 = the next one does
   SentPose previous;            // goes once more where the way loses some
@@ -145,7 +146,7 @@ class RemoteGuests {
     return static_cast<std::uint8_t>(&guest - guests_.data());
   }
   bool is_present(const GuestId& id) const;
-  // Whose divider differs from that of those who are not named.
+  // Of those here who are named.
   wire::InterestList interest_list(const Interest& interest) const;
   // Before a guest's counting begins anew: it left, or it came back in another slot or session.
   void keep_counts(const RemoteGuest& guest);

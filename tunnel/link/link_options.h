@@ -25,6 +25,7 @@
 #include "tunnel/session/pose_share.h"
 #include "tunnel/session/reference_policy.h"
 #include "tunnel/wire/wire.h"
+#include "tunnel/wire/wire_servers.h"
 #include "tunnel/wire/wire_state.h"
 
 namespace dance {
@@ -94,6 +95,11 @@ struct LinkHandlers {
   std::function<void(LinkState, MonoTime now)> on_state;
   // Guest is set where it is about one of ours. refusal_line() says it for people.
   std::function<void(const wire::RefusalNotice&, MonoTime now)> on_refused;
+  // The other servers of the cluster, each time they are told.
+  std::function<void(const wire::ServerList&, MonoTime now)> on_servers;
+  // Another server is spoken to: the one before is silent or ends, or this one is nearer. Said by
+  // Link.
+  std::function<void(const Address&)> on_other_server;
   // Nothing has ever come from this address of the server, after several tries; the next ones go to
   // another, or a new socket. Said by Link, each time.
   std::function<void(const Address&)> on_no_answer;

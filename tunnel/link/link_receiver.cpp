@@ -45,7 +45,7 @@ bool LinkReceiver::on_records(wire::Bytes body, MonoTime received, MonoTime now)
   // excepted. An acknowledgement alone is not acknowledged: that would never end.
   if (is_again || (header->has_records && !has_decoded)) return true;
   if (link_.stream.received.note_except(header->number, failed) && header->has_records)
-    link_.stream.received.owe(sender_.when_to_acknowledge(now), now);
+    link_.stream.received.owe(sender_.when_to_acknowledge(now), link_.is_path_clean(), now);
   return true;
 }
 

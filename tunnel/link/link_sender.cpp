@@ -70,7 +70,8 @@ void LinkSender::send(LocalGuest& guest, const Pose& pose, MonoTime now) {
     ++link_.counters.invalid;
     return;
   }
-  if (guest.quality.add(size, now)) guest.encoder->set_quality(guest.quality.quality_m());
+  guest.quality.add(size, now);
+  settle_quality(guest, now);
   record.kind = wire::RecordKind::kPose;
   record.slot = guest.slot.slot;
   record.stream = guest.poses.stream();
@@ -166,11 +167,22 @@ void LinkSender::begin_session() {
   has_feedback_ = wants_repeats_ = false;
 }
 
+// Coarser where all receivers see the dancer from afar.
+void LinkSender::settle_quality(LocalGuest& guest, MonoTime now) {
+  constexpr double kFromAfar_m = 0.002;
+  double quality_m = guest.quality.quality_m();
+  if (guest.references.is_far_from_all(now)) quality_m = std::max(quality_m, kFromAfar_m);
+  if (quality_m == guest.encoded_quality_m) return;
+  guest.encoded_quality_m = quality_m;
+  guest.encoder->set_quality(quality_m);
+}
+
 void LinkSender::begin_encoder(LocalGuest& guest) {
   guest.encoder = link_.options.make_encoder(link_.codec);
   DANCE_ASSERT(guest.encoder != nullptr, static_cast<int>(link_.codec.id), link_.codec.model);
   guest.references.begin(*guest.encoder);
-  guest.encoder->set_quality(guest.quality.quality_m());
+  guest.encoded_quality_m = guest.quality.quality_m();
+  guest.encoder->set_quality(guest.encoded_quality_m);
   guest.unstamped = 0;
   Skeleton skeleton;
   const ReplicatedState& state = guest.states[wire::place_of({wire::StateKind::kSkeleton, 0})];

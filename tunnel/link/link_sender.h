@@ -45,6 +45,7 @@ class LinkSender {
   };
   bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
              Stamp& out);
+  void settle_quality(LocalGuest& guest, MonoTime now);
   void put(const wire::Record& record, MonoTime now);
   void flush(MonoTime now);
   void send_datagram(bool with_records, MonoTime now);

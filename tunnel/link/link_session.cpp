@@ -79,6 +79,7 @@ void LinkSession::begin_lapse(MonoTime now) {
 void LinkSession::on_sealed(MonoTime now) {
   is_sealed_ = true;
   is_welcome_ = false;
+  version_ = wire::kWireVersion;  // it may be another server
   // The server does not know yet that this sealed session is ours.
   if (link_.state == LinkState::kConnected) return begin_lapse(now);
   schedule_update(now);
@@ -92,6 +93,7 @@ void LinkSession::on_moved(MonoTime now) {
 
 // The server ends: ask at once, then more and more slowly.
 void LinkSession::on_goodbye(MonoTime now) {
+  has_goodbye_ = true;
   if (link_.is_connected()) begin_lapse(now);
 }
 
@@ -114,6 +116,7 @@ void LinkSession::send_hello(MonoTime now) {
     }
   }
   wire::Hello hello;
+  hello.version = version_;
   hello.nonce = hello_nonce_;
   hello.token = link_.options.token;
   hello.link_time_us = now.since_zero_us();
@@ -189,6 +192,7 @@ void LinkSession::begin(const wire::Welcome& welcome, MonoTime now) {
   hello_nonce_ = 0;
   unanswered_hellos_ = 0;
   last_heard_ = now;
+  has_goodbye_ = false;
   if (link_.state == LinkState::kLapsed) ++link_.counters.reconnects;
   set_state(LinkState::kConnected, now);
 }
@@ -198,6 +202,13 @@ bool LinkSession::on_refusal(wire::Bytes body, MonoTime now) {
   if (!refusal || !hello_wanted_ || hello_nonce_ == 0 || refusal->nonce != hello_nonce_)
     return false;
   unanswered_hellos_ = 0;
+  // A server of before: all that it knows is here too.
+  if (refusal->cause == wire::Refusal::kVersion && version_ > refusal->server_version &&
+      refusal->server_version >= wire::kOldestWireVersion) {
+    version_ = refusal->server_version;
+    next_hello_ = now;
+    return true;
+  }
   if (link_.state == LinkState::kConnected) {
     // The session stands; only who was to be added is not. Asked for again in a while.
     for (LocalGuest& guest : link_.locals)

@@ -51,6 +51,8 @@ class LinkSession {
   bool is_welcome() const { return is_welcome_; }
   bool may_send(MonoTime now) const;
   int unanswered_hellos() const { return unanswered_hellos_; }
+  // The server ends, or has forgotten this session: said since the last welcome.
+  bool has_goodbye() const { return has_goodbye_; }
 
  private:
   void set_state(LinkState state, MonoTime now);
@@ -62,7 +64,9 @@ class LinkSession {
   Random random_;
   bool is_sealed_ = false;
   bool is_welcome_ = false;
+  bool has_goodbye_ = false;
   std::uint64_t epoch_ = 0;
+  std::uint8_t version_ = wire::kWireVersion;  // that the server speaks too
 
   // Hello under way.
   bool has_untold_removal_ = false;  // the server still has a guest of ours who has left

@@ -1,5 +1,7 @@
 #include "tunnel/nats/nats_store.h"
 
+#include <chrono>
+
 #include "core/base/printable.h"
 #include "tunnel/nats/nats_connection.h"
 
@@ -7,6 +9,7 @@ namespace dance {
 namespace {
 
 constexpr std::int64_t kNextValue_ms = 2000;
+constexpr auto kAgrees = std::chrono::seconds(8);
 
 struct StoreDeleter {
   void operator()(kvWatcher* it) const { kvWatcher_Destroy(it); }
@@ -20,7 +23,17 @@ class ConnectedNatsStore final : public NatsStore {
         connection_(std::move(connection)),
         bucket_(std::move(bucket)) {}
 
+  // A bucket whose servers have just lost one answers when they have agreed who leads it now.
   Result<std::map<std::string, std::string>> read_all() override {
+    const auto begin = std::chrono::steady_clock::now();
+    for (;;) {
+      auto values = read_once();
+      if (values || is_refused() || std::chrono::steady_clock::now() - begin > kAgrees)
+        return values;
+    }
+  }
+
+  Result<std::map<std::string, std::string>> read_once() {
     kvWatcher* made = nullptr;
     if (const natsStatus status = kvStore_WatchAll(&made, bucket_.store.get(), nullptr);
         status != NATS_OK)
@@ -67,10 +80,16 @@ class ConnectedNatsStore final : public NatsStore {
   }
 
  private:
+  bool is_refused() const {
+    const char* said = nullptr;
+    return natsConnection_GetLastError(connection_.get(), &said) == NATS_NOT_PERMITTED;
+  }
+
   Error failure(const char* what, natsStatus status) const {
     const std::string of = "the bucket '" + options_.bucket + "' at " + shown_urls(options_);
     const char* said = nullptr;
-    if (natsConnection_GetLastError(connection_.get(), &said) == NATS_NOT_PERMITTED)
+    natsConnection_GetLastError(connection_.get(), &said);
+    if (is_refused())
       return Error{of + " " + what +
                    " by this user: " + (said != nullptr ? printable(said) : "not permitted")};
     said = status == NATS_TIMEOUT ? nullptr : nats_GetLastError(nullptr);

@@ -1,4 +1,6 @@
 // Which guests a house wants to hear, and how often: a divider for each, and one for all others.
+// Whoever is named with 1 comes before all others where the line does not bear everything
+// (tunnel/server/pace/server_pace.h).
 // One way to write it, on the command line (--want) and in session files (want);
 // tunnel/session/pose_share.h says what comes of it.
 //
@@ -21,7 +23,7 @@
 namespace dance {
 
 // As many as a room may have.
-constexpr std::size_t kMaxInterestGuests = 64;
+constexpr std::size_t kMaxInterestGuests = 128;
 
 // By name, as a house says it.
 struct Interest {
@@ -33,6 +35,11 @@ struct Interest {
   std::uint8_t others = 1;  // who is not named
   FixedList<One, kMaxInterestGuests> guests;
 
+  bool names(const GuestId& guest) const {
+    for (const One& one : guests)
+      if (one.guest == guest) return true;
+    return false;
+  }
   std::uint8_t divider_of(const GuestId& guest) const {
     for (const One& one : guests)
       if (one.guest == guest) return one.divider;

@@ -38,6 +38,8 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerO
   SealLimits seal = options.seal;
   // A link that begins anew has two for a while.
   seal.peers = std::max(seal.peers, 2 * options.limits.sessions);
+  // One key may be a whole room's, or all of a crowd's.
+  seal.peers_per_key = std::max(seal.peers_per_key, options.limits.sessions);
   DANCE_TRY(server->door_,
             SealServer::make(seal, options.keys, options.certificates, secure_random_u64,
                              std::move(handlers), server->socket_));
@@ -53,10 +55,11 @@ Server::Server(UdpSocket socket, const ServerLimits& limits, ClusterNode* cluste
       socket_(std::move(socket)),
       core_(limits, secure_random_u64, sealed_),
       cluster_(cluster) {
-  if (cluster_ != nullptr) cluster_->attach(core_);
+  if (cluster_ != nullptr) {
+    cluster_->attach(core_);
+    cluster_due_ = MonoTime::from_ns(1);  // at once, whatever else comes first
+  }
   poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
-  // A cluster hears of it at once; also where something of the cluster comes before the first tick.
-  if (cluster_ != nullptr) cluster_due_ = MonoTime::from_ns(1);
   timer_ = poller_.add_timer(cluster_due_, [this](MonoTime now) { return tick(now); });
 }
 
@@ -72,7 +75,10 @@ void Server::end_cluster_turn(MonoTime now) {
 }
 
 MonoTime Server::tick(MonoTime now) {
-  if (cluster_ != nullptr) cluster_due_ = cluster_->tick(now);
+  if (cluster_ != nullptr) {
+    cluster_due_ = cluster_->tick(now);
+    core_.set_other_servers(cluster_->other_servers());
+  }
   core_.tick(to_session(now));
   if (cluster_ != nullptr) cluster_->end_turn(now);
   door_->tick(now);

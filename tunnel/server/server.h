@@ -13,8 +13,8 @@
 #include "core/base/result.h"
 #include "core/net/poller.h"
 #include "core/net/udp_socket.h"
-#include "tunnel/seal/seal_server.h"
 #include "tunnel/cluster/cluster_node.h"
+#include "tunnel/seal/seal_server.h"
 #include "tunnel/server/server_core.h"
 
 namespace dance {

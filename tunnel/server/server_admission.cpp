@@ -1,6 +1,7 @@
 #include "tunnel/server/server_admission.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/base/assert.h"
 
@@ -10,6 +11,8 @@ namespace {
 constexpr std::uint64_t kLongestOvertaking_us = 60'000'000;
 // Servers of a cluster tell that they live several times as often.
 constexpr Duration kRemoteSilence = Duration::ms(1000);
+// Reading what lasts takes milliseconds, and as long as this where it must find a leader first.
+constexpr Duration kSettlesWithin = Duration::ms(1500);
 
 }  // namespace
 
@@ -24,8 +27,7 @@ std::optional<std::size_t> ServerAdmission::find_token(std::uint64_t token,
                                                        const GuestId& key) const {
   for (std::size_t i = 0; i < server_.sessions.size(); ++i)
     if (server_.sessions[i].in_use && !server_.sessions[i].is_remote() &&
-        server_.sessions[i].token == token &&
-        server_.sessions[i].access.name == key)
+        server_.sessions[i].token == token && server_.sessions[i].access.name == key)
       return i;
   return std::nullopt;
 }
@@ -82,7 +84,7 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
   if (const auto objection = objection_to(*hello, access, existing, room, now))
     return refuse(from, hello->nonce, objection->cause, objection->guest);
 
-  if (!room) room = open_room(*hello);
+  if (!room) room = open_room(*hello, now);
   const std::size_t index = existing ? *existing : open_session(from, access, *hello, *room);
   ServerSession& session = server_.sessions[index];
   const bool is_moved = session.peer != from;
@@ -93,6 +95,7 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
   settle_access(index, access);
   session.last_heard = now;
   session.hello_time_us = hello->link_time_us;
+  session.version = hello->version;
   settle_guests(index, *hello);
   if (!existing || is_moved) session.interest.default_divider = hello->default_divider;
   interest_.settle(index, now);
@@ -108,6 +111,7 @@ void ServerAdmission::welcome(std::size_t index, const wire::Hello& hello, MonoT
   const ServerSession& session = server_.sessions[index];
   const ServerRoom& room = server_.rooms[session.room];
   wire::Welcome welcome;
+  welcome.version = hello.version;
   welcome.nonce = hello.nonce;
   welcome.epoch = session.epoch;
   welcome.link_time_us = hello.link_time_us;
@@ -145,7 +149,6 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
   }
   if (!existing && server_.by_peer.size() == server_.limits.sessions)
     return Objection{wire::Refusal::kServerFull, {}};
-  std::size_t others = 0;
   if (room && hello.guests.empty()) {
     const auto& members = server_.rooms[*room].members;
     const auto listeners = std::count_if(members.begin(), members.end(), [&](std::size_t member) {
@@ -155,15 +158,20 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
     if (static_cast<std::size_t>(listeners) >= server_.limits.listeners_per_room)
       return Objection{wire::Refusal::kListenersFull, {}};
   }
+  std::size_t others = 0, taken = 0;  // guests of other links of this server; slots for such
   if (room) {
-    for (const ServerGuest& guest : server_.rooms[*room].guests) {
+    const ServerRoom& there = server_.rooms[*room];
+    for (std::size_t slot = 0; slot < there.guests.size(); ++slot) {
+      const ServerGuest& guest = there.guests[slot];
       if (!guest.in_use || (existing && guest.owner == *existing)) continue;
       if (hello.guests.contains(guest.id) && may_take_over(guest, hello.token, now)) continue;
-      ++others;
       if (hello.guests.contains(guest.id)) return Objection{wire::Refusal::kNameTaken, guest.id};
+      others += server_.is_local(guest) ? 1 : 0;
+      taken += slot < wire::kSlotsPerPage ? 1 : 0;
     }
   }
-  if (others + hello.guests.size() > server_.limits.guests_per_room)
+  if (others + hello.guests.size() > server_.limits.guests_per_room ||
+      taken + hello.guests.size() > wire::kSlotsPerPage)
     return Objection{wire::Refusal::kRoomFull, {}};
   return std::nullopt;
 }
@@ -176,7 +184,7 @@ bool ServerAdmission::may_take_over(const ServerGuest& guest, std::uint64_t link
          (guest.link_token == link_token || now - owner.last_heard > kRemoteSilence);
 }
 
-std::size_t ServerAdmission::open_room(const wire::Hello& hello) {
+std::size_t ServerAdmission::open_room(const wire::Hello& hello, MonoTime now) {
   const auto free =
       std::find_if(server_.rooms.begin(), server_.rooms.end(), [](auto& r) { return !r.in_use; });
   DANCE_ASSERT(free != server_.rooms.end());
@@ -193,6 +201,7 @@ std::size_t ServerAdmission::open_room(const wire::Hello& hello) {
   free->has_fresh_states = free->has_first_body = false;
   free->fresh_states_due = MonoTime();
   free->host_count = 0;
+  free->settled_at = server_.cluster != nullptr ? now + kSettlesWithin : MonoTime();
   if (server_.cluster != nullptr) server_.cluster->on_room_opened(*free);
   return static_cast<std::size_t>(free - server_.rooms.begin());
 }
@@ -212,6 +221,7 @@ void ServerAdmission::move_session(std::size_t index, PeerId to) {
   session.epoch = new_epoch();
   session.stream = Stream();
   session.interest = {};
+  session.pace = SessionPace();
   session.filters.fill(InterestFilter());
   session.knows_epoch = false;
   session.feedback_due = session.feedback_alone = MonoTime();
@@ -295,12 +305,66 @@ void ServerAdmission::bring_guest(std::size_t index, const GuestId& id, std::uin
 }
 
 void ServerAdmission::move_guest(ServerRoom& room, std::uint8_t slot, std::size_t to) {
+  server_.sessions[room.guests[slot].owner].slots.erase(slot);
+  // A link's own guests are in the first page.
+  if (slot >= wire::kSlotsPerPage && !server_.sessions[to].is_remote()) slot = relocate(room, slot);
   ServerGuest& guest = room.guests[slot];
-  server_.sessions[guest.owner].slots.erase(slot);
   guest.owner = to;
   guest.told = {};
   const bool pushed = server_.sessions[to].slots.try_push(slot);
   DANCE_ASSERT(pushed);
+}
+
+// With its states; to those who receive it, it is heard anew in another slot.
+std::uint8_t ServerAdmission::relocate(ServerRoom& room, std::uint8_t slot) {
+  const auto free = free_slot(room, false);
+  DANCE_ASSERT(free.has_value());
+  ServerGuest& guest = room.guests[*free];
+  guest = room.guests[slot];
+  guest.generation = room.next_generation++;
+  guest.poses = guest.hands = StreamGate();
+  guest.retained.is_set = false;
+  guest.previous = SentPose();
+  guest.channels.fill({});
+  room.guests[slot].in_use = false;
+  for (const std::size_t member : room.members) {
+    server_.sessions[member].stream.states.forget(slot);
+    server_.sessions[member].stream.states.forget(*free);
+  }
+  begin_slot(room, *free);
+  return *free;
+}
+
+// Links' own guests from below, those of other servers from the middle of the first page down and
+// then in the second: so that links of version 4 see as many as they can.
+std::optional<std::uint8_t> ServerAdmission::free_slot(const ServerRoom& room, bool is_remote) {
+  constexpr int kHalf = wire::kSlotsPerPage / 2, kPage = wire::kSlotsPerPage;
+  const auto free_in = [&](int from, int to, int step) -> std::optional<std::uint8_t> {
+    for (int slot = from; slot != to; slot += step)
+      if (!room.guests[static_cast<std::size_t>(slot)].in_use)
+        return static_cast<std::uint8_t>(slot);
+    return std::nullopt;
+  };
+  if (!is_remote) return free_in(0, kPage, 1);
+  for (const auto& [from, to, step] : {std::tuple{kPage - 1, kHalf - 1, -1},
+                                       {kPage, static_cast<int>(wire::kMaxGuestsPerRoom), 1},
+                                       {kHalf - 1, -1, -1}})
+    if (const auto slot = free_in(from, to, step)) return slot;
+  return std::nullopt;
+}
+
+// Another guest has it: receivers know nothing of this one.
+void ServerAdmission::begin_slot(ServerRoom& room, std::uint8_t slot) {
+  for (const std::size_t member : room.members) {
+    ServerSession& receiver = server_.sessions[member];
+    receiver.filters[slot] = InterestFilter(receiver.interest.default_divider);
+    if (!receiver.is_remote()) continue;
+    server_.remotes[receiver.remote].frames[slot] = {};
+    server_.remotes[receiver.remote].key_frames[slot] = 0;
+  }
+  ++room.roster_version;
+  room.roster_changed = true;
+  server_.mark_changed(room);
 }
 
 std::optional<std::size_t> ServerAdmission::open_remote(std::size_t room_index, ServerId server,
@@ -328,10 +392,9 @@ std::optional<std::uint8_t> ServerAdmission::add_guest(std::size_t index, const 
                                                        std::uint64_t link_token) {
   ServerSession& session = server_.sessions[index];
   ServerRoom& room = server_.rooms[session.room];
-  const auto free =
-      std::find_if(room.guests.begin(), room.guests.end(), [](auto& g) { return !g.in_use; });
-  if (free == room.guests.end()) return std::nullopt;
-  const auto slot = static_cast<std::uint8_t>(free - room.guests.begin());
+  const auto slot = free_slot(room, session.is_remote());
+  if (!slot) return std::nullopt;
+  ServerGuest* free = &room.guests[*slot];
   *free = ServerGuest();
   free->in_use = true;
   free->id = id;
@@ -345,19 +408,10 @@ std::optional<std::uint8_t> ServerAdmission::add_guest(std::size_t index, const 
   free->channel_bytes =
       TokenBucket(server_.limits.channel_bytes_per_second, server_.limits.channel_byte_burst);
   free->owner = index;
-  const bool pushed = session.slots.try_push(slot);
+  const bool pushed = session.slots.try_push(*slot);
   DANCE_ASSERT(pushed);
-  for (const std::size_t member : room.members) {
-    ServerSession& receiver = server_.sessions[member];
-    receiver.filters[slot] = InterestFilter(receiver.interest.default_divider);
-    if (!receiver.is_remote()) continue;
-    server_.remotes[receiver.remote].frames[slot] = {};
-    server_.remotes[receiver.remote].key_frames[slot] = 0;
-  }
   ++room.guest_count;
-  ++room.roster_version;
-  room.roster_changed = true;
-  server_.mark_changed(room);
+  begin_slot(room, *slot);
   return slot;
 }
 

@@ -51,7 +51,7 @@ class ServerAdmission {
   void welcome(std::size_t session, const wire::Hello& hello, MonoTime received, MonoTime now);
   void refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause, const GuestId& guest);
   std::optional<std::size_t> find_token(std::uint64_t token, const GuestId& key) const;
-  std::size_t open_room(const wire::Hello& hello);
+  std::size_t open_room(const wire::Hello& hello, MonoTime now);
   std::size_t open_session(PeerId peer, const Access& access, const wire::Hello& hello,
                            std::size_t room);
   std::uint64_t new_epoch();
@@ -60,6 +60,9 @@ class ServerAdmission {
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void bring_guest(std::size_t session, const GuestId& id, std::uint64_t link_token);
   void close_room(std::size_t room);
+  std::uint8_t relocate(ServerRoom& room, std::uint8_t slot);
+  static std::optional<std::uint8_t> free_slot(const ServerRoom& room, bool is_remote);
+  void begin_slot(ServerRoom& room, std::uint8_t slot);
 
   ServerContext& server_;
   ServerFeedback& feedback_;

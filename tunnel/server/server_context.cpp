@@ -8,10 +8,12 @@
 namespace dance {
 
 ServerContext::ServerContext(const ServerLimits& of_server, PeerSink& to)
-    : limits(of_server), sink(to),
-      sessions(of_server.sessions + of_server.remote_servers), rooms(of_server.rooms),
+    : limits(of_server),
+      sink(to),
+      sessions(of_server.sessions + of_server.remote_servers),
+      rooms(of_server.rooms),
       remotes(of_server.remote_servers) {
-  DANCE_ASSERT(limits.guests_per_room <= wire::kMaxGuestsPerRoom, limits.guests_per_room);
+  DANCE_ASSERT(limits.guests_per_room <= wire::kSlotsPerPage, limits.guests_per_room);
   by_peer.reserve(limits.sessions);
   newcomers.reserve(limits.sessions);
   bundled.reserve(limits.sessions);

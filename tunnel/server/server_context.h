@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tunnel/server/server_state.h"
+#include "tunnel/wire/wire_servers.h"
 
 namespace dance {
 
@@ -38,6 +39,7 @@ struct ServerContext {
   std::vector<std::size_t> bundled;    // sessions with a bundle under way
   std::vector<std::size_t> reporting;  // sessions with feedback due
   std::vector<std::size_t> changed_rooms;
+  wire::ServerList other_servers;  // of a cluster, as links reach them
   ServerCounters counters;
 };
 

@@ -11,6 +11,8 @@ constexpr Duration kSessionSilence = Duration::ms(1900);  // with the tick below
 constexpr Duration kTick = Duration::ms(100);
 // Other servers are told again what may have been lost.
 constexpr std::uint64_t kSweepsPerRepeat = 5;
+// So often the other servers of a cluster are told again.
+constexpr std::uint32_t kPingsPerServers = 8;
 // What a link has not acknowledged; the rest comes with the next pong.
 constexpr std::size_t kStateDatagramsPerPong = 32;
 constexpr std::size_t kStateDatagramsPerWelcome = 64;
@@ -30,11 +32,10 @@ std::size_t ServerCore::guest_count() const {
 }
 
 std::size_t ServerCore::listener_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(server_.sessions.begin(), server_.sessions.end(),
-                    [](const ServerSession& session) {
-                      return session.in_use && !session.is_remote() && session.slots.empty();
-                    }));
+  return static_cast<std::size_t>(std::count_if(
+      server_.sessions.begin(), server_.sessions.end(), [](const ServerSession& session) {
+        return session.in_use && !session.is_remote() && session.slots.empty();
+      }));
 }
 
 void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram, MonoTime received,
@@ -115,6 +116,7 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   if (ping->epoch != static_cast<std::uint32_t>(session.epoch)) return send_goodbye(session.peer);
   session.newest_ping = *ping;
   session.knows_epoch = true;
+  pace_.on_ping(index, now);
   wire::Pong pong;
   pong.sequence = ping->sequence;
   pong.link_time_us = ping->link_time_us;
@@ -125,6 +127,11 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
   std::array<std::uint8_t, 64> out;
   server_.send(session.peer, {out.data(), wire::build(pong, out)});
 
+  // It is told all in one, when the room is known.
+  if (server_.is_newcomer(index)) return;
+  // The list may have been lost; of a server that stands alone there is none.
+  if (!server_.other_servers.empty() && ping->sequence % kPingsPerServers == 1)
+    send_servers(session);
   // Each ping is the occasion to repeat what the link has not acknowledged.
   const ServerRoom& room = server_.rooms[session.room];
   if (ping->roster_version != room.roster_version) send_roster(session);
@@ -135,12 +142,14 @@ void ServerCore::on_ping(std::size_t index, wire::Bytes body, MonoTime received,
 void ServerCore::send_roster(const ServerSession& session) {
   const ServerRoom& room = server_.rooms[session.room];
   constexpr std::uint8_t kSpan = wire::kSlotsPerRosterPart;
-  constexpr auto kParts = static_cast<std::uint8_t>(wire::kMaxGuestsPerRoom / kSpan);
-  for (std::uint8_t part = 0; part < kParts; ++part) {
+  constexpr auto kPage = static_cast<std::uint8_t>(wire::kSlotsPerPage / kSpan);
+  constexpr auto kAll = static_cast<std::uint8_t>(wire::kMaxGuestsPerRoom / kSpan);
+  const std::uint8_t parts = session.can_name(wire::kSlotsPerPage) ? kAll : kPage;
+  for (std::uint8_t part = 0; part < parts; ++part) {
     wire::RosterPart roster;
     roster.version = room.roster_version;
     roster.part = part;
-    roster.parts = kParts;
+    roster.parts = parts;
     roster.first_slot = static_cast<std::uint8_t>(part * kSpan);
     roster.slot_span = kSpan;
     for (std::uint8_t i = 0; i < kSpan; ++i) {
@@ -170,11 +179,14 @@ void ServerCore::end_turn(MonoTime now) {
   }
   // Those who dance come first: what a newcomer is told may be much.
   forwarder_.flush_due(now);
-  if (!server_.newcomers.empty()) {
-    for (const std::size_t newcomer : server_.newcomers) greet(newcomer, now);
-    server_.newcomers.clear();
-    forwarder_.flush_due(now);
-  }
+  const auto is_greeted = [&](std::size_t newcomer) {
+    ServerRoom& room = server_.rooms[server_.sessions[newcomer].room];
+    if (room.settled_at.is_set() && now < room.settled_at) return false;
+    room.settled_at = MonoTime();
+    greet(newcomer, now);
+    return true;
+  };
+  if (std::erase_if(server_.newcomers, is_greeted) > 0) forwarder_.flush_due(now);
   // Last, so that nothing waits for them.
   for (const std::size_t i : server_.changed_rooms)
     if (server_.rooms[i].has_fresh_states && now >= server_.rooms[i].fresh_states_due)
@@ -190,6 +202,7 @@ void ServerCore::end_turn(MonoTime now) {
 void ServerCore::sweep(MonoTime now) {
   if (++sweeps_ % kSweepsPerRepeat == 0) remotes_.repeat_feedback(now);
   files_.forget_absent();
+  pace_.sample(now);
   for (std::size_t i = 0; i < server_.sessions.size(); ++i) {
     ServerSession& session = server_.sessions[i];
     if (!session.in_use || session.is_remote()) continue;
@@ -224,6 +237,8 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : server_.changed_rooms)
     if (const ServerRoom& room = server_.rooms[i]; room.has_fresh_states)
       next = std::min(next, room.fresh_states_due);
+  for (const std::size_t i : server_.newcomers)
+    next = std::min(next, server_.rooms[server_.sessions[i].room].settled_at);
   if (const MonoTime files = files_.next_deadline(); files.is_set()) next = std::min(next, files);
   return next;
 }
@@ -232,6 +247,18 @@ void ServerCore::say_goodbye() {
   for (const ServerSession& session : server_.sessions) {
     if (session.in_use && !session.is_remote()) send_goodbye(session.peer);
   }
+}
+
+void ServerCore::set_other_servers(const wire::ServerList& servers) {
+  if (std::ranges::equal(servers, server_.other_servers)) return;
+  server_.other_servers = servers;
+  for (const ServerSession& session : server_.sessions)
+    if (session.in_use && !session.is_remote() && session.knows_epoch) send_servers(session);
+}
+
+void ServerCore::send_servers(const ServerSession& session) {
+  std::array<std::uint8_t, wire::kMaxPlain> out;
+  server_.send(session.peer, {out.data(), wire::build(server_.other_servers, out)});
 }
 
 // Roster, then states, then poses: each needs the one before it. What does not fit comes with the

@@ -15,6 +15,7 @@
 #include <functional>
 #include <vector>
 
+#include "tunnel/server/pace/server_pace.h"
 #include "tunnel/server/server_admission.h"
 #include "tunnel/server/server_files.h"
 #include "tunnel/server/server_forwarder.h"
@@ -54,6 +55,8 @@ class ServerCore {
   // Of a cluster, before the first datagram: who tells the other servers, and what they tell.
   // The port must outlive this.
   void join(ClusterPort& cluster) { server_.cluster = &cluster; }
+  // Where its links can go when it ends: they are told.
+  void set_other_servers(const wire::ServerList& servers);
   ServerRemotes& remotes() { return remotes_; }
   const ServerRemotes& remotes() const { return remotes_; }
 
@@ -74,12 +77,14 @@ class ServerCore {
   void on_ping(std::size_t session, wire::Bytes body, MonoTime received, MonoTime now);
   void send_roster(const ServerSession& session);
   void send_goodbye(PeerId peer);
+  void send_servers(const ServerSession& session);
   void greet(std::size_t newcomer, MonoTime now);
   void sweep(MonoTime now);
 
   ServerContext server_;
   ServerFeedback feedback_{server_};
   ServerInterest interest_{server_, feedback_};
+  ServerPace pace_{server_, interest_};
   ServerStates states_{server_};
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerAdmission admission_;

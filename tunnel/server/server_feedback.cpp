@@ -65,7 +65,11 @@ void ServerFeedback::on_acks(std::size_t index, const wire::Acks& acks, MonoTime
     schedule(guest.owner, now);
   });
   server_.counters.datagrams_acked += session.stream.sent.acked() - before;
-  if (server_.limits.repeats) session.repeats_down.update(session.stream.sent.loss());
+  // What is lost before a line that is too narrow is not mended by more bytes.
+  if (session.pace.budget.is_limited())
+    session.repeats_down = Repetition();
+  else if (server_.limits.repeats)
+    session.repeats_down.update(session.stream.sent.loss());
   if (!is_good) server_.reject(ServerReject::kBadAck);
 }
 

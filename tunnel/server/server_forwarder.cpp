@@ -16,6 +16,8 @@ constexpr std::int64_t kFarthestAhead_us = 1'000'000;
 // Loss, round trip and the number of guests; then each of them.
 constexpr std::size_t kFeedbackHead = 2 + 2 + 2 + 1;
 constexpr std::size_t kFeedbackGuest = 7 + 1 + 4;
+// Of a pose's record, about: kind, slot, low bits of its numbers, time since the one before.
+constexpr std::size_t kRecordHead = 6;
 // Whose poses come more often shows up without the retained one.
 constexpr Duration kStillMoves = Duration::ms(150);
 
@@ -100,6 +102,7 @@ void ServerForwarder::take(std::size_t session, ServerGuest& guest, const wire::
   }
   ++server_.counters.records_in;
   if (is_pose) guest.jitter.add(record.capture_us, received.since_zero_us());
+  if (is_pose) guest.flow.add(record.payload.size() + kRecordHead);
   if (record.is_base) ++guest.base_count;
   if (!is_pose) ++guest.hands_count;
   if (is_pose) guest.last_pose = now;
@@ -141,7 +144,9 @@ void ServerForwarder::forward(std::size_t from, const wire::Record& record, Mono
       if (!is_remote) ++server_.remotes[server_.sessions[member].remote].meter.records_out;
       continue;
     }
-    if (member == from || !interest_.take(member, record, now)) continue;
+    if (member == from || !server_.sessions[member].can_name(record.slot) ||
+        !interest_.take(member, record, now))
+      continue;
     if (record.kind == wire::RecordKind::kPose)
       repeat_before(member, room.guests[record.slot], record, now);
     add(member, record, now);
@@ -179,11 +184,7 @@ void ServerForwarder::put(std::size_t index, const wire::Record& record, MonoTim
   told.is_intra = told.is_base = false;  // the receiver sees it
   to.filters[record.slot].tell_left_out(told);
   bundle.add(told, is_narrow_for(to.filters[record.slot].frames(), record), now.since_zero_us(),
-             now + share_window(server_.rooms[to.room]));
-}
-
-Duration ServerForwarder::share_window(const ServerRoom& room) const {
-  return server_.limits.share_window.value_or(share_window_of(room.guest_count));
+             now + server_.limits.share_window.value_or(to.pace.window));
 }
 
 // Who wants less than all of everybody waits: what comes next is not known.
@@ -249,7 +250,7 @@ void ServerForwarder::retain(ServerGuest& guest, const wire::Record& record) {
 void ServerForwarder::send_retained(std::size_t to, std::uint8_t slot, MonoTime now) {
   const ServerGuest& guest = server_.rooms[server_.sessions[to].room].guests[slot];
   if (!guest.in_use || guest.owner == to || !guest.retained.is_set ||
-      !server_.sessions[to].filters[slot].wants_any())
+      !server_.sessions[to].filters[slot].wants_any() || !server_.sessions[to].can_name(slot))
     return;
   wire::Record record = guest.retained.record;
   record.payload = {guest.retained.payload.data(), guest.retained.size};

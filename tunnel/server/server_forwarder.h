@@ -41,7 +41,6 @@ class ServerForwarder {
   void put(std::size_t to, const wire::Record& record, MonoTime now);
   void repeat_before(std::size_t member, const ServerGuest& guest, const wire::Record& next,
                      MonoTime now);
-  Duration share_window(const ServerRoom& room) const;
   bool is_bundle_due(const ServerSession& session, MonoTime now) const;
   void flush_bundle(std::size_t session, MonoTime now);
   void send_records(std::size_t session, MonoTime now);

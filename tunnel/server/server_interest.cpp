@@ -1,5 +1,7 @@
 #include "tunnel/server/server_interest.h"
 
+#include <algorithm>
+
 #include "core/base/sequence.h"
 
 namespace dance {
@@ -34,6 +36,8 @@ void ServerInterest::settle(std::size_t index, MonoTime now) {
   for (const wire::InterestEntry& entry : session.interest.entries)
     if (room.guests[entry.slot.slot].generation == entry.slot.generation)
       dividers[entry.slot.slot] = entry.divider;
+  for (std::size_t slot = 0; slot < dividers.size(); ++slot)
+    if (dividers[slot] != 0) dividers[slot] = std::max(dividers[slot], session.pace.dividers[slot]);
   session.full_shares = 0;
   for (std::uint8_t slot = 0; slot < dividers.size(); ++slot) {
     const ServerGuest& guest = room.guests[slot];

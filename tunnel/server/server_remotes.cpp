@@ -25,6 +25,10 @@ std::optional<std::uint8_t> ServerRemotes::slot_of(const ServerRoom& room, const
   return std::nullopt;
 }
 
+void ServerRemotes::settle(const wire::RoomName& name) {
+  if (ServerRoom* room = find(name)) room->settled_at = MonoTime();
+}
+
 void ServerRemotes::open(const wire::RoomName& name, ServerId server, MonoTime now) {
   const auto room = admission_.find_room(name);
   if (!room || session_of(server_.rooms[*room], server)) return;
@@ -39,8 +43,7 @@ void ServerRemotes::close(const wire::RoomName& name, ServerId server) {
 
 void ServerRemotes::note_alive(ServerId server, Duration round_trip, MonoTime now) {
   for (ServerSession& session : server_.sessions) {
-    if (!session.in_use || !session.is_remote() ||
-        server_.remotes[session.remote].server != server)
+    if (!session.in_use || !session.is_remote() || server_.remotes[session.remote].server != server)
       continue;
     session.last_heard = now;
     session.newest_ping.round_trip_us = static_cast<std::uint32_t>(round_trip.count_us());

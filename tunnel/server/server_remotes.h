@@ -30,6 +30,8 @@ class ServerRemotes {
         feedback_(feedback),
         states_(states) {}
 
+  // All is told of who is in the room at other servers.
+  void settle(const wire::RoomName& room);
   // Another server has links in a room, or has none any more.
   void open(const wire::RoomName& room, ServerId server, MonoTime now);
   void close(const wire::RoomName& room, ServerId server);

@@ -20,6 +20,8 @@
 #include "tunnel/server/access.h"
 #include "tunnel/server/cluster_port.h"
 #include "tunnel/server/link_meter.h"
+#include "tunnel/server/pace/pose_flow.h"
+#include "tunnel/server/pace/session_pace.h"
 #include "tunnel/session/arrival_jitter.h"
 #include "tunnel/session/interest_filter.h"
 #include "tunnel/session/peer.h"
@@ -34,7 +36,8 @@ namespace dance {
 struct ServerLimits {
   std::size_t sessions = 256;
   std::size_t rooms = 64;
-  std::size_t guests_per_room = wire::kMaxGuestsPerRoom;
+  // Through links of this server; those of others come to them, up to kMaxGuestsPerRoom together.
+  std::size_t guests_per_room = wire::kSlotsPerPage;
   std::size_t listeners_per_room = 64;  // links without guests
   // Of a cluster: in each room that has links here, each other server whose guests are in it.
   std::size_t remote_servers = 0;
@@ -66,20 +69,15 @@ struct ServerLimits {
   double file_bytes_per_second = 2e6;
   double file_bytes_per_second_of_session = 256e3;
   // Records to one receiver wait this long for others to share a datagram with, unless all who
-  // dance have one in it already; 0 = not beyond the turn. Nothing: share_window_of() of the room's
-  // guests.
+  // dance have one in it already; 0 = not beyond the turn. Nothing: as long as the receiver's line
+  // and the server's work ask for, tunnel/server/pace/server_pace.h.
   std::optional<Duration> share_window{};
+  // Up to here each record may have a datagram of its own. A datagram takes about six microseconds
+  // of a core (dance crowd): half of one.
+  double eager_records_per_second = 80e3;
   // Poses go once more with the next where a way loses some.
   bool repeats = true;
 };
-
-// A few never wait: they rarely dance within the same millisecond. In a crowd headers would cost
-// more than poses.
-constexpr Duration share_window_of(std::size_t guests) {
-  constexpr std::size_t kFew = 8, kCrowd = 24;
-  if (guests <= kFew) return Duration();
-  return Duration::us(250) * static_cast<std::int64_t>(std::min(guests, kCrowd) - kFew);
-}
 
 // Why a datagram, or a record of it, went no further.
 enum class ServerReject : std::uint8_t {
@@ -172,6 +170,10 @@ struct ServerSession {
   // Of a link kMaxGuestsPerLink at most; of another server all of its guests in the room.
   FixedList<std::uint8_t, wire::kMaxGuestsPerRoom> slots;
   std::size_t remote = kNoRemote;  // another server of the cluster, not a link: in remotes
+  std::uint8_t version = wire::kWireVersion;  // of its hello
+  bool can_name(std::uint8_t slot) const {
+    return version >= wire::kWireVersion || slot < wire::kSlotsPerPage;
+  }
   bool is_remote() const { return remote != kNoRemote; }
   std::size_t state_cursor = 0;  // slot to begin with when not all fitted the last time
   TokenBucket datagrams;
@@ -181,6 +183,7 @@ struct ServerSession {
   LinkMeter meter;
   // Records wait here for the end of this turn, or of their window.
   Stream stream;
+  SessionPace pace;
   // What it wants of the others: the list as it said it, and what follows for each slot.
   wire::InterestList interest;
   std::array<InterestFilter, wire::kMaxGuestsPerRoom> filters;
@@ -210,6 +213,11 @@ struct ChannelGate {
   std::uint32_t sequence = 0;
 };
 
+// Where a guest's dance is put on the stage, from the guest's state; the middle before it.
+struct GuestPlace {
+  float x_m = 0.0f, z_m = 0.0f;
+};
+
 // The newest intra frame of a guest, for those who come later.
 struct RetainedPose {
   bool is_set = false;
@@ -227,6 +235,8 @@ struct ServerGuest {
   StreamGate poses;
   StreamGate hands;
   ArrivalJitter jitter;  // of poses
+  PoseFlow flow;
+  GuestPlace place;
   TokenBucket records;
   SentPose previous;  // goes once more to whom it may be lost
   bool key_wanted = false;
@@ -259,6 +269,9 @@ struct ServerRoom {
   MonoTime fresh_states_due;    // not before then
   bool has_first_body = false;  // fresh: a guest's first proportions, without which no pose decodes
   std::vector<std::size_t> members;  // sessions
+  // Of a cluster: it is not known yet who is in it at other servers. Newcomers are told nothing
+  // until then, or they would see all leave who dance on. Not set: known.
+  MonoTime settled_at;
   std::size_t guest_count = 0;
   std::size_t remote_count = 0;  // members that are other servers
   std::size_t host_count = 0;    // links of it with a host's key

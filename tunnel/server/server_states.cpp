@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tunnel/wire/state_bytes.h"
+
 namespace dance {
 namespace {
 
@@ -35,6 +37,14 @@ void ServerStates::retain(ServerRoom& room, RetainedState& retained, const wire:
   ++server_.counters.states_in;
 }
 
+// The only one that is read here: who is near whom (tunnel/server/pace/server_pace.h).
+void ServerStates::note_place(ServerGuest& guest, const wire::State& state) {
+  Placement placement;
+  if (state.name.kind == wire::StateKind::kPlacement &&
+      decode_from_tunnel(state.payload, placement))
+    guest.place = {placement.x_m, placement.z_m};
+}
+
 // Of a room's state two servers may each have taken one of the same version; which of them holds is
 // settled for all servers alike by who stands between them, and who was told the other hears again.
 void ServerStates::on_remote_state(ServerRoom& room, ServerGuest* guest, const wire::State& state) {
@@ -47,6 +57,7 @@ void ServerStates::on_remote_state(ServerRoom& room, ServerGuest* guest, const w
     for (const std::size_t member : room.members)
       server_.sessions[member].stream.states.forget(state.name, 0);
   if (guest == nullptr) room.setters[place] = state.setter;
+  if (guest != nullptr) note_place(*guest, state);
   retain(room, retained, state);
 }
 
@@ -66,6 +77,7 @@ std::optional<wire::StateAck> ServerStates::take(std::size_t session, const wire
     }
     const ServerRoom& room = server_.rooms[server_.sessions[session].room];
     retain(server_.rooms[server_.sessions[session].room], retained, state);
+    note_place(*guest, state);
     if (server_.cluster != nullptr) server_.cluster->on_state(room, guest, state);
   }
   return wire::StateAck{state.name, {state.slot.slot, guest->generation}, retained.version, {}};
@@ -134,7 +146,8 @@ void ServerStates::send(std::size_t index, bool only_fresh, std::size_t most_dat
   for (std::size_t i = 0; i < room.guests.size() && has_room; ++i) {
     const std::size_t slot = (begin + i) % room.guests.size();
     const ServerGuest& guest = room.guests[slot];
-    if (!guest.in_use || guest.owner == index) continue;
+    if (!guest.in_use || guest.owner == index || !session.can_name(static_cast<std::uint8_t>(slot)))
+      continue;
     const wire::Slot where{static_cast<std::uint8_t>(slot), guest.generation};
     for (std::size_t place = 0; place < wire::kGuestStates && has_room; ++place)
       has_room = add(wire::guest_state_at(place), where, {}, guest.states[place]);

@@ -27,6 +27,7 @@ class ServerStates {
   std::optional<wire::StateAck> take(std::size_t session, const wire::State& state, MonoTime now);
   std::optional<wire::StateAck> take_of_room(std::size_t session, const wire::State& state,
                                              MonoTime now);
+  static void note_place(ServerGuest& guest, const wire::State& state);
   void retain(ServerRoom& room, RetainedState& retained, const wire::State& state);
 
   ServerContext& server_;

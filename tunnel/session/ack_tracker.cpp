@@ -21,8 +21,8 @@ bool AckTracker::note_except(std::uint16_t number, const Slots& failed) {
   return true;
 }
 
-void AckTracker::owe(MonoTime due, MonoTime now) {
-  if (++untold_ >= kMostUntold)
+void AckTracker::owe(MonoTime due, bool is_clean, MonoTime now) {
+  if (++untold_ >= (is_clean ? kMostUntoldOnClean : kMostUntold))
     due_ = now;
   else if (!due_.is_set())
     due_ = due;
@@ -35,7 +35,8 @@ bool AckTracker::want_key_frame(std::uint8_t slot, MonoTime now) {
 }
 
 bool AckTracker::is_ripe(MonoTime now, bool is_clean) const {
-  return due_.is_set() && (now >= due_ || !is_clean || now - told_at_ >= kCleanGap);
+  return due_.is_set() &&
+         (now >= due_ || !is_clean || now - told_at_ >= kCleanGap || untold_ >= kMostUntold);
 }
 
 void AckTracker::fill(wire::RecordsHeader& header) const {

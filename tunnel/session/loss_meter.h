@@ -25,6 +25,7 @@ class LossMeter {
     pairs_ += (pair - pairs_) / static_cast<float>(seen_);
     was_lost_ = is_lost;
     lost_ += is_lost ? 1 : 0;
+    ++counted_;
   }
   float loss() const {
     // One lost datagram alone makes the quick one 1/64.
@@ -34,6 +35,7 @@ class LossMeter {
   // Never less than chance makes of the losses.
   float in_a_row() const { return std::max(pairs_, loss() * loss()); }
   std::uint64_t lost() const { return lost_; }
+  std::uint64_t counted() const { return counted_; }  // lost or not
 
  private:
   static constexpr float kBeforeAny = 0.02f;  // nothing is known: some loss
@@ -44,7 +46,7 @@ class LossMeter {
   float quick_ = kBeforeAny;
   float pairs_ = kBeforeAny * kBeforeAny;
   bool was_lost_ = false;
-  std::uint64_t lost_ = 0;
+  std::uint64_t lost_ = 0, counted_ = 0;
 };
 
 }  // namespace dance

@@ -23,6 +23,7 @@ void ReferenceControl::begin(PoseEncoder& encoder) {
   base_acked_frames_.clear();
   base_log2_ = 0;
   intra_log2_ = kFewestIntra_log2;
+  far_since_ = MonoTime();
   requests_seen_ = 0;
   refreshed_at_ = MonoTime();
 }
@@ -100,7 +101,20 @@ bool ReferenceControl::take(const wire::GuestFeedback& about, const PathStats& p
   base_log2_ = about.base_log2;
   intra_log2_ = about.intra_log2;
   if (about.restarts == static_cast<std::uint8_t>(stream_)) acknowledge(about, encoder, now);
+  note_distance(about, now);
   return is_asked;
+}
+
+// Who is sent every pose acknowledges others than base frames too. With nobody like that both
+// acknowledgements are the same (ReceiverSummary::fill()).
+void ReferenceControl::note_distance(const wire::GuestFeedback& about, MonoTime now) {
+  const bool is_far = about.base_log2 != 0 && about.has_acked && about.has_base_acked &&
+                      about.newest_acked == about.newest_base_acked &&
+                      about.acked_before == about.base_acked_before;
+  if (!is_far)
+    far_since_ = MonoTime();
+  else if (!far_since_.is_set())
+    far_since_ = now;
 }
 
 // Only what was sent, and each once.
@@ -155,8 +169,8 @@ void ReceiverSummary::add(std::uint8_t divider, const FrameWindow& frames) {
 
 void ReceiverSummary::add(const CommonFrames& others) {
   if (others.base_log2 != 0)
-    common_.base_log2 = common_.base_log2 == 0 ? others.base_log2
-                                               : std::min(common_.base_log2, others.base_log2);
+    common_.base_log2 =
+        common_.base_log2 == 0 ? others.base_log2 : std::min(common_.base_log2, others.base_log2);
   common_.intra_log2 = std::min(common_.intra_log2, others.intra_log2);
   // Receivers who all have something may have nothing in common.
   const auto counts = [this](const FrameWindow& frames) {

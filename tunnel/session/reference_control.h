@@ -35,6 +35,10 @@ class ReferenceControl {
             MonoTime now);
 
   References references() const { return policy_.current(); }
+  // For a while no receiver has been sent every pose: all see the dancer from afar.
+  bool is_far_from_all(MonoTime now) const {
+    return far_since_.is_set() && now - far_since_ >= kFarForGood;
+  }
   // Between captures, as it is of late.
   Duration frame() const { return frame_; }
   // What the encoder was told that all receivers have.
@@ -47,6 +51,7 @@ class ReferenceControl {
   void note_capture(MonoTime capture);
   void refresh(PoseEncoder& encoder, Duration intra_period, MonoTime now);
   void acknowledge(const wire::GuestFeedback& about, PoseEncoder& encoder, MonoTime now);
+  void note_distance(const wire::GuestFeedback& about, MonoTime now);
   template <class Tell>
   void each_new(std::uint16_t newest, std::uint16_t before, FrameWindow& told, Tell tell) const;
 
@@ -65,6 +70,8 @@ class ReferenceControl {
   std::uint8_t intra_log2_ = kFewestIntra_log2;
   MonoTime intra_at_;              // the newest intra frame, whatever for,
   std::uint32_t since_intra_ = 0;  // and the frames since then
+  static constexpr Duration kFarForGood = Duration::s(2);
+  MonoTime far_since_;
   std::uint8_t requests_seen_ = 0;
   MonoTime refreshed_at_;
   std::uint64_t sent_ = 0;

@@ -24,6 +24,10 @@ Slot read_slot(ByteReader& in) {
   return slot;
 }
 
+bool is_spoken(std::uint8_t version) {
+  return version >= kOldestWireVersion && version <= kWireVersion;
+}
+
 void write_codec(const CodecName& codec, ByteWriter& out) {
   out.u8(static_cast<std::uint8_t>(codec.id));
   out.u32(codec.model);
@@ -72,7 +76,7 @@ std::optional<Hello> parse_hello(Bytes body, HelloProblem& problem) {
   Hello hello;
   hello.version = in.u8();
   hello.nonce = problem.nonce = in.u64();
-  problem.is_other_version = in.ok() && hello.version != kWireVersion;
+  problem.is_other_version = in.ok() && !is_spoken(hello.version);
   if (problem.is_other_version) return std::nullopt;
   hello.token = in.u64();
   hello.link_time_us = in.i64();
@@ -101,7 +105,7 @@ std::optional<Hello> parse_hello(Bytes body, HelloProblem& problem) {
 std::size_t build(const Welcome& welcome, std::span<std::uint8_t> buffer) {
   ByteWriter out(buffer);
   write_opening(Type::kWelcome, out);
-  out.u8(kWireVersion);
+  out.u8(welcome.version);
   out.u64(welcome.nonce);
   out.u64(welcome.epoch);
   out.i64(welcome.link_time_us);
@@ -115,8 +119,8 @@ std::size_t build(const Welcome& welcome, std::span<std::uint8_t> buffer) {
 
 std::optional<Welcome> parse_welcome(Bytes body) {
   ByteReader in(body);
-  const std::uint8_t version = in.u8();
   Welcome welcome;
+  welcome.version = in.u8();
   welcome.nonce = in.u64();
   welcome.epoch = in.u64();
   welcome.link_time_us = in.i64();
@@ -124,10 +128,10 @@ std::optional<Welcome> parse_welcome(Bytes body) {
   welcome.server_send_us = in.i64();
   welcome.codec = read_codec(in);
   const std::size_t slots = in.u8();
-  if (version != kWireVersion || slots > kMaxGuestsPerLink) return std::nullopt;
+  if (!is_spoken(welcome.version) || slots > kMaxGuestsPerLink) return std::nullopt;
   for (std::size_t i = 0; i < slots; ++i) {
     const Slot slot = read_slot(in);
-    if (slot.slot >= kMaxGuestsPerRoom || !welcome.slots.try_push(slot)) return std::nullopt;
+    if (slot.slot >= kSlotsPerPage || !welcome.slots.try_push(slot)) return std::nullopt;
   }
   if (!in.is_exhausted() || welcome.epoch == 0) return std::nullopt;
   return welcome;

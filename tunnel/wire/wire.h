@@ -25,7 +25,10 @@
 
 namespace dance::wire {
 
-constexpr std::uint8_t kWireVersion = seal::kTunnelVersion;
+// 5 has twice the slots of 4, and is the same in all else: who speaks 4 hears of the lower half.
+constexpr std::uint8_t kWireVersion = 5;
+constexpr std::uint8_t kOldestWireVersion = 4;
+static_assert(kOldestWireVersion == seal::kTunnelVersion, "all before were not sealed");
 // What the seal adds.
 constexpr std::size_t kSealOverhead = seal::kOverhead;
 // An inner datagram, as the state machines see it.
@@ -33,7 +36,9 @@ constexpr std::size_t kMaxPlain = seal::kMaxPlain;
 // No hello, welcome or refusal is longer.
 constexpr std::size_t kMaxHello = 512;
 constexpr std::size_t kMaxGuestsPerLink = 16;
-constexpr std::size_t kMaxGuestsPerRoom = 64;
+constexpr std::size_t kMaxGuestsPerRoom = 128;
+// Slots come in pages. A link's own guests are in the first, as are all that version 4 can name.
+constexpr std::size_t kSlotsPerPage = 64;
 constexpr std::size_t kMaxCodecs = 8;
 constexpr std::size_t kMaxPayload = 512;
 
@@ -60,6 +65,8 @@ enum class Type : std::uint8_t {
   kFileWant = 26,
   kFileChunk = 27,
   kFileRefusal = 28,
+  // tunnel/wire/wire_servers.h.
+  kServers = 29,
 };
 
 enum class Refusal : std::uint16_t {
@@ -95,6 +102,7 @@ struct Slot {
 };
 
 struct Welcome {
+  std::uint8_t version = kWireVersion;  // of the hello
   std::uint64_t nonce = 0;
   std::uint64_t epoch = 0;        // random, never 0: another one says that all begins anew
   std::int64_t link_time_us = 0;  // of the hello

@@ -5,7 +5,9 @@ namespace {
 
 constexpr std::uint8_t kHasAcks = 1, kHasExcepts = 2, kHasWants = 4, kHasFeedback = 8,
                        kHasRecords = 16, kWantsRepeats = 32, kKnownFlags = 63;
-constexpr std::uint8_t kSlotMask = 0x3f;  // 64 slots of a room
+constexpr std::uint8_t kSlotMask = 0x3f;  // the slot in its page
+static_assert(kSlotMask + 1 == kSlotsPerPage);
+constexpr std::uint8_t kPage = 0;  // instead of a length: another page of slots follows
 constexpr std::uint8_t kIsHands = 0x40, kIsWide = 0x80;
 // Hands are always wide: narrow ones mean a message of a channel.
 constexpr std::uint8_t kIsChannel = kIsHands;
@@ -119,7 +121,7 @@ bool read_feedback(ByteReader& in, Feedback& feedback) {
         guest.base_acked_before = in.u16();
       }
     }
-    if (guest.slot >= kMaxGuestsPerRoom || !feedback.guests.try_push(guest)) return false;
+    if (!feedback.guests.try_push(guest)) return false;
   }
   return in.ok();
 }
@@ -227,7 +229,11 @@ void go_on(RecordChain& chain, const Record& record) {
   chain.capture_ticks = to_ticks(record.capture_us);
 }
 
-std::uint8_t next_slot(const RecordChain& chain) { return (chain.slot + 1) & kSlotMask; }
+std::uint8_t page_of(std::uint8_t slot) { return slot / kSlotsPerPage; }
+std::uint8_t in_page(const RecordChain& chain, unsigned slot) {
+  return static_cast<std::uint8_t>(chain.page * kSlotsPerPage + (slot & kSlotMask));
+}
+std::uint8_t next_slot(const RecordChain& chain) { return in_page(chain, chain.slot + 1u); }
 
 std::uint8_t narrow_sequence(const Record& record) {
   return static_cast<std::uint8_t>((record.sequence & kSequenceMask) |
@@ -274,6 +280,11 @@ void add_record(const Record& record, bool is_narrow, RecordChain& chain, ByteWr
                        (record.is_retained ? kIsRetained : 0));
   const auto more = static_cast<std::uint8_t>(length >> 6 | flags);
   const std::int64_t after = to_ticks(record.capture_us) - chain.capture_ticks;
+  if (page_of(record.slot) != chain.page) {
+    chain.page = page_of(record.slot);
+    out.u8(kPage);
+    out.u8(chain.page);
+  }
   if (is_narrow && !has_ages && more == 0 && chain.has_any && record.slot == next_slot(chain) &&
       after >= INT8_MIN && after <= INT8_MAX) {
     out.u8(static_cast<std::uint8_t>(length | kIsBrief));
@@ -284,7 +295,8 @@ void add_record(const Record& record, bool is_narrow, RecordChain& chain, ByteWr
   }
   out.u8(static_cast<std::uint8_t>((length & kLengthMask) | (more != 0 ? kLongLength : 0)));
   if (more != 0) out.u8(more);
-  out.u8(static_cast<std::uint8_t>(record.slot | (is_hands || is_channel ? kIsHands : 0) |
+  out.u8(static_cast<std::uint8_t>((record.slot & kSlotMask) |
+                                   (is_hands || is_channel ? kIsHands : 0) |
                                    (is_narrow || is_channel ? 0 : kIsWide)));
   if (is_channel) return add_channel_record(record, out);
   if (record.counts_left_out) out.u16(record.left_out);
@@ -330,7 +342,15 @@ bool read_numbers(ByteReader& in, Record& record) {
 }  // namespace
 
 std::optional<Record> parse_record(RecordChain& chain, ByteReader& in) {
-  const std::uint8_t length_byte = in.u8();
+  std::uint8_t length_byte = in.u8();
+  if (length_byte == kPage) {
+    const std::uint8_t page = in.u8();
+    if (!in.ok() || page == chain.page || page >= kMaxGuestsPerRoom / kSlotsPerPage)
+      return std::nullopt;
+    chain.page = page;
+    length_byte = in.u8();
+    if (length_byte == kPage) return std::nullopt;
+  }
   std::size_t length = length_byte & kLengthMask;
   if ((length_byte & kIsBrief) != 0) {
     if ((length_byte & kLongLength) != 0) return std::nullopt;
@@ -341,7 +361,7 @@ std::optional<Record> parse_record(RecordChain& chain, ByteReader& in) {
   Record record;
   const std::uint8_t first = in.u8();
   record.kind = (first & kIsHands) != 0 ? RecordKind::kHands : RecordKind::kPose;
-  record.slot = first & kSlotMask;
+  record.slot = in_page(chain, first);
   if ((first & (kIsHands | kIsWide)) == kIsChannel) {
     if ((more & ~kHighLengthMask) != 0) return std::nullopt;
     read_channel_record(in, length, record);

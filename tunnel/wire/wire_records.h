@@ -109,7 +109,7 @@ constexpr std::size_t kBriefRecordHeader =
     3;  // narrow, of the next slot and nearly the same moment
 constexpr std::size_t kNarrowRecordHeader = 5;
 constexpr std::size_t kWideRecordHeader = 11;
-constexpr std::size_t kMaxRecordHeader = kWideRecordHeader + 1 + 1 + 2 + 8 + 3 + 18;
+constexpr std::size_t kMaxRecordHeader = 2 + kWideRecordHeader + 1 + 1 + 2 + 8 + 3 + 18;
 // How far a record may be ahead of what the receiver has for its numbers to travel narrow.
 constexpr std::uint16_t kNarrowReach = 24;
 
@@ -119,6 +119,7 @@ struct RecordChain {
   bool has_any = false;
   std::uint8_t slot = 0;
   std::int64_t capture_ticks = 0;
+  std::uint8_t page = 0;  // of the slots that follow
 };
 
 // The opening and the header; records follow.

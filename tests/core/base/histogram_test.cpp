@@ -62,6 +62,19 @@ TEST(Histogram, NeverAnswersMoreThanTheMaximum) {
   EXPECT_EQ(histogram.percentile(1.0), Duration::us(1024));
 }
 
+TEST(Histogram, SumsUp) {
+  Histogram all, first, second;
+  for (int i = 1; i <= 1000; ++i) {
+    all.add(Duration::us(i * i));
+    (i % 3 == 0 ? first : second).add(Duration::us(i * i));
+  }
+  first.add(second);
+  EXPECT_EQ(first.count(), all.count());
+  EXPECT_EQ(first.max(), all.max());
+  for (const double fraction : {0.0, 0.1, 0.5, 0.9, 0.99, 1.0})
+    EXPECT_EQ(first.percentile(fraction), all.percentile(fraction)) << fraction;
+}
+
 TEST(Histogram, CountsNegativesAsZeroAndTheHugeInItsLastBucket) {
   Histogram histogram;
   histogram.add(Duration::us(-5));

@@ -37,6 +37,21 @@ TEST(ClusterFailure, AGuestOfADeadServerComesBackThroughAnotherWithoutLeaving) {
   EXPECT_FALSE(b.saw("-alice"));
 }
 
+TEST(ClusterFailure, WhoComesToAServerWithoutTheRoomSeesNobodyLeave) {
+  SimulatedCluster cluster(3);
+  House& a = cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  ASSERT_TRUE(a.saw("+bob"));
+  cluster[0].kill();
+  cluster.delay = Duration::ms(50);
+  cluster[2].tunnel.adopt(cluster[0].tunnel, a);
+  cluster.dance(Duration::s(1), {{&a, "alice"}, {&b, "bob"}});
+  EXPECT_FALSE(a.saw("-bob"));
+  EXPECT_FALSE(b.saw("-alice"));
+  EXPECT_GT(a.heard_of(guest("bob")), 40u);
+}
+
 TEST(ClusterFailure, WhoDoesNotComeBackLeavesAndLeavesNothing) {
   SimulatedCluster cluster(2);
   cluster[0].add("alice");

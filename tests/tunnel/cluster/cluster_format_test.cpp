@@ -50,7 +50,7 @@ TEST(ClusterFormat, GoldenBytes) {
   cluster::ClockQuestion question;
   question.server = 0x0102030405060708;
   question.asked_us = 1'000'000;
-  const std::vector<std::uint8_t> golden{1, 2, 8, 7,    6,    5,    4, 3, 2,
+  const std::vector<std::uint8_t> golden{1, 2,    8,    7,    6, 5, 4, 3, 2,
                                          1, 0x40, 0x42, 0x0f, 0, 0, 0, 0, 0};
   EXPECT_EQ(bytes_of(cluster::Message(question)), golden);
   const cluster::Value value(cluster::StateValue{7, guest("ann"), 9, golden});
@@ -61,7 +61,8 @@ TEST(ClusterFormat, GoldenBytes) {
 
 TEST(ClusterFormat, RefusesWhatIsCutOffOrTooLong) {
   for (const cluster::Message& message : cluster_samples::messages()) {
-    if (std::holds_alternative<cluster::RecordMessage>(message)) continue;  // its payload is the rest
+    if (std::holds_alternative<cluster::RecordMessage>(message))
+      continue;  // its payload is the rest
     auto bytes = bytes_of(message);
     for (std::size_t size = 0; size < bytes.size(); ++size)
       EXPECT_FALSE(cluster::parse_message(std::span(bytes).first(size))) << message.index();

@@ -123,6 +123,50 @@ TEST(ClusterRooms, ARoomThatEmptiesLeavesNothingBehind) {
   EXPECT_EQ(cluster[0].subjects.size(), 2u) << "beats, and what is for it";
 }
 
+TEST(ClusterRooms, NinetyGuestsOfThreeServersHearEachOther) {
+  SimulatedCluster cluster(3);
+  std::vector<SimulatedCluster::Dancer> all;
+  for (std::size_t i = 0; i < 90; ++i) {
+    const std::string name = "guest-" + std::to_string(i);
+    all.emplace_back(&cluster[i % 3].add(name), name);
+  }
+  cluster.run(Duration::ms(500));
+  cluster.dance(Duration::ms(800), all);
+  cluster.run(Duration::ms(100));
+  std::size_t highest = 0;
+  for (const ServerRoom& room : cluster[0].tunnel.server().rooms())
+    for (std::size_t slot = 0; slot < room.guests.size(); ++slot)
+      if (room.in_use && room.guests[slot].in_use) highest = slot;
+  EXPECT_GE(highest, wire::kSlotsPerPage) << "some are in the second page";
+  for (const auto& [house, name] : all) {
+    std::map<GuestId, int> heard;
+    for (const auto& one : house->poses) ++heard[one.guest];
+    EXPECT_EQ(heard.size(), 89u) << name;
+    for (const auto& [other, poses] : heard) EXPECT_GE(poses, 40) << name << " of " << other.view();
+  }
+}
+
+// It comes through another server, where the first page has a place for it.
+TEST(ClusterRooms, AGuestOfTheSecondPageGoesOnThroughAnotherServer) {
+  SimulatedCluster cluster(2);
+  std::vector<SimulatedCluster::Dancer> all;
+  for (std::size_t i = 0; i < 50; ++i) {
+    const std::string name = "guest-" + std::to_string(i);
+    all.emplace_back(&cluster[i < 45 ? 0 : 1].add(name), name);
+  }
+  cluster.run(Duration::ms(500));
+  House& last = *all[44].first;  // the 45th of the first server: at the second in the second page
+  cluster.dance(Duration::ms(300), all);
+  cluster[0].kill();
+  cluster[1].tunnel.adopt(cluster[0].tunnel, last);
+  cluster.run(Duration::ms(300));
+  House& other = *all[49].first;
+  other.poses.clear();
+  cluster.dance(Duration::s(1), {{&last, "guest-44"}, {&other, "guest-49"}});
+  EXPECT_GT(other.heard_of(guest("guest-44")), 50u);
+  EXPECT_FALSE(other.saw("-guest-44"));
+}
+
 TEST(ClusterRooms, ANameIsTakenAtAllServers) {
   SimulatedCluster cluster(2);
   cluster[0].add("alice");

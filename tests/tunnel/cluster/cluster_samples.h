@@ -40,7 +40,7 @@ inline std::vector<cluster::Message> messages() {
   beat.links = 3;
   beat.guests = 4;
   beat.is_leaving = true;
-  if (!beat.address.assign("dance.example.org:7400")) std::abort();
+  beat.address = Address::loopback(7400);
   cluster::FeedbackMessage feedback;
   feedback.server = 5;
   feedback.room = guest("salsa");
@@ -61,8 +61,9 @@ inline std::vector<cluster::Message> messages() {
   cluster::RecordMessage channel = record();
   channel.record.kind = wire::RecordKind::kChannel;
   channel.record.channel = 3;
-  return {beat,     cluster::ClockQuestion{6, 7}, cluster::ClockAnswer{8, 9, 10, 11},
-          record(), channel,                      feedback};
+  return {
+      beat,    cluster::ClockQuestion{6, 7}, cluster::ClockAnswer{8, 9, 10, 11}, record(), channel,
+      feedback};
 }
 
 inline std::vector<cluster::Value> values() {

@@ -54,8 +54,8 @@ class SimulatedCluster {
       start();
     }
     SimulatedTunnel::House& add(const std::string& name, const std::string& room = "salsa") {
-      return tunnel.add_house(room, name.empty() ? std::vector<std::string>{}
-                                                 : std::vector<std::string>{name});
+      return tunnel.add_house(
+          room, name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name});
     }
 
     void set_handlers(Handlers handlers) override { handlers_ = std::move(handlers); }
@@ -66,7 +66,8 @@ class SimulatedCluster {
     void listen(std::string_view subject) override { subjects.insert(std::string(subject)); }
     void end_listen(std::string_view subject) override { subjects.erase(std::string(subject)); }
     void put(std::string_view key, Bytes value) override {
-      cluster_.write(*this, std::string(key), std::vector<std::uint8_t>(value.begin(), value.end()));
+      cluster_.write(*this, std::string(key),
+                     std::vector<std::uint8_t>(value.begin(), value.end()));
     }
     void erase(std::string_view key) override { cluster_.write(*this, std::string(key), {}); }
     void watch(std::string_view keys) override {
@@ -183,20 +184,27 @@ class SimulatedCluster {
       waiting_.emplace_back(&from, key, std::move(bytes));
       return;
     }
-    if (bytes)
+    values.erase(key);
+    written_.erase(key);
+    if (bytes) {
       values[key] = *bytes;
-    else
-      values.erase(key);
+      written_[key] = ++writes_;
+    }
     for (auto& site : sites_)
       if (site->node && site->watches(key))
         site->arrivals.push_back({now_ + delay, true, key, bytes});
   }
   void read_all(Site& to, const std::string& prefix) {
-    for (const auto& [key, bytes] : values)
-      if (key.starts_with(prefix)) to.arrivals.push_back({now_ + delay, true, key, bytes});
+    std::map<std::uint64_t, std::string> in_order;
+    for (const auto& [key, number] : written_)
+      if (key.starts_with(prefix)) in_order[number] = key;
+    for (const auto& [number, key] : in_order)
+      to.arrivals.push_back({now_ + delay, true, key, values.at(key)});
   }
 
   MonoTime now_ = MonoTime::from_us(5'000'000'000);
+  std::map<std::string, std::uint64_t> written_;  // when, by key
+  std::uint64_t writes_ = 0;
   std::vector<std::unique_ptr<Site>> sites_;
   std::vector<std::tuple<Site*, std::string, std::optional<std::vector<std::uint8_t>>>> waiting_;
 };

@@ -52,13 +52,28 @@ TEST(AckTracker, WhereMoreFailThanCanBeToldTheOthersAreAcknowledgedStill) {
 
 TEST(AckTracker, IsDueWhenItWasPromisedOrAtOnceAfterSixteenDatagrams) {
   AckTracker tracker;
-  tracker.owe(kNow + Duration::ms(20), kNow);
-  tracker.owe(kNow + Duration::ms(30), kNow);
+  tracker.owe(kNow + Duration::ms(20), false, kNow);
+  tracker.owe(kNow + Duration::ms(30), false, kNow);
   EXPECT_EQ(tracker.due(), kNow + Duration::ms(20)) << "the first promise counts";
-  for (int i = 2; i < 15; ++i) tracker.owe(kNow + Duration::ms(30), kNow);
+  for (int i = 2; i < 15; ++i) tracker.owe(kNow + Duration::ms(30), false, kNow);
   EXPECT_EQ(tracker.due(), kNow + Duration::ms(20));
-  tracker.owe(kNow + Duration::ms(30), kNow);
+  tracker.owe(kNow + Duration::ms(30), false, kNow);
   EXPECT_EQ(tracker.due(), kNow);
+}
+
+TEST(AckTracker, OnACleanPathItIsDueLaterButGoesAlongOnceMuchHasCome) {
+  AckTracker tracker;
+  tracker.note(1);
+  wire::RecordsHeader header;
+  tracker.tell(header, kNow);
+  const MonoTime soon = kNow + Duration::ms(10), promised = kNow + Duration::ms(40);
+  for (int i = 0; i < 15; ++i) tracker.owe(promised, true, soon);
+  EXPECT_FALSE(tracker.is_ripe(soon, true));
+  tracker.owe(promised, true, soon);
+  EXPECT_TRUE(tracker.is_ripe(soon, true)) << "with a pose that leaves anyway";
+  EXPECT_EQ(tracker.due(), promised) << "but not alone";
+  for (int i = 16; i < 31; ++i) tracker.owe(promised, true, soon);
+  EXPECT_EQ(tracker.due(), soon) << "before the first of them are beyond what it tells of";
 }
 
 TEST(AckTracker, GoesAlongAtOnceOnAPathThatLosesAndWaitsOnACleanOne) {
@@ -67,7 +82,7 @@ TEST(AckTracker, GoesAlongAtOnceOnAPathThatLosesAndWaitsOnACleanOne) {
   wire::RecordsHeader header;
   tracker.tell(header, kNow);
   EXPECT_FALSE(tracker.owes());
-  tracker.owe(kNow + Duration::ms(40), kNow);
+  tracker.owe(kNow + Duration::ms(40), false, kNow);
   const MonoTime soon = kNow + Duration::ms(10);
   EXPECT_TRUE(tracker.is_ripe(soon, false));
   EXPECT_FALSE(tracker.is_ripe(soon, true));

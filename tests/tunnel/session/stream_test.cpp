@@ -60,7 +60,7 @@ TEST_F(StreamTest, ANewSessionBeginsWithNothingOfTheOneBefore) {
   (void)sent_by(stream, true);
   add(stream, 2);
   stream.received.note(77);
-  stream.received.owe(MonoTime::from_us(1), MonoTime::from_us(1));
+  stream.received.owe(MonoTime::from_us(1), false, MonoTime::from_us(1));
   stream = Stream();
   EXPECT_TRUE(stream.bundle.is_empty());
   EXPECT_FALSE(stream.received.has_any());

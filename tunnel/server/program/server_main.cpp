@@ -180,6 +180,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
   std::unique_ptr<ClusterMembership> cluster;
   if (!options.cluster.urls.empty()) {
     ClusterOptions joins = options.cluster;
+    joins.port = options.port;
     joins.nats.name = "dance server " + std::to_string(options.port);
     DANCE_TRY(cluster, ClusterMembership::join(joins, *poller));
     of.cluster = &cluster->node();
@@ -278,7 +279,7 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--max-rooms", options.limits.rooms, "rooms at a time").range(1, 10'000).shows_default();
   line.add("--max-guests", options.limits.guests_per_room, "guests in a room")
-      .range(1, static_cast<int>(dance::wire::kMaxGuestsPerRoom))
+      .range(1, static_cast<int>(dance::wire::kSlotsPerPage))
       .shows_default();
   line.add("--max-listeners", options.limits.listeners_per_room,
            "links in a room that bring no guests")
@@ -287,7 +288,7 @@ int main(int argc, char** argv) {
   line.add(
           "--share-ms", options.share_ms,
           "how long a pose waits for others to share a datagram with: more saves bytes, 0 = not at "
-          "all (else 0 for up to 8 guests, then more, to 5 for 28)")
+          "all (else only where a line or this server cannot do without, to 4)")
       .range(0, 20);
   dance::add_cluster_options(
       line, options.cluster,

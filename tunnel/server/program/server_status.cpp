@@ -79,6 +79,12 @@ ServerLinkStatus ServerStatusMaker::link_status(std::size_t index, MonoTime now)
   if (session.newest_ping.round_trip_us != 0)
     link.round_trip = Duration::us(session.newest_ping.round_trip_us);
   link.poses_lost = session.newest_ping.poses_lost;
+  if (session.pace.budget.is_limited())
+    link.budget_bytes_per_s = session.pace.budget.bytes_per_second();
+  link.share_window = limits_.share_window.value_or(session.pace.window);
+  link.thinned = static_cast<std::size_t>(
+      std::count_if(session.pace.dividers.begin(), session.pace.dividers.end(),
+                    [](std::uint8_t divider) { return divider > 1; }));
   link.bytes_in = session.meter.bytes_in;
   link.bytes_out = session.meter.bytes_out;
   // Shorter than this, one datagram would look like a stream.
@@ -124,11 +130,11 @@ ServerStatus ServerStatusMaker::make(MonoTime now, std::span<const NamedCount> h
     ServerRoomStatus about;
     about.name = room.name;
     about.codec = room.codec;
-    about.share_window = limits_.share_window.value_or(share_window_of(room.guest_count));
     for (const std::size_t member : room.members) {
       // Who has said no more than hello may be nobody.
       if (!core_.sessions()[member].meter.since.is_set()) continue;
       about.links.push_back(link_status(member, now));
+      about.share_window = std::max(about.share_window, about.links.back().share_window);
       about.guests += about.links.back().guests.size();
       about.listeners += about.links.back().guests.empty() ? 1 : 0;
     }

@@ -52,6 +52,10 @@ struct ServerLinkStatus {
   double datagrams_out_per_s = 0.0;
   double bytes_in_per_s = 0.0;
   double bytes_out_per_s = 0.0;
+  // What its line is held to bear; nothing = all.
+  std::optional<double> budget_bytes_per_s;
+  Duration share_window;
+  std::size_t thinned = 0;  // guests of whom it gets fewer poses than it wants
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;
   std::uint32_t poses_lost = 0;           // of the others', as its newest ping says
@@ -63,7 +67,7 @@ struct ServerRoomStatus {
   std::size_t guests = 0;
   std::size_t listeners = 0;
   CodecName codec;
-  Duration share_window;
+  Duration share_window;  // of the link whose poses wait longest
   std::vector<ServerLinkStatus> links;
 };
 

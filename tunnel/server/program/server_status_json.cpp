@@ -21,6 +21,9 @@ void add_json(const ServerLinkStatus& link, JsonText& json) {
   json.member("datagrams_out_per_s", link.datagrams_out_per_s);
   json.member("bytes_in_per_s", link.bytes_in_per_s);
   json.member("bytes_out_per_s", link.bytes_out_per_s);
+  json.member("budget_bytes_per_s", link.budget_bytes_per_s);
+  json.member("share_window_ms", link.share_window.as_ms());
+  json.member("thinned", std::uint64_t{link.thinned});
   json.member("bytes_in", link.bytes_in);
   json.member("bytes_out", link.bytes_out);
   json.member("poses_lost", std::uint64_t{link.poses_lost});

@@ -1,5 +1,6 @@
 #include "tunnel/server/program/cluster/cluster_membership.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/net/mono_clock.h"
@@ -27,8 +28,9 @@ Result<std::unique_ptr<ClusterMembership>> ClusterMembership::join(const Cluster
   of.born_us = std::chrono::duration_cast<std::chrono::microseconds>(
                    std::chrono::system_clock::now().time_since_epoch())
                    .count();
-  if (!of.address.assign(options.address))
-    return fail("--cluster-address is longer than 64 characters");
+  if (!options.address.empty()) {
+    DANCE_TRY(of.address, Address::resolve(options.address, options.port));
+  }
   std::unique_ptr<ClusterMembership> membership(new ClusterMembership);
   DANCE_TRY(membership->bus_, NatsBus::connect(nats, poller));
   membership->node_ = std::make_unique<ClusterNode>(of, *membership->bus_);
@@ -77,6 +79,10 @@ Result<void> ClusterMembership::settle(const NatsOptions& nats, Poller& poller) 
 }
 
 void ClusterMembership::tell() {
+  const auto others = static_cast<std::size_t>(std::ranges::count_if(
+      node_->peers(), [](const auto& peer) { return peer.second.is_alive; }));
+  if (others != told_others_)
+    talk::info("{} other servers are in the cluster now", told_others_ = others);
   if (const auto wrong = keys_.take_wrong()) talk::warn("{}", *wrong);
   const NatsBus::Counters now = bus_->counters();
   const bool has_come_back = std::exchange(reconnects_, now.reconnects) != now.reconnects;

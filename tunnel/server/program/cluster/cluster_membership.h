@@ -54,6 +54,7 @@ class ClusterMembership {
   ClusterKeys keys_;
   std::function<void()> on_keys_;
   bool was_connected_ = true;
+  std::size_t told_others_ = SIZE_MAX;
   std::uint64_t reconnects_ = 0;
 };
 

@@ -17,7 +17,8 @@ namespace dance {
 struct ClusterOptions {
   std::string urls;  // as nats_urls(); "" = no cluster
   NatsOptions nats;
-  std::string address;  // HOST:PORT as guests reach this server
+  std::string address;     // HOST[:PORT] as guests reach this server
+  std::uint16_t port = 0;  // of this server
 };
 // With the URLs in them.
 Result<NatsOptions> nats_options_of(const ClusterOptions& options);

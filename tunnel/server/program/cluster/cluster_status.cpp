@@ -38,7 +38,7 @@ std::string server_id_text(ServerId id) { return fmt::format("{:016x}", id); }
 ClusterStatus cluster_status_of(const ClusterNode& node, const ServerCore& core, MonoTime now) {
   ClusterStatus status;
   status.id = node.id();
-  status.address = node.address();
+  if (node.address().is_set()) status.address = node.address().to_string();
   status.clock_server = node.clock_server();
   status.clock_offset = node.clock().offset();
   if (node.clock().is_measured()) status.clock_round_trip = node.clock().round_trip();
@@ -50,7 +50,7 @@ ClusterStatus cluster_status_of(const ClusterNode& node, const ServerCore& core,
   for (const auto& [id, peer] : node.peers()) {
     ClusterPeerStatus about;
     about.id = id;
-    about.address = peer.beat.address.view();
+    if (peer.beat.address.is_set()) about.address = peer.beat.address.to_string();
     about.is_alive = peer.is_alive;
     about.last_heard = std::max(Duration(), now - peer.heard);
     if (peer.round_trip > Duration()) about.round_trip = peer.round_trip;
