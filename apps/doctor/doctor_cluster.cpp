@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/printable.h"
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
 #include "core/net/secure_random.h"
@@ -101,8 +100,9 @@ std::vector<Finding> check_servers(const std::map<ServerId, ClusterProbe::Seen>&
   const ClusterProbe::Seen* last = nullptr;
   for (const auto& [id, server] : seen) {
     Finding finding{fmt::format("server {:08x}", id >> 32), Grade::kOk, "", ""};
-    const std::string address = printable(server.beat.address.view());
-    finding.what = fmt::format("{}{} links, {} guests", address.empty() ? "" : address + ", ",
+    const Address& address = server.beat.address;
+    finding.what = fmt::format("{}{} links, {} guests",
+                               address.is_set() ? address.to_string() + ", " : "",
                                server.beat.links, server.beat.guests);
     if (server.answers == 0) {
       finding.grade = Grade::kProblem;
