@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/printable.h"
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
 #include "core/net/secure_random.h"
@@ -57,8 +56,9 @@ Finding check_replicas(const NatsExamination::Bucket& bucket, std::size_t named)
   } else if (bucket.replicas < 3) {
     finding.grade = Grade::kNote;
     finding.what += ": with its disk they are lost, and while it is down nobody can come or leave";
-    finding.cure = named >= 3 ? "nats stream edit KV_" + bucket.name + " --replicas 3"
-                              : "three NATS servers, and --cluster with all of their names";
+    finding.cure = named >= 3
+                       ? "nats stream edit KV_" + bucket.name + " --replicas 3   (the tool natscli)"
+                       : "three NATS servers, and --cluster with all of their names";
   }
   return finding;
 }
@@ -101,10 +101,10 @@ std::vector<Finding> check_servers(const std::map<ServerId, ClusterProbe::Seen>&
   const ClusterProbe::Seen* last = nullptr;
   for (const auto& [id, server] : seen) {
     Finding finding{fmt::format("server {:08x}", id >> 32), Grade::kOk, "", ""};
-    const std::string address =
-        server.beat.address.is_set() ? server.beat.address.to_string() : std::string();
-    finding.what = fmt::format("{}{} links, {} guests", address.empty() ? "" : address + ", ",
-                               server.beat.links, server.beat.guests);
+    const Address& address = server.beat.address;
+    finding.what =
+        fmt::format("{}{} links, {} guests", address.is_set() ? address.to_string() + ", " : "",
+                    server.beat.links, server.beat.guests);
     if (server.answers == 0) {
       finding.grade = Grade::kProblem;
       finding.what += ", beats but tells no time";

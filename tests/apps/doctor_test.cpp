@@ -2,6 +2,7 @@
 
 #include "apps/doctor/doctor_camera.h"
 #include "apps/doctor/doctor_checks.h"
+#include "apps/doctor/doctor_cluster.h"
 #include "apps/doctor/doctor_drawing.h"
 #include "apps/doctor/doctor_sound.h"
 
@@ -103,6 +104,75 @@ TEST(Doctor, AsksTheSoundServerOfThisMachine) {
   EXPECT_FALSE(sound.what.empty());
   EXPECT_NE(sound.grade, Grade::kProblem) << "nobody needs sound to dance";
   EXPECT_EQ(sound.cure.empty(), sound.grade == Grade::kOk);
+}
+
+NatsExamination healthy_nats() {
+  NatsExamination found;
+  found.server = "nats://127.0.0.1:4222";
+  found.round_trip = Duration::us(300);
+  for (const char* name : {kClusterBucket, kKeysBucket}) {
+    NatsExamination::Bucket bucket;
+    bucket.name = name;
+    bucket.is_there = true;
+    bucket.replicas = bucket.current_replicas = 3;
+    found.buckets.push_back(bucket);
+  }
+  return found;
+}
+
+// The worst of them, and it has a cure.
+Grade worst(const std::vector<Finding>& findings) {
+  Grade grade = Grade::kOk;
+  for (const Finding& finding : findings) {
+    if (finding.grade == Grade::kProblem) EXPECT_FALSE(finding.cure.empty()) << finding.what;
+    grade = std::max(grade, finding.grade);
+  }
+  return grade;
+}
+
+TEST(Doctor, TellsWhatNatsLacks) {
+  NatsOptions three;
+  three.urls = {"nats://a", "nats://b", "nats://c"};
+  EXPECT_EQ(worst(check_nats(healthy_nats(), three)), Grade::kOk);
+  NatsExamination found = healthy_nats();
+  found.no_connection = Error{"no NATS server answers"};
+  EXPECT_EQ(check_nats(found, three).size(), 1u) << "the rest cannot be known";
+  EXPECT_EQ(worst(check_nats(found, three)), Grade::kProblem);
+  found = healthy_nats();
+  found.no_jetstream = Error{"not enabled"};
+  EXPECT_EQ(worst(check_nats(found, three)), Grade::kProblem);
+  found = healthy_nats();
+  found.round_trip = Duration::ms(20);
+  EXPECT_EQ(worst(check_nats(found, three)), Grade::kNote);
+  found = healthy_nats();
+  found.buckets[0].cannot_write = Error{"permissions violation"};
+  EXPECT_EQ(worst(check_nats(found, three)), Grade::kProblem);
+  found = healthy_nats();
+  found.buckets[1].cannot_write = Error{"permissions violation"};
+  EXPECT_EQ(worst(check_nats(found, three)), Grade::kOk) << "a server writes no keys";
+  found = healthy_nats();
+  found.buckets[0].current_replicas = 2;
+  EXPECT_EQ(worst(check_nats(found, three)), Grade::kNote);
+  found = healthy_nats();
+  found.buckets[0].is_there = false;
+  EXPECT_EQ(worst(check_nats(found, three)), Grade::kNote);
+}
+
+TEST(Doctor, TellsServersWhoseClocksAreApart) {
+  EXPECT_EQ(worst(check_servers({})), Grade::kNote) << "none beats";
+  std::map<ServerId, ClusterProbe::Seen> seen;
+  for (const ServerId id : {1, 2, 3}) {
+    seen[id].answers = 20;
+    seen[id].round_trip = Duration::us(200);
+    seen[id].offset = Duration::us(static_cast<std::int64_t>(id) * 300);
+  }
+  EXPECT_EQ(worst(check_servers(seen)), Grade::kOk) << "0.6 ms apart";
+  seen[3].offset = Duration::us(1700);
+  const auto apart = check_servers(seen);
+  EXPECT_EQ(worst(apart), Grade::kNote);
+  EXPECT_NE(apart.back().what.find("1.40 ms"), std::string::npos) << apart.back().what;
+  seen[3].answers = 0;
+  EXPECT_EQ(worst(check_servers(seen)), Grade::kProblem) << "it beats but tells no time";
 }
 
 TEST(Doctor, TellsABusUrlThatIsNone) {

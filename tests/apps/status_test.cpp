@@ -2,6 +2,7 @@
 // them.
 #include <gtest/gtest.h>
 
+#include "apps/status/cluster_table.h"
 #include "apps/status/status_source.h"
 #include "apps/status/status_table.h"
 
@@ -50,6 +51,43 @@ TEST(StatusTable, WhateverTheServerTellsItIsATable) {
       EXPECT_EQ(text.find('\033'), std::string::npos) << path;
     }
   for (const json& other : {json(), json(1), json("x"), json::array()}) status_text(other);
+}
+
+json some_cluster() {
+  return json::parse(R"({"cluster": {"id": "aaaaaaaa00000001", "clock_server": "bbbbbbbb00000002",
+    "clock_offset_ms": -12.4, "links": 3, "guests": 4, "keys": 7,
+    "nats": {"connected": true, "reconnects": 2, "dropped_in": 0, "dropped_out": 9,
+      "unwritten_values": 0}, "nats_keys": {"connected": false},
+    "servers": [{"id": "bbbbbbbb00000002", "address": "192.0.2.7:7400", "alive": true,
+      "leads_clock": true, "last_heard_s": 0.11, "round_trip_ms": 1.25, "links": 5, "guests": 6},
+      {"id": "cccccccc00000003", "alive": false}],
+    "between": [{"room": "salsa", "server": "bbbbbbbb00000002", "guests": 2, "records_in": 1234,
+      "records_out": 5678, "feedback_in": 91, "feedback_out": 92, "poses_lost": 3,
+      "poses_late": 4}],
+    "totals": {"malformed": 0, "deaths": 1}}})");
+}
+
+TEST(ClusterTable, TellsNatsServersAndWhatPassesBetweenThem) {
+  const std::string text = cluster_text(some_cluster());
+  for (const char* words :
+       {"NATS: connected yes, came back 2, dropped 0 in and 9 out, unwritten 0\n",
+        "NATS for keys: connected no", "keys of the cluster: 7", "aaaaaaaa  this one", "-12 ms",
+        "bbbbbbbb  alive", "1.25 ms", "leads", "192.0.2.7:7400", "cccccccc  gone", "salsa", "1234",
+        "5678", "deaths 1"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+  EXPECT_EQ(text.find("malformed"), std::string::npos);
+}
+
+TEST(ClusterTable, WhateverTheServerTellsItIsATable) {
+  const json good = some_cluster().flatten();
+  for (const auto& [path, value] : good.items())
+    for (const json& other :
+         {json(), json(-1e300), json("\033[2J\n"), json::array({1}), json::object(), json(true)}) {
+      json changed = some_cluster();
+      changed[json::json_pointer(path)] = other;
+      EXPECT_EQ(cluster_text(changed).find('\033'), std::string::npos) << path;
+    }
+  for (const json& other : {json(), json(1), json{{"cluster", 1}}}) cluster_text(other);
 }
 
 TEST(StatusSource, FindsTheOwnerOfAPort) {

@@ -85,11 +85,16 @@ completes "doctor" dance help do
 completes "--tempo" dance salsa --te
 completes "lead follow" dance salsa --role ""
 
-# The unit, with the installed program in its place.
+# The unit, alone and in a cluster, with the installed program in its place.
 if command -v systemd-analyze >/dev/null; then
   sed "s|^ExecStart=dance |ExecStart=$dance |" "$usr/lib/systemd/system/dance-server.service" >dance-server.service
   systemd-analyze verify --man=no ./dance-server.service >verified 2>&1 || wrong "systemd refuses the unit"
   ! grep dance-server.service: verified || wrong "systemd complains of the unit"
+  mkdir -p dance-server.service.d
+  sed "s|^ExecStart=dance |ExecStart=$dance |" "$usr/share/dancegraph/systemd/dance-server.service.d/cluster.conf" \
+    >dance-server.service.d/cluster.conf
+  systemd-analyze verify --man=no ./dance-server.service >verified 2>&1 || wrong "systemd refuses the unit in a cluster"
+  ! grep -E "dance-server.service(.d/cluster.conf)?:" verified || wrong "systemd complains of the unit in a cluster"
 fi
 
 # The main job.
