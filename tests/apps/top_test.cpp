@@ -44,6 +44,7 @@ TEST(TopTable, TellsEachTypeByItsFingerprint) {
   EXPECT_EQ(type_of(GuestTraffic()), "guest_traffic_t");
   EXPECT_EQ(type_of(FlowSetting()), "flow_t");
   EXPECT_EQ(type_of(Playout()), "playout_t");
+  EXPECT_EQ(type_of(Steps()), "steps_t");
   const std::uint8_t other[16] = {1, 2, 3};
   EXPECT_EQ(type_of_message(other), "");
   EXPECT_EQ(type_of_message({other, 7}), "");
