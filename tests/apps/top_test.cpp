@@ -137,6 +137,20 @@ TEST(TopTable, AGuestsStyleIsShownZoneByZone) {
   EXPECT_EQ(table.text(kBegin + Duration::s(2)).find("1.50"), std::string::npos);
 }
 
+TEST(TopTable, TheTempoAtWhichDancersStepIsShown) {
+  TopTable table;
+  Steps steps;
+  steps.tempo_bpm = 96.5;
+  steps.weight = 0.75f;
+  steps.dancers = 2;
+  take(table, "STEPS/local", steps, kBegin);
+  const std::string text = table.text(kBegin + Duration::s(1));
+  const std::string row = text.substr(text.rfind("STEPS/local"));
+  EXPECT_NE(row.find("96.5"), std::string::npos) << text;
+  EXPECT_NE(row.find("0.75"), std::string::npos) << text;
+  EXPECT_NE(row.find("here"), std::string::npos) << text;
+}
+
 TEST(TopTable, AFloodOfNamesIsBoundedAndSaid) {
   TopTable table;
   for (int i = 0; i < 100'000; ++i)

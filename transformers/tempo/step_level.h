@@ -1,12 +1,13 @@
 // StepLevel: the tempo at which one person steps. The period of a dance is as strong at half of it
 // and at twice; which of these is stepped is told by how far apart feet come to stand.
 //
-// Where music is heard, its tempo tells where to look, and nothing else: at that tempo, its half and
-// its double alike, as whoever found the tempo may be wrong by an octave. A dance that is not
+// Where music is heard, its tempo tells where to look, and nothing else: at that tempo, its half
+// and its double alike, as what found the tempo may be wrong by an octave. A dance that is not
 // periodic there tells nothing.
 //
 // Units/frames: steps a minute: a step is the time between feet that come to stand one after the
-//               other, the most frequent one; so a dance that rests on each fourth step has it, too.
+//               other, the most frequent one; so a dance that rests on each fourth step has it,
+//               too.
 // Ownership:    fixed arrays (about 200 kB); never allocates.
 // Threads:      none inside; one owner.
 // Failure:      sure() is 0 until some seconds of steps have been seen, while the feet stand, and

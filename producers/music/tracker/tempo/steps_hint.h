@@ -1,5 +1,5 @@
-// StepsHint: the tempo hint of a tracker, by what is heard of the dancers on STEPS/local, or by what
-// a person said.
+// StepsHint: the tempo hint of a tracker, by what is heard of the dancers on STEPS/local, or by
+// what a person said.
 //
 // Units/frames: steps a minute; times of this house's clock.
 // Ownership:    plain value.
