@@ -47,6 +47,7 @@ void RoomSteps::tell(const GuestId& guest, const Steps& steps, MonoTime now) {
 
 void RoomSteps::see(const Dancer& dancer, Group& group, MonoTime now) {
   if (!dancer.guest.is_set() || now - dancer.heard > kSilence) return;
+  ++group.present;
   const bool is_told = dancer.told_at.is_set() && now - dancer.told_at <= kSilence;
   const double tempo_bpm = is_told ? dancer.told.tempo_bpm : dancer.level.tempo_bpm();
   const float sure = is_told ? dancer.told.weight : dancer.level.sure();
@@ -55,9 +56,12 @@ void RoomSteps::see(const Dancer& dancer, Group& group, MonoTime now) {
   group.stepped = now;
 }
 
+bool RoomSteps::is_stepping(const Group& group, MonoTime now) {
+  return group.present > 0 && group.stepped.is_set() && now - group.stepped <= kHeld;
+}
+
 std::optional<Steps> RoomSteps::steps_of(const Group& group, MonoTime now) {
-  if (!group.stepped.is_set() || now - group.stepped > kSilence) return std::nullopt;
-  if (group.tempo.weight() < kLeastWeight) return std::nullopt;
+  if (!is_stepping(group, now) || group.tempo.weight() < kLeastWeight) return std::nullopt;
   Steps steps;
   steps.tempo_bpm = group.tempo.tempo_bpm();
   steps.weight = static_cast<float>(group.tempo.weight());
@@ -66,7 +70,7 @@ std::optional<Steps> RoomSteps::steps_of(const Group& group, MonoTime now) {
 }
 
 std::optional<Steps> RoomSteps::pass(MonoTime now) {
-  own_.dancers = remote_.dancers = 0;
+  for (Group* group : {&own_, &remote_}) group->present = group->dancers = 0;
   const double music_bpm = music_.is_known(now) ? 60.0 * music_.beats_per_second() : 0.0;
   for (Dancer& dancer : dancers_) {
     dancer.level.judge(music_bpm);
@@ -76,7 +80,7 @@ std::optional<Steps> RoomSteps::pass(MonoTime now) {
   passed_ = now;
   own_.tempo.pass(since);
   remote_.tempo.pass(since);
-  if (own_.stepped.is_set() && now - own_.stepped <= kSilence) return steps_of(own_, now);
+  if (is_stepping(own_, now)) return steps_of(own_, now);
   std::optional<Steps> steps = steps_of(remote_, now);
   if (steps) steps->is_remote = true;
   return steps;

@@ -34,6 +34,8 @@ class RoomSteps {
   static constexpr std::size_t kMostDancers = 8;
   // Who sends nothing for so long does not dance; nor is a producer believed for longer.
   static constexpr Duration kSilence = Duration::s(3);
+  // A figure hides the steps for some seconds: what was seen before holds for so long.
+  static constexpr Duration kHeld = Duration::s(12);
   // Less is not worth saying.
   static constexpr double kLeastWeight = 0.2;
 
@@ -61,11 +63,13 @@ class RoomSteps {
   struct Group {
     StepTempo tempo;
     MonoTime stepped;  // when somebody last did
-    int dancers = 0;   // who step now
+    int present = 0;   // who are seen
+    int dancers = 0;   // of them, who step now
   };
 
   Dancer* dancer_of(Whose whose, const GuestId& guest, MonoTime now);
   static void see(const Dancer& dancer, Group& group, MonoTime now);
+  static bool is_stepping(const Group& group, MonoTime now);
   static std::optional<Steps> steps_of(const Group& group, MonoTime now);
 
   std::vector<Dancer> dancers_;
