@@ -9,6 +9,7 @@ namespace dance {
 namespace {
 
 constexpr Duration kSecond = Duration::s(1);
+constexpr Duration kStepsPeriod = Duration::ms(250);
 constexpr std::string_view kProgram = "manager";  // STATS/manager
 
 // Of two that were rounded to microseconds on the way.
@@ -27,27 +28,44 @@ Manager::Manager(const std::vector<Route>& routes, SignalPort& port, Poller& pol
   listen(Where::kGuest);
   port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     // Of another machine's clock it says nothing about the music here.
-    if (beat.clock_id == this_clock_id()) router_.hear(beat);
+    if (beat.clock_id != this_clock_id()) return;
+    router_.hear(beat);
+    steps_.hear(beat);
   });
   port_.subscribe<FlowSetting>(
       Where::kCapture, [this](const Channel& channel, const FlowSetting& setting, MonoTime now) {
         router_.set(channel.guest(), setting);
         tell_settings(now, channel.guest());
       });
+  port_.subscribe<Steps>(Where::kCapture,
+                         [this](const Channel& channel, const Steps& steps, MonoTime now) {
+                           steps_.tell(channel.guest(), steps, now);
+                         });
   start_timers(poller);
 }
 
+// Dancers of this house are watched even where the stage does not show them: they may tell the
+// tempo.
 void Manager::listen(Where where) {
-  if (!router_.wants(where)) return;
+  const bool is_routed = router_.wants(where);
+  if (!is_routed && where != Where::kCapture) return;
+  const auto whose = where == Where::kCapture ? RoomSteps::Whose::kOwn : RoomSteps::Whose::kRemote;
+  port_.subscribe<Pose>(where, [this, where, whose, is_routed](const Channel& channel,
+                                                               const Pose& pose, MonoTime now) {
+    if (is_routed) router_.take(where, channel.guest(), pose, now);
+    steps_.observe(whose, channel.guest(), pose, now);
+  });
+  port_.subscribe<TimedSkeleton>(
+      where,
+      [this, where, whose, is_routed](const Channel& channel, const TimedSkeleton& body, MonoTime) {
+        if (is_routed) router_.take(where, channel.guest(), body);
+        steps_.set_body(whose, channel.guest(), body.skeleton);
+      });
+  if (!is_routed) return;
   const auto take = [this, where](const Channel& channel, const auto& message, MonoTime) {
     router_.take(where, channel.guest(), message);
   };
-  port_.subscribe<Pose>(where,
-                        [this, where](const Channel& channel, const Pose& pose, MonoTime now) {
-                          router_.take(where, channel.guest(), pose, now);
-                        });
   port_.subscribe<Hands>(where, take);
-  port_.subscribe<TimedSkeleton>(where, take);
   port_.subscribe<Style>(where, take);
 }
 
@@ -62,6 +80,10 @@ void Manager::start_timers(Poller& poller) {
       return pacers_[route].deadline();
     });
   }
+  poller.add_timer(begin_ + kStepsPeriod, [this](MonoTime now) {
+    tell_steps(now);
+    return now + kStepsPeriod;
+  });
   poller.add_timer(begin_ + kSecond, [this](MonoTime now) {
     end_second(now);
     return now + kSecond;
@@ -122,6 +144,14 @@ void Manager::tell_settings(MonoTime now, const GuestId& only) {
     setting.clock_id = this_clock_id();
     port_.publish(Where::kStage, guest, setting);
   });
+}
+
+void Manager::tell_steps(MonoTime now) {
+  std::optional<Steps> steps = steps_.pass(now);
+  if (!steps) return;
+  steps->time = now;
+  steps->clock_id = this_clock_id();
+  port_.publish(Channel::of_house(Signal::kSteps), *steps);
 }
 
 Stats Manager::stats(MonoTime now) {

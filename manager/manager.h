@@ -1,6 +1,6 @@
 // Manager: the signal manager of one house. Hears captures and remote guests on its port, routes
 // them to the stage at its steady rate, keeps the roster and says once a second who is alive and
-// what was counted.
+// what was counted. Four times a second it says at which tempo the dancers step.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port and the poller, which must outlive it.
@@ -19,6 +19,7 @@
 #include "core/net/poller.h"
 #include "manager/router.h"
 #include "manager/training_thread.h"
+#include "transformers/tempo/room_steps.h"
 
 namespace dance {
 
@@ -40,6 +41,7 @@ class Manager : private StageSink {
   void end_second(MonoTime now);
   void repeat_skeletons(MonoTime now);
   void tell_settings(MonoTime now, const GuestId& only);
+  void tell_steps(MonoTime now);
 
   // A body on the stage, repeated once a second for late subscribers.
   struct StagedSkeleton {
@@ -51,6 +53,7 @@ class Manager : private StageSink {
   SignalPort& port_;
   TrainingThread training_;
   Router router_;
+  RoomSteps steps_;
   std::vector<Pacer> pacers_;  // one per route
   Histogram lateness_;
   Duration lateness_p99_;

@@ -19,6 +19,12 @@ DancerFeed::DancerFeed(std::unique_ptr<Dancer> dancer, const GuestId& guest, dou
 // By deadlines, so that lateness does not add up; what was missed is not made up for.
 void DancerFeed::say_skeleton(MonoTime now) {
   sink_.capture(guest_, TimedSkeleton{dancer_->skeleton(), now, this_clock_id()});
+  if (dancer_->is_moved_to_music(now - start_)) {
+    Steps steps;
+    steps.time = now;
+    steps.clock_id = this_clock_id();
+    sink_.tell(guest_, steps);
+  }
   next_skeleton_ += Duration::s(1);
   if (next_skeleton_ <= now) next_skeleton_ = now + Duration::s(1);
 }

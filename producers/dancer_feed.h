@@ -1,5 +1,6 @@
 // DancerFeed: dances a Dancer into a sink at a steady rate, by absolute deadlines: numbers and
-// stamps the poses, and repeats the skeleton once a second for late subscribers.
+// stamps the poses, and repeats the skeleton once a second for late subscribers; of a dancer who is
+// moved to the music it says then that the steps tell nothing about that music.
 //
 // Units/frames: `start` is the dance's own zero; it may lie in the past, so that a couple in two
 //               processes, or a producer that was started again, dances on in step. The capture

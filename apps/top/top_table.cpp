@@ -65,7 +65,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
     Fingerprint fingerprint;
     std::string_view type;
   };
-  static const std::array<Known, 17> kKnown{{
+  static const std::array<Known, 18> kKnown{{
       {fingerprint_of(Pose()), "pose_t"},
       {fingerprint_of(Hands()), "hands_t"},
       {fingerprint_of(any_skeleton()), "skeleton_t"},
@@ -83,6 +83,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
       {fingerprint_of(GuestTraffic()), "guest_traffic_t"},
       {fingerprint_of(FlowSetting()), "flow_t"},
       {fingerprint_of(Playout()), "playout_t"},
+      {fingerprint_of(Steps()), "steps_t"},
   }};
   if (message.size() < sizeof(Fingerprint)) return "";
   for (const Known& known : kKnown)
@@ -117,6 +118,9 @@ void TopTable::take(std::string_view name, std::span<const std::uint8_t> message
   if (parsed && parsed->signal() == Signal::kPlayout) {
     if (PlayoutRow it{{}, now}; read(message, it.playout))
       keep(playouts_, parsed->guest().view(), it, kMaxPrograms);
+  }
+  if (parsed && parsed->signal() == Signal::kSteps) {
+    if (StepsRow it{{}, now}; read(message, it.steps)) keep(steps_, name, it, kMaxPrograms);
   }
   if (parsed && parsed->signal() == Signal::kFlow && parsed->where() == Where::kStage) {
     if (FlowRow it{{}, now}; read(message, it.setting))
@@ -204,6 +208,20 @@ void TopTable::append_playouts(std::string& out) const {
     fmt::format_to(back, "{:<25}{}\n", printable(name), playout_text(row.playout));
 }
 
+void TopTable::append_steps(std::string& out) const {
+  const auto back = std::back_inserter(out);
+  constexpr const char* kRow = "{:<34}{:>8}{:>8}{:>9}{:>9}\n";
+  if (!steps_.empty())
+    fmt::format_to(back, fmt::runtime("\n" + std::string(kRow)), "steps", "a min", "weight",
+                   "dancers", "where");
+  for (const auto& [name, row] : steps_) {
+    const Steps& s = row.steps;
+    fmt::format_to(back, fmt::runtime(kRow), printable(name),
+                   s.tempo_bpm > 0.0 ? fmt::format("{:.1f}", s.tempo_bpm) : "-",
+                   figure(s.weight, "{:.2f}"), s.dancers, s.is_remote ? "away" : "here");
+  }
+}
+
 std::string TopTable::text(MonoTime now) {
   const double seconds = begin_.is_set() ? std::max((now - begin_).as_seconds(), 1e-3) : 1.0;
   std::string out;
@@ -211,6 +229,7 @@ std::string TopTable::text(MonoTime now) {
   append_styles(out);
   append_flows(out);
   append_playouts(out);
+  append_steps(out);
   append_figures(out);
   append_programs(out, now);
   if (beyond_bounds_ > 0)
@@ -222,6 +241,7 @@ std::string TopTable::text(MonoTime now) {
   std::erase_if(figures_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(flows_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(playouts_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
+  std::erase_if(steps_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   std::erase_if(programs_, [&](const auto& entry) { return now - entry.second.last > kForgotten; });
   begin_ = now;
   return out;

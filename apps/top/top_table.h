@@ -60,6 +60,10 @@ class TopTable {
     Playout playout;
     MonoTime last;
   };
+  struct StepsRow {
+    Steps steps;
+    MonoTime last;
+  };
   struct ProgramRow {
     Stats stats;
     MonoTime last;
@@ -71,6 +75,7 @@ class TopTable {
   void append_figures(std::string& out) const;
   void append_flows(std::string& out) const;
   void append_playouts(std::string& out) const;
+  void append_steps(std::string& out) const;
   void append_programs(std::string& out, MonoTime now) const;
 
   std::map<std::string, ChannelRow, std::less<>> channels_;
@@ -79,6 +84,7 @@ class TopTable {
   std::map<std::string, FiguresRow, std::less<>> figures_;   // by guest, likewise
   std::map<std::string, FlowRow, std::less<>> flows_;        // by guest, likewise
   std::map<std::string, PlayoutRow, std::less<>> playouts_;  // by guest, likewise
+  std::map<std::string, StepsRow, std::less<>> steps_;       // by channel, likewise
   std::uint64_t beyond_bounds_ = 0;
   MonoTime begin_;
 };

@@ -34,6 +34,7 @@ enum class Signal : std::uint8_t {
   kGuestTraffic,
   kFlow,
   kPlayout,
+  kSteps,
 };
 
 // Where on its journey the signal is.
@@ -87,7 +88,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 30> kChannelTable{{
+constexpr std::array<ChannelRow, 32> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -117,6 +118,8 @@ constexpr std::array<ChannelRow, 30> kChannelTable{{
     {Signal::kFlow, Where::kCapture, "FLOW/capture/<guest>", "flow_t"},
     {Signal::kFlow, Where::kStage, "FLOW/stage/<guest>", "flow_t"},
     {Signal::kPlayout, Where::kStage, "PLAYOUT/stage/<guest>", "playout_t"},
+    {Signal::kSteps, Where::kCapture, "STEPS/capture/<guest>", "steps_t"},
+    {Signal::kSteps, Where::kLocal, "STEPS/local", "steps_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 

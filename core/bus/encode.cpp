@@ -16,6 +16,7 @@
 #include <dancelcm/skeleton_t.hpp>
 #include <dancelcm/stage_time_t.hpp>
 #include <dancelcm/stats_t.hpp>
+#include <dancelcm/steps_t.hpp>
 #include <dancelcm/style_t.hpp>
 
 #include "core/bus/message_fields.h"
@@ -235,6 +236,15 @@ struct MessageFields<Playout> {
   }
 };
 
+template <>
+struct MessageFields<Steps> {
+  using Generated = dancelcm::steps_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.tempo_bpm, v.tempo_bpm) && io(m.weight, v.weight) &&
+           io(m.dancers, v.dancers) && io(m.is_remote, v.is_remote);
+  }
+};
+
 template struct MessageRow<Pose, Signal::kPose>;
 template struct MessageRow<Hands, Signal::kHands>;
 template struct MessageRow<TimedSkeleton, Signal::kSkeleton>;
@@ -252,6 +262,7 @@ template struct MessageRow<GuestStats, Signal::kGuestStats>;
 template struct MessageRow<GuestTraffic, Signal::kGuestTraffic>;
 template struct MessageRow<FlowSetting, Signal::kFlow>;
 template struct MessageRow<Playout, Signal::kPlayout>;
+template struct MessageRow<Steps, Signal::kSteps>;
 
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
   dancelcm::pose_t m{};

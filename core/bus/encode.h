@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "core/base/beat.h"
+#include "core/base/steps.h"
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
@@ -79,6 +80,8 @@ template <>
 struct MessageTraits<FlowSetting> : MessageRow<FlowSetting, Signal::kFlow> {};
 template <>
 struct MessageTraits<Playout> : MessageRow<Playout, Signal::kPlayout> {};
+template <>
+struct MessageTraits<Steps> : MessageRow<Steps, Signal::kSteps> {};
 
 // A type with a row in the table.
 template <class T>

@@ -14,6 +14,7 @@
 #include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
 #include "producers/music/tracked_song.h"
+#include "producers/music/tracker/tempo/steps_hint.h"
 
 namespace dance {
 namespace {
@@ -154,12 +155,18 @@ Result<void> follow_microphone(const ProgramOptions& options) {
   DANCE_TRY(const Duration trim, trim_of(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
-  DANCE_TRY(auto microphone, MicrophoneBeats::open(options.source, trim, hint_of(options)));
+  DANCE_TRY(auto microphone, MicrophoneBeats::open(options.source, trim));
+  // Where the music can be danced at two levels, those who dance here decide.
+  StepsHint hint(hint_of(options));
   DANCE_TRY(auto bus, Bus::open(options.bus));
   BeatPublisher publisher(*bus, *poller, [&](MonoTime now) { return microphone->beat(now); });
+  bus->subscribe<Steps>(Where::kLocal, [&hint](const Channel&, const Steps& steps, MonoTime now) {
+    if (steps.clock_id == this_clock_id()) hint.hear(steps, now);
+  });
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   Result<void> worked;
   poller->add_timer(mono_now(), [&](MonoTime now) {
+    microphone->set_tempo_hint(hint.at(now));
     worked = microphone->work(now);
     if (!worked) poller->stop();
     return now + kMicrophoneTurn;

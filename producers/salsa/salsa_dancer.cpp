@@ -13,7 +13,7 @@ SalsaDancer::SalsaDancer(const SalsaStyle& style)
 const Skeleton& SalsaDancer::skeleton() const { return own().skeleton; }
 
 double SalsaDancer::music_beats_at(Duration t) const {
-  if (music_ && music_->is_known(start_ + t)) return music_->position(start_ + t);
+  if (is_moved_to_music(t)) return music_->position(start_ + t);
   return style_.start_beat + t.as_seconds() * style_.tempo_bpm / 60.0;
 }
 

@@ -25,6 +25,9 @@ class SalsaDancer : public Dancer {
   double natural_hz() const override { return 60.0; }
   void dance_at(Duration t, Pose& out) override;
   bool hands_at(Duration t, Hands& out) override;
+  bool is_moved_to_music(Duration t) const override {
+    return music_ && music_->is_known(start_ + t);
+  }
 
   const SalsaStyle& style() const { return style_; }
   const SalsaScore& score() const { return score_; }

@@ -38,11 +38,11 @@ double core_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// What dancers say at a second of the music.
-using HintAt = std::function<TempoHint(double)>;
+// What dancers say after what the tracker said last; nothing: nobody is seen.
+using HintAfter = std::function<TempoHint(const Beat&)>;
 
 Heard hear(std::span<const float> samples, double rate_hz,
-           const std::shared_ptr<const BeatModel>& model, const HintAt& hint_at) {
+           const std::shared_ptr<const BeatModel>& model, const HintAfter& hint_after = {}) {
   BeatTracker tracker(rate_hz, model);
   PredictedBeats beats(static_cast<double>(tracker.hop_samples()) / rate_hz);
   Heard heard;
@@ -50,7 +50,7 @@ Heard hear(std::span<const float> samples, double rate_hz,
   const double begin_s = core_seconds();
   for (; samples.size() >= tracker.hop_samples();
        samples = samples.subspan(tracker.hop_samples())) {
-    tracker.set_tempo_hint(hint_at((tracker.beat().time - MonoTime{}).as_seconds()));
+    if (hint_after) tracker.set_tempo_hint(hint_after(tracker.beat()));
     tracker.push(samples.first(tracker.hop_samples()));
     beats.hear(tracker.beat());
     heard.words.push_back(tracker.beat());
@@ -63,13 +63,12 @@ Heard hear(std::span<const float> samples, double rate_hz,
 // A strict look: bitwise, with the future replaced by loud noise.
 bool says_the_same_without_future(const std::vector<float>& song, double rate_hz,
                                   const std::vector<Beat>& words,
-                                  const std::shared_ptr<const BeatModel>& model,
-                                  const HintAt& hint_at) {
+                                  const std::shared_ptr<const BeatModel>& model) {
   std::vector<float> poisoned(song);
   Random random(2);
   for (std::size_t i = poisoned.size() / 2; i < poisoned.size(); ++i)
     poisoned[i] = static_cast<float>(random.uniform(-1.0, 1.0));
-  const std::vector<Beat> others = hear(poisoned, rate_hz, model, hint_at).words;
+  const std::vector<Beat> others = hear(poisoned, rate_hz, model).words;
   const double half_s = static_cast<double>(poisoned.size() / 2) / rate_hz;
   for (std::size_t k = 0; k < words.size(); ++k) {
     if ((words[k].time - MonoTime{}).as_seconds() > half_s) return true;
@@ -78,6 +77,23 @@ bool says_the_same_without_future(const std::vector<float>& song, double rate_hz
       return false;
   }
   return true;
+}
+
+HintAfter steps_of(const BeatGrid& grid, const MusicEvalOptions& options) {
+  if (options.dancers) {
+    const auto dancers = std::make_shared<StepDancers>(*options.dancers, options.couple);
+    return [&grid, &options, dancers](const Beat& told) {
+      dancers->dance_until((told.time - MonoTime{}).as_seconds(), grid, options.speed,
+                           options.start_s, told);
+      return dancers->hint();
+    };
+  }
+  if (options.told_steps_weight <= 0.0) return {};
+  return [&grid, &options](const Beat& told) {
+    const double t = (told.time - MonoTime{}).as_seconds();
+    const double beat = grid.beat_at(t * options.speed + options.start_s);
+    return TempoHint{grid.tempo_bpm(beat) * options.speed, options.told_steps_weight};
+  };
 }
 
 double median_of(std::vector<double> values) {
@@ -101,11 +117,7 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
 
   SongEval result;
   result.name = std::filesystem::path(audio_path).filename().string();
-  const auto hint_at = [&](double t) {
-    const double beat = grid.beat_at(t * options.speed + options.start_s);
-    return TempoHint{grid.tempo_bpm(beat) * options.speed, options.hint_weight};
-  };
-  const Heard heard = hear(song, rate_hz, options.model, hint_at);
+  const Heard heard = hear(song, rate_hz, options.model);
   // Behind the last beat of the list nothing is known.
   const double end_s =
       std::min(static_cast<double>(song.size()) / rate_hz, truth_s.back() + kBeatTolerance_s);
@@ -115,6 +127,11 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
   result.genre = genre_of_beats_file(beats_path);
   result.score = score_beats(truth_s, heard.beats_s, options.left_out_s, end_s);
   result.level = level_of_beats(truth_s, heard.beats_s, options.left_out_s, end_s);
+  if (const HintAfter steps = steps_of(grid, options)) {
+    const Heard other = hear(song, rate_hz, options.model, steps);
+    result.with_steps = score_beats(truth_s, other.beats_s, options.left_out_s, end_s);
+    result.level_with_steps = level_of_beats(truth_s, other.beats_s, options.left_out_s, end_s);
+  }
   std::vector<double> tempi;
   std::vector<double> errors;
   for (const Beat& word : heard.words) {
@@ -128,8 +145,7 @@ Result<SongEval> evaluate_song(const std::string& audio_path, const std::string&
   result.tempo_bpm = median_of(tempi);
   result.tempo_error_percent = median_of(errors);
   if (options.check_causal)
-    result.causal =
-        says_the_same_without_future(song, rate_hz, heard.words, options.model, hint_at);
+    result.causal = says_the_same_without_future(song, rate_hz, heard.words, options.model);
   result.us_per_hop =
       heard.words.empty() ? 0.0 : heard.seconds * 1e6 / static_cast<double>(heard.words.size());
 

@@ -14,6 +14,7 @@
 
 #include "core/base/result.h"
 #include "producers/music/tracker/beat_model.h"
+#include "research/beats/step_dancers.h"
 #include "testing/music/beat_level.h"
 #include "testing/music/beat_score.h"
 
@@ -26,8 +27,11 @@ struct MusicEvalOptions {
   double speed = 1.0;        // as a record that turns faster
   double start_s = 0.0;
   double left_out_s = 5.0;  // at the begin
-  // Of a tempo hint as dancers who step on each beat give it; 0: nobody is seen.
-  double hint_weight = 0.0;
+  // The song is heard once more with dancers who step on each beat: their tempo told, with this
+  // weight, or measured from the poses of a couple of these takes. Neither: nobody is seen.
+  double told_steps_weight = 0.0;
+  std::shared_ptr<const StepTakes> dancers;
+  std::size_t couple = 0;
   std::shared_ptr<const BeatModel> model = built_in_beat_model();
   bool with_aubio = true;
   bool check_causal = true;  // takes as long again
@@ -44,6 +48,8 @@ struct SongEval {
   // A tracker that hears noise instead of the second half said the same of the first half.
   std::optional<bool> causal;  // unless it was not looked at
   double us_per_hop = 0.0;
+  std::optional<BeatScore> with_steps;
+  BeatLevel level_with_steps;
   std::optional<BeatScore> aubio;
   BeatLevel aubio_level;
   std::string aubio_missing;  // why there is none

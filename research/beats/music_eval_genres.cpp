@@ -17,6 +17,10 @@ struct GenreSum {
   double worst_f = 1.0;
   double tempo_off = 0.0;
   BeatLevel level;
+  int stepped_songs = 0;
+  int stepped_wrong_songs = 0;
+  double stepped_f = 0.0;
+  double stepped_worst_f = 1.0;
   int aubio_songs = 0;
   int aubio_wrong_songs = 0;
   double aubio_f = 0.0;
@@ -30,6 +34,13 @@ struct GenreSum {
     level.half += song.level.half;
     level.twice += song.level.twice;
     level.off_beat += song.level.off_beat;
+    if (song.with_steps) {
+      const double stepped = song.with_steps->f_measure();
+      ++stepped_songs;
+      stepped_wrong_songs += song.level_with_steps.wrong() > kWrongLevelShare;
+      stepped_f += stepped;
+      stepped_worst_f = std::min(stepped_worst_f, stepped);
+    }
     if (!song.aubio) return;
     ++aubio_songs;
     aubio_wrong_songs += song.aubio_level.wrong() > kWrongLevelShare;
@@ -40,11 +51,15 @@ struct GenreSum {
 std::string row_of(const std::string& name, const GenreSum& sum) {
   const double n = sum.songs;
   const bool has_aubio = sum.aubio_songs == sum.songs;
+  const bool is_stepped = sum.stepped_songs == sum.songs;
   return fmt::format(
       "  {:<12} {:>5} {:>6.3f} {:>6.3f} {:>7.2f}% {:>5.1f}% {:>5.1f}% {:>5.1f}% {:>6} {:>8} "
-      "{:>9}\n",
+      "{:>6} {:>6} {:>8} {:>9}\n",
       name, sum.songs, sum.f / n, sum.worst_f, sum.tempo_off / n, 100.0 * sum.level.half / n,
       100.0 * sum.level.twice / n, 100.0 * sum.level.off_beat / n, sum.wrong_songs,
+      is_stepped ? fmt::format("{:.3f}", sum.stepped_f / n) : "-",
+      is_stepped ? fmt::format("{:.3f}", sum.stepped_worst_f) : "-",
+      is_stepped ? std::to_string(sum.stepped_wrong_songs) : "-",
       has_aubio ? fmt::format("{:.3f}", sum.aubio_f / n) : "-",
       has_aubio ? std::to_string(sum.aubio_wrong_songs) : "-");
 }
@@ -69,15 +84,16 @@ std::string music_eval_genres(const std::vector<SongEval>& songs) {
   }
   if (genres.empty()) return "";
   std::string out = fmt::format(
-      "\n  {:<12} {:>5} {:>6} {:>6} {:>8} {:>6} {:>6} {:>6} {:>6} {:>8} {:>9}\n", "genre", "songs",
-      "F", "worst", "off by", "half", "double", "off", "wrong", "F aubio", "its wrong");
+      "\n  {:<12} {:>5} {:>6} {:>6} {:>8} {:>6} {:>6} {:>6} {:>6} {:>8} {:>6} {:>6} {:>8} {:>9}\n",
+      "genre", "songs", "F", "worst", "off by", "half", "double", "off", "wrong", "F steps",
+      "worst", "wrong", "F aubio", "its wrong");
   for (const auto& [name, sum] : genres) out += row_of(name, sum);
   if (genres.size() > 1) out += row_of("all", all);
   if (recorded.songs > 0) out += row_of("no genre", recorded);
   out += fmt::format(
       "\n  half, double, off: share of the time at half or double of the tempo, or between the "
-      "beats"
-      "; wrong: songs with\n  more than {:.0f} % of their time there\n",
+      "beats; wrong: songs with\n  more than {:.0f} % of their time there; F steps, and behind it "
+      "worst and wrong: with the dancers' steps\n",
       100.0 * kWrongLevelShare);
   return out;
 }

@@ -16,11 +16,13 @@ constexpr const char* kMusicEvalExamples = R"(Examples:
   dance music eval a.ogg --beats a.beats b.wav --beats b.beats --json
   dance music eval *.ogg --model beats.model
   dance music eval song.ogg --speed 1.1 --noise -40
+  dance music eval song.ogg --dancer lead.bvh --dancer follow.bvh
 )";
 
 struct MusicEvalWishes {
   std::vector<std::string> files;
   std::vector<std::string> beats;
+  std::vector<std::string> dancers;
   std::string model;
   MusicEvalOptions options;
   bool tracker_only = false;
@@ -33,10 +35,14 @@ Result<void> run(MusicEvalWishes wishes) {
   }
   wishes.options.with_aubio = !wishes.tracker_only;
   wishes.options.check_causal = !wishes.tracker_only;
+  if (!wishes.dancers.empty()) {
+    DANCE_TRY(wishes.options.dancers, load_step_takes(wishes.dancers));
+  }
   std::vector<SongEval> songs;
   for (std::size_t i = 0; i < wishes.files.size(); ++i) {
     const std::string beats =
         wishes.beats.empty() ? beats_path_beside(wishes.files[i]) : wishes.beats[i];
+    wishes.options.couple = i;
     DANCE_TRY(SongEval song, evaluate_song(wishes.files[i], beats, wishes.options));
     songs.push_back(std::move(song));
   }
@@ -64,15 +70,22 @@ int main(int argc, char** argv) {
       .range(-200.0, 0.0);
   line.add("--start", wishes.options.start_s, "begins so many seconds into the file")
       .range(0.0, 3600.0);
-  line.add("--steps", wishes.options.hint_weight,
-           "weight of a tempo hint as dancers who step on each beat give it")
+  line.add("--steps", wishes.options.told_steps_weight,
+           "each song once more, with the true tempo told as dancers who step on each beat would, "
+           "of this weight")
       .range(0.0, 1.0);
+  line.add("--dancer", wishes.dancers,
+           "each song once more, with a couple of these takes that steps on each beat, as it is "
+           "seen; once for each take, and all leads before all follows")
+      .one_each_time();
   line.add("--model", wishes.model, "a model of dance music train, instead of the built in one");
   line.add_flag("--tracker-only", wishes.tracker_only,
                 "without aubio and the look at causality: takes a third of the time");
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kMusicEvalExamples);
   line.finally([&]() -> dance::Result<void> {
+    if (wishes.dancers.size() % 2 != 0)
+      return dance::fail("--dancer wants couples: as many leads as follows");
     if (!wishes.beats.empty() && wishes.beats.size() != wishes.files.size())
       return dance::fail("--beats wants one .beats file for each AUDIO, in their order");
     return {};

@@ -30,6 +30,12 @@ nlohmann::ordered_json causal_json(std::optional<bool> causal) {
   return causal ? nlohmann::ordered_json(*causal) : nlohmann::ordered_json(nullptr);
 }
 
+bool all_have_steps(const std::vector<SongEval>& songs) {
+  return std::all_of(songs.begin(), songs.end(), [](const SongEval& s) { return s.with_steps; });
+}
+double steps_f(const SongEval& song) {
+  return song.with_steps ? song.with_steps->f_measure() : 0.0;
+}
 double aubio_f(const SongEval& song) { return song.aubio ? song.aubio->f_measure() : 0.0; }
 
 nlohmann::ordered_json score_json(const BeatScore& score) {
@@ -55,6 +61,10 @@ nlohmann::ordered_json song_json(const SongEval& song) {
   out["sd_error_ms"] = rounded(song.score.sd_error_s * 1e3, 1e2);
   out["causal"] = causal_json(song.causal);
   out["us_per_hop"] = rounded(song.us_per_hop, 10.0);
+  if (song.with_steps) {
+    out["with_steps"] = score_json(*song.with_steps);
+    out["with_steps"]["level_errors"] = level_json(song.level_with_steps);
+  }
   if (song.aubio) {
     out["baseline_aubio"] = score_json(*song.aubio);
     out["baseline_aubio"]["level_errors"] = level_json(song.aubio_level);
@@ -67,28 +77,31 @@ nlohmann::ordered_json song_json(const SongEval& song) {
 }  // namespace
 
 std::string music_eval_table(const std::vector<SongEval>& songs) {
-  std::string out = fmt::format("  {:<32} {:>6} {:>9} {:>8} {:>9} {:>8} {:>7} {:>8}\n", "song", "F",
-                                "tempo BPM", "off by", "mean ms", "sd ms", "causal", "F aubio");
+  std::string out =
+      fmt::format("  {:<32} {:>6} {:>9} {:>8} {:>9} {:>8} {:>7} {:>8} {:>8}\n", "song", "F",
+                  "tempo BPM", "off by", "mean ms", "sd ms", "causal", "F steps", "F aubio");
   const auto row = [&](const std::string& name, double f, const std::string& tempo, double off,
                        double mean_ms, double sd_ms, std::optional<bool> causal,
-                       const std::string& aubio) {
-    out += fmt::format("  {:<32} {:>6.3f} {:>9} {:>7.2f}% {:>+9.1f} {:>8.1f} {:>7} {:>8}\n", name,
-                       f, tempo, off, mean_ms, sd_ms,
+                       const std::string& steps, const std::string& aubio) {
+    out += fmt::format("  {:<32} {:>6.3f} {:>9} {:>7.2f}% {:>+9.1f} {:>8.1f} {:>7} {:>8} {:>8}\n",
+                       name, f, tempo, off, mean_ms, sd_ms,
                        !causal   ? "-"
                        : *causal ? "yes"
                                  : "NO",
-                       aubio);
+                       steps, aubio);
   };
   for (const SongEval& song : songs)
     row(song.name, song.score.f_measure(), fmt::format("{:.1f}", song.tempo_bpm),
         song.tempo_error_percent, song.score.mean_error_s * 1e3, song.score.sd_error_s * 1e3,
-        song.causal, song.aubio ? fmt::format("{:.3f}", song.aubio->f_measure()) : "-");
+        song.causal, song.with_steps ? fmt::format("{:.3f}", song.with_steps->f_measure()) : "-",
+        song.aubio ? fmt::format("{:.3f}", song.aubio->f_measure()) : "-");
   if (songs.size() > 1)
     row("mean", mean_over(songs, [](const SongEval& s) { return s.score.f_measure(); }), "",
         mean_over(songs, [](const SongEval& s) { return s.tempo_error_percent; }),
         mean_over(songs, [](const SongEval& s) { return s.score.mean_error_s * 1e3; }),
         mean_over(songs, [](const SongEval& s) { return s.score.sd_error_s * 1e3; }),
         all_causal(songs),
+        all_have_steps(songs) ? fmt::format("{:.3f}", mean_over(songs, steps_f)) : "-",
         all_have_aubio(songs) ? fmt::format("{:.3f}", mean_over(songs, aubio_f)) : "-");
   out += fmt::format(
       "\n  beats within 70 ms, first 5 s left out; {:.0f} us of one core a hop of 10 ms\n",

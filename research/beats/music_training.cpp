@@ -62,11 +62,12 @@ void find_tempo_moments(LabelledMoments& moments,
                         std::span<const double> beats_s) {
   constexpr std::size_t kFirst_hops = 300, kEvery_hops = 40;
   constexpr double kLeast_hops = 27.0, kMost_hops = RhythmPeriods::kMostPeriod_hops;
-  constexpr std::array kLevels{0.5, 2.0};
+  // Beside half and double, too: a tracker looks for the best of what is near.
+  constexpr std::array kLevels{0.485, 0.5, 0.515, 1.94, 2.0, 2.06};
   constexpr std::array kOthers{0.667, 0.75, 0.8, 0.9, 1.12, 1.25, 1.333, 1.5};
   constexpr std::array kNearby{0.985, 1.0, 1.015};
   // Levels are what is to be learnt; other tempi are seldom in doubt.
-  constexpr float kLevelWeight = 3.0f;
+  constexpr float kLevelWeight = 1.0f;
   RhythmPeriods rhythm;
   std::array<float, RhythmPeriods::kCount> row;
   std::array<float, 2> sums{};

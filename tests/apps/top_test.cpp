@@ -44,6 +44,7 @@ TEST(TopTable, TellsEachTypeByItsFingerprint) {
   EXPECT_EQ(type_of(GuestTraffic()), "guest_traffic_t");
   EXPECT_EQ(type_of(FlowSetting()), "flow_t");
   EXPECT_EQ(type_of(Playout()), "playout_t");
+  EXPECT_EQ(type_of(Steps()), "steps_t");
   const std::uint8_t other[16] = {1, 2, 3};
   EXPECT_EQ(type_of_message(other), "");
   EXPECT_EQ(type_of_message({other, 7}), "");
@@ -134,6 +135,20 @@ TEST(TopTable, AGuestsStyleIsShownZoneByZone) {
   style.gain[0] = 2.0f;
   take(table, "STYLE/guest/alice", style, kBegin + Duration::s(2));
   EXPECT_EQ(table.text(kBegin + Duration::s(2)).find("1.50"), std::string::npos);
+}
+
+TEST(TopTable, TheTempoAtWhichDancersStepIsShown) {
+  TopTable table;
+  Steps steps;
+  steps.tempo_bpm = 96.5;
+  steps.weight = 0.75f;
+  steps.dancers = 2;
+  take(table, "STEPS/local", steps, kBegin);
+  const std::string text = table.text(kBegin + Duration::s(1));
+  const std::string row = text.substr(text.rfind("STEPS/local"));
+  EXPECT_NE(row.find("96.5"), std::string::npos) << text;
+  EXPECT_NE(row.find("0.75"), std::string::npos) << text;
+  EXPECT_NE(row.find("here"), std::string::npos) << text;
 }
 
 TEST(TopTable, AFloodOfNamesIsBoundedAndSaid) {

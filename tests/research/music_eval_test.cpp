@@ -1,6 +1,7 @@
 // dance music eval as a user starts it, on a song that the test writes.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/research/song_on_disk.h"
@@ -67,13 +68,34 @@ TEST(MusicEval, SaysByGenreHowOftenTheLevelIsWrong) {
   EXPECT_TRUE(report["files"][0]["causal"].is_null()) << "not asked for";
 }
 
-TEST(MusicEval, TakesTheTempoOfDancersAsAHint) {
+TEST(MusicEval, HearsASongOnceMoreWithTheTempoOfDancersTold) {
   const SongOnDisk song;
   const std::string audio = song.folder.path("song.wav");
-  const Finished finished = run(bin("dance-music-eval") + " " + audio + " --beats " +
-                                song.folder.path("song.beats") + " --tracker-only --steps 1");
-  EXPECT_EQ(finished.exit_code, 0) << finished.talk;
+  const std::string asked = bin("dance-music-eval") + " " + audio + " --beats " +
+                            song.folder.path("song.beats") + " --tracker-only --json";
+  const Finished finished = run(asked + " --steps 1");
+  ASSERT_EQ(finished.exit_code, 0) << finished.talk;
+  const auto report = nlohmann::json::parse(finished.output);
+  EXPECT_GE(report["with_steps"]["f_measure"].get<double>(), 0.95);
+  const auto alone = nlohmann::json::parse(run(asked).output);
+  EXPECT_FALSE(alone.contains("with_steps"));
+  EXPECT_EQ(alone["f_measure"], report["f_measure"]) << "the first time nobody is seen";
   EXPECT_EQ(run(bin("dance-music-eval") + " " + audio + " --steps 2").exit_code, 2);
+}
+
+TEST(MusicEval, SeesRealCouplesStepToASong) {
+  const std::string takes = DANCE_SOURCE_DIR "/../shared/data/mocap/";
+  if (!std::filesystem::exists(takes + "cmu_60_03_salsa.bvh.xz"))
+    GTEST_SKIP() << "no real takes beside this tree";
+  const SongOnDisk song;
+  const std::string asked = bin("dance-music-eval") + " " + song.folder.path("song.wav") +
+                            " --beats " + song.folder.path("song.beats") +
+                            " --tracker-only --json --dancer " + takes + "cmu_60_03_salsa.bvh.xz";
+  const Finished finished = run(asked + " --dancer " + takes + "cmu_61_03_salsa.bvh.xz");
+  ASSERT_EQ(finished.exit_code, 0) << finished.talk;
+  const auto report = nlohmann::json::parse(finished.output);
+  EXPECT_GE(report["with_steps"]["f_measure"].get<double>(), 0.95);
+  EXPECT_EQ(run(asked).exit_code, 2) << "a partner is missing";
 }
 
 TEST(MusicEval, NamesWhatIsMissing) {

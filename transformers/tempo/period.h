@@ -55,6 +55,9 @@ class Period {
   // above 0.6.
   float coherence() const { return coherence_; }
 
+  // Part of the motion that bars of this tempo explain.
+  float score_at(double bpm) const { return scan_.score_at(bpm); }
+
   const MotionBeats& motion_beats() const { return motion_beats_; }
   MonoTime newest() const { return frame_.time; }
   // What the newest pose shows.

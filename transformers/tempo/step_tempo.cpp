@@ -15,13 +15,15 @@ constexpr double kLongestStep_s = 0.5;
 
 }  // namespace
 
-void StepTempo::see(double tempo_bpm, float coherence) {
-  if (!(tempo_bpm >= kLeast_bpm && tempo_bpm <= kMost_bpm && coherence >= kLeastCoherence)) return;
+bool StepTempo::see(double tempo_bpm, float coherence) {
+  if (!(tempo_bpm >= kLeast_bpm && tempo_bpm <= kMost_bpm && coherence >= kLeastCoherence))
+    return false;
   const double bin = kBinsPerOctave * std::log2(tempo_bpm / kLeast_bpm);
   const auto below = std::min(static_cast<std::size_t>(bin), kBins - 2);
   const double part = bin - static_cast<double>(below);
   now_[below] += (1.0 - part) * static_cast<double>(coherence);
   now_[below + 1] += part * static_cast<double>(coherence);
+  return true;
 }
 
 void StepTempo::pass(Duration time) {

@@ -20,8 +20,9 @@ class StepTempo {
   static constexpr double kMost_bpm = 250.0;
 
   // Some times a second: what each dancer's Period says, its tempo and coherence, and then that so
-  // much time is over. A tempo beyond the bounds is passed over.
-  void see(double tempo_bpm, float coherence);
+  // much time is over. A tempo beyond the bounds, or of a dance that is less like itself than
+  // counts, is passed over: then see() is false.
+  bool see(double tempo_bpm, float coherence);
   void pass(Duration time);
   void forget() { *this = StepTempo(); }
 

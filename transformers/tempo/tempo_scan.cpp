@@ -108,6 +108,13 @@ float TempoScan::score_of(std::size_t beat_bin) const {
          sum(power_steps_, kStepHarmonics) / (energy_steps_[1] + kTiny);
 }
 
+float TempoScan::score_at(double bpm) const {
+  const double bin = kLowestBeatBin + kBinsPerOctave * std::log2(bpm / 60.0);
+  if (scans_ < kScansBeforeWord || !(bin > kLowestBeatBin && bin < static_cast<double>(kBins - 1)))
+    return 0.0f;
+  return score_of(static_cast<std::size_t>(std::lround(bin)));
+}
+
 void TempoScan::choose() {
   if (scans_ < kScansBeforeWord) return;
   const auto weighed = [&](std::size_t bin) {

@@ -33,6 +33,8 @@ class TempoScan {
   double tempo_bpm() const { return tempo_bpm_; }
   // Part of the motion that the tempo's bars explain, 0 to about 1.
   float score() const { return score_; }
+  // The same of the tempo that is nearest to this one.
+  float score_at(double bpm) const;
   void forget();
 
  private:

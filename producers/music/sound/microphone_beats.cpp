@@ -16,10 +16,8 @@ constexpr Duration kMicrophoneTimingRequests = Duration::ms(100);
 MicrophoneBeats::MicrophoneBeats(Duration trim) : trim_(trim), tracker_(kMicrophone_hz) {}
 
 Result<std::unique_ptr<MicrophoneBeats>> MicrophoneBeats::open(const std::string& source,
-                                                               Duration trim,
-                                                               const TempoHint& hint) {
+                                                               Duration trim) {
   std::unique_ptr<MicrophoneBeats> beats(new MicrophoneBeats(trim));
-  beats->tracker_.set_tempo_hint(hint);
   DANCE_TRY(beats->server_, PulseServer::connect("music"));
   BeatTracker* tracker = &beats->tracker_;
   DANCE_TRY(beats->input_, PulseInput::open(*beats->server_, source, kMicrophone_hz,

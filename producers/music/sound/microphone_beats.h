@@ -20,12 +20,13 @@ namespace dance {
 class MicrophoneBeats {
  public:
   // `source` as PulseInput takes it.
-  static Result<std::unique_ptr<MicrophoneBeats>> open(const std::string& source, Duration trim,
-                                                       const TempoHint& hint = {});
+  static Result<std::unique_ptr<MicrophoneBeats>> open(const std::string& source, Duration trim);
   MicrophoneBeats(const MicrophoneBeats&) = delete;
   MicrophoneBeats& operator=(const MicrophoneBeats&) = delete;
 
   Result<void> work(MonoTime now);
+  // What the dancers' steps say, from now on.
+  void set_tempo_hint(const TempoHint& hint) { tracker_.set_tempo_hint(hint); }
   // The next beat, while one is heard.
   std::optional<Beat> beat(MonoTime now) const;
 

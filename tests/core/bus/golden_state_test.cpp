@@ -121,6 +121,15 @@ Playout golden_playout() {
   return playout;
 }
 
+Steps golden_steps() {
+  auto steps = stamped<Steps>();
+  steps.tempo_bpm = 96.5;
+  steps.weight = 0.75f;
+  steps.dancers = 2;
+  steps.is_remote = true;
+  return steps;
+}
+
 TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("music_t", golden_music());
   expect_golden("scene_t", golden_scene());
@@ -131,6 +140,7 @@ TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("beat_t", golden_beat());
   expect_golden("flow_t", golden_flow());
   expect_golden("playout_t", golden_playout());
+  expect_golden("steps_t", golden_steps());
 }
 
 TEST(GoldenState, SurvivesEverySingleBitFlip) {
@@ -143,6 +153,7 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Beat>("beat_t");
   expect_survives_bit_flips<FlowSetting>("flow_t");
   expect_survives_bit_flips<Playout>("playout_t");
+  expect_survives_bit_flips<Steps>("steps_t");
 }
 
 TEST(GoldenState, IsSmallEnoughForTheTunnel) {
@@ -245,6 +256,19 @@ TEST(DecodeState, CallsImpossiblePlayoutsInvalid) {
   EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p.beats = 1e9f; }), invalid);
   EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p.partner_share = kNan; }), invalid);
   EXPECT_EQ(outcome_of(golden_playout(), [](P& p) { p.partner_share = 1.5f; }), invalid);
+}
+
+TEST(DecodeState, CallsImpossibleStepsInvalid) {
+  const auto fine = Decoded::kFine, invalid = Decoded::kInvalid;
+  using S = Steps;
+  EXPECT_EQ(outcome_of(golden_steps(), [](S&) {}), fine);
+  EXPECT_EQ(outcome_of(golden_steps(), [](S& s) { s.tempo_bpm = 0.0, s.weight = 0.0f; }), fine);
+  EXPECT_EQ(outcome_of(golden_steps(), [](S& s) { s.tempo_bpm = 0.0; }), invalid);
+  EXPECT_EQ(outcome_of(golden_steps(), [](S& s) { s.tempo_bpm = 1e9; }), invalid);
+  EXPECT_EQ(outcome_of(golden_steps(), [](S& s) { s.tempo_bpm = -96.0; }), invalid);
+  EXPECT_EQ(outcome_of(golden_steps(), [](S& s) { s.weight = kNan; }), invalid);
+  EXPECT_EQ(outcome_of(golden_steps(), [](S& s) { s.weight = 1.5f; }), invalid);
+  EXPECT_EQ(outcome_of(golden_steps(), [](S& s) { s.dancers = -1; }), invalid);
 }
 
 TEST(DecodeState, CallsImpossibleBeatsInvalid) {

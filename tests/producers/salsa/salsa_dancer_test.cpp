@@ -86,6 +86,7 @@ TEST(SalsaDancer, DancesToWhatIsHeardAndGoesOnAloneWhereItEnds) {
   Pose pose, other;
   dancer.dance_at(Duration::s(2), pose);
   EXPECT_DOUBLE_EQ(pose.music_beats, 6.0) << "nothing is heard yet";
+  EXPECT_FALSE(dancer.is_moved_to_music(Duration::s(2)));
   Beat beat;
   beat.time = beat.beat_time = start + Duration::s(2);
   beat.beat = 20.0;
@@ -94,6 +95,8 @@ TEST(SalsaDancer, DancesToWhatIsHeardAndGoesOnAloneWhereItEnds) {
   music.hear(beat);
   dancer.dance_at(Duration::ms(2300), pose);
   EXPECT_NEAR(pose.music_beats, 21.0, 1e-9);
+  EXPECT_TRUE(dancer.is_moved_to_music(Duration::ms(2300)));
+  EXPECT_FALSE(deaf.is_moved_to_music(Duration::ms(2300)));
   deaf.dance_at(Duration::s(7), other);  // its beat 21
   EXPECT_NEAR((pose.p_WH_m - other.p_WH_m).norm(), 0.0f, 0.01f) << "the same step";
   dancer.dance_at(Duration::s(9), pose);
