@@ -7,6 +7,9 @@
 namespace dance {
 namespace {
 
+// The NATS server that reads for us may be another than the one we speak with, and die: missing two
+// of these says so, and the watch begins anew. Well before a dead server's guests are forgotten.
+constexpr std::int64_t kHeartbeat_ns = 1'000'000'000;
 constexpr auto kRetry = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -155,6 +158,7 @@ NatsHandle<natsSubscription> NatsValues::subscribe(const std::string& keys) {
   options.Ordered = true;
   options.Stream = stream_name_.c_str();
   options.Config.DeliverPolicy = js_DeliverLastPerSubject;
+  options.Config.Heartbeat = kHeartbeat_ns;
   const auto on_value = [](natsConnection*, natsSubscription*, natsMsg* message, void* inbox) {
     static_cast<NatsInbox*>(inbox)->push(NatsInbox::Kind::kValue, NatsHandle<natsMsg>(message));
   };
