@@ -125,18 +125,54 @@ TEST(FootLock, LeavesFeetThatMoveAndFeetInTheAirAlone) {
   EXPECT_TRUE(lock.is_locked(1));
 }
 
-TEST(StandingOdds, AreHighOfAFootThatRestsOnTheFloorAndLowOfOneThatStepsOrFloats) {
-  const Eigen::Vector3f at(0.1f, 0.02f, 0.3f);
-  const auto odds = [&](float came_m, float goes_m, float above_m) {
-    const Eigen::Vector3f there = at + Eigen::Vector3f(0.0f, above_m, 0.0f);
-    return standing_log_odds(there - Eigen::Vector3f(came_m, 0.0f, 0.0f), there,
-                             there + Eigen::Vector3f(0.0f, 0.0f, goes_m), at.y());
-  };
-  EXPECT_GT(odds(0.0f, 0.0f, 0.0f), 2.0f);
+// A foot on the floor under the hips, beside one that stands half a metre from it.
+class StandingOdds : public ::testing::Test {
+ protected:
+  float odds(float came_m, float goes_m, float above_m) const {
+    FootView moved = foot_;
+    moved.there.y() += above_m;
+    moved.before = moved.there - Eigen::Vector3f(came_m, 0.0f, 0.0f);
+    moved.after = moved.there + Eigen::Vector3f(0.0f, 0.0f, goes_m);
+    return standing_log_odds(moved, other_, hips_, foot_.there.y());
+  }
+  static FootView resting_at(const Eigen::Vector3f& at) { return {at, at, at, at, 0.0f, 0.3f}; }
+
+  FootView foot_ = resting_at({0.1f, 0.02f, 0.3f});
+  FootView other_ = resting_at({-0.1f, 0.02f, -0.1f});
+  HipsView hips_{{0.05f, 0.9f, 0.2f}, {0.05f, 0.9f, 0.2f}, 0.2f};
+};
+
+TEST_F(StandingOdds, AreHighOfAFootThatRestsOnTheFloorAndLowOfOneThatStepsOrFloats) {
+  const float rests = odds(0.0f, 0.0f, 0.0f);
+  EXPECT_GT(rests, 1.5f);
   // At 1.5 m/s; one that lands is not as far from standing.
-  EXPECT_LT(odds(0.1f, 0.1f, 0.03f), -2.5f);
+  EXPECT_LT(odds(0.1f, 0.1f, 0.03f), rests - 2.5f);
   EXPECT_GT(odds(0.1f, 0.0f, 0.0f), odds(0.1f, 0.1f, 0.0f));
-  EXPECT_LT(odds(0.0f, 0.0f, 0.15f), -2.0f);
+  EXPECT_LT(odds(0.0f, 0.0f, 0.15f), rests - 2.5f);
+}
+
+TEST_F(StandingOdds, AreHigherOfTheFootThatCarriesAndOfOneBesideAFootThatSwings) {
+  const float before = odds(0.0f, 0.0f, 0.0f);
+  other_.there.y() += 0.1f;
+  other_.after.y() += 0.1f;
+  EXPECT_GT(odds(0.0f, 0.0f, 0.0f), before + 0.5f);
+  other_ = resting_at({-0.1f, 0.02f, -0.1f});
+  hips_.there = hips_.seen = {-0.1f, 0.9f, -0.1f};
+  EXPECT_LT(odds(0.0f, 0.0f, 0.0f), before - 0.5f) << "the hips are over the other foot";
+}
+
+TEST_F(StandingOdds, AreLowerOfAFootThatWasSeenInSwingAndWhereTheHipsTravel) {
+  const float before = odds(0.0f, 0.0f, 0.0f);
+  foot_.seen_speed_m_s = 1.5f;
+  EXPECT_LT(odds(0.0f, 0.0f, 0.0f), before - 1.0f);
+  foot_.seen_speed_m_s = 0.0f;
+  hips_.seen.x() -= 0.2f;
+  EXPECT_LT(odds(0.0f, 0.0f, 0.0f), before - 0.5f);
+}
+
+TEST_F(StandingOdds, AreNothingKnownWhereAPlaceIsNotFinite) {
+  other_.seen.x() = std::nanf("");
+  EXPECT_FALSE(std::isfinite(odds(0.0f, 0.0f, 0.0f)));
 }
 
 // The prediction skates at a speed at which no foot is taken to stand.
@@ -149,8 +185,13 @@ TEST(FootLock, HoldsFeetAsLongAsTheyAreForeseenToStand) {
       Pose pose = crouching(0.3f * static_cast<float>(i) / 60.0f);
       // From frame 50 on it is foreseen to step.
       const float step_m = i < 50 ? 0.0f : 0.2f;
-      if (foresees)
+      if (foresees) {
+        // It was seen to go just before.
+        Pose real = crouching(i < 45 ? 0.0f : 0.05f * static_cast<float>(i - 45));
+        real.capture_time = frame_at(i);
+        lock.observe(real, frame_at(i));
         lock.foresee(crouching(-step_m), crouching(0.0f), crouching(step_m), Duration::ms(200));
+      }
       const Pose raw = pose;
       lock.apply(frame_at(i), pose);
       if (i == 20) held = ball(pose);
@@ -208,9 +249,9 @@ TEST(HoldOdds, FindTheOddsThatNearlyAllFeetHadThatThenStood) {
       }
       odds.see(frame_at(i), {true, false});
     }
-    EXPECT_NEAR(odds.value(), shift - 0.7f, 0.2f);
-    EXPECT_LT(missed / seen, 0.2);
-    EXPECT_GT(missed / seen, 0.02);
+    EXPECT_NEAR(odds.value(), shift - 0.9f, 0.15f);
+    EXPECT_LT(missed / seen, 0.1);
+    EXPECT_GT(missed / seen, 0.01);
   }
 }
 
