@@ -33,6 +33,7 @@ void MotionSource::set(Duration reach, bool conceals) {
 }
 
 void MotionSource::observe() {
+  has_from_ = false;
   if (parts_.extrapolator) {
     parts_.extrapolator->observe(timeline_.newest(), timeline_.arrived());
     if (parts_.partner)
@@ -48,6 +49,7 @@ void MotionSource::restart() {
 }
 
 void MotionSource::set_body() {
+  has_from_ = false;
   if (parts_.extrapolator) parts_.extrapolator->set_body(timeline_.body());
   if (parts_.partner) parts_.partner->set_body(timeline_.body());
 }
@@ -90,10 +92,11 @@ void MotionSource::predict(MonoTime moment, const PredictionLead& lead, bool is_
   parts_.extrapolator->predict(newest.capture_time + reached, out);
   if (!lead.is_none()) {
     // Begun where the extrapolator saw the newest pose, which may be without an outlier of it.
-    Pose from, half;
-    parts_.extrapolator->predict(newest.capture_time, from);
+    if (!has_from_) parts_.extrapolator->predict(newest.capture_time, from_);
+    has_from_ = true;
+    Pose half;
     parts_.extrapolator->predict(newest.capture_time + reached / 2, half);
-    add_lead(from, half, lead.at(reached), out);
+    add_lead(from_, half, lead.at(reached), out);
   }
   if (is_guided && parts_.partner) parts_.partner->guide(newest.capture_time + reached, out);
   out.capture_time = moment;

@@ -74,6 +74,8 @@ class MotionSource {
 
   DancerTimeline& timeline_;
   Parts parts_;
+  Pose from_;  // as the extrapolator saw the newest pose
+  bool has_from_ = false;
   SettingSlew reach_s_;
   bool may_conceal_ = true;
 };

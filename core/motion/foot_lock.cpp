@@ -27,11 +27,12 @@ constexpr float kFarAbove_m = 0.08f;
 constexpr float kElsewhere_m = 0.5f;
 // Speeds are averaged over this time, so that sensor noise does not lift a foot.
 constexpr float kSpeedOver_s = 0.04f;
-constexpr float kGlide_s = 0.04f;
+constexpr float kGlide_s = 0.015f;
 constexpr float kSeenSpeedOver_s = 0.02f;
 constexpr float kStandsBelow_m_s = 0.2f;
 constexpr float kToSeen_s = 0.3f;
 constexpr float kNothing_m = 1e-5f;
+constexpr float kLongest_s = 10.0f;
 constexpr float kStraight = 0.9995f;
 
 Quaternionf turned(const Vector3f& from, const Vector3f& to, const Quaternionf& R) {
@@ -89,9 +90,14 @@ void FootLock::observe(const Pose& real, MonoTime now) {
       foot.seen_speed_m_s = settings_.release_above_m_s;
     }
     foot.seen = ball;
+    const bool was_standing = foot.seen_standing;
     foot.seen_standing =
         foot.seen_speed_m_s < kStandsBelow_m_s && ball.y() - floor_m_ < settings_.release_above_m;
+    foot.seen_for_s = foot.seen_standing == was_standing && step <= kLongestStep
+                          ? std::min(foot.seen_for_s + std::max(seconds, 0.0f), kLongest_s)
+                          : 0.0f;
   }
+  seen_hips_ = real.p_WH_m;
   hold_odds_.see(real.capture_time, {feet_[0].seen_standing, feet_[1].seen_standing});
 }
 
@@ -101,10 +107,18 @@ void FootLock::foresee(const Pose& before, const Pose& there, const Pose& after,
   forward_kinematics(skeleton_, there, frames[1]);
   forward_kinematics(skeleton_, after, frames[2]);
   is_foreseen_ = began_;
+  std::array<FootView, 2> views;
   for (std::size_t side = 0; side < 2; ++side) {
+    const Foot& foot = feet_[side];
     const Bone ball = kBalls[side];
-    feet_[side].odds = standing_log_odds(frames[0].position(ball), frames[1].position(ball),
-                                         frames[2].position(ball), floor_m_);
+    views[side] = {
+        frames[0].position(ball), frames[1].position(ball),
+        frames[2].position(ball), foot.seen,
+        foot.seen_speed_m_s,      foot.seen_standing ? foot.seen_for_s : -foot.seen_for_s};
+  }
+  const HipsView hips{there.p_WH_m, seen_hips_, static_cast<float>(ahead.as_seconds())};
+  for (std::size_t side = 0; side < 2; ++side) {
+    feet_[side].odds = standing_log_odds(views[side], views[1 - side], hips, floor_m_);
     if (!std::isfinite(feet_[side].odds)) is_foreseen_ = false;
   }
   if (is_foreseen_) hold_odds_.foresee(there.capture_time, {feet_[0].odds, feet_[1].odds});

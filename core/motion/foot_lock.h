@@ -41,11 +41,11 @@ class FootLock {
     // Where it is foreseen which feet stand: a foot that stands more often than it slides is worth
     // one that steps late, so that low odds do (HoldOdds); and it may be further off what is
     // predicted, the less sure that is.
-    float release_odds_below = 0.8f;
+    float release_odds_below = 0.1f;
     float sure_furthest_m = 0.2f;
     float unsure_furthest_m = 0.35f;
     Duration unsure_from = Duration::ms(200);
-    Duration release_half_life = Duration::ms(60);
+    Duration release_half_life = Duration::ms(50);
   };
 
   FootLock();
@@ -83,7 +83,8 @@ class FootLock {
     Eigen::Vector3f seen = Eigen::Vector3f::Zero();
     float seen_speed_m_s = 0.0f;
     bool seen_standing = false;
-    float odds = 0.0f;  // that it stands in the next pose
+    float seen_for_s = 0.0f;  // so
+    float odds = 0.0f;        // that it stands in the next pose
   };
 
   void follow_floor(float low_m, float seconds);
@@ -97,6 +98,7 @@ class FootLock {
   Skeleton skeleton_;
   std::array<Foot, 2> feet_;
   float floor_m_ = 0.0f;  // of the balls
+  Eigen::Vector3f seen_hips_ = Eigen::Vector3f::Zero();
   MonoTime time_, seen_at_, seen_capture_;
   bool began_ = false;
   bool is_foreseen_ = false;  // of the next pose

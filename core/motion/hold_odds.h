@@ -51,7 +51,7 @@ class HoldOdds {
     std::array<float, 2> odds{};
   };
   static constexpr Duration kNear = Duration::ms(9);
-  static constexpr float kMayBeMissed = 0.15f;
+  static constexpr float kMayBeMissed = 0.05f;
   static constexpr float kStep = 0.1f;
 
   std::array<Foreseen, 64> foreseen_{};

@@ -217,7 +217,7 @@ void fit_straight(BodyNet& net, const Numbers& inputs, const Numbers& answers, s
 void fit_net(PredictModel& model, const NetSamples& samples, const NetFit& fit) {
   BodyNet& net = model.net;
   fit_normalisation(net, samples);
-  Numbers inputs = samples.inputs;
+  Numbers inputs(samples.inputs.begin(), samples.inputs.end());
   for (std::size_t s = 0; s < samples.count; ++s) {
     NetInputs one;
     std::copy_n(&inputs[s * kNetInputs], kNetInputs, one.begin());

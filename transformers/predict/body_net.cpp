@@ -46,4 +46,13 @@ void BodyNet::ways_of(const NetAnswers& answers, BodyWays& ways) const {
                 ways[h].v.data());
 }
 
+void BodyNet::ways_of(const NetAnswers& a, BodyWays& ways_a, const NetAnswers& b,
+                      BodyWays& ways_b) const {
+  for (BodyRow& way : ways_a) way.v.fill(0.0f);
+  for (BodyRow& way : ways_b) way.v.fill(0.0f);
+  for (std::size_t h = 0; h < kHorizons; ++h)
+    add_two_products(a.data(), b.data(), kNetAnswers, basis.data() + h * kNetAnswers * kRowSize,
+                     kRowSize, ways_a[h].v.data(), ways_b[h].v.data());
+}
+
 }  // namespace dance

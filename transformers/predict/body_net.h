@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/base/cache_aligned.h"
 #include "transformers/predict/body_row.h"
 
 namespace dance {
@@ -38,7 +39,7 @@ using NetInputs = std::array<float, kNetInputs>;
 using NetAnswers = std::array<float, kNetAnswers>;
 
 struct BodyNet {
-  using Numbers = std::vector<float>;
+  using Numbers = std::vector<float, CacheAligned<float>>;
   Numbers mean, scale;          // kNetInputs
   Numbers straight;             // inputs x answers
   Numbers first, first_bias;    // inputs x hidden
@@ -58,7 +59,9 @@ struct BodyNet {
   // Inputs as they are, and made comparable with mean and scale.
   void normalise(NetInputs& inputs) const;
   void answer(const NetInputs& inputs, NetAnswers& answers) const;
+  // Of one answer, and of two at once for little more than one.
   void ways_of(const NetAnswers& answers, BodyWays& ways) const;
+  void ways_of(const NetAnswers& a, BodyWays& ways_a, const NetAnswers& b, BodyWays& ways_b) const;
 };
 
 // `row(l)`: the row of l frames ago, l < kNetHistory. `tremble_rad`: what the sensor trembles by.

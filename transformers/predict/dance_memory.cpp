@@ -72,11 +72,15 @@ void DanceMemory::find_likeness(std::size_t window, std::size_t least_lag,
   const std::size_t lags = std::min(size_ > 0 ? size_ - 1 : 0, kLags);
   const bool is_full = size_ == kRing;
   std::array<float, kLikeMost> best{};
+  std::array<std::uint8_t, kLags> is_least;
+  find_least(distances.data(), lags + 1 < kLags ? lags + 1 : kLags, is_least.data());
   for (std::size_t lag = std::max<std::size_t>(least_lag, 2); lag < lags; ++lag) {
+    const void* next = std::memchr(is_least.data() + lag - 1, 1, lags - lag);
+    if (next == nullptr) break;
+    lag = static_cast<std::size_t>(static_cast<const std::uint8_t*>(next) - is_least.data()) + 1;
     const std::size_t rows = is_full ? kLags : std::min(size_ - lag, kLags);
     if (heard[rows] < kHeardEnough) break;  // and the longer lags have heard less
     const float distance = distances[lag - 1];
-    if (distance > distances[lag - 2] || distance > distances[lag]) continue;  // not a minimum
     const float alike = distance / heard[rows];
     // One that lies close to a better one is the same moment.
     std::size_t near = likeness.count;

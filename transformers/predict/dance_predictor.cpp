@@ -121,7 +121,19 @@ SteadyRows::Heard DancePredictor::observe(const Pose& pose) {
   }
   BodyRow row;
   while (rows_.next(row)) take(row);
+  note_seen();
   return heard;
+}
+
+double DancePredictor::rows_ahead(MonoTime moment) const {
+  return std::clamp(moment - rows_.row_time(), Duration(), kFurthest).as_seconds() * kGridHz;
+}
+
+void DancePredictor::note_seen() {
+  seen_rows_ = memory_.size() > 0 ? rows_ahead(rows_.seen_time()) : 0.0;
+  if (seen_rows_ <= 0.0) return;
+  const BodyRow predicted = row_at(seen_rows_);
+  for (std::size_t i = 0; i < kRowSize; ++i) seen_beside_.v[i] = rows_.seen().v[i] - predicted.v[i];
 }
 
 const MomentPredictions& DancePredictor::predictions(std::size_t age) const {
@@ -145,22 +157,37 @@ void DancePredictor::take(const BodyRow& row) {
 }
 
 void DancePredictor::ask_models(MomentPredictions& now) {
-  for (BodyRow& way : now.impersonal) way.v.fill(0.0f);
-  for (BodyRow& way : now.personal) way.v.fill(0.0f);
-  if (memory_.size() < kNetHistory) return;
+  const auto clear = [](BodyWays& ways) {
+    for (BodyRow& way : ways) way.v.fill(0.0f);
+  };
+  const bool asks_net = acquaintance_ != Acquaintance::kNone;
+  if (memory_.size() < kNetHistory) {
+    clear(now.impersonal);
+    clear(now.personal);
+    return;
+  }
   net_inputs(memory_, rows_.tremble_rad(), inputs_);
   model_->net.normalise(inputs_);
-  NetAnswers answers;
   bool is_new = false;
-  if (const PersonalModel::Weights* weights = personal_->weights(is_new)) {
-    if (is_new) proof_.doubt_personal();
-    answers.fill(0.0f);
-    add_product(inputs_.data(), kNetInputs, weights->data(), kNetAnswers, answers.data());
-    model_->net.ways_of(answers, now.personal);
+  const PersonalModel::Weights* weights = personal_->weights(is_new);
+  if (is_new) proof_.doubt_personal();
+  alignas(64) NetAnswers personal{}, answers;
+  if (weights)
+    add_product(inputs_.data(), kNetInputs, weights->data(), kNetAnswers, personal.data());
+  if (asks_net) model_->net.answer(inputs_, answers);
+  if (weights && asks_net) {
+    model_->net.ways_of(answers, now.impersonal, personal, now.personal);
+  } else if (asks_net) {
+    model_->net.ways_of(answers, now.impersonal);
+    clear(now.personal);
+  } else {
+    clear(now.impersonal);
+    if (weights)
+      model_->net.ways_of(personal, now.personal);
+    else
+      clear(now.personal);
   }
-  if (acquaintance_ == Acquaintance::kNone) return;
-  model_->net.answer(inputs_, answers);
-  model_->net.ways_of(answers, now.impersonal);
+  if (!asks_net) return;
   for (std::size_t h = 0; h < kHorizons; ++h) {
     BodyRow& way =
         now.by_horizon[h][static_cast<std::size_t>(Prediction::kNet) - kCommonPredictions];
@@ -213,19 +240,13 @@ BodyRow DancePredictor::row_at(double rows_ahead) const {
 }
 
 void DancePredictor::predict(MonoTime moment, Pose& out) const {
-  const auto ahead = [&](MonoTime t) {
-    const Duration d = std::clamp(t - rows_.row_time(), Duration(), kFurthest);
-    return d.as_seconds() * kGridHz;
-  };
-  const double rows = ahead(moment), seen_rows = ahead(rows_.seen_time());
+  const double rows = rows_ahead(moment);
   BodyRow row = row_at(rows);
-  if (seen_rows > 0.0) {
-    // The newest pose lies between two rows: what it shows is not lost.
-    const BodyRow predicted = row_at(seen_rows);
+  if (seen_rows_ > 0.0) {
+    // What the newest pose shows is not lost.
     const auto kept =
-        static_cast<float>(std::exp(-std::max(0.0, rows - seen_rows) / kSeenKept_rows));
-    for (std::size_t i = 0; i < kRowSize; ++i)
-      row.v[i] += kept * (rows_.seen().v[i] - predicted.v[i]);
+        static_cast<float>(std::exp(-std::max(0.0, rows - seen_rows_) / kSeenKept_rows));
+    add_scaled(kept, seen_beside_.v.data(), kRowSize, row.v.data());
   }
   out = newest_;
   space_.pose_of(row, out);

@@ -66,6 +66,8 @@ class DancePredictor {
   void make_ways(MomentPredictions& now);
   void set_prior();
   BodyRow row_at(double rows_ahead) const;
+  double rows_ahead(MonoTime moment) const;
+  void note_seen();
 
   std::shared_ptr<const PredictModel> model_;
   BodySpace space_;
@@ -87,6 +89,9 @@ class DancePredictor {
   NetInputs inputs_{};
   // From the newest row to 0 and kHorizonFrames from it.
   std::array<BodyRow, kHorizons + 1> path_;
+  // Where the newest pose lies between two rows: by how many, and what it shows beside path_.
+  double seen_rows_ = 0.0;
+  BodyRow seen_beside_;
   std::uint64_t dropped_ = 0;
 };
 

@@ -51,7 +51,7 @@ class PersonalModel : public Learner {
     std::uint32_t dancer;
   };
   struct Solved {
-    Weights weights{};
+    alignas(64) Weights weights{};
     std::uint32_t dancer = 0;
   };
   struct Sums;

@@ -43,8 +43,8 @@ void PredictionBlend::set_prior(const KindWeights& prior) {
   }
 }
 
-void PredictionBlend::learn(std::size_t h, const MomentPredictions& predictions,
-                            const BodyRow& way) {
+DANCE_WIDE_VECTORS void PredictionBlend::learn(std::size_t h, const MomentPredictions& predictions,
+                                               const BodyRow& way) {
   Horizon& horizon = (*horizons_)[h];
   std::array<const float*, kPredictions> rows;
   for (std::size_t e = 0; e < kPredictions; ++e) rows[e] = predictions.row(h, e);

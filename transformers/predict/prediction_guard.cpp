@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transformers/predict/row_kernels.h"
+
 namespace dance {
 namespace {
 
@@ -92,8 +94,8 @@ void PredictionGuard::forget_lately() {
     for (Horizon& horizon : states) horizon.lately = {};
 }
 
-void PredictionGuard::learn(std::size_t h, const MomentPredictions& predictions,
-                            const BodyRow& way) {
+DANCE_WIDE_VECTORS void PredictionGuard::learn(std::size_t h, const MomentPredictions& predictions,
+                                               const BodyRow& way) {
   const Sources sources = sources_of(predictions, h);
   const std::size_t state = state_of(predictions, lever_);
   Horizon& horizon = horizons_[h][state];
@@ -120,18 +122,21 @@ void PredictionGuard::learn(std::size_t h, const MomentPredictions& predictions,
       for (std::size_t k = 0; k < kCandidates; ++k) squares[k][g] += errors[k] * errors[k];
     }
   const float wild = kWildError + kWildError_s * static_cast<float>(kHorizonFrames[h] / kGridHz);
-  for (std::size_t k = 0; k < kCandidates; ++k) {
-    Groups& errors = squares[k];
-    // Lengths, not their squares: what is seen of an error is how far it is.
-    float body = 0.0f;
+  // Lengths, not their squares: what is seen of an error is how far it is.
+  for (Groups& errors : squares)
     for (std::size_t g = 0; g < kRowGroups; ++g) {
       const float error = std::sqrt(errors[g]);
       errors[g] = lever_[g] * error / (1.0f + error / wild);
     }
-    for (std::size_t g = 0; g < kBoneCount; ++g) body += errors[g];
+  std::array<float, kCandidates> body{};
+  for (std::size_t g = 0; g < kBoneCount; ++g)
+    for (std::size_t k = 0; k < kCandidates; ++k) body[k] += squares[k][g];
+  for (std::size_t k = 0; k < kCandidates; ++k) {
+    Groups& errors = squares[k];
     // Where the hips go is seen by itself: joints that only tremble say nothing about it.
-    for (std::size_t g = 0; g < kRowGroups; ++g)
-      if (g != kPlaceGroup) errors[g] += kOfTheBody * body;
+    const float of_place = errors[kPlaceGroup];
+    for (std::size_t g = 0; g < kRowGroups; ++g) errors[g] += kOfTheBody * body[k];
+    errors[kPlaceGroup] = of_place;
     for (std::size_t g = 0; g < kRowGroups; ++g) {
       horizon.lately.sum[k][g] = kLatelyKeep * horizon.lately.sum[k][g] + errors[g];
       horizon.longer.sum[k][g] = kLongerKeep * horizon.longer.sum[k][g] + errors[g];
@@ -140,7 +145,7 @@ void PredictionGuard::learn(std::size_t h, const MomentPredictions& predictions,
   weigh(h, state);
 }
 
-void PredictionGuard::weigh(std::size_t h, std::size_t state) {
+DANCE_WIDE_VECTORS void PredictionGuard::weigh(std::size_t h, std::size_t state) {
   Horizon& horizon = horizons_[h][state];
   const auto known = [](const Kept& kept) {
     return kept.heard_moments / (kept.heard_moments + kFewMoments);
@@ -177,16 +182,17 @@ void PredictionGuard::weigh(std::size_t h, std::size_t state) {
     for (std::size_t g = 0; g < kRowGroups; ++g) part[g] /= sum[g];
 }
 
-void PredictionGuard::finish(std::size_t h, const MomentPredictions& predictions,
-                             BodyRow& way) const {
+DANCE_WIDE_VECTORS void PredictionGuard::finish(std::size_t h, const MomentPredictions& predictions,
+                                                BodyRow& way) const {
   const Sources sources = sources_of(predictions, h);
   const Horizon& horizon = horizons_[h][state_of(predictions, lever_)];
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t g = 0; g < kRowGroups; ++g) {
       const std::size_t i = BodyRow::at(g, axis);
-      way.v[i] = 0.0f;
+      float sum = 0.0f;
       for (std::size_t s = 0; s < 3; ++s)
-        way.v[i] += horizon.parts[s][g] * sources.times[s] * sources.rows[s][i];
+        sum += horizon.parts[s][g] * sources.times[s] * sources.rows[s][i];
+      way.v[i] = sum;
     }
 }
 

@@ -49,8 +49,9 @@ void PredictionMeter::note(const Pose& newest, const Pose& pose, MonoTime moment
   next_ = (next_ + 1) % kHorizons.size();
 }
 
-void PredictionMeter::learn(const PoseHistory& history, Duration beat) {
-  if (history.size() < 4) return;
+bool PredictionMeter::learn(const PoseHistory& history, Duration beat) {
+  if (history.size() < 4) return false;
+  bool has_learned = false;
   for (Prediction& prediction : predictions_) {
     if (!prediction.waits || prediction.moment + beat > history.newest().capture_time) continue;
     prediction.waits = false;
@@ -58,6 +59,7 @@ void PredictionMeter::learn(const PoseHistory& history, Duration beat) {
     // What fell into a gap of the line has no truth to be compared with.
     if (truth->how == PoseHistory::How::kHeldFirst || truth->how == PoseHistory::How::kHeldLast)
       continue;
+    has_learned = true;
     Score& score = scores_[prediction.horizon];
     const float longer = gain(prediction.horizon);
     Places is;
@@ -71,6 +73,7 @@ void PredictionMeter::learn(const PoseHistory& history, Duration beat) {
     score.error_m = kForget * score.error_m + error_m / (kBoneCount - 1);
     if (beat > Duration()) learn_wave(history, prediction, is, beat);
   }
+  return has_learned;
 }
 
 void PredictionMeter::learn_wave(const PoseHistory& history, const Prediction& prediction,

@@ -32,8 +32,9 @@ class PredictionMeter {
   // It was predicted from `newest`, with measured_lead().
   void note(const Pose& newest, const Pose& prediction, MonoTime moment);
   static PredictionLead measured_lead();
-  // Compares what has become known. `beat`: of the music that is danced to; 0 where there is none.
-  void learn(const PoseHistory& history, Duration beat);
+  // Compares what has become known, and whether there was anything. `beat`: of the music that is
+  // danced to; 0 where there is none.
+  bool learn(const PoseHistory& history, Duration beat);
 
   bool is_known() const;
   // Mean error of a prediction so far ahead.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "transformers/predict/row_kernels.h"
+
 namespace dance {
 namespace {
 
@@ -38,8 +40,8 @@ float PredictionProof::proved(std::size_t h, std::uint32_t presence) const {
   return seen > 0.0f ? std::min(1.0f, sum / (kShareOfAcquainted * seen)) : 0.0f;
 }
 
-void PredictionProof::learn(std::size_t h, const MomentPredictions& predictions,
-                            const BodyRow& way) {
+DANCE_WIDE_VECTORS void PredictionProof::learn(std::size_t h, const MomentPredictions& predictions,
+                                               const BodyRow& way) {
   Horizon& horizon = horizons_[h];
   const BodyRow& p = predictions.impersonal[h];
   const BodyRow& c = predictions.personal[h];

@@ -15,22 +15,54 @@ constexpr std::size_t kMostFeatures = 16;
 DANCE_WIDE_VECTORS void add_product(const float* __restrict x, std::size_t rows,
                                     const float* __restrict matrix, std::size_t columns,
                                     float* __restrict y) {
-  // Four rows a turn: y is read and written once for them, and added to in their order.
+  // Four rows a turn, of those whose x is not 0: y is read and written once for them, and added to
+  // in their order.
   std::size_t i = 0;
-  for (; i + 4 <= rows; i += 4) {
-    const float a = x[i], b = x[i + 1], c = x[i + 2], d = x[i + 3];
-    if (a == 0.0f && b == 0.0f && c == 0.0f && d == 0.0f) continue;
-    const float* m = matrix + i * columns;
+  while (i < rows) {
+    float a[4];
+    const float* m[4];
+    std::size_t count = 0;
+    for (; i < rows && count < 4; ++i) {
+      a[count] = x[i];
+      m[count] = matrix + i * columns;
+      count += x[i] != 0.0f ? 1 : 0;
+    }
+    if (count < 4) {
+      for (std::size_t r = 0; r < count; ++r)
+        for (std::size_t j = 0; j < columns; ++j) y[j] += a[r] * m[r][j];
+      continue;
+    }
+    const float *m0 = m[0], *m1 = m[1], *m2 = m[2], *m3 = m[3];
     for (std::size_t j = 0; j < columns; ++j) {
-      float sum = y[j] + a * m[j];
-      sum += b * m[columns + j];
-      sum += c * m[2 * columns + j];
-      sum += d * m[3 * columns + j];
+      float sum = y[j] + a[0] * m0[j];
+      sum += a[1] * m1[j];
+      sum += a[2] * m2[j];
+      sum += a[3] * m3[j];
       y[j] = sum;
     }
   }
+}
+
+DANCE_WIDE_VECTORS void add_two_products(const float* __restrict x, const float* __restrict z,
+                                         std::size_t rows, const float* __restrict matrix,
+                                         std::size_t columns, float* __restrict y,
+                                         float* __restrict w) {
+  std::size_t i = 0;
+  for (; i + 4 <= rows; i += 4) {
+    const float a = x[i], b = x[i + 1], c = x[i + 2], d = x[i + 3];
+    const float e = z[i], f = z[i + 1], g = z[i + 2], h = z[i + 3];
+    const float* m = matrix + i * columns;
+    for (std::size_t j = 0; j < columns; ++j) {
+      const float m0 = m[j], m1 = m[columns + j], m2 = m[2 * columns + j], m3 = m[3 * columns + j];
+      y[j] = y[j] + a * m0 + b * m1 + c * m2 + d * m3;
+      w[j] = w[j] + e * m0 + f * m1 + g * m2 + h * m3;
+    }
+  }
   for (; i < rows; ++i)
-    for (std::size_t j = 0; j < columns; ++j) y[j] += x[i] * matrix[i * columns + j];
+    for (std::size_t j = 0; j < columns; ++j) {
+      y[j] += x[i] * matrix[i * columns + j];
+      w[j] += z[i] * matrix[i * columns + j];
+    }
 }
 
 DANCE_WIDE_VECTORS void add_scaled(float a, const float* __restrict x, std::size_t count,
@@ -77,6 +109,12 @@ DANCE_WIDE_VECTORS void follow_distances(const float* __restrict now, std::size_
       distances_b[begin + l] = keep_b * distances_b[begin + l] + sum[l];
     }
   }
+}
+
+DANCE_WIDE_VECTORS void find_least(const float* __restrict x, std::size_t count,
+                                   std::uint8_t* __restrict is_least) {
+  for (std::size_t i = 1; i + 1 < count; ++i)
+    is_least[i] = static_cast<std::uint8_t>(!(x[i] > x[i - 1]) & !(x[i] > x[i + 1]));
 }
 
 DANCE_WIDE_VECTORS void follow_gram(const float* const* features, std::size_t count,

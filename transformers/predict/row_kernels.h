@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(DANCE_SANITIZED)
 #define DANCE_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -21,6 +22,10 @@ namespace dance {
 // y[j] += sum over i of x[i] * matrix[i * columns + j]; an x of 0 costs nothing.
 void add_product(const float* x, std::size_t rows, const float* matrix, std::size_t columns,
                  float* y);
+
+// As add_product() of x and of z, which read the matrix once.
+void add_two_products(const float* x, const float* z, std::size_t rows, const float* matrix,
+                      std::size_t columns, float* y, float* w);
 
 // y[j] += a * x[j]
 void add_scaled(float a, const float* x, std::size_t count, float* y);
@@ -38,6 +43,9 @@ void weigh_rows(const float* const* rows, std::size_t count, const float* weight
 void follow_distances(const float* now, std::size_t dimensions, const float* past,
                       std::size_t stride, std::size_t lags, float* distances, float keep_a,
                       float* distances_b, float keep_b);
+
+// is_least[i] = 1 where no neighbour of x[i] is smaller, else 0; for 0 < i < count - 1.
+void find_least(const float* x, std::size_t count, std::uint8_t* is_least);
 
 // Groups of three numbers, group fastest: pairs[p * groups + g] = keep * pairs[...] + sum over axes
 // of counts[g] * features[e] * features[f] for every e <= f, and targets[e * groups + g] likewise

@@ -61,6 +61,7 @@ void RhythmClock::restart() {
   play_out_.forget();
   offset_.reset();
   predictions_.clear();
+  set_gains();
   own_beat_.forget();
   untagged_ = 0;
   probed_at_ = MonoTime();
@@ -72,15 +73,18 @@ void RhythmClock::observe(const DancerTimeline& timeline, MotionSource& source) 
   play_out_.add(timeline.gap(), timeline.transit());
   take_tag(timeline);
   const double beats_per_second = in_time_ ? dance_.beats_per_second() : 0.0;
-  predictions_.learn(timeline.poses(), beats_per_second > 0.0
-                                           ? Duration::seconds(1.0 / beats_per_second)
-                                           : Duration());
-  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h)
-    lead_.set_gain(h, predictions_.gain(h));
+  const Duration beat =
+      beats_per_second > 0.0 ? Duration::seconds(1.0 / beats_per_second) : Duration();
+  if (predictions_.learn(timeline.poses(), beat)) set_gains();
   const MonoTime newest = timeline.newest().capture_time;
   if (probed_at_.is_set() && newest - probed_at_ < kProbeEvery) return;
   probed_at_ = newest;
   measure_predictions(timeline, source);
+}
+
+void RhythmClock::set_gains() {
+  for (std::size_t h = 0; h < PredictionLead::kHorizons.size(); ++h)
+    lead_.set_gain(h, predictions_.gain(h));
 }
 
 void RhythmClock::take_tag(const DancerTimeline& timeline) {

@@ -60,6 +60,7 @@ class RhythmClock : public PlayoutClock {
  private:
   void take_tag(const DancerTimeline& timeline);
   void measure_predictions(const DancerTimeline& timeline, MotionSource& source);
+  void set_gains();
   // The moment to show without music, and with it; the pace at which the latter goes on.
   MonoTime free_moment(const DancerTimeline& timeline, MonoTime now);
   MonoTime wanted_moment(const DancerTimeline& timeline, MonoTime now, double& pace);
