@@ -24,6 +24,8 @@ class ClusterBus {
     std::function<void(std::string_view subject, Bytes message, MonoTime now)> on_message;
     // No bytes: the key was erased. After watch() all keys that are there come first.
     std::function<void(std::string_view key, std::optional<Bytes> value, MonoTime now)> on_value;
+    // After that value none of the same watch() waits: all that is there has come.
+    std::function<void(std::string_view key, MonoTime now)> on_all_read;
     // The connection is back: what others wrote meanwhile comes, what was written here stands.
     std::function<void(MonoTime now)> on_back;
   };

@@ -385,9 +385,6 @@ Text server_subject(ServerId server) { return (TextMaker() << kPrefix << "to." <
 Text pose_subject(const wire::RoomName& room, const GuestId& guest) {
   return (TextMaker() << kPosePrefix << room.view() << "." << guest.view()).text();
 }
-Text all_poses_subject(const wire::RoomName& room) {
-  return (TextMaker() << kPosePrefix << room.view() << ".*").text();
-}
 
 std::optional<PoseSubject> parse_pose_subject(std::string_view subject) {
   // An empty last part would go unnoticed.

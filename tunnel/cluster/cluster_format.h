@@ -93,13 +93,12 @@ using Value = std::variant<PresenceValue, GuestValue, StateValue>;
 std::size_t build(const Value& value, std::span<std::uint8_t> out);
 std::optional<Value> parse_value(Bytes bytes);
 
-// Subjects: all servers hear beats; each hears what is for it, and the poses of the rooms in which
-// it has links.
+// Subjects: all servers hear beats; each hears what is for it, and the poses that its
+// links want.
 using Text = FixedString<96>;
 Text beat_subject();
 Text server_subject(ServerId server);
 Text pose_subject(const wire::RoomName& room, const GuestId& guest);
-Text all_poses_subject(const wire::RoomName& room);
 struct PoseSubject {
   wire::RoomName room;
   GuestId guest;

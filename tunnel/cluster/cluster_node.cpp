@@ -30,6 +30,7 @@ ClusterNode::ClusterNode(const Options& options, ClusterBus& bus) : options_(opt
                      },
                      [this](std::string_view key, std::optional<cluster::Bytes> value,
                             MonoTime now) { on_value(key, value, now); },
+                     [this](std::string_view key, MonoTime) { on_all_read(key); },
                      [this](MonoTime now) { on_back(now); }});
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(options_.id).view());
@@ -147,10 +148,18 @@ void ClusterNode::on_value(std::string_view text, std::optional<cluster::Bytes> 
   ++counters_.malformed;
 }
 
+// What was written before this server came to the room comes before its own presence; what was
+// written again meanwhile comes behind it.
+void ClusterNode::on_all_read(std::string_view text) {
+  const auto key = cluster::parse_key(text);
+  const auto room = key ? rooms_.find(key->room) : rooms_.end();
+  if (room != rooms_.end() && room->second.has_presence && server_ != nullptr)
+    server_->remotes().settle(key->room);
+}
+
 void ClusterNode::take_presence(Room& room, const cluster::Key& key, bool is_there, MonoTime now) {
   if (key.server == options_.id) {
-    // It is the newest of what was there: all the rest has come before it.
-    if (is_there) server_->remotes().settle(key.room);
+    room.has_presence = is_there;
     // Somebody took this one for dead.
     if (!is_there)
       put({cluster::KeyKind::kPresence, key.room, options_.id, {}, 0},
@@ -252,14 +261,14 @@ void ClusterNode::on_room_opened(const ServerRoom& room) {
   rooms_[room.name].codec = room.codec;
   put({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0},
       cluster::PresenceValue{options_.id});
-  bus_.listen(cluster::all_poses_subject(room.name).view());
   bus_.watch(cluster::keys_of(room.name).view());
 }
 
 void ClusterNode::on_room_closed(const ServerRoom& room) {
   const auto of = rooms_.find(room.name);
   if (of == rooms_.end()) return;
-  bus_.end_listen(cluster::all_poses_subject(room.name).view());
+  for (const GuestId& guest : of->second.heard)
+    bus_.end_listen(cluster::pose_subject(room.name, guest).view());
   bus_.end_watch(cluster::keys_of(room.name).view());
   bus_.erase(cluster::text_of({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0}).view());
   // The last to leave takes along what the room had.
@@ -302,6 +311,17 @@ void ClusterNode::on_guest_left(const ServerRoom& room, const ServerGuest& guest
     bus_.erase(
         cluster::text_of({cluster::KeyKind::kGuestState, room.name, 0, guest.id, place}).view());
   }
+}
+
+// A server hears what its own links want, and no more.
+void ClusterNode::on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) {
+  const auto of = rooms_.find(room.name);
+  if (of == rooms_.end()) return;
+  const auto subject = cluster::pose_subject(room.name, guest.id);
+  if (is_wanted && of->second.heard.insert(guest.id).second)
+    bus_.listen(subject.view());
+  else if (!is_wanted && of->second.heard.erase(guest.id) > 0)
+    bus_.end_listen(subject.view());
 }
 
 void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,

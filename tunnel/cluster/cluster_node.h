@@ -12,6 +12,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "tunnel/cluster/cluster_bus.h"
@@ -76,6 +77,7 @@ class ClusterNode final : public ClusterPort {
   void on_room_closed(const ServerRoom& room) override;
   void on_guest_came(const ServerRoom& room, const ServerGuest& guest) override;
   void on_guest_left(const ServerRoom& room, const ServerGuest& guest) override;
+  void on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) override;
   void on_record(const ServerRoom& room, const ServerGuest& guest,
                  const wire::Record& record) override;
   void on_state(const ServerRoom& room, const ServerGuest* guest,
@@ -87,8 +89,10 @@ class ClusterNode final : public ClusterPort {
   // What the lasting values say of a room with links here.
   struct Room {
     CodecName codec;
+    bool has_presence = false;             // this server's own has been read
     std::map<ServerId, MonoTime> present;  // since when it is known; other servers
     std::map<GuestId, cluster::GuestValue> guests;
+    std::set<GuestId> heard;  // whose poses are subscribed to
     std::map<std::pair<GuestId, std::size_t>, std::vector<std::uint8_t>> states;  // guest not set:
                                                                                   // the room's
   };
@@ -99,6 +103,7 @@ class ClusterNode final : public ClusterPort {
 
   void on_message(std::string_view subject, cluster::Bytes bytes, MonoTime now);
   void on_value(std::string_view key, std::optional<cluster::Bytes> bytes, MonoTime now);
+  void on_all_read(std::string_view key);
   void on_back(MonoTime now);
   void take(const cluster::Beat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);

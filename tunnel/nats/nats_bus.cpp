@@ -107,6 +107,8 @@ class ConnectedNatsBus final : public NatsBus {
         handlers_.on_value(values_->key_of(message), std::nullopt, now);
       else
         handlers_.on_value(values_->key_of(message), bytes, now);
+      if (item.kind == NatsInbox::Kind::kValue && NatsValues::is_last(message))
+        handlers_.on_all_read(values_->key_of(message), now);
     }
     if (after_) after_(now);
   }

@@ -88,6 +88,14 @@ bool NatsValues::is_erased(natsMsg* message) {
          (std::strcmp(operation, "DEL") == 0 || std::strcmp(operation, "PURGE") == 0);
 }
 
+bool NatsValues::is_last(natsMsg* message) {
+  jsMsgMetaData* about = nullptr;
+  if (natsMsg_GetMetaData(&about, message) != NATS_OK) return false;
+  const bool is_last = about->NumPending == 0;
+  jsMsgMetaData_Destroy(about);
+  return is_last;
+}
+
 void NatsValues::run() {
   std::unique_lock lock(mutex_);
   for (;;) {

@@ -43,6 +43,8 @@ class NatsValues {
   // The key in a message of the inbox, and whether it was erased.
   std::string_view key_of(natsMsg* message) const;
   static bool is_erased(natsMsg* message);
+  // None of its watch waits behind it.
+  static bool is_last(natsMsg* message);
 
   // Waits until all is written, or so long: at the end of a program.
   void flush(std::chrono::milliseconds longest);

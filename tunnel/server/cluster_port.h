@@ -47,6 +47,8 @@ class ClusterPort {
   // A guest came through a link of this server's, or has left it.
   virtual void on_guest_came(const ServerRoom& room, const ServerGuest& guest) = 0;
   virtual void on_guest_left(const ServerRoom& room, const ServerGuest& guest) = 0;
+  // Whether any link here wants to hear a guest of another server.
+  virtual void on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) = 0;
   // Of a guest of this server's, in a room where others have links.
   virtual void on_record(const ServerRoom& room, const ServerGuest& guest,
                          const wire::Record& record) = 0;

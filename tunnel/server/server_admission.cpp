@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "core/base/assert.h"
 
@@ -198,7 +199,7 @@ std::size_t ServerAdmission::open_room(const wire::Hello& hello, MonoTime now) {
   free->members.clear();
   free->guest_count = free->remote_count = 0;
   for (RetainedState& state : free->states) state.version = 0;
-  free->has_fresh_states = free->has_first_body = false;
+  free->has_fresh_states = free->has_first_body = free->interest_changed = false;
   free->fresh_states_due = MonoTime();
   free->host_count = 0;
   free->settled_at = server_.cluster != nullptr ? now + kSettlesWithin : MonoTime();
@@ -309,6 +310,7 @@ void ServerAdmission::move_guest(ServerRoom& room, std::uint8_t slot, std::size_
   // A link's own guests are in the first page.
   if (slot >= wire::kSlotsPerPage && !server_.sessions[to].is_remote()) slot = relocate(room, slot);
   ServerGuest& guest = room.guests[slot];
+  if (!server_.sessions[to].is_remote()) want_no_more(room, guest);
   guest.owner = to;
   guest.told = {};
   const bool pushed = server_.sessions[to].slots.try_push(slot);
@@ -351,6 +353,11 @@ std::optional<std::uint8_t> ServerAdmission::free_slot(const ServerRoom& room, b
                                        {kHalf - 1, -1, -1}})
     if (const auto slot = free_in(from, to, step)) return slot;
   return std::nullopt;
+}
+
+// It is no guest of another server any more.
+void ServerAdmission::want_no_more(const ServerRoom& room, ServerGuest& guest) {
+  if (std::exchange(guest.is_wanted, false)) server_.cluster->on_wanted(room, guest, false);
 }
 
 // Another guest has it: receivers know nothing of this one.
@@ -419,6 +426,7 @@ void ServerAdmission::remove_guest(std::size_t room_index, std::uint8_t slot) {
   ServerRoom& room = server_.rooms[room_index];
   if (server_.cluster != nullptr && server_.is_local(room.guests[slot]))
     server_.cluster->on_guest_left(room, room.guests[slot]);
+  want_no_more(room, room.guests[slot]);
   room.guests[slot].in_use = false;
   --room.guest_count;
   for (const std::size_t member : room.members) server_.sessions[member].stream.states.forget(slot);
@@ -442,7 +450,10 @@ void ServerAdmission::drop(std::size_t index) {
   session.in_use = false;
   session.slots.clear();
   session.stream.bundle.clear();
-  if (room.in_use && room.link_count() == 0) close_room(session.room);
+  if (!room.in_use) return;
+  if (room.link_count() == 0) return close_room(session.room);
+  room.interest_changed = room.remote_count > 0;
+  if (room.interest_changed) server_.mark_changed(room);
 }
 
 void ServerAdmission::close_room(std::size_t index) {

@@ -62,6 +62,7 @@ class ServerAdmission {
   void close_room(std::size_t room);
   std::uint8_t relocate(ServerRoom& room, std::uint8_t slot);
   static std::optional<std::uint8_t> free_slot(const ServerRoom& room, bool is_remote);
+  void want_no_more(const ServerRoom& room, ServerGuest& guest);
   void begin_slot(ServerRoom& room, std::uint8_t slot);
 
   ServerContext& server_;

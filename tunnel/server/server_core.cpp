@@ -177,6 +177,9 @@ void ServerCore::end_turn(MonoTime now) {
       if (!server_.is_newcomer(member)) send_roster(server_.sessions[member]);  // else below
     }
   }
+  for (const std::size_t i : server_.changed_rooms)
+    if (server_.rooms[i].interest_changed && server_.rooms[i].in_use)
+      interest_.tell_wanted(server_.rooms[i]);
   // Those who dance come first: what a newcomer is told may be much.
   forwarder_.flush_due(now);
   const auto is_greeted = [&](std::size_t newcomer) {

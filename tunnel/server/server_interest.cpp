@@ -1,6 +1,7 @@
 #include "tunnel/server/server_interest.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/sequence.h"
 
@@ -29,7 +30,7 @@ void ServerInterest::on_interest(std::size_t index, wire::Bytes body, MonoTime n
 
 void ServerInterest::settle(std::size_t index, MonoTime now) {
   ServerSession& session = server_.sessions[index];
-  const ServerRoom& room = server_.rooms[session.room];
+  ServerRoom& room = server_.rooms[session.room];
   std::array<std::uint8_t, wire::kMaxGuestsPerRoom> dividers;
   dividers.fill(session.interest.default_divider);
   // An entry about who had the slot before says nothing about who has it now.
@@ -44,6 +45,24 @@ void ServerInterest::settle(std::size_t index, MonoTime now) {
     if (!guest.in_use || guest.owner == index) continue;
     set_divider(index, slot, dividers[slot], now);
     if (dividers[slot] == 1) ++session.full_shares;
+  }
+  if (room.remote_count > 0) {
+    room.interest_changed = true;
+    server_.mark_changed(room);
+  }
+}
+
+void ServerInterest::tell_wanted(ServerRoom& room) {
+  room.interest_changed = false;
+  for (std::uint8_t slot = 0; slot < room.guests.size(); ++slot) {
+    ServerGuest& guest = room.guests[slot];
+    if (!guest.in_use || server_.is_local(guest)) continue;
+    const bool is_wanted = std::ranges::any_of(room.members, [&](std::size_t member) {
+      const ServerSession& session = server_.sessions[member];
+      return !session.is_remote() && session.can_name(slot) && session.filters[slot].wants_any();
+    });
+    if (std::exchange(guest.is_wanted, is_wanted) != is_wanted)
+      server_.cluster->on_wanted(room, guest, is_wanted);
   }
 }
 

@@ -18,6 +18,8 @@ class ServerInterest {
   void on_interest(std::size_t session, wire::Bytes body, MonoTime now);
   // After the session's list or the room's roster changed.
   void settle(std::size_t session, MonoTime now);
+  // Tells the cluster which guests of other servers any link of the room wants.
+  void tell_wanted(ServerRoom& room);
   // Whether a record goes to a receiver; counts those that do not.
   bool take(std::size_t to, const wire::Record& record, MonoTime now);
 

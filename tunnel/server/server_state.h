@@ -231,6 +231,7 @@ struct ServerGuest {
   GuestId id;
   std::uint16_t generation = 0;
   std::size_t owner = 0;         // session
+  bool is_wanted = false;        // of another server: by a link here, and that server is told so
   std::uint64_t link_token = 0;  // of the link that brought it, whichever server that speaks to
   StreamGate poses;
   StreamGate hands;
@@ -262,6 +263,7 @@ struct ServerRoom {
   std::uint32_t roster_version = 1;
   bool is_listed = false;  // in the list of those with something to tell
   bool roster_changed = false;
+  bool interest_changed = false;  // of a link, or who is there to be wanted
   std::uint16_t next_generation = 0;
   std::array<RetainedState, wire::kRoomStates> states;
   std::array<GuestId, wire::kRoomStates> setters;

@@ -58,6 +58,36 @@ TEST(ClusterRooms, APoseIsPublishedOnceHoweverManyServersWantIt) {
   EXPECT_FALSE(cluster[1].listens_to("dance.1.pose.waltz.zoe"));
 }
 
+TEST(ClusterRooms, AServerHearsOnlyWhomItsLinksWant) {
+  SimulatedCluster cluster(2);
+  House& a = cluster[0].add("alice");
+  House& ann = cluster[0].add("ann");
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  EXPECT_TRUE(cluster[1].listens_to("dance.1.pose.salsa.alice"));
+  EXPECT_TRUE(cluster[1].listens_to("dance.1.pose.salsa.ann"));
+  EXPECT_FALSE(cluster[0].listens_to("dance.1.pose.salsa.ann")) << "its own";
+  Interest only_ann;
+  only_ann.others = 0;
+  ASSERT_TRUE(only_ann.guests.try_push({guest("ann"), 1}));
+  b.link->set_interest(only_ann, cluster[1].tunnel.time_in(b));
+  cluster.run(Duration::ms(300));
+  EXPECT_FALSE(cluster[1].listens_to("dance.1.pose.salsa.alice"));
+  EXPECT_TRUE(cluster[1].listens_to("dance.1.pose.salsa.ann"));
+  b.poses.clear();
+  cluster.dance(Duration::s(1), {{&a, "alice"}, {&ann, "ann"}});
+  EXPECT_EQ(b.heard_of(guest("alice")), 0u);
+  EXPECT_GT(b.heard_of(guest("ann")), 55u);
+  // One link that wants her is enough, and when that one has gone nobody does.
+  House& carla = cluster[1].add("carla");
+  cluster.run(Duration::ms(300));
+  EXPECT_TRUE(cluster[1].listens_to("dance.1.pose.salsa.alice"));
+  carla.link->say_goodbye();
+  carla.is_running = false;
+  cluster.run(Duration::ms(300));
+  EXPECT_FALSE(cluster[1].listens_to("dance.1.pose.salsa.alice"));
+}
+
 TEST(ClusterRooms, StatesReachAllServersAndWhoComesLater) {
   SimulatedCluster cluster(3);
   House& a = cluster[0].add("alice");

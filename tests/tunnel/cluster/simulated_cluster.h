@@ -81,6 +81,7 @@ class SimulatedCluster {
       bool is_value = false;
       std::string name;
       std::optional<std::vector<std::uint8_t>> bytes;
+      bool is_last = true;
     };
     void deliver(MonoTime now) {
       for (std::size_t i = 0; i < arrivals.size();) {
@@ -97,12 +98,10 @@ class SimulatedCluster {
           handlers_.on_value(arrival.name, Bytes(*arrival.bytes), now);
         else
           handlers_.on_value(arrival.name, std::nullopt, now);
+        if (arrival.is_value && arrival.is_last) handlers_.on_all_read(arrival.name, now);
       }
     }
-    bool listens_to(const std::string& subject) const {
-      if (subjects.contains(subject)) return true;
-      return subjects.contains(subject.substr(0, subject.rfind('.') + 1) + "*");
-    }
+    bool listens_to(const std::string& subject) const { return subjects.contains(subject); }
     bool watches(const std::string& key) const {
       return std::any_of(watched.begin(), watched.end(),
                          [&](const std::string& prefix) { return key.starts_with(prefix); });
@@ -199,7 +198,8 @@ class SimulatedCluster {
     for (const auto& [key, number] : written_)
       if (key.starts_with(prefix)) in_order[number] = key;
     for (const auto& [number, key] : in_order)
-      to.arrivals.push_back({now_ + delay, true, key, values.at(key)});
+      to.arrivals.push_back(
+          {now_ + delay, true, key, values.at(key), number == in_order.rbegin()->first});
   }
 
   MonoTime now_ = MonoTime::from_us(5'000'000'000);

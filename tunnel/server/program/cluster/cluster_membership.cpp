@@ -56,6 +56,7 @@ Result<void> ClusterMembership::read_keys(const NatsOptions& nats, Poller& polle
                              MonoTime) {
     keys_.take(name, value ? std::optional(text_in(*value)) : std::nullopt);
   };
+  handlers.on_all_read = [](std::string_view, MonoTime) {};
   handlers.on_back = [](MonoTime) {};
   key_bus_->set_handlers(std::move(handlers));
   // Many may come at once: after a break all do.
