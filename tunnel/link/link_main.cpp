@@ -154,10 +154,10 @@ int main(int argc, char** argv) {
   line.add("--guest", options.guests,
            "whose captures go to the room, may be repeated; none = everybody captured here")
       .guest_name();
-  line.add(
-      "--want", options.want,
-      "how many of a guest's poses come here: NAME=1 every one, NAME=N at most every N-th, NAME=0 "
-      "none; default=N for all who are not named; may be repeated");
+  line.add("--want", options.want,
+           "how many of a guest's poses come here: NAME=1 every one, before all others where the "
+           "line is narrow; NAME=N at most every N-th, NAME=0 "
+           "none; default=N for all who are not named; may be repeated");
   line.add_flag("--listen-only", options.listen_only,
                 "hears the room and sends nothing of this house");
   line.add("--bus", options.bus, "LCM URL of the house's bus");

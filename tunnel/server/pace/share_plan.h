@@ -1,7 +1,7 @@
 // What a receiver's poses cost in bytes, and how little they have to wait or to be thinned out to
 // stay within a budget. First the wait: poses that share a datagram share its headers. Where the
-// longest wait does not do, a ramp: the least important guests come at half, a quarter, an eighth of
-// their rate, and as the ramp grows those before them, the most important last.
+// longest wait does not do, a ramp: the least important guests come at a half, a quarter, an eighth
+// of their rate, and as the ramp grows those before them, the most important last.
 //
 // Units/frames: bytes a second with all headers; dividers as in tunnel/session/pose_share.h.
 // Ownership:    plain values; never allocates.
