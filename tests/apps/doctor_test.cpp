@@ -124,7 +124,7 @@ NatsExamination healthy_nats() {
 Grade worst(const std::vector<Finding>& findings) {
   Grade grade = Grade::kOk;
   for (const Finding& finding : findings) {
-    if (finding.grade == Grade::kProblem) EXPECT_FALSE(finding.cure.empty()) << finding.what;
+    EXPECT_FALSE(finding.grade == Grade::kProblem && finding.cure.empty()) << finding.what;
     grade = std::max(grade, finding.grade);
   }
   return grade;

@@ -13,10 +13,14 @@ constexpr Duration kOldestAnswer = Duration::s(1);
 }  // namespace
 
 ClusterProbe::ClusterProbe(ServerId id, ClusterBus& bus) : id_(id), bus_(bus) {
-  bus_.set_handlers(
-      {[this](std::string_view, cluster::Bytes bytes, MonoTime now) { on_message(bytes, now); },
-       [](std::string_view, std::optional<cluster::Bytes>, MonoTime) {},
-       [](std::string_view, MonoTime) {}, [](MonoTime) {}});
+  ClusterBus::Handlers handlers;
+  handlers.on_message = [this](std::string_view, cluster::Bytes bytes, MonoTime now) {
+    on_message(bytes, now);
+  };
+  handlers.on_value = [](std::string_view, std::optional<cluster::Bytes>, MonoTime) {};
+  handlers.on_all_read = [](std::string_view, MonoTime) {};
+  handlers.on_back = [](MonoTime) {};
+  bus_.set_handlers(std::move(handlers));
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(id_).view());
 }
