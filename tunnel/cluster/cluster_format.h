@@ -1,5 +1,4 @@
-// What servers of a cluster tell each other, built and parsed: messages by subject, and values that
-// last by key. docs/wire-format.md says them byte by byte, and this is the only place that knows
+// What servers of a cluster tell each other, built and parsed: messages, and values that last. docs/wire-format.md says them byte by byte, and this is the only place that knows
 // them.
 //
 // Units/frames: little-endian; times are microseconds of the clock that the field's name says.
@@ -10,10 +9,8 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <variant>
 
-#include "core/base/fixed_string.h"
 #include "tunnel/server/cluster_port.h"
 #include "tunnel/wire/wire_servers.h"
 
@@ -74,6 +71,7 @@ std::optional<Message> parse_message(Bytes bytes);
 // Values, by key: a server has links in a room,
 struct PresenceValue {
   ServerId server = 0;
+  bool has_host = false;  // one of them has a host's key
 };
 // a guest is in it through a server,
 struct GuestValue {
@@ -92,31 +90,5 @@ struct StateValue {
 using Value = std::variant<PresenceValue, GuestValue, StateValue>;
 std::size_t build(const Value& value, std::span<std::uint8_t> out);
 std::optional<Value> parse_value(Bytes bytes);
-
-// Subjects: all servers hear beats; each hears what is for it, and the poses that its
-// links want.
-using Text = FixedString<96>;
-Text beat_subject();
-Text server_subject(ServerId server);
-Text pose_subject(const wire::RoomName& room, const GuestId& guest);
-struct PoseSubject {
-  wire::RoomName room;
-  GuestId guest;
-};
-std::optional<PoseSubject> parse_pose_subject(std::string_view subject);
-
-// Keys, all of which begin with the room.
-enum class KeyKind : std::uint8_t { kPresence, kGuest, kGuestState, kRoomState };
-struct Key {
-  KeyKind kind = KeyKind::kPresence;
-  wire::RoomName room;
-  ServerId server = 0;    // kPresence
-  GuestId guest;          // kGuest, kGuestState
-  std::size_t place = 0;  // of a state: wire::place_of()
-};
-Text text_of(const Key& key);
-// Of all keys of a room.
-Text keys_of(const wire::RoomName& room);
-std::optional<Key> parse_key(std::string_view text);
 
 }  // namespace dance::cluster

@@ -1,29 +1,32 @@
 #include "tunnel/cluster/cluster_node.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/sequence.h"
 
 namespace dance {
 namespace {
 
 constexpr Duration kBeat = Duration::ms(200);
-// Silent for so long is dead: its guests may come back through any other server.
-constexpr Duration kDeath = Duration::ms(900);
-// Silent for so long is dead where another server says so.
-constexpr Duration kSilence = Duration::ms(450);
-// Those who have not come back by then have left.
-constexpr Duration kGrace = Duration::s(6);
-// Until the clock is known, and from then on.
-constexpr Duration kFirstQuestions = Duration::ms(20);
-constexpr Duration kQuestions = Duration::ms(500);
-// All that are there have beaten by then.
+// What stands: values that nobody writes again go after days, those of dead servers too.
+constexpr Duration kWritesAgain = Duration::s(8 * 3600);
+// All that are there have beaten by then; as long again, and all have heard this one, who come at
+// the same moment.
 constexpr Duration kListens = Duration::ms(600);
-constexpr std::size_t kMostPeers = 256;
+
+bool is_older(cluster::Bytes bytes, cluster::Bytes than) {
+  const auto version_of = [](cluster::Bytes value) {
+    return std::get<cluster::StateValue>(*cluster::parse_value(value)).version;
+  };
+  return is_newer_sequence(version_of(than), version_of(bytes));
+}
 
 }  // namespace
 
-ClusterNode::ClusterNode(const Options& options, ClusterBus& bus) : options_(options), bus_(bus) {
+ClusterNode::ClusterNode(const Options& options, ClusterBus& bus)
+    : options_(options), bus_(bus), peers_(options.id, options.born_us) {
   DANCE_ASSERT(options.id != 0);
   bus_.set_handlers({[this](std::string_view subject, cluster::Bytes bytes, MonoTime now) {
                        on_message(subject, bytes, now);
@@ -34,7 +37,7 @@ ClusterNode::ClusterNode(const Options& options, ClusterBus& bus) : options_(opt
                      [this](MonoTime now) { on_back(now); }});
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(options_.id).view());
-  pending_.reserve(kMostPeers);
+  pending_.reserve(ClusterPeers::kMost);
 }
 
 void ClusterNode::attach(ServerCore& server) {
@@ -43,8 +46,8 @@ void ClusterNode::attach(ServerCore& server) {
 }
 
 bool ClusterNode::is_settled(MonoTime now) const {
-  if (!begun_.is_set() || now - begun_ < kListens) return false;
-  return leader() == options_.id || clock_.is_measured();
+  if (!begun_.is_set() || now - begun_ < kListens + kListens) return false;
+  return peers_.is_clock_known();
 }
 
 // --- what other servers say
@@ -65,56 +68,42 @@ void ClusterNode::on_message(std::string_view subject, cluster::Bytes bytes, Mon
       ++counters_.malformed;
     } else if (server_ != nullptr && record->server != options_.id) {
       server_->remotes().on_record(of->room, record->server, of->guest, record->link_token,
-                                   record->record, clock_.to_session(now));
+                                   record->record, clock().to_session(now));
     }
   } else if (const auto* beat = std::get_if<cluster::Beat>(&*message)) {
     take(*beat, now);
   } else if (const auto* question = std::get_if<cluster::ClockQuestion>(&*message)) {
     take(*question, now);
   } else if (const auto* answer = std::get_if<cluster::ClockAnswer>(&*message)) {
-    take(*answer, now);
+    peers_.take(*answer, now);
   } else if (const auto* feedback = std::get_if<cluster::FeedbackMessage>(&*message)) {
     take(*feedback, now);
   }
 }
 
 void ClusterNode::take(const cluster::Beat& beat, MonoTime now) {
-  if (beat.server == options_.id) return;
-  if (!peers_.contains(beat.server) && peers_.size() >= kMostPeers) return;
-  Peer& peer = peers_[beat.server];
-  peer.beat = beat;
-  peer.heard = now;
-  peer.is_alive = !beat.is_leaving;
-  if (server_ == nullptr || beat.is_leaving) return;
-  // It was taken for gone, and what it had in the rooms forgotten here: read anew.
-  if (buried_.contains(beat.server)) {
-    buried_.erase(beat.server);
+  const bool is_back = peers_.take(beat, now);
+  const auto peer = peers_.all().find(beat.server);
+  if (server_ == nullptr || peer == peers_.all().end() || !peer->second.is_alive) return;
+  // What it had in the rooms is forgotten here: read anew.
+  if (is_back)
     for (const auto& [name, room] : rooms_) bus_.watch(cluster::keys_of(name).view());
-  }
-  server_->remotes().note_alive(beat.server, peer.round_trip, clock_.to_session(now));
+  server_->remotes().note_alive(beat.server, peer->second.round_trip, clock().to_session(now));
 }
 
 void ClusterNode::take(const cluster::ClockQuestion& question, MonoTime now) {
   cluster::ClockAnswer answer;
   answer.server = options_.id;
   answer.asked_us = question.asked_us;
-  answer.received_us = answer.sent_us = clock_.to_session(now).since_zero_us();
+  answer.received_us = answer.sent_us = clock().to_session(now).since_zero_us();
   send(cluster::server_subject(question.server).view(), answer);
-}
-
-void ClusterNode::take(const cluster::ClockAnswer& answer, MonoTime now) {
-  const auto peer = peers_.find(answer.server);
-  const MonoTime asked = MonoTime::from_us(answer.asked_us);
-  if (peer == peers_.end() || asked > now || now - asked > Duration::s(2)) return;
-  peer->second.round_trip = now - asked;
-  if (answer.server == followed_) clock_.add({asked, answer.received_us, answer.sent_us, now});
 }
 
 void ClusterNode::take(const cluster::FeedbackMessage& message, MonoTime now) {
   if (server_ == nullptr || message.server == options_.id) return;
   for (const cluster::FeedbackEntry& entry : message.entries)
     server_->remotes().on_feedback(message.room, message.server, entry.guest, entry.feedback,
-                                   clock_.to_session(now));
+                                   clock().to_session(now));
 }
 
 // --- values that last
@@ -132,11 +121,13 @@ void ClusterNode::on_value(std::string_view text, std::optional<cluster::Bytes> 
   }
   const auto room = rooms_.find(key->room);
   if (room == rooms_.end() || server_ == nullptr) return;
+  const auto* presence = value ? std::get_if<cluster::PresenceValue>(&*value) : nullptr;
   const auto* guest = value ? std::get_if<cluster::GuestValue>(&*value) : nullptr;
   const bool is_state = value && std::holds_alternative<cluster::StateValue>(*value);
   switch (key->kind) {
     case cluster::KeyKind::kPresence:
-      return take_presence(room->second, *key, value.has_value(), now);
+      if (!value || presence != nullptr) return take_presence(room->second, *key, presence, now);
+      break;
     case cluster::KeyKind::kGuest:
       if (!value || guest != nullptr) return take_guest(room->second, *key, guest, now);
       break;
@@ -157,18 +148,17 @@ void ClusterNode::on_all_read(std::string_view text) {
     server_->remotes().settle(key->room);
 }
 
-void ClusterNode::take_presence(Room& room, const cluster::Key& key, bool is_there, MonoTime now) {
+void ClusterNode::take_presence(Room& room, const cluster::Key& key,
+                                const cluster::PresenceValue* value, MonoTime now) {
   if (key.server == options_.id) {
-    room.has_presence = is_there;
+    room.has_presence = value != nullptr;
     // Somebody took this one for dead.
-    if (!is_there)
-      put({cluster::KeyKind::kPresence, key.room, options_.id, {}, 0},
-          cluster::PresenceValue{options_.id});
+    if (value == nullptr) put_presence(key.room);
     return;
   }
-  if (is_there) {
+  if (value != nullptr) {
     room.present.emplace(key.server, now);
-    server_->remotes().open(key.room, key.server, clock_.to_session(now));
+    server_->remotes().open(key.room, key.server, value->has_host, clock().to_session(now));
   } else {
     room.present.erase(key.server);
     server_->remotes().close(key.room, key.server);
@@ -179,7 +169,7 @@ void ClusterNode::take_presence(Room& room, const cluster::Key& key, bool is_the
 bool ClusterNode::is_better(const cluster::GuestValue& fresh, const cluster::GuestValue& known,
                             MonoTime now) const {
   // Who took the name found that server dead; here it may be known a little later.
-  if (fresh.server != known.server && is_silent(known.server, now)) return true;
+  if (fresh.server != known.server && peers_.is_silent(known.server, now)) return true;
   if (fresh.link_token == known.link_token)
     return std::pair(fresh.since_us, fresh.server) >= std::pair(known.since_us, known.server);
   return std::pair(fresh.since_us, fresh.server) < std::pair(known.since_us, known.server);
@@ -208,9 +198,13 @@ void ClusterNode::take_guest(Room& room, const cluster::Key& key, const cluster:
     ++counters_.other_codecs;
     return;
   }
-  server_->remotes().set_guest(key.room, value->server, key.guest, value->link_token,
-                               clock_.to_session(now));
-  apply_states(room, key.room, key.guest);
+  const bool is_placed = server_->remotes().set_guest(key.room, value->server, key.guest,
+                                                      value->link_token, clock().to_session(now));
+  // The last link here may have been that guest's, and the room has ended here with it.
+  const auto still = rooms_.find(key.room);
+  if (still == rooms_.end()) return;
+  if (!is_placed) still->second.lacks_places = true;
+  apply_states(still->second, key.room, key.guest);
 }
 
 void ClusterNode::take_state(Room& room, const cluster::Key& key,
@@ -228,6 +222,12 @@ void ClusterNode::take_state(Room& room, const cluster::Key& key,
   if (!room.states.contains(at) &&
       room.states.size() >= wire::kMaxGuestsPerRoom * (wire::kGuestStates + 1))
     return;
+  // Of the room's the newest holds, whatever was written last: who holds it writes it again.
+  const auto known = room.states.find(at);
+  if (!key.guest.is_set() && known != room.states.end() && is_older(*bytes, known->second)) {
+    if (is_first_alive(room)) bus_.put(cluster::text_of(key).view(), known->second);
+    return;
+  }
   room.states[at].assign(bytes->begin(), bytes->end());
   apply_state(room, key.room, key.guest, key.place, *bytes);
 }
@@ -255,222 +255,45 @@ void ClusterNode::apply_state(const Room& room, const wire::RoomName& name, cons
   server_->remotes().on_state(name, guest, state);
 }
 
-// --- what this server says
-
-void ClusterNode::on_room_opened(const ServerRoom& room) {
-  rooms_[room.name].codec = room.codec;
-  put({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0},
-      cluster::PresenceValue{options_.id});
-  bus_.watch(cluster::keys_of(room.name).view());
-}
-
-void ClusterNode::on_room_closed(const ServerRoom& room) {
-  const auto of = rooms_.find(room.name);
-  if (of == rooms_.end()) return;
-  for (const GuestId& guest : of->second.heard)
-    bus_.end_listen(cluster::pose_subject(room.name, guest).view());
-  bus_.end_watch(cluster::keys_of(room.name).view());
-  bus_.erase(cluster::text_of({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0}).view());
-  // The last to leave takes along what the room had.
-  const bool is_last = std::all_of(of->second.present.begin(), of->second.present.end(),
-                                   [this](const auto& at) { return is_dead(at.first); });
-  if (is_last)
-    for (const auto& [at, bytes] : of->second.states)
-      if (!at.first.is_set())
-        bus_.erase(
-            cluster::text_of({cluster::KeyKind::kRoomState, room.name, 0, {}, at.second}).view());
-  rooms_.erase(of);
-}
-
-void ClusterNode::on_guest_came(const ServerRoom& room, const ServerGuest& guest) {
-  cluster::GuestValue value;
-  value.server = options_.id;
-  value.link_token = guest.link_token;
-  value.since_us = clock_.to_session(now_).since_zero_us();
-  value.codec = room.codec;
-  rooms_[room.name].guests.insert_or_assign(guest.id, value);
-  put_guest(room.name, guest.id);
-}
-
-void ClusterNode::put_guest(const wire::RoomName& room, const GuestId& guest) {
-  put({cluster::KeyKind::kGuest, room, 0, guest, 0}, rooms_[room].guests[guest]);
-}
-
-void ClusterNode::on_guest_left(const ServerRoom& room, const ServerGuest& guest) {
-  const auto of = rooms_.find(room.name);
-  if (of == rooms_.end()) return;
-  const auto known = of->second.guests.find(guest.id);
-  if (known == of->second.guests.end() || known->second.server != options_.id ||
-      known->second.link_token != guest.link_token)
-    return;
-  of->second.guests.erase(known);
-  bus_.erase(cluster::text_of({cluster::KeyKind::kGuest, room.name, 0, guest.id, 0}).view());
-  for (std::size_t place = 0; place < guest.states.size(); ++place) {
-    if (guest.states[place].version == 0) continue;
-    of->second.states.erase({guest.id, place});
-    bus_.erase(
-        cluster::text_of({cluster::KeyKind::kGuestState, room.name, 0, guest.id, place}).view());
-  }
-}
-
-// A server hears what its own links want, and no more.
-void ClusterNode::on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) {
-  const auto of = rooms_.find(room.name);
-  if (of == rooms_.end()) return;
-  const auto subject = cluster::pose_subject(room.name, guest.id);
-  if (is_wanted && of->second.heard.insert(guest.id).second)
-    bus_.listen(subject.view());
-  else if (!is_wanted && of->second.heard.erase(guest.id) > 0)
-    bus_.end_listen(subject.view());
-}
-
-void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
-                            const wire::Record& record) {
-  ++counters_.records_out;
-  send(cluster::pose_subject(room.name, guest.id).view(),
-       cluster::RecordMessage{options_.id, guest.link_token, record});
-}
-
-void ClusterNode::on_state(const ServerRoom& room, const ServerGuest* guest,
-                           const wire::State& state) {
-  cluster::StateValue value;
-  value.link_token = guest != nullptr ? guest->link_token : 0;
-  value.setter = state.setter;
-  value.version = state.version;
-  value.payload = state.payload;
-  const GuestId of = guest != nullptr ? guest->id : GuestId();
-  const std::size_t place = wire::place_of(state.name);
-  const std::size_t size = cluster::build(cluster::Value(value), buffer_);
-  DANCE_ASSERT(size > 0);
-  rooms_[room.name].states[{of, place}].assign(buffer_.begin(),
-                                               buffer_.begin() + static_cast<std::ptrdiff_t>(size));
-  put({guest != nullptr ? cluster::KeyKind::kGuestState : cluster::KeyKind::kRoomState, room.name,
-       0, of, place},
-      value);
-}
-
-void ClusterNode::on_feedback(ServerId to, const ServerRoom& room, const ServerGuest& guest,
-                              const RemoteFeedback& feedback) {
-  auto pending = std::find_if(pending_.begin(), pending_.end(), [&](const Pending& it) {
-    return it.to == to && it.message.room == room.name;
-  });
-  if (pending == pending_.end()) {
-    pending_.emplace_back();
-    pending = pending_.end() - 1;
-    pending->to = to;
-    pending->message.server = options_.id;
-    pending->message.room = room.name;
-  }
-  pending->message.path = feedback.path;
-  const bool pushed = pending->message.entries.try_push({guest.id, feedback});
-  DANCE_ASSERT(pushed);
-  if (pending->message.entries.is_full()) flush(*pending);
-}
-
-void ClusterNode::flush(Pending& pending) {
-  if (!pending.message.entries.empty())
-    send(cluster::server_subject(pending.to).view(), pending.message);
-  pending.message.entries.clear();
-}
-
-void ClusterNode::end_turn(MonoTime now) {
-  now_ = now;
-  for (Pending& pending : pending_) flush(pending);
-  pending_.clear();
-}
-
-void ClusterNode::send(std::string_view subject, const cluster::Message& message) {
-  const std::size_t size = cluster::build(message, buffer_);
-  DANCE_ASSERT(size > 0);
-  ++counters_.messages_out;
-  counters_.bytes_out += size;
-  bus_.publish(subject, {buffer_.data(), size});
-}
-
-void ClusterNode::put(const cluster::Key& key, const cluster::Value& value) {
-  const std::size_t size = cluster::build(value, buffer_);
-  DANCE_ASSERT(size > 0);
-  bus_.put(cluster::text_of(key).view(), {buffer_.data(), size});
-}
-
 // --- time
 
-bool ClusterNode::is_dead(ServerId server) const {
-  if (server == options_.id) return false;
-  const auto peer = peers_.find(server);
-  return peer != peers_.end() && !peer->second.is_alive;
+// Also one that left no more than a guest, as when it died while it wrote.
+void ClusterNode::expect_all(const Room& room, MonoTime now) {
+  for (const auto& [server, since] : room.present) peers_.expect(server, since);
+  for (const auto& [guest, value] : room.guests) peers_.expect(value.server, now);
 }
 
-bool ClusterNode::is_silent(ServerId server, MonoTime now) const {
-  if (server == options_.id) return false;
-  const auto peer = peers_.find(server);
-  return peer != peers_.end() && (!peer->second.is_alive || now - peer->second.heard > kSilence);
-}
-
-ServerId ClusterNode::leader() const {
-  std::pair first{options_.born_us, options_.id};
-  for (const auto& [id, peer] : peers_)
-    if (peer.is_alive) first = std::min(first, std::pair(peer.beat.born_us, id));
-  return first.second;
-}
-
-void ClusterNode::follow_leader(MonoTime now) {
-  const ServerId first = leader();
-  if (first != followed_) {
-    followed_ = first;
-    clock_.begin();
-  }
-  clock_.advance(now);
-}
-
-void ClusterNode::ask_clocks(MonoTime now) {
-  const bool is_new = followed_ != options_.id && !clock_.is_measured();
-  if (now < next_question_) return;
-  next_question_ = now + (is_new ? kFirstQuestions : kQuestions);
-  for (const auto& [id, peer] : peers_)
-    if (peer.is_alive && (!is_new || id == followed_))
-      send(cluster::server_subject(id).view(),
-           cluster::ClockQuestion{options_.id, now.since_zero_us()});
-}
-
-// A server of before that is in the values of a room has never been heard: it counts as heard when
-// it was first read of.
-void ClusterNode::note_deaths(MonoTime now) {
-  for (auto& [name, room] : rooms_)
-    for (const auto& [server, since] : room.present)
-      if (!peers_.contains(server) && peers_.size() < kMostPeers) {
-        peers_[server].beat.server = server;
-        peers_[server].beat.born_us = INT64_MAX;
-        peers_[server].heard = since;
-      }
-  for (auto& [id, peer] : peers_) {
-    if (!peer.is_alive || now - peer.heard <= kDeath) continue;
-    peer.is_alive = false;
-    ++counters_.deaths;
-  }
-  for (auto peer = peers_.begin(); peer != peers_.end();) {
-    if (now - peer->second.heard <= kGrace) {
-      ++peer;
-      continue;
+// Those for whom there was no place are tried again: somebody may have left.
+void ClusterNode::place_all(MonoTime now) {
+  for (auto& [name, room] : rooms_) {
+    if (!std::exchange(room.lacks_places, false)) continue;
+    for (const auto& [guest, value] : room.guests) {
+      if (value.server == options_.id || value.codec != room.codec) continue;
+      if (server_->remotes().set_guest(name, value.server, guest, value.link_token,
+                                       clock().to_session(now)))
+        apply_states(room, name, guest);
+      else
+        room.lacks_places = true;
     }
-    bury(peer->first);
-    if (buried_.is_full()) buried_.erase_at(0);
-    const bool pushed = buried_.try_push(peer->first);
-    DANCE_ASSERT(pushed);
-    peer = peers_.erase(peer);
   }
+}
+
+void ClusterNode::forget_silent(MonoTime now) {
+  for (const auto& [name, room] : rooms_) expect_all(room, now);
+  for (const ServerId server : peers_.forget_silent(now)) forget(server);
 }
 
 bool ClusterNode::is_first_alive(const Room& room) const {
   return std::all_of(room.present.begin(), room.present.end(), [this](const auto& at) {
-    return is_dead(at.first) || at.first > options_.id;
+    return peers_.is_dead(at.first) || at.first > options_.id;
   });
 }
 
 // Its guests have left, for all: one of those who are left in the room says so.
-void ClusterNode::bury(ServerId server) {
+void ClusterNode::forget(ServerId server) {
   for (auto& [name, room] : rooms_) {
     if (server_ != nullptr) server_->remotes().close(name, server);
+    const bool was_present = room.present.erase(server) > 0;
     const bool says_so = is_first_alive(room);
     for (auto it = room.guests.begin(); it != room.guests.end();) {
       if (it->second.server != server) {
@@ -485,7 +308,7 @@ void ClusterNode::bury(ServerId server) {
               cluster::text_of({cluster::KeyKind::kGuestState, name, 0, it->first, place}).view());
       it = room.guests.erase(it);
     }
-    if (room.present.erase(server) > 0 && says_so)
+    if (was_present && says_so)
       bus_.erase(cluster::text_of({cluster::KeyKind::kPresence, name, server, {}, 0}).view());
   }
 }
@@ -493,17 +316,22 @@ void ClusterNode::bury(ServerId server) {
 // What others took for gone while nothing of this server reached them stands again.
 void ClusterNode::on_back(MonoTime now) {
   now_ = now;
+  write_all();
+}
+
+void ClusterNode::write_all() {
   for (const auto& [name, room] : rooms_) {
-    put({cluster::KeyKind::kPresence, name, options_.id, {}, 0},
-        cluster::PresenceValue{options_.id});
+    put_presence(name);
     for (const auto& [guest, value] : room.guests)
       if (value.server == options_.id) put_guest(name, guest);
     for (const auto& [at, bytes] : room.states) {
       const auto of = room.guests.find(at.first);
-      if (of != room.guests.end() && of->second.server == options_.id)
-        bus_.put(
-            cluster::text_of({cluster::KeyKind::kGuestState, name, 0, at.first, at.second}).view(),
-            bytes);
+      const bool is_ours = at.first.is_set()
+                               ? of != room.guests.end() && of->second.server == options_.id
+                               : is_first_alive(room);
+      const auto kind =
+          at.first.is_set() ? cluster::KeyKind::kGuestState : cluster::KeyKind::kRoomState;
+      if (is_ours) bus_.put(cluster::text_of({kind, name, 0, at.first, at.second}).view(), bytes);
     }
   }
 }
@@ -511,27 +339,29 @@ void ClusterNode::on_back(MonoTime now) {
 MonoTime ClusterNode::tick(MonoTime now) {
   now_ = now;
   if (!begun_.is_set()) begun_ = now;
+  if (now - begun_ < kListens) return begun_ + kListens;
+  if (next_beat_.is_set() == false) peers_.take_rank();
   if (now >= next_beat_) {
     next_beat_ = now + kBeat;
     beat(false);
-    note_deaths(now);
+    forget_silent(now);
+    if (server_ != nullptr) place_all(now);
+    if (now >= next_writing_) {
+      write_all();
+      next_writing_ = now + kWritesAgain;
+    }
   }
-  follow_leader(now);
-  ask_clocks(now);
-  return std::min(next_beat_, next_question_);
-}
-
-wire::ServerList ClusterNode::other_servers() const {
-  wire::ServerList servers;
-  for (const auto& [id, peer] : peers_)
-    if (peer.is_alive && peer.beat.address.is_set() && !servers.try_push(peer.beat.address)) break;
-  return servers;
+  peers_.advance(now);
+  for (const ServerId server : peers_.ask(now))
+    send(cluster::server_subject(server).view(),
+         cluster::ClockQuestion{options_.id, now.since_zero_us()});
+  return std::min(next_beat_, peers_.questions_due());
 }
 
 void ClusterNode::beat(bool is_leaving) {
   cluster::Beat beat;
   beat.server = options_.id;
-  beat.born_us = options_.born_us;
+  beat.born_us = peers_.born_us();
   beat.is_leaving = is_leaving;
   beat.address = options_.address;
   if (server_ != nullptr) {

@@ -7,7 +7,7 @@
 // Ownership:    bus and server must outlive it.
 // Threads:      the owner's; no call waits.
 // Failure:      what other servers say wrongly is counted; a server that falls silent is taken for
-//               dead, and its guests leave when they come back nowhere.
+//               dead, and its guests leave unless they come back through another.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@
 
 #include "tunnel/cluster/cluster_bus.h"
 #include "tunnel/cluster/cluster_format.h"
-#include "tunnel/cluster/session_clock.h"
+#include "tunnel/cluster/cluster_names.h"
+#include "tunnel/cluster/cluster_peers.h"
 #include "tunnel/server/server_core.h"
 
 namespace dance {
@@ -29,12 +30,6 @@ class ClusterNode final : public ClusterPort {
     std::int64_t born_us = 0;  // wall clock at the process's start
     Address address;           // as guests reach this server
   };
-  struct Peer {
-    cluster::Beat beat;
-    MonoTime heard;
-    Duration round_trip;
-    bool is_alive = true;
-  };
   struct Counters {
     std::uint64_t messages_in = 0;
     std::uint64_t messages_out = 0;
@@ -45,7 +40,6 @@ class ClusterNode final : public ClusterPort {
     std::uint64_t values_in = 0;
     std::uint64_t malformed = 0;
     std::uint64_t other_codecs = 0;  // guests whose room speaks another codec here
-    std::uint64_t deaths = 0;
   };
 
   ClusterNode(const Options& options, ClusterBus& bus);
@@ -54,27 +48,24 @@ class ClusterNode final : public ClusterPort {
   void attach(ServerCore& server);
   // Whether it is known whose clock is the cluster's, and what that shows. Links may come then.
   bool is_settled(MonoTime now) const;
-  const SessionClock& clock() const { return clock_; }
+  const SessionClock& clock() const { return peers_.clock(); }
 
   // What has gathered for other servers. Call after each turn of the server.
   void end_turn(MonoTime now);
   // Beats, clocks, deaths; returns when to call again.
   MonoTime tick(MonoTime now);
-  // That live, and say how guests reach them.
-  wire::ServerList other_servers() const;
   // The server ends: its guests may come back through another at once.
   void leave();
 
-  const std::map<ServerId, Peer>& peers() const { return peers_; }
+  const ClusterPeers& peers() const { return peers_; }
   const Counters& counters() const { return counters_; }
   ServerId id() const { return options_.id; }
   const Address& address() const { return options_.address; }
-  // Whose clock is the cluster's.
-  ServerId clock_server() const { return followed_ != 0 ? followed_ : leader(); }
 
   // ClusterPort, called by the server.
   void on_room_opened(const ServerRoom& room) override;
   void on_room_closed(const ServerRoom& room) override;
+  void on_hosts_changed(const ServerRoom& room) override;
   void on_guest_came(const ServerRoom& room, const ServerGuest& guest) override;
   void on_guest_left(const ServerRoom& room, const ServerGuest& guest) override;
   void on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) override;
@@ -92,7 +83,9 @@ class ClusterNode final : public ClusterPort {
     bool has_presence = false;             // this server's own has been read
     std::map<ServerId, MonoTime> present;  // since when it is known; other servers
     std::map<GuestId, cluster::GuestValue> guests;
-    std::set<GuestId> heard;  // whose poses are subscribed to
+    std::set<GuestId> subscribed;  // whose poses come here
+    bool has_host = false;         // a link of this server has a host's key
+    bool lacks_places = false;     // somebody is not shown here: the room is full
     std::map<std::pair<GuestId, std::size_t>, std::vector<std::uint8_t>> states;  // guest not set:
                                                                                   // the room's
   };
@@ -107,9 +100,9 @@ class ClusterNode final : public ClusterPort {
   void on_back(MonoTime now);
   void take(const cluster::Beat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);
-  void take(const cluster::ClockAnswer& answer, MonoTime now);
   void take(const cluster::FeedbackMessage& message, MonoTime now);
-  void take_presence(Room& room, const cluster::Key& key, bool is_there, MonoTime now);
+  void take_presence(Room& room, const cluster::Key& key, const cluster::PresenceValue* value,
+                     MonoTime now);
   void take_guest(Room& room, const cluster::Key& key, const cluster::GuestValue* value,
                   MonoTime now);
   void take_state(Room& room, const cluster::Key& key, std::optional<cluster::Bytes> bytes);
@@ -118,16 +111,15 @@ class ClusterNode final : public ClusterPort {
                    std::size_t place, cluster::Bytes bytes);
   bool is_better(const cluster::GuestValue& fresh, const cluster::GuestValue& known,
                  MonoTime now) const;
-  bool is_dead(ServerId server) const;
-  bool is_silent(ServerId server, MonoTime now) const;
   void beat(bool is_leaving);
-  ServerId leader() const;
-  void follow_leader(MonoTime now);
-  void ask_clocks(MonoTime now);
-  void note_deaths(MonoTime now);
-  void bury(ServerId server);
+  void forget_silent(MonoTime now);
+  void expect_all(const Room& room, MonoTime now);
+  void place_all(MonoTime now);
+  void write_all();
+  void forget(ServerId server);
   bool is_first_alive(const Room& room) const;
   void put(const cluster::Key& key, const cluster::Value& value);
+  void put_presence(const wire::RoomName& room);
   void put_guest(const wire::RoomName& room, const GuestId& guest);
   void send(std::string_view subject, const cluster::Message& message);
   void flush(Pending& pending);
@@ -135,16 +127,13 @@ class ClusterNode final : public ClusterPort {
   Options options_;
   ClusterBus& bus_;
   ServerCore* server_ = nullptr;
-  SessionClock clock_;
-  ServerId followed_ = 0;
-  std::map<ServerId, Peer> peers_;
+  ClusterPeers peers_;
   std::map<wire::RoomName, Room> rooms_;
-  FixedList<ServerId, 64> buried_;  // the newest of them
   std::vector<Pending> pending_;
   MonoTime now_;  // of the newest call that said so
   MonoTime begun_;
   MonoTime next_beat_;
-  MonoTime next_question_;
+  MonoTime next_writing_;
   Counters counters_;
   std::array<std::uint8_t, cluster::kMaxBytes> buffer_;
 };

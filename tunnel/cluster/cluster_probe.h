@@ -11,6 +11,7 @@
 
 #include "tunnel/cluster/cluster_bus.h"
 #include "tunnel/cluster/cluster_format.h"
+#include "tunnel/cluster/cluster_names.h"
 
 namespace dance {
 

@@ -26,7 +26,10 @@ void SessionClock::advance(MonoTime now) {
     ++steps_;
     return;
   }
-  const std::int64_t most_ns = passed.count_ns() / 1'000'000 * kSlew_ppm;
+  // Turns may be much shorter than a millisecond, and some too short for a nanosecond of it.
+  slew_left_ += passed.count_ns() * kSlew_ppm;
+  const std::int64_t most_ns = slew_left_ / 1'000'000;
+  slew_left_ %= 1'000'000;
   offset_ = offset_ + Duration::ns(std::clamp(off_ns, -most_ns, most_ns));
 }
 

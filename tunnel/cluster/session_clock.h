@@ -36,6 +36,7 @@ class SessionClock {
   Duration offset_;  // session − ours
   MonoTime advanced_;
   int samples_ = 0;
+  std::int64_t slew_left_ = 0;  // in 10⁻⁶ ns
   std::uint64_t steps_ = 0;
 };
 

@@ -87,6 +87,10 @@ void Link::choose_server(MonoTime now) {
       for (const Address& server : choice_.all())
         distances.push_back({server, probe_.round_trip(server)});
       other = choice_.choose(distances);
+      if (other) {
+        choice_.set_current(*other);
+        choice_.begin_try(now);
+      }
     }
   }
   if (other) move_to(*other, now);

@@ -46,6 +46,7 @@ Result<NatsBucket> open_nats_bucket(natsConnection* connection, const NatsOption
   config.Bucket = options.bucket.c_str();
   config.History = 1;
   config.MaxValueSize = kMostValueBytes;
+  config.TTL = std::int64_t{options.lasts_s} * 1'000'000'000;
   config.StorageType = js_FileStorage;
   config.Replicas = options.replicas > 0 ? options.replicas : options.urls.size() >= 3 ? 3 : 1;
   const auto begin = std::chrono::steady_clock::now();

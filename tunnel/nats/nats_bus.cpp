@@ -66,7 +66,10 @@ class ConnectedNatsBus final : public NatsBus {
   void erase(std::string_view key) override { values_->erase(key); }
   void watch(std::string_view keys) override { values_->watch(keys); }
   void end_watch(std::string_view keys) override { values_->end_watch(keys); }
-  void flush() override { values_->flush(kFlush); }
+  void flush() override {
+    sender_->flush(kFlush);
+    values_->flush(kFlush);
+  }
 
   Counters counters() const override {
     Counters counters;
@@ -110,6 +113,7 @@ class ConnectedNatsBus final : public NatsBus {
       if (item.kind == NatsInbox::Kind::kValue && NatsValues::is_last(message))
         handlers_.on_all_read(values_->key_of(message), now);
     }
+    if (shared_.inbox.take_missed_value()) values_->renew();
     if (after_) after_(now);
   }
 

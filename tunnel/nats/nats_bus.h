@@ -1,5 +1,5 @@
-// ClusterBus over NATS: messages by core NATS, which keeps none, and values in a JetStream key-value
-// bucket. Nothing here waits in the poller's thread.
+// ClusterBus over NATS: messages by core NATS, which keeps none, and values in a key-value bucket
+// of JetStream. Nothing here waits in the poller's thread.
 //
 // Units/frames: as ClusterBus.
 // Ownership:    owns the connection and its threads; the poller must outlive it.

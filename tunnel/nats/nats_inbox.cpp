@@ -22,6 +22,7 @@ void NatsInbox::push(Kind kind, NatsHandle<natsMsg> message) {
     // That the connection is back is never lost.
     if (waiting_.size() >= kMost && kind != Kind::kBack) {
       dropped_.fetch_add(1, std::memory_order_relaxed);
+      if (kind == Kind::kValue) missed_value_ = true;
       return;
     }
     is_first = waiting_.empty();

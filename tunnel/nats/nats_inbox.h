@@ -4,7 +4,8 @@
 // Ownership:    owns what waits, and the descriptor that is readable while something does.
 // Threads:      push() from any, the rest from the poller's. The lock is held for one push, or one
 //               exchange of two lists.
-// Failure:      beyond kMost messages new ones are dropped and counted.
+// Failure:      beyond kMost messages new ones are dropped and counted; of values that one was is
+//               told, so that all are read anew.
 #pragma once
 
 #include <atomic>
@@ -33,6 +34,8 @@ class NatsInbox {
   int fd() const { return fd_; }
   // All that wait; valid until the next call.
   std::vector<Item>& take();
+  // Whether a value was dropped since this was asked last.
+  bool take_missed_value() { return missed_value_.exchange(false); }
   std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
@@ -43,6 +46,7 @@ class NatsInbox {
   std::vector<Item> waiting_;
   std::vector<Item> taken_;
   std::atomic<std::uint64_t> dropped_{0};
+  std::atomic<bool> missed_value_{false};
 };
 
 }  // namespace dance

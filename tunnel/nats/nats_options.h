@@ -22,6 +22,8 @@ struct NatsOptions {
   std::string certificate;        // PEM files of our own certificate, for servers that ask for one,
   std::string private_key;        // and of its key
   std::string bucket = kClusterBucket;  // of values
+  // What is not written again for so long goes, also what says that a key was erased; 0 = never.
+  int lasts_s = 0;
   int replicas = 0;  // of each value; 0 = 3 where three servers are named, else 1
 };
 

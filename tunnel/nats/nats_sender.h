@@ -2,16 +2,19 @@
 //
 // Units/frames: none.
 // Ownership:    copies what is published; the connection must outlive it.
-// Threads:      publish(), listen() and end_listen() from one thread; no lock and no allocation on
-//               the way of a message.
-// Failure:      what does not fit into the ring, or finds no connection, is dropped and counted: a
-//               newer pose comes.
+// Threads:      all but the counters from one thread; no lock and no allocation on the way of a
+//               message.
+// Failure:      a message that does not fit into the ring, or finds no connection, is dropped and
+//               counted: a newer pose comes. What is listened to is subscribed until it is.
 #pragma once
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <map>
+#include <mutex>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +22,7 @@
 #include <vector>
 
 #include "tunnel/cluster/cluster_format.h"
+#include "tunnel/cluster/cluster_names.h"
 #include "tunnel/nats/nats_inbox.h"
 
 namespace dance {
@@ -31,27 +35,29 @@ class NatsSender {
   NatsSender& operator=(const NatsSender&) = delete;
 
   void publish(std::string_view subject, std::span<const std::uint8_t> message) {
-    push(Kind::kPublish, subject, message);
+    push(subject, message);
   }
-  void listen(std::string_view subject) { push(Kind::kListen, subject, {}); }
-  void end_listen(std::string_view subject) { push(Kind::kEndListen, subject, {}); }
+  void listen(std::string_view subject);
+  void end_listen(std::string_view subject);
+  // Waits a moment for what is in the ring: at the program's end.
+  void flush(std::chrono::milliseconds longest);
 
   std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  enum class Kind : std::uint8_t { kPublish, kListen, kEndListen };
   struct Slot {
-    Kind kind = Kind::kPublish;
     cluster::Text subject;
     std::size_t size = 0;
     std::array<std::uint8_t, cluster::kMaxBytes> bytes;
   };
   static constexpr std::size_t kSlots = 2048;
 
-  void push(Kind kind, std::string_view subject, std::span<const std::uint8_t> message);
+  void push(std::string_view subject, std::span<const std::uint8_t> message);
   void run();
-  void carry_out(const Slot& slot);
-  void subscribe(const std::string& subject);
+  void publish(const Slot& slot);
+  void wake();
+  bool settle_subscriptions();
+  bool subscribe(const std::string& subject);
 
   natsConnection* connection_;
   NatsInbox& inbox_;
@@ -62,6 +68,9 @@ class NatsSender {
   std::atomic<bool> sleeps_{false};
   std::atomic<bool> ends_{false};
   std::atomic<std::uint64_t> dropped_{0};
+  std::mutex mutex_;
+  std::set<std::string> wanted_;  // what is listened to
+  std::atomic<bool> wants_change_{false};
   std::map<std::string, NatsHandle<natsSubscription>> subscriptions_;  // the thread's
   std::thread thread_;
 };

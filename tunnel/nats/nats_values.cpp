@@ -10,6 +10,7 @@ namespace {
 // The NATS server that reads for us may be another than the one we speak with, and die: missing two
 // of these says so, and the watch begins anew. Well before a dead server's guests are forgotten.
 constexpr std::int64_t kHeartbeat_ns = 1'000'000'000;
+constexpr std::size_t kMostUnwritten = 65'536;
 constexpr auto kRetry = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -37,14 +38,19 @@ NatsValues::~NatsValues() {
 }
 
 void NatsValues::put(std::string_view key, std::span<const std::uint8_t> value) {
-  const std::lock_guard lock(mutex_);
-  unwritten_[std::string(key)] = std::vector<std::uint8_t>(value.begin(), value.end());
-  changed_.notify_all();
+  write(key, std::vector<std::uint8_t>(value.begin(), value.end()));
 }
 
-void NatsValues::erase(std::string_view key) {
+void NatsValues::erase(std::string_view key) { write(key, std::nullopt); }
+
+// Bounded also while NATS is away for long: what stands is written again when it is back.
+void NatsValues::write(std::string_view key, Value value) {
   const std::lock_guard lock(mutex_);
-  unwritten_[std::string(key)] = std::nullopt;
+  if (unwritten_.size() >= kMostUnwritten && !unwritten_.contains(std::string(key))) {
+    failed_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  unwritten_[std::string(key)] = std::move(value);
   changed_.notify_all();
 }
 
@@ -75,7 +81,7 @@ std::size_t NatsValues::unwritten() const {
 
 void NatsValues::flush(std::chrono::milliseconds longest) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, longest, [this] { return unwritten_.empty(); });
+  changed_.wait_for(lock, longest, [this] { return unwritten_.empty() && !is_writing_; });
 }
 
 std::string_view NatsValues::key_of(natsMsg* message) const {
@@ -119,12 +125,14 @@ void NatsValues::write_one(std::unique_lock<std::mutex>& lock) {
   const std::string key = last_tried_ = next->first;
   const Value value = std::move(next->second);
   unwritten_.erase(next);
+  is_writing_ = true;
   lock.unlock();
   std::uint64_t revision = 0;
   const natsStatus status = value ? kvStore_Put(&revision, bucket_.store.get(), key.c_str(),
                                                 value->data(), static_cast<int>(value->size()))
                                   : kvStore_Delete(bucket_.store.get(), key.c_str());
   lock.lock();
+  is_writing_ = false;
   if (status == NATS_OK) {
     if (unwritten_.empty()) changed_.notify_all();
     return;

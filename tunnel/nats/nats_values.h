@@ -55,6 +55,7 @@ class NatsValues {
   using Value = std::optional<std::vector<std::uint8_t>>;  // none: erase
 
   NatsValues(NatsBucket bucket, const std::string& name, NatsInbox& inbox);
+  void write(std::string_view key, Value value);
   void run();
   void write_one(std::unique_lock<std::mutex>& lock);
   void watch_one(std::unique_lock<std::mutex>& lock);
@@ -70,6 +71,7 @@ class NatsValues {
   std::string last_tried_;  // keys take turns, so that one that fails holds up no other
   std::set<std::string> watched_;
   std::set<std::string> to_watch_;
+  bool is_writing_ = false;
   bool renews_ = false;
   bool ends_ = false;
   std::atomic<std::uint64_t> failed_{0};

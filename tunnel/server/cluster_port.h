@@ -44,6 +44,8 @@ class ClusterPort {
   // A room has its first link here, or has lost its last.
   virtual void on_room_opened(const ServerRoom& room) = 0;
   virtual void on_room_closed(const ServerRoom& room) = 0;
+  // It has a link here with a host's key now, or none any more.
+  virtual void on_hosts_changed(const ServerRoom& room) = 0;
   // A guest came through a link of this server's, or has left it.
   virtual void on_guest_came(const ServerRoom& room, const ServerGuest& guest) = 0;
   virtual void on_guest_left(const ServerRoom& room, const ServerGuest& guest) = 0;

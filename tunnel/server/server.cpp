@@ -1,6 +1,7 @@
 #include "tunnel/server/server.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/net/secure_random.h"
 
@@ -58,6 +59,7 @@ Server::Server(UdpSocket socket, const ServerLimits& limits, ClusterNode* cluste
   if (cluster_ != nullptr) {
     cluster_->attach(core_);
     cluster_due_ = MonoTime::from_ns(1);  // at once, whatever else comes first
+    clock_steps_ = cluster_->clock().steps();
   }
   poller_.watch(socket_.fd(), [this](MonoTime now) { on_readable(now); });
   timer_ = poller_.add_timer(cluster_due_, [this](MonoTime now) { return tick(now); });
@@ -77,7 +79,10 @@ void Server::end_cluster_turn(MonoTime now) {
 MonoTime Server::tick(MonoTime now) {
   if (cluster_ != nullptr) {
     cluster_due_ = cluster_->tick(now);
-    core_.set_other_servers(cluster_->other_servers());
+    // Two halves of a cluster that began apart have met: what was reckoned by the old clock is void.
+    if (std::exchange(clock_steps_, cluster_->clock().steps()) != cluster_->clock().steps())
+      core_.end_sessions();
+    core_.set_other_servers(cluster_->peers().addresses());
   }
   core_.tick(to_session(now));
   if (cluster_ != nullptr) cluster_->end_turn(now);

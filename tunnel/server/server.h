@@ -77,6 +77,7 @@ class Server {
   std::unique_ptr<SealServer> door_;
   ClusterNode* cluster_;
   MonoTime cluster_due_;
+  std::uint64_t clock_steps_ = 0;
   Poller::TimerId timer_;
 };
 

@@ -1,7 +1,6 @@
 #include "tunnel/server/server_admission.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "core/base/assert.h"
@@ -17,9 +16,14 @@ constexpr Duration kSettlesWithin = Duration::ms(1500);
 
 }  // namespace
 
-ServerAdmission::ServerAdmission(ServerContext& server, ServerFeedback& feedback,
-                                 ServerInterest& interest, RandomU64 random)
-    : server_(server), feedback_(feedback), interest_(interest), random_(std::move(random)) {
+ServerAdmission::ServerAdmission(ServerContext& server, ServerSlots& slots,
+                                 ServerFeedback& feedback, ServerInterest& interest,
+                                 RandomU64 random)
+    : server_(server),
+      slots_(slots),
+      feedback_(feedback),
+      interest_(interest),
+      random_(std::move(random)) {
   hellos_.fill(TokenBucket(server.limits.hellos_per_second, server.limits.hello_burst));
 }
 
@@ -159,7 +163,8 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
     if (static_cast<std::size_t>(listeners) >= server_.limits.listeners_per_room)
       return Objection{wire::Refusal::kListenersFull, {}};
   }
-  std::size_t others = 0, taken = 0;  // guests of other links of this server; slots for such
+  // Other guests; those of links of this server; slots for such.
+  std::size_t all = 0, others = 0, taken = 0;
   if (room) {
     const ServerRoom& there = server_.rooms[*room];
     for (std::size_t slot = 0; slot < there.guests.size(); ++slot) {
@@ -167,11 +172,13 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
       if (!guest.in_use || (existing && guest.owner == *existing)) continue;
       if (hello.guests.contains(guest.id) && may_take_over(guest, hello.token, now)) continue;
       if (hello.guests.contains(guest.id)) return Objection{wire::Refusal::kNameTaken, guest.id};
+      ++all;
       others += server_.is_local(guest) ? 1 : 0;
       taken += slot < wire::kSlotsPerPage ? 1 : 0;
     }
   }
   if (others + hello.guests.size() > server_.limits.guests_per_room ||
+      all + hello.guests.size() > wire::kMaxGuestsPerRoom ||
       taken + hello.guests.size() > wire::kSlotsPerPage)
     return Objection{wire::Refusal::kRoomFull, {}};
   return std::nullopt;
@@ -201,7 +208,7 @@ std::size_t ServerAdmission::open_room(const wire::Hello& hello, MonoTime now) {
   for (RetainedState& state : free->states) state.version = 0;
   free->has_fresh_states = free->has_first_body = free->interest_changed = false;
   free->fresh_states_due = MonoTime();
-  free->host_count = 0;
+  free->host_count = free->remote_hosts = 0;
   free->settled_at = server_.cluster != nullptr ? now + kSettlesWithin : MonoTime();
   if (server_.cluster != nullptr) server_.cluster->on_room_opened(*free);
   return static_cast<std::size_t>(free - server_.rooms.begin());
@@ -240,7 +247,7 @@ std::size_t ServerAdmission::open_session(PeerId peer, const Access& access,
   free->in_use = true;
   free->peer = peer;
   free->access = access;
-  if (access.role == Role::kHost) ++server_.rooms[room].host_count;
+  if (access.role == Role::kHost) count_hosts(server_.rooms[room], 1);
   free->token = hello.token;
   free->epoch = new_epoch();
   free->room = room;
@@ -252,12 +259,20 @@ std::size_t ServerAdmission::open_session(PeerId peer, const Access& access,
   return index;
 }
 
+// The other servers hear whether there is a host, who alone may then change what all share.
+void ServerAdmission::count_hosts(ServerRoom& room, int change) {
+  const bool had_host = room.host_count > 0;
+  room.host_count = static_cast<std::size_t>(static_cast<int>(room.host_count) + change);
+  if (server_.cluster != nullptr && had_host != (room.host_count > 0))
+    server_.cluster->on_hosts_changed(room);
+}
+
 // A key may have got another role since the last hello.
 void ServerAdmission::settle_access(std::size_t index, const Access& access) {
   ServerSession& session = server_.sessions[index];
   ServerRoom& room = server_.rooms[session.room];
-  if (session.access.role == Role::kHost) --room.host_count;
-  if (access.role == Role::kHost) ++room.host_count;
+  const bool was_host = session.access.role == Role::kHost, is_host = access.role == Role::kHost;
+  if (was_host != is_host) count_hosts(room, is_host ? 1 : -1);
   session.access = access;
 }
 
@@ -267,7 +282,7 @@ void ServerAdmission::settle_guests(std::size_t index, const wire::Hello& hello)
   ServerRoom& room = server_.rooms[session.room];
   const auto before = session.slots;
   for (const std::uint8_t slot : before)
-    if (!hello.guests.contains(room.guests[slot].id)) remove_guest(session.room, slot);
+    if (!hello.guests.contains(room.guests[slot].id)) slots_.remove_guest(session.room, slot);
   session.slots.clear();
   for (const GuestId& id : hello.guests) {
     const auto same = std::find_if(before.begin(), before.end(), [&](std::uint8_t slot) {
@@ -289,13 +304,13 @@ void ServerAdmission::bring_guest(std::size_t index, const GuestId& id, std::uin
                                   [&](auto& guest) { return guest.in_use && guest.id == id; });
   const auto slot = static_cast<std::uint8_t>(there - room.guests.begin());
   if (there != room.guests.end() && there->link_token == link_token) {
-    move_guest(room, slot, index);
+    slots_.move_guest(room, slot, index);
   } else {
     if (there != room.guests.end()) {
       server_.sessions[there->owner].slots.erase(slot);
-      remove_guest(room_index, slot);
+      slots_.remove_guest(room_index, slot);
     }
-    const bool added = add_guest(index, id, link_token).has_value();
+    const bool added = slots_.add_guest(index, id, link_token).has_value();
     DANCE_ASSERT(added);
   }
   if (server_.cluster != nullptr) {
@@ -303,75 +318,6 @@ void ServerAdmission::bring_guest(std::size_t index, const GuestId& id, std::uin
                                    [&](auto& guest) { return guest.in_use && guest.id == id; });
     server_.cluster->on_guest_came(room, *here);
   }
-}
-
-void ServerAdmission::move_guest(ServerRoom& room, std::uint8_t slot, std::size_t to) {
-  server_.sessions[room.guests[slot].owner].slots.erase(slot);
-  // A link's own guests are in the first page.
-  if (slot >= wire::kSlotsPerPage && !server_.sessions[to].is_remote()) slot = relocate(room, slot);
-  ServerGuest& guest = room.guests[slot];
-  if (!server_.sessions[to].is_remote()) want_no_more(room, guest);
-  guest.owner = to;
-  guest.told = {};
-  const bool pushed = server_.sessions[to].slots.try_push(slot);
-  DANCE_ASSERT(pushed);
-}
-
-// With its states; to those who receive it, it is heard anew in another slot.
-std::uint8_t ServerAdmission::relocate(ServerRoom& room, std::uint8_t slot) {
-  const auto free = free_slot(room, false);
-  DANCE_ASSERT(free.has_value());
-  ServerGuest& guest = room.guests[*free];
-  guest = room.guests[slot];
-  guest.generation = room.next_generation++;
-  guest.poses = guest.hands = StreamGate();
-  guest.retained.is_set = false;
-  guest.previous = SentPose();
-  guest.channels.fill({});
-  room.guests[slot].in_use = false;
-  for (const std::size_t member : room.members) {
-    server_.sessions[member].stream.states.forget(slot);
-    server_.sessions[member].stream.states.forget(*free);
-  }
-  begin_slot(room, *free);
-  return *free;
-}
-
-// Links' own guests from below, those of other servers from the middle of the first page down and
-// then in the second: so that links of version 4 see as many as they can.
-std::optional<std::uint8_t> ServerAdmission::free_slot(const ServerRoom& room, bool is_remote) {
-  constexpr int kHalf = wire::kSlotsPerPage / 2, kPage = wire::kSlotsPerPage;
-  const auto free_in = [&](int from, int to, int step) -> std::optional<std::uint8_t> {
-    for (int slot = from; slot != to; slot += step)
-      if (!room.guests[static_cast<std::size_t>(slot)].in_use)
-        return static_cast<std::uint8_t>(slot);
-    return std::nullopt;
-  };
-  if (!is_remote) return free_in(0, kPage, 1);
-  for (const auto& [from, to, step] : {std::tuple{kPage - 1, kHalf - 1, -1},
-                                       {kPage, static_cast<int>(wire::kMaxGuestsPerRoom), 1},
-                                       {kHalf - 1, -1, -1}})
-    if (const auto slot = free_in(from, to, step)) return slot;
-  return std::nullopt;
-}
-
-// It is no guest of another server any more.
-void ServerAdmission::want_no_more(const ServerRoom& room, ServerGuest& guest) {
-  if (std::exchange(guest.is_wanted, false)) server_.cluster->on_wanted(room, guest, false);
-}
-
-// Another guest has it: receivers know nothing of this one.
-void ServerAdmission::begin_slot(ServerRoom& room, std::uint8_t slot) {
-  for (const std::size_t member : room.members) {
-    ServerSession& receiver = server_.sessions[member];
-    receiver.filters[slot] = InterestFilter(receiver.interest.default_divider);
-    if (!receiver.is_remote()) continue;
-    server_.remotes[receiver.remote].frames[slot] = {};
-    server_.remotes[receiver.remote].key_frames[slot] = 0;
-  }
-  ++room.roster_version;
-  room.roster_changed = true;
-  server_.mark_changed(room);
 }
 
 std::optional<std::size_t> ServerAdmission::open_remote(std::size_t room_index, ServerId server,
@@ -395,52 +341,13 @@ std::optional<std::size_t> ServerAdmission::open_remote(std::size_t room_index, 
   return index;
 }
 
-std::optional<std::uint8_t> ServerAdmission::add_guest(std::size_t index, const GuestId& id,
-                                                       std::uint64_t link_token) {
-  ServerSession& session = server_.sessions[index];
-  ServerRoom& room = server_.rooms[session.room];
-  const auto slot = free_slot(room, session.is_remote());
-  if (!slot) return std::nullopt;
-  ServerGuest* free = &room.guests[*slot];
-  *free = ServerGuest();
-  free->in_use = true;
-  free->id = id;
-  free->link_token = link_token;
-  free->generation = room.next_generation++;
-  free->records = TokenBucket(server_.limits.records_per_second, server_.limits.record_burst);
-  free->state_changes =
-      TokenBucket(server_.limits.state_changes_per_second, server_.limits.state_change_burst);
-  free->channel_records =
-      TokenBucket(server_.limits.channel_records_per_second, server_.limits.channel_record_burst);
-  free->channel_bytes =
-      TokenBucket(server_.limits.channel_bytes_per_second, server_.limits.channel_byte_burst);
-  free->owner = index;
-  const bool pushed = session.slots.try_push(*slot);
-  DANCE_ASSERT(pushed);
-  ++room.guest_count;
-  begin_slot(room, *slot);
-  return slot;
-}
-
-void ServerAdmission::remove_guest(std::size_t room_index, std::uint8_t slot) {
-  ServerRoom& room = server_.rooms[room_index];
-  if (server_.cluster != nullptr && server_.is_local(room.guests[slot]))
-    server_.cluster->on_guest_left(room, room.guests[slot]);
-  want_no_more(room, room.guests[slot]);
-  room.guests[slot].in_use = false;
-  --room.guest_count;
-  for (const std::size_t member : room.members) server_.sessions[member].stream.states.forget(slot);
-  ++room.roster_version;
-  room.roster_changed = true;
-  server_.mark_changed(room);
-}
-
 void ServerAdmission::drop(std::size_t index) {
   ServerSession& session = server_.sessions[index];
   ServerRoom& room = server_.rooms[session.room];
-  for (const std::uint8_t slot : session.slots) remove_guest(session.room, slot);
-  if (session.access.role == Role::kHost) --room.host_count;
+  for (const std::uint8_t slot : session.slots) slots_.remove_guest(session.room, slot);
+  if (!session.is_remote() && session.access.role == Role::kHost) count_hosts(room, -1);
   if (session.is_remote()) --room.remote_count;
+  if (session.is_remote() && server_.remotes[session.remote].has_host) --room.remote_hosts;
   std::erase(room.members, index);
   std::erase(server_.newcomers, index);
   std::erase(server_.bundled, index);
@@ -460,6 +367,7 @@ void ServerAdmission::close_room(std::size_t index) {
   ServerRoom& room = server_.rooms[index];
   room.in_use = false;  // before its other servers go, the last of which would close it again
   while (!room.members.empty()) drop(room.members.back());
+  DANCE_ASSERT(room.guest_count == 0, room.guest_count);
   room.roster_changed = false;
   if (server_.cluster != nullptr) server_.cluster->on_room_closed(room);
 }

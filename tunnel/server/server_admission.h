@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "tunnel/server/server_interest.h"
+#include "tunnel/server/server_slots.h"
 
 namespace dance {
 
@@ -17,21 +18,16 @@ class ServerAdmission {
  public:
   using RandomU64 = std::function<std::uint64_t()>;
 
-  ServerAdmission(ServerContext& server, ServerFeedback& feedback, ServerInterest& interest,
-                  RandomU64 random);
+  ServerAdmission(ServerContext& server, ServerSlots& slots, ServerFeedback& feedback,
+                  ServerInterest& interest, RandomU64 random);
 
   void on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
                 MonoTime now);
   void drop(std::size_t session);
 
   // For ServerRemotes: another server of the cluster in a room, as a session; nothing where there
-  // is no place for it. Its guests, nothing where the room is full.
+  // is no place for it.
   std::optional<std::size_t> open_remote(std::size_t room, ServerId server, MonoTime now);
-  std::optional<std::uint8_t> add_guest(std::size_t session, const GuestId& id,
-                                        std::uint64_t link_token);
-  void remove_guest(std::size_t room, std::uint8_t slot);
-  // The guest comes through another session now, and keeps its slot, generation and states.
-  void move_guest(ServerRoom& room, std::uint8_t slot, std::size_t to);
   std::optional<std::size_t> find_room(const wire::RoomName& name) const;
 
   // Names of those who have a key of their own: a key for all does not open them.
@@ -60,12 +56,10 @@ class ServerAdmission {
   void settle_guests(std::size_t session, const wire::Hello& hello);
   void bring_guest(std::size_t session, const GuestId& id, std::uint64_t link_token);
   void close_room(std::size_t room);
-  std::uint8_t relocate(ServerRoom& room, std::uint8_t slot);
-  static std::optional<std::uint8_t> free_slot(const ServerRoom& room, bool is_remote);
-  void want_no_more(const ServerRoom& room, ServerGuest& guest);
-  void begin_slot(ServerRoom& room, std::uint8_t slot);
+  void count_hosts(ServerRoom& room, int change);
 
   ServerContext& server_;
+  ServerSlots& slots_;
   ServerFeedback& feedback_;
   ServerInterest& interest_;
   RandomU64 random_;

@@ -246,6 +246,13 @@ MonoTime ServerCore::next_deadline() const {
   return next;
 }
 
+void ServerCore::end_sessions() {
+  say_goodbye();
+  for (std::size_t i = 0; i < server_.sessions.size(); ++i)
+    if (server_.sessions[i].in_use && !server_.sessions[i].is_remote()) admission_.drop(i);
+  next_sweep_ = MonoTime();
+}
+
 void ServerCore::say_goodbye() {
   for (const ServerSession& session : server_.sessions) {
     if (session.in_use && !session.is_remote()) send_goodbye(session.peer);

@@ -28,7 +28,8 @@ class ServerCore {
   using RandomU64 = ServerAdmission::RandomU64;
 
   ServerCore(const ServerLimits& limits, RandomU64 random, PeerSink& sink)
-      : server_(limits, sink), admission_(server_, feedback_, interest_, std::move(random)) {}
+      : server_(limits, sink),
+        admission_(server_, slots_, feedback_, interest_, std::move(random)) {}
   ServerCore(const ServerCore&) = delete;
   ServerCore& operator=(const ServerCore&) = delete;
 
@@ -44,6 +45,8 @@ class ServerCore {
   MonoTime tick(MonoTime now);
   // When tick() is due, which may be earlier after a turn.
   MonoTime next_deadline() const;
+  // The clock has become another: all sessions end, and their links begin anew.
+  void end_sessions();
   // Tells everybody that the server ends.
   void say_goodbye();
 
@@ -82,6 +85,7 @@ class ServerCore {
   void sweep(MonoTime now);
 
   ServerContext server_;
+  ServerSlots slots_{server_};
   ServerFeedback feedback_{server_};
   ServerInterest interest_{server_, feedback_};
   ServerPace pace_{server_, interest_};
@@ -89,7 +93,7 @@ class ServerCore {
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerAdmission admission_;
   ServerFiles files_{server_};
-  ServerRemotes remotes_{server_, admission_, forwarder_, feedback_, states_};
+  ServerRemotes remotes_{server_, slots_, admission_, forwarder_, feedback_, states_};
   MonoTime next_sweep_;
   std::uint64_t sweeps_ = 0;
 };

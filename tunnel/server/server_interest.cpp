@@ -42,7 +42,7 @@ void ServerInterest::settle(std::size_t index, MonoTime now) {
   session.full_shares = 0;
   for (std::uint8_t slot = 0; slot < dividers.size(); ++slot) {
     const ServerGuest& guest = room.guests[slot];
-    if (!guest.in_use || guest.owner == index) continue;
+    if (!guest.in_use || guest.owner == index || !session.can_name(slot)) continue;
     set_divider(index, slot, dividers[slot], now);
     if (dividers[slot] == 1) ++session.full_shares;
   }

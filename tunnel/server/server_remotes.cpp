@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/assert.h"
+
 namespace dance {
 
 ServerRoom* ServerRemotes::find(const wire::RoomName& name) {
@@ -29,10 +31,17 @@ void ServerRemotes::settle(const wire::RoomName& name) {
   if (ServerRoom* room = find(name)) room->settled_at = MonoTime();
 }
 
-void ServerRemotes::open(const wire::RoomName& name, ServerId server, MonoTime now) {
-  const auto room = admission_.find_room(name);
-  if (!room || session_of(server_.rooms[*room], server)) return;
-  if (!admission_.open_remote(*room, server, now)) ++counters_.servers_without_place;
+void ServerRemotes::open(const wire::RoomName& name, ServerId server, bool has_host, MonoTime now) {
+  const auto index = admission_.find_room(name);
+  if (!index) return;
+  ServerRoom& room = server_.rooms[*index];
+  if (!session_of(room, server) && !admission_.open_remote(*index, server, now))
+    ++counters_.servers_without_place;
+  if (const auto session = session_of(room, server)) {
+    bool& known = server_.remotes[server_.sessions[*session].remote].has_host;
+    if (std::exchange(known, has_host) == has_host) return;
+    room.remote_hosts = has_host ? room.remote_hosts + 1 : room.remote_hosts - 1;
+  }
 }
 
 void ServerRemotes::close(const wire::RoomName& name, ServerId server) {
@@ -50,30 +59,38 @@ void ServerRemotes::note_alive(ServerId server, Duration round_trip, MonoTime no
   }
 }
 
-void ServerRemotes::set_guest(const wire::RoomName& name, ServerId server, const GuestId& id,
+bool ServerRemotes::set_guest(const wire::RoomName& name, ServerId server, const GuestId& id,
                               std::uint64_t link_token, MonoTime now) {
   const auto index = admission_.find_room(name);
-  if (!index) return;
-  open(name, server, now);
+  if (!index) return true;
   ServerRoom& room = server_.rooms[*index];
+  if (!session_of(room, server)) admission_.open_remote(*index, server, now);
   const auto session = session_of(room, server);
-  if (!session) return;
-  if (const auto slot = slot_of(room, id)) {
-    ServerGuest& guest = room.guests[*slot];
-    const std::size_t owner = guest.owner;
-    const bool is_same_link = guest.link_token == link_token;
-    if (owner == *session && is_same_link) return;
-    if (is_same_link)
-      admission_.move_guest(room, *slot, *session);
-    else
-      admission_.remove_guest(*index, *slot);
-    // A link that has gone to another server with all of its guests.
-    ServerSession& before = server_.sessions[owner];
-    if (!is_same_link) before.slots.erase(*slot);
-    if (owner != *session && !before.is_remote() && before.slots.empty()) admission_.drop(owner);
-    if (is_same_link) return;
+  if (!session) {
+    ++counters_.servers_without_place;
+    return false;
   }
-  if (!admission_.add_guest(*session, id, link_token)) ++counters_.guests_without_place;
+  const auto slot = slot_of(room, id);
+  if (!slot) {
+    if (slots_.add_guest(*session, id, link_token)) return true;
+    ++counters_.guests_without_place;
+    return false;
+  }
+  const std::size_t owner = room.guests[*slot].owner;
+  const bool is_same_link = room.guests[*slot].link_token == link_token;
+  if (owner == *session && is_same_link) return true;
+  if (is_same_link) {
+    slots_.move_guest(room, *slot, *session);
+  } else {
+    server_.sessions[owner].slots.erase(*slot);
+    slots_.remove_guest(*index, *slot);
+    const bool added = slots_.add_guest(*session, id, link_token).has_value();
+    DANCE_ASSERT(added);  // there is the slot that was just left, if no other
+  }
+  // A link that has gone to another server with all of its guests. Last: the room may end with it.
+  const ServerSession& before = server_.sessions[owner];
+  if (owner != *session && !before.is_remote() && before.slots.empty()) admission_.drop(owner);
+  return true;
 }
 
 void ServerRemotes::remove_guest(const wire::RoomName& name, ServerId server, const GuestId& id) {
@@ -83,7 +100,7 @@ void ServerRemotes::remove_guest(const wire::RoomName& name, ServerId server, co
   const auto slot = slot_of(room, id);
   const auto session = session_of(room, server);
   if (!slot || !session || room.guests[*slot].owner != *session) return;
-  admission_.remove_guest(*index, *slot);
+  slots_.remove_guest(*index, *slot);
   server_.sessions[*session].slots.erase(*slot);
 }
 

@@ -22,9 +22,10 @@ class ServerRemotes {
     std::uint64_t unknown = 0;  // records and feedback of guests or rooms that are not here
   };
 
-  ServerRemotes(ServerContext& server, ServerAdmission& admission, ServerForwarder& forwarder,
-                ServerFeedback& feedback, ServerStates& states)
+  ServerRemotes(ServerContext& server, ServerSlots& slots, ServerAdmission& admission,
+                ServerForwarder& forwarder, ServerFeedback& feedback, ServerStates& states)
       : server_(server),
+        slots_(slots),
         admission_(admission),
         forwarder_(forwarder),
         feedback_(feedback),
@@ -32,14 +33,15 @@ class ServerRemotes {
 
   // All is told of who is in the room at other servers.
   void settle(const wire::RoomName& room);
-  // Another server has links in a room, or has none any more.
-  void open(const wire::RoomName& room, ServerId server, MonoTime now);
+  // Another server has links in a room, also with a host's key; or has none any more.
+  void open(const wire::RoomName& room, ServerId server, bool has_host, MonoTime now);
   void close(const wire::RoomName& room, ServerId server);
   // It lives, and this is how far it is.
   void note_alive(ServerId server, Duration round_trip, MonoTime now);
 
-  // A guest came through it, from wherever; the link's token says whether it was here before.
-  void set_guest(const wire::RoomName& room, ServerId server, const GuestId& guest,
+  // A guest came through it, from wherever; the link's token says whether it was here before. Its
+  // last link here may end with that, and so the room. False where there is no place for it.
+  bool set_guest(const wire::RoomName& room, ServerId server, const GuestId& guest,
                  std::uint64_t link_token, MonoTime now);
   // Nothing where it came through another server meanwhile.
   void remove_guest(const wire::RoomName& room, ServerId server, const GuestId& guest);
@@ -60,6 +62,7 @@ class ServerRemotes {
   static std::optional<std::uint8_t> slot_of(const ServerRoom& room, const GuestId& guest);
 
   ServerContext& server_;
+  ServerSlots& slots_;
   ServerAdmission& admission_;
   ServerForwarder& forwarder_;
   ServerFeedback& feedback_;

@@ -150,7 +150,8 @@ struct RemoteMeter {
 
 // The receivers of another server, in one room: as it told last.
 struct RemoteReceivers {
-  ServerId server = 0;
+  ServerId server = 0;    // 0: this place is free
+  bool has_host = false;  // a link there has a host's key
   RemoteMeter meter;
   PathFeedback path;
   std::array<CommonFrames, wire::kMaxGuestsPerRoom> frames;        // by slot of a guest here
@@ -277,10 +278,11 @@ struct ServerRoom {
   std::size_t guest_count = 0;
   std::size_t remote_count = 0;  // members that are other servers
   std::size_t host_count = 0;    // links of it with a host's key
+  std::size_t remote_hosts = 0;  // other servers that have such links
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
 
   std::size_t link_count() const { return members.size() - remote_count; }
-  bool has_host() const { return host_count > 0; }
+  bool has_host() const { return host_count > 0 || remote_hosts > 0; }
 };
 
 }  // namespace dance

@@ -1,5 +1,5 @@
-// The other servers of a cluster, as a server tells its links: where they can go when it ends. Built
-// and parsed; docs/wire-format.md says it byte by byte.
+// The other servers of a cluster, as a server tells its links: where they can go when it ends.
+// Built and parsed; docs/wire-format.md says it byte by byte.
 //
 // Units/frames: addresses as guests reach them.
 // Ownership:    plain values; nothing here allocates.

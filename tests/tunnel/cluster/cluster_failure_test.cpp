@@ -52,6 +52,65 @@ TEST(ClusterFailure, WhoComesToAServerWithoutTheRoomSeesNobodyLeave) {
   EXPECT_GT(a.heard_of(guest("bob")), 40u);
 }
 
+// Nobody died: a nearer server was found. The one before hears of it while it still has the link.
+TEST(ClusterFailure, TheOnlyGuestOfAServerMayGoToAnotherThatLives) {
+  SimulatedCluster cluster(2);
+  House& a = cluster[0].add("alice");
+  cluster.run(Duration::ms(300));
+  a.link->send(guest("alice"), placed_at(2.0f), cluster[0].tunnel.time_in(a));
+  cluster.dance(Duration::ms(300), {{&a, "alice"}});
+  cluster[1].tunnel.adopt(cluster[0].tunnel, a);
+  cluster.dance(Duration::ms(500), {{&a, "alice"}});
+  EXPECT_EQ(cluster[0].tunnel.server().room_count(), 0u);
+  EXPECT_EQ(cluster[0].tunnel.server().guest_count(), 0u);
+  House& b = cluster[0].add("bob");
+  cluster.run(Duration::ms(300));
+  cluster.dance(Duration::s(1), {{&a, "alice"}, {&b, "bob"}});
+  EXPECT_GT(b.heard_of(guest("alice")), 55u);
+  EXPECT_GT(a.heard_of(guest("bob")), 55u);
+}
+
+// Another process of the same guest: who was there before holds the name, and then the other.
+TEST(ClusterFailure, ARestartedHouseThatComesToAnotherServerLeavesNoTrace) {
+  SimulatedCluster cluster(2);
+  House& a = cluster[0].add("alice");
+  cluster.run(Duration::ms(300));
+  a.is_running = false;  // its server does not know yet
+  cluster.run(Duration::ms(1));
+  House& again = cluster[1].add("alice");
+  cluster.run(Duration::s(6));
+  EXPECT_EQ(cluster[0].tunnel.server().guest_count(), 0u);
+  EXPECT_EQ(cluster[1].tunnel.server().guest_count(), 1u);
+  for (std::size_t i = 0; i < 2; ++i)
+    for (const ServerRoom& room : cluster[i].tunnel.server().rooms())
+      EXPECT_EQ(std::ranges::count_if(room.guests, [](const auto& it) { return it.in_use; }),
+                static_cast<std::ptrdiff_t>(room.in_use ? room.guest_count : 0));
+  House& b = cluster[0].add("bob");
+  cluster.run(Duration::ms(300));
+  cluster.dance(Duration::s(1), {{&again, "alice"}, {&b, "bob"}});
+  EXPECT_GT(b.heard_of(guest("alice")), 55u);
+}
+
+// As when a server died between two writes: a guest stands there, and no presence of its server.
+TEST(ClusterFailure, AGuestOfAServerThatNeverWasLeaves) {
+  SimulatedCluster cluster(2);
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  cluster::GuestValue value;
+  value.server = 4711;
+  value.link_token = 5;
+  value.since_us = cluster.now().since_zero_us();
+  value.codec = known_codecs().front();
+  std::vector<std::uint8_t> bytes(cluster::kMaxBytes);
+  bytes.resize(cluster::build(cluster::Value(value), bytes));
+  cluster[0].put("salsa.guest.alice", bytes);
+  cluster.run(Duration::ms(300));
+  EXPECT_TRUE(b.saw("+alice"));
+  cluster.run(Duration::s(8));
+  EXPECT_TRUE(b.saw("-alice"));
+  EXPECT_FALSE(cluster.values.contains("salsa.guest.alice"));
+}
+
 TEST(ClusterFailure, WhoDoesNotComeBackLeavesAndLeavesNothing) {
   SimulatedCluster cluster(2);
   cluster[0].add("alice");

@@ -4,6 +4,7 @@
 
 #include "core/base/random.h"
 #include "tests/tunnel/cluster/cluster_samples.h"
+#include "tunnel/cluster/cluster_names.h"
 
 namespace dance {
 namespace {

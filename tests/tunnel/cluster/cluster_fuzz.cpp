@@ -7,6 +7,7 @@
 
 #include "tests/tunnel/cluster/simulated_cluster.h"
 #include "tunnel/cluster/cluster_format.h"
+#include "tunnel/cluster/cluster_names.h"
 #include "tunnel/seal/key_files.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
 

@@ -197,6 +197,50 @@ TEST(ClusterRooms, AGuestOfTheSecondPageGoesOnThroughAnotherServer) {
   EXPECT_FALSE(other.saw("-guest-44"));
 }
 
+TEST(ClusterRooms, AHostAtAnyServerAloneSetsWhatAllShare) {
+  SimulatedCluster cluster(2);
+  House& host = cluster[0].tunnel.add_house("salsa", {"helen"}, {},
+                                            {.name = guest("helen"), .role = Role::kHost});
+  House& b = cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  host.link->send(guest("helen"), scene_named("terrace"), cluster.now());
+  cluster.run(Duration::ms(300));
+  b.link->send(guest("bob"), scene_named("cellar"), cluster.now());
+  cluster.run(Duration::ms(500));
+  ASSERT_FALSE(b.refused.empty());
+  EXPECT_EQ(b.refused.front(), "scene not allowed");
+  EXPECT_EQ(host.scene->second.name, scene_named("terrace").name);
+  // When she has gone anybody may.
+  host.link->say_goodbye();
+  host.is_running = false;
+  cluster.run(Duration::ms(300));
+  b.link->send(guest("bob"), scene_named("attic"), cluster.now());
+  cluster.run(Duration::ms(500));
+  EXPECT_EQ(b.scene->second.name, scene_named("attic").name);
+}
+
+TEST(ClusterRooms, WhoFindsNoPlaceGetsOneWhenSomebodyLeaves) {
+  SimulatedCluster cluster(3);
+  std::vector<House*> houses;
+  for (std::size_t i = 0; i < 135; ++i)
+    houses.push_back(&cluster[i % 3].add("guest-" + std::to_string(i)));
+  cluster.run(Duration::s(1));
+  const ServerRoom* room = nullptr;
+  for (const ServerRoom& each : cluster[0].tunnel.server().rooms())
+    if (each.in_use) room = &each;
+  ASSERT_NE(room, nullptr);
+  EXPECT_LE(room->guest_count, wire::kMaxGuestsPerRoom);
+  EXPECT_GE(room->guest_count, wire::kMaxGuestsPerRoom - 3);
+  for (std::size_t i = 0; i < 30; ++i) {
+    houses[i]->link->say_goodbye();
+    houses[i]->is_running = false;
+  }
+  cluster.run(Duration::s(3));
+  const auto here = std::ranges::count_if(
+      houses, [](const House* house) { return house->is_running && house->link->is_connected(); });
+  EXPECT_EQ(room->guest_count, static_cast<std::size_t>(here));
+}
+
 TEST(ClusterRooms, ANameIsTakenAtAllServers) {
   SimulatedCluster cluster(2);
   cluster[0].add("alice");

@@ -1,10 +1,15 @@
 // One of each message and value of a cluster, with every field set.
+//
+// Ownership: values; payloads are views of static bytes.
+// Threads:   any.
+// Failure:   none.
 #pragma once
 
 #include <vector>
 
 #include "tests/tunnel/simulated_tunnel.h"
 #include "tunnel/cluster/cluster_format.h"
+#include "tunnel/cluster/cluster_names.h"
 
 namespace dance::cluster_samples {
 

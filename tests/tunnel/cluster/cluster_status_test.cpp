@@ -74,7 +74,7 @@ TEST(ClusterStatus, ASilentServerIsGone) {
   ASSERT_EQ(status.peers.size(), 1u);
   EXPECT_FALSE(status.peers[0].is_alive);
   EXPECT_GT(status.peers[0].last_heard, Duration::ms(900));
-  EXPECT_EQ(status.node.deaths, 1u);
+  EXPECT_EQ(status.deaths, 1u);
 }
 
 // A bus whose other end is the test.

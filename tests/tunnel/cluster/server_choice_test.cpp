@@ -74,6 +74,29 @@ TEST(ServerChoice, TriesTheNearestFirstAndAllInTurn) {
             (std::vector{server(2), server(1), server(3), server(0), server(2)}));
 }
 
+TEST(ServerChoice, GivesASlowWayTheTimeItTakes) {
+  ServerChoice choice = choice_of({1});
+  EXPECT_FALSE(choice.choose({{server(0), Duration::ms(600)}, {server(1), Duration::ms(620)}}));
+  MonoTime now = MonoTime::from_us(1'000'000);
+  EXPECT_EQ(choice.next(true, now), server(1));
+  // Eight round trips, and after each round of all servers twice as long.
+  EXPECT_FALSE(choice.next(true, now + Duration::ms(4900)));
+  now += Duration::ms(4960);
+  EXPECT_EQ(choice.next(true, now), server(0));
+  EXPECT_FALSE(choice.next(true, now + Duration::ms(4700)));
+  now += Duration::ms(9700);
+  EXPECT_EQ(choice.next(true, now), server(1));
+}
+
+TEST(ServerChoice, AServerGoneToByChoiceHasItsTimeToo) {
+  ServerChoice choice = choice_of({1});
+  MonoTime now = MonoTime::from_us(1'000'000);
+  choice.set_current(server(1));
+  choice.begin_try(now);
+  EXPECT_FALSE(choice.next(false, now + Duration::ms(300)));
+  EXPECT_FALSE(choice.next(false, now + Duration::ms(700)));
+}
+
 TEST(ServerChoice, LooksForANearerOneAgainAfterItHadToMove) {
   ServerChoice choice = choice_of({1});
   EXPECT_FALSE(choice.choose({{server(0), Duration::ms(10)}, {server(1), Duration::ms(90)}}));

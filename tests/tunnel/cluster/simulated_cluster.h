@@ -127,7 +127,7 @@ class SimulatedCluster {
 
   explicit SimulatedCluster(std::size_t servers) {
     for (std::size_t i = 0; i < servers; ++i) sites_.push_back(std::make_unique<Site>(*this, i));
-    run(Duration::ms(700));
+    run(Duration::ms(1300));
   }
   Site& operator[](std::size_t i) { return *sites_[i]; }
   MonoTime now() const { return now_; }

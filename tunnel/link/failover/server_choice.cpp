@@ -10,8 +10,11 @@ namespace {
 // After this much of a lapse, which itself begins with 0.9 s of silence; a short cut is over by
 // then.
 constexpr Duration kStays = Duration::ms(200);
-// A handshake takes three round trips; then the hello.
-constexpr Duration kTry = Duration::ms(800);
+// A handshake takes three round trips, then the hello one, and something may be lost. Each round of
+// all servers takes twice as long as the one before: what is slow is not torn off for ever.
+constexpr Duration kShortestTry = Duration::ms(800);
+constexpr std::int64_t kRoundTripsOfTry = 8;
+constexpr Duration kLongestTry = Duration::s(20);
 // A nearer server is nearer by so much at least: what is nearly equal stays as it is.
 constexpr Duration kWorthwhile = Duration::ms(5);
 constexpr std::int64_t kWorthwhileShare = 5;  // a fifth of the way
@@ -45,6 +48,7 @@ std::vector<Address> ServerChoice::all() const {
 }
 
 std::optional<Address> ServerChoice::choose(const std::vector<Distance>& distances) {
+  distances_ = distances;
   std::ranges::stable_sort(others_, std::less<>(),
                            [&](const Address& server) { return distance_of(distances, server); });
   if (others_.empty() || std::exchange(has_chosen_, true)) return std::nullopt;
@@ -55,8 +59,21 @@ std::optional<Address> ServerChoice::choose(const std::vector<Distance>& distanc
   return others_.front();
 }
 
+Duration ServerChoice::time_for(const Address& server) const {
+  Duration time = kShortestTry;
+  for (const Distance& distance : distances_)
+    if (distance.server == server && distance.round_trip)
+      time = std::max(time, *distance.round_trip * kRoundTripsOfTry);
+  for (std::size_t round = tries_ / (others_.size() + 1); round > 0 && time < kLongestTry; --round)
+    time = time * 2;
+  return std::min(time, kLongestTry);
+}
+
+void ServerChoice::begin_try(MonoTime now) { trying_until_ = now + time_for(current_); }
+
 bool ServerChoice::end_lapse() {
   lapsed_since_ = next_move_ = MonoTime();
+  tries_ = 0;
   if (!std::exchange(has_moved_, false)) return false;
   has_chosen_ = false;
   return true;
@@ -65,19 +82,20 @@ bool ServerChoice::end_lapse() {
 std::optional<Address> ServerChoice::next(bool has_goodbye, MonoTime now) {
   if (!lapsed_since_.is_set()) {
     lapsed_since_ = now;
-    next_move_ = has_goodbye ? now : now + kStays;
+    next_move_ = std::max(has_goodbye ? now : now + kStays, trying_until_);
   }
   if (others_.empty()) {
     next_move_ = MonoTime();
     return std::nullopt;
   }
   if (now < next_move_) return std::nullopt;
-  next_move_ = now + kTry;
   const Address server = others_.front();
   // Round and round: the one that was silent may come back.
   others_.erase(others_.begin());
   others_.push_back(current_);
   current_ = server;
+  next_move_ = now + time_for(server);
+  ++tries_;
   has_moved_ = true;
   return server;
 }

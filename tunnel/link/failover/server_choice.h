@@ -36,6 +36,9 @@ class ServerChoice {
   // does not wander.
   std::optional<Address> choose(const std::vector<Distance>& distances);
 
+  // The current one was gone to by choice: it has as long as a try has before another is looked
+  // for.
+  void begin_try(MonoTime now);
   // While the server is silent or has said goodbye: where to go now; nothing = wait on.
   std::optional<Address> next(bool has_goodbye, MonoTime now);
   // The server is heard. True where it is another than before the lapse: a nearer one may be back.
@@ -44,12 +47,17 @@ class ServerChoice {
   MonoTime next_deadline() const { return next_move_; }
 
  private:
+  Duration time_for(const Address& server) const;
+
   Address current_;
-  std::vector<Address> others_;  // the nearest first; those that were tried go to the end
+  std::vector<Distance> distances_;  // as measured last
+  std::vector<Address> others_;      // the nearest first; those that were tried go to the end
   bool has_chosen_ = false;
   bool has_moved_ = false;  // in this lapse
   MonoTime lapsed_since_;
   MonoTime next_move_;
+  MonoTime trying_until_;
+  std::size_t tries_ = 0;  // in this lapse
 };
 
 }  // namespace dance

@@ -207,7 +207,7 @@ void add_cluster_totals(const ClusterStatus& cluster, Page& page) {
   page.counter("cluster_records_sent_total",
                "Poses and hands published, once for all servers that take them.", node.records_out);
   page.counter("cluster_malformed_total", "Messages and values that were none.", node.malformed);
-  page.counter("cluster_deaths_total", "Times that another server fell silent.", node.deaths);
+  page.counter("cluster_deaths_total", "Times that another server fell silent.", cluster.deaths);
 }
 
 void add_cluster(const ClusterStatus& cluster, Page& page) {

@@ -13,6 +13,8 @@ namespace {
 
 constexpr Duration kJoinsWithin = Duration::s(10);
 constexpr Duration kJoinTurn = Duration::ms(5);
+// Servers write what stands several times as often (ClusterNode).
+constexpr int kRoomsLast_s = 2 * 24 * 3600;
 
 std::string_view text_in(ClusterBus::Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -32,7 +34,9 @@ Result<std::unique_ptr<ClusterMembership>> ClusterMembership::join(const Cluster
     DANCE_TRY(of.address, Address::resolve(options.address, options.port));
   }
   std::unique_ptr<ClusterMembership> membership(new ClusterMembership);
-  DANCE_TRY(membership->bus_, NatsBus::connect(nats, poller));
+  NatsOptions rooms = nats;
+  rooms.lasts_s = kRoomsLast_s;
+  DANCE_TRY(membership->bus_, NatsBus::connect(rooms, poller));
   membership->node_ = std::make_unique<ClusterNode>(of, *membership->bus_);
   if (auto read = membership->read_keys(nats, poller); !read)
     return tl::make_unexpected(read.error());
@@ -81,7 +85,7 @@ Result<void> ClusterMembership::settle(const NatsOptions& nats, Poller& poller) 
 
 void ClusterMembership::tell() {
   const auto others = static_cast<std::size_t>(std::ranges::count_if(
-      node_->peers(), [](const auto& peer) { return peer.second.is_alive; }));
+      node_->peers().all(), [](const auto& peer) { return peer.second.is_alive; }));
   if (others != told_others_)
     talk::info("{} other servers are in the cluster now", told_others_ = others);
   if (const auto wrong = keys_.take_wrong()) talk::warn("{}", *wrong);

@@ -39,15 +39,16 @@ ClusterStatus cluster_status_of(const ClusterNode& node, const ServerCore& core,
   ClusterStatus status;
   status.id = node.id();
   if (node.address().is_set()) status.address = node.address().to_string();
-  status.clock_server = node.clock_server();
+  status.clock_server = node.peers().followed();
   status.clock_offset = node.clock().offset();
   if (node.clock().is_measured()) status.clock_round_trip = node.clock().round_trip();
   status.clock_steps = node.clock().steps();
   status.links = static_cast<std::uint32_t>(core.session_count());
   status.guests = static_cast<std::uint32_t>(core.guest_count());
   status.node = node.counters();
+  status.deaths = node.peers().deaths();
   status.remotes = core.remotes().counters();
-  for (const auto& [id, peer] : node.peers()) {
+  for (const auto& [id, peer] : node.peers().all()) {
     ClusterPeerStatus about;
     about.id = id;
     if (peer.beat.address.is_set()) about.address = peer.beat.address.to_string();

@@ -52,6 +52,7 @@ struct ClusterStatus {
   NatsBus::Counters nats;
   NatsBus::Counters nats_keys;  // of the connection for keys
   ClusterNode::Counters node;
+  std::uint64_t deaths = 0;  // times that another server fell silent
   ServerRemotes::Counters remotes;
   std::vector<ClusterPeerStatus> peers;
   std::vector<ClusterLinkStatus> between;

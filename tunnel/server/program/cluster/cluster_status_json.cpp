@@ -59,7 +59,7 @@ void add_totals(const ClusterStatus& cluster, JsonText& json) {
   json.member("values_in", node.values_in);
   json.member("malformed", node.malformed);
   json.member("other_codecs", node.other_codecs);
-  json.member("deaths", node.deaths);
+  json.member("deaths", cluster.deaths);
   json.member("guests_without_place", cluster.remotes.guests_without_place);
   json.member("servers_without_place", cluster.remotes.servers_without_place);
   json.member("unknown", cluster.remotes.unknown);
