@@ -116,7 +116,8 @@ function(dance_embed target name file)
   set(file ${PROJECT_SOURCE_DIR}/${file})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/embedded_file.cpp.in ${source} @ONLY)
-  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${file})
+  # In a unity source a dependency of one of its parts would not count.
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${file} SKIP_UNITY_BUILD_INCLUSION ON)
   target_sources(${target} PRIVATE ${source})
 endfunction()
 
