@@ -172,6 +172,9 @@ void House::add_talk(LinkHandlers& handlers) {
   handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
     talk::info("{}", room_state_line(kind, verdict));
   };
+  handlers.on_other_server = [](const Address& address) {
+    talk::info("{}", other_server_line(address));
+  };
   handlers.on_no_answer = [this](const Address& address) {
     troubles_.warn(no_answer_line(address), mono_now());
   };

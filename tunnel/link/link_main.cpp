@@ -93,6 +93,9 @@ void add_talk(LinkHandlers& handlers, LinkBus& link_bus, const LinkProgramOption
   handlers.on_room_state_refused = [](wire::StateKind kind, wire::StateVerdict verdict) {
     talk::info("{}", room_state_line(kind, verdict));
   };
+  handlers.on_other_server = [](const Address& address) {
+    talk::info("{}", other_server_line(address));
+  };
   handlers.on_no_answer = [troubles](const Address& address) {
     troubles->warn(no_answer_line(address), mono_now());
   };

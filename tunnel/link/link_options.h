@@ -180,6 +180,7 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
 std::string room_state_line(wire::StateKind kind, wire::StateVerdict verdict);
 // One line: who does not answer, and what to look at.
 std::string no_answer_line(const Address& server);
+std::string other_server_line(const Address& server);
 // Why a server that answers does not let this house in, and the cure. `server` as the user named
 // it.
 std::string no_entry_line(SealTrouble trouble, const std::string& server);

@@ -79,4 +79,8 @@ std::string no_answer_line(const Address& server) {
          " does not answer: is `dance server` running there, and its UDP port open? Trying on";
 }
 
+std::string other_server_line(const Address& server) {
+  return "goes on through another server of the cluster, " + server.to_string();
+}
+
 }  // namespace dance
