@@ -1,5 +1,5 @@
-// What servers of a cluster tell each other, built and parsed: messages, and values that last. docs/wire-format.md says them byte by byte, and this is the only place that knows
-// them.
+// What servers of a cluster tell each other, built and parsed: messages, and values that last.
+// docs/wire-format.md says them byte by byte, and this is the only place that knows them.
 //
 // Units/frames: little-endian; times are microseconds of the clock that the field's name says.
 // Ownership:    payloads are views of the caller's bytes.

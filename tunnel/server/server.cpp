@@ -79,7 +79,7 @@ void Server::end_cluster_turn(MonoTime now) {
 MonoTime Server::tick(MonoTime now) {
   if (cluster_ != nullptr) {
     cluster_due_ = cluster_->tick(now);
-    // Two halves of a cluster that began apart have met: what was reckoned by the old clock is void.
+    // Two halves of a cluster that began apart have met: what the old clock said is void.
     if (std::exchange(clock_steps_, cluster_->clock().steps()) != cluster_->clock().steps())
       core_.end_sessions();
     core_.set_other_servers(cluster_->peers().addresses());

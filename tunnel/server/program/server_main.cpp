@@ -219,8 +219,8 @@ Result<void> run_server(const ServerProgramOptions& options) {
   DANCE_TRY(auto watch, ServerWatch::open(server->core(), shown, *poller));
   talk::info("hears on {}; Ctrl-C ends it", local.to_string());
   if (cluster)
-    talk::info("in a cluster with {} other servers, through {}", cluster->node().peers().all().size(),
-               shown_urls(*nats_options_of(options.cluster)));
+    talk::info("in a cluster with {} other servers, through {}",
+               cluster->node().peers().all().size(), shown_urls(*nats_options_of(options.cluster)));
   if (!local.is_loopback() && keys.guest_count() == 0 && !of.certificates)
     talk::warn("nobody elsewhere has a key yet: dance server --new-guest NAME makes one");
 
