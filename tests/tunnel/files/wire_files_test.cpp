@@ -95,7 +95,7 @@ TEST(WireFiles, RefuseWhatNoSideWrites) {
   EXPECT_TRUE(refuses_want({kName, 0, 2})) << "the first is not wanted";
   EXPECT_TRUE(refuses_want({kName, 16'383, 3})) << "beyond the largest file";
   EXPECT_FALSE(refuses_want({kName, 16'383, 1}));
-  EXPECT_TRUE(refuses_want({{{64, 1}, kFile.hash}, 0, 1})) << "no such slot";
+  EXPECT_TRUE(refuses_want({{{128, 1}, kFile.hash}, 0, 1})) << "no such slot";
   EXPECT_TRUE(refuses_want({{{5, 1}, FileHash()}, 0, 1})) << "no hash";
   const auto refuses_chunk = [](const FileChunk& chunk) {
     return !parse_file_chunk(body_of(built(chunk)));

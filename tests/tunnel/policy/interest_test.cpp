@@ -39,12 +39,12 @@ TEST(Interest, HasAnEnd) {
   std::vector<std::string> words{"default=0"};
   for (std::size_t i = 0; i < kMaxInterestGuests; ++i)
     words.push_back("g" + std::to_string(i) + "=1");
-  EXPECT_EQ(divider_of(parse_interest(words), "g63"), 1);
+  EXPECT_EQ(divider_of(parse_interest(words), "g127"), 1);
   words.push_back("one-more=1");
   const auto refused = parse_interest(words);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().what,
-            "'one-more=1': at most 64 guests can be named; default=N is for all others");
+            "'one-more=1': at most 128 guests can be named; default=N is for all others");
 }
 
 }  // namespace
