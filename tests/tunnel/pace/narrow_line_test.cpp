@@ -103,8 +103,8 @@ TEST_F(NarrowLine, TheNearAndTheChosenComeInFullAndTheFarMoreSeldom) {
   EXPECT_LT(bytes_per_s_, 1.1 * line_bytes_per_s_);
   EXPECT_GT(bytes_per_s_, 0.4 * line_bytes_per_s_) << "what there is, is used";
   // Who was named, though the farthest, and the nearest.
-  EXPECT_GT(heard[kCrowd - 1], 0.85);
-  EXPECT_GT(heard[1], 0.6);
+  EXPECT_GT(heard[kCrowd - 1], 0.8);
+  EXPECT_GT(heard[1], 0.55);
   // The farther the rarer, and nobody is left out.
   EXPECT_LT(heard[kCrowd - 2], 0.3);
   for (int i = 1; i < kCrowd - 1; ++i) EXPECT_GT(heard[static_cast<std::size_t>(i)], 0.08) << i;
