@@ -31,7 +31,8 @@ TEST(ClusterFormat, ReadsWhatItWrites) {
 
 TEST(ClusterFormat, KeepsEveryFieldOfARecord) {
   const auto message = cluster_samples::record();
-  const auto read = cluster::parse_message(bytes_of(cluster::Message(message)));
+  const auto bytes = bytes_of(cluster::Message(message));
+  const auto read = cluster::parse_message(bytes);
   ASSERT_TRUE(read);
   const auto& record = std::get<cluster::RecordMessage>(*read).record;
   EXPECT_EQ(record.kind, message.record.kind);
