@@ -165,6 +165,11 @@ void ClusterNode::take_presence(Room& room, const cluster::Key& key,
   }
 }
 
+bool ClusterNode::is_ours(const Room& room, const GuestId& guest) const {
+  const auto known = room.guests.find(guest);
+  return known != room.guests.end() && known->second.server == options_.id;
+}
+
 // Of one link the server it came to last; of two that want one name, who was there before.
 bool ClusterNode::is_better(const cluster::GuestValue& fresh, const cluster::GuestValue& known,
                             MonoTime now) const {
@@ -178,17 +183,17 @@ bool ClusterNode::is_better(const cluster::GuestValue& fresh, const cluster::Gue
 void ClusterNode::take_guest(Room& room, const cluster::Key& key, const cluster::GuestValue* value,
                              MonoTime now) {
   const auto known = room.guests.find(key.guest);
-  const bool is_ours = known != room.guests.end() && known->second.server == options_.id;
+  const bool is_known_ours = is_ours(room, key.guest);
   if (value == nullptr) {
     if (known == room.guests.end()) return;
-    if (is_ours) return put_guest(key.room, key.guest);
+    if (is_known_ours) return put_guest(key.room, key.guest);
     server_->remotes().remove_guest(key.room, known->second.server, key.guest);
     room.guests.erase(known);
     return;
   }
-  if (value->server == options_.id && !is_ours) return;  // of before: it has left meanwhile
+  if (value->server == options_.id && !is_known_ours) return;  // of before: it has left meanwhile
   if (known != room.guests.end() && !is_better(*value, known->second, now)) {
-    if (is_ours) put_guest(key.room, key.guest);
+    if (is_known_ours) put_guest(key.room, key.guest);
     return;
   }
   if (known == room.guests.end() && room.guests.size() >= 4 * wire::kMaxGuestsPerRoom) return;
@@ -198,32 +203,36 @@ void ClusterNode::take_guest(Room& room, const cluster::Key& key, const cluster:
     ++counters_.other_codecs;
     return;
   }
-  const bool is_placed = server_->remotes().set_guest(key.room, value->server, key.guest,
-                                                      value->link_token, clock().to_session(now));
-  // The last link here may have been that guest's, and the room has ended here with it.
-  const auto still = rooms_.find(key.room);
-  if (still == rooms_.end()) return;
-  if (!is_placed) still->second.lacks_places = true;
-  apply_states(still->second, key.room, key.guest);
+  place(key.room, key.guest, *value, now);
+}
+
+// False where the room has ended here with that: its last link here may have been that guest's.
+bool ClusterNode::place(const wire::RoomName& name, const GuestId& guest,
+                        const cluster::GuestValue& value, MonoTime now) {
+  const bool is_placed = server_->remotes().set_guest(name, value.server, guest, value.link_token,
+                                                      clock().to_session(now));
+  const auto room = rooms_.find(name);
+  if (room == rooms_.end()) return false;
+  if (!is_placed) room->second.lacks_places = true;
+  apply_states(room->second, name, guest);
+  return true;
 }
 
 void ClusterNode::take_state(Room& room, const cluster::Key& key,
                              std::optional<cluster::Bytes> bytes) {
   const std::pair at{key.guest, key.place};
+  const auto known = room.states.find(at);
   if (!bytes) {
-    const auto of = room.guests.find(key.guest);
-    const bool is_ours = of != room.guests.end() && of->second.server == options_.id;
-    if (const auto known = room.states.find(at); is_ours && known != room.states.end())
+    if (known != room.states.end() && is_ours(room, key.guest))
       bus_.put(cluster::text_of(key).view(), known->second);
     else
       room.states.erase(at);
     return;
   }
-  if (!room.states.contains(at) &&
+  if (known == room.states.end() &&
       room.states.size() >= wire::kMaxGuestsPerRoom * (wire::kGuestStates + 1))
     return;
   // Of the room's the newest holds, whatever was written last: who holds it writes it again.
-  const auto known = room.states.find(at);
   if (!key.guest.is_set() && known != room.states.end() && is_older(*bytes, known->second)) {
     if (is_first_alive(room)) bus_.put(cluster::text_of(key).view(), known->second);
     return;
@@ -265,16 +274,15 @@ void ClusterNode::expect_all(const Room& room, MonoTime now) {
 
 // Those for whom there was no place are tried again: somebody may have left.
 void ClusterNode::place_all(MonoTime now) {
-  for (auto& [name, room] : rooms_) {
-    if (!std::exchange(room.lacks_places, false)) continue;
-    for (const auto& [guest, value] : room.guests) {
-      if (value.server == options_.id || value.codec != room.codec) continue;
-      if (server_->remotes().set_guest(name, value.server, guest, value.link_token,
-                                       clock().to_session(now)))
-        apply_states(room, name, guest);
-      else
-        room.lacks_places = true;
-    }
+  std::vector<wire::RoomName> names;
+  for (auto& [name, room] : rooms_)
+    if (std::exchange(room.lacks_places, false)) names.push_back(name);
+  for (const wire::RoomName& name : names) {
+    const Room room = rooms_[name];  // it may end meanwhile
+    for (const auto& [guest, value] : room.guests)
+      if (value.server != options_.id && value.codec == room.codec &&
+          !place(name, guest, value, now))
+        break;
   }
 }
 
@@ -300,16 +308,13 @@ void ClusterNode::forget(ServerId server) {
         ++it;
         continue;
       }
-      if (says_so)
-        bus_.erase(cluster::text_of({cluster::KeyKind::kGuest, name, 0, it->first, 0}).view());
+      if (says_so) erase({cluster::KeyKind::kGuest, name, 0, it->first, 0});
       for (std::size_t place = 0; says_so && place < wire::kGuestStates; ++place)
         if (room.states.contains({it->first, place}))
-          bus_.erase(
-              cluster::text_of({cluster::KeyKind::kGuestState, name, 0, it->first, place}).view());
+          erase({cluster::KeyKind::kGuestState, name, 0, it->first, place});
       it = room.guests.erase(it);
     }
-    if (was_present && says_so)
-      bus_.erase(cluster::text_of({cluster::KeyKind::kPresence, name, server, {}, 0}).view());
+    if (was_present && says_so) erase({cluster::KeyKind::kPresence, name, server, {}, 0});
   }
 }
 
@@ -325,13 +330,10 @@ void ClusterNode::write_all() {
     for (const auto& [guest, value] : room.guests)
       if (value.server == options_.id) put_guest(name, guest);
     for (const auto& [at, bytes] : room.states) {
-      const auto of = room.guests.find(at.first);
-      const bool is_ours = at.first.is_set()
-                               ? of != room.guests.end() && of->second.server == options_.id
-                               : is_first_alive(room);
-      const auto kind =
-          at.first.is_set() ? cluster::KeyKind::kGuestState : cluster::KeyKind::kRoomState;
-      if (is_ours) bus_.put(cluster::text_of({kind, name, 0, at.first, at.second}).view(), bytes);
+      const bool is_guests = at.first.is_set();
+      const auto kind = is_guests ? cluster::KeyKind::kGuestState : cluster::KeyKind::kRoomState;
+      if (is_guests ? is_ours(room, at.first) : is_first_alive(room))
+        bus_.put(cluster::text_of({kind, name, 0, at.first, at.second}).view(), bytes);
     }
   }
 }
@@ -340,7 +342,7 @@ MonoTime ClusterNode::tick(MonoTime now) {
   now_ = now;
   if (!begun_.is_set()) begun_ = now;
   if (now - begun_ < kListens) return begun_ + kListens;
-  if (next_beat_.is_set() == false) peers_.take_rank();
+  if (!next_beat_.is_set()) peers_.take_rank();
   if (now >= next_beat_) {
     next_beat_ = now + kBeat;
     beat(false);

@@ -105,10 +105,13 @@ class ClusterNode final : public ClusterPort {
                      MonoTime now);
   void take_guest(Room& room, const cluster::Key& key, const cluster::GuestValue* value,
                   MonoTime now);
+  bool place(const wire::RoomName& room, const GuestId& guest, const cluster::GuestValue& value,
+             MonoTime now);
   void take_state(Room& room, const cluster::Key& key, std::optional<cluster::Bytes> bytes);
   void apply_states(const Room& room, const wire::RoomName& name, const GuestId& guest);
   void apply_state(const Room& room, const wire::RoomName& name, const GuestId& guest,
                    std::size_t place, cluster::Bytes bytes);
+  bool is_ours(const Room& room, const GuestId& guest) const;
   bool is_better(const cluster::GuestValue& fresh, const cluster::GuestValue& known,
                  MonoTime now) const;
   void beat(bool is_leaving);
@@ -119,6 +122,7 @@ class ClusterNode final : public ClusterPort {
   void forget(ServerId server);
   bool is_first_alive(const Room& room) const;
   void put(const cluster::Key& key, const cluster::Value& value);
+  void erase(const cluster::Key& key);
   void put_presence(const wire::RoomName& room);
   void put_guest(const wire::RoomName& room, const GuestId& guest);
   void send(std::string_view subject, const cluster::Message& message);

@@ -32,15 +32,13 @@ void ClusterNode::on_room_closed(const ServerRoom& room) {
   for (const GuestId& guest : of->second.subscribed)
     bus_.end_listen(cluster::pose_subject(room.name, guest).view());
   bus_.end_watch(cluster::keys_of(room.name).view());
-  bus_.erase(cluster::text_of({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0}).view());
+  erase({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0});
   // The last to leave takes along what the room had.
   const bool is_last = std::all_of(of->second.present.begin(), of->second.present.end(),
                                    [this](const auto& at) { return peers_.is_dead(at.first); });
   if (is_last)
     for (const auto& [at, bytes] : of->second.states)
-      if (!at.first.is_set())
-        bus_.erase(
-            cluster::text_of({cluster::KeyKind::kRoomState, room.name, 0, {}, at.second}).view());
+      if (!at.first.is_set()) erase({cluster::KeyKind::kRoomState, room.name, 0, {}, at.second});
   rooms_.erase(of);
 }
 
@@ -66,12 +64,11 @@ void ClusterNode::on_guest_left(const ServerRoom& room, const ServerGuest& guest
       known->second.link_token != guest.link_token)
     return;
   of->second.guests.erase(known);
-  bus_.erase(cluster::text_of({cluster::KeyKind::kGuest, room.name, 0, guest.id, 0}).view());
+  erase({cluster::KeyKind::kGuest, room.name, 0, guest.id, 0});
   for (std::size_t place = 0; place < guest.states.size(); ++place) {
     if (guest.states[place].version == 0) continue;
     of->second.states.erase({guest.id, place});
-    bus_.erase(
-        cluster::text_of({cluster::KeyKind::kGuestState, room.name, 0, guest.id, place}).view());
+    erase({cluster::KeyKind::kGuestState, room.name, 0, guest.id, place});
   }
 }
 
@@ -154,5 +151,7 @@ void ClusterNode::put(const cluster::Key& key, const cluster::Value& value) {
   DANCE_ASSERT(size > 0);
   bus_.put(cluster::text_of(key).view(), {buffer_.data(), size});
 }
+
+void ClusterNode::erase(const cluster::Key& key) { bus_.erase(cluster::text_of(key).view()); }
 
 }  // namespace dance

@@ -41,7 +41,6 @@ Link::Link(std::vector<Address> server, UdpSocket socket, std::unique_ptr<SealCo
     : poller_(poller),
       server_(std::move(server)),
       probe_(poller),
-      on_servers_(handlers.on_servers),
       on_other_server_(handlers.on_other_server),
       on_no_answer_(handlers.on_no_answer),
       on_no_entry_(handlers.on_no_entry),
@@ -70,7 +69,6 @@ LinkHandlers Link::with_servers(LinkHandlers handlers, Link& link) {
 void Link::on_servers(const wire::ServerList& servers, MonoTime now) {
   choice_.set_current(server_[tried_]);
   if (choice_.set_others(servers)) probe_.begin(choice_.all(), now);
-  if (on_servers_) on_servers_(servers, now);
 }
 
 // The nearest when the link comes, and the next when its server is silent or ends.

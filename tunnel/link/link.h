@@ -111,7 +111,6 @@ class Link {
   std::size_t tried_ = 0;  // which of them the socket speaks to
   ServerChoice choice_;
   ServerProbe probe_;
-  std::function<void(const wire::ServerList&, MonoTime)> on_servers_;
   std::function<void(const Address&)> on_other_server_;
   std::function<void(const Address&)> on_no_answer_;
   std::function<void(SealTrouble)> on_no_entry_;

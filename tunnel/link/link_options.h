@@ -95,7 +95,7 @@ struct LinkHandlers {
   std::function<void(LinkState, MonoTime now)> on_state;
   // Guest is set where it is about one of ours. refusal_line() says it for people.
   std::function<void(const wire::RefusalNotice&, MonoTime now)> on_refused;
-  // The other servers of the cluster, each time they are told.
+  // The other servers of the cluster, each time they are told. Of a Link, that Link's own.
   std::function<void(const wire::ServerList&, MonoTime now)> on_servers;
   // Another server is spoken to: the one before is silent or ends, or this one is nearer. Said by
   // Link.

@@ -39,9 +39,8 @@ std::optional<std::size_t> ServerAdmission::find_token(std::uint64_t token,
 }
 
 std::optional<std::size_t> ServerAdmission::find_room(const wire::RoomName& name) const {
-  for (std::size_t i = 0; i < server_.rooms.size(); ++i)
-    if (server_.rooms[i].in_use && server_.rooms[i].name == name) return i;
-  return std::nullopt;
+  const auto found = server_.by_room.find(name);
+  return found != server_.by_room.end() ? std::optional(found->second) : std::nullopt;
 }
 
 void ServerAdmission::refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause,
@@ -199,6 +198,8 @@ std::size_t ServerAdmission::open_room(const wire::Hello& hello, MonoTime now) {
   DANCE_ASSERT(free != server_.rooms.end());
   free->in_use = true;
   free->name = hello.room;
+  const auto index = static_cast<std::size_t>(free - server_.rooms.begin());
+  server_.by_room.emplace(free->name, index);
   free->codec = hello.codecs[0];
   free->roster_version = 1;
   free->roster_changed = false;
@@ -212,7 +213,7 @@ std::size_t ServerAdmission::open_room(const wire::Hello& hello, MonoTime now) {
   free->host_count = free->remote_hosts = 0;
   free->settled_at = server_.cluster != nullptr ? now + kSettlesWithin : MonoTime();
   if (server_.cluster != nullptr) server_.cluster->on_room_opened(*free);
-  return static_cast<std::size_t>(free - server_.rooms.begin());
+  return index;
 }
 
 std::uint64_t ServerAdmission::new_epoch() {
@@ -301,23 +302,21 @@ void ServerAdmission::settle_guests(std::size_t index, const wire::Hello& hello)
 void ServerAdmission::bring_guest(std::size_t index, const GuestId& id, std::uint64_t link_token) {
   const std::size_t room_index = server_.sessions[index].room;
   ServerRoom& room = server_.rooms[room_index];
-  const auto there = std::find_if(room.guests.begin(), room.guests.end(),
-                                  [&](auto& guest) { return guest.in_use && guest.id == id; });
-  const auto slot = static_cast<std::uint8_t>(there - room.guests.begin());
-  if (there != room.guests.end() && there->link_token == link_token) {
-    slots_.move_guest(room, slot, index);
+  const auto there = ServerSlots::find(room, id);
+  if (there && room.guests[*there].link_token == link_token) {
+    slots_.move_guest(room, *there, index);
   } else {
-    if (there != room.guests.end()) {
-      server_.sessions[there->owner].slots.erase(slot);
-      slots_.remove_guest(room_index, slot);
+    if (there) {
+      server_.sessions[room.guests[*there].owner].slots.erase(*there);
+      slots_.remove_guest(room_index, *there);
     }
     const bool added = slots_.add_guest(index, id, link_token).has_value();
     DANCE_ASSERT(added);
   }
+  // The newest of the session's.
   if (server_.cluster != nullptr) {
-    const auto here = std::find_if(room.guests.begin(), room.guests.end(),
-                                   [&](auto& guest) { return guest.in_use && guest.id == id; });
-    server_.cluster->on_guest_came(room, *here);
+    const auto& slots = server_.sessions[index].slots;
+    server_.cluster->on_guest_came(room, room.guests[slots[slots.size() - 1]]);
   }
 }
 
@@ -366,6 +365,7 @@ void ServerAdmission::drop(std::size_t index) {
 
 void ServerAdmission::close_room(std::size_t index) {
   ServerRoom& room = server_.rooms[index];
+  server_.by_room.erase(room.name);
   room.in_use = false;  // before its other servers go, the last of which would close it again
   while (!room.members.empty()) drop(room.members.back());
   DANCE_ASSERT(room.guest_count == 0, room.guest_count);

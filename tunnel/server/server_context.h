@@ -7,6 +7,7 @@
 // Failure:      none; what is rejected is counted by cause.
 #pragma once
 
+#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -35,9 +36,10 @@ struct ServerContext {
   std::vector<ServerRoom> rooms;
   std::vector<RemoteReceivers> remotes;  // as many as there may be
   std::unordered_map<PeerId, std::size_t> by_peer;
-  std::vector<std::size_t> newcomers;  // sessions that know nothing of their room yet
-  std::vector<std::size_t> bundled;    // sessions with a bundle under way
-  std::vector<std::size_t> reporting;  // sessions with feedback due
+  std::map<wire::RoomName, std::size_t> by_room;  // those in use
+  std::vector<std::size_t> newcomers;             // sessions that know nothing of their room yet
+  std::vector<std::size_t> bundled;               // sessions with a bundle under way
+  std::vector<std::size_t> reporting;             // sessions with feedback due
   std::vector<std::size_t> changed_rooms;
   wire::ServerList other_servers;  // of a cluster, as links reach them
   ServerCounters counters;

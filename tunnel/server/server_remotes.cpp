@@ -20,13 +20,6 @@ std::optional<std::size_t> ServerRemotes::session_of(const ServerRoom& room,
   return std::nullopt;
 }
 
-std::optional<std::uint8_t> ServerRemotes::slot_of(const ServerRoom& room, const GuestId& guest) {
-  for (std::size_t slot = 0; slot < room.guests.size(); ++slot)
-    if (room.guests[slot].in_use && room.guests[slot].id == guest)
-      return static_cast<std::uint8_t>(slot);
-  return std::nullopt;
-}
-
 void ServerRemotes::settle(const wire::RoomName& name) {
   if (ServerRoom* room = find(name)) room->settled_at = MonoTime();
 }
@@ -70,7 +63,7 @@ bool ServerRemotes::set_guest(const wire::RoomName& name, ServerId server, const
     ++counters_.servers_without_place;
     return false;
   }
-  const auto slot = slot_of(room, id);
+  const auto slot = ServerSlots::find(room, id);
   if (!slot) {
     if (slots_.add_guest(*session, id, link_token)) return true;
     ++counters_.guests_without_place;
@@ -97,7 +90,7 @@ void ServerRemotes::remove_guest(const wire::RoomName& name, ServerId server, co
   const auto index = admission_.find_room(name);
   if (!index) return;
   ServerRoom& room = server_.rooms[*index];
-  const auto slot = slot_of(room, id);
+  const auto slot = ServerSlots::find(room, id);
   const auto session = session_of(room, server);
   if (!slot || !session || room.guests[*slot].owner != *session) return;
   slots_.remove_guest(*index, *slot);
@@ -107,7 +100,7 @@ void ServerRemotes::remove_guest(const wire::RoomName& name, ServerId server, co
 void ServerRemotes::on_record(const wire::RoomName& name, ServerId server, const GuestId& id,
                               std::uint64_t link_token, wire::Record record, MonoTime now) {
   const ServerRoom* room = find(name);
-  const auto slot = room != nullptr ? slot_of(*room, id) : std::nullopt;
+  const auto slot = room != nullptr ? ServerSlots::find(*room, id) : std::nullopt;
   const auto session = slot ? session_of(*room, server) : std::nullopt;
   if (!session || room->guests[*slot].link_token != link_token) {
     ++counters_.unknown;
@@ -120,7 +113,7 @@ void ServerRemotes::on_record(const wire::RoomName& name, ServerId server, const
 void ServerRemotes::on_feedback(const wire::RoomName& name, ServerId server, const GuestId& id,
                                 const RemoteFeedback& feedback, MonoTime now) {
   const ServerRoom* room = find(name);
-  const auto slot = room != nullptr ? slot_of(*room, id) : std::nullopt;
+  const auto slot = room != nullptr ? ServerSlots::find(*room, id) : std::nullopt;
   const auto session = slot ? session_of(*room, server) : std::nullopt;
   if (!session || !server_.is_local(room->guests[*slot])) {
     ++counters_.unknown;
@@ -134,7 +127,7 @@ void ServerRemotes::on_state(const wire::RoomName& name, const GuestId& id,
   ServerRoom* room = find(name);
   if (room == nullptr) return;
   if (!id.is_set()) return states_.on_remote_state(*room, nullptr, state);
-  const auto slot = slot_of(*room, id);
+  const auto slot = ServerSlots::find(*room, id);
   if (slot && !server_.is_local(room->guests[*slot]))
     states_.on_remote_state(*room, &room->guests[*slot], state);
 }

@@ -59,7 +59,6 @@ class ServerRemotes {
  private:
   ServerRoom* find(const wire::RoomName& room);
   std::optional<std::size_t> session_of(const ServerRoom& room, ServerId server) const;
-  static std::optional<std::uint8_t> slot_of(const ServerRoom& room, const GuestId& guest);
 
   ServerContext& server_;
   ServerSlots& slots_;

@@ -7,6 +7,13 @@
 
 namespace dance {
 
+std::optional<std::uint8_t> ServerSlots::find(const ServerRoom& room, const GuestId& guest) {
+  for (std::size_t slot = 0; slot < room.guests.size(); ++slot)
+    if (room.guests[slot].in_use && room.guests[slot].id == guest)
+      return static_cast<std::uint8_t>(slot);
+  return std::nullopt;
+}
+
 std::optional<std::uint8_t> ServerSlots::add_guest(std::size_t index, const GuestId& id,
                                                    std::uint64_t link_token) {
   ServerSession& session = server_.sessions[index];

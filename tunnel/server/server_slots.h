@@ -14,6 +14,8 @@ class ServerSlots {
  public:
   explicit ServerSlots(ServerContext& server) : server_(server) {}
 
+  // Where the guest is; nothing where it is not in the room.
+  static std::optional<std::uint8_t> find(const ServerRoom& room, const GuestId& guest);
   // Nothing where the room is full.
   std::optional<std::uint8_t> add_guest(std::size_t session, const GuestId& id,
                                         std::uint64_t link_token);
