@@ -76,28 +76,32 @@ if [ "$sanitizers" = yes ]; then
   if step asan; then
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
     jobs=$((jobs + 1)) run asan -LE 'check|soak|docs|fuzz' -E "^BeatSongs|Takes\.|$draws" "${only[@]}"
-    # As many at a time as there are processors; each writes its own log.
-    fuzz_one() { # TARGET
-      "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=5 -print_final_stats=0 -artifact_prefix=build/ \
-        "build/asan/fuzz/corpus_$(basename "$1")" >"build/$(basename "$1").log" 2>&1 || touch "build/$(basename "$1").failed"
-    }
-    export -f fuzz_one
-    rm -f build/fuzz_*.failed
-    echo "== fuzzing, minute $((SECONDS / 60)) ($(ls build/asan/fuzz/fuzz_* | wc -l) targets, 10 s each)"
-    printf '%s\n' build/asan/fuzz/fuzz_* | xargs -P "$jobs" -I{} bash -c 'fuzz_one {}'
-    for target in build/asan/fuzz/fuzz_*; do
-      name=$(basename "$target")
-      if [ -e "build/$name.failed" ]; then
-        echo "$name failed:" && tail -n 30 "build/$name.log"
-        failed=$((failed + 1))
-      else
-        passed=$((passed + 1))
-      fi
-    done
   fi
   # What these start has no threads that others do not have; and a camera that is preloaded comes before the sanitizer.
   no_threads="$draws|MusicRoom|MusicPrograms|Bench|ACameraThatWasUnplugged"
-  step tsan thread_targets flow_targets && run tsan -L 'threads|flow' -E "$no_threads" "${only[@]}"
+  step tsan thread_targets flow_targets && tsan_is_built=yes || tsan_is_built=no
+  # Fuzzing fills the processors, at the lowest priority, while programs dance under the thread sanitizer and wait.
+  fuzz_one() { # TARGET
+    "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=20 -print_final_stats=0 -artifact_prefix=build/ \
+      "build/asan/fuzz/corpus_$(basename "$1")" >"build/$(basename "$1").log" 2>&1 || touch "build/$(basename "$1").failed"
+  }
+  export -f fuzz_one
+  rm -f build/fuzz_*.failed
+  fuzz_targets=$(find build/asan/fuzz -maxdepth 1 -type f -name 'fuzz_*' 2>/dev/null | sort)
+  echo "== fuzzing, minute $((SECONDS / 60)) ($(wc -w <<<"$fuzz_targets") targets, 10 s each), beside the tests that follow"
+  printf '%s\n' $fuzz_targets | nice -n 19 xargs -r -P "$jobs" -I{} bash -c 'fuzz_one {}' &
+  fuzzing=$!
+  [ "$tsan_is_built" = no ] || jobs=$((jobs + 1)) run tsan -L 'threads|flow' -E "$no_threads" "${only[@]}"
+  wait "$fuzzing" || true
+  for target in $fuzz_targets; do
+    name=$(basename "$target")
+    if [ -e "build/$name.failed" ]; then
+      echo "$name failed:" && tail -n 30 "build/$name.log"
+      failed=$((failed + 1))
+    else
+      passed=$((passed + 1))
+    fi
+  done
 fi
 summary="$passed passed, $failed failed"
 [ "$skipped" = 0 ] || summary="$summary, $skipped skipped"

@@ -1,5 +1,7 @@
 #include "apps/avatar/avatar_choose.h"
 
+#include <set>
+
 #include "apps/bus_program.h"
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
@@ -18,9 +20,10 @@ A house of dance join keeps the choice until it ends; to keep it longer, write [
 session file. Where link and manager run by themselves, --stay tells displays that start later.
 )";
 
-// Each message goes out a few times, as multicast may lose one.
-constexpr int kTimesSaid = 3;
+// A choice is repeated until a house repeats it of its own accord, as each does once a second: it
+// may only just be starting, and multicast may lose a message.
 constexpr Duration kBetween = Duration::ms(40);
+constexpr Duration kGiveUpAfter = Duration::s(4);
 
 struct ChooseOptions {
   std::string bus_url;
@@ -36,11 +39,32 @@ Result<void> choose_for_guest(const ChooseOptions& options) {
   for (const std::string& note : chosen.notes) talk::info("{}: {}", options.choice.what, note);
   DANCE_TRY(BusProgram program, BusProgram::open(options.bus_url));
   chosen.avatar.clock_id = chosen.file.clock_id = this_clock_id();
+  std::set<std::int64_t> times_said;  // µs, as on the bus
   const auto publish = [&] {
     chosen.avatar.time = chosen.file.time = mono_now();
+    times_said.insert(chosen.avatar.time.since_zero_us());
     program.bus().publish(Channel::of(Signal::kAvatar, Where::kCapture, *guest), chosen.avatar);
     program.bus().publish(Channel::of(Signal::kAvatarFile, Where::kCapture, *guest), chosen.file);
   };
+  bool keeps_avatar = false;
+  bool is_kept = false;
+  const auto kept = [&] {
+    is_kept = true;
+    if (!options.stays) program.poller().stop();
+  };
+  program.bus().subscribe<Avatar>(
+      {Where::kCapture, *guest}, [&](const Channel&, const Avatar& heard, MonoTime) {
+        keeps_avatar = !times_said.contains(heard.time.since_zero_us()) &&
+                       heard.name == chosen.avatar.name &&
+                       heard.colour_rgb == chosen.avatar.colour_rgb &&
+                       heard.height_scale == chosen.avatar.height_scale;
+      });
+  program.bus().subscribe<AvatarFile>(
+      {Where::kCapture, *guest}, [&](const Channel&, const AvatarFile& heard, MonoTime) {
+        if (keeps_avatar && !times_said.contains(heard.time.since_zero_us()) &&
+            heard.hash == chosen.file.hash)
+          kept();
+      });
   publish();
   if (chosen.file.hash.is_set())
     talk::info("{} is {}, {:.1f} MB, {}", options.guest, chosen.file.name.view(),
@@ -48,8 +72,12 @@ Result<void> choose_for_guest(const ChooseOptions& options) {
   else
     talk::info("{} is {}", options.guest, chosen.avatar.name.view());
   program.every(options.stays ? Duration::s(1) : kBetween, [&](MonoTime) { publish(); });
-  if (!options.stays) program.stop_after((kBetween * kTimesSaid).as_seconds());
+  if (!options.stays) program.stop_after(kGiveUpAfter.as_seconds());
   program.run();
+  if (!is_kept && !options.stays)
+    talk::warn(
+        "no house keeps this choice: only displays that run now show it; dance join keeps it, or "
+        "--stay says it again each second");
   return {};
 }
 

@@ -90,7 +90,11 @@ TEST_F(HouseAvatarPrograms, AChoiceOnTheBusHoldsUntilTheNext) {
   const std::string choose =
       "XDG_DATA_HOME=" + folder_.path("alice-data") + " " + bin("dance-avatar choose alice ");
   const std::string bus = " --bus " + quoted(kBus);
-  ASSERT_EQ(run(choose + "mannequin --look dress-bun --colour '#e04080'" + bus).exit_code, 0);
+  ASSERT_TRUE(wait_for(
+      [&] { return text_of(folder_.path("talk")).find("alice is here") != std::string::npos; }));
+  const Finished first = run(choose + "mannequin --look dress-bun --colour '#e04080'" + bus);
+  ASSERT_EQ(first.exit_code, 0) << first.talk;
+  EXPECT_EQ(first.talk.find("no house keeps"), std::string::npos) << first.talk;
   ASSERT_TRUE(comes_to([&] { return name == "dress-bun"; })) << text_of(folder_.path("talk"));
   const int before = said;
   ASSERT_TRUE(comes_to([&] { return said >= before + 3; })) << "it is said again each second";
@@ -113,6 +117,13 @@ TEST_F(HouseAvatarPrograms, AChoiceOnTheBusHoldsUntilTheNext) {
   // And back.
   ASSERT_EQ(run(choose + "mannequin" + bus).exit_code, 0);
   ASSERT_TRUE(comes_to([&] { return name == "mannequin" && !has_file; }));
+}
+
+TEST_F(HouseAvatarPrograms, AChoiceThatNoHouseKeepsIsSaid) {
+  const Finished finished =
+      run(bin("dance-avatar choose alice mannequin --bus ") + quoted(kOtherBus));
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_NE(finished.talk.find("--stay"), std::string::npos) << finished.talk;
 }
 
 TEST_F(HouseAvatarPrograms, AWrongChoiceIsOneLineThatSaysWhatThereIs) {
