@@ -138,9 +138,9 @@ function(dance_program name)
 endfunction()
 
 # dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]
-# [BESIDE_OTHERS clients|sound|programs|cluster] [ALONE]): one GoogleTest program, one CTest entry per TEST, run with that
+# [BESIDE_OTHERS KIND] [ALONE]): one GoogleTest program, one CTest entry per TEST, run with that
 # library loaded before all others. A flow test runs in a network namespace of its own, one at a time of its kind (BESIDE_OTHERS
-# names another kind than the usual), at an ordinary priority while unit tests have the lowest, so that they fill the
+# names another kind than the usual: clients, sound, programs, cluster, tunnel, house), at an ordinary priority while unit tests have the lowest, so that they fill the
 # processors and hold up no program that dances; ALONE: nothing else runs. What takes long begins first.
 # thread_targets are those in which threads meet, flow_targets those in which programs do: what the thread sanitizer is for.
 add_custom_target(thread_targets)
