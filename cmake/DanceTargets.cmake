@@ -138,15 +138,16 @@ function(dance_program name)
 endfunction()
 
 # dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]
-# [BESIDE_OTHERS KIND] [ALONE]): one GoogleTest program, one CTest entry per TEST, run with that
-# library loaded before all others. A flow test runs in a network namespace of its own, one at a time of its kind (BESIDE_OTHERS
-# names another kind than the usual: clients, sound, programs, cluster, tunnel, house), at an ordinary priority while unit tests have the lowest, so that they fill the
-# processors and hold up no program that dances; ALONE: nothing else runs. What takes long begins first.
+# [BESIDE_OTHERS KIND] [WHOLE]): one GoogleTest program, run with that library loaded before all others. One CTest entry per
+# TEST; WHOLE: one in all, where making what the tests share takes longer than they do, and none skips. A flow test runs in a
+# network namespace of its own, one at a time of its kind (clients, sound, programs, cluster, tunnel, house, or the usual one),
+# at the ordinary priority: unit tests have the lowest, so that they fill the processors and hold up no program that dances.
+# What takes long begins first.
 # thread_targets are those in which threads meet, flow_targets those in which programs do: what the thread sanitizer is for.
 add_custom_target(thread_targets)
 add_custom_target(flow_targets)
 function(dance_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALONE" "LABEL;TIMEOUT;PRELOAD;BESIDE_OTHERS" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT;PRELOAD;BESIDE_OTHERS" "SOURCES;LIBS")
   add_executable(${name} ${arg_SOURCES})
   dance_use_test_options(${name})
   target_link_libraries(${name} PRIVATE dance_settings ${arg_LIBS} GTest::gtest_main)
@@ -172,9 +173,7 @@ function(dance_test name)
     set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR "${emulator}")
     set(cost 100)
     set(serial RESOURCE_LOCK flow)
-    if(arg_ALONE)
-      set(serial RUN_SERIAL ON)
-    elseif(arg_BESIDE_OTHERS)
+    if(arg_BESIDE_OTHERS)
       set(serial RESOURCE_LOCK ${arg_BESIDE_OTHERS})
     endif()
   elseif(NOT arg_LABEL STREQUAL "threads")
@@ -183,6 +182,11 @@ function(dance_test name)
   set(preload "")
   if(arg_PRELOAD)
     set(preload ENVIRONMENT_MODIFICATION "LD_PRELOAD=set:${DANCE_PRELOAD_FIRST}${arg_PRELOAD}")
+  endif()
+  if(arg_WHOLE)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 COST 50)
+    return()
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     # The keys that programs make for this machine are not those of the user who runs the tests.
