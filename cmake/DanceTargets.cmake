@@ -139,8 +139,8 @@ endfunction()
 
 # dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]
 # [BESIDE_OTHERS KIND] [WHOLE]): one GoogleTest program, run with that library loaded before all others. One CTest entry per
-# TEST; WHOLE: one in all, where making what the tests share takes longer than they do, and none skips. A flow test runs in a
-# network namespace of its own, one at a time of its kind (clients, sound, programs, cluster, tunnel, house, or the usual one),
+# TEST; WHOLE: one in all, where making what the tests share takes longer than they do (what skips in it is not counted). A
+# flow test runs in a network namespace of its own, one at a time of its kind (clients, sound, programs, cluster, tunnel, house, or the usual one),
 # at the ordinary priority: unit tests have the lowest, so that they fill the processors and hold up no program that dances.
 # What takes long begins first.
 # thread_targets are those in which threads meet, flow_targets those in which programs do: what the thread sanitizer is for.

@@ -34,7 +34,9 @@ void undress(SceneState& scene) {
 }
 
 AvatarModel model_called(const std::string& name) {
-  AvatarModel model = mannequin_model(average_skeleton(), look_of(GuestId()), false);
+  static const AvatarModel mannequin =
+      mannequin_model(average_skeleton(), look_of(GuestId()), false);
+  AvatarModel model = mannequin;
   model.name = name;
   return model;
 }
