@@ -36,6 +36,8 @@ class ClusterBus {
   virtual void publish(std::string_view subject, Bytes message) = 0;
   virtual void listen(std::string_view subject) = 0;
   virtual void end_listen(std::string_view subject) = 0;
+  // What was published in this turn of the owner goes out, if it has not.
+  virtual void end_turn(MonoTime) {}
 
   virtual void put(std::string_view key, Bytes value) = 0;
   virtual void erase(std::string_view key) = 0;

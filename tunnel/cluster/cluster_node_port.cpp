@@ -136,6 +136,7 @@ void ClusterNode::end_turn(MonoTime now) {
   now_ = now;
   for (Pending& pending : pending_) flush(pending);
   pending_.clear();
+  bus_.end_turn(now);
 }
 
 void ClusterNode::send(std::string_view subject, const cluster::Message& message) {
