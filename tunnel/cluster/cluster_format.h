@@ -17,8 +17,9 @@
 namespace dance::cluster {
 
 constexpr std::uint8_t kClusterVersion = 1;
-// No message and no value is longer.
+// No message and no value is longer; nor several messages in one (cluster_bundle.h).
 constexpr std::size_t kMaxBytes = 2048;
+constexpr std::size_t kMaxBundle = 8192;
 using Bytes = wire::Bytes;
 
 // A server lives; several times a second, to all.

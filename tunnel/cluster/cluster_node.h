@@ -15,6 +15,7 @@
 #include <set>
 #include <vector>
 
+#include "tunnel/cluster/cluster_bundle.h"
 #include "tunnel/cluster/cluster_bus.h"
 #include "tunnel/cluster/cluster_format.h"
 #include "tunnel/cluster/cluster_names.h"
@@ -95,6 +96,7 @@ class ClusterNode final : public ClusterPort {
   };
 
   void on_message(std::string_view subject, cluster::Bytes bytes, MonoTime now);
+  void take(std::string_view subject, cluster::Bytes bytes, MonoTime now);
   void on_value(std::string_view key, std::optional<cluster::Bytes> bytes, MonoTime now);
   void on_all_read(std::string_view key);
   void on_back(MonoTime now);
@@ -125,7 +127,9 @@ class ClusterNode final : public ClusterPort {
   void erase(const cluster::Key& key);
   void put_presence(const wire::RoomName& room);
   void put_guest(const wire::RoomName& room, const GuestId& guest);
-  void send(std::string_view subject, const cluster::Message& message);
+  // What comes one after the other for one subject goes as one.
+  void send(const cluster::Text& subject, const cluster::Message& message);
+  void flush_bundle();
   void flush(Pending& pending);
 
   Options options_;
@@ -134,6 +138,8 @@ class ClusterNode final : public ClusterPort {
   ClusterPeers peers_;
   std::map<wire::RoomName, Room> rooms_;
   std::vector<Pending> pending_;
+  cluster::Text bundle_subject_;
+  cluster::BundleWriter bundle_;
   MonoTime now_;  // of the newest call that said so
   MonoTime begun_;
   MonoTime next_beat_;
