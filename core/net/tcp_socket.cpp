@@ -24,9 +24,7 @@ tl::unexpected<Error> tcp_failure(const Address& to, int reason) {
   return fail(to.to_string() + ": " + strerror_r(reason, text.data(), text.size()));
 }
 
-bool is_passing(int reason) {
-  return reason == EAGAIN || reason == EWOULDBLOCK || reason == EINTR;
-}
+bool is_passing(int reason) { return reason == EAGAIN || reason == EWOULDBLOCK || reason == EINTR; }
 
 }  // namespace
 

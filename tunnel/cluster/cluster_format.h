@@ -65,7 +65,16 @@ struct FeedbackMessage {
   FixedList<FeedbackEntry, kMaxFeedbackEntries> entries;
 };
 
-using Message = std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage>;
+// About the file of a guest's avatar, for the server through which the guest came, or from it.
+struct FileMessage {
+  ServerId server = 0;
+  wire::RoomName room;
+  GuestId guest;
+  FilePart part;  // without its slot
+};
+
+using Message =
+    std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage, FileMessage>;
 std::size_t build(const Message& message, std::span<std::uint8_t> out);
 std::optional<Message> parse_message(Bytes bytes);
 

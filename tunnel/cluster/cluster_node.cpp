@@ -84,6 +84,8 @@ void ClusterNode::take(std::string_view subject, cluster::Bytes bytes, MonoTime 
     peers_.take(*answer, now);
   } else if (const auto* feedback = std::get_if<cluster::FeedbackMessage>(&*message)) {
     take(*feedback, now);
+  } else if (const auto* file = std::get_if<cluster::FileMessage>(&*message)) {
+    take(*file, now);
   }
 }
 
@@ -110,6 +112,12 @@ void ClusterNode::take(const cluster::FeedbackMessage& message, MonoTime now) {
   for (const cluster::FeedbackEntry& entry : message.entries)
     server_->remotes().on_feedback(message.room, message.server, entry.guest, entry.feedback,
                                    clock().to_session(now));
+}
+
+void ClusterNode::take(const cluster::FileMessage& message, MonoTime now) {
+  if (server_ == nullptr || message.server == options_.id) return;
+  server_->remotes().on_file(message.room, message.server, message.guest, message.part,
+                             clock().to_session(now));
 }
 
 // --- values that last
@@ -361,8 +369,7 @@ MonoTime ClusterNode::tick(MonoTime now) {
   }
   peers_.advance(now);
   for (const ServerId server : peers_.ask(now))
-    send(cluster::server_subject(server),
-         cluster::ClockQuestion{options_.id, now.since_zero_us()});
+    send(cluster::server_subject(server), cluster::ClockQuestion{options_.id, now.since_zero_us()});
   return std::min(next_beat_, peers_.questions_due());
 }
 

@@ -76,6 +76,9 @@ class ClusterNode final : public ClusterPort {
                 const wire::State& state) override;
   void on_feedback(ServerId to, const ServerRoom& room, const ServerGuest& guest,
                    const RemoteFeedback& feedback) override;
+  void on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
+               const FilePart& part) override;
+  bool is_clear() const override { return bus_.is_clear(); }
 
  private:
   // What the lasting values say of a room with links here.
@@ -103,6 +106,7 @@ class ClusterNode final : public ClusterPort {
   void take(const cluster::Beat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);
   void take(const cluster::FeedbackMessage& message, MonoTime now);
+  void take(const cluster::FileMessage& message, MonoTime now);
   void take_presence(Room& room, const cluster::Key& key, const cluster::PresenceValue* value,
                      MonoTime now);
   void take_guest(Room& room, const cluster::Key& key, const cluster::GuestValue* value,

@@ -126,9 +126,13 @@ void ClusterNode::on_feedback(ServerId to, const ServerRoom& room, const ServerG
   if (pending->message.entries.is_full()) flush(*pending);
 }
 
+void ClusterNode::on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
+                          const FilePart& part) {
+  send(cluster::server_subject(to), cluster::FileMessage{options_.id, room.name, guest.id, part});
+}
+
 void ClusterNode::flush(Pending& pending) {
-  if (!pending.message.entries.empty())
-    send(cluster::server_subject(pending.to), pending.message);
+  if (!pending.message.entries.empty()) send(cluster::server_subject(pending.to), pending.message);
   pending.message.entries.clear();
 }
 

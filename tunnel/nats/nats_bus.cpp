@@ -77,6 +77,7 @@ class ConnectedNatsBus final : public NatsBus {
   void end_turn(MonoTime now) override {
     if (messages_) messages_->end_turn(now);
   }
+  bool is_clear() const override { return messages_ && messages_->is_clear(); }
   void put(std::string_view key, Bytes value) override { values_->put(key, value); }
   void erase(std::string_view key) override { values_->erase(key); }
   void watch(std::string_view keys) override { values_->watch(keys); }

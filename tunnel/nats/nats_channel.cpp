@@ -50,8 +50,8 @@ Result<void> NatsChannel::start_tls(const NatsOptions& options, const std::strin
   if (!context) return fail("TLS: no memory");
   SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
   SSL_CTX_set_verify(context.get(), SSL_VERIFY_PEER, nullptr);
-  SSL_CTX_set_mode(context.get(), SSL_MODE_ENABLE_PARTIAL_WRITE |
-                                      SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
+  SSL_CTX_set_mode(context.get(),
+                   SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
   if (auto used = use_papers(context.get(), options); !used) return used;
   tls_.reset(SSL_new(context.get()));
   if (!tls_ || SSL_set_fd(tls_.get(), socket_.fd()) != 1 || !expect_host(tls_.get(), host))
@@ -61,10 +61,10 @@ Result<void> NatsChannel::start_tls(const NatsOptions& options, const std::strin
     if (done == 1) return {};
     const int error = SSL_get_error(tls_.get(), done);
     const Duration left = end - mono_now();
-    const bool went_on = left > Duration() && (error == SSL_ERROR_WANT_READ
-                                                   ? socket_.wait_for_bytes(left)
-                                                   : error == SSL_ERROR_WANT_WRITE &&
-                                                         socket_.wait_for_room(left));
+    const bool went_on =
+        left > Duration() && (error == SSL_ERROR_WANT_READ
+                                  ? socket_.wait_for_bytes(left)
+                                  : error == SSL_ERROR_WANT_WRITE && socket_.wait_for_room(left));
     if (!went_on) return fail("no TLS: " + tls_reason(tls_.get()));
   }
 }

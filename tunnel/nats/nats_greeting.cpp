@@ -87,8 +87,7 @@ Result<void> add_credentials(const NatsOptions& options, const std::string& nonc
   DANCE_TRY(auto credentials, read_credentials(options.credentials));
   unsigned char* signature = nullptr;
   int size = 0;
-  const natsStatus status =
-      nats_Sign(credentials.second.c_str(), nonce.c_str(), &signature, &size);
+  const natsStatus status = nats_Sign(credentials.second.c_str(), nonce.c_str(), &signature, &size);
   OPENSSL_cleanse(credentials.second.data(), credentials.second.size());
   if (status != NATS_OK)
     return fail("--cluster-credentials " + printable(options.credentials) + ": no seed of a user");
@@ -144,9 +143,9 @@ class Greeter {
 Result<std::string> introduction(const NatsOptions& options, const NatsUrl& parts,
                                  const nlohmann::json& info, bool is_tls) {
   // Its own messages would come back.
-  nlohmann::json said{{"verbose", false},  {"pedantic", false},       {"echo", false},
-                      {"protocol", 1},     {"headers", false},        {"tls_required", is_tls},
-                      {"lang", "c++"},     {"version", "dancegraph"}, {"name", options.name}};
+  nlohmann::json said{{"verbose", false}, {"pedantic", false},       {"echo", false},
+                      {"protocol", 1},    {"headers", false},        {"tls_required", is_tls},
+                      {"lang", "c++"},    {"version", "dancegraph"}, {"name", options.name}};
   if (parts.password) {
     said["user"] = parts.user;
     said["pass"] = *parts.password;
@@ -174,7 +173,8 @@ Result<NatsGreeted> greet_at(const NatsOptions& options, const NatsUrl& parts) {
                                   : nlohmann::json(nlohmann::json::value_t::discarded);
   if (!info.is_object()) return fail("is no NATS server");
   const auto asks = info.find("tls_required");
-  const bool is_tls = parts.is_tls || (asks != info.end() && asks->is_boolean() && asks->get<bool>());
+  const bool is_tls =
+      parts.is_tls || (asks != info.end() && asks->is_boolean() && asks->get<bool>());
   if (is_tls)
     if (auto started = channel.start_tls(options, parts.host, kConnects); !started)
       return tl::make_unexpected(started.error());

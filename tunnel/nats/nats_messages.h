@@ -52,6 +52,8 @@ class NatsMessages {
   void flush(Duration longest);
 
   bool is_connected() const { return channel_.has_value(); }
+  // Nothing of earlier turns waits for the NATS server.
+  bool is_clear() const { return channel_.has_value() && !write_again_.is_set(); }
   const Counters& counters() const { return counters_; }
 
  private:

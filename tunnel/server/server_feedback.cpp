@@ -130,8 +130,7 @@ void ServerFeedback::schedule(std::size_t index, MonoTime now) {
   const ServerSession& session = server_.sessions[index];
   if (session.is_remote())
     return schedule(index, next_remote_turn(now), Duration(), kRemoteFeedbackTurn / 2);
-  schedule(index, now, kWaitsForCompany,
-           session.bears_losses ? kCleanFeedbackGap : kFeedbackGap);
+  schedule(index, now, kWaitsForCompany, session.bears_losses ? kCleanFeedbackGap : kFeedbackGap);
 }
 
 // Not before `at`, and not more often than senders can make use of; alone when it has waited so
