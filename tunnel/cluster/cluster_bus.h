@@ -36,6 +36,10 @@ class ClusterBus {
   virtual void publish(std::string_view subject, Bytes message) = 0;
   virtual void listen(std::string_view subject) = 0;
   virtual void end_listen(std::string_view subject) = 0;
+  // What was published in this turn of the owner goes out, if it has not.
+  virtual void end_turn(MonoTime) {}
+  // Whether all that was published in earlier turns has gone out.
+  virtual bool is_clear() const { return true; }
 
   virtual void put(std::string_view key, Bytes value) = 0;
   virtual void erase(std::string_view key) = 0;

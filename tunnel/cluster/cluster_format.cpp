@@ -14,7 +14,8 @@ enum class Type : std::uint8_t {
   kClockQuestion = 2,
   kClockAnswer = 3,
   kRecord = 4,
-  kFeedback = 5,
+  kFeedback = 5,  // 6: cluster_bundle.h
+  kFile = 7,
   kPresence = 16,
   kGuest = 17,
   kState = 18,
@@ -216,6 +217,45 @@ std::optional<Message> read_feedback(ByteReader& in) {
   return message;
 }
 
+// As between server and links, with the slot 0.
+void write(const FileMessage& message, ByteWriter& out) {
+  begin(Type::kFile, out);
+  out.u64(message.server);
+  write_name(message.room, out);
+  write_name(message.guest, out);
+  std::array<std::uint8_t, wire::kMaxPlain> datagram;
+  const std::size_t size = std::visit(
+      [&](auto part) {
+        part.file.slot = wire::Slot();
+        return wire::build(part, datagram);
+      },
+      message.part);
+  out.bytes(std::span(datagram).first(size));
+}
+template <class Part>
+bool take_part_of_file(const std::optional<Part>& part, FilePart& into) {
+  if (!part || part->file.slot != wire::Slot()) return false;
+  into = *part;
+  return true;
+}
+std::optional<Message> read_file(ByteReader& in) {
+  FileMessage message;
+  if (!read_server(in, message.server) || !read_set_name(in, message.room) ||
+      !read_set_name(in, message.guest))
+    return std::nullopt;
+  const auto type = static_cast<wire::Type>(in.u8());
+  const Bytes body = in.bytes(in.remaining());
+  const bool is_good = type == wire::Type::kFileWant
+                           ? take_part_of_file(wire::parse_file_want(body), message.part)
+                       : type == wire::Type::kFileChunk
+                           ? take_part_of_file(wire::parse_file_chunk(body), message.part)
+                       : type == wire::Type::kFileRefusal
+                           ? take_part_of_file(wire::parse_file_refusal(body), message.part)
+                           : false;
+  if (!in.ok() || !is_good) return std::nullopt;
+  return message;
+}
+
 void write(const PresenceValue& value, ByteWriter& out) {
   begin(Type::kPresence, out);
   out.u64(value.server);
@@ -309,6 +349,9 @@ std::optional<Message> parse_message(Bytes bytes) {
       break;
     case Type::kFeedback:
       message = read_feedback(in);
+      break;
+    case Type::kFile:
+      message = read_file(in);
       break;
     default:
       return std::nullopt;

@@ -17,8 +17,9 @@
 namespace dance::cluster {
 
 constexpr std::uint8_t kClusterVersion = 1;
-// No message and no value is longer.
+// No message and no value is longer; nor several messages in one (cluster_bundle.h).
 constexpr std::size_t kMaxBytes = 2048;
+constexpr std::size_t kMaxBundle = 8192;
 using Bytes = wire::Bytes;
 
 // A server lives; several times a second, to all.
@@ -64,7 +65,16 @@ struct FeedbackMessage {
   FixedList<FeedbackEntry, kMaxFeedbackEntries> entries;
 };
 
-using Message = std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage>;
+// About the file of a guest's avatar, for the server through which the guest came, or from it.
+struct FileMessage {
+  ServerId server = 0;
+  wire::RoomName room;
+  GuestId guest;
+  FilePart part;  // without its slot
+};
+
+using Message =
+    std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage, FileMessage>;
 std::size_t build(const Message& message, std::span<std::uint8_t> out);
 std::optional<Message> parse_message(Bytes bytes);
 

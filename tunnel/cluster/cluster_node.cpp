@@ -56,6 +56,12 @@ void ClusterNode::on_message(std::string_view subject, cluster::Bytes bytes, Mon
   now_ = now;
   ++counters_.messages_in;
   counters_.bytes_in += bytes.size();
+  cluster::BundleReader bundle(bytes);
+  while (const auto part = bundle.next()) take(subject, *part, now);
+  if (!bundle.is_good()) ++counters_.malformed;
+}
+
+void ClusterNode::take(std::string_view subject, cluster::Bytes bytes, MonoTime now) {
   const auto message = cluster::parse_message(bytes);
   if (!message) {
     ++counters_.malformed;
@@ -78,6 +84,8 @@ void ClusterNode::on_message(std::string_view subject, cluster::Bytes bytes, Mon
     peers_.take(*answer, now);
   } else if (const auto* feedback = std::get_if<cluster::FeedbackMessage>(&*message)) {
     take(*feedback, now);
+  } else if (const auto* file = std::get_if<cluster::FileMessage>(&*message)) {
+    take(*file, now);
   }
 }
 
@@ -96,7 +104,7 @@ void ClusterNode::take(const cluster::ClockQuestion& question, MonoTime now) {
   answer.server = options_.id;
   answer.asked_us = question.asked_us;
   answer.received_us = answer.sent_us = clock().to_session(now).since_zero_us();
-  send(cluster::server_subject(question.server).view(), answer);
+  send(cluster::server_subject(question.server), answer);
 }
 
 void ClusterNode::take(const cluster::FeedbackMessage& message, MonoTime now) {
@@ -104,6 +112,12 @@ void ClusterNode::take(const cluster::FeedbackMessage& message, MonoTime now) {
   for (const cluster::FeedbackEntry& entry : message.entries)
     server_->remotes().on_feedback(message.room, message.server, entry.guest, entry.feedback,
                                    clock().to_session(now));
+}
+
+void ClusterNode::take(const cluster::FileMessage& message, MonoTime now) {
+  if (server_ == nullptr || message.server == options_.id) return;
+  server_->remotes().on_file(message.room, message.server, message.guest, message.part,
+                             clock().to_session(now));
 }
 
 // --- values that last
@@ -355,8 +369,7 @@ MonoTime ClusterNode::tick(MonoTime now) {
   }
   peers_.advance(now);
   for (const ServerId server : peers_.ask(now))
-    send(cluster::server_subject(server).view(),
-         cluster::ClockQuestion{options_.id, now.since_zero_us()});
+    send(cluster::server_subject(server), cluster::ClockQuestion{options_.id, now.since_zero_us()});
   return std::min(next_beat_, peers_.questions_due());
 }
 
@@ -370,11 +383,14 @@ void ClusterNode::beat(bool is_leaving) {
     beat.links = static_cast<std::uint32_t>(server_->session_count());
     beat.guests = static_cast<std::uint32_t>(server_->guest_count());
   }
-  send(cluster::beat_subject().view(), beat);
+  send(cluster::beat_subject(), beat);
 }
 
 // Its guests stay where they are shown until they have come back through another server, or have
 // not for long.
-void ClusterNode::leave() { beat(true); }
+void ClusterNode::leave() {
+  beat(true);
+  flush_bundle();
+}
 
 }  // namespace dance

@@ -15,6 +15,7 @@
 #include <set>
 #include <vector>
 
+#include "tunnel/cluster/cluster_bundle.h"
 #include "tunnel/cluster/cluster_bus.h"
 #include "tunnel/cluster/cluster_format.h"
 #include "tunnel/cluster/cluster_names.h"
@@ -75,6 +76,9 @@ class ClusterNode final : public ClusterPort {
                 const wire::State& state) override;
   void on_feedback(ServerId to, const ServerRoom& room, const ServerGuest& guest,
                    const RemoteFeedback& feedback) override;
+  void on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
+               const FilePart& part) override;
+  bool is_clear() const override { return bus_.is_clear(); }
 
  private:
   // What the lasting values say of a room with links here.
@@ -95,12 +99,14 @@ class ClusterNode final : public ClusterPort {
   };
 
   void on_message(std::string_view subject, cluster::Bytes bytes, MonoTime now);
+  void take(std::string_view subject, cluster::Bytes bytes, MonoTime now);
   void on_value(std::string_view key, std::optional<cluster::Bytes> bytes, MonoTime now);
   void on_all_read(std::string_view key);
   void on_back(MonoTime now);
   void take(const cluster::Beat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);
   void take(const cluster::FeedbackMessage& message, MonoTime now);
+  void take(const cluster::FileMessage& message, MonoTime now);
   void take_presence(Room& room, const cluster::Key& key, const cluster::PresenceValue* value,
                      MonoTime now);
   void take_guest(Room& room, const cluster::Key& key, const cluster::GuestValue* value,
@@ -125,7 +131,9 @@ class ClusterNode final : public ClusterPort {
   void erase(const cluster::Key& key);
   void put_presence(const wire::RoomName& room);
   void put_guest(const wire::RoomName& room, const GuestId& guest);
-  void send(std::string_view subject, const cluster::Message& message);
+  // What comes one after the other for one subject goes as one.
+  void send(const cluster::Text& subject, const cluster::Message& message);
+  void flush_bundle();
   void flush(Pending& pending);
 
   Options options_;
@@ -134,6 +142,8 @@ class ClusterNode final : public ClusterPort {
   ClusterPeers peers_;
   std::map<wire::RoomName, Room> rooms_;
   std::vector<Pending> pending_;
+  cluster::Text bundle_subject_;
+  cluster::BundleWriter bundle_;
   MonoTime now_;  // of the newest call that said so
   MonoTime begun_;
   MonoTime next_beat_;

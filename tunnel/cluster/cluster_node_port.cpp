@@ -86,7 +86,7 @@ void ClusterNode::on_wanted(const ServerRoom& room, const ServerGuest& guest, bo
 void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
                             const wire::Record& record) {
   ++counters_.records_out;
-  send(cluster::pose_subject(room.name, guest.id).view(),
+  send(cluster::pose_subject(room.name, guest.id),
        cluster::RecordMessage{options_.id, guest.link_token, record});
 }
 
@@ -126,24 +126,41 @@ void ClusterNode::on_feedback(ServerId to, const ServerRoom& room, const ServerG
   if (pending->message.entries.is_full()) flush(*pending);
 }
 
+void ClusterNode::on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
+                          const FilePart& part) {
+  send(cluster::server_subject(to), cluster::FileMessage{options_.id, room.name, guest.id, part});
+}
+
 void ClusterNode::flush(Pending& pending) {
-  if (!pending.message.entries.empty())
-    send(cluster::server_subject(pending.to).view(), pending.message);
+  if (!pending.message.entries.empty()) send(cluster::server_subject(pending.to), pending.message);
   pending.message.entries.clear();
 }
 
 void ClusterNode::end_turn(MonoTime now) {
   now_ = now;
-  for (Pending& pending : pending_) flush(pending);
+  // One server's after the other, whatever room they are about.
+  for (std::size_t i = 0; i < pending_.size(); ++i)
+    for (std::size_t k = i; k < pending_.size(); ++k)
+      if (pending_[k].to == pending_[i].to) flush(pending_[k]);
   pending_.clear();
+  flush_bundle();
+  bus_.end_turn(now);
 }
 
-void ClusterNode::send(std::string_view subject, const cluster::Message& message) {
-  const std::size_t size = cluster::build(message, buffer_);
-  DANCE_ASSERT(size > 0);
+void ClusterNode::send(const cluster::Text& subject, const cluster::Message& message) {
+  if (subject == bundle_subject_ && bundle_.try_add(message)) return;
+  flush_bundle();
+  bundle_subject_ = subject;
+  const bool added = bundle_.try_add(message);
+  DANCE_ASSERT(added);
+}
+
+void ClusterNode::flush_bundle() {
+  if (bundle_.is_empty()) return;
   ++counters_.messages_out;
-  counters_.bytes_out += size;
-  bus_.publish(subject, {buffer_.data(), size});
+  counters_.bytes_out += bundle_.bytes().size();
+  bus_.publish(bundle_subject_.view(), bundle_.bytes());
+  bundle_.clear();
 }
 
 void ClusterNode::put(const cluster::Key& key, const cluster::Value& value) {

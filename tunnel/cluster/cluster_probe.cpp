@@ -33,6 +33,7 @@ MonoTime ClusterProbe::tick(MonoTime now) {
     DANCE_ASSERT(size > 0);
     bus_.publish(cluster::server_subject(server).view(), {buffer.data(), size});
   }
+  bus_.end_turn(now);
   return now + kProbeQuestions;
 }
 

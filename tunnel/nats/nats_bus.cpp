@@ -4,13 +4,13 @@
 #include <mutex>
 
 #include "tunnel/nats/nats_connection.h"
-#include "tunnel/nats/nats_sender.h"
+#include "tunnel/nats/nats_messages.h"
 #include "tunnel/nats/nats_values.h"
 
 namespace dance {
 namespace {
 
-constexpr auto kFlush = std::chrono::milliseconds(500);
+constexpr Duration kFlush = Duration::ms(500);
 
 // What the library's threads see of a bus. They may still be in a callback when it ends, and nobody
 // can wait for that: so it stays for the process's life.
@@ -38,7 +38,7 @@ class ConnectedNatsBus final : public NatsBus {
  public:
   explicit ConnectedNatsBus(Poller& poller) : poller_(poller), shared_(Shared::make()) {}
   ~ConnectedNatsBus() override {
-    if (sender_) poller_.unwatch(shared_.inbox.fd());
+    if (values_) poller_.unwatch(shared_.inbox.fd());
     shared_.set_values(nullptr);
     // What waits for an answer is told that there will be none.
     if (connection_) natsConnection_Close(connection_.get());
@@ -49,36 +49,57 @@ class ConnectedNatsBus final : public NatsBus {
                                                   &ConnectedNatsBus::on_error, &shared_}));
     natsConnection* connection = connection_.get();
     DANCE_TRY(values_, NatsValues::open(connection, shared_.inbox, options));
-    sender_ = std::make_unique<NatsSender>(connection, shared_.inbox);
     shared_.set_values(values_.get());
     poller_.watch(shared_.inbox.fd(), [this](MonoTime now) { on_readable(now); });
+    if (options.only_values) return {};
+    NatsMessages::Handlers on;
+    on.on_message = [this](std::string_view subject, Bytes message, MonoTime now) {
+      handlers_.on_message(subject, message, now);
+    };
+    on.after_batch = [this](MonoTime now) {
+      if (after_) after_(now);
+    };
+    on.on_back = [this](MonoTime now) {
+      shared_.reconnects.fetch_add(1, std::memory_order_relaxed);
+      handlers_.on_back(now);
+    };
+    DANCE_TRY(messages_, NatsMessages::connect(options, poller_, std::move(on)));
     return {};
   }
 
   void set_handlers(Handlers handlers) override { handlers_ = std::move(handlers); }
   void set_after_batch(std::function<void(MonoTime)> work) override { after_ = std::move(work); }
   void publish(std::string_view subject, Bytes message) override {
-    sender_->publish(subject, message);
+    messages_->publish(subject, message);
   }
-  void listen(std::string_view subject) override { sender_->listen(subject); }
-  void end_listen(std::string_view subject) override { sender_->end_listen(subject); }
+  void listen(std::string_view subject) override { messages_->listen(subject); }
+  void end_listen(std::string_view subject) override { messages_->end_listen(subject); }
+  void end_turn(MonoTime now) override {
+    if (messages_) messages_->end_turn(now);
+  }
+  bool is_clear() const override { return messages_ && messages_->is_clear(); }
   void put(std::string_view key, Bytes value) override { values_->put(key, value); }
   void erase(std::string_view key) override { values_->erase(key); }
   void watch(std::string_view keys) override { values_->watch(keys); }
   void end_watch(std::string_view keys) override { values_->end_watch(keys); }
   void flush() override {
-    sender_->flush(kFlush);
-    values_->flush(kFlush);
+    if (messages_) messages_->flush(kFlush);
+    values_->flush(std::chrono::milliseconds(kFlush.count_ms()));
   }
 
   Counters counters() const override {
     Counters counters;
     counters.dropped_in = shared_.inbox.dropped();
-    counters.dropped_out = sender_->dropped();
+    if (messages_) {
+      counters.dropped_in += messages_->counters().dropped_in;
+      counters.dropped_out = messages_->counters().dropped_out;
+    }
     counters.failed_values = values_->failed();
     counters.unwritten_values = values_->unwritten();
     counters.reconnects = shared_.reconnects.load(std::memory_order_relaxed);
-    counters.is_connected = natsConnection_Status(connection_.get()) == NATS_CONN_STATUS_CONNECTED;
+    counters.is_connected =
+        natsConnection_Status(connection_.get()) == NATS_CONN_STATUS_CONNECTED &&
+        (!messages_ || messages_->is_connected());
     return counters;
   }
 
@@ -104,14 +125,11 @@ class ConnectedNatsBus final : public NatsBus {
       }
       const Bytes bytes(reinterpret_cast<const std::uint8_t*>(natsMsg_GetData(message)),
                         static_cast<std::size_t>(natsMsg_GetDataLength(message)));
-      if (item.kind == NatsInbox::Kind::kMessage)
-        handlers_.on_message(natsMsg_GetSubject(message), bytes, now);
-      else if (NatsValues::is_erased(message))
+      if (NatsValues::is_erased(message))
         handlers_.on_value(values_->key_of(message), std::nullopt, now);
       else
         handlers_.on_value(values_->key_of(message), bytes, now);
-      if (item.kind == NatsInbox::Kind::kValue && NatsValues::is_last(message))
-        handlers_.on_all_read(values_->key_of(message), now);
+      if (NatsValues::is_last(message)) handlers_.on_all_read(values_->key_of(message), now);
     }
     if (shared_.inbox.take_missed_value()) values_->renew();
     if (after_) after_(now);
@@ -123,7 +141,7 @@ class ConnectedNatsBus final : public NatsBus {
   std::function<void(MonoTime)> after_;
   NatsHandle<natsConnection> connection_;
   std::unique_ptr<NatsValues> values_;
-  std::unique_ptr<NatsSender> sender_;
+  std::unique_ptr<NatsMessages> messages_;
 };
 
 }  // namespace

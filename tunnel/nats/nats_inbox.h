@@ -1,4 +1,4 @@
-// What came from NATS, from the library's threads to the poller's.
+// Values that came from NATS, from the library's threads to the poller's.
 //
 // Units/frames: none.
 // Ownership:    owns what waits, and the descriptor that is readable while something does.
@@ -19,9 +19,9 @@ namespace dance {
 
 class NatsInbox {
  public:
-  enum class Kind : std::uint8_t { kMessage, kValue, kBack };
+  enum class Kind : std::uint8_t { kValue, kBack };
   struct Item {
-    Kind kind = Kind::kMessage;
+    Kind kind = Kind::kValue;
     NatsHandle<natsMsg> message;  // nullptr for kBack
   };
 

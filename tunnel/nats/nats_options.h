@@ -24,7 +24,8 @@ struct NatsOptions {
   std::string bucket = kClusterBucket;  // of values
   // What is not written again for so long goes, also what says that a key was erased; 0 = never.
   int lasts_s = 0;
-  int replicas = 0;  // of each value; 0 = 3 where three servers are named, else 1
+  int replicas = 0;          // of each value; 0 = 3 where three servers are named, else 1
+  bool only_values = false;  // no messages: their connection is not made
 };
 
 // "nats://a:4222,nats://b:4222" → its parts; a part without a scheme gets one.

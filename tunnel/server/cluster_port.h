@@ -9,8 +9,10 @@
 #pragma once
 
 #include <cstdint>
+#include <variant>
 
 #include "tunnel/session/reference_control.h"
+#include "tunnel/wire/wire_files.h"
 #include "tunnel/wire/wire_state.h"
 
 namespace dance {
@@ -37,6 +39,10 @@ struct RemoteFeedback {
   CommonFrames frames;  // their streams without the guest's generation
 };
 
+// What servers tell each other about the file of a guest's avatar. The slot in its name is that of
+// whoever holds it: servers name the guest.
+using FilePart = std::variant<wire::FileWant, wire::FileChunk, wire::FileRefusal>;
+
 class ClusterPort {
  public:
   virtual ~ClusterPort() = default;
@@ -60,6 +66,11 @@ class ClusterPort {
   // For the server `to`, about its guest.
   virtual void on_feedback(ServerId to, const ServerRoom& room, const ServerGuest& guest,
                            const RemoteFeedback& feedback) = 0;
+  // For the server `to`: of its guest's file what is wanted, or of this one's guest a part of it.
+  virtual void on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
+                       const FilePart& part) = 0;
+  // Whether nothing waits on the way to other servers: files go only then.
+  virtual bool is_clear() const = 0;
 };
 
 }  // namespace dance

@@ -334,6 +334,7 @@ std::optional<std::size_t> ServerAdmission::open_remote(std::size_t room_index, 
   free->in_use = true;
   free->room = room_index;
   free->remote = static_cast<std::size_t>(place - server_.remotes.begin());
+  free->epoch = new_epoch();
   free->last_heard = now;
   const auto index = static_cast<std::size_t>(free - server_.sessions.begin());
   room.members.push_back(index);

@@ -93,7 +93,7 @@ class ServerCore {
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerAdmission admission_;
   ServerFiles files_{server_};
-  ServerRemotes remotes_{server_, slots_, admission_, forwarder_, feedback_, states_};
+  ServerRemotes remotes_{server_, slots_, admission_, forwarder_, feedback_, states_, files_};
   MonoTime next_sweep_;
   std::uint64_t sweeps_ = 0;
 };

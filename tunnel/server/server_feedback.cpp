@@ -11,8 +11,8 @@ namespace dance {
 namespace {
 
 constexpr Duration kFeedbackGap = Duration::ms(4);
-// To another server, about all of its guests at once.
-constexpr Duration kRemoteFeedbackGap = Duration::ms(10);
+// To another server at these times, about its guests in all rooms at once.
+constexpr Duration kRemoteFeedbackTurn = Duration::ms(20);
 // To who may refer to what is lost as well: just so often that silence tells of a cut.
 constexpr Duration kCleanFeedbackGap = Duration::ms(50);
 // Poses of others come by to go along with; not worth a datagram of its own before.
@@ -41,6 +41,11 @@ std::uint16_t in_65536ths(float ratio) {
   return static_cast<std::uint16_t>(std::lround(ratio * 65535.0f));
 }
 float ratio_of(std::uint16_t in_65536ths) { return static_cast<float>(in_65536ths) / 65535.0f; }
+
+MonoTime next_remote_turn(MonoTime now) {
+  const std::int64_t turn_ns = kRemoteFeedbackTurn.count_ns();
+  return MonoTime::from_ns((now.since_zero_ns() / turn_ns + 1) * turn_ns);
+}
 
 bool wants_any_of(const ServerSession& receiver, const ServerSession& sender) {
   return std::any_of(sender.slots.begin(), sender.slots.end(),
@@ -123,10 +128,9 @@ void ServerFeedback::repeat(std::size_t index, MonoTime now) {
 
 void ServerFeedback::schedule(std::size_t index, MonoTime now) {
   const ServerSession& session = server_.sessions[index];
-  const Duration gap = session.bears_losses  ? kCleanFeedbackGap
-                       : session.is_remote() ? kRemoteFeedbackGap
-                                             : kFeedbackGap;
-  schedule(index, now, kWaitsForCompany, gap);
+  if (session.is_remote())
+    return schedule(index, next_remote_turn(now), Duration(), kRemoteFeedbackTurn / 2);
+  schedule(index, now, kWaitsForCompany, session.bears_losses ? kCleanFeedbackGap : kFeedbackGap);
 }
 
 // Not before `at`, and not more often than senders can make use of; alone when it has waited so

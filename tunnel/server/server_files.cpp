@@ -1,6 +1,7 @@
 #include "tunnel/server/server_files.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "tunnel/wire/state_bytes.h"
 
@@ -22,12 +23,8 @@ constexpr double kSecondsForAnother = 600.0;
 // To one session never two at once; to all together a few.
 constexpr double kBurstOfSession = wire::kFileChunkCost;
 constexpr double kBurstOfAll = 16.0 * wire::kFileChunkCost;
-
-template <class Message>
-void send(ServerContext& server, std::size_t session, const Message& message) {
-  std::array<std::uint8_t, wire::kMaxPlain> out;
-  server.send(server.sessions[session].peer, {out.data(), wire::build(message, out)});
-}
+// To another server of the cluster, and from it: what all of its links want, once.
+constexpr double kBetweenServers = 512e3;
 
 // What that guest has chosen, as its house has said it; nullopt = nothing.
 std::optional<AvatarFile> chosen_by(const ServerGuest& guest) {
@@ -47,6 +44,20 @@ ServerFiles::ServerFiles(ServerContext& server)
   waiting_.reserve(server.limits.sessions);
 }
 
+// To a link as a datagram, to another server through the cluster.
+template <class Message>
+void ServerFiles::send(std::size_t index, const Message& message) {
+  const ServerSession& session = server_.sessions[index];
+  if (!session.is_remote()) {
+    std::array<std::uint8_t, wire::kMaxPlain> out;
+    server_.send(session.peer, {out.data(), wire::build(message, out)});
+  } else if constexpr (!std::is_same_v<Message, wire::FileTerms>) {
+    if (const ServerGuest* guest = guest_in(session.room, message.file.slot))
+      server_.cluster->on_file(server_.remotes[session.remote].server, server_.rooms[session.room],
+                               *guest, message);
+  }
+}
+
 void ServerFiles::wake(MonoTime now) {
   if (!due_.is_set() || now < due_) due_ = now;
 }
@@ -57,6 +68,8 @@ ServerFiles::Receiver& ServerFiles::receiver(std::size_t session) {
   if (known.epoch == server_.sessions[session].epoch) return known;
   known = Receiver();
   known.epoch = server_.sessions[session].epoch;
+  if (server_.sessions[session].is_remote())
+    known.pace = FilePace(kBetweenServers, kBurstOfSession);
   return known;
 }
 
@@ -80,7 +93,7 @@ bool ServerFiles::on_terms(std::size_t session, wire::Bytes body) {
         std::min(to.bytes_per_second * 1.1, server_.limits.file_bytes_per_second_of_session),
         kBurstOfSession);
   const double most = server_.limits.file_bytes_per_second_of_session;
-  send(server_, session, wire::FileTerms{static_cast<std::uint32_t>(most)});
+  send(session, wire::FileTerms{static_cast<std::uint32_t>(most)});
   return is_new;
 }
 
@@ -155,11 +168,13 @@ std::size_t ServerFiles::bytes_of_owner(std::size_t session) const {
 bool ServerFiles::make_room(std::size_t owner, std::uint32_t size_bytes, MonoTime now) {
   const auto& limits = server_.limits;
   if (size_bytes > limits.file_bytes_per_session || size_bytes > limits.file_bytes) return false;
+  // A server's own links are bounded there.
+  const bool is_bounded = !server_.sessions[owner].is_remote();
   const auto of_owner = [&](const File& it) {
     const ServerGuest* guest = guest_in(it.room, it.name.slot);
     return guest != nullptr && guest->owner == owner;
   };
-  while (bytes_of_owner(owner) + size_bytes > limits.file_bytes_per_session)
+  while (is_bounded && bytes_of_owner(owner) + size_bytes > limits.file_bytes_per_session)
     if (!evict(of_owner, now)) return false;
   while (size_bytes_ + size_bytes > limits.file_bytes)
     if (!evict([](const File&) { return true; }, now)) return false;
@@ -169,7 +184,7 @@ bool ServerFiles::make_room(std::size_t owner, std::uint32_t size_bytes, MonoTim
 void ServerFiles::refuse(std::size_t session, const wire::FileName& name,
                          wire::FileRefusalCause cause) {
   ++server_.counters.file_refusals;
-  send(server_, session, wire::FileRefusal{name, cause});
+  send(session, wire::FileRefusal{name, cause});
 }
 
 void ServerFiles::refuse_all(std::size_t room, const wire::FileName& name,
@@ -187,23 +202,29 @@ void ServerFiles::refuse_all(std::size_t room, const wire::FileName& name,
 void ServerFiles::on_want(std::size_t session, wire::Bytes body, MonoTime now) {
   const auto want = wire::parse_file_want(body);
   if (!want) return server_.reject(ServerReject::kMalformed);
+  if (!server_.sessions[session].knows_files()) return server_.reject(ServerReject::kForeignSlot);
+  take(session, *want, now);
+}
+
+void ServerFiles::take(std::size_t session, const wire::FileWant& want, MonoTime now) {
   const ServerSession& from = server_.sessions[session];
-  const ServerGuest* guest = guest_in(from.room, want->file.slot);
-  if (!from.knows_files() || guest == nullptr || guest->owner == session)
+  const ServerGuest* guest = guest_in(from.room, want.file.slot);
+  // One server does not ask another for what a third one has.
+  if (guest == nullptr || guest->owner == session ||
+      (from.is_remote() && !server_.is_local(*guest)))
     return server_.reject(ServerReject::kForeignSlot);
-  if (!server_.sessions[guest->owner].knows_files() ||
-      receiver(guest->owner).bytes_per_second <= 0.0)
-    return refuse(session, want->file, wire::FileRefusalCause::kNoFiles);
+  if (server_.limits.file_bytes == 0 || rate_of(guest->owner) <= 0.0)
+    return refuse(session, want.file, wire::FileRefusalCause::kNoFiles);
   const auto chosen = chosen_by(*guest);
-  if (!chosen || chosen->hash != want->file.hash)
-    return refuse(session, want->file, wire::FileRefusalCause::kNotOffered);
+  if (!chosen || chosen->hash != want.file.hash)
+    return refuse(session, want.file, wire::FileRefusalCause::kNotOffered);
   const File* file =
-      find_or_add(from.room, want->file, static_cast<std::uint32_t>(chosen->size_bytes), now);
-  if (file == nullptr) return refuse(session, want->file, wire::FileRefusalCause::kFull);
+      find_or_add(from.room, want.file, static_cast<std::uint32_t>(chosen->size_bytes), now);
+  if (file == nullptr) return refuse(session, want.file, wire::FileRefusalCause::kFull);
   Receiver& to = receiver(session);
   for (std::size_t i = 0; i < wire::kChunksPerWant; ++i) {
-    const Queued queued{want->file, static_cast<std::uint16_t>(want->first + i)};
-    if (!want->has(queued.index) || queued.index >= file->chunks.chunks()) continue;
+    const Queued queued{want.file, static_cast<std::uint16_t>(want.first + i)};
+    if (!want.has(queued.index) || queued.index >= file->chunks.chunks()) continue;
     // What does not fit is asked for again.
     if (!to.queue.contains(queued) && !to.queue.try_push(queued)) break;
   }
@@ -215,20 +236,24 @@ void ServerFiles::on_want(std::size_t session, wire::Bytes body, MonoTime now) {
 void ServerFiles::on_chunk(std::size_t session, wire::Bytes body, MonoTime now) {
   const auto chunk = wire::parse_file_chunk(body);
   if (!chunk) return server_.reject(ServerReject::kMalformed);
-  const ServerGuest* guest = server_.guest_of(session, chunk->file.slot.slot);
-  if (guest == nullptr || guest->generation != chunk->file.slot.generation)
+  take(session, *chunk, now);
+}
+
+void ServerFiles::take(std::size_t session, const wire::FileChunk& chunk, MonoTime now) {
+  const ServerGuest* guest = server_.guest_of(session, chunk.file.slot.slot);
+  if (guest == nullptr || guest->generation != chunk.file.slot.generation)
     return server_.reject(ServerReject::kForeignSlot);
   const std::size_t room = server_.sessions[session].room;
-  File* file = find(room, chunk->file);
-  if (file == nullptr || !file->asked.take(chunk->index).is_set())
+  File* file = find(room, chunk.file);
+  if (file == nullptr || !file->asked.take(chunk.index).is_set())
     return server_.reject(ServerReject::kFileNotAsked);
-  if (file->chunks.size_bytes() != chunk->size_bytes) {
+  if (file->chunks.size_bytes() != chunk.size_bytes) {
     // Not the file that the guest has said: it will never be whole.
     file->asked.clear();
-    refuse_all(room, chunk->file, wire::FileRefusalCause::kNotOffered);
+    refuse_all(room, chunk.file, wire::FileRefusalCause::kNotOffered);
     return server_.reject(ServerReject::kFileNotAsked);
   }
-  if (file->chunks.put(chunk->index, chunk->data)) ++server_.counters.file_chunks_in;
+  if (file->chunks.put(chunk.index, chunk.data)) ++server_.counters.file_chunks_in;
   file->used = now;
   wake(now);
 }
@@ -236,13 +261,17 @@ void ServerFiles::on_chunk(std::size_t session, wire::Bytes body, MonoTime now) 
 void ServerFiles::on_refusal(std::size_t session, wire::Bytes body, MonoTime now) {
   const auto refusal = wire::parse_file_refusal(body);
   if (!refusal) return server_.reject(ServerReject::kMalformed);
-  const ServerGuest* guest = server_.guest_of(session, refusal->file.slot.slot);
+  take(session, *refusal, now);
+}
+
+void ServerFiles::take(std::size_t session, const wire::FileRefusal& refusal, MonoTime now) {
+  const ServerGuest* guest = server_.guest_of(session, refusal.file.slot.slot);
   const std::size_t room = server_.sessions[session].room;
-  File* file = find(room, refusal->file);
-  if (guest == nullptr || guest->generation != refusal->file.slot.generation || file == nullptr)
+  File* file = find(room, refusal.file);
+  if (guest == nullptr || guest->generation != refusal.file.slot.generation || file == nullptr)
     return server_.reject(ServerReject::kForeignSlot);
   file->asked.clear();
-  refuse_all(room, refusal->file, refusal->cause);
+  refuse_all(room, refusal.file, refusal.cause);
   wake(now);
 }
 
@@ -263,6 +292,7 @@ bool ServerFiles::serve(std::size_t session, MonoTime now) {
   Receiver& waits = receiver(session);
   // While records wait for this receiver, chunks do.
   if (!to.stream.bundle.is_empty()) return false;
+  if (to.is_remote() && !server_.cluster->is_clear()) return false;
   for (std::size_t i = 0; i < waits.queue.size(); ++i) {
     const Queued queued = waits.queue[i];
     File* file = find(to.room, queued.name);
@@ -285,17 +315,23 @@ bool ServerFiles::serve(std::size_t session, MonoTime now) {
     waits.queue.erase_at(i);
     file->used = now;
     ++server_.counters.file_chunks_out;
-    send(server_, session,
-         wire::FileChunk{file->name, file->chunks.size_bytes(), queued.index,
-                         file->chunks.chunk(queued.index)});
+    send(session, wire::FileChunk{file->name, file->chunks.size_bytes(), queued.index,
+                                  file->chunks.chunk(queued.index)});
     return true;
   }
   return false;
 }
 
+// At which a session sends what it is asked for; 0 = no files.
+double ServerFiles::rate_of(std::size_t session) {
+  const ServerSession& of = server_.sessions[session];
+  if (of.is_remote()) return kBetweenServers;
+  return of.knows_files() ? receiver(session).bytes_per_second : 0.0;
+}
+
 double ServerFiles::owner_rate(const File& file) {
   const ServerGuest* guest = guest_in(file.room, file.name.slot);
-  return guest != nullptr ? receiver(guest->owner).bytes_per_second : 0.0;
+  return guest != nullptr ? rate_of(guest->owner) : 0.0;
 }
 
 // Each chunk that somebody waits for and that is not here, once.
@@ -313,7 +349,7 @@ void ServerFiles::ask_owners(MonoTime now) {
 void ServerFiles::ask_owner(File& file, std::size_t owner, MonoTime now) {
   wire::FileWant want{file.name, 0, 0};
   const auto flush = [&] {
-    if (want.chunks != 0) send(server_, owner, want);
+    if (want.chunks != 0) send(owner, want);
     want.chunks = 0;
   };
   for (const std::size_t session : waiting_) {

@@ -31,6 +31,10 @@ class ServerFiles {
   void on_want(std::size_t session, wire::Bytes body, MonoTime now);
   void on_chunk(std::size_t session, wire::Bytes body, MonoTime now);
   void on_refusal(std::size_t session, wire::Bytes body, MonoTime now);
+  // What they hold; from another server of the cluster too, whose guests are fetched from it.
+  void take(std::size_t session, const wire::FileWant& want, MonoTime now);
+  void take(std::size_t session, const wire::FileChunk& chunk, MonoTime now);
+  void take(std::size_t session, const wire::FileRefusal& refusal, MonoTime now);
 
   // What is due; at the end of a turn.
   void send_due(MonoTime now);
@@ -78,6 +82,8 @@ class ServerFiles {
   std::size_t bytes_of_owner(std::size_t session) const;
   bool make_room(std::size_t owner, std::uint32_t size_bytes, MonoTime now);
   void forget(std::list<File>::iterator file);
+  template <class Message>
+  void send(std::size_t session, const Message& message);
   void refuse(std::size_t session, const wire::FileName& name, wire::FileRefusalCause cause);
   void refuse_all(std::size_t room, const wire::FileName& name, wire::FileRefusalCause cause);
   Receiver& receiver(std::size_t session);
@@ -85,6 +91,7 @@ class ServerFiles {
   bool serve(std::size_t session, MonoTime now);
   void ask_owners(MonoTime now);
   void ask_owner(File& file, std::size_t owner, MonoTime now);
+  double rate_of(std::size_t session);
   double owner_rate(const File& file);
   void wake(MonoTime now);
 

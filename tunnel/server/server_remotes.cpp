@@ -122,6 +122,24 @@ void ServerRemotes::on_feedback(const wire::RoomName& name, ServerId server, con
   feedback_.on_remote_feedback(*session, *slot, feedback, now);
 }
 
+void ServerRemotes::on_file(const wire::RoomName& name, ServerId server, const GuestId& id,
+                            const FilePart& part, MonoTime now) {
+  const ServerRoom* room = find(name);
+  const auto slot = room != nullptr ? ServerSlots::find(*room, id) : std::nullopt;
+  const auto session = slot ? session_of(*room, server) : std::nullopt;
+  if (!session) {
+    ++counters_.unknown;
+    return;
+  }
+  const wire::Slot here{*slot, room->guests[*slot].generation};
+  std::visit(
+      [&](auto of_file) {
+        of_file.file.slot = here;
+        files_.take(*session, of_file, now);
+      },
+      part);
+}
+
 void ServerRemotes::on_state(const wire::RoomName& name, const GuestId& id,
                              const wire::State& state) {
   ServerRoom* room = find(name);

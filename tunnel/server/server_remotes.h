@@ -10,6 +10,7 @@
 #pragma once
 
 #include "tunnel/server/server_admission.h"
+#include "tunnel/server/server_files.h"
 #include "tunnel/server/server_forwarder.h"
 
 namespace dance {
@@ -23,13 +24,15 @@ class ServerRemotes {
   };
 
   ServerRemotes(ServerContext& server, ServerSlots& slots, ServerAdmission& admission,
-                ServerForwarder& forwarder, ServerFeedback& feedback, ServerStates& states)
+                ServerForwarder& forwarder, ServerFeedback& feedback, ServerStates& states,
+                ServerFiles& files)
       : server_(server),
         slots_(slots),
         admission_(admission),
         forwarder_(forwarder),
         feedback_(feedback),
-        states_(states) {}
+        states_(states),
+        files_(files) {}
 
   // All is told of who is in the room at other servers.
   void settle(const wire::RoomName& room);
@@ -49,6 +52,9 @@ class ServerRemotes {
                  std::uint64_t link_token, wire::Record record, MonoTime now);
   void on_feedback(const wire::RoomName& room, ServerId server, const GuestId& guest,
                    const RemoteFeedback& feedback, MonoTime now);
+  // Of a file: what that server wants of a guest of this one, or what came of its own guest's.
+  void on_file(const wire::RoomName& room, ServerId server, const GuestId& guest,
+               const FilePart& part, MonoTime now);
   // Of a guest of that server's, or of the room (guest not set).
   void on_state(const wire::RoomName& room, const GuestId& guest, const wire::State& state);
 
@@ -66,6 +72,7 @@ class ServerRemotes {
   ServerForwarder& forwarder_;
   ServerFeedback& feedback_;
   ServerStates& states_;
+  ServerFiles& files_;
   Counters counters_;
 };
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "tests/tunnel/cluster/simulated_cluster.h"
+#include "tunnel/cluster/cluster_bundle.h"
 #include "tunnel/cluster/cluster_format.h"
 #include "tunnel/cluster/cluster_names.h"
 #include "tunnel/seal/key_files.h"
@@ -41,6 +42,9 @@ void play_at_server(bool is_value, std::string_view name, cluster::Bytes bytes) 
 }
 
 void play_message(std::string_view subject, cluster::Bytes bytes) {
+  cluster::BundleReader bundle(bytes);
+  while (const auto part = bundle.next())
+    if (const auto message = cluster::parse_message(*part)) must_be_built_alike(*message, *part);
   if (bytes.size() > cluster::kMaxBytes) return;
   if (const auto message = cluster::parse_message(bytes)) must_be_built_alike(*message, bytes);
   if (const auto of = cluster::parse_pose_subject(subject))

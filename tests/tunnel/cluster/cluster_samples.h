@@ -66,9 +66,22 @@ inline std::vector<cluster::Message> messages() {
   cluster::RecordMessage channel = record();
   channel.record.kind = wire::RecordKind::kChannel;
   channel.record.channel = 3;
-  return {
-      beat,    cluster::ClockQuestion{6, 7}, cluster::ClockAnswer{8, 9, 10, 11}, record(), channel,
-      feedback};
+  FileHash hash;
+  hash.bytes[0] = 1;
+  static const std::vector<std::uint8_t> chunk(476, 7);
+  cluster::FileMessage want{9, guest("salsa"), guest("alice"), wire::FileWant{{{}, hash}, 3, 5}};
+  cluster::FileMessage part = want, refusal = want;
+  part.part = wire::FileChunk{{{}, hash}, 1500, 1, chunk};
+  refusal.part = wire::FileRefusal{{{}, hash}, wire::FileRefusalCause::kFull};
+  return {beat,
+          cluster::ClockQuestion{6, 7},
+          cluster::ClockAnswer{8, 9, 10, 11},
+          record(),
+          channel,
+          feedback,
+          want,
+          part,
+          refusal};
 }
 
 inline std::vector<cluster::Value> values() {

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -36,7 +37,9 @@ class NatsCluster : public ::testing::Test {
     std::unique_ptr<Link> link;
     std::uint32_t next_sequence = 1;
     std::map<GuestId, std::uint64_t> heard;
-    std::uint64_t joined = 0, left = 0;  // others, as it was told
+    std::map<GuestId, FileHash> files;                      // of avatars that are chosen
+    std::map<GuestId, std::vector<std::uint8_t>> has_come;  // whole files
+    std::uint64_t joined = 0, left = 0;                     // others, as it was told
   };
 
   void SetUp() override {
@@ -89,19 +92,21 @@ class NatsCluster : public ::testing::Test {
   }
   std::string urls() const {
     std::string list;
-    for (std::size_t i = 0; i < nats_.size(); ++i)
-      list += (list.empty() ? "" : ",") + std::string("nats://127.0.0.1:") +
-              std::to_string(kClientPort + static_cast<int>(i));
+    for (std::size_t i = 0; i < nats_.size(); ++i) list += (i == 0 ? "" : ",") + url_of(i);
     return list;
+  }
+  static std::string url_of(std::size_t nats) {
+    return "nats://127.0.0.1:" + std::to_string(kClientPort + static_cast<int>(nats));
   }
 
   static Address address_of(std::size_t server) {
     return Address::loopback(static_cast<std::uint16_t>(kServerPort + static_cast<int>(server)));
   }
-  void start_server(std::size_t which) {
+  void start_server(std::size_t which) { start_server(which, urls()); }
+  void start_server(std::size_t which, const std::string& nats) {
     const std::string port = std::to_string(address_of(which).port());
     servers_.resize(std::max(servers_.size(), which + 1));
-    servers_[which] = start(bin("dance-server"), {"--port", port, "--cluster", urls(),
+    servers_[which] = start(bin("dance-server"), {"--port", port, "--cluster", nats,
                                                   "--cluster-address", "127.0.0.1:" + port});
   }
   // Straight away, as by the kernel.
@@ -119,6 +124,15 @@ class NatsCluster : public ::testing::Test {
     handlers.on_pose = [&added](const GuestId& id, const Pose&, MonoTime) { ++added.heard[id]; };
     handlers.on_guest_joined = [&added](const GuestId&, MonoTime) { ++added.joined; };
     handlers.on_guest_left = [&added](const GuestId&, MonoTime) { ++added.left; };
+    handlers.on_avatar_file = [&added](const GuestId& id, const AvatarFile& file, MonoTime) {
+      added.files[id] = file.hash;
+    };
+    handlers.on_file = [&added](const GuestId& id, const FileHash& hash, ChunkedFile&& file) {
+      auto& bytes = added.has_come[id];
+      for (std::size_t i = 0; i < file.chunks(); ++i)
+        bytes.insert(bytes.end(), file.chunk(i).begin(), file.chunk(i).end());
+      added.link->core().files().settle(id, hash, FileVerdict::kRight);
+    };
     LinkOptions options;
     options.room = added.room;
     EXPECT_TRUE(options.guests.try_push(added.id));

@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "tests/tunnel/files/test_file.h"
+
 namespace dance {
 namespace {
 
@@ -30,6 +32,54 @@ TEST_F(NatsCluster, AServerThatIsAskedToEndHandsItsGuestsOn) {
   ASSERT_TRUE(all_hear_all(60)) << talk();
   EXPECT_NE(guests[0]->link->server(), address_of(0));
   for (const auto& one : guests) EXPECT_EQ(one->left, 0u) << one->id.view();
+}
+
+TEST_F(NatsCluster, AnAvatarsFileReachesAGuestOfAnotherServer) {
+  start_nats(0, 1);
+  for (const std::size_t server : {0u, 1u}) start_server(server);
+  Guest& alice = add_guest("alice", 0);
+  Guest& bob = add_guest("bob", 1);
+  ASSERT_TRUE(all_hear_all(10)) << talk();
+  const TestFile file = test_file(300'000);
+  alice.link->core().files().offer(alice.id, file.hash, file.shared());
+  alice.link->send(alice.id, file.state(), mono_now());
+  ASSERT_TRUE(dance_until([&] { return bob.files[alice.id] == file.hash; })) << talk();
+  bob.link->fetch_file(alice.id, file.hash, ChunkedFile(file.size()), mono_now());
+  ASSERT_TRUE(dance_until([&] { return bob.has_come.contains(alice.id); })) << all_talk();
+  EXPECT_EQ(bob.has_come[alice.id], file.bytes);
+  EXPECT_EQ(alice.link->core().files().sent().chunks_sent, wire::chunks_of(file.size()));
+  ASSERT_TRUE(all_hear_all(10)) << "and they dance on";
+}
+
+// What NATS servers say to each other is dropped: each dance server has a NATS server of its own,
+// none of which is most of three. Longer than guests are kept.
+TEST_F(NatsCluster, APartitionHealsAndNoRoomIsStuck) {
+  const std::string ports = std::to_string(kRoutePort) + "-" + std::to_string(kRoutePort + 2);
+  const std::string drop = "ip rule add pref 10 ipproto tcp dport " + ports +
+                           " blackhole && ip rule add pref 10 ipproto tcp sport " + ports +
+                           " blackhole";
+  const std::string pass = "ip rule del pref 10; ip rule del pref 10";
+  if (run("ip rule add pref 100 lookup local && ip rule del pref 0").exit_code != 0)
+    GTEST_SKIP() << "no rules of routing can be made here";
+  for (const std::size_t node : {0u, 1u, 2u}) start_nats(node, 3);
+  for (const std::size_t server : {0u, 1u, 2u}) start_server(server, url_of(server));
+  for (int i = 0; i < 6; ++i)
+    add_guest("guest-" + std::to_string(i), static_cast<std::size_t>(i % 3));
+  ASSERT_TRUE(all_hear_all(15, Duration::s(60))) << talk();
+  ASSERT_EQ(run(drop).exit_code, 0);
+  // Those at one server see each other, and the others leave.
+  const auto all_alone = [&] {
+    return std::ranges::all_of(guests, [](const auto& one) { return one->left >= 4; });
+  };
+  EXPECT_TRUE(dance_until(all_alone)) << all_talk();
+  for (auto& one : guests) one->heard.clear();
+  dance(Duration::ms(500));
+  for (std::size_t i = 0; i < guests.size(); ++i) {
+    EXPECT_EQ(guests[i]->heard.size(), 1u) << guests[i]->id.view();
+    EXPECT_EQ(guests[i]->link->server(), address_of(i % 3)) << "its server lives";
+  }
+  ASSERT_EQ(run(pass).exit_code, 0);
+  ASSERT_TRUE(all_hear_all(15, Duration::s(90))) << all_talk();
 }
 
 // SIGKILL of servers and of NATS nodes in turn, at random. DANCE_CLUSTER_KILLS says how often; it

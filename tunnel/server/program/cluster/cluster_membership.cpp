@@ -49,6 +49,7 @@ Result<std::unique_ptr<ClusterMembership>> ClusterMembership::join(const Cluster
 Result<void> ClusterMembership::read_keys(const NatsOptions& nats, Poller& poller) {
   NatsOptions of = nats;
   of.bucket = kKeysBucket;
+  of.only_values = true;
   of.name += " keys";
   DANCE_TRY(const auto store, NatsStore::connect(of));
   DANCE_TRY(const auto values, store->read_all());
@@ -78,6 +79,7 @@ Result<void> ClusterMembership::settle(const NatsOptions& nats, Poller& poller) 
     if (mono_now() - begin > kJoinsWithin)
       return fail("no server of the cluster at " + shown_urls(nats) + " tells the time");
     node_->tick(mono_now());
+    node_->end_turn(mono_now());
     poller.run_once(kJoinTurn);
   }
   return {};

@@ -1,0 +1,79 @@
+#include "core/net/tcp_socket.h"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace dance {
+namespace {
+
+bool tcp_wait_for(int fd, short what, Duration longest) {
+  pollfd waited{fd, what, 0};
+  return poll(&waited, 1, static_cast<int>(longest.count_ms())) > 0;
+}
+
+tl::unexpected<Error> tcp_failure(const Address& to, int reason) {
+  std::array<char, 128> text{};
+  return fail(to.to_string() + ": " + strerror_r(reason, text.data(), text.size()));
+}
+
+bool is_passing(int reason) { return reason == EAGAIN || reason == EWOULDBLOCK || reason == EINTR; }
+
+}  // namespace
+
+Result<TcpSocket> TcpSocket::connect(const Address& to, Duration longest) {
+  sockaddr_storage raw{};
+  const socklen_t size = to.to_sockaddr(to.family(), raw);
+  const int family = to.family() == Address::Family::kIpv6 ? AF_INET6 : AF_INET;
+  TcpSocket made(::socket(family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (made.fd_ < 0) return tcp_failure(to, errno);
+  const int on = 1;
+  ::setsockopt(made.fd_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  if (::connect(made.fd_, reinterpret_cast<const sockaddr*>(&raw), size) == 0) return made;
+  if (errno != EINPROGRESS) return tcp_failure(to, errno);
+  if (!made.wait_for_room(longest)) return tcp_failure(to, ETIMEDOUT);
+  int reason = 0;
+  socklen_t length = sizeof reason;
+  ::getsockopt(made.fd_, SOL_SOCKET, SO_ERROR, &reason, &length);
+  if (reason != 0) return tcp_failure(to, reason);
+  return made;
+}
+
+TcpSocket& TcpSocket::operator=(TcpSocket&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  return *this;
+}
+
+TcpSocket::~TcpSocket() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+std::optional<std::size_t> TcpSocket::read(std::span<std::uint8_t> into) {
+  const ssize_t count = ::recv(fd_, into.data(), into.size(), 0);
+  if (count > 0) return static_cast<std::size_t>(count);
+  if (count < 0 && is_passing(errno)) return 0;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> TcpSocket::write(std::span<const std::uint8_t> from) {
+  const ssize_t count = ::send(fd_, from.data(), from.size(), MSG_NOSIGNAL);
+  if (count >= 0) return static_cast<std::size_t>(count);
+  if (is_passing(errno)) return 0;
+  return std::nullopt;
+}
+
+bool TcpSocket::wait_for_bytes(Duration longest) const {
+  return tcp_wait_for(fd_, POLLIN, longest);
+}
+bool TcpSocket::wait_for_room(Duration longest) const {
+  return tcp_wait_for(fd_, POLLOUT, longest);
+}
+
+}  // namespace dance

@@ -1,0 +1,125 @@
+// Messages over a real NATS server, in one process: all of a turn arrive in order, a NATS server
+// that does not read holds up nobody, and another takes its place.
+#include "tunnel/nats/nats_messages.h"
+
+#include "tests/tunnel/cluster/nats_cluster.h"
+
+namespace dance {
+namespace {
+
+struct Talker {
+  Talker(const NatsOptions& options, Poller& poller) {
+    NatsMessages::Handlers on;
+    on.on_message = [this](std::string_view subject, NatsMessages::Bytes bytes, MonoTime) {
+      heard[std::string(subject)].emplace_back(bytes.begin(), bytes.end());
+    };
+    on.after_batch = [](MonoTime) {};
+    on.on_back = [this](MonoTime) { ++backs; };
+    auto made = NatsMessages::connect(options, poller, std::move(on));
+    EXPECT_TRUE(made) << made.error().what;
+    messages = std::move(*made);
+  }
+  void say(const char* subject, std::string_view text) {
+    messages->publish(subject, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  }
+
+  std::map<std::string, std::vector<std::string>> heard;
+  int backs = 0;
+  std::unique_ptr<NatsMessages> messages;
+};
+
+class NatsMessagesTest : public NatsCluster {
+ protected:
+  NatsOptions options() const {
+    NatsOptions of;
+    of.urls = nats_urls(urls());
+    return of;
+  }
+  bool turn_until(const std::function<bool()>& holds, Duration longest = Duration::s(30)) {
+    for (const MonoTime end = mono_now() + longest; !holds() && mono_now() < end;)
+      poller->run_once(Duration::ms(5));
+    return holds();
+  }
+};
+
+TEST_F(NatsMessagesTest, AllOfATurnComeInOrderAndNotToWhoSaidThem) {
+  start_nats(0, 1);
+  Talker alice(options(), *poller), bob(options(), *poller);
+  for (Talker* one : {&alice, &bob}) one->messages->listen("dance.1.test");
+  bob.messages->end_turn(mono_now());
+  alice.messages->end_turn(mono_now());
+  ASSERT_TRUE(turn_until([&] {
+    alice.say("dance.1.test", "hello");
+    alice.messages->end_turn(mono_now());
+    return bob.heard.contains("dance.1.test");
+  }));
+  bob.heard.clear();
+  std::vector<std::string> said;
+  for (int i = 0; i < 300; ++i) {
+    said.push_back("number " + std::to_string(i) + std::string(static_cast<std::size_t>(i), '.'));
+    alice.say("dance.1.test", said.back());
+  }
+  alice.messages->end_turn(mono_now());
+  EXPECT_TRUE(turn_until([&] {
+    const auto& heard = bob.heard["dance.1.test"];
+    return !heard.empty() && heard.back() == said.back();
+  }));
+  std::erase(bob.heard["dance.1.test"], "hello");
+  EXPECT_EQ(bob.heard["dance.1.test"], said);
+  EXPECT_FALSE(alice.heard.contains("dance.1.test"));
+  // Whom it hears no more.
+  bob.messages->end_listen("dance.1.test");
+  bob.messages->listen("dance.1.end");
+  bob.messages->end_turn(mono_now());
+  bob.heard.clear();
+  ASSERT_TRUE(turn_until([&] {
+    alice.say("dance.1.end", "end");
+    alice.messages->end_turn(mono_now());
+    return bob.heard.contains("dance.1.end");
+  }));
+  bob.heard.clear();
+  alice.say("dance.1.test", "too late");
+  alice.say("dance.1.end", "end");
+  alice.messages->end_turn(mono_now());
+  EXPECT_TRUE(turn_until([&] { return bob.heard.contains("dance.1.end"); }));
+  EXPECT_FALSE(bob.heard.contains("dance.1.test"));
+}
+
+TEST_F(NatsMessagesTest, AServerThatDoesNotReadHoldsUpNothingAndIsLeft) {
+  start_nats(0, 2);
+  NatsOptions hers = options();
+  hers.urls.push_back(url_of(1));
+  Talker alice(hers, *poller);  // at the only one that there is
+  start_nats(1, 2);
+  NatsOptions his = options();
+  his.urls = {url_of(1)};
+  Talker bob(his, *poller);
+  for (Talker* one : {&alice, &bob}) {
+    one->messages->listen("dance.1.test");
+    one->messages->end_turn(mono_now());
+  }
+  const auto passes = [&] {
+    alice.say("dance.1.test", "now");
+    bob.say("dance.1.test", "now");
+    for (Talker* one : {&alice, &bob}) one->messages->end_turn(mono_now());
+    return alice.heard.contains("dance.1.test") && bob.heard.contains("dance.1.test");
+  };
+  ASSERT_TRUE(turn_until(passes));
+  ::kill(nats_[0]->pid(), SIGSTOP);
+  // Far more than any buffer takes; every call returns at once, or this never ends.
+  const std::string much(8000, 'x');
+  for (int i = 0; i < 4000; ++i) {
+    alice.say("dance.1.flood", much);
+    alice.messages->end_turn(mono_now());
+  }
+  EXPECT_GT(alice.messages->counters().dropped_out, 0u);
+  EXPECT_FALSE(alice.messages->is_clear());
+  EXPECT_TRUE(turn_until([&] { return alice.backs > 0; }));
+  alice.heard.clear();
+  bob.heard.clear();
+  EXPECT_TRUE(turn_until(passes)) << "through the other";
+  ::kill(nats_[0]->pid(), SIGCONT);
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,78 @@
+#include "tunnel/nats/nats_connector.h"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <utility>
+
+#include "core/base/assert.h"
+#include "core/net/secure_random.h"
+
+namespace dance {
+namespace {
+
+constexpr auto kConnectAgain = std::chrono::milliseconds(150);
+
+}  // namespace
+
+NatsConnector::NatsConnector(const NatsOptions& options)
+    : options_(options),
+      next_(secure_random_u64() % options.urls.size()),
+      fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      thread_([this] { run(); }) {
+  DANCE_ASSERT(fd_ >= 0, fd_);
+}
+
+NatsConnector::~NatsConnector() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  close(fd_);
+}
+
+// The thread waits meanwhile: it has not been asked.
+Result<NatsGreeted> NatsConnector::connect_now() {
+  Result<NatsGreeted> made = fail("NATS: no server is named");
+  for (std::size_t i = 0; i < options_.urls.size() && !made; ++i)
+    made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()]);
+  return made;
+}
+
+void NatsConnector::ask() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_asked_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::optional<NatsGreeted> NatsConnector::take() {
+  eventfd_t ignored = 0;
+  eventfd_read(fd_, &ignored);
+  const std::lock_guard lock(mutex_);
+  return std::exchange(made_, std::nullopt);
+}
+
+void NatsConnector::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return ends_ || is_asked_; });
+    if (ends_) return;
+    lock.unlock();
+    auto made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()]);
+    lock.lock();
+    if (made) {
+      is_asked_ = false;
+      made_.emplace(std::move(*made));
+      eventfd_write(fd_, 1);
+    } else {
+      changed_.wait_for(lock, kConnectAgain, [this] { return ends_; });
+    }
+  }
+}
+
+}  // namespace dance

@@ -1,0 +1,48 @@
+// Makes connections to any of a cluster's NATS servers, each when it is asked for, in a thread of
+// its own: connecting waits, and the poller's thread does not.
+//
+// Units/frames: none.
+// Ownership:    owns thread and descriptor; what is taken is the caller's.
+// Threads:      all calls from one. Destruction waits for what is being tried, some seconds at
+//               most.
+// Failure:      tries until it succeeds, in turn at all servers.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "tunnel/nats/nats_greeting.h"
+
+namespace dance {
+
+class NatsConnector {
+ public:
+  explicit NatsConnector(const NatsOptions& options);
+  ~NatsConnector();
+  NatsConnector(const NatsConnector&) = delete;
+  NatsConnector& operator=(const NatsConnector&) = delete;
+
+  // Once through all servers, now.
+  Result<NatsGreeted> connect_now();
+  void ask();
+  // Readable when what was asked for is there.
+  int fd() const { return fd_; }
+  std::optional<NatsGreeted> take();
+
+ private:
+  void run();
+
+  NatsOptions options_;
+  std::size_t next_;  // of the servers
+  int fd_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_asked_ = false;
+  bool ends_ = false;
+  std::optional<NatsGreeted> made_;
+  std::thread thread_;
+};
+
+}  // namespace dance

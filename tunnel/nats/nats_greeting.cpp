@@ -1,0 +1,200 @@
+#include "tunnel/nats/nats_greeting.h"
+
+#include <nats/nats.h>
+#include <openssl/crypto.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/base/printable.h"
+#include "core/net/mono_clock.h"
+
+namespace dance {
+namespace {
+
+constexpr std::uint16_t kNatsPort = 4222;
+constexpr Duration kConnects = Duration::s(2);  // and as long again for TLS and greetings
+constexpr Duration kWriteTurn = Duration::ms(1);
+constexpr std::size_t kMostGreetingBytes = 65'536;
+
+struct NatsUrl {
+  bool is_tls = false;
+  std::string user;  // or a token, where there is no password
+  std::optional<std::string> password;
+  std::string host;  // without the port
+  std::string place;
+};
+
+NatsUrl parts_of(const std::string& url) {
+  NatsUrl parts;
+  const std::size_t scheme = url.find("://");
+  parts.is_tls = url.starts_with("tls://");
+  parts.place = scheme == std::string::npos ? url : url.substr(scheme + 3);
+  parts.place = parts.place.substr(0, parts.place.find('/'));
+  if (const std::size_t at = parts.place.rfind('@'); at != std::string::npos) {
+    parts.user = parts.place.substr(0, at);
+    parts.place = parts.place.substr(at + 1);
+    if (const std::size_t colon = parts.user.find(':'); colon != std::string::npos) {
+      parts.password = parts.user.substr(colon + 1);
+      parts.user.resize(colon);
+    }
+  }
+  const std::size_t bracket = parts.place.find(']');
+  const std::size_t colon = parts.place.rfind(':');
+  parts.host = parts.place;
+  if (colon != std::string::npos && (bracket == std::string::npos || colon > bracket) &&
+      (bracket != std::string::npos || parts.place.find(':') == colon))
+    parts.host = parts.place.substr(0, colon);
+  if (parts.host.starts_with('[') && parts.host.ends_with(']'))
+    parts.host = parts.host.substr(1, parts.host.size() - 2);
+  return parts;
+}
+
+// Without padding, for URLs.
+std::string base64_of(std::span<const unsigned char> bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < count ? bytes[i + k] : 0);
+    for (std::size_t k = 0; k <= count; ++k) text += kDigits[three >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+// The lines behind the first and the second -----BEGIN: a user's JWT and its seed.
+Result<std::pair<std::string, std::string>> read_credentials(const std::string& path) {
+  std::ifstream in(path);
+  std::vector<std::string> found;
+  bool is_next = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (is_next && !line.empty()) found.push_back(line);
+    is_next = line.starts_with("-----BEGIN") || (is_next && line.empty());
+    OPENSSL_cleanse(line.data(), line.size());
+  }
+  if (found.size() != 2)
+    return fail("--cluster-credentials " + printable(path) + " is no file of a NATS user");
+  return std::pair(found[0], found[1]);
+}
+
+Result<void> add_credentials(const NatsOptions& options, const std::string& nonce,
+                             nlohmann::json& said) {
+  DANCE_TRY(auto credentials, read_credentials(options.credentials));
+  unsigned char* signature = nullptr;
+  int size = 0;
+  const natsStatus status = nats_Sign(credentials.second.c_str(), nonce.c_str(), &signature, &size);
+  OPENSSL_cleanse(credentials.second.data(), credentials.second.size());
+  if (status != NATS_OK)
+    return fail("--cluster-credentials " + printable(options.credentials) + ": no seed of a user");
+  said["jwt"] = credentials.first;
+  said["sig"] = base64_of({signature, static_cast<std::size_t>(size)});
+  std::free(signature);
+  return {};
+}
+
+class Greeter {
+ public:
+  Greeter(NatsChannel& channel, MonoTime end) : channel_(channel), end_(end) {}
+
+  Result<void> say(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+      const auto rest = text.substr(at);
+      const auto sent =
+          channel_.write({reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size()});
+      if (!sent || mono_now() > end_) return fail("ends the connection");
+      at += *sent;
+      if (*sent == 0) channel_.wait_for_bytes(kWriteTurn);
+    }
+    return {};
+  }
+  Result<std::string> line() {
+    for (;;) {
+      if (const std::size_t end = heard_.find('\n'); end != std::string::npos) {
+        std::string said = heard_.substr(0, end);
+        heard_.erase(0, end + 1);
+        if (said.ends_with('\r')) said.pop_back();
+        return said;
+      }
+      const std::size_t before = heard_.size();
+      if (before >= kMostGreetingBytes) return fail("is no NATS server");
+      heard_.resize(before + 4096);
+      const auto count =
+          channel_.read({reinterpret_cast<std::uint8_t*>(heard_.data()) + before, 4096});
+      heard_.resize(before + count.value_or(0));
+      if (!count) return fail("ends the connection");
+      const Duration left = end_ - mono_now();
+      if (*count == 0 && (left <= Duration() || !channel_.wait_for_bytes(left)))
+        return fail("does not answer");
+    }
+  }
+  std::vector<std::uint8_t> unread() const { return {heard_.begin(), heard_.end()}; }
+
+ private:
+  NatsChannel& channel_;
+  MonoTime end_;
+  std::string heard_;
+};
+
+Result<std::string> introduction(const NatsOptions& options, const NatsUrl& parts,
+                                 const nlohmann::json& info, bool is_tls) {
+  // Its own messages would come back.
+  nlohmann::json said{{"verbose", false}, {"pedantic", false},       {"echo", false},
+                      {"protocol", 1},    {"headers", false},        {"tls_required", is_tls},
+                      {"lang", "c++"},    {"version", "dancegraph"}, {"name", options.name}};
+  if (parts.password) {
+    said["user"] = parts.user;
+    said["pass"] = *parts.password;
+  } else if (!parts.user.empty()) {
+    said["auth_token"] = parts.user;
+  }
+  if (!options.credentials.empty()) {
+    const auto nonce = info.find("nonce");
+    if (nonce == info.end() || !nonce->is_string()) return fail("asks for no credentials");
+    if (auto added = add_credentials(options, nonce->get<std::string>(), said); !added)
+      return tl::make_unexpected(added.error());
+  }
+  return "CONNECT " + said.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+         "\r\nPING\r\n";
+}
+
+Result<NatsGreeted> greet_at(const NatsOptions& options, const NatsUrl& parts) {
+  DANCE_TRY(const Address address, Address::resolve(parts.place, kNatsPort));
+  DANCE_TRY(TcpSocket socket, TcpSocket::connect(address, kConnects));
+  NatsChannel channel(std::move(socket));
+  Greeter greeter(channel, mono_now() + kConnects);
+  DANCE_TRY(const std::string hello, greeter.line());
+  const nlohmann::json info = hello.starts_with("INFO ")
+                                  ? nlohmann::json::parse(hello.substr(5), nullptr, false)
+                                  : nlohmann::json(nlohmann::json::value_t::discarded);
+  if (!info.is_object()) return fail("is no NATS server");
+  const auto asks = info.find("tls_required");
+  const bool is_tls =
+      parts.is_tls || (asks != info.end() && asks->is_boolean() && asks->get<bool>());
+  if (is_tls)
+    if (auto started = channel.start_tls(options, parts.host, kConnects); !started)
+      return tl::make_unexpected(started.error());
+  DANCE_TRY(const std::string who, introduction(options, parts, info, is_tls));
+  if (auto said = greeter.say(who); !said) return tl::make_unexpected(said.error());
+  for (;;) {
+    DANCE_TRY(const std::string answer, greeter.line());
+    if (answer.starts_with("PONG")) break;
+    if (answer.starts_with("-ERR")) return fail(printable(answer));
+  }
+  return NatsGreeted{std::move(channel), greeter.unread()};
+}
+
+}  // namespace
+
+Result<NatsGreeted> greet_nats(const NatsOptions& options, const std::string& url) {
+  const NatsUrl parts = parts_of(url);
+  auto greeted = greet_at(options, parts);
+  if (!greeted) return fail("NATS at " + printable(parts.place) + ": " + greeted.error().what);
+  return greeted;
+}
+
+}  // namespace dance

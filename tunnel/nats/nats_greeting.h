@@ -1,0 +1,19 @@
+// A new connection to one NATS server, as far as messages can pass: TLS and who we are.
+//
+// Units/frames: none.
+// Ownership:    the caller owns what is returned.
+// Threads:      any; waits, some seconds at most.
+// Failure:      one line that names the server and the reason.
+#pragma once
+
+#include "tunnel/nats/nats_channel.h"
+
+namespace dance {
+
+struct NatsGreeted {
+  NatsChannel channel;
+  std::vector<std::uint8_t> unread;  // what came behind the greeting
+};
+Result<NatsGreeted> greet_nats(const NatsOptions& options, const std::string& url);
+
+}  // namespace dance

@@ -1,0 +1,86 @@
+// Messages over core NATS, in the poller's own thread: no lock, no other thread and no allocation
+// lies on the way of a pose. All that a turn publishes goes out in one write. The client library's
+// threads are too many wakes for each message, and its external event loop waits inside TLS.
+//
+// Units/frames: subjects and bytes as ClusterBus.
+// Ownership:    owns connection and buffers; the poller must outlive it.
+// Threads:      the poller's; new connections are made in one of its own.
+// Failure:      at most kMostWaiting bytes wait for a NATS server that does not read, what is more
+//               is dropped and counted. Of more than a buffer that came at once, of each subject
+//               the newest kKept are taken. A connection that ends, or is silent, is replaced.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "core/net/poller.h"
+#include "tunnel/nats/nats_connector.h"
+#include "tunnel/nats/nats_reader.h"
+
+namespace dance {
+
+class NatsMessages {
+ public:
+  static constexpr std::size_t kMostWaiting = 131'072;
+  static constexpr std::uint32_t kKept = 8;
+  using Bytes = std::span<const std::uint8_t>;
+  struct Handlers {
+    std::function<void(std::string_view subject, Bytes message, MonoTime now)> on_message;
+    std::function<void(MonoTime now)> after_batch;
+    // There is a connection again.
+    std::function<void(MonoTime now)> on_back;
+  };
+  struct Counters {
+    std::uint64_t dropped_in = 0;
+    std::uint64_t dropped_out = 0;
+    std::uint64_t refused = 0;  // what the NATS server answers to what we say: rights
+  };
+
+  static Result<std::unique_ptr<NatsMessages>> connect(const NatsOptions& options, Poller& poller,
+                                                       Handlers handlers);
+  ~NatsMessages();
+  NatsMessages(const NatsMessages&) = delete;
+  NatsMessages& operator=(const NatsMessages&) = delete;
+
+  void publish(std::string_view subject, Bytes message);
+  void listen(std::string_view subject);
+  void end_listen(std::string_view subject);
+  // What was published goes out.
+  void end_turn(MonoTime now);
+  // Waits a moment for what waits: at the program's end.
+  void flush(Duration longest);
+
+  bool is_connected() const { return channel_.has_value(); }
+  // Nothing of earlier turns waits for the NATS server.
+  bool is_clear() const { return channel_.has_value() && !write_again_.is_set(); }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  NatsMessages(const NatsOptions& options, Poller& poller, Handlers handlers);
+  void begin(NatsGreeted greeted, MonoTime now);
+  void end(MonoTime now);
+  void on_readable(MonoTime now);
+  void take_all(bool is_behind, MonoTime now);
+  void count_newest();
+  MonoTime tick(MonoTime now);
+  void say(std::initializer_list<std::string_view> parts);
+  void say_listen(std::string_view subject, std::uint32_t number);
+
+  Poller& poller_;
+  Handlers handlers_;
+  NatsConnector connector_;
+  std::optional<NatsChannel> channel_;
+  NatsReader reader_;
+  std::vector<std::uint8_t> waiting_;                           // to be written
+  std::map<std::string, std::uint32_t, std::less<>> subjects_;  // that are listened to
+  std::uint32_t next_number_ = 1;
+  std::vector<std::uint32_t> in_buffer_;  // by number, while behind
+  MonoTime heard_;
+  MonoTime write_again_;
+  MonoTime next_ping_;
+  Poller::TimerId timer_;
+  Counters counters_;
+};
+
+}  // namespace dance
