@@ -38,6 +38,18 @@ inline cluster::RecordMessage record() {
   return message;
 }
 
+inline cluster::VoiceMessage voice() {
+  static const std::vector<std::uint8_t> packet{8, 6, 4, 2};
+  cluster::VoiceMessage message;
+  message.server = 13;
+  message.link_token = 14;
+  message.record.sequence = 7'654'321;
+  message.record.capture_us = 9'876'543'210;
+  message.record.level_dbfs = -31;
+  message.record.packet = packet;
+  return message;
+}
+
 inline std::vector<cluster::Message> messages() {
   cluster::Beat beat;
   beat.server = 1;
@@ -81,7 +93,8 @@ inline std::vector<cluster::Message> messages() {
           feedback,
           want,
           part,
-          refusal};
+          refusal,
+          voice()};
 }
 
 inline std::vector<cluster::Value> values() {
