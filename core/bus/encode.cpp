@@ -18,6 +18,7 @@
 #include <dancelcm/stats_t.hpp>
 #include <dancelcm/steps_t.hpp>
 #include <dancelcm/style_t.hpp>
+#include <dancelcm/voice_t.hpp>
 
 #include "core/bus/message_fields.h"
 
@@ -245,6 +246,16 @@ struct MessageFields<Steps> {
   }
 };
 
+template <>
+struct MessageFields<Voice> {
+  using Generated = dancelcm::voice_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return io(m.capture_time_us, v.capture_time) && io(m.clock_id, v.clock_id) &&
+           io(m.sequence, v.sequence) && io(m.level_dbfs, v.level_dbfs) &&
+           io(m.size_bytes, v.size_bytes) && io(m.data, v.data);
+  }
+};
+
 template struct MessageRow<Pose, Signal::kPose>;
 template struct MessageRow<Hands, Signal::kHands>;
 template struct MessageRow<TimedSkeleton, Signal::kSkeleton>;
@@ -263,6 +274,7 @@ template struct MessageRow<GuestTraffic, Signal::kGuestTraffic>;
 template struct MessageRow<FlowSetting, Signal::kFlow>;
 template struct MessageRow<Playout, Signal::kPlayout>;
 template struct MessageRow<Steps, Signal::kSteps>;
+template struct MessageRow<Voice, Signal::kVoice>;
 
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
   dancelcm::pose_t m{};

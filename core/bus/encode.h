@@ -20,6 +20,7 @@
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
+#include "core/bus/voice.h"
 #include "core/pose/flow_setting.h"
 #include "core/pose/playout.h"
 #include "core/pose/pose.h"
@@ -82,6 +83,8 @@ template <>
 struct MessageTraits<Playout> : MessageRow<Playout, Signal::kPlayout> {};
 template <>
 struct MessageTraits<Steps> : MessageRow<Steps, Signal::kSteps> {};
+template <>
+struct MessageTraits<Voice> : MessageRow<Voice, Signal::kVoice> {};
 
 // A type with a row in the table.
 template <class T>

@@ -166,6 +166,18 @@ GuestTraffic golden_guest_traffic() {
   return t;
 }
 
+Voice golden_voice() {
+  Voice voice;
+  voice.capture_time = kCaptured;
+  voice.clock_id = kClock;
+  voice.sequence = kSequence;
+  voice.level_dbfs = -23;
+  Bytes packet(81);
+  for (std::size_t i = 0; i < packet.size(); ++i) packet[i] = static_cast<std::uint8_t>(3 * i + 1);
+  EXPECT_TRUE(voice.set_packet(packet));
+  return voice;
+}
+
 TEST(GoldenMessages, KeepFiguresThatAreNotKnownAndRefuseInfiniteOnes) {
   GuestStats stats = golden_guest_stats(), decoded;
   stats.jitter_ms = kNotKnown;
@@ -192,6 +204,7 @@ TEST(GoldenMessages, AreWrittenAndReadByteForByte) {
   expect_golden("stats_t", golden_stats());
   expect_golden("guest_stats_t", golden_guest_stats());
   expect_golden("guest_traffic_t", golden_guest_traffic());
+  expect_golden("voice_t", golden_voice());
 }
 
 TEST(GoldenMessages, HoldThePoseThatWasDanced) {
@@ -214,9 +227,10 @@ TEST(GoldenMessages, HoldThePoseThatWasDanced) {
 TEST(GoldenMessages, HaveTheFingerprintsAndSizesOfTheReadme) {
   std::ifstream readme(std::string(DANCE_SOURCE_DIR) + "/lcmtypes/README.md");
   const std::string text{std::istreambuf_iterator<char>(readme), std::istreambuf_iterator<char>()};
-  for (const char* type : {"pose_t", "hands_t", "skeleton_t", "guest_t", "stage_time_t", "stats_t",
-                           "music_t", "scene_t", "avatar_t", "avatar_file_t", "style_t",
-                           "placement_t", "beat_t", "guest_stats_t", "guest_traffic_t", "flow_t"}) {
+  for (const char* type :
+       {"pose_t", "hands_t", "skeleton_t", "guest_t", "stage_time_t", "stats_t", "music_t",
+        "scene_t", "avatar_t", "avatar_file_t", "style_t", "placement_t", "beat_t", "guest_stats_t",
+        "guest_traffic_t", "flow_t", "voice_t"}) {
     const Bytes golden = read_golden(type);
     ASSERT_GE(golden.size(), 8u);
     std::string fingerprint;
@@ -256,6 +270,7 @@ TEST(Decode, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<GuestStatus>("guest_t");
   expect_survives_bit_flips<StageTime>("stage_time_t");
   expect_survives_bit_flips<Stats>("stats_t");
+  expect_survives_bit_flips<Voice>("voice_t");
 }
 
 TEST(Decode, CallsImpossibleValuesInvalid) {
@@ -280,6 +295,29 @@ TEST(Decode, CallsImpossibleValuesInvalid) {
   pose = golden_pose();
   pose.music_beats = kNoMusic;
   EXPECT_EQ(outcome_of(pose), Decoded::kFine);
+}
+
+TEST(Decode, TakesVoiceOfAnySizeUpToItsBoundAndLooksAtNoByteOfIt) {
+  const auto outcome_of = [](auto change) {
+    Voice voice = golden_voice(), decoded;
+    change(voice);
+    const Bytes bytes = encoded(voice);
+    return decode(bytes.data(), bytes.size(), decoded);
+  };
+  const Bytes longest(kMaxVoiceBytes, 0xff);
+  Voice voice = golden_voice();
+  EXPECT_TRUE(voice.set_packet(std::span(longest).first(1)));
+  EXPECT_EQ(voice.packet().size(), 1u);
+  EXPECT_TRUE(is_valid(voice)) << "what stood there before is gone";
+  EXPECT_FALSE(voice.set_packet({}));
+  EXPECT_FALSE(voice.set_packet(Bytes(kMaxVoiceBytes + 1)));
+  EXPECT_EQ(voice.packet().size(), 1u);
+  EXPECT_EQ(outcome_of([&](Voice& v) { EXPECT_TRUE(v.set_packet(longest)); }), Decoded::kFine);
+  EXPECT_EQ(outcome_of([](Voice& v) { v.level_dbfs = 0; }), Decoded::kFine);
+  EXPECT_EQ(outcome_of([](Voice& v) { v.level_dbfs = 1; }), Decoded::kInvalid);
+  EXPECT_EQ(outcome_of([](Voice& v) { v.level_dbfs = -128; }), Decoded::kInvalid);
+  for (const int size : {0, -1, 161, 32'767, -32'768, 80})
+    EXPECT_EQ(outcome_of([size](Voice& v) { v.size_bytes = size; }), Decoded::kInvalid) << size;
 }
 
 TEST(Decode, AllocatesNothing) {

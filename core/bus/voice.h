@@ -1,0 +1,53 @@
+// One frame of a guest's voice: 10 ms of sound, mono at 48 kHz, as one Opus packet. The same fields
+// as lcmtypes/voice_t.lcm, which says what each means. Nothing here looks into the packet: what a
+// stranger sent stays bytes until the Opus decoder of voice/ reads it.
+//
+// Units/frames: MonoTime of the clock that clock_id names; levels in dBFS; sequence in frames.
+// Ownership:    plain values, no heap.
+// Threads:      none inside.
+// Failure:      is_valid() is false for what the .lcm file does not allow; is_valid() says nothing
+//               about whether the packet is Opus.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "core/base/time.h"
+
+namespace dance {
+
+constexpr Duration kVoiceFrame = Duration::ms(10);
+constexpr int kVoiceRate_hz = 48'000;
+constexpr std::size_t kMaxVoiceBytes = 160;  // 128 kbit/s; Opus speech takes a quarter of it
+constexpr int kSilence_dbfs = -127;
+
+struct Voice {
+  MonoTime capture_time;
+  std::uint64_t clock_id = 0;
+  std::uint32_t sequence = 0;
+  int level_dbfs = kSilence_dbfs;
+  int size_bytes = 0;
+  std::array<std::uint8_t, kMaxVoiceBytes> data{};
+
+  std::span<const std::uint8_t> packet() const {
+    return std::span(data).first(static_cast<std::size_t>(size_bytes));
+  }
+  // False, and nothing is changed, for a packet that is empty or too long.
+  [[nodiscard]] bool set_packet(std::span<const std::uint8_t> packet) {
+    if (packet.empty() || packet.size() > data.size()) return false;
+    std::fill(std::copy(packet.begin(), packet.end(), data.begin()), data.end(), std::uint8_t{0});
+    size_bytes = static_cast<int>(packet.size());
+    return true;
+  }
+};
+
+inline bool is_valid(const Voice& voice) {
+  return voice.level_dbfs >= kSilence_dbfs && voice.level_dbfs <= 0 && voice.size_bytes >= 1 &&
+         voice.size_bytes <= static_cast<int>(kMaxVoiceBytes) &&
+         std::all_of(voice.data.begin() + voice.size_bytes, voice.data.end(),
+                     [](std::uint8_t byte) { return byte == 0; });
+}
+
+}  // namespace dance
