@@ -11,8 +11,8 @@ constexpr double kBin_ms = 4.0;
 constexpr Duration kWindow = Duration::s(2);
 // Of all packets this part comes in time; chosen with `dance bench voice` over recorded lines.
 constexpr double kInTime = 0.985;
-// A packet's weight: that of the last twenty seconds, quicker at the begin.
-constexpr double kLeastWeight = 0.0005;
+// A packet's weight: that of the last five seconds, quicker at the begin.
+constexpr double kLeastWeight = 0.002;
 constexpr double kFirstWeight = 0.02;
 // A late packet is soon followed by others: waited for at once, and forgotten within seconds.
 constexpr double kPeakShare = 0.6;

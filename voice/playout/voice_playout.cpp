@@ -136,8 +136,9 @@ void VoicePlayout::pull(MonoTime now, MonoTime heard, std::span<float> samples) 
 void VoicePlayout::produce(MonoTime now, MonoTime heard) {
   if (!is_speaking_) return produce_silence(now, heard);
   keep_time(now, heard);
+  if (!is_speaking_) return;
   heard_delay_ = heard + duration_of_samples(ready_) - (capture_origin_ + kVoiceFrame * next_);
-  if (find(next_) != nullptr)
+  if (find(next_) != nullptr || leave_out_gap(now, heard))
     produce_frame();
   else
     produce_lost();
@@ -193,6 +194,17 @@ void VoicePlayout::produce_lost() {
   const bool is_gap = oldest_from(next_).has_value();
   if (is_gap) ++next_;
   if (++concealed_in_a_row_ >= kMostConcealed && !is_gap) is_speaking_ = false;
+}
+
+// What did not come is not made up where more has gathered behind it than is needed. True: there is
+// a frame now.
+bool VoicePlayout::leave_out_gap(MonoTime now, MonoTime heard) {
+  const auto oldest = oldest_from(next_);
+  if (!oldest) return false;
+  const Duration excess = margin(now) - wanted_margin(now, heard);
+  const std::int64_t frames = std::min(excess.count_ns() / kVoiceFrame.count_ns(), *oldest - next_);
+  if (frames > 0) skip_to(next_ + frames);
+  return next_ == *oldest;
 }
 
 void VoicePlayout::append(std::span<const float> samples) {

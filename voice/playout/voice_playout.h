@@ -75,6 +75,7 @@ class VoicePlayout {
   void produce_silence(MonoTime now, MonoTime heard);
   void produce_frame();
   void produce_lost();
+  bool leave_out_gap(MonoTime now, MonoTime heard);
   void append(std::span<const float> samples);
   void keep_time(MonoTime now, MonoTime heard);
   void skip_to(std::int64_t frame);
