@@ -44,6 +44,8 @@ void VoiceDecoder::conceal(std::span<float, kVoiceFrameSamples> frame) {
     std::fill(frame.begin(), frame.end(), 0.0f);
 }
 
+void VoiceDecoder::reset() { opus_decoder_ctl(decoder_, OPUS_RESET_STATE); }
+
 bool VoiceDecoder::decode_with(std::span<const std::uint8_t> packet, int from_next,
                                std::span<float, kVoiceFrameSamples> frame) {
   const auto size = static_cast<opus_int32>(packet.size());

@@ -35,6 +35,8 @@ class VoiceDecoder {
   bool decode_lost(std::span<const std::uint8_t> next, std::span<float, kVoiceFrameSamples> frame);
   // A frame that goes on as the sound was, and fades.
   void conceal(std::span<float, kVoiceFrameSamples> frame);
+  // What comes next is another stream.
+  void reset();
   std::uint64_t bad_packets() const { return bad_packets_; }
 
  private:

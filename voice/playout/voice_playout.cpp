@@ -43,6 +43,7 @@ std::int64_t VoicePlayout::unwrapped(std::uint32_t sequence) {
 
 // A sender that was started again counts from anywhere.
 void VoicePlayout::restart() {
+  decoder_->reset();
   for (Slot& slot : slots_) slot.frame = -1;
   newest_sequence_.reset();
   delays_ = ArrivalDelays();
@@ -50,6 +51,15 @@ void VoicePlayout::restart() {
   is_speaking_ = false;
   strangers_in_a_row_ = 0;
   concealed_in_a_row_ = 0;
+}
+
+void VoicePlayout::forget() {
+  restart();
+  counters_ = Counters();
+  delay_.reset();
+  heard_delay_.reset();
+  line_.fill(0.0f);
+  ready_ = 0;
 }
 
 void VoicePlayout::put(const Voice& voice, MonoTime arrival) {

@@ -40,6 +40,8 @@ class VoicePlayout {
   explicit VoicePlayout(std::unique_ptr<VoiceDecoder> decoder) : decoder_(std::move(decoder)) {}
 
   void put(const Voice& voice, MonoTime arrival);
+  // What comes next is another guest's, with counters from zero.
+  void forget();
   // The next samples; the first of them is heard at `heard`.
   void pull(MonoTime now, MonoTime heard, std::span<float> samples);
   // Not earlier than so long after capture: as late as the guest's picture. None: as soon as can
