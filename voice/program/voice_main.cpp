@@ -1,5 +1,6 @@
 // dance voice: speak with the others in the room, and hear them where their dancers stand.
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -24,6 +25,8 @@ constexpr const char* kExamples = R"(Examples:
   dance voice set --guest alice --mute              from another terminal, while it runs
 Keys: space talks (push to talk), m mutes, d deafens.
 )";
+
+constexpr int kVoiceNice = -11;  // as sound servers have
 
 struct VoiceOptions {
   std::string guest;
@@ -73,6 +76,8 @@ void on_key(VoiceProgram& program, char key, MonoTime now) {
 
 Result<void> run_voice(const VoiceOptions& options) {
   DANCE_TRY(const VoiceProgramOptions wanted, program_options(options));
+  // Sound that is late is a gap. Where the user may not have it (ulimit -e), it goes without.
+  static_cast<void>(::setpriority(PRIO_PROCESS, 0, kVoiceNice));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto bus, Bus::open(options.bus));
