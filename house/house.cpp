@@ -130,6 +130,7 @@ Result<void> House::open_link() {
   options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
   options.listen_only = session_.guests.empty();
   options.interest = session_.interest;
+  options.hearing = session_.hearing;
   options.channels = session_.channels;
   options.clock_id = this_clock_id();
   options.quality_m = session_.quality_mm * 1e-3;

@@ -33,6 +33,7 @@ struct JoinOptions {
   std::vector<std::string> guests;
   std::string room;
   std::vector<std::string> want;
+  std::vector<std::string> hear;
   std::string bus;
   std::string camera;
   std::vector<std::string> avatars;
@@ -71,6 +72,11 @@ Result<Session> session_of(const JoinOptions& options) {
     const auto interest = parse_interest(options.want);
     if (!interest) return fail("--want " + interest.error().what);
     session.interest = *interest;
+  }
+  if (!options.hear.empty()) {
+    const auto hearing = parse_hearing(options.hear);
+    if (!hearing) return fail("--hear " + hearing.error().what);
+    session.hearing = *hearing;
   }
   if (!options.camera.empty()) {
     if (session.guests.empty()) return fail("--camera: who dances? name the guest with --guest");
@@ -156,6 +162,9 @@ int main(int argc, char** argv) {
       "how many of a guest's poses come here, instead of the session's want: NAME=1 every one, "
       "NAME=N at most every N-th, NAME=0 none; default=N for all who are not named; may be "
       "repeated");
+  line.add("--hear", options.hear,
+           "whose voices come here, instead of the session's hear: NAME=0 not this guest's, NAME=1 "
+           "this guest's; default=0 nobody's who is not named; may be repeated");
   line.add("--camera", options.camera,
            "a camera sees the first guest: auto, /dev/videoN, a number or a video; instead of what "
            "the session says");

@@ -84,6 +84,11 @@ void read_house(TomlReader& reader, const std::filesystem::path& folder, Session
     session.interest = *interest;
   else
     reader.complain("want", interest.error().what);
+  const auto hearing = parse_hearing(reader.strings("hear", "[\"default=0\", \"bob=1\"]"));
+  if (hearing)
+    session.hearing = *hearing;
+  else
+    reader.complain("hear", hearing.error().what);
   reader.finish();
 }
 

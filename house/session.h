@@ -21,6 +21,7 @@
 #include "manager/route.h"
 #include "producers/receive/receiver_table.h"
 #include "tunnel/policy/channel_rule.h"
+#include "tunnel/policy/hearing.h"
 #include "tunnel/policy/interest.h"
 
 namespace dance {
@@ -104,6 +105,7 @@ struct Session {
   double pose_bytes_per_second = 0.0;  // of each guest, at most; 0 = whatever quality_mm takes
   double avatar_bytes_per_second = 131'072.0;  // of files of avatars, each way; 0 = none
   Interest interest;                           // whom it wants to hear, and how often
+  Hearing hearing;                             // whose voices it wants
   bool view = true;                            // open the viewer (dance join)
   std::vector<Route> routes;
   std::vector<HostedProducer> producers;

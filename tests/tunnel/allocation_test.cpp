@@ -37,7 +37,7 @@ class FixedSink final : public DatagramSink, public PeerSink {
   std::size_t count_ = 0;
 };
 
-TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
+TEST(TunnelAllocation, PosesHandsVoicesChannelsStatesAndPingsPassWithoutOne) {
   FixedSink to_server_a;
   FixedSink to_server_b;
   FixedSink to_server_c;
@@ -49,6 +49,7 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
   std::uint64_t poses = 0;
   std::uint64_t hands_heard = 0;
   std::uint64_t poses_of_few = 0;
+  std::uint64_t voices = 0;
   LinkOptions options;
   options.room = guest("salsa");
   options.clock_id = 9;
@@ -63,6 +64,7 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
   LinkHandlers handlers;
   handlers.on_pose = [&](const GuestId&, const Pose&, MonoTime) { ++poses; };
   handlers.on_hands = [&](const GuestId&, const Hands&, MonoTime) { ++hands_heard; };
+  handlers.on_voice = [&](const GuestId&, const Voice&, MonoTime) { ++voices; };
   std::uint64_t messages = 0;
   handlers.on_channel = [&](const GuestId&, std::string_view, ChannelClass, wire::Bytes, MonoTime) {
     ++messages;
@@ -103,6 +105,9 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
   Hands hands;
   hands.presence = 3;
   hands.clock_id = 9;
+  Voice voice;
+  voice.clock_id = 9;
+  ASSERT_TRUE(voice.set_packet(std::array<std::uint8_t, 40>{}));
   const std::array<std::uint8_t, 12> arm{};
   std::array<std::uint8_t, 16> light{};
   const AllocationGuard guard;
@@ -112,6 +117,9 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
     pose.capture_time = hands.capture_time = now;
     a.send(guest("alice"), pose, now);
     a.send(guest("alice"), hands, now);
+    voice.sequence = i;
+    voice.capture_time = now;
+    a.send(guest("alice"), voice, now);
     a.send_channel("ROBOT/arm", arm, now);
     light[15] = static_cast<std::uint8_t>(i / 20);
     a.send_channel("LIGHT/desk", light, now);
@@ -123,6 +131,7 @@ TEST(TunnelAllocation, PosesHandsChannelsStatesAndPingsPassWithoutOne) {
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_EQ(poses, 1000u);
   EXPECT_EQ(hands_heard, 1000u);
+  EXPECT_EQ(voices, 1000u);
   EXPECT_GT(messages, 1000u);
   EXPECT_NEAR(static_cast<double>(poses_of_few), 250.0, 3.0);
 }

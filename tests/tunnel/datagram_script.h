@@ -49,6 +49,8 @@ struct FuzzScene {
     tunnel.run(Duration::ms(20));
     for (const auto* house : {a, b})
       for (const auto& heard : house->poses) DANCE_ASSERT(is_valid(heard.pose));
+    for (const auto* house : {a, b})
+      for (const auto& heard : house->voices) DANCE_ASSERT(is_valid(heard.voice));
     DANCE_ASSERT(tunnel.server().session_count() <= limits().sessions);
     DANCE_ASSERT(tunnel.server().room_count() <= limits().rooms);
   }

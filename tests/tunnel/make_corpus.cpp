@@ -38,6 +38,8 @@ Bytes light_message() {
 // Records of channels, and those with more in their heads, are kinds of their own.
 std::string more_of(wire::Bytes datagram) {
   const auto opening = wire::parse_opening(datagram);
+  if (opening->type == wire::Type::kInterest)
+    return wire::parse_interest_list(opening->body)->voices.is_default() ? "" : "_voices";
   if (opening->type != wire::Type::kRecords) return "";
   ByteReader in(opening->body);
   if (!wire::parse_records_header(in)) return "";
@@ -134,6 +136,21 @@ void write_tunnel(const std::filesystem::path& root) {
     tunnel.run(Duration::ms(30));
     tunnel.dance(*scene.b, guest("bob"));
   }
+  Hearing hearing;
+  hearing.others = false;
+  if (hearing.exceptions.try_push(guest("bob")))
+    scene.a->link->set_hearing(hearing, tunnel.time_in(*scene.a));
+  tunnel.run(Duration::ms(30));
+  Voice voice;
+  const std::vector<std::uint8_t> packet(40, 5);
+  if (!voice.set_packet(packet)) std::abort();
+  for (int i = 0; i < 2; ++i) {
+    voice.clock_id = scene.b->clock_id;
+    voice.capture_time = tunnel.time_in(*scene.b);
+    ++voice.sequence;
+    scene.b->link->send(guest("bob"), voice, tunnel.time_in(*scene.b));
+  }
+  tunnel.run(Duration::ms(30));
   tunnel.add_house("salsa", {"carol"});
   tunnel.add_house("salsa", {"bob"});
   tunnel.run(Duration::ms(100));

@@ -60,6 +60,12 @@ class SimulatedTunnel {
     std::vector<Heard> poses;
     std::vector<std::pair<GuestId, Hands>> hands;
     std::vector<std::pair<GuestId, Skeleton>> skeletons;
+    struct HeardVoice {
+      GuestId guest;
+      Voice voice;
+      MonoTime at;
+    };
+    std::vector<HeardVoice> voices;
     // The last of each guest; of the room who set it, and what.
     std::map<GuestId, Avatar> avatars;
     std::map<GuestId, AvatarFile> avatar_files;
@@ -293,6 +299,9 @@ class SimulatedTunnel {
     };
     handlers.on_skeleton = [&](const GuestId& id, const Skeleton& skeleton, MonoTime) {
       house.skeletons.emplace_back(id, skeleton);
+    };
+    handlers.on_voice = [&](const GuestId& id, const Voice& voice, MonoTime now) {
+      house.voices.push_back({id, voice, now});
     };
     add_state_handlers(house, handlers);
     handlers.on_guest_joined = [&](const GuestId& id, MonoTime) {

@@ -15,6 +15,7 @@ enum class Type : std::uint8_t {
   kClockAnswer = 3,
   kRecord = 4,
   kFeedback = 5,
+  kVoice = 6,
   kPresence = 16,
   kGuest = 17,
   kState = 18,
@@ -144,6 +145,31 @@ std::optional<Message> read_record(ByteReader& in) {
       !is_near(record.capture_us) || record.payload.size() > wire::kMaxPayload ||
       (record.payload.empty() && !is_channel) ||
       record.channel >= (is_channel ? kMaxChannelsPerGuest : 1))
+    return std::nullopt;
+  return message;
+}
+
+void write(const VoiceMessage& message, ByteWriter& out) {
+  begin(Type::kVoice, out);
+  out.u64(message.server);
+  out.u64(message.link_token);
+  out.u32(message.record.sequence);
+  out.i64(message.record.capture_us);
+  out.u8(static_cast<std::uint8_t>(-message.record.level_dbfs));
+  out.u8(static_cast<std::uint8_t>(message.record.packet.size()));
+  out.bytes(message.record.packet);
+}
+std::optional<Message> read_voice(ByteReader& in) {
+  VoiceMessage message;
+  const bool is_good = read_server(in, message.server);
+  message.link_token = in.u64();
+  message.record.sequence = in.u32();
+  message.record.capture_us = in.i64();
+  const std::uint8_t below_full = in.u8();
+  message.record.packet = in.bytes(in.u8());
+  message.record.level_dbfs = static_cast<std::int8_t>(-below_full);
+  if (!is_good || !is_near(message.record.capture_us) || below_full > -kSilence_dbfs ||
+      message.record.packet.empty() || message.record.packet.size() > kMaxVoiceBytes)
     return std::nullopt;
   return message;
 }
@@ -309,6 +335,9 @@ std::optional<Message> parse_message(Bytes bytes) {
       break;
     case Type::kFeedback:
       message = read_feedback(in);
+      break;
+    case Type::kVoice:
+      message = read_voice(in);
       break;
     default:
       return std::nullopt;

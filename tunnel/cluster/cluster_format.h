@@ -52,6 +52,13 @@ struct RecordMessage {
   wire::Record record;
 };
 
+// 10 ms of one guest's voice; its slot is not told.
+struct VoiceMessage {
+  ServerId server = 0;
+  std::uint64_t link_token = 0;
+  wire::VoiceRecord record;
+};
+
 struct FeedbackEntry {
   GuestId guest;
   RemoteFeedback feedback;  // its path is that of the message
@@ -64,7 +71,8 @@ struct FeedbackMessage {
   FixedList<FeedbackEntry, kMaxFeedbackEntries> entries;
 };
 
-using Message = std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage>;
+using Message =
+    std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage, VoiceMessage>;
 std::size_t build(const Message& message, std::span<std::uint8_t> out);
 std::optional<Message> parse_message(Bytes bytes);
 

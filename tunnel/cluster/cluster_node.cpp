@@ -52,6 +52,16 @@ bool ClusterNode::is_settled(MonoTime now) const {
 
 // --- what other servers say
 
+template <class Told>
+void ClusterNode::take_record(const Told& told, std::string_view subject, MonoTime now) {
+  const auto of = cluster::parse_pose_subject(subject);
+  if (!of)
+    ++counters_.malformed;
+  else if (server_ != nullptr && told.server != options_.id)
+    server_->remotes().on_record(of->room, told.server, of->guest, told.link_token, told.record,
+                                 clock().to_session(now));
+}
+
 void ClusterNode::on_message(std::string_view subject, cluster::Bytes bytes, MonoTime now) {
   now_ = now;
   ++counters_.messages_in;
@@ -63,13 +73,10 @@ void ClusterNode::on_message(std::string_view subject, cluster::Bytes bytes, Mon
   }
   if (const auto* record = std::get_if<cluster::RecordMessage>(&*message)) {
     ++counters_.records_in;
-    const auto of = cluster::parse_pose_subject(subject);
-    if (!of) {
-      ++counters_.malformed;
-    } else if (server_ != nullptr && record->server != options_.id) {
-      server_->remotes().on_record(of->room, record->server, of->guest, record->link_token,
-                                   record->record, clock().to_session(now));
-    }
+    take_record(*record, subject, now);
+  } else if (const auto* voice = std::get_if<cluster::VoiceMessage>(&*message)) {
+    ++counters_.voices_in;
+    take_record(*voice, subject, now);
   } else if (const auto* beat = std::get_if<cluster::Beat>(&*message)) {
     take(*beat, now);
   } else if (const auto* question = std::get_if<cluster::ClockQuestion>(&*message)) {

@@ -37,6 +37,8 @@ class ClusterNode final : public ClusterPort {
     std::uint64_t bytes_out = 0;
     std::uint64_t records_in = 0;
     std::uint64_t records_out = 0;  // once each, however many servers take it
+    std::uint64_t voices_in = 0;
+    std::uint64_t voices_out = 0;  // once each, as records
     std::uint64_t values_in = 0;
     std::uint64_t malformed = 0;
     std::uint64_t other_codecs = 0;  // guests whose room speaks another codec here
@@ -71,6 +73,8 @@ class ClusterNode final : public ClusterPort {
   void on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) override;
   void on_record(const ServerRoom& room, const ServerGuest& guest,
                  const wire::Record& record) override;
+  void on_voice(const ServerRoom& room, const ServerGuest& guest,
+                const wire::VoiceRecord& record) override;
   void on_state(const ServerRoom& room, const ServerGuest* guest,
                 const wire::State& state) override;
   void on_feedback(ServerId to, const ServerRoom& room, const ServerGuest& guest,
@@ -100,6 +104,8 @@ class ClusterNode final : public ClusterPort {
   void on_back(MonoTime now);
   void take(const cluster::Beat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);
+  template <class Told>
+  void take_record(const Told& told, std::string_view subject, MonoTime now);
   void take(const cluster::FeedbackMessage& message, MonoTime now);
   void take_presence(Room& room, const cluster::Key& key, const cluster::PresenceValue* value,
                      MonoTime now);

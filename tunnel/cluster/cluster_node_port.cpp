@@ -90,6 +90,14 @@ void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
        cluster::RecordMessage{options_.id, guest.link_token, record});
 }
 
+// Where the guest's poses go: a server that wants the guest hears it too.
+void ClusterNode::on_voice(const ServerRoom& room, const ServerGuest& guest,
+                           const wire::VoiceRecord& record) {
+  ++counters_.voices_out;
+  send(cluster::pose_subject(room.name, guest.id).view(),
+       cluster::VoiceMessage{options_.id, guest.link_token, record});
+}
+
 void ClusterNode::on_state(const ServerRoom& room, const ServerGuest* guest,
                            const wire::State& state) {
   cluster::StateValue value;

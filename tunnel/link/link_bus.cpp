@@ -23,6 +23,7 @@ LinkHandlers LinkBus::handlers() {
   LinkHandlers handlers;
   handlers.on_pose = publisher<Pose>(Where::kGuest);
   handlers.on_hands = publisher<Hands>(Where::kGuest);
+  handlers.on_voice = publisher<Voice>(Where::kGuest);
   handlers.on_skeleton = [this, keep = keeper<TimedSkeleton>()](
                              const GuestId& guest, const Skeleton& skeleton, MonoTime now) {
     keep(guest, TimedSkeleton{skeleton, now, clock_id_}, now);
@@ -83,7 +84,7 @@ void LinkBus::send_signals_of(const GuestId& guest) {
         [this](const Channel& channel, const AvatarFile& file, MonoTime now) {
           avatars_->choose(channel.guest(), file, now);
         });
-  send_each<Hands, Music, Scene, Avatar, Style, Placement>(guest);
+  send_each<Hands, Voice, Music, Scene, Avatar, Style, Placement>(guest);
 }
 
 void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {

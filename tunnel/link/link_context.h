@@ -50,6 +50,7 @@ struct LinkContext {
   LocalGuests locals;
   RemoteGuests remotes;
   LinkState state = LinkState::kConnecting;
+  std::uint8_t version = 0;  // of the wire, that the server speaks in this session
   CodecName codec;
   Stream stream;
   bool server_knows_files = false;  // it has said file terms in this session

@@ -27,7 +27,7 @@ LinkCore::LinkCore(const LinkOptions& options, LinkHandlers handlers, DatagramSi
 
 MonoTime LinkCore::next_deadline() const {
   return earlier(earlier(session_.next_deadline(), sender_.next_deadline()),
-                 files_.next_deadline());
+                 earlier(files_.next_deadline(), voice_.next_deadline()));
 }
 
 MonoTime LinkCore::tick(MonoTime now) {
@@ -36,8 +36,12 @@ MonoTime LinkCore::tick(MonoTime now) {
     sender_.flush_acks(now);
     if (session_.is_ping_due(now)) send_ping(now);
   }
-  if (!session_.may_send(now)) link_.stream.bundle.clear();
+  if (!session_.may_send(now)) {
+    link_.stream.bundle.clear();
+    voice_.clear();
+  }
   sender_.flush_due(now);
+  voice_.flush_due(now);
   files_.send_due(now);  // after whatever dances
   session_.send_due_hello(now);
   return next_deadline();
@@ -57,13 +61,17 @@ LocalGuest* LinkCore::find_or_add(const GuestId& id, MonoTime now) {
     guest->came_with_pose = true;
     session_.schedule_update(now);
   }
-  guest->last_pose = now;
+  return guest;
+}
+LocalGuest* LinkCore::find_or_add_dancer(const GuestId& id, MonoTime now) {
+  LocalGuest* guest = find_or_add(id, now);
+  if (guest != nullptr) guest->last_pose = now;
   return guest;
 }
 
 void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
   ++link_.counters.poses_offered;
-  LocalGuest* guest = find_or_add(id, now);
+  LocalGuest* guest = find_or_add_dancer(id, now);
   if (guest == nullptr) return;
   if (session_.may_send(now) && guest->has_slot)
     sender_.send(*guest, pose, now);
@@ -71,12 +79,22 @@ void LinkCore::send(const GuestId& id, const Pose& pose, MonoTime now) {
     ++link_.counters.unrouted;
 }
 void LinkCore::send(const GuestId& id, const Hands& hands, MonoTime now) {
-  LocalGuest* guest = find_or_add(id, now);
+  LocalGuest* guest = find_or_add_dancer(id, now);
   if (guest != nullptr && session_.may_send(now) && guest->has_slot)
     sender_.send(*guest, hands, now);
 }
 void LinkCore::send(const GuestId& id, const Skeleton& skeleton, MonoTime now) {
-  if (LocalGuest* guest = find_or_add(id, now)) states_.send(*guest, skeleton, now);
+  if (LocalGuest* guest = find_or_add_dancer(id, now)) states_.send(*guest, skeleton, now);
+}
+// Who speaks does not dance by it: no pose waits for the next word.
+void LinkCore::send(const GuestId& id, const Voice& voice, MonoTime now) {
+  LocalGuest* guest = find_or_add(id, now);
+  if (guest == nullptr) return;
+  guest->last_voice = now;
+  if (session_.may_send(now) && guest->has_slot)
+    voice_.send(*guest, voice, now);
+  else
+    ++link_.counters.voices_unrouted;
 }
 void LinkCore::send(const GuestId& id, const Avatar& avatar, MonoTime now) {
   states_.send(id, wire::StateKind::kAvatar, avatar, now);
@@ -126,6 +144,9 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
       break;
     case wire::Type::kRecords:
       is_good = receiver_.on_records(opening.body, received, now);
+      break;
+    case wire::Type::kVoices:
+      is_good = voice_.on_voices(opening.body, received, now);
       break;
     case wire::Type::kRoster:
       is_good = roster_.on_roster(opening.body, now);
@@ -177,6 +198,7 @@ bool LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
 
 void LinkCore::begin_session() {
   sender_.begin_session();
+  voice_.clear();
   files_.begin_session();
   room_.begin_session();
   interest_.begin(link_.options.interest.others);
@@ -217,13 +239,21 @@ void LinkCore::set_interest(const Interest& interest, MonoTime) {
   if (session_.is_welcome()) settle_interest();
 }
 
+void LinkCore::set_hearing(const Hearing& hearing, MonoTime) {
+  link_.options.hearing = hearing;
+  if (session_.is_welcome()) settle_interest();
+}
+
 void LinkCore::settle_interest() {
-  if (interest_.change(link_.remotes.interest_list(link_.options.interest)) && is_connected())
-    tell_interest();
+  wire::InterestList list =
+      link_.remotes.interest_list(link_.options.interest, link_.options.hearing);
+  // A server of before sends none, and does not know the words for it.
+  if (link_.version < wire::kFirstVoiceVersion) list.voices = {};
+  if (interest_.change(list) && is_connected()) tell_interest();
 }
 
 void LinkCore::tell_interest() {
-  std::array<std::uint8_t, wire::kMaxHello> out;
+  std::array<std::uint8_t, wire::kMaxPlain> out;
   link_.send({out.data(), wire::build(interest_.list(), out)});
 }
 

@@ -22,6 +22,7 @@
 #include "tunnel/link/link_roster.h"
 #include "tunnel/link/link_session.h"
 #include "tunnel/link/link_states.h"
+#include "tunnel/link/link_voice.h"
 #include "tunnel/session/interest_filter.h"
 
 namespace dance {
@@ -47,6 +48,8 @@ class LinkCore {
   void send(const GuestId& guest, const Pose& pose, MonoTime now);
   void send(const GuestId& guest, const Hands& hands, MonoTime now);
   void send(const GuestId& guest, const Skeleton& skeleton, MonoTime now);
+  // At the end of the turn: tick() is due then.
+  void send(const GuestId& guest, const Voice& voice, MonoTime now);
   // States of a guest of this house: told until the server has them.
   void send(const GuestId& guest, const Avatar& avatar, MonoTime now);
   void send(const GuestId& guest, const AvatarFile& file, MonoTime now);
@@ -60,6 +63,8 @@ class LinkCore {
   // Whom the server is to send, and how often: told until it is acknowledged. For guests who are
   // not here, it counts when they come.
   void set_interest(const Interest& interest, MonoTime now);
+  // Whose voices it is to send.
+  void set_hearing(const Hearing& hearing, MonoTime now);
   // Files of avatars: tunnel/link/link_files.h.
   LinkFiles& files() { return files_; }
   const LinkFiles& files() const { return files_; }
@@ -84,6 +89,7 @@ class LinkCore {
 
  private:
   LocalGuest* find_or_add(const GuestId& id, MonoTime now);
+  LocalGuest* find_or_add_dancer(const GuestId& id, MonoTime now);
   bool on_welcome(wire::Bytes body, MonoTime received, MonoTime now);
   bool on_refusal(wire::Bytes body, MonoTime now);
   bool on_servers(wire::Bytes body, MonoTime now);
@@ -103,6 +109,7 @@ class LinkCore {
   LinkRoom room_{link_};
   LinkStates states_{link_, room_, channels_};
   LinkFiles files_{link_};
+  LinkVoice voice_{link_, sender_};
   InterestRequest interest_;
 };
 

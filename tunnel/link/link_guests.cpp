@@ -32,6 +32,8 @@ void add(const RemoteGuestStats& more, RemoteGuestStats& sum) {
   sum.reference_missing += more.reference_missing;
   sum.skeleton_missing += more.skeleton_missing;
   sum.key_frames_asked += more.key_frames_asked;
+  sum.voices += more.voices;
+  sum.voice_bytes += more.voice_bytes;
 }
 
 }  // namespace
@@ -63,7 +65,8 @@ LocalGuest& LocalGuests::add(const GuestId& id, const QualityByRate& quality) {
 
 bool LocalGuests::evict_silent(MonoTime now) {
   return std::erase_if(guests_, [&](const LocalGuest& guest) {
-           return guest.came_with_pose && now - guest.last_pose > kSilentGuestStays;
+           return guest.came_with_pose &&
+                  now - std::max(guest.last_pose, guest.last_voice) > kSilentGuestStays;
          }) > 0;
 }
 
@@ -115,11 +118,15 @@ bool RemoteGuests::is_present(const GuestId& id) const {
   });
 }
 
-wire::InterestList RemoteGuests::interest_list(const Interest& interest) const {
+wire::InterestList RemoteGuests::interest_list(const Interest& interest,
+                                               const Hearing& hearing) const {
   wire::InterestList list;
   list.default_divider = interest.others;
+  list.voices.hears_others = hearing.others;
   for (const RemoteGuest& guest : guests_) {
     if (!guest.in_use || guest.is_ours) continue;
+    if (hearing.hears(guest.id) != hearing.others)
+      (void)list.voices.exceptions.try_push({slot_of(guest), guest.generation});
     if (!interest.names(guest.id)) continue;
     (void)list.entries.try_push(  // as many as there are slots
         {{slot_of(guest), guest.generation}, interest.divider_of(guest.id)});

@@ -66,6 +66,8 @@ struct LocalGuest {
   MonoTime refused_until;       // set: not asked for before then
   bool came_with_pose = false;  // not announced: goes when its producer does
   MonoTime last_pose;
+  MonoTime last_voice;
+  TokenBucket voice_budget{120.0, 30.0};  // packets a second: as the server's
   StreamTag poses;
   StreamTag hands;
   std::unique_ptr<PoseEncoder> encoder;
@@ -96,7 +98,8 @@ class LocalGuests {
   bool is_full() const { return guests_.size() == wire::kMaxGuestsPerLink; }
 
   LocalGuest& add(const GuestId& id, const QualityByRate& quality);
-  // Those who came with a pose and whose producers have ended give their names back to the room.
+  // Those who came with a pose or a voice and whose producers have ended give their names back to
+  // the room.
   bool evict_silent(MonoTime now);
   LocalGuest* find(const GuestId& id);
   LocalGuest* find_slot(std::uint8_t slot);
@@ -147,7 +150,7 @@ class RemoteGuests {
   }
   bool is_present(const GuestId& id) const;
   // Of those here who are named.
-  wire::InterestList interest_list(const Interest& interest) const;
+  wire::InterestList interest_list(const Interest& interest, const Hearing& hearing) const;
   // Before a guest's counting begins anew: it left, or it came back in another slot or session.
   void keep_counts(const RemoteGuest& guest);
   std::vector<RemoteGuestStats> stats() const;

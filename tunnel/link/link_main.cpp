@@ -39,6 +39,7 @@ struct LinkProgramOptions {
   double pose_bytes_per_second = 0.0;
   double avatar_bytes_per_second = LinkOptions().file_bytes_per_second;
   std::vector<std::string> want;
+  std::vector<std::string> hear;
   std::vector<std::string> channels;
   bool listen_only = false;
   bool json = false;
@@ -64,6 +65,9 @@ Result<LinkOptions> checked(const LinkProgramOptions& given) {
   const auto interest = parse_interest(given.want);
   if (!interest) return fail("--want " + interest.error().what);
   options.interest = *interest;
+  const auto hearing = parse_hearing(given.hear);
+  if (!hearing) return fail("--hear " + hearing.error().what);
+  options.hearing = *hearing;
   DANCE_TRY(options.channels, parse_channel_rules(given.channels));
   options.clock_id = this_clock_id();
   options.quality_m = given.quality_mm * 1e-3;
@@ -161,6 +165,9 @@ int main(int argc, char** argv) {
            "how many of a guest's poses come here: NAME=1 every one, before all others where the "
            "line is narrow; NAME=N at most every N-th, NAME=0 "
            "none; default=N for all who are not named; may be repeated");
+  line.add("--hear", options.hear,
+           "whose voices come here: NAME=0 not this guest's, NAME=1 this guest's; default=0 "
+           "nobody's who is not named; may be repeated");
   line.add_flag("--listen-only", options.listen_only,
                 "hears the room and sends nothing of this house");
   line.add("--bus", options.bus, "LCM URL of the house's bus");

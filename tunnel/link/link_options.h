@@ -15,12 +15,14 @@
 
 #include "core/base/fixed_list.h"
 #include "core/bus/state_messages.h"
+#include "core/bus/voice.h"
 #include "core/codec/pose_codec.h"
 #include "core/net/address.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
 #include "tunnel/files/chunked_file.h"
 #include "tunnel/policy/channel_rule.h"
+#include "tunnel/policy/hearing.h"
 #include "tunnel/seal/seal_trouble.h"
 #include "tunnel/session/pose_share.h"
 #include "tunnel/session/reference_policy.h"
@@ -49,6 +51,8 @@ struct LinkOptions {
   std::uint32_t poses_per_stamp = 32;
   // Whom it wants to hear, and how often; LinkCore::set_interest() changes it.
   Interest interest;
+  // Whose voices; LinkCore::set_hearing() changes it.
+  Hearing hearing;
   // The largest error in any joint that own guests are sent with, in metres;
   double quality_m = 0.001;
   // and what the payloads of each of them may cost: where they cost more, the error grows up to 5
@@ -69,6 +73,7 @@ enum class LinkState : std::uint8_t {
 struct LinkHandlers {
   std::function<void(const GuestId&, const Pose&, MonoTime now)> on_pose;
   std::function<void(const GuestId&, const Hands&, MonoTime now)> on_hands;
+  std::function<void(const GuestId&, const Voice&, MonoTime now)> on_voice;
   std::function<void(const GuestId&, const Skeleton&, MonoTime now)> on_skeleton;
   std::function<void(const GuestId&, const Avatar&, MonoTime now)> on_avatar;
   std::function<void(const GuestId&, const AvatarFile&, MonoTime now)> on_avatar_file;
@@ -138,7 +143,13 @@ struct LinkCounters {
   std::uint64_t channels_late = 0;      // not newer than what went before
   std::uint64_t channels_unrouted = 0;  // no guest to send them by, or not announced yet
   std::uint64_t channels_overflow = 0;  // more channels than a guest or a house may have
-  std::uint64_t stream_restarts = 0;    // producers of ours that began anew
+  std::uint64_t voices_sent = 0;        // packets of 10 ms, of guests of this house
+  std::uint64_t voices_delivered = 0;   // of others
+  std::uint64_t voices_limited = 0;     // more than a microphone makes
+  std::uint64_t voices_invalid = 0;     // both ways: no voice, or of no time under way
+  std::uint64_t voices_unrouted =
+      0;  // not connected, a server of before, an unknown or unwanted guest
+  std::uint64_t stream_restarts = 0;  // producers of ours that began anew
   std::uint64_t datagrams_in = 0;
   std::uint64_t datagrams_out = 0;
   std::uint64_t bytes_in = 0;
@@ -162,6 +173,8 @@ struct RemoteGuestStats {
   std::uint64_t reference_missing = 0;
   std::uint64_t skeleton_missing = 0;
   std::uint64_t key_frames_asked = 0;
+  std::uint64_t voices = 0;       // packets
+  std::uint64_t voice_bytes = 0;  // of their records
 };
 
 // One guest of this house, as this link sends it.

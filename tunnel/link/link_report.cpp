@@ -19,7 +19,9 @@ std::string link_report_json(const Link& link) {
                       {"invalid", guest.invalid},
                       {"reference_missing", guest.reference_missing},
                       {"skeleton_missing", guest.skeleton_missing},
-                      {"key_frames_asked", guest.key_frames_asked}});
+                      {"key_frames_asked", guest.key_frames_asked},
+                      {"voices", guest.voices},
+                      {"voice_bytes", guest.voice_bytes}});
   ordered_json own = ordered_json::array();
   for (const LocalGuestStats& guest : link.local_stats())
     own.push_back({{"id", std::string(guest.guest.view())},
@@ -67,6 +69,11 @@ std::string link_report_json(const Link& link) {
                             {"channels_late", c.channels_late},
                             {"channels_unrouted", c.channels_unrouted},
                             {"channels_overflow", c.channels_overflow},
+                            {"voices_sent", c.voices_sent},
+                            {"voices_delivered", c.voices_delivered},
+                            {"voices_limited", c.voices_limited},
+                            {"voices_invalid", c.voices_invalid},
+                            {"voices_unrouted", c.voices_unrouted},
                             {"overflow", c.overflow},
                             {"foreign_clock", c.foreign_clock},
                             {"stream_restarts", c.stream_restarts},

@@ -36,7 +36,7 @@ class LinkSender {
   // and when we tell it of its own.
   MonoTime when_to_acknowledge(MonoTime now) const;
 
- private:
+  // A capture's time as the wire tells it; false for one of no time under way.
   struct Stamp {
     MonoTime capture;  // in our clock
     std::int64_t capture_us;
@@ -45,6 +45,8 @@ class LinkSender {
   };
   bool stamp(MonoTime capture, std::uint64_t clock_id, MonoTime published, MonoTime now,
              Stamp& out);
+
+ private:
   void settle_quality(LocalGuest& guest, MonoTime now);
   void put(const wire::Record& record, MonoTime now);
   void flush(MonoTime now);

@@ -186,6 +186,7 @@ std::optional<wire::Welcome> LinkSession::parse_answer(wire::Bytes body) const {
 
 void LinkSession::begin(const wire::Welcome& welcome, MonoTime now) {
   if (is_new(welcome)) quick_pings_left_ = kQuickPings;
+  link_.version = welcome.version;
   epoch_ = welcome.epoch;
   is_welcome_ = true;
   hello_wanted_ = has_untold_removal_ = false;

@@ -12,6 +12,7 @@
 
 #include "tunnel/session/reference_control.h"
 #include "tunnel/wire/wire_state.h"
+#include "tunnel/wire/wire_voice.h"
 
 namespace dance {
 
@@ -54,6 +55,9 @@ class ClusterPort {
   // Of a guest of this server's, in a room where others have links.
   virtual void on_record(const ServerRoom& room, const ServerGuest& guest,
                          const wire::Record& record) = 0;
+  // As on_record(), of 10 ms of the guest's voice.
+  virtual void on_voice(const ServerRoom& room, const ServerGuest& guest,
+                        const wire::VoiceRecord& record) = 0;
   // A state of a guest of this server's, or of the room, set here.
   virtual void on_state(const ServerRoom& room, const ServerGuest* guest,
                         const wire::State& state) = 0;

@@ -232,11 +232,13 @@ void ServerAdmission::move_session(std::size_t index, PeerId to) {
   session.stream = Stream();
   session.interest = {};
   session.pace = SessionPace();
+  session.voice = SessionVoice();
   session.filters.fill(InterestFilter());
   session.knows_epoch = false;
   session.feedback_due = session.feedback_alone = MonoTime();
   std::erase(server_.bundled, index);
   std::erase(server_.reporting, index);
+  std::erase(server_.speaking, index);
 }
 
 std::size_t ServerAdmission::open_session(PeerId peer, const Access& access,
@@ -352,6 +354,7 @@ void ServerAdmission::drop(std::size_t index) {
   std::erase(server_.newcomers, index);
   std::erase(server_.bundled, index);
   std::erase(server_.reporting, index);
+  std::erase(server_.speaking, index);
   server_.by_peer.erase(session.peer);
   if (session.is_remote()) server_.remotes[session.remote] = RemoteReceivers();
   session.in_use = false;

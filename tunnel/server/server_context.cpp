@@ -18,6 +18,7 @@ ServerContext::ServerContext(const ServerLimits& of_server, PeerSink& to)
   newcomers.reserve(limits.sessions);
   bundled.reserve(limits.sessions);
   reporting.reserve(sessions.size());
+  speaking.reserve(limits.sessions);
   changed_rooms.reserve(limits.rooms);
   for (ServerRoom& room : rooms) room.members.reserve(sessions.size());
 }

@@ -40,6 +40,7 @@ struct ServerContext {
   std::vector<std::size_t> newcomers;             // sessions that know nothing of their room yet
   std::vector<std::size_t> bundled;               // sessions with a bundle under way
   std::vector<std::size_t> reporting;             // sessions with feedback due
+  std::vector<std::size_t> speaking;              // sessions with voices to be sent
   std::vector<std::size_t> changed_rooms;
   wire::ServerList other_servers;  // of a cluster, as links reach them
   ServerCounters counters;

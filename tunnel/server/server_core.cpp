@@ -78,6 +78,8 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
       return on_ping(index, opening.body, received, now);
     case wire::Type::kRecords:
       return forwarder_.on_records(index, opening.body, received, now);
+    case wire::Type::kVoices:
+      return voice_.on_voices(index, opening.body, received, now);
     case wire::Type::kState:
       return states_.on_states(index, opening.body, now);
     case wire::Type::kStateAck:
@@ -190,6 +192,7 @@ void ServerCore::end_turn(MonoTime now) {
     return true;
   };
   if (std::erase_if(server_.newcomers, is_greeted) > 0) forwarder_.flush_due(now);
+  voice_.send_due(now);
   // Last, so that nothing waits for them.
   for (const std::size_t i : server_.changed_rooms)
     if (server_.rooms[i].has_fresh_states && now >= server_.rooms[i].fresh_states_due)
@@ -240,6 +243,8 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : server_.changed_rooms)
     if (const ServerRoom& room = server_.rooms[i]; room.has_fresh_states)
       next = std::min(next, room.fresh_states_due);
+  if (const MonoTime voices = voice_.next_deadline(); voices.is_set())
+    next = std::min(next, voices);
   for (const std::size_t i : server_.newcomers)
     next = std::min(next, server_.rooms[server_.sessions[i].room].settled_at);
   if (const MonoTime files = files_.next_deadline(); files.is_set()) next = std::min(next, files);

@@ -20,6 +20,7 @@
 #include "tunnel/server/server_files.h"
 #include "tunnel/server/server_forwarder.h"
 #include "tunnel/server/server_remotes.h"
+#include "tunnel/server/voice/server_voice.h"
 
 namespace dance {
 
@@ -93,7 +94,8 @@ class ServerCore {
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerAdmission admission_;
   ServerFiles files_{server_};
-  ServerRemotes remotes_{server_, slots_, admission_, forwarder_, feedback_, states_};
+  ServerVoice voice_{server_};
+  ServerRemotes remotes_{server_, slots_, admission_, forwarder_, feedback_, states_, voice_};
   MonoTime next_sweep_;
   std::uint64_t sweeps_ = 0;
 };

@@ -39,6 +39,7 @@ void ServerInterest::settle(std::size_t index, MonoTime now) {
       dividers[entry.slot.slot] = entry.divider;
   for (std::size_t slot = 0; slot < dividers.size(); ++slot)
     if (dividers[slot] != 0) dividers[slot] = std::max(dividers[slot], session.pace.dividers[slot]);
+  settle_voices(session, room);
   session.full_shares = 0;
   for (std::uint8_t slot = 0; slot < dividers.size(); ++slot) {
     const ServerGuest& guest = room.guests[slot];
@@ -50,6 +51,17 @@ void ServerInterest::settle(std::size_t index, MonoTime now) {
     room.interest_changed = true;
     server_.mark_changed(room);
   }
+}
+
+void ServerInterest::settle_voices(ServerSession& session, const ServerRoom& room) {
+  const wire::VoiceInterest& voices = session.interest.voices;
+  if (voices.hears_others)
+    session.voice.muted.reset();
+  else
+    session.voice.muted.set();
+  for (const wire::Slot& slot : voices.exceptions)
+    if (room.guests[slot.slot].generation == slot.generation)
+      session.voice.muted.set(slot.slot, voices.hears_others);
 }
 
 void ServerInterest::tell_wanted(ServerRoom& room) {

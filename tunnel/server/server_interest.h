@@ -24,6 +24,7 @@ class ServerInterest {
   bool take(std::size_t to, const wire::Record& record, MonoTime now);
 
  private:
+  static void settle_voices(ServerSession& session, const ServerRoom& room);
   void set_divider(std::size_t session, std::uint8_t slot, std::uint8_t divider, MonoTime now);
 
   ServerContext& server_;

@@ -20,6 +20,19 @@ std::optional<std::size_t> ServerRemotes::session_of(const ServerRoom& room,
   return std::nullopt;
 }
 
+std::optional<ServerRemotes::Place> ServerRemotes::place_of(const wire::RoomName& name,
+                                                            ServerId server, const GuestId& id,
+                                                            std::uint64_t link_token) {
+  const ServerRoom* room = find(name);
+  const auto slot = room != nullptr ? ServerSlots::find(*room, id) : std::nullopt;
+  const auto session = slot ? session_of(*room, server) : std::nullopt;
+  if (!session || room->guests[*slot].link_token != link_token) {
+    ++counters_.unknown;
+    return std::nullopt;
+  }
+  return Place{*session, *slot};
+}
+
 void ServerRemotes::settle(const wire::RoomName& name) {
   if (ServerRoom* room = find(name)) room->settled_at = MonoTime();
 }
@@ -99,15 +112,18 @@ void ServerRemotes::remove_guest(const wire::RoomName& name, ServerId server, co
 
 void ServerRemotes::on_record(const wire::RoomName& name, ServerId server, const GuestId& id,
                               std::uint64_t link_token, wire::Record record, MonoTime now) {
-  const ServerRoom* room = find(name);
-  const auto slot = room != nullptr ? ServerSlots::find(*room, id) : std::nullopt;
-  const auto session = slot ? session_of(*room, server) : std::nullopt;
-  if (!session || room->guests[*slot].link_token != link_token) {
-    ++counters_.unknown;
-    return;
-  }
-  record.slot = *slot;
-  forwarder_.on_remote_record(*session, record, now);
+  const auto place = place_of(name, server, id, link_token);
+  if (!place) return;
+  record.slot = place->slot;
+  forwarder_.on_remote_record(place->session, record, now);
+}
+
+void ServerRemotes::on_record(const wire::RoomName& name, ServerId server, const GuestId& id,
+                              std::uint64_t link_token, wire::VoiceRecord record, MonoTime now) {
+  const auto place = place_of(name, server, id, link_token);
+  if (!place) return;
+  record.slot.slot = place->slot;
+  voice_.on_remote_voice(place->session, record, now);
 }
 
 void ServerRemotes::on_feedback(const wire::RoomName& name, ServerId server, const GuestId& id,

@@ -11,6 +11,7 @@
 
 #include "tunnel/server/server_admission.h"
 #include "tunnel/server/server_forwarder.h"
+#include "tunnel/server/voice/server_voice.h"
 
 namespace dance {
 
@@ -23,13 +24,15 @@ class ServerRemotes {
   };
 
   ServerRemotes(ServerContext& server, ServerSlots& slots, ServerAdmission& admission,
-                ServerForwarder& forwarder, ServerFeedback& feedback, ServerStates& states)
+                ServerForwarder& forwarder, ServerFeedback& feedback, ServerStates& states,
+                ServerVoice& voice)
       : server_(server),
         slots_(slots),
         admission_(admission),
         forwarder_(forwarder),
         feedback_(feedback),
-        states_(states) {}
+        states_(states),
+        voice_(voice) {}
 
   // All is told of who is in the room at other servers.
   void settle(const wire::RoomName& room);
@@ -47,6 +50,8 @@ class ServerRemotes {
   void remove_guest(const wire::RoomName& room, ServerId server, const GuestId& guest);
   void on_record(const wire::RoomName& room, ServerId server, const GuestId& guest,
                  std::uint64_t link_token, wire::Record record, MonoTime now);
+  void on_record(const wire::RoomName& room, ServerId server, const GuestId& guest,
+                 std::uint64_t link_token, wire::VoiceRecord record, MonoTime now);
   void on_feedback(const wire::RoomName& room, ServerId server, const GuestId& guest,
                    const RemoteFeedback& feedback, MonoTime now);
   // Of a guest of that server's, or of the room (guest not set).
@@ -58,6 +63,13 @@ class ServerRemotes {
 
  private:
   ServerRoom* find(const wire::RoomName& room);
+  // The session of a server in a room, and its guest's slot; nothing where it has no such guest.
+  struct Place {
+    std::size_t session = 0;
+    std::uint8_t slot = 0;
+  };
+  std::optional<Place> place_of(const wire::RoomName& room, ServerId server, const GuestId& guest,
+                                std::uint64_t link_token);
   std::optional<std::size_t> session_of(const ServerRoom& room, ServerId server) const;
 
   ServerContext& server_;
@@ -66,6 +78,7 @@ class ServerRemotes {
   ServerForwarder& forwarder_;
   ServerFeedback& feedback_;
   ServerStates& states_;
+  ServerVoice& voice_;
   Counters counters_;
 };
 

@@ -33,6 +33,9 @@ std::optional<std::uint8_t> ServerSlots::add_guest(std::size_t index, const Gues
       TokenBucket(server_.limits.channel_records_per_second, server_.limits.channel_record_burst);
   free->channel_bytes =
       TokenBucket(server_.limits.channel_bytes_per_second, server_.limits.channel_byte_burst);
+  free->voice.packets = TokenBucket(server_.limits.voices_per_second, server_.limits.voice_burst);
+  free->voice.bytes =
+      TokenBucket(server_.limits.voice_bytes_per_second, server_.limits.voice_byte_burst);
   free->owner = index;
   const bool pushed = session.slots.try_push(*slot);
   DANCE_ASSERT(pushed);
@@ -114,6 +117,7 @@ void ServerSlots::begin_slot(ServerRoom& room, std::uint8_t slot) {
   for (const std::size_t member : room.members) {
     ServerSession& receiver = server_.sessions[member];
     receiver.filters[slot] = InterestFilter(receiver.interest.default_divider);
+    receiver.voice.muted.set(slot, !receiver.interest.voices.hears_others);
     if (!receiver.is_remote()) continue;
     server_.remotes[receiver.remote].frames[slot] = {};
     server_.remotes[receiver.remote].key_frames[slot] = 0;

@@ -22,6 +22,7 @@
 #include "tunnel/server/link_meter.h"
 #include "tunnel/server/pace/pose_flow.h"
 #include "tunnel/server/pace/session_pace.h"
+#include "tunnel/server/voice/voice_flow.h"
 #include "tunnel/session/arrival_jitter.h"
 #include "tunnel/session/interest_filter.h"
 #include "tunnel/session/peer.h"
@@ -57,6 +58,12 @@ struct ServerLimits {
   double channel_record_burst = 100.0;
   double channel_bytes_per_second = 128e3;
   double channel_byte_burst = 32e3;
+  // Per guest: packets of its voice. One comes each 10 ms; more is a clock that runs fast, or what
+  // a hiccup held up.
+  double voices_per_second = 120.0;
+  double voice_burst = 30.0;
+  double voice_bytes_per_second = 16e3;
+  double voice_byte_burst = 4e3;
   // Per guest: changes of its states and of those of the room that it sets.
   double state_changes_per_second = 60.0;
   double state_change_burst = 60.0;
@@ -100,15 +107,16 @@ enum class ServerReject : std::uint8_t {
   kStateRate,
   kChannelRate,
   kFileNotAsked,
+  kVoiceRate,
   kCount,
 };
 constexpr std::size_t kServerRejects = static_cast<std::size_t>(ServerReject::kCount);
 // As the log and the summary say it.
 constexpr std::array<std::string_view, kServerRejects> kServerRejectNames{
-    "too_short",  "malformed",    "unknown_type", "version",       "old_hello",
-    "no_session", "session_rate", "guest_rate",   "foreign_slot",  "bad_time",
-    "bad_ack",    "late",         "duplicate",    "refused",       "not_allowed",
-    "overruled",  "state_rate",   "channel_rate", "file_not_asked"};
+    "too_short",  "malformed",    "unknown_type", "version",        "old_hello",
+    "no_session", "session_rate", "guest_rate",   "foreign_slot",   "bad_time",
+    "bad_ack",    "late",         "duplicate",    "refused",        "not_allowed",
+    "overruled",  "state_rate",   "channel_rate", "file_not_asked", "voice_rate"};
 
 struct ServerCounters {
   std::uint64_t datagrams_in = 0;
@@ -121,6 +129,11 @@ struct ServerCounters {
   std::uint64_t records_out = 0;        // once per receiver
   std::uint64_t records_repeated = 0;   // besides: once more, where a way loses some
   std::uint64_t datagrams_acked = 0;    // of records, by their receivers
+  std::uint64_t voices_in = 0;          // packets of voices that were taken
+  std::uint64_t voices_out = 0;         // once per receiver
+  std::uint64_t voices_crowded = 0;     // not sent: so many others speak, and louder
+  std::uint64_t voices_held_back = 0;   // not sent: the receiver's line bears its poses, not these
+  std::uint64_t voice_bytes_out = 0;    // of bytes_out
   std::uint64_t key_frames_wanted = 0;  // by newcomers, and by who could not decode
   std::uint64_t key_frames_asked = 0;   // of the senders: several wants in one
   std::uint64_t file_chunks_in = 0;
@@ -185,6 +198,7 @@ struct ServerSession {
   // Records wait here for the end of this turn, or of their window.
   Stream stream;
   SessionPace pace;
+  SessionVoice voice;
   // What it wants of the others: the list as it said it, and what follows for each slot.
   wire::InterestList interest;
   std::array<InterestFilter, wire::kMaxGuestsPerRoom> filters;
@@ -255,6 +269,7 @@ struct ServerGuest {
   std::array<ChannelGate, kMaxChannelsPerGuest> channels{};
   TokenBucket channel_records;
   TokenBucket channel_bytes;
+  GuestVoice voice;
 };
 
 struct ServerRoom {

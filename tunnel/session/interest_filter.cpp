@@ -10,11 +10,12 @@ namespace dance {
 void InterestRequest::begin(std::uint8_t default_divider) {
   list_.default_divider = default_divider;
   list_.entries.clear();
+  list_.voices = {};
   acked_ = list_.version;
 }
 
 bool InterestRequest::change(const wire::InterestList& wanted) {
-  if (wanted.default_divider == list_.default_divider &&
+  if (wanted.default_divider == list_.default_divider && wanted.voices == list_.voices &&
       std::equal(wanted.entries.begin(), wanted.entries.end(), list_.entries.begin(),
                  list_.entries.end()))
     return false;

@@ -266,8 +266,29 @@ std::size_t build(const InterestList& interest, std::span<std::uint8_t> buffer) 
     write_slot(entry.slot, out);
     out.u8(entry.divider);
   }
+  if (interest.voices.is_default()) return size_of(out);
+  out.u8(interest.voices.hears_others ? 1 : 0);
+  out.u8(static_cast<std::uint8_t>(interest.voices.exceptions.size()));
+  for (const Slot& slot : interest.voices.exceptions) write_slot(slot, out);
   return size_of(out);
 }
+
+namespace {
+
+// As it is written: something that is not said by leaving it out.
+bool read_voice_interest(ByteReader& in, VoiceInterest& voices) {
+  const std::uint8_t hears_others = in.u8();
+  const std::size_t exceptions = in.u8();
+  voices.hears_others = hears_others == 1;
+  for (std::size_t i = 0; i < exceptions; ++i) {
+    const Slot slot = read_slot(in);
+    if (!in.ok() || slot.slot >= kMaxGuestsPerRoom || !voices.exceptions.try_push(slot))
+      return false;
+  }
+  return in.ok() && hears_others <= 1 && !voices.is_default();
+}
+
+}  // namespace
 
 std::optional<InterestList> parse_interest_list(Bytes body) {
   ByteReader in(body);
@@ -282,6 +303,8 @@ std::optional<InterestList> parse_interest_list(Bytes body) {
     if (!in.ok() || entry.slot.slot >= kMaxGuestsPerRoom || !interest.entries.try_push(entry))
       return std::nullopt;
   }
+  if (in.ok() && in.remaining() > 0 && !read_voice_interest(in, interest.voices))
+    return std::nullopt;
   if (!in.is_exhausted() || interest.version == 0) return std::nullopt;
   return interest;
 }

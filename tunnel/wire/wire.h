@@ -10,6 +10,7 @@
 //               functions give 0 bytes where the buffer is too small.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +26,8 @@
 
 namespace dance::wire {
 
-// 5 has twice the slots of 4, and is the same in all else: who speaks 4 hears of the lower half.
+// 5 has twice the slots of 4, and voices. Who speaks 4 hears of the lower half of the slots, and
+// neither gets a voice nor sends one.
 constexpr std::uint8_t kWireVersion = 5;
 constexpr std::uint8_t kOldestWireVersion = 4;
 static_assert(kOldestWireVersion == seal::kTunnelVersion, "all before were not sealed");
@@ -67,6 +69,8 @@ enum class Type : std::uint8_t {
   kFileRefusal = 28,
   // tunnel/wire/wire_servers.h.
   kServers = 29,
+  // tunnel/wire/wire_voice.h.
+  kVoices = 30,
 };
 
 enum class Refusal : std::uint16_t {
@@ -160,10 +164,22 @@ struct InterestEntry {
   std::uint8_t divider = 1;
   bool operator==(const InterestEntry&) const = default;
 };
+// Whose voices it wants: everybody's, or nobody's, but for the guests who are excepted.
+struct VoiceInterest {
+  bool hears_others = true;
+  FixedList<Slot, kMaxGuestsPerRoom> exceptions;
+  // Nothing is said about it; nor could it be to a peer of version 4.
+  bool is_default() const { return hears_others && exceptions.empty(); }
+  bool operator==(const VoiceInterest& o) const {
+    return hears_others == o.hears_others && std::equal(exceptions.begin(), exceptions.end(),
+                                                        o.exceptions.begin(), o.exceptions.end());
+  }
+};
 struct InterestList {
   std::uint32_t version = 0;  // not 0; the link counts its changes
   std::uint8_t default_divider = 1;
   FixedList<InterestEntry, kMaxGuestsPerRoom> entries;
+  VoiceInterest voices;
 };
 
 // How a datagram begins.

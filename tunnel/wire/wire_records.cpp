@@ -40,11 +40,6 @@ std::int32_t read_age(ByteReader& in) {
   return ticks == kEscape ? in.i32() : ticks * static_cast<std::int32_t>(kTick_us);
 }
 
-// The number near to `near` whose low 24 bits these are.
-std::int64_t nearest(std::uint32_t low, std::int64_t near) {
-  return near + (static_cast<std::int32_t>((low - static_cast<std::uint32_t>(near)) << 8) >> 8);
-}
-
 void write_capture(const Record& record, bool has_ages, const RecordChain& chain, ByteWriter& out) {
   const std::int64_t ticks = to_ticks(record.capture_us);
   if (chain.has_any) {
@@ -76,7 +71,7 @@ bool read_capture(ByteReader& in, const RecordChain& chain, bool& has_ages, Reco
     record.capture_us =
         (chain.capture_ticks + static_cast<std::int64_t>(told) - kMiddle) * kTick_us;
   else
-    record.capture_us = nearest(told, to_ticks(chain.near_us)) * kTick_us;
+    record.capture_us = capture_near(told, to_ticks(chain.near_us)) * kTick_us;
   return true;
 }
 

@@ -17,6 +17,10 @@ namespace dance::wire {
 
 constexpr std::int64_t kTick_us = 16;
 constexpr std::int64_t to_ticks(std::int64_t us) { return (us + kTick_us / 2) >> 4; }
+// The number of ticks near to `near` whose low 24 bits these are.
+constexpr std::int64_t capture_near(std::uint32_t low, std::int64_t near) {
+  return near + (static_cast<std::int32_t>((low - static_cast<std::uint32_t>(near)) << 8) >> 8);
+}
 
 // Acknowledges a datagram but for the pose of one guest in it.
 struct AckExcept {

@@ -6,8 +6,8 @@ namespace {
 
 constexpr std::uint8_t kHasAcks = 1, kHasExcepts = 2, kHasWants = 4, kHasFeedback = 8,
                        kHasRecords = 16, kWantsRepeats = 32, kKnownFlags = 63;
-constexpr std::uint8_t kSlotMask = 0x3f;  // of feedback: a link's own are in the first page
-static_assert(kSlotMask + 1 == kSlotsPerPage);
+constexpr std::uint8_t kFeedbackSlotMask = 0x3f;  // of feedback: a link's own are in the first page
+static_assert(kFeedbackSlotMask + 1 == kSlotsPerPage);
 constexpr std::uint8_t kHeldFlag = 0x80, kSpacingFlag = 0x40;
 // Of the spacings: bits 0 and 1 base, high half intra frames.
 constexpr std::uint8_t kBaseMask = 0x03, kBaseHeldFlag = 0x08;
@@ -82,7 +82,7 @@ bool read_feedback(ByteReader& in, Feedback& feedback) {
     GuestFeedback guest;
     const std::uint8_t slot = in.u8();
     guest.has_acked = (slot & kHeldFlag) != 0;
-    guest.slot = slot & kSlotMask;
+    guest.slot = slot & kFeedbackSlotMask;
     guest.restarts = in.u8();
     guest.key_frames = in.u8();
     if (guest.has_acked) {

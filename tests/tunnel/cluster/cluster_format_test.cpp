@@ -47,6 +47,24 @@ TEST(ClusterFormat, KeepsEveryFieldOfARecord) {
   EXPECT_TRUE(std::ranges::equal(record.payload, message.record.payload));
 }
 
+TEST(ClusterFormat, KeepsEveryFieldOfAVoice) {
+  const auto message = cluster_samples::voice();
+  const auto bytes = bytes_of(cluster::Message(message));
+  // 13 and 14 are server and token, 7,654,321 the sequence, 9,876,543,210 µs the capture.
+  const std::vector<std::uint8_t> golden{1,    6,    13, 0, 0, 0, 0,    0,    0,    0, 14,   0,
+                                         0,    0,    0,  0, 0, 0, 0xb1, 0xcb, 0x74, 0, 0xea, 0x16,
+                                         0xb0, 0x4c, 2,  0, 0, 0, 31,   4,    8,    6, 4,    2};
+  EXPECT_EQ(bytes, golden);
+  const auto read = cluster::parse_message(bytes);
+  ASSERT_TRUE(read);
+  const auto& voice = std::get<cluster::VoiceMessage>(*read);
+  EXPECT_EQ(voice.link_token, message.link_token);
+  EXPECT_EQ(voice.record.sequence, message.record.sequence);
+  EXPECT_EQ(voice.record.capture_us, message.record.capture_us);
+  EXPECT_EQ(voice.record.level_dbfs, message.record.level_dbfs);
+  EXPECT_TRUE(std::ranges::equal(voice.record.packet, message.record.packet));
+}
+
 // Version 1, written down: what a server of then says is understood for good.
 TEST(ClusterFormat, GoldenBytes) {
   cluster::ClockQuestion question;

@@ -38,6 +38,18 @@ inline cluster::RecordMessage record() {
   return message;
 }
 
+inline cluster::VoiceMessage voice() {
+  static const std::vector<std::uint8_t> packet{8, 6, 4, 2};
+  cluster::VoiceMessage message;
+  message.server = 13;
+  message.link_token = 14;
+  message.record.sequence = 7'654'321;
+  message.record.capture_us = 9'876'543'210;
+  message.record.level_dbfs = -31;
+  message.record.packet = packet;
+  return message;
+}
+
 inline std::vector<cluster::Message> messages() {
   cluster::Beat beat;
   beat.server = 1;
@@ -66,9 +78,13 @@ inline std::vector<cluster::Message> messages() {
   cluster::RecordMessage channel = record();
   channel.record.kind = wire::RecordKind::kChannel;
   channel.record.channel = 3;
-  return {
-      beat,    cluster::ClockQuestion{6, 7}, cluster::ClockAnswer{8, 9, 10, 11}, record(), channel,
-      feedback};
+  return {beat,
+          cluster::ClockQuestion{6, 7},
+          cluster::ClockAnswer{8, 9, 10, 11},
+          record(),
+          channel,
+          feedback,
+          voice()};
 }
 
 inline std::vector<cluster::Value> values() {

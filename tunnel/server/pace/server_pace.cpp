@@ -23,8 +23,9 @@ void ServerPace::sample(MonoTime now) {
   if (sampled_.is_set() && now - sampled_ < kSample) return;
   if (sampled_.is_set()) {
     const double seconds = (now - sampled_).as_seconds();
-    for (const ServerSession& session : server_.sessions) {
+    for (ServerSession& session : server_.sessions) {
       if (!session.in_use) continue;
+      session.voice.share.sample(seconds);
       for (const std::uint8_t slot : session.slots)
         server_.rooms[session.room].guests[slot].flow.sample(seconds);
     }
@@ -47,10 +48,12 @@ void ServerPace::on_ping(std::size_t index, MonoTime now) {
     report.loss = static_cast<double>(losses.lost() - pace.lost) / static_cast<double>(counted);
   const auto bytes = session.meter.bytes_out - pace.bytes_out +
                      kIpUdp_bytes * (session.meter.datagrams_out - pace.datagrams_out);
+  const auto of_voices = session.voice.bytes_out - pace.voice_bytes_out;
   const bool is_first = !pace.reported.is_set();
   if (!is_first) report.bytes_per_s = static_cast<double>(bytes) / passed.as_seconds();
   pace.reported = now;
   pace.bytes_out = session.meter.bytes_out;
+  pace.voice_bytes_out = session.voice.bytes_out;
   pace.datagrams_out = session.meter.datagrams_out;
   if (is_first || counted >= kFewestCounted) {
     pace.lost = losses.lost();
@@ -59,11 +62,13 @@ void ServerPace::on_ping(std::size_t index, MonoTime now) {
   if (is_first) return;
   const Wanted wanted = wanted_by(index);
   const double reckoned = share_cost(wanted.all(), pace.ramp, pace.window);
+  const double of_poses =
+      static_cast<double>(bytes - std::min(bytes, of_voices)) / passed.as_seconds();
   if (reckoned > 0.0)
     pace.costs_more +=
-        kFollows *
-        (std::clamp(report.bytes_per_s / reckoned, kLeastMore, kMostMore) - pace.costs_more);
-  pace.budget.update(report, share_cost(wanted.all(), 0, Duration()), now);
+        kFollows * (std::clamp(of_poses / reckoned, kLeastMore, kMostMore) - pace.costs_more);
+  const double all = share_cost(wanted.all(), 0, Duration());
+  pace.budget.update(report, all + session.voice.share.wanted_bytes_per_s(), now);
   settle(index, wanted, now);
 }
 
@@ -136,6 +141,10 @@ void ServerPace::settle(std::size_t index, const Wanted& wanted, MonoTime now) {
   const Duration for_server = share_window_for_company(
       wanted.all(), pace.ramp, records_per_s_ / server_.limits.eager_records_per_second);
   pace.window = std::max(for_line, for_server);
+  // Poses first: voices get what these leave.
+  const double cost = share_cost(wanted.all(), pace.ramp, pace.window);
+  server_.sessions[index].voice.share.settle(pace.budget.is_limited(),
+                                             (budget - cost) * pace.costs_more, now);
   std::array<std::uint8_t, wire::kMaxGuestsPerRoom> dividers;
   dividers.fill(1);
   for (std::size_t i = 0; i < wanted.count; ++i)

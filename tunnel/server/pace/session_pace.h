@@ -23,7 +23,7 @@ struct SessionPace {
   MonoTime eased;           // when the ramp last became shorter
   // As it was at the last report.
   MonoTime reported;
-  std::uint64_t bytes_out = 0, datagrams_out = 0, lost = 0, counted = 0;
+  std::uint64_t bytes_out = 0, datagrams_out = 0, voice_bytes_out = 0, lost = 0, counted = 0;
 
   SessionPace() { dividers.fill(1); }
 };
