@@ -122,6 +122,15 @@ dance_optional(DANCE_VIDEO "Video export" DANCE_HAVE_VIDEO "${VIDEO_FOUND}"
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 
+# Voices: their codec, and what takes echo and noise out of them.
+pkg_check_modules(OPUS QUIET IMPORTED_TARGET opus)
+pkg_check_modules(WEBRTC QUIET IMPORTED_TARGET webrtc-audio-processing)
+set(voice_found FALSE)
+if(PULSE_FOUND AND OPUS_FOUND AND WEBRTC_FOUND AND NOT DANCE_SOUND STREQUAL "OFF")
+  set(voice_found TRUE)
+endif()
+dance_optional(DANCE_VOICE "Voice" DANCE_HAVE_VOICE ${voice_found} "libopus-dev libwebrtc-audio-processing-dev libpulse-dev")
+
 # Of Debian's OpenCV the modules that are used, without the package that brings all of them and their CMake files.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 set(opencv_found ${OPENCV_INCLUDE_DIR})

@@ -6,7 +6,7 @@
 
 #include "core/net/local_socket.h"
 #if defined(DANCE_HAVE_SOUND)
-#include "producers/music/sound/pulse_server.h"
+#include "core/sound/pulse_server.h"
 #endif
 
 namespace dance {

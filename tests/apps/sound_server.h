@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/program/child_process.h"
-#include "producers/music/sound/pulse_input.h"
+#include "core/sound/pulse_input.h"
 #include "tests/apps/run_program.h"
 
 namespace dance {
@@ -60,7 +60,7 @@ class SoundServer {
 
   // From now on clicks are listened for.
   bool listen() {
-    ear_ = PulseInput::open(*server_, "dance.monitor", kRate_hz,
+    ear_ = PulseInput::open(*server_, {"dance.monitor", kRate_hz},
                             [this](std::span<const float> samples) {
                               for (const float sample : samples) hear(sample);
                             })

@@ -20,7 +20,7 @@ Result<std::unique_ptr<MicrophoneBeats>> MicrophoneBeats::open(const std::string
   std::unique_ptr<MicrophoneBeats> beats(new MicrophoneBeats(trim));
   DANCE_TRY(beats->server_, PulseServer::connect("music"));
   BeatTracker* tracker = &beats->tracker_;
-  DANCE_TRY(beats->input_, PulseInput::open(*beats->server_, source, kMicrophone_hz,
+  DANCE_TRY(beats->input_, PulseInput::open(*beats->server_, {source, kMicrophone_hz},
                                             [tracker](std::span<const float> samples) {
                                               tracker->push(samples);
                                             }));

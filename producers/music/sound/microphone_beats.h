@@ -12,7 +12,7 @@
 #include <string>
 
 #include "core/base/beat.h"
-#include "producers/music/sound/pulse_input.h"
+#include "core/sound/pulse_input.h"
 #include "producers/music/tracker/beat_tracker.h"
 
 namespace dance {

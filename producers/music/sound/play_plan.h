@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "producers/music/sound/stream_clock.h"
+#include "core/sound/stream_clock.h"
 
 namespace dance {
 

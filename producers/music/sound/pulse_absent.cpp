@@ -19,8 +19,7 @@ std::optional<double> PulsePlayer::heard_s(MonoTime) const { return std::nullopt
 Result<void> PulsePlayer::work(MonoTime) { return {}; }
 std::string PulsePlayer::summary() const { return {}; }
 
-Result<std::unique_ptr<MicrophoneBeats>> MicrophoneBeats::open(const std::string&, Duration,
-                                                               const TempoHint&) {
+Result<std::unique_ptr<MicrophoneBeats>> MicrophoneBeats::open(const std::string&, Duration) {
   return fail(kNoSound);
 }
 Result<void> MicrophoneBeats::work(MonoTime) { return {}; }

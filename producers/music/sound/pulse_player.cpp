@@ -22,11 +22,12 @@ Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile file,
   if (!server) return fail(server.error().what + "; --silent plays without");
   player->server_ = std::move(*server);
   PulsePlayer* self = player.get();
-  DANCE_TRY(player->output_, PulseOutput::open(*player->server_, player->file_.rate_hz(),
-                                               [self](MonoTime at, double frame) {
-                                                 self->clock_.report(at + self->options_.trim,
-                                                                     frame);
-                                               }));
+  auto output = PulseOutput::open(
+      *player->server_, {.rate_hz = player->file_.rate_hz()}, [self](MonoTime at, double frame) {
+        self->clock_.report(at + self->options_.trim, frame);
+      });
+  if (!output) return fail(output.error().what + "; --silent plays without");
+  player->output_ = std::move(*output);
   return player;
 }
 

@@ -15,7 +15,7 @@
 #include "producers/music/decode/audio_file.h"
 #include "producers/music/music_player.h"
 #include "producers/music/sound/play_plan.h"
-#include "producers/music/sound/pulse_output.h"
+#include "core/sound/pulse_output.h"
 
 namespace dance {
 

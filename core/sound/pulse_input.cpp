@@ -1,4 +1,4 @@
-#include "producers/music/sound/pulse_input.h"
+#include "core/sound/pulse_input.h"
 
 #include <pulse/pulseaudio.h>
 
@@ -12,12 +12,15 @@ constexpr double kFragment_s = 0.01;
 
 }  // namespace
 
-Result<std::unique_ptr<PulseInput>> PulseInput::open(PulseServer& server, const std::string& source,
-                                                     double rate_hz, OnSamples on_samples) {
+Result<std::unique_ptr<PulseInput>> PulseInput::open(PulseServer& server,
+                                                     const PulseInputOptions& options,
+                                                     OnSamples on_samples) {
+  const double rate_hz = options.rate_hz;
+  const std::string& source = options.source;
   std::unique_ptr<PulseInput> input(new PulseInput(rate_hz, std::move(on_samples)));
   const pa_sample_spec format{PA_SAMPLE_FLOAT32LE, static_cast<std::uint32_t>(std::lround(rate_hz)),
                               1};
-  input->stream_ = pa_stream_new(server.context(), "listening", &format, nullptr);
+  input->stream_ = pa_stream_new(server.context(), options.name.c_str(), &format, nullptr);
   if (input->stream_ == nullptr)
     return fail("the sound server refuses a stream: " + server.error_text());
   const auto on_data = [](pa_stream*, std::size_t, void* self) {

@@ -16,20 +16,26 @@
 #include <string>
 #include <vector>
 
-#include "producers/music/sound/pulse_server.h"
-#include "producers/music/sound/stream_clock.h"
+#include "core/sound/pulse_server.h"
+#include "core/sound/stream_clock.h"
 
 struct pa_stream;
 
 namespace dance {
 
+struct PulseInputOptions {
+  std::string source;  // its name for the server; "" = its default
+  double rate_hz = 48000.0;
+  std::string name = "listening";  // of the stream, as the server's own tools show it
+};
+
 class PulseInput {
  public:
   using OnSamples = std::function<void(std::span<const float> samples)>;
 
-  // `source` is its name for the server; "" = its default.
-  static Result<std::unique_ptr<PulseInput>> open(PulseServer& server, const std::string& source,
-                                                  double rate_hz, OnSamples on_samples);
+  static Result<std::unique_ptr<PulseInput>> open(PulseServer& server,
+                                                  const PulseInputOptions& options,
+                                                  OnSamples on_samples);
   ~PulseInput();
   PulseInput(const PulseInput&) = delete;
   PulseInput& operator=(const PulseInput&) = delete;

@@ -1,4 +1,4 @@
-#include "producers/music/sound/pulse_output.h"
+#include "core/sound/pulse_output.h"
 
 #include <pulse/pulseaudio.h>
 
@@ -8,43 +8,51 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kFrame_bytes = 2 * sizeof(float);
-// Buffered ahead: shorter stalls of the machine are inaudible. The latency is compensated.
-constexpr double kBuffer_s = 0.3;
 
 }  // namespace
 
-Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server, double rate_hz,
+Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
+                                                       const PulseOutputOptions& options,
                                                        OnHeard on_heard) {
+  const double rate_hz = options.rate_hz;
   std::unique_ptr<PulseOutput> output(new PulseOutput(rate_hz, std::move(on_heard)));
   output->playing_hz_ = static_cast<std::uint32_t>(std::lround(rate_hz));
   const pa_sample_spec format{PA_SAMPLE_FLOAT32LE, output->playing_hz_, 2};
   if (pa_sample_spec_valid(&format) == 0)
     return fail("the sound server does not play " + std::to_string(output->playing_hz_) +
                 " samples a second; convert the music to 48000");
-  output->stream_ = pa_stream_new(server.context(), "music", &format, nullptr);
+  output->stream_ = pa_stream_new(server.context(), options.name.c_str(), &format, nullptr);
   if (output->stream_ == nullptr)
     return fail("the sound server refuses a stream: " + server.error_text());
-  const auto ahead = static_cast<std::uint32_t>(kBuffer_s * rate_hz) * kFrame_bytes;
+  const auto ahead = static_cast<std::uint32_t>(options.ahead.as_seconds() * rate_hz) * kFrame_bytes;
   const auto server_default = static_cast<std::uint32_t>(-1);
   // Starts at once and never waits for data: late frames are dropped, and time goes on.
   const pa_buffer_attr buffer{server_default, static_cast<std::uint32_t>(ahead), 0, server_default,
                               server_default};
   const auto flags =
       static_cast<pa_stream_flags_t>(PA_STREAM_VARIABLE_RATE | PA_STREAM_ADJUST_LATENCY);
-  if (pa_stream_connect_playback(output->stream_, nullptr, &buffer, flags, nullptr, nullptr) < 0)
+  if (pa_stream_connect_playback(
+          output->stream_, options.sink.empty() ? nullptr : options.sink.c_str(), &buffer, flags,
+          nullptr, nullptr) < 0)
     return fail("the sound server refuses to play: " + server.error_text());
   pa_stream* stream = output->stream_;
+  const auto on_underflow = [](pa_stream*, void* self) {
+    ++static_cast<PulseOutput*>(self)->underflows_;
+  };
+  pa_stream_set_underflow_callback(stream, on_underflow, output.get());
   const bool is_ready = server.iterate_until([stream] {
     return pa_stream_get_state(stream) != PA_STREAM_CREATING;
   }) && pa_stream_get_state(stream) == PA_STREAM_READY;
   if (!is_ready)
-    return fail("the sound server has no loudspeaker: " + server.error_text() +
-                "; --silent plays without");
+    return fail("the sound server has no loudspeaker" +
+                (options.sink.empty() ? std::string() : " '" + options.sink + "'") + ": " +
+                server.error_text() + "; `pactl list short sinks` names them");
   return output;
 }
 
 PulseOutput::~PulseOutput() {
   if (stream_ == nullptr) return;
+  pa_stream_set_underflow_callback(stream_, nullptr, nullptr);
   pa_stream_disconnect(stream_);
   pa_stream_unref(stream_);
 }

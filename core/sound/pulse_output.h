@@ -12,19 +12,29 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
-#include "producers/music/sound/pulse_server.h"
+#include "core/sound/pulse_server.h"
 
 struct pa_stream;
 
 namespace dance {
+
+struct PulseOutputOptions {
+  double rate_hz = 48000.0;
+  std::string sink;            // its name for the server; "" = its default
+  std::string name = "music";  // of the stream, as the server's own tools show it
+  // Buffered ahead: shorter stalls of the machine are inaudible. The latency is compensated.
+  Duration ahead = Duration::ms(300);
+};
 
 class PulseOutput {
  public:
   // Frame `frame` was heard at `at`: called several times a second.
   using OnHeard = std::function<void(MonoTime at, double frame)>;
 
-  static Result<std::unique_ptr<PulseOutput>> open(PulseServer& server, double rate_hz,
+  static Result<std::unique_ptr<PulseOutput>> open(PulseServer& server,
+                                                   const PulseOutputOptions& options,
                                                    OnHeard on_heard);
   ~PulseOutput();
   PulseOutput(const PulseOutput&) = delete;
@@ -33,6 +43,8 @@ class PulseOutput {
   bool is_alive() const;
   std::int64_t written_frames() const { return written_; }
   std::size_t wanted_frames() const;
+  // How often the server had nothing to play in time.
+  std::uint64_t underflows() const { return underflows_; }
   void write(std::span<const float> interleaved);
   // How fast frames are played: the nearest whole number a second, which is what the server can.
   // Returns the speed that it is, 1 = as opened.
@@ -49,6 +61,7 @@ class PulseOutput {
   pa_stream* stream_ = nullptr;
   std::int64_t written_ = 0;
   std::uint32_t playing_hz_ = 0;
+  std::uint64_t underflows_ = 0;
 };
 
 }  // namespace dance

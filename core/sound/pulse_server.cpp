@@ -1,4 +1,4 @@
-#include "producers/music/sound/pulse_server.h"
+#include "core/sound/pulse_server.h"
 
 #include <pulse/pulseaudio.h>
 

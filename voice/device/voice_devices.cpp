@@ -1,0 +1,173 @@
+#include "voice/device/voice_devices.h"
+
+#include <algorithm>
+
+#include "core/net/mono_clock.h"
+
+namespace dance {
+namespace {
+
+constexpr double kDevice_hz = 48'000.0;
+constexpr std::size_t kFrame = VoiceDeviceHandlers::kFrame;
+constexpr Duration kFrameLength = Duration::ms(10);
+constexpr Duration kTimingRequests = Duration::ms(100);
+constexpr Duration kLooks = Duration::s(2);
+// A machine that is too busy for a small buffer gets a larger one.
+constexpr Duration kGrowthLooks = Duration::s(3);
+constexpr std::uint64_t kMostUnderflows = 3;
+constexpr Duration kGrowth = Duration::ms(10);
+constexpr Duration kLargestBuffer = Duration::ms(80);
+
+}  // namespace
+
+Result<std::unique_ptr<VoiceDevices>> VoiceDevices::open(const VoiceDeviceOptions& options,
+                                                         VoiceDeviceHandlers handlers) {
+  std::unique_ptr<VoiceDevices> devices(new VoiceDevices(options, std::move(handlers)));
+  if (auto connected = devices->connect(); !connected)
+    return tl::make_unexpected(connected.error());
+  if (!devices->has_microphone() && !devices->has_loudspeaker())
+    return fail(devices->last_trouble_);
+  return devices;
+}
+
+Result<void> VoiceDevices::connect() {
+  DANCE_TRY(server_, PulseServer::connect("voice"));
+  open_loudspeaker();
+  open_microphone();
+  open_reference();
+  return {};
+}
+
+void VoiceDevices::complain(const Error& error) {
+  if (error.what == last_trouble_) return;
+  last_trouble_ = error.what;
+  trouble_ = trouble_.empty() ? error.what : trouble_ + "; " + error.what;
+}
+
+void VoiceDevices::open_microphone() {
+  from_microphone_.count = 0;
+  auto opened = PulseInput::open(*server_, {options_.microphone, kDevice_hz, "microphone"},
+                                 [this](std::span<const float> s) { on_microphone(s); });
+  if (!opened) return complain(opened.error());
+  microphone_ = std::move(*opened);
+}
+
+void VoiceDevices::open_loudspeaker() {
+  PulseOutputOptions output;
+  output.sink = options_.loudspeaker;
+  output.name = "voices";
+  output.ahead = options_.ahead;
+  heard_ = StreamClock(kDevice_hz);
+  underflows_before_ = 0;
+  auto opened = PulseOutput::open(*server_, output, [this](MonoTime at, double frame) {
+    heard_.report(at, frame);
+  });
+  if (!opened) return complain(opened.error());
+  loudspeaker_ = std::move(*opened);
+}
+
+void VoiceDevices::open_reference() {
+  if (!options_.has_reference || !loudspeaker_) return;
+  from_reference_.count = 0;
+  const std::string monitor =
+      options_.loudspeaker.empty() ? "@DEFAULT_MONITOR@" : options_.loudspeaker + ".monitor";
+  auto opened = PulseInput::open(*server_, {monitor, kDevice_hz, "what is played"},
+                                 [this](std::span<const float> s) { on_reference(s); });
+  if (!opened) return complain(opened.error());
+  reference_ = std::move(*opened);
+}
+
+void VoiceDevices::on_reference(std::span<const float> samples) {
+  Gathered& gathered = from_reference_;
+  std::int64_t begin = reference_ ? reference_->read_frames() : 0;
+  begin -= static_cast<std::int64_t>(samples.size() + gathered.count);
+  for (const float sample : samples) {
+    gathered.frame[gathered.count++] = sample;
+    if (gathered.count < kFrame) continue;
+    gathered.count = 0;
+    if (reference_ && reference_->is_timed())
+      reference_ahead_ = reference_->time_of(begin) - mono_now();
+    begin += kFrame;
+    handlers_.on_reference(gathered.frame);
+  }
+}
+
+void VoiceDevices::on_microphone(std::span<const float> samples) {
+  Gathered& gathered = from_microphone_;
+  std::int64_t begin = microphone_ ? microphone_->read_frames() : 0;
+  begin -= static_cast<std::int64_t>(samples.size() + gathered.count);
+  for (const float sample : samples) {
+    gathered.frame[gathered.count++] = sample;
+    if (gathered.count < kFrame) continue;
+    gathered.count = 0;
+    const MonoTime now = mono_now();
+    const bool is_timed = microphone_ && microphone_->is_timed();
+    const MonoTime captured = is_timed ? microphone_->time_of(begin) : now - kFrameLength;
+    begin += kFrame;
+    handlers_.on_microphone(gathered.frame, captured, reference_ahead_ + (now - captured));
+  }
+}
+
+void VoiceDevices::work(MonoTime now) {
+  if (server_) server_->iterate();
+  if (now >= next_timing_) {
+    next_timing_ = now + kTimingRequests;
+    if (microphone_) microphone_->request_timing();
+    if (reference_) reference_->request_timing();
+    if (loudspeaker_) loudspeaker_->request_timing();
+  }
+  if (loudspeaker_) fill(now);
+  if (now >= next_look_) look_for_lost(now);
+  if (now >= next_growth_) grow_buffer(now);
+}
+
+void VoiceDevices::fill(MonoTime now) {
+  const std::size_t frames = std::min(loudspeaker_->wanted_frames(), block_.size() / 2);
+  if (frames == 0) return;
+  const auto stereo = std::span(block_).first(2 * frames);
+  std::fill(stereo.begin(), stereo.end(), 0.0f);
+  const MonoTime heard =
+      heard_.is_known() ? heard_.time_of(static_cast<double>(loudspeaker_->written_frames()))
+                        : now + options_.ahead;
+  handlers_.fill(stereo, now, heard);
+  loudspeaker_->write(stereo);
+}
+
+// A headset that was unplugged may come back; the server may have been started again.
+void VoiceDevices::look_for_lost(MonoTime now) {
+  next_look_ = now + kLooks;
+  if (!server_ || !server_->is_alive()) {
+    microphone_.reset();
+    reference_.reset();
+    loudspeaker_.reset();
+    server_.reset();
+    if (auto connected = connect(); !connected) complain(connected.error());
+    return;
+  }
+  if (microphone_ && !microphone_->is_alive()) microphone_.reset();
+  if (loudspeaker_ && !loudspeaker_->is_alive()) loudspeaker_.reset();
+  if (reference_ && !reference_->is_alive()) reference_.reset();
+  if (!loudspeaker_) open_loudspeaker();
+  if (!microphone_) open_microphone();
+  if (!reference_) open_reference();
+  if (microphone_ && loudspeaker_) last_trouble_.clear();
+}
+
+void VoiceDevices::grow_buffer(MonoTime now) {
+  const bool is_first = !next_growth_.is_set();
+  next_growth_ = now + kGrowthLooks;
+  if (!loudspeaker_) return;
+  const std::uint64_t count = loudspeaker_->underflows();
+  const std::uint64_t more = count - underflows_before_;
+  underflows_before_ = count;
+  // Before the first sound there is nothing to play.
+  if (is_first) return;
+  underflows_ += more;
+  if (more < kMostUnderflows || options_.ahead >= kLargestBuffer) return;
+  options_.ahead += kGrowth;
+  loudspeaker_.reset();
+  open_loudspeaker();
+  next_growth_ = MonoTime();
+}
+
+}  // namespace dance

@@ -1,0 +1,157 @@
+#include "voice/program/voice_program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/net/mono_clock.h"
+#include "core/program/talk.h"
+
+namespace dance {
+namespace {
+
+constexpr int kMeterCells = 8;
+constexpr int kQuietest_dbfs = -60;
+constexpr Duration kMeterHolds = Duration::ms(300);
+
+std::string meter(int level) {
+  const int cells = std::clamp((level - kQuietest_dbfs) * kMeterCells / -kQuietest_dbfs, 0,
+                               kMeterCells);
+  std::string text;
+  for (int i = 0; i < kMeterCells; ++i) text += i < cells ? "▮" : "▯";
+  return text;
+}
+
+double concealed_percent(const VoicePlayout::Counters& counters) {
+  return counters.played == 0 ? 0.0
+                              : 100.0 * static_cast<double>(counters.concealed) /
+                                    static_cast<double>(counters.played);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptions& options,
+                                                         Bus& bus, Poller& poller) {
+  std::unique_ptr<VoiceProgram> program(new VoiceProgram(options, bus, poller));
+  VoiceProgram* self = program.get();
+  DANCE_TRY(program->own_,
+            OwnVoice::create(options.cleaning, options.encoding, this_clock_id()));
+  DANCE_TRY(program->others_, RoomVoices::create());
+  DANCE_TRY(program->control_,
+            VoiceControl::open(options.bus, options.guest,
+                               [self](std::string_view command, MonoTime now) {
+                                 self->command(command, now);
+                               },
+                               poller));
+  DANCE_TRY(program->devices_, VoiceDevices::open(options.devices, program->handlers()));
+  program->subscribe();
+  program->timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
+    self->devices_->work(now);
+    if (const std::string trouble = self->devices_->take_trouble(); !trouble.empty())
+      talk::warn("{}; goes on with what there is", trouble);
+    return now + VoiceDevices::kTurn;
+  });
+  program->say_settings();
+  return program;
+}
+
+VoiceProgram::VoiceProgram(const VoiceProgramOptions& options, Bus& bus, Poller& poller)
+    : options_(options), settings_(options.settings), bus_(bus), poller_(poller) {}
+
+VoiceProgram::~VoiceProgram() {
+  if (timer_ != 0) poller_.set_deadline(timer_, MonoTime());
+}
+
+void VoiceProgram::subscribe() {
+  bus_.subscribe<Voice>(Where::kGuest, [this](const Channel& channel, const Voice& voice,
+                                              MonoTime now) {
+    if (voice.clock_id != this_clock_id() || channel.guest() == options_.guest) return;
+    others_->hear(channel.guest(), voice, now);
+  });
+  bus_.subscribe<Pose>(
+      Where::kStage,
+      [this](const Channel& channel, const Pose& pose, MonoTime) {
+        others_->see(channel.guest(), pose);
+      },
+      Delivery::kNewest);
+  bus_.subscribe<Playout>(Where::kStage,
+                          [this](const Channel& channel, const Playout& playout, MonoTime) {
+                            others_->know_picture(channel.guest(), playout);
+                          });
+}
+
+VoiceDeviceHandlers VoiceProgram::handlers() {
+  VoiceDeviceHandlers handlers;
+  handlers.on_microphone = [this](std::span<float, kVoiceFrameSamples> frame, MonoTime captured,
+                                  Duration echo_delay) {
+    const auto voice = own_->take(frame, captured, echo_delay, settings_.sends(mono_now()));
+    if (voice) bus_.publish(Where::kCapture, options_.guest, *voice);
+  };
+  handlers.on_reference = [this](std::span<const float, kVoiceFrameSamples> frame) {
+    own_->hear_loudspeaker(frame);
+  };
+  handlers.fill = [this](std::span<float> stereo, MonoTime now, MonoTime heard) {
+    others_->mix(stereo, now, heard, options_.guest, settings_);
+  };
+  return handlers;
+}
+
+void VoiceProgram::command(std::string_view command, MonoTime now) {
+  const auto applied = settings_.apply(command, now);
+  // What was said may be anything: it is not repeated.
+  if (!applied) return talk::warn("a command is refused: {}", applied.error().what);
+  if (command != "talk") say_settings();
+}
+
+void VoiceProgram::say_settings() const {
+  talk::info("{} is {}; voices are {}{}", options_.guest.view(),
+             settings_.is_muted || settings_.is_deafened ? "muted"
+             : settings_.is_push_to_talk                 ? "heard while the space bar is held"
+                                                         : "heard",
+             settings_.is_deafened ? "not played" : "played ",
+             settings_.is_deafened        ? ""
+             : settings_.follows_picture ? "with the picture"
+                                          : "at once");
+}
+
+std::string VoiceProgram::meters(MonoTime now) const {
+  const bool sends = settings_.sends(now);
+  std::string text = fmt::format("{} {}{}", options_.guest.view(), meter(own_->level()),
+                                 sends ? "" : " (muted)");
+  others_->each([&](const RoomVoices::Guest& guest) {
+    if (now - guest.heard > RoomVoices::kLeft) return;
+    const bool speaks = guest.playout->is_speaking() && now - guest.heard < kMeterHolds;
+    text += fmt::format("   {} {}", guest.guest.view(),
+                        meter(speaks ? guest.level_dbfs : kSilence_dbfs));
+    if (speaks && guest.playout->delay())
+      text += fmt::format(" {} ms", guest.playout->delay()->count_ms());
+  });
+  return text;
+}
+
+std::string VoiceProgram::report_json() const {
+  nlohmann::ordered_json report;
+  report["guest"] = options_.guest.view();
+  report["sent"] = own_->sent();
+  report["underflows"] = devices_->underflows();
+  report["buffer_ms"] = devices_->ahead().count_ms();
+  report["guests"] = nlohmann::ordered_json::object();
+  others_->each([&](const RoomVoices::Guest& guest) {
+    const VoicePlayout::Counters& counters = guest.playout->counters();
+    nlohmann::ordered_json one{{"received", counters.received},
+                               {"played", counters.played},
+                               {"concealed", counters.concealed},
+                               {"recovered", counters.recovered},
+                               {"late", counters.late},
+                               {"skipped", counters.skipped},
+                               {"bad", guest.playout->bad_packets()},
+                               {"concealed_percent", concealed_percent(counters)},
+                               {"wait_ms", guest.playout->jitter_wait().as_ms()}};
+    if (guest.playout->delay()) one["delay_ms"] = guest.playout->delay()->as_ms();
+    report["guests"][std::string(guest.guest.view())] = one;
+  });
+  return report.dump();
+}
+
+}  // namespace dance

@@ -1,0 +1,66 @@
+// VoiceProgram: what `dance voice` does: the microphone to VOICE/capture/<guest>, and VOICE/guest/*
+// to the loudspeaker.
+//
+// Units/frames: times of this house's clock.
+// Ownership:    owns devices, own voice and the others'; refers to bus and poller, which must
+//               outlive it.
+// Threads:      none inside; runs in the poller's thread.
+// Failure:      open() names what is missing; devices that go are said, and it goes on.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/bus/bus.h"
+#include "core/net/poller.h"
+#include "voice/device/voice_devices.h"
+#include "voice/program/voice_control.h"
+#include "voice/room/own_voice.h"
+#include "voice/room/room_voices.h"
+
+namespace dance {
+
+struct VoiceProgramOptions {
+  GuestId guest;
+  std::string bus;
+  VoiceDeviceOptions devices;
+  VoiceCleanerOptions cleaning;
+  VoiceEncoderOptions encoding;
+  VoiceSettings settings;
+};
+
+class VoiceProgram {
+ public:
+  static Result<std::unique_ptr<VoiceProgram>> open(const VoiceProgramOptions& options, Bus& bus,
+                                                    Poller& poller);
+  ~VoiceProgram();
+  VoiceProgram(const VoiceProgram&) = delete;
+  VoiceProgram& operator=(const VoiceProgram&) = delete;
+
+  // As VoiceSettings::apply(), and says what holds now.
+  void command(std::string_view command, MonoTime now);
+  // Levels of all, for one line of a terminal.
+  std::string meters(MonoTime now) const;
+  // What was counted, by guest, as one JSON object.
+  std::string report_json() const;
+  const VoiceSettings& settings() const { return settings_; }
+
+ private:
+  VoiceProgram(const VoiceProgramOptions& options, Bus& bus, Poller& poller);
+  void subscribe();
+  VoiceDeviceHandlers handlers();
+  void say_settings() const;
+
+  VoiceProgramOptions options_;
+  VoiceSettings settings_;
+  Bus& bus_;
+  Poller& poller_;
+  std::unique_ptr<OwnVoice> own_;
+  std::unique_ptr<RoomVoices> others_;
+  std::unique_ptr<VoiceControl> control_;
+  std::unique_ptr<VoiceDevices> devices_;  // last: its sound goes to what stands above
+  Poller::TimerId timer_ = 0;
+};
+
+}  // namespace dance
