@@ -60,6 +60,7 @@ constexpr std::array kCommands{
     Command{"stylize eval", "what styles do to recorded dances: gain, mean pose, bones, feet"},
     Command{"stage eval",
             "a recorded couple on avatars: do hands meet, do feet stand, at what cost"},
+    Command{"touch eval", "held hands of recorded couples: recognised, and brought together?"},
     Command{"rhythm eval",
             "remote dancers on the beat that the listener hears, on recorded dances"},
     Command{"rhythm film", "a recorded couple over a line, shown in several ways side by side"},

@@ -84,6 +84,8 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
       {fingerprint_of(FlowSetting()), "flow_t"},
       {fingerprint_of(Playout()), "playout_t"},
       {fingerprint_of(Steps()), "steps_t"},
+      {fingerprint_of(Touch()), "touch_t"},
+      {fingerprint_of(Haptic()), "haptic_t"},
   }};
   if (message.size() < sizeof(Fingerprint)) return "";
   for (const Known& known : kKnown)

@@ -35,6 +35,8 @@ enum class Signal : std::uint8_t {
   kFlow,
   kPlayout,
   kSteps,
+  kTouch,
+  kHaptic,
 };
 
 // Where on its journey the signal is.
@@ -88,7 +90,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 32> kChannelTable{{
+constexpr std::array<ChannelRow, 34> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -120,6 +122,8 @@ constexpr std::array<ChannelRow, 32> kChannelTable{{
     {Signal::kPlayout, Where::kStage, "PLAYOUT/stage/<guest>", "playout_t"},
     {Signal::kSteps, Where::kCapture, "STEPS/capture/<guest>", "steps_t"},
     {Signal::kSteps, Where::kLocal, "STEPS/local", "steps_t"},
+    {Signal::kTouch, Where::kStage, "TOUCH/stage/<guest>", "touch_t"},
+    {Signal::kHaptic, Where::kCapture, "HAPTIC/capture/<guest>", "haptic_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 
