@@ -122,6 +122,9 @@ dance_optional(DANCE_VIDEO "Video export" DANCE_HAVE_VIDEO "${VIDEO_FOUND}"
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 
+pkg_check_modules(WEBSOCKETS QUIET IMPORTED_TARGET libwebsockets)
+dance_optional(DANCE_BHAPTICS "Haptic suits" DANCE_HAVE_BHAPTICS "${WEBSOCKETS_FOUND}" "libwebsockets-dev")
+
 # Of Debian's OpenCV the modules that are used, without the package that brings all of them and their CMake files.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 set(opencv_found ${OPENCV_INCLUDE_DIR})

@@ -37,6 +37,7 @@ constexpr std::array kCommands{
     Command{"manager", "the signal manager of a house"},
     Command{"listen", "passes dancers on: text, files, engines, avatar apps"},
     Command{"receive", "a dancer from another program or a device"},
+    Command{"haptics", "what a dancer feels: touches, the beat, the lead's hand, on devices"},
     Command{"record", "records the bus to an LCM log, packed or plain"},
     Command{"pack", "makes an LCM log smaller, and loses nothing"},
     Command{"unpack", "makes a plain LCM log of a packed one"},

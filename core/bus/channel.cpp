@@ -7,9 +7,9 @@ namespace {
 
 // In the order of Signal, and of Where.
 constexpr std::array<std::string_view, 20> kSignals{
-    "POSE",  "SKELETON",    "HANDS",         "GUEST",       "STATS",   "STAGE_TIME",
-    "MUSIC", "SCENE",       "AVATAR",        "AVATAR_FILE", "STYLE",   "PLACEMENT",
-    "BEAT",  "GUEST_STATS", "GUEST_TRAFFIC", "FLOW",        "PLAYOUT", "STEPS", "TOUCH", "HAPTIC"};
+    "POSE",          "SKELETON", "HANDS",       "GUEST", "STATS",     "STAGE_TIME", "MUSIC",
+    "SCENE",         "AVATAR",   "AVATAR_FILE", "STYLE", "PLACEMENT", "BEAT",       "GUEST_STATS",
+    "GUEST_TRAFFIC", "FLOW",     "PLAYOUT",     "STEPS", "TOUCH",     "HAPTIC"};
 constexpr std::array<std::string_view, 5> kWheres{"capture", "guest", "stage", "view", "room"};
 static_assert(static_cast<std::size_t>(Signal::kHaptic) + 1 == kSignals.size());
 static_assert(static_cast<std::size_t>(Where::kRoom) + 1 == kWheres.size());

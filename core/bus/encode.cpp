@@ -266,8 +266,7 @@ struct MessageFields<Haptic> {
     return map_stamp(io, m, v) && io(m.maker, v.maker) && io(m.play_time_us, v.play_time) &&
            io(m.duration_us, v.duration) && io(m.attack_us, v.attack) &&
            io(m.release_us, v.release) && io(m.number, v.number) && io(m.source, v.source) &&
-           io(m.bone, v.bone) && io(m.amplitude, v.amplitude) &&
-           io(m.frequency_hz, v.frequency_hz);
+           io(m.bone, v.bone) && io(m.amplitude, v.amplitude) && io(m.frequency_hz, v.frequency_hz);
   }
 };
 

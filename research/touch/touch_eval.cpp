@@ -91,8 +91,7 @@ Stage streamed_stage(const CoupleTake& couple, const TouchLine& how) {
     Pose shown = newest;
     if (!flow->is_pass_through() && !flow->sample(now, shown)) continue;
     if (now - couple[0].poses.front().capture_time >= how.warm_up)
-      stage.push_back(
-          {{couple[0].poses[i], couple[1].poses[i]}, {seen[0].poses[i], shown}, now});
+      stage.push_back({{couple[0].poses[i], couple[1].poses[i]}, {seen[0].poses[i], shown}, now});
   }
   return stage;
 }
@@ -193,8 +192,7 @@ Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limit
     const auto began = std::chrono::steady_clock::now();
     holds.show(lead, reached[0], moment.at, true);
     holds.show(follow, reached[1], moment.at, true);
-    const std::chrono::duration<double, std::micro> cost =
-        std::chrono::steady_clock::now() - began;
+    const std::chrono::duration<double, std::micro> cost = std::chrono::steady_clock::now() - began;
     costs_us.push_back(0.5 * cost.count());
     const auto danced_gaps = gaps_of(couple, moment.danced);
     const auto shown_gaps = gaps_of(couple, moment.shown);

@@ -28,7 +28,10 @@ struct Wishes {
   double loss_percent = 1.0, noise_deg = 0.5, join_m = 0.4, hz = 60.0;
   double begin_mm = 1e3 * static_cast<double>(PalmHold::Limits().begin_m);
   double end_mm = 1e3 * static_cast<double>(PalmHold::Limits().end_m);
-  std::string patience = "150ms", sure = "0ms";
+  double again_mm = 1e3 * static_cast<double>(PalmHold::Limits().again_m);
+  double early_mm = 1e3 * static_cast<double>(PalmHold::Limits().early_m);
+  double soon_mm = 1e3 * static_cast<double>(PalmHold::Limits().soon_m);
+  std::string patience = "220ms", look = "120ms";
   bool is_json = false;
 };
 
@@ -37,7 +40,10 @@ Result<void> run(const Wishes& wishes) {
   DANCE_TRY(line.delay, parse_duration(wishes.delay));
   DANCE_TRY(line.jitter, parse_duration(wishes.jitter));
   DANCE_TRY(line.limits.patience, parse_duration(wishes.patience));
-  DANCE_TRY(line.limits.sure, parse_duration(wishes.sure));
+  DANCE_TRY(line.limits.look, parse_duration(wishes.look));
+  line.limits.again_m = static_cast<float>(1e-3 * wishes.again_mm);
+  line.limits.early_m = static_cast<float>(1e-3 * wishes.early_mm);
+  line.limits.soon_m = static_cast<float>(1e-3 * wishes.soon_mm);
   if (line.delay < Duration() || line.delay > Duration::s(1) || line.jitter < Duration() ||
       line.jitter > Duration::s(1))
     return fail("a line with --delay " + wishes.delay + " --jitter " + wishes.jitter +
@@ -97,7 +103,16 @@ int main(int argc, char** argv) {
       .range(1.0, 1000.0)
       .shows_default();
   line.add("--patience", wishes.patience, "for so long").shows_default();
-  line.add("--sure", wishes.sure, "near for so long before a hold begins").shows_default();
+  line.add("--again", wishes.again_mm, "mm: of palms that held each other lately")
+      .range(1.0, 1000.0)
+      .shows_default();
+  line.add("--early", wishes.early_mm, "mm: nearer than this begins a hold, too, where …")
+      .range(1.0, 1000.0)
+      .shows_default();
+  line.add("--soon", wishes.soon_mm, "mm: … the palms come so near, as they move, …")
+      .range(0.0, 1000.0)
+      .shows_default();
+  line.add("--look", wishes.look, "… within so long").shows_default();
   line.add_flag("--json", wishes.is_json, "one JSON object on stdout");
   line.footer(dance::kTouchExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });

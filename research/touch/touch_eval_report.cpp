@@ -19,21 +19,20 @@ std::string touch_eval_table(const TouchEval& eval) {
                       "false/min", "breaks/min", "apart");
   for (const TouchRow& row : eval.rows) {
     const HoldFigures& f = row.figures;
-    text += fmt::format(
-        "{:<20}{:<14}{:>8.1f}%{:>10.1f}{:>12.2f}{:>13.1f}{:>12.1f}%\n", row.stage, row.way,
-        100.0 * f.found(), f.per_minute(f.holds), f.per_minute(f.false_holds),
-        f.per_minute(f.breaks),
-        f.held_frames > 0
-            ? 100.0 * static_cast<double>(f.apart_frames) / static_cast<double>(f.held_frames)
-            : 0.0);
+    text += fmt::format("{:<20}{:<14}{:>8.1f}%{:>10.1f}{:>12.2f}{:>13.1f}{:>12.1f}%\n", row.stage,
+                        row.way, 100.0 * f.found(), f.per_minute(f.holds),
+                        f.per_minute(f.false_holds), f.per_minute(f.breaks),
+                        f.held_frames > 0 ? 100.0 * static_cast<double>(f.apart_frames) /
+                                                static_cast<double>(f.held_frames)
+                                          : 0.0);
   }
   text += fmt::format("\n{:<20}{:>28}{:>28}{:>24}\n{:<20}{:>14}{:>14}{:>14}{:>14}{:>12}{:>12}\n",
-                      "gap of held palms", "as shown, mm", "with hold-hands, mm",
-                      "p99 step, mm", "", "p50", "p95", "p50", "p95", "shown", "reached");
+                      "gap of held palms", "as shown, mm", "with hold-hands, mm", "p99 step, mm",
+                      "", "p50", "p95", "p50", "p95", "shown", "reached");
   for (const GapRow& gap : eval.gaps)
-    text += fmt::format("{:<20}{:>14.1f}{:>14.1f}{:>14.1f}{:>14.1f}{:>12.1f}{:>12.1f}\n",
-                        gap.stage, gap.plain_p50_mm, gap.plain_p95_mm, gap.reached_p50_mm,
-                        gap.reached_p95_mm, gap.step_plain_mm, gap.step_reached_mm);
+    text += fmt::format("{:<20}{:>14.1f}{:>14.1f}{:>14.1f}{:>14.1f}{:>12.1f}{:>12.1f}\n", gap.stage,
+                        gap.plain_p50_mm, gap.plain_p95_mm, gap.reached_p50_mm, gap.reached_p95_mm,
+                        gap.step_plain_mm, gap.step_reached_mm);
   text += fmt::format("\n{:.2f} us a pose\n", eval.us_a_pose);
   return text;
 }

@@ -13,11 +13,11 @@ namespace {
 
 constexpr float kShortestArm_m = 1e-3f;
 // An elbow is not stretched further than this share of the arm's length, unless it was.
-constexpr float kStraight = 0.998f;
+constexpr float kStraightArm = 0.998f;
 
 // The axis about which the elbow opens: that of the plane it is bent in, else its hinge in T-pose.
-Vector3f hinge_of(std::size_t side, const Vector3f& to_shoulder, const Vector3f& to_hand,
-                  const Quaternionf& R_WU) {
+Vector3f elbow_hinge(std::size_t side, const Vector3f& to_shoulder, const Vector3f& to_hand,
+                     const Quaternionf& R_WU) {
   const Vector3f normal = to_shoulder.cross(to_hand);
   if (normal.squaredNorm() > 1e-6f) return normal.normalized();
   return R_WU * (side == 0 ? Vector3f::UnitY() : Vector3f(-Vector3f::UnitY()));
@@ -39,12 +39,12 @@ float move_hand(std::size_t side, const Vector3f& shift_W_m, Pose& pose, BodyFra
 
   // cos γ = (a² + b² − d²) / 2ab, where γ is the angle between the two bones.
   const float now = (frames.p_WB_m[hand] - shoulder).norm();
-  const float most = std::max(now, kStraight * (a + b));
+  const float most = std::max(now, kStraightArm * (a + b));
   const float reach = std::clamp((target - shoulder).norm(), std::abs(a - b) + 1e-3f, most);
   const auto angle_at = [&](float d) {
     return std::acos(std::clamp((a * a + b * b - d * d) / (2.0f * a * b), -1.0f, 1.0f));
   };
-  const Vector3f hinge = hinge_of(side, to_shoulder / a, to_hand / b, frames.R_WB[upper]);
+  const Vector3f hinge = elbow_hinge(side, to_shoulder / a, to_hand / b, frames.R_WB[upper]);
   const Quaternionf bend(AngleAxisf(angle_at(reach) - angle_at(now), hinge));
   const Vector3f bent_hand = frames.p_WB_m[lower] + bend * to_hand;
   const Quaternionf swing = Quaternionf::FromTwoVectors(bent_hand - shoulder, target - shoulder);

@@ -14,14 +14,14 @@ namespace {
 // A palm is thought on from where it was shown, for at most a picture of a slow stage.
 constexpr Duration kFurthestOn = Duration::ms(34);
 constexpr Duration kSpeedWithin = Duration::ms(100);
-constexpr float kFastest_m_s = 8.0f;
+constexpr float kFastestPalm_m_s = 8.0f;
 // The new speed's part: pictures are 8 to 17 ms apart.
-constexpr float kNewSpeed = 0.3f;
-// Arms reach over gaps up to kReach_m whole, and not at all over kNoReach_m.
-constexpr float kReach_m = 0.2f, kNoReach_m = 0.35f;
+constexpr float kPalmSpeedPart = 0.3f;
+// Arms reach over gaps up to kReachesWhole_m whole, and not at all over kReachesNot_m.
+constexpr float kReachesWhole_m = 0.2f, kReachesNot_m = 0.35f;
 
 float reach_share(float apart_m) {
-  return std::clamp((kNoReach_m - apart_m) / (kNoReach_m - kReach_m), 0.0f, 1.0f);
+  return std::clamp((kReachesNot_m - apart_m) / (kReachesNot_m - kReachesWhole_m), 0.0f, 1.0f);
 }
 
 }  // namespace
@@ -66,8 +66,7 @@ StageHolds::Dancer* StageHolds::place_of(const GuestId& guest, MonoTime now) {
 
 void StageHolds::leave(std::size_t place) {
   for (std::size_t other = 0; other < kMostDancers; ++other)
-    if (other != place)
-      pairs_[pair_index(std::min(place, other), std::max(place, other))] = Pair();
+    if (other != place) pairs_[pair_index(std::min(place, other), std::max(place, other))] = Pair();
 }
 
 void StageHolds::set_body(const GuestId& guest, const Skeleton& skeleton) {
@@ -83,9 +82,9 @@ void StageHolds::note(Dancer& dancer, const Palms& palms, MonoTime now) const {
     if (goes_on) {
       const Vector3f newest = (palms[side] - dancer.palms[side]) /
                               static_cast<float>(std::max(since, Duration::ms(4)).as_seconds());
-      speed += kNewSpeed * (newest - speed);
+      speed += kPalmSpeedPart * (newest - speed);
       const float size = speed.norm();
-      if (size > kFastest_m_s) speed *= kFastest_m_s / size;
+      if (size > kFastestPalm_m_s) speed *= kFastestPalm_m_s / size;
     } else if (since >= kSpeedWithin) {
       speed.setZero();
     }
@@ -106,7 +105,7 @@ void StageHolds::hold(std::size_t own, std::size_t other, MonoTime now, Reach& r
     const std::size_t other_side = own < other ? k % 2 : k / 2;
     const Vector3f apart = partner.palm_at(other_side, now) - dancer.palms[own_side];
     const float apart_m = apart.norm();
-    pair[k].observe(apart_m, now, limits_);
+    pair[k].observe(own < other ? apart : Vector3f(-apart), now, limits_);
     // Half of the way, unless the other's arms do not reach.
     const float weight = pair[k].share() * reach_share(apart_m);
     if (weight <= reach.weight[own_side]) continue;
