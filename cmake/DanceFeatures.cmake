@@ -130,6 +130,8 @@ if(PULSE_FOUND AND OPUS_FOUND AND WEBRTC_FOUND AND NOT DANCE_SOUND STREQUAL "OFF
   set(voice_found TRUE)
 endif()
 dance_optional(DANCE_VOICE "Voice" DANCE_HAVE_VOICE ${voice_found} "libopus-dev libwebrtc-audio-processing-dev libpulse-dev")
+pkg_check_modules(WEBSOCKETS QUIET IMPORTED_TARGET libwebsockets)
+dance_optional(DANCE_BHAPTICS "Haptic suits" DANCE_HAVE_BHAPTICS "${WEBSOCKETS_FOUND}" "libwebsockets-dev")
 
 # Of Debian's OpenCV the modules that are used, without the package that brings all of them and their CMake files.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)

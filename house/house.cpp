@@ -9,6 +9,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "formats/clip/dancers_file.h"
+#include "haptics/haptic_feed.h"
 #include "producers/receive/receiver_table.h"
 #include "producers/replay/clip_dancer.h"
 #include "producers/salsa/salsa_dancer.h"
@@ -94,6 +95,7 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   });
   if (auto opened = house->open_avatars(); !opened) return tl::make_unexpected(opened.error());
   if (auto opened = house->open_consumers(); !opened) return tl::make_unexpected(opened.error());
+  house->open_haptics();
   if (auto opened = house->open_producers(); !opened) return tl::make_unexpected(opened.error());
   if (session.music) {
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
@@ -230,6 +232,21 @@ Result<void> House::open_consumers() {
     consumers_.push_back(std::move(consumer));
   }
   return {};
+}
+
+// A device that is not there now is no reason not to dance.
+void House::open_haptics() {
+  for (const HostedHaptics& wanted : session_.haptics) {
+    auto output = make_haptic_output(wanted.to, wanted.options);
+    if (!output) {
+      talk::warn("{} feels nothing by {}: {}", wanted.guest.view(), wanted.to, output.error().what);
+      continue;
+    }
+    auto feed = std::make_unique<HapticFeed>(wanted.guest, wanted.options.maker, *port_, poller_);
+    feed->add(std::make_unique<HapticPlayer>(std::move(*output), wanted.options.player, poller_));
+    talk::info("{} feels by {}", wanted.guest.view(), wanted.to);
+    haptics_.push_back(std::move(feed));
+  }
 }
 
 std::string House::report_json(MonoTime now) {

@@ -17,6 +17,7 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "core/program/message_throttle.h"
+#include "haptics/haptic_feed.h"
 #include "house/house_avatars.h"
 #include "house/house_camera.h"
 #include "house/house_music.h"
@@ -49,6 +50,7 @@ class House {
   Result<void> open_avatars();
   Result<void> open_producers();
   Result<void> open_consumers();
+  void open_haptics();
   void add_talk(LinkHandlers& handlers);
 
   Session session_;
@@ -63,6 +65,7 @@ class House {
   std::vector<std::unique_ptr<DancerFeed>> feeds_;
   std::vector<std::unique_ptr<PoseReceiver>> receivers_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
+  std::vector<std::unique_ptr<HapticFeed>> haptics_;
   std::unique_ptr<HouseAvatars> avatars_;
   std::unique_ptr<HouseMusic> music_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;

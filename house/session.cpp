@@ -117,10 +117,11 @@ void read_route(TomlReader& reader, Session& session) {
   const auto flow = Flow::make(route.through);
   if (!flow) reader.complain("through", flow.error().what);
   // Without a rate, poses go on as they come; transformers need the stage's steady rate.
-  route.rate_hz = reader.number_or("rate", route.through.empty() ? 0.0 : 60.0, 0.0, 1000.0);
-  if (!route.through.empty() && route.rate_hz < 1.0)
+  const bool is_plain = !flow || flow->is_pass_through();
+  route.rate_hz = reader.number_or("rate", is_plain ? 0.0 : 60.0, 0.0, 1000.0);
+  if (!is_plain && route.rate_hz < 1.0)
     reader.complain("rate", "a route with transformers needs a rate from 1 to 1000 Hz");
-  if (route.through.empty() && route.rate_hz > 0.0)
+  if (is_plain && route.rate_hz > 0.0)
     reader.complain("rate",
                     "a route without transformers gives poses on as they come; add \"hold 0ms\" "
                     "for a steady rate");
@@ -225,6 +226,31 @@ void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Sess
   session.consumers.push_back(consumer);
 }
 
+void read_haptics(TomlReader& reader, Session& session) {
+  HostedHaptics haptics;
+  haptics.to = reader.required_string("to");
+  haptics.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  HapticOptions& options = haptics.options;
+  options.device = reader.string_or("device", "");
+  options.address = reader.string_or("address", "");
+  options.player.strength = static_cast<float>(reader.number_or("strength", 1.0, 0.0, 2.0));
+  options.player.limit = static_cast<float>(reader.number_or("limit", 1.0, 0.0, 1.0));
+  options.player.latency =
+      Duration::seconds(1e-3 * reader.number_or("latency_ms", 0.0, 0.0, 400.0));
+  options.player.is_on = reader.bool_or("on", true);
+  if (reader.has("feel")) {
+    const auto felt = parse_felt(reader.strings("feel", "[\"touch\", \"lead\", \"one\"]"));
+    if (felt)
+      options.maker = *felt;
+    else
+      reader.complain("feel", felt.error().what);
+  }
+  if (const auto checked = check_haptic_options(haptics.to, options); !checked)
+    reader.complain("to", checked.error().what);
+  reader.finish();
+  session.haptics.push_back(haptics);
+}
+
 void read_music(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   HostedMusic music;
   const bool has_room = !session.server.empty();
@@ -316,12 +342,12 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
-    if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "channel" &&
-        k != "music" && k != "style" && k != "avatar")
+    if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "haptics" &&
+        k != "channel" && k != "music" && k != "style" && k != "avatar")
       return Error{name + ":" + std::to_string(key.source().begin.line) + ":" +
                    std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
                    "' in a session; there are [house], [[route]], [[produce]], "
-                   "[[listen]], [[channel]], [[avatar]], [[style]] and [music]"};
+                   "[[listen]], [[haptics]], [[channel]], [[avatar]], [[style]] and [music]"};
   }
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
@@ -335,6 +361,9 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   if (!problem)
     problem = read_each(document, "listen", name,
                         [&](TomlReader& r) { read_consumer(r, folder, session); });
+  if (!problem)
+    problem =
+        read_each(document, "haptics", name, [&](TomlReader& r) { read_haptics(r, session); });
   if (!problem)
     problem = read_each(document, "style", name, [&](TomlReader& r) { read_style_of(r, session); });
   if (!problem)

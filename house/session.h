@@ -17,6 +17,7 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/pose/style.h"
+#include "haptics/haptic_table.h"
 #include "house/avatar_choice.h"
 #include "manager/route.h"
 #include "producers/receive/receiver_table.h"
@@ -62,6 +63,13 @@ struct HostedConsumer {
   std::string to = "text";  // a name of consumers/consumer_table.h
   RouteEnd from;
   ConsumerOptions options;
+};
+
+// A device that a dancer of this house feels with.
+struct HostedHaptics {
+  std::string to = "evdev";  // a name of haptics/haptic_table.h
+  GuestId guest;
+  HapticOptions options;
 };
 
 // The music of the house, played beside it.
@@ -112,6 +120,7 @@ struct Session {
   std::vector<HostedReceiver> receivers;
   std::vector<HostedCamera> cameras;
   std::vector<HostedConsumer> consumers;
+  std::vector<HostedHaptics> haptics;
   std::vector<HostedAvatar> avatars;
   std::optional<HostedMusic> music;
   std::vector<HostedStyle> styles;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr Duration kSecond = Duration::s(1);
 constexpr Duration kStepsPeriod = Duration::ms(250);
+constexpr double kTouch_hz = 60.0;
 constexpr std::string_view kProgram = "manager";  // STATS/manager
 
 // Of two that were rounded to microseconds on the way.
@@ -80,6 +81,11 @@ void Manager::start_timers(Poller& poller) {
       return pacers_[route].deadline();
     });
   }
+  poller.add_timer(begin_, [this, pacer = Pacer(begin_, kTouch_hz)](MonoTime now) mutable {
+    touch_.update(now, this_clock_id(), router_.holds(), *this);
+    pacer.advance(now);
+    return pacer.deadline();
+  });
   poller.add_timer(begin_ + kStepsPeriod, [this](MonoTime now) {
     tell_steps(now);
     return now + kStepsPeriod;
@@ -106,9 +112,14 @@ void Manager::on_other_manager(std::function<void()> tell) {
       });
 }
 
-void Manager::stage(const GuestId& guest, Pose& pose, MonoTime) {
+void Manager::on_touch(const GuestId& guest, const Touch& touch) {
+  port_.publish(Where::kStage, guest, touch);
+}
+
+void Manager::stage(const GuestId& guest, Pose& pose, MonoTime now) {
   pose.stamp(Hop::kStaged, mono_now());
   port_.publish(Where::kStage, guest, pose);
+  touch_.show(guest, pose, now);
 }
 
 void Manager::stage(const GuestId& guest, const Hands& hands) {
@@ -116,6 +127,7 @@ void Manager::stage(const GuestId& guest, const Hands& hands) {
 }
 
 void Manager::stage(const GuestId& guest, const TimedSkeleton& skeleton) {
+  touch_.set_body(guest, skeleton.skeleton);
   port_.publish(Where::kStage, guest, skeleton);
   const auto known = std::find_if(skeletons_.begin(), skeletons_.end(),
                                   [&](const StagedSkeleton& s) { return s.guest == guest; });

@@ -1,6 +1,7 @@
 // Manager: the signal manager of one house. Hears captures and remote guests on its port, routes
 // them to the stage at its steady rate, keeps the roster and says once a second who is alive and
-// what was counted. Four times a second it says at which tempo the dancers step.
+// what was counted. Four times a second it says at which tempo the dancers step, and sixty times who
+// touches whom.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port and the poller, which must outlive it.
@@ -20,10 +21,11 @@
 #include "manager/router.h"
 #include "manager/training_thread.h"
 #include "transformers/tempo/room_steps.h"
+#include "transformers/touch/stage_touch.h"
 
 namespace dance {
 
-class Manager : private StageSink {
+class Manager : private StageSink, private TouchSink {
  public:
   Manager(const std::vector<Route>& routes, SignalPort& port, Poller& poller);
 
@@ -36,6 +38,7 @@ class Manager : private StageSink {
   void stage(const GuestId& guest, Pose& pose, MonoTime now) override;
   void stage(const GuestId& guest, const Hands& hands) override;
   void stage(const GuestId& guest, const TimedSkeleton& skeleton) override;
+  void on_touch(const GuestId& guest, const Touch& touch) override;
   void listen(Where where);
   void start_timers(Poller& poller);
   void end_second(MonoTime now);
@@ -54,6 +57,7 @@ class Manager : private StageSink {
   TrainingThread training_;
   Router router_;
   RoomSteps steps_;
+  StageTouch touch_;
   std::vector<Pacer> pacers_;  // one per route
   Histogram lateness_;
   Duration lateness_p99_;

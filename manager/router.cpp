@@ -128,10 +128,15 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
     }
     Pose staged = pose;
     staged.stamp(Hop::kStageTaken, now);
-    sink_.stage(instance->shown_as, staged, now);
+    show(*instance, staged, now);
     Roster::staged(*entry, staged, now, our_clock_id_);
   }
   ++(wanted ? stats_.forwarded : stats_.dropped_unrouted);
+}
+
+void Router::show(Instance& instance, Pose& pose, MonoTime now) {
+  holds_.show(instance.shown_as, pose, now, instance.flow.holds_hands());
+  sink_.stage(instance.shown_as, pose, now);
 }
 
 void Router::take(Where where, const GuestId& guest, const Hands& hands) {
@@ -153,6 +158,7 @@ void Router::take(Where where, const GuestId& guest, const TimedSkeleton& skelet
   if (where == Where::kCapture) partners_.set_body(guest, skeleton.skeleton);
   for (RouteState* state : routes_from_[static_cast<std::size_t>(where)]) {
     if (!is_for(*state, guest)) continue;
+    holds_.set_body(shown_as(*state, guest), skeleton.skeleton);
     sink_.stage(shown_as(*state, guest), skeleton);
     for (auto& instance : state->instances)
       if (instance->guest == guest) instance->flow.set_body(skeleton.skeleton);
@@ -190,7 +196,7 @@ void Router::tick(std::size_t route, MonoTime now) {
     if (!instance->flow.sample(now, pose)) continue;
     pose.sequence = instance->staged++;  // the stage's own count: it makes these poses
     pose.stamp(Hop::kStageTaken, now);
-    sink_.stage(instance->shown_as, pose, now);
+    show(*instance, pose, now);
     if (const Hands* hands = instance->hands.take_due(pose.capture_time, pose.clock_id))
       sink_.stage(instance->shown_as, *hands);
     if (RosterEntry* entry = roster_.find(instance->guest))

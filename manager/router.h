@@ -21,6 +21,7 @@
 #include "manager/roster.h"
 #include "manager/route.h"
 #include "transformers/flow.h"
+#include "transformers/touch/stage_holds.h"
 
 namespace dance {
 
@@ -90,6 +91,8 @@ class Router {
            (where == Where::kCapture && has_partner_routes_);
   }
   Roster& roster() { return roster_; }
+  // Which hands of the dancers on the stage hold each other.
+  const StageHolds& holds() const { return holds_; }
   // Counters of poses; time, uptime and lateness are the caller's.
   Stats stats() const;
 
@@ -135,6 +138,9 @@ class Router {
   void prepare(const RouteState& state, Instance& instance);
   std::uint64_t our_clock_id_;
   StageSink& sink_;
+  void show(Instance& instance, Pose& pose, MonoTime now);
+
+  StageHolds holds_;
   PartnerTracks partners_;  // the dancers of this house; flows refer to it
   std::vector<std::unique_ptr<RouteState>> routes_;
   std::array<std::vector<RouteState*>, 5> routes_from_;    // by Where

@@ -14,7 +14,8 @@ Flow::Flow(Slots slots)
       finish_(slots.has_finish ? std::make_unique<Finish>(slots.half_life) : nullptr),
       filters_(std::move(slots.filters)),
       corrects_from_now_(slots.corrects_from_now),
-      setting_(slots.setting) {
+      setting_(slots.setting),
+      holds_hands_(slots.holds_hands) {
   const auto& on = setting_.on;
   if (!std::all_of(on.begin(), on.end(), [](bool is_on) { return is_on; })) set(setting_);
 }

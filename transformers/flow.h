@@ -59,6 +59,7 @@ class Flow {
     bool corrects_from_now = false;
     std::vector<std::unique_ptr<PoseFilter>> filters;
     FlowSetting setting;  // that these were made with
+    bool holds_hands = false;
   };
 
   // Hands poses through as they come.
@@ -67,6 +68,9 @@ class Flow {
   static Result<Flow> make(const std::vector<std::string>& words, const FlowParts& parts = {});
 
   bool is_pass_through() const { return clock_ == nullptr; }
+  // The word hold-hands: arms reach for the hands they hold, where several dancers are known
+  // (transformers/touch/stage_holds.h), so not here.
+  bool holds_hands() const { return holds_hands_; }
   // A pose has arrived from the route's source.
   void observe(const Pose& pose, MonoTime now);
   // The music that this house hears.
@@ -120,6 +124,7 @@ class Flow {
   bool has_shown_ = false, is_shown_open_ = false, is_shown_repeated_ = false, has_news_ = false;
   std::uint64_t starved_ = 0;
   FlowSetting setting_;
+  bool holds_hands_ = false;
 };
 
 }  // namespace dance

@@ -96,20 +96,28 @@ Result<void> take_stylize(const Arguments& arguments, const FlowParts&, Draft& d
   return {};
 }
 
+// Changes nothing in the flow: two dancers are needed for it.
+Result<void> take_hold_hands(const Arguments& arguments, const FlowParts&, Draft& draft) {
+  draft.slots.holds_hands = true;
+  return Settings("hold-hands", arguments).done();
+}
+
 struct Word {
   std::string_view name;
   Result<void> (*take)(const Arguments& arguments, const FlowParts& parts, Draft& draft);
 };
 
 // Every transformer of the tree, in the order in which they stand in a route.
-constexpr std::array<Word, 5> kWords{{
-    {"hold", take_hold},        // which moment
-    {"predict", take_predict},  // its pose, where it has not come
-    {"bridge", take_bridge},    // and where nothing comes for long
-    {"rhythm", take_rhythm},    // which moment, by the music
-    {"stylize", take_stylize},  // how it looks
+constexpr std::array<Word, 6> kWords{{
+    {"hold", take_hold},              // which moment
+    {"predict", take_predict},        // its pose, where it has not come
+    {"bridge", take_bridge},          // and where nothing comes for long
+    {"rhythm", take_rhythm},          // which moment, by the music
+    {"stylize", take_stylize},        // how it looks
+    {"hold-hands", take_hold_hands},  // and how two dancers look together
 }};
-static_assert(kWords.size() == kFlowWords);
+// The last one has nothing to set while dancing.
+static_assert(kWords.size() == kFlowWords + 1);
 
 Arguments split(std::string_view text) {
   Arguments words;
@@ -194,7 +202,6 @@ Flow::Slots assemble(Draft draft) {
 }  // namespace
 
 Result<Flow> Flow::make(const std::vector<std::string>& through, const FlowParts& parts) {
-  if (through.empty()) return Flow();
   std::vector<std::size_t> places;
   for (const std::string& text : through) {
     DANCE_TRY(const std::size_t place, place_of(text));
@@ -206,10 +213,19 @@ Result<Flow> Flow::make(const std::vector<std::string>& through, const FlowParts
     Arguments arguments = split(through[i]);
     arguments.erase(arguments.begin());
     FlowSetting& setting = draft.slots.setting;
-    setting.has[places[i]] = true;
-    DANCE_TRY(setting.on[places[i]], take_switch(kWords[places[i]].name, arguments));
+    if (places[i] < kFlowWords) {
+      setting.has[places[i]] = true;
+      DANCE_TRY(setting.on[places[i]], take_switch(kWords[places[i]].name, arguments));
+    }
     if (auto taken = kWords[places[i]].take(arguments, parts, draft); !taken)
       return tl::make_unexpected(taken.error());
+  }
+  const bool is_pass_through = std::all_of(places.begin(), places.end(),
+                                           [](std::size_t place) { return place >= kFlowWords; });
+  if (is_pass_through) {
+    Flow flow;
+    flow.holds_hands_ = draft.slots.holds_hands;
+    return flow;
   }
   return Flow(assemble(std::move(draft)));
 }

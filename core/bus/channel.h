@@ -36,6 +36,8 @@ enum class Signal : std::uint8_t {
   kPlayout,
   kSteps,
   kVoice,
+  kTouch,
+  kHaptic,
 };
 
 // Where on its journey the signal is.
@@ -89,7 +91,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 34> kChannelTable{{
+constexpr std::array<ChannelRow, 36> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -123,6 +125,8 @@ constexpr std::array<ChannelRow, 34> kChannelTable{{
     {Signal::kSteps, Where::kLocal, "STEPS/local", "steps_t"},
     {Signal::kVoice, Where::kCapture, "VOICE/capture/<guest>", "voice_t"},
     {Signal::kVoice, Where::kGuest, "VOICE/guest/<guest>", "voice_t"},
+    {Signal::kTouch, Where::kStage, "TOUCH/stage/<guest>", "touch_t"},
+    {Signal::kHaptic, Where::kCapture, "HAPTIC/capture/<guest>", "haptic_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 

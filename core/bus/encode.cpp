@@ -8,6 +8,7 @@
 #include <dancelcm/guest_t.hpp>
 #include <dancelcm/guest_traffic_t.hpp>
 #include <dancelcm/hands_t.hpp>
+#include <dancelcm/haptic_t.hpp>
 #include <dancelcm/music_t.hpp>
 #include <dancelcm/placement_t.hpp>
 #include <dancelcm/playout_t.hpp>
@@ -18,6 +19,7 @@
 #include <dancelcm/stats_t.hpp>
 #include <dancelcm/steps_t.hpp>
 #include <dancelcm/style_t.hpp>
+#include <dancelcm/touch_t.hpp>
 #include <dancelcm/voice_t.hpp>
 
 #include "core/bus/message_fields.h"
@@ -256,6 +258,29 @@ struct MessageFields<Voice> {
   }
 };
 
+template <>
+struct MessageFields<Touch> {
+  using Generated = dancelcm::touch_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.contact, v.contact) && io(m.phase, v.phase) &&
+           io(m.is_hold, v.is_hold) && io(m.bone, v.bone) && io(m.other_bone, v.other_bone) &&
+           io(m.depth_m, v.depth_m) && io(m.force_n, v.force_n) &&
+           io(m.approach_m_s, v.approach_m_s) && io(m.motion_m_s, v.motion_m_s) &&
+           io(m.place_m, v.place_m) && io(m.other, v.other);
+  }
+};
+
+template <>
+struct MessageFields<Haptic> {
+  using Generated = dancelcm::haptic_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.maker, v.maker) && io(m.play_time_us, v.play_time) &&
+           io(m.duration_us, v.duration) && io(m.attack_us, v.attack) &&
+           io(m.release_us, v.release) && io(m.number, v.number) && io(m.source, v.source) &&
+           io(m.bone, v.bone) && io(m.amplitude, v.amplitude) && io(m.frequency_hz, v.frequency_hz);
+  }
+};
+
 template struct MessageRow<Pose, Signal::kPose>;
 template struct MessageRow<Hands, Signal::kHands>;
 template struct MessageRow<TimedSkeleton, Signal::kSkeleton>;
@@ -275,6 +300,8 @@ template struct MessageRow<FlowSetting, Signal::kFlow>;
 template struct MessageRow<Playout, Signal::kPlayout>;
 template struct MessageRow<Steps, Signal::kSteps>;
 template struct MessageRow<Voice, Signal::kVoice>;
+template struct MessageRow<Touch, Signal::kTouch>;
+template struct MessageRow<Haptic, Signal::kHaptic>;
 
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
   dancelcm::pose_t m{};

@@ -22,8 +22,10 @@
 #include "core/bus/state_messages.h"
 #include "core/bus/voice.h"
 #include "core/pose/flow_setting.h"
+#include "core/pose/haptic.h"
 #include "core/pose/playout.h"
 #include "core/pose/pose.h"
+#include "core/pose/touch.h"
 
 namespace dance {
 
@@ -85,6 +87,10 @@ template <>
 struct MessageTraits<Steps> : MessageRow<Steps, Signal::kSteps> {};
 template <>
 struct MessageTraits<Voice> : MessageRow<Voice, Signal::kVoice> {};
+template <>
+struct MessageTraits<Touch> : MessageRow<Touch, Signal::kTouch> {};
+template <>
+struct MessageTraits<Haptic> : MessageRow<Haptic, Signal::kHaptic> {};
 
 // A type with a row in the table.
 template <class T>

@@ -28,12 +28,20 @@ LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller
 }
 
 bool LogPlayer::is_wanted(const Channel& channel) const {
-  if (channel.signal() != Signal::kPose && channel.signal() != Signal::kHands &&
-      channel.signal() != Signal::kSkeleton && channel.signal() != Signal::kBeat &&
-      channel.signal() != Signal::kVoice)
-    return false;
-  // Sound has one speed.
-  if (channel.signal() == Signal::kVoice && options_.speed != 1.0) return false;
+  switch (channel.signal()) {
+    case Signal::kPose:
+    case Signal::kHands:
+    case Signal::kSkeleton:
+    case Signal::kBeat:
+    case Signal::kTouch:
+    case Signal::kHaptic:
+      break;
+    case Signal::kVoice:
+      if (options_.speed == 1.0) break;  // sound has one speed
+      return false;
+    default:
+      return false;
+  }
   const Where where = channel.signal() == Signal::kBeat ? Where::kCapture : channel.where();
   return options_.only.empty() ||
          std::find(options_.only.begin(), options_.only.end(), where) != options_.only.end();
@@ -142,6 +150,38 @@ void LogPlayer::publish_beat(const Channel& channel, const LogEvent& event, Mono
   ++counters_.played;
 }
 
+void LogPlayer::publish_touch(const Channel& channel, const LogEvent& event, MonoTime deadline) {
+  Touch touch;
+  if (decode(event.data.data(), event.data.size(), touch) != Decoded::kFine) {
+    ++counters_.undecodable;
+    return;
+  }
+  touch.time = restamp(channel, touch.time, deadline);
+  touch.clock_id = this_clock_id();
+  bus_.publish(channel, touch);
+  ++counters_.played;
+}
+
+// As long as it was; when, as the dance goes.
+void LogPlayer::publish_haptic(const Channel& channel, const LogEvent& event, MonoTime deadline) {
+  Haptic haptic;
+  if (decode(event.data.data(), event.data.size(), haptic) != Decoded::kFine) {
+    ++counters_.undecodable;
+    return;
+  }
+  const Duration until = haptic.play_time - haptic.time;
+  haptic.time = restamp(channel, haptic.time, deadline);
+  haptic.play_time = haptic.time + Duration::seconds(until.as_seconds() / options_.speed);
+  haptic.clock_id = this_clock_id();
+  haptic.maker = 0;  // as it was, whatever else would be made of the touches now
+  if (!is_valid(haptic)) {
+    ++counters_.left_out;
+    return;
+  }
+  bus_.publish(channel, haptic);
+  ++counters_.played;
+}
+
 void LogPlayer::publish(const LogEvent& event, MonoTime deadline) {
   const auto channel = Channel::parse(event.channel);
   switch (channel->signal()) {
@@ -155,6 +195,10 @@ void LogPlayer::publish(const LogEvent& event, MonoTime deadline) {
       return publish_as<Voice>(*channel, event, deadline);
     case Signal::kBeat:
       return publish_beat(*channel, event, deadline);
+    case Signal::kTouch:
+      return publish_touch(*channel, event, deadline);
+    case Signal::kHaptic:
+      return publish_haptic(*channel, event, deadline);
     default:
       return;
   }

@@ -1,6 +1,6 @@
 // LogPlayer: plays an LCM log, packed or not, onto a bus as if its dancers were live: events at
-// their recorded intervals (divided by the speed), by absolute deadlines; poses and the beats they
-// were danced to are stamped anew with this house's clock. Reports (STATS, GUEST, STAGE_TIME) and
+// their recorded intervals (divided by the speed), by absolute deadlines; poses, the beats they
+// were danced to, touches and what was felt are stamped anew with this house's clock. Reports (STATS, GUEST, STAGE_TIME) and
 // what is not ours are left out and counted.
 //
 // Units/frames: speed 1 = as recorded.
@@ -61,6 +61,8 @@ class LogPlayer {
   template <class Message>
   void publish_as(const Channel& channel, const LogEvent& event, MonoTime deadline);
   void publish_beat(const Channel& channel, const LogEvent& event, MonoTime deadline);
+  void publish_touch(const Channel& channel, const LogEvent& event, MonoTime deadline);
+  void publish_haptic(const Channel& channel, const LogEvent& event, MonoTime deadline);
   bool is_wanted(const Channel& channel) const;
   MonoTime deadline_of(const LogEvent& event) const;
 

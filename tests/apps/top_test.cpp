@@ -45,6 +45,8 @@ TEST(TopTable, TellsEachTypeByItsFingerprint) {
   EXPECT_EQ(type_of(FlowSetting()), "flow_t");
   EXPECT_EQ(type_of(Playout()), "playout_t");
   EXPECT_EQ(type_of(Steps()), "steps_t");
+  EXPECT_EQ(type_of(Touch()), "touch_t");
+  EXPECT_EQ(type_of(Haptic()), "haptic_t");
   const std::uint8_t other[16] = {1, 2, 3};
   EXPECT_EQ(type_of_message(other), "");
   EXPECT_EQ(type_of_message({other, 7}), "");

@@ -34,7 +34,7 @@ class ServerRemotes {
         feedback_(feedback),
         states_(states),
         files_(files),
-          voice_(voice) {}
+        voice_(voice) {}
 
   // All is told of who is in the room at other servers.
   void settle(const wire::RoomName& room);

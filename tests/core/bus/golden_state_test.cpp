@@ -130,6 +130,37 @@ Steps golden_steps() {
   return steps;
 }
 
+Touch golden_touch() {
+  auto touch = stamped<Touch>();
+  touch.contact = 0x80000003u;
+  touch.phase = TouchPhase::kLasts;
+  touch.is_hold = true;
+  touch.bone = Bone::kRightHand;
+  touch.other_bone = Bone::kLeftHand;
+  touch.depth_m = 0.0625f;
+  touch.force_n = 12.5f;
+  touch.approach_m_s = -0.25f;
+  touch.motion_m_s = {0.5f, -1.5f, 2.25f};
+  touch.place_m = {-1.25f, 1.125f, 3.5f};
+  touch.other = *GuestId::parse("alice");
+  return touch;
+}
+
+Haptic golden_haptic() {
+  auto haptic = stamped<Haptic>();
+  haptic.maker = 0xfedcba9876543210u;
+  haptic.number = 4'000'000'001u;
+  haptic.play_time = haptic.time + Duration::us(123'456);
+  haptic.duration = Duration::us(250'001);
+  haptic.attack = Duration::us(5'002);
+  haptic.release = Duration::us(60'003);
+  haptic.source = HapticSource::kLead;
+  haptic.bone = Bone::kRightHand;
+  haptic.amplitude = 0.75f;
+  haptic.frequency_hz = 170.5f;
+  return haptic;
+}
+
 TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("music_t", golden_music());
   expect_golden("scene_t", golden_scene());
@@ -141,6 +172,8 @@ TEST(GoldenState, IsWrittenAndReadByteForByte) {
   expect_golden("flow_t", golden_flow());
   expect_golden("playout_t", golden_playout());
   expect_golden("steps_t", golden_steps());
+  expect_golden("touch_t", golden_touch());
+  expect_golden("haptic_t", golden_haptic());
 }
 
 TEST(GoldenState, SurvivesEverySingleBitFlip) {
@@ -154,6 +187,8 @@ TEST(GoldenState, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<FlowSetting>("flow_t");
   expect_survives_bit_flips<Playout>("playout_t");
   expect_survives_bit_flips<Steps>("steps_t");
+  expect_survives_bit_flips<Touch>("touch_t");
+  expect_survives_bit_flips<Haptic>("haptic_t");
 }
 
 TEST(GoldenState, IsSmallEnoughForTheTunnel) {

@@ -1,0 +1,176 @@
+#include "haptics/bhaptics/bhaptics_output.h"
+
+#include <libwebsockets.h>
+#include <pthread.h>
+
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+#include "core/base/spsc_ring.h"
+#include "core/net/address.h"
+#include "haptics/bhaptics/bhaptics_frame.h"
+
+namespace dance {
+namespace {
+
+constexpr std::uint16_t kUsualPort = 15881;
+constexpr lws_usec_t kAgain_us = 2'000'000;
+constexpr std::size_t kMostText = 1024;
+
+}  // namespace
+
+struct BhapticsOutput::Impl {
+  struct Order {
+    Haptic haptic;
+    bool is_stop = false;
+  };
+  // lws finds it by the address of its first member.
+  lws_sorted_usec_list_t again{};
+  std::string host, address;
+  int port = kUsualPort;
+  lws_context* context = nullptr;
+  lws* connection = nullptr;
+  SpscRing<Order, 64> orders;
+  std::optional<Order> next;
+  std::atomic<bool> is_connected{false}, ends{false};
+  std::atomic<std::uint64_t> written{0}, connections{0};
+  std::thread thread;
+
+  static int on_event(lws* wsi, lws_callback_reasons reason, void* user, void* data,
+                      std::size_t size);
+  static void connect_again(lws_sorted_usec_list_t* again);
+  void connect();
+  void lost();
+  int write_one(lws* wsi);
+  void run();
+};
+
+void BhapticsOutput::Impl::connect() {
+  lws_client_connect_info info{};
+  info.context = context;
+  info.address = host.c_str();
+  info.port = port;
+  info.path = kPath;
+  info.host = host.c_str();
+  info.origin = host.c_str();
+  info.local_protocol_name = "dance-haptics";
+  info.pwsi = &connection;
+  if (lws_client_connect_via_info(&info) == nullptr) lost();
+}
+
+void BhapticsOutput::Impl::lost() {
+  connection = nullptr;
+  is_connected = false;
+  if (!ends) lws_sul_schedule(context, 0, &again, connect_again, kAgain_us);
+}
+
+void BhapticsOutput::Impl::connect_again(lws_sorted_usec_list_t* again) {
+  reinterpret_cast<Impl*>(again)->connect();
+}
+
+int BhapticsOutput::Impl::write_one(lws* wsi) {
+  if (!next) next = orders.pop();
+  if (!next) return 0;
+  const std::string text = next->is_stop ? bhaptics_stop() : bhaptics_frame(next->haptic);
+  next.reset();
+  std::array<unsigned char, LWS_PRE + kMostText> buffer{};
+  if (text.size() > kMostText) return 0;
+  std::memcpy(buffer.data() + LWS_PRE, text.data(), text.size());
+  if (lws_write(wsi, buffer.data() + LWS_PRE, text.size(), LWS_WRITE_TEXT) < 0) return -1;
+  ++written;
+  next = orders.pop();
+  if (next) lws_callback_on_writable(wsi);
+  return 0;
+}
+
+int BhapticsOutput::Impl::on_event(lws* wsi, lws_callback_reasons reason, void*, void*,
+                                   std::size_t) {
+  auto* const self = static_cast<Impl*>(lws_context_user(lws_get_context(wsi)));
+  switch (reason) {
+    case LWS_CALLBACK_CLIENT_ESTABLISHED:
+      ++self->connections;
+      // What waited meanwhile is of the past.
+      while (self->orders.pop()) {
+      }
+      self->is_connected = true;
+      break;
+    case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
+    case LWS_CALLBACK_CLIENT_CLOSED:
+      self->lost();
+      break;
+    case LWS_CALLBACK_CLIENT_WRITEABLE:
+      return self->write_one(wsi);
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+      if (self->connection && self->is_connected) lws_callback_on_writable(self->connection);
+      break;
+    default:  // what the player says back is not needed
+      break;
+  }
+  return 0;
+}
+
+void BhapticsOutput::Impl::run() {
+  pthread_setname_np(pthread_self(), "haptics-ws");
+  connect();
+  while (!ends && lws_service(context, 0) >= 0) {
+  }
+}
+
+Result<std::unique_ptr<HapticOutput>> BhapticsOutput::open(const std::string& address) {
+  DANCE_TRY(const Address to,
+            Address::resolve(address.empty() ? kUsualAddress : address, kUsualPort));
+  auto impl = std::make_unique<Impl>();
+  impl->address = to.to_string();
+  const std::size_t colon = impl->address.rfind(':');
+  impl->host = impl->address.substr(0, colon);
+  if (impl->host.starts_with('[')) impl->host = impl->host.substr(1, impl->host.size() - 2);
+  impl->port = std::stoi(impl->address.substr(colon + 1));
+  lws_set_log_level(0, nullptr);
+  static const std::array<lws_protocols, 2> kProtocols{
+      {{"dance-haptics", Impl::on_event, 0, 512, 0, nullptr, 0},
+       {nullptr, nullptr, 0, 0, 0, nullptr, 0}}};
+  lws_context_creation_info info{};
+  info.port = CONTEXT_PORT_NO_LISTEN;
+  info.protocols = kProtocols.data();
+  info.user = impl.get();
+  info.gid = static_cast<gid_t>(-1);
+  info.uid = static_cast<uid_t>(-1);
+  impl->context = lws_create_context(&info);
+  if (!impl->context) return fail("libwebsockets cannot be started: no memory, or too many files");
+  Impl* const raw = impl.get();
+  impl->thread = std::thread([raw] { raw->run(); });
+  return std::unique_ptr<HapticOutput>(new BhapticsOutput(std::move(impl)));
+}
+
+BhapticsOutput::BhapticsOutput(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+BhapticsOutput::~BhapticsOutput() {
+  impl_->ends = true;
+  lws_cancel_service(impl_->context);
+  impl_->thread.join();
+  lws_context_destroy(impl_->context);
+}
+
+bool BhapticsOutput::play(const Haptic& haptic, MonoTime) {
+  if (!impl_->is_connected) return false;
+  impl_->orders.push({haptic, false});
+  lws_cancel_service(impl_->context);
+  return true;
+}
+
+void BhapticsOutput::stop() {
+  if (!impl_->is_connected) return;
+  impl_->orders.push({Haptic(), true});
+  lws_cancel_service(impl_->context);
+}
+
+std::string BhapticsOutput::summary() const {
+  std::string line = "bHaptics Player at " + impl_->address;
+  if (impl_->connections == 0) return line + ", which was not found";
+  if (!impl_->is_connected) line += ", lost";
+  return line + ", " + std::to_string(impl_->written) + " messages";
+}
+
+}  // namespace dance

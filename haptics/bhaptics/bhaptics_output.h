@@ -1,0 +1,38 @@
+// BhapticsOutput: a bHaptics suit, through the bHaptics Player's WebSocket on this machine or
+// another. Orders go through a ring to the thread that libwebsockets runs in, which writes them as
+// they come.
+//
+// Units/frames: as haptics/bhaptics/bhaptics_frame.h.
+// Ownership:    owns its thread and connection; 64 orders may wait for it, the oldest give way.
+// Threads:      one, named haptics-ws; play() waits for nothing.
+// Failure:      open() names an address that is none; without a player there it is looked for every
+//               two seconds. Orders that find no connection are refused and counted.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/base/result.h"
+#include "haptics/haptic_output.h"
+
+namespace dance {
+
+class BhapticsOutput final : public HapticOutput {
+ public:
+  static constexpr const char* kUsualAddress = "127.0.0.1:15881";
+  static constexpr const char* kPath = "/v2/feedbacks?app_id=dancegraph&app_name=DanceGraph";
+
+  static Result<std::unique_ptr<HapticOutput>> open(const std::string& address);
+  ~BhapticsOutput() override;
+
+  bool play(const Haptic& haptic, MonoTime now) override;
+  void stop() override;
+  std::string summary() const override;
+
+ private:
+  struct Impl;
+  explicit BhapticsOutput(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dance

@@ -1,0 +1,58 @@
+// HapticFeed: what one dancer of a house feels, from the signals of a port: makes haptics of touches
+// and beats, says them on HAPTIC/capture/<guest>, and hands them, and those that others make there,
+// to the devices. Of several makers for one dancer, as of a replay and this one, one makes.
+//
+// Units/frames: times of this house's clock.
+// Ownership:    refers to the port and the poller, which must outlive it; owns the players.
+// Threads:      the poller's.
+// Failure:      what is of another clock is left out and counted.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/bus/signal_port.h"
+#include "core/net/poller.h"
+#include "haptics/haptic_maker.h"
+#include "haptics/haptic_player.h"
+
+namespace dance {
+
+class HapticFeed final : private HapticSink {
+ public:
+  // Another maker was heard so lately: this one rests.
+  static constexpr Duration kOtherMakes = Duration::s(2);
+
+  HapticFeed(const GuestId& guest, const HapticMakerOptions& options, SignalPort& port,
+             Poller& poller);
+  ~HapticFeed() override;
+  HapticFeed(const HapticFeed&) = delete;
+  HapticFeed& operator=(const HapticFeed&) = delete;
+
+  void add(std::unique_ptr<HapticPlayer> player) { players_.push_back(std::move(player)); }
+  void set_on(bool is_on);
+  std::uint64_t touches() const { return touches_; }
+  std::uint64_t made() const { return made_; }
+  std::uint64_t heard() const { return heard_; }
+  std::uint64_t of_other_clocks() const { return of_other_clocks_; }
+  const std::vector<std::unique_ptr<HapticPlayer>>& players() const { return players_; }
+
+ private:
+  void on_haptic(const Haptic& haptic) override;
+  void hear(const Haptic& haptic, MonoTime now);
+  bool makes(MonoTime now) const {
+    return !other_heard_.is_set() || now - other_heard_ > kOtherMakes;
+  }
+
+  GuestId guest_;
+  std::uint64_t clock_id_, maker_id_;
+  SignalPort& port_;
+  Poller& poller_;
+  Poller::TimerId timer_ = 0;
+  HapticMaker maker_;
+  std::vector<std::unique_ptr<HapticPlayer>> players_;
+  MonoTime other_heard_;
+  std::uint64_t touches_ = 0, made_ = 0, heard_ = 0, of_other_clocks_ = 0;
+};
+
+}  // namespace dance

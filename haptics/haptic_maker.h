@@ -1,0 +1,83 @@
+// HapticMaker: what a dancer is to feel of touches, of the beat, and of the lead's hand in a hold:
+// push, pull, raise and to the side, each with its own pattern. Pure: what it makes goes to a sink.
+//
+// Units/frames: times of this house's clock; touches as lcmtypes/touch_t.lcm has them.
+// Ownership:    room for kMostContacts; never allocates.
+// Threads:      none inside; one owner.
+// Failure:      more contacts than there is room for are felt as they begin, and not further.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/beat_clock.h"
+#include "core/pose/haptic.h"
+#include "core/pose/touch.h"
+
+namespace dance {
+
+class HapticSink {
+ public:
+  virtual ~HapticSink() = default;
+  virtual void on_haptic(const Haptic& haptic) = 0;
+};
+
+// What is felt of the beat.
+enum class FeltBeats : std::uint8_t { kNone, kOne, kAll };
+
+struct HapticMakerOptions {
+  bool touch = true;  // bodies that touch, holds that begin and end
+  bool lead = true;   // what the partner's hand does in a hold
+  FeltBeats beats = FeltBeats::kOne;
+};
+
+class HapticMaker {
+ public:
+  static constexpr std::size_t kMostContacts = 32;
+  // A beat is ordered so long before it is heard: longer than devices are late.
+  static constexpr Duration kAhead = Duration::ms(400);
+  // A contact that lasts is felt so often, ever less.
+  static constexpr Duration kAgain = Duration::ms(120);
+  static constexpr Duration kFades = Duration::ms(600);
+  // A hand that moves faster than this in a hold says something; and not twice within kBetween.
+  static constexpr float kSignal_m_s = 0.6f;
+  static constexpr Duration kBetween = Duration::ms(300);
+
+  HapticMaker(HapticMakerOptions options, std::uint64_t maker, std::uint64_t clock_id)
+      : options_(options), maker_(maker), clock_id_(clock_id) {}
+
+  void feel(const Touch& touch, MonoTime now, HapticSink& sink);
+  void hear(const Beat& beat) { music_.hear(beat); }
+  // Orders the beats that come soon; to be called at least five times a second.
+  void look_ahead(MonoTime now, HapticSink& sink);
+  // The music or the poses come from elsewhere from now on.
+  void forget() { contacts_ = {}; }
+
+ private:
+  struct Contact {
+    std::uint32_t number = 0;
+    GuestId other;  // not set: a free place
+    MonoTime begun, felt, said, heard;
+    bool is_hold = false;
+  };
+  // How a haptic is shaped.
+  struct Shape {
+    Duration duration, attack, release;
+    float amplitude, frequency_hz;
+  };
+
+  Contact* place_of(const Touch& touch, MonoTime now);
+  void read_signal(const Touch& touch, Contact& contact, MonoTime now, HapticSink& sink);
+  void order(HapticSource source, Bone bone, const Shape& shape, MonoTime play, MonoTime now,
+             HapticSink& sink);
+
+  HapticMakerOptions options_;
+  std::uint64_t maker_, clock_id_;
+  std::uint32_t made_ = 0;
+  BeatClock music_;
+  double next_beat_ = 0.0;
+  bool has_beat_ = false;
+  std::array<Contact, kMostContacts> contacts_{};
+};
+
+}  // namespace dance

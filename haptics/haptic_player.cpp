@@ -1,0 +1,119 @@
+#include "haptics/haptic_player.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/net/mono_clock.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kSecond = Duration::s(1);
+
+MonoTime earlier(MonoTime a, MonoTime b) {
+  if (!a.is_set()) return b;
+  return b.is_set() ? std::min(a, b) : a;
+}
+
+}  // namespace
+
+HapticPlayer::HapticPlayer(std::unique_ptr<HapticOutput> output, HapticPlayerOptions options,
+                           Poller& poller)
+    : output_(std::move(output)), options_(options), poller_(poller) {
+  timer_ = poller_.add_timer(mono_now(), [this](MonoTime now) { return run(now); });
+}
+
+HapticPlayer::~HapticPlayer() {
+  poller_.remove_timer(timer_);
+  output_->stop();
+}
+
+MonoTime HapticPlayer::next_due() const {
+  MonoTime due;
+  for (std::size_t i = 0; i < waiting_count_; ++i) due = earlier(due, waiting_[i].due);
+  return due;
+}
+
+void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
+  if (!options_.is_on) {
+    ++counters_.muted;
+    return;
+  }
+  Order order{haptic.play_time - options_.latency - output_->latency(), haptic};
+  const float wanted = options_.strength * haptic.amplitude;
+  order.haptic.amplitude = std::min(wanted, options_.limit);
+  if (wanted > options_.limit) ++counters_.limited;
+  if (now - order.due > kTooLate) {
+    ++counters_.late;
+    return;
+  }
+  // What cannot be early is played at once: its moment is when it came.
+  if (order.due <= now) {
+    order.due = now;
+    play(order);
+    return;
+  }
+  if (waiting_count_ == kMostWaiting) {
+    ++counters_.full;
+    return;
+  }
+  waiting_[waiting_count_++] = order;
+  poller_.set_deadline(timer_, earlier(next_due(), earlier(output_wants_, worked_ + kSecond)));
+}
+
+void HapticPlayer::play(const Order& order) {
+  if (!(order.haptic.amplitude > 0.0f)) return;
+  if (!output_->play(order.haptic, mono_now())) {
+    ++counters_.refused;
+    return;
+  }
+  lateness_.add(mono_now() - order.due);
+  ++counters_.played;
+  output_wants_ = earlier(output_wants_, mono_now());  // it may have something to end
+}
+
+MonoTime HapticPlayer::run(MonoTime now) {
+  for (std::size_t i = 0; i < waiting_count_;) {
+    if (waiting_[i].due > now) {
+      ++i;
+      continue;
+    }
+    const Order order = waiting_[i];
+    waiting_[i] = waiting_[--waiting_count_];
+    if (now - order.due > kTooLate)
+      ++counters_.late;
+    else
+      play(order);
+  }
+  if ((output_wants_.is_set() && output_wants_ <= mono_now()) || now - worked_ >= kSecond) {
+    worked_ = now;
+    output_wants_ = output_->work(now);
+  }
+  return earlier(next_due(), earlier(output_wants_, worked_ + kSecond));
+}
+
+void HapticPlayer::set_on(bool is_on) {
+  options_.is_on = is_on;
+  if (is_on) return;
+  waiting_count_ = 0;
+  output_->stop();
+}
+
+std::string HapticPlayer::summary() const {
+  std::string line = fmt::format("{}: {} played", output_->summary(), counters_.played);
+  if (lateness_.count() > 0)
+    line += fmt::format(", {:.2f} ms late (p50), {:.2f} ms (p99)",
+                        lateness_.percentile(0.5).as_ms(), lateness_.percentile(0.99).as_ms());
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) line += fmt::format(", {} {}", count, what);
+  };
+  add(counters_.late, "left out as too late");
+  add(counters_.full, "left out as too many waited");
+  add(counters_.refused, "not taken by the device");
+  add(counters_.limited, "made weaker, to the limit");
+  add(counters_.muted, "left out while off");
+  return line;
+}
+
+}  // namespace dance

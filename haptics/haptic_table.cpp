@@ -1,0 +1,101 @@
+#include "haptics/haptic_table.h"
+
+#include <algorithm>
+#include <array>
+
+#include "haptics/evdev/evdev_output.h"
+#include "haptics/osc/osc_haptics.h"
+#if DANCE_HAVE_BHAPTICS
+#include "haptics/bhaptics/bhaptics_output.h"
+#endif
+#if DANCE_HAVE_SOUND
+#include "haptics/sound/sound_output.h"
+#endif
+
+namespace dance {
+namespace {
+
+using Made = Result<std::unique_ptr<HapticOutput>>;
+
+struct Row {
+  const char* name;
+  bool has_address;  // else a device
+  Made (*make)(const HapticOptions&);
+};
+
+Made make_bhaptics([[maybe_unused]] const HapticOptions& options) {
+#if DANCE_HAVE_BHAPTICS
+  return BhapticsOutput::open(options.address);
+#else
+  return fail("built without bHaptics: apt-get install libwebsockets-dev, and build again");
+#endif
+}
+
+Made make_sound([[maybe_unused]] const HapticOptions& options) {
+#if DANCE_HAVE_SOUND
+  return SoundOutput::open(options.device);
+#else
+  return fail("built without sound: apt-get install libpulse-dev, and build again");
+#endif
+}
+
+constexpr std::array<Row, 4> kRows{{
+    {"evdev", false, [](const HapticOptions& o) { return EvdevOutput::open(o.device); }},
+    {"osc", true, [](const HapticOptions& o) { return OscHaptics::open(o.address); }},
+    {"bhaptics", true, make_bhaptics},
+    {"sound", false, make_sound},
+}};
+
+Result<const Row*> find_row(const std::string& name) {
+  std::string known;
+  for (const Row& row : kRows) {
+    if (row.name == name) return &row;
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+  }
+  return fail("there is no kind of device '" + name + "'; there are: " + known);
+}
+
+}  // namespace
+
+std::vector<std::string> haptic_output_names() {
+  std::vector<std::string> names;
+  for (const Row& row : kRows) names.emplace_back(row.name);
+  return names;
+}
+
+Result<void> check_haptic_options(const std::string& to, const HapticOptions& options) {
+  DANCE_TRY(const Row* row, find_row(to));
+  if (row->has_address && !options.device.empty())
+    return fail("'" + to + "' takes an address, as 127.0.0.1:9001, not a device");
+  if (!row->has_address && !options.address.empty())
+    return fail("'" + to + "' takes a device, not an address");
+  return {};
+}
+
+Result<std::unique_ptr<HapticOutput>> make_haptic_output(const std::string& to,
+                                                         const HapticOptions& options) {
+  if (auto checked = check_haptic_options(to, options); !checked)
+    return tl::make_unexpected(checked.error());
+  DANCE_TRY(const Row* row, find_row(to));
+  return row->make(options);
+}
+
+Result<HapticMakerOptions> parse_felt(const std::vector<std::string>& words) {
+  HapticMakerOptions felt{false, false, FeltBeats::kNone};
+  for (const std::string& word : words) {
+    if (word == "touch")
+      felt.touch = true;
+    else if (word == "lead")
+      felt.lead = true;
+    else if (word == "one")
+      felt.beats = FeltBeats::kOne;
+    else if (word == "beats")
+      felt.beats = FeltBeats::kAll;
+    else
+      return fail("there is nothing to feel by the name '" + word +
+                  "'; there are: touch, lead, one (of each bar), beats (all of them)");
+  }
+  return felt;
+}
+
+}  // namespace dance

@@ -1,0 +1,178 @@
+// dance haptics: what a dancer feels: touches, the beat, the lead's hand, on devices.
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+
+#include "core/bus/bus.h"
+#include "core/net/mono_clock.h"
+#include "core/net/poller.h"
+#include "core/program/program.h"
+#include "core/program/talk.h"
+#include "haptics/evdev/evdev_devices.h"
+#include "haptics/haptic_feed.h"
+#include "haptics/haptics_check.h"
+
+namespace dance {
+namespace {
+
+constexpr const char *kExamples = R"(Examples:
+  dance haptics list                                 what can be felt with on this machine
+  dance haptics --guest alice --to evdev             the first gamepad rumbles for alice
+  dance haptics --guest alice --to evdev --device Joy-Con --limit 0.6 dance haptics-- guest
+    alice-- to sound-- device tactors-- feel one lead dance haptics-- guest alice-- to
+        osc-- address 192.168.1.7 : 9001 dance haptics-- guest alice-- to bhaptics the bHaptics
+            Player of this machine dance haptics-- check-- to osc how exactly orders reach a device
+                In a terminal,
+                     enter switches everything off,
+                     and on again.Several-- to at once are several devices.touch
+    : bodies that touch and hands that hold;
+lead : what the partner's hand does in a hold; one : the first beat of each bar; beats: all of them.
+)";
+
+struct HapticsWishes {
+  std::string what, bus, guest, device, address;
+  std::vector<std::string> to;
+  std::vector<std::string> feel{"touch", "lead", "one"};
+  double strength = 1.0, limit = 1.0, latency_ms = 0.0, seconds = 0.0;
+  bool check = false;
+};
+
+HapticOptions options_of(const HapticsWishes& wishes, const HapticMakerOptions& felt) {
+  HapticOptions options;
+  options.device = wishes.device;
+  options.address = wishes.address;
+  options.player.strength = static_cast<float>(wishes.strength);
+  options.player.limit = static_cast<float>(wishes.limit);
+  options.player.latency = Duration::seconds(1e-3 * wishes.latency_ms);
+  options.maker = felt;
+  return options;
+}
+
+Result<void> list_devices() {
+  std::string text;
+  for (const EvdevDevice& device : list_evdev_devices())
+    text += "evdev     " + device.path + "  " + device.name + "  " +
+            std::to_string(device.effects) + " effects" +
+            (device.trouble.empty() ? "" : "; " + device.trouble) + "\n";
+  HapticOptions options;
+  if (auto sound = make_haptic_output("sound", options))
+    text += "sound     the usual sink of the sound server\n";
+  if (text.empty()) text = "no device is connected to this machine\n";
+  text += "osc       any program or device that takes OSC: --address host:port\n";
+  text += "bhaptics  a bHaptics Player: --address host:port, without it the one of this machine\n";
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
+}
+
+Result<void> run_check(const HapticsWishes& wishes, const HapticOptions& options, Poller& poller) {
+  std::vector<HapticCheck> checks;
+  const std::vector<std::string> kinds = wishes.to.empty() ? haptic_output_names() : wishes.to;
+  std::string missing;
+  for (const std::string& to : kinds) {
+    const double seconds = wishes.seconds > 0.0 ? wishes.seconds : 4.0;
+    auto check = check_haptics(to, options, poller, Duration::seconds(seconds));
+    if (check)
+      checks.push_back(*check);
+    else if (!wishes.to.empty())
+      return tl::make_unexpected(check.error());
+    else
+      missing += to + ": " + check.error().what + "\n";
+  }
+  const std::string text = haptic_check_table(checks) + missing;
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
+}
+
+// Enter on the terminal.
+void watch_terminal(Poller& poller, HapticFeed& feed) {
+  if (isatty(STDIN_FILENO) == 0) return;
+  talk::info("enter switches off, and on again");
+  poller.watch(STDIN_FILENO, [&poller, &feed, is_on = true](MonoTime) mutable {
+    std::array<char, 256> line{};
+    if (read(STDIN_FILENO, line.data(), line.size()) <= 0) {
+      poller.unwatch(STDIN_FILENO);
+      return;
+    }
+    is_on = !is_on;
+    feed.set_on(is_on);
+    talk::info("{}", is_on ? "on" : "off");
+  });
+}
+
+Result<void> run(const HapticsWishes& wishes) {
+  if (wishes.what == "list") return list_devices();
+  DANCE_TRY(const HapticMakerOptions felt, parse_felt(wishes.feel));
+  const HapticOptions options = options_of(wishes, felt);
+  DANCE_TRY(const auto poller, Poller::create());
+  if (auto stops = poller->stop_on_signals(); !stops) return tl::make_unexpected(stops.error());
+  if (wishes.check) return run_check(wishes, options, *poller);
+  const auto guest = GuestId::parse(wishes.guest);
+  if (!guest) return fail("--guest says who feels it, as --guest alice");
+  DANCE_TRY(const auto bus, Bus::open(wishes.bus));
+  HapticFeed feed(*guest, felt, *bus, *poller);
+  for (const std::string& to : wishes.to) {
+    HapticOptions own = options;
+    // Of several kinds each takes what is for it.
+    if (wishes.to.size() > 1 && !check_haptic_options(to, own)) {
+      own.device.clear();
+      if (!check_haptic_options(to, own)) own.address.clear();
+    }
+    DANCE_TRY(auto output, make_haptic_output(to, own));
+    feed.add(std::make_unique<HapticPlayer>(std::move(output), own.player, *poller));
+  }
+  poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  watch_terminal(*poller, feed);
+  if (wishes.seconds > 0.0) {
+    poller->add_timer(mono_now() + Duration::seconds(wishes.seconds), [&](MonoTime) {
+      poller->stop();
+      return MonoTime();
+    });
+  }
+  talk::info("{} feels TOUCH/stage/{} on {}", guest->view(), guest->view(), bus->url());
+  poller->run();
+  poller->unwatch(bus->fd());
+  talk::info("{} touches heard, {} haptics made, {} heard of others", feed.touches(), feed.made(),
+             feed.heard());
+  if (feed.of_other_clocks() > 0)
+    talk::warn("{} messages are of another machine's clock and were left out",
+               feed.of_other_clocks());
+  for (const auto& player : feed.players()) talk::info("{}", player->summary());
+  return {};
+}
+
+}  // namespace
+}  // namespace dance
+
+int main(int argc, char** argv) {
+  dance::HapticsWishes wishes;
+  dance::CommandLine line("What a dancer feels: touches, the beat, the lead's hand, on devices.",
+                          "dance haptics");
+  line.add("WHAT", wishes.what, "list: the devices of this machine").one_of({"list"});
+  line.add("--guest", wishes.guest, "who feels it").guest_name();
+  line.add("--to", wishes.to, "kinds of devices").one_of(dance::haptic_output_names());
+  line.add("--feel", wishes.feel, "touch, lead, one, beats; without it touch, lead and one");
+  line.add("--device", wishes.device,
+           "evdev: a path, or a part of the name; sound: the sink. Without it, the first");
+  line.add("--address", wishes.address, "osc and bhaptics: host:port; without it, the usual one");
+  line.add("--strength", wishes.strength, "times the amplitude").range(0.0, 2.0).shows_default();
+  line.add("--limit", wishes.limit, "nothing is felt more strongly, 1 = all the device has")
+      .range(0.0, 1.0)
+      .shows_default();
+  line.add("--latency", wishes.latency_ms,
+           "ms that the device is late, beside what it reports itself")
+      .range(0.0, 400.0)
+      .shows_default();
+  line.add("--seconds", wishes.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
+  line.add("--bus", wishes.bus, "LCM URL of the bus");
+  line.add_flag("--check", wishes.check, "measures how exactly orders reach the devices");
+  line.footer(dance::kExamples);
+  line.finally([&]() -> dance::Result<void> {
+    if (auto felt = dance::parse_felt(wishes.feel); !felt) return tl::make_unexpected(felt.error());
+    if (wishes.what.empty() && !wishes.check && (wishes.guest.empty() || wishes.to.empty()))
+      return dance::fail("say who feels it and with what: --guest alice --to evdev; or: list");
+    return {};
+  });
+  return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });
+}

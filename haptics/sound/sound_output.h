@@ -1,0 +1,38 @@
+// SoundOutput: a tactor on a sound channel, through PulseAudio or PipeWire: tones on a sink of their
+// own. The stream never stops, so that a tone begins within its short buffer; the sound server says
+// how late that is, and orders go out so much earlier.
+//
+// Units/frames: 48000 mono frames a second.
+// Ownership:    owns the connection and the thread of the library; 64 orders may wait for it.
+// Threads:      PulseAudio's own, in which tones are mixed; play() waits for nothing.
+// Failure:      open() says why there is no sound server, or no such sink, and the cure. A server
+//               that ends is told in summary(); orders are then refused.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "haptics/haptic_output.h"
+
+namespace dance {
+
+class SoundOutput final : public HapticOutput {
+ public:
+  // `sink`: its name at the sound server; "" = the usual one.
+  static Result<std::unique_ptr<HapticOutput>> open(const std::string& sink);
+  ~SoundOutput() override;
+
+  bool play(const Haptic& haptic, MonoTime now) override;
+  void stop() override;
+  Duration latency() const override;
+  std::string summary() const override;
+
+ private:
+  struct Impl;
+  explicit SoundOutput(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dance

@@ -1,0 +1,85 @@
+// StageHolds: which hands of the dancers on a stage hold each other, kept through jitter and
+// prediction errors; and, where a route has the word hold-hands, arms that reach the last
+// centimetres, each of the two dancers half of the way.
+//
+// Units/frames: metres in W; times of this house's clock. Palms as core/motion/palm_pull.h has them.
+// Ownership:    room for kMostDancers; never allocates after construction.
+// Threads:      none inside; one owner.
+// Failure:      more dancers than there is room for are shown as they are, and counted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/guest_id.h"
+#include "core/pose/kinematics.h"
+#include "transformers/touch/palm_hold.h"
+
+namespace dance {
+
+// Hands of two dancers that hold each other.
+struct HandHold {
+  GuestId first, second;
+  std::uint8_t first_side = 0, second_side = 0;  // 0 left, 1 right
+  float apart_m = 0.0f;                          // before arms reach
+  MonoTime since;
+};
+
+class StageHolds {
+ public:
+  static constexpr std::size_t kMostDancers = 16;
+  // Who was not shown for so long holds nobody.
+  static constexpr Duration kGone = Duration::ms(500);
+
+  StageHolds();
+  void set_limits(const PalmHold::Limits& limits) { limits_ = limits; }
+  void set_body(const GuestId& guest, const Skeleton& skeleton);
+  // A pose that is about to be shown. With `reaches`, its arms are moved to the hands they hold;
+  // returns whether they were.
+  bool show(const GuestId& guest, Pose& pose, MonoTime now, bool reaches);
+
+  bool are_held(const GuestId& first, std::size_t first_side, const GuestId& second,
+                std::size_t second_side) const;
+  template <class Tell>
+  void tell(Tell tell) const {
+    for (std::size_t a = 0; a < kMostDancers; ++a)
+      for (std::size_t b = a + 1; b < kMostDancers; ++b)
+        for (std::size_t k = 0; k < 4; ++k)
+          if (const PalmHold& hold = pair(a, b)[k]; hold.is_held())
+            tell(HandHold{dancers_[a].guest, dancers_[b].guest, static_cast<std::uint8_t>(k / 2),
+                          static_cast<std::uint8_t>(k % 2), hold.apart_m(), hold.since()});
+  }
+  std::uint64_t refused() const { return refused_; }
+
+ private:
+  using Palms = std::array<Eigen::Vector3f, 2>;
+  // Of two dancers: the first's palm k / 2, the second's k % 2.
+  using Pair = std::array<PalmHold, 4>;
+  struct Dancer {
+    GuestId guest;  // not set: a free place
+    Skeleton skeleton;
+    Palms palms, speed_m_s;  // as shown, before arms reach
+    MonoTime shown;
+    bool reaches = false;
+    Eigen::Vector3f palm_at(std::size_t side, MonoTime now) const;
+  };
+  struct Reach {
+    std::array<Eigen::Vector3f, 2> shift;
+    std::array<float, 2> weight{};
+  };
+
+  Dancer* place_of(const GuestId& guest, MonoTime now);
+  const Dancer* find(const GuestId& guest) const;
+  void note(Dancer& dancer, const Palms& palms, MonoTime now) const;
+  void hold(std::size_t own, std::size_t other, MonoTime now, Reach& reach);
+  void leave(std::size_t place);
+  static std::size_t pair_index(std::size_t a, std::size_t b) { return b * (b - 1) / 2 + a; }
+  const Pair& pair(std::size_t a, std::size_t b) const { return pairs_[pair_index(a, b)]; }
+
+  PalmHold::Limits limits_;
+  std::array<Dancer, kMostDancers> dancers_;
+  std::array<Pair, kMostDancers*(kMostDancers - 1) / 2> pairs_;
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace dance

@@ -1,0 +1,72 @@
+// StageTouch: which dancers on a stage touch each other, where and how, as each of the two feels it.
+// Works on the poses as they are shown; held hands are those of StageHolds.
+//
+// Units/frames: as lcmtypes/touch_t.lcm says; times of this house's clock.
+// Ownership:    room for kMostDancers, and kMostPairs of them that are near each other at a time;
+//               never allocates after construction.
+// Threads:      none inside; one owner.
+// Failure:      more dancers or pairs than there is room for do not touch, and are counted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "core/pose/touch.h"
+#include "transformers/touch/body_capsules.h"
+#include "transformers/touch/stage_holds.h"
+
+namespace dance {
+
+class TouchSink {
+ public:
+  virtual ~TouchSink() = default;
+  // As `guest` feels it.
+  virtual void on_touch(const GuestId& guest, const Touch& touch) = 0;
+};
+
+class StageTouch {
+ public:
+  static constexpr std::size_t kMostDancers = StageHolds::kMostDancers;
+  static constexpr std::size_t kMostPairs = 24;
+  static constexpr Duration kGone = StageHolds::kGone;
+  // Bodies touch at an overlap of 0, and part at this distance.
+  static constexpr float kParts_m = 0.025f;
+  // Dancers whose hips are further apart are not looked at.
+  static constexpr float kNear_m = 2.5f;
+  // A contact that lasts is told so often.
+  static constexpr Duration kTold = Duration::ms(33);
+
+  StageTouch();
+  ~StageTouch();
+  void set_body(const GuestId& guest, const Skeleton& skeleton);
+  // A pose as it is shown.
+  void show(const GuestId& guest, const Pose& pose, MonoTime now);
+  // Looks at who touches whom now; to be called about sixty times a second.
+  void update(MonoTime now, std::uint64_t clock_id, const StageHolds& holds, TouchSink& sink);
+
+  std::uint64_t refused() const { return refused_; }
+
+ private:
+  struct Contact;
+  struct Pair;
+  struct Dancer;
+  struct Found;
+  struct State;
+
+  Dancer* place_of(const GuestId& guest, MonoTime now);
+  Pair* pair_of(std::size_t a, std::size_t b, MonoTime now);
+  void look(Pair& pair, MonoTime now, std::uint64_t clock_id, const StageHolds& holds,
+            TouchSink& sink);
+  void follow(Pair& pair, std::size_t slot, const Found& found, MonoTime now,
+              std::uint64_t clock_id, TouchSink& sink);
+  void tell(const Pair& pair, const Contact& contact, TouchPhase phase, MonoTime now,
+            std::uint64_t clock_id, TouchSink& sink) const;
+  void end(Pair& pair, MonoTime now, std::uint64_t clock_id, TouchSink& sink);
+
+  std::unique_ptr<State> state_;
+  std::uint32_t contacts_ = 0;
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace dance
