@@ -197,7 +197,7 @@ void write_cluster(const std::filesystem::path& folder) {
 }
 
 void write_codec(const std::filesystem::path& root) {
-  const auto folder = root / "core_codec/corpus/plain_codec";
+  const auto folder = root / "core/codec/corpus/plain_codec";
   const auto seed = [](std::uint8_t kind, std::span<const std::uint8_t> payload) {
     Bytes bytes(1 + payload.size(), kind);
     std::copy(payload.begin(), payload.end(), bytes.begin() + 1);
@@ -256,7 +256,7 @@ int main(int argc, char** argv) {
   dance::write_tunnel(argv[1]);
   dance::write_cluster(std::filesystem::path(argv[1]) / "tunnel/cluster/corpus");
   dance::write_codec(argv[1]);
-  const std::filesystem::path corpus = std::filesystem::path(argv[1]) / "core_codec/corpus";
+  const std::filesystem::path corpus = std::filesystem::path(argv[1]) / "core/codec/corpus";
   dance::write_hands(corpus / "hands_codec");
   dance::write_lossless(corpus / "lossless_codec");
   return 0;
