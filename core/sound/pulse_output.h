@@ -22,7 +22,7 @@ namespace dance {
 
 struct PulseOutputOptions {
   double rate_hz = 48000.0;
-  std::string sink;            // its name for the server; "" = its default
+  std::string sink = {};       // its name for the server; "" = its default
   std::string name = "music";  // of the stream, as the server's own tools show it
   // Buffered ahead: shorter stalls of the machine are inaudible. The latency is compensated.
   Duration ahead = Duration::ms(300);

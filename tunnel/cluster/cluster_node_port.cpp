@@ -94,7 +94,7 @@ void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
 void ClusterNode::on_voice(const ServerRoom& room, const ServerGuest& guest,
                            const wire::VoiceRecord& record) {
   ++counters_.voices_out;
-  send(cluster::pose_subject(room.name, guest.id).view(),
+  send(cluster::pose_subject(room.name, guest.id),
        cluster::VoiceMessage{options_.id, guest.link_token, record});
 }
 
