@@ -101,13 +101,15 @@ void ServerRemotes::on_record(const wire::RoomName& name, ServerId server, const
                               std::uint64_t link_token, wire::Record record, MonoTime now) {
   const ServerRoom* room = find(name);
   const auto slot = room != nullptr ? ServerSlots::find(*room, id) : std::nullopt;
-  const auto session = slot ? session_of(*room, server) : std::nullopt;
-  if (!session || room->guests[*slot].link_token != link_token) {
+  const std::size_t owner = slot ? room->guests[*slot].owner : 0;
+  if (!slot || !server_.sessions[owner].is_remote() ||
+      server_.remotes[server_.sessions[owner].remote].server != server ||
+      room->guests[*slot].link_token != link_token) {
     ++counters_.unknown;
     return;
   }
   record.slot = *slot;
-  forwarder_.on_remote_record(*session, record, now);
+  forwarder_.on_remote_record(owner, record, now);
 }
 
 void ServerRemotes::on_feedback(const wire::RoomName& name, ServerId server, const GuestId& id,
