@@ -19,7 +19,7 @@
 
 namespace dance {
 
-constexpr std::size_t kMaxGuests = 64;
+constexpr std::size_t kMaxGuests = 128;
 
 struct RosterEntry {
   GuestId guest;

@@ -25,12 +25,14 @@ std::optional<ServerRemotes::Place> ServerRemotes::place_of(const wire::RoomName
                                                             std::uint64_t link_token) {
   const ServerRoom* room = find(name);
   const auto slot = room != nullptr ? ServerSlots::find(*room, id) : std::nullopt;
-  const auto session = slot ? session_of(*room, server) : std::nullopt;
-  if (!session || room->guests[*slot].link_token != link_token) {
+  const std::size_t owner = slot ? room->guests[*slot].owner : 0;
+  if (!slot || !server_.sessions[owner].is_remote() ||
+      server_.remotes[server_.sessions[owner].remote].server != server ||
+      room->guests[*slot].link_token != link_token) {
     ++counters_.unknown;
     return std::nullopt;
   }
-  return Place{*session, *slot};
+  return Place{owner, *slot};
 }
 
 void ServerRemotes::settle(const wire::RoomName& name) {

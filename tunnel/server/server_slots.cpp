@@ -7,9 +7,21 @@
 
 namespace dance {
 
+namespace {
+
+// FNV-1a; never 0.
+std::uint32_t hash_of(const GuestId& guest) {
+  std::uint32_t hash = 2'166'136'261u;
+  for (const char c : guest.view()) hash = (hash ^ static_cast<unsigned char>(c)) * 16'777'619u;
+  return hash | 1;
+}
+
+}  // namespace
+
 std::optional<std::uint8_t> ServerSlots::find(const ServerRoom& room, const GuestId& guest) {
+  const std::uint32_t hash = hash_of(guest);
   for (std::size_t slot = 0; slot < room.guests.size(); ++slot)
-    if (room.guests[slot].in_use && room.guests[slot].id == guest)
+    if (room.name_hashes[slot] == hash && room.guests[slot].id == guest)
       return static_cast<std::uint8_t>(slot);
   return std::nullopt;
 }
@@ -24,6 +36,7 @@ std::optional<std::uint8_t> ServerSlots::add_guest(std::size_t index, const Gues
   *free = ServerGuest();
   free->in_use = true;
   free->id = id;
+  room.name_hashes[*slot] = hash_of(id);
   free->link_token = link_token;
   free->generation = room.next_generation++;
   free->records = TokenBucket(server_.limits.records_per_second, server_.limits.record_burst);
@@ -50,6 +63,7 @@ void ServerSlots::remove_guest(std::size_t room_index, std::uint8_t slot) {
     server_.cluster->on_guest_left(room, room.guests[slot]);
   want_no_more(room, room.guests[slot]);
   room.guests[slot].in_use = false;
+  room.name_hashes[slot] = 0;
   --room.guest_count;
   for (const std::size_t member : room.members) server_.sessions[member].stream.states.forget(slot);
   ++room.roster_version;
@@ -81,6 +95,7 @@ std::uint8_t ServerSlots::relocate(ServerRoom& room, std::uint8_t slot) {
   guest.previous = SentPose();
   guest.channels.fill({});
   room.guests[slot].in_use = false;
+  room.name_hashes[*free] = std::exchange(room.name_hashes[slot], 0u);
   for (const std::size_t member : room.members) {
     server_.sessions[member].stream.states.forget(slot);
     server_.sessions[member].stream.states.forget(*free);

@@ -295,6 +295,8 @@ struct ServerRoom {
   std::size_t host_count = 0;    // links of it with a host's key
   std::size_t remote_hosts = 0;  // other servers that have such links
   std::array<ServerGuest, wire::kMaxGuestsPerRoom> guests;
+  // Of the names of those in use, else 0: who is looked for is found without a look at each.
+  std::array<std::uint32_t, wire::kMaxGuestsPerRoom> name_hashes{};
 
   std::size_t link_count() const { return members.size() - remote_count; }
   bool has_host() const { return host_count > 0 || remote_hosts > 0; }

@@ -47,7 +47,7 @@ struct GuestNews {
 
 class GuestBoard {
  public:
-  static constexpr std::size_t kMaxGuests = 64;
+  static constexpr std::size_t kMaxGuests = 128;
 
   // With `stage_only` no guest is shown from the capture while on the stage.
   GuestBoard(std::uint64_t clock_id, bool stage_only);

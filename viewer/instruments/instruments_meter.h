@@ -18,7 +18,7 @@ namespace dance {
 
 class InstrumentsMeter {
  public:
-  static constexpr std::size_t kMaxGuests = 64;
+  static constexpr std::size_t kMaxGuests = 128;
 
   explicit InstrumentsMeter(std::uint64_t clock_id);
 
