@@ -45,7 +45,7 @@ struct Ear {
   int poses = 0;
 };
 
-class VoicePrograms : public BusPrograms {
+class VoiceLinePrograms : public BusPrograms {
  protected:
   void start_link(const char* bus, const std::string& guest,
                   const std::vector<std::string>& more = {}) {
@@ -75,7 +75,7 @@ class VoicePrograms : public BusPrograms {
   MonoTime next_;
 };
 
-TEST_F(VoicePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
+TEST_F(VoiceLinePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
   start("dance-server", {"--port", "7456"});
   start_link(kBus, "alice");
   start_link(kOtherBus, "bob");
@@ -101,6 +101,26 @@ TEST_F(VoicePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
   }
   EXPECT_GT(b.newest_age, Duration::ms(11));
   EXPECT_LT(b.newest_age, Duration::s(5));
+  // bob's player mutes her, and wants her again.
+  const auto heard_while = [&](bool hears_others) {
+    HearingWish wish;
+    wish.hears_others = hears_others;
+    wish.clock_id = this_clock_id();
+    std::size_t newest = 0;
+    const int poses = b.poses;
+    EXPECT_TRUE(wait_for([&] {
+      wish.time = mono_now();
+      b.bus->publish(Channel::of_house(Signal::kHearing), wish);
+      perform(*a.bus);
+      b.bus->drain(mono_now());
+      // What was under way when it was said.
+      if (b.poses < poses + 6) newest = b.voices.size();
+      return b.poses > poses + 20;
+    }));
+    return b.voices.size() - newest;
+  };
+  EXPECT_EQ(heard_while(false), 0u);
+  EXPECT_GT(heard_while(true), 5u);
   recorder.stop(Duration::s(5));
   end_all();
   const auto report = nlohmann::json::parse(text_of(folder_.path("bob.json")), nullptr, false);
