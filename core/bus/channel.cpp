@@ -6,12 +6,13 @@ namespace dance {
 namespace {
 
 // In the order of Signal, and of Where.
-constexpr std::array<std::string_view, 21> kSignals{
-    "POSE",          "SKELETON", "HANDS",       "GUEST", "STATS",     "STAGE_TIME", "MUSIC",
-    "SCENE",         "AVATAR",   "AVATAR_FILE", "STYLE", "PLACEMENT", "BEAT",       "GUEST_STATS",
-    "GUEST_TRAFFIC", "FLOW",     "PLAYOUT",     "STEPS", "VOICE",     "TOUCH",      "HAPTIC"};
+constexpr std::array<std::string_view, 22> kSignals{
+    "POSE",  "SKELETON",    "HANDS",         "GUEST",       "STATS",   "STAGE_TIME",
+    "MUSIC", "SCENE",       "AVATAR",        "AVATAR_FILE", "STYLE",   "PLACEMENT",
+    "BEAT",  "GUEST_STATS", "GUEST_TRAFFIC", "FLOW",        "PLAYOUT", "STEPS",
+    "VOICE", "TOUCH",       "HAPTIC",        "HEARING"};
 constexpr std::array<std::string_view, 5> kWheres{"capture", "guest", "stage", "view", "room"};
-static_assert(static_cast<std::size_t>(Signal::kHaptic) + 1 == kSignals.size());
+static_assert(static_cast<std::size_t>(Signal::kHearing) + 1 == kSignals.size());
 static_assert(static_cast<std::size_t>(Where::kRoom) + 1 == kWheres.size());
 constexpr std::string_view kLocalWord = "local";
 

@@ -38,6 +38,7 @@ enum class Signal : std::uint8_t {
   kVoice,
   kTouch,
   kHaptic,
+  kHearing,
 };
 
 // Where on its journey the signal is.
@@ -91,7 +92,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 36> kChannelTable{{
+constexpr std::array<ChannelRow, 37> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -127,6 +128,7 @@ constexpr std::array<ChannelRow, 36> kChannelTable{{
     {Signal::kVoice, Where::kGuest, "VOICE/guest/<guest>", "voice_t"},
     {Signal::kTouch, Where::kStage, "TOUCH/stage/<guest>", "touch_t"},
     {Signal::kHaptic, Where::kCapture, "HAPTIC/capture/<guest>", "haptic_t"},
+    {Signal::kHearing, Where::kLocal, "HEARING/local", "hearing_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 

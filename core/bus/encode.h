@@ -91,6 +91,8 @@ template <>
 struct MessageTraits<Touch> : MessageRow<Touch, Signal::kTouch> {};
 template <>
 struct MessageTraits<Haptic> : MessageRow<Haptic, Signal::kHaptic> {};
+template <>
+struct MessageTraits<HearingWish> : MessageRow<HearingWish, Signal::kHearing> {};
 
 // A type with a row in the table.
 template <class T>

@@ -27,8 +27,9 @@ TEST(StatusTable, TellsRoomsGuestsAndWhatWasRefused) {
   const std::string text = status_text(some_status());
   for (const char* words :
        {"dance server 9.9 on 127.0.0.1:7400, up 61 s", "salsa", "lattice", "0.25 ms", "alice",
-        "anna", "(listens)", "42.50 ms", "1.75 ms", "12.5%", "12.3 kB", "0.5 kB", "speaks", " 100 ", " 731 ", "10.0.0.7:999",
-        "10.0.0.8:999", "\ndropped:  late 3\n", "\nhandshakes:  unknown_key 2\n"})
+        "anna", "(listens)", "42.50 ms", "1.75 ms", "12.5%", "12.3 kB", "0.5 kB", "speaks", " 100 ",
+        " 731 ", "10.0.0.7:999", "10.0.0.8:999", "\ndropped:  late 3\n",
+        "\nhandshakes:  unknown_key 2\n"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
   EXPECT_EQ(text.find("malformed"), std::string::npos) << "what did not happen is left out";
   EXPECT_EQ(text.find("done"), std::string::npos);

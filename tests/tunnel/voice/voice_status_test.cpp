@@ -15,9 +15,9 @@ TEST(VoiceStatus, TellsWhoSpeaksAndWhatOfItWasSent) {
   auto& a = tunnel.add_house("salsa", {"alice"});
   tunnel.add_house("salsa", {"bob"});
   tunnel.add_house("salsa", {});
-  ServerStatusMaker maker(tunnel.server(), {}, "127.0.0.1:7400",
-                          [](const ServerSession&) { return std::string("somewhere"); },
-                          tunnel.now());
+  ServerStatusMaker maker(
+      tunnel.server(), {}, "127.0.0.1:7400",
+      [](const ServerSession&) { return std::string("somewhere"); }, tunnel.now());
   tunnel.run(Duration::ms(200));
   maker.sample(tunnel.now());
   Talk talk{tunnel, {{&a, guest("alice")}}};

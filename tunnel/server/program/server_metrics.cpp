@@ -82,7 +82,7 @@ void add_totals(const ServerStatus& status, Page& page) {
                c.voices_out);
   page.counter("voice_sent_bytes_total", "Bytes of datagrams with voices, of all sent.",
                c.voice_bytes_out);
-  page.counters("voices_left_out_total", "Packets of voices not sent to a receiver that wants them.",
+  page.counters("voices_left_out_total", "Packets of voices not sent to who wants them.",
                 {{"crowded", c.voices_crowded}, {"narrow_line", c.voices_held_back}});
   page.counter("key_frames_asked_total", "Key frames asked of guests.", c.key_frames_asked);
   page.counter("sessions_begun_total", "Links that came.", c.sessions_begun);

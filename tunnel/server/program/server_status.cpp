@@ -115,13 +115,8 @@ ServerLinkStatus ServerStatusMaker::link_status(std::size_t index, MonoTime now)
   for (const std::uint8_t slot : session.slots) {
     const ServerGuest& guest = core_.rooms()[session.room].guests[slot];
     const StreamGate::Counters& poses = guest.poses.counters();
-    ServerGuestStatus status{guest.id,
-                             poses.received,
-                             poses.lost,
-                             poses.late,
-                             std::nullopt,
-                             guest.voice.packets_in,
-                             guest.voice.bytes_in};
+    ServerGuestStatus status{guest.id,     poses.received,         poses.lost,          poses.late,
+                             std::nullopt, guest.voice.packets_in, guest.voice.bytes_in};
     if (guest.jitter.has_any()) {
       status.jitter = guest.jitter.jitter();
       link.jitter = std::max(link.jitter.value_or(Duration()), *status.jitter);
