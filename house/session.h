@@ -18,6 +18,7 @@
 #include "core/base/result.h"
 #include "core/pose/style.h"
 #include "house/avatar_choice.h"
+#include "house/voice/hosted_voice.h"
 #include "manager/route.h"
 #include "producers/receive/receiver_table.h"
 #include "tunnel/policy/channel_rule.h"
@@ -114,6 +115,7 @@ struct Session {
   std::vector<HostedConsumer> consumers;
   std::vector<HostedAvatar> avatars;
   std::optional<HostedMusic> music;
+  std::optional<HostedVoice> voice;
   std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in
 };

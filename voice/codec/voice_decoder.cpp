@@ -12,6 +12,13 @@ namespace {
 
 constexpr int kFrame = static_cast<int>(kVoiceFrameSamples);
 
+void make_safe(std::span<float> samples) {
+  for (float& sample : samples)
+    sample = std::isfinite(sample)
+                 ? std::clamp(sample, -VoiceDecoder::kLoudest, VoiceDecoder::kLoudest)
+                 : 0.0f;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<VoiceDecoder>> VoiceDecoder::create() {
@@ -42,6 +49,7 @@ bool VoiceDecoder::decode_lost(std::span<const std::uint8_t> next,
 void VoiceDecoder::conceal(std::span<float, kVoiceFrameSamples> frame) {
   if (opus_decode_float(decoder_, nullptr, 0, frame.data(), kFrame, 0) != kFrame)
     std::fill(frame.begin(), frame.end(), 0.0f);
+  make_safe(frame);
 }
 
 void VoiceDecoder::reset() { opus_decoder_ctl(decoder_, OPUS_RESET_STATE); }
@@ -58,8 +66,7 @@ bool VoiceDecoder::decode_with(std::span<const std::uint8_t> packet, int from_ne
     conceal(frame);
     return false;
   }
-  for (float& sample : frame)
-    sample = std::isfinite(sample) ? std::clamp(sample, -kLoudest, kLoudest) : 0.0f;
+  make_safe(frame);
   return true;
 }
 

@@ -54,7 +54,14 @@ std::span<const std::uint8_t> VoiceEncoder::encode(
                         static_cast<opus_int32>(packet_.size()));
   if (bytes <= 0) return {};
   const auto packet = std::span<const std::uint8_t>(packet_).first(static_cast<std::size_t>(bytes));
+  opus_int32 is_in_silence = 0;
+  opus_encoder_ctl(encoder_, OPUS_GET_IN_DTX(&is_in_silence));
   if (!is_silence(packet)) {
+    // What Opus says of the noise in a silence, again and again, is worth no packets.
+    if (is_in_silence != 0 && silent_frames_ >= kSilenceSaid_frames) {
+      ++silent_frames_;
+      return {};
+    }
     silent_frames_ = 0;
     return packet;
   }
