@@ -22,8 +22,8 @@ struct HostedVoice {
   bool push_to_talk = false;
   bool muted = false;
   bool with_picture = false;
-  double buffer_ms = 0.0;     // 0 = as dance voice has it
-  double bitrate_kbit = 0.0;  // 0 = as dance voice has it
+  double buffer_ms = 0.0;            // 0 = as dance voice has it
+  double bitrate_kbit = 0.0;         // 0 = as dance voice has it
   std::vector<std::string> volumes;  // "bob=0.5"
 };
 

@@ -36,8 +36,8 @@ HouseVoice::~HouseVoice() {
 bool HouseVoice::start() {
   // Its own warning of a missing microphone is not to be repeated every ten seconds.
   const std::string talk_file = last_exit_ == 1 ? "/dev/null" : "";
-  auto program = ChildProcess::start(
-      {program_folder() + "/dance-voice", arguments_, "/dev/null", talk_file});
+  auto program =
+      ChildProcess::start({program_folder() + "/dance-voice", arguments_, "/dev/null", talk_file});
   if (!program) {
     talk::warn("{}; the house goes on without voices", program.error().what);
     return false;

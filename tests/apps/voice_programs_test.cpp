@@ -104,8 +104,7 @@ TEST_F(VoicePrograms, WithoutASoundServerThereIsOneLineAndTheHouseGoesOn) {
   auto bus = Bus::open(kBus);
   ASSERT_TRUE(bus) << bus.error().what;
   int poses = 0;
-  (*bus)->subscribe<Pose>(Where::kStage,
-                          [&](const Channel&, const Pose&, MonoTime) { ++poses; });
+  (*bus)->subscribe<Pose>(Where::kStage, [&](const Channel&, const Pose&, MonoTime) { ++poses; });
   const auto talk = [&] { return text_of(folder_.path("talk")); };
   EXPECT_TRUE(wait_for([&] {
     (*bus)->drain(mono_now());

@@ -56,8 +56,7 @@ TEST(VoiceCodec, WhatComesOutSoundsLikeWhatWentIn) {
     EXPECT_GE(figures.fitting + 1, figures.pieces);
     EXPECT_NEAR(figures.median_ms, look_ahead_ms, 0.5);
     // The first begins from nothing, and the end of the last is not decoded.
-    for (std::size_t i = 1; i + 1 < matches.size(); ++i)
-      EXPECT_GT(matches[i].likeness, 0.8) << i;
+    for (std::size_t i = 1; i + 1 < matches.size(); ++i) EXPECT_GT(matches[i].likeness, 0.8) << i;
   }
 }
 
@@ -104,8 +103,8 @@ TEST(VoiceCodec, WhatIsNoFrameOfTenMillisecondsIsConcealedAndCounted) {
   auto to_sound = decoder();
   VoiceFrame frame;
   EXPECT_FALSE(to_sound->decode({}, frame));
-  const Packet twenty_ms{0x48, 1, 2, 3, 4};        // SILK, 20 ms
-  const Packet many_frames{0x43, 0x30, 1, 2, 3};   // 48 frames in one packet
+  const Packet twenty_ms{0x48, 1, 2, 3, 4};       // SILK, 20 ms
+  const Packet many_frames{0x43, 0x30, 1, 2, 3};  // 48 frames in one packet
   EXPECT_FALSE(to_sound->decode(twenty_ms, frame));
   EXPECT_FALSE(to_sound->decode(many_frames, frame));
   EXPECT_FALSE(to_sound->decode(Packet(kMaxVoiceBytes + 1, 0xff), frame));

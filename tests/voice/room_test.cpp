@@ -103,7 +103,8 @@ TEST(RoomVoices, EachIsHeardOnItsSideAndOneMoreThanFitIsHeardToo) {
     }
     voices.mix(stereo, now, now, me, settings);
     for (std::size_t k = 0; k < kVoiceFrameSamples; ++k) {
-      const double l = static_cast<double>(stereo[2 * k]), r = static_cast<double>(stereo[2 * k + 1]);
+      const double l = static_cast<double>(stereo[2 * k]),
+                   r = static_cast<double>(stereo[2 * k + 1]);
       if (i > 60 && i < 140) {
         left += l * l;
         right += r * r;

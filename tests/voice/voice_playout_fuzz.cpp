@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint8_t* head = data + at;
     at += 8;
     Voice voice;
-    voice.sequence = static_cast<std::uint32_t>(head[0]) | static_cast<std::uint32_t>(head[1]) << 8 |
+    voice.sequence = static_cast<std::uint32_t>(head[0]) |
+                     static_cast<std::uint32_t>(head[1]) << 8 |
                      static_cast<std::uint32_t>(head[2]) << 30;
     voice.capture_time = now + Duration::ms(static_cast<std::int8_t>(head[3]) * 10);
     const std::size_t length = std::min<std::size_t>({head[4], kMaxVoiceBytes, size - at});

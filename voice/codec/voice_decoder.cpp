@@ -60,8 +60,8 @@ bool VoiceDecoder::decode_with(std::span<const std::uint8_t> packet, int from_ne
   // A packet may hold up to 120 ms: of another length than ours it is none of ours.
   const bool is_ours = size > 0 && size <= static_cast<opus_int32>(kMaxVoiceBytes) &&
                        opus_packet_get_nb_samples(packet.data(), size, kVoiceRate_hz) == kFrame;
-  if (!is_ours || opus_decode_float(decoder_, packet.data(), size, frame.data(), kFrame,
-                                    from_next) != kFrame) {
+  if (!is_ours ||
+      opus_decode_float(decoder_, packet.data(), size, frame.data(), kFrame, from_next) != kFrame) {
     ++bad_packets_;
     conceal(frame);
     return false;

@@ -18,10 +18,9 @@ Result<std::unique_ptr<VoiceEncoder>> VoiceEncoder::create(const VoiceEncoderOpt
   std::unique_ptr<VoiceEncoder> made(new VoiceEncoder);
   int error = OPUS_OK;
   const bool is_speech = options.mode == VoiceMode::kSpeech;
-  made->encoder_ =
-      opus_encoder_create(kVoiceRate_hz, 1,
-                          is_speech ? OPUS_APPLICATION_VOIP : OPUS_APPLICATION_RESTRICTED_LOWDELAY,
-                          &error);
+  made->encoder_ = opus_encoder_create(
+      kVoiceRate_hz, 1, is_speech ? OPUS_APPLICATION_VOIP : OPUS_APPLICATION_RESTRICTED_LOWDELAY,
+      &error);
   if (made->encoder_ == nullptr)
     return fail(std::string("Opus has no encoder for voices: ") + opus_strerror(error));
   OpusEncoder* encoder = made->encoder_;

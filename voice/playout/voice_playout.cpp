@@ -220,7 +220,8 @@ bool VoicePlayout::leave_out_gap(MonoTime now, MonoTime heard) {
 
 void VoicePlayout::append(std::span<const float> samples) {
   const std::size_t count = std::min(samples.size(), kAhead - ready_);
-  std::copy_n(samples.begin(), count, line_.begin() + static_cast<std::ptrdiff_t>(kHistory + ready_));
+  std::copy_n(samples.begin(), count,
+              line_.begin() + static_cast<std::ptrdiff_t>(kHistory + ready_));
   ready_ += count;
 }
 
