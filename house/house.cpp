@@ -100,6 +100,7 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
   if (session.music) {
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
   }
+  if (session.voice) house->voice_ = HouseVoice::open(*session.voice, house->bus_->url(), poller);
   for (HostedStyle hosted : session.styles) {
     hosted.style.time = mono_now();
     hosted.style.clock_id = this_clock_id();

@@ -23,6 +23,7 @@
 #include "house/house_music.h"
 #include "house/house_port.h"
 #include "house/session.h"
+#include "house/voice/house_voice.h"
 #include "manager/manager.h"
 #include "producers/capture_sink.h"
 #include "producers/dancer_feed.h"
@@ -68,6 +69,7 @@ class House {
   std::vector<std::unique_ptr<HapticFeed>> haptics_;
   std::unique_ptr<HouseAvatars> avatars_;
   std::unique_ptr<HouseMusic> music_;
+  std::unique_ptr<HouseVoice> voice_;
   std::vector<std::unique_ptr<HouseCamera>> cameras_;
   MessageThrottle troubles_;  // of the link
 };

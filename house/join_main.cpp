@@ -25,6 +25,8 @@ constexpr const char* kExamples = R"(Examples:
                                                      alice dances before the first camera
   dance join dance.example.org --guest alice --avatar me.vrm
                                                      alice is drawn so, at the others' too
+  dance join dance.example.org --guest alice --voice
+                                                     alice speaks, and hears the others
   dance join sessions/alice.toml --no-view           without a window
 )";
 
@@ -37,6 +39,7 @@ struct JoinOptions {
   std::string bus;
   std::string camera;
   std::vector<std::string> avatars;
+  bool voice = false;
   bool no_view = false;
   bool json = false;
 };
@@ -100,6 +103,10 @@ Result<Session> session_of(const JoinOptions& options) {
     if (!wish.guest.is_set()) wish.guest = session.guests.front();
     std::erase_if(session.avatars, [&](const auto& it) { return it.guest == wish.guest; });
     session.avatars.push_back({wish.guest, {wish.what, "", "", 1.0}});
+  }
+  if (options.voice && !session.voice) {
+    if (session.guests.empty()) return fail("--voice: who speaks? name the guest with --guest");
+    session.voice.emplace().guest = session.guests.front();
   }
   if (!options.bus.empty()) session.bus = options.bus;
   if (options.no_view) session.view = false;
@@ -171,6 +178,8 @@ int main(int argc, char** argv) {
   line.add("--avatar", options.avatars,
            "how the first guest is drawn, instead of what the session says: a file (.vrm, .glb), a "
            "name that dance avatar list shows, or words of a look; NAME=AVATAR for another guest");
+  line.add_flag("--voice", options.voice,
+                "the first guest speaks with the others and hears them, as dance voice does");
   line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");

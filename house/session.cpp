@@ -337,17 +337,32 @@ std::optional<Error> read_each(const toml::table& document, std::string_view key
   return std::nullopt;
 }
 
+template <class Read>
+std::optional<Error> read_once(const toml::table& document, const std::string& key,
+                               const std::string& name, Read read) {
+  const toml::node* node = document.get(key);
+  if (!node) return std::nullopt;
+  const auto begin = node->source().begin;
+  if (!node->is_table())
+    return Error{name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
+                 ": write " + key + " as [" + key + "], once"};
+  TomlReader reader(*node->as_table(), name, "[" + key + "]");
+  read(reader);
+  return reader.problem();
+}
+
 std::optional<Error> read_document(const toml::table& document, const std::string& name,
                                    Session& session) {
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
     if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "haptics" &&
-        k != "channel" && k != "music" && k != "style" && k != "avatar")
-      return Error{name + ":" + std::to_string(key.source().begin.line) + ":" +
-                   std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
-                   "' in a session; there are [house], [[route]], [[produce]], "
-                   "[[listen]], [[haptics]], [[channel]], [[avatar]], [[style]] and [music]"};
+        k != "channel" && k != "music" && k != "voice" && k != "style" && k != "avatar")
+      return Error{
+          name + ":" + std::to_string(key.source().begin.line) + ":" +
+          std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
+          "' in a session; there are [house], [[route]], [[produce]], "
+          "[[listen]], [[haptics]], [[channel]], [[avatar]], [[style]], [music] and [voice]"};
   }
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
@@ -372,16 +387,13 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   if (!problem)
     problem = read_each(document, "avatar", name,
                         [&](TomlReader& r) { read_avatar_choice(r, folder, session); });
-  const toml::node* music = document.get("music");
-  if (problem || !music) return problem;
-  if (!music->is_table()) {
-    const auto begin = music->source().begin;
-    return Error{name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
-                 ": write music as [music], once"};
-  }
-  TomlReader music_reader(*music->as_table(), name, "[music]");
-  read_music(music_reader, folder, session);
-  return music_reader.problem();
+  if (!problem)
+    problem =
+        read_once(document, "music", name, [&](TomlReader& r) { read_music(r, folder, session); });
+  if (problem) return problem;
+  const GuestId first = session.guests.empty() ? GuestId() : session.guests.front();
+  return read_once(document, "voice", name,
+                   [&](TomlReader& r) { session.voice = read_voice(r, first); });
 }
 
 }  // namespace

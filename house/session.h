@@ -19,6 +19,7 @@
 #include "core/pose/style.h"
 #include "haptics/haptic_table.h"
 #include "house/avatar_choice.h"
+#include "house/voice/hosted_voice.h"
 #include "manager/route.h"
 #include "producers/receive/receiver_table.h"
 #include "tunnel/policy/channel_rule.h"
@@ -123,6 +124,7 @@ struct Session {
   std::vector<HostedHaptics> haptics;
   std::vector<HostedAvatar> avatars;
   std::optional<HostedMusic> music;
+  std::optional<HostedVoice> voice;
   std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in
 };

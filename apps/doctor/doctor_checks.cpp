@@ -170,6 +170,7 @@ std::vector<Finding> examine_machine(const std::string& bus_url) {
   findings.push_back(check_camera());
   findings.push_back(check_pose_network());
   findings.push_back(check_sound());
+  findings.push_back(check_microphone());
   findings.push_back(check_java());
   return findings;
 }

@@ -6,6 +6,7 @@
 
 #include "core/net/local_socket.h"
 #if defined(DANCE_HAVE_SOUND)
+#include "core/sound/microphone.h"
 #include "core/sound/pulse_server.h"
 #endif
 
@@ -148,6 +149,35 @@ tl::expected<Loudspeaker, SoundFailure> find_loudspeaker() {
 #else
 tl::expected<Loudspeaker, SoundFailure> find_loudspeaker() {
   return tl::make_unexpected(SoundFailure{SoundTrouble::kNotBuilt, "", "", false, ""});
+}
+#endif
+
+#if defined(DANCE_HAVE_VOICE)
+Finding check_microphone() {
+  const auto microphone = default_microphone("doctor");
+  Finding finding{"microphone", Finding::Grade::kNote, "", ""};
+  if (!microphone) {
+    finding.what = microphone.error().what + ": dance voice has nobody to hear";
+    finding.cure = "pactl list short sources   (then pactl set-default-source NAME)";
+    return finding;
+  }
+  finding.what = microphone->description;
+  if (microphone->is_monitor) {
+    finding.what += ": is what the loudspeaker plays; there is no microphone";
+    finding.cure = "pactl list short sources   (then pactl set-default-source NAME)";
+  } else if (microphone->is_muted) {
+    finding.what += ": is muted";
+    finding.cure = "pactl set-source-mute " + microphone->name + " 0";
+  } else {
+    finding.grade = Finding::Grade::kOk;
+  }
+  return finding;
+}
+#else
+Finding check_microphone() {
+  return {"microphone", Finding::Grade::kNote, "this dance was built without voices",
+          "apt-get install libopus-dev libwebrtc-audio-processing-dev libpulse-dev   (and build "
+          "again)"};
 }
 #endif
 

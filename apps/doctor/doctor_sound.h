@@ -44,5 +44,7 @@ std::string sound_server_place();
 tl::expected<Loudspeaker, SoundFailure> find_loudspeaker();
 
 Finding check_sound();
+// For dance voice.
+Finding check_microphone();
 
 }  // namespace dance

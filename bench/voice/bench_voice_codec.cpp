@@ -33,13 +33,13 @@ double cpu_us() {
 std::array<double, kBands> bands_of(std::span<const float> frame) {
   std::array<double, kBands> bands{};
   for (std::size_t b = 0; b < kBands; ++b) {
-    const double step = 2.0 * std::numbers::pi * (125.0 + 250.0 * static_cast<double>(b)) / 48'000.0;
+    const double step =
+        2.0 * std::numbers::pi * (125.0 + 250.0 * static_cast<double>(b)) / 48'000.0;
     const std::complex<double> turn(std::cos(step), -std::sin(step));
     std::complex<double> sum, phase(1.0, 0.0);
     for (std::size_t i = 0; i < frame.size(); ++i) {
-      const double w =
-          0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
-                               static_cast<double>(frame.size()));
+      const double w = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                            static_cast<double>(frame.size()));
       sum += w * static_cast<double>(frame[i]) * phase;
       phase *= turn;
     }

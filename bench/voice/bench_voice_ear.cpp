@@ -33,7 +33,7 @@ class TwoHouses {
   TwoHouses(const TwoHouses&) = delete;
   TwoHouses& operator=(const TwoHouses&) = delete;
 
-  // Without a server what alice's house publishes is handed to bob's: what devices and buffers take.
+  // Without a server what one house publishes is handed to the other: what buffers alone take.
   Result<void> start(const std::vector<std::string>& voice_words, bool has_server);
   Result<BenchReport> measure(const char* name, const Speech& speech);
   Result<void> end();
@@ -104,11 +104,11 @@ Result<void> TwoHouses::start(const std::vector<std::string>& voice_words, bool 
           !ran)
         return ran;
     }
-    std::vector<std::string> words{"--guest",      guest,
-                                   "--bus",        bus,
-                                   "--microphone", is_a ? "mouth-a.monitor" : "mouth-b.monitor",
+    std::vector<std::string> words{"--guest",       guest,
+                                   "--bus",         bus,
+                                   "--microphone",  is_a ? "mouth-a.monitor" : "mouth-b.monitor",
                                    "--loudspeaker", is_a ? "ear-a" : "ear-b",
-                                   "--quiet",      "--json"};
+                                   "--quiet",       "--json"};
     words.insert(words.end(), voice_words.begin(), voice_words.end());
     if (auto ran = run("voice-" + guest, "dance-voice", words); !ran) return ran;
   }
@@ -146,16 +146,16 @@ Result<BenchReport> TwoHouses::measure(const char* name, const Speech& speech) {
   const double cpu_alice = cpu_percent("voice-alice", over);
   const double cpu_bob = cpu_percent("voice-bob", over);
   if (auto ended = end(); !ended) return tl::make_unexpected(ended.error());
-  const auto matches = match_sound(rooms_->heard(mouth, begin, over),
-                                   rooms_->heard(ear, begin, over), 0.0, 400.0);
+  const auto matches =
+      match_sound(rooms_->heard(mouth, begin, over), rooms_->heard(ear, begin, over), 0.0, 400.0);
   const MatchFigures figures = figures_of(matches);
   if (figures.fitting == 0)
     return fail("nothing of what alice says is heard at bob's: " +
-                text_of(folder_ + "/voice-bob.talk"));
+                text_of(folder_ + "/voice-bob.talk") + text_of(folder_ + "/voice-bob.out"));
   BenchReport report;
-  report.text = fmt::format(
-      "{:<24} {:>6.1f} ms {:>6.1f} ms {:>5}/{:<5} {:>7.1f}% {:>7.1f}%\n", name, figures.median_ms,
-      figures.p95_ms, figures.fitting, figures.pieces, cpu_alice, cpu_bob);
+  report.text = fmt::format("{:<24} {:>6.1f} ms {:>6.1f} ms {:>5}/{:<5} {:>7.1f}% {:>7.1f}%\n",
+                            name, figures.median_ms, figures.p95_ms, figures.fitting,
+                            figures.pieces, cpu_alice, cpu_bob);
   report.json = {{"voice", name},
                  {"mouth_to_ear_p50_ms", rounded(figures.median_ms, 10.0)},
                  {"mouth_to_ear_p95_ms", rounded(figures.p95_ms, 10.0)},
@@ -164,8 +164,8 @@ Result<BenchReport> TwoHouses::measure(const char* name, const Speech& speech) {
                  {"speaker_cpu_percent", rounded(cpu_alice, 10.0)},
                  {"listener_cpu_percent", rounded(cpu_bob, 10.0)}};
   for (const char* guest : {"alice", "bob"}) {
-    const auto said = nlohmann::ordered_json::parse(
-        text_of(folder_ + "/voice-" + guest + ".out"), nullptr, false);
+    const auto said = nlohmann::ordered_json::parse(text_of(folder_ + "/voice-" + guest + ".out"),
+                                                    nullptr, false);
     if (!said.is_discarded()) report.json[guest] = said;
   }
   return report;
@@ -186,7 +186,8 @@ Result<BenchReport> bench_voice_ear(const Speech& speech, const std::string& fol
       "alice speaks into a microphone, and bob hears her through a server; demanded: {:.0f} ms, "
       "both sound buffers\nincluded. fit: pieces of 400 ms that correlate by 0.5 and more{}\n"
       "{:<24} {:>9} {:>9} {:>11} {:>8} {:>8}\n",
-      kEarDemand_ms, is_favoured ? "; all at high priority" : "", "voice", "median", "p95", "fit", "speaker", "listener");
+      kEarDemand_ms, is_favoured ? "; all at high priority" : "", "voice", "median", "p95", "fit",
+      "speaker", "listener");
   struct EarCase {
     const char* name;
     std::vector<std::string> words;

@@ -66,7 +66,8 @@ Result<BenchReport> bench_voice_echo(const Speech& near, const Speech& far) {
       DANCE_TRY(const Cleaned together, clean(both, loudspeaker, options));
       const auto tail = [](const Speech& s) { return std::span(s).subspan(kLearnt); };
       const double left_db = -power_ratio_db(tail(echo), tail(alone.sound));
-      const double own_db = -power_ratio_db(tail(near).first(count - kLearnt), tail(together.sound));
+      const double own_db =
+          -power_ratio_db(tail(near).first(count - kLearnt), tail(together.sound));
       report.text += fmt::format("{:<22} {:<16} {:>9.1f} dB {:>8.1f} dB {:>9.0f} µs\n", name,
                                  is_on ? "on" : "off", left_db, own_db, alone.frame_us);
       report.json.push_back({{"room", name},

@@ -58,14 +58,15 @@ Result<BenchReport> bench_voice_lines(const Speech& speech, const std::vector<st
     const auto arrivals = voice_arrivals(sent, model);
     DANCE_TRY(const HeardVoice heard, play_voice(sent, arrivals));
     const VoicePlayout::Counters& counts = heard.counters;
-    const double lost = voice_percent(model.counters().lost + model.counters().queue_dropped, model.counters().offered);
+    const double lost = voice_percent(model.counters().lost + model.counters().queue_dropped,
+                                      model.counters().offered);
     const double made_up = voice_percent(counts.concealed, counts.played);
     const double recovered = voice_percent(counts.recovered, counts.played);
-    const double stretched =
-        voice_percent(counts.lengthened_samples + counts.shortened_samples,
-                      counts.played * kVoiceFrameSamples);
+    const double stretched = voice_percent(counts.lengthened_samples + counts.shortened_samples,
+                                           counts.played * kVoiceFrameSamples);
     std::vector<double> fixed{
-        100.0 * missed_at_fixed_delay(sent, arrivals, Duration::seconds(heard.delay_mean_ms * 1e-3))};
+        100.0 *
+        missed_at_fixed_delay(sent, arrivals, Duration::seconds(heard.delay_mean_ms * 1e-3))};
     for (const Duration delay : kFixed)
       fixed.push_back(100.0 * missed_at_fixed_delay(sent, arrivals, delay));
     report.text += fmt::format(

@@ -55,8 +55,9 @@ Result<void> bench_voice(const BenchVoiceOptions& options) {
   // Takes seconds of a busy machine, and programs: only when it is asked for.
   if (done && options.only == "ear") {
     if (auto entered = enter_private_network(); !entered) return entered;
-    const auto few = Speech(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                             near.size(), kEarSpeech)));
+    const auto few =
+        Speech(near.begin(),
+               near.begin() + static_cast<std::ptrdiff_t>(std::min(near.size(), kEarSpeech)));
     done = run("ear", [&] { return bench_voice_ear(few, scratch->file("")); });
   }
   if (done) done = run("echo", [&] { return bench_voice_echo(near, far); });

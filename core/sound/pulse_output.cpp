@@ -24,16 +24,17 @@ Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
   output->stream_ = pa_stream_new(server.context(), options.name.c_str(), &format, nullptr);
   if (output->stream_ == nullptr)
     return fail("the sound server refuses a stream: " + server.error_text());
-  const auto ahead = static_cast<std::uint32_t>(options.ahead.as_seconds() * rate_hz) * kFrame_bytes;
+  const auto ahead =
+      static_cast<std::uint32_t>(options.ahead.as_seconds() * rate_hz) * kFrame_bytes;
   const auto server_default = static_cast<std::uint32_t>(-1);
   // Starts at once and never waits for data: late frames are dropped, and time goes on.
   const pa_buffer_attr buffer{server_default, static_cast<std::uint32_t>(ahead), 0, server_default,
                               server_default};
   const auto flags =
       static_cast<pa_stream_flags_t>(PA_STREAM_VARIABLE_RATE | PA_STREAM_ADJUST_LATENCY);
-  if (pa_stream_connect_playback(
-          output->stream_, options.sink.empty() ? nullptr : options.sink.c_str(), &buffer, flags,
-          nullptr, nullptr) < 0)
+  if (pa_stream_connect_playback(output->stream_,
+                                 options.sink.empty() ? nullptr : options.sink.c_str(), &buffer,
+                                 flags, nullptr, nullptr) < 0)
     return fail("the sound server refuses to play: " + server.error_text());
   pa_stream* stream = output->stream_;
   const auto on_underflow = [](pa_stream*, void* self) {

@@ -29,8 +29,8 @@ std::vector<float> heard_in_room(std::span<const float> played, const RoomEcho& 
     const double level = std::pow(10.0, -3.0 * after_s / room.reverberation.as_seconds());
     const double gain = 0.25 * level * (random.uniform() < 0.5 ? -1.0 : 1.0);
     power += gain * gain;
-    reflections.push_back(
-        {static_cast<std::size_t>(direct + (0.002 + after_s) * kRoom_hz), static_cast<float>(gain)});
+    reflections.push_back({static_cast<std::size_t>(direct + (0.002 + after_s) * kRoom_hz),
+                           static_cast<float>(gain)});
   }
   const auto scale = static_cast<float>(room.loudness / std::sqrt(power));
   std::vector<float> heard(played.size(), 0.0f);

@@ -16,7 +16,7 @@
 namespace dance {
 
 struct RoomEcho {
-  Duration delay = Duration::ms(35);          // of loudspeaker, air and microphone
+  Duration delay = Duration::ms(35);           // of loudspeaker, air and microphone
   Duration reverberation = Duration::ms(250);  // until reflections are 60 dB down
   double loudness = 0.5;                       // of all of it, against what is played
   std::uint64_t seed = 1;

@@ -44,8 +44,8 @@ std::vector<SoundMatch> match_sound(std::span<const float> spoken, std::span<con
     bool has_room = false;
     for (std::ptrdiff_t lag = first; lag <= last; ++lag) {
       const std::ptrdiff_t in_b = static_cast<std::ptrdiff_t>(at) + lag;
-      if (in_b < 0 || in_b + static_cast<std::ptrdiff_t>(kPiece) >
-                          static_cast<std::ptrdiff_t>(b.size()))
+      if (in_b < 0 ||
+          in_b + static_cast<std::ptrdiff_t>(kPiece) > static_cast<std::ptrdiff_t>(b.size()))
         continue;
       has_room = true;
       const float* other = &b[static_cast<std::size_t>(in_b)];

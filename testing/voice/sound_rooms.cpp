@@ -1,6 +1,7 @@
 #include "testing/voice/sound_rooms.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 
@@ -10,6 +11,7 @@ namespace dance {
 namespace {
 
 constexpr const char* kPulseProgram = "/usr/bin/pulseaudio";
+constexpr std::array kVariables{"XDG_RUNTIME_DIR", "HOME", "PULSE_SERVER"};
 constexpr double kRooms_hz = 48'000.0;
 constexpr Duration kMostStarting = Duration::s(20);
 constexpr Duration kRoomsTiming = Duration::ms(50);
@@ -24,6 +26,10 @@ Result<std::unique_ptr<SoundRooms>> SoundRooms::open(const std::string& folder,
   std::unique_ptr<SoundRooms> rooms(new SoundRooms);
   const std::string socket = folder + "/native";
   // NOLINTBEGIN(concurrency-mt-unsafe): one thread
+  for (const char* name : kVariables) {
+    const char* value = std::getenv(name);
+    rooms->before_.push_back(value != nullptr ? std::optional<std::string>(value) : std::nullopt);
+  }
   ::setenv("XDG_RUNTIME_DIR", folder.c_str(), 1);
   ::setenv("HOME", folder.c_str(), 1);
   ::setenv("PULSE_SERVER", ("unix:" + socket).c_str(), 1);
@@ -51,7 +57,10 @@ SoundRooms::~SoundRooms() {
   ears_.clear();
   server_.reset();
   if (child_) child_->stop(Duration::s(5));
-  ::unsetenv("PULSE_SERVER");  // NOLINT(concurrency-mt-unsafe): one thread
+  // NOLINTBEGIN(concurrency-mt-unsafe): one thread
+  for (std::size_t i = 0; i < before_.size(); ++i)
+    before_[i] ? ::setenv(kVariables[i], before_[i]->c_str(), 1) : ::unsetenv(kVariables[i]);
+  // NOLINTEND(concurrency-mt-unsafe)
 }
 
 Result<void> SoundRooms::play(const std::string& sink, std::vector<float> mono) {
@@ -100,8 +109,8 @@ std::vector<float> SoundRooms::heard(std::size_t ear, MonoTime begin, Duration l
   const Ear& from = *ears_[ear];
   std::vector<float> out(static_cast<std::size_t>(length.as_seconds() * kRooms_hz), 0.0f);
   if (!from.input->is_timed()) return out;
-  const auto first = static_cast<std::ptrdiff_t>((begin - from.input->time_of(0)).as_seconds() *
-                                                 kRooms_hz);
+  const auto first =
+      static_cast<std::ptrdiff_t>((begin - from.input->time_of(0)).as_seconds() * kRooms_hz);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const std::ptrdiff_t at = first + static_cast<std::ptrdiff_t>(i);
     if (at >= 0 && at < static_cast<std::ptrdiff_t>(from.samples.size()))

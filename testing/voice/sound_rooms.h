@@ -3,12 +3,13 @@
 //
 // Units/frames: mono at 48 kHz; times of this machine's monotonic clock.
 // Ownership:    the server ends with the object; PULSE_SERVER of this process names it meanwhile,
-//               for children too.
+//               and HOME and XDG_RUNTIME_DIR are its folder, for children too.
 // Threads:      one.
 // Failure:      open() names what is missing and the cure.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ class SoundRooms {
 
   SoundRooms() = default;
 
+  std::vector<std::optional<std::string>> before_;  // of the environment
   std::unique_ptr<ChildProcess> child_;
   std::unique_ptr<PulseServer> server_;
   std::vector<std::unique_ptr<Mouth>> mouths_;

@@ -64,12 +64,11 @@ Result<std::vector<float>> read_speech(const std::string& file) {
 Result<std::vector<float>> make_speech(double seconds, int speaker, const std::string& scratch) {
   if (!has_speech_maker())
     return fail("there is no espeak-ng to speak: apt-get install espeak-ng, or give a file");
-  DANCE_TRY(ChildProcess maker,
-            ChildProcess::start({kSpeechMaker,
-                                 {"-v", speaker % 2 == 0 ? "en+m3" : "en+f3", "-s", "150",
-                                  "--stdout", kSentences},
-                                 scratch,
-                                 ""}));
+  DANCE_TRY(ChildProcess maker, ChildProcess::start({kSpeechMaker,
+                                                     {"-v", speaker % 2 == 0 ? "en+m3" : "en+f3",
+                                                      "-s", "150", "--stdout", kSentences},
+                                                     scratch,
+                                                     ""}));
   if (!maker.wait(kMostSpeaking) || !maker.ended_well())
     return fail("espeak-ng " + (maker.has_ended() ? maker.exit_text() : "does not end"));
   auto once = read_speech(scratch);

@@ -10,8 +10,8 @@ Result<SentVoice> encode_voice(std::span<const float> samples, const VoiceEncode
   SentVoice sent;
   sent.look_ahead = encoder->look_ahead();
   for (; (sent.frames + 1) * kVoiceFrameSamples <= samples.size(); ++sent.frames) {
-    const auto frame = samples.subspan(sent.frames * kVoiceFrameSamples)
-                           .first<kVoiceFrameSamples>();
+    const auto frame =
+        samples.subspan(sent.frames * kVoiceFrameSamples).first<kVoiceFrameSamples>();
     const auto packet = encoder->encode(frame);
     if (packet.empty()) continue;
     Voice voice;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -193,6 +194,30 @@ TEST(Session, ReadsTheMusicWhichFollowsItsRoomUnlessToldOtherwise) {
   EXPECT_NE(error_of("[music]\nfile = \"a\"\nvolume = 2\n").find("s.toml:4"), std::string::npos);
   EXPECT_NE(error_of("[[music]]\nfile = \"a\"\n").find("[music], once"), std::string::npos);
   EXPECT_NE(error_of("[music]\nfil = \"a\"\n").find("'fil'"), std::string::npos);
+}
+
+TEST(Session, ReadsWhoSpeaksAndHow) {
+  const auto plain = parse_session(std::string(kHouse) + "[voice]\n", "s.toml");
+  ASSERT_TRUE(plain) << plain.error().what;
+  ASSERT_TRUE(plain->voice);
+  EXPECT_EQ(plain->voice->guest.view(), "alice") << "the first guest";
+  EXPECT_EQ(voice_arguments(*plain->voice, "bus"),
+            (std::vector<std::string>{"--bus", "bus", "--guest", "alice", "--quiet"}));
+  const auto all = parse_session(
+      std::string(kHouse) +
+          "[voice]\nguest = \"ann\"\nmicrophone = \"-m\"\nheadphones = true\n"
+          "push_to_talk = true\nwith_picture = true\nvolumes = [\"bob=0.5\"]\nbuffer_ms = 30\n",
+      "s.toml");
+  ASSERT_TRUE(all) << all.error().what;
+  const auto words = voice_arguments(*all->voice, "bus");
+  for (const char* word : {"ann", "--microphone=-m", "--to-headphones", "--push-to-talk",
+                           "--with-picture", "--volume=bob=0.5"})
+    EXPECT_NE(std::find(words.begin(), words.end(), word), words.end()) << word;
+  const auto with = [](const std::string& voice) { return error_of(kHouse + voice); };
+  EXPECT_NE(with("[voice]\nvolumes = [\"bob\"]\n").find("s.toml:5"), std::string::npos);
+  EXPECT_NE(with("[voice]\nmute = true\n").find("'mute'"), std::string::npos);
+  EXPECT_NE(with("[[voice]]\n").find("[voice], once"), std::string::npos);
+  EXPECT_NE(error_of("[house]\n[voice]\n").find("who speaks"), std::string::npos);
 }
 
 TEST(Session, WithoutRoutesGetsTheUsualTwo) {

@@ -12,6 +12,13 @@ namespace {
 
 constexpr int kFrame = static_cast<int>(kVoiceFrameSamples);
 
+void make_safe(std::span<float> samples) {
+  for (float& sample : samples)
+    sample = std::isfinite(sample)
+                 ? std::clamp(sample, -VoiceDecoder::kLoudest, VoiceDecoder::kLoudest)
+                 : 0.0f;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<VoiceDecoder>> VoiceDecoder::create() {
@@ -42,6 +49,7 @@ bool VoiceDecoder::decode_lost(std::span<const std::uint8_t> next,
 void VoiceDecoder::conceal(std::span<float, kVoiceFrameSamples> frame) {
   if (opus_decode_float(decoder_, nullptr, 0, frame.data(), kFrame, 0) != kFrame)
     std::fill(frame.begin(), frame.end(), 0.0f);
+  make_safe(frame);
 }
 
 void VoiceDecoder::reset() { opus_decoder_ctl(decoder_, OPUS_RESET_STATE); }
@@ -52,14 +60,13 @@ bool VoiceDecoder::decode_with(std::span<const std::uint8_t> packet, int from_ne
   // A packet may hold up to 120 ms: of another length than ours it is none of ours.
   const bool is_ours = size > 0 && size <= static_cast<opus_int32>(kMaxVoiceBytes) &&
                        opus_packet_get_nb_samples(packet.data(), size, kVoiceRate_hz) == kFrame;
-  if (!is_ours || opus_decode_float(decoder_, packet.data(), size, frame.data(), kFrame,
-                                    from_next) != kFrame) {
+  if (!is_ours ||
+      opus_decode_float(decoder_, packet.data(), size, frame.data(), kFrame, from_next) != kFrame) {
     ++bad_packets_;
     conceal(frame);
     return false;
   }
-  for (float& sample : frame)
-    sample = std::isfinite(sample) ? std::clamp(sample, -kLoudest, kLoudest) : 0.0f;
+  make_safe(frame);
   return true;
 }
 

@@ -18,10 +18,9 @@ Result<std::unique_ptr<VoiceEncoder>> VoiceEncoder::create(const VoiceEncoderOpt
   std::unique_ptr<VoiceEncoder> made(new VoiceEncoder);
   int error = OPUS_OK;
   const bool is_speech = options.mode == VoiceMode::kSpeech;
-  made->encoder_ =
-      opus_encoder_create(kVoiceRate_hz, 1,
-                          is_speech ? OPUS_APPLICATION_VOIP : OPUS_APPLICATION_RESTRICTED_LOWDELAY,
-                          &error);
+  made->encoder_ = opus_encoder_create(
+      kVoiceRate_hz, 1, is_speech ? OPUS_APPLICATION_VOIP : OPUS_APPLICATION_RESTRICTED_LOWDELAY,
+      &error);
   if (made->encoder_ == nullptr)
     return fail(std::string("Opus has no encoder for voices: ") + opus_strerror(error));
   OpusEncoder* encoder = made->encoder_;
@@ -54,7 +53,14 @@ std::span<const std::uint8_t> VoiceEncoder::encode(
                         static_cast<opus_int32>(packet_.size()));
   if (bytes <= 0) return {};
   const auto packet = std::span<const std::uint8_t>(packet_).first(static_cast<std::size_t>(bytes));
+  opus_int32 is_in_silence = 0;
+  opus_encoder_ctl(encoder_, OPUS_GET_IN_DTX(&is_in_silence));
   if (!is_silence(packet)) {
+    // What Opus says of the noise in a silence, again and again, is worth no packets.
+    if (is_in_silence != 0 && silent_frames_ >= kSilenceSaid_frames) {
+      ++silent_frames_;
+      return {};
+    }
     silent_frames_ = 0;
     return packet;
   }

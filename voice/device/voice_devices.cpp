@@ -59,9 +59,8 @@ void VoiceDevices::open_loudspeaker() {
   output.ahead = options_.ahead;
   heard_ = StreamClock(kDevice_hz);
   underflows_before_ = 0;
-  auto opened = PulseOutput::open(*server_, output, [this](MonoTime at, double frame) {
-    heard_.report(at, frame);
-  });
+  auto opened = PulseOutput::open(*server_, output,
+                                  [this](MonoTime at, double frame) { heard_.report(at, frame); });
   if (!opened) return complain(opened.error());
   loudspeaker_ = std::move(*opened);
 }
@@ -126,9 +125,9 @@ void VoiceDevices::fill(MonoTime now) {
   if (frames == 0) return;
   const auto stereo = std::span(block_).first(2 * frames);
   std::fill(stereo.begin(), stereo.end(), 0.0f);
-  const MonoTime heard =
-      heard_.is_known() ? heard_.time_of(static_cast<double>(loudspeaker_->written_frames()))
-                        : now + options_.ahead;
+  const MonoTime heard = heard_.is_known()
+                             ? heard_.time_of(static_cast<double>(loudspeaker_->written_frames()))
+                             : now + options_.ahead;
   handlers_.fill(stereo, now, heard);
   loudspeaker_->write(stereo);
 }

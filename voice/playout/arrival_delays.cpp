@@ -18,6 +18,8 @@ constexpr double kFirstWeight = 0.02;
 constexpr double kPeakShare = 0.6;
 constexpr double kPeakDecay = 0.996;
 constexpr Duration kLeastWait = Duration::ms(10);
+// Who talks waits no longer than that: what is later still is lost.
+constexpr double kMostWait_ms = 480.0;
 
 }  // namespace
 
@@ -58,7 +60,7 @@ void ArrivalDelays::count(Duration late) {
     ++last;
   }
   peak_ms_ = std::max(peak_ms_ * kPeakDecay, kPeakShare * late.as_ms());
-  const double wait_ms = std::max((last + 1) * kBin_ms, std::min(peak_ms_, kBin_ms * kBins));
+  const double wait_ms = std::min(std::max((last + 1) * kBin_ms, peak_ms_), kMostWait_ms);
   wait_ = std::max(kLeastWait, Duration::seconds(wait_ms * 1e-3));
 }
 

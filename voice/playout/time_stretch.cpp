@@ -58,8 +58,7 @@ std::size_t shorten(std::span<float> samples, bool must) {
 std::size_t lengthen(std::span<const float> played, std::span<const float> next,
                      std::span<float> more, bool must) {
   Match best;
-  const std::size_t longest =
-      std::min({kLongestPeriod, played.size(), next.size(), more.size()});
+  const std::size_t longest = std::min({kLongestPeriod, played.size(), next.size(), more.size()});
   const float* end = played.data() + played.size();
   for (std::size_t period = kShortestPeriod; period <= longest; period += kStep) {
     const Match match = likeness_of(end - period, next.data(), period);

@@ -77,6 +77,11 @@ void VoicePlayout::put(const Voice& voice, MonoTime arrival) {
     frame = unwrapped(voice.sequence);
   }
   strangers_in_a_row_ = 0;
+  Slot& slot = slots_[static_cast<std::size_t>(frame) % kMostFrames];
+  if (slot.frame == frame) {
+    ++counters_.duplicate;
+    return;
+  }
   if (frame > newest_) {
     newest_ = frame;
     newest_sequence_ = voice.sequence;
@@ -89,11 +94,6 @@ void VoicePlayout::put(const Voice& voice, MonoTime arrival) {
   if (frame - next_ >= kMostFramesSigned) skip_to(frame - kMostFramesSigned + 1);
   if (frame < next_) {
     ++counters_.late;
-    return;
-  }
-  Slot& slot = slots_[static_cast<std::size_t>(frame) % kMostFrames];
-  if (slot.frame == frame) {
-    ++counters_.duplicate;
     return;
   }
   slot.frame = frame;
@@ -145,8 +145,9 @@ void VoicePlayout::pull(MonoTime now, MonoTime heard, std::span<float> samples) 
 
 void VoicePlayout::produce(MonoTime now, MonoTime heard) {
   if (!is_speaking_) return produce_silence(now, heard);
+  const std::size_t before = ready_;
   keep_time(now, heard);
-  if (!is_speaking_) return;
+  if (!is_speaking_ || ready_ > before) return;
   heard_delay_ = heard + duration_of_samples(ready_) - (capture_origin_ + kVoiceFrame * next_);
   if (find(next_) != nullptr || leave_out_gap(now, heard))
     produce_frame();
@@ -219,7 +220,8 @@ bool VoicePlayout::leave_out_gap(MonoTime now, MonoTime heard) {
 
 void VoicePlayout::append(std::span<const float> samples) {
   const std::size_t count = std::min(samples.size(), kAhead - ready_);
-  std::copy_n(samples.begin(), count, line_.begin() + static_cast<std::ptrdiff_t>(kHistory + ready_));
+  std::copy_n(samples.begin(), count,
+              line_.begin() + static_cast<std::ptrdiff_t>(kHistory + ready_));
   ready_ += count;
 }
 

@@ -88,8 +88,8 @@ class VoicePlayout {
   std::optional<Duration> delay_;
   std::optional<std::uint32_t> newest_sequence_;
   std::int64_t newest_ = 0;
-  std::int64_t next_ = 0;         // frame to be decoded
-  MonoTime capture_origin_;       // capture time of frame 0, smoothed
+  std::int64_t next_ = 0;    // frame to be decoded
+  MonoTime capture_origin_;  // capture time of frame 0, smoothed
   bool has_origin_ = false;
   std::optional<Duration> heard_delay_;
   bool is_speaking_ = false;

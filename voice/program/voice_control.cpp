@@ -25,12 +25,12 @@ std::string voice_control_path(const std::string& bus, const GuestId& guest) {
 }
 
 Result<std::unique_ptr<VoiceControl>> VoiceControl::open(const std::string& bus,
-                                                         const GuestId& guest,
-                                                         OnCommand on_command, Poller& poller) {
+                                                         const GuestId& guest, OnCommand on_command,
+                                                         Poller& poller) {
   auto socket = LocalDatagramSocket::bind(voice_control_path(bus, guest));
   if (!socket)
-    return fail(std::string(guest.view()) + " has a voice on this bus already (" +
-                socket.error().what + "); end the other dance voice");
+    return fail("the voice of " + std::string(guest.view()) + " cannot be told anything: " +
+                socket.error().what + "; a guest has one dance voice on a bus");
   return std::unique_ptr<VoiceControl>(
       new VoiceControl(std::move(*socket), std::move(on_command), poller));
 }

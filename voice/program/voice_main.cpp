@@ -112,10 +112,8 @@ int main(int argc, char** argv) {
                           "dance voice");
   line.add("--guest", options.guest, "who speaks, and whose dancer hears").guest_name().required();
   line.add("--bus", options.bus, "LCM URL of the house's bus");
-  line.add("--microphone", options.microphone,
-           "which one; `pactl list short sources` names them");
-  line.add("--loudspeaker", options.loudspeaker,
-           "which one; `pactl list short sinks` names them");
+  line.add("--microphone", options.microphone, "which one; `pactl list short sources` names them");
+  line.add("--loudspeaker", options.loudspeaker, "which one; `pactl list short sinks` names them");
   line.add_flag("--to-headphones", options.to_headphones,
                 "the microphone does not hear what is played: no echo cancellation");
   line.add_flag("--no-echo-cancellation", options.no_echo_cancellation,

@@ -16,8 +16,8 @@ constexpr int kQuietest_dbfs = -60;
 constexpr Duration kMeterHolds = Duration::ms(300);
 
 std::string meter(int level) {
-  const int cells = std::clamp((level - kQuietest_dbfs) * kMeterCells / -kQuietest_dbfs, 0,
-                               kMeterCells);
+  const int cells =
+      std::clamp((level - kQuietest_dbfs) * kMeterCells / -kQuietest_dbfs, 0, kMeterCells);
   std::string text;
   for (int i = 0; i < kMeterCells; ++i) text += i < cells ? "▮" : "▯";
   return text;
@@ -35,15 +35,13 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
                                                          Bus& bus, Poller& poller) {
   std::unique_ptr<VoiceProgram> program(new VoiceProgram(options, bus, poller));
   VoiceProgram* self = program.get();
-  DANCE_TRY(program->own_,
-            OwnVoice::create(options.cleaning, options.encoding, this_clock_id()));
+  DANCE_TRY(program->own_, OwnVoice::create(options.cleaning, options.encoding, this_clock_id()));
   DANCE_TRY(program->others_, RoomVoices::create());
-  DANCE_TRY(program->control_,
-            VoiceControl::open(options.bus, options.guest,
-                               [self](std::string_view command, MonoTime now) {
-                                 self->command(command, now);
-                               },
-                               poller));
+  DANCE_TRY(
+      program->control_,
+      VoiceControl::open(
+          options.bus, options.guest,
+          [self](std::string_view command, MonoTime now) { self->command(command, now); }, poller));
   DANCE_TRY(program->devices_, VoiceDevices::open(options.devices, program->handlers()));
   program->subscribe();
   program->timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
@@ -64,11 +62,11 @@ VoiceProgram::~VoiceProgram() {
 }
 
 void VoiceProgram::subscribe() {
-  bus_.subscribe<Voice>(Where::kGuest, [this](const Channel& channel, const Voice& voice,
-                                              MonoTime now) {
-    if (voice.clock_id != this_clock_id() || channel.guest() == options_.guest) return;
-    others_->hear(channel.guest(), voice, now);
-  });
+  bus_.subscribe<Voice>(
+      Where::kGuest, [this](const Channel& channel, const Voice& voice, MonoTime now) {
+        if (voice.clock_id != this_clock_id() || channel.guest() == options_.guest) return;
+        others_->hear(channel.guest(), voice, now);
+      });
   bus_.subscribe<Pose>(
       Where::kStage,
       [this](const Channel& channel, const Pose& pose, MonoTime) {
@@ -110,15 +108,15 @@ void VoiceProgram::say_settings() const {
              : settings_.is_push_to_talk                 ? "heard while the space bar is held"
                                                          : "heard",
              settings_.is_deafened ? "not played" : "played ",
-             settings_.is_deafened        ? ""
+             settings_.is_deafened       ? ""
              : settings_.follows_picture ? "with the picture"
-                                          : "at once");
+                                         : "at once");
 }
 
 std::string VoiceProgram::meters(MonoTime now) const {
   const bool sends = settings_.sends(now);
-  std::string text = fmt::format("{} {}{}", options_.guest.view(), meter(own_->level()),
-                                 sends ? "" : " (muted)");
+  std::string text =
+      fmt::format("{} {}{}", options_.guest.view(), meter(own_->level()), sends ? "" : " (muted)");
   others_->each([&](const RoomVoices::Guest& guest) {
     if (now - guest.heard > RoomVoices::kLeft) return;
     const bool speaks = guest.playout->is_speaking() && now - guest.heard < kMeterHolds;

@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
                    Flag{"open", "heard without push to talk", false},
                    Flag{"with-picture", "voices as late as their dancers are shown", false},
                    Flag{"at-once", "voices as early as the line lets them", false}};
-  for (Flag& flag : flags) line.add_flag("--" + std::string(flag.command), flag.is_given, flag.help);
+  for (Flag& flag : flags)
+    line.add_flag("--" + std::string(flag.command), flag.is_given, flag.help);
   line.add("--volume", options.volumes, "GUEST=0 to GUEST=2, as bob=0.5; may be repeated")
       .one_each_time();
   line.footer(dance::kExamples);

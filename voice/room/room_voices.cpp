@@ -24,9 +24,8 @@ void RoomVoices::hear(const GuestId& guest, const Voice& voice, MonoTime now) {
   Guest* known = find(guest);
   if (known == nullptr) {
     // A free one, or the one that was silent longest: never heard is longest of all.
-    known = std::min_element(guests_.begin(), guests_.end(), [](const Guest& a, const Guest& b) {
-      return a.heard < b.heard;
-    });
+    known = std::min_element(guests_.begin(), guests_.end(),
+                             [](const Guest& a, const Guest& b) { return a.heard < b.heard; });
     known->guest = guest;
     known->playout->forget();
     known->place = SpatialVoice();
@@ -45,8 +44,8 @@ void RoomVoices::know_picture(const GuestId& guest, const Playout& playout) {
     known->picture_delay = Duration::seconds(static_cast<double>(playout.delay_ms) * 1e-3);
 }
 
-void RoomVoices::mix(std::span<float> stereo, MonoTime now, MonoTime heard,
-                     const GuestId& listener, const VoiceSettings& settings) {
+void RoomVoices::mix(std::span<float> stereo, MonoTime now, MonoTime heard, const GuestId& listener,
+                     const VoiceSettings& settings) {
   constexpr std::size_t kBlock = kVoiceFrameSamples;
   std::array<float, kBlock> mono;
   for (std::size_t at = 0; at < stereo.size() / 2; at += kBlock) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/net/mono_clock.h"
-#include "producers/music/loudspeaker.h"
 #include "core/sound/pulse_output.h"
+#include "producers/music/loudspeaker.h"
 
 namespace dance {
 namespace {
@@ -63,7 +63,8 @@ Result<Loudspeaker> default_loudspeaker(const std::string& program) {
           *server, pa_context_get_server_info(context, take_default, &query), query);
       !answered)
     return tl::make_unexpected(answered.error());
-  DANCE_TRY(const auto output, PulseOutput::open(*server, {.rate_hz = kSilence_hz}, [](MonoTime, double) {}));
+  DANCE_TRY(const auto output,
+            PulseOutput::open(*server, {.rate_hz = kSilence_hz}, [](MonoTime, double) {}));
   const std::vector<float> silence(2 * kMostFrames, 0.0f);
   const MonoTime end = mono_now() + kPlayed;
   server->iterate_until([&] {

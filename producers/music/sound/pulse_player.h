@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/base/histogram.h"
+#include "core/sound/pulse_output.h"
 #include "producers/music/decode/audio_file.h"
 #include "producers/music/music_player.h"
 #include "producers/music/sound/play_plan.h"
-#include "core/sound/pulse_output.h"
 
 namespace dance {
 

@@ -1,0 +1,63 @@
+#include "house/voice/hosted_voice.h"
+
+#include <charconv>
+
+namespace dance {
+namespace {
+
+bool is_volume(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || !GuestId::parse(text.substr(0, equals))) return false;
+  double volume = -1.0;
+  const char* end = text.data() + text.size();
+  return std::from_chars(text.data() + equals + 1, end, volume).ptr == end && volume >= 0.0 &&
+         volume <= 2.0;
+}
+
+}  // namespace
+
+HostedVoice read_voice(TomlReader& reader, const GuestId& first) {
+  HostedVoice voice;
+  voice.guest = first;
+  if (const auto name = reader.maybe_string("guest")) {
+    if (const auto guest = GuestId::parse(*name))
+      voice.guest = *guest;
+    else
+      reader.complain("guest", "'" + *name + "': " + std::string(kGuestIdRule));
+  }
+  voice.microphone = reader.string_or("microphone", "");
+  voice.loudspeaker = reader.string_or("loudspeaker", "");
+  voice.headphones = reader.bool_or("headphones", false);
+  voice.push_to_talk = reader.bool_or("push_to_talk", false);
+  voice.muted = reader.bool_or("muted", false);
+  voice.with_picture = reader.bool_or("with_picture", false);
+  voice.buffer_ms = reader.number_or("buffer_ms", 0.0, 5.0, 200.0);
+  voice.bitrate_kbit = reader.number_or("bitrate_kbit", 0.0, 6.0, 96.0);
+  voice.volumes = reader.strings("volumes", "[\"bob=0.5\"]");
+  for (const std::string& volume : voice.volumes)
+    if (!is_volume(volume)) reader.complain("volumes", "each is GUEST=0 to GUEST=2, as bob=0.5");
+  reader.finish();
+  if (!voice.guest.is_set())
+    reader.complain("guest", "is missing: who speaks? this house has no dancer");
+  return voice;
+}
+
+std::vector<std::string> voice_arguments(const HostedVoice& voice, const std::string& bus) {
+  std::vector<std::string> words{"--bus", bus, "--guest", std::string(voice.guest.view()),
+                                 "--quiet"};
+  const auto add = [&](const char* option, const std::string& value) {
+    words.push_back(std::string(option) + "=" + value);  // a value may begin with a dash
+  };
+  if (!voice.microphone.empty()) add("--microphone", voice.microphone);
+  if (!voice.loudspeaker.empty()) add("--loudspeaker", voice.loudspeaker);
+  if (voice.headphones) words.emplace_back("--to-headphones");
+  if (voice.push_to_talk) words.emplace_back("--push-to-talk");
+  if (voice.muted) words.emplace_back("--mute");
+  if (voice.with_picture) words.emplace_back("--with-picture");
+  if (voice.buffer_ms > 0.0) add("--buffer", std::to_string(voice.buffer_ms));
+  if (voice.bitrate_kbit > 0.0) add("--bitrate", std::to_string(voice.bitrate_kbit));
+  for (const std::string& volume : voice.volumes) add("--volume", volume);
+  return words;
+}
+
+}  // namespace dance

@@ -1,0 +1,36 @@
+// HostedVoice: the [voice] of a session: who speaks in this house, and how.
+//
+// Units/frames: as `dance voice` takes them.
+// Ownership:    plain value.
+// Threads:      none inside.
+// Failure:      read_voice() complains in the reader, with file, line and column.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "house/toml_reader.h"
+
+namespace dance {
+
+struct HostedVoice {
+  GuestId guest;
+  std::string microphone;   // "" = the default
+  std::string loudspeaker;  // "" = the default
+  bool headphones = false;
+  bool push_to_talk = false;
+  bool muted = false;
+  bool with_picture = false;
+  double buffer_ms = 0.0;            // 0 = as dance voice has it
+  double bitrate_kbit = 0.0;         // 0 = as dance voice has it
+  std::vector<std::string> volumes;  // "bob=0.5"
+};
+
+// `first` is the house's first guest, who speaks where no other is named; it may be not set.
+HostedVoice read_voice(TomlReader& reader, const GuestId& first);
+
+// The words of `dance voice` for what a session says.
+std::vector<std::string> voice_arguments(const HostedVoice& voice, const std::string& bus);
+
+}  // namespace dance
