@@ -19,25 +19,27 @@ HapticFeed::HapticFeed(const GuestId& guest, const HapticMakerOptions& options, 
       poller_(poller),
       maker_(options, maker_id_, clock_id_) {
   port_.subscribe<Touch>(From(Where::kStage, guest),
-                         [this](const Channel&, const Touch& touch, MonoTime now) {
+                         [this](const Channel&, const Touch& touch, MonoTime) {
                            if (touch.clock_id != clock_id_) {
                              ++of_other_clocks_;
                              return;
                            }
                            ++touches_;
+                           const MonoTime now = mono_now();
                            if (makes(now)) maker_.feel(touch, now, *this);
                          });
-  port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime now) {
+  port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     if (beat.clock_id != clock_id_) {
       ++of_other_clocks_;
       return;
     }
     maker_.hear(beat);
+    const MonoTime now = mono_now();
     if (makes(now)) maker_.look_ahead(now, *this);
   });
   port_.subscribe<Haptic>(
       From(Where::kCapture, guest),
-      [this](const Channel&, const Haptic& haptic, MonoTime now) { hear(haptic, now); });
+      [this](const Channel&, const Haptic& haptic, MonoTime) { hear(haptic, mono_now()); });
   timer_ = poller_.add_timer(mono_now() + kLooksAhead, [this](MonoTime now) {
     if (makes(now)) maker_.look_ahead(now, *this);
     return now + kLooksAhead;

@@ -1,6 +1,7 @@
-// HapticFeed: what one dancer of a house feels, from the signals of a port: makes haptics of touches
-// and beats, says them on HAPTIC/capture/<guest>, and hands them, and those that others make there,
-// to the devices. Of several makers for one dancer, as of a replay and this one, one makes.
+// HapticFeed: what one dancer of a house feels, from the signals of a port: makes haptics of
+// touches and beats, says them on HAPTIC/capture/<guest>, and hands them, and those that others
+// make there, to the devices. Of several makers for one dancer, as of a replay and this one, one
+// makes.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port and the poller, which must outlive it; owns the players.

@@ -1,5 +1,5 @@
-// HapticPlayer: hands what is to be felt to one device when it is due, so much earlier as the device
-// is late, no stronger than allowed, and not at all while it is off.
+// HapticPlayer: hands what is to be felt to one device when it is due, so much earlier as the
+// device is late, no stronger than allowed, and not at all while it is off.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    owns the device; room for kMostWaiting orders. Never allocates after construction.

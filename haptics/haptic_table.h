@@ -4,8 +4,8 @@
 // Units/frames: strength times the amplitude, limit 0 to 1, latency a length of time.
 // Ownership:    the caller owns what is made.
 // Threads:      constants only.
-// Failure:      make_haptic_output() of an unknown name lists the known ones; a device that cannot be
-//               had is named with the cure.
+// Failure:      make_haptic_output() of an unknown name lists the known ones; a device that cannot
+//               be had is named with the cure.
 #pragma once
 
 #include <memory>

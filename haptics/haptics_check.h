@@ -1,5 +1,6 @@
 // What `dance haptics --check` measures: orders at random moments, from the moment each was due to
-// the moment its device had it; beside the same orders given out once a picture, as an engine would.
+// the moment its device had it; beside the same orders given out once a picture, as an engine
+// would.
 //
 // Units/frames: milliseconds.
 // Ownership:    plain values.

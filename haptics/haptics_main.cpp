@@ -1,5 +1,6 @@
 // dance haptics: what a dancer feels: touches, the beat, the lead's hand, on devices.
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,7 +18,7 @@
 namespace dance {
 namespace {
 
-constexpr const char *kExamples = R"(Examples:
+constexpr const char* kExamples = R"(Examples:
   dance haptics list                                 what can be felt with on this machine
   dance haptics --guest alice --to evdev             the first gamepad rumbles for alice
   dance haptics --guest alice --to evdev --device Joy-Con --limit 0.6 dance haptics-- guest
@@ -36,7 +37,7 @@ struct HapticsWishes {
   std::vector<std::string> to;
   std::vector<std::string> feel{"touch", "lead", "one"};
   double strength = 1.0, limit = 1.0, latency_ms = 0.0, seconds = 0.0;
-  bool check = false;
+  bool check = false, realtime = false;
 };
 
 HapticOptions options_of(const HapticsWishes& wishes, const HapticMakerOptions& felt) {
@@ -101,8 +102,19 @@ void watch_terminal(Poller& poller, HapticFeed& feed) {
   });
 }
 
+// So that other programs' work does not delay what is felt: this one has next to none.
+void ask_for_realtime() {
+  sched_param priority{};
+  priority.sched_priority = 5;
+  if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
+    talk::warn(
+        "no real-time priority here: run as root, or give this user rtprio in "
+        "/etc/security/limits.conf");
+}
+
 Result<void> run(const HapticsWishes& wishes) {
   if (wishes.what == "list") return list_devices();
+  if (wishes.realtime) ask_for_realtime();
   DANCE_TRY(const HapticMakerOptions felt, parse_felt(wishes.feel));
   const HapticOptions options = options_of(wishes, felt);
   DANCE_TRY(const auto poller, Poller::create());
@@ -166,6 +178,7 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--seconds", wishes.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
   line.add("--bus", wishes.bus, "LCM URL of the bus");
+  line.add_flag("--realtime", wishes.realtime, "goes before other programs, where it may");
   line.add_flag("--check", wishes.check, "measures how exactly orders reach the devices");
   line.footer(dance::kExamples);
   line.finally([&]() -> dance::Result<void> {

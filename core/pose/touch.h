@@ -1,7 +1,7 @@
 // Touch: two dancers touch on a stage, as one of them feels it.
 //
-// Units/frames: as lcmtypes/touch_t.lcm says; place in W, motion as the dancer sees it: to the left,
-//               up, forward.
+// Units/frames: as lcmtypes/touch_t.lcm says; place in W, motion as the dancer sees it: to the
+//               left, up, forward.
 // Ownership:    plain value, no heap.
 // Threads:      none inside.
 // Failure:      is_valid() is false for an unknown phase or bone, and for what is out of range.

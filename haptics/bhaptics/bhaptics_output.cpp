@@ -16,7 +16,7 @@ namespace dance {
 namespace {
 
 constexpr std::uint16_t kUsualPort = 15881;
-constexpr lws_usec_t kAgain_us = 2'000'000;
+constexpr lws_usec_t kAgain_us = 1'000'000;
 constexpr std::size_t kMostText = 1024;
 
 }  // namespace

@@ -5,8 +5,8 @@
 // Units/frames: as haptics/bhaptics/bhaptics_frame.h.
 // Ownership:    owns its thread and connection; 64 orders may wait for it, the oldest give way.
 // Threads:      one, named haptics-ws; play() waits for nothing.
-// Failure:      open() names an address that is none; without a player there it is looked for every
-//               two seconds. Orders that find no connection are refused and counted.
+// Failure:      open() names an address that is none; without a player there it is looked for once
+//               a second. Orders that find no connection are refused and counted.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// EvdevOutput: a gamepad or another device of the kernel's force feedback. An effect is uploaded and
-// started in the call that brings it; the kernel ends it.
+// EvdevOutput: a gamepad or another device of the kernel's force feedback. An effect is uploaded
+// and started in the call that brings it; the kernel ends it.
 //
 // Units/frames: below kLowMotor_hz the heavy motor turns, above the light one.
 // Ownership:    owns the device file. kSlots effects at a time, the oldest gives way; never

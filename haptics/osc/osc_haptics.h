@@ -1,5 +1,5 @@
-// OscHaptics: what is to be felt as messages of Open Sound Control, for vests, gloves and programs of
-// others: /dance/haptic/<bone> with amplitude, seconds and hertz as it begins, and the level as
+// OscHaptics: what is to be felt as messages of Open Sound Control, for vests, gloves and programs
+// of others: /dance/haptic/<bone> with amplitude, seconds and hertz as it begins, and the level as
 // /avatar/parameters/dance_<bone>, 0 at the end.
 //
 // Units/frames: amplitude 0 to 1; bones by their names of VRM 1.0.

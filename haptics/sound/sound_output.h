@@ -1,6 +1,6 @@
-// SoundOutput: a tactor on a sound channel, through PulseAudio or PipeWire: tones on a sink of their
-// own. The stream never stops, so that a tone begins within its short buffer; the sound server says
-// how late that is, and orders go out so much earlier.
+// SoundOutput: a tactor on a sound channel, through PulseAudio or PipeWire: tones on a sink of
+// their own. The stream never stops, so that a tone begins within its short buffer; the sound
+// server says how late that is, and orders go out so much earlier.
 //
 // Units/frames: 48000 mono frames a second.
 // Ownership:    owns the connection and the thread of the library; 64 orders may wait for it.

@@ -2,7 +2,8 @@
 // prediction errors; and, where a route has the word hold-hands, arms that reach the last
 // centimetres, each of the two dancers half of the way.
 //
-// Units/frames: metres in W; times of this house's clock. Palms as core/motion/palm_pull.h has them.
+// Units/frames: metres in W; times of this house's clock. Palms as core/motion/palm_pull.h has
+//               them.
 // Ownership:    room for kMostDancers; never allocates after construction.
 // Threads:      none inside; one owner.
 // Failure:      more dancers than there is room for are shown as they are, and counted.

@@ -1,5 +1,5 @@
-// StageTouch: which dancers on a stage touch each other, where and how, as each of the two feels it.
-// Works on the poses as they are shown; held hands are those of StageHolds.
+// StageTouch: which dancers on a stage touch each other, where and how, as each of the two feels
+// it. Works on the poses as they are shown; held hands are those of StageHolds.
 //
 // Units/frames: as lcmtypes/touch_t.lcm says; times of this house's clock.
 // Ownership:    room for kMostDancers, and kMostPairs of them that are near each other at a time;

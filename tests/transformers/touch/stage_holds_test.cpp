@@ -26,8 +26,8 @@ struct Couple {
     for (const std::int64_t end = ms + length_ms; ms < end; ms += 16) {
       shown = {with_palm_at(lead_pose(), 0, meeting_place()),
                with_palm_at(follow_pose(), 1, meeting_place() + apart)};
-      holds.show(kLead, shown[0], at_ms(ms), lead_reaches);
-      holds.show(kFollow, shown[1], at_ms(ms), follow_reaches);
+      holds.show(kLead, shown[0], touch_time(ms), lead_reaches);
+      holds.show(kFollow, shown[1], touch_time(ms), follow_reaches);
       const bool is_held = holds.are_held(kLead, 0, kFollow, 1);
       changes += is_held != was_held;
       was_held = is_held;
@@ -117,7 +117,7 @@ TEST(StageHolds, WhoLeavesHoldsNobody) {
   couple.dance({0.0f, 0.02f, 0.0f}, 200);
   Pose pose = lead_pose();
   for (int i = 0; i < 60; ++i, couple.ms += 16)
-    couple.holds.show(kLead, pose, at_ms(couple.ms), false);
+    couple.holds.show(kLead, pose, touch_time(couple.ms), false);
   EXPECT_FALSE(couple.holds.are_held(kLead, 0, kFollow, 1));
 }
 
@@ -125,9 +125,9 @@ TEST(StageHolds, ForgetWhoIsGoneAndCountWhoFindsNoPlace) {
   StageHolds holds;
   Pose pose = lead_pose();
   for (int i = 0; i < 20; ++i)
-    holds.show(guest_named(("guest-" + std::to_string(i)).c_str()), pose, at_ms(i), true);
+    holds.show(guest_named(("guest-" + std::to_string(i)).c_str()), pose, touch_time(i), true);
   EXPECT_EQ(holds.refused(), 4u);
-  holds.show(guest_named("late"), pose, at_ms(2000), true);
+  holds.show(guest_named("late"), pose, touch_time(2000), true);
   EXPECT_EQ(holds.refused(), 4u);
 }
 
@@ -137,8 +137,8 @@ TEST(StageHolds, AllocateNothingAndStandATimeThatJumps) {
   Pose a = couple.shown[0], b = couple.shown[1];
   const AllocationGuard guard;
   for (const std::int64_t ms : {0, 1'000'000, 5, 5, -500, 90'000}) {
-    couple.holds.show(kLead, a, at_ms(ms), true);
-    couple.holds.show(kFollow, b, at_ms(ms), true);
+    couple.holds.show(kLead, a, touch_time(ms), true);
+    couple.holds.show(kFollow, b, touch_time(ms), true);
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_TRUE(is_valid(a));

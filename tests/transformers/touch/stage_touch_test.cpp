@@ -37,11 +37,11 @@ struct TouchingStage {
   std::int64_t ms = 0;
   TouchingStage() { sink.notes = &told; }
   void show(Pose alice, Pose bob) {
-    holds.show(kAlice, alice, at_ms(ms), false);
-    holds.show(kBob, bob, at_ms(ms), false);
-    touch.show(kAlice, alice, at_ms(ms));
-    touch.show(kBob, bob, at_ms(ms));
-    touch.update(at_ms(ms), 7, holds, sink);
+    holds.show(kAlice, alice, touch_time(ms), false);
+    holds.show(kBob, bob, touch_time(ms), false);
+    touch.show(kAlice, alice, touch_time(ms));
+    touch.show(kBob, bob, touch_time(ms));
+    touch.update(touch_time(ms), 7, holds, sink);
     ms += 16;
   }
   std::size_t count(TouchPhase phase) const {
@@ -125,7 +125,7 @@ TEST(StageTouch, EndsForWhoLeavesAndForWhoGoesFar) {
   stage.show(lead_pose(), standing(20.0f, 0.0f));
   EXPECT_EQ(stage.count(TouchPhase::kEnded), begun);
   for (int i = 0; i < 5; ++i) stage.show(lead_pose(), lead_pose());
-  stage.touch.update(at_ms(stage.ms + 2000), 7, stage.holds, stage.sink);
+  stage.touch.update(touch_time(stage.ms + 2000), 7, stage.holds, stage.sink);
   EXPECT_EQ(stage.count(TouchPhase::kEnded), stage.count(TouchPhase::kBegins));
 }
 
@@ -138,8 +138,8 @@ TEST(StageTouch, IsBoundedAndAllocatesNothing) {
     guests[i] = guest_named(("guest-" + std::to_string(i)).c_str());
   const AllocationGuard guard;
   for (int picture = 0; picture < 20; ++picture) {
-    for (const GuestId& guest : guests) touch.show(guest, lead_pose(), at_ms(16 * picture));
-    touch.update(at_ms(16 * picture), 7, holds, sink);
+    for (const GuestId& guest : guests) touch.show(guest, lead_pose(), touch_time(16 * picture));
+    touch.update(touch_time(16 * picture), 7, holds, sink);
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_GT(touch.refused(), 0u);

@@ -13,7 +13,7 @@
 namespace dance {
 
 inline GuestId guest_named(const char* name) { return *GuestId::parse(name); }
-inline MonoTime at_ms(std::int64_t ms) { return MonoTime::from_us(1'000'000 + 1000 * ms); }
+inline MonoTime touch_time(std::int64_t ms) { return MonoTime::from_us(1'000'000 + 1000 * ms); }
 
 // Arms hang forward and down from the shoulders.
 inline Pose standing(float z_m, float heading_rad) {

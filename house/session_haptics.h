@@ -1,0 +1,16 @@
+// Reads [[haptics]] of a session file: what a guest of the house feels, and by which device.
+//
+// Units/frames: as haptics/haptic_table.h.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      the reader keeps what is wrong, with its place.
+#pragma once
+
+#include "house/session.h"
+#include "house/toml_reader.h"
+
+namespace dance {
+
+void read_haptics(TomlReader& reader, Session& session);
+
+}  // namespace dance

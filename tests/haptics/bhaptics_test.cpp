@@ -1,0 +1,102 @@
+// The WebSocket of bHaptics against a server of another library, which stands for the player.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "core/net/mono_clock.h"
+#include "core/program/child_process.h"
+#include "haptics/bhaptics/bhaptics_frame.h"
+#include "haptics/bhaptics/bhaptics_output.h"
+#include "tests/apps/run_program.h"
+#include "tests/haptics/haptic_notes.h"
+
+namespace dance {
+namespace {
+
+using Json = nlohmann::json;
+constexpr const char* kPython = "/usr/bin/python3";
+
+class BhapticsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (run(std::string(kPython) + " -c 'import websockets'").exit_code != 0)
+      GTEST_SKIP() << "python3-websockets is not installed";
+  }
+  void start_player() {
+    auto child =
+        ChildProcess::start({kPython,
+                             {DANCE_SOURCE_DIR "/tests/haptics/websocket_player.py", "15999"},
+                             folder_.path("heard"),
+                             folder_.path("talk")});
+    ASSERT_TRUE(child) << child.error().what;
+    player_ = std::make_unique<ChildProcess>(std::move(*child));
+    ASSERT_TRUE(wait_for([&] { return heard().find("ready") != std::string::npos; }))
+        << text_of(folder_.path("talk"));
+  }
+  std::string heard() const { return text_of(folder_.path("heard")); }
+  // Plays until one is taken.
+  bool play(HapticOutput& output, const Haptic& haptic) {
+    return wait_for([&] { return output.play(haptic, mono_now()); });
+  }
+
+  TestFolder folder_{"bhaptics"};
+  std::unique_ptr<ChildProcess> player_;
+};
+
+TEST(BhapticsFrame, SaysWhichMotorHowStrongAndHowLong) {
+  Haptic haptic = some_haptic(MonoTime());
+  haptic.duration = Duration::ms(120);
+  const Json frame = Json::parse(bhaptics_frame(haptic))["Submit"][0];
+  EXPECT_EQ(frame["Type"], "frame");
+  EXPECT_EQ(frame["Frame"]["Position"], "HandL");
+  EXPECT_EQ(frame["Frame"]["DurationMillis"], 120);
+  EXPECT_EQ(frame["Frame"]["DotPoints"][0]["Intensity"], 50);
+  EXPECT_EQ(Json::parse(bhaptics_stop())["Submit"][0]["Type"], "turnOffAll");
+  for (std::size_t b = 0; b < kBoneCount; ++b) {
+    EXPECT_GE(bhaptics_place(static_cast<Bone>(b)).motor, 0);
+    EXPECT_LT(bhaptics_place(static_cast<Bone>(b)).motor, 20);
+  }
+}
+
+TEST_F(BhapticsTest, ReachesThePlayerAndFindsItAgain) {
+  auto output = BhapticsOutput::open("127.0.0.1:15999");
+  ASSERT_TRUE(output) << output.error().what;
+  EXPECT_FALSE((*output)->play(some_haptic(mono_now()), mono_now()));  // nobody is there
+  start_player();
+  ASSERT_TRUE(play(**output, some_haptic(mono_now())));
+  ASSERT_TRUE(wait_for([&] { return heard().find("HandL") != std::string::npos; })) << heard();
+  for (int i = 0; i < 20; ++i) {
+    Haptic haptic = some_haptic(mono_now());
+    haptic.bone = Bone::kRightHand;
+    haptic.duration = Duration::ms(100 + i);
+    (*output)->play(haptic, mono_now());
+  }
+  ASSERT_TRUE(wait_for([&] { return heard().find("\"DurationMillis\":119") != std::string::npos; }))
+      << heard();
+  std::istringstream lines(heard());
+  int frames = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("{")) {
+      EXPECT_TRUE(Json::parse(line).contains("Submit"));
+      ++frames;
+    }
+  EXPECT_EQ(frames, 21);
+  player_->stop(Duration::s(5));
+  EXPECT_TRUE(wait_for([&] { return !(*output)->play(some_haptic(mono_now()), mono_now()); }));
+  start_player();
+  EXPECT_TRUE(play(**output, some_haptic(mono_now())));
+  (*output)->stop();
+  EXPECT_TRUE(wait_for([&] { return heard().find("turnOffAll") != std::string::npos; })) << heard();
+}
+
+TEST_F(BhapticsTest, EndsWithoutAPlayer) {
+  auto output = BhapticsOutput::open("127.0.0.1:15998");
+  ASSERT_TRUE(output);
+  EXPECT_NE((*output)->summary().find("not found"), std::string::npos);
+  EXPECT_FALSE(BhapticsOutput::open("an address that is none:x"));
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,99 @@
+#include "haptics/haptic_feed.h"
+
+#include <gtest/gtest.h>
+
+#include "core/net/mono_clock.h"
+#include "haptics/haptic_table.h"
+#include "tests/core/bus/port_double.h"
+#include "tests/haptics/haptic_notes.h"
+
+namespace dance {
+namespace {
+
+const GuestId kAlice = *GuestId::parse("alice");
+
+struct Felt {
+  PortDouble port;
+  std::unique_ptr<Poller> poller = *Poller::create();
+  DeviceNotes notes;
+  HapticFeed feed{kAlice, {}, port, *poller};
+  Felt() {
+    feed.add(std::make_unique<HapticPlayer>(std::make_unique<NotedOutput>(notes),
+                                            HapticPlayerOptions(), *poller));
+  }
+  void touch(std::uint32_t contact, std::uint64_t clock = this_clock_id()) {
+    Touch touch;
+    touch.time = mono_now();
+    touch.clock_id = clock;
+    touch.contact = contact;
+    touch.force_n = 10.0f;
+    touch.other = *GuestId::parse("bob");
+    port.publish(Where::kStage, kAlice, touch);
+  }
+  void hear(std::uint64_t maker) {
+    Haptic haptic = some_haptic(mono_now());
+    haptic.clock_id = this_clock_id();
+    haptic.maker = maker;
+    port.publish(Where::kCapture, kAlice, haptic);
+  }
+  std::size_t said() const {
+    return static_cast<std::size_t>(
+        std::count(port.sent.begin(), port.sent.end(), "HAPTIC/capture/alice"));
+  }
+};
+
+TEST(HapticFeed, MakesPlaysAndSaysWhatIsTouched) {
+  Felt felt;
+  felt.touch(1);
+  felt.port.publish(Where::kStage, *GuestId::parse("bob"), [] {
+    Touch touch;
+    touch.clock_id = this_clock_id();
+    touch.other = kAlice;
+    return touch;
+  }());  // bob's is bob's
+  EXPECT_EQ(felt.notes.played.size(), 1u);
+  EXPECT_EQ(felt.said(), 1u);  // and its own is not played again
+  felt.touch(2, 12345);
+  EXPECT_EQ(felt.notes.played.size(), 1u);
+  EXPECT_EQ(felt.feed.of_other_clocks(), 1u);
+}
+
+TEST(HapticFeed, AReplaysAreFeltAsTheyWereAndNothingIsMadeBeside) {
+  Felt felt;
+  felt.hear(0);
+  EXPECT_EQ(felt.notes.played.size(), 1u);
+  felt.touch(1);
+  EXPECT_EQ(felt.feed.made(), 0u);
+  EXPECT_EQ(felt.notes.played.size(), 1u);
+}
+
+TEST(HapticFeed, OfSeveralMakersOneMakes) {
+  Felt felt;
+  felt.hear(~std::uint64_t{0});  // the largest number there is: this one makes
+  EXPECT_EQ(felt.notes.played.size(), 0u);
+  felt.touch(1);
+  EXPECT_EQ(felt.notes.played.size(), 1u);
+}
+
+TEST(HapticTable, NamesWhatIsWrong) {
+  HapticOptions options;
+  options.device = "pad";
+  EXPECT_NE(check_haptic_options("osc", options).error().what.find("address"), std::string::npos);
+  EXPECT_NE(check_haptic_options("glove", {}).error().what.find("evdev, osc, bhaptics, sound"),
+            std::string::npos);
+  options = {};
+  options.address = "1.2.3.4:5";
+  EXPECT_FALSE(check_haptic_options("evdev", options));
+  EXPECT_FALSE(parse_felt({"touch", "smell"}));
+  const auto felt = parse_felt({"lead", "beats"});
+  ASSERT_TRUE(felt);
+  EXPECT_FALSE(felt->touch);
+  EXPECT_TRUE(felt->lead);
+  EXPECT_EQ(felt->beats, FeltBeats::kAll);
+  options = {};
+  options.address = "no such host at all:x";
+  EXPECT_FALSE(make_haptic_output("osc", options));
+}
+
+}  // namespace
+}  // namespace dance

@@ -1,0 +1,165 @@
+#include "haptics/haptic_maker.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/allocation_guard.h"
+#include "tests/haptics/haptic_notes.h"
+
+namespace dance {
+namespace {
+
+MonoTime when(std::int64_t ms) { return MonoTime::from_us(5'000'000 + 1000 * ms); }
+
+Touch some_touch(TouchPhase phase, float force_n = 10.0f) {
+  Touch touch;
+  touch.time = when(0);
+  touch.contact = 4;
+  touch.phase = phase;
+  touch.bone = Bone::kRightHand;
+  touch.other_bone = Bone::kLeftHand;
+  touch.force_n = force_n;
+  touch.other = *GuestId::parse("bob");
+  return touch;
+}
+
+Touch some_hold(TouchPhase phase, const Eigen::Vector3f& motion = Eigen::Vector3f::Zero()) {
+  Touch touch = some_touch(phase);
+  touch.is_hold = true;
+  touch.motion_m_s = motion;
+  return touch;
+}
+
+Beat some_beat(double number, MonoTime at) {
+  Beat beat;
+  beat.time = at - Duration::ms(100);
+  beat.clock_id = 1;
+  beat.beat_time = at;
+  beat.beat = number;
+  beat.tempo_bpm = 120.0;
+  beat.beats_per_bar = 4;
+  beat.confidence = 1.0f;
+  beat.playing = true;
+  return beat;
+}
+
+HapticMaker maker_of(HapticMakerOptions options = {}) { return HapticMaker(options, 9, 1); }
+
+TEST(HapticMaker, AHarderTouchIsFeltMoreStronglyWhereItIs) {
+  HapticMaker maker = maker_of();
+  HapticNotes soft, hard;
+  maker.feel(some_touch(TouchPhase::kBegins, 2.0f), when(0), soft);
+  maker.feel(some_touch(TouchPhase::kBegins, 40.0f), when(10), hard);
+  ASSERT_EQ(soft.felt.size(), 1u);
+  ASSERT_EQ(hard.felt.size(), 1u);
+  EXPECT_GT(hard.felt[0].amplitude, soft.felt[0].amplitude + 0.3f);
+  EXPECT_EQ(hard.felt[0].bone, Bone::kRightHand);
+  EXPECT_EQ(hard.felt[0].maker, 9u);
+  EXPECT_EQ(hard.felt[0].play_time, when(10));
+  for (const Haptic& haptic : {soft.felt[0], hard.felt[0]}) EXPECT_TRUE(is_valid(haptic));
+}
+
+TEST(HapticMaker, WhatStaysFades) {
+  HapticMaker maker = maker_of();
+  HapticNotes notes;
+  maker.feel(some_touch(TouchPhase::kBegins), when(0), notes);
+  for (int ms = 33; ms < 10'000; ms += 33)
+    maker.feel(some_touch(TouchPhase::kLasts), when(ms), notes);
+  EXPECT_GT(notes.felt.size(), 4u);
+  EXPECT_LT(notes.felt.size(), 30u);
+  EXPECT_LT(notes.felt.back().amplitude, 0.35f * notes.felt[1].amplitude);
+  EXPECT_LT(notes.felt.back().time, when(4000));
+}
+
+TEST(HapticMaker, TheLeadsHandHasAPatternForEachDirection) {
+  const auto patterns = [](const Eigen::Vector3f& motion) {
+    HapticMaker maker = maker_of();
+    HapticNotes notes;
+    maker.feel(some_hold(TouchPhase::kBegins), when(0), notes);
+    notes.felt.clear();
+    maker.feel(some_hold(TouchPhase::kLasts, motion), when(400), notes);
+    maker.feel(some_hold(TouchPhase::kLasts, motion), when(433), notes);  // not twice
+    return notes.felt;
+  };
+  EXPECT_TRUE(patterns({0.1f, 0.2f, 0.3f}).empty());
+  const auto push = patterns({0.0f, 0.0f, -1.0f}), pull = patterns({0.0f, 0.0f, 1.0f}),
+             raise = patterns({0.0f, 1.0f, 0.0f}), side = patterns({1.0f, 0.0f, 0.0f});
+  ASSERT_EQ(push.size(), 1u);
+  ASSERT_EQ(pull.size(), 1u);
+  ASSERT_EQ(side.size(), 1u);
+  ASSERT_EQ(raise.size(), 2u);  // twice, the second one higher
+  EXPECT_GT(raise[1].frequency_hz, raise[0].frequency_hz);
+  EXPECT_GT(raise[1].play_time, raise[0].play_time);
+  EXPECT_GT(pull[0].attack, push[0].attack);
+  EXPECT_GT(pull[0].duration, push[0].duration);
+  for (const Haptic& haptic : {push[0], pull[0], raise[0], side[0]}) {
+    EXPECT_EQ(haptic.source, HapticSource::kLead);
+    EXPECT_TRUE(is_valid(haptic));
+  }
+  EXPECT_GT(patterns({0.0f, 0.0f, -2.5f})[0].amplitude, push[0].amplitude);
+}
+
+TEST(HapticMaker, TheOneIsOrderedAheadOnceAndAtItsTime) {
+  HapticMaker maker = maker_of();
+  HapticNotes notes;
+  // A beat each half second, number 0 at 0 ms.
+  for (int ms = 0; ms < 8000; ms += 50) {
+    const double next = std::ceil(ms / 500.0);
+    maker.hear(some_beat(next, when(static_cast<std::int64_t>(500 * next))));
+    maker.look_ahead(when(ms), notes);
+  }
+  ASSERT_EQ(notes.felt.size(), 5u);
+  for (std::size_t i = 0; i < notes.felt.size(); ++i) {
+    EXPECT_NEAR((notes.felt[i].play_time - when(2000 * static_cast<std::int64_t>(i))).as_ms(), 0.0,
+                1.0);
+    EXPECT_EQ(notes.felt[i].source, HapticSource::kBeat);
+    EXPECT_TRUE(is_valid(notes.felt[i]));
+    if (i > 0) {
+      EXPECT_GT(notes.felt[i].play_time - notes.felt[i].time, Duration::ms(300));
+    }
+  }
+}
+
+TEST(HapticMaker, OtherBeatsAreFeltWhereTheyAreAskedForAndNoneWithoutMusic) {
+  HapticMakerOptions options;
+  options.beats = FeltBeats::kAll;
+  HapticMaker maker = maker_of(options);
+  HapticNotes notes;
+  maker.look_ahead(when(0), notes);
+  EXPECT_TRUE(notes.felt.empty());
+  maker.hear(some_beat(4.0, when(100)));
+  maker.look_ahead(when(0), notes);
+  maker.look_ahead(when(300), notes);
+  ASSERT_EQ(notes.felt.size(), 2u);
+  EXPECT_GT(notes.felt[0].amplitude, notes.felt[1].amplitude);
+  options.beats = FeltBeats::kNone;
+  HapticMaker none = maker_of(options);
+  none.hear(some_beat(4.0, when(100)));
+  none.look_ahead(when(0), notes);
+  EXPECT_EQ(notes.felt.size(), 2u);
+}
+
+TEST(HapticMaker, MoreContactsThanThereIsRoomForAreBoundedAndNothingIsAllocated) {
+  HapticMaker maker = maker_of();
+  struct Count final : HapticSink {
+    void on_haptic(const Haptic& haptic) override {
+      ++count;
+      is_fine = is_fine && is_valid(haptic);
+    }
+    int count = 0;
+    bool is_fine = true;
+  } sink;
+  const AllocationGuard guard;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    Touch touch = some_touch(i % 3 == 0 ? TouchPhase::kBegins : TouchPhase::kLasts, 200.0f);
+    touch.contact = i % 100;
+    touch.is_hold = i % 2 == 0;
+    touch.motion_m_s = {50.0f, -50.0f, 50.0f};
+    maker.feel(touch, when(i % 777), sink);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_TRUE(sink.is_fine);
+  EXPECT_GT(sink.count, 100);
+}
+
+}  // namespace
+}  // namespace dance

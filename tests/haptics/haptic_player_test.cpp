@@ -1,0 +1,107 @@
+#include "haptics/haptic_player.h"
+
+#include <gtest/gtest.h>
+
+#include "core/net/mono_clock.h"
+#include "tests/haptics/haptic_notes.h"
+
+namespace dance {
+namespace {
+
+struct Played {
+  DeviceNotes notes;
+  std::unique_ptr<Poller> poller = *Poller::create();
+  std::unique_ptr<HapticPlayer> player;
+
+  explicit Played(HapticPlayerOptions options = {}) {
+    player = std::make_unique<HapticPlayer>(std::make_unique<NotedOutput>(notes), options, *poller);
+  }
+  void turn_until(std::size_t played) {
+    for (int i = 0; i < 500 && notes.played.size() < played; ++i)
+      poller->run_once(Duration::ms(20));
+  }
+};
+
+TEST(HapticPlayer, PlaysInTheOrderOfWhatIsDueAndNeverEarly) {
+  Played stage;
+  const MonoTime now = mono_now();
+  for (const int ms : {30, 10, 20, 0}) {
+    Haptic haptic = some_haptic(now + Duration::ms(ms));
+    haptic.number = static_cast<std::uint32_t>(ms);
+    stage.player->take(haptic, now);
+  }
+  stage.turn_until(4);
+  ASSERT_EQ(stage.notes.played.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(stage.notes.played[i].number, 10 * i);
+    EXPECT_GE(stage.notes.at[i], now + Duration::ms(10 * static_cast<std::int64_t>(i)));
+  }
+  EXPECT_EQ(stage.player->lateness().count(), 4u);
+}
+
+TEST(HapticPlayer, OrdersGoOutAsMuchEarlierAsTheDeviceIsLate) {
+  HapticPlayerOptions options;
+  options.latency = Duration::ms(300);
+  Played stage(options);
+  stage.notes.latency = Duration::ms(200);
+  const MonoTime now = mono_now();
+  stage.player->take(some_haptic(now + Duration::ms(490)), now);  // at once: 10 ms late
+  EXPECT_EQ(stage.notes.played.size(), 1u);
+  stage.player->take(some_haptic(now + Duration::ms(520)), now);
+  EXPECT_EQ(stage.notes.played.size(), 1u);
+  stage.turn_until(2);
+  ASSERT_EQ(stage.notes.played.size(), 2u);
+  EXPECT_GE(stage.notes.at[1], now + Duration::ms(20));
+}
+
+TEST(HapticPlayer, HoldsTheLimitAndCountsIt) {
+  HapticPlayerOptions options;
+  options.strength = 2.0f;
+  options.limit = 0.6f;
+  Played stage(options);
+  const MonoTime now = mono_now();
+  Haptic haptic = some_haptic(now);
+  stage.player->take(haptic, now);
+  haptic.amplitude = 0.2f;
+  stage.player->take(haptic, now);
+  ASSERT_EQ(stage.notes.played.size(), 2u);
+  EXPECT_FLOAT_EQ(stage.notes.played[0].amplitude, 0.6f);
+  EXPECT_FLOAT_EQ(stage.notes.played[1].amplitude, 0.4f);
+  EXPECT_EQ(stage.player->counters().limited, 1u);
+}
+
+TEST(HapticPlayer, OffIsOffAtOnceAndWhatWaitedIsForgotten) {
+  Played stage;
+  const MonoTime now = mono_now();
+  stage.player->take(some_haptic(now + Duration::ms(30)), now);
+  stage.player->set_on(false);
+  EXPECT_EQ(stage.notes.stops, 1);
+  stage.player->take(some_haptic(now), now);
+  EXPECT_EQ(stage.player->counters().muted, 1u);
+  stage.player->set_on(true);
+  for (int i = 0; i < 5; ++i) stage.poller->run_once(Duration::ms(20));
+  EXPECT_TRUE(stage.notes.played.empty());
+  const Haptic haptic = some_haptic(mono_now());
+  stage.player->take(haptic, mono_now());
+  EXPECT_EQ(stage.notes.played.size(), 1u);
+  stage.player.reset();
+  EXPECT_EQ(stage.notes.stops, 2);  // who ends leaves nothing rumbling
+}
+
+TEST(HapticPlayer, LeavesOutWhatIsTooLateTooMuchOrRefused) {
+  Played stage;
+  const MonoTime now = mono_now();
+  stage.player->take(some_haptic(now - Duration::ms(500)), now);
+  EXPECT_EQ(stage.player->counters().late, 1u);
+  for (std::size_t i = 0; i < HapticPlayer::kMostWaiting + 7; ++i)
+    stage.player->take(some_haptic(now + Duration::s(5)), now);
+  EXPECT_EQ(stage.player->counters().full, 7u);
+  stage.notes.refuses = true;
+  stage.player->take(some_haptic(now), now);
+  EXPECT_EQ(stage.player->counters().refused, 1u);
+  const std::string said = stage.player->summary();
+  EXPECT_NE(said.find("7 left out as too many waited"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace dance

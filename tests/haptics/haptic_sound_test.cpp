@@ -1,0 +1,51 @@
+// Tones for tactors, on a sound server with a sink that goes nowhere and is listened to.
+#include <gtest/gtest.h>
+
+#include "core/net/mono_clock.h"
+#include "haptics/sound/sound_output.h"
+#include "tests/apps/sound_server.h"
+#include "tests/haptics/haptic_notes.h"
+
+namespace dance {
+namespace {
+
+TEST(HapticSound, IsHeardOnItsSinkOnceForEachOrder) {
+  if (!SoundServer::is_there()) GTEST_SKIP() << "pulseaudio is not installed";
+  const TestFolder folder("haptic-sound");
+  SoundServer server(folder);
+  ASSERT_TRUE(server.is_open());
+  ASSERT_TRUE(server.listen());
+  EXPECT_FALSE(SoundOutput::open("no-such-sink"));
+  auto output = SoundOutput::open("dance");
+  ASSERT_TRUE(output) << output.error().what;
+  const auto clicks_come = [&](std::size_t count) {
+    return wait_for([&] {
+      server.work();
+      return server.clicks().size() >= count;
+    });
+  };
+  for (std::size_t i = 1; i <= 3; ++i) {
+    ASSERT_TRUE((*output)->play(some_haptic(mono_now()), mono_now()));
+    ASSERT_TRUE(clicks_come(i)) << i;
+    // The next tone is another one only after some silence.
+    const MonoTime played = mono_now();
+    while (mono_now() - played < Duration::ms(400)) {
+      server.work();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+  EXPECT_GT((*output)->latency(), Duration());
+  EXPECT_LT((*output)->latency(), Duration::s(1));
+  (*output)->stop();
+  EXPECT_EQ(server.clicks().size(), 3u);
+}
+
+TEST(HapticSound, WithoutAServerThereIsOneLine) {
+  setenv("PULSE_SERVER", "unix:/no/such/socket", 1);  // NOLINT(concurrency-mt-unsafe)
+  const auto output = SoundOutput::open("");
+  ASSERT_FALSE(output);
+  EXPECT_NE(output.error().what.find("PulseAudio"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dance
