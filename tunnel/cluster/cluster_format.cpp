@@ -2,55 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <type_traits>
 
 #include "core/base/assert.h"
+#include "tunnel/cluster/cluster_fields.h"
 
 namespace dance::cluster {
 namespace {
 
-enum class Type : std::uint8_t {
-  kBeat = 1,
-  kClockQuestion = 2,
-  kClockAnswer = 3,
-  kRecord = 4,
-  kFeedback = 5,  // 6: cluster_bundle.h
-  kFile = 7,
-  kVoice = 8,
-  kPresence = 16,
-  kGuest = 17,
-  kState = 18,
-};
-
 // Of a record, and of a guest's common frames.
 constexpr std::uint8_t kIsIntra = 1, kIsBase = 2, kKnownRecordFlags = 3;
 constexpr std::uint8_t kHasFull = 1, kHasBase = 2, kKnownFrameFlags = 3;
-// Captures lie within these, as in the wire format: nothing that is computed with them overflows.
-constexpr std::int64_t kFarthest_us = std::int64_t{1} << 60;
-
-void begin(Type type, ByteWriter& out) {
-  out.u8(kClusterVersion);
-  out.u8(static_cast<std::uint8_t>(type));
-}
-
-template <class Name>
-void write_name(const Name& name, ByteWriter& out) {
-  out.short_text(name.view());
-}
-// Not set where empty.
-bool read_name(ByteReader& in, GuestId& name) {
-  const std::string_view text = in.text(in.u8());
-  if (!in.ok() || text.empty()) return in.ok();
-  const auto parsed = GuestId::parse(text);
-  if (parsed) name = *parsed;
-  return parsed.has_value();
-}
-bool read_set_name(ByteReader& in, GuestId& name) { return read_name(in, name) && name.is_set(); }
-bool read_server(ByteReader& in, ServerId& server) {
-  server = in.u64();
-  return server != 0;
-}
-bool is_near(std::int64_t us) { return us > -kFarthest_us && us < kFarthest_us; }
 
 void write(const Beat& beat, ByteWriter& out) {
   begin(Type::kBeat, out);
@@ -282,78 +243,11 @@ std::optional<Message> read_file(ByteReader& in) {
   return message;
 }
 
-void write(const PresenceValue& value, ByteWriter& out) {
-  begin(Type::kPresence, out);
-  out.u64(value.server);
-  out.u8(value.has_host ? 1 : 0);
-}
-std::optional<Value> read_presence(ByteReader& in) {
-  PresenceValue value;
-  const bool is_good = read_server(in, value.server);
-  const std::uint8_t has_host = in.u8();
-  value.has_host = has_host == 1;
-  if (!is_good || has_host > 1) return std::nullopt;
-  return value;
-}
-
-void write(const GuestValue& value, ByteWriter& out) {
-  begin(Type::kGuest, out);
-  out.u64(value.server);
-  out.u64(value.link_token);
-  out.i64(value.since_us);
-  out.u8(static_cast<std::uint8_t>(value.codec.id));
-  out.u32(value.codec.model);
-}
-std::optional<Value> read_guest(ByteReader& in) {
-  GuestValue value;
-  const bool is_good = read_server(in, value.server);
-  value.link_token = in.u64();
-  value.since_us = in.i64();
-  value.codec.id = static_cast<CodecId>(in.u8());
-  value.codec.model = in.u32();
-  if (!is_good || !is_near(value.since_us)) return std::nullopt;
-  return value;
-}
-
-void write(const StateValue& value, ByteWriter& out) {
-  begin(Type::kState, out);
-  out.u64(value.link_token);
-  write_name(value.setter, out);
-  out.u32(value.version);
-  out.bytes(value.payload);
-}
-std::optional<Value> read_state(ByteReader& in) {
-  StateValue value;
-  value.link_token = in.u64();
-  if (!read_name(in, value.setter)) return std::nullopt;
-  value.version = in.u32();
-  value.payload = in.bytes(in.remaining());
-  if (!in.ok() || value.version == 0 || value.payload.size() > wire::kMaxStatePayload)
-    return std::nullopt;
-  return value;
-}
-
-template <class Any>
-std::size_t build_any(const Any& any, std::span<std::uint8_t> buffer) {
-  ByteWriter out(buffer);
-  std::visit([&](const auto& one) { write(one, out); }, any);
-  return out.ok() ? out.size() : 0;
-}
-
-// The type, of the version that this is.
-std::optional<Type> opening(ByteReader& in) {
-  const std::uint8_t version = in.u8();
-  const auto type = static_cast<Type>(in.u8());
-  if (!in.ok() || version != kClusterVersion) return std::nullopt;
-  return type;
-}
-
 }  // namespace
 
 std::size_t build(const Message& message, std::span<std::uint8_t> out) {
-  return build_any(message, out);
+  return build_any(message, out, [](const auto& one, ByteWriter& to) { write(one, to); });
 }
-std::size_t build(const Value& value, std::span<std::uint8_t> out) { return build_any(value, out); }
 
 std::optional<Message> parse_message(Bytes bytes) {
   ByteReader in(bytes);
@@ -386,27 +280,6 @@ std::optional<Message> parse_message(Bytes bytes) {
       return std::nullopt;
   }
   return in.is_exhausted() ? message : std::nullopt;
-}
-
-std::optional<Value> parse_value(Bytes bytes) {
-  ByteReader in(bytes);
-  const auto type = opening(in);
-  if (!type) return std::nullopt;
-  std::optional<Value> value;
-  switch (*type) {
-    case Type::kPresence:
-      value = read_presence(in);
-      break;
-    case Type::kGuest:
-      value = read_guest(in);
-      break;
-    case Type::kState:
-      value = read_state(in);
-      break;
-    default:
-      return std::nullopt;
-  }
-  return in.is_exhausted() ? value : std::nullopt;
 }
 
 }  // namespace dance::cluster

@@ -1,0 +1,23 @@
+// Reads [[produce]] of a session file: who dances in the house, before a camera, from a file, from
+// another program or by a generator.
+//
+// Units/frames: as in session.h.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      the reader keeps what is wrong, with its place.
+#pragma once
+
+#include <filesystem>
+
+#include "house/session.h"
+#include "house/toml_reader.h"
+
+namespace dance {
+
+// A guest's name; not set where the text is none.
+GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& text);
+
+// Files are in the session's folder.
+void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session);
+
+}  // namespace dance
