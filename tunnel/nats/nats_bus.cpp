@@ -92,7 +92,7 @@ class ConnectedNatsBus final : public NatsBus {
     counters.dropped_in = shared_.inbox.dropped();
     if (messages_) {
       counters.dropped_in += messages_->counters().dropped_in;
-      counters.dropped_out = messages_->counters().dropped_out;
+      counters.dropped_out = messages_->counters().dropped_out + messages_->counters().refused;
     }
     counters.failed_values = values_->failed();
     counters.unwritten_values = values_->unwritten();

@@ -1,8 +1,9 @@
-// ClusterBus over NATS: messages by core NATS, which keeps none, and values in a key-value bucket
-// of JetStream. Nothing here waits in the poller's thread.
+// ClusterBus over NATS: messages by core NATS, which keeps none, in the poller's thread, and values
+// in a key-value bucket of JetStream, on another connection. Nothing here waits in the poller's
+// thread.
 //
 // Units/frames: as ClusterBus.
-// Ownership:    owns the connection and its threads; the poller must outlive it.
+// Ownership:    owns connections and threads; the poller must outlive it.
 // Threads:      the poller's, but for what it starts itself.
 // Failure:      connect() names what cannot be reached, and what is refused. A connection that is
 //               lost later comes back by itself, to any of the NATS servers.
@@ -22,7 +23,7 @@ class NatsBus : public ClusterBus {
  public:
   struct Counters {
     std::uint64_t dropped_in = 0;     // more than the poller's thread took
-    std::uint64_t dropped_out = 0;    // no connection, or NATS did not read
+    std::uint64_t dropped_out = 0;    // no connection, or NATS did not read, or refused it
     std::uint64_t failed_values = 0;  // tries that failed; each is tried again
     std::size_t unwritten_values = 0;
     std::uint64_t reconnects = 0;

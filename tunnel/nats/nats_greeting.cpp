@@ -162,9 +162,17 @@ Result<std::string> introduction(const NatsOptions& options, const NatsUrl& part
          "\r\nPING\r\n";
 }
 
+// A name may have addresses that lead nowhere from here.
+Result<TcpSocket> connect_to_any(const std::string& place) {
+  DANCE_TRY(const auto addresses, Address::resolve_all(place, kNatsPort));
+  Result<TcpSocket> made = fail("has no address");
+  for (std::size_t i = 0; i < addresses.size() && !made; ++i)
+    made = TcpSocket::connect(addresses[i], kConnects);
+  return made;
+}
+
 Result<NatsGreeted> greet_at(const NatsOptions& options, const NatsUrl& parts) {
-  DANCE_TRY(const Address address, Address::resolve(parts.place, kNatsPort));
-  DANCE_TRY(TcpSocket socket, TcpSocket::connect(address, kConnects));
+  DANCE_TRY(TcpSocket socket, connect_to_any(parts.place));
   NatsChannel channel(std::move(socket));
   Greeter greeter(channel, mono_now() + kConnects);
   DANCE_TRY(const std::string hello, greeter.line());

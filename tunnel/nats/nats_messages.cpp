@@ -15,6 +15,8 @@ constexpr Duration kSilentConnection = Duration::ms(1500);
 constexpr Duration kWritesAgain = Duration::ms(1);
 // Then sockets and timers have their say.
 constexpr int kReadsPerTurn = 4;
+// So much at once has waited: some hundred records.
+constexpr std::size_t kBehind = 32'768;
 constexpr std::size_t kLongestSubject = 128;
 
 std::span<const std::uint8_t> bytes_of(std::string_view text) {
@@ -163,7 +165,7 @@ MonoTime NatsMessages::tick(MonoTime now) {
 
 void NatsMessages::on_readable(MonoTime now) {
   for (int reads = 0; channel_ && reads < kReadsPerTurn; ++reads) {
-    const auto room = reader_.room();
+    const auto room = reader_.room().first(kBehind);
     const auto count = channel_->read(room);
     if (!count) {
       end(now);

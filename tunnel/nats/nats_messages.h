@@ -6,8 +6,8 @@
 // Ownership:    owns connection and buffers; the poller must outlive it.
 // Threads:      the poller's; new connections are made in one of its own.
 // Failure:      at most kMostWaiting bytes wait for a NATS server that does not read, what is more
-//               is dropped and counted. Of more than a buffer that came at once, of each subject
-//               the newest kKept are taken. A connection that ends, or is silent, is replaced.
+//               is dropped and counted. Where 32 kB came at once, the newest kKept of each subject
+//               are taken. A connection that ends, or is silent, is replaced.
 #pragma once
 
 #include <functional>

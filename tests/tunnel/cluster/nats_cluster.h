@@ -60,7 +60,7 @@ class NatsCluster : public ::testing::Test {
     EXPECT_EQ(talk().find("Sanitizer"), std::string::npos) << talk();
   }
 
-  void start_nats(std::size_t which, std::size_t of) {
+  void start_nats(std::size_t which, std::size_t of, const std::vector<std::string>& also = {}) {
     const auto number = [](int port, std::size_t i) {
       return std::to_string(port + static_cast<int>(i));
     };
@@ -73,6 +73,7 @@ class NatsCluster : public ::testing::Test {
                                        folder_.path("nats-" + std::to_string(which)),
                                        "-l",
                                        folder_.path("nats-log-" + std::to_string(which))};
+    arguments.insert(arguments.end(), also.begin(), also.end());
     if (of > 1) {
       std::string routes;
       for (std::size_t i = 0; i < of; ++i)

@@ -55,7 +55,7 @@ TEST_F(NatsMessagesTest, AllOfATurnComeInOrderAndNotToWhoSaidThem) {
   }));
   bob.heard.clear();
   std::vector<std::string> said;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 100; ++i) {
     said.push_back("number " + std::to_string(i) + std::string(static_cast<std::size_t>(i), '.'));
     alice.say("dance.1.test", said.back());
   }
@@ -83,6 +83,62 @@ TEST_F(NatsMessagesTest, AllOfATurnComeInOrderAndNotToWhoSaidThem) {
   alice.messages->end_turn(mono_now());
   EXPECT_TRUE(turn_until([&] { return bob.heard.contains("dance.1.end"); }));
   EXPECT_FALSE(bob.heard.contains("dance.1.test"));
+}
+
+TEST_F(NatsMessagesTest, WhoIsBehindTakesTheNewestOfEachSubject) {
+  start_nats(0, 1);
+  auto hers = Poller::create();
+  ASSERT_TRUE(hers);
+  Talker alice(options(), **hers), bob(options(), *poller);
+  bob.messages->listen("dance.1.much");
+  bob.messages->listen("dance.1.seldom");
+  bob.messages->end_turn(mono_now());
+  ASSERT_TRUE(turn_until([&] {
+    alice.say("dance.1.seldom", "first");
+    alice.messages->end_turn(mono_now());
+    (*hers)->run_once(Duration::ms(1));
+    return bob.heard.contains("dance.1.seldom");
+  }));
+  // Bob takes nothing meanwhile.
+  const std::string text(500, 'x');
+  for (int i = 0; i < 1000; ++i) {
+    if (i == 10) alice.say("dance.1.seldom", "second");
+    alice.say("dance.1.much", std::to_string(i) + text);
+    alice.messages->end_turn(mono_now());
+    for (int k = 0; k < 5000 && !alice.messages->is_clear(); ++k)
+      (*hers)->run_once(Duration::ms(1));
+  }
+  alice.messages->flush(Duration::s(5));
+  ASSERT_EQ(alice.messages->counters().dropped_out, 0u);
+  EXPECT_TRUE(turn_until([&] {
+    const auto& heard = bob.heard["dance.1.much"];
+    return !heard.empty() && heard.back() == "999" + text;
+  }));
+  EXPECT_GT(bob.messages->counters().dropped_in, 0u);
+  EXPECT_EQ(bob.heard["dance.1.much"].size() + bob.messages->counters().dropped_in, 1000u);
+  EXPECT_EQ(bob.heard["dance.1.seldom"].back(), "second") << "of which there were few";
+}
+
+TEST_F(NatsMessagesTest, ItShowsItsPasswordOrToken) {
+  start_nats(0, 1, {"--user", "me", "--pass", "secret"});
+  start_nats(1, 1, {"--auth", "token"});
+  const std::string first = url_of(0).substr(7), second = url_of(1).substr(7);
+  const auto connects = [&](const std::string& url) {
+    NatsOptions of;
+    of.urls = {url};
+    const auto made = NatsMessages::connect(of, *poller, {});
+    return made ? std::string() : made.error().what;
+  };
+  EXPECT_EQ(connects("nats://me:secret@" + first), "");
+  EXPECT_EQ(connects("nats://token@" + second), "");
+  for (const std::string& url :
+       {"nats://" + first, "nats://me:wrong@" + first, "nats://other@" + second}) {
+    const std::string what = connects(url);
+    EXPECT_NE(what.find("Authorization"), std::string::npos) << what;
+    EXPECT_EQ(what.find("wrong"), std::string::npos) << "no password is said";
+  }
+  EXPECT_NE(connects("tls://" + first).find("no TLS"), std::string::npos) << "it has none";
+  EXPECT_NE(connects("nats://127.0.0.1:1").find("127.0.0.1:1"), std::string::npos);
 }
 
 TEST_F(NatsMessagesTest, AServerThatDoesNotReadHoldsUpNothingAndIsLeft) {
