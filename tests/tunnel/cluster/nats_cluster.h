@@ -40,6 +40,7 @@ class NatsCluster : public ::testing::Test {
     std::map<GuestId, FileHash> files;                      // of avatars that are chosen
     std::map<GuestId, std::vector<std::uint8_t>> has_come;  // whole files
     std::uint64_t joined = 0, left = 0;                     // others, as it was told
+    std::map<GuestId, std::uint64_t> voices;                // packets
   };
 
   void SetUp() override {
@@ -123,6 +124,7 @@ class NatsCluster : public ::testing::Test {
     added.room = guest(room);
     LinkHandlers handlers;
     handlers.on_pose = [&added](const GuestId& id, const Pose&, MonoTime) { ++added.heard[id]; };
+    handlers.on_voice = [&added](const GuestId& id, const Voice&, MonoTime) { ++added.voices[id]; };
     handlers.on_guest_joined = [&added](const GuestId&, MonoTime) { ++added.joined; };
     handlers.on_guest_left = [&added](const GuestId&, MonoTime) { ++added.left; };
     handlers.on_avatar_file = [&added](const GuestId& id, const AvatarFile& file, MonoTime) {
