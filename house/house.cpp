@@ -151,6 +151,7 @@ Result<void> House::open_link() {
   link_bus_->attach(*link_);
   for (const GuestId& guest : session_.guests) link_bus_->send_signals_of(guest);
   if (!options.listen_only) link_bus_->send_channels(session_.channels);
+  link_bus_->follow_hearing(session_.hearing);
   return {};
 }
 

@@ -25,21 +25,24 @@ void add_rooms(const json& rooms, std::string& out) {
 
 void add_line(const std::string& guest, const std::string& room, const json& link,
               std::optional<double> jitter_ms, std::string& out) {
-  fmt::format_to(
-      std::back_inserter(out), "{:<17}{:<17}{:>10}{:>10}{:>8}{:>8}{:>10}{:>10}{:>8}{:>9}  {}\n",
-      guest, room, cell(number(link, "round_trip_ms"), 1, 2, " ms"), cell(jitter_ms, 1, 2, " ms"),
-      cell(number(link, "loss_up"), 100, 1, "%"), cell(number(link, "loss_down"), 100, 1, "%"),
-      cell(number(link, "bytes_in_per_s"), 1e-3, 1, " kB"),
-      cell(number(link, "bytes_out_per_s"), 1e-3, 1, " kB"),
-      cell(number(link, "last_heard_s"), 1, 1, " s"), cell(number(link, "age_s"), 1, 0, " s"),
-      text(link, "peer"));
+  fmt::format_to(std::back_inserter(out),
+                 "{:<17}{:<17}{:>10}{:>10}{:>8}{:>8}{:>10}{:>10}{:>8}{:>8}{:>8}{:>9}  {}\n", guest,
+                 room, cell(number(link, "round_trip_ms"), 1, 2, " ms"),
+                 cell(jitter_ms, 1, 2, " ms"), cell(number(link, "loss_up"), 100, 1, "%"),
+                 cell(number(link, "loss_down"), 100, 1, "%"),
+                 cell(number(link, "bytes_in_per_s"), 1e-3, 1, " kB"),
+                 cell(number(link, "bytes_out_per_s"), 1e-3, 1, " kB"),
+                 cell(number(link, "voices_in_per_s"), 1, 0, ""),
+                 cell(number(link, "voices_out_per_s"), 1, 0, ""),
+                 cell(number(link, "last_heard_s"), 1, 1, " s"),
+                 cell(number(link, "age_s"), 1, 0, " s"), text(link, "peer"));
 }
 
 void add_guests(const json& rooms, std::string& out) {
   fmt::format_to(std::back_inserter(out),
-                 "\n{:<17}{:<17}{:>10}{:>10}{:>8}{:>8}{:>10}{:>10}{:>8}{:>9}  {}\n", "guest",
-                 "room", "rtt", "jitter", "lost up", "down", "in/s", "out/s", "heard", "here",
-                 "from");
+                 "\n{:<17}{:<17}{:>10}{:>10}{:>8}{:>8}{:>10}{:>10}{:>8}{:>8}{:>8}{:>9}  {}\n",
+                 "guest", "room", "rtt", "jitter", "lost up", "down", "in/s", "out/s", "speaks",
+                 "hears", "heard", "here", "from");
   each(rooms, [&](const json& room) {
     each(member(room, "links"), [&](const json& link) {
       const json& guests = member(link, "guests");

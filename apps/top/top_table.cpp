@@ -65,7 +65,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
     Fingerprint fingerprint;
     std::string_view type;
   };
-  static const std::array<Known, 19> kKnown{{
+  static const std::array<Known, 20> kKnown{{
       {fingerprint_of(Pose()), "pose_t"},
       {fingerprint_of(Hands()), "hands_t"},
       {fingerprint_of(any_skeleton()), "skeleton_t"},
@@ -85,6 +85,7 @@ std::string_view type_of_message(std::span<const std::uint8_t> message) {
       {fingerprint_of(Playout()), "playout_t"},
       {fingerprint_of(Steps()), "steps_t"},
       {fingerprint_of(Voice()), "voice_t"},
+      {fingerprint_of(HearingWish()), "hearing_t"},
   }};
   if (message.size() < sizeof(Fingerprint)) return "";
   for (const Known& known : kKnown)

@@ -6,6 +6,7 @@
 
 #include "bench/parts/salsa_poses.h"
 #include "bench/tunnel/crowd.h"
+#include "core/base/assert.h"
 #include "core/net/mono_clock.h"
 #include "core/net/udp_socket.h"
 #include "core/program/child_process.h"
@@ -25,7 +26,7 @@ constexpr Duration kSettles = Duration::ms(150);
 
 // What is summed up of one way of dancing, turn by turn.
 struct Sums {
-  std::uint64_t poses_up = 0;
+  std::uint64_t poses_up = 0, voices_due = 0;
   Traffic traffic;
   Duration time, cpu;
 };
@@ -38,6 +39,7 @@ struct Way {
   std::vector<std::array<MonoTime, 256>> sent_at;  // of each guest, by sequence
   std::vector<std::uint32_t> next, first;          // sequences; the first that counts in this turn
   TunnelMeasure* counts = nullptr;                 // set while it does
+  std::size_t voices = 0;                          // guests who speak
   Sums together, spread;
   Duration idle_time, idle_cpu;
 
@@ -65,6 +67,7 @@ class BenchTunnel {
   void add_up(Way& way, Duration took, Duration cpu, const Traffic& before);
   void finish(const Sums& sums, TunnelMeasure& measure) const;
   void send_due(Way& way, MonoTime now);
+  void speak_due(Way& way, MonoTime now);
   void turn_for(Duration span);
   void take_turns(Duration turn);
   double poses_per_s() const { return options_.hz * static_cast<double>(options_.guests); }
@@ -75,16 +78,26 @@ class BenchTunnel {
   }
 
   BenchTunnelOptions options_;
+  std::string own_program_;
   std::vector<Pose> poses_ = salsa_poses();
   std::unique_ptr<Poller> poller_;
   std::vector<std::unique_ptr<Way>> ways_;
   bool is_together_ = false;  // everybody at the same moment
-  MonoTime begin_;            // of this turn
-  std::size_t danced_ = 0;    // poses in this turn, guest after guest
-  std::size_t counted_ = 0;   // of them
+  // The talkers one after the other, spread over the 10 ms as their sound cards are.
+  MonoTime next_voice(const Way& way) const {
+    return begin_ +
+           kVoiceFrame * static_cast<std::int64_t>(spoken_) / static_cast<std::int64_t>(way.voices);
+  }
+
+  MonoTime begin_;              // of this turn
+  std::size_t danced_ = 0;      // poses in this turn, guest after guest
+  std::size_t counted_ = 0;     // of them
+  std::size_t spoken_ = 0;      // packets of voices in this turn
+  std::size_t voices_due_ = 0;  // that count, once for each receiver
 };
 
 Result<void> BenchTunnel::prepare(const std::string& own_program) {
+  own_program_ = own_program;
   DANCE_TRY(poller_, Poller::create());
   if (auto stops = poller_->stop_on_signals(); !stops) return stops;
   std::vector<std::string> more;
@@ -93,6 +106,14 @@ Result<void> BenchTunnel::prepare(const std::string& own_program) {
           add("", "the tunnel", program_folder() + "/dance-server", more, open_tunnel_crowd);
       !added)
     return added;
+  if (options_.voices > 0) {
+    // What the same twice differ by is the noise of this machine.
+    const std::string server = program_folder() + "/dance-server";
+    if (auto again = add("again", "the same again", server, more, open_tunnel_crowd); !again)
+      return again;
+    return add("with_voices", std::to_string(options_.voices) + " speak", server, more,
+               open_tunnel_crowd);
+  }
   if (auto added = add("baseline_raw_udp", "bare UDP relay", own_program, {"--relay", "udp"},
                        open_udp_crowd);
       !added)
@@ -114,7 +135,8 @@ Result<void> BenchTunnel::add(const std::string& name, const std::string& title,
   way->sent_at.resize(options_.guests);
   way->next.assign(options_.guests, 1);
   way->first.assign(options_.guests, 1);
-  if (name.empty()) arguments.insert(arguments.end(), {"--bind", "127.0.0.1"});
+  way->voices = name == "with_voices" ? options_.voices : 0;
+  if (program != own_program_) arguments.insert(arguments.end(), {"--bind", "127.0.0.1"});
   arguments.insert(arguments.end(), {"--port", std::to_string(port)});
   DANCE_TRY(ChildProcess relay,
             ChildProcess::start({program, arguments, "/dev/null", "/dev/null"}));
@@ -125,7 +147,11 @@ Result<void> BenchTunnel::add(const std::string& name, const std::string& title,
                   [at](std::size_t listener, std::size_t sender, std::uint32_t sequence) {
                     at->arrived(listener, sender, sequence);
                   },
-                  options_.is_plain ? std::optional(CodecName{CodecId::kPlain, 0}) : std::nullopt},
+                  options_.is_plain ? std::optional(CodecName{CodecId::kPlain, 0}) : std::nullopt,
+                  [at](std::size_t listener, const Voice& voice) {
+                    if (at->counts != nullptr && listener < kListeners)
+                      at->counts->voice_took.push_back(mono_now() - voice.capture_time);
+                  }},
                  *poller_));
   ways_.push_back(std::move(way));
   return wait_until_open(*at);
@@ -167,10 +193,27 @@ void BenchTunnel::send_due(Way& way, MonoTime now) {
   }
 }
 
+void BenchTunnel::speak_due(Way& way, MonoTime now) {
+  constexpr std::size_t kPacket_bytes = 40;  // 32 kbit/s
+  for (; next_voice(way) <= now; ++spoken_) {
+    Voice voice;
+    voice.sequence = static_cast<std::uint32_t>(spoken_ / way.voices);
+    voice.clock_id = this_clock_id();
+    voice.level_dbfs = -20;
+    std::array<std::uint8_t, kPacket_bytes> packet;
+    packet.fill(static_cast<std::uint8_t>(spoken_));
+    const bool fits = voice.set_packet(packet);
+    DANCE_ASSERT(fits);
+    voice.capture_time = mono_now();
+    if (way.counts != nullptr) voices_due_ += options_.guests - 1;
+    way.crowd->speak(spoken_ % way.voices, voice, voice.capture_time);
+  }
+}
+
 // As many poses as belong in `span`, however long the machine takes for them.
 void BenchTunnel::dance(Way& way, Duration span, bool counts) {
   begin_ = mono_now();
-  danced_ = counted_ = 0;
+  danced_ = counted_ = spoken_ = voices_due_ = 0;
   const auto settles = static_cast<std::size_t>(kSettles.as_seconds() * poses_per_s());
   const auto all = settles + static_cast<std::size_t>(span.as_seconds() * poses_per_s());
   Duration cpu;
@@ -185,7 +228,9 @@ void BenchTunnel::dance(Way& way, Duration span, bool counts) {
       counts_from = mono_now();
     }
     send_due(way, mono_now());
-    poller_->run_once(std::max(next_due() - mono_now(), Duration()));
+    if (way.voices > 0) speak_due(way, mono_now());
+    const MonoTime next = way.voices > 0 ? std::min(next_due(), next_voice(way)) : next_due();
+    poller_->run_once(std::max(next - mono_now(), Duration()));
   }
   // Bytes and processor of the dance alone; poses may arrive still.
   if (way.counts != nullptr)
@@ -198,8 +243,14 @@ void BenchTunnel::add_up(Way& way, Duration took, Duration cpu, const Traffic& b
   Sums& sums = is_together_ ? way.together : way.spread;
   const Traffic now = way.crowd->traffic();
   sums.poses_up += counted_;
-  sums.traffic.bytes_up += now.bytes_up - before.bytes_up;
-  sums.traffic.bytes_down += now.bytes_down - before.bytes_down;
+  sums.voices_due += voices_due_;
+  const std::uint64_t voice_up = now.voice_bytes_up - before.voice_bytes_up;
+  const std::uint64_t voice_down = now.voice_bytes_down - before.voice_bytes_down;
+  sums.traffic.voice_bytes_up += voice_up;
+  sums.traffic.voice_bytes_down += voice_down;
+  sums.traffic.voices_down += now.voices_down - before.voices_down;
+  sums.traffic.bytes_up += now.bytes_up - before.bytes_up - voice_up;
+  sums.traffic.bytes_down += now.bytes_down - before.bytes_down - voice_down;
   sums.traffic.poses_down += now.poses_down - before.poses_down;
   sums.traffic.payload_down += now.payload_down - before.payload_down;
   sums.time += took;
@@ -214,6 +265,16 @@ void BenchTunnel::finish(const Sums& sums, TunnelMeasure& measure) const {
   const double danced_s = static_cast<double>(sums.poses_up) / poses_per_s();
   measure.down_bytes_per_s =
       static_cast<double>(traffic.bytes_down) / danced_s / static_cast<double>(options_.guests);
+  std::sort(measure.voice_took.begin(), measure.voice_took.end());
+  if (sums.voices_due > 0) {
+    const auto guests = static_cast<double>(options_.guests);
+    measure.voices_share =
+        static_cast<double>(traffic.voices_down) / static_cast<double>(sums.voices_due);
+    measure.voice_up_bytes_per_s = static_cast<double>(traffic.voice_bytes_up) / danced_s /
+                                   static_cast<double>(options_.voices);
+    measure.voice_down_bytes_per_s =
+        static_cast<double>(traffic.voice_bytes_down) / danced_s / guests;
+  }
   if (traffic.poses_down == 0) return;
   const auto poses_down = static_cast<double>(traffic.poses_down);
   measure.payload_bytes = static_cast<double>(traffic.payload_down) / poses_down;
@@ -264,6 +325,10 @@ Result<TunnelWays> BenchTunnel::run() {
 
 double TunnelMeasure::percentile_us(double fraction) const {
   return percentile<Duration>(took, fraction).as_us();
+}
+
+double TunnelMeasure::voice_percentile_us(double fraction) const {
+  return percentile<Duration>(voice_took, fraction).as_us();
 }
 
 Result<TunnelWays> run_bench_tunnel(const BenchTunnelOptions& options,

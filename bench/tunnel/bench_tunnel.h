@@ -28,6 +28,9 @@ struct BenchTunnelOptions {
   double seconds = 10.0;   // of each way
   double share_ms = -1.0;  // the server's window; < 0 = its own choice
   bool is_plain = false;   // the tunnel's codec is the plain one
+  // So many guests speak too: the tunnel with that is measured beside the tunnel without, twice,
+  // instead of the other relays.
+  std::size_t voices = 0;
 };
 
 struct TunnelMeasure {
@@ -40,8 +43,14 @@ struct TunnelMeasure {
   // What all else costs: headers, seal, acknowledgements, pings.
   double overhead_up = 0.0;    // bytes for each pose that was sent
   double overhead_down = 0.0;  // bytes for each pose that was delivered
+  // Of voices: of one guest who speaks, and who hears. Not in the figures above.
+  std::vector<Duration> voice_took;  // sorted
+  double voices_share = 0.0;         // of those that were due, delivered
+  double voice_up_bytes_per_s = 0.0;
+  double voice_down_bytes_per_s = 0.0;
 
   double percentile_us(double fraction) const;
+  double voice_percentile_us(double fraction) const;
 };
 
 struct TunnelWay {

@@ -15,6 +15,7 @@ constexpr const char* kExamples = R"(Examples:
   dance bench tunnel                       30 guests at 60 Hz, 10 s of each relay, as a table
   dance bench tunnel --guests 2 --json     a couple, who never wait for each other
   dance bench tunnel --share-ms 0          a crowd without the server's window
+  dance bench tunnel --guests 8 --voice 8  poses beside eight who talk, and without them
   dance bench tunnel --codec plain         what the way takes without the time of a codec
 All guests live in one process and each relay in one of its own, over this machine's loopback.
 )";
@@ -37,6 +38,9 @@ Result<void> run(const Options& options) {
 #endif
   BenchTunnelOptions bench = options.bench;
   bench.is_plain = options.codec == "plain";
+  if (bench.voices > bench.guests)
+    return fail("--voice: of " + std::to_string(bench.guests) +
+                " guests no more can talk; --guests makes more");
   DANCE_TRY(const TunnelWays ways,
             run_bench_tunnel(bench, program_folder() + "/dance-bench-tunnel"));
   const std::string text =
@@ -64,6 +68,9 @@ int main(int argc, char** argv) {
   line.add("--share-ms", options.bench.share_ms,
            "how long the server lets poses wait to share a datagram; else as it chooses")
       .range(0.0, 20.0);
+  line.add("--voice", options.bench.voices,
+           "so many guests talk: poses with that beside poses without, instead of other relays")
+      .range(0, 8);
   line.add("--codec", options.codec, "of the tunnel's poses")
       .one_of({"lattice", "plain"})
       .shows_default();

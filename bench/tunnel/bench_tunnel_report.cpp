@@ -11,18 +11,27 @@ namespace dance {
 namespace {
 
 nlohmann::ordered_json json_of(const TunnelMeasure& measure, double idle_cpu_percent) {
-  return {{"sent", measure.sent},
-          {"delivered", measure.delivered},
-          {"p50_us", rounded(measure.percentile_us(0.50), 10.0)},
-          {"p95_us", rounded(measure.percentile_us(0.95), 10.0)},
-          {"p99_us", rounded(measure.percentile_us(0.99), 10.0)},
-          {"max_us", rounded(measure.percentile_us(1.0), 10.0)},
-          {"server_cpu_percent", rounded(measure.server_cpu_percent, 100.0)},
-          {"server_idle_cpu_percent", rounded(idle_cpu_percent, 100.0)},
-          {"bytes_per_second_down_per_guest", std::round(measure.down_bytes_per_s)},
-          {"payload_bytes_per_pose", rounded(measure.payload_bytes, 100.0)},
-          {"overhead_bytes_per_pose_up", rounded(measure.overhead_up, 100.0)},
-          {"overhead_bytes_per_pose_down", rounded(measure.overhead_down, 100.0)}};
+  using nlohmann::ordered_json;
+  ordered_json report{{"sent", measure.sent},
+                      {"delivered", measure.delivered},
+                      {"p50_us", rounded(measure.percentile_us(0.50), 10.0)},
+                      {"p95_us", rounded(measure.percentile_us(0.95), 10.0)},
+                      {"p99_us", rounded(measure.percentile_us(0.99), 10.0)},
+                      {"max_us", rounded(measure.percentile_us(1.0), 10.0)},
+                      {"server_cpu_percent", rounded(measure.server_cpu_percent, 100.0)},
+                      {"server_idle_cpu_percent", rounded(idle_cpu_percent, 100.0)},
+                      {"bytes_per_second_down_per_guest", std::round(measure.down_bytes_per_s)},
+                      {"payload_bytes_per_pose", rounded(measure.payload_bytes, 100.0)},
+                      {"overhead_bytes_per_pose_up", rounded(measure.overhead_up, 100.0)},
+                      {"overhead_bytes_per_pose_down", rounded(measure.overhead_down, 100.0)}};
+  if (measure.voices_share > 0.0)
+    report["voices"] = {
+        {"delivered_share", rounded(measure.voices_share, 1e5)},
+        {"p50_us", rounded(measure.voice_percentile_us(0.50), 10.0)},
+        {"p99_us", rounded(measure.voice_percentile_us(0.99), 10.0)},
+        {"bytes_per_second_up_per_talker", std::round(measure.voice_up_bytes_per_s)},
+        {"bytes_per_second_down_per_guest", std::round(measure.voice_down_bytes_per_s)}};
+  return report;
 }
 
 nlohmann::ordered_json json_of_all(const TunnelWays& ways, TunnelMeasure TunnelWay::*dance) {
@@ -64,6 +73,24 @@ void add_rows(const TunnelWays& ways, TunnelMeasure TunnelWay::*dance, std::stri
   }
 }
 
+void add_voices(const TunnelWays& ways, TunnelMeasure TunnelWay::*dance, std::string& out) {
+  const TunnelMeasure &alone = ways.front().*dance, &again = ways[1].*dance,
+                      &with = ways.back().*dance;
+  const auto ratio = [&](const TunnelMeasure& of, double fraction) {
+    return of.percentile_us(fraction) / alone.percentile_us(fraction);
+  };
+  fmt::format_to(
+      std::back_inserter(out),
+      "  poses with voices by without: p50 {:.2f}×, p99 {:.2f}×; by the noise of the same "
+      "again: {:.2f}×, {:.2f}×\n"
+      "  voices: {:.3f}% delivered, p50 {:.0f}, p99 {:.0f} µs; {:.1f} kB/s up of each who "
+      "speaks, {:.1f} kB/s down to each guest; {:.1f}% more of a core at the server\n",
+      ratio(with, 0.50), ratio(with, 0.99), ratio(again, 0.50), ratio(again, 0.99),
+      100.0 * with.voices_share, with.voice_percentile_us(0.50), with.voice_percentile_us(0.99),
+      with.voice_up_bytes_per_s * 1e-3, with.voice_down_bytes_per_s * 1e-3,
+      with.server_cpu_percent - alone.server_cpu_percent);
+}
+
 }  // namespace
 
 std::string bench_tunnel_table(const BenchTunnelOptions& options, const TunnelWays& ways) {
@@ -75,6 +102,7 @@ std::string bench_tunnel_table(const BenchTunnelOptions& options, const TunnelWa
       "and bytes of a pose\n\neverybody at the same moment\n",
       options.guests, options.hz, options.seconds);
   add_rows(ways, &TunnelWay::together, out);
+  if (options.voices > 0) add_voices(ways, &TunnelWay::together, out);
   out += "\nspread evenly over the frame";
   if (options.share_ms > 0.0)
     fmt::format_to(back,
@@ -82,6 +110,7 @@ std::string bench_tunnel_table(const BenchTunnelOptions& options, const TunnelWa
                    options.share_ms);
   out += '\n';
   add_rows(ways, &TunnelWay::spread, out);
+  if (options.voices > 0) add_voices(ways, &TunnelWay::spread, out);
   return out;
 }
 

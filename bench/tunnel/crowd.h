@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "core/base/result.h"
+#include "core/bus/voice.h"
 #include "core/codec/pose_codec.h"
 #include "core/net/address.h"
 #include "core/net/datagram_sink.h"
@@ -30,6 +31,8 @@ struct Traffic {
   std::uint64_t bytes_up = 0, bytes_down = 0;
   std::uint64_t poses_down = 0;
   std::uint64_t payload_down = 0;  // of bytes_down, the poses themselves
+  // Of the bytes above; packets of 10 ms.
+  std::uint64_t voice_bytes_up = 0, voice_bytes_down = 0, voices_down = 0;
 };
 
 class Crowd {
@@ -46,6 +49,8 @@ class Crowd {
   // Every guest can be heard by every other.
   virtual bool is_open() = 0;
   virtual void send(std::size_t guest, const Pose& pose, MonoTime now) = 0;
+  // 10 ms of a guest's voice; of crowds that can.
+  virtual void speak(std::size_t, const Voice&, MonoTime) {}
   virtual Traffic traffic() const = 0;
 };
 
@@ -54,6 +59,8 @@ struct CrowdOptions {
   Address relay;
   Crowd::Heard heard;
   std::optional<CodecName> codec{};  // the tunnel's; nothing = as two houses choose
+  // A listener has heard 10 ms of another guest, captured then.
+  std::function<void(std::size_t listener, const Voice&)> heard_voice{};
 };
 
 // Links of the tunnel to a dance-server.

@@ -59,6 +59,10 @@ class TunnelCrowd final : public Crowd {
           sender = 10 * sender + static_cast<std::size_t>(c - '0');
         heard(i, sender, pose.sequence);
       };
+      handlers.on_voice = [heard = options.heard_voice, i](const GuestId&, const Voice& voice,
+                                                           MonoTime) {
+        if (heard) heard(i, voice);
+      };
       DANCE_TRY(std::unique_ptr<Link> link,
                 Link::open({options.relay}, key, of, std::move(handlers), poller));
       links_.push_back(std::move(link));
@@ -73,12 +77,18 @@ class TunnelCrowd final : public Crowd {
   void send(std::size_t guest, const Pose& pose, MonoTime now) override {
     links_[guest]->send(guest_name(guest), pose, now);
   }
+  void speak(std::size_t guest, const Voice& voice, MonoTime now) override {
+    links_[guest]->send(guest_name(guest), voice, now);
+  }
   Traffic traffic() const override {
     Traffic sum = decoded_;
     for (const auto& link : links_) {
       const LinkCounters& counters = link->counters();
       sum.bytes_up += counters.bytes_out + kIpUdp_bytes * counters.datagrams_out;
       sum.bytes_down += counters.bytes_in + kIpUdp_bytes * counters.datagrams_in;
+      sum.voice_bytes_up += counters.voice_bytes_out + kIpUdp_bytes * counters.voice_datagrams_out;
+      sum.voice_bytes_down += counters.voice_bytes_in + kIpUdp_bytes * counters.voice_datagrams_in;
+      sum.voices_down += counters.voices_delivered;
     }
     return sum;
   }

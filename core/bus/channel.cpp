@@ -6,12 +6,12 @@ namespace dance {
 namespace {
 
 // In the order of Signal, and of Where.
-constexpr std::array<std::string_view, 19> kSignals{
+constexpr std::array<std::string_view, 20> kSignals{
     "POSE",          "SKELETON", "HANDS",       "GUEST", "STATS",     "STAGE_TIME", "MUSIC",
     "SCENE",         "AVATAR",   "AVATAR_FILE", "STYLE", "PLACEMENT", "BEAT",       "GUEST_STATS",
-    "GUEST_TRAFFIC", "FLOW",     "PLAYOUT",     "STEPS", "VOICE"};
+    "GUEST_TRAFFIC", "FLOW",     "PLAYOUT",     "STEPS", "VOICE",     "HEARING"};
 constexpr std::array<std::string_view, 5> kWheres{"capture", "guest", "stage", "view", "room"};
-static_assert(static_cast<std::size_t>(Signal::kVoice) + 1 == kSignals.size());
+static_assert(static_cast<std::size_t>(Signal::kHearing) + 1 == kSignals.size());
 static_assert(static_cast<std::size_t>(Where::kRoom) + 1 == kWheres.size());
 constexpr std::string_view kLocalWord = "local";
 

@@ -36,6 +36,7 @@ enum class Signal : std::uint8_t {
   kPlayout,
   kSteps,
   kVoice,
+  kHearing,
 };
 
 // Where on its journey the signal is.
@@ -89,7 +90,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 34> kChannelTable{{
+constexpr std::array<ChannelRow, 35> kChannelTable{{
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -123,6 +124,7 @@ constexpr std::array<ChannelRow, 34> kChannelTable{{
     {Signal::kSteps, Where::kLocal, "STEPS/local", "steps_t"},
     {Signal::kVoice, Where::kCapture, "VOICE/capture/<guest>", "voice_t"},
     {Signal::kVoice, Where::kGuest, "VOICE/guest/<guest>", "voice_t"},
+    {Signal::kHearing, Where::kLocal, "HEARING/local", "hearing_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 }};
 

@@ -8,6 +8,7 @@
 #include <dancelcm/guest_t.hpp>
 #include <dancelcm/guest_traffic_t.hpp>
 #include <dancelcm/hands_t.hpp>
+#include <dancelcm/hearing_t.hpp>
 #include <dancelcm/music_t.hpp>
 #include <dancelcm/placement_t.hpp>
 #include <dancelcm/playout_t.hpp>
@@ -256,6 +257,14 @@ struct MessageFields<Voice> {
   }
 };
 
+template <>
+struct MessageFields<HearingWish> {
+  using Generated = dancelcm::hearing_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.hears_others, v.hears_others) && io(m.guests, v.guests);
+  }
+};
+
 template struct MessageRow<Pose, Signal::kPose>;
 template struct MessageRow<Hands, Signal::kHands>;
 template struct MessageRow<TimedSkeleton, Signal::kSkeleton>;
@@ -275,6 +284,7 @@ template struct MessageRow<FlowSetting, Signal::kFlow>;
 template struct MessageRow<Playout, Signal::kPlayout>;
 template struct MessageRow<Steps, Signal::kSteps>;
 template struct MessageRow<Voice, Signal::kVoice>;
+template struct MessageRow<HearingWish, Signal::kHearing>;
 
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
   dancelcm::pose_t m{};

@@ -85,6 +85,8 @@ template <>
 struct MessageTraits<Steps> : MessageRow<Steps, Signal::kSteps> {};
 template <>
 struct MessageTraits<Voice> : MessageRow<Voice, Signal::kVoice> {};
+template <>
+struct MessageTraits<HearingWish> : MessageRow<HearingWish, Signal::kHearing> {};
 
 // A type with a row in the table.
 template <class T>

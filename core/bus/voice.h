@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/guest_id.h"
 #include "core/base/time.h"
 
 namespace dance {
@@ -49,5 +50,19 @@ inline bool is_valid(const Voice& voice) {
          std::all_of(voice.data.begin() + voice.size_bytes, voice.data.end(),
                      [](std::uint8_t byte) { return byte == 0; });
 }
+
+// Whose voices a house wants, as the program that plays them says it.
+struct HearingWish {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  bool hears_others = true;          // everybody but these, or nobody but these
+  std::array<GuestId, 16> guests{};  // those that are set
+
+  bool hears(const GuestId& guest) const {
+    const bool is_named = std::find(guests.begin(), guests.end(), guest) != guests.end();
+    return is_named != hears_others;
+  }
+};
+inline bool is_valid(const HearingWish&) { return true; }
 
 }  // namespace dance

@@ -29,8 +29,11 @@ LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller
 
 bool LogPlayer::is_wanted(const Channel& channel) const {
   if (channel.signal() != Signal::kPose && channel.signal() != Signal::kHands &&
-      channel.signal() != Signal::kSkeleton && channel.signal() != Signal::kBeat)
+      channel.signal() != Signal::kSkeleton && channel.signal() != Signal::kBeat &&
+      channel.signal() != Signal::kVoice)
     return false;
+  // Sound has one speed.
+  if (channel.signal() == Signal::kVoice && options_.speed != 1.0) return false;
   const Where where = channel.signal() == Signal::kBeat ? Where::kCapture : channel.where();
   return options_.only.empty() ||
          std::find(options_.only.begin(), options_.only.end(), where) != options_.only.end();
@@ -148,6 +151,8 @@ void LogPlayer::publish(const LogEvent& event, MonoTime deadline) {
       return publish_as<Hands>(*channel, event, deadline);
     case Signal::kSkeleton:
       return publish_as<TimedSkeleton>(*channel, event, deadline);
+    case Signal::kVoice:
+      return publish_as<Voice>(*channel, event, deadline);
     case Signal::kBeat:
       return publish_beat(*channel, event, deadline);
     default:

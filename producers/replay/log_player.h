@@ -1,7 +1,7 @@
 // LogPlayer: plays an LCM log, packed or not, onto a bus as if its dancers were live: events at
-// their recorded intervals (divided by the speed), by absolute deadlines; poses and the beats they
-// were danced to are stamped anew with this house's clock. Reports (STATS, GUEST, STAGE_TIME) and
-// what is not ours are left out and counted.
+// their recorded intervals (divided by the speed), by absolute deadlines; poses, the beats they
+// were danced to, and voices are stamped anew with this house's clock. Reports (STATS, GUEST,
+// STAGE_TIME), what is not ours, and voices at another speed are left out and counted.
 //
 // Units/frames: speed 1 = as recorded.
 // Ownership:    owns the log; refers to the bus and the poller, which must outlive it.

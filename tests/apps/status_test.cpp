@@ -17,6 +17,7 @@ json some_status() {
       "share_window_ms": 0.25, "links": [
       {"peer": "10.0.0.7:999", "age_s": 60.2, "last_heard_s": 0.012, "round_trip_ms": 42.5,
        "loss_up": 0.125, "loss_down": null, "bytes_in_per_s": 12345, "bytes_out_per_s": 500,
+       "voices_in_per_s": 99.6, "voices_out_per_s": 731,
        "guests": [{"name": "alice", "jitter_ms": 1.75}, {"name": "anna", "jitter_ms": null}]},
       {"peer": "10.0.0.8:999", "round_trip_ms": null, "guests": []}]}],
     "rejects": {"malformed": 0, "late": 3}, "handshakes": {"unknown_key": 2, "done": 0}})");
@@ -26,8 +27,9 @@ TEST(StatusTable, TellsRoomsGuestsAndWhatWasRefused) {
   const std::string text = status_text(some_status());
   for (const char* words :
        {"dance server 9.9 on 127.0.0.1:7400, up 61 s", "salsa", "lattice", "0.25 ms", "alice",
-        "anna", "(listens)", "42.50 ms", "1.75 ms", "12.5%", "12.3 kB", "0.5 kB", "10.0.0.7:999",
-        "10.0.0.8:999", "\ndropped:  late 3\n", "\nhandshakes:  unknown_key 2\n"})
+        "anna", "(listens)", "42.50 ms", "1.75 ms", "12.5%", "12.3 kB", "0.5 kB", "speaks", " 100 ",
+        " 731 ", "10.0.0.7:999", "10.0.0.8:999", "\ndropped:  late 3\n",
+        "\nhandshakes:  unknown_key 2\n"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
   EXPECT_EQ(text.find("malformed"), std::string::npos) << "what did not happen is left out";
   EXPECT_EQ(text.find("done"), std::string::npos);

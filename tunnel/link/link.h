@@ -58,6 +58,7 @@ class Link {
 
   // As LinkCore does.
   void set_interest(const Interest& interest, MonoTime now);
+  void set_hearing(const Hearing& hearing, MonoTime now) { core_.set_hearing(hearing, now); }
 
   // The server that is spoken to.
   const Address& server() const { return server_[tried_]; }

@@ -43,6 +43,8 @@ class LinkBus {
   void send_signals_of(const GuestId& guest);
   // And the channels that the rules let out.
   void send_channels(const std::vector<ChannelRule>& rules);
+  // Of the voices that `own` lets in, only those come that HEARING/local wants, while it says so.
+  void follow_hearing(const Hearing& own);
   void forget(const GuestId& guest);
   // STATS/link, and the states of the others and of the room again, for programs that start late.
   // Call once a second.
@@ -63,6 +65,7 @@ class LinkBus {
   template <class... Ts>
   void send_each(const GuestId& guest);
   void publish_traffic(MonoTime now);
+  void on_hearing(const HearingWish& wish, MonoTime now);
   void on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
                   wire::Bytes message);
 
@@ -75,6 +78,8 @@ class LinkBus {
   std::map<GuestId, Known> known_;
   std::optional<std::pair<GuestId, Scene>> scene_;
   std::vector<ChannelRule> rules_;
+  Hearing own_hearing_;
+  MonoTime hearing_said_;  // not set: nobody says so
 };
 
 }  // namespace dance

@@ -131,6 +131,7 @@ Result<void> run_link(const LinkProgramOptions& given) {
   if (options.guests.empty() && !options.listen_only) link_bus.send_signals_of(GuestId());
   for (const GuestId& guest : options.guests) link_bus.send_signals_of(guest);
   if (!options.listen_only) link_bus.send_channels(options.channels);
+  link_bus.follow_hearing(options.hearing);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();
   poller->add_timer(begin + kSecond, [&](MonoTime now) {

@@ -145,8 +145,12 @@ struct LinkCounters {
   std::uint64_t channels_overflow = 0;  // more channels than a guest or a house may have
   std::uint64_t voices_sent = 0;        // packets of 10 ms, of guests of this house
   std::uint64_t voices_delivered = 0;   // of others
-  std::uint64_t voices_limited = 0;     // more than a microphone makes
-  std::uint64_t voices_invalid = 0;     // both ways: no voice, or of no time under way
+  std::uint64_t voice_bytes_in = 0;     // of bytes_in,
+  std::uint64_t voice_bytes_out = 0;    // and of bytes_out
+  std::uint64_t voice_datagrams_in = 0;
+  std::uint64_t voice_datagrams_out = 0;
+  std::uint64_t voices_limited = 0;  // more than a microphone makes
+  std::uint64_t voices_invalid = 0;  // both ways: no voice, or of no time under way
   std::uint64_t voices_unrouted =
       0;  // not connected, a server of before, an unknown or unwanted guest
   std::uint64_t stream_restarts = 0;  // producers of ours that began anew

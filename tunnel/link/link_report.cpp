@@ -71,6 +71,8 @@ std::string link_report_json(const Link& link) {
                             {"channels_overflow", c.channels_overflow},
                             {"voices_sent", c.voices_sent},
                             {"voices_delivered", c.voices_delivered},
+                            {"voice_bytes_in", c.voice_bytes_in},
+                            {"voice_bytes_out", c.voice_bytes_out},
                             {"voices_limited", c.voices_limited},
                             {"voices_invalid", c.voices_invalid},
                             {"voices_unrouted", c.voices_unrouted},

@@ -43,6 +43,8 @@ void LinkVoice::send(LocalGuest& guest, const Voice& voice, MonoTime now) {
 }
 
 void LinkVoice::flush() {
+  ++link_.counters.voice_datagrams_out;
+  link_.counters.voice_bytes_out += size_ + wire::kSealOverhead;
   link_.send({bytes_.data(), size_});
   size_ = 0;
 }
@@ -56,6 +58,8 @@ bool LinkVoice::on_voices(wire::Bytes body, MonoTime, MonoTime now) {
   if (body.empty()) return false;
   for (ByteReader check(body); check.remaining() > 0;)
     if (!wire::parse_voice(server_now_us, check)) return false;
+  ++link_.counters.voice_datagrams_in;
+  link_.counters.voice_bytes_in += body.size() + wire::kVoiceOpening + wire::kSealOverhead;
   for (ByteReader in(body); in.remaining() > 0;)
     on_voice(*wire::parse_voice(server_now_us, in), now);
   return true;

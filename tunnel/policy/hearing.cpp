@@ -2,6 +2,17 @@
 
 namespace dance {
 
+Hearing both_of(const Hearing& one, const Hearing& other) {
+  Hearing both;
+  both.others = one.others && other.others;
+  for (const Hearing* named : {&one, &other})
+    for (const GuestId& guest : named->exceptions)
+      if ((one.hears(guest) && other.hears(guest)) != both.others &&
+          !both.exceptions.contains(guest))
+        (void)both.exceptions.try_push(guest);
+  return both;
+}
+
 Result<Hearing> parse_hearing(std::span<const std::string> words) {
   constexpr const char* kRule = ": write NAME=1 (hear the guest), NAME=0 (do not) or default=0";
   FixedList<GuestId, kMaxInterestGuests> heard, muted;

@@ -22,6 +22,9 @@ struct Hearing {
   bool hears(const GuestId& guest) const { return exceptions.contains(guest) != others; }
 };
 
+// Whom both want to hear. Of more names than there is room for, the last are as the others.
+Hearing both_of(const Hearing& one, const Hearing& other);
+
 // "bob=0", "default=0", "alice=1": each at most once.
 Result<Hearing> parse_hearing(std::span<const std::string> words);
 

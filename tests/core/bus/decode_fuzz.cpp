@@ -41,6 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try_decode<dance::Playout>(data, size);
   try_decode<dance::Steps>(data, size);
   try_decode<dance::Voice>(data, size);
+  try_decode<dance::HearingWish>(data, size);
   const std::string_view name(reinterpret_cast<const char*>(data), size);
   if (const auto channel = dance::Channel::parse(name)) DANCE_ASSERT(channel->view() == name);
   return 0;

@@ -178,6 +178,16 @@ Voice golden_voice() {
   return voice;
 }
 
+HearingWish golden_hearing() {
+  HearingWish wish;
+  wish.time = kCaptured;
+  wish.clock_id = kClock;
+  wish.hears_others = true;
+  wish.guests[0] = *GuestId::parse("alice");
+  wish.guests[15] = *GuestId::parse("bob-2");
+  return wish;
+}
+
 TEST(GoldenMessages, KeepFiguresThatAreNotKnownAndRefuseInfiniteOnes) {
   GuestStats stats = golden_guest_stats(), decoded;
   stats.jitter_ms = kNotKnown;
@@ -205,6 +215,7 @@ TEST(GoldenMessages, AreWrittenAndReadByteForByte) {
   expect_golden("guest_stats_t", golden_guest_stats());
   expect_golden("guest_traffic_t", golden_guest_traffic());
   expect_golden("voice_t", golden_voice());
+  expect_golden("hearing_t", golden_hearing());
 }
 
 TEST(GoldenMessages, HoldThePoseThatWasDanced) {
@@ -230,7 +241,7 @@ TEST(GoldenMessages, HaveTheFingerprintsAndSizesOfTheReadme) {
   for (const char* type :
        {"pose_t", "hands_t", "skeleton_t", "guest_t", "stage_time_t", "stats_t", "music_t",
         "scene_t", "avatar_t", "avatar_file_t", "style_t", "placement_t", "beat_t", "guest_stats_t",
-        "guest_traffic_t", "flow_t", "voice_t"}) {
+        "guest_traffic_t", "flow_t", "voice_t", "hearing_t"}) {
     const Bytes golden = read_golden(type);
     ASSERT_GE(golden.size(), 8u);
     std::string fingerprint;
@@ -271,6 +282,7 @@ TEST(Decode, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<StageTime>("stage_time_t");
   expect_survives_bit_flips<Stats>("stats_t");
   expect_survives_bit_flips<Voice>("voice_t");
+  expect_survives_bit_flips<HearingWish>("hearing_t");
 }
 
 TEST(Decode, CallsImpossibleValuesInvalid) {

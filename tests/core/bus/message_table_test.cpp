@@ -27,7 +27,7 @@ TEST(MessageTable, HasTheTypeOfEverySignalInTheTableOfChannels) {
   // A new message type is named here.
   EXPECT_EQ((types_of_rows<Pose, Hands, TimedSkeleton, GuestStatus, Stats, StageTime, Music, Scene,
                            Avatar, AvatarFile, Style, Placement, Beat, GuestStats, GuestTraffic,
-                           FlowSetting, Playout, Steps, Voice>()),
+                           FlowSetting, Playout, Steps, Voice, HearingWish>()),
             of_channels);
 }
 

@@ -16,6 +16,21 @@ TEST(Hearing, IsEverybodyUnlessSaidOtherwise) {
   EXPECT_TRUE(hearing({"default=0", "bob=0"}).exceptions.empty());
 }
 
+TEST(Hearing, OfTwoIsWhatBothWant) {
+  const std::vector<std::vector<std::string>> all{{},
+                                                  {"ann=0"},
+                                                  {"ann=0", "bob=0"},
+                                                  {"default=0"},
+                                                  {"default=0", "ann=1"},
+                                                  {"default=0", "bob=1", "carla=1"}};
+  for (const auto& one : all)
+    for (const auto& other : all)
+      for (const char* name : {"ann", "bob", "carla", "dora"})
+        EXPECT_EQ(both_of(hearing(one), hearing(other)).hears(guest(name)),
+                  hearing(one).hears(guest(name)) && hearing(other).hears(guest(name)))
+            << name;
+}
+
 TEST(Hearing, SaysWhichWordIsWrongAndHowToWriteIt) {
   const auto error_of = [](const std::vector<std::string>& words) {
     const auto parsed = parse_hearing(words);

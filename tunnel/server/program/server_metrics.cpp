@@ -76,6 +76,14 @@ void add_totals(const ServerStatus& status, Page& page) {
   page.counter("records_received_total", "Poses and hands that were taken.", c.records_in);
   page.counter("records_sent_total", "Poses and hands sent on, once for each receiver.",
                c.records_out);
+  page.counter("voices_received_total", "Packets of voices, 10 ms each, that were taken.",
+               c.voices_in);
+  page.counter("voices_sent_total", "Packets of voices sent on, once for each receiver.",
+               c.voices_out);
+  page.counter("voice_sent_bytes_total", "Bytes of datagrams with voices, of all sent.",
+               c.voice_bytes_out);
+  page.counters("voices_left_out_total", "Packets of voices not sent to who wants them.",
+                {{"crowded", c.voices_crowded}, {"narrow_line", c.voices_held_back}});
   page.counter("key_frames_asked_total", "Key frames asked of guests.", c.key_frames_asked);
   page.counter("sessions_begun_total", "Links that came.", c.sessions_begun);
   page.counter("sessions_resumed_total", "Links that came back from elsewhere.",
@@ -155,6 +163,12 @@ void add_parts(const ServerStatus& status, Page& page) {
   page.begin("guest_poses_total", kCounter, "Poses of the guest that went on.");
   add_guests(status, page,
              [](const OfGuest& guest) { return Number(static_cast<double>(guest.poses)); });
+  page.begin("guest_voices_total", kCounter, "Packets of the guest's voice that were taken.");
+  add_guests(status, page,
+             [](const OfGuest& guest) { return Number(static_cast<double>(guest.voices)); });
+  page.begin("guest_voice_bytes_total", kCounter, "Bytes of these packets.");
+  add_guests(status, page,
+             [](const OfGuest& guest) { return Number(static_cast<double>(guest.voice_bytes)); });
   // What comes late after all is taken off again, so this is no counter.
   page.begin("guest_poses_lost", kGauge, "Poses of the guest that did not come until now.");
   add_guests(status, page,
@@ -206,6 +220,11 @@ void add_cluster_totals(const ClusterStatus& cluster, Page& page) {
                node.records_in);
   page.counter("cluster_records_sent_total",
                "Poses and hands published, once for all servers that take them.", node.records_out);
+  page.counter("cluster_voices_received_total", "Packets of voices from other servers.",
+               node.voices_in);
+  page.counter("cluster_voices_sent_total",
+               "Packets of voices published, once for all servers that take them.",
+               node.voices_out);
   page.counter("cluster_malformed_total", "Messages and values that were none.", node.malformed);
   page.counter("cluster_deaths_total", "Times that another server fell silent.", cluster.deaths);
 }

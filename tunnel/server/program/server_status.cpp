@@ -43,7 +43,9 @@ ServerStatusMaker::Sample ServerStatusMaker::sample_of(const ServerSession& sess
     const StreamGate::Counters& poses = core_.rooms()[session.room].guests[slot].poses.counters();
     sample.poses_up += poses.received;
     sample.lost_up += poses.lost;
+    sample.voices_up += core_.rooms()[session.room].guests[slot].voice.packets_in;
   }
+  sample.voices_down = session.voice.packets_out;
   sample.has_ping = session.newest_ping.sequence != 0;
   sample.poses_down = session.newest_ping.poses_received;
   sample.lost_down = session.newest_ping.poses_lost;
@@ -96,6 +98,13 @@ ServerLinkStatus ServerStatusMaker::link_status(std::size_t index, MonoTime now)
   link.datagrams_out_per_s = rate(&LinkMeter::datagrams_out);
   link.bytes_in_per_s = rate(&LinkMeter::bytes_in);
   link.bytes_out_per_s = rate(&LinkMeter::bytes_out);
+  // A guest who left took its count along.
+  const auto voices = [&](std::uint64_t from, std::uint64_t to) {
+    return static_cast<double>(std::max<std::int64_t>(change(from, to), 0)) / seconds;
+  };
+  link.voices_in_per_s = voices(before.voices_up, after.voices_up);
+  link.voices_out_per_s = voices(before.voices_down, after.voices_down);
+  link.voice_bytes_out = session.voice.bytes_out;
   link.loss_up =
       share(change(before.lost_up, after.lost_up), change(before.poses_up, after.poses_up));
   // The link counts from its own begin, which may be before the session's.
@@ -106,7 +115,8 @@ ServerLinkStatus ServerStatusMaker::link_status(std::size_t index, MonoTime now)
   for (const std::uint8_t slot : session.slots) {
     const ServerGuest& guest = core_.rooms()[session.room].guests[slot];
     const StreamGate::Counters& poses = guest.poses.counters();
-    ServerGuestStatus status{guest.id, poses.received, poses.lost, poses.late, std::nullopt};
+    ServerGuestStatus status{guest.id,     poses.received,         poses.lost,          poses.late,
+                             std::nullopt, guest.voice.packets_in, guest.voice.bytes_in};
     if (guest.jitter.has_any()) {
       status.jitter = guest.jitter.jitter();
       link.jitter = std::max(link.jitter.value_or(Duration()), *status.jitter);

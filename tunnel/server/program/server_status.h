@@ -38,6 +38,8 @@ struct ServerGuestStatus {
   std::uint64_t lost = 0;   // of those that it sent
   std::uint64_t late = 0;
   std::optional<Duration> jitter;
+  std::uint64_t voices = 0;       // packets of 10 ms that were taken
+  std::uint64_t voice_bytes = 0;  // of them
 };
 
 struct ServerLinkStatus {
@@ -58,6 +60,9 @@ struct ServerLinkStatus {
   std::size_t thinned = 0;  // guests of whom it gets fewer poses than it wants
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;
+  double voices_in_per_s = 0.0;  // packets of 10 ms of its guests, and to it
+  double voices_out_per_s = 0.0;
+  std::uint64_t voice_bytes_out = 0;      // of bytes_out
   std::uint32_t poses_lost = 0;           // of the others', as its newest ping says
   std::vector<ServerGuestStatus> guests;  // none: it only listens
 };
@@ -104,6 +109,8 @@ class ServerStatusMaker {
     LinkMeter meter;
     std::uint64_t poses_up = 0;
     std::uint64_t lost_up = 0;
+    std::uint64_t voices_up = 0;
+    std::uint64_t voices_down = 0;
     bool has_ping = false;
     std::uint32_t poses_down = 0;
     std::uint32_t lost_down = 0;

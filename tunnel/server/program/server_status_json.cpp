@@ -26,6 +26,9 @@ void add_json(const ServerLinkStatus& link, JsonText& json) {
   json.member("thinned", std::uint64_t{link.thinned});
   json.member("bytes_in", link.bytes_in);
   json.member("bytes_out", link.bytes_out);
+  json.member("voices_in_per_s", link.voices_in_per_s);
+  json.member("voices_out_per_s", link.voices_out_per_s);
+  json.member("voice_bytes_out", link.voice_bytes_out);
   json.member("poses_lost", std::uint64_t{link.poses_lost});
   json.key("guests");
   json.open('[');
@@ -37,6 +40,8 @@ void add_json(const ServerLinkStatus& link, JsonText& json) {
     json.member("lost", guest.lost);
     json.member("late", guest.late);
     json.member("jitter_ms", ms_of(guest.jitter));
+    json.member("voices", guest.voices);
+    json.member("voice_bytes", guest.voice_bytes);
     json.close('}');
   }
   json.close(']');
@@ -67,6 +72,11 @@ void add_counters(const ServerCounters& c, JsonText& json) {
   json.member("bytes_out", c.bytes_out);
   json.member("records_in", c.records_in);
   json.member("records_out", c.records_out);
+  json.member("voices_in", c.voices_in);
+  json.member("voices_out", c.voices_out);
+  json.member("voices_crowded", c.voices_crowded);
+  json.member("voices_held_back", c.voices_held_back);
+  json.member("voice_bytes_out", c.voice_bytes_out);
   json.member("key_frames_asked", c.key_frames_asked);
   json.member("sessions_begun", c.sessions_begun);
   json.member("sessions_resumed", c.sessions_resumed);

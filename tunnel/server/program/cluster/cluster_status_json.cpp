@@ -56,6 +56,8 @@ void add_totals(const ClusterStatus& cluster, JsonText& json) {
   json.member("bytes_out", node.bytes_out);
   json.member("records_in", node.records_in);
   json.member("records_out", node.records_out);
+  json.member("voices_in", node.voices_in);
+  json.member("voices_out", node.voices_out);
   json.member("values_in", node.values_in);
   json.member("malformed", node.malformed);
   json.member("other_codecs", node.other_codecs);
