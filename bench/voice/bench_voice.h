@@ -30,5 +30,6 @@ Result<BenchReport> bench_voice_lines(const Speech& speech, const std::vector<st
 Result<BenchReport> bench_voice_echo(const Speech& near, const Speech& far);
 // Real programs, a server, a sound server: call while the process has one thread.
 Result<BenchReport> bench_voice_ear(const Speech& speech, const std::string& folder);
+Result<BenchReport> bench_voice_room(const Speech& speech, const std::string& folder);
 
 }  // namespace dance

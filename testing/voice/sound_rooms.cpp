@@ -21,7 +21,8 @@ constexpr Duration kRoomsTiming = Duration::ms(50);
 bool SoundRooms::is_there() { return std::filesystem::exists(kPulseProgram); }
 
 Result<std::unique_ptr<SoundRooms>> SoundRooms::open(const std::string& folder,
-                                                     const std::vector<std::string>& sinks) {
+                                                     const std::vector<std::string>& sinks,
+                                                     const std::vector<Leak>& leaks) {
   if (!is_there()) return fail("there is no pulseaudio: apt-get install pulseaudio");
   std::unique_ptr<SoundRooms> rooms(new SoundRooms);
   const std::string socket = folder + "/native";
@@ -37,6 +38,9 @@ Result<std::unique_ptr<SoundRooms>> SoundRooms::open(const std::string& folder,
   std::vector<std::string> words{"-n", "--exit-idle-time=-1", "--disable-shm=true"};
   for (const std::string& sink : sinks)
     words.insert(words.end(), {"-L", "module-null-sink sink_name=" + sink + " rate=48000"});
+  for (const Leak& leak : leaks)
+    words.insert(words.end(), {"-L", "module-loopback source=" + leak.from + ".monitor sink=" +
+                                         leak.to + " latency_msec=30 source_dont_move=1"});
   words.insert(words.end(),
                {"-L", "module-native-protocol-unix socket=" + socket + " auth-anonymous=1"});
   DANCE_TRY(ChildProcess child, ChildProcess::start({kPulseProgram, words, folder + "/pulse-output",

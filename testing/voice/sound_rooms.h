@@ -22,9 +22,14 @@ namespace dance {
 class SoundRooms {
  public:
   static bool is_there();
+  // What one sink plays is played by another too, 30 ms later: as a loudspeaker into a microphone.
+  struct Leak {
+    std::string from, to;
+  };
   // Each sink has a monitor, <sink>.monitor. `folder` is there and this process's own.
   static Result<std::unique_ptr<SoundRooms>> open(const std::string& folder,
-                                                  const std::vector<std::string>& sinks);
+                                                  const std::vector<std::string>& sinks,
+                                                  const std::vector<Leak>& leaks = {});
   ~SoundRooms();
   SoundRooms(const SoundRooms&) = delete;
   SoundRooms& operator=(const SoundRooms&) = delete;

@@ -105,6 +105,22 @@ TEST(GuestBoard, MeasuresRateAgeAndLossWhereNobodySaysThem) {
   EXPECT_NEAR(*figures.loss_percent, 10.0f, 1.0f);
 }
 
+TEST(GuestBoard, ShowsWhoSpeaksAndHowLoudUntilTheVoiceIsGone) {
+  GuestBoard board(kOurClock, false);
+  StageRoster roster(board);
+  Voice voice;
+  const auto loudness_at = [&](int level_dbfs, Duration later) {
+    voice.level_dbfs = level_dbfs;
+    board.on_voice(guest("bob"), voice, kStart);
+    board.on_pose(Where::kStage, guest("bob"), pose_at(0.0f), kStart + later);
+    return scene_of(roster, kStart + later).guests.at(0).voice;
+  };
+  EXPECT_GT(loudness_at(-25, Duration()), 0.5f);
+  EXPECT_GT(loudness_at(-15, Duration()), loudness_at(-40, Duration()));
+  EXPECT_EQ(loudness_at(kSilence_dbfs, Duration()), 0.0f);
+  EXPECT_EQ(loudness_at(-25, Duration::ms(400)), 0.0f);
+}
+
 TEST(GuestBoard, SaysNoAgeOfPosesStampedByAnotherClock) {
   GuestBoard board(kOurClock, false);
   StageRoster roster(board);

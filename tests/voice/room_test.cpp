@@ -35,6 +35,12 @@ TEST(VoiceSettings, TakesItsCommandsAndNoOthers) {
   for (const char* wrong : {"", "Mute", "volume", "volume ", "volume bob", "volume bob=3",
                             "volume BOB=1", "volume bob=-1", "volume bob=nan", "talk now"})
     EXPECT_FALSE(settings.apply(wrong, now)) << wrong;
+  EXPECT_FALSE(settings.hearing().hears(*GuestId::parse("bob"))) << "deafened";
+  ASSERT_TRUE(settings.apply("undeafen", now));
+  EXPECT_TRUE(settings.hearing().hears(*GuestId::parse("bob")));
+  ASSERT_TRUE(settings.apply("volume bob=0", now));
+  EXPECT_FALSE(settings.hearing().hears(*GuestId::parse("bob"))) << "takes no bytes";
+  EXPECT_TRUE(settings.hearing().hears(*GuestId::parse("eve")));
   for (int i = 0; i < 100; ++i)
     static_cast<void>(settings.set_volume("g" + std::to_string(i) + "=1"));
   EXPECT_FALSE(settings.set_volume("another=1"));

@@ -167,6 +167,14 @@ void GuestBoard::on_avatar(const GuestId& guest, const AvatarFile& file, MonoTim
   if (Slot* slot = slot_of(guest, now)) slot->news.wish.file = file.hash;
 }
 
+// Shown with the next pose too: who speaks is seen at a tag, and a tag needs a dancer.
+void GuestBoard::on_voice(const GuestId& guest, const Voice& voice, MonoTime now) {
+  Slot* slot = slot_of(guest, now);
+  if (slot == nullptr) return;
+  slot->news.voice_dbfs = voice.level_dbfs;
+  slot->news.voice_heard = now;
+}
+
 void GuestBoard::on_beat(const Beat& beat) {
   music_.hear(beat);
   music_latest_.put(music_.clock());

@@ -18,6 +18,7 @@
 #include "core/bus/channel.h"
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
+#include "core/bus/voice.h"
 #include "core/pose/music_here.h"
 #include "viewer/feed/arrival_meter.h"
 #include "viewer/scene/scene.h"
@@ -43,6 +44,8 @@ struct GuestNews {
   MonoTime hands_heard;  // not set: none
   AvatarWish wish;
   GuestFigures figures;
+  int voice_dbfs = kSilence_dbfs;
+  MonoTime voice_heard;  // not set: none
 };
 
 class GuestBoard {
@@ -61,6 +64,7 @@ class GuestBoard {
   void on_avatar(const GuestId& guest, const Avatar& avatar, MonoTime now);
   void on_avatar(const GuestId& guest, const AvatarFile& file, MonoTime now);
   void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now);
+  void on_voice(const GuestId& guest, const Voice& voice, MonoTime now);
   void on_beat(const Beat& beat);
 
   // Of a recording, with one thread for all. Forgets everything: what follows is of another moment.

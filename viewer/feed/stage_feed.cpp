@@ -90,8 +90,14 @@ void StageFeed::subscribe(const FeedOptions& options) {
           instruments_.on_skeleton(channel.guest(), skeleton.skeleton);
         });
   }
-  // Guests of this house choose at the capture; those of others come through the tunnel.
+  // Guests of this house choose and speak at the capture; those of others come through the tunnel.
   for (const Where where : {Where::kCapture, Where::kGuest}) {
+    bus_->subscribe<Voice>(
+        where,
+        [this](const Channel& channel, const Voice& voice, MonoTime now) {
+          board_.on_voice(channel.guest(), voice, now);
+        },
+        Delivery::kNewest);
     bus_->subscribe<Avatar>(where,
                             [this](const Channel& channel, const Avatar& avatar, MonoTime now) {
                               board_.on_avatar(channel.guest(), avatar, now);

@@ -13,6 +13,14 @@ float opacity_after(Duration silence) {
   const double gone = (silence - kSilenceBeforeFading).as_seconds() / kFade.as_seconds();
   return gone >= 1.0 ? 0.0f : 1.0f - static_cast<float>(gone);
 }
+// A word's pauses are shorter.
+constexpr Duration kVoiceHolds = Duration::ms(250);
+
+// 0 for what is hardly heard, 1 for as loud as speech is.
+float loudness_of(int level_dbfs) {
+  return std::clamp((static_cast<float>(level_dbfs) + 55.0f) / 40.0f, 0.0f, 1.0f);
+}
+
 void compare_in(const GuestNews& known, MonoTime now, SceneGuest& guest) {
   const auto holds = [&](MonoTime heard) {
     return heard.is_set() && now - heard < kSilenceBeforeFading;
@@ -59,6 +67,8 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
     guest.wish = known.wish;
     guest.opacity = opacity;
     guest.figures = known.figures;
+    if (known.voice_heard.is_set() && now - known.voice_heard < kVoiceHolds)
+      guest.voice = loudness_of(known.voice_dbfs);
     compare_in(known, now, guest);
     scene.guests.push_back(guest);
   }

@@ -217,7 +217,14 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera,
     const float radius = 0.5f * (high.y - low.y);
     list.AddRectFilled(low, high, shade(0.66f * alpha), radius);
     const ImVec2 centre(low.x + pad + dot, 0.5f * (low.y + high.y));
-    list.AddCircleFilled(centre, dot, colour_of(look_of(tag.guest->id).tag, alpha), 16);
+    const Vector3f colour = look_of(tag.guest->id).tag;
+    list.AddCircleFilled(centre, dot, colour_of(colour, alpha), 16);
+    // Who speaks: a bar below the name, as long as the voice is loud.
+    if (tag.guest->voice > 0.0f)
+      list.AddRectFilled({low.x + radius, high.y - 0.5f * pad},
+                         {low.x + radius + tag.guest->voice * (high.x - low.x - 2.0f * radius),
+                          high.y - 0.1f * pad},
+                         colour_of(colour, alpha));
     list.AddText(tag_font_, size, on_pixel(centre.x + 2.0f * dot, low.y + 0.5f * pad),
                  white(0.94f * alpha), name);
   }

@@ -57,6 +57,7 @@ struct SceneGuest {
   float height_scale = 1.0f;  // times that size; kept within the two bounds above
   float opacity = 1.0f;       // 0 = faded out
   GuestFigures figures;
+  float voice = 0.0f;  // loudness, 0 = silent to 1
   // For the picture from this guest's own eyes: the head would hide everything.
   bool hides_head = false;
   // What a view that compares shows on its left and right: the pose as it came into this house, and

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kMeterCells = 8;
 constexpr int kQuietest_dbfs = -60;
+constexpr Duration kHearingSaid = Duration::s(1);
 constexpr Duration kMeterHolds = Duration::ms(300);
 
 std::string meter(int level) {
@@ -50,6 +51,10 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
       talk::warn("{}; goes on with what there is", trouble);
     return now + VoiceDevices::kTurn;
   });
+  program->hearing_timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
+    self->say_hearing(now);
+    return now + kHearingSaid;
+  });
   program->say_settings();
   return program;
 }
@@ -58,7 +63,8 @@ VoiceProgram::VoiceProgram(const VoiceProgramOptions& options, Bus& bus, Poller&
     : options_(options), settings_(options.settings), bus_(bus), poller_(poller) {}
 
 VoiceProgram::~VoiceProgram() {
-  if (timer_ != 0) poller_.set_deadline(timer_, MonoTime());
+  for (const Poller::TimerId timer : {timer_, hearing_timer_})
+    if (timer != 0) poller_.set_deadline(timer, MonoTime());
 }
 
 void VoiceProgram::subscribe() {
@@ -99,7 +105,16 @@ void VoiceProgram::command(std::string_view command, MonoTime now) {
   const auto applied = settings_.apply(command, now);
   // What was said may be anything: it is not repeated.
   if (!applied) return talk::warn("a command is refused: {}", applied.error().what);
-  if (command != "talk") say_settings();
+  if (command == "talk") return;
+  say_settings();
+  say_hearing(now);
+}
+
+void VoiceProgram::say_hearing(MonoTime now) {
+  HearingWish wish = settings_.hearing();
+  wish.time = now;
+  wish.clock_id = this_clock_id();
+  bus_.publish(Channel::of_house(Signal::kHearing), wish);
 }
 
 void VoiceProgram::say_settings() const {

@@ -51,6 +51,7 @@ class VoiceProgram {
   void subscribe();
   VoiceDeviceHandlers handlers();
   void say_settings() const;
+  void say_hearing(MonoTime now);
 
   VoiceProgramOptions options_;
   VoiceSettings settings_;
@@ -61,6 +62,7 @@ class VoiceProgram {
   std::unique_ptr<VoiceControl> control_;
   std::unique_ptr<VoiceDevices> devices_;  // last: its sound goes to what stands above
   Poller::TimerId timer_ = 0;
+  Poller::TimerId hearing_timer_ = 0;
 };
 
 }  // namespace dance

@@ -34,6 +34,18 @@ Result<void> VoiceSettings::set_volume(std::string_view text) {
   return {};
 }
 
+HearingWish VoiceSettings::hearing() const {
+  HearingWish wish;
+  if (is_deafened) {
+    wish.hears_others = false;
+    return wish;
+  }
+  std::size_t count = 0;
+  for (const Volume& volume : volumes_)
+    if (volume.volume <= 0.0f && count < wish.guests.size()) wish.guests[count++] = volume.guest;
+  return wish;
+}
+
 Result<void> VoiceSettings::apply(std::string_view command, MonoTime now) {
   if (command.starts_with(kVolumeWord)) return set_volume(command.substr(kVolumeWord.size()));
   if (command == "mute" || command == "unmute")

@@ -13,6 +13,7 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
+#include "core/bus/voice.h"
 
 namespace dance {
 
@@ -33,6 +34,8 @@ struct VoiceSettings {
   }
   float volume_of(const GuestId& guest) const;
   Result<void> set_volume(std::string_view guest_and_volume);  // "bob=0.5"
+  // Whose voices are to be sent here: not of those at volume 0, and nobody's while deafened.
+  HearingWish hearing() const;
 
   // "mute", "unmute", "deafen", "undeafen", "talk", "push-to-talk", "open", "with-picture",
   // "at-once", "volume bob=0.5".

@@ -63,8 +63,9 @@ Result<Loudspeaker> default_loudspeaker(const std::string& program) {
           *server, pa_context_get_server_info(context, take_default, &query), query);
       !answered)
     return tl::make_unexpected(answered.error());
-  DANCE_TRY(const auto output,
-            PulseOutput::open(*server, {.rate_hz = kSilence_hz}, [](MonoTime, double) {}));
+  PulseOutputOptions options;
+  options.rate_hz = kSilence_hz;
+  DANCE_TRY(const auto output, PulseOutput::open(*server, options, [](MonoTime, double) {}));
   const std::vector<float> silence(2 * kMostFrames, 0.0f);
   const MonoTime end = mono_now() + kPlayed;
   server->iterate_until([&] {

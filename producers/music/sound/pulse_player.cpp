@@ -22,9 +22,11 @@ Result<std::unique_ptr<PulsePlayer>> PulsePlayer::open(AudioFile file,
   if (!server) return fail(server.error().what + "; --silent plays without");
   player->server_ = std::move(*server);
   PulsePlayer* self = player.get();
-  auto output = PulseOutput::open(
-      *player->server_, {.rate_hz = player->file_.rate_hz()},
-      [self](MonoTime at, double frame) { self->clock_.report(at + self->options_.trim, frame); });
+  PulseOutputOptions stream;
+  stream.rate_hz = player->file_.rate_hz();
+  auto output = PulseOutput::open(*player->server_, stream, [self](MonoTime at, double frame) {
+    self->clock_.report(at + self->options_.trim, frame);
+  });
   if (!output) return fail(output.error().what + "; --silent plays without");
   player->output_ = std::move(*output);
   return player;
