@@ -121,6 +121,8 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
 
 House::~House() {
   if (bus_) poller_.unwatch(bus_->fd());
+  for (const auto& feed : haptics_)
+    for (const auto& player : feed->players()) talk::info("{}", player->summary());
   for (auto& consumer : consumers_) {
     if (auto finished = consumer->finish(); !finished) talk::error("{}", finished.error().what);
   }

@@ -116,8 +116,9 @@ void Manager::on_touch(const GuestId& guest, const Touch& touch) {
   port_.publish(Where::kStage, guest, touch);
 }
 
-void Manager::stage(const GuestId& guest, Pose& pose, MonoTime now) {
-  pose.stamp(Hop::kStaged, mono_now());
+void Manager::stage(const GuestId& guest, Pose& pose, MonoTime) {
+  const MonoTime now = mono_now();
+  pose.stamp(Hop::kStaged, now);
   port_.publish(Where::kStage, guest, pose);
   touch_.show(guest, pose, now);
 }

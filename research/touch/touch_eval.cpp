@@ -125,22 +125,31 @@ class HoldCount {
       if (reported[k] && !was_[k]) {
         ++figures_.holds;
         has_truth_[k] = false;
+        nearest_m_[k] = danced[k];
       }
-      if (reported[k]) has_truth_[k] = has_truth_[k] || is_true;
-      if (was_[k] && !reported[k] && !has_truth_[k]) ++figures_.false_holds;
+      if (reported[k]) {
+        has_truth_[k] = has_truth_[k] || is_true;
+        nearest_m_[k] = std::min(nearest_m_[k], danced[k]);
+      }
+      if (was_[k] && !reported[k]) end(k);
       was_[k] = reported[k];
       was_true_[k] = is_true;
     }
   }
   HoldFigures figures(double seconds) {
     for (std::size_t k = 0; k < kPairs; ++k)
-      if (was_[k] && !has_truth_[k]) ++figures_.false_holds;
+      if (was_[k]) end(k);
     figures_.seconds = seconds;
     return figures_;
   }
 
  private:
+  void end(std::size_t k) {
+    figures_.false_holds += !has_truth_[k];
+    figures_.far_holds += nearest_m_[k] > 1.5f * kTruth_m;
+  }
   HoldFigures figures_;
+  std::array<float, kPairs> nearest_m_{};
   std::array<bool, kPairs> was_{}, was_true_{}, has_truth_{};
 };
 
@@ -151,6 +160,7 @@ HoldFigures sum(HoldFigures a, const HoldFigures& b) {
   a.apart_frames += b.apart_frames;
   a.holds += b.holds;
   a.false_holds += b.false_holds;
+  a.far_holds += b.far_holds;
   a.true_holds += b.true_holds;
   a.breaks += b.breaks;
   a.seconds += b.seconds;

@@ -38,6 +38,7 @@ struct HoldFigures {
   std::size_t apart_frames = 0;  // of these, over twice kTruth_m apart in the recording
   std::size_t holds = 0;         // reported, from begin to end
   std::size_t false_holds = 0;   // of these, without any true frame within them
+  std::size_t far_holds = 0;     // of these, never within 1.5 times kTruth_m
   std::size_t true_holds = 0;    // in the recording
   std::size_t breaks = 0;        // ends of a reported hold within a true one
   double seconds = 0.0;

@@ -15,16 +15,17 @@ std::string touch_eval_table(const TouchEval& eval) {
         "times\n\n",
         f.seconds / 60.0, 100.0 * static_cast<double>(kTruth_m), f.true_frames, f.true_holds);
   }
-  text += fmt::format("{:<20}{:<14}{:>9}{:>10}{:>12}{:>13}{:>13}\n", "", "", "found", "holds/min",
-                      "false/min", "breaks/min", "apart");
+  text += fmt::format("{:<20}{:<14}{:>9}{:>11}{:>11}{:>9}{:>12}{:>9}\n", "", "", "found",
+                      "holds/min", "false/min", "far/min", "breaks/min", "apart");
   for (const TouchRow& row : eval.rows) {
     const HoldFigures& f = row.figures;
-    text += fmt::format("{:<20}{:<14}{:>8.1f}%{:>10.1f}{:>12.2f}{:>13.1f}{:>12.1f}%\n", row.stage,
-                        row.way, 100.0 * f.found(), f.per_minute(f.holds),
-                        f.per_minute(f.false_holds), f.per_minute(f.breaks),
-                        f.held_frames > 0 ? 100.0 * static_cast<double>(f.apart_frames) /
-                                                static_cast<double>(f.held_frames)
-                                          : 0.0);
+    text += fmt::format(
+        "{:<20}{:<14}{:>8.1f}%{:>11.1f}{:>11.2f}{:>9.2f}{:>12.1f}{:>8.1f}%\n", row.stage, row.way,
+        100.0 * f.found(), f.per_minute(f.holds), f.per_minute(f.false_holds),
+        f.per_minute(f.far_holds), f.per_minute(f.breaks),
+        f.held_frames > 0
+            ? 100.0 * static_cast<double>(f.apart_frames) / static_cast<double>(f.held_frames)
+            : 0.0);
   }
   text += fmt::format("\n{:<20}{:>28}{:>28}{:>24}\n{:<20}{:>14}{:>14}{:>14}{:>14}{:>12}{:>12}\n",
                       "gap of held palms", "as shown, mm", "with hold-hands, mm", "p99 step, mm",
@@ -47,6 +48,7 @@ std::string touch_eval_json(const TouchEval& eval) {
                               {"found", f.found()},
                               {"holds_per_minute", f.per_minute(f.holds)},
                               {"false_holds_per_minute", f.per_minute(f.false_holds)},
+                              {"far_holds_per_minute", f.per_minute(f.far_holds)},
                               {"breaks_per_minute", f.per_minute(f.breaks)},
                               {"held_frames", f.held_frames},
                               {"apart_frames", f.apart_frames},

@@ -15,7 +15,7 @@
 
 namespace dance {
 
-// Tuned by `dance touch eval` on takes 60/61 05 and 12 of CMU's salsa.
+// Chosen by `dance touch eval` on the salsa of CMU's subjects 60 and 61, 60 ms away.
 struct PalmHoldLimits {
   float begin_m = 0.075f;                 // nearer than this begins
   float again_m = 0.076f;                 // and nearer than this, of palms that held each other …
