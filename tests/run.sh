@@ -38,20 +38,23 @@ count_of() { # ATTRIBUTE FILE
 # pass_alone PRESET NUMBER: the names of the tests that failed, if all of them are flow tests (programs that wait for each
 # other, on a machine that others load too), at most three, without a sanitizer's report, and pass when nothing else runs.
 pass_alone() {
-  local folder="build/$1" log="build/$1.tests.log" again="$PWD/build/$1.again.xml"
+  local folder="build/$1" again="$PWD/build/$1.again.xml" names
   [ "$2" -le 3 ] || return 1
-  ! grep -qE '(Address|Leak|Thread)Sanitizer|runtime error:' "$log" || return 1
-  cut -d: -f2- "$folder/Testing/Temporary/LastTestsFailed.log" | paste -sd' '
-  ctest --test-dir "$folder" -L flow --rerun-failed --output-on-failure --no-tests=error --output-junit "$again" \
+  ! grep -qE '(Address|Leak|Thread)Sanitizer|runtime error:' "build/$1.tests.log" || return 1
+  ! compgen -G "build/$1-report.*" >/dev/null || return 1
+  names=$(cut -d: -f2- "$folder/Testing/Temporary/LastTestsFailed.log" | sed 's/[][().*+?^$\\|/]/\\&/g' | paste -sd'|')
+  [ "$(ctest --test-dir "$folder" -N -L flow -R "^($names)\$" | grep -c ' Test *#')" = "$2" ] || return 1
+  ctest --test-dir "$folder" -R "^($names)\$" --output-on-failure --no-tests=error --output-junit "$again" \
     >"build/$1.again.log" 2>&1 || return 1
-  [ "$(count_of tests "$again")" = "$2" ]
+  [ "$(count_of tests "$again")" = "$2" ] && [ "$(count_of skipped "$again")" = 0 ] || return 1
+  printf '%s' "$names"
 }
 
 run() { # PRESET [CTEST OPTION…]
   local preset=$1 report="$PWD/build/$1.xml" total bad left_out
   shift
   echo "== testing ($preset), minute $((SECONDS / 60))"
-  rm -f "$report"
+  rm -f "$report" build/"$preset"-report.*
   ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error --output-junit "$report" "$@" \
     >"build/$preset.tests.log" 2>&1 || true
   grep -E '\*\*\*|tests passed|SKIPPED \]' "build/$preset.tests.log" | sort -u | head -n 80 || true
@@ -61,7 +64,10 @@ run() { # PRESET [CTEST OPTION…]
     return
   fi
   total=$(count_of tests "$report") bad=$(count_of failures "$report") left_out=$(count_of skipped "$report")
-  [ "${bad:-0}" = 0 ] || grep -B2 -A40 -E '\*\*\*(Failed|Timeout|Exception)' "build/$preset.tests.log" | head -n 400 || true
+  if [ "${bad:-0}" != 0 ]; then
+    grep -B2 -A40 -E '\*\*\*(Failed|Timeout|Exception)' "build/$preset.tests.log" | head -n 400 || true
+    find build -maxdepth 1 -name "$preset-report.*" | head -n 3 | xargs -r head -n 60
+  fi
   if [ "${bad:-0}" != 0 ] && alone=$(pass_alone "$preset" "$bad"); then
     echo "== passed only when nothing else ran (flow tests, $preset): $alone"
     bad=0
@@ -83,14 +89,18 @@ step() { # PRESET [TARGET…]: a build that fails is a failed test.
 # More at a time than there are processors: programs that dance for seconds wait for most of them.
 step ci && jobs=$((jobs + 2)) run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
-  export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
+  # Reports of programs that tests start are kept too.
+  export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:log_path=$PWD/build/asan-report
+  export UBSAN_OPTIONS=print_stacktrace=1:log_path=$PWD/build/asan-report
   export LSAN_OPTIONS=suppressions=$PWD/tests/lsan_suppressions.txt:print_suppressions=0
-  export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt
+  export TSAN_OPTIONS=suppressions=$PWD/tests/tsan_suppressions.txt:log_path=$PWD/build/tsan-report
   # Drawing in software is ten times slower here, and memory that a graphics driver keeps until it is unloaded counts as
   # lost: the viewer's own tests draw under sanitizers.
   draws='Demo\.(DrawsAFilm|PlaysTheSong|ShowsADancer)|Convert\.WritesALogThatTheViewerShows'
   # One build of clang's for the sanitizers and the fuzz targets; libFuzzer has the corpora.
+  asan_is_built=no
   if step asan; then
+    asan_is_built=yes
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
     jobs=$((jobs + 2)) run asan -LE 'check|soak|docs|fuzz' -E "^BeatSongs|Takes\.|$draws" "${only[@]}"
   fi
@@ -99,12 +109,14 @@ if [ "$sanitizers" = yes ]; then
   step tsan thread_targets flow_targets && tsan_is_built=yes || tsan_is_built=no
   # Fuzzing fills the processors, at the lowest priority, while programs dance under the thread sanitizer and wait.
   fuzz_one() { # TARGET
-    "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=20 -print_final_stats=0 -artifact_prefix=build/ \
-      "build/asan/fuzz/corpus_$(basename "$1")" >"build/$(basename "$1").log" 2>&1 || touch "build/$(basename "$1").failed"
+    ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1 \
+      "$1" -max_total_time=10 -rss_limit_mb=1024 -timeout=20 -print_final_stats=0 -artifact_prefix=build/ \
+      "build/asan/fuzz/corpus_$(basename "$1")" >"build/$(basename "$1").log" 2>&1 && touch "build/$(basename "$1").passed"
   }
   export -f fuzz_one
-  rm -f build/fuzz_*.failed
-  fuzz_targets=$(find build/asan/fuzz -maxdepth 1 -type f -name 'fuzz_*' 2>/dev/null | sort)
+  rm -f build/fuzz_*.passed
+  fuzz_targets=""
+  [ "$asan_is_built" = no ] || fuzz_targets=$(find build/asan/fuzz -maxdepth 1 -type f -name 'fuzz_*' | sort)
   echo "== fuzzing, minute $((SECONDS / 60)) ($(wc -w <<<"$fuzz_targets") targets, 10 s each), beside the tests that follow"
   printf '%s\n' $fuzz_targets | nice -n 19 xargs -r -P "$jobs" -I{} bash -c 'fuzz_one {}' &
   fuzzing=$!
@@ -112,11 +124,11 @@ if [ "$sanitizers" = yes ]; then
   wait "$fuzzing" || true
   for target in $fuzz_targets; do
     name=$(basename "$target")
-    if [ -e "build/$name.failed" ]; then
+    if [ -e "build/$name.passed" ]; then
+      passed=$((passed + 1))
+    else
       echo "$name failed:" && tail -n 30 "build/$name.log"
       failed=$((failed + 1))
-    else
-      passed=$((passed + 1))
     fi
   done
 fi

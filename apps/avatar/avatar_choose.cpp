@@ -24,6 +24,7 @@ session file. Where link and manager run by themselves, --stay tells displays th
 // may only just be starting, and multicast may lose a message.
 constexpr Duration kBetween = Duration::ms(40);
 constexpr Duration kGiveUpAfter = Duration::s(4);
+constexpr std::size_t kTimesKept = 256;
 
 struct ChooseOptions {
   std::string bus_url;
@@ -43,6 +44,7 @@ Result<void> choose_for_guest(const ChooseOptions& options) {
   const auto publish = [&] {
     chosen.avatar.time = chosen.file.time = mono_now();
     times_said.insert(chosen.avatar.time.since_zero_us());
+    if (times_said.size() > kTimesKept) times_said.erase(times_said.begin());
     program.bus().publish(Channel::of(Signal::kAvatar, Where::kCapture, *guest), chosen.avatar);
     program.bus().publish(Channel::of(Signal::kAvatarFile, Where::kCapture, *guest), chosen.file);
   };
