@@ -60,7 +60,7 @@ TEST(InstrumentBoard, DoesNotTellOfTwinsNorOfThoseWhoAreGone) {
 TEST(InstrumentBoard, KeepsItsBoundsAndGivesThePlaceOfTheSilentAway) {
   InstrumentBoard board(kHouseClock);
   std::map<std::string, int> told;
-  play(board, 80, 10.0, 2.0, &told);
+  play(board, static_cast<int>(InstrumentsMeter::kMaxGuests) + 16, 10.0, 2.0, &told);
   EXPECT_EQ(told.size(), InstrumentsMeter::kMaxGuests);
   told.clear();
   const auto say = [&](const GuestId& guest, const GuestStats&) {
