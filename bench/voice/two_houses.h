@@ -1,4 +1,4 @@
-// Two houses with a voice each, as their users start them: a server, dance join and dance voice; and
+// Two houses with a voice each, as their users start them: a server, dance join, dance voice, and
 // a sound server with a room for each of them.
 //
 // Units/frames: speech as mono samples at 48 kHz; times of this machine's clock.
