@@ -157,7 +157,7 @@ Finding check_microphone() {
   const auto microphone = default_microphone("doctor");
   Finding finding{"microphone", Finding::Grade::kNote, "", ""};
   if (!microphone) {
-    finding.what = microphone.error().what + ": dance voice has nobody to hear";
+    finding.what = microphone.error().what + "; dance voice needs one to speak";
     finding.cure = "pactl list short sources   (then pactl set-default-source NAME)";
     return finding;
   }

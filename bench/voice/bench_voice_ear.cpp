@@ -32,8 +32,9 @@ Result<BenchReport> measure_ear(TwoHouses& houses, const char* name, const Speec
   const MatchFigures figures = figures_of(
       match_sound(rooms.heard(mouth, begin, over), rooms.heard(ear, begin, over), 0.0, 500.0));
   if (figures.fitting == 0)
-    return fail("nothing of what alice says is heard at bob's: " +
-                houses.text_of("voice-bob.talk") + houses.text_of("voice-bob.out"));
+    return fail(
+        "nothing of what alice says is heard at bob's: " + houses.text_of("voice-alice.talk") +
+        houses.text_of("voice-bob.talk") + houses.text_of("voice-bob.out"));
   BenchReport report;
   report.text = fmt::format("{:<24} {:>6.1f} ms {:>6.1f} ms {:>5}/{:<5} {:>7.1f}% {:>7.1f}%\n",
                             name, figures.median_ms, figures.p95_ms, figures.fitting,

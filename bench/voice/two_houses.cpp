@@ -1,5 +1,6 @@
 #include "bench/voice/two_houses.h"
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -32,6 +33,10 @@ std::string TwoHouses::text_of(const std::string& file) const {
 
 Result<void> TwoHouses::run(const std::string& name, const std::string& program,
                             const std::vector<std::string>& words) {
+  // What a run before said is not this one's.
+  std::error_code ignored;
+  for (const char* end : {".out", ".talk"})
+    std::filesystem::remove(folder_ + "/" + name + end, ignored);
   DANCE_TRY(ChildProcess child,
             ChildProcess::start({program_folder() + "/" + program, words,
                                  folder_ + "/" + name + ".out", folder_ + "/" + name + ".talk"}));

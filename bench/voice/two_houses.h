@@ -1,5 +1,5 @@
-// Two houses with a voice each, as their users start them: a server, dance join and dance voice,
-// and a sound server with a room for each of them.
+// Two houses with a voice each, as their users start them: a server, dance join, dance voice, and
+// a sound server with a room for each of them.
 //
 // Units/frames: speech as mono samples at 48 kHz; times of this machine's clock.
 // Ownership:    owns programs and sound server; they end with it.

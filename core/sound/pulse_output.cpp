@@ -9,6 +9,14 @@ namespace {
 
 constexpr std::size_t kFrame_bytes = 2 * sizeof(float);
 
+// Starts at once and never waits for data: late frames are dropped, and time goes on.
+pa_buffer_attr buffer_of(Duration ahead, double rate_hz) {
+  const auto bytes = static_cast<std::uint32_t>(ahead.as_seconds() * rate_hz) *
+                     static_cast<std::uint32_t>(kFrame_bytes);
+  const auto server_default = static_cast<std::uint32_t>(-1);
+  return {server_default, bytes, 0, server_default, server_default};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
@@ -24,12 +32,7 @@ Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
   output->stream_ = pa_stream_new(server.context(), options.name.c_str(), &format, nullptr);
   if (output->stream_ == nullptr)
     return fail("the sound server refuses a stream: " + server.error_text());
-  const auto ahead =
-      static_cast<std::uint32_t>(options.ahead.as_seconds() * rate_hz) * kFrame_bytes;
-  const auto server_default = static_cast<std::uint32_t>(-1);
-  // Starts at once and never waits for data: late frames are dropped, and time goes on.
-  const pa_buffer_attr buffer{server_default, static_cast<std::uint32_t>(ahead), 0, server_default,
-                              server_default};
+  const pa_buffer_attr buffer = buffer_of(options.ahead, rate_hz);
   const auto flags =
       static_cast<pa_stream_flags_t>(PA_STREAM_VARIABLE_RATE | PA_STREAM_ADJUST_LATENCY);
   if (pa_stream_connect_playback(output->stream_,
@@ -69,6 +72,12 @@ void PulseOutput::write(std::span<const float> interleaved) {
   const int result = pa_stream_write(stream_, interleaved.data(), interleaved.size_bytes(), nullptr,
                                      0, PA_SEEK_RELATIVE);
   if (result == 0) written_ += static_cast<std::int64_t>(interleaved.size() / 2);
+}
+
+void PulseOutput::set_ahead(Duration ahead) {
+  const pa_buffer_attr buffer = buffer_of(ahead, rate_hz_);
+  pa_operation* query = pa_stream_set_buffer_attr(stream_, &buffer, nullptr, nullptr);
+  if (query != nullptr) pa_operation_unref(query);
 }
 
 double PulseOutput::set_speed(double speed) {

@@ -43,6 +43,8 @@ class PulseOutput {
   bool is_alive() const;
   std::int64_t written_frames() const { return written_; }
   std::size_t wanted_frames() const;
+  // Another buffer, while it plays.
+  void set_ahead(Duration ahead);
   // How often the server had nothing to play in time.
   std::uint64_t underflows() const { return underflows_; }
   void write(std::span<const float> interleaved);

@@ -157,8 +157,24 @@ class PlayoutByHand : public ::testing::Test {
   }
   const SentVoice& sent_ = sent_of(6.0, 0.0, false);
   VoicePlayout playout_;
+  VoicePlayout::Counters before_;
   MonoTime now_ = kVoiceBegin;
 };
+
+// A sound server with a large buffer asks seldom and for much.
+TEST_F(PlayoutByHand, SoundThatIsAskedForInBurstsHasNoGaps) {
+  std::array<float, 4 * kVoiceFrameSamples> samples;
+  for (std::size_t i = 0; i < 500; ++i) {
+    Voice voice = packet_of(sent_, i, 0);
+    voice.capture_time = now_ - Duration::ms(30);
+    playout_.put(voice, now_);
+    if (i == 100) before_ = playout_.counters();
+    if (i % 4 == 3) playout_.pull(now_, now_ + Duration::ms(80), samples);
+    now_ += kVoiceFrame;
+  }
+  EXPECT_GT(playout_.counters().played, 450u);
+  EXPECT_EQ(playout_.counters().concealed, before_.concealed) << "once the bursts are known";
+}
 
 TEST_F(PlayoutByHand, SequencesWrap) {
   say(0, 200, 0xffffffffu - 100u);

@@ -13,9 +13,12 @@ constexpr Duration kFrameLength = Duration::ms(10);
 constexpr Duration kTimingRequests = Duration::ms(100);
 constexpr Duration kLooks = Duration::s(2);
 // A machine that is too busy for a small buffer gets a larger one.
-constexpr Duration kGrowthLooks = Duration::s(3);
+constexpr Duration kFitLooks = Duration::s(2);
 constexpr std::uint64_t kMostUnderflows = 3;
 constexpr Duration kGrowth = Duration::ms(10);
+// And a smaller one again, once it has been enough for a while.
+constexpr int kCalmLooks = 3;
+constexpr Duration kShrinkage = Duration::ms(5);
 constexpr Duration kLargestBuffer = Duration::ms(80);
 
 }  // namespace
@@ -56,7 +59,7 @@ void VoiceDevices::open_loudspeaker() {
   PulseOutputOptions output;
   output.sink = options_.loudspeaker;
   output.name = "voices";
-  output.ahead = options_.ahead;
+  output.ahead = ahead_;
   heard_ = StreamClock(kDevice_hz);
   underflows_before_ = 0;
   auto opened = PulseOutput::open(*server_, output,
@@ -117,7 +120,7 @@ void VoiceDevices::work(MonoTime now) {
   }
   if (loudspeaker_) fill(now);
   if (now >= next_look_) look_for_lost(now);
-  if (now >= next_growth_) grow_buffer(now);
+  if (now >= next_fit_) fit_buffer(now);
 }
 
 void VoiceDevices::fill(MonoTime now) {
@@ -127,7 +130,7 @@ void VoiceDevices::fill(MonoTime now) {
   std::fill(stereo.begin(), stereo.end(), 0.0f);
   const MonoTime heard = heard_.is_known()
                              ? heard_.time_of(static_cast<double>(loudspeaker_->written_frames()))
-                             : now + options_.ahead;
+                             : now + ahead_;
   handlers_.fill(stereo, now, heard);
   loudspeaker_->write(stereo);
 }
@@ -152,9 +155,9 @@ void VoiceDevices::look_for_lost(MonoTime now) {
   if (microphone_ && loudspeaker_) last_trouble_.clear();
 }
 
-void VoiceDevices::grow_buffer(MonoTime now) {
-  const bool is_first = !next_growth_.is_set();
-  next_growth_ = now + kGrowthLooks;
+void VoiceDevices::fit_buffer(MonoTime now) {
+  const bool is_first = !next_fit_.is_set();
+  next_fit_ = now + kFitLooks;
   if (!loudspeaker_) return;
   const std::uint64_t count = loudspeaker_->underflows();
   const std::uint64_t more = count - underflows_before_;
@@ -162,11 +165,15 @@ void VoiceDevices::grow_buffer(MonoTime now) {
   // Before the first sound there is nothing to play.
   if (is_first) return;
   underflows_ += more;
-  if (more < kMostUnderflows || options_.ahead >= kLargestBuffer) return;
-  options_.ahead += kGrowth;
-  loudspeaker_.reset();
-  open_loudspeaker();
-  next_growth_ = MonoTime();
+  calm_looks_ = more == 0 ? calm_looks_ + 1 : 0;
+  Duration ahead = ahead_;
+  if (more >= kMostUnderflows) ahead = std::min(ahead + kGrowth, kLargestBuffer);
+  if (calm_looks_ >= kCalmLooks) ahead = ahead - kShrinkage;
+  ahead = std::max(ahead, options_.ahead);
+  if (ahead == ahead_) return;
+  ahead_ = ahead;
+  calm_looks_ = 0;
+  loudspeaker_->set_ahead(ahead);
 }
 
 }  // namespace dance

@@ -58,7 +58,7 @@ class VoiceDevices {
   // What is missing, and the cure; "" once it has been told.
   std::string take_trouble() { return std::exchange(trouble_, std::string()); }
   std::uint64_t underflows() const { return underflows_; }
-  Duration ahead() const { return options_.ahead; }
+  Duration ahead() const { return ahead_; }
 
  private:
   // Samples until they make a frame.
@@ -68,7 +68,7 @@ class VoiceDevices {
   };
 
   VoiceDevices(const VoiceDeviceOptions& options, VoiceDeviceHandlers handlers)
-      : options_(options), handlers_(std::move(handlers)) {}
+      : options_(options), handlers_(std::move(handlers)), ahead_(options.ahead) {}
   Result<void> connect();
   void open_microphone();
   void open_loudspeaker();
@@ -77,11 +77,12 @@ class VoiceDevices {
   void on_reference(std::span<const float> samples);
   void look_for_lost(MonoTime now);
   void fill(MonoTime now);
-  void grow_buffer(MonoTime now);
+  void fit_buffer(MonoTime now);
   void complain(const Error& error);
 
   VoiceDeviceOptions options_;
   VoiceDeviceHandlers handlers_;
+  Duration ahead_;  // at present
   StreamClock heard_{48'000.0};
   Gathered from_microphone_, from_reference_;
   Duration reference_ahead_;  // of what the monitor has, until it is heard
@@ -89,8 +90,9 @@ class VoiceDevices {
   std::unique_ptr<PulseInput> microphone_, reference_;  // after what their samples go to
   std::unique_ptr<PulseOutput> loudspeaker_;
   std::string trouble_, last_trouble_;
-  MonoTime next_timing_, next_look_, next_growth_;
+  MonoTime next_timing_, next_look_, next_fit_;
   std::uint64_t underflows_ = 0, underflows_before_ = 0;
+  int calm_looks_ = 0;
   std::array<float, 2 * 4800> block_{};
 };
 

@@ -21,6 +21,7 @@ constexpr double kFarOff_ms = 40.0;
 // More than that is left out instead of played quicker.
 constexpr double kSkip_ms = 250.0;
 constexpr double kSmoothing = 1.0 / 8.0;
+constexpr double kMostBurst_ms = 200.0;
 constexpr int kStrangersRestart = 20;
 constexpr double kOriginSmoothing = 1.0 / 64.0;
 // As long as the packets that are kept, with room for jitter.
@@ -114,7 +115,10 @@ std::optional<std::int64_t> VoicePlayout::oldest_from(std::int64_t frame) const 
 }
 
 Duration VoicePlayout::wanted_margin(MonoTime now, MonoTime heard) const {
-  const Duration jitter = delays_.wait() + kPullJitter;
+  // The margin is kept on average, of frames that are asked for one behind the other.
+  const double burst_ms = std::max(0.0, burst_ms_ - kVoiceFrame.as_ms());
+  const Duration jitter =
+      delays_.wait() + kPullJitter + Duration::seconds(0.5e-3 * std::min(burst_ms, kMostBurst_ms));
   if (!delay_ || !has_origin_) return jitter;
   // heard − captured = delay, with what is ahead of the frame on its way to the ear.
   const Duration on_line = delays_.quickest(0) - capture_origin_;
@@ -132,15 +136,25 @@ void VoicePlayout::pull(MonoTime now, MonoTime heard, std::span<float> samples) 
   while (samples.size() > kVoiceFrameSamples) {
     pull(now, heard, samples.first(kVoiceFrameSamples));
     samples = samples.subspan(kVoiceFrameSamples);
-    now += kVoiceFrame;
     heard += kVoiceFrame;
   }
+  note_burst(now, samples.size());
   while (ready_ < samples.size()) produce(now, heard);
   const auto begin = line_.begin() + kHistory;
   const auto count = static_cast<std::ptrdiff_t>(samples.size());
   std::copy(begin, begin + count, samples.begin());
   std::move(line_.begin() + count, begin + static_cast<std::ptrdiff_t>(ready_), line_.begin());
   ready_ -= samples.size();
+}
+
+// What a sound server asks for at once: the last of it has to be there as early as the first.
+void VoicePlayout::note_burst(MonoTime now, std::size_t samples) {
+  if (now != pulled_) {
+    burst_ms_ = std::max(burst_now_ms_, burst_ms_ + kSmoothing * (burst_now_ms_ - burst_ms_));
+    burst_now_ms_ = 0.0;
+    pulled_ = now;
+  }
+  burst_now_ms_ += duration_of_samples(samples).as_ms();
 }
 
 void VoicePlayout::produce(MonoTime now, MonoTime heard) {

@@ -73,6 +73,7 @@ class VoicePlayout {
   Duration wanted_margin(MonoTime now, MonoTime heard) const;
   // By how much later than the quickest arrival the next frame is played.
   Duration margin(MonoTime now) const;
+  void note_burst(MonoTime now, std::size_t samples);
   void produce(MonoTime now, MonoTime heard);
   void produce_silence(MonoTime now, MonoTime heard);
   void produce_frame();
@@ -96,6 +97,10 @@ class VoicePlayout {
   int concealed_in_a_row_ = 0;
   int strangers_in_a_row_ = 0;
   double margin_error_ms_ = 0.0;  // smoothed
+  // Of sound that is asked for at one moment.
+  MonoTime pulled_;
+  double burst_now_ms_ = 0.0;
+  double burst_ms_ = 0.0;
   // What was played last, and what is to be played next.
   std::array<float, kHistory + kAhead> line_{};
   std::size_t ready_ = 0;  // behind the history

@@ -59,7 +59,7 @@ void RoomVoices::mix(std::span<float> stereo, MonoTime now, MonoTime heard, cons
       guest.place.set_volume(settings.is_deafened ? 0.0f : settings.volume_of(guest.guest));
       guest.playout->set_delay(settings.follows_picture ? guest.picture_delay : std::nullopt);
       const auto samples = std::span(mono).first(part.size() / 2);
-      guest.playout->pull(now + later, heard + later, samples);
+      guest.playout->pull(now, heard + later, samples);
       guest.place.mix(samples, part);
     }
     limiter_.limit(part);
