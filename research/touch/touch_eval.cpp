@@ -8,7 +8,7 @@
 #include "core/codec/pose_codec.h"
 #include "core/motion/palm_pull.h"
 #include "testing/line/line_arrivals.h"
-#include "transformers/touch/stage_holds.h"
+#include "transformers/touch/stage_touch.h"
 
 namespace dance {
 namespace {
@@ -178,15 +178,25 @@ struct Gaps {
   std::vector<double> plain, reached, step_plain, step_reached;
 };
 
+struct NoSink final : TouchSink {
+  void on_touch(const GuestId&, const Touch&) override {}
+};
+
+struct Costs {
+  std::vector<double> pose_us, picture_us;
+};
+
 struct Judged {
   HoldFigures plain, ours;
 };
 
 Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limits& limits,
-             Gaps& gaps, std::vector<double>& costs_us) {
+             Gaps& gaps, Costs& costs) {
   const GuestId lead = *GuestId::parse("lead"), follow = *GuestId::parse("follow");
   StageHolds holds;
   holds.set_limits(limits);
+  StageTouch touch;
+  NoSink no_sink;
   HoldCount plain, ours;
   std::array<std::array<Vector3f, 2>, 2> was_plain, was_reached;
   bool is_first = true;
@@ -203,7 +213,14 @@ Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limit
     holds.show(lead, reached[0], moment.at, true);
     holds.show(follow, reached[1], moment.at, true);
     const std::chrono::duration<double, std::micro> cost = std::chrono::steady_clock::now() - began;
-    costs_us.push_back(0.5 * cost.count());
+    costs.pose_us.push_back(0.5 * cost.count());
+    touch.show(lead, reached[0], moment.at);
+    touch.show(follow, reached[1], moment.at);
+    const auto looked = std::chrono::steady_clock::now();
+    touch.update(moment.at, kClock, holds, no_sink);
+    const std::chrono::duration<double, std::micro> look =
+        std::chrono::steady_clock::now() - looked;
+    costs.picture_us.push_back(look.count());
     const auto danced_gaps = gaps_of(couple, moment.danced);
     const auto shown_gaps = gaps_of(couple, moment.shown);
     const auto reached_gaps = gaps_of(couple, reached);
@@ -249,7 +266,7 @@ double HoldFigures::per_minute(std::size_t count) const {
 TouchEval evaluate_touch(const std::vector<CoupleTake>& couples, const TouchLine& line) {
   constexpr std::array<const char*, 3> kStages{"as captured", "through the codec", "on the stage"};
   TouchEval eval;
-  std::vector<double> costs_us;
+  Costs costs;
   for (std::size_t s = 0; s < kStages.size(); ++s) {
     HoldFigures plain, ours;
     Gaps gaps;
@@ -263,7 +280,7 @@ TouchEval evaluate_touch(const std::vector<CoupleTake>& couples, const TouchLine
       else
         stage = streamed_stage(couple, line);
       if (stage.empty()) continue;
-      const Judged judged = judge(couple, stage, line.limits, gaps, costs_us);
+      const Judged judged = judge(couple, stage, line.limits, gaps, costs);
       plain = sum(plain, judged.plain);
       ours = sum(ours, judged.ours);
     }
@@ -273,7 +290,8 @@ TouchEval evaluate_touch(const std::vector<CoupleTake>& couples, const TouchLine
                          percentile(gaps.reached, 0.5), percentile(gaps.reached, 0.95),
                          percentile(gaps.step_plain, 0.99), percentile(gaps.step_reached, 0.99)});
   }
-  eval.us_a_pose = percentile(costs_us, 0.5);
+  eval.us_a_pose = percentile(costs.pose_us, 0.5);
+  eval.us_a_picture = percentile(costs.picture_us, 0.5);
   return eval;
 }
 

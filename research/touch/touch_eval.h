@@ -61,7 +61,8 @@ struct GapRow {
 struct TouchEval {
   std::vector<TouchRow> rows;
   std::vector<GapRow> gaps;
-  double us_a_pose = 0.0;  // of StageHolds, median
+  double us_a_pose = 0.0;     // of StageHolds, median
+  double us_a_picture = 0.0;  // of StageTouch, for the couple
 };
 
 TouchEval evaluate_touch(const std::vector<CoupleTake>& couples, const TouchLine& line);

@@ -34,7 +34,8 @@ std::string touch_eval_table(const TouchEval& eval) {
     text += fmt::format("{:<20}{:>14.1f}{:>14.1f}{:>14.1f}{:>14.1f}{:>12.1f}{:>12.1f}\n", gap.stage,
                         gap.plain_p50_mm, gap.plain_p95_mm, gap.reached_p50_mm, gap.reached_p95_mm,
                         gap.step_plain_mm, gap.step_reached_mm);
-  text += fmt::format("\n{:.2f} us a pose\n", eval.us_a_pose);
+  text += fmt::format("\nholds: {:.2f} us a pose; contacts: {:.2f} us a picture of the couple\n",
+                      eval.us_a_pose, eval.us_a_picture);
   return text;
 }
 
@@ -63,6 +64,7 @@ std::string touch_eval_json(const TouchEval& eval) {
                               {"step_plain_mm", gap.step_plain_mm},
                               {"step_reached_mm", gap.step_reached_mm}});
   report["us_a_pose"] = eval.us_a_pose;
+  report["us_a_picture"] = eval.us_a_picture;
   return report.dump(2) + "\n";
 }
 
