@@ -136,13 +136,18 @@ TEST_F(HousePrograms, ARefusalThatStaysIsSaidOnce) {
 TEST_F(HousePrograms, AWishThatIsNoneIsOneLineThatNamesIt) {
   const std::string session = folder_.path("house.toml");
   std::ofstream(session) << "[house]\nroom = \"salsa\"\nwant = [\"bob\"]\n";
+  const std::string deaf = folder_.path("deaf.toml");
+  std::ofstream(deaf) << "[house]\nroom = \"salsa\"\nhear = [\"bob=2\"]\n";
   for (const auto& [arguments, start_of_line] :
        {std::pair<std::string, std::string>{
             "dance-join " + session, "dance join: " + session + ":3:8: [house] want: 'bob': write"},
         {"dance-manager " + session,
          "dance manager: " + session + ":3:8: [house] want: 'bob': write"},
         {"dance-join host --want bob", "dance join: --want 'bob': write"},
-        {"dance-link --want bob", "dance link: --want 'bob': write"}}) {
+        {"dance-link --want bob", "dance link: --want 'bob': write"},
+        {"dance-join host --hear bob", "dance join: --hear 'bob': write"},
+        {"dance-join " + deaf, "dance join: " + deaf + ":3:8: [house] hear: 'bob=2': write"},
+        {"dance-link --hear bob=2", "dance link: --hear 'bob=2': write"}}) {
     const Finished refused = run(bin(arguments));
     EXPECT_EQ(refused.exit_code, 1) << refused.talk;
     EXPECT_EQ(refused.talk.rfind(start_of_line, 0), 0u) << refused.talk;

@@ -175,10 +175,12 @@ void write_cluster(const std::filesystem::path& folder) {
   const auto salsa = *GuestId::parse("salsa"), alice = *GuestId::parse("alice");
   const cluster::Text pose = cluster::pose_subject(salsa, alice);
   int number = 0;
+  const cluster::Text voice = cluster::voice_subject(salsa, alice);
   for (const cluster::Message& message : cluster_samples::messages()) {
-    write_seed("message_" + std::to_string(number), 0, pose.view(),
-               cluster_samples::bytes_of(message));
-    write_seed("message_at_server_" + std::to_string(number++), 3, pose.view(),
+    const bool is_voice = std::holds_alternative<cluster::VoiceMessage>(message);
+    const std::string_view subject = (is_voice ? voice : pose).view();
+    write_seed("message_" + std::to_string(number), 0, subject, cluster_samples::bytes_of(message));
+    write_seed("message_at_server_" + std::to_string(number++), 3, subject,
                cluster_samples::bytes_of(message));
   }
   using cluster::KeyKind;

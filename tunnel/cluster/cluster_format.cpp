@@ -15,7 +15,7 @@ enum class Type : std::uint8_t {
   kClockAnswer = 3,
   kRecord = 4,
   kFeedback = 5,
-  kVoice = 6,
+  kVoice = 8,  // 6 and 7 are taken
   kPresence = 16,
   kGuest = 17,
   kState = 18,

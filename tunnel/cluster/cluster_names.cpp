@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view kPrefix = "dance.1.";
 constexpr std::string_view kPosePrefix = "dance.1.pose.";
+constexpr std::string_view kVoicePrefix = "dance.1.voice.";
 
 // Bounded texts of known parts, which always fit.
 class TextMaker {
@@ -49,6 +50,16 @@ std::string_view take_part(std::string_view& text) {
   return part;
 }
 
+std::optional<PoseSubject> subject_of_guest(std::string_view prefix, std::string_view subject) {
+  // An empty last part would go unnoticed.
+  if (!subject.starts_with(prefix) || subject.ends_with('.')) return std::nullopt;
+  subject.remove_prefix(prefix.size());
+  const auto room = GuestId::parse(take_part(subject));
+  const auto guest = GuestId::parse(take_part(subject));
+  if (!room || !guest || !subject.empty()) return std::nullopt;
+  return PoseSubject{*room, *guest};
+}
+
 template <class Number>
 std::optional<Number> number_in(std::string_view text, int base) {
   Number number{};
@@ -65,14 +76,15 @@ Text pose_subject(const wire::RoomName& room, const GuestId& guest) {
   return (TextMaker() << kPosePrefix << room.view() << "." << guest.view()).text();
 }
 
+Text voice_subject(const wire::RoomName& room, const GuestId& guest) {
+  return (TextMaker() << kVoicePrefix << room.view() << "." << guest.view()).text();
+}
+
 std::optional<PoseSubject> parse_pose_subject(std::string_view subject) {
-  // An empty last part would go unnoticed.
-  if (!subject.starts_with(kPosePrefix) || subject.ends_with('.')) return std::nullopt;
-  subject.remove_prefix(kPosePrefix.size());
-  const auto room = GuestId::parse(take_part(subject));
-  const auto guest = GuestId::parse(take_part(subject));
-  if (!room || !guest || !subject.empty()) return std::nullopt;
-  return PoseSubject{*room, *guest};
+  return subject_of_guest(kPosePrefix, subject);
+}
+std::optional<PoseSubject> parse_voice_subject(std::string_view subject) {
+  return subject_of_guest(kVoicePrefix, subject);
 }
 
 Text keys_of(const wire::RoomName& room) { return (TextMaker() << room.view() << ".>").text(); }

@@ -21,11 +21,14 @@ using Text = FixedString<96>;
 Text beat_subject();
 Text server_subject(ServerId server);
 Text pose_subject(const wire::RoomName& room, const GuestId& guest);
+// One of its own: where a server is behind, no voice makes a pose the older one.
+Text voice_subject(const wire::RoomName& room, const GuestId& guest);
 struct PoseSubject {
   wire::RoomName room;
   GuestId guest;
 };
 std::optional<PoseSubject> parse_pose_subject(std::string_view subject);
+std::optional<PoseSubject> parse_voice_subject(std::string_view subject);
 
 // Keys, all of which begin with the room.
 enum class KeyKind : std::uint8_t { kPresence, kGuest, kGuestState, kRoomState };

@@ -53,8 +53,8 @@ bool ClusterNode::is_settled(MonoTime now) const {
 // --- what other servers say
 
 template <class Told>
-void ClusterNode::take_record(const Told& told, std::string_view subject, MonoTime now) {
-  const auto of = cluster::parse_pose_subject(subject);
+void ClusterNode::take_record(const Told& told, const std::optional<cluster::PoseSubject>& of,
+                              MonoTime now) {
   if (!of)
     ++counters_.malformed;
   else if (server_ != nullptr && told.server != options_.id)
@@ -73,10 +73,10 @@ void ClusterNode::on_message(std::string_view subject, cluster::Bytes bytes, Mon
   }
   if (const auto* record = std::get_if<cluster::RecordMessage>(&*message)) {
     ++counters_.records_in;
-    take_record(*record, subject, now);
+    take_record(*record, cluster::parse_pose_subject(subject), now);
   } else if (const auto* voice = std::get_if<cluster::VoiceMessage>(&*message)) {
     ++counters_.voices_in;
-    take_record(*voice, subject, now);
+    take_record(*voice, cluster::parse_voice_subject(subject), now);
   } else if (const auto* beat = std::get_if<cluster::Beat>(&*message)) {
     take(*beat, now);
   } else if (const auto* question = std::get_if<cluster::ClockQuestion>(&*message)) {

@@ -105,7 +105,7 @@ class ClusterNode final : public ClusterPort {
   void take(const cluster::Beat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);
   template <class Told>
-  void take_record(const Told& told, std::string_view subject, MonoTime now);
+  void take_record(const Told& told, const std::optional<cluster::PoseSubject>& of, MonoTime now);
   void take(const cluster::FeedbackMessage& message, MonoTime now);
   void take_presence(Room& room, const cluster::Key& key, const cluster::PresenceValue* value,
                      MonoTime now);

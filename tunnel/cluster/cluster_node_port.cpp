@@ -29,8 +29,10 @@ void ClusterNode::put_presence(const wire::RoomName& room) {
 void ClusterNode::on_room_closed(const ServerRoom& room) {
   const auto of = rooms_.find(room.name);
   if (of == rooms_.end()) return;
-  for (const GuestId& guest : of->second.subscribed)
+  for (const GuestId& guest : of->second.subscribed) {
     bus_.end_listen(cluster::pose_subject(room.name, guest).view());
+    bus_.end_listen(cluster::voice_subject(room.name, guest).view());
+  }
   bus_.end_watch(cluster::keys_of(room.name).view());
   erase({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0});
   // The last to leave takes along what the room had.
@@ -76,11 +78,15 @@ void ClusterNode::on_guest_left(const ServerRoom& room, const ServerGuest& guest
 void ClusterNode::on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) {
   const auto of = rooms_.find(room.name);
   if (of == rooms_.end()) return;
-  const auto subject = cluster::pose_subject(room.name, guest.id);
-  if (is_wanted && of->second.subscribed.insert(guest.id).second)
-    bus_.listen(subject.view());
-  else if (!is_wanted && of->second.subscribed.erase(guest.id) > 0)
-    bus_.end_listen(subject.view());
+  const auto poses = cluster::pose_subject(room.name, guest.id);
+  const auto voices = cluster::voice_subject(room.name, guest.id);
+  if (is_wanted && of->second.subscribed.insert(guest.id).second) {
+    bus_.listen(poses.view());
+    bus_.listen(voices.view());
+  } else if (!is_wanted && of->second.subscribed.erase(guest.id) > 0) {
+    bus_.end_listen(poses.view());
+    bus_.end_listen(voices.view());
+  }
 }
 
 void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
@@ -90,11 +96,10 @@ void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
        cluster::RecordMessage{options_.id, guest.link_token, record});
 }
 
-// Where the guest's poses go: a server that wants the guest hears it too.
 void ClusterNode::on_voice(const ServerRoom& room, const ServerGuest& guest,
                            const wire::VoiceRecord& record) {
   ++counters_.voices_out;
-  send(cluster::pose_subject(room.name, guest.id).view(),
+  send(cluster::voice_subject(room.name, guest.id).view(),
        cluster::VoiceMessage{options_.id, guest.link_token, record});
 }
 

@@ -51,7 +51,7 @@ TEST(ClusterFormat, KeepsEveryFieldOfAVoice) {
   const auto message = cluster_samples::voice();
   const auto bytes = bytes_of(cluster::Message(message));
   // 13 and 14 are server and token, 7,654,321 the sequence, 9,876,543,210 µs the capture.
-  const std::vector<std::uint8_t> golden{1,    6,    13, 0, 0, 0, 0,    0,    0,    0, 14,   0,
+  const std::vector<std::uint8_t> golden{1,    8,    13, 0, 0, 0, 0,    0,    0,    0, 14,   0,
                                          0,    0,    0,  0, 0, 0, 0xb1, 0xcb, 0x74, 0, 0xea, 0x16,
                                          0xb0, 0x4c, 2,  0, 0, 0, 31,   4,    8,    6, 4,    2};
   EXPECT_EQ(bytes, golden);

@@ -45,6 +45,8 @@ void play_message(std::string_view subject, cluster::Bytes bytes) {
   if (const auto message = cluster::parse_message(bytes)) must_be_built_alike(*message, bytes);
   if (const auto of = cluster::parse_pose_subject(subject))
     must(cluster::pose_subject(of->room, of->guest).view() == subject);
+  if (const auto of = cluster::parse_voice_subject(subject))
+    must(cluster::voice_subject(of->room, of->guest).view() == subject);
 }
 
 void play_value(std::string_view key, cluster::Bytes bytes) {

@@ -34,7 +34,7 @@ TEST(ClusterVoice, GuestsOfAllServersHearEachOther) {
     EXPECT_LE((last.at - last.voice.capture_time).as_ms(), 26.0);
   }
   EXPECT_TRUE(elsewhere.voices.empty());
-  EXPECT_EQ(cluster[0].published["dance.1.pose"], 100) << "once each, for both servers";
+  EXPECT_EQ(cluster[0].published["dance.1.voice"], 100) << "once each, for both servers";
 }
 
 TEST(ClusterVoice, GoesOnlyToServersThatWantTheGuest) {

@@ -36,7 +36,8 @@ class NatsCluster : public ::testing::Test {
     std::unique_ptr<Link> link;
     std::uint32_t next_sequence = 1;
     std::map<GuestId, std::uint64_t> heard;
-    std::uint64_t joined = 0, left = 0;  // others, as it was told
+    std::uint64_t joined = 0, left = 0;       // others, as it was told
+    std::map<GuestId, std::uint64_t> voices;  // packets
   };
 
   void SetUp() override {
@@ -117,6 +118,7 @@ class NatsCluster : public ::testing::Test {
     added.room = guest(room);
     LinkHandlers handlers;
     handlers.on_pose = [&added](const GuestId& id, const Pose&, MonoTime) { ++added.heard[id]; };
+    handlers.on_voice = [&added](const GuestId& id, const Voice&, MonoTime) { ++added.voices[id]; };
     handlers.on_guest_joined = [&added](const GuestId&, MonoTime) { ++added.joined; };
     handlers.on_guest_left = [&added](const GuestId&, MonoTime) { ++added.left; };
     LinkOptions options;

@@ -15,6 +15,16 @@ TEST_F(NatsCluster, GuestsOfTwoServersDanceTogether) {
   add_guest("carla", 1, "tango");
   ASSERT_TRUE(all_hear_all(100)) << talk();
   EXPECT_FALSE(guests[2]->heard.contains(guest("alice"))) << "another room";
+  Voice voice;
+  voice.clock_id = this_clock_id();
+  ASSERT_TRUE(voice.set_packet(std::array<std::uint8_t, 40>{1}));
+  EXPECT_TRUE(dance_until([&] {
+    voice.capture_time = mono_now();
+    ++voice.sequence;
+    guests[0]->link->send(guest("alice"), voice, voice.capture_time);
+    return guests[1]->voices[guest("alice")] >= 50;
+  })) << talk();
+  EXPECT_TRUE(guests[2]->voices.empty());
   for (const auto& one : guests) EXPECT_EQ(one->left, 0u);
 }
 
