@@ -10,7 +10,7 @@ namespace dance {
 namespace {
 
 constexpr std::size_t kCleanFrame = VoiceCleaner::kFrame;
-constexpr std::size_t kLearns = 48'000 * 5;
+constexpr std::size_t kLearns = 48'000 * 4;
 
 std::vector<float> cleaned(const std::vector<float>& microphone,
                            const std::vector<float>& loudspeaker, bool takes_out_echo) {
@@ -33,8 +33,8 @@ class VoiceClean : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!has_speech_maker()) GTEST_SKIP() << "no espeak-ng: apt-get install espeak-ng";
-    far_ = *make_speech(15.0, 1, folder_.path("far.wav"));
-    near_ = *make_speech(15.0, 0, folder_.path("near.wav"));
+    far_ = *make_speech(9.0, 1, folder_.path("far.wav"));
+    near_ = *make_speech(9.0, 0, folder_.path("near.wav"));
     echo_ = heard_in_room(far_, {});
   }
   static std::span<const float> tail(const std::vector<float>& sound) {

@@ -143,6 +143,10 @@ int main(int argc, char** argv) {
   line.finally([&]() -> dance::Result<void> {
     if (options.with_picture && options.at_once)
       return dance::fail("--with-picture and --at-once exclude each other");
+    dance::VoiceSettings checked;
+    for (const std::string& volume : options.volumes)
+      if (auto set = checked.set_volume(volume); !set)
+        return dance::fail("--volume: " + set.error().what);
     return {};
   });
   return dance::run_program(line, argc, argv, [&] { return dance::run_voice(options); });
