@@ -286,7 +286,8 @@ template <>
 struct MessageFields<HearingWish> {
   using Generated = dancelcm::hearing_t;
   static bool map(auto io, auto& m, auto& v) {
-    return map_stamp(io, m, v) && io(m.hears_others, v.hears_others) && io(m.guests, v.guests);
+    return map_stamp(io, m, v) && io(m.listener, v.listener) &&
+           io(m.hears_others, v.hears_others) && io(m.guests, v.guests);
   }
 };
 

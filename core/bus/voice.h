@@ -51,10 +51,11 @@ inline bool is_valid(const Voice& voice) {
                      [](std::uint8_t byte) { return byte == 0; });
 }
 
-// Whose voices a house wants, as the program that plays them says it.
+// Whose voices a guest of this house wants, as the program that plays them says it.
 struct HearingWish {
   MonoTime time;
   std::uint64_t clock_id = 0;
+  GuestId listener;                  // who wants it
   bool hears_others = true;          // everybody but these, or nobody but these
   std::array<GuestId, 16> guests{};  // those that are set
 
@@ -63,6 +64,6 @@ struct HearingWish {
     return is_named != hears_others;
   }
 };
-inline bool is_valid(const HearingWish&) { return true; }
+inline bool is_valid(const HearingWish& wish) { return wish.listener.is_set(); }
 
 }  // namespace dance

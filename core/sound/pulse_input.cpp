@@ -36,9 +36,10 @@ Result<std::unique_ptr<PulseInput>> PulseInput::open(PulseServer& server,
                                PA_STREAM_ADJUST_LATENCY) < 0)
     return fail("the sound server refuses to record: " + server.error_text());
   pa_stream* stream = input->stream_;
-  const bool is_ready = server.iterate_until([stream] {
-    return pa_stream_get_state(stream) != PA_STREAM_CREATING;
-  }) && pa_stream_get_state(stream) == PA_STREAM_READY;
+  const bool is_ready =
+      server.iterate_until([stream] { return pa_stream_get_state(stream) != PA_STREAM_CREATING; },
+                           options.patience) &&
+      pa_stream_get_state(stream) == PA_STREAM_READY;
   if (!is_ready)
     return fail("the sound server has no microphone" +
                 (source.empty() ? std::string() : " '" + source + "'") + ": " +
@@ -76,8 +77,7 @@ void PulseInput::request_timing() {
   const auto on_answer = [](pa_stream*, int is_good, void* self) {
     if (is_good != 0) static_cast<PulseInput*>(self)->report_timing();
   };
-  pa_operation* query = pa_stream_update_timing_info(stream_, on_answer, this);
-  if (query != nullptr) pa_operation_unref(query);
+  timing_.ask(stream_, on_answer, this);
 }
 
 void PulseInput::report_timing() {

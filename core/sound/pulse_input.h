@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/sound/pulse_server.h"
+#include "core/sound/pulse_timing.h"
 #include "core/sound/stream_clock.h"
 
 struct pa_stream;
@@ -26,7 +27,8 @@ namespace dance {
 struct PulseInputOptions {
   std::string source;  // its name for the server; "" = its default
   double rate_hz = 48000.0;
-  std::string name = "listening";  // of the stream, as the server's own tools show it
+  std::string name = "listening";              // of the stream, as the server's own tools show it
+  Duration patience = PulseServer::kPatience;  // open() waits so long for the server
 };
 
 class PulseInput {
@@ -58,6 +60,7 @@ class PulseInput {
   OnSamples on_samples_;
   StreamClock clock_;
   pa_stream* stream_ = nullptr;
+  PulseTiming timing_;
   std::int64_t read_ = 0;
   std::vector<float> silence_;
 };

@@ -44,9 +44,10 @@ Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
     ++static_cast<PulseOutput*>(self)->underflows_;
   };
   pa_stream_set_underflow_callback(stream, on_underflow, output.get());
-  const bool is_ready = server.iterate_until([stream] {
-    return pa_stream_get_state(stream) != PA_STREAM_CREATING;
-  }) && pa_stream_get_state(stream) == PA_STREAM_READY;
+  const bool is_ready =
+      server.iterate_until([stream] { return pa_stream_get_state(stream) != PA_STREAM_CREATING; },
+                           options.patience) &&
+      pa_stream_get_state(stream) == PA_STREAM_READY;
   if (!is_ready)
     return fail("the sound server has no loudspeaker" +
                 (options.sink.empty() ? std::string() : " '" + options.sink + "'") + ": " +
@@ -96,8 +97,7 @@ void PulseOutput::request_timing() {
   const auto on_answer = [](pa_stream*, int is_good, void* self) {
     if (is_good != 0) static_cast<PulseOutput*>(self)->report_timing();
   };
-  pa_operation* query = pa_stream_update_timing_info(stream_, on_answer, this);
-  if (query != nullptr) pa_operation_unref(query);
+  timing_.ask(stream_, on_answer, this);
 }
 
 void PulseOutput::report_timing() {

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "core/sound/pulse_server.h"
+#include "core/sound/pulse_timing.h"
 
 struct pa_stream;
 
@@ -26,6 +27,7 @@ struct PulseOutputOptions {
   std::string name = "music";  // of the stream, as the server's own tools show it
   // Buffered ahead: shorter stalls of the machine are inaudible. The latency is compensated.
   Duration ahead = Duration::ms(300);
+  Duration patience = PulseServer::kPatience;  // open() waits so long for the server
 };
 
 class PulseOutput {
@@ -61,6 +63,7 @@ class PulseOutput {
   double rate_hz_;
   OnHeard on_heard_;
   pa_stream* stream_ = nullptr;
+  PulseTiming timing_;
   std::int64_t written_ = 0;
   std::uint32_t playing_hz_ = 0;
   std::uint64_t underflows_ = 0;

@@ -2,8 +2,6 @@
 
 #include <pulse/pulseaudio.h>
 
-#include "core/net/mono_clock.h"
-
 namespace dance {
 namespace {
 
@@ -26,10 +24,9 @@ Result<std::unique_ptr<PulseServer>> PulseServer::connect(const std::string& pro
   // Does not start a server: nothing would stop it again.
   if (pa_context_connect(server->context_, nullptr, PA_CONTEXT_NOAUTOSPAWN, nullptr) < 0)
     return fail(std::string(kNoServer) + " (" + server->error_text() + ")");
-  for (int i = 0; i < kMostWaits; ++i) {
-    if (!is_on_its_way(pa_context_get_state(server->context_))) break;
+  const MonoTime end = mono_now() + kPatience;
+  while (is_on_its_way(pa_context_get_state(server->context_)) && mono_now() < end)
     server->iterate_waiting();
-  }
   if (!server->is_alive()) return fail(std::string(kNoServer) + " (" + server->error_text() + ")");
   return server;
 }

@@ -17,6 +17,7 @@
 
 #include "core/base/result.h"
 #include "core/base/time.h"
+#include "core/net/mono_clock.h"
 
 struct pa_context;
 struct pa_mainloop;
@@ -25,6 +26,8 @@ namespace dance {
 
 class PulseServer {
  public:
+  static constexpr Duration kPatience = Duration::s(3);
+
   // Waits for the server's answer, a few seconds at most.
   static Result<std::unique_ptr<PulseServer>> connect(const std::string& program);
   ~PulseServer();
@@ -34,10 +37,11 @@ class PulseServer {
   pa_context* context() const { return context_; }
   // Handles what has come; the streams' callbacks run in it.
   void iterate();
-  // The same until `is_done`, for a few seconds at most; false when it did not come to that.
+  // The same until `is_done`; false when it did not come to that in time.
   template <class IsDone>
-  bool iterate_until(IsDone is_done) {
-    for (int i = 0; i < kMostWaits; ++i) {
+  bool iterate_until(IsDone is_done, Duration patience = kPatience) {
+    const MonoTime end = mono_now() + patience;
+    while (mono_now() < end) {
       if (is_done()) return true;
       if (!is_alive()) return false;
       iterate_waiting();
@@ -50,8 +54,6 @@ class PulseServer {
   static MonoTime mono_time_of(const timeval& wall);
 
  private:
-  static constexpr int kMostWaits = 300;  // of 10 ms
-
   PulseServer() = default;
   void iterate_waiting();
 

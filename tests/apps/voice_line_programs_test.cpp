@@ -104,13 +104,17 @@ TEST_F(VoiceLinePrograms, AVoiceIsHeardRecordedAndPlayedAgain) {
   // bob's player mutes her, and wants her again.
   const auto heard_while = [&](bool hears_others) {
     HearingWish wish;
-    wish.hears_others = hears_others;
     wish.clock_id = this_clock_id();
     std::size_t newest = 0;
     const int poses = b.poses;
     EXPECT_TRUE(wait_for([&] {
       wish.time = mono_now();
-      b.bus->publish(Channel::of_house(Signal::kHearing), wish);
+      // Who plays voices to another guest of this house mutes everybody all the time.
+      for (const bool is_bob : {true, false}) {
+        wish.listener = *GuestId::parse(is_bob ? "bob" : "bea");
+        wish.hears_others = is_bob && hears_others;
+        b.bus->publish(Channel::of_house(Signal::kHearing), wish);
+      }
       perform(*a.bus);
       b.bus->drain(mono_now());
       // What was under way when it was said.

@@ -46,6 +46,28 @@ TEST(VoiceSettings, TakesItsCommandsAndNoOthers) {
   EXPECT_FALSE(settings.set_volume("another=1"));
 }
 
+TEST(StagePlaces, AFullRoomHasItsPlacesAndWhoLeftMakesRoom) {
+  StagePlaces places;
+  const auto dancer = [](std::size_t i) { return *GuestId::parse("g" + std::to_string(i)); };
+  const auto me = dancer(0);
+  Pose pose;
+  // Twice as many as fit, half of whom leave.
+  for (std::size_t i = 0; i < 2 * StagePlaces::kMostDancers; ++i) {
+    pose.p_WH_m = {static_cast<float>(i), 1.0f, 0.0f};
+    places.see(dancer(i), pose);
+    pose.p_WH_m = {0.0f, 1.0f, 0.0f};
+    places.see(me, pose);
+  }
+  std::size_t placed = 0;
+  for (std::size_t i = 1; i < 2 * StagePlaces::kMostDancers; ++i)
+    if (const auto place = places.place_of(dancer(i), me)) {
+      ++placed;
+      EXPECT_GT(i, StagePlaces::kMostDancers) << "the last that came";
+      EXPECT_EQ(place->distance_m, static_cast<float>(i));
+    }
+  EXPECT_EQ(placed, 127u);
+}
+
 std::unique_ptr<OwnVoice> own_voice() {
   VoiceCleanerOptions cleaning;
   cleaning.takes_out_noise = false;

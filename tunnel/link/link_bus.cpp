@@ -1,12 +1,6 @@
 #include "tunnel/link/link_bus.h"
 
 namespace dance {
-namespace {
-
-// It is said once a second; the program that said so has ended.
-constexpr Duration kHearingHolds = Duration::s(5);
-
-}  // namespace
 
 // As it comes.
 template <class T>
@@ -110,17 +104,11 @@ void LinkBus::send_channels(const std::vector<ChannelRule>& rules) {
 
 void LinkBus::follow_hearing(const Hearing& own) {
   own_hearing_ = own;
-  port_.subscribe<HearingWish>(Where::kLocal, [this](const Channel&, const HearingWish& wish,
-                                                     MonoTime now) { on_hearing(wish, now); });
-}
-
-void LinkBus::on_hearing(const HearingWish& wish, MonoTime now) {
-  hearing_said_ = now;
-  Hearing wanted;
-  wanted.others = wish.hears_others;
-  for (const GuestId& guest : wish.guests)
-    if (guest.is_set()) (void)wanted.exceptions.try_push(guest);
-  link_->set_hearing(both_of(own_hearing_, wanted), now);
+  port_.subscribe<HearingWish>(Where::kLocal,
+                               [this](const Channel&, const HearingWish& wish, MonoTime now) {
+                                 wishes_.hear(wish, now);
+                                 link_->set_hearing(wishes_.within(own_hearing_), now);
+                               });
 }
 
 void LinkBus::forget(const GuestId& guest) {
@@ -166,10 +154,7 @@ void LinkBus::publish_second(MonoTime now) {
     port_.publish(Where::kRoom, scene_->first, scene_->second);
   }
   if (link_ == nullptr) return;
-  if (hearing_said_.is_set() && now - hearing_said_ > kHearingHolds) {
-    hearing_said_ = MonoTime();
-    link_->set_hearing(own_hearing_, now);
-  }
+  if (wishes_.expire(now)) link_->set_hearing(wishes_.within(own_hearing_), now);
   publish_traffic(now);
   // As the clocks stand now, which is better than when it came.
   if (const auto music = link_->room_music(now))

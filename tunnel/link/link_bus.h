@@ -20,6 +20,7 @@
 #include "core/bus/captures.h"
 #include "tunnel/link/link.h"
 #include "tunnel/link/link_avatars.h"
+#include "tunnel/policy/hearing_wishes.h"
 
 namespace dance {
 
@@ -43,7 +44,8 @@ class LinkBus {
   void send_signals_of(const GuestId& guest);
   // And the channels that the rules let out.
   void send_channels(const std::vector<ChannelRule>& rules);
-  // Of the voices that `own` lets in, only those come that HEARING/local wants, while it says so.
+  // Of the voices that `own` lets in, only those come that a guest of this house wants, while any
+  // says so on HEARING/local.
   void follow_hearing(const Hearing& own);
   void forget(const GuestId& guest);
   // STATS/link, and the states of the others and of the room again, for programs that start late.
@@ -65,7 +67,6 @@ class LinkBus {
   template <class... Ts>
   void send_each(const GuestId& guest);
   void publish_traffic(MonoTime now);
-  void on_hearing(const HearingWish& wish, MonoTime now);
   void on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
                   wire::Bytes message);
 
@@ -79,7 +80,7 @@ class LinkBus {
   std::optional<std::pair<GuestId, Scene>> scene_;
   std::vector<ChannelRule> rules_;
   Hearing own_hearing_;
-  MonoTime hearing_said_;  // not set: nobody says so
+  HearingWishes wishes_;
 };
 
 }  // namespace dance

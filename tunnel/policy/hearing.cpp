@@ -13,6 +13,14 @@ Hearing both_of(const Hearing& one, const Hearing& other) {
   return both;
 }
 
+Hearing either_of(const Hearing& one, const Hearing& other) {
+  const auto not_of = [](Hearing hearing) {
+    hearing.others = !hearing.others;
+    return hearing;
+  };
+  return not_of(both_of(not_of(one), not_of(other)));
+}
+
 Result<Hearing> parse_hearing(std::span<const std::string> words) {
   constexpr const char* kRule = ": write NAME=1 (hear the guest), NAME=0 (do not) or default=0";
   FixedList<GuestId, kMaxInterestGuests> heard, muted;

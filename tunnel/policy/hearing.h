@@ -24,6 +24,8 @@ struct Hearing {
 
 // Whom both want to hear. Of more names than there is room for, the last are as the others.
 Hearing both_of(const Hearing& one, const Hearing& other);
+// Whom one of the two wants to hear; of more names as above.
+Hearing either_of(const Hearing& one, const Hearing& other);
 
 // "bob=0", "default=0", "alice=1": each at most once.
 Result<Hearing> parse_hearing(std::span<const std::string> words);

@@ -12,6 +12,8 @@ constexpr std::size_t kFrame = VoiceDeviceHandlers::kFrame;
 constexpr Duration kFrameLength = Duration::ms(10);
 constexpr Duration kTimingRequests = Duration::ms(100);
 constexpr Duration kLooks = Duration::s(2);
+constexpr Duration kShortestPatience = Duration::ms(100);
+constexpr Duration kLongestPatience = Duration::ms(800);
 // A machine that is too busy for a small buffer gets a larger one.
 constexpr Duration kFitLooks = Duration::s(2);
 constexpr std::uint64_t kMostUnderflows = 3;
@@ -29,30 +31,33 @@ Result<std::unique_ptr<VoiceDevices>> VoiceDevices::open(const VoiceDeviceOption
   if (auto connected = devices->connect(); !connected)
     return tl::make_unexpected(connected.error());
   if (!devices->has_microphone() && !devices->has_loudspeaker())
-    return fail(devices->last_trouble_);
+    return fail(devices->take_trouble());
   return devices;
 }
 
 Result<void> VoiceDevices::connect() {
   DANCE_TRY(server_, PulseServer::connect("voice"));
+  troubles_.clear(VoiceDevice::kServer);
+  patience_ = PulseServer::kPatience;
   open_loudspeaker();
   open_microphone();
   open_reference();
   return {};
 }
 
-void VoiceDevices::complain(const Error& error) {
-  if (error.what == last_trouble_) return;
-  last_trouble_ = error.what;
-  trouble_ = trouble_.empty() ? error.what : trouble_ + "; " + error.what;
+template <class Device>
+void VoiceDevices::keep(VoiceDevice device, std::unique_ptr<Device>& place,
+                        Result<std::unique_ptr<Device>> opened) {
+  if (!opened) return troubles_.add(device, opened.error().what);
+  troubles_.clear(device);
+  place = std::move(*opened);
 }
 
 void VoiceDevices::open_microphone() {
   from_microphone_.count = 0;
-  auto opened = PulseInput::open(*server_, {options_.microphone, kDevice_hz, "microphone"},
-                                 [this](std::span<const float> s) { on_microphone(s); });
-  if (!opened) return complain(opened.error());
-  microphone_ = std::move(*opened);
+  keep(VoiceDevice::kMicrophone, microphone_,
+       PulseInput::open(*server_, {options_.microphone, kDevice_hz, "microphone", patience_},
+                        [this](std::span<const float> s) { on_microphone(s); }));
 }
 
 void VoiceDevices::open_loudspeaker() {
@@ -60,12 +65,12 @@ void VoiceDevices::open_loudspeaker() {
   output.sink = options_.loudspeaker;
   output.name = "voices";
   output.ahead = ahead_;
+  output.patience = patience_;
   heard_ = StreamClock(kDevice_hz);
   underflows_before_ = 0;
-  auto opened = PulseOutput::open(*server_, output,
-                                  [this](MonoTime at, double frame) { heard_.report(at, frame); });
-  if (!opened) return complain(opened.error());
-  loudspeaker_ = std::move(*opened);
+  keep(VoiceDevice::kLoudspeaker, loudspeaker_,
+       PulseOutput::open(*server_, output,
+                         [this](MonoTime at, double frame) { heard_.report(at, frame); }));
 }
 
 void VoiceDevices::open_reference() {
@@ -73,10 +78,9 @@ void VoiceDevices::open_reference() {
   from_reference_.count = 0;
   const std::string monitor =
       options_.loudspeaker.empty() ? "@DEFAULT_MONITOR@" : options_.loudspeaker + ".monitor";
-  auto opened = PulseInput::open(*server_, {monitor, kDevice_hz, "what is played"},
-                                 [this](std::span<const float> s) { on_reference(s); });
-  if (!opened) return complain(opened.error());
-  reference_ = std::move(*opened);
+  keep(VoiceDevice::kReference, reference_,
+       PulseInput::open(*server_, {monitor, kDevice_hz, "what is played", patience_},
+                        [this](std::span<const float> s) { on_reference(s); }));
 }
 
 void VoiceDevices::on_reference(std::span<const float> samples) {
@@ -119,7 +123,10 @@ void VoiceDevices::work(MonoTime now) {
     if (loudspeaker_) loudspeaker_->request_timing();
   }
   if (loudspeaker_) fill(now);
-  if (now >= next_look_) look_for_lost(now);
+  if (now >= next_look_) {
+    look_for_lost();
+    next_look_ = mono_now() + kLooks;
+  }
   if (now >= next_fit_) fit_buffer(now);
 }
 
@@ -136,23 +143,30 @@ void VoiceDevices::fill(MonoTime now) {
 }
 
 // A headset that was unplugged may come back; the server may have been started again.
-void VoiceDevices::look_for_lost(MonoTime now) {
-  next_look_ = now + kLooks;
+void VoiceDevices::look_for_lost() {
   if (!server_ || !server_->is_alive()) {
     microphone_.reset();
     reference_.reset();
     loudspeaker_.reset();
     server_.reset();
-    if (auto connected = connect(); !connected) complain(connected.error());
+    if (auto connected = connect(); !connected)
+      troubles_.add(VoiceDevice::kServer, connected.error().what);
     return;
   }
   if (microphone_ && !microphone_->is_alive()) microphone_.reset();
   if (loudspeaker_ && !loudspeaker_->is_alive()) loudspeaker_.reset();
   if (reference_ && !reference_->is_alive()) reference_.reset();
+  // What works goes on soon: a server that answers slowly has first a short time, then longer.
+  if (!microphone_ && !loudspeaker_)
+    patience_ = PulseServer::kPatience;
+  else
+    patience_ = std::clamp(patience_, kShortestPatience, kLongestPatience);
+  const MonoTime begin = mono_now();
   if (!loudspeaker_) open_loudspeaker();
   if (!microphone_) open_microphone();
   if (!reference_) open_reference();
-  if (microphone_ && loudspeaker_) last_trouble_.clear();
+  const bool is_slow = mono_now() - begin >= patience_;
+  patience_ = is_slow ? patience_ * 2 : kShortestPatience;
 }
 
 void VoiceDevices::fit_buffer(MonoTime now) {

@@ -7,7 +7,8 @@
 // Threads:      none inside: all handlers run in work(), which is to be called every two
 //               milliseconds or so.
 // Failure:      open() names what is missing; a device that goes is said by trouble(), once, and
-//               looked for again every two seconds.
+//               looked for again every two seconds. While a sound server answers slowly, work()
+//               waits for it, for each device up to 0.8 s where another works, else up to 3 s.
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@
 #include "core/sound/pulse_input.h"
 #include "core/sound/pulse_output.h"
 #include "core/sound/stream_clock.h"
+#include "voice/device/device_troubles.h"
 
 namespace dance {
 
@@ -56,7 +58,7 @@ class VoiceDevices {
   bool has_microphone() const { return microphone_ != nullptr; }
   bool has_loudspeaker() const { return loudspeaker_ != nullptr; }
   // What is missing, and the cure; "" once it has been told.
-  std::string take_trouble() { return std::exchange(trouble_, std::string()); }
+  std::string take_trouble() { return troubles_.take(); }
   std::uint64_t underflows() const { return underflows_; }
   Duration ahead() const { return ahead_; }
 
@@ -75,10 +77,12 @@ class VoiceDevices {
   void open_reference();
   void on_microphone(std::span<const float> samples);
   void on_reference(std::span<const float> samples);
-  void look_for_lost(MonoTime now);
+  void look_for_lost();
   void fill(MonoTime now);
   void fit_buffer(MonoTime now);
-  void complain(const Error& error);
+  template <class Device>
+  void keep(VoiceDevice device, std::unique_ptr<Device>& place,
+            Result<std::unique_ptr<Device>> opened);
 
   VoiceDeviceOptions options_;
   VoiceDeviceHandlers handlers_;
@@ -89,8 +93,9 @@ class VoiceDevices {
   std::unique_ptr<PulseServer> server_;
   std::unique_ptr<PulseInput> microphone_, reference_;  // after what their samples go to
   std::unique_ptr<PulseOutput> loudspeaker_;
-  std::string trouble_, last_trouble_;
+  DeviceTroubles troubles_;
   MonoTime next_timing_, next_look_, next_fit_;
+  Duration patience_ = PulseServer::kPatience;  // with the sound server, while all waits for it
   std::uint64_t underflows_ = 0, underflows_before_ = 0;
   int calm_looks_ = 0;
   std::array<float, 2 * 4800> block_{};

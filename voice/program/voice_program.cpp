@@ -114,6 +114,7 @@ void VoiceProgram::say_hearing(MonoTime now) {
   HearingWish wish = settings_.hearing();
   wish.time = now;
   wish.clock_id = this_clock_id();
+  wish.listener = options_.guest;
   bus_.publish(Channel::of_house(Signal::kHearing), wish);
 }
 

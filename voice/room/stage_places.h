@@ -3,13 +3,16 @@
 //
 // Units/frames: metres and radians on the stage, azimuth 0 ahead of the listener and positive to
 //               the left.
-// Ownership:    plain value, no heap; remembers kMostDancers, the rest have no place.
+// Ownership:    plain value, no heap; remembers kMostDancers; of more, the one unseen the
+//               longest has no place.
 // Threads:      none inside.
 // Failure:      no place where one of the two is not on the stage.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 
@@ -27,17 +30,19 @@ struct VoicePlace {
 
 class StagePlaces {
  public:
-  static constexpr std::size_t kMostDancers = 32;
+  static constexpr std::size_t kMostDancers = 128;  // as many as a room has
 
   void see(const GuestId& guest, const Pose& pose) {
-    const Dancer seen{guest, pose.p_WH_m, heading_rad(pose.R_PB[0])};
+    const Dancer seen{guest, pose.p_WH_m, heading_rad(pose.R_PB[0]), ++sightings_};
     for (Dancer& dancer : dancers_) {
       if (dancer.guest != guest) continue;
       dancer = seen;
       return;
     }
-    if (dancers_.is_full()) dancers_.erase_at(0);
-    static_cast<void>(dancers_.try_push(seen));
+    if (dancers_.try_push(seen)) return;
+    *std::min_element(dancers_.begin(), dancers_.end(), [](const Dancer& a, const Dancer& b) {
+      return a.sighting < b.sighting;
+    }) = seen;
   }
   std::optional<VoicePlace> place_of(const GuestId& guest, const GuestId& listener) const {
     const Dancer* from = find(listener);
@@ -54,6 +59,7 @@ class StagePlaces {
     GuestId guest;
     Eigen::Vector3f p_WH_m = Eigen::Vector3f::Zero();
     float heading_rad = 0.0f;
+    std::uint64_t sighting = 0;
   };
   const Dancer* find(const GuestId& guest) const {
     for (const Dancer& dancer : dancers_)
@@ -62,6 +68,7 @@ class StagePlaces {
   }
 
   FixedList<Dancer, kMostDancers> dancers_;
+  std::uint64_t sightings_ = 0;
 };
 
 }  // namespace dance

@@ -30,5 +30,6 @@ Result<Loudspeaker> default_loudspeaker(const std::string&) { return fail(kNoSou
 PulseInput::~PulseInput() = default;
 PulseServer::~PulseServer() = default;
 PulseOutput::~PulseOutput() = default;
+PulseTiming::~PulseTiming() = default;
 
 }  // namespace dance

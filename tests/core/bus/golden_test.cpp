@@ -182,6 +182,7 @@ HearingWish golden_hearing() {
   HearingWish wish;
   wish.time = kCaptured;
   wish.clock_id = kClock;
+  wish.listener = *GuestId::parse("dora");
   wish.hears_others = true;
   wish.guests[0] = *GuestId::parse("alice");
   wish.guests[15] = *GuestId::parse("bob-2");
@@ -330,6 +331,13 @@ TEST(Decode, TakesVoiceOfAnySizeUpToItsBoundAndLooksAtNoByteOfIt) {
   EXPECT_EQ(outcome_of([](Voice& v) { v.level_dbfs = -128; }), Decoded::kInvalid);
   for (const int size : {0, -1, 161, 32'767, -32'768, 80})
     EXPECT_EQ(outcome_of([size](Voice& v) { v.size_bytes = size; }), Decoded::kInvalid) << size;
+}
+
+TEST(Decode, RefusesAWishOfNobody) {
+  HearingWish wish = golden_hearing(), decoded;
+  wish.listener = GuestId();
+  const Bytes bytes = encoded(wish);
+  EXPECT_EQ(decode(bytes.data(), bytes.size(), decoded), Decoded::kInvalid);
 }
 
 TEST(Decode, AllocatesNothing) {

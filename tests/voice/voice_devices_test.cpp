@@ -1,0 +1,111 @@
+// The devices of a voice with a real sound server: streams that go while answers are on their way,
+// and a server that goes and comes back.
+#include "voice/device/voice_devices.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/net/mono_clock.h"
+#include "tests/apps/sound_server.h"
+
+namespace dance {
+namespace {
+
+TEST(DeviceTroubles, OfTwoDevicesAreSaidOnceEach) {
+  DeviceTroubles troubles;
+  EXPECT_EQ(troubles.take(), "");
+  for (int look = 0; look < 3; ++look) {
+    troubles.add(VoiceDevice::kLoudspeaker, "no loudspeaker");
+    troubles.add(VoiceDevice::kMicrophone, "no microphone");
+    EXPECT_EQ(troubles.take(), look == 0 ? "no loudspeaker; no microphone" : "");
+  }
+  troubles.clear(VoiceDevice::kMicrophone);
+  troubles.add(VoiceDevice::kLoudspeaker, "no loudspeaker");
+  troubles.add(VoiceDevice::kMicrophone, "no microphone");
+  EXPECT_EQ(troubles.take(), "no microphone") << "it had come back";
+}
+
+class VoiceDevicesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!SoundServer::is_there()) GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
+    sound_ = std::make_unique<SoundServer>(folder_);
+    ASSERT_TRUE(sound_->is_open());
+  }
+  TestFolder folder_{"voice-devices"};
+  std::unique_ptr<SoundServer> sound_;
+};
+
+TEST_F(VoiceDevicesTest, StreamsGoWhileAnswersOfTheServerAreOnTheirWay) {
+  auto server = PulseServer::connect("test");
+  ASSERT_TRUE(server) << server.error().what;
+  PulseOutputOptions to;
+  to.sink = "dance";
+  to.ahead = Duration::ms(20);
+  int after_the_end = 0;
+  const std::array<float, 960> quiet{};
+  for (int round = 0; round < 10; ++round) {
+    bool is_over = false;
+    int answers = 0, heard = 0;
+    const auto count = [&](int& of) { ++(is_over ? after_the_end : of); };
+    auto output = PulseOutput::open(**server, to, [&](MonoTime, double) { count(answers); });
+    ASSERT_TRUE(output) << output.error().what;
+    auto input = PulseInput::open(**server, {"dance.monitor"}, [&](auto) { count(heard); });
+    ASSERT_TRUE(input) << input.error().what;
+    // Streams that live are answered, however often they ask; once is enough to see it, as an idle
+    // sink takes two seconds to begin.
+    const auto ask = [&] {
+      if ((*output)->wanted_frames() >= quiet.size() / 2) (*output)->write(quiet);
+      (*output)->request_timing();
+      (*input)->request_timing();
+    };
+    ASSERT_TRUE((*server)->iterate_until(
+        [&] {
+          ask();
+          return round > 0 || (answers > 3 && heard > 3);
+        },
+        Duration::s(30)));
+    ask();
+    output->reset();
+    input->reset();
+    is_over = true;
+    // As many turns as bring the answers that were asked for.
+    for (int turn = 0; turn < 20; ++turn) {
+      (*server)->iterate();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  EXPECT_EQ(after_the_end, 0);
+}
+
+TEST_F(VoiceDevicesTest, AServerThatWentIsSaidAndItsDevicesAreGone) {
+  VoiceDeviceOptions options;
+  options.microphone = "dance.monitor";
+  options.loudspeaker = "dance";
+  VoiceDeviceHandlers handlers;
+  int frames = 0;
+  handlers.on_microphone = [&](auto, MonoTime, Duration) { ++frames; };
+  handlers.on_reference = [](auto) {};
+  handlers.fill = [](auto, MonoTime, MonoTime) {};
+  auto devices = VoiceDevices::open(options, handlers);
+  ASSERT_TRUE(devices) << devices.error().what;
+  const auto work = [&] { (*devices)->work(mono_now()); };
+  EXPECT_TRUE(wait_for([&] {
+    work();
+    return frames > 10;
+  }));
+  EXPECT_EQ((*devices)->take_trouble(), "");
+  sound_.reset();
+  std::vector<std::string> said;
+  EXPECT_TRUE(wait_for([&] {
+    work();
+    if (auto trouble = (*devices)->take_trouble(); !trouble.empty()) said.push_back(trouble);
+    return !said.empty();
+  }));
+  EXPECT_FALSE((*devices)->has_microphone() || (*devices)->has_loudspeaker());
+  EXPECT_NE(said.at(0).find("no sound server"), std::string::npos) << said.at(0);
+}
+
+}  // namespace
+}  // namespace dance
