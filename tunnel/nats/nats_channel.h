@@ -5,7 +5,8 @@
 // Ownership:    owns socket and session.
 // Threads:      one at a time.
 // Failure:      start_tls() says what is wrong with certificates or names; later nullopt is the end
-//               of the connection.
+//               of the connection. In TLS the program must ignore SIGPIPE, or the write that finds
+//               the end is the program's too.
 #pragma once
 
 #include <openssl/ssl.h>

@@ -1,11 +1,7 @@
 // How a connection to NATS begins: in TLS where that is wanted, whatever the server says, and with
 // an end, whatever it does.
-#include <poll.h>
-
-#include <atomic>
-#include <thread>
-
 #include "tests/tunnel/cluster/nats_cluster.h"
+#include "tests/tunnel/cluster/nats_peer.h"
 #include "tests/tunnel/seal/paper.h"
 #include "tunnel/nats/nats_bus.h"
 #include "tunnel/nats/nats_connector.h"
@@ -67,53 +63,6 @@ TEST_F(NatsGreetingTest, AServerShowsWhoItIsAlsoWhereItsUrlDoesNotAskForTls) {
   for (const std::string& said : {messages_say(other), values_say(other)})
     EXPECT_NE(said.find("no TLS"), std::string::npos) << said;
 }
-
-// A peer that says it is a NATS server, and from then on only that all is well.
-class Chatterer {
- public:
-  explicit Chatterer(std::size_t lines_at_once) : lines_at_once_(lines_at_once) {
-    fd_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof at;
-    if (::bind(fd_, reinterpret_cast<const sockaddr*>(&at), size) != 0 || ::listen(fd_, 8) != 0)
-      std::abort();
-    ::getsockname(fd_, reinterpret_cast<sockaddr*>(&at), &size);
-    url = "nats://127.0.0.1:" + std::to_string(ntohs(at.sin_port));
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Chatterer() {
-    ends_ = true;
-    thread_.join();
-    ::close(fd_);
-  }
-
-  std::string url;
-  std::atomic<int> lines{0};
-
- private:
-  void run() {
-    pollfd waited{fd_, POLLIN, 0};
-    while (!ends_) {
-      if (::poll(&waited, 1, 20) <= 0) continue;
-      const int peer = ::accept(fd_, nullptr, nullptr);
-      std::string said = "INFO {}\r\n";
-      while (!ends_ && ::send(peer, said.data(), said.size(), MSG_NOSIGNAL) > 0) {
-        said.clear();
-        for (std::size_t i = 0; i < lines_at_once_; ++i) said += "+OK\r\n";
-        ++lines;
-        if (lines_at_once_ == 1) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      }
-      ::close(peer);
-    }
-  }
-
-  std::size_t lines_at_once_;
-  int fd_ = -1;
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
-};
 
 TEST_F(NatsGreetingTest, APeerThatNeverComesToAnEndIsLeft) {
   // By its bytes, or by the time.

@@ -3,6 +3,8 @@
 #include "tunnel/nats/nats_messages.h"
 
 #include "tests/tunnel/cluster/nats_cluster.h"
+#include "tests/tunnel/cluster/nats_peer.h"
+#include "tests/tunnel/seal/paper.h"
 
 namespace dance {
 namespace {
@@ -182,6 +184,28 @@ TEST_F(NatsMessagesTest, ManySubjectsAreToldTurnByTurn) {
   bob.heard.clear();
   EXPECT_TRUE(turn_until(all_heard));
   EXPECT_EQ(bob.messages->counters().refused, 0u);
+}
+
+// OpenSSL takes whole records from the socket, of which a turn reads a part: for the rest no poller
+// wakes, and this peer sends nothing more.
+TEST_F(NatsMessagesTest, WhatTlsHasTakenFromTheSocketIsRead) {
+  Authority ours(folder_.path(), "ours");
+  ours.sign("peer", "IP:127.0.0.1");
+  constexpr std::size_t kMessages = 136;  // somewhat more than four times 32 kB
+  SilentAfterBurst peer(folder_.path("peer.pem"), folder_.path("peer.key"), kMessages);
+  NatsOptions of;
+  of.urls = {peer.url};
+  of.authorities = ours.file;
+  Talker bob(of, *poller);
+  ASSERT_TRUE(bob.messages);
+  bob.messages->listen("dance.1.test");
+  bob.messages->end_turn(mono_now());
+  ASSERT_TRUE(wait_for([&] { return peer.has_sent.load(); }));
+  EXPECT_TRUE(turn_until([&] {
+    return bob.heard["dance.1.test"].size() + bob.messages->counters().dropped_in == kMessages ||
+           !bob.messages->is_connected();
+  }));
+  EXPECT_EQ(bob.heard["dance.1.test"].size() + bob.messages->counters().dropped_in, kMessages);
 }
 
 TEST_F(NatsMessagesTest, ItShowsItsPasswordOrToken) {
