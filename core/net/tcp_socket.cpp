@@ -28,7 +28,7 @@ bool is_passing(int reason) { return reason == EAGAIN || reason == EWOULDBLOCK |
 
 }  // namespace
 
-Result<TcpSocket> TcpSocket::connect(const Address& to, Duration longest) {
+Result<TcpSocket> TcpSocket::begin(const Address& to) {
   sockaddr_storage raw{};
   const socklen_t size = to.to_sockaddr(to.family(), raw);
   const int family = to.family() == Address::Family::kIpv6 ? AF_INET6 : AF_INET;
@@ -38,12 +38,15 @@ Result<TcpSocket> TcpSocket::connect(const Address& to, Duration longest) {
   ::setsockopt(made.fd_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   if (::connect(made.fd_, reinterpret_cast<const sockaddr*>(&raw), size) == 0) return made;
   if (errno != EINPROGRESS) return tcp_failure(to, errno);
-  if (!made.wait_for_room(longest)) return tcp_failure(to, ETIMEDOUT);
+  return made;
+}
+
+Result<void> TcpSocket::finish(const Address& to) {
   int reason = 0;
   socklen_t length = sizeof reason;
-  ::getsockopt(made.fd_, SOL_SOCKET, SO_ERROR, &reason, &length);
+  ::getsockopt(fd_, SOL_SOCKET, SO_ERROR, &reason, &length);
   if (reason != 0) return tcp_failure(to, reason);
-  return made;
+  return {};
 }
 
 TcpSocket& TcpSocket::operator=(TcpSocket&& other) noexcept {

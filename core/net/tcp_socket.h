@@ -3,7 +3,7 @@
 // Units/frames: bytes.
 // Ownership:    owns the descriptor; never allocates.
 // Threads:      one at a time.
-// Failure:      connect() names the address and the reason; later an end of the connection, from
+// Failure:      begin() and finish() name the address and the reason; later an end of the connection, from
 //               whatever cause, is nullopt, and stays so.
 #pragma once
 
@@ -20,7 +20,9 @@ namespace dance {
 
 class TcpSocket {
  public:
-  static Result<TcpSocket> connect(const Address& to, Duration longest);
+  // A connection in steps: begin(), wait_for_room() until it says true, finish().
+  static Result<TcpSocket> begin(const Address& to);
+  Result<void> finish(const Address& to);
   TcpSocket(TcpSocket&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
   TcpSocket& operator=(TcpSocket&& other) noexcept;
   ~TcpSocket();

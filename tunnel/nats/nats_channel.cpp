@@ -4,7 +4,6 @@
 #include <openssl/x509v3.h>
 
 #include "core/base/printable.h"
-#include "core/net/mono_clock.h"
 
 namespace dance {
 namespace {
@@ -44,7 +43,7 @@ bool expect_host(SSL* tls, const std::string& host) {
 }  // namespace
 
 Result<void> NatsChannel::start_tls(const NatsOptions& options, const std::string& host,
-                                    Duration longest) {
+                                    const NatsPatience& patience) {
   ERR_clear_error();
   const std::unique_ptr<SSL_CTX, ContextDeleter> context(SSL_CTX_new(TLS_client_method()));
   if (!context) return fail("TLS: no memory");
@@ -56,16 +55,17 @@ Result<void> NatsChannel::start_tls(const NatsOptions& options, const std::strin
   tls_.reset(SSL_new(context.get()));
   if (!tls_ || SSL_set_fd(tls_.get(), socket_.fd()) != 1 || !expect_host(tls_.get(), host))
     return fail("TLS: no memory");
-  for (const MonoTime end = mono_now() + longest;;) {
+  for (;;) {
     const int done = SSL_connect(tls_.get());
     if (done == 1) return {};
     const int error = SSL_get_error(tls_.get(), done);
-    const Duration left = end - mono_now();
-    const bool went_on =
-        left > Duration() && (error == SSL_ERROR_WANT_READ
-                                  ? socket_.wait_for_bytes(left)
-                                  : error == SSL_ERROR_WANT_WRITE && socket_.wait_for_room(left));
-    if (!went_on) return fail("no TLS: " + tls_reason(tls_.get()));
+    const bool reads = error == SSL_ERROR_WANT_READ;
+    if (!reads && error != SSL_ERROR_WANT_WRITE) return fail("no TLS: " + tls_reason(tls_.get()));
+    if (patience.is_over()) return fail("no TLS: the server does not answer");
+    if (reads)
+      socket_.wait_for_bytes(patience.slice());
+    else
+      socket_.wait_for_room(patience.slice());
   }
 }
 

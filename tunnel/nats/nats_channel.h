@@ -5,7 +5,8 @@
 // Ownership:    owns socket and session.
 // Threads:      one at a time.
 // Failure:      start_tls() says what is wrong with certificates or names; later nullopt is the end
-//               of the connection.
+//               of the connection. In TLS the program must ignore SIGPIPE, or the write that finds
+//               the end is the program's too.
 #pragma once
 
 #include <openssl/ssl.h>
@@ -15,6 +16,7 @@
 
 #include "core/net/tcp_socket.h"
 #include "tunnel/nats/nats_options.h"
+#include "tunnel/nats/nats_patience.h"
 
 namespace dance {
 
@@ -23,11 +25,15 @@ class NatsChannel {
   explicit NatsChannel(TcpSocket socket) : socket_(std::move(socket)) {}
 
   // `host` is what its certificate must bear.
-  Result<void> start_tls(const NatsOptions& options, const std::string& host, Duration longest);
+  Result<void> start_tls(const NatsOptions& options, const std::string& host,
+                         const NatsPatience& patience);
 
   int fd() const { return socket_.fd(); }
-  // As TcpSocket. In TLS all that is there is read, so that a poller misses none of it.
+  // As TcpSocket. A poller misses none of what is there where one reads until less than asked for
+  // came, or until has_pending() is false.
   std::optional<std::size_t> read(std::span<std::uint8_t> into);
+  // In TLS bytes have been taken from the socket that were not read.
+  bool has_pending() const { return tls_ && SSL_has_pending(tls_.get()) == 1; }
   // After 0 the same bytes must come first again.
   std::optional<std::size_t> write(std::span<const std::uint8_t> from);
   bool wait_for_bytes(Duration longest) const { return socket_.wait_for_bytes(longest); }

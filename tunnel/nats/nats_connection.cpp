@@ -34,6 +34,8 @@ Error not_connected(natsStatus status, const NatsOptions& options) {
                  ": no TLS: is --cluster-authorities the file of those who signed "
                  "its certificate, and does that bear the name in the URL? (" +
                  detail + ")"};
+  if (status == NATS_SECURE_CONNECTION_WANTED)
+    return Error{"NATS at " + at + ": no TLS: the server offers none: " + kTlsIsWanted};
   if (options.certificate.empty() && (status == NATS_PROTOCOL_ERROR || status == NATS_IO_ERROR ||
                                       status == NATS_CONNECTION_CLOSED || status == NATS_ERR))
     return Error{"the NATS server at " + at +
@@ -85,6 +87,8 @@ std::optional<Error> set(natsOptions* made, const NatsOptions& options, const Na
     check(natsOptions_LoadCertificatesChain(made, options.certificate.c_str(),
                                             options.private_key.c_str()),
           "--cluster-certificate " + printable(options.certificate));
+  // Else whether there is TLS would be at the word of a server that has shown nothing yet.
+  if (wants_tls(options)) check(natsOptions_SetSecure(made, true), "NATS: TLS");
   if (on.reconnected != nullptr)
     check(natsOptions_SetReconnectedCB(made, on.reconnected, on.closure), "NATS");
   if (on.error != nullptr) check(natsOptions_SetErrorHandler(made, on.error, on.closure), "NATS");

@@ -13,6 +13,8 @@ namespace dance {
 namespace {
 
 constexpr auto kConnectAgain = std::chrono::milliseconds(150);
+// A connection that ended sooner was none: the next is not made at once.
+constexpr auto kLasts = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -38,7 +40,8 @@ NatsConnector::~NatsConnector() {
 Result<NatsGreeted> NatsConnector::connect_now() {
   Result<NatsGreeted> made = fail("NATS: no server is named");
   for (std::size_t i = 0; i < options_.urls.size() && !made; ++i)
-    made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()]);
+    made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()], ends_);
+  made_at_ = std::chrono::steady_clock::now();
   return made;
 }
 
@@ -61,16 +64,19 @@ void NatsConnector::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return ends_ || is_asked_; });
+    if (!ends_ && std::chrono::steady_clock::now() - made_at_ < kLasts)
+      changed_.wait_for(lock, kConnectAgain, [this] { return ends_.load(); });
     if (ends_) return;
     lock.unlock();
-    auto made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()]);
+    auto made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()], ends_);
     lock.lock();
     if (made) {
+      made_at_ = std::chrono::steady_clock::now();
       is_asked_ = false;
       made_.emplace(std::move(*made));
       eventfd_write(fd_, 1);
     } else {
-      changed_.wait_for(lock, kConnectAgain, [this] { return ends_; });
+      changed_.wait_for(lock, kConnectAgain, [this] { return ends_.load(); });
     }
   }
 }

@@ -3,11 +3,13 @@
 //
 // Units/frames: none.
 // Ownership:    owns thread and descriptor; what is taken is the caller's.
-// Threads:      all calls from one. Destruction waits for what is being tried, some seconds at
-//               most.
+// Threads:      all calls from one. Destruction ends what is being tried within 0.1 s, but for the
+//               lookup of a name.
 // Failure:      tries until it succeeds, in turn at all servers.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -40,8 +42,9 @@ class NatsConnector {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_asked_ = false;
-  bool ends_ = false;
+  std::atomic<bool> ends_{false};
   std::optional<NatsGreeted> made_;
+  std::chrono::steady_clock::time_point made_at_;  // the newest
   std::thread thread_;
 };
 

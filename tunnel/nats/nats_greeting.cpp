@@ -15,12 +15,13 @@ namespace dance {
 namespace {
 
 constexpr std::uint16_t kNatsPort = 4222;
-constexpr Duration kConnects = Duration::s(2);  // and as long again for TLS and greetings
+constexpr Duration kConnects = Duration::s(2);  // to each address
+constexpr std::size_t kMostAddresses = 4;
+constexpr Duration kGreets = Duration::s(3);  // TLS and all that is said before messages
 constexpr Duration kWriteTurn = Duration::ms(1);
 constexpr std::size_t kMostGreetingBytes = 65'536;
 
 struct NatsUrl {
-  bool is_tls = false;
   std::string user;  // or a token, where there is no password
   std::optional<std::string> password;
   std::string host;  // without the port
@@ -30,7 +31,6 @@ struct NatsUrl {
 NatsUrl parts_of(const std::string& url) {
   NatsUrl parts;
   const std::size_t scheme = url.find("://");
-  parts.is_tls = url.starts_with("tls://");
   parts.place = scheme == std::string::npos ? url : url.substr(scheme + 3);
   parts.place = parts.place.substr(0, parts.place.find('/'));
   if (const std::size_t at = parts.place.rfind('@'); at != std::string::npos) {
@@ -99,15 +99,17 @@ Result<void> add_credentials(const NatsOptions& options, const std::string& nonc
 
 class Greeter {
  public:
-  Greeter(NatsChannel& channel, MonoTime end) : channel_(channel), end_(end) {}
+  Greeter(NatsChannel& channel, const NatsPatience& patience)
+      : channel_(channel), patience_(patience) {}
 
   Result<void> say(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
       const auto rest = text.substr(at);
       const auto sent =
           channel_.write({reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size()});
-      if (!sent || mono_now() > end_) return fail("ends the connection");
+      if (!sent) return fail("ends the connection");
       at += *sent;
+      if (patience_.is_over()) return fail("does not read");
       if (*sent == 0) channel_.wait_for_bytes(kWriteTurn);
     }
     return {};
@@ -121,23 +123,25 @@ class Greeter {
         return said;
       }
       const std::size_t before = heard_.size();
-      if (before >= kMostGreetingBytes) return fail("is no NATS server");
+      if (in_all_ >= kMostGreetingBytes) return fail("is no NATS server");
+      if (patience_.is_over()) return fail("does not answer");
       heard_.resize(before + 4096);
       const auto count =
           channel_.read({reinterpret_cast<std::uint8_t*>(heard_.data()) + before, 4096});
       heard_.resize(before + count.value_or(0));
       if (!count) return fail("ends the connection");
-      const Duration left = end_ - mono_now();
-      if (*count == 0 && (left <= Duration() || !channel_.wait_for_bytes(left)))
-        return fail("does not answer");
+      in_all_ += *count;
+      if (*count == 0) channel_.wait_for_bytes(patience_.slice());
     }
   }
+  bool has_unread() const { return !heard_.empty(); }
   std::vector<std::uint8_t> unread() const { return {heard_.begin(), heard_.end()}; }
 
  private:
   NatsChannel& channel_;
-  MonoTime end_;
+  const NatsPatience& patience_;
   std::string heard_;
+  std::size_t in_all_ = 0;  // bytes that came
 };
 
 Result<std::string> introduction(const NatsOptions& options, const NatsUrl& parts,
@@ -162,30 +166,49 @@ Result<std::string> introduction(const NatsOptions& options, const NatsUrl& part
          "\r\nPING\r\n";
 }
 
-// A name may have addresses that lead nowhere from here.
-Result<TcpSocket> connect_to_any(const std::string& place) {
-  DANCE_TRY(const auto addresses, Address::resolve_all(place, kNatsPort));
-  Result<TcpSocket> made = fail("has no address");
-  for (std::size_t i = 0; i < addresses.size() && !made; ++i)
-    made = TcpSocket::connect(addresses[i], kConnects);
+bool is_said(const nlohmann::json& info, const char* what) {
+  const auto found = info.find(what);
+  return found != info.end() && found->is_boolean() && found->get<bool>();
+}
+
+Result<TcpSocket> connect_to(const Address& address, const NatsPatience& patience) {
+  DANCE_TRY(TcpSocket made, TcpSocket::begin(address));
+  while (!made.wait_for_room(patience.slice()))
+    if (patience.is_over()) return fail(address.to_string() + ": does not answer");
+  if (auto done = made.finish(address); !done) return tl::make_unexpected(done.error());
   return made;
 }
 
-Result<NatsGreeted> greet_at(const NatsOptions& options, const NatsUrl& parts) {
-  DANCE_TRY(TcpSocket socket, connect_to_any(parts.place));
+// A name may have addresses that lead nowhere from here.
+Result<TcpSocket> connect_to_any(const std::string& place, const std::atomic<bool>& ends) {
+  DANCE_TRY(const auto addresses, Address::resolve_all(place, kNatsPort));
+  Result<TcpSocket> made = fail("has no address");
+  for (std::size_t i = 0; i < std::min(addresses.size(), kMostAddresses) && !made && !ends; ++i)
+    made = connect_to(addresses[i], NatsPatience(kConnects, ends));
+  return made;
+}
+
+Result<NatsGreeted> greet_at(const NatsOptions& options, const NatsUrl& parts,
+                             const std::atomic<bool>& ends) {
+  DANCE_TRY(TcpSocket socket, connect_to_any(parts.place, ends));
   NatsChannel channel(std::move(socket));
-  Greeter greeter(channel, mono_now() + kConnects);
+  const NatsPatience patience(kGreets, ends);
+  Greeter greeter(channel, patience);
   DANCE_TRY(const std::string hello, greeter.line());
   const nlohmann::json info = hello.starts_with("INFO ")
                                   ? nlohmann::json::parse(hello.substr(5), nullptr, false)
                                   : nlohmann::json(nlohmann::json::value_t::discarded);
   if (!info.is_object()) return fail("is no NATS server");
-  const auto asks = info.find("tls_required");
-  const bool is_tls =
-      parts.is_tls || (asks != info.end() && asks->is_boolean() && asks->get<bool>());
-  if (is_tls)
-    if (auto started = channel.start_tls(options, parts.host, kConnects); !started)
+  const bool asks = is_said(info, "tls_required");
+  if (wants_tls(options) && !asks && !is_said(info, "tls_available"))
+    return fail(std::string("no TLS: the server offers none: ") + kTlsIsWanted);
+  // What was said before TLS is anyone's word: it may ask for TLS, and never against it.
+  const bool is_tls = asks || wants_tls(options);
+  if (is_tls) {
+    if (greeter.has_unread()) return fail("no TLS: more than its greeting came before it");
+    if (auto started = channel.start_tls(options, parts.host, patience); !started)
       return tl::make_unexpected(started.error());
+  }
   DANCE_TRY(const std::string who, introduction(options, parts, info, is_tls));
   if (auto said = greeter.say(who); !said) return tl::make_unexpected(said.error());
   for (;;) {
@@ -198,9 +221,10 @@ Result<NatsGreeted> greet_at(const NatsOptions& options, const NatsUrl& parts) {
 
 }  // namespace
 
-Result<NatsGreeted> greet_nats(const NatsOptions& options, const std::string& url) {
+Result<NatsGreeted> greet_nats(const NatsOptions& options, const std::string& url,
+                               const std::atomic<bool>& ends) {
   const NatsUrl parts = parts_of(url);
-  auto greeted = greet_at(options, parts);
+  auto greeted = greet_at(options, parts, ends);
   if (!greeted) return fail("NATS at " + printable(parts.place) + ": " + greeted.error().what);
   return greeted;
 }

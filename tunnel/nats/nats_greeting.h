@@ -2,9 +2,12 @@
 //
 // Units/frames: none.
 // Ownership:    the caller owns what is returned.
-// Threads:      any; waits, some seconds at most.
+// Threads:      any; waits, some seconds at most; once `ends` is set for 0.1 s, but for the lookup
+//               of a name.
 // Failure:      one line that names the server and the reason.
 #pragma once
+
+#include <atomic>
 
 #include "tunnel/nats/nats_channel.h"
 
@@ -14,6 +17,7 @@ struct NatsGreeted {
   NatsChannel channel;
   std::vector<std::uint8_t> unread;  // what came behind the greeting
 };
-Result<NatsGreeted> greet_nats(const NatsOptions& options, const std::string& url);
+Result<NatsGreeted> greet_nats(const NatsOptions& options, const std::string& url,
+                               const std::atomic<bool>& ends);
 
 }  // namespace dance

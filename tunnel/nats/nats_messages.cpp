@@ -18,6 +18,8 @@ constexpr int kReadsPerTurn = 4;
 // So much at once has waited: some hundred records.
 constexpr std::size_t kBehind = 32'768;
 constexpr std::size_t kLongestSubject = 128;
+// Subjects to begin and end take no more of a turn, so that poses find room behind them.
+constexpr std::size_t kInterestsPerTurn = NatsMessages::kMostWaiting / 4;
 
 std::span<const std::uint8_t> bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -75,9 +77,10 @@ void NatsMessages::begin(NatsGreeted greeted, MonoTime now) {
   std::copy_n(greeted.unread.begin(), count, room.begin());
   reader_.add(count);
   heard_ = now;
-  write_again_ = MonoTime();
+  stuck_since_ = write_again_ = read_again_ = MonoTime();
+  is_stuck_ = owes_pong_ = false;
   next_ping_ = now + kAsksAfter;
-  for (const auto& [subject, number] : subjects_) say_listen(subject, number);
+  subjects_.begin();
   poller_.watch(channel_->fd(), [this](MonoTime at) { on_readable(at); });
   poller_.set_deadline(timer_, next_ping_);
   end_turn(now);
@@ -108,31 +111,49 @@ void NatsMessages::publish(std::string_view subject, Bytes message) {
   say({"\r\n"});
 }
 
-void NatsMessages::say_listen(std::string_view subject, std::uint32_t number) {
-  say({"SUB ", subject, " ", NumberText(number).view(), "\r\n"});
-}
-
 void NatsMessages::listen(std::string_view subject) {
-  const auto [added, is_new] = subjects_.emplace(std::string(subject), next_number_);
-  if (!is_new) return;
-  ++next_number_;
-  if (channel_) say_listen(subject, added->second);
+  if (!subjects_.listen(subject)) ++counters_.refused;
 }
 
 void NatsMessages::end_listen(std::string_view subject) {
-  const auto known = subjects_.find(subject);
-  if (known == subjects_.end()) return;
-  if (channel_) say({"UNSUB ", NumberText(known->second).view(), "\r\n"});
-  subjects_.erase(known);
+  subjects_.end_listen(subject, mono_now());
 }
 
+void NatsMessages::say_interests() {
+  const std::size_t most = waiting_.size() + kInterestsPerTurn;
+  while (waiting_.size() < std::min(most, kMostWaiting)) {
+    const auto line = subjects_.take_line();
+    if (!line) return;
+    ++counters_.interests_said;
+    if (line->subject.empty())
+      say({"UNSUB ", NumberText(line->number).view(), "\r\n"});
+    else
+      say({"SUB ", line->subject, " ", NumberText(line->number).view(), "\r\n"});
+  }
+}
+
+// What is said besides poses is bounded too: a PONG a turn, interests while there is room, and a
+// PING where nothing came. So at most kMostWaiting wait, and one line.
 void NatsMessages::end_turn(MonoTime now) {
-  if (!channel_ || waiting_.empty()) return;
+  if (!channel_) return;
+  say_interests();
+  if (owes_pong_ && waiting_.size() < kMostWaiting) {
+    say({"PONG\r\n"});
+    owes_pong_ = false;
+  }
+  if (waiting_.empty()) return;
   const auto written = channel_->write(waiting_);
   if (!written) return end(now);
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(*written));
-  write_again_ = waiting_.empty() ? MonoTime() : now + kWritesAgain;
-  if (!waiting_.empty()) poller_.set_deadline(timer_, write_again_);
+  is_stuck_ = !waiting_.empty();
+  if (*written > 0)
+    stuck_since_ = MonoTime();
+  else if (!stuck_since_.is_set())
+    stuck_since_ = now;
+  else if (now - stuck_since_ > kSilentConnection)
+    return end(now);
+  write_again_ = is_stuck_ || subjects_.has_lines() ? now + kWritesAgain : MonoTime();
+  if (write_again_.is_set()) poller_.set_deadline(timer_, next_deadline());
 }
 
 void NatsMessages::flush(Duration longest) {
@@ -152,18 +173,31 @@ MonoTime NatsMessages::tick(MonoTime now) {
     end(now);
     return MonoTime();
   }
+  if (read_again_.is_set() && now >= read_again_) on_readable(now);
+  if (!channel_) return MonoTime();
   if (now >= next_ping_) {
     next_ping_ = now + kAsksAfter;
-    if (now - heard_ >= kAsksAfter) {
+    subjects_.settle(now);
+    if (subjects_.has_lines()) end_turn(now);
+    if (!channel_) return MonoTime();
+    if (now - heard_ >= kAsksAfter && waiting_.size() < kMostWaiting) {
       say({"PING\r\n"});
       end_turn(now);
       if (!channel_) return MonoTime();
     }
   }
-  return write_again_.is_set() ? std::min(write_again_, next_ping_) : next_ping_;
+  return next_deadline();
+}
+
+MonoTime NatsMessages::next_deadline() const {
+  MonoTime next = next_ping_;
+  for (const MonoTime at : {write_again_, read_again_})
+    if (at.is_set()) next = std::min(next, at);
+  return next;
 }
 
 void NatsMessages::on_readable(MonoTime now) {
+  read_again_ = MonoTime();
   for (int reads = 0; channel_ && reads < kReadsPerTurn; ++reads) {
     const auto room = reader_.room().first(kBehind);
     const auto count = channel_->read(room);
@@ -181,14 +215,17 @@ void NatsMessages::on_readable(MonoTime now) {
   }
   handlers_.after_batch(now);
   end_turn(now);
+  // What TLS has taken from the socket already wakes no poller.
+  if (!channel_ || !channel_->has_pending()) return;
+  read_again_ = now;
+  poller_.set_deadline(timer_, next_deadline());
 }
 
 // How many of each subject there are in the buffer.
 void NatsMessages::count_newest() {
-  in_buffer_.assign(next_number_, 0);
+  subjects_.count_all();
   while (const auto item = reader_.next())
-    if (item->kind == NatsReader::Kind::kMessage && item->subscription < next_number_)
-      ++in_buffer_[item->subscription];
+    if (item->kind == NatsReader::Kind::kMessage) subjects_.count(item->subscription);
   reader_.rewind();
 }
 
@@ -197,8 +234,9 @@ void NatsMessages::take_all(bool is_behind, MonoTime now) {
   while (const auto item = reader_.next()) {
     switch (item->kind) {
       case NatsReader::Kind::kMessage:
-        if (is_behind && item->subscription < in_buffer_.size() &&
-            in_buffer_[item->subscription]-- > kKept)
+        // Of a subject that has ended, or is about to, some are still on their way.
+        if (!subjects_.is_wanted(item->subscription)) break;
+        if (is_behind && !subjects_.is_newest(item->subscription, kKept))
           ++counters_.dropped_in;
         else
           handlers_.on_message(item->text, item->payload, now);
@@ -207,7 +245,7 @@ void NatsMessages::take_all(bool is_behind, MonoTime now) {
         ++counters_.dropped_in;
         break;
       case NatsReader::Kind::kPing:
-        say({"PONG\r\n"});
+        owes_pong_ = true;  // one answers all that came before it
         break;
       case NatsReader::Kind::kError:
         ++counters_.refused;  // where it matters, the end of the connection follows

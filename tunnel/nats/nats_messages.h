@@ -7,16 +7,16 @@
 // Threads:      the poller's; new connections are made in one of its own.
 // Failure:      at most kMostWaiting bytes wait for a NATS server that does not read, what is more
 //               is dropped and counted. Where 32 kB came at once, the newest kKept of each subject
-//               are taken. A connection that ends, or is silent, is replaced.
+//               are taken. A connection that ends, is silent or is not read is replaced. A subject
+//               beyond NatsSubscriptions::kMost is not listened to, which is counted as refused.
 #pragma once
 
 #include <functional>
-#include <map>
-#include <string>
 
 #include "core/net/poller.h"
 #include "tunnel/nats/nats_connector.h"
 #include "tunnel/nats/nats_reader.h"
+#include "tunnel/nats/nats_subscriptions.h"
 
 namespace dance {
 
@@ -34,7 +34,8 @@ class NatsMessages {
   struct Counters {
     std::uint64_t dropped_in = 0;
     std::uint64_t dropped_out = 0;
-    std::uint64_t refused = 0;  // what the NATS server answers to what we say: rights
+    std::uint64_t refused = 0;         // what the NATS server answers to what we say: rights
+    std::uint64_t interests_said = 0;  // subjects that began or ended at the NATS server
   };
 
   static Result<std::unique_ptr<NatsMessages>> connect(const NatsOptions& options, Poller& poller,
@@ -53,7 +54,7 @@ class NatsMessages {
 
   bool is_connected() const { return channel_.has_value(); }
   // Nothing of earlier turns waits for the NATS server.
-  bool is_clear() const { return channel_.has_value() && !write_again_.is_set(); }
+  bool is_clear() const { return channel_.has_value() && !is_stuck_; }
   const Counters& counters() const { return counters_; }
 
  private:
@@ -65,19 +66,22 @@ class NatsMessages {
   void count_newest();
   MonoTime tick(MonoTime now);
   void say(std::initializer_list<std::string_view> parts);
-  void say_listen(std::string_view subject, std::uint32_t number);
+  void say_interests();
+  MonoTime next_deadline() const;
 
   Poller& poller_;
   Handlers handlers_;
   NatsConnector connector_;
   std::optional<NatsChannel> channel_;
   NatsReader reader_;
-  std::vector<std::uint8_t> waiting_;                           // to be written
-  std::map<std::string, std::uint32_t, std::less<>> subjects_;  // that are listened to
-  std::uint32_t next_number_ = 1;
-  std::vector<std::uint32_t> in_buffer_;  // by number, while behind
+  NatsSubscriptions subjects_;
+  std::vector<std::uint8_t> waiting_;  // to be written
+  bool is_stuck_ = false;              // not all of earlier turns has been written
+  bool owes_pong_ = false;
   MonoTime heard_;
+  MonoTime stuck_since_;  // no byte has gone out
   MonoTime write_again_;
+  MonoTime read_again_;
   MonoTime next_ping_;
   Poller::TimerId timer_;
   Counters counters_;

@@ -1,5 +1,6 @@
 #include "tunnel/nats/nats_options.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "core/base/printable.h"
@@ -14,6 +15,12 @@ std::vector<std::string> nats_urls(const std::string& list) {
     urls.push_back(url.find("://") == std::string::npos ? "nats://" + url : url);
   }
   return urls;
+}
+
+bool wants_tls(const NatsOptions& options) {
+  return !options.authorities.empty() || !options.certificate.empty() ||
+         std::ranges::any_of(options.urls,
+                             [](const std::string& url) { return url.starts_with("tls://"); });
 }
 
 std::string shown_urls(const NatsOptions& options) {

@@ -28,8 +28,14 @@ struct NatsOptions {
   bool only_values = false;  // no messages: their connection is not made
 };
 
+constexpr const char* kTlsIsWanted =
+    "tls:// in --cluster, --cluster-authorities or --cluster-certificate asks for it";
+
 // "nats://a:4222,nats://b:4222" → its parts; a part without a scheme gets one.
 std::vector<std::string> nats_urls(const std::string& list);
+// Whether each connection must be in TLS, whatever a server says before it has shown who it is: a
+// URL says so, or an authority or a certificate of ours is given.
+bool wants_tls(const NatsOptions& options);
 // The URLs as they may be shown: without user and password, printable.
 std::string shown_urls(const NatsOptions& options);
 

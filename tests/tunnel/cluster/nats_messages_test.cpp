@@ -3,6 +3,8 @@
 #include "tunnel/nats/nats_messages.h"
 
 #include "tests/tunnel/cluster/nats_cluster.h"
+#include "tests/tunnel/cluster/nats_peer.h"
+#include "tests/tunnel/seal/paper.h"
 
 namespace dance {
 namespace {
@@ -117,6 +119,93 @@ TEST_F(NatsMessagesTest, WhoIsBehindTakesTheNewestOfEachSubject) {
   EXPECT_GT(bob.messages->counters().dropped_in, 0u);
   EXPECT_EQ(bob.heard["dance.1.much"].size() + bob.messages->counters().dropped_in, 1000u);
   EXPECT_EQ(bob.heard["dance.1.seldom"].back(), "second") << "of which there were few";
+}
+
+// A guest's link that changes its mind all the time costs NATS nothing, and nobody's poses.
+TEST_F(NatsMessagesTest, TogglingASubjectSaysNothingAndHoldsUpNoMessage) {
+  start_nats(0, 1);
+  Talker alice(options(), *poller), bob(options(), *poller);
+  bob.messages->listen("dance.1.kept");
+  bob.messages->listen("dance.1.toggled");
+  bob.messages->end_turn(mono_now());
+  const auto passes = [&](const char* subject) {
+    return turn_until([&] {
+      alice.say(subject, "hello");
+      alice.messages->end_turn(mono_now());
+      return bob.heard.contains(subject);
+    });
+  };
+  ASSERT_TRUE(passes("dance.1.kept"));
+  const auto said = bob.messages->counters().interests_said;
+  EXPECT_EQ(said, 2u);
+  for (int i = 0; i < 100'000; ++i) {  // many times what may wait
+    bob.messages->end_listen("dance.1.toggled");
+    bob.messages->listen("dance.1.toggled");
+    if (i % 1000 != 0) continue;
+    bob.say("dance.1.bobs", "pose");
+    bob.messages->end_turn(mono_now());
+  }
+  EXPECT_EQ(bob.messages->counters().dropped_out, 0u);
+  EXPECT_EQ(bob.messages->counters().interests_said, said);
+  bob.heard.clear();
+  EXPECT_TRUE(passes("dance.1.toggled"));
+  // Its end is said in the end, once.
+  bob.messages->end_listen("dance.1.toggled");
+  EXPECT_TRUE(turn_until([&] { return bob.messages->counters().interests_said > said; }));
+  bob.heard.clear();
+  EXPECT_TRUE(passes("dance.1.kept"));
+  EXPECT_EQ(bob.messages->counters().interests_said, said + 1);
+  EXPECT_FALSE(bob.heard.contains("dance.1.toggled"));
+}
+
+// More than goes out in a turn, again at another NATS server, and each is heard.
+TEST_F(NatsMessagesTest, ManySubjectsAreToldTurnByTurn) {
+  start_nats(0, 1);
+  Talker alice(options(), *poller), bob(options(), *poller);
+  constexpr int kMany = 3000;
+  const auto subject = [](int i) { return "dance.1.guest-with-a-name." + std::to_string(i); };
+  for (int i = 0; i < kMany; ++i) bob.messages->listen(subject(i));
+  bob.messages->end_turn(mono_now());
+  EXPECT_LT(bob.messages->counters().interests_said, static_cast<std::uint64_t>(kMany));
+  const auto all_heard = [&] {
+    for (int i = 0; i < kMany; ++i) {
+      if (bob.heard.contains(subject(i))) continue;
+      alice.say(subject(i).c_str(), "hello");
+      if (i % 500 == 499) alice.messages->end_turn(mono_now());
+    }
+    alice.messages->end_turn(mono_now());
+    return bob.heard.size() == kMany;
+  };
+  EXPECT_TRUE(turn_until(all_heard));
+  EXPECT_EQ(bob.messages->counters().interests_said, static_cast<std::uint64_t>(kMany));
+  kill_now(nats_[0]);
+  start_nats(0, 1);
+  ASSERT_TRUE(turn_until([&] { return alice.backs > 0 && bob.backs > 0; }));
+  bob.heard.clear();
+  EXPECT_TRUE(turn_until(all_heard));
+  EXPECT_EQ(bob.messages->counters().refused, 0u);
+}
+
+// OpenSSL takes whole records from the socket, of which a turn reads a part: for the rest no poller
+// wakes, and this peer sends nothing more.
+TEST_F(NatsMessagesTest, WhatTlsHasTakenFromTheSocketIsRead) {
+  Authority ours(folder_.path(), "ours");
+  ours.sign("peer", "IP:127.0.0.1");
+  constexpr std::size_t kMessages = 136;  // somewhat more than four times 32 kB
+  SilentAfterBurst peer(folder_.path("peer.pem"), folder_.path("peer.key"), kMessages);
+  NatsOptions of;
+  of.urls = {peer.url};
+  of.authorities = ours.file;
+  Talker bob(of, *poller);
+  ASSERT_TRUE(bob.messages);
+  bob.messages->listen("dance.1.test");
+  bob.messages->end_turn(mono_now());
+  ASSERT_TRUE(wait_for([&] { return peer.has_sent.load(); }));
+  EXPECT_TRUE(turn_until([&] {
+    return bob.heard["dance.1.test"].size() + bob.messages->counters().dropped_in == kMessages ||
+           !bob.messages->is_connected();
+  }));
+  EXPECT_EQ(bob.heard["dance.1.test"].size() + bob.messages->counters().dropped_in, kMessages);
 }
 
 TEST_F(NatsMessagesTest, ItShowsItsPasswordOrToken) {

@@ -1,6 +1,7 @@
 // dance server: where the houses' links meet.
 
 #include <array>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -184,6 +185,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
   DANCE_TRY(of.certificates, certificates_of(options));
   std::unique_ptr<ClusterMembership> cluster;
   if (!options.cluster.urls.empty()) {
+    std::signal(SIGPIPE, SIG_IGN);  // OpenSSL writes to sockets that their other end has closed
     ClusterOptions joins = options.cluster;
     joins.port = options.port;
     joins.nats.name = "dance server " + std::to_string(options.port);
