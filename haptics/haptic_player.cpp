@@ -35,6 +35,10 @@ MonoTime HapticPlayer::next_due() const {
   return due;
 }
 
+MonoTime HapticPlayer::next_run() const {
+  return earlier(next_due(), earlier(output_wants_, worked_ + kSecond));
+}
+
 void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
   if (!options_.is_on) {
     ++counters_.muted;
@@ -52,6 +56,7 @@ void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
   if (order.due <= now) {
     order.due = now;
     play(order);
+    poller_.set_deadline(timer_, next_run());
     return;
   }
   if (waiting_count_ == kMostWaiting) {
@@ -59,7 +64,7 @@ void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
     return;
   }
   waiting_[waiting_count_++] = order;
-  poller_.set_deadline(timer_, earlier(next_due(), earlier(output_wants_, worked_ + kSecond)));
+  poller_.set_deadline(timer_, next_run());
 }
 
 void HapticPlayer::play(const Order& order) {
@@ -90,7 +95,7 @@ MonoTime HapticPlayer::run(MonoTime now) {
     worked_ = now;
     output_wants_ = output_->work(now);
   }
-  return earlier(next_due(), earlier(output_wants_, worked_ + kSecond));
+  return next_run();
 }
 
 void HapticPlayer::set_on(bool is_on) {
