@@ -21,6 +21,7 @@ MonoTime earlier(MonoTime a, MonoTime b) {
 HapticPlayer::HapticPlayer(std::unique_ptr<HapticOutput> output, HapticPlayerOptions options,
                            Poller& poller)
     : output_(std::move(output)), options_(options), poller_(poller) {
+  output_->set_limit(options_.limit);
   timer_ = poller_.add_timer(mono_now(), [this](MonoTime now) { return run(now); });
 }
 

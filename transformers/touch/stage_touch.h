@@ -1,5 +1,6 @@
 // StageTouch: where and how the dancers of this house touch each other and remote ones, as they
-// feel it; of two remote dancers nothing is said. Works on the poses as they are shown; held hands are those of StageHolds.
+// feel it; of two remote dancers nothing is said. Works on the poses as they are shown; held hands
+// are those of StageHolds.
 //
 // Units/frames: as lcmtypes/touch_t.lcm says; times of this house's clock.
 // Ownership:    room for kMostDancers, as StageHolds has it, and kMostPairs of them that touch at a
