@@ -13,6 +13,7 @@ constexpr Duration kLooksAhead = Duration::ms(100);
 HapticFeed::HapticFeed(const GuestId& guest, const HapticMakerOptions& options, SignalPort& port,
                        Poller& poller)
     : guest_(guest),
+      options_(options),
       clock_id_(this_clock_id()),
       maker_id_(secure_random_u64()),
       port_(port),
@@ -25,8 +26,7 @@ HapticFeed::HapticFeed(const GuestId& guest, const HapticMakerOptions& options, 
                              return;
                            }
                            ++touches_;
-                           const MonoTime now = mono_now();
-                           if (makes(now)) maker_.feel(touch, now, *this);
+                           maker_.feel(touch, mono_now(), *this);
                          });
   port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     if (beat.clock_id != clock_id_) {
@@ -34,24 +34,55 @@ HapticFeed::HapticFeed(const GuestId& guest, const HapticMakerOptions& options, 
       return;
     }
     maker_.hear(beat);
-    const MonoTime now = mono_now();
-    if (makes(now)) maker_.look_ahead(now, *this);
+    maker_.look_ahead(mono_now(), *this);
   });
   port_.subscribe<Haptic>(
       From(Where::kCapture, guest),
       [this](const Channel&, const Haptic& haptic, MonoTime) { hear(haptic, mono_now()); });
   timer_ = poller_.add_timer(mono_now() + kLooksAhead, [this](MonoTime now) {
-    if (makes(now)) maker_.look_ahead(now, *this);
+    maker_.look_ahead(now, *this);
     return now + kLooksAhead;
   });
 }
 
 HapticFeed::~HapticFeed() { poller_.remove_timer(timer_); }
 
+bool HapticFeed::makes(HapticSource source, MonoTime now) {
+  Other& other = others_[static_cast<std::size_t>(source)];
+  if (!other.heard.is_set() || now - other.heard > kOtherMakes) return true;
+  if (other.rested >= kMostRested) return true;
+  ++other.rested;
+  return false;
+}
+
+bool HapticFeed::wants(HapticSource source) const {
+  switch (source) {
+    case HapticSource::kTouch:
+    case HapticSource::kHold:
+      return options_.touch;
+    case HapticSource::kLead:
+      return options_.lead;
+    case HapticSource::kBeat:
+      return options_.beats != FeltBeats::kNone;
+  }
+  return false;
+}
+
+bool HapticFeed::was_ordered(const Haptic& haptic) {
+  Ordered& last = ordered_[static_cast<std::size_t>(haptic.source)][index_of(haptic.bone)];
+  const Duration between = haptic.play_time - last.play;
+  if (last.play.is_set() && last.maker != haptic.maker && between < kSame && between > -kSame)
+    return true;
+  last = {haptic.play_time, haptic.maker};
+  return false;
+}
+
 void HapticFeed::on_haptic(const Haptic& haptic) {
+  const MonoTime now = mono_now();
+  if (!makes(haptic.source, now) || was_ordered(haptic)) return;
   ++made_;
   // The device first.
-  for (const auto& player : players_) player->take(haptic, mono_now());
+  for (const auto& player : players_) player->take(haptic, now);
   port_.publish(Where::kCapture, guest_, haptic);
 }
 
@@ -61,10 +92,14 @@ void HapticFeed::hear(const Haptic& haptic, MonoTime now) {
     ++of_other_clocks_;
     return;
   }
-  // Of several the one with the smallest number makes; a replay has 0.
+  // Of several the one with the smallest number makes; a replay has 0, and makes all kinds.
   if (haptic.maker > maker_id_) return;
-  other_heard_ = now;
+  for (std::size_t source = 0; source < kHapticSources; ++source)
+    if (haptic.maker == 0 || source == static_cast<std::size_t>(haptic.source))
+      others_[source] = {now, 0};
+  if (!wants(haptic.source)) return;
   ++heard_;
+  if (was_ordered(haptic)) return;
   for (const auto& player : players_) player->take(haptic, now);
 }
 

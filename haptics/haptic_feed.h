@@ -1,7 +1,7 @@
 // HapticFeed: what one dancer of a house feels, from the signals of a port: makes haptics of
 // touches and beats, says them on HAPTIC/capture/<guest>, and hands them, and those that others
-// make there, to the devices. Of several makers for one dancer, as of a replay and this one, one
-// makes.
+// make there, to the devices, those kinds that its options name. Of several makers for one dancer,
+// as of a replay and this one, one makes each kind.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port and the poller, which must outlive it; owns the players.
@@ -9,6 +9,7 @@
 // Failure:      what is of another clock is left out and counted.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -21,8 +22,12 @@ namespace dance {
 
 class HapticFeed final : private HapticSink {
  public:
-  // Another maker was heard so lately: this one rests.
-  static constexpr Duration kOtherMakes = Duration::s(2);
+  // Another maker was heard so lately: this one rests, unless it would have made so many since:
+  // then the other one has ended.
+  static constexpr Duration kOtherMakes = Duration::s(30);
+  static constexpr int kMostRested = 4;
+  // Two makers' orders for one place within this are one.
+  static constexpr Duration kSame = Duration::ms(60);
 
   HapticFeed(const GuestId& guest, const HapticMakerOptions& options, SignalPort& port,
              Poller& poller);
@@ -41,18 +46,32 @@ class HapticFeed final : private HapticSink {
  private:
   void on_haptic(const Haptic& haptic) override;
   void hear(const Haptic& haptic, MonoTime now);
-  bool makes(MonoTime now) const {
-    return !other_heard_.is_set() || now - other_heard_ > kOtherMakes;
-  }
+  // Whether this one is to make a haptic of this kind now.
+  bool makes(HapticSource source, MonoTime now);
+  bool wants(HapticSource source) const;
+  // Whether another maker has ordered the same; notes the order.
+  bool was_ordered(const Haptic& haptic);
+
+  // What another maker was last heard with, of one kind.
+  struct Other {
+    MonoTime heard;
+    int rested = 0;
+  };
+  struct Ordered {
+    MonoTime play;
+    std::uint64_t maker = 0;
+  };
 
   GuestId guest_;
+  HapticMakerOptions options_;
   std::uint64_t clock_id_, maker_id_;
   SignalPort& port_;
   Poller& poller_;
   Poller::TimerId timer_ = 0;
   HapticMaker maker_;
   std::vector<std::unique_ptr<HapticPlayer>> players_;
-  MonoTime other_heard_;
+  std::array<Other, kHapticSources> others_{};
+  std::array<std::array<Ordered, kBoneCount>, kHapticSources> ordered_{};
   std::uint64_t touches_ = 0, made_ = 0, heard_ = 0, of_other_clocks_ = 0;
 };
 

@@ -23,6 +23,8 @@ class HapticOutput {
   // Called when it asked to be, and once a second; returns when it wants to be called next,
   // MonoTime() = with the next second.
   virtual MonoTime work(MonoTime) { return {}; }
+  // What is felt at a time is in sum no stronger than this.
+  virtual void set_limit(float) {}
   // Nothing is felt any more, at once.
   virtual void stop() = 0;
   // From play() to what is felt, as the device itself reports; nothing where it does not.

@@ -21,6 +21,7 @@ MonoTime earlier(MonoTime a, MonoTime b) {
 HapticPlayer::HapticPlayer(std::unique_ptr<HapticOutput> output, HapticPlayerOptions options,
                            Poller& poller)
     : output_(std::move(output)), options_(options), poller_(poller) {
+  output_->set_limit(options_.limit);
   timer_ = poller_.add_timer(mono_now(), [this](MonoTime now) { return run(now); });
 }
 
@@ -33,6 +34,10 @@ MonoTime HapticPlayer::next_due() const {
   MonoTime due;
   for (std::size_t i = 0; i < waiting_count_; ++i) due = earlier(due, waiting_[i].due);
   return due;
+}
+
+MonoTime HapticPlayer::next_run() const {
+  return earlier(next_due(), earlier(output_wants_, worked_ + kSecond));
 }
 
 void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
@@ -52,6 +57,7 @@ void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
   if (order.due <= now) {
     order.due = now;
     play(order);
+    poller_.set_deadline(timer_, next_run());
     return;
   }
   if (waiting_count_ == kMostWaiting) {
@@ -59,7 +65,7 @@ void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
     return;
   }
   waiting_[waiting_count_++] = order;
-  poller_.set_deadline(timer_, earlier(next_due(), earlier(output_wants_, worked_ + kSecond)));
+  poller_.set_deadline(timer_, next_run());
 }
 
 void HapticPlayer::play(const Order& order) {
@@ -90,7 +96,7 @@ MonoTime HapticPlayer::run(MonoTime now) {
     worked_ = now;
     output_wants_ = output_->work(now);
   }
-  return earlier(next_due(), earlier(output_wants_, worked_ + kSecond));
+  return next_run();
 }
 
 void HapticPlayer::set_on(bool is_on) {

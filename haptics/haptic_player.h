@@ -64,6 +64,8 @@ class HapticPlayer {
   MonoTime run(MonoTime now);
   void play(const Order& order);
   MonoTime next_due() const;
+  // When the timer has something to do.
+  MonoTime next_run() const;
 
   std::unique_ptr<HapticOutput> output_;
   HapticPlayerOptions options_;

@@ -21,6 +21,7 @@ struct Row {
   const char* name;
   bool has_address;  // else a device
   Made (*make)(const HapticOptions&);
+  std::unique_ptr<HapticOutput> (*later)(const HapticOptions&);  // null: not this kind
 };
 
 Made make_bhaptics([[maybe_unused]] const HapticOptions& options) {
@@ -31,6 +32,12 @@ Made make_bhaptics([[maybe_unused]] const HapticOptions& options) {
 #endif
 }
 
+#if DANCE_HAVE_SOUND
+constexpr auto kSoundLater = [](const HapticOptions& o) { return SoundOutput::later(o.device); };
+#else
+constexpr std::nullptr_t kSoundLater = nullptr;
+#endif
+
 Made make_sound([[maybe_unused]] const HapticOptions& options) {
 #if DANCE_HAVE_SOUND
   return SoundOutput::open(options.device);
@@ -40,10 +47,11 @@ Made make_sound([[maybe_unused]] const HapticOptions& options) {
 }
 
 constexpr std::array<Row, 4> kRows{{
-    {"evdev", false, [](const HapticOptions& o) { return EvdevOutput::open(o.device); }},
-    {"osc", true, [](const HapticOptions& o) { return OscHaptics::open(o.address); }},
-    {"bhaptics", true, make_bhaptics},
-    {"sound", false, make_sound},
+    {"evdev", false, [](const HapticOptions& o) { return EvdevOutput::open(o.device); },
+     [](const HapticOptions& o) { return EvdevOutput::later(o.device); }},
+    {"osc", true, [](const HapticOptions& o) { return OscHaptics::open(o.address); }, nullptr},
+    {"bhaptics", true, make_bhaptics, nullptr},
+    {"sound", false, make_sound, kSoundLater},
 }};
 
 Result<const Row*> find_row(const std::string& name) {
@@ -78,6 +86,12 @@ Result<std::unique_ptr<HapticOutput>> make_haptic_output(const std::string& to,
     return tl::make_unexpected(checked.error());
   DANCE_TRY(const Row* row, find_row(to));
   return row->make(options);
+}
+
+std::unique_ptr<HapticOutput> haptic_output_for_later(const std::string& to,
+                                                      const HapticOptions& options) {
+  const auto row = find_row(to);
+  return row && (*row)->later ? (*row)->later(options) : nullptr;
 }
 
 Result<HapticMakerOptions> parse_felt(const std::vector<std::string>& words) {

@@ -30,6 +30,9 @@ std::vector<std::string> haptic_output_names();
 Result<void> check_haptic_options(const std::string& to, const HapticOptions& options);
 Result<std::unique_ptr<HapticOutput>> make_haptic_output(const std::string& to,
                                                          const HapticOptions& options);
+// One that is not there now, and is looked for again; null: this kind is not.
+std::unique_ptr<HapticOutput> haptic_output_for_later(const std::string& to,
+                                                      const HapticOptions& options);
 // "touch", "lead", "beat" or "beats": what is felt.
 Result<HapticMakerOptions> parse_felt(const std::vector<std::string>& words);
 

@@ -21,15 +21,14 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   dance haptics list                                 what can be felt with on this machine
   dance haptics --guest alice --to evdev             the first gamepad rumbles for alice
-  dance haptics --guest alice --to evdev --device Joy-Con --limit 0.6 dance haptics-- guest
-    alice-- to sound-- device tactors-- feel one lead dance haptics-- guest alice-- to
-        osc-- address 192.168.1.7 : 9001 dance haptics-- guest alice-- to bhaptics the bHaptics
-            Player of this machine dance haptics-- check-- to osc how exactly orders reach a device
-                In a terminal,
-                     enter switches everything off,
-                     and on again.Several-- to at once are several devices.touch
-    : bodies that touch and hands that hold;
-lead : what the partner's hand does in a hold; one : the first beat of each bar; beats: all of them.
+  dance haptics --guest alice --to evdev --device Joy-Con --limit 0.6
+  dance haptics --guest alice --to sound --device tactors --feel one lead
+  dance haptics --guest alice --to osc --address 192.168.1.7:9001
+  dance haptics --guest alice --to bhaptics          the bHaptics Player of this machine
+  dance haptics --check --to osc                     how exactly orders reach a device
+In a terminal, enter switches everything off, and on again. Several --to at once are several
+devices. touch: bodies that touch and hands that hold; lead: what the partner's hand does in a
+hold; one: the first beat of each bar; beats: all of them.
 )";
 
 struct HapticsWishes {
@@ -88,7 +87,8 @@ Result<void> run_check(const HapticsWishes& wishes, const HapticOptions& options
 
 // Enter on the terminal.
 void watch_terminal(Poller& poller, HapticFeed& feed) {
-  if (isatty(STDIN_FILENO) == 0) return;
+  // In the background of a shell, reading the terminal would stop this program.
+  if (isatty(STDIN_FILENO) == 0 || tcgetpgrp(STDIN_FILENO) != getpgrp()) return;
   talk::info("enter switches off, and on again");
   poller.watch(STDIN_FILENO, [&poller, &feed, is_on = true](MonoTime) mutable {
     std::array<char, 256> line{};

@@ -121,6 +121,11 @@ Result<std::unique_ptr<House>> House::open(const Session& session, Poller& polle
 
 House::~House() {
   if (bus_) poller_.unwatch(bus_->fd());
+  if (manager_ && manager_->without_touch() > 0)
+    talk::info(
+        "{} times a dancer or a pair had no place to touch: 16 dancers have one, those "
+        "nearest to this house's",
+        manager_->without_touch());
   for (const auto& feed : haptics_)
     for (const auto& player : feed->players()) talk::info("{}", player->summary());
   for (auto& consumer : consumers_) {
@@ -242,13 +247,17 @@ Result<void> House::open_consumers() {
 void House::open_haptics() {
   for (const HostedHaptics& wanted : session_.haptics) {
     auto output = make_haptic_output(wanted.to, wanted.options);
-    if (!output) {
-      talk::warn("{} feels nothing by {}: {}", wanted.guest.view(), wanted.to, output.error().what);
-      continue;
+    if (output) {
+      talk::info("{} feels by {}", wanted.guest.view(), wanted.to);
+    } else {
+      auto later = haptic_output_for_later(wanted.to, wanted.options);
+      talk::warn("{} feels nothing by {}{}: {}", wanted.guest.view(), wanted.to,
+                 later ? " until it is there" : "", output.error().what);
+      if (!later) continue;
+      output = std::move(later);
     }
     auto feed = std::make_unique<HapticFeed>(wanted.guest, wanted.options.maker, *port_, poller_);
     feed->add(std::make_unique<HapticPlayer>(std::move(*output), wanted.options.player, poller_));
-    talk::info("{} feels by {}", wanted.guest.view(), wanted.to);
     haptics_.push_back(std::move(feed));
   }
 }
@@ -262,7 +271,8 @@ std::string House::report_json(MonoTime now) {
                        {"dropped_late", stats.dropped_late},
                        {"dropped_invalid", stats.dropped_invalid},
                        {"dropped_unrouted", stats.dropped_unrouted},
-                       {"dropped_overflow", stats.dropped_overflow}};
+                       {"dropped_overflow", stats.dropped_overflow},
+                       {"without_touch", manager_->without_touch()}};
   return report.dump();
 }
 

@@ -120,7 +120,8 @@ void Manager::stage(const GuestId& guest, Pose& pose, MonoTime) {
   const MonoTime now = mono_now();
   pose.stamp(Hop::kStaged, now);
   port_.publish(Where::kStage, guest, pose);
-  touch_.show(guest, pose, now);
+  touch_.show(guest, pose, now,
+              router_.holds().is_of_this_house(guest) ? DancerOf::kThisHouse : DancerOf::kAnother);
 }
 
 void Manager::stage(const GuestId& guest, const Hands& hands) {

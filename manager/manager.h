@@ -33,6 +33,8 @@ class Manager : private StageSink, private TouchSink {
   void on_other_manager(std::function<void()> tell);
 
   Stats stats(MonoTime now);
+  // Poses of dancers who had no place to hold hands and to touch, and touching pairs likewise.
+  std::uint64_t without_touch() const { return router_.holds().refused() + touch_.refused(); }
 
  private:
   void stage(const GuestId& guest, Pose& pose, MonoTime now) override;

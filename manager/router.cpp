@@ -36,8 +36,14 @@ Router::Instance* Router::instance_of(RouteState& state, const GuestId& guest, M
   }
   auto flow = Flow::make(state.route.through);
   DANCE_ASSERT(flow.has_value());
-  state.instances.push_back(std::make_unique<Instance>(
-      Instance{guest, shown_as(state, guest), std::move(*flow), now, 0, {}}));
+  state.instances.push_back(std::make_unique<Instance>(Instance{
+      guest,
+      shown_as(state, guest),
+      std::move(*flow),
+      now,
+      0,
+      {},
+      state.route.from.where == Where::kCapture ? DancerOf::kThisHouse : DancerOf::kAnother}));
   prepare(state, *state.instances.back());
   return state.instances.back().get();
 }
@@ -135,7 +141,7 @@ void Router::take(Where where, const GuestId& guest, const Pose& pose, MonoTime 
 }
 
 void Router::show(Instance& instance, Pose& pose, MonoTime now) {
-  holds_.show(instance.shown_as, pose, now, instance.flow.holds_hands());
+  holds_.show(instance.shown_as, pose, now, instance.flow.holds_hands(), instance.of);
   sink_.stage(instance.shown_as, pose, now);
 }
 

@@ -105,6 +105,7 @@ class Router {
     MonoTime last_heard;
     std::uint32_t staged = 0;
     HandsQueue hands;  // where the flow shows the body later
+    DancerOf of;
   };
   using Instances = std::vector<std::unique_ptr<Instance>>;
   // What is known of a guest before, or beside, the poses: newcomers on a route begin with it.

@@ -10,7 +10,9 @@
 
 #include "core/base/spsc_ring.h"
 #include "core/net/address.h"
+#include "core/net/mono_clock.h"
 #include "haptics/bhaptics/bhaptics_frame.h"
+#include "haptics/haptic_player.h"
 
 namespace dance {
 namespace {
@@ -24,6 +26,7 @@ constexpr std::size_t kMostText = 1024;
 struct BhapticsOutput::Impl {
   struct Order {
     Haptic haptic;
+    MonoTime given;
     bool is_stop = false;
   };
   // lws finds it by the address of its first member.
@@ -35,7 +38,7 @@ struct BhapticsOutput::Impl {
   SpscRing<Order, 64> orders;
   std::optional<Order> next;
   std::atomic<bool> is_connected{false}, ends{false};
-  std::atomic<std::uint64_t> written{0}, connections{0};
+  std::atomic<std::uint64_t> written{0}, connections{0}, late{0};
   std::thread thread;
 
   static int on_event(lws* wsi, lws_callback_reasons reason, void* user, void* data,
@@ -72,6 +75,11 @@ void BhapticsOutput::Impl::connect_again(lws_sorted_usec_list_t* again) {
 
 int BhapticsOutput::Impl::write_one(lws* wsi) {
   if (!next) next = orders.pop();
+  // What waited while the connection stalled would be felt as something else; a stop never is late.
+  while (next && !next->is_stop && mono_now() - next->given > HapticPlayer::kTooLate) {
+    ++late;
+    next = orders.pop();
+  }
   if (!next) return 0;
   const std::string text = next->is_stop ? bhaptics_stop() : bhaptics_frame(next->haptic);
   next.reset();
@@ -92,6 +100,7 @@ int BhapticsOutput::Impl::on_event(lws* wsi, lws_callback_reasons reason, void*,
     case LWS_CALLBACK_CLIENT_ESTABLISHED:
       ++self->connections;
       // What waited meanwhile is of the past.
+      self->next.reset();
       while (self->orders.pop()) {
       }
       self->is_connected = true;
@@ -153,16 +162,16 @@ BhapticsOutput::~BhapticsOutput() {
   lws_context_destroy(impl_->context);
 }
 
-bool BhapticsOutput::play(const Haptic& haptic, MonoTime) {
+bool BhapticsOutput::play(const Haptic& haptic, MonoTime now) {
   if (!impl_->is_connected) return false;
-  impl_->orders.push({haptic, false});
+  impl_->orders.push({haptic, now, false});
   lws_cancel_service(impl_->context);
   return true;
 }
 
 void BhapticsOutput::stop() {
   if (!impl_->is_connected) return;
-  impl_->orders.push({Haptic(), true});
+  impl_->orders.push({Haptic(), MonoTime(), true});
   lws_cancel_service(impl_->context);
 }
 
@@ -170,7 +179,9 @@ std::string BhapticsOutput::summary() const {
   std::string line = "bHaptics Player at " + impl_->address;
   if (impl_->connections == 0) return line + ", which was not found";
   if (!impl_->is_connected) line += ", lost";
-  return line + ", " + std::to_string(impl_->written) + " messages";
+  line += ", " + std::to_string(impl_->written) + " messages";
+  if (impl_->late > 0) line += ", " + std::to_string(impl_->late) + " left out after a stall";
+  return line;
 }
 
 }  // namespace dance

@@ -6,7 +6,8 @@
 // Ownership:    owns its thread and connection; 64 orders may wait for it, the oldest give way.
 // Threads:      one, named haptics-ws; play() waits for nothing.
 // Failure:      open() names an address that is none; without a player there it is looked for once
-//               a second. Orders that find no connection are refused and counted.
+//               a second. Orders that find no connection are refused, those that a stall has made
+//               late are left out; both are counted.
 #pragma once
 
 #include <memory>

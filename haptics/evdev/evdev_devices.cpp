@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -26,6 +27,19 @@ bool has_bit(const std::array<unsigned long, (FF_MAX + kBitsPerLong) / kBitsPerL
 
 }  // namespace
 
+bool may_rumble(const std::string& event, const std::string& classes) {
+  const std::string path = classes + "/" + event + "/device/capabilities/ff";
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return true;
+  // Words in hexadecimal; a keyboard has "0".
+  std::array<char, 256> text{};
+  const ssize_t size = read(fd, text.data(), text.size());
+  close(fd);
+  return size < 0 || std::any_of(text.begin(), text.begin() + size, [](char c) {
+           return c != '0' && std::isxdigit(static_cast<unsigned char>(c)) != 0;
+         });
+}
+
 std::vector<EvdevDevice> list_evdev_devices(const std::string& folder) {
   namespace fs = std::filesystem;
   std::vector<EvdevDevice> devices;
@@ -34,7 +48,7 @@ std::vector<EvdevDevice> list_evdev_devices(const std::string& folder) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (name.starts_with("event") && paths.size() < kMostDevices)
+    if (name.starts_with("event") && paths.size() < kMostDevices && may_rumble(name))
       paths.push_back(entry->path().string());
   }
   std::sort(paths.begin(), paths.end(), [](const std::string& a, const std::string& b) {

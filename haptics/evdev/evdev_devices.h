@@ -19,7 +19,10 @@ struct EvdevDevice {
   std::string trouble;  // why it cannot be used; "" = nothing
 };
 
-// `folder`: /dev/input, but for tests.
+// Whether an input device, "event5", may have force feedback as the kernel tells without opening
+// it; true where it does not tell.
+bool may_rumble(const std::string& event, const std::string& classes = "/sys/class/input");
+// Opens those only that may rumble. `folder`: /dev/input, but for tests.
 std::vector<EvdevDevice> list_evdev_devices(const std::string& folder = "/dev/input");
 
 }  // namespace dance

@@ -38,7 +38,16 @@ std::uint16_t milliseconds(Duration duration) {
   return static_cast<std::uint16_t>(std::clamp<std::int64_t>(duration.count_ms(), 1, 0x7fff));
 }
 
-ff_effect effect_of(const Haptic& haptic, bool rumbles, int id) {
+// A motor has no envelope: of a swelling one, its mean.
+float level_of(const Haptic& haptic, bool rumbles) {
+  if (!rumbles) return haptic.amplitude;
+  const double full_s = (haptic.duration - haptic.attack - haptic.release).as_seconds();
+  const double mean = (full_s + 0.5 * (haptic.attack + haptic.release).as_seconds()) /
+                      std::max(haptic.duration.as_seconds(), 1e-3);
+  return haptic.amplitude * static_cast<float>(mean);
+}
+
+ff_effect effect_of(const Haptic& haptic, bool rumbles, float felt, int id) {
   ff_effect effect{};
   effect.id = static_cast<std::int16_t>(id);
   effect.replay.length = milliseconds(haptic.duration);
@@ -46,11 +55,7 @@ ff_effect effect_of(const Haptic& haptic, bool rumbles, int id) {
     return static_cast<int>(std::lround(std::clamp(amplitude, 0.0f, 1.0f) * full));
   };
   if (rumbles) {
-    // A motor has no envelope: of a swelling one, its mean.
-    const double full_s = (haptic.duration - haptic.attack - haptic.release).as_seconds();
-    const double mean = (full_s + 0.5 * (haptic.attack + haptic.release).as_seconds()) /
-                        std::max(haptic.duration.as_seconds(), 1e-3);
-    const int strength = level(haptic.amplitude * static_cast<float>(mean), 65535.0f);
+    const int strength = level(felt, 65535.0f);
     effect.type = FF_RUMBLE;
     const bool is_low =
         haptic.frequency_hz > 0.0f && haptic.frequency_hz < EvdevOutput::kLowMotor_hz;
@@ -63,7 +68,7 @@ ff_effect effect_of(const Haptic& haptic, bool rumbles, int id) {
   const float hz = haptic.frequency_hz > 0.0f ? haptic.frequency_hz : 150.0f;
   effect.u.periodic.period =
       static_cast<std::uint16_t>(std::clamp(std::lround(1000.0f / hz), 1L, 1000L));
-  effect.u.periodic.magnitude = static_cast<std::int16_t>(level(haptic.amplitude, 32767.0f));
+  effect.u.periodic.magnitude = static_cast<std::int16_t>(level(felt, 32767.0f));
   effect.u.periodic.envelope.attack_length =
       static_cast<std::uint16_t>(std::min<std::int64_t>(haptic.attack.count_ms(), 0x7fff));
   effect.u.periodic.envelope.fade_length =
@@ -91,6 +96,7 @@ Result<std::unique_ptr<HapticOutput>> EvdevOutput::open(const std::string& devic
         std::make_unique<EvdevOutput>(each.path + " (" + each.name + ")",
                                       std::make_unique<KernelFile>(fd), each.rumbles, each.effects);
     output->wanted_ = device.empty() ? each.name : device;
+    output->looks_ = true;
     return output;
   }
   if (!refused.empty()) return fail(refused);
@@ -100,6 +106,14 @@ Result<std::unique_ptr<HapticOutput>> EvdevOutput::open(const std::string& devic
   return fail(
       "no gamepad that can rumble; connect one, and look at dance haptics list. All else works "
       "without it");
+}
+
+std::unique_ptr<HapticOutput> EvdevOutput::later(const std::string& device) {
+  auto output = std::make_unique<EvdevOutput>(device.empty() ? "a gamepad" : device, nullptr, true,
+                                              static_cast<int>(kSlots));
+  output->wanted_ = device;
+  output->looks_ = true;
+  return output;
 }
 
 EvdevOutput::EvdevOutput(std::string name, std::unique_ptr<ForceFeedbackFile> file, bool rumbles,
@@ -116,7 +130,10 @@ bool EvdevOutput::play(const Haptic& haptic, MonoTime now) {
   Slot* slot = slots_.data();
   for (std::size_t i = 0; i < slot_count_; ++i)
     if (slots_[i].until < slot->until) slot = &slots_[i];
-  ff_effect effect = effect_of(haptic, rumbles_, slot->id);
+  const float level = level_of(haptic, rumbles_);
+  const float felt = make_room(*slot, level, now);
+  if (felt < 0.01f && level > 0.0f) return true;  // what runs is as strong as may be
+  ff_effect effect = effect_of(haptic, rumbles_, felt, slot->id);
   if (file_->upload(&effect) < 0 || file_->write_event(effect.id, 1) < 0) {
     if (errno == ENODEV) {
       file_ = nullptr;
@@ -127,7 +144,22 @@ bool EvdevOutput::play(const Haptic& haptic, MonoTime now) {
   }
   slot->id = effect.id;
   slot->until = now + haptic.duration;
+  slot->level = felt;
   return true;
+}
+
+float EvdevOutput::make_room(const Slot& slot, float level, MonoTime now) {
+  float runs = 0.0f;
+  for (const Slot& other : slots_)
+    if (&other != &slot && other.until > now) runs += other.level;
+  if (runs + level <= limit_) return level;
+  if (level < runs) return std::clamp(limit_ - runs, 0.0f, level);
+  for (Slot& other : slots_) {
+    if (&other == &slot || other.until <= now) continue;
+    file_->write_event(other.id, 0);
+    other.until = now;
+  }
+  return std::min(level, limit_);
 }
 
 bool EvdevOutput::reopen() {
@@ -144,8 +176,10 @@ bool EvdevOutput::reopen() {
   return false;
 }
 
-MonoTime EvdevOutput::work(MonoTime) {
-  if (!file_ && !wanted_.empty()) reopen();
+MonoTime EvdevOutput::work(MonoTime now) {
+  if (file_ || !looks_ || (looked_.is_set() && now - looked_ < kLooks)) return {};
+  looked_ = now;
+  reopen();
   return {};
 }
 
@@ -161,7 +195,7 @@ void EvdevOutput::stop() {
 
 std::string EvdevOutput::summary() const {
   std::string line = name_;
-  if (!file_) line += ", pulled out";
+  if (!file_) line += lost_ > 0 ? ", pulled out" : ", not found yet";
   if (lost_ > 0) line += ", was pulled out " + std::to_string(lost_) + " times";
   return line;
 }

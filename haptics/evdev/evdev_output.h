@@ -3,10 +3,10 @@
 //
 // Units/frames: below kLowMotor_hz the heavy motor turns, above the light one.
 // Ownership:    owns the device file. kSlots effects at a time, the oldest gives way; never
-//               allocates in play().
+//               allocates in play(). In sum they keep to the limit: the stronger one goes on.
 // Threads:      none inside. Writes never wait: the file is non-blocking.
 // Failure:      open() names the device and the cure. One that is pulled out is looked for again
-//               once a second, under the same name.
+//               each kLooks, under the same name; so is one of later().
 #pragma once
 
 #include <array>
@@ -32,15 +32,19 @@ class EvdevOutput final : public HapticOutput {
  public:
   static constexpr float kLowMotor_hz = 100.0f;
   static constexpr std::size_t kSlots = 4;
+  static constexpr Duration kLooks = Duration::s(3);
 
   // `device`: a path, a part of a name, or "" = the first that rumbles.
   static Result<std::unique_ptr<HapticOutput>> open(const std::string& device);
+  // One that is not there yet.
+  static std::unique_ptr<HapticOutput> later(const std::string& device);
   // For tests: a device that is open.
   EvdevOutput(std::string name, std::unique_ptr<ForceFeedbackFile> file, bool rumbles, int effects);
   ~EvdevOutput() override;
 
   bool play(const Haptic& haptic, MonoTime now) override;
   MonoTime work(MonoTime now) override;
+  void set_limit(float limit) override { limit_ = limit; }
   void stop() override;
   std::string summary() const override;
 
@@ -48,12 +52,17 @@ class EvdevOutput final : public HapticOutput {
   struct Slot {
     int id = -1;
     MonoTime until;
+    float level = 0.0f;
   };
   bool reopen();
+  // How strong an effect may be beside what runs in the other slots; 0 = those are enough.
+  float make_room(const Slot& slot, float level, MonoTime now);
 
   std::string wanted_, name_;
   std::unique_ptr<ForceFeedbackFile> file_;  // null: pulled out
-  bool rumbles_ = true;
+  bool rumbles_ = true, looks_ = false;
+  float limit_ = 1.0f;
+  MonoTime looked_;
   std::size_t slot_count_ = kSlots;
   std::array<Slot, kSlots> slots_{};
   std::uint64_t lost_ = 0;

@@ -1,12 +1,15 @@
 #include "haptics/sound/sound_output.h"
 
+#include <pthread.h>
 #include <pulse/pulseaudio.h>
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "core/base/spsc_ring.h"
-#include "core/net/mono_clock.h"
+#include "core/sound/pulse_server.h"
 #include "haptics/sound/tone_mixer.h"
 
 namespace dance {
@@ -14,7 +17,8 @@ namespace {
 
 constexpr std::uint32_t kRate_hz = 48000;
 constexpr std::uint32_t kBuffer_ms = 20;
-constexpr Duration kPatience = Duration::s(3);
+// Between two looks for a server that went away: of 10 ms each.
+constexpr int kRests = 100;
 
 }  // namespace
 
@@ -23,31 +27,39 @@ struct SoundOutput::Impl {
     Haptic haptic;
     bool is_stop = false;
   };
-  pa_threaded_mainloop* loop = nullptr;
-  pa_context* context = nullptr;
+  std::unique_ptr<PulseServer> server;
   pa_stream* stream = nullptr;
   std::string sink;
-  ToneMixer mixer{kRate_hz};  // of the library's thread
+  ToneMixer mixer{kRate_hz};  // of the thread
   SpscRing<Order, 64> orders;
-  std::atomic<bool> is_alive{false};
+  std::atomic<bool> is_alive{false}, ends{false};
+  std::atomic<float> limit{1.0f};
   std::atomic<std::int64_t> latency_us{0};
-  std::atomic<std::uint64_t> underflows{0};
+  std::atomic<std::uint64_t> underflows{0}, losses{0};
+  std::thread thread;
 
   ~Impl() {
-    if (loop) pa_threaded_mainloop_stop(loop);
-    if (stream) {
-      pa_stream_disconnect(stream);
-      pa_stream_unref(stream);
-    }
-    if (context) {
-      pa_context_disconnect(context);
-      pa_context_unref(context);
-    }
-    if (loop) pa_threaded_mainloop_free(loop);
+    ends = true;
+    if (thread.joinable()) thread.join();
+    close();
   }
+  void close();
   void write(std::size_t bytes);
-  Result<void> start();
+  Result<void> connect();
+  void run();
 };
+
+void SoundOutput::Impl::close() {
+  is_alive = false;
+  if (stream) {
+    pa_stream_set_write_callback(stream, nullptr, nullptr);
+    pa_stream_set_underflow_callback(stream, nullptr, nullptr);
+    pa_stream_disconnect(stream);
+    pa_stream_unref(stream);
+    stream = nullptr;
+  }
+  server.reset();
+}
 
 void SoundOutput::Impl::write(std::size_t bytes) {
   while (const auto order = orders.pop()) {
@@ -56,6 +68,7 @@ void SoundOutput::Impl::write(std::size_t bytes) {
     else
       mixer.add(order->haptic);
   }
+  mixer.set_limit(limit);
   std::array<float, 480> samples{};
   for (std::size_t left = bytes / sizeof(float); left > 0;) {
     const std::size_t count = std::min(left, samples.size());
@@ -69,34 +82,11 @@ void SoundOutput::Impl::write(std::size_t bytes) {
     latency_us = static_cast<std::int64_t>(std::min<pa_usec_t>(late, 1'000'000));
 }
 
-Result<void> SoundOutput::Impl::start() {
-  loop = pa_threaded_mainloop_new();
-  context = loop ? pa_context_new(pa_threaded_mainloop_get_api(loop), "dance haptics") : nullptr;
-  if (!context) return fail("no memory for the sound server");
-  const auto no_server = [&] {
-    return fail(
-        std::string("no sound server: start PulseAudio or PipeWire, or set PULSE_SERVER (") +
-        pa_strerror(pa_context_errno(context)) + ")");
-  };
-  const auto wake = [](auto*, void* waiting) {
-    pa_threaded_mainloop_signal(static_cast<pa_threaded_mainloop*>(waiting), 0);
-  };
-  pa_context_set_state_callback(context, wake, loop);
-  if (pa_context_connect(context, nullptr, PA_CONTEXT_NOAUTOSPAWN, nullptr) < 0) return no_server();
-  pa_threaded_mainloop_lock(loop);
-  pa_threaded_mainloop_start(loop);
-  struct Unlock {
-    pa_threaded_mainloop* loop;
-    ~Unlock() { pa_threaded_mainloop_unlock(loop); }
-  } unlock{loop};
-  while (pa_context_get_state(context) != PA_CONTEXT_READY) {
-    if (!PA_CONTEXT_IS_GOOD(pa_context_get_state(context))) return no_server();
-    pa_threaded_mainloop_wait(loop);
-  }
+Result<void> SoundOutput::Impl::connect() {
+  DANCE_TRY(server, PulseServer::connect("haptics"));
   const pa_sample_spec format{PA_SAMPLE_FLOAT32LE, kRate_hz, 1};
-  stream = pa_stream_new(context, "haptics", &format, nullptr);
-  if (!stream) return fail("the sound server refuses a stream");
-  pa_stream_set_state_callback(stream, wake, loop);
+  stream = pa_stream_new(server->context(), "haptics", &format, nullptr);
+  if (!stream) return fail("the sound server refuses a stream: " + server->error_text());
   pa_stream_set_write_callback(
       stream,
       [](pa_stream*, std::size_t bytes, void* self) { static_cast<Impl*>(self)->write(bytes); },
@@ -109,32 +99,56 @@ Result<void> SoundOutput::Impl::start() {
       PA_STREAM_ADJUST_LATENCY | PA_STREAM_AUTO_TIMING_UPDATE | PA_STREAM_INTERPOLATE_TIMING);
   if (pa_stream_connect_playback(stream, sink.empty() ? nullptr : sink.c_str(), &buffer, flags,
                                  nullptr, nullptr) < 0)
-    return fail("the sound server refuses to play");
-  const MonoTime begin = mono_now();
-  while (pa_stream_get_state(stream) != PA_STREAM_READY) {
-    if (!PA_STREAM_IS_GOOD(pa_stream_get_state(stream)) || mono_now() - begin > kPatience)
-      return fail("the sound server has no sink '" + (sink.empty() ? "default" : sink) +
-                  "'; pactl list short sinks shows those there are");
-    pa_threaded_mainloop_wait(loop);
+    return fail("the sound server refuses to play: " + server->error_text());
+  const bool is_ready = server->iterate_until([this] {
+    return pa_stream_get_state(stream) != PA_STREAM_CREATING;
+  }) && pa_stream_get_state(stream) == PA_STREAM_READY;
+  if (!is_ready)
+    return fail("the sound server has no sink '" + (sink.empty() ? "default" : sink) +
+                "'; pactl list short sinks shows those there are");
+  // What waited meanwhile is of the past.
+  while (orders.pop()) {
   }
-  pa_stream_set_state_callback(
-      stream,
-      [](pa_stream* of, void* self) {
-        static_cast<Impl*>(self)->is_alive = pa_stream_get_state(of) == PA_STREAM_READY;
-      },
-      this);
+  mixer.clear();
   is_alive = true;
   return {};
+}
+
+void SoundOutput::Impl::run() {
+  pthread_setname_np(pthread_self(), "haptics-snd");
+  const auto has_ended = [this] { return ends || pa_stream_get_state(stream) != PA_STREAM_READY; };
+  while (!ends) {
+    if (is_alive) {
+      server->iterate_until(has_ended);
+      if (!server->is_alive() || has_ended()) {
+        if (!ends) ++losses;
+        close();
+      }
+      continue;
+    }
+    for (int i = 0; i < kRests && !ends; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (!ends && !connect()) close();
+  }
 }
 
 Result<std::unique_ptr<HapticOutput>> SoundOutput::open(const std::string& sink) {
   auto impl = std::make_unique<Impl>();
   impl->sink = sink;
-  if (auto started = impl->start(); !started) return tl::make_unexpected(started.error());
+  if (auto connected = impl->connect(); !connected) return tl::make_unexpected(connected.error());
   return std::unique_ptr<HapticOutput>(new SoundOutput(std::move(impl)));
 }
 
-SoundOutput::SoundOutput(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+std::unique_ptr<HapticOutput> SoundOutput::later(const std::string& sink) {
+  auto impl = std::make_unique<Impl>();
+  impl->sink = sink;
+  return std::unique_ptr<HapticOutput>(new SoundOutput(std::move(impl)));
+}
+
+SoundOutput::SoundOutput(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
+  Impl* const raw = impl_.get();
+  raw->thread = std::thread([raw] { raw->run(); });
+}
 SoundOutput::~SoundOutput() = default;
 
 bool SoundOutput::play(const Haptic& haptic, MonoTime) {
@@ -143,6 +157,8 @@ bool SoundOutput::play(const Haptic& haptic, MonoTime) {
   return true;
 }
 
+void SoundOutput::set_limit(float limit) { impl_->limit = limit; }
+
 void SoundOutput::stop() { impl_->orders.push({Haptic(), true}); }
 
 Duration SoundOutput::latency() const { return Duration::us(impl_->latency_us); }
@@ -150,7 +166,8 @@ Duration SoundOutput::latency() const { return Duration::us(impl_->latency_us); 
 std::string SoundOutput::summary() const {
   std::string line = "sound" + (impl_->sink.empty() ? "" : " on " + impl_->sink) + ", " +
                      std::to_string(latency().count_ms()) + " ms late by itself";
-  if (!impl_->is_alive) line += ", the sound server has ended";
+  if (!impl_->is_alive) line += ", no sound server now";
+  if (impl_->losses > 0) line += ", lost " + std::to_string(impl_->losses) + " times";
   if (impl_->underflows > 0) line += ", " + std::to_string(impl_->underflows) + " gaps";
   return line;
 }

@@ -1,7 +1,7 @@
 // ToneMixer: what is to be felt as sound for tactors: a tone for each, with its envelope, from the
 // frame on at which it is due.
 //
-// Units/frames: samples -1 to 1, frames at rate_hz.
+// Units/frames: samples -limit to limit, 1 without one; frames at rate_hz.
 // Ownership:    kMostTones at a time, the one that ends first gives way; never allocates.
 // Threads:      none inside; one owner.
 // Failure:      none.
@@ -44,6 +44,9 @@ class ToneMixer {
     return std::all_of(tones_.begin(), tones_.end(), [](const Tone& t) { return t.left() == 0; });
   }
 
+  // Of the sum of all tones, 0 to 1.
+  void set_limit(float limit) { limit_ = limit; }
+
   void mix(std::span<float> samples) {
     std::fill(samples.begin(), samples.end(), 0.0f);
     for (Tone& tone : tones_) {
@@ -57,7 +60,7 @@ class ToneMixer {
         ++tone.frame;
       }
     }
-    for (float& sample : samples) sample = std::clamp(sample, -1.0f, 1.0f);
+    for (float& sample : samples) sample = std::clamp(sample, -limit_, limit_);
   }
 
  private:
@@ -67,6 +70,7 @@ class ToneMixer {
     std::int64_t left() const { return frames - frame; }
   };
   double rate_hz_;
+  float limit_ = 1.0f;
   std::array<Tone, kMostTones> tones_{};
 };
 

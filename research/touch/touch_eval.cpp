@@ -203,15 +203,15 @@ Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limit
   for (const Shown& moment : stage) {
     std::array<Pose, 2> reached = moment.shown;
     if (is_first) {
-      holds.show(lead, reached[0], moment.at, true);
-      holds.show(follow, reached[1], moment.at, true);
+      holds.show(lead, reached[0], moment.at, true, DancerOf::kThisHouse);
+      holds.show(follow, reached[1], moment.at, true, DancerOf::kThisHouse);
       holds.set_body(lead, couple[0].skeleton);
       holds.set_body(follow, couple[1].skeleton);
       reached = moment.shown;
     }
     const auto began = std::chrono::steady_clock::now();
-    holds.show(lead, reached[0], moment.at, true);
-    holds.show(follow, reached[1], moment.at, true);
+    holds.show(lead, reached[0], moment.at, true, DancerOf::kThisHouse);
+    holds.show(follow, reached[1], moment.at, true, DancerOf::kThisHouse);
     const std::chrono::duration<double, std::micro> cost = std::chrono::steady_clock::now() - began;
     costs.pose_us.push_back(0.5 * cost.count());
     touch.show(lead, reached[0], moment.at);

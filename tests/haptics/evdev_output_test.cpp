@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <linux/input.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <filesystem>
+#include <fstream>
 #include <vector>
 
 #include "haptics/evdev/evdev_devices.h"
@@ -109,6 +112,48 @@ TEST(EvdevOutput, SaysThatADeviceWasPulledOut) {
   EXPECT_NE(output.summary().find("pulled out"), std::string::npos);
   EXPECT_FALSE(output.play(some_haptic(moment(0)), moment(0)));
   output.work(moment(1));
+}
+
+TEST(EvdevOutput, KeepsToTheLimitInSum) {
+  KernelNotes kernel;
+  EvdevOutput output("pad", std::make_unique<NotedFile>(kernel), true, 4);
+  output.set_limit(0.6f);
+  Haptic haptic = some_haptic(moment(0));
+  const auto play = [&](float amplitude, int ms) {
+    haptic.amplitude = amplitude;
+    EXPECT_TRUE(output.play(haptic, moment(ms)));
+    return kernel.uploads.back().u.rumble.weak_magnitude / 65535.0f;
+  };
+  EXPECT_NEAR(play(0.4f, 0), 0.4f, 0.01f);
+  EXPECT_NEAR(play(0.3f, 1), 0.2f, 0.01f);  // what is left
+  EXPECT_EQ(play(0.3f, 2), play(0.1f, 3));  // nothing is left, and nothing is said to the kernel
+  EXPECT_EQ(kernel.uploads.size(), 2u);
+  kernel.events.clear();
+  EXPECT_NEAR(play(0.6f, 4), 0.6f, 0.01f);  // a stronger one ends those before it
+  EXPECT_EQ(std::count_if(kernel.events.begin(), kernel.events.end(),
+                          [](const auto& event) { return event.second == 0; }),
+            2);
+  EXPECT_NEAR(play(0.3f, 5000), 0.3f, 0.01f);  // later all of it is there again
+}
+
+TEST(EvdevOutput, OneThatIsNotThereYetTakesNothingAndSaysSo) {
+  const auto output = EvdevOutput::later("a name that no device has");
+  output->work(moment(0));
+  EXPECT_FALSE(output->play(some_haptic(moment(0)), moment(0)));
+  EXPECT_EQ(output->summary(), "a name that no device has, not found yet");
+}
+
+TEST(EvdevDevices, TheKernelTellsWhichMayRumbleWithoutOpeningThem) {
+  TestFolder folder("evdev-classes");
+  const auto say = [&](const std::string& event, const char* text) {
+    std::filesystem::create_directories(folder.path(event + "/device/capabilities"));
+    std::ofstream(folder.path(event + "/device/capabilities/ff")) << text;
+    return may_rumble(event, folder.path(""));
+  };
+  EXPECT_FALSE(say("event0", "0\n"));
+  EXPECT_FALSE(say("event1", "0 0\n"));
+  EXPECT_TRUE(say("event2", "107030000 0\n"));
+  EXPECT_TRUE(may_rumble("event3", folder.path("")));
 }
 
 TEST(EvdevDevices, AFolderWithoutDevicesHasNone) {

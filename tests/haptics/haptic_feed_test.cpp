@@ -16,8 +16,8 @@ struct Felt {
   PortDouble port;
   std::unique_ptr<Poller> poller = *Poller::create();
   DeviceNotes notes;
-  HapticFeed feed{kAlice, {}, port, *poller};
-  Felt() {
+  HapticFeed feed;
+  explicit Felt(HapticMakerOptions options = {}) : feed(kAlice, options, port, *poller) {
     feed.add(std::make_unique<HapticPlayer>(std::make_unique<NotedOutput>(notes),
                                             HapticPlayerOptions(), *poller));
   }
@@ -30,8 +30,9 @@ struct Felt {
     touch.other = *GuestId::parse("bob");
     port.publish(Where::kStage, kAlice, touch);
   }
-  void hear(std::uint64_t maker) {
+  void hear(std::uint64_t maker, HapticSource source = HapticSource::kTouch) {
     Haptic haptic = some_haptic(mono_now());
+    haptic.source = source;
     haptic.clock_id = this_clock_id();
     haptic.maker = maker;
     port.publish(Where::kCapture, kAlice, haptic);
@@ -72,6 +73,48 @@ TEST(HapticFeed, OfSeveralMakersOneMakes) {
   felt.hear(~std::uint64_t{0});  // the largest number there is: this one makes
   EXPECT_EQ(felt.notes.played.size(), 0u);
   felt.touch(1);
+  EXPECT_EQ(felt.notes.played.size(), 1u);
+}
+
+TEST(HapticFeed, AnotherMakerIsNotForgottenWhileItIsQuietButWhenItIsGone) {
+  Felt felt;
+  felt.hear(1);
+  for (int i = 0; i < HapticFeed::kMostRested; ++i) {
+    felt.touch(static_cast<std::uint32_t>(i));
+    EXPECT_EQ(felt.feed.made(), 0u);
+  }
+  felt.touch(77);
+  EXPECT_EQ(felt.feed.made(), 1u);
+  EXPECT_EQ(felt.notes.played.size(), 2u);
+}
+
+TEST(HapticFeed, WhatTwoMakersOrderForOnePlaceIsFeltOnce) {
+  Felt felt;
+  felt.touch(1);
+  ASSERT_EQ(felt.notes.played.size(), 1u);
+  // The same touch, of a maker that came later.
+  Haptic same = felt.notes.played[0];
+  same.maker = 1;
+  same.play_time += Duration::ms(59);
+  felt.port.publish(Where::kCapture, kAlice, same);
+  // Elsewhere it is another one, and one maker's own may be as near to each other as it says.
+  same.bone = Bone::kHead;
+  felt.port.publish(Where::kCapture, kAlice, same);
+  felt.port.publish(Where::kCapture, kAlice, same);
+  for (int i = 0; i < 500 && felt.notes.played.size() < 3; ++i)
+    felt.poller->run_once(Duration::ms(20));
+  ASSERT_EQ(felt.notes.played.size(), 3u);
+  EXPECT_EQ(felt.notes.played[1].bone, Bone::kHead);
+  EXPECT_EQ(felt.notes.played[2].bone, Bone::kHead);
+}
+
+TEST(HapticFeed, ADeviceFeelsOnlyWhatItsOptionsNameOfAnyMaker) {
+  Felt felt(HapticMakerOptions{false, false, FeltBeats::kOne});
+  felt.hear(1, HapticSource::kTouch);
+  felt.hear(1, HapticSource::kLead);
+  felt.touch(1);
+  EXPECT_EQ(felt.notes.played.size(), 0u);
+  felt.hear(1, HapticSource::kBeat);
   EXPECT_EQ(felt.notes.played.size(), 1u);
 }
 

@@ -21,7 +21,8 @@ struct HapticNotes final : HapticSink {
 struct DeviceNotes {
   std::vector<Haptic> played;
   std::vector<MonoTime> at;
-  int stops = 0;
+  int stops = 0, works = 0;
+  MonoTime wants;  // when work() is to be called next
   bool refuses = false;
   Duration latency;
 };
@@ -34,6 +35,10 @@ class NotedOutput final : public HapticOutput {
     notes_.played.push_back(haptic);
     notes_.at.push_back(now);
     return true;
+  }
+  MonoTime work(MonoTime) override {
+    ++notes_.works;
+    return notes_.wants;
   }
   void stop() override { ++notes_.stops; }
   Duration latency() const override { return notes_.latency; }

@@ -70,6 +70,22 @@ TEST(HapticPlayer, HoldsTheLimitAndCountsIt) {
   EXPECT_EQ(stage.player->counters().limited, 1u);
 }
 
+TEST(HapticPlayer, WhatEndsAnOrderRunsWhenTheDeviceWantsItNotWithTheNextSecond) {
+  Played stage;
+  stage.poller->run_once(Duration());  // the second has just begun
+  const int works = stage.notes.works;
+  const MonoTime now = mono_now();
+  stage.player->take(some_haptic(now), now);
+  ASSERT_EQ(stage.notes.played.size(), 1u);
+  stage.notes.wants = mono_now() + Duration::ms(20);
+  stage.poller->run_once(Duration());
+  EXPECT_EQ(stage.notes.works, works + 1);
+  // Another one that is due meanwhile does not put it off.
+  stage.player->take(some_haptic(mono_now()), mono_now());
+  stage.poller->run_once(Duration());
+  EXPECT_EQ(stage.notes.works, works + 2);
+}
+
 TEST(HapticPlayer, OffIsOffAtOnceAndWhatWaitedIsForgotten) {
   Played stage;
   const MonoTime now = mono_now();

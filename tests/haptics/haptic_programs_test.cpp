@@ -66,6 +66,10 @@ TEST(HapticPrograms, SayInOneLineWhatIsMissing) {
   const Finished list = run(bin("dance-haptics") + " list");
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_NE(list.output.find("osc"), std::string::npos);
+  const Finished help = run(bin("dance-haptics") + " --help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* example : {"--to bhaptics", "--to sound --device tactors --feel one lead\n"})
+    EXPECT_NE((help.output + help.talk).find(example), std::string::npos) << help.output;
 }
 
 }  // namespace

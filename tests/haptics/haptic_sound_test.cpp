@@ -1,5 +1,10 @@
 // Tones for tactors, on a sound server with a sink that goes nowhere and is listened to.
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
 
 #include "core/net/mono_clock.h"
 #include "haptics/sound/sound_output.h"
@@ -38,6 +43,41 @@ TEST(HapticSound, IsHeardOnItsSinkOnceForEachOrder) {
   EXPECT_LT((*output)->latency(), Duration::s(1));
   (*output)->stop();
   EXPECT_EQ(server.clicks().size(), 3u);
+}
+
+TEST(HapticSound, AServerThatEndsIsFoundAgain) {
+  if (!SoundServer::is_there()) GTEST_SKIP() << "pulseaudio is not installed";
+  const TestFolder folder("haptic-sound-again");
+  auto server = std::make_unique<SoundServer>(folder);
+  ASSERT_TRUE(server->is_open());
+  auto output = SoundOutput::open("dance");
+  ASSERT_TRUE(output) << output.error().what;
+  const auto plays = [&] { return (*output)->play(some_haptic(mono_now()), mono_now()); };
+  EXPECT_TRUE(plays());
+  server.reset();
+  EXPECT_TRUE(wait_for([&] { return !plays(); }));
+  EXPECT_NE((*output)->summary().find("lost 1 times"), std::string::npos);
+  server = std::make_unique<SoundServer>(folder);
+  ASSERT_TRUE(server->is_open());
+  EXPECT_TRUE(wait_for(plays));
+}
+
+// Accepts, and never answers.
+TEST(HapticSound, AServerThatSaysNothingIsGivenUp) {
+  const TestFolder folder("haptic-sound-silent");
+  const std::string path = folder.path("silent");
+  sockaddr_un at{};
+  at.sun_family = AF_UNIX;
+  ASSERT_LT(path.size(), sizeof at.sun_path);
+  std::memcpy(at.sun_path, path.c_str(), path.size());
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
+  ASSERT_EQ(listen(fd, 4), 0);
+  setenv("PULSE_SERVER", ("unix:" + path).c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  const auto output = SoundOutput::open("");
+  close(fd);
+  ASSERT_FALSE(output);
+  EXPECT_NE(output.error().what.find("no sound server"), std::string::npos);
 }
 
 TEST(HapticSound, WithoutAServerThereIsOneLine) {

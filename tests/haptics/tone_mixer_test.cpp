@@ -56,6 +56,11 @@ TEST(ToneMixer, ManyTonesAreBoundedAndNeverTooLoud) {
   haptic.amplitude = 1.0f;
   for (int i = 0; i < 100; ++i) mixer.add(haptic);
   for (const float sample : mixed(mixer, 4800)) EXPECT_LE(std::abs(sample), 1.0f);
+  // In sum, too, nothing is above the limit.
+  mixer.set_limit(0.6f);
+  for (int i = 0; i < 100; ++i) mixer.add(haptic);
+  for (const float sample : mixed(mixer, 4800)) EXPECT_LE(std::abs(sample), 0.6f);
+  for (int i = 0; i < 100; ++i) mixer.add(haptic);
   mixer.clear();
   for (const float sample : mixed(mixer, 480)) EXPECT_EQ(sample, 0.0f);
 }

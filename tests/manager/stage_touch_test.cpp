@@ -101,5 +101,27 @@ TEST(HoldHands, AManagerSaysWhoTouchesWhomToBoth) {
   EXPECT_EQ(alice[0].clock_id, this_clock_id());
 }
 
+TEST(HoldHands, AManagerTellsOnlyTheDancersOfItsHouse) {
+  PortDouble port;
+  const auto poller = *Poller::create();
+  Manager manager({pass_through(Where::kCapture), pass_through(Where::kGuest)}, port, *poller);
+  std::size_t alice = 0, bob = 0;
+  port.subscribe<Touch>({Where::kStage, guest("alice")},
+                        [&](const Channel&, const Touch&, MonoTime) { ++alice; });
+  port.subscribe<Touch>({Where::kStage, guest("bob")},
+                        [&](const Channel&, const Touch&, MonoTime) { ++bob; });
+  for (std::uint32_t i = 0; i < 300 && alice < 4; ++i) {
+    const MonoTime now = mono_now();
+    port.publish(Where::kCapture, guest("alice"),
+                 numbered(with_palm_at(lead_pose(), 0, meeting_place()), i, now));
+    port.publish(Where::kGuest, guest("bob"),
+                 numbered(with_palm_at(follow_pose(), 1, meeting_place()), i, now));
+    poller->run_once(Duration::ms(20));
+  }
+  EXPECT_GE(alice, 4u);
+  EXPECT_EQ(bob, 0u);
+  EXPECT_EQ(manager.without_touch(), 0u);
+}
+
 }  // namespace
 }  // namespace dance

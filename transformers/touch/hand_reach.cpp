@@ -12,15 +12,26 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kShortestArm_m = 1e-3f;
+constexpr float kMostTurn_rad = 3.1f;
 // An elbow is not stretched further than this share of the arm's length, unless it was.
 constexpr float kStraightArm = 0.998f;
 
-// The axis about which the elbow opens: that of the plane it is bent in, else its hinge in T-pose.
+// The plane of an elbow that is bent less than this, 10°, is noise.
+constexpr float kPlaneOfElbow = 0.1736f;  // the sine
+
+// The axis about which the elbow opens: that of the plane it is bent in; where it bends from being
+// nearly straight, ever more its hinge in T-pose.
 Vector3f elbow_hinge(std::size_t side, const Vector3f& to_shoulder, const Vector3f& to_hand,
-                     const Quaternionf& R_WU) {
+                     const Quaternionf& R_WU, bool bends) {
+  const Vector3f rest = R_WU * (side == 0 ? Vector3f::UnitY() : Vector3f(-Vector3f::UnitY()));
   const Vector3f normal = to_shoulder.cross(to_hand);
-  if (normal.squaredNorm() > 1e-6f) return normal.normalized();
-  return R_WU * (side == 0 ? Vector3f::UnitY() : Vector3f(-Vector3f::UnitY()));
+  const float sine = normal.norm();
+  if (sine < 1e-3f) return rest;
+  // What opens comes out straight whatever the plane was.
+  if (!bends || sine >= kPlaneOfElbow) return normal / sine;
+  const float share = sine / kPlaneOfElbow;
+  const Vector3f blend = share * share * (3.0f - 2.0f * share) * (normal / sine - rest) + rest;
+  return blend.norm() > 0.05f ? Vector3f(blend.normalized()) : rest;
 }
 
 }  // namespace
@@ -44,8 +55,16 @@ float move_hand(std::size_t side, const Vector3f& shift_W_m, Pose& pose, BodyFra
   const auto angle_at = [&](float d) {
     return std::acos(std::clamp((a * a + b * b - d * d) / (2.0f * a * b), -1.0f, 1.0f));
   };
-  const Vector3f hinge = elbow_hinge(side, to_shoulder / a, to_hand / b, frames.R_WB[upper]);
-  const Quaternionf bend(AngleAxisf(angle_at(reach) - angle_at(now), hinge));
+  const bool bends = reach < now;
+  const Vector3f hinge = elbow_hinge(side, to_shoulder / a, to_hand / b, frames.R_WB[upper], bends);
+  float turn = angle_at(reach) - angle_at(now);
+  // About a hinge that is not the plane's own, γ changes by less than the turn.
+  for (int i = 0; i < 4 && bends; ++i) {
+    const Vector3f bent = AngleAxisf(turn, hinge) * to_hand;
+    const float miss = angle_at(reach) - angle_at((bent - to_shoulder).norm());
+    turn = std::max(turn + miss, -kMostTurn_rad);
+  }
+  const Quaternionf bend(AngleAxisf(turn, hinge));
   const Vector3f bent_hand = frames.p_WB_m[lower] + bend * to_hand;
   const Quaternionf swing = Quaternionf::FromTwoVectors(bent_hand - shoulder, target - shoulder);
 

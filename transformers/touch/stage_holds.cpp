@@ -45,23 +45,21 @@ const StageHolds::Dancer* StageHolds::find(const GuestId& guest) const {
   return nullptr;
 }
 
-StageHolds::Dancer* StageHolds::place_of(const GuestId& guest, MonoTime now) {
-  Dancer* free = nullptr;
-  for (Dancer& dancer : dancers_) {
+StageHolds::Dancer* StageHolds::place_of(const GuestId& guest, const Pose& pose, MonoTime now,
+                                         DancerOf of) {
+  for (Dancer& dancer : dancers_)
     if (dancer.guest == guest) return &dancer;
-    const bool is_free = !dancer.guest.is_set() || now - dancer.shown > kGone;
-    if (is_free && (!free || (free->guest.is_set() && !dancer.guest.is_set()))) free = &dancer;
-  }
-  if (!free) {
+  Dancer* place = find_place(dancers_, of, pose.p_WH_m, now, kGone);
+  if (!place) {
     ++refused_;
     return nullptr;
   }
-  leave(static_cast<std::size_t>(free - dancers_.data()));
-  free->guest = guest;
-  free->skeleton = average_skeleton();
-  free->shown = MonoTime();
-  free->reaches = false;
-  return free;
+  leave(static_cast<std::size_t>(place - dancers_.data()));
+  place->guest = guest;
+  place->skeleton = average_skeleton();
+  place->shown = MonoTime();
+  place->reaches = false;
+  return place;
 }
 
 void StageHolds::leave(std::size_t place) {
@@ -114,9 +112,11 @@ void StageHolds::hold(std::size_t own, std::size_t other, MonoTime now, Reach& r
   }
 }
 
-bool StageHolds::show(const GuestId& guest, Pose& pose, MonoTime now, bool reaches) {
-  Dancer* dancer = place_of(guest, now);
+bool StageHolds::show(const GuestId& guest, Pose& pose, MonoTime now, bool reaches, DancerOf of) {
+  Dancer* dancer = place_of(guest, pose, now, of);
   if (!dancer) return false;
+  dancer->of = of;
+  dancer->p_WH_m = pose.p_WH_m;
   dancer->reaches = reaches;
   BodyFrames frames;
   forward_kinematics(dancer->skeleton, pose, frames);

@@ -4,9 +4,11 @@
 //
 // Units/frames: metres in W; times of this house's clock. Palms as core/motion/palm_pull.h has
 //               them.
-// Ownership:    room for kMostDancers; never allocates after construction.
+// Ownership:    room for kMostDancers, those of this house first, then those nearest to them; hands
+//               of two remote dancers hold where places are left. Never allocates after
+//               construction.
 // Threads:      none inside; one owner.
-// Failure:      more dancers than there is room for are shown as they are, and counted.
+// Failure:      more dancers than there is room for are shown as they are, and their poses counted.
 #pragma once
 
 #include <array>
@@ -15,6 +17,7 @@
 #include "core/base/guest_id.h"
 #include "core/pose/kinematics.h"
 #include "transformers/touch/palm_hold.h"
+#include "transformers/touch/stage_places.h"
 
 namespace dance {
 
@@ -37,7 +40,12 @@ class StageHolds {
   void set_body(const GuestId& guest, const Skeleton& skeleton);
   // A pose that is about to be shown. With `reaches`, its arms are moved to the hands they hold;
   // returns whether they were.
-  bool show(const GuestId& guest, Pose& pose, MonoTime now, bool reaches);
+  bool show(const GuestId& guest, Pose& pose, MonoTime now, bool reaches, DancerOf of);
+  // Dances here, and was shown.
+  bool is_of_this_house(const GuestId& guest) const {
+    const Dancer* dancer = find(guest);
+    return dancer && dancer->of == DancerOf::kThisHouse;
+  }
 
   bool are_held(const GuestId& first, std::size_t first_side, const GuestId& second,
                 std::size_t second_side) const;
@@ -50,17 +58,16 @@ class StageHolds {
             tell(HandHold{dancers_[a].guest, dancers_[b].guest, static_cast<std::uint8_t>(k / 2),
                           static_cast<std::uint8_t>(k % 2), hold.apart_m(), hold.since()});
   }
+  // Poses of dancers who had no place.
   std::uint64_t refused() const { return refused_; }
 
  private:
   using Palms = std::array<Eigen::Vector3f, 2>;
   // Of two dancers: the first's palm k / 2, the second's k % 2.
   using Pair = std::array<PalmHold, 4>;
-  struct Dancer {
-    GuestId guest;  // not set: a free place
+  struct Dancer : StagePlace {
     Skeleton skeleton;
     Palms palms, speed_m_s;  // as shown, before arms reach
-    MonoTime shown;
     bool reaches = false;
     Eigen::Vector3f palm_at(std::size_t side, MonoTime now) const;
   };
@@ -69,7 +76,7 @@ class StageHolds {
     std::array<float, 2> weight{};
   };
 
-  Dancer* place_of(const GuestId& guest, MonoTime now);
+  Dancer* place_of(const GuestId& guest, const Pose& pose, MonoTime now, DancerOf of);
   const Dancer* find(const GuestId& guest) const;
   void note(Dancer& dancer, const Palms& palms, MonoTime now) const;
   void hold(std::size_t own, std::size_t other, MonoTime now, Reach& reach);

@@ -39,17 +39,17 @@ struct StageTouch::Contact {
 struct StageTouch::Pair {
   bool is_used = false;
   std::size_t a = 0, b = 0;  // a < b
+  GuestId guest_a, guest_b;
   MonoTime looked;
   std::array<Contact, kBodyParts * kBodyParts> contacts;
 };
 
-struct StageTouch::Dancer {
-  GuestId guest;
+struct StageTouch::Dancer : StagePlace {
   Skeleton skeleton = average_skeleton();
   BodyFrames frames;
   BodyCapsules body;
+  float radius_m = 0.0f;  // of all of the body, about the hips
   std::array<Vector3f, kBoneCount> speed_m_s;
-  MonoTime shown;
 };
 
 struct StageTouch::Found {
@@ -69,21 +69,19 @@ StageTouch::StageTouch() : state_(std::make_unique<State>()) {
 }
 StageTouch::~StageTouch() = default;
 
-StageTouch::Dancer* StageTouch::place_of(const GuestId& guest, MonoTime now) {
-  Dancer* free = nullptr;
-  for (Dancer& dancer : state_->dancers) {
+StageTouch::Dancer* StageTouch::place_of(const GuestId& guest, const Pose& pose, MonoTime now,
+                                         DancerOf of) {
+  for (Dancer& dancer : state_->dancers)
     if (dancer.guest == guest) return &dancer;
-    if (!dancer.guest.is_set() || now - dancer.shown > kGone * 4)
-      if (!free || free->guest.is_set()) free = &dancer;
-  }
-  if (!free) {
+  Dancer* place = find_place(state_->dancers, of, pose.p_WH_m, now, kGone);
+  if (!place) {
     ++refused_;
     return nullptr;
   }
-  *free = Dancer();
-  free->speed_m_s.fill(Vector3f::Zero());
-  free->guest = guest;
-  return free;
+  *place = Dancer();
+  place->speed_m_s.fill(Vector3f::Zero());
+  place->guest = guest;
+  return place;
 }
 
 void StageTouch::set_body(const GuestId& guest, const Skeleton& skeleton) {
@@ -91,9 +89,10 @@ void StageTouch::set_body(const GuestId& guest, const Skeleton& skeleton) {
     if (dancer.guest == guest) dancer.skeleton = skeleton;
 }
 
-void StageTouch::show(const GuestId& guest, const Pose& pose, MonoTime now) {
-  Dancer* dancer = place_of(guest, now);
+void StageTouch::show(const GuestId& guest, const Pose& pose, MonoTime now, DancerOf of) {
+  Dancer* dancer = place_of(guest, pose, now, of);
   if (!dancer) return;
+  dancer->of = of;
   BodyFrames frames;
   forward_kinematics(dancer->skeleton, pose, frames);
   const Duration step = now - dancer->shown;
@@ -107,16 +106,24 @@ void StageTouch::show(const GuestId& guest, const Pose& pose, MonoTime now) {
     dancer->speed_m_s.fill(Vector3f::Zero());
   }
   dancer->frames = frames;
+  dancer->p_WH_m = frames.p_WB_m[0];
   dancer->body = BodyCapsules::of(dancer->skeleton, frames);
+  dancer->radius_m = 0.0f;
+  for (const Capsule& bone : dancer->body.of_bone)
+    for (const Vector3f& end : {bone.from, bone.to})
+      dancer->radius_m = std::max(dancer->radius_m, (end - dancer->p_WH_m).norm() + bone.radius_m);
   dancer->shown = now;
 }
 
-StageTouch::Pair* StageTouch::pair_of(std::size_t a, std::size_t b, MonoTime now) {
+StageTouch::Pair* StageTouch::pair_of(std::size_t a, std::size_t b, bool wants_one) {
+  const GuestId &first = state_->dancers[a].guest, &second = state_->dancers[b].guest;
   Pair* free = nullptr;
   for (Pair& pair : state_->pairs) {
-    if (pair.is_used && pair.a == a && pair.b == b) return &pair;
+    const bool is_it = pair.is_used && pair.a == a && pair.b == b;
+    if (is_it && pair.guest_a == first && pair.guest_b == second) return &pair;
     if (!pair.is_used && !free) free = &pair;
   }
+  if (!wants_one) return nullptr;
   if (!free) {
     ++refused_;
     return nullptr;
@@ -125,7 +132,8 @@ StageTouch::Pair* StageTouch::pair_of(std::size_t a, std::size_t b, MonoTime now
   free->is_used = true;
   free->a = a;
   free->b = b;
-  free->looked = now;
+  free->guest_a = first;
+  free->guest_b = second;
   return free;
 }
 
@@ -139,27 +147,36 @@ void StageTouch::update(MonoTime now, std::uint64_t clock_id, const StageHolds& 
     if (!is_here(second)) continue;
     for (std::size_t a = 0; a < b; ++a) {
       const Dancer& first = state_->dancers[a];
-      if (!is_here(first)) continue;
-      const Vector3f apart = first.frames.p_WB_m[0] - second.frames.p_WB_m[0];
-      if (!(apart.squaredNorm() < kNear_m * kNear_m)) continue;
-      if (Pair* pair = pair_of(a, b, now)) look(*pair, now, clock_id, holds, sink);
+      // What two others do to each other is felt elsewhere.
+      const bool is_felt = first.of == DancerOf::kThisHouse || second.of == DancerOf::kThisHouse;
+      if (!is_felt || !is_here(first)) continue;
+      if (!((first.p_WH_m - second.p_WH_m).squaredNorm() < kNear_m * kNear_m)) continue;
+      Slots found;
+      Pair* pair = pair_of(a, b, look(first, second, holds, found));
+      if (!pair) continue;
+      pair->looked = now;
+      for (std::size_t slot = 0; slot < found.size(); ++slot)
+        follow(*pair, slot, found[slot], now, clock_id, sink);
     }
   }
-  // Who has left, or went away, touches nobody.
-  for (Pair& pair : state_->pairs)
-    if (pair.is_used && pair.looked != now) end(pair, now, clock_id, sink);
+  // Who has left, went away, or gave the place to another touches nobody; nor is a place kept for
+  // two who have parted.
+  for (Pair& pair : state_->pairs) {
+    if (!pair.is_used) continue;
+    const bool touches = std::any_of(pair.contacts.begin(), pair.contacts.end(),
+                                     [](const Contact& contact) { return contact.seen.is_set(); });
+    if (pair.looked != now || !touches) end(pair, now, clock_id, sink);
+  }
 }
 
-void StageTouch::look(Pair& pair, MonoTime now, std::uint64_t clock_id, const StageHolds& holds,
-                      TouchSink& sink) {
-  const Dancer &a = state_->dancers[pair.a], &b = state_->dancers[pair.b];
-  pair.looked = now;
-  // Of each two parts the bones that are deepest in each other.
-  std::array<Found, kBodyParts * kBodyParts> found;
+bool StageTouch::look(const Dancer& a, const Dancer& b, const StageHolds& holds, Slots& found) {
+  bool is_any = false;
   for (std::size_t i = 0; i < kBoneCount; ++i) {
     const Capsule& one = a.body.of_bone[i];
     const Vector3f middle = 0.5f * (one.from + one.to);
     const float reach = 0.5f * (one.to - one.from).norm() + one.radius_m + kParts_m;
+    const float most = reach + b.radius_m;
+    if (!((middle - b.p_WH_m).squaredNorm() < most * most)) continue;
     for (std::size_t k = 0; k < kBoneCount; ++k) {
       const Capsule& two = b.body.of_bone[k];
       const float far = reach + 0.5f * (two.to - two.from).norm() + two.radius_m;
@@ -170,6 +187,7 @@ void StageTouch::look(Pair& pair, MonoTime now, std::uint64_t clock_id, const St
       if (!(near.distance_m < kParts_m) || (slot.is_near && slot.distance_m <= near.distance_m))
         continue;
       slot = {true, false, i, k, near.distance_m, near.place};
+      is_any = true;
     }
   }
   constexpr std::array<BodyPart, 2> kHands{BodyPart::kHandL, BodyPart::kHandR};
@@ -182,9 +200,9 @@ void StageTouch::look(Pair& pair, MonoTime now, std::uint64_t clock_id, const St
             static_cast<std::size_t>(kHands[other])] = {
           true,           true,          index_of(kHandBones[side]), index_of(kHandBones[other]),
           (p - q).norm(), 0.5f * (p + q)};
+      is_any = true;
     }
-  for (std::size_t slot = 0; slot < found.size(); ++slot)
-    follow(pair, slot, found[slot], now, clock_id, sink);
+  return is_any;
 }
 
 void StageTouch::follow(Pair& pair, std::size_t slot, const Found& found, MonoTime now,
@@ -226,9 +244,12 @@ void StageTouch::follow(Pair& pair, std::size_t slot, const Found& found, MonoTi
 void StageTouch::tell(const Pair& pair, const Contact& contact, TouchPhase phase, MonoTime now,
                       std::uint64_t clock_id, TouchSink& sink) const {
   const Dancer* both[2] = {&state_->dancers[pair.a], &state_->dancers[pair.b]};
+  const GuestId* guests[2] = {&pair.guest_a, &pair.guest_b};
   const std::size_t bones[2] = {contact.bone_a, contact.bone_b};
   for (std::size_t d = 0; d < 2; ++d) {
     const Dancer &own = *both[d], &other = *both[1 - d];
+    // Only dancers of this house are told; none of these gives a place to another while shown.
+    if (own.of != DancerOf::kThisHouse || own.guest != *guests[d]) continue;
     Touch touch;
     touch.time = now;
     touch.clock_id = clock_id;
@@ -237,12 +258,13 @@ void StageTouch::tell(const Pair& pair, const Contact& contact, TouchPhase phase
     touch.is_hold = contact.is_hold;
     touch.bone = static_cast<Bone>(bones[d]);
     touch.other_bone = static_cast<Bone>(bones[1 - d]);
-    touch.other = other.guest;
+    touch.other = *guests[1 - d];
     const float depth = contact.is_hold ? contact.distance_m : -contact.distance_m;
     touch.depth_m = std::clamp(depth, 0.0f, Touch::kMostDepth_m);
     touch.approach_m_s =
         std::clamp(contact.approach_m_s, -Touch::kMostSpeed_m_s, Touch::kMostSpeed_m_s);
-    const Vector3f moves = other.speed_m_s[bones[1 - d]] - own.speed_m_s[0];
+    Vector3f moves = other.speed_m_s[bones[1 - d]] - own.speed_m_s[0];
+    if (other.guest != *guests[1 - d]) moves.setZero();  // has given the place to another
     touch.motion_m_s = bounded_speed(about_up(heading_rad(own.frames.R_WB[0])).conjugate() * moves,
                                      Touch::kMostSpeed_m_s);
     touch.place_m = contact.place;

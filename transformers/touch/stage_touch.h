@@ -1,11 +1,13 @@
-// StageTouch: which dancers on a stage touch each other, where and how, as each of the two feels
-// it. Works on the poses as they are shown; held hands are those of StageHolds.
+// StageTouch: where and how the dancers of this house touch each other and remote ones, as they
+// feel it; of two remote dancers nothing is said. Works on the poses as they are shown; held hands
+// are those of StageHolds.
 //
 // Units/frames: as lcmtypes/touch_t.lcm says; times of this house's clock.
-// Ownership:    room for kMostDancers, and kMostPairs of them that are near each other at a time;
-//               never allocates after construction.
+// Ownership:    room for kMostDancers, as StageHolds has it, and kMostPairs of them that touch at a
+//               time; never allocates after construction.
 // Threads:      none inside; one owner.
-// Failure:      more dancers or pairs than there is room for do not touch, and are counted.
+// Failure:      more dancers or pairs than there is room for do not touch, and are counted
+//               with each pose and each look.
 #pragma once
 
 #include <array>
@@ -21,7 +23,7 @@ namespace dance {
 class TouchSink {
  public:
   virtual ~TouchSink() = default;
-  // As `guest` feels it.
+  // As `guest`, who is of this house, feels it.
   virtual void on_touch(const GuestId& guest, const Touch& touch) = 0;
 };
 
@@ -41,7 +43,7 @@ class StageTouch {
   ~StageTouch();
   void set_body(const GuestId& guest, const Skeleton& skeleton);
   // A pose as it is shown.
-  void show(const GuestId& guest, const Pose& pose, MonoTime now);
+  void show(const GuestId& guest, const Pose& pose, MonoTime now, DancerOf of);
   // Looks at who touches whom now; to be called about sixty times a second.
   void update(MonoTime now, std::uint64_t clock_id, const StageHolds& holds, TouchSink& sink);
 
@@ -54,10 +56,12 @@ class StageTouch {
   struct Found;
   struct State;
 
-  Dancer* place_of(const GuestId& guest, MonoTime now);
-  Pair* pair_of(std::size_t a, std::size_t b, MonoTime now);
-  void look(Pair& pair, MonoTime now, std::uint64_t clock_id, const StageHolds& holds,
-            TouchSink& sink);
+  using Slots = std::array<Found, kBodyParts * kBodyParts>;
+
+  Dancer* place_of(const GuestId& guest, const Pose& pose, MonoTime now, DancerOf of);
+  Pair* pair_of(std::size_t a, std::size_t b, bool wants_one);
+  // Of each two parts of the body the bones that are deepest in each other; whether there are any.
+  static bool look(const Dancer& a, const Dancer& b, const StageHolds& holds, Slots& found);
   void follow(Pair& pair, std::size_t slot, const Found& found, MonoTime now,
               std::uint64_t clock_id, TouchSink& sink);
   void tell(const Pair& pair, const Contact& contact, TouchPhase phase, MonoTime now,

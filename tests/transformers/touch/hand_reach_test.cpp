@@ -70,5 +70,29 @@ TEST(HandReach, IgnoresWhatIsNoShift) {
     EXPECT_EQ(pose.R_PB[b].coeffs(), before.R_PB[b].coeffs());
 }
 
+// A straight arm that a hand on its way to the shoulder bends: noise of half a degree in the elbow
+// does not say to which side.
+TEST(HandReach, AStraightArmBendsWhereElbowsDoWhateverItsNoise) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto upper = index_of(kArms[side].upper), lower = index_of(kArms[side].lower),
+               hand = index_of(kArms[side].end);
+    Vector3f least = Vector3f::Constant(1e9f), most = -least;
+    for (int i = 0; i < 24; ++i) {
+      const float angle = 6.2831853f * static_cast<float>(i) / 24.0f;
+      Pose pose;
+      pose.p_WH_m = {0.0f, 1.0f, 0.0f};
+      pose.R_PB[lower] = Quaternionf(Eigen::AngleAxisf(
+          0.0087f, Vector3f(0.0f, std::cos(angle), std::sin(angle)).normalized()));
+      BodyFrames frames;
+      forward_kinematics(average_skeleton(), pose, frames);
+      const Vector3f shift = 0.06f * (frames.p_WB_m[upper] - frames.p_WB_m[hand]).normalized();
+      EXPECT_LT(move_hand(side, shift, pose, frames), 2e-3f) << side << " " << angle;
+      least = least.cwiseMin(frames.p_WB_m[lower]);
+      most = most.cwiseMax(frames.p_WB_m[lower]);
+    }
+    EXPECT_LT((most - least).maxCoeff(), 0.03f) << side;
+  }
+}
+
 }  // namespace
 }  // namespace dance

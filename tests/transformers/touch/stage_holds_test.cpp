@@ -26,8 +26,8 @@ struct Couple {
     for (const std::int64_t end = ms + length_ms; ms < end; ms += 16) {
       shown = {with_palm_at(lead_pose(), 0, meeting_place()),
                with_palm_at(follow_pose(), 1, meeting_place() + apart)};
-      holds.show(kLead, shown[0], touch_time(ms), lead_reaches);
-      holds.show(kFollow, shown[1], touch_time(ms), follow_reaches);
+      holds.show(kLead, shown[0], touch_time(ms), lead_reaches, DancerOf::kThisHouse);
+      holds.show(kFollow, shown[1], touch_time(ms), follow_reaches, DancerOf::kThisHouse);
       const bool is_held = holds.are_held(kLead, 0, kFollow, 1);
       changes += is_held != was_held;
       was_held = is_held;
@@ -117,7 +117,7 @@ TEST(StageHolds, WhoLeavesHoldsNobody) {
   couple.dance({0.0f, 0.02f, 0.0f}, 200);
   Pose pose = lead_pose();
   for (int i = 0; i < 60; ++i, couple.ms += 16)
-    couple.holds.show(kLead, pose, touch_time(couple.ms), false);
+    couple.holds.show(kLead, pose, touch_time(couple.ms), false, DancerOf::kThisHouse);
   EXPECT_FALSE(couple.holds.are_held(kLead, 0, kFollow, 1));
 }
 
@@ -125,10 +125,36 @@ TEST(StageHolds, ForgetWhoIsGoneAndCountWhoFindsNoPlace) {
   StageHolds holds;
   Pose pose = lead_pose();
   for (int i = 0; i < 20; ++i)
-    holds.show(guest_named(("guest-" + std::to_string(i)).c_str()), pose, touch_time(i), true);
+    holds.show(guest_named(("guest-" + std::to_string(i)).c_str()), pose, touch_time(i), true,
+               DancerOf::kThisHouse);
   EXPECT_EQ(holds.refused(), 4u);
-  holds.show(guest_named("late"), pose, touch_time(2000), true);
+  holds.show(guest_named("late"), pose, touch_time(2000), true, DancerOf::kThisHouse);
   EXPECT_EQ(holds.refused(), 4u);
+}
+
+TEST(StageHolds, InACrowdTheHousesOwnDancerAndWhoIsNearHaveAPlace) {
+  StageHolds holds;
+  std::array<GuestId, 40> crowd;
+  for (std::size_t i = 0; i < crowd.size(); ++i)
+    crowd[i] = guest_named(("guest-" + std::to_string(i)).c_str());
+  const AllocationGuard guard;
+  for (int picture = 0; picture < 10; ++picture) {
+    const MonoTime now = touch_time(16 * picture);
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+      Pose pose = standing(5.0f + 0.5f * static_cast<float>(i), 0.0f);
+      holds.show(crowd[i], pose, now, true, DancerOf::kAnother);
+    }
+    // The partner comes before the own dancer does, and still has a place with the next picture.
+    Pose follow = with_palm_at(follow_pose(), 1, meeting_place());
+    holds.show(kFollow, follow, now, true, DancerOf::kAnother);
+    Pose lead = with_palm_at(lead_pose(), 0, meeting_place());
+    holds.show(kLead, lead, now, true, DancerOf::kThisHouse);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_TRUE(holds.are_held(kLead, 0, kFollow, 1));
+  EXPECT_TRUE(holds.is_of_this_house(kLead));
+  EXPECT_FALSE(holds.is_of_this_house(kFollow));
+  EXPECT_GT(holds.refused(), 0u);
 }
 
 TEST(StageHolds, AllocateNothingAndStandATimeThatJumps) {
@@ -137,8 +163,8 @@ TEST(StageHolds, AllocateNothingAndStandATimeThatJumps) {
   Pose a = couple.shown[0], b = couple.shown[1];
   const AllocationGuard guard;
   for (const std::int64_t ms : {0, 1'000'000, 5, 5, -500, 90'000}) {
-    couple.holds.show(kLead, a, touch_time(ms), true);
-    couple.holds.show(kFollow, b, touch_time(ms), true);
+    couple.holds.show(kLead, a, touch_time(ms), true, DancerOf::kThisHouse);
+    couple.holds.show(kFollow, b, touch_time(ms), true, DancerOf::kThisHouse);
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_TRUE(is_valid(a));

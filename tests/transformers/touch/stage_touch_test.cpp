@@ -37,10 +37,10 @@ struct TouchingStage {
   std::int64_t ms = 0;
   TouchingStage() { sink.notes = &told; }
   void show(Pose alice, Pose bob) {
-    holds.show(kAlice, alice, touch_time(ms), false);
-    holds.show(kBob, bob, touch_time(ms), false);
-    touch.show(kAlice, alice, touch_time(ms));
-    touch.show(kBob, bob, touch_time(ms));
+    holds.show(kAlice, alice, touch_time(ms), false, DancerOf::kThisHouse);
+    holds.show(kBob, bob, touch_time(ms), false, DancerOf::kThisHouse);
+    touch.show(kAlice, alice, touch_time(ms), DancerOf::kThisHouse);
+    touch.show(kBob, bob, touch_time(ms), DancerOf::kThisHouse);
     touch.update(touch_time(ms), 7, holds, sink);
     ms += 16;
   }
@@ -138,12 +138,45 @@ TEST(StageTouch, IsBoundedAndAllocatesNothing) {
     guests[i] = guest_named(("guest-" + std::to_string(i)).c_str());
   const AllocationGuard guard;
   for (int picture = 0; picture < 20; ++picture) {
-    for (const GuestId& guest : guests) touch.show(guest, lead_pose(), touch_time(16 * picture));
+    for (const GuestId& guest : guests)
+      touch.show(guest, lead_pose(), touch_time(16 * picture), DancerOf::kThisHouse);
     touch.update(touch_time(16 * picture), 7, holds, sink);
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_GT(touch.refused(), 0u);
   EXPECT_LE(sink.count, 20 * 2 * StageTouch::kMostPairs * kBodyParts * kBodyParts);
+}
+
+TEST(StageTouch, InACrowdTheHousesOwnDancerIsToldOfThePartnerAndNobodyElseIs) {
+  TouchingStage stage;
+  std::array<GuestId, 40> crowd;
+  for (std::size_t i = 0; i < crowd.size(); ++i)
+    crowd[i] = guest_named(("guest-" + std::to_string(i)).c_str());
+  const Pose lead = with_palm_at(lead_pose(), 0, meeting_place()),
+             follow = with_palm_at(follow_pose(), 1, meeting_place());
+  for (int picture = 0; picture < 10; ++picture) {
+    const MonoTime now = touch_time(16 * picture);
+    // All of them within each other.
+    for (const GuestId& guest : crowd)
+      stage.touch.show(guest, standing(4.0f, 0.0f), now, DancerOf::kAnother);
+    stage.touch.show(kBob, follow, now, DancerOf::kAnother);
+    stage.touch.show(kAlice, lead, now, DancerOf::kThisHouse);
+    stage.touch.update(now, 7, stage.holds, stage.sink);
+  }
+  EXPECT_GT(stage.count(TouchPhase::kBegins), 0u);
+  for (const Told& each : stage.told) {
+    EXPECT_EQ(each.guest, kAlice);
+    EXPECT_EQ(each.touch.other, kBob);
+  }
+  // Another one comes into the own dancer's arms and takes the place of one of the crowd.
+  const MonoTime now = touch_time(176);
+  stage.touch.show(kAlice, lead, now, DancerOf::kThisHouse);
+  stage.touch.show(guest_named("late"), standing(-0.2f, 0.0f), now, DancerOf::kAnother);
+  stage.touch.update(now, 7, stage.holds, stage.sink);
+  EXPECT_EQ(stage.told.back().guest, kAlice);
+  EXPECT_TRUE(std::any_of(stage.told.begin(), stage.told.end(), [](const Told& each) {
+    return each.touch.other == guest_named("late");
+  }));
 }
 
 TEST(StageTouch, PosesFarFromAnyBodyMakeNoTouchThatIsNone) {
