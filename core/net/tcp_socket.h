@@ -1,10 +1,10 @@
-// A TCP connection to a server. It is made with patience; from then on nothing waits.
+// A TCP connection to a server. Making it may wait for seconds; from then on nothing waits.
 //
 // Units/frames: bytes.
 // Ownership:    owns the descriptor; never allocates.
 // Threads:      one at a time.
-// Failure:      begin() and finish() name the address and the reason; later an end of the connection, from
-//               whatever cause, is nullopt, and stays so.
+// Failure:      begin() and finish() name the address and the reason; later an end of the
+//               connection, from whatever cause, is nullopt, and stays so.
 #pragma once
 
 #include <cstddef>
