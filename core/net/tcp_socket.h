@@ -3,8 +3,8 @@
 // Units/frames: bytes.
 // Ownership:    owns the descriptor; never allocates.
 // Threads:      one at a time.
-// Failure:      begin() and finish() name the address and the reason; later an end of the connection, from
-//               whatever cause, is nullopt, and stays so.
+// Failure:      begin() and finish() name the address and the reason; later an end of the
+//               connection, from whatever cause, is nullopt, and stays so.
 #pragma once
 
 #include <cstddef>
