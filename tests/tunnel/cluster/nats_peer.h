@@ -123,8 +123,8 @@ class SilentAfterBurst final : public NatsPeer {
                             " 1000\r\n" + std::string(1000, 'x') + "\r\n";
     std::string all;
     for (std::size_t i = 0; i < messages_; ++i) all += one;
-    // Records have 16 kB: the last begins before the 131,072 bytes of a turn end, and ends with
-    // all.
+    // Records have 16 kB: the last begins before the 131,072 bytes of a turn end, and holds all
+    // that is left.
     constexpr int kFirst = 10'000;
     SSL_write(tls.get(), all.data(), kFirst);
     SSL_write(tls.get(), all.data() + kFirst, static_cast<int>(all.size()) - kFirst);
