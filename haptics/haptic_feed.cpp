@@ -71,8 +71,10 @@ bool HapticFeed::wants(HapticSource source) const {
 bool HapticFeed::was_ordered(const Haptic& haptic) {
   Ordered& last = ordered_[static_cast<std::size_t>(haptic.source)][index_of(haptic.bone)];
   const Duration between = haptic.play_time - last.play;
-  if (last.play.is_set() && last.maker != haptic.maker && between < kSame && between > -kSame)
+  if (last.play.is_set() && last.maker != haptic.maker && between < kSame && between > -kSame) {
+    ++twice_;
     return true;
+  }
   last = {haptic.play_time, haptic.maker};
   return false;
 }

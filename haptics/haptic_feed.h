@@ -40,6 +40,8 @@ class HapticFeed final : private HapticSink {
   std::uint64_t touches() const { return touches_; }
   std::uint64_t made() const { return made_; }
   std::uint64_t heard() const { return heard_; }
+  // Left out, as another maker had ordered the same.
+  std::uint64_t twice() const { return twice_; }
   std::uint64_t of_other_clocks() const { return of_other_clocks_; }
   const std::vector<std::unique_ptr<HapticPlayer>>& players() const { return players_; }
 
@@ -72,7 +74,7 @@ class HapticFeed final : private HapticSink {
   std::vector<std::unique_ptr<HapticPlayer>> players_;
   std::array<Other, kHapticSources> others_{};
   std::array<std::array<Ordered, kBoneCount>, kHapticSources> ordered_{};
-  std::uint64_t touches_ = 0, made_ = 0, heard_ = 0, of_other_clocks_ = 0;
+  std::uint64_t touches_ = 0, made_ = 0, heard_ = 0, twice_ = 0, of_other_clocks_ = 0;
 };
 
 }  // namespace dance

@@ -80,13 +80,14 @@ void HapticPlayer::play(const Order& order) {
 }
 
 MonoTime HapticPlayer::run(MonoTime now) {
-  for (std::size_t i = 0; i < waiting_count_;) {
-    if (waiting_[i].due > now) {
-      ++i;
-      continue;
-    }
-    const Order order = waiting_[i];
-    waiting_[i] = waiting_[--waiting_count_];
+  // What is due first is played first, also where several have become due meanwhile.
+  for (;;) {
+    Order* const first =
+        std::min_element(waiting_.data(), waiting_.data() + waiting_count_,
+                         [](const Order& a, const Order& b) { return a.due < b.due; });
+    if (waiting_count_ == 0 || first->due > now) break;
+    const Order order = *first;
+    *first = waiting_[--waiting_count_];
     if (now - order.due > kTooLate)
       ++counters_.late;
     else
