@@ -214,8 +214,8 @@ Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limit
     holds.show(follow, reached[1], moment.at, true, DancerOf::kThisHouse);
     const std::chrono::duration<double, std::micro> cost = std::chrono::steady_clock::now() - began;
     costs.pose_us.push_back(0.5 * cost.count());
-    touch.show(lead, reached[0], moment.at);
-    touch.show(follow, reached[1], moment.at);
+    touch.show(lead, reached[0], moment.at, DancerOf::kThisHouse);
+    touch.show(follow, reached[1], moment.at, DancerOf::kThisHouse);
     const auto looked = std::chrono::steady_clock::now();
     touch.update(moment.at, kClock, holds, no_sink);
     const std::chrono::duration<double, std::micro> look =
