@@ -168,7 +168,7 @@ function(dance_test name)
     set(emulator ${PROJECT_SOURCE_DIR}/tests/private_network.sh)
     # Programs of others that start for seconds.
     if(arg_BESIDE_OTHERS STREQUAL "clients")
-      list(PREPEND emulator nice -n 10)
+      list(PREPEND emulator nice -n 5)
     endif()
     set_target_properties(${name} PROPERTIES CROSSCOMPILING_EMULATOR "${emulator}")
     set(cost 100)
