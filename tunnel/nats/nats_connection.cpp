@@ -1,8 +1,18 @@
 #include "tunnel/nats/nats_connection.h"
 
+#include <pthread.h>
+
 #include <optional>
 
 #include "core/base/printable.h"
+
+// Where a connection is lost at the moment in which the library makes a watch of a bucket anew, it
+// (3.4.1, js.c) detaches a thread that it does not have, and the process ends. Its calls come here
+// instead, as a program's symbols go before those of its libraries.
+extern "C" void natsThread_Detach(pthread_t* thread);
+extern "C" void natsThread_Detach(pthread_t* thread) {
+  if (thread != nullptr) pthread_detach(*thread);
+}
 
 namespace dance {
 namespace {

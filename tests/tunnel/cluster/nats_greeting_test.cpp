@@ -89,5 +89,15 @@ TEST_F(NatsGreetingTest, WhatIsBeingTriedEndsWithWhoAskedForIt) {
   EXPECT_GT(peer.lines, 3);
 }
 
+// nats_connection.cpp says why: a fault of the library would end the process.
+TEST(NatsLibrary, CallsOursToDetachAThreadThatItMayNotHave) {
+  void* called = dlsym(RTLD_DEFAULT, "natsThread_Detach");
+  ASSERT_NE(called, nullptr);
+  Dl_info where{};
+  ASSERT_NE(dladdr(called, &where), 0);
+  EXPECT_EQ(std::string(where.dli_fname).find("libnats"), std::string::npos) << where.dli_fname;
+  reinterpret_cast<void (*)(void*)>(called)(nullptr);
+}
+
 }  // namespace
 }  // namespace dance
