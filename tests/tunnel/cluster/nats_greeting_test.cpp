@@ -1,5 +1,7 @@
 // How a connection to NATS begins: in TLS where that is wanted, whatever the server says, and with
 // an end, whatever it does.
+#include <dlfcn.h>
+
 #include "tests/tunnel/cluster/nats_cluster.h"
 #include "tests/tunnel/cluster/nats_peer.h"
 #include "tests/tunnel/seal/paper.h"
