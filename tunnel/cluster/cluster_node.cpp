@@ -12,6 +12,10 @@ namespace {
 constexpr Duration kBeat = Duration::ms(200);
 // What stands: values that nobody writes again go after days, those of dead servers too.
 constexpr Duration kWritesAgain = Duration::s(8 * 3600);
+// After a partition: what others erased meanwhile may reach the bucket only now, after what this one
+// has written since.
+constexpr Duration kWritesAfterHealing = Duration::s(3);
+constexpr int kTimesAfterHealing = 3;
 // All that are there have beaten by then; as long again, and all have heard this one, who come at
 // the same moment.
 constexpr Duration kListens = Duration::ms(600);
@@ -262,6 +266,11 @@ void ClusterNode::forget(ServerId server) {
   }
 }
 
+void ClusterNode::write_after_healing(MonoTime now) {
+  writes_after_healing_ = kTimesAfterHealing - 1;
+  next_writing_ = std::min(next_writing_, now + kWritesAfterHealing);
+}
+
 // What others took for gone while nothing of this server reached them stands again.
 void ClusterNode::on_back(MonoTime now) {
   now_ = now;
@@ -294,7 +303,8 @@ MonoTime ClusterNode::tick(MonoTime now) {
     if (server_ != nullptr) place_all(now);
     if (now >= next_writing_) {
       write_all();
-      next_writing_ = now + kWritesAgain;
+      next_writing_ = now + (writes_after_healing_ > 0 ? kWritesAfterHealing : kWritesAgain);
+      writes_after_healing_ = std::max(0, writes_after_healing_ - 1);
     }
   }
   peers_.advance(now);

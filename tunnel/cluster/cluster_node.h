@@ -131,6 +131,7 @@ class ClusterNode final : public ClusterPort {
   void expect_all(const Room& room, MonoTime now);
   void place_all(MonoTime now);
   void write_all();
+  void write_after_healing(MonoTime now);
   void forget(ServerId server);
   bool is_first_alive(const Room& room) const;
   void put(const cluster::Key& key, const cluster::Value& value);
@@ -154,6 +155,7 @@ class ClusterNode final : public ClusterPort {
   MonoTime begun_;
   MonoTime next_beat_;
   MonoTime next_writing_;
+  int writes_after_healing_ = 0;
   Counters counters_;
   std::array<std::uint8_t, cluster::kMaxBytes> buffer_;
 };

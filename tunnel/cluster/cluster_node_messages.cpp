@@ -53,8 +53,10 @@ void ClusterNode::take(const cluster::Beat& beat, MonoTime now) {
   const auto peer = peers_.all().find(beat.server);
   if (server_ == nullptr || peer == peers_.all().end() || !peer->second.is_alive) return;
   // What it had in the rooms is forgotten here: read anew.
-  if (is_back)
+  if (is_back) {
     for (const auto& [name, room] : rooms_) bus_.watch(cluster::keys_of(name).view());
+    write_after_healing(now);
+  }
   server_->remotes().note_alive(beat.server, peer->second.round_trip, clock().to_session(now));
 }
 
