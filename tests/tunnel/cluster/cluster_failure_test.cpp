@@ -197,6 +197,24 @@ TEST(ClusterFailure, APartitionHealsWhollyByItself) {
   }
 }
 
+// What the others erased during a partition is written again, also where its server was not told.
+TEST(ClusterFailure, WhoWasErasedDuringAPartitionIsThereAgain) {
+  SimulatedCluster cluster(2);
+  House& a = cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  const std::vector<SimulatedCluster::Dancer> all{{&a, "alice"}, {&b, "bob"}};
+  cluster.run(Duration::ms(300));
+  cluster.cut(1);
+  cluster.dance(Duration::s(10), all);
+  ASSERT_GT(std::erase_if(cluster[1].arrivals, [](const auto& it) { return it.is_value; }), 0u);
+  cluster.join(1);
+  cluster.dance(Duration::s(10), all);
+  for (House* house : {&a, &b}) house->poses.clear();
+  cluster.dance(Duration::s(2), all);
+  EXPECT_GT(a.heard_of(guest("bob")), 100u);
+  EXPECT_GT(b.heard_of(guest("alice")), 100u);
+}
+
 // However servers die and guests wander, when it is quiet all hear all, and nothing is left over.
 TEST(ClusterFailure, ManyDeathsInARowLeaveOneRoom) {
   SimulatedCluster cluster(3);
