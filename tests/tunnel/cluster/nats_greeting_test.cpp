@@ -1,6 +1,7 @@
 // How a connection to NATS begins: in TLS where that is wanted, whatever the server says, and with
 // an end, whatever it does.
 #include <dlfcn.h>
+#include <pthread.h>
 
 #include "tests/tunnel/cluster/nats_cluster.h"
 #include "tests/tunnel/cluster/nats_peer.h"
@@ -98,7 +99,7 @@ TEST(NatsLibrary, CallsOursToDetachAThreadThatItMayNotHave) {
   Dl_info where{};
   ASSERT_NE(dladdr(called, &where), 0);
   EXPECT_EQ(std::string(where.dli_fname).find("libnats"), std::string::npos) << where.dli_fname;
-  reinterpret_cast<void (*)(void*)>(called)(nullptr);
+  reinterpret_cast<void (*)(pthread_t*)>(called)(nullptr);
 }
 
 }  // namespace
