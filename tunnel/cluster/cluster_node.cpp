@@ -12,8 +12,8 @@ namespace {
 constexpr Duration kBeat = Duration::ms(200);
 // What stands: values that nobody writes again go after days, those of dead servers too.
 constexpr Duration kWritesAgain = Duration::s(8 * 3600);
-// After a partition: what others erased meanwhile may reach the bucket only now, after what this one
-// has written since.
+// After a partition: what others erased meanwhile may reach the bucket only now, after what this
+// one has written since.
 constexpr Duration kWritesAfterHealing = Duration::s(3);
 constexpr int kTimesAfterHealing = 3;
 // All that are there have beaten by then; as long again, and all have heard this one, who come at
