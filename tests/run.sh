@@ -66,7 +66,7 @@ run() { # PRESET [CTEST OPTION…]
   total=$(count_of tests "$report") bad=$(count_of failures "$report") left_out=$(count_of skipped "$report")
   if [ "${bad:-0}" != 0 ]; then
     grep -B2 -A40 -E '\*\*\*(Failed|Timeout|Exception)' "build/$preset.tests.log" | head -n 400 || true
-    find build -maxdepth 1 -name "$preset-report.*" | head -n 3 | xargs -r head -n 60
+    find build -maxdepth 1 -name "$preset-report.*" | head -n 3 | xargs -r head -n 60 || true
   fi
   if [ "${bad:-0}" != 0 ] && alone=$(pass_alone "$preset" "$bad"); then
     echo "== passed only when nothing else ran (flow tests, $preset): $alone"
