@@ -80,6 +80,10 @@ Text voice_subject(const wire::RoomName& room, const GuestId& guest) {
   return (TextMaker() << kVoicePrefix << room.view() << "." << guest.view()).text();
 }
 
+std::array<Text, 2> subjects_of(const wire::RoomName& room, const GuestId& guest) {
+  return {pose_subject(room, guest), voice_subject(room, guest)};
+}
+
 std::optional<PoseSubject> parse_pose_subject(std::string_view subject) {
   return subject_of_guest(kPosePrefix, subject);
 }

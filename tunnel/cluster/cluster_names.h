@@ -7,6 +7,7 @@
 // Failure:      parse functions give nullopt for anything that is never made here.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -23,6 +24,8 @@ Text server_subject(ServerId server);
 Text pose_subject(const wire::RoomName& room, const GuestId& guest);
 // One of its own: where a server is behind, no voice makes a pose the older one.
 Text voice_subject(const wire::RoomName& room, const GuestId& guest);
+// All that a server hears of a guest whom its links want.
+std::array<Text, 2> subjects_of(const wire::RoomName& room, const GuestId& guest);
 struct PoseSubject {
   wire::RoomName room;
   GuestId guest;

@@ -30,7 +30,7 @@ bool is_older(cluster::Bytes bytes, cluster::Bytes than) {
 }  // namespace
 
 ClusterNode::ClusterNode(const Options& options, ClusterBus& bus)
-    : options_(options), bus_(bus), peers_(options.id, options.born_us) {
+    : options_(options), bus_(bus), peers_(options.id, options.born_us), sender_(bus) {
   DANCE_ASSERT(options.id != 0);
   bus_.set_handlers({[this](std::string_view subject, cluster::Bytes bytes, MonoTime now) {
                        on_message(subject, bytes, now);
@@ -42,6 +42,13 @@ ClusterNode::ClusterNode(const Options& options, ClusterBus& bus)
   bus_.listen(cluster::beat_subject().view());
   bus_.listen(cluster::server_subject(options_.id).view());
   pending_.reserve(ClusterPeers::kMost);
+}
+
+ClusterNode::Counters ClusterNode::counters() const {
+  Counters all = counters_;
+  all.messages_out = sender_.messages();
+  all.bytes_out = sender_.bytes();
+  return all;
 }
 
 void ClusterNode::attach(ServerCore& server) {
@@ -309,7 +316,8 @@ MonoTime ClusterNode::tick(MonoTime now) {
   }
   peers_.advance(now);
   for (const ServerId server : peers_.ask(now))
-    send(cluster::server_subject(server), cluster::ClockQuestion{options_.id, now.since_zero_us()});
+    sender_.send(cluster::server_subject(server),
+                 cluster::ClockQuestion{options_.id, now.since_zero_us()});
   return std::min(next_beat_, peers_.questions_due());
 }
 
@@ -323,14 +331,14 @@ void ClusterNode::beat(bool is_leaving) {
     beat.links = static_cast<std::uint32_t>(server_->session_count());
     beat.guests = static_cast<std::uint32_t>(server_->guest_count());
   }
-  send(cluster::beat_subject(), beat);
+  sender_.send(cluster::beat_subject(), beat);
 }
 
 // Its guests stay where they are shown until they have come back through another server, or have
 // not for long.
 void ClusterNode::leave() {
   beat(true);
-  flush_bundle();
+  sender_.flush();
 }
 
 }  // namespace dance

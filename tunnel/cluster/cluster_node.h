@@ -15,11 +15,11 @@
 #include <set>
 #include <vector>
 
-#include "tunnel/cluster/cluster_bundle.h"
 #include "tunnel/cluster/cluster_bus.h"
 #include "tunnel/cluster/cluster_format.h"
 #include "tunnel/cluster/cluster_names.h"
 #include "tunnel/cluster/cluster_peers.h"
+#include "tunnel/cluster/cluster_sender.h"
 #include "tunnel/server/server_core.h"
 
 namespace dance {
@@ -61,7 +61,7 @@ class ClusterNode final : public ClusterPort {
   void leave();
 
   const ClusterPeers& peers() const { return peers_; }
-  const Counters& counters() const { return counters_; }
+  Counters counters() const;
   ServerId id() const { return options_.id; }
   const Address& address() const { return options_.address; }
 
@@ -138,9 +138,6 @@ class ClusterNode final : public ClusterPort {
   void erase(const cluster::Key& key);
   void put_presence(const wire::RoomName& room);
   void put_guest(const wire::RoomName& room, const GuestId& guest);
-  // What comes one after the other for one subject goes as one.
-  void send(const cluster::Text& subject, const cluster::Message& message);
-  void flush_bundle();
   void flush(Pending& pending);
 
   Options options_;
@@ -149,8 +146,7 @@ class ClusterNode final : public ClusterPort {
   ClusterPeers peers_;
   std::map<wire::RoomName, Room> rooms_;
   std::vector<Pending> pending_;
-  cluster::Text bundle_subject_;
-  cluster::BundleWriter bundle_;
+  cluster::ClusterSender sender_;
   MonoTime now_;  // of the newest call that said so
   MonoTime begun_;
   MonoTime next_beat_;

@@ -65,7 +65,7 @@ void ClusterNode::take(const cluster::ClockQuestion& question, MonoTime now) {
   answer.server = options_.id;
   answer.asked_us = question.asked_us;
   answer.received_us = answer.sent_us = clock().to_session(now).since_zero_us();
-  send(cluster::server_subject(question.server), answer);
+  sender_.send(cluster::server_subject(question.server), answer);
 }
 
 void ClusterNode::take(const cluster::FeedbackMessage& message, MonoTime now) {

@@ -29,10 +29,9 @@ void ClusterNode::put_presence(const wire::RoomName& room) {
 void ClusterNode::on_room_closed(const ServerRoom& room) {
   const auto of = rooms_.find(room.name);
   if (of == rooms_.end()) return;
-  for (const GuestId& guest : of->second.subscribed) {
-    bus_.end_listen(cluster::pose_subject(room.name, guest).view());
-    bus_.end_listen(cluster::voice_subject(room.name, guest).view());
-  }
+  for (const GuestId& guest : of->second.subscribed)
+    for (const cluster::Text& subject : cluster::subjects_of(room.name, guest))
+      bus_.end_listen(subject.view());
   bus_.end_watch(cluster::keys_of(room.name).view());
   erase({cluster::KeyKind::kPresence, room.name, options_.id, {}, 0});
   // The last to leave takes along what the room had.
@@ -78,29 +77,25 @@ void ClusterNode::on_guest_left(const ServerRoom& room, const ServerGuest& guest
 void ClusterNode::on_wanted(const ServerRoom& room, const ServerGuest& guest, bool is_wanted) {
   const auto of = rooms_.find(room.name);
   if (of == rooms_.end()) return;
-  const auto poses = cluster::pose_subject(room.name, guest.id);
-  const auto voices = cluster::voice_subject(room.name, guest.id);
-  if (is_wanted && of->second.subscribed.insert(guest.id).second) {
-    bus_.listen(poses.view());
-    bus_.listen(voices.view());
-  } else if (!is_wanted && of->second.subscribed.erase(guest.id) > 0) {
-    bus_.end_listen(poses.view());
-    bus_.end_listen(voices.view());
-  }
+  const bool is_news = is_wanted ? of->second.subscribed.insert(guest.id).second
+                                 : of->second.subscribed.erase(guest.id) > 0;
+  if (!is_news) return;
+  for (const cluster::Text& subject : cluster::subjects_of(room.name, guest.id))
+    is_wanted ? bus_.listen(subject.view()) : bus_.end_listen(subject.view());
 }
 
 void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,
                             const wire::Record& record) {
   ++counters_.records_out;
-  send(cluster::pose_subject(room.name, guest.id),
-       cluster::RecordMessage{options_.id, guest.link_token, record});
+  sender_.send(cluster::pose_subject(room.name, guest.id),
+               cluster::RecordMessage{options_.id, guest.link_token, record});
 }
 
 void ClusterNode::on_voice(const ServerRoom& room, const ServerGuest& guest,
                            const wire::VoiceRecord& record) {
   ++counters_.voices_out;
-  send(cluster::voice_subject(room.name, guest.id),
-       cluster::VoiceMessage{options_.id, guest.link_token, record});
+  sender_.send(cluster::voice_subject(room.name, guest.id),
+               cluster::VoiceMessage{options_.id, guest.link_token, record});
 }
 
 void ClusterNode::on_state(const ServerRoom& room, const ServerGuest* guest,
@@ -141,11 +136,13 @@ void ClusterNode::on_feedback(ServerId to, const ServerRoom& room, const ServerG
 
 void ClusterNode::on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
                           const FilePart& part) {
-  send(cluster::server_subject(to), cluster::FileMessage{options_.id, room.name, guest.id, part});
+  sender_.send(cluster::server_subject(to),
+               cluster::FileMessage{options_.id, room.name, guest.id, part});
 }
 
 void ClusterNode::flush(Pending& pending) {
-  if (!pending.message.entries.empty()) send(cluster::server_subject(pending.to), pending.message);
+  if (!pending.message.entries.empty())
+    sender_.send(cluster::server_subject(pending.to), pending.message);
   pending.message.entries.clear();
 }
 
@@ -156,24 +153,8 @@ void ClusterNode::end_turn(MonoTime now) {
     for (std::size_t k = i; k < pending_.size(); ++k)
       if (pending_[k].to == pending_[i].to) flush(pending_[k]);
   pending_.clear();
-  flush_bundle();
+  sender_.flush();
   bus_.end_turn(now);
-}
-
-void ClusterNode::send(const cluster::Text& subject, const cluster::Message& message) {
-  if (subject == bundle_subject_ && bundle_.try_add(message)) return;
-  flush_bundle();
-  bundle_subject_ = subject;
-  const bool added = bundle_.try_add(message);
-  DANCE_ASSERT(added);
-}
-
-void ClusterNode::flush_bundle() {
-  if (bundle_.is_empty()) return;
-  ++counters_.messages_out;
-  counters_.bytes_out += bundle_.bytes().size();
-  bus_.publish(bundle_subject_.view(), bundle_.bytes());
-  bundle_.clear();
 }
 
 void ClusterNode::put(const cluster::Key& key, const cluster::Value& value) {
