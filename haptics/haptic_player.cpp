@@ -4,17 +4,13 @@
 
 #include <algorithm>
 
+#include "core/base/deadline.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
 namespace {
 
 constexpr Duration kSecond = Duration::s(1);
-
-MonoTime earlier(MonoTime a, MonoTime b) {
-  if (!a.is_set()) return b;
-  return b.is_set() ? std::min(a, b) : a;
-}
 
 }  // namespace
 

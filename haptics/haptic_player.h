@@ -49,7 +49,6 @@ class HapticPlayer {
   void take(const Haptic& haptic, MonoTime now);
   // Off: what is felt ends at once, and nothing is felt until it is on again.
   void set_on(bool is_on);
-  bool is_on() const { return options_.is_on; }
 
   const Counters& counters() const { return counters_; }
   // From the moment an order was due to the moment at which the device had it.

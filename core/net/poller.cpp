@@ -15,6 +15,7 @@
 #include <cstring>
 
 #include "core/base/assert.h"
+#include "core/base/deadline.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
@@ -122,9 +123,7 @@ Result<void> Poller::stop_on_signals() {
 
 MonoTime Poller::earliest_deadline() const {
   MonoTime earliest;
-  for (const Timer& timer : timers_)
-    if (timer.deadline.is_set() && (!earliest.is_set() || timer.deadline < earliest))
-      earliest = timer.deadline;
+  for (const Timer& timer : timers_) earliest = earlier(earliest, timer.deadline);
   return earliest;
 }
 

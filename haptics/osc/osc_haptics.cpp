@@ -1,5 +1,6 @@
 #include "haptics/osc/osc_haptics.h"
 
+#include "core/base/deadline.h"
 #include "core/base/fixed_string.h"
 
 namespace dance {
@@ -48,7 +49,7 @@ MonoTime OscHaptics::work(MonoTime now) {
     MonoTime& end = ends_[bone];
     if (!end.is_set()) continue;
     if (end > now) {
-      if (!next.is_set() || end < next) next = end;
+      next = earlier(next, end);
       continue;
     }
     end = MonoTime();

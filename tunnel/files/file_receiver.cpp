@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/deadline.h"
+
 namespace dance {
 namespace {
 
@@ -209,9 +211,7 @@ std::optional<wire::FileWant> FileReceiver::next(const SlotOf& slot_of, MonoTime
 
 MonoTime FileReceiver::next_deadline() const {
   MonoTime next;
-  const auto at = [&](MonoTime when) {
-    if (when.is_set() && (!next.is_set() || when < next)) next = when;
-  };
+  const auto at = [&](MonoTime when) { next = earlier(next, when); };
   for (const Download& it : downloads_) {
     if (it.is_whole) continue;
     if (!looked_.is_set()) return MonoTime::from_ns(1);

@@ -146,7 +146,7 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
       is_good = receiver_.on_records(opening.body, received, now);
       break;
     case wire::Type::kVoices:
-      is_good = voice_.on_voices(opening.body, received, now);
+      is_good = voice_.on_voices(opening.body, now);
       break;
     case wire::Type::kRoster:
       is_good = roster_.on_roster(opening.body, now);

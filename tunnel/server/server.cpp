@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/deadline.h"
 #include "core/net/secure_random.h"
 
 namespace dance {
@@ -92,15 +93,9 @@ MonoTime Server::tick(MonoTime now) {
 }
 
 MonoTime Server::next_deadline() const {
-  MonoTime next;
-  const auto or_earlier = [&](MonoTime due) {
-    if (due.is_set()) next = next.is_set() ? std::min(next, due) : due;
-  };
-  const MonoTime core = core_.next_deadline();
-  if (core.is_set()) or_earlier(cluster_ != nullptr ? cluster_->clock().to_ours(core) : core);
-  or_earlier(door_->next_deadline());
-  or_earlier(cluster_due_);
-  return next;
+  MonoTime core = core_.next_deadline();
+  if (core.is_set() && cluster_ != nullptr) core = cluster_->clock().to_ours(core);
+  return earlier(core, earlier(door_->next_deadline(), cluster_due_));
 }
 
 void Server::set_keys(std::shared_ptr<const KeyRing> keys) {

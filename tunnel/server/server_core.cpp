@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/assert.h"
+#include "core/base/deadline.h"
 
 namespace dance {
 namespace {
@@ -243,12 +244,10 @@ MonoTime ServerCore::next_deadline() const {
   for (const std::size_t i : server_.changed_rooms)
     if (const ServerRoom& room = server_.rooms[i]; room.has_fresh_states)
       next = std::min(next, room.fresh_states_due);
-  if (const MonoTime voices = voice_.next_deadline(); voices.is_set())
-    next = std::min(next, voices);
+  next = earlier(next, voice_.next_deadline());
   for (const std::size_t i : server_.newcomers)
     next = std::min(next, server_.rooms[server_.sessions[i].room].settled_at);
-  if (const MonoTime files = files_.next_deadline(); files.is_set()) next = std::min(next, files);
-  return next;
+  return earlier(next, files_.next_deadline());
 }
 
 void ServerCore::end_sessions() {

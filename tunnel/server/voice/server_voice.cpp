@@ -1,5 +1,7 @@
 #include "tunnel/server/voice/server_voice.h"
 
+#include "core/base/deadline.h"
+
 namespace dance {
 namespace {
 
@@ -9,16 +11,18 @@ constexpr std::int64_t kFarthestVoice_us = 1'000'000;
 // What waits for its share of a line is looked at again.
 constexpr Duration kVoiceRetry = Duration::ms(5);
 
+bool is_timely(const wire::VoiceRecord& record, MonoTime now) {
+  const std::int64_t ahead_us = record.capture_us - now.since_zero_us();
+  return ahead_us >= -kOldestVoice_us && ahead_us <= kFarthestVoice_us;
+}
+
 }  // namespace
 
 void ServerVoice::on_voices(std::size_t index, wire::Bytes body, MonoTime received, MonoTime now) {
   ServerSession& session = server_.sessions[index];
   if (session.version < wire::kFirstVoiceVersion) return server_.reject(ServerReject::kUnknownType);
   const std::int64_t now_us = received.since_zero_us();
-  // All of a datagram or nothing.
-  if (body.empty()) return server_.reject(ServerReject::kMalformed);
-  for (ByteReader check(body); check.remaining() > 0;)
-    if (!wire::parse_voice(now_us, check)) return server_.reject(ServerReject::kMalformed);
+  if (!wire::are_voices(now_us, body)) return server_.reject(ServerReject::kMalformed);
   // As with poses: until the welcome has come, slots are those of the session before.
   if (!session.knows_epoch) return server_.reject(ServerReject::kLate);
   if (!may_send_records(session.access)) return server_.reject(ServerReject::kNotAllowed);
@@ -31,10 +35,7 @@ void ServerVoice::on_voice(std::size_t session, const wire::VoiceRecord& record,
   ServerGuest* guest = server_.guest_of(session, record.slot.slot);
   if (guest == nullptr || guest->generation != record.slot.generation)
     return server_.reject(ServerReject::kForeignSlot);
-  const std::int64_t received_us = received.since_zero_us();
-  if (record.capture_us < received_us - kOldestVoice_us ||
-      record.capture_us > received_us + kFarthestVoice_us)
-    return server_.reject(ServerReject::kBadTime);
+  if (!is_timely(record, received)) return server_.reject(ServerReject::kBadTime);
   if (!guest->voice.packets.take(1.0, now) ||
       !guest->voice.bytes.take(static_cast<double>(record.packet.size()), now))
     return server_.reject(ServerReject::kVoiceRate);
@@ -45,10 +46,7 @@ void ServerVoice::on_remote_voice(std::size_t session, const wire::VoiceRecord& 
                                   MonoTime now) {
   ServerGuest* guest = server_.guest_of(session, record.slot.slot);
   if (guest == nullptr) return server_.reject(ServerReject::kForeignSlot);
-  const std::int64_t now_us = now.since_zero_us();
-  if (record.capture_us < now_us - kOldestVoice_us ||
-      record.capture_us > now_us + kFarthestVoice_us)
-    return server_.reject(ServerReject::kBadTime);
+  if (!is_timely(record, now)) return server_.reject(ServerReject::kBadTime);
   wire::VoiceRecord here = record;
   here.slot.generation = guest->generation;
   take(session, *guest, here, now);
@@ -136,10 +134,8 @@ void ServerVoice::send_due(MonoTime now) {
 
 MonoTime ServerVoice::next_deadline() const {
   MonoTime next;
-  for (const std::size_t index : server_.speaking) {
-    const MonoTime due = server_.sessions[index].voice.due;
-    if (!next.is_set() || due < next) next = due;
-  }
+  for (const std::size_t index : server_.speaking)
+    next = earlier(next, server_.sessions[index].voice.due);
   return next;
 }
 

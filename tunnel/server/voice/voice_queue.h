@@ -54,7 +54,6 @@ class VoiceQueue {
     for (; size_ > 0 && now - waiting_[first_].since > kLongestWait; ++dropped) pop();
     return dropped;
   }
-  void clear() { size_ = 0; }
 
  private:
   struct Waiting {
