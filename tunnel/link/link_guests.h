@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/deadline.h"
 #include "core/base/token_bucket.h"
 #include "core/codec/hands_codec.h"
 #include "core/codec/plain_codec.h"
@@ -23,14 +24,9 @@
 #include "tunnel/session/repetition.h"
 #include "tunnel/session/state_replicator.h"
 #include "tunnel/session/stream_gate.h"
+#include "tunnel/wire/wire_voice.h"
 
 namespace dance {
-
-// Of two deadlines, of which either may not be set.
-constexpr MonoTime earlier(MonoTime a, MonoTime b) {
-  if (!a.is_set()) return b;
-  return b.is_set() ? std::min(a, b) : a;
-}
 
 // Tells a producer that began anew (its sequence starts over, or leaps, while capture goes on) from
 // a pose that is merely old. Each new start is a new stream.
@@ -67,7 +63,7 @@ struct LocalGuest {
   bool came_with_pose = false;  // not announced: goes when its producer does
   MonoTime last_pose;
   MonoTime last_voice;
-  TokenBucket voice_budget{120.0, 30.0};  // packets a second: as the server's
+  TokenBucket voice_budget{wire::kVoicesPerSecond, wire::kVoiceBurst};
   StreamTag poses;
   StreamTag hands;
   std::unique_ptr<PoseEncoder> encoder;

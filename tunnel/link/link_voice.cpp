@@ -53,11 +53,9 @@ void LinkVoice::flush_due(MonoTime now) {
   if (size_ > 0 && now >= due_) flush();
 }
 
-bool LinkVoice::on_voices(wire::Bytes body, MonoTime, MonoTime now) {
+bool LinkVoice::on_voices(wire::Bytes body, MonoTime now) {
   const std::int64_t server_now_us = link_.clock.to_theirs_us(now);
-  if (body.empty()) return false;
-  for (ByteReader check(body); check.remaining() > 0;)
-    if (!wire::parse_voice(server_now_us, check)) return false;
+  if (!wire::are_voices(server_now_us, body)) return false;
   ++link_.counters.voice_datagrams_in;
   link_.counters.voice_bytes_in += body.size() + wire::kVoiceOpening + wire::kSealOverhead;
   for (ByteReader in(body); in.remaining() > 0;)

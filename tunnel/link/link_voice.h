@@ -2,7 +2,7 @@
 // in a turn goes at its end, behind the poses; what comes is handed on as it comes, in whatever
 // order: whoever plays it has a buffer, and finds losses by the sequence.
 //
-// Units/frames: now and received are MonoTime of this house's clock.
+// Units/frames: now is MonoTime of this house's clock.
 // Ownership:    refers to the link's context. Never allocates.
 // Threads:      none inside; one owner.
 // Failure:      what cannot be sent now, or is no voice, is dropped and counted; nothing is sent
@@ -28,7 +28,7 @@ class LinkVoice {
   void clear() { size_ = 0; }
 
   // False for a malformed datagram; nothing of it is taken.
-  bool on_voices(wire::Bytes body, MonoTime received, MonoTime now);
+  bool on_voices(wire::Bytes body, MonoTime now);
 
  private:
   void on_voice(const wire::VoiceRecord& record, MonoTime now);

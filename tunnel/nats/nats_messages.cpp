@@ -86,7 +86,7 @@ void NatsMessages::begin(NatsGreeted greeted, MonoTime now) {
   end_turn(now);
 }
 
-void NatsMessages::end(MonoTime) {
+void NatsMessages::end() {
   poller_.unwatch(channel_->fd());
   poller_.set_deadline(timer_, MonoTime());
   channel_.reset();
@@ -143,7 +143,7 @@ void NatsMessages::end_turn(MonoTime now) {
   }
   if (waiting_.empty()) return;
   const auto written = channel_->write(waiting_);
-  if (!written) return end(now);
+  if (!written) return end();
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(*written));
   is_stuck_ = !waiting_.empty();
   if (*written > 0)
@@ -151,7 +151,7 @@ void NatsMessages::end_turn(MonoTime now) {
   else if (!stuck_since_.is_set())
     stuck_since_ = now;
   else if (now - stuck_since_ > kSilentConnection)
-    return end(now);
+    return end();
   write_again_ = is_stuck_ || subjects_.has_lines() ? now + kWritesAgain : MonoTime();
   if (write_again_.is_set()) poller_.set_deadline(timer_, next_deadline());
 }
@@ -170,7 +170,7 @@ MonoTime NatsMessages::tick(MonoTime now) {
   if (write_again_.is_set() && now >= write_again_) end_turn(now);
   if (!channel_) return MonoTime();
   if (now - heard_ > kSilentConnection) {
-    end(now);
+    end();
     return MonoTime();
   }
   if (read_again_.is_set() && now >= read_again_) on_readable(now);
@@ -202,7 +202,7 @@ void NatsMessages::on_readable(MonoTime now) {
     const auto room = reader_.room().first(kBehind);
     const auto count = channel_->read(room);
     if (!count) {
-      end(now);
+      end();
       break;
     }
     if (*count == 0) break;
@@ -210,7 +210,7 @@ void NatsMessages::on_readable(MonoTime now) {
     reader_.add(*count);
     const bool is_behind = *count == room.size();
     take_all(is_behind, now);
-    if (channel_ && reader_.is_broken()) end(now);
+    if (channel_ && reader_.is_broken()) end();
     if (!is_behind) break;
   }
   handlers_.after_batch(now);

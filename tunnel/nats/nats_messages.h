@@ -60,7 +60,7 @@ class NatsMessages {
  private:
   NatsMessages(const NatsOptions& options, Poller& poller, Handlers handlers);
   void begin(NatsGreeted greeted, MonoTime now);
-  void end(MonoTime now);
+  void end();
   void on_readable(MonoTime now);
   void take_all(bool is_behind, MonoTime now);
   void count_newest();

@@ -31,6 +31,7 @@
 #include "tunnel/session/stream_gate.h"
 #include "tunnel/wire/wire_records.h"
 #include "tunnel/wire/wire_state.h"
+#include "tunnel/wire/wire_voice.h"
 
 namespace dance {
 
@@ -60,8 +61,8 @@ struct ServerLimits {
   double channel_byte_burst = 32e3;
   // Per guest: packets of its voice. One comes each 10 ms; more is a clock that runs fast, or what
   // a hiccup held up.
-  double voices_per_second = 120.0;
-  double voice_burst = 30.0;
+  double voices_per_second = wire::kVoicesPerSecond;
+  double voice_burst = wire::kVoiceBurst;
   double voice_bytes_per_second = 16e3;
   double voice_byte_burst = 4e3;
   // Per guest: changes of its states and of those of the room that it sets.

@@ -33,4 +33,11 @@ std::optional<VoiceRecord> parse_voice(std::int64_t now_us, ByteReader& in) {
   return record;
 }
 
+bool are_voices(std::int64_t now_us, Bytes body) {
+  if (body.empty()) return false;
+  for (ByteReader in(body); in.remaining() > 0;)
+    if (!parse_voice(now_us, in)) return false;
+  return true;
+}
+
 }  // namespace dance::wire

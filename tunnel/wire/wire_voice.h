@@ -28,12 +28,17 @@ struct VoiceRecord {
 // Slot and generation, sequence, capture, level, length.
 constexpr std::size_t kVoiceRecordHeader = 3 + 4 + 3 + 1 + 1;
 constexpr std::size_t kVoiceOpening = 1;
+// Of one guest, whom a server takes it from: packets, which come a hundred times a second.
+constexpr double kVoicesPerSecond = 120.0, kVoiceBurst = 30.0;
 
 void begin_voices(ByteWriter& out);
 void add_voice(const VoiceRecord& record, ByteWriter& out);
 
-// Of what follows the opening: one record; call until the reader is_exhausted(). `now_us` is about
-// now by the server's clock.
+// Of what follows the opening: one record; call until nothing remains. `now_us` is about now by the
+// server's clock.
 std::optional<VoiceRecord> parse_voice(std::int64_t now_us, ByteReader& in);
+// Whether what follows the opening is records and nothing else: of a datagram all is taken or
+// nothing.
+bool are_voices(std::int64_t now_us, Bytes body);
 
 }  // namespace dance::wire
