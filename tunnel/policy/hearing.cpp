@@ -1,6 +1,20 @@
 #include "tunnel/policy/hearing.h"
 
+#include "tunnel/policy/guest_words.h"
+
 namespace dance {
+namespace {
+
+std::optional<std::uint8_t> yes_or_no_in(std::string_view text) {
+  if (text != "0" && text != "1") return std::nullopt;
+  return static_cast<std::uint8_t>(text == "1");
+}
+
+constexpr GuestWordRule kHearRule{yes_or_no_in,
+                                  "write NAME=1 (hear the guest), NAME=0 (do not) or default=0",
+                                  "default=0 is for all others"};
+
+}  // namespace
 
 Hearing both_of(const Hearing& one, const Hearing& other) {
   Hearing both;
@@ -22,30 +36,11 @@ Hearing either_of(const Hearing& one, const Hearing& other) {
 }
 
 Result<Hearing> parse_hearing(std::span<const std::string> words) {
-  constexpr const char* kRule = ": write NAME=1 (hear the guest), NAME=0 (do not) or default=0";
-  FixedList<GuestId, kMaxInterestGuests> heard, muted;
+  DANCE_TRY(const GuestWords parsed, parse_guest_words(words, kHearRule));
   Hearing hearing;
-  bool has_default = false;
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-    if (value != "0" && value != "1") return fail("'" + word + "'" + kRule);
-    if (name == "default") {
-      if (has_default) return fail("'" + word + "': default is given twice");
-      has_default = true;
-      hearing.others = value == "1";
-      continue;
-    }
-    const auto guest = GuestId::parse(name);
-    if (!guest) return fail("'" + word + "': " + kGuestIdRule);
-    if (heard.contains(*guest) || muted.contains(*guest))
-      return fail("'" + word + "': " + name + " is given twice");
-    if (!(value == "1" ? heard : muted).try_push(*guest))
-      return fail("'" + word + "': at most " + std::to_string(kMaxInterestGuests) +
-                  " guests can be named; default=0 is for all others");
-  }
-  hearing.exceptions = hearing.others ? muted : heard;
+  if (parsed.others) hearing.others = *parsed.others == 1;
+  for (const Interest::One& one : parsed.guests)
+    if ((one.divider == 1) != hearing.others) (void)hearing.exceptions.try_push(one.guest);
   return hearing;
 }
 

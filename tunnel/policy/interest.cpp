@@ -2,42 +2,31 @@
 
 #include <charconv>
 
+#include "tunnel/policy/guest_words.h"
+
 namespace dance {
 namespace {
 
-constexpr const char* kWantRule =
-    ": write NAME=N or default=N, where N is 0 (nothing), 1 (every pose) or up to 255 (every N-th)";
+std::optional<std::uint8_t> divider_in(std::string_view text) {
+  std::uint8_t divider = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, divider);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return divider;
+}
+
+constexpr GuestWordRule kWantRule{
+    divider_in,
+    "write NAME=N or default=N, where N is 0 (nothing), 1 (every pose) or up to 255 (every N-th)",
+    "default=N is for all others"};
 
 }  // namespace
 
 Result<Interest> parse_interest(std::span<const std::string> words) {
+  DANCE_TRY(const GuestWords parsed, parse_guest_words(words, kWantRule));
   Interest interest;
-  bool has_default = false;
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    unsigned divider = 256;
-    if (equals != std::string::npos) {
-      const char* end = word.data() + word.size();
-      const auto read = std::from_chars(word.data() + equals + 1, end, divider);
-      if (read.ec != std::errc() || read.ptr != end) divider = 256;
-    }
-    if (divider > 255) return fail("'" + word + "'" + kWantRule);
-    const auto as_divider = static_cast<std::uint8_t>(divider);
-    if (name == "default") {
-      if (has_default) return fail("'" + word + "': default is given twice");
-      has_default = true;
-      interest.others = as_divider;
-      continue;
-    }
-    const auto guest = GuestId::parse(name);
-    if (!guest) return fail("'" + word + "': " + kGuestIdRule);
-    for (const Interest::One& one : interest.guests)
-      if (one.guest == *guest) return fail("'" + word + "': " + name + " is given twice");
-    if (!interest.guests.try_push({*guest, as_divider}))
-      return fail("'" + word + "': at most " + std::to_string(kMaxInterestGuests) +
-                  " guests can be named; default=N is for all others");
-  }
+  interest.others = parsed.others.value_or(interest.others);
+  interest.guests = parsed.guests;
   return interest;
 }
 
