@@ -7,6 +7,7 @@
 #include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
+#include "core/base/fnv1a.h"
 #include "core/codec/exact_math.h"
 
 namespace dance {
@@ -39,9 +40,7 @@ void visit(Model& model, OnHalf half, OnWord word, OnByte byte) {
 }
 
 std::uint32_t name_of(std::span<const std::uint8_t> file) {
-  std::uint64_t sum = 14695981039346656037u;  // FNV-1a
-  for (const std::uint8_t byte : file) sum = (sum ^ byte) * 1099511628211u;
-  const auto name = static_cast<std::uint32_t>(sum ^ sum >> 32);
+  const std::uint32_t name = folded(fnv1a(file));
   return name == 0 ? 1 : name;  // 0 is the generic model
 }
 

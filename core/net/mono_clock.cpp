@@ -5,14 +5,10 @@
 #include <random>
 #include <string>
 
+#include "core/base/fnv1a.h"
+
 namespace dance {
 namespace {
-
-std::uint64_t fnv1a(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return hash;
-}
 
 std::uint64_t make_clock_id() {
   std::ifstream file("/proc/sys/kernel/random/boot_id");

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/fnv1a.h"
 #include "core/base/random.h"
 
 namespace dance {
@@ -27,15 +28,7 @@ constexpr std::array<std::uint32_t, 6> kHairs{0x1d1613, 0x3a251a, 0x6b4226,
 // colours.
 constexpr std::uint64_t kTaste = 31893;
 
-std::uint64_t hash_of(const GuestId& guest) {
-  // FNV-1a: the same on every machine, which std::hash does not promise.
-  std::uint64_t hash = 0xcbf29ce484222325ULL ^ kTaste;
-  for (const char c : guest.view()) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 0x100000001b3ULL;
-  }
-  return hash;
-}
+std::uint64_t hash_of(const GuestId& guest) { return fnv1a(guest.view(), kFnvBegin ^ kTaste); }
 
 float linear_channel(float s) {
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);

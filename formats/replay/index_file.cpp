@@ -11,18 +11,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/base/fnv1a.h"
 #include "core/program/whole_file.h"
 
 namespace dance {
 namespace {
 
 constexpr std::uint64_t kEnd_bytes = 64 << 10;
-
-std::uint64_t hash_of(std::uint64_t hash, std::span<const std::uint8_t> bytes) {
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3;
-  return hash;
-}
-constexpr std::uint64_t kFirstHash = 0xcbf29ce484222325;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -48,14 +43,14 @@ Result<LogMark> mark_of_log(const std::string& path) {
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) return fail(path + ": " + std::strerror(errno));
   std::vector<std::uint8_t> end(kEnd_bytes);
-  mark.ends_hash = kFirstHash;
+  mark.ends_hash = kFnvBegin;
   for (const bool is_first : {true, false}) {
     if (!is_first &&
         fseeko(file.get(), static_cast<off_t>(mark.bytes - std::min(mark.bytes, kEnd_bytes)),
                SEEK_SET) != 0)
       break;
     const std::size_t got = std::fread(end.data(), 1, end.size(), file.get());
-    mark.ends_hash = hash_of(mark.ends_hash, std::span(end).first(got));
+    mark.ends_hash = fnv1a(std::span(end).first(got), mark.ends_hash);
   }
   return mark;
 }
@@ -67,8 +62,7 @@ std::vector<std::string> index_places(const std::string& log_path, bool stage_on
   if (cache.empty()) return places;
   std::error_code error;
   const std::string whole = std::filesystem::absolute(log_path, error).lexically_normal().string();
-  const std::uint64_t hash =
-      hash_of(kFirstHash, {reinterpret_cast<const std::uint8_t*>(whole.data()), whole.size()});
+  const std::uint64_t hash = fnv1a(whole);
   std::array<char, 24> name{};
   std::snprintf(name.data(), name.size(), "/%016llx", static_cast<unsigned long long>(hash));
   places.push_back(cache + name.data() + ending);

@@ -4,17 +4,14 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/fnv1a.h"
 
 namespace dance {
 
 namespace {
 
-// FNV-1a; never 0.
-std::uint32_t hash_of(const GuestId& guest) {
-  std::uint32_t hash = 2'166'136'261u;
-  for (const char c : guest.view()) hash = (hash ^ static_cast<unsigned char>(c)) * 16'777'619u;
-  return hash | 1;
-}
+// Never 0.
+std::uint32_t hash_of(const GuestId& guest) { return folded(fnv1a(guest.view())) | 1; }
 
 }  // namespace
 

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 
+#include "core/base/fnv1a.h"
+#include "core/base/smooth_step.h"
+
 namespace dance {
 namespace {
 
@@ -18,8 +21,7 @@ std::uint64_t mixed(std::uint64_t x) {  // splitmix64
 }  // namespace
 
 float blink_at(const GuestId& guest, MonoTime time) {
-  std::uint64_t seed = 0xcbf29ce484222325u;  // FNV-1a
-  for (const char c : guest.view()) seed = (seed ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  const std::uint64_t seed = fnv1a(guest.view());
   const std::int64_t period = time.since_zero_ns() / kPeriod_ns;
   const double room_s = 1e-9 * static_cast<double>(kPeriod_ns) - kCloses_s - kOpens_s;
   const std::uint64_t draw = mixed(seed + 0x9e3779b97f4a7c15u * static_cast<std::uint64_t>(period));
@@ -27,7 +29,7 @@ float blink_at(const GuestId& guest, MonoTime time) {
   const double t_s = 1e-9 * static_cast<double>(time.since_zero_ns() % kPeriod_ns) - begins_s;
   if (t_s <= 0.0 || t_s >= kCloses_s + kOpens_s) return 0.0f;
   const double x = t_s < kCloses_s ? t_s / kCloses_s : 1.0 - (t_s - kCloses_s) / kOpens_s;
-  return static_cast<float>(x * x * (3.0 - 2.0 * x));
+  return static_cast<float>(smooth_step(x));
 }
 
 }  // namespace dance

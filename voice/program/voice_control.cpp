@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "core/base/fnv1a.h"
 #include "core/bus/bus.h"
 #include "core/net/local_address.h"
 #include "core/net/mono_clock.h"
@@ -16,9 +17,7 @@ constexpr int kMostCommandsPerTurn = 16;
 
 // A bus's URL is no file name: a number of it is.
 std::string voice_control_path(const std::string& bus, const GuestId& guest) {
-  std::uint32_t number = 2166136261u;  // FNV-1a
-  for (const char c : bus_url_or_default(bus))
-    number = (number ^ static_cast<unsigned char>(c)) * 16777619u;
+  const std::uint32_t number = folded(fnv1a(bus_url_or_default(bus)));
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%08x", number);
   return local_socket_folder() + "/voice-" + std::string(guest.view()) + "-" + text.data();

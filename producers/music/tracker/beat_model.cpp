@@ -8,6 +8,7 @@
 #include "core/base/assert.h"
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
+#include "core/base/fnv1a.h"
 
 namespace dance {
 namespace {
@@ -34,11 +35,7 @@ void visit_net(Net& net, Visit visit) {
   all(net.out_bias);
 }
 
-std::uint32_t name_of(std::span<const std::uint8_t> file) {
-  std::uint64_t sum = 14695981039346656037u;  // FNV-1a
-  for (const std::uint8_t byte : file) sum = (sum ^ byte) * 1099511628211u;
-  return static_cast<std::uint32_t>(sum ^ sum >> 32);
-}
+std::uint32_t name_of(std::span<const std::uint8_t> file) { return folded(fnv1a(file)); }
 
 }  // namespace
 
