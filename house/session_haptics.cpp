@@ -5,10 +5,7 @@ namespace dance {
 void read_haptics(TomlReader& reader, Session& session) {
   HostedHaptics haptics;
   haptics.to = reader.required_string("to");
-  if (const auto guest = GuestId::parse(reader.required_string("guest")))
-    haptics.guest = *guest;
-  else
-    reader.complain("guest", kGuestIdRule);
+  haptics.guest = read_guest(reader, "guest", reader.required_string("guest"));
   HapticOptions& options = haptics.options;
   options.device = reader.string_or("device", "");
   options.address = reader.string_or("address", "");

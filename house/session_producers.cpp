@@ -50,12 +50,6 @@ void read_receiver(TomlReader& reader, const std::string& kind, Session& session
 
 }  // namespace
 
-GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& text) {
-  const auto id = GuestId::parse(text);
-  if (!id) reader.complain(key, "'" + text + "': " + std::string(kGuestIdRule));
-  return id.value_or(GuestId());
-}
-
 void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
   HostedProducer producer;
   const std::string kind = reader.required_string("kind");

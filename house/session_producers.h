@@ -14,9 +14,6 @@
 
 namespace dance {
 
-// A guest's name; not set where the text is none.
-GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& text);
-
 // Files are in the session's folder.
 void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session);
 

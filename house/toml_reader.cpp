@@ -104,4 +104,10 @@ void TomlReader::finish() {
   }
 }
 
+GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& text) {
+  const auto id = GuestId::parse(text);
+  if (!id) reader.complain(key, "'" + text + "': " + std::string(kGuestIdRule));
+  return id.value_or(GuestId());
+}
+
 }  // namespace dance

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/guest_id.h"
 #include "core/base/result.h"
 
 namespace dance {
@@ -51,5 +52,8 @@ class TomlReader {
   std::vector<std::string> asked_;
   std::optional<Error> problem_;
 };
+
+// A guest's name; not set where the text, which was read for this key, is none.
+GuestId read_guest(TomlReader& reader, std::string_view key, const std::string& text);
 
 }  // namespace dance

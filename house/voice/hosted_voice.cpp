@@ -1,30 +1,13 @@
 #include "house/voice/hosted_voice.h"
 
-#include <charconv>
+#include "core/bus/guest_volume.h"
 
 namespace dance {
-namespace {
-
-bool is_volume(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || !GuestId::parse(text.substr(0, equals))) return false;
-  double volume = -1.0;
-  const char* end = text.data() + text.size();
-  return std::from_chars(text.data() + equals + 1, end, volume).ptr == end && volume >= 0.0 &&
-         volume <= 2.0;
-}
-
-}  // namespace
 
 HostedVoice read_voice(TomlReader& reader, const GuestId& first) {
   HostedVoice voice;
-  voice.guest = first;
-  if (const auto name = reader.maybe_string("guest")) {
-    if (const auto guest = GuestId::parse(*name))
-      voice.guest = *guest;
-    else
-      reader.complain("guest", "'" + *name + "': " + std::string(kGuestIdRule));
-  }
+  const auto guest = reader.maybe_string("guest");
+  voice.guest = guest ? read_guest(reader, "guest", *guest) : first;
   voice.microphone = reader.string_or("microphone", "");
   voice.loudspeaker = reader.string_or("loudspeaker", "");
   voice.headphones = reader.bool_or("headphones", false);
@@ -35,9 +18,9 @@ HostedVoice read_voice(TomlReader& reader, const GuestId& first) {
   voice.bitrate_kbit = reader.number_or("bitrate_kbit", 0.0, 6.0, 96.0);
   voice.volumes = reader.strings("volumes", "[\"bob=0.5\"]");
   for (const std::string& volume : voice.volumes)
-    if (!is_volume(volume)) reader.complain("volumes", "each is GUEST=0 to GUEST=2, as bob=0.5");
+    if (!parse_guest_volume(volume)) reader.complain("volumes", kGuestVolumeRule);
   reader.finish();
-  if (!voice.guest.is_set())
+  if (!guest && !first.is_set())
     reader.complain("guest", "is missing: who speaks? this house has no dancer");
   return voice;
 }

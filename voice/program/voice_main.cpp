@@ -33,6 +33,7 @@ struct VoiceOptions {
   std::string bus;
   std::string microphone, loudspeaker;
   std::vector<std::string> volumes;
+  VoiceSettings settings;  // with the volumes
   bool to_headphones = false, no_echo_cancellation = false, no_cleaning = false;
   bool push_to_talk = false, mute = false, deafen = false, with_picture = false, at_once = false;
   bool low_delay = false, json = false, quiet = false;
@@ -41,8 +42,9 @@ struct VoiceOptions {
   double seconds = 0.0;
 };
 
-Result<VoiceProgramOptions> program_options(const VoiceOptions& options) {
+VoiceProgramOptions program_options(const VoiceOptions& options) {
   VoiceProgramOptions program;
+  program.settings = options.settings;
   program.guest = *GuestId::parse(options.guest);
   program.bus = options.bus;
   program.devices.microphone = options.microphone;
@@ -62,9 +64,6 @@ Result<VoiceProgramOptions> program_options(const VoiceOptions& options) {
   program.settings.is_deafened = options.deafen;
   program.settings.is_push_to_talk = options.push_to_talk;
   program.settings.follows_picture = options.with_picture;
-  for (const std::string& volume : options.volumes)
-    if (auto set = program.settings.set_volume(volume); !set)
-      return fail("--volume: " + set.error().what);
   return program;
 }
 
@@ -75,7 +74,7 @@ void on_key(VoiceProgram& program, char key, MonoTime now) {
 }
 
 Result<void> run_voice(const VoiceOptions& options) {
-  DANCE_TRY(const VoiceProgramOptions wanted, program_options(options));
+  const VoiceProgramOptions wanted = program_options(options);
   // Sound that is late is a gap. Where the user may not have it (ulimit -e), it goes without.
   static_cast<void>(::setpriority(PRIO_PROCESS, 0, kVoiceNice));
   DANCE_TRY(auto poller, Poller::create());
@@ -143,9 +142,8 @@ int main(int argc, char** argv) {
   line.finally([&]() -> dance::Result<void> {
     if (options.with_picture && options.at_once)
       return dance::fail("--with-picture and --at-once exclude each other");
-    dance::VoiceSettings checked;
     for (const std::string& volume : options.volumes)
-      if (auto set = checked.set_volume(volume); !set)
+      if (auto set = options.settings.set_volume(volume); !set)
         return dance::fail("--volume: " + set.error().what);
     return {};
   });

@@ -1,6 +1,5 @@
 #include "voice/room/voice_settings.h"
 
-#include <charconv>
 #include <string>
 
 namespace dance {
@@ -11,25 +10,20 @@ constexpr std::string_view kVolumeWord = "volume ";
 }  // namespace
 
 float VoiceSettings::volume_of(const GuestId& guest) const {
-  for (const Volume& volume : volumes_)
+  for (const GuestVolume& volume : volumes_)
     if (volume.guest == guest) return volume.volume;
   return 1.0f;
 }
 
 Result<void> VoiceSettings::set_volume(std::string_view text) {
-  const std::size_t equals = text.find('=');
-  const auto guest = GuestId::parse(text.substr(0, equals));
-  double volume = -1.0;
-  if (equals != std::string_view::npos)
-    std::from_chars(text.data() + equals + 1, text.data() + text.size(), volume);
-  if (!guest || !(volume >= 0.0 && volume <= kLoudest))
-    return fail("a volume is GUEST=0 to GUEST=2, as bob=0.5");
-  for (Volume& known : volumes_) {
-    if (known.guest != *guest) continue;
-    known.volume = static_cast<float>(volume);
+  const auto wanted = parse_guest_volume(text);
+  if (!wanted) return fail(kGuestVolumeRule);
+  for (GuestVolume& known : volumes_) {
+    if (known.guest != wanted->guest) continue;
+    known.volume = wanted->volume;
     return {};
   }
-  if (!volumes_.try_push({*guest, static_cast<float>(volume)}))
+  if (!volumes_.try_push(*wanted))
     return fail("volumes of more than " + std::to_string(kMostVolumes) + " guests are not kept");
   return {};
 }
@@ -41,7 +35,7 @@ HearingWish VoiceSettings::hearing() const {
     return wish;
   }
   std::size_t count = 0;
-  for (const Volume& volume : volumes_)
+  for (const GuestVolume& volume : volumes_)
     if (volume.volume <= 0.0f && count < wish.guests.size()) wish.guests[count++] = volume.guest;
   return wish;
 }

@@ -13,13 +13,13 @@
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
 #include "core/base/time.h"
+#include "core/bus/guest_volume.h"
 #include "core/bus/voice.h"
 
 namespace dance {
 
 struct VoiceSettings {
   static constexpr std::size_t kMostVolumes = 64;
-  static constexpr double kLoudest = 2.0;
   // A key that is held repeats; so long after the last repetition it was let go.
   static constexpr Duration kTalkHolds = Duration::ms(700);
 
@@ -42,11 +42,7 @@ struct VoiceSettings {
   Result<void> apply(std::string_view command, MonoTime now);
 
  private:
-  struct Volume {
-    GuestId guest;
-    float volume = 1.0f;
-  };
-  FixedList<Volume, kMostVolumes> volumes_;
+  FixedList<GuestVolume, kMostVolumes> volumes_;
 };
 
 }  // namespace dance
