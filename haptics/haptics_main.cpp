@@ -9,6 +9,7 @@
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
+#include "core/program/foreground.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "haptics/evdev/evdev_devices.h"
@@ -87,8 +88,7 @@ Result<void> run_check(const HapticsWishes& wishes, const HapticOptions& options
 
 // Enter on the terminal.
 void watch_terminal(Poller& poller, HapticFeed& feed) {
-  // In the background of a shell, reading the terminal would stop this program.
-  if (isatty(STDIN_FILENO) == 0 || tcgetpgrp(STDIN_FILENO) != getpgrp()) return;
+  if (!is_in_foreground()) return;
   talk::info("enter switches off, and on again");
   poller.watch(STDIN_FILENO, [&poller, &feed, is_on = true](MonoTime) mutable {
     std::array<char, 256> line{};

@@ -8,6 +8,7 @@
 // Failure:      names what is missing and the cure.
 #pragma once
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,6 +18,13 @@
 namespace dance {
 
 using Speech = std::vector<float>;
+
+// Of this process so far.
+inline double cpu_us() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
+}
 
 struct BenchReport {
   std::string text;

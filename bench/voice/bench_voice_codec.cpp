@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <complex>
-#include <ctime>
 #include <numbers>
 
 #include "bench/voice/bench_voice.h"
@@ -22,12 +21,6 @@ struct CodecCase {
   const char* name;
   VoiceEncoderOptions options;
 };
-
-double cpu_us() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
-}
 
 // Energies of a frame in 24 bands of 250 Hz, by direct transform: what an ear tells apart, roughly.
 std::array<double, kBands> bands_of(std::span<const float> frame) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 
 #include "bench/voice/bench_voice.h"
 #include "core/program/figures.h"
@@ -14,12 +13,6 @@ namespace {
 constexpr std::size_t kFrame = VoiceCleaner::kFrame;
 constexpr std::size_t kLearnt = 48'000 * 5;
 
-double echo_cpu_us() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
-}
-
 struct Cleaned {
   Speech sound;
   double frame_us = 0.0;
@@ -29,13 +22,13 @@ Result<Cleaned> clean(const Speech& microphone, const Speech& loudspeaker,
                       const VoiceCleanerOptions& options) {
   DANCE_TRY(auto cleaner, VoiceCleaner::create(options));
   Cleaned cleaned{microphone, 0.0};
-  const double begin = echo_cpu_us();
+  const double begin = cpu_us();
   std::size_t at = 0;
   for (; at + kFrame <= microphone.size(); at += kFrame) {
     cleaner->hear_loudspeaker(std::span(loudspeaker).subspan(at).first<kFrame>());
     cleaner->clean(std::span(cleaned.sound).subspan(at).first<kFrame>(), Duration::ms(35));
   }
-  cleaned.frame_us = (echo_cpu_us() - begin) / (static_cast<double>(at) / kFrame);
+  cleaned.frame_us = (cpu_us() - begin) / (static_cast<double>(at) / kFrame);
   return cleaned;
 }
 

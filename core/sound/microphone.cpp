@@ -30,28 +30,21 @@ void take_source(pa_context*, const pa_source_info* info, int is_last, void* dat
   query.found.is_monitor = info->monitor_of_sink != PA_INVALID_INDEX;
 }
 
-bool has_answer(PulseServer& server, pa_operation* operation, MicrophoneQuery& query) {
-  if (operation == nullptr) return false;
-  const bool is_answered = server.iterate_until([&] { return query.is_done; });
-  if (!is_answered) pa_operation_cancel(operation);
-  pa_operation_unref(operation);
-  query.is_done = false;
-  return is_answered;
-}
-
 }  // namespace
 
 Result<Microphone> default_microphone(const std::string& program) {
   DANCE_TRY(const auto server, PulseServer::connect(program));
   MicrophoneQuery query;
   pa_context* context = server->context();
-  if (!has_answer(*server, pa_context_get_server_info(context, take_default_source, &query), query))
-    return fail("the sound server does not answer");
+  auto answered = server->await_answer(
+      pa_context_get_server_info(context, take_default_source, &query), query.is_done);
+  if (!answered) return tl::make_unexpected(answered.error());
+  query.is_done = false;
   const std::string name = query.found.name;
-  if (!has_answer(*server,
-                  pa_context_get_source_info_by_name(context, name.c_str(), take_source, &query),
-                  query))
-    return fail("the sound server does not answer");
+  answered = server->await_answer(
+      pa_context_get_source_info_by_name(context, name.c_str(), take_source, &query),
+      query.is_done);
+  if (!answered) return tl::make_unexpected(answered.error());
   if (query.found.description.empty()) return fail("the sound server has no microphone");
   return query.found;
 }

@@ -35,12 +35,7 @@ Result<std::unique_ptr<PulseInput>> PulseInput::open(PulseServer& server,
   if (pa_stream_connect_record(input->stream_, source.empty() ? nullptr : source.c_str(), &buffer,
                                PA_STREAM_ADJUST_LATENCY) < 0)
     return fail("the sound server refuses to record: " + server.error_text());
-  pa_stream* stream = input->stream_;
-  const bool is_ready =
-      server.iterate_until([stream] { return pa_stream_get_state(stream) != PA_STREAM_CREATING; },
-                           options.patience) &&
-      pa_stream_get_state(stream) == PA_STREAM_READY;
-  if (!is_ready)
+  if (!server.becomes_ready(input->stream_, options.patience))
     return fail("the sound server has no microphone" +
                 (source.empty() ? std::string() : " '" + source + "'") + ": " +
                 server.error_text() + "; `pactl list short sources` names them");

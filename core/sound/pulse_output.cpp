@@ -44,11 +44,7 @@ Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
     ++static_cast<PulseOutput*>(self)->underflows_;
   };
   pa_stream_set_underflow_callback(stream, on_underflow, output.get());
-  const bool is_ready =
-      server.iterate_until([stream] { return pa_stream_get_state(stream) != PA_STREAM_CREATING; },
-                           options.patience) &&
-      pa_stream_get_state(stream) == PA_STREAM_READY;
-  if (!is_ready)
+  if (!server.becomes_ready(stream, options.patience))
     return fail("the sound server has no loudspeaker" +
                 (options.sink.empty() ? std::string() : " '" + options.sink + "'") + ": " +
                 server.error_text() + "; `pactl list short sinks` names them");

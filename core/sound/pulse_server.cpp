@@ -55,6 +55,20 @@ bool PulseServer::is_alive() const { return pa_context_get_state(context_) == PA
 
 std::string PulseServer::error_text() const { return pa_strerror(pa_context_errno(context_)); }
 
+bool PulseServer::becomes_ready(pa_stream* stream, Duration patience) {
+  iterate_until([stream] { return pa_stream_get_state(stream) != PA_STREAM_CREATING; }, patience);
+  return pa_stream_get_state(stream) == PA_STREAM_READY;
+}
+
+Result<void> PulseServer::await_answer(pa_operation* query, const bool& is_done) {
+  if (query == nullptr) return fail("the sound server refuses a query: " + error_text());
+  const bool is_answered = iterate_until([&] { return is_done; });
+  if (!is_answered) pa_operation_cancel(query);
+  pa_operation_unref(query);
+  if (!is_answered) return fail("the sound server does not answer");
+  return {};
+}
+
 MonoTime PulseServer::mono_time_of(const timeval& wall) {
   timeval now{};
   pa_gettimeofday(&now);

@@ -21,6 +21,8 @@
 
 struct pa_context;
 struct pa_mainloop;
+struct pa_operation;
+struct pa_stream;
 
 namespace dance {
 
@@ -50,6 +52,10 @@ class PulseServer {
   }
   bool is_alive() const;
   std::string error_text() const;
+  // Waits for a stream that was connected; false where the server refuses it or is silent.
+  bool becomes_ready(pa_stream* stream, Duration patience = kPatience);
+  // Waits for the answer to a query, whose callback sets `is_done`.
+  Result<void> await_answer(pa_operation* query, const bool& is_done);
 
   static MonoTime mono_time_of(const timeval& wall);
 

@@ -100,10 +100,7 @@ Result<void> SoundOutput::Impl::connect() {
   if (pa_stream_connect_playback(stream, sink.empty() ? nullptr : sink.c_str(), &buffer, flags,
                                  nullptr, nullptr) < 0)
     return fail("the sound server refuses to play: " + server->error_text());
-  const bool is_ready = server->iterate_until([this] {
-    return pa_stream_get_state(stream) != PA_STREAM_CREATING;
-  }) && pa_stream_get_state(stream) == PA_STREAM_READY;
-  if (!is_ready)
+  if (!server->becomes_ready(stream))
     return fail("the sound server has no sink '" + (sink.empty() ? "default" : sink) +
                 "'; pactl list short sinks shows those there are");
   // What waited meanwhile is of the past.

@@ -1,6 +1,7 @@
 // What an Opus packet says of itself, without a decoder.
 //
 // Units/frames: bytes, as RFC 6716 has them.
+// Ownership:    looks at the caller's bytes, keeps nothing.
 // Threads:      none inside; plain functions.
 // Failure:      none: bytes that are no packet have no error correction and are no silence.
 // Source:       RFC 6716, sections 3.1 and 4.2.3.

@@ -1,6 +1,7 @@
 // Sizes of the sound of voices, the same everywhere: 10 ms frames of mono samples at 48 kHz.
 //
 // Units/frames: samples from -1 to 1 at kVoiceRate_hz.
+// Ownership:    plain values.
 // Threads:      none inside; constants and plain functions.
 // Failure:      level_dbfs() of digital silence is kSilence_dbfs.
 #pragma once

@@ -8,8 +8,6 @@ namespace dance {
 namespace {
 
 constexpr double kDevice_hz = 48'000.0;
-constexpr std::size_t kFrame = VoiceDeviceHandlers::kFrame;
-constexpr Duration kFrameLength = Duration::ms(10);
 constexpr Duration kTimingRequests = Duration::ms(100);
 constexpr Duration kLooks = Duration::s(2);
 constexpr Duration kShortestPatience = Duration::ms(100);
@@ -84,34 +82,22 @@ void VoiceDevices::open_reference() {
 }
 
 void VoiceDevices::on_reference(std::span<const float> samples) {
-  Gathered& gathered = from_reference_;
-  std::int64_t begin = reference_ ? reference_->read_frames() : 0;
-  begin -= static_cast<std::int64_t>(samples.size() + gathered.count);
-  for (const float sample : samples) {
-    gathered.frame[gathered.count++] = sample;
-    if (gathered.count < kFrame) continue;
-    gathered.count = 0;
+  from_reference_.add(samples, reference_ ? reference_->read_frames() : 0, [&](std::int64_t begin) {
     if (reference_ && reference_->is_timed())
       reference_ahead_ = reference_->time_of(begin) - mono_now();
-    begin += kFrame;
-    handlers_.on_reference(gathered.frame);
-  }
+    handlers_.on_reference(from_reference_.frame);
+  });
 }
 
 void VoiceDevices::on_microphone(std::span<const float> samples) {
-  Gathered& gathered = from_microphone_;
-  std::int64_t begin = microphone_ ? microphone_->read_frames() : 0;
-  begin -= static_cast<std::int64_t>(samples.size() + gathered.count);
-  for (const float sample : samples) {
-    gathered.frame[gathered.count++] = sample;
-    if (gathered.count < kFrame) continue;
-    gathered.count = 0;
-    const MonoTime now = mono_now();
-    const bool is_timed = microphone_ && microphone_->is_timed();
-    const MonoTime captured = is_timed ? microphone_->time_of(begin) : now - kFrameLength;
-    begin += kFrame;
-    handlers_.on_microphone(gathered.frame, captured, reference_ahead_ + (now - captured));
-  }
+  from_microphone_.add(
+      samples, microphone_ ? microphone_->read_frames() : 0, [&](std::int64_t begin) {
+        const MonoTime now = mono_now();
+        const bool is_timed = microphone_ && microphone_->is_timed();
+        const MonoTime captured = is_timed ? microphone_->time_of(begin) : now - kVoiceFrame;
+        handlers_.on_microphone(from_microphone_.frame, captured,
+                                reference_ahead_ + (now - captured));
+      });
 }
 
 void VoiceDevices::work(MonoTime now) {

@@ -22,6 +22,7 @@
 #include "core/sound/pulse_input.h"
 #include "core/sound/pulse_output.h"
 #include "core/sound/stream_clock.h"
+#include "voice/codec/voice_sound.h"
 #include "voice/device/device_troubles.h"
 
 namespace dance {
@@ -34,7 +35,7 @@ struct VoiceDeviceOptions {
 };
 
 struct VoiceDeviceHandlers {
-  static constexpr std::size_t kFrame = 480;
+  static constexpr std::size_t kFrame = kVoiceFrameSamples;
   // The first sample of the frame met the microphone at `captured`. `echo_delay`: from the
   // reference's call until this one, of the same sound.
   std::function<void(std::span<float, kFrame> frame, MonoTime captured, Duration echo_delay)>
@@ -67,6 +68,18 @@ class VoiceDevices {
   struct Gathered {
     std::array<float, VoiceDeviceHandlers::kFrame> frame{};
     std::size_t count = 0;
+    // `end`: samples of the stream so far. Calls on_frame(begin) for each frame that is full.
+    template <class OnFrame>
+    void add(std::span<const float> samples, std::int64_t end, OnFrame on_frame) {
+      std::int64_t begin = end - static_cast<std::int64_t>(samples.size() + count);
+      for (const float sample : samples) {
+        frame[count++] = sample;
+        if (count < frame.size()) continue;
+        count = 0;
+        on_frame(begin);
+        begin += static_cast<std::int64_t>(frame.size());
+      }
+    }
   };
 
   VoiceDevices(const VoiceDeviceOptions& options, VoiceDeviceHandlers handlers)

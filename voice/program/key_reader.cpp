@@ -4,14 +4,13 @@
 
 #include <array>
 
+#include "core/program/foreground.h"
+
 namespace dance {
 
 KeyReader::KeyReader(Poller& poller, std::function<void(char key, MonoTime now)> on_key)
     : poller_(poller), on_key_(std::move(on_key)) {
-  // In the background of a shell a terminal is not ours to set.
-  if (isatty(STDIN_FILENO) != 1 || tcgetpgrp(STDIN_FILENO) != getpgrp() ||
-      tcgetattr(STDIN_FILENO, &before_) != 0)
-    return;
+  if (!is_in_foreground() || tcgetattr(STDIN_FILENO, &before_) != 0) return;
   termios single = before_;
   single.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
   single.c_cc[VMIN] = 0;

@@ -44,25 +44,15 @@ void take_sink(pa_context*, const pa_sink_info* info, int is_last, void* data) {
                               factory.find("null-audio-sink") != std::string::npos;
 }
 
-Result<void> wait_for_answer(PulseServer& server, pa_operation* operation, const Query& query) {
-  if (operation == nullptr) return fail("the sound server refuses a query: " + server.error_text());
-  const bool has_answered = server.iterate_until([&] { return query.is_done; });
-  if (!has_answered) pa_operation_cancel(operation);
-  pa_operation_unref(operation);
-  if (!has_answered) return fail("the sound server does not answer");
-  return {};
-}
-
 }  // namespace
 
 Result<Loudspeaker> default_loudspeaker(const std::string& program) {
   DANCE_TRY(const auto server, PulseServer::connect(program));
   Query query;
   pa_context* context = server->context();
-  if (auto answered = wait_for_answer(
-          *server, pa_context_get_server_info(context, take_default, &query), query);
-      !answered)
-    return tl::make_unexpected(answered.error());
+  auto answered = server->await_answer(pa_context_get_server_info(context, take_default, &query),
+                                       query.is_done);
+  if (!answered) return tl::make_unexpected(answered.error());
   PulseOutputOptions options;
   options.rate_hz = kSilence_hz;
   DANCE_TRY(const auto output, PulseOutput::open(*server, options, [](MonoTime, double) {}));
@@ -75,10 +65,9 @@ Result<Loudspeaker> default_loudspeaker(const std::string& program) {
   });
   query.is_done = false;
   const char* name = query.found.name.c_str();
-  if (auto answered = wait_for_answer(
-          *server, pa_context_get_sink_info_by_name(context, name, take_sink, &query), query);
-      !answered)
-    return tl::make_unexpected(answered.error());
+  answered = server->await_answer(
+      pa_context_get_sink_info_by_name(context, name, take_sink, &query), query.is_done);
+  if (!answered) return tl::make_unexpected(answered.error());
   if (query.found.description.empty())
     return fail("the sound server has no loudspeaker: " + server->error_text() +
                 "; `pactl list short sinks` names what it has");
