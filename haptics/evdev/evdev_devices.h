@@ -1,9 +1,10 @@
 // The devices of this machine that can rumble: gamepads, Joy-Cons, wheels; through the kernel's
 // evdev interface.
 //
-// Ownership: plain values.
-// Threads:   none inside.
-// Failure:   devices that may not be opened are listed with the reason.
+// Units/frames: none.
+// Ownership:    plain values.
+// Threads:      none inside.
+// Failure:      devices that may not be opened are listed with the reason.
 #pragma once
 
 #include <string>

@@ -76,6 +76,10 @@ ff_effect effect_of(const Haptic& haptic, bool rumbles, float felt, int id) {
   return effect;
 }
 
+std::size_t slots_of(int effects) {
+  return static_cast<std::size_t>(std::clamp(effects, 1, static_cast<int>(EvdevOutput::kSlots)));
+}
+
 bool fits(const EvdevDevice& device, const std::string& wanted) {
   return device.path == wanted || wanted.empty() || device.name.find(wanted) != std::string::npos;
 }
@@ -83,32 +87,17 @@ bool fits(const EvdevDevice& device, const std::string& wanted) {
 }  // namespace
 
 Result<std::unique_ptr<HapticOutput>> EvdevOutput::open(const std::string& device) {
-  std::string refused;
-  for (const EvdevDevice& each : list_evdev_devices()) {
-    if (!fits(each, device)) continue;
-    if (!each.trouble.empty()) {
-      refused = each.path + " (" + each.name + ") " + each.trouble;
-      continue;
-    }
-    const int fd = ::open(each.path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0) continue;
-    auto output =
-        std::make_unique<EvdevOutput>(each.path + " (" + each.name + ")",
-                                      std::make_unique<KernelFile>(fd), each.rumbles, each.effects);
-    output->wanted_ = device.empty() ? each.name : device;
-    output->looks_ = true;
-    return output;
-  }
-  if (!refused.empty()) return fail(refused);
-  if (!device.empty())
-    return fail("no device '" + device +
-                "' that can rumble; dance haptics list shows those there are");
-  return fail(
-      "no gamepad that can rumble; connect one, and look at dance haptics list. All else works "
-      "without it");
+  auto output = not_there_yet(device);
+  DANCE_TRY(const std::string name, output->find());
+  if (device.empty()) output->wanted_ = name;
+  return output;
 }
 
 std::unique_ptr<HapticOutput> EvdevOutput::later(const std::string& device) {
+  return not_there_yet(device);
+}
+
+std::unique_ptr<EvdevOutput> EvdevOutput::not_there_yet(const std::string& device) {
   auto output = std::make_unique<EvdevOutput>(device.empty() ? "a gamepad" : device, nullptr, true,
                                               static_cast<int>(kSlots));
   output->wanted_ = device;
@@ -116,12 +105,38 @@ std::unique_ptr<HapticOutput> EvdevOutput::later(const std::string& device) {
   return output;
 }
 
+Result<std::string> EvdevOutput::find() {
+  std::string refused;
+  for (const EvdevDevice& each : list_evdev_devices()) {
+    if (!fits(each, wanted_)) continue;
+    const std::string name = each.path + " (" + each.name + ")";
+    if (!each.trouble.empty()) {
+      refused = name + " " + each.trouble;
+      continue;
+    }
+    const int fd = ::open(each.path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) continue;
+    file_ = std::make_unique<KernelFile>(fd);
+    rumbles_ = each.rumbles;
+    slot_count_ = slots_of(each.effects);
+    name_ = name;
+    return each.name;
+  }
+  if (!refused.empty()) return fail(refused);
+  if (!wanted_.empty())
+    return fail("no device '" + wanted_ +
+                "' that can rumble; dance haptics list shows those there are");
+  return fail(
+      "no gamepad that can rumble; connect one, and look at dance haptics list. All else works "
+      "without it");
+}
+
 EvdevOutput::EvdevOutput(std::string name, std::unique_ptr<ForceFeedbackFile> file, bool rumbles,
                          int effects)
     : name_(std::move(name)),
       file_(std::move(file)),
       rumbles_(rumbles),
-      slot_count_(static_cast<std::size_t>(std::clamp(effects, 1, static_cast<int>(kSlots)))) {}
+      slot_count_(slots_of(effects)) {}
 
 EvdevOutput::~EvdevOutput() { stop(); }
 
@@ -162,24 +177,10 @@ float EvdevOutput::make_room(const Slot& slot, float level, MonoTime now) {
   return std::min(level, limit_);
 }
 
-bool EvdevOutput::reopen() {
-  for (const EvdevDevice& each : list_evdev_devices()) {
-    if (!fits(each, wanted_) || !each.trouble.empty()) continue;
-    const int fd = ::open(each.path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0) continue;
-    file_ = std::make_unique<KernelFile>(fd);
-    rumbles_ = each.rumbles;
-    slot_count_ = static_cast<std::size_t>(std::clamp(each.effects, 1, static_cast<int>(kSlots)));
-    name_ = each.path + " (" + each.name + ")";
-    return true;
-  }
-  return false;
-}
-
 MonoTime EvdevOutput::work(MonoTime now) {
   if (file_ || !looks_ || (looked_.is_set() && now - looked_ < kLooks)) return {};
   looked_ = now;
-  reopen();
+  static_cast<void>(find());
   return {};
 }
 

@@ -54,7 +54,9 @@ class EvdevOutput final : public HapticOutput {
     MonoTime until;
     float level = 0.0f;
   };
-  bool reopen();
+  static std::unique_ptr<EvdevOutput> not_there_yet(const std::string& device);
+  // Opens the first device that is wanted and can be had; its name.
+  Result<std::string> find();
   // How strong an effect may be beside what runs in the other slots; 0 = those are enough.
   float make_room(const Slot& slot, float level, MonoTime now);
 
