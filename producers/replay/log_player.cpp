@@ -18,6 +18,15 @@ constexpr std::size_t kMaxAnchors = 256;
 constexpr Duration kMaxDrift = Duration::ms(500);
 constexpr std::int64_t kMaxPause_us = 60'000'000;
 
+// When what a message says was so.
+template <class Message>
+MonoTime& time_of(Message& message) {
+  if constexpr (requires { message.capture_time; })
+    return message.capture_time;
+  else
+    return message.time;
+}
+
 }  // namespace
 
 LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller& poller,
@@ -120,65 +129,33 @@ void LogPlayer::publish_as(const Channel& channel, const LogEvent& event, MonoTi
     ++counters_.undecodable;
     return;
   }
-  message.capture_time = restamp(channel, message.capture_time, deadline);
+  MonoTime& time = time_of(message);
+  const MonoTime recorded = time;
+  time = restamp(channel, recorded, deadline);
   message.clock_id = this_clock_id();
-  if constexpr (std::is_same_v<Message, Pose>) {
+  const auto moved = [&](MonoTime moment) {
+    return time + Duration::seconds((moment - recorded).as_seconds() / options_.speed);
+  };
+  bool is_good = true;
+  if constexpr (std::is_same_v<Message, Beat>) {
+    // At a lower speed the next beat is later and the tempo lower.
+    message.beat_time = moved(message.beat_time);
+    message.tempo_bpm *= options_.speed;
+    is_good = is_valid(message);
+  } else if constexpr (std::is_same_v<Message, Haptic>) {
+    // As long as it was; when, as the dance goes.
+    message.play_time = moved(message.play_time);
+    message.maker = 0;  // as it was, whatever else would be made of the touches now
+    is_good = is_valid(message);
+  } else if constexpr (std::is_same_v<Message, Pose>) {
     message.hops = {};
     message.stamp(Hop::kPublished, mono_now());
   }
+  if (!is_good) {
+    ++counters_.left_out;
+    return;
+  }
   bus_.publish(channel, message);
-  ++counters_.played;
-}
-
-// At a lower speed the next beat is later and the tempo lower.
-void LogPlayer::publish_beat(const Channel& channel, const LogEvent& event, MonoTime deadline) {
-  Beat beat;
-  if (decode(event.data.data(), event.data.size(), beat) != Decoded::kFine) {
-    ++counters_.undecodable;
-    return;
-  }
-  const Duration until = beat.beat_time - beat.time;
-  beat.time = restamp(channel, beat.time, deadline);
-  beat.beat_time = beat.time + Duration::seconds(until.as_seconds() / options_.speed);
-  beat.clock_id = this_clock_id();
-  beat.tempo_bpm *= options_.speed;
-  if (!is_valid(beat)) {
-    ++counters_.left_out;
-    return;
-  }
-  bus_.publish(channel, beat);
-  ++counters_.played;
-}
-
-void LogPlayer::publish_touch(const Channel& channel, const LogEvent& event, MonoTime deadline) {
-  Touch touch;
-  if (decode(event.data.data(), event.data.size(), touch) != Decoded::kFine) {
-    ++counters_.undecodable;
-    return;
-  }
-  touch.time = restamp(channel, touch.time, deadline);
-  touch.clock_id = this_clock_id();
-  bus_.publish(channel, touch);
-  ++counters_.played;
-}
-
-// As long as it was; when, as the dance goes.
-void LogPlayer::publish_haptic(const Channel& channel, const LogEvent& event, MonoTime deadline) {
-  Haptic haptic;
-  if (decode(event.data.data(), event.data.size(), haptic) != Decoded::kFine) {
-    ++counters_.undecodable;
-    return;
-  }
-  const Duration until = haptic.play_time - haptic.time;
-  haptic.time = restamp(channel, haptic.time, deadline);
-  haptic.play_time = haptic.time + Duration::seconds(until.as_seconds() / options_.speed);
-  haptic.clock_id = this_clock_id();
-  haptic.maker = 0;  // as it was, whatever else would be made of the touches now
-  if (!is_valid(haptic)) {
-    ++counters_.left_out;
-    return;
-  }
-  bus_.publish(channel, haptic);
   ++counters_.played;
 }
 
@@ -194,11 +171,11 @@ void LogPlayer::publish(const LogEvent& event, MonoTime deadline) {
     case Signal::kVoice:
       return publish_as<Voice>(*channel, event, deadline);
     case Signal::kBeat:
-      return publish_beat(*channel, event, deadline);
+      return publish_as<Beat>(*channel, event, deadline);
     case Signal::kTouch:
-      return publish_touch(*channel, event, deadline);
+      return publish_as<Touch>(*channel, event, deadline);
     case Signal::kHaptic:
-      return publish_haptic(*channel, event, deadline);
+      return publish_as<Haptic>(*channel, event, deadline);
     default:
       return;
   }

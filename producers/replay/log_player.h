@@ -61,9 +61,6 @@ class LogPlayer {
   MonoTime restamp(const Channel& channel, MonoTime captured, MonoTime deadline);
   template <class Message>
   void publish_as(const Channel& channel, const LogEvent& event, MonoTime deadline);
-  void publish_beat(const Channel& channel, const LogEvent& event, MonoTime deadline);
-  void publish_touch(const Channel& channel, const LogEvent& event, MonoTime deadline);
-  void publish_haptic(const Channel& channel, const LogEvent& event, MonoTime deadline);
   bool is_wanted(const Channel& channel) const;
   MonoTime deadline_of(const LogEvent& event) const;
 
