@@ -50,8 +50,6 @@ class HapticMaker {
   void hear(const Beat& beat) { music_.hear(beat); }
   // Orders the beats that come soon; to be called at least five times a second.
   void look_ahead(MonoTime now, HapticSink& sink);
-  // The music or the poses come from elsewhere from now on.
-  void forget() { contacts_ = {}; }
 
  private:
   struct Contact {

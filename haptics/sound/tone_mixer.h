@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <span>
 
 #include "core/pose/haptic.h"
@@ -51,7 +52,7 @@ class ToneMixer {
     std::fill(samples.begin(), samples.end(), 0.0f);
     for (Tone& tone : tones_) {
       const float hz = tone.haptic.frequency_hz > 0.0f ? tone.haptic.frequency_hz : kUsual_hz;
-      const double step = 2.0 * 3.14159265358979 * static_cast<double>(hz) / rate_hz_;
+      const double step = 2.0 * std::numbers::pi * static_cast<double>(hz) / rate_hz_;
       for (float& sample : samples) {
         if (tone.left() == 0) break;
         const double since_s = static_cast<double>(tone.frame) / rate_hz_;

@@ -17,9 +17,9 @@ constexpr const char* kTouchExamples = R"(Examples:
 Files in pairs, lead and follow. The lead is here, the follow comes over a line and through the
 route. found: of the pictures in which the recording has two palms within 8 cm, those in which they
 are reported held. false: holds during which the recording has them never within 8 cm; far: never
-within 12 cm. breaks: ends
-of a reported hold while the recording holds on. apart: of the pictures reported, those in which the
-recording has the palms over 16 cm apart. "within 8 cm" is the same threshold on what is shown.
+within 12 cm. breaks: ends of a reported hold while the recording holds on. apart: of the pictures
+reported, those in which the recording has the palms over 16 cm apart. "within 8 cm" is the same
+threshold on what is shown.
 )";
 
 struct Wishes {

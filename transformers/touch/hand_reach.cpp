@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
+
 namespace dance {
 
 using Eigen::AngleAxisf;
@@ -29,8 +31,7 @@ Vector3f elbow_hinge(std::size_t side, const Vector3f& to_shoulder, const Vector
   if (sine < 1e-3f) return rest;
   // What opens comes out straight whatever the plane was.
   if (!bends || sine >= kPlaneOfElbow) return normal / sine;
-  const float share = sine / kPlaneOfElbow;
-  const Vector3f blend = share * share * (3.0f - 2.0f * share) * (normal / sine - rest) + rest;
+  const Vector3f blend = smooth_step(sine / kPlaneOfElbow) * (normal / sine - rest) + rest;
   return blend.norm() > 0.05f ? Vector3f(blend.normalized()) : rest;
 }
 

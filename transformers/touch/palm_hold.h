@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/smooth_step.h"
 #include "core/base/time.h"
 
 namespace dance {
@@ -56,7 +57,7 @@ class PalmHold {
                           (apart_m <= limits.early_m && nearest_m(limits.look) <= limits.soon_m);
       if (begins) {
         is_held_ = true;
-        near_ = since_ = now;
+        near_ = now;
       }
     }
     const auto part = static_cast<float>(std::min(1.0, step.as_seconds() / kRamp.as_seconds()));
@@ -65,10 +66,8 @@ class PalmHold {
   void end() { *this = PalmHold(); }
 
   bool is_held() const { return is_held_; }
-  MonoTime since() const { return since_; }
-  float apart_m() const { return apart_.norm(); }
   // How far it has come, without a corner: 0 free … 1 held.
-  float share() const { return ramp_ * ramp_ * (3.0f - 2.0f * ramp_); }
+  float share() const { return smooth_step(ramp_); }
 
  private:
   static constexpr Duration kHalfLife = Duration::ms(20);  // of the speed
@@ -86,7 +85,7 @@ class PalmHold {
   Eigen::Vector3f apart_ = Eigen::Vector3f::Zero();
   Eigen::Vector3f speed_m_s_ = Eigen::Vector3f::Zero();
   float ramp_ = 0.0f;
-  MonoTime seen_, near_, since_;
+  MonoTime seen_, near_;
 };
 
 }  // namespace dance

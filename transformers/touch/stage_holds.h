@@ -21,14 +21,6 @@
 
 namespace dance {
 
-// Hands of two dancers that hold each other.
-struct HandHold {
-  GuestId first, second;
-  std::uint8_t first_side = 0, second_side = 0;  // 0 left, 1 right
-  float apart_m = 0.0f;                          // before arms reach
-  MonoTime since;
-};
-
 class StageHolds {
  public:
   static constexpr std::size_t kMostDancers = 16;
@@ -49,15 +41,6 @@ class StageHolds {
 
   bool are_held(const GuestId& first, std::size_t first_side, const GuestId& second,
                 std::size_t second_side) const;
-  template <class Tell>
-  void tell(Tell tell) const {
-    for (std::size_t a = 0; a < kMostDancers; ++a)
-      for (std::size_t b = a + 1; b < kMostDancers; ++b)
-        for (std::size_t k = 0; k < 4; ++k)
-          if (const PalmHold& hold = pair(a, b)[k]; hold.is_held())
-            tell(HandHold{dancers_[a].guest, dancers_[b].guest, static_cast<std::uint8_t>(k / 2),
-                          static_cast<std::uint8_t>(k % 2), hold.apart_m(), hold.since()});
-  }
   // Poses of dancers who had no place.
   std::uint64_t refused() const { return refused_; }
 

@@ -41,7 +41,6 @@ Result<std::unique_ptr<VoiceCleaner>> VoiceCleaner::create(const VoiceCleanerOpt
   wrong |= processor.gain_control()->set_compression_gain_db(kMostGain_db);
   wrong |= processor.gain_control()->enable_limiter(true);
   wrong |= processor.gain_control()->Enable(options.levels_loudness);
-  wrong |= processor.voice_detection()->Enable(true);
   if (wrong != Processing::kNoError) return fail("the echo canceller refuses its settings");
   return made;
 }
@@ -64,7 +63,5 @@ void VoiceCleaner::clean(std::span<float, kFrame> frame, Duration echo_delay) {
                                 Processing::kMono, &channel) != Processing::kNoError)
     ++refused_;
 }
-
-bool VoiceCleaner::has_speech() const { return processor_->voice_detection()->stream_has_voice(); }
 
 }  // namespace dance

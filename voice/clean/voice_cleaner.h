@@ -15,6 +15,7 @@
 
 #include "core/base/result.h"
 #include "core/base/time.h"
+#include "voice/codec/voice_sound.h"
 
 namespace webrtc {
 class AudioProcessing;
@@ -30,7 +31,7 @@ struct VoiceCleanerOptions {
 
 class VoiceCleaner {
  public:
-  static constexpr std::size_t kFrame = 480;
+  static constexpr std::size_t kFrame = kVoiceFrameSamples;
 
   static Result<std::unique_ptr<VoiceCleaner>> create(const VoiceCleanerOptions& options);
   ~VoiceCleaner();
@@ -41,8 +42,6 @@ class VoiceCleaner {
   void hear_loudspeaker(std::span<const float, kFrame> frame);
   // `echo_delay`: from the call above until clean() gets what the microphone heard of that frame.
   void clean(std::span<float, kFrame> frame, Duration echo_delay);
-  // Of the last frame.
-  bool has_speech() const;
   std::uint64_t refused() const { return refused_; }
 
  private:

@@ -26,7 +26,6 @@ class Limiter {
       stereo[i + 1] *= gain_;
     }
   }
-  float gain() const { return gain_; }
 
  private:
   static constexpr float kRelease = 1.0f / 9600.0f;
