@@ -26,7 +26,7 @@ HapticFeed::HapticFeed(const GuestId& guest, const HapticMakerOptions& options, 
                              return;
                            }
                            ++touches_;
-                           maker_.feel(touch, mono_now(), *this);
+                           maker_.take(touch, mono_now(), *this);
                          });
   port_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     if (beat.clock_id != clock_id_) {

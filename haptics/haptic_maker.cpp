@@ -78,7 +78,7 @@ void HapticMaker::read_signal(const Touch& touch, Contact& contact, MonoTime now
   }
 }
 
-void HapticMaker::feel(const Touch& touch, MonoTime now, HapticSink& sink) {
+void HapticMaker::take(const Touch& touch, MonoTime now, HapticSink& sink) {
   Contact* contact = place_of(touch, now);
   const bool is_new = !contact || touch.phase == TouchPhase::kBegins;
   const HapticSource source = touch.is_hold ? HapticSource::kHold : HapticSource::kTouch;

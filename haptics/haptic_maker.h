@@ -11,8 +11,8 @@
 #include <cstdint>
 
 #include "core/base/beat_clock.h"
-#include "core/pose/haptic.h"
-#include "core/pose/touch.h"
+#include "core/signal/haptic.h"
+#include "core/signal/touch.h"
 
 namespace dance {
 
@@ -39,14 +39,14 @@ class HapticMaker {
   // A contact that lasts is felt so often, ever less.
   static constexpr Duration kAgain = Duration::ms(120);
   static constexpr Duration kFades = Duration::ms(600);
-  // A hand that moves faster than this in a hold says something; and not twice within kBetween.
+  // A hand that moves faster than this in a hold is a signal of the lead; one within kBetween.
   static constexpr float kSignal_m_s = 0.6f;
   static constexpr Duration kBetween = Duration::ms(300);
 
   HapticMaker(HapticMakerOptions options, std::uint64_t maker, std::uint64_t clock_id)
       : options_(options), maker_(maker), clock_id_(clock_id) {}
 
-  void feel(const Touch& touch, MonoTime now, HapticSink& sink);
+  void take(const Touch& touch, MonoTime now, HapticSink& sink);
   void hear(const Beat& beat) { music_.hear(beat); }
   // Orders the beats that come soon; to be called at least five times a second.
   void look_ahead(MonoTime now, HapticSink& sink);

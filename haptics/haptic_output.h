@@ -11,7 +11,7 @@
 
 #include <string>
 
-#include "core/pose/haptic.h"
+#include "core/signal/haptic.h"
 
 namespace dance {
 

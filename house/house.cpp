@@ -60,7 +60,7 @@ std::string free_name(const std::string& wanted) {
   return path.string();
 }
 
-std::vector<GuestId> hosted_guests(const Session& session) {
+std::vector<GuestId> hosted_guests(const HouseConfig& session) {
   std::vector<GuestId> guests;
   for (const HostedProducer& producer : session.producers) guests.push_back(producer.guest);
   for (const HostedReceiver& receiver : session.receivers) guests.push_back(receiver.options.guest);
@@ -69,9 +69,9 @@ std::vector<GuestId> hosted_guests(const Session& session) {
 
 }  // namespace
 
-House::House(const Session& session, Poller& poller) : session_(session), poller_(poller) {}
+House::House(const HouseConfig& session, Poller& poller) : session_(session), poller_(poller) {}
 
-Result<std::unique_ptr<House>> House::open(const Session& session, Poller& poller) {
+Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& poller) {
   std::unique_ptr<House> house(new House(session, poller));
   DANCE_TRY(house->bus_, Bus::open(session.bus));
   house->port_ = std::make_unique<HousePort>(
@@ -137,7 +137,7 @@ Result<void> House::open_link() {
   if (session_.server.empty()) return {};
   DANCE_TRY(const auto server, Address::resolve_all(session_.server, kDefaultServerPort));
   LinkOptions options;
-  options.room = *wire::RoomName::parse(session_.room);  // the session has checked it
+  options.room = *wire::RoomName::parse(session_.room);  // the session file has checked it
   options.listen_only = session_.guests.empty();
   options.interest = session_.interest;
   options.hearing = session_.hearing;

@@ -35,7 +35,7 @@ namespace dance {
 
 class House {
  public:
-  static Result<std::unique_ptr<House>> open(const Session& session, Poller& poller);
+  static Result<std::unique_ptr<House>> open(const HouseConfig& session, Poller& poller);
   ~House();
   House(const House&) = delete;
   House& operator=(const House&) = delete;
@@ -46,7 +46,7 @@ class House {
   std::string report_json(MonoTime now);
 
  private:
-  House(const Session& session, Poller& poller);
+  House(const HouseConfig& session, Poller& poller);
   Result<void> open_link();
   Result<void> open_avatars();
   Result<void> open_producers();
@@ -54,7 +54,7 @@ class House {
   void open_haptics();
   void add_talk(LinkHandlers& handlers);
 
-  Session session_;
+  HouseConfig session_;
   Poller& poller_;
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<HousePort> port_;

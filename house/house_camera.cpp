@@ -83,7 +83,7 @@ MonoTime HouseCamera::look(MonoTime now) {
     return MonoTime();
   }
   if (program_->exit_code() == 2) {
-    talk::warn("no camera for {}: the session asks for what dance capture does not know",
+    talk::warn("no camera for {}: the session file asks for what dance capture does not know",
                guest_.view());
     return MonoTime();
   }

@@ -16,10 +16,11 @@
 
 namespace dance {
 
-// What is said in this process itself; its echo on the bus is not heard. The stage always is.
+// Which channels this process publishes itself: their copies that come back over the bus are not
+// delivered again. The stage's are always its own.
 struct HostedParts {
-  bool has_link = false;           // says what comes from other houses
-  std::vector<GuestId> producers;  // say poses, hands and proportions of these guests
+  bool has_link = false;           // publishes what comes from other houses
+  std::vector<GuestId> producers;  // publish poses, hands and proportions of these guests
 };
 
 class HousePort final : public SignalPort {

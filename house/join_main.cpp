@@ -54,8 +54,8 @@ bool is_session_file(const std::string& host_or_session) {
   return host_or_session.ends_with(".toml") || std::filesystem::exists(host_or_session);
 }
 
-Result<Session> session_of(const JoinOptions& options) {
-  Session session;
+Result<HouseConfig> session_of(const JoinOptions& options) {
+  HouseConfig session;
   if (is_session_file(options.host_or_session)) {
     DANCE_TRY(session, load_session(options.host_or_session));
   } else {
@@ -86,8 +86,8 @@ Result<Session> session_of(const JoinOptions& options) {
     HostedCamera camera;
     camera.guest = session.guests.front();
     if (options.camera != "auto") camera.device = options.camera;
-    // Where the session has one for this guest, another device; a dancer that stands in for the
-    // camera makes room.
+    // Where the session file has one for this guest, another device; a dancer that stands in for
+    // the camera makes room.
     std::erase_if(session.producers, [&](const auto& p) { return p.guest == camera.guest; });
     const auto has = std::find_if(session.cameras.begin(), session.cameras.end(),
                                   [&](const auto& c) { return c.guest == camera.guest; });
@@ -122,7 +122,7 @@ std::vector<std::string> viewer_arguments(const JoinOptions& options, const std:
 }
 
 Result<void> run_join(const JoinOptions& options) {
-  DANCE_TRY(const Session session, session_of(options));
+  DANCE_TRY(const HouseConfig session, session_of(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
   DANCE_TRY(auto house, House::open(session, *poller));
@@ -161,26 +161,28 @@ int main(int argc, char** argv) {
   line.add("HOST|SESSION", options.host_or_session,
            "a session file (.toml), or the server's HOST[:PORT]")
       .required();
-  line.add("--guest", options.guests, "who dances here, instead of the session's guests")
+  line.add("--guest", options.guests, "who dances here, instead of the session file's guests")
       .guest_name();
-  line.add("--room", options.room, "which room, instead of the session's");
+  line.add("--room", options.room, "which room, instead of the session file's");
+  line.add("--want", options.want,
+           "how many of a guest's poses come here, instead of the session file's want: NAME=1 "
+           "every one, "
+           "NAME=N at most every N-th, NAME=0 none; default=N for all who are not named; may be "
+           "repeated");
   line.add(
-      "--want", options.want,
-      "how many of a guest's poses come here, instead of the session's want: NAME=1 every one, "
-      "NAME=N at most every N-th, NAME=0 none; default=N for all who are not named; may be "
-      "repeated");
-  line.add("--hear", options.hear,
-           "whose voices come here, instead of the session's hear: NAME=0 not this guest's, NAME=1 "
-           "this guest's; default=0 nobody's who is not named; may be repeated");
+      "--hear", options.hear,
+      "whose voices come here, instead of the session file's hear: NAME=0 not this guest's, NAME=1 "
+      "this guest's; default=0 nobody's who is not named; may be repeated");
   line.add("--camera", options.camera,
            "a camera sees the first guest: auto, /dev/videoN, a number or a video; instead of what "
-           "the session says");
-  line.add("--avatar", options.avatars,
-           "how the first guest is drawn, instead of what the session says: a file (.vrm, .glb), a "
-           "name that dance avatar list shows, or words of a look; NAME=AVATAR for another guest");
+           "the session file says");
+  line.add(
+      "--avatar", options.avatars,
+      "how the first guest is drawn, instead of what the session file says: a file (.vrm, .glb), a "
+      "name that dance avatar list shows, or words of a look; NAME=AVATAR for another guest");
   line.add_flag("--voice", options.voice,
                 "the first guest speaks with the others and hears them, as dance voice does");
-  line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session's");
+  line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session file's");
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");
   line.footer(dance::kExamples);

@@ -14,7 +14,7 @@ constexpr const char* kExamples = R"(Examples:
 )";
 
 Result<void> run_manager(const std::string& file, const std::string& bus) {
-  Session session;
+  HouseConfig session;
   session.routes = default_routes();
   if (!file.empty()) {
     DANCE_TRY(session, load_session(file));
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
       "The signal manager of a house: which pose reaches the stage, through which transformers.",
       "dance manager");
   line.add("SESSION", file, "a session file; its server is left to `dance link`");
-  line.add("--bus", bus, "LCM URL of the house's bus, instead of the session's");
+  line.add("--bus", bus, "LCM URL of the house's bus, instead of the session file's");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_manager(file, bus); });
 }

@@ -8,7 +8,7 @@
 #include "consumers/rate_limit.h"
 #include "core/base/beat.h"
 #include "core/program/whole_file.h"
-#include "house/session_file/session_edit.h"
+#include "formats/session/session_edit.h"
 #include "house/session_haptics.h"
 #include "house/session_producers.h"
 #include "house/toml_reader.h"
@@ -54,7 +54,7 @@ std::string read_file_name(TomlReader& reader, const char* key,
   return file ? (folder / *file).string() : "";
 }
 
-void read_house(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+void read_house(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session) {
   if (const auto guest = reader.maybe_string("guest"))
     session.guests.push_back(read_guest(reader, "guest", *guest));
   for (const std::string& guest : reader.strings("guests", "[\"alice\", \"ann\"]"))
@@ -88,9 +88,10 @@ void read_house(TomlReader& reader, const std::filesystem::path& folder, Session
   reader.finish();
 }
 
-// A file's name is taken from the folder of the session; whether it can be read is told when the
-// house opens.
-void read_avatar_choice(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+// A file's name is taken from the folder of the session file; whether it can be read is told when
+// the house opens.
+void read_avatar_choice(TomlReader& reader, const std::filesystem::path& folder,
+                        HouseConfig& session) {
   HostedAvatar avatar;
   avatar.guest = read_guest(reader, "guest", reader.required_string("guest"));
   const std::string file = read_file_name(reader, "file", folder);
@@ -105,7 +106,7 @@ void read_avatar_choice(TomlReader& reader, const std::filesystem::path& folder,
   session.avatars.push_back(avatar);
 }
 
-void read_route(TomlReader& reader, Session& session) {
+void read_route(TomlReader& reader, HouseConfig& session) {
   Route route;
   route.from = read_end(reader, "from", reader.required_string("from"));
   route.to = read_end(reader, "to", reader.required_string("to"));
@@ -130,7 +131,7 @@ void read_route(TomlReader& reader, Session& session) {
   session.routes.push_back(route);
 }
 
-void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+void read_consumer(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session) {
   HostedConsumer consumer;
   consumer.to = reader.required_string("to");
   consumer.from = read_end(reader, "from", reader.string_or("from", "POSE/stage/*"));
@@ -153,7 +154,7 @@ void read_consumer(TomlReader& reader, const std::filesystem::path& folder, Sess
   session.consumers.push_back(consumer);
 }
 
-void read_music(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+void read_music(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session) {
   HostedMusic music;
   const bool has_room = !session.server.empty();
   music.file = read_file_name(reader, "file", folder);
@@ -179,7 +180,7 @@ void read_music(TomlReader& reader, const std::filesystem::path& folder, Session
 }
 
 // The words of --channel as keys; numbers and truths stand as such.
-void read_channel(TomlReader& reader, Session& session) {
+void read_channel(TomlReader& reader, HouseConfig& session) {
   const std::string name = reader.required_string("name");
   ChannelRule::Words words;
   for (const char* key : {"class", "direction", "layout", "fingerprint", "guest"})
@@ -199,7 +200,7 @@ void read_channel(TomlReader& reader, Session& session) {
   if (rule) session.channels.push_back(*rule);
 }
 
-void read_style_of(TomlReader& reader, Session& session) {
+void read_style_of(TomlReader& reader, HouseConfig& session) {
   HostedStyle style;
   style.guest = read_guest(reader, "guest", reader.required_string("guest"));
   const std::string text = reader.required_string("words");
@@ -254,7 +255,7 @@ std::optional<Error> read_once(const toml::table& document, const std::string& k
 }
 
 std::optional<Error> read_document(const toml::table& document, const std::string& name,
-                                   Session& session) {
+                                   HouseConfig& session) {
   const std::filesystem::path folder = std::filesystem::path(name).parent_path();
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
@@ -300,11 +301,11 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
 
 }  // namespace
 
-Result<Session> parse_session(std::string_view text, const std::string& name) {
+Result<HouseConfig> parse_session(std::string_view text, const std::string& name) {
   // toml++ as Debian builds it reports by exception; it ends here.
   try {
     const toml::table document = toml::parse(text, std::string_view(name));
-    Session session;
+    HouseConfig session;
     if (auto problem = read_document(document, name, session))
       return tl::make_unexpected(std::move(*problem));
     if (session.routes.empty()) session.routes = default_routes();
@@ -316,7 +317,7 @@ Result<Session> parse_session(std::string_view text, const std::string& name) {
   }
 }
 
-Result<Session> load_session(const std::string& path) {
+Result<HouseConfig> load_session(const std::string& path) {
   DANCE_TRY(const std::string text, read_whole_file(path, kMaxSessionBytes));
   return parse_session(text, path);
 }

@@ -1,5 +1,6 @@
-// Session: what a house is and does, read from its TOML file: who dances here, the server and room,
-// the bus, routes, whom it wants to hear, hosted producers and consumers, music, further channels.
+// HouseConfig: what a house is and does, read from its TOML file: who dances here, the server and
+// room, the bus, routes, whom it wants to hear, hosted producers and consumers, music, further
+// channels.
 //
 // Units/frames: rates in Hz.
 // Ownership:    plain values.
@@ -16,7 +17,7 @@
 #include "consumers/consumer_table.h"
 #include "core/base/guest_id.h"
 #include "core/base/result.h"
-#include "core/pose/style.h"
+#include "core/signal/style.h"
 #include "haptics/haptic_table.h"
 #include "house/avatar_choice.h"
 #include "house/voice/hosted_voice.h"
@@ -99,7 +100,7 @@ struct HostedAvatar {
   AvatarChoice choice;
 };
 
-struct Session {
+struct HouseConfig {
   std::vector<GuestId>
       guests;  // who dances in this house; may be empty (a house that only watches)
   std::string room = "dance";
@@ -130,11 +131,11 @@ struct Session {
 };
 
 // `name` stands in errors. Relative file names in it are taken from the folder of `name`.
-Result<Session> parse_session(std::string_view text, const std::string& name);
-Result<Session> load_session(const std::string& path);
+Result<HouseConfig> parse_session(std::string_view text, const std::string& name);
+Result<HouseConfig> load_session(const std::string& path);
 
-// The session of a house that was given no file: own dancers straight to the stage, remote ones
-// predicted, carried over lapses, on the beat and in their style.
+// The session file of a house that was given no file: own dancers straight to the stage, remote
+// ones predicted, carried over lapses, on the beat and in their style.
 std::vector<Route> default_routes();
 
 }  // namespace dance

@@ -2,7 +2,7 @@
 
 namespace dance {
 
-void read_haptics(TomlReader& reader, Session& session) {
+void read_haptics(TomlReader& reader, HouseConfig& session) {
   HostedHaptics haptics;
   haptics.to = reader.required_string("to");
   haptics.guest = read_guest(reader, "guest", reader.required_string("guest"));

@@ -11,6 +11,6 @@
 
 namespace dance {
 
-void read_haptics(TomlReader& reader, Session& session);
+void read_haptics(TomlReader& reader, HouseConfig& session);
 
 }  // namespace dance

@@ -5,8 +5,8 @@
 namespace dance {
 namespace {
 
-// A file's name is taken from the folder of the session; what a camera is called stays as it is:
-// "auto", "1", "HD Webcam".
+// A file's name is taken from the folder of the session file; what a camera is called stays as it
+// is: "auto", "1", "HD Webcam".
 std::string device_from(const std::filesystem::path& folder, const std::string& device) {
   const std::filesystem::path path = device;
   if (path.is_absolute()) return device;
@@ -16,7 +16,7 @@ std::string device_from(const std::filesystem::path& folder, const std::string& 
   return is_file && !device.empty() ? (folder / path).string() : device;
 }
 
-void read_camera(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+void read_camera(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session) {
   HostedCamera camera;
   camera.guest = read_guest(reader, "guest", reader.required_string("guest"));
   camera.device = device_from(folder, reader.string_or("device", ""));
@@ -34,7 +34,7 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder, Sessio
   session.cameras.push_back(camera);
 }
 
-void read_receiver(TomlReader& reader, const std::string& kind, Session& session) {
+void read_receiver(TomlReader& reader, const std::string& kind, HouseConfig& session) {
   HostedReceiver receiver;
   receiver.from = kind;
   ReceiverOptions& options = receiver.options;
@@ -50,7 +50,7 @@ void read_receiver(TomlReader& reader, const std::string& kind, Session& session
 
 }  // namespace
 
-void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session) {
+void read_producer(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session) {
   HostedProducer producer;
   const std::string kind = reader.required_string("kind");
   if (kind == "camera") return read_camera(reader, folder, session);

@@ -14,7 +14,7 @@
 
 namespace dance {
 
-// Files are in the session's folder.
-void read_producer(TomlReader& reader, const std::filesystem::path& folder, Session& session);
+// Files are in the session file's folder.
+void read_producer(TomlReader& reader, const std::filesystem::path& folder, HouseConfig& session);
 
 }  // namespace dance

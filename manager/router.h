@@ -37,7 +37,7 @@ class StageSink {
 
 class Router {
  public:
-  // The routes must have passed the session's checks (a flow that cannot be made is our bug).
+  // The routes must have passed the session file's checks (a flow that cannot be made is our bug).
   Router(const std::vector<Route>& routes, std::uint64_t our_clock_id, StageSink& sink);
 
   void take(Where where, const GuestId& guest, const Pose& pose, MonoTime now);

@@ -1,7 +1,7 @@
 // Models of prediction, as `dance predict train` writes them, for evaluations: a model must not be
 // judged on dances that it was trained on.
 //
-// Units/frames: as transformers/predict/predict_model.h.
+// Units/frames: as transformers/predict/model/predict_model.h.
 // Ownership:    models are shared.
 // Threads:      none.
 // Failure:      names the file, and what is wrong with it.
@@ -12,7 +12,7 @@
 
 #include "core/base/result.h"
 #include "transformers/flow.h"
-#include "transformers/predict/predict_model.h"
+#include "transformers/predict/model/predict_model.h"
 
 namespace dance {
 

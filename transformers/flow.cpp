@@ -38,11 +38,7 @@ void Flow::set(const FlowSetting& setting) {
   if (wanted.is_on(FlowWord::kRhythm)) reach = DancePredictor::kFurthest;
   if (wanted.has_word(FlowWord::kPredict) && !wanted.is_on(FlowWord::kPredict)) reach = Duration();
   source_->set(reach, wanted.is_on(FlowWord::kBridge));
-  Style style;
-  style.gain = wanted.gain;
-  style.periodic = wanted.periodic;
-  style.dynamic = wanted.dynamic;
-  for (auto& filter : filters_) filter->set_base(style, wanted.is_on(FlowWord::kStylize));
+  for (auto& filter : filters_) filter->set(wanted);
 }
 
 void Flow::observe(const Pose& pose, MonoTime now) {

@@ -5,7 +5,7 @@
 //   3. Is it a body?              Finish: corrections without a pop, joint limits, standing feet
 //   4. How shall it look?         PoseFilters, in order: stylize
 // Finish stands before the filters, as it holds feet where the dancer was seen to stand; a filter
-// keeps a body a body by itself. The words of a session file fill the slots; the table of words is
+// keeps joint limits by itself. The words of a session file fill the slots; the table of words is
 // in flow_words.cpp.
 //
 // Units/frames: `now` is this house's clock. A pose's capture_time says which moment of the dance
@@ -24,8 +24,8 @@
 
 #include "core/base/result.h"
 #include "core/motion/finish.h"
-#include "core/pose/flow_setting.h"
-#include "core/pose/playout.h"
+#include "core/signal/flow_setting.h"
+#include "core/signal/playout.h"
 #include "transformers/motion_source.h"
 #include "transformers/playout/playout_clock.h"
 #include "transformers/style/pose_filter.h"
@@ -84,7 +84,7 @@ class Flow {
   // What a person at this stage wants: come to gradually, while dancing. Words that do not stand in
   // the route stay away.
   void set(const FlowSetting& setting);
-  // Where the words stand: which route of the session, and whether it is of own dancers.
+  // Where the words stand: which route of the session file, and whether it is of own dancers.
   void place(std::int32_t route, bool is_own) {
     setting_.route = route;
     setting_.own = is_own;

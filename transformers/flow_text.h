@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/pose/flow_setting.h"
+#include "core/signal/flow_setting.h"
 
 namespace dance {
 

@@ -10,14 +10,14 @@
 #include <array>
 #include <cmath>
 
-#include "core/bus/bus.h"
+#include "core/bus/signal_port.h"
 #include "core/net/mono_clock.h"
 
 namespace dance {
 
 class DemoBeats {
  public:
-  DemoBeats(Bus& bus_a, Bus& bus_b, MonoTime origin, double tempo_bpm)
+  DemoBeats(SignalPort& bus_a, SignalPort& bus_b, MonoTime origin, double tempo_bpm)
       : buses_{&bus_a, &bus_b}, origin_(origin), tempo_bpm_(tempo_bpm) {}
 
   // Publishes, and returns when to publish again.
@@ -31,12 +31,12 @@ class DemoBeats {
     beat.beats_per_bar = 4;
     beat.confidence = 1.0f;
     beat.playing = true;
-    for (Bus* bus : buses_) bus->publish(Channel::of_house(Signal::kBeat), beat);
+    for (SignalPort* bus : buses_) bus->publish(Channel::of_house(Signal::kBeat), beat);
     return now + Duration::ms(200);
   }
 
  private:
-  std::array<Bus*, 2> buses_;
+  std::array<SignalPort*, 2> buses_;
   MonoTime origin_;
   double tempo_bpm_;
 };

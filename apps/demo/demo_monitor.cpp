@@ -38,7 +38,7 @@ bool SequenceSet::insert(std::uint32_t sequence) {
   return true;
 }
 
-DemoMonitor::DemoMonitor(Bus& bus_a, Bus& bus_b) {
+DemoMonitor::DemoMonitor(SignalPort& bus_a, SignalPort& bus_b) {
   accounts_.reserve(kMaxGuests);
   listen(bus_a, 0);
   listen(bus_b, 1);
@@ -53,7 +53,7 @@ DancerAccount* DemoMonitor::account_of(const GuestId& guest) {
   return &accounts_.back();
 }
 
-void DemoMonitor::listen(Bus& bus, int house) {
+void DemoMonitor::listen(SignalPort& bus, int house) {
   bus.subscribe<Pose>(Where::kCapture,
                       [this, house](const Channel& channel, const Pose& pose, MonoTime) {
                         DancerAccount* account = account_of(channel.guest());

@@ -13,7 +13,7 @@
 
 #include "core/base/guest_id.h"
 #include "core/base/histogram.h"
-#include "core/bus/bus.h"
+#include "core/bus/signal_port.h"
 
 namespace dance {
 
@@ -51,7 +51,7 @@ struct DancerAccount {
 
 class DemoMonitor {
  public:
-  DemoMonitor(Bus& bus_a, Bus& bus_b);
+  DemoMonitor(SignalPort& bus_a, SignalPort& bus_b);
 
   const std::vector<DancerAccount>& accounts() const { return accounts_; }
   // From now on poses on the stage are those of dancers who have stopped: their age tells nothing.
@@ -62,7 +62,7 @@ class DemoMonitor {
   bool has_music(int house) const { return has_music_[static_cast<std::size_t>(house)]; }
 
  private:
-  void listen(Bus& bus, int house);
+  void listen(SignalPort& bus, int house);
   DancerAccount* account_of(const GuestId& guest);
   void on_staged(DancerAccount& account, int house, const Pose& pose);
   void on_arrived(DancerAccount& account, int house, const Pose& pose);

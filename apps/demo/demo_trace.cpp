@@ -16,7 +16,8 @@ void keep_newest(std::vector<T>& list, const T& next) {
 
 }  // namespace
 
-DemoTrace::DemoTrace(Bus& bus_a, Bus& bus_b, const GuestId& here, const GuestId& remote)
+DemoTrace::DemoTrace(SignalPort& bus_a, SignalPort& bus_b, const GuestId& here,
+                     const GuestId& remote)
     : here_(here), remote_(remote), heard_(this_clock_id()) {
   bus_a.subscribe<Beat>(Where::kLocal,
                         [this](const Channel&, const Beat& beat, MonoTime) { heard_.hear(beat); });

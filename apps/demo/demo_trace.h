@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "core/bus/bus.h"
+#include "core/bus/signal_port.h"
 #include "core/pose/music_here.h"
 
 namespace dance {
@@ -32,7 +32,7 @@ class DemoTrace {
   static constexpr std::size_t kKept = 4096;  // 68 s at 60 Hz
 
   // `here` dances in house A, `remote` in house B.
-  DemoTrace(Bus& bus_a, Bus& bus_b, const GuestId& here, const GuestId& remote);
+  DemoTrace(SignalPort& bus_a, SignalPort& bus_b, const GuestId& here, const GuestId& remote);
 
   // The dance is over.
   void stop() { is_over_ = true; }

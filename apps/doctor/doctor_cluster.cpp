@@ -22,7 +22,7 @@ constexpr Duration kClocksApart = Duration::ms(1);
 
 std::string ms_text(Duration duration) { return fmt::format("{:.2f} ms", duration.as_ms()); }
 
-Finding check_bucket(const NatsExamination::Bucket& bucket) {
+Finding check_bucket(const NatsProbe::Bucket& bucket) {
   Finding finding{"bucket " + bucket.name, Grade::kOk, "", ""};
   const bool is_of_keys = bucket.name == kKeysBucket;
   if (bucket.cannot_read) {
@@ -44,7 +44,7 @@ Finding check_bucket(const NatsExamination::Bucket& bucket) {
   return finding;
 }
 
-Finding check_replicas(const NatsExamination::Bucket& bucket, std::size_t named) {
+Finding check_replicas(const NatsProbe::Bucket& bucket, std::size_t named) {
   Finding finding{"copies " + bucket.name, Grade::kOk,
                   fmt::format("{} of {} NATS servers have each value", bucket.current_replicas,
                               bucket.replicas),
@@ -65,7 +65,7 @@ Finding check_replicas(const NatsExamination::Bucket& bucket, std::size_t named)
 
 }  // namespace
 
-std::vector<Finding> check_nats(const NatsExamination& found, const NatsOptions& options) {
+std::vector<Finding> check_nats(const NatsProbe& found, const NatsOptions& options) {
   if (found.no_connection)
     return {{"NATS", Grade::kProblem, found.no_connection->what,
              "journalctl -u nats-server   (says on its side why)"}};
@@ -84,7 +84,7 @@ std::vector<Finding> check_nats(const NatsExamination& found, const NatsOptions&
     return findings;
   }
   findings.push_back({"JetStream", Grade::kOk, "is there", ""});
-  for (const NatsExamination::Bucket& bucket : found.buckets) {
+  for (const NatsProbe::Bucket& bucket : found.buckets) {
     findings.push_back(check_bucket(bucket));
     if (bucket.is_there && bucket.replicas > 0)
       findings.push_back(check_replicas(bucket, options.urls.size()));
@@ -134,7 +134,7 @@ std::vector<Finding> check_servers(const std::map<ServerId, ClusterProbe::Seen>&
 }
 
 std::vector<Finding> examine_cluster(const NatsOptions& options) {
-  const NatsExamination found = examine_nats(options, {kClusterBucket, kKeysBucket});
+  const NatsProbe found = probe_nats(options, {kClusterBucket, kKeysBucket});
   std::vector<Finding> findings = check_nats(found, options);
   const bool is_there = std::any_of(
       found.buckets.begin(), found.buckets.end(),

@@ -10,12 +10,12 @@
 
 #include "apps/doctor/doctor_checks.h"
 #include "tunnel/cluster/cluster_probe.h"
-#include "tunnel/nats/nats_examination.h"
+#include "tunnel/nats/nats_probe.h"
 
 namespace dance {
 
 // Pure, so that they can be tested: from what NATS said to who asked with these options,
-std::vector<Finding> check_nats(const NatsExamination& found, const NatsOptions& options);
+std::vector<Finding> check_nats(const NatsProbe& found, const NatsOptions& options);
 // and from the servers that were heard.
 std::vector<Finding> check_servers(const std::map<ServerId, ClusterProbe::Seen>& seen);
 

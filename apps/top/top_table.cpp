@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 
 #include "core/bus/channel.h"
@@ -16,19 +15,6 @@ namespace {
 
 // Eviction: channels that have been silent for so long make room for others.
 constexpr Duration kForgotten = Duration::s(60);
-
-using Fingerprint = std::array<std::uint8_t, 8>;
-
-template <class Message>
-Fingerprint fingerprint_of(const Message& message) {
-  MessageBuffer buffer;
-  encode(message, buffer);
-  Fingerprint fingerprint;
-  std::memcpy(fingerprint.data(), buffer.data(), fingerprint.size());
-  return fingerprint;
-}
-
-TimedSkeleton any_skeleton() { return {average_skeleton(), MonoTime(), 0}; }
 
 template <class Message>
 bool read(std::span<const std::uint8_t> bytes, Message& message) {
@@ -61,39 +47,16 @@ std::string printable(std::string_view name) {
 }  // namespace
 
 std::string_view type_of_message(std::span<const std::uint8_t> message) {
-  struct Known {
-    Fingerprint fingerprint;
-    std::string_view type;
-  };
-  static const std::array<Known, 22> kKnown{{
-      {fingerprint_of(Pose()), "pose_t"},
-      {fingerprint_of(Hands()), "hands_t"},
-      {fingerprint_of(any_skeleton()), "skeleton_t"},
-      {fingerprint_of(GuestStatus()), "guest_t"},
-      {fingerprint_of(Stats()), "stats_t"},
-      {fingerprint_of(StageTime()), "stage_time_t"},
-      {fingerprint_of(Music()), "music_t"},
-      {fingerprint_of(Scene()), "scene_t"},
-      {fingerprint_of(Avatar()), "avatar_t"},
-      {fingerprint_of(AvatarFile()), "avatar_file_t"},
-      {fingerprint_of(Style()), "style_t"},
-      {fingerprint_of(Placement()), "placement_t"},
-      {fingerprint_of(Beat()), "beat_t"},
-      {fingerprint_of(GuestStats()), "guest_stats_t"},
-      {fingerprint_of(GuestTraffic()), "guest_traffic_t"},
-      {fingerprint_of(FlowSetting()), "flow_t"},
-      {fingerprint_of(Playout()), "playout_t"},
-      {fingerprint_of(Steps()), "steps_t"},
-      {fingerprint_of(Voice()), "voice_t"},
-      {fingerprint_of(Touch()), "touch_t"},
-      {fingerprint_of(Haptic()), "haptic_t"},
-      {fingerprint_of(HearingWish()), "hearing_t"},
-  }};
-  if (message.size() < sizeof(Fingerprint)) return "";
-  for (const Known& known : kKnown)
-    if (std::memcmp(message.data(), known.fingerprint.data(), sizeof(Fingerprint)) == 0)
-      return known.type;
-  return "";
+  if (message.size() < sizeof(std::uint64_t)) return "";
+  std::uint64_t fingerprint = 0;
+  for (const std::uint8_t byte : message.first<sizeof fingerprint>())
+    fingerprint = fingerprint << 8 | byte;
+  std::string_view type;
+  for_each_message_type([&]<class Message>() {
+    if (MessageTraits<Message>::fingerprint() == fingerprint)
+      type = MessageTraits<Message>::type_name();
+  });
+  return type;
 }
 
 void TopTable::take(std::string_view name, std::span<const std::uint8_t> message, MonoTime now) {

@@ -16,8 +16,8 @@
 
 #include "core/base/time.h"
 #include "core/bus/messages.h"
-#include "core/pose/flow_setting.h"
-#include "core/pose/style.h"
+#include "core/signal/flow_setting.h"
+#include "core/signal/style.h"
 
 namespace dance {
 

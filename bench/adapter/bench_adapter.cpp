@@ -26,7 +26,7 @@
 namespace dance {
 namespace {
 
-constexpr Duration kPatience = Duration::s(15);
+constexpr Duration kTimeout = Duration::s(15);
 constexpr Duration kWarmUp = Duration::s(1);
 // Of a frame's time: when an engine hands its poses to the graphics.
 constexpr double kUsedAt = 0.6;
@@ -117,7 +117,7 @@ Result<void> BenchAdapter::prepare() {
 }
 
 Result<void> BenchAdapter::wait_until_seen(StageEye& eye) {
-  for (const MonoTime give_up = mono_now() + kPatience; !eye.see(options_.guests);) {
+  for (const MonoTime give_up = mono_now() + kTimeout; !eye.see(options_.guests);) {
     for (auto& [name, child] : children_)
       if (child.has_ended()) {
         std::ifstream talk(scratch_->file(name + ".txt"));

@@ -117,7 +117,7 @@ nlohmann::ordered_json json_of(const LineWayResult& way, Duration round_trip) {
       {"older_delivered", figures.older_delivered},
       {"older_shown", figures.older_shown},
       {"undecoded", way.undecoded},
-      {"key_frames_asked", way.key_frames},
+      {"key_frames_asked", way.intra_frames},
       {"references", name_of(way.references)},
       {"line",
        {{"offered", way.line.line.offered},

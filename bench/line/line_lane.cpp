@@ -179,7 +179,7 @@ LineWayResult LineLane::way(const LineMeter& meter, LossyProxy::Direction direct
   way.line = line_->totals(direction);
   for (const RemoteGuestStats& remote : hearer.link->remote_stats()) {
     way.undecoded += remote.reference_missing;
-    way.key_frames += remote.key_frames_asked;
+    way.intra_frames += remote.intra_frames_asked;
   }
   for (const LocalGuestStats& local : dancer.link->local_stats()) way.references = local.references;
   return way;

@@ -30,7 +30,7 @@ struct LineWayResult {
   LineFigures figures;
   LossyProxy::Totals line;                             // datagrams of all kinds
   std::uint64_t undecoded = 0;                         // came, but referred to what had not
-  std::uint64_t key_frames = 0;                        // asked for by the hearer
+  std::uint64_t intra_frames = 0;                      // asked for by the hearer
   References references = References::kPreviousTwice;  // of the dancer, at the end
 };
 

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "bench/parts/salsa_poses.h"
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 #include "core/codec/plain_codec.h"
 
 namespace dance {
@@ -78,7 +78,7 @@ void plain_decode(benchmark::State& state) {
 }
 BENCHMARK(plain_decode)->Name("codec: decode/plain");
 
-// References one frame old, and key frames.
+// References one frame old, and intra frames.
 template <bool kOnlyKeys>
 void lattice_encode(benchmark::State& state) {
   const std::vector<Pose> poses = salsa_poses();
@@ -95,7 +95,7 @@ void lattice_encode(benchmark::State& state) {
   state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(frames);
 }
 BENCHMARK(lattice_encode<false>)->Name("codec: encode/lattice");
-BENCHMARK(lattice_encode<true>)->Name("codec: encode/lattice, key frames");
+BENCHMARK(lattice_encode<true>)->Name("codec: encode/lattice, intra frames");
 
 template <bool kOnlyKeys>
 void lattice_decode(benchmark::State& state) {
@@ -119,7 +119,7 @@ void lattice_decode(benchmark::State& state) {
   }
 }
 BENCHMARK(lattice_decode<false>)->Name("codec: decode/lattice");
-BENCHMARK(lattice_decode<true>)->Name("codec: decode/lattice, key frames");
+BENCHMARK(lattice_decode<true>)->Name("codec: decode/lattice, intra frames");
 
 }  // namespace
 }  // namespace dance

@@ -18,7 +18,7 @@ was just written.
 
 struct Wishes {
   BenchReplayOptions bench;
-  double key_s = LogPacker::kKeyFramePeriod.as_seconds();
+  double key_s = LogPacker::kIntraFramePeriod.as_seconds();
   bool no_baseline = false;
   bool is_json = false;
 };
@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   line.add("--minutes", bench.night.minutes, "how long it is").range(0.1, 600.0).shows_default();
   line.add_flag("--arriving", bench.night.has_arriving,
                 "each pose also as it came into the house, as in the manager's own house");
-  line.add("--key-frames", wishes.key_s, "seconds between intra frames of a channel")
+  line.add("--intra-frames", wishes.key_s, "seconds between intra frames of a channel")
       .range(0.1, 60.0)
       .shows_default();
   line.add("--log", bench.log, "a log of yours instead, packed or plain");
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   line.add_flag("--json", wishes.is_json, "one JSON object instead of the table");
   line.footer(dance::kExamples);
   line.finally([&]() -> dance::Result<void> {
-    bench.night.key_frame_period = dance::Duration::seconds(wishes.key_s);
+    bench.night.intra_frame_period = dance::Duration::seconds(wishes.key_s);
     bench.has_baseline = !wishes.no_baseline;
     return {};
   });

@@ -24,7 +24,7 @@ std::string bench_replay_table(const BenchReplayOptions& options, const BenchRep
                  1e-6 * static_cast<double>(result.index_bytes));
   if (options.log.empty())
     fmt::format_to(back, "made in {:.0f} s, intra frames every {:g} s\n", result.made_s,
-                   options.night.key_frame_period.as_seconds());
+                   options.night.intra_frame_period.as_seconds());
   fmt::format_to(back, "\n  opened the first time {:>12.0f} ms, of which its index {:.0f}\n",
                  result.open_first_ms, result.index_ms);
   fmt::format_to(back, "\n  {:<22}{:>12}{:>12}{:>12}\n", "ms", "p50", "p99", "worst");
@@ -48,7 +48,7 @@ std::string bench_replay_json(const BenchReplayOptions& options, const BenchRepl
                                 {"index_bytes", result.index_bytes}};
   if (options.log.empty()) {
     report["made_s"] = ms(result.made_s);
-    report["key_frames_s"] = options.night.key_frame_period.as_seconds();
+    report["key_frames_s"] = options.night.intra_frame_period.as_seconds();
     report["arriving"] = options.night.has_arriving;
   }
   report["open_first_ms"] = ms(result.open_first_ms);

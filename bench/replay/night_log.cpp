@@ -56,7 +56,7 @@ class NightEvents {
 
 class NightSource {
  public:
-  explicit NightSource(const NightWish& wish) : packer_(wish.key_frame_period) {}
+  explicit NightSource(const NightWish& wish) : packer_(wish.intra_frame_period) {}
   virtual ~NightSource() = default;
   virtual void play(int frame, int until) = 0;
   NightEvents& events() { return events_; }

@@ -19,7 +19,7 @@ struct NightWish {
   double minutes = 60.0;
   // Every pose also as it came into the house, as the manager's own house records it.
   bool has_arriving = false;
-  Duration key_frame_period = LogPacker::kKeyFramePeriod;
+  Duration intra_frame_period = LogPacker::kIntraFramePeriod;
 };
 
 Result<void> make_night_log(const std::string& path, const NightWish& wish);

@@ -1,6 +1,6 @@
 // Vectors and rotations for DanceRetarget, so that it needs no engine and no package.
 //
-// Units/frames: of whoever calls; the formulas hold in left-handed and in right-handed axes.
+// Units/frames: as the caller's; the formulas hold in left-handed and in right-handed axes.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      Normalized() of what has no length is the identity (rotations) or zero (vectors).

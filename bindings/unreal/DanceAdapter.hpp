@@ -1,6 +1,6 @@
 // DanceAdapter.hpp: the dancers of a house for C++17, as a wrapper of dance_adapter.h that owns its
-// handles. It finds libdance_adapter.so.1 when the program runs, so that a program starts without it
-// too; with DANCE_ADAPTER_LINKED defined it calls the library that the program is linked with.
+// handles. It finds libdance_adapter.so.1 when the program runs, so that a program starts without
+// it too; with DANCE_ADAPTER_LINKED defined it calls the library that the program is linked with.
 //
 // Units/frames: as dance_adapter.h says, in the axes that an Adapter or a Producer was opened with.
 // Ownership:    Adapter and Producer close their handle; the Library must outlive them. No call but
@@ -33,8 +33,9 @@ namespace dancegraph {
 // The library's functions as members, and why they are not there.
 class Library {
  public:
-  // Where no path is given, or an empty one, the dynamic linker looks: LD_LIBRARY_PATH, the system's
-  // folders. The name with a version is that of the package dancegraph, the other one of a build.
+  // Where no path is given, or an empty one, the dynamic linker looks: LD_LIBRARY_PATH, the
+  // system's folders. The name with a version is that of the package dancegraph, the other one of a
+  // build.
   explicit Library(const char* path = nullptr) {
 #ifdef DANCE_ADAPTER_LINKED
     (void)path;

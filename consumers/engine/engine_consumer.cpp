@@ -91,7 +91,7 @@ void EngineConsumer::on_pose(const GuestId& guest, const Pose& pose, MonoTime no
   writer_.write(slot, stored);
   if (!dancer.is_shown) writer_.show(slot);
   dancer.is_shown = true;
-  writer_.beat_heart(now);
+  writer_.update_heartbeat(now);
   ++counters_.poses;
 }
 
@@ -154,7 +154,7 @@ void EngineConsumer::on_beat(const Beat& beat, MonoTime now) {
     return;
   }
   writer_.write(stored);
-  writer_.beat_heart(now);
+  writer_.update_heartbeat(now);
 }
 
 void EngineConsumer::on_second(MonoTime now) {
@@ -165,7 +165,7 @@ void EngineConsumer::on_second(MonoTime now) {
     writer_.release(i);
     dancer.guest = GuestId();
   }
-  writer_.beat_heart(now);
+  writer_.update_heartbeat(now);
 }
 
 Result<void> EngineConsumer::finish() {

@@ -5,14 +5,11 @@
 namespace dance {
 namespace {
 
-// In the order of Signal, and of Where.
-constexpr std::array<std::string_view, 22> kSignals{
-    "POSE",  "SKELETON",    "HANDS",         "GUEST",       "STATS",   "STAGE_TIME",
-    "MUSIC", "SCENE",       "AVATAR",        "AVATAR_FILE", "STYLE",   "PLACEMENT",
-    "BEAT",  "GUEST_STATS", "GUEST_TRAFFIC", "FLOW",        "PLAYOUT", "STEPS",
-    "VOICE", "TOUCH",       "HAPTIC",        "HEARING"};
+#define DANCE_SIGNAL_WORD(Type, kName, word) word,
+constexpr auto kSignals = std::to_array<std::string_view>({DANCE_MESSAGE_TABLE(DANCE_SIGNAL_WORD)});
+#undef DANCE_SIGNAL_WORD
+// In the order of Where.
 constexpr std::array<std::string_view, 5> kWheres{"capture", "guest", "stage", "view", "room"};
-static_assert(static_cast<std::size_t>(Signal::kHearing) + 1 == kSignals.size());
 static_assert(static_cast<std::size_t>(Where::kRoom) + 1 == kWheres.size());
 constexpr std::string_view kLocalWord = "local";
 

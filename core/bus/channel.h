@@ -13,32 +13,15 @@
 
 #include "core/base/fixed_string.h"
 #include "core/base/guest_id.h"
+#include "core/bus/message_table.h"
 
 namespace dance {
 
+// Whose message travels on it: core/bus/message_table.h.
 enum class Signal : std::uint8_t {
-  kPose,
-  kSkeleton,
-  kHands,
-  kGuest,
-  kStats,
-  kStageTime,
-  kMusic,
-  kScene,
-  kAvatar,
-  kAvatarFile,
-  kStyle,
-  kPlacement,
-  kBeat,
-  kGuestStats,
-  kGuestTraffic,
-  kFlow,
-  kPlayout,
-  kSteps,
-  kVoice,
-  kTouch,
-  kHaptic,
-  kHearing,
+#define DANCE_SIGNAL(Type, kName, word) kName,
+  DANCE_MESSAGE_TABLE(DANCE_SIGNAL)
+#undef DANCE_SIGNAL
 };
 
 // Where on its journey the signal is.
@@ -92,7 +75,7 @@ struct ChannelRow {
   std::string_view pattern;  // e.g. "POSE/capture/<guest>"
   std::string_view type;     // e.g. "pose_t"
 };
-constexpr std::array<ChannelRow, 37> kChannelTable{{
+constexpr auto kChannelTable = std::to_array<ChannelRow>({
     {Signal::kPose, Where::kCapture, "POSE/capture/<guest>", "pose_t"},
     {Signal::kPose, Where::kGuest, "POSE/guest/<guest>", "pose_t"},
     {Signal::kPose, Where::kStage, "POSE/stage/<guest>", "pose_t"},
@@ -130,6 +113,6 @@ constexpr std::array<ChannelRow, 37> kChannelTable{{
     {Signal::kHaptic, Where::kCapture, "HAPTIC/capture/<guest>", "haptic_t"},
     {Signal::kHearing, Where::kLocal, "HEARING/local", "hearing_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
-}};
+});
 
 }  // namespace dance

@@ -1,27 +1,6 @@
 #include "core/bus/encode.h"
 
-#include <dancelcm/avatar_file_t.hpp>
-#include <dancelcm/avatar_t.hpp>
-#include <dancelcm/beat_t.hpp>
-#include <dancelcm/flow_t.hpp>
-#include <dancelcm/guest_stats_t.hpp>
-#include <dancelcm/guest_t.hpp>
-#include <dancelcm/guest_traffic_t.hpp>
-#include <dancelcm/hands_t.hpp>
-#include <dancelcm/haptic_t.hpp>
-#include <dancelcm/hearing_t.hpp>
-#include <dancelcm/music_t.hpp>
-#include <dancelcm/placement_t.hpp>
-#include <dancelcm/playout_t.hpp>
-#include <dancelcm/pose_t.hpp>
-#include <dancelcm/scene_t.hpp>
-#include <dancelcm/skeleton_t.hpp>
-#include <dancelcm/stage_time_t.hpp>
-#include <dancelcm/stats_t.hpp>
-#include <dancelcm/steps_t.hpp>
-#include <dancelcm/style_t.hpp>
-#include <dancelcm/touch_t.hpp>
-#include <dancelcm/voice_t.hpp>
+#include <dancelcm/all_types.hpp>
 
 #include "core/bus/message_fields.h"
 
@@ -175,7 +154,7 @@ template <>
 struct MessageFields<Beat> {
   using Generated = dancelcm::beat_t;
   static bool map(auto io, auto& m, auto& v) {
-    // A clock that is fed with a beat far ahead would believe in the music until then.
+    // A clock that is fed with a beat far ahead would count the music as playing until then.
     constexpr Duration kFarthestBeat = Duration::s(60);
     return map_stamp(io, m, v) && io(m.beat_time_us, v.beat_time) && io(m.beat, v.beat) &&
            io(m.tempo_bpm, v.tempo_bpm) && io(m.confidence, v.confidence) &&
@@ -291,28 +270,9 @@ struct MessageFields<HearingWish> {
   }
 };
 
-template struct MessageRow<Pose, Signal::kPose>;
-template struct MessageRow<Hands, Signal::kHands>;
-template struct MessageRow<TimedSkeleton, Signal::kSkeleton>;
-template struct MessageRow<GuestStatus, Signal::kGuest>;
-template struct MessageRow<Stats, Signal::kStats>;
-template struct MessageRow<StageTime, Signal::kStageTime>;
-template struct MessageRow<Music, Signal::kMusic>;
-template struct MessageRow<Scene, Signal::kScene>;
-template struct MessageRow<Avatar, Signal::kAvatar>;
-template struct MessageRow<AvatarFile, Signal::kAvatarFile>;
-template struct MessageRow<Style, Signal::kStyle>;
-template struct MessageRow<Placement, Signal::kPlacement>;
-template struct MessageRow<Beat, Signal::kBeat>;
-template struct MessageRow<GuestStats, Signal::kGuestStats>;
-template struct MessageRow<GuestTraffic, Signal::kGuestTraffic>;
-template struct MessageRow<FlowSetting, Signal::kFlow>;
-template struct MessageRow<Playout, Signal::kPlayout>;
-template struct MessageRow<Steps, Signal::kSteps>;
-template struct MessageRow<Voice, Signal::kVoice>;
-template struct MessageRow<Touch, Signal::kTouch>;
-template struct MessageRow<Haptic, Signal::kHaptic>;
-template struct MessageRow<HearingWish, Signal::kHearing>;
+#define DANCE_INSTANTIATE(Type, kName, word) template struct MessageRow<Type, Signal::kName>;
+DANCE_MESSAGE_TABLE(DANCE_INSTANTIATE)
+#undef DANCE_INSTANTIATE
 
 std::size_t encode(const RawPose& raw, MessageBuffer& buffer) {
   dancelcm::pose_t m{};

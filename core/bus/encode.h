@@ -1,5 +1,5 @@
-// The table of message types, and what is done with a row of it: this tree's types ⇄ the bytes of
-// LCM messages. What is decoded is checked here (finite, unit rotations, sizes, times) and trusted
+// What is done with a row of the table of message types: this tree's types ⇄ the bytes of LCM
+// messages. What is decoded is checked here (finite, unit rotations, sizes, times) and trusted
 // behind.
 //
 // Units/frames: as core/pose and core/bus/messages.h say.
@@ -18,14 +18,15 @@
 #include "core/base/beat.h"
 #include "core/base/steps.h"
 #include "core/bus/channel.h"
+#include "core/bus/message_table.h"
 #include "core/bus/messages.h"
 #include "core/bus/state_messages.h"
 #include "core/bus/voice.h"
-#include "core/pose/flow_setting.h"
-#include "core/pose/haptic.h"
-#include "core/pose/playout.h"
 #include "core/pose/pose.h"
-#include "core/pose/touch.h"
+#include "core/signal/flow_setting.h"
+#include "core/signal/haptic.h"
+#include "core/signal/playout.h"
+#include "core/signal/touch.h"
 
 namespace dance {
 
@@ -40,65 +41,36 @@ template <class T, Signal kOfSignal>
 struct MessageRow {
   static constexpr Signal kSignal = kOfSignal;
   static std::string_view type_name();  // as in the .lcm file
+  // What each message of it begins with, most significant byte first: LCM's hash of its fields.
+  static std::uint64_t fingerprint();
   // Bytes written.
   static std::size_t encode(const T& message, MessageBuffer& buffer);
   // Leaves `message` as it was unless it is kFine.
   static Decoded decode(const void* data, std::size_t size, T& message);
 };
 
-// The table.
+// The rows of core/bus/message_table.h.
 template <class T>
 struct MessageTraits;
-template <>
-struct MessageTraits<Pose> : MessageRow<Pose, Signal::kPose> {};
-template <>
-struct MessageTraits<Hands> : MessageRow<Hands, Signal::kHands> {};
-template <>
-struct MessageTraits<TimedSkeleton> : MessageRow<TimedSkeleton, Signal::kSkeleton> {};
-template <>
-struct MessageTraits<GuestStatus> : MessageRow<GuestStatus, Signal::kGuest> {};
-template <>
-struct MessageTraits<Stats> : MessageRow<Stats, Signal::kStats> {};
-template <>
-struct MessageTraits<StageTime> : MessageRow<StageTime, Signal::kStageTime> {};
-template <>
-struct MessageTraits<Music> : MessageRow<Music, Signal::kMusic> {};
-template <>
-struct MessageTraits<Scene> : MessageRow<Scene, Signal::kScene> {};
-template <>
-struct MessageTraits<Avatar> : MessageRow<Avatar, Signal::kAvatar> {};
-template <>
-struct MessageTraits<AvatarFile> : MessageRow<AvatarFile, Signal::kAvatarFile> {};
-template <>
-struct MessageTraits<Style> : MessageRow<Style, Signal::kStyle> {};
-template <>
-struct MessageTraits<Placement> : MessageRow<Placement, Signal::kPlacement> {};
-template <>
-struct MessageTraits<Beat> : MessageRow<Beat, Signal::kBeat> {};
-template <>
-struct MessageTraits<GuestStats> : MessageRow<GuestStats, Signal::kGuestStats> {};
-template <>
-struct MessageTraits<GuestTraffic> : MessageRow<GuestTraffic, Signal::kGuestTraffic> {};
-template <>
-struct MessageTraits<FlowSetting> : MessageRow<FlowSetting, Signal::kFlow> {};
-template <>
-struct MessageTraits<Playout> : MessageRow<Playout, Signal::kPlayout> {};
-template <>
-struct MessageTraits<Steps> : MessageRow<Steps, Signal::kSteps> {};
-template <>
-struct MessageTraits<Voice> : MessageRow<Voice, Signal::kVoice> {};
-template <>
-struct MessageTraits<Touch> : MessageRow<Touch, Signal::kTouch> {};
-template <>
-struct MessageTraits<Haptic> : MessageRow<Haptic, Signal::kHaptic> {};
-template <>
-struct MessageTraits<HearingWish> : MessageRow<HearingWish, Signal::kHearing> {};
+#define DANCE_MESSAGE_TRAITS(Type, kName, word) \
+  template <>                                   \
+  struct MessageTraits<Type> : MessageRow<Type, Signal::kName> {};
+DANCE_MESSAGE_TABLE(DANCE_MESSAGE_TRAITS)
+#undef DANCE_MESSAGE_TRAITS
 
 // A type with a row in the table.
 template <class T>
 concept BusMessage = requires {
   { MessageTraits<T>::kSignal } -> std::convertible_to<Signal>;
 };
+
+// visit<T>() for the type of each row.
+template <class Visit>
+void for_each_message_type(Visit&& visit) {
+#define DANCE_VISIT(Type, kName, word) visit.template operator()<Type>();
+  DANCE_MESSAGE_TABLE(DANCE_VISIT)
+#undef DANCE_VISIT
+}
 
 template <BusMessage T>
 std::size_t encode(const T& message, MessageBuffer& buffer) {

@@ -3,8 +3,8 @@
 // Units/frames: a factor, 1 as it comes.
 // Ownership:    plain values.
 // Threads:      any.
-// Failure:      parse_guest_volume() gives nullopt for anything but a guest's name, '=' and a number
-//               from 0 to kLoudestVoice.
+// Failure:      parse_guest_volume() gives nullopt for anything but a guest's name, '=' and a
+//               number from 0 to kLoudestVoice.
 #pragma once
 
 #include <charconv>

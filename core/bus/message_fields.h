@@ -169,6 +169,11 @@ std::string_view MessageRow<T, kOfSignal>::type_name() {
 }
 
 template <class T, Signal kOfSignal>
+std::uint64_t MessageRow<T, kOfSignal>::fingerprint() {
+  return static_cast<std::uint64_t>(MessageFields<T>::Generated::getHash());
+}
+
+template <class T, Signal kOfSignal>
 std::size_t MessageRow<T, kOfSignal>::encode(const T& message, MessageBuffer& buffer) {
   typename MessageFields<T>::Generated m{};
   MessageFields<T>::map(PutFields(), m, message);

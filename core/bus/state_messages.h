@@ -16,7 +16,7 @@
 #include "core/base/fixed_string.h"
 #include "core/base/guest_id.h"
 #include "core/base/time.h"
-#include "core/pose/style.h"
+#include "core/signal/style.h"
 
 namespace dance {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/codec/adaptive_bits.h"
-#include "core/codec/exact_math.h"
+#include "core/codec/coding/adaptive_bits.h"
+#include "core/codec/exact/exact_math.h"
 
 namespace dance {
 namespace {

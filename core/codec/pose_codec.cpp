@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 #include "core/codec/plain_codec.h"
 
 namespace dance {

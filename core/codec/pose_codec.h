@@ -25,7 +25,7 @@ namespace dance {
 enum class CodecId : std::uint8_t {
   kNone = 0,
   kPlain = 1,    // every frame intra, core/codec/plain_codec.h
-  kLattice = 2,  // predicted and range-coded, core/codec/lattice_codec.h
+  kLattice = 2,  // predicted and range-coded, core/codec/lattice/lattice_codec.h
 };
 
 // Name of a codec; equal at two ends that exchange poses.

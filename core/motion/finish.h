@@ -46,7 +46,7 @@ class Finish {
     if (is_changed) normalize(pose);
   }
 
-  // Another dancer, or the same one anew: nothing of before is taken along.
+  // Another dancer, or the same one anew: nothing is taken over.
   void clear() {
     corrections_.clear();
     turns_.clear();

@@ -5,7 +5,7 @@
 // Ownership:    LocalDatagramSocket owns its socket file. Neither allocates after construction.
 // Threads:      one owner each. Neither waits.
 // Failure:      bind() names a path that another program serves. The sender says when nobody is
-//               there or the receiver's queue is full; who is not there is looked for at most ten
+//               there or the receiver's queue is full; a missing receiver is looked for at most ten
 //               times a second.
 #pragma once
 

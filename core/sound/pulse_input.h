@@ -27,8 +27,8 @@ namespace dance {
 struct PulseInputOptions {
   std::string source;  // its name for the server; "" = its default
   double rate_hz = 48000.0;
-  std::string name = "listening";              // of the stream, as the server's own tools show it
-  Duration patience = PulseServer::kPatience;  // open() waits so long for the server
+  std::string name = "listening";            // of the stream, as the server's own tools show it
+  Duration timeout = PulseServer::kTimeout;  // open() waits so long for the server
 };
 
 class PulseInput {

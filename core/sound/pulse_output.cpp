@@ -44,7 +44,7 @@ Result<std::unique_ptr<PulseOutput>> PulseOutput::open(PulseServer& server,
     ++static_cast<PulseOutput*>(self)->underflows_;
   };
   pa_stream_set_underflow_callback(stream, on_underflow, output.get());
-  if (!server.becomes_ready(stream, options.patience))
+  if (!server.becomes_ready(stream, options.timeout))
     return fail("the sound server has no loudspeaker" +
                 (options.sink.empty() ? std::string() : " '" + options.sink + "'") + ": " +
                 server.error_text() + "; `pactl list short sinks` names them");

@@ -27,7 +27,7 @@ struct PulseOutputOptions {
   std::string name = "music";  // of the stream, as the server's own tools show it
   // Buffered ahead: shorter stalls of the machine are inaudible. The latency is compensated.
   Duration ahead = Duration::ms(300);
-  Duration patience = PulseServer::kPatience;  // open() waits so long for the server
+  Duration timeout = PulseServer::kTimeout;  // open() waits so long for the server
 };
 
 class PulseOutput {

@@ -24,7 +24,7 @@ Result<std::unique_ptr<PulseServer>> PulseServer::connect(const std::string& pro
   // Does not start a server: nothing would stop it again.
   if (pa_context_connect(server->context_, nullptr, PA_CONTEXT_NOAUTOSPAWN, nullptr) < 0)
     return fail(std::string(kNoServer) + " (" + server->error_text() + ")");
-  const MonoTime end = mono_now() + kPatience;
+  const MonoTime end = mono_now() + kTimeout;
   while (is_on_its_way(pa_context_get_state(server->context_)) && mono_now() < end)
     server->iterate_waiting();
   if (!server->is_alive()) return fail(std::string(kNoServer) + " (" + server->error_text() + ")");
@@ -55,8 +55,8 @@ bool PulseServer::is_alive() const { return pa_context_get_state(context_) == PA
 
 std::string PulseServer::error_text() const { return pa_strerror(pa_context_errno(context_)); }
 
-bool PulseServer::becomes_ready(pa_stream* stream, Duration patience) {
-  iterate_until([stream] { return pa_stream_get_state(stream) != PA_STREAM_CREATING; }, patience);
+bool PulseServer::becomes_ready(pa_stream* stream, Duration timeout) {
+  iterate_until([stream] { return pa_stream_get_state(stream) != PA_STREAM_CREATING; }, timeout);
   return pa_stream_get_state(stream) == PA_STREAM_READY;
 }
 

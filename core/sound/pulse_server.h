@@ -28,7 +28,7 @@ namespace dance {
 
 class PulseServer {
  public:
-  static constexpr Duration kPatience = Duration::s(3);
+  static constexpr Duration kTimeout = Duration::s(3);
 
   // Waits for the server's answer, a few seconds at most.
   static Result<std::unique_ptr<PulseServer>> connect(const std::string& program);
@@ -41,8 +41,8 @@ class PulseServer {
   void iterate();
   // The same until `is_done`; false when it did not come to that in time.
   template <class IsDone>
-  bool iterate_until(IsDone is_done, Duration patience = kPatience) {
-    const MonoTime end = mono_now() + patience;
+  bool iterate_until(IsDone is_done, Duration timeout = kTimeout) {
+    const MonoTime end = mono_now() + timeout;
     while (mono_now() < end) {
       if (is_done()) return true;
       if (!is_alive()) return false;
@@ -53,7 +53,7 @@ class PulseServer {
   bool is_alive() const;
   std::string error_text() const;
   // Waits for a stream that was connected; false where the server refuses it or is silent.
-  bool becomes_ready(pa_stream* stream, Duration patience = kPatience);
+  bool becomes_ready(pa_stream* stream, Duration timeout = kTimeout);
   // Waits for the answer to a query, whose callback sets `is_done`.
   Result<void> await_answer(pa_operation* query, const bool& is_done);
 

@@ -1,11 +1,10 @@
-// PulseTiming: a question to the sound server about a stream's timing, whose answer never comes to
-// a stream that is gone.
+// PulseTiming: an asynchronous request of a stream's timing, cancelled with the stream.
 //
 // Units/frames: none.
-// Ownership:    holds the question until its answer has come; the destructor takes it back. Part
+// Ownership:    holds the request until it is answered; the destructor cancels it. Part
 //               of the object that is asked for, so that both go together.
 // Threads:      none inside: answers come in PulseServer::iterate().
-// Failure:      a question that the server refuses, or does not answer, has no answer.
+// Failure:      a request that the server refuses, or does not answer, stays without an answer.
 #pragma once
 
 struct pa_operation;

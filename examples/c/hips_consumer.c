@@ -1,7 +1,8 @@
-/* hips_consumer: prints where each dancer's hips are, for every pose that LCM hands over. Needs the messages' C bindings
- * alone, which `lcm-gen --c` made; without CMake:
+/* hips_consumer: prints where each dancer's hips are, for every pose that LCM hands over. Needs the
+ * messages' C bindings alone, which `lcm-gen --c` made; without CMake:
  *   cc hips_consumer.c -I/usr/include/dancegraph -ldance_lcmtypes_c -llcm -o hips_consumer
- * usage: hips_consumer [CHANNELS [SECONDS]]       CHANNELS is a regular expression, POSE/stage/.* unless given */
+ * usage: hips_consumer [CHANNELS [SECONDS]]
+ *   CHANNELS is a regular expression, POSE/stage/.* unless given */
 #include <lcm/lcm.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,11 +10,13 @@
 
 #include "dancelcm_pose_t.h"
 
-static void on_pose(const lcm_recv_buf_t* buffer, const char* channel, const dancelcm_pose_t* pose, void* user) {
+static void on_pose(const lcm_recv_buf_t* buffer, const char* channel, const dancelcm_pose_t* pose,
+                    void* user) {
   (void)buffer;
   (void)user;
   /* Metres on the stage: x to the left of a dancer who faces +z, y up. */
-  printf("%s %d %.3f %.3f %.3f\n", channel, pose->sequence, pose->hips_m[0], pose->hips_m[1], pose->hips_m[2]);
+  printf("%s %d %.3f %.3f %.3f\n", channel, pose->sequence, pose->hips_m[0], pose->hips_m[1],
+         pose->hips_m[2]);
 }
 
 int main(int argc, char** argv) {

@@ -1,6 +1,6 @@
 // Bvh: the content of a motion capture file: joints, their channels and every frame's numbers.
-// Reads and writes the text; formats/bvh/rig.h maps joints to bones, formats/bvh/retarget.h makes a
-// dancer of it.
+// Reads and writes the text; formats/bvh/rig/rig.h maps joints to bones, formats/bvh/retarget.h
+// makes a dancer of it.
 //
 // Units/frames: the file's own units and axes; angles in degrees. R = R_c1 · R_c2 · R_c3 for
 //               rotation channels in the order in which the file lists them.

@@ -8,8 +8,8 @@
 #include "core/pose/shortest_turn.h"
 #include "formats/bvh/bvh_motion.h"
 #include "formats/bvh/retarget_skeleton.h"
-#include "formats/bvh/rig_reference.h"
-#include "formats/bvh/rig_tree.h"
+#include "formats/bvh/rig/rig_reference.h"
+#include "formats/bvh/rig/rig_tree.h"
 
 namespace dance {
 namespace {

@@ -9,7 +9,7 @@
 // Failure:      retarget() of a figure that is not human, or without motion, names what is wrong.
 // Source:       R_WB(t) = R_WF · R_FJ(t) · R_FJ(ref)⁻¹ · R_WF⁻¹ · C_B, where C_B turns the
 //               canonical T-pose's bone into the file's reference pose
-//               (formats/bvh/rig_reference.h).
+//               (formats/bvh/rig/rig_reference.h).
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 #include "core/base/result.h"
 #include "core/pose/clip.h"
 #include "formats/bvh/bvh.h"
-#include "formats/bvh/rig.h"
+#include "formats/bvh/rig/rig.h"
 
 namespace dance {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "formats/bvh/rig_tree.h"
+#include "formats/bvh/rig/rig_tree.h"
 
 namespace dance {
 namespace {

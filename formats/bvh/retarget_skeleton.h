@@ -7,7 +7,7 @@
 #pragma once
 
 #include "core/pose/skeleton.h"
-#include "formats/bvh/rig_reference.h"
+#include "formats/bvh/rig/rig_reference.h"
 
 namespace dance {
 

@@ -23,7 +23,7 @@ SegmentWriter::SegmentWriter(Segment& segment, MonoTime now)
   header.guest_slots.store(kGuestSlots);
   header.segment_bytes.store(sizeof(Segment));
   header.epoch.store(beats_);
-  beat_heart(now);
+  update_heartbeat(now);
   header.state.store(static_cast<std::uint32_t>(SegmentState::kOpen));
   header.magic.store(kMagic);
 }
@@ -81,7 +81,7 @@ void SegmentWriter::write(std::size_t slot, const StoredSkeleton& skeleton) {
 
 void SegmentWriter::write(const StoredBeat& beat) { segment_.beats.write(beats_++, beat); }
 
-void SegmentWriter::beat_heart(MonoTime now) {
+void SegmentWriter::update_heartbeat(MonoTime now) {
   segment_.header.heartbeat_ns.store(now.since_zero_ns(), std::memory_order_release);
 }
 

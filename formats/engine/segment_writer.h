@@ -31,7 +31,7 @@ class SegmentWriter {
   void write(std::size_t slot, const StoredHands& hands);
   void write(std::size_t slot, const StoredSkeleton& skeleton);
   void write(const StoredBeat& beat);
-  void beat_heart(MonoTime now);
+  void update_heartbeat(MonoTime now);
   // Readers see that it ended.
   void close();
 

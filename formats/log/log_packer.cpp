@@ -18,8 +18,8 @@ void put_opening(ByteWriter& out, PackedKind kind) {
 }
 
 PackedKind kind_of(MotionType type, bool is_key) {
-  if (type == MotionType::kPose) return is_key ? PackedKind::kPoseKeyFrame : PackedKind::kPose;
-  return is_key ? PackedKind::kHandsKeyFrame : PackedKind::kHands;
+  if (type == MotionType::kPose) return is_key ? PackedKind::kPoseIntraFrame : PackedKind::kPose;
+  return is_key ? PackedKind::kHandsIntraFrame : PackedKind::kHands;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ LogEvent LogPacker::pack_motion(const LogEvent& event) {
   // Modulo 2^64, so that a clock that was set back gives an intra frame, too.
   const std::uint64_t since_key_us =
       static_cast<std::uint64_t>(event.time_us) - static_cast<std::uint64_t>(stream.key_time_us);
-  if (since_key_us >= static_cast<std::uint64_t>(key_frame_period_.count_us()))
+  if (since_key_us >= static_cast<std::uint64_t>(intra_frame_period_.count_us()))
     stream.packer.restart();
   const bool is_key = stream.packer.is_at_key();
   if (is_key) stream.key_time_us = event.time_us;
@@ -71,7 +71,7 @@ LogEvent LogPacker::pack_motion(const LogEvent& event) {
     return event;
   }
   ++counters_.packed;
-  if (is_key) ++counters_.key_frames;
+  if (is_key) ++counters_.intra_frames;
   return stored;
 }
 

@@ -27,18 +27,18 @@ namespace dance {
 class LogPacker {
  public:
   // A damaged or lost event of a channel costs its messages up to the next intra frame.
-  static constexpr Duration kKeyFramePeriod = Duration::ms(500);
+  static constexpr Duration kIntraFramePeriod = Duration::ms(500);
 
   struct Counters {
-    std::uint64_t packed = 0;       // poses and hands
-    std::uint64_t key_frames = 0;   // of them
-    std::uint64_t kept = 0;         // poses and hands kept unchanged
-    std::uint64_t plain_bytes = 0;  // size of the plain events, and
-    std::uint64_t bytes = 0;        // of the packed ones: headers, channels and data
+    std::uint64_t packed = 0;        // poses and hands
+    std::uint64_t intra_frames = 0;  // of them
+    std::uint64_t kept = 0;          // poses and hands kept unchanged
+    std::uint64_t plain_bytes = 0;   // size of the plain events, and
+    std::uint64_t bytes = 0;         // of the packed ones: headers, channels and data
   };
 
-  explicit LogPacker(Duration key_frame_period = kKeyFramePeriod)
-      : key_frame_period_(key_frame_period) {}
+  explicit LogPacker(Duration intra_frame_period = kIntraFramePeriod)
+      : intra_frame_period_(intra_frame_period) {}
 
   // The event to store instead.
   LogEvent pack(const LogEvent& event);
@@ -60,7 +60,7 @@ class LogPacker {
   bool comes_back(Stream& stream, bool is_key, std::span<const std::uint8_t> packed,
                   const LogEvent& event);
 
-  Duration key_frame_period_;
+  Duration intra_frame_period_;
   std::map<std::string, std::unique_ptr<Stream>, std::less<>> streams_;
   std::uint64_t uses_ = 0;
   Counters counters_;

@@ -13,11 +13,11 @@ std::optional<LogEvent> LogUnpacker::unpack(const LogEvent& event) {
   }
   const std::uint8_t kind = body.u8();
   switch (static_cast<PackedKind>(kind)) {
-    case PackedKind::kPoseKeyFrame:
+    case PackedKind::kPoseIntraFrame:
       return unpack_motion(event, MotionType::kPose, true, body);
     case PackedKind::kPose:
       return unpack_motion(event, MotionType::kPose, false, body);
-    case PackedKind::kHandsKeyFrame:
+    case PackedKind::kHandsIntraFrame:
       return unpack_motion(event, MotionType::kHands, true, body);
     case PackedKind::kHands:
       return unpack_motion(event, MotionType::kHands, false, body);

@@ -18,7 +18,7 @@
 #include <span>
 
 #include "core/bus/encode.h"
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 
 namespace dance {
 

@@ -27,9 +27,9 @@ constexpr std::uint8_t kPackedVersion = 1;
 enum class PackedKind : std::uint8_t {
   kAsItWas = 0,  // an event of the bus that looks packed: wrapped with its name
   // The others refer to the previous message of their channel.
-  kPoseKeyFrame = 1,
+  kPoseIntraFrame = 1,
   kPose = 2,
-  kHandsKeyFrame = 3,
+  kHandsIntraFrame = 3,
   kHands = 4,
 };
 
@@ -66,10 +66,10 @@ inline std::optional<PackedMotion> packed_motion_of(const LogEvent& event) {
       event.data[kPackedMagic.size()] != kPackedVersion)
     return std::nullopt;
   const auto kind = static_cast<PackedKind>(event.data[kPackedMagic.size() + 1]);
-  if (kind < PackedKind::kPoseKeyFrame || kind > PackedKind::kHands) return std::nullopt;
+  if (kind < PackedKind::kPoseIntraFrame || kind > PackedKind::kHands) return std::nullopt;
   PackedMotion motion;
-  motion.is_pose = kind == PackedKind::kPoseKeyFrame || kind == PackedKind::kPose;
-  motion.is_key = kind == PackedKind::kPoseKeyFrame || kind == PackedKind::kHandsKeyFrame;
+  motion.is_pose = kind == PackedKind::kPoseIntraFrame || kind == PackedKind::kPose;
+  motion.is_key = kind == PackedKind::kPoseIntraFrame || kind == PackedKind::kHandsIntraFrame;
   motion.channel = event.channel.substr(kPackedPrefix.size());
   for (std::size_t i = 4; i-- > 0;)
     motion.checksum = motion.checksum << 8 | event.data[kOpening_bytes - 4 + i];

@@ -5,8 +5,8 @@
 //               of different clocks through the times of the recording, by the fastest message.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      counted: poses and hands that are not newer, frames beyond the bound. Who is silent
-//               for longer than kLongestGap, has not come yet or has left, stands still.
+// Failure:      counted: poses and hands that are not newer, frames beyond the bound. A guest who
+//               is silent for longer than kLongestGap, has not come yet or has left, stands still.
 #pragma once
 
 #include <vector>

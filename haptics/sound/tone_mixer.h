@@ -14,7 +14,7 @@
 #include <numbers>
 #include <span>
 
-#include "core/pose/haptic.h"
+#include "core/signal/haptic.h"
 
 namespace dance {
 

@@ -5,7 +5,7 @@
 //               fy·y/z + cy, after the distortion of OpenCV's five coefficients.
 // Ownership:    plain value.
 // Threads:      none inside.
-// Failure:      none; who reads one from a file checks it.
+// Failure:      none; the reader of a file checks it.
 #pragma once
 
 #include <Eigen/Core>

@@ -20,7 +20,7 @@ bool is_same_beat(const Beat& a, const Beat& b) {
 
 }  // namespace
 
-BeatPublisher::BeatPublisher(Bus& bus, Poller& poller, Source source)
+BeatPublisher::BeatPublisher(SignalPort& bus, Poller& poller, Source source)
     : bus_(bus), source_(std::move(source)) {
   bus_.subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime now) {
     on_beat_heard(beat, now);

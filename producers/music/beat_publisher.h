@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "core/base/beat.h"
-#include "core/bus/bus.h"
+#include "core/bus/signal_port.h"
 #include "core/net/poller.h"
 
 namespace dance {
@@ -27,7 +27,7 @@ class BeatPublisher {
   // The next beat as it is known now.
   using Source = std::function<std::optional<Beat>(MonoTime now)>;
 
-  BeatPublisher(Bus& bus, Poller& poller, Source source);
+  BeatPublisher(SignalPort& bus, Poller& poller, Source source);
   BeatPublisher(const BeatPublisher&) = delete;
   BeatPublisher& operator=(const BeatPublisher&) = delete;
 
@@ -41,7 +41,7 @@ class BeatPublisher {
   MonoTime work(MonoTime now);
   void on_beat_heard(const Beat& beat, MonoTime now);
 
-  Bus& bus_;
+  SignalPort& bus_;
   Source source_;
   // The last ones published: the bus delivers them to this program too.
   std::array<Beat, 64> own_{};

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"

@@ -19,7 +19,7 @@ constexpr Duration kRoomMusicTimeout = Duration::s(4);
 }  // namespace
 
 MusicProgram::MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPlayer> player,
-                           Bus& bus, Poller& poller)
+                           SignalPort& bus, Poller& poller)
     : options_(std::move(options)),
       player_(std::move(player)),
       bus_(bus),

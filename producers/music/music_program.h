@@ -13,7 +13,7 @@
 #include <string>
 
 #include "core/base/guest_id.h"
-#include "core/bus/bus.h"
+#include "core/bus/signal_port.h"
 #include "core/net/poller.h"
 #include "producers/music/beat_publisher.h"
 #include "producers/music/music_player.h"
@@ -34,7 +34,7 @@ struct MusicProgramOptions {
 
 class MusicProgram {
  public:
-  MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPlayer> player, Bus& bus,
+  MusicProgram(MusicProgramOptions options, std::unique_ptr<MusicPlayer> player, SignalPort& bus,
                Poller& poller);
   MusicProgram(const MusicProgram&) = delete;
   MusicProgram& operator=(const MusicProgram&) = delete;
@@ -60,7 +60,7 @@ class MusicProgram {
 
   MusicProgramOptions options_;
   std::unique_ptr<MusicPlayer> player_;
-  Bus& bus_;
+  SignalPort& bus_;
   Poller& poller_;
   RoomMusic room_music_;
   std::unique_ptr<BeatPublisher> publisher_;

@@ -29,7 +29,7 @@ MonoTime& time_of(Message& message) {
 
 }  // namespace
 
-LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller& poller,
+LogPlayer::LogPlayer(UnpackedLog log, LogPlayerOptions options, SignalPort& bus, Poller& poller,
                      MonoTime start)
     : log_(std::move(log)), options_(std::move(options)), bus_(bus), start_(start) {
   is_over_ = !read_next();

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/bus/bus.h"
+#include "core/bus/signal_port.h"
 #include "core/net/poller.h"
 #include "formats/log/unpacked_log.h"
 
@@ -38,7 +38,8 @@ class LogPlayer {
     std::uint64_t gaps = 0;  // pauses of over a minute, or jumps back, that were not waited for
   };
 
-  LogPlayer(UnpackedLog log, LogPlayerOptions options, Bus& bus, Poller& poller, MonoTime start);
+  LogPlayer(UnpackedLog log, LogPlayerOptions options, SignalPort& bus, Poller& poller,
+            MonoTime start);
 
   bool is_over() const { return is_over_; }
   Result<void> ended() const { return log_.ended(); }
@@ -66,7 +67,7 @@ class LogPlayer {
 
   UnpackedLog log_;
   LogPlayerOptions options_;
-  Bus& bus_;
+  SignalPort& bus_;
   std::optional<LogEvent> next_;
   MonoTime start_;
   std::int64_t first_time_us_ = 0;

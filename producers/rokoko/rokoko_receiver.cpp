@@ -6,7 +6,7 @@ namespace dance {
 namespace {
 
 constexpr std::uint16_t kUsualPort = 14043;
-// Whoever is followed and does not come for so long has gone.
+// An actor that is followed has left when nothing came for so long.
 constexpr Duration kGone = Duration::s(2);
 
 }  // namespace

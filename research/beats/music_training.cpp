@@ -66,7 +66,7 @@ void find_tempo_moments(LabelledMoments& moments,
   constexpr std::array kLevels{0.485, 0.5, 0.515, 1.94, 2.0, 2.06};
   constexpr std::array kOthers{0.667, 0.75, 0.8, 0.9, 1.12, 1.25, 1.333, 1.5};
   constexpr std::array kNearby{0.985, 1.0, 1.015};
-  // Levels are what is to be learnt; other tempi are seldom in doubt.
+  // Levels are what is to be learnt; other tempi are rarely ambiguous.
   constexpr float kLevelWeight = 1.0f;
   RhythmPeriods rhythm;
   std::array<float, RhythmPeriods::kCount> row;

@@ -1,7 +1,7 @@
 // Mastering: a song as another studio would have sent it out: bass and treble turned up or down,
 // compressed, driven into its limit, with some hiss. Beats stay where they are; what a stroke
-// sounds like does not. Who learns from one song in several studios learns the strokes, and not the
-// studio.
+// sounds like does not. A model trained on one song in several studios learns the strokes, and not
+// the studio.
 //
 // Units/frames: mono samples at rate_hz, of any loudness; what comes out stays within ±1.1.
 // Ownership:    takes the samples, gives them back changed.

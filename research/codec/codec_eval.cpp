@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/codec/lattice_codec.h"
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 #include "research/codec/codec_loss.h"
 
 namespace dance {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/codec/pose_model.h"
+#include "core/codec/lattice/pose_model.h"
 #include "research/codec/codec_room.h"
 #include "research/codec_takes.h"
 
@@ -51,7 +51,7 @@ struct LossResult {
   double wire_bytes = 0.0;          // a frame sent
   double decoded_fraction = 0.0;    // of those received
   double longest_gap_frames = 0.0;  // received but not decoded, in a row
-  double key_frames = 0.0;          // of those sent
+  double intra_frames = 0.0;        // of those sent
 };
 
 struct CodecEval {
@@ -71,7 +71,7 @@ struct CodecEval {
 CodecRoomOptions room_options(const CodecEvalOptions& options);
 
 CodecEval evaluate_codec(const std::vector<CodecTake>& takes, const CodecEvalOptions& options);
-// Of frames that refer to one this many frames old; 0 = key frames.
+// Of frames that refer to one this many frames old; 0 = intra frames.
 double mean_bytes_of(const std::vector<CodecTake>& takes, const CodecEvalOptions& options,
                      std::uint32_t age);
 std::string codec_eval_table(const CodecEval& result, const CodecEvalOptions& options);

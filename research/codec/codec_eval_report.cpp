@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 #include "core/program/figures.h"
 #include "research/codec/codec_eval.h"
 
@@ -30,7 +30,7 @@ std::string codec_eval_table(const CodecEval& r, const CodecEvalOptions& options
   out += "  reference         bytes a frame     p99   of raw     encode     decode\n";
   for (const AgeResult& age : r.ages)
     out += fmt::format("  {:<17} {:>12.1f} {:>8.0f} {:>7.1f}% {:>8.1f} us {:>7.1f} us\n",
-                       age.age == "intra" ? "none (key frame)"
+                       age.age == "intra" ? "intra frame"
                        : age.age == "1"   ? "1 frame old"
                                           : age.age + " frames old",
                        age.mean_bytes, age.p99_bytes, 100.0 * age.mean_bytes / raw,
@@ -52,11 +52,11 @@ std::string codec_eval_table(const CodecEval& r, const CodecEvalOptions& options
   if (r.losses.empty()) return out + room;
   out += fmt::format("\n  {:g} % lost, round trip {:.0f} ms\n", *options.loss_percent,
                      options.round_trip.as_seconds() * 1e3);
-  out += "  references        bytes a frame   decoded of received   longest gap   key frames\n";
+  out += "  references        bytes a frame   decoded of received   longest gap   intra frames\n";
   for (const LossResult& loss : r.losses)
     out += fmt::format("  {:<17} {:>12.1f} {:>20.2f}% {:>8.0f} frames {:>9.2f}%\n", loss.policy,
                        loss.wire_bytes, 100.0 * loss.decoded_fraction, loss.longest_gap_frames,
-                       100.0 * loss.key_frames);
+                       100.0 * loss.intra_frames);
   return out + room;
 }
 
@@ -88,7 +88,7 @@ std::string codec_eval_json(const CodecEval& r, const CodecEvalOptions& options)
       report["policies"][loss.policy] = {{"decoded_fraction", rounded(loss.decoded_fraction, 1e5)},
                                          {"wire_bytes_per_frame", rounded(loss.wire_bytes, 100.0)},
                                          {"longest_gap_frames", loss.longest_gap_frames},
-                                         {"key_frame_fraction", rounded(loss.key_frames, 1e4)}};
+                                         {"key_frame_fraction", rounded(loss.intra_frames, 1e4)}};
   }
   if (r.room)
     report["room"] = nlohmann::ordered_json::parse(codec_room_json(*r.room, room_options(options)));

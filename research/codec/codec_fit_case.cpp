@@ -1,7 +1,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "core/codec/body_predictor.h"
+#include "core/codec/lattice/body_predictor.h"
 #include "research/codec/codec_training.h"
 #include "research/in_two_threads.h"
 

@@ -1,7 +1,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "core/codec/body_quantiser.h"
+#include "core/codec/lattice/body_quantiser.h"
 #include "research/codec/codec_training.h"
 
 namespace dance {

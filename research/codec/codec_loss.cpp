@@ -4,7 +4,7 @@
 #include <array>
 #include <deque>
 
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 #include "testing/line/lossy_model.h"
 
 namespace dance {
@@ -74,7 +74,7 @@ LossResult send_over_line(const std::vector<CodecTake>& takes, const CodecEvalOp
   }
   result.wire_bytes = bytes / sent;
   result.decoded_fraction = decoded / received;
-  result.key_frames = keys / sent;
+  result.intra_frames = keys / sent;
   return result;
 }
 

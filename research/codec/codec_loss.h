@@ -1,5 +1,5 @@
 // Sends takes over a lossy line in simulated time, under one policy of references, with
-// acknowledgements and requests for key frames on the way back, as the tunnel has them.
+// acknowledgements and requests for intra frames on the way back, as the tunnel has them.
 //
 // Units/frames: poses are one period of the take apart; losses are the same for each policy.
 // Ownership:    none.

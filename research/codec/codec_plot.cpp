@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 #include "core/program/whole_file.h"
 #include "research/outside_program.h"
 #include "testing/scratch_folder.h"
@@ -19,7 +19,7 @@ RatePlot measure_rates(const std::vector<CodecTake>& takes, const CodecEvalOptio
       fmt::format("Pose codec: {} frames of dance at {:.0f} a second", eval.frames, eval.hz);
   for (const std::uint32_t age : {0u, 4u, 2u, 1u}) {
     RateSeries series;
-    series.name = age == 0   ? "none (key frame)"
+    series.name = age == 0   ? "intra frame"
                   : age == 1 ? "1 frame old"
                              : fmt::format("{} frames old", age);
     for (const double error_mm : kPlotErrors_mm) {

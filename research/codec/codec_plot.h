@@ -43,7 +43,7 @@ struct RatePlot {
 
 constexpr std::array<double, 5> kPlotErrors_mm{0.25, 0.5, 1.0, 2.0, 5.0};
 
-// Key frames and references 4, 2 and 1 frames old at each of these errors; `eval` is of the same
+// Intra frames and references 4, 2 and 1 frames old at each of these errors; `eval` is of the same
 // takes.
 RatePlot measure_rates(const std::vector<CodecTake>& takes, const CodecEvalOptions& options,
                        const CodecEval& eval);

@@ -8,11 +8,11 @@
 
 #include "core/base/assert.h"
 #include "core/base/random.h"
-#include "core/codec/lattice_codec.h"
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 #include "testing/line/lossy_model.h"
-#include "tunnel/link/link_core.h"
-#include "tunnel/server/server_core.h"
+#include "tunnel/link/core/link_core.h"
+#include "tunnel/server/core/server_core.h"
 
 namespace dance {
 namespace {

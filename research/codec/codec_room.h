@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "core/codec/pose_model.h"
+#include "core/codec/lattice/pose_model.h"
 #include "research/codec_takes.h"
 
 namespace dance {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 #include "research/in_two_threads.h"
 
 namespace dance {

@@ -3,7 +3,7 @@
 // coordinates of one frame hang together. Each round encodes the takes with what the round before
 // found, so that the model is learnt from frames as decoders have them.
 //
-// Units/frames: as core/codec/pose_model.h says.
+// Units/frames: as core/codec/lattice/pose_model.h says.
 // Ownership:    returns a model of its own.
 // Threads:      runs two, which end with the call.
 // Failure:      an Error says what the takes lack.
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/codec/pose_model.h"
+#include "core/codec/lattice/pose_model.h"
 #include "research/codec_takes.h"
 
 namespace dance {

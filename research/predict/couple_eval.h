@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "research/predict/couple_takes.h"
-#include "transformers/predict/predict_model.h"
+#include "transformers/predict/model/predict_model.h"
 
 namespace dance {
 

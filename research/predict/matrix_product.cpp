@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "transformers/predict/row_kernels.h"
+#include "transformers/predict/model/row_kernels.h"
 
 namespace dance {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "research/predict/predict_takes.h"
-#include "transformers/predict/predict_model.h"
+#include "transformers/predict/model/predict_model.h"
 
 namespace dance {
 

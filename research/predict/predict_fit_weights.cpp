@@ -4,7 +4,7 @@
 
 #include "research/predict/predict_training.h"
 #include "transformers/predict/dance_predictor.h"
-#include "transformers/predict/motion_bounds.h"
+#include "transformers/predict/past/motion_bounds.h"
 
 namespace dance {
 namespace {

@@ -3,10 +3,10 @@
 
 #include "core/pose/kinematics.h"
 #include "research/predict/predict_training.h"
-#include "transformers/predict/dance_memory.h"
-#include "transformers/predict/moment_predictions.h"
-#include "transformers/predict/motion_bounds.h"
-#include "transformers/predict/steady_rows.h"
+#include "transformers/predict/blend/moment_predictions.h"
+#include "transformers/predict/past/dance_memory.h"
+#include "transformers/predict/past/motion_bounds.h"
+#include "transformers/predict/past/steady_rows.h"
 
 namespace dance {
 namespace {

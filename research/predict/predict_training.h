@@ -2,7 +2,7 @@
 // (stochastic gradient on the dances, mirrored ones and trembling ones), and what each prediction
 // is worth (least squares on dances that the network asked was not trained on).
 //
-// Units/frames: as transformers/predict/predict_model.h; takes are of 60 frames a second.
+// Units/frames: as transformers/predict/model/predict_model.h; takes are of 60 frames a second.
 // Ownership:    plain values.
 // Threads:      networks are trained beside each other, one thread each; the result does not depend
 //               on it.
@@ -16,7 +16,7 @@
 
 #include "core/base/result.h"
 #include "research/predict/predict_takes.h"
-#include "transformers/predict/predict_model.h"
+#include "transformers/predict/model/predict_model.h"
 
 namespace dance {
 

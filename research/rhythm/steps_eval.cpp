@@ -85,7 +85,8 @@ StepsScore steps_score(const BeatDance& dance, const ToldBeats& told, double mus
   double same = 0.0;
   for (std::size_t i = 0; i < told.size(); ++i) {
     if (!told[i]) continue;
-    // At each beat is shown what is told to be danced at it: who is told too much is shown late.
+    // At each beat is shown what is told to be danced at it: a dancer of whom too much is told is
+    // shown late.
     const double beats = *told[i] - dance.beats[i];
     late.push_back(beats);
     circle += std::polar(1.0, 2.0 * std::numbers::pi * beats);

@@ -7,7 +7,7 @@
 #include "research/style/stylize_eval.h"
 #include "testing/motion/motion_measures.h"
 #include "testing/motion/take_grid.h"
-#include "transformers/predict/predict_model.h"
+#include "transformers/predict/model/predict_model.h"
 #include "transformers/tempo/period.h"
 
 namespace dance {

@@ -32,7 +32,7 @@ struct Wishes {
   double again_mm = 1e3 * static_cast<double>(PalmHold::Limits().again_m);
   double early_mm = 1e3 * static_cast<double>(PalmHold::Limits().early_m);
   double soon_mm = 1e3 * static_cast<double>(PalmHold::Limits().soon_m);
-  std::string patience = "220ms", look = "120ms";
+  std::string release = "220ms", look = "120ms";
   bool is_json = false;
 };
 
@@ -40,7 +40,7 @@ Result<void> run(const Wishes& wishes) {
   TouchLine line;
   DANCE_TRY(line.delay, parse_duration(wishes.delay));
   DANCE_TRY(line.jitter, parse_duration(wishes.jitter));
-  DANCE_TRY(line.limits.patience, parse_duration(wishes.patience));
+  DANCE_TRY(line.limits.release_delay, parse_duration(wishes.release));
   DANCE_TRY(line.limits.look, parse_duration(wishes.look));
   line.limits.again_m = static_cast<float>(1e-3 * wishes.again_mm);
   line.limits.early_m = static_cast<float>(1e-3 * wishes.early_mm);
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
   line.add("--end", wishes.end_mm, "mm: palms further apart end it")
       .range(1.0, 1000.0)
       .shows_default();
-  line.add("--patience", wishes.patience, "for so long").shows_default();
+  line.add("--release", wishes.release, "for so long").shows_default();
   line.add("--again", wishes.again_mm, "mm: of palms that held each other lately")
       .range(1.0, 1000.0)
       .shows_default();

@@ -52,7 +52,7 @@ constexpr Place kPlaces[]{
 constexpr double kToeUp_m = 0.012, kToeBefore_m = 0.015;
 constexpr double kReferenceBody_m = 1.72;
 
-// The network tells a body from the hips outwards: who hangs on whom.
+// The network tells a body from the hips outwards: which limb hangs on which.
 constexpr std::array<int, kLandmarkCount> kHangsOn = [] {
   std::array<int, kLandmarkCount> on{};
   const auto hang = [&on](Landmark l, Landmark parent) {

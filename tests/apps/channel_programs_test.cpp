@@ -130,7 +130,7 @@ TEST_F(ChannelPrograms, CarryAnArmALightAndTheMusicToTheOtherHouse) {
   const MonoTime now = mono_now();
   EXPECT_NEAR(b.music().second.beats_at(now), music.beats_at(now), 0.5);
 
-  // Nobody says anything any more; who comes now hears of it all the same.
+  // Nothing is published any more; a house that comes now gets it all the same.
   Ear c(kThirdBus);
   start_link(kThirdBus, "carol", folder_.path("carol.json"));
   EXPECT_TRUE(wait_for([&] {

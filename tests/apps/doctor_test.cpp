@@ -106,12 +106,12 @@ TEST(Doctor, AsksTheSoundServerOfThisMachine) {
   EXPECT_EQ(sound.cure.empty(), sound.grade == Grade::kOk);
 }
 
-NatsExamination healthy_nats() {
-  NatsExamination found;
+NatsProbe healthy_nats() {
+  NatsProbe found;
   found.server = "nats://127.0.0.1:4222";
   found.round_trip = Duration::us(300);
   for (const char* name : {kClusterBucket, kKeysBucket}) {
-    NatsExamination::Bucket bucket;
+    NatsProbe::Bucket bucket;
     bucket.name = name;
     bucket.is_there = true;
     bucket.replicas = bucket.current_replicas = 3;
@@ -134,7 +134,7 @@ TEST(Doctor, TellsWhatNatsLacks) {
   NatsOptions three;
   three.urls = {"nats://a", "nats://b", "nats://c"};
   EXPECT_EQ(worst(check_nats(healthy_nats(), three)), Grade::kOk);
-  NatsExamination found = healthy_nats();
+  NatsProbe found = healthy_nats();
   found.no_connection = Error{"no NATS server answers"};
   EXPECT_EQ(check_nats(found, three).size(), 1u) << "the rest cannot be known";
   EXPECT_EQ(worst(check_nats(found, three)), Grade::kProblem);

@@ -1,5 +1,5 @@
 #!/bin/sh
-# docs_commands.sh BIN: every `dance …` or `./dance …` line in a ```sh block of README.md, CONTRIBUTING.md, docs/ and logs/ names a
+# docs_commands.sh BIN: every `dance …` or `./dance …` line in a ```sh block of README.md, CONTRIBUTING.md, docs/, logs/ and examples/ names a
 # program and options that the programs in BIN have; a line that ends in `# runs in CI` is run, in a private network,
 # and must exit 0.
 set -eu
@@ -11,7 +11,7 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$root"
 
 # file:line:command, with continued lines joined.
-for file in README.md CONTRIBUTING.md docs/*.md logs/README.md; do
+for file in README.md CONTRIBUTING.md docs/*.md logs/README.md examples/README.md; do
   [ -f "$file" ] || continue
   awk -v file="$file" '
     /^```/ { inside = ($0 == "```sh"); next }

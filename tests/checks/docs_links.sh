@@ -6,7 +6,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-folders='apps|bench|bindings|cmake|consumers|core|data|docs|examples|formats|house|lcmtypes|logs|manager|producers|research|sessions|testing|tests|transformers|tunnel|viewer'
+folders='apps|bench|bindings|cmake|consumers|core|data|docs|examples|formats|haptics|house|lcmtypes|logs|manager|packaging|producers|research|sessions|testing|tests|transformers|tunnel|viewer|voice'
 "$here/sources.sh" .md >"$scratch/documents"
 
 # FILE#ANCHOR for each heading: lower case, no punctuation but - and _, blanks to -, and -1, -2 where one comes again.

@@ -1,15 +1,21 @@
 #!/bin/sh
-# What a file may be: at most 400 lines of at most 100 columns (C++), no name that says nothing, no tab or trailing space, one line break at its end;
+# What a file may be: at most 400 lines of at most 100 columns (C and C++), no name that says nothing, no tab or trailing space, one line break at its end;
+# no folder with more than 30 sources;
 # a header begins with a comment that says what it is for, and labels its threads and its failures.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here/../.."
-"$here/sources.sh" .h .cpp .lcm .sh .cmake CMakeLists.txt | LC_ALL=C awk '
+"$here/sources.sh" .h .hpp .cpp .c .lcm .sh .cmake CMakeLists.txt | LC_ALL=C awk '
 function wrong(what) { printf "%s\n", what; failed = 1 }
 {
   file = $0
   if (file ~ /\.lcm$/ && file !~ /^lcmtypes\//) next  # a recorded log, not a message type
   ++files
+  if (file ~ /\.(h|cpp)$/) {
+    folder = file
+    sub(/\/[^\/]*$/, "", folder)
+    if (++in_folder[folder] == 31) wrong(folder ": more than 30 sources; it wants sub-folders")
+  }
   name = file
   sub(/^.*\//, "", name)
   stem = name
@@ -24,7 +30,7 @@ function wrong(what) { printf "%s\n", what; failed = 1 }
     if (text ~ /[ \r]$/) wrong(file ":" line ": a space at the end")
     columns = text
     gsub(/[\200-\277]/, "", columns)  # bytes that continue a character
-    if (file ~ /\.(h|cpp)$/ && length(columns) > 100) wrong(file ":" line ": " length(columns) " columns; at most 100")
+    if (file ~ /\.(h|hpp|c|cpp)$/ && length(columns) > 100) wrong(file ":" line ": " length(columns) " columns; at most 100")
     if (is_head && text ~ /^\/\//) comment = comment "\n" text
     else is_head = 0
   }

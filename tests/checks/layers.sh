@@ -43,6 +43,8 @@ BEGIN {
     right = substr(rule, colon + 1)
     gsub(/^ +| +$/, "", right)
     gsub(/ +/, " ", right)
+    if ((left[1] SUBSEP left[2]) in ruled) { print rules ": a second rule: " rule; failed = 1 }
+    ruled[left[1], left[2]] = 1
     if (left[1] == "may") may[left[2]] = right
     else if (left[1] == "only") only[left[2]] = right
     else if (left[1] == "never") never[left[2]] = right

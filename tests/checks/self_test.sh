@@ -57,6 +57,15 @@ expect_fine layers.sh
 fault core/base/pose_utils.cpp 'int x;\n'
 expect files.sh 'core/base/pose_utils.cpp: the name says nothing'
 rm "$tree/core/base/pose_utils.cpp"
+cp "$tree/tests/checks/layers.txt" "$tree/layers.kept"
+echo 'may core/base:  core/pose' >>"$tree/tests/checks/layers.txt"
+expect layers.sh 'a second rule: may core/base:'
+mv "$tree/layers.kept" "$tree/tests/checks/layers.txt"
+mkdir "$tree/core/net"
+i=0
+while [ $i -lt 31 ]; do echo 'int x;' >"$tree/core/net/thing$i.cpp"; i=$((i + 1)); done
+expect files.sh 'core/net: more than 30 sources'
+rm -r "$tree/core/net"
 fault core/base/wide.cpp "// $(printf '%098d' 0)\n"
 expect files.sh 'core/base/wide.cpp:1: 101 columns; at most 100'
 fault core/base/wide.cpp "// $(printf '%096d' 0)é\n"

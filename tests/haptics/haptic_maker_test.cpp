@@ -47,8 +47,8 @@ HapticMaker maker_of(HapticMakerOptions options = {}) { return HapticMaker(optio
 TEST(HapticMaker, AHarderTouchIsFeltMoreStronglyWhereItIs) {
   HapticMaker maker = maker_of();
   HapticNotes soft, hard;
-  maker.feel(some_touch(TouchPhase::kBegins, 2.0f), when(0), soft);
-  maker.feel(some_touch(TouchPhase::kBegins, 40.0f), when(10), hard);
+  maker.take(some_touch(TouchPhase::kBegins, 2.0f), when(0), soft);
+  maker.take(some_touch(TouchPhase::kBegins, 40.0f), when(10), hard);
   ASSERT_EQ(soft.felt.size(), 1u);
   ASSERT_EQ(hard.felt.size(), 1u);
   EXPECT_GT(hard.felt[0].amplitude, soft.felt[0].amplitude + 0.3f);
@@ -61,9 +61,9 @@ TEST(HapticMaker, AHarderTouchIsFeltMoreStronglyWhereItIs) {
 TEST(HapticMaker, WhatStaysFades) {
   HapticMaker maker = maker_of();
   HapticNotes notes;
-  maker.feel(some_touch(TouchPhase::kBegins), when(0), notes);
+  maker.take(some_touch(TouchPhase::kBegins), when(0), notes);
   for (int ms = 33; ms < 10'000; ms += 33)
-    maker.feel(some_touch(TouchPhase::kLasts), when(ms), notes);
+    maker.take(some_touch(TouchPhase::kLasts), when(ms), notes);
   EXPECT_GT(notes.felt.size(), 4u);
   EXPECT_LT(notes.felt.size(), 30u);
   EXPECT_LT(notes.felt.back().amplitude, 0.35f * notes.felt[1].amplitude);
@@ -74,10 +74,10 @@ TEST(HapticMaker, TheLeadsHandHasAPatternForEachDirection) {
   const auto patterns = [](const Eigen::Vector3f& motion) {
     HapticMaker maker = maker_of();
     HapticNotes notes;
-    maker.feel(some_hold(TouchPhase::kBegins), when(0), notes);
+    maker.take(some_hold(TouchPhase::kBegins), when(0), notes);
     notes.felt.clear();
-    maker.feel(some_hold(TouchPhase::kLasts, motion), when(400), notes);
-    maker.feel(some_hold(TouchPhase::kLasts, motion), when(433), notes);  // not twice
+    maker.take(some_hold(TouchPhase::kLasts, motion), when(400), notes);
+    maker.take(some_hold(TouchPhase::kLasts, motion), when(433), notes);  // not twice
     return notes.felt;
   };
   EXPECT_TRUE(patterns({0.1f, 0.2f, 0.3f}).empty());
@@ -154,7 +154,7 @@ TEST(HapticMaker, MoreContactsThanThereIsRoomForAreBoundedAndNothingIsAllocated)
     touch.contact = i % 100;
     touch.is_hold = i % 2 == 0;
     touch.motion_m_s = {50.0f, -50.0f, 50.0f};
-    maker.feel(touch, when(i % 777), sink);
+    maker.take(touch, when(i % 777), sink);
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_TRUE(sink.is_fine);

@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   dance::HapticMaker maker({}, 1, 1);
   dance::Touch touch;
   if (dance::decode(data, size, touch) == Decoded::kFine)
-    for (int i = 0; i < 3; ++i) maker.feel(touch, touch.time + dance::Duration::ms(200 * i), sink);
+    for (int i = 0; i < 3; ++i) maker.take(touch, touch.time + dance::Duration::ms(200 * i), sink);
   dance::Beat beat;
   if (dance::decode(data, size, beat) == Decoded::kFine) {
     maker.hear(beat);

@@ -1,5 +1,5 @@
 // What a panel saves: the values come back, and all else of the file stays as it was.
-#include "house/session_file/session_file.h"
+#include "formats/session/session_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -11,7 +11,8 @@ if [ "${1:-}" != --hidden ]; then
   trap 'rm -rf "$scratch"' EXIT
   root=$scratch/root
   mkdir "$root"
-  if command -v cpack dpkg dpkg-shlibdeps file >/dev/null; then
+  has_all() { for tool in "$@"; do command -v "$tool" >/dev/null || return 1; done; }
+  if has_all cpack dpkg dpkg-shlibdeps file; then
     (cd "$scratch" && cpack --config "$build/CPackConfig.cmake" -B "$scratch/packages" \
       -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip >"$scratch/cpack.log" 2>&1) || { cat "$scratch/cpack.log"; exit 1; }
     for package in "$scratch"/packages/*.deb; do
@@ -19,6 +20,12 @@ if [ "${1:-}" != --hidden ]; then
       dpkg -f "$package" >"$scratch/$(dpkg -f "$package" Package).control"
       echo "$(basename "$package"): $(stat -c %s "$package") bytes"
     done
+    # Every package that they depend on can be had here, where apt knows any.
+    if has_all apt-get apt-cache && [ -n "$(apt-cache madison liblcm1 2>/dev/null)" ]; then
+      apt-get install --simulate "$scratch"/packages/*.deb >"$scratch/apt.log" 2>&1 || { cat "$scratch/apt.log"; exit 1; }
+    else
+      echo "apt has no lists here: whether the packages' dependencies exist is not tested"
+    fi
   else
     echo "no dpkg here: installed without packages"
     cmake --install "$build" --prefix "$root/usr" >"$scratch/install.log" || { cat "$scratch/install.log"; exit 1; }

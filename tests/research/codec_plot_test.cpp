@@ -12,7 +12,7 @@ namespace {
 RatePlot some_plot() {
   RatePlot plot;
   plot.title = "bytes of a dance";
-  plot.series = {{"key frame", {{0.25, 65.0}, {1.0, 45.5}, {5.0, 30.0}}},
+  plot.series = {{"intra frame", {{0.25, 65.0}, {1.0, 45.5}, {5.0, 30.0}}},
                  {"4 frames old", {{0.25, 40.0}, {1.0, 25.25}, {5.0, 15.0}}},
                  {"1 frame old", {{0.25, 20.0}, {1.0, 13.75}, {5.0, 8.0}}}};
   plot.marks = {{"three int16", 144.0, 3.5}, {"two thirds", 242.7, std::nullopt}};
@@ -41,7 +41,7 @@ TEST(RatePlot, IsDrawnByGnuplot) {
   if (!drawn && has(drawn.error().what, "apt-get install")) GTEST_SKIP() << drawn.error().what;
   ASSERT_TRUE(drawn) << drawn.error().what;
   const std::string svg = text_of(folder.path("plot.svg"));
-  for (const char* text : {"<svg", "key frame", "4 frames old", "1 frame old", ">45.5<", ">25.2<",
+  for (const char* text : {"<svg", "intra frame", "4 frames old", "1 frame old", ">45.5<", ">25.2<",
                            ">13.8<", "three int16", "two thirds", "bytes of a dance"})
     EXPECT_TRUE(has(svg, text)) << text;
 }

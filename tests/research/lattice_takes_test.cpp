@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 #include "research/codec/codec_eval.h"
 
 namespace dance {

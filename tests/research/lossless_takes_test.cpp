@@ -4,7 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 #include "formats/bvh/clip_file.h"
 
 namespace dance {

@@ -68,15 +68,27 @@ TEST(Flow, StylizeAloneShowsTheNewestPoseAsItCame) {
 
 TEST(Flow, TakesManyBlanks) { EXPECT_EQ(error_of({"  hold   20ms  "}), ""); }
 
+// Every word of a route, with arguments that it takes, in the order in which they stand there.
+const std::vector<std::string> kAllWords{"hold 20ms",      "predict",          "bridge",
+                                         "rhythm beats=1", "stylize hips=1.3", "hold-hands"};
+
 TEST(Flow, TakesEverySubsetOfTheWordsInTheirOrder) {
-  const std::vector<std::string> words{"hold 20ms", "predict", "bridge", "rhythm beats=1",
-                                       "stylize hips=1.3"};
-  for (unsigned which = 0; which < 32; ++which) {
+  for (unsigned which = 0; which < 1u << kAllWords.size(); ++which) {
     std::vector<std::string> through;
-    for (std::size_t i = 0; i < words.size(); ++i)
-      if (which >> i & 1u) through.push_back(words[i]);
+    for (std::size_t i = 0; i < kAllWords.size(); ++i)
+      if (which >> i & 1u) through.push_back(kAllWords[i]);
     EXPECT_EQ(error_of(through), "") << which;
   }
+}
+
+TEST(Flow, NoTwoWordsMayChangePlaces) {
+  for (std::size_t i = 0; i < kAllWords.size(); ++i)
+    for (std::size_t j = i + 1; j < kAllWords.size(); ++j) {
+      std::vector<std::string> through = kAllWords;
+      std::swap(through[i], through[j]);
+      EXPECT_NE(error_of(through).find("the right order is"), std::string::npos) << i << ' ' << j;
+      EXPECT_NE(error_of({kAllWords[j], kAllWords[i]}), "") << i << ' ' << j;
+    }
 }
 
 TEST(Flow, AnOrderThatMakesNoSenseIsAnErrorWithTheRightOne) {

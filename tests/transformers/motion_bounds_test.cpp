@@ -1,11 +1,11 @@
-#include "transformers/predict/motion_bounds.h"
+#include "transformers/predict/past/motion_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "transformers/predict/body_net.h"
+#include "transformers/predict/model/body_net.h"
 
 namespace dance {
 namespace {

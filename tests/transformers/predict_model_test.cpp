@@ -1,4 +1,4 @@
-#include "transformers/predict/predict_model.h"
+#include "transformers/predict/model/predict_model.h"
 
 #include <gtest/gtest.h>
 

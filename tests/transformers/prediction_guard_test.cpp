@@ -1,4 +1,4 @@
-#include "transformers/predict/prediction_guard.h"
+#include "transformers/predict/blend/prediction_guard.h"
 
 #include <gtest/gtest.h>
 

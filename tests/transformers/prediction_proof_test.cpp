@@ -1,4 +1,4 @@
-#include "transformers/predict/prediction_proof.h"
+#include "transformers/predict/blend/prediction_proof.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "core/base/random.h"
 #include "tests/transformers/flows.h"
 #include "transformers/playout/play_head.h"
-#include "transformers/predict/prediction_meter.h"
+#include "transformers/predict/blend/prediction_meter.h"
 #include "transformers/rhythm/beat_offset.h"
 #include "transformers/rhythm/dancer_music.h"
 

@@ -11,13 +11,13 @@ namespace {
 TEST(Access, AKeyBearsItsOwnNameAndThoseThatBeginWithItAndADash) {
   const Access alice{.name = guest("alice")};
   for (const char* own : {"alice", "alice-2", "alice-", "alice-and-bob"})
-    EXPECT_TRUE(alice.may_bear(guest(own))) << own;
+    EXPECT_TRUE(alice.may_use_name(guest(own))) << own;
   for (const char* other : {"alic", "alice2", "bob", "bob-alice"})
-    EXPECT_FALSE(alice.may_bear(guest(other))) << other;
-  EXPECT_FALSE(alice.may_bear(GuestId()));
-  EXPECT_FALSE(Access{}.may_bear(guest("-x"))) << "a key without a name bears none";
-  EXPECT_TRUE((Access{.name = guest("salsa"), .any_name = true}.may_bear(guest("bob"))));
-  EXPECT_FALSE((Access{.role = Role::kListener, .any_name = true}.may_bear(guest("bob"))));
+    EXPECT_FALSE(alice.may_use_name(guest(other))) << other;
+  EXPECT_FALSE(alice.may_use_name(GuestId()));
+  EXPECT_FALSE(Access{}.may_use_name(guest("-x"))) << "a key without a name bears none";
+  EXPECT_TRUE((Access{.name = guest("salsa"), .any_name = true}.may_use_name(guest("bob"))));
+  EXPECT_FALSE((Access{.role = Role::kListener, .any_name = true}.may_use_name(guest("bob"))));
 }
 
 TEST(Access, AKeyOpensOneRoomOrAll) {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "core/codec/hands_codec.h"
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 #include "tests/tunnel/cluster/cluster_samples.h"
 #include "tests/tunnel/datagram_script.h"
 #include "tunnel/seal/preshared_key.h"

@@ -1,5 +1,5 @@
 // What links and server do for a codec that refers to earlier frames: acknowledgements of what all
-// receivers have, key frames for those who have nothing, and datagrams that are shared.
+// receivers have, intra frames for those who have nothing, and datagrams that are shared.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -82,26 +82,26 @@ TEST_F(ReferencesTest, AWayWithoutLossNeedsNoAcknowledgedFrames) {
 }
 
 TEST_F(ReferencesTest, ANewcomerDecodesWithinARoundTripOverItsSender) {
-  tunnel.link_options.key_frame_period = Duration();
+  tunnel.link_options.intra_frame_period = Duration();
   House& a = add({"alice"});
   House& b = add({"bob"});
   Dance dance{tunnel, {{&a, guest("alice")}}};
   dance.run(Duration::s(2));
-  const int before = log(0).key_frames_wanted;
+  const int before = log(0).intra_frames_wanted;
   House& c = add({"carol"});
   // With the hello, 5 ms, the newcomer is known. To the sender 5 ms, up to a frame, to the server 5
   // ms, down 5 ms.
   dance.run(Duration::ms(1 + 5 + 5 + 17 + 5 + 5));
   EXPECT_GE(c.heard_of(guest("alice")), 1u);
-  EXPECT_EQ(log(0).key_frames_wanted, before + 1) << "one, not many";
+  EXPECT_EQ(log(0).intra_frames_wanted, before + 1) << "one, not many";
   dance.run(Duration::s(1));
-  EXPECT_EQ(log(0).key_frames_wanted, before + 1);
+  EXPECT_EQ(log(0).intra_frames_wanted, before + 1);
   EXPECT_EQ(b.link->counters().reference_missing, 0u);
 }
 
 // Where nothing was lost before, each frame refers to the one before it.
 TEST_F(ReferencesTest, AfterACutTheFirstPoseThatArrivesDecodes) {
-  tunnel.link_options.key_frame_period = Duration();
+  tunnel.link_options.intra_frame_period = Duration();
   House& a = add({"alice"});
   House& b = add({"bob"});
   Dance dance{tunnel, {{&a, guest("alice")}, {&b, guest("bob")}}};
@@ -122,7 +122,7 @@ TEST_F(ReferencesTest, AfterACutTheFirstPoseThatArrivesDecodes) {
 }
 
 TEST_F(ReferencesTest, ARequestWhoseAnswerIsLostIsMadeAgain) {
-  tunnel.link_options.key_frame_period = Duration();
+  tunnel.link_options.intra_frame_period = Duration();
   House& a = add({"alice"});
   House& b = add({"bob"});
   // Too far for acknowledged frames, once it is known that little is lost.
@@ -145,18 +145,18 @@ TEST_F(ReferencesTest, ARequestWhoseAnswerIsLostIsMadeAgain) {
   const auto before = b.heard_of(guest("alice"));
   dance.run(Duration::s(1));
   EXPECT_GE(b.heard_of(guest("alice")), before + 60);
-  EXPECT_GE(b.link->counters().key_frames_asked, 1u);
+  EXPECT_GE(b.link->counters().intra_frames_asked, 1u);
   EXPECT_GE(b.link->remote_stats().at(0).reference_missing, 1u);
 }
 
-TEST_F(ReferencesTest, HoweverManyAskKeyFramesComeTenTimesASecondAtMost) {
-  tunnel.link_options.key_frame_period = Duration();
+TEST_F(ReferencesTest, HoweverManyAskIntraFramesComeTenTimesASecondAtMost) {
+  tunnel.link_options.intra_frame_period = Duration();
   House& a = add({"alice"});
   House& b = add({"bob"});
   Dance dance{tunnel, {{&a, guest("alice")}}};
   dance.run(Duration::s(1));
   dance.run(Duration::ms(300));
-  const int before = log(0).key_frames_wanted;
+  const int before = log(0).intra_frames_wanted;
   tunnel.run(Duration::s(2), [&] {
     if (tunnel.now().since_zero_us() / 1000 % 16 == 0) tunnel.dance(a, guest("alice"));
     wire::RecordsHeader header;
@@ -167,21 +167,21 @@ TEST_F(ReferencesTest, HoweverManyAskKeyFramesComeTenTimesASecondAtMost) {
     wire::begin_records(header, writer);
     tunnel.inject(b.peer, writer.written());
   });
-  EXPECT_LE(log(0).key_frames_wanted - before, 21);
-  EXPECT_GE(log(0).key_frames_wanted - before, 15);
+  EXPECT_LE(log(0).intra_frames_wanted - before, 21);
+  EXPECT_GE(log(0).intra_frames_wanted - before, 15);
   EXPECT_GE(tunnel.server().counters().of(ServerReject::kForeignSlot), 1u) << "one's own, and none";
 }
 
-TEST_F(ReferencesTest, AKeyFrameComesEveryTwoSecondsUnasked) {
+TEST_F(ReferencesTest, AnIntraFrameComesEveryTwoSecondsUnasked) {
   House& a = add({"alice"});
   Dance dance{tunnel, {{&a, guest("alice")}}};
   dance.run(Duration::s(9));
-  EXPECT_EQ(log(0).key_frames_wanted, 4);
-  EXPECT_EQ(log(0).key_frames_encoded, 5);
+  EXPECT_EQ(log(0).intra_frames_wanted, 4);
+  EXPECT_EQ(log(0).intra_frames_encoded, 5);
   add({"bob"});
   dance.run(Duration::s(9));
   EXPECT_EQ(a.link->local_stats().at(0).references, References::kAcknowledged);
-  EXPECT_EQ(log(0).key_frames_wanted, 5) << "acknowledged frames need none but the newcomer's";
+  EXPECT_EQ(log(0).intra_frames_wanted, 5) << "acknowledged frames need none but the newcomer's";
 }
 
 TEST_F(ReferencesTest, AProducerStartedAgainRestartsBothEnds) {

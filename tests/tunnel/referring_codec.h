@@ -15,7 +15,7 @@
 #include "core/base/byte_writer.h"
 #include "core/base/sequence.h"
 #include "core/codec/plain_codec.h"
-#include "tunnel/link/link_options.h"
+#include "tunnel/link/core/link_options.h"
 
 namespace dance {
 
@@ -24,8 +24,8 @@ constexpr CodecName kReferring{static_cast<CodecId>(200), 0x0badcafe};
 // What happened to all encoders and decoders of one house.
 struct ReferringLog {
   std::vector<std::uint32_t> acknowledged;
-  int key_frames_wanted = 0;
-  int key_frames_encoded = 0;
+  int intra_frames_wanted = 0;
+  int intra_frames_encoded = 0;
   int encoder_restarts = 0;
   int decoder_restarts = 0;
   bool needs_skeleton = false;
@@ -57,7 +57,7 @@ class ReferringEncoder final : public PoseEncoder {
                                                : is_by_ack ? has_acked_
                                                            : has_previous_);
     is_still_ = !has_reference;
-    if (!has_reference) ++log_.key_frames_encoded;
+    if (!has_reference) ++log_.intra_frames_encoded;
     wants_key_ = false;
     const std::uint32_t reference = !has_reference ? previous_
                                     : is_base      ? newest_base_acked_
@@ -90,7 +90,7 @@ class ReferringEncoder final : public PoseEncoder {
   void request_base() override { is_base_ = true; }
   bool is_intra() const override { return is_still_; }
   void request_intra() override {
-    ++log_.key_frames_wanted;
+    ++log_.intra_frames_wanted;
     wants_key_ = true;
     has_acked_ = has_base_acked_ = false;
     has_void_ = has_previous_;

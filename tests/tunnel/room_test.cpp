@@ -76,7 +76,7 @@ TEST_F(LatticeRoom, ANewcomerDecodesEverybodyWithinARoundTripOverTheSenders) {
   dance.run(Duration::s(2));
   ASSERT_TRUE(all_refer_to(References::kAcknowledged));
   tunnel.on_datagram = nullptr;
-  tunnel.link_options.key_frame_period = Duration();
+  tunnel.link_options.intra_frame_period = Duration();
   House& newcomer = add("carol", 1.63f);
   const LinkCounters before = sum();
   // Hello and welcome 10 ms, the ping 5 ms: the newcomer is known. To the senders 5 ms, which are
@@ -89,7 +89,7 @@ TEST_F(LatticeRoom, ANewcomerDecodesEverybodyWithinARoundTripOverTheSenders) {
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_GE(newcomer.heard_of(dance.dancers[i].second), 60u) << i;
   EXPECT_EQ(after.invalid, 0u);
-  // What came to the newcomer before the key frame, and to nobody else.
+  // What came to the newcomer before the intra frame, and to nobody else.
   EXPECT_EQ(after.reference_missing - before.reference_missing,
             newcomer.link->counters().reference_missing);
   EXPECT_LE(newcomer.link->counters().reference_missing, 6u * 3u);

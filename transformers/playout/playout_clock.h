@@ -8,8 +8,8 @@
 #pragma once
 
 #include "core/base/time.h"
-#include "core/pose/flow_setting.h"
-#include "core/pose/playout.h"
+#include "core/signal/flow_setting.h"
+#include "core/signal/playout.h"
 #include "transformers/motion_source.h"
 #include "transformers/timeline.h"
 
@@ -26,7 +26,7 @@ class PlayoutClock {
   virtual ~PlayoutClock() = default;
   // The timeline has taken its newest pose; `source` answers with it.
   virtual void observe(const DancerTimeline& timeline, MotionSource& source) = 0;
-  // Another dance: nothing of before holds.
+  // Another dance: nothing is kept.
   virtual void restart() = 0;
   // The music that this house hears is elsewhere than it was said to be.
   virtual void on_music_jump() {}

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/assert.h"
-#include "transformers/predict/motion_bounds.h"
-#include "transformers/predict/row_kernels.h"
+#include "transformers/predict/model/row_kernels.h"
+#include "transformers/predict/past/motion_bounds.h"
 
 namespace dance {
 namespace {
@@ -170,7 +170,7 @@ void DancePredictor::ask_models(MomentPredictions& now) {
   model_->net.normalise(inputs_);
   bool is_new = false;
   const PersonalModel::Weights* weights = personal_->weights(is_new);
-  if (is_new) proof_.doubt_personal();
+  if (is_new) proof_.discount_personal();
   alignas(64) NetAnswers personal{}, answers;
   if (weights)
     add_product(inputs_.data(), kNetInputs, weights->data(), kNetAnswers, personal.data());

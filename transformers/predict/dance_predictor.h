@@ -1,6 +1,6 @@
 // DancePredictor: where one dancer's body will be. It hears poses as they come and tells the pose
 // of any moment after the newest, up to a second ahead: many predictions
-// (transformers/predict/predict_model.h), weighted by what this dancer has shown.
+// (transformers/predict/model/predict_model.h), weighted by what this dancer has shown.
 //
 // Units/frames: capture times of one clock; poses in W.
 // Ownership:    about three megabytes of its own, and the shared model; never allocates after
@@ -15,12 +15,12 @@
 #include <memory>
 #include <vector>
 
-#include "transformers/predict/moment_predictions.h"
-#include "transformers/predict/personal_model.h"
-#include "transformers/predict/prediction_blend.h"
-#include "transformers/predict/prediction_guard.h"
-#include "transformers/predict/prediction_proof.h"
-#include "transformers/predict/steady_rows.h"
+#include "transformers/predict/blend/moment_predictions.h"
+#include "transformers/predict/blend/prediction_blend.h"
+#include "transformers/predict/blend/prediction_guard.h"
+#include "transformers/predict/blend/prediction_proof.h"
+#include "transformers/predict/model/personal_model.h"
+#include "transformers/predict/past/steady_rows.h"
 
 namespace dance {
 

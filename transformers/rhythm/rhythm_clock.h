@@ -21,7 +21,7 @@
 #include "transformers/playout/play_head.h"
 #include "transformers/playout/play_out.h"
 #include "transformers/playout/playout_clock.h"
-#include "transformers/predict/prediction_meter.h"
+#include "transformers/predict/blend/prediction_meter.h"
 #include "transformers/rhythm/beat_offset.h"
 #include "transformers/rhythm/dancer_music.h"
 #include "transformers/rhythm/own_beat.h"

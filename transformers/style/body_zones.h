@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "core/pose/bone.h"
-#include "core/pose/style.h"
+#include "core/signal/style.h"
 
 namespace dance {
 

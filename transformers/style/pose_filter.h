@@ -13,7 +13,8 @@
 #include "core/base/time.h"
 #include "core/pose/pose.h"
 #include "core/pose/skeleton.h"
-#include "core/pose/style.h"
+#include "core/signal/flow_setting.h"
+#include "core/signal/style.h"
 
 namespace dance {
 
@@ -27,8 +28,9 @@ class PoseFilter {
   virtual void set_body(const Skeleton& /*skeleton*/) {}
   // How the dancer wants to be shown.
   virtual void set_style(const Style& /*style*/) {}
-  // How the session, or a person at this stage, wants it; where it is off, nothing is changed.
-  virtual void set_base(const Style& /*style*/, bool /*is_on*/) {}
+  // How the session file, or a person at this stage, wants it. A filter reads the part of its own
+  // word; where that is off, it changes nothing.
+  virtual void set(const FlowSetting& /*setting*/) {}
   virtual std::uint64_t refused() const { return 0; }
   virtual std::uint64_t restarts() const { return 0; }
 };

@@ -1,8 +1,8 @@
 // Styles as people write them: "preset=cuban hips=1.5 mix=0.5", in a session and in `dance style`;
 // and those that have a name.
 //
-// Units/frames: gains as core/pose/style.h; mix is what of the motion that does not come again with
-//               the bar follows them.
+// Units/frames: gains as core/signal/style.h; mix is what of the motion that does not come
+//               again with the bar follows them.
 // Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      read_style() names what is wrong and what there is.
@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
-#include "core/pose/style.h"
+#include "core/signal/style.h"
 
 namespace dance {
 

@@ -46,7 +46,7 @@ float towards(float from, float to, float most) {
 
 Stylize::Stylize(const Style& base) : base_(base), skeleton_(average_skeleton()) {
   aim();
-  // What the session says holds from the first pose on.
+  // What the session file says holds from the first pose on.
   gain_ = wanted_gain_;
   periodic_ = wanted_periodic_;
   dynamic_ = wanted_dynamic_;
@@ -59,13 +59,17 @@ void Stylize::aim() {
   wanted_dynamic_ = std::min(base_.dynamic * live_.dynamic, kMostStyleGain);
 }
 
-void Stylize::set_base(const Style& style, bool is_on) {
+void Stylize::set(const FlowSetting& setting) {
+  Style style;
+  style.gain = setting.gain;
+  style.periodic = setting.periodic;
+  style.dynamic = setting.dynamic;
   if (!is_valid(style)) {
     ++refused_;
     return;
   }
   base_ = style;
-  is_on_ = is_on;
+  is_on_ = setting.is_on(FlowWord::kStylize);
   aim();
 }
 
@@ -208,7 +212,7 @@ void Stylize::turn_bones(const MotionSplit::Parts& parts, Pose& pose) const {
   const Pose was = pose;
   for (std::size_t b = 0; b < kBoneCount; ++b)
     if (is_turned(b, was)) pose.R_PB[b] = turned(b, parts, more_of(kZoneOfBone[b]));
-  // What made a joint's turn larger may not break the joint; who goes beyond by themselves stays as
+  // What made a joint's turn larger may not break the joint; a dancer who goes beyond them stays as
   // far beyond.
   Pose limited = pose;
   if (limit_joints(limited) == 0) return;

@@ -3,8 +3,8 @@
 // how a joint deviates from its slow mean, p the part of it that comes again with each bar; shown
 // is r + (gain − 1) (periodic · p + dynamic · (r − p)).
 //
-// What the session says and what the guest says live multiply: the room's taste and the dancer's
-// wish both count, and a guest who says nothing, or 1, leaves the room's as it is.
+// What the session file says and what the guest says live multiply: the room's taste and the
+// dancer's wish both count, and a guest who says nothing, or 1, leaves the room's as it is.
 //
 // Units/frames: gains 0 .. 4, 1 as danced. The bar is the music's where poses carry it, else found
 //               in the motion (transformers/tempo/period.h). Hips: their tilt, and their sway over
@@ -36,14 +36,14 @@ namespace dance {
 
 class Stylize : public PoseFilter {
  public:
-  // What the session wants; time and clock of it are not looked at.
+  // What the session file wants; time and clock of it are not looked at.
   explicit Stylize(const Style& base);
 
   void observe(const Pose& pose, MonoTime now) override;
   void apply(MonoTime now, Pose& pose) override;
   void set_body(const Skeleton& skeleton) override;
   void set_style(const Style& style) override;
-  void set_base(const Style& style, bool is_on) override;
+  void set(const FlowSetting& setting) override;
   std::uint64_t refused() const override { return refused_; }
   std::uint64_t restarts() const override { return restarts_; }
 

@@ -1,6 +1,6 @@
 // StepPattern: what the steps of a dance look like over eight counts of the music: how fast each
 // foot goes, how the hips sway, which foot is higher, how the hips bounce. Left and right are
-// mirrored: whoever begins with the other foot is four counts on, so one pattern serves both
+// mirrored: a dancer who begins with the other foot is four counts on, so one pattern serves both
 // partners of a couple.
 //
 // Units/frames: phases are parts of eight counts, 0 .. 1; counts that are stepped on are whole

@@ -1,5 +1,5 @@
-// StepSigns: what of a dance shows its steps, ten times a second, at about the size 1 whoever
-// dances: the signs of a StepPattern. Poses may come at any rate.
+// StepSigns: what of a dance shows its steps, ten times a second, at about the size 1 for
+// any dancer: the signs of a StepPattern. Poses may come at any rate.
 //
 // Units/frames: times of the poses' clock; signs are without their mean of the last four seconds
 //               and over their spread of the last eight.

@@ -18,15 +18,15 @@ namespace dance {
 
 // Chosen by `dance touch eval` on the salsa of CMU's subjects 60 and 61, 60 ms away.
 struct PalmHoldLimits {
-  float begin_m = 0.075f;                 // nearer than this begins
-  float again_m = 0.076f;                 // and nearer than this, of palms that held each other …
-  Duration lately = Duration::ms(1500);   // … so lately
-  float early_m = 0.12f;                  // and nearer than this …
-  float soon_m = 0.04f;                   // … where the palms come so near …
-  Duration look = Duration::ms(120);      // … within so long, as they move
-  float end_m = 0.21f;                    // further apart than this …
-  Duration patience = Duration::ms(220);  // … for so long ends
-  float far_m = 0.35f;                    // further than this at once
+  float begin_m = 0.075f;                // nearer than this begins
+  float again_m = 0.076f;                // and nearer than this, of palms that held each other …
+  Duration lately = Duration::ms(1500);  // … so lately
+  float early_m = 0.12f;                 // and nearer than this …
+  float soon_m = 0.04f;                  // … where the palms come so near …
+  Duration look = Duration::ms(120);     // … within so long, as they move
+  float end_m = 0.21f;                   // further apart than this …
+  Duration release_delay = Duration::ms(220);  // … for so long ends
+  float far_m = 0.35f;                         // further than this at once
 };
 
 class PalmHold {
@@ -50,7 +50,7 @@ class PalmHold {
     seen_ = now;
     if (is_held_) {
       if (apart_m <= limits.end_m) near_ = now;
-      if (now - near_ > limits.patience || apart_m > limits.far_m) is_held_ = false;
+      if (now - near_ > limits.release_delay || apart_m > limits.far_m) is_held_ = false;
     } else {
       const bool was_held = near_.is_set() && now - near_ < limits.lately;
       const bool begins = apart_m <= (was_held ? limits.again_m : limits.begin_m) ||

@@ -11,7 +11,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-// A palm is thought on from where it was shown, for at most a picture of a slow stage.
+// A palm is extrapolated from where it was shown, for at most a picture of a slow stage.
 constexpr Duration kFurthestOn = Duration::ms(34);
 constexpr Duration kSpeedWithin = Duration::ms(100);
 constexpr float kFastestPalm_m_s = 8.0f;

@@ -12,7 +12,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-// A guess: soft tissue of 500 N/m, and damping; a held hand is pulled as it is moved.
+// An estimate: soft tissue of 500 N/m, and damping; a held hand is pulled as it is moved.
 constexpr float kStiffness_n_m = 500.0f, kDamping_ns_m = 15.0f;
 constexpr float kHold_n = 5.0f, kHoldDamping_ns_m = 10.0f;
 // Speeds are smoothed over a few pictures.

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/pose/touch.h"
+#include "core/signal/touch.h"
 #include "transformers/touch/body_capsules.h"
 #include "transformers/touch/stage_holds.h"
 

@@ -18,7 +18,7 @@
 namespace dance::cluster {
 
 enum class Type : std::uint8_t {
-  kBeat = 1,
+  kHeartbeat = 1,
   kClockQuestion = 2,
   kClockAnswer = 3,
   kRecord = 4,

@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint8_t kIsIntra = 1, kIsBase = 2, kKnownRecordFlags = 3;
 constexpr std::uint8_t kHasFull = 1, kHasBase = 2, kKnownFrameFlags = 3;
 
-void write(const Beat& beat, ByteWriter& out) {
-  begin(Type::kBeat, out);
+void write(const Heartbeat& beat, ByteWriter& out) {
+  begin(Type::kHeartbeat, out);
   out.u64(beat.server);
   out.i64(beat.born_us);
   out.u32(beat.links);
@@ -23,7 +23,7 @@ void write(const Beat& beat, ByteWriter& out) {
   wire::write_address(beat.address, out);
 }
 std::optional<Message> read_beat(ByteReader& in) {
-  Beat beat;
+  Heartbeat beat;
   const bool is_good = read_server(in, beat.server);
   beat.born_us = in.i64();
   beat.links = in.u32();
@@ -162,7 +162,7 @@ void write(const FeedbackMessage& message, ByteWriter& out) {
   for (const FeedbackEntry& entry : message.entries) {
     const CommonFrames& frames = entry.feedback.frames;
     write_name(entry.guest, out);
-    out.u8(entry.feedback.key_frames);
+    out.u8(entry.feedback.intra_frames);
     out.u8(static_cast<std::uint8_t>((frames.has_full ? kHasFull : 0) |
                                      (frames.has_base ? kHasBase : 0)));
     out.u8(frames.base_log2);
@@ -174,7 +174,7 @@ void write(const FeedbackMessage& message, ByteWriter& out) {
 bool read_entry(ByteReader& in, FeedbackEntry& entry) {
   CommonFrames& frames = entry.feedback.frames;
   if (!read_set_name(in, entry.guest)) return false;
-  entry.feedback.key_frames = in.u8();
+  entry.feedback.intra_frames = in.u8();
   const std::uint8_t flags = in.u8();
   frames.base_log2 = in.u8();
   frames.intra_log2 = in.u8();
@@ -255,7 +255,7 @@ std::optional<Message> parse_message(Bytes bytes) {
   if (!type) return std::nullopt;
   std::optional<Message> message;
   switch (*type) {
-    case Type::kBeat:
+    case Type::kHeartbeat:
       message = read_beat(in);
       break;
     case Type::kClockQuestion:

@@ -11,7 +11,7 @@
 #include <optional>
 #include <variant>
 
-#include "tunnel/server/cluster_port.h"
+#include "tunnel/server/core/cluster_port.h"
 #include "tunnel/wire/wire_servers.h"
 
 namespace dance::cluster {
@@ -23,7 +23,7 @@ constexpr std::size_t kMaxBundle = 8192;
 using Bytes = wire::Bytes;
 
 // A server lives; several times a second, to all.
-struct Beat {
+struct Heartbeat {
   ServerId server = 0;
   // Of the session clock's begin, by the server's wall clock: the oldest one's clock is the
   // cluster's.
@@ -80,7 +80,7 @@ struct FileMessage {
   FilePart part;  // without its slot
 };
 
-using Message = std::variant<Beat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage,
+using Message = std::variant<Heartbeat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage,
                              FileMessage, VoiceMessage>;
 std::size_t build(const Message& message, std::span<std::uint8_t> out);
 std::optional<Message> parse_message(Bytes bytes);

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "core/base/fixed_string.h"
-#include "tunnel/server/cluster_port.h"
+#include "tunnel/server/core/cluster_port.h"
 
 namespace dance::cluster {
 

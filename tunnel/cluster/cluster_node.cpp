@@ -9,7 +9,7 @@
 namespace dance {
 namespace {
 
-constexpr Duration kBeat = Duration::ms(200);
+constexpr Duration kHeartbeatPeriod = Duration::ms(200);
 // What stands: values that nobody writes again go after days, those of dead servers too.
 constexpr Duration kWritesAgain = Duration::s(8 * 3600);
 // After a partition: what others erased meanwhile may reach the bucket only now, after what this
@@ -146,7 +146,8 @@ void ClusterNode::take_guest(Room& room, const cluster::Key& key, const cluster:
     room.guests.erase(known);
     return;
   }
-  if (value->server == options_.id && !is_known_ours) return;  // of before: it has left meanwhile
+  if (value->server == options_.id && !is_known_ours)
+    return;  // of an earlier run: it has left meanwhile
   if (known != room.guests.end() && !is_better(*value, known->second, now)) {
     if (is_known_ours) put_guest(key.room, key.guest);
     return;
@@ -187,7 +188,8 @@ void ClusterNode::take_state(Room& room, const cluster::Key& key,
   if (known == room.states.end() &&
       room.states.size() >= wire::kMaxGuestsPerRoom * (wire::kGuestStates + 1))
     return;
-  // Of the room's the newest holds, whatever was written last: who holds it writes it again.
+  // Of the room's the newest holds, whatever was written last: the server that holds it writes it
+  // again.
   if (!key.guest.is_set() && known != room.states.end() && is_older(*bytes, known->second)) {
     if (is_first_alive(room)) bus_.put(cluster::text_of(key).view(), known->second);
     return;
@@ -304,7 +306,7 @@ MonoTime ClusterNode::tick(MonoTime now) {
   if (now - begun_ < kListens) return begun_ + kListens;
   if (!next_beat_.is_set()) peers_.take_rank();
   if (now >= next_beat_) {
-    next_beat_ = now + kBeat;
+    next_beat_ = now + kHeartbeatPeriod;
     beat(false);
     forget_silent(now);
     if (server_ != nullptr) place_all(now);
@@ -322,7 +324,7 @@ MonoTime ClusterNode::tick(MonoTime now) {
 }
 
 void ClusterNode::beat(bool is_leaving) {
-  cluster::Beat beat;
+  cluster::Heartbeat beat;
   beat.server = options_.id;
   beat.born_us = peers_.born_us();
   beat.is_leaving = is_leaving;

@@ -20,7 +20,7 @@
 #include "tunnel/cluster/cluster_names.h"
 #include "tunnel/cluster/cluster_peers.h"
 #include "tunnel/cluster/cluster_sender.h"
-#include "tunnel/server/server_core.h"
+#include "tunnel/server/core/server_core.h"
 
 namespace dance {
 
@@ -55,7 +55,7 @@ class ClusterNode final : public ClusterPort {
 
   // What has gathered for other servers. Call after each turn of the server.
   void end_turn(MonoTime now);
-  // Beats, clocks, deaths; returns when to call again.
+  // Heartbeats, clocks, timeouts of peers; returns when to call again.
   MonoTime tick(MonoTime now);
   // The server ends: its guests may come back through another at once.
   void leave();
@@ -107,7 +107,7 @@ class ClusterNode final : public ClusterPort {
   void on_value(std::string_view key, std::optional<cluster::Bytes> bytes, MonoTime now);
   void on_all_read(std::string_view key);
   void on_back(MonoTime now);
-  void take(const cluster::Beat& beat, MonoTime now);
+  void take(const cluster::Heartbeat& beat, MonoTime now);
   void take(const cluster::ClockQuestion& question, MonoTime now);
   template <class Told>
   void take_record(const Told& told, const std::optional<cluster::PoseSubject>& of, MonoTime now);

@@ -35,7 +35,7 @@ void ClusterNode::take(std::string_view subject, cluster::Bytes bytes, MonoTime 
   } else if (const auto* voice = std::get_if<cluster::VoiceMessage>(&*message)) {
     ++counters_.voices_in;
     take_record(*voice, cluster::parse_voice_subject(subject), now);
-  } else if (const auto* beat = std::get_if<cluster::Beat>(&*message)) {
+  } else if (const auto* beat = std::get_if<cluster::Heartbeat>(&*message)) {
     take(*beat, now);
   } else if (const auto* question = std::get_if<cluster::ClockQuestion>(&*message)) {
     take(*question, now);
@@ -48,7 +48,7 @@ void ClusterNode::take(std::string_view subject, cluster::Bytes bytes, MonoTime 
   }
 }
 
-void ClusterNode::take(const cluster::Beat& beat, MonoTime now) {
+void ClusterNode::take(const cluster::Heartbeat& beat, MonoTime now) {
   const bool is_back = peers_.take(beat, now);
   const auto peer = peers_.all().find(beat.server);
   if (server_ == nullptr || peer == peers_.all().end() || !peer->second.is_alive) return;

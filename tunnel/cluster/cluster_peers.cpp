@@ -26,7 +26,7 @@ void ClusterPeers::take_rank() {
       born_us_ = std::max(born_us_, peer.beat.born_us + 1);
 }
 
-bool ClusterPeers::take(const cluster::Beat& beat, MonoTime now) {
+bool ClusterPeers::take(const cluster::Heartbeat& beat, MonoTime now) {
   if (beat.server == self_ || (!peers_.contains(beat.server) && peers_.size() >= kMost))
     return false;
   Peer& peer = peers_[beat.server];

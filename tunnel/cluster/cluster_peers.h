@@ -20,7 +20,7 @@ class ClusterPeers {
  public:
   static constexpr std::size_t kMost = 256;
   struct Peer {
-    cluster::Beat beat;
+    cluster::Heartbeat beat;
     MonoTime heard;
     Duration round_trip;
     bool is_alive = true;
@@ -35,13 +35,14 @@ class ClusterPeers {
   std::int64_t born_us() const { return born_us_; }
 
   // True where it had been forgotten, and so what it had.
-  bool take(const cluster::Beat& beat, MonoTime now);
+  bool take(const cluster::Heartbeat& beat, MonoTime now);
   void take(const cluster::ClockAnswer& answer, MonoTime now);
-  // It stands in lasting values, and may be one of before that beats no more: it counts as heard
+  // It stands in lasting values, and may be one that has ended long ago: it counts as heard
   // when it was first read of.
   void expect(ServerId server, MonoTime since);
 
-  // Who was silent for so long that its guests have left: each once. Dead ones are counted.
+  // Servers that were silent for so long that their guests have left: each once. Dead ones are
+  // counted.
   std::vector<ServerId> forget_silent(MonoTime now);
   // Follows the leader's clock.
   void advance(MonoTime now);

@@ -40,7 +40,7 @@ MonoTime ClusterProbe::tick(MonoTime now) {
 void ClusterProbe::on_message(cluster::Bytes bytes, MonoTime now) {
   const auto message = cluster::parse_message(bytes);
   if (!message) return;
-  if (const auto* beat = std::get_if<cluster::Beat>(&*message)) {
+  if (const auto* beat = std::get_if<cluster::Heartbeat>(&*message)) {
     if (beat->is_leaving) {
       seen_.erase(beat->server);
     } else if (seen_.contains(beat->server) || seen_.size() < kMost) {

@@ -19,7 +19,7 @@ class ClusterProbe {
  public:
   static constexpr std::size_t kMost = 256;
   struct Seen {
-    cluster::Beat beat;
+    cluster::Heartbeat beat;
     std::size_t answers = 0;
     Duration offset;  // of the answer with the shortest round trip
     Duration round_trip;

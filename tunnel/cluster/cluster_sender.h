@@ -1,8 +1,8 @@
-// ClusterSender: what one server says to the others. Messages of one subject that follow one another
-// go as one bundle.
+// ClusterSender: what one server says to the others. Messages of one subject that follow one
+// another go as one bundle.
 //
-// Units/frames: subjects and messages as in cluster_names.h and cluster_format.h; bytes of messages,
-//               without NATS's own.
+// Units/frames: subjects and messages as in cluster_names.h and cluster_format.h; bytes of
+//               messages, without NATS's own.
 // Ownership:    refers to the bus, which must outlive it; never allocates.
 // Threads:      none inside; one owner.
 // Failure:      what the bus cannot send is lost and counted there. What has not been flushed is

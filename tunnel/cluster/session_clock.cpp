@@ -6,7 +6,7 @@ namespace dance {
 namespace {
 
 constexpr std::int64_t kSlew_ppm = 500;
-// Links measure their way to it themselves, and take a jump for what it is.
+// Links measure the clock themselves, and take a jump for what it is.
 constexpr Duration kJump = Duration::ms(20);
 
 }  // namespace

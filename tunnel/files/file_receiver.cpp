@@ -11,13 +11,13 @@ namespace {
 constexpr std::size_t kChunksTogether = 8;
 constexpr double kBurst = 2.0 * kChunksTogether * wire::kFileChunkCost;
 // One that does not get on, or takes long, lets another have its turn.
-constexpr Duration kPatienceWithFile = Duration::s(4);
+constexpr Duration kFileTimeout = Duration::s(4);
 constexpr Duration kLongestTurn = Duration::s(60);
 constexpr Duration kRestAfterRefusal = Duration::s(20);
 // A server that has just begun may not know yet what the guest has chosen.
 constexpr Duration kRestNotOffered = Duration::s(1);
-constexpr Duration kShortestPatience = Duration::ms(300);
-constexpr Duration kLongestPatience = Duration::s(3);
+constexpr Duration kShortestTimeout = Duration::ms(300);
+constexpr Duration kLongestTimeout = Duration::s(3);
 constexpr Duration kLooksAgain = Duration::ms(50);
 constexpr Duration kBetweenLooks = Duration::ms(2);
 constexpr std::size_t kMostDownloads = wire::kMaxGuestsPerRoom;
@@ -112,17 +112,17 @@ void FileReceiver::begin_session() {
 }
 
 // Four times what a chunk takes usually: the server may have to fetch it first.
-Duration FileReceiver::patience() const {
-  return std::clamp(mean_wait_ * 4, kShortestPatience, kLongestPatience);
+Duration FileReceiver::timeout() const {
+  return std::clamp(mean_wait_ * 4, kShortestTimeout, kLongestTimeout);
 }
 
 void FileReceiver::expire(Download& download, MonoTime now) {
-  const std::size_t late = download.asked.expire(now - patience());
+  const std::size_t late = download.asked.expire(now - timeout());
   if (late == 0) return;
   counters_.chunks_again += late;
   download.cursor = 0;
   for (std::size_t i = 0; i < late; ++i) pace_.see_loss(now);
-  mean_wait_ = std::min(mean_wait_ * 2, kLongestPatience / 4);
+  mean_wait_ = std::min(mean_wait_ * 2, kLongestTimeout / 4);
 }
 
 // Whose turn it is.
@@ -136,8 +136,7 @@ FileReceiver::Download* FileReceiver::active(const SlotOf& slot_of, MonoTime now
     first->begun = first->last_chunk = now;
     make_room(*first);
   }
-  const bool is_stuck =
-      now - first->last_chunk > kPatienceWithFile || now - first->begun > kLongestTurn;
+  const bool is_stuck = now - first->last_chunk > kFileTimeout || now - first->begun > kLongestTurn;
   const bool others_wait = std::find_if(first + 1, downloads_.end(), can) != downloads_.end();
   if (is_stuck && others_wait) {
     first->begun = MonoTime();
@@ -218,7 +217,7 @@ MonoTime FileReceiver::next_deadline() const {
     // Those that wait for their turn, a guest or a rest to end look again now and then.
     at(looked_ + kLooksAgain);
     if (!it.begun.is_set()) continue;
-    if (!it.asked.is_empty()) at(it.asked.oldest() + patience() + Duration::us(10));
+    if (!it.asked.is_empty()) at(it.asked.oldest() + timeout() + Duration::us(10));
     const bool has_more = it.file.next_missing(it.cursor) < it.file.chunks();
     if (has_more && it.asked.free() >= kChunksTogether && it.rests_until <= looked_)
       at(pace_.ready_at(kChunksTogether * wire::kFileChunkCost));

@@ -87,7 +87,7 @@ class FileReceiver {
     ChunkedFile file;
     ChunkRequests asked;
     std::vector<bool> was_asked;  // ever: a late one is taken, what was never asked for is not
-    bool is_resumed = false;      // began with bytes of before
+    bool is_resumed = false;      // began with bytes kept from an earlier transfer
     std::size_t cursor = 0;
     std::size_t blocks_told = 0;
     bool is_whole = false;  // being checked
@@ -103,7 +103,7 @@ class FileReceiver {
   Download* find(const GuestId& guest);
   Download* active(const SlotOf& slot_of, MonoTime now);
   void expire(Download& download, MonoTime now);
-  Duration patience() const;
+  Duration timeout() const;
   bool may_ask(const Download& download, MonoTime now) const;
   bool pay(const GuestId& guest, double bytes, MonoTime now);
   void tell_blocks(Download& download);

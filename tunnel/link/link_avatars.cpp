@@ -100,7 +100,7 @@ void LinkAvatars::look_soon(const GuestId& guest, const AvatarFile& file) {
   wakes_.notify_one();
 }
 
-void LinkAvatars::look_no_more(const GuestId& guest) {
+void LinkAvatars::stop_watching(const GuestId& guest) {
   const std::lock_guard lock(mutex_);
   looks_.erase(guest);
   is_idle_.notify_all();
@@ -194,7 +194,7 @@ void LinkAvatars::choose(const GuestId& guest, const AvatarFile& file, MonoTime 
     load_own(guest, own);
 }
 
-// The bytes first, then the choice is told: whoever hears of it can have them.
+// The bytes first, then the choice is told: a display that hears of it can have them.
 void LinkAvatars::load_own(const GuestId& guest, Own& own) {
   own.is_loading = true;
   in_thread([this, guest, file = own.file] {
@@ -230,7 +230,7 @@ void LinkAvatars::hear(const GuestId& guest, const AvatarFile& file) {
 }
 
 void LinkAvatars::drop(const GuestId& guest) {
-  look_no_more(guest);
+  stop_watching(guest);
   if (link_ != nullptr) link_->core().files().drop(guest);
 }
 

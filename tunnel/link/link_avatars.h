@@ -73,7 +73,7 @@ class LinkAvatars {
   Work next_work(std::unique_lock<std::mutex>& lock);
   void in_thread(Work work);
   void look_soon(const GuestId& guest, const AvatarFile& file);
-  void look_no_more(const GuestId& guest);
+  void stop_watching(const GuestId& guest);
   void drop(const GuestId& guest);
   void in_poller(Work work);
   void take_answers();

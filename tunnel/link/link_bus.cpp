@@ -130,7 +130,7 @@ void LinkBus::publish_traffic(MonoTime now) {
     traffic.duplicate = count(guest.duplicate);
     traffic.invalid = count(guest.invalid);
     traffic.reference_missing = count(guest.reference_missing);
-    traffic.key_frames_asked = count(guest.key_frames_asked);
+    traffic.key_frames_asked = count(guest.intra_frames_asked);
     port_.publish(Where::kGuest, guest.guest, traffic);
   }
 }

@@ -19,7 +19,7 @@ std::string link_report_json(const Link& link) {
                       {"invalid", guest.invalid},
                       {"reference_missing", guest.reference_missing},
                       {"skeleton_missing", guest.skeleton_missing},
-                      {"key_frames_asked", guest.key_frames_asked},
+                      {"key_frames_asked", guest.intra_frames_asked},
                       {"voices", guest.voices},
                       {"voice_bytes", guest.voice_bytes}});
   ordered_json own = ordered_json::array();
@@ -27,7 +27,7 @@ std::string link_report_json(const Link& link) {
     own.push_back({{"id", std::string(guest.guest.view())},
                    {"sent", guest.sent},
                    {"acked", guest.acked},
-                   {"key_frames_sent", guest.key_frames_sent},
+                   {"key_frames_sent", guest.intra_frames_sent},
                    {"references", name_of(guest.references)},
                    {"quality_mm", guest.quality_m * 1e3}});
   const double seconds = std::max(link.uptime().as_seconds(), 1e-3);
@@ -53,8 +53,8 @@ std::string link_report_json(const Link& link) {
                             {"invalid", c.invalid},
                             {"reference_missing", c.reference_missing},
                             {"skeleton_missing", c.skeleton_missing},
-                            {"key_frames_asked", c.key_frames_asked},
-                            {"key_frames_sent", c.key_frames_sent},
+                            {"key_frames_asked", c.intra_frames_asked},
+                            {"key_frames_sent", c.intra_frames_sent},
                             {"unrouted", c.unrouted},
                             {"states_sent", c.states_sent},
                             {"states_delivered", c.states_delivered},

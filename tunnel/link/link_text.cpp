@@ -1,6 +1,6 @@
 #include <string>
 
-#include "tunnel/link/link_options.h"
+#include "tunnel/link/core/link_options.h"
 
 namespace dance {
 

@@ -1,7 +1,7 @@
 // Where the NATS client library was not there to build with.
 #include "tunnel/nats/nats_bus.h"
-#include "tunnel/nats/nats_examination.h"
-#include "tunnel/nats/nats_store.h"
+#include "tunnel/nats/nats_probe.h"
+#include "tunnel/nats/values/nats_store.h"
 
 namespace dance {
 namespace {
@@ -20,8 +20,8 @@ Result<std::unique_ptr<NatsBus>> NatsBus::connect(const NatsOptions&, Poller&) {
 
 Result<std::unique_ptr<NatsStore>> NatsStore::connect(const NatsOptions&) { return fail(kAbsent); }
 
-NatsExamination examine_nats(const NatsOptions&, const std::vector<std::string>&) {
-  NatsExamination found;
+NatsProbe probe_nats(const NatsOptions&, const std::vector<std::string>&) {
+  NatsProbe found;
   found.no_connection = Error{kAbsent};
   return found;
 }

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <mutex>
 
+#include "tunnel/nats/messages/nats_messages.h"
 #include "tunnel/nats/nats_connection.h"
-#include "tunnel/nats/nats_messages.h"
-#include "tunnel/nats/nats_values.h"
+#include "tunnel/nats/values/nats_values.h"
 
 namespace dance {
 namespace {

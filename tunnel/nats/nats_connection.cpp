@@ -97,7 +97,7 @@ std::optional<Error> set(natsOptions* made, const NatsOptions& options, const Na
     check(natsOptions_LoadCertificatesChain(made, options.certificate.c_str(),
                                             options.private_key.c_str()),
           "--cluster-certificate " + printable(options.certificate));
-  // Else whether there is TLS would be at the word of a server that has shown nothing yet.
+  // Else a server that has not been authenticated would decide whether there is TLS.
   if (wants_tls(options)) check(natsOptions_SetSecure(made, true), "NATS: TLS");
   if (on.reconnected != nullptr)
     check(natsOptions_SetReconnectedCB(made, on.reconnected, on.closure), "NATS");

@@ -37,10 +37,10 @@ NatsConnector::~NatsConnector() {
 }
 
 // The thread waits meanwhile: it has not been asked.
-Result<NatsGreeted> NatsConnector::connect_now() {
-  Result<NatsGreeted> made = fail("NATS: no server is named");
+Result<NatsHandshake> NatsConnector::connect_now() {
+  Result<NatsHandshake> made = fail("NATS: no server is named");
   for (std::size_t i = 0; i < options_.urls.size() && !made; ++i)
-    made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()], ends_);
+    made = handshake_nats(options_, options_.urls[next_++ % options_.urls.size()], ends_);
   made_at_ = std::chrono::steady_clock::now();
   return made;
 }
@@ -53,7 +53,7 @@ void NatsConnector::ask() {
   changed_.notify_all();
 }
 
-std::optional<NatsGreeted> NatsConnector::take() {
+std::optional<NatsHandshake> NatsConnector::take() {
   eventfd_t ignored = 0;
   eventfd_read(fd_, &ignored);
   const std::lock_guard lock(mutex_);
@@ -68,7 +68,7 @@ void NatsConnector::run() {
       changed_.wait_for(lock, kConnectAgain, [this] { return ends_.load(); });
     if (ends_) return;
     lock.unlock();
-    auto made = greet_nats(options_, options_.urls[next_++ % options_.urls.size()], ends_);
+    auto made = handshake_nats(options_, options_.urls[next_++ % options_.urls.size()], ends_);
     lock.lock();
     if (made) {
       made_at_ = std::chrono::steady_clock::now();

@@ -15,7 +15,7 @@
 #include <optional>
 #include <thread>
 
-#include "tunnel/nats/nats_greeting.h"
+#include "tunnel/nats/messages/nats_handshake.h"
 
 namespace dance {
 
@@ -27,11 +27,11 @@ class NatsConnector {
   NatsConnector& operator=(const NatsConnector&) = delete;
 
   // Once through all servers, now.
-  Result<NatsGreeted> connect_now();
+  Result<NatsHandshake> connect_now();
   void ask();
   // Readable when what was asked for is there.
   int fd() const { return fd_; }
-  std::optional<NatsGreeted> take();
+  std::optional<NatsHandshake> take();
 
  private:
   void run();
@@ -43,7 +43,7 @@ class NatsConnector {
   std::condition_variable changed_;
   bool is_asked_ = false;
   std::atomic<bool> ends_{false};
-  std::optional<NatsGreeted> made_;
+  std::optional<NatsHandshake> made_;
   std::chrono::steady_clock::time_point made_at_;  // the newest
   std::thread thread_;
 };

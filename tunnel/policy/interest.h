@@ -1,5 +1,5 @@
 // Which guests a house wants to hear, and how often: a divider for each, and one for all others.
-// Whoever is named with 1 comes before all others where the line does not bear everything
+// Guests named with 1 come before all others where the line does not bear everything
 // (tunnel/server/pace/server_pace.h).
 // One way to write it, on the command line (--want) and in session files (want);
 // tunnel/session/pose_share.h says what comes of it.

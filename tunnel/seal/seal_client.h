@@ -1,4 +1,4 @@
-// A link's way to its server's door: makes the sealed session, keeps it, and makes another beside
+// A link's way in to its server: makes the sealed session, keeps it, and makes another beside
 // it when the server no longer knows it or is silent. Plaintext in, sealed datagrams out; and back.
 //
 // Units/frames: MonoTime of this house's clock.

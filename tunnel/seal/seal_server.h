@@ -1,6 +1,6 @@
 // The server's door: datagrams of the internet in, plaintext of peers who have proved who they are
-// out; and back. Who has proved nothing costs a bounded, small amount of work, is kept nowhere, and
-// is never answered with more bytes than it sent.
+// out; and back. A peer that has proved nothing costs a bounded, small amount of work, is kept
+// nowhere, and is never answered with more bytes than it sent.
 //
 // Units/frames: MonoTime of the server's clock; a peer is named by its session's id.
 // Ownership:    owns all sealed sessions; keys are shared and replaced whole; the sink and what the
@@ -40,7 +40,7 @@ struct SealLimits {
   std::size_t handshakes_per_network = 32;
   // With one key, at a time.
   std::size_t peers_per_key = 256;
-  // Answers to who speaks in a session that is no more.
+  // Answers to datagrams of a session that has ended.
   SourceLimits::Rates notices{50.0, 200.0, 2000.0, 1000.0};
   // Handshakes of those who hear at the address that they name.
   SourceLimits::Rates begun{20.0, 100.0, 200.0, 400.0};
@@ -48,7 +48,7 @@ struct SealLimits {
 
 enum class SealReject : std::uint8_t {
   kTooShort,       // nothing of ours
-  kOldVersion,     // a link of before sealed sessions
+  kOldVersion,     // a link from before sealed sessions
   kMalformed,      // no handshake, or no record
   kUnknownId,      // a session that this server does not have
   kStrangerRate,   // one network asks too often
@@ -109,7 +109,7 @@ class SealServer {
   // Ends what took too long; returns when to call again, MonoTime() = not before a datagram.
   MonoTime tick(MonoTime now);
   MonoTime next_deadline() const { return next_tick_; }
-  // From now on these keys count; who came with one that is no more is gone.
+  // From now on these keys count; peers that came with one that is gone are dropped.
   void set_keys(std::shared_ptr<const KeyRing> keys);
 
   const KeyRing& keys() const { return *keys_; }

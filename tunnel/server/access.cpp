@@ -2,7 +2,7 @@
 
 namespace dance {
 
-bool Access::may_bear(const GuestId& guest) const {
+bool Access::may_use_name(const GuestId& guest) const {
   if (!may_have_guests(*this) || !guest.is_set()) return false;
   if (any_name) return true;
   const std::string_view own = name.view();

@@ -27,7 +27,7 @@ struct Access {
   bool any_name = false;  // a room's key: its holder chooses the names
 
   // Its own name, or one that begins with it and a '-': "alice", "alice-2".
-  bool may_bear(const GuestId& guest) const;
+  bool may_use_name(const GuestId& guest) const;
   bool may_enter(const wire::RoomName& wanted) const;
 };
 

@@ -28,7 +28,7 @@ void AckTracker::owe(MonoTime due, bool is_clean, MonoTime now) {
     due_ = due;
 }
 
-bool AckTracker::want_key_frame(std::uint8_t slot, MonoTime now) {
+bool AckTracker::want_intra_frame(std::uint8_t slot, MonoTime now) {
   if (!wants_.try_push(slot)) return false;
   due_ = now;
   return true;

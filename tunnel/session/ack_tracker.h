@@ -1,10 +1,10 @@
 // What has come from the other side of a session, what of it could not be decoded, and when the
-// other side is told so. A link also asks here for key frames, which go with the acknowledgement.
+// other side is told so. A link also asks here for intra frames, which go with the acknowledgement.
 //
 // Units/frames: datagram numbers are 16 bit and wrap; MonoTime of the owner's clock.
 // Ownership:    plain value of fixed size; never allocates.
 // Threads:      none inside.
-// Failure:      a request for more key frames than fit is refused: the next failure asks again.
+// Failure:      a request for more intra frames than fit is refused: the next failure asks again.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class AckTracker {
   // The other side is to be told by `due`; at once when its acknowledgement would tell too much.
   void owe(MonoTime due, bool is_clean, MonoTime now);
   bool owes() const { return due_.is_set(); }
-  bool want_key_frame(std::uint8_t slot, MonoTime now);
+  bool want_intra_frame(std::uint8_t slot, MonoTime now);
   MonoTime due() const { return due_; }
   MonoTime told_at() const { return told_at_; }
   // Whether a datagram that leaves now should tell. On a clean path it can wait for the next one,

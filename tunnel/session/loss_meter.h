@@ -1,6 +1,6 @@
-// What share of the datagrams of one way is lost: slowly, so that one in a thousand can be told
-// from none; and at once where a burst of losses says that the way has changed. And what share is
-// lost together with the one before it.
+// What share of the datagrams of one direction is lost: slowly, so that one in a thousand can be
+// told from none; and at once where a burst of losses says that the path has changed. And what
+// share is lost together with the one before it.
 //
 // Units/frames: a share, 0 to 1.
 // Ownership:    plain value.

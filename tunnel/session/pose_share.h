@@ -1,6 +1,6 @@
 // What a link's interest (tunnel/policy/interest.h) makes of a guest's poses. It is decided by the
 // server, so that what goes out can be decoded: few receivers who want less cost the others
-// nothing, and need no key frames of their own.
+// nothing, and need no intra frames of their own.
 //
 // Units/frames: a divider: 0 = nothing of this guest, 1 = every pose, n = at most every n-th.
 // Ownership:    plain values, no allocation.

@@ -89,9 +89,9 @@ void ReferenceControl::note_sent(std::uint32_t sequence, bool is_intra, MonoTime
 
 bool ReferenceControl::take(const wire::GuestFeedback& about, const PathStats& path,
                             PoseEncoder& encoder, MonoTime now) {
-  const bool is_asked = about.key_frames != requests_seen_;
+  const bool is_asked = about.intra_frames != requests_seen_;
   if (is_asked) {
-    requests_seen_ = about.key_frames;
+    requests_seen_ = about.intra_frames;
     encoder.request_intra();
     refreshed_at_ = now;
     ++intra_asked_;

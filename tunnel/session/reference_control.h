@@ -23,7 +23,7 @@ class ReferenceControl {
  public:
   // A new encoder: receivers have nothing of what it refers to.
   void begin(PoseEncoder& encoder);
-  // The producer began anew: nothing of before is a reference.
+  // The producer began anew: no earlier frame is a reference.
   void restart(PoseEncoder& encoder, std::uint16_t stream);
 
   // Before each frame, with its capture time: tells the encoder what it may refer to. True for a

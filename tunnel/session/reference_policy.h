@@ -1,8 +1,8 @@
-// Which earlier frames an encoder may refer to, chosen from what the way to the receivers loses and
-// how long an acknowledgement takes. The previous frame costs fewest bytes, but each loss is missed
-// until the next key frame; acknowledged frames are safe, but old where the way is long; the
-// previous frame sent twice is between. Of what arrives 99.5 % shall decode at once: the cheapest
-// that bears what is lost.
+// Which earlier frames an encoder may refer to, chosen from what the path to the receivers loses
+// and how long an acknowledgement takes. The previous frame costs fewest bytes, but each loss is
+// missed until the next intra frame; acknowledged frames are safe, but old where the path is long;
+// the previous frame sent twice is between. Of what arrives 99.5 % shall decode at once: the
+// cheapest that bears what is lost.
 //
 // Units/frames: loss is a share of datagrams, to the worst receiver.
 // Ownership:    plain value.
@@ -42,15 +42,15 @@ class ReferencePolicy {
   References current() const { return current_; }
 
   // Whether each frame may refer to the one before, so that nobody need tell soon what has come.
-  static bool bears_losses(double loss, Duration round_trip, Duration frame) {
+  static bool tolerates_loss(double loss, Duration round_trip, Duration frame) {
     return loss * frames_to_heal(round_trip, frame) < kEasilyBorne;
   }
 
-  // What to refer to while receivers have told of nothing for so long. A way that is cut tells
+  // What to refer to while receivers have told of nothing for so long. A path that is cut tells
   // nothing: what is sent now would refer to what it swallows, and the first pose after it would
   // decode nowhere. By frames that receivers have, it decodes at once. Where nothing was lost it
   // cost a few bytes. After kComesBackNew the server has forgotten who was cut off, who then asks
-  // for a key frame.
+  // for an intra frame.
   References while_silent_for(Duration silence, Duration frame) const {
     const bool is_cut =
         silence > std::max(kTellsWithin, frame * kFramesTold) && silence < kComesBackNew;
@@ -70,7 +70,7 @@ class ReferencePolicy {
   References choose(double loss, double in_a_row, Duration round_trip, Duration frame) const {
     const bool is_bare = current_ == References::kPrevious;
     const bool is_twice = current_ == References::kPreviousTwice;
-    // What is not borne keeps all from decoding until it is noticed and a key frame is there.
+    // What is not borne keeps all from decoding until it is noticed and an intra frame is there.
     const double heals_frames = frames_to_heal(round_trip, frame);
     if (loss * heals_frames < (is_bare ? kBearable : kEasilyBorne)) return References::kPrevious;
     // Eight frames, and half a frame to either side: beyond, a frame and the one before it cost

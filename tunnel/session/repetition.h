@@ -1,4 +1,4 @@
-// Whether poses on a way go twice, once more with the next: while the way loses some. A pose that
+// Whether poses on a path go twice, once more with the next: while the path loses some. A pose that
 // was lost is then there a frame later, which a stage that waits for stragglers still shows, and
 // which the next pose may refer to. Where nothing is lost it would be bytes for nothing.
 //
@@ -19,13 +19,13 @@ namespace dance {
 
 class Repetition {
  public:
-  void update(const LossMeter& way) {
-    // A meter begins with a guess: only what was seen counts.
-    is_on_ = is_on_ ? way.loss() > kOffBelow : way.lost() >= kSeen && way.loss() > kOnAbove;
+  void update(const LossMeter& path) {
+    // A meter begins with an estimate: only what was seen counts.
+    is_on_ = is_on_ ? path.loss() > kOffBelow : path.lost() >= kSeen && path.loss() > kOnAbove;
   }
   bool is_on() const { return is_on_; }
   // What is still lost with it: what goes together with the one after it.
-  float residual(const LossMeter& way) const { return is_on_ ? way.in_a_row() : way.loss(); }
+  float residual(const LossMeter& path) const { return is_on_ ? path.in_a_row() : path.loss(); }
 
  private:
   static constexpr float kOnAbove = 0.005f;

@@ -51,7 +51,7 @@ class StreamGate {
       newest_capture_us_ = capture_us;
       seen_ = ~std::uint64_t{0};  // what was before the first is not missed
       left_out_ = left_out.value_or(left_out_);
-      gap_is_forgiven_ = false;
+      gap_is_exempt_ = false;
       ++counters_.received;
       return Verdict::kNewStream;
     }
@@ -80,7 +80,7 @@ class StreamGate {
   }
 
   // The newest was sent from store: what lies between it and the next is not missed.
-  void forgive_gap() { gap_is_forgiven_ = true; }
+  void exempt_gap() { gap_is_exempt_ = true; }
 
   bool has_any() const { return has_any_; }
   std::uint32_t stream() const { return stream_; }
@@ -93,8 +93,8 @@ class StreamGate {
   void count_gap(std::uint64_t gap, std::uint16_t left_out) {
     const std::uint64_t not_sent = static_cast<std::uint16_t>(left_out - left_out_);
     left_out_ = left_out;
-    if (!gap_is_forgiven_ && gap > not_sent) counters_.lost += gap - not_sent;
-    gap_is_forgiven_ = false;
+    if (!gap_is_exempt_ && gap > not_sent) counters_.lost += gap - not_sent;
+    gap_is_exempt_ = false;
   }
 
   Verdict judge_old(std::int32_t ahead) {
@@ -117,7 +117,7 @@ class StreamGate {
   std::int64_t newest_capture_us_ = 0;
   std::uint64_t seen_ = 0;
   std::uint16_t left_out_ = 0;
-  bool gap_is_forgiven_ = false;
+  bool gap_is_exempt_ = false;
   Counters counters_;
 };
 

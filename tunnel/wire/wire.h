@@ -26,8 +26,8 @@
 
 namespace dance::wire {
 
-// 5 has twice the slots of 4, and voices. Who speaks 4 hears of the lower half of the slots, and
-// neither gets a voice nor sends one.
+// 5 has twice the slots of 4, and voices. A peer of version 4 hears of the lower half of the slots,
+// and neither gets a voice nor sends one.
 constexpr std::uint8_t kWireVersion = 5;
 constexpr std::uint8_t kOldestWireVersion = 4;
 static_assert(kOldestWireVersion == seal::kTunnelVersion, "all before were not sealed");

@@ -39,9 +39,9 @@ constexpr std::uint8_t kAckSpan = 33;
 // From the server to a link, about one guest of the link.
 struct GuestFeedback {
   std::uint8_t slot = 0;
-  std::uint8_t restarts = 0;    // low byte of the stream that it speaks of
-  std::uint8_t key_frames = 0;  // counts key frames asked for; a change asks for one
-  bool has_acked = false;       // whether all receivers have some frame in common
+  std::uint8_t restarts = 0;      // low byte of the stream that it speaks of
+  std::uint8_t intra_frames = 0;  // counts intra frames asked for; a change asks for one
+  bool has_acked = false;         // whether all receivers have some frame in common
   std::uint16_t newest_acked = 0;
   std::uint16_t acked_before = 0;  // bit i: newest − 1 − i
   // For receivers who want less than all. Each 2^n-th pose should be a base frame (0: none has to
@@ -68,7 +68,7 @@ struct RecordsHeader {
   std::uint16_t number = 0;  // of this datagram, counted for each session and direction
   bool has_acks = false;
   Acks acks;
-  FixedList<std::uint8_t, kMaxWants> wants;  // slots that the link needs a key frame of
+  FixedList<std::uint8_t, kMaxWants> wants;  // slots that the link needs an intra frame of
   bool has_feedback = false;
   Feedback feedback;
   bool has_records = false;

@@ -59,7 +59,7 @@ void write_feedback(const Feedback& feedback, ByteWriter& out) {
     out.u8(static_cast<std::uint8_t>(guest.slot | (guest.has_acked ? kHeldFlag : 0) |
                                      (has_spacing ? kSpacingFlag : 0)));
     out.u8(guest.restarts);
-    out.u8(guest.key_frames);
+    out.u8(guest.intra_frames);
     if (guest.has_acked) {
       out.u16(guest.newest_acked);
       out.u16(guest.acked_before);
@@ -84,7 +84,7 @@ bool read_feedback(ByteReader& in, Feedback& feedback) {
     guest.has_acked = (slot & kHeldFlag) != 0;
     guest.slot = slot & kFeedbackSlotMask;
     guest.restarts = in.u8();
-    guest.key_frames = in.u8();
+    guest.intra_frames = in.u8();
     if (guest.has_acked) {
       guest.newest_acked = in.u16();
       guest.acked_before = in.u16();

@@ -14,7 +14,7 @@
 
 namespace dance::wire {
 
-// Peers of before do not know it.
+// Older peers do not know it.
 constexpr std::uint8_t kFirstVoiceVersion = 5;
 
 // 10 ms of one guest's voice.

@@ -167,7 +167,7 @@ void GuestBoard::on_avatar(const GuestId& guest, const AvatarFile& file, MonoTim
   if (Slot* slot = slot_of(guest, now)) slot->news.wish.file = file.hash;
 }
 
-// Shown with the next pose too: who speaks is seen at a tag, and a tag needs a dancer.
+// Shown with the next pose too: a voice is shown at a tag, and a tag needs a dancer.
 void GuestBoard::on_voice(const GuestId& guest, const Voice& voice, MonoTime now) {
   Slot* slot = slot_of(guest, now);
   if (slot == nullptr) return;

@@ -15,8 +15,8 @@
 
 #include "core/base/beat_clock.h"
 #include "core/bus/messages.h"
-#include "core/pose/flow_setting.h"
 #include "core/pose/pose.h"
+#include "core/signal/flow_setting.h"
 #include "viewer/instruments/prediction_check.h"
 #include "viewer/instruments/sample_window.h"
 #include "viewer/scene/beat_meter.h"

@@ -213,7 +213,7 @@ void StylePanel::draw_footer() {
   }
   if (file_ == nullptr) {
     ImGui::TextDisabled("to save, start with --session FILE");
-  } else if (ImGui::Button("save in the session")) {
+  } else if (ImGui::Button("save in the session file")) {
     save();
   }
   if (note_.empty()) return;

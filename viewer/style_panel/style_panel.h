@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-#include "house/session_file/session_file.h"
+#include "formats/session/session_file.h"
 #include "viewer/instruments/instrument_records.h"
 #include "viewer/panel/window_panel.h"
 #include "viewer/style_panel/setting_desk.h"

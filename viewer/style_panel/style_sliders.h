@@ -6,7 +6,7 @@
 // Failure:      none.
 #pragma once
 
-#include "core/pose/flow_setting.h"
+#include "core/signal/flow_setting.h"
 
 namespace dance {
 

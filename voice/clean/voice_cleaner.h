@@ -15,7 +15,7 @@
 
 #include "core/base/result.h"
 #include "core/base/time.h"
-#include "voice/codec/voice_sound.h"
+#include "voice/frame/voice_sound.h"
 
 namespace webrtc {
 class AudioProcessing;

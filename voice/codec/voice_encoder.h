@@ -13,7 +13,7 @@
 #include <span>
 
 #include "core/base/result.h"
-#include "voice/codec/voice_sound.h"
+#include "voice/frame/voice_sound.h"
 
 struct OpusEncoder;
 

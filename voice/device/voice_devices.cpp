@@ -10,8 +10,8 @@ namespace {
 constexpr double kDevice_hz = 48'000.0;
 constexpr Duration kTimingRequests = Duration::ms(100);
 constexpr Duration kLooks = Duration::s(2);
-constexpr Duration kShortestPatience = Duration::ms(100);
-constexpr Duration kLongestPatience = Duration::ms(800);
+constexpr Duration kShortestTimeout = Duration::ms(100);
+constexpr Duration kLongestTimeout = Duration::ms(800);
 // A machine that is too busy for a small buffer gets a larger one.
 constexpr Duration kFitLooks = Duration::s(2);
 constexpr std::uint64_t kMostUnderflows = 3;
@@ -36,7 +36,7 @@ Result<std::unique_ptr<VoiceDevices>> VoiceDevices::open(const VoiceDeviceOption
 Result<void> VoiceDevices::connect() {
   DANCE_TRY(server_, PulseServer::connect("voice"));
   troubles_.clear(VoiceDevice::kServer);
-  patience_ = PulseServer::kPatience;
+  timeout_ = PulseServer::kTimeout;
   open_loudspeaker();
   open_microphone();
   open_reference();
@@ -54,7 +54,7 @@ void VoiceDevices::keep(VoiceDevice device, std::unique_ptr<Device>& place,
 void VoiceDevices::open_microphone() {
   from_microphone_.count = 0;
   keep(VoiceDevice::kMicrophone, microphone_,
-       PulseInput::open(*server_, {options_.microphone, kDevice_hz, "microphone", patience_},
+       PulseInput::open(*server_, {options_.microphone, kDevice_hz, "microphone", timeout_},
                         [this](std::span<const float> s) { on_microphone(s); }));
 }
 
@@ -63,7 +63,7 @@ void VoiceDevices::open_loudspeaker() {
   output.sink = options_.loudspeaker;
   output.name = "voices";
   output.ahead = ahead_;
-  output.patience = patience_;
+  output.timeout = timeout_;
   heard_ = StreamClock(kDevice_hz);
   underflows_before_ = 0;
   keep(VoiceDevice::kLoudspeaker, loudspeaker_,
@@ -77,7 +77,7 @@ void VoiceDevices::open_reference() {
   const std::string monitor =
       options_.loudspeaker.empty() ? "@DEFAULT_MONITOR@" : options_.loudspeaker + ".monitor";
   keep(VoiceDevice::kReference, reference_,
-       PulseInput::open(*server_, {monitor, kDevice_hz, "what is played", patience_},
+       PulseInput::open(*server_, {monitor, kDevice_hz, "what is played", timeout_},
                         [this](std::span<const float> s) { on_reference(s); }));
 }
 
@@ -144,15 +144,15 @@ void VoiceDevices::look_for_lost() {
   if (reference_ && !reference_->is_alive()) reference_.reset();
   // What works goes on soon: a server that answers slowly has first a short time, then longer.
   if (!microphone_ && !loudspeaker_)
-    patience_ = PulseServer::kPatience;
+    timeout_ = PulseServer::kTimeout;
   else
-    patience_ = std::clamp(patience_, kShortestPatience, kLongestPatience);
+    timeout_ = std::clamp(timeout_, kShortestTimeout, kLongestTimeout);
   const MonoTime begin = mono_now();
   if (!loudspeaker_) open_loudspeaker();
   if (!microphone_) open_microphone();
   if (!reference_) open_reference();
-  const bool is_slow = mono_now() - begin >= patience_;
-  patience_ = is_slow ? patience_ * 2 : kShortestPatience;
+  const bool is_slow = mono_now() - begin >= timeout_;
+  timeout_ = is_slow ? timeout_ * 2 : kShortestTimeout;
 }
 
 void VoiceDevices::fit_buffer(MonoTime now) {

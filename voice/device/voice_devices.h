@@ -22,8 +22,8 @@
 #include "core/sound/pulse_input.h"
 #include "core/sound/pulse_output.h"
 #include "core/sound/stream_clock.h"
-#include "voice/codec/voice_sound.h"
 #include "voice/device/device_troubles.h"
+#include "voice/frame/voice_sound.h"
 
 namespace dance {
 
@@ -108,7 +108,7 @@ class VoiceDevices {
   std::unique_ptr<PulseOutput> loudspeaker_;
   DeviceTroubles troubles_;
   MonoTime next_timing_, next_look_, next_fit_;
-  Duration patience_ = PulseServer::kPatience;  // with the sound server, while all waits for it
+  Duration timeout_ = PulseServer::kTimeout;  // with the sound server, while all waits for it
   std::uint64_t underflows_ = 0, underflows_before_ = 0;
   int calm_looks_ = 0;
   std::array<float, 2 * 4800> block_{};

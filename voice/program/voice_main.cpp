@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"

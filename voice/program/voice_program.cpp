@@ -33,7 +33,7 @@ double concealed_percent(const VoicePlayout::Counters& counters) {
 }  // namespace
 
 Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptions& options,
-                                                         Bus& bus, Poller& poller) {
+                                                         SignalPort& bus, Poller& poller) {
   std::unique_ptr<VoiceProgram> program(new VoiceProgram(options, bus, poller));
   VoiceProgram* self = program.get();
   DANCE_TRY(program->own_, OwnVoice::create(options.cleaning, options.encoding, this_clock_id()));
@@ -59,7 +59,7 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
   return program;
 }
 
-VoiceProgram::VoiceProgram(const VoiceProgramOptions& options, Bus& bus, Poller& poller)
+VoiceProgram::VoiceProgram(const VoiceProgramOptions& options, SignalPort& bus, Poller& poller)
     : options_(options), settings_(options.settings), bus_(bus), poller_(poller) {}
 
 VoiceProgram::~VoiceProgram() {

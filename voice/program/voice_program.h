@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/bus/bus.h"
+#include "core/bus/signal_port.h"
 #include "core/net/poller.h"
 #include "voice/device/voice_devices.h"
 #include "voice/program/voice_control.h"
@@ -32,8 +32,8 @@ struct VoiceProgramOptions {
 
 class VoiceProgram {
  public:
-  static Result<std::unique_ptr<VoiceProgram>> open(const VoiceProgramOptions& options, Bus& bus,
-                                                    Poller& poller);
+  static Result<std::unique_ptr<VoiceProgram>> open(const VoiceProgramOptions& options,
+                                                    SignalPort& bus, Poller& poller);
   ~VoiceProgram();
   VoiceProgram(const VoiceProgram&) = delete;
   VoiceProgram& operator=(const VoiceProgram&) = delete;
@@ -47,7 +47,7 @@ class VoiceProgram {
   const VoiceSettings& settings() const { return settings_; }
 
  private:
-  VoiceProgram(const VoiceProgramOptions& options, Bus& bus, Poller& poller);
+  VoiceProgram(const VoiceProgramOptions& options, SignalPort& bus, Poller& poller);
   void subscribe();
   VoiceDeviceHandlers handlers();
   void say_settings() const;
@@ -55,7 +55,7 @@ class VoiceProgram {
 
   VoiceProgramOptions options_;
   VoiceSettings settings_;
-  Bus& bus_;
+  SignalPort& bus_;
   Poller& poller_;
   std::unique_ptr<OwnVoice> own_;
   std::unique_ptr<RoomVoices> others_;

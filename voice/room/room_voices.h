@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "core/bus/voice.h"
-#include "core/pose/playout.h"
+#include "core/signal/playout.h"
 #include "voice/mix/limiter.h"
 #include "voice/mix/spatial_voice.h"
 #include "voice/playout/voice_playout.h"

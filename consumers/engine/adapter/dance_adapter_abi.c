@@ -1,4 +1,5 @@
-/* That dance_adapter.h is C99, and that its structs are what other languages declare: their sizes are the ABI. */
+/* That dance_adapter.h is C99, and that its structs are what other languages declare: their sizes
+ * are the ABI. */
 #include "consumers/engine/dance_adapter.h"
 
 #define DANCE_HAS_SIZE(type, bytes) typedef char size_of_##type[sizeof(type) == (bytes) ? 1 : -1]

@@ -105,7 +105,7 @@ dance_status dance_producer_pose(dance_producer* producer, const dance_pose* pos
   ours.capture_time = capture_time(pose->capture_ns, now);
   if (!is_valid(ours) || !ours.capture_time.is_set()) return DANCE_INVALID;
   if (producer->has_skeleton && now >= producer->next_skeleton) {
-    // As the poses': who is not there, or does not read, gets it later.
+    // As the poses': a house that is not there, or does not read, gets it later.
     if (send_value(*producer, producer->skeleton, now) == DANCE_OK)
       producer->next_skeleton = now + kSkeletonPeriod;
   }

@@ -6,8 +6,8 @@
 
 #include "formats/avatar/read/avatar_nodes.h"
 #include "formats/body/hand_layout.h"
-#include "formats/bvh/rig.h"
-#include "formats/bvh/rig_names.h"
+#include "formats/bvh/rig/rig.h"
+#include "formats/bvh/rig/rig_names.h"
 #include "formats/gltf/glb_figure.h"
 #include "formats/gltf/glb_vrm.h"
 

@@ -43,13 +43,13 @@ void LandmarkNetwork::look(const cv::Mat& picture, const BodyRegion& region) {
 
 // The heatmap's centroid around the regressed point, where its peak is high enough; in parts of the
 // region.
-Eigen::Vector2f LandmarkNetwork::refined(std::size_t point, const Eigen::Vector2f& guess) const {
+Eigen::Vector2f LandmarkNetwork::refined(std::size_t point, const Eigen::Vector2f& coarse) const {
   constexpr auto kCells = static_cast<float>(kHeat_cells);
   // Far beyond the region nothing is near; and such numbers do not fit an int.
-  if (guess.cwiseAbs().maxCoeff() > 16.0f) return guess;
-  const int column = static_cast<int>(guess.x() * kCells);
-  const int row = static_cast<int>(guess.y() * kCells);
-  if (column < 0 || column >= kHeat_cells || row < 0) return guess;
+  if (coarse.cwiseAbs().maxCoeff() > 16.0f) return coarse;
+  const int column = static_cast<int>(coarse.x() * kCells);
+  const int row = static_cast<int>(coarse.y() * kCells);
+  if (column < 0 || column >= kHeat_cells || row < 0) return coarse;
   const std::span<const float> cells = heat();
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   float total = 0.0f, most = 0.0f;
@@ -64,7 +64,7 @@ Eigen::Vector2f LandmarkNetwork::refined(std::size_t point, const Eigen::Vector2
       sum += h * Eigen::Vector2f(static_cast<float>(c), static_cast<float>(r));
     }
   }
-  if (!(most >= kLeastHeat)) return guess;
+  if (!(most >= kLeastHeat)) return coarse;
   return sum / (kCells * total);
 }
 

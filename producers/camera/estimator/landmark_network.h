@@ -47,7 +47,7 @@ class LandmarkNetwork {
 
  private:
   explicit LandmarkNetwork(std::unique_ptr<PoseEngine> engine) : engine_(std::move(engine)) {}
-  Eigen::Vector2f refined(std::size_t point, const Eigen::Vector2f& guess) const;
+  Eigen::Vector2f refined(std::size_t point, const Eigen::Vector2f& coarse) const;
 
   std::unique_ptr<PoseEngine> engine_;
   BodyRegion region_;

@@ -33,7 +33,7 @@ PersonDetector::PersonDetector(std::unique_ptr<PoseEngine> engine) : engine_(std
         for (int i = 0; i < grid.anchors; ++i)
           anchors_.push_back({(static_cast<float>(x) + 0.5f) / static_cast<float>(grid.cells),
                               (static_cast<float>(y) + 0.5f) / static_cast<float>(grid.cells)});
-  guesses_.reserve(kAnchors);
+  candidates_.reserve(kAnchors);
 }
 
 Result<PersonDetector> PersonDetector::make(EngineKind engine, PoseGraph graph) {
@@ -53,44 +53,44 @@ Result<PersonDetector> PersonDetector::make(EngineKind engine, PoseGraph graph) 
 void PersonDetector::decode(float least_score) {
   constexpr float kSize = kSide_px;
   const std::span<const float> boxes = engine_->output(0), scores = engine_->output(1);
-  guesses_.clear();
+  candidates_.clear();
   for (std::size_t i = 0; i < kAnchors; ++i) {
     const float score = 1.0f / (1.0f + std::exp(-std::clamp(scores[i], -100.0f, 100.0f)));
     if (!(score >= least_score)) continue;
     const float* raw = boxes.data() + i * kNumbers;
     if (!std::all_of(raw, raw + kNumbers, [](float value) { return std::isfinite(value); }))
       continue;
-    Guess guess;
-    guess.score = score;
+    Candidate candidate;
+    candidate.score = score;
     const float x = raw[0] / kSize + anchors_[i][0], y = raw[1] / kSize + anchors_[i][1];
     const float width = raw[2] / kSize, height = raw[3] / kSize;
-    guess.at = {x - 0.5f * width, y - 0.5f * height, x + 0.5f * width, y + 0.5f * height};
+    candidate.at = {x - 0.5f * width, y - 0.5f * height, x + 0.5f * width, y + 0.5f * height};
     for (std::size_t k = kBoxNumbers; k < kNumbers; ++k)
-      guess.at[k] = raw[k] / kSize + anchors_[i][k % 2];
-    guesses_.push_back(guess);
+      candidate.at[k] = raw[k] / kSize + anchors_[i][k % 2];
+    candidates_.push_back(candidate);
   }
-  std::sort(guesses_.begin(), guesses_.end(),
-            [](const Guess& a, const Guess& b) { return a.score > b.score; });
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
 }
 
 // Those that mean the same person as the first one left, weighed by their scores; they are no
 // longer there afterwards.
-PersonDetector::Guess PersonDetector::merge(std::size_t first) {
-  const Guess best = guesses_[first];
-  Guess merged = best;
+PersonDetector::Candidate PersonDetector::merge(std::size_t first) {
+  const Candidate best = candidates_[first];
+  Candidate merged = best;
   merged.at.fill(0.0f);
   float total = 0.0f;
   std::size_t kept = first;
-  for (std::size_t i = first; i < guesses_.size(); ++i) {
-    const Guess& guess = guesses_[i];
-    if (i != first && overlap(guess.at.data(), best.at.data()) <= kLeastOverlap) {
-      guesses_[kept++] = guess;
+  for (std::size_t i = first; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i];
+    if (i != first && overlap(candidate.at.data(), best.at.data()) <= kLeastOverlap) {
+      candidates_[kept++] = candidate;
       continue;
     }
-    total += guess.score;
-    for (std::size_t k = 0; k < kNumbers; ++k) merged.at[k] += guess.score * guess.at[k];
+    total += candidate.score;
+    for (std::size_t k = 0; k < kNumbers; ++k) merged.at[k] += candidate.score * candidate.at[k];
   }
-  guesses_.resize(kept);
+  candidates_.resize(kept);
   for (float& value : merged.at) value /= total;
   return merged;
 }
@@ -103,14 +103,14 @@ std::span<const SeenPerson> PersonDetector::find(const cv::Mat& picture, float l
   if (!engine_->run()) return {};
   decode(least_score);
   std::size_t people = 0;
-  while (!guesses_.empty() && people < kMostPeople) {
-    const Guess guess = merge(0);
+  while (!candidates_.empty() && people < kMostPeople) {
+    const Candidate candidate = merge(0);
     const auto point = [&](std::size_t number) {
       const std::size_t k = kBoxNumbers + 2 * number;
-      return Eigen::Vector2f(whole.centre_x_px + (guess.at[k] - 0.5f) * whole.side_px,
-                             whole.centre_y_px + (guess.at[k + 1] - 0.5f) * whole.side_px);
+      return Eigen::Vector2f(whole.centre_x_px + (candidate.at[k] - 0.5f) * whole.side_px,
+                             whole.centre_y_px + (candidate.at[k + 1] - 0.5f) * whole.side_px);
     };
-    people_[people++] = {guess.score, region_of(point(0), point(1))};
+    people_[people++] = {candidate.score, region_of(point(0), point(1))};
   }
   return {people_.data(), people};
 }

@@ -39,7 +39,7 @@ class PersonDetector {
   static constexpr std::size_t kAnchors = 2254;
   static constexpr std::size_t kNumbers = 12;  // an anchor regresses: a box, and four points
 
-  struct Guess {
+  struct Candidate {
     float score = 0.0f;
     std::array<float, kNumbers>
         at{};  // left, top, right, bottom, then x and y of points; 0…1 of the square
@@ -47,11 +47,11 @@ class PersonDetector {
 
   explicit PersonDetector(std::unique_ptr<PoseEngine> engine);
   void decode(float least_score);
-  Guess merge(std::size_t first);
+  Candidate merge(std::size_t first);
 
   std::unique_ptr<PoseEngine> engine_;
   std::vector<std::array<float, 2>> anchors_;
-  std::vector<Guess> guesses_;
+  std::vector<Candidate> candidates_;
   std::array<SeenPerson, kMostPeople> people_;
 };
 

@@ -7,7 +7,7 @@
 //               row, column, channel.
 // Ownership:    owns its numbers.
 // Threads:      none inside.
-// Failure:      none; who makes one checks it: every shape follows from those before it, every
+// Failure:      none; the maker of one checks it: every shape follows from those before it, every
 //               index is in range.
 #pragma once
 

@@ -138,7 +138,7 @@ class SongMaker {
   }
 
   // As a band varies what it knows: strokes are left out and soft ones come in between, in some
-  // songs more than in others. Who learns from these songs knows more than the rows.
+  // songs more than in others. A model trained on these songs knows more than the rows.
   std::string varied(std::string row, const SongLayer& layer) {
     if (layer.voice == SongVoice::kPad && row.find_first_not_of("c.") == std::string::npos)
       return row;

@@ -1,5 +1,5 @@
-// Prints how the C compiler lays the structs of dance_adapter.h out, for LayoutTest.cs: the struct in
-// C#, a field or `-` for the whole, its offset or the size.
+// Prints how the C compiler lays the structs of dance_adapter.h out, for LayoutTest.cs: the struct
+// in C#, a field or `-` for the whole, its offset or the size.
 #include <dance_adapter.h>
 #include <stdio.h>
 

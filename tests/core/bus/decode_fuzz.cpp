@@ -22,28 +22,7 @@ void try_decode(const std::uint8_t* data, std::size_t size) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try_decode<dance::Pose>(data, size);
-  try_decode<dance::Hands>(data, size);
-  try_decode<dance::TimedSkeleton>(data, size);
-  try_decode<dance::GuestStatus>(data, size);
-  try_decode<dance::StageTime>(data, size);
-  try_decode<dance::Stats>(data, size);
-  try_decode<dance::Music>(data, size);
-  try_decode<dance::Scene>(data, size);
-  try_decode<dance::Avatar>(data, size);
-  try_decode<dance::AvatarFile>(data, size);
-  try_decode<dance::Style>(data, size);
-  try_decode<dance::Placement>(data, size);
-  try_decode<dance::Beat>(data, size);
-  try_decode<dance::GuestStats>(data, size);
-  try_decode<dance::GuestTraffic>(data, size);
-  try_decode<dance::FlowSetting>(data, size);
-  try_decode<dance::Playout>(data, size);
-  try_decode<dance::Steps>(data, size);
-  try_decode<dance::Voice>(data, size);
-  try_decode<dance::Touch>(data, size);
-  try_decode<dance::Haptic>(data, size);
-  try_decode<dance::HearingWish>(data, size);
+  dance::for_each_message_type([&]<class Message>() { try_decode<Message>(data, size); });
   const std::string_view name(reinterpret_cast<const char*>(data), size);
   if (const auto channel = dance::Channel::parse(name)) DANCE_ASSERT(channel->view() == name);
   return 0;

@@ -1,4 +1,4 @@
-#include "core/codec/exact_math.h"
+#include "core/codec/exact/exact_math.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@ source=$1 work=$2 model_source=$3 # the model, embedded by CMake
 shift 3
 cd "$source"
 mkdir -p "$work"
-files="tests/core/codec/lattice_golden_main.cpp core/codec/body_lattice.cpp core/codec/body_predictor.cpp
-  $model_source core/codec/lattice_decoder.cpp core/codec/lattice_frame.cpp core/codec/pose_model.cpp core/codec/symbol_distribution.cpp core/pose/pose.cpp core/pose/skeleton.cpp"
+files="tests/core/codec/lattice_golden_main.cpp core/codec/lattice/body_lattice.cpp core/codec/lattice/body_predictor.cpp
+  $model_source core/codec/lattice/lattice_decoder.cpp core/codec/lattice/lattice_frame.cpp core/codec/lattice/pose_model.cpp core/codec/coding/symbol_distribution.cpp core/pose/pose.cpp core/pose/skeleton.cpp"
 includes=()
 for include in "$@"; do includes+=(-isystem "$include"); done
 # All in one file: its headers are read once.

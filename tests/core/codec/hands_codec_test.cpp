@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/codec/adaptive_bits.h"
+#include "core/codec/coding/adaptive_bits.h"
 #include "tests/allocation_guard.h"
 #include "tests/core/codec/rotations.h"
 

@@ -1,7 +1,7 @@
 // Bytes as a record of the lattice codec, to a decoder in the middle of a dance.
 #include <cstdlib>
 
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 #include "tests/core/codec/lattice_poses.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 
 #include <gtest/gtest.h>
 
@@ -148,7 +148,7 @@ TEST(LatticeCodec, MusicOfAnyLengthCrossesAndWhatIsNoneIsLeftOut) {
   EXPECT_FALSE(std::isfinite(ends.got.music_beats));
 }
 
-TEST(LatticeCodec, AnAcknowledgementFromBeforeAKeyFrameCountsNoMore) {
+TEST(LatticeCodec, AnAcknowledgementFromBeforeAnIntraFrameCountsNoMore) {
   Ends ends;
   ends.encoder.set_references(References::kAcknowledged);
   Random random(14);
@@ -178,7 +178,7 @@ TEST(LatticeCodec, SequencesWrapAndPacesDiffer) {
   }
 }
 
-TEST(LatticeCodec, WhoMissesAFrameAsksAndAKeyFrameHeals) {
+TEST(LatticeCodec, WhoMissesAFrameAsksAndAnIntraFrameHeals) {
   Ends ends;
   Random random(17);
   for (std::uint32_t i = 0; i < 10; ++i) ends.expect_crosses(dance_frame(i, random));
@@ -190,7 +190,7 @@ TEST(LatticeCodec, WhoMissesAFrameAsksAndAKeyFrameHeals) {
   for (std::uint32_t i = 12; i < 20; ++i) ends.expect_crosses(dance_frame(i, random));
 }
 
-TEST(LatticeCodec, ANewcomerDecodesFromAKeyFrameOnWhatAllOthersDo) {
+TEST(LatticeCodec, ANewcomerDecodesFromAnIntraFrameOnWhatAllOthersDo) {
   Ends ends;
   LatticeDecoder late(built_in_model());
   late.set_skeleton(ends.skeleton);
@@ -304,7 +304,7 @@ TEST(PoseModel, IsReadAsItWasWrittenAndRefusedWhenDamaged) {
   ASSERT_FALSE(read_model(other));
   EXPECT_NE(read_model(other).error().what.find("version"), std::string::npos);
   other = file;
-  // The first coordinate of a key frame has none before it to look at.
+  // The first coordinate of an intra frame has none before it to look at.
   const std::size_t intra_begin = 6 + kBoneCount * 14 + 2 * 4 * (kTableSteps + 1);
   other[intra_begin] = 200;
   EXPECT_FALSE(read_model(other));

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 #include "core/codec/plain_codec.h"
 #include "tests/core/codec/lattice_poses.h"
 

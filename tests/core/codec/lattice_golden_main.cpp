@@ -9,7 +9,7 @@
 
 #include "core/base/byte_reader.h"
 #include "core/base/byte_writer.h"
-#include "core/codec/lattice_codec.h"
+#include "core/codec/lattice/lattice_codec.h"
 #include "tests/core/codec/lattice_poses.h"
 
 namespace {

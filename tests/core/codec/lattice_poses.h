@@ -8,7 +8,7 @@
 #pragma once
 
 #include "core/base/random.h"
-#include "core/codec/exact_math.h"
+#include "core/codec/exact/exact_math.h"
 #include "core/pose/pose.h"
 #include "tests/core/codec/rotations.h"
 

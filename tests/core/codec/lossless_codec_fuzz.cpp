@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "core/base/assert.h"
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 
 namespace {
 

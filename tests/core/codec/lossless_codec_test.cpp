@@ -1,4 +1,4 @@
-#include "core/codec/lossless_codec.h"
+#include "core/codec/lossless/lossless_codec.h"
 
 #include <gtest/gtest.h>
 
@@ -213,7 +213,7 @@ TEST(LosslessCodec, AGapIsSaidAndNeverGuessed) {
   EXPECT_EQ(late.decode(frames[1], out), DecodeResult::kReferenceMissing);
 }
 
-TEST(LosslessCodec, RestartMakesAKeyFrame) {
+TEST(LosslessCodec, RestartMakesAnIntraFrame) {
   const auto poses = moves(100);
   LosslessEncoder encoder;
   for (std::size_t i = 0; i < 50; ++i) encode(encoder, poses[i]);
@@ -245,7 +245,7 @@ TEST(LosslessCodec, BeginsAnewBehindWhatDidNotFit) {
   }
 }
 
-TEST(LosslessCodec, DamageEndsAtTheNextKeyFrame) {
+TEST(LosslessCodec, DamageEndsAtTheNextIntraFrame) {
   const auto poses = moves(60);
   const auto frames = expect_round_trip(poses);
   Random random(7);

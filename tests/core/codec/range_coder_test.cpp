@@ -1,4 +1,4 @@
-#include "core/codec/range_coder.h"
+#include "core/codec/coding/range_coder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "formats/bvh/rig.h"
+#include "formats/bvh/rig/rig.h"
 
 #include <gtest/gtest.h>
 

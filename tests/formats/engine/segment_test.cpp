@@ -110,7 +110,7 @@ TEST_F(SegmentTest, ARestartedWriterTakesUpAnyMemory) {
 TEST_F(SegmentTest, TellsWhenTheWriterIsGone) {
   EXPECT_EQ(reader_.check(kSomeTime_ns + kHeartbeatStays_ns), SegmentCheck::kFine);
   EXPECT_EQ(reader_.check(kSomeTime_ns + kHeartbeatStays_ns + 1), SegmentCheck::kNoWriter);
-  writer_.beat_heart(kNow + Duration::s(2));
+  writer_.update_heartbeat(kNow + Duration::s(2));
   EXPECT_EQ(reader_.check(kSomeTime_ns + kHeartbeatStays_ns + 1), SegmentCheck::kFine);
   writer_.close();
   EXPECT_EQ(reader_.check(kSomeTime_ns), SegmentCheck::kNoWriter);

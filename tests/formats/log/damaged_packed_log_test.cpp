@@ -49,7 +49,7 @@ TEST(DamagedPackedLog, AnUndamagedOneIsReadAgainFromItsBeginning) {
   EXPECT_EQ(log.unpacking().lost() + log.skipped_bytes(), 0u);
 }
 
-TEST(DamagedPackedLog, ALostEventCostsItsChannelUntilTheNextKeyFrame) {
+TEST(DamagedPackedLog, ALostEventCostsItsChannelUntilTheNextIntraFrame) {
   const OwnEvents evening = recorded_evening(620);
   OwnEvents packed = packed_events(evening);
   // The 41st pose of alice, who begins anew with her 61st.

@@ -168,7 +168,7 @@ TEST(PackedLog, PackedEventsThatWereOnTheBusComeBackPacked) {
   expect_all_back(twice);
 }
 
-TEST(PackedLog, EachChannelHasAKeyFrameEachHalfSecondAndWhenTheClockIsSetBack) {
+TEST(PackedLog, EachChannelHasAnIntraFrameEachHalfSecondAndWhenTheClockIsSetBack) {
   Random random(1);
   LogPacker packer;
   std::vector<std::uint32_t> keys;
@@ -176,9 +176,9 @@ TEST(PackedLog, EachChannelHasAKeyFrameEachHalfSecondAndWhenTheClockIsSetBack) {
   for (std::uint32_t i = 0; i < 90; ++i, time_us += 16'667) {
     if (i == 75) time_us -= 3'600'000'000;
     const Bytes pose = bytes_of(recorded_pose(i, random));
-    const std::uint64_t before = packer.counters().key_frames;
+    const std::uint64_t before = packer.counters().intra_frames;
     packer.pack({0, time_us, "POSE/capture/alice", pose});
-    if (packer.counters().key_frames != before) keys.push_back(i);
+    if (packer.counters().intra_frames != before) keys.push_back(i);
   }
   EXPECT_EQ(keys, (std::vector<std::uint32_t>{0, 30, 60, 75}));
 }
@@ -216,7 +216,7 @@ TEST(PackedLog, AllocatesNothingOnceAChannelIsKnown) {
   for (std::size_t i = 5; i < evening.size(); ++i) unpacker.unpack(packer.pack(evening[i].event()));
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_EQ(unpacker.counters().lost(), 0u);
-  EXPECT_GT(packer.counters().key_frames, 3u);
+  EXPECT_GT(packer.counters().intra_frames, 3u);
 }
 
 }  // namespace

@@ -290,7 +290,7 @@ TEST_F(ClusterReferences, FramesThatReceiversOfAllServersHaveAreReferredTo) {
   EXPECT_GE(at_b.size(), 305u);
   EXPECT_GT(at_c.size(), 200u);
   // Few intra frames do: who comes later, or has lost what is referred to, asks.
-  EXPECT_LT(logs[0]->key_frames_encoded, 40);
+  EXPECT_LT(logs[0]->intra_frames_encoded, 40);
 }
 
 TEST_F(ClusterReferences, WhoComesLaterAtAnotherServerNeedsOneIntraFrame) {
@@ -298,11 +298,11 @@ TEST_F(ClusterReferences, WhoComesLaterAtAnotherServerNeedsOneIntraFrame) {
   add(cluster[1], "bob");
   cluster.run(Duration::ms(300));
   cluster.dance(Duration::s(2), {{&a, "alice"}});
-  const int before = logs[0]->key_frames_encoded;
+  const int before = logs[0]->intra_frames_encoded;
   House& late = add(cluster[2], "carla");
   cluster.dance(Duration::s(1), {{&a, "alice"}});
   EXPECT_GT(late.heard_of(guest("alice")), 50u);
-  EXPECT_LE(logs[0]->key_frames_encoded - before, 3);
+  EXPECT_LE(logs[0]->intra_frames_encoded - before, 3);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ inline cluster::VoiceMessage voice() {
 }
 
 inline std::vector<cluster::Message> messages() {
-  cluster::Beat beat;
+  cluster::Heartbeat beat;
   beat.server = 1;
   beat.born_us = 2;
   beat.links = 3;
@@ -65,7 +65,7 @@ inline std::vector<cluster::Message> messages() {
   for (int i = 0; i < 2; ++i) {
     cluster::FeedbackEntry entry;
     entry.guest = guest(i == 0 ? "alice" : "bob");
-    entry.feedback.key_frames = 3;
+    entry.feedback.intra_frames = 3;
     entry.feedback.path = feedback.path;
     entry.feedback.frames.has_full = i == 0;
     entry.feedback.frames.has_base = true;

@@ -103,7 +103,7 @@ class TestBus final : public ClusterBus {
 TEST(ClusterProbe, MeasuresTheClockOfWhoBeatsByTheShortestRoundTrip) {
   TestBus bus;
   ClusterProbe probe(99, bus);
-  cluster::Beat beat;
+  cluster::Heartbeat beat;
   beat.server = 7;
   MonoTime now = MonoTime::from_us(1'000'000);
   bus.say(beat, now);
@@ -122,7 +122,7 @@ TEST(ClusterProbe, MeasuresTheClockOfWhoBeatsByTheShortestRoundTrip) {
   EXPECT_EQ(seen.answers, 3u);
   EXPECT_EQ(seen.offset, Duration::ms(5));
   EXPECT_EQ(seen.round_trip, Duration::ms(2));
-  // Answers of before, of the future, and of who does not beat do not count.
+  // Answers of the past, of the future, and of servers without heartbeats do not count.
   bus.say(cluster::ClockAnswer{7, now.since_zero_us() - 5'000'000, 0, 0}, now);
   bus.say(cluster::ClockAnswer{7, now.since_zero_us() + 1, 0, 0}, now);
   bus.say(cluster::ClockAnswer{8, now.since_zero_us(), 0, 0}, now);

@@ -1,6 +1,6 @@
 // Messages over a real NATS server, in one process: all of a turn arrive in order, a NATS server
 // that does not read holds up nobody, and another takes its place.
-#include "tunnel/nats/nats_messages.h"
+#include "tunnel/nats/messages/nats_messages.h"
 
 #include "tests/tunnel/cluster/nats_cluster.h"
 #include "tests/tunnel/cluster/nats_peer.h"

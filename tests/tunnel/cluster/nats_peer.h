@@ -108,9 +108,9 @@ class SilentAfterBurst final : public NatsPeer {
  private:
   void speak(int peer) override {
     const int room = 1 << 20;
-    const timeval patience{20, 0};
+    const timeval timeout{20, 0};
     ::setsockopt(peer, SOL_SOCKET, SO_SNDBUF, &room, sizeof room);
-    ::setsockopt(peer, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    ::setsockopt(peer, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
     if (!send_all(peer, "INFO {\"tls_required\":true}\r\n")) return;
     const std::unique_ptr<SSL, void (*)(SSL*)> tls(SSL_new(context_.get()), SSL_free);
     SSL_set_fd(tls.get(), peer);

@@ -60,7 +60,7 @@ TEST(WireVersion, OthersAreRefusedWithWhatIsSpoken) {
   }
 }
 
-// A link and a server of before, of which the test plays the answer.
+// An older link and an older server, of which the test plays the answer.
 TEST(WireVersion, ALinkSpeaksAsTheServerDoes) {
   struct Sink final : DatagramSink {
     void send(const Address&, std::span<const std::uint8_t> bytes) override {

@@ -1,4 +1,4 @@
-#include "tunnel/nats/nats_reader.h"
+#include "tunnel/nats/messages/nats_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What is said to NATS about subjects: little, however often wishes change, and nothing of one
 // subject is taken for another.
-#include "tunnel/nats/nats_subscriptions.h"
+#include "tunnel/nats/messages/nats_subscriptions.h"
 
 #include <gtest/gtest.h>
 

@@ -89,9 +89,9 @@ TEST(AckTracker, GoesAlongAtOnceOnAPathThatLosesAndWaitsOnACleanOne) {
   EXPECT_TRUE(tracker.is_ripe(kNow + AckTracker::kCleanGap, true));
 }
 
-TEST(AckTracker, AKeyFrameIsAskedForOnceAndAtOnce) {
+TEST(AckTracker, AnIntraFrameIsAskedForOnceAndAtOnce) {
   AckTracker tracker;
-  EXPECT_TRUE(tracker.want_key_frame(9, kNow));
+  EXPECT_TRUE(tracker.want_intra_frame(9, kNow));
   EXPECT_TRUE(tracker.is_ripe(kNow, true));
   wire::RecordsHeader header;
   tracker.tell(header, kNow);
@@ -105,8 +105,8 @@ TEST(AckTracker, AKeyFrameIsAskedForOnceAndAtOnce) {
 TEST(AckTracker, RefusesMoreRequestsThanADatagramHolds) {
   AckTracker tracker;
   for (std::uint8_t slot = 0; slot < wire::kMaxWants; ++slot)
-    EXPECT_TRUE(tracker.want_key_frame(slot, kNow));
-  EXPECT_FALSE(tracker.want_key_frame(wire::kMaxWants, kNow));
+    EXPECT_TRUE(tracker.want_intra_frame(slot, kNow));
+  EXPECT_FALSE(tracker.want_intra_frame(wire::kMaxWants, kNow));
 }
 
 }  // namespace

@@ -17,14 +17,14 @@ class RecordingEncoder final : public PoseEncoder {
   std::size_t encode(const Pose&, std::span<std::uint8_t>) override { return 1; }
   void acknowledged(std::uint32_t sequence) override { acked.push_back(sequence); }
   void base_acknowledged(std::uint32_t sequence) override { base_acked.push_back(sequence); }
-  void request_intra() override { ++key_frames; }
+  void request_intra() override { ++intra_frames; }
   void request_refresh() override { ++stills; }
   void request_base() override { ++bases; }
   void restart() override { ++restarts; }
   void set_references(References to) override { references = to; }
 
   std::vector<std::uint32_t> acked, base_acked;
-  int key_frames = 0, stills = 0, bases = 0, restarts = 0;
+  int intra_frames = 0, stills = 0, bases = 0, restarts = 0;
   References references = References::kPrevious;
 };
 
@@ -79,10 +79,10 @@ TEST_F(ReferenceControlTest, AProducerThatBeginsAnewHasNothingToReferTo) {
 
 TEST_F(ReferenceControlTest, EachChangeOfTheRequestCounterAsksForOneIntraFrame) {
   wire::GuestFeedback about;
-  about.key_frames = 3;
+  about.intra_frames = 3;
   EXPECT_TRUE(control.take(about, {}, encoder, now));
   EXPECT_FALSE(control.take(about, {}, encoder, now));
-  EXPECT_EQ(encoder.key_frames, 1);
+  EXPECT_EQ(encoder.intra_frames, 1);
 }
 
 TEST_F(ReferenceControlTest, MakesEachSecondPoseABaseFrameWhereReceiversWantHalf) {
@@ -111,7 +111,7 @@ TEST_F(ReferenceControlTest, RefreshesWithAnIntraFrameEachPeriod) {
   int frames = 0;
   for (; now < kControlTime + Duration::s(5); now = now + kFrame, ++frames)
     control.prepare(encoder, now, Duration::s(2), now);
-  EXPECT_EQ(encoder.key_frames, 2);
+  EXPECT_EQ(encoder.intra_frames, 2);
 }
 
 TEST_F(ReferenceControlTest, TurnsToAcknowledgedFramesWhileReceiversTellOfNothing) {

@@ -4,7 +4,7 @@
 
 #include "core/base/random.h"
 #include "core/base/token_bucket.h"
-#include "tunnel/link/link_guests.h"
+#include "tunnel/link/core/link_guests.h"
 
 namespace dance {
 namespace {

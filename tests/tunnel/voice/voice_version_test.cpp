@@ -39,7 +39,7 @@ TEST(VoiceVersion, AServerSendsNoneToALinkOfVersionFour) {
   EXPECT_EQ(tunnel.server().counters().of(ServerReject::kUnknownType), 1u);
 }
 
-// A server of before, whose answers the test makes.
+// An older server, whose answers the test makes.
 TEST(VoiceVersion, ALinkSendsNoneToAServerOfVersionFour) {
   struct Sink final : DatagramSink {
     void send(const Address&, std::span<const std::uint8_t> bytes) override {

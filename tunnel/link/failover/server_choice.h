@@ -25,7 +25,7 @@ class ServerChoice {
   // The one that is spoken to, and the others that it names.
   void set_current(const Address& server) { current_ = server; }
   const Address& current() const { return current_; }
-  // True where they are not those of before: their distances are to be measured.
+  // True where they have changed: their distances are to be measured.
   bool set_others(const wire::ServerList& others);
   bool has_others() const { return !others_.empty(); }
   // All that there are, the current one first.

@@ -23,7 +23,7 @@ class ServerProbe {
   ServerProbe(const ServerProbe&) = delete;
   ServerProbe& operator=(const ServerProbe&) = delete;
 
-  // Forgets those of before, and asks these.
+  // Forgets earlier ones, and asks these.
   void begin(std::span<const Address> servers, MonoTime now);
   // Asks again what is due. Call at next_deadline().
   void tick(MonoTime now);

@@ -81,7 +81,7 @@ class LineBudget {
     if (round_trip <= Duration()) return;
     if (seen_ == 0) recent_.fill(round_trip);
     recent_[seen_++ % recent_.size()] = round_trip;
-    // Another way may be longer for good: the least one is forgotten in time.
+    // Another path may be longer for good: the least round trip is forgotten in time.
     if (!least_since_.is_set() || now - least_since_ > kRemembers) {
       least_before_ = least_since_.is_set() ? least_now_ : round_trip;
       least_now_ = round_trip;

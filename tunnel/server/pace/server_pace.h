@@ -13,7 +13,7 @@
 #pragma once
 
 #include "tunnel/server/pace/share_plan.h"
-#include "tunnel/server/server_interest.h"
+#include "tunnel/server/signals/server_interest.h"
 
 namespace dance {
 

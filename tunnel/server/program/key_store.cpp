@@ -1,7 +1,7 @@
 #include "tunnel/server/program/key_store.h"
 
 #include "core/program/talk.h"
-#include "tunnel/nats/nats_store.h"
+#include "tunnel/nats/values/nats_store.h"
 #include "tunnel/seal/key_files.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
 

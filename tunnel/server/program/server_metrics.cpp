@@ -84,7 +84,7 @@ void add_totals(const ServerStatus& status, Page& page) {
                c.voice_bytes_out);
   page.counters("voices_left_out_total", "Packets of voices not sent to who wants them.",
                 {{"crowded", c.voices_crowded}, {"narrow_line", c.voices_held_back}});
-  page.counter("key_frames_asked_total", "Key frames asked of guests.", c.key_frames_asked);
+  page.counter("key_frames_asked_total", "Intra frames asked of guests.", c.intra_frames_asked);
   page.counter("sessions_begun_total", "Links that came.", c.sessions_begun);
   page.counter("sessions_resumed_total", "Links that came back from elsewhere.",
                c.sessions_resumed);

@@ -77,7 +77,7 @@ void add_counters(const ServerCounters& c, JsonText& json) {
   json.member("voices_crowded", c.voices_crowded);
   json.member("voices_held_back", c.voices_held_back);
   json.member("voice_bytes_out", c.voice_bytes_out);
-  json.member("key_frames_asked", c.key_frames_asked);
+  json.member("key_frames_asked", c.intra_frames_asked);
   json.member("sessions_begun", c.sessions_begun);
   json.member("sessions_resumed", c.sessions_resumed);
   json.member("sessions_timed_out", c.sessions_timed_out);

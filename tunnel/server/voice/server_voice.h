@@ -9,7 +9,7 @@
 //               alone.
 #pragma once
 
-#include "tunnel/server/server_context.h"
+#include "tunnel/server/core/server_context.h"
 
 namespace dance {
 

@@ -1,12 +1,12 @@
-// Who is heard where many speak: each receiver has so many places for talkers. Who has one keeps it
-// while speaking; who has been silent for half a second leaves it; and where all are taken, one who
-// is clearly louder than the quietest takes that one's place.
+// Who is heard where many speak: each receiver has so many places for talkers. A talker keeps
+// one while speaking, and leaves it after half a second of silence; where all are taken, a talker
+// who is clearly louder than the quietest takes that one's place.
 //
 // Units/frames: MonoTime of the server's clock; guests by slot; loudness in dBFS.
 // Ownership:    plain values of fixed size.
 // Threads:      none inside.
-// Failure:      levels are what senders say of themselves: who lies has one place, and a house that
-//               minds mutes that guest.
+// Failure:      levels are what senders say of themselves: a liar gets one place, and a house can
+//               mute that guest.
 #pragma once
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "core/net/mono_clock.h"
 #include "core/net/secure_random.h"
 #include "core/program/talk.h"
-#include "tunnel/nats/nats_store.h"
+#include "tunnel/nats/values/nats_store.h"
 
 namespace dance {
 namespace {

@@ -84,7 +84,7 @@ void FDanceLiveLinkSource::PushDancers() {
     FDancer& Dancer = Dancers[Guest.slot];
     Dancer.bIsHere = Dancer.Generation == Guest.generation && std::strcmp(Dancer.Id, Guest.id) == 0;
   }
-  // Before others are pushed: who came back has another slot, but the same subject.
+  // Before others are pushed: a guest who came back has another slot, but the same subject.
   for (FDancer& Dancer : Dancers)
     if (Dancer.bIsKnown && !Dancer.bIsHere) RemoveSubject(Dancer);
   for (const dance_guest& Guest : Guests)

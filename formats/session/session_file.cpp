@@ -1,0 +1,50 @@
+#include "formats/session/session_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/program/whole_file.h"
+
+namespace dance {
+namespace {
+
+constexpr std::size_t kMostBytes = 1 << 20;  // as house/session.cpp takes
+
+}  // namespace
+
+Result<SessionFile> SessionFile::open(const std::string& path) {
+  DANCE_TRY(std::string text, read_whole_file(path, kMostBytes));
+  // What is no TOML is told now and not with the first save.
+  if (const auto words = route_words(text, 0, path); !words)
+    return tl::make_unexpected(words.error());
+  return SessionFile(path, std::move(text));
+}
+
+std::vector<std::string> SessionFile::words(std::size_t route) const {
+  return route_words(text_, route, path_).value_or(std::vector<std::string>());
+}
+
+std::optional<std::string> SessionFile::style(std::string_view guest) const {
+  return style_words(text_, guest, path_).value_or(std::nullopt);
+}
+
+Result<void> SessionFile::save(const SessionEdit& edit) {
+  // A folder that is ours would let us replace a file that is not to be written.
+  if (access(path_.c_str(), W_OK) != 0)
+    return fail(path_ + " cannot be written: " + std::strerror(errno) +
+                "; chmod u+w it, or start the viewer with --session of a copy");
+  DANCE_TRY(std::string now, read_whole_file(path_, kMostBytes));
+  if (now != text_) {
+    text_ = std::move(now);
+    return fail(path_ + " was changed by somebody else; look at it, and save again to write there");
+  }
+  DANCE_TRY(std::string edited, edit_session(text_, edit, path_));
+  if (edited == text_) return {};
+  if (auto written = write_whole_file(path_, edited); !written) return written;
+  text_ = std::move(edited);
+  return {};
+}
+
+}  // namespace dance

@@ -1,0 +1,72 @@
+// The room's music and scene: what this house's guests request, told until the server has it or
+// has somebody else's; and what holds.
+//
+// Units/frames: music in the server's clock, unless a name says otherwise.
+// Ownership:    refers to the link's context.
+// Threads:      none inside; one owner.
+// Failure:      what is impossible, or of a guest who is not here, is counted and dropped.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "tunnel/link/core/link_context.h"
+
+namespace dance {
+
+class LinkRoom {
+ public:
+  explicit LinkRoom(LinkContext& link) : link_(link) {}
+
+  void send(const GuestId& id, const Music& music, MonoTime now);
+  void send(const GuestId& id, const Scene& scene, MonoTime now);
+  bool on_state(const wire::State& state, MonoTime now);
+  void on_ack(const wire::StateAck& ack);
+  // A new session: what holds there is not known yet.
+  void begin_session();
+  // The clocks are mapped: a server that began anew has another one.
+  void map_music();
+  // Requests that the server has not acknowledged, each handed to `add`.
+  template <class Add>
+  void each_due(Add add) const {
+    for (std::size_t place = 0; place < wire::kRoomStates; ++place) {
+      const Request& request = requests_[place];
+      const LocalGuest* guest = request.is_open ? link_.locals.find(request.setter) : nullptr;
+      const wire::StateName name = wire::room_state_at(place);
+      if (guest != nullptr && guest->has_slot && !request.is_refused &&
+          link_.is_due(request.state, name, {}))
+        add(wire::State{name, {}, request.setter, request.state.version, request.state.bytes()});
+    }
+  }
+
+  // What holds, in this house's clock as it is mapped now.
+  std::optional<Music> music(MonoTime now) const;
+  const GuestId& music_setter() const { return current_[0].setter; }
+
+ private:
+  // What a guest of this house wants it to be, until somebody else has set it.
+  struct Request {
+    GuestId setter;
+    bool is_open = false;
+    // Made before the room's was known: its version may have to be raised, once.
+    bool is_blind = false;
+    bool is_refused = false;  // until it changes
+    ReplicatedState state;
+  };
+  struct Current {
+    GuestId setter;
+    std::uint32_t version = 0;  // of this session; 0 = not heard yet
+  };
+
+  void make_request(const GuestId& setter, wire::StateKind kind, wire::Bytes payload, MonoTime now);
+  void yield_to(std::size_t place, const GuestId& setter, std::uint32_t version);
+
+  LinkContext& link_;
+  std::array<Request, wire::kRoomStates> requests_;
+  std::array<Current, wire::kRoomStates> current_;
+  Music requested_music_;  // in our clock
+  Music current_music_;
+  bool has_music_ = false;
+};
+
+}  // namespace dance

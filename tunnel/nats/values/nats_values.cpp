@@ -1,0 +1,181 @@
+#include "tunnel/nats/values/nats_values.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+namespace dance {
+namespace {
+
+// The NATS server that reads for us may be another than the one we speak with, and die: missing two
+// of these says so, and the watch begins anew. Well before a dead server's guests are forgotten.
+constexpr std::int64_t kHeartbeat_ns = 1'000'000'000;
+constexpr std::size_t kMostUnwritten = 65'536;
+constexpr auto kRetry = std::chrono::milliseconds(100);
+
+}  // namespace
+
+Result<std::unique_ptr<NatsValues>> NatsValues::open(natsConnection* connection, NatsInbox& inbox,
+                                                     const NatsOptions& options) {
+  DANCE_TRY(NatsBucket bucket, open_nats_bucket(connection, options));
+  return std::unique_ptr<NatsValues>(new NatsValues(std::move(bucket), options.bucket, inbox));
+}
+
+NatsValues::NatsValues(NatsBucket bucket, const std::string& name, NatsInbox& inbox)
+    : bucket_(std::move(bucket)),
+      stream_name_("KV_" + name),
+      subject_prefix_("$KV." + name + "."),
+      inbox_(inbox),
+      thread_([this] { run(); }) {}
+
+NatsValues::~NatsValues() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void NatsValues::put(std::string_view key, std::span<const std::uint8_t> value) {
+  write(key, std::vector<std::uint8_t>(value.begin(), value.end()));
+}
+
+void NatsValues::erase(std::string_view key) { write(key, std::nullopt); }
+
+// Bounded also while NATS is away for long: what stands is written again when it is back.
+void NatsValues::write(std::string_view key, Value value) {
+  const std::lock_guard lock(mutex_);
+  if (unwritten_.size() >= kMostUnwritten && !unwritten_.contains(std::string(key))) {
+    failed_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  unwritten_[std::string(key)] = std::move(value);
+  changed_.notify_all();
+}
+
+void NatsValues::watch(std::string_view keys) {
+  const std::lock_guard lock(mutex_);
+  watched_.insert(std::string(keys));
+  to_watch_.insert(std::string(keys));
+  changed_.notify_all();
+}
+
+void NatsValues::end_watch(std::string_view keys) {
+  const std::lock_guard lock(mutex_);
+  watched_.erase(std::string(keys));
+  to_watch_.insert(std::string(keys));
+  changed_.notify_all();
+}
+
+void NatsValues::renew() {
+  const std::lock_guard lock(mutex_);
+  renews_ = true;
+  changed_.notify_all();
+}
+
+std::size_t NatsValues::unwritten() const {
+  const std::lock_guard lock(mutex_);
+  return unwritten_.size();
+}
+
+void NatsValues::flush(std::chrono::milliseconds longest) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, longest, [this] { return unwritten_.empty() && !is_writing_; });
+}
+
+std::string_view NatsValues::key_of(natsMsg* message) const {
+  std::string_view subject = natsMsg_GetSubject(message);
+  if (!subject.starts_with(subject_prefix_)) return {};
+  subject.remove_prefix(subject_prefix_.size());
+  return subject;
+}
+
+bool NatsValues::is_erased(natsMsg* message) {
+  const char* operation = nullptr;
+  return natsMsgHeader_Get(message, "KV-Operation", &operation) == NATS_OK &&
+         (std::strcmp(operation, "DEL") == 0 || std::strcmp(operation, "PURGE") == 0);
+}
+
+bool NatsValues::is_last(natsMsg* message) {
+  jsMsgMetaData* about = nullptr;
+  if (natsMsg_GetMetaData(&about, message) != NATS_OK) return false;
+  const bool is_last = about->NumPending == 0;
+  jsMsgMetaData_Destroy(about);
+  return is_last;
+}
+
+void NatsValues::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock,
+                  [this] { return ends_ || renews_ || !to_watch_.empty() || !unwritten_.empty(); });
+    if (ends_) return;
+    if (std::exchange(renews_, false)) to_watch_.insert(watched_.begin(), watched_.end());
+    if (!to_watch_.empty())
+      watch_one(lock);
+    else if (!unwritten_.empty())
+      write_one(lock);
+  }
+}
+
+void NatsValues::write_one(std::unique_lock<std::mutex>& lock) {
+  auto next = unwritten_.upper_bound(last_tried_);
+  if (next == unwritten_.end()) next = unwritten_.begin();
+  const std::string key = last_tried_ = next->first;
+  const Value value = std::move(next->second);
+  unwritten_.erase(next);
+  is_writing_ = true;
+  lock.unlock();
+  std::uint64_t revision = 0;
+  const natsStatus status = value ? kvStore_Put(&revision, bucket_.store.get(), key.c_str(),
+                                                value->data(), static_cast<int>(value->size()))
+                                  : kvStore_Delete(bucket_.store.get(), key.c_str());
+  lock.lock();
+  is_writing_ = false;
+  if (status == NATS_OK) {
+    if (unwritten_.empty()) changed_.notify_all();
+    return;
+  }
+  failed_.fetch_add(1, std::memory_order_relaxed);
+  unwritten_.emplace(key, value);  // unless there is a newer one
+  changed_.wait_for(lock, kRetry, [this] { return ends_; });
+}
+
+void NatsValues::watch_one(std::unique_lock<std::mutex>& lock) {
+  const std::string keys = *to_watch_.begin();
+  to_watch_.erase(to_watch_.begin());
+  const bool is_wanted = watched_.contains(keys);
+  lock.unlock();
+  subscriptions_.erase(keys);
+  NatsHandle<natsSubscription> subscription;
+  if (is_wanted) subscription = subscribe(keys);
+  lock.lock();
+  if (subscription) {
+    subscriptions_[keys] = std::move(subscription);
+  } else if (is_wanted) {
+    failed_.fetch_add(1, std::memory_order_relaxed);
+    to_watch_.insert(keys);
+    changed_.wait_for(lock, kRetry, [this] { return ends_; });
+  }
+}
+
+NatsHandle<natsSubscription> NatsValues::subscribe(const std::string& keys) {
+  jsSubOptions options;
+  jsSubOptions_Init(&options);
+  options.Ordered = true;
+  options.Stream = stream_name_.c_str();
+  options.Config.DeliverPolicy = js_DeliverLastPerSubject;
+  options.Config.Heartbeat = kHeartbeat_ns;
+  const auto on_value = [](natsConnection*, natsSubscription*, natsMsg* message, void* inbox) {
+    static_cast<NatsInbox*>(inbox)->push(NatsInbox::Kind::kValue, NatsHandle<natsMsg>(message));
+  };
+  natsSubscription* subscription = nullptr;
+  const std::string subject = subject_prefix_ + keys;
+  if (js_Subscribe(&subscription, bucket_.stream.get(), subject.c_str(), on_value, &inbox_, nullptr,
+                   &options, nullptr) != NATS_OK)
+    return nullptr;
+  return NatsHandle<natsSubscription>(subscription);
+}
+
+}  // namespace dance
