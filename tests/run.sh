@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test; `./dance test` comes here when all packages are there.
 #   tests/run.sh                 the ci build: unit, flow, golden, fuzz corpora, source checks
-#   tests/run.sh --sanitizers    the same, then under address+undefined sanitizers, what has threads under the thread
-#                                sanitizer, and ten seconds of each fuzz target
+#   tests/run.sh --sanitizers    the same, then a build without all that may be left out, the tests under
+#                                address+undefined sanitizers, what has threads under the thread sanitizer, and ten
+#                                seconds of each fuzz target
 # A flow test that fails beside others gets one more try, alone; its name is printed. Not after a sanitizer's report.
 # Last line: "N passed, N failed" (", N skipped" where there were any). Exit 1 when anything failed.
 set -euo pipefail
@@ -13,7 +14,7 @@ while [ $# -gt 0 ]; do
   case "$1" in
     --sanitizers) sanitizers=yes ;;
     -R | -L | -E | -LE) only+=("$1" "${2:?$1 takes an expression}"); shift ;;
-    -h | --help) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "dance test: there is no option '$1'; --help lists them" >&2; exit 2 ;;
   esac
   shift
@@ -89,6 +90,8 @@ step() { # PRESET [TARGET…]: a build that fails is a failed test.
 # More at a time than there are processors: programs that dance for seconds wait for most of them.
 step ci && jobs=$((jobs + 2)) run ci "${only[@]}"
 if [ "$sanitizers" = yes ]; then
+  # What may be left out is never needed: without any of it everything else compiles and links.
+  [ ${#only[@]} != 0 ] || ! step bare || passed=$((passed + 1))
   # Reports of programs that tests start are kept too.
   export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:log_path=$PWD/build/asan-report
   export UBSAN_OPTIONS=print_stacktrace=1:log_path=$PWD/build/asan-report

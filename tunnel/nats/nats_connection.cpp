@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/printable.h"
+#include "tunnel/nats/nats_credentials.h"
 
 // Where a connection is lost at the moment in which the library makes a watch of a bucket anew, it
 // (3.4.1, js.c) detaches a thread that it does not have, and the process ends. Its calls come here
@@ -22,21 +23,13 @@ constexpr std::int64_t kPing_ms = 500;
 constexpr int kUnansweredPings = 2;
 constexpr std::int64_t kReconnect_ms = 100;
 
-// Which of the options says who we are, and what may be wrong with it.
-std::string cure_of_refusal(const NatsOptions& options) {
-  if (!options.credentials.empty())
-    return printable(options.credentials) + " is no credentials file of a user of it";
-  if (!options.certificate.empty())
-    return printable(options.certificate) + " is the certificate of none of its users";
-  return "give --cluster-certificate and --cluster-private-key, or --cluster-credentials";
-}
-
 Error not_connected(natsStatus status, const NatsOptions& options) {
   const std::string at = shown_urls(options);
   const char* said = nats_GetLastError(nullptr);
   const std::string detail = said != nullptr ? printable(said) : natsStatus_GetText(status);
   if (status == NATS_CONNECTION_AUTH_FAILED || status == NATS_NOT_PERMITTED)
-    return Error{"the NATS server at " + at + " does not let us in: " + cure_of_refusal(options)};
+    return Error{"the NATS server at " + at +
+                 " does not let us in: " + cure_of_nats_refusal(options)};
   if (status == NATS_NO_SERVER)
     return Error{"no NATS server answers at " + at + ": is nats-server running there?"};
   if (status == NATS_SSL_ERROR)
@@ -108,6 +101,10 @@ std::optional<Error> set(natsOptions* made, const NatsOptions& options, const Na
 }  // namespace
 
 Result<NatsHandle<natsConnection>> connect_nats(const NatsOptions& options, const NatsCalls& on) {
+  // The library says of a wrong file only that the connection ended.
+  if (!options.credentials.empty())
+    if (const auto proof = prove_nats_user(options.credentials, "any"); !proof)
+      return tl::make_unexpected(proof.error());
   natsOptions* made = nullptr;
   if (natsOptions_Create(&made) != NATS_OK) return fail("NATS: no memory");
   const NatsHandle<natsOptions> of(made);

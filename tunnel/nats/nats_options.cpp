@@ -35,4 +35,12 @@ std::string shown_urls(const NatsOptions& options) {
   return printable(text);
 }
 
+std::string cure_of_nats_refusal(const NatsOptions& options) {
+  if (!options.credentials.empty())
+    return printable(options.credentials) + " is no credentials file of a user of it";
+  if (!options.certificate.empty())
+    return printable(options.certificate) + " is the certificate of none of its users";
+  return "give --cluster-certificate and --cluster-private-key, or --cluster-credentials";
+}
+
 }  // namespace dance

@@ -38,5 +38,7 @@ std::vector<std::string> nats_urls(const std::string& list);
 bool wants_tls(const NatsOptions& options);
 // The URLs as they may be shown: without user and password, printable.
 std::string shown_urls(const NatsOptions& options);
+// Of a server that does not let us in: which option says who we are, and what may be wrong with it.
+std::string cure_of_nats_refusal(const NatsOptions& options);
 
 }  // namespace dance

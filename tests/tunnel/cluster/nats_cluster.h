@@ -105,11 +105,14 @@ class NatsCluster : public ::testing::Test {
     return Address::loopback(static_cast<std::uint16_t>(kServerPort + static_cast<int>(server)));
   }
   void start_server(std::size_t which) { start_server(which, urls()); }
-  void start_server(std::size_t which, const std::string& nats) {
+  void start_server(std::size_t which, const std::string& nats,
+                    const std::vector<std::string>& also = {}) {
     const std::string port = std::to_string(address_of(which).port());
     servers_.resize(std::max(servers_.size(), which + 1));
-    servers_[which] = start(bin("dance-server"), {"--port", port, "--cluster", nats,
-                                                  "--cluster-address", "127.0.0.1:" + port});
+    std::vector<std::string> arguments{
+        "--port", port, "--cluster", nats, "--cluster-address", "127.0.0.1:" + port};
+    arguments.insert(arguments.end(), also.begin(), also.end());
+    servers_[which] = start(bin("dance-server"), arguments);
   }
   // Straight away, as by the kernel.
   static void kill_now(std::unique_ptr<ChildProcess>& program) {

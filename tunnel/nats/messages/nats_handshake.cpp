@@ -1,16 +1,11 @@
 #include "tunnel/nats/messages/nats_handshake.h"
 
-#include <nats/nats.h>
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/printable.h"
 #include "core/net/mono_clock.h"
+#include "tunnel/nats/nats_credentials.h"
 
 namespace dance {
 namespace {
@@ -51,48 +46,6 @@ NatsUrl parts_of(const std::string& url) {
   if (parts.host.starts_with('[') && parts.host.ends_with(']'))
     parts.host = parts.host.substr(1, parts.host.size() - 2);
   return parts;
-}
-
-// Without padding, for URLs.
-std::string base64_of(std::span<const unsigned char> bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
-                                   static_cast<int>(bytes.size()));
-  text.resize(std::min(static_cast<std::size_t>(size), text.find('=')));
-  std::replace(text.begin(), text.end(), '+', '-');
-  std::replace(text.begin(), text.end(), '/', '_');
-  return text;
-}
-
-// The lines behind the first and the second -----BEGIN: a user's JWT and its seed.
-Result<std::pair<std::string, std::string>> read_credentials(const std::string& path) {
-  std::ifstream in(path);
-  std::vector<std::string> found;
-  bool is_next = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line.ends_with('\r')) line.pop_back();
-    if (is_next && !line.empty()) found.push_back(line);
-    is_next = line.starts_with("-----BEGIN") || (is_next && line.empty());
-    OPENSSL_cleanse(line.data(), line.size());
-  }
-  if (found.size() != 2)
-    return fail("--cluster-credentials " + printable(path) + " is no file of a NATS user");
-  return std::pair(found[0], found[1]);
-}
-
-Result<void> add_credentials(const NatsOptions& options, const std::string& nonce,
-                             nlohmann::json& said) {
-  DANCE_TRY(auto credentials, read_credentials(options.credentials));
-  unsigned char* signature = nullptr;
-  int size = 0;
-  const natsStatus status = nats_Sign(credentials.second.c_str(), nonce.c_str(), &signature, &size);
-  OPENSSL_cleanse(credentials.second.data(), credentials.second.size());
-  if (status != NATS_OK)
-    return fail("--cluster-credentials " + printable(options.credentials) + ": no seed of a user");
-  said["jwt"] = credentials.first;
-  said["sig"] = base64_of({signature, static_cast<std::size_t>(size)});
-  std::free(signature);
-  return {};
 }
 
 class Handshaker {
@@ -157,8 +110,10 @@ Result<std::string> introduction(const NatsOptions& options, const NatsUrl& part
   if (!options.credentials.empty()) {
     const auto nonce = info.find("nonce");
     if (nonce == info.end() || !nonce->is_string()) return fail("asks for no credentials");
-    if (auto added = add_credentials(options, nonce->get<std::string>(), said); !added)
-      return tl::make_unexpected(added.error());
+    DANCE_TRY(const NatsProof proof,
+              prove_nats_user(options.credentials, nonce->get<std::string>()));
+    said["jwt"] = proof.jwt;
+    said["sig"] = proof.signature;
   }
   return "CONNECT " + said.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
          "\r\nPING\r\n";
@@ -212,6 +167,8 @@ Result<NatsHandshake> open_at(const NatsOptions& options, const NatsUrl& parts,
   for (;;) {
     DANCE_TRY(const std::string answer, handshaker.line());
     if (answer.starts_with("PONG")) break;
+    if (answer.starts_with("-ERR 'Auth"))
+      return fail("does not let us in: " + cure_of_nats_refusal(options));
     if (answer.starts_with("-ERR")) return fail(printable(answer));
   }
   return NatsHandshake{std::move(channel), handshaker.unread()};

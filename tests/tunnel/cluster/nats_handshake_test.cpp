@@ -12,7 +12,7 @@
 namespace dance {
 namespace {
 
-class NatsGreetingTest : public NatsCluster {
+class NatsHandshakeTest : public NatsCluster {
  protected:
   void start_tls_nats(const std::string& name) {
     start_nats(0, 1,
@@ -37,7 +37,7 @@ class NatsGreetingTest : public NatsCluster {
   }
 };
 
-TEST_F(NatsGreetingTest, WhereTlsIsWantedAServerWithoutItIsNotSpokenWith) {
+TEST_F(NatsHandshakeTest, WhereTlsIsWantedAServerWithoutItIsNotSpokenWith) {
   Authority ours(folder_.path(), "ours");
   start_nats(0, 1);
   EXPECT_EQ(messages_say(options("nats", "")), "connected");
@@ -48,7 +48,7 @@ TEST_F(NatsGreetingTest, WhereTlsIsWantedAServerWithoutItIsNotSpokenWith) {
   }
 }
 
-TEST_F(NatsGreetingTest, AServerShowsWhoItIsAlsoWhereItsUrlDoesNotAskForTls) {
+TEST_F(NatsHandshakeTest, AServerShowsWhoItIsAlsoWhereItsUrlDoesNotAskForTls) {
   Authority ours(folder_.path(), "ours"), theirs(folder_.path(), "theirs");
   ours.sign("nats", "IP:127.0.0.1");
   ours.sign("elsewhere", "IP:127.0.0.9");
@@ -67,7 +67,7 @@ TEST_F(NatsGreetingTest, AServerShowsWhoItIsAlsoWhereItsUrlDoesNotAskForTls) {
     EXPECT_NE(said.find("no TLS"), std::string::npos) << said;
 }
 
-TEST_F(NatsGreetingTest, APeerThatNeverComesToAnEndIsLeft) {
+TEST_F(NatsHandshakeTest, APeerThatNeverComesToAnEndIsLeft) {
   // By its bytes, or by the time.
   for (const std::size_t lines_at_once : {1000u, 1u}) {
     Chatterer peer(lines_at_once);
@@ -80,7 +80,7 @@ TEST_F(NatsGreetingTest, APeerThatNeverComesToAnEndIsLeft) {
   }
 }
 
-TEST_F(NatsGreetingTest, WhatIsBeingTriedEndsWithWhoAskedForIt) {
+TEST_F(NatsHandshakeTest, WhatIsBeingTriedEndsWithWhoAskedForIt) {
   Chatterer peer(1);
   NatsOptions of;
   of.urls = {peer.url};
