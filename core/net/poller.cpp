@@ -127,8 +127,10 @@ MonoTime Poller::earliest_deadline() const {
   return earliest;
 }
 
+// A timer that is armed for an earlier moment stays so: deadlines move on with each message, and
+// one wake-up in vain costs less than to tell the kernel each time.
 void Poller::arm(MonoTime deadline) {
-  if (deadline == armed_) return;
+  if (!deadline.is_set() || (armed_.is_set() && armed_ <= deadline)) return;
   itimerspec spec{};
   spec.it_value.tv_sec = deadline.since_zero_ns() / 1'000'000'000;
   spec.it_value.tv_nsec = deadline.since_zero_ns() % 1'000'000'000;
