@@ -1,7 +1,7 @@
 // Manager: the signal manager of one house. Hears captures and remote guests on its port, routes
-// them to the stage at its steady rate, keeps the roster and says once a second who is alive and
-// what was counted. Four times a second it says at which tempo the dancers step, and sixty times
-// who touches whom.
+// them to the stage (at its steady rate, or as they come), keeps the roster and says once a second
+// who is alive and what was counted. Four times a second it says at which tempo the dancers step,
+// and sixty times who touches whom.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port and the poller, which must outlive it.

@@ -105,19 +105,21 @@ Result<void> take_hold_hands(const Arguments& arguments, const FlowParts&, Draft
 struct Word {
   std::string_view name;
   Result<void> (*take)(const Arguments& arguments, const FlowParts& parts, Draft& draft);
+  // What it is while dancing, where it can be set and switched then.
+  std::optional<FlowWord> setting;
+  // Whether it fills a slot of the flow; without such a word poses pass as they come.
+  bool fills_slot = true;
 };
 
 // Every transformer of the tree, in the order in which they stand in a route.
-constexpr std::array<Word, 6> kWords{{
-    {"hold", take_hold},              // which moment
-    {"predict", take_predict},        // its pose, where it has not come
-    {"bridge", take_bridge},          // and where nothing comes for long
-    {"rhythm", take_rhythm},          // which moment, by the music
-    {"stylize", take_stylize},        // how it looks
-    {"hold-hands", take_hold_hands},  // and how two dancers look together
-}};
-// The last one has nothing to set while dancing.
-static_assert(kWords.size() == kFlowWords + 1);
+constexpr auto kWords = std::to_array<Word>({
+    {"hold", take_hold, FlowWord::kHold},           // which moment
+    {"predict", take_predict, FlowWord::kPredict},  // its pose, where it has not come
+    {"bridge", take_bridge, FlowWord::kBridge},     // and where nothing comes for long
+    {"rhythm", take_rhythm, FlowWord::kRhythm},     // which moment, by the music
+    {"stylize", take_stylize, FlowWord::kStylize},  // how it looks
+    {"hold-hands", take_hold_hands, {}, false},     // and how two dancers look together
+});
 
 Arguments split(std::string_view text) {
   Arguments words;
@@ -213,16 +215,15 @@ Result<Flow> Flow::make(const std::vector<std::string>& through, const FlowParts
     Arguments arguments = split(through[i]);
     arguments.erase(arguments.begin());
     FlowSetting& setting = draft.slots.setting;
-    if (places[i] < kFlowWords) {
-      setting.has[places[i]] = true;
-      DANCE_TRY(setting.on[places[i]], take_switch(kWords[places[i]].name, arguments));
+    const Word& word = kWords[places[i]];
+    if (word.setting) {
+      setting.has[index_of(*word.setting)] = true;
+      DANCE_TRY(setting.on[index_of(*word.setting)], take_switch(word.name, arguments));
     }
-    if (auto taken = kWords[places[i]].take(arguments, parts, draft); !taken)
+    if (auto taken = word.take(arguments, parts, draft); !taken)
       return tl::make_unexpected(taken.error());
   }
-  const bool is_pass_through = std::all_of(places.begin(), places.end(),
-                                           [](std::size_t place) { return place >= kFlowWords; });
-  if (is_pass_through) {
+  if (std::ranges::none_of(places, [](std::size_t place) { return kWords[place].fills_slot; })) {
     Flow flow;
     flow.holds_hands_ = draft.slots.holds_hands;
     return flow;

@@ -1,5 +1,5 @@
 // SignalPort: where a part of a house publishes messages and subscribes to those of others, of any
-// type in the table of core/bus/encode.h. A bus is one; a house in one process is another
+// type in core/bus/message_table.h. A bus is one; a house in one process is another
 // (house/house_port.h), whose parts hear each other without a bus between them. Manager, link and
 // producers do not know which of the two they have.
 //

@@ -181,6 +181,8 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
   return is_good;
 }
 
+// The order matters: guests are settled against the previous epoch, which session_.begin()
+// replaces, and the room's music is mapped by the clock's new sample.
 bool LinkCore::on_welcome(wire::Bytes body, MonoTime received, MonoTime now) {
   const auto welcome = session_.parse_answer(body);
   if (!welcome) return false;
@@ -213,7 +215,8 @@ bool LinkCore::on_servers(wire::Bytes body, MonoTime now) {
 }
 
 bool LinkCore::on_refusal(wire::Bytes body, MonoTime now) {
-  // Who bears the name of a guest that is to be added is somebody else: the roster is read again.
+  // The name of a guest that is to be added is taken: the roster is asked for again, to see by
+  // whom.
   const bool is_of_session = is_connected();
   if (!session_.on_refusal(body, now)) return false;
   if (is_of_session) roster_.forget();

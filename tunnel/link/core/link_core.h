@@ -2,7 +2,8 @@
 // of the server in, poses of the others out, in this house's clock. Finds the server again by
 // itself whatever happens to either side. It sends nothing without a DTLS session: SealClient tells
 // it when there is one. Its parts are in core/ (the session, who is here) and signals/ (poses,
-// voices, states, channels, files); this class only dispatches to them.
+// voices, states, channels, files); this class dispatches to them, and makes guests as they first
+// send.
 //
 // Units/frames: now and received are MonoTime of this house's clock.
 // Ownership:    owns codecs and tables; the sink must outlive it. Sending and receiving poses never

@@ -48,7 +48,8 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
   }
   if (opening->type == wire::Type::kHello)
     return admission_.on_hello(from, access, opening->body, received, now);
-  // Its session fell silent and was dropped. What is still under way to it may hide that.
+  // Its session fell silent and was dropped. Data of others that is still under way to it would
+  // hide that from the link: it is told.
   if (found == server_.by_peer.end()) {
     if (opening->type == wire::Type::kPing) keepalive_.send_goodbye(from);
     return server_.reject(ServerReject::kNoSession);
@@ -97,7 +98,8 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
   }
 }
 
-// Dancers first: what a newcomer, a state or a file needs may be much.
+// Dancers first: what a newcomer, a state or a file needs may be much. What a newcomer is told
+// includes poses, which are flushed at once.
 void ServerCore::end_turn(MonoTime now) {
   tell_rosters(now);
   tell_wanted();
@@ -126,6 +128,7 @@ void ServerCore::tell_rosters(MonoTime now) {
   }
 }
 
+// In a cluster: whom this server's links want of the guests of other servers.
 void ServerCore::tell_wanted() {
   for (const std::size_t i : server_.changed_rooms)
     if (server_.rooms[i].interest_changed && server_.rooms[i].in_use)

@@ -3,9 +3,10 @@
 // newest states (bodies, music, further channels) for those who come later.
 //
 // Speaks with peers that have proved who they are: the caller of receive() has checked their keys.
-// Its parts are in core/ (who is here) and signals/ (what they send); this class only dispatches to
-// them, and says in which order a turn ends. In a cluster another server is a session too
-// (server_remotes.h beside it), which is told nothing here: is_remote().
+// Its parts are in core/ (who is here), signals/ (what they send), pace/ (what their lines bear)
+// and voice/; this class dispatches to them, and says in which order a turn ends and when the next
+// is due. In a cluster another server is a session too (server_remotes.h beside it), which is told
+// nothing here: is_remote().
 //
 // Units/frames: now and received are MonoTime of the server's clock, which is the tunnel's clock.
 // Ownership:    owns sessions and rooms, all made at construction; the sink must outlive it. Taking
