@@ -22,8 +22,8 @@ namespace dance {
 
 class HapticFeed final : private HapticSink {
  public:
-  // After an order of another maker this one is on standby for kOtherMakes; until it would have
-  // made kMostRested of that kind meanwhile without one from there: then the other has ended.
+  // After an order of another maker this one holds back its own for kOtherMakes, or until it has
+  // held back kMostRested with none from there: then the other has ended.
   static constexpr Duration kOtherMakes = Duration::s(30);
   static constexpr int kMostRested = 4;
   // Two makers' orders for one place within this are one.

@@ -39,7 +39,7 @@ class HapticMaker {
   // A contact that lasts is felt so often, ever less.
   static constexpr Duration kAgain = Duration::ms(120);
   static constexpr Duration kFades = Duration::ms(600);
-  // A hand that moves faster than this in a hold is a signal of the lead; one within kBetween.
+  // A hand that moves faster than this in a hold is a signal of the lead; at most one in kBetween.
   static constexpr float kSignal_m_s = 0.6f;
   static constexpr Duration kBetween = Duration::ms(300);
 

@@ -1,5 +1,5 @@
-// The table of devices for `dance haptics --to` and `[[haptics]]` of a session: a new kind is one
-// row.
+// The table of devices for `dance haptics --to` and `[[haptics]]` of a session file: a new kind is
+// one row.
 //
 // Units/frames: strength times the amplitude, limit 0 to 1, latency a length of time.
 // Ownership:    the caller owns what is made.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance manager                          own captures to the stage; remote guests predicted
-  dance manager sessions/alice.toml      routes, hosted producers and consumers of a session
+  dance manager sessions/alice.toml      routes, hosted producers and consumers of a session file
 )";
 
 Result<void> run_manager(const std::string& file, const std::string& bus) {

@@ -264,7 +264,7 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
       return Error{
           name + ":" + std::to_string(key.source().begin.line) + ":" +
           std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
-          "' in a session; there are [house], [[route]], [[produce]], "
+          "' in a session file; there are [house], [[route]], [[produce]], "
           "[[listen]], [[haptics]], [[channel]], [[avatar]], [[style]], [music] and [voice]"};
   }
   const toml::node* house = document.get("house");

@@ -134,7 +134,7 @@ struct HouseConfig {
 Result<HouseConfig> parse_session(std::string_view text, const std::string& name);
 Result<HouseConfig> load_session(const std::string& path);
 
-// The session file of a house that was given no file: own dancers straight to the stage, remote
+// The routes of a house without a session file: own dancers straight to the stage, remote
 // ones predicted, carried over lapses, on the beat and in their style.
 std::vector<Route> default_routes();
 

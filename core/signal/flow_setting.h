@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, kFlowWords> kFlowWordNames{"hold", "predi
                                                                   "rhythm", "stylize"};
 constexpr std::size_t index_of(FlowWord word) { return static_cast<std::size_t>(word); }
 
-// The part of the motion that does not come again with the bar of which a session shows more, where
+// The part of the motion that does not come again with the bar of which a route shows more, where
 // it does not say.
 constexpr float kUsualDynamic = 0.5f;
 

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxAnchors = 256;
 constexpr Duration kMaxDrift = Duration::ms(500);
 constexpr std::int64_t kMaxPause_us = 60'000'000;
 
-// When what a message says was so.
+// The moment that a message tells of.
 template <class Message>
 MonoTime& time_of(Message& message) {
   if constexpr (requires { message.capture_time; })
@@ -143,7 +143,7 @@ void LogPlayer::publish_as(const Channel& channel, const LogEvent& event, MonoTi
     message.tempo_bpm *= options_.speed;
     is_good = is_valid(message);
   } else if constexpr (std::is_same_v<Message, Haptic>) {
-    // As long as it was; when, as the dance goes.
+    // Its duration stays; the moment to play it at follows the speed.
     message.play_time = moved(message.play_time);
     message.maker = 0;  // as it was, whatever else would be made of the touches now
     is_good = is_valid(message);

@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/deadline.h"
 #include "core/base/random.h"
 #include "core/codec/lattice/lattice_codec.h"
 #include "core/codec/lossless/lossless_codec.h"
 #include "testing/line/lossy_model.h"
-#include "tunnel/link/core/link_core.h"
-#include "tunnel/server/core/server_core.h"
+#include "tunnel/link/link_core.h"
+#include "tunnel/server/server_core.h"
 
 namespace dance {
 namespace {
@@ -247,9 +248,7 @@ void Room::count_costs(wire::Bytes datagram) {
 
 MonoTime Room::next_event() const {
   MonoTime next = server_.next_deadline();
-  const auto sooner = [&](MonoTime time) {
-    if (time.is_set() && (!next.is_set() || time < next)) next = time;
-  };
+  const auto sooner = [&](MonoTime time) { next = earlier(next, time); };
   if (!parcels_.empty()) sooner(parcels_.begin()->first);
   for (const auto& guest : guests_) {
     sooner(guest->next_pose);

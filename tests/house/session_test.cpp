@@ -257,7 +257,10 @@ TEST(Session, ReadsWhoSpeaksAndHow) {
                            "--with-picture", "--volume=bob=0.5"})
     EXPECT_NE(std::find(words.begin(), words.end(), word), words.end()) << word;
   const auto with = [](const std::string& voice) { return error_of(kHouse + voice); };
-  EXPECT_NE(with("[voice]\nvolumes = [\"bob\"]\n").find("s.toml:5"), std::string::npos);
+  for (const char* wrong : {"bob", "bob=3", "bob=0.5x"})
+    EXPECT_NE(with("[voice]\nvolumes = [\"" + std::string(wrong) + "\"]\n").find("s.toml:5"),
+              std::string::npos)
+        << wrong;
   EXPECT_NE(with("[voice]\nmute = true\n").find("'mute'"), std::string::npos);
   EXPECT_NE(with("[[voice]]\n").find("[voice], once"), std::string::npos);
   EXPECT_NE(error_of("[house]\n[voice]\n").find("who speaks"), std::string::npos);

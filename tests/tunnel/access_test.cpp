@@ -1,5 +1,5 @@
 // Who may do what, and listeners.
-#include "tunnel/server/access.h"
+#include "tunnel/server/core/access.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "core/pose/skeleton.h"
 #include "tests/tunnel/simulated_tunnel.h"
-#include "tunnel/session/pose_share.h"
+#include "tunnel/policy/pose_share.h"
 
 namespace dance {
 namespace {

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "tunnel/link/core/link_core.h"
-#include "tunnel/server/core/server_core.h"
+#include "tunnel/link/link_core.h"
+#include "tunnel/server/server_core.h"
 
 namespace dance {
 

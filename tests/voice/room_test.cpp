@@ -32,8 +32,9 @@ TEST(VoiceSettings, TakesItsCommandsAndNoOthers) {
   ASSERT_TRUE(settings.apply("volume bob=0.25", now));
   EXPECT_EQ(settings.volume_of(*GuestId::parse("bob")), 0.25f);
   EXPECT_EQ(settings.volume_of(*GuestId::parse("eve")), 1.0f);
-  for (const char* wrong : {"", "Mute", "volume", "volume ", "volume bob", "volume bob=3",
-                            "volume BOB=1", "volume bob=-1", "volume bob=nan", "talk now"})
+  for (const char* wrong :
+       {"", "Mute", "volume", "volume ", "volume bob", "volume bob=3", "volume BOB=1",
+        "volume bob=-1", "volume bob=nan", "volume bob=0.5x", "talk now"})
     EXPECT_FALSE(settings.apply(wrong, now)) << wrong;
   EXPECT_FALSE(settings.hearing().hears(*GuestId::parse("bob"))) << "deafened";
   ASSERT_TRUE(settings.apply("undeafen", now));

@@ -1,5 +1,5 @@
-// Styles as people write them: "preset=cuban hips=1.5 mix=0.5", in a session and in `dance style`;
-// and those that have a name.
+// Styles as people write them: "preset=cuban hips=1.5 mix=0.5", in a session file and in `dance
+// style`; and those that have a name.
 //
 // Units/frames: gains as core/signal/style.h; mix is what of the motion that does not come
 //               again with the bar follows them.
@@ -18,7 +18,7 @@
 
 namespace dance {
 
-// Where a session does not say: all of it shows more, and a sensor's noise too.
+// Where a session file does not say: all of it shows more, and a sensor's noise too.
 constexpr double kUsualMix = 0.5;
 // What may be asked for in words.
 constexpr double kMostSpokenGain = 3.0;

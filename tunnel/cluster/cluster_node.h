@@ -20,7 +20,7 @@
 #include "tunnel/cluster/cluster_names.h"
 #include "tunnel/cluster/cluster_peers.h"
 #include "tunnel/cluster/cluster_sender.h"
-#include "tunnel/server/core/server_core.h"
+#include "tunnel/server/server_core.h"
 
 namespace dance {
 

@@ -81,7 +81,10 @@ void ClusterNode::on_wanted(const ServerRoom& room, const ServerGuest& guest, bo
                                  : of->second.subscribed.erase(guest.id) > 0;
   if (!is_news) return;
   for (const cluster::Text& subject : cluster::subjects_of(room.name, guest.id))
-    is_wanted ? bus_.listen(subject.view()) : bus_.end_listen(subject.view());
+    if (is_wanted)
+      bus_.listen(subject.view());
+    else
+      bus_.end_listen(subject.view());
 }
 
 void ClusterNode::on_record(const ServerRoom& room, const ServerGuest& guest,

@@ -17,9 +17,9 @@
 #include "core/net/address_watch.h"
 #include "core/net/poller.h"
 #include "core/net/udp_socket.h"
-#include "tunnel/link/core/link_core.h"
 #include "tunnel/link/failover/server_choice.h"
 #include "tunnel/link/failover/server_probe.h"
+#include "tunnel/link/link_core.h"
 #include "tunnel/link/link_key.h"
 #include "tunnel/seal/seal_client.h"
 

@@ -41,14 +41,21 @@ Result<NatsProof> prove_nats_user(const std::string& path, const std::string& no
     is_next = line.starts_with("-----BEGIN") || (is_next && line.empty());
     OPENSSL_cleanse(line.data(), line.size());
   }
-  if (found.size() != 2) return fail(option + " is no file of a NATS user");
+  const auto wipe = [&] {
+    for (std::string& line : found) OPENSSL_cleanse(line.data(), line.size());
+  };
+  if (found.size() != 2) {
+    wipe();
+    return fail(option + " is no file of a NATS user");
+  }
   nats_Open(-1);  // its tables, else no seed can be read
   unsigned char* signature = nullptr;
   int size = 0;
   const natsStatus status = nats_Sign(found[1].c_str(), nonce.c_str(), &signature, &size);
-  OPENSSL_cleanse(found[1].data(), found[1].size());
+  NatsProof proof{found[0], ""};
+  wipe();
   if (status != NATS_OK) return fail(option + ": no seed of a user");
-  NatsProof proof{found[0], url_base64({signature, static_cast<std::size_t>(size)})};
+  proof.signature = url_base64({signature, static_cast<std::size_t>(size)});
   std::free(signature);
   return proof;
 }

@@ -40,6 +40,11 @@ std::string cure_of_nats_refusal(const NatsOptions& options) {
     return printable(options.credentials) + " is no credentials file of a user of it";
   if (!options.certificate.empty())
     return printable(options.certificate) + " is the certificate of none of its users";
+  const auto names_a_user = [](const std::string& url) {
+    return url.find('@') != std::string::npos;
+  };
+  if (std::ranges::any_of(options.urls, names_a_user))
+    return "user and password in the URL, or the token, are none of its users'";
   return "give --cluster-certificate and --cluster-private-key, or --cluster-credentials";
 }
 

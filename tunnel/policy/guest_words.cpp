@@ -9,7 +9,7 @@ Result<GuestWords> parse_guest_words(std::span<const std::string> words,
   GuestWords parsed;
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
+    const std::string_view name = std::string_view(word).substr(0, equals);
     std::optional<std::uint8_t> value;
     if (equals != std::string::npos)
       value = rule.value_of(std::string_view(word).substr(equals + 1));
@@ -22,8 +22,8 @@ Result<GuestWords> parse_guest_words(std::span<const std::string> words,
     const auto guest = GuestId::parse(name);
     if (!guest) return fail("'" + word + "': " + kGuestIdRule);
     if (std::any_of(parsed.guests.begin(), parsed.guests.end(),
-                    [&](const Interest::One& one) { return one.guest == *guest; }))
-      return fail("'" + word + "': " + name + " is given twice");
+                    [&](const auto& named) { return named.guest == *guest; }))
+      return fail("'" + word + "': " + std::string(name) + " is given twice");
     if (!parsed.guests.try_push({*guest, *value}))
       return fail("'" + word + "': at most " + std::to_string(kMaxInterestGuests) +
                   " guests can be named; " + rule.others);

@@ -2,7 +2,7 @@
 // "alice=1", "default=0".
 //
 // Units/frames: values as their rule reads them.
-// Ownership:    plain values; allocates for errors alone.
+// Ownership:    plain values.
 // Threads:      none inside.
 // Failure:      parse_guest_words() names the word that is wrong and how it is written.
 #pragma once
@@ -24,8 +24,12 @@ struct GuestWordRule {
 };
 
 struct GuestWords {
-  std::optional<std::uint8_t> others;                   // of "default"
-  FixedList<Interest::One, kMaxInterestGuests> guests;  // the value as the divider
+  struct Named {
+    GuestId guest;
+    std::uint8_t value = 0;
+  };
+  std::optional<std::uint8_t> others;  // of "default"
+  FixedList<Named, kMaxInterestGuests> guests;
 };
 
 // Each guest, and "default", at most once.

@@ -39,8 +39,8 @@ Result<Hearing> parse_hearing(std::span<const std::string> words) {
   DANCE_TRY(const GuestWords parsed, parse_guest_words(words, kHearRule));
   Hearing hearing;
   if (parsed.others) hearing.others = *parsed.others == 1;
-  for (const Interest::One& one : parsed.guests)
-    if ((one.divider == 1) != hearing.others) (void)hearing.exceptions.try_push(one.guest);
+  for (const auto& [guest, value] : parsed.guests)
+    if ((value == 1) != hearing.others) (void)hearing.exceptions.try_push(guest);
   return hearing;
 }
 

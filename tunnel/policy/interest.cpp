@@ -26,7 +26,8 @@ Result<Interest> parse_interest(std::span<const std::string> words) {
   DANCE_TRY(const GuestWords parsed, parse_guest_words(words, kWantRule));
   Interest interest;
   interest.others = parsed.others.value_or(interest.others);
-  interest.guests = parsed.guests;
+  for (const auto& [guest, divider] : parsed.guests)
+    (void)interest.guests.try_push({guest, divider});
   return interest;
 }
 

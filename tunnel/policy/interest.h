@@ -1,8 +1,8 @@
 // Which guests a house wants to hear, and how often: a divider for each, and one for all others.
 // Guests named with 1 come before all others where the line does not bear everything
-// (tunnel/server/pace/server_pace.h).
+// (tunnel/server/signals/server_pace.h).
 // One way to write it, on the command line (--want) and in session files (want);
-// tunnel/session/pose_share.h says what comes of it.
+// tunnel/policy/pose_share.h says what comes of it.
 //
 // Units/frames: a divider: 0 = nothing of this guest, 1 = every pose, n = at most every n-th.
 // Ownership:    plain values of fixed size, no allocation; parse_interest() is not for the pose

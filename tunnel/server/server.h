@@ -15,7 +15,7 @@
 #include "core/net/udp_socket.h"
 #include "tunnel/cluster/cluster_node.h"
 #include "tunnel/seal/seal_server.h"
-#include "tunnel/server/core/server_core.h"
+#include "tunnel/server/server_core.h"
 
 namespace dance {
 

@@ -2,7 +2,7 @@
 // to hear and how often, told until it is acknowledged; and what of one guest's records therefore
 // goes to one receiver.
 //
-// Units/frames: dividers as in tunnel/session/pose_share.h.
+// Units/frames: dividers as in tunnel/policy/pose_share.h.
 // Ownership:    plain values; never allocates.
 // Threads:      none inside.
 // Failure:      none.
@@ -10,11 +10,14 @@
 
 #include <cstdint>
 
+#include "tunnel/policy/interest.h"
+#include "tunnel/policy/pose_share.h"
 #include "tunnel/session/frame_window.h"
-#include "tunnel/session/pose_share.h"
 #include "tunnel/wire/wire_records.h"
 
 namespace dance {
+
+static_assert(kMaxInterestGuests == wire::kMaxGuestsPerRoom, "each guest of a room can be named");
 
 // The link's side: its newest list, and whether the server has it.
 class InterestRequest {

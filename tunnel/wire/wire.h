@@ -93,7 +93,7 @@ struct Hello {
   std::int64_t link_time_us = 0;
   FixedList<CodecName, kMaxCodecs> codecs;  // the preferred one first
   RoomName room;
-  // How often it wants whom it says nothing about: tunnel/session/pose_share.h.
+  // How often it wants whom it says nothing about: tunnel/policy/pose_share.h.
   std::uint8_t default_divider = 1;
   FixedList<GuestId, kMaxGuestsPerLink> guests;
 };
@@ -158,7 +158,7 @@ struct RosterPart {
 constexpr std::uint8_t kSlotsPerRosterPart = 32;
 
 // Which guests a link wants, and how often: all that it wants, each time. What a divider means is
-// said in tunnel/session/pose_share.h.
+// said in tunnel/policy/pose_share.h.
 struct InterestEntry {
   Slot slot;
   std::uint8_t divider = 1;

@@ -10,7 +10,7 @@
 // Failure:      as in tunnel/wire/wire.h; nothing here allocates.
 #pragma once
 
-#include "tunnel/session/pose_share.h"
+#include "tunnel/policy/pose_share.h"
 #include "tunnel/wire/wire.h"
 
 namespace dance::wire {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "tests/tunnel/voice/voices.h"
-#include "tunnel/server/pace/voice_share.h"
+#include "tunnel/server/voice/voice_share.h"
 
 namespace dance {
 namespace {

@@ -124,7 +124,7 @@ struct RemoteGuest {
   Heard heard;
   MonoTime shown;           // capture of the newest pose that went on, of this generation
   RemoteGuestStats counts;  // of this generation, but for what the gates count
-  MonoTime key_asked_at;
+  MonoTime intra_asked_at;
   bool has_skeleton = false;  // of this guest, of this session or one before
   Skeleton skeleton;
   std::unique_ptr<PoseDecoder> decoder;

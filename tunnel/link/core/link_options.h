@@ -23,8 +23,8 @@
 #include "tunnel/files/chunked_file.h"
 #include "tunnel/policy/channel_rule.h"
 #include "tunnel/policy/hearing.h"
+#include "tunnel/policy/pose_share.h"
 #include "tunnel/seal/seal_trouble.h"
-#include "tunnel/session/pose_share.h"
 #include "tunnel/session/reference_policy.h"
 #include "tunnel/wire/wire.h"
 #include "tunnel/wire/wire_servers.h"
@@ -89,8 +89,9 @@ struct LinkHandlers {
   std::function<void(const GuestId&, std::string_view name, ChannelClass, wire::Bytes message,
                      MonoTime now)>
       on_channel;
-  // A file that was asked for with LinkFiles::fetch() is here whole, its hash not checked yet.
-  // Blocks are told in order, to be kept for a restart.
+  // A file that was asked for with LinkFiles::fetch() is here whole, its hash not checked yet:
+  // LinkFiles::settle() is to be told whether it is right. Blocks are told in order, to be kept for
+  // a restart.
   std::function<void(const GuestId&, const FileHash&, ChunkedFile&&)> on_file;
   std::function<void(const GuestId&, const FileHash&, const ChunkedFile&, std::size_t block)>
       on_file_block;

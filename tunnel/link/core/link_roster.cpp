@@ -6,7 +6,7 @@ namespace dance {
 
 void LinkRoster::renew_decoder(RemoteGuest& remote) {
   remote.decoder = link_.options.make_decoder(link_.codec);
-  remote.key_asked_at = MonoTime();
+  remote.intra_asked_at = MonoTime();
   // Only what this guest has told since it came: its encoder begins with nothing too.
   if (remote.heard.state_versions[wire::place_of({wire::StateKind::kSkeleton, 0})] != 0 &&
       remote.has_skeleton)

@@ -155,10 +155,10 @@ bool LinkReceiver::decode(RemoteGuest& remote, const wire::Record& record, MonoT
 void LinkReceiver::want_intra_frame(RemoteGuest& remote, MonoTime now) {
   const Duration gap =
       std::clamp(link_.clock.newest_round_trip() * 2, kLeastWantGap, kLongestWantGap);
-  if (remote.key_asked_at.is_set() && now - remote.key_asked_at < gap) return;
+  if (remote.intra_asked_at.is_set() && now - remote.intra_asked_at < gap) return;
   const auto slot = link_.remotes.slot_of(remote);
   if (!link_.stream.received.want_intra_frame(slot, now)) return;  // its next failure asks again
-  remote.key_asked_at = now;
+  remote.intra_asked_at = now;
   ++remote.counts.intra_frames_asked;
   ++link_.counters.intra_frames_asked;
 }

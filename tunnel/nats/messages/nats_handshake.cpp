@@ -167,7 +167,7 @@ Result<NatsHandshake> open_at(const NatsOptions& options, const NatsUrl& parts,
   for (;;) {
     DANCE_TRY(const std::string answer, handshaker.line());
     if (answer.starts_with("PONG")) break;
-    if (answer.starts_with("-ERR 'Auth"))
+    if (answer.starts_with("-ERR 'Authorization"))
       return fail("does not let us in: " + cure_of_nats_refusal(options));
     if (answer.starts_with("-ERR")) return fail(printable(answer));
   }

@@ -17,7 +17,7 @@
 #include "core/base/fixed_list.h"
 #include "core/base/time.h"
 #include "core/base/token_bucket.h"
-#include "tunnel/server/access.h"
+#include "tunnel/server/core/access.h"
 #include "tunnel/server/core/cluster_port.h"
 #include "tunnel/server/core/link_meter.h"
 #include "tunnel/server/pace/pose_flow.h"
@@ -78,7 +78,7 @@ struct ServerLimits {
   double file_bytes_per_second_of_session = 256e3;
   // Records to one receiver wait this long for others to share a datagram with, unless all who
   // dance have one in it already; 0 = not beyond the turn. Nothing: as long as the receiver's line
-  // and the server's work ask for, tunnel/server/pace/server_pace.h.
+  // and the server's work ask for, tunnel/server/signals/server_pace.h.
   std::optional<Duration> share_window{};
   // Up to here each record may have a datagram of its own. A datagram takes about six microseconds
   // of a core (dance crowd): half of one.
@@ -260,9 +260,9 @@ struct ServerGuest {
   GuestPlace place;
   TokenBucket records;
   SentPose previous;  // goes once more to whom it may be lost
-  bool key_wanted = false;
+  bool intra_wanted = false;
   std::uint8_t intra_frames = 0;  // counts intra frames asked for
-  MonoTime key_asked_at;
+  MonoTime intra_asked_at;
   wire::GuestFeedback told;  // what the link was told last
   RetainedPose retained;
   MonoTime last_pose;            // when the newest came in

@@ -3,7 +3,7 @@
 // longest wait does not do, a ramp: the least important guests come at a half, a quarter, an eighth
 // of their rate, and as the ramp grows those before them, the most important last.
 //
-// Units/frames: bytes a second with all headers; dividers as in tunnel/session/pose_share.h.
+// Units/frames: bytes a second with all headers; dividers as in tunnel/policy/pose_share.h.
 // Ownership:    plain values; never allocates.
 // Threads:      none inside.
 // Failure:      where even the whole ramp is too much it is that all the same: nobody is left out.

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "core/base/time.h"
-#include "tunnel/server/core/server_core.h"
 #include "tunnel/server/program/cluster/cluster_status.h"
+#include "tunnel/server/server_core.h"
 
 namespace dance {
 

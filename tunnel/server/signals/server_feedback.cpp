@@ -94,7 +94,7 @@ void ServerFeedback::on_want(std::size_t index, std::uint8_t slot, MonoTime now)
   const bool is_known = session.newest_ping.round_trip_us != 0;
   const Duration way = (is_known ? round_trip_of(session) : kNewcomersWay) +
                        round_trip_of(server_.sessions[guest.owner]);
-  if (guest.key_asked_at.is_set() && now - guest.key_asked_at < way) return;
+  if (guest.intra_asked_at.is_set() && now - guest.intra_asked_at < way) return;
   filter.await_intra(filter.share() == Share::kBase);
   want_intra_frame(guest, now);
 }
@@ -111,10 +111,11 @@ void ServerFeedback::want_intra_frames_for(std::size_t newcomer, MonoTime now) {
 
 void ServerFeedback::want_intra_frame(ServerGuest& guest, MonoTime now) {
   ++server_.counters.intra_frames_wanted;
-  guest.key_wanted = true;
+  guest.intra_wanted = true;
   ServerSession& owner = server_.sessions[guest.owner];
-  const bool is_early = guest.key_asked_at.is_set() && now - guest.key_asked_at < kIntraFrameGap;
-  const MonoTime at = is_early ? guest.key_asked_at + kIntraFrameGap : now;
+  const bool is_early =
+      guest.intra_asked_at.is_set() && now - guest.intra_asked_at < kIntraFrameGap;
+  const MonoTime at = is_early ? guest.intra_asked_at + kIntraFrameGap : now;
   schedule(guest.owner, at, Duration(), kFeedbackGap);
   if (!is_early && owner.feedback_due.is_set())
     owner.feedback_due = owner.feedback_alone = std::min(owner.feedback_due, now);
@@ -213,16 +214,16 @@ PathFeedback ServerFeedback::path_of(std::size_t index, MonoTime now) const {
 // True where one is asked for now; however many want it, and however often.
 bool ServerFeedback::count_intra_frame(std::size_t index, ServerGuest& guest, MonoTime now) {
   bool is_asked = false;
-  if (guest.key_wanted &&
-      (!guest.key_asked_at.is_set() || now - guest.key_asked_at >= kIntraFrameGap)) {
-    guest.key_wanted = false;
-    guest.key_asked_at = now;
+  if (guest.intra_wanted &&
+      (!guest.intra_asked_at.is_set() || now - guest.intra_asked_at >= kIntraFrameGap)) {
+    guest.intra_wanted = false;
+    guest.intra_asked_at = now;
     ++guest.intra_frames;
     ++server_.counters.intra_frames_asked;
     is_asked = true;
   }
-  const MonoTime again = guest.key_asked_at + kIntraFrameGap;
-  if (guest.key_wanted) schedule(index, again, Duration(), kFeedbackGap);
+  const MonoTime again = guest.intra_asked_at + kIntraFrameGap;
+  if (guest.intra_wanted) schedule(index, again, Duration(), kFeedbackGap);
   return is_asked;
 }
 

@@ -93,9 +93,9 @@ bool ServerInterest::take(std::size_t to, const wire::Record& record, MonoTime n
   ServerGuest& guest = server_.rooms[session.room].guests[record.slot];
   InterestFilter& filter = session.filters[record.slot];
   if (filter.take(record, guest.counts())) return true;
-  const bool is_late = !guest.key_asked_at.is_set() || now - guest.key_asked_at > kIntraIsLate;
+  const bool is_late = !guest.intra_asked_at.is_set() || now - guest.intra_asked_at > kIntraIsLate;
   if (record.kind == wire::RecordKind::kPose && filter.awaits_intra() && is_late &&
-      !guest.key_wanted && filter.wants_any())
+      !guest.intra_wanted && filter.wants_any())
     feedback_.want_intra_frame(guest, now);
   return false;
 }

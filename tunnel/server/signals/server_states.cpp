@@ -37,7 +37,7 @@ void ServerStates::retain(ServerRoom& room, RetainedState& retained, const wire:
   ++server_.counters.states_in;
 }
 
-// The only one that is read here: who is near whom (tunnel/server/pace/server_pace.h).
+// The only one that is read here: who is near whom (tunnel/server/signals/server_pace.h).
 void ServerStates::note_place(ServerGuest& guest, const wire::State& state) {
   Placement placement;
   if (state.name.kind == wire::StateKind::kPlacement &&

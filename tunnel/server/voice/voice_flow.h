@@ -10,9 +10,9 @@
 #include <bitset>
 
 #include "core/base/token_bucket.h"
-#include "tunnel/server/pace/voice_share.h"
 #include "tunnel/server/voice/talker_places.h"
 #include "tunnel/server/voice/voice_queue.h"
+#include "tunnel/server/voice/voice_share.h"
 
 namespace dance {
 

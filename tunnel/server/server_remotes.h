@@ -9,10 +9,10 @@
 //               nothing; guests without a place are counted.
 #pragma once
 
-#include "tunnel/server/core/server_admission.h"
+#include "tunnel/server/server_admission.h"
 #include "tunnel/server/signals/server_files.h"
 #include "tunnel/server/signals/server_forwarder.h"
-#include "tunnel/server/voice/server_voice.h"
+#include "tunnel/server/signals/server_voice.h"
 
 namespace dance {
 

@@ -1,4 +1,4 @@
-#include "tunnel/server/voice/server_voice.h"
+#include "tunnel/server/signals/server_voice.h"
 
 #include "core/base/deadline.h"
 

@@ -8,9 +8,9 @@
 //               goodbye.
 #pragma once
 
-#include "tunnel/server/core/server_admission.h"
-#include "tunnel/server/core/server_sync.h"
-#include "tunnel/server/pace/server_pace.h"
+#include "tunnel/server/server_admission.h"
+#include "tunnel/server/server_sync.h"
+#include "tunnel/server/signals/server_pace.h"
 
 namespace dance {
 

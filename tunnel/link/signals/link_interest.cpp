@@ -1,4 +1,4 @@
-#include "tunnel/link/core/link_interest.h"
+#include "tunnel/link/signals/link_interest.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "tunnel/server/core/server_core.h"
+#include "tunnel/server/server_core.h"
 
 #include <algorithm>
 
@@ -183,7 +183,10 @@ MonoTime ServerCore::next_deadline() const {
       next = std::min(next, room.fresh_states_due);
   next = earlier(next, voice_.next_deadline());
   for (const std::size_t i : server_.newcomers)
-    next = std::min(next, server_.rooms[server_.sessions[i].room].settled_at);
+    if (const MonoTime at = server_.rooms[server_.sessions[i].room].settled_at; at.is_set())
+      next = std::min(next, at);
+    else
+      next = MonoTime::from_ns(1);  // its room is known: now
   return earlier(next, files_.next_deadline());
 }
 

@@ -1,4 +1,4 @@
-#include "tunnel/server/core/server_remotes.h"
+#include "tunnel/server/server_remotes.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // Whose poses and voices this house wants, as the server is told: the list of the guests who are
 // here, again whenever it changes, until the server acknowledges it.
 //
-// Units/frames: dividers as in tunnel/session/pose_share.h.
+// Units/frames: dividers as in tunnel/policy/pose_share.h.
 // Ownership:    refers to the link's context.
 // Threads:      none inside; one owner.
-// Failure:      impossible values are dropped.
+// Failure:      on_ack() of a malformed acknowledgement is false, and changes nothing.
 #pragma once
 
 #include "tunnel/link/core/link_context.h"

@@ -1,4 +1,4 @@
-#include "tunnel/server/core/server_sync.h"
+#include "tunnel/server/server_sync.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // A house's link as a state machine: poses of this house in, datagrams to the server out; datagrams
 // of the server in, poses of the others out, in this house's clock. Finds the server again by
 // itself whatever happens to either side. It sends nothing without a DTLS session: SealClient tells
-// it when there is one. Its parts are in core/ (the session, who is here) and signals/ (poses,
-// voices, states, channels, files); this class dispatches to them, and makes guests as they first
-// send.
+// it when there is one. Its parts are in core/ (the session, who is here) and signals/ (interest,
+// poses, voices, states, channels, files); this class dispatches to them, and makes guests as they
+// first send.
 //
 // Units/frames: now and received are MonoTime of this house's clock.
 // Ownership:    owns codecs and tables; the sink must outlive it. Sending and receiving poses never
@@ -19,10 +19,10 @@
 
 #include "core/bus/messages.h"
 #include "tunnel/link/core/link_context.h"
-#include "tunnel/link/core/link_interest.h"
 #include "tunnel/link/core/link_roster.h"
 #include "tunnel/link/core/link_session.h"
 #include "tunnel/link/signals/link_files.h"
+#include "tunnel/link/signals/link_interest.h"
 #include "tunnel/link/signals/link_receiver.h"
 #include "tunnel/link/signals/link_states.h"
 #include "tunnel/link/signals/link_voice.h"

@@ -3,9 +3,9 @@
 // newest states (bodies, music, further channels) for those who come later.
 //
 // Speaks with peers that have proved who they are: the caller of receive() has checked their keys.
-// Its parts are in core/ (who is here), signals/ (what they send), pace/ (what their lines bear)
-// and voice/; this class dispatches to them, and says in which order a turn ends and when the next
-// is due. In a cluster another server is a session too (server_remotes.h beside it), which is told
+// Its parts stand beside it (who is here) and in signals/ (what they send, and what their lines
+// bear); this class dispatches to them, and says in which order a turn ends and when the next is
+// due. In a cluster another server is a session too (server_remotes.h beside it), which is told
 // nothing here: is_remote().
 //
 // Units/frames: now and received are MonoTime of the server's clock, which is the tunnel's clock.
@@ -19,10 +19,10 @@
 #include <functional>
 #include <vector>
 
-#include "tunnel/server/core/server_keepalive.h"
-#include "tunnel/server/core/server_remotes.h"
+#include "tunnel/server/server_keepalive.h"
+#include "tunnel/server/server_remotes.h"
 #include "tunnel/server/signals/server_files.h"
-#include "tunnel/server/voice/server_voice.h"
+#include "tunnel/server/signals/server_voice.h"
 
 namespace dance {
 

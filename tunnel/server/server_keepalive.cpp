@@ -1,4 +1,4 @@
-#include "tunnel/server/core/server_keepalive.h"
+#include "tunnel/server/server_keepalive.h"
 
 #include <algorithm>
 

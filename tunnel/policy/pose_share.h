@@ -11,12 +11,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "tunnel/policy/interest.h"
-#include "tunnel/wire/wire.h"
-
 namespace dance {
-
-static_assert(kMaxInterestGuests == wire::kMaxGuestsPerRoom, "each guest of a room can be named");
 
 // What of a guest's poses goes to a receiver with this divider.
 enum class Share : std::uint8_t {

@@ -1,4 +1,4 @@
-#include "tunnel/server/core/server_admission.h"
+#include "tunnel/server/server_admission.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "tunnel/server/access.h"
+#include "tunnel/server/core/access.h"
 
 namespace dance {
 

@@ -1,4 +1,4 @@
-#include "tunnel/server/pace/server_pace.h"
+#include "tunnel/server/signals/server_pace.h"
 
 #include <algorithm>
 

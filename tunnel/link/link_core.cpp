@@ -1,4 +1,4 @@
-#include "tunnel/link/core/link_core.h"
+#include "tunnel/link/link_core.h"
 
 #include <algorithm>
 
