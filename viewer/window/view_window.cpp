@@ -200,13 +200,17 @@ void ViewWindow::pass_input_to_panels() {
 }
 
 void ViewWindow::on_key(int key, int scancode, int action, int modifiers) {
-  if (action == GLFW_RELEASE) return;
   RawKey raw{key, nullptr, action == GLFW_REPEAT, modifiers};
   // Keys beyond 127 print nothing, and GLFW does not take them.
   if (key == GLFW_KEY_UNKNOWN || key < 128) raw.printed = glfwGetKeyName(key, scancode);
   raw.has_alt_gr = glfwGetKey(window_, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
+  const auto press = press_of_key(raw);
+  if (action == GLFW_RELEASE) {
+    if (press) events_.on_key_released(*press);
+    return;
+  }
   is_repeat_ = raw.is_repeat;  // its characters come next
-  if (const auto press = press_of_key(raw)) events_.on_key(*press);
+  if (press) events_.on_key(*press);
 }
 
 void ViewWindow::on_letter(unsigned int letter) {
