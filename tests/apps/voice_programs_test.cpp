@@ -80,8 +80,14 @@ TEST_F(VoicePrograms, WithoutASoundServerThereIsOneLineAndTheHouseGoesOn) {
 
 // The sound server comes after the house.
 TEST_F(VoicePrograms, AHouseSaysAMissingSoundServerOnceAndThatVoicesWorkAgain) {
-  const std::string socket = "unix:" + folder_.path("sound/native");
-  ::setenv("PULSE_SERVER", socket.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
+  // As open_rooms() has it, for the house that is there before.
+  const std::string home = folder_.path("sound"), socket = "unix:" + home + "/native";
+  std::filesystem::create_directories(home);
+  std::filesystem::permissions(home, std::filesystem::perms::owner_all);
+  // NOLINTBEGIN(concurrency-mt-unsafe): one thread
+  ::setenv("PULSE_SERVER", socket.c_str(), 1);
+  ::setenv("XDG_RUNTIME_DIR", home.c_str(), 1);
+  // NOLINTEND(concurrency-mt-unsafe)
   std::ofstream(folder_.path("house.toml"))
       << "[house]\nguest = \"alice\"\nbus = \"" << kBus
       << "\"\n[voice]\npush_to_talk = true\nmicrophone = \"mouth-a.monitor\"\n"
@@ -106,6 +112,12 @@ TEST_F(VoicePrograms, AHouseSaysAMissingSoundServerOnceAndThatVoicesWorkAgain) {
   EXPECT_EQ(run(bin("dance-voice-set") + " --guest alice --mute --bus " + quoted(kBus)).exit_code,
             0);
   EXPECT_TRUE(work_until([&] { return count("alice is muted") == 1; })) << talk();
+  end_all();
+  rooms_.reset();
+  // NOLINTBEGIN(concurrency-mt-unsafe): one thread
+  ::unsetenv("PULSE_SERVER");
+  ::unsetenv("XDG_RUNTIME_DIR");
+  // NOLINTEND(concurrency-mt-unsafe)
 }
 
 }  // namespace

@@ -130,6 +130,7 @@ Result<void> WindowRun::renew_after_loss() {
         "the graphics driver keeps losing what was drawn; start again, or make pictures "
         "with: dance view --headless --out DIR");
   talk::warn("the graphics driver has lost everything: making it anew");
+  state_.voice.is_talk_held = false;  // the window that would tell of its key is gone
   painter_.reset();
   if (auto renewed = window_->renew(); !renewed) return renewed;
   if (auto made = make_painter(); !made) return made;
