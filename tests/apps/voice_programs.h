@@ -1,5 +1,5 @@
-// Houses whose guests speak, with a sound server of the test's own and speech made by espeak-ng, for
-// the flow tests of voices.
+// Houses whose guests speak, with a sound server of the test's own and speech made by espeak-ng:
+// for the flow tests of voices.
 //
 // Ownership: the sound server and the programs end with the test.
 // Threads:   one.

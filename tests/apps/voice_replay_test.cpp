@@ -1,5 +1,5 @@
-// What two guests said, recorded in the house of one of them, is heard again when dance replay plays
-// it: both sides, by that guest and by another one.
+// What two guests said, recorded in the house of one of them, is heard again when dance replay
+// plays it: both sides, by that guest and by another one.
 #include <map>
 
 #include "testing/voice/voice_stream.h"

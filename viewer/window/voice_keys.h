@@ -1,5 +1,6 @@
 // VoiceKeys: what the keys of the voice tell the dance voice of a guest of this house: talk while
-// held, mute, deafen. Of several guests with a voice the chosen one is told, else the first by name.
+// held, mute, deafen. Of several guests with a voice the chosen one is told, else the first by
+// name.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    borrows what tells the voice.

@@ -95,8 +95,8 @@ class VoicePlayout {
   bool has_origin_ = false;
   std::optional<Duration> heard_delay_;
   bool is_speaking_ = false;
-  // Of the packets of the last seconds, the share that came behind one that had not, whose copy they
-  // bring; whether they are worth waiting for, and how long that takes.
+  // Of the packets of the last seconds, the share that came behind one that had not, whose copy
+  // they bring; whether they are worth waiting for, and how long that takes.
   double copies_share_ = 0.0;
   bool waits_for_copies_ = false;
   double copies_wait_ms_ = 0.0;
