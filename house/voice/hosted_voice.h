@@ -32,8 +32,8 @@ struct HostedVoice {
   std::vector<std::string> volumes;  // "bob=0.5"
 };
 
-// `guests` are the dancers of the house: the first speaks where no other is named, and nobody who is
-// not among them. A house without dancers may name anybody, who hears and is not heard.
+// `guests` are the dancers of the house: the first speaks where no other is named, and none speaks
+// who is not among them. A house without dancers may name anybody, who hears and is not heard.
 HostedVoice read_voice(TomlReader& reader, std::span<const GuestId> guests);
 
 // The words of `dance voice` for what a session says.
