@@ -62,10 +62,19 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     session.server = options.host_or_session;
     session.routes = default_routes();
   }
+  const GuestId first_before = session.guests.empty() ? GuestId() : session.guests.front();
   if (!options.guests.empty()) session.guests.clear();
   for (const std::string& name : options.guests) {
     DANCE_TRY(const GuestId guest, guest_of(name));
     session.guests.push_back(guest);
+  }
+  if (!options.guests.empty() && session.voice) {
+    // The first guest speaks where the file names no other.
+    GuestId& speaker = session.voice->guest;
+    if (speaker == first_before) speaker = session.guests.front();
+    if (std::find(session.guests.begin(), session.guests.end(), speaker) == session.guests.end())
+      return fail("[voice] guest '" + std::string(speaker.view()) +
+                  "' is no guest of this house; name it with --guest as well");
   }
   if (!options.room.empty()) session.room = options.room;
   if (!GuestId::parse(session.room))

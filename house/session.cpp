@@ -294,9 +294,8 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
     problem =
         read_once(document, "music", name, [&](TomlReader& r) { read_music(r, folder, session); });
   if (problem) return problem;
-  const GuestId first = session.guests.empty() ? GuestId() : session.guests.front();
   return read_once(document, "voice", name,
-                   [&](TomlReader& r) { session.voice = read_voice(r, first); });
+                   [&](TomlReader& r) { session.voice = read_voice(r, session.guests); });
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/base/printable.h"
 #include "core/net/local_socket.h"
 #if defined(DANCE_HAVE_SOUND)
-#include "core/sound/microphone.h"
 #include "core/sound/pulse_server.h"
 #endif
 
@@ -63,7 +63,7 @@ Finding finding_of(const SoundFailure& failure) {
       finding.cure = "unset PULSE_SERVER   (to play on this machine)";
       break;
   }
-  if (!failure.reason.empty()) finding.what += " (" + failure.reason + ")";
+  if (!failure.reason.empty()) finding.what += " (" + printable(failure.reason) + ")";
   return finding;
 }
 
@@ -109,14 +109,15 @@ SoundFailure why_not(std::string reason) {
 
 Finding check_loudspeaker(const tl::expected<Loudspeaker, SoundFailure>& loudspeaker) {
   if (!loudspeaker) return finding_of(loudspeaker.error());
-  Finding finding{"sound", Finding::Grade::kNote, loudspeaker->description, ""};
+  // What a sound server calls its devices anybody may have written.
+  Finding finding{"sound", Finding::Grade::kNote, printable(loudspeaker->description), ""};
   const std::string latency_ms = std::to_string(loudspeaker->latency.count_ms());
   if (loudspeaker->leads_nowhere) {
     finding.what += ": leads nowhere, so music keeps the time unheard";
     finding.cure = "pactl list short sinks   (then pactl set-default-sink NAME)";
   } else if (loudspeaker->is_muted) {
     finding.what += ": is muted";
-    finding.cure = "pactl set-sink-mute " + loudspeaker->name + " 0";
+    finding.cure = "pactl set-sink-mute " + printable(loudspeaker->name) + " 0";
   } else if (loudspeaker->latency > kLongLatency) {
     finding.what += ": " + latency_ms +
                     " ms late by what the server knows, which is counted out; there may be more";
@@ -152,27 +153,28 @@ tl::expected<Loudspeaker, SoundFailure> find_loudspeaker() {
 }
 #endif
 
-#if defined(DANCE_HAVE_VOICE)
-Finding check_microphone() {
-  const auto microphone = default_microphone("doctor");
+Finding check_microphone(const Result<Microphone>& microphone) {
   Finding finding{"microphone", Finding::Grade::kNote, "", ""};
   if (!microphone) {
-    finding.what = microphone.error().what + "; dance voice needs one to speak";
+    finding.what = printable(microphone.error().what) + "; dance voice needs one to speak";
     finding.cure = "pactl list short sources   (then pactl set-default-source NAME)";
     return finding;
   }
-  finding.what = microphone->description;
+  finding.what = printable(microphone->description);
   if (microphone->is_monitor) {
     finding.what += ": is what the loudspeaker plays; there is no microphone";
     finding.cure = "pactl list short sources   (then pactl set-default-source NAME)";
   } else if (microphone->is_muted) {
     finding.what += ": is muted";
-    finding.cure = "pactl set-source-mute " + microphone->name + " 0";
+    finding.cure = "pactl set-source-mute " + printable(microphone->name) + " 0";
   } else {
     finding.grade = Finding::Grade::kOk;
   }
   return finding;
 }
+
+#if defined(DANCE_HAVE_VOICE)
+Finding check_microphone() { return check_microphone(default_microphone("doctor")); }
 #else
 Finding check_microphone() {
   return {"microphone", Finding::Grade::kNote, "this dance was built without voices",

@@ -12,6 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "apps/doctor/doctor_checks.h"
+#include "core/sound/microphone.h"
 #include "producers/music/loudspeaker.h"
 
 namespace dance {
@@ -44,7 +45,8 @@ std::string sound_server_place();
 tl::expected<Loudspeaker, SoundFailure> find_loudspeaker();
 
 Finding check_sound();
-// For dance voice.
+// For dance voice: of the microphone, or why there is none. Pure.
+Finding check_microphone(const Result<Microphone>& microphone);
 Finding check_microphone();
 
 }  // namespace dance

@@ -34,10 +34,11 @@ Speech plain_music(std::size_t samples) {
   return music;
 }
 
-// How loud it is at alice's ear, against what is heard at bob's loudspeaker.
-Result<double> comes_back_db(TwoHouses& houses, const std::string& sink, const Speech& sound) {
+// How loud it is at alice's ear, against what is heard at a loudspeaker in bob's room.
+Result<double> comes_back_db(TwoHouses& houses, const std::string& sink, const Speech& sound,
+                             const std::string& from = "ear-b") {
   SoundRooms& rooms = houses.rooms();
-  DANCE_TRY(const std::size_t loudspeaker, rooms.listen("ear-b"));
+  DANCE_TRY(const std::size_t loudspeaker, rooms.listen(from));
   DANCE_TRY(const std::size_t ear, rooms.listen("ear-a"));
   const MonoTime begin = mono_now();
   if (auto played = rooms.play(sink, sound); !played) return tl::make_unexpected(played.error());
@@ -57,22 +58,33 @@ Result<BenchReport> bench_voice_room(const Speech& speech, const std::string& fo
   BenchReport report;
   report.text = fmt::format(
       "bob's microphone hears his loudspeaker, 30 ms later. comes back: at alice's ear, against "
-      "that loudspeaker\n{:<24} {:>20} {:>20}\n",
-      "cancellation", "alice's own voice", "music in bob's room");
-  for (const bool is_on : {false, true}) {
+      "that loudspeaker\n{:<24} {:>20} {:>20} {:>20}\n",
+      "cancellation", "alice's own voice", "music in bob's room", "of another sink");
+  struct Way {
+    const char* name;
+    bool is_on;
+    const char* reference;
+  };
+  for (const Way& way :
+       {Way{"off", false, ""}, Way{"on", true, ""}, Way{"on, --reference", true, "music-b"}}) {
     TwoHouses houses(folder);
     TwoHouses::Options options;
     options.bob_hears_his_loudspeaker = true;
     options.voice_words = {"--no-cleaning"};
-    if (!is_on) options.voice_words.emplace_back("--no-echo-cancellation");
+    if (!way.is_on) options.voice_words.emplace_back("--no-echo-cancellation");
+    if (*way.reference != '\0')
+      options.voice_words.push_back("--reference=" + std::string(way.reference));
     if (auto started = houses.start(options); !started) return tl::make_unexpected(started.error());
     DANCE_TRY(const double voice_db, comes_back_db(houses, "mouth-a", speech));
     DANCE_TRY(const double music_db, comes_back_db(houses, "ear-b", music));
-    report.text +=
-        fmt::format("{:<24} {:>17.1f} dB {:>17.1f} dB\n", is_on ? "on" : "off", voice_db, music_db);
-    report.json.push_back({{"cancellation", is_on},
+    DANCE_TRY(const double other_db, comes_back_db(houses, "music-b", music, "music-b"));
+    report.text += fmt::format("{:<24} {:>17.1f} dB {:>17.1f} dB {:>17.1f} dB\n", way.name,
+                               voice_db, music_db, other_db);
+    report.json.push_back({{"cancellation", way.is_on},
+                           {"reference", way.reference},
                            {"voice_comes_back_db", rounded(voice_db, 10.0)},
-                           {"music_comes_back_db", rounded(music_db, 10.0)}});
+                           {"music_comes_back_db", rounded(music_db, 10.0)},
+                           {"music_of_another_sink_comes_back_db", rounded(other_db, 10.0)}});
   }
   return report;
 }

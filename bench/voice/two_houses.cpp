@@ -83,8 +83,9 @@ Result<void> TwoHouses::start(const Options& options) {
   url_b_ = url(port_b);
   server_ = "127.0.0.1:" + std::to_string(port);
   std::vector<SoundRooms::Leak> leaks;
-  if (options.bob_hears_his_loudspeaker) leaks.push_back({"ear-b", "mouth-b"});
-  DANCE_TRY(rooms_, SoundRooms::open(folder_, {"mouth-a", "ear-a", "mouth-b", "ear-b"}, leaks));
+  if (options.bob_hears_his_loudspeaker) leaks = {{"ear-b", "mouth-b"}, {"music-b", "mouth-b"}};
+  DANCE_TRY(rooms_,
+            SoundRooms::open(folder_, {"mouth-a", "ear-a", "mouth-b", "ear-b", "music-b"}, leaks));
   DANCE_TRY(poller_, Poller::create());
   auto started = options.has_server
                      ? run("server", "dance-server", {"--port", std::to_string(port)})

@@ -41,7 +41,7 @@ class TwoHouses {
   }
   void work_for(Duration time, const std::function<bool()>& is_done);
 
-  // Sinks mouth-a, ear-a, mouth-b, ear-b.
+  // Sinks mouth-a, ear-a, mouth-b, ear-b, and music-b, another loudspeaker of bob's room.
   SoundRooms& rooms() { return *rooms_; }
   void begin_to_count_cpu();
   double cpu_percent(const std::string& program, Duration over) const;

@@ -112,6 +112,7 @@ constexpr auto kChannelTable = std::to_array<ChannelRow>({
     {Signal::kTouch, Where::kStage, "TOUCH/stage/<guest>", "touch_t"},
     {Signal::kHaptic, Where::kCapture, "HAPTIC/capture/<guest>", "haptic_t"},
     {Signal::kHearing, Where::kLocal, "HEARING/local", "hearing_t"},
+    {Signal::kVoiceState, Where::kCapture, "VOICE_STATE/capture/<guest>", "voice_state_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 });
 

@@ -270,6 +270,16 @@ struct MessageFields<HearingWish> {
   }
 };
 
+template <>
+struct MessageFields<VoiceState> {
+  using Generated = dancelcm::voice_state_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.is_muted, v.is_muted) && io(m.is_deafened, v.is_deafened) &&
+           io(m.is_push_to_talk, v.is_push_to_talk) && io(m.is_heard, v.is_heard) &&
+           io(m.has_microphone, v.has_microphone) && io(m.has_loudspeaker, v.has_loudspeaker);
+  }
+};
+
 #define DANCE_INSTANTIATE(Type, kName, word) template struct MessageRow<Type, Signal::kName>;
 DANCE_MESSAGE_TABLE(DANCE_INSTANTIATE)
 #undef DANCE_INSTANTIATE

@@ -32,4 +32,5 @@
   ROW(Voice, kVoice, "VOICE")                       \
   ROW(Touch, kTouch, "TOUCH")                       \
   ROW(Haptic, kHaptic, "HAPTIC")                    \
-  ROW(HearingWish, kHearing, "HEARING")
+  ROW(HearingWish, kHearing, "HEARING")             \
+  ROW(VoiceState, kVoiceState, "VOICE_STATE")

@@ -66,4 +66,17 @@ struct HearingWish {
 };
 inline bool is_valid(const HearingWish& wish) { return wish.listener.is_set(); }
 
+// How a guest of this house speaks and hears at present, for what shows it.
+struct VoiceState {
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  bool is_muted = false;
+  bool is_deafened = false;
+  bool is_push_to_talk = false;
+  bool is_heard = true;  // what is said now goes to the others
+  bool has_microphone = true;
+  bool has_loudspeaker = true;
+};
+inline bool is_valid(const VoiceState&) { return true; }
+
 }  // namespace dance

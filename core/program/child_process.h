@@ -28,6 +28,7 @@ class ChildProcess {
     std::vector<std::string> arguments;
     std::string output_file;  // where its stdout goes; "" = ours
     std::string talk_file;    // where its stderr goes; "" = ours
+    int talk_fd = -1;         // or a descriptor of ours, as of a pipe
   };
 
   static Result<ChildProcess> start(const Options& options);

@@ -1,19 +1,36 @@
 #include "house/voice/hosted_voice.h"
 
+#include <algorithm>
+
 #include "core/bus/guest_volume.h"
 
 namespace dance {
+namespace {
 
-HostedVoice read_voice(TomlReader& reader, const GuestId& first) {
+std::string names_of(std::span<const GuestId> guests) {
+  std::string names;
+  for (const GuestId& guest : guests)
+    names += (names.empty() ? "there are: " : ", ") + std::string(guest.view());
+  return names;
+}
+
+}  // namespace
+
+HostedVoice read_voice(TomlReader& reader, std::span<const GuestId> guests) {
   HostedVoice voice;
+  const GuestId first = guests.empty() ? GuestId() : guests.front();
   const auto guest = reader.maybe_string("guest");
   voice.guest = guest ? read_guest(reader, "guest", *guest) : first;
   voice.microphone = reader.string_or("microphone", "");
   voice.loudspeaker = reader.string_or("loudspeaker", "");
+  voice.reference = reader.string_or("reference", "");
   voice.headphones = reader.bool_or("headphones", false);
   voice.push_to_talk = reader.bool_or("push_to_talk", false);
   voice.muted = reader.bool_or("muted", false);
+  voice.deafened = reader.bool_or("deafened", false);
   voice.with_picture = reader.bool_or("with_picture", false);
+  voice.low_delay = reader.bool_or("low_delay", false);
+  voice.no_cleaning = reader.bool_or("no_cleaning", false);
   voice.buffer_ms = reader.number_or("buffer_ms", 0.0, 5.0, 200.0);
   voice.bitrate_kbit = reader.number_or("bitrate_kbit", 0.0, 6.0, 96.0);
   voice.volumes = reader.strings("volumes", "[\"bob=0.5\"]");
@@ -22,6 +39,11 @@ HostedVoice read_voice(TomlReader& reader, const GuestId& first) {
   reader.finish();
   if (!guest && !first.is_set())
     reader.complain("guest", "is missing: who speaks? this house has no dancer");
+  // A house without dancers may hear.
+  if (guest && voice.guest.is_set() && !guests.empty() &&
+      std::find(guests.begin(), guests.end(), voice.guest) == guests.end())
+    reader.complain("guest", "'" + *guest + "' is no guest of this house, so nobody would hear " +
+                                 "what is said; " + names_of(guests));
   return voice;
 }
 
@@ -33,10 +55,14 @@ std::vector<std::string> voice_arguments(const HostedVoice& voice, const std::st
   };
   if (!voice.microphone.empty()) add("--microphone", voice.microphone);
   if (!voice.loudspeaker.empty()) add("--loudspeaker", voice.loudspeaker);
+  if (!voice.reference.empty()) add("--reference", voice.reference);
   if (voice.headphones) words.emplace_back("--to-headphones");
   if (voice.push_to_talk) words.emplace_back("--push-to-talk");
   if (voice.muted) words.emplace_back("--mute");
+  if (voice.deafened) words.emplace_back("--deafen");
   if (voice.with_picture) words.emplace_back("--with-picture");
+  if (voice.low_delay) words.emplace_back("--low-delay");
+  if (voice.no_cleaning) words.emplace_back("--no-cleaning");
   if (voice.buffer_ms > 0.0) add("--buffer", std::to_string(voice.buffer_ms));
   if (voice.bitrate_kbit > 0.0) add("--bitrate", std::to_string(voice.bitrate_kbit));
   for (const std::string& volume : voice.volumes) add("--volume", volume);

@@ -6,6 +6,7 @@
 // Failure:      read_voice() complains in the reader, with file, line and column.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,17 +19,22 @@ struct HostedVoice {
   GuestId guest;
   std::string microphone;   // "" = the default
   std::string loudspeaker;  // "" = the default
+  std::string reference;    // the sink that is taken out; "" = the loudspeaker
   bool headphones = false;
   bool push_to_talk = false;
   bool muted = false;
+  bool deafened = false;
   bool with_picture = false;
+  bool low_delay = false;
+  bool no_cleaning = false;
   double buffer_ms = 0.0;            // 0 = as dance voice has it
   double bitrate_kbit = 0.0;         // 0 = as dance voice has it
   std::vector<std::string> volumes;  // "bob=0.5"
 };
 
-// `first` is the house's first guest, who speaks where no other is named; it may be not set.
-HostedVoice read_voice(TomlReader& reader, const GuestId& first);
+// `guests` are the dancers of the house: the first speaks where no other is named, and none speaks
+// who is not among them. A house without dancers may name anybody, who hears and is not heard.
+HostedVoice read_voice(TomlReader& reader, std::span<const GuestId> guests);
 
 // The words of `dance voice` for what a session says.
 std::vector<std::string> voice_arguments(const HostedVoice& voice, const std::string& bus);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr Duration kVoiceLook = Duration::ms(200);
 constexpr Duration kVoicePause = Duration::s(10);
+// A sound server that hangs lets it end later than at once.
+constexpr Duration kVoiceWorks = Duration::s(10);
 constexpr Duration kVoiceEnds = Duration::s(2);
 constexpr int kWrongUse = 2;
 
@@ -26,29 +28,39 @@ std::unique_ptr<HouseVoice> HouseVoice::open(const HostedVoice& voice, const std
 }
 
 HouseVoice::HouseVoice(const HostedVoice& voice, const std::string& bus, Poller& poller)
-    : arguments_(voice_arguments(voice, bus)), poller_(poller) {}
+    : arguments_(voice_arguments(voice, bus)), poller_(poller), words_(poller) {}
 
 HouseVoice::~HouseVoice() {
   if (watch_ != 0) poller_.set_deadline(watch_, MonoTime());
   if (program_) program_->stop(kVoiceEnds);
+  words_.end();
 }
 
 bool HouseVoice::start() {
-  // Its own warning of a missing microphone is not to be repeated every ten seconds.
-  const std::string talk_file = last_exit_ == 1 ? "/dev/null" : "";
-  auto program =
-      ChildProcess::start({program_folder() + "/dance-voice", arguments_, "/dev/null", talk_file});
+  ChildProcess::Options options{program_folder() + "/dance-voice", arguments_, "/dev/null", ""};
+  options.talk_fd = words_.begin();
+  auto program = ChildProcess::start(options);
+  words_.started();
   if (!program) {
     talk::warn("{}; the house goes on without voices", program.error().what);
     return false;
   }
   program_ = std::make_unique<ChildProcess>(std::move(*program));
+  started_ = mono_now();
   return true;
 }
 
 MonoTime HouseVoice::look(MonoTime now) {
   if (!program_) return start() ? now + kVoiceLook : MonoTime();
-  if (!program_->has_ended()) return now + kVoiceLook;
+  if (!program_->has_ended()) {
+    if (last_exit_ != 0 && now - started_ >= kVoiceWorks) {
+      talk::info("dance voice works again");
+      last_exit_ = 0;
+      words_.forget();
+    }
+    return now + kVoiceLook;
+  }
+  words_.end();
   const int exit_code = program_->exit_code();
   if (exit_code == 0 || exit_code == kWrongUse) {
     talk::warn("dance voice {}; the house goes on without voices", program_->exit_text());

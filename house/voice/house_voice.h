@@ -4,8 +4,8 @@
 // Units/frames: none.
 // Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      nothing ends the house. What the program cannot have it says itself; it is tried
-//               again every ten seconds.
+// Failure:      nothing ends the house. What the program cannot have it says itself, once; it is
+//               tried again every ten seconds, and that it works again is said too.
 #pragma once
 
 #include <memory>
@@ -15,6 +15,7 @@
 #include "core/net/poller.h"
 #include "core/program/child_process.h"
 #include "house/voice/hosted_voice.h"
+#include "house/voice/program_words.h"
 
 namespace dance {
 
@@ -33,9 +34,11 @@ class HouseVoice {
 
   std::vector<std::string> arguments_;
   Poller& poller_;
+  ProgramWords words_;
   std::unique_ptr<ChildProcess> program_;
+  MonoTime started_;
   Poller::TimerId watch_ = 0;
-  int last_exit_ = 0;
+  int last_exit_ = 0;  // of a failure that was said; 0 once it has worked
 };
 
 }  // namespace dance

@@ -1,7 +1,8 @@
 // LogPlayer: plays an LCM log, packed or not, onto a bus as if its dancers were live: events at
 // their recorded intervals (divided by the speed), by absolute deadlines; poses, the beats they
 // were danced to, voices, touches and what was felt are stamped anew with this house's clock.
-// Reports (STATS, GUEST, STAGE_TIME), what is not ours, and voices at another speed are left out
+// Reports (STATS, GUEST, STAGE_TIME), what programs say of themselves (VOICE_STATE: so a voice that
+// is replayed is told from a live one), what is not ours, and voices at another speed are left out
 // and counted.
 //
 // Units/frames: speed 1 = as recorded.

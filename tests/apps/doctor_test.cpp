@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "apps/doctor/doctor_camera.h"
 #include "apps/doctor/doctor_checks.h"
 #include "apps/doctor/doctor_cluster.h"
@@ -52,6 +54,20 @@ TEST(Doctor, NamesTheCureOfEveryFaultOfACamera) {
   const Finding network = check_pose_network();
   EXPECT_FALSE(network.what.empty());
   EXPECT_EQ(network.cure.empty(), network.grade == Grade::kOk);
+}
+
+TEST(Doctor, PrintsNothingRawThatASoundServerCallsItsDevices) {
+  const std::string raw = "Card\x1b[2J\nok: all is well\r";
+  for (const bool is_muted : {false, true}) {
+    const Finding sound = check_loudspeaker(Loudspeaker{raw, raw, is_muted, false, Duration()});
+    const Finding microphone = check_microphone(Microphone{raw, raw, is_muted, false});
+    for (const Finding& finding : {sound, microphone}) {
+      EXPECT_NE(finding.what.find("Card?[2J?ok"), std::string::npos) << finding.what;
+      for (const std::string& text : {finding.what, finding.cure})
+        EXPECT_TRUE(std::none_of(text.begin(), text.end(), [](char c) { return c < ' '; }));
+    }
+  }
+  EXPECT_EQ(check_microphone(fail("none\x1b[2J")).what.find('\x1b'), std::string::npos);
 }
 
 TEST(Doctor, TellsWhereSoundGoesAndHowToMendIt) {

@@ -1,51 +1,9 @@
 // dance voice in two houses, with a sound server, a server between them and espeak-ng: who speaks
 // is heard in the other house, and who is muted is not.
-#include "testing/voice/sound_match.h"
-#include "testing/voice/sound_rooms.h"
-#include "testing/voice/speech.h"
-#include "tests/apps/bus_programs.h"
+#include "tests/apps/voice_programs.h"
 
 namespace dance {
 namespace {
-
-constexpr const char* kServerPort = "7469";
-
-class VoicePrograms : public BusPrograms {
- protected:
-  void SetUp() override {
-    if (!SoundRooms::is_there()) GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
-    if (!has_speech_maker()) GTEST_SKIP() << "no espeak-ng: apt-get install espeak-ng";
-  }
-  void open_rooms() {
-    const std::string home = folder_.path("sound");
-    std::filesystem::create_directories(home);
-    std::filesystem::permissions(home, std::filesystem::perms::owner_all);
-    auto rooms = SoundRooms::open(home, {"mouth-a", "ear-a", "mouth-b", "ear-b"});
-    ASSERT_TRUE(rooms) << rooms.error().what;
-    rooms_ = std::move(*rooms);
-  }
-  // A house as its user starts it: one line of the session file turns voices on.
-  void open_house_of(const std::string& guest, const char* bus, const std::string& side) {
-    std::ofstream(folder_.path(guest + ".toml"))
-        << "[house]\nguest = \"" << guest << "\"\nserver = \"127.0.0.1:" << kServerPort
-        << "\"\nbus = \"" << bus << "\"\n[voice]\nmicrophone = \"mouth-" << side
-        << ".monitor\"\nloudspeaker = \"ear-" << side << "\"\n";
-    start("dance-join", {folder_.path(guest + ".toml"), "--no-view"});
-  }
-  template <class IsDone>
-  bool work_until(IsDone is_done, std::chrono::seconds timeout = kTimeout) {
-    const MonoTime end = mono_now() + Duration::s(timeout.count());
-    while (!is_done()) {
-      if (mono_now() >= end) return false;
-      rooms_->work(mono_now());
-      if (ear_) ear_->drain(mono_now());
-      std::this_thread::sleep_for(std::chrono::milliseconds(3));
-    }
-    return true;
-  }
-  std::unique_ptr<SoundRooms> rooms_;
-  std::unique_ptr<Bus> ear_;
-};
 
 TEST_F(VoicePrograms, WhoSpeaksIsHeardInTheOtherHouse) {
   open_rooms();
@@ -61,7 +19,6 @@ TEST_F(VoicePrograms, WhoSpeaksIsHeardInTheOtherHouse) {
     ++heard;
     loud += voice.level_dbfs > -50 ? 1 : 0;
   });
-  const auto talk = [&] { return text_of(folder_.path("talk")); };
   const auto mouth = rooms_->listen("mouth-a"), ear = rooms_->listen("ear-b");
   ASSERT_TRUE(mouth && ear);
   const auto speech = make_speech(15.0, 0, folder_.path("speech.wav"));
@@ -77,6 +34,10 @@ TEST_F(VoicePrograms, WhoSpeaksIsHeardInTheOtherHouse) {
   std::printf("%zu of %zu pieces are heard, %.0f ms later (median)\n", figures.fitting,
               figures.pieces, figures.median_ms);
   EXPECT_GE(figures.fitting, 3u) << talk();
+  // Of the pieces that were said before the end: the last ones had not come through yet.
+  EXPECT_GE(2 * figures.fitting, figures.pieces) << talk();
+  EXPECT_GT(figures.median_ms, 20.0) << "sooner than two sound buffers and a frame";
+  EXPECT_LT(figures.median_ms, 400.0) << talk();
   // Muted from another terminal, nothing more comes but that there is silence.
   const Finished muted =
       run(bin("dance-voice-set") + " --guest alice --mute --bus " + quoted(kBus));
@@ -88,6 +49,11 @@ TEST_F(VoicePrograms, WhoSpeaksIsHeardInTheOtherHouse) {
   const MonoTime quiet_end = mono_now() + Duration::s(1);
   ASSERT_TRUE(work_until([&] { return mono_now() > quiet_end; }));
   EXPECT_EQ(loud, loud_before);
+  // A second one for the same guest is told of the first.
+  const Finished second = run(bin("dance-voice") + " --guest alice --bus " + quoted(kBus));
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_NE(second.talk.find("alice has a dance voice on this bus already"), std::string::npos)
+      << second.talk;
   EXPECT_EQ(run(bin("dance-voice-set") + " --guest eve --mute --bus " + quoted(kBus)).exit_code, 1);
 }
 
@@ -105,12 +71,53 @@ TEST_F(VoicePrograms, WithoutASoundServerThereIsOneLineAndTheHouseGoesOn) {
   ASSERT_TRUE(bus) << bus.error().what;
   int poses = 0;
   (*bus)->subscribe<Pose>(Where::kStage, [&](const Channel&, const Pose&, MonoTime) { ++poses; });
-  const auto talk = [&] { return text_of(folder_.path("talk")); };
   EXPECT_TRUE(wait_for([&] {
     (*bus)->drain(mono_now());
     return poses > 30 && talk().find("the house goes on") != std::string::npos;
   })) << talk();
   ::unsetenv("PULSE_SERVER");  // NOLINT(concurrency-mt-unsafe): one thread
+}
+
+// The sound server comes after the house.
+TEST_F(VoicePrograms, AHouseSaysAMissingSoundServerOnceAndThatVoicesWorkAgain) {
+  // As open_rooms() has it, for the house that is there before.
+  const std::string home = folder_.path("sound"), socket = "unix:" + home + "/native";
+  std::filesystem::create_directories(home);
+  std::filesystem::permissions(home, std::filesystem::perms::owner_all);
+  // NOLINTBEGIN(concurrency-mt-unsafe): one thread
+  ::setenv("PULSE_SERVER", socket.c_str(), 1);
+  ::setenv("XDG_RUNTIME_DIR", home.c_str(), 1);
+  // NOLINTEND(concurrency-mt-unsafe)
+  std::ofstream(folder_.path("house.toml"))
+      << "[house]\nguest = \"alice\"\nbus = \"" << kBus
+      << "\"\n[voice]\npush_to_talk = true\nmicrophone = \"mouth-a.monitor\"\n"
+      << "loudspeaker = \"ear-a\"\n";
+  start("dance-join", {folder_.path("house.toml"), "--no-view"});
+  const auto count = [&](const std::string& words) {
+    const std::string text = talk();
+    int found = 0;
+    for (std::size_t at = 0; (at = text.find(words, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  ASSERT_TRUE(wait_for([&] { return count("no sound server") == 1; })) << talk();
+  // Another failed start is not said: the next one succeeds.
+  const MonoTime later = mono_now() + Duration::s(13);
+  wait_for([&] { return mono_now() > later; });
+  EXPECT_EQ(count("no sound server"), 1) << talk();
+  open_rooms();
+  ASSERT_TRUE(work_until([&] { return count("voices are played at once") == 1; })) << talk();
+  EXPECT_EQ(count("heard while B is held in dance view"), 1) << "no space bar here: " << talk();
+  ASSERT_TRUE(work_until([&] { return count("dance voice works again") == 1; })) << talk();
+  // What it says now is not kept back.
+  EXPECT_EQ(run(bin("dance-voice-set") + " --guest alice --mute --bus " + quoted(kBus)).exit_code,
+            0);
+  EXPECT_TRUE(work_until([&] { return count("alice is muted") == 1; })) << talk();
+  end_all();
+  rooms_.reset();
+  // NOLINTBEGIN(concurrency-mt-unsafe): one thread
+  ::unsetenv("PULSE_SERVER");
+  ::unsetenv("XDG_RUNTIME_DIR");
+  // NOLINTEND(concurrency-mt-unsafe)
 }
 
 }  // namespace

@@ -247,11 +247,19 @@ TEST(Session, ReadsWhoSpeaksAndHow) {
   EXPECT_EQ(voice_arguments(*plain->voice, "bus"),
             (std::vector<std::string>{"--bus", "bus", "--guest", "alice", "--quiet"}));
   const auto all = parse_session(
-      std::string(kHouse) +
-          "[voice]\nguest = \"ann\"\nmicrophone = \"-m\"\nheadphones = true\n"
-          "push_to_talk = true\nwith_picture = true\nvolumes = [\"bob=0.5\"]\nbuffer_ms = 30\n",
+      "[house]\nguests = [\"alice\", \"ann\"]\n"
+      "[voice]\nguest = \"ann\"\nmicrophone = \"-m\"\nheadphones = true\n"
+      "push_to_talk = true\nwith_picture = true\nvolumes = [\"bob=0.5\"]\nbuffer_ms = 30\n",
       "s.toml");
   ASSERT_TRUE(all) << all.error().what;
+  const auto rare = parse_session(std::string(kHouse) +
+                                      "[voice]\ndeafened = true\nlow_delay = true\n"
+                                      "no_cleaning = true\nreference = \"room\"\n",
+                                  "s.toml");
+  ASSERT_TRUE(rare) << rare.error().what;
+  const auto rare_words = voice_arguments(*rare->voice, "bus");
+  for (const char* word : {"--deafen", "--low-delay", "--no-cleaning", "--reference=room"})
+    EXPECT_NE(std::find(rare_words.begin(), rare_words.end(), word), rare_words.end()) << word;
   const auto words = voice_arguments(*all->voice, "bus");
   for (const char* word : {"ann", "--microphone=-m", "--to-headphones", "--push-to-talk",
                            "--with-picture", "--volume=bob=0.5"})
@@ -263,6 +271,13 @@ TEST(Session, ReadsWhoSpeaksAndHow) {
         << wrong;
   EXPECT_NE(with("[voice]\nmute = true\n").find("'mute'"), std::string::npos);
   EXPECT_NE(with("[[voice]]\n").find("[voice], once"), std::string::npos);
+  // Whom no link takes to the others.
+  const std::string zed = with("[voice]\nguest = \"zed\"\n");
+  EXPECT_NE(zed.find("s.toml:5"), std::string::npos) << zed;
+  EXPECT_NE(zed.find("'zed' is no guest of this house"), std::string::npos) << zed;
+  EXPECT_NE(zed.find("there are: alice"), std::string::npos) << zed;
+  EXPECT_TRUE(parse_session("[house]\n[voice]\nguest = \"zed\"\n", "s.toml"))
+      << "a house without dancers hears";
   EXPECT_NE(error_of("[house]\n[voice]\n").find("who speaks"), std::string::npos);
 }
 

@@ -121,6 +121,37 @@ TEST(GuestBoard, ShowsWhoSpeaksAndHowLoudUntilTheVoiceIsGone) {
   EXPECT_EQ(loudness_at(-25, Duration::ms(400)), 0.0f);
 }
 
+TEST(GuestBoard, ShowsHowThisHousesGuestsSpeakUntilTheirVoicesAreGone) {
+  GuestBoard board(kOurClock, false);
+  StageRoster roster(board);
+  VoiceState state;
+  state.is_muted = true;
+  board.on_voice_state(guest("dora"), VoiceState(), kStart);  // who does not dance
+  board.on_voice_state(guest("bob"), state, kStart);
+  board.on_pose(Where::kStage, guest("bob"), pose_at(0.0f), kStart);
+  board.on_pose(Where::kStage, guest("amy"), pose_at(0.0f), kStart);
+  SceneState scene = scene_of(roster, kStart);
+  ASSERT_EQ(scene.voices.size(), 2u);
+  EXPECT_EQ(scene.voices[0].guest, guest("bob")) << "by name";
+  EXPECT_TRUE(scene.voices[0].is_muted);
+  EXPECT_FALSE(scene.voices[1].is_muted);
+  EXPECT_EQ(scene.guests.at(0).voice_mark, VoiceMark::kNone);
+  EXPECT_EQ(scene.guests.at(1).voice_mark, VoiceMark::kMuted);
+  // At once, without another pose.
+  state.is_muted = false;
+  board.on_voice_state(guest("bob"), state, kStart + Duration::ms(100));
+  scene = scene_of(roster, kStart + Duration::ms(100));
+  EXPECT_EQ(scene.guests.at(1).voice_mark, VoiceMark::kNone);
+  board.on_pose(Where::kStage, guest("bob"), pose_at(0.0f, 2), kStart + Duration::s(4));
+  EXPECT_TRUE(scene_of(roster, kStart + Duration::s(4)).voices.empty());
+  // More than fit: those that were heard last.
+  for (int i = 0; i < 40; ++i)
+    board.on_voice_state(guest("g" + std::to_string(i)), state, kStart + Duration::ms(5000 + i));
+  scene = scene_of(roster, kStart + Duration::ms(5100));
+  EXPECT_EQ(scene.voices.size(), VoiceBoard::kMostVoices);
+  EXPECT_EQ(scene.voices.front().guest, guest("g24"));
+}
+
 TEST(GuestBoard, SaysNoAgeOfPosesStampedByAnotherClock) {
   GuestBoard board(kOurClock, false);
   StageRoster roster(board);

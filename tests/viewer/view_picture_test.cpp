@@ -101,6 +101,33 @@ TEST_F(ViewPicture, NamesInTheMirrorAreReadFromLeftToRight) {
   EXPECT_LT(differing(mirrored, plain, tag), 60) << "the letters are the same";
 }
 
+TEST_F(ViewPicture, ANameShowsHowItsGuestSpeaks) {
+  SceneState scene;
+  scene.guests.push_back(guest_at_ease("alice", Eigen::Vector3f::Zero(), 0.0f));
+  scene = dressed(scene);
+  ViewDirector director(CameraPreset::kAuto, ViewMode::kMirror);
+  director.jump(scene, kViewSize);
+  OverlayChoice tags = no_words();
+  tags.tags = true;
+  const auto at =
+      project(director.camera(), tag_anchor_W_m(scene.guests[0]), kViewWidth_px, kViewHeight_px);
+  ASSERT_TRUE(at);
+  const PixelBox tag{static_cast<int>(at->x_px) - 48, static_cast<int>(at->y_px) - 20, 96, 26};
+  std::vector<Picture> pictures;
+  for (const VoiceMark mark :
+       {VoiceMark::kNone, VoiceMark::kDeafened, VoiceMark::kMuted, VoiceMark::kNoMicrophone,
+        VoiceMark::kWaiting, VoiceMark::kTalking}) {
+    scene.guests[0].voice_mark = mark;
+    pictures.push_back(draw(scene, director.camera(), tags));
+    EXPECT_EQ(differing(pictures.front(), pictures.back(), kAll),
+              differing(pictures.front(), pictures.back(), tag))
+        << "nothing but the tag changes";
+  }
+  for (std::size_t a = 0; a < pictures.size(); ++a)
+    for (std::size_t b = a + 1; b < pictures.size(); ++b)
+      EXPECT_GT(differing(pictures[a], pictures[b], tag), 10) << a << " and " << b;
+}
+
 TEST_F(ViewPicture, ThroughTheEyesOfADancerTheOwnHeadIsNotInTheWay) {
   SceneState scene = dressed(couple());
   ViewDirector director(CameraPreset::kAuto, ViewMode::kFirstPerson);

@@ -20,6 +20,7 @@
 #include "viewer/window/help_panel.h"
 #include "viewer/window/printed_keys.h"
 #include "viewer/window/view_window.h"
+#include "viewer/window/window_input.h"
 
 namespace dance {
 namespace {
@@ -77,7 +78,8 @@ class HeardKeys final : public WindowEvents {
   void on_key(const KeyPress& press) override { keys.push_back(press.key); }
   void on_drag(WindowDrag, float, float) override {}
   void on_wheel(float) override {}
-  std::vector<int> keys;
+  void on_key_released(const KeyPress& press) override { released.push_back(press.key); }
+  std::vector<int> keys, released;
 };
 
 TEST(PrintedKeys, AWindowHearsABracketOnceWhereverItLies) {
@@ -102,6 +104,45 @@ TEST(PrintedKeys, AWindowHearsABracketOnceWhereverItLies) {
   on_key(handle, GLFW_KEY_8, glfwGetKeyScancode(GLFW_KEY_8), GLFW_PRESS, GLFW_MOD_ALT);
   on_letter(handle, '[');
   EXPECT_EQ(heard.keys, std::vector<int>{GLFW_KEY_LEFT_BRACKET});
+}
+
+TEST(PrintedKeys, AWindowTellsThatAKeyIsLetGoWhateverIsHeldWithIt) {
+  const VirtualDisplay display;
+  if (display.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
+  setenv("DISPLAY", display.display().c_str(), 1);
+  HeardKeys heard;
+  const auto window = ViewWindow::create({200, 150}, heard);
+  if (!window) GTEST_SKIP() << window.error().what;
+  keep_drivers_loaded();
+  GLFWwindow* handle = (*window)->handle();
+  const GLFWkeyfun on_key = glfwSetKeyCallback(handle, nullptr);
+  const int scancode = glfwGetKeyScancode(GLFW_KEY_B);
+  on_key(handle, GLFW_KEY_B, scancode, GLFW_PRESS, 0);
+  on_key(handle, GLFW_KEY_B, scancode, GLFW_REPEAT, 0);
+  EXPECT_TRUE(heard.released.empty());
+  on_key(handle, GLFW_KEY_B, scancode, GLFW_RELEASE, GLFW_MOD_CONTROL | GLFW_MOD_ALT);
+  EXPECT_EQ(heard.released, std::vector<int>{GLFW_KEY_B});
+  EXPECT_EQ(heard.keys, (std::vector<int>{GLFW_KEY_B, GLFW_KEY_B})) << "no key goes down";
+}
+
+TEST(WindowInput, TalksWhileItsKeyIsHeldWithAPanelOpenedMeanwhile) {
+  WindowState state;
+  ViewDirector director(CameraPreset::kAuto, ViewMode::kOrbit);
+  PanelStack panels;
+  WindowInput input(state, director, panels);
+  input.on_key({GLFW_KEY_B});
+  input.on_key({GLFW_KEY_B, true});
+  EXPECT_TRUE(state.voice.is_talk_held);
+  auto help = std::make_unique<HelpPanel>(panels, window_key_groups(false));
+  help->open();
+  panels.add(std::move(help));
+  input.on_key_released({GLFW_KEY_B, false, false, true});
+  EXPECT_FALSE(state.voice.is_talk_held);
+  input.on_key({GLFW_KEY_U});
+  input.on_key({GLFW_KEY_U, true});
+  input.on_key({GLFW_KEY_J});
+  EXPECT_EQ(state.voice.mute_presses, 1) << "a key that repeats mutes once";
+  EXPECT_EQ(state.voice.deafen_presses, 1);
 }
 
 // The panels of a live window.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <tuple>
@@ -64,6 +65,31 @@ TEST(VoicePlayout, LossIsMadeGoodFromCopiesAndTheRestMadeUp) {
   EXPECT_GT(static_cast<double>(heard.counters.recovered), 0.5 * lost);
   EXPECT_LT(concealed_share(heard), 0.02);
   EXPECT_GT(heard.counters.recovered + heard.counters.concealed, 15u);
+}
+
+// As behind a queue that is full: the two packets after a lost one are late. No others are, so that
+// nothing else makes play-out wait.
+TEST(VoicePlayout, WaitsForTheCopyOfALostFrameWhereFramesAreLost) {
+  const SentVoice& sent = sent_of(20.0, 0.0, false);
+  const auto heard_with = [&](bool is_lossy) {
+    std::vector<VoiceArrival> arrivals;
+    for (std::size_t i = 0; i < sent.packets.size(); ++i) {
+      if (is_lossy && i % 100 == 50) continue;
+      const Duration late = Duration::ms(i % 100 == 51 ? 12 : i % 100 == 52 ? 6 : 0);
+      arrivals.push_back({sent.packets[i].capture_time + kVoiceFrame + Duration::ms(20) + late, i});
+    }
+    std::stable_sort(arrivals.begin(), arrivals.end(),
+                     [](const VoiceArrival& a, const VoiceArrival& b) { return a.at < b.at; });
+    auto heard = play_voice(sent, arrivals);
+    EXPECT_TRUE(heard) << heard.error().what;
+    return *heard;
+  };
+  const HeardVoice lossy = heard_with(true), whole = heard_with(false);
+  // Of 20; without waiting none, and 31 frames are made up.
+  EXPECT_GE(lossy.counters.recovered, 9u);
+  EXPECT_LE(lossy.counters.concealed, 15u);
+  EXPECT_GT(lossy.delay_mean_ms, whole.delay_mean_ms + 3.0);
+  EXPECT_LT(whole.delay_mean_ms, 55.0) << "without loss there is no copy to wait for";
 }
 
 TEST(VoicePlayout, WaitsLongerWhereTheLineHasJitterAndNoLongerThanThat) {

@@ -6,6 +6,7 @@
 #include "testing/voice/voice_stream.h"
 #include "tests/voice/voices.h"
 #include "voice/room/own_voice.h"
+#include "voice/room/replayed_voices.h"
 #include "voice/room/room_voices.h"
 #include "voice/room/voice_settings.h"
 
@@ -24,6 +25,8 @@ TEST(VoiceSettings, TakesItsCommandsAndNoOthers) {
   ASSERT_TRUE(settings.apply("talk", now));
   EXPECT_TRUE(settings.sends(now + Duration::ms(100)));
   EXPECT_FALSE(settings.sends(now + Duration::s(1)));
+  ASSERT_TRUE(settings.apply("stop-talking", now + Duration::ms(50)));
+  EXPECT_FALSE(settings.sends(now + Duration::ms(100))) << "the key was let go";
   ASSERT_TRUE(settings.apply("open", now));
   ASSERT_TRUE(settings.apply("deafen", now));
   EXPECT_FALSE(settings.sends(now)) << "who does not hear is not heard either";
@@ -102,6 +105,51 @@ TEST(OwnVoice, SaysItsLevelAndFallsSilentWhenItIsMuted) {
   EXPECT_GT(open, 290);
   EXPECT_LT(muted, 50);
   EXPECT_GE(last, 500u) << "what is left out is counted";
+}
+
+TEST(OwnVoice, KnowsItsPacketsFromThoseOfARecordingOfItsGuest) {
+  auto own = own_voice();
+  auto sound = hummed(6.0, false);
+  std::vector<Voice> made;
+  for (std::size_t i = 0; i < 600; ++i) {
+    const auto frame = std::span(sound).subspan(i * kVoiceFrameSamples).first<kVoiceFrameSamples>();
+    const auto captured = kVoiceBegin + Duration::ms(10 * static_cast<std::int64_t>(i));
+    if (const auto voice = own->take(frame, captured, Duration(), true)) made.push_back(*voice);
+  }
+  ASSERT_GT(made.size(), 500u);
+  for (std::size_t i = made.size() - 500; i < made.size(); ++i) {
+    EXPECT_TRUE(own->has_made(made[i])) << i;
+    // As LogPlayer stamps it: of this house's clock, at another time.
+    Voice replayed = made[i];
+    replayed.capture_time = replayed.capture_time + Duration::us(2'345'678);
+    EXPECT_FALSE(own->has_made(replayed)) << i;
+    replayed = made[i];
+    replayed.clock_id = 8;
+    EXPECT_FALSE(own->has_made(replayed)) << i;
+  }
+}
+
+TEST(ReplayedVoices, WhoSaysThatItsProgramRunsIsNoRecording) {
+  ReplayedVoices voices;
+  const auto amy = *GuestId::parse("amy"), bob = *GuestId::parse("bob");
+  const MonoTime begin = kVoiceBegin;
+  EXPECT_FALSE(voices.is_replayed(bob, begin, begin + Duration::s(1))) << "not known yet";
+  voices.see_live(amy, begin + Duration::ms(900));
+  MonoTime now = begin + Duration::s(3);
+  EXPECT_TRUE(voices.is_replayed(bob, begin, now));
+  EXPECT_FALSE(voices.is_replayed(amy, begin, now));
+  voices.see_live(amy, now);
+  now = now + Duration::ms(2900);
+  EXPECT_FALSE(voices.is_replayed(amy, begin, now)) << "two of three states lost";
+  EXPECT_TRUE(voices.is_replayed(amy, begin, now + Duration::s(1))) << "it has ended";
+  // More than are remembered: the one seen the longest ago makes room.
+  for (std::size_t i = 0; i < ReplayedVoices::kMostGuests; ++i)
+    voices.see_live(*GuestId::parse("g" + std::to_string(i)),
+                    now + Duration::us(static_cast<std::int64_t>(i)));
+  EXPECT_FALSE(voices.is_replayed(*GuestId::parse("g0"), begin, now));
+  voices.see_live(amy, now + Duration::ms(1));
+  EXPECT_TRUE(voices.is_replayed(*GuestId::parse("g0"), begin, now));
+  EXPECT_FALSE(voices.is_replayed(*GuestId::parse("g1"), begin, now));
 }
 
 TEST(RoomVoices, EachIsHeardOnItsSideAndOneMoreThanFitIsHeardToo) {

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/net/mono_clock.h"
+#include "testing/voice/sound_rooms.h"
 #include "tests/apps/sound_server.h"
 
 namespace dance {
@@ -105,6 +107,57 @@ TEST_F(VoiceDevicesTest, AServerThatWentIsSaidAndItsDevicesAreGone) {
   }));
   EXPECT_FALSE((*devices)->has_microphone() || (*devices)->has_loudspeaker());
   EXPECT_NE(said.at(0).find("no sound server"), std::string::npos) << said.at(0);
+}
+
+// What another sink plays, as the room's music, comes as the reference where it is named, and what
+// the loudspeaker plays where none is.
+TEST(VoiceReference, IsOfTheSinkThatIsNamed) {
+  if (!SoundRooms::is_there()) GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
+  const TestFolder folder("voice-reference");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+  auto rooms = SoundRooms::open(folder.path(), {"ear", "music", "mouth"});
+  ASSERT_TRUE(rooms) << rooms.error().what;
+  std::vector<float> tone(48'000 * 20);
+  for (std::size_t i = 0; i < tone.size(); ++i)
+    tone[i] = 0.3f * std::sin(0.05f * static_cast<float>(i % 12'566));
+  ASSERT_TRUE((*rooms)->play("music", tone));
+  double loudest = 0.0;
+  int frames = 0;
+  VoiceDeviceHandlers handlers;
+  handlers.on_microphone = [](auto, MonoTime, Duration) {};
+  handlers.on_reference = [&](std::span<const float, kVoiceFrameSamples> frame) {
+    double power = 0.0;
+    for (const float sample : frame) power += static_cast<double>(sample * sample);
+    loudest = std::max(loudest, power);
+    ++frames;
+  };
+  handlers.fill = [](std::span<float>, MonoTime, MonoTime) {};
+  const auto heard_with = [&](const std::string& reference, std::string* trouble) {
+    loudest = 0.0;
+    frames = 0;
+    VoiceDeviceOptions options;
+    options.microphone = "mouth.monitor";
+    options.loudspeaker = "ear";
+    options.reference = reference;
+    auto devices = VoiceDevices::open(options, handlers);
+    EXPECT_TRUE(devices) << devices.error().what;
+    if (trouble != nullptr) *trouble = (*devices)->take_trouble();
+    if (trouble != nullptr) return;
+    EXPECT_TRUE(wait_for([&] {
+      (*rooms)->work(mono_now());
+      (*devices)->work(mono_now());
+      return frames > 50 && (reference.empty() || loudest > 1.0);
+    })) << frames
+        << " frames, " << loudest;
+  };
+  heard_with("music", nullptr);
+  EXPECT_GT(loudest, 1.0);
+  heard_with("", nullptr);
+  EXPECT_LT(loudest, 1e-6) << "the loudspeaker plays nothing";
+  std::string trouble;
+  heard_with("cellar", &trouble);
+  EXPECT_NE(trouble.find("no echo is taken out: what cellar plays"), std::string::npos) << trouble;
+  EXPECT_NE(trouble.find("pactl list short sinks"), std::string::npos) << trouble;
 }
 
 }  // namespace

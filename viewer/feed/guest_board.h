@@ -21,6 +21,7 @@
 #include "core/bus/voice.h"
 #include "core/pose/music_here.h"
 #include "viewer/feed/arrival_meter.h"
+#include "viewer/feed/voice_board.h"
 #include "viewer/scene/scene.h"
 
 namespace dance {
@@ -65,6 +66,9 @@ class GuestBoard {
   void on_avatar(const GuestId& guest, const AvatarFile& file, MonoTime now);
   void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now);
   void on_voice(const GuestId& guest, const Voice& voice, MonoTime now);
+  void on_voice_state(const GuestId& guest, const VoiceState& state, MonoTime now) {
+    voices_.on_state(guest, state, now);
+  }
   void on_beat(const Beat& beat);
 
   // Of a recording, with one thread for all. Forgets everything: what follows is of another moment.
@@ -85,6 +89,8 @@ class GuestBoard {
 
   // As take(), of this house's music.
   const BeatClock* take_music() { return music_latest_.take(); }
+  // As take(), of this house's voices.
+  const VoiceBoard::Voices* take_voices() { return voices_.take(); }
 
   std::uint64_t poses() const { return poses_.load(std::memory_order_relaxed); }
   std::uint64_t no_room() const { return no_room_.load(std::memory_order_relaxed); }
@@ -124,6 +130,7 @@ class GuestBoard {
   std::unique_ptr<Slot[]> slots_;
   MusicHere music_;  // the bus thread's
   Latest<BeatClock> music_latest_;
+  VoiceBoard voices_;
   std::atomic<std::uint64_t> poses_{0};
   std::atomic<std::uint64_t> no_room_{0};
   std::uint32_t epoch_ = 0;

@@ -107,6 +107,10 @@ void StageFeed::subscribe(const FeedOptions& options) {
           board_.on_avatar(channel.guest(), file, now);
         });
   }
+  bus_->subscribe<VoiceState>(
+      Where::kCapture, [this](const Channel& channel, const VoiceState& state, MonoTime now) {
+        board_.on_voice_state(channel.guest(), state, now);
+      });
   bus_->subscribe<Beat>(Where::kLocal, [this](const Channel&, const Beat& beat, MonoTime) {
     board_.on_beat(beat);
     instruments_.on_beat(beat);

@@ -44,6 +44,7 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
     epoch_ = board_.epoch();
     std::fill(guests_.begin(), guests_.end(), GuestNews());
     music_ = BeatClock();
+    voices_.clear();
   }
   scene.time = now;
   scene.guests.clear();
@@ -79,6 +80,22 @@ void StageRoster::update(MonoTime now, SceneState& scene) {
         SceneMusic{music_.position(now), music_.beats_per_second(), music_.beats_per_bar()};
   std::sort(scene.guests.begin(), scene.guests.end(),
             [](const SceneGuest& a, const SceneGuest& b) { return a.id < b.id; });
+  update_voices(now, scene);
+}
+
+void StageRoster::update_voices(MonoTime now, SceneState& scene) {
+  if (const VoiceBoard::Voices* voices = board_.take_voices()) voices_ = *voices;
+  scene.voices.clear();
+  for (const SaidVoice& said : voices_) {
+    if (now - said.heard > VoiceBoard::kHolds) continue;
+    const VoiceState& state = said.state;
+    scene.voices.push_back({said.guest, state.is_muted, state.is_deafened, state.is_push_to_talk,
+                            state.is_heard, state.has_microphone});
+    for (SceneGuest& guest : scene.guests)
+      if (guest.id == said.guest) guest.voice_mark = mark_of(scene.voices.back());
+  }
+  std::sort(scene.voices.begin(), scene.voices.end(),
+            [](const SceneVoice& a, const SceneVoice& b) { return a.guest < b.guest; });
 }
 
 }  // namespace dance

@@ -19,7 +19,7 @@ class StageRoster {
  public:
   explicit StageRoster(GuestBoard& board);
 
-  // Takes what is new and fills scene.guests, sorted by name, and scene.music.
+  // Takes what is new and fills scene.guests, sorted by name, scene.music and scene.voices.
   void update(MonoTime now, SceneState& scene);
 
   // The guests whose pose was new in the last update().
@@ -32,8 +32,11 @@ class StageRoster {
   std::span<const Fresh> fresh() const { return fresh_; }
 
  private:
+  void update_voices(MonoTime now, SceneState& scene);
+
   GuestBoard& board_;
   BeatClock music_;
+  VoiceBoard::Voices voices_;
   std::vector<GuestNews> guests_;
   std::vector<Fresh> fresh_;
   std::uint32_t epoch_ = 0;  // of the board

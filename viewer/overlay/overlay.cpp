@@ -13,6 +13,7 @@
 #include "viewer/gl/gl_objects.h"
 #include "viewer/overlay/beat_panel.h"
 #include "viewer/overlay/overlay_fonts.h"
+#include "viewer/overlay/voice_mark.h"
 #include "viewer/panel/panel_stack.h"
 
 namespace dance {
@@ -211,7 +212,10 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera,
     const float alpha = tag.guest->opacity;
     const ImVec2 text = tag_font_->CalcTextSizeA(size, width_px, 0.0f, name);
     const float dot = 0.26f * size;
-    const float half = 0.5f * (text.x + 3.0f * dot) + pad;
+    const bool has_mark = tag.guest->voice_mark != VoiceMark::kNone;
+    const float mark = has_mark ? 0.8f * size : 0.0f;
+    const float mark_room = has_mark ? mark + pad : 0.0f;
+    const float half = 0.5f * (text.x + 3.0f * dot + mark_room) + pad;
     const ImVec2 low = on_pixel(tag.at.x_px - half, tag.at.y_px - text.y - 0.5f * pad);
     const ImVec2 high = on_pixel(tag.at.x_px + half, tag.at.y_px + 0.5f * pad);
     const float radius = 0.5f * (high.y - low.y);
@@ -227,6 +231,8 @@ void Overlay::draw_tags(const SceneState& scene, const OrbitCamera& camera,
                          colour_of(colour, alpha));
     list.AddText(tag_font_, size, on_pixel(centre.x + 2.0f * dot, low.y + 0.5f * pad),
                  white(0.94f * alpha), name);
+    draw_voice_mark(list, tag.guest->voice_mark,
+                    {high.x - pad - 0.5f * mark, 0.5f * (low.y + high.y)}, mark, alpha);
   }
 }
 

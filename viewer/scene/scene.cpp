@@ -11,6 +11,14 @@ constexpr float kTagAboveHead_m = 0.14f;
 constexpr float kRoomForTag_m = 0.10f;
 }  // namespace
 
+VoiceMark mark_of(const SceneVoice& voice) {
+  if (voice.is_deafened) return VoiceMark::kDeafened;
+  if (voice.is_muted) return VoiceMark::kMuted;
+  if (!voice.has_microphone) return VoiceMark::kNoMicrophone;
+  if (!voice.is_push_to_talk) return VoiceMark::kNone;
+  return voice.is_heard ? VoiceMark::kTalking : VoiceMark::kWaiting;
+}
+
 void append_outline(const SceneGuest& guest, std::vector<Vector3f>& points_W_m) {
   BodyFrames frames;
   figure_frames(guest, frames);

@@ -46,6 +46,26 @@ enum class FigureSize : std::uint8_t { kDancers, kOwn };
 constexpr float kLeastHeightScale = 0.25f;
 constexpr float kMostHeightScale = 4.0f;
 
+// How a guest of this house speaks at present, where a dance voice runs for it.
+struct SceneVoice {
+  GuestId guest;
+  bool is_muted = false;
+  bool is_deafened = false;
+  bool is_push_to_talk = false;
+  bool is_heard = true;  // what is said now goes to the others
+  bool has_microphone = true;
+};
+// The one of them that is drawn beside the name.
+enum class VoiceMark : std::uint8_t {
+  kNone,          // heard all the time, or no dance voice
+  kDeafened,      // neither hears nor is heard
+  kMuted,         // not heard
+  kNoMicrophone,  // cannot be heard
+  kWaiting,       // push to talk: heard while the key is held
+  kTalking,       // push to talk: the key is held
+};
+VoiceMark mark_of(const SceneVoice& voice);
+
 struct SceneGuest {
   GuestId id;
   Skeleton skeleton = average_skeleton();
@@ -58,6 +78,7 @@ struct SceneGuest {
   float opacity = 1.0f;       // 0 = faded out
   GuestFigures figures;
   float voice = 0.0f;  // loudness, 0 = silent to 1
+  VoiceMark voice_mark = VoiceMark::kNone;
   // For the picture from this guest's own eyes: the head would hide everything.
   bool hides_head = false;
   // What a view that compares shows on its left and right: the pose as it came into this house, and
@@ -79,6 +100,7 @@ struct SceneState {
   bool shows_trails = false;  // of hands, over the last moments
   std::vector<SceneGuest> guests;
   std::optional<SceneMusic> music;
+  std::vector<SceneVoice> voices;  // of this house's guests, by name; of those who do not dance too
   // Free lines at the bottom left: the viewer's own rate, a hint when no dancer is here.
   std::vector<std::string> notes;
 };

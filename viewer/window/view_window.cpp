@@ -200,13 +200,19 @@ void ViewWindow::pass_input_to_panels() {
 }
 
 void ViewWindow::on_key(int key, int scancode, int action, int modifiers) {
-  if (action == GLFW_RELEASE) return;
-  RawKey raw{key, nullptr, action == GLFW_REPEAT, modifiers};
+  const bool is_release = action == GLFW_RELEASE;
+  // A key that is let go was pressed alone perhaps, whatever is held with it by now.
+  RawKey raw{key, nullptr, action == GLFW_REPEAT, is_release ? 0 : modifiers};
   // Keys beyond 127 print nothing, and GLFW does not take them.
   if (key == GLFW_KEY_UNKNOWN || key < 128) raw.printed = glfwGetKeyName(key, scancode);
-  raw.has_alt_gr = glfwGetKey(window_, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
+  raw.has_alt_gr = !is_release && glfwGetKey(window_, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
+  const auto press = press_of_key(raw);
+  if (is_release) {
+    if (press) events_.on_key_released(*press);
+    return;
+  }
   is_repeat_ = raw.is_repeat;  // its characters come next
-  if (const auto press = press_of_key(raw)) events_.on_key(*press);
+  if (press) events_.on_key(*press);
 }
 
 void ViewWindow::on_letter(unsigned int letter) {

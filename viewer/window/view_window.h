@@ -25,6 +25,8 @@ class WindowEvents {
  public:
   virtual ~WindowEvents() = default;
   virtual void on_key(const KeyPress& press) = 0;
+  // A key was let go; all are when the window is left.
+  virtual void on_key_released(const KeyPress&) {}
   virtual void on_drag(WindowDrag drag, float right, float up) = 0;
   virtual void on_wheel(float notches) = 0;
 };

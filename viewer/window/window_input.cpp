@@ -7,6 +7,12 @@ void WindowInput::on_key(const KeyPress& press) {
   if (const auto command = window_command(press)) obey(*command);
 }
 
+// Whatever is open and whichever modifier is held by now: nobody goes on to be heard.
+void WindowInput::on_key_released(const KeyPress& press) {
+  const auto command = window_command({press.key});
+  if (command && command->action == WindowAction::kTalk) state_.voice.is_talk_held = false;
+}
+
 void WindowInput::on_drag(WindowDrag drag, float right, float up) {
   if (drag == WindowDrag::kOrbit)
     director_.drag_orbit(right, up);
@@ -49,6 +55,15 @@ void WindowInput::obey(const WindowCommand& command) {
       return;
     case WindowAction::kExtrapolate:
       state_.extrapolates = !state_.extrapolates;
+      return;
+    case WindowAction::kTalk:
+      state_.voice.is_talk_held = true;
+      return;
+    case WindowAction::kMute:
+      ++state_.voice.mute_presses;
+      return;
+    case WindowAction::kDeafen:
+      ++state_.voice.deafen_presses;
       return;
     case WindowAction::kClose:
       state_.is_over = true;

@@ -20,6 +20,7 @@ class WindowInput final : public WindowEvents {
       : state_(state), director_(director), panels_(panels) {}
 
   void on_key(const KeyPress& press) override;
+  void on_key_released(const KeyPress& press) override;
   void on_drag(WindowDrag drag, float right, float up) override;
   void on_wheel(float notches) override { director_.zoom(notches); }
 

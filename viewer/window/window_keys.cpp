@@ -67,6 +67,10 @@ constexpr std::array kRows{
         "Wheel"},
     Row{"Camera", {"R", "rotate slowly, or stop"}, {GLFW_KEY_R, {WindowAction::kRotate}}},
 
+    Row{"Voice", {"B", "hold to talk (push to talk)"}, {GLFW_KEY_B, {WindowAction::kTalk}}},
+    Row{"Voice", {"U", "mute, or be heard again"}, {GLFW_KEY_U, {WindowAction::kMute}}},
+    Row{"Voice", {"J", "deafen, or hear again"}, {GLFW_KEY_J, {WindowAction::kDeafen}}},
+
     Row{"Picture", {"T", "trails of hands"}, {GLFW_KEY_T, {WindowAction::kTrails}}},
     Row{"Picture", {"N", "names"}, {GLFW_KEY_N, {WindowAction::kTags}}},
     Row{"Picture", {"H", "figures"}, {GLFW_KEY_H, {WindowAction::kHud}}},

@@ -28,6 +28,9 @@ enum class WindowAction {
   kHud,
   kDisplayMode,
   kExtrapolate,
+  kTalk,  // while the key is held
+  kMute,
+  kDeafen,
   kClose,
 };
 

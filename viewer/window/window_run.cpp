@@ -8,6 +8,7 @@
 #include "core/program/talk.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/window/window_panels.h"
+#include "voice/control/voice_control.h"
 
 namespace dance {
 namespace {
@@ -57,6 +58,9 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
     : options_(options),
       source_(source),
       director_(options.camera, options.view),
+      voice_keys_([&options](const GuestId& guest, std::string_view command) {
+        return tell_voice(options.feed.bus_url, guest, command);
+      }),
       path_(Duration::period_of_hz(60.0), path_options(options)),
       display_(options.display),
       begun_(mono_now()),
@@ -126,6 +130,7 @@ Result<void> WindowRun::renew_after_loss() {
         "the graphics driver keeps losing what was drawn; start again, or make pictures "
         "with: dance view --headless --out DIR");
   talk::warn("the graphics driver has lost everything: making it anew");
+  state_.voice.is_talk_held = false;  // the window that would tell of its key is gone
   painter_.reset();
   if (auto renewed = window_->renew(); !renewed) return renewed;
   if (auto made = make_painter(); !made) return made;
@@ -176,6 +181,8 @@ void WindowRun::write_notes(MonoTime now) {
       focus_was_here_ || std::any_of(scene_.guests.begin(), scene_.guests.end(),
                                      [&](const SceneGuest& it) { return it.id == options_.focus; });
   write_stage_notes(options_, source_.name(), director_.words(), focus_was_here_, scene_);
+  if (const std::string& words = voice_keys_.words(now); !words.empty())
+    scene_.notes.push_back(words);
   if (!state_.shows_hud) return;
   if (now - figures_since_ > kFiguresHold) {
     swap_figures_ = meter_.figures(now);
@@ -213,6 +220,7 @@ Result<void> WindowRun::show(ViewWindow::Size size) {
   times.taken = mono_now();
   take_poses(times.taken);
   choose_guest();
+  voice_keys_.work(scene_, director_.chosen(), state_.voice, times.taken);
   // Cameras go on while a recording is paused, or jumps.
   const Duration since_last = last_picture_.is_set() ? times.taken - last_picture_ : Duration();
   last_picture_ = times.taken;

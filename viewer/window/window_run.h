@@ -19,6 +19,7 @@
 #include "viewer/stage/stage_painter.h"
 #include "viewer/view/view_director.h"
 #include "viewer/window/view_window.h"
+#include "viewer/window/voice_keys.h"
 #include "viewer/window/window_export.h"
 #include "viewer/window/window_input.h"
 #include "viewer/window/window_notes.h"
@@ -90,6 +91,7 @@ class WindowRun {
       avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options_.avatars)};
   InstrumentRecords records_;
   PanelStack panels_;
+  VoiceKeys voice_keys_;
   WindowInput input_{state_, director_, panels_};
   std::unique_ptr<ViewWindow> window_;
   std::unique_ptr<StagePainter> painter_;

@@ -13,12 +13,20 @@ namespace dance {
 // late picture at once, torn.
 enum class DisplayMode { kTearFree, kLowLatency };
 
+// What the keys of the voice have been told, for VoiceKeys.
+struct VoiceWishes {
+  bool is_talk_held = false;
+  int mute_presses = 0;  // since they were obeyed last
+  int deafen_presses = 0;
+};
+
 struct WindowState {
   bool shows_hud = true;
   bool shows_tags = true;
   bool shows_trails = false;
   bool extrapolates = true;
   DisplayMode display = DisplayMode::kTearFree;
+  VoiceWishes voice;
   bool is_over = false;
   std::optional<int> chosen_number;  // of the number key that was pressed last; once
   int chosen_step = 0;               // guests forwards or backwards; once

@@ -72,13 +72,18 @@ void VoiceDevices::open_loudspeaker() {
 }
 
 void VoiceDevices::open_reference() {
-  if (!options_.has_reference || !loudspeaker_) return;
+  const bool is_named = !options_.reference.empty();
+  if (!options_.has_reference || (!is_named && !loudspeaker_)) return;
   from_reference_.count = 0;
-  const std::string monitor =
-      options_.loudspeaker.empty() ? "@DEFAULT_MONITOR@" : options_.loudspeaker + ".monitor";
-  keep(VoiceDevice::kReference, reference_,
-       PulseInput::open(*server_, {monitor, kDevice_hz, "what is played", timeout_},
-                        [this](std::span<const float> s) { on_reference(s); }));
+  const std::string& sink = is_named ? options_.reference : options_.loudspeaker;
+  const std::string monitor = sink.empty() ? "@DEFAULT_MONITOR@" : sink + ".monitor";
+  auto opened = PulseInput::open(*server_, {monitor, kDevice_hz, "what is played", timeout_},
+                                 [this](std::span<const float> s) { on_reference(s); });
+  if (!opened)
+    opened = fail("no echo is taken out: what " + (sink.empty() ? "the default sink" : sink) +
+                  " plays cannot be heard (" + server_->error_text() +
+                  "); `pactl list short sinks` names them");
+  keep(VoiceDevice::kReference, reference_, std::move(opened));
 }
 
 void VoiceDevices::on_reference(std::span<const float> samples) {

@@ -1,5 +1,5 @@
 // VoiceDevices: microphone and loudspeaker of this machine with small buffers, and what the
-// loudspeaker plays of all programs (the monitor of its sink), as a reference for echoes.
+// loudspeaker, or another sink, plays of all programs (its monitor), as a reference for echoes.
 //
 // Units/frames: mono frames of 10 ms at 48 kHz from the microphone and the monitor; stereo,
 //               interleaved, to the loudspeaker; times of this house's clock.
@@ -31,6 +31,7 @@ struct VoiceDeviceOptions {
   std::string microphone;   // as `pactl list short sources` names it; "" = the default
   std::string loudspeaker;  // as `pactl list short sinks` names it; "" = the default
   bool has_reference = true;
+  std::string reference;  // the sink whose sound is to be taken out; "" = the loudspeaker above
   Duration ahead = Duration::ms(20);  // buffered before the loudspeaker
 };
 

@@ -70,6 +70,7 @@ class VoicePlayout {
   void restart();
   const Slot* find(std::int64_t frame) const;
   std::optional<std::int64_t> oldest_from(std::int64_t frame) const;
+  void note_gap(std::int64_t frame, MonoTime arrival);
   Duration wanted_margin(MonoTime now, MonoTime heard) const;
   // By how much later than the quickest arrival the next frame is played.
   Duration margin(MonoTime now) const;
@@ -94,6 +95,11 @@ class VoicePlayout {
   bool has_origin_ = false;
   std::optional<Duration> heard_delay_;
   bool is_speaking_ = false;
+  // Of the packets of the last seconds, the share that came behind one that had not, whose copy
+  // they bring; whether they are worth waiting for, and how long that takes.
+  double copies_share_ = 0.0;
+  bool waits_for_copies_ = false;
+  double copies_wait_ms_ = 0.0;
   int concealed_in_a_row_ = 0;
   int strangers_in_a_row_ = 0;
   double margin_error_ms_ = 0.0;  // smoothed

@@ -7,9 +7,11 @@
 
 #include "core/bus/bus.h"
 #include "core/net/mono_clock.h"
+#include "core/program/foreground.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "voice/program/key_reader.h"
+#include "voice/program/meter_line.h"
 #include "voice/program/voice_program.h"
 
 namespace dance {
@@ -24,7 +26,10 @@ constexpr const char* kExamples = R"(Examples:
                                                     bob at half, and each voice as late as its
                                                     dancer is shown
   dance voice set --guest alice --mute              from another terminal, while it runs
-Keys: space talks (push to talk), m mutes, d deafens.
+  dance voice --guest alice --to-headphones --reference room-speakers
+                                                    voices in a headset, and the music that this
+                                                    sink plays is taken out
+Keys: space talks (push to talk), m mutes, d deafens. In dance view: B, U and J.
 )";
 
 constexpr int kVoiceNice = -11;  // as sound servers have
@@ -32,7 +37,7 @@ constexpr int kVoiceNice = -11;  // as sound servers have
 struct VoiceOptions {
   std::string guest;
   std::string bus;
-  std::string microphone, loudspeaker;
+  std::string microphone, loudspeaker, reference;
   std::vector<std::string> volumes;
   VoiceSettings settings;  // with the volumes
   bool to_headphones = false, no_echo_cancellation = false, no_cleaning = false;
@@ -51,8 +56,11 @@ VoiceProgramOptions program_options(const VoiceOptions& options) {
   program.devices.microphone = options.microphone;
   program.devices.loudspeaker = options.loudspeaker;
   program.devices.ahead = Duration::seconds(options.buffer_ms * 1e-3);
-  const bool has_echo = !options.to_headphones && !options.no_echo_cancellation;
+  // Into headphones goes no echo, but another sink may be named, as that of the room's music.
+  const bool has_echo =
+      !options.no_echo_cancellation && (!options.to_headphones || !options.reference.empty());
   program.devices.has_reference = has_echo;
+  program.devices.reference = options.reference;
   program.cleaning.takes_out_echo = has_echo;
   program.cleaning.takes_out_noise = !options.no_cleaning;
   program.cleaning.levels_loudness = !options.no_cleaning;
@@ -75,7 +83,11 @@ void on_key(VoiceProgram& program, char key, MonoTime now) {
 }
 
 Result<void> run_voice(const VoiceOptions& options) {
-  const VoiceProgramOptions wanted = program_options(options);
+  VoiceProgramOptions wanted = program_options(options);
+  // With --quiet another program may have started this one: its terminal is not ours.
+  wanted.has_keys = !options.quiet && is_in_foreground();
+  MeterLine line(STDERR_FILENO);
+  wanted.before_words = [&line] { line.clear(); };
   // Sound that is late is a gap. Where the user may not have it (ulimit -e), it goes without.
   static_cast<void>(::setpriority(PRIO_PROCESS, 0, kVoiceNice));
   DANCE_TRY(auto poller, Poller::create());
@@ -83,12 +95,13 @@ Result<void> run_voice(const VoiceOptions& options) {
   DANCE_TRY(auto bus, Bus::open(options.bus));
   DANCE_TRY(auto program, VoiceProgram::open(wanted, *bus, *poller));
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
-  KeyReader keys(*poller, [&](char key, MonoTime now) { on_key(*program, key, now); });
-  // One line that is written over and over, where somebody sees it.
-  const bool has_meters = !options.quiet && isatty(STDERR_FILENO) == 1 && keys.is_there();
+  std::optional<KeyReader> keys;
+  if (wanted.has_keys)
+    keys.emplace(*poller, [&](char key, MonoTime now) { on_key(*program, key, now); });
+  const bool has_meters = isatty(STDERR_FILENO) == 1 && keys && keys->is_there();
   if (has_meters)
     poller->add_timer(mono_now(), [&](MonoTime now) {
-      std::fprintf(stderr, "\r\033[K%s", program->meters(now).c_str());
+      line.show(program->meters(now));
       return now + Duration::ms(100);
     });
   if (options.seconds > 0.0)
@@ -114,12 +127,17 @@ int main(int argc, char** argv) {
   line.add("--bus", options.bus, "LCM URL of the house's bus");
   line.add("--microphone", options.microphone, "which one; `pactl list short sources` names them");
   line.add("--loudspeaker", options.loudspeaker, "which one; `pactl list short sinks` names them");
+  line.add("--reference", options.reference,
+           "the sink whose sound is taken out of the microphone's, as that of the room's music, "
+           "instead of the loudspeaker's");
   line.add_flag("--to-headphones", options.to_headphones,
-                "the microphone does not hear what is played: no echo cancellation");
+                "the microphone does not hear what is played: no echo cancellation, unless "
+                "--reference names what it hears");
   line.add_flag("--no-echo-cancellation", options.no_echo_cancellation,
                 "another program takes the echo out, or nobody minds");
   line.add_flag("--no-cleaning", options.no_cleaning, "noise stays, loudness is as it is");
-  line.add_flag("--push-to-talk", options.push_to_talk, "heard only while the space bar is held");
+  line.add_flag("--push-to-talk", options.push_to_talk,
+                "heard only while the space bar is held, or B in dance view");
   line.add_flag("--mute", options.mute, "not heard until told otherwise");
   line.add_flag("--deafen", options.deafen, "neither hears nor is heard until told otherwise");
   line.add("--volume", options.volumes, "GUEST=0 to GUEST=2, as bob=0.5; may be repeated")
@@ -136,7 +154,7 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add_flag("--low-delay", options.low_delay,
                 "4 ms earlier, without copies against loss: for good lines");
-  line.add_flag("--quiet", options.quiet, "no level meters");
+  line.add_flag("--quiet", options.quiet, "no level meters, and no keys");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");
   line.add("--seconds", options.seconds, "end after so long; 0 = Ctrl-C").range(0.0, 1e7);
   line.footer(dance::kExamples);

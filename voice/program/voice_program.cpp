@@ -24,6 +24,13 @@ std::string meter(int level) {
   return text;
 }
 
+// But for the time.
+bool is_same(const VoiceState& a, const VoiceState& b) {
+  return a.is_muted == b.is_muted && a.is_deafened == b.is_deafened &&
+         a.is_push_to_talk == b.is_push_to_talk && a.is_heard == b.is_heard &&
+         a.has_microphone == b.has_microphone && a.has_loudspeaker == b.has_loudspeaker;
+}
+
 double concealed_percent(const VoicePlayout::Counters& counters) {
   return counters.played == 0 ? 0.0
                               : 100.0 * static_cast<double>(counters.concealed) /
@@ -47,12 +54,13 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
   program->subscribe();
   program->timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
     self->devices_->work(now);
-    if (const std::string trouble = self->devices_->take_trouble(); !trouble.empty())
-      talk::warn("{}; goes on with what there is", trouble);
+    self->say_trouble(self->devices_->take_trouble());
+    if (!self->said_ || !is_same(*self->said_, self->state(now))) self->say_state(now);
     return now + VoiceDevices::kTurn;
   });
   program->hearing_timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
     self->say_hearing(now);
+    self->say_state(now);
     return now + kHearingSaid;
   });
   program->say_settings();
@@ -60,7 +68,11 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
 }
 
 VoiceProgram::VoiceProgram(const VoiceProgramOptions& options, SignalPort& bus, Poller& poller)
-    : options_(options), settings_(options.settings), bus_(bus), poller_(poller) {}
+    : options_(options),
+      settings_(options.settings),
+      bus_(bus),
+      poller_(poller),
+      begin_(mono_now()) {}
 
 VoiceProgram::~VoiceProgram() {
   for (const Poller::TimerId timer : {timer_, hearing_timer_})
@@ -71,8 +83,17 @@ void VoiceProgram::subscribe() {
   bus_.subscribe<Voice>(
       Where::kGuest, [this](const Channel& channel, const Voice& voice, MonoTime now) {
         if (voice.clock_id != this_clock_id() || channel.guest() == options_.guest) return;
+        replayed_.see_live(channel.guest(), now);
         others_->hear(channel.guest(), voice, now);
       });
+  bus_.subscribe<Voice>(Where::kCapture,
+                        [this](const Channel& channel, const Voice& voice, MonoTime now) {
+                          hear_capture(channel.guest(), voice, now);
+                        });
+  bus_.subscribe<VoiceState>(Where::kCapture,
+                             [this](const Channel& channel, const VoiceState&, MonoTime now) {
+                               replayed_.see_live(channel.guest(), now);
+                             });
   bus_.subscribe<Pose>(
       Where::kStage,
       [this](const Channel& channel, const Pose& pose, MonoTime) {
@@ -83,6 +104,14 @@ void VoiceProgram::subscribe() {
                           [this](const Channel& channel, const Playout& playout, MonoTime) {
                             others_->know_picture(channel.guest(), playout);
                           });
+}
+
+void VoiceProgram::hear_capture(const GuestId& guest, const Voice& voice, MonoTime now) {
+  if (voice.clock_id != this_clock_id()) return;
+  // The own guest's state is this program's: its packets are known one by one.
+  const bool is_live =
+      guest == options_.guest ? own_->has_made(voice) : !replayed_.is_replayed(guest, begin_, now);
+  if (!is_live) others_->hear(guest, voice, now);
 }
 
 VoiceDeviceHandlers VoiceProgram::handlers() {
@@ -104,8 +133,11 @@ VoiceDeviceHandlers VoiceProgram::handlers() {
 void VoiceProgram::command(std::string_view command, MonoTime now) {
   const auto applied = settings_.apply(command, now);
   // What was said may be anything: it is not repeated.
-  if (!applied) return talk::warn("a command is refused: {}", applied.error().what);
-  if (command == "talk") return;
+  if (!applied) {
+    before_words();
+    return talk::warn("a command is refused: {}", applied.error().what);
+  }
+  if (command == "talk" || command == "stop-talking") return;
   say_settings();
   say_hearing(now);
 }
@@ -118,10 +150,41 @@ void VoiceProgram::say_hearing(MonoTime now) {
   bus_.publish(Channel::of_house(Signal::kHearing), wish);
 }
 
+VoiceState VoiceProgram::state(MonoTime now) const {
+  VoiceState state;
+  state.time = now;
+  state.clock_id = this_clock_id();
+  state.is_muted = settings_.is_muted;
+  state.is_deafened = settings_.is_deafened;
+  state.is_push_to_talk = settings_.is_push_to_talk;
+  state.is_heard = settings_.sends(now) && devices_->has_microphone();
+  state.has_microphone = devices_->has_microphone();
+  state.has_loudspeaker = devices_->has_loudspeaker();
+  return state;
+}
+
+void VoiceProgram::say_state(MonoTime now) {
+  said_ = state(now);
+  bus_.publish(Where::kCapture, options_.guest, *said_);
+}
+
+void VoiceProgram::say_trouble(const std::string& trouble) const {
+  if (trouble.empty()) return;
+  before_words();
+  talk::warn("{}; goes on with what there is", trouble);
+}
+
 void VoiceProgram::say_settings() const {
+  const std::string push_to_talk =
+      options_.has_keys ? "heard while the space bar is held"
+                        : fmt::format(
+                              "heard while B is held in dance view, or `dance voice set --guest {} "
+                              "--talk` is repeated",
+                              options_.guest.view());
+  before_words();
   talk::info("{} is {}; voices are {}{}", options_.guest.view(),
              settings_.is_muted || settings_.is_deafened ? "muted"
-             : settings_.is_push_to_talk                 ? "heard while the space bar is held"
+             : settings_.is_push_to_talk                 ? push_to_talk
                                                          : "heard",
              settings_.is_deafened ? "not played" : "played ",
              settings_.is_deafened       ? ""

@@ -1,5 +1,6 @@
 // VoiceProgram: what `dance voice` does: the microphone to VOICE/capture/<guest>, and VOICE/guest/*
-// to the loudspeaker.
+// to the loudspeaker, with what a replay plays on VOICE/capture/*. VOICE_STATE/capture/<guest> says
+// what holds.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    owns devices, own voice and the others'; refers to bus and poller, which must
@@ -8,15 +9,17 @@
 // Failure:      open() names what is missing; devices that go are said, and it goes on.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "core/bus/signal_port.h"
 #include "core/net/poller.h"
+#include "voice/control/voice_control.h"
 #include "voice/device/voice_devices.h"
-#include "voice/program/voice_control.h"
 #include "voice/room/own_voice.h"
+#include "voice/room/replayed_voices.h"
 #include "voice/room/room_voices.h"
 
 namespace dance {
@@ -28,6 +31,8 @@ struct VoiceProgramOptions {
   VoiceCleanerOptions cleaning;
   VoiceEncoderOptions encoding;
   VoiceSettings settings;
+  bool has_keys = false;               // of a terminal, where the space bar talks
+  std::function<void()> before_words;  // before each line that is said, as to clear one of levels
 };
 
 class VoiceProgram {
@@ -40,7 +45,7 @@ class VoiceProgram {
 
   // As VoiceSettings::apply(), and says what holds now.
   void command(std::string_view command, MonoTime now);
-  // Levels of all, for one line of a terminal.
+  // Levels of all, for one line of a terminal. Names and levels only.
   std::string meters(MonoTime now) const;
   // What was counted, by guest, as one JSON object.
   std::string report_json() const;
@@ -50,8 +55,16 @@ class VoiceProgram {
   VoiceProgram(const VoiceProgramOptions& options, SignalPort& bus, Poller& poller);
   void subscribe();
   VoiceDeviceHandlers handlers();
+  void hear_capture(const GuestId& guest, const Voice& voice, MonoTime now);
   void say_settings() const;
+  void say_trouble(const std::string& trouble) const;
   void say_hearing(MonoTime now);
+  VoiceState state(MonoTime now) const;
+  void say_state(MonoTime now);
+  // For what is about to be said.
+  void before_words() const {
+    if (options_.before_words) options_.before_words();
+  }
 
   VoiceProgramOptions options_;
   VoiceSettings settings_;
@@ -61,6 +74,9 @@ class VoiceProgram {
   std::unique_ptr<RoomVoices> others_;
   std::unique_ptr<VoiceControl> control_;
   std::unique_ptr<VoiceDevices> devices_;  // last: its sound goes to what stands above
+  ReplayedVoices replayed_;
+  MonoTime begin_;
+  std::optional<VoiceState> said_;  // last
   Poller::TimerId timer_ = 0;
   Poller::TimerId hearing_timer_ = 0;
 };

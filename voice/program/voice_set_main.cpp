@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/program/program.h"
-#include "voice/program/voice_control.h"
+#include "voice/control/voice_control.h"
 #include "voice/room/voice_settings.h"
 
 namespace dance {
@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
                    Flag{"deafen", "neither hears nor is heard", false},
                    Flag{"undeafen", "hears again", false},
                    Flag{"talk", "heard for 0.7 s more, with push to talk", false},
+                   Flag{"stop-talking", "the end of --talk, at once", false},
                    Flag{"push-to-talk", "heard only while --talk comes", false},
                    Flag{"open", "heard without push to talk", false},
                    Flag{"with-picture", "voices as late as their dancers are shown", false},

@@ -29,8 +29,14 @@ std::optional<Voice> OwnVoice::take(std::span<float, kVoiceFrameSamples> frame, 
   voice.clock_id = clock_id_;
   voice.sequence = sequence;
   voice.level_dbfs = sends ? level_dbfs_ : kSilence_dbfs;
+  made_us_[sequence % kRemembered] = voice.capture_time.since_zero_us();
   ++sent_;
   return voice;
+}
+
+bool OwnVoice::has_made(const Voice& voice) const {
+  return voice.clock_id == clock_id_ &&
+         made_us_[voice.sequence % kRemembered] == voice.capture_time.since_zero_us();
 }
 
 }  // namespace dance

@@ -7,6 +7,7 @@
 // Failure:      create() passes on what the libraries refuse.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -28,11 +29,15 @@ class OwnVoice {
   // Nothing where this frame is silence, which is left out.
   std::optional<Voice> take(std::span<float, kVoiceFrameSamples> frame, MonoTime captured,
                             Duration echo_delay, bool sends);
+  // Whether it is what take() made in the last five seconds, as it comes back from the bus; what a
+  // replay makes of the same guest is not.
+  bool has_made(const Voice& voice) const;
   // Of the last frame, cleaned, sent or not.
   int level() const { return level_dbfs_; }
   std::uint64_t sent() const { return sent_; }
 
  private:
+  static constexpr std::size_t kRemembered = 512;
   OwnVoice() = default;
 
   std::unique_ptr<VoiceCleaner> cleaner_;
@@ -41,6 +46,7 @@ class OwnVoice {
   std::uint32_t sequence_ = 0;
   int level_dbfs_ = kSilence_dbfs;
   std::uint64_t sent_ = 0;
+  std::array<std::int64_t, kRemembered> made_us_{};  // capture times, by sequence
 };
 
 }  // namespace dance

@@ -52,6 +52,8 @@ Result<void> VoiceSettings::apply(std::string_view command, MonoTime now) {
     follows_picture = command == "with-picture";
   else if (command == "talk")
     talks_until = now + kTalkHolds;
+  else if (command == "stop-talking")
+    talks_until = now;
   else
     return fail("there is no such command; `dance voice set --help` lists them");
   return {};

@@ -37,8 +37,8 @@ struct VoiceSettings {
   // Whose voices are to be sent here: not of those at volume 0, and nobody's while deafened.
   HearingWish hearing() const;
 
-  // "mute", "unmute", "deafen", "undeafen", "talk", "push-to-talk", "open", "with-picture",
-  // "at-once", "volume bob=0.5".
+  // "mute", "unmute", "deafen", "undeafen", "talk", "stop-talking", "push-to-talk", "open",
+  // "with-picture", "at-once", "volume bob=0.5".
   Result<void> apply(std::string_view command, MonoTime now);
 
  private:

@@ -189,6 +189,19 @@ HearingWish golden_hearing() {
   return wish;
 }
 
+VoiceState golden_voice_state() {
+  VoiceState state;
+  state.time = kCaptured;
+  state.clock_id = kClock;
+  state.is_muted = true;
+  state.is_deafened = false;
+  state.is_push_to_talk = true;
+  state.is_heard = false;
+  state.has_microphone = true;
+  state.has_loudspeaker = false;
+  return state;
+}
+
 TEST(GoldenMessages, KeepFiguresThatAreNotKnownAndRefuseInfiniteOnes) {
   GuestStats stats = golden_guest_stats(), decoded;
   stats.jitter_ms = kNotKnown;
@@ -217,6 +230,7 @@ TEST(GoldenMessages, AreWrittenAndReadByteForByte) {
   expect_golden("guest_traffic_t", golden_guest_traffic());
   expect_golden("voice_t", golden_voice());
   expect_golden("hearing_t", golden_hearing());
+  expect_golden("voice_state_t", golden_voice_state());
 }
 
 TEST(GoldenMessages, HoldThePoseThatWasDanced) {
@@ -282,6 +296,7 @@ TEST(Decode, SurvivesEverySingleBitFlip) {
   expect_survives_bit_flips<Stats>("stats_t");
   expect_survives_bit_flips<Voice>("voice_t");
   expect_survives_bit_flips<HearingWish>("hearing_t");
+  expect_survives_bit_flips<VoiceState>("voice_state_t");
 }
 
 TEST(Decode, CallsImpossibleValuesInvalid) {

@@ -1,4 +1,4 @@
-#include "voice/program/voice_control.h"
+#include "voice/control/voice_control.h"
 
 #include <array>
 #include <cstdio>
@@ -27,9 +27,12 @@ Result<std::unique_ptr<VoiceControl>> VoiceControl::open(const std::string& bus,
                                                          const GuestId& guest, OnCommand on_command,
                                                          Poller& poller) {
   auto socket = LocalDatagramSocket::bind(voice_control_path(bus, guest));
+  const std::string name(guest.view());
+  if (!socket && is_socket(voice_control_path(bus, guest)))
+    return fail(name + " has a dance voice on this bus already, perhaps of its house's [voice]: " +
+                "end that one first, or tell it things with: dance voice set --guest " + name);
   if (!socket)
-    return fail("the voice of " + std::string(guest.view()) + " cannot be told anything: " +
-                socket.error().what + "; a guest has one dance voice on a bus");
+    return fail("the voice of " + name + " cannot be told anything: " + socket.error().what);
   return std::unique_ptr<VoiceControl>(
       new VoiceControl(std::move(*socket), std::move(on_command), poller));
 }
