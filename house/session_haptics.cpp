@@ -1,11 +1,45 @@
 #include "house/session_haptics.h"
 
+#include <algorithm>
+
 namespace dance {
+namespace {
+
+// Whom the house has on its stage of its own.
+std::vector<GuestId> dancers_of(const HouseConfig& session) {
+  std::vector<GuestId> dancers = session.guests;
+  const auto add = [&](const GuestId& guest) {
+    if (guest.is_set() && std::find(dancers.begin(), dancers.end(), guest) == dancers.end())
+      dancers.push_back(guest);
+  };
+  for (const HostedProducer& producer : session.producers) add(producer.guest);
+  for (const HostedReceiver& receiver : session.receivers) add(receiver.options.guest);
+  for (const HostedCamera& camera : session.cameras) add(camera.guest);
+  for (const Route& route : session.routes)
+    if (route.from.where == Where::kCapture) add(route.to.guest);
+  return dancers;
+}
+
+// A house that names no dancer may have one whose producer runs beside it.
+void check_is_here(TomlReader& reader, const HouseConfig& session, const GuestId& guest) {
+  const std::vector<GuestId> dancers = dancers_of(session);
+  if (dancers.empty() || !guest.is_set()) return;
+  if (std::find(dancers.begin(), dancers.end(), guest) != dancers.end()) return;
+  std::string names;
+  for (const GuestId& each : dancers)
+    names += (names.empty() ? "" : ", ") + std::string(each.view());
+  reader.complain(
+      "guest", "'" + std::string(guest.view()) +
+                   "' does not dance in this house, and would feel nothing; there are: " + names);
+}
+
+}  // namespace
 
 void read_haptics(TomlReader& reader, HouseConfig& session) {
   HostedHaptics haptics;
   haptics.to = reader.required_string("to");
   haptics.guest = read_guest(reader, "guest", reader.required_string("guest"));
+  check_is_here(reader, session, haptics.guest);
   HapticOptions& options = haptics.options;
   options.device = reader.string_or("device", "");
   options.address = reader.string_or("address", "");
@@ -21,6 +55,13 @@ void read_haptics(TomlReader& reader, HouseConfig& session) {
     else
       reader.complain("feel", felt.error().what);
   }
+  for (const std::string& name : reader.strings("from", "[\"bob\"]"))
+    options.maker.from.push_back(read_guest(reader, "from", name));
+  const auto bones = parse_bones(reader.strings("bones", "[\"leftHand\", \"leftLowerArm\"]"));
+  if (bones)
+    options.player.bones = *bones;
+  else
+    reader.complain("bones", bones.error().what);
   if (const auto checked = check_haptic_options(haptics.to, options); !checked)
     reader.complain("to", checked.error().what);
   reader.finish();
