@@ -6,8 +6,9 @@
 // Ownership:    owns its thread and connection; 64 orders may wait for it, the oldest give way.
 // Threads:      one, named haptics-ws; play() waits for nothing.
 // Failure:      open() names an address that is none, and, after kAnswers at most, one where no
-//               player is; of later() it is looked for once a second, as is one that ends. Orders that find no connection are refused, those that a stall has made
-//               late are left out; both are counted.
+//               player is; of later() it is looked for once a second, as is one that ends. Orders
+//               that find no connection are refused, those that a stall has made late are left
+//               out; both are counted.
 #pragma once
 
 #include <memory>

@@ -4,8 +4,8 @@
 //
 // Units/frames: amplitude 0 to 1; bones by their names of VRM 1.0.
 // Ownership:    owns its socket; never allocates once that is open.
-// Threads:      sends in the call. Of later() one, named haptics-osc, until the address is found, as
-//               looking a name up may take seconds; the end may wait for it.
+// Threads:      sends in the call. Of later() one, named haptics-osc, until the address is found,
+//               as looking a name up may take seconds; the end may wait for it.
 // Failure:      open() names an address that is none; later() looks for it each kLooks. What
 //               cannot be sent is counted.
 #pragma once
