@@ -1,6 +1,6 @@
-// How devices that run for a guest are told things from another terminal: off, on, no stronger than.
-// Several programs may serve one guest on a bus, as a house and a `dance haptics` beside it: all are
-// told.
+// How devices that run for a guest are told things from another terminal: off, on, no stronger
+// than. Several programs may serve one guest on a bus, as a house and a `dance haptics` beside it:
+// all are told.
 //
 // Units/frames: limit 0 to 1.
 // Ownership:    HapticControl owns its socket file; feeds and poller must outlive it.
