@@ -42,7 +42,7 @@ struct HapticsWishes {
   std::vector<std::string> to, from, bones;
   std::vector<std::string> feel{"touch", "lead", "one"};
   double strength = 1.0, limit = 1.0, latency_ms = 0.0, seconds = 0.0;
-  bool check = false, realtime = false;
+  bool check = false, realtime = false, off = false, quiet = false;
 };
 
 Result<HapticOptions> options_of(const HapticsWishes& wishes) {
@@ -51,6 +51,7 @@ Result<HapticOptions> options_of(const HapticsWishes& wishes) {
   options.address = wishes.address;
   options.player.strength = static_cast<float>(wishes.strength);
   options.player.limit = static_cast<float>(wishes.limit);
+  options.player.is_on = !wishes.off;
   options.player.latency = Duration::seconds(1e-3 * wishes.latency_ms);
   DANCE_TRY(options.player.bones, parse_bones(wishes.bones));
   DANCE_TRY(options.maker, parse_felt(wishes.feel));
@@ -147,7 +148,7 @@ Result<void> run(const HapticsWishes& wishes) {
       wishes.bus, {&feed}, [](const std::string& line) { talk::info("{}", line); }, *poller);
   if (!control) talk::warn("{}", control.error().what);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
-  watch_terminal(*poller, feed);
+  if (!wishes.quiet) watch_terminal(*poller, feed);
   if (wishes.seconds > 0.0) {
     poller->add_timer(mono_now() + Duration::seconds(wishes.seconds), [&](MonoTime) {
       poller->stop();
@@ -196,6 +197,8 @@ int main(int argc, char** argv) {
   line.add("--seconds", wishes.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
   line.add("--bus", wishes.bus, "LCM URL of the bus");
   line.add_flag("--realtime", wishes.realtime, "goes before other programs, where it may");
+  line.add_flag("--off", wishes.off, "felt only once it is switched on");
+  line.add_flag("--quiet", wishes.quiet, "enter in this terminal switches nothing");
   line.add_flag("--check", wishes.check, "measures how exactly orders reach the devices");
   line.footer(dance::kExamples);
   line.finally([&]() -> dance::Result<void> {

@@ -250,6 +250,10 @@ Result<void> House::open_consumers() {
 // A device that is not there now is no reason not to dance.
 void House::open_haptics() {
   for (const HostedHaptics& wanted : session_.haptics) {
+    if (wanted.realtime) {
+      haptic_programs_.push_back(HouseHaptics::open(wanted, bus_->url(), poller_));
+      continue;
+    }
     auto output = make_haptic_output(wanted.to, wanted.options);
     if (output) {
       talk::info("{} feels by {}", wanted.guest.view(), wanted.to);

@@ -20,6 +20,7 @@
 #include "haptics/haptic_control.h"
 #include "house/house_avatars.h"
 #include "house/house_camera.h"
+#include "house/house_haptics.h"
 #include "house/house_music.h"
 #include "house/house_port.h"
 #include "house/session.h"
@@ -68,6 +69,7 @@ class House {
   std::vector<std::unique_ptr<PoseReceiver>> receivers_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
   std::vector<std::unique_ptr<HapticFeed>> haptics_;
+  std::vector<std::unique_ptr<HouseHaptics>> haptic_programs_;
   std::vector<std::unique_ptr<HapticControl>> haptic_controls_;  // one of each guest
   std::unique_ptr<HouseAvatars> avatars_;
   std::unique_ptr<HouseMusic> music_;

@@ -53,6 +53,28 @@ TEST_F(BusPrograms, WhatACoupleFeelsIsRecordedAndFeltAgainInAReplay) {
   EXPECT_TRUE(wait_for([&] { return feels(*ear); })) << text_of(folder_.path("talk"));
 }
 
+// At real-time priority, so by a program of its own, which is told things like the house.
+TEST_F(BusPrograms, AHouseRunsHapticsThatAreToBeExactAsAProgramOfItsOwn) {
+  ::setenv("XDG_RUNTIME_DIR", folder_.path("").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  auto ear = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(ear);
+  std::ofstream(folder_.path("exact.toml"))
+      << "[house]\nbus = \"" << kBus << "\"\nguests = [\"alice\", \"bob\"]\n"
+      << "[[produce]]\nkind = \"salsa\"\nguest = \"alice\"\nrole = \"lead\"\n"
+      << "[[produce]]\nkind = \"salsa\"\nguest = \"bob\"\nrole = \"follow\"\n"
+      << "[[route]]\nfrom = \"POSE/capture/*\"\nto = \"POSE/stage/*\"\n"
+      << "[[haptics]]\nguest = \"alice\"\nto = \"osc\"\nrealtime = true\non = false\n"
+      << "feel = [\"touch\", \"lead\"]\nfrom = [\"bob\"]\naddress = \""
+      << ear->local_address().to_string() << "\"\n";
+  start("dance-manager", {folder_.path("exact.toml")});
+  const std::string set = bin("dance-haptics-set") + " --guest alice --bus " + quoted(kBus);
+  ASSERT_TRUE(wait_for([&] { return run(set + " --limit 0.5").exit_code == 0; }))
+      << text_of(folder_.path("talk"));
+  EXPECT_FALSE(feels(*ear)) << "it was to begin switched off";
+  EXPECT_EQ(run(set + " --on").exit_code, 0);
+  EXPECT_TRUE(wait_for([&] { return feels(*ear); })) << text_of(folder_.path("talk"));
+}
+
 TEST(HapticPrograms, SayInOneLineWhatIsMissing) {
   const Finished none = run(bin("dance-haptics"));
   EXPECT_EQ(none.exit_code, 2);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "consumers/consumer_table.h"
+#include "house/session_haptics.h"
 
 namespace dance {
 namespace {
@@ -126,6 +127,25 @@ TEST(Session, HapticsAreOfSomeBonesAndOfThoseWhoAreNamed) {
   EXPECT_EQ(options.player.bones, 1u << index_of(Bone::kLeftHand));
   EXPECT_NE(error_of(haptics + "bones = [\"left-hand\"]\n").find("leftHand"), std::string::npos);
   EXPECT_EQ(error_of(haptics + "from = [\"Not A Guest\"]\n").rfind("s.toml:", 0), 0u);
+}
+
+TEST(Session, ExactHapticsAreAProgramThatIsToldAllThatTheSessionSays) {
+  const auto session = parse_session(
+      std::string(kHouse) +
+          "[[haptics]]\nguest = \"alice\"\nto = \"evdev\"\ndevice = \"-Joy-Con\"\nlimit = 0.5\n"
+          "latency_ms = 15\non = false\nfeel = [\"lead\", \"beats\"]\nfrom = [\"bob\", \"eve\"]\n"
+          "bones = [\"leftHand\"]\nrealtime = true\n",
+      "s.toml");
+  ASSERT_TRUE(session) << session.error().what;
+  ASSERT_TRUE(session->haptics[0].realtime);
+  const std::vector<std::string> expected{
+      "--bus",          "memq://",           "--guest",
+      "alice",          "--realtime",        "--quiet",
+      "--to=evdev",     "--device=-Joy-Con", "--strength=1.0000",
+      "--limit=0.5000", "--latency=15.000",  "--off",
+      "--feel=lead",    "--feel=beats",      "--from=bob",
+      "--from=eve",     "--bones=leftHand"};
+  EXPECT_EQ(haptics_arguments(session->haptics[0], "memq://"), expected);
 }
 
 TEST(Session, HapticsOfAGuestWhoDoesNotDanceHereAreAnErrorThatNamesThoseWhoDo) {
