@@ -1,6 +1,6 @@
-// HouseHaptics: a device of a house's session that is to be felt to the millisecond: a dance-haptics
-// program of its own beside the house, at real-time priority, which the house itself must not have.
-// It is started again when it ends.
+// HouseHaptics: a device of a house's session that is to be felt to the millisecond: a
+// dance-haptics program of its own beside the house, at real-time priority, which the house itself
+// must not have. It is started again when it ends.
 //
 // Units/frames: none.
 // Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it.

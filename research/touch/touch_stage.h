@@ -1,4 +1,5 @@
-// A couple on a stage as a house shows it, and who holds whom there: what `dance touch eval` judges.
+// A couple on a stage as a house shows it, and who holds whom there: what `dance touch eval`
+// judges.
 //
 // Units/frames: metres, seconds. Truth: palms of the recording within kTruth_m of each other.
 // Ownership:    plain values.

@@ -1,9 +1,10 @@
 // `dance touch eval` on synthetic couples: that it counts what it says, and that what it calls
 // chance and chosen on others is.
+#include "research/touch/touch_eval.h"
+
 #include <gtest/gtest.h>
 
 #include "producers/salsa/salsa_dancer.h"
-#include "research/touch/touch_eval.h"
 #include "research/touch/touch_spread.h"
 
 namespace dance {
