@@ -1,5 +1,7 @@
 #include "haptics/haptic_feed.h"
 
+#include <algorithm>
+
 #include "core/net/mono_clock.h"
 #include "core/net/secure_random.h"
 
@@ -107,6 +109,14 @@ void HapticFeed::hear(const Haptic& haptic, MonoTime now) {
 
 void HapticFeed::set_on(bool is_on) {
   for (const auto& player : players_) player->set_on(is_on);
+}
+
+bool HapticFeed::is_on() const {
+  return std::any_of(players_.begin(), players_.end(), [](const auto& p) { return p->is_on(); });
+}
+
+void HapticFeed::set_limit(float limit) {
+  for (const auto& player : players_) player->set_limit(limit);
 }
 
 }  // namespace dance

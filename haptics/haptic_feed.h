@@ -37,11 +37,17 @@ class HapticFeed final : private HapticSink {
 
   void add(std::unique_ptr<HapticPlayer> player) { players_.push_back(std::move(player)); }
   void set_on(bool is_on);
+  // Whether a device is.
+  bool is_on() const;
+  void set_limit(float limit);
+  const GuestId& guest() const { return guest_; }
   std::uint64_t touches() const { return touches_; }
   std::uint64_t made() const { return made_; }
   std::uint64_t heard() const { return heard_; }
   // Left out, as another maker had ordered the same.
   std::uint64_t twice() const { return twice_; }
+  // Left out, as others touched more often than is felt.
+  std::uint64_t left_out() const { return maker_.left_out(); }
   std::uint64_t of_other_clocks() const { return of_other_clocks_; }
   const std::vector<std::unique_ptr<HapticPlayer>>& players() const { return players_; }
 

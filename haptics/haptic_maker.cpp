@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dance {
 namespace {
@@ -35,6 +36,23 @@ HapticMaker::Contact* HapticMaker::place_of(const Touch& touch, MonoTime now) {
   return free;
 }
 
+bool HapticMaker::is_felt(const GuestId& other) const {
+  const auto& from = options_.from;
+  return from.empty() || std::find(from.begin(), from.end(), other) != from.end();
+}
+
+bool HapticMaker::admit(HapticSource source, Bone bone, MonoTime now) {
+  MonoTime& last = felt_at_[static_cast<std::size_t>(source)][index_of(bone)];
+  // A clock that went back is another one: felt.
+  const bool is_soon = last.is_set() && now >= last && now - last < kBetweenAtPlace;
+  if (is_soon || !felt_.take(1.0, now)) {
+    ++left_out_;
+    return false;
+  }
+  last = now;
+  return true;
+}
+
 void HapticMaker::order(HapticSource source, Bone bone, const Shape& shape, MonoTime play,
                         MonoTime now, HapticSink& sink) {
   Haptic haptic;
@@ -62,6 +80,7 @@ void HapticMaker::read_signal(const Touch& touch, Contact& contact, MonoTime now
   const float speed = v.cwiseAbs().maxCoeff(&axis);
   if (!(speed > kSignal_m_s)) return;
   contact.said = now;
+  if (!admit(HapticSource::kLead, touch.bone, now)) return;
   const float amplitude = 0.3f + 0.7f * std::min(1.0f, speed / kFastestSignal_m_s);
   const auto say = [&](Duration after, Shape shape) {
     order(HapticSource::kLead, touch.bone, shape, now + after, now, sink);
@@ -79,6 +98,7 @@ void HapticMaker::read_signal(const Touch& touch, Contact& contact, MonoTime now
 }
 
 void HapticMaker::take(const Touch& touch, MonoTime now, HapticSink& sink) {
+  if (!is_felt(touch.other)) return;
   Contact* contact = place_of(touch, now);
   const bool is_new = !contact || touch.phase == TouchPhase::kBegins;
   const HapticSource source = touch.is_hold ? HapticSource::kHold : HapticSource::kTouch;
@@ -87,18 +107,19 @@ void HapticMaker::take(const Touch& touch, MonoTime now, HapticSink& sink) {
   if (contact) contact->is_hold = touch.is_hold;
   if (touch.phase == TouchPhase::kEnded) {
     // A hand that lets go.
-    if (options_.touch && touch.is_hold)
+    if (options_.touch && touch.is_hold && admit(source, touch.bone, now))
       order(source, touch.bone, {Duration::ms(50), {}, Duration::ms(40), 0.3f, 250.0f}, now, now,
             sink);
     if (contact) *contact = Contact();
     return;
   }
   if (options_.touch && (is_new || becomes_hold)) {
+    if (contact) contact->felt = now;
+    if (!admit(source, touch.bone, now)) return;
     const Duration length = touch.is_hold ? Duration::ms(120) : Duration::ms(80);
     order(source, touch.bone,
           {length, {}, Duration::ms(30), touch.is_hold ? 0.5f : strength_of(touch.force_n), 170.0f},
           now, now, sink);
-    if (contact) contact->felt = now;
     return;
   }
   if (!contact) return;
@@ -111,7 +132,7 @@ void HapticMaker::take(const Touch& touch, MonoTime now, HapticSink& sink) {
   const double left = std::exp(-(now - contact->begun).as_seconds() / kFades.as_seconds());
   const float amplitude = 0.6f * strength_of(touch.force_n) * static_cast<float>(left);
   // Skin gets used to what stays.
-  if (amplitude < 0.05f) return;
+  if (amplitude < 0.05f || !admit(source, touch.bone, now)) return;
   order(source, touch.bone, {kAgain, Duration::ms(20), Duration::ms(40), amplitude, 130.0f}, now,
         now, sink);
 }

@@ -2,15 +2,19 @@
 // push, pull, raise and to the side, each with its own pattern. Pure: what it makes goes to a sink.
 //
 // Units/frames: times of this house's clock; touches as lcmtypes/touch_t.lcm has them.
-// Ownership:    room for kMostContacts; never allocates.
+// Ownership:    room for kMostContacts; never allocates after construction.
 // Threads:      none inside; one owner.
-// Failure:      more contacts than there is room for are felt as they begin, and not further.
+// Failure:      more contacts than there is room for are felt as they begin, and not further. What
+//               others do more often than a place, or the whole body, is to feel is left out and
+//               counted.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "core/base/beat_clock.h"
+#include "core/base/token_bucket.h"
 #include "core/signal/haptic.h"
 #include "core/signal/touch.h"
 
@@ -29,6 +33,7 @@ struct HapticMakerOptions {
   bool touch = true;  // bodies that touch, holds that begin and end
   bool lead = true;   // what the partner's hand does in a hold
   FeltBeats beats = FeltBeats::kOne;
+  std::vector<GuestId> from{};  // whose touches and holds; empty: everybody's
 };
 
 class HapticMaker {
@@ -42,14 +47,20 @@ class HapticMaker {
   // A hand that moves faster than this in a hold is a signal of the lead; at most one in kBetween.
   static constexpr float kSignal_m_s = 0.6f;
   static constexpr Duration kBetween = Duration::ms(300);
+  // Of touches one is felt at one place within kBetweenAtPlace, of holds and of the lead as well;
+  // of all that others do so many a second, and so many at once.
+  static constexpr Duration kBetweenAtPlace = Duration::ms(100);
+  static constexpr double kMost_hz = 15.0, kMostAtOnce = 12.0;
 
   HapticMaker(HapticMakerOptions options, std::uint64_t maker, std::uint64_t clock_id)
-      : options_(options), maker_(maker), clock_id_(clock_id) {}
+      : options_(std::move(options)), maker_(maker), clock_id_(clock_id) {}
 
   void take(const Touch& touch, MonoTime now, HapticSink& sink);
   void hear(const Beat& beat) { music_.hear(beat); }
   // Orders the beats that come soon; to be called at least five times a second.
   void look_ahead(MonoTime now, HapticSink& sink);
+  // Orders that were too many.
+  std::uint64_t left_out() const { return left_out_; }
 
  private:
   struct Contact {
@@ -66,6 +77,9 @@ class HapticMaker {
 
   Contact* place_of(const Touch& touch, MonoTime now);
   void read_signal(const Touch& touch, Contact& contact, MonoTime now, HapticSink& sink);
+  bool is_felt(const GuestId& other) const;
+  // Whether what another dancer did may be felt here now; counts it.
+  bool admit(HapticSource source, Bone bone, MonoTime now);
   void order(HapticSource source, Bone bone, const Shape& shape, MonoTime play, MonoTime now,
              HapticSink& sink);
 
@@ -76,6 +90,9 @@ class HapticMaker {
   double next_beat_ = 0.0;
   bool has_beat_ = false;
   std::array<Contact, kMostContacts> contacts_{};
+  std::array<std::array<MonoTime, kBoneCount>, kHapticSources> felt_at_{};
+  TokenBucket felt_{kMost_hz, kMostAtOnce};
+  std::uint64_t left_out_ = 0;
 };
 
 }  // namespace dance

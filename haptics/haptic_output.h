@@ -27,6 +27,10 @@ class HapticOutput {
   virtual void set_limit(float) {}
   // Nothing is felt any more, at once.
   virtual void stop() = 0;
+  // Whether the device can be had; of one that is sent to blindly, whether it can be sent to.
+  virtual bool is_there() const { return true; }
+  // Which device, for people.
+  virtual std::string name() const = 0;
   // From play() to what is felt, as the device itself reports; nothing where it does not.
   virtual Duration latency() const { return {}; }
   // One line: which device, and what went wrong.

@@ -16,7 +16,10 @@ constexpr Duration kSecond = Duration::s(1);
 
 HapticPlayer::HapticPlayer(std::unique_ptr<HapticOutput> output, HapticPlayerOptions options,
                            Poller& poller)
-    : output_(std::move(output)), options_(options), poller_(poller) {
+    : output_(std::move(output)),
+      options_(options),
+      poller_(poller),
+      was_there_(output_->is_there()) {
   output_->set_limit(options_.limit);
   timer_ = poller_.add_timer(mono_now(), [this](MonoTime now) { return run(now); });
 }
@@ -39,6 +42,10 @@ MonoTime HapticPlayer::next_run() const {
 void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
   if (!options_.is_on) {
     ++counters_.muted;
+    return;
+  }
+  if ((options_.bones & (1u << index_of(haptic.bone))) == 0) {
+    ++counters_.elsewhere;
     return;
   }
   Order order{haptic.play_time - options_.latency - output_->latency(), haptic};
@@ -68,6 +75,7 @@ void HapticPlayer::play(const Order& order) {
   if (!(order.haptic.amplitude > 0.0f)) return;
   if (!output_->play(order.haptic, mono_now())) {
     ++counters_.refused;
+    look_after_device();
     return;
   }
   lateness_.add(mono_now() - order.due);
@@ -92,8 +100,23 @@ MonoTime HapticPlayer::run(MonoTime now) {
   if ((output_wants_.is_set() && output_wants_ <= mono_now()) || now - worked_ >= kSecond) {
     worked_ = now;
     output_wants_ = output_->work(now);
+    look_after_device();
   }
   return next_run();
+}
+
+void HapticPlayer::look_after_device() {
+  const bool is_there = output_->is_there();
+  if (is_there == was_there_) return;
+  was_there_ = is_there;
+  if (tell_)
+    tell_(is_there, output_->name() + (is_there ? " is there, and felt again"
+                                                : " is lost: it is felt again when it is back"));
+}
+
+void HapticPlayer::set_limit(float limit) {
+  options_.limit = std::clamp(limit, 0.0f, 1.0f);
+  output_->set_limit(options_.limit);
 }
 
 void HapticPlayer::set_on(bool is_on) {
@@ -116,6 +139,7 @@ std::string HapticPlayer::summary() const {
   add(counters_.refused, "not taken by the device");
   add(counters_.limited, "made weaker, to the limit");
   add(counters_.muted, "left out while off");
+  add(counters_.elsewhere, "of other bones");
   return line;
 }
 

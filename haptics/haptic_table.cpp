@@ -32,6 +32,14 @@ Made make_bhaptics([[maybe_unused]] const HapticOptions& options) {
 #endif
 }
 
+#if DANCE_HAVE_BHAPTICS
+constexpr auto kBhapticsLater = [](const HapticOptions& o) {
+  return BhapticsOutput::later(o.address);
+};
+#else
+constexpr std::nullptr_t kBhapticsLater = nullptr;
+#endif
+
 #if DANCE_HAVE_SOUND
 constexpr auto kSoundLater = [](const HapticOptions& o) { return SoundOutput::later(o.device); };
 #else
@@ -49,8 +57,9 @@ Made make_sound([[maybe_unused]] const HapticOptions& options) {
 constexpr std::array<Row, 4> kRows{{
     {"evdev", false, [](const HapticOptions& o) { return EvdevOutput::open(o.device); },
      [](const HapticOptions& o) { return EvdevOutput::later(o.device); }},
-    {"osc", true, [](const HapticOptions& o) { return OscHaptics::open(o.address); }, nullptr},
-    {"bhaptics", true, make_bhaptics, nullptr},
+    {"osc", true, [](const HapticOptions& o) { return OscHaptics::open(o.address); },
+     [](const HapticOptions& o) { return OscHaptics::later(o.address); }},
+    {"bhaptics", true, make_bhaptics, kBhapticsLater},
     {"sound", false, make_sound, kSoundLater},
 }};
 
@@ -92,6 +101,21 @@ std::unique_ptr<HapticOutput> haptic_output_for_later(const std::string& to,
                                                       const HapticOptions& options) {
   const auto row = find_row(to);
   return row && (*row)->later ? (*row)->later(options) : nullptr;
+}
+
+Result<std::uint32_t> parse_bones(const std::vector<std::string>& names) {
+  std::uint32_t bones = 0;
+  for (const std::string& name : names) {
+    const auto bone = find_bone(name);
+    if (!bone) {
+      std::string known;
+      for (const BoneInfo& each : kBones)
+        known += (known.empty() ? "" : ", ") + std::string(each.name);
+      return fail("there is no bone '" + name + "'; there are: " + known);
+    }
+    bones |= 1u << index_of(*bone);
+  }
+  return bones == 0 ? kAllBones : bones;
 }
 
 Result<HapticMakerOptions> parse_felt(const std::vector<std::string>& words) {

@@ -33,6 +33,9 @@ Result<std::unique_ptr<HapticOutput>> make_haptic_output(const std::string& to,
 // One that is not there now, and is looked for again; null: this kind is not.
 std::unique_ptr<HapticOutput> haptic_output_for_later(const std::string& to,
                                                       const HapticOptions& options);
+// "leftHand", "leftLowerArm": what one device lets feel, as HapticPlayerOptions have it; all where
+// none is named.
+Result<std::uint32_t> parse_bones(const std::vector<std::string>& names);
 // "touch", "lead", "beat" or "beats": what is felt.
 Result<HapticMakerOptions> parse_felt(const std::vector<std::string>& words);
 

@@ -13,7 +13,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "haptics/evdev/evdev_devices.h"
-#include "haptics/haptic_feed.h"
+#include "haptics/haptic_control.h"
 #include "haptics/haptics_check.h"
 
 namespace dance {
@@ -26,28 +26,36 @@ constexpr const char* kExamples = R"(Examples:
   dance haptics --guest alice --to sound --device tactors --feel one lead
   dance haptics --guest alice --to osc --address 192.168.1.7:9001
   dance haptics --guest alice --to bhaptics          the bHaptics Player of this machine
+  dance haptics --guest alice --to evdev --device 'Joy-Con (L)' --bones leftHand leftLowerArm
+                                                     one for the left hand, one for the right
+  dance haptics --guest alice --to evdev --from bob  what bob does, and nobody else
+  dance haptics set --guest alice --off              from another terminal, while it runs
   dance haptics --check --to osc                     how exactly orders reach a device
 In a terminal, enter switches everything off, and on again. Several --to at once are several
-devices. touch: bodies that touch and hands that hold; lead: what the partner's hand does in a
-hold; one: the first beat of each bar; beats: all of them.
+devices. touch: bodies that touch and hands that hold;
+lead : what the partner's hand does in a hold;
+one : the first beat of each bar; beats: all of them.
 )";
 
 struct HapticsWishes {
   std::string what, bus, guest, device, address;
-  std::vector<std::string> to;
+  std::vector<std::string> to, from, bones;
   std::vector<std::string> feel{"touch", "lead", "one"};
   double strength = 1.0, limit = 1.0, latency_ms = 0.0, seconds = 0.0;
-  bool check = false, realtime = false;
+  bool check = false, realtime = false, off = false, quiet = false;
 };
 
-HapticOptions options_of(const HapticsWishes& wishes, const HapticMakerOptions& felt) {
+Result<HapticOptions> options_of(const HapticsWishes& wishes) {
   HapticOptions options;
   options.device = wishes.device;
   options.address = wishes.address;
   options.player.strength = static_cast<float>(wishes.strength);
   options.player.limit = static_cast<float>(wishes.limit);
+  options.player.is_on = !wishes.off;
   options.player.latency = Duration::seconds(1e-3 * wishes.latency_ms);
-  options.maker = felt;
+  DANCE_TRY(options.player.bones, parse_bones(wishes.bones));
+  DANCE_TRY(options.maker, parse_felt(wishes.feel));
+  for (const std::string& name : wishes.from) options.maker.from.push_back(*GuestId::parse(name));
   return options;
 }
 
@@ -90,15 +98,14 @@ Result<void> run_check(const HapticsWishes& wishes, const HapticOptions& options
 void watch_terminal(Poller& poller, HapticFeed& feed) {
   if (!is_in_foreground()) return;
   talk::info("enter switches off, and on again");
-  poller.watch(STDIN_FILENO, [&poller, &feed, is_on = true](MonoTime) mutable {
+  poller.watch(STDIN_FILENO, [&poller, &feed](MonoTime) {
     std::array<char, 256> line{};
     if (read(STDIN_FILENO, line.data(), line.size()) <= 0) {
       poller.unwatch(STDIN_FILENO);
       return;
     }
-    is_on = !is_on;
-    feed.set_on(is_on);
-    talk::info("{}", is_on ? "on" : "off");
+    feed.set_on(!feed.is_on());
+    talk::info("{}", feed.is_on() ? "on" : "off");
   });
 }
 
@@ -115,15 +122,14 @@ void ask_for_realtime() {
 Result<void> run(const HapticsWishes& wishes) {
   if (wishes.what == "list") return list_devices();
   if (wishes.realtime) ask_for_realtime();
-  DANCE_TRY(const HapticMakerOptions felt, parse_felt(wishes.feel));
-  const HapticOptions options = options_of(wishes, felt);
+  DANCE_TRY(const HapticOptions options, options_of(wishes));
   DANCE_TRY(const auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return tl::make_unexpected(stops.error());
   if (wishes.check) return run_check(wishes, options, *poller);
   const auto guest = GuestId::parse(wishes.guest);
   if (!guest) return fail("--guest says who feels it, as --guest alice");
   DANCE_TRY(const auto bus, Bus::open(wishes.bus));
-  HapticFeed feed(*guest, felt, *bus, *poller);
+  HapticFeed feed(*guest, options.maker, *bus, *poller);
   for (const std::string& to : wishes.to) {
     HapticOptions own = options;
     // Of several kinds each takes what is for it.
@@ -134,8 +140,15 @@ Result<void> run(const HapticsWishes& wishes) {
     DANCE_TRY(auto output, make_haptic_output(to, own));
     feed.add(std::make_unique<HapticPlayer>(std::move(output), own.player, *poller));
   }
+  for (const auto& player : feed.players())
+    player->tell_changes([](bool is_there, const std::string& line) {
+      is_there ? talk::info("{}", line) : talk::warn("{}", line);
+    });
+  const auto control = HapticControl::open(
+      wishes.bus, {&feed}, [](const std::string& line) { talk::info("{}", line); }, *poller);
+  if (!control) talk::warn("{}", control.error().what);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
-  watch_terminal(*poller, feed);
+  if (!wishes.quiet) watch_terminal(*poller, feed);
   if (wishes.seconds > 0.0) {
     poller->add_timer(mono_now() + Duration::seconds(wishes.seconds), [&](MonoTime) {
       poller->stop();
@@ -147,6 +160,9 @@ Result<void> run(const HapticsWishes& wishes) {
   poller->unwatch(bus->fd());
   talk::info("{} touches heard, {} haptics made, {} heard of others", feed.touches(), feed.made(),
              feed.heard());
+  if (feed.left_out() > 0)
+    talk::info("{} touches were left out, as others touched more often than is felt",
+               feed.left_out());
   if (feed.of_other_clocks() > 0)
     talk::warn("{} messages are of another machine's clock and were left out",
                feed.of_other_clocks());
@@ -165,6 +181,8 @@ int main(int argc, char** argv) {
   line.add("--guest", wishes.guest, "who feels it").guest_name();
   line.add("--to", wishes.to, "kinds of devices").one_of(dance::haptic_output_names());
   line.add("--feel", wishes.feel, "touch, lead, one, beats; without it touch, lead and one");
+  line.add("--from", wishes.from, "whose touches are felt; without it everybody's").guest_name();
+  line.add("--bones", wishes.bones, "of what is felt, that of these bones only, as leftHand");
   line.add("--device", wishes.device,
            "evdev: a path, or a part of the name; sound: the sink. Without it, the first");
   line.add("--address", wishes.address, "osc and bhaptics: host:port; without it, the usual one");
@@ -179,10 +197,14 @@ int main(int argc, char** argv) {
   line.add("--seconds", wishes.seconds, "how long; 0 = until told to stop").range(0.0, 1e7);
   line.add("--bus", wishes.bus, "LCM URL of the bus");
   line.add_flag("--realtime", wishes.realtime, "goes before other programs, where it may");
+  line.add_flag("--off", wishes.off, "felt only once it is switched on");
+  line.add_flag("--quiet", wishes.quiet, "enter in this terminal switches nothing");
   line.add_flag("--check", wishes.check, "measures how exactly orders reach the devices");
   line.footer(dance::kExamples);
   line.finally([&]() -> dance::Result<void> {
     if (auto felt = dance::parse_felt(wishes.feel); !felt) return tl::make_unexpected(felt.error());
+    if (auto bones = dance::parse_bones(wishes.bones); !bones)
+      return dance::fail("--bones: " + bones.error().what);
     if (wishes.what.empty() && !wishes.check && (wishes.guest.empty() || wishes.to.empty()))
       return dance::fail("say who feels it and with what: --guest alice --to evdev; or: list");
     return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "consumers/consumer_feed.h"
@@ -9,7 +10,6 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "formats/clip/dancers_file.h"
-#include "haptics/haptic_feed.h"
 #include "producers/receive/receiver_table.h"
 #include "producers/replay/clip_dancer.h"
 #include "producers/salsa/salsa_dancer.h"
@@ -128,6 +128,10 @@ House::~House() {
         manager_->without_touch());
   for (const auto& feed : haptics_)
     for (const auto& player : feed->players()) talk::info("{}", player->summary());
+  for (const auto& feed : haptics_)
+    if (feed->left_out() > 0)
+      talk::info("{}: {} touches were left out, as others touched more often than is felt",
+                 feed->guest().view(), feed->left_out());
   for (auto& consumer : consumers_) {
     if (auto finished = consumer->finish(); !finished) talk::error("{}", finished.error().what);
   }
@@ -246,6 +250,10 @@ Result<void> House::open_consumers() {
 // A device that is not there now is no reason not to dance.
 void House::open_haptics() {
   for (const HostedHaptics& wanted : session_.haptics) {
+    if (wanted.realtime) {
+      haptic_programs_.push_back(HouseHaptics::open(wanted, bus_->url(), poller_));
+      continue;
+    }
     auto output = make_haptic_output(wanted.to, wanted.options);
     if (output) {
       talk::info("{} feels by {}", wanted.guest.view(), wanted.to);
@@ -257,8 +265,29 @@ void House::open_haptics() {
       output = std::move(later);
     }
     auto feed = std::make_unique<HapticFeed>(wanted.guest, wanted.options.maker, *port_, poller_);
-    feed->add(std::make_unique<HapticPlayer>(std::move(*output), wanted.options.player, poller_));
+    auto player =
+        std::make_unique<HapticPlayer>(std::move(*output), wanted.options.player, poller_);
+    player->tell_changes([guest = wanted.guest](bool is_there, const std::string& line) {
+      is_there ? talk::info("{}: {}", guest.view(), line)
+               : talk::warn("{}: {}", guest.view(), line);
+    });
+    feed->add(std::move(player));
     haptics_.push_back(std::move(feed));
+  }
+  open_haptic_controls();
+}
+
+void House::open_haptic_controls() {
+  std::map<GuestId, std::vector<HapticFeed*>> feeds;
+  for (const auto& feed : haptics_) feeds[feed->guest()].push_back(feed.get());
+  for (auto& [guest, own] : feeds) {
+    auto control = HapticControl::open(
+        bus_->url(), std::move(own), [](const std::string& line) { talk::info("{}", line); },
+        poller_);
+    if (control)
+      haptic_controls_.push_back(std::move(*control));
+    else
+      talk::warn("{}", control.error().what);
   }
 }
 

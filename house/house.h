@@ -17,9 +17,10 @@
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
 #include "core/program/message_throttle.h"
-#include "haptics/haptic_feed.h"
+#include "haptics/haptic_control.h"
 #include "house/house_avatars.h"
 #include "house/house_camera.h"
+#include "house/house_haptics.h"
 #include "house/house_music.h"
 #include "house/house_port.h"
 #include "house/session.h"
@@ -52,6 +53,7 @@ class House {
   Result<void> open_producers();
   Result<void> open_consumers();
   void open_haptics();
+  void open_haptic_controls();
   void add_talk(LinkHandlers& handlers);
 
   HouseConfig session_;
@@ -67,6 +69,8 @@ class House {
   std::vector<std::unique_ptr<PoseReceiver>> receivers_;
   std::vector<std::unique_ptr<PoseConsumer>> consumers_;
   std::vector<std::unique_ptr<HapticFeed>> haptics_;
+  std::vector<std::unique_ptr<HouseHaptics>> haptic_programs_;
+  std::vector<std::unique_ptr<HapticControl>> haptic_controls_;  // one of each guest
   std::unique_ptr<HouseAvatars> avatars_;
   std::unique_ptr<HouseMusic> music_;
   std::unique_ptr<HouseVoice> voice_;

@@ -72,6 +72,7 @@ struct HostedHaptics {
   std::string to = "evdev";  // a name of haptics/haptic_table.h
   GuestId guest;
   HapticOptions options;
+  bool realtime = false;  // by a program of its own, which goes before others
 };
 
 // The music of the house, played beside it.

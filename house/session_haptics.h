@@ -13,4 +13,7 @@ namespace dance {
 
 void read_haptics(TomlReader& reader, HouseConfig& session);
 
+// The words of `dance haptics` for what a session says.
+std::vector<std::string> haptics_arguments(const HostedHaptics& haptics, const std::string& bus);
+
 }  // namespace dance

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstring>
 #include <thread>
 
@@ -31,14 +32,13 @@ struct BhapticsOutput::Impl {
   };
   // lws finds it by the address of its first member.
   lws_sorted_usec_list_t again{};
-  std::string host, address;
-  int port = kUsualPort;
+  std::string address;  // as it was given
   lws_context* context = nullptr;
   lws* connection = nullptr;
   SpscRing<Order, 64> orders;
   std::optional<Order> next;
   std::atomic<bool> is_connected{false}, ends{false};
-  std::atomic<std::uint64_t> written{0}, connections{0}, late{0};
+  std::atomic<std::uint64_t> written{0}, connections{0}, failures{0}, late{0};
   std::thread thread;
 
   static int on_event(lws* wsi, lws_callback_reasons reason, void* user, void* data,
@@ -50,11 +50,17 @@ struct BhapticsOutput::Impl {
   void run();
 };
 
+// In its own thread, as looking a name up may take seconds.
 void BhapticsOutput::Impl::connect() {
+  const auto to = Address::resolve(address, kUsualPort);
+  if (!to) return lost();
+  const std::string text = to->to_string();
+  std::string host = text.substr(0, text.rfind(':'));
+  if (host.starts_with('[')) host = host.substr(1, host.size() - 2);
   lws_client_connect_info info{};
   info.context = context;
   info.address = host.c_str();
-  info.port = port;
+  info.port = to->port();
   info.path = kPath;
   info.host = host.c_str();
   info.origin = host.c_str();
@@ -66,6 +72,7 @@ void BhapticsOutput::Impl::connect() {
 void BhapticsOutput::Impl::lost() {
   connection = nullptr;
   is_connected = false;
+  ++failures;
   if (!ends) lws_sul_schedule(context, 0, &again, connect_again, kAgain_us);
 }
 
@@ -128,14 +135,27 @@ void BhapticsOutput::Impl::run() {
 }
 
 Result<std::unique_ptr<HapticOutput>> BhapticsOutput::open(const std::string& address) {
-  DANCE_TRY(const Address to,
-            Address::resolve(address.empty() ? kUsualAddress : address, kUsualPort));
+  const std::string wanted = address.empty() ? kUsualAddress : address;
+  DANCE_TRY(const Address to, Address::resolve(wanted, kUsualPort));
+  auto output = start(wanted);
+  if (!output) return fail("libwebsockets cannot be started: no memory, or too many files");
+  const Impl& impl = *output->impl_;
+  const MonoTime begin = mono_now();
+  while (!impl.is_connected && impl.failures == 0 && mono_now() - begin < kAnswers)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  if (!impl.is_connected)
+    return fail("no bHaptics Player at " + to.to_string() +
+                ": start it, or say where it is with an address, as 192.168.1.7:15881");
+  return std::unique_ptr<HapticOutput>(std::move(output));
+}
+
+std::unique_ptr<HapticOutput> BhapticsOutput::later(const std::string& address) {
+  return start(address.empty() ? kUsualAddress : address);
+}
+
+std::unique_ptr<BhapticsOutput> BhapticsOutput::start(const std::string& address) {
   auto impl = std::make_unique<Impl>();
-  impl->address = to.to_string();
-  const std::size_t colon = impl->address.rfind(':');
-  impl->host = impl->address.substr(0, colon);
-  if (impl->host.starts_with('[')) impl->host = impl->host.substr(1, impl->host.size() - 2);
-  impl->port = std::stoi(impl->address.substr(colon + 1));
+  impl->address = address;
   lws_set_log_level(0, nullptr);
   static const std::array<lws_protocols, 2> kProtocols{
       {{"dance-haptics", Impl::on_event, 0, 512, 0, nullptr, 0},
@@ -147,10 +167,10 @@ Result<std::unique_ptr<HapticOutput>> BhapticsOutput::open(const std::string& ad
   info.gid = static_cast<gid_t>(-1);
   info.uid = static_cast<uid_t>(-1);
   impl->context = lws_create_context(&info);
-  if (!impl->context) return fail("libwebsockets cannot be started: no memory, or too many files");
+  if (!impl->context) return nullptr;
   Impl* const raw = impl.get();
   impl->thread = std::thread([raw] { raw->run(); });
-  return std::unique_ptr<HapticOutput>(new BhapticsOutput(std::move(impl)));
+  return std::unique_ptr<BhapticsOutput>(new BhapticsOutput(std::move(impl)));
 }
 
 BhapticsOutput::BhapticsOutput(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -175,8 +195,12 @@ void BhapticsOutput::stop() {
   lws_cancel_service(impl_->context);
 }
 
+bool BhapticsOutput::is_there() const { return impl_->is_connected; }
+
+std::string BhapticsOutput::name() const { return "bHaptics Player at " + impl_->address; }
+
 std::string BhapticsOutput::summary() const {
-  std::string line = "bHaptics Player at " + impl_->address;
+  std::string line = name();
   if (impl_->connections == 0) return line + ", which was not found";
   if (!impl_->is_connected) line += ", lost";
   line += ", " + std::to_string(impl_->written) + " messages";

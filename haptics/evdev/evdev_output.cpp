@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <filesystem>
 
 #include "haptics/evdev/evdev_devices.h"
 
@@ -28,6 +29,10 @@ class KernelFile final : public ForceFeedbackFile {
     event.code = static_cast<std::uint16_t>(code);
     event.value = value;
     return write(fd_, &event, sizeof event) == sizeof event ? 0 : -1;
+  }
+  bool is_there() override {
+    int version = 0;
+    return ioctl(fd_, EVIOCGVERSION, &version) >= 0 || errno != ENODEV;
   }
 
  private:
@@ -81,7 +86,12 @@ std::size_t slots_of(int effects) {
 }
 
 bool fits(const EvdevDevice& device, const std::string& wanted) {
-  return device.path == wanted || wanted.empty() || device.name.find(wanted) != std::string::npos;
+  if (wanted.starts_with('/')) {
+    std::error_code error;  // not there: as it is written
+    const auto path = std::filesystem::weakly_canonical(wanted, error);
+    return device.path == (error ? wanted : path.string());
+  }
+  return wanted.empty() || device.name.find(wanted) != std::string::npos;
 }
 
 }  // namespace
@@ -150,11 +160,7 @@ bool EvdevOutput::play(const Haptic& haptic, MonoTime now) {
   if (felt < 0.01f && level > 0.0f) return true;  // what runs is as strong as may be
   ff_effect effect = effect_of(haptic, rumbles_, felt, slot->id);
   if (file_->upload(&effect) < 0 || file_->write_event(effect.id, 1) < 0) {
-    if (errno == ENODEV) {
-      file_ = nullptr;
-      slots_ = {};
-      ++lost_;
-    }
+    if (errno == ENODEV) lose();
     return false;
   }
   slot->id = effect.id;
@@ -177,7 +183,15 @@ float EvdevOutput::make_room(const Slot& slot, float level, MonoTime now) {
   return std::min(level, limit_);
 }
 
+void EvdevOutput::lose() {
+  file_ = nullptr;
+  slots_ = {};
+  ++lost_;
+}
+
 MonoTime EvdevOutput::work(MonoTime now) {
+  // Also while nothing is played.
+  if (file_ && !file_->is_there()) lose();
   if (file_ || !looks_ || (looked_.is_set() && now - looked_ < kLooks)) return {};
   looked_ = now;
   static_cast<void>(find());

@@ -26,6 +26,7 @@ class ForceFeedbackFile {
   virtual int upload(void* ff_effect) = 0;
   virtual int remove(int id) = 0;
   virtual int write_event(int code, int value) = 0;  // of type EV_FF
+  virtual bool is_there() = 0;
 };
 
 class EvdevOutput final : public HapticOutput {
@@ -34,7 +35,8 @@ class EvdevOutput final : public HapticOutput {
   static constexpr std::size_t kSlots = 4;
   static constexpr Duration kLooks = Duration::s(3);
 
-  // `device`: a path, a part of a name, or "" = the first that rumbles.
+  // `device`: a path (or a link to one, as those in /dev/input/by-id, which stay the same when it
+  // is plugged in again), a part of a name, or "" = the first that rumbles.
   static Result<std::unique_ptr<HapticOutput>> open(const std::string& device);
   // One that is not there yet.
   static std::unique_ptr<HapticOutput> later(const std::string& device);
@@ -46,6 +48,8 @@ class EvdevOutput final : public HapticOutput {
   MonoTime work(MonoTime now) override;
   void set_limit(float limit) override { limit_ = limit; }
   void stop() override;
+  bool is_there() const override { return file_ != nullptr; }
+  std::string name() const override { return name_; }
   std::string summary() const override;
 
  private:
@@ -54,6 +58,7 @@ class EvdevOutput final : public HapticOutput {
     MonoTime until;
     float level = 0.0f;
   };
+  void lose();
   static std::unique_ptr<EvdevOutput> not_there_yet(const std::string& device);
   // Opens the first device that is wanted and can be had; its name.
   Result<std::string> find();

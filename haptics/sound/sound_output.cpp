@@ -160,9 +160,14 @@ void SoundOutput::stop() { impl_->orders.push({Haptic(), true}); }
 
 Duration SoundOutput::latency() const { return Duration::us(impl_->latency_us); }
 
+bool SoundOutput::is_there() const { return impl_->is_alive; }
+
+std::string SoundOutput::name() const {
+  return "sound" + (impl_->sink.empty() ? "" : " on " + impl_->sink);
+}
+
 std::string SoundOutput::summary() const {
-  std::string line = "sound" + (impl_->sink.empty() ? "" : " on " + impl_->sink) + ", " +
-                     std::to_string(latency().count_ms()) + " ms late by itself";
+  std::string line = name() + ", " + std::to_string(latency().count_ms()) + " ms late by itself";
   if (!impl_->is_alive) line += ", no sound server now";
   if (impl_->losses > 0) line += ", lost " + std::to_string(impl_->losses) + " times";
   if (impl_->underflows > 0) line += ", " + std::to_string(impl_->underflows) + " gaps";

@@ -30,6 +30,8 @@ class SoundOutput final : public HapticOutput {
   bool play(const Haptic& haptic, MonoTime now) override;
   void set_limit(float limit) override;
   void stop() override;
+  bool is_there() const override;
+  std::string name() const override;
   Duration latency() const override;
   std::string summary() const override;
 

@@ -4,10 +4,6 @@
 #include <array>
 #include <chrono>
 
-#include "core/base/assert.h"
-#include "core/codec/pose_codec.h"
-#include "core/motion/palm_pull.h"
-#include "testing/line/line_arrivals.h"
 #include "transformers/touch/stage_touch.h"
 
 namespace dance {
@@ -16,156 +12,6 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr std::uint64_t kClock = 1;
-constexpr std::size_t kPairs = 4;
-
-// What a stage shows at one moment, and what was danced then.
-struct Shown {
-  std::array<Pose, 2> danced, shown;
-  MonoTime at;
-};
-using Stage = std::vector<Shown>;
-
-std::vector<Pose> through_codec(const PredictTake& take) {
-  const auto encoder = make_pose_encoder(known_codecs().front());
-  const auto decoder = make_pose_decoder(known_codecs().front());
-  encoder->set_skeleton(take.skeleton);
-  decoder->set_skeleton(take.skeleton);
-  std::vector<Pose> out;
-  std::array<std::uint8_t, kMaxPosePayload> payload{};
-  for (const Pose& pose : take.poses) {
-    const std::size_t size = encoder->encode(pose, payload);
-    Pose decoded = pose;
-    const DecodeResult result =
-        decoder->decode(pose.sequence, std::span(payload).first(size), decoded);
-    DANCE_ASSERT(result == DecodeResult::kPose, size, static_cast<int>(result));
-    decoded.sequence = pose.sequence;
-    decoded.capture_time = pose.capture_time;
-    decoded.clock_id = pose.clock_id;
-    out.push_back(decoded);
-  }
-  return out;
-}
-
-Stage captured_stage(const CoupleTake& couple, const std::array<std::vector<Pose>, 2>& poses,
-                     Duration warm_up) {
-  Stage stage;
-  const MonoTime begin = couple[0].poses.front().capture_time + warm_up;
-  for (std::size_t i = 0; i < couple[0].poses.size(); ++i)
-    if (couple[0].poses[i].capture_time >= begin)
-      stage.push_back({{couple[0].poses[i], couple[1].poses[i]},
-                       {poses[0][i], poses[1][i]},
-                       couple[0].poses[i].capture_time});
-  return stage;
-}
-
-// The first dancer is here, the second comes over the line and through the route.
-Stage streamed_stage(const CoupleTake& couple, const TouchLine& how) {
-  Random random(7);
-  CoupleTake seen = couple;
-  for (PredictTake& take : seen) take.poses = trembling(take.poses, how.noise_deg, random);
-  const std::vector<Pose> sent = through_codec(seen[1]);
-  LossySpec spec;
-  spec.delay = how.delay;
-  spec.tail = how.jitter;
-  spec.loss = 0.01 * how.loss_percent;
-  LossyModel line({.spec = spec}, 1);
-  const std::vector<LineArrival> arrivals =
-      arrivals_over(line, sent.size(), [&](std::size_t i) { return sent[i].capture_time; });
-  auto flow = Flow::make(how.through, how.parts);
-  DANCE_ASSERT(flow.has_value());
-  PartnerTracks here;
-  flow->set_dancers(&here);
-  flow->set_body(seen[1].skeleton);
-  const auto learner = flow->learner();
-  Stage stage;
-  std::size_t next = 0;
-  Pose newest;
-  for (std::size_t i = 0; i < couple[0].poses.size(); ++i) {
-    const MonoTime now = couple[0].poses[i].capture_time;
-    here.take(*GuestId::parse("lead"), seen[0].poses[i], &seen[0].skeleton);
-    for (; next < arrivals.size() && arrivals[next].at <= now; ++next) {
-      newest = sent[arrivals[next].index];
-      if (!flow->is_pass_through()) flow->observe(newest, arrivals[next].at);
-      if (learner && newest.sequence % 20 == 0) learner->learn();
-    }
-    Pose shown = newest;
-    if (!flow->is_pass_through() && !flow->sample(now, shown)) continue;
-    if (now - couple[0].poses.front().capture_time >= how.warm_up)
-      stage.push_back({{couple[0].poses[i], couple[1].poses[i]}, {seen[0].poses[i], shown}, now});
-  }
-  return stage;
-}
-
-std::array<Vector3f, 2> palms_of(const Skeleton& skeleton, const Pose& pose) {
-  BodyFrames frames;
-  forward_kinematics(skeleton, pose, frames);
-  return {palm_of(skeleton, frames, 0), palm_of(skeleton, frames, 1)};
-}
-
-std::array<float, kPairs> gaps_of(const CoupleTake& couple, const std::array<Pose, 2>& poses) {
-  const auto lead = palms_of(couple[0].skeleton, poses[0]);
-  const auto follow = palms_of(couple[1].skeleton, poses[1]);
-  std::array<float, kPairs> gaps{};
-  for (std::size_t k = 0; k < kPairs; ++k) gaps[k] = (lead[k / 2] - follow[k % 2]).norm();
-  return gaps;
-}
-
-// Counts what one way reports, pair of palms by pair.
-class HoldCount {
- public:
-  void add(const std::array<bool, kPairs>& reported, const std::array<float, kPairs>& danced) {
-    for (std::size_t k = 0; k < kPairs; ++k) {
-      const bool is_true = danced[k] <= kTruth_m;
-      figures_.true_frames += is_true;
-      figures_.found_frames += is_true && reported[k];
-      figures_.held_frames += reported[k];
-      figures_.apart_frames += reported[k] && danced[k] > 2.0f * kTruth_m;
-      figures_.true_holds += is_true && !was_true_[k];
-      figures_.breaks += is_true && was_true_[k] && was_[k] && !reported[k];
-      if (reported[k] && !was_[k]) {
-        ++figures_.holds;
-        has_truth_[k] = false;
-        nearest_m_[k] = danced[k];
-      }
-      if (reported[k]) {
-        has_truth_[k] = has_truth_[k] || is_true;
-        nearest_m_[k] = std::min(nearest_m_[k], danced[k]);
-      }
-      if (was_[k] && !reported[k]) end(k);
-      was_[k] = reported[k];
-      was_true_[k] = is_true;
-    }
-  }
-  HoldFigures figures(double seconds) {
-    for (std::size_t k = 0; k < kPairs; ++k)
-      if (was_[k]) end(k);
-    figures_.seconds = seconds;
-    return figures_;
-  }
-
- private:
-  void end(std::size_t k) {
-    figures_.false_holds += !has_truth_[k];
-    figures_.far_holds += nearest_m_[k] > 1.5f * kTruth_m;
-  }
-  HoldFigures figures_;
-  std::array<float, kPairs> nearest_m_{};
-  std::array<bool, kPairs> was_{}, was_true_{}, has_truth_{};
-};
-
-HoldFigures sum(HoldFigures a, const HoldFigures& b) {
-  a.true_frames += b.true_frames;
-  a.found_frames += b.found_frames;
-  a.held_frames += b.held_frames;
-  a.apart_frames += b.apart_frames;
-  a.holds += b.holds;
-  a.false_holds += b.false_holds;
-  a.far_holds += b.far_holds;
-  a.true_holds += b.true_holds;
-  a.breaks += b.breaks;
-  a.seconds += b.seconds;
-  return a;
-}
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -190,7 +36,7 @@ struct Judged {
   HoldFigures plain, ours;
 };
 
-Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limits& limits,
+Judged judge(const CoupleTake& couple, const ShownStage& stage, const PalmHold::Limits& limits,
              Gaps& gaps, Costs& costs) {
   const GuestId lead = *GuestId::parse("lead"), follow = *GuestId::parse("follow");
   StageHolds holds;
@@ -200,7 +46,7 @@ Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limit
   HoldCount plain, ours;
   std::array<std::array<Vector3f, 2>, 2> was_plain, was_reached;
   bool is_first = true;
-  for (const Shown& moment : stage) {
+  for (const ShownMoment& moment : stage) {
     std::array<Pose, 2> reached = moment.shown;
     if (is_first) {
       holds.show(lead, reached[0], moment.at, true, DancerOf::kThisHouse);
@@ -224,8 +70,8 @@ Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limit
     const auto danced_gaps = gaps_of(couple, moment.danced);
     const auto shown_gaps = gaps_of(couple, moment.shown);
     const auto reached_gaps = gaps_of(couple, reached);
-    std::array<bool, kPairs> near{}, held{};
-    for (std::size_t k = 0; k < kPairs; ++k) {
+    std::array<bool, kHandPairs> near{}, held{};
+    for (std::size_t k = 0; k < kHandPairs; ++k) {
       near[k] = shown_gaps[k] <= kTruth_m;
       held[k] = holds.are_held(lead, k / 2, follow, k % 2);
       if (danced_gaps[k] > kTruth_m) continue;
@@ -254,15 +100,6 @@ Judged judge(const CoupleTake& couple, const Stage& stage, const PalmHold::Limit
 
 }  // namespace
 
-double HoldFigures::found() const {
-  return true_frames > 0 ? static_cast<double>(found_frames) / static_cast<double>(true_frames)
-                         : 0.0;
-}
-
-double HoldFigures::per_minute(std::size_t count) const {
-  return seconds > 0.0 ? 60.0 * static_cast<double>(count) / seconds : 0.0;
-}
-
 TouchEval evaluate_touch(const std::vector<CoupleTake>& couples, const TouchLine& line) {
   constexpr std::array<const char*, 3> kStages{"as captured", "through the codec", "on the stage"};
   TouchEval eval;
@@ -271,7 +108,7 @@ TouchEval evaluate_touch(const std::vector<CoupleTake>& couples, const TouchLine
     HoldFigures plain, ours;
     Gaps gaps;
     for (const CoupleTake& couple : couples) {
-      Stage stage;
+      ShownStage stage;
       if (s == 0)
         stage = captured_stage(couple, {couple[0].poses, couple[1].poses}, line.warm_up);
       else if (s == 1)
@@ -281,8 +118,8 @@ TouchEval evaluate_touch(const std::vector<CoupleTake>& couples, const TouchLine
         stage = streamed_stage(couple, line);
       if (stage.empty()) continue;
       const Judged judged = judge(couple, stage, line.limits, gaps, costs);
-      plain = sum(plain, judged.plain);
-      ours = sum(ours, judged.ours);
+      plain += judged.plain;
+      ours += judged.ours;
     }
     eval.rows.push_back({kStages[s], "within 8 cm", plain});
     eval.rows.push_back({kStages[s], "holds", ours});

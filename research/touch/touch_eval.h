@@ -11,40 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "research/predict/couple_takes.h"
-#include "transformers/flow.h"
-#include "transformers/touch/palm_hold.h"
+#include "research/touch/touch_stage.h"
 
 namespace dance {
-
-constexpr float kTruth_m = 0.08f;
-
-struct TouchLine {
-  Duration delay = Duration::ms(60);
-  Duration jitter = Duration::ms(15);
-  double loss_percent = 1.0;
-  double noise_deg = 0.5;
-  std::vector<std::string> through{"predict", "bridge"};
-  FlowParts parts;
-  Duration warm_up = Duration::s(4);
-  PalmHold::Limits limits;
-};
-
-// Of one way to recognise holds on one stage.
-struct HoldFigures {
-  std::size_t true_frames = 0;   // pairs of palms × pictures within kTruth_m in the recording
-  std::size_t found_frames = 0;  // of these, reported
-  std::size_t held_frames = 0;   // reported
-  std::size_t apart_frames = 0;  // of these, over twice kTruth_m apart in the recording
-  std::size_t holds = 0;         // reported, from begin to end
-  std::size_t false_holds = 0;   // of these, without any true frame within them
-  std::size_t far_holds = 0;     // of these, never within 1.5 times kTruth_m
-  std::size_t true_holds = 0;    // in the recording
-  std::size_t breaks = 0;        // ends of a reported hold within a true one
-  double seconds = 0.0;
-  double found() const;
-  double per_minute(std::size_t count) const;
-};
 
 struct TouchRow {
   std::string stage, way;

@@ -5,6 +5,7 @@
 #include "core/program/program.h"
 #include "research/predict_model_file.h"
 #include "research/touch/touch_eval.h"
+#include "research/touch/touch_spread.h"
 #include "transformers/settings.h"
 
 namespace dance {
@@ -14,6 +15,10 @@ constexpr const char* kTouchExamples = R"(Examples:
   dance touch eval lead.bvh.xz follow.bvh.xz
   dance touch eval lead.bvh.xz follow.bvh.xz --delay 120ms --jitter 30ms --noise 1
   dance touch eval lead.bvh.xz follow.bvh.xz --through hold --json
+  dance touch eval lead.bvh.xz follow.bvh.xz --delays 30ms,60ms,120ms --seeds 5
+                                                     how much of it is luck
+  dance touch eval lead1.bvh follow1.bvh lead2.bvh follow2.bvh --seeds 5 --choose
+                                                     with limits that were chosen on other dances
 Files in pairs, lead and follow. The lead is here, the follow comes over a line and through the
 route. found: of the pictures in which the recording has two palms within 8 cm, those in which they
 are reported held. false: holds during which the recording has them never within 8 cm; far: never
@@ -32,9 +37,37 @@ struct Wishes {
   double again_mm = 1e3 * static_cast<double>(PalmHold::Limits().again_m);
   double early_mm = 1e3 * static_cast<double>(PalmHold::Limits().early_m);
   double soon_mm = 1e3 * static_cast<double>(PalmHold::Limits().soon_m);
-  std::string release = "220ms", look = "120ms";
-  bool is_json = false;
+  std::string release = "260ms", look = "120ms";
+  std::vector<std::string> delays;
+  int seeds = 0;
+  std::int64_t seed = 0;
+  bool is_json = false, chooses = false;
 };
+
+constexpr Duration kLongestLine = Duration::s(1);
+constexpr int kUsualSeeds = 5;
+
+Result<void> run_spread(const std::vector<CoupleTake>& couples, const TouchLine& line,
+                        const Wishes& wishes) {
+  SpreadWish wish;
+  for (const std::string& text : wishes.delays) {
+    DANCE_TRY(const Duration delay, parse_duration(text));
+    if (delay < Duration() || delay > kLongestLine)
+      return fail("--delays: " + text + " cannot be judged: 0ms to 1s, please");
+    wish.delays.push_back(delay);
+  }
+  if (wish.delays.empty()) wish.delays.push_back(line.delay);
+  wish.seeds = static_cast<std::size_t>(wishes.seeds > 0 ? wishes.seeds : kUsualSeeds);
+  wish.chooses = wishes.chooses;
+  if (wish.chooses && couples.size() < 2)
+    return fail("--choose needs two dances at least: limits are chosen on the others");
+  const TouchSpread spread = evaluate_spread(couples, line, wish);
+  if (spread.rows.front().figures.front().seconds < 1.0)
+    return fail("the takes are too short: at least 5 s are needed");
+  const std::string text = wishes.is_json ? touch_spread_json(spread) : touch_spread_table(spread);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  return {};
+}
 
 Result<void> run(const Wishes& wishes) {
   TouchLine line;
@@ -45,8 +78,8 @@ Result<void> run(const Wishes& wishes) {
   line.limits.again_m = static_cast<float>(1e-3 * wishes.again_mm);
   line.limits.early_m = static_cast<float>(1e-3 * wishes.early_mm);
   line.limits.soon_m = static_cast<float>(1e-3 * wishes.soon_mm);
-  if (line.delay < Duration() || line.delay > Duration::s(1) || line.jitter < Duration() ||
-      line.jitter > Duration::s(1))
+  if (line.delay < Duration() || line.delay > kLongestLine || line.jitter < Duration() ||
+      line.jitter > kLongestLine)
     return fail("a line with --delay " + wishes.delay + " --jitter " + wishes.jitter +
                 " cannot be judged: 0ms to 1s, please");
   line.loss_percent = wishes.loss_percent;
@@ -65,6 +98,9 @@ Result<void> run(const Wishes& wishes) {
   }
   DANCE_TRY(std::vector<CoupleTake> couples, couples_of(std::move(takes)));
   for (CoupleTake& couple : couples) join_palms(couple, static_cast<float>(wishes.join_m));
+  line.seed = static_cast<std::uint64_t>(wishes.seed);
+  if (wishes.seeds > 0 || !wishes.delays.empty() || wishes.chooses)
+    return run_spread(couples, line, wishes);
   const TouchEval eval = evaluate_touch(couples, line);
   if (eval.rows.front().figures.seconds < 1.0)
     return fail("the takes are too short: at least 5 s are needed");
@@ -114,6 +150,14 @@ int main(int argc, char** argv) {
       .range(0.0, 1000.0)
       .shows_default();
   line.add("--look", wishes.look, "… within so long").shows_default();
+  line.add("--seed", wishes.seed, "of noise, jitter and losses").range(0.0, 1e9).shows_default();
+  line.add("--seeds", wishes.seeds,
+           "so many seeds, one after the other: prints means and extremes of the stage; 0 = one")
+      .range(0.0, 100.0);
+  line.add("--delays", wishes.delays, "of several lines, as 30ms,60ms; for the same table")
+      .split_at(',');
+  line.add_flag("--choose", wishes.chooses,
+                "for each dance also limits that were chosen on the other dances");
   line.add_flag("--json", wishes.is_json, "one JSON object on stdout");
   line.footer(dance::kTouchExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run(wishes); });

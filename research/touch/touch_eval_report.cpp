@@ -19,13 +19,10 @@ std::string touch_eval_table(const TouchEval& eval) {
                       "holds/min", "false/min", "far/min", "breaks/min", "apart");
   for (const TouchRow& row : eval.rows) {
     const HoldFigures& f = row.figures;
-    text += fmt::format(
-        "{:<20}{:<14}{:>8.1f}%{:>11.1f}{:>11.2f}{:>9.2f}{:>12.1f}{:>8.1f}%\n", row.stage, row.way,
-        100.0 * f.found(), f.per_minute(f.holds), f.per_minute(f.false_holds),
-        f.per_minute(f.far_holds), f.per_minute(f.breaks),
-        f.held_frames > 0
-            ? 100.0 * static_cast<double>(f.apart_frames) / static_cast<double>(f.held_frames)
-            : 0.0);
+    text += fmt::format("{:<20}{:<14}{:>8.1f}%{:>11.1f}{:>11.2f}{:>9.2f}{:>12.1f}{:>8.1f}%\n",
+                        row.stage, row.way, 100.0 * f.found(), f.per_minute(f.holds),
+                        f.per_minute(f.false_holds), f.per_minute(f.far_holds),
+                        f.per_minute(f.breaks), 100.0 * f.apart());
   }
   text += fmt::format("\n{:<20}{:>28}{:>28}{:>24}\n{:<20}{:>14}{:>14}{:>14}{:>14}{:>12}{:>12}\n",
                       "gap of held palms", "as shown, mm", "with hold-hands, mm", "p99 step, mm",

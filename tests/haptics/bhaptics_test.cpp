@@ -63,20 +63,22 @@ TEST(BhapticsFrame, SaysWhichMotorHowStrongAndHowLong) {
 }
 
 TEST_F(BhapticsTest, ReachesThePlayerAndFindsItAgain) {
-  auto output = BhapticsOutput::open("127.0.0.1:15999");
-  ASSERT_TRUE(output) << output.error().what;
-  EXPECT_FALSE((*output)->play(some_haptic(mono_now()), mono_now()));  // nobody is there
+  auto output = BhapticsOutput::later("127.0.0.1:15999");
+  ASSERT_TRUE(output);
+  EXPECT_FALSE(output->play(some_haptic(mono_now()), mono_now()));  // nobody is there
   start_player();
-  ASSERT_TRUE(play(**output, some_haptic(mono_now())));
+  EXPECT_FALSE(output->is_there());
+  ASSERT_TRUE(play(*output, some_haptic(mono_now())));
+  EXPECT_TRUE(output->is_there());
   ASSERT_TRUE(wait_for([&] { return heard().find("HandL") != std::string::npos; })) << heard();
   for (int i = 0; i < 20; ++i) {
     Haptic haptic = some_haptic(mono_now());
     haptic.bone = Bone::kRightHand;
     haptic.duration = Duration::ms(100 + i);
-    (*output)->play(haptic, in_time());
+    output->play(haptic, in_time());
     // As after a stall of the connection.
     haptic.bone = Bone::kHead;
-    (*output)->play(haptic, mono_now() - Duration::s(1));
+    output->play(haptic, mono_now() - Duration::s(1));
   }
   ASSERT_TRUE(wait_for([&] { return heard().find("\"DurationMillis\":119") != std::string::npos; }))
       << heard();
@@ -88,21 +90,34 @@ TEST_F(BhapticsTest, ReachesThePlayerAndFindsItAgain) {
       ++frames;
     }
   EXPECT_EQ(frames, 21);
-  EXPECT_NE((*output)->summary().find("20 left out after a stall"), std::string::npos)
-      << (*output)->summary();
+  EXPECT_NE(output->summary().find("20 left out after a stall"), std::string::npos)
+      << output->summary();
   player_->stop(Duration::s(5));
-  EXPECT_TRUE(wait_for([&] { return !(*output)->play(some_haptic(mono_now()), mono_now()); }));
+  EXPECT_TRUE(wait_for([&] { return !output->play(some_haptic(mono_now()), mono_now()); }));
+  EXPECT_FALSE(output->is_there());
   start_player();
-  EXPECT_TRUE(play(**output, some_haptic(mono_now())));
-  (*output)->stop();
+  EXPECT_TRUE(play(*output, some_haptic(mono_now())));
+  output->stop();
   EXPECT_TRUE(wait_for([&] { return heard().find("turnOffAll") != std::string::npos; })) << heard();
 }
 
-TEST_F(BhapticsTest, EndsWithoutAPlayer) {
-  auto output = BhapticsOutput::open("127.0.0.1:15998");
-  ASSERT_TRUE(output);
-  EXPECT_NE((*output)->summary().find("not found"), std::string::npos);
+TEST_F(BhapticsTest, OpensWhereAPlayerIsAndSaysWhereNoneIs) {
+  start_player();
+  const auto output = BhapticsOutput::open("localhost:15999");
+  ASSERT_TRUE(output) << output.error().what;
+  EXPECT_TRUE((*output)->is_there());
+  player_->stop(Duration::s(5));
+  const auto gone = BhapticsOutput::open("localhost:15999");
+  ASSERT_FALSE(gone);
+  EXPECT_NE(gone.error().what.find("no bHaptics Player at"), std::string::npos);
   EXPECT_FALSE(BhapticsOutput::open("an address that is none:x"));
+}
+
+TEST(BhapticsLater, ANameThatIsNoneIsNoReasonNotToEnd) {
+  const auto output = BhapticsOutput::later("an address that is none:x");
+  ASSERT_TRUE(output);
+  EXPECT_NE(output->summary().find("not found"), std::string::npos);
+  EXPECT_FALSE(output->play(some_haptic(mono_now()), mono_now()));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct KernelNotes {
   std::vector<int> removed;
   int next_id = 0;
   int error = 0;
+  bool is_there = true;
 };
 
 class NotedFile final : public ForceFeedbackFile {
@@ -46,6 +47,7 @@ class NotedFile final : public ForceFeedbackFile {
     notes_.events.emplace_back(code, value);
     return 0;
   }
+  bool is_there() override { return notes_.is_there; }
 
  private:
   KernelNotes& notes_;
@@ -112,6 +114,17 @@ TEST(EvdevOutput, SaysThatADeviceWasPulledOut) {
   EXPECT_NE(output.summary().find("pulled out"), std::string::npos);
   EXPECT_FALSE(output.play(some_haptic(moment(0)), moment(0)));
   output.work(moment(1));
+}
+
+TEST(EvdevOutput, NoticesThatADeviceWasPulledOutWhileNothingIsPlayed) {
+  KernelNotes kernel;
+  EvdevOutput output("pad", std::make_unique<NotedFile>(kernel), true, 4);
+  output.work(moment(0));
+  EXPECT_TRUE(output.is_there());
+  kernel.is_there = false;
+  output.work(moment(1000));
+  EXPECT_FALSE(output.is_there());
+  EXPECT_EQ(output.summary(), "pad, pulled out, was pulled out 1 times");
 }
 
 TEST(EvdevOutput, KeepsToTheLimitInSum) {

@@ -26,6 +26,7 @@ struct Felt {
     touch.time = mono_now();
     touch.clock_id = clock;
     touch.contact = contact;
+    touch.bone = static_cast<Bone>(contact % kBoneCount);
     touch.force_n = 10.0f;
     touch.other = *GuestId::parse("bob");
     port.publish(Where::kStage, kAlice, touch);

@@ -48,13 +48,13 @@ TEST(HapticMaker, AHarderTouchIsFeltMoreStronglyWhereItIs) {
   HapticMaker maker = maker_of();
   HapticNotes soft, hard;
   maker.take(some_touch(TouchPhase::kBegins, 2.0f), when(0), soft);
-  maker.take(some_touch(TouchPhase::kBegins, 40.0f), when(10), hard);
+  maker.take(some_touch(TouchPhase::kBegins, 40.0f), when(200), hard);
   ASSERT_EQ(soft.felt.size(), 1u);
   ASSERT_EQ(hard.felt.size(), 1u);
   EXPECT_GT(hard.felt[0].amplitude, soft.felt[0].amplitude + 0.3f);
   EXPECT_EQ(hard.felt[0].bone, Bone::kRightHand);
   EXPECT_EQ(hard.felt[0].maker, 9u);
-  EXPECT_EQ(hard.felt[0].play_time, when(10));
+  EXPECT_EQ(hard.felt[0].play_time, when(200));
   for (const Haptic& haptic : {soft.felt[0], hard.felt[0]}) EXPECT_TRUE(is_valid(haptic));
 }
 
@@ -138,6 +138,56 @@ TEST(HapticMaker, OtherBeatsAreFeltWhereTheyAreAskedForAndNoneWithoutMusic) {
   EXPECT_EQ(notes.felt.size(), 2u);
 }
 
+// Another dancer who lets each of many contacts begin and end at every picture.
+HapticNotes jittered(HapticMaker& maker, int bones, bool is_hold, int pictures = 600) {
+  HapticNotes notes;
+  for (int picture = 0; picture < pictures; ++picture)
+    for (int bone = 0; bone < bones; ++bone) {
+      Touch touch = some_touch(picture % 2 == 0 ? TouchPhase::kBegins : TouchPhase::kEnded, 200.0f);
+      touch.is_hold = is_hold;
+      touch.bone = static_cast<Bone>(bone);
+      touch.contact = static_cast<std::uint32_t>(1000 * picture + bone);
+      touch.other = *GuestId::parse("eve");
+      maker.take(touch, when(16 * picture), notes);
+    }
+  return notes;
+}
+
+TEST(HapticMaker, AStrangerWhoJittersIsFeltNoMoreOftenThanAPlaceAndABodyBear) {
+  for (const bool is_hold : {false, true}) {
+    HapticMaker one_place = maker_of(), all_places = maker_of();
+    const HapticNotes one = jittered(one_place, 1, is_hold);
+    ASSERT_GT(one.felt.size(), 40u);
+    for (std::size_t i = 1; i < one.felt.size(); ++i)
+      EXPECT_GE(one.felt[i].time - one.felt[i - 1].time, HapticMaker::kBetweenAtPlace);
+    const HapticNotes all = jittered(all_places, 22, is_hold);
+    const double seconds = 600 * 0.016;
+    EXPECT_LE(all.felt.size(), HapticMaker::kMost_hz * seconds + HapticMaker::kMostAtOnce + 1.0);
+    EXPECT_GT(all_places.left_out(), 1000u);
+  }
+}
+
+TEST(HapticMaker, ALeadsHandThatIsEverANewContactIsBoundedToo) {
+  HapticMaker maker = maker_of();
+  HapticNotes notes;
+  for (int i = 0; i < 600; ++i) {
+    Touch touch = some_hold(TouchPhase::kLasts, {0.0f, 0.0f, -3.0f});
+    touch.contact = static_cast<std::uint32_t>(i / 2);
+    maker.take(touch, when(16 * i), notes);
+  }
+  EXPECT_LE(notes.felt.size(), HapticMaker::kMost_hz * 9.6 + HapticMaker::kMostAtOnce + 1.0);
+}
+
+TEST(HapticMaker, OnlyThoseWhoAreNamedAreFelt) {
+  HapticMakerOptions options;
+  options.from = {*GuestId::parse("bob")};
+  HapticMaker maker = maker_of(options);
+  EXPECT_TRUE(jittered(maker, 3, false).felt.empty());
+  HapticNotes notes;
+  maker.take(some_touch(TouchPhase::kBegins), when(0), notes);  // bob's
+  EXPECT_EQ(notes.felt.size(), 1u);
+}
+
 TEST(HapticMaker, MoreContactsThanThereIsRoomForAreBoundedAndNothingIsAllocated) {
   HapticMaker maker = maker_of();
   struct Count final : HapticSink {
@@ -154,7 +204,7 @@ TEST(HapticMaker, MoreContactsThanThereIsRoomForAreBoundedAndNothingIsAllocated)
     touch.contact = i % 100;
     touch.is_hold = i % 2 == 0;
     touch.motion_m_s = {50.0f, -50.0f, 50.0f};
-    maker.take(touch, when(i % 777), sink);
+    maker.take(touch, when(100 * i), sink);
   }
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_TRUE(sink.is_fine);

@@ -23,7 +23,8 @@ struct DeviceNotes {
   std::vector<MonoTime> at;
   int stops = 0, works = 0;
   MonoTime wants;  // when work() is to be called next
-  bool refuses = false;
+  bool refuses = false, is_there = true;
+  float limit = 1.0f;
   Duration latency;
 };
 
@@ -31,7 +32,7 @@ class NotedOutput final : public HapticOutput {
  public:
   explicit NotedOutput(DeviceNotes& notes) : notes_(notes) {}
   bool play(const Haptic& haptic, MonoTime now) override {
-    if (notes_.refuses) return false;
+    if (notes_.refuses || !notes_.is_there) return false;
     notes_.played.push_back(haptic);
     notes_.at.push_back(now);
     return true;
@@ -41,6 +42,9 @@ class NotedOutput final : public HapticOutput {
     return notes_.wants;
   }
   void stop() override { ++notes_.stops; }
+  void set_limit(float limit) override { notes_.limit = limit; }
+  bool is_there() const override { return notes_.is_there; }
+  std::string name() const override { return "a device"; }
   Duration latency() const override { return notes_.latency; }
   std::string summary() const override { return "notes"; }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/net/mono_clock.h"
+#include "haptics/haptic_table.h"
 #include "tests/haptics/haptic_notes.h"
 
 namespace dance {
@@ -117,6 +118,53 @@ TEST(HapticPlayer, LeavesOutWhatIsTooLateTooMuchOrRefused) {
   EXPECT_EQ(stage.player->counters().refused, 1u);
   const std::string said = stage.player->summary();
   EXPECT_NE(said.find("7 left out as too many waited"), std::string::npos) << said;
+}
+
+TEST(HapticPlayer, SaysOnceThatADeviceIsLostAndOnceThatItIsBack) {
+  Played stage;
+  std::vector<std::string> said;
+  stage.player->tell_changes([&](bool, const std::string& line) { said.push_back(line); });
+  const MonoTime now = mono_now();
+  stage.player->take(some_haptic(now), now);
+  EXPECT_TRUE(said.empty());
+  stage.notes.is_there = false;
+  for (int i = 0; i < 5; ++i) stage.player->take(some_haptic(now), now);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0], "a device is lost: it is felt again when it is back");
+  stage.notes.is_there = true;
+  // Also while nothing is played.
+  for (int i = 0; i < 500 && said.size() < 2; ++i) stage.poller->run_once(Duration::ms(20));
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_EQ(said[1], "a device is there, and felt again");
+}
+
+TEST(HapticPlayer, OneOfSomeBonesLeavesOutTheOthers) {
+  HapticPlayerOptions options;
+  options.bones = *parse_bones({"leftHand", "leftLowerArm"});
+  Played stage(options);
+  const MonoTime now = mono_now();
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    Haptic haptic = some_haptic(now);
+    haptic.bone = static_cast<Bone>(bone);
+    stage.player->take(haptic, now);
+  }
+  ASSERT_EQ(stage.notes.played.size(), 2u);
+  EXPECT_EQ(stage.notes.played[0].bone, Bone::kLeftLowerArm);
+  EXPECT_EQ(stage.notes.played[1].bone, Bone::kLeftHand);
+  EXPECT_EQ(stage.player->counters().elsewhere, kBoneCount - 2);
+  EXPECT_EQ(*parse_bones({}), kAllBones);
+  const auto wrong = parse_bones({"left-hand"});
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().what.find("leftHand"), std::string::npos);
+}
+
+TEST(HapticPlayer, ALimitThatIsSetHoldsFromTheNextOrderOn) {
+  Played stage;
+  const MonoTime now = mono_now();
+  stage.player->set_limit(0.2f);
+  stage.player->take(some_haptic(now), now);
+  EXPECT_FLOAT_EQ(stage.notes.played.at(0).amplitude, 0.2f);
+  EXPECT_FLOAT_EQ(stage.notes.limit, 0.2f);
 }
 
 }  // namespace

@@ -56,10 +56,12 @@ TEST(HapticSound, AServerThatEndsIsFoundAgain) {
   EXPECT_TRUE(plays());
   server.reset();
   EXPECT_TRUE(wait_for([&] { return !plays(); }));
+  EXPECT_FALSE((*output)->is_there());
   EXPECT_NE((*output)->summary().find("lost 1 times"), std::string::npos);
   server = std::make_unique<SoundServer>(folder);
   ASSERT_TRUE(server->is_open());
   EXPECT_TRUE(wait_for(plays));
+  EXPECT_TRUE((*output)->is_there());
 }
 
 // Accepts, and never answers.

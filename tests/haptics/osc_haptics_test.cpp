@@ -54,5 +54,29 @@ TEST(OscHaptics, SaysWhatIsFeltAndThatItEnds) {
   EXPECT_EQ(notes.first["/avatar/parameters/dance_head"], 0.0f);
 }
 
+TEST(OscHaptics, OneThatIsLookedForIsFoundAndPlays) {
+  auto ear = UdpSocket::bind(Address::loopback(0));
+  ASSERT_TRUE(ear);
+  const auto output = OscHaptics::later(ear->local_address().to_string());
+  for (int i = 0; i < 5000 && !output->is_there(); ++i) {
+    output->work(MonoTime::from_us(1'000'000));
+    usleep(1000);
+  }
+  ASSERT_TRUE(output->is_there());
+  const MonoTime now = MonoTime::from_us(1'000'000);
+  EXPECT_TRUE(output->play(some_haptic(now), now));
+  OscNotes notes;
+  hear(*ear, notes, 2);
+  EXPECT_FLOAT_EQ(notes.first["/dance/haptic/leftHand"], 0.5f);
+}
+
+TEST(OscHaptics, OneThatIsNotFoundTakesNothingSaysSoAndEnds) {
+  const auto output = OscHaptics::later("an address that is none:x");
+  output->work(MonoTime::from_us(1'000'000));
+  output->stop();
+  EXPECT_FALSE(output->play(some_haptic(MonoTime()), MonoTime()));
+  EXPECT_EQ(output->summary(), "osc to an address that is none:x, not found yet");
+}
+
 }  // namespace
 }  // namespace dance

@@ -86,33 +86,6 @@ TEST(Session, NamesTheCameraOfADancer) {
   EXPECT_EQ(session->cameras[3].device, "HD Webcam") << "the camera's name";
 }
 
-TEST(Session, SaysWhatGuestsFeelAndByWhat) {
-  const std::string haptics = std::string(kHouse) + "[[haptics]]\nguest = \"alice\"\n";
-  const auto session = parse_session(
-      haptics +
-          "to = \"evdev\"\ndevice = \"Joy-Con\"\nlimit = 0.5\nlatency_ms = 15\non = false\n"
-          "feel = [\"lead\", \"beats\"]\n"
-          "[[haptics]]\nguest = \"ann\"\nto = \"osc\"\naddress = \"127.0.0.1:9001\"\n",
-      "/home/alice/s.toml");
-  ASSERT_TRUE(session) << session.error().what;
-  ASSERT_EQ(session->haptics.size(), 2u);
-  const HapticOptions& pad = session->haptics[0].options;
-  EXPECT_EQ(pad.device, "Joy-Con");
-  EXPECT_EQ(pad.player.limit, 0.5f);
-  EXPECT_EQ(pad.player.latency, Duration::ms(15));
-  EXPECT_FALSE(pad.player.is_on);
-  EXPECT_FALSE(pad.maker.touch);
-  EXPECT_EQ(pad.maker.beats, FeltBeats::kAll);
-  EXPECT_EQ(session->haptics[1].to, "osc");
-  EXPECT_TRUE(session->haptics[1].options.maker.touch);
-  EXPECT_NE(error_of(haptics + "to = \"glove\"\n").find("bhaptics"), std::string::npos);
-  EXPECT_NE(error_of(haptics + "to = \"osc\"\ndevice = \"x\"\n").find("address"),
-            std::string::npos);
-  EXPECT_NE(error_of(haptics + "to = \"osc\"\nfeel = [\"smell\"]\n").find("smell"),
-            std::string::npos);
-  EXPECT_NE(error_of(haptics + "to = \"osc\"\nlimit = 2\n").find("limit"), std::string::npos);
-}
-
 TEST(Session, HoldHandsLeavesPosesAsFastAsTheyCome) {
   const std::string route =
       std::string(kHouse) + "[[route]]\nfrom = \"POSE/capture/*\"\nto = \"POSE/stage/*\"\n";

@@ -16,16 +16,17 @@
 
 namespace dance {
 
-// Chosen by `dance touch eval` on the salsa of CMU's subjects 60 and 61, 60 ms away.
+// By `dance touch eval` on the salsa of CMU's subjects 60 and 61, who are one couple: what --choose
+// finds for each dance on the others, but for ends that let arms reach for less long.
 struct PalmHoldLimits {
   float begin_m = 0.075f;                // nearer than this begins
   float again_m = 0.076f;                // and nearer than this, of palms that held each other …
   Duration lately = Duration::ms(1500);  // … so lately
-  float early_m = 0.12f;                 // and nearer than this …
+  float early_m = 0.09f;                 // and nearer than this …
   float soon_m = 0.04f;                  // … where the palms come so near …
   Duration look = Duration::ms(120);     // … within so long, as they move
-  float end_m = 0.21f;                   // further apart than this …
-  Duration release_delay = Duration::ms(220);  // … for so long ends
+  float end_m = 0.23f;                   // further apart than this …
+  Duration release_delay = Duration::ms(260);  // … for so long ends
   float far_m = 0.35f;                         // further than this at once
 };
 

@@ -4,9 +4,25 @@ namespace dance {
 namespace {
 // How long one source of a guest's poses takes precedence after its last pose.
 constexpr Duration kSourceHolds = Duration::s(1);
+// How long an own guest is shown from the stage after arms that reached; and at most after a staged
+// pose, so that a stage that ends leaves the capture.
+constexpr Duration kReachHolds = Duration::ms(500);
+constexpr Duration kStageHolds = Duration::ms(250);
 constexpr Duration kStatusHolds = Duration::s(3);
 // Eviction: after so much silence a slot may go to another guest; by then this one has faded out.
 constexpr Duration kSlotHolds = Duration::s(10);
+
+bool is_fresh(MonoTime heard, MonoTime now, Duration holds) {
+  return heard.is_set() && now - heard < holds;
+}
+
+// More than the bus rounds; less than can be seen.
+bool has_other_rotations(const Pose& a, const Pose& b) {
+  constexpr float kSame = 1e-4f;
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone)
+    if ((a.R_PB[bone].coeffs() - b.R_PB[bone].coeffs()).cwiseAbs().maxCoeff() > kSame) return true;
+  return false;
+}
 }  // namespace
 
 GuestBoard::GuestBoard(std::uint64_t clock_id, bool stage_only)
@@ -35,32 +51,46 @@ GuestBoard::Slot* GuestBoard::slot_of(const GuestId& guest, MonoTime now) {
   spare->meter = ArrivalMeter();
   spare->beat_meter = BeatMeter();
   spare->arriving_beat_meter = BeatMeter();
-  spare->capture_heard = spare->status_heard = MonoTime();
+  spare->capture_heard = spare->status_heard = spare->reached = MonoTime();
   spare->last_heard = now;
   return spare;
 }
 
 bool GuestBoard::is_superseded(const Slot& slot, Where where, MonoTime now) const {
   if (where == Where::kGuest && !shows_guest_channel_) return true;
-  if (stage_only_ || where == Where::kCapture) return false;
-  return slot.capture_heard.is_set() && now - slot.capture_heard < kSourceHolds;
+  if (stage_only_ || !is_fresh(slot.capture_heard, now, kSourceHolds)) return false;
+  const bool stage_reaches = is_fresh(slot.reached, now, kReachHolds) &&
+                             is_fresh(slot.news.staged_heard, now, kStageHolds);
+  return stage_reaches == (where == Where::kCapture);
 }
 
-MonoTime GuestBoard::moment_of(Where where, const Pose& pose) const {
+bool GuestBoard::is_own_on_stage(const Slot& slot, Where where, const Pose& pose,
+                                 MonoTime now) const {
+  const Pose& captured = slot.news.arriving;
+  return where == Where::kStage && is_fresh(slot.capture_heard, now, kSourceHolds) &&
+         pose.sequence == captured.sequence && pose.clock_id == captured.clock_id &&
+         pose.capture_time == captured.capture_time && pose.p_WH_m == captured.p_WH_m;
+}
+
+// An own guest's moment is the same by either way, so that a change of way is no jump in time.
+MonoTime GuestBoard::moment_of(const Slot& slot, Where where, const Pose& pose,
+                               MonoTime now) const {
   if (pose.clock_id != clock_id_) return {};
-  return where == Where::kStage ? pose.stamped(Hop::kStaged) : pose.capture_time;
+  if (where != Where::kStage || (!stage_only_ && is_own_on_stage(slot, where, pose, now)))
+    return pose.capture_time;
+  return pose.stamped(Hop::kStaged);
 }
 
 bool GuestBoard::note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now) {
   if (where == Where::kStage) {
+    if (is_own_on_stage(slot, where, pose, now) && has_other_rotations(pose, slot.news.arriving))
+      slot.reached = now;
     slot.news.staged = pose;
     slot.news.staged_heard = now;
     return false;
   }
   // The house's own dancer comes by both: the capture is the earlier.
-  if (where == Where::kGuest && slot.capture_heard.is_set() &&
-      now - slot.capture_heard < kSourceHolds)
-    return false;
+  if (where == Where::kGuest && is_fresh(slot.capture_heard, now, kSourceHolds)) return false;
   slot.news.arriving = pose;
   slot.news.arriving_heard = now;
   const BeatClock& music = music_.clock();
@@ -90,9 +120,7 @@ GuestBoard::Measured GuestBoard::measure(Where where, const GuestId& guest, cons
   std::optional<Duration> age;
   if (pose.clock_id == clock_id_ && pose.capture_time.is_set()) age = now - pose.capture_time;
   slot->meter.on_pose(pose.sequence, now, age);
-  const bool status_is_fresh =
-      slot->status_heard.is_set() && now - slot->status_heard < kStatusHolds;
-  if (!status_is_fresh) slot->news.figures = slot->meter.figures();
+  if (!is_fresh(slot->status_heard, now, kStatusHolds)) slot->news.figures = slot->meter.figures();
   const BeatClock& music = music_.clock();
   if (music.is_known(now))
     slot->beat_meter.add(pose.music_beats, music.position(now), music.beats_per_second(), age);
@@ -108,7 +136,7 @@ void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, Mo
   if (is_shown) {
     slot->news.figures.beat = slot->beat_meter.figures();
     slot->news.pose = pose;
-    slot->news.moment = moment_of(where, pose);
+    slot->news.moment = moment_of(*slot, where, pose, now);
   }
   slot->latest.put(slot->news);
 }
@@ -126,7 +154,7 @@ void GuestBoard::clear(std::uint64_t clock_id) {
     slot.news = GuestNews();
     slot.meter = ArrivalMeter();
     slot.beat_meter = slot.arriving_beat_meter = BeatMeter();
-    slot.last_heard = slot.capture_heard = slot.status_heard = MonoTime();
+    slot.last_heard = slot.capture_heard = slot.status_heard = slot.reached = MonoTime();
   }
   music_ = MusicHere(clock_id);
   music_latest_.put(music_.clock());

@@ -1,6 +1,7 @@
 // GuestBoard: where the bus thread leaves each guest's newest state and the drawing thread finds
-// it. A guest captured in this house is shown straight from the capture, all others from the stage;
-// the pose that came and the staged one are both kept beside it.
+// it. A guest captured in this house is shown straight from the capture, but from the stage while
+// that moves the arms of each captured pose (hold-hands); all others from the stage. The pose that
+// came and the staged one are both kept beside it.
 //
 // Units/frames: MonoTime of this process; poses in W.
 // Ownership:    holds kMaxGuests slots; never allocates after construction.
@@ -108,14 +109,17 @@ class GuestBoard {
     MonoTime last_heard;  // anything of this guest
     MonoTime capture_heard;
     MonoTime status_heard;
+    MonoTime reached;  // when the stage last moved the arms of a pose captured here
     Latest<GuestNews> latest;
   };
 
   Slot* slot_of(const GuestId& guest, MonoTime now);
   bool is_superseded(const Slot& slot, Where where, MonoTime now) const;
+  // A captured pose that the stage gave on at once, perhaps with other arms.
+  bool is_own_on_stage(const Slot& slot, Where where, const Pose& pose, MonoTime now) const;
   // Whether it came into this house just now.
   bool note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now);
-  MonoTime moment_of(Where where, const Pose& pose) const;
+  MonoTime moment_of(const Slot& slot, Where where, const Pose& pose, MonoTime now) const;
   // The slot of a pose, after all that is measured of it; nullptr where there is no room.
   struct Measured {
     Slot* slot = nullptr;

@@ -69,7 +69,7 @@ void add_options(CommandLine& line, Wishes& wishes) {
        {"capture", Shown::kCapture},
        {"guest", Shown::kGuest},
        {"stage", Shown::kStage}},
-      "of a live house: best (own guests straight from the capture, the others from the stage), "
+      "of a live house: best (own guests from the capture, others and held hands from the stage), "
       "capture, guest or stage");
   line.add_flag("--stage-only", view.feed.stage_only, "own guests from the stage too");
   line.add_choice<CameraPreset>("--camera", view.camera,

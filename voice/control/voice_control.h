@@ -1,5 +1,5 @@
 // How a running `dance voice` is told things from another terminal, a foot switch's script or a
-// viewer: one line of text in a datagram, within this user.
+// viewer: the socket of a guest's voice on a bus.
 //
 // Units/frames: lines as VoiceSettings::apply() takes them, of kMostBytes at most.
 // Ownership:    VoiceControl owns its socket file; the poller must outlive it.
@@ -8,34 +8,25 @@
 //               tell_voice() says when none does.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 
-#include "core/base/guest_id.h"
-#include "core/net/local_datagram.h"
-#include "core/net/poller.h"
+#include "core/net/program_control.h"
 
 namespace dance {
 
 class VoiceControl {
  public:
-  static constexpr std::size_t kMostBytes = 64;
-  using OnCommand = std::function<void(std::string_view command, MonoTime now)>;
+  static constexpr std::size_t kMostBytes = ProgramControl::kMostBytes;
+  using OnCommand = ProgramControl::OnCommand;
 
   static Result<std::unique_ptr<VoiceControl>> open(const std::string& bus, const GuestId& guest,
                                                     OnCommand on_command, Poller& poller);
-  ~VoiceControl();
-  VoiceControl(const VoiceControl&) = delete;
-  VoiceControl& operator=(const VoiceControl&) = delete;
 
  private:
-  VoiceControl(std::unique_ptr<LocalDatagramSocket> socket, OnCommand on_command, Poller& poller);
-
-  std::unique_ptr<LocalDatagramSocket> socket_;
-  OnCommand on_command_;
-  Poller& poller_;
+  explicit VoiceControl(std::unique_ptr<ProgramControl> control) : control_(std::move(control)) {}
+  std::unique_ptr<ProgramControl> control_;
 };
 
 // `bus` as the program was given it.

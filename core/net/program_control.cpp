@@ -1,0 +1,77 @@
+#include "core/net/program_control.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/base/fnv1a.h"
+#include "core/net/local_address.h"
+#include "core/net/mono_clock.h"
+
+namespace dance {
+namespace {
+
+constexpr int kMostCommandsPerTurn = 16;
+constexpr std::size_t kMostNumbered = 64;
+
+}  // namespace
+
+// A bus's URL is no file name: a number of it is.
+std::string control_path(std::string_view program, std::string_view bus_url, const GuestId& guest) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%08x", folded(fnv1a(bus_url)));
+  return local_socket_folder() + "/" + std::string(program) + "-" + std::string(guest.view()) +
+         "-" + text.data();
+}
+
+std::string numbered_control_path(const std::string& path, std::uint64_t number) {
+  return path + "." + std::to_string(number);
+}
+
+std::vector<std::string> numbered_control_paths(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> paths;
+  const std::string begin = path + ".";
+  std::error_code error;  // no folder: nobody is there
+  for (fs::directory_iterator entry(folder_of(path), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string each = entry->path().string();
+    if (each.starts_with(begin) && paths.size() < kMostNumbered) paths.push_back(each);
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+Result<std::unique_ptr<ProgramControl>> ProgramControl::open(const std::string& path,
+                                                             OnCommand on_command, Poller& poller) {
+  DANCE_TRY(auto socket, LocalDatagramSocket::bind(path));
+  return std::unique_ptr<ProgramControl>(
+      new ProgramControl(std::move(socket), std::move(on_command), poller));
+}
+
+ProgramControl::ProgramControl(std::unique_ptr<LocalDatagramSocket> socket, OnCommand on_command,
+                               Poller& poller)
+    : socket_(std::move(socket)), on_command_(std::move(on_command)), poller_(poller) {
+  poller_.watch(socket_->fd(), [this](MonoTime now) {
+    std::array<std::uint8_t, kMostBytes> bytes{};
+    for (int i = 0; i < kMostCommandsPerTurn; ++i) {
+      const std::ptrdiff_t size = socket_->receive(bytes);
+      if (size < 0) return;
+      if (size > static_cast<std::ptrdiff_t>(bytes.size())) continue;
+      on_command_({reinterpret_cast<const char*>(bytes.data()), static_cast<std::size_t>(size)},
+                  now);
+    }
+  });
+}
+
+ProgramControl::~ProgramControl() { poller_.unwatch(socket_->fd()); }
+
+Result<Told> tell_program(const std::string& path, std::string_view command) {
+  if (command.size() > ProgramControl::kMostBytes) return fail("the command is too long");
+  DANCE_TRY(auto sender, LocalDatagramSender::open(path));
+  return sender->send({reinterpret_cast<const std::uint8_t*>(command.data()), command.size()},
+                      mono_now());
+}
+
+}  // namespace dance

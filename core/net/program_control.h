@@ -1,0 +1,51 @@
+// How a running program is told things from another terminal, a foot switch's script or a viewer:
+// one line of text in a datagram, within this user.
+//
+// Units/frames: lines of kMostBytes at most.
+// Ownership:    ProgramControl owns its socket file; the poller must outlive it.
+// Threads:      the poller's.
+// Failure:      open() names a path that another program serves; tell_program() says that none
+//               does, or that the one there does not listen.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/guest_id.h"
+#include "core/net/local_datagram.h"
+#include "core/net/poller.h"
+
+namespace dance {
+
+class ProgramControl {
+ public:
+  static constexpr std::size_t kMostBytes = 64;
+  using OnCommand = std::function<void(std::string_view command, MonoTime now)>;
+
+  static Result<std::unique_ptr<ProgramControl>> open(const std::string& path, OnCommand on_command,
+                                                      Poller& poller);
+  ~ProgramControl();
+  ProgramControl(const ProgramControl&) = delete;
+  ProgramControl& operator=(const ProgramControl&) = delete;
+
+ private:
+  ProgramControl(std::unique_ptr<LocalDatagramSocket> socket, OnCommand on_command, Poller& poller);
+
+  std::unique_ptr<LocalDatagramSocket> socket_;
+  OnCommand on_command_;
+  Poller& poller_;
+};
+
+// Where the program of this kind hears that serves a guest on a bus, of this LCM URL.
+std::string control_path(std::string_view program, std::string_view bus_url, const GuestId& guest);
+// Where several may, one by one: `path` with a number each.
+std::string numbered_control_path(const std::string& path, std::uint64_t number);
+std::vector<std::string> numbered_control_paths(const std::string& path);
+
+using Told = LocalDatagramSender::Sent;
+Result<Told> tell_program(const std::string& path, std::string_view command);
+
+}  // namespace dance
