@@ -4,8 +4,7 @@
 
 #include "tests/tunnel/cluster/nats_accounts.h"
 #include "tests/tunnel/cluster/nats_cluster.h"
-#include "tunnel/nats/nats_bus.h"
-#include "tunnel/nats/nats_connector.h"
+#include "tests/tunnel/cluster/nats_says.h"
 
 namespace dance {
 namespace {
@@ -52,15 +51,6 @@ class NatsCredentialsTest : public NatsCluster {
     of.credentials = credentials;
     return of;
   }
-  static std::string messages_say(const NatsOptions& of) {
-    const auto made = NatsConnector(of).connect_now();
-    return made ? "connected" : made.error().what;
-  }
-  std::string values_say(NatsOptions of) const {
-    of.only_values = true;
-    const auto made = NatsBus::connect(of, *poller);
-    return made ? "connected" : made.error().what;
-  }
 
   NatsKey operator_{NatsKey::Role::kOperator};
   NatsKey system_{NatsKey::Role::kAccount}, dance_{NatsKey::Role::kAccount};
@@ -71,7 +61,7 @@ TEST_F(NatsCredentialsTest, AUserOfAnAccountIsLetInForMessagesAndValues) {
   start_nats_with_accounts();
   const NatsOptions of = options(file_of("server.creds", user_of(dance_, server_), server_.seed()));
   EXPECT_EQ(messages_say(of), "connected");
-  EXPECT_EQ(values_say(of), "connected");
+  EXPECT_EQ(values_say(of, *poller), "connected");
 }
 
 TEST_F(NatsCredentialsTest, EveryOtherIsOneLineThatNamesWhatIsWrong) {
@@ -81,7 +71,7 @@ TEST_F(NatsCredentialsTest, EveryOtherIsOneLineThatNamesWhatIsWrong) {
   for (const NatsOptions& of :
        {options(""), options(file_of("a", user_of(stranger, server_), server_.seed())),
         options(file_of("b", jwt, other.seed()))})
-    for (const std::string& said : {messages_say(of), values_say(of)}) {
+    for (const std::string& said : {messages_say(of), values_say(of, *poller)}) {
       EXPECT_NE(said.find("127.0.0.1"), std::string::npos) << said;
       EXPECT_NE(said.find("does not let"), std::string::npos) << said;
       EXPECT_EQ(said.find('\n'), std::string::npos) << said;
@@ -89,7 +79,7 @@ TEST_F(NatsCredentialsTest, EveryOtherIsOneLineThatNamesWhatIsWrong) {
   for (const NatsOptions& of :
        {options(folder_.path("missing")), options(file_of("c", jwt, "SUAAAA")),
         options(file_of("d", "", ""))})
-    for (const std::string& said : {messages_say(of), values_say(of)})
+    for (const std::string& said : {messages_say(of), values_say(of, *poller)})
       EXPECT_NE(said.find("--cluster-credentials"), std::string::npos) << said;
 }
 

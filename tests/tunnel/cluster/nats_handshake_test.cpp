@@ -5,9 +5,8 @@
 
 #include "tests/tunnel/cluster/nats_cluster.h"
 #include "tests/tunnel/cluster/nats_peer.h"
+#include "tests/tunnel/cluster/nats_says.h"
 #include "tests/tunnel/seal/paper.h"
-#include "tunnel/nats/nats_bus.h"
-#include "tunnel/nats/nats_connector.h"
 
 namespace dance {
 namespace {
@@ -25,25 +24,15 @@ class NatsHandshakeTest : public NatsCluster {
     of.authorities = authorities;
     return of;
   }
-  // What each of the two connections says: for messages, and for values.
-  static std::string messages_say(const NatsOptions& of) {
-    const auto made = NatsConnector(of).connect_now();
-    return made ? "connected" : made.error().what;
-  }
-  std::string values_say(NatsOptions of) const {
-    of.only_values = true;
-    const auto made = NatsBus::connect(of, *poller);
-    return made ? "connected" : made.error().what;
-  }
 };
 
 TEST_F(NatsHandshakeTest, WhereTlsIsWantedAServerWithoutItIsNotSpokenWith) {
   Authority ours(folder_.path(), "ours");
   start_nats(0, 1);
   EXPECT_EQ(messages_say(options("nats", "")), "connected");
-  EXPECT_EQ(values_say(options("nats", "")), "connected");
+  EXPECT_EQ(values_say(options("nats", ""), *poller), "connected");
   for (const NatsOptions& of : {options("nats", ours.file), options("tls", "")}) {
-    for (const std::string& said : {messages_say(of), values_say(of)})
+    for (const std::string& said : {messages_say(of), values_say(of, *poller)})
       EXPECT_NE(said.find("no TLS: the server offers none"), std::string::npos) << said;
   }
 }
@@ -55,15 +44,15 @@ TEST_F(NatsHandshakeTest, AServerShowsWhoItIsAlsoWhereItsUrlDoesNotAskForTls) {
   start_tls_nats("nats");
   for (const char* scheme : {"nats", "tls"}) {
     EXPECT_EQ(messages_say(options(scheme, ours.file)), "connected");
-    EXPECT_EQ(values_say(options(scheme, ours.file)), "connected");
+    EXPECT_EQ(values_say(options(scheme, ours.file), *poller), "connected");
     const NatsOptions wrong = options(scheme, theirs.file);
-    for (const std::string& said : {messages_say(wrong), values_say(wrong)})
+    for (const std::string& said : {messages_say(wrong), values_say(wrong, *poller)})
       EXPECT_NE(said.find("no TLS"), std::string::npos) << said;
   }
   kill_now(nats_[0]);
   start_tls_nats("elsewhere");
   const NatsOptions other = options("nats", ours.file);
-  for (const std::string& said : {messages_say(other), values_say(other)})
+  for (const std::string& said : {messages_say(other), values_say(other, *poller)})
     EXPECT_NE(said.find("no TLS"), std::string::npos) << said;
 }
 
