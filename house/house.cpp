@@ -100,7 +100,9 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
   if (session.music) {
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
   }
-  if (session.voice) house->voice_ = HouseVoice::open(*session.voice, house->bus_->url(), poller);
+  if (session.voice)
+    house->voice_ =
+        std::make_unique<HouseVoice>(*session.voice, house->bus_->url(), *house->port_, poller);
   for (HostedStyle hosted : session.styles) {
     hosted.style.time = mono_now();
     hosted.style.clock_id = this_clock_id();
@@ -251,7 +253,8 @@ Result<void> House::open_consumers() {
 void House::open_haptics() {
   for (const HostedHaptics& wanted : session_.haptics) {
     if (wanted.realtime) {
-      haptic_programs_.push_back(HouseHaptics::open(wanted, bus_->url(), poller_));
+      haptic_programs_.push_back(
+          std::make_unique<HouseHaptics>(wanted, bus_->url(), haptic_programs_.size(), poller_));
       continue;
     }
     auto output = make_haptic_output(wanted.to, wanted.options);

@@ -1,65 +1,79 @@
 #include "house/house_haptics.h"
 
-#include <utility>
+#include <unistd.h>
 
-#include "core/net/mono_clock.h"
+#include "core/bus/bus.h"
+#include "core/net/local_address.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "haptics/haptic_control.h"
 #include "house/session_haptics.h"
 
 namespace dance {
 namespace {
 
-constexpr Duration kHapticsLook = Duration::ms(200);
-constexpr Duration kHapticsPause = Duration::s(10);
-constexpr Duration kHapticsEnds = Duration::s(2);
-constexpr int kHapticsWrongUse = 2;
+// Of the house itself beside what has its process number.
+std::uint64_t control_number(std::size_t number) {
+  return (std::uint64_t{number} + 1) << 32 | static_cast<std::uint64_t>(getpid());
+}
 
 }  // namespace
 
-std::unique_ptr<HouseHaptics> HouseHaptics::open(const HostedHaptics& haptics,
-                                                 const std::string& bus, Poller& poller) {
-  std::unique_ptr<HouseHaptics> made(new HouseHaptics(haptics, bus, poller));
-  if (!made->start()) return made;
-  made->watch_ = poller.add_timer(mono_now() + kHapticsLook,
-                                  [self = made.get()](MonoTime now) { return self->look(now); });
-  return made;
+HouseHaptics::HouseHaptics(const HostedHaptics& haptics, const std::string& bus, std::size_t number,
+                           Poller& poller)
+    : haptics_(haptics), path_(control_path("haptics", bus_url_or_default(bus), haptics.guest)) {
+  listen(number, poller);
+  program_ = std::make_unique<HostedProgram>(program_options(bus), poller);
 }
 
-HouseHaptics::HouseHaptics(const HostedHaptics& haptics, const std::string& bus, Poller& poller)
-    : guest_(haptics.guest), arguments_(haptics_arguments(haptics, bus)), poller_(poller) {}
-
-HouseHaptics::~HouseHaptics() {
-  if (watch_ != 0) poller_.remove_timer(watch_);
-  if (program_) program_->stop(kHapticsEnds);
+HostedProgram::Options HouseHaptics::program_options(const std::string& bus) {
+  HostedProgram::Options options;
+  options.path = program_folder() + "/dance-haptics";
+  options.name = "dance haptics of " + std::string(haptics_.guest.view());
+  options.without = "without it";
+  options.arguments = [this, bus] {
+    was_told_ = false;
+    return haptics_arguments(haptics_, bus);
+  };
+  options.works = [this](pid_t running, MonoTime) { return works(running); };
+  return options;
 }
 
-bool HouseHaptics::start() {
-  // What it cannot have is not to be said every ten seconds.
-  const std::string talk_file = last_exit_ == 1 ? "/dev/null" : "";
-  auto program = ChildProcess::start(
-      {program_folder() + "/dance-haptics", arguments_, "/dev/null", talk_file});
-  if (!program) {
-    talk::warn("{}; {} feels nothing", program.error().what, guest_.view());
-    return false;
-  }
-  program_ = std::make_unique<ChildProcess>(std::move(*program));
+void HouseHaptics::listen(std::size_t number, Poller& poller) {
+  auto opened = ProgramControl::open(
+      numbered_control_path(path_, control_number(number)),
+      [this](std::string_view command, MonoTime) { hear(command); }, poller);
+  if (opened)
+    control_ = std::move(*opened);
+  else
+    talk::warn("{}; where dance haptics of {} is started again, it is as the session has it",
+               opened.error().what, haptics_.guest.view());
+}
+
+// What is no command the program counts.
+void HouseHaptics::hear(std::string_view text) {
+  const auto command = parse_haptic_command(text);
+  if (!command) return;
+  if (command->kind == HapticCommand::Kind::kLimit)
+    haptics_.options.player.limit = command->limit;
+  else
+    haptics_.options.player.is_on = command->kind == HapticCommand::Kind::kOn;
+  was_told_ = true;
+}
+
+// It listens once it has its devices; what was said between its start and then reached the house
+// only.
+bool HouseHaptics::works(pid_t program) {
+  const std::string path = numbered_control_path(path_, static_cast<std::uint64_t>(program));
+  if (!is_socket(path)) return false;
+  if (!was_told_) return true;
+  using Kind = HapticCommand::Kind;
+  const HapticPlayerOptions& player = haptics_.options.player;
+  for (const HapticCommand& command : {HapticCommand{Kind::kLimit, player.limit},
+                                       HapticCommand{player.is_on ? Kind::kOn : Kind::kOff, 1.0f}})
+    if (auto told = tell_program(path, text_of(command)); !told || *told != Told::kSent)
+      return false;
   return true;
-}
-
-MonoTime HouseHaptics::look(MonoTime now) {
-  if (!program_) return start() ? now + kHapticsLook : MonoTime();
-  if (!program_->has_ended()) return now + kHapticsLook;
-  const int exit_code = program_->exit_code();
-  if (exit_code == 0 || exit_code == kHapticsWrongUse) {
-    talk::warn("dance haptics of {} {}; the house goes on", guest_.view(), program_->exit_text());
-    return MonoTime();
-  }
-  if (std::exchange(last_exit_, exit_code) != exit_code)
-    talk::warn("dance haptics of {} {}; the house goes on, and starts it again every ten seconds",
-               guest_.view(), program_->exit_text());
-  program_.reset();
-  return now + kHapticsPause;
 }
 
 }  // namespace dance

@@ -1,43 +1,42 @@
 // HouseHaptics: a device of a house's session that is to be felt to the millisecond: a
 // dance-haptics program of its own beside the house, at real-time priority, which the house itself
-// must not have. It is started again when it ends.
+// must not have. What `dance haptics set` tells it holds for its later starts too.
 //
 // Units/frames: none.
 // Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      nothing ends the house. What the program cannot have it says itself, once; it is
-//               tried again every ten seconds.
+// Failure:      as house/program/hosted_program.h. Where the house cannot hear what the program is
+//               told, that is said, and a later start begins as the session has it.
 #pragma once
 
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "core/net/poller.h"
-#include "core/program/child_process.h"
+#include "core/net/program_control.h"
+#include "house/program/hosted_program.h"
 #include "house/session.h"
 
 namespace dance {
 
 class HouseHaptics {
  public:
-  static std::unique_ptr<HouseHaptics> open(const HostedHaptics& haptics, const std::string& bus,
-                                            Poller& poller);
-  ~HouseHaptics();
+  // `number` is another one for each of a house.
+  HouseHaptics(const HostedHaptics& haptics, const std::string& bus, std::size_t number,
+               Poller& poller);
   HouseHaptics(const HouseHaptics&) = delete;
   HouseHaptics& operator=(const HouseHaptics&) = delete;
 
  private:
-  HouseHaptics(const HostedHaptics& haptics, const std::string& bus, Poller& poller);
-  bool start();
-  MonoTime look(MonoTime now);
+  HostedProgram::Options program_options(const std::string& bus);
+  void listen(std::size_t number, Poller& poller);
+  void hear(std::string_view command);
+  bool works(pid_t program);
 
-  GuestId guest_;
-  std::vector<std::string> arguments_;
-  Poller& poller_;
-  std::unique_ptr<ChildProcess> program_;
-  Poller::TimerId watch_ = 0;
-  int last_exit_ = 0;
+  HostedHaptics haptics_;  // as it was told last
+  std::string path_;       // of what haptics of this guest are told
+  bool was_told_ = false;  // since the start
+  std::unique_ptr<ProgramControl> control_;
+  std::unique_ptr<HostedProgram> program_;
 };
 
 }  // namespace dance

@@ -10,6 +10,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "house/house.h"
+#include "house/session_guests.h"
 
 namespace dance {
 namespace {
@@ -62,20 +63,12 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     session.server = options.host_or_session;
     session.routes = default_routes();
   }
-  const GuestId first_before = session.guests.empty() ? GuestId() : session.guests.front();
-  if (!options.guests.empty()) session.guests.clear();
+  std::vector<GuestId> guests;
   for (const std::string& name : options.guests) {
     DANCE_TRY(const GuestId guest, guest_of(name));
-    session.guests.push_back(guest);
+    guests.push_back(guest);
   }
-  if (!options.guests.empty() && session.voice) {
-    // The first guest speaks where the file names no other.
-    GuestId& speaker = session.voice->guest;
-    if (speaker == first_before) speaker = session.guests.front();
-    if (std::find(session.guests.begin(), session.guests.end(), speaker) == session.guests.end())
-      return fail("[voice] guest '" + std::string(speaker.view()) +
-                  "' is no guest of this house; name it with --guest as well");
-  }
+  if (!guests.empty()) replace_guests(session, std::move(guests));
   if (!options.room.empty()) session.room = options.room;
   if (!GuestId::parse(session.room))
     return fail("--room '" + session.room +
@@ -119,6 +112,7 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
   }
   if (!options.bus.empty()) session.bus = options.bus;
   if (options.no_view) session.view = false;
+  if (auto checked = check_guests(session); !checked) return tl::make_unexpected(checked.error());
   return session;
 }
 

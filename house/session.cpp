@@ -9,6 +9,7 @@
 #include "core/base/beat.h"
 #include "core/program/whole_file.h"
 #include "formats/session/session_edit.h"
+#include "house/session_guests.h"
 #include "house/session_haptics.h"
 #include "house/session_producers.h"
 #include "house/toml_reader.h"
@@ -219,6 +220,13 @@ void read_style_of(TomlReader& reader, HouseConfig& session) {
   session.styles.push_back(style);
 }
 
+void read_voice_of(TomlReader& reader, HouseConfig& session) {
+  session.voice = read_voice(reader, session.guests.empty() ? GuestId() : session.guests.front());
+  if (!session.voice->names_guest) return;
+  const std::string trouble = trouble_of_speaking(session, session.voice->guest);
+  if (!trouble.empty()) reader.complain("guest", trouble);
+}
+
 // Calls `read` for each table of an array of tables; the first problem ends it.
 template <class Read>
 std::optional<Error> read_each(const toml::table& document, std::string_view key,
@@ -294,8 +302,7 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
     problem =
         read_once(document, "music", name, [&](TomlReader& r) { read_music(r, folder, session); });
   if (problem) return problem;
-  return read_once(document, "voice", name,
-                   [&](TomlReader& r) { session.voice = read_voice(r, session.guests); });
+  return read_once(document, "voice", name, [&](TomlReader& r) { read_voice_of(r, session); });
 }
 
 }  // namespace

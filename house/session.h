@@ -89,7 +89,7 @@ struct HostedMusic {
   double steps_bpm = 0.0;  // about how fast dancers step; 0 = as is heard
 };
 
-// How a guest of this house wants to be shown, from the begin on; said on STYLE/capture.
+// How a guest of this house wants to be shown, from the start on; said on STYLE/capture.
 struct HostedStyle {
   GuestId guest;
   Style style;

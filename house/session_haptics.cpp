@@ -2,38 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "house/session_guests.h"
 
 namespace dance {
 namespace {
-
-// Whom the house has on its stage of its own.
-std::vector<GuestId> dancers_of(const HouseConfig& session) {
-  std::vector<GuestId> dancers = session.guests;
-  const auto add = [&](const GuestId& guest) {
-    if (guest.is_set() && std::find(dancers.begin(), dancers.end(), guest) == dancers.end())
-      dancers.push_back(guest);
-  };
-  for (const HostedProducer& producer : session.producers) add(producer.guest);
-  for (const HostedReceiver& receiver : session.receivers) add(receiver.options.guest);
-  for (const HostedCamera& camera : session.cameras) add(camera.guest);
-  for (const Route& route : session.routes)
-    if (route.from.where == Where::kCapture) add(route.to.guest);
-  return dancers;
-}
-
-// A house that names no dancer may have one whose producer runs beside it.
-void check_is_here(TomlReader& reader, const HouseConfig& session, const GuestId& guest) {
-  const std::vector<GuestId> dancers = dancers_of(session);
-  if (dancers.empty() || !guest.is_set()) return;
-  if (std::find(dancers.begin(), dancers.end(), guest) != dancers.end()) return;
-  std::string names;
-  for (const GuestId& each : dancers)
-    names += (names.empty() ? "" : ", ") + std::string(each.view());
-  reader.complain(
-      "guest", "'" + std::string(guest.view()) +
-                   "' does not dance in this house, and would feel nothing; there are: " + names);
-}
 
 std::vector<std::string> felt_words(const HapticMakerOptions& felt) {
   std::vector<std::string> words;
@@ -50,7 +22,8 @@ void read_haptics(TomlReader& reader, HouseConfig& session) {
   HostedHaptics haptics;
   haptics.to = reader.required_string("to");
   haptics.guest = read_guest(reader, "guest", reader.required_string("guest"));
-  check_is_here(reader, session, haptics.guest);
+  if (const std::string trouble = trouble_of_feeling(session, haptics.guest); !trouble.empty())
+    reader.complain("guest", trouble);
   HapticOptions& options = haptics.options;
   options.device = reader.string_or("device", "");
   options.address = reader.string_or("address", "");

@@ -6,7 +6,6 @@
 // Failure:      read_voice() complains in the reader, with file, line and column.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,10 @@ namespace dance {
 
 struct HostedVoice {
   GuestId guest;
-  std::string microphone;   // "" = the default
-  std::string loudspeaker;  // "" = the default
-  std::string reference;    // the sink that is taken out; "" = the loudspeaker
+  bool names_guest = false;  // else it is the first of the house
+  std::string microphone;    // "" = the default
+  std::string loudspeaker;   // "" = the default
+  std::string reference;     // the sink that is taken out; "" = the loudspeaker
   bool headphones = false;
   bool push_to_talk = false;
   bool muted = false;
@@ -32,9 +32,8 @@ struct HostedVoice {
   std::vector<std::string> volumes;  // "bob=0.5"
 };
 
-// `guests` are the dancers of the house: the first speaks where no other is named, and none speaks
-// who is not among them. A house without dancers may name anybody, who hears and is not heard.
-HostedVoice read_voice(TomlReader& reader, std::span<const GuestId> guests);
+// `first` speaks where no other guest is named; not set: the house has no dancer.
+HostedVoice read_voice(TomlReader& reader, const GuestId& first);
 
 // The words of `dance voice` for what a session says.
 std::vector<std::string> voice_arguments(const HostedVoice& voice, const std::string& bus);

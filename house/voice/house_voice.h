@@ -1,44 +1,30 @@
 // HouseVoice: the voice of a house's session: a dance-voice program of its own beside the house: a
-// sound server that hangs is nothing to the dancers. It is started again when it ends.
+// sound server that hangs is nothing to the dancers.
 //
 // Units/frames: none.
-// Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it.
+// Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it,
+//               and to the port, which must deliver nothing after its end.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      nothing ends the house. What the program cannot have it says itself, once; it is
-//               tried again every ten seconds, and that it works again is said too.
+// Failure:      as house/program/hosted_program.h.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "core/net/poller.h"
-#include "core/program/child_process.h"
+#include "core/bus/signal_port.h"
+#include "house/program/hosted_program.h"
 #include "house/voice/hosted_voice.h"
-#include "house/voice/program_words.h"
+#include "house/voice/voice_sign.h"
 
 namespace dance {
 
 class HouseVoice {
  public:
-  static std::unique_ptr<HouseVoice> open(const HostedVoice& voice, const std::string& bus,
-                                          Poller& poller);
-  ~HouseVoice();
+  // `bus` is the LCM URL of the bus of the port.
+  HouseVoice(const HostedVoice& voice, const std::string& bus, SignalPort& port, Poller& poller);
   HouseVoice(const HouseVoice&) = delete;
   HouseVoice& operator=(const HouseVoice&) = delete;
 
  private:
-  HouseVoice(const HostedVoice& voice, const std::string& bus, Poller& poller);
-  bool start();
-  MonoTime look(MonoTime now);
-
-  std::vector<std::string> arguments_;
-  Poller& poller_;
-  ProgramWords words_;
-  std::unique_ptr<ChildProcess> program_;
-  MonoTime started_;
-  Poller::TimerId watch_ = 0;
-  int last_exit_ = 0;  // of a failure that was said; 0 once it has worked
+  VoiceSign sign_;
+  HostedProgram program_;
 };
 
 }  // namespace dance

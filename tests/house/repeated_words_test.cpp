@@ -1,4 +1,4 @@
-#include "house/voice/repeated_words.h"
+#include "house/program/repeated_words.h"
 
 #include <gtest/gtest.h>
 

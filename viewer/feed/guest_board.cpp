@@ -23,6 +23,12 @@ bool has_other_rotations(const Pose& a, const Pose& b) {
     if ((a.R_PB[bone].coeffs() - b.R_PB[bone].coeffs()).cwiseAbs().maxCoeff() > kSame) return true;
   return false;
 }
+
+// A capture, and what a stage without delay made of it.
+bool is_same_moment(const Pose& a, const Pose& b) {
+  return a.sequence == b.sequence && a.clock_id == b.clock_id && a.capture_time == b.capture_time &&
+         a.p_WH_m == b.p_WH_m;
+}
 }  // namespace
 
 GuestBoard::GuestBoard(std::uint64_t clock_id, bool stage_only)
@@ -64,35 +70,39 @@ bool GuestBoard::is_superseded(const Slot& slot, Where where, MonoTime now) cons
   return stage_reaches == (where == Where::kCapture);
 }
 
-bool GuestBoard::is_own_on_stage(const Slot& slot, Where where, const Pose& pose,
-                                 MonoTime now) const {
-  const Pose& captured = slot.news.arriving;
-  return where == Where::kStage && is_fresh(slot.capture_heard, now, kSourceHolds) &&
-         pose.sequence == captured.sequence && pose.clock_id == captured.clock_id &&
-         pose.capture_time == captured.capture_time && pose.p_WH_m == captured.p_WH_m;
+void GuestBoard::note_reach(Slot& slot, MonoTime now) const {
+  const Pose &captured = slot.news.arriving, &staged = slot.news.staged;
+  if (is_fresh(slot.capture_heard, now, kSourceHolds) &&
+      is_fresh(slot.news.staged_heard, now, kStageHolds) && is_same_moment(captured, staged) &&
+      has_other_rotations(captured, staged))
+    slot.reached = now;
 }
 
-// An own guest's moment is the same by either way, so that a change of way is no jump in time.
+// An own guest's moment is the same by either way, so that a change of way is no jump in time. What
+// the stage delays is another moment than the newest captured.
 MonoTime GuestBoard::moment_of(const Slot& slot, Where where, const Pose& pose,
                                MonoTime now) const {
   if (pose.clock_id != clock_id_) return {};
-  if (where != Where::kStage || (!stage_only_ && is_own_on_stage(slot, where, pose, now)))
-    return pose.capture_time;
+  const Pose& captured = slot.news.arriving;
+  const bool is_own = is_fresh(slot.capture_heard, now, kSourceHolds) &&
+                      captured.clock_id == pose.clock_id &&
+                      pose.capture_time >= captured.capture_time;
+  if (where != Where::kStage || (!stage_only_ && is_own)) return pose.capture_time;
   return pose.stamped(Hop::kStaged);
 }
 
 bool GuestBoard::note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now) {
   if (where == Where::kStage) {
-    if (is_own_on_stage(slot, where, pose, now) && has_other_rotations(pose, slot.news.arriving))
-      slot.reached = now;
     slot.news.staged = pose;
     slot.news.staged_heard = now;
+    note_reach(slot, now);
     return false;
   }
   // The house's own dancer comes by both: the capture is the earlier.
   if (where == Where::kGuest && is_fresh(slot.capture_heard, now, kSourceHolds)) return false;
   slot.news.arriving = pose;
   slot.news.arriving_heard = now;
+  if (where == Where::kCapture) note_reach(slot, now);
   const BeatClock& music = music_.clock();
   if (!music.is_known(now)) return false;
   std::optional<Duration> age;
@@ -112,9 +122,13 @@ GuestBoard::Measured GuestBoard::measure(Where where, const GuestId& guest, cons
     slot->capture_heard = now;
     music_.see(pose);
   }
-  Measured measured{slot, note_for_comparison(*slot, where, pose, now),
-                    !is_superseded(*slot, where, now)};
-  if (!measured.is_shown) return measured;
+  const bool reached_before = is_fresh(slot->reached, now, kReachHolds);
+  Measured measured{slot, note_for_comparison(*slot, where, pose, now), nullptr};
+  if (!is_superseded(*slot, where, now)) measured.shown = &pose;
+  // The first that is seen to reach, and the stage's came before its capture: no picture is missed.
+  if (where == Where::kCapture && !reached_before && !stage_only_ && slot->reached == now)
+    measured.shown = &slot->news.staged;
+  if (measured.shown == nullptr) return measured;
 
   // Ages compare stamps of one clock only.
   std::optional<Duration> age;
@@ -129,14 +143,14 @@ GuestBoard::Measured GuestBoard::measure(Where where, const GuestId& guest, cons
 }
 
 void GuestBoard::on_pose(Where where, const GuestId& guest, const Pose& pose, MonoTime now) {
-  const auto [slot, is_arriving, is_shown] = measure(where, guest, pose, now);
+  const auto [slot, is_arriving, shown] = measure(where, guest, pose, now);
   if (slot == nullptr) return;
   if (where == Where::kCapture) music_latest_.put(music_.clock());
   if (is_arriving) slot->news.arriving_beat = slot->arriving_beat_meter.figures();
-  if (is_shown) {
+  if (shown != nullptr) {
     slot->news.figures.beat = slot->beat_meter.figures();
-    slot->news.pose = pose;
-    slot->news.moment = moment_of(*slot, where, pose, now);
+    slot->news.pose = *shown;
+    slot->news.moment = moment_of(*slot, where, *shown, now);
   }
   slot->latest.put(slot->news);
 }

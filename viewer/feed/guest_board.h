@@ -115,8 +115,9 @@ class GuestBoard {
 
   Slot* slot_of(const GuestId& guest, MonoTime now);
   bool is_superseded(const Slot& slot, Where where, MonoTime now) const;
-  // A captured pose that the stage gave on at once, perhaps with other arms.
-  bool is_own_on_stage(const Slot& slot, Where where, const Pose& pose, MonoTime now) const;
+  // Notes where the stage gave the captured pose on at once, with other arms. To be called with
+  // either: a house's process stages what it hosts before the bus has its capture.
+  void note_reach(Slot& slot, MonoTime now) const;
   // Whether it came into this house just now.
   bool note_for_comparison(Slot& slot, Where where, const Pose& pose, MonoTime now);
   MonoTime moment_of(const Slot& slot, Where where, const Pose& pose, MonoTime now) const;
@@ -124,7 +125,7 @@ class GuestBoard {
   struct Measured {
     Slot* slot = nullptr;
     bool is_arriving = false;
-    bool is_shown = false;
+    const Pose* shown = nullptr;  // nullptr: nothing new
   };
   Measured measure(Where where, const GuestId& guest, const Pose& pose, MonoTime now);
 

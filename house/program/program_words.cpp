@@ -1,4 +1,4 @@
-#include "house/voice/program_words.h"
+#include "house/program/program_words.h"
 
 #include <fcntl.h>
 #include <unistd.h>

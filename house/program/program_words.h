@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/net/poller.h"
-#include "house/voice/repeated_words.h"
+#include "house/program/repeated_words.h"
 
 namespace dance {
 

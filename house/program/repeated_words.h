@@ -1,7 +1,7 @@
 // RepeatedWords: of a program that is started again and again, which of its lines are to be shown:
 // not those that its last start ended with as well.
 //
-// Units/frames: lines without their ends; the time at the begin of a line does not count.
+// Units/frames: lines without their ends; the time at the start of a line does not count.
 // Ownership:    plain value; keeps kMostLines of a start.
 // Threads:      none inside.
 // Failure:      of a start with more lines the later ones are shown each time.

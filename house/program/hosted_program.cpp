@@ -1,0 +1,73 @@
+#include "house/program/hosted_program.h"
+
+#include <utility>
+
+#include "core/net/mono_clock.h"
+#include "core/program/talk.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kProgramEnds = Duration::s(2);
+constexpr int kWrongUse = 2;
+
+}  // namespace
+
+HostedProgram::HostedProgram(Options options, Poller& poller)
+    : options_(std::move(options)), poller_(poller), words_(poller) {
+  const MonoTime next = start(mono_now());
+  timer_ = poller.add_timer(next, [this](MonoTime now) { return look(now); });
+}
+
+HostedProgram::~HostedProgram() {
+  poller_.remove_timer(timer_);
+  if (program_) program_->stop(kProgramEnds);
+  words_.end();
+}
+
+MonoTime HostedProgram::start(MonoTime now) {
+  ChildProcess::Options options{options_.path, options_.arguments(), "/dev/null", ""};
+  options.talk_fd = words_.begin();
+  auto program = ChildProcess::start(options);
+  words_.started();
+  if (!program) {
+    words_.end();
+    return try_later(program.error().what, now);
+  }
+  program_ = std::make_unique<ChildProcess>(std::move(*program));
+  started_ = now;
+  works_ = false;
+  return now + options_.look;
+}
+
+MonoTime HostedProgram::look(MonoTime now) {
+  if (!program_) return start(now);
+  if (!program_->has_ended()) {
+    if (!works_ && options_.works(program_->pid(), started_)) note_that_it_works();
+    return now + options_.look;
+  }
+  words_.end();
+  const std::string end = options_.name + " " + program_->exit_text();
+  const int exit_code = program_->exit_code();
+  program_.reset();
+  if (exit_code != 0 && exit_code != kWrongUse) return try_later(end, now);
+  talk::warn("{}; the house goes on {}", end, options_.without);
+  return {};
+}
+
+void HostedProgram::note_that_it_works() {
+  works_ = true;
+  if (trouble_.empty()) return;
+  talk::info("{} works again", options_.name);
+  trouble_.clear();
+  words_.forget();
+}
+
+MonoTime HostedProgram::try_later(const std::string& trouble, MonoTime now) {
+  if (std::exchange(trouble_, trouble) != trouble)
+    talk::warn("{}; the house goes on {}, and starts it again every {:.3g} s", trouble,
+               options_.without, options_.pause.as_seconds());
+  return now + options_.pause;
+}
+
+}  // namespace dance

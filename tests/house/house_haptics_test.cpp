@@ -1,0 +1,54 @@
+// Haptics that a house runs as a program of its own, which ends and is started again.
+#include <signal.h>
+
+#include <filesystem>
+
+#include "core/net/local_address.h"
+#include "tests/apps/bus_programs.h"
+
+namespace dance {
+namespace {
+
+// By the socket where it is told things: "haptics-alice-01234567.PID".
+pid_t running_haptics(pid_t other_than) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(local_socket_folder(), error)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with("haptics-alice-")) continue;
+    const long number = std::stol(name.substr(name.rfind('.') + 1));
+    if (number > 0 && number < (1L << 32) && number != other_than)
+      return static_cast<pid_t>(number);
+  }
+  return 0;
+}
+
+TEST_F(BusPrograms, ExactHapticsThatAreStartedAgainKeepWhatTheyWereTold) {
+  ::setenv("XDG_RUNTIME_DIR", folder_.path("").c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
+  std::ofstream(folder_.path("exact.toml"))
+      << "[house]\nbus = \"" << kBus << "\"\nguest = \"alice\"\n"
+      << "[[haptics]]\nguest = \"alice\"\nto = \"osc\"\nrealtime = true\n"
+      << "address = \"127.0.0.1:9009\"\n";
+  start("dance-join", {folder_.path("exact.toml"), "--no-view"});
+  const auto talk = [&] { return text_of(folder_.path("talk")); };
+  pid_t first = 0;
+  ASSERT_TRUE(wait_for([&] { return (first = running_haptics(0)) > 0; })) << talk();
+  const std::string set = bin("dance-haptics-set") + " --guest alice --bus " + quoted(kBus);
+  ASSERT_EQ(run(set + " --limit 0.5 --off").exit_code, 0) << talk();
+  ASSERT_TRUE(wait_for([&] { return talk().find("haptics are off") != std::string::npos; }));
+  ASSERT_EQ(::kill(first, SIGKILL), 0);
+  ASSERT_TRUE(wait_for([&] { return talk().find("starts it again") != std::string::npos; }))
+      << talk();
+  // Told while it does not run.
+  ASSERT_EQ(run(set + " --limit 0.25").exit_code, 0) << talk();
+  pid_t second = 0;
+  ASSERT_TRUE(wait_for([&] { return (second = running_haptics(first)) > 0; })) << talk();
+  std::string words = text_of("/proc/" + std::to_string(second) + "/cmdline");
+  std::replace(words.begin(), words.end(), '\0', ' ');
+  EXPECT_NE(words.find(" --off "), std::string::npos) << words;
+  EXPECT_NE(words.find(" --limit=0.2500 "), std::string::npos) << words;
+  EXPECT_TRUE(wait_for([&] { return talk().find("alice works again") != std::string::npos; }))
+      << talk();
+}
+
+}  // namespace
+}  // namespace dance
