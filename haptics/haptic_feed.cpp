@@ -70,6 +70,10 @@ bool HapticFeed::wants(HapticSource source) const {
   return false;
 }
 
+bool HapticFeed::is_own_choice(HapticSource source) const {
+  return source != HapticSource::kBeat && !options_.from.empty();
+}
+
 bool HapticFeed::was_ordered(const Haptic& haptic) {
   Ordered& last = ordered_[static_cast<std::size_t>(haptic.source)][index_of(haptic.bone)];
   const Duration between = haptic.play_time - last.play;
@@ -87,7 +91,8 @@ void HapticFeed::on_haptic(const Haptic& haptic) {
   ++made_;
   // The device first.
   for (const auto& player : players_) player->take(haptic, now);
-  port_.publish(Where::kCapture, guest_, haptic);
+  // Another feed of this guest is not to take the part for the whole.
+  if (!is_own_choice(haptic.source)) port_.publish(Where::kCapture, guest_, haptic);
 }
 
 void HapticFeed::hear(const Haptic& haptic, MonoTime now) {
@@ -96,6 +101,7 @@ void HapticFeed::hear(const Haptic& haptic, MonoTime now) {
     ++of_other_clocks_;
     return;
   }
+  if (haptic.maker != 0 && is_own_choice(haptic.source)) return;
   // Of several the one with the smallest number makes; a replay has 0, and makes all kinds.
   if (haptic.maker > maker_id_) return;
   for (std::size_t source = 0; source < kHapticSources; ++source)

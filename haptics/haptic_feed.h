@@ -1,7 +1,9 @@
 // HapticFeed: what one dancer of a house feels, from the signals of a port: makes haptics of
 // touches and beats, says them on HAPTIC/capture/<guest>, and hands them, and those that others
 // make there, to the devices, those kinds that its options name. Of several makers for one dancer,
-// as of a replay and this one, one makes each kind.
+// as of a replay and this one, one makes each kind. A feed of certain dancers only makes touches,
+// holds and the lead for itself, and takes them of a replay alone: an order does not say whose it
+// is.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    refers to the port and the poller, which must outlive it; owns the players.
@@ -57,6 +59,8 @@ class HapticFeed final : private HapticSink {
   // Whether this one is to make a haptic of this kind now.
   bool makes(HapticSource source, MonoTime now);
   bool wants(HapticSource source) const;
+  // Whether this kind is of dancers, and only certain ones are felt.
+  bool is_own_choice(HapticSource source) const;
   // Whether another maker has ordered the same; notes the order.
   bool was_ordered(const Haptic& haptic);
 

@@ -13,6 +13,8 @@ constexpr float kLeastTouch = 0.25f;  // of a touch at all
 constexpr float kFastestSignal_m_s = 2.5f;
 // Another place of the music than the one that was ordered for.
 constexpr double kJump_beats = 0.5;
+// A contact, or a dancer, of which nothing came for so long gives its place to another.
+constexpr Duration kForgotten = Duration::s(1);
 
 float strength_of(float force_n) {
   return std::clamp(kLeastTouch + force_n / kFullTouch_n, 0.0f, 1.0f);
@@ -21,12 +23,21 @@ float strength_of(float force_n) {
 }  // namespace
 
 HapticMaker::Contact* HapticMaker::place_of(const Touch& touch, MonoTime now) {
-  Contact* free = nullptr;
+  Contact *free = nullptr, *own_touch = nullptr, *any_touch = nullptr;
+  std::size_t of_this_one = 0;
   for (Contact& contact : contacts_) {
     if (contact.other == touch.other && contact.number == touch.contact) return &contact;
-    const bool is_free = !contact.other.is_set() || now - contact.heard > Duration::s(1);
+    const bool is_free = !contact.other.is_set() || now - contact.heard > kForgotten;
     if (is_free && !free) free = &contact;
+    if (is_free) continue;
+    if (contact.other == touch.other) ++of_this_one;
+    if (contact.is_hold) continue;
+    any_touch = &contact;
+    if (contact.other == touch.other) own_touch = &contact;
   }
+  const bool has_its_share = of_this_one >= kMostOfOne;
+  if (has_its_share) free = nullptr;
+  if (!free && touch.is_hold) free = own_touch || has_its_share ? own_touch : any_touch;
   if (free) {
     *free = Contact();
     free->other = touch.other;
@@ -36,21 +47,46 @@ HapticMaker::Contact* HapticMaker::place_of(const Touch& touch, MonoTime now) {
   return free;
 }
 
+// After kForgotten its buckets are as full as a new one's: a place is given on only then.
+HapticMaker::Other* HapticMaker::other_of(const GuestId& guest, MonoTime now) {
+  Other* free = nullptr;
+  for (Other& other : others_) {
+    if (other.guest == guest) {
+      other.heard = now;
+      return &other;
+    }
+    if (!other.guest.is_set() || now - other.heard > kForgotten) free = &other;
+  }
+  if (!free) return nullptr;
+  *free = Other();
+  free->guest = guest;
+  free->heard = now;
+  return free;
+}
+
 bool HapticMaker::is_felt(const GuestId& other) const {
   const auto& from = options_.from;
   return from.empty() || std::find(from.begin(), from.end(), other) != from.end();
 }
 
-bool HapticMaker::admit(HapticSource source, Bone bone, MonoTime now) {
-  MonoTime& last = felt_at_[static_cast<std::size_t>(source)][index_of(bone)];
-  // A clock that went back is another one: felt.
-  const bool is_soon = last.is_set() && now >= last && now - last < kBetweenAtPlace;
-  if (is_soon || !felt_.take(1.0, now)) {
-    ++left_out_;
-    return false;
-  }
-  last = now;
-  return true;
+bool HapticMaker::admit(HapticSource source, const Touch& touch, MonoTime now) {
+  const auto may = [&] {
+    Other* const other = other_of(touch.other, now);
+    if (!other) return false;
+    const bool is_touch = source == HapticSource::kTouch;
+    MonoTime& last = (is_touch                        ? touched_at_
+                      : source == HapticSource::kHold ? other->hold_at
+                                                      : other->lead_at)[index_of(touch.bone)];
+    // A clock that went back is another one: felt.
+    if (last.is_set() && now >= last && now - last < kBetweenAtPlace) return false;
+    TokenBucket& bucket = is_touch ? other->touches : other->holds;
+    if (!bucket.take(1.0, now) || (is_touch && !all_touches_.take(1.0, now))) return false;
+    last = now;
+    return true;
+  };
+  if (may()) return true;
+  ++left_out_;
+  return false;
 }
 
 void HapticMaker::order(HapticSource source, Bone bone, const Shape& shape, MonoTime play,
@@ -79,8 +115,9 @@ void HapticMaker::read_signal(const Touch& touch, Contact& contact, MonoTime now
   Eigen::Index axis = 0;
   const float speed = v.cwiseAbs().maxCoeff(&axis);
   if (!(speed > kSignal_m_s)) return;
+  // One that is not felt now may be with the next message.
+  if (!admit(HapticSource::kLead, touch, now)) return;
   contact.said = now;
-  if (!admit(HapticSource::kLead, touch.bone, now)) return;
   const float amplitude = 0.3f + 0.7f * std::min(1.0f, speed / kFastestSignal_m_s);
   const auto say = [&](Duration after, Shape shape) {
     order(HapticSource::kLead, touch.bone, shape, now + after, now, sink);
@@ -100,22 +137,22 @@ void HapticMaker::read_signal(const Touch& touch, Contact& contact, MonoTime now
 void HapticMaker::take(const Touch& touch, MonoTime now, HapticSink& sink) {
   if (!is_felt(touch.other)) return;
   Contact* contact = place_of(touch, now);
-  const bool is_new = !contact || touch.phase == TouchPhase::kBegins;
+  const bool is_new = touch.phase == TouchPhase::kBegins;
   const HapticSource source = touch.is_hold ? HapticSource::kHold : HapticSource::kTouch;
   if (contact) contact->heard = now;
   const bool becomes_hold = contact && touch.is_hold && !contact->is_hold && !is_new;
   if (contact) contact->is_hold = touch.is_hold;
   if (touch.phase == TouchPhase::kEnded) {
     // A hand that lets go.
-    if (options_.touch && touch.is_hold && admit(source, touch.bone, now))
+    if (options_.touch && touch.is_hold && admit(source, touch, now))
       order(source, touch.bone, {Duration::ms(50), {}, Duration::ms(40), 0.3f, 250.0f}, now, now,
             sink);
     if (contact) *contact = Contact();
     return;
   }
   if (options_.touch && (is_new || becomes_hold)) {
+    if (!admit(source, touch, now)) return;
     if (contact) contact->felt = now;
-    if (!admit(source, touch.bone, now)) return;
     const Duration length = touch.is_hold ? Duration::ms(120) : Duration::ms(80);
     order(source, touch.bone,
           {length, {}, Duration::ms(30), touch.is_hold ? 0.5f : strength_of(touch.force_n), 170.0f},
@@ -128,11 +165,11 @@ void HapticMaker::take(const Touch& touch, MonoTime now, HapticSink& sink) {
     return;
   }
   if (!options_.touch || now - contact->felt < kAgain) return;
-  contact->felt = now;
   const double left = std::exp(-(now - contact->begun).as_seconds() / kFades.as_seconds());
   const float amplitude = 0.6f * strength_of(touch.force_n) * static_cast<float>(left);
   // Skin gets used to what stays.
-  if (amplitude < 0.05f || !admit(source, touch.bone, now)) return;
+  if (amplitude < 0.05f || !admit(source, touch, now)) return;
+  contact->felt = now;
   order(source, touch.bone, {kAgain, Duration::ms(20), Duration::ms(40), amplitude, 130.0f}, now,
         now, sink);
 }

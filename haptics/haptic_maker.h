@@ -2,11 +2,11 @@
 // push, pull, raise and to the side, each with its own pattern. Pure: what it makes goes to a sink.
 //
 // Units/frames: times of this house's clock; touches as lcmtypes/touch_t.lcm has them.
-// Ownership:    room for kMostContacts; never allocates after construction.
+// Ownership:    room for kMostContacts and kMostOthers; never allocates after construction.
 // Threads:      none inside; one owner.
-// Failure:      more contacts than there is room for are felt as they begin, and not further. What
-//               others do more often than a place, or the whole body, is to feel is left out and
-//               counted.
+// Failure:      more contacts than there is room for are felt as they begin, and not further; a
+//               hold takes the place of a touch. What another dancer does more often than is to be
+//               felt of one is left out and counted, and takes nothing from a third one.
 #pragma once
 
 #include <array>
@@ -38,7 +38,8 @@ struct HapticMakerOptions {
 
 class HapticMaker {
  public:
-  static constexpr std::size_t kMostContacts = 32;
+  // Of all others, of one of them, and those at a time whose signals are counted apart.
+  static constexpr std::size_t kMostContacts = 64, kMostOfOne = 16, kMostOthers = 16;
   // A beat is ordered so long before it is heard: longer than devices are late.
   static constexpr Duration kAhead = Duration::ms(400);
   // A contact that lasts is felt so often, ever less.
@@ -47,10 +48,14 @@ class HapticMaker {
   // A hand that moves faster than this in a hold is a signal of the lead; at most one in kBetween.
   static constexpr float kSignal_m_s = 0.6f;
   static constexpr Duration kBetween = Duration::ms(300);
-  // Of touches one is felt at one place within kBetweenAtPlace, of holds and of the lead as well;
-  // of all that others do so many a second, and so many at once.
+  // Of touches one is felt at one place within kBetweenAtPlace; of one dancer's holds, and of its
+  // lead, as well.
   static constexpr Duration kBetweenAtPlace = Duration::ms(100);
-  static constexpr double kMost_hz = 15.0, kMostAtOnce = 12.0;
+  // So many a second, and so many at once: of one dancer's touches, of its holds and lead, and of
+  // the touches of all.
+  static constexpr double kTouches_hz = 15.0, kTouchesAtOnce = 12.0;
+  static constexpr double kHolds_hz = 8.0, kHoldsAtOnce = 6.0;
+  static constexpr double kAllTouches_hz = 45.0, kAllTouchesAtOnce = 36.0;
 
   HapticMaker(HapticMakerOptions options, std::uint64_t maker, std::uint64_t clock_id)
       : options_(std::move(options)), maker_(maker), clock_id_(clock_id) {}
@@ -69,6 +74,13 @@ class HapticMaker {
     MonoTime begun, felt, said, heard;
     bool is_hold = false;
   };
+  // Another dancer: what may be felt of it, and where its holds and its lead were felt last.
+  struct Other {
+    GuestId guest;  // not set: a free place
+    MonoTime heard;
+    TokenBucket touches{kTouches_hz, kTouchesAtOnce}, holds{kHolds_hz, kHoldsAtOnce};
+    std::array<MonoTime, kBoneCount> hold_at{}, lead_at{};
+  };
   // How a haptic is shaped.
   struct Shape {
     Duration duration, attack, release;
@@ -76,10 +88,11 @@ class HapticMaker {
   };
 
   Contact* place_of(const Touch& touch, MonoTime now);
+  Other* other_of(const GuestId& guest, MonoTime now);
   void read_signal(const Touch& touch, Contact& contact, MonoTime now, HapticSink& sink);
   bool is_felt(const GuestId& other) const;
-  // Whether what another dancer did may be felt here now; counts it.
-  bool admit(HapticSource source, Bone bone, MonoTime now);
+  // Whether what another dancer did may be felt now, at the touch's bone; counts it.
+  bool admit(HapticSource source, const Touch& touch, MonoTime now);
   void order(HapticSource source, Bone bone, const Shape& shape, MonoTime play, MonoTime now,
              HapticSink& sink);
 
@@ -90,8 +103,9 @@ class HapticMaker {
   double next_beat_ = 0.0;
   bool has_beat_ = false;
   std::array<Contact, kMostContacts> contacts_{};
-  std::array<std::array<MonoTime, kBoneCount>, kHapticSources> felt_at_{};
-  TokenBucket felt_{kMost_hz, kMostAtOnce};
+  std::array<Other, kMostOthers> others_{};
+  std::array<MonoTime, kBoneCount> touched_at_{};
+  TokenBucket all_touches_{kAllTouches_hz, kAllTouchesAtOnce};
   std::uint64_t left_out_ = 0;
 };
 

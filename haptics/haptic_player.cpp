@@ -19,7 +19,8 @@ HapticPlayer::HapticPlayer(std::unique_ptr<HapticOutput> output, HapticPlayerOpt
     : output_(std::move(output)),
       options_(options),
       poller_(poller),
-      was_there_(output_->is_there()) {
+      was_there_(output_->is_there()),
+      has_been_there_(was_there_) {
   output_->set_limit(options_.limit);
   timer_ = poller_.add_timer(mono_now(), [this](MonoTime now) { return run(now); });
 }
@@ -49,9 +50,7 @@ void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
     return;
   }
   Order order{haptic.play_time - options_.latency - output_->latency(), haptic};
-  const float wanted = options_.strength * haptic.amplitude;
-  order.haptic.amplitude = std::min(wanted, options_.limit);
-  if (wanted > options_.limit) ++counters_.limited;
+  order.haptic.amplitude = options_.strength * haptic.amplitude;
   if (now - order.due > kTooLate) {
     ++counters_.late;
     return;
@@ -71,7 +70,12 @@ void HapticPlayer::take(const Haptic& haptic, MonoTime now) {
   poller_.set_deadline(timer_, next_run());
 }
 
-void HapticPlayer::play(const Order& order) {
+void HapticPlayer::play(Order order) {
+  // Here, as the limit may have been set while the order waited.
+  if (order.haptic.amplitude > options_.limit) {
+    order.haptic.amplitude = options_.limit;
+    ++counters_.limited;
+  }
   if (!(order.haptic.amplitude > 0.0f)) return;
   if (!output_->play(order.haptic, mono_now())) {
     ++counters_.refused;
@@ -109,9 +113,11 @@ void HapticPlayer::look_after_device() {
   const bool is_there = output_->is_there();
   if (is_there == was_there_) return;
   was_there_ = is_there;
-  if (tell_)
-    tell_(is_there, output_->name() + (is_there ? " is there, and felt again"
-                                                : " is lost: it is felt again when it is back"));
+  const char* const change = !is_there         ? " is lost: it is felt again when it is back"
+                             : has_been_there_ ? " is there, and felt again"
+                                               : " is there";
+  has_been_there_ |= is_there;
+  if (tell_) tell_(is_there, output_->name() + change);
 }
 
 void HapticPlayer::set_limit(float limit) {

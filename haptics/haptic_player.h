@@ -55,7 +55,7 @@ class HapticPlayer {
   // Off: what is felt ends at once, and nothing is felt until it is on again.
   void set_on(bool is_on);
   bool is_on() const { return options_.is_on; }
-  // 0 to 1.
+  // 0 to 1; binds what waits, too.
   void set_limit(float limit);
   bool is_there() const { return output_->is_there(); }
   // One line for each change: the device is lost, or is there.
@@ -73,7 +73,7 @@ class HapticPlayer {
     Haptic haptic;
   };
   MonoTime run(MonoTime now);
-  void play(const Order& order);
+  void play(Order order);
   void look_after_device();
   MonoTime next_due() const;
   // When the timer has something to do.
@@ -84,7 +84,7 @@ class HapticPlayer {
   Poller& poller_;
   Poller::TimerId timer_ = 0;
   Tell tell_;
-  bool was_there_ = true;
+  bool was_there_ = true, has_been_there_ = true;
   std::array<Order, kMostWaiting> waiting_{};
   std::size_t waiting_count_ = 0;
   MonoTime output_wants_, worked_;

@@ -32,9 +32,8 @@ constexpr const char* kExamples = R"(Examples:
   dance haptics set --guest alice --off              from another terminal, while it runs
   dance haptics --check --to osc                     how exactly orders reach a device
 In a terminal, enter switches everything off, and on again. Several --to at once are several
-devices. touch: bodies that touch and hands that hold;
-lead : what the partner's hand does in a hold;
-one : the first beat of each bar; beats: all of them.
+devices. --feel takes touch: bodies that touch and hands that hold; lead: what the partner's hand
+does in a hold; one: the first beat of each bar; beats: all of them.
 )";
 
 struct HapticsWishes {

@@ -45,6 +45,17 @@ Result<std::unique_ptr<LocalDatagramSocket>> LocalDatagramSocket::bind(const std
   return std::unique_ptr<LocalDatagramSocket>(new LocalDatagramSocket(fd, path, made));
 }
 
+bool LocalDatagramSocket::is_served(const std::string& path) {
+  const auto address = unix_address(path);
+  if (!address || !is_private_folder(folder_of(path)) || !is_socket(path)) return false;
+  const int fd = datagram_socket();
+  if (fd < 0) return true;  // not known: too many files
+  const int error = connect_datagrams(fd, *address);
+  ::close(fd);
+  if (error == ECONNREFUSED) ::unlink(path.c_str());
+  return error == 0;
+}
+
 LocalDatagramSocket::~LocalDatagramSocket() {
   struct stat found {};
   if (::lstat(path_.c_str(), &found) == 0 && found.st_ino == inode_ && found.st_dev == device_)

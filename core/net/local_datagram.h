@@ -27,6 +27,8 @@ class LocalDatagramSocket {
  public:
   // Makes the private folder, and replaces a socket that no process serves.
   static Result<std::unique_ptr<LocalDatagramSocket>> bind(const std::string& path);
+  // Whether a process serves it; removes the file that a killed one left in this user's folder.
+  static bool is_served(const std::string& path);
   ~LocalDatagramSocket();
   LocalDatagramSocket(const LocalDatagramSocket&) = delete;
   LocalDatagramSocket& operator=(const LocalDatagramSocket&) = delete;

@@ -37,7 +37,9 @@ std::vector<std::string> numbered_control_paths(const std::string& path) {
   for (fs::directory_iterator entry(folder_of(path), error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string each = entry->path().string();
-    if (each.starts_with(begin) && paths.size() < kMostNumbered) paths.push_back(each);
+    if (!each.starts_with(begin) || !LocalDatagramSocket::is_served(each)) continue;
+    paths.push_back(each);
+    if (paths.size() == kMostNumbered) break;
   }
   std::sort(paths.begin(), paths.end());
   return paths;

@@ -43,6 +43,7 @@ class ProgramControl {
 std::string control_path(std::string_view program, std::string_view bus_url, const GuestId& guest);
 // Where several may, one by one: `path` with a number each.
 std::string numbered_control_path(const std::string& path, std::uint64_t number);
+// Of those that listen; removes what killed ones left.
 std::vector<std::string> numbered_control_paths(const std::string& path);
 
 using Told = LocalDatagramSender::Sent;

@@ -22,6 +22,10 @@ constexpr std::uint16_t kUsualPort = 15881;
 constexpr lws_usec_t kAgain_us = 1'000'000;
 constexpr std::size_t kMostText = 1024;
 
+BhapticsOutput::LookUp look_up_of(const std::string& address) {
+  return [address] { return Address::resolve_all(address, kUsualPort); };
+}
+
 }  // namespace
 
 struct BhapticsOutput::Impl {
@@ -33,8 +37,13 @@ struct BhapticsOutput::Impl {
   // lws finds it by the address of its first member.
   lws_sorted_usec_list_t again{};
   std::string address;  // as it was given
+  LookUp look_up;
   lws_context* context = nullptr;
   lws* connection = nullptr;
+  // Of the thread: where a player may be, those that were tried, and whether one is tried now.
+  std::vector<Address> places;
+  std::size_t tried = 0;
+  bool is_trying = false;
   SpscRing<Order, 64> orders;
   std::optional<Order> next;
   std::atomic<bool> is_connected{false}, ends{false};
@@ -43,8 +52,10 @@ struct BhapticsOutput::Impl {
 
   static int on_event(lws* wsi, lws_callback_reasons reason, void* user, void* data,
                       std::size_t size);
-  static void connect_again(lws_sorted_usec_list_t* again);
+  static void on_again(lws_sorted_usec_list_t* again);
   void connect();
+  void try_next();
+  void not_here();
   void lost();
   int write_one(lws* wsi);
   void run();
@@ -52,32 +63,63 @@ struct BhapticsOutput::Impl {
 
 // In its own thread, as looking a name up may take seconds.
 void BhapticsOutput::Impl::connect() {
-  const auto to = Address::resolve(address, kUsualPort);
-  if (!to) return lost();
-  const std::string text = to->to_string();
+  auto found = look_up();
+  if (!found || found->empty()) return lost();
+  places = std::move(*found);
+  tried = 0;
+  try_next();
+}
+
+// Also of one machine a player may be at one address only: "localhost" is ::1 and 127.0.0.1.
+void BhapticsOutput::Impl::try_next() {
+  const Address to = places[tried++];
+  const std::string text = to.to_string();
   std::string host = text.substr(0, text.rfind(':'));
   if (host.starts_with('[')) host = host.substr(1, host.size() - 2);
   lws_client_connect_info info{};
   info.context = context;
   info.address = host.c_str();
-  info.port = to->port();
+  info.port = to.port();
   info.path = kPath;
   info.host = host.c_str();
   info.origin = host.c_str();
   info.local_protocol_name = "dance-haptics";
   info.pwsi = &connection;
-  if (lws_client_connect_via_info(&info) == nullptr) lost();
+  is_trying = true;
+  // So long one that does not answer keeps the next one waiting.
+  if (tried < places.size())
+    lws_sul_schedule(context, 0, &again, on_again,
+                     kAnswers.count_us() / static_cast<std::int64_t>(places.size()));
+  // The library may have told of the failure already.
+  if (lws_client_connect_via_info(&info) == nullptr) not_here();
+}
+
+void BhapticsOutput::Impl::not_here() {
+  if (!is_trying) return;
+  is_trying = false;
+  connection = nullptr;
+  if (tried == places.size()) return lost();
+  if (!ends) lws_sul_schedule(context, 0, &again, on_again, 1);
 }
 
 void BhapticsOutput::Impl::lost() {
   connection = nullptr;
-  is_connected = false;
+  is_connected = is_trying = false;
+  places.clear();
+  tried = 0;
   ++failures;
-  if (!ends) lws_sul_schedule(context, 0, &again, connect_again, kAgain_us);
+  if (!ends) lws_sul_schedule(context, 0, &again, on_again, kAgain_us);
 }
 
-void BhapticsOutput::Impl::connect_again(lws_sorted_usec_list_t* again) {
-  reinterpret_cast<Impl*>(again)->connect();
+void BhapticsOutput::Impl::on_again(lws_sorted_usec_list_t* again) {
+  auto* const self = reinterpret_cast<Impl*>(again);
+  // One that does not answer: its end is told.
+  if (self->is_trying && self->connection)
+    lws_set_timeout(self->connection, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
+  else if (self->tried < self->places.size())
+    self->try_next();
+  else
+    self->connect();
 }
 
 int BhapticsOutput::Impl::write_one(lws* wsi) {
@@ -110,9 +152,14 @@ int BhapticsOutput::Impl::on_event(lws* wsi, lws_callback_reasons reason, void*,
       self->next.reset();
       while (self->orders.pop()) {
       }
+      self->is_trying = false;
+      lws_sul_cancel(&self->again);
       self->is_connected = true;
       break;
     case LWS_CALLBACK_CLIENT_CONNECTION_ERROR:
+    case LWS_CALLBACK_WSI_DESTROY:  // all that is told of one that does not answer
+      self->not_here();
+      break;
     case LWS_CALLBACK_CLIENT_CLOSED:
       self->lost();
       break;
@@ -136,26 +183,34 @@ void BhapticsOutput::Impl::run() {
 
 Result<std::unique_ptr<HapticOutput>> BhapticsOutput::open(const std::string& address) {
   const std::string wanted = address.empty() ? kUsualAddress : address;
-  DANCE_TRY(const Address to, Address::resolve(wanted, kUsualPort));
-  auto output = start(wanted);
+  return open(wanted, look_up_of(wanted));
+}
+
+Result<std::unique_ptr<HapticOutput>> BhapticsOutput::open(const std::string& address,
+                                                           const LookUp& look_up) {
+  DANCE_TRY(const auto places, look_up());
+  auto output = start(address, look_up);
   if (!output) return fail("libwebsockets cannot be started: no memory, or too many files");
   const Impl& impl = *output->impl_;
   const MonoTime begin = mono_now();
   while (!impl.is_connected && impl.failures == 0 && mono_now() - begin < kAnswers)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   if (!impl.is_connected)
-    return fail("no bHaptics Player at " + to.to_string() +
+    return fail("no bHaptics Player at " +
+                (places.size() == 1 ? places.front().to_string() : address) +
                 ": start it, or say where it is with an address, as 192.168.1.7:15881");
   return std::unique_ptr<HapticOutput>(std::move(output));
 }
 
 std::unique_ptr<HapticOutput> BhapticsOutput::later(const std::string& address) {
-  return start(address.empty() ? kUsualAddress : address);
+  const std::string wanted = address.empty() ? kUsualAddress : address;
+  return start(wanted, look_up_of(wanted));
 }
 
-std::unique_ptr<BhapticsOutput> BhapticsOutput::start(const std::string& address) {
+std::unique_ptr<BhapticsOutput> BhapticsOutput::start(const std::string& address, LookUp look_up) {
   auto impl = std::make_unique<Impl>();
   impl->address = address;
+  impl->look_up = std::move(look_up);
   lws_set_log_level(0, nullptr);
   static const std::array<lws_protocols, 2> kProtocols{
       {{"dance-haptics", Impl::on_event, 0, 512, 0, nullptr, 0},

@@ -6,15 +6,19 @@
 // Ownership:    owns its thread and connection; 64 orders may wait for it, the oldest give way.
 // Threads:      one, named haptics-ws; play() waits for nothing.
 // Failure:      open() names an address that is none, and, after kAnswers at most, one where no
-//               player is; of later() it is looked for once a second, as is one that ends. Orders
+//               player is; of later() it is looked for once a second, as is one that ends. Of a
+//               name with several addresses each is tried, with its part of kAnswers. Orders
 //               that find no connection are refused, those that a stall has made late are left
 //               out; both are counted.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
+#include "core/net/address.h"
 #include "haptics/haptic_output.h"
 
 namespace dance {
@@ -25,7 +29,12 @@ class BhapticsOutput final : public HapticOutput {
   static constexpr Duration kAnswers = Duration::s(2);
   static constexpr const char* kPath = "/v2/feedbacks?app_id=dancegraph&app_name=DanceGraph";
 
+  // The places of a player, in the order in which they are to be tried; may take seconds.
+  using LookUp = std::function<Result<std::vector<Address>>()>;
+
   static Result<std::unique_ptr<HapticOutput>> open(const std::string& address);
+  static Result<std::unique_ptr<HapticOutput>> open(const std::string& address,
+                                                    const LookUp& look_up);
   // One that may not be there yet; null where the library cannot be started.
   static std::unique_ptr<HapticOutput> later(const std::string& address);
   ~BhapticsOutput() override;
@@ -38,7 +47,7 @@ class BhapticsOutput final : public HapticOutput {
 
  private:
   struct Impl;
-  static std::unique_ptr<BhapticsOutput> start(const std::string& address);
+  static std::unique_ptr<BhapticsOutput> start(const std::string& address, LookUp look_up);
   explicit BhapticsOutput(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -186,6 +186,12 @@ std::string touch_spread_json(const TouchSpread& spread) {
     }
     report["rows"].push_back(one);
   }
+  for (const PalmHold::Limits& limits : spread.chosen)
+    report["chosen"].push_back({{"begin_m", limits.begin_m},
+                                {"early_m", limits.early_m},
+                                {"soon_m", limits.soon_m},
+                                {"end_m", limits.end_m},
+                                {"release_ms", limits.release_delay.count_ms()}});
   return report.dump(2) + "\n";
 }
 

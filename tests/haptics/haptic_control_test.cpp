@@ -2,9 +2,12 @@
 #include "haptics/haptic_control.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
+#include "core/net/local_address.h"
 #include "core/net/mono_clock.h"
 #include "haptics/haptic_table.h"
 #include "tests/core/bus/port_double.h"
@@ -84,6 +87,26 @@ TEST_F(HapticControls, WhereNothingRunsItIsSaid) {
     EXPECT_FALSE(tell_haptics("memq://other", kTold, {}));
   }
   EXPECT_FALSE(tell_haptics(kControlBus, kTold, {}));
+}
+
+// A killed program leaves its socket.
+TEST_F(HapticControls, SocketsOfKilledProgramsDoNotHideOneThatRuns) {
+  const auto control = open();
+  ASSERT_TRUE(control);
+  const std::string path = control_path("haptics", kControlBus, kTold);
+  sockaddr_un address{};
+  for (std::uint64_t number = 1; number <= 300; ++number) {
+    address = *unix_address(numbered_control_path(path, 10'000'000 + number));
+    const int left = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    ASSERT_EQ(::bind(left, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ::close(left);
+  }
+  const auto told = tell_haptics(kControlBus, kTold, {HapticCommand::Kind::kOff, 1.0f});
+  ASSERT_TRUE(told) << told.error().what;
+  EXPECT_EQ(*told, 1);
+  turn();
+  EXPECT_FALSE(devices_[0].feed->is_on());
+  EXPECT_NE(::access(address.sun_path, F_OK), 0) << "what nobody serves is to go";
 }
 
 TEST_F(HapticControls, WhatIsNoCommandChangesNothing) {

@@ -21,14 +21,15 @@ struct Felt {
     feed.add(std::make_unique<HapticPlayer>(std::make_unique<NotedOutput>(notes),
                                             HapticPlayerOptions(), *poller));
   }
-  void touch(std::uint32_t contact, std::uint64_t clock = this_clock_id()) {
+  void touch(std::uint32_t contact, std::uint64_t clock = this_clock_id(),
+             const char* other = "bob") {
     Touch touch;
     touch.time = mono_now();
     touch.clock_id = clock;
     touch.contact = contact;
     touch.bone = static_cast<Bone>(contact % kBoneCount);
     touch.force_n = 10.0f;
-    touch.other = *GuestId::parse("bob");
+    touch.other = *GuestId::parse(other);
     port.publish(Where::kStage, kAlice, touch);
   }
   void hear(std::uint64_t maker, HapticSource source = HapticSource::kTouch) {
@@ -116,6 +117,52 @@ TEST(HapticFeed, ADeviceFeelsOnlyWhatItsOptionsNameOfAnyMaker) {
   EXPECT_EQ(felt.notes.played.size(), 0u);
   felt.hear(1, HapticSource::kBeat);
   EXPECT_EQ(felt.notes.played.size(), 1u);
+}
+
+// Whatever the number of the other live maker: below every other, or above.
+TEST(HapticFeed, OneThatIsToFeelOnlyBobTakesNoTouchesOfAnotherMakerAndSaysNone) {
+  for (const std::uint64_t maker : {std::uint64_t{1}, ~std::uint64_t{0}}) {
+    HapticMakerOptions options;
+    options.from = {*GuestId::parse("bob")};
+    Felt felt(options);
+    for (const HapticSource source :
+         {HapticSource::kTouch, HapticSource::kHold, HapticSource::kLead})
+      felt.hear(maker, source);
+    EXPECT_TRUE(felt.notes.played.empty());
+    const std::size_t heard = felt.said();
+    felt.touch(1, this_clock_id(), "eve");
+    EXPECT_TRUE(felt.notes.played.empty());
+    felt.touch(2);
+    EXPECT_EQ(felt.notes.played.size(), 1u);  // it does not rest for the other
+    EXPECT_EQ(felt.said(), heard);
+    felt.hear(0);  // a replay's are what was felt
+    EXPECT_EQ(felt.notes.played.size(), 2u);
+  }
+}
+
+// As two [[haptics]] of one house: two makers on one bus, whose numbers are drawn.
+TEST(HapticFeed, OfTwoOfOneGuestEachFeelsThoseThatItIsToFeel) {
+  bool has_been_first = false, has_been_second = false;
+  for (int i = 0; i < 64; ++i) {
+    HapticMakerOptions options;
+    options.from = {*GuestId::parse("bob")};
+    Felt all;
+    DeviceNotes notes;
+    HapticFeed bobs(kAlice, options, all.port, *all.poller);
+    bobs.add(std::make_unique<HapticPlayer>(std::make_unique<NotedOutput>(notes),
+                                            HapticPlayerOptions(), *all.poller));
+    all.touch(1, this_clock_id(), "eve");
+    EXPECT_EQ(notes.played.size(), 0u);
+    all.touch(2);
+    all.touch(3, this_clock_id(), "eve");
+    EXPECT_EQ(all.notes.played.size(), 3u);
+    ASSERT_EQ(notes.played.size(), 1u);
+    EXPECT_EQ(all.said(), 3u);
+    const bool is_first = notes.played[0].maker < all.notes.played[0].maker;
+    has_been_first |= is_first;
+    has_been_second |= !is_first;
+  }
+  EXPECT_TRUE(has_been_first && has_been_second);
 }
 
 TEST(HapticTable, NamesWhatIsWrong) {

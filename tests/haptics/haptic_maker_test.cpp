@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "tests/allocation_guard.h"
 #include "tests/haptics/haptic_notes.h"
 
@@ -162,9 +165,32 @@ TEST(HapticMaker, AStrangerWhoJittersIsFeltNoMoreOftenThanAPlaceAndABodyBear) {
       EXPECT_GE(one.felt[i].time - one.felt[i - 1].time, HapticMaker::kBetweenAtPlace);
     const HapticNotes all = jittered(all_places, 22, is_hold);
     const double seconds = 600 * 0.016;
-    EXPECT_LE(all.felt.size(), HapticMaker::kMost_hz * seconds + HapticMaker::kMostAtOnce + 1.0);
+    EXPECT_LE(all.felt.size(),
+              is_hold ? HapticMaker::kHolds_hz * seconds + HapticMaker::kHoldsAtOnce + 1.0
+                      : HapticMaker::kTouches_hz * seconds + HapticMaker::kTouchesAtOnce + 1.0);
     EXPECT_GT(all_places.left_out(), 1000u);
   }
+}
+
+// Of several strangers each jitters as one does alone.
+TEST(HapticMaker, StrangersTogetherAreBoundedToo) {
+  HapticMaker maker = maker_of();
+  HapticNotes notes;
+  const auto jitter = [&](const std::string& name, int ms) {
+    for (int bone = 0; bone < 22; ++bone) {
+      Touch touch = some_touch(TouchPhase::kBegins, 200.0f);
+      touch.bone = static_cast<Bone>(bone);
+      touch.contact = static_cast<std::uint32_t>(100 * ms + bone);
+      touch.other = *GuestId::parse(name);
+      maker.take(touch, when(ms), notes);
+    }
+  };
+  for (int picture = 0; picture < 600; ++picture)
+    for (int stranger = 0; stranger < 40; ++stranger)  // more than are counted apart
+      jitter("eve-" + std::to_string(stranger), 16 * picture);
+  EXPECT_GT(notes.felt.size(), 200u);
+  EXPECT_LE(notes.felt.size(),
+            HapticMaker::kAllTouches_hz * 9.6 + HapticMaker::kAllTouchesAtOnce + 1.0);
 }
 
 TEST(HapticMaker, ALeadsHandThatIsEverANewContactIsBoundedToo) {
@@ -175,7 +201,82 @@ TEST(HapticMaker, ALeadsHandThatIsEverANewContactIsBoundedToo) {
     touch.contact = static_cast<std::uint32_t>(i / 2);
     maker.take(touch, when(16 * i), notes);
   }
-  EXPECT_LE(notes.felt.size(), HapticMaker::kMost_hz * 9.6 + HapticMaker::kMostAtOnce + 1.0);
+  EXPECT_LE(notes.felt.size(), HapticMaker::kHolds_hz * 9.6 + HapticMaker::kHoldsAtOnce + 1.0);
+}
+
+// Eve does all that she can beside: touches and holds at all places, new ones in each picture, ever
+// in front of bob's.
+TEST(HapticMaker, ThePartnerIsFeltBesideAStrangerWhoJitters) {
+  for (const bool eve_holds : {false, true}) {
+    HapticMaker maker = maker_of();
+    HapticNotes of_eve, of_bob;
+    int pushes = 0;
+    for (int picture = 0; picture < 600; ++picture) {
+      for (std::uint32_t i = 0; i < 44; ++i) {
+        Touch touch = some_touch(i % 2 == 0 ? TouchPhase::kBegins : TouchPhase::kLasts, 200.0f);
+        touch.is_hold = eve_holds;
+        touch.motion_m_s = {0.0f, 0.0f, 3.0f};
+        touch.bone = static_cast<Bone>(i / 2);
+        touch.contact = 100u * static_cast<std::uint32_t>(picture) + i / 2;
+        touch.other = *GuestId::parse("eve");
+        maker.take(touch, when(16 * picture), of_eve);
+      }
+      // A hold from the first second on, with a push each half second.
+      if (picture < 60 || picture % 2 != 0) continue;
+      const bool is_push = picture % 30 == 0;
+      const TouchPhase phase = picture == 60 ? TouchPhase::kBegins : TouchPhase::kLasts;
+      maker.take(some_hold(phase, {0.0f, 0.0f, is_push ? -1.5f : 0.0f}), when(16 * picture),
+                 of_bob);
+      pushes += is_push && phase == TouchPhase::kLasts;
+    }
+    ASSERT_FALSE(of_bob.felt.empty());
+    EXPECT_EQ(of_bob.felt[0].source, HapticSource::kHold);
+    EXPECT_EQ(of_bob.felt.size(), 1u + static_cast<std::size_t>(pushes));
+    EXPECT_GT(pushes, 10);
+    // A tap elsewhere is felt, too.
+    HapticNotes tap;
+    maker.take(some_touch(TouchPhase::kBegins), when(16 * 600 + 100), tap);
+    EXPECT_EQ(tap.felt.size(), 1u);
+  }
+}
+
+// Where bodies are close, each contact goes on to be felt: the lead's hand has its own share.
+TEST(HapticMaker, CloseContactDoesNotHideTheLeadOfTheSameDancer) {
+  HapticMaker maker = maker_of();
+  HapticNotes touches, lead;
+  for (int picture = 0; picture < 60; ++picture) {
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      Touch touch = some_touch(picture == 0 ? TouchPhase::kBegins : TouchPhase::kLasts, 40.0f);
+      touch.bone = static_cast<Bone>(i % kBoneCount);
+      touch.contact = 100 + i;
+      maker.take(touch, when(33 * picture), touches);
+    }
+    const bool is_push = picture % 20 == 19;
+    maker.take(some_hold(TouchPhase::kLasts, {0.0f, 0.0f, is_push ? -1.5f : 0.0f}),
+               when(33 * picture), lead);
+  }
+  EXPECT_GT(touches.felt.size(), 20u);
+  EXPECT_EQ(std::count_if(lead.felt.begin(), lead.felt.end(),
+                          [](const Haptic& h) { return h.source == HapticSource::kLead; }),
+            3);
+}
+
+TEST(HapticMaker, ASignalThatIsNotFeltAtOnceIsFeltWithTheNextMessage) {
+  HapticMaker maker = maker_of();
+  HapticNotes notes;
+  const auto hold = [&](std::uint32_t contact, TouchPhase phase, float forward_m_s, int ms) {
+    Touch touch = some_hold(phase, {0.0f, 0.0f, forward_m_s});
+    touch.contact = contact;
+    maker.take(touch, when(ms), notes);
+  };
+  hold(1, TouchPhase::kBegins, 0.0f, 0);
+  hold(2, TouchPhase::kBegins, 0.0f, 200);
+  notes.felt.clear();
+  hold(1, TouchPhase::kLasts, -1.5f, 400);
+  hold(2, TouchPhase::kLasts, -1.5f, 460);  // at the same place, too soon
+  EXPECT_EQ(notes.felt.size(), 1u);
+  hold(2, TouchPhase::kLasts, -1.5f, 510);
+  EXPECT_EQ(notes.felt.size(), 2u);
 }
 
 TEST(HapticMaker, OnlyThoseWhoAreNamedAreFelt) {

@@ -138,6 +138,23 @@ TEST(HapticPlayer, SaysOnceThatADeviceIsLostAndOnceThatItIsBack) {
   EXPECT_EQ(said[1], "a device is there, and felt again");
 }
 
+TEST(HapticPlayer, ADeviceThatWasNeverThereIsNotSaidToBeFeltAgain) {
+  DeviceNotes notes;
+  notes.is_there = false;
+  const auto poller = *Poller::create();
+  HapticPlayer player(std::make_unique<NotedOutput>(notes), {}, *poller);
+  std::vector<std::string> said;
+  player.tell_changes([&](bool, const std::string& line) { said.push_back(line); });
+  for (const bool is_there : {true, false, true}) {
+    const std::size_t before = said.size();
+    notes.is_there = is_there;
+    for (int i = 0; i < 500 && said.size() == before; ++i) poller->run_once(Duration::ms(20));
+  }
+  EXPECT_EQ(said, (std::vector<std::string>{"a device is there",
+                                            "a device is lost: it is felt again when it is back",
+                                            "a device is there, and felt again"}));
+}
+
 TEST(HapticPlayer, OneOfSomeBonesLeavesOutTheOthers) {
   HapticPlayerOptions options;
   options.bones = *parse_bones({"leftHand", "leftLowerArm"});
@@ -156,6 +173,21 @@ TEST(HapticPlayer, OneOfSomeBonesLeavesOutTheOthers) {
   const auto wrong = parse_bones({"left-hand"});
   ASSERT_FALSE(wrong);
   EXPECT_NE(wrong.error().what.find("leftHand"), std::string::npos);
+}
+
+TEST(HapticPlayer, ALimitThatIsSetBindsWhatWaits) {
+  Played stage;
+  const MonoTime now = mono_now();
+  stage.player->take(some_haptic(now + Duration::ms(30)), now);
+  stage.player->take(some_haptic(now + Duration::ms(40)), now);
+  stage.player->set_limit(0.1f);
+  stage.turn_until(1);
+  stage.player->set_limit(0.3f);
+  stage.turn_until(2);
+  ASSERT_EQ(stage.notes.played.size(), 2u);
+  EXPECT_FLOAT_EQ(stage.notes.played[0].amplitude, 0.1f);
+  EXPECT_FLOAT_EQ(stage.notes.played[1].amplitude, 0.3f);
+  EXPECT_EQ(stage.player->counters().limited, 2u);
 }
 
 TEST(HapticPlayer, ALimitThatIsSetHoldsFromTheNextOrderOn) {

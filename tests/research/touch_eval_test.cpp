@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "producers/salsa/salsa_dancer.h"
 #include "research/touch/touch_spread.h"
 
@@ -120,6 +122,15 @@ TEST(TouchEval, LimitsOfADanceAreChosenOnTheOthersAlone) {
         evaluate_spread({salsa_couple(first, 6), salsa_couple(second, 6)}, {}, wish);
     EXPECT_EQ(spread.rows.size(), 3u);
     EXPECT_EQ(spread.chosen.size(), 2u);
+    const auto report = nlohmann::json::parse(touch_spread_json(spread));
+    EXPECT_EQ(report["chosen"].size(), 2u);
+    for (std::size_t dance = 0; dance < 2; ++dance) {
+      const PalmHold::Limits& limits = spread.chosen.at(dance);
+      const auto& said = report["chosen"].at(dance);
+      EXPECT_FLOAT_EQ(said["begin_m"].get<float>(), limits.begin_m);
+      EXPECT_FLOAT_EQ(said["soon_m"].get<float>(), limits.soon_m);
+      EXPECT_EQ(said["release_ms"], limits.release_delay.count_ms());
+    }
     return std::array{spread.chosen.at(0).begin_m, spread.chosen.at(0).early_m,
                       spread.chosen.at(0).end_m};
   };

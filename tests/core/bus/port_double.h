@@ -18,10 +18,13 @@ class PortDouble : public SignalPort {
  public:
   void send(const Channel& channel, const AnyMessage& message) override {
     sent.emplace_back(channel.view());
-    size = message.encode(bytes);
+    // A subscriber may send.
+    MessageBuffer encoded;
+    const std::size_t encoded_size = size = message.encode(encoded);
+    bytes = encoded;
     for (const auto& subscription : subscriptions)
       if (subscription->signal() == channel.signal() && subscription->from().includes(channel))
-        subscription->take({channel.view(), bytes.data(), size, MonoTime()}, counted);
+        subscription->take({channel.view(), encoded.data(), encoded_size, MonoTime()}, counted);
   }
   void add(std::shared_ptr<Subscription> subscription) override {
     subscriptions.push_back(std::move(subscription));
