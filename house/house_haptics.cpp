@@ -12,7 +12,8 @@
 namespace dance {
 namespace {
 
-// Of the house itself beside what has its process number.
+// The house listens beside its programs, whose numbers are their process ids: the upper half is its
+// own.
 std::uint64_t control_number(std::size_t number) {
   return (std::uint64_t{number} + 1) << 32 | static_cast<std::uint64_t>(getpid());
 }
@@ -46,7 +47,7 @@ void HouseHaptics::listen(std::size_t number, Poller& poller) {
   if (opened)
     control_ = std::move(*opened);
   else
-    talk::warn("{}; where dance haptics of {} is started again, it is as the session has it",
+    talk::warn("{}; where dance haptics of {} is started again, it is as the session file has it",
                opened.error().what, haptics_.guest.view());
 }
 

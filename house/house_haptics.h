@@ -6,7 +6,7 @@
 // Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it.
 // Threads:      none inside; runs in the poller's thread.
 // Failure:      as house/program/hosted_program.h. Where the house cannot hear what the program is
-//               told, that is said, and a later start begins as the session has it.
+//               told, that is said, and a later start begins as its file has it.
 #pragma once
 
 #include <memory>
