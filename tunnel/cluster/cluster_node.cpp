@@ -112,7 +112,8 @@ void ClusterNode::take_presence(Room& room, const cluster::Key& key,
     return;
   }
   if (value != nullptr) {
-    room.present.emplace(key.server, now);
+    // Its guests too, where it was taken for gone: what erased its presence erased not all of them.
+    room.lacks_places |= room.present.emplace(key.server, now).second;
     server_->remotes().open(key.room, key.server, value->has_host, clock().to_session(now));
   } else {
     room.present.erase(key.server);

@@ -93,7 +93,7 @@ class ClusterNode final : public ClusterPort {
     std::map<GuestId, cluster::GuestValue> guests;
     std::set<GuestId> subscribed;  // whose poses come here
     bool has_host = false;         // a link of this server has a host's key
-    bool lacks_places = false;     // somebody is not shown here: the room is full
+    bool lacks_places = false;     // somebody may not be shown here: the room was full, say
     std::map<std::pair<GuestId, std::size_t>, std::vector<std::uint8_t>> states;  // guest not set:
                                                                                   // the room's
   };

@@ -215,6 +215,50 @@ TEST(ClusterFailure, WhoWasErasedDuringAPartitionIsThereAgain) {
   EXPECT_GT(b.heard_of(guest("alice")), 100u);
 }
 
+// One that the others took for dead: what they erase may come after it has written all again, its
+// guests first.
+TEST(ClusterFailure, WhoseServersPresenceIsErasedLateStays) {
+  SimulatedCluster cluster(2);
+  House& a = cluster[0].add("alice");
+  House& b = cluster[1].add("bob");
+  const std::vector<SimulatedCluster::Dancer> all{{&a, "alice"}, {&b, "bob"}};
+  cluster.run(Duration::ms(300));
+  const cluster::Key of{cluster::KeyKind::kPresence, guest("salsa"), cluster[1].node->id(), {}, 0};
+  const std::string presence(cluster::text_of(of).view());
+  ASSERT_TRUE(cluster.values.contains(presence));
+  cluster[0].erase(presence);
+  cluster.dance(Duration::s(1), all);
+  for (House* house : {&a, &b}) house->poses.clear();
+  cluster.dance(Duration::s(2), all);
+  EXPECT_GT(a.heard_of(guest("bob")), 100u);
+  EXPECT_GT(b.heard_of(guest("alice")), 100u);
+}
+
+// A bucket takes what waited in no order, and some of it long after the servers hear each other.
+TEST(ClusterFailure, InWhateverOrderWhatWaitedIsWrittenAllHearAll) {
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    Random random(seed);
+    SimulatedCluster cluster(3);
+    std::vector<SimulatedCluster::Dancer> all;
+    for (int i = 0; i < 6; ++i) {
+      const std::string name = "guest-" + std::to_string(i);
+      all.emplace_back(&cluster[static_cast<std::size_t>(i % 3)].add(name), name);
+    }
+    cluster.run(Duration::ms(300));
+    for (const std::size_t site : {0u, 1u, 2u}) cluster.cut(site);
+    cluster.run(Duration::ms(500 + static_cast<std::int64_t>(random.below(12'000))));
+    for (const std::size_t site : {0u, 1u, 2u}) cluster.join(site, Duration::s(20), random);
+    cluster.run(Duration::s(21));
+    for (const auto& [house, name] : all) house->poses.clear();
+    cluster.dance(Duration::s(1), all);
+    for (const auto& [house, own] : all)
+      for (const auto& [other, name] : all) {
+        if (own == name) continue;
+        EXPECT_GT(house->heard_of(guest(name)), 40u) << own << " of " << name << ", seed " << seed;
+      }
+  }
+}
+
 // However servers die and guests wander, when it is quiet all hear all, and nothing is left over.
 TEST(ClusterFailure, ManyDeathsInARowLeaveOneRoom) {
   SimulatedCluster cluster(3);

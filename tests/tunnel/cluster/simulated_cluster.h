@@ -135,6 +135,7 @@ class SimulatedCluster {
   void run(Duration duration, const std::function<void()>& each_ms = {}) {
     for (const MonoTime end = now_ + duration; now_ < end;) {
       now_ += Duration::ms(1);
+      write_what_is_due();
       for (auto& site : sites_) {
         site->deliver(now_);
         site->tunnel.run(Duration::ms(1));
@@ -162,7 +163,15 @@ class SimulatedCluster {
     sites_[site]->is_cut = false;
     auto waiting = std::move(waiting_);
     waiting_.clear();
-    for (auto& [from, key, bytes] : waiting) write(*from, key, std::move(bytes));
+    for (Write& it : waiting) write(*it.from, it.key, std::move(it.bytes));
+  }
+  // Of each of its keys the newest value, each at any time until then, unless it is written again.
+  void join(std::size_t site, Duration longest, Random& random) {
+    sites_[site]->is_cut = false;
+    for (Write& it : waiting_)
+      if (it.from == sites_[site].get())
+        it.due = now_ + Duration::ns(static_cast<std::int64_t>(
+                            static_cast<double>(longest.count_ns()) * random.uniform()));
   }
 
   std::map<std::string, std::vector<std::uint8_t>> values;
@@ -170,6 +179,12 @@ class SimulatedCluster {
 
  private:
   friend class Site;
+  struct Write {
+    Site* from;
+    std::string key;
+    std::optional<std::vector<std::uint8_t>> bytes;
+    MonoTime due;  // not set: when its site is no longer cut off
+  };
   void publish(Site& from, std::string_view subject, ClusterBus::Bytes message) {
     if (from.is_cut) return;
     for (auto& site : sites_)
@@ -179,8 +194,9 @@ class SimulatedCluster {
                                   std::vector<std::uint8_t>(message.begin(), message.end())});
   }
   void write(Site& from, const std::string& key, std::optional<std::vector<std::uint8_t>> bytes) {
+    std::erase_if(waiting_, [&](const Write& it) { return it.from == &from && it.key == key; });
     if (from.is_cut) {
-      waiting_.emplace_back(&from, key, std::move(bytes));
+      waiting_.push_back({&from, key, std::move(bytes), MonoTime()});
       return;
     }
     values.erase(key);
@@ -192,6 +208,13 @@ class SimulatedCluster {
     for (auto& site : sites_)
       if (site->node && site->watches(key))
         site->arrivals.push_back({now_ + delay, true, key, bytes});
+  }
+  void write_what_is_due() {
+    const auto is_due = [this](const Write& it) { return it.due.is_set() && it.due <= now_; };
+    std::vector<Write> due;
+    std::copy_if(waiting_.begin(), waiting_.end(), std::back_inserter(due), is_due);
+    std::erase_if(waiting_, is_due);
+    for (Write& it : due) write(*it.from, it.key, std::move(it.bytes));
   }
   void read_all(Site& to, const std::string& prefix) {
     std::map<std::uint64_t, std::string> in_order;
@@ -206,7 +229,7 @@ class SimulatedCluster {
   std::map<std::string, std::uint64_t> written_;  // when, by key
   std::uint64_t writes_ = 0;
   std::vector<std::unique_ptr<Site>> sites_;
-  std::vector<std::tuple<Site*, std::string, std::optional<std::vector<std::uint8_t>>>> waiting_;
+  std::vector<Write> waiting_;
 };
 
 }  // namespace dance
