@@ -50,9 +50,7 @@ void note_link(const BannerFacts& facts, BannerSet& set) {
 BannerSet troubles_of(const BannerFacts& facts) {
   BannerSet set;
   note_link(facts, set);
-  const auto note = [&](BannerKind kind, bool is) {
-    set.set(static_cast<std::size_t>(kind), is);
-  };
+  const auto note = [&](BannerKind kind, bool is) { set.set(static_cast<std::size_t>(kind), is); };
   note(BannerKind::kNoPoses, facts.still.is_set() && facts.still_for > kStill);
   note(BannerKind::kRecordingFailed, !facts.recording_trouble.empty());
   note(BannerKind::kSlowDrawing, facts.slow_for > kSlow);
@@ -97,8 +95,8 @@ Banner banner_of(BannerKind kind, const BannerFacts& facts, const Texts& texts) 
       say(Text::kBannerServer, Text::kBannerServerCure);
       break;
     case BannerKind::kNoPoses:
-      banner.what = texts.say(Text::kBannerNoPoses,
-                              {facts.still.view(), seconds_text(facts.still_for)});
+      banner.what =
+          texts.say(Text::kBannerNoPoses, {facts.still.view(), seconds_text(facts.still_for)});
       banner.cure = texts[Text::kBannerNoPosesCure];
       break;
     case BannerKind::kRecordingFailed:
@@ -106,10 +104,8 @@ Banner banner_of(BannerKind kind, const BannerFacts& facts, const Texts& texts) 
       banner.cure = facts.recording_trouble;
       break;
     case BannerKind::kSlowDrawing:
-      banner.what = texts.say(Text::kBannerSlow,
-                              {std::to_string(std::lround(facts.pictures_hz))});
-      banner.cure =
-          texts[facts.draws_plainly ? Text::kBannerSlowSmaller : Text::kBannerSlowCure];
+      banner.what = texts.say(Text::kBannerSlow, {std::to_string(std::lround(facts.pictures_hz))});
+      banner.cure = texts[facts.draws_plainly ? Text::kBannerSlowSmaller : Text::kBannerSlowCure];
       banner.action = facts.draws_plainly ? BannerAction::kNone : BannerAction::kDrawPlainly;
       break;
     case BannerKind::kNoMicrophone:

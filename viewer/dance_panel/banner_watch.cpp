@@ -15,8 +15,7 @@ const BannerFacts& BannerWatch::update(const DanceRecords& records, const SceneS
   watch_voice(records, scene, now);
   facts_.pictures_hz = drawing.pictures_hz;
   facts_.draws_plainly = drawing.is_plain;
-  facts_.slow_for =
-      slow_.update(drawing.is_software && drawing.pictures_hz < kSlow_hz, now);
+  facts_.slow_for = slow_.update(drawing.is_software && drawing.pictures_hz < kSlow_hz, now);
   if (!clock_looked_.is_set() || now - clock_looked_ >= kClockLook) {
     clock_looked_ = now;
     if (const auto jump = clock_.look(now, wall)) {
@@ -53,13 +52,12 @@ void BannerWatch::watch_voice(const DanceRecords& records, const SceneState& sce
   facts_.lacks_microphone = voice != nullptr && !voice->has_microphone;
   const auto level =
       voice != nullptr ? records.level_of(voice->guest, now) : std::optional<VoiceLevel>();
-  facts_.microphone_silent = silent_.update(
-      level && voice->is_heard && level->level_dbfs < kSilentMicrophone_dbfs, now);
+  facts_.microphone_silent =
+      silent_.update(level && voice->is_heard && level->level_dbfs < kSilentMicrophone_dbfs, now);
   const bool is_muted = level && (voice->is_muted || voice->is_deafened);
   if (!is_muted) spoke_ = MonoTime();
   if (is_muted && level->cleaned_dbfs > kSpeech_dbfs) spoke_ = now;
-  facts_.speaks_muted =
-      muted_speech_.update(spoke_.is_set() && now - spoke_ < kPauseOfSpeech, now);
+  facts_.speaks_muted = muted_speech_.update(spoke_.is_set() && now - spoke_ < kPauseOfSpeech, now);
 }
 
 }  // namespace dance

@@ -24,9 +24,7 @@ class BannerWatch {
   // Once a picture. `wall` is the machine's wall clock.
   const BannerFacts& update(const DanceRecords& records, const SceneState& scene,
                             const Drawing& drawing, Duration wall, MonoTime now);
-  void set_recording_trouble(std::string trouble) {
-    facts_.recording_trouble = std::move(trouble);
-  }
+  void set_recording_trouble(std::string trouble) { facts_.recording_trouble = std::move(trouble); }
   const BannerFacts& facts() const { return facts_; }
 
  private:

@@ -32,7 +32,7 @@ class CountIn {
   bool is_asked() const { return is_asked_; }
 
   struct Count {
-    int number = 0;     // of a dancer: 5 to 8 of a bar of four, then 1
+    int number = 0;      // of a dancer: 5 to 8 of a bar of four, then 1
     float since = 0.0f;  // the beat began, in beats: 0 to 1
     bool is_one = false;
   };

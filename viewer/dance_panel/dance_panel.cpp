@@ -16,11 +16,10 @@
 namespace dance {
 namespace {
 
-constexpr std::array<KeyHelp, 4> kDanceKeys{
-    {{"Esc", "this panel: guests, music, record, leave"},
-     {"Up  Down", "in it: one control to the next"},
-     {"Left  Right", "in it: softer, louder"},
-     {"Enter", "in it: press"}}};
+constexpr std::array<KeyHelp, 4> kDanceKeys{{{"Esc", "this panel: guests, music, record, leave"},
+                                             {"Up  Down", "in it: one control to the next"},
+                                             {"Left  Right", "in it: softer, louder"},
+                                             {"Enter", "in it: press"}}};
 constexpr float kWidth_em = 21.5f;
 constexpr float kMostShare = 0.36f;  // of the window's width
 constexpr float kFewestRows_em = 5.0f;
@@ -253,8 +252,8 @@ void DancePanel::draw_count(const PanelFrame& frame) const {
   const auto ink = [&](int r, int g, int b, float share) {
     return IM_COL32(r, g, b, static_cast<int>(255.0f * share));
   };
-  list.AddText(font, size, {at.x + 0.03f * size, at.y + 0.03f * size},
-               ink(0, 0, 0, 0.6f * alpha), number.c_str());
+  list.AddText(font, size, {at.x + 0.03f * size, at.y + 0.03f * size}, ink(0, 0, 0, 0.6f * alpha),
+               number.c_str());
   list.AddText(font, size, at,
                count_->is_one ? ink(95, 211, 141, alpha) : ink(255, 255, 255, alpha),
                number.c_str());
@@ -274,12 +273,13 @@ void DancePanel::draw_column(const PanelFrame& frame) {
     ImGui::PopFont();
     const float close = controls_.width_of("x");
     ImGui::SameLine(width - close - 0.6f * em);
-    if (controls_.button("close", "x", PanelControls::Look::kQuiet)) open(false);
+    if (controls_.mouse_button("close", "x", PanelControls::Look::kQuiet)) open(false);
     draw_music(frame);
     draw_own(frame);
     section(texts_.say(Text::kDanceGuests, {std::to_string(records_.guests().size())}).c_str());
     // The footer is as high as it was, or two lines and its buttons.
-    const float footer = footer_px_ > 0.0f ? footer_px_ : 2.0f * ImGui::GetFrameHeight() + 2.0f * em;
+    const float footer =
+        footer_px_ > 0.0f ? footer_px_ : 2.0f * ImGui::GetFrameHeight() + 2.0f * em;
     const float left = most - ImGui::GetCursorPosY() - footer;
     draw_guests(frame, std::clamp(guests_height(), 0.0f, std::max(left, kFewestRows_em * em)));
     const float begin = ImGui::GetCursorPosY();
@@ -330,8 +330,7 @@ void DancePanel::draw_music(const PanelFrame& frame) {
   dance_ink::text(dance_ink::kQuiet, texts_.say(Text::kDanceTempo, {bpm}).c_str());
   if (!CountIn::is_possible(music)) return;
   const bool waits = count_in_.is_asked();
-  if (controls_.button("count-in",
-                       texts_[waits ? Text::kDanceCountWaits : Text::kDanceCountIn])) {
+  if (controls_.button("count-in", texts_[waits ? Text::kDanceCountWaits : Text::kDanceCountIn])) {
     if (waits)
       count_in_.stop();
     else
@@ -362,9 +361,9 @@ void DancePanel::draw_own(const PanelFrame& frame) {
     ++(voice.is_deafened ? needs_.wishes.deafen_presses : needs_.wishes.mute_presses);
   const Text speaker = voice.is_deafened ? Text::kDanceSpeakerOff : Text::kDanceSpeakerOn;
   controls_.flow(controls_.width_of(texts_[speaker]));
-  if (controls_.button("speaker", texts_[speaker],
-                       voice.is_deafened ? PanelControls::Look::kWarning
-                                         : PanelControls::Look::kPlain))
+  if (controls_.button(
+          "speaker", texts_[speaker],
+          voice.is_deafened ? PanelControls::Look::kWarning : PanelControls::Look::kPlain))
     ++needs_.wishes.deafen_presses;
   if (!is_off && voice.is_push_to_talk)
     dance_ink::text(voice.is_heard ? dance_ink::kGood : dance_ink::kQuiet,
@@ -376,8 +375,7 @@ void DancePanel::draw_footer(const PanelFrame& frame) {
   ImGui::Separator();
   if (const std::string words = removal_.words(texts_, now); !words.empty())
     dance_ink::text(dance_ink::kText, words.c_str());
-  if (!voice_trouble_.empty())
-    dance_ink::text(dance_ink::kFair, printable(voice_trouble_).c_str());
+  if (!voice_trouble_.empty()) dance_ink::text(dance_ink::kFair, printable(voice_trouble_).c_str());
   const auto state = recording_.state();
   if (state == DanceRecording::State::kRunning)
     dance_ink::text(dance_ink::kQuiet,

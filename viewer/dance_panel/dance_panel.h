@@ -94,13 +94,14 @@ class DancePanel : public WindowPanel {
   PanelControls controls_;
   std::vector<const WindowPanel*> rivals_;
   bool is_open_ = false;
-  GuestId chosen_;            // whose choices are shown
-  GuestId to_be_removed_;     // asked back about
-  std::string voice_trouble_;  // why a voice could not be told
-  std::size_t voices_ = 0;    // that ran in the last picture
+  GuestId chosen_;                 // whose choices are shown
+  GuestId to_be_removed_;          // asked back about
+  bool is_removal_asked_ = false;  // in this picture
+  std::string voice_trouble_;      // why a voice could not be told
+  std::size_t voices_ = 0;         // that ran in the last picture
   float last_height_px_ = 0.0f;
   float footer_px_ = 0.0f;
-  float banner_px_ = 0.0f;    // its height in the last picture
+  float banner_px_ = 0.0f;  // its height in the last picture
   ImVec2 mouse_{-1e6f, -1e6f};
   MonoTime mouse_moved_;
 };

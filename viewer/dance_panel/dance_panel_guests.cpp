@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "formats/body/guest_look.h"
 #include "viewer/dance_panel/dance_ink.h"
@@ -10,7 +11,9 @@
 namespace dance {
 namespace {
 
-constexpr float kRow_em = 1.55f;
+constexpr float kRow_em = 1.6f;
+constexpr float kGap_em = 0.1f;  // between rows
+constexpr float kChoiceGap_em = 0.35f;
 constexpr float kLevelWidth_em = 2.6f;
 constexpr float kIndent_em = 2.5f;
 constexpr float kMostVolume = 2.0f;
@@ -31,14 +34,14 @@ bool DancePanel::may_remove() const { return records_.link() && records_.link()-
 
 // As draw_guest() draws it, so that the list is as high as its content in the first picture.
 float DancePanel::guest_height(const DanceGuest& guest) const {
-  const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.y;
+  const float em = ImGui::GetFontSize(), gap = kGap_em * em, wide = kChoiceGap_em * em;
   float height = kRow_em * em + gap;
-  const std::string words = quality_words(guest.quality.shown(), guest.id.view(), texts_);
+  const std::string words = quality_words(guest.quality.shown(), texts_);
   if (!words.empty())
     height += gap + wrapped_height(words, ImGui::GetContentRegionAvail().x - kIndent_em * em);
   // Buttons, which may need two lines, and the slider.
   if (guest.id == chosen_)
-    height += (guest.is_remote ? 3.0f : 2.0f) * (ImGui::GetFrameHeight() + gap) + gap;
+    height += (guest.is_remote ? 3.0f : 2.0f) * (ImGui::GetFrameHeight() + wide) + wide;
   return height;
 }
 
@@ -53,9 +56,12 @@ void DancePanel::draw_guests(const PanelFrame& frame, float height) {
     dance_ink::text(dance_ink::kQuiet, texts_[Text::kDanceNobody]);
     return;
   }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                      {ImGui::GetStyle().ItemSpacing.x, kGap_em * ImGui::GetFontSize()});
   if (ImGui::BeginChild("guests", {0.0f, height}, false, ImGuiWindowFlags_NoNav))
     for (const DanceGuest& guest : records_.guests()) draw_guest(frame, guest);
   ImGui::EndChild();
+  ImGui::PopStyleVar();
 }
 
 void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
@@ -94,13 +100,18 @@ void DancePanel::draw_guest(const PanelFrame& frame, const DanceGuest& guest) {
   list.AddText({std::round(begin), std::round(text_y)},
                choice.is_hidden ? dance_ink::kQuiet : dance_ink::kText,
                dance_ink::fitted(name, right - begin).c_str());
-  const std::string words = quality_words(quality, name, texts_);
+  const std::string words = quality_words(quality, texts_);
   if (!words.empty()) {
     ImGui::Indent(kIndent_em * em);
     dance_ink::text(dance_ink::of(quality.level), words.c_str());
     ImGui::Unindent(kIndent_em * em);
   }
-  if (chosen_ == guest.id) draw_choices(frame, guest);
+  if (chosen_ == guest.id) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
+                        {ImGui::GetStyle().ItemSpacing.x, kChoiceGap_em * em});
+    draw_choices(frame, guest);
+    ImGui::PopStyleVar();
+  }
   ImGui::PopID();
 }
 
@@ -129,7 +140,10 @@ void DancePanel::draw_choices(const PanelFrame& frame, const DanceGuest& guest) 
   }
   if (guest.is_remote && may_remove()) {
     controls_.flow(controls_.width_of(texts_[Text::kDanceRemove]));
-    if (controls_.button("remove", texts_[Text::kDanceRemove])) to_be_removed_ = guest.id;
+    if (controls_.button("remove", texts_[Text::kDanceRemove])) {
+      to_be_removed_ = guest.id;
+      is_removal_asked_ = true;
+    }
   }
   if (guest.is_remote) {
     const std::string words = texts_.say(
@@ -144,14 +158,15 @@ void DancePanel::draw_choices(const PanelFrame& frame, const DanceGuest& guest) 
 }
 
 void DancePanel::draw_removal(const DanceGuest& guest, MonoTime now) {
-  dance_ink::text(dance_ink::kText,
-                  texts_.say(Text::kDanceRemoveSure, {guest.id.view()}).c_str());
+  dance_ink::text(dance_ink::kText, texts_.say(Text::kDanceRemoveSure, {guest.id.view()}).c_str());
   if (controls_.button("sure", texts_[Text::kDanceRemove], PanelControls::Look::kWarning)) {
     removal_.remove(guest.id, now);
     to_be_removed_ = chosen_ = GuestId();
   }
   controls_.flow(controls_.width_of(texts_[Text::kDanceKeep]));
   if (controls_.button("keep", texts_[Text::kDanceKeep])) to_be_removed_ = GuestId();
+  // A second Enter removes nobody.
+  if (std::exchange(is_removal_asked_, false)) controls_.take_keyboard();
 }
 
 // Each dance voice of this house plays the others by itself.

@@ -81,9 +81,8 @@ void DanceRecords::forget_gone(MonoTime now) {
 
 void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& scene, MonoTime now) {
   for (DanceGuest& guest : guests_) {
-    const auto shown =
-        std::find_if(scene.guests.begin(), scene.guests.end(),
-                     [&](const SceneGuest& it) { return it.id == guest.id; });
+    const auto shown = std::find_if(scene.guests.begin(), scene.guests.end(),
+                                    [&](const SceneGuest& it) { return it.id == guest.id; });
     guest.voice = shown != scene.guests.end() ? shown->voice : 0.0f;
     QualityFigures measured;
     measured.silent_s = static_cast<float>((now - guest.moved).as_seconds());
@@ -97,8 +96,8 @@ void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& sce
       if (is_fresh) measured.late_ms = where_known(newest.newest_p50_ms);
       if (is_fresh) measured.jitter_ms = where_known(newest.jitter_ms);
       if (is_fresh) measured.arrival_hz = where_known(newest.arrival_hz);
-      measured.is_predicted = std::isfinite(newest.horizon_p50_ms) &&
-                              newest.horizon_p50_ms > kPredicted_ms;
+      measured.is_predicted =
+          std::isfinite(newest.horizon_p50_ms) && newest.horizon_p50_ms > kPredicted_ms;
     }
     guest.quality.update(measured, now);
   }

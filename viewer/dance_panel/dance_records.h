@@ -44,8 +44,9 @@ struct GuestChoice {
 class DanceRecords {
  public:
   static constexpr std::size_t kMost = 128;
-  static constexpr Duration kGone = Duration::s(4);      // the link names who is here each second
-  static constexpr Duration kOwnGone = Duration::s(600);  // a guest of this house, whose camera may come back
+  static constexpr Duration kGone = Duration::s(4);  // the link names who is here each second
+  static constexpr Duration kOwnGone =
+      Duration::s(600);  // a guest of this house, whose camera may come back
   static constexpr Duration kLossOver = Duration::s(5);
   static constexpr Duration kLevelHolds = Duration::ms(500);
 

@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dance {
 namespace {
@@ -18,13 +19,11 @@ struct LookColours {
 LookColours colours_of(PanelControls::Look look) {
   switch (look) {
     case PanelControls::Look::kStrong:
-      return {IM_COL32(61, 111, 181, 255), IM_COL32(78, 132, 206, 255),
-              IM_COL32(50, 96, 160, 255)};
+      return {IM_COL32(61, 111, 181, 255), IM_COL32(78, 132, 206, 255), IM_COL32(50, 96, 160, 255)};
     case PanelControls::Look::kWarning:
       return {IM_COL32(158, 58, 52, 255), IM_COL32(186, 72, 64, 255), IM_COL32(132, 48, 43, 255)};
     case PanelControls::Look::kQuiet:
-      return {IM_COL32(255, 255, 255, 0), IM_COL32(255, 255, 255, 28),
-              IM_COL32(255, 255, 255, 18)};
+      return {IM_COL32(255, 255, 255, 0), IM_COL32(255, 255, 255, 28), IM_COL32(255, 255, 255, 18)};
     case PanelControls::Look::kPlain:
       break;
   }
@@ -53,8 +52,8 @@ bool PanelControls::on_key(const KeyPress& press) {
     if (has_keyboard_) steps_ += press.key == GLFW_KEY_RIGHT ? 1 : -1;
     return true;
   }
-  const bool is_enter = press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER ||
-                        press.key == GLFW_KEY_SPACE;
+  const bool is_enter =
+      press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER || press.key == GLFW_KEY_SPACE;
   if (!is_enter) return false;
   if (has_keyboard_ && !press.is_repeat) is_pressed_ = true;
   return true;
@@ -68,9 +67,13 @@ void PanelControls::begin() {
 
 void PanelControls::end() {
   std::swap(order_, last_order_);
-  const bool is_there =
-      std::find(last_order_.begin(), last_order_.end(), focus_) != last_order_.end();
-  if (!is_there) focus_ = has_keyboard_ && !last_order_.empty() ? last_order_.front() : 0;
+  const auto at = std::find(last_order_.begin(), last_order_.end(), focus_);
+  if (at != last_order_.end())
+    place_ = static_cast<std::size_t>(at - last_order_.begin());
+  else
+    focus_ = has_keyboard_ && !last_order_.empty()
+                 ? last_order_[std::min(place_, last_order_.size() - 1)]
+                 : 0;
   is_pressed_ = is_moved_ = false;
   steps_ = 0;
 }
@@ -80,9 +83,8 @@ bool PanelControls::settle(ImGuiID id) {
   if (!has_keyboard_ || focus_ != id) return false;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const float line = std::max(1.0f, 0.1f * ImGui::GetFontSize());
-  ImGui::GetWindowDrawList()->AddRect({low.x - line, low.y - line},
-                                      {high.x + line, high.y + line}, kFocusInk,
-                                      0.25f * ImGui::GetFontSize(), 0, line);
+  ImGui::GetWindowDrawList()->AddRect({low.x - line, low.y - line}, {high.x + line, high.y + line},
+                                      kFocusInk, 0.25f * ImGui::GetFontSize(), 0, line);
   if (is_moved_) ImGui::SetScrollHereY(0.5f);
   return true;
 }
@@ -97,25 +99,40 @@ void PanelControls::flow(float width) {
   if (right <= edge + 0.5f) ImGui::SameLine();
 }
 
-bool PanelControls::button(const char* id, const char* label, Look look, float width) {
-  ImGui::PushID(id);
+// Its words may be others in the next picture, and it is the same.
+bool PanelControls::draw_button(const char* label, Look look, float width) {
   const LookColours colours = colours_of(look);
   ImGui::PushStyleColor(ImGuiCol_Button, colours.rest);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colours.over);
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, colours.pressed);
-  // Its words may be others in the next picture, and it is the same.
   const ImVec2 place = ImGui::GetCursorScreenPos();
-  const float w = width > 0.0f ? width : width_of(label);
-  const bool is_clicked = ImGui::Button("##b", {w, ImGui::GetFrameHeight()});
+  const float w = width > 0.0f ? width : width_of(label), h = ImGui::GetFrameHeight();
+  const bool is_clicked = ImGui::Button("##b", {w, h});
   const ImVec2 size = ImGui::CalcTextSize(label);
-  ImGui::GetWindowDrawList()->AddText(
-      {place.x + std::max(0.0f, 0.5f * (w - size.x)),
-       place.y + 0.5f * (ImGui::GetFrameHeight() - size.y)},
-      ImGui::GetColorU32(ImGuiCol_Text), label);
+  ImGui::GetWindowDrawList()->AddText({std::round(place.x + std::max(0.0f, 0.5f * (w - size.x))),
+                                       std::round(place.y + 0.5f * (h - size.y))},
+                                      ImGui::GetColorU32(ImGuiCol_Text), label);
   ImGui::PopStyleColor(3);
+  return is_clicked;
+}
+
+bool PanelControls::button(const char* id, const char* label, Look look, float width) {
+  ImGui::PushID(id);
+  const bool is_clicked = draw_button(label, look, width);
   const bool has_focus = settle(ImGui::GetID("##b"));
   ImGui::PopID();
   return is_clicked || (has_focus && is_pressed_);
+}
+
+bool PanelControls::mouse_button(const char* id, const char* label, Look look) {
+  ImGui::PushID(id);
+  const bool is_clicked = draw_button(label, look, 0.0f);
+  ImGui::PopID();
+  return is_clicked;
+}
+
+void PanelControls::take_keyboard() {
+  if (has_keyboard_ && !order_.empty()) focus_ = order_.back();
 }
 
 bool PanelControls::row(const char* id, float height) {

@@ -4,7 +4,7 @@
 // Units/frames: pixels; `em` is the height of a line's letters.
 // Ownership:    remembers the controls of the last picture; at most kMost.
 // Threads:      the drawing thread, between ImGui's Begin and End.
-// Failure:      a control that has gone gives the keyboard to the first.
+// Failure:      a control that has gone gives the keyboard to the one that is in its place.
 #pragma once
 
 #include <imgui.h>
@@ -32,6 +32,10 @@ class PanelControls {
 
   // Next to the last control where there is room in this line for that much, else below it.
   void flow(float width);
+  // For what the keyboard has a key of its own for.
+  bool mouse_button(const char* id, const char* label, Look look);
+  // The keyboard goes to the control that was just made, where a person uses it.
+  void take_keyboard();
   float width_of(const char* label) const;
   bool button(const char* id, const char* label, Look look = Look::kPlain, float width = 0.0f);
   // The whole line; the caller draws on it, from its low corner on.
@@ -44,9 +48,11 @@ class PanelControls {
  private:
   // The control that was just made has the keyboard.
   bool settle(ImGuiID id);
+  bool draw_button(const char* label, Look look, float width);
 
   std::vector<ImGuiID> order_, last_order_;
   ImGuiID focus_ = 0;
+  std::size_t place_ = 0;  // of it, among the others
   bool has_keyboard_ = false;
   bool is_pressed_ = false;  // Enter, since the last picture
   int steps_ = 0;            // left and right

@@ -92,21 +92,20 @@ const QualityVerdict& QualityMeter::update(const QualityFigures& figures, MonoTi
   return shown_;
 }
 
-std::string quality_words(const QualityVerdict& verdict, std::string_view guest,
-                          const Texts& texts) {
+std::string quality_words(const QualityVerdict& verdict, const Texts& texts) {
   const std::string value = rounded(verdict.value);
   switch (verdict.reason) {
     case QualityReason::kSilent:
-      return texts.say(Text::kQualitySilent, {guest, value});
+      return texts.say(Text::kQualitySilent, {value});
     case QualityReason::kLoses:
-      return texts.say(Text::kQualityLoses, {guest, value});
+      return texts.say(Text::kQualityLoses, {value});
     case QualityReason::kLate:
       return texts.say(verdict.is_predicted ? Text::kQualityLatePredicted : Text::kQualityLate,
-                       {guest, value});
+                       {value});
     case QualityReason::kUneven:
-      return texts.say(Text::kQualityUneven, {guest, value});
+      return texts.say(Text::kQualityUneven, {value});
     case QualityReason::kFew:
-      return texts.say(Text::kQualityFew, {guest, value});
+      return texts.say(Text::kQualityFew, {value});
     case QualityReason::kFine:
       break;
   }

@@ -10,7 +10,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "core/base/time.h"
 #include "viewer/words/texts.h"
@@ -24,11 +23,11 @@ enum class QualityReason : std::uint8_t { kSilent, kLoses, kLate, kUneven, kFew,
 constexpr std::size_t kQualityReasons = 5;
 
 struct QualityFigures {
-  std::optional<float> silent_s;      // since the newest pose
-  std::optional<float> loss_percent;  // of the last seconds
-  std::optional<float> late_ms;       // from the newest capture until it was shown
-  std::optional<float> jitter_ms;
-  std::optional<float> arrival_hz;
+  std::optional<float> silent_s{};      // since the newest pose
+  std::optional<float> loss_percent{};  // of the last seconds
+  std::optional<float> late_ms{};       // from the newest capture until it was shown
+  std::optional<float> jitter_ms{};
+  std::optional<float> arrival_hz{};
   bool is_predicted = false;  // the stage shows a moment that has not arrived
 };
 
@@ -65,8 +64,7 @@ class QualityMeter {
   MonoTime other_since_;  // not set: what is measured is what is shown
 };
 
-// "bob's line loses 6 %: gaps are guessed"; "" where it is good.
-std::string quality_words(const QualityVerdict& verdict, std::string_view guest,
-                          const Texts& texts);
+// Below the guest's name: "the line loses 6 %: gaps are guessed"; "" where it is good.
+std::string quality_words(const QualityVerdict& verdict, const Texts& texts);
 
 }  // namespace dance

@@ -63,6 +63,7 @@ class WindowRun {
   AvatarLibrary& avatars() { return avatars_; }
   WindowInput& input() { return input_; }
   const WindowState& state() const { return state_; }
+  DanceWishes& wishes() { return state_.dance; }
   const ViewDirector& director() const { return director_; }
   const SceneState& scene() const { return scene_; }
   int contexts_lost() const { return contexts_lost_; }

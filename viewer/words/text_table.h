@@ -215,28 +215,18 @@
   ROW(kDanceVolume, "voice {} %", "voz {} %", "Stimme {} %") \
   ROW(kDanceYou, "You", "Tú", "Du") \
   ROW(kDanceYours, "of this house", "de esta casa", "aus diesem Haus") \
-  ROW(kQualityFew, \
-      "{}'s movement is coarse: {} poses a second", \
-      "{} se ve a saltos: {} posturas por segundo", \
-      "{} bewegt sich grob: {} Posen pro Sekunde") \
-  ROW(kQualityLate, \
-      "{}'s poses come {} ms late", \
-      "Las posturas de {} llegan {} ms tarde", \
-      "Die Posen von {} kommen {} ms zu spät") \
-  ROW(kQualityLatePredicted, \
-      "{}'s poses come {} ms late: predicted", \
-      "Las posturas de {} llegan {} ms tarde: se predicen", \
-      "Die Posen von {} kommen {} ms zu spät: vorhergesagt") \
-  ROW(kQualityLoses, \
-      "{}'s line loses {} %: gaps are guessed", \
-      "La línea de {} pierde {} %: se suple", \
-      "Die Leitung von {} verliert {} %: Lücken sind geschätzt") \
-  ROW(kQualitySilent, \
-      "nothing from {} for {} s", \
-      "nada de {} desde hace {} s", \
-      "nichts von {} seit {} s") \
-  ROW(kQualityUneven, \
-      "{}'s line is uneven by {} ms: shown a little later", \
-      "La línea de {} oscila {} ms: se muestra algo después", \
-      "Die Leitung von {} schwankt um {} ms: etwas später gezeigt")
+  ROW(kQualityFew, "moves coarsely: {} poses a second", "se mueve a saltos: {} posturas por segundo", \
+      "bewegt sich grob: {} Posen pro Sekunde") \
+  ROW(kQualityLate, "poses come {} ms late", "las posturas llegan {} ms tarde", \
+      "Posen kommen {} ms zu spät") \
+  ROW(kQualityLatePredicted, "poses come {} ms late: predicted", \
+      "las posturas llegan {} ms tarde: se predicen", \
+      "Posen kommen {} ms zu spät: vorhergesagt") \
+  ROW(kQualityLoses, "the line loses {} %: gaps are guessed", \
+      "la línea pierde {} %: se suplen huecos", "die Leitung verliert {} %: Lücken geschätzt") \
+  ROW(kQualitySilent, "nothing comes for {} s", "no llega nada desde hace {} s", \
+      "seit {} s kommt nichts") \
+  ROW(kQualityUneven, "an uneven line, by {} ms: shown later", \
+      "línea irregular, {} ms: se muestra después", \
+      "ungleichmäßige Leitung, {} ms: später gezeigt")
 // clang-format on

@@ -163,7 +163,7 @@ TEST(BannerWatch, ACameraThatGivesNothingMore) {
   house.run(Duration::s(20));
   EXPECT_EQ(house.shown(), std::nullopt);
   house.moves = false;
-  house.run(Duration::s(4));
+  house.run(Duration::s(3));
   EXPECT_EQ(house.shown(), std::nullopt) << "somebody ties a shoe";
   house.run(Duration::s(3));
   EXPECT_EQ(house.shown(), BannerKind::kNoPoses);

@@ -71,26 +71,17 @@ TEST(Quality, TheWorstIsTold) {
 }
 
 TEST(Quality, IsSaidInWords) {
-  QualityFigures figures;
-  figures.loss_percent = 6.2f;
-  EXPECT_EQ(quality_words(judge(figures), "bob", kQualityTexts), "bob's line loses 6 %: gaps are guessed");
-  figures = {};
-  figures.late_ms = 140.0f;
-  EXPECT_EQ(quality_words(judge(figures), "carla", kQualityTexts), "carla's poses come 140 ms late");
-  figures.is_predicted = true;
-  EXPECT_EQ(quality_words(judge(figures), "carla", kQualityTexts),
-            "carla's poses come 140 ms late: predicted");
-  figures = {};
-  figures.silent_s = 3.4f;
-  EXPECT_EQ(quality_words(judge(figures), "dora", kQualityTexts), "nothing from dora for 3 s");
-  figures = {};
-  figures.arrival_hz = 12.0f;
-  EXPECT_EQ(quality_words(judge(figures), "eva", kQualityTexts),
-            "eva's movement is coarse: 12 poses a second");
-  EXPECT_EQ(quality_words(judge({}), "eva", kQualityTexts), "");
-  figures = {};
-  figures.silent_s = 1e30f;
-  EXPECT_EQ(quality_words(judge(figures), "dora", kQualityTexts), "nothing from dora for 99999 s");
+  const auto said = [](const QualityFigures& figures) {
+    return quality_words(judge(figures), kQualityTexts);
+  };
+  EXPECT_EQ(said({.loss_percent = 6.2f}), "the line loses 6 %: gaps are guessed");
+  EXPECT_EQ(said({.late_ms = 140.0f}), "poses come 140 ms late");
+  EXPECT_EQ(said({.late_ms = 140.0f, .is_predicted = true}), "poses come 140 ms late: predicted");
+  EXPECT_EQ(said({.silent_s = 3.4f}), "nothing comes for 3 s");
+  EXPECT_EQ(said({.jitter_ms = 33.0f}), "an uneven line, by 33 ms: shown later");
+  EXPECT_EQ(said({.arrival_hz = 12.0f}), "moves coarsely: 12 poses a second");
+  EXPECT_EQ(said({}), "");
+  EXPECT_EQ(said({.silent_s = 1e30f}), "nothing comes for 99999 s");
 }
 
 TEST(QualityMeter, IsWorseAtOnceAndBetterWhenItLasts) {
@@ -128,7 +119,7 @@ TEST(QualityMeter, ItsFiguresCanBeRead) {
   float shown = -1.0f;
   for (int i = 0; i < 600; ++i) {  // ten seconds
     QualityFigures figures;
-    figures.loss_percent = 20.0f + static_cast<float>(i % 7);
+    figures.loss_percent = 20.0f + static_cast<float>(i % 11);
     const float value = meter.update(figures, kQualityBegin + Duration::ms(16 * i)).value;
     changes += value != shown ? 1 : 0;
     shown = value;
