@@ -14,6 +14,7 @@ namespace {
 constexpr float kRow_em = 1.6f;
 constexpr float kGap_em = 0.1f;  // between rows
 constexpr float kChoiceGap_em = 0.35f;
+constexpr float kEnd_em = 0.3f;
 constexpr float kLevelWidth_em = 2.6f;
 constexpr float kIndent_em = 2.5f;
 constexpr float kMostVolume = 2.0f;
@@ -34,19 +35,30 @@ bool DancePanel::may_remove() const { return records_.link() && records_.link()-
 
 // As draw_guest() draws it, so that the list is as high as its content in the first picture.
 float DancePanel::guest_height(const DanceGuest& guest) const {
-  const float em = ImGui::GetFontSize(), gap = kGap_em * em, wide = kChoiceGap_em * em;
+  const float em = ImGui::GetFontSize(), gap = kGap_em * em;
   float height = kRow_em * em + gap;
   const std::string words = quality_words(guest.quality.shown(), texts_);
   if (!words.empty())
     height += gap + wrapped_height(words, ImGui::GetContentRegionAvail().x - kIndent_em * em);
-  // Buttons, which may need two lines, and the slider.
-  if (guest.id == chosen_)
-    height += (guest.is_remote ? 3.0f : 2.0f) * (ImGui::GetFrameHeight() + wide) + wide;
-  return height;
+  if (guest.id != chosen_) return height;
+  const float line = ImGui::GetFrameHeight() + kChoiceGap_em * em;
+  const float width = ImGui::GetContentRegionAvail().x - kIndent_em * em;
+  if (guest.id == to_be_removed_)
+    return height + line + kChoiceGap_em * em +
+           wrapped_height(texts_.say(Text::kDanceRemoveSure, {guest.id.view()}), width);
+  if (!guest.is_remote) return height + 2.0f * line;
+  // As flow() puts the buttons.
+  const float between = ImGui::GetStyle().ItemSpacing.x;
+  const Text mute =
+      records_.is_voice_muted(guest.id) ? Text::kDanceUnmute : Text::kDanceMute;
+  float buttons = controls_.width_of(texts_[mute]) + between +
+                  controls_.width_of(texts_[Text::kDanceHide]);
+  if (may_remove()) buttons += between + controls_.width_of(texts_[Text::kDanceRemove]);
+  return height + (buttons > width ? 3.0f : 2.0f) * line;
 }
 
 float DancePanel::guests_height() const {
-  float height = 0.0f;
+  float height = kEnd_em * ImGui::GetFontSize();
   for (const DanceGuest& guest : records_.guests()) height += guest_height(guest);
   return height;
 }
@@ -60,6 +72,7 @@ void DancePanel::draw_guests(const PanelFrame& frame, float height) {
                       {ImGui::GetStyle().ItemSpacing.x, kGap_em * ImGui::GetFontSize()});
   if (ImGui::BeginChild("guests", {0.0f, height}, false, ImGuiWindowFlags_NoNav))
     for (const DanceGuest& guest : records_.guests()) draw_guest(frame, guest);
+  ImGui::Dummy({1.0f, (kEnd_em - kGap_em) * ImGui::GetFontSize()});
   ImGui::EndChild();
   ImGui::PopStyleVar();
 }

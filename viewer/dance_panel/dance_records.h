@@ -58,6 +58,10 @@ class DanceRecords {
   const std::vector<DanceGuest>& guests() const { return guests_; }
   const DanceGuest* find(const GuestId& guest) const;
   GuestChoice& choice_of(const GuestId& guest) { return choices_[guest]; }
+  bool is_voice_muted(const GuestId& guest) const {
+    const auto known = choices_.find(guest);
+    return known != choices_.end() && known->second.is_voice_muted;
+  }
   const std::map<GuestId, GuestChoice>& choices() const { return choices_; }
 
   const std::optional<DanceBoard::HeardLink>& link() const { return link_; }

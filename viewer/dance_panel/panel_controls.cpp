@@ -11,6 +11,7 @@
 namespace dance {
 namespace {
 
+constexpr ImU32 kFillInk = IM_COL32(61, 111, 181, 255);
 constexpr ImU32 kFocusInk = IM_COL32(255, 255, 255, 230);
 
 struct LookColours {
@@ -152,8 +153,16 @@ bool PanelControls::slider(const char* id, float width, float& value, float leas
                            float step, const char* words) {
   ImGui::PushID(id);
   ImGui::SetNextItemWidth(width);
+  // Filled up to its value, so that no grip stands in its words.
+  for (const ImGuiCol grip : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive})
+    ImGui::PushStyleColor(grip, IM_COL32(0, 0, 0, 0));
   bool is_changed = ImGui::SliderFloat("##s", &value, least, most, "");
+  ImGui::PopStyleColor(2);
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float filled = (value - least) / (most - least) * (high.x - low.x);
+  if (filled > 1.0f)
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + filled, high.y}, kFillInk,
+                                              ImGui::GetStyle().FrameRounding);
   const ImVec2 size = ImGui::CalcTextSize(words);
   ImGui::GetWindowDrawList()->AddText(
       {0.5f * (low.x + high.x - size.x), 0.5f * (low.y + high.y - size.y)},

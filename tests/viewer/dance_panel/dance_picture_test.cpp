@@ -82,13 +82,14 @@ class DancePictureTest : public testing::Test {
   void tell_of(const std::vector<Line>& lines) {
     lines_ = lines;
     for (int second = 0; second < 8; ++second) {
+      const auto sequence = static_cast<std::uint32_t>(now_.since_zero_us() / 1'000'000 * 60);
       for (const Line& line : lines) {
         const GuestId id = guest_called(line.name);
         for (std::uint32_t i = 0; i < 60 && !(line.is_silent && second > 2); ++i) {
           if (static_cast<int>(i % 10) < line.lost_of_ten) continue;
           const MonoTime captured = now_ + Duration::ms(16) * static_cast<int>(i);
           const MonoTime heard = captured + Duration::seconds(1e-3 * line.late_ms);
-          Pose pose = dance_at(captured, static_cast<std::uint32_t>(second) * 60 + i);
+          Pose pose = dance_at(captured, sequence + i);
           pose.stamp(Hop::kLinkReceived, heard);
           instruments_.on_pose(line.is_remote ? Where::kGuest : Where::kCapture, id, pose, heard);
           instruments_.on_shown(id, shown_at(pose, heard, heard + Duration::ms(8)));
