@@ -21,9 +21,17 @@ struct Witness {
                               [this](const Channel& channel, const VoiceState& state, MonoTime) {
                                 states[std::string(channel.guest().view())] = state;
                               });
+    bus.subscribe<VoiceLevel>(
+        Where::kCapture, [this](const Channel& channel, const VoiceLevel& level, MonoTime) {
+          auto& [softest, loudest] =
+              levels.try_emplace(std::string(channel.guest().view()), 0, -127).first->second;
+          softest = std::min(softest, level.level_dbfs);
+          loudest = std::max(loudest, level.level_dbfs);
+        });
   }
   std::map<std::string, std::map<std::uint32_t, MonoTime>> captured;
   std::map<std::string, VoiceState> states;
+  std::map<std::string, std::pair<int, int>> levels;  // softest and loudest of the microphone
 };
 
 class VoiceReplay : public VoicePrograms {
@@ -55,6 +63,8 @@ class VoiceReplay : public VoicePrograms {
     said_begin_ = mono_now();
     ASSERT_TRUE(rooms_->play("mouth-a", *speech));
     ASSERT_TRUE(work_until([&] { return witness.captured["alice"].size() > kEnough; })) << talk();
+    EXPECT_EQ(witness.levels["alice"].first, kSilence_dbfs) << "a mouth that said nothing yet";
+    EXPECT_GT(witness.levels["alice"].second, -40) << "speech, as a window shows it";
     said_ = rooms_->heard(*mouth, said_begin_, mono_now() - said_begin_);
     // The own voice is not played while it is live.
     double own = 0.0;

@@ -128,8 +128,6 @@
       "This computer draws without a graphics card. Make the window smaller.", \
       "Este ordenador dibuja sin tarjeta gráfica. Haz la ventana más pequeña.", \
       "Dieser Rechner zeichnet ohne Grafikkarte. Mache das Fenster kleiner.") \
-  ROW(kDanceBar, "bar {}, beat {}", "compás {}, tiempo {}", "Takt {}, Schlag {}") \
-  ROW(kDanceClose, "Close", "Cerrar", "Schließen") \
   ROW(kDanceCountIn, "Count in", "Contar la entrada", "Einzählen") \
   ROW(kDanceCountWaits, \
       "Count in: next bar", \
@@ -140,13 +138,11 @@
   ROW(kDanceHidden, "hidden", "oculto", "verborgen") \
   ROW(kDanceHide, "Hide", "Ocultar", "Verbergen") \
   ROW(kDanceKeep, "No", "No", "Nein") \
-  ROW(kDanceKeysHint, "Esc  arrows  Enter", "Esc  flechas  Intro", "Esc  Pfeile  Enter") \
   ROW(kDanceMicrophoneOff, "Microphone off", "Micrófono apagado", "Mikrofon aus") \
   ROW(kDanceMicrophoneOn, "Microphone on", "Micrófono encendido", "Mikrofon an") \
   ROW(kDanceMusic, "Music", "Música", "Musik") \
   ROW(kDanceMute, "Mute voice", "Silenciar voz", "Stumm schalten") \
   ROW(kDanceMuted, "muted", "sin voz", "stumm") \
-  ROW(kDanceNoBar, "{} beats a minute", "{} pulsos por minuto", "{} Schläge pro Minute") \
   ROW(kDanceNoMusic, "No music", "Sin música", "Keine Musik") \
   ROW(kDanceNoVoice, \
       "No voice runs in this house.", \
