@@ -68,9 +68,10 @@ void hide_invitations(int argc, char** argv) {
 Result<void> use_invitation(JoinOptions& options) {
   DANCE_TRY(const Invitation invitation, parse_invitation(options.host_or_session));
   DANCE_TRY(const Opened opened, open_invitation(invitation));
-  talk::info(opened == Opened::kNow ? "the invitation of {} is opened, and its key kept here"
-                                    : "the invitation of {} was opened here before",
-             invitation.title());
+  if (opened == Opened::kNow)
+    talk::info("the invitation of {} is opened, and its key kept here", invitation.title());
+  else
+    talk::info("the invitation of {} was opened here before", invitation.title());
   options.host_or_session = invitation.server();
   if (options.room.empty()) options.room = invitation.room.view();
   const bool dances = invitation.role != KeyKind::kListener;

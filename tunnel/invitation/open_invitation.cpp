@@ -30,9 +30,9 @@ Result<void> keep_key(const std::string& path, const HouseKey& key) {
   return write_secret(path, keys.text());
 }
 
-std::string expired_line(const Invitation& invitation) {
+std::string expired_line(const Invitation& invitation, std::int64_t now_s) {
   return "the invitation of " + invitation.title() + " was good until " +
-         utc_shown(invitation.until_s) + ", and it is " + utc_shown(utc_now_s()) +
+         utc_shown(invitation.until_s) + ", and it is " + utc_shown(now_s) +
          " by this machine's clock: ask the server's keeper for another";
 }
 
@@ -59,7 +59,7 @@ Result<Opened> open_invitation(const Invitation& invitation, const OpenInvitatio
   if (const auto pending = opened.pending(id)) {
     key.key = pending->key;  // the server may have it already
   } else if (how.now_s >= invitation.until_s) {
-    return fail(expired_line(invitation));
+    return fail(expired_line(invitation, how.now_s));
   } else {
     opened.begin(id, key);
     if (auto written = write_secret(opened_path, opened.text()); !written)

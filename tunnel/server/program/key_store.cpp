@@ -73,12 +73,8 @@ class ClusterKeyStore final : public KeyStore {
       return fail(name_ + " has " + std::to_string(values.size()) + " keys, and takes no more");
     return store_->add(entry.name.view(), line_of(entry));
   }
-  // Its servers may read its keys only: none of them could put another in an invitation's place.
   Result<bool> invite(const KeyEntry& entry) override {
-    return fail(name_ +
-                " takes no invitations, as its servers may not write keys: make a key with "
-                "--new-guest " +
-                std::string(entry.name.view()) + ", for the guest to paste into dance key");
+    return fail(no_invitations_line(entry.name.view()));
   }
   Result<Binding> bind(const std::string&, const PresharedKey&) override {
     return Binding::kNotHere;
@@ -97,6 +93,13 @@ class ClusterKeyStore final : public KeyStore {
 };
 
 }  // namespace
+
+// Its servers may read its keys only: none of them could put another in an invitation's place.
+std::string no_invitations_line(std::string_view guest) {
+  return "a cluster takes no invitations, as its servers may not write its keys: make a key with "
+         "--new-guest " +
+         std::string(guest) + ", for the guest to paste into dance key";
+}
 
 std::unique_ptr<KeyStore> file_key_store(const std::string& path) {
   return std::make_unique<FileKeyStore>(path);

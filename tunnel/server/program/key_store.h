@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "core/base/result.h"
 #include "tunnel/nats/nats_options.h"
@@ -32,6 +33,9 @@ class KeyStore {
   // False where there is none of that name.
   virtual Result<bool> remove(const std::string& name) = 0;
 };
+
+// What a cluster's store says to invite().
+std::string no_invitations_line(std::string_view guest);
 
 std::unique_ptr<KeyStore> file_key_store(const std::string& path);
 // The options' bucket does not count.
