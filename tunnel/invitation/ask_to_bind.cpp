@@ -12,6 +12,7 @@ namespace dance {
 namespace {
 
 constexpr Duration kAskAgain = Duration::ms(250);
+constexpr int kRefusalsCount = 2;
 
 // A try at one of the server's addresses after the other, in a loop of its own.
 class BindingQuestion {
@@ -115,7 +116,9 @@ class BindingQuestion {
           was_interrupted_ = true;
           break;
         case SealTrouble::kWrongKey:
-          answer_ = Binding::kUnknown;
+          // A server reads its keys again each second, and the invitation may be newer than that;
+          // the next try comes later.
+          if (++refusals_ == kRefusalsCount) answer_ = Binding::kUnknown;
           break;
         case SealTrouble::kNotTrusted:
           no_trust_ = true;
@@ -136,6 +139,7 @@ class BindingQuestion {
   bool needs_socket_ = true;
   bool is_sealed_ = false;
   bool no_trust_ = false;
+  int refusals_ = 0;
   bool was_interrupted_ = false;
   std::optional<Binding> answer_;
 };

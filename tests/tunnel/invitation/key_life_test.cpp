@@ -60,6 +60,19 @@ TEST(InvitationKeys, TheFirstHouseGetsInAndNoOther) {
   EXPECT_EQ(ring.bind("bob", second, kNow_s), Binding::kUnknown);
 }
 
+TEST(InvitationKeys, TheKeyOpensWhatTheInvitationSaid) {
+  KeyRing ring;
+  KeyEntry host = invited_entry("bob");
+  host.kind = KeyKind::kHost;
+  host.room = *GuestId::parse("salsa");
+  ASSERT_TRUE(ring.invite(host));
+  ASSERT_EQ(ring.bind("bob", PresharedKey::make(), kNow_s), Binding::kBound);
+  ring = written_and_read(ring);
+  ASSERT_NE(ring.find("bob"), nullptr);
+  EXPECT_EQ(ring.find("bob")->kind, KeyKind::kHost);
+  EXPECT_EQ(ring.find("bob")->room, host.room);
+}
+
 TEST(InvitationKeys, NeitherExpiredNorRevokedOnesBind) {
   KeyRing ring;
   ASSERT_TRUE(ring.invite(invited_entry("alice")));

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "core/base/take_line.h"
+#include "tests/apps/run_program.h"
 #if DANCE_HAVE_QR
 #include <qrencode.h>
 #endif
@@ -100,6 +103,28 @@ TEST(QrCode, IsTheLibrarysMatrixWithItsThreeFinders) {
         EXPECT_EQ(code->is_dark(left + x, top + y), ring != 2);
       }
   EXPECT_FALSE(make_qr_code(std::string(5000, 'x')));
+}
+
+// Another's program reads what the terminal shows.
+TEST(QrCode, AScannerReadsTheLinkFromTheTerminal) {
+  if (run("command -v zbarimg").exit_code != 0) GTEST_SKIP() << "zbarimg (zbar-tools) is not here";
+  constexpr std::size_t kPixels = 4;
+  const auto code = make_qr_code(kLink);
+  ASSERT_TRUE(code);
+  const auto rows = seen(qr_text(*code, false));
+  const TestFolder folder("qr-code");
+  {
+    std::ofstream picture(folder.path("code.pbm"));
+    picture << "P1\n" << rows[0].size() * kPixels << " " << rows.size() * kPixels << "\n";
+    for (const auto& row : rows)
+      for (std::size_t i = 0; i < kPixels; ++i) {
+        for (const bool is_dark : row)
+          for (std::size_t k = 0; k < kPixels; ++k) picture << (is_dark ? "1 " : "0 ");
+        picture << "\n";
+      }
+  }
+  const Finished read = run("zbarimg --quiet --raw " + folder.path("code.pbm"));
+  EXPECT_EQ(read.output, std::string(kLink) + "\n") << read.talk;
 }
 #else
 TEST(QrCode, IsMissedWithTheCure) {

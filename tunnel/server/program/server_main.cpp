@@ -154,6 +154,7 @@ Result<void> change_keys(const ServerProgramOptions& options, const ServerKeys& 
   KeyCommand command = options.keys;
   command.port = options.port;
   if (options.cluster.urls.empty()) return run_key_command(command, *file_key_store(keys.path()));
+  if (!command.invite.empty()) return fail(no_invitations_line(command.invite));
   DANCE_TRY(const NatsOptions nats, nats_options_of(options.cluster));
   DANCE_TRY(const auto store, cluster_key_store(nats));
   return run_key_command(command, *store);
