@@ -158,6 +158,7 @@ Result<void> House::open_link() {
       return fail("a house has at most 16 guests");
   LinkHandlers handlers = link_bus_->handlers();
   add_talk(handlers);
+  link_bus_->tell_status(handlers);
   LinkKeySource source;
   source.key_file = session_.key_file;
   source.certificates = {session_.certificate, session_.private_key, session_.authorities};
@@ -168,6 +169,7 @@ Result<void> House::open_link() {
   for (const GuestId& guest : session_.guests) link_bus_->send_signals_of(guest);
   if (!options.listen_only) link_bus_->send_channels(session_.channels);
   link_bus_->follow_hearing(session_.hearing);
+  link_bus_->follow_removals();
   return {};
 }
 

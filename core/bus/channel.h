@@ -113,6 +113,9 @@ constexpr auto kChannelTable = std::to_array<ChannelRow>({
     {Signal::kHaptic, Where::kCapture, "HAPTIC/capture/<guest>", "haptic_t"},
     {Signal::kHearing, Where::kLocal, "HEARING/local", "hearing_t"},
     {Signal::kVoiceState, Where::kCapture, "VOICE_STATE/capture/<guest>", "voice_state_t"},
+    {Signal::kVoiceLevel, Where::kCapture, "VOICE_LEVEL/capture/<guest>", "voice_level_t"},
+    {Signal::kHouseLink, Where::kLocal, "HOUSE_LINK/local", "house_link_t"},
+    {Signal::kRemoval, Where::kLocal, "REMOVAL/local", "removal_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 });
 

@@ -280,6 +280,34 @@ struct MessageFields<VoiceState> {
   }
 };
 
+template <>
+struct MessageFields<HouseLink> {
+  using Generated = dancelcm::house_link_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.state, v.state) && io(m.trouble, v.trouble) &&
+           io(m.refusal, v.refusal) && io(m.refused, v.refused) &&
+           io(m.asks_again_us, v.asks_again) && io(m.may_remove, v.may_remove) &&
+           io(m.removal, v.removal) && io(m.verdict, v.verdict);
+  }
+};
+
+template <>
+struct MessageFields<Removal> {
+  using Generated = dancelcm::removal_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.number, v.number) && io(m.guest, v.guest);
+  }
+};
+
+template <>
+struct MessageFields<VoiceLevel> {
+  using Generated = dancelcm::voice_level_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.level_dbfs, v.level_dbfs) &&
+           io(m.cleaned_dbfs, v.cleaned_dbfs);
+  }
+};
+
 #define DANCE_INSTANTIATE(Type, kName, word) template struct MessageRow<Type, Signal::kName>;
 DANCE_MESSAGE_TABLE(DANCE_INSTANTIATE)
 #undef DANCE_INSTANTIATE

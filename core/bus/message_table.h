@@ -33,4 +33,7 @@
   ROW(Touch, kTouch, "TOUCH")                       \
   ROW(Haptic, kHaptic, "HAPTIC")                    \
   ROW(HearingWish, kHearing, "HEARING")             \
-  ROW(VoiceState, kVoiceState, "VOICE_STATE")
+  ROW(VoiceState, kVoiceState, "VOICE_STATE")       \
+  ROW(HouseLink, kHouseLink, "HOUSE_LINK")          \
+  ROW(Removal, kRemoval, "REMOVAL")                 \
+  ROW(VoiceLevel, kVoiceLevel, "VOICE_LEVEL")

@@ -59,6 +59,7 @@ void write_tunnel(const std::filesystem::path& root) {
   std::map<bool, Bytes> all;
   constexpr int kFileSteps = 12;
   int file_steps = 0;
+  const SimulatedTunnel::House* host = nullptr;
   scene.tunnel.on_datagram = [&](bool to_server, PeerId peer, wire::Bytes bytes) {
     const std::uint8_t how = peer == scene.a->peer ? 0 : peer == scene.b->peer ? 1 : 2;
     const Bytes datagram(bytes.begin(), bytes.end());
@@ -75,6 +76,11 @@ void write_tunnel(const std::filesystem::path& root) {
     const bool is_of_files = type >= wire::Type::kFileTerms && type <= wire::Type::kFileRefusal;
     if (to_server && (is_of_files || kind == "_kind_8") && ++file_steps <= kFileSteps)
       append_step(seeds["server_datagram/two_files"], how, datagram);
+    // A host that comes, and removes bob.
+    const bool is_of_removal =
+        type == wire::Type::kHello || type == wire::Type::kRemoval || type == wire::Type::kPing;
+    if (to_server && host != nullptr && peer == host->peer && is_of_removal)
+      append_step(seeds["server_datagram/removal"], how, datagram);
     if (!seeds.contains(name)) {
       append_step(seeds[name], how, datagram);
       append_step(all[to_server], how, datagram);
@@ -156,7 +162,19 @@ void write_tunnel(const std::filesystem::path& root) {
   tunnel.run(Duration::ms(100));
   scene.a->link->send(guest("anna"), average_skeleton(1.7f), tunnel.time_in(*scene.a));
   tunnel.run(Duration::ms(100));
-  scene.b->link->say_goodbye();
+  // A host's link, as the peers 0 and 1 are not: what it is told, and whom it removes.
+  auto& hanna = tunnel.add_house("salsa", {"hanna"}, {}, {.role = Role::kHost, .any_name = true});
+  host = &hanna;
+  tunnel.run(Duration::ms(100));
+  hanna.link->ask_removal(guest("nobody"), 7);
+  tunnel.run(Duration::ms(30));
+  hanna.link->ask_removal(guest("carol"), 8);
+  hanna.link->ask_removal(guest("bob"), 9);
+  tunnel.run(Duration::ms(30));
+  host = nullptr;
+  scene.a->link->ask_removal(guest("hanna"), 10);
+  tunnel.run(Duration::ms(30));
+  scene.a->link->say_goodbye();
   tunnel.run(Duration::ms(30));
   for (const auto& [name, script] : seeds) write(root / "tunnel/corpus" / name, script);
   write(root / "tunnel/corpus/server_datagram/conversation", all[true]);

@@ -319,6 +319,10 @@ class SimulatedTunnel {
       house.events.push_back("refused " + std::to_string(static_cast<int>(refusal.cause)) + " " +
                              std::string(refusal.guest.view()));
     };
+    handlers.on_removal = [&](std::int32_t number, RemovalVerdict verdict) {
+      house.events.push_back("removal " + std::to_string(number) + " " +
+                             std::to_string(static_cast<int>(verdict)));
+    };
     return handlers;
   }
 

@@ -25,6 +25,7 @@ enum class Type : std::uint8_t {
   kFeedback = 5,  // 6: cluster_bundle.h
   kFile = 7,
   kVoice = 8,
+  kRemoval = 9,
   kPresence = 16,
   kGuest = 17,
   kState = 18,

@@ -243,6 +243,28 @@ std::optional<Message> read_file(ByteReader& in) {
   return message;
 }
 
+void write(const RemovalMessage& message, ByteWriter& out) {
+  begin(Type::kRemoval, out);
+  out.u64(message.server);
+  write_name(message.room, out);
+  write_name(message.notice.guest, out);
+  out.u64(message.notice.link_token);
+  write_name(message.notice.key, out);
+  out.u8(message.notice.is_done ? 1 : 0);
+}
+std::optional<Message> read_removal(ByteReader& in) {
+  RemovalMessage message;
+  if (!read_server(in, message.server) || !read_set_name(in, message.room) ||
+      !read_set_name(in, message.notice.guest))
+    return std::nullopt;
+  message.notice.link_token = in.u64();
+  if (!read_name(in, message.notice.key)) return std::nullopt;
+  const std::uint8_t is_done = in.u8();
+  message.notice.is_done = is_done == 1;
+  if (!in.ok() || is_done > 1 || message.notice.link_token == 0) return std::nullopt;
+  return message;
+}
+
 }  // namespace
 
 std::size_t build(const Message& message, std::span<std::uint8_t> out) {
@@ -275,6 +297,9 @@ std::optional<Message> parse_message(Bytes bytes) {
       break;
     case Type::kVoice:
       message = read_voice(in);
+      break;
+    case Type::kRemoval:
+      message = read_removal(in);
       break;
     default:
       return std::nullopt;

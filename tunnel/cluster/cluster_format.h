@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "tunnel/server/core/cluster_port.h"
+#include "tunnel/server/core/removal_bans.h"
 #include "tunnel/wire/wire_servers.h"
 
 namespace dance::cluster {
@@ -80,8 +81,15 @@ struct FileMessage {
   FilePart part;  // without its slot
 };
 
+// A guest is to be removed from a room, or was; to all.
+struct RemovalMessage {
+  ServerId server = 0;
+  wire::RoomName room;
+  RemovalNotice notice;
+};
+
 using Message = std::variant<Heartbeat, ClockQuestion, ClockAnswer, RecordMessage, FeedbackMessage,
-                             FileMessage, VoiceMessage>;
+                             FileMessage, VoiceMessage, RemovalMessage>;
 std::size_t build(const Message& message, std::span<std::uint8_t> out);
 std::optional<Message> parse_message(Bytes bytes);
 

@@ -82,6 +82,7 @@ class ClusterNode final : public ClusterPort {
                    const RemoteFeedback& feedback) override;
   void on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
                const FilePart& part) override;
+  void on_removal(const wire::RoomName& room, const RemovalNotice& notice) override;
   bool is_clear() const override { return bus_.is_clear(); }
 
  private:
@@ -113,6 +114,7 @@ class ClusterNode final : public ClusterPort {
   void take_record(const Told& told, const std::optional<cluster::PoseSubject>& of, MonoTime now);
   void take(const cluster::FeedbackMessage& message, MonoTime now);
   void take(const cluster::FileMessage& message, MonoTime now);
+  void take(const cluster::RemovalMessage& message, MonoTime now);
   void take_presence(Room& room, const cluster::Key& key, const cluster::PresenceValue* value,
                      MonoTime now);
   void take_guest(Room& room, const cluster::Key& key, const cluster::GuestValue* value,

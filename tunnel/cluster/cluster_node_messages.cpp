@@ -45,6 +45,8 @@ void ClusterNode::take(std::string_view subject, cluster::Bytes bytes, MonoTime 
     take(*feedback, now);
   } else if (const auto* file = std::get_if<cluster::FileMessage>(&*message)) {
     take(*file, now);
+  } else if (const auto* removal = std::get_if<cluster::RemovalMessage>(&*message)) {
+    take(*removal, now);
   }
 }
 
@@ -79,6 +81,11 @@ void ClusterNode::take(const cluster::FileMessage& message, MonoTime now) {
   if (server_ == nullptr || message.server == options_.id) return;
   server_->remotes().on_file(message.room, message.server, message.guest, message.part,
                              clock().to_session(now));
+}
+
+void ClusterNode::take(const cluster::RemovalMessage& message, MonoTime now) {
+  if (server_ == nullptr || message.server == options_.id) return;
+  server_->removals().on_notice(message.room, message.notice, clock().to_session(now));
 }
 
 }  // namespace dance

@@ -143,6 +143,10 @@ void ClusterNode::on_file(ServerId to, const ServerRoom& room, const ServerGuest
                cluster::FileMessage{options_.id, room.name, guest.id, part});
 }
 
+void ClusterNode::on_removal(const wire::RoomName& room, const RemovalNotice& notice) {
+  sender_.send(cluster::beat_subject(), cluster::RemovalMessage{options_.id, room, notice});
+}
+
 void ClusterNode::flush(Pending& pending) {
   if (!pending.message.entries.empty())
     sender_.send(cluster::server_subject(pending.to), pending.message);

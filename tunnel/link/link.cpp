@@ -129,6 +129,7 @@ void Link::on_trouble(SealTrouble trouble, MonoTime now) {
 }
 
 MonoTime Link::tick(MonoTime now) {
+  if (core_.is_removed(now)) return next_deadline();
   choose_server(now);
   // Before the next hello, so that the one before had all its time.
   if (core_.unanswered_hellos() == 0) hellos_on_socket_ = 0;
@@ -142,6 +143,8 @@ MonoTime Link::tick(MonoTime now) {
 }
 
 MonoTime Link::next_deadline() const {
+  // A host has removed this house: neither this server nor another is asked until then.
+  if (core_.removed_until() > mono_now()) return core_.removed_until();
   const MonoTime core = core_.next_deadline();
   // Before its first turn the seal has no deadline: that is now, not never.
   const MonoTime seal = std::max(seal_.next_deadline(), MonoTime::from_ns(1));

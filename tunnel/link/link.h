@@ -58,6 +58,10 @@ class Link {
 
   // As LinkCore does.
   void set_interest(const Interest& interest, MonoTime now);
+  void ask_removal(const GuestId& guest, std::int32_t number) {
+    core_.ask_removal(guest, number);
+    rearm();
+  }
   void set_hearing(const Hearing& hearing, MonoTime now) { core_.set_hearing(hearing, now); }
 
   // The server that is spoken to.

@@ -1,6 +1,13 @@
 #include "tunnel/link/link_bus.h"
 
+#include "core/net/mono_clock.h"
+
 namespace dance {
+namespace {
+
+constexpr Duration kRemovalHolds = Duration::s(2);
+
+}  // namespace
 
 // As it comes.
 template <class T>
@@ -111,6 +118,29 @@ void LinkBus::follow_hearing(const Hearing& own) {
                                });
 }
 
+void LinkBus::tell_status(LinkHandlers& handlers) {
+  status_.listen_to(handlers);
+  status_.on_change([this] { publish_status(mono_now()); });
+}
+
+void LinkBus::publish_status(MonoTime now) {
+  status_.set_may_remove(link_ != nullptr && link_->core().may_remove());
+  HouseLink status = status_.status();
+  status.time = now;
+  status.clock_id = clock_id_;
+  port_.publish(Channel::of_house(Signal::kHouseLink), status);
+}
+
+// Of this house and of now: what a recording plays removes nobody.
+void LinkBus::follow_removals() {
+  port_.subscribe<Removal>(
+      Where::kLocal, [this](const Channel&, const Removal& removal, MonoTime now) {
+        const bool is_of_now = removal.clock_id == clock_id_ && removal.time <= now &&
+                               now - removal.time < kRemovalHolds;
+        if (is_of_now && link_ != nullptr) link_->ask_removal(removal.guest, removal.number);
+      });
+}
+
 void LinkBus::forget(const GuestId& guest) {
   known_.erase(guest);
   if (avatars_ != nullptr) avatars_->forget(guest);
@@ -160,6 +190,7 @@ void LinkBus::publish_second(MonoTime now) {
   if (const auto music = link_->room_music(now))
     port_.publish(Where::kRoom, link_->room_music_setter(), *music);
   port_.publish(Channel::of_program(Signal::kStats, "link"), link_->stats(now));
+  publish_status(now);
 }
 
 }  // namespace dance

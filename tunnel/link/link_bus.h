@@ -20,6 +20,7 @@
 #include "core/bus/captures.h"
 #include "tunnel/link/link.h"
 #include "tunnel/link/link_avatars.h"
+#include "tunnel/link/link_status.h"
 #include "tunnel/policy/hearing_wishes.h"
 
 namespace dance {
@@ -47,6 +48,10 @@ class LinkBus {
   // Of the voices that `own` lets in, only those come that a guest of this house wants, while any
   // says so on HEARING/local.
   void follow_hearing(const Hearing& own);
+  // HOUSE_LINK/local says how the link stands. After the caller's own handlers were added.
+  void tell_status(LinkHandlers& handlers);
+  // The link asks the server to remove whom a host of this house names on REMOVAL/local.
+  void follow_removals();
   void forget(const GuestId& guest);
   // STATS/link, and the states of the others and of the room again, for programs that start late.
   // Call once a second.
@@ -67,6 +72,7 @@ class LinkBus {
   template <class... Ts>
   void send_each(const GuestId& guest);
   void publish_traffic(MonoTime now);
+  void publish_status(MonoTime now);
   void on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
                   wire::Bytes message);
 
@@ -81,6 +87,7 @@ class LinkBus {
   std::vector<ChannelRule> rules_;
   Hearing own_hearing_;
   HearingWishes wishes_;
+  LinkStatus status_;
 };
 
 }  // namespace dance

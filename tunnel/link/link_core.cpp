@@ -167,6 +167,12 @@ bool LinkCore::on_session_datagram(const wire::Opening& opening, MonoTime receiv
     case wire::Type::kFileRefusal:
       is_good = files_.receive(opening, now);
       break;
+    case wire::Type::kRemovalAnswer:
+      is_good = removals_.on_answer(opening.body);
+      break;
+    case wire::Type::kRights:
+      is_good = removals_.on_rights(opening.body);
+      break;
     case wire::Type::kServers:
       is_good = on_servers(opening.body, now);
       break;
@@ -205,6 +211,7 @@ void LinkCore::begin_session() {
   room_.begin_session();
   interest_.begin_session();
   link_.clock.reset();
+  link_.may_remove = false;
   roster_.begin_session();
 }
 
@@ -233,6 +240,7 @@ void LinkCore::send_ping(MonoTime now) {
   files_.say_terms();
   states_.repeat(now);
   interest_.repeat();
+  removals_.repeat();
 }
 
 void LinkCore::set_interest(const Interest& interest, MonoTime) {

@@ -24,6 +24,7 @@
 #include "tunnel/link/signals/link_files.h"
 #include "tunnel/link/signals/link_interest.h"
 #include "tunnel/link/signals/link_receiver.h"
+#include "tunnel/link/signals/link_removals.h"
 #include "tunnel/link/signals/link_states.h"
 #include "tunnel/link/signals/link_voice.h"
 
@@ -67,6 +68,9 @@ class LinkCore {
   void set_interest(const Interest& interest, MonoTime now);
   // Whose voices it is to send.
   void set_hearing(const Hearing& hearing, MonoTime now);
+  // A guest whom this house, a host, wants removed from the room. What becomes of it is told.
+  void ask_removal(const GuestId& guest, std::int32_t number) { removals_.ask(guest, number); }
+  bool may_remove() const { return link_.is_connected() && link_.may_remove; }
   // Files of avatars: tunnel/link/signals/link_files.h.
   LinkFiles& files() { return files_; }
   const LinkFiles& files() const { return files_; }
@@ -78,6 +82,8 @@ class LinkCore {
   // another socket may be worth a try.
   int unanswered_hellos() const { return session_.unanswered_hellos(); }
   bool has_goodbye() const { return session_.has_goodbye(); }
+  bool is_removed(MonoTime now) const { return now < session_.removed_until(); }
+  MonoTime removed_until() const { return session_.removed_until(); }
   const LinkCounters& counters() const { return link_.counters; }
   const ClockMapper& clock() const { return link_.clock; }
   // The room's music in this house's clock, as it is mapped now.
@@ -110,6 +116,7 @@ class LinkCore {
   LinkFiles files_{link_};
   LinkVoice voice_{link_, sender_};
   LinkInterest interest_{link_};
+  LinkRemovals removals_{link_};
 };
 
 }  // namespace dance

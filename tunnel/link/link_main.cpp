@@ -126,12 +126,14 @@ Result<void> run_link(const LinkProgramOptions& given) {
   link_bus.use_avatars(avatars);
   LinkHandlers handlers = link_bus.handlers();
   add_talk(handlers, link_bus, given, options.room);
+  link_bus.tell_status(handlers);
   DANCE_TRY(auto link, Link::open(server, key, options, std::move(handlers), *poller));
   link_bus.attach(*link);
   if (options.guests.empty() && !options.listen_only) link_bus.send_signals_of(GuestId());
   for (const GuestId& guest : options.guests) link_bus.send_signals_of(guest);
   if (!options.listen_only) link_bus.send_channels(options.channels);
   link_bus.follow_hearing(options.hearing);
+  link_bus.follow_removals();
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();
   poller->add_timer(begin + kSecond, [&](MonoTime now) {

@@ -55,6 +55,17 @@ void ServerAdmission::refuse(PeerId to, std::uint64_t nonce, wire::Refusal cause
   server_.send(to, {out.data(), wire::build(notice, out)});
 }
 
+void ServerAdmission::tell_removed(PeerId to, std::uint64_t nonce, Duration for_how_long) {
+  if (nonce != 0) server_.reject(ServerReject::kRefused);
+  wire::RefusalNotice notice;
+  notice.nonce = nonce;
+  notice.cause = wire::Refusal::kRemoved;
+  notice.seconds = static_cast<std::uint16_t>(
+      std::clamp<std::int64_t>((for_how_long.count_ms() + 999) / 1000, 1, wire::kMostRemoved_s));
+  std::array<std::uint8_t, 64> out;
+  server_.send(to, {out.data(), wire::build(notice, out)});
+}
+
 void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes body,
                                MonoTime received, MonoTime now) {
   const std::size_t place = std::hash<std::string_view>()(access.name.view()) % hellos_.size();
@@ -86,8 +97,11 @@ void ServerAdmission::on_hello(PeerId from, const Access& access, wire::Bytes bo
     existing.reset();
   }
   auto room = find_room(hello->room);
-  if (const auto objection = objection_to(*hello, access, existing, room, now))
+  if (const auto objection = objection_to(*hello, access, existing, room, now)) {
+    if (objection->cause == wire::Refusal::kRemoved)
+      return tell_removed(from, hello->nonce, objection->removed_for);
     return refuse(from, hello->nonce, objection->cause, objection->guest);
+  }
 
   if (!room) room = open_room(*hello, now);
   const std::size_t index = existing ? *existing : open_session(from, access, *hello, *room);
@@ -137,6 +151,9 @@ std::optional<ServerAdmission::Objection> ServerAdmission::objection_to(
     const wire::Hello& hello, const Access& access, std::optional<std::size_t> existing,
     std::optional<std::size_t> room, MonoTime now) const {
   if (!access.may_enter(hello.room)) return Objection{wire::Refusal::kNotAllowedRoom, {}};
+  if (const auto until =
+          server_.bans.refused_until(hello.room, hello.token, access, hello.guests, now))
+    return Objection{wire::Refusal::kRemoved, {}, *until - now};
   if (!hello.guests.empty() && !may_have_guests(access))
     return Objection{wire::Refusal::kOnlyListens, {}};
   for (const GuestId& guest : hello.guests) {

@@ -24,6 +24,8 @@ class ServerAdmission {
   void on_hello(PeerId from, const Access& access, wire::Bytes body, MonoTime received,
                 MonoTime now);
   void drop(std::size_t session);
+  // That a host has removed the guests of this peer; the nonce is that of its hello, or 0.
+  void tell_removed(PeerId to, std::uint64_t nonce, Duration for_how_long);
 
   // For ServerRemotes: another server of the cluster in a room, as a session; nothing where there
   // is no place for it.
@@ -39,6 +41,7 @@ class ServerAdmission {
   struct Objection {
     wire::Refusal cause;
     GuestId guest;
+    Duration removed_for = {};
   };
   std::optional<Objection> objection_to(const wire::Hello& hello, const Access& access,
                                         std::optional<std::size_t> existing,

@@ -11,6 +11,8 @@ namespace {
 constexpr Duration kTick = Duration::ms(100);
 // The other servers are told again what may have been lost.
 constexpr std::uint64_t kSweepsPerRepeat = 5;
+// A host's link is told that it is one with its first ping, and again as that may be lost.
+constexpr std::uint32_t kPingsPerRights = 8;
 
 }  // namespace
 
@@ -69,7 +71,10 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
   ++session.datagrams_received;
   switch (opening.type) {
     case wire::Type::kPing:
-      return keepalive_.on_ping(index, opening.body, received, now);
+      keepalive_.on_ping(index, opening.body, received, now);
+      if (session.knows_epoch && session.newest_ping.sequence % kPingsPerRights == 1)
+        removals_.tell_rights(index);
+      return;
     case wire::Type::kRecords:
       return forwarder_.on_records(index, opening.body, received, now);
     case wire::Type::kVoices:
@@ -80,6 +85,8 @@ void ServerCore::on_session_datagram(std::size_t index, const wire::Opening& ope
       return states_.on_acks(index, opening.body);
     case wire::Type::kInterest:
       return interest_.on_interest(index, opening.body, now);
+    case wire::Type::kRemoval:
+      return removals_.on_request(index, opening.body, now);
     case wire::Type::kFileTerms:
       if (files_.on_terms(index, opening.body)) sync_.repeat_states(index);
       return;

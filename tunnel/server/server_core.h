@@ -21,6 +21,7 @@
 
 #include "tunnel/server/server_keepalive.h"
 #include "tunnel/server/server_remotes.h"
+#include "tunnel/server/server_removals.h"
 #include "tunnel/server/signals/server_files.h"
 #include "tunnel/server/signals/server_voice.h"
 
@@ -65,6 +66,7 @@ class ServerCore {
   void set_other_servers(const wire::ServerList& servers) { sync_.set_other_servers(servers); }
   ServerRemotes& remotes() { return remotes_; }
   const ServerRemotes& remotes() const { return remotes_; }
+  ServerRemovals& removals() { return removals_; }
 
   const ServerCounters& counters() const { return server_.counters; }
   std::size_t session_count() const { return server_.by_peer.size(); }
@@ -95,6 +97,7 @@ class ServerCore {
   ServerForwarder forwarder_{server_, feedback_, interest_, states_};
   ServerSync sync_{server_, states_, forwarder_};
   ServerAdmission admission_;
+  ServerRemovals removals_{server_, admission_};
   ServerKeepalive keepalive_{server_, admission_, feedback_, pace_, sync_};
   ServerFiles files_{server_};
   ServerVoice voice_{server_};

@@ -1,5 +1,7 @@
 #include "tunnel/wire/wire.h"
 
+#include "tunnel/wire/wire_removal.h"
+
 namespace dance::wire {
 namespace {
 
@@ -144,6 +146,7 @@ std::size_t build(const RefusalNotice& refusal, std::span<std::uint8_t> buffer) 
   out.u16(static_cast<std::uint16_t>(refusal.cause));
   out.u64(refusal.nonce);
   out.short_text(refusal.guest.view());
+  if (refusal.cause == Refusal::kRemoved) out.u16(refusal.seconds);
   return size_of(out);
 }
 
@@ -153,12 +156,16 @@ std::optional<RefusalNotice> parse_refusal(Bytes body) {
   refusal.server_version = in.u8();
   const std::uint16_t cause = in.u16();
   if (cause < static_cast<std::uint16_t>(Refusal::kVersion) ||
-      cause > static_cast<std::uint16_t>(Refusal::kListenersFull))
+      cause > static_cast<std::uint16_t>(Refusal::kRemoved))
     return std::nullopt;
   refusal.cause = static_cast<Refusal>(cause);
   refusal.nonce = in.u64();
   const std::size_t length = in.u8();
   const std::string_view name = in.text(length);
+  if (refusal.cause == Refusal::kRemoved) {
+    refusal.seconds = in.u16();
+    if (refusal.seconds == 0 || refusal.seconds > kMostRemoved_s) return std::nullopt;
+  }
   if (!in.is_exhausted()) return std::nullopt;
   if (const auto guest = GuestId::parse(name)) refusal.guest = *guest;
   if (length != refusal.guest.view().size()) return std::nullopt;

@@ -71,6 +71,10 @@ enum class Type : std::uint8_t {
   kServers = 29,
   // tunnel/wire/wire_voice.h.
   kVoices = 30,
+  // tunnel/wire/wire_removal.h.
+  kRemoval = 31,
+  kRemovalAnswer = 32,
+  kRights = 33,
 };
 
 enum class Refusal : std::uint16_t {
@@ -84,6 +88,7 @@ enum class Refusal : std::uint16_t {
   kNotAllowedName = 8,  // the link's key does not allow a guest of this name
   kOnlyListens = 9,     // the link's key allows no guests at all
   kListenersFull = 10,  // no place for another link without guests in this room
+  kRemoved = 11,        // a host has removed this house's guests from the room
 };
 
 struct Hello {
@@ -121,6 +126,8 @@ struct RefusalNotice {
   std::uint64_t nonce = 0;
   Refusal cause = Refusal::kVersion;
   GuestId guest;  // whom it is about, where it is about one
+  // Of kRemoved, not 0: so long it is refused. It comes unasked too, with the nonce 0.
+  std::uint16_t seconds = 0;
 };
 
 struct Ping {

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "viewer/dance_panel/dance_board.h"
 #include "viewer/feed/guest_board.h"
 #include "viewer/feed/stage_roster.h"
 #include "viewer/instruments/instrument_board.h"
@@ -28,6 +29,8 @@ class PictureSource {
 
   virtual GuestBoard& board() = 0;
   virtual InstrumentBoard& instruments() = 0;
+  // Of a live house; nullptr of a recorded one.
+  virtual DanceBoard* dance() { return nullptr; }
   virtual MonoTime begin() const = 0;
   // Waits until that moment or a request to end; returns the present time.
   virtual MonoTime wait_until(MonoTime moment) = 0;

@@ -56,6 +56,7 @@ Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options)
   if (options.shown == Shown::kGuest) feed->board_.show_guest_channel();
   feed->subscribe(options);
   feed->measure(options);
+  feed->hear_house();
   feed->thread_ = std::thread([raw = feed.get()] { raw->run(); });
   return feed;
 }
@@ -118,6 +119,7 @@ void StageFeed::subscribe(const FeedOptions& options) {
   bus_->subscribe<GuestStatus>(
       Where::kStage, [this](const Channel& channel, const GuestStatus& status, MonoTime now) {
         board_.on_status(channel.guest(), status, now);
+        dance_.on_status(channel.guest(), status, now);
       });
 }
 
@@ -130,8 +132,9 @@ void StageFeed::measure(const FeedOptions& options) {
     });
   }
   bus_->subscribe<GuestTraffic>(
-      Where::kGuest, [this](const Channel& channel, const GuestTraffic& traffic, MonoTime) {
+      Where::kGuest, [this](const Channel& channel, const GuestTraffic& traffic, MonoTime now) {
         instruments_.on_traffic(channel.guest(), traffic);
+        dance_.on_traffic(channel.guest(), now);
       });
   // Where nothing is swapped here, as in pictures for files, what another display of the house did.
   bus_->subscribe<StageTime>(Where::kView,
@@ -153,8 +156,25 @@ void StageFeed::measure(const FeedOptions& options) {
   });
 }
 
+// What the dance panel shows beside the dance.
+void StageFeed::hear_house() {
+  bus_->subscribe<VoiceLevel>(Where::kCapture,
+                              [this](const Channel& channel, const VoiceLevel& level, MonoTime now) {
+                                dance_.on_level(channel.guest(), level, now);
+                              });
+  bus_->subscribe<Music>(
+      Where::kRoom, [this](const Channel&, const Music& music, MonoTime) { dance_.on_music(music); });
+  bus_->subscribe<HouseLink>(Where::kLocal,
+                             [this](const Channel&, const HouseLink& link, MonoTime now) {
+                               if (link.clock_id == this_clock_id()) dance_.on_link(link, now);
+                             });
+}
+
 // What a panel asks for.
 void StageFeed::publish_asked() {
+  while (const auto asked = dance_.take_asked())
+    bus_->publish(Channel::of_house(Signal::kRemoval),
+                  Removal{mono_now(), this_clock_id(), asked->what, asked->guest});
   while (const auto asked = instruments_.take_asked_flow())
     bus_->publish(Where::kCapture, asked->guest, asked->what);
   while (const auto asked = instruments_.take_asked_style())

@@ -17,6 +17,7 @@
 #include "core/base/spsc_ring.h"
 #include "core/bus/bus.h"
 #include "core/net/poller.h"
+#include "viewer/dance_panel/dance_board.h"
 #include "viewer/feed/guest_board.h"
 #include "viewer/instruments/instrument_board.h"
 
@@ -46,6 +47,7 @@ class StageFeed {
 
   GuestBoard& board() { return board_; }
   InstrumentBoard& instruments() { return instruments_; }
+  DanceBoard& dance() { return dance_; }
   const std::string& url() const { return bus_->url(); }
   void report_shown(const ShownPose& shown) { shown_.push(shown); }
   // After the last report_shown() of a picture.
@@ -57,6 +59,7 @@ class StageFeed {
   explicit StageFeed(const FeedOptions& options);
   void subscribe(const FeedOptions& options);
   void measure(const FeedOptions& options);
+  void hear_house();
   void publish_asked();
   void publish_figures(MonoTime now);
   void publish_counters(MonoTime now);
@@ -67,6 +70,7 @@ class StageFeed {
   std::unique_ptr<Bus> bus_;
   GuestBoard board_;
   InstrumentBoard instruments_;
+  DanceBoard dance_;
   MonoTime begin_, counted_;
   std::int64_t shown_count_ = 0;
   SpscRing<ShownPose, 512> shown_;

@@ -24,6 +24,7 @@ namespace {
 
 constexpr float kTagFont_px = 17.0f;
 constexpr float kHudFont_px = 14.0f;
+constexpr float kDigitFont_px = 110.0f;
 constexpr float kPanelLines = 7.4f;  // of the smaller font
 ImU32 colour_of(const Vector3f& linear, float alpha) {
   const Vector3f s = srgb_from_linear(linear);
@@ -81,6 +82,7 @@ void Overlay::make_fonts() {
   atlas.Clear();
   tag_font_ = add_overlay_font(atlas, kTagFont_px * scale_);
   hud_font_ = add_overlay_font(atlas, kHudFont_px * scale_);
+  digit_font_ = add_digit_font(atlas, kDigitFont_px * scale_);
   if (find_overlay_font() != nullptr) return;
   font_note_ =
       "no DejaVu font here, text is coarse; install it with: apt-get install fonts-dejavu-core";
@@ -102,7 +104,7 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
   if (choice.tags) draw_tags(scene, camera, choice.tag_anchors_W_m, width, height);
   if (choice.hud) draw_hud(scene);
   draw_words(choice, width, height);
-  const PanelFrame frame{scene, width, height, scale_, tag_font_, hud_font_};
+  const PanelFrame frame{scene, width, height, scale_, tag_font_, hud_font_, digit_font_};
   draw_notes(scene, height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
   draw_panels(choice.panels, scene, width, height);
   end_frame();
@@ -160,7 +162,7 @@ void Overlay::draw_frames(std::span<const StageCell> cells, int width_px, int he
   const auto width = static_cast<float>(width_px);
   const auto height = static_cast<float>(height_px);
   if (choice.whole != nullptr) {
-    const PanelFrame frame{*choice.whole, width, height, scale_, tag_font_, hud_font_};
+    const PanelFrame frame{*choice.whole, width, height, scale_, tag_font_, hud_font_, digit_font_};
     draw_notes(*choice.whole,
                height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
     draw_panels(choice.panels, *choice.whole, width, height);
@@ -171,7 +173,7 @@ void Overlay::draw_frames(std::span<const StageCell> cells, int width_px, int he
 void Overlay::draw_panels(PanelStack* panels, const SceneState& scene, float width_px,
                           float height_px) {
   if (panels == nullptr) return;
-  panels->draw({scene, width_px, height_px, scale_, tag_font_, hud_font_});
+  panels->draw({scene, width_px, height_px, scale_, tag_font_, hud_font_, digit_font_});
 }
 
 // In dark rounds, as the tags are.

@@ -75,6 +75,7 @@ class Overlay {
   bool backend_started_ = false;
   ImFont* tag_font_ = nullptr;
   ImFont* hud_font_ = nullptr;
+  ImFont* digit_font_ = nullptr;
   std::string font_note_;
 };
 

@@ -14,5 +14,7 @@ namespace dance {
 
 const char* find_overlay_font();
 ImFont* add_overlay_font(ImFontAtlas& atlas, float size_px);
+// The ten digits alone; nullptr where there is no DejaVu font.
+ImFont* add_digit_font(ImFontAtlas& atlas, float size_px);
 
 }  // namespace dance

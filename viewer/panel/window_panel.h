@@ -39,6 +39,7 @@ struct PanelFrame {
   float scale = 1.0f;
   ImFont* large_font = nullptr;
   ImFont* small_font = nullptr;
+  ImFont* digit_font = nullptr;  // the ten digits alone, as high as they are read from afar
 };
 
 class WindowPanel {

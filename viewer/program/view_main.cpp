@@ -100,11 +100,16 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_flag("--headless", view.headless, "no window: pictures in files, named on stdout");
   line.add_choice<std::string>(
       "--panel", view.panel,
-      {{"instruments", "instruments"},
+      {{"dance", "dance"},
+       {"instruments", "instruments"},
        {"style", "style"},
        {"keys", "keys"},
        {"timeline", "timeline"}},
-      "open this panel: instruments, style or keys; headless, with a log: timeline");
+      "open this panel: dance, instruments, style or keys; headless, with a log: timeline");
+  line.add_choice<Language>(
+      "--language", view.language,
+      {{"en", Language::kEnglish}, {"es", Language::kSpanish}, {"de", Language::kGerman}},
+      "of the dance panel's texts: en, es or de; else the system's");
   line.add("--session", view.session, "the session file of this house, for what panels save");
   line.add("--out", view.out, "directory of the pictures").shows_default();
   line.add("--seconds", wishes.view.moments.seconds,
@@ -157,6 +162,8 @@ Result<void> finish(Wishes& wishes) {
   }
   if (wishes.view.panel == "timeline" && wishes.view.log.empty())
     return fail("--panel timeline needs a log: dance view LOG");
+  if (wishes.view.panel == "dance" && !wishes.view.log.empty())
+    return fail("--panel dance is of a live house; leave out the log");
   if (wishes.view.log.empty() && (wishes.view.moments.film || !wishes.view.beats.empty()))
     return fail("--film and --beats need a recorded house: dance view LOG");
   if (wishes.compare && wishes.view.view != ViewMode::kOrbit &&

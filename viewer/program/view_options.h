@@ -16,6 +16,7 @@
 #include "viewer/view/camera_rig.h"
 #include "viewer/view/view_mode.h"
 #include "viewer/window/window_state.h"
+#include "viewer/words/language.h"
 
 namespace dance {
 
@@ -53,7 +54,8 @@ struct ViewOptions {
 
   bool headless = false;
   std::string session;  // the file that panels save into; "" = none
-  std::string panel;    // open from the begin: instruments, style, keys; "" = none
+  std::string panel;    // open from the begin: dance, instruments, style, keys; "" = none
+  Language language = language_of_user();  // of the texts for dancers
   std::string out = ".";
   MomentWish moments;
   std::vector<AvatarOverride> avatars;  // --avatar

@@ -81,10 +81,12 @@ constexpr std::array kRows{
         {"X", "extrapolate to the photon, or not"},
         {GLFW_KEY_X, {WindowAction::kExtrapolate}}},
     Row{"Picture", {"?  F1", "these keys"}},
+    // Esc too, where nothing is open and no dance panel takes it: of a log.
     Row{"Picture",
-        {"Q  Esc", "close the window"},
+        {"Q", "close the window"},
         {GLFW_KEY_Q, {WindowAction::kClose}},
-        {GLFW_KEY_ESCAPE, {WindowAction::kClose}}},
+        {GLFW_KEY_ESCAPE, {WindowAction::kClose}},
+        "Q  Esc"},
 };
 
 struct Helps {

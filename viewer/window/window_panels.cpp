@@ -1,11 +1,52 @@
 #include "viewer/window/window_panels.h"
 
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/program/program.h"
+#include "viewer/dance_panel/dance_panel.h"
 #include "viewer/instruments/instrument_panel.h"
 #include "viewer/style_panel/style_panel.h"
 #include "viewer/window/help_panel.h"
 #include "viewer/window/window_keys.h"
+#include "voice/control/voice_control.h"
 
 namespace dance {
+namespace {
+
+DanceRecording::Options recording_options(const ViewOptions& options) {
+  const auto is_folder = [](const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(path, ignored);
+  };
+  return {program_folder() + "/dance-record",
+          recordings_folder([](const char* name) { return std::getenv(name); }, is_folder),
+          options.feed.bus_url};
+}
+
+// Of a live house: a recorded dance is over.
+void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right, PanelStack& panels) {
+  DanceBoard* board = needs.source.dance();
+  const ViewOptions& options = needs.options;
+  if (board == nullptr || (options.headless && options.panel != "dance")) return;
+  DanceNeeds dance{*board, needs.records, needs.wishes, needs.drawing, options.language,
+                   recording_options(options), {}, {}};
+  dance.tell_voice = [bus = options.feed.bus_url](const GuestId& guest, std::string_view command) {
+    return tell_voice(bus, guest, command);
+  };
+  dance.wall = [] {
+    return Duration::us(std::chrono::duration_cast<std::chrono::microseconds>(
+                            std::chrono::system_clock::now().time_since_epoch())
+                            .count());
+  };
+  auto panel = std::make_unique<DancePanel>(std::move(dance));
+  panel->yield_to(at_right);
+  panel->open(options.panel == "dance");
+  panels.add(std::move(panel));
+}
+
+}  // namespace
 
 Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
   const ViewOptions& options = needs.options;
@@ -22,10 +63,12 @@ Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
                                             std::move(file), options.log.empty());
   style->open(options.panel == "style");
   if (options.focus) style->choose(*options.focus);
+  const StylePanel& at_right = *style;
   panels.add(std::move(style));
   ReplaySource* replay = needs.source.replay();
   if (replay != nullptr && (!options.headless || options.panel == "timeline"))
     panels.add(std::make_unique<TimelinePanel>(*replay, needs.exporting));
+  add_dance_panel(needs, at_right, panels);
   auto help = std::make_unique<HelpPanel>(panels, window_key_groups(replay != nullptr));
   if (options.panel == "keys") help->open();
   panels.add(std::move(help));

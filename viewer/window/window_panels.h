@@ -5,6 +5,8 @@
 // Failure:   add_panels() names the session file that cannot be read.
 #pragma once
 
+#include "viewer/dance_panel/banner_watch.h"
+#include "viewer/dance_panel/dance_wishes.h"
 #include "viewer/feed/picture_source.h"
 #include "viewer/instruments/instrument_records.h"
 #include "viewer/panel/panel_stack.h"
@@ -18,6 +20,8 @@ struct PanelNeeds {
   PictureSource& source;
   InstrumentRecords& records;
   TimelinePanel::Exporting exporting;  // of a recording
+  DanceWishes& wishes;
+  const BannerWatch::Drawing& drawing;
 };
 
 // The first hears keys first; the last is drawn in front.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "core/net/mono_clock.h"
 #include "core/program/talk.h"
@@ -47,7 +48,9 @@ Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
   if (options.quality == QualityWish::kAuto && run->painter_->renderer().quality() == Quality::kLow)
     talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
   if (auto added =
-          add_panels({options, source, run->records_, run->export_.for_timeline()}, run->panels_);
+          add_panels({options, source, run->records_, run->export_.for_timeline(),
+                      run->state_.dance, run->drawing_},
+                     run->panels_);
       !added)
     return tl::make_unexpected(added.error());
   run->apply_display_mode();
@@ -77,7 +80,10 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
 WindowRun::~WindowRun() = default;
 
 Result<void> WindowRun::make_painter() {
-  DANCE_TRY(painter_, StagePainter::create(quality_of(options_.quality), window_->scale()));
+  const Quality quality = draws_plainly_ ? Quality::kLow : quality_of(options_.quality);
+  DANCE_TRY(painter_, StagePainter::create(quality, window_->scale()));
+  drawing_.is_software = is_software_rendering();
+  drawing_.is_plain = quality == Quality::kLow;
   painter_->renderer().build_meshes_beside();
   return {};
 }
@@ -108,8 +114,21 @@ Result<void> WindowRun::run() {
   return {};
 }
 
+// What a person has asked for by the dance panel.
+Result<void> WindowRun::obey_wishes() {
+  DanceWishes& wishes = state_.dance;
+  state_.voice.mute_presses += std::exchange(wishes.mute_presses, 0);
+  state_.voice.deafen_presses += std::exchange(wishes.deafen_presses, 0);
+  if (std::exchange(wishes.leaves, false)) state_.is_over = state_.has_left = true;
+  if (!std::exchange(wishes.draws_plainly, false) || draws_plainly_) return {};
+  draws_plainly_ = true;
+  painter_.reset();  // one at a time
+  return make_painter();
+}
+
 Result<void> WindowRun::turn() {
   window_->poll_events();
+  if (auto obeyed = obey_wishes(); !obeyed) return obeyed;
   if (window_->is_context_lost()) return renew_after_loss();
   if (state_.display != display_) apply_display_mode();
   look_at_monitor(mono_now());
@@ -157,15 +176,24 @@ MonoTime WindowRun::house_time(MonoTime now) {
 void WindowRun::take_poses(MonoTime now) {
   const MonoTime house_now = house_time(now);
   roster_.update(house_now, scene_);
+  drawing_.pictures_hz = static_cast<float>(rate_.hz());
   scene_.notes.clear();  // the avatars' come first
   avatars_.dress(scene_);
   records_.take(source_.instruments());
+  hide_guests();
   scene_.shows_trails = state_.shows_trails;
   predictor_.observe(roster_.fresh());
   // A recorded stage is shown as it was; so are the halves of a comparison.
   const bool is_live = source_.replay() == nullptr;
   if (is_live && state_.extrapolates && director_.mode() != ViewMode::kCompare)
     predictor_.predict(path_.photon_time(now), scene_);
+}
+
+void WindowRun::hide_guests() {
+  const auto& hidden = state_.dance.hidden;
+  std::erase_if(scene_.guests, [&](const SceneGuest& guest) {
+    return std::find(hidden.begin(), hidden.end(), guest.id) != hidden.end();
+  });
 }
 
 void WindowRun::choose_guest() {

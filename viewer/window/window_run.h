@@ -11,6 +11,7 @@
 
 #include "core/program/program.h"
 #include "viewer/avatar/user_avatars.h"
+#include "viewer/dance_panel/banner_watch.h"
 #include "viewer/display/display_path.h"
 #include "viewer/display/swap_meter.h"
 #include "viewer/feed/photon_predictor.h"
@@ -62,6 +63,7 @@ class WindowRun {
   AvatarLibrary& avatars() { return avatars_; }
   WindowInput& input() { return input_; }
   const WindowState& state() const { return state_; }
+  DanceWishes& wishes() { return state_.dance; }
   const ViewDirector& director() const { return director_; }
   const SceneState& scene() const { return scene_; }
   int contexts_lost() const { return contexts_lost_; }
@@ -76,6 +78,8 @@ class WindowRun {
   void look_at_monitor(MonoTime now);
   void wait_to_take();
   void take_poses(MonoTime now);
+  Result<void> obey_wishes();
+  void hide_guests();
   void choose_guest();
   void write_notes(MonoTime now);
   Result<void> draw(ViewWindow::Size size, Duration since_last);
@@ -90,6 +94,8 @@ class WindowRun {
   AvatarLibrary avatars_{
       avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options_.avatars)};
   InstrumentRecords records_;
+  BannerWatch::Drawing drawing_;
+  bool draws_plainly_ = false;  // asked for, as drawing was slow
   PanelStack panels_;
   VoiceKeys voice_keys_;
   WindowInput input_{state_, director_, panels_};

@@ -7,6 +7,8 @@
 
 #include <optional>
 
+#include "viewer/dance_panel/dance_wishes.h"
+
 namespace dance {
 
 // Tear-free waits for the display; low latency does so only while drawing keeps up, and shows a
@@ -27,7 +29,9 @@ struct WindowState {
   bool extrapolates = true;
   DisplayMode display = DisplayMode::kTearFree;
   VoiceWishes voice;
+  DanceWishes dance;
   bool is_over = false;
+  bool has_left = false;  // the dance, by the panel's button: a program around it goes on
   std::optional<int> chosen_number;  // of the number key that was pressed last; once
   int chosen_step = 0;               // guests forwards or backwards; once
 };

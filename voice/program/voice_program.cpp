@@ -14,6 +14,7 @@ namespace {
 constexpr int kMeterCells = 8;
 constexpr int kQuietest_dbfs = -60;
 constexpr Duration kHearingSaid = Duration::s(1);
+constexpr Duration kLevelSaid = Duration::ms(100);
 constexpr Duration kMeterHolds = Duration::ms(300);
 
 std::string meter(int level) {
@@ -55,6 +56,7 @@ Result<std::unique_ptr<VoiceProgram>> VoiceProgram::open(const VoiceProgramOptio
   program->timer_ = poller.add_timer(mono_now(), [self](MonoTime now) {
     self->devices_->work(now);
     self->say_trouble(self->devices_->take_trouble());
+    self->say_level(now);
     if (!self->said_ || !is_same(*self->said_, self->state(now))) self->say_state(now);
     return now + VoiceDevices::kTurn;
   });
@@ -118,7 +120,9 @@ VoiceDeviceHandlers VoiceProgram::handlers() {
   VoiceDeviceHandlers handlers;
   handlers.on_microphone = [this](std::span<float, kVoiceFrameSamples> frame, MonoTime captured,
                                   Duration echo_delay) {
+    level_.level_dbfs = std::max(level_.level_dbfs, level_dbfs(frame));
     const auto voice = own_->take(frame, captured, echo_delay, settings_.sends(mono_now()));
+    level_.cleaned_dbfs = std::max(level_.cleaned_dbfs, own_->level());
     if (voice) bus_.publish(Where::kCapture, options_.guest, *voice);
   };
   handlers.on_reference = [this](std::span<const float, kVoiceFrameSamples> frame) {
@@ -166,6 +170,14 @@ VoiceState VoiceProgram::state(MonoTime now) const {
 void VoiceProgram::say_state(MonoTime now) {
   said_ = state(now);
   bus_.publish(Where::kCapture, options_.guest, *said_);
+}
+
+void VoiceProgram::say_level(MonoTime now) {
+  if (!devices_->has_microphone() || now - level_.time < kLevelSaid) return;
+  level_.time = now;
+  level_.clock_id = this_clock_id();
+  bus_.publish(Where::kCapture, options_.guest, level_);
+  level_.level_dbfs = level_.cleaned_dbfs = kSilence_dbfs;
 }
 
 void VoiceProgram::say_trouble(const std::string& trouble) const {

@@ -1,6 +1,6 @@
 // VoiceProgram: what `dance voice` does: the microphone to VOICE/capture/<guest>, and VOICE/guest/*
 // to the loudspeaker, with what a replay plays on VOICE/capture/*. VOICE_STATE/capture/<guest> says
-// what holds.
+// what holds, VOICE_LEVEL/capture/<guest> how loud the microphone is.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    owns devices, own voice and the others'; refers to bus and poller, which must
@@ -61,6 +61,7 @@ class VoiceProgram {
   void say_hearing(MonoTime now);
   VoiceState state(MonoTime now) const;
   void say_state(MonoTime now);
+  void say_level(MonoTime now);
   // For what is about to be said.
   void before_words() const {
     if (options_.before_words) options_.before_words();
@@ -77,6 +78,7 @@ class VoiceProgram {
   ReplayedVoices replayed_;
   MonoTime begin_;
   std::optional<VoiceState> said_;  // last
+  VoiceLevel level_;                // loudest since it was said last
   Poller::TimerId timer_ = 0;
   Poller::TimerId hearing_timer_ = 0;
 };

@@ -94,7 +94,8 @@ inline std::vector<cluster::Message> messages() {
           want,
           part,
           refusal,
-          voice()};
+          voice(),
+          cluster::RemovalMessage{15, guest("salsa"), {guest("alice-2"), 16, guest("alice"), true}}};
 }
 
 inline std::vector<cluster::Value> values() {

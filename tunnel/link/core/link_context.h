@@ -53,6 +53,7 @@ struct LinkContext {
   std::uint8_t version = 0;  // of the wire, that the server speaks in this session
   CodecName codec;
   Stream stream;
+  bool may_remove = false;          // the server has said so in this session
   bool server_knows_files = false;  // it has said file terms in this session
   PathStats path;
   TokenBucket state_changes{10.0, 20.0};  // told at once; more goes with the pings

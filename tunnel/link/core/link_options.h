@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/fixed_list.h"
+#include "core/bus/house_messages.h"
 #include "core/bus/state_messages.h"
 #include "core/bus/voice.h"
 #include "core/codec/pose_codec.h"
@@ -101,6 +102,8 @@ struct LinkHandlers {
   std::function<void(LinkState, MonoTime now)> on_state;
   // Guest is set where it is about one of ours. refusal_line() says it for people.
   std::function<void(const wire::RefusalNotice&, MonoTime now)> on_refused;
+  // What became of a guest whom this house wanted removed; first that it is asked.
+  std::function<void(std::int32_t number, RemovalVerdict)> on_removal;
   // The other servers of the cluster, each time they are told. Of a Link, that Link's own.
   std::function<void(const wire::ServerList&, MonoTime now)> on_servers;
   // Another server is spoken to: the one before is silent or ends, or this one is nearer. Said by

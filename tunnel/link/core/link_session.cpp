@@ -63,7 +63,7 @@ void LinkSession::set_state(LinkState state, MonoTime now) {
 void LinkSession::schedule_update(MonoTime now) {
   hello_nonce_ = 0;
   hello_wait_ = kFirstHelloWait;
-  if (!hello_wanted_) next_hello_ = now;
+  if (!hello_wanted_) ask_from(now);
   hello_wanted_ = true;
 }
 
@@ -72,7 +72,7 @@ void LinkSession::begin_lapse(MonoTime now) {
   hellos_in_lapse_ = 0;
   for (LocalGuest& guest : link_.locals) guest.refused_until = MonoTime();
   schedule_update(now);
-  next_hello_ = now;
+  ask_from(now);
   set_state(LinkState::kLapsed, now);
 }
 
@@ -83,12 +83,12 @@ void LinkSession::on_sealed(MonoTime now) {
   // The server does not know yet that this sealed session is ours.
   if (link_.state == LinkState::kConnected) return begin_lapse(now);
   schedule_update(now);
-  next_hello_ = now;
+  ask_from(now);
 }
 
 void LinkSession::on_moved(MonoTime now) {
   next_ping_ = now;
-  if (hello_wanted_) next_hello_ = now;
+  if (hello_wanted_) ask_from(now);
 }
 
 // The server ends: ask at once, then more and more slowly.
@@ -198,11 +198,30 @@ void LinkSession::begin(const wire::Welcome& welcome, MonoTime now) {
   set_state(LinkState::kConnected, now);
 }
 
+// Another link that the user starts is refused too, for as long.
+void LinkSession::stay_away(Duration for_how_long, MonoTime now) {
+  removed_until_ = now + for_how_long;
+  is_welcome_ = has_goodbye_ = false;
+  epoch_ = 0;
+  hello_wanted_ = true;
+  hello_nonce_ = 0;
+  ask_from(now);
+  set_state(LinkState::kConnecting, now);
+}
+
 bool LinkSession::on_refusal(wire::Bytes body, MonoTime now) {
   const auto refusal = wire::parse_refusal(body);
-  if (!refusal || !hello_wanted_ || hello_nonce_ == 0 || refusal->nonce != hello_nonce_)
-    return false;
+  if (!refusal) return false;
+  const bool is_removal = refusal->cause == wire::Refusal::kRemoved;
+  const bool is_unasked = is_removal && refusal->nonce == 0 && is_welcome_;
+  const bool is_answer = hello_wanted_ && hello_nonce_ != 0 && refusal->nonce == hello_nonce_;
+  if (!is_unasked && !is_answer) return false;
   unanswered_hellos_ = 0;
+  if (is_removal) {
+    stay_away(Duration::s(refusal->seconds), now);
+    if (link_.handlers.on_refused) link_.handlers.on_refused(*refusal, now);
+    return true;
+  }
   // An older server: all that it knows is here too.
   if (refusal->cause == wire::Refusal::kVersion && version_ > refusal->server_version &&
       refusal->server_version >= wire::kOldestWireVersion) {

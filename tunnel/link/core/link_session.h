@@ -51,6 +51,8 @@ class LinkSession {
   bool is_welcome() const { return is_welcome_; }
   bool may_send(MonoTime now) const;
   int unanswered_hellos() const { return unanswered_hellos_; }
+  // A host has removed this house's guests: until then nothing is asked. Not set, or past: it is.
+  MonoTime removed_until() const { return removed_until_; }
   // The server ends, or has forgotten this session: said since the last welcome.
   bool has_goodbye() const { return has_goodbye_; }
 
@@ -58,6 +60,8 @@ class LinkSession {
   void set_state(LinkState state, MonoTime now);
   void send_hello(MonoTime now);
   void begin_lapse(MonoTime now);
+  void ask_from(MonoTime when) { next_hello_ = std::max(when, removed_until_); }
+  void stay_away(Duration for_how_long, MonoTime now);
   void leave_out(const GuestId& refused, MonoTime now);
 
   LinkContext& link_;
@@ -74,6 +78,7 @@ class LinkSession {
   std::uint64_t hello_nonce_ = 0;
   FixedList<std::uint8_t, wire::kMaxGuestsPerLink> hello_guests_;  // places in locals
   MonoTime next_hello_;
+  MonoTime removed_until_;
   Duration hello_wait_;
   int unanswered_hellos_ = 0;
   int hellos_in_lapse_ = 0;

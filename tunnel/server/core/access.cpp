@@ -19,6 +19,8 @@ bool may_have_guests(const Access& access) { return access.role != Role::kListen
 
 bool may_send_records(const Access& access) { return may_have_guests(access); }
 
+bool may_remove_guests(const Access& access) { return access.role == Role::kHost; }
+
 bool may_set_room_state(const Access& access, bool room_has_host) {
   switch (access.role) {
     case Role::kHost:

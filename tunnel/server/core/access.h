@@ -34,6 +34,8 @@ struct Access {
 // Who may change what: all of it stands here.
 bool may_have_guests(const Access& access);
 bool may_send_records(const Access& access);
+// To end the session of another guest of the room: a host.
+bool may_remove_guests(const Access& access);
 // Music, scene: what is one for the whole room. A host may; where nobody in the room has a host's
 // key, any guest.
 bool may_set_room_state(const Access& access, bool room_has_host);

@@ -20,6 +20,7 @@ namespace dance {
 
 struct ServerGuest;
 struct ServerRoom;
+struct RemovalNotice;
 
 // One server process, from its start to its end; random, never 0.
 using ServerId = std::uint64_t;
@@ -73,6 +74,8 @@ class ClusterPort {
   // For the server `to`: of its guest's file what is wanted, or of this one's guest a part of it.
   virtual void on_file(ServerId to, const ServerRoom& room, const ServerGuest& guest,
                        const FilePart& part) = 0;
+  // A guest is to be removed from a room, or was: for all servers.
+  virtual void on_removal(const wire::RoomName& room, const RemovalNotice& notice) = 0;
   // Whether nothing waits on the way to other servers: files go only then.
   virtual bool is_clear() const = 0;
 };

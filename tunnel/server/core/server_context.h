@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "tunnel/server/core/removal_bans.h"
 #include "tunnel/server/core/server_state.h"
 #include "tunnel/wire/wire_servers.h"
 
@@ -43,6 +44,7 @@ struct ServerContext {
   std::vector<std::size_t> speaking;              // sessions with voices to be sent
   std::vector<std::size_t> changed_rooms;
   wire::ServerList other_servers;  // of a cluster, as links reach them
+  RemovalBans bans;
   ServerCounters counters;
 };
 

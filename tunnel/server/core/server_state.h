@@ -143,6 +143,7 @@ struct ServerCounters {
   std::uint64_t sessions_begun = 0;
   std::uint64_t sessions_resumed = 0;
   std::uint64_t sessions_timed_out = 0;
+  std::uint64_t sessions_removed = 0;  // by hosts
   std::uint64_t goodbyes = 0;
   std::array<std::uint64_t, kServerRejects> rejected{};
 
@@ -197,6 +198,7 @@ struct ServerSession {
   std::size_t state_cursor = 0;  // slot to begin with when not all fitted the last time
   TokenBucket datagrams;
   TokenBucket bytes;
+  TokenBucket removals{1.0, 16.0};  // of guests, that a host asks for
   std::uint32_t datagrams_received = 0;
   wire::Ping newest_ping;
   LinkMeter meter;

@@ -88,6 +88,7 @@ nlohmann::ordered_json summary(const Server& server, Duration uptime) {
           {"sessions_begun", c.sessions_begun},
           {"sessions_resumed", c.sessions_resumed},
           {"sessions_timed_out", c.sessions_timed_out},
+          {"sessions_removed", c.sessions_removed},
           {"goodbyes", c.goodbyes},
           {"send_failed", socket.send_failed},
           {"truncated", socket.truncated},

@@ -89,6 +89,7 @@ void add_totals(const ServerStatus& status, Page& page) {
   page.counter("sessions_resumed_total", "Links that came back from elsewhere.",
                c.sessions_resumed);
   page.counter("sessions_timed_out_total", "Links that fell silent.", c.sessions_timed_out);
+  page.counter("sessions_removed_total", "Links whose guests a host removed.", c.sessions_removed);
   page.counter("goodbyes_total", "Links that said goodbye.", c.goodbyes);
   page.counters("rejected_total", "Datagrams, or records in them, that went no further.",
                 status.rejects);

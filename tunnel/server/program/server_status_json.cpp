@@ -81,6 +81,7 @@ void add_counters(const ServerCounters& c, JsonText& json) {
   json.member("sessions_begun", c.sessions_begun);
   json.member("sessions_resumed", c.sessions_resumed);
   json.member("sessions_timed_out", c.sessions_timed_out);
+  json.member("sessions_removed", c.sessions_removed);
   json.member("goodbyes", c.goodbyes);
   json.close('}');
 }

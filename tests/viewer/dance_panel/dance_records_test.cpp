@@ -1,0 +1,115 @@
+// Who is in the panel's list of guests, and how well each comes over.
+#include "viewer/dance_panel/dance_records.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/viewer/instruments/synthetic_line.h"
+
+namespace dance {
+namespace {
+
+struct Room {
+  void status(const char* name, bool is_remote, bool is_alive, std::int64_t received) {
+    GuestStatus status;
+    status.remote = is_remote;
+    status.alive = is_alive;
+    status.received = received;
+    board.on_status(guest_called(name), status, now);
+  }
+  void look() {
+    records.take(board, now);
+    records.judge(figures, scene, now);
+  }
+  std::string names() const {
+    std::string all;
+    for (const DanceGuest& guest : records.guests()) all += std::string(guest.id.view()) + " ";
+    return all;
+  }
+
+  DanceBoard board;
+  DanceRecords records;
+  InstrumentBoard instruments{kHouseClock};
+  InstrumentRecords figures;
+  SceneState scene;
+  MonoTime now = at_ms(100'000.0);
+};
+
+TEST(DanceRecords, ASilentGuestStaysWhileTheLinkNamesItAndThenGoes) {
+  Room room;
+  for (int second = 0; second < 5; ++second, room.now += Duration::s(1)) {
+    room.status("bob", true, true, 60 * second);
+    room.status("alice", false, true, 60 * second);
+    room.board.on_traffic(guest_called("bob"), room.now);
+    room.look();
+  }
+  EXPECT_EQ(room.names(), "alice bob ");
+  EXPECT_EQ(room.records.find(guest_called("bob"))->quality.shown().level, QualityLevel::kGood);
+  // Its house sends nothing: the manager says so once, the link goes on naming it.
+  room.status("bob", true, false, 240);
+  for (int second = 0; second < 6; ++second, room.now += Duration::s(1)) {
+    room.status("alice", false, true, 300 + 60 * second);
+    room.board.on_traffic(guest_called("bob"), room.now);
+    room.look();
+  }
+  const DanceGuest* bob = room.records.find(guest_called("bob"));
+  ASSERT_NE(bob, nullptr);
+  EXPECT_EQ(bob->quality.shown().level, QualityLevel::kBad);
+  EXPECT_EQ(bob->quality.shown().reason, QualityReason::kSilent);
+  // It has left.
+  room.now += Duration::s(5);
+  room.look();
+  EXPECT_EQ(room.names(), "alice ") << "a camera of this house may come back";
+}
+
+TEST(DanceRecords, LossIsTheMeanOfSomeSeconds) {
+  Room room;
+  std::uint32_t sequence = 0;
+  for (int second = 0; second < 12; ++second) {
+    const bool is_burst = second == 6;
+    for (int i = 0; i < 60; ++i, ++sequence) {
+      const MonoTime captured = room.now + Duration::ms(16) * i;
+      if (is_burst && i >= 10 && i < 40) continue;
+      const Pose pose = arrived_at_house(captured, sequence);
+      room.instruments.on_pose(Where::kGuest, guest_called("bob"), pose,
+                               captured + Duration::ms(52));
+    }
+    room.now += Duration::ms(960);
+    room.instruments.end_seconds(room.now, [](const GuestId&, const GuestStats&) {});
+    room.figures.take(room.instruments);
+    room.status("bob", true, true, sequence);
+    room.board.on_traffic(guest_called("bob"), room.now);
+    room.look();
+  }
+  const QualityVerdict& verdict = room.records.find(guest_called("bob"))->quality.shown();
+  EXPECT_EQ(verdict.reason, QualityReason::kLoses);
+  EXPECT_GT(verdict.value, 4.0f) << "half a second of five";
+}
+
+TEST(DanceRecords, ChoicesOutliveAGuestAndTheListIsBounded) {
+  Room room;
+  room.records.choice_of(guest_called("bob")).volume = 0.5f;
+  room.status("bob", true, true, 1);
+  room.look();
+  room.now += Duration::s(30);
+  room.look();
+  EXPECT_EQ(room.names(), "");
+  EXPECT_EQ(room.records.choice_of(guest_called("bob")).heard_volume(), 0.5f);
+  for (int i = 0; i < 200; ++i) {
+    room.status(("g" + std::to_string(i)).c_str(), true, true, 1);
+    room.look();
+  }
+  EXPECT_EQ(room.records.guests().size(), DanceRecords::kMost);
+}
+
+TEST(DanceRecords, AVoicesLevelHoldsForAMoment) {
+  Room room;
+  room.board.on_level(guest_called("alice"), {room.now, 1, -20, -30}, room.now);
+  room.look();
+  ASSERT_TRUE(room.records.level_of(guest_called("alice"), room.now));
+  EXPECT_EQ(room.records.level_of(guest_called("alice"), room.now)->level_dbfs, -20);
+  EXPECT_FALSE(room.records.level_of(guest_called("alice"), room.now + Duration::s(1)));
+  EXPECT_FALSE(room.records.level_of(guest_called("bob"), room.now));
+}
+
+}  // namespace
+}  // namespace dance

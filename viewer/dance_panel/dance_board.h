@@ -1,0 +1,60 @@
+// DanceBoard: where the thread that hears the bus leaves what the dance panel shows beside the
+// dance, and the drawing thread finds it; and the other way round, whom a host wants removed.
+//
+// Units/frames: times of the house's clock.
+// Ownership:    bounded rings and mailboxes; never allocates after construction.
+// Threads:      on_*() and take_asked() on the bus thread; take_*() and ask() on the drawing thread.
+// Failure:      a display that draws nothing for long misses the oldest.
+#pragma once
+
+#include "core/base/latest.h"
+#include "core/base/spsc_ring.h"
+#include "core/bus/house_messages.h"
+#include "core/bus/state_messages.h"
+#include "viewer/instruments/instrument_board.h"
+
+namespace dance {
+
+class DanceBoard {
+ public:
+  template <class T>
+  struct Heard {
+    GuestId guest;
+    T what;
+    MonoTime at;
+  };
+  struct HeardLink {
+    HouseLink link;
+    MonoTime at;
+  };
+
+  void on_status(const GuestId& guest, const GuestStatus& status, MonoTime now) {
+    statuses_.push({guest, status, now});
+  }
+  // It is in the room, whether it dances or not.
+  void on_traffic(const GuestId& guest, MonoTime now) { present_.push({guest, true, now}); }
+  void on_level(const GuestId& guest, const VoiceLevel& level, MonoTime now) {
+    levels_.push({guest, level, now});
+  }
+  void on_music(const Music& music) { music_.put(music); }
+  void on_link(const HouseLink& link, MonoTime now) { link_.put({link, now}); }
+  std::optional<OfGuest<std::int32_t>> take_asked() { return asked_.pop(); }
+
+  std::optional<Heard<GuestStatus>> take_status() { return statuses_.pop(); }
+  std::optional<Heard<bool>> take_present() { return present_.pop(); }
+  std::optional<Heard<VoiceLevel>> take_level() { return levels_.pop(); }
+  const Music* take_music() { return music_.take(); }
+  const HeardLink* take_link() { return link_.take(); }
+  // The guest is to be removed from the room; the number tells this wish from others.
+  void ask(const GuestId& guest, std::int32_t number) { asked_.push({guest, number}); }
+
+ private:
+  SpscRing<Heard<GuestStatus>, 256> statuses_;
+  SpscRing<Heard<bool>, 256> present_;
+  SpscRing<Heard<VoiceLevel>, 256> levels_;
+  SpscRing<OfGuest<std::int32_t>, 64> asked_;
+  Latest<Music> music_;
+  Latest<HeardLink> link_;
+};
+
+}  // namespace dance

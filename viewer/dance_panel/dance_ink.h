@@ -1,0 +1,78 @@
+// Colours and small shapes of the dance panel.
+//
+// Units/frames: pixels.
+// Ownership:    constants; draws on lists of the caller's.
+// Threads:      the drawing thread.
+// Failure:      none.
+#pragma once
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "viewer/dance_panel/quality.h"
+
+namespace dance::dance_ink {
+
+constexpr ImU32 kText = IM_COL32(244, 245, 249, 255);
+constexpr ImU32 kQuiet = IM_COL32(176, 182, 198, 255);
+constexpr ImU32 kPaper = IM_COL32(13, 16, 24, 226);
+constexpr ImU32 kGood = IM_COL32(95, 211, 141, 255);
+constexpr ImU32 kFair = IM_COL32(255, 200, 87, 255);
+constexpr ImU32 kBad = IM_COL32(255, 122, 110, 255);
+constexpr ImU32 kAccent = IM_COL32(111, 183, 255, 255);
+constexpr ImU32 kTrough = IM_COL32(255, 255, 255, 38);
+
+inline ImU32 of(QualityLevel level) {
+  return level == QualityLevel::kGood ? kGood : level == QualityLevel::kFair ? kFair : kBad;
+}
+
+// Round, three-cornered and square: told apart without colours, too.
+inline void draw_quality(ImDrawList& list, QualityLevel level, ImVec2 centre, float radius) {
+  const ImU32 ink = of(level);
+  if (level == QualityLevel::kGood)
+    list.AddCircleFilled(centre, radius, ink, 20);
+  else if (level == QualityLevel::kFair)
+    list.AddTriangleFilled({centre.x, centre.y - 1.15f * radius},
+                           {centre.x + 1.15f * radius, centre.y + 0.9f * radius},
+                           {centre.x - 1.15f * radius, centre.y + 0.9f * radius}, ink);
+  else
+    list.AddRectFilled({centre.x - 0.95f * radius, centre.y - 0.95f * radius},
+                       {centre.x + 0.95f * radius, centre.y + 0.95f * radius}, ink);
+}
+
+// How loud: 0 to 1.
+inline void draw_level(ImDrawList& list, ImVec2 low, ImVec2 size, float level, ImU32 ink) {
+  const float radius = 0.5f * size.y;
+  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, kTrough, radius);
+  const float filled = std::clamp(level, 0.0f, 1.0f) * size.x;
+  if (filled > 1.0f)
+    list.AddRectFilled(low, {low.x + std::max(filled, size.y), low.y + size.y}, ink, radius);
+}
+
+// As much as fits, with "..." behind where that is not all. Names are plain letters.
+inline std::string fitted(std::string_view text, float width) {
+  std::string whole(text);
+  if (ImGui::CalcTextSize(whole.c_str()).x <= width) return whole;
+  while (!whole.empty() && ImGui::CalcTextSize((whole + "...").c_str()).x > width) {
+    whole.pop_back();
+    // Not within a letter of several bytes.
+    while (!whole.empty() && (static_cast<unsigned char>(whole.back()) & 0xc0u) == 0x80u)
+      whole.pop_back();
+    if (!whole.empty() && (static_cast<unsigned char>(whole.back()) & 0xc0u) == 0xc0u)
+      whole.pop_back();
+  }
+  return whole + "...";
+}
+
+inline void text(ImU32 ink, const char* words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ink);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(words);
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+}  // namespace dance::dance_ink

@@ -1,0 +1,112 @@
+#include "viewer/dance_panel/dance_records.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dance {
+namespace {
+
+constexpr float kPredicted_ms = 10.0f;
+// A newcomer's first seconds tell nothing.
+constexpr Duration kSettles = Duration::s(3);
+constexpr std::size_t kMostLevels = 16;
+
+// Over the last seconds: one that loses a burst does not blink.
+std::optional<float> mean_loss(const GuestRecord& record) {
+  const std::size_t seconds = std::min<std::size_t>(
+      record.size(), static_cast<std::size_t>(DanceRecords::kLossOver.count_ms() / 1000));
+  float sum = 0.0f;
+  std::size_t known = 0;
+  for (std::size_t i = record.size() - seconds; i < record.size(); ++i) {
+    if (!std::isfinite(record.at(i).loss_percent)) continue;
+    sum += record.at(i).loss_percent;
+    ++known;
+  }
+  if (known == 0) return std::nullopt;
+  return sum / static_cast<float>(known);
+}
+
+std::optional<float> where_known(float value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+const DanceGuest* DanceRecords::find(const GuestId& guest) const {
+  const auto at = std::lower_bound(guests_.begin(), guests_.end(), guest,
+                                   [](const DanceGuest& a, const GuestId& b) { return a.id < b; });
+  return at != guests_.end() && at->id == guest ? &*at : nullptr;
+}
+
+DanceGuest* DanceRecords::guest_of(const GuestId& guest, MonoTime now) {
+  const auto at = std::lower_bound(guests_.begin(), guests_.end(), guest,
+                                   [](const DanceGuest& a, const GuestId& b) { return a.id < b; });
+  if (at != guests_.end() && at->id == guest) return &*at;
+  if (guests_.size() == kMost) return nullptr;
+  DanceGuest fresh;
+  fresh.id = guest;
+  fresh.came = fresh.present = fresh.moved = now;
+  return &*guests_.insert(at, fresh);
+}
+
+void DanceRecords::take(DanceBoard& board, MonoTime now) {
+  while (const auto heard = board.take_status()) {
+    DanceGuest* guest = guest_of(heard->guest, heard->at);
+    if (guest == nullptr) continue;
+    guest->is_remote = heard->what.remote;
+    if (heard->what.received != guest->received) guest->moved = heard->at;
+    guest->received = heard->what.received;
+    if (heard->what.alive) guest->present = heard->at;
+  }
+  while (const auto heard = board.take_present())
+    if (DanceGuest* guest = guest_of(heard->guest, heard->at)) guest->present = heard->at;
+  while (const auto heard = board.take_level())
+    if (levels_.contains(heard->guest) || levels_.size() < kMostLevels)
+      levels_[heard->guest] = {heard->what, heard->at};
+  if (const Music* music = board.take_music()) music_ = *music;
+  if (const auto* link = board.take_link()) link_ = *link;
+  forget_gone(now);
+}
+
+void DanceRecords::forget_gone(MonoTime now) {
+  std::erase_if(guests_, [&](const DanceGuest& guest) {
+    return now - guest.present > (guest.is_remote ? kGone : kOwnGone);
+  });
+  // Of those who are gone and were left as they were.
+  if (choices_.size() > kMost)
+    std::erase_if(choices_, [&](const auto& choice) {
+      return choice.second == GuestChoice() && find(choice.first) == nullptr;
+    });
+}
+
+void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& scene, MonoTime now) {
+  for (DanceGuest& guest : guests_) {
+    const auto shown = std::find_if(scene.guests.begin(), scene.guests.end(),
+                                    [&](const SceneGuest& it) { return it.id == guest.id; });
+    guest.voice = shown != scene.guests.end() ? shown->voice : 0.0f;
+    QualityFigures measured;
+    measured.silent_s = static_cast<float>((now - guest.moved).as_seconds());
+    // It is said once a second: one that is not late is no silence.
+    if (*measured.silent_s < 2.0f) measured.silent_s = 0.0f;
+    const GuestRecord* record = figures.find(guest.id);
+    if (record != nullptr && record->size() > 0 && now - guest.came > kSettles) {
+      const GuestStats& newest = record->newest();
+      const bool is_fresh = now - newest.time < Duration::s(3);
+      measured.loss_percent = mean_loss(*record);
+      if (is_fresh) measured.late_ms = where_known(newest.newest_p50_ms);
+      if (is_fresh) measured.jitter_ms = where_known(newest.jitter_ms);
+      if (is_fresh) measured.arrival_hz = where_known(newest.arrival_hz);
+      measured.is_predicted =
+          std::isfinite(newest.horizon_p50_ms) && newest.horizon_p50_ms > kPredicted_ms;
+    }
+    guest.quality.update(measured, now);
+  }
+}
+
+std::optional<VoiceLevel> DanceRecords::level_of(const GuestId& guest, MonoTime now) const {
+  const auto known = levels_.find(guest);
+  if (known == levels_.end() || now - known->second.at > kLevelHolds) return std::nullopt;
+  return known->second.level;
+}
+
+}  // namespace dance

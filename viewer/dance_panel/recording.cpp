@@ -1,0 +1,143 @@
+#include "viewer/dance_panel/recording.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/base/printable.h"
+
+namespace dance {
+namespace {
+
+constexpr Duration kEndsWithin = Duration::s(5);
+constexpr std::size_t kMostWords = 2048;
+constexpr std::size_t kMostTrouble = 200;
+constexpr int kMostFilesAMinute = 100;
+
+std::string last_line(const std::string& words) {
+  std::size_t end = words.size();
+  while (end > 0 && (words[end - 1] == '\n' || words[end - 1] == '\r')) --end;
+  const std::size_t before = words.rfind('\n', end == 0 ? 0 : end - 1);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return words.substr(std::min(begin, end), end - std::min(begin, end));
+}
+
+}  // namespace
+
+std::string recording_file(const std::string& folder, const std::tm& local,
+                           const std::function<bool(const std::string&)>& is_taken) {
+  std::array<char, 40> stamp{};
+  std::strftime(stamp.data(), stamp.size(), "dance-%Y-%m-%d-%H%M", &local);
+  const std::string begin = folder + "/" + stamp.data();
+  std::string path = begin + ".lcm";
+  for (int i = 2; is_taken(path) && i < kMostFilesAMinute; ++i)
+    path = begin + "-" + std::to_string(i) + ".lcm";
+  return path;
+}
+
+std::string recordings_folder(const std::function<const char*(const char*)>& environment,
+                              const std::function<bool(const std::string&)>& is_folder) {
+  const auto value = [&](const char* name) {
+    const char* text = environment(name);
+    return std::string(text != nullptr ? text : "");
+  };
+  if (const std::string videos = value("XDG_VIDEOS_DIR"); !videos.empty() && videos[0] == '/')
+    return videos;
+  const std::string home = value("HOME");
+  if (!home.empty() && is_folder(home + "/Videos")) return home + "/Videos";
+  if (const std::string data = value("XDG_DATA_HOME"); !data.empty() && data[0] == '/')
+    return data + "/dance/recordings";
+  return home.empty() ? "" : home + "/.local/share/dance/recordings";
+}
+
+DanceRecording::~DanceRecording() {
+  program_.reset();
+  if (words_fd_ >= 0) close(words_fd_);
+}
+
+void DanceRecording::fail_with(std::string why) {
+  trouble_ = printable(why.substr(0, kMostTrouble));
+  is_saved_ = false;
+  state_ = State::kIdle;
+}
+
+void DanceRecording::start(MonoTime now) {
+  if (state_ != State::kIdle) return;
+  trouble_.clear();
+  words_.clear();
+  is_saved_ = false;
+  if (options_.folder.empty()) return fail_with("HOME is not set");
+  std::error_code error;
+  std::filesystem::create_directories(options_.folder, error);
+  if (error) return fail_with(options_.folder + ": " + error.message());
+  const std::time_t wall = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm local{};
+  localtime_r(&wall, &local);
+  file_ = recording_file(options_.folder, local, [](const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::exists(path, ignored);
+  });
+  std::array<int, 2> ends{-1, -1};
+  if (pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) return fail_with("no pipe");
+  ChildProcess::Options how{options_.program, {"-o", file_, "--packed"}, "/dev/null", ""};
+  if (!options_.bus.empty()) how.arguments.insert(how.arguments.end(), {"--bus", options_.bus});
+  how.talk_fd = ends[1];
+  auto program = ChildProcess::start(how);
+  close(ends[1]);
+  if (!program) {
+    close(ends[0]);
+    return fail_with(program.error().what);
+  }
+  if (words_fd_ >= 0) close(words_fd_);
+  words_fd_ = ends[0];
+  program_.emplace(std::move(*program));
+  begun_ = now;
+  state_ = State::kRunning;
+}
+
+void DanceRecording::stop(MonoTime now) {
+  if (state_ != State::kRunning) return;
+  program_->ask_to_stop();
+  asked_to_stop_ = now;
+  state_ = State::kStopping;
+}
+
+// The last ones are kept: they say why it ended.
+void DanceRecording::read_words() {
+  std::array<char, 512> some{};
+  for (int i = 0; i < 8; ++i) {
+    const ssize_t size = read(words_fd_, some.data(), some.size());
+    if (size <= 0) return;
+    words_.append(some.data(), static_cast<std::size_t>(size));
+    if (words_.size() > kMostWords) words_.erase(0, words_.size() - kMostWords);
+  }
+}
+
+void DanceRecording::work(MonoTime now) {
+  if (state_ == State::kIdle) return;
+  read_words();
+  if (!program_->has_ended()) {
+    if (state_ == State::kStopping && now - asked_to_stop_ > kEndsWithin)
+      kill(program_->pid(), SIGKILL);
+    return;
+  }
+  finish();
+}
+
+void DanceRecording::finish() {
+  read_words();
+  const bool is_well = program_->ended_well();
+  const std::string said = last_line(words_);
+  const std::string end = program_->exit_text();
+  program_.reset();
+  if (!is_well) return fail_with(said.empty() ? end : said);
+  is_saved_ = true;
+  state_ = State::kIdle;
+}
+
+}  // namespace dance
