@@ -7,8 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto alice = *dance::GuestId::parse("alice");
   const auto salsa = *dance::wire::RoomName::parse("salsa");
   // A host: it may remove guests, and set what all share.
-  const dance::PeerId third =
-      scene.tunnel.add_peer({.role = dance::Role::kHost, .any_name = true});
+  const dance::PeerId third = scene.tunnel.add_peer({.role = dance::Role::kHost, .any_name = true});
   const dance::PeerId fourth = scene.tunnel.add_peer({.name = alice, .room = salsa});
   scene.play({data, size}, [&](int peer, dance::wire::Bytes datagram) {
     const dance::PeerId peers[] = {scene.a->peer, scene.b->peer, third, fourth};

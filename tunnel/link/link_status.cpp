@@ -29,22 +29,18 @@ std::function<void(Args...)> behind(std::function<void(Args...)> before, Then th
 }  // namespace
 
 void LinkStatus::listen_to(LinkHandlers& handlers) {
-  handlers.on_state = behind(std::move(handlers.on_state),
-                             [this](LinkState state, MonoTime) { on_state(state); });
-  handlers.on_no_answer = behind(std::move(handlers.on_no_answer), [this](const Address&) {
-    settle(HouseLinkTrouble::kNoAnswer);
-  });
-  handlers.on_no_entry =
-      behind(std::move(handlers.on_no_entry),
-             [this](SealTrouble trouble) { settle(trouble_of(trouble)); });
-  handlers.on_refused = behind(std::move(handlers.on_refused),
-                               [this](const wire::RefusalNotice& refusal, MonoTime now) {
-                                 on_refused(refusal, now);
-                               });
-  handlers.on_removal = behind(std::move(handlers.on_removal),
-                               [this](std::int32_t number, RemovalVerdict verdict) {
-                                 on_removal(number, verdict);
-                               });
+  handlers.on_state =
+      behind(std::move(handlers.on_state), [this](LinkState state, MonoTime) { on_state(state); });
+  handlers.on_no_answer = behind(std::move(handlers.on_no_answer),
+                                 [this](const Address&) { settle(HouseLinkTrouble::kNoAnswer); });
+  handlers.on_no_entry = behind(std::move(handlers.on_no_entry),
+                                [this](SealTrouble trouble) { settle(trouble_of(trouble)); });
+  handlers.on_refused = behind(
+      std::move(handlers.on_refused),
+      [this](const wire::RefusalNotice& refusal, MonoTime now) { on_refused(refusal, now); });
+  handlers.on_removal =
+      behind(std::move(handlers.on_removal),
+             [this](std::int32_t number, RemovalVerdict verdict) { on_removal(number, verdict); });
 }
 
 void LinkStatus::settle(HouseLinkTrouble trouble) {

@@ -35,9 +35,8 @@ std::string refusal_line(const wire::RefusalNotice& refusal, const wire::RoomNam
       return "room '" + room_name +
              "' speaks a pose codec that this link does not know: update this link";
     case wire::Refusal::kRemoved:
-      return "a host has removed this house from room '" + room_name +
-             "': it asks again in " + std::to_string((refusal.seconds + 59) / 60) +
-             " minutes, and no earlier; ask the host";
+      return "a host has removed this house from room '" + room_name + "': it asks again in " +
+             std::to_string((refusal.seconds + 59) / 60) + " minutes, and no earlier; ask the host";
     case wire::Refusal::kNotAllowedRoom:
       return "this house's key does not open room '" + room_name +
              "': ask the server's keeper for a key to it, or choose the --room of your key";

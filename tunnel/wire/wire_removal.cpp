@@ -64,8 +64,7 @@ std::optional<Rights> parse_rights(Bytes body) {
   ByteReader in(body);
   const std::uint8_t form = in.u8();
   const std::uint8_t flags = in.u8();
-  if (!in.is_exhausted() || form != kRemovalForm || (flags & ~kMayRemove) != 0)
-    return std::nullopt;
+  if (!in.is_exhausted() || form != kRemovalForm || (flags & ~kMayRemove) != 0) return std::nullopt;
   return Rights{(flags & kMayRemove) != 0};
 }
 

@@ -17,7 +17,7 @@ class ClockWatch {
   // Slower than this it is a clock that is being corrected.
   static constexpr Duration kJump = Duration::ms(500);
 
-  // By how much the wall clock has gone more than the other since the last look, where that is much.
+  // By how much the wall clock has gone more than the other since the last look, if that is much.
   std::optional<Duration> look(MonoTime now, Duration wall) {
     const Duration before = apart_;
     const bool is_first = !looked_;

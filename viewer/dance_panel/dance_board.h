@@ -3,7 +3,7 @@
 //
 // Units/frames: times of the house's clock.
 // Ownership:    bounded rings and mailboxes; never allocates after construction.
-// Threads:      on_*() and take_asked() on the bus thread; take_*() and ask() on the drawing thread.
+// Threads:      on_*() and take_asked() on the bus thread; the rest on the drawing thread.
 // Failure:      a display that draws nothing for long misses the oldest.
 #pragma once
 

@@ -6,6 +6,7 @@
 // Failure:      none.
 #pragma once
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -73,6 +74,46 @@ inline void text(ImU32 ink, const char* words) {
   ImGui::TextUnformatted(words);
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
+}
+
+// The column's width.
+inline float column_width(float em, float window_px) {
+  return std::min(21.5f * em, 0.36f * window_px);
+}
+
+constexpr ImGuiWindowFlags kWindow =
+    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNav |
+    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar |
+    ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoFocusOnAppearing;
+
+// Paper of its own, that lies under a content whose height is known only behind it.
+class Paper {
+ public:
+  explicit Paper(float width) : list_(*ImGui::GetWindowDrawList()), width_(width) {
+    list_.ChannelsSplit(2);
+    list_.ChannelsSetCurrent(1);
+  }
+  void end(float height, ImU32 ink, float radius) {
+    list_.ChannelsSetCurrent(0);
+    const ImVec2 low = ImGui::GetWindowPos();
+    list_.PushClipRectFullScreen();
+    list_.AddRectFilled(low, {low.x + width_, low.y + height}, ink, radius);
+    list_.PopClipRect();
+    list_.ChannelsMerge();
+  }
+
+ private:
+  ImDrawList& list_;
+  float width_;
+};
+
+// "0:07", "1:02:03".
+inline std::string clock_text(Duration elapsed) {
+  const std::int64_t seconds = elapsed.count_ms() / 1000;
+  return seconds < 3600
+             ? fmt::format("{}:{:02}", seconds / 60, seconds % 60)
+             : fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
 }  // namespace dance::dance_ink

@@ -60,6 +60,7 @@ class DancePanel : public WindowPanel {
   void note_mouse(MonoTime now);
   bool is_at_left() const;
 
+  // dance_panel_over.cpp
   void draw_corner(const PanelFrame& frame);
   void draw_banner(const PanelFrame& frame);
   void draw_count(const PanelFrame& frame) const;

@@ -49,10 +49,9 @@ float DancePanel::guest_height(const DanceGuest& guest) const {
   if (!guest.is_remote) return height + 2.0f * line;
   // As flow() puts the buttons.
   const float between = ImGui::GetStyle().ItemSpacing.x;
-  const Text mute =
-      records_.is_voice_muted(guest.id) ? Text::kDanceUnmute : Text::kDanceMute;
-  float buttons = controls_.width_of(texts_[mute]) + between +
-                  controls_.width_of(texts_[Text::kDanceHide]);
+  const Text mute = records_.is_voice_muted(guest.id) ? Text::kDanceUnmute : Text::kDanceMute;
+  float buttons =
+      controls_.width_of(texts_[mute]) + between + controls_.width_of(texts_[Text::kDanceHide]);
   if (may_remove()) buttons += between + controls_.width_of(texts_[Text::kDanceRemove]);
   return height + (buttons > width ? 3.0f : 2.0f) * line;
 }

@@ -84,6 +84,8 @@ void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& sce
     const auto shown = std::find_if(scene.guests.begin(), scene.guests.end(),
                                     [&](const SceneGuest& it) { return it.id == guest.id; });
     guest.voice = shown != scene.guests.end() ? shown->voice : 0.0f;
+    // A stage may dance on for one who is gone: that figure has its line, too.
+    if (shown != scene.guests.end()) guest.present = now;
     QualityFigures measured;
     measured.silent_s = static_cast<float>((now - guest.moved).as_seconds());
     // It is said once a second: one that is not late is no silence.

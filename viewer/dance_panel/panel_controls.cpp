@@ -11,6 +11,7 @@
 namespace dance {
 namespace {
 
+constexpr int kScrolledTo = 12;
 constexpr ImU32 kFillInk = IM_COL32(61, 111, 181, 255);
 constexpr ImU32 kFocusInk = IM_COL32(255, 255, 255, 230);
 
@@ -46,7 +47,8 @@ bool PanelControls::on_key(const KeyPress& press) {
       focus_ = at + 1 == last_order_.end() ? last_order_.front() : *(at + 1);
     else
       focus_ = at == last_order_.begin() ? last_order_.back() : *(at - 1);
-    has_keyboard_ = is_moved_ = true;
+    has_keyboard_ = true;
+    scrolls_ = kScrolledTo;
     return true;
   }
   if (press.key == GLFW_KEY_LEFT || press.key == GLFW_KEY_RIGHT) {
@@ -75,7 +77,8 @@ void PanelControls::end() {
     focus_ = has_keyboard_ && !last_order_.empty()
                  ? last_order_[std::min(place_, last_order_.size() - 1)]
                  : 0;
-  is_pressed_ = is_moved_ = false;
+  is_pressed_ = false;
+  scrolls_ = std::max(0, scrolls_ - 1);
   steps_ = 0;
 }
 
@@ -86,7 +89,7 @@ bool PanelControls::settle(ImGuiID id) {
   const float line = std::max(1.0f, 0.1f * ImGui::GetFontSize());
   ImGui::GetWindowDrawList()->AddRect({low.x - line, low.y - line}, {high.x + line, high.y + line},
                                       kFocusInk, 0.25f * ImGui::GetFontSize(), 0, line);
-  if (is_moved_) ImGui::SetScrollHereY(0.5f);
+  if (scrolls_ > 0) ImGui::SetScrollHereY(0.5f);
   return true;
 }
 

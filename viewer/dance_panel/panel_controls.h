@@ -56,7 +56,7 @@ class PanelControls {
   bool has_keyboard_ = false;
   bool is_pressed_ = false;  // Enter, since the last picture
   int steps_ = 0;            // left and right
-  bool is_moved_ = false;    // so that it is scrolled to
+  int scrolls_ = 0;          // for so many pictures it is scrolled to: lists grow meanwhile
 };
 
 }  // namespace dance

@@ -17,7 +17,7 @@
 
 namespace dance {
 
-// "dance-2026-11-26-0815.lcm"; with a number behind where `is_taken` says that such a file is there.
+// "dance-2026-11-26-0815.lcm"; with a number behind where `is_taken` says that one is there.
 std::string recording_file(const std::string& folder, const std::tm& local,
                            const std::function<bool(const std::string&)>& is_taken);
 // Where a person looks for recordings: XDG_VIDEOS_DIR, or Videos in the home folder where that is,

@@ -158,12 +158,13 @@ void StageFeed::measure(const FeedOptions& options) {
 
 // What the dance panel shows beside the dance.
 void StageFeed::hear_house() {
-  bus_->subscribe<VoiceLevel>(Where::kCapture,
-                              [this](const Channel& channel, const VoiceLevel& level, MonoTime now) {
-                                dance_.on_level(channel.guest(), level, now);
-                              });
-  bus_->subscribe<Music>(
-      Where::kRoom, [this](const Channel&, const Music& music, MonoTime) { dance_.on_music(music); });
+  bus_->subscribe<VoiceLevel>(
+      Where::kCapture, [this](const Channel& channel, const VoiceLevel& level, MonoTime now) {
+        dance_.on_level(channel.guest(), level, now);
+      });
+  bus_->subscribe<Music>(Where::kRoom, [this](const Channel&, const Music& music, MonoTime) {
+    dance_.on_music(music);
+  });
   bus_->subscribe<HouseLink>(Where::kLocal,
                              [this](const Channel&, const HouseLink& link, MonoTime now) {
                                if (link.clock_id == this_clock_id()) dance_.on_link(link, now);

@@ -25,7 +25,8 @@ namespace {
 constexpr float kTagFont_px = 17.0f;
 constexpr float kHudFont_px = 14.0f;
 constexpr float kDigitFont_px = 110.0f;
-constexpr float kPanelLines = 7.4f;  // of the smaller font
+constexpr float kHudWidth_em = 25.1f;  // as draw_hud() makes it
+constexpr float kPanelLines = 7.4f;    // of the smaller font
 ImU32 colour_of(const Vector3f& linear, float alpha) {
   const Vector3f s = srgb_from_linear(linear);
   return ImGui::ColorConvertFloat4ToU32(ImVec4(s.x(), s.y(), s.z(), alpha));
@@ -104,9 +105,10 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
   if (choice.tags) draw_tags(scene, camera, choice.tag_anchors_W_m, width, height);
   if (choice.hud) draw_hud(scene);
   draw_words(choice, width, height);
-  const PanelFrame frame{scene, width, height, scale_, tag_font_, hud_font_, digit_font_};
+  PanelFrame frame{scene, width, height, scale_, tag_font_, hud_font_, digit_font_};
+  if (choice.hud && !scene.guests.empty()) frame.figures_px = kHudWidth_em * hud_font_->FontSize;
   draw_notes(scene, height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
-  draw_panels(choice.panels, scene, width, height);
+  if (choice.panels != nullptr) choice.panels->draw(frame);
   end_frame();
 }
 

@@ -32,8 +32,7 @@ ImFont* add_overlay_font(ImFontAtlas& atlas, float size_px) {
 ImFont* add_digit_font(ImFontAtlas& atlas, float size_px) {
   static constexpr std::array<ImWchar, 3> kDigits{'0', '9', 0};
   if (const char* file = find_overlay_font())
-    if (ImFont* font =
-            atlas.AddFontFromFileTTF(file, std::round(size_px), nullptr, kDigits.data()))
+    if (ImFont* font = atlas.AddFontFromFileTTF(file, std::round(size_px), nullptr, kDigits.data()))
       return font;
   return nullptr;
 }

@@ -40,6 +40,7 @@ struct PanelFrame {
   ImFont* large_font = nullptr;
   ImFont* small_font = nullptr;
   ImFont* digit_font = nullptr;  // the ten digits alone, as high as they are read from afar
+  float figures_px = 0.0f;       // what the figures of guests take of the left, at the top
 };
 
 class WindowPanel {

@@ -44,7 +44,9 @@ class HeadlessRun {
   }
 
   Result<void> run() {
-    if (auto added = add_panels({options_, source_, records_, {}, wishes_, drawing_}, panels_); !added) return added;
+    if (auto added = add_panels({options_, source_, records_, {}, wishes_, drawing_}, panels_);
+        !added)
+      return added;
     DANCE_TRY(const std::vector<MonoTime> moments, moments_to_draw());
     auto drawn = options_.moments.film ? film() : pictures(moments);
     if (drawn && options_.focus && !focus_was_here_)
@@ -265,8 +267,8 @@ class HeadlessRun {
   AvatarLibrary avatars_{
       avatars_of(AvatarStore::of_user(), data_folder() + "/avatars", options_.avatars)};
   InstrumentRecords records_;
-  MonoTime measured_;  // by them, of a recording
-  DanceWishes wishes_;             // nobody asks for anything
+  MonoTime measured_;             // by them, of a recording
+  DanceWishes wishes_;            // nobody asks for anything
   BannerWatch::Drawing drawing_;  // in no hurry
   PanelStack panels_;
   ViewDirector director_;

@@ -29,9 +29,17 @@ DanceRecording::Options recording_options(const ViewOptions& options) {
 void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right, PanelStack& panels) {
   DanceBoard* board = needs.source.dance();
   const ViewOptions& options = needs.options;
-  if (board == nullptr || (options.headless && options.panel != "dance")) return;
-  DanceNeeds dance{*board, needs.records, needs.wishes, needs.drawing, options.language,
-                   recording_options(options), {}, {}};
+  // Of files only where it, or its keys, are asked for.
+  const bool is_asked = options.panel == "dance" || options.panel == "keys";
+  if (board == nullptr || (options.headless && !is_asked)) return;
+  DanceNeeds dance{*board,
+                   needs.records,
+                   needs.wishes,
+                   needs.drawing,
+                   options.language,
+                   recording_options(options),
+                   {},
+                   {}};
   dance.tell_voice = [bus = options.feed.bus_url](const GuestId& guest, std::string_view command) {
     return tell_voice(bus, guest, command);
   };

@@ -47,10 +47,9 @@ Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
     talk::info("{}", run->painter_->overlay().font_note());
   if (options.quality == QualityWish::kAuto && run->painter_->renderer().quality() == Quality::kLow)
     talk::info("no graphics card here: drawing plainly; --quality high draws all the same");
-  if (auto added =
-          add_panels({options, source, run->records_, run->export_.for_timeline(),
-                      run->state_.dance, run->drawing_},
-                     run->panels_);
+  if (auto added = add_panels({options, source, run->records_, run->export_.for_timeline(),
+                               run->state_.dance, run->drawing_},
+                              run->panels_);
       !added)
     return tl::make_unexpected(added.error());
   run->apply_display_mode();

@@ -215,7 +215,8 @@
   ROW(kDanceVolume, "voice {} %", "voz {} %", "Stimme {} %") \
   ROW(kDanceYou, "You", "Tú", "Du") \
   ROW(kDanceYours, "of this house", "de esta casa", "aus diesem Haus") \
-  ROW(kQualityFew, "moves coarsely: {} poses a second", "se mueve a saltos: {} posturas por segundo", \
+  ROW(kQualityFew, "moves coarsely: {} poses a second", \
+      "se mueve a saltos: {} posturas por segundo", \
       "bewegt sich grob: {} Posen pro Sekunde") \
   ROW(kQualityLate, "poses come {} ms late", "las posturas llegan {} ms tarde", \
       "Posen kommen {} ms zu spät") \

@@ -85,17 +85,18 @@ inline std::vector<cluster::Message> messages() {
   cluster::FileMessage part = want, refusal = want;
   part.part = wire::FileChunk{{{}, hash}, 1500, 1, chunk};
   refusal.part = wire::FileRefusal{{{}, hash}, wire::FileRefusalCause::kFull};
-  return {beat,
-          cluster::ClockQuestion{6, 7},
-          cluster::ClockAnswer{8, 9, 10, 11},
-          record(),
-          channel,
-          feedback,
-          want,
-          part,
-          refusal,
-          voice(),
-          cluster::RemovalMessage{15, guest("salsa"), {guest("alice-2"), 16, guest("alice"), true}}};
+  return {
+      beat,
+      cluster::ClockQuestion{6, 7},
+      cluster::ClockAnswer{8, 9, 10, 11},
+      record(),
+      channel,
+      feedback,
+      want,
+      part,
+      refusal,
+      voice(),
+      cluster::RemovalMessage{15, guest("salsa"), {guest("alice-2"), 16, guest("alice"), true}}};
 }
 
 inline std::vector<cluster::Value> values() {

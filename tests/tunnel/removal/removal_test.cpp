@@ -29,8 +29,7 @@ struct Room {
   bool is_here(const char* name) const {
     for (const ServerSession& session : tunnel_server().sessions())
       for (const std::uint8_t slot : session.slots)
-        if (session.in_use &&
-            tunnel_server().rooms()[session.room].guests[slot].id == guest(name))
+        if (session.in_use && tunnel_server().rooms()[session.room].guests[slot].id == guest(name))
           return true;
     return false;
   }
@@ -82,7 +81,8 @@ TEST(Removal, TheServerRefusesANewLinkOfTheSameKeyAndSaysForHowLong) {
   room.tunnel.on_datagram = [&](bool to_server, PeerId, wire::Bytes bytes) {
     const auto opening = wire::parse_opening(bytes);
     if (to_server || opening->type != wire::Type::kRefusal) return true;
-    if (const auto refusal = wire::parse_refusal(opening->body)) seconds.push_back(refusal->seconds);
+    if (const auto refusal = wire::parse_refusal(opening->body))
+      seconds.push_back(refusal->seconds);
     return true;
   };
   room.host->link->ask_removal(guest("bob"), 1);

@@ -91,7 +91,8 @@ TEST(QualityMeter, IsWorseAtOnceAndBetterWhenItLasts) {
   EXPECT_EQ(meter.update(figures, kQualityBegin).level, QualityLevel::kBad);
   figures.loss_percent = 0.0f;
   for (int ms = 0; ms < 3000; ms += 16)
-    EXPECT_EQ(meter.update(figures, kQualityBegin + Duration::ms(ms)).level, QualityLevel::kBad) << ms;
+    EXPECT_EQ(meter.update(figures, kQualityBegin + Duration::ms(ms)).level, QualityLevel::kBad)
+        << ms;
   EXPECT_EQ(meter.update(figures, kQualityBegin + Duration::ms(3016)).level, QualityLevel::kGood);
 }
 

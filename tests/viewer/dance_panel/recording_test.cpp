@@ -30,9 +30,8 @@ TEST(RecordingFile, IsNamedAfterDateAndTimeAndOverwritesNothing) {
   const auto none = [](const std::string&) { return false; };
   EXPECT_EQ(recording_file("/v", evening(), none), "/v/dance-2026-11-26-0805.lcm");
   std::set<std::string> there{"/v/dance-2026-11-26-0805.lcm", "/v/dance-2026-11-26-0805-2.lcm"};
-  EXPECT_EQ(recording_file("/v", evening(), [&](const std::string& path) {
-              return there.contains(path);
-            }),
+  EXPECT_EQ(recording_file("/v", evening(),
+                           [&](const std::string& path) { return there.contains(path); }),
             "/v/dance-2026-11-26-0805-3.lcm");
 }
 
@@ -99,8 +98,7 @@ TEST_F(RecordingTest, RunsUntilItIsStoppedAndNamesItsFile) {
   EXPECT_EQ(recording.state(), DanceRecording::State::kIdle);
   EXPECT_TRUE(recording.is_saved()) << recording.trouble();
   EXPECT_EQ(recording.trouble(), "");
-  EXPECT_EQ(text_of(recording.file()),
-            "-o " + recording.file() + " --packed --bus a-bus\n");
+  EXPECT_EQ(text_of(recording.file()), "-o " + recording.file() + " --packed --bus a-bus\n");
 }
 
 TEST_F(RecordingTest, TellsInOneLineWhyItEnded) {

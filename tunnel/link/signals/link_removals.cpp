@@ -7,9 +7,8 @@ namespace dance {
 
 void LinkRemovals::ask(const GuestId& guest, std::int32_t number) {
   const bool is_known =
-      settled_.contains(number) || std::any_of(wishes_.begin(), wishes_.end(), [&](const Wish& it) {
-        return it.number == number;
-      });
+      settled_.contains(number) || std::any_of(wishes_.begin(), wishes_.end(),
+                                               [&](const Wish& it) { return it.number == number; });
   if (is_known) return;
   if (link_.locals.find(guest) != nullptr) return tell(number, RemovalVerdict::kOwnGuest);
   if (!wishes_.try_push({guest, number})) return tell(number, RemovalVerdict::kTooMany);

@@ -32,8 +32,7 @@ class RemovalBans {
 
   void add(const wire::RoomName& room, const RemovalNotice& notice, MonoTime now) {
     for (std::size_t i = bans_.size(); i-- > 0;)
-      if (now >= bans_[i].until ||
-          (bans_[i].room == room && bans_[i].notice.guest == notice.guest))
+      if (now >= bans_[i].until || (bans_[i].room == room && bans_[i].notice.guest == notice.guest))
         bans_.erase_at(i);
     if (bans_.is_full())
       bans_.erase_at(static_cast<std::size_t>(

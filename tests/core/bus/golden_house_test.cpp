@@ -1,0 +1,62 @@
+// Golden messages of what parts of a house tell its windows.
+#include "tests/core/bus/golden_files.h"
+
+namespace dance {
+namespace {
+
+HouseLink golden_house_link() {
+  HouseLink link;
+  link.time = kCaptured;
+  link.clock_id = kClock;
+  link.state = HouseLinkState::kLapsed;
+  link.trouble = HouseLinkTrouble::kRefused;
+  link.refusal = 8;
+  link.refused = *GuestId::parse("dora");
+  link.asks_again = kCaptured + Duration::s(600);
+  link.may_remove = true;
+  link.removal = 77;
+  link.verdict = RemovalVerdict::kPassedOn;
+  return link;
+}
+
+Removal golden_removal() { return {kCaptured, kClock, 41, *GuestId::parse("bob-2")}; }
+
+VoiceLevel golden_voice_level() { return {kCaptured, kClock, -23, -31}; }
+
+TEST(GoldenHouse, IsWrittenAndReadByteForByte) {
+  expect_golden("house_link_t", golden_house_link());
+  expect_golden("removal_t", golden_removal());
+  expect_golden("voice_level_t", golden_voice_level());
+}
+
+TEST(GoldenHouse, SurvivesDamage) {
+  expect_survives_bit_flips<HouseLink>("house_link_t");
+  expect_survives_bit_flips<Removal>("removal_t");
+  expect_survives_bit_flips<VoiceLevel>("voice_level_t");
+}
+
+TEST(GoldenHouse, TakesOnlyWhatTheTablesOfLinkAndRemovalHave) {
+  const auto outcome_of = [](auto message) {
+    const Bytes bytes = encoded(message);
+    decltype(message) decoded;
+    return decode(bytes.data(), bytes.size(), decoded);
+  };
+  HouseLink link = golden_house_link();
+  link.trouble = static_cast<HouseLinkTrouble>(7);
+  EXPECT_EQ(outcome_of(link), Decoded::kInvalid);
+  link = golden_house_link();
+  link.verdict = static_cast<RemovalVerdict>(-1);
+  EXPECT_EQ(outcome_of(link), Decoded::kInvalid);
+  Removal removal = golden_removal();
+  removal.guest = GuestId();
+  EXPECT_EQ(outcome_of(removal), Decoded::kInvalid) << "of nobody";
+  removal = golden_removal();
+  removal.number = 0;
+  EXPECT_EQ(outcome_of(removal), Decoded::kInvalid) << "no number is no wish";
+  VoiceLevel level = golden_voice_level();
+  level.level_dbfs = 3;
+  EXPECT_EQ(outcome_of(level), Decoded::kInvalid) << "louder than full scale";
+}
+
+}  // namespace
+}  // namespace dance
