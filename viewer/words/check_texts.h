@@ -1,4 +1,5 @@
-// What is said of camera and sound before the dance (lobby/checks/), as rows of viewer/words/text_table.h.
+// What is said of camera and sound before the dance (lobby/checks/), as rows of
+// viewer/words/text_table.h.
 //
 // Ownership: constants.
 // Threads:   any.

@@ -1,4 +1,5 @@
-// The texts of the panel and the banners of the dance (viewer/dance_panel/), as rows of viewer/words/text_table.h.
+// The texts of the panel and the banners of the dance (viewer/dance_panel/), as rows of
+// viewer/words/text_table.h.
 //
 // Ownership: constants.
 // Threads:   any.
