@@ -126,15 +126,46 @@ function(dance_embed target name file)
   target_sources(${target} PRIVATE ${source})
 endfunction()
 
-# dance_program(NAME SOURCES x_main.cpp … LIBS targets …): the program dance-NAME in <build>/bin.
+# dance_program(NAME SOURCES x_main.cpp … LIBS targets … [NEEDS targets …]): the program dance-NAME in <build>/bin. NEEDS is
+# what must have been built when it runs: each program that it starts, and those that these start for it. It is the one place
+# that says so: ./dance builds by it. What a configuration leaves out may stand there too.
 function(dance_program name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS;NEEDS")
   add_executable(dance-${name} ${arg_SOURCES})
   target_link_libraries(dance-${name} PRIVATE dance_settings ${arg_LIBS})
   dance_use_coverage(dance-${name})
   dance_use_pch(dance-${name})
   set_target_properties(dance-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   set_property(GLOBAL APPEND PROPERTY DANCE_PROGRAMS dance-${name})
+  if(NOT name STREQUAL "front")
+    dance_command(${name} dance-${name} ${arg_NEEDS})
+  endif()
+endfunction()
+
+# dance_command(NAME targets …): `./dance NAME` builds these.
+function(dance_command name)
+  set_property(GLOBAL APPEND PROPERTY DANCE_COMMANDS ${name})
+  set_property(GLOBAL PROPERTY DANCE_TARGETS_OF_${name} ${ARGN})
+endfunction()
+
+# The list of commands, one a line: its name with - between words, and the targets that ./dance builds for it. `dance help`
+# shows what stands there, too.
+function(dance_write_commands)
+  get_property(commands GLOBAL PROPERTY DANCE_COMMANDS)
+  set(lines "")
+  foreach(command IN LISTS commands)
+    get_property(needs GLOBAL PROPERTY DANCE_TARGETS_OF_${command})
+    set(targets dance-front)
+    foreach(target IN LISTS needs)
+      if(TARGET ${target})
+        list(APPEND targets ${target})
+      endif()
+    endforeach()
+    list(REMOVE_DUPLICATES targets)
+    list(JOIN targets " " targets)
+    string(APPEND lines "${command} ${targets}\n")
+  endforeach()
+  file(WRITE ${PROJECT_BINARY_DIR}/share/dancegraph/commands.txt "${lines}")
 endfunction()
 
 # dance_test(NAME LABEL unit|threads|flow|golden|soak SOURCES x_test.cpp … LIBS targets … [TIMEOUT s] [PRELOAD x.so]

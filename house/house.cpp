@@ -109,7 +109,8 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
     house->port_->publish(Where::kCapture, hosted.guest, hosted.style);
   }
   for (const HostedCamera& camera : session.cameras)
-    house->cameras_.push_back(HouseCamera::open(camera, house->bus_->url(), poller));
+    house->cameras_.push_back(
+        std::make_unique<HouseCamera>(camera, house->bus_->url(), *house->port_, poller));
   House* self = house.get();
   poller.watch(house->bus_->fd(), [self](MonoTime now) { self->bus_->drain(now); });
   poller.add_timer(mono_now() + kSecond, [self](MonoTime now) {

@@ -1,20 +1,21 @@
 #include "house/house_camera.h"
 
-#include <algorithm>
-
-#include "core/net/mono_clock.h"
 #include "core/program/program.h"
-#include "core/program/talk.h"
 
 namespace dance {
 namespace {
 
-constexpr Duration kCameraLook = Duration::ms(200);
-constexpr Duration kCameraPause = Duration::s(1);  // before one that died is started again
-constexpr Duration kCameraMissing =
-    Duration::s(10);  // before one that found no camera is, and at most
-constexpr Duration kCameraStable = Duration::s(30);  // it ran so long: its death was a chance
-constexpr Duration kCameraEnds = Duration::s(2);
+// `newest_pose` is when one of the guest came last.
+HostedProgram::Options camera_program(const HostedCamera& camera, const std::string& bus,
+                                      const MonoTime& newest_pose) {
+  HostedProgram::Options options;
+  options.path = program_folder() + "/dance-capture";
+  options.name = "dance capture of " + std::string(camera.guest.view());
+  options.without = "without that camera";
+  options.arguments = [words = camera_arguments(camera, bus)] { return words; };
+  options.works = [&newest_pose](pid_t, MonoTime started) { return newest_pose > started; };
+  return options;
+}
 
 }  // namespace
 
@@ -35,73 +36,11 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
   return words;
 }
 
-std::unique_ptr<HouseCamera> HouseCamera::open(const HostedCamera& camera, const std::string& bus,
-                                               Poller& poller) {
-  std::unique_ptr<HouseCamera> made(new HouseCamera(camera, bus, poller));
-  if (auto started = made->start(); !started) {
-    talk::warn("{}; {} dances without a camera", started.error().what, camera.guest.view());
-    return made;
-  }
-  made->watch_ = poller.add_timer(mono_now() + kCameraLook,
-                                  [self = made.get()](MonoTime now) { return self->look(now); });
-  return made;
-}
-
-HouseCamera::HouseCamera(const HostedCamera& camera, const std::string& bus, Poller& poller)
-    : guest_(camera.guest),
-      arguments_(camera_arguments(camera, bus)),
-      poller_(poller),
-      started_(mono_now()),
-      pause_(kCameraPause / 2) {}
-
-HouseCamera::~HouseCamera() {
-  if (!program_) return;
-  poller_.set_deadline(watch_, MonoTime());
-  program_->stop(kCameraEnds);
-}
-
-Result<void> HouseCamera::start() {
-  DANCE_TRY(ChildProcess program,
-            ChildProcess::start({program_folder() + "/dance-capture", arguments_, "", ""}));
-  program_ = std::make_unique<ChildProcess>(std::move(program));
-  return {};
-}
-
-MonoTime HouseCamera::look(MonoTime now) {
-  if (is_down_) {
-    is_down_ = false;
-    started_ = now;
-    if (auto started = start(); !started) {
-      talk::warn("{}; {} dances without a camera", started.error().what, guest_.view());
-      return MonoTime();
-    }
-    return now + kCameraLook;
-  }
-  if (!program_->has_ended()) return now + kCameraLook;
-  if (program_->ended_well()) {
-    talk::info("the capture of {} is over", guest_.view());
-    return MonoTime();
-  }
-  if (program_->exit_code() == 2) {
-    talk::warn("no camera for {}: the session file asks for what dance capture does not know",
-               guest_.view());
-    return MonoTime();
-  }
-  is_down_ = true;
-  if (program_->exit_code() == 1) {
-    if (!has_said_missing_)
-      talk::warn(
-          "no poses from the camera of {} yet, for what dance capture says; the house goes on and "
-          "tries again",
-          guest_.view());
-    has_said_missing_ = true;
-    return now + kCameraMissing;
-  }
-  // One that danced for a while may come back at once; one that dies each time is not to keep the
-  // machine busy.
-  pause_ = now - started_ > kCameraStable ? kCameraPause : std::min(pause_ * 2, kCameraMissing);
-  talk::warn("the capture of {} {}; it is started again", guest_.view(), program_->exit_text());
-  return now + pause_;
+HouseCamera::HouseCamera(const HostedCamera& camera, const std::string& bus, SignalPort& port,
+                         Poller& poller)
+    : program_(camera_program(camera, bus, newest_pose_), poller) {
+  port.subscribe<Pose>({Where::kCapture, camera.guest},
+                       [this](const Channel&, const Pose&, MonoTime now) { newest_pose_ = now; });
 }
 
 }  // namespace dance

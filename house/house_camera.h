@@ -1,21 +1,20 @@
 // HouseCamera: the camera of a house's session: a dance-capture program of its own beside the
 // house, so that a driver that hangs or a decoder that falls over is nothing to the stage and the
-// line. It is started again when it dies.
+// line.
 //
 // Units/frames: none.
-// Ownership:    owns the program, which ends with it; refers to the poller, which must outlive it.
+// Ownership:    owns the program, which ends with it; refers to port and poller, which must outlive
+//               it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      nothing ends the house. A program that cannot be started is said; one that ends
-//               because there is no camera (it has said the cure) is started again every ten
-//               seconds, one that died a second later, then after longer and longer pauses.
+// Failure:      nothing ends the house; see HostedProgram. A program that has no camera has said the
+//               cure.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "core/net/poller.h"
-#include "core/program/child_process.h"
+#include "core/bus/signal_port.h"
+#include "house/program/hosted_program.h"
 #include "house/session.h"
 
 namespace dance {
@@ -25,26 +24,14 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
 
 class HouseCamera {
  public:
-  static std::unique_ptr<HouseCamera> open(const HostedCamera& camera, const std::string& bus,
-                                           Poller& poller);
-  ~HouseCamera();
+  // `bus` is the LCM URL of the bus of the port.
+  HouseCamera(const HostedCamera& camera, const std::string& bus, SignalPort& port, Poller& poller);
   HouseCamera(const HouseCamera&) = delete;
   HouseCamera& operator=(const HouseCamera&) = delete;
 
  private:
-  HouseCamera(const HostedCamera& camera, const std::string& bus, Poller& poller);
-  Result<void> start();
-  MonoTime look(MonoTime now);
-
-  GuestId guest_;
-  std::vector<std::string> arguments_;
-  Poller& poller_;
-  std::unique_ptr<ChildProcess> program_;
-  Poller::TimerId watch_ = 0;
-  bool is_down_ = false;
-  bool has_said_missing_ = false;
-  MonoTime started_;
-  Duration pause_;
+  MonoTime newest_pose_;
+  HostedProgram program_;
 };
 
 }  // namespace dance

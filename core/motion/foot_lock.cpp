@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/motion/standing_odds.h"
+#include "core/pose/shortest_turn.h"
 
 namespace dance {
 
@@ -36,7 +37,7 @@ constexpr float kLongest_s = 10.0f;
 constexpr float kStraight = 0.9995f;
 
 Quaternionf turned(const Vector3f& from, const Vector3f& to, const Quaternionf& R) {
-  return (Quaternionf::FromTwoVectors(from, to) * R).normalized();
+  return (shortest_turn(from.cast<double>(), to.cast<double>()).cast<float>() * R).normalized();
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/pose/shortest_turn.h"
+
 namespace dance {
 namespace {
 
@@ -61,10 +63,14 @@ void begin_entity(JsonText& json, std::uint64_t time_ns) {
   json.raw(",\"lifetime\":{\"sec\":0,\"nsec\":0},\"frame_locked\":true,\"metadata\":[],");
 }
 
+Eigen::Quaternionf turn_to(const Eigen::Vector3d& axis, const Eigen::Vector3f& direction) {
+  return shortest_turn(axis, direction.cast<double>()).cast<float>();
+}
+
 // A cylinder's axis is its z; it lies along the bone.
 void append_limb(JsonText& json, const Eigen::Vector3f& to_m, float from_radius_m,
                  float to_radius_m, const Colour& colour) {
-  const auto along = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), to_m);
+  const Eigen::Quaternionf along = turn_to(Eigen::Vector3d::UnitZ(), to_m);
   const float widest_m = std::max(from_radius_m, to_radius_m);
   json.raw("{");
   append_pose(json, 0.5f * to_m, along);
@@ -95,7 +101,7 @@ void append_head(JsonText& json, const Eigen::Vector3f& tip_m, const Colour& col
   constexpr float kWide = 0.68f, kDeep = 0.86f;  // of its height
   const float height_m = tip_m.norm();
   if (height_m < kShortestLimb_m) return;
-  const auto up = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitY(), tip_m);
+  const Eigen::Quaternionf up = turn_to(Eigen::Vector3d::UnitY(), tip_m);
   append_ellipsoid(json.raw(","), 0.52f * tip_m, {kWide * height_m, height_m, kDeep * height_m}, up,
                    colour);
   const Eigen::Vector3f nose_m =

@@ -1,5 +1,6 @@
 #include "house/program/hosted_program.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/net/mono_clock.h"
@@ -9,7 +10,9 @@ namespace dance {
 namespace {
 
 constexpr Duration kProgramEnds = Duration::s(2);
+constexpr Duration kStable = Duration::s(30);  // it ran so long: its death was a chance
 constexpr int kWrongUse = 2;
+constexpr int kDied = -1;  // by a signal
 
 }  // namespace
 
@@ -50,6 +53,7 @@ MonoTime HostedProgram::look(MonoTime now) {
   const std::string end = options_.name + " " + program_->exit_text();
   const int exit_code = program_->exit_code();
   program_.reset();
+  if (exit_code == kDied) return start_after_death(end, now);
   if (exit_code != 0 && exit_code != kWrongUse) return try_later(end, now);
   talk::warn("{}; the house goes on {}", end, options_.without);
   return {};
@@ -68,6 +72,13 @@ MonoTime HostedProgram::try_later(const std::string& trouble, MonoTime now) {
     talk::warn("{}; the house goes on {}, and starts it again every {:.3g} s", trouble,
                options_.without, options_.pause.as_seconds());
   return now + options_.pause;
+}
+
+MonoTime HostedProgram::start_after_death(const std::string& end, MonoTime now) {
+  const bool dies_again = pause_ > Duration() && now - started_ < kStable;
+  pause_ = dies_again ? std::min(pause_ * 2, options_.pause) : options_.first_pause;
+  talk::warn("{}; the house goes on {}, and it is started again", end, options_.without);
+  return now + pause_;
 }
 
 }  // namespace dance

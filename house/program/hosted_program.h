@@ -6,7 +6,9 @@
 // Threads:      none inside; runs in the poller's thread.
 // Failure:      nothing ends the house. What the program cannot have it says itself, once; it is
 //               tried again at each pause, also where it could not be started, and that it works
-//               again is said too. Wrong use (exit 2) and an end without an error (0) are for good.
+//               again is said too. One that died is started again after a second, or where it does
+//               so again and again after longer and longer pauses. Wrong use (exit 2) and an end
+//               without an error (0) are for good.
 #pragma once
 
 #include <functional>
@@ -31,7 +33,8 @@ class HostedProgram {
     // Whether what runs since `started` has all that it needs, by a sign of its own; asked until it
     // has.
     std::function<bool(pid_t program, MonoTime started)> works;
-    Duration pause = Duration::s(10);  // before another start
+    Duration pause = Duration::s(10);       // before another start, at most
+    Duration first_pause = Duration::s(1);  // before the next start of one that died
     Duration look = Duration::ms(200);
   };
 
@@ -46,12 +49,14 @@ class HostedProgram {
   void note_that_it_works();
   // Says it where it is not what was said last.
   MonoTime try_later(const std::string& trouble, MonoTime now);
+  MonoTime start_after_death(const std::string& end, MonoTime now);
 
   Options options_;
   Poller& poller_;
   ProgramWords words_;
   std::unique_ptr<ChildProcess> program_;
   MonoTime started_;
+  Duration pause_;  // before the start after the newest death
   bool works_ = false;
   std::string trouble_;  // that was said; "" once it has worked
   Poller::TimerId timer_ = 0;

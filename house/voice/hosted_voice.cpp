@@ -1,6 +1,7 @@
 #include "house/voice/hosted_voice.h"
 
 #include "core/bus/guest_volume.h"
+#include "house/toml_reader.h"
 
 namespace dance {
 

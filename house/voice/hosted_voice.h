@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "core/base/guest_id.h"
-#include "house/toml_reader.h"
 
 namespace dance {
+
+class TomlReader;  // its header costs a second in every file that reads it
 
 struct HostedVoice {
   GuestId guest;

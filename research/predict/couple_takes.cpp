@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/motion/palm_pull.h"
+#include "core/pose/shortest_turn.h"
 #include "research/joined_palms.h"
 
 namespace dance {
@@ -15,7 +16,7 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 
 Quaternionf turned(const Vector3f& from, const Vector3f& to, const Quaternionf& R) {
-  return (Quaternionf::FromTwoVectors(from, to) * R).normalized();
+  return (shortest_turn(from.cast<double>(), to.cast<double>()).cast<float>() * R).normalized();
 }
 
 // By the arm alone: the elbow stays on its side, the hand turned as it is.

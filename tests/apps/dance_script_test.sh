@@ -34,23 +34,42 @@ for word in "$@"; do
   esac
 done
 END
-# Configures into build.ninja; what it builds says how it was started.
+# Configures into build.ninja and the list of commands; a camera is one only with its packages.
 fake cmake <<'END'
 echo "cmake $*" >>"$calls"
-if [ "$1" = --build ]; then
-  [ -e "$scratch/building_fails" ] && { echo "error: no such thing"; exit 1; }
-  mkdir -p "$tree/build/release/bin"
-  printf '#!%s\necho "dance $*"\nexit 7\n' "$(command -v bash)" >"$tree/build/release/bin/dance"
-  chmod +x "$tree/build/release/bin/dance"
-  echo >"$tree/build/release/bin/dance-capture"
-else
-  [ -e "$scratch/configuring_fails" ] && { echo "no compiler"; exit 1; }
-  mkdir -p "$tree/build/release"
-  echo >"$tree/build/release/build.ninja"
-fi
+[ -e "$scratch/configuring_fails" ] && { echo "no compiler"; exit 1; }
+mkdir -p "$tree/build/release/share/dancegraph"
+echo >"$tree/build/release/build.ninja"
+{ echo "demo dance-front dance-demo dance-server"
+  echo "salsa dance-front dance-salsa"
+  echo "voice dance-front dance-voice"
+  echo "voice-set dance-front dance-voice-set"
+  ! grep -qx libopencv-core-dev "$scratch/installed" || printf '%s\n' "capture dance-front dance-capture" "fetch-models dance-front"
+} >"$tree/build/release/share/dancegraph/commands.txt"
 END
+# What it builds are files; dance says how it was started.
 fake ninja <<'END'
-[ -e "$tree/build/release/bin/dance" ] && echo "ninja: no work to do."
+shift 2
+dry=no
+[ "$1" != -n ] || { dry=yes; shift; }
+[ "$*" != build.ninja ] || exit 0
+bin=$tree/build/release/bin
+left=()
+for target in "$@"; do
+  file=$bin/$target
+  [ "$target" != dance-front ] || file=$bin/dance
+  [ -e "$file" ] || left+=("$file")
+done
+[ $dry = yes ] || [ ${#left[@]} = 0 ] || echo "ninja $*" >>"$calls"
+for file in "${left[@]}"; do
+  echo "${NINJA_STATUS}Linking CXX executable $file"
+  [ $dry = no ] || continue
+  [ -e "$scratch/building_fails" ] && { echo "error: no such thing"; exit 1; }
+  mkdir -p "$bin"
+  printf '#!%s\necho "dance $*"\nexit 7\n' "$(command -v bash)" >"$file"
+  chmod +x "$file"
+done
+[ ${#left[@]} != 0 ] || echo "ninja: no work to do."
 END
 fake flock <<'END'
 [ -e "$scratch/is_taken" ] || exit 0
@@ -61,10 +80,11 @@ END
 begin() { # CASE: a fresh machine
   case=$1
   rm -rf "$tree" "$calls" "$scratch"/is_no_root "$scratch"/is_taken "$scratch"/apt_* "$scratch"/*_fails "$scratch"/has_models
-  mkdir -p "$tree/producers/camera" "$tree/tests"
+  mkdir -p "$tree/producers/camera" "$tree/tests" "$tree/cmake"
   : >"$scratch/installed"
   : >"$calls"
   cp "$source_tree/dance" "$tree/dance"
+  cp "$source_tree/cmake/progress.sh" "$tree/cmake/progress.sh"
   { printf '#!%s\nscratch=%q calls=%q\n' "$(command -v bash)" "$scratch" "$calls"
     printf 'echo "run.sh $*" >>"$calls"\n'; } >"$tree/tests/run.sh"
   { printf '#!%s\nscratch=%q calls=%q\n' "$(command -v bash)" "$scratch" "$calls"
@@ -108,7 +128,8 @@ expect_call "apt-get update"
 expect_call "liblcm-dev"
 expect_call "--no-install-recommends"
 expect_call "cmake --preset release"
-expect_call "cmake --build --preset release"
+expect_call "ninja dance-front dance-demo dance-server" # and nothing else
+expect_said "building 1 of 3"
 expect_no_call "libopencv-core-dev" # only a camera needs it
 expect_no_call "libgtest-dev"
 expect_no_call "fetch"
@@ -117,6 +138,27 @@ case="a second time"
 dance demo
 expect_code 7
 [ ! -s "$calls" ] || wrong "does anything but start"
+
+case="another command in a tree with the demo"
+dance salsa --seconds 2
+expect_code 7
+expect_said "dance salsa --seconds 2"
+expect_call "ninja dance-front dance-salsa"
+expect_no_call "cmake --preset"
+case="of several words the longest command"
+dance voice set --mute
+expect_code 7
+expect_call "ninja dance-front dance-voice-set"
+case="help of one command, which its program knows"
+dance help voice
+expect_code 7
+expect_said "dance help voice"
+expect_call "ninja dance-front dance-voice"
+case="no command"
+dance nonsense
+expect_code 7 # dance says that there is none
+expect_said "dance nonsense"
+expect_no_call "ninja"
 
 case="help of what is built"
 dance help
@@ -130,6 +172,18 @@ expect_code 7
 expect_said "another ./dance installs or builds here"
 expect_call "flock 9" # waits for it
 rm "$scratch/is_taken"
+
+case="everything"
+dance setup
+expect_code 0
+expect_call "ninja all"
+touch "$tree/build/release/bin/all"
+
+case="a tree that was configured before there was a list of commands"
+rm "$tree/build/release/share/dancegraph/commands.txt"
+dance demo
+expect_code 7
+expect_call "cmake --preset release"
 
 case="one package is gone"
 grep -vx libssl-dev "$scratch/installed" >"$scratch/left" || true
@@ -146,7 +200,7 @@ dance demo
 expect_code 1
 expect_said "E: Unable to locate package"
 expect_said "apt-get failed"
-expect_no_call "cmake --"
+expect_no_call "cmake --preset"
 
 begin "neither root nor sudo"
 touch "$scratch/is_no_root"
@@ -191,6 +245,20 @@ dance capture
 expect_code 7
 [ ! -s "$calls" ] || wrong "does anything but start"
 
+begin "a camera in a tree with the demo"
+dance demo
+dance capture
+expect_code 7
+expect_call "cmake --preset release"
+expect_call "ninja dance-front dance-capture"
+begin "a camera whose packages came otherwise"
+dance demo
+bash -c 'source <(sed -n "/^camera_packages=(/,/)/p" "$1"); printf "%s\n" "${camera_packages[@]}"' _ "$tree/dance" >>"$scratch/installed"
+dance capture
+expect_code 7
+expect_call "cmake --preset release"
+expect_call "ninja dance-front dance-capture"
+
 begin "the networks alone"
 dance fetch-models
 expect_code 7
@@ -216,7 +284,7 @@ touch "$scratch/fetch_fails"
 dance setup
 expect_code 0
 expect_said "a camera sees no dancer without them; all else works"
-expect_call "cmake --build"
+expect_call "ninja all"
 
 begin "a house with a camera"
 dance join sessions/alice.toml --camera auto
@@ -249,5 +317,42 @@ expect_code 7
 expect_said "this is no Debian"
 expect_no_call "apt-get"
 mv "$scratch/dpkg-query" "$bin/dpkg-query"
+
+# The line of progress, by what apt-get and ninja say.
+case="progress" code=0 said="" 
+: >"$calls"
+said=$(
+  source "$source_tree/cmake/progress.sh"
+  show_progress() { echo "$1"; }
+  packages_of() { printf '%s\n' "$@" | while IFS= read -r line; do watch_packages "$line"; done; }
+  packages_of "Reading package lists..." "1 upgraded, 2 newly installed, 0 to remove and 3 not upgraded." "Get:1 a" "Get:2 b"
+  packages_of "1 upgraded, 2 newly installed, 0 to remove and 3 not upgraded." "Unpacking a (1) ..." "Setting up a (1) ..."
+  for seconds in 1 10 61 125 3599; do
+    words_of_seconds $seconds
+    echo "left: $words"
+  done
+  # Half of the weight in twenty seconds, the first three of which do not count.
+  steps=4 weight_all=10000
+  weigh() { weight=2500; }
+  SECONDS=0 build_began=0
+  for SECONDS in 3 13 23; do watch_build "step Building CXX object x.o"; done
+  watch_build "a warning that the compiler prints"
+  watch_build "step Building CXX object x.o"
+)
+expect_line() { grep -qxF -- "$1" <<<"$said" || wrong "does not say: $1"; }
+for line in "installing: apt-get reads its lists" "installing: 2 of 3 packages fetched" "installing: 1 of 3 packages unpacked" \
+  "installing: 1 of 3 packages set up, the last step" "left: 10 s" "left: 1 min 10 s" "left: 2 min 10 s" "left: 60 min" \
+  "building 1 of 4" "building 2 of 4, about 20 s left" "building 3 of 4, about 10 s left" "building 4 of 4"; do
+  expect_line "$line"
+done
+# Lines that come in pieces, a step that fails.
+said=$(
+  source "$source_tree/cmake/progress.sh"
+  heard() { [ -z "$1" ] || echo "heard $1"; }
+  halting() { printf 'one '; sleep 1.5; printf 'line\nand another\n'; return 3; }
+  run_watched heard "$scratch/watched.log" halting && echo "ends well" || echo "ends with $?"
+)
+grep -qx "one line" "$scratch/watched.log" || wrong "a line that came in pieces is not in the log"
+expect_line "ends with 3"
 
 exit $failed

@@ -54,6 +54,20 @@ expect layers.sh '<lcm/lcm.h> is only for'
 rm "$tree/consumers/peer.cpp"
 expect_fine layers.sh
 
+mkdir -p "$tree/apps/show" "$tree/house"
+printf 'dance_program(show\n  SOURCES show/show_main.cpp show/show_run.cpp\n  NEEDS dance-thing)\n' >"$tree/apps/CMakeLists.txt"
+printf 'dance_program(join SOURCES join_main.cpp LIBS dance::house NEEDS dance-thing)\n' >"$tree/house/CMakeLists.txt"
+printf 'a = program_folder() + "/dance-thing"; add("dance-lossy");\n' >"$tree/apps/show/show_run.cpp"
+printf 'a = program_folder() + "/dance-thing";\n' >"$tree/house/house_thing.cpp"
+printf 'show dance-front dance-show dance-thing\njoin dance-front dance-join dance-thing\nthing dance-front dance-thing\n' >"$tree/list"
+expect_fine programs.sh "$tree/list" # dance-lossy is left out of that build
+printf 'lossy dance-front dance-lossy\n' >>"$tree/list"
+expect programs.sh 'apps/show/show_run.cpp: starts dance-lossy' "$tree/list"
+sed '/^join/s/ dance-thing//' "$tree/list" >"$tree/list.join"
+expect programs.sh 'house/house_thing.cpp: starts dance-thing, which is not among the NEEDS of dance_program(join' "$tree/list.join"
+rm -r "$tree/apps" "$tree/house"
+expect programs.sh 'the check itself is broken' "$tree/list"
+
 fault core/base/pose_utils.cpp 'int x;\n'
 expect files.sh 'core/base/pose_utils.cpp: the name says nothing'
 rm "$tree/core/base/pose_utils.cpp"

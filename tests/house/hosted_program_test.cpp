@@ -131,6 +131,17 @@ TEST_F(HostedProgramTest, IsStartedLaterWhereItCouldNotBeStarted) {
   EXPECT_EQ(count_of(text, "dance try works again"), 1) << text;
 }
 
+TEST_F(HostedProgramTest, OneThatDiedIsStartedAgainSooner) {
+  options_.pause = Duration::s(1000);
+  options_.first_pause = Duration::ms(5);
+  script_ = "kill -9 $$";
+  open();
+  ASSERT_TRUE(turn_until([&] { return starts_ == 4; }));
+  const std::string text = said();
+  EXPECT_GE(count_of(text, "dance try ended by signal 9; the house goes on without tries"), 3)
+      << text;
+}
+
 TEST_F(HostedProgramTest, WrongUseAndAnEndWithoutErrorAreForGood) {
   for (const char* script : {"exit 2", "exit 0"}) {
     script_ = script;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pose/shortest_turn.h"
+
 namespace dance {
 namespace {
 
@@ -50,7 +52,7 @@ Quaterniond upright(const AvatarModel& model) {
   if (axis == 1 && up.y() > 0.0) return Quaterniond::Identity();
   Vector3d is_up = Vector3d::Zero();
   is_up[axis] = up[axis] < 0.0 ? -1.0 : 1.0;
-  return Quaterniond::FromTwoVectors(is_up, Vector3d::UnitY());
+  return shortest_turn(is_up, Vector3d::UnitY());
 }
 
 // The angle about +Y from where the figure faces to +Z.

@@ -1,0 +1,225 @@
+// The texts of the panel and the banners of the dance (viewer/dance_panel/), as rows of
+// viewer/words/text_table.h.
+//
+// Ownership: constants.
+// Threads:   any.
+// Failure:   as viewer/words/text_table.h.
+#pragma once
+
+// clang-format off
+#define DANCE_PANEL_TEXTS(ROW) \
+  ROW(kBannerClock, \
+      "This computer's clock jumped by {} s.", \
+      "El reloj de este ordenador ha saltado {} s.", \
+      "Die Uhr dieses Rechners ist um {} s gesprungen.") \
+  ROW(kBannerClockCure, \
+      "Did it sleep, or was its clock set? The others saw you stand still; it settles by " \
+      "itself.", \
+      "¿Estuvo suspendido o se ajustó la hora? Los demás te vieron parado; se arregla solo.", \
+      "Hat er geschlafen, oder wurde sie gestellt? Die anderen sahen dich stillstehen; es " \
+      "gibt sich von selbst.") \
+  ROW(kBannerKey, \
+      "The server does not accept this house's key.", \
+      "El servidor no acepta la clave de esta casa.", \
+      "Der Server nimmt den Schlüssel dieses Hauses nicht an.") \
+  ROW(kBannerKeyCure, \
+      "It was revoked or replaced. Ask the server's keeper for a new invitation.", \
+      "Fue revocada o cambiada. Pide una nueva invitación a quien lleva el servidor.", \
+      "Er wurde widerrufen oder ersetzt. Bitte um eine neue Einladung.") \
+  ROW(kBannerLinkGone, \
+      "This house is no longer linked to the server.", \
+      "Esta casa ya no está enlazada con el servidor.", \
+      "Dieses Haus ist nicht mehr mit dem Server verbunden.") \
+  ROW(kBannerLinkGoneCure, \
+      "Its link has ended. Leave, and join again.", \
+      "Su enlace ha terminado. Sal y vuelve a entrar.", \
+      "Die Verbindung wurde beendet. Verlasse den Tanz und tritt wieder bei.") \
+  ROW(kBannerMicrophone, \
+      "Your microphone gives no sound at all.", \
+      "Tu micrófono no da ningún sonido.", \
+      "Dein Mikrofon gibt keinen Ton von sich.") \
+  ROW(kBannerMicrophoneCure, \
+      "Is its own switch off, or is another one chosen in the sound settings?", \
+      "¿Está apagado o hay otro elegido en los ajustes de sonido?", \
+      "Ist sein Schalter aus, oder ist in den Toneinstellungen ein anderes gewählt?") \
+  ROW(kBannerMuted, \
+      "You speak, and are muted.", \
+      "Hablas, pero estás en silencio.", \
+      "Du sprichst, bist aber stumm.") \
+  ROW(kBannerMutedCure, "Nobody hears you.", "Nadie te oye.", "Niemand hört dich.") \
+  ROW(kBannerNoMicrophone, \
+      "There is no microphone.", \
+      "No hay micrófono.", \
+      "Es ist kein Mikrofon da.") \
+  ROW(kBannerNoMicrophoneCure, \
+      "Plug one in; it is used at once.", \
+      "Conecta uno; se usa enseguida.", \
+      "Schließe eines an; es wird sofort verwendet.") \
+  ROW(kBannerNoPoses, \
+      "{} is not seen: no movement for {} s.", \
+      "No se ve a {}: sin movimiento desde hace {} s.", \
+      "{} ist nicht zu sehen: seit {} s keine Bewegung.") \
+  ROW(kBannerNoPosesCure, \
+      "Step into the camera's view. If it was unplugged, or another program has taken it, " \
+      "plug it in or close that program.", \
+      "Ponte delante de la cámara. Si se desconectó o la usa otro programa, conéctala o " \
+      "cierra ese programa.", \
+      "Tritt ins Bild. Wurde die Kamera ausgesteckt, oder hat sie ein anderes Programm, so " \
+      "stecke sie ein oder schließe es.") \
+  ROW(kBannerNotTrusted, \
+      "The server and this house do not trust each other.", \
+      "El servidor y esta casa no se reconocen.", \
+      "Server und Haus vertrauen einander nicht.") \
+  ROW(kBannerNotTrustedCure, \
+      "One of the certificates is not signed by an authority that the other trusts: ask " \
+      "the server's keeper.", \
+      "Uno de los certificados no lo firma una autoridad conocida: pregunta a quien lleva " \
+      "el servidor.", \
+      "Eines der Zertifikate ist nicht von anerkannter Stelle unterschrieben: frage den " \
+      "Betreiber des Servers.") \
+  ROW(kBannerRecording, \
+      "The recording has ended.", \
+      "La grabación se ha interrumpido.", \
+      "Die Aufnahme ist abgebrochen.") \
+  ROW(kBannerRefused, \
+      "The server does not let this house in.", \
+      "El servidor no deja entrar a esta casa.", \
+      "Der Server lässt dieses Haus nicht ein.") \
+  ROW(kBannerRefusedCure, \
+      "The name may be taken, or the room full: choose another name, or wait. It is asked " \
+      "again.", \
+      "Quizá el nombre esté ocupado o la sala llena: elige otro nombre o espera. Se vuelve " \
+      "a intentar.", \
+      "Der Name ist vergeben oder der Raum voll: wähle einen anderen Namen oder warte. Es " \
+      "wird weiter gefragt.") \
+  ROW(kBannerRefusedGuest, \
+      "The server does not let {} in.", \
+      "El servidor no deja entrar a {}.", \
+      "Der Server lässt {} nicht ein.") \
+  ROW(kBannerRemoved, \
+      "A host has removed you from the room.", \
+      "Un anfitrión te ha sacado de la sala.", \
+      "Ein Gastgeber hat dich aus dem Raum entfernt.") \
+  ROW(kBannerRemovedCure, \
+      "This house may come back in {} min. Ask the host.", \
+      "Esta casa podrá volver en {} min. Pregunta al anfitrión.", \
+      "Dieses Haus darf in {} min zurückkommen. Frage den Gastgeber.") \
+  ROW(kBannerServer, \
+      "The server does not answer.", \
+      "El servidor no responde.", \
+      "Der Server antwortet nicht.") \
+  ROW(kBannerServerCure, \
+      "Is the network there? The house goes on asking, and your dance goes on here.", \
+      "¿Hay red? La casa sigue intentándolo y aquí el baile sigue.", \
+      "Ist das Netz da? Das Haus fragt weiter, und hier geht der Tanz weiter.") \
+  ROW(kBannerSlow, \
+      "The picture is slow: {} a second.", \
+      "La imagen va lenta: {} por segundo.", \
+      "Das Bild ist langsam: {} pro Sekunde.") \
+  ROW(kBannerSlowCure, \
+      "This computer draws without a graphics card. A plainer picture is faster.", \
+      "Este ordenador dibuja sin tarjeta gráfica. Una imagen más sencilla va más rápida.", \
+      "Dieser Rechner zeichnet ohne Grafikkarte. Ein schlichteres Bild ist schneller.") \
+  ROW(kBannerSlowSmaller, \
+      "This computer draws without a graphics card. Make the window smaller.", \
+      "Este ordenador dibuja sin tarjeta gráfica. Haz la ventana más pequeña.", \
+      "Dieser Rechner zeichnet ohne Grafikkarte. Mache das Fenster kleiner.") \
+  ROW(kDanceCountIn, "Count in", "Contar la entrada", "Einzählen") \
+  ROW(kDanceCountWaits, \
+      "Count in: next bar", \
+      "Cuenta: próximo compás", \
+      "Einzählen: nächster Takt") \
+  ROW(kDanceDrawPlainly, "Draw plainly", "Dibujar sencillo", "Schlicht zeichnen") \
+  ROW(kDanceGuests, "Guests: {}", "Invitados: {}", "Gäste: {}") \
+  ROW(kDanceHidden, "hidden", "oculto", "verborgen") \
+  ROW(kDanceHide, "Hide", "Ocultar", "Verbergen") \
+  ROW(kDanceKeep, "No", "No", "Nein") \
+  ROW(kDanceMicrophoneOff, "Microphone off", "Micrófono apagado", "Mikrofon aus") \
+  ROW(kDanceMicrophoneOn, "Microphone on", "Micrófono encendido", "Mikrofon an") \
+  ROW(kDanceMusic, "Music", "Música", "Musik") \
+  ROW(kDanceMute, "Mute voice", "Silenciar voz", "Stumm schalten") \
+  ROW(kDanceMuted, "muted", "sin voz", "stumm") \
+  ROW(kDanceNoMusic, "No music", "Sin música", "Keine Musik") \
+  ROW(kDanceNoVoice, \
+      "No voice runs in this house.", \
+      "En esta casa no hay voz.", \
+      "In diesem Haus läuft keine Stimme.") \
+  ROW(kDanceNobody, \
+      "Nobody else is here yet.", \
+      "Aún no hay nadie más.", \
+      "Noch ist niemand sonst da.") \
+  ROW(kDancePanel, "In the dance", "En el baile", "Beim Tanz") \
+  ROW(kDanceRecord, "Record", "Grabar", "Aufnehmen") \
+  ROW(kDanceRecordEnds, "Saving...", "Guardando...", "Wird gesichert ...") \
+  ROW(kDanceRecordStop, "Stop  {}", "Parar  {}", "Stopp  {}") \
+  ROW(kDanceRecordTo, "Recording to {}", "Se graba en {}", "Aufnahme nach {}") \
+  ROW(kDanceRecorded, "Saved: {}", "Guardado: {}", "Gesichert: {}") \
+  ROW(kDanceRemove, "Remove", "Expulsar", "Entfernen") \
+  ROW(kDanceRemoveAsked, \
+      "The server is asked to remove {}.", \
+      "Se pide al servidor que saque a {}.", \
+      "Der Server wird gebeten, {} zu entfernen.") \
+  ROW(kDanceRemoveDone, \
+      "{} was removed for 10 minutes.", \
+      "{} ha sido expulsado por 10 minutos.", \
+      "{} wurde für 10 Minuten entfernt.") \
+  ROW(kDanceRemoveGone, \
+      "{} is no longer in the room.", \
+      "{} ya no está en la sala.", \
+      "{} ist nicht mehr im Raum.") \
+  ROW(kDanceRemoveMany, \
+      "Too many at once: wait a little.", \
+      "Demasiados a la vez: espera un poco.", \
+      "Zu viele auf einmal: warte ein wenig.") \
+  ROW(kDanceRemoveNot, \
+      "Only a host may remove guests.", \
+      "Solo un anfitrión puede expulsar.", \
+      "Nur ein Gastgeber darf Gäste entfernen.") \
+  ROW(kDanceRemoveOwn, \
+      "{} dances in this house.", \
+      "{} baila en esta casa.", \
+      "{} tanzt in diesem Haus.") \
+  ROW(kDanceRemovePassed, \
+      "{}'s server was told.", \
+      "Se avisó al servidor de {}.", \
+      "Der Server von {} weiß es.") \
+  ROW(kDanceRemoveSilent, \
+      "The server did not answer.", \
+      "El servidor no respondió.", \
+      "Der Server hat nicht geantwortet.") \
+  ROW(kDanceRemoveSure, \
+      "Remove {} for 10 minutes?", \
+      "¿Expulsar a {} por 10 minutos?", \
+      "{} für 10 Minuten entfernen?") \
+  ROW(kDanceRemoveUnheard, \
+      "This house's link did not take it.", \
+      "El enlace de esta casa no lo aceptó.", \
+      "Die Verbindung dieses Hauses nahm es nicht an.") \
+  ROW(kDanceShow, "Show", "Mostrar", "Zeigen") \
+  ROW(kDanceSpeakerOff, "Loudspeaker off", "Altavoz apagado", "Lautsprecher aus") \
+  ROW(kDanceSpeakerOn, "Loudspeaker on", "Altavoz encendido", "Lautsprecher an") \
+  ROW(kDanceTalkHint, "Hold B to talk", "Mantén B para hablar", "Zum Sprechen B halten") \
+  ROW(kDanceTalking, "You are heard", "Se te oye", "Du wirst gehört") \
+  ROW(kDanceTempo, "{} bpm", "{} ppm", "{} bpm") \
+  ROW(kDanceUnmute, "Unmute", "Activar voz", "Laut schalten") \
+  ROW(kDanceUnmuteMe, "Unmute me", "Activar mi micrófono", "Mich laut schalten") \
+  ROW(kDanceUntitled, "Music without a title", "Música sin título", "Musik ohne Titel") \
+  ROW(kDanceVolume, "voice {} %", "voz {} %", "Stimme {} %") \
+  ROW(kDanceYou, "You", "Tú", "Du") \
+  ROW(kDanceYours, "of this house", "de esta casa", "aus diesem Haus") \
+  ROW(kQualityFew, "moves coarsely: {} poses a second", \
+      "se mueve a saltos: {} posturas por segundo", \
+      "bewegt sich grob: {} Posen pro Sekunde") \
+  ROW(kQualityLate, "poses come {} ms late", "las posturas llegan {} ms tarde", \
+      "Posen kommen {} ms zu spät") \
+  ROW(kQualityLatePredicted, "poses come {} ms late: predicted", \
+      "las posturas llegan {} ms tarde: se predicen", \
+      "Posen kommen {} ms zu spät: vorhergesagt") \
+  ROW(kQualityLoses, "the line loses {} %: gaps are guessed", \
+      "la línea pierde {} %: se suplen huecos", "die Leitung verliert {} %: Lücken geschätzt") \
+  ROW(kQualitySilent, "nothing comes for {} s", "no llega nada desde hace {} s", \
+      "seit {} s kommt nichts") \
+  ROW(kQualityUneven, "an uneven line, by {} ms: shown later", \
+      "línea irregular, {} ms: se muestra después", \
+      "ungleichmäßige Leitung, {} ms: später gezeigt")
+// clang-format on
