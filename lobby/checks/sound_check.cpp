@@ -17,7 +17,8 @@ namespace dance {
 namespace {
 
 constexpr Duration kReportEvery = Duration::ms(50);
-constexpr auto kPause = std::chrono::milliseconds(5);
+constexpr auto kPause = std::chrono::milliseconds(20);
+constexpr auto kPauseWhilePlaying = std::chrono::milliseconds(5);
 
 using DeviceName = FixedString<255>;
 
@@ -91,7 +92,7 @@ class PulseSoundCheck : public SoundCheck {
         // Full: its reader has much to read already.
         if (event_fd_ >= 0 && ::write(event_fd_, &one, sizeof one) < 0) continue;
       }
-      std::this_thread::sleep_for(kPause);
+      std::this_thread::sleep_for(sound.report().is_playing ? kPauseWhilePlaying : kPause);
     }
   }
   static void obey(SoundThread& sound, const SoundCommand& command) {

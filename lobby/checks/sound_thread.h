@@ -2,7 +2,8 @@
 //
 // Units/frames: as sound_check.h.
 // Ownership:    owns connection and streams; what it has found is copied into a SoundReport.
-// Threads:      all in the one that calls work(), each five milliseconds or so.
+// Threads:      all in the one that calls work(), each five milliseconds or so
+//               while something is played, else each twenty.
 // Failure:      a server or a device that is missing is in the report, and looked for again every
 //               two seconds.
 #pragma once
