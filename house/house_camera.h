@@ -6,7 +6,8 @@
 // Ownership:    owns the program, which ends with it; refers to port and poller, which must outlive
 //               it.
 // Threads:      none inside; runs in the poller's thread.
-// Failure:      nothing ends the house; see HostedProgram. A program that has no camera has said the
+// Failure:      nothing ends the house; see HostedProgram. A program that has no camera has said so
+//               and the cure.
 //               cure.
 #pragma once
 
