@@ -68,9 +68,9 @@ float move_hand(std::size_t side, const Vector3f& shift_W_m, Pose& pose, BodyFra
   }
   const Quaternionf bend(AngleAxisf(turn, hinge));
   const Vector3f bent_hand = frames.p_WB_m[lower] + bend * to_hand;
-  const Quaternionf swing = shortest_turn((bent_hand - shoulder).cast<double>(),
-                                          (target - shoulder).cast<double>())
-                                .cast<float>();
+  const Quaternionf swing =
+      shortest_turn((bent_hand - shoulder).cast<double>(), (target - shoulder).cast<double>())
+          .cast<float>();
 
   const Quaternionf R_WHand = frames.R_WB[hand];
   const Quaternionf R_WU = (swing * frames.R_WB[upper]).normalized();
