@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
   std::fprintf(
       stderr,
       "dance: %s cannot be run: %s; it was not built, or not installed: in the source tree "
-      "./dance builds it when it is called, ./dance setup builds all and prints the features\n",
+      "./dance builds it when it is called; build/release.configure.log lists the features\n",
       path.c_str(), std::strerror(errno));  // NOLINT(concurrency-mt-unsafe): one thread
   return 1;
 }

@@ -319,7 +319,7 @@ expect_no_call "apt-get"
 mv "$scratch/dpkg-query" "$bin/dpkg-query"
 
 # The line of progress, by what apt-get and ninja say.
-case="progress" code=0 said="" 
+case="progress" code=0 said=""
 : >"$calls"
 said=$(
   source "$source_tree/cmake/progress.sh"
