@@ -19,6 +19,13 @@ void draw_state(LobbyModel& model, LobbyKit& kit) {
   if (is_closed ? kit.button(t[Text::kLobbyOpenRoom], ButtonLook::kAccent, 200.0f)
                 : kit.button(t[Text::kLobbyCloseRoom], ButtonLook::kPlain, 200.0f))
     model.ask(is_closed ? LobbyWish::kOpenRoom : LobbyWish::kCloseRoom);
+  if (host.state == State::kOpen) {
+    kit.beside(t[Text::kLobbyJoin], 140.0f);
+    if (kit.button(t[Text::kLobbyJoin], ButtonLook::kAccent, 140.0f)) {
+      model.choose_room({model.settings.room, "127.0.0.1:" + std::to_string(host.port)});
+      model.ask(LobbyWish::kJoin);
+    }
+  }
   kit.beside(t[Text::kLobbyShowCommand]);
   draw_command(model, kit, LobbyWish::kOpenRoom);
   if (!host.addresses.empty()) {

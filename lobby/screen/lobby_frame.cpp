@@ -121,7 +121,7 @@ void draw_command(LobbyModel& model, LobbyKit& kit, LobbyWish wish) {
   ImGui::PushID(static_cast<int>(wish));
   const bool is_shown = model.shows_command && model.command_for == wish;
   const char* words = t[is_shown ? Text::kLobbyHideCommand : Text::kLobbyShowCommand];
-  if (kit.button(words, ButtonLook::kQuiet)) {
+  if (kit.small_button(words)) {
     model.shows_command = !is_shown;
     model.command_for = wish;
   }

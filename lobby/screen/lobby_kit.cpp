@@ -17,6 +17,9 @@ const ImVec4 kDim{0.660f, 0.680f, 0.730f, 1.0f};
 const ImVec4 kAccent{1.000f, 0.545f, 0.400f, 1.0f};
 const ImVec4 kAccentHovered{1.000f, 0.640f, 0.515f, 1.0f};
 const ImVec4 kOnAccent{0.110f, 0.055f, 0.040f, 1.0f};
+const ImVec4 kChosen{0.320f, 0.205f, 0.175f, 1.0f};
+const ImVec4 kChosenHovered{0.385f, 0.250f, 0.215f, 1.0f};
+const ImVec4 kOnChosen{1.000f, 0.700f, 0.590f, 1.0f};
 const ImVec4 kTrouble{0.330f, 0.165f, 0.150f, 1.0f};
 const ImVec4 kGood{0.120f, 0.235f, 0.190f, 1.0f};
 const ImVec4 kClear{0.0f, 0.0f, 0.0f, 0.0f};
@@ -32,6 +35,7 @@ struct Colours {
 };
 Colours colours_of(ButtonLook look) {
   if (look == ButtonLook::kAccent) return {kAccent, kAccentHovered, kOnAccent};
+  if (look == ButtonLook::kChosen) return {kChosen, kChosenHovered, kOnChosen};
   if (look == ButtonLook::kQuiet) return {kClear, kRaised, kDim};
   return {kRaised, kHovered, kInk};
 }
@@ -48,7 +52,7 @@ void push_colours(const Colours& colours) {
 void LobbyKit::apply_style() const {
   ImGuiStyle style;
   style.WindowPadding = ImVec2(0.0f, 0.0f);
-  style.FramePadding = ImVec2(16.0f, 11.0f);
+  style.FramePadding = ImVec2(16.0f, 13.0f);
   style.ItemSpacing = ImVec2(10.0f, 10.0f);
   style.ItemInnerSpacing = ImVec2(8.0f, 8.0f);
   style.WindowBorderSize = style.FrameBorderSize = style.ChildBorderSize = 0.0f;
@@ -98,7 +102,7 @@ void LobbyKit::title(const char* text) {
 }
 
 void LobbyKit::text(const std::string& text) {
-  ImGui::PushTextWrapPos(0.0f);
+  ImGui::PushTextWrapPos(ImGui::GetWindowContentRegionMax().x - px(kCardPad_u));
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopTextWrapPos();
   look_at_item(text.c_str());
@@ -160,7 +164,18 @@ bool LobbyKit::button(const char* words, ButtonLook look, float least_u) {
 }
 
 bool LobbyKit::choice(const char* words, bool is_chosen) {
-  return button(words, is_chosen ? ButtonLook::kAccent : ButtonLook::kPlain);
+  return button(words, is_chosen ? ButtonLook::kChosen : ButtonLook::kPlain);
+}
+
+bool LobbyKit::small_button(const char* words) {
+  ImGui::PushFont(fonts_.small);
+  push_colours(colours_of(ButtonLook::kQuiet));
+  const ImVec2 size(ImGui::CalcTextSize(words, nullptr, true).x + px(20.0f), px(32.0f));
+  const bool is_pressed = ImGui::Button(words, size);
+  ImGui::PopStyleColor(4);
+  ImGui::PopFont();
+  look_at_item(words);
+  return is_pressed;
 }
 
 void LobbyKit::beside(const char* next_words, float least_u) {

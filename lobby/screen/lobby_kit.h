@@ -24,7 +24,7 @@ struct LobbyFonts {
 // Sizes of the fonts, before scaling.
 constexpr float kLobbyBody_u = 18.0f, kLobbyTitle_u = 28.0f, kLobbySmall_u = 15.0f;
 
-enum class ButtonLook { kPlain, kAccent, kQuiet };
+enum class ButtonLook { kPlain, kAccent, kChosen, kQuiet };
 
 class LobbyKit {
  public:
@@ -47,6 +47,7 @@ class LobbyKit {
 
   // As wide as its words; 0 = that, else at least so many u.
   bool button(const char* words, ButtonLook look = ButtonLook::kPlain, float least_u = 0.0f);
+  bool small_button(const char* words);  // for what few want
   // One of several beside each other.
   bool choice(const char* words, bool is_chosen);
   // In the same line where it fits, else in the next.
