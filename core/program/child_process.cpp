@@ -31,6 +31,7 @@ namespace {
   redirect(options.output_file, STDOUT_FILENO);
   redirect(options.talk_file, STDERR_FILENO);
   if (options.talk_fd >= 0 && dup2(options.talk_fd, STDERR_FILENO) < 0) _exit(126);
+  if (options.output_fd >= 0 && dup2(options.output_fd, STDOUT_FILENO) < 0) _exit(126);
   execv(options.program.c_str(), arguments);
   _exit(127);
 }

@@ -29,6 +29,7 @@ class ChildProcess {
     std::string output_file;  // where its stdout goes; "" = ours
     std::string talk_file;    // where its stderr goes; "" = ours
     int talk_fd = -1;         // or a descriptor of ours, as of a pipe
+    int output_fd = -1;       // so for its stdout
   };
 
   static Result<ChildProcess> start(const Options& options);

@@ -4,6 +4,7 @@
 
 #include "core/program/program.h"
 #include "producers/camera/program/capture_calibrate.h"
+#include "producers/camera/program/capture_check.h"
 #include "producers/camera/program/capture_program.h"
 #include "producers/camera/v4l2/camera_list.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance capture --list                            which cameras are here, and what they give
+  dance capture --check --text                    is the dancer seen well? says what to mend
   dance capture                                   the first of them sees alice
   dance capture /dev/video2 --guest bob --preview
   dance capture evening.mp4 --guest bob --loop    a video as if it were a camera
@@ -24,8 +26,13 @@ constexpr const char* kExamples = R"(Examples:
 
 Result<void> run_capture(const CaptureOptions& options) {
   if (options.only_lists) {
-    std::fputs(camera_table(list_cameras()).c_str(), stdout);
+    const auto cameras = list_cameras();
+    std::fputs((options.wants_json ? camera_json(cameras) : camera_table(cameras)).c_str(), stdout);
     return {};
+  }
+  if (options.only_checks) {
+    DANCE_TRY(auto check, CaptureCheck::open(options));
+    return check->run();
   }
   if (!options.calibrate_file.empty()) return calibrate_camera(options);
   DANCE_TRY(auto program, CaptureProgram::open(options));
@@ -48,6 +55,11 @@ int main(int argc, char** argv) {
            "a camera (/dev/video0, 0, a part of its name), a video, a picture or a folder of "
            "pictures; without it the first camera");
   line.add_flag("--list", options.only_lists, "which cameras are here, and what they give");
+  line.add_flag("--check", options.only_checks,
+                "how the camera sees the dancer, without a bus: small pictures and what is seen in "
+                "them, as bytes for a program on stdout");
+  line.add_flag("--text", options.wants_text,
+                "with --check: what to mend, as lines to read, in the language of LANG");
   line.add("--guest", options.guest, "who dances").guest_name().shows_default();
   line.add("--size", options.size, "of the picture, like 1280x720; chosen where it is not given");
   line.add("--hz", options.hz, "pictures a second of a camera; 0 = as many as it gives, up to 60")
@@ -96,7 +108,8 @@ int main(int argc, char** argv) {
       .shows_default();
   line.add("--bus", options.bus, "LCM URL of the house's bus");
   line.add("--seconds", options.seconds, "how long; 0 = until stopped").range(0.0, 1e7);
-  line.add_flag("--json", options.wants_json, "write what was counted to stdout at the end");
+  line.add_flag("--json", options.wants_json,
+                "write what was counted to stdout at the end; with --list, the list");
   line.footer(dance::kExamples);
   return dance::run_program(line, argc, argv, [&] { return dance::run_capture(options); });
 }

@@ -47,6 +47,8 @@ struct CaptureOptions {
 
   // other work
   bool only_lists = false;
+  bool only_checks = false;  // how the dancer is seen: views to stdout
+  bool wants_text = false;   // advice instead
   std::string calibrate_file;
   std::string board = "9x6";
   double square_mm = 25.0;

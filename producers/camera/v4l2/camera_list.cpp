@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -107,6 +108,22 @@ std::string camera_table(std::span<const CameraEntry> cameras) {
              (chosen ? text_of(*chosen) : "nothing, " + chosen.error().what) + "\n";
   }
   return table;
+}
+
+std::string camera_json(std::span<const CameraEntry> cameras) {
+  auto list = nlohmann::ordered_json::array();
+  for (const CameraEntry& camera : cameras) {
+    const auto chosen = choose_mode(camera.modes, {});
+    std::string trouble = camera.trouble;
+    if (trouble.empty() && !chosen) trouble = camera.name + ": " + chosen.error().what;
+    list.push_back({{"device", camera.path},
+                    {"name", camera.name},
+                    {"socket", camera.bus_info},
+                    {"mode", chosen ? text_of(*chosen) : ""},
+                    {"trouble", trouble}});
+  }
+  // A name that is no UTF-8 is a driver's.
+  return list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string cameras_in_a_line(std::span<const CameraEntry> cameras) {

@@ -30,6 +30,10 @@ std::vector<CameraEntry> list_cameras();
 // What `dance capture --list` prints, with a line break at the end.
 std::string camera_table(std::span<const CameraEntry> cameras);
 
+// The same for programs, as JSON: an array of {"device", "name", "socket", "mode", "trouble"};
+// "mode" is what is taken unless asked otherwise, and "trouble" is "" where there is none.
+std::string camera_json(std::span<const CameraEntry> cameras);
+
 // "/dev/video0 (HD Webcam), /dev/video2 (…)", or what to do where there is none.
 std::string cameras_in_a_line(std::span<const CameraEntry> cameras);
 
