@@ -195,6 +195,10 @@ pkg_check_modules(PROMETHEUS QUIET IMPORTED_TARGET prometheus-cpp-pull)
 dance_optional(DANCE_PROMETHEUS "Server metrics" DANCE_HAVE_PROMETHEUS "${PROMETHEUS_FOUND}"
   "prometheus-cpp-dev")
 
+# Invitations that a phone's camera reads.
+pkg_check_modules(QRENCODE QUIET IMPORTED_TARGET libqrencode)
+dance_optional(DANCE_QR "QR codes" DANCE_HAVE_QR "${QRENCODE_FOUND}" "libqrencode-dev")
+
 pkg_check_modules(NATS QUIET IMPORTED_TARGET libnats)
 dance_optional(DANCE_NATS "Servers in clusters" DANCE_HAVE_NATS "${NATS_FOUND}" "libnats-dev")
 

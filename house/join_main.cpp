@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 
 #include "core/net/mono_clock.h"
@@ -12,11 +13,13 @@
 #include "house/dancer/session_partner.h"
 #include "house/house.h"
 #include "house/session_guests.h"
+#include "tunnel/invitation/open_invitation.h"
 
 namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
+  dance join 'dance://dance.example.org/salsa?…'     opens an invitation, and joins; later on too
   dance join sessions/alice.toml                     everything as the session file says
   dance join dance.example.org --guest alice --room salsa
                                                      without a file: own captures to the stage and
@@ -62,6 +65,27 @@ Result<GuestId> guest_of(const std::string& name) {
 
 bool is_session_file(const std::string& host_or_session) {
   return host_or_session.ends_with(".toml") || std::filesystem::exists(host_or_session);
+}
+
+// Other users of this machine see a program's arguments: its key is no longer among them.
+void hide_invitations(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (is_invitation(argv[i])) std::fill(argv[i], argv[i] + std::strlen(argv[i]), '-');
+}
+
+// The invitation in the place of HOST, --guest and --room; those that are given go before it.
+Result<void> use_invitation(JoinOptions& options) {
+  DANCE_TRY(const Invitation invitation, parse_invitation(options.host_or_session));
+  DANCE_TRY(const Opened opened, open_invitation(invitation));
+  if (opened == Opened::kNow)
+    talk::info("the invitation of {} is opened, and its key kept here", invitation.title());
+  else
+    talk::info("the invitation of {} was opened here before", invitation.title());
+  options.host_or_session = invitation.server();
+  if (options.room.empty()) options.room = invitation.room.view();
+  const bool dances = invitation.role != KeyKind::kListener;
+  if (options.guests.empty() && dances) options.guests.emplace_back(invitation.guest.view());
+  return {};
 }
 
 Result<HouseConfig> session_of(const JoinOptions& options) {
@@ -143,7 +167,10 @@ std::vector<std::string> viewer_arguments(const JoinOptions& options, const Hous
   return arguments;
 }
 
-Result<void> run_join(const JoinOptions& options) {
+Result<void> run_join(JoinOptions options) {
+  if (is_invitation(options.host_or_session)) {
+    if (auto used = use_invitation(options); !used) return used;
+  }
   DANCE_TRY(const HouseConfig session, session_of(options));
   DANCE_TRY(auto poller, Poller::create());
   if (auto stops = poller->stop_on_signals(); !stops) return stops;
@@ -181,8 +208,9 @@ int main(int argc, char** argv) {
   dance::JoinOptions options;
   dance::CommandLine line("All of a house in one: manager, link, hosted producers, viewer.",
                           "dance join");
-  line.add("HOST|SESSION", options.host_or_session,
-           "a session file (.toml), or the server's HOST[:PORT]")
+  line.add("HOST|SESSION|INVITATION", options.host_or_session,
+           "a session file (.toml), the server's HOST[:PORT], or the link of an invitation, in "
+           "quotes")
       .required();
   line.add("--guest", options.guests, "who dances here, instead of the session file's guests")
       .guest_name();
@@ -218,5 +246,8 @@ int main(int argc, char** argv) {
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");
   line.footer(dance::kExamples);
-  return dance::run_program(line, argc, argv, [&] { return dance::run_join(options); });
+  return dance::run_program(line, argc, argv, [&] {
+    dance::hide_invitations(argc, argv);
+    return dance::run_join(options);
+  });
 }

@@ -9,13 +9,15 @@
 #include "core/net/address.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "tunnel/invitation/open_invitation.h"
 #include "tunnel/seal/key_files.h"
 
 namespace dance {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
-  dance key                            asks for the line that the server's keeper gave you
+  dance key                            asks for the line that the server's keeper gave you:
+                                       a key, or an invitation, which it opens
   dance key < line.txt                 takes it from a file
   dance key --list                     which servers let you in, and as whom
   dance key --remove alice@dance.example.org:7400
@@ -28,7 +30,7 @@ struct KeyOptions {
   bool list = false;
 };
 
-Result<HouseKey> asked_key() {
+Result<std::string> asked_line() {
   std::string line;
   {
     const SecretPrompt prompt;  // before the prompt is printed, so that pasting at once works
@@ -36,7 +38,19 @@ Result<HouseKey> asked_key() {
     std::getline(std::cin, line);
   }
   if (line.empty()) return fail("nothing was pasted; the keys are as they were");
-  return HouseKey::parse(line);
+  return line;
+}
+
+// The key is then where this program keeps keys.
+Result<void> open_pasted(const std::string& line) {
+  DANCE_TRY(const Invitation invitation, parse_invitation(line));
+  if (auto opened = open_invitation(invitation); !opened)
+    return tl::make_unexpected(opened.error());
+  const bool dances = invitation.role != KeyKind::kListener;
+  talk::info("the invitation is opened; now: dance join {}{}{}", invitation.server(),
+             dances ? " --guest " + std::string(invitation.guest.view()) : "",
+             invitation.room.is_set() ? " --room " + std::string(invitation.room.view()) : "");
+  return {};
 }
 
 Result<void> run_key(const KeyOptions& options) {
@@ -61,11 +75,25 @@ Result<void> run_key(const KeyOptions& options) {
                   "; --list says which there are");
     return write_secret(path, keys.text());
   }
-  DANCE_TRY(HouseKey key, asked_key());
+  DANCE_TRY(const std::string line, asked_line());
+  if (is_invitation(line)) {
+    if (!options.file.empty() || !options.server.empty())
+      return fail(
+          "an invitation says its server, and its key is kept with the others: leave out "
+          "--file and --server");
+    return open_pasted(line);
+  }
+  DANCE_TRY(HouseKey key, HouseKey::parse(line));
   if (!options.server.empty()) {
     key.server = server_name_of(options.server, 0);
     if (!HouseKey::parse(key.line()))
       return fail("--server '" + options.server + "' is no HOST or HOST:PORT");
+  }
+  // What another program of this user has kept meanwhile stays.
+  DANCE_TRY(const FileLock lock, FileLock::of_folder(path));
+  DANCE_TRY(const auto text_now, read_secret(path));
+  if (text_now) {
+    DANCE_TRY(keys, HouseKeys::parse(*text_now, path));
   }
   keys.put(key);
   if (auto written = write_secret(path, keys.text()); !written) return written;

@@ -92,6 +92,21 @@ completes "doctor" dance help do
 completes "--tempo" dance salsa --te
 completes "lead follow" dance salsa --role ""
 
+# Links of invitations: the entry that registers them, its icon, and the program that it starts, which tells a broken link.
+entry=$usr/share/applications/dance-invitation.desktop icon=$usr/share/icons/hicolor/scalable/apps/dancegraph.svg
+expect 'MimeType=x-scheme-handler/dance;' "$entry" "the desktop entry"
+expect 'Icon=dancegraph' "$entry" "the desktop entry"
+[ "$(head -n 2 "$icon" | grep -c '<?xml')" = 1 ] && expect '<svg xmlns="http://www.w3.org/2000/svg"' "$icon" "the icon"
+if command -v desktop-file-validate >/dev/null; then
+  desktop-file-validate "$entry" >desktop.said 2>&1 && [ ! -s desktop.said ] || { wrong "the desktop entry is none"; cat desktop.said; }
+fi
+opens=$(sed -n 's/^Exec=\(dance [a-z]*\) %u$/\1/p' "$entry")
+[ -n "$opens" ] || wrong "the desktop entry starts no command of dance with a link"
+! PATH="$usr/bin:$PATH" $opens 'dance://dance.example.org/salsa?v=1' >link.log 2>&1 || wrong "$opens opens a broken link"
+expect "the invitation names no guest" link.log "$opens"
+"$dance" server --invite alice --address dance.example.org --room salsa >invited 2>/dev/null || wrong "dance server --invite fails"
+expect "dance://dance.example.org/salsa?v=1&guest=alice&key=" invited "dance server --invite"
+
 # The unit, alone and in a cluster, with the installed program in its place.
 if command -v systemd-analyze >/dev/null; then
   sed "s|^ExecStart=dance |ExecStart=$dance |" "$usr/lib/systemd/system/dance-server.service" >dance-server.service

@@ -1,6 +1,7 @@
 #include "tunnel/seal/key_files.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,15 +36,20 @@ class Descriptor {
 
 std::string reason() { return std::strerror(errno); }
 
-// A whole file of its own beside `path`, for its owner alone; its name.
-Result<std::string> write_beside(const std::string& path, const std::string& text) {
-  const std::string folder = fs::path(path).parent_path().string();
+Result<std::string> make_folder_of(const std::string& path) {
+  std::string folder = fs::path(path).parent_path().string();
   std::error_code error;
   if (!folder.empty() && !fs::exists(folder, error)) {
     fs::create_directories(folder, error);
     if (error) return fail(folder + ": cannot be made: " + error.message());
     fs::permissions(folder, fs::perms::owner_all, error);
   }
+  return folder;
+}
+
+// A whole file of its own beside `path`, for its owner alone; its name.
+Result<std::string> write_beside(const std::string& path, const std::string& text) {
+  DANCE_TRY(const std::string folder, make_folder_of(path));
   const std::string beside = path + "." + std::to_string(secure_random_u64()) + ".new";
   const Descriptor file(open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
   if (file.get() < 0)
@@ -108,6 +114,31 @@ Result<void> write_secret(const std::string& path, const std::string& text) {
   const std::string why = reason();
   unlink(beside.c_str());
   return fail(path + ": cannot be written: " + why);
+}
+
+Result<FileLock> FileLock::of_folder(const std::string& path) {
+  DANCE_TRY(std::string folder, make_folder_of(path));
+  if (folder.empty()) folder = ".";
+  return take(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), folder);
+}
+
+Result<FileLock> FileLock::of_file(const std::string& path) {
+  if (auto folder = make_folder_of(path); !folder) return tl::make_unexpected(folder.error());
+  return take(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOCTTY, 0600), path);
+}
+
+Result<FileLock> FileLock::take(int fd, const std::string& name) {
+  if (fd < 0) return fail(name + ": cannot be opened to lock it: " + reason() + "; is it yours?");
+  FileLock lock(fd);
+  while (flock(fd, LOCK_EX) != 0)
+    if (errno != EINTR)
+      return fail(name + ": cannot be locked: " + reason() +
+                  "; keep keys on a disk of this machine");
+  return lock;
+}
+
+FileLock::~FileLock() {
+  if (fd_ >= 0) close(fd_);
 }
 
 Result<PresharedKey> local_key() {

@@ -3,12 +3,13 @@
 //
 // Units/frames: none.
 // Ownership:    plain values.
-// Threads:      any; two programs may write at once, and one of them wins.
+// Threads:      any. Who reads, changes and writes a file holds its lock meanwhile.
 // Failure:      each says which file, why, and the cure.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/result.h"
 #include "tunnel/seal/house_keys.h"
@@ -22,6 +23,28 @@ Result<std::string> key_folder();
 // Refuses what others may read. nullopt: there is no such file.
 Result<std::optional<std::string>> read_secret(const std::string& path);
 Result<void> write_secret(const std::string& path, const std::string& text);
+
+// Held by one program at a time, until it ends or the object goes. Taking it waits for as long as
+// another holds it.
+class FileLock {
+ public:
+  // Of all files in the folder of `path`, which is made where there is none.
+  static Result<FileLock> of_folder(const std::string& path);
+  // Of something else: an empty file of that name, which stays.
+  static Result<FileLock> of_file(const std::string& path);
+  ~FileLock();
+  FileLock(FileLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  FileLock& operator=(FileLock&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+
+ private:
+  explicit FileLock(int fd) : fd_(fd) {}
+  static Result<FileLock> take(int fd, const std::string& name);
+
+  int fd_;
+};
 
 // The key between programs on this machine, made by the first that needs it.
 constexpr const char* kLocalKeyName = "local";

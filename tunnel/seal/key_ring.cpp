@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/base/take_line.h"
+#include "tunnel/seal/utc_text.h"
 
 namespace dance {
 namespace {
 
 constexpr std::array<std::string_view, 4> kKindNames{"guest", "host", "listener", "room"};
+constexpr std::array<std::string_view, 3> kInvitationWords{"invited", "used", "revoked"};
+constexpr std::int64_t kInvitationsAreKnown_s = 24 * 3600;
 
 // The next word of a line, and the line without it.
 std::string_view take_word(std::string_view& line) {
@@ -25,10 +29,26 @@ std::string said(std::string_view word) {
   return word.size() <= kMaxGuestIdLength ? "'" + std::string(word) + "'" : "a long word";
 }
 
+// Behind the key: what has become of an invitation, its key, and until when it is good.
+Result<std::optional<InvitationKey>> parse_invitation_words(std::string_view line,
+                                                            const std::string& where) {
+  const std::string_view word = take_word(line), key = take_word(line), until = take_word(line);
+  if (word.empty()) return std::optional<InvitationKey>();
+  const auto known = std::find(kInvitationWords.begin(), kInvitationWords.end(), word);
+  const auto parsed = PresharedKey::parse(key);
+  const auto until_s = parse_utc(until);
+  if (known == kInvitationWords.end() || !parsed || !until_s || !take_word(line).empty())
+    return fail(where +
+                ": a line is NAME KIND ROOM KEY, and of an invitation, behind it, invited, used or "
+                "revoked, its key and until when; make one with dance server --invite");
+  return std::optional(InvitationKey{
+      *parsed, *until_s, static_cast<InvitationState>(known - kInvitationWords.begin())});
+}
+
 Result<KeyEntry> parse_entry(std::string_view line, const std::string& where) {
   const std::string_view name = take_word(line), kind = take_word(line), room = take_word(line),
                          key = take_word(line);
-  if (key.empty() || !take_word(line).empty())
+  if (key.empty())
     return fail(where + ": a line is NAME KIND ROOM KEY; make one with dance server --new-guest");
   KeyEntry entry;
   const auto id = GuestId::parse(name);
@@ -45,6 +65,16 @@ Result<KeyEntry> parse_entry(std::string_view line, const std::string& where) {
                   ": 1 to 24 characters of a-z, 0-9 and '-', or * for every room");
     entry.room = *room_id;
   }
+  DANCE_TRY(entry.invitation, parse_invitation_words(line, where));
+  entry.has_key = key != "-";
+  const bool is_used = entry.invitation && entry.invitation->state == InvitationState::kUsed;
+  if (entry.invitation ? is_used != entry.has_key : !entry.has_key)
+    return fail(where +
+                ": - stands for the key of a guest who is invited, or was, and only there; make "
+                "another with dance server --invite");
+  if (entry.invitation && entry.kind == KeyKind::kRoom)
+    return fail(where + ": an invitation is for one guest, and not for a room");
+  if (!entry.has_key) return entry;
   // Never in the message: it may be a key with one character too many.
   const auto parsed = PresharedKey::parse(key);
   if (!parsed)
@@ -67,7 +97,14 @@ std::optional<KeyKind> find_key_kind(std::string_view name) {
 
 std::string line_of(const KeyEntry& entry) {
   return std::string(entry.name.view()) + " " + std::string(key_kind_name(entry.kind)) + " " +
-         (entry.room.is_set() ? std::string(entry.room.view()) : "*") + " " + entry.key.text();
+         (entry.room.is_set() ? std::string(entry.room.view()) : "*") + " " +
+         (entry.has_key ? entry.key.text() : "-") +
+         (entry.invitation
+              ? " " +
+                    std::string(
+                        kInvitationWords[static_cast<std::size_t>(entry.invitation->state)]) +
+                    " " + entry.invitation->key.text() + " " + utc_text(entry.invitation->until_s)
+              : "");
 }
 
 Result<KeyRing> KeyRing::parse(std::string_view text, const std::string& name) {
@@ -96,17 +133,33 @@ std::string KeyRing::text() const {
   return text;
 }
 
-const KeyEntry* KeyRing::find(std::string_view name) const {
+const KeyEntry* KeyRing::entry_of(std::string_view name) const {
   const auto place = std::lower_bound(
       entries_.begin(), entries_.end(), name,
       [](const KeyEntry& entry, std::string_view wanted) { return entry.name.view() < wanted; });
   return place != entries_.end() && place->name.view() == name ? &*place : nullptr;
 }
 
+KeyEntry* KeyRing::entry_of(std::string_view name) {
+  return const_cast<KeyEntry*>(std::as_const(*this).entry_of(name));
+}
+
+const KeyEntry* KeyRing::find(std::string_view name) const {
+  const KeyEntry* entry = entry_of(name);
+  return entry != nullptr && entry->has_key ? entry : nullptr;
+}
+
+const KeyEntry* KeyRing::find_invitation(std::string_view name) const {
+  const KeyEntry* entry = entry_of(name);
+  return entry != nullptr && entry->invitation ? entry : nullptr;
+}
+
 bool KeyRing::is_own_name(std::string_view name) const {
   for (;;) {
-    const KeyEntry* entry = find(name);
-    if (entry != nullptr && entry->kind != KeyKind::kRoom) return true;
+    const KeyEntry* entry = entry_of(name);
+    if (entry != nullptr && entry->kind != KeyKind::kRoom &&
+        (entry->has_key || entry->is_invited()))
+      return true;
     const auto dash = name.rfind('-');
     if (dash == std::string_view::npos) return false;
     name = name.substr(0, dash);
@@ -114,17 +167,72 @@ bool KeyRing::is_own_name(std::string_view name) const {
 }
 
 bool KeyRing::add(const KeyEntry& entry) {
+  if (KeyEntry* known = entry_of(entry.name.view())) {
+    if (known->has_key || known->is_invited()) return false;
+    *known = entry;
+    return true;
+  }
+  if (entries_.size() == kMost) return false;
   const auto place =
       std::lower_bound(entries_.begin(), entries_.end(), entry,
                        [](const KeyEntry& a, const KeyEntry& b) { return a.name < b.name; });
-  if (place != entries_.end() && place->name == entry.name) return false;
-  if (entries_.size() == kMost) return false;
   entries_.insert(place, entry);
   return true;
 }
 
+bool KeyRing::invite(const KeyEntry& entry) {
+  KeyEntry* known = entry_of(entry.name.view());
+  if (known == nullptr) return add(entry);
+  if (known->has_key) return false;
+  *known = entry;
+  return true;
+}
+
 bool KeyRing::remove(std::string_view name) {
-  return std::erase_if(entries_, [&](const KeyEntry& e) { return e.name.view() == name; }) > 0;
+  KeyEntry* entry = entry_of(name);
+  if (entry == nullptr || !(entry->has_key || entry->is_invited())) return false;
+  if (!entry->invitation) {
+    entries_.erase(entries_.begin() + (entry - entries_.data()));
+    return true;
+  }
+  entry->key = PresharedKey();
+  entry->has_key = false;
+  entry->invitation->state = InvitationState::kRevoked;
+  return true;
+}
+
+std::optional<Binding> KeyRing::settled_binding(std::string_view name, const PresharedKey& lasting,
+                                                std::int64_t now_s) const {
+  const KeyEntry* entry = find_invitation(name);
+  if (entry == nullptr) return Binding::kUnknown;
+  switch (entry->invitation->state) {
+    case InvitationState::kRevoked:
+      return Binding::kRevoked;
+    case InvitationState::kUsed:
+      return entry->key == lasting ? Binding::kBound : Binding::kUsed;
+    case InvitationState::kOpen:
+      break;
+  }
+  if (now_s >= entry->invitation->until_s) return Binding::kExpired;
+  // The invitation's own key would be known to all who have read it.
+  if (entry->invitation->key == lasting) return Binding::kUsed;
+  return std::nullopt;
+}
+
+Binding KeyRing::bind(std::string_view name, const PresharedKey& lasting, std::int64_t now_s) {
+  if (const auto settled = settled_binding(name, lasting, now_s)) return *settled;
+  KeyEntry& entry = *entry_of(name);
+  entry.key = lasting;
+  entry.has_key = true;
+  entry.invitation->state = InvitationState::kUsed;
+  return Binding::kBound;
+}
+
+void KeyRing::forget_invitations(std::int64_t now_s) {
+  for (KeyEntry& entry : entries_)
+    if (entry.invitation && now_s - entry.invitation->until_s > kInvitationsAreKnown_s)
+      entry.invitation.reset();
+  std::erase_if(entries_, [](const KeyEntry& it) { return !it.has_key && !it.invitation; });
 }
 
 }  // namespace dance

@@ -24,6 +24,12 @@ PresharedKey PresharedKey::make() {
   return key;
 }
 
+PresharedKey PresharedKey::of(std::span<const std::uint8_t, kBytes> bytes) {
+  PresharedKey key;
+  std::copy(bytes.begin(), bytes.end(), key.bytes_.begin());
+  return key;
+}
+
 std::optional<PresharedKey> PresharedKey::parse(std::string_view text) {
   if (text.size() != kTextLength) return std::nullopt;
   std::array<unsigned char, kPaddedLength> padded;
@@ -52,6 +58,25 @@ std::string PresharedKey::text() const {
   std::string text(padded.begin(), padded.begin() + kTextLength);
   for (char& c : text) c = c == '+' ? '-' : c == '/' ? '_' : c;
   OPENSSL_cleanse(padded.data(), padded.size());
+  return text;
+}
+
+std::string PresharedKey::fingerprint() const {
+  // With a label of its own: no other use of the key gives the same digits.
+  constexpr std::string_view kLabel = "dance key fingerprint";
+  std::array<unsigned char, kLabel.size() + kBytes> labelled;
+  std::copy(kLabel.begin(), kLabel.end(), labelled.begin());
+  std::copy(bytes_.begin(), bytes_.end(), labelled.begin() + kLabel.size());
+  std::array<unsigned char, EVP_MAX_MD_SIZE> hash;
+  const int done =
+      EVP_Digest(labelled.data(), labelled.size(), hash.data(), nullptr, EVP_sha256(), nullptr);
+  DANCE_ASSERT(done == 1, done);
+  OPENSSL_cleanse(labelled.data(), labelled.size());
+  std::string text;
+  for (std::size_t i = 0; i < kFingerprintLength / 2; ++i) {
+    text += "0123456789abcdef"[hash[i] >> 4];
+    text += "0123456789abcdef"[hash[i] & 15];
+  }
   return text;
 }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,7 +29,12 @@ class PresharedKey {
 
   static PresharedKey make();
   static std::optional<PresharedKey> parse(std::string_view text);
+  static PresharedKey of(std::span<const std::uint8_t, kBytes> bytes);
   std::string text() const;
+  // By which files say which key is meant without showing it: hexadecimal digits that a key has
+  // and that lead back to none.
+  static constexpr std::size_t kFingerprintLength = 16;
+  std::string fingerprint() const;
 
   const std::array<std::uint8_t, kBytes>& bytes() const { return bytes_; }
   bool operator==(const PresharedKey& o) const;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace dance::seal {
 
@@ -76,6 +77,15 @@ std::optional<Bytes> cookie_of(Bytes records);
 constexpr std::uint8_t kPathQuestion = 0xf0;
 constexpr std::uint8_t kPathAnswer = 0xf1;
 constexpr std::size_t kPathBytes = 1 + 8;
+// In a session that an invitation opened there is nothing but these: a link names the key that it
+// has made, 32 bytes, until the server says in one byte what has become of that (Binding).
+constexpr std::uint8_t kBindingWish = 0xf2;
+constexpr std::uint8_t kBindingAnswer = 0xf3;
+constexpr std::size_t kBindingWishBytes = 1 + 32;
+constexpr std::size_t kBindingAnswerBytes = 1 + 1;
+// A link that comes with an invitation calls itself this and the guest's name: no guest can be
+// called so, as a name has no colon.
+constexpr std::string_view kInvitedPrefix = "invited:";
 
 // What links said hello with before sessions were sealed, and the answer that they understand: that
 // the server speaks a newer version.

@@ -58,7 +58,10 @@ std::optional<PresharedKey> SealServer::find_key(ssl_st* ssl, std::string_view i
   const auto handshake = std::find_if(handshakes_.begin(), handshakes_.end(),
                                       [&](const auto& h) { return h.channel.get() == &channel; });
   if (handshake == handshakes_.end()) return std::nullopt;
-  const KeyEntry* entry = keys_->find(identity);
+  const bool is_invited = identity.starts_with(seal::kInvitedPrefix);
+  const KeyEntry* entry = is_invited
+                              ? keys_->find_invitation(identity.substr(seal::kInvitedPrefix.size()))
+                              : keys_->find(identity);
   if (entry == nullptr) {
     reject(SealReject::kUnknownName);
     return std::nullopt;
@@ -69,7 +72,8 @@ std::optional<PresharedKey> SealServer::find_key(ssl_st* ssl, std::string_view i
   }
   handshake->key = *entry;
   handshake->is_known = true;
-  return entry->key;
+  handshake->is_invited = is_invited;
+  return is_invited ? entry->invitation->key : entry->key;
 }
 
 void SealServer::on_records(const Address& from, const seal::Opening& opening, MonoTime now) {
@@ -152,12 +156,13 @@ void SealServer::go_on(std::size_t index, seal::Bytes records, MonoTime now) {
 void SealServer::finish(std::size_t index, MonoTime now) {
   Handshake& handshake = handshakes_[index];
   // The key may have been taken back while the handshake was under way.
-  if (handshake.is_known && !is_in_ring(handshake.key)) {
+  if (handshake.is_known && !is_in_ring(handshake.key, handshake.is_invited)) {
     reject(SealReject::kWrongKey);
     return drop_handshake(index);
   }
   Peer peer;
   peer.key = handshake.key;
+  peer.is_invited = handshake.is_invited;
   if (!handshake.is_known) {  // no key: a certificate
     const auto name = GuestId::parse(handshake.channel->certificate_name());
     if (!name) {
@@ -172,24 +177,26 @@ void SealServer::finish(std::size_t index, MonoTime now) {
   peer.last_heard = now;
   drop_handshake(index);
   const PeerId id = peer.channel->id();
-  if (peers_.contains(id) || !make_place(peer.key, now)) return reject(SealReject::kFull);
+  if (peers_.contains(id) || !make_place(peer, now)) return reject(SealReject::kFull);
   ++counters_.handshakes_done;
   peers_.emplace(id, std::move(peer));
 }
 
 // Where there is no place left, for this key or for anybody, who has been silent longest makes it.
-bool SealServer::make_place(const KeyEntry& key, MonoTime now) {
+bool SealServer::make_place(const Peer& comer, MonoTime now) {
   std::size_t of_key = 0;
   const std::pair<const PeerId, Peer>* oldest = nullptr;
   const std::pair<const PeerId, Peer>* oldest_of_key = nullptr;
   for (const auto& entry : peers_) {
     if (oldest == nullptr || entry.second.last_heard < oldest->second.last_heard) oldest = &entry;
-    if (entry.second.key.name != key.name) continue;
+    if (entry.second.key.name != comer.key.name || entry.second.is_invited != comer.is_invited)
+      continue;
     ++of_key;
     if (oldest_of_key == nullptr || entry.second.last_heard < oldest_of_key->second.last_heard)
       oldest_of_key = &entry;
   }
-  const bool is_key_full = of_key >= limits_.peers_per_key;
+  const std::size_t most = comer.is_invited ? limits_.peers_per_invitation : limits_.peers_per_key;
+  const bool is_key_full = of_key >= most;
   if (!is_key_full && peers_.size() < limits_.peers) return true;
   const auto* goes = is_key_full ? oldest_of_key : oldest;
   if (now - goes->second.last_heard < kMayBeReplaced) return false;

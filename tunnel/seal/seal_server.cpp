@@ -114,7 +114,26 @@ void SealServer::on_compact(const Address& from, const seal::Opening& opening, M
   if (is_path_answer(peer, from, plain)) return;
   if (!peer.is_proven && peer.channel->peer() == from)
     ask_path(opening.id, peer, seal::kIdBytes + opening.body.size(), now);
+  if (peer.is_invited) return on_invited(opening.id, peer, plain);
   handlers_.on_datagram(opening.id, peer.key, plain, received, now);
+}
+
+// An invitation opens no room: it only lets a house name the key that it will come with.
+void SealServer::on_invited(PeerId id, const Peer& peer, seal::Bytes plain) {
+  if (plain.size() != seal::kBindingWishBytes || plain[0] != seal::kBindingWish)
+    return reject(SealReject::kMalformed);
+  const KeyEntry key = peer.key;  // the answer may end the peer
+  const PresharedKey lasting = PresharedKey::of(plain.subspan<1, PresharedKey::kBytes>());
+  if (handlers_.on_binding)
+    handlers_.on_binding(id, key, lasting);
+  else
+    answer_binding(id, Binding::kNotHere);
+}
+
+void SealServer::answer_binding(PeerId to, Binding binding) {
+  const std::array<std::uint8_t, seal::kBindingAnswerBytes> answer{
+      seal::kBindingAnswer, static_cast<std::uint8_t>(binding)};
+  send(to, answer);
 }
 
 // To another address the peer goes on at once, and hears at most three times what it says until it
@@ -200,16 +219,21 @@ Address SealServer::address_of(PeerId peer) const {
   return found == peers_.end() ? Address() : found->second.channel->peer();
 }
 
-bool SealServer::is_in_ring(const KeyEntry& key) const {
+bool SealServer::is_in_ring(const KeyEntry& key, bool is_invited) const {
+  if (is_invited) {
+    const KeyEntry* entry = keys_->find_invitation(key.name.view());
+    return entry != nullptr && key.invitation && entry->invitation->key == key.invitation->key;
+  }
   const KeyEntry* entry = keys_->find(key.name.view());
-  return entry != nullptr && *entry == key;
+  return entry != nullptr && entry->kind == key.kind && entry->room == key.room &&
+         entry->key == key.key && entry->is_local == key.is_local;
 }
 
 void SealServer::set_keys(std::shared_ptr<const KeyRing> keys) {
   keys_ = std::move(keys);
   std::vector<PeerId> gone;
   for (const auto& [id, peer] : peers_) {
-    if (!peer.has_certificate && !is_in_ring(peer.key)) gone.push_back(id);
+    if (!peer.has_certificate && !is_in_ring(peer.key, peer.is_invited)) gone.push_back(id);
   }
   for (const PeerId id : gone) {
     peers_.at(id).channel->close();
@@ -238,7 +262,8 @@ MonoTime SealServer::tick(MonoTime now) {
   }
   std::vector<PeerId> silent;
   for (const auto& [id, peer] : peers_)
-    if (now - peer.last_heard > limits_.silence) silent.push_back(id);
+    if (now - peer.last_heard > (peer.is_invited ? limits_.invited_silence : limits_.silence))
+      silent.push_back(id);
   for (const PeerId id : silent) end(id);
   next_tick_ = !handshakes_.empty() ? now + kTickOfHandshakes
                : !peers_.empty()    ? now + kTickOfPeers

@@ -40,6 +40,9 @@ struct SealLimits {
   std::size_t handshakes_per_network = 32;
   // With one key, at a time.
   std::size_t peers_per_key = 256;
+  // With one invitation, and how long one may be silent: such a session has little to say.
+  std::size_t peers_per_invitation = 4;
+  Duration invited_silence = Duration::s(10);
   // Answers to datagrams of a session that has ended.
   SourceLimits::Rates notices{50.0, 200.0, 2000.0, 1000.0};
   // Handshakes of those who hear at the address that they name.
@@ -92,6 +95,8 @@ class SealServer {
   struct Handlers {
     std::function<void(PeerId, const KeyEntry&, seal::Bytes plain, MonoTime received, MonoTime now)>
         on_datagram;
+    // A house that came with an invitation has made a key: until answer_binding() it asks again.
+    std::function<void(PeerId, const KeyEntry&, const PresharedKey& lasting)> on_binding;
     std::function<void(PeerId)> on_end;  // the peer is gone: it closed, was silent, or lost its key
   };
   using RandomU64 = std::function<std::uint64_t()>;
@@ -106,6 +111,7 @@ class SealServer {
 
   void receive(const Address& from, seal::Bytes datagram, MonoTime received, MonoTime now);
   void send(PeerId to, seal::Bytes plain);
+  void answer_binding(PeerId to, Binding binding);
   // Ends what took too long; returns when to call again, MonoTime() = not before a datagram.
   MonoTime tick(MonoTime now);
   MonoTime next_deadline() const { return next_tick_; }
@@ -124,6 +130,7 @@ class SealServer {
     std::unique_ptr<SealChannel> channel;
     KeyEntry key;
     bool has_certificate = false;
+    bool is_invited = false;  // came with the invitation of that entry
     MonoTime last_heard;
     // An address that the peer has moved to hears little until it has answered.
     Address proven;
@@ -136,6 +143,7 @@ class SealServer {
     std::unique_ptr<SealChannel> channel;
     KeyEntry key;  // as the other side names itself; not set before it does
     bool is_known = false;
+    bool is_invited = false;
     MonoTime since;
     int datagrams = 0;
   };
@@ -164,7 +172,8 @@ class SealServer {
   void ask_path(PeerId id, Peer& peer, std::size_t heard, MonoTime now);
   bool is_path_answer(Peer& peer, const Address& from, seal::Bytes plain);
   void end(PeerId peer);
-  bool is_in_ring(const KeyEntry& key) const;
+  void on_invited(PeerId id, const Peer& peer, seal::Bytes plain);
+  bool is_in_ring(const KeyEntry& key, bool is_invited) const;
 
   // seal_handshakes.cpp
   void on_records(const Address& from, const seal::Opening& opening, MonoTime now);
@@ -172,7 +181,7 @@ class SealServer {
   void go_on(std::size_t handshake, seal::Bytes records, MonoTime now);
   void finish(std::size_t handshake, MonoTime now);
   void drop_handshake(std::size_t handshake);
-  bool make_place(const KeyEntry& key, MonoTime now);
+  bool make_place(const Peer& comer, MonoTime now);
   bool make_handshake_place(const Address& from);
   std::optional<PresharedKey> find_key(ssl_st* ssl, std::string_view identity);
   std::size_t make_cookie(const SealChannel& channel, std::uint64_t secret_age,

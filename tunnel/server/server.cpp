@@ -37,6 +37,7 @@ Result<std::unique_ptr<Server>> Server::open(const Address& local, const ServerO
                         self->to_session(now));
   };
   handlers.on_end = [core = &server->core_](PeerId peer) { core->forget(peer); };
+  handlers.on_binding = options.on_binding;
   SealLimits seal = options.seal;
   // A link that begins anew has two for a while.
   seal.peers = std::max(seal.peers, 2 * options.limits.sessions);
@@ -100,6 +101,11 @@ MonoTime Server::next_deadline() const {
 
 void Server::set_keys(std::shared_ptr<const KeyRing> keys) {
   door_->set_keys(std::move(keys));
+  socket_.flush();
+}
+
+void Server::answer_binding(PeerId peer, Binding binding) {
+  door_->answer_binding(peer, binding);
   socket_.flush();
 }
 

@@ -7,6 +7,7 @@
 // Failure:      open() names the port that cannot be had and the cure.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -27,6 +28,8 @@ struct ServerOptions {
   std::shared_ptr<const KeyRing> keys;  // not nullptr
   std::optional<SealCertificates> certificates;
   ClusterNode* cluster = nullptr;  // settled; must outlive the server. nullptr: it stands alone
+  // As SealServer's; not set: invitations open nothing here.
+  std::function<void(PeerId, const KeyEntry&, const PresharedKey& lasting)> on_binding;
 };
 
 // What a key lets its holder do.
@@ -42,6 +45,8 @@ class Server {
 
   // From now on these keys count.
   void set_keys(std::shared_ptr<const KeyRing> keys);
+  // What has become of a house's wish, by on_binding.
+  void answer_binding(PeerId peer, Binding binding);
   // Tells every link, and the cluster, so that none has to notice the silence.
   void say_goodbye();
   // What came from the cluster goes out. Call after each batch of it.

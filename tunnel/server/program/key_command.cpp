@@ -5,14 +5,18 @@
 #include "core/program/talk.h"
 #include "tunnel/seal/house_keys.h"
 #include "tunnel/seal/key_files.h"
+#include "tunnel/seal/utc_text.h"
 
 namespace dance {
 namespace {
 
+// Of a new key or of an invitation, without either.
 Result<KeyEntry> entry_of(const KeyCommand& command) {
   KeyEntry entry;
   const bool is_room = !command.new_room_key.empty();
-  const std::string& name = is_room ? command.new_room_key : command.new_guest;
+  const std::string& name = is_room                   ? command.new_room_key
+                            : !command.invite.empty() ? command.invite
+                                                      : command.new_guest;
   const auto id = GuestId::parse(name);
   if (!id) return fail("'" + name + "': " + kGuestIdRule);
   if (name == kLocalKeyName)
@@ -27,16 +31,25 @@ Result<KeyEntry> entry_of(const KeyCommand& command) {
                   "': a room's name is 1 to 24 characters of a-z, 0-9 and '-'");
     entry.room = *room;
   }
-  entry.key = PresharedKey::make();
   return entry;
+}
+
+std::string state_of(const KeyEntry& entry, std::int64_t now_s) {
+  if (!entry.is_invited()) return "";
+  return (now_s < entry.invitation->until_s ? "invited, until " : "invitation expired ") +
+         utc_shown(entry.invitation->until_s);
 }
 
 void print_list(const KeyRing& ring) {
   std::printf("%-24s  %-8s  %s\n", "name", "kind", "room");
-  for (const KeyEntry& entry : ring.entries())
-    std::printf("%-24s  %-8s  %s\n", entry.name.c_str(),
-                std::string(key_kind_name(entry.kind)).c_str(),
-                entry.room.is_set() ? entry.room.c_str() : "every room");
+  const std::int64_t now_s = utc_now_s();
+  for (const KeyEntry& entry : ring.entries()) {
+    if (!entry.has_key && !entry.is_invited()) continue;
+    const std::string state = state_of(entry, now_s);
+    std::printf(state.empty() ? "%-24s  %-8s  %s%s\n" : "%-24s  %-8s  %-24s  %s\n",
+                entry.name.c_str(), std::string(key_kind_name(entry.kind)).c_str(),
+                entry.room.is_set() ? entry.room.c_str() : "every room", state.c_str());
+  }
 }
 
 }  // namespace
@@ -52,11 +65,15 @@ Result<void> run_key_command(const KeyCommand& command, KeyStore& store) {
     if (!was_there)
       return fail("there is no key of '" + command.remove + "' in " + store.name() +
                   "; --list-keys says whose there are");
-    talk::info("{}'s key is gone; a server that runs lets nobody in with it from now on",
-               command.remove);
+    talk::info(
+        "{}'s key or invitation is gone; a server that runs lets nobody in with it from now on",
+        command.remove);
     return {};
   }
-  DANCE_TRY(const KeyEntry entry, entry_of(command));
+  DANCE_TRY(KeyEntry entry, entry_of(command));
+  if (!command.invite.empty())
+    return run_invite_command(entry, command.address, command.port, command.invitation, store);
+  entry.key = PresharedKey::make();
   HouseKey line;
   line.name = entry.name;
   line.room = entry.room;
@@ -67,8 +84,8 @@ Result<void> run_key_command(const KeyCommand& command, KeyStore& store) {
     return fail("--address '" + command.address + "' is no HOST or HOST:PORT");
   DANCE_TRY(const bool is_new, store.add(entry));
   if (!is_new)
-    return fail("'" + std::string(entry.name.view()) + "' has a key already in " + store.name() +
-                "; --remove-key takes it away");
+    return fail("'" + std::string(entry.name.view()) + "' has a key or an invitation already in " +
+                store.name() + "; --remove-key takes it away");
   std::printf("%s\n", line.line().c_str());
   return {};
 }

@@ -10,20 +10,25 @@
 
 #include <string>
 
+#include "tunnel/server/program/invite_command.h"
 #include "tunnel/server/program/key_store.h"
 
 namespace dance {
 
 struct KeyCommand {
   std::string new_guest;
+  std::string invite;
+  InviteOptions invitation;
   std::string new_room_key;
   std::string remove;
   bool list = false;
   KeyKind kind = KeyKind::kGuest;
   std::string room;     // the only one that the key opens; "" = every room
-  std::string address;  // HOST[:PORT] as guests reach this server, for the line that they paste
+  std::string address;  // HOST[:PORT] as guests reach this server, for the line that they get
+  std::uint16_t port = kInvitationPort;  // where `address` names none
   bool is_given() const {
-    return !new_guest.empty() || !new_room_key.empty() || !remove.empty() || list;
+    return !new_guest.empty() || !invite.empty() || !new_room_key.empty() || !remove.empty() ||
+           list;
   }
 };
 

@@ -3,6 +3,7 @@
 #include "core/program/talk.h"
 #include "tunnel/nats/values/nats_store.h"
 #include "tunnel/seal/key_files.h"
+#include "tunnel/seal/utc_text.h"
 #include "tunnel/server/program/cluster/cluster_keys.h"
 
 namespace dance {
@@ -15,18 +16,32 @@ class FileKeyStore final : public KeyStore {
   std::string name() const override { return path_; }
   Result<KeyRing> read() override { return load_server_keys(path_); }
   Result<bool> add(const KeyEntry& entry) override {
-    DANCE_TRY(KeyRing ring, read());
-    if (!ring.add(entry)) return false;
-    return write(ring);
+    return change([&](KeyRing& ring) { return ring.add(entry); });
+  }
+  Result<bool> invite(const KeyEntry& entry) override {
+    return change([&](KeyRing& ring) { return ring.invite(entry); });
+  }
+  Result<Binding> bind(const std::string& name, const PresharedKey& lasting) override {
+    Binding binding = Binding::kUnknown;
+    DANCE_TRY([[maybe_unused]] const bool is_written, change([&](KeyRing& ring) {
+                const auto settled = ring.settled_binding(name, lasting, utc_now_s());
+                binding = settled ? *settled : ring.bind(name, lasting, utc_now_s());
+                return !settled;
+              }));
+    return binding;
   }
   Result<bool> remove(const std::string& name) override {
-    DANCE_TRY(KeyRing ring, read());
-    if (!ring.remove(name)) return false;
-    return write(ring);
+    return change([&](KeyRing& ring) { return ring.remove(name); });
   }
 
  private:
-  Result<bool> write(const KeyRing& ring) {
+  // Nothing is written where `work` says that nothing has changed.
+  template <class Work>
+  Result<bool> change(const Work& work) {
+    DANCE_TRY(const FileLock lock, FileLock::of_folder(path_));
+    DANCE_TRY(KeyRing ring, read());
+    if (!work(ring)) return false;
+    ring.forget_invitations(utc_now_s());
     if (auto written = write_secret(path_, ring.text()); !written)
       return tl::make_unexpected(written.error());
     return true;
@@ -58,6 +73,12 @@ class ClusterKeyStore final : public KeyStore {
       return fail(name_ + " has " + std::to_string(values.size()) + " keys, and takes no more");
     return store_->add(entry.name.view(), line_of(entry));
   }
+  Result<bool> invite(const KeyEntry& entry) override {
+    return fail(no_invitations_line(entry.name.view()));
+  }
+  Result<Binding> bind(const std::string&, const PresharedKey&) override {
+    return Binding::kNotHere;
+  }
   Result<bool> remove(const std::string& name) override {
     DANCE_TRY(const auto values, store_->read_all());
     // Of a wrong entry too: that is its cure.
@@ -72,6 +93,13 @@ class ClusterKeyStore final : public KeyStore {
 };
 
 }  // namespace
+
+// Its servers may read its keys only: none of them could put another in an invitation's place.
+std::string no_invitations_line(std::string_view guest) {
+  return "a cluster takes no invitations, as its servers may not write its keys: make a key with "
+         "--new-guest " +
+         std::string(guest) + ", for the guest to paste into dance key";
+}
 
 std::unique_ptr<KeyStore> file_key_store(const std::string& path) {
   return std::make_unique<FileKeyStore>(path);

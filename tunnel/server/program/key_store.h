@@ -3,12 +3,13 @@
 //
 // Units/frames: none.
 // Ownership:    a store owns its connection.
-// Threads:      one; a bucket's calls wait for NATS.
+// Threads:      one; a bucket's calls wait for NATS, a file's for another program that changes it.
 // Failure:      each says which file or bucket, and the cure.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "core/base/result.h"
 #include "tunnel/nats/nats_options.h"
@@ -23,11 +24,18 @@ class KeyStore {
   virtual std::string name() const = 0;
   // Entries that are wrong are said on stderr, one line each, and left out.
   virtual Result<KeyRing> read() = 0;
-  // False where the name has a key already.
+  // False where the name has a key or an open invitation already.
   virtual Result<bool> add(const KeyEntry& entry) = 0;
+  // Takes the place of an open invitation; false where the name has a key.
+  virtual Result<bool> invite(const KeyEntry& entry) = 0;
+  // As KeyRing::bind(); what it says is written.
+  virtual Result<Binding> bind(const std::string& name, const PresharedKey& lasting) = 0;
   // False where there is none of that name.
   virtual Result<bool> remove(const std::string& name) = 0;
 };
+
+// What a cluster's store says to invite().
+std::string no_invitations_line(std::string_view guest);
 
 std::unique_ptr<KeyStore> file_key_store(const std::string& path);
 // The options' bucket does not count.

@@ -1,5 +1,7 @@
 #include "tunnel/server/program/server_keys.h"
 
+#include <algorithm>
+
 #include "tunnel/seal/key_files.h"
 
 namespace dance {
@@ -39,6 +41,12 @@ Result<bool> ServerKeys::read_again() {
   }
   was_bad_ = false;
   return true;
+}
+
+std::size_t ServerKeys::guest_count() const {
+  return static_cast<std::size_t>(std::ranges::count_if(ring_->entries(), [](const KeyEntry& it) {
+    return !it.is_local && (it.has_key || it.is_invited());
+  }));
 }
 
 void ServerKeys::set_cluster(std::map<GuestId, KeyEntry> keys) {

@@ -25,7 +25,8 @@ class ServerKeys {
   // With the key of this machine.
   std::shared_ptr<const KeyRing> ring() const { return ring_; }
   const std::string& path() const { return path_; }
-  std::size_t guest_count() const { return ring_->entries().size() - 1; }
+  // Guests and rooms that have a key, or an invitation that is open.
+  std::size_t guest_count() const;
   // True where the file had changed and was read again; its error, once, where it is bad.
   Result<bool> read_again();
   // From now on those of the cluster are these.

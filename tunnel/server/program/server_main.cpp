@@ -10,6 +10,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "tunnel/server/program/cluster/cluster_membership.h"
+#include "tunnel/server/program/invited_guests.h"
 #include "tunnel/server/program/key_command.h"
 #include "tunnel/server/program/server_keys.h"
 #include "tunnel/server/program/server_watch.h"
@@ -20,6 +21,10 @@ namespace {
 
 constexpr const char* kExamples = R"(Examples:
   dance server                                  for houses on this machine, on port 7400
+  dance server --invite alice --address dance.example.org
+                                                prints an invitation, for Alice to open
+  dance server --invite alice --room salsa --for 7d --qr
+                                                into one room, good for a week, as a QR code too
   dance server --new-guest alice --address dance.example.org
                                                 prints Alice's key, for her to paste into dance key
   dance server --bind 0.0.0.0                   for houses elsewhere: those who have a key
@@ -126,15 +131,6 @@ void log_status(const Server& server, const ServerCounters& before) {
       (c.bytes_out - before.bytes_out) / 1000);
 }
 
-// New keys count at once, and those that are gone no more.
-void read_keys_again(ServerKeys& keys, Server& server) {
-  const auto has_changed = keys.read_again();
-  if (!has_changed) return talk::warn("{}; the keys stay as they were", has_changed.error().what);
-  if (!*has_changed) return;
-  server.set_keys(keys.ring());
-  talk::info("{} keys now", keys.guest_count());
-}
-
 Result<std::optional<SealCertificates>> certificates_of(const ServerProgramOptions& options) {
   const SealCertificates& given = options.certificates;
   if (given.chain.empty() && given.private_key.empty() && given.authorities.empty())
@@ -155,11 +151,13 @@ std::vector<NamedCount> handshakes_of(const SealCounters& door) {
 
 // In the cluster's bucket where a cluster is named, or else in this server's file.
 Result<void> change_keys(const ServerProgramOptions& options, const ServerKeys& keys) {
-  if (options.cluster.urls.empty())
-    return run_key_command(options.keys, *file_key_store(keys.path()));
+  KeyCommand command = options.keys;
+  command.port = options.port;
+  if (options.cluster.urls.empty()) return run_key_command(command, *file_key_store(keys.path()));
+  if (!command.invite.empty()) return fail(no_invitations_line(command.invite));
   DANCE_TRY(const NatsOptions nats, nats_options_of(options.cluster));
   DANCE_TRY(const auto store, cluster_key_store(nats));
-  return run_key_command(options.keys, *store);
+  return run_key_command(command, *store);
 }
 
 // The keys of the file and of the cluster.
@@ -195,7 +193,15 @@ Result<void> run_server(const ServerProgramOptions& options) {
     unite_keys(keys, cluster->keys());
   }
   of.keys = keys.ring();
+  std::unique_ptr<InvitedGuests> invited;
+  if (!cluster) {
+    invited = std::make_unique<InvitedGuests>(keys, *poller);
+    of.on_binding = [&](PeerId peer, const KeyEntry& entry, const PresharedKey& lasting) {
+      invited->on_binding(peer, entry, lasting);
+    };
+  }
   DANCE_TRY(auto server, Server::open(local, of, *poller));
+  if (invited) invited->set_server(*server);
   if (cluster) {
     cluster->set_after_batch([&](MonoTime now) { server->end_cluster_turn(now); });
     cluster->set_on_keys([&] {
@@ -229,7 +235,7 @@ Result<void> run_server(const ServerProgramOptions& options) {
     talk::info("in a cluster with {} other servers, through {}",
                cluster->node().peers().all().size(), shown_urls(*nats_options_of(options.cluster)));
   if (!local.is_loopback() && keys.guest_count() == 0 && !of.certificates)
-    talk::warn("nobody elsewhere has a key yet: dance server --new-guest NAME makes one");
+    talk::warn("nobody elsewhere is invited or has a key yet: dance server --invite NAME does it");
 
   const MonoTime begin = mono_now();
   ServerCounters last_second, last_status;
@@ -308,6 +314,14 @@ int main(int argc, char** argv) {
            "HOST:PORT as guests reach this server, told to those of the others");
   line.add("--metrics", options.metrics,
            "HOST:PORT of a page of metrics for Prometheus; none unless asked for");
+  line.add("--invite", options.keys.invite,
+           "makes an invitation for NAME, prints the link that NAME opens, and ends");
+  line.add("--for", options.keys.invitation.valid_for,
+           "how long --invite is good: 90m, 24h, 7d; up to 90d")
+      .shows_default();
+  line.add_flag("--qr", options.keys.invitation.has_qr, "shows --invite as a QR code too");
+  line.add("--qr-file", options.keys.invitation.qr_file,
+           "writes the QR code of --invite into an .svg file that you alone may read");
   line.add("--new-guest", options.keys.new_guest,
            "makes a key for NAME, prints the line that NAME pastes, and ends");
   line.add_choice<dance::KeyKind>(
@@ -315,16 +329,16 @@ int main(int argc, char** argv) {
       {{"guest", dance::KeyKind::kGuest},
        {"host", dance::KeyKind::kHost},
        {"listener", dance::KeyKind::kListener}},
-      "what --new-guest may do: dance; set music and scene too; only hear");
-  line.add("--room", options.keys.room, "the only room that --new-guest may enter");
+      "what --invite or --new-guest may do: dance; set music and scene too; only hear");
+  line.add("--room", options.keys.room, "the only room that --invite or --new-guest may enter");
   line.add("--new-room-key", options.keys.new_room_key,
            "makes a key for all who come to ROOM, prints its line, and ends");
   line.add("--address", options.keys.address,
-           "HOST[:PORT] as guests reach this server, for the line that they paste");
+           "HOST[:PORT] as guests reach this server, for the line that they get");
   line.add("--remove-key", options.keys.remove,
-           "takes NAME's key away: NAME is out at once; and ends");
+           "takes NAME's key or invitation away: NAME is out at once; and ends");
   line.add_flag("--list-keys", options.keys.list,
-                "whose keys there are, without the keys; and ends");
+                "whose keys and open invitations there are, without the keys; and ends");
   line.add("--keys", options.key_file,
            "file of keys (else server-keys in the folder of the user's settings)");
   line.add("--certificate", options.certificates.chain,

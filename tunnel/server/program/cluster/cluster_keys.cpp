@@ -13,6 +13,8 @@ Result<KeyEntry> entry_in(const GuestId& name, std::string_view line) {
   DANCE_TRY(const KeyRing ring, KeyRing::parse(line, where));
   if (ring.entries().size() != 1 || ring.entries()[0].name != name)
     return fail(where + " is another's, or none");
+  if (ring.entries()[0].invitation)
+    return fail(where + " is an invitation, which a cluster does not take");
   return ring.entries()[0];
 }
 

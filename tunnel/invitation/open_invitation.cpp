@@ -1,0 +1,129 @@
+#include "tunnel/invitation/open_invitation.h"
+
+#include "tunnel/invitation/opened_invitations.h"
+#include "tunnel/seal/key_files.h"
+#include "tunnel/seal/utc_text.h"
+
+namespace dance {
+namespace {
+
+constexpr const char* kKeysFile = "/keys";
+constexpr const char* kOpenedFile = "/invitations";
+constexpr const char* kLockFile = "/invitations.lock";
+
+Result<HouseKeys> read_house_keys(const std::string& path) {
+  DANCE_TRY(const auto text, read_secret(path));
+  return text ? HouseKeys::parse(*text, path) : HouseKeys();
+}
+
+bool has_title(const HouseKeys& keys, const std::string& title) {
+  for (const HouseKey& key : keys.keys())
+    if (key.title() == title) return true;
+  return false;
+}
+
+// `dance key` may be writing at the same time.
+Result<void> keep_key(const std::string& path, const HouseKey& key) {
+  DANCE_TRY(const FileLock lock, FileLock::of_folder(path));
+  DANCE_TRY(HouseKeys keys, read_house_keys(path));
+  keys.put(key);
+  return write_secret(path, keys.text());
+}
+
+std::string expired_line(const Invitation& invitation, std::int64_t now_s) {
+  return "the invitation of " + invitation.title() + " was good until " +
+         utc_shown(invitation.until_s) + ", and it is " + utc_shown(now_s) +
+         " by this machine's clock: ask the server's keeper for another";
+}
+
+}  // namespace
+
+Result<Opened> open_invitation(const Invitation& invitation, const OpenInvitation& how) {
+  std::string folder = how.folder;
+  if (folder.empty()) {
+    DANCE_TRY(folder, key_folder());
+  }
+  const std::string keys_path = folder + kKeysFile, opened_path = folder + kOpenedFile;
+  // Two that open the same link at once would make two keys, of which the server takes one.
+  DANCE_TRY(const FileLock lock, FileLock::of_file(folder + kLockFile));
+  OpenedInvitations opened;
+  DANCE_TRY(const auto text, read_secret(opened_path));
+  if (text) {
+    DANCE_TRY(opened, OpenedInvitations::parse(*text, opened_path));
+  }
+  const std::string id = invitation.key.fingerprint();
+  DANCE_TRY(const HouseKeys keys, read_house_keys(keys_path));
+  if (opened.is_done(id) && has_title(keys, invitation.title())) return Opened::kBefore;
+
+  HouseKey key = invitation.house_key(PresharedKey::make());
+  if (const auto pending = opened.pending(id)) {
+    key.key = pending->key;  // the server may have it already
+  } else if (how.now_s >= invitation.until_s) {
+    return fail(expired_line(invitation, how.now_s));
+  } else {
+    opened.begin(id, key);
+    if (auto written = write_secret(opened_path, opened.text()); !written)
+      return tl::make_unexpected(written.error());
+  }
+  const auto ask = how.ask ? how.ask : ask_to_bind;
+  DANCE_TRY(const Binding binding, ask(invitation, key.key, how.patience));
+  if (binding != Binding::kBound) {
+    // A server that could not keep the key now may have kept it all the same; and that it does not
+    // know the invitation is said before either side has proved who it is: anybody on the way could.
+    if (binding != Binding::kNotKept && binding != Binding::kUnknown) {
+      opened.forget(id);
+      if (auto written = write_secret(opened_path, opened.text()); !written)
+        return tl::make_unexpected(written.error());
+    }
+    return fail(binding_line(binding, invitation));
+  }
+  // In this order: what ends between the two begins again above, with the same key.
+  if (auto kept = keep_key(keys_path, key); !kept) return tl::make_unexpected(kept.error());
+  opened.end(id, key);
+  if (auto written = write_secret(opened_path, opened.text()); !written)
+    return tl::make_unexpected(written.error());
+  return Opened::kNow;
+}
+
+Result<Opened> open_invitation(const Invitation& invitation) {
+  OpenInvitation how;
+  how.now_s = utc_now_s();
+  return open_invitation(invitation, how);
+}
+
+std::string binding_line(Binding binding, const Invitation& invitation) {
+  const std::string which = "the invitation of " + invitation.title();
+  const std::string guest(invitation.guest.view());
+  const std::string another =
+      ": ask the server's keeper for another (dance server --invite " + guest + ")";
+  switch (binding) {
+    case Binding::kBound:
+      return which + " is opened";
+    case Binding::kUsed:
+      return which + " was used already, by another house or another user" + another +
+             ", and say so if it was none of yours";
+    case Binding::kRevoked:
+      return which + " was revoked" + another;
+    case Binding::kExpired:
+      return which + " was good until " + utc_shown(invitation.until_s) + " by the server's clock" +
+             another;
+    case Binding::kNotKept:
+      return "the server " + invitation.server() +
+             " could not write its keys: its keeper finds the reason in its messages; then open "
+             "the invitation again";
+    case Binding::kNotHere:
+      return "the server " + invitation.server() +
+             " is one of a cluster, which takes no invitations: ask its keeper for a key (dance "
+             "server --new-guest " +
+             guest + "), and paste it into: dance key";
+    case Binding::kUnknown:
+    case Binding::kCount:
+      break;
+  }
+  return "the server " + invitation.server() + " does not know " + which +
+         ": a newer one has taken its place, its key was removed long ago, or another server made "
+         "it; ask for another (dance server --invite " +
+         guest + ")";
+}
+
+}  // namespace dance

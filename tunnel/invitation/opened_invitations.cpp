@@ -1,0 +1,102 @@
+#include "tunnel/invitation/opened_invitations.h"
+
+#include <algorithm>
+
+#include "core/base/take_line.h"
+
+namespace dance {
+namespace {
+
+constexpr std::string_view kPendingWord = "pending";
+constexpr std::string_view kDoneWord = "opened";
+constexpr std::size_t kMostTitle = 400;
+
+bool is_fingerprint(std::string_view text) {
+  return text.size() == PresharedKey::kFingerprintLength &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+}  // namespace
+
+Result<OpenedInvitations> OpenedInvitations::parse(std::string_view text, const std::string& name) {
+  OpenedInvitations made;
+  std::size_t number = 0;
+  while (!text.empty()) {
+    ++number;
+    std::string_view line = take_line(text);
+    if (line.empty() || line.front() == '#') continue;
+    const auto take_part = [&line] {
+      const std::string_view part = line.substr(0, line.find(' '));
+      line.remove_prefix(std::min(line.size(), part.size() + 1));
+      return part;
+    };
+    Row row;
+    row.invitation = take_part();
+    const std::string_view word = take_part();
+    const auto bad = [&] {
+      return fail(name + " line " + std::to_string(number) +
+                  ": no opened invitation; remove the line, and ask for another invitation if this "
+                  "house is not let in");
+    };
+    if (!is_fingerprint(row.invitation) || line.empty() || line.size() > kMostTitle) return bad();
+    if (word == kPendingWord) {
+      const auto key = HouseKey::parse(line);
+      if (!key) return bad();
+      row.pending = *key;
+      row.title = key->title();
+    } else if (word == kDoneWord) {
+      row.title = line;
+    } else {
+      return bad();
+    }
+    made.put(std::move(row));
+  }
+  return made;
+}
+
+std::string OpenedInvitations::text() const {
+  std::string text =
+      "# Invitations that were opened here. Anyone who reads this may enter in your name.\n";
+  for (const Row& row : rows_)
+    text += row.invitation + " " +
+            (row.pending ? std::string(kPendingWord) + " " + row.pending->line()
+                         : std::string(kDoneWord) + " " + row.title) +
+            "\n";
+  return text;
+}
+
+const OpenedInvitations::Row* OpenedInvitations::find(std::string_view invitation) const {
+  const auto found = std::find_if(rows_.begin(), rows_.end(),
+                                  [&](const Row& row) { return row.invitation == invitation; });
+  return found == rows_.end() ? nullptr : &*found;
+}
+
+std::optional<HouseKey> OpenedInvitations::pending(std::string_view invitation) const {
+  const Row* row = find(invitation);
+  return row != nullptr ? row->pending : std::nullopt;
+}
+
+bool OpenedInvitations::is_done(std::string_view invitation) const {
+  const Row* row = find(invitation);
+  return row != nullptr && !row->pending;
+}
+
+void OpenedInvitations::put(Row row) {
+  forget(row.invitation);
+  if (rows_.size() == kMost) rows_.erase(rows_.begin());
+  rows_.push_back(std::move(row));
+}
+
+void OpenedInvitations::begin(const std::string& invitation, const HouseKey& key) {
+  put({invitation, key.title(), key});
+}
+
+void OpenedInvitations::end(const std::string& invitation, const HouseKey& key) {
+  put({invitation, key.title(), std::nullopt});
+}
+
+void OpenedInvitations::forget(std::string_view invitation) {
+  std::erase_if(rows_, [&](const Row& row) { return row.invitation == invitation; });
+}
+
+}  // namespace dance
