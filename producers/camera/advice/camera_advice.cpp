@@ -68,23 +68,18 @@ bool CameraAdvice::is_said(Text text) const {
   return false;
 }
 
-// Two texts for one trouble are one too many: what is cut off is named, where it is one end only.
+// Two texts for one trouble are one too many.
 bool CameraAdvice::is_hidden_by_another(Text text) const {
-  const bool is_head_cut = is_said(Text::kCameraHeadCutOff);
-  const bool is_foot_cut = is_said(Text::kCameraFeetCutOff);
   switch (text) {
     case Text::kCameraTooDark:
     case Text::kCameraNobody:
     case Text::kCameraNoNetwork:
       return is_said(Text::kCameraLensCovered);
-    case Text::kCameraStepBack:
-      return is_head_cut != is_foot_cut;
-    case Text::kCameraHeadCutOff:
     case Text::kCameraFeetCutOff:
-      return is_head_cut && is_foot_cut;
+      return is_said(Text::kCameraHeadCutOff);
     case Text::kCameraHandsCutOff:
     case Text::kCameraLegsHidden:
-      return is_head_cut || is_foot_cut || is_said(Text::kCameraStepBack);
+      return is_said(Text::kCameraHeadCutOff) || is_said(Text::kCameraFeetCutOff);
     default:
       return false;
   }
@@ -97,12 +92,13 @@ void CameraAdvice::say(Text text) {
 void CameraAdvice::choose() {
   const Text before = texts_[0];
   count_ = 0;
-  const bool is_too_large = is_said(Text::kCameraHeadCutOff) && is_said(Text::kCameraFeetCutOff);
   const std::span<const CameraRule> rules = camera_rules();
   for (std::size_t i = 0; i < rules.size(); ++i) {
     const Text text = rules[i].text;
-    const bool is_due = rules_[i].is_said || (text == Text::kCameraStepBack && is_too_large);
-    if (is_due && !is_hidden_by_another(text)) say(text);
+    if (!rules_[i].is_said || is_hidden_by_another(text)) continue;
+    // Where both ends are cut off, tilting the camera mends neither.
+    const bool is_too_near = text == Text::kCameraHeadCutOff && is_said(Text::kCameraFeetCutOff);
+    say(is_too_near ? Text::kCameraStepBack : text);
   }
   if (count_ > 0) return;
   const bool is_any_met =

@@ -74,7 +74,6 @@ constexpr std::array kRules{
     CameraRule{Text::kCameraTooBright, white, 0.45f, 0.35f},
     CameraRule{Text::kCameraNoNetwork, no_network, 1.0f, 0.0f},
     CameraRule{Text::kCameraNobody, nobody, 1.0f, 0.0f},
-    CameraRule{Text::kCameraStepBack, height, 0.98f, 0.94f},
     CameraRule{Text::kCameraHeadCutOff, head_outside, 0.0f, -0.015f},
     CameraRule{Text::kCameraFeetCutOff, feet_outside, 0.0f, -0.015f},
     CameraRule{Text::kCameraLegsHidden, legs_hidden, 0.6f, 0.4f},

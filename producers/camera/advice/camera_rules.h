@@ -32,7 +32,7 @@ struct CameraRule {
   float ends;
 };
 
-constexpr std::size_t kCameraRules = 15;
+constexpr std::size_t kCameraRules = 14;
 // What matters more comes first.
 std::span<const CameraRule, kCameraRules> camera_rules();
 

@@ -13,6 +13,7 @@
 #include "formats/camera_view/body_in_frame.h"
 #include "producers/camera/check/camera_cause.h"
 #include "producers/camera/check/picture_light.h"
+#include "producers/camera/seen_body.h"
 #include "viewer/words/texts.h"
 
 namespace dance {
@@ -31,21 +32,6 @@ template <std::size_t kCapacity>
 void assign(FixedString<kCapacity>& to, const std::string& text) {
   const std::string line = printable(text).substr(0, kCapacity);
   if (!to.assign(line)) to = {};
-}
-
-SeenBody2d in_shares(const BodyLandmarks& body, const cv::Size& picture) {
-  SeenBody2d seen;
-  seen.is_found = body.found;
-  if (!body.found) return seen;
-  const auto share = [](float px, int size) {
-    return std::clamp(px / static_cast<float>(size), -kFarthestPoint, kFarthestPoint);
-  };
-  static_assert(kSeenPoints == kLandmarkCount);
-  for (std::size_t i = 0; i < kSeenPoints; ++i)
-    seen.points[i] = {share(body.image_px[i].x(), picture.width),
-                      share(body.image_px[i].y(), picture.height),
-                      std::clamp(body.visibility[i], 0.0f, 1.0f)};
-  return seen;
 }
 
 }  // namespace
@@ -165,7 +151,7 @@ void CaptureCheck::look(const Frame& frame, MonoTime now) {
   next_view_ = now + kViewEvery;
   ++pictures_;
   facts_.body = {};
-  if (estimator_) facts_.body = in_shares(estimator_->estimate(frame), frame.image.size());
+  if (estimator_) facts_.body = seen_body(estimator_->estimate(frame), frame.image.size());
   if (facts_.body.is_found) ++bodies_;
   const PreviewPicture picture = make_small(frame.image);
   facts_.time = frame.capture_time;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "formats/camera_view/body_in_frame.h"
+#include "producers/camera/seen_body.h"
+
 namespace dance {
 namespace {
 
 constexpr Duration kLasts = Duration::ms(1500);
-constexpr float kSeenWell = 0.5f;
 constexpr int kBlack = 16;  // of 255: video's black, or noise of a covered sensor
 
 // Every 16th pixel of every 16th row will do.
@@ -21,19 +23,17 @@ bool is_dark(const cv::Mat& picture) {
   return count > 0 && sum < count * kBlack;
 }
 
-bool has_feet(const BodyLandmarks& body) {
-  const float left =
-      std::max(body.visible(Landmark::kLeftAnkle), body.visible(Landmark::kLeftFootIndex));
-  const float right =
-      std::max(body.visible(Landmark::kRightAnkle), body.visible(Landmark::kRightFootIndex));
-  return std::max(left, right) >= kSeenWell;
-}
-
 }  // namespace
 
 DancerAdvice::View DancerAdvice::view_of(const cv::Mat& picture, const BodyLandmarks& body) const {
-  if (body.found) return has_feet(body) ? View::kWhole : View::kNoFeet;
-  return is_dark(picture) ? View::kDark : View::kNobody;
+  if (!body.found) return is_dark(picture) ? View::kDark : View::kNobody;
+  const BodyInFrame parts = body_in_frame(seen_body(body, picture.size()));
+  // The network draws what it does not see too: a head above the picture, legs behind a table.
+  if (seen(parts.head) != PartSeen::kSeen) return View::kNoHead;
+  const PartSeen feet = seen(parts.feet);
+  if (feet == PartSeen::kCutOff) return View::kNoFeet;
+  const bool has_legs = feet == PartSeen::kSeen && seen(parts.knees) != PartSeen::kHidden;
+  return has_legs ? View::kWhole : View::kNoLegs;
 }
 
 std::string_view DancerAdvice::see(const cv::Mat& picture, const BodyLandmarks& body) {
@@ -54,6 +54,10 @@ std::string_view DancerAdvice::see(const cv::Mat& picture, const BodyLandmarks& 
       return "nobody is seen; step into the picture, two to four metres from the camera";
     case View::kDark:
       return "the picture is dark; is the lens covered, or the light off?";
+    case View::kNoHead:
+      return "the head is not in the picture; step back, or tilt the camera up";
+    case View::kNoLegs:
+      return "something hides the legs; clear the space before the dancer";
     case View::kNoFeet:
       return "the feet are not in the picture; step back, or tilt the camera down";
   }

@@ -1,6 +1,6 @@
 // DancerAdvice: messages for the dancer on what the camera misses: a covered lens, nobody in the
-// picture, feet or hands cut off. Once a state has lasted, and once when it is over; never a line
-// for every picture.
+// picture, head or feet cut off, legs hidden. Once a state has lasted, and once when it is over;
+// never a line for every picture.
 //
 // Units/frames: times of the pictures.
 // Ownership:    allocates nothing in see().
@@ -22,7 +22,7 @@ class DancerAdvice {
   std::string_view see(const cv::Mat& picture, const BodyLandmarks& body);
 
  private:
-  enum class View { kWhole, kNobody, kDark, kNoFeet };
+  enum class View { kWhole, kNobody, kDark, kNoHead, kNoFeet, kNoLegs };
   View view_of(const cv::Mat& picture, const BodyLandmarks& body) const;
 
   View said_ = View::kNobody;  // of the last message; nobody is there before the first picture

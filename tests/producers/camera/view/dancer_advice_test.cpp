@@ -24,10 +24,28 @@ std::vector<std::string> said_in(DancerAdvice& advice, MonoTime& t, double secon
   return lines;
 }
 
+// Below the picture's lower edge.
 BodyLandmarks without_feet() {
   BodyLandmarks body = standing_body();
-  for (std::size_t i = index_of(Landmark::kLeftAnkle); i < kLandmarkCount; ++i)
+  for (std::size_t i = index_of(Landmark::kLeftAnkle); i < kLandmarkCount; ++i) {
+    body.image_px[i].y() += 40.0f;
     body.visibility[i] = 0.1f;
+  }
+  return body;
+}
+
+// Above its upper edge, where the network is sure of it all the same.
+BodyLandmarks without_head() {
+  BodyLandmarks body = standing_body();
+  for (Eigen::Vector3f& point : body.image_px) point.y() -= 20.0f;
+  return body;
+}
+
+// As behind a table.
+BodyLandmarks without_legs() {
+  BodyLandmarks body = standing_body();
+  for (std::size_t i = index_of(Landmark::kLeftKnee); i < kLandmarkCount; ++i)
+    body.visibility[i] = 0.15f;
   return body;
 }
 
@@ -60,6 +78,17 @@ TEST(DancerAdvice, MissesTheFeetButNotForAMoment) {
   const auto cut_off = said_in(advice, t, 3.0, kLit, without_feet());
   ASSERT_EQ(cut_off.size(), 1u);
   EXPECT_NE(cut_off[0].find("feet"), std::string::npos);
+}
+
+TEST(DancerAdvice, SaysWhatIsMissingOfOneWhoIsNotSeenWhole) {
+  for (const auto& [body, word] : {std::pair{without_head(), "the head is not in the picture"},
+                                   std::pair{without_legs(), "something hides the legs"}}) {
+    DancerAdvice advice;
+    MonoTime t = MonoTime::from_us(1);
+    const auto said = said_in(advice, t, 3.0, kLit, body);
+    ASSERT_EQ(said.size(), 1u) << word;
+    EXPECT_NE(said[0].find(word), std::string::npos) << said[0];
+  }
 }
 
 TEST(DancerAdvice, AllocatesNothing) {
