@@ -68,8 +68,8 @@ Result<Opened> open_invitation(const Invitation& invitation, const OpenInvitatio
   const auto ask = how.ask ? how.ask : ask_to_bind;
   DANCE_TRY(const Binding binding, ask(invitation, key.key, how.patience));
   if (binding != Binding::kBound) {
-    // A server that could not keep the key now may have kept it all the same; and that it does not
-    // know the invitation is said before either side has proved who it is: anybody on the way could.
+    // A server that could not keep the key now may have kept it all the same. And that it does not
+    // know the invitation is said before either side has proved who it is: by anybody on the way.
     if (binding != Binding::kNotKept && binding != Binding::kUnknown) {
       opened.forget(id);
       if (auto written = write_secret(opened_path, opened.text()); !written)

@@ -52,10 +52,10 @@ Result<LinkKey> choose_link_key(const std::string& server, const wire::RoomName&
     DANCE_TRY(chosen.key, local_key());
     return chosen;
   }
-  return fail("there is no key for " + name + " and room '" + std::string(room.view()) + "' in " +
-              path +
-              "; ask the server's keeper for one (dance server --new-guest NAME) and paste it "
-              "into: dance key");
+  return fail(
+      "there is no key for " + name + " and room '" + std::string(room.view()) + "' in " + path +
+      "; ask the server's keeper for an invitation (dance server --invite NAME), and open it "
+      "with: dance join LINK");
 }
 
 }  // namespace dance

@@ -57,8 +57,8 @@ std::string no_entry_line(SealTrouble trouble, const std::string& server) {
   switch (trouble) {
     case SealTrouble::kWrongKey:
       return "the server " + server +
-             " does not know this house's key: ask its keeper for a line, and paste it into: dance "
-             "key";
+             " does not know this house's key: ask its keeper for another invitation, and open it "
+             "with: dance join LINK";
     case SealTrouble::kNotTrusted:
       return "the server " + server +
              " and this house cannot agree: one of the certificates is not signed by whom the "

@@ -55,7 +55,8 @@ struct KeyEntry {
   bool operator==(const KeyEntry&) const = default;
 };
 
-// What became of a house's wish to bind an invitation to a key that it made.
+// What became of a house's wish to bind an invitation to a key that it made; these numbers are in
+// the wire format.
 enum class Binding : std::uint8_t {
   kBound,    // the key is the guest's from now on; also when it was already
   kUsed,     // another house has come with the invitation
