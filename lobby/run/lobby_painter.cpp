@@ -78,7 +78,7 @@ void LobbyPainter::draw(LobbyModel& model, int width_px, int height_px, Duration
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void* LobbyPainter::texture_of(const Preview& preview) {
+void* LobbyPainter::texture_of(const PreviewPicture& preview) {
   if (preview_.name() == 0) {
     preview_ = GlTexture::make();
     glBindTexture(GL_TEXTURE_2D, preview_.name());
@@ -89,7 +89,7 @@ void* LobbyPainter::texture_of(const Preview& preview) {
   }
   glBindTexture(GL_TEXTURE_2D, preview_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, preview.width_px, preview.height_px, 0, GL_RGB,
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, preview.width, preview.height, 0, GL_RGB,
                GL_UNSIGNED_BYTE, preview.rgb.data());
   return reinterpret_cast<void*>(static_cast<std::uintptr_t>(preview_.name()));
 }

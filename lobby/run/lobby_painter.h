@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "formats/camera_view/camera_view.h"
 #include "lobby/screen/lobby_kit.h"
 #include "lobby/screen/lobby_model.h"
-#include "lobby/screen/preview.h"
 #include "viewer/gl/gl_objects.h"
 
 namespace dance {
@@ -30,7 +30,7 @@ class LobbyPainter {
   void draw(LobbyModel& model, int width_px, int height_px, Duration since_last,
             std::vector<std::string>* clipped = nullptr);
   // What draw_lobby() takes as the camera's picture.
-  void* texture_of(const Preview& preview);
+  void* texture_of(const PreviewPicture& preview);
   bool is_typed_in() const;  // somebody types into a field just now
 
  private:

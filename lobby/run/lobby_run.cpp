@@ -42,7 +42,7 @@ Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_p
   LobbyModel& model = run->model_;
   model.settings_path = with_tilde(settings_path);
   find_parts(model);
-  find_devices(model);
+  find_addresses(model);
   LobbySettings first = first_settings();
   bool is_new = true;
   if (auto opened = run->file_.open()) {
@@ -55,10 +55,11 @@ Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_p
     model.tell(trouble(Text::kLobbyNotSaved, {}, opened.error().what));
   }
   run->saved_ = first;
-  // Who has no camera can dance at once all the same.
-  if (is_new && model.cameras.empty()) model.settings.source = DancerSource::kSynthetic;
+  run->chooses_source_ = is_new;
   if (is_new) model.screen = LobbyScreen::kYou;
+  run->seen_.look_for_cameras(model);
   if (auto window = run->open_window(); !window) return tl::make_unexpected(window.error());
+  run->opener_ = std::make_unique<InvitationOpener>([] { glfwPostEmptyEvent(); });
   run->round_trips_ = std::make_unique<RoundTrips>([] { glfwPostEmptyEvent(); });
   run->ask_rooms();
   return run;
@@ -67,8 +68,11 @@ Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_p
 LobbyRun::~LobbyRun() {
   stop_house();
   stage_.reset();
+  seen_.stop(model_);
   painter_.reset();
-  round_trips_.reset();  // its thread wakes the window
+  window_.reset();  // before threads that may take some seconds yet
+  round_trips_.reset();
+  opener_.reset();
 }
 
 Result<void> LobbyRun::open_window() {
@@ -97,7 +101,7 @@ Result<void> LobbyRun::turn() { return stage_ ? turn_of_dance() : turn_of_lobby(
 Duration LobbyRun::patience(MonoTime now) const {
   if (fresh_frames_ > 0) return std::max(Duration(), kFastestFrame - (now - drawn_));
   const bool is_opening = model_.host.state == HostFacts::State::kOpening;
-  return model_.is_going_in || is_opening ? kBusy : kIdle;
+  return model_.is_going_in || is_opening || seen_.is_busy() ? kBusy : kIdle;
 }
 
 Result<void> LobbyRun::turn_of_lobby() {
@@ -146,6 +150,14 @@ Result<void> LobbyRun::draw() {
 // True where something is to be drawn.
 bool LobbyRun::look_around(MonoTime now) {
   bool is_new = host_.look(model_, now, model_.screen == LobbyScreen::kHost);
+  is_new = seen_.look(model_, *painter_, now) || is_new;
+  if (chooses_source_ && model_.knows_cameras) {
+    // Who has no camera can dance at once all the same.
+    if (model_.cameras.empty()) model_.settings.source = DancerSource::kSynthetic;
+    chooses_source_ = false;
+    is_new = true;
+  }
+  is_new = look_at_invitation() || is_new;
   if (const RoundTrips::Answers* answers = round_trips_->take()) {
     for (std::size_t i = 0; i < std::min(answers->count, model_.rooms.size()); ++i) {
       model_.rooms[i].state =
@@ -220,11 +232,51 @@ void LobbyRun::obey(LobbyWish wish) {
     case LobbyWish::kAskRooms:
       return ask_rooms();
     case LobbyWish::kLookAgain:
-      return find_devices(model_);
+      find_addresses(model_);
+      return seen_.look_for_cameras(model_);
+    case LobbyWish::kOpenInvitation:
+      return open_invitation_typed();
+    case LobbyWish::kPlayCountIn:
+      return seen_.play_count_in();
     case LobbyWish::kQuit:
       is_over_ = true;
       return;
   }
+}
+
+void LobbyRun::open(const std::string& invitation) {
+  model_.show(LobbyScreen::kDance);
+  model_.invitation_typed = invitation;
+  model_.ask(LobbyWish::kOpenInvitation);
+}
+
+void LobbyRun::open_invitation_typed() {
+  model_.banners.clear();
+  const auto invitation = parse_invitation(model_.invitation_typed);
+  if (!invitation)
+    return model_.tell(trouble(Text::kLobbyInvitationBad, {}, invitation.error().what));
+  if (!opener_->begin(*invitation)) return;
+  model_.is_going_in = true;
+  going_since_ = mono_now();
+}
+
+// True where something has come of it.
+bool LobbyRun::look_at_invitation() {
+  const auto outcome = opener_->take();
+  if (!outcome || !model_.is_going_in || house_) return false;
+  model_.is_going_in = false;
+  if (!outcome->empty()) {
+    model_.tell(trouble(Text::kLobbyInvitationFailed, {}, *outcome));
+    return true;
+  }
+  const Invitation& invitation = opener_->invitation();
+  model_.invitation_typed.clear();
+  // The key is for that name.
+  model_.settings.name = model_.name_typed = std::string(invitation.guest.view());
+  const std::string room(invitation.room.is_set() ? invitation.room.view() : "dance");
+  model_.choose_room({room, invitation.server()});
+  go_in(LobbyWish::kJoin);
+  return true;
 }
 
 void LobbyRun::ask_rooms() {
@@ -246,6 +298,7 @@ void LobbyRun::go_in(LobbyWish wish) {
   if (wish == LobbyWish::kAlone) words.push_back("--partner=" + window.partner);
   if (wish == LobbyWish::kPractise && !window.music.empty())
     words.push_back("--music=" + window.music);
+  seen_.stop(model_);  // the house wants the camera
   auto started = ChildWords::start("dance-join", std::move(words));
   if (!started) return model_.tell(trouble(Text::kLobbyDanceEnded, {}, started.error().what));
   house_ = std::move(*started);

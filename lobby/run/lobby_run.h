@@ -13,10 +13,12 @@
 
 #include "core/net/poller.h"
 #include "lobby/run/child_words.h"
+#include "lobby/run/invitation_opener.h"
 #include "lobby/run/lobby_input.h"
 #include "lobby/run/lobby_painter.h"
 #include "lobby/run/room_host.h"
 #include "lobby/run/round_trips.h"
+#include "lobby/run/seen_and_heard.h"
 #include "lobby/settings/settings_file.h"
 #include "viewer/window/window_run.h"
 
@@ -26,6 +28,8 @@ class LobbyRun {
  public:
   // The file with what was chosen.
   static Result<std::unique_ptr<LobbyRun>> create(const std::string& settings_path);
+  // dance://…, as if it had been pasted.
+  void open(const std::string& invitation);
   ~LobbyRun();
 
   // Until the window is closed or a signal comes.
@@ -48,6 +52,8 @@ class LobbyRun {
   Result<void> draw();
   bool look_around(MonoTime now);
   bool look_at_house(MonoTime now);
+  bool look_at_invitation();
+  void open_invitation_typed();
   void obey(LobbyWish wish);
   void go_in(LobbyWish wish);
   void stop_house();
@@ -67,7 +73,10 @@ class LobbyRun {
   std::unique_ptr<ViewWindow> window_;
   std::unique_ptr<LobbyPainter> painter_;
   std::unique_ptr<RoundTrips> round_trips_;
+  std::unique_ptr<InvitationOpener> opener_;
   RoomHost host_;
+  SeenAndHeard seen_;
+  bool chooses_source_ = false;      // a new dancer's, once the cameras are known
   std::optional<ChildWords> house_;  // dance join
   LobbyWish house_for_ = LobbyWish::kNone;
   MonoTime going_since_;

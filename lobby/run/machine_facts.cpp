@@ -4,13 +4,9 @@
 
 #include <cstdlib>
 
-#include "core/base/printable.h"
 #include "core/net/machine_addresses.h"
 #include "core/program/program.h"
 #include "house/avatar_choice.h"
-#ifdef DANCE_HAVE_CAMERA
-#include "producers/camera/v4l2/camera_list.h"
-#endif
 
 namespace dance {
 namespace {
@@ -36,14 +32,6 @@ void find_parts(LobbyModel& model) {
   model.avatars = shipped_avatars(data_folder() + "/avatars");
 }
 
-void find_devices(LobbyModel& model) {
-  model.host.addresses = machine_addresses();
-  model.cameras.clear();
-#ifdef DANCE_HAVE_CAMERA
-  if (!model.has_camera) return;
-  for (const CameraEntry& camera : list_cameras())
-    model.cameras.push_back({camera.path, printable(camera.name), printable(camera.trouble)});
-#endif
-}
+void find_addresses(LobbyModel& model) { model.host.addresses = machine_addresses(); }
 
 }  // namespace dance

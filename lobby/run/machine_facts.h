@@ -1,9 +1,9 @@
-// What there is on this machine for a dancer to choose from: programs that were built, cameras,
-// avatars, addresses.
+// What there is on this machine for a dancer to choose from: programs that were built, avatars,
+// addresses.
 //
 // Units/frames: none.
 // Ownership:    plain values.
-// Threads:      the drawing thread; looking at cameras opens each for a moment.
+// Threads:      the drawing thread.
 // Failure:      what is not there is an empty list.
 #pragma once
 
@@ -13,8 +13,8 @@ namespace dance {
 
 // Once, at the start.
 void find_parts(LobbyModel& model);
-// What may be plugged in meanwhile.
-void find_devices(LobbyModel& model);
+// Networks may come and go.
+void find_addresses(LobbyModel& model);
 
 // "/home/alice/x" → "~/x", as a shell takes it.
 std::string with_tilde(const std::string& path);

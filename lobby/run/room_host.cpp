@@ -6,6 +6,7 @@
 
 #include "core/base/printable.h"
 #include "core/net/machine_addresses.h"
+#include "tunnel/invitation/qr_code.h"
 
 namespace dance {
 namespace {
@@ -103,19 +104,25 @@ void RoomHost::list(LobbyModel& model) {
 void RoomHost::invite(LobbyModel& model) {
   const std::string name = name_from(model.host.guest);
   model.host.guest = name;
-  std::vector<std::string> words{"--new-guest", name};
+  std::vector<std::string> words{"--invite",          name,     "--room",
+                                 model.settings.room, "--port", std::to_string(model.host.port)};
   if (!model.host.address.empty()) words.push_back("--address=" + model.host.address);
-  run(model, "dance-server", words, [this](LobbyModel& to, ChildWords& said) {
+  run(model, "dance-server", words, [this, name](LobbyModel& to, ChildWords& said) {
     to.host.invitation.clear();
-    if (said.process().ended_well())
+    to.host.code = InvitationCode();
+    to.host.invited_guest = name;
+    if (said.process().ended_well()) {
       to.host.invitation = printable(said.output().substr(0, said.output().find('\n')));
-    else
+      if (auto code = make_qr_code(to.host.invitation))
+        to.host.code = {code->size, std::move(code->dark)};
+    } else {
       to.tell({Banner::Kind::kTrouble,
                Text::kLobbyInviteFailed,
                {},
                said.lines().empty() ? "" : said.lines().back(),
                Text::kCount,
                LobbyWish::kNone});
+    }
     list(to);
   });
 }

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kNear_ms = 80.0;  // a round trip in which a couple hardly feels the line
 constexpr std::size_t kMostServerBytes = 262;
+constexpr std::size_t kMostInvitationBytes = 1024;
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -69,6 +70,24 @@ void draw_now(LobbyModel& model, LobbyKit& kit) {
   kit.gap(4.0f);
   draw_practice(model, kit);
   draw_command(model, kit, LobbyWish::kPractise);
+  kit.end_card();
+}
+
+void draw_invitation(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  kit.begin_card(t[Text::kLobbyInvitation]);
+  kit.note(t[Text::kLobbyInvitationPaste]);
+  kit.field("##invitation", model.invitation_typed, 600.0f, kMostInvitationBytes);
+  kit.beside(t[Text::kLobbyPaste]);
+  if (kit.button(t[Text::kLobbyPaste])) {
+    const char* copied = ImGui::GetClipboardText();
+    const std::string text = copied != nullptr ? copied : "";
+    model.invitation_typed = text.substr(0, kMostInvitationBytes);
+  }
+  if (kit.button(t[Text::kLobbyOpenInvitation], ButtonLook::kAccent, 140.0f))
+    model.ask(LobbyWish::kOpenInvitation);
+  kit.beside(t[Text::kLobbyShowCommand]);
+  draw_command(model, kit, LobbyWish::kOpenInvitation);
   kit.end_card();
 }
 
@@ -133,6 +152,7 @@ void draw_dance_screen(LobbyModel& model, LobbyKit& kit) {
   kit.title(model.texts[Text::kLobbyDanceTitle]);
   kit.gap(2.0f);
   draw_now(model, kit);
+  draw_invitation(model, kit);
   draw_rooms(model, kit);
   draw_other_room(model, kit);
 }

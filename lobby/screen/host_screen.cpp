@@ -59,8 +59,9 @@ void draw_invitations(LobbyModel& model, LobbyKit& kit) {
   kit.beside(t[Text::kLobbyShowCommand]);
   draw_command(model, kit, LobbyWish::kInvite);
   if (!host.invitation.empty()) {
-    kit.note(t.say(Text::kLobbyInvitationNote, {host.guest}));
+    kit.note(t.say(Text::kLobbyInvitationNote, {host.invited_guest}));
     kit.box(host.invitation);
+    if (host.code.size > 0) kit.code(host.code.size, host.code.dark);
     ImGui::PushID("invitation");
     if (kit.button(t[Text::kLobbyCopy])) ImGui::SetClipboardText(host.invitation.c_str());
     ImGui::PopID();

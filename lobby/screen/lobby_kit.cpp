@@ -281,6 +281,36 @@ void LobbyKit::box(const std::string& words) {
   look_at_item(words.c_str());
 }
 
+void LobbyKit::meter(float level, float held) {
+  const float width = std::min(room_px() - px(kCardPad_u), px(420.0f)), height = px(14.0f);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(low, {low.x + width, low.y + height}, u32(kBackground), px(7.0f));
+  const float end = low.x + std::clamp(level, 0.0f, 1.0f) * width;
+  list->AddRectFilled(low, {end, low.y + height}, u32(kAccent), px(7.0f));
+  const float mark = low.x + std::clamp(held, 0.0f, 1.0f) * (width - px(3.0f));
+  list->AddRectFilled({mark, low.y}, {mark + px(3.0f), low.y + height}, u32(kInk));
+  ImGui::Dummy(ImVec2(width, height));
+}
+
+void LobbyKit::code(int size, const std::vector<bool>& dark) {
+  const float module = std::max(2.0f, std::floor(px(3.0f)));
+  const float quiet = 4.0f * module;
+  const float side = module * static_cast<float>(size) + 2.0f * quiet;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled(low, {low.x + side, low.y + side}, IM_COL32_WHITE);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const auto at = static_cast<std::size_t>(y * size + x);
+      if (at >= dark.size() || !dark[at]) continue;
+      const ImVec2 from(low.x + quiet + module * static_cast<float>(x),
+                        low.y + quiet + module * static_cast<float>(y));
+      list->AddRectFilled(from, {from.x + module, from.y + module}, IM_COL32_BLACK);
+    }
+  ImGui::Dummy(ImVec2(side, side));
+}
+
 LobbyKit::Strip LobbyKit::strip(int id, bool is_trouble, const std::string& words,
                                 const std::string& detail, const char* button_words) {
   Strip pressed = Strip::kNone;

@@ -61,6 +61,10 @@ class LobbyKit {
   bool field(const char* id, std::string& value, float width_u, std::size_t most_bytes);
   // Text to copy, in a box.
   void box(const std::string& text);
+  // How loud it is, and was: 0 to 1.
+  void meter(float level, float held);
+  // A QR code of so many modules in a row, with the quiet zone that a phone wants.
+  void code(int size, const std::vector<bool>& dark);
   // A strip over the whole width with words, and buttons at its end.
   enum class Strip { kNone, kButton, kClose };
   Strip strip(int id, bool is_trouble, const std::string& words, const std::string& detail,

@@ -94,12 +94,14 @@ std::string LobbyModel::command(LobbyWish what) const {
     case LobbyWish::kOpenRoom:
       return "dance server --bind 0.0.0.0 --port " + std::to_string(host.port);
     case LobbyWish::kInvite: {
+      const std::string name = name_from(host.guest);
       std::string line =
-          "dance server --new-guest " +
-          shell_word(host.guest.empty() ? std::string("NAME") : name_from(host.guest));
+          "dance server --invite " + (name.empty() ? "NAME" : name) + " --room " + settings.room;
       if (!host.address.empty()) line += " --address " + shell_word(host.address);
       return line;
     }
+    case LobbyWish::kOpenInvitation:
+      return "dance join 'dance://...'";
     default:
       return "dance lobby";
   }
@@ -114,6 +116,7 @@ std::optional<Banner> LobbyModel::trouble_before(LobbyWish what) const {
   if (!has_camera)
     return Banner{Banner::Kind::kTrouble, Text::kLobbyNoCameraBuilt, {}, "",
                   Text::kCount,           LobbyWish::kNone};
+  if (!knows_cameras) return std::nullopt;
   if (cameras.empty())
     return Banner{Banner::Kind::kTrouble, Text::kLobbyNoCamera, {}, "",
                   Text::kLobbyLookAgain,  LobbyWish::kLookAgain};

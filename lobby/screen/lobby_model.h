@@ -34,6 +34,8 @@ enum class LobbyWish {
   kInvite,    // host.guest to host.room
   kWithdraw,  // host.withdrawn
   kListInvited,
+  kOpenInvitation,  // invitation_typed
+  kPlayCountIn,
   kAskRooms,   // their round trips anew
   kLookAgain,  // for cameras and addresses
   kQuit,
@@ -64,6 +66,27 @@ struct RoomFact {
   Duration round_trip;
 };
 
+// A microphone or a loudspeaker: as the file has it, and for people.
+struct SoundDevice {
+  std::string name;
+  std::string description;
+};
+
+// What is heard, while it is tested.
+struct SoundFacts {
+  bool is_tested = false;
+  float level = 0.0f;  // 0 to 1
+  float held = 0.0f;
+  std::vector<SoundDevice> microphones, loudspeakers;
+  std::vector<Text> advice;
+};
+
+// A QR code's modules, row by row.
+struct InvitationCode {
+  int size = 0;
+  std::vector<bool> dark;
+};
+
 struct HostFacts {
   enum class State { kClosed, kOpening, kOpen };
   State state = State::kClosed;
@@ -73,6 +96,8 @@ struct HostFacts {
   std::vector<std::string> invited;    // names that have a key
   bool was_reached = false;            // from another network
   std::string invitation;              // made last
+  std::string invited_guest;           // for whom
+  InvitationCode code;                 // of it; size 0 = none
   // As typed.
   std::string guest;
   std::string address;
@@ -94,6 +119,7 @@ struct LobbyModel {
   bool has_music = true;
   bool has_voice = true;
   bool has_server = true;
+  bool knows_cameras = false;  // they have been looked for
   std::vector<CameraFact> cameras;
   std::vector<std::string> avatars;
   std::vector<RoomFact> rooms;  // as settings.window.rooms
@@ -105,10 +131,11 @@ struct LobbyModel {
   bool shows_command = false;
   LobbyWish command_for = LobbyWish::kNone;
   FileChooser chooser;
-  std::string name_typed, server_typed, room_typed;
+  std::string name_typed, server_typed, room_typed, invitation_typed;
   void* preview_texture = nullptr;  // ImTextureID; null = no picture
   float preview_aspect = 16.0f / 9.0f;
   std::vector<Text> advice;
+  SoundFacts sound;
 
   // Takes settings over into what is typed.
   void take(const LobbySettings& settings);

@@ -63,7 +63,7 @@ void draw_preview(LobbyModel& model, LobbyKit& kit) {
 void draw_camera(LobbyModel& model, LobbyKit& kit) {
   const Texts& t = model.texts;
   draw_preview(model, kit);
-  if (model.cameras.empty())
+  if (model.cameras.empty() && model.knows_cameras)
     kit.text(t[model.has_camera ? Text::kLobbyNoCamera : Text::kLobbyNoCameraBuilt]);
   if (model.cameras.size() > 1 &&
       kit.row("first", t[Text::kLobbyFirstCamera], "", model.settings.camera.empty()))
@@ -150,11 +150,38 @@ void draw_yes_or_no(const Texts& t, LobbyKit& kit, Text question, bool& answer) 
   ImGui::PopID();
 }
 
+void draw_devices(LobbyKit& kit, const Texts& t, Text heading,
+                  const std::vector<SoundDevice>& devices, std::string& chosen) {
+  kit.note(t[heading]);
+  ImGui::PushID(static_cast<int>(heading));
+  if (kit.row("usual", t[Text::kLobbyUsualDevice], "", chosen.empty())) chosen.clear();
+  for (const SoundDevice& device : devices)
+    if (kit.row(device.name.c_str(), device.description, "", chosen == device.name))
+      chosen = device.name;
+  ImGui::PopID();
+}
+
+void draw_sound_test(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  SoundFacts& sound = model.sound;
+  const Text words = sound.is_tested ? Text::kLobbyEndTestSound : Text::kLobbyTestSound;
+  if (kit.button(t[words])) sound.is_tested = !sound.is_tested;
+  if (!sound.is_tested) return;
+  kit.beside(t[Text::kLobbyPlayCountIn]);
+  if (kit.button(t[Text::kLobbyPlayCountIn])) model.ask(LobbyWish::kPlayCountIn);
+  kit.meter(sound.level, sound.held);
+  for (const Text advice : sound.advice) kit.text(t[advice]);
+  draw_devices(kit, t, Text::kLobbyMicrophone, sound.microphones, model.settings.microphone);
+  draw_devices(kit, t, Text::kLobbyLoudspeaker, sound.loudspeakers, model.settings.loudspeaker);
+}
+
 void draw_voice(LobbyModel& model, LobbyKit& kit) {
   kit.begin_card(model.texts[Text::kLobbyVoice]);
   draw_yes_or_no(model.texts, kit, Text::kLobbyTalk, model.settings.speaks);
-  if (model.settings.speaks)
+  if (model.settings.speaks) {
     draw_yes_or_no(model.texts, kit, Text::kLobbyHeadphones, model.settings.has_headphones);
+    draw_sound_test(model, kit);
+  }
   kit.end_card();
 }
 

@@ -9,6 +9,25 @@
 #define DANCE_LOBBY_TEXTS(ROW) \
   ROW(kLobbyYou, "You", "Tú", "Du") \
   ROW(kLobbyDance, "Dance", "Bailar", "Tanzen") \
+  ROW(kLobbyInvitation, "An invitation", "Una invitación", "Eine Einladung") \
+  ROW(kLobbyInvitationPaste, \
+      "Paste the line that you were sent: dance://…", \
+      "Pega la línea que te enviaron: dance://…", \
+      "Füge die Zeile ein, die du bekommen hast: dance://…") \
+  ROW(kLobbyPaste, "Paste", "Pegar", "Einfügen") \
+  ROW(kLobbyOpenInvitation, "Open and dance", "Abrir y bailar", "Öffnen und tanzen") \
+  ROW(kLobbyInvitationBad, \
+      "That is no whole invitation. Copy all of the line that begins with dance://.", \
+      "Eso no es una invitación completa. Copia toda la línea que empieza por dance://.", \
+      "Das ist keine ganze Einladung. Kopiere die ganze Zeile, die mit dance:// beginnt.") \
+  ROW(kLobbyInvitationFailed, \
+      "The invitation could not be opened. Ask the person who sent it for another.", \
+      "No se pudo abrir la invitación. Pide otra a quien te la envió.", \
+      "Die Einladung ließ sich nicht öffnen. Bitte die Person, die sie geschickt hat, um " \
+      "eine neue.") \
+  ROW(kLobbyTestSound, "Test the sound", "Probar el sonido", "Ton prüfen") \
+  ROW(kLobbyEndTestSound, "End the test", "Terminar la prueba", "Prüfung beenden") \
+  ROW(kLobbyPlayCountIn, "Play a count-in", "Oír una entrada", "Einzähler abspielen") \
   ROW(kLobbyHost, "Host a room", "Abrir una sala", "Raum öffnen") \
   ROW(kLobbyKeysHint, \
       "Arrow keys and Enter work everywhere", \
