@@ -25,6 +25,10 @@ void hide_invitation(int argc, char** argv) {
 }
 
 Result<void> run_lobby(const std::string& settings, const std::string& invitation) {
+  // Where there is no window to tell it in.
+  if (display_name().empty() && !invitation.empty())
+    if (const auto read = parse_invitation(invitation); !read)
+      return tl::make_unexpected(read.error());
   std::string path = settings;
   if (path.empty()) {
     DANCE_TRY(path, SettingsFile::usual_path());

@@ -66,6 +66,7 @@ void LobbyInput::on_mouse_button(int button, bool is_down) {
 void LobbyInput::begin(ViewWindow& window) {
   ImGuiIO& io = ImGui::GetIO();
   for (const auto& [name, key] : kKeys) io.KeyMap[name] = key;
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   io.ClipboardUserData = window.handle();
   io.SetClipboardTextFn = [](void* user, const char* text) {
     glfwSetClipboardString(static_cast<GLFWwindow*>(user), text);

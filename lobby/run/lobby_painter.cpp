@@ -32,7 +32,6 @@ Result<std::unique_ptr<LobbyPainter>> LobbyPainter::create(float scale) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
-  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   io.ConfigInputTextCursorBlink = false;  // it would cost pictures in an idle window
   painter->make_fonts();
   if (!ImGui_ImplOpenGL3_Init("#version 330 core"))

@@ -325,7 +325,7 @@ Result<void> LobbyRun::begin_dance() {
     return tl::make_unexpected(stage.error());
   }
   stage_ = std::move(*stage);
-  if (is_software_rendering())
+  if (is_software_rendering() && !std::exchange(has_told_graphics_, true))
     model_.tell(
         {Banner::Kind::kGood, Text::kLobbyNoGraphics, {}, "", Text::kCount, LobbyWish::kNone});
   return {};

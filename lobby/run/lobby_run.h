@@ -88,6 +88,7 @@ class LobbyRun {
   int fresh_frames_ = 0;  // to draw: Dear ImGui settles in some
   MonoTime drawn_;
   int pictures_ = 0;
+  bool has_told_graphics_ = false;
   bool is_over_ = false;
 };
 

@@ -56,11 +56,12 @@ void draw_practice(LobbyModel& model, LobbyKit& kit) {
 void draw_now(LobbyModel& model, LobbyKit& kit) {
   const Texts& t = model.texts;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = 0.5f * (kit.room_px() - gap);
+  const bool fits_two = kit.room_px() > kit.px(640.0f);
+  const float width = fits_two ? 0.5f * (kit.room_px() - gap) : kit.room_px();
   if (kit.tile(t[Text::kLobbyAlone], t[Text::kLobbyAloneNote], width, ButtonLook::kAccent))
     model.ask(LobbyWish::kAlone);
   ImGui::SetItemDefaultFocus();
-  ImGui::SameLine();
+  if (fits_two) ImGui::SameLine();
   if (kit.tile(t[Text::kLobbyPractise], t[Text::kLobbyPractiseNote], width, ButtonLook::kPlain))
     model.ask(LobbyWish::kPractise);
   kit.gap(2.0f);

@@ -32,8 +32,8 @@ void LobbyModel::show(LobbyScreen to) {
 
 void LobbyModel::tell(Banner banner) {
   std::erase_if(banners, [&](const Banner& it) { return it.text == banner.text; });
-  banners.push_back(std::move(banner));
-  if (banners.size() > kMostBanners) banners.erase(banners.begin());
+  banners.insert(banners.begin(), std::move(banner));
+  if (banners.size() > kMostBanners) banners.pop_back();
 }
 
 // The first counts; while going in only the way back.

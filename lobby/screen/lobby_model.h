@@ -140,7 +140,8 @@ struct LobbyModel {
   // Takes settings over into what is typed.
   void take(const LobbySettings& settings);
   void show(LobbyScreen to);
-  void tell(Banner banner);  // of more than kMostBanners the oldest goes; of the same one stays
+  // The newest comes first; of more than kMostBanners the oldest goes, of the same one stays.
+  void tell(Banner banner);
   void ask(LobbyWish what);
   void set_language(Language language);
   // The room that is typed, as the one to join; false where it is none.

@@ -94,7 +94,7 @@ TEST(LobbyModel, TellsEachTroubleOnceAndNotTooMany) {
   for (const Text text : {Text::kLobbyRoomFull, Text::kLobbyVersions, Text::kLobbyNotSaved})
     model.tell({Banner::Kind::kTrouble, text, {}, ""});
   EXPECT_EQ(model.banners.size(), LobbyModel::kMostBanners);
-  EXPECT_EQ(model.banners.back().text, Text::kLobbyNotSaved);
+  EXPECT_EQ(model.banners.front().text, Text::kLobbyNotSaved);
 }
 
 // The lines are those that the programs write, so that another wording fails here.
