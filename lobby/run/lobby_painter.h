@@ -4,7 +4,7 @@
 // Units/frames: pixels; `scale` is the monitor's (1 = 96 dpi).
 // Ownership:    owns the ImGui context and its OpenGL objects; one per process.
 // Threads:      the one whose OpenGL context is current.
-// Failure:      create() tells when ImGui cannot start; without the DejaVu font it takes ImGui's own.
+// Failure:      create() tells when ImGui cannot start; without the DejaVu font it takes its own.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// LobbyRun: the window before, between and after dances: draws the lobby when something is new, does
-// what is asked for, and gives the window to the stage while there is a dance. The house runs as
+// LobbyRun: the window before, between and after dances: draws the lobby when something is new,
+// does what is asked for, and gives the window to the stage while there is a dance. The house runs as
 // `dance join` beside it: whatever becomes of it, the window stays.
 //
 // Units/frames: MonoTime of this process.

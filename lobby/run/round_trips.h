@@ -1,5 +1,5 @@
-// RoundTrips: how far the servers of known rooms are, asked in a thread of its own: names are looked
-// up there, which may take seconds, and answers are taken when they come.
+// RoundTrips: how far the servers of known rooms are, asked in a thread of its own: names are
+// looked up there, which may take seconds, and answers are taken when they come.
 //
 // Units/frames: round trips of UDP, the shortest of three.
 // Ownership:    owns its thread; the destructor waits for it, a name server's patience at most.

@@ -1,5 +1,5 @@
-// SeenAndHeard: camera and sound before the dance, as the You screen shows them: looks at the camera
-// while that screen is open, and listens while the sound is tested.
+// SeenAndHeard: camera and sound before the dance, as the You screen shows them: looks at the
+// camera while that screen is open, and listens while the sound is tested.
 //
 // Units/frames: none.
 // Ownership:    owns the checks; each ends when it is no longer shown.

@@ -5,8 +5,8 @@
 // Units/frames: metres.
 // Ownership:    plain values.
 // Threads:      none inside.
-// Failure:      edit_settings() names the file and the place, and the cure; its result has been read
-//               again and holds what was wanted.
+// Failure:      edit_settings() names the file and the place, and the cure; its result has been
+//               read again and holds what was wanted.
 #pragma once
 
 #include <optional>
