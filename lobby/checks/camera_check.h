@@ -6,8 +6,8 @@
 //               until the next read().
 // Threads:      none inside; read() never waits.
 // Failure:      start() fails where no pipe can be made. Whatever else is wrong is advice(): a
-//               build without cameras, one that is taken, not there or unplugged, a program that
-//               has ended.
+//               build without cameras, one that is taken, not there or unplugged, a driver that
+//               hangs, a program that has ended.
 #pragma once
 
 #include <memory>
@@ -50,18 +50,21 @@ class CameraCheck {
 
   // What to mend, what matters most first, three at most; or that all is well. Never empty.
   std::span<const Text> advice() const;
-  bool is_good() const { return !end_text_ && advice_.is_good(); }
+  bool is_good() const { return !instead_ && advice_.is_good(); }
 
  private:
   explicit CameraCheck(int fd) : fd_(fd) {}
   void end(Text why);
   void note_end();
+  void read_all(MonoTime now);
+  void look_for_stall(MonoTime now);
 
   int fd_;
   std::optional<ChildProcess> program_;
   CameraViewReader reader_;
   CameraAdvice advice_;
-  std::optional<Text> end_text_;  // nothing more comes
+  std::optional<Text> instead_;  // of the advice: it has ended, or hangs
+  MonoTime last_heard_;
   bool has_picture_ = false;
 };
 

@@ -6,7 +6,7 @@
 // Ownership:    owns its connection with the sound server. What is returned is good until the next
 //               read().
 // Threads:      one inside, in which the sound server is waited for; the rest belongs to one
-//               owner, who never waits.
+//               owner, who waits in the destructor alone: up to 3 s where a server hangs.
 // Failure:      start() does not fail: whatever is wrong is advice(). A server or a device that is
 //               missing is looked for again every two seconds.
 #pragma once

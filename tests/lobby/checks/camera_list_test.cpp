@@ -6,9 +6,11 @@ namespace dance {
 namespace {
 
 TEST(CameraList, ReadsWhatTheProgramPrints) {
-  const auto list = parse_camera_list(
-      R"([{"device":"/dev/video0","name":"HD Webcam","socket":"usb-1","mode":"1280x720 YUYV at 30 Hz","trouble":""},
-          {"device":"/dev/video2","name":"","socket":"","mode":"","trouble":"/dev/video2: in use"}])");
+  const auto list =
+      parse_camera_list(R"([{"device":"/dev/video0","name":"HD Webcam","socket":"usb-1",)"
+                        R"("mode":"1280x720 YUYV at 30 Hz","trouble":""},)"
+                        R"({"device":"/dev/video2","name":"","socket":"","mode":"",)"
+                        R"("trouble":"/dev/video2: in use"}])");
   ASSERT_TRUE(list);
   ASSERT_EQ(list->size(), 2u);
   EXPECT_EQ((*list)[0].device, "/dev/video0");

@@ -1,6 +1,8 @@
 // What a dancer is told, of drawn dances before simulated cameras, and of a filmed person.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
