@@ -16,6 +16,11 @@ bool is_fingerprint(std::string_view text) {
          text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
+// A title is what a key's line has before the key.
+std::string any_line_of(std::string_view title) {
+  return "dance-key:" + std::string(title) + "#" + PresharedKey().text();
+}
+
 }  // namespace
 
 Result<OpenedInvitations> OpenedInvitations::parse(std::string_view text, const std::string& name) {
@@ -45,6 +50,8 @@ Result<OpenedInvitations> OpenedInvitations::parse(std::string_view text, const 
       row.pending = *key;
       row.title = key->title();
     } else if (word == kDoneWord) {
+      const auto titled = HouseKey::parse(any_line_of(line));
+      if (!titled || titled->title() != line) return bad();
       row.title = line;
     } else {
       return bad();

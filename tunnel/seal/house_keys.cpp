@@ -49,9 +49,10 @@ Result<HouseKey> HouseKey::parse(std::string_view line) {
     rest = rest.substr(0, slash);
   }
   if (const auto at = rest.find('@'); at != std::string_view::npos) {
-    if (!is_server(rest.substr(at + 1)))
-      return fail(std::string("what stands after @ is no server's name; ") + kWholeLine);
     made.server = server_name_of(rest.substr(at + 1), 0);
+    // As it is written again, with the brackets that an address may get.
+    if (!is_server(rest.substr(at + 1)) || !is_server(made.server))
+      return fail(std::string("what stands after @ is no server's name; ") + kWholeLine);
     rest = rest.substr(0, at);
   }
   const auto name = GuestId::parse(rest);

@@ -187,7 +187,8 @@ TEST(OpenedInvitations, ComeBackAndAreBounded) {
   EXPECT_FALSE(opened.is_done(done.fingerprint()));
   for (const char* bad :
        {"x", "0123456789abcdef", "0123456789abcdef opened", "0123456789abcdef lost a",
-        "0123456789abcdef pending dance-key:alice#short"}) {
+        "0123456789abcdef opened alice\r\r", "0123456789abcdef opened Alice",
+        "0123456789abcdef opened alice@a b", "0123456789abcdef pending dance-key:alice#short"}) {
     const auto parsed = OpenedInvitations::parse(bad, "invitations");
     ASSERT_FALSE(parsed) << bad;
     EXPECT_NE(parsed.error().what.find("invitations line 1"), std::string::npos);
