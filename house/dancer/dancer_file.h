@@ -1,4 +1,5 @@
-// A dancer of a recording, for a house to play: of a BVH or glTF, or of an LCM log, plain or packed.
+// A dancer of a recording, for a house to play: of a BVH or glTF, or of an LCM log, plain or
+// packed.
 //
 // Units/frames: clips of logs have 60 frames a second.
 // Ownership:    plain values.

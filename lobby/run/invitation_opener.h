@@ -1,5 +1,5 @@
-// InvitationOpener: opens an invitation (tunnel/invitation/) in a thread of its own, as its server is
-// asked for up to twenty seconds.
+// InvitationOpener: opens an invitation (tunnel/invitation/) in a thread of its own, as its server
+// is asked for up to twenty seconds.
 //
 // Units/frames: none.
 // Ownership:    owns the thread; the destructor waits for it.

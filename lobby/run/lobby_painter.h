@@ -1,5 +1,5 @@
-// LobbyPainter: draws the window's screens: Dear ImGui's context with the lobby's fonts, and its way
-// to OpenGL. The stage has a context of its own; one of the two lives at a time.
+// LobbyPainter: draws the window's screens: Dear ImGui's context with the lobby's fonts, and its
+// way to OpenGL. The stage has a context of its own; one of the two lives at a time.
 //
 // Units/frames: pixels; `scale` is the monitor's (1 = 96 dpi).
 // Ownership:    owns the ImGui context and its OpenGL objects; one per process.

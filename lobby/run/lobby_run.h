@@ -1,6 +1,6 @@
 // LobbyRun: the window before, between and after dances: draws the lobby when something is new,
-// does what is asked for, and gives the window to the stage while there is a dance. The house runs as
-// `dance join` beside it: whatever becomes of it, the window stays.
+// does what is asked for, and gives the window to the stage while there is a dance. The house runs
+// as `dance join` beside it: whatever becomes of it, the window stays.
 //
 // Units/frames: MonoTime of this process.
 // Ownership:    owns window, painter and programs; all end with it.

@@ -39,10 +39,15 @@ class LobbyWindowTest : public testing::Test {
     std::filesystem::create_directories(folder_.path("config/dancegraph"));
     std::ofstream(settings()) << text;
   }
-  void open_lobby() {
-    auto started = ChildProcess::start({bin("dance-lobby"), {}, "", folder_.path("talk")});
+  void start_lobby(std::vector<std::string> arguments = {}) {
+    auto started =
+        ChildProcess::start({bin("dance-lobby"), std::move(arguments), "", folder_.path("talk")});
     ASSERT_TRUE(started) << started.error().what;
     lobby_ = std::make_unique<ChildProcess>(std::move(*started));
+  }
+  void open_lobby() {
+    start_lobby();
+    ASSERT_TRUE(lobby_);
     ASSERT_TRUE(wait_for([&] { return shows_lobby() || lobby_->has_ended(); })) << talk();
     ASSERT_FALSE(lobby_->has_ended()) << talk();
   }
@@ -159,6 +164,29 @@ TEST_F(LobbyWindowTest, AServerThatIsSilentIsTroubleInTheLobby) {
   EXPECT_TRUE(wait_for([&] { return is_back() && shows_trouble(); })) << talk();
   EXPECT_FALSE(lobby_->has_ended());
   EXPECT_EQ(load_session(settings())->server, "127.0.0.1:7499");
+}
+
+TEST_F(LobbyWindowTest, AnInvitationIsADanceInItsRoom) {
+  put_settings(kSynthetic);
+  auto server = ChildProcess::start({bin("dance-server"), {}, "", folder_.path("server")});
+  ASSERT_TRUE(server);
+  const Finished made = run(bin("dance-server") + " --invite bob --address 127.0.0.1 --room salsa");
+  ASSERT_TRUE(made.output.starts_with("dance://")) << made.talk;
+  start_lobby({made.output.substr(0, made.output.find('\n'))});
+  ASSERT_TRUE(lobby_);
+  EXPECT_TRUE(wait_for([&] { return dances(); })) << talk();
+  EXPECT_TRUE(wait_for([&] {
+    return run(bin("dance-status") + " --once --json").output.find("\"name\":\"bob\"") !=
+           std::string::npos;
+  })) << "by the name that it is for";
+  input_->press("q");
+  EXPECT_TRUE(wait_for([&] { return is_back(); })) << talk();
+  const auto house = load_session(settings());
+  ASSERT_TRUE(house) << house.error().what;
+  EXPECT_EQ(house->guests.front().view(), "bob");
+  EXPECT_EQ(house->room, "salsa");
+  EXPECT_EQ(house->window.rooms.size(), 1u);
+  EXPECT_EQ(talk().find("key="), std::string::npos) << "the key is nobody's to read";
 }
 
 TEST_F(LobbyWindowTest, ABrokenFileIsToldAndKept) {
