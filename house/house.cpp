@@ -9,7 +9,7 @@
 #include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
-#include "formats/clip/dancers_file.h"
+#include "house/dancer/dancer_file.h"
 #include "producers/receive/receiver_table.h"
 #include "producers/replay/clip_dancer.h"
 #include "producers/salsa/salsa_dancer.h"
@@ -31,7 +31,7 @@ MonoTime start_of(const HostedProducer& producer, MonoTime now) {
 Result<std::unique_ptr<Dancer>> make_dancer(const HostedProducer& producer,
                                             const BeatClock& music) {
   if (producer.kind == HostedProducer::Kind::kReplay) {
-    DANCE_TRY(NamedClip loaded, load_dancer(producer.file, producer.guest.view()));
+    DANCE_TRY(NamedClip loaded, load_dancer_of(producer.file, producer.dancer, producer.guest));
     for (const std::string& note : loaded.notes) talk::info("{}: {}", producer.file, note);
     ClipDancerOptions options;
     options.speed = producer.speed;

@@ -8,7 +8,6 @@
 // Threads:      none inside; runs in the poller's thread.
 // Failure:      nothing ends the house; see HostedProgram. A program that has no camera has said so
 //               and the cure.
-//               cure.
 #pragma once
 
 #include <string>

@@ -10,6 +10,7 @@
 #include "core/program/child_process.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
+#include "house/dancer/session_partner.h"
 #include "house/house.h"
 #include "house/session_guests.h"
 #include "tunnel/invitation/open_invitation.h"
@@ -31,6 +32,10 @@ constexpr const char* kExamples = R"(Examples:
                                                      alice is drawn so, at the others' too
   dance join dance.example.org --guest alice --voice
                                                      alice speaks, and hears the others
+  dance join sessions/alice.toml --alone --partner follow
+                                                     without the server; a synthetic partner
+  dance join sessions/alice.toml --alone --music song.ogg --view mirror
+                                                     practice with music, before a mirror
   dance join sessions/alice.toml --no-view           without a window
 )";
 
@@ -43,6 +48,10 @@ struct JoinOptions {
   std::string bus;
   std::string camera;
   std::vector<std::string> avatars;
+  std::string partner;
+  std::string music;
+  std::string view;
+  bool alone = false;
   bool voice = false;
   bool no_view = false;
   bool json = false;
@@ -134,6 +143,12 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     if (session.guests.empty()) return fail("--voice: who speaks? name the guest with --guest");
     session.voice.emplace().guest = session.guests.front();
   }
+  if (options.alone) dance_alone(session);
+  if (!options.partner.empty()) {
+    if (auto added = add_partner(session, options.partner); !added)
+      return fail("--partner " + added.error().what);
+  }
+  if (!options.music.empty()) practise_to(session, options.music);
   if (!options.bus.empty()) session.bus = options.bus;
   if (options.no_view) session.view = false;
   if (auto checked = check_guests(session); !checked) return tl::make_unexpected(checked.error());
@@ -141,8 +156,12 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
 }
 
 // The viewer's panels save into the session file, where there is one.
-std::vector<std::string> viewer_arguments(const JoinOptions& options, const std::string& bus_url) {
+std::vector<std::string> viewer_arguments(const JoinOptions& options, const HouseConfig& session,
+                                          const std::string& bus_url) {
   std::vector<std::string> arguments{"--bus", bus_url};
+  if (!options.view.empty()) arguments.insert(arguments.end(), {"--view", options.view});
+  if (!options.view.empty() && !session.guests.empty())
+    arguments.insert(arguments.end(), {"--focus", std::string(session.guests.front().view())});
   if (is_session_file(options.host_or_session))
     arguments.insert(arguments.end(), {"--session", options.host_or_session});
   return arguments;
@@ -158,9 +177,10 @@ Result<void> run_join(JoinOptions options) {
   DANCE_TRY(auto house, House::open(session, *poller));
   std::unique_ptr<ChildProcess> viewer;
   if (session.view) {
-    DANCE_TRY(ChildProcess started,
-              ChildProcess::start({program_folder() + "/dance-view",
-                                   viewer_arguments(options, house->bus().url()), "", ""}));
+    DANCE_TRY(
+        ChildProcess started,
+        ChildProcess::start({program_folder() + "/dance-view",
+                             viewer_arguments(options, session, house->bus().url()), "", ""}));
     viewer = std::make_unique<ChildProcess>(std::move(started));
     poller->add_timer(mono_now() + Duration::ms(200), [&](MonoTime now) {
       if (!viewer->has_ended()) return now + Duration::ms(200);
@@ -213,6 +233,15 @@ int main(int argc, char** argv) {
       "name that dance avatar list shows, or words of a look; NAME=AVATAR for another guest");
   line.add_flag("--voice", options.voice,
                 "the first guest speaks with the others and hears them, as dance voice does");
+  line.add_flag("--alone", options.alone, "without the session file's server: nobody else comes");
+  line.add(
+      "--partner", options.partner,
+      "one more dancer in this house: lead or follow (a synthetic one), or a file (.bvh, .glb, "
+      ".lcm)");
+  line.add("--music", options.music,
+           "plays this file over and over, instead of the session file's music");
+  line.add("--view", options.view, "the viewer's view, of the first guest: as dance view --view")
+      .one_of({"orbit", "follow", "mirror", "first-person", "compare", "grid"});
   line.add("--bus", options.bus, "LCM URL of the house's bus, instead of the session file's");
   line.add_flag("--no-view", options.no_view, "no viewer");
   line.add_flag("--json", options.json, "write what was counted to stdout at the end");

@@ -268,12 +268,14 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   for (const auto& [key, node] : document) {
     const std::string_view k = key.str();
     if (k != "house" && k != "route" && k != "produce" && k != "listen" && k != "haptics" &&
-        k != "channel" && k != "music" && k != "voice" && k != "style" && k != "avatar")
+        k != "channel" && k != "music" && k != "voice" && k != "style" && k != "avatar" &&
+        k != "window")
       return Error{
           name + ":" + std::to_string(key.source().begin.line) + ":" +
           std::to_string(key.source().begin.column) + ": there is no '" + std::string(k) +
           "' in a session file; there are [house], [[route]], [[produce]], "
-          "[[listen]], [[haptics]], [[channel]], [[avatar]], [[style]], [music] and [voice]"};
+          "[[listen]], [[haptics]], [[channel]], [[avatar]], [[style]], [music], [voice] and "
+          "[window]"};
   }
   const toml::node* house = document.get("house");
   if (!house || !house->is_table()) return Error{name + ":1:1: the table [house] is missing"};
@@ -301,6 +303,9 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
   if (!problem)
     problem =
         read_once(document, "music", name, [&](TomlReader& r) { read_music(r, folder, session); });
+  if (!problem)
+    problem = read_once(document, "window", name,
+                        [&](TomlReader& r) { session.window = read_window(r, folder.string()); });
   if (problem) return problem;
   return read_once(document, "voice", name, [&](TomlReader& r) { read_voice_of(r, session); });
 }

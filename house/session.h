@@ -20,6 +20,7 @@
 #include "core/signal/style.h"
 #include "haptics/haptic_table.h"
 #include "house/avatar_choice.h"
+#include "house/session_window.h"
 #include "house/voice/hosted_voice.h"
 #include "manager/route.h"
 #include "producers/receive/receiver_table.h"
@@ -41,6 +42,7 @@ struct HostedProducer {
   std::int64_t seed = 1;
   // replay
   std::string file;
+  std::string dancer;  // of several in the file; "" = called as the guest, or the first
   double speed = 1.0;
 };
 
@@ -129,6 +131,7 @@ struct HouseConfig {
   std::optional<HostedVoice> voice;
   std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in
+  WindowChoices window;               // of dance lobby
 };
 
 // `name` stands in errors. Relative file names in it are taken from the folder of `name`.

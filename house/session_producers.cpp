@@ -67,6 +67,7 @@ void read_producer(TomlReader& reader, const std::filesystem::path& folder, Hous
   } else if (kind == "replay") {
     producer.kind = HostedProducer::Kind::kReplay;
     producer.file = (folder / reader.required_string("file")).string();
+    producer.dancer = reader.string_or("dancer", "");
     producer.speed = reader.number_or("speed", 1.0, 0.05, 20.0);
   } else {
     reader.complain("kind",

@@ -21,13 +21,14 @@ constexpr const char* kNoVirtualDisplay = "no Xvfb here; apt-get install xvfb";
 class VirtualDisplay {
  public:
   // With a folder, what is on the screen lies there as Xvfb_screen0, an X window dump.
-  explicit VirtualDisplay(const std::string& screen_folder = "") {
+  explicit VirtualDisplay(const std::string& screen_folder = "",
+                          const std::string& screen = "800x600x24") {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return;
     const std::string fd = std::to_string(ends[1]);
-    std::vector<const char*> words{"Xvfb",       "-displayfd", fd.c_str(),  "-screen",
-                                   "0",          "800x600x24", "-nolisten", "tcp",
-                                   "+extension", "GLX",        "-noreset"};
+    std::vector<const char*> words{"Xvfb",       "-displayfd",   fd.c_str(),  "-screen",
+                                   "0",          screen.c_str(), "-nolisten", "tcp",
+                                   "+extension", "GLX",          "-noreset"};
     if (!screen_folder.empty()) words.insert(words.end(), {"-fbdir", screen_folder.c_str()});
     words.push_back(nullptr);
     pid_ = fork();

@@ -23,6 +23,7 @@ struct Command {
 };
 
 constexpr std::array kCommands{
+    Command{"lobby", "the window for dancers: you, with whom, a room of your own"},
     Command{"demo",
             "two houses, a server between them, dancers, a stage: the main job on one machine"},
     Command{"join", "all of a house in one, from one session file"},
@@ -129,7 +130,10 @@ void print_commands(std::FILE* out) {
                  static_cast<int>(command.name.size()), command.name.data(),
                  static_cast<int>(command.summary.size()), command.summary.data());
   }
-  std::fputs("\nFirst steps:\n  dance doctor\n  dance demo\n", out);
+  std::fputs(
+      "\nFirst steps:\n  dance doctor\n  dance demo\n  dance            (on a desktop: the "
+      "window)\n",
+      out);
 }
 
 // The command that is meant, and how many words it takes: the most that make one.
@@ -161,6 +165,12 @@ std::string no_command_line(const std::string& word) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
+    // On a desktop the window; without a display, or built without one, the list.
+    std::string lobby = program_of("lobby");
+    if (!dance::display_name().empty() && access(lobby.c_str(), X_OK) == 0) {
+      const std::array<char*, 2> alone{lobby.data(), nullptr};
+      execv(lobby.c_str(), alone.data());
+    }
     print_commands(stdout);
     return 0;
   }

@@ -102,7 +102,7 @@ if command -v desktop-file-validate >/dev/null; then
 fi
 opens=$(sed -n 's/^Exec=\(dance [a-z]*\) %u$/\1/p' "$entry")
 [ -n "$opens" ] || wrong "the desktop entry starts no command of dance with a link"
-! PATH="$usr/bin:$PATH" $opens 'dance://dance.example.org/salsa?v=1' >link.log 2>&1 || wrong "$opens opens a broken link"
+! env -u DISPLAY -u WAYLAND_DISPLAY PATH="$usr/bin:$PATH" $opens 'dance://dance.example.org/salsa?v=1' >link.log 2>&1 || wrong "$opens opens a broken link"
 expect "the invitation names no guest" link.log "$opens"
 "$dance" server --invite alice --address dance.example.org --room salsa >invited 2>/dev/null || wrong "dance server --invite fails"
 expect "dance://dance.example.org/salsa?v=1&guest=alice&key=" invited "dance server --invite"

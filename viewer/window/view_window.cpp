@@ -199,8 +199,15 @@ void ViewWindow::pass_input_to_panels() {
   io.MouseWheel = std::exchange(wheel_, 0.0f);
 }
 
+void ViewWindow::set_events(WindowEvents& events) {
+  events_ = &events;
+  drag_ = WindowDrag::kNone;
+  wheel_ = 0.0f;
+}
+
 void ViewWindow::on_key(int key, int scancode, int action, int modifiers) {
   const bool is_release = action == GLFW_RELEASE;
+  if (action != GLFW_REPEAT) events_->on_raw_key(key, !is_release, modifiers);
   // A key that is let go was pressed alone perhaps, whatever is held with it by now.
   RawKey raw{key, nullptr, action == GLFW_REPEAT, is_release ? 0 : modifiers};
   // Keys beyond 127 print nothing, and GLFW does not take them.
@@ -208,25 +215,28 @@ void ViewWindow::on_key(int key, int scancode, int action, int modifiers) {
   raw.has_alt_gr = !is_release && glfwGetKey(window_, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS;
   const auto press = press_of_key(raw);
   if (is_release) {
-    if (press) events_.on_key_released(*press);
+    if (press) events_->on_key_released(*press);
     return;
   }
   is_repeat_ = raw.is_repeat;  // its characters come next
-  if (press) events_.on_key(*press);
+  if (press) events_->on_key(*press);
 }
 
 void ViewWindow::on_letter(unsigned int letter) {
-  if (const auto press = press_of_letter(letter, is_repeat_)) events_.on_key(*press);
+  events_->on_character(letter);
+  if (const auto press = press_of_letter(letter, is_repeat_)) events_->on_key(*press);
 }
 
 void ViewWindow::on_wheel(float notches) {
+  events_->on_raw_wheel(notches);
   if (panels_have_mouse())
     wheel_ += notches;
   else
-    events_.on_wheel(notches);
+    events_->on_wheel(notches);
 }
 
 void ViewWindow::on_button(int button, int action, int modifiers) {
+  events_->on_mouse_button(button, action == GLFW_PRESS);
   if (action != GLFW_PRESS || panels_have_mouse()) {
     drag_ = WindowDrag::kNone;
     return;
@@ -245,7 +255,7 @@ void ViewWindow::on_cursor(double x, double y) {
   const auto up = static_cast<float>((last_y_ - y) * scale);
   last_x_ = x;
   last_y_ = y;
-  if (drag_ != WindowDrag::kNone) events_.on_drag(drag_, right, up);
+  if (drag_ != WindowDrag::kNone) events_->on_drag(drag_, right, up);
 }
 
 }  // namespace dance

@@ -29,6 +29,12 @@ class WindowEvents {
   virtual void on_key_released(const KeyPress&) {}
   virtual void on_drag(WindowDrag drag, float right, float up) = 0;
   virtual void on_wheel(float notches) = 0;
+  // As the window system tells it, for those who hand everything to Dear ImGui: a key by its place
+  // (GLFW_KEY_…), a character that was typed, buttons and wheel of the mouse.
+  virtual void on_raw_key(int /*key*/, bool /*is_down*/, int /*modifiers*/) {}
+  virtual void on_character(unsigned int /*character*/) {}
+  virtual void on_mouse_button(int /*button*/, bool /*is_down*/) {}
+  virtual void on_raw_wheel(float /*notches*/) {}
 };
 
 class ViewWindow {
@@ -40,6 +46,8 @@ class ViewWindow {
 
   static Result<std::unique_ptr<ViewWindow>> create(Size size, WindowEvents& events);
   ~ViewWindow();
+  // Who hears the events from now on: a window outlives what is shown in it.
+  void set_events(WindowEvents& events);
   ViewWindow(const ViewWindow&) = delete;
   ViewWindow& operator=(const ViewWindow&) = delete;
 
@@ -70,7 +78,7 @@ class ViewWindow {
   void pass_input_to_panels();
 
  private:
-  explicit ViewWindow(WindowEvents& events) : events_(events) {}
+  explicit ViewWindow(WindowEvents& events) : events_(&events) {}
   Result<void> open(Size size);
   bool make_window(Size size, bool is_robust);
   void hear_events();
@@ -80,7 +88,7 @@ class ViewWindow {
   void on_cursor(double x, double y);
   void on_button(int button, int action, int modifiers);
 
-  WindowEvents& events_;
+  WindowEvents* events_;
   GLFWwindow* window_ = nullptr;
   bool tells_loss_ = false;  // glGetGraphicsResetStatus can be asked
   bool is_made_lost_ = false;

@@ -38,10 +38,16 @@ DisplayPath::Options path_options(const ViewOptions& options) {
 }  // namespace
 
 Result<std::unique_ptr<WindowRun>> WindowRun::create(const ViewOptions& options,
-                                                     PictureSource& source) {
+                                                     PictureSource& source,
+                                                     std::unique_ptr<ViewWindow> window) {
   std::unique_ptr<WindowRun> run(new WindowRun(options, source));
-  DANCE_TRY(run->window_,
-            ViewWindow::create({options.size.width_px, options.size.height_px}, run->input_));
+  if (window) {
+    run->window_ = std::move(window);
+    run->window_->set_events(run->input_);
+  } else {
+    DANCE_TRY(run->window_,
+              ViewWindow::create({options.size.width_px, options.size.height_px}, run->input_));
+  }
   if (auto made = run->make_painter(); !made) return tl::make_unexpected(made.error());
   if (!run->painter_->overlay().font_note().empty())
     talk::info("{}", run->painter_->overlay().font_note());
@@ -77,6 +83,10 @@ WindowRun::WindowRun(const ViewOptions& options, PictureSource& source)
 }
 
 WindowRun::~WindowRun() = default;
+
+std::unique_ptr<ViewWindow> WindowRun::close(std::unique_ptr<WindowRun> run) {
+  return std::move(run->window_);  // what was drawn goes before it, while its context is current
+}
 
 Result<void> WindowRun::make_painter() {
   const Quality quality = draws_plainly_ ? Quality::kLow : quality_of(options_.quality);

@@ -2,7 +2,8 @@
 // picture, the swap, and what was measured on the way. It outlives a lost OpenGL context.
 //
 // Units/frames: MonoTime of this process; the scene in the house's clock.
-// Ownership:    owns window, painter and panels; borrows the source and the options.
+// Ownership:    owns window, painter and panels; borrows the source and the options. close() gives
+//               the window to who shows something else in it.
 // Threads:      the main thread. The bus has its own: a swap that waits holds up nothing else.
 // Failure:      create() and run() name what display or driver refuse, and the cure.
 #pragma once
@@ -47,8 +48,12 @@ class PictureRate {
 
 class WindowRun {
  public:
+  // In a window of its own, or in one that is open and shows nothing else meanwhile.
   static Result<std::unique_ptr<WindowRun>> create(const ViewOptions& options,
-                                                   PictureSource& source);
+                                                   PictureSource& source,
+                                                   std::unique_ptr<ViewWindow> window = nullptr);
+  // Gives the window back, which must be told at once who hears its events from now on.
+  static std::unique_ptr<ViewWindow> close(std::unique_ptr<WindowRun> run);
   ~WindowRun();
 
   // Until the window is closed or the source ends.

@@ -9,11 +9,13 @@
 
 #include "viewer/words/check_texts.h"
 #include "viewer/words/dance_texts.h"
+#include "viewer/words/lobby_texts.h"
 
 // clang-format off
 #define DANCE_TEXTS(ROW) \
   ROW(kLeave, "Leave", "Salir", "Verlassen") \
   ROW(kBack, "Back", "Volver", "Zurück") \
   DANCE_CHECK_TEXTS(ROW) \
-  DANCE_PANEL_TEXTS(ROW)
+  DANCE_PANEL_TEXTS(ROW) \
+  DANCE_LOBBY_TEXTS(ROW)
 // clang-format on

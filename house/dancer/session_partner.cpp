@@ -1,0 +1,65 @@
+#include "house/dancer/session_partner.h"
+
+#include <algorithm>
+
+#include "house/dancer/dancer_file.h"
+
+namespace dance {
+namespace {
+
+bool is_in_house(const HouseConfig& session, const GuestId& guest) {
+  const auto is_it = [&](const auto& it) { return it.guest == guest; };
+  return std::find(session.guests.begin(), session.guests.end(), guest) != session.guests.end() ||
+         std::any_of(session.producers.begin(), session.producers.end(), is_it) ||
+         std::any_of(session.cameras.begin(), session.cameras.end(), is_it);
+}
+
+GuestId free_guest(const HouseConfig& session) {
+  GuestId guest = *GuestId::parse("partner");
+  for (int i = 2; is_in_house(session, guest); ++i)
+    guest = *GuestId::parse("partner-" + std::to_string(i));
+  return guest;
+}
+
+}  // namespace
+
+void dance_alone(HouseConfig& session) {
+  session.server.clear();
+  if (!session.music) return;
+  session.music->guest = GuestId();
+  session.music->follow = false;
+  if (session.music->file.empty() && !session.music->microphone) session.music.reset();
+}
+
+Result<void> add_partner(HouseConfig& session, const std::string& partner) {
+  HostedProducer producer;
+  producer.guest = free_guest(session);
+  const HostedProducer* own = nullptr;
+  for (const HostedProducer& it : session.producers)
+    if (!session.guests.empty() && it.guest == session.guests.front()) own = &it;
+  if (partner == "lead" || partner == "follow") {
+    producer.role = partner;
+    if (own && own->kind == HostedProducer::Kind::kSalsa) producer.tempo_bpm = own->tempo_bpm;
+  } else {
+    producer.kind = HostedProducer::Kind::kReplay;
+    producer.file = partner;
+    DANCE_TRY(const std::vector<std::string> names, dancers_in_file(partner));
+    const std::string taken = own && own->kind == HostedProducer::Kind::kReplay
+                                  ? chosen_dancer(own->dancer, own->guest, names)
+                                  : std::string();
+    for (const std::string& name : names)
+      if (name != taken) producer.dancer = name;
+  }
+  session.guests.push_back(producer.guest);
+  session.producers.push_back(std::move(producer));
+  return {};
+}
+
+void practise_to(HouseConfig& session, const std::string& music) {
+  HostedMusic hosted;
+  hosted.file = music;
+  hosted.loop = true;
+  session.music = hosted;
+}
+
+}  // namespace dance

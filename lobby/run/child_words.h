@@ -1,0 +1,57 @@
+// ChildWords: a program that the window runs, and what it says: the last lines of its stderr, and,
+// where that is wanted, its stdout.
+//
+// Units/frames: bytes.
+// Ownership:    owns the program, which ends with it, and the pipes' ends.
+// Threads:      none inside; read() never waits.
+// Failure:      start() names the program and the reason; beyond kMostLines the oldest lines go,
+//               and output beyond kMostOutput_bytes is left out.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "core/program/child_process.h"
+
+namespace dance {
+
+class ChildWords {
+ public:
+  static constexpr std::size_t kMostLines = 60, kMostLine_bytes = 400;
+  static constexpr std::size_t kMostOutput_bytes = 1 << 20;
+
+  // `program` as `dance-join`, beside this one.
+  static Result<ChildWords> start(const std::string& program, std::vector<std::string> arguments,
+                                  bool takes_output = false);
+  ~ChildWords();
+  ChildWords(ChildWords&& other) noexcept;
+  ChildWords& operator=(ChildWords&& other) noexcept;
+
+  // Takes what has come. True where there is a new line, or the program has ended.
+  bool read();
+  // Lines that were not taken yet, without time and name of the program.
+  std::vector<std::string> take_lines();
+  const std::deque<std::string>& lines() const { return lines_; }
+  const std::string& output() const { return output_; }
+  ChildProcess& process() { return process_; }
+
+ private:
+  explicit ChildWords(ChildProcess process) : process_(std::move(process)) {}
+  void add(std::string_view bytes);
+  void add_line(std::string_view line);
+  void close_pipes();
+
+  ChildProcess process_;
+  int words_fd_ = -1, output_fd_ = -1;
+  bool has_told_end_ = false;
+  std::string rest_;  // of a line that has no end yet
+  std::deque<std::string> lines_;
+  std::size_t fresh_ = 0;
+  std::string output_;
+};
+
+// "12:00:00.000 dance join: the house is open" → "the house is open".
+std::string_view without_prefix(std::string_view line);
+
+}  // namespace dance

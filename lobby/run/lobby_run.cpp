@@ -1,0 +1,395 @@
+#include "lobby/run/lobby_run.h"
+
+#ifndef GLFW_INCLUDE_NONE
+#define GLFW_INCLUDE_NONE  // OpenGL comes from epoxy
+#endif
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/net/mono_clock.h"
+#include "core/program/talk.h"
+#include "lobby/run/machine_facts.h"
+#include "lobby/run/trouble_words.h"
+#include "viewer/gl/offscreen.h"
+
+namespace dance {
+namespace {
+
+constexpr int kSettlingFrames = 3;
+constexpr Duration kFastestFrame = Duration::ms(16);
+constexpr Duration kIdle = Duration::ms(500);
+constexpr Duration kBusy = Duration::ms(50);  // while programs are about to say something
+constexpr Duration kLongestGoingIn = Duration::s(20);
+constexpr Duration kHouseEnds = Duration::s(3);
+constexpr Duration kLookAtHouse = Duration::ms(100);
+
+Banner trouble(Text text, std::vector<std::string> values, std::string detail) {
+  return {Banner::Kind::kTrouble, text,         std::move(values),
+          std::move(detail),      Text::kCount, LobbyWish::kNone};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_path) {
+  std::unique_ptr<LobbyRun> run(new LobbyRun(settings_path));
+  // Before any thread begins: signals come to the main thread's poller.
+  DANCE_TRY(run->poller_, Poller::create());
+  if (auto stops = run->poller_->stop_on_signals(); !stops)
+    return tl::make_unexpected(stops.error());
+  LobbyModel& model = run->model_;
+  model.settings_path = with_tilde(settings_path);
+  find_parts(model);
+  find_addresses(model);
+  LobbySettings first = first_settings();
+  bool is_new = true;
+  if (auto opened = run->file_.open()) {
+    first = opened->settings;
+    is_new = opened->is_new;
+    model.take(first);
+    run->note_saved(opened->trouble, opened->kept_as);
+  } else {
+    model.take(first);
+    model.tell(trouble(Text::kLobbyNotSaved, {}, opened.error().what));
+  }
+  run->saved_ = first;
+  run->chooses_source_ = is_new;
+  if (is_new) model.screen = LobbyScreen::kYou;
+  run->seen_.look_for_cameras(model);
+  if (auto window = run->open_window(); !window) return tl::make_unexpected(window.error());
+  run->opener_ = std::make_unique<InvitationOpener>([] { glfwPostEmptyEvent(); });
+  run->round_trips_ = std::make_unique<RoundTrips>([] { glfwPostEmptyEvent(); });
+  run->ask_rooms();
+  return run;
+}
+
+LobbyRun::~LobbyRun() {
+  stop_house();
+  stage_.reset();
+  seen_.stop(model_);
+  painter_.reset();
+  window_.reset();  // before threads that may take some seconds yet
+  round_trips_.reset();
+  opener_.reset();
+}
+
+Result<void> LobbyRun::open_window() {
+  const WindowChoices& size = model_.settings.window;
+  DANCE_TRY(window_, ViewWindow::create({size.width_px, size.height_px}, input_));
+  return make_painter();
+}
+
+Result<void> LobbyRun::make_painter() {
+  DANCE_TRY(painter_, LobbyPainter::create(window_->scale()));
+  input_.begin(*window_);
+  window_->set_tear_free(true);
+  fresh_frames_ = kSettlingFrames;
+  return {};
+}
+
+Result<void> LobbyRun::run() {
+  while (!is_over_)
+    if (auto turned = turn(); !turned) return turned;
+  return {};
+}
+
+Result<void> LobbyRun::turn() { return stage_ ? turn_of_dance() : turn_of_lobby(); }
+
+// How long nothing may happen.
+Duration LobbyRun::patience(MonoTime now) const {
+  if (fresh_frames_ > 0) return std::max(Duration(), kFastestFrame - (now - drawn_));
+  const bool is_opening = model_.host.state == HostFacts::State::kOpening;
+  return model_.is_going_in || is_opening || seen_.is_busy() ? kBusy : kIdle;
+}
+
+Result<void> LobbyRun::turn_of_lobby() {
+  window_->poll_events();
+  window_->wait_for_events(patience(mono_now()));
+  poller_->run_once(Duration());
+  if (window_->is_over() || poller_->is_stopped()) {
+    save();
+    is_over_ = true;
+    return {};
+  }
+  if (window_->is_context_lost()) {
+    painter_.reset();
+    if (auto renewed = window_->renew(); !renewed) return renewed;
+    return make_painter();
+  }
+  if (look_around(mono_now())) fresh_frames_ = std::max(fresh_frames_, 1);
+  if (stage_) return {};  // it has begun
+  if (input_.take_news(*window_)) fresh_frames_ = kSettlingFrames;
+  if (fresh_frames_ == 0 || mono_now() - drawn_ < kFastestFrame) return {};
+  if (auto drawn = draw(); !drawn) return drawn;
+  if (!painter_->is_typed_in()) save();
+  obey(std::exchange(model_.wish, LobbyWish::kNone));
+  return {};
+}
+
+Result<void> LobbyRun::draw() {
+  const ViewWindow::Size size = window_->framebuffer_size();
+  if (size.width_px <= 0 || size.height_px <= 0) {  // minimised
+    fresh_frames_ = 0;
+    return {};
+  }
+  painter_->set_scale(window_->scale());
+  const bool has_more = input_.pass(*window_);
+  const MonoTime now = mono_now();
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  painter_->draw(model_, size.width_px, size.height_px,
+                 drawn_.is_set() ? now - drawn_ : kFastestFrame);
+  window_->swap();
+  drawn_ = now;
+  ++pictures_;
+  fresh_frames_ = has_more ? kSettlingFrames : fresh_frames_ - 1;
+  return {};
+}
+
+// True where something is to be drawn.
+bool LobbyRun::look_around(MonoTime now) {
+  bool is_new = host_.look(model_, now, model_.screen == LobbyScreen::kHost);
+  is_new = seen_.look(model_, *painter_, now) || is_new;
+  if (chooses_source_ && model_.knows_cameras) {
+    // Who has no camera can dance at once all the same.
+    if (model_.cameras.empty()) model_.settings.source = DancerSource::kSynthetic;
+    chooses_source_ = false;
+    is_new = true;
+  }
+  is_new = look_at_invitation() || is_new;
+  if (const RoundTrips::Answers* answers = round_trips_->take()) {
+    for (std::size_t i = 0; i < std::min(answers->count, model_.rooms.size()); ++i) {
+      model_.rooms[i].state =
+          answers->answered[i] ? RoomFact::State::kAnswers : RoomFact::State::kSilent;
+      model_.rooms[i].round_trip = answers->round_trips[i];
+    }
+    is_new = true;
+  }
+  return look_at_house(now) || is_new;
+}
+
+bool LobbyRun::look_at_house(MonoTime now) {
+  if (!house_ || stage_) return false;
+  const bool is_alone = house_for_ != LobbyWish::kJoin;
+  house_->read();
+  for (const std::string& line : house_->take_lines()) {
+    if (says_it_is_in(line, is_alone)) {
+      model_.is_going_in = false;
+      if (auto begun = begin_dance(); !begun) {
+        stop_house();
+        model_.tell(trouble(Text::kLobbyDanceEnded, {}, begun.error().what));
+      }
+      return true;
+    }
+    const auto known = trouble_in(line, model_.settings);
+    if (!known) continue;
+    model_.tell(known->banner);
+    if (!known->is_fatal) continue;
+    stop_house();
+    return true;
+  }
+  if (house_->process().has_ended()) {
+    house_->read();
+    const std::vector<std::string> lines(house_->lines().begin(), house_->lines().end());
+    model_.tell(trouble_of_end(lines, model_.settings));
+    stop_house();
+    return true;
+  }
+  if (now - going_since_ < kLongestGoingIn) return false;
+  model_.tell(trouble(Text::kLobbyServerSilent, {model_.settings.server}, ""));
+  stop_house();
+  return true;
+}
+
+void LobbyRun::stop_house() {
+  model_.is_going_in = false;
+  if (house_) house_->process().stop(kHouseEnds);
+  house_.reset();
+}
+
+void LobbyRun::obey(LobbyWish wish) {
+  if (wish != LobbyWish::kNone) fresh_frames_ = kSettlingFrames;
+  switch (wish) {
+    case LobbyWish::kNone:
+      return;
+    case LobbyWish::kJoin:
+    case LobbyWish::kAlone:
+    case LobbyWish::kPractise:
+      return go_in(wish);
+    case LobbyWish::kCancel:
+      return stop_house();
+    case LobbyWish::kOpenRoom:
+      return host_.open(model_);
+    case LobbyWish::kCloseRoom:
+      return host_.close(model_);
+    case LobbyWish::kInvite:
+      return host_.invite(model_);
+    case LobbyWish::kWithdraw:
+      return host_.withdraw(model_);
+    case LobbyWish::kListInvited:
+      return host_.list(model_);
+    case LobbyWish::kAskRooms:
+      return ask_rooms();
+    case LobbyWish::kLookAgain:
+      find_addresses(model_);
+      return seen_.look_for_cameras(model_);
+    case LobbyWish::kOpenInvitation:
+      return open_invitation_typed();
+    case LobbyWish::kPlayCountIn:
+      return seen_.play_count_in();
+    case LobbyWish::kQuit:
+      is_over_ = true;
+      return;
+  }
+}
+
+void LobbyRun::open(const std::string& invitation) {
+  model_.show(LobbyScreen::kDance);
+  model_.invitation_typed = invitation;
+  model_.ask(LobbyWish::kOpenInvitation);
+}
+
+void LobbyRun::open_invitation_typed() {
+  model_.banners.clear();
+  const auto invitation = parse_invitation(model_.invitation_typed);
+  if (!invitation)
+    return model_.tell(trouble(Text::kLobbyInvitationBad, {}, invitation.error().what));
+  if (!opener_->begin(*invitation)) return;
+  model_.is_going_in = true;
+  going_since_ = mono_now();
+}
+
+// True where something has come of it.
+bool LobbyRun::look_at_invitation() {
+  const auto outcome = opener_->take();
+  if (!outcome || !model_.is_going_in || house_) return false;
+  model_.is_going_in = false;
+  if (!outcome->empty()) {
+    model_.tell(trouble(Text::kLobbyInvitationFailed, {}, *outcome));
+    return true;
+  }
+  const Invitation& invitation = opener_->invitation();
+  model_.invitation_typed.clear();
+  // The key is for that name.
+  model_.settings.name = model_.name_typed = std::string(invitation.guest.view());
+  const std::string room(invitation.room.is_set() ? invitation.room.view() : "dance");
+  model_.choose_room({room, invitation.server()});
+  go_in(LobbyWish::kJoin);
+  return true;
+}
+
+void LobbyRun::ask_rooms() {
+  std::vector<std::string> servers;
+  for (const KnownRoom& room : model_.settings.window.rooms) servers.push_back(room.server);
+  model_.rooms.assign(servers.size(), RoomFact());
+  round_trips_->ask(std::move(servers));
+}
+
+void LobbyRun::go_in(LobbyWish wish) {
+  model_.banners.clear();
+  if (auto wrong = model_.trouble_before(wish)) return model_.tell(std::move(*wrong));
+  if (wish == LobbyWish::kJoin) model_.remember_room();
+  save();
+  if (!(saved_ == only_what_counts(model_.settings))) return;  // it was told why not
+  std::vector<std::string> words{file_.path(), "--no-view"};
+  const WindowChoices& window = model_.settings.window;
+  if (wish != LobbyWish::kJoin) words.emplace_back("--alone");
+  if (wish == LobbyWish::kAlone) words.push_back("--partner=" + window.partner);
+  if (wish == LobbyWish::kPractise && !window.music.empty())
+    words.push_back("--music=" + window.music);
+  seen_.stop(model_);  // the house wants the camera
+  auto started = ChildWords::start("dance-join", std::move(words));
+  if (!started) return model_.tell(trouble(Text::kLobbyDanceEnded, {}, started.error().what));
+  house_ = std::move(*started);
+  house_for_ = wish;
+  going_since_ = mono_now();
+  model_.is_going_in = true;
+}
+
+// The window goes to the stage.
+Result<void> LobbyRun::begin_dance() {
+  DANCE_TRY(const HouseConfig house, load_session(file_.path()));
+  view_ = ViewOptions();
+  view_.feed.bus_url = house.bus;
+  view_.session = file_.path();
+  const bool is_mirror = house_for_ == LobbyWish::kPractise && model_.settings.window.mirror;
+  if (is_mirror) view_.view = ViewMode::kMirror;
+  if (is_mirror) view_.focus = GuestId::parse(model_.settings.name);
+  DANCE_TRY(source_, PictureSource::open(view_));
+  painter_.reset();
+  auto stage = WindowRun::create(view_, *source_, std::move(window_));
+  if (!stage) {
+    source_.reset();
+    if (auto opened = open_window(); !opened) return opened;
+    return tl::make_unexpected(stage.error());
+  }
+  stage_ = std::move(*stage);
+  if (is_software_rendering() && !std::exchange(has_told_graphics_, true))
+    model_.tell(
+        {Banner::Kind::kGood, Text::kLobbyNoGraphics, {}, "", Text::kCount, LobbyWish::kNone});
+  return {};
+}
+
+Result<void> LobbyRun::turn_of_dance() {
+  if (auto turned = stage_->turn(); !turned) {
+    model_.tell(trouble(Text::kLobbyDanceEnded, {}, turned.error().what));
+    return end_dance();
+  }
+  const MonoTime now = mono_now();
+  if (now - house_looked_at_ > kLookAtHouse) {
+    house_looked_at_ = now;
+    house_->read();
+    for (const std::string& line : house_->take_lines())
+      if (const auto known = trouble_in(line, model_.settings); known && !known->is_fatal)
+        model_.tell(known->banner);
+    if (house_->process().has_ended()) {
+      house_->read();
+      const std::vector<std::string> lines(house_->lines().begin(), house_->lines().end());
+      model_.tell(trouble_of_end(lines, model_.settings));
+      return end_dance();
+    }
+  }
+  return stage_->is_over() ? end_dance() : Result<void>();
+}
+
+Result<void> LobbyRun::end_dance() {
+  const bool has_signal = source_->is_over();
+  window_ = WindowRun::close(std::move(stage_));
+  stage_.reset();
+  source_.reset();
+  stop_house();
+  is_over_ = has_signal || window_->is_over();
+  if (is_over_) return {};
+  window_->set_events(input_);
+  ask_rooms();
+  return make_painter();
+}
+
+void LobbyRun::note_saved(const std::string& what, const std::string& kept_as) {
+  if (!what.empty()) model_.tell(trouble(Text::kLobbySettingsBroken, {with_tilde(kept_as)}, what));
+}
+
+void LobbyRun::save() {
+  if (window_) {
+    const ViewWindow::Size size = window_->framebuffer_size();
+    const auto unscaled = [&](int pixels, int least) {
+      return std::clamp(
+          static_cast<int>(std::lround(static_cast<float>(pixels) / window_->scale())), least,
+          WindowChoices::kMost_px);
+    };
+    if (size.width_px > 0) {
+      WindowChoices& window = model_.settings.window;
+      window.width_px = unscaled(size.width_px, WindowChoices::kLeastWidth_px);
+      window.height_px = unscaled(size.height_px, WindowChoices::kLeastHeight_px);
+    }
+  }
+  const LobbySettings counts = only_what_counts(model_.settings);
+  if (counts == saved_) return;
+  auto saved = file_.save(counts);
+  if (!saved) return model_.tell(trouble(Text::kLobbyNotSaved, {}, saved.error().what));
+  note_saved(saved->trouble, saved->kept_as);
+  saved_ = counts;
+}
+
+}  // namespace dance

@@ -1,0 +1,72 @@
+#include "lobby/run/trouble_words.h"
+
+#include <array>
+
+namespace dance {
+namespace {
+
+enum class Names { kNothing, kServer, kGuest, kCamera };
+
+struct Sign {
+  std::string_view says;
+  Text text;
+  Names names;
+  bool is_fatal;
+};
+
+// As the programs write them: tunnel/link/link_text.cpp, tunnel/link/link_key.cpp, house/,
+// producers/camera/, core/sound/. The test of lobby/ takes the lines from there.
+constexpr std::array kSigns{
+    Sign{"does not know this house's key", Text::kLobbyKeyRefused, Names::kServer, true},
+    Sign{"there is no key for", Text::kLobbyNoKey, Names::kServer, true},
+    Sign{"already through another link", Text::kLobbyNameTaken, Names::kGuest, true},
+    Sign{"is full: wait", Text::kLobbyRoomFull, Names::kNothing, true},
+    Sign{"of the wire format", Text::kLobbyVersions, Names::kNothing, true},
+    Sign{"does not answer", Text::kLobbyServerSilent, Names::kServer, true},
+    Sign{"answers, and then no more", Text::kLobbyServerSilent, Names::kServer, true},
+    Sign{"cannot be resolved", Text::kLobbyServerSilent, Names::kServer, true},
+    Sign{"in use; close the program", Text::kLobbyCameraTaken, Names::kCamera, false},
+    Sign{"in use by another program", Text::kLobbyCameraTaken, Names::kCamera, false},
+    Sign{"no microphone", Text::kLobbyMicrophoneSilent, Names::kNothing, false},
+    Sign{"nobody dances in this recording", Text::kLobbyFileUnreadable, Names::kNothing, true},
+    Sign{"none in it is called", Text::kLobbyFileUnreadable, Names::kNothing, true},
+};
+
+std::vector<std::string> names_for(Names names, const LobbySettings& settings) {
+  switch (names) {
+    case Names::kServer:
+      return {settings.server};
+    case Names::kGuest:
+      return {settings.name};
+    case Names::kCamera:
+      return {settings.camera};
+    case Names::kNothing:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySettings& settings) {
+  for (const Sign& sign : kSigns)
+    if (line.find(sign.says) != std::string_view::npos)
+      return ChildTrouble{{Banner::Kind::kTrouble, sign.text, names_for(sign.names, settings),
+                           std::string(line), Text::kCount, LobbyWish::kNone},
+                          sign.is_fatal};
+  return std::nullopt;
+}
+
+bool says_it_is_in(std::string_view line, bool is_alone) {
+  return is_alone ? line.starts_with("the house is open") : line.starts_with("in room '");
+}
+
+Banner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings) {
+  for (std::size_t i = lines.size(); i-- > 0;)
+    if (auto trouble = trouble_in(lines[i], settings); trouble && trouble->is_fatal)
+      return trouble->banner;
+  return {Banner::Kind::kTrouble, Text::kLobbyDanceEnded, {}, lines.empty() ? "" : lines.back(),
+          Text::kCount,           LobbyWish::kNone};
+}
+
+}  // namespace dance

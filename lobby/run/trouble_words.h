@@ -1,0 +1,30 @@
+// What a program of ours says when something is wrong, as a banner that a dancer understands.
+//
+// Units/frames: none.
+// Ownership:    plain values.
+// Threads:      any.
+// Failure:      a line that says nothing of the kind is none.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lobby/screen/lobby_model.h"
+
+namespace dance {
+
+struct ChildTrouble {
+  Banner banner;
+  bool is_fatal = false;  // there is no dance with it
+};
+
+// Of a line of `dance join`, or of a program that it runs.
+std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySettings& settings);
+// The house dances: alone, as soon as it is open; in a room when the server has let it in.
+bool says_it_is_in(std::string_view line, bool is_alone);
+// Of a program that has ended: what its last line says, where that is known, else that it ended.
+Banner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings);
+
+}  // namespace dance

@@ -1,0 +1,161 @@
+#include <imgui.h>
+
+#include <cstdio>
+
+#include "lobby/screen/lobby_screens.h"
+
+namespace dance {
+namespace {
+
+constexpr double kNear_ms = 80.0;  // a round trip in which a couple hardly feels the line
+constexpr std::size_t kMostServerBytes = 262;
+constexpr std::size_t kMostInvitationBytes = 1024;
+
+std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+void draw_partner(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  std::string& partner = model.settings.window.partner;
+  kit.label(t[Text::kLobbyPartner]);
+  if (kit.choice(t[Text::kLobbyFollows], partner == "follow")) partner = "follow";
+  kit.beside(t[Text::kLobbyLeads]);
+  if (kit.choice(t[Text::kLobbyLeads], partner == "lead")) partner = "lead";
+  const bool is_file = partner != "follow" && partner != "lead";
+  const std::string words =
+      LobbyKit::shortened(is_file ? last_part(partner) : t[Text::kLobbyRecordedPartner],
+                          kit.px(240.0f)) +
+      "##recorded";
+  kit.beside(words.c_str());
+  if (kit.choice(words.c_str(), is_file))
+    model.chooser.open(ChooserPurpose::kPartner, is_file ? partner : "");
+}
+
+void draw_practice(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  WindowChoices& window = model.settings.window;
+  if (model.has_music) {
+    kit.label(t[Text::kLobbyMusic]);
+    const bool has_music = !window.music.empty();
+    if (kit.choice(t[Text::kLobbyNoMusic], !has_music)) window.music.clear();
+    const std::string words =
+        LobbyKit::shortened(has_music ? last_part(window.music) : t[Text::kLobbyChooseFile],
+                            kit.px(300.0f)) +
+        "##music";
+    kit.beside(words.c_str());
+    if (kit.choice(words.c_str(), has_music))
+      model.chooser.open(ChooserPurpose::kMusic, window.music);
+  }
+  kit.label(t[Text::kLobbyMirror]);
+  ImGui::PushID("mirror");
+  if (kit.choice(t[Text::kLobbyYes], window.mirror)) window.mirror = true;
+  kit.beside(t[Text::kLobbyNo]);
+  if (kit.choice(t[Text::kLobbyNo], !window.mirror)) window.mirror = false;
+  ImGui::PopID();
+}
+
+void draw_now(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const bool fits_two = kit.room_px() > kit.px(640.0f);
+  const float width = fits_two ? 0.5f * (kit.room_px() - gap) : kit.room_px();
+  if (kit.tile(t[Text::kLobbyAlone], t[Text::kLobbyAloneNote], width, ButtonLook::kAccent))
+    model.ask(LobbyWish::kAlone);
+  ImGui::SetItemDefaultFocus();
+  if (fits_two) ImGui::SameLine();
+  if (kit.tile(t[Text::kLobbyPractise], t[Text::kLobbyPractiseNote], width, ButtonLook::kPlain))
+    model.ask(LobbyWish::kPractise);
+  kit.gap(2.0f);
+  kit.begin_card(nullptr);
+  draw_partner(model, kit);
+  draw_command(model, kit, LobbyWish::kAlone);
+  kit.gap(4.0f);
+  draw_practice(model, kit);
+  draw_command(model, kit, LobbyWish::kPractise);
+  kit.end_card();
+}
+
+void draw_invitation(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  kit.begin_card(t[Text::kLobbyInvitation]);
+  kit.note(t[Text::kLobbyInvitationPaste]);
+  kit.field("##invitation", model.invitation_typed, 600.0f, kMostInvitationBytes);
+  kit.beside(t[Text::kLobbyPaste]);
+  if (kit.button(t[Text::kLobbyPaste])) {
+    const char* copied = ImGui::GetClipboardText();
+    const std::string text = copied != nullptr ? copied : "";
+    model.invitation_typed = text.substr(0, kMostInvitationBytes);
+  }
+  if (kit.button(t[Text::kLobbyOpenInvitation], ButtonLook::kAccent, 140.0f))
+    model.ask(LobbyWish::kOpenInvitation);
+  kit.beside(t[Text::kLobbyShowCommand]);
+  draw_command(model, kit, LobbyWish::kOpenInvitation);
+  kit.end_card();
+}
+
+std::string state_words(const LobbyModel& model, std::size_t which) {
+  if (which >= model.rooms.size()) return "";
+  const RoomFact& fact = model.rooms[which];
+  if (fact.state == RoomFact::State::kAsking) return model.texts[Text::kLobbyAsking];
+  if (fact.state == RoomFact::State::kSilent) return model.texts[Text::kLobbySilent];
+  const double ms = fact.round_trip.as_ms();
+  char number[24];
+  std::snprintf(number, sizeof number, ms < 10.0 ? "%.1f" : "%.0f", ms);
+  return model.texts.say(ms < kNear_ms ? Text::kLobbyNear : Text::kLobbyFar, {number});
+}
+
+void draw_rooms(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  kit.begin_card(t[Text::kLobbyRooms]);
+  const auto known = model.settings.window.rooms;  // a click changes the list
+  if (known.empty()) kit.note(t[Text::kLobbyNoRooms]);
+  const float join_u =
+      (ImGui::CalcTextSize(t[Text::kLobbyForget]).x + kit.px(52.0f)) / kit.px(1.0f);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    const std::string what = t.say(Text::kLobbyRoomAt, {known[i].room, known[i].server});
+    if (kit.row("room", what, state_words(model, i), false, join_u)) {
+      model.choose_room(known[i]);
+      model.ask(LobbyWish::kJoin);
+    }
+    ImGui::SameLine();
+    if (kit.button(t[Text::kLobbyForget], ButtonLook::kQuiet)) model.forget_room(i);
+    ImGui::PopID();
+  }
+  if (!known.empty()) {
+    kit.note(t[Text::kLobbyWhoIsThereLater]);
+    if (kit.button(t[Text::kLobbyAskAgain])) model.ask(LobbyWish::kAskRooms);
+  }
+  kit.end_card();
+}
+
+void draw_other_room(LobbyModel& model, LobbyKit& kit) {
+  const Texts& t = model.texts;
+  kit.begin_card(t[Text::kLobbyOtherRoom]);
+  kit.label(t[Text::kLobbyRoom]);
+  kit.field("##room", model.room_typed, 260.0f, kMaxGuestIdLength);
+  kit.label(t[Text::kLobbyServer]);
+  kit.field("##server", model.server_typed, 420.0f, kMostServerBytes);
+  if (kit.button(t[Text::kLobbyJoin], ButtonLook::kAccent, 140.0f)) {
+    if (model.choose_typed_room())
+      model.ask(LobbyWish::kJoin);
+    else
+      model.tell(
+          {Banner::Kind::kTrouble, Text::kLobbyNoRoomYet, {}, "", Text::kCount, LobbyWish::kNone});
+  }
+  kit.beside(t[Text::kLobbyShowCommand]);
+  draw_command(model, kit, LobbyWish::kJoin);
+  kit.end_card();
+}
+
+}  // namespace
+
+void draw_dance_screen(LobbyModel& model, LobbyKit& kit) {
+  kit.title(model.texts[Text::kLobbyDanceTitle]);
+  kit.gap(2.0f);
+  draw_now(model, kit);
+  draw_invitation(model, kit);
+  draw_rooms(model, kit);
+  draw_other_room(model, kit);
+}
+
+}  // namespace dance

@@ -1,0 +1,26 @@
+// The window's screens, drawn with Dear ImGui from a LobbyModel: which guest, with whom, and a room
+// of one's own. They change the model's settings and note what is asked for; they do nothing else.
+//
+// Units/frames: pixels.
+// Ownership:    refers to the model for the length of a call.
+// Threads:      the drawing thread, within a frame of Dear ImGui.
+// Failure:      none.
+#pragma once
+
+#include "lobby/screen/lobby_kit.h"
+#include "lobby/screen/lobby_model.h"
+
+namespace dance {
+
+// All of the window: the list of screens, banners, the screen, its command line, what is open.
+void draw_lobby(LobbyModel& model, LobbyKit& kit, float width_px, float height_px);
+
+// Of draw_lobby(), one each.
+void draw_you_screen(LobbyModel& model, LobbyKit& kit);
+void draw_dance_screen(LobbyModel& model, LobbyKit& kit);
+void draw_host_screen(LobbyModel& model, LobbyKit& kit);
+void draw_file_chooser(LobbyModel& model, LobbyKit& kit);
+// "Show the command" for what that button does.
+void draw_command(LobbyModel& model, LobbyKit& kit, LobbyWish wish);
+
+}  // namespace dance

@@ -1,0 +1,305 @@
+#include "lobby/settings/lobby_settings.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "core/base/plain_number.h"
+#include "formats/session/table_edit.h"
+
+namespace dance {
+namespace {
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+template <class Of>
+const Of* of_guest(const std::vector<Of>& all, const GuestId& guest) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Of& it) { return it.guest == guest; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// A session's text while it is edited: each call reads it anew, so that places are never stale.
+class SessionText {
+ public:
+  SessionText(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+
+  const std::string& text() const { return text_; }
+  Result<HouseConfig> house() const { return parse_session(text_, name_); }
+
+  Result<void> set(const TablePlace& place, const char* key, const std::string& value) {
+    return take(set_value(text_, place, key, value, name_));
+  }
+  Result<void> remove(const TablePlace& place, const char* key) {
+    return take(remove_value(text_, place, key, name_));
+  }
+  Result<void> remove_whole(const TablePlace& place) {
+    return take(remove_table(text_, place, name_));
+  }
+  void append(const char* table, const Values& values) {
+    text_ = append_table(text_, table, values);
+  }
+  // The value, or no such key where it would say nothing.
+  Result<void> set_text(const TablePlace& place, const char* key, const std::string& value) {
+    return value.empty() ? remove(place, key) : set(place, key, toml_text(value));
+  }
+  // The first [[table]] of that guest.
+  Result<std::optional<TablePlace>> find(const char* table, const std::string& guest) const {
+    DANCE_TRY(const auto tables, texts_of_tables(text_, table, name_));
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const auto found = tables[i].find("guest");
+      if (found != tables[i].end() && found->second == guest) return TablePlace{table, i};
+    }
+    return std::optional<TablePlace>();
+  }
+  Result<std::size_t> count(const char* table) const {
+    DANCE_TRY(const auto tables, texts_of_tables(text_, table, name_));
+    return tables.size();
+  }
+  Result<std::map<std::string, std::string>> texts(const TablePlace& place) const {
+    DANCE_TRY(auto tables, texts_of_tables(text_, place.table, name_));
+    const std::size_t index = place.index.value_or(0);
+    return index < tables.size() ? std::move(tables[index]) : std::map<std::string, std::string>();
+  }
+
+ private:
+  Result<void> take(Result<std::string> edited) {
+    if (!edited) return tl::make_unexpected(edited.error());
+    text_ = std::move(*edited);
+    return {};
+  }
+
+  std::string text_;
+  std::string name_;
+};
+
+#define LOBBY_TRY(call) \
+  if (auto done_ = (call); !done_) return done_
+
+const TablePlace kHouseTable{"house", std::nullopt};
+const TablePlace kVoiceTable{"voice", std::nullopt};
+const TablePlace kWindowTable{"window", std::nullopt};
+
+// Wherever the guest is named, as its dancer, voice or avatar, and in the channels of routes.
+Result<void> rename_guest(SessionText& text, const std::string& from, const std::string& to) {
+  for (const char* table :
+       {"produce", "avatar", "haptics", "style", "channel", "route", "listen"}) {
+    DANCE_TRY(const std::size_t count, text.count(table));
+    for (std::size_t i = 0; i < count; ++i) {
+      const TablePlace place{table, i};
+      DANCE_TRY(const auto texts, text.texts(place));
+      for (const auto& [key, value] : texts) {
+        if (key == "guest" && value == from) LOBBY_TRY(text.set(place, "guest", toml_text(to)));
+        const bool is_end = (key == "from" || key == "to") && value.starts_with("POSE/");
+        if (is_end && value.ends_with("/" + from))
+          LOBBY_TRY(text.set(place, key.c_str(),
+                             toml_text(value.substr(0, value.size() - from.size()) + to)));
+      }
+    }
+  }
+  for (const char* table : {"voice", "music"}) {
+    const TablePlace place{table, std::nullopt};
+    DANCE_TRY(const auto texts, text.texts(place));
+    const auto found = texts.find("guest");
+    if (found != texts.end() && found->second == from)
+      LOBBY_TRY(text.set(place, "guest", toml_text(to)));
+  }
+  return {};
+}
+
+Result<void> edit_name(SessionText& text, const HouseConfig& before, const std::string& name) {
+  if (before.guests.empty()) {
+    // A house that only watches stays one until a name is chosen.
+    if (name == LobbySettings().name) return {};
+    return text.set(kHouseTable, "guest", toml_text(name));
+  }
+  const std::string old(before.guests.front().view());
+  if (old == name) return {};
+  LOBBY_TRY(rename_guest(text, old, name));
+  DANCE_TRY(const auto house, text.texts(kHouseTable));
+  if (house.contains("guest")) return text.set(kHouseTable, "guest", toml_text(name));
+  std::vector<std::string> guests{name};
+  for (std::size_t i = 1; i < before.guests.size(); ++i)
+    guests.emplace_back(before.guests[i].view());
+  return text.set(kHouseTable, "guests", toml_texts(guests));
+}
+
+Values produce_values(const LobbySettings& wanted) {
+  switch (wanted.source) {
+    case DancerSource::kCamera: {
+      Values values{{"kind", "\"camera\""}};
+      if (!wanted.camera.empty()) values.emplace_back("device", toml_text(wanted.camera));
+      if (wanted.height_m > 0.0) values.emplace_back("height", plain_number(wanted.height_m));
+      return values;
+    }
+    case DancerSource::kFile:
+      return {{"kind", "\"replay\""}, {"file", toml_text(wanted.motion_file)}};
+    case DancerSource::kSynthetic:
+      return {{"kind", "\"salsa\""}, {"role", wanted.leads ? "\"lead\"" : "\"follow\""}};
+    case DancerSource::kElsewhere:
+      break;
+  }
+  return {};
+}
+
+Result<void> edit_source(SessionText& text, const LobbySettings& now, const LobbySettings& wanted) {
+  if (wanted.source == DancerSource::kElsewhere) return {};
+  DANCE_TRY(const auto place, text.find("produce", wanted.name));
+  Values values = produce_values(wanted);
+  if (now.source != wanted.source) {
+    if (place) LOBBY_TRY(text.remove_whole(*place));
+    values.insert(values.begin() + 1, {"guest", toml_text(wanted.name)});
+    text.append("produce", values);
+    return {};
+  }
+  // Of the same kind: what else stands there stays.
+  if (!place) return {};
+  if (wanted.source == DancerSource::kCamera) {
+    LOBBY_TRY(text.set_text(*place, "device", wanted.camera));
+    return wanted.height_m > 0.0 ? text.set(*place, "height", plain_number(wanted.height_m))
+                                 : text.remove(*place, "height");
+  }
+  for (const auto& [key, value] : values) LOBBY_TRY(text.set(*place, key.c_str(), value));
+  return {};
+}
+
+bool is_file_name(const std::string& avatar) { return avatar.find('/') != std::string::npos; }
+
+Result<void> edit_avatar(SessionText& text, const LobbySettings& wanted) {
+  DANCE_TRY(const auto place, text.find("avatar", wanted.name));
+  if (wanted.avatar.empty()) return place ? text.remove_whole(*place) : Result<void>();
+  const bool is_file = is_file_name(wanted.avatar);
+  const char* key = is_file ? "file" : "name";
+  if (!place) {
+    text.append("avatar", {{"guest", toml_text(wanted.name)}, {key, toml_text(wanted.avatar)}});
+    return {};
+  }
+  LOBBY_TRY(text.remove(*place, is_file ? "name" : "file"));
+  LOBBY_TRY(text.remove(*place, "look"));  // of the mannequin
+  return text.set(*place, key, toml_text(wanted.avatar));
+}
+
+Result<void> edit_voice(SessionText& text, const LobbySettings& wanted) {
+  if (!wanted.speaks) return text.remove_whole(kVoiceTable);
+  LOBBY_TRY(text.set(kVoiceTable, "headphones", wanted.has_headphones ? "true" : "false"));
+  LOBBY_TRY(text.set_text(kVoiceTable, "microphone", wanted.microphone));
+  return text.set_text(kVoiceTable, "loudspeaker", wanted.loudspeaker);
+}
+
+Result<void> edit_window(SessionText& text, const WindowChoices& now, const WindowChoices& wanted) {
+  if (now.language != wanted.language)
+    LOBBY_TRY(text.set_text(kWindowTable, "language", wanted.language));
+  if (now.rooms != wanted.rooms) {
+    std::vector<std::string> rooms;
+    for (const KnownRoom& room : wanted.rooms) rooms.push_back(room.text());
+    LOBBY_TRY(text.set(kWindowTable, "rooms", toml_texts(rooms)));
+  }
+  if (now.partner != wanted.partner)
+    LOBBY_TRY(text.set(kWindowTable, "partner", toml_text(wanted.partner)));
+  if (now.music != wanted.music) LOBBY_TRY(text.set_text(kWindowTable, "music", wanted.music));
+  if (now.mirror != wanted.mirror)
+    LOBBY_TRY(text.set(kWindowTable, "mirror", wanted.mirror ? "true" : "false"));
+  if (now.width_px != wanted.width_px)
+    LOBBY_TRY(text.set(kWindowTable, "width", std::to_string(wanted.width_px)));
+  if (now.height_px != wanted.height_px)
+    LOBBY_TRY(text.set(kWindowTable, "height", std::to_string(wanted.height_px)));
+  return {};
+}
+
+// Step by step, each only where something is different.
+Result<void> edit_all(SessionText& text, const LobbySettings& wanted) {
+  DANCE_TRY(const HouseConfig before, text.house());
+  LOBBY_TRY(edit_name(text, before, wanted.name));
+  DANCE_TRY(const HouseConfig house, text.house());
+  const LobbySettings now = settings_of(house);
+  if (now.server != wanted.server) LOBBY_TRY(text.set_text(kHouseTable, "server", wanted.server));
+  if (now.room != wanted.room) LOBBY_TRY(text.set(kHouseTable, "room", toml_text(wanted.room)));
+  const bool is_same_source = now.source == wanted.source && now.camera == wanted.camera &&
+                              now.height_m == wanted.height_m &&
+                              now.motion_file == wanted.motion_file && now.leads == wanted.leads;
+  if (!is_same_source) LOBBY_TRY(edit_source(text, now, wanted));
+  if (now.avatar != wanted.avatar) LOBBY_TRY(edit_avatar(text, wanted));
+  const bool is_same_voice =
+      now.speaks == wanted.speaks && now.has_headphones == wanted.has_headphones &&
+      now.microphone == wanted.microphone && now.loudspeaker == wanted.loudspeaker;
+  if (!is_same_voice) LOBBY_TRY(edit_voice(text, wanted));
+  return edit_window(text, now.window, wanted.window);
+}
+
+#undef LOBBY_TRY
+
+}  // namespace
+
+LobbySettings only_what_counts(const LobbySettings& settings) {
+  const LobbySettings plain;
+  LobbySettings counts = settings;
+  if (settings.source != DancerSource::kCamera) {
+    counts.camera = plain.camera;
+    counts.height_m = plain.height_m;
+  }
+  if (settings.source != DancerSource::kFile) counts.motion_file = plain.motion_file;
+  if (settings.source != DancerSource::kSynthetic) counts.leads = plain.leads;
+  if (!settings.speaks) {
+    counts.has_headphones = plain.has_headphones;
+    counts.microphone = plain.microphone;
+    counts.loudspeaker = plain.loudspeaker;
+  }
+  return counts;
+}
+
+LobbySettings settings_of(const HouseConfig& house) {
+  LobbySettings settings;
+  settings.server = house.server;
+  settings.room = house.room;
+  settings.window = house.window;
+  const GuestId guest = house.guests.empty() ? GuestId() : house.guests.front();
+  if (guest.is_set()) settings.name = std::string(guest.view());
+  if (const HostedCamera* camera = of_guest(house.cameras, guest)) {
+    settings.source = DancerSource::kCamera;
+    settings.camera = camera->device;
+    settings.height_m = camera->height_m;
+  } else if (const HostedProducer* producer = of_guest(house.producers, guest)) {
+    const bool is_file = producer->kind == HostedProducer::Kind::kReplay;
+    settings.source = is_file ? DancerSource::kFile : DancerSource::kSynthetic;
+    settings.motion_file = producer->file;
+    settings.leads = is_file || producer->role == "lead";
+  }
+  if (const HostedAvatar* avatar = of_guest(house.avatars, guest))
+    settings.avatar = avatar->choice.what;
+  if (house.voice) {
+    settings.speaks = true;
+    settings.has_headphones = house.voice->headphones;
+    settings.microphone = house.voice->microphone;
+    settings.loudspeaker = house.voice->loudspeaker;
+  }
+  return settings;
+}
+
+Result<std::string> edit_settings(std::string_view text, const LobbySettings& wanted,
+                                  const std::string& name) {
+  const LobbySettings counts = only_what_counts(wanted);
+  SessionText edited(text, name);
+  if (auto done = edit_all(edited, counts); !done) return tl::make_unexpected(done.error());
+  DANCE_TRY(const HouseConfig house, edited.house());
+  if (!(settings_of(house) == counts))
+    return fail(name +
+                " says something in a way that the window cannot change; edit it by hand, or move "
+                "it away and choose anew");
+  return edited.text();
+}
+
+std::string name_from(std::string_view typed) {
+  std::string name;
+  for (const char c : typed) {
+    const bool is_upper = c >= 'A' && c <= 'Z';
+    const char small = is_upper ? static_cast<char>(c - 'A' + 'a') : c;
+    const bool is_word = (small >= 'a' && small <= 'z') || (small >= '0' && small <= '9');
+    if (is_word) name += small;
+    if (!is_word && !name.empty() && name.back() != '-') name += '-';
+  }
+  name.resize(std::min(name.size(), kMaxGuestIdLength));
+  while (!name.empty() && name.back() == '-') name.pop_back();
+  return GuestId::parse(name) ? name : "";
+}
+
+}  // namespace dance

@@ -1,0 +1,176 @@
+// What the window makes of clicks, of what programs say, and which command does the same.
+#include "lobby/screen/lobby_model.h"
+
+#include <gtest/gtest.h>
+
+#include "lobby/run/child_words.h"
+#include "lobby/run/room_host.h"
+#include "lobby/run/trouble_words.h"
+#include "tests/test_folder.h"
+#include "tunnel/link/core/link_options.h"
+
+namespace dance {
+namespace {
+
+LobbyModel model_at(const char* server) {
+  LobbyModel model;
+  LobbySettings settings;
+  settings.name = "alice";
+  settings.source = DancerSource::kSynthetic;
+  settings.server = server;
+  model.take(settings);
+  model.settings_path = "~/.config/dancegraph/house.toml";
+  return model;
+}
+
+TEST(LobbyModel, EachClickHasItsCommand) {
+  LobbyModel model = model_at("");
+  EXPECT_EQ(model.command(LobbyWish::kJoin), "dance join ~/.config/dancegraph/house.toml");
+  model.settings.window.partner = "/my dances/it's.bvh";
+  EXPECT_EQ(model.command(LobbyWish::kAlone),
+            "dance join ~/.config/dancegraph/house.toml --alone --partner "
+            "'/my dances/it'\\''s.bvh'");
+  model.settings.window.music = "song.ogg";
+  EXPECT_EQ(model.command(LobbyWish::kPractise),
+            "dance join ~/.config/dancegraph/house.toml --alone --music song.ogg --view mirror");
+  model.settings.window.mirror = false;
+  EXPECT_EQ(model.command(LobbyWish::kPractise).find("--view"), std::string::npos);
+  model.host.guest = "Bob";
+  model.host.address = "example.org";
+  EXPECT_EQ(model.command(LobbyWish::kInvite),
+            "dance server --invite bob --room dance --address example.org");
+}
+
+TEST(LobbyModel, KnowsRoomsTheLastOneFirstAndNoMoreThanFit) {
+  LobbyModel model = model_at("");
+  for (int i = 0; i < 40; ++i) model.choose_room({"r" + std::to_string(i), "a.org"});
+  model.choose_room({"r20", "a.org"});
+  EXPECT_EQ(model.settings.window.rooms.size(), WindowChoices::kMostRooms);
+  EXPECT_EQ(model.settings.window.rooms.front().room, "r20");
+  EXPECT_EQ(model.rooms.size(), WindowChoices::kMostRooms);
+  model.forget_room(0);
+  EXPECT_EQ(model.settings.window.rooms.front().room, "r39");
+}
+
+TEST(LobbyModel, JoinsNoRoomThatIsNone) {
+  LobbyModel model = model_at("");
+  ASSERT_TRUE(model.trouble_before(LobbyWish::kJoin));
+  EXPECT_EQ(model.trouble_before(LobbyWish::kJoin)->text, Text::kLobbyNoRoomYet);
+  EXPECT_FALSE(model.trouble_before(LobbyWish::kAlone));
+  model.room_typed = "Salsa Night";
+  model.server_typed = "bad server";
+  EXPECT_FALSE(model.choose_typed_room());
+  model.server_typed = "dance.example.org";
+  EXPECT_TRUE(model.choose_typed_room());
+  EXPECT_EQ(model.settings.room, "salsa-night");
+  EXPECT_FALSE(model.trouble_before(LobbyWish::kJoin));
+}
+
+TEST(LobbyModel, SaysWhatIsWrongWithTheCameraBeforeAnythingStarts) {
+  LobbyModel model = model_at("");
+  model.settings.source = DancerSource::kCamera;
+  EXPECT_FALSE(model.trouble_before(LobbyWish::kAlone)) << "cameras are not known yet";
+  model.knows_cameras = true;
+  EXPECT_EQ(model.trouble_before(LobbyWish::kAlone)->text, Text::kLobbyNoCamera);
+  model.cameras = {{"/dev/video0", "HD", "in use"}};
+  EXPECT_EQ(model.trouble_before(LobbyWish::kAlone)->text, Text::kLobbyCameraTaken);
+  model.cameras[0].trouble.clear();
+  EXPECT_FALSE(model.trouble_before(LobbyWish::kAlone));
+}
+
+TEST(LobbyModel, WhileItGoesInOnlyTheWayBackIsOpen) {
+  LobbyModel model = model_at("a.org");
+  model.is_going_in = true;
+  model.ask(LobbyWish::kAlone);
+  EXPECT_EQ(model.wish, LobbyWish::kNone);
+  model.ask(LobbyWish::kCancel);
+  EXPECT_EQ(model.wish, LobbyWish::kCancel);
+}
+
+TEST(LobbyModel, TellsEachTroubleOnceAndNotTooMany) {
+  LobbyModel model = model_at("");
+  for (int i = 0; i < 3; ++i) model.tell({Banner::Kind::kTrouble, Text::kLobbyNoCamera, {}, ""});
+  EXPECT_EQ(model.banners.size(), 1u);
+  for (const Text text : {Text::kLobbyRoomFull, Text::kLobbyVersions, Text::kLobbyNotSaved})
+    model.tell({Banner::Kind::kTrouble, text, {}, ""});
+  EXPECT_EQ(model.banners.size(), LobbyModel::kMostBanners);
+  EXPECT_EQ(model.banners.front().text, Text::kLobbyNotSaved);
+}
+
+// The lines are those that the programs write, so that another wording fails here.
+TEST(TroubleWords, KnowWhatALinkSays) {
+  const LobbySettings settings = model_at("dance.example.org").settings;
+  const auto text_in = [&](const std::string& line) {
+    const auto trouble = trouble_in(line, settings);
+    return trouble ? trouble->banner.text : Text::kCount;
+  };
+  EXPECT_EQ(text_in(no_answer_line(Address::loopback(7400))), Text::kLobbyServerSilent);
+  EXPECT_EQ(text_in(no_entry_line(SealTrouble::kWrongKey, "a.org")), Text::kLobbyKeyRefused);
+  EXPECT_EQ(text_in(no_entry_line(SealTrouble::kInterrupted, "a.org")), Text::kLobbyServerSilent);
+  const wire::RoomName room = *wire::RoomName::parse("salsa");
+  const auto refused = [&](wire::Refusal cause) {
+    wire::RefusalNotice notice;
+    notice.cause = cause;
+    return text_in(refusal_line(notice, room));
+  };
+  EXPECT_EQ(refused(wire::Refusal::kNameTaken), Text::kLobbyNameTaken);
+  EXPECT_EQ(refused(wire::Refusal::kRoomFull), Text::kLobbyRoomFull);
+  EXPECT_EQ(refused(wire::Refusal::kVersion), Text::kLobbyVersions);
+  EXPECT_EQ(text_in("bob is here"), Text::kCount);
+  EXPECT_EQ(trouble_in(no_entry_line(SealTrouble::kWrongKey, "a.org"), settings)->banner.values,
+            std::vector<std::string>{"dance.example.org"});
+}
+
+TEST(TroubleWords, TellAnEndByWhatWasSaidBefore) {
+  const LobbySettings settings = model_at("a.org").settings;
+  const std::vector<std::string> lines{"there is no key for a.org:7400 and room 'dance' in x",
+                                       "something else"};
+  EXPECT_EQ(trouble_of_end(lines, settings).text, Text::kLobbyNoKey);
+  const std::vector<std::string> other{"out of memory"};
+  EXPECT_EQ(trouble_of_end(other, settings).text, Text::kLobbyDanceEnded);
+  EXPECT_EQ(trouble_of_end(other, settings).detail, "out of memory");
+}
+
+TEST(TroubleWords, KnowWhenAHouseDances) {
+  EXPECT_TRUE(says_it_is_in("the house is open on udpm://…; Ctrl-C ends it", true));
+  EXPECT_FALSE(says_it_is_in("the house is open on udpm://…; Ctrl-C ends it", false));
+  EXPECT_TRUE(says_it_is_in("in room 'salsa' on a.org", false));
+}
+
+TEST(ChildWords, LeavesTimeAndNameOut) {
+  EXPECT_EQ(without_prefix("12:00:00.123 dance join: bob is here"), "bob is here");
+  EXPECT_EQ(without_prefix("bob: is here"), "bob: is here");
+  EXPECT_EQ(without_prefix(""), "");
+}
+
+TEST(RoomHost, ReadsWhoIsThereAndWhetherAnybodyCameFromElsewhere) {
+  const auto status = [](const std::string& peer) {
+    return guests_of_status(R"({"rooms":[{"name":"salsa","links":[{"peer":")" + peer +
+                            R"( bob","guests":[{"name":"bob"}]}]}]})");
+  };
+  EXPECT_EQ(status("192.168.1.4:9").guests, std::vector<std::string>{"bob (salsa)"});
+  EXPECT_FALSE(status("192.168.1.4:9").was_reached_from_elsewhere);
+  EXPECT_FALSE(status("[::1]:9").was_reached_from_elsewhere);
+  EXPECT_TRUE(status("203.0.113.5:4711").was_reached_from_elsewhere);
+  EXPECT_TRUE(status("[2001:db8::1]:9").was_reached_from_elsewhere);
+  for (const char* broken : {"", "{", "[]", "{\"rooms\":3}", "{\"rooms\":[{\"links\":[7]}]}"})
+    EXPECT_TRUE(guests_of_status(broken).guests.empty()) << broken;
+}
+
+TEST(FileChooser, ShowsFoldersAndTheFilesThatAreOfUse) {
+  const TestFolder folder("file-chooser");
+  std::filesystem::create_directories(folder.path("Zoo"));
+  for (const char* name : {"b.bvh", "A.BVH", "song.ogg", ".hidden.bvh"})
+    std::ofstream(folder.path(name)) << "x";
+  FileChooser chooser;
+  chooser.open(ChooserPurpose::kMotion, folder.path("b.bvh"));
+  ASSERT_EQ(chooser.entries().size(), 3u);
+  EXPECT_EQ(chooser.entries()[0].name, "Zoo");
+  EXPECT_EQ(chooser.entries()[1].name, "A.BVH");
+  chooser.enter(folder.path("nowhere"));
+  EXPECT_TRUE(chooser.entries().empty());
+  EXPECT_FALSE(chooser.trouble().empty());
+}
+
+}  // namespace
+}  // namespace dance
