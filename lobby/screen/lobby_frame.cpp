@@ -95,11 +95,12 @@ bool begin_sheet(LobbyKit& kit, const char* id, float width_px, float height_px,
   ImGui::SetNextWindowPos({0.5f * (width_px - size.x), 0.5f * (height_px - size.y)});
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(kit.px(24.0f), kit.px(22.0f)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, kit.px(14.0f));
   const bool is_open =
       ImGui::BeginPopupModal(id, nullptr,
                              ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   return is_open;
 }
 

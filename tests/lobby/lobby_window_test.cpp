@@ -97,6 +97,13 @@ class LobbyWindowTest : public testing::Test {
   bool dances() const { return children("dance-join").size() == 1 && !shows_lobby(); }
   bool is_back() const { return children("dance-join").empty() && shows_lobby(); }
   std::string talk() const { return text_of(folder_.path("talk")); }
+  // Again until it is heard: while it goes in, the lobby is still there, and darker.
+  void leave() {
+    EXPECT_TRUE(wait_for([&] {
+      if (!is_back()) input_->press("q");
+      return wait_for([&] { return is_back(); }, std::chrono::seconds(2));
+    })) << talk();
+  }
   void click_until(int x, int y, const std::function<bool()>& condition) {
     input_->click(x, y);
     EXPECT_TRUE(wait_for(condition)) << talk();
@@ -120,8 +127,7 @@ TEST_F(LobbyWindowTest, OneClickIsADanceWithAPartnerAndQIsTheWayBack) {
     pictures.insert(text_of(folder_.path("Xvfb_screen0")));
     return pictures.size() > 5;
   })) << "they move";
-  input_->press("q");
-  EXPECT_TRUE(wait_for([&] { return is_back(); })) << talk();
+  leave();
   EXPECT_FALSE(lobby_->has_ended());
   click_until(kAlone_x, kAlone_y, [&] { return dances(); });
   lobby_->ask_to_stop();
@@ -143,8 +149,7 @@ TEST_F(LobbyWindowTest, KeysAloneDoAsWell) {
     }
     return wait_for([&] { return dances(); }, std::chrono::seconds(5));
   })) << talk();
-  input_->press("q");
-  EXPECT_TRUE(wait_for([&] { return is_back(); })) << talk();
+  leave();
 }
 
 TEST_F(LobbyWindowTest, AHouseThatDiesIsTroubleAndTheWindowStays) {
@@ -179,8 +184,7 @@ TEST_F(LobbyWindowTest, AnInvitationIsADanceInItsRoom) {
     return run(bin("dance-status") + " --once --json").output.find("\"name\":\"bob\"") !=
            std::string::npos;
   })) << "by the name that it is for";
-  input_->press("q");
-  EXPECT_TRUE(wait_for([&] { return is_back(); })) << talk();
+  leave();
   const auto house = load_session(settings());
   ASSERT_TRUE(house) << house.error().what;
   EXPECT_EQ(house->guests.front().view(), "bob");

@@ -1,0 +1,75 @@
+// A dance without others, and the [window] of a session file.
+#include "house/dancer/session_partner.h"
+
+#include <gtest/gtest.h>
+
+#include "house/dancer/dancer_file.h"
+
+namespace dance {
+namespace {
+
+const std::string kCouple = DANCE_SOURCE_DIR "/logs/couple.lcm";
+
+HouseConfig house_of(const std::string& text) {
+  const auto house =
+      parse_session("[house]\nguest = \"ann\"\nserver = \"a.org\"\n" + text, "h.toml");
+  EXPECT_TRUE(house) << house.error().what;
+  return house.value_or(HouseConfig());
+}
+
+TEST(SessionPartner, AMadeUpOneDancesInTheSameTempo) {
+  HouseConfig house = house_of(
+      "[[produce]]\nkind = \"salsa\"\nguest = \"ann\"\ntempo = 200\n[music]\n"
+      "follow = true\n");
+  dance_alone(house);
+  EXPECT_TRUE(house.server.empty());
+  EXPECT_FALSE(house.music) << "there is nobody to follow";
+  ASSERT_TRUE(add_partner(house, "follow"));
+  ASSERT_EQ(house.producers.size(), 2u);
+  EXPECT_EQ(house.producers[1].role, "follow");
+  EXPECT_EQ(house.producers[1].tempo_bpm, 200.0);
+  EXPECT_EQ(house.guests.back().view(), "partner");
+}
+
+TEST(SessionPartner, OfARecordedCoupleEachIsAnother) {
+  HouseConfig house =
+      house_of("[[produce]]\nkind = \"replay\"\nguest = \"ann\"\nfile = \"" + kCouple + "\"\n");
+  ASSERT_TRUE(add_partner(house, kCouple));
+  const HostedProducer& own = house.producers[0];
+  const HostedProducer& partner = house.producers[1];
+  const auto first = load_dancer_of(own.file, own.dancer, own.guest);
+  const auto second = load_dancer_of(partner.file, partner.dancer, partner.guest);
+  ASSERT_TRUE(first) << first.error().what;
+  ASSERT_TRUE(second) << second.error().what;
+  EXPECT_NE(first->name, second->name);
+  EXPECT_GT(second->clip.frames.size(), 60u);
+}
+
+TEST(SessionPartner, SaysWhatIsWrongWithAFile) {
+  HouseConfig house = house_of("");
+  const auto added = add_partner(house, "/nowhere/x.bvh");
+  ASSERT_FALSE(added);
+  EXPECT_NE(added.error().what.find("/nowhere/x.bvh"), std::string::npos);
+  const auto none = load_dancer_of(kCouple, "carol", *GuestId::parse("ann"));
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().what.find("there are"), std::string::npos);
+}
+
+TEST(SessionWindow, IsReadAndItsErrorsHaveAPlace) {
+  const HouseConfig house =
+      house_of("[window]\nlanguage = \"de\"\nrooms = [\"salsa@a.org:7400\"]\nmirror = false\n");
+  EXPECT_EQ(house.window.language, "de");
+  ASSERT_EQ(house.window.rooms.size(), 1u);
+  EXPECT_EQ(house.window.rooms[0].server, "a.org:7400");
+  EXPECT_FALSE(house.window.mirror);
+  for (const char* wrong : {"langage = \"de\"", "language = \"fr\"", "rooms = [\"salsa\"]",
+                            "rooms = [\"S@a\"]", "width = 3", "mirror = 1", "partner = \"\""}) {
+    const auto read =
+        parse_session("[house]\nguest = \"ann\"\n[window]\n" + std::string(wrong) + "\n", "h.toml");
+    ASSERT_FALSE(read) << wrong;
+    EXPECT_TRUE(read.error().what.starts_with("h.toml:4:")) << read.error().what;
+  }
+}
+
+}  // namespace
+}  // namespace dance
