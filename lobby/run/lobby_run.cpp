@@ -26,9 +26,9 @@ constexpr Duration kLongestGoingIn = Duration::s(20);
 constexpr Duration kHouseEnds = Duration::s(3);
 constexpr Duration kLookAtHouse = Duration::ms(100);
 
-Banner trouble(Text text, std::vector<std::string> values, std::string detail) {
-  return {Banner::Kind::kTrouble, text,         std::move(values),
-          std::move(detail),      Text::kCount, LobbyWish::kNone};
+LobbyBanner trouble(Text text, std::vector<std::string> values, std::string detail) {
+  return {LobbyBanner::Kind::kTrouble, text,         std::move(values),
+          std::move(detail),           Text::kCount, LobbyWish::kNone};
 }
 
 }  // namespace
@@ -327,7 +327,7 @@ Result<void> LobbyRun::begin_dance() {
   stage_ = std::move(*stage);
   if (is_software_rendering() && !std::exchange(has_told_graphics_, true))
     model_.tell(
-        {Banner::Kind::kGood, Text::kLobbyNoGraphics, {}, "", Text::kCount, LobbyWish::kNone});
+        {LobbyBanner::Kind::kGood, Text::kLobbyNoGraphics, {}, "", Text::kCount, LobbyWish::kNone});
   return {};
 }
 

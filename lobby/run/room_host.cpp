@@ -64,7 +64,7 @@ void RoomHost::open(LobbyModel& model) {
   auto started = ChildWords::start(
       "dance-server", {"--bind", "0.0.0.0", "--port", std::to_string(model.host.port)});
   if (!started)
-    return model.tell({Banner::Kind::kTrouble,
+    return model.tell({LobbyBanner::Kind::kTrouble,
                        Text::kLobbyRoomFailed,
                        {},
                        started.error().what,
@@ -85,7 +85,7 @@ void RoomHost::run(LobbyModel& model, const std::string& program,
                    std::vector<std::string> arguments, Done done) {
   auto started = ChildWords::start(program, std::move(arguments), true);
   if (!started)
-    return model.tell({Banner::Kind::kTrouble,
+    return model.tell({LobbyBanner::Kind::kTrouble,
                        Text::kLobbyInviteFailed,
                        {},
                        started.error().what,
@@ -116,7 +116,7 @@ void RoomHost::invite(LobbyModel& model) {
       if (auto code = make_qr_code(to.host.invitation))
         to.host.code = {code->size, std::move(code->dark)};
     } else {
-      to.tell({Banner::Kind::kTrouble,
+      to.tell({LobbyBanner::Kind::kTrouble,
                Text::kLobbyInviteFailed,
                {},
                said.lines().empty() ? "" : said.lines().back(),
@@ -139,7 +139,7 @@ bool RoomHost::look_at_server(LobbyModel& model) {
   if (!server_->process().has_ended()) return true;
   const std::string last = server_->lines().empty() ? "" : server_->lines().back();
   const bool is_taken = last.find("in use") != std::string::npos;
-  model.tell({Banner::Kind::kTrouble,
+  model.tell({LobbyBanner::Kind::kTrouble,
               is_taken ? Text::kLobbyPortTaken : Text::kLobbyRoomFailed,
               {std::to_string(model.host.port)},
               last,

@@ -51,7 +51,7 @@ std::vector<std::string> names_for(Names names, const LobbySettings& settings) {
 std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySettings& settings) {
   for (const Sign& sign : kSigns)
     if (line.find(sign.says) != std::string_view::npos)
-      return ChildTrouble{{Banner::Kind::kTrouble, sign.text, names_for(sign.names, settings),
+      return ChildTrouble{{LobbyBanner::Kind::kTrouble, sign.text, names_for(sign.names, settings),
                            std::string(line), Text::kCount, LobbyWish::kNone},
                           sign.is_fatal};
   return std::nullopt;
@@ -61,12 +61,12 @@ bool says_it_is_in(std::string_view line, bool is_alone) {
   return is_alone ? line.starts_with("the house is open") : line.starts_with("in room '");
 }
 
-Banner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings) {
+LobbyBanner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings) {
   for (std::size_t i = lines.size(); i-- > 0;)
     if (auto trouble = trouble_in(lines[i], settings); trouble && trouble->is_fatal)
       return trouble->banner;
-  return {Banner::Kind::kTrouble, Text::kLobbyDanceEnded, {}, lines.empty() ? "" : lines.back(),
-          Text::kCount,           LobbyWish::kNone};
+  return {LobbyBanner::Kind::kTrouble,       Text::kLobbyDanceEnded, {},
+          lines.empty() ? "" : lines.back(), Text::kCount,           LobbyWish::kNone};
 }
 
 }  // namespace dance

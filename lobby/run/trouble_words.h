@@ -16,7 +16,7 @@
 namespace dance {
 
 struct ChildTrouble {
-  Banner banner;
+  LobbyBanner banner;
   bool is_fatal = false;  // there is no dance with it
 };
 
@@ -25,6 +25,6 @@ std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySetting
 // The house dances: alone, as soon as it is open; in a room when the server has let it in.
 bool says_it_is_in(std::string_view line, bool is_alone);
 // Of a program that has ended: what its last line says, where that is known, else that it ended.
-Banner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings);
+LobbyBanner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings);
 
 }  // namespace dance

@@ -139,8 +139,12 @@ void draw_other_room(LobbyModel& model, LobbyKit& kit) {
     if (model.choose_typed_room())
       model.ask(LobbyWish::kJoin);
     else
-      model.tell(
-          {Banner::Kind::kTrouble, Text::kLobbyNoRoomYet, {}, "", Text::kCount, LobbyWish::kNone});
+      model.tell({LobbyBanner::Kind::kTrouble,
+                  Text::kLobbyNoRoomYet,
+                  {},
+                  "",
+                  Text::kCount,
+                  LobbyWish::kNone});
   }
   kit.beside(t[Text::kLobbyShowCommand]);
   draw_command(model, kit, LobbyWish::kJoin);

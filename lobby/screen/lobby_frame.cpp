@@ -46,14 +46,15 @@ void draw_rail(LobbyModel& model, LobbyKit& kit, float height_px) {
 
 void draw_banners(LobbyModel& model, LobbyKit& kit) {
   for (std::size_t i = 0; i < model.banners.size(); ++i) {
-    const Banner& banner = model.banners[i];
+    const LobbyBanner& banner = model.banners[i];
     std::string words = model.texts[banner.text];
     for (const std::string& value : banner.values)
       if (const std::size_t at = words.find("{}"); at != std::string::npos)
         words.replace(at, 2, value);
     const char* button = banner.button == Text::kCount ? nullptr : model.texts[banner.button];
-    const LobbyKit::Strip pressed = kit.strip(
-        static_cast<int>(i), banner.kind == Banner::Kind::kTrouble, words, banner.detail, button);
+    const LobbyKit::Strip pressed =
+        kit.strip(static_cast<int>(i), banner.kind == LobbyBanner::Kind::kTrouble, words,
+                  banner.detail, button);
     if (pressed == LobbyKit::Strip::kNone) continue;
     if (pressed == LobbyKit::Strip::kButton) model.ask(banner.wish);
     model.banners.erase(model.banners.begin() + static_cast<std::ptrdiff_t>(i));

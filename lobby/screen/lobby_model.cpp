@@ -30,8 +30,8 @@ void LobbyModel::show(LobbyScreen to) {
   shows_command = false;
 }
 
-void LobbyModel::tell(Banner banner) {
-  std::erase_if(banners, [&](const Banner& it) { return it.text == banner.text; });
+void LobbyModel::tell(LobbyBanner banner) {
+  std::erase_if(banners, [&](const LobbyBanner& it) { return it.text == banner.text; });
   banners.insert(banners.begin(), std::move(banner));
   if (banners.size() > kMostBanners) banners.pop_back();
 }
@@ -107,23 +107,28 @@ std::string LobbyModel::command(LobbyWish what) const {
   }
 }
 
-std::optional<Banner> LobbyModel::trouble_before(LobbyWish what) const {
+std::optional<LobbyBanner> LobbyModel::trouble_before(LobbyWish what) const {
   using enum DancerSource;
   if (what == LobbyWish::kJoin && !KnownRoom::parse(settings.room + "@" + settings.server))
-    return Banner{Banner::Kind::kTrouble, Text::kLobbyNoRoomYet, {}, "",
-                  Text::kCount,           LobbyWish::kNone};
+    return LobbyBanner{
+        LobbyBanner::Kind::kTrouble, Text::kLobbyNoRoomYet, {}, "", Text::kCount, LobbyWish::kNone};
   if (settings.source != kCamera) return std::nullopt;
   if (!has_camera)
-    return Banner{Banner::Kind::kTrouble, Text::kLobbyNoCameraBuilt, {}, "",
-                  Text::kCount,           LobbyWish::kNone};
+    return LobbyBanner{LobbyBanner::Kind::kTrouble,
+                       Text::kLobbyNoCameraBuilt,
+                       {},
+                       "",
+                       Text::kCount,
+                       LobbyWish::kNone};
   if (!knows_cameras) return std::nullopt;
   if (cameras.empty())
-    return Banner{Banner::Kind::kTrouble, Text::kLobbyNoCamera, {}, "",
-                  Text::kLobbyLookAgain,  LobbyWish::kLookAgain};
+    return LobbyBanner{LobbyBanner::Kind::kTrouble, Text::kLobbyNoCamera, {}, "",
+                       Text::kLobbyLookAgain,       LobbyWish::kLookAgain};
   for (const CameraFact& camera : cameras)
     if ((settings.camera.empty() || settings.camera == camera.path) && !camera.trouble.empty())
-      return Banner{Banner::Kind::kTrouble, Text::kLobbyCameraTaken, {camera.path},
-                    camera.trouble,         Text::kLobbyLookAgain,   LobbyWish::kLookAgain};
+      return LobbyBanner{
+          LobbyBanner::Kind::kTrouble, Text::kLobbyCameraTaken, {camera.path}, camera.trouble,
+          Text::kLobbyLookAgain,       LobbyWish::kLookAgain};
   return std::nullopt;
 }
 

@@ -42,7 +42,7 @@ enum class LobbyWish {
 };
 
 // A trouble, or news, in words; below it what the program itself said.
-struct Banner {
+struct LobbyBanner {
   enum class Kind { kGood, kTrouble };
   Kind kind = Kind::kTrouble;
   Text text = Text::kCount;
@@ -50,7 +50,7 @@ struct Banner {
   std::string detail;                 // "" = none
   Text button = Text::kCount;         // kCount = none
   LobbyWish wish = LobbyWish::kNone;  // of the button
-  bool operator==(const Banner&) const = default;
+  bool operator==(const LobbyBanner&) const = default;
 };
 
 struct CameraFact {
@@ -110,7 +110,7 @@ struct LobbyModel {
   Texts texts{Language::kEnglish};
   LobbySettings settings;
   LobbyScreen screen = LobbyScreen::kDance;
-  std::vector<Banner> banners;
+  std::vector<LobbyBanner> banners;
   LobbyWish wish = LobbyWish::kNone;
 
   // What is known.
@@ -141,7 +141,7 @@ struct LobbyModel {
   void take(const LobbySettings& settings);
   void show(LobbyScreen to);
   // The newest comes first; of more than kMostBanners the oldest goes, of the same one stays.
-  void tell(Banner banner);
+  void tell(LobbyBanner banner);
   void ask(LobbyWish what);
   void set_language(Language language);
   // The room that is typed, as the one to join; false where it is none.
@@ -152,7 +152,7 @@ struct LobbyModel {
   // What a terminal takes in the stead of a click.
   std::string command(LobbyWish wish) const;
   // What is wrong with what was chosen, before anything is started; nothing = go.
-  std::optional<Banner> trouble_before(LobbyWish wish) const;
+  std::optional<LobbyBanner> trouble_before(LobbyWish wish) const;
 };
 
 // A word of a command line, in quotes where a shell wants them.

@@ -89,10 +89,11 @@ TEST(LobbyModel, WhileItGoesInOnlyTheWayBackIsOpen) {
 
 TEST(LobbyModel, TellsEachTroubleOnceAndNotTooMany) {
   LobbyModel model = model_at("");
-  for (int i = 0; i < 3; ++i) model.tell({Banner::Kind::kTrouble, Text::kLobbyNoCamera, {}, ""});
+  for (int i = 0; i < 3; ++i)
+    model.tell({LobbyBanner::Kind::kTrouble, Text::kLobbyNoCamera, {}, ""});
   EXPECT_EQ(model.banners.size(), 1u);
   for (const Text text : {Text::kLobbyRoomFull, Text::kLobbyVersions, Text::kLobbyNotSaved})
-    model.tell({Banner::Kind::kTrouble, text, {}, ""});
+    model.tell({LobbyBanner::Kind::kTrouble, text, {}, ""});
   EXPECT_EQ(model.banners.size(), LobbyModel::kMostBanners);
   EXPECT_EQ(model.banners.front().text, Text::kLobbyNotSaved);
 }

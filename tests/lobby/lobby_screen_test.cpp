@@ -106,13 +106,13 @@ TEST_F(LobbyScreenTest, NoTextIsWiderThanItsPlaceInAnyLanguageAndSize) {
 TEST_F(LobbyScreenTest, BannersCommandsAndSheetsFitToo) {
   for (const LanguageName& language : kLanguages) {
     LobbyModel model = full_model(language.language);
-    model.tell({Banner::Kind::kTrouble,
+    model.tell({LobbyBanner::Kind::kTrouble,
                 Text::kLobbyCameraTaken,
                 {"/dev/video0"},
                 "/dev/video0: in use; close the program that has it (fuser -v /dev/video0)",
                 Text::kLobbyLookAgain,
                 LobbyWish::kLookAgain});
-    model.tell({Banner::Kind::kGood, Text::kLobbyNoGraphics, {}, ""});
+    model.tell({LobbyBanner::Kind::kGood, Text::kLobbyNoGraphics, {}, ""});
     model.shows_command = true;
     model.command_for = LobbyWish::kAlone;
     const std::string code(language.code);
