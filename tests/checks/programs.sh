@@ -10,7 +10,7 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$root"
 
 # PROGRAM FOLDER SOURCE of each dance_program(…), and FOLDER SOURCE of what starts programs.
-for list in $(find apps bench house producers consumers viewer voice haptics tunnel research -name CMakeLists.txt 2>/dev/null | sort); do
+for list in $(find apps bench house producers consumers viewer voice haptics tunnel lobby research -name CMakeLists.txt 2>/dev/null | sort); do
   awk -v folder="$(dirname "$list")" '
     { sub(/#.*/, "") }
     match($0, /dance_program\([^ )]+/) { program = substr($0, RSTART + 14, RLENGTH - 14); inside = 1 }
@@ -22,7 +22,7 @@ for list in $(find apps bench house producers consumers viewer voice haptics tun
       if (last || $0 ~ /\)[ ]*$/) inside = last = 0
     }' "$list"
 done >"$scratch/programs"
-grep -rl --include='*.cpp' 'program_folder()' apps bench house producers consumers viewer voice haptics tunnel research 2>/dev/null |
+grep -rl --include='*.cpp' 'program_folder()' apps bench house producers consumers viewer voice haptics tunnel lobby research 2>/dev/null |
   xargs -r -n 1 dirname | sort -u >"$scratch/folders"
 
 checked=0 failed=0
@@ -33,7 +33,7 @@ while IFS= read -r folder <&3; do
     owners=$(awk -v source="$source" '$3 == source { print $1 }' "$scratch/programs" | sort -u)
     above=$folder
     while [ -z "$owners" ] && [ "$above" != . ]; do
-      owners=$(awk -v above="$above/" '{ file = $3; sub(/[^\/]*$/, "", file) } file == above { print $1 }' "$scratch/programs" | sort -u)
+      owners=$(awk -v above="$above/" '{ file = $3; sub(/[^\/]*$/, "", file) } file == above || $2 "/" == above { print $1 }' "$scratch/programs" | sort -u)
       above=$(dirname "$above")
     done
     for program in $started; do
