@@ -77,6 +77,7 @@ MonoTime HostedProgram::try_later(const std::string& trouble, MonoTime now) {
 MonoTime HostedProgram::start_after_death(const std::string& end, MonoTime now) {
   const bool dies_again = pause_ > Duration() && now - started_ < kStable;
   pause_ = dies_again ? std::min(pause_ * 2, options_.pause) : options_.first_pause;
+  trouble_ = end;
   talk::warn("{}; the house goes on {}, and it is started again", end, options_.without);
   return now + pause_;
 }
