@@ -94,12 +94,33 @@ run() { # PRESET [CTEST OPTION…]
   passed=$((passed + ${total:-0} - ${bad:-0} - ${left_out:-0}))
 }
 
+# What tests that wait leave of the processors builds what comes next, at the lowest priority; step() finishes it, and says
+# what was wrong.
+ahead=""
+build_ahead() { # PRESET [TARGET…]
+  local preset=$1
+  shift
+  mkdir -p build
+  echo "== building ($preset) beside the tests that follow, minute $((SECONDS / 60))"
+  { nice -n 19 cmake --preset "$preset" && nice -n 19 cmake --build --preset "$preset" ${1:+--target "$@"}; } \
+    >"build/$preset.ahead.log" 2>&1 &
+  ahead=$!
+}
+await_build() {
+  [ -z "$ahead" ] || wait "$ahead" || true
+  ahead=""
+}
+
 step() { # PRESET [TARGET…]: a build that fails is a failed test.
   build "$@" || { failed=$((failed + 1)); return 1; }
 }
 
 # More at a time than there are processors: programs that dance for seconds wait for most of them.
-step ci && jobs=$((jobs + 2)) run ci "${only[@]}"
+if step ci; then
+  [ "$sanitizers" = no ] || build_ahead asan
+  jobs=$((jobs + 2)) run ci "${only[@]}"
+  await_build
+fi
 if [ "$sanitizers" = yes ]; then
   # What may be left out is never needed: without any of it everything else compiles and links.
   [ ${#only[@]} != 0 ] || ! step bare || passed=$((passed + 1))
@@ -115,9 +136,11 @@ if [ "$sanitizers" = yes ]; then
   asan_is_built=no
   if step asan; then
     asan_is_built=yes
+    build_ahead tsan thread_targets flow_targets
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
     jobs=$((jobs + 2)) run asan -LE 'check|soak|docs|fuzz' -E "^BeatSongs|Takes\.|$draws" "${only[@]}"
   fi
+  await_build
   # What these start has no threads that others do not have; and a camera that is preloaded comes before the sanitizer.
   no_threads="$draws|MusicRoom|MusicPrograms|Bench|ACameraThatWasUnplugged"
   step tsan thread_targets flow_targets && tsan_is_built=yes || tsan_is_built=no
