@@ -100,7 +100,7 @@ Result<std::unique_ptr<House>> House::open(const HouseConfig& session, Poller& p
   if (session.music) {
     DANCE_TRY(house->music_, HouseMusic::open(*session.music, house->bus_->url(), poller));
   }
-  if (session.voice)
+  if (session.voice && session.voice->enabled)
     house->voice_ =
         std::make_unique<HouseVoice>(*session.voice, house->bus_->url(), *house->port_, poller);
   for (HostedStyle hosted : session.styles) {

@@ -143,6 +143,7 @@ Result<HouseConfig> session_of(const JoinOptions& options) {
     if (session.guests.empty()) return fail("--voice: who speaks? name the guest with --guest");
     session.voice.emplace().guest = session.guests.front();
   }
+  if (options.voice) session.voice->enabled = true;
   if (options.alone) dance_alone(session);
   if (!options.partner.empty()) {
     if (auto added = add_partner(session, options.partner); !added)

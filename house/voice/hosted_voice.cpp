@@ -13,6 +13,7 @@ HostedVoice read_voice(TomlReader& reader, const GuestId& first) {
   voice.microphone = reader.string_or("microphone", "");
   voice.loudspeaker = reader.string_or("loudspeaker", "");
   voice.reference = reader.string_or("reference", "");
+  voice.enabled = reader.bool_or("enabled", true);
   voice.headphones = reader.bool_or("headphones", false);
   voice.push_to_talk = reader.bool_or("push_to_talk", false);
   voice.muted = reader.bool_or("muted", false);

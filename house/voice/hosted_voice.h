@@ -22,6 +22,7 @@ struct HostedVoice {
   std::string loudspeaker;   // "" = the default
   std::string reference;     // the sink that is taken out; "" = the loudspeaker
   bool headphones = false;
+  bool enabled = true;  // false: as written, but nobody speaks or is heard
   bool push_to_talk = false;
   bool muted = false;
   bool deafened = false;

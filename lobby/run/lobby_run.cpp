@@ -48,13 +48,14 @@ Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_p
   if (auto opened = run->file_.open()) {
     first = opened->settings;
     is_new = opened->is_new;
+    // Else the file is not there yet.
+    if (!is_new && opened->kept_as.empty()) run->saved_ = first;
     model.take(first);
     run->note_saved(opened->trouble, opened->kept_as);
   } else {
     model.take(first);
     model.tell(trouble(Text::kLobbyNotSaved, {}, opened.error().what));
   }
-  run->saved_ = first;
   run->chooses_source_ = is_new;
   if (is_new) model.screen = LobbyScreen::kYou;
   run->seen_.look_for_cameras(model);
@@ -123,7 +124,8 @@ Result<void> LobbyRun::turn_of_lobby() {
   if (input_.take_news(*window_)) fresh_frames_ = kSettlingFrames;
   if (fresh_frames_ == 0 || mono_now() - drawn_ < kFastestFrame) return {};
   if (auto drawn = draw(); !drawn) return drawn;
-  if (!painter_->is_typed_in()) save();
+  const bool waits = saved_ && loses_a_table(*saved_, model_.settings);
+  if (!painter_->is_typed_in() && !waits) save();
   obey(std::exchange(model_.wish, LobbyWish::kNone));
   return {};
 }
@@ -176,6 +178,7 @@ bool LobbyRun::look_at_house(MonoTime now) {
   for (const std::string& line : house_->take_lines()) {
     if (says_it_is_in(line, is_alone)) {
       model_.is_going_in = false;
+      model_.forget(Text::kLobbyServerSilent);  // another of its addresses has answered
       if (auto begun = begin_dance(); !begun) {
         stop_house();
         model_.tell(trouble(Text::kLobbyDanceEnded, {}, begun.error().what));
@@ -197,7 +200,8 @@ bool LobbyRun::look_at_house(MonoTime now) {
     return true;
   }
   if (now - going_since_ < kLongestGoingIn) return false;
-  model_.tell(trouble(Text::kLobbyServerSilent, {model_.settings.server}, ""));
+  const std::vector<std::string> lines(house_->lines().begin(), house_->lines().end());
+  model_.tell(trouble_of_beginning(lines, model_.settings));
   stop_house();
   return true;
 }
@@ -339,6 +343,7 @@ Result<void> LobbyRun::turn_of_dance() {
   const MonoTime now = mono_now();
   if (now - house_looked_at_ > kLookAtHouse) {
     house_looked_at_ = now;
+    host_.look(model_, now, false);  // what a server says must be read, or it would wait
     house_->read();
     for (const std::string& line : house_->take_lines())
       if (const auto known = trouble_in(line, model_.settings); known && !known->is_fatal)

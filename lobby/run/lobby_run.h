@@ -66,7 +66,7 @@ class LobbyRun {
   Duration patience(MonoTime now) const;
 
   SettingsFile file_;
-  LobbySettings saved_;
+  std::optional<LobbySettings> saved_;  // not set: nothing stands in the file
   LobbyModel model_;
   std::unique_ptr<Poller> poller_;  // for signals
   LobbyInput input_;

@@ -21,9 +21,19 @@ constexpr std::array kSigns{
     Sign{"there is no key for", Text::kLobbyNoKey, Names::kServer, true},
     Sign{"already through another link", Text::kLobbyNameTaken, Names::kGuest, true},
     Sign{"is full: wait", Text::kLobbyRoomFull, Names::kNothing, true},
+    Sign{"as many listeners", Text::kLobbyRoomFull, Names::kNothing, true},
+    Sign{"no place for another link", Text::kLobbyRoomFull, Names::kNothing, true},
+    Sign{"a host has removed this house", Text::kLobbyRemoved, Names::kNothing, true},
+    Sign{"key does not open room", Text::kLobbyNotForYou, Names::kNothing, true},
+    Sign{"key does not allow a guest", Text::kLobbyNotForYou, Names::kNothing, true},
+    Sign{"key only listens", Text::kLobbyNotForYou, Names::kNothing, true},
+    Sign{"does not take a name", Text::kLobbyNotForYou, Names::kNothing, true},
+    Sign{"this house cannot agree", Text::kLobbyVersions, Names::kNothing, true},
+    Sign{"a pose codec that this link does not", Text::kLobbyVersions, Names::kNothing, true},
     Sign{"of the wire format", Text::kLobbyVersions, Names::kNothing, true},
-    Sign{"does not answer", Text::kLobbyServerSilent, Names::kServer, true},
-    Sign{"answers, and then no more", Text::kLobbyServerSilent, Names::kServer, true},
+    // A link tries the server's next address, and then again.
+    Sign{"does not answer: is `dance server`", Text::kLobbyServerSilent, Names::kServer, false},
+    Sign{"answers, and then no more", Text::kLobbyServerSilent, Names::kServer, false},
     Sign{"cannot be resolved", Text::kLobbyServerSilent, Names::kServer, true},
     Sign{"in use; close the program", Text::kLobbyCameraTaken, Names::kCamera, false},
     Sign{"in use by another program", Text::kLobbyCameraTaken, Names::kCamera, false},
@@ -59,6 +69,14 @@ std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySetting
 
 bool says_it_is_in(std::string_view line, bool is_alone) {
   return is_alone ? line.starts_with("the house is open") : line.starts_with("in room '");
+}
+
+LobbyBanner trouble_of_beginning(std::span<const std::string> lines,
+                                 const LobbySettings& settings) {
+  for (std::size_t i = lines.size(); i-- > 0;)
+    if (auto trouble = trouble_in(lines[i], settings)) return trouble->banner;
+  return {LobbyBanner::Kind::kTrouble,       Text::kLobbyNotBegun, {},
+          lines.empty() ? "" : lines.back(), Text::kCount,         LobbyWish::kNone};
 }
 
 LobbyBanner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings) {

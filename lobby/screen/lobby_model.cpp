@@ -30,6 +30,10 @@ void LobbyModel::show(LobbyScreen to) {
   shows_command = false;
 }
 
+void LobbyModel::forget(Text banner) {
+  std::erase_if(banners, [&](const LobbyBanner& it) { return it.text == banner; });
+}
+
 void LobbyModel::tell(LobbyBanner banner) {
   std::erase_if(banners, [&](const LobbyBanner& it) { return it.text == banner.text; });
   banners.insert(banners.begin(), std::move(banner));

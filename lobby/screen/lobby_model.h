@@ -142,6 +142,7 @@ struct LobbyModel {
   void show(LobbyScreen to);
   // The newest comes first; of more than kMostBanners the oldest goes, of the same one stays.
   void tell(LobbyBanner banner);
+  void forget(Text banner);
   void ask(LobbyWish what);
   void set_language(Language language);
   // The room that is typed, as the one to join; false where it is none.

@@ -180,7 +180,9 @@ Result<void> edit_avatar(SessionText& text, const LobbySettings& wanted) {
 }
 
 Result<void> edit_voice(SessionText& text, const LobbySettings& wanted) {
-  if (!wanted.speaks) return text.remove_whole(kVoiceTable);
+  // What else was written there by hand counts again later.
+  if (!wanted.speaks) return text.set(kVoiceTable, "enabled", "false");
+  LOBBY_TRY(text.remove(kVoiceTable, "enabled"));
   LOBBY_TRY(text.set(kVoiceTable, "headphones", wanted.has_headphones ? "true" : "false"));
   LOBBY_TRY(text.set_text(kVoiceTable, "microphone", wanted.microphone));
   return text.set_text(kVoiceTable, "loudspeaker", wanted.loudspeaker);
@@ -247,6 +249,10 @@ LobbySettings only_what_counts(const LobbySettings& settings) {
   return counts;
 }
 
+bool loses_a_table(const LobbySettings& written, const LobbySettings& later) {
+  return written.source != later.source || (!written.avatar.empty() && later.avatar.empty());
+}
+
 LobbySettings settings_of(const HouseConfig& house) {
   LobbySettings settings;
   settings.server = house.server;
@@ -266,7 +272,7 @@ LobbySettings settings_of(const HouseConfig& house) {
   }
   if (const HostedAvatar* avatar = of_guest(house.avatars, guest))
     settings.avatar = avatar->choice.what;
-  if (house.voice) {
+  if (house.voice && house.voice->enabled) {
     settings.speaks = true;
     settings.has_headphones = house.voice->headphones;
     settings.microphone = house.voice->microphone;

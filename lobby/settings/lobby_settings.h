@@ -51,6 +51,9 @@ Result<std::string> edit_settings(std::string_view text, const LobbySettings& wa
                                   const std::string& name);
 // Where fields do not count (the camera of one who dances from a file), as in LobbySettings().
 LobbySettings only_what_counts(const LobbySettings& settings);
+// Whether to write the later ones takes a table out of the file, with what else was written there
+// by hand: not to be done while somebody may only be looking at the choices.
+bool loses_a_table(const LobbySettings& written, const LobbySettings& later);
 
 // A guest's name of whatever was typed: small letters, digits and '-'; "" where nothing is left.
 std::string name_from(std::string_view typed);

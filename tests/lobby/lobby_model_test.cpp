@@ -117,6 +117,12 @@ TEST(TroubleWords, KnowWhatALinkSays) {
   EXPECT_EQ(refused(wire::Refusal::kNameTaken), Text::kLobbyNameTaken);
   EXPECT_EQ(refused(wire::Refusal::kRoomFull), Text::kLobbyRoomFull);
   EXPECT_EQ(refused(wire::Refusal::kVersion), Text::kLobbyVersions);
+  EXPECT_EQ(refused(wire::Refusal::kRemoved), Text::kLobbyRemoved);
+  for (int cause = 1; cause <= static_cast<int>(wire::Refusal::kRemoved); ++cause)
+    EXPECT_NE(refused(static_cast<wire::Refusal>(cause)), Text::kCount) << cause;
+  EXPECT_FALSE(trouble_in(no_answer_line(Address::loopback(7400)), settings)->is_fatal)
+      << "the next of its addresses may answer";
+  EXPECT_EQ(text_in("the sound server does not answer"), Text::kCount);
   EXPECT_EQ(text_in("bob is here"), Text::kCount);
   EXPECT_EQ(trouble_in(no_entry_line(SealTrouble::kWrongKey, "a.org"), settings)->banner.values,
             std::vector<std::string>{"dance.example.org"});
@@ -130,6 +136,15 @@ TEST(TroubleWords, TellAnEndByWhatWasSaidBefore) {
   const std::vector<std::string> other{"out of memory"};
   EXPECT_EQ(trouble_of_end(other, settings).text, Text::kLobbyDanceEnded);
   EXPECT_EQ(trouble_of_end(other, settings).detail, "out of memory");
+}
+
+TEST(TroubleWords, TellWhyADanceDidNotBegin) {
+  const LobbySettings settings = model_at("a.org").settings;
+  const std::vector<std::string> silent{no_answer_line(Address::loopback(7400)), "bob is here"};
+  EXPECT_EQ(trouble_of_beginning(silent, settings).text, Text::kLobbyServerSilent);
+  const std::vector<std::string> other{"the sound server does not answer"};
+  EXPECT_EQ(trouble_of_beginning(other, settings).text, Text::kLobbyNotBegun);
+  EXPECT_EQ(trouble_of_beginning(other, settings).detail, other.front());
 }
 
 TEST(TroubleWords, KnowWhenAHouseDances) {

@@ -81,6 +81,28 @@ TEST(LobbySettings, KeepWhatTheWindowDoesNotKnow) {
   EXPECT_EQ(read(text), wanted);
 }
 
+TEST(LobbySettings, WhoDoesNotSpeakKeepsWhatWasWrittenOfTheVoice) {
+  LobbySettings wanted = read(kByHand);
+  wanted.speaks = false;
+  const std::string silent = write(kByHand, wanted);
+  EXPECT_NE(silent.find("muted = true"), std::string::npos) << silent;
+  EXPECT_FALSE(read(silent).speaks);
+  EXPECT_FALSE(parse_session(silent, "house.toml")->voice->enabled);
+  wanted.speaks = true;
+  const std::string again = write(silent, wanted);
+  EXPECT_TRUE(read(again).speaks);
+  EXPECT_TRUE(parse_session(again, "house.toml")->voice->muted);
+}
+
+TEST(LobbySettings, WhatTakesATableOutOfTheFileWaits) {
+  const LobbySettings written = read(kByHand);
+  LobbySettings later = written;
+  later.camera = "/dev/video2";
+  EXPECT_FALSE(loses_a_table(written, later));
+  later.source = DancerSource::kSynthetic;
+  EXPECT_TRUE(loses_a_table(written, later));
+}
+
 TEST(LobbySettings, AnotherNameIsAnotherNameEverywhere) {
   LobbySettings wanted = read(kByHand);
   wanted.name = "ann";

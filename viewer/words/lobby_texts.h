@@ -237,6 +237,18 @@
       "The file could not be used. Choose another on the first page.", \
       "No se pudo usar el archivo. Elige otro en la primera página.", \
       "Die Datei war nicht zu gebrauchen. Wähle auf der ersten Seite eine andere.") \
+  ROW(kLobbyRemoved, \
+      "A host has asked you to leave this room for a while. Talk to the host.", \
+      "Un anfitrión te ha pedido que dejes esta sala un rato. Habla con el anfitrión.", \
+      "Ein Gastgeber hat dich gebeten, den Raum für eine Weile zu verlassen. Sprich mit ihm.") \
+  ROW(kLobbyNotForYou, \
+      "Your invitation is not for this room or this name. Ask for another one.", \
+      "Tu invitación no es para esta sala o este nombre. Pide otra.", \
+      "Deine Einladung gilt nicht für diesen Raum oder Namen. Bitte um eine andere.") \
+  ROW(kLobbyNotBegun, \
+      "The dance did not begin. Try again.", \
+      "El baile no ha empezado. Inténtalo otra vez.", \
+      "Der Tanz hat nicht begonnen. Versuch es noch einmal.") \
   ROW(kLobbyDanceEnded, \
       "The dance ended by itself.", \
       "El baile terminó por sí solo.", \

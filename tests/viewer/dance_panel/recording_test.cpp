@@ -81,8 +81,8 @@ class RecordingTest : public testing::Test {
 
 TEST_F(RecordingTest, RunsUntilItIsStoppedAndNamesItsFile) {
   write_program(
-      "echo \"$@\" > \"$2\"\n"
       "trap 'exit 0' TERM\n"
+      "echo \"$@\" > \"$2\"\n"
       "while :; do sleep 0.02; done\n");
   DanceRecording recording(options());
   recording.start(kRecordingBegin);
@@ -91,7 +91,6 @@ TEST_F(RecordingTest, RunsUntilItIsStoppedAndNamesItsFile) {
   EXPECT_TRUE(recording.file().starts_with(target() + "/dance-20"));
   for (int i = 0; i < 3000 && !std::filesystem::exists(recording.file()); ++i) usleep(10'000);
   ASSERT_TRUE(std::filesystem::exists(recording.file()));
-  usleep(50'000);  // so that its trap is set
   recording.stop(kRecordingBegin);
   EXPECT_EQ(recording.state(), DanceRecording::State::kStopping);
   wait_until_idle(recording, kRecordingBegin);
