@@ -102,7 +102,7 @@ TEST_F(CameraCheckTest, SaysWhatIsWrongWithACameraAndItsCure) {
   for (const auto& [words, text] : troubles) {
     const Environment shim = before_shim(std::string("modes=YUYV:64x48@30 ") + words);
     start("42");
-    EXPECT_TRUE(wait_for([&] { return is_told(text); })) << words << ": " << told();
+    EXPECT_TRUE(wait_for([&, cure = text] { return is_told(cure); })) << words << ": " << told();
     EXPECT_FALSE(check_->is_good());
     EXPECT_FALSE(check_->status().words.empty());
   }
