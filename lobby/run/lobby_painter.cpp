@@ -74,6 +74,7 @@ void LobbyPainter::draw(LobbyModel& model, int width_px, int height_px, Duration
   glViewport(0, 0, width_px, height_px);
   glClearColor(0.075f, 0.082f, 0.106f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
+  glUseProgram(0);  // ImGui would put back one that has been deleted meanwhile
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
 #include <set>
 #include <string>
 #include <utility>
@@ -70,7 +71,7 @@ class BusPrograms : public ::testing::Test {
   }
 
   TestFolder folder_{"bus-programs"};
-  std::vector<ChildProcess> children_;
+  std::deque<ChildProcess> children_;  // references to them hold
 };
 
 inline int lines_of(const Finished& heard, const std::string& guest) {

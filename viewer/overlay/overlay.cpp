@@ -122,6 +122,7 @@ void Overlay::begin_frame(int width_px, int height_px) {
 
 void Overlay::end_frame() {
   ImGui::Render();
+  glUseProgram(0);  // ImGui would put back one that has been deleted meanwhile
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   check_gl("Overlay");
 }

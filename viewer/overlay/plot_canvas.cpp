@@ -87,6 +87,7 @@ class GlPlotCanvas final : public PlotCanvas {
     glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui::Render();
+    glUseProgram(0);  // ImGui would put back one that has been deleted meanwhile
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     check_gl("PlotCanvas");
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.finished().name());
