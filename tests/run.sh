@@ -102,7 +102,8 @@ build_ahead() { # PRESET [TARGET…]
   shift
   mkdir -p build
   echo "== building ($preset) beside the tests that follow, minute $((SECONDS / 60))"
-  { nice -n 19 cmake --preset "$preset" && nice -n 19 cmake --build --preset "$preset" ${1:+--target "$@"}; } \
+  # Below the tests of units, which have the lowest priority of their own.
+  { chrt --idle 0 cmake --preset "$preset" && chrt --idle 0 cmake --build --preset "$preset" ${1:+--target "$@"}; } \
     >"build/$preset.ahead.log" 2>&1 &
   ahead=$!
 }
@@ -136,11 +137,9 @@ if [ "$sanitizers" = yes ]; then
   asan_is_built=no
   if step asan; then
     asan_is_built=yes
-    build_ahead tsan thread_targets flow_targets
     # The quality of results on whole songs and takes takes minutes here, and runs no code that smaller tests leave out.
     jobs=$((jobs + 2)) run asan -LE 'check|soak|docs|fuzz' -E "^BeatSongs|Takes\.|$draws" "${only[@]}"
   fi
-  await_build
   # What these start has no threads that others do not have; and a camera that is preloaded comes before the sanitizer.
   no_threads="$draws|MusicRoom|MusicPrograms|Bench|ACameraThatWasUnplugged"
   step tsan thread_targets flow_targets && tsan_is_built=yes || tsan_is_built=no
