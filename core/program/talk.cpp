@@ -4,6 +4,8 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cctype>
+
 namespace dance::talk {
 
 void line(Level level, fmt::string_view format, fmt::format_args args) {
@@ -19,6 +21,16 @@ void line(Level level, fmt::string_view format, fmt::format_args args) {
       spdlog::error(text);
       return;
   }
+}
+
+std::string_view without_time(std::string_view line) {
+  constexpr std::string_view kForm = "00:00:00.000 ";
+  if (line.size() < kForm.size()) return line;
+  for (std::size_t i = 0; i < kForm.size(); ++i)
+    if (kForm[i] == '0' ? std::isdigit(static_cast<unsigned char>(line[i])) == 0
+                        : line[i] != kForm[i])
+      return line;
+  return line.substr(kForm.size());
 }
 
 void begin(const std::string& program) {

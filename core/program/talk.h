@@ -9,6 +9,9 @@
 
 #include <fmt/core.h>
 
+#include <string>
+#include <string_view>
+
 namespace dance::talk {
 
 enum class Level { kInfo, kWarn, kError };
@@ -26,6 +29,9 @@ template <class... T>
 void error(fmt::format_string<T...> format, T&&... args) {
   line(Level::kError, format, fmt::make_format_args(args...));
 }
+
+// "12:34:56.789 dance join: …" without the time; any other line as it is.
+std::string_view without_time(std::string_view line);
 
 // Sets the name on all further lines. run_program() calls it.
 void begin(const std::string& program);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/net/poller.h"
+#include "core/program/child_pipe.h"
 #include "house/program/repeated_words.h"
 
 namespace dance {
@@ -24,19 +25,20 @@ class ProgramWords {
   // Before a start: where the program's stderr goes, -1 for ours.
   int begin();
   // After it: this process talks to the pipe no more.
-  void started();
+  void started() { pipe_.let_go(); }
   // The program has ended: what it said last is passed on.
   void end();
   // It worked: what it says of a later failure is news.
   void forget() { repeated_.forget(); }
 
  private:
+  void close();
   void pass_on();
   void pass_on_line(std::string_view line);
 
   Poller& poller_;
   RepeatedWords repeated_;
-  int read_fd_ = -1, write_fd_ = -1;
+  ChildPipe pipe_;
   std::string rest_;  // of a line that has no end yet
 };
 

@@ -8,11 +8,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "core/program/talk.h"
 
 namespace dance {
 
@@ -25,24 +26,13 @@ class RepeatedWords {
   // What was said counts no more: it worked meanwhile.
   void forget() { before_.clear(), now_.clear(); }
   bool is_new(std::string_view line) {
-    const std::string words(without_time(line));
+    const std::string words(talk::without_time(line));
     const bool was_said = std::find(before_.begin(), before_.end(), words) != before_.end();
     if (now_.size() < kMostLines) now_.push_back(words);
     return !was_said;
   }
 
  private:
-  // "12:34:56.789 " before the words of core/program/talk.h.
-  static std::string_view without_time(std::string_view line) {
-    constexpr std::string_view kForm = "00:00:00.000 ";
-    if (line.size() < kForm.size()) return line;
-    for (std::size_t i = 0; i < kForm.size(); ++i)
-      if (kForm[i] == '0' ? std::isdigit(static_cast<unsigned char>(line[i])) == 0
-                          : line[i] != kForm[i])
-        return line;
-    return line.substr(kForm.size());
-  }
-
   std::vector<std::string> before_, now_;
 };
 

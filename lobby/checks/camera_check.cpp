@@ -1,9 +1,5 @@
 #include "lobby/checks/camera_check.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <utility>
 
 #include "core/program/program.h"
@@ -19,19 +15,16 @@ constexpr Duration kHangs = Duration::s(6);
 }  // namespace
 
 Result<std::unique_ptr<CameraCheck>> CameraCheck::start(const Options& options) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0)
-    return fail("no pipe for the camera's program: is the system out of files?");
-  ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  std::unique_ptr<CameraCheck> check(new CameraCheck(ends[0]));
+  std::unique_ptr<CameraCheck> check(new CameraCheck);
+  DANCE_TRY(check->pipe_, ChildPipe::open());
   ChildProcess::Options how;
   how.program = options.program.empty() ? program_folder() + "/dance-capture" : options.program;
   how.arguments = {"--check", "--loop", "--model", options.model};
   // No device is taken for an option.
   if (!options.device.empty()) how.arguments.insert(how.arguments.end(), {"--", options.device});
-  how.output_fd = ends[1];
+  how.output_fd = check->pipe_.child_fd();
   auto program = ChildProcess::start(how);
-  ::close(ends[1]);
+  check->pipe_.let_go();
   if (program)
     check->program_.emplace(std::move(*program));
   else
@@ -39,14 +32,9 @@ Result<std::unique_ptr<CameraCheck>> CameraCheck::start(const Options& options) 
   return check;
 }
 
-CameraCheck::~CameraCheck() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 void CameraCheck::end(Text why) {
   instead_ = why;
-  if (fd_ >= 0) ::close(fd_);
-  fd_ = -1;
+  pipe_.close();
 }
 
 // Its reader is gone, or it has ended itself.
@@ -61,10 +49,10 @@ void CameraCheck::note_end() {
 }
 
 void CameraCheck::read(MonoTime now) {
-  if (fd_ < 0) return;
+  if (!pipe_.is_open()) return;
   if (!last_heard_.is_set()) last_heard_ = now;
   read_all(now);
-  if (fd_ >= 0) look_for_stall(now);
+  if (pipe_.is_open()) look_for_stall(now);
 }
 
 void CameraCheck::look_for_stall(MonoTime now) {
@@ -75,14 +63,12 @@ void CameraCheck::look_for_stall(MonoTime now) {
 }
 
 void CameraCheck::read_all(MonoTime now) {
-  for (std::size_t turn = 0; fd_ >= 0 && turn < kMostReads; ++turn) {
-    const std::span<std::uint8_t> room = reader_.room();
-    const ssize_t count = ::read(fd_, room.data(), room.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
-    if (count <= 0) return note_end();
+  for (std::size_t turn = 0; pipe_.is_open() && turn < kMostReads; ++turn) {
+    const auto count = pipe_.read(reader_.room());
+    if (!count) return note_end();
+    if (*count == 0) return;
     last_heard_ = now;
-    reader_.add(static_cast<std::size_t>(count));
+    reader_.add(*count);
     if (reader_.fault() != CameraViewReader::Fault::kNone) return note_end();
     if (reader_.take_status()) advice_.note(reader_.status());
     if (!reader_.take_view()) continue;

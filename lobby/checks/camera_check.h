@@ -16,6 +16,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/program/child_pipe.h"
 #include "core/program/child_process.h"
 #include "formats/camera_view/camera_view_reader.h"
 #include "producers/camera/advice/camera_advice.h"
@@ -34,12 +35,11 @@ class CameraCheck {
   static Result<std::unique_ptr<CameraCheck>> start(const std::string& device) {
     return start(Options{device, "", "lite"});
   }
-  ~CameraCheck();
   CameraCheck(const CameraCheck&) = delete;
   CameraCheck& operator=(const CameraCheck&) = delete;
 
   // Readable when there is something to read(); -1 once nothing more comes.
-  int fd() const { return fd_; }
+  int fd() const { return pipe_.fd(); }
   void read(MonoTime now);
 
   // The newest picture; false where none came since the last call.
@@ -53,14 +53,14 @@ class CameraCheck {
   bool is_good() const { return !instead_ && advice_.is_good(); }
 
  private:
-  explicit CameraCheck(int fd) : fd_(fd) {}
+  CameraCheck() = default;
   void end(Text why);
   void note_end();
   void read_all(MonoTime now);
   void look_for_stall(MonoTime now);
 
-  int fd_;
   std::optional<ChildProcess> program_;
+  ChildPipe pipe_;  // ends before the program, which then has nobody to write to
   CameraViewReader reader_;
   CameraAdvice advice_;
   std::optional<Text> instead_;  // of the advice: it has ended, or hangs

@@ -1,10 +1,6 @@
 #include "lobby/checks/camera_list.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 
 #include "core/base/printable.h"
@@ -42,18 +38,14 @@ std::optional<std::vector<ListedCamera>> parse_camera_list(std::string_view json
 }
 
 Result<std::unique_ptr<CameraList>> CameraList::start(const std::string& program) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0)
-    return fail("no pipe for the list of cameras: is the system out of files?");
-  ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
   std::unique_ptr<CameraList> list(new CameraList);
-  list->fd_ = ends[0];
+  DANCE_TRY(list->pipe_, ChildPipe::open());
   ChildProcess::Options how;
   how.program = program.empty() ? program_folder() + "/dance-capture" : program;
   how.arguments = {"--list", "--json"};
-  how.output_fd = ends[1];
+  how.output_fd = list->pipe_.child_fd();
   auto started = ChildProcess::start(how);
-  ::close(ends[1]);
+  list->pipe_.let_go();
   if (started)
     list->program_.emplace(std::move(*started));
   else
@@ -61,13 +53,8 @@ Result<std::unique_ptr<CameraList>> CameraList::start(const std::string& program
   return list;
 }
 
-CameraList::~CameraList() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 void CameraList::end() {
-  ::close(fd_);
-  fd_ = -1;
+  pipe_.close();
   auto parsed = parse_camera_list(said_);
   has_failed_ = !parsed;
   if (parsed) cameras_ = std::move(*parsed);
@@ -76,12 +63,11 @@ void CameraList::end() {
 
 void CameraList::read() {
   std::array<char, 4096> bytes;
-  while (fd_ >= 0) {
-    const ssize_t count = ::read(fd_, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
-    if (count <= 0 || said_.size() + static_cast<std::size_t>(count) > kMostBytes) return end();
-    said_.append(bytes.data(), static_cast<std::size_t>(count));
+  while (pipe_.is_open()) {
+    const auto count = pipe_.read(bytes);
+    if (!count || said_.size() + *count > kMostBytes) return end();
+    if (*count == 0) return;
+    said_.append(bytes.data(), *count);
   }
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/program/child_pipe.h"
 #include "core/program/child_process.h"
 
 namespace dance {
@@ -34,14 +35,13 @@ class CameraList {
  public:
   // "" = dance-capture beside this program.
   static Result<std::unique_ptr<CameraList>> start(const std::string& program = "");
-  ~CameraList();
   CameraList(const CameraList&) = delete;
   CameraList& operator=(const CameraList&) = delete;
 
   // Readable when there is something to read(); -1 once the answer is there.
-  int fd() const { return fd_; }
+  int fd() const { return pipe_.fd(); }
   void read();
-  bool is_done() const { return fd_ < 0; }
+  bool is_done() const { return !pipe_.is_open(); }
   bool has_failed() const { return has_failed_; }
   std::span<const ListedCamera> cameras() const { return cameras_; }
 
@@ -49,10 +49,10 @@ class CameraList {
   CameraList() = default;
   void end();
 
-  int fd_ = -1;
   bool has_failed_ = false;
   std::string said_;
   std::optional<ChildProcess> program_;
+  ChildPipe pipe_;  // ends before the program, which then has nobody to write to
   std::vector<ListedCamera> cameras_;
 };
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/program/child_pipe.h"
 #include "core/program/child_process.h"
 
 namespace dance {
@@ -24,9 +25,6 @@ class ChildWords {
   // `program` as `dance-join`, beside this one.
   static Result<ChildWords> start(const std::string& program, std::vector<std::string> arguments,
                                   bool takes_output = false);
-  ~ChildWords();
-  ChildWords(ChildWords&& other) noexcept;
-  ChildWords& operator=(ChildWords&& other) noexcept;
 
   // Takes what has come. True where there is a new line, or the program has ended.
   bool read();
@@ -37,13 +35,13 @@ class ChildWords {
   ChildProcess& process() { return process_; }
 
  private:
-  explicit ChildWords(ChildProcess process) : process_(std::move(process)) {}
+  ChildWords(ChildProcess process, ChildPipe words, ChildPipe output)
+      : process_(std::move(process)), words_(std::move(words)), output_pipe_(std::move(output)) {}
   void add(std::string_view bytes);
   void add_line(std::string_view line);
-  void close_pipes();
 
   ChildProcess process_;
-  int words_fd_ = -1, output_fd_ = -1;
+  ChildPipe words_, output_pipe_;  // end before the program, which then has nobody to write to
   bool has_told_end_ = false;
   std::string rest_;  // of a line that has no end yet
   std::deque<std::string> lines_;

@@ -1,8 +1,5 @@
 #include "viewer/dance_panel/recording.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -55,11 +52,6 @@ std::string recordings_folder(const std::function<const char*(const char*)>& env
   return home.empty() ? "" : home + "/.local/share/dance/recordings";
 }
 
-DanceRecording::~DanceRecording() {
-  program_.reset();
-  if (words_fd_ >= 0) close(words_fd_);
-}
-
 void DanceRecording::fail_with(std::string why) {
   trouble_ = printable(why.substr(0, kMostTrouble));
   is_saved_ = false;
@@ -82,19 +74,15 @@ void DanceRecording::start(MonoTime now) {
     std::error_code ignored;
     return std::filesystem::exists(path, ignored);
   });
-  std::array<int, 2> ends{-1, -1};
-  if (pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK) != 0) return fail_with("no pipe");
+  auto pipe = ChildPipe::open();
+  if (!pipe) return fail_with(pipe.error().what);
   ChildProcess::Options how{options_.program, {"-o", file_, "--packed"}, "/dev/null", ""};
   if (!options_.bus.empty()) how.arguments.insert(how.arguments.end(), {"--bus", options_.bus});
-  how.talk_fd = ends[1];
+  how.talk_fd = pipe->child_fd();
   auto program = ChildProcess::start(how);
-  close(ends[1]);
-  if (!program) {
-    close(ends[0]);
-    return fail_with(program.error().what);
-  }
-  if (words_fd_ >= 0) close(words_fd_);
-  words_fd_ = ends[0];
+  if (!program) return fail_with(program.error().what);
+  pipe->let_go();
+  said_ = std::move(*pipe);
   program_.emplace(std::move(*program));
   begun_ = now;
   state_ = State::kRunning;
@@ -111,9 +99,9 @@ void DanceRecording::stop(MonoTime now) {
 void DanceRecording::read_words() {
   std::array<char, 512> some{};
   for (int i = 0; i < 8; ++i) {
-    const ssize_t size = read(words_fd_, some.data(), some.size());
-    if (size <= 0) return;
-    words_.append(some.data(), static_cast<std::size_t>(size));
+    const std::size_t size = said_.read(some).value_or(0);
+    if (size == 0) return;
+    words_.append(some.data(), size);
     if (words_.size() > kMostWords) words_.erase(0, words_.size() - kMostWords);
   }
 }

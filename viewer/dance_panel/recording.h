@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/base/time.h"
+#include "core/program/child_pipe.h"
 #include "core/program/child_process.h"
 
 namespace dance {
@@ -35,7 +36,6 @@ class DanceRecording {
   enum class State : std::uint8_t { kIdle, kRunning, kStopping };
 
   explicit DanceRecording(Options options) : options_(std::move(options)) {}
-  ~DanceRecording();
   DanceRecording(const DanceRecording&) = delete;
   DanceRecording& operator=(const DanceRecording&) = delete;
 
@@ -61,8 +61,8 @@ class DanceRecording {
   void finish();
 
   Options options_;
+  ChildPipe said_;  // outlives the program, which may write at its end
   std::optional<ChildProcess> program_;
-  int words_fd_ = -1;
   std::string words_;  // the program's last ones, as they came
   State state_ = State::kIdle;
   MonoTime begun_, asked_to_stop_;
