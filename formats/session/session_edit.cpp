@@ -1,10 +1,10 @@
 #include "formats/session/session_edit.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 
 #include "core/base/plain_number.h"
+#include "formats/session/table_edit.h"
+#include "formats/session/toml_places.h"
 
 namespace dance {
 namespace {
@@ -14,36 +14,6 @@ struct Replacement {
   std::size_t begin, size;
   std::string text;
 };
-
-// Of a place that toml++ tells in lines and columns; columns count characters, not bytes.
-std::size_t offset_of(std::string_view text, const toml::source_position& place) {
-  std::size_t at = 0;
-  for (toml::source_index line = 1; line < place.line; ++line) {
-    const std::size_t end = text.find('\n', at);
-    if (end == std::string_view::npos) return text.size();
-    at = end + 1;
-  }
-  for (toml::source_index column = 1; column < place.column && at < text.size(); ++column) {
-    ++at;
-    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u) ++at;
-  }
-  return at;
-}
-
-Error error_at(const std::string& name, const toml::source_region& source,
-               const std::string& what) {
-  return {name + ":" + std::to_string(source.begin.line) + ":" +
-          std::to_string(source.begin.column) + ": " + what};
-}
-
-std::string quoted(std::string_view words) {
-  std::string text = "\"";
-  for (const char c : words) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\"";
-}
 
 std::string_view first_word(std::string_view text) {
   const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
@@ -67,12 +37,6 @@ std::optional<Replacement> string_at(std::string_view text, const toml::node& no
   return Replacement{begin, end + 1 - begin, std::move(replacement)};
 }
 
-const toml::table* table_of(const toml::table& document, std::string_view key, std::size_t place) {
-  const toml::node* node = document.get(key);
-  const toml::array* array = node ? node->as_array() : nullptr;
-  return array && place < array->size() ? array->get(place)->as_table() : nullptr;
-}
-
 Result<void> edit_words(std::string_view text, const toml::table& route, const SessionEdit& edit,
                         const std::string& name, std::vector<Replacement>& replacements) {
   const toml::node* through = route.get("through");
@@ -91,7 +55,7 @@ Result<void> edit_words(std::string_view text, const toml::table& route, const S
           error_at(name, words->source(),
                    "'" + wanted.word + "' does not stand in this list; open the house anew"));
     if (*found->value_exact<std::string>() == wanted.text) continue;
-    auto replacement = string_at(text, *found, quoted(wanted.text));
+    auto replacement = string_at(text, *found, toml_text(wanted.text));
     if (!replacement)
       return tl::make_unexpected(
           error_at(name, found->source(), "write '" + wanted.word + "' in quotes on one line"));
@@ -102,7 +66,8 @@ Result<void> edit_words(std::string_view text, const toml::table& route, const S
 
 void append_style(const StyleEdit& style, std::string& text) {
   if (!text.empty() && text.back() != '\n') text += '\n';
-  text += "\n[[style]]\nguest = " + quoted(style.guest) + "\nwords = " + quoted(style.words) + "\n";
+  text += "\n[[style]]\nguest = " + toml_text(style.guest) + "\nwords = " + toml_text(style.words) +
+          "\n";
 }
 
 void append_routes(const SessionEdit& edit, std::string& text) {
@@ -110,16 +75,16 @@ void append_routes(const SessionEdit& edit, std::string& text) {
   const std::vector<RouteText> routes = usual_routes();
   for (std::size_t i = 0; i < routes.size(); ++i) {
     const RouteText& route = routes[i];
-    text += "\n[[route]]\nfrom    = " + quoted(route.from) + "\n";
+    text += "\n[[route]]\nfrom    = " + toml_text(route.from) + "\n";
     std::string words;
     for (const std::string& usual : route.through) {
       std::string word = usual;
       for (const WordEdit& wanted : edit.words)
         if (i == edit.route && first_word(usual) == wanted.word) word = wanted.text;
-      words += (words.empty() ? "" : ", ") + quoted(word);
+      words += (words.empty() ? "" : ", ") + toml_text(word);
     }
     if (!words.empty()) text += "through = [" + words + "]\n";
-    text += "to      = " + quoted(route.to) + "\n";
+    text += "to      = " + toml_text(route.to) + "\n";
     if (route.rate_hz > 0.0) text += "rate    = " + plain_number(route.rate_hz) + "\n";
   }
 }
@@ -141,7 +106,7 @@ Result<bool> edit_style(std::string_view text, const toml::table& document, cons
   if (!table) return false;
   const toml::node* words = table->get("words");
   auto replacement =
-      words ? string_at(text, *words, quoted(style.words)) : std::optional<Replacement>();
+      words ? string_at(text, *words, toml_text(style.words)) : std::optional<Replacement>();
   if (!replacement)
     return tl::make_unexpected(
         error_at(name, table->source(), "this [[style]] has no words = \"…\"; write it there"));
@@ -184,19 +149,6 @@ Result<std::vector<std::string>> words_of(const toml::table& document, std::size
   return words;
 }
 
-template <class Use>
-auto with_document(std::string_view text, const std::string& name, Use use)
-    -> decltype(use(std::declval<const toml::table&>())) {
-  // toml++ as Debian builds it reports by exception; it ends here.
-  try {
-    return use(toml::parse(text, std::string_view(name)));
-  } catch (const toml::parse_error& error) {
-    const auto& begin = error.source().begin;
-    return fail(name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
-                ": " + std::string(error.description()));
-  }
-}
-
 }  // namespace
 
 std::vector<RouteText> usual_routes() {
@@ -206,14 +158,14 @@ std::vector<RouteText> usual_routes() {
 
 Result<std::vector<std::string>> route_words(std::string_view text, std::size_t route,
                                              const std::string& name) {
-  return with_document(text, name,
-                       [&](const toml::table& document) { return words_of(document, route); });
+  return with_toml(text, name,
+                   [&](const toml::table& document) { return words_of(document, route); });
 }
 
 Result<std::optional<std::string>> style_words(std::string_view text, std::string_view guest,
                                                const std::string& name) {
   using Words = Result<std::optional<std::string>>;
-  return with_document(text, name, [&](const toml::table& document) -> Words {
+  return with_toml(text, name, [&](const toml::table& document) -> Words {
     const toml::table* table = style_of(document, guest);
     const toml::node* words = table ? table->get("words") : nullptr;
     if (!words) return std::nullopt;
@@ -223,7 +175,7 @@ Result<std::optional<std::string>> style_words(std::string_view text, std::strin
 
 Result<std::string> edit_session(std::string_view text, const SessionEdit& edit,
                                  const std::string& name) {
-  DANCE_TRY(std::string result, with_document(text, name, [&](const toml::table& document) {
+  DANCE_TRY(std::string result, with_toml(text, name, [&](const toml::table& document) {
               return edited(text, document, edit, name);
             }));
   DANCE_TRY(const std::vector<std::string> words, route_words(result, edit.route, name));

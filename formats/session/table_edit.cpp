@@ -1,31 +1,11 @@
 #include "formats/session/table_edit.h"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
+
+#include "formats/session/toml_places.h"
 
 namespace dance {
 namespace {
-
-std::size_t line_begin(std::string_view text, toml::source_index line) {
-  std::size_t at = 0;
-  for (toml::source_index i = 1; i < line; ++i) {
-    const std::size_t end = text.find('\n', at);
-    if (end == std::string_view::npos) return text.size();
-    at = end + 1;
-  }
-  return at;
-}
-
-// Columns count characters, not bytes.
-std::size_t byte_of(std::string_view text, const toml::source_position& place) {
-  std::size_t at = line_begin(text, place.line);
-  for (toml::source_index column = 1; column < place.column && at < text.size(); ++column) {
-    ++at;
-    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u) ++at;
-  }
-  return at;
-}
 
 std::size_t after_line(std::string_view text, std::size_t at) {
   const std::size_t end = text.find('\n', at);
@@ -78,55 +58,34 @@ std::size_t end_of_value(std::string_view text, std::size_t at) {
 }
 
 const toml::table* find_table(const toml::table& document, const TablePlace& place) {
+  if (place.index) return table_of(document, place.table, *place.index);
   const toml::node* node = document.get(place.table);
-  if (!node) return nullptr;
-  if (!place.index) return node->as_table();
-  const toml::array* array = node->as_array();
-  return array && *place.index < array->size() ? array->get(*place.index)->as_table() : nullptr;
+  return node ? node->as_table() : nullptr;
 }
 
 std::string heading(const TablePlace& place) {
   return place.index ? "[[" + place.table + "]]" : "[" + place.table + "]";
 }
 
-Error error_in(const std::string& name, const toml::source_region& source,
-               const std::string& what) {
-  return {name + ":" + std::to_string(source.begin.line) + ":" +
-          std::to_string(source.begin.column) + ": " + what};
-}
-
-template <class Use>
-auto with_tables(std::string_view text, const std::string& name, Use use)
-    -> decltype(use(std::declval<const toml::table&>())) {
-  // toml++ as Debian builds it reports by exception; it ends here.
-  try {
-    return use(toml::parse(text, std::string_view(name)));
-  } catch (const toml::parse_error& error) {
-    const auto& begin = error.source().begin;
-    return fail(name + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
-                ": " + std::string(error.description()));
-  }
-}
-
 // Its heading stands on a line of its own.
 Result<void> check_heading(std::string_view text, const toml::table& table, const TablePlace& place,
                            const std::string& name) {
-  const std::size_t at = byte_of(text, table.source().begin);
+  const std::size_t at = offset_of(text, table.source().begin);
   if (table.is_inline() || at >= text.size() || text[at] != '[')
     return tl::make_unexpected(
-        error_in(name, table.source(), "write " + heading(place) + " on a line of its own"));
+        error_at(name, table.source(), "write " + heading(place) + " on a line of its own"));
   return {};
 }
 
 // Where a new key of the table goes: after the last that it has.
 std::size_t end_of_keys(std::string_view text, const toml::table& table) {
-  std::size_t end = after_line(text, byte_of(text, table.source().begin));
+  std::size_t end = after_line(text, offset_of(text, table.source().begin));
   for (const auto& [key, node] : table) {
     if (node.is_table() && !node.as_table()->is_inline()) continue;
-    if (node.is_array_of_tables() && text[byte_of(text, node.source().begin)] == '[' &&
+    if (node.is_array_of_tables() && text[offset_of(text, node.source().begin)] == '[' &&
         text.substr(line_begin(text, node.source().begin.line), 2) == "[[")
       continue;
-    const std::size_t value = byte_of(text, node.source().begin);
+    const std::size_t value = offset_of(text, node.source().begin);
     end = std::max(end, after_line(text, end_of_value(text, value)));
   }
   return end;
@@ -177,7 +136,7 @@ std::string toml_texts(const std::vector<std::string>& texts) {
 
 Result<std::string> set_value(std::string_view text, const TablePlace& place, std::string_view key,
                               std::string_view value, const std::string& name) {
-  return with_tables(text, name, [&](const toml::table& document) -> Result<std::string> {
+  return with_toml(text, name, [&](const toml::table& document) -> Result<std::string> {
     std::string out(text);
     const toml::table* table = find_table(document, place);
     const std::string line = std::string(key) + " = " + std::string(value) + "\n";
@@ -187,7 +146,7 @@ Result<std::string> set_value(std::string_view text, const TablePlace& place, st
       return out + (out.empty() ? "" : "\n") + heading(place) + "\n" + line;
     }
     if (const toml::node* node = table->get(key)) {
-      const std::size_t begin = byte_of(text, node->source().begin);
+      const std::size_t begin = offset_of(text, node->source().begin);
       return out.replace(begin, end_of_value(text, begin) - begin, value);
     }
     if (auto checked = check_heading(text, *table, place, name); !checked)
@@ -200,14 +159,14 @@ Result<std::string> set_value(std::string_view text, const TablePlace& place, st
 
 Result<std::string> remove_value(std::string_view text, const TablePlace& place,
                                  std::string_view key, const std::string& name) {
-  return with_tables(text, name, [&](const toml::table& document) -> Result<std::string> {
+  return with_toml(text, name, [&](const toml::table& document) -> Result<std::string> {
     std::string out(text);
     const toml::table* table = find_table(document, place);
     const toml::node* node = table ? table->get(key) : nullptr;
     if (!node) return out;
     if (auto checked = check_heading(text, *table, place, name); !checked)
       return tl::make_unexpected(checked.error());
-    const std::size_t value = byte_of(text, node->source().begin);
+    const std::size_t value = offset_of(text, node->source().begin);
     const std::size_t begin = line_begin(text, node->source().begin.line);
     return out.erase(begin, after_line(text, end_of_value(text, value)) - begin);
   });
@@ -227,7 +186,7 @@ std::string append_table(std::string_view text, std::string_view table,
 
 Result<std::string> remove_table(std::string_view text, const TablePlace& place,
                                  const std::string& name) {
-  return with_tables(text, name, [&](const toml::table& document) -> Result<std::string> {
+  return with_toml(text, name, [&](const toml::table& document) -> Result<std::string> {
     std::string out(text);
     const toml::table* table = find_table(document, place);
     if (!table) return out;
@@ -255,7 +214,7 @@ Result<std::vector<std::map<std::string, std::string>>> texts_of_tables(std::str
                                                                         std::string_view table,
                                                                         const std::string& name) {
   using Tables = std::vector<std::map<std::string, std::string>>;
-  return with_tables(text, name, [&](const toml::table& document) -> Result<Tables> {
+  return with_toml(text, name, [&](const toml::table& document) -> Result<Tables> {
     Tables found;
     const auto add = [&](const toml::table& from) {
       auto& texts = found.emplace_back();
@@ -272,12 +231,11 @@ Result<std::vector<std::map<std::string, std::string>>> texts_of_tables(std::str
 }
 
 Result<std::vector<std::string>> table_names(std::string_view text, const std::string& name) {
-  return with_tables(text, name,
-                     [](const toml::table& document) -> Result<std::vector<std::string>> {
-                       std::vector<std::string> names;
-                       for (const auto& [key, node] : document) names.emplace_back(key.str());
-                       return names;
-                     });
+  return with_toml(text, name, [](const toml::table& document) -> Result<std::vector<std::string>> {
+    std::vector<std::string> names;
+    for (const auto& [key, node] : document) names.emplace_back(key.str());
+    return names;
+  });
 }
 
 }  // namespace dance
