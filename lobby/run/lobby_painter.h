@@ -15,13 +15,13 @@
 #include "lobby/screen/lobby_kit.h"
 #include "lobby/screen/lobby_model.h"
 #include "viewer/gl/gl_objects.h"
+#include "viewer/overlay/imgui_on_gl.h"
 
 namespace dance {
 
 class LobbyPainter {
  public:
   static Result<std::unique_ptr<LobbyPainter>> create(float scale);
-  ~LobbyPainter();
   LobbyPainter(const LobbyPainter&) = delete;
   LobbyPainter& operator=(const LobbyPainter&) = delete;
 
@@ -37,8 +37,8 @@ class LobbyPainter {
   explicit LobbyPainter(float scale) : scale_(scale) {}
   void make_fonts();
 
+  ImguiOnGl imgui_;
   float scale_;
-  bool backend_started_ = false;
   LobbyFonts fonts_;
   GlTexture preview_;
 };

@@ -1,6 +1,5 @@
 #include "viewer/overlay/overlay.h"
 
-#include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -63,19 +62,9 @@ void keep_apart(std::vector<Tag>& tags, float width_px, float height_px) {
 
 Result<std::unique_ptr<Overlay>> Overlay::create(float scale) {
   std::unique_ptr<Overlay> overlay(new Overlay(scale));
-  IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;
   overlay->make_fonts();
-  if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
-    return fail("text cannot be drawn: ImGui finds no OpenGL; install libgl1 with apt-get");
-  overlay->backend_started_ = true;
+  if (auto begun = overlay->imgui_.begin("text"); !begun) return tl::make_unexpected(begun.error());
   return overlay;
-}
-
-Overlay::~Overlay() {
-  if (backend_started_) ImGui_ImplOpenGL3_Shutdown();
-  ImGui::DestroyContext();
 }
 
 void Overlay::make_fonts() {
@@ -93,15 +82,14 @@ void Overlay::set_scale(float scale) {
   if (std::abs(scale - scale_) < 0.01f) return;
   scale_ = scale;
   make_fonts();
-  ImGui_ImplOpenGL3_DestroyFontsTexture();
-  ImGui_ImplOpenGL3_CreateFontsTexture();
+  imgui_.renew_fonts();
 }
 
 void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width_px, int height_px,
                    const OverlayChoice& choice) {
   const auto width = static_cast<float>(width_px);
   const auto height = static_cast<float>(height_px);
-  begin_frame(width_px, height_px);
+  imgui_.begin_frame(width_px, height_px);
   if (choice.tags) draw_tags(scene, camera, choice.tag_anchors_W_m, width, height);
   if (choice.hud) draw_hud(scene);
   draw_words(choice, width, height);
@@ -109,22 +97,7 @@ void Overlay::draw(const SceneState& scene, const OrbitCamera& camera, int width
   if (choice.hud && !scene.guests.empty()) frame.figures_px = kHudWidth_em * hud_font_->FontSize;
   draw_notes(scene, height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
   if (choice.panels != nullptr) choice.panels->draw(frame);
-  end_frame();
-}
-
-void Overlay::begin_frame(int width_px, int height_px) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.DisplaySize = ImVec2(static_cast<float>(width_px), static_cast<float>(height_px));
-  io.DeltaTime = 1.0f / 60.0f;  // ImGui's time is not used
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui::NewFrame();
-}
-
-void Overlay::end_frame() {
-  ImGui::Render();
-  glUseProgram(0);  // ImGui would put back one that has been deleted meanwhile
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  check_gl("Overlay");
+  imgui_.end_frame();
 }
 
 int Overlay::panel_height_px(int height_px) const {
@@ -133,7 +106,7 @@ int Overlay::panel_height_px(int height_px) const {
 
 void Overlay::draw_beats(const Comparison& comparison, int width_px, int height_px,
                          PanelStack* panels) {
-  begin_frame(width_px, height_px);
+  imgui_.begin_frame(width_px, height_px);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const auto middle = static_cast<float>(width_px / 2);
   const auto bottom = static_cast<float>(height_px);
@@ -145,12 +118,12 @@ void Overlay::draw_beats(const Comparison& comparison, int width_px, int height_
                   comparison.is_of_twins ? "in rhythm" : "as it is staged");
   list.AddRectFilled({middle - 1.0f, 0.0f}, {middle + 1.0f, bottom}, shade(1.0f));
   draw_panels(panels, comparison.shown, static_cast<float>(width_px), top);  // above the beats
-  end_frame();
+  imgui_.end_frame();
 }
 
 void Overlay::draw_frames(std::span<const StageCell> cells, int width_px, int height_px,
                           const OverlayChoice& choice) {
-  begin_frame(width_px, height_px);
+  imgui_.begin_frame(width_px, height_px);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const float line = std::max(1.0f, std::round(2.0f * scale_));
   for (const StageCell& cell : cells) {
@@ -170,7 +143,7 @@ void Overlay::draw_frames(std::span<const StageCell> cells, int width_px, int he
                height - (choice.panels != nullptr ? choice.panels->bottom_px(frame) : 0.0f));
     draw_panels(choice.panels, *choice.whole, width, height);
   }
-  end_frame();
+  imgui_.end_frame();
 }
 
 void Overlay::draw_panels(PanelStack* panels, const SceneState& scene, float width_px,

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "viewer/overlay/imgui_on_gl.h"
 #include "viewer/scene/camera.h"
 #include "viewer/scene/comparison.h"
 #include "viewer/scene/scene.h"
@@ -41,7 +42,6 @@ struct OverlayChoice {
 class Overlay {
  public:
   static Result<std::unique_ptr<Overlay>> create(float scale);
-  ~Overlay();
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
@@ -65,14 +65,12 @@ class Overlay {
   void draw_tags(const SceneState& scene, const OrbitCamera& camera,
                  std::span<const Eigen::Vector3f> anchors_W_m, float width_px, float height_px);
   void draw_hud(const SceneState& scene);
-  void begin_frame(int width_px, int height_px);
-  void end_frame();
   void draw_words(const OverlayChoice& choice, float width_px, float height_px);
   void draw_notes(const SceneState& scene, float height_px);
   void draw_panels(PanelStack* panels, const SceneState& scene, float width_px, float height_px);
 
+  ImguiOnGl imgui_;
   float scale_;
-  bool backend_started_ = false;
   ImFont* tag_font_ = nullptr;
   ImFont* hud_font_ = nullptr;
   ImFont* digit_font_ = nullptr;

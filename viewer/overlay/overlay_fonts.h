@@ -13,6 +13,8 @@ struct ImFontAtlas;
 namespace dance {
 
 const char* find_overlay_font();
+// With the letters of western Europe and the marks of good typography.
+ImFont* add_text_font(ImFontAtlas& atlas, float size_px);
 ImFont* add_overlay_font(ImFontAtlas& atlas, float size_px);
 // The ten digits alone; nullptr where there is no DejaVu font.
 ImFont* add_digit_font(ImFontAtlas& atlas, float size_px);

@@ -1,6 +1,5 @@
 #include "viewer/overlay/plot_canvas.h"
 
-#include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "viewer/gl/gl_objects.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/picture_target.h"
+#include "viewer/overlay/imgui_on_gl.h"
 #include "viewer/overlay/overlay_fonts.h"
 
 namespace dance {
@@ -27,27 +27,14 @@ class GlPlotCanvas final : public PlotCanvas {
       : context_(std::move(context)), width_px_(width_px), height_px_(height_px) {}
 
   Result<void> begin() {
-    IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    text_ = add_overlay_font(*io.Fonts, kPlotText_px);
-    title_ = add_overlay_font(*io.Fonts, kPlotTitle_px);
-    if (!ImGui_ImplOpenGL3_Init("#version 330 core"))
-      return fail("a plot cannot be drawn: ImGui finds no OpenGL; install libgl1 with apt-get");
-    has_begun_ = true;
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    text_ = add_overlay_font(atlas, kPlotText_px);
+    title_ = add_overlay_font(atlas, kPlotTitle_px);
+    if (auto begun = imgui_.begin("a plot"); !begun) return begun;
     if (auto sized = target_.resize(width_px_, height_px_); !sized) return sized;
-    io.DisplaySize = ImVec2(static_cast<float>(width_px_), static_cast<float>(height_px_));
-    io.DeltaTime = 1.0f / 60.0f;
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui::NewFrame();
+    imgui_.begin_frame(width_px_, height_px_);
     list_ = ImGui::GetBackgroundDrawList();
     return {};
-  }
-  ~GlPlotCanvas() override {
-    target_ = PictureTarget(0);
-    if (has_begun_) ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext();
   }
 
   void line(PlotPoint from, PlotPoint to, std::uint32_t colour, double width) override {
@@ -86,10 +73,7 @@ class GlPlotCanvas final : public PlotCanvas {
     target_.bind_finished();
     glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
-    ImGui::Render();
-    glUseProgram(0);  // ImGui would put back one that has been deleted meanwhile
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    check_gl("PlotCanvas");
+    imgui_.end_frame();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.finished().name());
     return read_bound_framebuffer(width_px_, height_px_);
   }
@@ -98,12 +82,12 @@ class GlPlotCanvas final : public PlotCanvas {
   ImFont* font_of(Size size) const { return size == Size::kTitle ? title_ : text_; }
 
   std::unique_ptr<OffscreenContext> context_;
+  ImguiOnGl imgui_;
   int width_px_, height_px_;
   PictureTarget target_{0};
   ImDrawList* list_ = nullptr;
   ImFont* text_ = nullptr;
   ImFont* title_ = nullptr;
-  bool has_begun_ = false;
 };
 
 }  // namespace
