@@ -192,17 +192,21 @@ bool LobbyRun::look_at_house(MonoTime now) {
     stop_house();
     return true;
   }
-  if (house_->process().has_ended()) {
-    house_->read();
-    const std::vector<std::string> lines(house_->lines().begin(), house_->lines().end());
-    model_.tell(trouble_of_end(lines, model_.settings));
+  if (has_house_ended()) {
     stop_house();
     return true;
   }
   if (now - going_since_ < kLongestGoingIn) return false;
-  const std::vector<std::string> lines(house_->lines().begin(), house_->lines().end());
-  model_.tell(trouble_of_beginning(lines, model_.settings));
+  model_.tell(trouble_of_beginning(house_->lines(), model_.settings));
   stop_house();
+  return true;
+}
+
+// Of itself; then it is told why.
+bool LobbyRun::has_house_ended() {
+  if (!house_->process().has_ended()) return false;
+  house_->read();
+  model_.tell(trouble_of_end(house_->lines(), model_.settings));
   return true;
 }
 
@@ -348,12 +352,7 @@ Result<void> LobbyRun::turn_of_dance() {
     for (const std::string& line : house_->take_lines())
       if (const auto known = trouble_in(line, model_.settings); known && !known->is_fatal)
         model_.tell(known->banner);
-    if (house_->process().has_ended()) {
-      house_->read();
-      const std::vector<std::string> lines(house_->lines().begin(), house_->lines().end());
-      model_.tell(trouble_of_end(lines, model_.settings));
-      return end_dance();
-    }
+    if (has_house_ended()) return end_dance();
   }
   return stage_->is_over() ? end_dance() : Result<void>();
 }

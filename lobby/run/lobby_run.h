@@ -56,6 +56,7 @@ class LobbyRun {
   void open_invitation_typed();
   void obey(LobbyWish wish);
   void go_in(LobbyWish wish);
+  bool has_house_ended();
   void stop_house();
   Result<void> begin_dance();
   Result<void> turn_of_dance();

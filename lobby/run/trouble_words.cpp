@@ -67,24 +67,30 @@ std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySetting
   return std::nullopt;
 }
 
+namespace {
+
+LobbyBanner newest_trouble(const std::deque<std::string>& lines, const LobbySettings& settings,
+                           Text otherwise, bool is_fatal) {
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line)
+    if (auto trouble = trouble_in(*line, settings); trouble && (trouble->is_fatal || !is_fatal))
+      return trouble->banner;
+  return {LobbyBanner::Kind::kTrouble,       otherwise,    {},
+          lines.empty() ? "" : lines.back(), Text::kCount, LobbyWish::kNone};
+}
+
+}  // namespace
+
 bool says_it_is_in(std::string_view line, bool is_alone) {
   return is_alone ? line.starts_with("the house is open") : line.starts_with("in room '");
 }
 
-LobbyBanner trouble_of_beginning(std::span<const std::string> lines,
+LobbyBanner trouble_of_beginning(const std::deque<std::string>& lines,
                                  const LobbySettings& settings) {
-  for (std::size_t i = lines.size(); i-- > 0;)
-    if (auto trouble = trouble_in(lines[i], settings)) return trouble->banner;
-  return {LobbyBanner::Kind::kTrouble,       Text::kLobbyNotBegun, {},
-          lines.empty() ? "" : lines.back(), Text::kCount,         LobbyWish::kNone};
+  return newest_trouble(lines, settings, Text::kLobbyNotBegun, false);
 }
 
-LobbyBanner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings) {
-  for (std::size_t i = lines.size(); i-- > 0;)
-    if (auto trouble = trouble_in(lines[i], settings); trouble && trouble->is_fatal)
-      return trouble->banner;
-  return {LobbyBanner::Kind::kTrouble,       Text::kLobbyDanceEnded, {},
-          lines.empty() ? "" : lines.back(), Text::kCount,           LobbyWish::kNone};
+LobbyBanner trouble_of_end(const std::deque<std::string>& lines, const LobbySettings& settings) {
+  return newest_trouble(lines, settings, Text::kLobbyDanceEnded, true);
 }
 
 }  // namespace dance

@@ -6,8 +6,8 @@
 // Failure:      a line that says nothing of the kind is none.
 #pragma once
 
+#include <deque>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,8 +25,9 @@ std::optional<ChildTrouble> trouble_in(std::string_view line, const LobbySetting
 // The house dances: alone, as soon as it is open; in a room when the server has let it in.
 bool says_it_is_in(std::string_view line, bool is_alone);
 // Of a house that does not get to dance: the newest trouble that it told of, if any.
-LobbyBanner trouble_of_beginning(std::span<const std::string> lines, const LobbySettings& settings);
+LobbyBanner trouble_of_beginning(const std::deque<std::string>& lines,
+                                 const LobbySettings& settings);
 // Of a program that has ended: what its last line says, where that is known, else that it ended.
-LobbyBanner trouble_of_end(std::span<const std::string> lines, const LobbySettings& settings);
+LobbyBanner trouble_of_end(const std::deque<std::string>& lines, const LobbySettings& settings);
 
 }  // namespace dance

@@ -35,7 +35,7 @@ void LobbyModel::forget(Text banner) {
 }
 
 void LobbyModel::tell(LobbyBanner banner) {
-  std::erase_if(banners, [&](const LobbyBanner& it) { return it.text == banner.text; });
+  forget(banner.text);
   banners.insert(banners.begin(), std::move(banner));
   if (banners.size() > kMostBanners) banners.pop_back();
 }

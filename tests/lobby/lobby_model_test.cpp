@@ -130,19 +130,19 @@ TEST(TroubleWords, KnowWhatALinkSays) {
 
 TEST(TroubleWords, TellAnEndByWhatWasSaidBefore) {
   const LobbySettings settings = model_at("a.org").settings;
-  const std::vector<std::string> lines{"there is no key for a.org:7400 and room 'dance' in x",
-                                       "something else"};
+  const std::deque<std::string> lines{"there is no key for a.org:7400 and room 'dance' in x",
+                                      "something else"};
   EXPECT_EQ(trouble_of_end(lines, settings).text, Text::kLobbyNoKey);
-  const std::vector<std::string> other{"out of memory"};
+  const std::deque<std::string> other{"out of memory"};
   EXPECT_EQ(trouble_of_end(other, settings).text, Text::kLobbyDanceEnded);
   EXPECT_EQ(trouble_of_end(other, settings).detail, "out of memory");
 }
 
 TEST(TroubleWords, TellWhyADanceDidNotBegin) {
   const LobbySettings settings = model_at("a.org").settings;
-  const std::vector<std::string> silent{no_answer_line(Address::loopback(7400)), "bob is here"};
+  const std::deque<std::string> silent{no_answer_line(Address::loopback(7400)), "bob is here"};
   EXPECT_EQ(trouble_of_beginning(silent, settings).text, Text::kLobbyServerSilent);
-  const std::vector<std::string> other{"the sound server does not answer"};
+  const std::deque<std::string> other{"the sound server does not answer"};
   EXPECT_EQ(trouble_of_beginning(other, settings).text, Text::kLobbyNotBegun);
   EXPECT_EQ(trouble_of_beginning(other, settings).detail, other.front());
 }
