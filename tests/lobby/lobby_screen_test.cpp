@@ -6,8 +6,7 @@
 
 #include "core/net/mono_clock.h"
 #include "lobby/run/lobby_painter.h"
-#include "tests/viewer/driver_memory.h"
-#include "viewer/gl/offscreen.h"
+#include "tests/viewer/offscreen_test.h"
 #include "viewer/gl/picture.h"
 #include "viewer/gl/picture_target.h"
 
@@ -42,14 +41,8 @@ LobbyModel full_model(Language language) {
   return model;
 }
 
-class LobbyScreenTest : public testing::Test {
+class LobbyScreenTest : public OffscreenTest {
  protected:
-  void SetUp() override {
-    auto context = OffscreenContext::create();
-    if (!context) GTEST_SKIP() << context.error().what;
-    context_ = std::move(*context);
-    keep_drivers_loaded();
-  }
   Shown show(LobbyModel& model, int width_px, int height_px, float scale,
              const std::string& name = "") {
     auto painter = LobbyPainter::create(scale);
@@ -71,7 +64,6 @@ class LobbyScreenTest : public testing::Test {
     }
     return shown;
   }
-  std::unique_ptr<OffscreenContext> context_;
 };
 
 constexpr std::array kScreens{LobbyScreen::kYou, LobbyScreen::kDance, LobbyScreen::kHost};

@@ -13,6 +13,7 @@
 
 #include "core/base/printable.h"
 #include "core/net/mono_clock.h"
+#include "tests/viewer/board_source.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
 #include "tests/virtual_display.h"
@@ -107,32 +108,6 @@ TEST(ViewWindow, ShowsThePixelsThatAFileWouldHold) {
   EXPECT_LT(mean_difference(shown, headless), 0.5);
   EXPECT_FALSE((*window)->is_over());
 }
-
-// A house whose guests are put on its board by the test.
-class BoardSource final : public PictureSource {
- public:
-  GuestBoard& board() override { return board_; }
-  InstrumentBoard& instruments() override { return instruments_; }
-  MonoTime begin() const override { return begin_; }
-  MonoTime wait_until(MonoTime) override { return mono_now(); }
-  bool is_over() const override { return false; }
-  const std::string& name() const override { return name_; }
-  void put(const SceneState& scene) {
-    for (const SceneGuest& guest : scene.guests) {
-      Pose pose = guest.pose;
-      pose.sequence = ++sequence_;
-      board_.on_skeleton(guest.id, guest.skeleton, mono_now());
-      board_.on_pose(Where::kStage, guest.id, pose, mono_now());
-    }
-  }
-
- private:
-  GuestBoard board_{this_clock_id(), false};
-  InstrumentBoard instruments_{this_clock_id()};
-  MonoTime begin_ = mono_now();
-  std::string name_ = "a test";
-  std::uint32_t sequence_ = 0;
-};
 
 // The loop of the window, turn by turn.
 class WindowRunTest : public testing::Test {

@@ -19,11 +19,10 @@
 
 #include "tests/test_folder.h"
 #include "tests/viewer/dressed_scene.h"
-#include "tests/viewer/driver_memory.h"
 #include "tests/viewer/instruments/synthetic_line.h"
+#include "tests/viewer/offscreen_test.h"
 #include "tests/viewer/test_scene.h"
 #include "viewer/dance_panel/dance_panel.h"
-#include "viewer/gl/offscreen.h"
 #include "viewer/panel/panel_stack.h"
 #include "viewer/stage/stage_painter.h"
 
@@ -41,22 +40,8 @@ struct Line {
   bool is_silent = false;
 };
 
-class DanceStage : public testing::Test {
+class DanceStage : public OffscreenTest {
  protected:
-  static void SetUpTestSuite() {
-    auto made = OffscreenContext::create();
-    if (!made) {
-      why_not_ = made.error().what;
-      return;
-    }
-    context_ = std::move(*made);
-    keep_drivers_loaded();
-  }
-  static void TearDownTestSuite() { context_.reset(); }
-  void SetUp() override {
-    if (!context_) GTEST_SKIP() << why_not_;
-  }
-
   void begin(Language language, int width_px, int height_px, float scale) {
     width_px_ = width_px;
     height_px_ = height_px;
@@ -233,8 +218,6 @@ class DanceStage : public testing::Test {
   std::vector<Line> lines_;
   MonoTime now_ = at_ms(kBegin_ms), told_at_;
   int width_px_ = kWidth_px, height_px_ = kHeight_px;
-  static inline std::unique_ptr<OffscreenContext> context_;
-  static inline std::string why_not_;
 };
 
 }  // namespace dance

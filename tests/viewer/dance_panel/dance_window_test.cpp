@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/net/mono_clock.h"
+#include "tests/viewer/board_source.h"
 #include "tests/viewer/driver_memory.h"
 #include "tests/viewer/test_scene.h"
 #include "tests/virtual_display.h"
@@ -14,37 +15,23 @@
 namespace dance {
 namespace {
 
-// A live house, whose guests are put on its boards by the test.
-class DancingHouse final : public PictureSource {
+// With what a dance tells of itself.
+class DancingHouse final : public BoardSource {
  public:
-  GuestBoard& board() override { return board_; }
-  InstrumentBoard& instruments() override { return instruments_; }
   DanceBoard* dance() override { return &dance_; }
-  MonoTime begin() const override { return begin_; }
-  MonoTime wait_until(MonoTime) override { return mono_now(); }
-  bool is_over() const override { return false; }
-  const std::string& name() const override { return name_; }
   void put(const SceneState& scene) {
+    BoardSource::put(scene);
     for (const SceneGuest& guest : scene.guests) {
-      Pose pose = guest.pose;
-      pose.sequence = ++sequence_;
-      board_.on_skeleton(guest.id, guest.skeleton, mono_now());
-      board_.on_pose(Where::kStage, guest.id, pose, mono_now());
       GuestStatus status;
       status.alive = status.remote = true;
-      status.received = sequence_;
+      status.received = sequence();
       dance_.on_status(guest.id, status, mono_now());
       dance_.on_traffic(guest.id, mono_now());
     }
   }
 
  private:
-  GuestBoard board_{this_clock_id(), false};
-  InstrumentBoard instruments_{this_clock_id()};
   DanceBoard dance_;
-  MonoTime begin_ = mono_now();
-  std::string name_ = "a test";
-  std::uint32_t sequence_ = 0;
 };
 
 class DanceWindowTest : public testing::Test {

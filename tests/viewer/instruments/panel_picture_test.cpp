@@ -4,9 +4,8 @@
 #include <array>
 #include <string>
 
-#include "tests/viewer/driver_memory.h"
 #include "tests/viewer/instruments/synthetic_line.h"
-#include "viewer/gl/offscreen.h"
+#include "tests/viewer/offscreen_test.h"
 #include "viewer/instruments/instrument_panel.h"
 #include "viewer/panel/panel_stack.h"
 #include "viewer/stage/stage_painter.h"
@@ -17,22 +16,8 @@ namespace {
 using Rgb = std::array<int, 3>;
 constexpr Rgb kToServer{0xf0, 0xb4, 0x3c}, kToHouse{0xd9, 0x65, 0x3b};
 
-class PanelPictureTest : public testing::Test {
+class PanelPictureTest : public OffscreenTest {
  protected:
-  static void SetUpTestSuite() {
-    auto made = OffscreenContext::create();
-    if (!made) {
-      why_not_ = made.error().what;
-      return;
-    }
-    context_ = std::move(*made);
-    keep_drivers_loaded();
-  }
-  static void TearDownTestSuite() { context_.reset(); }
-  void SetUp() override {
-    if (!context_) GTEST_SKIP() << why_not_;
-  }
-
   // Two seconds of dancers behind the line of synthetic_line.h.
   static Picture draw(int guests, int width_px, int height_px, float scale) {
     InstrumentBoard board(kHouseClock);
@@ -94,9 +79,6 @@ class PanelPictureTest : public testing::Test {
     }
     return bars;
   }
-
-  static inline std::unique_ptr<OffscreenContext> context_;
-  static inline std::string why_not_;
 };
 
 TEST_F(PanelPictureTest, BarsAreAsLongAsTheirStages) {
