@@ -19,7 +19,6 @@
 namespace dance {
 namespace {
 
-constexpr std::size_t kMaxSessionBytes = 1 << 20;
 constexpr std::size_t kMaxGuestsPerHouse = 16;
 constexpr std::size_t kMaxRoutes = 64;
 

@@ -17,6 +17,9 @@
 
 namespace dance {
 
+// A session file has no more.
+inline constexpr std::size_t kMaxSessionBytes = 1 << 20;
+
 // A transformer's word in `through`, told by its first word: "predict lead=0.8" is for "predict".
 struct WordEdit {
   std::string word;

@@ -8,14 +8,8 @@
 #include "core/program/whole_file.h"
 
 namespace dance {
-namespace {
-
-constexpr std::size_t kMostBytes = 1 << 20;  // as house/session.cpp takes
-
-}  // namespace
-
 Result<SessionFile> SessionFile::open(const std::string& path) {
-  DANCE_TRY(std::string text, read_whole_file(path, kMostBytes));
+  DANCE_TRY(std::string text, read_whole_file(path, kMaxSessionBytes));
   // What is no TOML is told now and not with the first save.
   if (const auto words = route_words(text, 0, path); !words)
     return tl::make_unexpected(words.error());
@@ -35,7 +29,7 @@ Result<void> SessionFile::save(const SessionEdit& edit) {
   if (access(path_.c_str(), W_OK) != 0)
     return fail(path_ + " cannot be written: " + std::strerror(errno) +
                 "; chmod u+w it, or start the viewer with --session of a copy");
-  DANCE_TRY(std::string now, read_whole_file(path_, kMostBytes));
+  DANCE_TRY(std::string now, read_whole_file(path_, kMaxSessionBytes));
   if (now != text_) {
     text_ = std::move(now);
     return fail(path_ + " was changed by somebody else; look at it, and save again to write there");

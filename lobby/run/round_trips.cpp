@@ -1,5 +1,6 @@
 #include "lobby/run/round_trips.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/net/address.h"
@@ -65,9 +66,7 @@ void RoundTrips::answer(std::vector<std::string> servers, std::uint32_t round) {
     const auto found = Address::resolve(servers[i], kDefaultServerPort);
     if (!found) continue;
     of[i] = *found;
-    bool is_known = false;
-    for (const Address& it : asked) is_known = is_known || it == *found;
-    if (!is_known) asked.push_back(*found);
+    if (std::ranges::find(asked, *found) == asked.end()) asked.push_back(*found);
   }
   if (auto poller = Poller::create(); poller && !asked.empty()) {
     ServerProbe probe(**poller);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/program/whole_file.h"
+#include "formats/session/session_edit.h"
 #include "formats/session/table_edit.h"
 
 namespace dance {
@@ -15,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostSettingsBytes = 1 << 20;  // as house/session.cpp takes
 constexpr const char* kHeader =
     "# What was chosen in the DanceGraph window. It is an ordinary session file: edit it, and\n"
     "# start it with: dance join FILE\n";
@@ -64,7 +64,7 @@ Result<SettingsFile::Opened> SettingsFile::open() {
     opened.is_new = true;
     return opened;
   }
-  DANCE_TRY(const std::string text, read_whole_file(path_, kMostSettingsBytes));
+  DANCE_TRY(const std::string text, read_whole_file(path_, kMaxSessionBytes));
   if (const auto house = parse_session(text, path_)) {
     opened.settings = settings_of(*house);
     return opened;
@@ -79,7 +79,7 @@ Result<SettingsFile::Saved> SettingsFile::save(const LobbySettings& settings) {
   Saved saved;
   std::string text;
   if (is_there(path_)) {
-    DANCE_TRY(text, read_whole_file(path_, kMostSettingsBytes));
+    DANCE_TRY(text, read_whole_file(path_, kMaxSessionBytes));
     if (const auto house = parse_session(text, path_); !house) {
       saved.trouble = house.error().what;
       DANCE_TRY(saved.kept_as, keep_aside());

@@ -31,10 +31,14 @@ std::function<void(Args...)> behind(std::function<void(Args...)> before, Then th
 void LinkStatus::listen_to(LinkHandlers& handlers) {
   handlers.on_state =
       behind(std::move(handlers.on_state), [this](LinkState state, MonoTime) { on_state(state); });
-  handlers.on_no_answer = behind(std::move(handlers.on_no_answer),
-                                 [this](const Address&) { settle(HouseLinkTrouble::kNoAnswer); });
-  handlers.on_no_entry = behind(std::move(handlers.on_no_entry),
-                                [this](SealTrouble trouble) { settle(trouble_of(trouble)); });
+  handlers.on_no_answer = behind(std::move(handlers.on_no_answer), [this](const Address&) {
+    settle(HouseLinkTrouble::kNoAnswer);
+    changed();
+  });
+  handlers.on_no_entry = behind(std::move(handlers.on_no_entry), [this](SealTrouble trouble) {
+    settle(trouble_of(trouble));
+    changed();
+  });
   handlers.on_refused = behind(
       std::move(handlers.on_refused),
       [this](const wire::RefusalNotice& refusal, MonoTime now) { on_refused(refusal, now); });
@@ -48,15 +52,14 @@ void LinkStatus::settle(HouseLinkTrouble trouble) {
   status_.refusal = 0;
   status_.refused = GuestId();
   status_.asks_again = MonoTime();
-  changed();
 }
 
 void LinkStatus::on_state(LinkState state) {
   status_.state = state == LinkState::kConnected ? HouseLinkState::kConnected
                   : state == LinkState::kLapsed  ? HouseLinkState::kLapsed
                                                  : HouseLinkState::kConnecting;
-  if (state != LinkState::kConnected) return changed();
-  settle(HouseLinkTrouble::kNone);
+  if (state == LinkState::kConnected) settle(HouseLinkTrouble::kNone);
+  changed();
 }
 
 void LinkStatus::on_refused(const wire::RefusalNotice& refusal, MonoTime now) {
