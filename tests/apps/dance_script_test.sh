@@ -98,6 +98,11 @@ END
   } >"$tree/producers/camera/fetch_pose_models.sh"
   chmod +x "$tree/tests/run.sh" "$tree/producers/camera/fetch_pose_models.sh"
 }
+fake_client_fetch() {
+  mkdir -p "$tree/tests/clients"
+  printf '#!%s\necho "clients fetched"\n' "$(command -v bash)" >"$tree/tests/clients/fetch_clients.sh"
+  chmod +x "$tree/tests/clients/fetch_clients.sh"
+}
 dance() { # WORD…
   code=0
   : >"$calls"
@@ -297,18 +302,43 @@ expect_code 7
 expect_no_call "libopencv-core-dev"
 expect_no_call "fetch"
 
+expect_client_log() { # TEXT: what is installed beside the build ends on its own
+  local i
+  for ((i = 0; i < 100; i++)); do
+    ! grep -qF -- "$1" "$tree/build/clients.log" 2>/dev/null || return 0
+    sleep 0.1
+  done
+  wrong "build/clients.log does not say: $1"
+}
 begin "tests"
 dance test -L unit
 expect_code 0
 expect_call "libgtest-dev"
 expect_call "fetch"
 expect_call "run.sh -L unit"
+expect_client_log "are skipped"
+begin "tests, and programs of others that cannot be had"
+echo blender >"$scratch/apt_lacks"
+dance test
+expect_code 0
+expect_call "run.sh"
+expect_client_log "without them the tests with programs of others are skipped"
+begin "tests on a machine with an npm that is not Debian's"
+fake npm </dev/null
+fake_client_fetch
+dance test
+expect_client_log "clients fetched"
+expect_call "blender"
+! grep -qx npm "$scratch/installed" || wrong "installs Debian's npm"
+rm "$bin/npm"
+
 begin "tests without the networks"
 touch "$scratch/fetch_fails"
 dance test
 expect_code 0
 expect_said "are skipped"
 expect_call "run.sh"
+expect_client_log "are skipped"
 
 begin "no Debian"
 mv "$bin/dpkg-query" "$scratch/dpkg-query"

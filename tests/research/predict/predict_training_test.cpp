@@ -49,8 +49,10 @@ TEST(PredictTraining, LearnsADanceAndAlwaysTheSame) {
   EXPECT_LT(errors[2], 0.9 * errors[0]);
   EXPECT_EQ(model->dancers.size(), 2u);
   const auto bytes = write_predict_model(*model);
+#ifndef DANCE_SANITIZED  // a second training runs the same code, for a minute there
   training.tell = {};
   EXPECT_EQ(bytes, write_predict_model(*train_predict(training)));
+#endif
 
   PredictEvalOptions options;
   const auto read = read_predict_model(bytes);
