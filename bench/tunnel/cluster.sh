@@ -2,6 +2,7 @@
 # cluster.sh BIN [OPTIONS OF dance crowd]: the same crowd at one server, and at three servers that three NATS servers join, one after
 # the other on this machine, and what the second costs beside the first. Poses of a crowd need processor time when they are due: with
 # RUN="chrt -f 10" servers and crowd have it before what else runs here (not the NATS servers, which would take all).
+# SERVER="--share-ms 4" is for each dance server; ONLY=three leaves out the one, where a room is too large for it.
 set -eu
 [ $# -ge 1 ] || { echo "usage: $0 BIN [--guests 90 --rooms 10]" >&2; exit 2; }
 bin=$1
@@ -31,12 +32,12 @@ for i in 1 2 3; do
   started="$started $!"
 done
 sleep 2
-${RUN:-} "$bin/dance-server" --port 25400 --max-sessions 512 2>>"$here/talk" &
+${RUN:-} "$bin/dance-server" --port 25400 --max-sessions 512 ${SERVER:-} 2>>"$here/talk" &
 started="$started $!"
 one="--server 127.0.0.1:25400 --cpu-of $!"
 three=
 for i in 1 2 3; do
-  ${RUN:-} "$bin/dance-server" --port "2540$i" --max-sessions 512 --cluster "$cluster" \
+  ${RUN:-} "$bin/dance-server" --port "2540$i" --max-sessions 512 ${SERVER:-} --cluster "$cluster" \
     --cluster-address "127.0.0.1:2540$i" 2>>"$here/talk" &
   started="$started $!"
   three="$three --server 127.0.0.1:2540$i --cpu-of $!"
@@ -57,8 +58,8 @@ measure() {
 }
 echo "dance crowd $*, 8 s"
 printf '%-6s %11s %10s %8s %8s %12s\n' servers delivered missed 'p50 µs' 'p99 µs' 'µs a delivery'
-measure one "$one" "$@"
+[ "${ONLY:-}" = three ] || measure one "$one" "$@"
 measure three "$three" "$@"
-awk -v one="$(number "$here/one" server_us_per_delivered_pose)" -v three="$(number "$here/three" server_us_per_delivered_pose)" \
+[ "${ONLY:-}" = three ] || awk -v one="$(number "$here/one" server_us_per_delivered_pose)" -v three="$(number "$here/three" server_us_per_delivered_pose)" \
   -v p50="$(number "$here/one" p50_us)" -v after="$(number "$here/three" p50_us)" \
   'BEGIN { printf "three beside one: %.2f of the processor time a delivery, %+.0f µs at the median\n", three / one, after - p50 }'
