@@ -112,16 +112,15 @@ Result<void> show(const Wishes& wishes, const SceneCamera& camera, const SolverO
   if (!dances.empty()) rows = shown_rows(dances, camera, options);
   for (const std::string& path : videos) {
     DANCE_TRY(const VideoLandmarks video, video_landmarks(path));
-    rows.push_back(shown_row(path + ", real network", video.frames, video.hz, video.camera,
-                             options));
+    rows.push_back(
+        shown_row(path + ", real network", video.frames, video.hz, video.camera, options));
     if (wishes.still == 0) continue;
     DANCE_TRY(const VideoLandmarks still,
               still_landmarks(path, wishes.still, kStillFrames, kSensorNoise));
     rows.push_back(shown_row(fmt::format("{}, frame {} held still", path, wishes.still),
                              still.frames, still.hz, still.camera, options));
   }
-  const std::string text =
-      wishes.is_json ? shown_json(rows).dump(2) + "\n" : shown_table(rows);
+  const std::string text = wishes.is_json ? shown_json(rows).dump(2) + "\n" : shown_table(rows);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return {};
 }
@@ -213,7 +212,8 @@ int main(int argc, char** argv) {
   dance::CommandLine line(
       "The camera's solver on recorded dances before a simulated camera, beside the network alone.",
       "dance capture solve eval");
-  line.add("FILE", wishes.files, "BVH files, also packed with xz; with --shown videos too").required();
+  line.add("FILE", wishes.files, "BVH files, also packed with xz; with --shown videos too")
+      .required();
   line.add("--hz", wishes.hz, "pictures a second").shows_default();
   line.add("--warm-up", wishes.warm_up_s, "seconds from the begin that are not judged")
       .shows_default();

@@ -14,6 +14,8 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr double kStart_s = 1.5;
+// Bones are held by then: what moves after that trembles.
+constexpr double kBonesHeld_s = 6.0;
 constexpr double kDeg = 180.0 / std::numbers::pi;
 // Bodies that lie, or turn their side up, face nowhere.
 constexpr double kLeastAcross = 0.5;
@@ -135,12 +137,10 @@ void judge_facing(const ShownTrack& shown, const ShownTrack& truth, ShownFigures
 void judge_hands(const ShownTrack& shown, const ShownTrack& truth, ShownFigures& figures) {
   std::vector<double> steps_mm;
   const std::size_t n = shown.frames.size();
-  // The start, in which bones arrive, is no trembling.
-  for (auto f = static_cast<std::size_t>(kStart_s * shown.hz) + 1; f < n; ++f) {
+  for (auto f = static_cast<std::size_t>(kBonesHeld_s * shown.hz) + 1; f < n; ++f) {
     if (!shown.frames[f].is_there || !shown.frames[f - 1].is_there) continue;
     for (std::size_t s = 0; s < 2; ++s)
-      steps_mm.push_back(1000.0 *
-                         (shown.frames[f].wrist[s] - shown.frames[f - 1].wrist[s]).norm());
+      steps_mm.push_back(1000.0 * (shown.frames[f].wrist[s] - shown.frames[f - 1].wrist[s]).norm());
   }
   std::sort(steps_mm.begin(), steps_mm.end());
   figures.hand_p50_mm = percentile<double>(steps_mm, 0.5);

@@ -39,12 +39,12 @@ struct SoleFigures {
 };
 struct ShownFigures {
   SoleFigures soles, start_soles;
-  double fastest_deg_s = 0.0, most_deg = 0.0;    // most: in one frame
-  int flips = 0;                                 // the facing is more than 90 degrees wrong
-  double facing_error_deg = 0.0;                 // 95 of 100 frames are better
-  double facing_lag_ms = 0.0;                    // of spins
-  double hand_p50_mm = 0.0, hand_p99_mm = 0.0;   // a frame
-  double hand_lag_ms = 0.0;                      // of moving ones
+  double fastest_deg_s = 0.0, most_deg = 0.0;   // most: in one frame
+  int flips = 0;                                // the facing is more than 90 degrees wrong
+  double facing_error_deg = 0.0;                // 95 of 100 frames are better
+  double facing_lag_ms = 0.0;                   // of spins
+  double hand_p50_mm = 0.0, hand_p99_mm = 0.0;  // a frame
+  double hand_lag_ms = 0.0;                     // of moving ones
   int frames = 0, without_pose = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace dance {
 namespace {
 
-constexpr double kStill_hz = 30.0;
+constexpr double kHeld_hz = 30.0;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ Result<VideoLandmarks> still_landmarks(const std::string& path, std::uint64_t in
   cv::Mat picture, noisy, grain;
   if (!reel->read(picture)) return fail(path + ": a frame is damaged");
   VideoLandmarks video;
-  video.hz = kStill_hz;
+  video.hz = kHeld_hz;
   video.camera = assumed_pinhole(reel->width_px(), reel->height_px());
   cv::RNG random(7);
   picture.convertTo(picture, CV_16SC3);
@@ -48,8 +48,7 @@ Result<VideoLandmarks> still_landmarks(const std::string& path, std::uint64_t in
     random.fill(grain, cv::RNG::NORMAL, 0.0, noise);
     noisy = picture + grain;
     noisy.convertTo(frame.image, CV_8UC3);
-    frame.capture_time =
-        MonoTime{} + Duration::seconds(1.0 + static_cast<double>(i) / kStill_hz);
+    frame.capture_time = MonoTime{} + Duration::seconds(1.0 + static_cast<double>(i) / kHeld_hz);
     estimator->estimate(frame);
     video.frames.push_back(estimator->unfiltered());
   }

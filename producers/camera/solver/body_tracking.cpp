@@ -86,9 +86,9 @@ void BodyTracking::blend_all(MonoTime now, const BodyState& from, const BodyStat
   write_pose(to, found);
   // Another facing is turned to at a body's speed, about the vertical; the rest is blended.
   if (options_.limits_facing)
-    turn_about_vertical(turn_between(facing_of(shape_.skeleton, carried),
-                                     facing_of(shape_.skeleton, found)),
-                        carried);
+    turn_about_vertical(
+        turn_between(facing_of(shape_.skeleton, carried), facing_of(shape_.skeleton, found)),
+        carried);
   visibility_.blend_all(now, carried, found);
 }
 
@@ -134,13 +134,27 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
 bool BodyTracking::is_plausible(Observation& seen, MonoTime now, double seconds) {
   const Expectation expected = motion_.expect(seconds, visibility_of(seen));
   model_.place(shape_, expected.state);
-  const FacingVerdict verdict =
-      flips_.judge(facing_of(seen, placement_.R_WC()), facing_of(model_), seconds,
-                   (now - seen_at_).as_seconds());
+  const Matrix3d& R_WC = placement_.R_WC();
+  const std::optional<double> expected_rad = facing_of(model_);
+  const std::optional<double> seen_rad = facing_of(seen, R_WC);
+  // What the network would have said without the mistake.
+  const double unseen_s = (now - seen_at_).as_seconds();
+  std::optional<Observation> corrected;
+  bool is_far = false;
+  if (FlipWatch::is_suspect(turn_between(expected_rad, seen_rad))) {
+    corrected = without_flip(seen, R_WC, model_);
+    is_far =
+        corrected.has_value() || FlipWatch::is_far(turn_between(expected_rad, seen_rad), unseen_s);
+  }
+  const FacingVerdict verdict = flips_.judge(seen_rad, turn_between(expected_rad, seen_rad), is_far,
+                                             corrected.has_value(), seconds, unseen_s);
   if (verdict == FacingVerdict::kLasting) is_turned_ = true;
   if (verdict != FacingVerdict::kRefused) return true;
-  // Where points are in the picture is right, and often which side they belong to is not; where
-  // they are in space is wrong.
+  if (corrected) {
+    seen = *corrected;
+    return false;
+  }
+  // Where points are in the picture may be right; where they are in space is wrong.
   Observation exchanged = seen;
   exchange_sides(exchanged);
   if (ray_distance(exchanged, model_, placement_) < ray_distance(seen, model_, placement_))
@@ -163,7 +177,8 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
   const double cost = fit_.picture_cost();
   since_suspect_s_ += seconds;
   if (!is_fitted || is_turned_ ||
-      (is_plausible && cost > kLeastDear && (cost > kDear * usual_cost_ || since_suspect_s_ > kDoubt_s))) {
+      (is_plausible && cost > kLeastDear &&
+       (cost > kDear * usual_cost_ || since_suspect_s_ > kDoubt_s))) {
     since_suspect_s_ = 0.0;
     BodyState refitted;
     if (is_plausible && refit(seen, refitted) &&

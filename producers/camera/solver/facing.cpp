@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "producers/camera/solver/body_vectors.h"
 #include "producers/camera/solver/camera_placement.h"
 
 namespace dance {
@@ -18,10 +19,14 @@ namespace {
 constexpr double kLeastAcross = 0.5;
 constexpr double kTorsoSeen = 0.3;
 // The network's facing differs by less from the expected one, however fast a dancer spins.
-constexpr double kMostSurprise_rad = 1.3;
+constexpr double kMostSurprise_rad = 0.9;
 constexpr double kUsualStep_s = 1.0 / 30.0;
-// A flip that lasts longer is taken for a turn. Shown at a body's speed it needs as long again.
-constexpr double kLasting_s = 0.4;
+// A turn by more is looked at closely: sides exchanged, or depth reversed, explain it where the
+// body's vectors are then by so much nearer to the expected ones.
+constexpr double kSuspect_rad = 0.4, kExplains = 0.4;
+// A flip that lasts longer is taken for a turn; sooner where nothing explains it.
+constexpr double kLasting_s = 0.8, kUnexplained_s = 0.4;
+constexpr double kUndoneWithin_s = 3.0, kUndone_rad = 0.9;
 constexpr double kBehind_rad = 0.15;
 // Rays that are further off, in standard deviations, count as much as these.
 constexpr double kMostOff = 10.0;
@@ -31,6 +36,27 @@ constexpr std::size_t other_side(std::size_t i) {
   if (i == index_of(Landmark::kNose)) return i;
   if (i >= index_of(Landmark::kLeftEar)) return i % 2 ? i + 1 : i - 1;
   return i < index_of(Landmark::kRightEyeInner) ? i + 3 : i - 3;
+}
+
+// Of the directions of the body's vectors, weighted.
+double vector_distance(const Observation& seen, const Eigen::Matrix3d& R_WC,
+                       const BodyModel& body) {
+  double sum = 0.0, weights = 1e-9;
+  for (const BodyVector& v : kBodyVectors) {
+    const std::size_t fa = point_of(v.from_a), fb = point_of(v.from_b), ta = point_of(v.to_a),
+                      tb = point_of(v.to_b);
+    const double weight = std::min({seen.world_weight[fa], seen.world_weight[fb],
+                                    seen.world_weight[ta], seen.world_weight[tb]}) /
+                          (v.sd * v.sd);
+    const Vector3d is =
+        R_WC * (seen.world_m[ta] + seen.world_m[tb] - seen.world_m[fa] - seen.world_m[fb]);
+    const Vector3d due = body.point(ta) + body.point(tb) - body.point(fa) - body.point(fb);
+    const double size = is.norm() * due.norm();
+    if (!(weight > 0.0) || !(size > 1e-6)) continue;
+    sum += weight * (1.0 - is.dot(due) / size);
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 }  // namespace
@@ -69,8 +95,8 @@ std::optional<double> facing_of(const Skeleton& skeleton, const Pose& pose) {
 }
 
 std::optional<double> facing_of(const Observation& seen, const Eigen::Matrix3d& R_WC) {
-  for (const Landmark l : {Landmark::kLeftHip, Landmark::kRightHip, Landmark::kLeftShoulder,
-                           Landmark::kRightShoulder})
+  for (const Landmark l :
+       {Landmark::kLeftHip, Landmark::kRightHip, Landmark::kLeftShoulder, Landmark::kRightShoulder})
     if (seen.world_weight[index_of(l)] < kTorsoSeen) return std::nullopt;
   return facing_of(
       R_WC * (seen.world(Landmark::kLeftHip) - seen.world(Landmark::kRightHip)),
@@ -101,18 +127,51 @@ double ray_distance(const Observation& seen, const BodyModel& body, const Camera
   return sum;
 }
 
-FacingVerdict FlipWatch::judge(const std::optional<double>& seen_rad,
-                               const std::optional<double>& expected_rad, double seconds,
-                               double unseen_s) {
-  const double unseen_turn =
-      FacingLimit::kFastest_rad_s * std::max(0.0, unseen_s - kUsualStep_s);
-  if (std::abs(turn_between(expected_rad, seen_rad)) < kMostSurprise_rad + unseen_turn) {
+std::optional<Observation> without_flip(const Observation& seen, const Eigen::Matrix3d& R_WC,
+                                        const BodyModel& expected) {
+  std::optional<Observation> best;
+  double least = kExplains * vector_distance(seen, R_WC, expected);
+  for (const bool exchanges : {true, false})
+    for (const bool reverses : {true, false}) {
+      if (!exchanges && !reverses) continue;
+      Observation other = seen;
+      if (exchanges) exchange_sides(other);
+      for (std::size_t i = 0; reverses && i < kLandmarkCount; ++i)
+        other.world_m[i].z() = -other.world_m[i].z();
+      const double distance = vector_distance(other, R_WC, expected);
+      if (!(distance < least)) continue;
+      least = distance;
+      best = other;
+    }
+  return best;
+}
+
+bool FlipWatch::is_suspect(double turn_rad) { return std::abs(turn_rad) > kSuspect_rad; }
+
+bool FlipWatch::is_far(double turn_rad, double unseen_s) {
+  return std::abs(turn_rad) >
+         kMostSurprise_rad + FacingLimit::kFastest_rad_s * std::max(0.0, unseen_s - kUsualStep_s);
+}
+
+FacingVerdict FlipWatch::judge(const std::optional<double>& seen_rad, double turn_rad, bool is_far,
+                               bool is_explained, double seconds, double unseen_s) {
+  since_jump_s_ += seconds;
+  if (since_jump_s_ > kUndoneWithin_s) jump_rad_.reset();
+  has_jumped_ = has_jumped_ || FlipWatch::is_far(turn_between(seen_rad_, seen_rad), unseen_s);
+  if (seen_rad) seen_rad_ = seen_rad;
+  // Where what is seen did not jump, the body turned, and the expectation is behind.
+  if (!is_far || !(has_jumped_ || is_explained)) {
+    has_jumped_ = is_far && has_jumped_;
     refused_s_ = 0.0;
     return FacingVerdict::kPlausible;
   }
+  const bool is_undone = jump_rad_ && std::abs(turn_between(-*jump_rad_, turn_rad)) < kUndone_rad;
   refused_s_ += seconds;
-  if (refused_s_ < kLasting_s) return FacingVerdict::kRefused;
-  refused_s_ = 0.0;
+  if (!is_undone && refused_s_ < (is_explained ? kLasting_s : kUnexplained_s))
+    return FacingVerdict::kRefused;
+  has_jumped_ = false;
+  refused_s_ = since_jump_s_ = 0.0;
+  jump_rad_ = is_undone ? std::nullopt : std::optional(turn_rad);
   return FacingVerdict::kLasting;
 }
 

@@ -32,6 +32,10 @@ std::optional<double> facing_of(const Observation& seen, const Eigen::Matrix3d& 
 
 // Left and right exchanged.
 void exchange_sides(Observation& seen);
+// The same picture with sides exchanged, with depth reversed or with both, where the body's
+// vectors then are much more alike to those of `expected`; none where they are not.
+std::optional<Observation> without_flip(const Observation& seen, const Eigen::Matrix3d& R_WC,
+                                        const BodyModel& expected);
 // How far the seen rays are from those of a body, weighted, large differences counting less.
 double ray_distance(const Observation& seen, const BodyModel& body, const CameraPlacement& camera);
 
@@ -43,13 +47,22 @@ enum class FacingVerdict : std::uint8_t {
 
 class FlipWatch {
  public:
-  void clear() { refused_s_ = 0.0; }
-  // `seconds` since the last picture, `unseen_s` since the body was seen in one.
-  FacingVerdict judge(const std::optional<double>& seen_rad,
-                      const std::optional<double>& expected_rad, double seconds, double unseen_s);
+  void clear() { *this = FlipWatch(); }
+  // Turns are from the expected facing to the seen one. A suspect one is looked at closely; one
+  // that is far no body makes, `unseen_s` after it was seen.
+  static bool is_suspect(double turn_rad);
+  static bool is_far(double turn_rad, double unseen_s);
+  // `is_explained`: sides exchanged or depth reversed explain it. `seconds` since the last picture.
+  FacingVerdict judge(const std::optional<double>& seen_rad, double turn_rad, bool is_far,
+                      bool is_explained, double seconds, double unseen_s);
 
  private:
+  std::optional<double> seen_rad_;  // in the last picture
+  bool has_jumped_ = false;
   double refused_s_ = 0.0;
+  // The last jump that lasted: where it is seen undone, the body never turned.
+  std::optional<double> jump_rad_;
+  double since_jump_s_ = 0.0;
 };
 
 class FacingLimit {

@@ -19,8 +19,8 @@ namespace dance {
 class SteadyHands {
  public:
   struct Measurement {
-    Eigen::Vector3f eye_W_m;           // the camera
-    float across_sd_m = 0.01f;         // of a well seen point
+    Eigen::Vector3f eye_W_m;            // the camera
+    float across_sd_m = 0.01f;          // of a well seen point
     std::array<float, 2> visibility{};  // 0…1, of each hand
   };
 
@@ -30,10 +30,13 @@ class SteadyHands {
  private:
   struct Hand {
     bool is_known = false;
-    Eigen::Vector3f shown_W_m, elbow_W_m;
-    Eigen::Quaternionf R_WHand;
-    Eigen::Vector3f given_W_m;             // the last one
-    Eigen::Vector3f velocity_W_m_s;
+    bool is_held = false;     // hidden, and still before
+    float seen_for_s = 1.0f;  // since it was hidden
+    Eigen::Vector3f shown_W_m = Eigen::Vector3f::Zero();
+    Eigen::Vector3f elbow_W_m = Eigen::Vector3f::Zero();
+    Eigen::Quaternionf R_WHand = Eigen::Quaternionf::Identity();
+    Eigen::Vector3f given_W_m = Eigen::Vector3f::Zero();  // the last one
+    Eigen::Vector3f velocity_W_m_s = Eigen::Vector3f::Zero();
   };
   std::array<Hand, 2> hands_;
 };
