@@ -15,7 +15,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kStill_s = 14.0, kStill_hz = 30.0;
-constexpr int kSides = 4;
 
 // Scenes of one row, one at a time.
 class ShownRowMaker {
@@ -44,20 +43,21 @@ class ShownRowMaker {
 };
 
 ShownRow takes_row(std::string name, const std::vector<CodecTake>& takes, const SceneCamera& camera,
-                   const SceneErrors& errors, const SolverOptions& options) {
+                   const SceneErrors& errors, const SolverOptions& options, int sides) {
   ShownRowMaker row(std::move(name), options);
   for (std::size_t i = 0; i < takes.size(); ++i)
-    for (int side = 0; side < kSides; ++side)
+    for (int side = 0; side < sides; ++side)
       row.add(make_scene(takes[i].name, takes[i].skeleton,
-                         turned_poses(takes[i].poses, 0.5 * std::numbers::pi * side), takes[i].hz,
-                         camera, errors, 2000 + 10 * i + static_cast<std::size_t>(side)));
+                         turned_poses(takes[i].poses, 2.0 * std::numbers::pi * side / sides),
+                         takes[i].hz, camera, errors,
+                         2000 + 10 * i + static_cast<std::size_t>(side)));
   return std::move(row).finish();
 }
 
 ShownRow still_row(std::string name, const SceneCamera& camera, const SceneErrors& errors,
-                   const SolverOptions& options) {
+                   const SolverOptions& options, std::size_t postures) {
   ShownRowMaker row(std::move(name), options);
-  for (std::size_t which = 0; which < kStillPostures; ++which)
+  for (std::size_t which = 0; which < postures; ++which)
     for (int side = 0; side < 2; ++side) {
       const std::vector<Pose> poses(static_cast<std::size_t>(kStill_s * kStill_hz),
                                     still_posture(which));
@@ -118,30 +118,33 @@ Pose still_posture(std::size_t which) {
 }
 
 std::vector<ShownRow> shown_rows(const std::vector<CodecTake>& takes, const SceneCamera& camera,
-                                 const SolverOptions& options) {
+                                 const SolverOptions& options, const ShownScenes& scenes) {
   std::vector<ShownRow> rows;
   if (!takes.empty()) {
-    rows.push_back(takes_row("from all sides", takes, camera, SceneErrors(), options));
+    rows.push_back(
+        takes_row("from all sides", takes, camera, SceneErrors(), options, scenes.sides));
     SceneErrors flips;
     flips.flips_per_s = 1.0;
-    rows.push_back(takes_row("backs taken for fronts", takes, camera, flips, options));
+    rows.push_back(
+        takes_row("backs taken for fronts", takes, camera, flips, options, scenes.sides));
     SceneErrors lasting = flips;
     lasting.flips_per_s = 0.5;
     lasting.flip_for_s = lasting.flip_most_s = 1.5;
-    rows.push_back(takes_row("the same for 1.5 s each", takes, camera, lasting, options));
+    rows.push_back(
+        takes_row("the same for 1.5 s each", takes, camera, lasting, options, scenes.sides));
     SceneErrors outside;
     outside.hides_outside = true;
     SceneCamera near = camera;
     near.distance_m = 1.9;
     near.height_m = 1.3;
     near.pitch_rad = 0.0;
-    rows.push_back(takes_row("from the skirt up", takes, near, outside, options));
+    rows.push_back(takes_row("from the skirt up", takes, near, outside, options, scenes.sides));
   }
   SceneErrors seen;
   seen.hidden_per_s = 0.0;
-  rows.push_back(still_row("standing still", camera, seen, options));
-  rows.push_back(
-      still_row("standing still, arms hidden now and then", camera, SceneErrors(), options));
+  rows.push_back(still_row("standing still", camera, seen, options, scenes.postures));
+  rows.push_back(still_row("standing still, arms hidden now and then", camera, SceneErrors(),
+                           options, scenes.postures));
   return rows;
 }
 

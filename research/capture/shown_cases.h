@@ -31,8 +31,12 @@ std::vector<Pose> turned_poses(const std::vector<Pose>& poses, double angle_rad)
 constexpr std::size_t kStillPostures = 4;
 Pose still_posture(std::size_t which);
 
+struct ShownScenes {
+  int sides = 4;  // from which each take is seen
+  std::size_t postures = kStillPostures;
+};
 std::vector<ShownRow> shown_rows(const std::vector<CodecTake>& takes, const SceneCamera& camera,
-                                 const SolverOptions& options);
+                                 const SolverOptions& options, const ShownScenes& scenes = {});
 // Landmarks of a real network.
 ShownRow shown_row(const std::string& name, std::span<const BodyLandmarks> landmarks, double hz,
                    const Pinhole& camera, const SolverOptions& options);
