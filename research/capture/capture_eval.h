@@ -52,9 +52,9 @@ struct CaptureRun {
 Result<CaptureRun> evaluate_capture(const std::vector<std::string>& files,
                                     const CaptureEvalOptions& options);
 
-// After a lost frame the smoother of metres goes on, as in the original. Of the frames after it, how
-// far the metres are from those of a smoother that went on, of one that began anew, and, with other
-// regions in the picture, of an uninterrupted run: means over the points, then over the frames.
+// After a lost frame the smoother of metres goes on, as in the original. How far the metres of the
+// frames after it are from those of a smoother that went on, of one that began anew, and of an
+// uninterrupted run, whose regions are others: means over the points, then over the frames.
 struct LossComparison {
   int frames = 0;
   double from_continued_mm = 0.0, from_begun_anew_mm = 0.0;

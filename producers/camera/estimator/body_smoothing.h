@@ -6,8 +6,8 @@
 // Threads:      none inside.
 // Failure:      none; a time that is not later than the last one changes nothing in the filters and
 //               smooths nothing.
-// Source:       settings of the filters, and which of them begin anew after a loss: MediaPipe's graph
-//               of pose landmark filtering.
+// Source:       settings of the filters, and which of them begin anew: MediaPipe's graph of pose
+//               landmark filtering.
 #pragma once
 
 #include <array>

@@ -127,11 +127,12 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
   }
   motion_.begin(state);
   usual_cost_ = 0.0;
+  is_turned_ = false;
   is_tracking_ = true;
   return true;
 }
 
-bool BodyTracking::is_plausible(Observation& seen, MonoTime now, double seconds) {
+bool BodyTracking::has_plausible_facing(Observation& seen, MonoTime now, double seconds) {
   const Expectation expected = motion_.expect(seconds, visibility_of(seen));
   model_.place(shape_, expected.state);
   const Matrix3d& R_WC = placement_.R_WC();
@@ -349,7 +350,7 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
   }
   const bool is_same = is_tracking_ && !landmarks.is_new;
   const bool is_plausible =
-      !is_same || !options_.limits_facing || this->is_plausible(seen, now, seconds);
+      !is_same || !options_.limits_facing || has_plausible_facing(seen, now, seconds);
   const bool is_found = is_same ? follow(seen, now, seconds, is_plausible) : begin(seen, now);
   if (!is_found) {
     is_tracking_ = false;

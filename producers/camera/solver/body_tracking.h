@@ -11,13 +11,13 @@
 #include "producers/camera/solver/body_fit.h"
 #include "producers/camera/solver/body_solver.h"
 #include "producers/camera/solver/camera_placement.h"
-#include "producers/camera/solver/facing.h"
-#include "producers/camera/solver/floor_feet.h"
-#include "producers/camera/solver/floor_lift.h"
 #include "producers/camera/solver/motion_filter.h"
 #include "producers/camera/solver/proportions.h"
+#include "producers/camera/solver/shown/facing.h"
+#include "producers/camera/solver/shown/floor_feet.h"
+#include "producers/camera/solver/shown/floor_lift.h"
+#include "producers/camera/solver/shown/steady_hands.h"
 #include "producers/camera/solver/sole_contacts.h"
-#include "producers/camera/solver/steady_hands.h"
 #include "producers/camera/solver/visibility_tracker.h"
 
 namespace dance {
@@ -37,7 +37,7 @@ class BodyTracking {
  private:
   bool begin(const Observation& seen, MonoTime now);
   // False where the picture is refused: no body turns as the network has it.
-  bool is_plausible(Observation& seen, MonoTime now, double seconds);
+  bool has_plausible_facing(Observation& seen, MonoTime now, double seconds);
   bool follow(const Observation& seen, MonoTime now, double seconds, bool is_plausible);
   void blend_all(MonoTime now, const BodyState& from, const BodyState& to);
   void carry(double seconds, MonoTime now);

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "producers/camera/solver/body_fit.h"
-#include "producers/camera/solver/facing.h"
+#include "producers/camera/solver/shown/facing.h"
 #include "tests/allocation_guard.h"
 #include "tests/producers/camera/solver/seen_dance.h"
 

@@ -1,4 +1,4 @@
-#include "producers/camera/solver/steady_hands.h"
+#include "producers/camera/solver/shown/steady_hands.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr float kNoSpeed_m_s = 0.1f;
 constexpr float kAlongSpeed = 0.1f, kAlongSd_m = 0.09f;
 // From so many standard deviations on the filter opens, and is open.
 constexpr float kOpens = 3.5f, kIsOpen = 7.0f;
-// A hand that was still stays where it was seen while it is hidden, and until the arm is back there.
+// A hand that was still stays where it was seen while it is hidden, and until its arm is back.
 constexpr float kHidden = 0.1f, kStill_m_s = 0.08f, kBack_s = 0.1f, kMovedAway_s = 0.8f;
 constexpr float kStraightest = 0.998f;
 

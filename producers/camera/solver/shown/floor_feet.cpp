@@ -1,4 +1,4 @@
-#include "producers/camera/solver/floor_feet.h"
+#include "producers/camera/solver/shown/floor_feet.h"
 
 #include <algorithm>
 #include <cmath>

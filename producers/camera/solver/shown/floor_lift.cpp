@@ -1,4 +1,4 @@
-#include "producers/camera/solver/floor_lift.h"
+#include "producers/camera/solver/shown/floor_lift.h"
 
 #include <algorithm>
 

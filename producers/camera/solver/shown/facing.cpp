@@ -1,4 +1,4 @@
-#include "producers/camera/solver/facing.h"
+#include "producers/camera/solver/shown/facing.h"
 
 #include <algorithm>
 #include <cmath>
