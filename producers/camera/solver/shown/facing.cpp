@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "producers/camera/solver/body_vectors.h"
-#include "producers/camera/solver/camera_placement.h"
 
 namespace dance {
 

@@ -15,6 +15,7 @@
 
 #include "core/pose/kinematics.h"
 #include "producers/camera/solver/body_model.h"
+#include "producers/camera/solver/camera_placement.h"
 #include "producers/camera/solver/observation.h"
 
 namespace dance {
