@@ -104,7 +104,7 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
   const std::int64_t start_ns = thread_ns();
   const BodyLandmarks& body = estimator.estimate(frame);
   run_.ms += ms_since(start_ns);
-  run_.frames.push_back({std::move(name), body});
+  run_.frames.push_back({std::move(name), body, estimator.unfiltered()});
   return other_ && body.found ? compare(estimator) : Result<void>{};
 }
 
@@ -129,6 +129,7 @@ Result<void> CaptureEval::add_video(const std::string& path) {
     if (!reel->read(frame.image))
       return fail(path + ": frame " + std::to_string(i) + " is damaged");
     run_.decode_ms += ms_since(start_ns);
+    if (options_.lost_frame == i) frame.image.setTo(cv::Scalar::all(0));
     frame.sequence = i;
     frame.capture_time = MonoTime{} + Duration::s(1) + reel->time();
     if (auto taken = take(*moving_, frame, name); !taken) return taken;
@@ -156,6 +157,49 @@ CaptureRun CaptureEval::finish() && {
 }
 
 }  // namespace
+
+LossComparison compare_after_loss(const CaptureRun& lost, const CaptureRun& uninterrupted,
+                                  std::size_t lost_frame) {
+  constexpr std::size_t kFrames = 20;
+  LossComparison after;
+  BodySmoothing continued, begun_anew;
+  const auto smoothed = [](const BodyLandmarks& body, BodySmoothing& smoothing) {
+    SeenBody seen;
+    seen.image_px = body.image_px;
+    seen.world_m = body.world_m;
+    seen.visibility = body.visibility;
+    for (Eigen::Vector2f& next : seen.next_px) next.setZero();
+    smoothing.smooth(body.capture_time, false, seen);
+    return seen.world_m;
+  };
+  const auto distance_mm = [](const auto& a, const auto& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kLandmarkCount; ++i)
+      sum += 1000.0 * static_cast<double>((a[i] - b[i]).norm());
+    return sum / static_cast<double>(kLandmarkCount);
+  };
+  const std::size_t end =
+      std::min({lost_frame + 1 + kFrames, lost.frames.size(), uninterrupted.frames.size()});
+  for (std::size_t f = 0; f < end; ++f) {
+    const CaptureFrame& frame = lost.frames[f];
+    if (!frame.body.found) {
+      begun_anew.reset();
+      continue;
+    }
+    const auto on = smoothed(frame.unfiltered, continued),
+               anew = smoothed(frame.unfiltered, begun_anew);
+    if (f <= lost_frame || !uninterrupted.frames[f].body.found) continue;
+    ++after.frames;
+    after.from_continued_mm += distance_mm(frame.body.world_m, on);
+    after.from_begun_anew_mm += distance_mm(frame.body.world_m, anew);
+    after.from_uninterrupted_mm +=
+        distance_mm(frame.body.world_m, uninterrupted.frames[f].body.world_m);
+  }
+  for (double* sum :
+       {&after.from_continued_mm, &after.from_begun_anew_mm, &after.from_uninterrupted_mm})
+    *sum /= std::max(1, after.frames);
+  return after;
+}
 
 Result<CaptureRun> evaluate_capture(const std::vector<std::string>& files,
                                     const CaptureEvalOptions& options) {

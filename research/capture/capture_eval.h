@@ -8,6 +8,7 @@
 // Failure:      an Error names the file and what is wrong with it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,14 @@ struct CaptureEvalOptions {
   EstimatorOptions estimator;
   std::uint32_t every = 1;  // n-th frame of a video
   bool compares_engines = false;
+  // This frame of each video is black: the body is lost, and found again in the next.
+  std::optional<std::uint64_t> lost_frame;
 };
 
 struct CaptureFrame {
   std::string name;  // "messi.jpg", "dance.mp4#12"
   BodyLandmarks body;
+  BodyLandmarks unfiltered;
 };
 
 // The same regions in both engines.
@@ -47,6 +51,17 @@ struct CaptureRun {
 // Pictures are each for themselves; a video's frames follow each other in its own time.
 Result<CaptureRun> evaluate_capture(const std::vector<std::string>& files,
                                     const CaptureEvalOptions& options);
+
+// After a lost frame the smoother of metres goes on, as in the original. How far the metres of the
+// frames after it are from those of a smoother that went on, of one that began anew, and of an
+// uninterrupted run, whose regions are others: means over the points, then over the frames.
+struct LossComparison {
+  int frames = 0;
+  double from_continued_mm = 0.0, from_begun_anew_mm = 0.0;
+  double from_uninterrupted_mm = 0.0;
+};
+LossComparison compare_after_loss(const CaptureRun& lost, const CaptureRun& uninterrupted,
+                                  std::size_t lost_frame);
 
 std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& options);
 std::string capture_eval_json(const CaptureRun& run);

@@ -13,6 +13,7 @@ constexpr const char* kExamples = R"(Examples:
   dance capture eval *.jpg --model heavy --json
   dance capture eval dance.mp4 --compare-engines
   dance capture eval crowd.mp4 --follow 640,360
+  dance capture eval dance.mp4 --lose 100
 )";
 
 struct Wishes {
@@ -20,6 +21,7 @@ struct Wishes {
   CaptureEvalOptions eval;
   std::string follow = "surest";
   bool json = false;
+  std::uint64_t lost_frame = 0;
 };
 
 Result<void> set_follow(const std::string& text, FollowOptions& follow) {
@@ -42,9 +44,30 @@ Result<void> set_follow(const std::string& text, FollowOptions& follow) {
   return {};
 }
 
+Result<void> compare_losses(Wishes wishes) {
+  for (const std::string& file : wishes.files) {
+    wishes.eval.lost_frame.reset();
+    DANCE_TRY(const CaptureRun whole, evaluate_capture({file}, wishes.eval));
+    wishes.eval.lost_frame = wishes.lost_frame;
+    DANCE_TRY(const CaptureRun lost, evaluate_capture({file}, wishes.eval));
+    const LossComparison after =
+        compare_after_loss(lost, whole, wishes.lost_frame / wishes.eval.every);
+    if (after.frames == 0)
+      return fail(file + ": nobody is seen in the 20 frames after frame " +
+                  std::to_string(wishes.lost_frame) + "; choose another --lose");
+    std::printf(
+        "%s: metres in %d frames after black frame %llu: %.1f mm from a smoother that "
+        "goes on, %.1f mm from one that begins anew, %.1f mm from an uninterrupted run\n",
+        file.c_str(), after.frames, static_cast<unsigned long long>(wishes.lost_frame),
+        after.from_continued_mm, after.from_begun_anew_mm, after.from_uninterrupted_mm);
+  }
+  return {};
+}
+
 Result<void> run(Wishes wishes) {
   // Every frame is searched, however long nobody was there: nothing here is in real time.
   wishes.eval.estimator.search_interval = Duration{};
+  if (wishes.lost_frame > 0) return compare_losses(wishes);
   DANCE_TRY(const CaptureRun run, evaluate_capture(wishes.files, wishes.eval));
   const std::string text =
       wishes.json ? capture_eval_json(run) : capture_eval_table(run, wishes.eval);
@@ -84,6 +107,10 @@ int main(int argc, char** argv) {
                         "frames of a video, as the original does (default on)");
   line.add_flag("--compare-engines", wishes.eval.compares_engines,
                 "runs the other engine on the same regions, too");
+  line.add("--lose", wishes.lost_frame,
+           "makes this frame of videos black, and says what the smoother of metres does in the 20 "
+           "after it")
+      .range(1, 1000000);
   line.add_flag("--json", wishes.json, "one JSON object on stdout");
   line.footer(dance::kExamples);
   line.finally([&] { return dance::set_follow(wishes.follow, estimator.follow); });

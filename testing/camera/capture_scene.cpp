@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/assert.h"
 #include "core/base/random.h"
@@ -86,6 +87,13 @@ constexpr std::array<std::array<Landmark, 5>, 4> kHiding{{
      Landmark::kRightFootIndex},
 }};
 
+// The same point of the other side.
+constexpr std::size_t mirrored(std::size_t i) {
+  if (i == index_of(Landmark::kNose)) return i;
+  if (i >= index_of(Landmark::kLeftEar)) return i % 2 ? i + 1 : i - 1;
+  return i < index_of(Landmark::kRightEyeInner) ? i + 3 : i - 3;
+}
+
 // An error that lasts: x(t+dt) = k x(t) + √(1−k²) n, standard deviation 1.
 struct Lasting {
   Vector3d value = Vector3d::Zero();
@@ -107,12 +115,15 @@ class Network {
       p = errors.place_sd_m * Vector3d(random_.normal(), random_.normal(), random_.normal());
   }
   const Vector3d& place_m(std::size_t i) const { return place_m_[i]; }
+  bool is_flipped() const { return flipped_s_ > 0.0; }
 
   BodyLandmarks see(const std::array<Vector3d, kLandmarkCount>& p_C_m, const Pinhole& camera,
                     MonoTime t);
 
  private:
   void hide();
+  void draw_flip(const std::array<Vector3d, kLandmarkCount>& p_C_m);
+  void flip(BodyLandmarks& out) const;
   void write_world(const std::array<Vector3d, kLandmarkCount>& p_C_m, BodyLandmarks& out) const;
 
   SceneErrors errors_;
@@ -122,6 +133,8 @@ class Network {
   std::array<Lasting, kLandmarkCount> image_, world_, length_;
   std::array<double, 4> hidden_s_{};
   std::array<bool, kLandmarkCount> is_hidden_{};
+  double flipped_s_ = 0.0;
+  bool is_depth_reversed_ = false;
   bool began_ = false;
 };
 
@@ -133,6 +146,30 @@ void Network::hide() {
       hidden_s_[part] = -errors_.hidden_for_s * std::log(1.0 - random_.uniform());
     if (hidden_s_[part] > 0.0)
       for (const Landmark l : kHiding[part]) is_hidden_[index_of(l)] = true;
+  }
+}
+
+void Network::draw_flip(const std::array<Vector3d, kLandmarkCount>& p_C_m) {
+  if (!(errors_.flips_per_s > 0.0)) return;
+  // Seen from behind, the left hip is on the left of the picture.
+  const bool is_back =
+      p_C_m[index_of(Landmark::kLeftHip)].x() < p_C_m[index_of(Landmark::kRightHip)].x();
+  flipped_s_ = is_back ? std::max(0.0, flipped_s_ - 1.0 / hz_) : 0.0;
+  if (!is_back || flipped_s_ > 0.0 || random_.uniform() >= errors_.flips_per_s / hz_) return;
+  flipped_s_ = std::clamp(-errors_.flip_for_s * std::log(1.0 - random_.uniform()), 1.0 / hz_,
+                          errors_.flip_most_s);
+  is_depth_reversed_ = random_.uniform() < 0.5;
+}
+
+void Network::flip(BodyLandmarks& out) const {
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    const std::size_t other = mirrored(i);
+    if (other > i) {
+      std::swap(out.image_px[i], out.image_px[other]);
+      std::swap(out.world_m[i], out.world_m[other]);
+      std::swap(out.visibility[i], out.visibility[other]);
+    }
+    if (is_depth_reversed_) out.world_m[i].z() = -out.world_m[i].z();
   }
 }
 
@@ -203,6 +240,11 @@ BodyLandmarks Network::see(const std::array<Vector3d, kLandmarkCount>& p_C_m, co
   const double side = 1.25 * box.sizes().maxCoeff();
   out.region = {static_cast<float>(box.center().x()), static_cast<float>(box.center().y()),
                 static_cast<float>(side), 0.0f};
+  for (std::size_t i = 0; errors_.hides_outside && i < kLandmarkCount; ++i) {
+    const Eigen::Vector2d pixel = camera.project(p_C_m[i]);
+    is_hidden_[i] = is_hidden_[i] || pixel.x() < 0.0 || pixel.y() < 0.0 ||
+                    pixel.x() > camera.width_px || pixel.y() > camera.height_px;
+  }
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const double worse = is_hidden_[i] ? errors_.hidden_image_sd : 1.0;
     const Eigen::Vector2d pixel = camera.project(p_C_m[i]) + Eigen::Vector2d(0.5, 0.5) +
@@ -212,6 +254,8 @@ BodyLandmarks Network::see(const std::array<Vector3d, kLandmarkCount>& p_C_m, co
     out.visibility[i] = is_hidden_[i] ? 0.1f : 0.97f;
   }
   write_world(p_C_m, out);
+  draw_flip(p_C_m);
+  if (is_flipped()) flip(out);
   return out;
 }
 
@@ -280,6 +324,7 @@ CaptureScene make_scene(const std::string& name, const Skeleton& skeleton,
                       frames.position(Bone::kRightToes).cast<double>() - origin};
     frame.landmarks = network.see(
         p_C, camera.pinhole, MonoTime() + Duration::seconds(1.0 + static_cast<double>(f) / hz));
+    frame.is_flipped = network.is_flipped();
     scene.frames.push_back(frame);
   }
   return scene;

@@ -35,6 +35,13 @@ struct SceneErrors {
   double hidden_per_s = 0.12;    // how often an arm or a leg goes out of sight
   double hidden_for_s = 0.4;     // for how long, in the mean
   double hidden_image_sd = 8.0;  // errors are so much larger then
+  // A back that the network takes for a front, while it is turned to the camera: how often, for how
+  // long in the mean, and at most. Left and right change sides, and in every second burst depth is
+  // reversed too: a body that is seen from behind, 25 degrees aside, turns by 130 degrees so.
+  double flips_per_s = 0.0;
+  double flip_for_s = 0.1;
+  double flip_most_s = 0.25;
+  bool hides_outside = false;  // points outside the picture are guessed, as hidden ones are
 };
 constexpr SceneErrors no_errors() {
   return {0.0, 0.1, 0.0, 0.0, 0.0, 0.3, 0.0, 1.0, 0.0, 0.4, 1.0};
@@ -52,6 +59,7 @@ struct SceneFrame {
   BodyLandmarks landmarks;
   std::array<Eigen::Vector3d, kLandmarkCount> truth_W_m;  // of the landmarks
   std::array<Eigen::Vector3d, 2> ball_W_m;                // the toes' joints
+  bool is_flipped = false;                                // the network took a back for a front
 };
 
 struct CaptureScene {

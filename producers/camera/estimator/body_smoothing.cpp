@@ -43,6 +43,11 @@ void BodySmoothing::smooth(MonoTime now, bool only_region, SeenBody& body) {
   }
 }
 
+void BodySmoothing::lose() {
+  image_ = {};
+  next_ = {};
+}
+
 void BodySmoothing::reset() { *this = {}; }
 
 }  // namespace dance

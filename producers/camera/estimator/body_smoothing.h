@@ -6,7 +6,8 @@
 // Threads:      none inside.
 // Failure:      none; a time that is not later than the last one changes nothing in the filters and
 //               smooths nothing.
-// Source:       settings of the filters: MediaPipe's graph of pose landmark filtering.
+// Source:       settings of the filters, and which of them begin anew: MediaPipe's graph of pose
+//               landmark filtering.
 #pragma once
 
 #include <array>
@@ -23,6 +24,10 @@ class BodySmoothing {
   // With `only_region` the points are left as they are; where the body is looked for next is always
   // steadied.
   void smooth(MonoTime now, bool only_region, SeenBody& body);
+  // After a picture without the body: filters of points in pixels begin anew; those of metres and
+  // of visibility go on, as in the original, whose filters of these do not run without a body.
+  void lose();
+  // Another body, or another camera.
   void reset();
 
  private:

@@ -71,7 +71,7 @@ void PoseEstimator::lose(MonoTime now) {
   }
   next_region_.reset();
   is_exchanged_ = false;
-  smoothing_.reset();
+  smoothing_.lose();
   target_.on_lost();
   switch_detector_.on_lost(now);
 }

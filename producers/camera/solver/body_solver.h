@@ -29,6 +29,10 @@ struct SolverOptions {
   bool is_mirrored = false;        // as in a mirror: left and right change sides
   double smooth = 1.0;             // 0 hardly smooths, 2 twice as much as tuned
   bool holds_feet = true;          // feet that stand are held in their place
+  // What is shown is corrected last. Off to measure what each of them does.
+  bool keeps_above_floor = true;  // no sole below the floor
+  bool limits_facing = true;      // no flips between front and back, no turn faster than a body's
+  bool steadies_hands = true;     // hands that are still do not tremble
 };
 
 struct CameraStand {

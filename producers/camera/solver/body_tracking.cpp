@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/motion/joint_limits.h"
 #include "producers/camera/solver/first_posture.h"
@@ -44,8 +45,16 @@ void BodyTracking::reset() {
   set_shape(average_lengths(options_.height_m.value_or(kAverageHeight_m)));
   is_tracking_ = false;
   contacts_.clear();
+  forget_shown();
+}
+
+void BodyTracking::forget_shown() {
   visibility_.clear();
   feet_.clear();
+  lift_.clear();
+  flips_.clear();
+  facing_.clear();
+  hands_.clear();
 }
 
 Vector3d BodyTracking::middle_of_hips_C(const BodyState& state) {
@@ -69,6 +78,18 @@ bool BodyTracking::refit(const Observation& seen, BodyState& state) {
   problem_.expected.ease = rest_precision(visibility_of(seen));
   problem_.has_floor = false;
   return fit_.solve(problem_, kFirstRounds, kFirstRounds - 4, state);
+}
+
+void BodyTracking::blend_all(MonoTime now, const BodyState& from, const BodyState& to) {
+  Pose carried, found;
+  write_pose(from, carried);
+  write_pose(to, found);
+  // Another facing is turned to at a body's speed, about the vertical; the rest is blended.
+  if (options_.limits_facing)
+    turn_about_vertical(
+        turn_between(facing_of(shape_.skeleton, carried), facing_of(shape_.skeleton, found)),
+        carried);
+  visibility_.blend_all(now, carried, found);
 }
 
 bool BodyTracking::begin(const Observation& seen, MonoTime now) {
@@ -100,21 +121,51 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
   }
   // The same dancer a moment later: the shown pose is blended.
   if (is_tracking_ && now - seen_at_ <= kGone) {
-    Pose carried, found;
-    write_pose(motion_.state(), carried);
-    write_pose(state, found);
-    visibility_.blend_all(now, carried, found);
+    blend_all(now, motion_.state(), state);
   } else {
-    visibility_.clear();
-    feet_.clear();
+    forget_shown();
   }
   motion_.begin(state);
   usual_cost_ = 0.0;
+  is_turned_ = false;
   is_tracking_ = true;
   return true;
 }
 
-bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds) {
+bool BodyTracking::has_plausible_facing(Observation& seen, MonoTime now, double seconds) {
+  const Expectation expected = motion_.expect(seconds, visibility_of(seen));
+  model_.place(shape_, expected.state);
+  const Matrix3d& R_WC = placement_.R_WC();
+  const std::optional<double> expected_rad = facing_of(model_);
+  const std::optional<double> seen_rad = facing_of(seen, R_WC);
+  // What the network would have said without the mistake.
+  const double unseen_s = (now - seen_at_).as_seconds();
+  std::optional<Observation> corrected;
+  bool is_far = false;
+  if (FlipWatch::is_suspect(turn_between(expected_rad, seen_rad))) {
+    corrected = without_flip(seen, R_WC, model_);
+    is_far =
+        corrected.has_value() || FlipWatch::is_far(turn_between(expected_rad, seen_rad), unseen_s);
+  }
+  const FacingVerdict verdict = flips_.judge(seen_rad, turn_between(expected_rad, seen_rad), is_far,
+                                             corrected.has_value(), seconds, unseen_s);
+  if (verdict == FacingVerdict::kLasting) is_turned_ = true;
+  if (verdict != FacingVerdict::kRefused) return true;
+  if (corrected) {
+    seen = *corrected;
+    return false;
+  }
+  // Where points are in the picture may be right; where they are in space is wrong.
+  Observation exchanged = seen;
+  exchange_sides(exchanged);
+  if (ray_distance(exchanged, model_, placement_) < ray_distance(seen, model_, placement_))
+    seen = exchanged;
+  seen.world_weight.fill(0.0);
+  return false;
+}
+
+bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
+                          bool is_plausible) {
   const PartVisibility visibility = visibility_of(seen);
   const Expectation expected = motion_.expect(seconds, visibility);
   problem_.expected = expected;
@@ -126,18 +177,18 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds)
   bool is_fitted = fit_.solve(problem_, kRounds, kTrustingRounds, state);
   const double cost = fit_.picture_cost();
   since_suspect_s_ += seconds;
-  if (!is_fitted ||
-      (cost > kLeastDear && (cost > kDear * usual_cost_ || since_suspect_s_ > kDoubt_s))) {
+  if (!is_fitted || is_turned_ ||
+      (is_plausible && cost > kLeastDear &&
+       (cost > kDear * usual_cost_ || since_suspect_s_ > kDoubt_s))) {
     since_suspect_s_ = 0.0;
     BodyState refitted;
-    if (refit(seen, refitted) && (!is_fitted || fit_.picture_cost() < kClearlyBetter * cost)) {
+    if (is_plausible && refit(seen, refitted) &&
+        (!is_fitted || std::exchange(is_turned_, false) ||
+         fit_.picture_cost() < kClearlyBetter * cost)) {
       // The contacts of a wrong posture are wrong, and so may be the floor found from them.
       contacts_.clear();
       if (usual_cost_ > kLeastDear) placement_.discard_feet();
-      Pose carried, found;
-      write_pose(expected.state, carried);
-      write_pose(refitted, found);
-      visibility_.blend_all(now, carried, found);
+      blend_all(now, expected.state, refitted);
       motion_.begin(refitted);
       visibility_.follow(visibility, seconds);
       return true;
@@ -183,6 +234,7 @@ void BodyTracking::learn_bones(const Observation& seen, const std::optional<Dept
   const bool is_due =
       pictures != before && (pictures == Proportions::kFirst || pictures == Proportions::kHeld);
   if (!is_due) return;
+  const double was_lowest_m = lowest_sole_m();
   const double was_m = static_cast<double>(standing_height_m(shape_.skeleton));
   BodyState state = motion_.state();
   Pose carried, found;
@@ -197,7 +249,19 @@ void BodyTracking::learn_bones(const Observation& seen, const std::optional<Dept
   contacts_.rebase([by](const Vector3d& p) { return Vector3d(p * by); });
   motion_.rebase(state);
   write_pose(state, found);
+  if (options_.keeps_above_floor) {
+    // Soles keep their height while the bones grow, not the hips.
+    model_.place(shape_, state);
+    carried.p_WH_m.y() = found.p_WH_m.y() + static_cast<float>(was_lowest_m - lowest_sole_m());
+  }
   visibility_.blend_all(now, carried, found);
+}
+
+double BodyTracking::lowest_sole_m() const {
+  double lowest_m = model_.point(kLandmarkCount).y();
+  for (std::size_t i = kLandmarkCount + 1; i < kBodyPointCount; ++i)
+    lowest_m = std::min(lowest_m, model_.point(i).y());
+  return lowest_m;
 }
 
 void BodyTracking::learn_camera(const Observation& seen) {
@@ -233,7 +297,11 @@ bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTi
   write_pose(state, pose);
   limit_joints(pose);
   visibility_.apply(now, pose);
-  if (options_.holds_feet) feet_.apply(shape_, contacts_, placement_.is_known(), seconds, pose);
+  if (options_.limits_facing) facing_.apply(shape_.skeleton, seconds, pose);
+  if (options_.holds_feet)
+    feet_.apply(shape_, contacts_, placement_.is_known(), !facing_.is_behind(), seconds, pose);
+  if (options_.keeps_above_floor) lift_.apply(shape_, placement_.is_known(), seconds, pose);
+  if (options_.steadies_hands) steady_hands(seen, seconds, pose);
   pose.presence = visibility_.presence();
   pose.confidence = static_cast<float>(std::clamp(seen.visible, 0.0, 1.0));
   pose.capture_time = now;
@@ -247,12 +315,24 @@ bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTi
   return true;
 }
 
+void BodyTracking::steady_hands(const Observation& seen, double seconds, Pose& pose) {
+  const PartVisibility visibility = visibility_of(seen);
+  SteadyHands::Measurement measurement;
+  measurement.eye_W_m = placement_.to_W(Vector3d::Zero()).cast<float>();
+  const double distance_m = (pose.p_WH_m - measurement.eye_W_m).cast<double>().norm();
+  measurement.across_sd_m = static_cast<float>(std::max(0.003, seen.ray_sd * distance_m));
+  for (std::size_t s = 0; s < 2; ++s)
+    measurement.visibility[s] = static_cast<float>(
+        visibility[static_cast<std::size_t>(s == 0 ? Part::kArmLeft : Part::kArmRight)]);
+  hands_.apply(shape_.skeleton, measurement, seconds, pose);
+}
+
 bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth,
                          Pose& out) {
   const MonoTime now = landmarks.capture_time;
   if (time_.is_set() && now <= time_) return false;
   const double seconds = (now - time_).as_seconds();
-  const Observation seen = observe(landmarks, camera_);
+  Observation seen = observe(landmarks, camera_);
   problem_.seen = &seen;
   problem_.camera = &placement_;
   problem_.shape = &shape_;
@@ -268,15 +348,19 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
     carry(seconds, now);
     return write(motion_.state(), seen, now, seconds, out);
   }
-  const bool is_found =
-      is_tracking_ && !landmarks.is_new ? follow(seen, now, seconds) : begin(seen, now);
+  const bool is_same = is_tracking_ && !landmarks.is_new;
+  const bool is_plausible =
+      !is_same || !options_.limits_facing || has_plausible_facing(seen, now, seconds);
+  const bool is_found = is_same ? follow(seen, now, seconds, is_plausible) : begin(seen, now);
   if (!is_found) {
     is_tracking_ = false;
     return false;
   }
   seen_at_ = now;
-  learn_camera(seen);
-  learn_bones(seen, depth, now);
+  if (is_plausible) {
+    learn_camera(seen);
+    learn_bones(seen, depth, now);
+  }
   return write(motion_.state(), seen, now, seconds, out);
 }
 

@@ -11,9 +11,12 @@
 #include "producers/camera/solver/body_fit.h"
 #include "producers/camera/solver/body_solver.h"
 #include "producers/camera/solver/camera_placement.h"
-#include "producers/camera/solver/floor_feet.h"
 #include "producers/camera/solver/motion_filter.h"
 #include "producers/camera/solver/proportions.h"
+#include "producers/camera/solver/shown/facing.h"
+#include "producers/camera/solver/shown/floor_feet.h"
+#include "producers/camera/solver/shown/floor_lift.h"
+#include "producers/camera/solver/shown/steady_hands.h"
 #include "producers/camera/solver/sole_contacts.h"
 #include "producers/camera/solver/visibility_tracker.h"
 
@@ -33,13 +36,19 @@ class BodyTracking {
 
  private:
   bool begin(const Observation& seen, MonoTime now);
-  bool follow(const Observation& seen, MonoTime now, double seconds);
+  // False where the picture is refused: no body turns as the network has it.
+  bool has_plausible_facing(Observation& seen, MonoTime now, double seconds);
+  bool follow(const Observation& seen, MonoTime now, double seconds, bool is_plausible);
+  void blend_all(MonoTime now, const BodyState& from, const BodyState& to);
   void carry(double seconds, MonoTime now);
   bool refit(const Observation& seen, BodyState& state);
   void learn_bones(const Observation& seen, const std::optional<DepthHint>& depth, MonoTime now);
   void learn_camera(const Observation& seen);
   void set_shape(const BodyLengths& lengths);
   Eigen::Vector3d middle_of_hips_C(const BodyState& state);
+  double lowest_sole_m() const;  // of model_
+  void forget_shown();
+  void steady_hands(const Observation& seen, double seconds, Pose& pose);
   bool write(const BodyState& state, const Observation& seen, MonoTime now, double seconds,
              Pose& out);
 
@@ -56,7 +65,12 @@ class BodyTracking {
   SoleContacts contacts_;
   VisibilityTracker visibility_;
   FloorFeet feet_;
+  FloorLift lift_;
+  FlipWatch flips_;
+  FacingLimit facing_;
+  SteadyHands hands_;
   bool is_tracking_ = false;
+  bool is_turned_ = false;  // the body faces elsewhere than the prediction has it
   MonoTime seen_at_, time_;
   double usual_cost_ = 0.0;
   double since_suspect_s_ = 0.0;

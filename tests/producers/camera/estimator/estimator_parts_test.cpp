@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/base/random.h"
+#include "producers/camera/estimator/body_smoothing.h"
 #include "producers/camera/estimator/identity_switch_detector.h"
 #include "producers/camera/estimator/one_euro.h"
 #include "producers/camera/estimator/region_sampler.h"
@@ -112,6 +113,45 @@ TEST(OneEuro, TheFirstNumberComesBackAsItIs) {
   EXPECT_NE(filter.next(9.5f, 30.0, 1.0, {}), 9.5f);
   filter.reset();
   EXPECT_EQ(filter.next(-2.0f, 30.0, 1.0, {}), -2.0f);
+}
+
+SeenBody body_at(float metres, float pixels) {
+  SeenBody body;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    body.world_m[i].setConstant(metres);
+    body.image_px[i].setConstant(pixels);
+    body.visibility[i] = 1.0f;
+  }
+  body.next_px = {Eigen::Vector2f(100.0f, 100.0f), Eigen::Vector2f(100.0f, 300.0f)};
+  return body;
+}
+
+// As the original's filters: those of metres do not run without a body, those of pixels do.
+TEST(BodySmoothing, AfterALossPixelsBeginAnewAndMetresGoOn) {
+  BodySmoothing lost, uninterrupted;
+  const auto at = [](int i) { return MonoTime{} + Duration::ms(1000 + 33 * i); };
+  for (int i = 0; i < 30; ++i)
+    for (BodySmoothing* smoothing : {&lost, &uninterrupted}) {
+      SeenBody body = body_at(0.5f, 200.0f);
+      if (i == 20 && smoothing == &lost) {
+        smoothing->lose();
+        continue;
+      }
+      smoothing->smooth(at(i), false, body);
+    }
+  // A noisy picture: metres hardly follow it at once.
+  SeenBody a = body_at(0.51f, 203.0f), b = a;
+  lost.lose();
+  lost.smooth(at(31), false, a);
+  uninterrupted.smooth(at(31), false, b);
+  EXPECT_NEAR(a.world_m[5].x(), b.world_m[5].x(), 1e-3f);
+  EXPECT_LT(a.world_m[5].x(), 0.508f);
+  EXPECT_EQ(a.image_px[5].x(), 203.0f);
+  // Another body: nothing of the last one.
+  SeenBody other = body_at(0.9f, 203.0f);
+  lost.reset();
+  lost.smooth(at(32), false, other);
+  EXPECT_EQ(other.world_m[5].x(), 0.9f);
 }
 
 MonoTime ms(std::int64_t n) { return MonoTime{} + Duration::ms(n); }

@@ -22,9 +22,9 @@ class FloorFeet {
     feet_.fill(Foot());
     drop_ = Spring();
   }
-  // `seconds` since the last pose.
-  void apply(const BodyShape& shape, const SoleContacts& contacts, bool has_floor, double seconds,
-             Pose& pose);
+  // `seconds` since the last pose. Without `holds` feet only stay above the floor.
+  void apply(const BodyShape& shape, const SoleContacts& contacts, bool has_floor, bool holds,
+             double seconds, Pose& pose);
 
  private:
   struct Foot {

@@ -1,4 +1,4 @@
-#include "producers/camera/solver/floor_feet.h"
+#include "producers/camera/solver/shown/floor_feet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr float kNothing_m = 1e-5f;
 }  // namespace
 
 void FloorFeet::apply(const BodyShape& shape, const SoleContacts& contacts, bool has_floor,
-                      double seconds, Pose& pose) {
+                      bool holds, double seconds, Pose& pose) {
   const auto step = static_cast<float>(std::clamp(seconds, 1e-3, 0.5));
   BodyFrames frames;
   forward_kinematics(shape.skeleton, pose, frames);
@@ -44,7 +44,7 @@ void FloorFeet::apply(const BodyShape& shape, const SoleContacts& contacts, bool
     const Vector3f ball_W = at(joint.cast<double>());
     const float joint_height = joint.y() - static_cast<float>(shape.point_m[ball].y());
     const SoleTouch& touch = contacts.touch(ball - kLandmarkCount);
-    const bool stands = has_floor && touch.stands;
+    const bool stands = has_floor && holds && touch.stands;
     if (stands) {
       Vector3f held = foot.is_held ? foot.held_W_m : Vector3f(ball_W + foot.shift.offset);
       held.y() = joint_height;

@@ -1,0 +1,44 @@
+#include "producers/camera/solver/shown/floor_lift.h"
+
+#include <algorithm>
+
+namespace dance {
+
+using Eigen::Vector3f;
+
+namespace {
+
+constexpr Duration kSink = Duration::ms(120);
+
+}  // namespace
+
+float lowest_of_foot_m(const BodyShape& shape, const BodyFrames& frames, std::size_t side) {
+  const Bone foot = side == 0 ? Bone::kLeftFoot : Bone::kRightFoot;
+  const auto height = [&](const Eigen::Vector3d& in_foot) {
+    return (frames.position(foot) + frames.R_WB[index_of(foot)] * in_foot.cast<float>()).y();
+  };
+  return std::min({height(shape.point_m[point_of(side == 0 ? Sole::kLeftHeel : Sole::kRightHeel)]),
+                   height(shape.point_m[point_of(side == 0 ? Sole::kLeftBall : Sole::kRightBall)]),
+                   frames.tip(side == 0 ? Tip::kLeftToes : Tip::kRightToes).y()});
+}
+
+void FloorLift::apply(const BodyShape& shape, bool has_floor, double seconds, Pose& pose) {
+  BodyFrames frames;
+  forward_kinematics(shape.skeleton, pose, frames);
+  const float needed =
+      -std::min(lowest_of_foot_m(shape, frames, 0), lowest_of_foot_m(shape, frames, 1));
+  // Up at once, down as a spring: to where the body is seen, or to the floor as long as nothing
+  // says where that is.
+  const float rest = has_floor ? 0.0f : needed;
+  lift_.offset.y() -= rest;
+  lift_.advance(Spring::y_of_half_life(kSink), static_cast<float>(std::clamp(seconds, 0.0, 0.5)));
+  lift_.offset.y() += rest;
+  if (is_first_ || lift_.offset.y() < needed) {
+    lift_.offset.y() = is_first_ ? std::max(rest, needed) : needed;
+    lift_.velocity.setZero();
+  }
+  is_first_ = false;
+  pose.p_WH_m.y() += lift_.offset.y();
+}
+
+}  // namespace dance
