@@ -5,8 +5,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/videoio.hpp>
 #include <thread>
+
+#include "tests/producers/camera/files/written_pictures.h"
 
 namespace dance {
 namespace {
@@ -35,11 +36,11 @@ TEST(VideoWriter, KeepsThePicturesAndWhenTheyWereTaken) {
     EXPECT_EQ((*writer)->written(), 10u);
     EXPECT_EQ((*writer)->left_out(), 0u);
   }
-  cv::VideoCapture video(path);
-  ASSERT_TRUE(video.isOpened());
+  VideoPictures video(path);
+  ASSERT_TRUE(video.is_open());
   cv::Mat picture;
   int count = 0;
-  for (; video.read(picture); ++count)
+  for (; video.next(picture); ++count)
     EXPECT_NEAR(picture.at<cv::Vec3b>(60, 80)[1], 20 * count + 10, 6) << "picture " << count;
   EXPECT_EQ(count, 10);
   std::ifstream table(path + ".tsv");
@@ -83,14 +84,14 @@ TEST(VideoWriter, LeavesOutAndCountsWhatHasAnotherSize) {
   EXPECT_EQ((*writer)->written(), 2u);
   EXPECT_EQ((*writer)->left_out(), 2u);
   EXPECT_NE((*writer)->trouble().find("320x240"), std::string::npos) << (*writer)->trouble();
-  cv::VideoCapture video(path);
-  EXPECT_NEAR(video.get(cv::CAP_PROP_FPS), 30.0, 0.1);
+  VideoPictures video(path);
+  EXPECT_NEAR(video.hz(), 30.0, 0.1);
   int count = 0;
-  for (cv::Mat picture; video.read(picture); ++count) EXPECT_EQ(picture.size(), small.image.size());
+  for (cv::Mat picture; video.next(picture); ++count) EXPECT_EQ(picture.size(), small.image.size());
   EXPECT_EQ(count, 2);
 }
 
-TEST(VideoWriter, APictureThatOpenCvRefusesEndsTheVideoAlone) {
+TEST(VideoWriter, APictureOfDeeperColoursEndsTheVideoAlone) {
   const auto writer = VideoWriter::create(video_for("deep"), 30.0);
   ASSERT_TRUE(writer) << writer.error().what;
   (*writer)->add({cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(50)), MonoTime::from_us(5), 0});
