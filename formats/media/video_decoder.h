@@ -5,7 +5,7 @@
 //               rows from the top, as they are stored: turn_deg says how they stand upright.
 // Ownership:    owns the open file.
 // Threads:      FFmpeg decodes on threads of its own; one owner.
-// Failure:      step() is false at the end, and where the rest is too damaged to go on; read() where
+// Failure:      step() is false at the end, and where the rest is too damaged; read() where
 //               this one picture cannot be converted.
 #pragma once
 

@@ -78,9 +78,9 @@ class HeadlessRun {
   }
 
   bool is_strip() const { return options_.moments.strip > 0; }
-  // Many moments are drawn as they come, so that each file is there soon. A few are kept until there
-  // is time, at the latest until the end: a picture takes seconds on a busy machine, and the next
-  // moment would be missed.
+  // Many moments are drawn as they come, so that each file is there soon. A few are kept until
+  // there is time, at the latest until the end: a picture takes seconds on a busy machine, and the
+  // next moment would be missed.
   bool draws_now(MonoTime next) const {
     if (is_strip()) return false;
     const bool changes_meanwhile = !options_.panel.empty();

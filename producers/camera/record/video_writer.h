@@ -7,9 +7,9 @@
 //               itself, readable up to where a crash ended it.
 // Threads:      one inside, which encodes; add() never waits for it: pictures that it cannot take
 //               are dropped and counted.
-// Failure:      create() names the file and the reason, also where there is no FFmpeg; trouble() later gives the reason that ended
-//               it (a full disk), or that pictures of another size than the first are left out, as
-//               a video has one size.
+// Failure:      create() names the file and the reason, as where there is no FFmpeg; trouble() later
+//               tells what ended it (a full disk), or that pictures of another size than the first
+//               are left out, as a video has one size.
 #pragma once
 
 #include <atomic>

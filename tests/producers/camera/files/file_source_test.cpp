@@ -267,9 +267,9 @@ TEST_F(FileSource, ErrorsNameTheFileTheReasonAndTheCure) {
   EXPECT_EQ(why_not(good + "," + in("gone.png")),
             in("gone.png") + ": there is no such file; check the name");
   fs::resize_file(good, 50);
-  EXPECT_EQ(why_not(good), good +
-                               ": a PNG that cannot be read: Read Error; fetch it again or leave "
-                               "it out");
+  const std::string damaged = why_not(good);
+  EXPECT_TRUE(damaged.starts_with(good + ": a PNG that cannot be read: ")) << damaged;
+  EXPECT_TRUE(damaged.ends_with("; fetch it again or leave it out")) << damaged;
   EXPECT_EQ(why_not(text("old.tif", "II*") + "," + good),
             in("old.tif") +
                 ": is no picture that can be read; make it a .png or .jpg, or leave it "
@@ -312,20 +312,24 @@ cv::Mat lying_picture() {
 TEST_F(VideoSource, IsTurnedAsItsTelephoneWasHeld) {
   write_video(in("lying.mkv"), 25.0, 2, {kFileWidth_px, kFileHeight_px},
               [](int) { return lying_picture(); });
-  const std::string turn = "cd '" + folder_.string() +
-                           "' && ffmpeg -nostdin -v error -i lying.mkv -c copy -metadata:s:v:0 "
-                           "rotate=90 turned.mp4 2>/dev/null";
+  const std::string turn =
+      "cd '" + folder_.string() +
+      "' && ffmpeg -nostdin -v error -i lying.mkv -c copy -metadata:s:v:0 rotate=90 turned.mp4 && "
+      "ffmpeg -nostdin -v error -i turned.mp4 -frames:v 1 upright.png";
   if (std::system(turn.c_str()) != 0)
     GTEST_SKIP() << "no ffmpeg program, which makes the film; apt-get install ffmpeg";
+  const auto upright = read_bgr_picture(in("upright.png"));
+  ASSERT_TRUE(upright) << upright.error().what;
   EXPECT_EQ(levels_around(lying_picture()), (std::array<int, 4>{3, 1, 0, 1}));
+  ASSERT_NE(levels_around(*upright), levels_around(lying_picture()));
   const auto source = opened(in("turned.mp4"), kFast);
   ASSERT_NE(source, nullptr);
   EXPECT_EQ(source->format().width_px, kFileHeight_px);
   EXPECT_EQ(source->format().height_px, kFileWidth_px);
   Frame frame;
   ASSERT_EQ(source->next(Duration(), frame), FrameState::kFrame);
-  ASSERT_EQ(frame.image.rows, kFileWidth_px);
-  EXPECT_EQ(levels_around(frame.image), (std::array<int, 4>{1, 3, 1, 0})) << "clockwise";
+  ASSERT_EQ(frame.image.size(), upright->size());
+  EXPECT_EQ(levels_around(frame.image), levels_around(*upright)) << "as ffmpeg turns it";
 }
 
 TEST_F(FileSource, APhotographStandsAsItsCameraWasHeld) {
