@@ -56,6 +56,7 @@ class CapturePrograms : public BusPrograms {
   void SetUp() override {
     if (!std::filesystem::exists(DANCE_SOURCE_DIR "/models/pose/pose_landmark_lite.tflite"))
       GTEST_SKIP() << "the pose network is not here; ./dance setup fetches it";
+    SKIP_WITHOUT_MEDIA();
     if (!std::filesystem::exists(kVideo)) GTEST_SKIP() << "there is no " << kVideo;
   }
   std::string talk() { return text_of(folder_.path("talk")); }

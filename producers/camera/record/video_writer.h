@@ -7,8 +7,8 @@
 //               itself, readable up to where a crash ended it.
 // Threads:      one inside, which encodes; add() never waits for it: pictures that it cannot take
 //               are dropped and counted.
-// Failure:      create() names the file and the reason, as where there is no FFmpeg; trouble() later
-//               tells what ended it (a full disk), or that pictures of another size than the first
+// Failure:      create() names file and reason, as where there is no FFmpeg; trouble() later tells
+//               what ended it (a full disk), or that pictures of another size than the first
 //               are left out, as a video has one size.
 #pragma once
 

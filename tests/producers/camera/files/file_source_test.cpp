@@ -69,7 +69,7 @@ class VideoSource : public FileSource {
  protected:
   void SetUp() override {
     FileSource::SetUp();
-    if (const auto module = media_module(); !module) GTEST_SKIP() << module.error().what;
+    SKIP_WITHOUT_MEDIA();
   }
 };
 

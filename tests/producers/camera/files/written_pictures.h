@@ -77,3 +77,8 @@ class VideoPictures {
 };
 
 }  // namespace dance
+
+#define SKIP_WITHOUT_MEDIA()                                \
+  if (const auto media = ::dance::media_module(); !media) { \
+    GTEST_SKIP() << media.error().what;                     \
+  }

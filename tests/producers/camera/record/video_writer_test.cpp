@@ -20,6 +20,7 @@ std::string video_for(const std::string& name) {
 }
 
 TEST(VideoWriter, KeepsThePicturesAndWhenTheyWereTaken) {
+  SKIP_WITHOUT_MEDIA();
   const std::string path = video_for("ten");
   {
     const auto writer = VideoWriter::create(path, 30.0);
@@ -57,6 +58,7 @@ TEST(VideoWriter, KeepsThePicturesAndWhenTheyWereTaken) {
 }
 
 TEST(VideoWriter, NeverHoldsTheCameraUp) {
+  SKIP_WITHOUT_MEDIA();
   const std::string path = video_for("flood");
   const auto writer = VideoWriter::create(path, 30.0);
   ASSERT_TRUE(writer) << writer.error().what;
@@ -68,6 +70,7 @@ TEST(VideoWriter, NeverHoldsTheCameraUp) {
 }
 
 TEST(VideoWriter, LeavesOutAndCountsWhatHasAnotherSize) {
+  SKIP_WITHOUT_MEDIA();
   const std::string path = video_for("sizes");
   const auto writer = VideoWriter::create(path, 0.0);  // a camera that does not say its rate
   ASSERT_TRUE(writer) << writer.error().what;
@@ -92,6 +95,7 @@ TEST(VideoWriter, LeavesOutAndCountsWhatHasAnotherSize) {
 }
 
 TEST(VideoWriter, APictureOfDeeperColoursEndsTheVideoAlone) {
+  SKIP_WITHOUT_MEDIA();
   const auto writer = VideoWriter::create(video_for("deep"), 30.0);
   ASSERT_TRUE(writer) << writer.error().what;
   (*writer)->add({cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(50)), MonoTime::from_us(5), 0});
