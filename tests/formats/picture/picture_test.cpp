@@ -88,42 +88,16 @@ TEST(JpegWriter, PixelsComeBackNearly) {
   EXPECT_FALSE(jpeg_of_rgb(0, 0, {}, 95));
 }
 
-// Exif data that note this orientation, behind another note.
-Bytes exif(std::uint8_t orientation, bool is_little) {
-  if (is_little)
-    return {'I', 'I', 42, 0,    8, 0, 0, 0, 2, 0, 0x0f, 0x01,        2, 0, 1, 0, 0, 0, 'x',
-            0,   0,   0,  0x12, 1, 3, 0, 1, 0, 0, 0,    orientation, 0, 0, 0, 0, 0, 0, 0};
-  return {'M', 'M', 0, 42, 0,    0, 0, 8, 0, 2, 0x01, 0x0f, 0,           2, 0, 0, 0, 1, 'x',
-          0,   0,   0, 1,  0x12, 0, 3, 0, 0, 0, 1,    0,    orientation, 0, 0, 0, 0, 0, 0};
-}
-
-Bytes with_exif(Bytes picture, const Bytes& note) {
-  Bytes part;
-  std::ptrdiff_t at = 2;  // behind the beginning of the JPEG
-  if (picture_kind(picture) == PictureKind::kJpeg) {
-    const auto length = static_cast<std::uint8_t>(note.size() + 8);
-    part = {0xff, 0xe1, 0, length, 'E', 'x', 'i', 'f', 0, 0};
-    part.insert(part.end(), note.begin(), note.end());
-  } else {
-    at = 8 + 25;  // behind the first chunk of the PNG
-    part = {0, 0, 0, static_cast<std::uint8_t>(note.size()), 'e', 'X', 'I', 'f'};
-    part.insert(part.end(), note.begin(), note.end());
-    part.insert(part.end(), 4, 0);
-  }
-  picture.insert(picture.begin() + at, part.begin(), part.end());
-  return picture;
-}
-
 TEST(Orientation, IsFoundInJpegAndPngInEitherByteOrder) {
   for (const Bytes& picture : {test::jpeg(16, 16), test::png(9, 7)}) {
     EXPECT_EQ(exif_orientation(picture), 1);
     for (const bool is_little : {true, false}) {
       for (std::uint8_t noted = 1; noted <= 8; ++noted)
-        EXPECT_EQ(exif_orientation(with_exif(picture, exif(noted, is_little))), noted);
+        EXPECT_EQ(exif_orientation(test::with_exif(picture, test::exif(noted, is_little))), noted);
       for (const int wrong : {0, 9, 255})
-        EXPECT_EQ(
-            exif_orientation(with_exif(picture, exif(static_cast<std::uint8_t>(wrong), is_little))),
-            1);
+        EXPECT_EQ(exif_orientation(test::with_exif(
+                      picture, test::exif(static_cast<std::uint8_t>(wrong), is_little))),
+                  1);
     }
   }
   EXPECT_EQ(exif_orientation(test::webp(9, 7)), 1);
@@ -132,7 +106,7 @@ TEST(Orientation, IsFoundInJpegAndPngInEitherByteOrder) {
 
 TEST(Orientation, WhatIsDamagedIsLeftAsItIs) {
   for (const Bytes& picture : {test::jpeg(16, 16), test::png(9, 7)}) {
-    const Bytes whole = with_exif(picture, exif(6, true));
+    const Bytes whole = test::with_exif(picture, test::exif(6, true));
     for (std::size_t size = 0; size < whole.size(); ++size) {
       const int turned = exif_orientation(std::span(whole).first(size));
       EXPECT_TRUE(turned == 1 || turned == 6) << size;
