@@ -24,7 +24,7 @@ Result<std::unique_ptr<VideoReel>> VideoReel::open(const std::string& path) {
   reel->name_ = std::filesystem::path(path).filename();
   const auto module = media_module();
   if (!module)
-    return fail(path + ": is no picture, and of videos only FFmpeg knows more. " +
+    return fail(path + ": is no picture that can be read; if it is a video, " +
                 module.error().what);
   if (!reel->rewind()) {
     return fail(path +
