@@ -111,14 +111,11 @@ dance_optional(DANCE_VIEWER "Viewer" DANCE_HAVE_VIEWER ${viewer_found}
 
 pkg_check_modules(SNDFILE QUIET IMPORTED_TARGET sndfile)
 dance_optional(DANCE_MUSIC "Music" DANCE_HAVE_MUSIC "${SNDFILE_FOUND}" "libsndfile1-dev")
-# What libsndfile cannot read; from FFmpeg 5.1 on, which has the channel layouts that are used.
-pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample)
-dance_optional(DANCE_FFMPEG "Music with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
-  "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev")
-# Videos of a recording.
-pkg_check_modules(VIDEO QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswscale)
-dance_optional(DANCE_VIDEO "Video export" DANCE_HAVE_VIDEO "${VIDEO_FOUND}"
-  "libavformat-dev libavcodec-dev libavutil-dev libswscale-dev")
+# Music that libsndfile cannot read, videos in and out: a module that is loaded when it is wanted (formats/media). From
+# FFmpeg 5.1 on, which has the channel layouts that are used.
+pkg_check_modules(FFMPEG QUIET IMPORTED_TARGET libavformat>=59.27 libavcodec libavutil libswresample libswscale)
+dance_optional(DANCE_FFMPEG "Media with FFmpeg" DANCE_HAVE_FFMPEG "${FFMPEG_FOUND}"
+  "libavformat-dev libavcodec-dev libavutil-dev libswresample-dev libswscale-dev")
 pkg_check_modules(PULSE QUIET IMPORTED_TARGET libpulse)
 dance_optional(DANCE_SOUND "Sound" DANCE_HAVE_SOUND "${PULSE_FOUND}" "libpulse-dev")
 
@@ -138,7 +135,7 @@ find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 set(opencv_found ${OPENCV_INCLUDE_DIR})
 add_library(dance_opencv INTERFACE)
 add_library(opencv::opencv ALIAS dance_opencv)
-foreach(module calib3d dnn videoio imgcodecs imgproc core)
+foreach(module calib3d dnn imgproc core)
   find_library(OPENCV_${module}_LIBRARY opencv_${module})
   if(OPENCV_${module}_LIBRARY)
     target_link_libraries(dance_opencv INTERFACE ${OPENCV_${module}_LIBRARY})
@@ -154,7 +151,7 @@ if(opencv_found AND FLATBUFFERS_INCLUDE_DIR AND FLATC)
   target_include_directories(dance_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
 endif()
 dance_optional(DANCE_CAMERA "Camera" DANCE_HAVE_CAMERA ${camera_found}
-  "libopencv-dnn-dev libopencv-videoio-dev libopencv-calib3d-dev flatbuffers-compiler \
+  "libopencv-dnn-dev libopencv-calib3d-dev flatbuffers-compiler \
 libflatbuffers-dev")
 
 # Without it OpenCV runs the pose network: the same numbers, four times slower.

@@ -3,14 +3,21 @@
 #   sudo packaging/time_to_first_dance.sh dancegraph_*.deb          on this machine: installs it where it is not installed
 #   sudo packaging/time_to_first_dance.sh --fresh dancegraph_*.deb  in a fresh Debian 12, made with mmdebstrap (not counted)
 #                                                                   in a folder and removed again; its packages are fetched
+#   … --fresh dancegraph_*.deb --with PACKAGE,…                     the same where these are there before, as libgl1-mesa-dri,libpulse0
+#                                                                   or task-xfce-desktop on a desktop
 # Prints the seconds of each step: apt-get's lists, fetching and setting up the package with all that it depends on, from `dance demo` to two dancers
 # on one stage (one of them through the tunnel), and to the first picture of them, drawn without a display.
 set -euo pipefail
 main() {
   case "${1:-}" in
-    --fresh) [ $# = 2 ] && in_fresh_debian "$2" ;;
+    --fresh)
+      case $#:${3:-} in
+        2:) in_fresh_debian "$2" "" ;;
+        4:--with) in_fresh_debian "$2" "$4" ;;
+        *) echo "wrong use; see: $0 --help" >&2; exit 2 ;;
+      esac ;;
     --inside) measure "$2" ;;
-    "" | -*) sed -n '2,7s/^# \{0,1\}//p' "$0"; [ "${1:-}" = --help ] || exit 2 ;;
+    "" | -*) sed -n '2,9s/^# \{0,1\}//p' "$0"; [ "${1:-}" = --help ] || exit 2 ;;
     *) measure "$1" ;;
   esac
 }
@@ -21,7 +28,7 @@ seconds_since() { # TIME: of `now`
 now() { date +%s.%N; }
 print_row() { printf '%-44s %6s s\n' "$1" "$2"; }
 
-in_fresh_debian() { # PACKAGE
+in_fresh_debian() { # PACKAGE THOSE-THAT-ARE-THERE
   command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing; install it with: apt-get install mmdebstrap" >&2; exit 1; }
   [ "$(id -u)" = 0 ] || { echo "--fresh makes a system in a folder, which only root may" >&2; exit 1; }
   local package sources=/etc/apt/sources.list.d/debian.sources
@@ -31,7 +38,7 @@ in_fresh_debian() { # PACKAGE
   trap 'rm -rf --one-file-system "$root"' EXIT
   [ -e "$sources" ] || sources=/etc/apt/sources.list
   echo "making a Debian 12 (not counted)" >&2
-  mmdebstrap --quiet --variant=apt bookworm "$root/debian" "$sources"
+  mmdebstrap --quiet --variant=apt ${2:+--include="$2"} bookworm "$root/debian" "$sources"
   # As on a machine that was just installed: the lists of packages are not there yet.
   rm -rf "$root"/debian/var/lib/apt/lists/*
   cp "$package" "$root/debian/root/dancegraph.deb"

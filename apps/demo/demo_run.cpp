@@ -46,10 +46,11 @@ std::vector<std::string> pictures_in(const std::string& folder) {
   return pictures;
 }
 
-// Early, in the middle and late in the dance; the viewer needs a moment to open.
+// Early, in the middle and late in the dance; the viewer needs a moment to open. Behind the first
+// there is time to draw it, so that it is there while the dance goes on.
 std::string picture_moments(double seconds) {
   std::ostringstream text;
-  text << 0.2 * seconds << "," << 0.45 * seconds << "," << 0.7 * seconds;
+  text << 0.2 * seconds << "," << 0.6 * seconds << "," << 0.8 * seconds;
   return text.str();
 }
 

@@ -17,6 +17,7 @@
 #include "core/net/mono_clock.h"
 #include "core/net/poller.h"
 #include "core/program/program.h"
+#include "formats/media/media_module.h"
 #include "testing/private_network.h"
 
 namespace dance {
@@ -114,6 +115,13 @@ Finding check_java() {
   return finding;
 }
 
+Finding check_media() {
+  if (const auto module = media_module(); !module)
+    return {"media", Grade::kNote,
+            "no videos, and music as WAV, FLAC, Ogg and MP3 only: " + module.error().what, ""};
+  return {"media", Grade::kOk, "FFmpeg's libraries read and write videos here", ""};
+}
+
 }  // namespace
 
 Finding check_multicast_device(const std::string& device, bool private_network_possible) {
@@ -171,6 +179,7 @@ std::vector<Finding> examine_machine(const std::string& bus_url) {
   findings.push_back(check_pose_network());
   findings.push_back(check_sound());
   findings.push_back(check_microphone());
+  findings.push_back(check_media());
   findings.push_back(check_java());
   return findings;
 }

@@ -1,5 +1,6 @@
 #include <turbojpeg.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -16,7 +17,8 @@ using Handle = std::unique_ptr<void, Destroy>;
 
 // A progressive JPEG of a few kilobytes may have hundreds of scans over all its pixels. Common ones
 // have ten, which this allows for the largest picture.
-constexpr std::size_t kMostScannedPixels = std::size_t{16} << 24;
+constexpr std::size_t kMostScans = 16;
+constexpr std::size_t kLargePixels = std::size_t{1} << 24;  // smaller ones may have more scans
 
 // The beginnings of scans: within the packed pixels these two bytes cannot stand.
 std::size_t scans(std::span<const std::uint8_t> bytes) {
@@ -44,7 +46,9 @@ class JpegDecoder final : public PictureDecoder {
                       std::span<std::uint8_t> rgba) const override {
     const Handle handle(tjInitDecompress());
     if (!handle) return fail("no memory for a JPEG");
-    if (scans(bytes) * (rgba.size() / 4) > kMostScannedPixels) return fail("a JPEG of many scans");
+    const std::size_t pixels = rgba.size() / 4;
+    if (scans(bytes) * pixels > kMostScans * std::max(pixels, kLargePixels))
+      return fail("a JPEG of many scans");
     if (tjDecompress2(handle.get(), bytes.data(), static_cast<unsigned long>(bytes.size()),
                       rgba.data(), size.width_px, size.width_px * 4, size.height_px, TJPF_RGBA,
                       TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) != 0)

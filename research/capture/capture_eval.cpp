@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
+#include "producers/camera/files/bgr_picture.h"
 #include "producers/camera/files/picture_file.h"
 #include "producers/camera/files/video_reel.h"
 
@@ -111,9 +111,8 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
 Result<void> CaptureEval::add_picture(const std::string& path) {
   const std::int64_t start_ns = thread_ns();
   Frame frame;
-  frame.image = cv::imread(path, cv::IMREAD_COLOR);
+  DANCE_TRY(frame.image, read_bgr_picture(path));
   run_.decode_ms += ms_since(start_ns);
-  if (frame.image.empty()) return fail(path + ": is no picture that OpenCV can read");
   return take(*still_, frame, std::filesystem::path(path).filename().string());
 }
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "core/pose/skeleton.h"
 #include "tests/apps/bus_programs.h"
+#include "tests/producers/camera/files/written_pictures.h"
 
 namespace dance {
 namespace {
@@ -56,16 +56,17 @@ class CapturePrograms : public BusPrograms {
   void SetUp() override {
     if (!std::filesystem::exists(DANCE_SOURCE_DIR "/models/pose/pose_landmark_lite.tflite"))
       GTEST_SKIP() << "the pose network is not here; ./dance setup fetches it";
+    SKIP_WITHOUT_MEDIA();
     if (!std::filesystem::exists(kVideo)) GTEST_SKIP() << "there is no " << kVideo;
   }
   std::string talk() { return text_of(folder_.path("talk")); }
   // A raw film of some pictures of the video, small enough for a slow machine.
   std::string raw_film(int pictures) {
-    cv::VideoCapture video(kVideo);
+    VideoPictures video(kVideo);
     std::ofstream file(folder_.path("film.yuyv"), std::ios::binary);
     cv::Mat picture;
     cv::Mat small;
-    for (int i = 0; i < pictures && video.read(picture); ++i) {
+    for (int i = 0; i < pictures && video.next(picture); ++i) {
       cv::resize(picture, small, {640, 360}, 0, 0, cv::INTER_AREA);
       cv::Mat yuv;
       cv::cvtColor(small, yuv, cv::COLOR_BGR2YUV);
@@ -145,10 +146,10 @@ TEST_F(CapturePrograms, KeepVideoBesidePoses) {
     capture.ask_to_stop();
     ASSERT_TRUE(wait_for([&] { return capture.has_ended(); }));
   }
-  cv::VideoCapture video(folder + "/video.mkv");
-  ASSERT_TRUE(video.isOpened());
+  VideoPictures video(folder + "/video.mkv");
+  ASSERT_TRUE(video.is_open());
   int pictures = 0;
-  for (cv::Mat picture; video.read(picture);) ++pictures;
+  for (cv::Mat picture; video.next(picture);) ++pictures;
   EXPECT_GT(pictures, 5) << talk();
   CaptureEar again;
   start("dance-replay", {folder + "/poses.lcm", "--bus", kBus});

@@ -53,6 +53,15 @@ expect() { # TEXT IN WHAT: the file IN holds TEXT
 if [ -e dancegraph.control ]; then
   for library in liblcm1 libssl3 libc6; do expect "$library" dancegraph.control "Depends"; done
   for package in liblcm-dev libeigen3-dev libexpected-dev; do expect "$package" dancegraph-dev.control "Depends"; done
+  # Nothing but the module needs FFmpeg, or what of OpenCV brings a hundred packages.
+  sed -n '/^Depends:/,/^[^ D]/p' dancegraph.control >depends
+  ! grep -E 'libav|libsw|imgcodecs|videoio' depends || wrong "dancegraph depends on FFmpeg, or on OpenCV's formats"
+  if [ -e "$usr/lib/dancegraph/libdance_media.so" ]; then
+    for library in libavformat libavcodec libavutil libswresample libswscale 'dancegraph (= '; do
+      expect "$library" dancegraph-media.control "Depends"
+    done
+    expect dancegraph-media dancegraph.control "Suggests"
+  fi
 fi
 
 # Every command that is listed is there, explains itself, and has its page; what needs the source tree is not listed.
@@ -119,9 +128,22 @@ if command -v systemd-analyze >/dev/null; then
   ! grep -E "dance-server.service(.d/cluster.conf)?:" verified || wrong "systemd complains of the unit in a cluster"
 fi
 
-# The main job.
+# The main job, as where dancegraph-media is not installed. What needs it says so, and finds it once it is there.
+module=$usr/lib/dancegraph/libdance_media.so
+echo "no song" >song.m4a
+if [ -e "$module" ]; then
+  mv "$module" module.away
+  ! "$dance" music song.m4a >music.log 2>&1 || wrong "dance music plays what is no song"
+  expect "install the package dancegraph-media" music.log "dance music"
+fi
 "$dance" demo --headless --seconds 3 --out demo >demo.log 2>&1 || { wrong "dance demo fails"; cat demo.log; }
 [ -s demo/stage-0001.png ] || [ ! -e "$usr/bin/dance-view" ] || wrong "dance demo drew nothing"
+
+if [ -e module.away ]; then
+  mv module.away "$module"
+  ! "$dance" music song.m4a >music.log 2>&1 || wrong "dance music plays what is no song"
+  expect "no music that can be read" music.log "dance music"
+fi
 
 # A camera says how the networks that it needs come here.
 if [ -e "$usr/bin/dance-capture" ]; then

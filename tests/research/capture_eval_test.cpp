@@ -4,9 +4,9 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/producers/camera/estimator/pose_models.h"
+#include "tests/producers/camera/files/written_pictures.h"
 
 namespace dance {
 namespace {
@@ -15,7 +15,7 @@ TEST(CaptureEval, GivesEveryFrameItsPoints) {
   SKIP_WITHOUT_POSE_MODELS();
   SKIP_WITHOUT_VIDEO();
   const std::string dark = testing::TempDir() + "/dance_dark.png";
-  ASSERT_TRUE(cv::imwrite(dark, cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(0))));
+  write_picture(dark, cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(0)));
   CaptureEvalOptions options;
   options.every = 12;
   options.compares_engines = kHasXnnpack;

@@ -1,11 +1,13 @@
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
+#include "core/net/mono_clock.h"
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "viewer/avatar/user_avatars.h"
@@ -57,17 +59,18 @@ class HeadlessRun {
 
  private:
   Result<void> pictures(const std::vector<MonoTime>& moments) {
-    for (const MonoTime moment : moments) {
-      scenes_.push_back(scene_at(moment));
-      if (draws_at_once())
-        if (auto written = write_picture(scenes_.back()); !written) return written;
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      scenes_.push_back(scene_at(moments[i]));
+      const bool is_last = i + 1 == moments.size();
+      while (drawn_ < scenes_.size() && !is_last && draws_now(moments[i + 1]))
+        if (auto written = write_picture(scenes_[drawn_++]); !written) return written;
       if (source_.is_over()) break;
     }
     if (is_strip()) {
       if (auto written = write_strip(); !written) return written;
-    } else if (!draws_at_once()) {
-      for (SceneState& scene : scenes_)
-        if (auto written = write_picture(scene); !written) return written;
+    } else {
+      while (drawn_ < scenes_.size())
+        if (auto written = write_picture(scenes_[drawn_++]); !written) return written;
     }
     if (source_.board().poses() > 0) return {};
     return fail("no poses heard on " + source_.name() +
@@ -75,11 +78,14 @@ class HeadlessRun {
   }
 
   bool is_strip() const { return options_.moments.strip > 0; }
-  // A few moments are kept and drawn at the end: a picture takes seconds on a busy machine, and the
-  // next moment would be missed. Many are drawn as they come, so that each file is there soon.
-  bool draws_at_once() const {
+  // Many moments are drawn as they come, so that each file is there soon. A few are kept until
+  // there is time, at the latest until the end: a picture takes seconds on a busy machine, and the
+  // next moment would be missed.
+  bool draws_now(MonoTime next) const {
+    if (is_strip()) return false;
     const bool changes_meanwhile = !options_.panel.empty();
-    return !is_strip() && (moments_s_.size() > kFewMoments || changes_meanwhile);
+    if (moments_s_.size() > kFewMoments || changes_meanwhile) return true;
+    return source_.replay() == nullptr && mono_now() + slowest_picture_ * 2 < next;
   }
 
   Result<std::vector<MonoTime>> moments_to_draw() const {
@@ -159,12 +165,15 @@ class HeadlessRun {
   }
 
   Result<void> write_picture(SceneState& scene) {
+    const MonoTime begin = mono_now();
     director_.jump(scene, size_of(options_.size.width_px));
     DANCE_TRY(const Picture picture,
               paint(scene, {options_.tags, options_.hud}, options_.size.width_px));
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "stage-%04d.png", ++pictures_);
-    return write(name.data(), picture);
+    auto written = write(name.data(), picture);
+    slowest_picture_ = std::max(slowest_picture_, mono_now() - begin);
+    return written;
   }
 
   // Every picture of it, however long they take. The camera follows as in a window.
@@ -273,6 +282,8 @@ class HeadlessRun {
   PanelStack panels_;
   ViewDirector director_;
   std::vector<SceneState> scenes_;
+  std::size_t drawn_ = 0;                      // of these
+  Duration slowest_picture_ = Duration::s(1);  // as long, until one has taken longer
   int pictures_ = 0;
   bool focus_was_here_ = false;
   bool has_warned_ = false;

@@ -1,22 +1,9 @@
 #include "producers/camera/files/image_reel.h"
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "producers/camera/files/bgr_picture.h"
 #include "producers/camera/files/picture_file.h"
 
 namespace dance {
-namespace {
-
-bool read_image(const std::string& path, cv::Mat& bgr) {
-  try {
-    bgr = cv::imread(path, cv::IMREAD_COLOR);
-    return !bgr.empty();
-  } catch (const cv::Exception&) {
-    return false;
-  }
-}
-
-}  // namespace
 
 Result<std::unique_ptr<ImageReel>> ImageReel::open(std::vector<std::string> paths,
                                                    const std::string& name, double hz) {
@@ -28,16 +15,14 @@ Result<std::unique_ptr<ImageReel>> ImageReel::open(std::vector<std::string> path
                   ": is no picture that can be read; make it a .png or .jpg, or leave it out");
     }
   }
-  cv::Mat first;
-  if (!read_image(paths.front(), first)) {
-    return fail(paths.front() + ": is damaged; fetch it again or leave it out");
-  }
+  const auto first = read_bgr_picture(paths.front());
+  if (!first) return tl::make_unexpected(first.error());
   std::unique_ptr<ImageReel> reel(new ImageReel);
   reel->paths_ = std::move(paths);
   reel->name_ = name;
   reel->hz_ = hz;
-  reel->width_px_ = first.cols;
-  reel->height_px_ = first.rows;
+  reel->width_px_ = first->cols;
+  reel->height_px_ = first->rows;
   return reel;
 }
 
@@ -49,7 +34,11 @@ bool ImageReel::step() {
 
 Duration ImageReel::time() const { return Duration::seconds(static_cast<double>(next_ - 1) / hz_); }
 
-bool ImageReel::read(cv::Mat& bgr) { return read_image(paths_[next_ - 1], bgr); }
+bool ImageReel::read(cv::Mat& bgr) {
+  auto picture = read_bgr_picture(paths_[next_ - 1]);
+  if (picture) bgr = std::move(*picture);
+  return picture.has_value();
+}
 
 bool ImageReel::rewind() {
   next_ = 0;

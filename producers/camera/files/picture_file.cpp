@@ -7,8 +7,10 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
+#include <fstream>
 #include <string_view>
+
+#include "formats/picture/picture.h"
 
 namespace dance {
 namespace {
@@ -43,11 +45,10 @@ Result<void> check_file(const std::string& path) {
 }
 
 bool is_picture(const std::string& path) {
-  try {
-    return cv::haveImageReader(path);
-  } catch (const cv::Exception&) {
-    return false;
-  }
+  std::array<char, 16> first{};
+  std::ifstream(path, std::ios::binary).read(first.data(), first.size());
+  return picture_kind(std::span(reinterpret_cast<const std::uint8_t*>(first.data()),
+                                first.size())) != PictureKind::kNone;
 }
 
 Result<std::vector<std::string>> pictures_in(const std::string& folder) {
@@ -59,8 +60,7 @@ Result<std::vector<std::string>> pictures_in(const std::string& folder) {
   }
   if (trouble) return fail(folder + ": cannot be read: " + trouble.message());
   if (all.empty()) {
-    return fail(folder +
-                ": has no pictures; they are called .jpg, .png, .bmp, .webp, .tif, .pgm or .ppm");
+    return fail(folder + ": has no pictures; they are called .jpg, .png or .webp");
   }
   std::sort(all.begin(), all.end(), [](const std::string& a, const std::string& b) {
     const int order = ::strverscmp(a.c_str(), b.c_str());

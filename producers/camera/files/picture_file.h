@@ -15,11 +15,12 @@ namespace dance {
 // That it is there, a file, readable and not empty.
 Result<void> check_file(const std::string& path);
 
-// By its first bytes, not by its name.
+// A PNG, JPEG or WebP, by its first bytes and not by its name.
 bool is_picture(const std::string& path);
 
-// The files of a folder that are called as pictures are (.jpg .jpeg .png .bmp .webp .tif .tiff .pgm
-// .ppm), by name, numbers in them by value: 2.png comes before 10.png.
+// The files of a folder that are called as pictures are (.jpg .jpeg .png .webp, and .bmp .tif .tiff
+// .pgm .ppm, which are refused when they are read), by name, numbers in them by value: 2.png comes
+// before 10.png.
 Result<std::vector<std::string>> pictures_in(const std::string& folder);
 
 }  // namespace dance

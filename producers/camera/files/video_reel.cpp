@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <filesystem>
+#include <opencv2/core.hpp>
 
+#include "formats/media/media_module.h"
 #include "producers/camera/files/picture_file.h"
 
 namespace dance {
@@ -13,15 +15,6 @@ constexpr double kMostHz = 1000.0;
 // What files say of their length is a little off in some formats.
 constexpr double kCutOff = 0.95;
 
-std::string codec_of(double code) {
-  std::string text;
-  for (auto rest = static_cast<std::uint32_t>(code); rest != 0; rest >>= 8) {
-    const char c = static_cast<char>(rest & 0xff);
-    text += c > ' ' && c <= '~' ? c : '?';
-  }
-  return text.empty() ? "video" : text;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<VideoReel>> VideoReel::open(const std::string& path) {
@@ -29,22 +22,21 @@ Result<std::unique_ptr<VideoReel>> VideoReel::open(const std::string& path) {
   std::unique_ptr<VideoReel> reel(new VideoReel);
   reel->path_ = path;
   reel->name_ = std::filesystem::path(path).filename();
-  cv::VideoCapture& video = reel->video_;
-  // FFmpeg by name: left to choose, OpenCV would take "a12.txt" for the twelfth picture of a
-  // series.
-  if (!video.open(path, cv::CAP_FFMPEG)) {
+  const auto module = media_module();
+  if (!module)
+    return fail(path + ": is no picture that can be read; if it is a video, " +
+                module.error().what);
+  if (!reel->rewind()) {
     return fail(path +
                 ": is neither a video nor a picture that can be read; make it one with ffmpeg -i " +
                 path + " dance.mp4");
   }
-  reel->width_px_ = static_cast<int>(video.get(cv::CAP_PROP_FRAME_WIDTH));
-  reel->height_px_ = static_cast<int>(video.get(cv::CAP_PROP_FRAME_HEIGHT));
-  const double hz = video.get(cv::CAP_PROP_FPS);
-  reel->hz_ = std::isfinite(hz) && hz > 0.0 && hz <= kMostHz ? hz : kUsualHz;
-  reel->promised_ = video.get(cv::CAP_PROP_FRAME_COUNT);
-  reel->encoding_ = codec_of(video.get(cv::CAP_PROP_FOURCC));
+  const VideoFacts facts = reel->video_->facts();
+  reel->hz_ = facts.hz > 0.0 && facts.hz <= kMostHz ? facts.hz : kUsualHz;
+  reel->promised_ = facts.pictures;
+  reel->encoding_ = facts.encoding;
   cv::Mat first;
-  if (!video.grab() || !video.retrieve(first) || first.empty() || !reel->rewind()) {
+  if (!reel->step() || !reel->read(first) || !reel->rewind()) {
     return fail(path + ": has no picture that can be read; try ffmpeg -i " + path + " dance.mp4");
   }
   // Turned as it is shown, which the header may not know.
@@ -54,11 +46,11 @@ Result<std::unique_ptr<VideoReel>> VideoReel::open(const std::string& path) {
 }
 
 bool VideoReel::step() {
-  if (!video_.grab()) return false;
+  if (!video_->step()) return false;
   ++index_;
-  const double ms = video_.get(cv::CAP_PROP_POS_MSEC);
-  if (index_ == 0) first_ms_ = ms;
-  const Duration said = Duration::seconds(std::isfinite(ms) ? (ms - first_ms_) / 1000.0 : 0.0);
+  const double at_s = video_->time_s().value_or(0.0);
+  if (index_ == 0) first_s_ = at_s;
+  const Duration said = Duration::seconds(std::isfinite(at_s) ? at_s - first_s_ : 0.0);
   const Duration period = Duration::period_of_hz(hz_);
   // Some files do not say, and some go back: then at the file's rate.
   const bool is_believable = said > time_ && said < time_ + Duration::s(3600);
@@ -67,18 +59,27 @@ bool VideoReel::step() {
 }
 
 bool VideoReel::read(cv::Mat& bgr) {
-  try {
-    return video_.retrieve(bgr) && bgr.type() == CV_8UC3;
-  } catch (const cv::Exception&) {
-    return false;
-  }
+  const VideoSize size = video_->size();
+  if (size.width_px < 1 || size.height_px < 1) return false;
+  const int turn_deg = video_->facts().turn_deg;
+  cv::Mat& to = turn_deg == 0 ? bgr : stored_;
+  to.create(size.height_px, size.width_px, CV_8UC3);
+  if (!video_->read({to.data, to.total() * to.elemSize()})) return false;
+  if (turn_deg == 90) cv::rotate(to, bgr, cv::ROTATE_90_CLOCKWISE);
+  if (turn_deg == 180) cv::rotate(to, bgr, cv::ROTATE_180);
+  if (turn_deg == 270) cv::rotate(to, bgr, cv::ROTATE_90_COUNTERCLOCKWISE);
+  return true;
 }
 
 bool VideoReel::rewind() {
   index_ = -1;
   time_ = {};
   // Reopened: not every format can be wound back exactly.
-  return video_.open(path_, cv::CAP_FFMPEG);
+  const auto module = media_module();
+  if (!module) return false;
+  auto video = (*module)->open_video(path_);
+  if (video) video_ = std::move(*video);
+  return video.has_value();
 }
 
 bool VideoReel::is_cut_off() const {

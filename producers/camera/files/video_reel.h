@@ -1,17 +1,17 @@
-// VideoReel: a video file, through OpenCV's FFmpeg.
+// VideoReel: a video file, through the media module (FFmpeg).
 //
 // Units/frames: as PictureReel.
 // Ownership:    owns the decoder.
 // Threads:      one owner; FFmpeg decodes on threads of its own.
-// Failure:      open() names the file, the reason and the cure. A file that is cut off ends
-//               earlier, and is_cut_off().
+// Failure:      open() names the file, the reason and the cure, also where the module is missing. A
+//               file that is cut off ends earlier, and is_cut_off().
 #pragma once
 
 #include <memory>
-#include <opencv2/videoio.hpp>
 #include <string>
 
 #include "core/base/result.h"
+#include "formats/media/video_decoder.h"
 #include "producers/camera/files/picture_reel.h"
 
 namespace dance {
@@ -34,7 +34,7 @@ class VideoReel : public PictureReel {
  private:
   VideoReel() = default;
 
-  cv::VideoCapture video_;
+  std::unique_ptr<VideoDecoder> video_;
   std::string path_;
   std::string name_;
   std::string encoding_;
@@ -43,7 +43,8 @@ class VideoReel : public PictureReel {
   int height_px_ = 0;
   double promised_ = 0.0;  // pictures, as the file says
   std::int64_t index_ = -1;
-  double first_ms_ = 0.0;
+  double first_s_ = 0.0;
+  cv::Mat stored_;  // as the file has it, before it is turned
   Duration time_;
 };
 

@@ -4,7 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <opencv2/videoio.hpp>
+
+#include "formats/media/media_module.h"
 
 namespace dance {
 namespace {
@@ -27,7 +28,10 @@ std::string VideoWriter::trouble() const {
 }
 
 Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path, double hz) {
+  const auto module = media_module();
+  if (!module) return fail("'" + path + "' cannot be written: " + module.error().what);
   std::unique_ptr<VideoWriter> writer(new VideoWriter(path, hz));
+  writer->media_ = *module;
   const std::string table = path + ".tsv";
   writer->times_.reset(std::fopen(table.c_str(), "wx"));
   if (!writer->times_) return fail("'" + table + "' cannot be written: " + std::strerror(errno));
@@ -51,55 +55,63 @@ void VideoWriter::add(const Frame& frame) {
   scratch_.picture.pixels.release();
 }
 
-void VideoWriter::end_with(std::string why) {
-  trouble_ = std::move(why);
+void VideoWriter::end_with(const std::string& why) {
+  trouble_ = "the video '" + path_ + "' cannot be written (" + why +
+             "); is its folder there, and has the disk room?";
   failed_ = true;
 }
 
-void VideoWriter::run() {
-  try {
-    write_all();
-  } catch (const cv::Exception& e) {
-    end_with("the video '" + path_ + "' cannot be written: " + e.err);
-  }
+Result<void> VideoWriter::open(const cv::Mat& first) {
+  VideoWish wish;
+  wish.path = wish.name = path_;
+  wish.use = VideoUse::kToBeMeasured;
+  wish.order = PixelOrder::kBgr;
+  wish.width_px = first.cols;
+  wish.height_px = first.rows;
+  wish.hz = hz_;
+  DANCE_TRY(video_, media_->create_video(wish));
+  size_ = first.size();
+  return {};
 }
 
-// Matroska, so that what was written before a crash can be read; Motion JPEG, so that each picture
-// stands for itself.
-void VideoWriter::write_all() {
-  cv::VideoWriter video;
-  cv::Size size;
-  for (;;) {
-    const bool is_last_look = stop_;
+Result<void> VideoWriter::write(const VideoShot& shot) {
+  const cv::Mat& pixels = shot.picture.pixels;
+  if (pixels.type() != CV_8UC3 || !pixels.isContinuous())
+    return fail("a picture is not of three bytes a pixel");
+  if (!video_)
+    if (auto opened = open(pixels); !opened) return opened;
+  // A video has one size.
+  if (pixels.size() != size_) {
+    if (other_size_ == 0)
+      size_trouble_ = "the video '" + path_ + "' has pictures of " + text_of(size_) +
+                      "; those of " + text_of(pixels.size()) +
+                      " are left out; record them into another folder";
+    ++other_size_;
+    return {};
+  }
+  if (auto added = video_->add({pixels.data, pixels.total() * pixels.elemSize()}); !added)
+    return added;
+  const std::uint64_t number = written_++;
+  if (std::fprintf(times_.get(), "%llu\t%lld\n", static_cast<unsigned long long>(number),
+                   static_cast<long long>(shot.capture_time.since_zero_us())) < 0 ||
+      std::fflush(times_.get()) != 0)
+    return fail("its table of times cannot be written");
+  return {};
+}
+
+void VideoWriter::run() {
+  for (bool is_last_look = false;;) {
     const VideoShot* shot = shots_.take();
     if (!shot) {
-      if (is_last_look) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      if (is_last_look) break;
+      is_last_look = stop_;
+      if (!is_last_look) std::this_thread::sleep_for(std::chrono::milliseconds(2));
       continue;
     }
-    if (!video.isOpened()) {
-      size = shot->picture.pixels.size();
-      const int code = cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-      if (!video.open(path_, cv::CAP_FFMPEG, code, hz_, size))
-        return end_with("the video '" + path_ +
-                        "' cannot be written; is its folder there, and has the disk room?");
-    }
-    // A video has one size, and OpenCV drops others silently.
-    if (shot->picture.pixels.size() != size) {
-      if (other_size_ == 0)
-        size_trouble_ = "the video '" + path_ + "' has pictures of " + text_of(size) +
-                        "; those of " + text_of(shot->picture.pixels.size()) +
-                        " are left out; record them into another folder";
-      ++other_size_;
-      continue;
-    }
-    video.write(shot->picture.pixels);
-    const std::uint64_t number = written_++;
-    if (std::fprintf(times_.get(), "%llu\t%lld\n", static_cast<unsigned long long>(number),
-                     static_cast<long long>(shot->capture_time.since_zero_us())) < 0 ||
-        std::fflush(times_.get()) != 0)
-      return end_with("'" + path_ + ".tsv' cannot be written; has the disk room?");
+    if (auto written = write(*shot); !written) return end_with(written.error().what);
   }
+  if (video_)
+    if (auto finished = video_->finish(); !finished) end_with(finished.error().what);
 }
 
 }  // namespace dance

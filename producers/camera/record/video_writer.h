@@ -3,12 +3,13 @@
 //
 // Units/frames: times in microseconds of this machine's monotonic clock, in a text file of the
 //               video's name + ".tsv": number of the picture in the video, TAB, capture time.
-// Ownership:    owns its thread and files.
+// Ownership:    owns its thread and files. The video is Motion JPEG in Matroska: each picture for
+//               itself, readable up to where a crash ended it.
 // Threads:      one inside, which encodes; add() never waits for it: pictures that it cannot take
 //               are dropped and counted.
-// Failure:      create() names the file and the reason; trouble() later gives the reason that ended
-//               it (a full disk), or that pictures of another size than the first are left out, as
-//               a video has one size.
+// Failure:      create() names file and reason, as where there is no FFmpeg; trouble() later tells
+//               what ended it (a full disk), or that pictures of another size than the first
+//               are left out, as a video has one size.
 #pragma once
 
 #include <atomic>
@@ -19,6 +20,7 @@
 
 #include "core/base/latest.h"
 #include "core/base/result.h"
+#include "formats/media/media_module.h"
 #include "producers/camera/deep_picture.h"
 #include "producers/camera/frame.h"
 
@@ -53,11 +55,13 @@ class VideoWriter {
   };
   VideoWriter(std::string path, double hz);
   void run();
-  void write_all();
-  void end_with(std::string why);
+  Result<void> open(const cv::Mat& first);
+  Result<void> write(const VideoShot& shot);
+  void end_with(const std::string& why);
 
   std::string path_;
   double hz_;
+  const MediaModule* media_ = nullptr;
   std::unique_ptr<std::FILE, CloseFile> times_;
   VideoShot scratch_;  // the capture's side
   Latest<VideoShot> shots_;
@@ -65,8 +69,10 @@ class VideoWriter {
   std::atomic<bool> failed_{false};
   std::atomic<std::uint64_t> written_{0};
   std::atomic<std::uint64_t> other_size_{0};
-  std::string trouble_;       // written before failed_, read after
-  std::string size_trouble_;  // as well, of other_size_
+  std::string trouble_;                  // written before failed_, read after
+  std::string size_trouble_;             // as well, of other_size_
+  std::unique_ptr<VideoEncoder> video_;  // the thread's
+  cv::Size size_;
   std::thread thread_;
 };
 

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "core/net/mono_clock.h"
+#include "producers/camera/files/bgr_picture.h"
 #include "producers/camera/view/overlay.h"
 #include "producers/camera/view/picture_window.h"
 
@@ -118,11 +118,15 @@ void Preview::draw_all() {
 
 // Readers of the file find a complete picture, the old one or the new.
 bool Preview::write_file(const cv::Mat& picture) {
-  std::vector<std::uint8_t> bytes;
+  const auto bytes =
+      ending_of(options_.file) == ".png" ? png_of_bgr(picture) : jpeg_of_bgr(picture);
+  if (!bytes) {
+    trouble_ = "the preview cannot be drawn: " + bytes.error().what;
+    return false;
+  }
   const std::string next = options_.file + ".next";
-  std::FILE* file = nullptr;
-  if (cv::imencode(ending_of(options_.file), picture, bytes)) file = std::fopen(next.c_str(), "wb");
-  bool fine = file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  std::FILE* file = std::fopen(next.c_str(), "wb");
+  bool fine = file && std::fwrite(bytes->data(), 1, bytes->size(), file) == bytes->size();
   if (file) fine = std::fclose(file) == 0 && fine;
   fine = fine && std::rename(next.c_str(), options_.file.c_str()) == 0;
   if (!fine)

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "formats/media/media_module.h"
+#include "producers/music/decode/sndfile_decoder.h"
+
 namespace dance {
 namespace {
 
@@ -14,6 +17,14 @@ constexpr std::size_t kAudioBlock_frames = 4096;
 
 // Damaged floating-point files may hold anything.
 float clean(float sample) { return std::isfinite(sample) ? sample : 0.0f; }
+
+Result<std::unique_ptr<AudioDecoder>> open_with_module(const std::string& path) {
+  const auto module = media_module();
+  if (!module)
+    return fail("libsndfile cannot read it. " + module.error().what + "; or convert it to " +
+                other_audio_format(path));
+  return (*module)->open_sound(path);
+}
 
 }  // namespace
 
@@ -27,7 +38,7 @@ Result<AudioFile> AudioFile::open(const std::string& path) {
   // A pipe would be waited for.
   if (!S_ISREG(status.st_mode)) return fail(path + ": no regular file; name a file of music");
   auto decoder = open_with_sndfile(path);
-  if (!decoder) decoder = open_with_ffmpeg(path);
+  if (!decoder) decoder = open_with_module(path);
   if (!decoder) return fail(path + ": " + decoder.error().what);
   AudioFile audio(path, std::move(*decoder));
   const AudioFormat& format = audio.format_;

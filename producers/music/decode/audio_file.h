@@ -1,5 +1,6 @@
 // A file of music, read block by block. libsndfile decodes WAV, FLAC, Ogg Vorbis, Opus and MP3;
-// FFmpeg decodes what libsndfile cannot: M4A, WebM, an Ogg file with a cover picture, films.
+// the media module (FFmpeg) decodes what libsndfile cannot: M4A, WebM, an Ogg file with a cover
+// picture, films. It is loaded when such a file comes.
 //
 // Units/frames: samples are -1 to 1 at rate_hz(); a frame is one sample of each channel. mono is
 //               the mean of all channels.
@@ -9,10 +10,11 @@
 //               there with an Error.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "producers/music/decode/audio_decoder.h"
+#include "formats/media/audio_decoder.h"
 
 namespace dance {
 

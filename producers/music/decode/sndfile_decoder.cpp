@@ -1,6 +1,6 @@
-#include <sndfile.h>
+#include "producers/music/decode/sndfile_decoder.h"
 
-#include "producers/music/decode/audio_decoder.h"
+#include <sndfile.h>
 
 namespace dance {
 namespace {

@@ -17,8 +17,10 @@ int main(int argc, char** argv) {
     return std::fclose(file) == 0 && written;
   };
   using namespace dance::test;
-  const bool written = write("ramp.png", png(9, 7)) && write("ramp.jpg", jpeg(16, 16)) &&
-                       write("progressive.jpg", jpeg(16, 16, TJFLAG_PROGRESSIVE)) &&
-                       write("ramp.webp", webp(9, 7)) && write("large.png", png(80, 70));
+  const bool written =
+      write("ramp.png", png(9, 7)) && write("ramp.jpg", jpeg(16, 16)) &&
+      write("progressive.jpg", jpeg(16, 16, TJFLAG_PROGRESSIVE)) &&
+      write("ramp.webp", webp(9, 7)) && write("held.jpg", with_exif(jpeg(16, 16), exif(6, true))) &&
+      write("held.png", with_exif(png(9, 7), exif(8, false))) && write("large.png", png(80, 70));
   return written ? 0 : 1;
 }

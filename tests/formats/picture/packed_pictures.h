@@ -65,4 +65,31 @@ inline std::vector<std::uint8_t> webp(int width_px, int height_px) {
   return bytes;
 }
 
+// Exif data that note this orientation, behind another note.
+inline std::vector<std::uint8_t> exif(std::uint8_t orientation, bool is_little) {
+  if (is_little)
+    return {'I', 'I', 42, 0,    8, 0, 0, 0, 2, 0, 0x0f, 0x01,        2, 0, 1, 0, 0, 0, 'x',
+            0,   0,   0,  0x12, 1, 3, 0, 1, 0, 0, 0,    orientation, 0, 0, 0, 0, 0, 0, 0};
+  return {'M', 'M', 0, 42, 0,    0, 0, 8, 0, 2, 0x01, 0x0f, 0,           2, 0, 0, 0, 1, 'x',
+          0,   0,   0, 1,  0x12, 0, 3, 0, 0, 0, 1,    0,    orientation, 0, 0, 0, 0, 0, 0};
+}
+
+inline std::vector<std::uint8_t> with_exif(std::vector<std::uint8_t> picture,
+                                           const std::vector<std::uint8_t>& note) {
+  std::vector<std::uint8_t> part;
+  std::ptrdiff_t at = 2;  // behind the beginning of the JPEG
+  if (picture[0] == 0xff) {
+    const auto length = static_cast<std::uint8_t>(note.size() + 8);
+    part = {0xff, 0xe1, 0, length, 'E', 'x', 'i', 'f', 0, 0};
+    part.insert(part.end(), note.begin(), note.end());
+  } else {
+    at = 8 + 25;  // behind the first chunk of the PNG
+    part = {0, 0, 0, static_cast<std::uint8_t>(note.size()), 'e', 'X', 'I', 'f'};
+    part.insert(part.end(), note.begin(), note.end());
+    part.insert(part.end(), 4, 0);
+  }
+  picture.insert(picture.begin() + at, part.begin(), part.end());
+  return picture;
+}
+
 }  // namespace dance::test

@@ -1,8 +1,10 @@
-// libFuzzer target: any bytes through the three picture decoders.
+// libFuzzer target: any bytes through the three picture decoders, and the search for how a picture
+// has to be turned.
 #include <cstddef>
 #include <cstdint>
 
 #include "core/base/assert.h"
+#include "formats/picture/orientation.h"
 #include "formats/picture/picture.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -10,6 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   limits.side_px = 256;
   limits.decoded_bytes = std::size_t{4} * 256 * 256;
   limits.reduced_side_px = 64;
+  const int orientation = dance::exif_orientation(std::span(data, size));
+  DANCE_ASSERT(orientation >= 1 && orientation <= 8, orientation);
   const auto picture = dance::read_picture(std::span(data, size), limits);
   if (!picture) {
     for (const char c : picture.error().what) DANCE_ASSERT(c >= 0x20 && c < 0x7f, c);

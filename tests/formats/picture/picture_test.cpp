@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "formats/picture/jpeg_writer.h"
+#include "formats/picture/orientation.h"
 #include "formats/picture/png_writer.h"
 #include "tests/formats/picture/packed_pictures.h"
 
@@ -67,6 +69,56 @@ TEST(PngWriter, PixelsThatDoNotFitTheSizeAreRefused) {
   EXPECT_FALSE(png_of_rgb(5, 3, pixels));
   EXPECT_FALSE(png_of_rgb(0, 0, {}));
   EXPECT_FALSE(png_of_rgba(-5, -3, pixels));
+}
+
+TEST(JpegWriter, PixelsComeBackNearly) {
+  Bytes grey(20 * 12 * 3);
+  for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<std::uint8_t>(60 + i / 9);
+  const auto file = jpeg_of_rgb(20, 12, grey, 95);
+  ASSERT_TRUE(file) << file.error().what;
+  const auto picture = read_picture(*file);
+  ASSERT_TRUE(picture) << picture.error().what;
+  ASSERT_EQ(picture->rgba.size(), 20u * 12 * 4);
+  for (std::size_t i = 0; i < grey.size(); ++i)
+    ASSERT_NEAR(picture->rgba[i / 3 * 4 + i % 3], grey[i], 8) << i;
+  const auto coarse = jpeg_of_rgb(20, 12, grey, 10);
+  ASSERT_TRUE(coarse);
+  EXPECT_LT(coarse->size(), file->size());
+  EXPECT_FALSE(jpeg_of_rgb(20, 11, grey, 95));
+  EXPECT_FALSE(jpeg_of_rgb(0, 0, {}, 95));
+}
+
+TEST(Orientation, IsFoundInJpegAndPngInEitherByteOrder) {
+  for (const Bytes& picture : {test::jpeg(16, 16), test::png(9, 7)}) {
+    EXPECT_EQ(exif_orientation(picture), 1);
+    for (const bool is_little : {true, false}) {
+      for (std::uint8_t noted = 1; noted <= 8; ++noted)
+        EXPECT_EQ(exif_orientation(test::with_exif(picture, test::exif(noted, is_little))), noted);
+      for (const int wrong : {0, 9, 255})
+        EXPECT_EQ(exif_orientation(test::with_exif(
+                      picture, test::exif(static_cast<std::uint8_t>(wrong), is_little))),
+                  1);
+    }
+  }
+  EXPECT_EQ(exif_orientation(test::webp(9, 7)), 1);
+  EXPECT_EQ(exif_orientation({}), 1);
+}
+
+TEST(Orientation, WhatIsDamagedIsLeftAsItIs) {
+  for (const Bytes& picture : {test::jpeg(16, 16), test::png(9, 7)}) {
+    const Bytes whole = test::with_exif(picture, test::exif(6, true));
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      const int turned = exif_orientation(std::span(whole).first(size));
+      EXPECT_TRUE(turned == 1 || turned == 6) << size;
+    }
+    Bytes bytes = whole;
+    for (std::size_t i = 0; i < bytes.size() * 8; ++i) {
+      bytes[i / 8] ^= static_cast<std::uint8_t>(1u << i % 8);
+      const int turned = exif_orientation(bytes);
+      EXPECT_TRUE(turned >= 1 && turned <= 8) << i;
+      bytes[i / 8] ^= static_cast<std::uint8_t>(1u << i % 8);
+    }
+  }
 }
 
 TEST(RgbaPicture, TheKindIsToldByTheFirstBytes) {

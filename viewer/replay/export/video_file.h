@@ -1,11 +1,11 @@
-// VideoFile: pictures into an MP4, WebM or Matroska file, through FFmpeg's libraries, by the best
-// encoder that they have for it: libx264, else libvpx-vp9, else mpeg4.
+// VideoFile: pictures into an MP4, WebM or Matroska file, through the media module, by the best
+// encoder that FFmpeg has for it: libx264, else libvpx-vp9, else mpeg4.
 //
 // Units/frames: sRGB pictures of one size; an odd last row or column is left out.
 // Ownership:    owns encoder and file; the file has the name path.part until finish().
 // Threads:      none inside but the encoder's own; one owner.
-// Failure:      create() says which formats this machine can write; nothing is overwritten. A file
-//               that was not finished is removed.
+// Failure:      create() says which formats this machine can write, or that the media module is
+//               missing; nothing is overwritten. A file that was not finished is removed.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,7 @@ class VideoFile {
   virtual std::string encoder() const = 0;
 };
 
-// "mp4 (libx264), webm (libvpx-vp9)", or that this build has none.
+// "mp4 (libx264), webm (libvpx-vp9)", or why there are none.
 std::string video_formats_here();
 
 }  // namespace dance

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "producers/camera/advice/camera_advice.h"
 #include "producers/camera/check/picture_light.h"
@@ -14,6 +13,7 @@
 #include "producers/camera/view/dancer_advice.h"
 #include "tests/formats/camera_view/drawn_view.h"
 #include "tests/producers/camera/estimator/pose_models.h"
+#include "tests/producers/camera/files/written_pictures.h"
 #include "tests/producers/camera/solver/seen_dance.h"
 
 namespace dance {
@@ -88,13 +88,13 @@ class FilmedDancer : public testing::Test {
   // Every third picture of the first six seconds: eight a second.
   template <class Change>
   Said told(Change change) {
-    cv::VideoCapture video(taiji_video());
+    VideoPictures video(taiji_video());
     CameraAdvice advice;
     advice.note(running_status());
     ViewShake shake;
     Said said;
     cv::Mat film;
-    for (int i = 0; i < 144 && video.read(film); ++i) {
+    for (int i = 0; i < 144 && video.next(film); ++i) {
       if (i % 3 != 0) continue;
       Frame frame;
       frame.image = change(film).clone();

@@ -4,12 +4,11 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "tests/allocation_guard.h"
 #include "tests/producers/camera/estimator/golden_bodies.h"
 #include "tests/producers/camera/estimator/pose_models.h"
+#include "tests/producers/camera/files/written_pictures.h"
 
 namespace dance {
 namespace {
@@ -22,10 +21,10 @@ Frame frame_of(const cv::Mat& image, std::size_t number) {
 }
 
 std::vector<cv::Mat> video_frames(std::size_t count, std::size_t every = 1) {
-  cv::VideoCapture video(taiji_video());
+  VideoPictures video(taiji_video());
   std::vector<cv::Mat> frames;
   cv::Mat image;
-  for (std::size_t i = 0; frames.size() < count && video.read(image); ++i)
+  for (std::size_t i = 0; frames.size() < count && video.next(image); ++i)
     if (i % every == 0) frames.push_back(image.clone());
   return frames;
 }
@@ -51,10 +50,10 @@ TEST(PoseEstimator, SeesInPicturesWhatTheOriginalSees) {
   ASSERT_EQ(golden.size(), 7u);
   const auto estimator = opened(each_for_itself());
   ASSERT_TRUE(estimator);
-  cv::VideoCapture video(taiji_video());
+  VideoPictures video(taiji_video());
   std::size_t compared = 0;
   cv::Mat image;
-  for (std::size_t i = 0; i < 401 && video.isOpened() && video.read(image); ++i) {
+  for (std::size_t i = 0; i < 401 && video.next(image); ++i) {
     const std::string name = "frame " + std::to_string(i);
     if (!golden.count(name)) continue;
     ++compared;
@@ -63,9 +62,10 @@ TEST(PoseEstimator, SeesInPicturesWhatTheOriginalSees) {
   for (const auto& [name, due] : golden) {
     if (name.rfind("sample ", 0) != 0) continue;
     if (!std::filesystem::exists(opencv_sample(name.substr(7)))) continue;
-    const cv::Mat picture = cv::imread(opencv_sample(name.substr(7)));
+    const auto picture = read_bgr_picture(opencv_sample(name.substr(7)));
+    ASSERT_TRUE(picture) << picture.error().what;
     ++compared;
-    expect_like(estimator->estimate(frame_of(picture, 0)), due, 0.1, 0.002, name);
+    expect_like(estimator->estimate(frame_of(*picture, 0)), due, 0.1, 0.002, name);
   }
   if (compared == 0) GTEST_SKIP() << "neither " << taiji_video() << " nor opencv-doc is here";
 }
@@ -90,10 +90,10 @@ TEST(PoseEstimator, FollowsAVideoAsTheOriginalDoes) {
   ASSERT_EQ(golden.size(), 7u);
   const auto estimator = opened({});
   ASSERT_TRUE(estimator);
-  cv::VideoCapture video(taiji_video());
+  VideoPictures video(taiji_video());
   cv::Mat image;
   std::size_t compared = 0;
-  for (std::size_t i = 0; i < 150 && video.read(image); ++i) {
+  for (std::size_t i = 0; i < 150 && video.next(image); ++i) {
     const BodyLandmarks& body = estimator->estimate(frame_of(image, i));
     ASSERT_TRUE(body.found) << "frame " << i;
     EXPECT_EQ(body.is_new, i == 0);

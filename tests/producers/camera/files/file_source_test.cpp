@@ -4,12 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "core/net/mono_clock.h"
 #include "producers/camera/files/image_reel.h"
 #include "producers/camera/files/open_frame_source.h"
+#include "tests/producers/camera/files/written_pictures.h"
 #include "tests/producers/camera/v4l2/drawn_pictures.h"
 
 namespace dance {
@@ -34,16 +33,16 @@ class FileSource : public testing::Test {
   std::string in(const std::string& name) const { return folder_ / name; }
   // Pictures that tell by their grey which they are.
   std::string video(const std::string& name, double hz, int pictures = kFilePictures) const {
-    cv::VideoWriter writer(in(name), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
-                           hz, cv::Size(kFileWidth_px, kFileHeight_px));
-    EXPECT_TRUE(writer.isOpened());
-    for (int i = 0; i < pictures; ++i)
-      writer.write(drawn_grey(kFileWidth_px, kFileHeight_px, level_of_picture(i)));
+    write_video(in(name), hz, pictures, {kFileWidth_px, kFileHeight_px}, [](int i) {
+      return drawn_grey(kFileWidth_px, kFileHeight_px, level_of_picture(i));
+    });
     return in(name);
   }
   std::string image(const std::string& name, int number) const {
-    cv::imwrite(in(name), drawn_grey(kFileWidth_px, kFileHeight_px, level_of_picture(number)));
-    return in(name);
+    std::string path = in(name);
+    const cv::Mat grey = drawn_grey(kFileWidth_px, kFileHeight_px, level_of_picture(number));
+    write_picture(path, grey);
+    return path;
   }
   std::string text(const std::string& name, const std::string& content) const {
     std::ofstream(in(name)) << content;
@@ -66,15 +65,23 @@ class FileSource : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(FileSource, AVideoAsFastAsPossibleGivesEveryPictureWithItsTime) {
-  const auto source = opened(video("a.avi", 25.0), kFast);
+class VideoSource : public FileSource {
+ protected:
+  void SetUp() override {
+    FileSource::SetUp();
+    SKIP_WITHOUT_MEDIA();
+  }
+};
+
+TEST_F(VideoSource, AVideoAsFastAsPossibleGivesEveryPictureWithItsTime) {
+  const auto source = opened(video("a.mkv", 25.0), kFast);
   ASSERT_NE(source, nullptr);
   EXPECT_EQ(source->format().width_px, kFileWidth_px);
   EXPECT_EQ(source->format().height_px, kFileHeight_px);
   EXPECT_EQ(source->format().hz, 25.0);
-  EXPECT_EQ(source->format().encoding, "MJPG");
-  EXPECT_EQ(source->name(), "a.avi");
-  EXPECT_EQ(line_on(*source), "a.avi: 64x48 MJPG at 25 Hz");
+  EXPECT_EQ(source->format().encoding, "mjpeg");
+  EXPECT_EQ(source->name(), "a.mkv");
+  EXPECT_EQ(line_on(*source), "a.mkv: 64x48 mjpeg at 25 Hz");
   Frame frame;
   MonoTime start;
   for (int i = 0; i < kFilePictures; ++i) {
@@ -94,8 +101,8 @@ TEST_F(FileSource, AVideoAsFastAsPossibleGivesEveryPictureWithItsTime) {
   EXPECT_EQ(source->counters().damaged, 0u);
 }
 
-TEST_F(FileSource, InRealTimeASlowReaderGetsTheNewest) {
-  const auto source = opened(video("a.avi", 100.0), {});
+TEST_F(VideoSource, InRealTimeASlowReaderGetsTheNewest) {
+  const auto source = opened(video("a.mkv", 100.0), {});
   ASSERT_NE(source, nullptr);
   const Duration period = Duration::ms(10);
   Frame frame;
@@ -129,8 +136,8 @@ TEST_F(FileSource, InRealTimeASlowReaderGetsTheNewest) {
   EXPECT_GT(source->counters().outrun, 0u);
 }
 
-TEST_F(FileSource, InRealTimeAPictureIsNotEarlyAndWaitingEnds) {
-  const auto source = opened(video("a.avi", 0.01, 2), {});
+TEST_F(VideoSource, InRealTimeAPictureIsNotEarlyAndWaitingEnds) {
+  const auto source = opened(video("a.mkv", 0.01, 2), {});
   ASSERT_NE(source, nullptr);
   Frame frame;
   ASSERT_EQ(source->next(Duration(), frame), FrameState::kFrame);
@@ -138,10 +145,10 @@ TEST_F(FileSource, InRealTimeAPictureIsNotEarlyAndWaitingEnds) {
   EXPECT_EQ(source->next(Duration(), frame), FrameState::kNone);
 }
 
-TEST_F(FileSource, ALoopGoesOnInTimeAndCount) {
+TEST_F(VideoSource, ALoopGoesOnInTimeAndCount) {
   PlayOptions play = kFast;
   play.loops = true;
-  const auto source = opened(video("a.avi", 25.0), play);
+  const auto source = opened(video("a.mkv", 25.0), play);
   ASSERT_NE(source, nullptr);
   Frame frame;
   MonoTime before;
@@ -156,10 +163,10 @@ TEST_F(FileSource, ALoopGoesOnInTimeAndCount) {
   }
 }
 
-TEST_F(FileSource, ALoopInRealTimeKeepsItsPace) {
+TEST_F(VideoSource, ALoopInRealTimeKeepsItsPace) {
   PlayOptions play;
   play.loops = true;
-  const auto source = opened(video("a.avi", 500.0), play);
+  const auto source = opened(video("a.mkv", 500.0), play);
   ASSERT_NE(source, nullptr);
   Frame frame;
   MonoTime start;
@@ -177,8 +184,8 @@ TEST_F(FileSource, ALoopInRealTimeKeepsItsPace) {
   }
 }
 
-TEST_F(FileSource, AVideoThatIsCutOffSaysSo) {
-  const std::string whole = video("a.avi", 25.0, 2 * kFilePictures);
+TEST_F(VideoSource, AVideoThatIsCutOffSaysSo) {
+  const std::string whole = video("a.mkv", 25.0, 2 * kFilePictures);
   fs::resize_file(whole, fs::file_size(whole) * 2 / 3);
   const auto source = opened(whole, kFast);
   ASSERT_NE(source, nullptr);
@@ -249,15 +256,10 @@ TEST_F(FileSource, APictureThatIsDamagedInsideIsLeftOutAndCounted) {
 TEST_F(FileSource, ErrorsNameTheFileTheReasonAndTheCure) {
   EXPECT_EQ(why_not(in("missing.mp4")),
             in("missing.mp4") + ": there is no such file; check the name");
-  EXPECT_EQ(why_not(text("a.mp4", "no video at all")),
-            in("a.mp4") +
-                ": is neither a video nor a picture that can be read; make it one with ffmpeg -i " +
-                in("a.mp4") + " dance.mp4");
   EXPECT_EQ(why_not(text("b.mp4", "")), in("b.mp4") + ": is empty; fetch it again");
   fs::create_directory(in("empty"));
   EXPECT_EQ(why_not(in("empty")),
-            in("empty") +
-                ": has no pictures; they are called .jpg, .png, .bmp, .webp, .tif, .pgm or .ppm");
+            in("empty") + ": has no pictures; they are called .jpg, .png or .webp");
   const std::string good = image("good.png", 0);
   const std::string bad = text("bad.png", "no picture");
   EXPECT_EQ(why_not(good + "," + bad),
@@ -265,12 +267,99 @@ TEST_F(FileSource, ErrorsNameTheFileTheReasonAndTheCure) {
   EXPECT_EQ(why_not(good + "," + in("gone.png")),
             in("gone.png") + ": there is no such file; check the name");
   fs::resize_file(good, 50);
-  EXPECT_EQ(why_not(good), good + ": is damaged; fetch it again or leave it out");
+  const std::string damaged = why_not(good);
+  EXPECT_TRUE(damaged.starts_with(good + ": a PNG that cannot be read: ")) << damaged;
+  EXPECT_TRUE(damaged.ends_with("; fetch it again or leave it out")) << damaged;
+  EXPECT_EQ(why_not(text("old.tif", "II*") + "," + good),
+            in("old.tif") +
+                ": is no picture that can be read; make it a .png or .jpg, or leave it "
+                "out");
   EXPECT_NE(why_not("no such camera name").find("no camera is called 'no such camera name'"),
             std::string::npos);
 }
 
-TEST_F(FileSource, ARealVideoPlaysWhole) {
+TEST_F(VideoSource, WhatIsNoVideoIsRefused) {
+  EXPECT_EQ(why_not(text("a.mp4", "no video at all")),
+            in("a.mp4") +
+                ": is neither a video nor a picture that can be read; make it one with ffmpeg -i " +
+                in("a.mp4") + " dance.mp4");
+  // A playlist of other files, and a film without pictures.
+  text("list.m3u8", "#EXTM3U\n#EXTINF:1,\n" + video("a.mkv", 25.0) + "\n");
+  EXPECT_NE(why_not(in("list.m3u8")).find("is neither a video"), std::string::npos);
+  const std::string cut = video("b.mkv", 25.0);
+  fs::resize_file(cut, 600);
+  EXPECT_NE(why_not(cut).find(cut), std::string::npos);
+}
+
+// What lies in the middle of the left, upper, right and lower quarter.
+std::array<int, 4> levels_around(const cv::Mat& picture) {
+  const auto at = [&](double x, double y) {
+    return picture.at<cv::Vec3b>(static_cast<int>(y * picture.rows),
+                                 static_cast<int>(x * picture.cols))[1] /
+           64;
+  };
+  return {at(0.125, 0.5), at(0.5, 0.125), at(0.875, 0.5), at(0.5, 0.875)};
+}
+
+// Bright at the left, dark at the right, the rest between.
+cv::Mat lying_picture() {
+  cv::Mat picture(kFileHeight_px, kFileWidth_px, CV_8UC3, cv::Scalar::all(100));
+  picture.colRange(0, kFileWidth_px / 4).setTo(cv::Scalar::all(230));
+  picture.colRange(kFileWidth_px * 3 / 4, kFileWidth_px).setTo(cv::Scalar::all(20));
+  return picture;
+}
+
+TEST_F(VideoSource, IsTurnedAsItsTelephoneWasHeld) {
+  write_video(in("lying.mkv"), 25.0, 2, {kFileWidth_px, kFileHeight_px},
+              [](int) { return lying_picture(); });
+  const std::string turn =
+      "cd '" + folder_.string() +
+      "' && ffmpeg -nostdin -v error -i lying.mkv -c copy -metadata:s:v:0 rotate=90 turned.mp4 && "
+      "ffmpeg -nostdin -v error -i turned.mp4 -frames:v 1 upright.png";
+  if (std::system(turn.c_str()) != 0)
+    GTEST_SKIP() << "no ffmpeg program, which makes the film; apt-get install ffmpeg";
+  const auto upright = read_bgr_picture(in("upright.png"));
+  ASSERT_TRUE(upright) << upright.error().what;
+  EXPECT_EQ(levels_around(lying_picture()), (std::array<int, 4>{3, 1, 0, 1}));
+  ASSERT_NE(levels_around(*upright), levels_around(lying_picture()));
+  const auto source = opened(in("turned.mp4"), kFast);
+  ASSERT_NE(source, nullptr);
+  EXPECT_EQ(source->format().width_px, kFileHeight_px);
+  EXPECT_EQ(source->format().height_px, kFileWidth_px);
+  Frame frame;
+  ASSERT_EQ(source->next(Duration(), frame), FrameState::kFrame);
+  ASSERT_EQ(frame.image.size(), upright->size());
+  EXPECT_EQ(levels_around(frame.image), levels_around(*upright)) << "as ffmpeg turns it";
+}
+
+TEST_F(FileSource, APhotographStandsAsItsCameraWasHeld) {
+  const auto jpeg = jpeg_of_bgr(lying_picture());
+  ASSERT_TRUE(jpeg);
+  const std::string whole(jpeg->begin(), jpeg->end());
+  // Left, upper, right and lower side as they are seen, by the orientation that is noted.
+  const std::array<std::array<int, 4>, 8> seen{{{3, 1, 0, 1},
+                                                {0, 1, 3, 1},
+                                                {0, 1, 3, 1},
+                                                {3, 1, 0, 1},
+                                                {1, 3, 1, 0},
+                                                {1, 3, 1, 0},
+                                                {1, 0, 1, 3},
+                                                {1, 0, 1, 3}}};
+  for (char noted = 1; noted <= 8; ++noted) {
+    // A segment of 34 bytes: Exif's head, and a directory of one entry.
+    std::string note("\xff\xe1\0\x22", 4);
+    note += std::string("Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0", 24);
+    note += noted;
+    note += std::string(7, '\0');
+    const std::string path = text("held.jpg", whole.substr(0, 2) + note + whole.substr(2));
+    const auto picture = read_bgr_picture(path);
+    ASSERT_TRUE(picture) << picture.error().what;
+    EXPECT_EQ(levels_around(*picture), seen[static_cast<std::size_t>(noted - 1)])
+        << static_cast<int>(noted);
+  }
+}
+
+TEST_F(VideoSource, ARealVideoPlaysWhole) {
   const std::string path = DANCE_SOURCE_DIR "/../shared/data/video/taiji.mp4";
   if (!fs::exists(path)) GTEST_SKIP() << path << " is missing: no real video beside this tree";
   const auto source = opened(path, kFast);

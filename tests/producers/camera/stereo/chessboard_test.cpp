@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "producers/camera/stereo/calibration_file.h"
 #include "producers/camera/stereo/chessboard_calibration.h"
+#include "tests/producers/camera/files/written_pictures.h"
 #include "tests/producers/camera/stereo/drawn_board.h"
 #include "tests/producers/camera/stereo/opencv_doc.h"
 
@@ -143,8 +142,7 @@ class OpencvDocBoards : public ::testing::Test {
     if (folder_.empty()) GTEST_SKIP() << kNoOpencvDoc;
   }
   cv::Mat picture(const char* eye, int i) const {
-    return cv::imread(folder_ + "/" + eye + (i < 10 ? "0" : "") + std::to_string(i) + ".jpg",
-                      cv::IMREAD_GRAYSCALE);
+    return grey_picture(folder_ + "/" + eye + (i < 10 ? "0" : "") + std::to_string(i) + ".jpg");
   }
   static std::vector<int> numbers() { return {1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13, 14}; }
   std::string folder_;

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "core/base/random.h"
 #include "producers/camera/lens.h"
 #include "testing/camera/drawn_rig.h"
 #include "testing/camera/stereo_dancer.h"
+#include "tests/producers/camera/files/written_pictures.h"
 #include "tests/producers/camera/stereo/opencv_doc.h"
 
 namespace dance {
@@ -111,9 +111,9 @@ TEST(RowStrip, BrightnessAndContrastOfTheOtherEyeDoNotMatter) {
 TEST(RowStrip, AgreesWithTheTruthOfARealPair) {
   const std::string folder = opencv_doc_folder();
   if (folder.empty()) GTEST_SKIP() << kNoOpencvDoc;
-  const cv::Mat left = cv::imread(folder + "/aloeL.jpg", cv::IMREAD_GRAYSCALE);
-  const cv::Mat right = cv::imread(folder + "/aloeR.jpg", cv::IMREAD_GRAYSCALE);
-  const cv::Mat truth = cv::imread(folder + "/aloeGT.png", cv::IMREAD_GRAYSCALE);
+  const cv::Mat left = grey_picture(folder + "/aloeL.jpg");
+  const cv::Mat right = grey_picture(folder + "/aloeR.jpg");
+  const cv::Mat truth = grey_picture(folder + "/aloeGT.png");
   ASSERT_FALSE(left.empty() || right.empty() || truth.empty());
   const RectifiedPair pair(straight_rig(left.size()));
   const cv::Rect all(0, 0, left.cols, left.rows);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+
+#include "core/base/assert.h"
+#include "producers/camera/files/bgr_picture.h"
 
 namespace dance {
 namespace {
@@ -78,9 +80,9 @@ std::vector<std::uint8_t> nv12_of(const cv::Mat& bgr) {
 }
 
 std::vector<std::uint8_t> jpeg_of(const cv::Mat& bgr) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, 90});
-  return bytes;
+  auto bytes = jpeg_of_bgr(bgr, 90);
+  DANCE_ASSERT(bytes.has_value());
+  return std::move(*bytes);
 }
 
 double mean_difference(const cv::Mat& a, const cv::Mat& b) {

@@ -4,9 +4,9 @@
 
 #include <chrono>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <thread>
 
+#include "producers/camera/files/bgr_picture.h"
 #include "tests/producers/camera/view/standing_body.h"
 
 namespace dance {
@@ -34,8 +34,8 @@ cv::Mat shown(Preview& preview, const std::string& file, const Frame& frame, con
   while (std::chrono::steady_clock::now() < give_up) {
     preview.show(frame, standing_body(), "alice, 30 Hz");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    const cv::Mat picture = cv::imread(file);
-    if (!picture.empty() && is_so(picture)) return picture;
+    const auto picture = read_bgr_picture(file);
+    if (picture && is_so(*picture)) return *picture;
   }
   return {};
 }

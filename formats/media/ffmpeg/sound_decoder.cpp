@@ -1,4 +1,4 @@
-#include "producers/music/decode/ffmpeg_decoder.h"
+#include "formats/media/ffmpeg/sound_decoder.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,16 @@ extern "C" {
 
 namespace dance {
 namespace {
+
+// Without ASF: it does not say where its WMA sound begins.
+constexpr const char* kSoundContainers =
+    "aac,ac3,aiff,amr,ape,au,caf,eac3,flac,matroska,mov,mp3,mpeg,mpegts,ogg,tta,w64,wav,wv";
+constexpr const char* kSoundCodecs =
+    "aac,aac_latm,ac3,alac,amrnb,amrwb,ape,eac3,flac,mp1,mp1float,mp2,mp2float,mp3,mp3float,opus,"
+    "pcm_alaw,pcm_f32be,pcm_f32le,pcm_f64be,pcm_f64le,pcm_mulaw,pcm_s16be,pcm_s16le,pcm_s24be,"
+    "pcm_s24le,pcm_s32be,pcm_s32le,pcm_s8,pcm_u8,tta,vorbis,wavpack";
+constexpr StreamWish kSoundWish{AVMEDIA_TYPE_AUDIO, "music",      "sound",
+                                kSoundContainers,   kSoundCodecs, 1};
 
 constexpr AVRational kMicroseconds = {1, AV_TIME_BASE};
 constexpr int kMostBadPackets = 64;
@@ -35,10 +45,6 @@ constexpr std::int64_t kDiscarded_frames = 4096;
 
 }  // namespace
 
-Result<std::unique_ptr<AudioDecoder>> open_with_ffmpeg(const std::string& path) {
-  return FfmpegDecoder::open(path);
-}
-
 Result<std::unique_ptr<AudioDecoder>> FfmpegDecoder::open(const std::string& path) {
   std::unique_ptr<FfmpegDecoder> self(new FfmpegDecoder(path));
   if (auto opened = self->rewind(); !opened) return tl::make_unexpected(opened.error());
@@ -53,7 +59,7 @@ Result<std::unique_ptr<AudioDecoder>> FfmpegDecoder::open(const std::string& pat
 
 Result<void> FfmpegDecoder::rewind() {
   decoder_.reset();
-  DANCE_TRY(input_, FfmpegInput::open(path_));
+  DANCE_TRY(input_, FfmpegInput::open(path_, kSoundWish, other_audio_format(path_)));
   DANCE_TRY(decoder_, input_->open_decoder());
   converter_.reset();
   samples_.clear();
@@ -83,7 +89,7 @@ Result<void> FfmpegDecoder::find_length() {
   if (!reached) return fail("damaged at its end (" + reached.error().what + "); copy it again");
   format_.length_frames = at_frame_;
   // An M4A cuts off the padding of its last packet so.
-  const AVStream& sound = input_->sound();
+  const AVStream& sound = input_->stream();
   if (sound.duration > 0 &&
       input_->format().duration_estimation_method != AVFMT_DURATION_FROM_BITRATE)
     format_.length_frames =
@@ -212,7 +218,7 @@ Result<void> FfmpegDecoder::seek(std::int64_t frame) {
 bool FfmpegDecoder::enter(std::int64_t frame, std::int64_t preroll_frames) {
   if (!is_time(first_time_) || frame <= preroll_frames) return false;
   const std::int64_t from_first = av_rescale_q(
-      frame - preroll_frames, AVRational{1, format_.rate_hz}, input_->sound().time_base);
+      frame - preroll_frames, AVRational{1, format_.rate_hz}, input_->stream().time_base);
   if (!input_->seek(first_time_ + from_first)) return false;
   avcodec_flush_buffers(decoder_.get());
   converter_.reset();
@@ -233,7 +239,7 @@ bool FfmpegDecoder::enter(std::int64_t frame, std::int64_t preroll_frames) {
 // Where in the song decoded_ is, by its container.
 std::optional<std::int64_t> FfmpegDecoder::decoded_frame() const {
   if (!is_time(decoded_->pts) || !is_time(first_time_)) return std::nullopt;
-  return frame_of(decoded_->pts - first_time_, input_->sound().time_base);
+  return frame_of(decoded_->pts - first_time_, input_->stream().time_base);
 }
 
 // To that frame, or to the end where it comes first.

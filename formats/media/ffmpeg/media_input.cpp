@@ -1,4 +1,4 @@
-#include "producers/music/decode/ffmpeg_input.h"
+#include "formats/media/ffmpeg/media_input.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -7,8 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-
-#include "producers/music/decode/audio_decoder.h"
 
 extern "C" {
 #include <libavutil/dict.h>
@@ -25,24 +23,12 @@ constexpr int kIoBuffer_bytes = 64 * 1024;
 constexpr std::int64_t kMostBytesBetweenPackets = std::int64_t{256} * 1024 * 1024;
 constexpr std::size_t kMostBytesAtOnce = std::size_t{256} * 1024 * 1024;
 
-// Without ASF: it does not say where its WMA sound begins.
-constexpr const char* kContainers =
-    "aac,ac3,aiff,amr,ape,au,caf,eac3,flac,matroska,mov,mp3,mpeg,mpegts,ogg,tta,w64,wav,wv";
-constexpr const char* kCodecs =
-    "aac,aac_latm,ac3,alac,amrnb,amrwb,ape,eac3,flac,mp1,mp1float,mp2,mp2float,mp3,mp3float,opus,"
-    "pcm_alaw,pcm_f32be,pcm_f32le,pcm_f64be,pcm_f64le,pcm_mulaw,pcm_s16be,pcm_s16le,pcm_s24be,"
-    "pcm_s24le,pcm_s32be,pcm_s32le,pcm_s8,pcm_u8,tta,vorbis,wavpack";
 constexpr const char* kMostStreams = "64";
+constexpr const char* kMostPixels = "67108864";  // 8192 × 8192
 
 // A playlist, or an image sequence: what a file names beside itself stays closed.
 int refuse_other_files(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
   return AVERROR(EPERM);
-}
-
-// For the process: what goes wrong is told by Errors, not by lines on the terminal.
-void quieten() {
-  av_log_set_level(AV_LOG_QUIET);
-  av_max_alloc(kMostBytesAtOnce);
 }
 
 }  // namespace
@@ -50,6 +36,11 @@ void quieten() {
 void FfmpegFree::operator()(AVIOContext* io) const {
   if (io) av_freep(&io->buffer);
   avio_context_free(&io);
+}
+
+void quieten_ffmpeg() {
+  av_log_set_level(AV_LOG_QUIET);
+  av_max_alloc(kMostBytesAtOnce);
 }
 
 std::string ffmpeg_error(int code) {
@@ -77,9 +68,11 @@ std::int64_t FfmpegInput::seek_bytes(void* input, std::int64_t offset, int whenc
   return at < 0 ? AVERROR(errno) : at;
 }
 
-Result<std::unique_ptr<FfmpegInput>> FfmpegInput::open(const std::string& path) {
-  quieten();
-  std::unique_ptr<FfmpegInput> input(new FfmpegInput);
+Result<std::unique_ptr<FfmpegInput>> FfmpegInput::open(const std::string& path,
+                                                       const StreamWish& wish,
+                                                       const std::string& cure) {
+  quieten_ffmpeg();
+  std::unique_ptr<FfmpegInput> input(new FfmpegInput(wish, cure));
   input->file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (input->file_ < 0) return fail(std::strerror(errno));
   input->may_read_bytes_ = kMostBytesBetweenPackets;
@@ -91,25 +84,27 @@ Result<std::unique_ptr<FfmpegInput>> FfmpegInput::open(const std::string& path) 
   format->pb = input->io_.get();
   format->io_open = &refuse_other_files;
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "format_whitelist", kContainers, 0);
-  av_dict_set(&options, "codec_whitelist", kCodecs, 0);
+  av_dict_set(&options, "format_whitelist", wish.containers, 0);
+  if (wish.codecs != nullptr) av_dict_set(&options, "codec_whitelist", wish.codecs, 0);
   av_dict_set(&options, "protocol_whitelist", "none", 0);
   av_dict_set(&options, "max_streams", kMostStreams, 0);
   int code = avformat_open_input(&format, "", nullptr, &options);
   av_dict_free(&options);
   // What could not be opened is freed already.
   if (code < 0)
-    return fail("no music that can be read (" +
-                (code == AVERROR(EINVAL) ? "no known format of sound" : ffmpeg_error(code)) +
-                "); copy it again, or convert it to " + other_audio_format(path));
+    return fail("no " + std::string(wish.kind) + " that can be read (" +
+                (code == AVERROR(EINVAL) ? "no known format of " + std::string(wish.stream)
+                                         : ffmpeg_error(code)) +
+                "); copy it again, or convert it to " + cure);
   input->format_.reset(format);
   code = avformat_find_stream_info(format, nullptr);
-  if (code >= 0) code = av_find_best_stream(format, AVMEDIA_TYPE_AUDIO, -1, -1, &input->codec_, 0);
-  if (code == AVERROR_STREAM_NOT_FOUND) return fail("no sound in it; name a file of music");
+  if (code >= 0) code = av_find_best_stream(format, wish.type, -1, -1, &input->codec_, 0);
+  if (code == AVERROR_STREAM_NOT_FOUND)
+    return fail("no " + std::string(wish.stream) + " in it; name a file of " + wish.kind);
   if (code < 0)
-    return fail("its sound cannot be read (" + ffmpeg_error(code) +
-                "); copy it again, or convert it to " + other_audio_format(path));
-  input->sound_ = format->streams[code];
+    return fail("its " + std::string(wish.stream) + " cannot be read (" + ffmpeg_error(code) +
+                "); copy it again, or convert it to " + cure);
+  input->stream_ = format->streams[code];
   for (unsigned i = 0; i < format->nb_streams; ++i)
     if (static_cast<int>(i) != code) format->streams[i]->discard = AVDISCARD_ALL;
   return input;
@@ -123,17 +118,18 @@ FfmpegInput::~FfmpegInput() {
 Result<FfmpegPtr<AVCodecContext>> FfmpegInput::open_decoder() const {
   FfmpegPtr<AVCodecContext> decoder(avcodec_alloc_context3(codec_));
   if (!decoder) return fail("no memory");
-  int code = avcodec_parameters_to_context(decoder.get(), sound_->codecpar);
+  int code = avcodec_parameters_to_context(decoder.get(), stream_->codecpar);
   if (code < 0) return fail(ffmpeg_error(code));
-  decoder->pkt_timebase = sound_->time_base;
-  decoder->thread_count = 1;
+  decoder->pkt_timebase = stream_->time_base;
+  decoder->thread_count = wish_.threads;
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "codec_whitelist", kCodecs, 0);
+  if (wish_.codecs != nullptr) av_dict_set(&options, "codec_whitelist", wish_.codecs, 0);
+  av_dict_set(&options, "max_pixels", kMostPixels, 0);
   code = avcodec_open2(decoder.get(), codec_, &options);
   av_dict_free(&options);
   if (code < 0)
-    return fail("its sound, in " + std::string(codec_->name) + ", cannot be decoded (" +
-                ffmpeg_error(code) + "); convert it to .flac");
+    return fail("its " + std::string(wish_.stream) + ", in " + codec_->name +
+                ", cannot be decoded (" + ffmpeg_error(code) + "); convert it to " + cure_);
   return decoder;
 }
 
@@ -144,13 +140,13 @@ Result<bool> FfmpegInput::read(AVPacket& packet) {
     const int code = av_read_frame(format_.get(), &packet);
     if (code == AVERROR_EOF && may_read_bytes_ > 0) return false;
     if (code < 0) return fail(ffmpeg_error(code));
-    if (packet.stream_index == sound_->index) return true;
+    if (packet.stream_index == stream_->index) return true;
   }
 }
 
 bool FfmpegInput::seek(std::int64_t time) {
   may_read_bytes_ = kMostBytesBetweenPackets;
-  return av_seek_frame(format_.get(), sound_->index, time, AVSEEK_FLAG_BACKWARD) >= 0;
+  return av_seek_frame(format_.get(), stream_->index, time, AVSEEK_FLAG_BACKWARD) >= 0;
 }
 
 }  // namespace dance

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -43,9 +42,5 @@ class AudioDecoder {
 inline std::string other_audio_format(const std::string& path) {
   return path.ends_with(".flac") ? ".wav" : ".flac";
 }
-
-Result<std::unique_ptr<AudioDecoder>> open_with_sndfile(const std::string& path);
-// In a build without FFmpeg it always fails, and names the packages.
-Result<std::unique_ptr<AudioDecoder>> open_with_ffmpeg(const std::string& path);
 
 }  // namespace dance

@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "producers/music/decode/audio_decoder.h"
-#include "producers/music/decode/ffmpeg_input.h"
+#include "formats/media/audio_decoder.h"
+#include "formats/media/ffmpeg/media_input.h"
 
 namespace dance {
 
