@@ -49,7 +49,14 @@ Result<const MediaModule*> media_module() {
   static const MediaModule* loaded = nullptr;
   const std::lock_guard lock(mutex);
   if (loaded == nullptr) {
+#ifndef DANCE_HAVE_FFMPEG
+    // A module that lies here was made by another build.
+    return fail("FFmpeg is needed and not here: " + std::string(kMediaCure));
+#endif
     const auto prefix = std::filesystem::path(program_folder()).parent_path();
+    // Never from the folder that somebody happens to work in.
+    if (!prefix.is_absolute())
+      return fail("FFmpeg is needed, and this program cannot tell where it lies; is /proc there?");
     DANCE_TRY(loaded, media_module_from(prefix / "lib/dancegraph/libdance_media.so"));
   }
   return loaded;

@@ -20,11 +20,22 @@ using Handle = std::unique_ptr<void, Destroy>;
 constexpr std::size_t kMostScans = 16;
 constexpr std::size_t kLargePixels = std::size_t{1} << 24;  // smaller ones may have more scans
 
-// The beginnings of scans: within the packed pixels these two bytes cannot stand.
+// As a decoder finds them, marker by marker up to the end of the image: what segments hold (a
+// thumbnail), and what stands behind the image (a telephone's film), are no scans of it.
 std::size_t scans(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint8_t kFirstRestart = 0xd0, kStart = 0xd8, kEnd = 0xd9, kScan = 0xda;
   std::size_t count = 0;
-  for (std::size_t i = 1; i < bytes.size(); ++i)
-    if (bytes[i - 1] == 0xff && bytes[i] == 0xda) ++count;
+  for (std::size_t i = 1; i < bytes.size();) {
+    const std::uint8_t marker = bytes[i - 1] == 0xff ? bytes[i] : 0;
+    const bool is_pixels = marker == 0 || marker == 0xff || marker == 0x01;
+    if (is_pixels || (marker >= kFirstRestart && marker <= kStart)) {
+      ++i;
+      continue;
+    }
+    if (marker == kEnd || i + 2 >= bytes.size()) break;
+    if (marker == kScan) ++count;
+    i += 2 + std::size_t{bytes[i + 1]} * 256 + bytes[i + 2];
+  }
   return count;
 }
 

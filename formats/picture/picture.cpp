@@ -77,11 +77,12 @@ Result<RgbaPicture> read_picture(std::span<const std::uint8_t> bytes, const Pict
   if (!decoder) return fail("a picture that is neither PNG nor JPEG nor WebP");
   DANCE_TRY(const PictureSize size, decoder->size(bytes));
   if (size.width_px < 1 || size.height_px < 1) return fail("a picture without pixels");
-  if (size.width_px > limits.side_px || size.height_px > limits.side_px ||
-      bytes_of(size) > limits.decoded_bytes)
-    return fail("a picture of " + std::to_string(size.width_px) + " x " +
-                std::to_string(size.height_px) + " pixels; make it smaller than " +
-                std::to_string(limits.side_px) + " a side");
+  const std::string what = "a picture of " + std::to_string(size.width_px) + " x " +
+                           std::to_string(size.height_px) + " pixels; make it smaller than ";
+  if (size.width_px > limits.side_px || size.height_px > limits.side_px)
+    return fail(what + std::to_string(limits.side_px) + " a side");
+  if (bytes_of(size) > limits.decoded_bytes)
+    return fail(what + std::to_string(limits.decoded_bytes / 4'000'000) + " megapixels");
   RgbaPicture picture{size.width_px, size.height_px, {}};
   picture.rgba.resize(bytes_of(size));
   if (auto decoded = decoder->decode(bytes, size, picture.rgba); !decoded)

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 extern "C" {
 #include <libavutil/dict.h>
@@ -29,6 +30,15 @@ constexpr const char* kMostPixels = "67108864";  // 8192 × 8192
 // A playlist, or an image sequence: what a file names beside itself stays closed.
 int refuse_other_files(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary**) {
   return AVERROR(EPERM);
+}
+
+// Looks into the streams, and decodes of them no larger pictures than later.
+int find_streams(AVFormatContext& format) {
+  std::vector<AVDictionary*> options(format.nb_streams, nullptr);
+  for (AVDictionary*& each : options) av_dict_set(&each, "max_pixels", kMostPixels, 0);
+  const int code = avformat_find_stream_info(&format, options.data());
+  for (AVDictionary*& each : options) av_dict_free(&each);
+  return code;
 }
 
 }  // namespace
@@ -97,7 +107,7 @@ Result<std::unique_ptr<FfmpegInput>> FfmpegInput::open(const std::string& path,
                                          : ffmpeg_error(code)) +
                 "); copy it again, or convert it to " + cure);
   input->format_.reset(format);
-  code = avformat_find_stream_info(format, nullptr);
+  code = find_streams(*format);
   if (code >= 0) code = av_find_best_stream(format, wish.type, -1, -1, &input->codec_, 0);
   if (code == AVERROR_STREAM_NOT_FOUND)
     return fail("no " + std::string(wish.stream) + " in it; name a file of " + wish.kind);

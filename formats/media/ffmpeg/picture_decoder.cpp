@@ -30,7 +30,14 @@ std::string encoding_of(const AVCodecParameters& codec) {
 }
 
 int turn_of(const AVStream& stream) {
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
+  const AVCodecParameters& codec = *stream.codecpar;
+  const AVPacketSideData* data = av_packet_side_data_get(
+      codec.coded_side_data, codec.nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+  const std::uint8_t* matrix = data != nullptr ? data->data : nullptr;
+#else
   const std::uint8_t* matrix = av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+#endif
   if (matrix == nullptr) return 0;
   const double left_deg = av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
   if (!std::isfinite(left_deg)) return 0;
@@ -87,18 +94,26 @@ std::optional<double> PictureStream::time_s() const {
   return static_cast<double>(time) * av_q2d(input_->stream().time_base);
 }
 
-// For a picture of the decoded one's size.
+// For a picture of the decoded one's size. The scaler is made anew only when that changes:
+// sws_getCachedContext() does it for each picture of full range, as JPEGs are, whose format it
+// has rewritten in its own record.
 bool PictureStream::make_room() {
   const AVFrame& from = *decoded_;
   AVFrame& to = *converted_;
   if (from.width < 1 || from.height < 1 || from.width > kMostSide_px || from.height > kMostSide_px)
     return false;
-  if (to.width == from.width && to.height == from.height) return true;
+  if (to.width == from.width && to.height == from.height && scaled_from_ == from.format)
+    return true;
+  scaler_.reset(sws_getContext(from.width, from.height, static_cast<AVPixelFormat>(from.format),
+                               from.width, from.height, AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr,
+                               nullptr, nullptr));
+  scaled_from_ = scaler_ ? from.format : AV_PIX_FMT_NONE;
   av_frame_unref(&to);
   to.format = AV_PIX_FMT_BGR24;
   to.width = from.width;
   to.height = from.height;
-  return av_frame_get_buffer(&to, 0) >= 0;
+  if (av_frame_get_buffer(&to, 0) < 0) scaled_from_ = AV_PIX_FMT_NONE;
+  return scaled_from_ != AV_PIX_FMT_NONE;
 }
 
 bool PictureStream::read(std::span<std::uint8_t> bgr) {
@@ -107,11 +122,8 @@ bool PictureStream::read(std::span<std::uint8_t> bgr) {
   if (!make_room()) return false;
   const auto row_bytes = std::size_t{3} * static_cast<std::size_t>(from.width);
   if (bgr.size() != row_bytes * static_cast<std::size_t>(from.height)) return false;
-  scaler_.reset(sws_getCachedContext(scaler_.release(), from.width, from.height,
-                                     static_cast<AVPixelFormat>(from.format), to.width, to.height,
-                                     AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr));
-  if (!scaler_ || sws_scale(scaler_.get(), from.data, from.linesize, 0, from.height, to.data,
-                            to.linesize) != from.height)
+  if (sws_scale(scaler_.get(), from.data, from.linesize, 0, from.height, to.data, to.linesize) !=
+      from.height)
     return false;
   for (int y = 0; y < from.height; ++y)
     std::memcpy(bgr.data() + static_cast<std::size_t>(y) * row_bytes,

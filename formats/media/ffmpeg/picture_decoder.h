@@ -33,6 +33,7 @@ class PictureStream : public VideoDecoder {
   FfmpegPtr<AVFrame> decoded_{av_frame_alloc()};
   FfmpegPtr<AVFrame> converted_{av_frame_alloc()};  // in blue, green, red; its rows are aligned
   FfmpegPtr<SwsContext> scaler_;
+  int scaled_from_ = AV_PIX_FMT_NONE;  // the format that the scaler was made for
   VideoFacts facts_;
 };
 

@@ -42,8 +42,11 @@ Result<cv::Mat> read_bgr_picture(const std::string& path) {
   DANCE_TRY(const std::string file, read_whole_file(path, kMostPictureFile_bytes));
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   auto picture = read_picture(bytes, kPhotographLimits);
-  if (!picture)
-    return fail(path + ": " + picture.error().what + "; fetch it again or leave it out");
+  if (!picture) {
+    const std::string& what = picture.error().what;
+    const bool has_cure = what.find(';') != std::string::npos;
+    return fail(path + ": " + what + (has_cure ? "" : "; fetch it again or leave it out"));
+  }
   cv::Mat bgr;
   cv::cvtColor(cv::Mat(picture->height_px, picture->width_px, CV_8UC4, picture->rgba.data()), bgr,
                cv::COLOR_RGBA2BGR);

@@ -113,6 +113,7 @@ void CaptureProgram::run() {
     if (preview_ && preview_->was_closed()) is_over = true;
   }
   if (recording_) recording_->finish();
+  say_trouble(mono_now());  // of the last pictures, too: a full disk
   report();
 }
 

@@ -192,10 +192,32 @@ TEST(RgbaPicture, DamageIsAnErrorAndNeverMore) {
 TEST(RgbaPicture, AJpegOfVeryManyScansIsRefusedBeforeItIsDecoded) {
   Bytes bytes = test::jpeg(2048, 2048, TJFLAG_PROGRESSIVE);
   ASSERT_TRUE(read_picture(bytes));
-  for (int scan = 0; scan < 100; ++scan) bytes.insert(bytes.end() - 2, {0xff, 0xda});
+  for (int scan = 0; scan < 100; ++scan)
+    bytes.insert(bytes.end() - 2, {0xff, 0xda, 0, 8, 1, 1, 0, 1, 5, 0x21});
   const auto picture = read_picture(bytes);
   ASSERT_FALSE(picture);
   EXPECT_NE(picture.error().what.find("scans"), std::string::npos);
+}
+
+// A thumbnail in a segment before the image, a film behind it.
+TEST(RgbaPicture, WhatLiesInsideAndBehindAJpegIsNoScanOfIt) {
+  Bytes bytes = test::jpeg(2048, 2048, TJFLAG_PROGRESSIVE);
+  Bytes segment = {0xff, 0xe1, 0, 202};
+  for (int scan = 0; scan < 100; ++scan) segment.insert(segment.end(), {0xff, 0xda});
+  bytes.insert(bytes.begin() + 2, segment.begin(), segment.end());
+  for (int scan = 0; scan < 100; ++scan) bytes.insert(bytes.end(), {0xff, 0xda, 0, 2});
+  const auto picture = read_picture(bytes);
+  EXPECT_TRUE(picture) << picture.error().what;
+}
+
+TEST(RgbaPicture, TheLimitThatAPictureExceedsIsTheOneThatIsNamed) {
+  const Bytes bytes = test::jpeg(300, 200);
+  const auto wide = read_picture(bytes, {256, std::size_t{1} << 28, 0});
+  ASSERT_FALSE(wide);
+  EXPECT_NE(wide.error().what.find("256 a side"), std::string::npos) << wide.error().what;
+  const auto large = read_picture(test::jpeg(1100, 1000), {4096, 4'000'000, 0});
+  ASSERT_FALSE(large);
+  EXPECT_NE(large.error().what.find("1 megapixels"), std::string::npos) << large.error().what;
 }
 
 }  // namespace
