@@ -132,6 +132,7 @@ struct HouseConfig {
   std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in
   WindowChoices window;               // of dance lobby
+  double practice_volume = 1.0;       // of what practise_to() plays: [music]'s, else [window]'s
 };
 
 // `name` stands in errors. Relative file names in it are taken from the folder of `name`.

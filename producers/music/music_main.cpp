@@ -11,6 +11,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/music/beats_file.h"
+#include "producers/music/control/music_control.h"
 #include "producers/music/music_program.h"
 #include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
@@ -210,6 +211,9 @@ Result<void> play(const ProgramOptions& options) {
   DANCE_TRY(program_options.begin, start_of(options, mono_now()));
   MusicProgram program(std::move(program_options), std::move(player), *bus, *poller);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  const auto control = MusicControl::open(
+      options.bus, [&program](double volume) { program.set_volume(volume); }, *poller);
+  if (!control) talk::warn("{}", control.error().what);  // it plays all the same
   stop_after(*poller, options.seconds);
   talk::info("{}; Ctrl-C ends it", options.follow ? "listens for the room's music" : "playing");
   poller->run();

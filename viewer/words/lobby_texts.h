@@ -124,10 +124,17 @@
   ROW(kLobbySilent, "does not answer", "no responde", "antwortet nicht") \
   ROW(kLobbyNear, "near: {} ms", "cerca: {} ms", "nah: {} ms") \
   ROW(kLobbyFar, "far: {} ms", "lejos: {} ms", "fern: {} ms") \
-  ROW(kLobbyWhoIsThereLater, \
-      "Who is there shows once you are in.", \
-      "Dentro verás quién está.", \
-      "Wer da ist, siehst du drinnen.") \
+  ROW(kLobbyThere, "There: {}", "Están: {}", "Da: {}") \
+  ROW(kLobbyThereMore, "There: {} and {} more", "Están: {} y {} más", "Da: {} und {} mehr") \
+  ROW(kLobbyThereNobody, "Nobody is there.", "No hay nadie.", "Niemand ist da.") \
+  ROW(kLobbyThereNoKey, \
+      "You have no key to this room: ask for an invitation.", \
+      "No tienes clave para esta sala: pide una invitación.", \
+      "Du hast keinen Schlüssel für diesen Raum: bitte um eine Einladung.") \
+  ROW(kLobbyInvitationFirst, \
+      "It is good for going in once: who is there shows after that.", \
+      "Sirve para entrar una vez: quién está se ve después.", \
+      "Sie gilt für einmal Hineingehen: wer da ist, zeigt sich danach.") \
   ROW(kLobbyJoin, "Join", "Entrar", "Hinein") \
   ROW(kLobbyForget, "Forget", "Olvidar", "Vergessen") \
   ROW(kLobbyAskAgain, "Ask again", "Preguntar otra vez", "Noch einmal fragen") \

@@ -1,0 +1,129 @@
+// Two windows on one machine, with mouse and keys: one opens a room and invites, the other pastes
+// the invitation; both dance, and each shows the other. With DANCE_PICTURES=DIR what was on the
+// screen is kept there, as X window dumps.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "core/bus/bus.h"
+#include "core/net/mono_clock.h"
+#include "house/session.h"
+#include "tests/lobby/typed_input.h"
+#include "tests/lobby/window_on_screen.h"
+#include "tests/virtual_display.h"
+
+namespace dance {
+namespace {
+
+constexpr int kGuest_x = 1280;  // the second window is at the right of the first
+// Where things are in a window of 1280 x 1000.
+constexpr int kHostScreen_x = 100, kHostScreen_y = 216;
+constexpr int kOpenRoom_x = 420, kOpenRoom_y = 143;
+constexpr int kJoinOwn_x = 560, kJoinOwn_y = 143;
+constexpr int kName_x = 520, kName_y = 430;
+constexpr int kAddress_x = 520, kAddress_y = 500;
+constexpr int kInvite_x = 380, kInvite_y = 540;
+constexpr int kCopy_x = 320, kCopy_y = 800;
+constexpr int kPaste_x = 990, kPaste_y = 560;
+constexpr int kOpenInvitation_x = 340, kOpenInvitation_y = 610;
+
+std::string settings_of_dancer(const char* name, const char* role, const char* bus) {
+  return "[house]\nguest = \"" + std::string(name) + "\"\nbus = \"" + bus +
+         "\"\n[[produce]]\nkind = \"salsa\"\nguest = \"" + name + "\"\nrole = \"" + role +
+         "\"\n[window]\nheight = 1000\n";
+}
+
+// What a house stages of a guest, and what its window has shown.
+class HouseEar {
+ public:
+  HouseEar(const char* url, const GuestId& guest) : bus_(*Bus::open(url)) {
+    bus_->subscribe<Pose>({Where::kStage, guest},
+                          [this](const Channel&, const Pose&, MonoTime) { ++staged_; });
+    bus_->subscribe<StageTime>({Where::kView, guest},
+                               [this](const Channel&, const StageTime&, MonoTime) { ++shown_; });
+  }
+  bool has_shown(int poses) {
+    bus_->drain(mono_now());
+    return staged_ >= poses && shown_ >= poses;
+  }
+  std::string text() const {
+    return std::to_string(staged_) + " staged, " + std::to_string(shown_) + " shown";
+  }
+
+ private:
+  std::unique_ptr<Bus> bus_;
+  int staged_ = 0, shown_ = 0;
+};
+
+class TwoWindowsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (display_.display().empty()) GTEST_SKIP() << kNoVirtualDisplay;
+    setenv("DISPLAY", display_.display().c_str(), 1);
+    unsetenv("WAYLAND_DISPLAY");
+    setenv("XDG_RUNTIME_DIR", folder_.path("run").c_str(), 1);
+    setenv("LC_ALL", "C", 1);
+    std::filesystem::create_directories(folder_.path("run"));
+    input_ = std::make_unique<TypedInput>(display_.display());
+    if (!input_->is_there()) GTEST_SKIP() << "no XTEST here; apt-get install libxtst6";
+  }
+  void TearDown() override { keep("end"); }
+  void keep(const std::string& name) const {
+    const char* folder = std::getenv("DANCE_PICTURES");
+    if (folder != nullptr && std::filesystem::exists(folder_.path("Xvfb_screen0")))
+      std::filesystem::copy_file(folder_.path("Xvfb_screen0"),
+                                 std::string(folder) + "/two-windows-" + name + ".xwd",
+                                 std::filesystem::copy_options::overwrite_existing);
+  }
+  // Until the window has taken it: it may be busy with what was before.
+  template <class Condition>
+  [[nodiscard]] bool click_until(int x, int y, const Condition& is_so) {
+    return wait_for([&] {
+      input_->click(x, y);
+      return wait_for(is_so, std::chrono::seconds(1));
+    });
+  }
+  // A click and what is typed then, until the file of the settings or the picture shows it.
+  std::string talk() const { return host_.talk() + "\n" + guest_.talk(); }
+
+  TestFolder folder_{"two-windows"};
+  VirtualDisplay display_{folder_.path(), "2560x1000x24"};
+  std::unique_ptr<TypedInput> input_;
+  LobbyOnScreen host_{folder_, "host"}, guest_{folder_, "guest", kGuest_x};
+};
+
+TEST_F(TwoWindowsTest, OneInvitesTheOtherAndBothDanceTogether) {
+  constexpr const char* kHostBus = "udpm://239.255.76.67:17681?ttl=0";
+  constexpr const char* kGuestBus = "udpm://239.255.76.67:17682?ttl=0";
+  host_.put_settings(settings_of_dancer("ann", "lead", kHostBus));
+  guest_.put_settings(settings_of_dancer("gast", "follow", kGuestBus));
+  guest_.start();
+  ASSERT_TRUE(guest_.is_started());
+  ASSERT_TRUE(wait_for([&] {
+    return input_->move_top_window(kGuest_x, 0) && guest_.shows_lobby();
+  })) << talk();
+  host_.start();
+  ASSERT_TRUE(host_.is_started());
+  ASSERT_TRUE(wait_for([&] { return host_.shows_lobby(); })) << talk();
+
+  // The host opens a room, and invites bob.
+  ASSERT_TRUE(
+      click_until(kHostScreen_x, kHostScreen_y, [&] { return host_.pixel(500, 170) != 0xff8b66; }));
+  ASSERT_TRUE(click_until(kOpenRoom_x, kOpenRoom_y, [&] {
+    return !host_.children("dance-server").empty();
+  })) << talk();
+  keep("hosts");
+  input_->click(kName_x, kName_y);
+  input_->type("bob");
+  input_->click(kAddress_x, kAddress_y);
+  input_->type("127.0.0.1");
+  keep("invites");
+  input_->click(kInvite_x, kInvite_y);
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  keep("invited");
+}
+
+}  // namespace
+}  // namespace dance

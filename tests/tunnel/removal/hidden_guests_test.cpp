@@ -1,0 +1,96 @@
+// A window hides a guest: the poses come over the line no more, until it shows the guest again or
+// is heard of no longer.
+#include "core/net/secure_random.h"
+#include "tests/tunnel/removal/two_houses.h"
+
+namespace dance {
+namespace {
+
+class HiddenGuests : public TwoHouses {
+ protected:
+  void SetUp() override {
+    TwoHouses::SetUp();
+    if (HasFatalFailure()) return;
+    host_->viewer->subscribe<Pose>(Where::kGuest,
+                                   [this](const Channel&, const Pose&, MonoTime) { ++heard_; });
+    poller_->add_timer(mono_now(), [this](MonoTime now) {
+      Pose pose;
+      pose.sequence = ++danced_;
+      pose.capture_time = now;
+      pose.clock_id = this_clock_id();
+      bob_->viewer->publish(Where::kCapture, named("bob"), pose);
+      return now + Duration::ms(5);
+    });
+  }
+  // As a window says it: what it hides, and that it is there.
+  void say(std::uint64_t clock_id = this_clock_id()) {
+    wish_.time = mono_now();
+    wish_.clock_id = clock_id;
+    host_->viewer->publish(Channel::of_house(Signal::kInterest), wish_);
+  }
+  // What the server forwards while bob dances on.
+  std::uint64_t forwarded_of(std::uint32_t poses) {
+    const std::uint64_t before = server_->core().counters().records_out;
+    const std::uint64_t in = server_->core().counters().records_in;
+    EXPECT_TRUE(turn_until([&] { return server_->core().counters().records_in >= in + poses; }));
+    return server_->core().counters().records_out - before;
+  }
+  // The time only ends a test that has failed.
+  bool come_no_more() {
+    const MonoTime given_up = mono_now() + Duration::s(30);
+    while (forwarded_of(40) > 0)
+      if (mono_now() > given_up) return false;
+    return true;
+  }
+  bool come_again() {
+    const std::uint64_t before = heard_;
+    return turn_until([&] { return heard_ >= before + 20; });
+  }
+
+  InterestWish wish_{{}, 0, secure_random_u64() | 1, {}};
+  std::uint32_t danced_ = 0;
+  std::uint64_t heard_ = 0;
+};
+
+TEST_F(HiddenGuests, CostTheLineNothingUntilTheyAreShownAgain) {
+  ASSERT_TRUE(come_again());
+  EXPECT_GE(forwarded_of(40), 30u);
+  wish_.hidden[3] = named("bob");
+  say();
+  ASSERT_TRUE(come_no_more());
+  const std::uint64_t heard = heard_;
+  EXPECT_EQ(forwarded_of(100), 0u);
+  EXPECT_EQ(heard_, heard);
+  wish_.hidden[3] = GuestId();
+  say();
+  EXPECT_TRUE(come_again());
+}
+
+TEST_F(HiddenGuests, ComeBackWhenTheWindowHasDiedOrTheHouseHearsThem) {
+  wish_.hidden[0] = named("bob");
+  say();
+  ASSERT_TRUE(come_no_more());
+  // Servers send no voice of a guest of whom no pose is wanted.
+  host_->viewer->publish(Channel::of_house(Signal::kHearing),
+                         HearingWish{mono_now(), this_clock_id(), named("hanna"), true, {}});
+  const std::uint64_t heard = heard_;
+  ASSERT_TRUE(turn_until([&] { return heard_ > heard; }));
+  const std::uint64_t few = forwarded_of(300);
+  EXPECT_GE(few, 1u);
+  EXPECT_LE(few, 30u);
+  host_->link_bus->publish_second(mono_now() + InterestWishes::kHolds + Duration::s(1));
+  EXPECT_TRUE(come_again()) << "as if nothing had been said for so long";
+}
+
+TEST_F(HiddenGuests, AreNotThoseOfARecording) {
+  wish_.hidden[0] = named("bob");
+  say(this_clock_id() + 1);
+  // Behind it on the same bus: when this is answered, that was heard.
+  host_->ask({mono_now(), this_clock_id(), 9, named("nobody")});
+  ASSERT_TRUE(turn_until([&] { return host_->status.verdict == RemovalVerdict::kNoSuchGuest; }));
+  EXPECT_TRUE(come_again());
+  EXPECT_GE(forwarded_of(40), 30u);
+}
+
+}  // namespace
+}  // namespace dance
