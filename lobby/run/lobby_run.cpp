@@ -308,6 +308,7 @@ Result<void> LobbyRun::begin_dance() {
   view_.feed.bus_url = house.bus;
   view_.session = file_.path();
   view_.language = model_.texts.language();
+  view_.hud = false;  // figures are for engineers: H shows them
   const bool is_mirror = house_for_ == LobbyWish::kPractise && model_.settings.window.mirror;
   if (is_mirror) view_.view = ViewMode::kMirror;
   if (is_mirror) view_.focus = GuestId::parse(model_.settings.name);

@@ -47,6 +47,8 @@ class ScreenDump {
 
 class LobbyOnScreen {
  public:
+  static constexpr unsigned int kAccent = 0xff8b66;
+
   // Its settings are in `config`, its left edge is at `x`.
   LobbyOnScreen(const TestFolder& folder, const std::string& name, int x = 0)
       : screen_(folder.path("Xvfb_screen0")),
@@ -73,6 +75,13 @@ class LobbyOnScreen {
   unsigned int pixel(int x, int y) const { return screen().pixel(x_ + x, y); }
   // The list of screens at the left has a colour of its own.
   bool shows_lobby() const { return pixel(5, 400) == 0x0e1015 && pixel(230, 700) == 0x0e1015; }
+  // Where a button that is to be seen first begins in this column, below y; -1 = nowhere.
+  int accent_below(int x, int y) const {
+    const ScreenDump dump = screen();
+    for (; y < dump.height_px(); ++y)
+      if (dump.pixel(x_ + x, y) == kAccent) return y;
+    return -1;
+  }
   std::vector<pid_t> children(const std::string& program) const {
     std::vector<pid_t> found;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
