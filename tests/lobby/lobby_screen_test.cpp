@@ -131,7 +131,7 @@ TEST_F(LobbyScreenTest, WhoIsInARoomIsShownOrWhyItIsNot) {
       room.who = who;
       room.guest_count = count;
       room.guests = std::move(names);
-      const Shown shown = show(model, 960, 1100, 1.0f, std::string("rooms-") + language.code);
+      const Shown shown = show(model, 960, 1100, 1.0f, "rooms-" + std::string(language.code));
       EXPECT_EQ(shown.clipped, std::vector<std::string>());
       pictures.insert(shown.picture.rgb);
     };

@@ -219,7 +219,7 @@ TEST(SessionFile, KeepsHowLoudTheMusicIsInItsTable) {
   ASSERT_TRUE(opened->save_music_volume(0.0));
   EXPECT_EQ(load_session(file.path)->music->volume, 0.0);
   // Where only what is practised to stands in it.
-  file.write("[window]\nmusic = \"b.ogg\"\n");
+  file.write("[house]\nguest = \"ann\"\n[window]\nmusic = \"b.ogg\"\n");
   opened = SessionFile::open(file.path);
   ASSERT_TRUE(opened->save_music_volume(0.6));
   EXPECT_EQ(load_session(file.path)->practice_volume, 0.6);

@@ -58,9 +58,9 @@ TEST_F(DancePictureTest, RemovingAsksBackAndASecondEnterRemovesNobody) {
   panel_->open(true);
   panel_->choose(guest_called("bob"));
   turn();
-  // Count in, microphone, loudspeaker, alice, bob; of bob: mute, hide, remove.
+  // Music, count in, microphone, loudspeaker, alice, bob; of bob: mute, hide, remove.
   const auto press_remove = [&] {
-    for (int i = 0; i < 8; ++i) press(GLFW_KEY_DOWN);
+    for (int i = 0; i < 9; ++i) press(GLFW_KEY_DOWN);
     press(GLFW_KEY_ENTER);
     turn();
   };
