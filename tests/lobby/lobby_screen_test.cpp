@@ -127,18 +127,19 @@ TEST_F(LobbyScreenTest, WhoIsInARoomIsShownOrWhyItIsNot) {
     LobbyModel model = full_model(language.language);
     RoomFact& room = model.rooms[0];
     std::set<std::vector<std::uint8_t>> pictures;
-    const auto look = [&](Who who, std::size_t count, std::vector<std::string> names) {
+    const auto look = [&](Who who, std::size_t count, std::vector<std::string> names,
+                          const std::string& kept_as = "") {
       room.who = who;
       room.guest_count = count;
       room.guests = std::move(names);
-      const Shown shown = show(model, 960, 1100, 1.0f, "rooms-" + std::string(language.code));
+      const Shown shown = show(model, 960, 1100, 1.0f, kept_as);
       EXPECT_EQ(shown.clipped, std::vector<std::string>());
       pictures.insert(shown.picture.rgb);
     };
     look(Who::kUnknown, 0, {});
     look(Who::kNoKey, 0, {});
     look(Who::kKnown, 0, {});
-    look(Who::kKnown, 2, {"bob", "carla"});
+    look(Who::kKnown, 2, {"bob", "carla"}, "rooms-" + std::string(language.code));
     look(Who::kKnown, 48, std::vector<std::string>(32, "a-guest-with-a-long-name"));
     EXPECT_EQ(pictures.size(), 5u) << language.code;
   }

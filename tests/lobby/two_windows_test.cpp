@@ -20,8 +20,9 @@ constexpr int kGuest_x = 1280;  // the second window is at the right of the firs
 constexpr int kHostScreen_x = 100, kHostScreen_y = 216;
 constexpr int kOpenRoom_x = 420, kOpenRoom_y = 143;
 constexpr int kJoinOwn_x = 560, kJoinOwn_y = 142;
-constexpr int kName_x = 620, kName_y = 465;
-constexpr int kAddress_x = 530, kAddress_y = 547;
+constexpr int kName_x = 640, kName_y = 465;
+constexpr int kAddress_x = 480, kAddress_y = 547;
+constexpr int kFieldHalf_px = 140;  // of what is looked at
 constexpr int kInvite_x = 426, kInvite_y = 602;
 // With a QR code above it, and in a build without such.
 constexpr int kCopy_x = 364, kCopy_y = 913, kCopyWithoutCode_y = 741;
@@ -84,7 +85,7 @@ class TwoWindowsTest : public testing::Test {
   [[nodiscard]] bool click_until(int x, int y, const Condition& is_so) {
     return wait_for([&] {
       input_->click(x, y);
-      return wait_for(is_so, std::chrono::seconds(1));
+      return wait_for(is_so, std::chrono::seconds(3));
     });
   }
   // As people do: the mouse stays for a moment where it has clicked.
@@ -92,15 +93,21 @@ class TwoWindowsTest : public testing::Test {
     input_->click(x, y);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
-  void type_at(int x, int y, std::string_view text) {
-    click(x, y);
+  [[nodiscard]] bool type_at(int x, int y, std::string_view text) {
+    // The field has a cursor, or what was typed before.
+    if (!click_until(x, y, [&] { return is_bright(x - kFieldHalf_px, x + kFieldHalf_px, y); }))
+      return false;
     input_->type(text);
+    return true;
+  }
+  bool is_bright(int from_x, int to_x, int y) const {
+    const ScreenDump screen = host_.screen();
+    for (int x = from_x; x < to_x; ++x)
+      if ((screen.pixel(x, y) & 0xff) > 0xa0) return true;
+    return false;
   }
   bool has_pasted(int y) const {
-    const ScreenDump screen = guest_.screen();
-    for (int x = kPastedFrom_x; x < kPastedTo_x; ++x)
-      if ((screen.pixel(kGuest_x + x, y) & 0xff) > 0xa0) return true;
-    return false;
+    return is_bright(kGuest_x + kPastedFrom_x, kGuest_x + kPastedTo_x, y);
   }
   std::string talk() const { return host_.talk() + "\n" + guest_.talk(); }
 
@@ -134,11 +141,10 @@ TEST_F(TwoWindowsTest, OneInvitesTheOtherAndBothDanceTogether) {
   ASSERT_TRUE(wait_for([&] {
     return host_.pixel(kJoinOwn_x, kJoinOwn_y) == LobbyOnScreen::kAccent;
   })) << talk();
-  type_at(kName_x, kName_y, "bob");
-  type_at(kAddress_x, kAddress_y, "127.0.0.1");
+  ASSERT_TRUE(type_at(kName_x, kName_y, "bob"));
+  ASSERT_TRUE(type_at(kAddress_x, kAddress_y, "127.0.0.1"));
   keep("invites");
-  input_->click(kInvite_x, kInvite_y);
-  ASSERT_TRUE(wait_for([&] {
+  ASSERT_TRUE(click_until(kInvite_x, kInvite_y, [&] {
     return run(bin("dance-server") + " --list-keys").output.find("bob") != std::string::npos;
   })) << talk();
 
