@@ -1,4 +1,6 @@
 // Who is in a room, asked without coming in: byte by byte, and what a server answers.
+#include <gtest/gtest.h>
+
 #include <vector>
 
 #include "tests/tunnel/simulated_tunnel.h"
