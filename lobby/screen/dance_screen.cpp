@@ -110,6 +110,7 @@ std::string who_words(const LobbyModel& model, std::size_t which) {
   if (which >= model.rooms.size()) return "";
   const RoomFact& fact = model.rooms[which];
   if (fact.who == RoomFact::Who::kNoKey) return model.texts[Text::kLobbyThereNoKey];
+  if (fact.who == RoomFact::Who::kRefused) return model.texts[Text::kLobbyThereRefused];
   if (fact.who == RoomFact::Who::kUnknown) return "";
   if (fact.guest_count == 0) return model.texts[Text::kLobbyThereNobody];
   const std::size_t shown = std::min(fact.guests.size(), kMostNames);

@@ -35,7 +35,7 @@ LobbyModel full_model(Language language) {
   model.avatars = {"marisol", "teo"};
   model.rooms.resize(2);
   model.rooms[0] = {
-      RoomFact::State::kAnswers, Duration::ms(23), RoomFact::Who::kKnown, 2, {"bob", "carla"}};
+      RoomFact::State::kAnswers, Duration::ms(23), RoomFact::Who::kKnown, 2, {"bob", "carla"}, {}};
   model.rooms[1].state = RoomFact::State::kSilent;
   model.advice = {Text::kCameraTooDark, Text::kCameraFeetCutOff};
   model.host.state = HostFacts::State::kOpen;
@@ -138,10 +138,11 @@ TEST_F(LobbyScreenTest, WhoIsInARoomIsShownOrWhyItIsNot) {
     };
     look(Who::kUnknown, 0, {});
     look(Who::kNoKey, 0, {});
+    look(Who::kRefused, 0, {});
     look(Who::kKnown, 0, {});
     look(Who::kKnown, 2, {"bob", "carla"}, "rooms-" + std::string(language.code));
     look(Who::kKnown, 48, std::vector<std::string>(32, "a-guest-with-a-long-name"));
-    EXPECT_EQ(pictures.size(), 5u) << language.code;
+    EXPECT_EQ(pictures.size(), 6u) << language.code;
   }
 }
 

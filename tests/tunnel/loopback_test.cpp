@@ -141,7 +141,7 @@ TEST_F(Loopback, WhoIsThereIsToldToAKeyWithoutComingIn) {
   EXPECT_TRUE(turn_until([&] { return server->door().peer_count() == 1; })) << "it has gone";
   LinkKey wrong = link_key();
   wrong.key = PresharedKey::make();
-  EXPECT_EQ(ask(wrong)[1].state, RoomGuests::State::kNotAllowed);
+  EXPECT_EQ(ask(wrong)[1].state, RoomGuests::State::kRefused);
 }
 
 // Between a link and its server. Once it tampers, all that the server says comes twice, and damaged

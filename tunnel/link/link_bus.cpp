@@ -118,13 +118,18 @@ void LinkBus::follow_hearing(const Hearing& own) {
                                });
 }
 
-// Of this house and of now: what a recording plays hides nobody.
+// What a recording plays hides nobody. A window on another machine has another clock, as a recording
+// may have: it hides nobody either, and whom it may show goes on coming.
 void LinkBus::follow_interest(const Interest& own) {
   own_interest_ = own;
   port_.subscribe<InterestWish>(Where::kLocal,
                                 [this](const Channel&, const InterestWish& wish, MonoTime now) {
-                                  if (!is_of_now(wish.clock_id, wish.time, now)) return;
-                                  hidden_.hear(wish, now);
+                                  if (wish.clock_id != clock_id_)
+                                    hidden_.hear({wish.time, wish.clock_id, wish.viewer, {}}, now);
+                                  else if (is_of_now(wish.clock_id, wish.time, now))
+                                    hidden_.hear(wish, now);
+                                  else
+                                    return;
                                   tell_wishes(now);
                                 });
 }

@@ -15,11 +15,19 @@ constexpr Duration kAskRoomAgain = Duration::ms(700);
 
 RoomGuests guests_in(const wire::RoomAnswer& answer) {
   RoomGuests guests;
-  if (answer.result == wire::RoomResult::kNotAllowed) guests.state = RoomGuests::State::kNotAllowed;
-  if (answer.result != wire::RoomResult::kKnown) return guests;
-  guests.state = RoomGuests::State::kKnown;
-  guests.count = answer.count;
-  guests.names = answer.names;
+  switch (answer.result) {
+    case wire::RoomResult::kNotAllowed:
+      guests.state = RoomGuests::State::kRefused;
+      break;
+    case wire::RoomResult::kNotHere:
+      guests.state = RoomGuests::State::kNotHere;
+      break;
+    case wire::RoomResult::kKnown:
+      guests.state = RoomGuests::State::kKnown;
+      guests.count = answer.count;
+      guests.names = answer.names;
+      break;
+  }
   return guests;
 }
 
@@ -32,6 +40,8 @@ std::vector<RoomGuests> ask_who_is_there(const Address& server, const LinkKey& k
   auto poller = Poller::create();
   auto socket = UdpSocket::connect(server);
   auto context = key.context();
+  if (!context)
+    for (RoomGuests& guests : found) guests.state = RoomGuests::State::kRefused;
   if (!poller || !socket || !context || rooms.empty()) return found;
   // Each has the number of its place, from 1; without those that are answered.
   std::vector<std::size_t> open(rooms.size());
@@ -50,7 +60,6 @@ std::vector<RoomGuests> ask_who_is_there(const Address& server, const LinkKey& k
     const auto answer = wire::parse_room_answer(opening->body);
     if (!answer || std::erase(open, std::size_t{answer->number} - 1) == 0) return;
     const std::size_t which = answer->number - 1;
-    // A cluster's server that does not know is as one that says nothing.
     found[which] = guests_in(*answer);
   };
   handlers.on_trouble = [&](SealTrouble trouble, MonoTime) {
@@ -78,7 +87,7 @@ std::vector<RoomGuests> ask_who_is_there(const Address& server, const LinkKey& k
     (*poller)->run_once(Duration::ms(10));
   }
   if (is_refused)
-    for (const std::size_t which : open) found[which].state = RoomGuests::State::kNotAllowed;
+    for (const std::size_t which : open) found[which].state = RoomGuests::State::kRefused;
   (*poller)->unwatch(socket->fd());
   client.close();
   socket->flush();

@@ -6,7 +6,8 @@
 // Threads:      ask_who_is_there() waits, `patience` at most, or until `is_ended`: not for a thread
 //               that draws.
 // Failure:      what is not answered stays kUnanswered, as with a server that does not know the
-//               question.
+//               question. Keys that do not agree, and certificates that are not trusted, are
+//               kRefused.
 #pragma once
 
 #include <atomic>
@@ -20,7 +21,13 @@
 namespace dance {
 
 struct RoomGuests {
-  enum class State : std::uint8_t { kUnanswered, kNotAllowed, kKnown };
+  enum class State : std::uint8_t {
+    kUnanswered,
+    kNoKey,    // never of ask_who_is_there()
+    kRefused,  // the key is there, and is not accepted, or cannot be used
+    kNotHere,  // a server of a cluster does not know it
+    kKnown,
+  };
   State state = State::kUnanswered;
   std::size_t count = 0;
   FixedList<GuestId, wire::kMostNamesTold> names;

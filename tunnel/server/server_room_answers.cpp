@@ -44,7 +44,13 @@ wire::RoomAnswer ServerRoomAnswers::answer_to(const wire::RoomQuestion& question
     if (server_.cluster != nullptr) answer.result = wire::RoomResult::kNotHere;
     return answer;
   }
-  for (const ServerGuest& guest : server_.rooms[*index].guests) {
+  const ServerRoom& room = server_.rooms[*index];
+  // A part of the guests would count as all of them.
+  if (room.settled_at.is_set() && now < room.settled_at) {
+    answer.result = wire::RoomResult::kNotHere;
+    return answer;
+  }
+  for (const ServerGuest& guest : room.guests) {
     if (!guest.in_use) continue;
     ++answer.count;
     (void)answer.names.try_push(guest.id);  // of more their number

@@ -25,7 +25,7 @@ struct RoomQuestion {
 enum class RoomResult : std::uint8_t {
   kKnown = 1,
   kNotAllowed = 2,  // the key does not open the room, or a host has removed its guests
-  kNotHere = 3,     // a server of a cluster, through which nobody is in the room
+  kNotHere = 3,     // a server of a cluster, which does not know all who are in the room
 };
 struct RoomAnswer {
   std::uint32_t number = 0;

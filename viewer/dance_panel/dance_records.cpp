@@ -88,8 +88,9 @@ void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& sce
     if (shown != scene.guests.end()) guest.present = now;
     QualityFigures measured;
     const auto choice = choices_.find(guest.id);
-    if (choice != choices_.end() && choice->second.is_hidden) {
-      // No poses are wanted: there is nothing to judge, nor just after they are wanted again.
+    if (guest.is_remote && choice != choices_.end() && choice->second.is_hidden) {
+      // No poses are wanted: there is nothing to judge, nor just after they are wanted again. Those
+      // of this house's own dancers come all the same.
       guest.moved = guest.came = now;
       guest.quality.update(measured, now);
       continue;

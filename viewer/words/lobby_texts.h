@@ -134,6 +134,10 @@
       "You have no key to this room: ask for an invitation.", \
       "No tienes clave para esta sala: pide una invitación.", \
       "Du hast keinen Schlüssel für diesen Raum: bitte um eine Einladung.") \
+  ROW(kLobbyThereRefused, \
+      "Your key cannot be used here, or the server does not let you in.", \
+      "Tu clave no sirve aquí, o el servidor no te deja entrar.", \
+      "Dein Schlüssel gilt hier nicht, oder der Server lässt dich nicht hinein.") \
   ROW(kLobbyInvitationFirst, \
       "An invitation opens once. You will see who is in the room after that.", \
       "Una invitación se abre una sola vez. Después verás quién está en la sala.", \

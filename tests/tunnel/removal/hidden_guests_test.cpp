@@ -96,6 +96,23 @@ TEST_F(HiddenGuests, ComeBackWhenTheWindowHasDiedOrTheHouseHearsThem) {
   EXPECT_TRUE(come_again()) << "as if nothing had been said for so long";
 }
 
+// It is shown there, for all that is known here; a recording hides nobody either.
+TEST_F(HiddenGuests, ComeWhileAWindowOfAnotherClockIsThere) {
+  wish_.hidden[0] = named("bob");
+  say_again_and_again();
+  ASSERT_TRUE(come_no_more());
+  InterestWish elsewhere{mono_now(), this_clock_id() + 1, wish_.viewer + 2, wish_.hidden};
+  bool is_open = true;
+  poller_->add_timer(mono_now(), [&](MonoTime now) {
+    if (is_open) host_->viewer->publish(Channel::of_house(Signal::kInterest), elsewhere);
+    return is_open ? now + kAgain : MonoTime();
+  });
+  EXPECT_TRUE(come_again());
+  is_open = false;
+  host_->link_bus->publish_second(mono_now() + InterestWishes::kHolds + Duration::s(1));
+  EXPECT_TRUE(come_no_more()) << "that window has ended";
+}
+
 TEST_F(HiddenGuests, AreNotThoseOfARecording) {
   wish_.hidden[0] = named("bob");
   say(this_clock_id() + 1);

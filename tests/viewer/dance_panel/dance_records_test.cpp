@@ -79,6 +79,17 @@ TEST(DanceRecords, AHiddenGuestIsNotJudgedNorAtOnceWhenShownAgain) {
   EXPECT_EQ(second(240), QualityLevel::kBad) << "they are wanted and do not come";
 }
 
+TEST(DanceRecords, ADancerOfThisHouseWhoIsHiddenIsMissedWhenNoPoseComes) {
+  Room room;
+  room.records.choice_of(guest_called("alice")).is_hidden = true;
+  const MonoTime begin = room.now;
+  for (int second = 0; second < 6; ++second, room.now += Duration::s(1)) {
+    room.status("alice", false, true, 60);
+    room.look();
+  }
+  EXPECT_EQ(room.records.find(guest_called("alice"))->moved, begin) << "the camera has stopped";
+}
+
 TEST(DanceRecords, LossIsTheMeanOfSomeSeconds) {
   Room room;
   std::uint32_t sequence = 0;
