@@ -169,6 +169,7 @@ Result<void> House::open_link() {
   for (const GuestId& guest : session_.guests) link_bus_->send_signals_of(guest);
   if (!options.listen_only) link_bus_->send_channels(session_.channels);
   link_bus_->follow_hearing(session_.hearing);
+  if (!session_.needs_hidden_guests()) link_bus_->follow_interest(session_.interest);
   link_bus_->follow_removals();
   return {};
 }

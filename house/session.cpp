@@ -303,8 +303,11 @@ std::optional<Error> read_document(const toml::table& document, const std::strin
     problem =
         read_once(document, "music", name, [&](TomlReader& r) { read_music(r, folder, session); });
   if (!problem)
-    problem = read_once(document, "window", name,
-                        [&](TomlReader& r) { session.window = read_window(r, folder.string()); });
+    problem = read_once(document, "window", name, [&](TomlReader& r) {
+      session.practice_volume = r.number_or("volume", 1.0, 0.0, 1.0);
+      session.window = read_window(r, folder.string());
+    });
+  if (session.music) session.practice_volume = session.music->volume;
   if (problem) return problem;
   return read_once(document, "voice", name, [&](TomlReader& r) { read_voice_of(r, session); });
 }

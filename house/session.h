@@ -132,6 +132,13 @@ struct HouseConfig {
   std::vector<HostedStyle> styles;
   std::vector<ChannelRule> channels;  // that ride along, or are let in
   WindowChoices window;               // of dance lobby
+  double practice_volume = 1.0;       // of what practise_to() plays: [music]'s, else [window]'s
+
+  // Windows are not all that needs the other guests' records here: films and engines, what is felt,
+  // and further channels, which come of no guest of whom no pose is wanted.
+  bool needs_hidden_guests() const {
+    return !consumers.empty() || !haptics.empty() || lets_any_in(channels);
+  }
 };
 
 // `name` stands in errors. Relative file names in it are taken from the folder of `name`.

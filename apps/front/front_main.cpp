@@ -79,6 +79,7 @@ constexpr std::array kCommands{
     Command{"predict stream",
             "dances over a line with delay, jitter and loss: how late, how smooth"},
     Command{"haptics set", "tells the haptics of a guest: off, on, how strong at most"},
+    Command{"music set", "tells a dance music that runs: how loud"},
     Command{"voice set", "tells a dance voice that runs: mute, talk, volumes"},
     Command{"bench path", "a pose's journey against the same number of bare hops"},
     Command{"bench tunnel", "a crowd through the server, beside bare UDP and ENet relays"},

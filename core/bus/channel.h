@@ -116,6 +116,7 @@ constexpr auto kChannelTable = std::to_array<ChannelRow>({
     {Signal::kVoiceLevel, Where::kCapture, "VOICE_LEVEL/capture/<guest>", "voice_level_t"},
     {Signal::kHouseLink, Where::kLocal, "HOUSE_LINK/local", "house_link_t"},
     {Signal::kRemoval, Where::kLocal, "REMOVAL/local", "removal_t"},
+    {Signal::kInterest, Where::kLocal, "INTEREST/local", "interest_t"},
     {Signal::kStats, Where::kProgram, "STATS/<program>", "stats_t"},
 });
 

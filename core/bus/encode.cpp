@@ -308,6 +308,14 @@ struct MessageFields<VoiceLevel> {
   }
 };
 
+template <>
+struct MessageFields<InterestWish> {
+  using Generated = dancelcm::interest_t;
+  static bool map(auto io, auto& m, auto& v) {
+    return map_stamp(io, m, v) && io(m.viewer, v.viewer) && io(m.hidden, v.hidden);
+  }
+};
+
 #define DANCE_INSTANTIATE(Type, kName, word) template struct MessageRow<Type, Signal::kName>;
 DANCE_MESSAGE_TABLE(DANCE_INSTANTIATE)
 #undef DANCE_INSTANTIATE

@@ -8,6 +8,8 @@
 // Failure:      is_valid() is false for what the .lcm files do not allow.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/guest_id.h"
@@ -58,6 +60,16 @@ struct Removal {
   GuestId guest;
 };
 
+// Of whom a window wants no poses.
+struct InterestWish {
+  static constexpr std::size_t kMostHidden = 24;
+
+  MonoTime time;
+  std::uint64_t clock_id = 0;
+  std::uint64_t viewer = 0;                   // tells it from other windows of the house
+  std::array<GuestId, kMostHidden> hidden{};  // those that are set
+};
+
 struct VoiceLevel {
   MonoTime time;
   std::uint64_t clock_id = 0;
@@ -76,6 +88,7 @@ inline bool is_valid(const HouseLink& link) {
 inline bool is_valid(const Removal& removal) {
   return removal.guest.is_set() && removal.number != 0;
 }
+inline bool is_valid(const InterestWish& wish) { return wish.viewer != 0; }
 inline bool is_valid(const VoiceLevel& level) {
   return level.level_dbfs >= -127 && level.level_dbfs <= 0 && level.cleaned_dbfs >= -127 &&
          level.cleaned_dbfs <= 0;

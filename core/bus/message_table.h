@@ -36,4 +36,5 @@
   ROW(VoiceState, kVoiceState, "VOICE_STATE")       \
   ROW(HouseLink, kHouseLink, "HOUSE_LINK")          \
   ROW(Removal, kRemoval, "REMOVAL")                 \
-  ROW(VoiceLevel, kVoiceLevel, "VOICE_LEVEL")
+  ROW(VoiceLevel, kVoiceLevel, "VOICE_LEVEL")       \
+  ROW(InterestWish, kInterest, "INTEREST")

@@ -1,6 +1,7 @@
 #include "formats/session/session_edit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/plain_number.h"
 #include "formats/session/table_edit.h"
@@ -149,6 +150,10 @@ Result<std::vector<std::string>> words_of(const toml::table& document, std::size
   return words;
 }
 
+const char* music_table(const toml::table& document) {
+  return document.contains("music") ? "music" : "window";
+}
+
 }  // namespace
 
 std::vector<RouteText> usual_routes() {
@@ -171,6 +176,27 @@ Result<std::optional<std::string>> style_words(std::string_view text, std::strin
     if (!words) return std::nullopt;
     return words->value<std::string>();
   });
+}
+
+Result<double> music_volume(std::string_view text, const std::string& name) {
+  return with_toml(text, name, [](const toml::table& document) -> Result<double> {
+    const toml::table* table = document[music_table(document)].as_table();
+    const toml::node* volume = table ? table->get("volume") : nullptr;
+    return volume ? std::clamp(volume->value_or(1.0), 0.0, 1.0) : 1.0;
+  });
+}
+
+Result<std::string> set_music_volume(std::string_view text, double volume,
+                                     const std::string& name) {
+  std::string table;
+  const auto found = with_toml(text, name, [&](const toml::table& document) -> Result<void> {
+    table = music_table(document);
+    if (document.contains(table)) return {};
+    return fail(name + " has no [music] to keep its volume in");
+  });
+  if (!found) return tl::make_unexpected(found.error());
+  const double shown = std::round(100.0 * std::clamp(volume, 0.0, 1.0)) / 100.0;
+  return set_value(text, {table, std::nullopt}, "volume", plain_number(shown), name);
 }
 
 Result<std::string> edit_session(std::string_view text, const SessionEdit& edit,

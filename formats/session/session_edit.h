@@ -59,4 +59,10 @@ Result<std::vector<std::string>> route_words(std::string_view text, std::size_t 
 Result<std::optional<std::string>> style_words(std::string_view text, std::string_view guest,
                                                const std::string& name);
 
+// How loud this house's music is, 0 to 1: in [music] where the file has that, else in [window], for
+// the song that is practised to. 1 where nothing is said.
+Result<double> music_volume(std::string_view text, const std::string& name);
+// An error where the file has neither table.
+Result<std::string> set_music_volume(std::string_view text, double volume, const std::string& name);
+
 }  // namespace dance

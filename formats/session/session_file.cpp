@@ -24,7 +24,18 @@ std::optional<std::string> SessionFile::style(std::string_view guest) const {
   return style_words(text_, guest, path_).value_or(std::nullopt);
 }
 
+double SessionFile::music_volume() const { return dance::music_volume(text_, path_).value_or(1.0); }
+
 Result<void> SessionFile::save(const SessionEdit& edit) {
+  return change([&] { return edit_session(text_, edit, path_); });
+}
+
+Result<void> SessionFile::save_music_volume(double volume) {
+  return change([&] { return set_music_volume(text_, volume, path_); });
+}
+
+template <class Edit>
+Result<void> SessionFile::change(Edit edit) {
   // A folder that is ours would let us replace a file that is not to be written.
   if (access(path_.c_str(), W_OK) != 0)
     return fail(path_ + " cannot be written: " + std::strerror(errno) +
@@ -34,7 +45,7 @@ Result<void> SessionFile::save(const SessionEdit& edit) {
     text_ = std::move(now);
     return fail(path_ + " was changed by somebody else; look at it, and save again to write there");
   }
-  DANCE_TRY(std::string edited, edit_session(text_, edit, path_));
+  DANCE_TRY(std::string edited, edit());
   if (edited == text_) return {};
   if (auto written = write_whole_file(path_, edited); !written) return written;
   text_ = std::move(edited);

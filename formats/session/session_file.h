@@ -21,6 +21,8 @@ class SessionFile {
   const std::string& path() const { return path_; }
   // Writes the values into the file; a reader meanwhile sees the old file or the new one.
   Result<void> save(const SessionEdit& edit);
+  Result<void> save_music_volume(double volume);
+  double music_volume() const;
   // The words of a route as they stand in the file.
   std::vector<std::string> words(std::size_t route) const;
   // Likewise those of a guest's [[style]].
@@ -29,6 +31,8 @@ class SessionFile {
  private:
   SessionFile(std::string path, std::string text)
       : path_(std::move(path)), text_(std::move(text)) {}
+  template <class Edit>
+  Result<void> change(Edit edit);
 
   std::string path_;
   std::string text_;

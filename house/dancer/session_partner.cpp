@@ -59,6 +59,7 @@ void practise_to(HouseConfig& session, const std::string& music) {
   HostedMusic hosted;
   hosted.file = music;
   hosted.loop = true;
+  hosted.volume = session.practice_volume;
   session.music = hosted;
 }
 

@@ -61,8 +61,8 @@ Result<std::unique_ptr<LobbyRun>> LobbyRun::create(const std::string& settings_p
   run->seen_.look_for_cameras(model);
   if (auto window = run->open_window(); !window) return tl::make_unexpected(window.error());
   run->opener_ = std::make_unique<InvitationOpener>([] { glfwPostEmptyEvent(); });
-  run->round_trips_ = std::make_unique<RoundTrips>([] { glfwPostEmptyEvent(); });
-  run->ask_rooms();
+  run->rooms_ = std::make_unique<KnownRooms>(settings_path, [] { glfwPostEmptyEvent(); });
+  run->rooms_->ask(model);
   return run;
 }
 
@@ -72,7 +72,7 @@ LobbyRun::~LobbyRun() {
   seen_.stop(model_);
   painter_.reset();
   window_.reset();  // before threads that may take some seconds yet
-  round_trips_.reset();
+  rooms_.reset();
   opener_.reset();
 }
 
@@ -160,14 +160,7 @@ bool LobbyRun::look_around(MonoTime now) {
     is_new = true;
   }
   is_new = look_at_invitation() || is_new;
-  if (const RoundTrips::Answers* answers = round_trips_->take()) {
-    for (std::size_t i = 0; i < std::min(answers->count, model_.rooms.size()); ++i) {
-      model_.rooms[i].state =
-          answers->answered[i] ? RoomFact::State::kAnswers : RoomFact::State::kSilent;
-      model_.rooms[i].round_trip = answers->round_trips[i];
-    }
-    is_new = true;
-  }
+  is_new = rooms_->look(model_, now) || is_new;
   return look_at_house(now) || is_new;
 }
 
@@ -238,7 +231,7 @@ void LobbyRun::obey(LobbyWish wish) {
     case LobbyWish::kListInvited:
       return host_.list(model_);
     case LobbyWish::kAskRooms:
-      return ask_rooms();
+      return rooms_->ask(model_);
     case LobbyWish::kLookAgain:
       find_addresses(model_);
       return seen_.look_for_cameras(model_);
@@ -287,13 +280,6 @@ bool LobbyRun::look_at_invitation() {
   return true;
 }
 
-void LobbyRun::ask_rooms() {
-  std::vector<std::string> servers;
-  for (const KnownRoom& room : model_.settings.window.rooms) servers.push_back(room.server);
-  model_.rooms.assign(servers.size(), RoomFact());
-  round_trips_->ask(std::move(servers));
-}
-
 void LobbyRun::go_in(LobbyWish wish) {
   model_.banners.clear();
   if (auto wrong = model_.trouble_before(wish)) return model_.tell(std::move(*wrong));
@@ -322,6 +308,7 @@ Result<void> LobbyRun::begin_dance() {
   view_.feed.bus_url = house.bus;
   view_.session = file_.path();
   view_.language = model_.texts.language();
+  view_.hud = false;  // figures are for engineers: H shows them
   const bool is_mirror = house_for_ == LobbyWish::kPractise && model_.settings.window.mirror;
   if (is_mirror) view_.view = ViewMode::kMirror;
   if (is_mirror) view_.focus = GuestId::parse(model_.settings.name);
@@ -367,7 +354,7 @@ Result<void> LobbyRun::end_dance() {
   is_over_ = has_signal || window_->is_over();
   if (is_over_) return {};
   window_->set_events(input_);
-  ask_rooms();
+  rooms_->ask(model_);
   return make_painter();
 }
 

@@ -14,10 +14,10 @@
 #include "core/net/poller.h"
 #include "lobby/run/child_words.h"
 #include "lobby/run/invitation_opener.h"
+#include "lobby/run/known_rooms.h"
 #include "lobby/run/lobby_input.h"
 #include "lobby/run/lobby_painter.h"
 #include "lobby/run/room_host.h"
-#include "lobby/run/round_trips.h"
 #include "lobby/run/seen_and_heard.h"
 #include "lobby/settings/settings_file.h"
 #include "viewer/window/window_run.h"
@@ -61,7 +61,6 @@ class LobbyRun {
   Result<void> begin_dance();
   Result<void> turn_of_dance();
   Result<void> end_dance();
-  void ask_rooms();
   void save();
   void note_saved(const std::string& trouble, const std::string& kept_as);
   Duration patience(MonoTime now) const;
@@ -73,7 +72,7 @@ class LobbyRun {
   LobbyInput input_;
   std::unique_ptr<ViewWindow> window_;
   std::unique_ptr<LobbyPainter> painter_;
-  std::unique_ptr<RoundTrips> round_trips_;
+  std::unique_ptr<KnownRooms> rooms_;
   std::unique_ptr<InvitationOpener> opener_;
   RoomHost host_;
   SeenAndHeard seen_;

@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "lobby/screen/lobby_screens.h"
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kNear_ms = 80.0;  // a round trip in which a couple hardly feels the line
 constexpr std::size_t kMostServerBytes = 262;
+constexpr std::size_t kMostNames = 8;  // the others are counted
 constexpr std::size_t kMostInvitationBytes = 1024;
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
@@ -89,6 +91,7 @@ void draw_invitation(LobbyModel& model, LobbyKit& kit) {
     model.ask(LobbyWish::kOpenInvitation);
   kit.beside(t[Text::kLobbyShowCommand]);
   draw_command(model, kit, LobbyWish::kOpenInvitation);
+  kit.note(t[Text::kLobbyInvitationFirst]);
   kit.end_card();
 }
 
@@ -101,6 +104,20 @@ std::string state_words(const LobbyModel& model, std::size_t which) {
   char number[24];
   std::snprintf(number, sizeof number, ms < 10.0 ? "%.1f" : "%.0f", ms);
   return model.texts.say(ms < kNear_ms ? Text::kLobbyNear : Text::kLobbyFar, {number});
+}
+
+std::string who_words(const LobbyModel& model, std::size_t which) {
+  if (which >= model.rooms.size()) return "";
+  const RoomFact& fact = model.rooms[which];
+  if (fact.who == RoomFact::Who::kNoKey) return model.texts[Text::kLobbyThereNoKey];
+  if (fact.who == RoomFact::Who::kRefused) return model.texts[Text::kLobbyThereRefused];
+  if (fact.who == RoomFact::Who::kUnknown) return "";
+  if (fact.guest_count == 0) return model.texts[Text::kLobbyThereNobody];
+  const std::size_t shown = std::min(fact.guests.size(), kMostNames);
+  std::string names;
+  for (std::size_t i = 0; i < shown; ++i) names += (names.empty() ? "" : ", ") + fact.guests[i];
+  if (shown == fact.guest_count) return model.texts.say(Text::kLobbyThere, {names});
+  return model.texts.say(Text::kLobbyThereMore, {names, std::to_string(fact.guest_count - shown)});
 }
 
 void draw_rooms(LobbyModel& model, LobbyKit& kit) {
@@ -119,12 +136,10 @@ void draw_rooms(LobbyModel& model, LobbyKit& kit) {
     }
     ImGui::SameLine();
     if (kit.button(t[Text::kLobbyForget], ButtonLook::kQuiet)) model.forget_room(i);
+    if (const std::string who = who_words(model, i); !who.empty()) kit.note(who);
     ImGui::PopID();
   }
-  if (!known.empty()) {
-    kit.note(t[Text::kLobbyWhoIsThereLater]);
-    if (kit.button(t[Text::kLobbyAskAgain])) model.ask(LobbyWish::kAskRooms);
-  }
+  if (!known.empty() && kit.button(t[Text::kLobbyAskAgain])) model.ask(LobbyWish::kAskRooms);
   kit.end_card();
 }
 

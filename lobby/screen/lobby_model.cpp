@@ -70,17 +70,26 @@ void LobbyModel::remember_room() {
   if (settings.server.empty()) return;
   auto& known = settings.window.rooms;
   const KnownRoom room{settings.room, settings.server};
-  std::erase(known, room);
+  rooms.resize(known.size());
+  RoomFact fact;
+  if (const auto at = std::find(known.begin(), known.end(), room); at != known.end()) {
+    const auto own = rooms.begin() + (at - known.begin());
+    fact = std::move(*own);
+    rooms.erase(own);
+    known.erase(at);
+  }
   known.insert(known.begin(), room);
+  rooms.insert(rooms.begin(), std::move(fact));
   if (known.size() > WindowChoices::kMostRooms) known.resize(WindowChoices::kMostRooms);
-  rooms.assign(known.size(), RoomFact());
+  rooms.resize(known.size());
 }
 
 void LobbyModel::forget_room(std::size_t which) {
   auto& known = settings.window.rooms;
   if (which >= known.size()) return;
+  rooms.resize(known.size());
   known.erase(known.begin() + static_cast<std::ptrdiff_t>(which));
-  rooms.assign(known.size(), RoomFact());
+  rooms.erase(rooms.begin() + static_cast<std::ptrdiff_t>(which));
 }
 
 std::string LobbyModel::command(LobbyWish what) const {

@@ -59,11 +59,16 @@ struct CameraFact {
   std::string trouble;
 };
 
-// What is known of a room's server.
+// What is known of a room and its server.
 struct RoomFact {
   enum class State { kAsking, kSilent, kAnswers };
   State state = State::kAsking;
   Duration round_trip;
+  enum class Who { kUnknown, kNoKey, kRefused, kKnown };
+  Who who = Who::kUnknown;
+  std::size_t guest_count = 0;
+  std::vector<std::string> guests;  // names of the first of them
+  MonoTime told;                    // when the server said who is there, or did not
 };
 
 // A microphone or a loudspeaker: as the file has it, and for people.

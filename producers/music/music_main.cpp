@@ -11,6 +11,7 @@
 #include "core/program/program.h"
 #include "core/program/talk.h"
 #include "producers/music/beats_file.h"
+#include "producers/music/control/music_control.h"
 #include "producers/music/music_program.h"
 #include "producers/music/sound/microphone_beats.h"
 #include "producers/music/sound/pulse_player.h"
@@ -187,6 +188,17 @@ Result<void> follow_microphone(const ProgramOptions& options) {
   return worked;
 }
 
+// Where there is something to be heard; without it, it plays all the same.
+std::unique_ptr<MusicControl> control_of(const ProgramOptions& options, MusicProgram& program,
+                                         Poller& poller) {
+  if (options.silent || options.file.empty()) return nullptr;
+  auto control = MusicControl::open(
+      options.bus, [&program](double volume) { program.set_volume(volume); }, poller);
+  if (control) return std::move(*control);
+  talk::warn("{}", control.error().what);
+  return nullptr;
+}
+
 Result<void> play(const ProgramOptions& options) {
   if (auto hint = check_hint(options); !hint) return hint;
   if (options.microphone) return follow_microphone(options);
@@ -210,6 +222,7 @@ Result<void> play(const ProgramOptions& options) {
   DANCE_TRY(program_options.begin, start_of(options, mono_now()));
   MusicProgram program(std::move(program_options), std::move(player), *bus, *poller);
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
+  const auto control = control_of(options, program, *poller);
   stop_after(*poller, options.seconds);
   talk::info("{}; Ctrl-C ends it", options.follow ? "listens for the room's music" : "playing");
   poller->run();

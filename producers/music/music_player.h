@@ -21,6 +21,8 @@ class MusicPlayer {
   // May be called again at any time with another moment. Loops, or is silent after the end.
   virtual void play_from(MonoTime begin, bool loops) = 0;
   virtual void pause() = 0;
+  // From now on: 0 = silent, 1 = as in the file.
+  virtual void set_volume(double volume) = 0;
   // The song second that is heard at t; nullopt while that is not known.
   virtual std::optional<double> heard_s(MonoTime t) const = 0;
   // To be called a hundred times a second.
@@ -34,6 +36,7 @@ class SilentPlayer : public MusicPlayer {
  public:
   void play_from(MonoTime begin, bool /*loops*/) override { begin_ = begin; }
   void pause() override { begin_.reset(); }
+  void set_volume(double) override {}
   std::optional<double> heard_s(MonoTime t) const override {
     return begin_ ? std::optional((t - *begin_).as_seconds()) : std::nullopt;
   }

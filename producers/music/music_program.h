@@ -42,6 +42,7 @@ class MusicProgram {
   bool is_over() const { return is_over_; }
   const BeatPublisher& publisher() const { return *publisher_; }
   std::string summary() const { return player_->summary(); }
+  void set_volume(double volume) { player_->set_volume(volume); }
   // Publishes to the house and the room that the music has stopped.
   void stop(MonoTime now);
 

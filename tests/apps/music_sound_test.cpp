@@ -54,6 +54,43 @@ TEST_F(MusicSound, ClicksAreHeardWhenTheBeatWasSaidToBe) {
   expect_clicks_on_the_beat(Duration());
 }
 
+TEST_F(MusicSound, IsAsLoudAsItIsToldWhileItPlays) {
+  if (!SoundServer::is_there()) GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
+  SoundServer sound(folder_);
+  ASSERT_TRUE(sound.is_open()) << text_of(folder_.path("pulse/talk"));
+  ASSERT_TRUE(sound.listen());
+  const std::string song = make_song("song", even_beats_at(0.2, 0.2, 600), 4);
+  const std::string set = bin("dance-music-set") + " --bus '" + kBus + "' --volume ";
+  BeatEar ear(kBus);
+  start("dance-music", {song, "--bus", kBus});
+  const auto hears = [&](std::size_t clicks) {
+    return wait_for([&] {
+      ear.work();
+      sound.work();
+      return sound.clicks().size() >= clicks;
+    });
+  };
+  ASSERT_TRUE(hears(3)) << talk();
+  ASSERT_EQ(run(set + "0").exit_code, 0);
+  // What the sound server had already is heard yet.
+  EXPECT_TRUE(wait_for([&] {
+    const std::size_t clicks = sound.clicks().size(), beats = ear.said().size();
+    return wait_for([&] {
+             ear.work();
+             sound.work();
+             return ear.said().size() >= beats + 15;
+           }) &&
+           sound.clicks().size() == clicks;
+  })) << "the beat goes on, and nothing is heard";
+  const std::size_t clicks = sound.clicks().size();
+  ASSERT_EQ(run(set + "0.9").exit_code, 0);
+  EXPECT_TRUE(hears(clicks + 3));
+  children_.back().stop(Duration::s(5));
+  const Finished nobody = run(set + "0.5");
+  EXPECT_EQ(nobody.exit_code, 1);
+  EXPECT_NE(nobody.talk.find("no music is played on this bus"), std::string::npos) << nobody.talk;
+}
+
 TEST_F(MusicSound, TheLoudspeakerIsToldWithItsLatency) {
   if (!SoundServer::is_there()) GTEST_SKIP() << "no pulseaudio: apt-get install pulseaudio";
   SoundServer sound(folder_);

@@ -55,6 +55,18 @@ TEST(SessionPartner, SaysWhatIsWrongWithAFile) {
   EXPECT_NE(none.error().what.find("there are"), std::string::npos);
 }
 
+TEST(SessionPartner, WhatIsPractisedToIsAsLoudAsItWasLeft) {
+  const auto volume_of = [](const char* tables) {
+    HouseConfig house = house_of(tables);
+    dance_alone(house);
+    practise_to(house, "song.ogg");
+    return house.music->volume;
+  };
+  EXPECT_EQ(volume_of(""), 1.0);
+  EXPECT_EQ(volume_of("[window]\nvolume = 0.4\n"), 0.4);
+  EXPECT_EQ(volume_of("[music]\nfollow = true\nvolume = 0.7\n[window]\nvolume = 0.4\n"), 0.7);
+}
+
 TEST(SessionWindow, IsReadAndItsErrorsHaveAPlace) {
   const HouseConfig house =
       house_of("[window]\nlanguage = \"de\"\nrooms = [\"salsa@a.org:7400\"]\nmirror = false\n");
@@ -62,8 +74,9 @@ TEST(SessionWindow, IsReadAndItsErrorsHaveAPlace) {
   ASSERT_EQ(house.window.rooms.size(), 1u);
   EXPECT_EQ(house.window.rooms[0].server, "a.org:7400");
   EXPECT_FALSE(house.window.mirror);
-  for (const char* wrong : {"langage = \"de\"", "language = \"fr\"", "rooms = [\"salsa\"]",
-                            "rooms = [\"S@a\"]", "width = 3", "mirror = 1", "partner = \"\""}) {
+  for (const char* wrong :
+       {"langage = \"de\"", "language = \"fr\"", "rooms = [\"salsa\"]", "rooms = [\"S@a\"]",
+        "width = 3", "mirror = 1", "volume = 2", "partner = \"\""}) {
     const auto read =
         parse_session("[house]\nguest = \"ann\"\n[window]\n" + std::string(wrong) + "\n", "h.toml");
     ASSERT_FALSE(read) << wrong;

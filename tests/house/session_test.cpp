@@ -109,6 +109,24 @@ TEST(Session, ListsTheConsumersThatThereAre) {
     EXPECT_NE(error.find(name), std::string::npos) << error;
 }
 
+TEST(Session, NeedsHiddenGuestsForWhatTheyFeedBesidesWindows) {
+  const std::string channel =
+      "[[channel]]\nname = \"LIGHT/desk\"\nclass = \"state\"\nrate = 5\n"
+      "size = 300\nlayout = \"i32\"\ndirection = ";
+  const std::pair<std::string, bool> cases[] = {
+      {"", false},
+      {channel + "\"out\"\n", false},
+      {channel + "\"in\"\n", true},
+      {"[[haptics]]\nguest = \"alice\"\nto = \"evdev\"\n", true},
+      {"[[listen]]\nto = \"print\"\n", true},
+  };
+  for (const auto& [table, needs] : cases) {
+    const auto session = parse_session(kHouse + table, "s.toml");
+    ASSERT_TRUE(session) << session.error().what;
+    EXPECT_EQ(session->needs_hidden_guests(), needs) << table;
+  }
+}
+
 TEST(Session, SaysWhatPosesMayCostAndHowExactTheyAre) {
   const auto usual = parse_session(kHouse, "s.toml");
   ASSERT_TRUE(usual);

@@ -48,8 +48,15 @@ TEST(LobbyModel, KnowsRoomsTheLastOneFirstAndNoMoreThanFit) {
   EXPECT_EQ(model.settings.window.rooms.size(), WindowChoices::kMostRooms);
   EXPECT_EQ(model.settings.window.rooms.front().room, "r20");
   EXPECT_EQ(model.rooms.size(), WindowChoices::kMostRooms);
+  model.rooms[0].guest_count = 20;
+  model.rooms[1].guest_count = 39;
+  model.choose_room({"r39", "a.org"});
+  EXPECT_EQ(model.rooms[0].guest_count, 39u) << "what is known goes with the room";
+  EXPECT_EQ(model.rooms[1].guest_count, 20u);
   model.forget_room(0);
-  EXPECT_EQ(model.settings.window.rooms.front().room, "r39");
+  EXPECT_EQ(model.settings.window.rooms.front().room, "r20");
+  EXPECT_EQ(model.rooms[0].guest_count, 20u);
+  EXPECT_EQ(model.rooms.size(), WindowChoices::kMostRooms - 1);
 }
 
 TEST(LobbyModel, JoinsNoRoomThatIsNone) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 
 #include "core/net/mono_clock.h"
 #include "lobby/run/lobby_painter.h"
@@ -32,7 +33,10 @@ LobbyModel full_model(Language language) {
   model.knows_cameras = true;
   model.cameras = {{"/dev/video0", "HD Webcam", ""}, {"/dev/video2", "Action camera", ""}};
   model.avatars = {"marisol", "teo"};
-  model.rooms = {{RoomFact::State::kAnswers, Duration::ms(23)}, {RoomFact::State::kSilent, {}}};
+  model.rooms.resize(2);
+  model.rooms[0] = {
+      RoomFact::State::kAnswers, Duration::ms(23), RoomFact::Who::kKnown, 2, {"bob", "carla"}, {}};
+  model.rooms[1].state = RoomFact::State::kSilent;
   model.advice = {Text::kCameraTooDark, Text::kCameraFeetCutOff};
   model.host.state = HostFacts::State::kOpen;
   model.host.addresses = {"192.168.1.23"};
@@ -114,6 +118,31 @@ TEST_F(LobbyScreenTest, BannersCommandsAndSheetsFitToo) {
     model.is_going_in = false;
     model.chooser.open(ChooserPurpose::kMotion, DANCE_SOURCE_DIR "/logs/couple.lcm");
     EXPECT_EQ(show(model, 1280, 720, 1.0f, "file-" + code).clipped, std::vector<std::string>());
+  }
+}
+
+TEST_F(LobbyScreenTest, WhoIsInARoomIsShownOrWhyItIsNot) {
+  using Who = RoomFact::Who;
+  for (const LanguageName& language : kLanguages) {
+    LobbyModel model = full_model(language.language);
+    RoomFact& room = model.rooms[0];
+    std::set<std::vector<std::uint8_t>> pictures;
+    const auto look = [&](Who who, std::size_t count, std::vector<std::string> names,
+                          const std::string& kept_as = "") {
+      room.who = who;
+      room.guest_count = count;
+      room.guests = std::move(names);
+      const Shown shown = show(model, 960, 1100, 1.0f, kept_as);
+      EXPECT_EQ(shown.clipped, std::vector<std::string>());
+      pictures.insert(shown.picture.rgb);
+    };
+    look(Who::kUnknown, 0, {});
+    look(Who::kNoKey, 0, {});
+    look(Who::kRefused, 0, {});
+    look(Who::kKnown, 0, {});
+    look(Who::kKnown, 2, {"bob", "carla"}, "rooms-" + std::string(language.code));
+    look(Who::kKnown, 48, std::vector<std::string>(32, "a-guest-with-a-long-name"));
+    EXPECT_EQ(pictures.size(), 6u) << language.code;
   }
 }
 

@@ -6,10 +6,9 @@
 #include <filesystem>
 #include <set>
 
-#include "core/program/child_process.h"
 #include "house/session.h"
-#include "tests/apps/run_program.h"
 #include "tests/lobby/typed_input.h"
+#include "tests/lobby/window_on_screen.h"
 #include "tests/virtual_display.h"
 
 namespace dance {
@@ -18,7 +17,7 @@ namespace {
 constexpr int kScreenWidth_px = 1280, kScreenHeight_px = 720;
 // Where things are in a window of that size.
 constexpr int kAlone_x = 500, kAlone_y = 160;
-constexpr int kFirstRoom_y = 822;  // in a window 1000 high
+constexpr int kFirstRoom_y = 850;  // in a window 1000 high
 constexpr int kHost_x = 100, kHost_y = 216;
 
 class LobbyWindowTest : public testing::Test {
@@ -34,74 +33,28 @@ class LobbyWindowTest : public testing::Test {
     input_ = std::make_unique<TypedInput>(display_.display());
     if (!input_->is_there()) GTEST_SKIP() << "no XTEST here; apt-get install libxtst6";
   }
-  std::string settings() const { return folder_.path("config/dancegraph/house.toml"); }
-  void put_settings(const std::string& text) {
-    std::filesystem::create_directories(folder_.path("config/dancegraph"));
-    std::ofstream(settings()) << text;
-  }
-  void start_lobby(std::vector<std::string> arguments = {}) {
-    auto started =
-        ChildProcess::start({bin("dance-lobby"), std::move(arguments), "", folder_.path("talk")});
-    ASSERT_TRUE(started) << started.error().what;
-    lobby_ = std::make_unique<ChildProcess>(std::move(*started));
-  }
+  std::string settings() const { return window_.settings(); }
+  void put_settings(const std::string& text) { window_.put_settings(text); }
   void open_lobby() {
-    start_lobby();
-    ASSERT_TRUE(lobby_);
-    ASSERT_TRUE(wait_for([&] { return shows_lobby() || lobby_->has_ended(); })) << talk();
-    ASSERT_FALSE(lobby_->has_ended()) << talk();
+    window_.start();
+    ASSERT_TRUE(window_.is_started());
+    ASSERT_TRUE(wait_for([&] { return window_.shows_lobby() || has_ended(); })) << talk();
+    ASSERT_FALSE(has_ended()) << talk();
   }
-  // A pixel of the screen, 0xRRGGBB: an X window dump of 32 bits a pixel.
-  unsigned int pixel(int x, int y) const {
-    const std::string dump = text_of(folder_.path("Xvfb_screen0"));
-    const auto number = [&](std::size_t at) {
-      unsigned int value = 0;
-      for (std::size_t i = 0; i < 4; ++i)
-        value = value << 8 | static_cast<unsigned char>(at + i < dump.size() ? dump[at + i] : 0);
-      return value;
-    };
-    const std::size_t header = number(0) + 12UL * number(4UL * 19);
-    const std::size_t at = header + static_cast<std::size_t>(y) * number(4UL * 12) + 4UL * x;
-    if (at + 3 >= dump.size()) return 0;
-    const auto byte = [&](std::size_t i) {
-      return static_cast<unsigned int>(static_cast<unsigned char>(dump[at + i]));
-    };
-    return byte(2) << 16 | byte(1) << 8 | byte(0);
-  }
-  // The list of screens at the left has a colour of its own.
-  bool shows_lobby() const { return pixel(5, 400) == 0x0e1015 && pixel(230, 700) == 0x0e1015; }
+  bool has_ended() { return window_.program().has_ended(); }
   bool shows_trouble() const {
     for (int x = 320; x < 330; ++x) {
-      const unsigned int colour = pixel(x, 28);
+      const unsigned int colour = window_.pixel(x, 28);
       if (colour >> 16 < 0x50 || colour >> 16 > 0x58 || (colour >> 8 & 0xff) > 0x30) return false;
     }
     return true;
   }
-  std::vector<pid_t> children(const std::string& program) const {
-    std::vector<pid_t> found;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-      const std::string name = entry.path().filename().string();
-      if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-      std::string status;  // a process may end meanwhile
-      std::ifstream file(entry.path().string() + "/stat");
-      std::getline(file, status);
-      const std::size_t open = status.find('('), close = status.rfind(") ");
-      if (close == std::string::npos || status.substr(open + 1, close - open - 1) != program)
-        continue;
-      const bool is_zombie = status[close + 2] == 'Z';
-      if (!is_zombie && std::stoi(status.substr(close + 4)) == lobby_->pid())
-        found.push_back(std::stoi(name));
-    }
-    return found;
-  }
-  bool dances() const { return children("dance-join").size() == 1 && !shows_lobby(); }
-  bool is_back() const { return children("dance-join").empty() && shows_lobby(); }
-  std::string talk() const { return text_of(folder_.path("talk")); }
+  std::string talk() const { return window_.talk(); }
   // Again until it is heard: while it goes in, the lobby is still there, and darker.
   void leave() {
     EXPECT_TRUE(wait_for([&] {
-      if (!is_back()) input_->press("q");
-      return wait_for([&] { return is_back(); }, std::chrono::seconds(2));
+      if (!window_.is_back()) input_->press("q");
+      return wait_for([&] { return window_.is_back(); }, std::chrono::seconds(2));
     })) << talk();
   }
   void click_until(int x, int y, const std::function<bool()>& condition) {
@@ -112,7 +65,7 @@ class LobbyWindowTest : public testing::Test {
   TestFolder folder_{"lobby-window"};
   VirtualDisplay display_{folder_.path(), "1280x1000x24"};
   std::unique_ptr<TypedInput> input_;
-  std::unique_ptr<ChildProcess> lobby_;
+  LobbyOnScreen window_{folder_, "config"};
 };
 
 constexpr const char* kSynthetic =
@@ -121,18 +74,18 @@ constexpr const char* kSynthetic =
 TEST_F(LobbyWindowTest, OneClickIsADanceWithAPartnerAndQIsTheWayBack) {
   put_settings(kSynthetic);
   open_lobby();
-  click_until(kAlone_x, kAlone_y, [&] { return dances(); });
+  click_until(kAlone_x, kAlone_y, [&] { return window_.dances(); });
   std::set<std::string> pictures;
   EXPECT_TRUE(wait_for([&] {
     pictures.insert(text_of(folder_.path("Xvfb_screen0")));
     return pictures.size() > 5;
   })) << "they move";
   leave();
-  EXPECT_FALSE(lobby_->has_ended());
-  click_until(kAlone_x, kAlone_y, [&] { return dances(); });
-  lobby_->ask_to_stop();
-  EXPECT_TRUE(wait_for([&] { return lobby_->has_ended(); })) << "from within the dance too";
-  EXPECT_TRUE(lobby_->ended_well()) << lobby_->exit_text() << talk();
+  EXPECT_FALSE(has_ended());
+  click_until(kAlone_x, kAlone_y, [&] { return window_.dances(); });
+  window_.program().ask_to_stop();
+  EXPECT_TRUE(wait_for([&] { return has_ended(); })) << "from within the dance too";
+  EXPECT_TRUE(window_.program().ended_well()) << window_.program().exit_text() << talk();
   EXPECT_EQ(text_of(settings()), kSynthetic) << "nothing was chosen";
 }
 
@@ -143,11 +96,11 @@ TEST_F(LobbyWindowTest, KeysAloneDoAsWell) {
   // The first key shows where the keys are: at the big button, and the next one back there.
   EXPECT_TRUE(wait_for([&] {
     for (const char* key : {"Down", "Up", "Return"}) {
-      if (!children("dance-join").empty()) break;
+      if (!window_.children("dance-join").empty()) break;
       input_->press(key);
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
     }
-    return wait_for([&] { return dances(); }, std::chrono::seconds(5));
+    return wait_for([&] { return window_.dances(); }, std::chrono::seconds(5));
   })) << talk();
   leave();
 }
@@ -155,19 +108,19 @@ TEST_F(LobbyWindowTest, KeysAloneDoAsWell) {
 TEST_F(LobbyWindowTest, AHouseThatDiesIsTroubleAndTheWindowStays) {
   put_settings(kSynthetic);
   open_lobby();
-  click_until(kAlone_x, kAlone_y, [&] { return dances(); });
-  kill(children("dance-join").front(), SIGKILL);
-  EXPECT_TRUE(wait_for([&] { return is_back() && shows_trouble(); })) << talk();
-  EXPECT_FALSE(lobby_->has_ended());
+  click_until(kAlone_x, kAlone_y, [&] { return window_.dances(); });
+  kill(window_.children("dance-join").front(), SIGKILL);
+  EXPECT_TRUE(wait_for([&] { return window_.is_back() && shows_trouble(); })) << talk();
+  EXPECT_FALSE(has_ended());
 }
 
 TEST_F(LobbyWindowTest, AServerThatIsSilentIsTroubleInTheLobby) {
   put_settings(std::string(kSynthetic) +
                "[window]\nheight = 1000\nrooms = [\"salsa@127.0.0.1:7499\"]\n");
   open_lobby();
-  click_until(500, kFirstRoom_y, [&] { return !children("dance-join").empty(); });
-  EXPECT_TRUE(wait_for([&] { return is_back() && shows_trouble(); })) << talk();
-  EXPECT_FALSE(lobby_->has_ended());
+  click_until(500, kFirstRoom_y, [&] { return !window_.children("dance-join").empty(); });
+  EXPECT_TRUE(wait_for([&] { return window_.is_back() && shows_trouble(); })) << talk();
+  EXPECT_FALSE(has_ended());
   EXPECT_EQ(load_session(settings())->server, "127.0.0.1:7499");
 }
 
@@ -177,9 +130,9 @@ TEST_F(LobbyWindowTest, AnInvitationIsADanceInItsRoom) {
   ASSERT_TRUE(server);
   const Finished made = run(bin("dance-server") + " --invite bob --address 127.0.0.1 --room salsa");
   ASSERT_TRUE(made.output.starts_with("dance://")) << made.talk;
-  start_lobby({made.output.substr(0, made.output.find('\n'))});
-  ASSERT_TRUE(lobby_);
-  EXPECT_TRUE(wait_for([&] { return dances(); })) << talk();
+  window_.start({made.output.substr(0, made.output.find('\n'))});
+  ASSERT_TRUE(window_.is_started());
+  EXPECT_TRUE(wait_for([&] { return window_.dances(); })) << talk();
   EXPECT_TRUE(wait_for([&] {
     return run(bin("dance-status") + " --once --json").output.find("\"name\":\"bob\"") !=
            std::string::npos;
@@ -208,14 +161,14 @@ TEST_F(LobbyWindowTest, ARoomIsOpenedHereAndEndsWithTheWindow) {
   open_lobby();
   input_->click(kHost_x, kHost_y);
   // The big button of the screen before is gone.
-  ASSERT_TRUE(wait_for([&] { return pixel(500, 170) != 0xff8b66; }));
+  ASSERT_TRUE(wait_for([&] { return window_.pixel(500, 170) != 0xff8b66; }));
   EXPECT_TRUE(wait_for([&] {
-    if (children("dance-server").empty()) input_->click(420, 143);
+    if (window_.children("dance-server").empty()) input_->click(420, 143);
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
     return run(bin("dance-status") + " --once --json").exit_code == 0;
   })) << talk();
-  lobby_->ask_to_stop();
-  EXPECT_TRUE(wait_for([&] { return lobby_->has_ended(); }));
+  window_.program().ask_to_stop();
+  EXPECT_TRUE(wait_for([&] { return has_ended(); }));
   EXPECT_TRUE(wait_for([&] { return run(bin("dance-status") + " --once").exit_code != 0; }));
 }
 

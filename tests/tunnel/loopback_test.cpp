@@ -1,13 +1,16 @@
 // A server and two links with their real sockets, on this machine's loopback address.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "core/net/mono_clock.h"
 #include "testing/line/lossy_proxy.h"
 #include "tests/tunnel/simulated_tunnel.h"
 #include "tunnel/link/link.h"
 #include "tunnel/link/link_report.h"
+#include "tunnel/link/room_question.h"
 #include "tunnel/server/server.h"
 
 namespace dance {
@@ -108,6 +111,37 @@ TEST_F(Loopback, APoseGoesFromHouseToHouseWithItsJourneyStamped) {
   EXPECT_EQ(stats.sessions, 1);
   EXPECT_NE(link_report_json(*b).find("\"id\":\"alice\",\"here\":true,\"received\":50,\"lost\":0"),
             std::string::npos);
+}
+
+TEST_F(Loopback, WhoIsThereIsToldToAKeyWithoutComingIn) {
+  auto a = link("alice");
+  ASSERT_TRUE(turn_until([&] { return a->is_connected(); }));
+  const std::vector<wire::RoomName> rooms{guest("tango"), guest("salsa")};
+  const auto ask = [&](const LinkKey& with) {
+    std::vector<RoomGuests> found;
+    const std::atomic<bool> is_ended{false};
+    std::atomic<bool> is_done{false};
+    std::thread asking([&] {
+      found = ask_who_is_there(address, with, rooms, Duration::s(30), is_ended);
+      is_done = true;
+    });
+    EXPECT_TRUE(turn_until([&] { return is_done.load(); }));
+    asking.join();
+    return found;
+  };
+  const auto found = ask(link_key());
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].state, RoomGuests::State::kKnown);
+  EXPECT_EQ(found[0].count, 0u);
+  EXPECT_EQ(found[1].state, RoomGuests::State::kKnown);
+  ASSERT_EQ(found[1].names.size(), 1u);
+  EXPECT_EQ(found[1].names[0], guest("alice"));
+  EXPECT_EQ(server->core().session_count(), 1u);
+  EXPECT_EQ(server->core().room_count(), 1u);
+  EXPECT_TRUE(turn_until([&] { return server->door().peer_count() == 1; })) << "it has gone";
+  LinkKey wrong = link_key();
+  wrong.key = PresharedKey::make();
+  EXPECT_EQ(ask(wrong)[1].state, RoomGuests::State::kRefused);
 }
 
 // Between a link and its server. Once it tampers, all that the server says comes twice, and damaged

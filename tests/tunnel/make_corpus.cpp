@@ -9,6 +9,7 @@
 #include "tests/tunnel/cluster/cluster_samples.h"
 #include "tests/tunnel/datagram_script.h"
 #include "tunnel/seal/preshared_key.h"
+#include "tunnel/wire/wire_room.h"
 
 namespace dance {
 namespace {
@@ -174,6 +175,16 @@ void write_tunnel(const std::filesystem::path& root) {
   host = nullptr;
   scene.a->link->ask_removal(guest("hanna"), 10);
   tunnel.run(Duration::ms(30));
+  // One who asks who is there, and is not; and another, whose key opens another room.
+  for (const Access& access :
+       {Access{.any_name = true}, Access{.name = guest("dora"), .room = guest("tango")}}) {
+    std::array<std::uint8_t, 64> out;
+    const wire::RoomQuestion question{11, guest("salsa")};
+    const std::span<const std::uint8_t> datagram(out.data(), wire::build(question, out));
+    const Bytes bytes(datagram.begin(), datagram.end());
+    append_step(seeds["server_datagram/type_34"], access.any_name ? 2 : 3, bytes);
+    tunnel.inject(tunnel.add_peer(access), datagram);
+  }
   scene.a->link->say_goodbye();
   tunnel.run(Duration::ms(30));
   for (const auto& [name, script] : seeds) write(root / "tunnel/corpus" / name, script);

@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <vector>
+
 #include "tests/core/bus/bus_help.h"
 
 namespace dance {
@@ -81,6 +85,34 @@ TEST(StageFeed, CountsEachPoseOfTheTunnelOnceWhicheverPosesAreShown) {
     EXPECT_EQ(stats.lost, 1) << static_cast<int>(shown);
     EXPECT_EQ(stats.late, 1) << static_cast<int>(shown);
   }
+}
+
+TEST(StageFeed, TellsTheLinkWhomItsWindowHidesAndThatItIsThere) {
+  FeedOptions options;
+  options.bus_url = kUrl;
+  auto feed = StageFeed::create(options);
+  auto other = StageFeed::create(options);
+  ASSERT_TRUE(feed && other);
+  const auto listener = open_bus();
+  std::map<std::uint64_t, std::vector<InterestWish>> said;
+  listener->subscribe<InterestWish>(Where::kLocal,
+                                    [&](const Channel&, const InterestWish& wish, MonoTime) {
+                                      EXPECT_EQ(wish.clock_id, this_clock_id());
+                                      said[wish.viewer].push_back(wish);
+                                    });
+  (*feed)->dance().hide({guest("bob")});
+  const auto hides = [&](const std::vector<InterestWish>& wishes) {
+    return std::count_if(wishes.begin(), wishes.end(),
+                         [](const InterestWish& wish) { return wish.hidden[0] == guest("bob"); });
+  };
+  drain_until(*listener, [&] {
+    return said.size() == 2 && std::all_of(said.begin(), said.end(),
+                                           [](const auto& of) { return of.second.size() >= 2; });
+  });
+  ASSERT_EQ(said.size(), 2u) << "each window has a name of its own";
+  const auto first = hides(said.begin()->second), second = hides(said.rbegin()->second);
+  EXPECT_EQ(std::min(first, second), 0) << "the other hides nobody, and says so";
+  EXPECT_GE(std::max(first, second), 1);
 }
 
 }  // namespace

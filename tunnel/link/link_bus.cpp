@@ -5,7 +5,7 @@
 namespace dance {
 namespace {
 
-constexpr Duration kRemovalHolds = Duration::s(2);
+constexpr Duration kWishHolds = Duration::s(2);
 
 }  // namespace
 
@@ -114,8 +114,37 @@ void LinkBus::follow_hearing(const Hearing& own) {
   port_.subscribe<HearingWish>(Where::kLocal,
                                [this](const Channel&, const HearingWish& wish, MonoTime now) {
                                  wishes_.hear(wish, now);
-                                 link_->set_hearing(wishes_.within(own_hearing_), now);
+                                 tell_wishes(now);
                                });
+}
+
+// What a recording plays hides nobody. A window on another machine has another clock, as a recording
+// may have: it hides nobody either, and whom it may show goes on coming.
+void LinkBus::follow_interest(const Interest& own) {
+  own_interest_ = own;
+  port_.subscribe<InterestWish>(Where::kLocal,
+                                [this](const Channel&, const InterestWish& wish, MonoTime now) {
+                                  if (wish.clock_id != clock_id_)
+                                    hidden_.hear({wish.time, wish.clock_id, wish.viewer, {}}, now);
+                                  else if (is_of_now(wish.clock_id, wish.time, now))
+                                    hidden_.hear(wish, now);
+                                  else
+                                    return;
+                                  tell_wishes(now);
+                                });
+}
+
+void LinkBus::tell_wishes(MonoTime now) {
+  const Hearing hearing = wishes_.within(own_hearing_);
+  link_->set_hearing(hearing, now);
+  if (!own_interest_) return;
+  // Where nothing plays voices none is wanted for the sake of whom it belongs to.
+  const Hearing played = wishes_.is_any() ? hearing : Hearing{false, {}};
+  link_->set_interest(hidden_.within(*own_interest_, played), now);
+}
+
+bool LinkBus::is_of_now(std::uint64_t clock_id, MonoTime said, MonoTime now) const {
+  return clock_id == clock_id_ && said <= now && now - said < kWishHolds;
 }
 
 void LinkBus::tell_status(LinkHandlers& handlers) {
@@ -133,12 +162,11 @@ void LinkBus::publish_status(MonoTime now) {
 
 // Of this house and of now: what a recording plays removes nobody.
 void LinkBus::follow_removals() {
-  port_.subscribe<Removal>(
-      Where::kLocal, [this](const Channel&, const Removal& removal, MonoTime now) {
-        const bool is_of_now = removal.clock_id == clock_id_ && removal.time <= now &&
-                               now - removal.time < kRemovalHolds;
-        if (is_of_now && link_ != nullptr) link_->ask_removal(removal.guest, removal.number);
-      });
+  port_.subscribe<Removal>(Where::kLocal,
+                           [this](const Channel&, const Removal& removal, MonoTime now) {
+                             if (is_of_now(removal.clock_id, removal.time, now) && link_ != nullptr)
+                               link_->ask_removal(removal.guest, removal.number);
+                           });
 }
 
 void LinkBus::forget(const GuestId& guest) {
@@ -184,7 +212,8 @@ void LinkBus::publish_second(MonoTime now) {
     port_.publish(Where::kRoom, scene_->first, scene_->second);
   }
   if (link_ == nullptr) return;
-  if (wishes_.expire(now)) link_->set_hearing(wishes_.within(own_hearing_), now);
+  const bool has_hearing_expired = wishes_.expire(now), has_hiding_expired = hidden_.expire(now);
+  if (has_hearing_expired || has_hiding_expired) tell_wishes(now);
   publish_traffic(now);
   // As the clocks stand now, which is better than when it came.
   if (const auto music = link_->room_music(now))

@@ -22,6 +22,7 @@
 #include "tunnel/link/link_avatars.h"
 #include "tunnel/link/link_status.h"
 #include "tunnel/policy/hearing_wishes.h"
+#include "tunnel/policy/interest_wishes.h"
 
 namespace dance {
 
@@ -48,6 +49,9 @@ class LinkBus {
   // Of the voices that `own` lets in, only those come that a guest of this house wants, while any
   // says so on HEARING/local.
   void follow_hearing(const Hearing& own);
+  // And of the poses that `own` lets in those that a window of this house shows, while any says so
+  // on INTEREST/local. After follow_hearing().
+  void follow_interest(const Interest& own);
   // HOUSE_LINK/local says how the link stands. After the caller's own handlers were added.
   void tell_status(LinkHandlers& handlers);
   // The link asks the server to remove whom a host of this house names on REMOVAL/local.
@@ -72,6 +76,8 @@ class LinkBus {
   template <class... Ts>
   void send_each(const GuestId& guest);
   void publish_traffic(MonoTime now);
+  void tell_wishes(MonoTime now);
+  bool is_of_now(std::uint64_t clock_id, MonoTime said, MonoTime now) const;
   void publish_status(MonoTime now);
   void on_channel(const GuestId& guest, std::string_view name, ChannelClass kind,
                   wire::Bytes message);
@@ -87,6 +93,8 @@ class LinkBus {
   std::vector<ChannelRule> rules_;
   Hearing own_hearing_;
   HearingWishes wishes_;
+  std::optional<Interest> own_interest_;  // not set: windows are not asked
+  InterestWishes hidden_;
   LinkStatus status_;
 };
 

@@ -1,6 +1,5 @@
 #include "tunnel/link/link_key.h"
 
-#include "core/net/address.h"
 #include "tunnel/seal/key_files.h"
 #include "tunnel/server/server.h"
 
@@ -12,6 +11,12 @@ Result<HouseKeys> load_house_keys(const std::string& path) {
   return text ? HouseKeys::parse(*text, path) : HouseKeys();
 }
 
+Result<std::string> path_of_keys(const LinkKeySource& source) {
+  if (!source.key_file.empty()) return source.key_file;
+  DANCE_TRY(const std::string folder, key_folder());
+  return folder + "/keys";
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SealContext>> LinkKey::context() const {
@@ -19,8 +24,9 @@ Result<std::unique_ptr<SealContext>> LinkKey::context() const {
                       : SealContext::for_link(name, key);
 }
 
-Result<LinkKey> choose_link_key(const std::string& server, const wire::RoomName& room,
-                                const GuestId& first_guest, const LinkKeySource& source) {
+Result<std::optional<LinkKey>> find_link_key(const std::string& server, const Address& at,
+                                             const wire::RoomName& room, const GuestId& first_guest,
+                                             const LinkKeySource& source) {
   LinkKey chosen;
   chosen.server = host_of(server);
   const SealCertificates& certificates = source.certificates;
@@ -28,34 +34,36 @@ Result<LinkKey> choose_link_key(const std::string& server, const wire::RoomName&
     if (certificates.chain.empty() || certificates.private_key.empty())
       return fail("a certificate and its private key belong together: give both");
     chosen.certificates = certificates;
-    return chosen;
+    return std::optional(std::move(chosen));
   }
-  std::string path = source.key_file;
-  if (path.empty()) {
-    DANCE_TRY(const std::string folder, key_folder());
-    path = folder + "/keys";
-  }
+  DANCE_TRY(const std::string path, path_of_keys(source));
   DANCE_TRY(const HouseKeys keys, load_house_keys(path));
-  const std::string name = server_name_of(server, kDefaultServerPort);
-  const HouseKey* key = keys.find(name, room, first_guest);
+  const HouseKey* key = keys.find(server_name_of(server, kDefaultServerPort), room, first_guest);
   // A key that says no server is for one elsewhere: on this machine there is a better one.
-  const auto own = Address::resolve(server, kDefaultServerPort);
-  const bool is_here = own && own->is_loopback() && source.key_file.empty();
+  const bool is_here = at.is_set() && at.is_loopback() && source.key_file.empty();
   if (key != nullptr && !(is_here && key->server.empty())) {
     chosen.name = std::string(key->name.view());
     chosen.key = key->key;
-    return chosen;
+    return std::optional(std::move(chosen));
   }
+  if (!is_here) return std::optional<LinkKey>();
+  chosen.name = kLocalKeyName;
+  DANCE_TRY(chosen.key, local_key());
+  return std::optional(std::move(chosen));
+}
+
+Result<LinkKey> choose_link_key(const std::string& server, const wire::RoomName& room,
+                                const GuestId& first_guest, const LinkKeySource& source) {
+  const auto own = Address::resolve(server, kDefaultServerPort);
+  DANCE_TRY(std::optional<LinkKey> found,
+            find_link_key(server, own.value_or(Address()), room, first_guest, source));
+  if (found) return std::move(*found);
   if (!own) return tl::make_unexpected(own.error());
-  if (is_here) {
-    chosen.name = kLocalKeyName;
-    DANCE_TRY(chosen.key, local_key());
-    return chosen;
-  }
-  return fail(
-      "there is no key for " + name + " and room '" + std::string(room.view()) + "' in " + path +
-      "; ask the server's keeper for an invitation (dance server --invite NAME), and open it "
-      "with: dance join LINK");
+  DANCE_TRY(const std::string path, path_of_keys(source));
+  return fail("there is no key for " + server_name_of(server, kDefaultServerPort) + " and room '" +
+              std::string(room.view()) + "' in " + path +
+              "; ask the server's keeper for an invitation (dance server --invite NAME), and open "
+              "it with: dance join LINK");
 }
 
 }  // namespace dance

@@ -3,7 +3,7 @@
 //
 // Units/frames: none.
 // Ownership:    plain values.
-// Threads:      none inside. choose_link_key() reads files: not for the pose path.
+// Threads:      none inside. Both functions read files: not for the pose path.
 // Failure:      choose_link_key() says which server there is no key for, and how to get one.
 #pragma once
 
@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/net/address.h"
 #include "tunnel/seal/seal_context.h"
 #include "tunnel/wire/wire.h"
 
@@ -37,5 +38,10 @@ struct LinkKeySource {
 // key is used, and made where there is none yet.
 Result<LinkKey> choose_link_key(const std::string& server, const wire::RoomName& room,
                                 const GuestId& first_guest, const LinkKeySource& source);
+// The same; nothing where there is no key, and an error only where one cannot be read. `at`: where
+// the server is, not set where that is not known; nothing is looked up.
+Result<std::optional<LinkKey>> find_link_key(const std::string& server, const Address& at,
+                                             const wire::RoomName& room, const GuestId& first_guest,
+                                             const LinkKeySource& source);
 
 }  // namespace dance

@@ -133,6 +133,8 @@ Result<void> run_link(const LinkProgramOptions& given) {
   for (const GuestId& guest : options.guests) link_bus.send_signals_of(guest);
   if (!options.listen_only) link_bus.send_channels(options.channels);
   link_bus.follow_hearing(options.hearing);
+  // Channels come of no guest of whom no pose is wanted.
+  if (!lets_any_in(options.channels)) link_bus.follow_interest(options.interest);
   link_bus.follow_removals();
   poller->watch(bus->fd(), [&](MonoTime now) { bus->drain(now); });
   const MonoTime begin = mono_now();

@@ -1,5 +1,6 @@
 #include "tunnel/policy/channel_rule.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -188,6 +189,10 @@ const ChannelRule* find_rule_in(std::span<const ChannelRule> rules, std::string_
   for (const ChannelRule& rule : rules)
     if (rule.is_in && rule.pattern.matches(name)) return &rule;
   return nullptr;
+}
+
+bool lets_any_in(std::span<const ChannelRule> rules) {
+  return std::ranges::any_of(rules, &ChannelRule::is_in);
 }
 
 }  // namespace dance

@@ -63,5 +63,7 @@ Result<std::vector<ChannelRule>> parse_channel_rules(const std::vector<std::stri
 // The first rule that lets a channel out, or in; null where none does.
 const ChannelRule* find_rule_out(std::span<const ChannelRule> rules, std::string_view name);
 const ChannelRule* find_rule_in(std::span<const ChannelRule> rules, std::string_view name);
+// Whether some channels are let in at all.
+bool lets_any_in(std::span<const ChannelRule> rules);
 
 }  // namespace dance

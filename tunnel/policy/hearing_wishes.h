@@ -25,6 +25,8 @@ class HearingWishes {
   void hear(const HearingWish& wish, MonoTime now);
   // Removes the wishes that hold no longer; true where there were any.
   bool expire(MonoTime now);
+  // Some program of this house plays voices.
+  bool is_any() const { return !said_.empty(); }
   // What `own` lets in of what is wanted; all of it while nobody says what is wanted.
   Hearing within(const Hearing& own) const;
 

@@ -50,6 +50,8 @@ void ServerCore::receive(PeerId from, const Access& access, wire::Bytes datagram
   }
   if (opening->type == wire::Type::kHello)
     return admission_.on_hello(from, access, opening->body, received, now);
+  if (opening->type == wire::Type::kRoomQuestion)
+    return room_answers_.on_question(from, access, opening->body, now);
   // Its session fell silent and was dropped. Data of others that is still under way to it would
   // hide that from the link: it is told.
   if (found == server_.by_peer.end()) {

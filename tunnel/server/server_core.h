@@ -22,6 +22,7 @@
 #include "tunnel/server/server_keepalive.h"
 #include "tunnel/server/server_remotes.h"
 #include "tunnel/server/server_removals.h"
+#include "tunnel/server/server_room_answers.h"
 #include "tunnel/server/signals/server_files.h"
 #include "tunnel/server/signals/server_voice.h"
 
@@ -98,6 +99,7 @@ class ServerCore {
   ServerSync sync_{server_, states_, forwarder_};
   ServerAdmission admission_;
   ServerRemovals removals_{server_, admission_};
+  ServerRoomAnswers room_answers_{server_, admission_};
   ServerKeepalive keepalive_{server_, admission_, feedback_, pace_, sync_};
   ServerFiles files_{server_};
   ServerVoice voice_{server_};

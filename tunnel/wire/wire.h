@@ -75,6 +75,9 @@ enum class Type : std::uint8_t {
   kRemoval = 31,
   kRemovalAnswer = 32,
   kRights = 33,
+  // tunnel/wire/wire_room.h.
+  kRoomQuestion = 34,
+  kRoomAnswer = 35,
 };
 
 enum class Refusal : std::uint16_t {

@@ -1,5 +1,6 @@
 // DanceBoard: where the thread that hears the bus leaves what the dance panel shows beside the
-// dance, and the drawing thread finds it; and the other way round, whom a host wants removed.
+// dance, and the drawing thread finds it; and the other way round, whom a host wants removed and
+// who is hidden.
 //
 // Units/frames: times of the house's clock.
 // Ownership:    bounded rings and mailboxes; never allocates after construction.
@@ -17,6 +18,7 @@ namespace dance {
 
 class DanceBoard {
  public:
+  using HiddenGuests = decltype(InterestWish::hidden);
   template <class T>
   struct Heard {
     GuestId guest;
@@ -39,6 +41,8 @@ class DanceBoard {
   void on_music(const Music& music) { music_.put(music); }
   void on_link(const HouseLink& link, MonoTime now) { link_.put({link, now}); }
   std::optional<OfGuest<std::int32_t>> take_asked() { return asked_.pop(); }
+  // Where they have changed.
+  const HiddenGuests* take_hidden() { return hidden_.take(); }
 
   std::optional<Heard<GuestStatus>> take_status() { return statuses_.pop(); }
   std::optional<Heard<bool>> take_present() { return present_.pop(); }
@@ -47,6 +51,8 @@ class DanceBoard {
   const HeardLink* take_link() { return link_.take(); }
   // The guest is to be removed from the room; the number tells this wish from others.
   void ask(const GuestId& guest, std::int32_t number) { asked_.push({guest, number}); }
+  // Those who are not drawn in this window: no poses of them are wanted.
+  void hide(const HiddenGuests& guests) { hidden_.put(guests); }
 
  private:
   SpscRing<Heard<GuestStatus>, 256> statuses_;
@@ -54,6 +60,7 @@ class DanceBoard {
   SpscRing<Heard<VoiceLevel>, 256> levels_;
   SpscRing<OfGuest<std::int32_t>, 64> asked_;
   Latest<Music> music_;
+  Latest<HiddenGuests> hidden_;
   Latest<HeardLink> link_;
 };
 

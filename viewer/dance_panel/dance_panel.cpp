@@ -20,6 +20,7 @@ constexpr std::array<KeyHelp, 4> kDanceKeys{{{"Esc", "this panel: guests, music,
                                              {"Left  Right", "in it: softer, louder"},
                                              {"Enter", "in it: press"}}};
 constexpr float kFewestRows_em = 5.0f;
+constexpr float kMusicStep = 0.05f;
 
 void push_style(float em) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em, 0.75f * em});
@@ -91,6 +92,7 @@ void DancePanel::work(const PanelFrame& frame) {
                 now);
   removal_.follow(records_.link(), needs_.board, now);
   tell_volumes_anew(frame.scene);
+  music_.work(is_open_, now);
   count_ = count_in_.at(frame.scene.music);
   note_mouse(now);
 }
@@ -181,6 +183,7 @@ void DancePanel::draw_music(const PanelFrame& frame) {
   const std::string bpm = std::to_string(std::lround(60.0 * music->beats_per_second));
   ImGui::SameLine();
   dance_ink::text(dance_ink::kQuiet, texts_.say(Text::kDanceTempo, {bpm}).c_str());
+  if (music_.is_there()) draw_music_volume(frame.scene.time);
   if (!CountIn::is_possible(music)) return;
   const bool waits = count_in_.is_asked();
   if (controls_.button("count-in", texts_[waits ? Text::kDanceCountWaits : Text::kDanceCountIn])) {
@@ -189,6 +192,16 @@ void DancePanel::draw_music(const PanelFrame& frame) {
     else
       count_in_.ask(music);
   }
+}
+
+void DancePanel::draw_music_volume(MonoTime now) {
+  auto volume = static_cast<float>(music_.volume());
+  const std::string words =
+      texts_.say(Text::kDanceMusicVolume, {std::to_string(std::lround(100.0f * volume))});
+  if (controls_.slider("music-volume",
+                       ImGui::GetContentRegionAvail().x - 0.3f * ImGui::GetFontSize(), volume, 0.0f,
+                       1.0f, kMusicStep, words.c_str()))
+    music_.set(static_cast<double>(volume), now);
 }
 
 // Of several voices of this house the first, as the keys.
@@ -228,6 +241,8 @@ void DancePanel::draw_footer(const PanelFrame& frame) {
   ImGui::Separator();
   if (const std::string words = removal_.words(texts_, now); !words.empty())
     dance_ink::text(dance_ink::kText, words.c_str());
+  if (!music_.trouble().empty())
+    dance_ink::text(dance_ink::kFair, printable(music_.trouble()).c_str());
   if (!voice_trouble_.empty()) dance_ink::text(dance_ink::kFair, printable(voice_trouble_).c_str());
   const auto state = recording_.state();
   if (state == DanceRecording::State::kRunning)

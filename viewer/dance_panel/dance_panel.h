@@ -17,6 +17,7 @@
 #include "viewer/dance_panel/count_in.h"
 #include "viewer/dance_panel/dance_records.h"
 #include "viewer/dance_panel/dance_wishes.h"
+#include "viewer/dance_panel/music_desk.h"
 #include "viewer/dance_panel/panel_controls.h"
 #include "viewer/dance_panel/recording.h"
 #include "viewer/dance_panel/removal_desk.h"
@@ -35,12 +36,17 @@ struct DanceNeeds {
   std::function<Result<void>(const GuestId& guest, std::string_view command)> tell_voice;
   // The machine's wall clock, since any zero of its own.
   std::function<Duration()> wall;
+  MusicDesk::Needs music = {};
 };
 
 class DancePanel : public WindowPanel {
  public:
   explicit DancePanel(DanceNeeds needs)
-      : needs_(std::move(needs)), texts_(needs_.language), recording_(needs_.recording) {}
+      : needs_(std::move(needs)),
+        texts_(needs_.language),
+        recording_(needs_.recording),
+        music_(needs_.music) {}
+  ~DancePanel() override { music_.keep(); }
 
   void open(bool is_open);
   // While one of these is open this panel is at the left.
@@ -67,6 +73,7 @@ class DancePanel : public WindowPanel {
   void draw_column(const PanelFrame& frame);
   void draw_music(const PanelFrame& frame);
   void draw_lamps(const SceneMusic& music) const;
+  void draw_music_volume(MonoTime now);
   void draw_own(const PanelFrame& frame);
   void draw_footer(const PanelFrame& frame);
   void act(BannerAction action);
@@ -89,6 +96,7 @@ class DancePanel : public WindowPanel {
   BannerWatch watch_;
   BannerChoice banners_;
   DanceRecording recording_;
+  MusicDesk music_;
   RemovalDesk removal_;
   CountIn count_in_;
   std::optional<CountIn::Count> count_;

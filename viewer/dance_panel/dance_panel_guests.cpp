@@ -1,6 +1,7 @@
 // The guests of the dance panel: one line each, and what can be done about the chosen one.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -205,6 +206,11 @@ void DancePanel::set_hidden(const GuestId& guest, bool is_hidden) {
   std::erase(needs_.wishes.hidden, guest);
   if (is_hidden && needs_.wishes.hidden.size() < DanceRecords::kMost)
     needs_.wishes.hidden.push_back(guest);
+  // Of more than a wish names, poses go on coming.
+  DanceBoard::HiddenGuests told{};
+  for (std::size_t i = 0; i < std::min(told.size(), needs_.wishes.hidden.size()); ++i)
+    told[i] = needs_.wishes.hidden[i];
+  needs_.board.hide(told);
 }
 
 }  // namespace dance

@@ -87,6 +87,14 @@ void DanceRecords::judge(const InstrumentRecords& figures, const SceneState& sce
     // A stage may dance on for one who is gone: that figure has its line, too.
     if (shown != scene.guests.end()) guest.present = now;
     QualityFigures measured;
+    const auto choice = choices_.find(guest.id);
+    if (guest.is_remote && choice != choices_.end() && choice->second.is_hidden) {
+      // No poses are wanted: there is nothing to judge, nor just after they are wanted again. Those
+      // of this house's own dancers come all the same.
+      guest.moved = guest.came = now;
+      guest.quality.update(measured, now);
+      continue;
+    }
     measured.silent_s = static_cast<float>((now - guest.moved).as_seconds());
     // It is said once a second: one that is not late is no silence.
     if (*measured.silent_s < 2.0f) measured.silent_s = 0.0f;

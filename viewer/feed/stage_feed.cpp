@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "core/net/mono_clock.h"
+#include "core/net/secure_random.h"
 
 namespace dance {
 
@@ -44,7 +45,10 @@ bool is_for_board(const FeedOptions& options, Where where) {
 StageFeed::StageFeed(const FeedOptions& options)
     : board_(this_clock_id(), options.stage_only || options.shown == Shown::kStage),
       instruments_(this_clock_id()),
-      begin_(mono_now()) {}
+      begin_(mono_now()) {
+  hidden_.clock_id = this_clock_id();
+  hidden_.viewer = secure_random_u64() | 1;
+}
 
 Result<std::unique_ptr<StageFeed>> StageFeed::create(const FeedOptions& options) {
   std::unique_ptr<StageFeed> feed(new StageFeed(options));
@@ -173,6 +177,10 @@ void StageFeed::hear_house() {
 
 // What a panel asks for.
 void StageFeed::publish_asked() {
+  if (const DanceBoard::HiddenGuests* hidden = dance_.take_hidden()) {
+    hidden_.hidden = *hidden;
+    publish_hidden(mono_now());
+  }
   while (const auto asked = dance_.take_asked())
     bus_->publish(Channel::of_house(Signal::kRemoval),
                   Removal{mono_now(), this_clock_id(), asked->what, asked->guest});
@@ -204,6 +212,13 @@ void StageFeed::publish_counters(MonoTime now) {
   stats.superseded =
       std::max<std::int64_t>(0, static_cast<std::int64_t>(board_.poses()) - shown_count_);
   bus_->publish(Channel::of_program(Signal::kStats, "view"), stats);
+  publish_hidden(now);
+}
+
+// Also where nobody is hidden here: poses go on coming, though another window hides the guest.
+void StageFeed::publish_hidden(MonoTime now) {
+  hidden_.time = now;
+  bus_->publish(Channel::of_house(Signal::kInterest), hidden_);
 }
 
 void StageFeed::run() {

@@ -63,6 +63,7 @@ class StageFeed {
   void publish_asked();
   void publish_figures(MonoTime now);
   void publish_counters(MonoTime now);
+  void publish_hidden(MonoTime now);
   void run();
   void on_wake();
 
@@ -71,6 +72,7 @@ class StageFeed {
   GuestBoard board_;
   InstrumentBoard instruments_;
   DanceBoard dance_;
+  InterestWish hidden_;  // as it was said last
   MonoTime begin_, counted_;
   std::int64_t shown_count_ = 0;
   SpscRing<ShownPose, 512> shown_;

@@ -26,7 +26,7 @@ class StylePanel : public WindowPanel {
  public:
   // `file` may be null: then nothing can be saved. A recording is not live.
   StylePanel(const InstrumentRecords& records, InstrumentBoard& board,
-             std::unique_ptr<SessionFile> file, bool is_live)
+             std::shared_ptr<SessionFile> file, bool is_live)
       : records_(records), board_(board), file_(std::move(file)), is_live_(is_live) {}
 
   void open(bool is_open) { is_open_ = is_open; }
@@ -55,7 +55,7 @@ class StylePanel : public WindowPanel {
 
   const InstrumentRecords& records_;
   InstrumentBoard& board_;
-  std::unique_ptr<SessionFile> file_;
+  std::shared_ptr<SessionFile> file_;  // other panels save there, too
   bool is_live_;
   bool is_open_ = false;
   GuestId chosen_, followed_;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/program/program.h"
+#include "producers/music/control/music_control.h"
 #include "viewer/dance_panel/dance_panel.h"
 #include "viewer/instruments/instrument_panel.h"
 #include "viewer/style_panel/style_panel.h"
@@ -25,8 +26,19 @@ DanceRecording::Options recording_options(const ViewOptions& options) {
           options.feed.bus_url};
 }
 
+MusicDesk::Needs music_needs(const std::string& bus, std::shared_ptr<SessionFile> file) {
+  MusicDesk::Needs needs;
+  needs.plays_here = [bus] { return is_music_played(bus); };
+  needs.tell = [bus](double volume) { return tell_music_volume(bus, volume); };
+  if (!file) return needs;
+  needs.volume = file->music_volume();
+  needs.keep = [file](double volume) { return file->save_music_volume(volume); };
+  return needs;
+}
+
 // Of a live house: a recorded dance is over.
-void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right, PanelStack& panels) {
+void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right,
+                     std::shared_ptr<SessionFile> file, PanelStack& panels) {
   DanceBoard* board = needs.source.dance();
   const ViewOptions& options = needs.options;
   // Of files only where it, or its keys, are asked for.
@@ -39,7 +51,8 @@ void add_dance_panel(const PanelNeeds& needs, const WindowPanel& at_right, Panel
                    options.language,
                    recording_options(options),
                    {},
-                   {}};
+                   {},
+                   music_needs(options.feed.bus_url, std::move(file))};
   dance.tell_voice = [bus = options.feed.bus_url](const GuestId& guest, std::string_view command) {
     return tell_voice(bus, guest, command);
   };
@@ -62,13 +75,13 @@ Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
   instruments->open(options.panel == "instruments");
   if (options.focus) instruments->choose(*options.focus);
   panels.add(std::move(instruments));
-  std::unique_ptr<SessionFile> file;
+  std::shared_ptr<SessionFile> file;
   if (!options.session.empty()) {
     DANCE_TRY(SessionFile opened, SessionFile::open(options.session));
-    file = std::make_unique<SessionFile>(std::move(opened));
+    file = std::make_shared<SessionFile>(std::move(opened));
   }
-  auto style = std::make_unique<StylePanel>(needs.records, needs.source.instruments(),
-                                            std::move(file), options.log.empty());
+  auto style = std::make_unique<StylePanel>(needs.records, needs.source.instruments(), file,
+                                            options.log.empty());
   style->open(options.panel == "style");
   if (options.focus) style->choose(*options.focus);
   const StylePanel& at_right = *style;
@@ -76,7 +89,7 @@ Result<void> add_panels(const PanelNeeds& needs, PanelStack& panels) {
   ReplaySource* replay = needs.source.replay();
   if (replay != nullptr && (!options.headless || options.panel == "timeline"))
     panels.add(std::make_unique<TimelinePanel>(*replay, needs.exporting));
-  add_dance_panel(needs, at_right, panels);
+  add_dance_panel(needs, at_right, file, panels);
   auto help = std::make_unique<HelpPanel>(panels, window_key_groups(replay != nullptr));
   if (options.panel == "keys") help->open();
   panels.add(std::move(help));

@@ -137,6 +137,7 @@
   ROW(kDanceMicrophoneOff, "Microphone off", "Micrófono apagado", "Mikrofon aus") \
   ROW(kDanceMicrophoneOn, "Microphone on", "Micrófono encendido", "Mikrofon an") \
   ROW(kDanceMusic, "Music", "Música", "Musik") \
+  ROW(kDanceMusicVolume, "music {} %", "música {} %", "Musik {} %") \
   ROW(kDanceMute, "Mute voice", "Silenciar voz", "Stumm schalten") \
   ROW(kDanceMuted, "muted", "sin voz", "stumm") \
   ROW(kDanceNoMusic, "No music", "Sin música", "Keine Musik") \

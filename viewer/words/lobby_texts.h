@@ -124,10 +124,24 @@
   ROW(kLobbySilent, "does not answer", "no responde", "antwortet nicht") \
   ROW(kLobbyNear, "near: {} ms", "cerca: {} ms", "nah: {} ms") \
   ROW(kLobbyFar, "far: {} ms", "lejos: {} ms", "fern: {} ms") \
-  ROW(kLobbyWhoIsThereLater, \
-      "Who is there shows once you are in.", \
-      "Dentro verás quién está.", \
-      "Wer da ist, siehst du drinnen.") \
+  ROW(kLobbyThere, "In the room: {}", "En la sala: {}", "Im Raum: {}") \
+  ROW(kLobbyThereMore, \
+      "In the room: {} and {} more", \
+      "En la sala: {} y {} más", \
+      "Im Raum: {} und {} weitere") \
+  ROW(kLobbyThereNobody, "Nobody is there.", "No hay nadie.", "Niemand ist da.") \
+  ROW(kLobbyThereNoKey, \
+      "You have no key to this room: ask for an invitation.", \
+      "No tienes clave para esta sala: pide una invitación.", \
+      "Du hast keinen Schlüssel für diesen Raum: bitte um eine Einladung.") \
+  ROW(kLobbyThereRefused, \
+      "Your key cannot be used here, or the server does not let you in.", \
+      "Tu clave no sirve aquí, o el servidor no te deja entrar.", \
+      "Dein Schlüssel gilt hier nicht, oder der Server lässt dich nicht hinein.") \
+  ROW(kLobbyInvitationFirst, \
+      "An invitation opens once. You will see who is in the room after that.", \
+      "Una invitación se abre una sola vez. Después verás quién está en la sala.", \
+      "Eine Einladung lässt sich einmal öffnen. Danach siehst du, wer im Raum ist.") \
   ROW(kLobbyJoin, "Join", "Entrar", "Hinein") \
   ROW(kLobbyForget, "Forget", "Olvidar", "Vergessen") \
   ROW(kLobbyAskAgain, "Ask again", "Preguntar otra vez", "Noch einmal fragen") \

@@ -37,7 +37,8 @@ PulsePlayer::PulsePlayer(AudioFile file, const PulsePlayerOptions& options)
       options_(options),
       clock_(file_.rate_hz()),
       plan_(file_.rate_hz()),
-      block_(2 * kBlock_frames) {}
+      block_(2 * kBlock_frames),
+      gain_(options.volume, file_.rate_hz()) {}
 
 std::optional<double> PulsePlayer::heard_s(MonoTime t) const {
   if (!begin_ || !clock_.is_known()) return std::nullopt;
@@ -105,7 +106,7 @@ Result<void> PulsePlayer::read_song(std::int64_t song_frame, std::span<float> st
         std::min<std::int64_t>(static_cast<std::int64_t>(stereo.size() / 2), length - file_frame);
     const auto part = stereo.first(static_cast<std::size_t>(2 * frames));
     DANCE_TRY(const std::size_t read, file_.read_stereo(part));
-    for (float& sample : part) sample *= static_cast<float>(options_.volume);
+    gain_.apply(part);
     // A file that holds less than it says: the rest is silence.
     if (read == 0) return {};
     song_frame += frames;

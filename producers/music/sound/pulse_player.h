@@ -16,6 +16,7 @@
 #include "producers/music/decode/audio_file.h"
 #include "producers/music/music_player.h"
 #include "producers/music/sound/play_plan.h"
+#include "producers/music/sound/volume_ramp.h"
 
 namespace dance {
 
@@ -34,6 +35,8 @@ class PulsePlayer : public MusicPlayer {
     loops_ = loops;
   }
   void pause() override { begin_.reset(); }
+  // Within some milliseconds, without a click.
+  void set_volume(double volume) override { gain_.set(volume); }
   std::optional<double> heard_s(MonoTime t) const override;
   Result<void> work(MonoTime now) override;
   std::string summary() const override;
@@ -55,6 +58,7 @@ class PulsePlayer : public MusicPlayer {
   MonoTime next_timing_request_;
   MonoTime next_correction_;
   std::vector<float> block_;
+  VolumeRamp gain_;
   Histogram errors_;
   std::uint64_t jumps_ = 0;
 };

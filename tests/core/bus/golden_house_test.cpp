@@ -21,18 +21,28 @@ HouseLink golden_house_link() {
 
 Removal golden_removal() { return {kCaptured, kClock, 41, *GuestId::parse("bob-2")}; }
 
+InterestWish golden_interest() {
+  InterestWish wish{kCaptured, kClock, static_cast<std::uint64_t>(-2), {}};
+  wish.hidden[0] = *GuestId::parse("alice");
+  wish.hidden[7] = *GuestId::parse("bob-2");
+  wish.hidden[23] = *GuestId::parse(std::string(24, 'c'));
+  return wish;
+}
+
 VoiceLevel golden_voice_level() { return {kCaptured, kClock, -23, -31}; }
 
 TEST(GoldenHouse, IsWrittenAndReadByteForByte) {
   expect_golden("house_link_t", golden_house_link());
   expect_golden("removal_t", golden_removal());
   expect_golden("voice_level_t", golden_voice_level());
+  expect_golden("interest_t", golden_interest());
 }
 
 TEST(GoldenHouse, SurvivesDamage) {
   expect_survives_bit_flips<HouseLink>("house_link_t");
   expect_survives_bit_flips<Removal>("removal_t");
   expect_survives_bit_flips<VoiceLevel>("voice_level_t");
+  expect_survives_bit_flips<InterestWish>("interest_t");
 }
 
 TEST(GoldenHouse, TakesOnlyWhatTheTablesOfLinkAndRemovalHave) {
@@ -53,6 +63,9 @@ TEST(GoldenHouse, TakesOnlyWhatTheTablesOfLinkAndRemovalHave) {
   removal = golden_removal();
   removal.number = 0;
   EXPECT_EQ(outcome_of(removal), Decoded::kInvalid) << "no number is no wish";
+  InterestWish wish = golden_interest();
+  wish.viewer = 0;
+  EXPECT_EQ(outcome_of(wish), Decoded::kInvalid) << "of no window";
   VoiceLevel level = golden_voice_level();
   level.level_dbfs = 3;
   EXPECT_EQ(outcome_of(level), Decoded::kInvalid) << "louder than full scale";

@@ -206,6 +206,30 @@ TEST(SessionFileDeathTest, RefusesAFileThatIsNotToBeWritten) {
   EXPECT_EQ(file.read(), kFile);
 }
 
+TEST(SessionFile, KeepsHowLoudTheMusicIsInItsTable) {
+  const std::string music = "[house]\nguest = \"ann\"\n[music]\nfile = \"a.ogg\"  # ours\n";
+  const TemporaryFile file(music);
+  auto opened = SessionFile::open(file.path);
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(opened->music_volume(), 1.0);
+  ASSERT_TRUE(opened->save_music_volume(0.35000001));
+  EXPECT_EQ(file.read(), music + "volume = 0.35\n");
+  EXPECT_EQ(opened->music_volume(), 0.35);
+  EXPECT_EQ(load_session(file.path)->music->volume, 0.35);
+  ASSERT_TRUE(opened->save_music_volume(0.0));
+  EXPECT_EQ(load_session(file.path)->music->volume, 0.0);
+  // Where only what is practised to stands in it.
+  file.write("[house]\nguest = \"ann\"\n[window]\nmusic = \"b.ogg\"\n");
+  opened = SessionFile::open(file.path);
+  ASSERT_TRUE(opened->save_music_volume(0.6));
+  EXPECT_EQ(load_session(file.path)->practice_volume, 0.6);
+  file.write("[house]\nguest = \"ann\"\n");
+  opened = SessionFile::open(file.path);
+  const auto refused = opened->save_music_volume(0.6);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("no [music]"), std::string::npos);
+}
+
 TEST(SessionFile, NamesAFileThatIsNotThereOrIsNoSession) {
   EXPECT_FALSE(SessionFile::open("/nowhere/s.toml"));
   const TemporaryFile file("[[route]\n");

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "core/base/random.h"
+#include "producers/music/sound/volume_ramp.h"
 
 namespace dance {
 namespace {
@@ -106,6 +109,25 @@ TEST(PlayPlan, KeepsTheSongOnItsTimeThoughTheCardDrifts) {
     }
     EXPECT_LT(worst_s, 0.004) << drift;
   }
+}
+
+TEST(VolumeRamp, ChangesWithoutAStepAndArrives) {
+  VolumeRamp ramp(1.0, kRate_hz);
+  std::vector<float> sound(2 * 4800, 1.0f);
+  ramp.apply(sound);
+  EXPECT_EQ(sound[0], 1.0f);
+  EXPECT_EQ(sound.back(), 1.0f);
+  ramp.set(0.25);
+  std::fill(sound.begin(), sound.end(), 1.0f);
+  ramp.apply(sound);
+  float before = 1.0f;
+  for (std::size_t i = 0; i < sound.size(); i += 2) {
+    EXPECT_EQ(sound[i], sound[i + 1]) << "both sides";
+    ASSERT_LE(before - sound[i], 1.001f / (VolumeRamp::kRamp_s * kRate_hz)) << i;
+    before = sound[i];
+  }
+  EXPECT_EQ(before, 0.25f);
+  EXPECT_GT(sound[2 * 400], 0.25f) << "not at once";
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "producers/music/control/music_control.h"
+
 namespace dance {
 namespace {
 
@@ -99,6 +101,15 @@ TEST(MusicTitle, IsTheFilesNameWithinATitlesLength) {
   for (int i = 0; i < 30; ++i) name += notes;
   EXPECT_EQ(music_title(name + ".ogg").view(), name.substr(0, 63));
   EXPECT_EQ(music_title("x" + name).view(), ("x" + name).substr(0, 61)) << "no half letter";
+}
+
+TEST(MusicControl, TakesVolumesAndNothingElse) {
+  EXPECT_EQ(parse_music_volume("volume 0.4"), 0.4);
+  EXPECT_EQ(parse_music_volume("volume 0"), 0.0);
+  EXPECT_EQ(parse_music_volume("volume 1"), 1.0);
+  for (const char* wrong : {"", "volume", "volume ", "volume 1.01", "volume -0.1", "volume 0.5x",
+                            "volume nan", "Volume 1", "volume  1", "mute"})
+    EXPECT_FALSE(parse_music_volume(wrong)) << wrong;
 }
 
 }  // namespace

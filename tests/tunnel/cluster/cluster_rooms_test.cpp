@@ -6,6 +6,7 @@
 #include "tests/tunnel/cluster/simulated_cluster.h"
 #include "tests/tunnel/referring_codec.h"
 #include "tests/tunnel/states_scene.h"
+#include "tunnel/wire/wire_room.h"
 
 namespace dance {
 namespace {
@@ -303,6 +304,60 @@ TEST_F(ClusterReferences, WhoComesLaterAtAnotherServerNeedsOneIntraFrame) {
   cluster.dance(Duration::s(1), {{&a, "alice"}});
   EXPECT_GT(late.heard_of(guest("alice")), 50u);
   EXPECT_LE(logs[0]->intra_frames_encoded - before, 3);
+}
+
+TEST(ClusterRooms, WhoIsThereIsToldByAServerThroughWhichSomebodyIs) {
+  SimulatedCluster cluster(2);
+  cluster[0].add("alice");
+  cluster[1].add("bob");
+  cluster[1].add("dora", "tango");
+  cluster.run(Duration::ms(500));
+  std::vector<wire::RoomAnswer> answers;
+  SimulatedTunnel& tunnel = cluster[0].tunnel;
+  tunnel.on_datagram = [&](bool to_server, PeerId, wire::Bytes bytes) {
+    const auto opening = wire::parse_opening(bytes);
+    if (!to_server && opening->type == wire::Type::kRoomAnswer)
+      answers.push_back(*wire::parse_room_answer(opening->body));
+    return true;
+  };
+  const PeerId asking = tunnel.add_peer({.name = guest("emil")});
+  for (const char* room : {"salsa", "tango"}) {
+    std::array<std::uint8_t, 64> out;
+    tunnel.inject(asking, {out.data(), wire::build(wire::RoomQuestion{1, guest(room)}, out)});
+  }
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(answers[0].result, wire::RoomResult::kKnown);
+  EXPECT_EQ(answers[0].count, 2) << "those who came through other servers, too";
+  EXPECT_EQ(answers[1].result, wire::RoomResult::kNotHere)
+      << "no answer is better than a wrong one";
+}
+
+TEST(ClusterRooms, WhoIsThereIsNotToldUntilTheOtherServersHaveBeenHeard) {
+  SimulatedCluster cluster(2);
+  cluster[1].add("bob");
+  cluster.run(Duration::ms(300));
+  std::vector<wire::RoomAnswer> answers;
+  SimulatedTunnel& tunnel = cluster[0].tunnel;
+  cluster[0].is_cut = true;
+  cluster[0].add("alice");
+  cluster.run(Duration::ms(300));
+  tunnel.on_datagram = [&](bool to_server, PeerId, wire::Bytes bytes) {
+    const auto opening = wire::parse_opening(bytes);
+    if (!to_server && opening->type == wire::Type::kRoomAnswer)
+      answers.push_back(*wire::parse_room_answer(opening->body));
+    return true;
+  };
+  const PeerId asking = tunnel.add_peer({.name = guest("emil")});
+  std::array<std::uint8_t, 64> out;
+  const std::size_t size = wire::build(wire::RoomQuestion{1, guest("salsa")}, out);
+  tunnel.inject(asking, {out.data(), size});
+  cluster[0].is_cut = false;
+  cluster.run(Duration::ms(300));
+  tunnel.inject(asking, {out.data(), size});
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_EQ(answers[0].result, wire::RoomResult::kNotHere) << "alice alone would be wrong";
+  EXPECT_EQ(answers[1].result, wire::RoomResult::kKnown);
+  EXPECT_EQ(answers[1].count, 2);
 }
 
 }  // namespace

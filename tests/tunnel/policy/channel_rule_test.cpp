@@ -93,6 +93,7 @@ TEST(ChannelRule, IsFoundByDirection) {
   EXPECT_EQ(find_rule_in(rules, "A/x"), &rules[0]);
   EXPECT_EQ(find_rule_out(rules, "A/x"), &rules[1]);
   EXPECT_EQ(find_rule_in(rules, "A/y"), nullptr);
+  EXPECT_TRUE(lets_any_in(rules));
   EXPECT_EQ(find_rule_out(rules, "B/y"), nullptr);
 }
 

@@ -58,9 +58,9 @@ TEST_F(DancePictureTest, RemovingAsksBackAndASecondEnterRemovesNobody) {
   panel_->open(true);
   panel_->choose(guest_called("bob"));
   turn();
-  // Count in, microphone, loudspeaker, alice, bob; of bob: mute, hide, remove.
+  // Music, count in, microphone, loudspeaker, alice, bob; of bob: mute, hide, remove.
   const auto press_remove = [&] {
-    for (int i = 0; i < 8; ++i) press(GLFW_KEY_DOWN);
+    for (int i = 0; i < 9; ++i) press(GLFW_KEY_DOWN);
     press(GLFW_KEY_ENTER);
     turn();
   };
@@ -122,6 +122,51 @@ TEST_F(DancePictureTest, ArrowsChangeTheVolumeOfTheChosenGuest) {
   press(GLFW_KEY_RIGHT);
   press(GLFW_KEY_RIGHT);
   EXPECT_EQ(told_.back(), "alice: volume bob=1.10");
+}
+
+TEST_F(DancePictureTest, ThisHousesMusicIsMadeSofterAndKeptOnceItRests) {
+  begin(Language::kEnglish, kWidth_px, kHeight_px, 1.0f);
+  panel_->open(true);
+  draw();
+  for (int i = 0; i < 40 && music_told_.empty(); ++i) {
+    press(GLFW_KEY_DOWN);
+    press(GLFW_KEY_LEFT);
+  }
+  ASSERT_EQ(music_told_.size(), 1u);
+  EXPECT_NEAR(music_told_[0], 0.55, 1e-6);
+  press(GLFW_KEY_LEFT);
+  EXPECT_NEAR(music_told_.back(), 0.5, 1e-6);
+  EXPECT_TRUE(music_kept_.empty()) << "it may still move";
+  for (int i = 0; i < 62; ++i) turn();
+  ASSERT_EQ(music_kept_.size(), 1u);
+  EXPECT_NEAR(music_kept_[0], 0.5, 1e-6);
+  keep("dance-music-volume");
+  press(GLFW_KEY_RIGHT);
+  panels_ = PanelStack();
+  ASSERT_EQ(music_kept_.size(), 2u) << "the window closes";
+  EXPECT_NEAR(music_kept_[1], 0.55, 1e-6);
+}
+
+TEST_F(DancePictureTest, WhereNothingPlaysHereNoVolumeIsOffered) {
+  plays_music_ = false;
+  begin(Language::kEnglish, kWidth_px, kHeight_px, 1.0f);
+  panel_->open(true);
+  for (int i = 0; i < 40; ++i) {
+    press(GLFW_KEY_DOWN);
+    press(GLFW_KEY_LEFT);
+  }
+  EXPECT_TRUE(music_told_.empty());
+}
+
+TEST_F(DancePictureTest, AHiddenGuestIsToldToTheLink) {
+  begin(Language::kEnglish, kWidth_px, kHeight_px, 1.0f);
+  press(GLFW_KEY_ESCAPE);
+  ASSERT_TRUE(find_with_keys([&] { return !wishes_.hidden.empty(); }));
+  const DanceBoard::HiddenGuests* hidden = board_.take_hidden();
+  ASSERT_NE(hidden, nullptr);
+  EXPECT_EQ((*hidden)[0], wishes_.hidden[0]);
+  EXPECT_FALSE((*hidden)[1].is_set());
+  EXPECT_EQ(board_.take_hidden(), nullptr) << "once";
 }
 
 TEST_F(DancePictureTest, VolumesAreToldAgainToAVoiceThatBeginsAnew) {

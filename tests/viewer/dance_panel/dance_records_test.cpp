@@ -61,6 +61,35 @@ TEST(DanceRecords, ASilentGuestStaysWhileTheLinkNamesItAndThenGoes) {
   EXPECT_EQ(room.names(), "alice ") << "a camera of this house may come back";
 }
 
+TEST(DanceRecords, AHiddenGuestIsNotJudgedNorAtOnceWhenShownAgain) {
+  Room room;
+  const auto second = [&](std::int64_t received) {
+    room.status("bob", true, true, received);
+    room.board.on_traffic(guest_called("bob"), room.now);
+    room.look();
+    room.now += Duration::s(1);
+    return room.records.find(guest_called("bob"))->quality.shown().level;
+  };
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(second(60 * i), QualityLevel::kGood);
+  room.records.choice_of(guest_called("bob")).is_hidden = true;
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(second(240), QualityLevel::kGood) << "none are wanted";
+  room.records.choice_of(guest_called("bob")).is_hidden = false;
+  EXPECT_EQ(second(240), QualityLevel::kGood);
+  for (int i = 0; i < 5; ++i) second(240);
+  EXPECT_EQ(second(240), QualityLevel::kBad) << "they are wanted and do not come";
+}
+
+TEST(DanceRecords, ADancerOfThisHouseWhoIsHiddenIsMissedWhenNoPoseComes) {
+  Room room;
+  room.records.choice_of(guest_called("alice")).is_hidden = true;
+  const MonoTime begin = room.now;
+  for (int second = 0; second < 6; ++second, room.now += Duration::s(1)) {
+    room.status("alice", false, true, 60);
+    room.look();
+  }
+  EXPECT_EQ(room.records.find(guest_called("alice"))->moved, begin) << "the camera has stopped";
+}
+
 TEST(DanceRecords, LossIsTheMeanOfSomeSeconds) {
   Room room;
   std::uint32_t sequence = 0;

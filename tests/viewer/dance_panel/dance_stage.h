@@ -47,7 +47,17 @@ class DanceStage : public OffscreenTest {
     height_px_ = height_px;
     DanceNeeds needs{board_,   figures_, wishes_,
                      drawing_, language, {folder_.path("dance-record"), folder_.path("videos"), ""},
-                     {},       {}};
+                     {},       {},       {}};
+    needs.music.plays_here = [this] { return plays_music_; };
+    needs.music.tell = [this](double volume) -> Result<void> {
+      music_told_.push_back(volume);
+      return {};
+    };
+    needs.music.keep = [this](double volume) -> Result<void> {
+      music_kept_.push_back(volume);
+      return {};
+    };
+    needs.music.volume = 0.6;
     needs.tell_voice = [this](const GuestId& guest, std::string_view command) -> Result<void> {
       told_.push_back(std::string(guest.view()) + ": " + std::string(command));
       return {};
@@ -215,6 +225,8 @@ class DanceStage : public OffscreenTest {
   SceneState scene_;
   std::optional<HouseLink> link_;
   std::vector<std::string> told_;
+  bool plays_music_ = true;
+  std::vector<double> music_told_, music_kept_;
   std::vector<Line> lines_;
   MonoTime now_ = at_ms(kBegin_ms), told_at_;
   int width_px_ = kWidth_px, height_px_ = kHeight_px;

@@ -1,0 +1,29 @@
+#include "viewer/dance_panel/music_desk.h"
+
+#include <algorithm>
+
+namespace dance {
+
+void MusicDesk::work(bool is_shown, MonoTime now) {
+  if (changed_.is_set() && now - changed_ > kRests) keep();
+  if (!is_shown || !needs_.plays_here || (looked_.is_set() && now - looked_ < kLook)) return;
+  looked_ = now;
+  is_there_ = needs_.plays_here();
+}
+
+void MusicDesk::set(double volume, MonoTime now) {
+  volume_ = std::clamp(volume, 0.0, 1.0);
+  changed_ = now;
+  trouble_.clear();
+  if (!needs_.tell) return;
+  if (const auto told = needs_.tell(volume_); !told) trouble_ = told.error().what;
+}
+
+void MusicDesk::keep() {
+  if (!changed_.is_set()) return;
+  changed_ = MonoTime();
+  if (!needs_.keep) return;
+  if (const auto kept = needs_.keep(volume_); !kept) trouble_ = kept.error().what;
+}
+
+}  // namespace dance

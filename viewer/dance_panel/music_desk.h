@@ -1,0 +1,48 @@
+// MusicDesk: how loud the music of this house is: told to what plays it while a person moves the
+// slider, and kept in the session file when it has rested.
+//
+// Units/frames: volumes are factors, 0 = silent, 1 = as in the file.
+// Ownership:    plain value; what the functions refer to must outlive it.
+// Threads:      the drawing thread.
+// Failure:      what cannot be told or kept is in trouble().
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/time.h"
+
+namespace dance {
+
+class MusicDesk {
+ public:
+  static constexpr Duration kLook = Duration::s(1);
+  static constexpr Duration kRests = Duration::ms(700);
+
+  struct Needs {
+    std::function<bool()> plays_here;  // a program of this house plays music; not set = never
+    std::function<Result<void>(double)> tell;
+    std::function<Result<void>(double)> keep;
+    double volume = 1.0;  // as the session file has it
+  };
+  explicit MusicDesk(Needs needs) : needs_(std::move(needs)), volume_(needs_.volume) {}
+
+  // Once a picture.
+  void work(bool is_shown, MonoTime now);
+  bool is_there() const { return is_there_; }
+  double volume() const { return volume_; }
+  void set(double volume, MonoTime now);
+  // What has not been kept yet.
+  void keep();
+  const std::string& trouble() const { return trouble_; }
+
+ private:
+  Needs needs_;
+  double volume_;
+  bool is_there_ = false;
+  MonoTime looked_, changed_;  // changed_: not set where all is kept
+  std::string trouble_;
+};
+
+}  // namespace dance
