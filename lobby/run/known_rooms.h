@@ -5,8 +5,8 @@
 // Units/frames: MonoTime of this process.
 // Ownership:    owns the thread that asks.
 // Threads:      the drawing thread.
-// Failure:      what is not answered stays unknown in the model; names that nobody has confirmed for
-//               kNamesHold are forgotten.
+// Failure:      what is not answered stays unknown in the model; names that nobody has confirmed
+//               for kNamesHold are forgotten.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // RoundTrips: how far the servers of known rooms are, and who is in the rooms, asked in a thread of
-// its own: names are looked up there, which may take seconds, and what is known of a server is there
-// to be taken before the next one has answered.
+// its own: names are looked up there, which may take seconds, and what is known of a server is
+// there to be taken before the next one has answered.
 //
 // Units/frames: round trips of UDP, the shortest of three.
 // Ownership:    owns its thread; the destructor waits for it, a name server's patience at most.

@@ -118,7 +118,7 @@ TEST(Session, NeedsHiddenGuestsForWhatTheyFeedBesidesWindows) {
       {channel + "\"out\"\n", false},
       {channel + "\"in\"\n", true},
       {"[[haptics]]\nguest = \"alice\"\nto = \"evdev\"\n", true},
-      {"[[listen]]\nto = \"print\"\n", true},
+      {"[[listen]]\nto = \"text\"\n", true},
   };
   for (const auto& [table, needs] : cases) {
     const auto session = parse_session(kHouse + table, "s.toml");

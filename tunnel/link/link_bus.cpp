@@ -118,8 +118,8 @@ void LinkBus::follow_hearing(const Hearing& own) {
                                });
 }
 
-// What a recording plays hides nobody. A window on another machine has another clock, as a recording
-// may have: it hides nobody either, and whom it may show goes on coming.
+// What a recording plays hides nobody. A window on another machine has another clock, as a
+// recording may have: it hides nobody either, and whom it may show goes on coming.
 void LinkBus::follow_interest(const Interest& own) {
   own_interest_ = own;
   port_.subscribe<InterestWish>(Where::kLocal,

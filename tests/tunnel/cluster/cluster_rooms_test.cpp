@@ -338,7 +338,7 @@ TEST(ClusterRooms, WhoIsThereIsNotToldUntilTheOtherServersHaveBeenHeard) {
   cluster.run(Duration::ms(300));
   std::vector<wire::RoomAnswer> answers;
   SimulatedTunnel& tunnel = cluster[0].tunnel;
-  cluster[0].is_cut = true;
+  cluster.cut(0);
   cluster[0].add("alice");
   cluster.run(Duration::ms(300));
   tunnel.on_datagram = [&](bool to_server, PeerId, wire::Bytes bytes) {
@@ -351,8 +351,8 @@ TEST(ClusterRooms, WhoIsThereIsNotToldUntilTheOtherServersHaveBeenHeard) {
   std::array<std::uint8_t, 64> out;
   const std::size_t size = wire::build(wire::RoomQuestion{1, guest("salsa")}, out);
   tunnel.inject(asking, {out.data(), size});
-  cluster[0].is_cut = false;
-  cluster.run(Duration::ms(300));
+  cluster.join(0);
+  cluster.run(Duration::ms(500));
   tunnel.inject(asking, {out.data(), size});
   ASSERT_EQ(answers.size(), 2u);
   EXPECT_EQ(answers[0].result, wire::RoomResult::kNotHere) << "alice alone would be wrong";
