@@ -67,6 +67,9 @@ Result<void> compare_losses(Wishes wishes) {
 Result<void> run(Wishes wishes) {
   // Every frame is searched, however long nobody was there: nothing here is in real time.
   wishes.eval.estimator.search_interval = Duration{};
+  if (wishes.lost_frame % wishes.eval.every != 0)
+    return fail("--lose " + std::to_string(wishes.lost_frame) + ": not seen with --every " +
+                std::to_string(wishes.eval.every) + "; choose a multiple of that");
   if (wishes.lost_frame > 0) return compare_losses(wishes);
   DANCE_TRY(const CaptureRun run, evaluate_capture(wishes.files, wishes.eval));
   const std::string text =

@@ -28,6 +28,8 @@ constexpr std::size_t kLeftHipAt = 6;
 constexpr double kStandsBelow = 0.1, kStandsUnder_m = 0.05;
 // A foot that has come to rest so long ago is planted.
 constexpr double kPlanted_s = 0.1;
+// Over which a true foot's speed is measured, at any rate of pictures.
+constexpr double kSpeedOver_s = 1.0 / 30.0;
 constexpr double kWrongWay_m = 0.02;
 
 std::int64_t own_time_ns() {
@@ -197,6 +199,8 @@ SolveFigures figures_of(const JudgedTrack& track, const JudgedTrack& truth, std:
   double absolute = 0.0, relative = 0.0;
   int stood[2] = {0, 0};
   const int planted = static_cast<int>(std::ceil(kPlanted_s * hz));
+  const auto back =
+      std::min(from, static_cast<std::size_t>(std::max(1.0, std::round(kSpeedOver_s * hz))));
   double sum[8] = {}, squares[8] = {};
   for (std::size_t f = from; f < n; ++f) {
     const auto &a = track.frames[f], &b = truth.frames[f];
@@ -212,8 +216,9 @@ SolveFigures figures_of(const JudgedTrack& track, const JudgedTrack& truth, std:
     }
     for (std::size_t s = 0; s < 2; ++s) {
       ++stood[s];
-      const Vector3d true_step = b.foot[s] - truth.frames[f - 1].foot[s];
-      if (true_step.norm() * hz > kStandsBelow || b.foot[s].y() > floor_m[s] + kStandsUnder_m)
+      const Vector3d true_step = b.foot[s] - truth.frames[f - back].foot[s];
+      if (true_step.norm() * hz > kStandsBelow * static_cast<double>(back) ||
+          b.foot[s].y() > floor_m[s] + kStandsUnder_m)
         stood[s] = 0;
       if (stood[s] < planted) continue;
       Vector3d step = a.foot[s] - track.frames[f - 1].foot[s];
@@ -229,6 +234,7 @@ SolveFigures figures_of(const JudgedTrack& track, const JudgedTrack& truth, std:
   std::sort(slides.begin(), slides.end());
   std::sort(lows.begin(), lows.end());
   figures.slide_p95_cm_s = percentile<double>(slides, 0.95);
+  figures.planted = slides.size();
   figures.below_mm = 1000.0 * std::max(0.0, percentile<double>(lows, 0.99));
   for (std::size_t i = 0; i < 8; ++i) {
     const double mean = sum[i] / count;
@@ -244,8 +250,12 @@ void add(SolveFigures& sum, const SolveFigures& f, double share) {
   sum.relative_mm += share * f.relative_mm;
   sum.absolute_mm += share * f.absolute_mm;
   sum.jerk_ratio += share * f.jerk_ratio;
-  sum.slide_cm_s += share * f.slide_cm_s;
-  sum.slide_p95_cm_s += share * f.slide_p95_cm_s;
+  // Of all feet that stand alike: a take may have few.
+  const double stood = static_cast<double>(f.planted),
+               of_all = stood / std::max(1.0, stood + static_cast<double>(sum.planted));
+  sum.slide_cm_s += of_all * (f.slide_cm_s - sum.slide_cm_s);
+  sum.slide_p95_cm_s += of_all * (f.slide_p95_cm_s - sum.slide_p95_cm_s);
+  sum.planted += f.planted;
   sum.below_mm += share * f.below_mm;
   sum.bone_percent = std::max(sum.bone_percent, f.bone_percent);
   sum.wrong_knees += f.wrong_knees;

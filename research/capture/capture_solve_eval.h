@@ -38,6 +38,7 @@ struct SolveFigures {
   double jerk_ratio = 0.0;   // third differences against the truth's
   double slide_cm_s = 0.0;   // of feet that stand, mean
   double slide_p95_cm_s = 0.0;
+  std::size_t planted = 0;    // feet that stand, in all frames
   double below_mm = 0.0;      // deepest of a sole below the floor, 99 of 100 frames
   double bone_percent = 0.0;  // standard deviation of a bone's length over its mean, largest
   int wrong_knees = 0, wrong_elbows = 0;

@@ -31,12 +31,14 @@ constexpr const char* kSolveExamples = R"(Examples:
   bones      how much a bone's length changes
 With --shown, what an audience sees from the first picture on, without what corrects it last and
 with it: of takes turned to all four sides, of the same before a network that takes backs for
-fronts, seen from the skirt up, of persons who stand still; and of videos before the real network.
+fronts, with the legs out of the picture, of persons who stand still; and of videos before the
+real network.
   soles      frames with a heel, ball or toes more than 5 and 20 mm below the floor
   above      the lower sole above the floor, 99 of 100 frames are lower
   facing     the fastest turn, the largest in one frame, how often it became more than 90 degrees
              wrong (without a truth: turned by more within 0.2 s), 95 of 100 errors, lag of turns
   hands      movement of wrists from frame to frame; lag of those faster than 0.3 m/s
+  wrists off of wrists against the truth, the middle of the hips removed, mean and 95 of 100
 )";
 
 constexpr std::size_t kStillFrames = 300;
@@ -74,6 +76,10 @@ nlohmann::ordered_json json_of(const SoleFigures& s) {
           {"above_p99_mm", rounded(s.lift_p99_mm, 10.0)}};
 }
 
+nlohmann::ordered_json lag_json(const std::optional<double>& lag_ms) {
+  return lag_ms ? nlohmann::ordered_json(rounded(*lag_ms, 10.0)) : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json json_of(const ShownFigures& f) {
   return {{"soles_below_floor", json_of(f.soles)},
           {"soles_below_floor_in_first_1_5_s", json_of(f.start_soles)},
@@ -81,10 +87,12 @@ nlohmann::ordered_json json_of(const ShownFigures& f) {
           {"facing_most_deg_in_frame", rounded(f.most_deg, 10.0)},
           {"facing_flips", f.flips},
           {"facing_error_p95_deg", rounded(f.facing_error_deg, 10.0)},
-          {"facing_lag_ms", rounded(f.facing_lag_ms, 10.0)},
+          {"facing_lag_ms", lag_json(f.facing_lag_ms)},
           {"hands_p50_mm", rounded(f.hand_p50_mm, 100.0)},
           {"hands_p99_mm", rounded(f.hand_p99_mm, 100.0)},
-          {"hands_lag_ms", rounded(f.hand_lag_ms, 10.0)},
+          {"hands_lag_ms", lag_json(f.hand_lag_ms)},
+          {"wrist_error_mm", rounded(f.wrist_error_mm, 10.0)},
+          {"wrist_error_p95_mm", rounded(f.wrist_error_p95_mm, 10.0)},
           {"frames", f.frames},
           {"frames_without_pose", f.without_pose}};
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -72,13 +73,17 @@ std::string soles_text(const SoleFigures& s) {
                      std::max(0.0, s.worst_mm));
 }
 
+std::string lag_text(const std::optional<double>& lag_ms) {
+  return lag_ms ? fmt::format("{:.1f}", *lag_ms) : "-";
+}
+
 std::string line_text(const char* name, const ShownFigures& f) {
   return fmt::format(
-      "  {:<8}{}{} {:>7.1f} {:>6.0f} {:>6.0f} {:>5} {:>6.1f} {:>6.1f} {:>6.1f} "
+      "  {:<8}{}{} {:>7.1f} {:>6.0f} {:>6.0f} {:>5} {:>6.1f} {:>6} {:>6.1f} {:>6.1f} {:>6} "
       "{:>6.1f} {:>6.1f}\n",
       name, soles_text(f.soles), soles_text(f.start_soles), f.soles.lift_p99_mm, f.fastest_deg_s,
-      f.most_deg, f.flips, f.facing_error_deg, f.facing_lag_ms, f.hand_p50_mm, f.hand_p99_mm,
-      f.hand_lag_ms);
+      f.most_deg, f.flips, f.facing_error_deg, lag_text(f.facing_lag_ms), f.hand_p50_mm,
+      f.hand_p99_mm, lag_text(f.hand_lag_ms), f.wrist_error_mm, f.wrist_error_p95_mm);
 }
 
 }  // namespace
@@ -138,7 +143,8 @@ std::vector<ShownRow> shown_rows(const std::vector<CodecTake>& takes, const Scen
     near.distance_m = 1.9;
     near.height_m = 1.3;
     near.pitch_rad = 0.0;
-    rows.push_back(takes_row("from the skirt up", takes, near, outside, options, scenes.sides));
+    rows.push_back(
+        takes_row("legs out of the picture", takes, near, outside, options, scenes.sides));
   }
   SceneErrors seen;
   seen.hidden_per_s = 0.0;
@@ -159,16 +165,20 @@ ShownRow shown_row(const std::string& name, std::span<const BodyLandmarks> landm
 }
 
 std::string shown_table(const std::vector<ShownRow>& rows) {
-  std::string text = fmt::format(
-      "{:<10} {:^18} {:^18} {:>7} {:^27} {:>6} {:^20}\n"
-      "{:<10} {:>5} {:>5} {:>6} {:>5} {:>5} {:>6} {:>7} {:>6} {:>6} {:>5} {:>6} {:>6} {:>6} {:>6} "
-      "{:>6}\n"
-      "{:<10} {:>5} {:>5} {:>6} {:>5} {:>5} {:>6} {:>7} {:>6} {:>6} {:>5} {:>6} {:>6} {:>6} {:>6} "
-      "{:>6}\n",
-      "", "soles below floor", "in the first 1.5 s", "above", "facing", "", "hands", "", ">5",
-      ">20", "worst", ">5", ">20", "worst", "p99", "max", "frame", "flips", "p95", "lag", "p50",
-      "p99", "lag", "", "%", "%", "mm", "%", "%", "mm", "mm", "deg/s", "deg", "", "deg", "ms", "mm",
-      "mm", "ms");
+  std::string text = fmt::format("{:<10} {:^18} {:^18} {:>7} {:^27} {:>6} {:^20} {:^13}\n", "",
+                                 "soles below floor", "in the first 1.5 s", "above", "facing", "",
+                                 "hands", "wrists off");
+  for (const auto& cells : {
+           std::array{"", ">5", ">20", "worst", ">5", ">20", "worst", "p99", "max", "frame",
+                      "flips", "p95", "lag", "p50", "p99", "lag", "mean", "p95"},
+           std::array{"", "%", "%", "mm", "%", "%", "mm", "mm", "deg/s", "deg", "", "deg", "ms",
+                      "mm", "mm", "ms", "mm", "mm"},
+       }) {
+    constexpr std::array kWidths{10, 5, 5, 6, 5, 5, 6, 7, 6, 6, 5, 6, 6, 6, 6, 6, 6, 6};
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += fmt::format("{}{:>{}}", i > 0 ? " " : "", cells[i], kWidths[i]);
+    text += "\n";
+  }
   for (const ShownRow& row : rows) {
     text += fmt::format("{} ({} frames", row.name, row.now.frames);
     if (row.flipped > 0) text += fmt::format(", {} of them flipped", row.flipped);

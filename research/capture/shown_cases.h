@@ -1,5 +1,6 @@
 // The dances on which it is judged what an audience sees: recorded takes from all sides, before a
-// network that takes backs for fronts, seen from the skirt up, and persons who stand still.
+// network that takes backs for fronts, with the legs out of the picture, and persons who stand
+// still.
 //
 // Units/frames: as shown_eval.h.
 // Ownership:    plain values.

@@ -19,8 +19,6 @@ constexpr double kBonesHeld_s = 6.0;
 constexpr double kDeg = 180.0 / std::numbers::pi;
 // Bodies that lie, or turn their side up, face nowhere.
 constexpr double kLeastAcross = 0.5;
-// A heel is behind its ankle by this share of what its toes are before it.
-constexpr float kHeelShare = 0.24f;
 constexpr double kFlip_deg = 90.0, kNoFlip_deg = 45.0, kFlipWithin_s = 0.2;
 constexpr double kHandMoves_m_s = 0.3, kSpins_deg_s = 150.0;
 
@@ -46,6 +44,8 @@ void write_frame(const Skeleton& skeleton, const Pose& pose, ShownFrame& frame) 
   };
   frame.has_facing = facing_of(across(Bone::kLeftUpperLeg, Bone::kRightUpperLeg),
                                across(Bone::kLeftUpperArm, Bone::kRightUpperArm), frame.facing_rad);
+  frame.hips_m = 0.5 * (frames.position(Bone::kLeftUpperLeg).cast<double>() +
+                        frames.position(Bone::kRightUpperLeg).cast<double>());
   frame.wrist = {frames.position(Bone::kLeftHand).cast<double>(),
                  frames.position(Bone::kRightHand).cast<double>()};
 }
@@ -75,15 +75,15 @@ SoleFigures soles_of(const ShownTrack& track, std::size_t end) {
 // The shift at which two series of speeds are most alike, between frames by a parabola: `product`
 // of a frame and of the truth's, so many frames before.
 template <class Product>
-double lag_ms(int frames, double hz, Product product) {
+std::optional<double> lag_ms(int frames, double hz, Product product) {
   constexpr int kMost = 8;
-  if (frames <= 4 * kMost) return 0.0;
+  if (frames <= 4 * kMost) return std::nullopt;
   std::array<double, 2 * kMost + 1> alike{};
   for (int late = -kMost; late <= kMost; ++late)
     for (int f = kMost + 1; f < frames - kMost; ++f)
       alike[static_cast<std::size_t>(late + kMost)] += product(f, f - late);
   const auto most = std::max_element(alike.begin() + 1, alike.end() - 1);
-  if (!(*most > 0.0)) return 0.0;
+  if (!(*most > 0.0)) return std::nullopt;
   const double bend = most[-1] - 2.0 * most[0] + most[1];
   const double between = bend < 0.0 ? 0.5 * (most[-1] - most[1]) / bend : 0.0;
   return 1000.0 * (static_cast<double>(most - alike.begin()) - kMost + between) / hz;
@@ -135,13 +135,21 @@ void judge_facing(const ShownTrack& shown, const ShownTrack& truth, ShownFigures
 }
 
 void judge_hands(const ShownTrack& shown, const ShownTrack& truth, ShownFigures& figures) {
-  std::vector<double> steps_mm;
+  std::vector<double> steps_mm, errors_mm;
   const std::size_t n = shown.frames.size();
   for (auto f = static_cast<std::size_t>(kBonesHeld_s * shown.hz) + 1; f < n; ++f) {
     if (!shown.frames[f].is_there || !shown.frames[f - 1].is_there) continue;
     for (std::size_t s = 0; s < 2; ++s)
       steps_mm.push_back(1000.0 * (shown.frames[f].wrist[s] - shown.frames[f - 1].wrist[s]).norm());
+    if (truth.frames.empty()) continue;
+    const ShownFrame &is = shown.frames[f], &due = truth.frames[f];
+    for (std::size_t s = 0; s < 2; ++s)
+      errors_mm.push_back(1000.0 * (is.wrist[s] - is.hips_m - (due.wrist[s] - due.hips_m)).norm());
   }
+  std::sort(errors_mm.begin(), errors_mm.end());
+  for (const double e : errors_mm)
+    figures.wrist_error_mm += e / static_cast<double>(errors_mm.size());
+  figures.wrist_error_p95_mm = percentile<double>(errors_mm, 0.95);
   std::sort(steps_mm.begin(), steps_mm.end());
   figures.hand_p50_mm = percentile<double>(steps_mm, 0.5);
   figures.hand_p99_mm = percentile<double>(steps_mm, 0.99);
@@ -170,22 +178,6 @@ void add_soles(SoleFigures& sum, const SoleFigures& f, double share) {
 
 }  // namespace
 
-double lowest_sole_m(const Skeleton& skeleton, const BodyFrames& frames) {
-  float lowest = std::min(frames.tip(Tip::kLeftToes).y(), frames.tip(Tip::kRightToes).y());
-  for (const auto& [foot, toes, tip] :
-       {std::tuple{Bone::kLeftFoot, Bone::kLeftToes, Tip::kLeftToes},
-        std::tuple{Bone::kRightFoot, Bone::kRightToes, Tip::kRightToes}}) {
-    const Vector3f &joint = skeleton.offset(toes), &end = skeleton.tip(tip);
-    const float under = joint.y() + end.y();
-    for (const float z : {joint.z(), -kHeelShare * (joint.z() + end.z())}) {
-      const Vector3f sole =
-          frames.position(foot) + frames.R_WB[index_of(foot)] * Vector3f(0.0f, under, z);
-      lowest = std::min(lowest, sole.y());
-    }
-  }
-  return static_cast<double>(lowest);
-}
-
 ShownTrack truth_track(const CaptureScene& scene) {
   ShownTrack track{scene.hz, {}};
   for (const SceneFrame& seen : scene.frames) {
@@ -196,6 +188,8 @@ ShownTrack truth_track(const CaptureScene& scene) {
     frame.has_facing =
         facing_of(at(Landmark::kLeftHip) - at(Landmark::kRightHip),
                   at(Landmark::kLeftShoulder) - at(Landmark::kRightShoulder), frame.facing_rad);
+    frame.lowest_m = seen.lowest_sole_m;
+    frame.hips_m = 0.5 * (at(Landmark::kLeftHip) + at(Landmark::kRightHip));
     frame.wrist = {at(Landmark::kLeftWrist), at(Landmark::kRightWrist)};
     track.frames.push_back(frame);
   }
@@ -237,6 +231,10 @@ ShownFigures shown_figures(const ShownTrack& shown, const ShownTrack& truth) {
 ShownFigures all_of(const std::vector<ShownFigures>& figures) {
   ShownFigures all;
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, figures.size()));
+  int facing_lags = 0, hand_lags = 0;
+  const auto add_lag = [](std::optional<double>& mean, const std::optional<double>& one, int& n) {
+    if (one) mean = mean.value_or(0.0) + (*one - mean.value_or(0.0)) / ++n;
+  };
   for (const ShownFigures& f : figures) {
     add_soles(all.soles, f.soles, share);
     add_soles(all.start_soles, f.start_soles, share);
@@ -244,10 +242,12 @@ ShownFigures all_of(const std::vector<ShownFigures>& figures) {
     all.most_deg = std::max(all.most_deg, f.most_deg);
     all.flips += f.flips;
     all.facing_error_deg += share * f.facing_error_deg;
-    all.facing_lag_ms += share * f.facing_lag_ms;
+    add_lag(all.facing_lag_ms, f.facing_lag_ms, facing_lags);
     all.hand_p50_mm += share * f.hand_p50_mm;
     all.hand_p99_mm += share * f.hand_p99_mm;
-    all.hand_lag_ms += share * f.hand_lag_ms;
+    add_lag(all.hand_lag_ms, f.hand_lag_ms, hand_lags);
+    all.wrist_error_mm += share * f.wrist_error_mm;
+    all.wrist_error_p95_mm += share * f.wrist_error_p95_mm;
     all.frames += f.frames;
     all.without_pose += f.without_pose;
   }

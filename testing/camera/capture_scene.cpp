@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "core/base/assert.h"
@@ -52,6 +53,8 @@ constexpr Place kPlaces[]{
 // The toe's point, from the toes' joint.
 constexpr double kToeUp_m = 0.012, kToeBefore_m = 0.015;
 constexpr double kReferenceBody_m = 1.72;
+// A heel is behind its ankle by this share of what its toes are before it.
+constexpr float kHeelShare = 0.24f;
 
 // The network tells a body from the hips outwards: which limb hangs on which.
 constexpr std::array<int, kLandmarkCount> kHangsOn = [] {
@@ -279,6 +282,22 @@ std::array<Vector3d, kLandmarkCount> points_of(const BodyFrames& frames, double 
 
 }  // namespace
 
+double lowest_sole_m(const Skeleton& skeleton, const BodyFrames& frames) {
+  float lowest = std::min(frames.tip(Tip::kLeftToes).y(), frames.tip(Tip::kRightToes).y());
+  for (const auto& [foot, toes, tip] :
+       {std::tuple{Bone::kLeftFoot, Bone::kLeftToes, Tip::kLeftToes},
+        std::tuple{Bone::kRightFoot, Bone::kRightToes, Tip::kRightToes}}) {
+    const Eigen::Vector3f &joint = skeleton.offset(toes), &end = skeleton.tip(tip);
+    const float under = joint.y() + end.y();
+    for (const float z : {joint.z(), -kHeelShare * (joint.z() + end.z())}) {
+      const Eigen::Vector3f sole =
+          frames.position(foot) + frames.R_WB[index_of(foot)] * Eigen::Vector3f(0.0f, under, z);
+      lowest = std::min(lowest, sole.y());
+    }
+  }
+  return static_cast<double>(lowest);
+}
+
 CaptureScene make_scene(const std::string& name, const Skeleton& skeleton,
                         const std::vector<Pose>& poses, double hz, const SceneCamera& camera,
                         const SceneErrors& errors, std::uint64_t seed) {
@@ -322,6 +341,7 @@ CaptureScene make_scene(const std::string& name, const Skeleton& skeleton,
     }
     frame.ball_W_m = {frames.position(Bone::kLeftToes).cast<double>() - origin,
                       frames.position(Bone::kRightToes).cast<double>() - origin};
+    frame.lowest_sole_m = lowest_sole_m(skeleton, frames);
     frame.landmarks = network.see(
         p_C, camera.pinhole, MonoTime() + Duration::seconds(1.0 + static_cast<double>(f) / hz));
     frame.is_flipped = network.is_flipped();

@@ -59,6 +59,7 @@ struct SceneFrame {
   BodyLandmarks landmarks;
   std::array<Eigen::Vector3d, kLandmarkCount> truth_W_m;  // of the landmarks
   std::array<Eigen::Vector3d, 2> ball_W_m;                // the toes' joints
+  double lowest_sole_m = 0.0;                             // heels, balls and toes of both feet
   bool is_flipped = false;                                // the network took a back for a front
 };
 
@@ -73,6 +74,9 @@ struct CaptureScene {
 
   Eigen::Vector3d to_W(const Eigen::Vector3d& p_C_m) const { return R_WC * p_C_m + p_WC_m; }
 };
+
+// Heels, balls and toes.
+double lowest_sole_m(const Skeleton& skeleton, const BodyFrames& frames);
 
 // `poses` are 1/hz apart.
 CaptureScene make_scene(const std::string& name, const Skeleton& skeleton,

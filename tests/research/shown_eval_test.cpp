@@ -5,6 +5,7 @@
 
 #include "producers/salsa/salsa_dancer.h"
 #include "research/capture/capture_eval.h"
+#include "research/capture/capture_solve_eval.h"
 #include "research/capture/shown_cases.h"
 
 namespace dance {
@@ -27,9 +28,76 @@ ShownTrack swinging(std::size_t frames, double late_s) {
 
 TEST(ShownEval, FindsLags) {
   const ShownFigures figures = shown_figures(swinging(300, 0.05), swinging(300, 0.0));
-  EXPECT_NEAR(figures.hand_lag_ms, 50.0, 2.0);
-  EXPECT_NEAR(figures.facing_lag_ms, 50.0, 2.0);
+  EXPECT_NEAR(figures.hand_lag_ms.value_or(0.0), 50.0, 2.0);
+  EXPECT_NEAR(figures.facing_lag_ms.value_or(0.0), 50.0, 2.0);
   EXPECT_EQ(figures.flips, 0);
+}
+
+TEST(ShownEval, LagsAreThoseOfTracksThatHaveOne) {
+  ShownTrack still = swinging(300, 0.0);
+  for (ShownFrame& frame : still.frames) {
+    frame.facing_rad = 0.0;
+    for (Eigen::Vector3d& wrist : frame.wrist) wrist = {0.3, 1.0, 0.0};
+  }
+  const ShownFigures moves = shown_figures(swinging(300, 0.05), swinging(300, 0.0)),
+                     stands = shown_figures(still, still);
+  EXPECT_FALSE(stands.hand_lag_ms);
+  EXPECT_FALSE(stands.facing_lag_ms);
+  const ShownFigures all = all_of({stands, moves, stands});
+  EXPECT_NEAR(all.hand_lag_ms.value_or(0.0), *moves.hand_lag_ms, 1e-9);
+  EXPECT_NEAR(all.facing_lag_ms.value_or(0.0), *moves.facing_lag_ms, 1e-9);
+}
+
+TEST(ShownEval, WristsAreJudgedBesideTheHips) {
+  const ShownTrack truth = swinging(300, 0.0);
+  ShownTrack shown = truth;
+  for (ShownFrame& frame : shown.frames) {
+    frame.hips_m.x() += 1.0;
+    frame.wrist[0].x() += 1.0;
+    frame.wrist[1].x() += 1.03;
+  }
+  const ShownFigures figures = shown_figures(shown, truth);
+  EXPECT_NEAR(figures.wrist_error_mm, 15.0, 1e-6);
+  EXPECT_NEAR(figures.wrist_error_p95_mm, 30.0, 1e-6);
+}
+
+TEST(ShownEval, TheTruthHasSoles) {
+  std::vector<Pose> poses(4, still_posture(0));
+  poses[2].p_WH_m.y() += 0.05f;
+  poses[3].p_WH_m.y() -= 0.03f;
+  const ShownTrack truth = truth_track(
+      make_scene("still", average_skeleton(), poses, 30.0, SceneCamera(), no_errors(), 3));
+  EXPECT_NEAR(truth.frames[0].lowest_m, 0.0, 0.001);
+  EXPECT_NEAR(truth.frames[2].lowest_m, 0.05, 0.001);
+  EXPECT_NEAR(truth.frames[3].lowest_m, -0.03, 0.001);
+}
+
+// The same dance, given 30 or 60 times a second: the same feet stand, and slide alike.
+TEST(CaptureSolveEval, SlidingDoesNotDependOnTheRate) {
+  SalsaDancer dancer{SalsaStyle()};
+  std::array<SolveScore, 2> scores;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double hz = i == 0 ? 30.0 : 60.0;
+    std::vector<Pose> poses(static_cast<std::size_t>(6.0 * hz));
+    for (std::size_t f = 0; f < poses.size(); ++f)
+      dancer.dance_at(Duration::seconds(static_cast<double>(f) / hz), poses[f]);
+    scores[i] = evaluate_scene(
+        make_scene("salsa", dancer.skeleton(), poses, hz, SceneCamera(), no_errors(), 3), {},
+        Duration::s(2));
+  }
+  const auto [slow, quick] = std::pair{scores[0].truth, scores[1].truth};
+  ASSERT_GT(slow.planted, 20u);
+  EXPECT_NEAR(static_cast<double>(quick.planted), 2.0 * static_cast<double>(slow.planted),
+              0.2 * static_cast<double>(slow.planted));
+  EXPECT_NEAR(quick.slide_cm_s, slow.slide_cm_s, 1.0);
+  // A take in which a foot hardly stands counts as little.
+  SolveScore many, few;
+  many.solver.planted = 99;
+  many.solver.slide_cm_s = 2.0;
+  few.solver.planted = 1;
+  few.solver.slide_cm_s = 102.0;
+  EXPECT_NEAR(mean_of({many, few}).solver.slide_cm_s, 3.0, 1e-9);
+  EXPECT_NEAR(mean_of({few, many}).solver.slide_cm_s, 3.0, 1e-9);
 }
 
 TEST(ShownEval, CountsSolesFlipsAndTrembling) {
@@ -71,7 +139,9 @@ TEST(ShownEval, WhatIsShownKeepsWhatIsPromised) {
     worst_mm = std::max(worst_mm, row.before.soles.worst_mm);
   }
   EXPECT_GT(worst_mm, 20.0);
-  EXPECT_LE(rows[0].now.hand_lag_ms, rows[0].before.hand_lag_ms + 10.0);
+  EXPECT_LE(rows[0].now.hand_lag_ms.value(), rows[0].before.hand_lag_ms.value() + 10.0);
+  EXPECT_LE(rows[0].now.wrist_error_mm, rows[0].before.wrist_error_mm + 3.0);
+  EXPECT_FALSE(rows[4].truth.hand_lag_ms);
   EXPECT_GT(rows[1].flipped, 5);
   EXPECT_LT(rows[1].now.facing_error_deg, 20.0);
   EXPECT_LE(rows[4].now.hand_p99_mm, 8.0);

@@ -26,6 +26,12 @@ constexpr double kUsualOver = 30.0;
 // A permanently high cost is checked at this interval.
 constexpr double kDoubt_s = 1.0;
 
+// False where the network's metres were refused.
+bool has_depth(const Observation& seen) {
+  return std::any_of(seen.world_weight.begin(), seen.world_weight.end(),
+                     [](double weight) { return weight > 0.0; });
+}
+
 }  // namespace
 
 BodyTracking::BodyTracking(const SolverOptions& options, const Pinhole& camera)
@@ -142,7 +148,7 @@ bool BodyTracking::has_plausible_facing(Observation& seen, MonoTime now, double 
   const double unseen_s = (now - seen_at_).as_seconds();
   std::optional<Observation> corrected;
   bool is_far = false;
-  if (FlipWatch::is_suspect(turn_between(expected_rad, seen_rad))) {
+  if (FlipWatch::is_suspect(turn_between(expected_rad, seen_rad), unseen_s)) {
     corrected = without_flip(seen, R_WC, model_);
     is_far =
         corrected.has_value() || FlipWatch::is_far(turn_between(expected_rad, seen_rad), unseen_s);
@@ -348,9 +354,10 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
     carry(seconds, now);
     return write(motion_.state(), seen, now, seconds, out);
   }
-  const bool is_same = is_tracking_ && !landmarks.is_new;
+  // A dancer that was detected again a moment later is judged as one that was followed.
   const bool is_plausible =
-      !is_same || !options_.limits_facing || has_plausible_facing(seen, now, seconds);
+      !is_tracking_ || !options_.limits_facing || has_plausible_facing(seen, now, seconds);
+  const bool is_same = is_tracking_ && (!landmarks.is_new || (!is_plausible && !has_depth(seen)));
   const bool is_found = is_same ? follow(seen, now, seconds, is_plausible) : begin(seen, now);
   if (!is_found) {
     is_tracking_ = false;

@@ -25,10 +25,16 @@ constexpr double kUsualStep_s = 1.0 / 30.0;
 constexpr double kSuspect_rad = 0.4, kExplains = 0.4;
 // A flip that lasts longer is taken for a turn; sooner where nothing explains it.
 constexpr double kLasting_s = 0.8, kUnexplained_s = 0.4;
-constexpr double kUndoneWithin_s = 3.0, kUndone_rad = 0.9;
+// A believed turn that is seen undone for so long; one picture may be wrong.
+constexpr double kUndoneFor_s = 0.1, kUndoneWithin_s = 3.0, kUndone_rad = 0.9;
 constexpr double kBehind_rad = 0.15;
 // Rays that are further off, in standard deviations, count as much as these.
 constexpr double kMostOff = 10.0;
+
+// How far a body may have turned since it was seen, beyond what is usual between pictures.
+double unseen_turn_rad(double unseen_s) {
+  return FacingLimit::kFastest_rad_s * std::max(0.0, unseen_s - kUsualStep_s);
+}
 
 // The same point of the other side.
 constexpr std::size_t other_side(std::size_t i) {
@@ -145,11 +151,12 @@ std::optional<Observation> without_flip(const Observation& seen, const Eigen::Ma
   return best;
 }
 
-bool FlipWatch::is_suspect(double turn_rad) { return std::abs(turn_rad) > kSuspect_rad; }
+bool FlipWatch::is_suspect(double turn_rad, double unseen_s) {
+  return std::abs(turn_rad) > kSuspect_rad + unseen_turn_rad(unseen_s);
+}
 
 bool FlipWatch::is_far(double turn_rad, double unseen_s) {
-  return std::abs(turn_rad) >
-         kMostSurprise_rad + FacingLimit::kFastest_rad_s * std::max(0.0, unseen_s - kUsualStep_s);
+  return std::abs(turn_rad) > kMostSurprise_rad + unseen_turn_rad(unseen_s);
 }
 
 FacingVerdict FlipWatch::judge(const std::optional<double>& seen_rad, double turn_rad, bool is_far,
@@ -161,17 +168,26 @@ FacingVerdict FlipWatch::judge(const std::optional<double>& seen_rad, double tur
   // Where what is seen did not jump, the body turned, and the expectation is behind.
   if (!is_far || !(has_jumped_ || is_explained)) {
     has_jumped_ = is_far && has_jumped_;
-    refused_s_ = 0.0;
+    // One picture that agrees does not prove that those before were wrong.
+    refused_s_ = std::max(0.0, refused_s_ - seconds);
+    // While the body was not seen it may have turned so far, or the network may be wrong.
+    if (!is_far && std::abs(turn_rad) > kMostSurprise_rad) believe(turn_rad);
     return FacingVerdict::kPlausible;
   }
   const bool is_undone = jump_rad_ && std::abs(turn_between(-*jump_rad_, turn_rad)) < kUndone_rad;
   refused_s_ += seconds;
-  if (!is_undone && refused_s_ < (is_explained ? kLasting_s : kUnexplained_s))
-    return FacingVerdict::kRefused;
+  const double lasting_s = is_undone ? kUndoneFor_s : is_explained ? kLasting_s : kUnexplained_s;
+  if (refused_s_ < lasting_s) return FacingVerdict::kRefused;
   has_jumped_ = false;
-  refused_s_ = since_jump_s_ = 0.0;
-  jump_rad_ = is_undone ? std::nullopt : std::optional(turn_rad);
+  refused_s_ = 0.0;
+  believe(turn_rad);
+  if (is_undone) jump_rad_.reset();
   return FacingVerdict::kLasting;
+}
+
+void FlipWatch::believe(double turn_rad) {
+  jump_rad_ = turn_rad;
+  since_jump_s_ = 0.0;
 }
 
 void FacingLimit::apply(const Skeleton& skeleton, double seconds, Pose& pose) {
@@ -186,6 +202,9 @@ void FacingLimit::apply(const Skeleton& skeleton, double seconds, Pose& pose) {
     shown_rad_ = facing;
     since_s_ = 0.0;
     offset_rad_ = turn_between(given, facing);
+  } else {
+    const double most = kFastest_rad_s * seconds;
+    offset_rad_ -= std::clamp(offset_rad_, -most, most);
   }
   if (offset_rad_ != 0.0) turn_about_vertical(offset_rad_, pose);
 }

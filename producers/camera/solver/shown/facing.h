@@ -6,7 +6,7 @@
 // Ownership:    plain values, no heap.
 // Threads:      none inside; one owner.
 // Failure:      a body that lies, or turns one side up, faces nowhere; nothing is then refused, and
-//               the shown turn is kept.
+//               the shown turn ends at a body's speed.
 // Source:       fastest turns of dancers: CMU motion capture, subjects 60, 61 and 131
 //               (`dance capture solve eval --shown`).
 #pragma once
@@ -49,19 +49,21 @@ enum class FacingVerdict : std::uint8_t {
 class FlipWatch {
  public:
   void clear() { *this = FlipWatch(); }
-  // Turns are from the expected facing to the seen one. A suspect one is looked at closely; one
-  // that is far no body makes, `unseen_s` after it was seen.
-  static bool is_suspect(double turn_rad);
+  // Turns are from the expected facing to the seen one, `unseen_s` after the body was seen. A
+  // suspect one is looked at closely; one that is far no body makes.
+  static bool is_suspect(double turn_rad, double unseen_s);
   static bool is_far(double turn_rad, double unseen_s);
   // `is_explained`: sides exchanged or depth reversed explain it. `seconds` since the last picture.
   FacingVerdict judge(const std::optional<double>& seen_rad, double turn_rad, bool is_far,
                       bool is_explained, double seconds, double unseen_s);
 
  private:
+  void believe(double turn_rad);
+
   std::optional<double> seen_rad_;  // in the last picture
   bool has_jumped_ = false;
-  double refused_s_ = 0.0;
-  // The last jump that lasted: where it is seen undone, the body never turned.
+  double refused_s_ = 0.0;  // falls again while nothing is refused
+  // The last jump that was believed: where it is seen undone, the body never turned.
   std::optional<double> jump_rad_;
   double since_jump_s_ = 0.0;
 };

@@ -1,6 +1,7 @@
 // FloorLift: the whole shown body, raised so that no sole is below the floor: what legs did not
-// reach, bones that arrive, a body whose legs are out of the picture. A dancer whose floor is not
-// known yet stands on it.
+// reach, bones that arrive, a body whose legs are guessed. As long as the floor is not known, it is
+// taken to be under the lowest joint or sole; where that rises, the floor follows slowly: a dancer
+// who jumps leaves it.
 //
 // Units/frames: metres in W, floor at y = 0; seconds.
 // Ownership:    plain value, no heap.
@@ -24,6 +25,7 @@ class FloorLift {
 
  private:
   Spring lift_;
+  float floor_m_ = 0.0f;  // as it seems, as long as it is not known
   bool is_first_ = true;
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/pose/kinematics.h"
+#include "producers/camera/solver/body_fit.h"
 #include "producers/camera/solver/body_solver.h"
 #include "producers/salsa/salsa_dancer.h"
 #include "testing/camera/capture_scene.h"
@@ -38,6 +39,16 @@ inline CaptureScene salsa_scene(double seconds, const SceneErrors& errors,
 inline CaptureScene still_scene(const Pose& pose, double seconds, const SceneErrors& errors) {
   const std::vector<Pose> poses(static_cast<std::size_t>(seconds * kSeenHz), pose);
   return make_scene("still", average_skeleton(), poses, kSeenHz, SceneCamera(), errors, 7);
+}
+
+// Arms hanging, knees straight, on the floor.
+inline Pose standing() {
+  BodyState state = state_at_ease();
+  for (BodyState::Side& side : state.sides) side.knee = 0.0;
+  Pose pose;
+  write_pose(state, pose);
+  pose.p_WH_m.y() = salsa_skeleton().offset(Bone::kHips).y();
+  return pose;
 }
 
 constexpr std::array<std::pair<Landmark, Bone>, 12> kSeenJoints{{

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
-#include "producers/camera/solver/body_fit.h"
 #include "producers/camera/solver/shown/facing.h"
 #include "tests/allocation_guard.h"
 #include "tests/producers/camera/solver/seen_dance.h"
@@ -30,6 +28,7 @@ Shown shown_of(const CaptureScene& scene, const SolverOptions& options) {
   BodySolver solver(options, scene.camera.pinhole);
   Shown shown;
   Pose pose;
+  MonoTime shown_at;
   std::array<Eigen::Vector3f, 2> hands{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
   for (std::size_t f = 0; f < scene.frames.size(); ++f) {
     if (!solver.solve(scene.frames[f].landmarks, {}, pose)) {
@@ -39,23 +38,15 @@ Shown shown_of(const CaptureScene& scene, const SolverOptions& options) {
     EXPECT_TRUE(is_valid(pose)) << f;
     BodyFrames frames;
     forward_kinematics(solver.skeleton(), pose, frames);
-    double low_m = 1e9;
-    for (const auto& [foot, toes, tip] :
-         {std::tuple{Bone::kLeftFoot, Bone::kLeftToes, Tip::kLeftToes},
-          std::tuple{Bone::kRightFoot, Bone::kRightToes, Tip::kRightToes}}) {
-      const Eigen::Vector3f &joint = solver.skeleton().offset(toes),
-                            &end = solver.skeleton().tip(tip);
-      const Eigen::Vector3f ball(0.0f, joint.y() + end.y(), joint.z());
-      const float y = (frames.position(foot) + frames.R_WB[index_of(foot)] * ball).y();
-      low_m = std::min({low_m, static_cast<double>(y), static_cast<double>(frames.tip(tip).y())});
-    }
+    const double low_m = lowest_sole_m(solver.skeleton(), frames);
     shown.lowest_m = std::min(shown.lowest_m, low_m);
     shown.highest_low_m = std::max(shown.highest_low_m, low_m);
     const std::optional<double> facing = facing_of(solver.skeleton(), pose);
     if (facing && !shown.facing_rad.empty())
-      shown.fastest_deg_s =
-          std::max(shown.fastest_deg_s, std::abs(turn_between(shown.facing_rad.back(), facing)) *
-                                            kSeenHz * 360.0 / kTurn_rad);
+      shown.fastest_deg_s = std::max(
+          shown.fastest_deg_s, std::abs(turn_between(shown.facing_rad.back(), facing)) /
+                                   (pose.capture_time - shown_at).as_seconds() * 360.0 / kTurn_rad);
+    shown_at = pose.capture_time;
     shown.facing_rad.push_back(facing.value_or(0.0));
     const std::array now{frames.position(Bone::kLeftHand), frames.position(Bone::kRightHand)};
     for (std::size_t s = 0; s < 2 && f > 180; ++s)
@@ -86,15 +77,6 @@ SolverOptions uncorrected() {
   SolverOptions options;
   options.keeps_above_floor = options.limits_facing = options.steadies_hands = false;
   return options;
-}
-
-Pose standing() {
-  BodyState state = state_at_ease();
-  for (BodyState::Side& side : state.sides) side.knee = 0.0;
-  Pose pose;
-  write_pose(state, pose);
-  pose.p_WH_m.y() = salsa_skeleton().offset(Bone::kHips).y();
-  return pose;
 }
 
 TEST(ShownBody, NoSoleIsBelowTheFloorFromTheFirstPictureOn) {
@@ -172,6 +154,76 @@ TEST(ShownBody, AFacingThatLastsIsTurnedToAtABodysSpeed) {
   EXPECT_GT(off(plain, kAt + 9), 0.9);
 }
 
+// Lost for 0.2 s, and detected again with the back taken for a front.
+TEST(ShownBody, AFlipInTheFirstPictureAfterALossIsNotShown) {
+  const std::vector<Pose> still(static_cast<std::size_t>(6.0 * kSeenHz),
+                                turned({standing()}, 2.9).front());
+  SceneErrors errors;
+  errors.hidden_per_s = 0.0;
+  CaptureScene scene = scene_of(still, errors);
+  const CaptureScene front = scene_of(turned(still, 0.5 * kTurn_rad), errors);
+  constexpr std::size_t kAt = 120;
+  for (std::size_t f = kAt; f < kAt + 6; ++f) scene.frames[f].landmarks.found = false;
+  scene.frames[kAt + 6].landmarks.is_new = true;
+  for (std::size_t f = kAt + 6; f < kAt + 18; ++f) {
+    scene.frames[f].landmarks.image_px = front.frames[f].landmarks.image_px;
+    scene.frames[f].landmarks.world_m = front.frames[f].landmarks.world_m;
+  }
+  const auto most_off = [](const Shown& shown) {
+    double most = 0.0;
+    for (std::size_t f = 60; f < shown.facing_rad.size(); ++f)
+      most = std::max(most, std::abs(turn_between(2.9, shown.facing_rad[f])));
+    return most;
+  };
+  EXPECT_LT(most_off(shown_of(scene, {})), 0.5);
+  EXPECT_GT(most_off(shown_of(scene, uncorrected())), 1.0);
+}
+
+// At other rates, with pictures without a body, and with another dancer afterwards.
+TEST(ShownBody, KeepsItsBoundsAtOtherRatesAndAfterGaps) {
+  SceneErrors errors;
+  errors.flips_per_s = 1.0;
+  for (const double hz : {15.0, 60.0}) {
+    SalsaDancer dancer{SalsaStyle()};
+    std::vector<Pose> poses(static_cast<std::size_t>(5.0 * hz));
+    for (std::size_t f = 0; f < poses.size(); ++f)
+      dancer.dance_at(Duration::seconds(static_cast<double>(f) / hz), poses[f]);
+    CaptureScene scene =
+        make_scene("salsa", salsa_skeleton(), turned(poses, 2.5), hz, SceneCamera(), errors, 5);
+    const auto gap = [&scene](double from_s, double to_s) {
+      for (SceneFrame& frame : scene.frames) {
+        const double t = (frame.landmarks.capture_time - MonoTime()).as_seconds() - 1.0;
+        frame.landmarks.found = frame.landmarks.found && !(t > from_s && t < to_s);
+      }
+    };
+    gap(1.5, 1.8);
+    gap(2.4, 3.3);
+    const Shown shown = shown_of(scene, {});
+    EXPECT_GT(shown.without_pose, 0) << hz;
+    EXPECT_GT(shown.lowest_m, -0.005) << hz;
+    EXPECT_LE(shown.fastest_deg_s, 720.0) << hz;
+  }
+  // Another dancer, whose bones and floor are not those of the first.
+  const CaptureScene first = scene_of(salsa_poses(3.0), SceneErrors()),
+                     second = make_scene("small", average_skeleton(), salsa_poses(2.0), kSeenHz,
+                                         SceneCamera(), SceneErrors(), 9);
+  BodySolver solver({}, first.camera.pinhole);
+  Pose pose;
+  for (const SceneFrame& frame : first.frames) solver.solve(frame.landmarks, {}, pose);
+  solver.reset();
+  int shown = 0;
+  for (const SceneFrame& frame : second.frames) {
+    BodyLandmarks seen = frame.landmarks;
+    seen.capture_time = seen.capture_time + Duration::s(4);
+    if (!solver.solve(seen, {}, pose)) continue;
+    BodyFrames frames;
+    forward_kinematics(solver.skeleton(), pose, frames);
+    EXPECT_GT(lowest_sole_m(solver.skeleton(), frames), -0.005) << shown;
+    ++shown;
+  }
+  EXPECT_GT(shown, 50);
+}
+
 TEST(ShownBody, FastSpinsPass) {
   // Standing for two seconds, then three turns in two: 540 degrees a second.
   std::vector<Pose> poses(static_cast<std::size_t>(2.0 * kSeenHz), standing());
@@ -217,27 +269,6 @@ TEST(ShownBody, AllocatesNothingWhileFlipsAreRefused) {
   for (std::size_t f = 1; f < scene.frames.size(); ++f)
     solver.solve(scene.frames[f].landmarks, {}, pose);
   EXPECT_EQ(guard.allocations(), 0u);
-}
-
-TEST(FlipWatch, RefusesAJumpUnlessItLasts) {
-  FlipWatch watch;
-  constexpr double kStep_s = 1.0 / 30.0;
-  EXPECT_EQ(watch.judge(0.0, 0.0, false, false, kStep_s, kStep_s), FacingVerdict::kPlausible);
-  int refused = 0;
-  while (refused < 60 &&
-         watch.judge(2.5, 2.5, true, false, kStep_s, kStep_s) == FacingVerdict::kRefused)
-    ++refused;
-  EXPECT_GE(refused, 10);
-  EXPECT_LE(refused, 14);
-  // It is undone: that was no body's turn, and the way back is not refused.
-  EXPECT_EQ(watch.judge(0.0, -2.5, true, false, kStep_s, kStep_s), FacingVerdict::kLasting);
-  // What was seen to turn step by step is no flip: the expectation is behind.
-  FlipWatch slow;
-  for (int i = 0; i < 60; ++i)
-    EXPECT_EQ(slow.judge(0.05 * i, 0.05 * i, i > 20, false, kStep_s, kStep_s),
-              FacingVerdict::kPlausible);
-  EXPECT_FALSE(FlipWatch::is_far(1.2, 0.2));  // unseen for so long a body may have turned
-  EXPECT_TRUE(FlipWatch::is_far(1.2, kStep_s));
 }
 
 }  // namespace
