@@ -77,8 +77,8 @@ std::vector<AskedRooms::Place> AskedRooms::servers() const {
     if (known == all.end()) known = all.insert(all.end(), {name, {}, {}});
     known->rooms.push_back(i);
   }
-  std::ranges::stable_partition(all,
-                                [](const Place& server) { return !is_looked_up(server.name); });
+  std::stable_partition(all.begin(), all.end(),
+                        [](const Place& server) { return !is_looked_up(server.name); });
   return all;
 }
 
