@@ -129,7 +129,7 @@ TEST(ShownBody, ABackThatIsTakenForAFrontIsNotShown) {
   const Shown truth = shown_of(scene_of(poses, SceneErrors()), {}), shown = shown_of(scene, {});
   EXPECT_LE(shown.fastest_deg_s, 720.0);
   EXPECT_LT(furthest_rad(truth, shown), 0.5);
-  EXPECT_GT(furthest_rad(truth, shown_of(scene, uncorrected())), 0.8);
+  EXPECT_GT(furthest_rad(truth, shown_of(scene, uncorrected())), 0.6);
 }
 
 // From a picture on, the network has the other facing for good.
@@ -151,7 +151,7 @@ TEST(ShownBody, AFacingThatLastsIsTurnedToAtABodysSpeed) {
   };
   EXPECT_LT(off(shown, kAt + 9), 0.6);
   EXPECT_GT(off(shown, kAt + 45), 2.5);
-  EXPECT_GT(off(plain, kAt + 9), 0.9);
+  EXPECT_GT(off(plain, kAt + 9), 0.7);
 }
 
 // Lost for 0.2 s, and detected again with the back taken for a front.
@@ -176,7 +176,7 @@ TEST(ShownBody, AFlipInTheFirstPictureAfterALossIsNotShown) {
     return most;
   };
   EXPECT_LT(most_off(shown_of(scene, {})), 0.5);
-  EXPECT_GT(most_off(shown_of(scene, uncorrected())), 1.0);
+  EXPECT_GT(most_off(shown_of(scene, uncorrected())), 0.8);
 }
 
 // At other rates, with pictures without a body, and with another dancer afterwards.
