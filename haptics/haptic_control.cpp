@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <charconv>
-
 #include "core/bus/bus.h"
 
 namespace dance {
 namespace {
-
-constexpr std::string_view kLimitWord = "limit ";
 
 std::string haptics_path(const std::string& bus, const GuestId& guest) {
   return control_path("haptics", bus_url_or_default(bus), guest);
@@ -22,13 +18,9 @@ std::optional<HapticCommand> parse_haptic_command(std::string_view text) {
   using Kind = HapticCommand::Kind;
   if (text == "on") return HapticCommand{Kind::kOn, 1.0f};
   if (text == "off") return HapticCommand{Kind::kOff, 1.0f};
-  if (!text.starts_with(kLimitWord)) return std::nullopt;
-  text.remove_prefix(kLimitWord.size());
-  float limit = -1.0f;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), limit);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
-  if (!(limit >= 0.0f && limit <= 1.0f)) return std::nullopt;
-  return HapticCommand{Kind::kLimit, limit};
+  const auto limit = share_after("limit", text);
+  if (!limit) return std::nullopt;
+  return HapticCommand{Kind::kLimit, static_cast<float>(*limit)};
 }
 
 std::string text_of(const HapticCommand& command) {
@@ -75,18 +67,13 @@ void HapticControl::hear(std::string_view text) {
 
 Result<int> tell_haptics(const std::string& bus, const GuestId& guest,
                          const HapticCommand& command) {
-  int told = 0, deaf = 0;
-  for (const std::string& path : numbered_control_paths(haptics_path(bus, guest))) {
-    DANCE_TRY(const Told sent, tell_program(path, text_of(command)));
-    told += sent == Told::kSent ? 1 : 0;
-    deaf += sent == Told::kFull ? 1 : 0;
-  }
+  DANCE_TRY(const ToldAll told, tell_programs(haptics_path(bus, guest), text_of(command)));
   const std::string name(guest.view());
-  if (deaf > 0) return fail("a program with haptics of " + name + " does not listen; end it");
-  if (told == 0)
+  if (told.deaf > 0) return fail("a program with haptics of " + name + " does not listen; end it");
+  if (told.sent == 0)
     return fail("nothing runs that lets " + name +
                 " feel on this bus: a house with [[haptics]], or dance haptics --guest " + name);
-  return told;
+  return told.sent;
 }
 
 }  // namespace dance

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 
@@ -74,6 +75,27 @@ Result<Told> tell_program(const std::string& path, std::string_view command) {
   DANCE_TRY(auto sender, LocalDatagramSender::open(path));
   return sender->send({reinterpret_cast<const std::uint8_t*>(command.data()), command.size()},
                       mono_now());
+}
+
+Result<ToldAll> tell_programs(const std::string& path, std::string_view command) {
+  ToldAll all;
+  for (const std::string& each : numbered_control_paths(path)) {
+    DANCE_TRY(const Told told, tell_program(each, command));
+    all.sent += told == Told::kSent ? 1 : 0;
+    all.deaf += told == Told::kFull ? 1 : 0;
+  }
+  return all;
+}
+
+std::optional<double> share_after(std::string_view word, std::string_view command) {
+  if (!command.starts_with(word) || !command.substr(word.size()).starts_with(' '))
+    return std::nullopt;
+  command.remove_prefix(word.size() + 1);
+  double share = -1.0;
+  const auto read = std::from_chars(command.data(), command.data() + command.size(), share);
+  if (read.ec != std::errc() || read.ptr != command.data() + command.size()) return std::nullopt;
+  if (!(share >= 0.0 && share <= 1.0)) return std::nullopt;
+  return share;
 }
 
 }  // namespace dance

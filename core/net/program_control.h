@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,5 +49,13 @@ std::vector<std::string> numbered_control_paths(const std::string& path);
 
 using Told = LocalDatagramSender::Sent;
 Result<Told> tell_program(const std::string& path, std::string_view command);
+// All of numbered_control_paths(): how many heard it, and how many do not listen.
+struct ToldAll {
+  int sent = 0;
+  int deaf = 0;
+};
+Result<ToldAll> tell_programs(const std::string& path, std::string_view command);
+// "limit 0.4" after the word "limit": a number from 0 to 1; nothing where it is no such line.
+std::optional<double> share_after(std::string_view word, std::string_view command);
 
 }  // namespace dance

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/program/figures.h"
+#include "producers/camera/solver/shown/facing.h"
 
 namespace dance {
 
@@ -17,21 +18,16 @@ constexpr double kStart_s = 1.5;
 // Bones are held by then: what moves after that trembles.
 constexpr double kBonesHeld_s = 6.0;
 constexpr double kDeg = 180.0 / std::numbers::pi;
-// Bodies that lie, or turn their side up, face nowhere.
-constexpr double kLeastAcross = 0.5;
 constexpr double kFlip_deg = 90.0, kNoFlip_deg = 45.0, kFlipWithin_s = 0.2;
 constexpr double kHandMoves_m_s = 0.3, kSpins_deg_s = 150.0;
 
-// Hips and shoulders from right to left, each of length 1.
-bool facing_of(const Vector3d& hips, const Vector3d& shoulders, double& facing_rad) {
-  const Vector3d across = hips.normalized() + shoulders.normalized();
-  if (!(std::hypot(across.x(), across.z()) > kLeastAcross)) return false;
-  facing_rad = std::atan2(-across.z(), across.x());
-  return true;
+void write_facing(const std::optional<double>& facing_rad, ShownFrame& frame) {
+  frame.has_facing = facing_rad.has_value();
+  frame.facing_rad = facing_rad.value_or(0.0);
 }
 
 double turn_between_deg(double from_rad, double to_rad) {
-  return kDeg * std::remainder(to_rad - from_rad, 2.0 * std::numbers::pi);
+  return kDeg * turn_between(from_rad, to_rad);
 }
 
 void write_frame(const Skeleton& skeleton, const Pose& pose, ShownFrame& frame) {
@@ -39,11 +35,7 @@ void write_frame(const Skeleton& skeleton, const Pose& pose, ShownFrame& frame) 
   forward_kinematics(skeleton, pose, frames);
   frame.is_there = true;
   frame.lowest_m = lowest_sole_m(skeleton, frames);
-  const auto across = [&](Bone left, Bone right) {
-    return Vector3d((frames.position(left) - frames.position(right)).cast<double>());
-  };
-  frame.has_facing = facing_of(across(Bone::kLeftUpperLeg, Bone::kRightUpperLeg),
-                               across(Bone::kLeftUpperArm, Bone::kRightUpperArm), frame.facing_rad);
+  write_facing(facing_of(skeleton, pose), frame);
   frame.hips_m = 0.5 * (frames.position(Bone::kLeftUpperLeg).cast<double>() +
                         frames.position(Bone::kRightUpperLeg).cast<double>());
   frame.wrist = {frames.position(Bone::kLeftHand).cast<double>(),
@@ -185,9 +177,9 @@ ShownTrack truth_track(const CaptureScene& scene) {
     ShownFrame frame;
     frame.is_there = true;
     frame.is_flipped = seen.is_flipped;
-    frame.has_facing =
-        facing_of(at(Landmark::kLeftHip) - at(Landmark::kRightHip),
-                  at(Landmark::kLeftShoulder) - at(Landmark::kRightShoulder), frame.facing_rad);
+    write_facing(facing_of(at(Landmark::kLeftHip) - at(Landmark::kRightHip),
+                           at(Landmark::kLeftShoulder) - at(Landmark::kRightShoulder)),
+                 frame);
     frame.lowest_m = seen.lowest_sole_m;
     frame.hips_m = 0.5 * (at(Landmark::kLeftHip) + at(Landmark::kRightHip));
     frame.wrist = {at(Landmark::kLeftWrist), at(Landmark::kRightWrist)};

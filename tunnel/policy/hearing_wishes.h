@@ -13,30 +13,25 @@
 #include "core/base/time.h"
 #include "core/bus/voice.h"
 #include "tunnel/policy/hearing.h"
+#include "tunnel/policy/held_wishes.h"
 
 namespace dance {
 
 class HearingWishes {
  public:
   static constexpr std::size_t kMostGuests = 16;
-  // It is said once a second; a program that was silent so long has ended.
-  static constexpr Duration kHolds = Duration::s(5);
+  static constexpr Duration kHolds = HeldWishes<GuestId, Hearing, kMostGuests>::kHolds;
 
   void hear(const HearingWish& wish, MonoTime now);
   // Removes the wishes that hold no longer; true where there were any.
-  bool expire(MonoTime now);
+  bool expire(MonoTime now) { return said_.expire(now); }
   // Some program of this house plays voices.
-  bool is_any() const { return !said_.empty(); }
+  bool is_any() const { return !said_.all().empty(); }
   // What `own` lets in of what is wanted; all of it while nobody says what is wanted.
   Hearing within(const Hearing& own) const;
 
  private:
-  struct Said {
-    GuestId guest;
-    Hearing hearing;
-    MonoTime at;
-  };
-  FixedList<Said, kMostGuests> said_;
+  HeldWishes<GuestId, Hearing, kMostGuests> said_;
 };
 
 }  // namespace dance

@@ -6,26 +6,14 @@ namespace dance {
 
 void InterestWishes::hear(const InterestWish& wish, MonoTime now) {
   expire(now);
-  Said said;
-  said.viewer = wish.viewer;
-  said.at = now;
+  Hidden hidden;
   for (const GuestId& guest : wish.hidden)
-    if (guest.is_set() && !said.hidden.contains(guest)) (void)said.hidden.try_push(guest);
-  for (Said& known : said_) {
-    if (known.viewer != wish.viewer) continue;
-    known = said;
-    return;
-  }
-  if (!said_.try_push(said)) crowded_ = now;
+    if (guest.is_set() && !hidden.contains(guest)) (void)hidden.try_push(guest);
+  if (!said_.hear(wish.viewer, hidden, now)) crowded_ = now;
 }
 
 bool InterestWishes::expire(MonoTime now) {
-  bool has_expired = false;
-  for (std::size_t i = said_.size(); i-- > 0;) {
-    if (now - said_[i].at <= kHolds) continue;
-    said_.erase_at(i);
-    has_expired = true;
-  }
+  bool has_expired = said_.expire(now);
   if (crowded_.is_set() && now - crowded_ > kHolds) {
     crowded_ = MonoTime();
     has_expired = true;
@@ -34,15 +22,16 @@ bool InterestWishes::expire(MonoTime now) {
 }
 
 bool InterestWishes::is_hidden(const GuestId& guest) const {
-  return !said_.empty() && !crowded_.is_set() &&
-         std::all_of(said_.begin(), said_.end(),
-                     [&](const Said& said) { return said.hidden.contains(guest); });
+  const auto& all = said_.all();
+  return !all.empty() && !crowded_.is_set() &&
+         std::all_of(all.begin(), all.end(),
+                     [&](const auto& said) { return said.wish.contains(guest); });
 }
 
 Interest InterestWishes::within(const Interest& own, const Hearing& voices) const {
   Interest wanted = own;
-  if (said_.empty()) return wanted;
-  for (const GuestId& guest : said_[0].hidden) {
+  if (said_.all().empty()) return wanted;
+  for (const GuestId& guest : said_.all()[0].wish) {
     if (!is_hidden(guest)) continue;
     const std::uint8_t divider = voices.hears(guest) ? kFewest : 0;
     const auto named = std::find_if(wanted.guests.begin(), wanted.guests.end(),

@@ -10,7 +10,8 @@
 
 #include "core/base/time.h"
 #include "core/bus/house_messages.h"
-#include "tunnel/policy/hearing_wishes.h"
+#include "tunnel/policy/hearing.h"
+#include "tunnel/policy/held_wishes.h"
 #include "tunnel/policy/interest.h"
 
 namespace dance {
@@ -18,8 +19,8 @@ namespace dance {
 class InterestWishes {
  public:
   static constexpr std::size_t kMostViewers = 8;
-  // It is said once a second; a window that was silent so long has ended.
-  static constexpr Duration kHolds = Duration::s(5);
+  using Hidden = FixedList<GuestId, InterestWish::kMostHidden>;
+  static constexpr Duration kHolds = HeldWishes<std::uint64_t, Hidden, kMostViewers>::kHolds;
   // Servers send no voice of a guest of whom no pose is wanted: of one who is heard so few come.
   static constexpr std::uint8_t kFewest = 255;
 
@@ -31,12 +32,7 @@ class InterestWishes {
   Interest within(const Interest& own, const Hearing& voices) const;
 
  private:
-  struct Said {
-    std::uint64_t viewer = 0;
-    FixedList<GuestId, InterestWish::kMostHidden> hidden;
-    MonoTime at;
-  };
-  FixedList<Said, kMostViewers> said_;
+  HeldWishes<std::uint64_t, Hidden, kMostViewers> said_;
   MonoTime crowded_;  // one was heard for whom there is no place
 };
 

@@ -144,17 +144,17 @@ bool BodyTracking::has_plausible_facing(Observation& seen, MonoTime now, double 
   const Matrix3d& R_WC = placement_.R_WC();
   const std::optional<double> expected_rad = facing_of(model_);
   const std::optional<double> seen_rad = facing_of(seen, R_WC);
+  const double turn_rad = turn_between(expected_rad, seen_rad);
   // What the network would have said without the mistake.
   const double unseen_s = (now - seen_at_).as_seconds();
   std::optional<Observation> corrected;
   bool is_far = false;
-  if (FlipWatch::is_suspect(turn_between(expected_rad, seen_rad), unseen_s)) {
+  if (FlipWatch::is_suspect(turn_rad, unseen_s)) {
     corrected = without_flip(seen, R_WC, model_);
-    is_far =
-        corrected.has_value() || FlipWatch::is_far(turn_between(expected_rad, seen_rad), unseen_s);
+    is_far = corrected.has_value() || FlipWatch::is_far(turn_rad, unseen_s);
   }
-  const FacingVerdict verdict = flips_.judge(seen_rad, turn_between(expected_rad, seen_rad), is_far,
-                                             corrected.has_value(), seconds, unseen_s);
+  const FacingVerdict verdict =
+      flips_.judge(seen_rad, turn_rad, is_far, corrected.has_value(), seconds, unseen_s);
   if (verdict == FacingVerdict::kLasting) is_turned_ = true;
   if (verdict != FacingVerdict::kRefused) return true;
   if (corrected) {

@@ -2,15 +2,13 @@
 
 #include <unistd.h>
 
-#include <charconv>
-
 #include "core/base/plain_number.h"
 #include "core/bus/bus.h"
 
 namespace dance {
 namespace {
 
-constexpr std::string_view kVolumeCommand = "volume ";
+constexpr std::string_view kVolumeWord = "volume";
 
 std::string music_path(const std::string& bus) {
   return control_path("music", bus_url_or_default(bus), GuestId());
@@ -19,13 +17,7 @@ std::string music_path(const std::string& bus) {
 }  // namespace
 
 std::optional<double> parse_music_volume(std::string_view command) {
-  if (!command.starts_with(kVolumeCommand)) return std::nullopt;
-  command.remove_prefix(kVolumeCommand.size());
-  double volume = -1.0;
-  const auto read = std::from_chars(command.data(), command.data() + command.size(), volume);
-  if (read.ec != std::errc() || read.ptr != command.data() + command.size()) return std::nullopt;
-  if (!(volume >= 0.0 && volume <= 1.0)) return std::nullopt;
-  return volume;
+  return share_after(kVolumeWord, command);
 }
 
 Result<std::unique_ptr<MusicControl>> MusicControl::open(const std::string& bus, OnVolume on_volume,
@@ -45,15 +37,10 @@ bool is_music_played(const std::string& bus) {
 }
 
 Result<void> tell_music_volume(const std::string& bus, double volume) {
-  int told = 0, deaf = 0;
-  for (const std::string& path : numbered_control_paths(music_path(bus))) {
-    DANCE_TRY(const Told sent,
-              tell_program(path, std::string(kVolumeCommand) + plain_number(volume)));
-    told += sent == Told::kSent ? 1 : 0;
-    deaf += sent == Told::kFull ? 1 : 0;
-  }
-  if (deaf > 0) return fail("a dance music on this bus does not listen; end it");
-  if (told == 0)
+  DANCE_TRY(const ToldAll told,
+            tell_programs(music_path(bus), std::string(kVolumeWord) + " " + plain_number(volume)));
+  if (told.deaf > 0) return fail("a dance music on this bus does not listen; end it");
+  if (told.sent == 0)
     return fail(
         "no music is played on this bus: a house with [music] plays it, or dance music FILE");
   return {};
