@@ -8,6 +8,7 @@
 // interface that the program was built with (these headers and the version) and gives the table
 // below, or nullptr where it was built with another.
 //
+// Units/frames: those of the three interfaces.
 // Ownership: the module stays loaded until the program ends; what it makes is the caller's.
 // Threads:   any may call media_module().
 // Failure:   media_module() says in one line what is missing and which Debian package brings it;

@@ -9,7 +9,9 @@
 //               for kNamesHold are forgotten.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "lobby/run/round_trips.h"
 #include "lobby/screen/lobby_model.h"
