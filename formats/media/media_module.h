@@ -9,11 +9,11 @@
 // below, or nullptr where it was built with another.
 //
 // Units/frames: those of the three interfaces.
-// Ownership: the module stays loaded until the program ends; what it makes is the caller's.
-// Threads:   any may call media_module().
-// Failure:   media_module() says in one line what is missing and which Debian package brings it;
-//            the next call tries again. Errors of the module's functions name the file unless their
-//            interface says otherwise.
+// Ownership:    the module stays loaded until the program ends; what it makes is the caller's.
+// Threads:      any may call media_module().
+// Failure:      media_module() says in one line what is missing and which Debian package brings it;
+//               the next call tries again. Errors of the module's functions name the file unless
+//               their interface says otherwise.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// HeldWishes: what programs of one house want, as each says it once a second: the last wish of each,
-// until it has been silent for kHolds.
+// HeldWishes: what programs of one house want, as each says it once a second: the last wish of
+// each, until it has been silent for kHolds.
 //
 // Units/frames: times of this house's clock.
 // Ownership:    plain value; kMost programs.
