@@ -143,7 +143,7 @@ TEST_F(ChannelPrograms, CarryAnArmALightAndTheMusicToTheOtherHouse) {
   a.hears("");
   EXPECT_EQ(b.count_with("hostile"), 0);
   EXPECT_EQ(b.count_with("LIGHT/other"), 0);
-  EXPECT_EQ(a.count_with("/guest/"), 0) << "what went out came back";
+  EXPECT_EQ(a.count_with("/guest/alice"), 0) << "what went out came back";
   EXPECT_EQ(b.count_with("/guest/bob"), 0);
   const std::string report = text_of(folder_.path("alice.json"));
   EXPECT_TRUE(has_all(report, {"\"channels_sent\":", "\"channels_invalid\":"})) << report;

@@ -1,6 +1,8 @@
 #include "formats/picture/picture.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <zlib.h>
 
 #include <cstdlib>
 #include <string>
@@ -197,6 +199,48 @@ TEST(RgbaPicture, AJpegOfVeryManyScansIsRefusedBeforeItIsDecoded) {
   const auto picture = read_picture(bytes);
   ASSERT_FALSE(picture);
   EXPECT_NE(picture.error().what.find("scans"), std::string::npos);
+}
+
+Bytes chunk(std::uint32_t length, std::string_view name, const Bytes& data) {
+  Bytes out;
+  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(length >> shift));
+  out.insert(out.end(), name.begin(), name.end());
+  out.insert(out.end(), data.begin(), data.end());
+  uLong sum = crc32(0, out.data() + 4, static_cast<uInt>(out.size() - 4));
+  for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(sum >> shift));
+  return out;
+}
+constexpr std::ptrdiff_t kEndOfPngHead = 33;
+
+TEST(RgbaPicture, AChunkThatTellsMoreThanThereIsTakesNoMemory) {
+  Bytes bytes = test::png(9, 7);
+  const Bytes bomb = chunk(0x4e000026, "eXIf", {'M', 'M', 0, 42});
+  bytes.insert(bytes.begin() + kEndOfPngHead, bomb.begin(), bomb.end());
+  const auto picture = read_picture(bytes);
+  ASSERT_FALSE(picture);
+  EXPECT_NE(picture.error().what.find("within a chunk"), std::string::npos) << picture.error().what;
+  EXPECT_FALSE(read_picture(std::span(bytes).first(8)));
+}
+
+TEST(RgbaPicture, TextsThatUnpackToAGigabyteAreLeftOut) {
+  // 4 MB of one letter, packed, in 250 texts.
+  const Bytes letters(4'000'000, 'a');
+  uLongf size = compressBound(letters.size());
+  Bytes text = {'k', 0, 0};
+  text.resize(text.size() + size);
+  ASSERT_EQ(compress(text.data() + 3, &size, letters.data(), letters.size()), Z_OK);
+  text.resize(3 + size);
+  const Bytes packed = chunk(static_cast<std::uint32_t>(text.size()), "zTXt", text);
+  Bytes bytes = test::png(9, 7);
+  for (int i = 0; i < 250; ++i)
+    bytes.insert(bytes.begin() + kEndOfPngHead, packed.begin(), packed.end());
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  const auto picture = read_picture(bytes);
+  getrusage(RUSAGE_SELF, &after);
+  ASSERT_TRUE(picture) << picture.error().what;
+  EXPECT_EQ(picture->rgba, test::ramp(9, 7));
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000) << "kB";
 }
 
 // A thumbnail in a segment before the image, a film behind it.
