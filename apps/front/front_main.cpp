@@ -56,6 +56,7 @@ constexpr std::array kCommands{
     Command{"lossy", "a bad line between two programs: delay, jitter, loss"},
     Command{"capture solve eval",
             "the camera's solver on recorded dances: errors, feet, bones, lag"},
+    Command{"capture couple eval", "two dancers before one camera: identities, hands in hold"},
     Command{"music eval", "the beat tracker on songs whose beats are known"},
     Command{"music make", "makes songs whose beats are known, to train with"},
     Command{"music train", "trains a model of the beat tracker"},

@@ -5,7 +5,7 @@
 
 namespace dance {
 
-Result<std::unique_ptr<PoseEstimator>> PoseEstimator::open(const EstimatorOptions& options) {
+Result<PoseNetworks> open_networks(const EstimatorOptions& options) {
   // One core for the camera; the others are for music, network and display.
   cv::setNumThreads(1);
   const std::string folder = pose_models_folder(options.models_folder);
@@ -20,8 +20,13 @@ Result<std::unique_ptr<PoseEstimator>> PoseEstimator::open(const EstimatorOption
   if (!network)
     return in_file("pose_landmark_" + std::string(name_of(options.model)) + ".tflite",
                    network.error());
+  return PoseNetworks{std::move(*detector), std::move(*network)};
+}
+
+Result<std::unique_ptr<PoseEstimator>> PoseEstimator::open(const EstimatorOptions& options) {
+  DANCE_TRY(PoseNetworks networks, open_networks(options));
   return std::unique_ptr<PoseEstimator>(
-      new PoseEstimator(options, std::move(*detector), std::move(*network)));
+      new PoseEstimator(options, std::move(networks.detector), std::move(networks.landmarks)));
 }
 
 PoseEstimator::PoseEstimator(const EstimatorOptions& options, PersonDetector detector,

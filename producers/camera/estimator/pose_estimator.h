@@ -61,6 +61,13 @@ struct EstimatorTimes {
   std::int64_t rest_ns = 0;
 };
 
+// Detector and landmark network, as the options name them.
+struct PoseNetworks {
+  PersonDetector detector;
+  LandmarkNetwork landmarks;
+};
+Result<PoseNetworks> open_networks(const EstimatorOptions& options);
+
 class PoseEstimator {
  public:
   static Result<std::unique_ptr<PoseEstimator>> open(const EstimatorOptions& options);

@@ -12,8 +12,13 @@ class BodySolver::Inside : public BodyTracking {
   using BodyTracking::BodyTracking;
 };
 
-BodySolver::BodySolver(const SolverOptions& options, const Pinhole& camera)
-    : inside_(std::make_unique<Inside>(options, camera)) {}
+std::shared_ptr<SharedPlacement> make_shared_placement() {
+  return std::make_shared<SharedPlacement>();
+}
+
+BodySolver::BodySolver(const SolverOptions& options, const Pinhole& camera,
+                       std::shared_ptr<SharedPlacement> shared)
+    : inside_(std::make_unique<Inside>(options, camera, std::move(shared))) {}
 BodySolver::~BodySolver() = default;
 BodySolver::BodySolver(BodySolver&&) noexcept = default;
 BodySolver& BodySolver::operator=(BodySolver&&) noexcept = default;

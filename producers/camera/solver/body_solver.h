@@ -41,9 +41,14 @@ struct CameraStand {
   bool is_settled = false;
 };
 
+struct SharedPlacement;
+std::shared_ptr<SharedPlacement> make_shared_placement();
+
 class BodySolver {
  public:
-  BodySolver(const SolverOptions& options, const Pinhole& camera);
+  // `shared`: of several dancers before one camera.
+  BodySolver(const SolverOptions& options, const Pinhole& camera,
+             std::shared_ptr<SharedPlacement> shared = nullptr);
   ~BodySolver();
   BodySolver(BodySolver&&) noexcept;
   BodySolver& operator=(BodySolver&&) noexcept;

@@ -16,6 +16,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kAverageHeight_m = 1.72;
+// How much another height a floor can make of a dancer's, and by how many standing soles.
+constexpr double kMostGrowth = 1.25;
+constexpr int kLeastGrowths = 20;
 // Without a detection for so long the dancer is lost.
 constexpr Duration kGone = Duration::ms(500);
 constexpr int kFirstRounds = 10, kRounds = 4, kTrustingRounds = 2;
@@ -34,8 +37,12 @@ bool has_depth(const Observation& seen) {
 
 }  // namespace
 
-BodyTracking::BodyTracking(const SolverOptions& options, const Pinhole& camera)
-    : options_(options), camera_(camera), proportions_(options.height_m) {
+BodyTracking::BodyTracking(const SolverOptions& options, const Pinhole& camera,
+                           std::shared_ptr<SharedPlacement> shared)
+    : options_(options),
+      camera_(camera),
+      proportions_(options.height_m),
+      shared_(std::move(shared)) {
   motion_.set_smooth(options.smooth);
   set_shape(average_lengths(options.height_m.value_or(kAverageHeight_m)));
 }
@@ -124,6 +131,7 @@ bool BodyTracking::begin(const Observation& seen, MonoTime now) {
     state.p_WH_m = placement_.to_W(root_C);
     state.R_WH = Quaterniond(placement_.R_WC() * was.transpose()) * state.R_WH;
     has_placement_ = true;
+    tell_shared();
   }
   // The same dancer a moment later: the shown pose is blended.
   if (is_tracking_ && now - seen_at_ <= kGone) {
@@ -201,7 +209,7 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
     }
     if (!is_fitted) return false;
     problem_.expected = expected;
-    problem_.has_floor = placement_.is_known();
+    problem_.has_floor = placement_.is_known() && is_of_scale();
     if (!fit_.solve(problem_, 1, 0, state)) return false;
   }
   usual_cost_ +=
@@ -225,6 +233,17 @@ void BodyTracking::carry(double seconds, MonoTime) {
   visibility_.follow(blind, seconds);
 }
 
+// Those of a dancer who stands on the floor that another has scaled.
+BodyLengths BodyTracking::lengths_on_floor() const {
+  BodyLengths lengths = proportions_.lengths();
+  if (sets_scale() || options_.height_m || growths_ < kLeastGrowths) return lengths;
+  // They were seen with the bones of now.
+  const double by = growth_sum_ / growths_ *
+                    static_cast<double>(standing_height_m(shape_.skeleton)) / height_of(lengths);
+  for (double& length : lengths) length *= by;
+  return lengths;
+}
+
 void BodyTracking::learn_bones(const Observation& seen, const std::optional<DepthHint>& depth,
                                MonoTime now) {
   if (proportions_.is_held()) return;
@@ -246,11 +265,17 @@ void BodyTracking::learn_bones(const Observation& seen, const std::optional<Dept
   Pose carried, found;
   write_pose(state, carried);
   const Vector3d hips_C = placement_.to_C(state.p_WH_m);
-  set_shape(proportions_.lengths());
+  set_shape(lengths_on_floor());
+  growth_sum_ = 0.0;
+  growths_ = 0;
   proportions_.discard_image_lengths();
-  // A larger body in the same picture is further away, and the floor with it.
+  // A larger body in the same picture is further away, and the floor with it, unless another dancer
+  // says how far that is.
   const double by = static_cast<double>(standing_height_m(shape_.skeleton)) / was_m;
-  placement_.scale(by);
+  if (sets_scale()) {
+    placement_.scale(by);
+    tell_shared();
+  }
   state.p_WH_m = placement_.to_W(hips_C * by);
   contacts_.rebase([by](const Vector3d& p) { return Vector3d(p * by); });
   motion_.rebase(state);
@@ -284,17 +309,50 @@ void BodyTracking::learn_camera(const Observation& seen) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i)
     relative_C[i] = R_CW * (model_.point(i) - state.p_WH_m);
   Vector3d hips_C;
+
   if (place_on_rays(seen, relative_C, hips_C))
-    for (std::size_t i = 0; i < kSoleCount; ++i)
-      if (contacts_.touch(i).stands)
-        placement_.add_foot(hips_C + R_CW * (model_.point(kLandmarkCount + i) - state.p_WH_m));
+    for (std::size_t i = 0; i < kSoleCount; ++i) {
+      if (!contacts_.touch(i).stands) continue;
+      const Vector3d sole_C = hips_C + R_CW * (model_.point(kLandmarkCount + i) - state.p_WH_m);
+      if (is_of_scale()) {
+        placement_.add_foot(sole_C);
+      } else if (const auto growth = placement_.growth_to_floor(sole_C)) {
+        growth_sum_ += std::clamp(*growth, 1.0 / kMostGrowth, kMostGrowth);
+        ++growths_;
+      }
+    }
   const CameraPlacement was = placement_;
   placement_.update();
+  rebase(was, state);
+  tell_shared();
+}
+
+void BodyTracking::rebase(const CameraPlacement& was, BodyState state) {
   const auto again = [&](const Vector3d& p) { return placement_.to_W(was.to_C(p)); };
   state.p_WH_m = again(state.p_WH_m);
   state.R_WH = (Quaterniond(placement_.R_WC() * was.R_WC().transpose()) * state.R_WH).normalized();
   contacts_.rebase(again);
   motion_.rebase(state);
+}
+
+void BodyTracking::take_shared() {
+  if (!shared_) return;
+  if (!shared_->scaled_by || (options_.height_m && !shared_->is_told)) {
+    shared_->scaled_by = this;
+    shared_->is_told = options_.height_m.has_value();
+  }
+  if (shared_->version == shared_version_) return;
+  const CameraPlacement was = placement_;
+  placement_ = shared_->placement;
+  shared_version_ = shared_->version;
+  if (has_placement_ && is_tracking_) rebase(was, motion_.state());
+  has_placement_ = true;
+}
+
+void BodyTracking::tell_shared() {
+  if (!shared_) return;
+  shared_->placement = placement_;
+  shared_version_ = ++shared_->version;
 }
 
 bool BodyTracking::write(const BodyState& state, const Observation& seen, MonoTime now,
@@ -338,11 +396,12 @@ bool BodyTracking::solve(const BodyLandmarks& landmarks, const std::optional<Dep
   const MonoTime now = landmarks.capture_time;
   if (time_.is_set() && now <= time_) return false;
   const double seconds = (now - time_).as_seconds();
+  take_shared();
   Observation seen = observe(landmarks, camera_);
   problem_.seen = &seen;
   problem_.camera = &placement_;
   problem_.shape = &shape_;
-  problem_.has_floor = placement_.is_known();
+  problem_.has_floor = placement_.is_known() && is_of_scale();
   problem_.depth.reset();
   if (depth && depth->joints > 0 && std::isfinite(depth->hips_depth_m) &&
       depth->hips_depth_m > 0.2 && std::isfinite(depth->spread_m))

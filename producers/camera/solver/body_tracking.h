@@ -6,6 +6,7 @@
 // Failure:      as body_solver.h says.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "producers/camera/solver/body_fit.h"
@@ -13,6 +14,7 @@
 #include "producers/camera/solver/camera_placement.h"
 #include "producers/camera/solver/motion_filter.h"
 #include "producers/camera/solver/proportions.h"
+#include "producers/camera/solver/shared_placement.h"
 #include "producers/camera/solver/shown/facing.h"
 #include "producers/camera/solver/shown/floor_feet.h"
 #include "producers/camera/solver/shown/floor_lift.h"
@@ -24,7 +26,8 @@ namespace dance {
 
 class BodyTracking {
  public:
-  BodyTracking(const SolverOptions& options, const Pinhole& camera);
+  BodyTracking(const SolverOptions& options, const Pinhole& camera,
+               std::shared_ptr<SharedPlacement> shared);
 
   bool solve(const BodyLandmarks& landmarks, const std::optional<DepthHint>& depth, Pose& out);
   const Skeleton& skeleton() const { return shape_.skeleton; }
@@ -44,6 +47,15 @@ class BodyTracking {
   bool refit(const Observation& seen, BodyState& state);
   void learn_bones(const Observation& seen, const std::optional<DepthHint>& depth, MonoTime now);
   void learn_camera(const Observation& seen);
+  bool sets_scale() const { return !shared_ || shared_->scaled_by == this; }
+  // Until then the floor says how tall this dancer is, and must not bend the knees.
+  bool is_of_scale() const { return sets_scale() || proportions_.is_held() || options_.height_m; }
+  BodyLengths lengths_on_floor() const;
+  // What other dancers before this camera have found since; and what this one has.
+  void take_shared();
+  void tell_shared();
+  // The state in W as it is since the placement was `was`.
+  void rebase(const CameraPlacement& was, BodyState state);
   void set_shape(const BodyLengths& lengths);
   Eigen::Vector3d middle_of_hips_C(const BodyState& state);
   double lowest_sole_m() const;  // of model_
@@ -58,6 +70,10 @@ class BodyTracking {
   Proportions proportions_;
   CameraPlacement placement_;
   bool has_placement_ = false;
+  std::shared_ptr<SharedPlacement> shared_;  // null: this dancer is alone
+  std::uint64_t shared_version_ = 0;
+  double growth_sum_ = 0.0;  // of a body that does not set the scale
+  int growths_ = 0;
   BodyModel model_;  // for use outside a fit
   BodyFit fit_;
   FitProblem problem_;

@@ -73,6 +73,12 @@ void CameraPlacement::set_initial_floor(const Vector3d& lowest_C_m) {
   initial_h_m_ = std::clamp(h, kLeastHeight_m, kMostHeight_m);
 }
 
+std::optional<double> CameraPlacement::growth_to_floor(const Vector3d& p) const {
+  const double under = p.y() - plane_[1] * p.x() - plane_[2] * p.z();
+  if (!(under > 0.1)) return std::nullopt;
+  return plane_[0] / under;
+}
+
 void CameraPlacement::scale(double by) {
   // h alone has a unit.
   const Vector3d unit(1.0 / by, 1.0, 1.0);

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 
 namespace dance {
 
@@ -38,6 +39,8 @@ class CameraPlacement {
   }
   // Multiplies all lengths by `by`.
   void scale(double by);
+  // By what a body has to grow, seen as it is, so that this point of it is on the floor.
+  std::optional<double> growth_to_floor(const Eigen::Vector3d& p_C_m) const;
   // Solves for the placement with all observations.
   void update();
 

@@ -1,0 +1,139 @@
+#include "producers/camera/people/body_mask.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dance {
+namespace {
+
+// Of a body's measure.
+constexpr float kArm = 0.035f, kLeg = 0.055f, kTrunk = 0.045f, kHead = 0.075f;
+// Pixels beside the mask that say what is painted over it.
+constexpr int kBeside = 4;
+
+struct Bar {
+  Landmark from, to;
+  float radius;
+};
+constexpr Bar kBars[]{
+    {Landmark::kLeftShoulder, Landmark::kLeftElbow, kArm},
+    {Landmark::kLeftElbow, Landmark::kLeftWrist, kArm},
+    {Landmark::kLeftWrist, Landmark::kLeftIndex, kArm},
+    {Landmark::kRightShoulder, Landmark::kRightElbow, kArm},
+    {Landmark::kRightElbow, Landmark::kRightWrist, kArm},
+    {Landmark::kRightWrist, Landmark::kRightIndex, kArm},
+    {Landmark::kLeftHip, Landmark::kLeftKnee, kLeg},
+    {Landmark::kLeftKnee, Landmark::kLeftAnkle, kLeg},
+    {Landmark::kLeftHeel, Landmark::kLeftFootIndex, kArm},
+    {Landmark::kRightHip, Landmark::kRightKnee, kLeg},
+    {Landmark::kRightKnee, Landmark::kRightAnkle, kLeg},
+    {Landmark::kRightHeel, Landmark::kRightFootIndex, kArm},
+    {Landmark::kLeftShoulder, Landmark::kRightShoulder, kTrunk},
+    {Landmark::kLeftHip, Landmark::kRightHip, kLeg},
+    {Landmark::kLeftEar, Landmark::kRightEar, kHead},
+};
+// Bars from one side of the trunk to the other fill it.
+constexpr int kTrunkBars = 6;
+// Limbs that the network only guesses hide nothing.
+constexpr float kSeen = 0.3f;
+
+}  // namespace
+
+void BodyMask::begin(const BodyRegion& region) {
+  region_ = region;
+  scale_ = static_cast<float>(kSide_px) / std::max(1.0f, region.side_px);
+  cos_ = std::cos(region.turn_rad);
+  sin_ = std::sin(region.turn_rad);
+  if (!is_empty_) is_masked_.fill(false);
+  is_empty_ = true;
+}
+
+Eigen::Vector2f BodyMask::place(const Eigen::Vector2f& p_px) const {
+  const float x = p_px.x() - region_.centre_x_px, y = p_px.y() - region_.centre_y_px;
+  constexpr float kHalf = 0.5f * static_cast<float>(kSide_px);
+  return {kHalf + scale_ * (cos_ * x + sin_ * y), kHalf + scale_ * (cos_ * y - sin_ * x)};
+}
+
+void BodyMask::fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius) {
+  constexpr auto kEdge = static_cast<float>(kSide_px);
+  if (!a.allFinite() || !b.allFinite() || !(radius < kEdge) ||
+      std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()) > 8.0f * kEdge)
+    return;
+  is_empty_ = false;
+  const auto low = [&](float p, float q) {
+    return static_cast<int>(std::clamp(std::min(p, q) - radius, 0.0f, kEdge));
+  };
+  const auto high = [&](float p, float q) {
+    return static_cast<int>(std::clamp(std::max(p, q) + radius + 1.0f, 0.0f, kEdge));
+  };
+  const Eigen::Vector2f bar = b - a;
+  const float squared = std::max(bar.squaredNorm(), 1e-6f);
+  for (int y = low(a.y(), b.y()); y < high(a.y(), b.y()); ++y)
+    for (int x = low(a.x(), b.x()); x < high(a.x(), b.x()); ++x) {
+      const Eigen::Vector2f p(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      const float share = std::clamp((p - a).dot(bar) / squared, 0.0f, 1.0f);
+      if ((p - a - share * bar).squaredNorm() <= radius * radius) is_masked_[index(x, y)] = true;
+    }
+}
+
+void BodyMask::add(const SeenBody& body) {
+  const float measure = 2.0f * (body.next_px[1] - body.next_px[0]).norm() * scale_;
+  const auto at = [&](Landmark l) { return place(body.image_px[index_of(l)].head<2>()); };
+  for (const Bar& bar : kBars)
+    if (std::min(body.visibility[index_of(bar.from)], body.visibility[index_of(bar.to)]) > kSeen)
+      fill(at(bar.from), at(bar.to), bar.radius * measure);
+  for (int i = 0; i <= kTrunkBars; ++i) {
+    const float down = static_cast<float>(i) / static_cast<float>(kTrunkBars);
+    const auto between = [&](Landmark shoulder, Landmark hip) {
+      return Eigen::Vector2f(at(shoulder) + down * (at(hip) - at(shoulder)));
+    };
+    fill(between(Landmark::kLeftShoulder, Landmark::kLeftHip),
+         between(Landmark::kRightShoulder, Landmark::kRightHip), kTrunk * measure);
+  }
+}
+
+bool BodyMask::covers(const Eigen::Vector2f& place_px) const {
+  const Eigen::Vector2f p = place(place_px);
+  constexpr auto kEdge = static_cast<float>(kSide_px);
+  if (!(p.x() >= 0.0f) || !(p.y() >= 0.0f) || !(p.x() < kEdge) || !(p.y() < kEdge)) return false;
+  return is_masked_[index(static_cast<int>(p.x()), static_cast<int>(p.y()))];
+}
+
+std::optional<Eigen::Vector3f> BodyMask::mean(std::span<const float> pixels, int from, int to,
+                                              int y) const {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  int count = 0;
+  for (int x = std::max(from, 0); x < std::min(to, kSide_px); ++x) {
+    if (is_masked_[index(x, y)]) continue;
+    sum += Eigen::Map<const Eigen::Vector3f>(pixels.data() + 3 * index(x, y));
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return Eigen::Vector3f(sum / static_cast<float>(count));
+}
+
+void BodyMask::paint_run(std::span<float> pixels, int from, int to, int y) const {
+  const auto left = mean(pixels, from - kBeside, from, y),
+             right = mean(pixels, to, to + kBeside, y);
+  const Eigen::Vector3f a = left ? *left : right.value_or(Eigen::Vector3f::Constant(0.5f)),
+                        b = right ? *right : a;
+  for (int x = from; x < to; ++x) {
+    const float share = (static_cast<float>(x - from) + 0.5f) / static_cast<float>(to - from);
+    Eigen::Map<Eigen::Vector3f>(pixels.data() + 3 * index(x, y)) = a + share * (b - a);
+  }
+}
+
+void BodyMask::paint_over(std::span<float> pixels) const {
+  if (is_empty_) return;
+  for (int y = 0; y < kSide_px; ++y)
+    for (int x = 0; x < kSide_px; ++x) {
+      if (!is_masked_[index(x, y)]) continue;
+      int end = x;
+      while (end < kSide_px && is_masked_[index(end, y)]) ++end;
+      paint_run(pixels, x, end, y);
+      x = end;
+    }
+}
+
+}  // namespace dance

@@ -1,0 +1,47 @@
+// BodyMask: takes the bodies of others out of what a network sees of a region, so that it finds the
+// one behind them and not them again.
+//
+// Units/frames: pixels of the picture; the region as sample_region() fills it, kSide_px rows and
+//               columns of red, green and blue.
+// Ownership:    about 64 KB of its own; writes the caller's numbers; no heap.
+// Threads:      none inside.
+// Failure:      none; what is outside of the region is left.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "producers/camera/estimator/landmark_network.h"
+
+namespace dance {
+
+class BodyMask {
+ public:
+  static constexpr int kSide_px = LandmarkNetwork::kSide_px;
+
+  // Nobody is in it yet.
+  void begin(const BodyRegion& region);
+  void add(const SeenBody& body);
+  // A grey figure would still be a figure: each row goes over from what is on the left of the mask
+  // to what is on its right.
+  void paint_over(std::span<float> red_green_blue) const;
+  // Whether a place of the picture is behind somebody.
+  bool covers(const Eigen::Vector2f& place_px) const;
+
+ private:
+  static constexpr std::size_t index(int x, int y) {
+    return static_cast<std::size_t>(y) * kSide_px + static_cast<std::size_t>(x);
+  }
+  Eigen::Vector2f place(const Eigen::Vector2f& place_px) const;
+  void fill(const Eigen::Vector2f& a, const Eigen::Vector2f& b, float radius);
+  std::optional<Eigen::Vector3f> mean(std::span<const float> pixels, int from, int to, int y) const;
+  void paint_run(std::span<float> pixels, int from, int to, int y) const;
+
+  BodyRegion region_;
+  float scale_ = 1.0f, cos_ = 1.0f, sin_ = 0.0f;
+  bool is_empty_ = true;
+  std::array<bool, static_cast<std::size_t>(kSide_px) * kSide_px> is_masked_{};
+};
+
+}  // namespace dance

@@ -1,0 +1,50 @@
+#include "producers/camera/people/network_vision.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dance {
+namespace {
+
+constexpr float kCovered = 0.1f;
+
+}  // namespace
+
+Result<std::unique_ptr<NetworkVision>> NetworkVision::open(const EstimatorOptions& options) {
+  DANCE_TRY(PoseNetworks networks, open_networks(options));
+  return std::unique_ptr<NetworkVision>(new NetworkVision(
+      std::move(networks.detector), std::move(networks.landmarks), options.least_score));
+}
+
+std::span<const SeenPerson> NetworkVision::find() { return detector_.find(picture_, least_score_); }
+
+bool NetworkVision::read(const BodyRegion& region, std::span<const SeenBody* const> others,
+                         SeenBody& out) {
+  network_.look(picture_, region);
+  mask_.begin(region);
+  for (const SeenBody* other : others) mask_.add(*other);
+  mask_.paint_over(network_.input());
+  if (!network_.run() || !network_.read(out)) return false;
+  // What is behind somebody can only be guessed.
+  if (!others.empty())
+    for (std::size_t i = 0; i < kLandmarkCount; ++i)
+      if (mask_.covers(out.image_px[i].head<2>()))
+        out.visibility[i] = std::min(out.visibility[i], kCovered);
+  return true;
+}
+
+std::optional<PictureColour> NetworkVision::colour(const Eigen::Vector2f& place_px) {
+  if (!(std::abs(place_px.x()) < 1e6f) || !(std::abs(place_px.y()) < 1e6f)) return std::nullopt;
+  const int x = static_cast<int>(std::floor(place_px.x())),
+            y = static_cast<int>(std::floor(place_px.y()));
+  if (x < 0 || y < 0 || x >= picture_.cols || y >= picture_.rows) return std::nullopt;
+  const auto& pixel = picture_.at<cv::Vec3b>(y, x);
+  const float blue = static_cast<float>(pixel[0]) / 255.0f,
+              green = static_cast<float>(pixel[1]) / 255.0f,
+              red = static_cast<float>(pixel[2]) / 255.0f;
+  const float luma = 0.299f * red + 0.587f * green + 0.114f * blue;
+  return PictureColour(luma, 0.5f + 0.564f * (blue - luma), 0.5f + 0.713f * (red - luma));
+}
+
+}  // namespace dance

@@ -1,0 +1,449 @@
+#include "producers/camera/people/people_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dance {
+namespace {
+
+// In lengths of the body's measure, mean of joints: bodies that are nearer are one.
+constexpr float kSameBody = 0.06f;
+// Detections nearer than this to the region of somebody who is tracked are that person.
+constexpr float kSame_sides = 0.1f;
+constexpr float kLeastSide_px = 16.0f;
+// Regions nearer than this show parts of each other.
+constexpr float kOverlap_sides = 0.25f;
+constexpr float kFrontWeight = 0.2f;
+
+// What a detection costs as a missing person: squares over variances.
+constexpr float kPlaceSd_sides = 0.1f, kPlaceSd_sides_per_s = 0.6f, kMostPlace = 12.0f;
+constexpr float kSizeSd = 0.2f, kMostSize = 6.0f;
+constexpr float kLookWeight = 1.5f;
+constexpr float kStranger = 6.0f, kNobody = 15.0f;
+constexpr float kOtherLook = 4.0f;
+
+// Farther apart than this the colours of two people are their own.
+constexpr float kNear_sides = 0.06f, kApart_sides = 0.15f;
+constexpr float kMostEvidence = 4.0f, kLeastSum = -3.0f, kExchange = 4.0f;
+// Places where colours are looked for, in a region; the middle half of its height.
+constexpr int kColourColumns = 48, kColourRows = 28, kLeastColours = 25;
+constexpr float kOwnColour = 2.0f, kOthersColour = 5.0f;
+constexpr float kDoubtful = 3.0f, kMostDoubt = 4.0f, kRefused = 8.0f;
+constexpr Duration kCompany = Duration::s(3);
+// A gap that the solver bridges as one of the same dancer.
+constexpr Duration kShortGap = Duration::ms(500);
+
+constexpr Landmark kJoints[]{
+    Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow, Landmark::kRightElbow,
+    Landmark::kLeftHip,      Landmark::kRightHip,      Landmark::kLeftKnee,  Landmark::kRightKnee,
+    Landmark::kLeftAnkle,    Landmark::kRightAnkle};
+
+float measure_of(const SeenBody& body) {
+  return std::max(1.0f, 2.0f * (body.next_px[1] - body.next_px[0]).norm());
+}
+
+bool are_one_body(const SeenBody& a, const SeenBody& b) {
+  float sum = 0.0f;
+  for (const Landmark l : kJoints)
+    sum += (a.image_px[index_of(l)] - b.image_px[index_of(l)]).head<2>().norm();
+  return sum / static_cast<float>(std::size(kJoints)) <
+         kSameBody * std::min(measure_of(a), measure_of(b));
+}
+
+float lowest_px(const SeenBody& body) {
+  return std::max(body.image_px[index_of(Landmark::kLeftAnkle)].y(),
+                  body.image_px[index_of(Landmark::kRightAnkle)].y());
+}
+
+BodyRegion region_after(const SeenBody& body) {
+  return region_of(body.next_px[0], body.next_px[1]);
+}
+
+// The cheapest way of giving candidates to persons; each may stay without.
+class Assignment {
+ public:
+  using Costs = std::array<std::array<float, kMostDancers>, kMostDancers>;
+  static constexpr std::size_t kNone = kMostDancers;
+
+  Assignment(const Costs& costs, std::size_t persons, std::size_t candidates)
+      : costs_(costs), persons_(persons), candidates_(candidates) {
+    try_all(0, 0.0f);
+  }
+  std::size_t of(std::size_t person) const { return best_[person]; }
+
+ private:
+  void try_all(std::size_t person, float cost) {
+    if (cost >= least_) return;
+    if (person == persons_) {
+      least_ = cost;
+      best_ = now_;
+      return;
+    }
+    for (std::size_t c = 0; c < candidates_; ++c) {
+      if (is_taken_[c]) continue;
+      is_taken_[c] = true;
+      now_[person] = c;
+      try_all(person + 1, cost + costs_[person][c]);
+      is_taken_[c] = false;
+    }
+    now_[person] = kNone;
+    try_all(person + 1, cost + kNobody);
+  }
+
+  const Costs& costs_;
+  std::size_t persons_, candidates_;
+  std::array<bool, kMostDancers> is_taken_{};
+  std::array<std::size_t, kMostDancers> now_{}, best_{kNone, kNone, kNone, kNone};
+  float least_ = 1e9f;
+};
+
+}  // namespace
+
+void PeopleTracker::reset() {
+  tracks_.fill({});
+  limbs_.fill({});
+  evidence_ = {};
+  doubt_ = {};
+  last_search_ = {};
+}
+
+// Those who have been found already are nearer to the camera: the others are read without them.
+bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, SeenBody& out) {
+  if (!(region.side_px >= kLeastSide_px)) return false;
+  ++counters_.reads;
+  std::array<const SeenBody*, kMostDancers> others{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < options_.people; ++i)
+    if (found_[i].is_found && (centre_of(region_after(found_[i].body)) - centre_of(region)).norm() <
+                                  kOverlap_sides * region.side_px)
+      others[count++] = &found_[i].body;
+  return vision.read(region, std::span(others.data(), count), out) &&
+         out.presence > options_.least_presence && region_after(out).side_px >= kLeastSide_px;
+}
+
+std::array<std::size_t, kMostDancers> PeopleTracker::from_front() const {
+  std::array<std::size_t, kMostDancers> order{};
+  for (std::size_t i = 0; i < kMostDancers; ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return lowest_px_[a] > lowest_px_[b]; });
+  return order;
+}
+
+void PeopleTracker::take(std::size_t person, const BodyRegion& region, const SeenBody& body,
+                         bool is_new) {
+  PersonInPicture& found = found_[person];
+  found.is_found = true;
+  found.is_new = is_new;
+  found.region = region;
+  found.body = body;
+}
+
+void PeopleTracker::read_tracked(PeopleVision& vision, MonoTime now, const Reads& reads) {
+  SeenBody body;
+  for (const std::size_t i : from_front()) {
+    if (i >= options_.people) continue;
+    const std::optional<BodyRegion> region = tracks_[i].next();
+    if (!reads[i] || !region) continue;
+    if (read(vision, *region, body) && tracks_[i].is_plausible(region_after(body), now))
+      take(i, *region, body, false);
+    else
+      tracks_[i].lose();
+  }
+}
+
+// Two regions that have come to one body: it is that person's whom it looks like and who was
+// expected there. The other is hidden.
+void PeopleTracker::separate_duplicates(PeopleVision& vision, MonoTime now) {
+  for (std::size_t a = 0; a < options_.people; ++a)
+    for (std::size_t b = a + 1; b < options_.people; ++b) {
+      if (!found_[a].is_found || !found_[b].is_found ||
+          !are_one_body(found_[a].body, found_[b].body))
+        continue;
+      ++counters_.duplicates;
+      const auto against = [&](std::size_t i) {
+        const SeenBody& body = found_[i].body;
+        const BodyRegion is = region_after(body);
+        const float off = (centre_of(is) - tracks_[i].expected_px(now)).norm() /
+                          (kPlaceSd_sides * std::max(1.0f, tracks_[i].region().side_px));
+        const float look = tracks_[i].look.is_known()
+                               ? tracks_[i].look.distance(look_of(body, vision)).value_or(0.0f)
+                               : 0.0f;
+        return std::min(off * off, kMostPlace) + kLookWeight * look;
+      };
+      const std::size_t hidden = against(a) > against(b) ? a : b;
+      found_[hidden].is_found = false;
+      tracks_[hidden].lose();
+    }
+}
+
+bool PeopleTracker::is_of_somebody(const SeenBody& body) const {
+  for (std::size_t i = 0; i < options_.people; ++i)
+    if (found_[i].is_found && are_one_body(found_[i].body, body)) return true;
+  return false;
+}
+
+// Where across the region most of a person's colours are that nobody else has.
+std::optional<float> PeopleTracker::middle_of_colours(PeopleVision& vision, std::size_t person,
+                                                      const BodyRegion& region) const {
+  const LookModel& own = tracks_[person].look;
+  if (!own.is_known()) return std::nullopt;
+  std::array<int, kColourColumns> own_places{};
+  int count = 0;
+  const float left_px = region.centre_x_px - 0.5f * region.side_px,
+              top_px = region.centre_y_px - 0.3f * region.side_px;
+  const float step_px = region.side_px / static_cast<float>(kColourColumns);
+  for (int column = 0; column < kColourColumns; ++column)
+    for (int row = 0; row < kColourRows; ++row) {
+      const auto colour = vision.colour({left_px + (static_cast<float>(column) + 0.5f) * step_px,
+                                         top_px + (static_cast<float>(row) + 0.5f) * step_px});
+      if (!colour || own.distance(*colour) > kOwnColour) continue;
+      bool is_others = false;
+      for (std::size_t i = 0; i < options_.people; ++i)
+        if (i != person && found_[i].is_found && tracks_[i].look.is_known() &&
+            tracks_[i].look.distance(*colour) < kOthersColour)
+          is_others = true;
+      if (is_others) continue;
+      ++own_places[static_cast<std::size_t>(column)];
+      ++count;
+    }
+  if (count < kLeastColours) return std::nullopt;
+  int sum = 0;
+  for (int column = 0; column < kColourColumns; ++column) {
+    sum += own_places[static_cast<std::size_t>(column)];
+    if (2 * sum >= count) return left_px + (static_cast<float>(column) + 0.5f) * step_px;
+  }
+  return std::nullopt;
+}
+
+void PeopleTracker::probe_missing(PeopleVision& vision, MonoTime now, const Reads& reads) {
+  SeenBody body;
+  for (std::size_t i = 0; i < options_.people; ++i) {
+    PersonTrack& track = tracks_[i];
+    if (!reads[i] || found_[i].is_found || !track.was_ever_seen() ||
+        now - track.seen() > options_.probe_for || now <= track.seen())
+      continue;
+    const Eigen::Vector2f expected = track.expected_px(now);
+    BodyRegion region = track.region();
+    region.centre_x_px = expected.x();
+    region.centre_y_px = expected.y();
+    if (const auto middle_px = middle_of_colours(vision, i, region))
+      region.centre_x_px = *middle_px;
+    if (!read(vision, region, body) || !track.is_plausible(region_after(body), now) ||
+        is_of_somebody(body))
+      continue;
+    if (track.look.is_known()) {
+      const auto off = track.look.distance(look_of(body, vision));
+      if (off && *off > kOtherLook) continue;
+    }
+    take(i, region, body, now - track.seen() > kShortGap);
+  }
+}
+
+float PeopleTracker::cost_of(std::size_t person, const Candidate& candidate, MonoTime now) const {
+  const PersonTrack& track = tracks_[person];
+  if (!track.was_ever_seen()) return kStranger;
+  const Duration away = now - track.seen();
+  const std::optional<float> look =
+      track.look.is_known() ? track.look.distance(candidate.look) : std::nullopt;
+  float cost = kLookWeight * look.value_or(0.0f);
+  // Long away: who comes is another, or looks as this one did.
+  if (away > options_.forget_after)
+    return look && *look < kOtherLook ? std::min(cost, kStranger) : kStranger;
+  const float side = track.region().side_px;
+  const float off_sides =
+      (centre_of(candidate.region) - track.expected_px(now)).norm() / std::max(1.0f, side);
+  const float sd = kPlaceSd_sides + kPlaceSd_sides_per_s * static_cast<float>(away.as_seconds());
+  const float size = std::log(candidate.region.side_px / std::max(1.0f, side)) / kSizeSd;
+  cost += std::min(off_sides * off_sides / (sd * sd), kMostPlace);
+  return cost + std::min(size * size, kMostSize);
+}
+
+// From the left to the right, so that persons who were never seen are numbered in this order.
+std::size_t PeopleTracker::find_candidates(PeopleVision& vision, std::size_t wanted) {
+  std::size_t count = 0;
+  for (const SeenPerson& person : vision.find()) {
+    if (count == wanted) break;
+    const bool is_tracked = std::any_of(
+        found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(options_.people),
+        [&](const PersonInPicture& found) {
+          return found.is_found &&
+                 (centre_of(region_after(found.body)) - centre_of(person.region)).norm() <
+                     kSame_sides * person.region.side_px;
+        });
+    Candidate& candidate = candidates_[count];
+    if (is_tracked || !read(vision, person.region, candidate.body) ||
+        is_of_somebody(candidate.body))
+      continue;
+    const bool is_double =
+        std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
+                    [&](const Candidate& c) { return are_one_body(c.body, candidate.body); });
+    if (is_double) continue;
+    candidate.region = region_after(candidate.body);
+    candidate.look = look_of(candidate.body, vision);
+    ++count;
+  }
+  std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const Candidate& a, const Candidate& b) {
+              return a.region.centre_x_px < b.region.centre_x_px;
+            });
+  return count;
+}
+
+void PeopleTracker::search(PeopleVision& vision, MonoTime now, const Reads& reads) {
+  std::array<std::size_t, kMostDancers> missing{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < options_.people; ++i)
+    if (reads[i] && !found_[i].is_found) missing[count++] = i;
+  if (count == 0) return;
+  const bool is_due = !last_search_.is_set() || now < last_search_ ||
+                      now - last_search_ >= options_.search_interval;
+  if (!is_due) return;
+  last_search_ = now;
+  ++counters_.searches;
+  const std::size_t candidates = find_candidates(vision, count);
+  Assignment::Costs costs{};
+  for (std::size_t m = 0; m < count; ++m)
+    for (std::size_t c = 0; c < candidates; ++c)
+      // Strangers keep the order from the left to the right.
+      costs[m][c] = cost_of(missing[m], candidates_[c], now) +
+                    0.001f * std::abs(static_cast<float>(m) - static_cast<float>(c));
+  const Assignment best(costs, count, candidates);
+  for (std::size_t m = 0; m < count; ++m) {
+    const std::size_t c = best.of(m);
+    if (c == Assignment::kNone) continue;
+    const std::size_t person = missing[m];
+    PersonTrack& track = tracks_[person];
+    if (track.was_ever_seen() && now - track.seen() > options_.forget_after) {
+      const auto look = track.look.distance(candidates_[c].look);
+      if (!look || *look > kOtherLook) {
+        track.reset();
+        limbs_[person].reset();
+      }
+    }
+    take(person, candidates_[c].region, candidates_[c].body, true);
+  }
+}
+
+float PeopleTracker::distance(std::size_t a, std::size_t b, MonoTime now) const {
+  const auto middle = [&](std::size_t i) {
+    return found_[i].is_found ? centre_of(region_after(found_[i].body))
+                              : tracks_[i].expected_px(now);
+  };
+  const auto side = [&](std::size_t i) {
+    return found_[i].is_found ? region_after(found_[i].body).side_px : tracks_[i].region().side_px;
+  };
+  return (middle(a) - middle(b)).norm() / std::max(1.0f, std::min(side(a), side(b)));
+}
+
+// How much better the picture's colours fit if the two were taken for each other.
+float PeopleTracker::evidence_of_exchange(std::size_t a, std::size_t b, const Looks& looks) const {
+  float evidence = 0.0f;
+  for (const auto& [is, other] : {std::pair(a, b), std::pair(b, a)}) {
+    if (!found_[is].is_found) continue;
+    const auto own = tracks_[is].look.distance(looks[is]);
+    const auto theirs = tracks_[other].look.distance(looks[is]);
+    if (own && theirs) evidence += *own - *theirs;
+  }
+  return std::clamp(evidence, -kMostEvidence, kMostEvidence);
+}
+
+void PeopleTracker::exchange(std::size_t a, std::size_t b) {
+  ++counters_.exchanged;
+  std::swap(found_[a], found_[b]);
+  std::swap(tracks_[a], tracks_[b]);
+  std::swap(tracks_[a].look, tracks_[b].look);
+  std::swap(lowest_px_[a], lowest_px_[b]);
+  limbs_[a].reset();
+  limbs_[b].reset();
+  for (const std::size_t i : {a, b})
+    if (found_[i].is_found) found_[i].is_new = found_[i].is_exchanged = true;
+}
+
+void PeopleTracker::judge_identities(PeopleVision& vision, MonoTime now) {
+  Looks looks;
+  std::array<bool, kMostDancers> may_learn{};
+  for (std::size_t i = 0; i < options_.people; ++i) {
+    may_learn[i] = found_[i].is_found;
+    if (found_[i].is_found) looks[i] = look_of(found_[i].body, vision);
+  }
+  for (std::size_t a = 0; a < options_.people; ++a)
+    for (std::size_t b = a + 1; b < options_.people; ++b) {
+      if (!found_[a].is_found && !found_[b].is_found) continue;
+      const auto is_about = [&](std::size_t i) {
+        return found_[i].is_found ||
+               (tracks_[i].was_ever_seen() && now - tracks_[i].seen() < kCompany);
+      };
+      if (!is_about(a) || !is_about(b)) continue;
+      const float apart = distance(a, b, now);
+      if (apart < kApart_sides) may_learn[a] = may_learn[b] = false;
+      if (!tracks_[a].look.is_known() || !tracks_[b].look.is_known()) continue;
+      const bool are_both = found_[a].is_found && found_[b].is_found;
+      const float weight =
+          are_both ? std::clamp((apart - kNear_sides) / (kApart_sides - kNear_sides), 0.0f, 1.0f)
+                   : 1.0f;
+      float& evidence = evidence_[a][b];
+      evidence = std::max(evidence + weight * evidence_of_exchange(a, b, looks), kLeastSum);
+      if (evidence > 0.0f) may_learn[a] = may_learn[b] = false;
+      if (evidence < kExchange) continue;
+      exchange(a, b);
+      std::swap(looks[a], looks[b]);
+      evidence = 0.0f;
+      may_learn[a] = may_learn[b] = false;
+    }
+  for (std::size_t i = 0; i < options_.people; ++i) {
+    if (!found_[i].is_found || is_refused(i, looks[i])) continue;
+    if (may_learn[i]) tracks_[i].look.learn(looks[i]);
+  }
+}
+
+// A region that has come to somebody else, who is before this person, shows other colours.
+bool PeopleTracker::is_refused(std::size_t person, const PersonLook& look) {
+  PersonTrack& track = tracks_[person];
+  const auto off = track.look.is_known() ? track.look.distance(look) : std::nullopt;
+  if (!off) return false;
+  float& doubt = doubt_[person];
+  doubt = std::max(0.0f, doubt + std::clamp(*off - kDoubtful, -kMostDoubt, kMostDoubt));
+  if (doubt < kRefused) return *off > kDoubtful;
+  doubt = 0.0f;
+  found_[person].is_found = false;
+  track.lose();
+  return true;
+}
+
+void PeopleTracker::resolve_all_limbs(MonoTime now) {
+  std::array<LimbClaimant, kMostDancers> claimants;
+  std::size_t front = 0;
+  for (std::size_t i = 0; i < options_.people; ++i) {
+    if (!found_[i].is_found) continue;
+    claimants[i] = {&found_[i].body, &limbs_[i], false};
+    if (!claimants[front].body || lowest_px(found_[i].body) > lowest_px(found_[front].body))
+      front = i;
+  }
+  claimants[front].is_in_front = true;
+  counters_.limbs_hidden +=
+      static_cast<std::uint64_t>(resolve_limbs(std::span(claimants.data(), options_.people), now));
+}
+
+std::span<const PersonInPicture> PeopleTracker::update(PeopleVision& vision, MonoTime now,
+                                                       const Reads& reads) {
+  ++counters_.pictures;
+  for (PersonInPicture& found : found_) found.is_found = found.is_new = found.is_exchanged = false;
+  read_tracked(vision, now, reads);
+  separate_duplicates(vision, now);
+  probe_missing(vision, now, reads);
+  search(vision, now, reads);
+  judge_identities(vision, now);
+  resolve_all_limbs(now);
+  for (std::size_t i = 0; i < options_.people; ++i) {
+    if (!found_[i].is_found) continue;
+    tracks_[i].update(found_[i].body, now);
+    limbs_[i].update(found_[i].body, now);
+    const float lowest = lowest_px(found_[i].body);
+    lowest_px_[i] =
+        found_[i].is_new ? lowest : lowest_px_[i] + kFrontWeight * (lowest - lowest_px_[i]);
+  }
+  return std::span(found_.data(), options_.people);
+}
+
+}  // namespace dance

@@ -1,0 +1,57 @@
+#include "producers/camera/people/person_track.h"
+
+#include <cmath>
+
+namespace dance {
+namespace {
+
+// In sides of the region, which are about one and a half times a body's height: how far the middle
+// of the hips may be from where it is expected, at once and for each second since the last picture.
+constexpr float kJump_sides = 0.12f, kJump_sides_per_s = 1.5f;
+constexpr float kGrowth = 1.4f;
+constexpr float kSpeedWeight = 0.3f;
+constexpr float kSpeedFades_s = 0.5f;
+
+}  // namespace
+
+Eigen::Vector2f PersonTrack::expected_px(MonoTime now) const {
+  const float passed_s = static_cast<float>((now - seen_).as_seconds());
+  return centre_of(region_) +
+         kSpeedFades_s * (1.0f - std::exp(-passed_s / kSpeedFades_s)) * speed_px_s_;
+}
+
+bool PersonTrack::is_plausible(const BodyRegion& region, MonoTime now) const {
+  if (!was_ever_seen()) return true;
+  const float passed_s = static_cast<float>((now - seen_).as_seconds());
+  const float allowed = (kJump_sides + kJump_sides_per_s * passed_s) * region_.side_px;
+  const float growth = region.side_px / region_.side_px;
+  const float most_growth = kGrowth * (1.0f + passed_s);
+  return (centre_of(region) - expected_px(now)).norm() <= allowed && growth <= most_growth &&
+         growth * most_growth >= 1.0f;
+}
+
+void PersonTrack::update(const SeenBody& body, MonoTime now) {
+  const BodyRegion is = region_of(body.next_px[0], body.next_px[1]);
+  if (is_begun_ && now > seen_) {
+    const auto passed_s = static_cast<float>((now - seen_).as_seconds());
+    const Eigen::Vector2f speed = (centre_of(is) - centre_of(region_)) / passed_s;
+    speed_px_s_ += kSpeedWeight * (speed - speed_px_s_);
+  } else {
+    speed_px_s_.setZero();
+  }
+  region_ = is;
+  seen_ = now;
+  is_begun_ = true;
+  SeenBody steadied = body;
+  smoothing_.smooth(now, true, steadied);
+  next_ = region_of(steadied.next_px[0], steadied.next_px[1]);
+  if (!(next_->side_px >= 1.0f)) lose();
+}
+
+void PersonTrack::lose() {
+  next_.reset();
+  is_begun_ = false;
+  smoothing_.lose();
+}
+
+}  // namespace dance

@@ -1,0 +1,324 @@
+#include "research/capture/couple/couple_eval.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <limits>
+
+#include "producers/camera/estimator/pose_estimator.h"
+#include "producers/camera/solver/body_solver.h"
+
+namespace dance {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kFullyHidden = 0.7;
+constexpr std::size_t kWarmUp = 60;  // frames in which the solver learns bones and floor
+
+constexpr Landmark kJudgedLandmarks[kJudgedCount]{
+    Landmark::kLeftShoulder, Landmark::kRightShoulder, Landmark::kLeftElbow, Landmark::kRightElbow,
+    Landmark::kLeftWrist,    Landmark::kRightWrist,    Landmark::kLeftHip,   Landmark::kRightHip,
+    Landmark::kLeftKnee,     Landmark::kRightKnee,     Landmark::kLeftAnkle, Landmark::kRightAnkle};
+constexpr std::size_t kWrists[]{4, 5};
+constexpr std::size_t kHips[]{6, 7};
+
+double thread_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+// The mean distance of a body's joints in the picture, sides exchanged where that is nearer: a back
+// that is taken for a front is still the same person's.
+double distance_px(const BodyLandmarks& seen, const std::array<Vector2d, kJudgedCount>& truth) {
+  double straight = 0.0, exchanged = 0.0;
+  for (std::size_t j = 0; j < kJudgedCount; ++j) {
+    const Vector2d p = seen.image(kJudgedLandmarks[j]).head<2>().cast<double>();
+    straight += (p - truth[j]).norm();
+    exchanged += (p - truth[j ^ 1]).norm();
+  }
+  return std::min(straight, exchanged) / static_cast<double>(kJudgedCount);
+}
+
+class IdentityJudge {
+ public:
+  explicit IdentityJudge(double hz) : hz_(hz) {}
+  void judge(const CoupleTruth& truth, std::size_t person, const BodyLandmarks& seen) {
+    const bool is_wrong = seen.found && distance_px(seen, truth.joint_px[1 - person]) <
+                                            distance_px(seen, truth.joint_px[person]);
+    wrong_run_[person] = is_wrong ? wrong_run_[person] + 1 : 0;
+    if (truth.hidden[person] >= kFullyHidden) return;
+    ++figures_.frames;
+    ++(seen.found ? is_wrong ? figures_.wrong : figures_.right : figures_.missing);
+    figures_.longest_wrong_s =
+        std::max(figures_.longest_wrong_s, static_cast<double>(wrong_run_[person]) / hz_);
+  }
+  const IdentityFigures& figures() const { return figures_; }
+
+ private:
+  double hz_;
+  std::array<int, 2> wrong_run_{};
+  IdentityFigures figures_;
+};
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+// A dancer's shown bodies against the truth.
+class WristJudge {
+ public:
+  void judge(const CoupleTruth& truth, std::size_t person, const Skeleton& skeleton,
+             const Pose& pose) {
+    BodyFrames frames;
+    forward_kinematics(skeleton, pose, frames);
+    std::array<Vector3d, kJudgedCount> shown;
+    for (std::size_t j = 0; j < kJudgedCount; ++j)
+      shown[j] = frames.position(kJudgedBones[j]).cast<double>();
+    const auto& is = truth.joint_W_m[person];
+    const Vector3d shown_hips = 0.5 * (shown[kHips[0]] + shown[kHips[1]]),
+                   hips = 0.5 * (is[kHips[0]] + is[kHips[1]]);
+    for (const std::size_t j : kWrists) {
+      const double off = 1e3 * ((shown[j] - shown_hips) - (is[j] - hips)).norm();
+      all_.push_back(off);
+      if (truth.is_in_hold) in_hold_.push_back(off);
+    }
+    hips_.push_back(shown_hips - hips);
+  }
+  void add_to(WristFigures& figures) const {
+    const auto mean = [](const std::vector<double>& values) {
+      double sum = 0.0;
+      for (const double v : values) sum += v;
+      return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+    };
+    const auto merge = [](double& was, std::size_t& frames, double is, std::size_t more) {
+      if (more == 0) return;
+      was = (was * static_cast<double>(frames) + is * static_cast<double>(more)) /
+            static_cast<double>(frames + more);
+      frames += more;
+    };
+    Vector3d offset = Vector3d::Zero();
+    for (const Vector3d& p : hips_) offset += p / static_cast<double>(hips_.size());
+    std::vector<double> off;
+    for (const Vector3d& p : hips_) off.push_back(1e3 * (p - offset).norm());
+    std::size_t frames = figures.frames;
+    merge(figures.hips_mm, frames, mean(off), all_.size());
+    merge(figures.all_mm, figures.frames, mean(all_), all_.size());
+    std::size_t in_hold = figures.frames_in_hold;
+    merge(figures.in_hold_median_mm, in_hold, percentile(in_hold_, 0.5), in_hold_.size());
+    merge(figures.in_hold_mm, figures.frames_in_hold, mean(in_hold_), in_hold_.size());
+  }
+
+ private:
+  std::vector<double> all_, in_hold_;
+  std::vector<Vector3d> hips_;
+};
+
+class Evaluation {
+ public:
+  Evaluation(DrawnCouple& couple, const CoupleWishes& wishes) : couple_(couple), wishes_(wishes) {
+    end_ = std::min(couple.frames(), wishes.first_frame + wishes.most_frames);
+    networks_.model = wishes.model;
+    score_.name = couple.name();
+  }
+
+  Result<CoupleScore> run() {
+    if (auto done = run_people(); !done) return tl::make_unexpected(done.error());
+    if (!wishes_.has_baselines) return score_;
+    if (auto done = run_separate(); !done) return tl::make_unexpected(done.error());
+    for (std::size_t i = 0; i < 2; ++i)
+      if (auto done = run_alone(i); !done) return tl::make_unexpected(done.error());
+    return score_;
+  }
+
+ private:
+  MonoTime time_of(std::size_t f) const {
+    return MonoTime() + Duration::seconds(1.0 + static_cast<double>(f) / couple_.hz());
+  }
+  Result<Frame> frame_of(std::size_t f, DrawnCouple::Who who) {
+    DANCE_TRY(const cv::Mat image, couple_.picture(f, who));
+    Frame frame;
+    frame.image = image;
+    frame.capture_time = frame.fetched = time_of(f);
+    frame.sequence = f;
+    return frame;
+  }
+  // Who is who is said by the first picture with anybody: number 0 is whom that body is nearer to.
+  void number(const CoupleTruth& truth, std::span<const BodyLandmarks> bodies) {
+    if (is_numbered_) return;
+    for (std::size_t p = 0; p < 2; ++p) {
+      if (!bodies[p].found) continue;
+      const bool is_lead =
+          distance_px(bodies[p], truth.joint_px[0]) < distance_px(bodies[p], truth.joint_px[1]);
+      is_exchanged_ = is_lead != (p == 0);
+      is_numbered_ = true;
+      return;
+    }
+  }
+  std::size_t person_of(std::size_t number) const { return is_exchanged_ ? 1 - number : number; }
+
+  Result<void> run_people() {
+    PeopleOptions options;
+    options.people = 2;
+    DANCE_TRY(auto estimator, PeopleEstimator::open(networks_, options));
+    std::vector<BodySolver> solvers;
+    const auto shared = make_shared_placement();
+    for (int i = 0; i < 2; ++i) solvers.emplace_back(SolverOptions{}, couple_.pinhole(), shared);
+    IdentityJudge identities(couple_.hz());
+    std::array<WristJudge, 2> wrists;
+    std::vector<double> times;
+    std::ofstream log;
+    if (!wishes_.log.empty()) log.open(wishes_.log, std::ios::app);
+    for (std::size_t f = wishes_.first_frame; f < end_; ++f) {
+      DANCE_TRY(const Frame frame, frame_of(f, DrawnCouple::Who::kBoth));
+      const double begin = thread_ms();
+      const auto bodies = estimator->estimate(frame);
+      const CoupleTruth& truth = couple_.truth(f);
+      number(truth, bodies);
+      std::array<Pose, 2> poses;
+      std::array<bool, 2> is_shown{};
+      for (std::size_t p = 0; p < 2; ++p)
+        is_shown[p] = solvers[p].solve(bodies[p], std::nullopt, poses[p]);
+      times.push_back(thread_ms() - begin);
+      for (std::size_t p = 0; p < 2; ++p) {
+        const std::size_t person = person_of(p);
+        identities.judge(truth, person, bodies[p]);
+        if (is_shown[p] && f >= wishes_.first_frame + kWarmUp)
+          wrists[person].judge(truth, person, solvers[p].skeleton(), poses[p]);
+      }
+      if (log) write_log(log, f, truth, bodies, estimator->tracker().counters());
+    }
+    score_.people = identities.figures();
+    for (const WristJudge& judge : wrists) judge.add_to(score_.together);
+    score_.counters = estimator->tracker().counters();
+    score_.ms_median = percentile(times, 0.5);
+    score_.ms_p95 = percentile(times, 0.95);
+    return {};
+  }
+
+  void write_log(std::ofstream& log, std::size_t f, const CoupleTruth& truth,
+                 std::span<const BodyLandmarks> bodies, const PeopleCounters& counters) {
+    log << fmt::format("{} hidden {:.2f} {:.2f} hold {}", f, truth.hidden[0], truth.hidden[1],
+                       truth.is_in_hold ? 1 : 0);
+    for (std::size_t p = 0; p < 2; ++p) {
+      const std::size_t person = person_of(p);
+      if (bodies[p].found)
+        log << fmt::format("  {}: own {:.0f} other {:.0f}{}", person,
+                           distance_px(bodies[p], truth.joint_px[person]),
+                           distance_px(bodies[p], truth.joint_px[1 - person]),
+                           bodies[p].is_new ? " new" : "");
+      else
+        log << fmt::format("  {}: -", person);
+    }
+    log << fmt::format("  s {} d {} x {} l {}\n", counters.searches, counters.duplicates,
+                       counters.exchanged, counters.limbs_hidden);
+  }
+
+  // As two programs would do it, each told where its dancer stands.
+  Result<void> run_separate() {
+    IdentityJudge identities(couple_.hz());
+    for (std::size_t person = 0; person < 2; ++person) {
+      EstimatorOptions options = networks_;
+      options.follow.choice = FollowOptions::Choice::kNearest;
+      options.follow.place_px =
+          couple_.truth(wishes_.first_frame).joint_px[person][kHips[0]].cast<float>();
+      DANCE_TRY(auto estimator, PoseEstimator::open(options));
+      for (std::size_t f = wishes_.first_frame; f < end_; ++f) {
+        DANCE_TRY(const Frame frame, frame_of(f, DrawnCouple::Who::kBoth));
+        estimator->estimate(frame);
+        identities.judge(couple_.truth(f), person, estimator->unfiltered());
+      }
+    }
+    score_.separate = identities.figures();
+    return {};
+  }
+
+  Result<void> run_alone(std::size_t person) {
+    DANCE_TRY(auto estimator, PoseEstimator::open(networks_));
+    BodySolver solver(SolverOptions{}, couple_.pinhole());
+    WristJudge wrists;
+    std::vector<double> times;
+    for (std::size_t f = wishes_.first_frame; f < end_; ++f) {
+      DANCE_TRY(const Frame frame,
+                frame_of(f, person == 0 ? DrawnCouple::Who::kLead : DrawnCouple::Who::kFollow));
+      const double begin = thread_ms();
+      estimator->estimate(frame);
+      Pose pose;
+      const bool is_shown = solver.solve(estimator->unfiltered(), std::nullopt, pose);
+      times.push_back(thread_ms() - begin);
+      if (is_shown && f >= wishes_.first_frame + kWarmUp)
+        wrists.judge(couple_.truth(f), person, solver.skeleton(), pose);
+    }
+    wrists.add_to(score_.alone);
+    score_.alone_ms_median = std::max(score_.alone_ms_median, percentile(times, 0.5));
+    return {};
+  }
+
+  DrawnCouple& couple_;
+  CoupleWishes wishes_;
+  std::size_t end_ = 0;
+  EstimatorOptions networks_;
+  bool is_numbered_ = false, is_exchanged_ = false;
+  CoupleScore score_;
+};
+
+void add(IdentityFigures& sum, const IdentityFigures& more) {
+  sum.frames += more.frames;
+  sum.right += more.right;
+  sum.wrong += more.wrong;
+  sum.missing += more.missing;
+  sum.longest_wrong_s = std::max(sum.longest_wrong_s, more.longest_wrong_s);
+}
+
+void add(WristFigures& sum, const WristFigures& more) {
+  const auto merge = [](double& was, double is, std::size_t frames, std::size_t fresh) {
+    if (fresh > 0)
+      was = (was * static_cast<double>(frames) + is * static_cast<double>(fresh)) /
+            static_cast<double>(frames + fresh);
+  };
+  merge(sum.all_mm, more.all_mm, sum.frames, more.frames);
+  merge(sum.hips_mm, more.hips_mm, sum.frames, more.frames);
+  merge(sum.in_hold_median_mm, more.in_hold_median_mm, sum.frames_in_hold, more.frames_in_hold);
+  merge(sum.in_hold_mm, more.in_hold_mm, sum.frames_in_hold, more.frames_in_hold);
+  sum.frames += more.frames;
+  sum.frames_in_hold += more.frames_in_hold;
+}
+
+}  // namespace
+
+Result<CoupleScore> evaluate_couple(DrawnCouple& couple, const CoupleWishes& wishes) {
+  return Evaluation(couple, wishes).run();
+}
+
+CoupleScore all_of(const std::vector<CoupleScore>& scores) {
+  CoupleScore all;
+  all.name = fmt::format("all {}", scores.size());
+  std::vector<double> ms, p95, alone;
+  for (const CoupleScore& score : scores) {
+    add(all.separate, score.separate);
+    add(all.people, score.people);
+    add(all.alone, score.alone);
+    add(all.together, score.together);
+    all.counters.pictures += score.counters.pictures;
+    all.counters.searches += score.counters.searches;
+    all.counters.reads += score.counters.reads;
+    all.counters.duplicates += score.counters.duplicates;
+    all.counters.exchanged += score.counters.exchanged;
+    all.counters.limbs_hidden += score.counters.limbs_hidden;
+    ms.push_back(score.ms_median);
+    p95.push_back(score.ms_p95);
+    alone.push_back(score.alone_ms_median);
+  }
+  all.ms_median = percentile(ms, 0.5);
+  all.ms_p95 = percentile(p95, 0.5);
+  all.alone_ms_median = percentile(alone, 0.5);
+  return all;
+}
+
+}  // namespace dance
