@@ -1,16 +1,9 @@
 #include "producers/camera/people/network_vision.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace dance {
-namespace {
-
-constexpr float kCovered = 0.1f;
-
-}  // namespace
-
 Result<std::unique_ptr<NetworkVision>> NetworkVision::open(const EstimatorOptions& options) {
   DANCE_TRY(PoseNetworks networks, open_networks(options));
   return std::unique_ptr<NetworkVision>(new NetworkVision(
@@ -20,17 +13,14 @@ Result<std::unique_ptr<NetworkVision>> NetworkVision::open(const EstimatorOption
 std::span<const SeenPerson> NetworkVision::find() { return detector_.find(picture_, least_score_); }
 
 bool NetworkVision::read(const BodyRegion& region, std::span<const SeenBody* const> others,
-                         SeenBody& out) {
+                         ReadBody& out) {
   network_.look(picture_, region);
   mask_.begin(region);
   for (const SeenBody* other : others) mask_.add(*other);
   mask_.paint_over(network_.input());
-  if (!network_.run() || !network_.read(out)) return false;
-  // What is behind somebody can only be guessed.
-  if (!others.empty())
-    for (std::size_t i = 0; i < kLandmarkCount; ++i)
-      if (mask_.covers(out.image_px[i].head<2>()))
-        out.visibility[i] = std::min(out.visibility[i], kCovered);
+  if (!network_.run() || !network_.read(out.body)) return false;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i)
+    out.is_covered[i] = !others.empty() && mask_.covers(out.body.image_px[i].head<2>());
   return true;
 }
 

@@ -24,7 +24,7 @@ class NetworkVision final : public PeopleVision {
 
   std::span<const SeenPerson> find() override;
   bool read(const BodyRegion& region, std::span<const SeenBody* const> others,
-            SeenBody& out) override;
+            ReadBody& out) override;
   std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) override;
 
  private:

@@ -14,6 +14,8 @@ constexpr float kSame_sides = 0.1f;
 constexpr float kLeastSide_px = 16.0f;
 // Regions nearer than this show parts of each other.
 constexpr float kOverlap_sides = 0.25f;
+// What is behind another can only be guessed.
+constexpr float kCovered = 0.25f;
 constexpr float kFrontWeight = 0.2f;
 
 // What a detection costs as a missing person: squares over variances.
@@ -109,7 +111,7 @@ void PeopleTracker::reset() {
 }
 
 // Those who have been found already are nearer to the camera: the others are read without them.
-bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, SeenBody& out) {
+bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, ReadBody& out) {
   if (!(region.side_px >= kLeastSide_px)) return false;
   ++counters_.reads;
   std::array<const SeenBody*, kMostDancers> others{};
@@ -119,7 +121,8 @@ bool PeopleTracker::read(PeopleVision& vision, const BodyRegion& region, SeenBod
                                   kOverlap_sides * region.side_px)
       others[count++] = &found_[i].body;
   return vision.read(region, std::span(others.data(), count), out) &&
-         out.presence > options_.least_presence && region_after(out).side_px >= kLeastSide_px;
+         out.body.presence > options_.least_presence &&
+         region_after(out.body).side_px >= kLeastSide_px;
 }
 
 std::array<std::size_t, kMostDancers> PeopleTracker::from_front() const {
@@ -130,23 +133,24 @@ std::array<std::size_t, kMostDancers> PeopleTracker::from_front() const {
   return order;
 }
 
-void PeopleTracker::take(std::size_t person, const BodyRegion& region, const SeenBody& body,
+void PeopleTracker::take(std::size_t person, const BodyRegion& region, const ReadBody& seen,
                          bool is_new) {
   PersonInPicture& found = found_[person];
   found.is_found = true;
   found.is_new = is_new;
   found.region = region;
-  found.body = body;
+  found.body = seen.body;
+  found.is_covered = seen.is_covered;
 }
 
 void PeopleTracker::read_tracked(PeopleVision& vision, MonoTime now, const Reads& reads) {
-  SeenBody body;
+  ReadBody seen;
   for (const std::size_t i : from_front()) {
     if (i >= options_.people) continue;
     const std::optional<BodyRegion> region = tracks_[i].next();
     if (!reads[i] || !region) continue;
-    if (read(vision, *region, body) && tracks_[i].is_plausible(region_after(body), now))
-      take(i, *region, body, false);
+    if (read(vision, *region, seen) && tracks_[i].is_plausible(region_after(seen.body), now))
+      take(i, *region, seen, false);
     else
       tracks_[i].lose();
   }
@@ -217,7 +221,7 @@ std::optional<float> PeopleTracker::middle_of_colours(PeopleVision& vision, std:
 }
 
 void PeopleTracker::probe_missing(PeopleVision& vision, MonoTime now, const Reads& reads) {
-  SeenBody body;
+  ReadBody seen;
   for (std::size_t i = 0; i < options_.people; ++i) {
     PersonTrack& track = tracks_[i];
     if (!reads[i] || found_[i].is_found || !track.was_ever_seen() ||
@@ -229,14 +233,14 @@ void PeopleTracker::probe_missing(PeopleVision& vision, MonoTime now, const Read
     region.centre_y_px = expected.y();
     if (const auto middle_px = middle_of_colours(vision, i, region))
       region.centre_x_px = *middle_px;
-    if (!read(vision, region, body) || !track.is_plausible(region_after(body), now) ||
-        is_of_somebody(body))
+    if (!read(vision, region, seen) || !track.is_plausible(region_after(seen.body), now) ||
+        is_of_somebody(seen.body))
       continue;
     if (track.look.is_known()) {
-      const auto off = track.look.distance(look_of(body, vision));
+      const auto off = track.look.distance(look_of(seen.body, vision));
       if (off && *off > kOtherLook) continue;
     }
-    take(i, region, body, now - track.seen() > kShortGap);
+    take(i, region, seen, now - track.seen() > kShortGap);
   }
 }
 
@@ -272,15 +276,15 @@ std::size_t PeopleTracker::find_candidates(PeopleVision& vision, std::size_t wan
                      kSame_sides * person.region.side_px;
         });
     Candidate& candidate = candidates_[count];
-    if (is_tracked || !read(vision, person.region, candidate.body) ||
-        is_of_somebody(candidate.body))
+    if (is_tracked || !read(vision, person.region, candidate.seen) ||
+        is_of_somebody(candidate.seen.body))
       continue;
-    const bool is_double =
-        std::any_of(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
-                    [&](const Candidate& c) { return are_one_body(c.body, candidate.body); });
+    const bool is_double = std::any_of(
+        candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
+        [&](const Candidate& c) { return are_one_body(c.seen.body, candidate.seen.body); });
     if (is_double) continue;
-    candidate.region = region_after(candidate.body);
-    candidate.look = look_of(candidate.body, vision);
+    candidate.region = region_after(candidate.seen.body);
+    candidate.look = look_of(candidate.seen.body, vision);
     ++count;
   }
   std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(count),
@@ -321,7 +325,7 @@ void PeopleTracker::search(PeopleVision& vision, MonoTime now, const Reads& read
         limbs_[person].reset();
       }
     }
-    take(person, candidates_[c].region, candidates_[c].body, true);
+    take(person, candidates_[c].region, candidates_[c].seen, true);
   }
 }
 
@@ -425,6 +429,14 @@ void PeopleTracker::resolve_all_limbs(MonoTime now) {
       static_cast<std::uint64_t>(resolve_limbs(std::span(claimants.data(), options_.people), now));
 }
 
+void PeopleTracker::hide_covered() {
+  for (std::size_t i = 0; i < options_.people; ++i)
+    for (std::size_t l = 0; found_[i].is_found && l < kLandmarkCount; ++l) {
+      float& visibility = found_[i].body.visibility[l];
+      if (found_[i].is_covered[l]) visibility = std::min(visibility, kCovered);
+    }
+}
+
 std::span<const PersonInPicture> PeopleTracker::update(PeopleVision& vision, MonoTime now,
                                                        const Reads& reads) {
   ++counters_.pictures;
@@ -435,6 +447,7 @@ std::span<const PersonInPicture> PeopleTracker::update(PeopleVision& vision, Mon
   search(vision, now, reads);
   judge_identities(vision, now);
   resolve_all_limbs(now);
+  hide_covered();
   for (std::size_t i = 0; i < options_.people; ++i) {
     if (!found_[i].is_found) continue;
     tracks_[i].update(found_[i].body, now);

@@ -38,6 +38,7 @@ struct PersonInPicture {
   bool is_exchanged = false;  // this body was taken for another person's until now
   BodyRegion region;          // that the network looked at
   SeenBody body;
+  std::bitset<kLandmarkCount> is_covered;  // points that another person hides
 };
 
 struct PeopleCounters {
@@ -68,13 +69,13 @@ class PeopleTracker {
   using Looks = std::array<PersonLook, kMostDancers>;
   struct Candidate {
     BodyRegion region;
-    SeenBody body;
+    ReadBody seen;
     PersonLook look;
   };
 
-  bool read(PeopleVision& vision, const BodyRegion& region, SeenBody& out);
+  bool read(PeopleVision& vision, const BodyRegion& region, ReadBody& out);
   void read_tracked(PeopleVision& vision, MonoTime now, const Reads& reads);
-  void take(std::size_t person, const BodyRegion& region, const SeenBody& body, bool is_new);
+  void take(std::size_t person, const BodyRegion& region, const ReadBody& seen, bool is_new);
   void separate_duplicates(PeopleVision& vision, MonoTime now);
   bool is_of_somebody(const SeenBody& body) const;
   void probe_missing(PeopleVision& vision, MonoTime now, const Reads& reads);
@@ -92,6 +93,7 @@ class PeopleTracker {
   float distance(std::size_t a, std::size_t b, MonoTime now) const;
   void exchange(std::size_t a, std::size_t b);
   void resolve_all_limbs(MonoTime now);
+  void hide_covered();
 
   PeopleOptions options_;
   std::array<PersonTrack, kMostDancers> tracks_;

@@ -9,6 +9,7 @@
 // Failure:      nobody is found, read() is false, and there is no colour outside of the picture.
 #pragma once
 
+#include <bitset>
 #include <optional>
 #include <span>
 
@@ -19,6 +20,11 @@ namespace dance {
 
 using PictureColour = Eigen::Vector3f;
 
+struct ReadBody {
+  SeenBody body;
+  std::bitset<kLandmarkCount> is_covered;  // points behind one of the others: guessed
+};
+
 class PeopleVision {
  public:
   virtual ~PeopleVision() = default;
@@ -27,7 +33,7 @@ class PeopleVision {
   // The body in the region, with `presence` as the network has it; `others` are before it, and are
   // not looked at.
   virtual bool read(const BodyRegion& region, std::span<const SeenBody* const> others,
-                    SeenBody& out) = 0;
+                    ReadBody& out) = 0;
   virtual std::optional<PictureColour> colour(const Eigen::Vector2f& place_px) = 0;
 };
 
