@@ -49,6 +49,9 @@ class CaptureEval {
   CaptureRun run_;
   std::unique_ptr<PoseEstimator> still_, moving_;
   std::unique_ptr<LandmarkNetwork> other_;
+  std::optional<HandNetworks> hand_networks_;
+  std::optional<HandTracker> hands_;
+  std::uint64_t in_sequence_ = 0;
 };
 
 Result<std::unique_ptr<PoseEstimator>> CaptureEval::opened(bool tracks) const {
@@ -66,6 +69,12 @@ Result<void> CaptureEval::open() {
   for (PoseEstimator* estimator : {still_.get(), moving_.get()}) {
     estimator->network().look(blank.image, {32.0f, 32.0f, 64.0f, 0.0f});
     if (!estimator->network().run()) return fail("the network does not run");
+  }
+  if (options_.sees_hands) {
+    DANCE_TRY(hand_networks_,
+              HandNetworks::open(chosen_engine(options_.estimator.engine),
+                                 pose_models_folder(options_.estimator.models_folder)));
+    hands_.emplace(*hand_networks_);
   }
   if (!options_.compares_engines) return {};
   EngineComparison& engines = run_.engines;
@@ -104,7 +113,13 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
   const std::int64_t start_ns = thread_ns();
   const BodyLandmarks& body = estimator.estimate(frame);
   run_.ms += ms_since(start_ns);
-  run_.frames.push_back({std::move(name), body, estimator.unfiltered()});
+  run_.frames.push_back({std::move(name), body, estimator.unfiltered(), {}});
+  if (hands_) {
+    const std::int64_t hands_start_ns = thread_ns();
+    for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
+      run_.frames.back().hands[static_cast<std::size_t>(side)] = hands_->look(frame, body, side);
+    run_.hands_ms += ms_since(hands_start_ns);
+  }
   return other_ && body.found ? compare(estimator) : Result<void>{};
 }
 
@@ -113,12 +128,20 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
   Frame frame;
   DANCE_TRY(frame.image, read_bgr_picture(path));
   run_.decode_ms += ms_since(start_ns);
+  if (options_.sequence_hz > 0.0) {
+    frame.capture_time =
+        MonoTime{} + Duration::seconds(1.0 + static_cast<double>(in_sequence_) / options_.sequence_hz);
+    frame.sequence = in_sequence_++;
+    return take(*moving_, frame, std::filesystem::path(path).filename().string());
+  }
+  if (hands_) hands_->reset();
   return take(*still_, frame, std::filesystem::path(path).filename().string());
 }
 
 Result<void> CaptureEval::add_video(const std::string& path) {
   DANCE_TRY(const auto reel, VideoReel::open(path));
   moving_->reset();
+  if (hands_) hands_->reset();
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {
     const std::int64_t start_ns = thread_ns();

@@ -9,6 +9,22 @@
 namespace dance {
 namespace {
 
+nlohmann::json point_json(const Eigen::Vector3f& p, double scale) {
+  return {rounded(p.x(), scale), rounded(p.y(), scale), rounded(p.z(), scale)};
+}
+
+nlohmann::json hand_json(const HandLandmarks& hand) {
+  nlohmann::json image = nlohmann::json::array(), world = nlohmann::json::array();
+  for (std::size_t i = 0; i < kHandPointCount; ++i) {
+    image.push_back(point_json(hand.image_px[i], 1e3));
+    world.push_back(point_json(hand.world_m[i], 1e6));
+  }
+  return {{"presence", rounded(hand.presence, 1e5)},
+          {"region_side_px", rounded(hand.region.side_px, 1e3)},
+          {"landmarks_px", std::move(image)},
+          {"world_m", std::move(world)}};
+}
+
 nlohmann::json frame_json(const CaptureFrame& frame) {
   nlohmann::json image = nlohmann::json::array(), world = nlohmann::json::array();
   const BodyLandmarks& body = frame.body;
@@ -19,11 +35,15 @@ nlohmann::json frame_json(const CaptureFrame& frame) {
                      rounded(body.visibility[i], 1e5)});
     world.push_back({rounded(w.x(), 1e6), rounded(w.y(), 1e6), rounded(w.z(), 1e6)});
   }
+  nlohmann::json hands = nlohmann::json::object();
+  for (std::size_t side = 0; side < 2; ++side)
+    if (frame.hands[side].found) hands[side == 0 ? "left" : "right"] = hand_json(frame.hands[side]);
   return {{"name", frame.name},
           {"detected", body.found},
           {"region_side_px", rounded(body.found ? body.region.side_px : 0.0, 1e3)},
           {"landmarks_px", std::move(image)},
-          {"world_m", std::move(world)}};
+          {"world_m", std::move(world)},
+          {"hands", std::move(hands)}};
 }
 
 double per(double sum, std::size_t count) {
@@ -72,6 +92,14 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
   line("network", static_cast<double>(t.network_ns) * 1e-6, frames);
   line("points, smoothing", static_cast<double>(t.rest_ns) * 1e-6, frames);
   line("picture to points", run.ms, frames);
+  if (run.hands_ms > 0.0) {
+    std::size_t seen = 0;
+    for (const CaptureFrame& frame : run.frames)
+      for (const HandLandmarks& hand : frame.hands) seen += hand.found ? 1 : 0;
+    line("hands, both", run.hands_ms, frames);
+    fmt::format_to(out, "  {} hands seen, {:.2f} a frame\n", seen,
+                   per(static_cast<double>(seen), frames));
+  }
   const EngineComparison& e = run.engines;
   if (e.regions > 0) {
     fmt::format_to(out, "\n  the network on the same {} regions\n", e.regions);
