@@ -129,8 +129,8 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
   DANCE_TRY(frame.image, read_bgr_picture(path));
   run_.decode_ms += ms_since(start_ns);
   if (options_.sequence_hz > 0.0) {
-    frame.capture_time =
-        MonoTime{} + Duration::seconds(1.0 + static_cast<double>(in_sequence_) / options_.sequence_hz);
+    frame.capture_time = MonoTime{} + Duration::seconds(1.0 + static_cast<double>(in_sequence_) /
+                                                                  options_.sequence_hz);
     frame.sequence = in_sequence_++;
     return take(*moving_, frame, std::filesystem::path(path).filename().string());
   }
