@@ -49,8 +49,9 @@ class CaptureEval {
   CaptureRun run_;
   std::unique_ptr<PoseEstimator> still_, moving_;
   std::unique_ptr<LandmarkNetwork> other_;
-  std::optional<HandNetworks> hand_networks_;
+  Extras extras_;
   std::optional<HandTracker> hands_;
+  std::unique_ptr<HandsEval> judge_;  // of a video
   std::uint64_t in_sequence_ = 0;
 };
 
@@ -71,10 +72,10 @@ Result<void> CaptureEval::open() {
     if (!estimator->network().run()) return fail("the network does not run");
   }
   if (options_.sees_hands) {
-    DANCE_TRY(hand_networks_,
+    DANCE_TRY(extras_.hands,
               HandNetworks::open(chosen_engine(options_.estimator.engine),
                                  pose_models_folder(options_.estimator.models_folder)));
-    hands_.emplace(*hand_networks_);
+    hands_.emplace(*extras_.hands);
   }
   if (!options_.compares_engines) return {};
   EngineComparison& engines = run_.engines;
@@ -119,6 +120,7 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
     for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
       run_.frames.back().hands[static_cast<std::size_t>(side)] = hands_->look(frame, body, side);
     run_.hands_ms += ms_since(hands_start_ns);
+    if (judge_) judge_->see(frame, body, estimator.unfiltered());
   }
   return other_ && body.found ? compare(estimator) : Result<void>{};
 }
@@ -142,6 +144,8 @@ Result<void> CaptureEval::add_video(const std::string& path) {
   DANCE_TRY(const auto reel, VideoReel::open(path));
   moving_->reset();
   if (hands_) hands_->reset();
+  if (options_.judges_hands && hands_)
+    judge_ = std::make_unique<HandsEval>(extras_, reel->width_px(), reel->height_px());
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {
     const std::int64_t start_ns = thread_ns();
@@ -156,6 +160,8 @@ Result<void> CaptureEval::add_video(const std::string& path) {
     frame.capture_time = MonoTime{} + Duration::s(1) + reel->time();
     if (auto taken = take(*moving_, frame, name); !taken) return taken;
   }
+  if (judge_) run_.hands = judge_->figures();
+  judge_.reset();
   return {};
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "producers/camera/estimator/pose_estimator.h"
-#include "producers/camera/hands/hand_tracker.h"
+#include "research/capture/hands_eval.h"
 
 namespace dance {
 
@@ -22,6 +22,7 @@ struct CaptureEvalOptions {
   std::uint32_t every = 1;  // n-th frame of a video
   bool compares_engines = false;
   bool sees_hands = false;
+  bool judges_hands = false;  // what they do to a video's poses, too
   // Pictures are the frames of one video at this rate; 0: each for itself.
   double sequence_hz = 0.0;
   // This frame of each video is black: the body is lost, and found again in the next.
@@ -49,6 +50,7 @@ struct CaptureRun {
   double ms = 0.0;  // estimating, all frames together
   double decode_ms = 0.0;
   double hands_ms = 0.0;  // of both
+  HandFigures hands;
   EstimatorCounters counters;
   EstimatorTimes times;
   EngineComparison engines;

@@ -72,6 +72,7 @@ Result<void> run(Wishes wishes) {
     return fail("--lose " + std::to_string(wishes.lost_frame) + ": not seen with --every " +
                 std::to_string(wishes.eval.every) + "; choose a multiple of that");
   if (wishes.lost_frame > 0) return compare_losses(wishes);
+  wishes.eval.judges_hands = !wishes.json;
   DANCE_TRY(const CaptureRun run, evaluate_capture(wishes.files, wishes.eval));
   const std::string text =
       wishes.json ? capture_eval_json(run) : capture_eval_table(run, wishes.eval);

@@ -100,6 +100,14 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
     fmt::format_to(out, "  {} hands seen, {:.2f} a frame\n", seen,
                    per(static_cast<double>(seen), frames));
   }
+  if (const HandFigures& h = run.hands; h.hands > 0) {
+    fmt::format_to(out,
+                   "  of the last video, with palms beside the body's points alone:\n"
+                   "  wrists tremble by {:.2f} deg beside {:.2f}, are {:.1f} deg from the palms "
+                   "that are seen beside {:.1f}; fingers tremble by {:.2f} deg\n",
+                   h.palm_tremble_deg, h.solver_tremble_deg, h.palm_off_deg, h.solver_off_deg,
+                   h.finger_tremble_deg);
+  }
   const EngineComparison& e = run.engines;
   if (e.regions > 0) {
     fmt::format_to(out, "\n  the network on the same {} regions\n", e.regions);

@@ -43,7 +43,7 @@ void HandsAndFace::look_at_hand(const Picture& picture, HandSide side) {
     R_WPalm = Eigen::Quaternionf(R_WPalm.w(), R_WPalm.x(), -R_WPalm.y(), -R_WPalm.z());
     shown = other(side);
   }
-  wrists_.see(shown, R_WPalm, solved_[index_of(hand_bone(shown))], now);
+  wrists_.see(shown, R_WPalm, solved_[index_of(hand_bone(shown))], hand.trust(), now);
 }
 
 void HandsAndFace::publish_hands(const Picture& picture) {

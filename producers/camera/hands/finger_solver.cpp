@@ -26,7 +26,8 @@ constexpr std::array<float, 2> kThumbBend{radians(60.0f), radians(85.0f)};
 constexpr float kLeastPalm_m = 0.005f;
 
 // Radians vary with 5° of noise while a hand is still and by 600° a second as it closes.
-constexpr OneEuroSetting kAngles{1.5, 0.6, 1.0};
+constexpr OneEuroSetting kAngles{1.5, 0.25, 1.0};
+constexpr float kLeastTrusted = 0.15f;
 constexpr double kFirst_hz = 30.0;
 
 constexpr Duration kKept = Duration::ms(300);
@@ -177,7 +178,9 @@ void FingerSolver::see(const HandLandmarks& hand, HandSide which, MonoTime now) 
   if (!side.seen || now - *side.seen > kKept) side.filters = {};
   const double hz = passed_s > 0.0 ? 1.0 / passed_s : kFirst_hz;
   OneEuroSetting setting = kAngles;
-  setting.min_cutoff_hz /= std::max(0.05, smooth_);
+  const auto trust = static_cast<double>(std::max(kLeastTrusted, hand.trust()));
+  setting.min_cutoff_hz *= trust / std::max(0.05, smooth_);
+  setting.beta *= trust;
   std::size_t at = 0;
   const auto smooth = [&](float& angle) {
     angle = side.filters[at++].next(angle, hz, 1.0, setting);

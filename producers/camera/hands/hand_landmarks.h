@@ -35,6 +35,14 @@ struct HandLandmarks {
   BodyRegion region;
   std::array<Eigen::Vector3f, kHandPointCount> image_px;
   std::array<Eigen::Vector3f, kHandPointCount> world_m;
+
+  // 0…1: how much the points can be relied on. A hand that is half hidden or blurred has a palm
+  // and fingers that turn from picture to picture.
+  float trust() const {
+    constexpr float kNone = 0.5f, kFull = 0.95f;
+    const float share = (presence - kNone) / (kFull - kNone);
+    return share < 0.0f ? 0.0f : share > 1.0f ? 1.0f : share;
+  }
 };
 
 }  // namespace dance

@@ -14,9 +14,10 @@ using Eigen::Vector3f;
 namespace {
 
 // The two networks are never so far apart of one hand.
-constexpr float kMostApart_rad = radians(100.0f);
+constexpr float kMostApart_rad = radians(75.0f);
 constexpr float kMostTwist_rad = radians(80.0f);
-constexpr double kSettles_s = 0.12;
+constexpr double kSettles_s = 0.5;
+constexpr float kLeastTrust = 0.6f;
 constexpr Duration kPalmKept = Duration::ms(150);
 constexpr Duration kPalmFades = Duration::ms(400);
 
@@ -41,10 +42,10 @@ Quaternionf rotation_in_W(const Pose& pose, Bone bone) {
 }
 
 void PalmWrist::see(HandSide which, const Quaternionf& R_WPalm, const Quaternionf& R_WHand,
-                    MonoTime now) {
+                    float trust, MonoTime now) {
   Side& side = sides_[static_cast<std::size_t>(which)];
   const Quaternionf turn = (R_WHand.conjugate() * R_WPalm).normalized();
-  if (!turn.coeffs().allFinite() ||
+  if (!(trust > kLeastTrust) || !turn.coeffs().allFinite() ||
       !(turn.angularDistance(Quaternionf::Identity()) < kMostApart_rad))
     return;
   const double passed_s = side.seen ? (now - *side.seen).as_seconds() : 0.0;

@@ -18,9 +18,9 @@ namespace dance {
 
 class PalmWrist {
  public:
-  // The palm, and the solver's hand in the same picture.
+  // The palm, the solver's hand in the same picture, and HandLandmarks::trust().
   void see(HandSide side, const Eigen::Quaternionf& R_WPalm, const Eigen::Quaternionf& R_WHand,
-           MonoTime now);
+           float trust, MonoTime now);
   // Half of the turn about the forearm is the forearm's.
   void apply(MonoTime now, Pose& pose) const;
   void reset() { sides_ = {}; }

@@ -52,8 +52,7 @@ class Holistic : public testing::Test {
     }
     std::ofstream(folder_.path("frames.json"))
         << nlohmann::json{{"frames", frames}, {"hz", kVideo_hz}, {"tracks", true}};
-    if (const char* keep = std::getenv("X_KEEP")) (void)keep;
-  const Finished ran = run("python3 " + kScript + " " + folder_.path("") + " " + kPackage);
+    const Finished ran = run("python3 " + kScript + " " + folder_.path("") + " " + kPackage);
     EXPECT_EQ(ran.exit_code, 0) << ran.talk;
     std::vector<nlohmann::json> results;
     std::ifstream file(folder_.path("results.json"));

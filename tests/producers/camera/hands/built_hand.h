@@ -20,6 +20,7 @@ inline MonoTime picture_time(int picture) {
 inline HandLandmarks hand_of(const Hands& hands, const Eigen::Quaternionf& R_CHand, HandSide side) {
   HandLandmarks hand;
   hand.found = true;
+  hand.presence = 1.0f;
   const float x = side == HandSide::kLeft ? 1.0f : -1.0f;
   const std::size_t first_bone = side == HandSide::kLeft ? 0 : kFingerBoneCount / 2;
   constexpr float kLengths_m[3] = {0.045f, 0.027f, 0.02f};

@@ -22,7 +22,7 @@ PalmWrist seen(const Quaternionf& turn, int pictures) {
   const Pose pose;
   const Quaternionf R_WHand = rotation_in_W(pose, Bone::kLeftHand);
   for (int i = 0; i < pictures; ++i)
-    wrist.see(HandSide::kLeft, R_WHand * turn, R_WHand, picture_time(i));
+    wrist.see(HandSide::kLeft, R_WHand * turn, R_WHand, 1.0f, picture_time(i));
   return wrist;
 }
 
@@ -56,6 +56,17 @@ TEST(PalmWrist, ComesInByAndByAndFades) {
   EXPECT_EQ(rotation_in_W(later, Bone::kLeftHand).angularDistance(Quaternionf::Identity()), 0.0f);
 }
 
+TEST(PalmWrist, DoesNotFollowAHandThatIsHalfHidden) {
+  PalmWrist wrist;
+  Pose pose;
+  const Quaternionf R_WHand = rotation_in_W(pose, Bone::kLeftHand);
+  for (int i = 0; i < 40; ++i)
+    wrist.see(HandSide::kLeft, R_WHand * about(Vector3f::UnitX(), 40.0f), R_WHand, 0.5f,
+              picture_time(i));
+  wrist.apply(picture_time(40), pose);
+  EXPECT_EQ(rotation_in_W(pose, Bone::kLeftHand).angularDistance(Quaternionf::Identity()), 0.0f);
+}
+
 TEST(PalmWrist, RefusesAPalmThatLooksTheOtherWay) {
   Pose pose;
   seen(about(Vector3f::UnitX(), 150.0f), 40).apply(picture_time(40), pose);
@@ -68,7 +79,8 @@ TEST(PalmWrist, AForearmTurnsNoFurtherThanForearmsDo) {
   const Quaternionf R_WHand = rotation_in_W(pose, Bone::kLeftHand);
   PalmWrist wrist;
   for (int i = 0; i < 40; ++i)
-    wrist.see(HandSide::kLeft, R_WHand * about(Vector3f::UnitX(), 90.0f), R_WHand, picture_time(i));
+    wrist.see(HandSide::kLeft, R_WHand * about(Vector3f::UnitX(), 90.0f), R_WHand, 1.0f,
+              picture_time(i));
   wrist.apply(picture_time(40), pose);
   EXPECT_LT(rotation_in_W(pose, Bone::kLeftHand).angularDistance(Quaternionf::Identity()),
             radians(81.0f));
