@@ -51,6 +51,8 @@ class CaptureEval {
   std::unique_ptr<LandmarkNetwork> other_;
   Extras extras_;
   std::optional<HandTracker> hands_;
+  std::optional<FaceNetworks> face_networks_;
+  std::optional<FaceTracker> face_;
   std::unique_ptr<HandsEval> judge_;  // of a video
   std::uint64_t in_sequence_ = 0;
 };
@@ -76,6 +78,12 @@ Result<void> CaptureEval::open() {
               HandNetworks::open(chosen_engine(options_.estimator.engine),
                                  pose_models_folder(options_.estimator.models_folder)));
     hands_.emplace(*extras_.hands);
+  }
+  if (options_.sees_face) {
+    DANCE_TRY(face_networks_,
+              FaceNetworks::open(chosen_engine(options_.estimator.engine),
+                                 pose_models_folder(options_.estimator.models_folder)));
+    face_.emplace(*face_networks_);
   }
   if (!options_.compares_engines) return {};
   EngineComparison& engines = run_.engines;
@@ -114,13 +122,18 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
   const std::int64_t start_ns = thread_ns();
   const BodyLandmarks& body = estimator.estimate(frame);
   run_.ms += ms_since(start_ns);
-  run_.frames.push_back({std::move(name), body, estimator.unfiltered(), {}});
+  run_.frames.push_back({std::move(name), body, estimator.unfiltered(), {}, {}});
   if (hands_) {
     const std::int64_t hands_start_ns = thread_ns();
     for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
       run_.frames.back().hands[static_cast<std::size_t>(side)] = hands_->look(frame, body, side);
     run_.hands_ms += ms_since(hands_start_ns);
     if (judge_) judge_->see(frame, body, estimator.unfiltered());
+  }
+  if (face_) {
+    const std::int64_t face_start_ns = thread_ns();
+    run_.frames.back().face = face_->look(frame, body);
+    run_.face_ms += ms_since(face_start_ns);
   }
   return other_ && body.found ? compare(estimator) : Result<void>{};
 }
@@ -137,6 +150,7 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
     return take(*moving_, frame, std::filesystem::path(path).filename().string());
   }
   if (hands_) hands_->reset();
+  if (face_) face_->reset();
   return take(*still_, frame, std::filesystem::path(path).filename().string());
 }
 
@@ -144,6 +158,7 @@ Result<void> CaptureEval::add_video(const std::string& path) {
   DANCE_TRY(const auto reel, VideoReel::open(path));
   moving_->reset();
   if (hands_) hands_->reset();
+  if (face_) face_->reset();
   if (options_.judges_hands && hands_)
     judge_ = std::make_unique<HandsEval>(extras_, reel->width_px(), reel->height_px());
   Frame frame;

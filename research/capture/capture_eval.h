@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "producers/camera/estimator/pose_estimator.h"
+#include "producers/camera/face/face_tracker.h"
 #include "research/capture/hands_eval.h"
 
 namespace dance {
@@ -22,6 +23,7 @@ struct CaptureEvalOptions {
   std::uint32_t every = 1;  // n-th frame of a video
   bool compares_engines = false;
   bool sees_hands = false;
+  bool sees_face = false;
   bool judges_hands = false;  // what they do to a video's poses, too
   // Pictures are the frames of one video at this rate; 0: each for itself.
   double sequence_hz = 0.0;
@@ -34,6 +36,7 @@ struct CaptureFrame {
   BodyLandmarks body;
   BodyLandmarks unfiltered;
   std::array<HandLandmarks, 2> hands;  // left, right
+  FaceLandmarks face;
 };
 
 // The same regions in both engines.
@@ -50,6 +53,7 @@ struct CaptureRun {
   double ms = 0.0;  // estimating, all frames together
   double decode_ms = 0.0;
   double hands_ms = 0.0;  // of both
+  double face_ms = 0.0;
   HandFigures hands;
   EstimatorCounters counters;
   EstimatorTimes times;

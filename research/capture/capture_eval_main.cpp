@@ -111,6 +111,7 @@ int main(int argc, char** argv) {
   line.add_choice<bool>("--smooth", estimator.smooths, {{"on", true}, {"off", false}},
                         "frames of a video, as the original does (default on)");
   line.add_flag("--hands", wishes.eval.sees_hands, "the points of the hands, too");
+  line.add_flag("--face", wishes.eval.sees_face, "the points of the face, too");
   line.add("--sequence", wishes.eval.sequence_hz,
            "pictures are the frames of one video of so many a second; 0: each for itself")
       .range(0.0, 1000.0)

@@ -25,6 +25,14 @@ nlohmann::json hand_json(const HandLandmarks& hand) {
           {"world_m", std::move(world)}};
 }
 
+nlohmann::json face_json(const FaceLandmarks& face) {
+  nlohmann::json image = nlohmann::json::array();
+  for (const Eigen::Vector3f& p : face.image_px) image.push_back(point_json(p, 1e3));
+  return {{"presence", rounded(face.presence, 1e5)},
+          {"region_side_px", rounded(face.region.side_px, 1e3)},
+          {"landmarks_px", std::move(image)}};
+}
+
 nlohmann::json frame_json(const CaptureFrame& frame) {
   nlohmann::json image = nlohmann::json::array(), world = nlohmann::json::array();
   const BodyLandmarks& body = frame.body;
@@ -43,7 +51,8 @@ nlohmann::json frame_json(const CaptureFrame& frame) {
           {"region_side_px", rounded(body.found ? body.region.side_px : 0.0, 1e3)},
           {"landmarks_px", std::move(image)},
           {"world_m", std::move(world)},
-          {"hands", std::move(hands)}};
+          {"hands", std::move(hands)},
+          {"face", frame.face.found ? face_json(frame.face) : nlohmann::json()}};
 }
 
 double per(double sum, std::size_t count) {
@@ -98,6 +107,13 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
       for (const HandLandmarks& hand : frame.hands) seen += hand.found ? 1 : 0;
     line("hands, both", run.hands_ms, frames);
     fmt::format_to(out, "  {} hands seen, {:.2f} a frame\n", seen,
+                   per(static_cast<double>(seen), frames));
+  }
+  if (run.face_ms > 0.0) {
+    std::size_t seen = 0;
+    for (const CaptureFrame& frame : run.frames) seen += frame.face.found ? 1 : 0;
+    line("face", run.face_ms, frames);
+    fmt::format_to(out, "  {} faces seen, {:.2f} a frame\n", seen,
                    per(static_cast<double>(seen), frames));
   }
   if (const HandFigures& h = run.hands; h.hands > 0) {

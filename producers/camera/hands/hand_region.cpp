@@ -1,10 +1,10 @@
 #include "producers/camera/hands/hand_region.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "producers/camera/estimator/region_sampler.h"
 #include "producers/camera/hands/half_turn.h"
+#include "producers/camera/hands/tracked_region.h"
 
 namespace dance {
 
@@ -17,22 +17,7 @@ constexpr float kLeastVisibility = 0.1f;  // of the wrist
 constexpr float kUp = 0.1f;
 constexpr float kSearchScale = 2.7f, kNextScale = 2.0f;
 // What the hand of the last picture may differ from the re-crop network's.
-constexpr float kMostTurn_rad = radians(40.0f);
-constexpr float kMostMove = 0.2f, kMostGrowth = 0.4f;
-constexpr float kMargin = -0.1f;
-
-float within_half_turns(float angle_rad) {
-  return angle_rad -
-         2.0f * kHalfTurn_rad * std::floor((angle_rad + kHalfTurn_rad) / (2.0f * kHalfTurn_rad));
-}
-// How far the direction is turned from one that points up; y of pixels points down.
-float turn_from_up(const Vector2f& direction) {
-  return within_half_turns(0.5f * kHalfTurn_rad - std::atan2(-direction.y(), direction.x()));
-}
-Vector2f turned(const Vector2f& v, float turn_rad) {
-  const float c = std::cos(turn_rad), s = std::sin(turn_rad);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
+constexpr TrackingLimits kSameHand{radians(40.0f), 0.2f, 0.4f, -0.1f};
 
 }  // namespace
 
@@ -89,14 +74,7 @@ BodyRegion hand_region_around(std::span<const Vector3f, kHandPointCount> image_p
 
 bool is_same_hand(std::span<const Vector3f, kHandPointCount> image_px, const BodyRegion& around,
                   const BodyRegion& recrop) {
-  if (std::abs(within_half_turns(around.turn_rad - recrop.turn_rad)) > kMostTurn_rad) return false;
-  const Vector2f moved = turned(centre_of(around) - centre_of(recrop), -recrop.turn_rad);
-  if (moved.cwiseAbs().maxCoeff() > kMostMove * recrop.side_px) return false;
-  if (std::abs(around.side_px - recrop.side_px) > kMostGrowth * recrop.side_px) return false;
-  const float reach = 0.5f * (1.0f + kMargin) * recrop.side_px;
-  return std::all_of(image_px.begin(), image_px.end(), [&](const Vector3f& p) {
-    return turned(p.head<2>() - centre_of(recrop), -recrop.turn_rad).cwiseAbs().maxCoeff() < reach;
-  });
+  return is_same_part(image_px, around, recrop, kSameHand);
 }
 
 }  // namespace dance

@@ -8,7 +8,7 @@ namespace dance {
 namespace {
 
 // A hand of fewer pixels has no fingers.
-constexpr float kLeastSide_px = 16.0f;
+constexpr float kLeastHand_px = 16.0f;
 
 }  // namespace
 
@@ -20,14 +20,14 @@ const HandLandmarks& HandTracker::look(const Frame& frame, const BodyLandmarks& 
   hand.capture_time = frame.capture_time;
   if (frame.image.type() != CV_8UC3 || frame.image.empty()) return hand;
   const auto searched = hand_region_of(body, side);
-  if (!searched || searched->side_px < kLeastSide_px) return hand;
+  if (!searched || searched->side_px < kLeastHand_px) return hand;
   auto region = networks_->recrop(frame.image, *searched);
   if (!region) return hand;
   if (was_found) {
     const BodyRegion around = hand_region_around(hand.image_px);
     if (is_same_hand(hand.image_px, around, *region)) region = around;
   }
-  if (region->side_px >= kLeastSide_px) networks_->look(frame.image, *region, hand);
+  if (region->side_px >= kLeastHand_px) networks_->look(frame.image, *region, hand);
   return hand;
 }
 

@@ -28,9 +28,9 @@ PalmWrist seen(const Quaternionf& turn, int pictures) {
 
 TEST(PalmWrist, AHandComesToFaceAsItsPalmIsSeen) {
   const Quaternionf turn = about(Vector3f::UnitX(), 40.0f) * about(Vector3f::UnitZ(), 20.0f);
-  const PalmWrist wrist = seen(turn, 40);
+  const PalmWrist wrist = seen(turn, 120);
   Pose pose;
-  wrist.apply(picture_time(40), pose);
+  wrist.apply(picture_time(120), pose);
   EXPECT_LT(rotation_in_W(pose, Bone::kLeftHand).angularDistance(turn), radians(1.0f));
   // Half of the twist is the forearm's, whose place does not move by it.
   EXPECT_NEAR(pose.R_PB[index_of(Bone::kLeftLowerArm)].angularDistance(Quaternionf::Identity()),
