@@ -30,6 +30,8 @@ std::vector<std::string> camera_arguments(const HostedCamera& camera, const std:
   add("--calibration", camera.calibration);
   if (camera.height_m > 0.0) add("--height", std::to_string(camera.height_m));
   if (camera.mirror) words.emplace_back("--mirror");
+  if (!camera.hands) add("--hands", "off");
+  if (camera.face) words.emplace_back("--face");
   // Behind a mark, as a file's name may begin with a dash.
   words.emplace_back("--");
   if (!camera.device.empty()) words.push_back(camera.device);

@@ -54,6 +54,8 @@ struct HostedCamera {
   std::string calibration;  // a file; "" = none
   double height_m = 0.0;    // of the dancer; 0 = not told
   bool mirror = false;
+  bool hands = true;  // where their networks are
+  bool face = false;
 };
 
 // A dancer who comes from another program or a device, inside the house's process.

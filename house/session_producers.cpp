@@ -30,6 +30,8 @@ void read_camera(TomlReader& reader, const std::filesystem::path& folder, HouseC
   if (camera.height_m != 0.0 && camera.height_m < 0.8)
     reader.complain("height", "is the dancer's, in metres, from 0.8 to 2.5");
   camera.mirror = reader.bool_or("mirror", false);
+  camera.hands = reader.bool_or("hands", true);
+  camera.face = reader.bool_or("face", false);
   reader.finish();
   session.cameras.push_back(camera);
 }

@@ -49,6 +49,12 @@ class CaptureEval {
   CaptureRun run_;
   std::unique_ptr<PoseEstimator> still_, moving_;
   std::unique_ptr<LandmarkNetwork> other_;
+  Extras extras_;
+  std::optional<HandTracker> hands_;
+  std::optional<FaceNetworks> face_networks_;
+  std::optional<FaceTracker> face_;
+  std::unique_ptr<HandsEval> judge_;  // of a video
+  std::uint64_t in_sequence_ = 0;
 };
 
 Result<std::unique_ptr<PoseEstimator>> CaptureEval::opened(bool tracks) const {
@@ -66,6 +72,18 @@ Result<void> CaptureEval::open() {
   for (PoseEstimator* estimator : {still_.get(), moving_.get()}) {
     estimator->network().look(blank.image, {32.0f, 32.0f, 64.0f, 0.0f});
     if (!estimator->network().run()) return fail("the network does not run");
+  }
+  if (options_.sees_hands) {
+    DANCE_TRY(extras_.hands,
+              HandNetworks::open(chosen_engine(options_.estimator.engine),
+                                 pose_models_folder(options_.estimator.models_folder)));
+    hands_.emplace(*extras_.hands);
+  }
+  if (options_.sees_face) {
+    DANCE_TRY(face_networks_,
+              FaceNetworks::open(chosen_engine(options_.estimator.engine),
+                                 pose_models_folder(options_.estimator.models_folder)));
+    face_.emplace(*face_networks_);
   }
   if (!options_.compares_engines) return {};
   EngineComparison& engines = run_.engines;
@@ -104,7 +122,19 @@ Result<void> CaptureEval::take(PoseEstimator& estimator, const Frame& frame, std
   const std::int64_t start_ns = thread_ns();
   const BodyLandmarks& body = estimator.estimate(frame);
   run_.ms += ms_since(start_ns);
-  run_.frames.push_back({std::move(name), body, estimator.unfiltered()});
+  run_.frames.push_back({std::move(name), body, estimator.unfiltered(), {}, {}});
+  if (hands_) {
+    const std::int64_t hands_start_ns = thread_ns();
+    for (const HandSide side : {HandSide::kLeft, HandSide::kRight})
+      run_.frames.back().hands[static_cast<std::size_t>(side)] = hands_->look(frame, body, side);
+    run_.hands_ms += ms_since(hands_start_ns);
+    if (judge_) judge_->see(frame, body, estimator.unfiltered());
+  }
+  if (face_) {
+    const std::int64_t face_start_ns = thread_ns();
+    run_.frames.back().face = face_->look(frame, body);
+    run_.face_ms += ms_since(face_start_ns);
+  }
   return other_ && body.found ? compare(estimator) : Result<void>{};
 }
 
@@ -113,12 +143,24 @@ Result<void> CaptureEval::add_picture(const std::string& path) {
   Frame frame;
   DANCE_TRY(frame.image, read_bgr_picture(path));
   run_.decode_ms += ms_since(start_ns);
+  if (options_.sequence_hz > 0.0) {
+    frame.capture_time = MonoTime{} + Duration::seconds(1.0 + static_cast<double>(in_sequence_) /
+                                                                  options_.sequence_hz);
+    frame.sequence = in_sequence_++;
+    return take(*moving_, frame, std::filesystem::path(path).filename().string());
+  }
+  if (hands_) hands_->reset();
+  if (face_) face_->reset();
   return take(*still_, frame, std::filesystem::path(path).filename().string());
 }
 
 Result<void> CaptureEval::add_video(const std::string& path) {
   DANCE_TRY(const auto reel, VideoReel::open(path));
   moving_->reset();
+  if (hands_) hands_->reset();
+  if (face_) face_->reset();
+  if (options_.judges_hands && hands_)
+    judge_ = std::make_unique<HandsEval>(extras_, reel->width_px(), reel->height_px());
   Frame frame;
   for (std::uint64_t i = 0;; ++i) {
     const std::int64_t start_ns = thread_ns();
@@ -133,6 +175,8 @@ Result<void> CaptureEval::add_video(const std::string& path) {
     frame.capture_time = MonoTime{} + Duration::s(1) + reel->time();
     if (auto taken = take(*moving_, frame, name); !taken) return taken;
   }
+  if (judge_) run_.hands = judge_->figures();
+  judge_.reset();
   return {};
 }
 

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "producers/camera/estimator/pose_estimator.h"
+#include "producers/camera/face/face_tracker.h"
+#include "research/capture/hands_eval.h"
 
 namespace dance {
 
@@ -20,6 +22,11 @@ struct CaptureEvalOptions {
   EstimatorOptions estimator;
   std::uint32_t every = 1;  // n-th frame of a video
   bool compares_engines = false;
+  bool sees_hands = false;
+  bool sees_face = false;
+  bool judges_hands = false;  // what they do to a video's poses, too
+  // Pictures are the frames of one video at this rate; 0: each for itself.
+  double sequence_hz = 0.0;
   // This frame of each video is black: the body is lost, and found again in the next.
   std::optional<std::uint64_t> lost_frame;
 };
@@ -28,6 +35,8 @@ struct CaptureFrame {
   std::string name;  // "messi.jpg", "dance.mp4#12"
   BodyLandmarks body;
   BodyLandmarks unfiltered;
+  std::array<HandLandmarks, 2> hands;  // left, right
+  FaceLandmarks face;
 };
 
 // The same regions in both engines.
@@ -43,6 +52,9 @@ struct CaptureRun {
   std::vector<CaptureFrame> frames;
   double ms = 0.0;  // estimating, all frames together
   double decode_ms = 0.0;
+  double hands_ms = 0.0;  // of both
+  double face_ms = 0.0;
+  HandFigures hands;
   EstimatorCounters counters;
   EstimatorTimes times;
   EngineComparison engines;

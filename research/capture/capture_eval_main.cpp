@@ -14,6 +14,7 @@ constexpr const char* kExamples = R"(Examples:
   dance capture eval dance.mp4 --compare-engines
   dance capture eval crowd.mp4 --follow 640,360
   dance capture eval dance.mp4 --lose 100
+  dance capture eval dance.mp4 --hands
 )";
 
 struct Wishes {
@@ -71,6 +72,7 @@ Result<void> run(Wishes wishes) {
     return fail("--lose " + std::to_string(wishes.lost_frame) + ": not seen with --every " +
                 std::to_string(wishes.eval.every) + "; choose a multiple of that");
   if (wishes.lost_frame > 0) return compare_losses(wishes);
+  wishes.eval.judges_hands = !wishes.json;
   DANCE_TRY(const CaptureRun run, evaluate_capture(wishes.files, wishes.eval));
   const std::string text =
       wishes.json ? capture_eval_json(run) : capture_eval_table(run, wishes.eval);
@@ -108,6 +110,12 @@ int main(int argc, char** argv) {
   line.add("--every", wishes.eval.every, "n-th frame of videos").range(1, 100000).shows_default();
   line.add_choice<bool>("--smooth", estimator.smooths, {{"on", true}, {"off", false}},
                         "frames of a video, as the original does (default on)");
+  line.add_flag("--hands", wishes.eval.sees_hands, "the points of the hands, too");
+  line.add_flag("--face", wishes.eval.sees_face, "the points of the face, too");
+  line.add("--sequence", wishes.eval.sequence_hz,
+           "pictures are the frames of one video of so many a second; 0: each for itself")
+      .range(0.0, 1000.0)
+      .shows_default();
   line.add_flag("--compare-engines", wishes.eval.compares_engines,
                 "runs the other engine on the same regions, too");
   line.add("--lose", wishes.lost_frame,

@@ -9,6 +9,30 @@
 namespace dance {
 namespace {
 
+nlohmann::json point_json(const Eigen::Vector3f& p, double scale) {
+  return {rounded(p.x(), scale), rounded(p.y(), scale), rounded(p.z(), scale)};
+}
+
+nlohmann::json hand_json(const HandLandmarks& hand) {
+  nlohmann::json image = nlohmann::json::array(), world = nlohmann::json::array();
+  for (std::size_t i = 0; i < kHandPointCount; ++i) {
+    image.push_back(point_json(hand.image_px[i], 1e3));
+    world.push_back(point_json(hand.world_m[i], 1e6));
+  }
+  return {{"presence", rounded(hand.presence, 1e5)},
+          {"region_side_px", rounded(hand.region.side_px, 1e3)},
+          {"landmarks_px", std::move(image)},
+          {"world_m", std::move(world)}};
+}
+
+nlohmann::json face_json(const FaceLandmarks& face) {
+  nlohmann::json image = nlohmann::json::array();
+  for (const Eigen::Vector3f& p : face.image_px) image.push_back(point_json(p, 1e3));
+  return {{"presence", rounded(face.presence, 1e5)},
+          {"region_side_px", rounded(face.region.side_px, 1e3)},
+          {"landmarks_px", std::move(image)}};
+}
+
 nlohmann::json frame_json(const CaptureFrame& frame) {
   nlohmann::json image = nlohmann::json::array(), world = nlohmann::json::array();
   const BodyLandmarks& body = frame.body;
@@ -19,11 +43,16 @@ nlohmann::json frame_json(const CaptureFrame& frame) {
                      rounded(body.visibility[i], 1e5)});
     world.push_back({rounded(w.x(), 1e6), rounded(w.y(), 1e6), rounded(w.z(), 1e6)});
   }
+  nlohmann::json hands = nlohmann::json::object();
+  for (std::size_t side = 0; side < 2; ++side)
+    if (frame.hands[side].found) hands[side == 0 ? "left" : "right"] = hand_json(frame.hands[side]);
   return {{"name", frame.name},
           {"detected", body.found},
           {"region_side_px", rounded(body.found ? body.region.side_px : 0.0, 1e3)},
           {"landmarks_px", std::move(image)},
-          {"world_m", std::move(world)}};
+          {"world_m", std::move(world)},
+          {"hands", std::move(hands)},
+          {"face", frame.face.found ? face_json(frame.face) : nlohmann::json()}};
 }
 
 double per(double sum, std::size_t count) {
@@ -72,6 +101,29 @@ std::string capture_eval_table(const CaptureRun& run, const CaptureEvalOptions& 
   line("network", static_cast<double>(t.network_ns) * 1e-6, frames);
   line("points, smoothing", static_cast<double>(t.rest_ns) * 1e-6, frames);
   line("picture to points", run.ms, frames);
+  if (run.hands_ms > 0.0) {
+    std::size_t seen = 0;
+    for (const CaptureFrame& frame : run.frames)
+      for (const HandLandmarks& hand : frame.hands) seen += hand.found ? 1 : 0;
+    line("hands, both", run.hands_ms, frames);
+    fmt::format_to(out, "  {} hands seen, {:.2f} a frame\n", seen,
+                   per(static_cast<double>(seen), frames));
+  }
+  if (run.face_ms > 0.0) {
+    std::size_t seen = 0;
+    for (const CaptureFrame& frame : run.frames) seen += frame.face.found ? 1 : 0;
+    line("face", run.face_ms, frames);
+    fmt::format_to(out, "  {} faces seen, {:.2f} a frame\n", seen,
+                   per(static_cast<double>(seen), frames));
+  }
+  if (const HandFigures& h = run.hands; h.hands > 0) {
+    fmt::format_to(out,
+                   "  of the last video, with palms beside the body's points alone:\n"
+                   "  wrists tremble by {:.2f} deg beside {:.2f}, are {:.1f} deg from the palms "
+                   "that are seen beside {:.1f}; fingers tremble by {:.2f} deg\n",
+                   h.palm_tremble_deg, h.solver_tremble_deg, h.palm_off_deg, h.solver_off_deg,
+                   h.finger_tremble_deg);
+  }
   const EngineComparison& e = run.engines;
   if (e.regions > 0) {
     fmt::format_to(out, "\n  the network on the same {} regions\n", e.regions);

@@ -13,7 +13,7 @@ script=$tree/producers/camera/fetch_pose_models.sh
 mkdir -p "$tree/producers/camera" "$package" "$bin"
 
 # Only what the script may use is there to be used.
-for tool in bash cat chmod dirname grep gzip id mkdir mktemp mv readlink rm sha256sum tar timeout; do
+for tool in bash cat chmod dirname grep gzip head id mkdir mktemp mv readlink rm sha256sum tail tar timeout; do
   ln -s "$(command -v "$tool")" "$bin/$tool"
 done
 cat >"$bin/npm" <<END
@@ -24,6 +24,13 @@ while [ \$# -gt 1 ]; do
   [ "\$1" = --pack-destination ] && to=\$2
   shift
 done
+case \$1 in
+  @mediapipe/holistic@*)
+    [ -e "$scratch/npm_has_no_hands" ] && { echo "npm ERR! code E404" >&2; exit 1; }
+    tar -czf "\$to/mediapipe-holistic.tgz" -C "$scratch/hands_registry" package
+    exit
+    ;;
+esac
 [ -e "$scratch/npm_fails" ] && { echo "npm ERR! code ENOTFOUND" >&2; exit 1; }
 [ -e "$scratch/npm_sends_rubbish" ] && { echo rubbish >"\$to/rubbish.tgz"; exit 0; }
 [ -e "$scratch/npm_sends_nothing" ] && exit 0
@@ -33,8 +40,13 @@ chmod +x "$bin/npm"
 
 sources=(pose_solution_packed_assets.data pose_landmark_lite.tflite pose_landmark_full.tflite pose_landmark_heavy.tflite)
 names=(pose_detection.tflite pose_landmark_lite.tflite pose_landmark_full.tflite pose_landmark_heavy.tflite)
+hand_names=(hand_recrop.tflite hand_landmark_full.tflite face_detection_short_range.tflite face_landmark.tflite)
+hand_package=$scratch/hands_registry/package
+mkdir -p "$hand_package"
 lay_out_package() {
   local source
+  # Four parts of one file, with a byte before each.
+  printf '.%s' "${hand_names[@]}" >"$hand_package/holistic_solution_packed_assets.data"
   for source in "${sources[@]}"; do
     printf 'the network in %s\n' "$source" >"$package/$source"
     chmod 600 "$package/$source" # as careless as a package may be
@@ -46,7 +58,13 @@ for source in "${sources[@]}"; do
   sum=$(sha256sum <"$package/$source")
   sed -i -E "s/^[0-9a-f]{64} (\S+) $source\$/${sum%% *} \1 $source/" "$script"
 done
-[ "$(diff "$source_tree/producers/camera/fetch_pose_models.sh" "$script" | grep -c '^>')" = 4 ] || {
+from=1
+for name in "${hand_names[@]}"; do
+  sum=$(printf '%s' "$name" | sha256sum)
+  sed -i -E "s/^[0-9a-f]{64} $name (\S+) [0-9]+ [0-9]+\$/${sum%% *} $name \1 $from ${#name}/" "$script"
+  from=$((from + ${#name} + 1))
+done
+[ "$(diff "$source_tree/producers/camera/fetch_pose_models.sh" "$script" | grep -c '^>')" = 8 ] || {
   echo "the sums of the script are not where this test looks for them"
   exit 1
 }
@@ -72,7 +90,13 @@ expect_all_there() {
     printf 'the network in %s\n' "${sources[$i]}" | cmp -s - "$models/${names[$i]}" || wrong "${names[$i]} is not what was fetched"
     [ "$(stat -c %a "$models/${names[$i]}")" = 644 ] || wrong "${names[$i]} cannot be read by everybody"
   done
-  [ "$(ls -A "$models" | wc -l)" = 4 ] || wrong "more lies there than was fetched: $(ls -A "$models")"
+  for name in "${hand_names[@]}"; do
+    [ "$(cat "$models/$name")" = "$name" ] || wrong "$name is not what was fetched"
+  done
+  [ "$(ls -A "$models" | wc -l)" = 8 ] || wrong "more lies there than was fetched: $(ls -A "$models")"
+}
+expect_only_the_body() {
+  [ "$(ls -A "$models" | wc -l)" = 4 ] && [ -f "$models/pose_landmark_full.tflite" ] || wrong "lies there: $(ls -A "$models")"
 }
 expect_nothing_there() { [ -z "$(ls -A "$models" 2>/dev/null)" ] || wrong "lies there: $(ls -A "$models")"; }
 begin() { # CASE: an empty folder and a good registry
@@ -91,14 +115,15 @@ begin "a good package"
 fetch
 expect_code 0
 expect_said "@mediapipe/pose@"
-expect_calls 1
+expect_said "@mediapipe/holistic@"
+expect_calls 2
 expect_all_there
 grep -q -- '@mediapipe/pose@[0-9]' "$scratch/npm_calls" || wrong "the package has no fixed version"
 
 case="a second time"
 fetch
 expect_code 0
-expect_calls 1
+expect_calls 2
 fetch --there
 expect_code 0
 
@@ -108,8 +133,34 @@ fetch --there
 expect_code 1
 fetch
 expect_code 0
-expect_calls 2
+expect_calls 3
 expect_all_there
+
+case="a network of the hands was damaged since"
+echo damage >>"$models/hand_recrop.tflite"
+fetch --there
+expect_code 0
+fetch
+expect_code 0
+expect_calls 4
+expect_all_there
+
+begin "no package of hands"
+touch "$scratch/npm_has_no_hands"
+fetch
+expect_code 0
+expect_said "@mediapipe/holistic"
+expect_said "E404"
+expect_said "hands and face stay unseen"
+expect_only_the_body
+
+begin "another file under the name of the hands'"
+echo "shorter" >"$hand_package/holistic_solution_packed_assets.data"
+fetch
+expect_code 0
+expect_said "sha256"
+expect_said "hands and face stay unseen"
+expect_only_the_body
 
 for i in "${!sources[@]}"; do
   begin "another file under the name of ${sources[$i]}"

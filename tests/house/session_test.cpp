@@ -67,7 +67,7 @@ TEST(Session, NamesTheCameraOfADancer) {
       std::string(kHouse) +
           "[[produce]]\nkind = \"camera\"\nguest = \"alice\"\ndevice = \"/dev/video2\"\nmodel = "
           "\"lite\"\n"
-          "calibration = \"left.yml\"\nheight = 1.68\nmirror = true\n"
+          "calibration = \"left.yml\"\nheight = 1.68\nmirror = true\nhands = false\nface = true\n"
           "[[produce]]\nkind = \"camera\"\nguest = \"bob\"\ndevice = \"takes/bob.mp4\"\n"
           "[[produce]]\nkind = \"camera\"\nguest = \"cara\"\ndevice = \"1\"\n"
           "[[produce]]\nkind = \"camera\"\nguest = \"dora\"\ndevice = \"HD Webcam\"\n",
@@ -80,6 +80,10 @@ TEST(Session, NamesTheCameraOfADancer) {
   EXPECT_EQ(session->cameras[0].calibration, "/home/alice/left.yml");
   EXPECT_EQ(session->cameras[0].height_m, 1.68);
   EXPECT_TRUE(session->cameras[0].mirror);
+  EXPECT_FALSE(session->cameras[0].hands);
+  EXPECT_TRUE(session->cameras[0].face);
+  EXPECT_TRUE(session->cameras[1].hands);
+  EXPECT_FALSE(session->cameras[1].face) << "a face leaves the house by a wish only";
   EXPECT_EQ(session->cameras[1].device, "/home/alice/takes/bob.mp4")
       << "a file of the session's folder";
   EXPECT_EQ(session->cameras[2].device, "1") << "the camera's number";

@@ -180,6 +180,31 @@ void OpenCvEngine::add_node(const PoseGraph& graph, const GraphNode& node) {
       add(layer, "Concat", parts);
       break;
     }
+    case GraphOp::kClamp:
+      last_ = made(node.inputs[0]);
+      break;
+    case GraphOp::kPrelu: {
+      layer.name = "prelu";
+      layer.blobs.push_back(cv::Mat(graph.values(node.weights), true).reshape(1, 1));
+      add(layer, "ChannelsPReLU", {made(node.inputs[0])});
+      break;
+    }
+    case GraphOp::kMean:
+      layer.name = "mean";
+      layer.set("pool", "ave");
+      layer.set("global_pooling", true);
+      add(layer, "Pooling", {made(node.inputs[0])});
+      reshape("channels", to, last_);
+      break;
+    case GraphOp::kFullyConnected: {
+      layer.name = "connected";
+      layer.set("num_output", to[1]);
+      layer.set("bias_term", true);
+      layer.blobs.push_back(cv::Mat(graph.values(node.weights), true).reshape(1, to[1]));
+      layer.blobs.push_back(cv::Mat(graph.values(node.bias), true).reshape(1, 1));
+      add(layer, "InnerProduct", {made(node.inputs[0])});
+      break;
+    }
     case GraphOp::kDepthToSpace: {
       const Shape& from = graph.shape(node.inputs[0]);
       const int b = node.block;

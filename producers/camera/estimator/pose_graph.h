@@ -1,6 +1,6 @@
-// PoseGraph: a neural network as the engines run it: tensors, and the few operations that the pose
-// networks are made of, in the order in which they are computed. What a file leaves to be worked
-// out (SAME padding, half-precision and sparse weights) is worked out here.
+// PoseGraph: a neural network as the engines run it: tensors, and the few operations that the
+// networks of body, hands and face are made of, in the order in which they are computed. What a
+// file leaves to be worked out (SAME padding, half-precision and sparse weights) is worked out here.
 //
 // Units/frames: tensors of four dimensions are batch (1), rows, columns, channels; weights of a
 //               convolution are output channel, row, column, input channel; of a depthwise one 1,
@@ -44,6 +44,10 @@ enum class GraphOp {
   kLogistic,
   kConcatenate,  // along a dimension before which all are 1
   kDepthToSpace,
+  kClamp,           // only between `least` and `most`
+  kPrelu,           // x, or x times the weight of its channel where x < 0
+  kMean,            // over rows and columns: one number a channel
+  kFullyConnected,  // of 1 × numbers; weights are output × input
 };
 
 struct GraphNode {

@@ -1,5 +1,5 @@
-// Reads a network from a .tflite file: those operations of TensorFlow Lite that the pose networks
-// use, with weights in single or half precision, dense or sparse.
+// Reads a network from a .tflite file: those operations of TensorFlow Lite that the networks of
+// body, hands and face use, with weights in single or half precision, dense or sparse.
 //
 // Units/frames: as producers/camera/estimator/pose_graph.h says.
 // Ownership:    the graph owns its numbers; the bytes are not needed afterwards.

@@ -39,6 +39,16 @@ Result<void> TfliteReader::take(TfliteBuiltin builtin, const Operator& op) {
       return take_plain(op, GraphOp::kReshape);
     case TfliteBuiltin::kLogistic:
       return take_plain(op, GraphOp::kLogistic);
+    case TfliteBuiltin::kRelu:
+      return take_plain(op, GraphOp::kClamp);
+    case TfliteBuiltin::kPrelu:
+      return take_prelu(op);
+    case TfliteBuiltin::kMean:
+      return take_mean(op);
+    case TfliteBuiltin::kFullyConnected:
+      return take_fully_connected(op);
+    case TfliteBuiltin::kStridedSlice:
+      return take_first_channels(op);
   }
   return fail("operation " + std::to_string(static_cast<int>(builtin)) + " is not known here");
 }
@@ -245,6 +255,7 @@ Result<void> TfliteReader::take_depth_to_space(const Operator& op) {
 Result<void> TfliteReader::take_plain(const Operator& op, GraphOp kind) {
   GraphNode node;
   node.op = kind;
+  if (kind == GraphOp::kClamp) node.least = 0.0f;
   const Shape& from = shape(op.inputs[0]);
   const Shape& to = shape(op.output);
   if (kind == GraphOp::kReshape && (to.empty() || elements_of(from) != elements_of(to)))

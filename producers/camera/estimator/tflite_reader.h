@@ -23,11 +23,16 @@ enum class TfliteBuiltin {
   kDepthwiseConv2d = 4,
   kDepthToSpace = 5,
   kDequantize = 6,
+  kFullyConnected = 9,
   kLogistic = 14,
   kMaxPool2d = 17,
+  kRelu = 19,
   kReshape = 22,
   kResizeBilinear = 23,
   kPad = 34,
+  kMean = 40,
+  kStridedSlice = 45,
+  kPrelu = 54,
   kDensify = 124,
 };
 class TfliteReader {
@@ -54,6 +59,10 @@ class TfliteReader {
   Done take_resize(const Operator& op);
   Done take_concatenation(const Operator& op);
   Done take_depth_to_space(const Operator& op);
+  Done take_prelu(const Operator& op);
+  Done take_mean(const Operator& op);
+  Done take_fully_connected(const Operator& op);
+  Done take_first_channels(const Operator& op);
   Done take_plain(const Operator& op, GraphOp kind);
 
   Done set_activation(GraphNode& node, int activation) const;
@@ -61,6 +70,8 @@ class TfliteReader {
   // them, and how often it fits.
   static Done place_window(int size, int kernel, int stride, int padding, int& before, int& after,
                            int& places);
+  // A constant that the file does not have; returns its number.
+  int add_constant(const char* name, Shape shape, std::vector<float> values);
   Done load(int tensor, const Shape& shape);
   Done push(GraphNode node, const Operator& op, std::size_t data_inputs, const Shape& shape);
   const Shape& shape(int tensor) const { return tensors_->shape(tensor); }

@@ -138,6 +138,14 @@ xnn_status XnnpackEngine::define(const PoseGraph& graph, const GraphNode& n) {
       return xnn_define_sigmoid(g, in, out, 0);
     case GraphOp::kDepthToSpace:
       return xnn_define_depth_to_space(g, in, out, u(n.block), 0);
+    case GraphOp::kClamp:
+      return xnn_define_clamp(g, n.least, n.most, in, out, 0);
+    case GraphOp::kPrelu:
+      return xnn_define_prelu(g, in, id(n.weights), out, 0);
+    case GraphOp::kMean:
+      return xnn_define_global_average_pooling_2d(g, n.least, n.most, in, out, 0);
+    case GraphOp::kFullyConnected:
+      return xnn_define_fully_connected(g, n.least, n.most, in, id(n.weights), id(n.bias), out, 0);
     case GraphOp::kConcatenate:
       return xnn_status_success;
   }

@@ -27,7 +27,10 @@ void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   // The solver smooths too, and smoothing twice would double the delay.
   const BodyLandmarks& seen = estimator_->unfiltered();
   if (seen.found) {
-    if (last_seen_.is_set() && frame.capture_time - last_seen_ > kSomebodyElse) solver_->reset();
+    if (last_seen_.is_set() && frame.capture_time - last_seen_ > kSomebodyElse) {
+      solver_->reset();
+      if (extras_) extras_->reset();
+    }
     last_seen_ = frame.capture_time;
     ++stats_.seen;
   }
@@ -38,6 +41,7 @@ void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   pose.sequence = next_sequence_++;
   pose.clock_id = this_clock_id();
   pose.capture_time = frame.capture_time;
+  if (extras_) extras_->steady_wrists(pose);
   // Receivers need the proportions to decode a dancer: they are sent first, and again when the
   // solver has better ones.
   const MonoTime now = mono_now();
@@ -48,6 +52,10 @@ void CaptureChain::see(const Frame& frame, const cv::Mat* right) {
   stats_.dequeued_to_published.add(published - frame.fetched);
   stats_.captured_to_published.add(published - frame.capture_time);
   if (published >= next_skeleton_) say_skeleton(published);
+  if (extras_) {
+    const Eigen::Matrix3f R_WC = solver_->camera_stand().R_WC.cast<float>();
+    extras_->look({frame, *body_, pose, R_WC, guest_, sink_});
+  }
 }
 
 void CaptureChain::say_skeleton(MonoTime now) {
@@ -56,6 +64,9 @@ void CaptureChain::say_skeleton(MonoTime now) {
   next_skeleton_ = now + Duration::s(1);
 }
 
-void CaptureChain::restart() { estimator_->reset(); }
+void CaptureChain::restart() {
+  estimator_->reset();
+  if (extras_) extras_->reset();
+}
 
 }  // namespace dance

@@ -14,6 +14,7 @@
 #include "core/base/guest_id.h"
 #include "core/base/histogram.h"
 #include "producers/camera/estimator/pose_estimator.h"
+#include "producers/camera/extras/hands_and_face.h"
 #include "producers/camera/frame.h"
 #include "producers/camera/solver/body_solver.h"
 #include "producers/camera/stereo/stereo_depth.h"
@@ -34,6 +35,7 @@ class CaptureChain {
   CaptureChain(const GuestId& guest, CaptureSink& sink, std::unique_ptr<PoseEstimator> estimator,
                std::unique_ptr<BodySolver> solver);
   void enable_stereo(std::unique_ptr<StereoDepth> stereo) { stereo_ = std::move(stereo); }
+  void enable_extras(std::unique_ptr<HandsAndFace> extras) { extras_ = std::move(extras); }
 
   // `right` is the other camera's picture of the same moment, or null.
   void see(const Frame& frame, const cv::Mat* right = nullptr);
@@ -57,6 +59,7 @@ class CaptureChain {
   std::unique_ptr<PoseEstimator> estimator_;
   std::unique_ptr<BodySolver> solver_;
   std::unique_ptr<StereoDepth> stereo_;
+  std::unique_ptr<HandsAndFace> extras_;
   const BodyLandmarks* body_;  // the estimator's
   CaptureStats stats_;
   std::uint32_t next_sequence_;

@@ -95,6 +95,11 @@ int main(int argc, char** argv) {
       .range(0.0, 4.0)
       .shows_default();
   line.add_flag("--mirror", options.is_mirrored, "left and right change sides, as in a mirror");
+  using Hands = dance::CaptureOptions::Hands;
+  line.add_choice<Hands>(
+      "--hands", options.hands,
+      {{"auto", Hands::kWhereTheirNetworksAre}, {"on", Hands::kOn}, {"off", Hands::kOff}},
+      "fingers, and wrists that follow the palms; auto: where their networks are");
   line.add_flag("--preview", options.has_preview, "a window with the skeleton over the picture");
   line.add("--preview-file", options.preview_file,
            "the same as a picture file, .jpg or .png, rewritten five times a second");

@@ -39,6 +39,10 @@ struct CaptureOptions {
   double smooth = 1.0;
   bool is_mirrored = false;
 
+  // hands and face
+  enum class Hands { kWhereTheirNetworksAre, kOn, kOff };
+  Hands hands = Hands::kWhereTheirNetworksAre;
+
   // what comes out beside poses
   bool has_preview = false;
   std::string preview_file;

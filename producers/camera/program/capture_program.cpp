@@ -56,7 +56,22 @@ Result<void> CaptureProgram::open_chain() {
   }
   chain_ = std::make_unique<CaptureChain>(guest_, *sink, std::move(estimator), make_solver());
   if (input_->rig()) chain_->enable_stereo(std::make_unique<StereoDepth>(*input_->rig()));
+  if (auto opened = open_extras(); !opened) return opened;
   poller_->watch(bus_->fd(), [bus = bus_.get()](MonoTime now) { bus->drain(now); });
+  return {};
+}
+
+Result<void> CaptureProgram::open_extras() {
+  const std::string folder = pose_models_folder(options_.models_folder);
+  const bool are_there = HandNetworks::are_in(folder);
+  if (options_.hands == CaptureOptions::Hands::kOff) return {};
+  if (!are_there && options_.hands == CaptureOptions::Hands::kWhereTheirNetworksAre) {
+    talk::info("hands are not seen: their networks are missing; `dance fetch-models` fetches them");
+    return {};
+  }
+  DANCE_TRY(extras_.hands, HandNetworks::open(options_.engine, folder));
+  chain_->enable_extras(
+      std::make_unique<HandsAndFace>(extras_, ExtraOptions{options_.smooth, options_.is_mirrored}));
   return {};
 }
 
@@ -135,10 +150,13 @@ bool CaptureProgram::has_usual_size(const cv::Mat& picture) {
 }
 
 void CaptureProgram::look(const CaptureFrame& seen) {
-  last_picture_ = mono_now();
+  const MonoTime before = std::exchange(last_picture_, mono_now());
   has_said_silence_ = false;
   if (!has_usual_size(seen.left.image)) return;
   chain_->see(seen.left, seen.right.empty() ? nullptr : &seen.right);
+  const MonoTime now = mono_now();
+  if (extras_.hands && extras_.load.add(now - seen.left.fetched, last_picture_ - before, now))
+    talk::info("this machine's speed: {}", text_of(extras_.load.step()));
   // The pose is sent; nothing below blocks.
   const std::string_view advice = advice_.see(seen.left.image, chain_->body());
   if (!advice.empty()) talk::info("{}", advice);

@@ -32,6 +32,7 @@ class CaptureProgram {
  private:
   explicit CaptureProgram(const CaptureOptions& options) : options_(options) {}
   Result<void> open_chain();
+  Result<void> open_extras();
   void say_what_runs() const;
   std::unique_ptr<BodySolver> make_solver() const;
   bool has_usual_size(const cv::Mat& picture);
@@ -46,6 +47,7 @@ class CaptureProgram {
   std::unique_ptr<Bus> bus_;
   std::unique_ptr<PortCaptureSink> bus_sink_;
   std::unique_ptr<CaptureRecording> recording_;
+  Extras extras_;
   std::unique_ptr<CaptureChain> chain_;
   std::unique_ptr<Preview> preview_;
   DancerAdvice advice_;

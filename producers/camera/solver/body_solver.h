@@ -39,6 +39,7 @@ struct CameraStand {
   double height_m = 0.0;   // over the floor
   double pitch_rad = 0.0;  // positive: it looks down
   bool is_settled = false;
+  Eigen::Matrix3d R_WC = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();  // the camera's axes in W
 };
 
 struct SharedPlacement;

@@ -33,7 +33,8 @@ class BodyTracking {
   const Skeleton& skeleton() const { return shape_.skeleton; }
   bool is_settled() const { return proportions_.is_held() && placement_.is_settled(); }
   CameraStand camera_stand() const {
-    return {placement_.height_m(), placement_.pitch_rad(), placement_.is_settled()};
+    return {placement_.height_m(), placement_.pitch_rad(), placement_.is_settled(),
+            placement_.R_WC()};
   }
   void reset();
 

@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   }
   const std::string folder = argv[1];
   const bool did_write = write(folder + "/every_operation", dance::tiny_network_file()) &&
+                         write(folder + "/hand_operations", dance::tiny_hand_network_file()) &&
                          write(folder + "/convolution", dance::tiny_convolution_file()) &&
                          write(folder + "/endless_vector", endless_vector());
   if (!did_write) std::fprintf(stderr, "%s: cannot be written to\n", folder.c_str());

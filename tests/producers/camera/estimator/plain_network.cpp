@@ -8,6 +8,8 @@
 namespace dance {
 namespace {
 
+float sigmoid_of(float x) { return 1.0f / (1.0f + std::exp(-x)); }
+
 struct Picture {
   Shape shape;
   std::vector<float> values;
@@ -84,12 +86,43 @@ float value_of(const PoseGraph& graph, const GraphNode& n, const std::vector<Pic
       return in[0].at(row / n.block, column / n.block, block * to[3] + channel);
     }
     case GraphOp::kLogistic:
-      return 1.0f / (1.0f + std::exp(-in[0].at(row, column, channel)));
+      return sigmoid_of(in[0].at(row, column, channel));
+    case GraphOp::kClamp:
+      return in[0].at(row, column, channel);
+    case GraphOp::kPrelu: {
+      const float x = in[0].at(row, column, channel);
+      return x < 0.0f ? x * graph.values(n.weights)[static_cast<std::size_t>(channel)] : x;
+    }
     case GraphOp::kReshape:
     case GraphOp::kConcatenate:
+    case GraphOp::kMean:
+    case GraphOp::kFullyConnected:
       break;
   }
   return 0.0f;
+}
+
+std::vector<float> means(const Picture& in) {
+  std::vector<float> means;
+  for (int channel = 0; channel < in.shape[3]; ++channel) {
+    double sum = 0.0;
+    for (int row = 0; row < in.shape[1]; ++row)
+      for (int column = 0; column < in.shape[2]; ++column) sum += in.at(row, column, channel);
+    means.push_back(static_cast<float>(sum / (in.shape[1] * in.shape[2])));
+  }
+  return means;
+}
+
+std::vector<float> connected(const PoseGraph& graph, const GraphNode& n, const Picture& in) {
+  std::vector<float> out;
+  const std::vector<float>& weights = graph.values(n.weights);
+  for (std::size_t o = 0; o < graph.values(n.bias).size(); ++o) {
+    double sum = graph.values(n.bias)[o];
+    for (std::size_t i = 0; i < in.values.size(); ++i)
+      sum += static_cast<double>(weights[o * in.values.size() + i]) * in.values[i];
+    out.push_back(std::clamp(static_cast<float>(sum), n.least, n.most));
+  }
+  return out;
 }
 
 }  // namespace
@@ -102,7 +135,13 @@ std::vector<std::vector<float>> computed_plainly(const PoseGraph& graph,
     std::vector<Picture> in;
     for (const int t : n.inputs) in.push_back(made.at(t));
     Picture out{graph.shape(n.output), {}};
-    if (n.op == GraphOp::kReshape || n.op == GraphOp::kConcatenate) {
+    if (n.op == GraphOp::kMean) {
+      out.values = means(in[0]);
+    } else if (n.op == GraphOp::kFullyConnected) {
+      out.values = connected(graph, n, in[0]);
+    } else if (n.op == GraphOp::kLogistic && out.shape.size() == 2) {
+      for (const float x : in[0].values) out.values.push_back(sigmoid_of(x));
+    } else if (n.op == GraphOp::kReshape || n.op == GraphOp::kConcatenate) {
       for (const Picture& part : in)
         out.values.insert(out.values.end(), part.values.begin(), part.values.end());
     } else {

@@ -32,8 +32,8 @@ void feed(PoseEngine& engine, const std::vector<float>& input) {
   ASSERT_TRUE(engine.run());
 }
 
-TEST(PoseEngine, ComputesWhatPlainLoopsCompute) {
-  auto graph = parse_tflite(tiny_network_file());
+void expect_as_plain_loops(const std::vector<std::uint8_t>& file) {
+  auto graph = parse_tflite(file);
   ASSERT_TRUE(graph) << graph.error().what;
   const std::vector<float> input = random_input(8 * 8 * 4, -1.0);
   const auto due = computed_plainly(*graph, input);
@@ -54,6 +54,11 @@ TEST(PoseEngine, ComputesWhatPlainLoopsCompute) {
       }
     }
   }
+}
+
+TEST(PoseEngine, ComputesWhatPlainLoopsCompute) { expect_as_plain_loops(tiny_network_file()); }
+TEST(PoseEngine, ComputesWhatHandsAndFaceHaveBesideThat) {
+  expect_as_plain_loops(tiny_hand_network_file());
 }
 
 TEST(PoseEngine, LeavesOutWhatNobodyNeeds) {

@@ -30,8 +30,9 @@ class Numbers {
 };
 
 constexpr int kAdd = 0, kJoin = 2, kConvolution = 3, kDepthwise = 4, kDepthToSpace = 5,
-              kDequantize = 6, kLogistic = 14, kMaxPool = 17, kReshape = 22, kResize = 23,
-              kPad = 34, kDensify = 124;
+              kDequantize = 6, kConnected = 9, kLogistic = 14, kMaxPool = 17, kRelu = 19,
+              kReshape = 22, kResize = 23, kPad = 34, kMean = 40, kSlice = 45, kPrelu = 54,
+              kDensify = 124;
 
 }  // namespace
 
@@ -176,6 +177,43 @@ std::vector<std::uint8_t> tiny_network_file() {
   file.add(kResize, {pooled, file.integers({2}, {4, 4})}, larger,
            file.options(tflite::CreateResizeBilinearOptions(file.builder(), false, true)));
   return file.file(picture, {joined, larger});
+}
+
+std::vector<std::uint8_t> tiny_hand_network_file() {
+  TinyFile file;
+  Numbers numbers;
+  const int picture = file.computed({1, 8, 8, 4});
+  const int first = file.computed({1, 4, 4, 6});
+  file.add(
+      kConvolution,
+      {picture, file.floats({6, 2, 2, 4}, numbers.floats(96)), file.floats({6}, numbers.floats(6))},
+      first, file.convolution(1, 2, 0));
+  const int bent = file.computed({1, 4, 4, 6});
+  file.add(kPrelu, {first, file.halves({1, 1, 6}, numbers.halves(6))}, bent);
+  const int narrow = file.computed({1, 4, 4, 3});
+  file.add(kSlice,
+           {bent, file.integers({4}, {0, 0, 0, 0}), file.integers({4}, {1, 4, 4, 3}),
+            file.integers({4}, {1, 1, 1, 1})},
+           narrow, file.options(tflite::CreateStridedSliceOptions(file.builder())));
+  const int scaled = file.computed({1, 4, 4, 3});
+  file.add(
+      kDepthwise,
+      {narrow, file.floats({1, 1, 1, 3}, numbers.floats(3)), file.floats({3}, numbers.floats(3))},
+      scaled, file.options(tflite::CreateDepthwiseOptions(file.builder(), 1, 1, 1)));
+  const int above = file.computed({1, 4, 4, 3});
+  file.add(kRelu, {scaled}, above);
+  const int sum = file.computed({1, 4, 4, 3});
+  file.add(kAdd, {above, narrow}, sum, file.options(tflite::CreateAddOptions(file.builder(), 0)));
+  const int mean = file.computed({1, 3});
+  file.add(kMean, {sum, file.integers({2}, {1, 2})}, mean,
+           file.options(tflite::CreateMeanOptions(file.builder())));
+  const int out = file.computed({1, 5});
+  file.add(kConnected,
+           {mean, file.halves({5, 3}, numbers.halves(15)), file.floats({5}, numbers.floats(5))},
+           out, file.options(tflite::CreateFullyConnectedOptions(file.builder())));
+  const int sure = file.computed({1, 5});
+  file.add(kLogistic, {out}, sure);
+  return file.file(picture, {out, sure});
 }
 
 std::vector<std::uint8_t> tiny_convolution_file() {

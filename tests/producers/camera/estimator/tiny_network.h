@@ -1,5 +1,5 @@
-// A network of every operation that the pose networks have, of a few hundred numbers, as a .tflite
-// file and computed by plain loops.
+// Networks of every operation that the networks of body, hands and face have, of a few hundred
+// numbers, as .tflite files and computed by plain loops.
 //
 // Units/frames: as producers/camera/estimator/pose_graph.h says.
 // Ownership:    values.
@@ -56,6 +56,8 @@ class TinyFile {
 
 // Input 8×8×4; outputs 1×24 (joined) and 4×4×6.
 std::vector<std::uint8_t> tiny_network_file();
+// Input 8×8×4; output 1×5: what hands and face have beside that.
+std::vector<std::uint8_t> tiny_hand_network_file();
 // One convolution.
 std::vector<std::uint8_t> tiny_convolution_file();
 
