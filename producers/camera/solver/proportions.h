@@ -28,6 +28,8 @@ class Proportions {
   // taken as true.
   explicit Proportions(std::optional<double> height_m = {}) : height_m_(height_m) {}
   void reset();
+  // Lengths that were measured otherwise: they are held, whatever pictures say.
+  void hold(const BodyLengths& lengths);
 
   // `pictured_m`: the landmarks where their rays meet the body's depth, in C and in metres of the
   // body that was fitted.
@@ -57,6 +59,7 @@ class Proportions {
   AllSamples network_, pictured_;
   double scale_sum_ = 0.0, scale_weight_ = 0.0;
   int pictures_ = 0;
+  std::optional<BodyLengths> held_;
 };
 
 }  // namespace dance
