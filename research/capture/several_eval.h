@@ -32,6 +32,7 @@ struct SeveralCase {
   bool covers_second = false;
   bool moves_second = false;     // turned by 8 degrees, half-way
   bool is_exact = false;         // networks without errors
+  bool keeps_bodies = false;     // the takes' own, instead of bodies that differ as adults do
 };
 std::vector<SeveralCase> several_cases();
 

@@ -13,11 +13,12 @@ double ratio_of(double one, double two) { return two > 0.0 ? one / two : 0.0; }
 }  // namespace
 
 std::string several_table(const std::vector<SeveralScore>& scores) {
+  constexpr const char* kRow = "{:<28} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} {:>8} {:>8}\n";
   std::string text =
-      fmt::format("{:<28} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} {:>6}\n", "", "depth of", "", "depth of",
-                  "relative", "absolute", "hips'", "hips'") +
-      fmt::format("{:<28} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} {:>6}\n", "", "hips mm", "p95", "joints",
-                  "mm", "mm", "step p99", "gain");
+      fmt::format(fmt::runtime(kRow), "", "depth of", "", "depth of", "relative", "absolute",
+                  "hips'", "gain on", "on one") +
+      fmt::format(fmt::runtime(kRow), "", "hips mm", "p95", "joints", "mm", "mm", "step p99", "one",
+                  "told");
   for (const SeveralScore& s : scores) {
     text += fmt::format("{}, {:g} m ({} frames, {} of {} takes placed)\n", s.what.name,
                         s.what.distance_m, s.frames, s.placed, s.takes);
@@ -27,7 +28,10 @@ std::string several_table(const std::vector<SeveralScore>& scores) {
       text += fmt::format("  {:<26} {:>8.1f} {:>8.1f} {:>8.1f} {:>9.1f} {:>9.1f} {:>8.1f}",
                           name_of(static_cast<SeenBy>(w)), e.hips_mm, e.hips_p95_mm, e.joints_mm,
                           e.relative_mm, e.absolute_mm, e.step_p99_mm);
-      text += has_two ? fmt::format(" {:>6.1f}\n", ratio_of(s.errors[w - 2].hips_mm, e.hips_mm)) : "\n";
+      if (has_two)
+        text += fmt::format(" {:>8.1f} {:>8.1f}", ratio_of(s.errors[0].hips_mm, e.hips_mm),
+                            ratio_of(s.errors[1].hips_mm, e.hips_mm));
+      text += "\n";
     }
     text += fmt::format(
         "  placed after {:.1f} s; off by {:.2f} deg, {:.0f} mm, {:.1f} ms; moved {} times{}; {:.0f} us "

@@ -22,6 +22,8 @@ constexpr std::uint64_t kPatience = 12;
 // While it is followed: an iteration, or some moments' lengths, in one of so many calls.
 constexpr std::uint32_t kFollowEvery = 4;
 constexpr int kMomentsInCall = 12;
+// Of a search: moments times iterations in one call.
+constexpr int kMomentStepsInCall = 240, kMostSteps = 4;
 constexpr int kLengthMoments = 60;
 // A camera was moved where rays miss each other by so much more than they did.
 constexpr double kMovedTimes = 2.5, kMovedSpread = 4.0;
@@ -33,7 +35,7 @@ constexpr Duration kOverlap = Duration::ms(300);
 
 void CameraPair::see_other(const ViewPoints& points) { other_.add(points); }
 
-void CameraPair::see_first(const ViewPoints& points, double height_m) {
+void CameraPair::see_first(const ViewPoints& points, const DancerSize& size) {
   now_ = points.time;
   const ViewPoints* newest = other_.newest();
   if (points.distance_m > 0.0f && newest && points.time - newest->time < kOverlap &&
@@ -43,11 +45,13 @@ void CameraPair::see_first(const ViewPoints& points, double height_m) {
   ++calls_;
   if (placement_) {
     check_moments();
-    if (placement_) follow(height_m);
+    if (placement_) follow(size);
   } else if (is_measuring_) {
-    if (lengths_.step(moments_, other_, kMomentsInCall)) finish_lengths(height_m);
+    if (lengths_.step(moments_, other_, kMomentsInCall)) finish_lengths(size);
   } else {
-    search();
+    // An iteration costs as much as it has moments.
+    const int steps = std::clamp(kMomentStepsInCall / std::max(1, moments()), 1, kMostSteps);
+    for (int i = 0; i < steps && !is_measuring_; ++i) search();
   }
 }
 
@@ -109,10 +113,13 @@ void CameraPair::accept_or_wait() {
   search_from_ = moments_.added() + kPatience;
 }
 
-void CameraPair::finish_lengths(double height_m) {
+void CameraPair::finish_lengths(const DancerSize& size) {
   is_measuring_ = false;
   const auto lengths = lengths_.lengths();
-  const double baseline_m = lengths ? height_m / height_of(*lengths) : 0.0;
+  double baseline_m = 0.0;
+  if (lengths)
+    baseline_m = size.told_m ? *size.told_m / lengths_.stature(*lengths)
+                             : size.measured_m / height_of(*lengths);
   const bool is_usable = lengths && lengths_.met_share() > kLeastMet &&
                          lengths_.angle_rad() > kLeastAngle_rad && baseline_m > kLeastBaseline_m &&
                          baseline_m < kMostBaseline_m;
@@ -139,9 +146,9 @@ std::optional<BodyLengths> CameraPair::take_lengths() {
   return std::exchange(new_lengths_, std::nullopt);
 }
 
-void CameraPair::follow(double height_m) {
+void CameraPair::follow(const DancerSize& size) {
   if (is_measuring_) {
-    if (lengths_.step(moments_, other_, kMomentsInCall)) finish_lengths(height_m);
+    if (lengths_.step(moments_, other_, kMomentsInCall)) finish_lengths(size);
     return;
   }
   if (calls_ % kFollowEvery != 0) return;

@@ -22,6 +22,12 @@
 
 namespace dance {
 
+struct DancerSize {
+  std::optional<double> told_m;  // the standing height, where it is given
+  // Else: as height_of() has the body that the first camera measured.
+  double measured_m = 0.0;
+};
+
 struct PairPlacement {
   RelativePose pose;
   double baseline_m = 0.0;
@@ -35,9 +41,8 @@ class CameraPair {
  public:
   // Of the second camera.
   void see_other(const ViewPoints& points);
-  // Of the first one, at the rate of its pictures: does a part of the work. `height_m` is the
-  // dancer's, as height_of() has it.
-  void see_first(const ViewPoints& points, double height_m);
+  // Of the first one, at the rate of its pictures: does a part of the work.
+  void see_first(const ViewPoints& points, const DancerSize& size);
 
   bool is_settled() const { return placement_.has_value(); }
   const std::optional<PairPlacement>& placement() const { return placement_; }
@@ -48,7 +53,7 @@ class CameraPair {
   // The dancer's lengths by both cameras, once after each placement.
   std::optional<BodyLengths> take_lengths();
   // Moments with a moving dancer that both cameras saw, of kFewestMoments that a search needs.
-  static constexpr int kFewestMoments = 50;
+  static constexpr int kFewestMoments = 40;
   int moments() const { return static_cast<int>(moments_.count()); }
 
  private:
@@ -61,11 +66,11 @@ class CameraPair {
   void search();
   void begin_start();
   void accept_or_wait();
-  void follow(double height_m);
+  void follow(const DancerSize& size);
   void check_moments();
   void give_up();
   bool is_good() const;
-  void finish_lengths(double height_m);
+  void finish_lengths(const DancerSize& size);
 
   ViewHistory other_;
   KeyMoments moments_;

@@ -27,6 +27,9 @@ class JointLengths {
   bool step(const KeyMoments& moments, const ViewHistory& other, int most_moments);
 
   std::optional<BodyLengths> lengths() const;
+  // The standing height that belongs to these lengths and to how far the ears are above the
+  // shoulders: all that joints show of it.
+  double stature(const BodyLengths& lengths) const;
   // Moments that both saw, and the share of rays in them that meet before both cameras.
   int moments() const { return moments_; }
   double met_share() const { return looked_ > 0 ? static_cast<double>(met_) / looked_ : 0.0; }
@@ -40,10 +43,13 @@ class JointLengths {
     std::size_t count = 0;
   };
   void measure(const ViewPoints& first, const ViewMoment& other);
+  // 0 where too little was measured.
+  static double median_of(const Samples& samples);
 
   RelativePose pose_;
   std::uint64_t next_ = 0;
   std::array<Samples, kLengthCount> samples_;
+  Samples neck_;  // from the middle of the shoulders to that of the ears
   int moments_ = 0;
   int looked_ = 0;
   int met_ = 0;

@@ -30,13 +30,13 @@ void MultiView::see_other(std::size_t camera, const BodyLandmarks& body) {
   if (other.seen.is_usable) other.pair.see_other(view_points(other.seen, body.capture_time));
 }
 
-OtherViews MultiView::see_first(const BodyLandmarks& body, double height_m) {
+OtherViews MultiView::see_first(const BodyLandmarks& body, const DancerSize& size) {
   ViewPoints points;
   points.time = body.capture_time;
   if (body.found) points = view_points(observe(body, first_), body.capture_time);
   std::size_t count = 0;
   for (const auto& other : others_) {
-    other->pair.see_first(points, height_m);
+    other->pair.see_first(points, size);
     if (write_view(*other, body.capture_time, views_[count])) ++count;
   }
   return {views_.data(), count};

@@ -30,8 +30,7 @@ class MultiView {
 
   void see_other(std::size_t camera, const BodyLandmarks& body);
   // The views that belong to this picture of the first camera; good until the next call.
-  // `height_m` is that of the dancer's body (BodySolver::height_m()).
-  OtherViews see_first(const BodyLandmarks& body, double height_m);
+  OtherViews see_first(const BodyLandmarks& body, const DancerSize& size);
   // Lengths of the body that two cameras measured, once after each placement.
   std::optional<BodyLengths> take_lengths();
 

@@ -43,7 +43,8 @@ BodyTracking::BodyTracking(const SolverOptions& options, const Pinhole& camera)
 
 void BodyTracking::set_shape(const BodyLengths& lengths) {
   const std::uint32_t version = shape_.skeleton.version;
-  shape_ = shape_of(lengths);
+  shape_ = options_.height_m && proportions_.is_measured() ? shape_of(lengths, *options_.height_m)
+                                                           : shape_of(lengths);
   height_m_ = height_of(lengths);
   shape_.skeleton.version = version + 1;
 }
@@ -216,6 +217,10 @@ bool BodyTracking::follow(const Observation& seen, MonoTime now, double seconds,
   write_pose(expected.state, carried);
   write_pose(state, found);
   visibility_.blend(now, carried, found);
+  // Another camera has another opinion of where the body is.
+  const std::size_t eyes = problem_.other_count + (seen.is_usable ? 1 : 0);
+  if (eyes != std::exchange(eyes_, eyes) && problem_.other_count + eyes > 1)
+    visibility_.blend_all(now, carried, found);
   motion_.follow(expected, state, seconds);
   contacts_.follow(fit_.model(), seen, placement_, seconds);
   return true;

@@ -37,6 +37,8 @@ class Proportions {
            const std::optional<DepthHint>& depth);
   // The fitted body has changed: lengths measured in pictures with the old one are dropped.
   void discard_image_lengths();
+  // hold() gave them.
+  bool is_measured() const { return held_.has_value(); }
   int pictures() const { return pictures_; }
   bool is_held() const { return pictures_ >= kHeld; }
   BodyLengths lengths() const;
